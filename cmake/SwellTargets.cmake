@@ -1,0 +1,43 @@
+# swell_options: what every translation unit of ours is compiled with.
+add_library(swell_options INTERFACE)
+target_compile_options(swell_options INTERFACE
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-Werror>
+  # Highway's headers compare and convert freely inside its own namespaces.
+  $<BUILD_INTERFACE:-Wno-psabi>)
+if(SWELL_SANITIZE)
+  target_compile_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE}
+    -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
+  # Sanitized code makes GCC's flow warnings see paths that do not exist.
+  target_compile_options(swell_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
+    -Wno-stringop-overflow)
+endif()
+
+# -ffp-contract=off is a correctness flag: without it GCC fuses a*b+c where it likes, and
+# pictures differ between optimisation levels and SIMD targets (docs/conventions.md).
+add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
+include(CheckCXXSourceCompiles)
+if(CMAKE_CXX_FLAGS MATCHES "-ffast-math|-Ofast|-ffp-contract=(fast|on)|-march=native")
+  message(FATAL_ERROR "CMAKE_CXX_FLAGS='${CMAKE_CXX_FLAGS}' would change pictures; remove the flag.")
+endif()
+
+# swell_add_folder(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# A static library of one folder. Its headers are visible as "folder/x.h" only to targets that
+# link it, because each folder has an include root of its own: a wrong include does not build.
+function(swell_add_folder folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  set(root ${CMAKE_BINARY_DIR}/include/${folder})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
+  add_library(swell_${folder} STATIC ${ARG_SOURCES})
+  add_library(swell::${folder} ALIAS swell_${folder})
+  set_target_properties(swell_${folder} PROPERTIES EXPORT_NAME ${folder}
+    POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(swell_${folder} PUBLIC
+    $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include/swell>)
+  target_link_libraries(swell_${folder} PUBLIC ${ARG_LINKS}
+    PRIVATE $<BUILD_INTERFACE:swell_options> ${ARG_PRIVATE_LINKS})
+  install(TARGETS swell_${folder} EXPORT swell-targets)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/ DESTINATION include/swell/${folder}
+    FILES_MATCHING PATTERN "*.h")
+endfunction()

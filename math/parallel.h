@@ -1,0 +1,80 @@
+// The one door to threads. Two back ends, chosen at build time (SWELL_PARALLEL): oneTBB, and a
+// std::thread pool that ThreadSanitizer can see through.
+//
+// Determinism: a body must write only to places fixed by its index; nothing may depend on which
+// thread runs it or when. `slot` exists for scratch memory alone.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace swell {
+
+// A borrowed callable: valid while the callable it was made from lives.
+template <class Signature>
+class FunctionRef;
+
+template <class Result, class... Args>
+class FunctionRef<Result(Args...)> {
+ public:
+  template <class F>
+    requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>)
+  FunctionRef(F&& f)  // NOLINT: implicit by design, as a parameter type
+      : object_(const_cast<void*>(static_cast<const void*>(std::addressof(f)))),
+        call_([](void* object, Args... args) -> Result {
+          return (*static_cast<std::remove_reference_t<F>*>(object))(std::forward<Args>(args)...);
+        }) {}
+
+  Result operator()(Args... args) const { return call_(object_, std::forward<Args>(args)...); }
+
+ private:
+  void* object_;
+  Result (*call_)(void*, Args...);
+};
+
+// A fixed number of threads that work together on one frame at a time. Every body runs with
+// IEEE defaults (round to nearest, no flush to zero), whatever the calling program has set.
+// An exception thrown by a body reaches the caller; the pool stays usable.
+class Workers {
+ public:
+  // thread_count in [1, 256], the calling thread included.
+  explicit Workers(int thread_count);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  int thread_count() const { return thread_count_; }
+
+  // Calls body(index, slot) once for each index in [0, count), in any order, and returns when all
+  // are done. slot in [0, thread_count) is not used by two bodies at one time; a body that uses
+  // it must not call Workers again. Make an index a coarse piece of work (a tile, a row, a
+  // thousand vertices).
+  void for_each(std::size_t count, FunctionRef<void(std::size_t index, int slot)> body);
+
+  // Calls a() and b(), side by side where there are threads for it; both may use for_each.
+  void run_both(FunctionRef<void()> a, FunctionRef<void()> b);
+
+ private:
+  struct Pool;
+  int thread_count_;
+  std::unique_ptr<Pool> pool_;
+};
+
+// The number of CPUs this process may use: the affinity mask and the cgroup quota, at least 1.
+int available_cpus();
+
+// Sets IEEE defaults for the calling thread (MXCSR) and restores the old state at scope exit.
+class ScopedFloatEnvironment {
+ public:
+  ScopedFloatEnvironment();
+  ~ScopedFloatEnvironment();
+  ScopedFloatEnvironment(const ScopedFloatEnvironment&) = delete;
+  ScopedFloatEnvironment& operator=(const ScopedFloatEnvironment&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+}  // namespace swell

@@ -1,0 +1,117 @@
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "math/check.h"
+#include "math/parallel.h"
+
+namespace swell {
+namespace {
+
+thread_local bool inside_body = false;
+
+}  // namespace
+
+struct Workers::Pool {
+  struct Loop {
+    std::size_t count = 0;
+    FunctionRef<void(std::size_t, int)>* body = nullptr;
+    std::atomic<std::size_t> next{0};
+  };
+
+  explicit Pool(int threads) {
+    for (int slot = 1; slot < threads; ++slot) helpers.emplace_back([this, slot] { help(slot); });
+  }
+
+  ~Pool() {
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+    }
+    wake.notify_all();
+    for (std::thread& helper : helpers) helper.join();
+  }
+
+  // Takes indices until none is left; the first exception is kept and ends the loop.
+  void work(int slot) {
+    const ScopedFloatEnvironment ieee;
+    inside_body = true;
+    for (std::size_t i; (i = loop.next.fetch_add(1)) < loop.count;) {
+      try {
+        (*loop.body)(i, slot);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!error) error = std::current_exception();
+        loop.next = loop.count;
+      }
+    }
+    inside_body = false;
+  }
+
+  void help(int slot) {
+    std::size_t seen = 0;
+    std::unique_lock lock(mutex);
+    while (true) {
+      wake.wait(lock, [&] { return stopping || generation != seen; });
+      if (stopping) return;
+      seen = generation;
+      lock.unlock();
+      work(slot);
+      lock.lock();
+      if (--busy == 0) done.notify_one();
+    }
+  }
+
+  void run(std::size_t count, FunctionRef<void(std::size_t, int)> body) {
+    {
+      const std::lock_guard lock(mutex);
+      loop.count = count;
+      loop.body = &body;
+      loop.next = 0;
+      busy = helpers.size();
+      error = nullptr;
+      ++generation;
+    }
+    wake.notify_all();
+    work(0);
+    std::unique_lock lock(mutex);
+    done.wait(lock, [&] { return busy == 0; });
+    if (error) std::rethrow_exception(error);
+  }
+
+  std::mutex mutex;
+  std::condition_variable wake, done;
+  Loop loop;
+  std::size_t generation = 0, busy = 0;
+  bool stopping = false;
+  std::exception_ptr error;
+  std::vector<std::thread> helpers;
+};
+
+Workers::Workers(int thread_count) : thread_count_(thread_count) {
+  SWELL_CHECK(thread_count >= 1 && thread_count <= 256, "thread_count={}", thread_count);
+  pool_ = std::make_unique<Pool>(thread_count);
+}
+
+Workers::~Workers() = default;
+
+void Workers::for_each(std::size_t count, FunctionRef<void(std::size_t, int)> body) {
+  if (inside_body || thread_count_ == 1) {  // a nested loop runs where it stands
+    const ScopedFloatEnvironment ieee;
+    for (std::size_t i = 0; i < count; ++i) body(i, 0);
+    return;
+  }
+  pool_->run(count, body);
+}
+
+// One after the other: the loops inside each already use every thread.
+void Workers::run_both(FunctionRef<void()> a, FunctionRef<void()> b) {
+  const ScopedFloatEnvironment ieee;
+  a();
+  b();
+}
+
+}  // namespace swell

@@ -1,0 +1,112 @@
+// Drawing a frame: the library's main entry.
+//
+//   swell::Workers workers(2);
+//   swell::render::World world(swell::scene::load_scene("open_ocean.toml"));
+//   swell::render::Workspace workspace;
+//   swell::render::Target target;
+//   const auto view = camera_view(world.scene().camera, t_s, 1280, 720);
+//   swell::render::render_frame(world, view, t_s, {}, workspace, target, workers);
+//   // target.rgba: 1280 * 720 pixels, R in the low byte
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "math/parallel.h"
+#include "math/view.h"
+#include "scene/scene.h"
+
+namespace swell::render {
+
+// The stages of a frame, in order: rows of the profile, the bench table and the trace.
+enum class Stage : std::uint8_t {
+  kSea,          // advance the waves, make their maps
+  kTriangulate,  // adapt the triangulations
+  kDisplace,     // displace vertices, transform them
+  kVisibility,   // clip, set up, bin, find what is visible
+  kLookups,      // reflection and refraction images
+  kShade,        // shade and resolve every visible pixel once
+  kCount
+};
+std::string_view stage_name(Stage stage);  // "sea", "triangulate", ...
+
+// A scene made ready to draw: sea state, terrain, static maps. Read-only while frames are drawn;
+// several threads may draw the same World with a Workspace each.
+class World {
+ public:
+  // Throws SceneError or FileError.
+  explicit World(scene::Scene scene);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  const scene::Scene& scene() const;
+
+  struct State;
+  const State& state() const { return *state_; }
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+struct FrameOptions {
+  int tile_size_px = 64;          // 16, 32 or 64; changes no pixel
+  int water_triangles = 0;        // 0: the scene's
+  double lookup_scale = 0.0;      // 0: the scene's
+  bool wireframe = false;         // triangle edges, tinted by level of detail
+  bool keep_linear = false;       // fill Target::linear
+};
+
+// The finished picture. Sized by render_frame; capacity is kept.
+struct Target {
+  int width_px = 0, height_px = 0;
+  std::vector<std::uint32_t> rgba;  // 8-bit sRGB, R in the low byte, alpha 255; row by row
+  std::vector<float> linear;        // RGB linear light before exposure, if asked for
+};
+
+struct FrameStatistics {
+  std::array<double, static_cast<std::size_t>(Stage::kCount)> stage_ms{};
+  double frame_ms = 0.0;
+  int water_triangles = 0, terrain_triangles = 0;
+  int splits = 0, merges = 0;
+  std::uint64_t visible_pixels = 0;  // pixels that show water, terrain or an object
+  std::uint64_t shaded_pixels = 0;   // surface shader runs; equal to visible_pixels
+};
+
+// What happened when, for --trace: one row per stage and thread.
+struct TraceEvent {
+  Stage stage;
+  int thread;            // worker slot
+  double start_us, end_us;  // since the frame's start
+};
+
+// Everything that is reused from frame to frame: a cache, never an input. One frame at a time.
+class Workspace {
+ public:
+  Workspace();
+  ~Workspace();
+  Workspace(Workspace&&) noexcept;
+  Workspace& operator=(Workspace&&) noexcept;
+
+  struct State;
+  State& state() { return *state_; }
+  // Of the last frame; empty unless trace_enabled was set before it.
+  bool trace_enabled = false;
+  std::vector<TraceEvent> trace;
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+// Draws the world at time t_s. The picture depends on (world, view, t_s, options) alone: any
+// worker count, SIMD target, tile size and history give the same bits.
+FrameStatistics render_frame(const World& world, const View& view, double t_s,
+                             const FrameOptions& options, Workspace& workspace, Target& target,
+                             Workers& workers);
+
+// XXH3-64 of the picture's RGB bytes, row by row.
+std::uint64_t picture_hash(const Target& target);
+
+}  // namespace swell::render

@@ -1,0 +1,41 @@
+// Image files. The one door to OpenImageIO. Reads PNG, EXR, HDR, TIFF and PNM (by name and by
+// content) and nothing else; writes PNG, EXR and TIFF to memory first and then to a temporary
+// file that is renamed, so that a file is whole or not there.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "texture/image.h"
+
+namespace swell::texture {
+
+// What is wrong with a file; what() names the file, what was found and what is allowed, one line.
+class FileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct ReadLimits {
+  int max_side_px = 16384;
+  std::uint64_t max_bytes = 512ull << 20;  // of the decoded image as float
+};
+
+// Reads an image as float: integer formats as [0, 1], float formats as stored. Refuses more than
+// 4 channels, sizes over the limits (before allocating), NaN and infinite pixels (naming one).
+ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+// Encodes by the file name's extension: .png (8-bit), .exr (float), .tif/.tiff (float or 8-bit).
+// Throws FileError for other extensions.
+std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension);
+std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,
+                                       std::span<const std::string> channel_names = {});
+
+// Writes bytes to a temporary file beside `path`, syncs it, renames it over `path`. On any failure
+// throws FileError and leaves the old file and no temporary one.
+void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+}  // namespace swell::texture

@@ -1,0 +1,1 @@
+#include "texture/packed_map.h"

@@ -1,0 +1,1 @@
+#include "texture/perlin.h"
