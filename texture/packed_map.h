@@ -13,23 +13,29 @@ namespace swell::texture {
 // A periodic two-channel map with mip levels, for slopes, normals and offsets. Every texel is a
 // 64-bit word that holds the 2 x 2 neighbourhood of both channels as signed bytes, from the low
 // byte up: a(i,j) a(i+1,j) a(i,j+1) a(i+1,j+1) b(i,j) b(i+1,j) b(i,j+1) b(i+1,j+1).
-// value = byte * scale. Level l is (size >> l) squared, down to 1 x 1.
+// value = byte * scale. Level l is (size >> l) squared, down to 1 x 1; a level of side s begins at
+// word s * s, so that a sampler finds it without a table.
 struct PackedMap2 {
   int size = 0;    // power of two, [1, 4096]
   int levels = 0;  // log2(size) + 1
   float scale = 1.0f;
   std::vector<std::uint64_t> words;
   std::vector<std::uint32_t> level_offset;  // first word of each level
-  // Variance of a and b together that each level has lost against level 0 (box filter): feeds the
+  // Variance of a and b together that each level has lost against level 0, >= 0: feeds the
   // roughness of far water.
   std::vector<float> lost_variance;
+  // What building needs; kept so that a frame allocates nothing.
+  std::vector<float> scratch;
+  std::vector<std::int8_t> scratch_bytes;
 };
 
 // Builds `map` from size x size samples of each channel (row-major, sample (i, j) at texel centre
-// u = i / size: texel centres lie on the lattice, not at +0.5). Mip levels by 2 x 2 box filter,
-// placed so that all levels agree on positions. scale = max |value| / 127 (1 if all are 0), or
-// `fixed_scale` if positive (values are clamped). Keeps capacity; allocates nothing when sizes
-// repeat. Deterministic on any thread count (single-threaded).
+// u = i / size: texel centres lie on the lattice, not at +0.5). Mip levels by the tent filter
+// [1 2 1]/4 along each axis, centred on every second sample: it keeps the mean, and all levels
+// agree on positions (a 2 x 2 box would shift each level by half a texel). scale = max |value| /
+// 127 (1 if all are 0), or `fixed_scale` if positive (values are clamped). Bytes are rounded to
+// nearest even. Values must be finite. Keeps capacity; allocates nothing when sizes repeat.
+// Single-threaded; the same bits on every SIMD target.
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
                PackedMap2& map);
 
@@ -38,11 +44,11 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
 // y+1). Texel (x, y)'s centre lies at (x + 0.5, y + 0.5). Lookups clamp to the image.
 struct RgbaImage {
   int width = 0, height = 0;
-  int stride = 0;  // in texels, >= width + 1; rows 0 .. height
+  int stride = 0;                     // in texels, >= width + 1; rows 0 .. height
   std::vector<std::uint32_t> texels;  // R in the low byte
 };
 
-// Sizes the image and zeroes it.
+// Sizes the image [1, 16384] squared and zeroes it.
 void resize_image(int width, int height, RgbaImage& image);
 
 // Copies the last column and row into the padding; call after texels have been written.

@@ -1,0 +1,247 @@
+// Building PackedMap2: quantise, filter down, pack the 2 x 2 neighbourhoods.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "texture/packed_map_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "math/check.h"
+#include "texture/packed_map.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::texture {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Eight lanes on every target, so that sums have one order.
+using D = hn::CappedTag<float, 8>;
+constexpr int kLanes = 8;
+constexpr int kWordsAtOnce = 16;
+
+// max |value| over `count` floats.
+float max_magnitude(const float* HWY_RESTRICT values, std::size_t count) {
+  const D d;
+  auto largest = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    largest = hn::Max(hn::Abs(hn::LoadU(d, values + i)), largest);
+  }
+  float result = hn::GetLane(hn::MaxOfLanes(d, largest));
+  for (; i < count; ++i) result = std::max(result, std::abs(values[i]));
+  return result;
+}
+
+// Sum of squares of one row: floats in eight columns, then the columns in order.
+double sum_of_squares(const float* HWY_RESTRICT row, int size) {
+  const D d;
+  HWY_ALIGN float columns[kLanes] = {};
+  if (size < kLanes) {
+    for (int i = 0; i < size; ++i) columns[i] = row[i] * row[i];
+  } else {
+    auto sum = hn::Zero(d);
+    for (int i = 0; i < size; i += kLanes) {
+      const auto value = hn::LoadU(d, row + i);
+      sum = hn::MulAdd(value, value, sum);
+    }
+    hn::Store(sum, d, columns);
+  }
+  double total = 0.0;
+  for (const float column : columns) total += column;
+  return total;
+}
+
+// Bytes of one row, rounded to nearest even and clamped; one more repeats the first.
+void quantize_row(const float* HWY_RESTRICT row, int size, float per_unit,
+                  std::int8_t* HWY_RESTRICT bytes) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  const hn::Rebind<std::int8_t, D> d8;
+  const auto limit = hn::Set(d, 127.0f);
+  const auto quantize = [&](auto value) HWY_ATTR {
+    const auto scaled = hn::Mul(value, hn::Set(d, per_unit));
+    return hn::NearestInt(hn::Min(hn::Max(scaled, hn::Neg(limit)), limit));
+  };
+  if (size < kLanes) {
+    HWY_ALIGN float padded[kLanes] = {};
+    HWY_ALIGN std::int32_t integers[kLanes];
+    std::copy_n(row, size, padded);
+    hn::Store(quantize(hn::Load(d, padded)), di, integers);
+    for (int i = 0; i < size; ++i) bytes[i] = static_cast<std::int8_t>(integers[i]);
+  } else {
+    for (int i = 0; i < size; i += kLanes) {
+      hn::StoreU(hn::DemoteTo(d8, quantize(hn::LoadU(d, row + i))), d8, bytes + i);
+    }
+  }
+  bytes[size] = bytes[0];
+}
+
+// out[i] = (v[2i - 1] + 2 v[2i] + v[2i + 1]) / 4 where v is the same sum down the three rows.
+// `column` has room for size + 1 floats; v[x] goes to column[x + 1], column[0] is v[size - 1].
+void filter_row(const float* HWY_RESTRICT above, const float* HWY_RESTRICT row,
+                const float* HWY_RESTRICT below, int size, float* HWY_RESTRICT column,
+                float* HWY_RESTRICT out) {
+  const D d;
+  const int half = size / 2;
+  if (half < kLanes) {
+    for (int x = 0; x < size; ++x) column[x + 1] = 0.25f * (above[x] + below[x]) + 0.5f * row[x];
+    column[0] = column[size];
+    for (int i = 0; i < half; ++i) {
+      out[i] = 0.25f * (column[2 * i] + column[2 * i + 2]) + 0.5f * column[2 * i + 1];
+    }
+    return;
+  }
+  const auto tent = [&](auto left, auto middle, auto right) HWY_ATTR {
+    return hn::Add(hn::Mul(hn::Set(d, 0.25f), hn::Add(left, right)),
+                   hn::Mul(hn::Set(d, 0.5f), middle));
+  };
+  for (int x = 0; x < size; x += kLanes) {
+    const auto v = tent(hn::LoadU(d, above + x), hn::LoadU(d, row + x), hn::LoadU(d, below + x));
+    hn::StoreU(v, d, column + x + 1);
+  }
+  column[0] = column[size];
+  for (int i = 0; i < half; i += kLanes) {
+    const auto low = hn::LoadU(d, column + 2 * i), high = hn::LoadU(d, column + 2 * i + kLanes);
+    const auto next_low = hn::LoadU(d, column + 2 * i + 1);
+    const auto next_high = hn::LoadU(d, column + 2 * i + 1 + kLanes);
+    const auto left = hn::ConcatEven(d, high, low), middle = hn::ConcatOdd(d, high, low);
+    const auto right = hn::ConcatOdd(d, next_high, next_low);
+    hn::StoreU(tent(left, middle, right), d, out + i);
+  }
+}
+
+// Halves both channels, each size x size.
+void filter_down(const float* HWY_RESTRICT from, int size, float* HWY_RESTRICT column,
+                 float* HWY_RESTRICT to) {
+  for (int j = 0; j < size / 2; ++j) {
+    const std::ptrdiff_t y = 2 * j, above = (y + size - 1) & (size - 1);
+    filter_row(from + above * size, from + y * size, from + (y + 1) * size, size, column,
+               to + static_cast<std::ptrdiff_t>(j) * (size / 2));
+  }
+}
+
+// Words of one row from the byte rows j (0) and j + 1 (1) of both channels.
+void pack_row(const std::int8_t* HWY_RESTRICT a0, const std::int8_t* HWY_RESTRICT a1,
+              const std::int8_t* HWY_RESTRICT b0, const std::int8_t* HWY_RESTRICT b1, int size,
+              std::uint64_t* HWY_RESTRICT words) {
+  const hn::CappedTag<std::int8_t, 16> d8;
+  const hn::Repartition<std::int16_t, decltype(d8)> d16;
+  const hn::Repartition<std::int32_t, decltype(d8)> d32;
+  const hn::Repartition<std::uint64_t, decltype(d8)> d64;
+  int i = 0;
+  for (; i + kWordsAtOnce <= size; i += kWordsAtOnce) {
+    // Neighbours in x side by side, then rows, then channels.
+    const auto pairs = [&](const std::int8_t* row, auto& low, auto& high) HWY_ATTR {
+      const auto left = hn::LoadU(d8, row + i), right = hn::LoadU(d8, row + i + 1);
+      low = hn::BitCast(d16, hn::InterleaveLower(d8, left, right));
+      high = hn::BitCast(d16, hn::InterleaveUpper(d8, left, right));
+    };
+    hn::Vec<decltype(d16)> a0_pairs[2], a1_pairs[2], b0_pairs[2], b1_pairs[2];
+    pairs(a0, a0_pairs[0], a0_pairs[1]);
+    pairs(a1, a1_pairs[0], a1_pairs[1]);
+    pairs(b0, b0_pairs[0], b0_pairs[1]);
+    pairs(b1, b1_pairs[0], b1_pairs[1]);
+    for (int h = 0; h < 2; ++h) {
+      std::uint64_t* const out = words + i + 8 * h;
+      const auto a_low = hn::BitCast(d32, hn::InterleaveLower(d16, a0_pairs[h], a1_pairs[h]));
+      const auto a_high = hn::BitCast(d32, hn::InterleaveUpper(d16, a0_pairs[h], a1_pairs[h]));
+      const auto b_low = hn::BitCast(d32, hn::InterleaveLower(d16, b0_pairs[h], b1_pairs[h]));
+      const auto b_high = hn::BitCast(d32, hn::InterleaveUpper(d16, b0_pairs[h], b1_pairs[h]));
+      hn::StoreU(hn::BitCast(d64, hn::InterleaveLower(d32, a_low, b_low)), d64, out);
+      hn::StoreU(hn::BitCast(d64, hn::InterleaveUpper(d32, a_low, b_low)), d64, out + 2);
+      hn::StoreU(hn::BitCast(d64, hn::InterleaveLower(d32, a_high, b_high)), d64, out + 4);
+      hn::StoreU(hn::BitCast(d64, hn::InterleaveUpper(d32, a_high, b_high)), d64, out + 6);
+    }
+  }
+  for (; i < size; ++i) {
+    const std::int8_t taps[8] = {a0[i], a0[i + 1], a1[i], a1[i + 1],
+                                 b0[i], b0[i + 1], b1[i], b1[i + 1]};
+    std::uint64_t word = 0;
+    for (int n = 8; n-- > 0;) word = word << 8 | static_cast<std::uint8_t>(taps[n]);
+    words[i] = word;
+  }
+}
+
+// Quantises and packs one level; returns the sum of squares of both channels.
+double build_level(const float* a, const float* b, int size, float per_unit, std::int8_t* bytes,
+                   std::uint64_t* words) {
+  const std::ptrdiff_t stride = size + 1;
+  std::int8_t* const a_bytes = bytes;
+  std::int8_t* const b_bytes = bytes + stride * size;
+  double squares = 0.0;
+  for (std::ptrdiff_t j = 0; j < size; ++j) {
+    quantize_row(a + j * size, size, per_unit, a_bytes + j * stride);
+    quantize_row(b + j * size, size, per_unit, b_bytes + j * stride);
+    squares += sum_of_squares(a + j * size, size) + sum_of_squares(b + j * size, size);
+  }
+  for (std::ptrdiff_t j = 0; j < size; ++j) {
+    const std::ptrdiff_t next = (j + 1) & (size - 1);
+    pack_row(a_bytes + j * stride, a_bytes + next * stride, b_bytes + j * stride,
+             b_bytes + next * stride, size, words + j * size);
+  }
+  return squares;
+}
+
+void build_map(const float* a, const float* b, float fixed_scale, PackedMap2& map) {
+  const std::size_t texels = static_cast<std::size_t>(map.size) * map.size;
+  map.scale = fixed_scale;
+  if (!(fixed_scale > 0.0f)) {
+    const float largest = std::max(max_magnitude(a, texels), max_magnitude(b, texels));
+    map.scale = largest > 1e-30f ? largest / 127.0f : 1.0f;
+  }
+  const float per_unit = 1.0f / map.scale;
+  float* const column = map.scratch.data();
+  float* next = column + map.size + 1;
+  double first_mean = 0.0;
+  for (int level = 0; level < map.levels; ++level) {
+    const int size = map.size >> level;
+    const std::ptrdiff_t level_texels = static_cast<std::ptrdiff_t>(size) * size;
+    const double squares = build_level(a, b, size, per_unit, map.scratch_bytes.data(),
+                                       map.words.data() + map.level_offset[level]);
+    const double mean = squares / static_cast<double>(level_texels);
+    if (level == 0) first_mean = mean;
+    map.lost_variance[level] = static_cast<float>(std::max(0.0, first_mean - mean));
+    if (size == 1) break;
+    filter_down(a, size, column, next);
+    filter_down(b, size, column, next + level_texels / 4);
+    a = next;
+    b = next + level_texels / 4;
+    next += level_texels / 2;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::texture
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::texture {
+
+HWY_EXPORT(build_map);
+
+void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
+               PackedMap2& map) {
+  SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)),
+              "size={}", size);
+  const std::size_t texels = static_cast<std::size_t>(size) * size;
+  SWELL_CHECK(a.size() == texels && b.size() == texels, "a={} b={} size={}", a.size(), b.size(),
+              size);
+  map.size = size;
+  map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
+  map.words.resize(2 * texels);
+  map.level_offset.resize(map.levels);
+  map.lost_variance.resize(map.levels);
+  for (int level = 0; level < map.levels; ++level) {
+    const std::uint32_t side = static_cast<std::uint32_t>(size) >> level;
+    map.level_offset[level] = side * side;
+  }
+  map.scratch.resize(size + 1 + texels);  // a row; levels 1, 2, ... of both channels: 2/3 texels
+  map.scratch_bytes.resize(2 * static_cast<std::size_t>(size + 1) * size);
+  HWY_DYNAMIC_DISPATCH(build_map)(a.data(), b.data(), fixed_scale, map);
+}
+
+}  // namespace swell::texture
+#endif  // HWY_ONCE
