@@ -1,0 +1,85 @@
+// swell-bench query: how many heights of the sea a program can ask for in a second.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "apps/bench.h"
+#include "apps/options.h"
+#include "apps/report.h"
+#include "math/random.h"
+#include "ocean/sea.h"
+#include "scene/scene.h"
+
+namespace swell::apps {
+namespace {
+
+struct QueryBench {
+  std::string scene_path, simd, json;
+  int threads = available_cpus();
+  int points = 65536;
+};
+
+std::string model_name(const ocean::SeaDescription& sea) {
+  const bool spectrum = sea.spectrum && sea.wind_speed_mps > 0.0;
+  if (spectrum && !sea.sines.empty()) return "spectrum+sines";
+  if (spectrum) return "spectrum";
+  return sea.sines.empty() ? "flat" : "sines";
+}
+
+// Points spread over the sea's area, in no order.
+std::vector<glm::dvec2> scattered_points(const scene::SeaArea& area, int count) {
+  std::vector<glm::dvec2> points(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec2 unit(random_uniform(1, 2 * i), random_uniform(1, 2 * i + 1));
+    points[i] = area.centre_m + (unit - 0.5) * area.size_m;
+  }
+  return points;
+}
+
+// The median time of one call for all points, on one thread.
+double median_query_ms(const ocean::SeaFrame& frame, const std::vector<glm::dvec2>& points) {
+  std::vector<float> height_m(points.size());
+  std::vector<double> call_ms;
+  const Stopwatch run;
+  do {
+    const Stopwatch call;
+    ocean::sample_heights(frame, points, height_m);
+    call_ms.push_back(call.elapsed_ms());
+  } while (run.elapsed_ms() < 500.0 || call_ms.size() < 5);
+  return spread(call_ms).median;
+}
+
+void run_query_bench(const QueryBench& bench) {
+  select_simd(bench.simd);
+  check_text_place(bench.json);
+  const scene::Scene scene = scene::load_scene(bench.scene_path);
+  const ocean::Sea sea(scene.sea);
+  ocean::SeaFrame frame;
+  Workers workers(bench.threads);
+  ocean::advance(sea, 0.0, frame, workers);
+  const double ms = median_query_ms(frame, scattered_points(scene.area, bench.points));
+
+  const Json json = {{"points_per_s", std::round(bench.points / (ms * 1e-3))},
+                     {"model", model_name(scene.sea)},
+                     {"points", bench.points},
+                     {"scene", scene.name}};
+  if (bench.json != "-")
+    fmt::print("{}: {:.3g} heights a second on one thread, model {}\n", scene.name,
+               json["points_per_s"].get<double>(), model_name(scene.sea));
+  if (!bench.json.empty()) write_text(bench.json, json.dump(2) + "\n");
+}
+
+}  // namespace
+
+Subcommand add_bench_query(CLI::App& app) {
+  const auto bench = std::make_shared<QueryBench>();
+  CLI::App* sub = app.add_subcommand("query", "Heights of a scene's sea at scattered points");
+  sub->add_option("--scene", bench->scene_path, "Scene file (TOML)")->required()->type_name("FILE");
+  add_machine_options(*sub, bench->threads, bench->simd);
+  add_integer(*sub, "--points", bench->points, 1, 16777216, "Points of one query");
+  sub->add_option("--json", bench->json, "Write the numbers as JSON; - is standard output")
+      ->type_name("FILE");
+  return {sub, [bench] { run_query_bench(*bench); }};
+}
+
+}  // namespace swell::apps

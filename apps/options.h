@@ -1,0 +1,61 @@
+// Command-line options that the programs share. Every fault is an OptionError that names the
+// option, what was given and what is allowed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+
+#include "apps/program.h"
+#include "render/frame.h"
+
+namespace swell::apps {
+
+struct PictureSize {
+  int width_px = 1280, height_px = 720;  // each in [1, 8192]
+};
+
+// What decides a frame and how it is computed.
+struct FrameSetup {
+  std::string scene_path;
+  PictureSize size;
+  int threads = available_cpus();
+  std::string simd;  // "avx2", "avx512" or empty: the best there is
+  render::FrameOptions frame;
+};
+
+// Adds --help and --version, and makes `app` print defaults.
+void add_standard_options(CLI::App& app);
+
+// --scene, --size, --threads, --simd
+void add_frame_setup(CLI::App& app, FrameSetup& setup);
+
+// --tile, --triangles, --lookup-scale, --wireframe
+void add_quality_options(CLI::App& app, render::FrameOptions& frame);
+
+// --threads and --simd alone.
+void add_machine_options(CLI::App& app, int& threads, std::string& simd);
+
+// An option that is a whole number (a finite number) in [low, high]; `value` holds the default.
+void add_integer(CLI::App& app, const std::string& name, int& value, int low, int high,
+                 const std::string& help);
+void add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
+                const std::string& help);
+
+// Parses the command line. False: --help or --version was asked for and has been printed.
+bool parse_command_line(CLI::App& app, int argc, char** argv);
+
+// Makes the kernels run on the target named "avx2" or "avx512"; keeps the best one for "".
+// Throws OptionError if this CPU does not have it.
+void select_simd(std::string_view name);
+
+// "1280x720" -> {1280, 720}.
+PictureSize parse_size(std::string_view text);
+
+// "0-99" -> {0, 99}; 0 <= first <= last <= 9999999.
+struct FrameRange {
+  int first = 0, last = 0;
+};
+FrameRange parse_frame_range(std::string_view text);
+
+}  // namespace swell::apps

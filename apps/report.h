@@ -1,0 +1,48 @@
+// What swell-bench frame found: numbers over frames, as a table for people and JSON for programs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "render/frame.h"
+
+namespace swell::apps {
+
+// Of a set of samples; percentiles by nearest rank, so each is one of the samples.
+struct Spread {
+  double median = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;
+};
+Spread spread(std::vector<double> samples);  // at least one
+
+struct FrameReport {
+  std::string scene;  // its name
+  int width_px = 0, height_px = 0;
+  int frames = 0, threads = 0;
+  std::string simd;
+  double budget_ms = 0.0;
+  Spread frame_ms;
+  int over_budget = 0;  // frames slower than the budget
+  std::array<Spread, static_cast<std::size_t>(render::Stage::kCount)> stage_ms;
+  render::FrameStatistics last;  // of the last frame
+  std::uint64_t hash = 0;        // of the last frame's picture
+  double peak_rss_mb = 0.0;
+  std::int64_t involuntary_switches = 0;  // while measuring: how busy the machine was otherwise
+};
+
+using Json = nlohmann::ordered_json;
+
+Json frame_json(const FrameReport& report);
+
+// One row a stage, one for the frame, and the verdict against the budget.
+std::string stage_table(const FrameReport& report);
+
+// Writes to standard output for "-", else to a file (whole or not there; texture::FileError).
+void write_text(const std::string& path, const std::string& text);
+
+// Throws texture::FileError if write_text could not write there; fine if `path` is empty or "-".
+void check_text_place(const std::string& path);
+
+}  // namespace swell::apps

@@ -1,0 +1,103 @@
+// swell-render: draws one picture or a sequence of a scene.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "apps/options.h"
+#include "apps/picture_file.h"
+#include "apps/program.h"
+#include "render/frame.h"
+
+namespace swell::apps {
+namespace {
+
+struct RenderOptions {
+  FrameSetup setup;
+  double time_s = 0.0;
+  std::optional<FrameRange> frames;  // none: one picture at time_s
+  double fps = 60.0;
+  std::string out;
+  bool hash = false;
+};
+
+std::optional<RenderOptions> parse_options(int argc, char** argv) {
+  RenderOptions options;
+  CLI::App app("Draws pictures of a scene.", "swell-render");
+  add_standard_options(app);
+  add_frame_setup(app, options.setup);
+  add_quality_options(app, options.setup.frame);
+  add_number(app, "--time", options.time_s, -1e12, 1e12, "Time of a single picture in seconds");
+  auto* frames = app.add_option_function<std::string>(
+      "--frames", [&](const std::string& text) { options.frames = parse_frame_range(text); },
+      "Draw frames A to B; frame k is at k / fps seconds");
+  frames->type_name("A-B")->excludes("--time");
+  add_number(app, "--fps", options.fps, 1e-3, 1e6, "Frames a second of a sequence");
+  app.get_option("--fps")->needs(frames);
+  app.add_option("--out", options.out,
+                 "File to write: .png .exr .tif .tiff; %04d becomes the frame's number")
+      ->type_name("FILE");
+  app.add_flag("--hash", options.hash, "Print 'frame N xxh3 HASH' of the 8-bit RGB picture");
+  if (!parse_command_line(app, argc, argv)) return std::nullopt;
+  return options;
+}
+
+FrameRange frame_range(const RenderOptions& options) {
+  return options.frames.value_or(FrameRange{0, 0});
+}
+
+// The file of frame k; a single picture's name is taken as it is.
+std::filesystem::path output_file(const RenderOptions& options, int k) {
+  if (!options.frames) return options.out;
+  return frame_file(parse_file_pattern(options.out), k);
+}
+
+// Refuses, before any work is done, what could not be written after it.
+void check_output(const RenderOptions& options) {
+  if (options.out.empty()) {
+    if (!options.hash) throw OptionError("command line: --out or --hash is required");
+    return;
+  }
+  const FrameRange range = frame_range(options);
+  if (range.first < range.last && !parse_file_pattern(options.out).numbered)
+    throw OptionError(fmt::format(
+        "command line: --out: got '{}' for {} frames, allowed names with %d or %04d in them",
+        options.out, range.last - range.first + 1));
+  check_picture_file(output_file(options, range.last));
+}
+
+void print_hash(int k, const render::Target& target) {
+  fmt::print("frame {} xxh3 {:016x}\n", k, render::picture_hash(target));
+  if (std::fflush(stdout) != 0) throw std::runtime_error("cannot write to standard output");
+}
+
+void render(const RenderOptions& options) {
+  const FrameSetup& setup = options.setup;
+  select_simd(setup.simd);
+  check_output(options);
+  const render::World world(scene::load_scene(setup.scene_path));
+  render::FrameOptions frame_options = setup.frame;
+  frame_options.keep_linear = stores_linear_light(options.out);
+
+  Workers workers(setup.threads);
+  render::Workspace workspace;
+  render::Target target;
+  const FrameRange range = frame_range(options);
+  for (int k = range.first; k <= range.last; ++k) {
+    const double t_s = options.frames ? k / options.fps : options.time_s;
+    const View view =
+        scene::camera_view(world.scene().camera, t_s, setup.size.width_px, setup.size.height_px);
+    render::render_frame(world, view, t_s, frame_options, workspace, target, workers);
+    if (!options.out.empty()) write_picture(target, output_file(options, k));
+    if (options.hash) print_hash(k, target);
+  }
+}
+
+}  // namespace
+}  // namespace swell::apps
+
+int main(int argc, char** argv) {
+  return swell::apps::run_program([&] {
+    if (const auto options = swell::apps::parse_options(argc, argv)) swell::apps::render(*options);
+  });
+}

@@ -1,0 +1,35 @@
+#include "apps/trace.h"
+
+#include <nlohmann/json.hpp>
+
+namespace swell::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json complete_event(std::string_view name, double start_us, double length_us, int thread) {
+  return {{"name", name},     {"cat", "frame"}, {"ph", "X"},    {"ts", start_us},
+          {"dur", length_us}, {"pid", 1},       {"tid", thread}};
+}
+
+}  // namespace
+
+void Trace::add_frame(int frame, double start_us, double length_us,
+                      std::span<const render::TraceEvent> events) {
+  frames_.push_back({frame, start_us, length_us, {events.begin(), events.end()}});
+}
+
+std::string Trace::json() const {
+  Json events = Json::array();
+  for (const Frame& frame : frames_) {
+    Json whole = complete_event("frame", frame.start_us, frame.length_us, 0);
+    whole["args"] = {{"frame", frame.number}};
+    events.push_back(std::move(whole));
+    for (const render::TraceEvent& e : frame.events)
+      events.push_back(complete_event(stage_name(e.stage), frame.start_us + e.start_us,
+                                      e.end_us - e.start_us, e.thread));
+  }
+  return Json{{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}.dump() + "\n";
+}
+
+}  // namespace swell::apps

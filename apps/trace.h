@@ -1,0 +1,30 @@
+// A run as a Chrome trace (chrome://tracing, ui.perfetto.dev): one bar a stage and thread.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/frame.h"
+
+namespace swell::apps {
+
+class Trace {
+ public:
+  // Adds one frame: its start since the run's start, its length, its stages.
+  void add_frame(int frame, double start_us, double length_us,
+                 std::span<const render::TraceEvent> events);
+
+  // The trace-event JSON: complete events ("ph": "X"), microseconds, one tid a worker slot.
+  std::string json() const;
+
+ private:
+  struct Frame {
+    int number;
+    double start_us, length_us;
+    std::vector<render::TraceEvent> events;
+  };
+  std::vector<Frame> frames_;
+};
+
+}  // namespace swell::apps
