@@ -1,1 +1,181 @@
 #include "ocean/sea.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "math/check.h"
+#include "math/elementary.h"
+#include "ocean/dispersion.h"
+#include "ocean/fft.h"
+#include "ocean/sea_state.h"
+
+namespace swell::ocean {
+namespace {
+
+constexpr double kTwoPi = 2.0 * kPi;
+constexpr std::size_t kMaxPatches = 8;
+
+void require(double value, double low, double high, const char* name) {
+  if (value >= low && value <= high) return;  // NaN fails
+  throw std::invalid_argument(fmt::format("{}: got {}, allowed [{}, {}]", name, value, low, high));
+}
+
+void check_spectrum(const SeaDescription& sea) {
+  require(sea.wind_speed_mps, 0.0, 60.0, "wind_speed_mps");
+  require(sea.wind_from_rad, -1e6, 1e6, "wind_from_rad");
+  require(sea.amplitude_scale, 0.0, 4.0, "amplitude_scale");
+  require(sea.gravity_mps2, 0.1, 100.0, "gravity_mps2");
+  if (sea.resolution < kMinFftSize || sea.resolution > kMaxFftSize ||
+      !std::has_single_bit(static_cast<unsigned>(sea.resolution))) {
+    throw std::invalid_argument(fmt::format("resolution: got {}, allowed powers of two in [{}, {}]",
+                                            sea.resolution, kMinFftSize, kMaxFftSize));
+  }
+  if (sea.patch_lengths_m.empty() || sea.patch_lengths_m.size() > kMaxPatches) {
+    throw std::invalid_argument(fmt::format("patch_lengths_m: got {} lengths, allowed [1, {}]",
+                                            sea.patch_lengths_m.size(), kMaxPatches));
+  }
+  double longest = 1e6;
+  for (const double length : sea.patch_lengths_m) {
+    require(length, 0.01, longest, "patch_lengths_m (longest first)");
+    longest = length;
+  }
+}
+
+void check_sine(const SineWave& sine) {
+  require(sine.amplitude_m, -1000.0, 1000.0, "sines.amplitude_m");
+  require(sine.wavelength_m, 1e-3, 1e6, "sines.wavelength_m");
+  require(sine.to_rad, -1e6, 1e6, "sines.to_rad");
+  require(sine.phase_rad, -1e6, 1e6, "sines.phase_rad");
+  if (sine.period_s != 0.0) require(sine.period_s, 1e-3, 1e6, "sines.period_s (or 0)");
+}
+
+SineTrain make_sine_train(const SineWave& sine, double gravity_mps2) {
+  const SinCos to = sin_cos_turns(sine.to_rad / kTwoPi);
+  SineTrain train;
+  train.at_start.cycles_per_m = {to.sin / sine.wavelength_m, to.cos / sine.wavelength_m};
+  train.at_start.cycles = sine.phase_rad / kTwoPi;
+  train.at_start.amplitude_m = sine.amplitude_m;
+  train.turns_per_s = sine.period_s > 0.0
+                          ? 1.0 / sine.period_s
+                          : deep_water_omega(kTwoPi / sine.wavelength_m, gravity_mps2) / kTwoPi;
+  return train;
+}
+
+// Patch p's waves start where those of the next longer one end. All but the last end half a wave
+// count short of size/4, so that their shortest waves have four samples; the last one's end half
+// a wave count short of its Nyquist wave number.
+WaveBand band_of_patch(const SeaDescription& sea, std::size_t patch) {
+  const auto end = [&](std::size_t p) {
+    const int counts = p + 1 < sea.patch_lengths_m.size() ? sea.resolution / 4 : sea.resolution / 2;
+    return kTwoPi / sea.patch_lengths_m[p] * (counts - 0.5);
+  };
+  double low = 0.0;
+  for (std::size_t p = 0; p < patch; ++p) low = std::max(low, end(p));
+  return {low, end(patch)};
+}
+
+void make_spectrum_waves(Sea::State& state) {
+  const SeaDescription& sea = state.description;
+  const WindSea wind = make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2);
+  state.plan = make_fft_plan(sea.resolution);
+  for (std::size_t p = 0; p < sea.patch_lengths_m.size(); ++p) {
+    state.patches.push_back(make_patch_waves(wind, band_of_patch(sea, p), sea.patch_lengths_m[p],
+                                             sea.resolution, sea.amplitude_scale, sea.seed,
+                                             static_cast<int>(p)));
+    state.spectrum_variance_m2 += state.patches.back().variance_m2;
+  }
+}
+
+void size_patches(const Sea::State& state, std::vector<PatchFrame>& patches) {
+  patches.resize(state.patches.size());
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const PatchWaves& waves = state.patches[p];
+    const std::size_t samples = static_cast<std::size_t>(waves.size) * waves.size;
+    patches[p].length_m = waves.length_m;
+    patches[p].resolution = waves.size;
+    patches[p].slope_variance = static_cast<float>(waves.slope_variance);
+    for (auto* field : {&patches[p].height_m, &patches[p].slope_x, &patches[p].slope_y}) {
+      field->resize(samples);
+    }
+  }
+}
+
+// One transform a patch for both slopes, then one for the heights of two patches.
+void synthesize_patches(const Sea::State& state, double t_s, SeaFrame& frame, Workers& workers) {
+  const int patches = static_cast<int>(state.patches.size());
+  std::array<FftOutput, kMaxPatches + (kMaxPatches + 1) / 2> outputs;
+  std::size_t transforms = 0;
+  for (PatchFrame& patch : frame.patches) {
+    outputs[transforms++] = {patch.slope_x.data(), patch.slope_y.data()};
+  }
+  for (int p = 0; p < patches; p += 2) {
+    float* const second = p + 1 < patches ? frame.patches[p + 1].height_m.data() : nullptr;
+    outputs[transforms++] = {frame.patches[p].height_m.data(), second};
+  }
+  const auto fill = [&](int transform, int column0, float* re, float* im) {
+    if (transform < patches) {
+      return fill_slopes(state.patches[transform], state.plan, t_s, column0, re, im);
+    }
+    const int p = 2 * (transform - patches);
+    const PatchWaves* const second = p + 1 < patches ? &state.patches[p + 1] : nullptr;
+    return fill_heights(state.patches[p], second, state.plan, t_s, column0, re, im);
+  };
+  inverse_fft_2d(state.plan, fill, {outputs.data(), transforms}, frame.fft_planes, workers);
+}
+
+}  // namespace
+
+Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) {
+  check_spectrum(description);
+  for (const SineWave& sine : description.sines) check_sine(sine);
+  state_->description = description;
+  if (description.spectrum && description.wind_speed_mps > 0.0) make_spectrum_waves(*state_);
+  for (const SineWave& sine : description.sines) {
+    state_->sines.push_back(make_sine_train(sine, description.gravity_mps2));
+  }
+}
+
+Sea::~Sea() = default;
+Sea::Sea(Sea&&) noexcept = default;
+Sea& Sea::operator=(Sea&&) noexcept = default;
+
+const SeaDescription& Sea::description() const { return state_->description; }
+
+double Sea::height_bound_m() const {
+  double bound = 6.0 * std::sqrt(state_->spectrum_variance_m2);
+  for (const SineWave& sine : state_->description.sines) bound += std::abs(sine.amplitude_m);
+  return bound;
+}
+
+double Sea::significant_height_m() const {
+  double variance = state_->spectrum_variance_m2;
+  for (const SineWave& sine : state_->description.sines) {
+    variance += 0.5 * sine.amplitude_m * sine.amplitude_m;
+  }
+  return 4.0 * std::sqrt(variance);
+}
+
+void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers) {
+  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
+  const Sea::State& state = sea.state();
+  frame.t_s = t_s;
+  // Beyond 2^53 s the fractions of a turn are arbitrary, but products must stay finite.
+  const double t_safe_s = std::fmod(t_s, 0x1p100);
+  size_patches(state, frame.patches);
+  if (!frame.patches.empty()) synthesize_patches(state, t_safe_s, frame, workers);
+
+  frame.sines.resize(state.sines.size());
+  for (std::size_t i = 0; i < frame.sines.size(); ++i) {
+    frame.sines[i] = state.sines[i].at_start;
+    const double cycles = frame.sines[i].cycles - state.sines[i].turns_per_s * t_safe_s;
+    const double fraction = cycles - std::floor(cycles);
+    frame.sines[i].cycles = fraction < 1.0 ? fraction : 0.0;  // -1e-20 + 1 rounds up
+  }
+}
+
+}  // namespace swell::ocean

@@ -16,28 +16,28 @@ namespace swell::ocean {
 struct SineWave {
   double amplitude_m = 0.0;
   double wavelength_m = 1.0;
-  double to_rad = 0.0;      // direction of travel, clockwise from north
+  double to_rad = 0.0;  // direction of travel, clockwise from north
   double phase_rad = 0.0;
-  double period_s = 0.0;    // 0: from deep-water dispersion, omega^2 = g k
+  double period_s = 0.0;  // 0: from deep-water dispersion, omega^2 = g k
 };
 
 struct SeaDescription {
   // Pierson-Moskowitz x Hasselmann spectrum; no spectrum waves if wind_speed_mps == 0.
   bool spectrum = true;
-  double wind_speed_mps = 15.0;   // U10, at 10 m height, [0, 60]
-  double wind_from_rad = 0.0;     // where the wind comes FROM, clockwise from north
-  double amplitude_scale = 1.0;   // multiplies all spectrum heights, [0, 4]
+  double wind_speed_mps = 15.0;  // U10, at 10 m height, [0, 60]
+  double wind_from_rad = 0.0;    // where the wind comes FROM, clockwise from north
+  double amplitude_scale = 1.0;  // multiplies all spectrum heights, [0, 4]
   double gravity_mps2 = 9.81;
   std::uint64_t seed = 1;
-  int resolution = 128;           // FFT points per side, power of two in [16, 512]
+  int resolution = 128;  // FFT points per side, power of two in [16, 512]
   // Patch lengths, longest first. Each patch holds the waves that the next longer one is too
   // coarse for: bands of wave numbers do not overlap.
   std::vector<double> patch_lengths_m = {640.0, 97.0, 17.0};
   std::vector<SineWave> sines;
 };
 
-// One patch at one time: row-major resolution x resolution samples, sample (i, j) at world
-// x = i L / n, y = j L / n, periodic.
+// One patch at one time: resolution x resolution samples, periodic; sample [j * resolution + i] is
+// at world x = i L / n, y = j L / n.
 struct PatchFrame {
   double length_m = 0.0;
   int resolution = 0;
@@ -55,8 +55,9 @@ struct SineFrame {
 
 struct SeaFrame {
   double t_s = 0.0;
-  std::vector<PatchFrame> patches;
+  std::vector<PatchFrame> patches;  // none if there are no spectrum waves
   std::vector<SineFrame> sines;
+  std::vector<float> fft_planes;  // working storage of advance()
 };
 
 // A sea state, built once and then read-only.
@@ -74,7 +75,8 @@ class Sea {
   // spectrum plus the sum of the sines' amplitudes).
   double height_bound_m() const;
 
-  // 4 sqrt(m0) of the waves the patches can hold, sines included.
+  // 4 sqrt(m0) of the waves the patches can hold, sines included; m0 is the mean over time and
+  // place of the waves that were drawn for this seed.
   double significant_height_m() const;
 
   struct State;
@@ -84,12 +86,21 @@ class Sea {
   std::unique_ptr<State> state_;
 };
 
-// Fills `frame` with the sea at time t_s (any double; the result depends on nothing else).
+// Fills `frame` with the sea at time t_s (any finite double; the result depends on nothing else).
+// Allocates nothing once the frame has been filled from a sea of this size. Three patches of
+// 128 x 128: about 0.4 ms on one thread; of 256 x 256: 2 ms.
 void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers);
 
 // Heights at world points, from the frame's patches (bilinear between samples) and sines.
-// p_world and height_m have the same length and do not overlap.
+// Positions in a patch are rounded to 1/65536 of the sample spacing, so that samples come back
+// exactly and the patches repeat exactly. p_world and height_m have the same length and do not
+// overlap; |p_world| below 1e9 m. May be called from many threads at once.
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m);
+
+// The same at origin_world + offset, for points around an eye: faster, and exact to the float
+// rounding of the offsets (0.1 mm at 1 km).
+void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
+                    std::span<const glm::vec2> offset_m, std::span<float> height_m);
 
 }  // namespace swell::ocean

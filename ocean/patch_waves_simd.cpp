@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+
+#include "ocean/patch_waves.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ocean/patch_waves_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "math/elementary-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::ocean {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<float>;
+using DHalf = hn::Half<D>;
+using DDouble = hn::Rebind<double, DHalf>;
+using V = hn::Vec<D>;
+
+struct ComplexV {
+  V re, im;
+};
+
+// omega t in turns, less whole turns. In double: after years at sea the fraction is still exact
+// to 1e-6 of a turn.
+HWY_INLINE hn::Vec<DHalf> HalfTurnsAt(const double* turns_per_s, double t_s) {
+  const DDouble dd;
+  const auto turns = hn::Mul(hn::LoadU(dd, turns_per_s), hn::Set(dd, t_s));
+  return hn::DemoteTo(DHalf(), hn::Sub(turns, hn::Round(turns)));
+}
+
+HWY_INLINE V TurnsAt(D d, const double* turns_per_s, double t_s) {
+  return hn::Combine(d, HalfTurnsAt(turns_per_s + hn::Lanes(DDouble()), t_s),
+                     HalfTurnsAt(turns_per_s, t_s));
+}
+
+// h(k, t) of the waves from position `at`.
+HWY_INLINE ComplexV WavesAt(D d, const PatchWaves& waves, std::size_t at, double t_s) {
+  V s, c;
+  swell::HWY_NAMESPACE::SinCosTurns(d, TurnsAt(d, waves.turns_per_s.data() + at, t_s), s, c);
+  const V re = hn::MulAdd(hn::LoadU(d, waves.cos_re.data() + at), c,
+                          hn::Mul(hn::LoadU(d, waves.sin_re.data() + at), s));
+  const V im = hn::MulAdd(hn::LoadU(d, waves.cos_im.data() + at), c,
+                          hn::Mul(hn::LoadU(d, waves.sin_im.data() + at), s));
+  return {re, im};
+}
+
+HWY_INLINE void StoreRow(D d, ComplexV v, std::size_t offset, float* re, float* im) {
+  hn::Store(v.re, d, re + offset);
+  hn::Store(v.im, d, im + offset);
+}
+
+HWY_INLINE void ZeroRow(D d, std::size_t offset, float* re, float* im) {
+  for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
+    StoreRow(d, {hn::Zero(d), hn::Zero(d)}, offset + lane, re, im);
+  }
+}
+
+// h_a + i h_b.
+void FillHeights(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
+                 double t_s, int column0, float* re, float* im) {
+  const D d;
+  for (int j = 0; j < a.size; ++j) {
+    const std::size_t offset = static_cast<std::size_t>(plan.slot[j] * kFftBatch);
+    if (std::abs(wave_count(j, a.size)) > reach) {
+      ZeroRow(d, offset, re, im);
+      continue;
+    }
+    const std::size_t at = wave_position(column0, j, a.size);
+    for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
+      ComplexV h = WavesAt(d, a, at + lane, t_s);
+      if (b != nullptr) {
+        const ComplexV h_b = WavesAt(d, *b, at + lane, t_s);
+        h = {hn::Sub(h.re, h_b.im), hn::Add(h.im, h_b.re)};
+      }
+      StoreRow(d, h, offset + lane, re, im);
+    }
+  }
+}
+
+// (i k_x - k_y) h.
+void FillSlopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
+                float* im) {
+  const D d;
+  for (int j = 0; j < waves.size; ++j) {
+    const std::size_t offset = static_cast<std::size_t>(plan.slot[j] * kFftBatch);
+    if (std::abs(wave_count(j, waves.size)) > waves.reach) {
+      ZeroRow(d, offset, re, im);
+      continue;
+    }
+    const V ky = hn::Set(d, waves.k_rad_m[j]);
+    const std::size_t at = wave_position(column0, j, waves.size);
+    for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
+      const V kx = hn::LoadU(d, waves.k_rad_m.data() + column0 + lane);
+      const ComplexV h = WavesAt(d, waves, at + lane, t_s);
+      const V re_out = hn::Neg(hn::MulAdd(ky, h.re, hn::Mul(kx, h.im)));
+      const V im_out = hn::MulSub(kx, h.re, hn::Mul(ky, h.im));
+      StoreRow(d, {re_out, im_out}, offset + lane, re, im);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::ocean
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::ocean {
+namespace {
+
+bool columns_hold_waves(int column0, int size, int reach) {
+  int nearest = size;
+  for (int i = column0; i < column0 + kFftBatch; ++i) {
+    nearest = std::min(nearest, std::abs(wave_count(i, size)));
+  }
+  return nearest <= reach;
+}
+
+}  // namespace
+
+HWY_EXPORT(FillHeights);
+HWY_EXPORT(FillSlopes);
+
+bool fill_heights(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,
+                  int column0, float* re, float* im) {
+  const int reach = b == nullptr ? a.reach : std::max(a.reach, b->reach);
+  if (!columns_hold_waves(column0, a.size, reach)) return false;
+  HWY_DYNAMIC_DISPATCH(FillHeights)(a, b, reach, plan, t_s, column0, re, im);
+  return true;
+}
+
+bool fill_slopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
+                 float* im) {
+  if (!columns_hold_waves(column0, waves.size, waves.reach)) return false;
+  HWY_DYNAMIC_DISPATCH(FillSlopes)(waves, plan, t_s, column0, re, im);
+  return true;
+}
+
+}  // namespace swell::ocean
+#endif  // HWY_ONCE

@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "math/check.h"
+#include "ocean/sea.h"
+
+// A patch position is a 16.16 fixed-point number of samples: whole samples pick the cell, 16
+// fraction bits are the bilinear weight, and a power-of-two patch wraps by a mask.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ocean/sample_heights_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "math/elementary-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::ocean {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<float>;
+using DInt = hn::RebindToSigned<D>;
+using DHalf = hn::Half<D>;
+using DHalfInt = hn::RebindToSigned<DHalf>;
+using DDouble = hn::Rebind<double, DHalf>;
+using V = hn::Vec<D>;
+using VInt = hn::Vec<DInt>;
+using VDouble = hn::Vec<DDouble>;
+
+// As many doubles as V has floats.
+struct DoublePacket {
+  VDouble low, high;
+};
+
+// x in metres to 16.16 samples modulo the patch.
+HWY_INLINE hn::Vec<DHalfInt> HalfFixedPosition(VDouble x_m, double fixed_per_m, double fixed_size) {
+  const DDouble dd;
+  const auto u = hn::Round(hn::Mul(x_m, hn::Set(dd, fixed_per_m)));
+  const auto wraps = hn::Floor(hn::Mul(u, hn::Set(dd, 1.0 / fixed_size)));
+  return hn::DemoteTo(DHalfInt(), hn::NegMulAdd(wraps, hn::Set(dd, fixed_size), u));
+}
+
+HWY_INLINE VInt FixedPosition(DoublePacket x_m, double fixed_per_m, double fixed_size) {
+  return hn::Combine(DInt(), HalfFixedPosition(x_m.high, fixed_per_m, fixed_size),
+                     HalfFixedPosition(x_m.low, fixed_per_m, fixed_size));
+}
+
+// Bilinear height at 16.16 positions (any integers: they wrap).
+HWY_INLINE V PatchHeight(const PatchFrame& patch, VInt x_fx16, VInt y_fx16) {
+  const D d;
+  const DInt di;
+  const VInt mask = hn::Set(di, patch.resolution - 1), one = hn::Set(di, 1);
+  const VInt x0 = hn::And(hn::ShiftRight<16>(x_fx16), mask);
+  const VInt y0 = hn::And(hn::ShiftRight<16>(y_fx16), mask);
+  const VInt x1 = hn::And(hn::Add(x0, one), mask);
+  const VInt row0 = hn::Mul(y0, hn::Set(di, patch.resolution));
+  const VInt row1 = hn::Mul(hn::And(hn::Add(y0, one), mask), hn::Set(di, patch.resolution));
+
+  const float* const samples = patch.height_m.data();
+  const V h00 = hn::GatherIndex(d, samples, hn::Add(row0, x0));
+  const V h10 = hn::GatherIndex(d, samples, hn::Add(row0, x1));
+  const V h01 = hn::GatherIndex(d, samples, hn::Add(row1, x0));
+  const V h11 = hn::GatherIndex(d, samples, hn::Add(row1, x1));
+
+  const VInt fraction_bits = hn::Set(di, 0xffff);
+  const V unit = hn::Set(d, 0x1p-16f);
+  const V fx = hn::Mul(hn::ConvertTo(d, hn::And(x_fx16, fraction_bits)), unit);
+  const V fy = hn::Mul(hn::ConvertTo(d, hn::And(y_fx16, fraction_bits)), unit);
+  const V h0 = hn::MulAdd(fx, hn::Sub(h10, h00), h00);
+  const V h1 = hn::MulAdd(fx, hn::Sub(h11, h01), h01);
+  return hn::MulAdd(fy, hn::Sub(h1, h0), h0);
+}
+
+HWY_INLINE hn::Vec<DHalf> HalfSineTurns(const SineFrame& sine, VDouble x_m, VDouble y_m) {
+  const DDouble dd;
+  const auto along_y = hn::MulAdd(hn::Set(dd, sine.cycles_per_m.y), y_m, hn::Set(dd, sine.cycles));
+  const auto turns = hn::MulAdd(hn::Set(dd, sine.cycles_per_m.x), x_m, along_y);
+  return hn::DemoteTo(DHalf(), hn::Sub(turns, hn::Round(turns)));
+}
+
+// Adds the sine waves; their phases are exact to double.
+HWY_INLINE V AddSines(std::span<const SineFrame> sines, DoublePacket x_m, DoublePacket y_m,
+                      V height) {
+  const D d;
+  for (const SineFrame& sine : sines) {
+    const V turns = hn::Combine(d, HalfSineTurns(sine, x_m.high, y_m.high),
+                                HalfSineTurns(sine, x_m.low, y_m.low));
+    V s, c;
+    swell::HWY_NAMESPACE::SinCosTurns(d, turns, s, c);
+    height = hn::MulAdd(hn::Set(d, static_cast<float>(sine.amplitude_m)), s, height);
+  }
+  return height;
+}
+
+// One packet of world points.
+HWY_INLINE V WorldPacket(const SeaFrame& frame, const glm::dvec2* p_world) {
+  const DDouble dd;
+  const double* const p = &p_world->x;
+  DoublePacket x, y;
+  hn::LoadInterleaved2(dd, p, x.low, y.low);
+  hn::LoadInterleaved2(dd, p + 2 * hn::Lanes(dd), x.high, y.high);
+  V height = hn::Zero(D());
+  for (const PatchFrame& patch : frame.patches) {
+    const double fixed_size = 65536.0 * patch.resolution;
+    const double fixed_per_m = fixed_size / patch.length_m;
+    height = hn::Add(height, PatchHeight(patch, FixedPosition(x, fixed_per_m, fixed_size),
+                                         FixedPosition(y, fixed_per_m, fixed_size)));
+  }
+  return AddSines(frame.sines, x, y, height);
+}
+
+// An offset in metres to 16.16 samples. Wrapped before it is scaled up: it has to fit.
+HWY_INLINE VInt FixedOffset(V offset_m, float patches_per_m, float fixed_size) {
+  const D d;
+  const V patches = hn::Mul(offset_m, hn::Set(d, patches_per_m));
+  const V fraction = hn::Sub(patches, hn::Floor(patches));
+  return hn::NearestInt(hn::Mul(fraction, hn::Set(d, fixed_size)));
+}
+
+HWY_INLINE DoublePacket WorldCoordinate(double origin, V offset) {
+  const DDouble dd;
+  const DHalf dh;
+  const auto base = hn::Set(dd, origin);
+  return {hn::Add(base, hn::PromoteTo(dd, hn::LowerHalf(dh, offset))),
+          hn::Add(base, hn::PromoteTo(dd, hn::UpperHalf(dh, offset)))};
+}
+
+// One packet of points around an origin, whose 16.16 positions in the patches are origin_fx16.
+HWY_INLINE V OffsetPacket(const SeaFrame& frame, glm::dvec2 origin, const glm::ivec2* origin_fx16,
+                          const glm::vec2* offsets) {
+  const D d;
+  const DInt di;
+  V x, y;
+  hn::LoadInterleaved2(d, &offsets->x, x, y);
+  V height = hn::Zero(d);
+  for (const PatchFrame& patch : frame.patches) {
+    const float patches_per_m = static_cast<float>(1.0 / patch.length_m);
+    const float fixed_size = 65536.0f * static_cast<float>(patch.resolution);
+    const VInt x_fx16 =
+        hn::Add(FixedOffset(x, patches_per_m, fixed_size), hn::Set(di, origin_fx16->x));
+    const VInt y_fx16 =
+        hn::Add(FixedOffset(y, patches_per_m, fixed_size), hn::Set(di, origin_fx16->y));
+    height = hn::Add(height, PatchHeight(patch, x_fx16, y_fx16));
+    ++origin_fx16;
+  }
+  if (frame.sines.empty()) return height;
+  return AddSines(frame.sines, WorldCoordinate(origin.x, x), WorldCoordinate(origin.y, y), height);
+}
+
+// Calls packet(points) for full packets, then once more for what is left, filled up with zeros.
+template <class Point, class Packet>
+HWY_INLINE void ForPackets(std::span<const Point> points, float* height_m, Packet packet) {
+  const D d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + lanes <= points.size(); i += lanes) {
+    hn::StoreU(packet(points.data() + i), d, height_m + i);
+  }
+  if (i == points.size()) return;
+  std::array<Point, hn::MaxLanes(D())> last{};
+  alignas(64) std::array<float, hn::MaxLanes(D())> last_height;
+  std::copy(points.begin() + static_cast<std::ptrdiff_t>(i), points.end(), last.begin());
+  hn::StoreU(packet(last.data()), d, last_height.data());
+  std::copy_n(last_height.begin(), points.size() - i, height_m + i);
+}
+
+void SampleWorld(const SeaFrame& frame, std::span<const glm::dvec2> p_world, float* height_m) {
+  ForPackets(p_world, height_m,
+             [&](const glm::dvec2* p) HWY_ATTR { return WorldPacket(frame, p); });
+}
+
+void SampleOffsets(const SeaFrame& frame, glm::dvec2 origin, const glm::ivec2* origin_fx16,
+                   std::span<const glm::vec2> offsets, float* height_m) {
+  ForPackets(offsets, height_m, [&](const glm::vec2* p) HWY_ATTR {
+    return OffsetPacket(frame, origin, origin_fx16, p);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::ocean
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::ocean {
+namespace {
+
+constexpr std::size_t kMaxPatches = 16;
+
+// x_m to 16.16 samples in [0, resolution].
+int fixed_position(double x_m, const PatchFrame& patch) {
+  const double patches = x_m / patch.length_m;
+  const double fraction = patches - std::floor(patches);
+  return static_cast<int>(std::nearbyint(fraction * 65536.0 * patch.resolution));
+}
+
+}  // namespace
+
+HWY_EXPORT(SampleWorld);
+HWY_EXPORT(SampleOffsets);
+
+void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+                    std::span<float> height_m) {
+  SWELL_CHECK(p_world.size() == height_m.size(), "{} points, {} heights", p_world.size(),
+              height_m.size());
+  HWY_DYNAMIC_DISPATCH(SampleWorld)(frame, p_world, height_m.data());
+}
+
+void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
+                    std::span<const glm::vec2> offset_m, std::span<float> height_m) {
+  SWELL_CHECK(offset_m.size() == height_m.size(), "{} points, {} heights", offset_m.size(),
+              height_m.size());
+  SWELL_CHECK(frame.patches.size() <= kMaxPatches, "patches={}", frame.patches.size());
+  SWELL_CHECK(std::isfinite(origin_world.x) && std::isfinite(origin_world.y), "origin={},{}",
+              origin_world.x, origin_world.y);
+  std::array<glm::ivec2, kMaxPatches> origin_fx16;
+  for (std::size_t p = 0; p < frame.patches.size(); ++p) {
+    origin_fx16[p] = {fixed_position(origin_world.x, frame.patches[p]),
+                      fixed_position(origin_world.y, frame.patches[p])};
+  }
+  HWY_DYNAMIC_DISPATCH(SampleOffsets)
+  (frame, origin_world, origin_fx16.data(), offset_m, height_m.data());
+}
+
+}  // namespace swell::ocean
+#endif  // HWY_ONCE

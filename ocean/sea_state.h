@@ -1,0 +1,26 @@
+// What a Sea keeps: tables made once from its description.
+#pragma once
+
+#include <vector>
+
+#include "ocean/fft.h"
+#include "ocean/patch_waves.h"
+#include "ocean/sea.h"
+
+namespace swell::ocean {
+
+// A sine wave ready to be put at a time: frequency besides SineFrame's numbers at t = 0.
+struct SineTrain {
+  SineFrame at_start;
+  double turns_per_s = 0.0;
+};
+
+struct Sea::State {
+  SeaDescription description;
+  FftPlan plan;
+  std::vector<PatchWaves> patches;
+  std::vector<SineTrain> sines;
+  double spectrum_variance_m2 = 0.0;
+};
+
+}  // namespace swell::ocean
