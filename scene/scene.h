@@ -10,51 +10,54 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "math/elementary.h"
 #include "math/view.h"
 #include "ocean/sea.h"
 #include "scene/terrain.h"
 
 namespace swell::scene {
 
-// A scene file's fault: what() is 'FILE:LINE: what, got what, allowed what' (no line if unknown).
-class SceneError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+inline constexpr double kRadPerDeg = kPi / 180.0;
+constexpr double radians(double deg) { return deg * kRadPerDeg; }
 
 // The camera at a time: a fixed pose, or a straight path with constant speed and turn rate.
 struct Camera {
   glm::dvec3 eye_m{0.0, 0.0, 10.0};
   double heading_rad = 0.0;  // clockwise from north
   double pitch_rad = 0.0;    // up positive
-  double fov_y_rad = 1.0;
+  double fov_y_rad = radians(50.0);
   double near_m = 0.25;
   glm::dvec3 velocity_mps{0.0};
   double turn_rad_s = 0.0;
 };
+
+// The camera's view at time t_s [s] (finite; taken as 1e12 beyond that) of a picture of at least
+// 1 x 1 pixels. The eye stays within 1e7 m of the origin along each axis.
 View camera_view(const Camera& camera, double t_s, int width_px, int height_px);
 
 struct Sky {
-  double sun_azimuth_rad = 0.0;   // where the sun stands, clockwise from north
-  double sun_elevation_rad = 0.5;
-  glm::vec3 sun_direction{0, 0, 1};  // unit, world, towards the sun; from the two angles
-  glm::vec3 sun_radiance{1.0f};      // linear RGB, irradiance scale of direct light
-  glm::vec3 zenith{0.10f, 0.25f, 0.60f};   // linear RGB radiance
+  double sun_azimuth_rad = 0.0;  // where the sun stands, clockwise from north
+  double sun_elevation_rad = radians(30.0);
+  glm::vec3 sun_direction{0, 0, 1};       // unit, world, towards the sun; from the two angles
+  glm::vec3 sun_radiance{1.0f};           // linear RGB, irradiance scale of direct light
+  glm::vec3 zenith{0.10f, 0.25f, 0.60f};  // linear RGB radiance
   glm::vec3 horizon{0.65f, 0.75f, 0.85f};
   double haze_distance_m = 15000.0;  // exponential haze: 1/e of the contrast is left at this range
   double cloud_cover = 0.3;          // [0, 1], thin clouds
   std::uint64_t cloud_seed = 7;
-  double exposure = 1.0;             // multiplies radiance before the sRGB curve
+  double exposure = 1.0;  // multiplies radiance before the sRGB curve
 };
 
 struct WaterOptics {
   double refraction_index = 1.333;
-  glm::vec3 body_colour{0.004f, 0.030f, 0.045f};     // linear radiance factor of deep water
-  glm::vec3 absorption_per_m{0.35f, 0.07f, 0.05f};   // Beer-Lambert, linear RGB
-  double distortion = 0.06;      // C0 of the lookups' displacement, in picture heights
-  double lookup_scale = 0.5;     // size of reflection and refraction images against the window
-  double bump_strength = 1.0;    // of the two scrolling layers
+  glm::vec3 body_colour{0.004f, 0.030f, 0.045f};    // linear radiance factor of deep water
+  glm::vec3 absorption_per_m{0.35f, 0.07f, 0.05f};  // Beer-Lambert, linear RGB
+  double distortion = 0.06;          // C0 of the lookups' displacement, in picture heights
+  double lookup_scale = 0.5;         // size of reflection and refraction images against the window
+  double bump_strength = 1.0;        // of the two scrolling layers
   double uv_noise_amplitude = 0.35;  // of the Perlin perturbation of their coordinates, in metres
 };
 
@@ -72,7 +75,7 @@ struct SeaArea {
 };
 
 struct Scene {
-  std::string name;                    // the file's stem
+  std::string name;  // the file's stem
   Camera camera;
   Sky sky;
   ocean::SeaDescription sea;
@@ -89,5 +92,9 @@ Scene load_scene(const std::filesystem::path& path);
 
 // The same from text; `file_name` is used in messages and to resolve relative paths.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file_name);
+
+// The scene as TOML with every key written out. A scene that was parsed comes back with the same
+// bits. Paths are written as the scene has them (parse_scene makes them absolute).
+std::string dump_scene(const Scene& scene);
 
 }  // namespace swell::scene

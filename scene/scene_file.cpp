@@ -1,1 +1,332 @@
+// Reads scene files: TOML text -> values checked against the table of parameters -> Scene.
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "scene/parameters.h"
 #include "scene/scene.h"
+#include "scene/sky.h"
+#include "scene/toml_limits.h"
+
+namespace swell::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxFileBytes = 1 << 20;
+
+// One line without control characters, at most 400 bytes, cut between UTF-8 characters.
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  constexpr std::size_t kMaxBytes = 400;
+  if (text.size() <= kMaxBytes) return text;
+  std::size_t end = kMaxBytes;
+  while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  return text.substr(0, end) + "...";
+}
+
+struct Place {
+  std::uint32_t line = 1, column = 1;
+};
+
+Place place_of(const toml::source_region& region) {
+  return {region.begin.line, region.begin.column};
+}
+
+[[noreturn]] void fail(const fs::path& file, Place place, const std::string& text) {
+  throw SceneError(
+      one_line(fmt::format("{}:{}: column {}: {}", file.string(), place.line, place.column, text)));
+}
+
+[[noreturn]] void fail(const fs::path& file, const std::string& text) {
+  throw SceneError(one_line(fmt::format("{}: {}", file.string(), text)));
+}
+
+// Levenshtein's distance.
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    int diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const int substituted = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+// What a TOML value is, for messages: its text if it is a number or boolean, else its type.
+std::string got_text(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
+  if (const auto* text = node.as_string())
+    return fmt::format("\"{}\"", std::string_view(text->get()).substr(0, 100));
+  if (const auto* array = node.as_array())
+    return fmt::format("an array of {} values", array->size());
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+// Reads one file's tables into a scene.
+class Reader {
+ public:
+  explicit Reader(const fs::path& file)
+      : file_(file), parameters_(scene_parameters()), sine_parameters_(sine_parameters()) {}
+
+  Scene read(const toml::table& root) {
+    scene_.name = file_.stem().string();
+    read_table(root, "");
+    scene_.sky.sun_direction =
+        sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
+    return std::move(scene_);
+  }
+
+ private:
+  // In the order of the file, so that its first fault is the one reported.
+  static std::vector<std::pair<std::string_view, const toml::node*>> in_file_order(
+      const toml::table& table) {
+    std::vector<std::pair<std::string_view, const toml::node*>> entries;
+    for (const auto& [key, node] : table) entries.emplace_back(key.str(), &node);
+    std::ranges::stable_sort(entries, {}, [](const auto& entry) {
+      const Place place = place_of(entry.second->source());
+      return std::pair(place.line, place.column);
+    });
+    return entries;
+  }
+
+  void read_table(const toml::table& table, const std::string& prefix) {
+    for (const auto& [key, node] : in_file_order(table)) {
+      const std::string path = prefix + std::string(key);
+      const auto parameter = std::ranges::find(parameters_, path, &Parameter<Scene>::key);
+      if (parameter != parameters_.end())
+        parameter->set(scene_, checked_value(*node, path, *parameter));
+      else if (path == kSinesKey)
+        read_sines(*node);
+      else if (is_section(path))
+        read_section(*node, path);
+      else
+        fail_unknown(*node, path);
+      if (path == "sea.patch_lengths_m") check_patch_lengths(*node);
+    }
+  }
+
+  bool is_section(std::string_view path) const {
+    const std::string prefix = std::string(path) + ".";
+    return std::ranges::any_of(parameters_,
+                               [&](const auto& p) { return p.key.starts_with(prefix); });
+  }
+
+  void read_section(const toml::node& node, const std::string& path) {
+    if (!node.is_table()) fail_value(node, path, got_text(node), "a table");
+    if (path == "terrain") scene_.terrain.emplace();
+    read_table(*node.as_table(), path + ".");
+  }
+
+  void read_sines(const toml::node& node) {
+    const std::string allowed = fmt::format("at most {} tables [[{}]]", kMaxSines, kSinesKey);
+    const toml::array* tables = node.as_array();
+    if (!tables || tables->size() > kMaxSines)
+      fail_value(node, std::string(kSinesKey), got_text(node), allowed);
+    for (const toml::node& element : *tables) {
+      if (!element.is_table())
+        fail_value(element, std::string(kSinesKey), got_text(element), allowed);
+      read_sine(*element.as_table());
+    }
+  }
+
+  void read_sine(const toml::table& table) {
+    ocean::SineWave sine;
+    for (const auto& [key, node] : in_file_order(table)) {
+      const std::string path = fmt::format("{}.{}", kSinesKey, key);
+      const auto parameter =
+          std::ranges::find(sine_parameters_, key, &Parameter<ocean::SineWave>::key);
+      if (parameter == sine_parameters_.end()) fail_unknown(*node, path);
+      parameter->set(sine, checked_value(*node, path, *parameter));
+    }
+    scene_.sea.sines.push_back(sine);
+  }
+
+  template <class Object>
+  ParameterValue checked_value(const toml::node& node, const std::string& path,
+                               const Parameter<Object>& parameter) const {
+    const std::string allowed = allowed_text(parameter);
+    switch (parameter.kind) {
+      case ParameterKind::kNumber:
+        return std::vector<double>{checked_number(node, path, parameter, allowed)};
+      case ParameterKind::kNumbers:
+        return checked_numbers(node, path, parameter, allowed);
+      case ParameterKind::kInteger:
+      case ParameterKind::kPowerOfTwo:
+        return checked_integer(node, path, parameter, allowed);
+      case ParameterKind::kBoolean:
+        if (const auto* boolean = node.as_boolean()) return boolean->get();
+        break;
+      case ParameterKind::kChoice:
+      case ParameterKind::kText:
+      case ParameterKind::kPath:
+        return checked_text(node, path, parameter, allowed);
+    }
+    fail_value(node, path, got_text(node), allowed);
+  }
+
+  template <class Object>
+  double checked_number(const toml::node& node, const std::string& path,
+                        const Parameter<Object>& parameter, const std::string& allowed) const {
+    const std::optional<double> number =
+        node.is_number() ? node.value<double>() : std::optional<double>();
+    // NaN compares false.
+    if (number && ((*number >= parameter.low && *number <= parameter.high) ||
+                   (parameter.zero_too && *number == 0.0)))
+      return *number;
+    fail_value(node, path, got_text(node), allowed);
+  }
+
+  template <class Object>
+  std::vector<double> checked_numbers(const toml::node& node, const std::string& path,
+                                      const Parameter<Object>& parameter,
+                                      const std::string& allowed) const {
+    const toml::array* array = node.as_array();
+    const int count = array ? static_cast<int>(std::min<std::size_t>(array->size(), 1000)) : -1;
+    if (count < parameter.count_low || count > parameter.count_high)
+      fail_value(node, path, got_text(node), allowed);
+    std::vector<double> numbers;
+    for (const toml::node& element : *array)
+      numbers.push_back(
+          checked_number(element, fmt::format("{}[{}]", path, numbers.size()), parameter, allowed));
+    return numbers;
+  }
+
+  template <class Object>
+  std::int64_t checked_integer(const toml::node& node, const std::string& path,
+                               const Parameter<Object>& parameter,
+                               const std::string& allowed) const {
+    if (const auto* integer = node.as_integer()) {
+      const std::int64_t value = integer->get();
+      const double number = static_cast<double>(value);
+      const bool fits = parameter.kind == ParameterKind::kInteger || (value & (value - 1)) == 0;
+      if (number >= parameter.low && number <= parameter.high && fits) return value;
+    }
+    fail_value(node, path, got_text(node), allowed);
+  }
+
+  template <class Object>
+  std::string checked_text(const toml::node& node, const std::string& path,
+                           const Parameter<Object>& parameter, const std::string& allowed) const {
+    const auto* text = node.as_string();
+    if (!text) fail_value(node, path, got_text(node), allowed);
+    if (parameter.kind == ParameterKind::kPath) return checked_path(node, path, text->get());
+    const bool fits = parameter.kind == ParameterKind::kText
+                          ? text->get().size() <= kMaxTextBytes
+                          : std::ranges::count(parameter.choices, text->get()) > 0;
+    if (!fits) fail_value(node, path, got_text(node), allowed);
+    return text->get();
+  }
+
+  // The absolute path of a file that can be opened.
+  std::string checked_path(const toml::node& node, const std::string& key,
+                           const std::string& text) const {
+    if (text.empty()) return text;
+    const std::string allowed = "a readable picture file";
+    if (text.find('\0') != std::string::npos || text.size() > 4000)
+      fail_value(node, key, "a path with a zero byte or over 4000 bytes", allowed);
+    std::error_code error;
+    const fs::path path = fs::absolute(file_.parent_path() / text, error).lexically_normal();
+    const fs::file_status status = fs::status(path, error);
+    std::string fault;
+    if (!fs::exists(status))
+      fault = error ? error.message() : "no such file";
+    else if (!fs::is_regular_file(status))
+      fault = "not a file";
+    else if (!std::ifstream(path, std::ios::binary))
+      fault = "cannot be opened";
+    if (fault.empty()) return path.string();
+    fail_value(node, key, fmt::format("\"{}\" ({})", path.string(), fault), allowed);
+  }
+
+  void check_patch_lengths(const toml::node& node) const {
+    const auto& lengths = scene_.sea.patch_lengths_m;
+    if (std::ranges::adjacent_find(lengths, std::less_equal{}) != lengths.end())
+      fail_value(node, "sea.patch_lengths_m", fmt::format("[{}]", fmt::join(lengths, ", ")),
+                 "lengths that go down");
+  }
+
+  [[noreturn]] void fail_value(const toml::node& node, const std::string& path,
+                               const std::string& got, const std::string& allowed) const {
+    fail(file_, place_of(node.source()), fmt::format("{}, got {}, allowed {}", path, got, allowed));
+  }
+
+  [[noreturn]] void fail_unknown(const toml::node& node, const std::string& path) const {
+    fail(file_, place_of(node.source()),
+         fmt::format("unknown key, got '{}', allowed '{}' and the others of docs/scene.md",
+                     path.substr(0, 100), nearest_key(path)));
+  }
+
+  // The known key or table with the fewest edits from an unknown one.
+  std::string nearest_key(const std::string& path) const {
+    std::vector<std::string> known{std::string(kSinesKey)};
+    for (const auto& parameter : parameters_) {
+      known.emplace_back(parameter.key);
+      known.emplace_back(parameter.key.substr(0, parameter.key.find('.')));
+    }
+    for (const auto& parameter : sine_parameters_)
+      known.push_back(fmt::format("{}.{}", kSinesKey, parameter.key));
+    const std::string shortened = path.substr(0, 200);
+    return *std::ranges::min_element(
+        known, {}, [&](const std::string& key) { return edit_distance(shortened, key); });
+  }
+
+  fs::path file_;
+  std::vector<Parameter<Scene>> parameters_;
+  std::vector<Parameter<ocean::SineWave>> sine_parameters_;
+  Scene scene_;
+};
+
+std::string read_text(const fs::path& path) {
+  const std::string allowed = "allowed a readable TOML file";
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status))
+    fail(path, fmt::format("scene file, got '{}', {}", error.message(), allowed));
+  if (!fs::is_regular_file(status))
+    fail(path, fmt::format("scene file, got a {}, {}",
+                           fs::is_directory(status) ? "directory" : "special file", allowed));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(path, "scene file, got one that cannot be opened, " + allowed);
+  std::string text(kMaxFileBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) fail(path, "scene file, got a read error, " + allowed);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+}  // namespace
+
+Scene load_scene(const fs::path& path) { return parse_scene(read_text(path), path); }
+
+Scene parse_scene(std::string_view text, const fs::path& file_name) {
+  if (text.size() > kMaxFileBytes)
+    fail(file_name, {},
+         fmt::format("scene file, got more than {0} bytes, allowed {0}", kMaxFileBytes));
+  if (const std::uint32_t line = find_deep_nesting(text))
+    fail(file_name, {line, 1},
+         fmt::format("syntax error, got nesting too deep to be a scene, allowed {} levels",
+                     kMaxNesting));
+  toml::table root;
+  try {
+    root = toml::parse(text, file_name.string());
+  } catch (const toml::parse_error& error) {
+    fail(file_name, place_of(error.source()),
+         fmt::format("syntax error, got '{}', allowed TOML 1.0", error.description()));
+  }
+  return Reader(file_name).read(root);
+}
+
+}  // namespace swell::scene

@@ -1,18 +1,26 @@
 // The sea floor and the land: a height field on a square, from a height image or from noise.
-// Outside the square the height is the deep floor.
+// From noise, the border of the square is the deep floor.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace swell::scene {
 
+// What is wrong with a scene: what() is one line, 'FILE:LINE: column N: what, got what, allowed
+// what' (without the places that are not known).
+class SceneError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 struct TerrainDescription {
-  // From an image (grey or first channel): height = low_m + value * (high_m - low_m) for integer
-  // images, metres for float images; then minus sea_level_m.
+  // From a square image (grey or first channel, north on top, at most 4096 x 4096): PNG, PNM and
+  // TIFF have height = low_m + value * (high_m - low_m), EXR, HDR and PFM metres; then minus
+  // sea_level_m.
   std::filesystem::path height_image;  // empty: islands from noise
   double metres_per_pixel = 2.0;
   double low_m = -20.0, high_m = 40.0;
@@ -25,8 +33,9 @@ struct TerrainDescription {
   std::uint64_t seed = 3;
 };
 
-// samples x samples heights (samples = 2^n + 1 or any size for images), spacing_m apart, sample
-// (i, j) at min_world + spacing_m (i, j), row j northwards.
+// samples x samples heights (samples >= 2: 1025 from noise, the image's side from images, where
+// one pixel makes a flat square of 2 x 2), spacing_m apart, sample (i, j) at min_world + spacing_m
+// (i, j), row j northwards.
 struct Terrain {
   glm::dvec2 min_world{0.0};
   double spacing_m = 1.0;
@@ -36,11 +45,17 @@ struct Terrain {
   double size_m() const { return spacing_m * (samples - 1); }
 };
 
-// Throws SceneError (bad values) or texture::FileError (bad image).
+// Single-threaded, the same bits everywhere. Throws SceneError (bad values) or texture::FileError
+// (bad image).
 Terrain build_terrain(const TerrainDescription& description);
 
-// Bilinear height at world points; outside the square the nearest border sample.
+// Bilinear height at world points; outside the square the nearest border sample. p_world and
+// height_m have the same length and do not overlap. May run on several threads at once.
 void sample_heights(const Terrain& terrain, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m);
+
+// dH/dx and dH/dy at every sample, laid out as height_m: central differences, one-sided at the
+// border. Both arrays hold samples * samples.
+void terrain_slopes(const Terrain& terrain, std::span<float> slope_x, std::span<float> slope_y);
 
 }  // namespace swell::scene

@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include "scene/parameters.h"
+#include "scene/scene.h"
+
+namespace swell::scene {
+namespace {
+
+template <class Object>
+std::string line_of(const Parameter<Object>& parameter, const Object& object) {
+  const std::size_t dot = parameter.key.rfind('.');
+  const std::string_view key =
+      dot == std::string_view::npos ? parameter.key : parameter.key.substr(dot + 1);
+  return fmt::format("{} = {}\n", key, toml_text(parameter, object));
+}
+
+std::string_view section_of(std::string_view key) {
+  const std::size_t dot = key.find('.');
+  return dot == std::string_view::npos ? std::string_view() : key.substr(0, dot);
+}
+
+std::string sines_text(const std::vector<ocean::SineWave>& sines) {
+  std::string text;
+  for (const ocean::SineWave& sine : sines) {
+    text += fmt::format("\n[[{}]]\n", kSinesKey);
+    for (const auto& parameter : sine_parameters()) text += line_of(parameter, sine);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string dump_scene(const Scene& scene) {
+  std::string text;
+  std::string_view section;
+  for (const auto& parameter : scene_parameters()) {
+    const std::string_view its_section = section_of(parameter.key);
+    if (its_section == "terrain" && !scene.terrain) continue;
+    if (its_section != section) {
+      section = its_section;
+      text += fmt::format("\n[{}]\n", section);
+    }
+    text += line_of(parameter, scene);
+  }
+  return text + sines_text(scene.sea.sines);
+}
+
+}  // namespace swell::scene

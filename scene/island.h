@@ -1,0 +1,14 @@
+// An island from noise: hills, a gentle beach, a shallow lagoon, a reef, the deep floor.
+#pragma once
+
+#include "scene/terrain.h"
+
+namespace swell::scene {
+
+inline constexpr int kIslandSamples = 1025;
+
+// The terrain's heights from island_radius_m, island_height_m, floor_depth_m and seed (the first
+// and third over 0). The border is exactly -floor_depth_m. lowest_m and highest_m are not set.
+Terrain build_island(const TerrainDescription& description);
+
+}  // namespace swell::scene

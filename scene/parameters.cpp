@@ -1,0 +1,407 @@
+#include "scene/parameters.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "math/elementary.h"
+
+namespace swell::scene {
+namespace {
+
+using Kind = ParameterKind;
+
+// The number with the fewest digits that `convert` turns into `stored`, near `guess`. Not every
+// double is some number of degrees; then the nearest one.
+template <class Stored, class Convert>
+double shortest_preimage(Stored stored, double guess, Convert convert) {
+  for (int digits = 1; digits <= 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", guess, digits);
+    double number = guess;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    if (convert(number) == stored) return number;
+  }
+  for (double up = guess, down = guess; std::abs(up - guess) < 8e-16 * std::abs(guess);) {
+    up = std::nextafter(up, INFINITY);
+    down = std::nextafter(down, -INFINITY);
+    if (convert(up) == stored) return up;
+    if (convert(down) == stored) return down;
+  }
+  return guess;
+}
+
+double to_file(double value) { return value; }
+double to_file(float value) {
+  return shortest_preimage(value, value, [](double x) { return static_cast<float>(x); });
+}
+
+// Makes rows of the table. `Field` is the type of a captureless lambda from the object to a
+// reference to the field.
+template <class Object>
+struct Row {
+  using Value = ParameterValue;
+  struct Range {
+    double low, high;
+    std::string_view unit = "";
+  };
+
+  template <class Field>
+  static Parameter<Object> number(std::string_view key, Range range, Field,
+                                  std::string_view meaning) {
+    Parameter<Object> row = ranged(key, Kind::kNumber, range, meaning);
+    row.get = [](const Object& object) -> Value {
+      return std::vector<double>{to_file(Field{}(object))};
+    };
+    row.set = [](Object& object, const Value& value) {
+      Field{}(object) = std::get<std::vector<double>>(value)[0];
+    };
+    return row;
+  }
+
+  // A field in radians.
+  template <class Field>
+  static Parameter<Object> angle(std::string_view key, Range range, Field,
+                                 std::string_view meaning) {
+    Parameter<Object> row = ranged(key, Kind::kNumber, range, meaning);
+    row.get = [](const Object& object) -> Value {
+      const double rad = Field{}(object);
+      return std::vector<double>{shortest_preimage(rad, rad / kRadPerDeg, radians)};
+    };
+    row.set = [](Object& object, const Value& value) {
+      Field{}(object) = radians(std::get<std::vector<double>>(value)[0]);
+    };
+    return row;
+  }
+
+  // A GLM vector.
+  template <class Field>
+  static Parameter<Object> vector(std::string_view key, Range range, Field,
+                                  std::string_view meaning) {
+    using Vector = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
+    Parameter<Object> row = ranged(key, Kind::kNumbers, range, meaning);
+    row.count_low = row.count_high = Vector::length();
+    row.get = [](const Object& object) -> Value {
+      const Vector& v = Field{}(object);
+      std::vector<double> numbers;
+      for (int i = 0; i < Vector::length(); ++i) numbers.push_back(to_file(v[i]));
+      return numbers;
+    };
+    row.set = [](Object& object, const Value& value) {
+      const auto& numbers = std::get<std::vector<double>>(value);
+      for (int i = 0; i < Vector::length(); ++i)
+        Field{}(object)[i] = static_cast<typename Vector::value_type>(numbers[i]);
+    };
+    return row;
+  }
+
+  template <class Field>
+  static Parameter<Object> list(std::string_view key, Range range, int count_low, int count_high,
+                                Field, std::string_view meaning) {
+    Parameter<Object> row = plain<std::vector<double>>(key, Kind::kNumbers, Field{}, meaning);
+    row.low = range.low, row.high = range.high, row.unit = range.unit;
+    row.count_low = count_low, row.count_high = count_high;
+    return row;
+  }
+
+  template <class Field>
+  static Parameter<Object> integer(std::string_view key, Kind kind, Range range, Field,
+                                   std::string_view meaning) {
+    using Integer = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
+    Parameter<Object> row = ranged(key, kind, range, meaning);
+    row.get = [](const Object& object) -> Value {
+      return static_cast<std::int64_t>(Field{}(object));
+    };
+    row.set = [](Object& object, const Value& value) {
+      Field{}(object) = static_cast<Integer>(std::get<std::int64_t>(value));
+    };
+    return row;
+  }
+
+  // A boolean field that the file names by one of two words.
+  template <class Field>
+  static Parameter<Object> choice(std::string_view key, Field, std::string_view meaning) {
+    Parameter<Object> row = ranged(key, Kind::kChoice, {}, meaning);
+    row.choices = Field::words;
+    row.get = [](const Object& object) -> Value {
+      return std::string(Field::words[Field{}(object) ? 1 : 0]);
+    };
+    row.set = [](Object& object, const Value& value) {
+      Field{}(object) = std::get<std::string>(value) == Field::words[1];
+    };
+    return row;
+  }
+
+  // A field that holds what the file has: a boolean, text, a path, a list.
+  template <class Stored, class Field>
+  static Parameter<Object> plain(std::string_view key, Kind kind, Field, std::string_view meaning) {
+    Parameter<Object> row = ranged(key, kind, {}, meaning);
+    row.get = [](const Object& object) -> Value { return Stored(Field{}(object)); };
+    row.set = [](Object& object, const Value& value) { Field{}(object) = std::get<Stored>(value); };
+    return row;
+  }
+
+ private:
+  static Parameter<Object> ranged(std::string_view key, Kind kind, Range range,
+                                  std::string_view meaning) {
+    Parameter<Object> row;
+    row.key = key, row.kind = kind, row.meaning = meaning;
+    row.low = range.low, row.high = range.high, row.unit = range.unit;
+    return row;
+  }
+};
+
+struct Priority {
+  static constexpr std::array<std::string_view, 2> words = {"projected_size", "inverse_distance"};
+  auto& operator()(auto& scene) const { return scene.detail.inverse_distance_priority; }
+};
+
+#define SWELL_FIELD(PATH) \
+  [](auto& object) -> auto& { return object.PATH; }
+
+using SceneRow = Row<Scene>;
+using Rows = std::vector<Parameter<Scene>>;
+
+constexpr double kMaxSeed = 9007199254740992.0;  // 2^53
+
+Rows camera_rows() {
+  return {
+      SceneRow::vector("camera.eye_m", {-1e6, 1e6, "m"}, SWELL_FIELD(camera.eye_m),
+                       "position at t = 0: east, north, up from mean sea level"),
+      SceneRow::angle("camera.heading_deg", {-360, 360, "deg"}, SWELL_FIELD(camera.heading_rad),
+                      "where the camera looks, clockwise from north"),
+      SceneRow::angle("camera.pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(camera.pitch_rad),
+                      "up positive"),
+      SceneRow::angle("camera.fov_y_deg", {1, 170, "deg"}, SWELL_FIELD(camera.fov_y_rad),
+                      "field of view from the lower to the upper edge"),
+      SceneRow::number("camera.near_m", {0.01, 10, "m"}, SWELL_FIELD(camera.near_m),
+                       "what is nearer is cut off"),
+      SceneRow::vector("camera.velocity_mps", {-1000, 1000, "m/s"},
+                       SWELL_FIELD(camera.velocity_mps), "constant, in world axes"),
+      SceneRow::angle("camera.turn_deg_s", {-360, 360, "deg/s"}, SWELL_FIELD(camera.turn_rad_s),
+                      "change of heading; the velocity does not turn with it"),
+  };
+}
+
+Rows sky_rows() {
+  return {
+      SceneRow::angle("sky.sun_azimuth_deg", {-360, 360, "deg"}, SWELL_FIELD(sky.sun_azimuth_rad),
+                      "where the sun stands, clockwise from north"),
+      SceneRow::angle("sky.sun_elevation_deg", {-90, 90, "deg"}, SWELL_FIELD(sky.sun_elevation_rad),
+                      "above the horizon"),
+      SceneRow::vector("sky.sun_radiance", {0, 1000}, SWELL_FIELD(sky.sun_radiance),
+                       "linear RGB, strength of direct sunlight"),
+      SceneRow::vector("sky.zenith", {0, 100}, SWELL_FIELD(sky.zenith),
+                       "linear RGB radiance of the sky overhead"),
+      SceneRow::vector("sky.horizon", {0, 100}, SWELL_FIELD(sky.horizon),
+                       "linear RGB radiance of the sky at the horizon"),
+      SceneRow::number("sky.haze_distance_m", {10, 1e7, "m"}, SWELL_FIELD(sky.haze_distance_m),
+                       "at this range 1/e of the contrast is left"),
+      SceneRow::number("sky.cloud_cover", {0, 1}, SWELL_FIELD(sky.cloud_cover),
+                       "share of the sky that thin clouds cover"),
+      SceneRow::integer("sky.cloud_seed", Kind::kInteger, {0, kMaxSeed},
+                        SWELL_FIELD(sky.cloud_seed), "another number, other clouds"),
+      SceneRow::number("sky.exposure", {0.001, 1000}, SWELL_FIELD(sky.exposure),
+                       "multiplies radiance before the sRGB curve"),
+  };
+}
+
+Rows sea_rows() {
+  return {
+      SceneRow::plain<bool>("sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
+                            "wind waves; false leaves the sines of [[sea.sines]] only"),
+      SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, 4,
+                     SWELL_FIELD(sea.patch_lengths_m),
+                     "periods of the patches that hold the wind waves, longest first"),
+      SceneRow::integer("sea.resolution", Kind::kPowerOfTwo, {16, 512}, SWELL_FIELD(sea.resolution),
+                        "samples along each side of a patch"),
+      SceneRow::number("sea.amplitude_scale", {0, 4}, SWELL_FIELD(sea.amplitude_scale),
+                       "multiplies the heights of the wind waves"),
+      SceneRow::integer("sea.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(sea.seed),
+                        "another number, another sea of the same state"),
+      SceneRow::number("sea.gravity_mps2", {0.1, 100, "m/s^2"}, SWELL_FIELD(sea.gravity_mps2),
+                       "acceleration of free fall"),
+      SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),
+                       "middle of the rectangle that waves displace: east, north"),
+      SceneRow::vector("sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),
+                       "its size, west to east and south to north"),
+      SceneRow::number("wind.speed_mps", {0, 60, "m/s"}, SWELL_FIELD(sea.wind_speed_mps),
+                       "at 10 m above the sea; 0 makes no wind waves"),
+      SceneRow::angle("wind.from_deg", {-360, 360, "deg"}, SWELL_FIELD(sea.wind_from_rad),
+                      "where the wind comes from, clockwise from north"),
+  };
+}
+
+Rows water_rows() {
+  return {
+      SceneRow::number("water.refraction_index", {1, 3}, SWELL_FIELD(water.refraction_index),
+                       "of water against air"),
+      SceneRow::vector("water.body_colour", {0, 1}, SWELL_FIELD(water.body_colour),
+                       "linear RGB that deep water sends back, as a share of the light"),
+      SceneRow::vector("water.absorption_per_m", {0, 100, "1/m"},
+                       SWELL_FIELD(water.absorption_per_m),
+                       "linear RGB; after 1/absorption metres 1/e of the light is left"),
+      SceneRow::number("water.distortion", {0, 1, "picture heights"}, SWELL_FIELD(water.distortion),
+                       "how far a wave's slope moves mirrored and sunken things"),
+      SceneRow::number("water.lookup_scale", {0.1, 1}, SWELL_FIELD(water.lookup_scale),
+                       "size of the mirror and underwater pictures against the window"),
+      SceneRow::number("water.bump_strength", {0, 10}, SWELL_FIELD(water.bump_strength),
+                       "of the two scrolling layers of ripples"),
+      SceneRow::number("water.uv_noise_amplitude_m", {0, 10, "m"},
+                       SWELL_FIELD(water.uv_noise_amplitude),
+                       "how far noise moves the layers' coordinates"),
+      SceneRow::integer("detail.water_triangles", Kind::kInteger, {2, 1e6},
+                        SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
+      SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
+                        SWELL_FIELD(detail.terrain_triangles), "most triangles of the terrain"),
+      SceneRow::choice("detail.priority", Priority{}, "which triangles are split first"),
+  };
+}
+
+Rows terrain_rows() {
+  return {
+      SceneRow::plain<std::string>(
+          "terrain.height_image", Kind::kPath, SWELL_FIELD(terrain->height_image),
+          "square picture of heights, north on top, relative to the scene file; empty: an island "
+          "from noise. EXR, HDR and PFM hold metres; of PNG, PNM and TIFF black is low_m and "
+          "white is high_m"),
+      SceneRow::number("terrain.metres_per_pixel", {0.01, 1000, "m"},
+                       SWELL_FIELD(terrain->metres_per_pixel), "of the picture"),
+      SceneRow::number("terrain.low_m", {-12000, 12000, "m"}, SWELL_FIELD(terrain->low_m),
+                       "height of black"),
+      SceneRow::number("terrain.high_m", {-12000, 12000, "m"}, SWELL_FIELD(terrain->high_m),
+                       "height of white"),
+      SceneRow::number("terrain.sea_level_m", {-12000, 12000, "m"},
+                       SWELL_FIELD(terrain->sea_level_m),
+                       "height in the picture that becomes z = 0"),
+      SceneRow::vector("terrain.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(terrain->centre_m),
+                       "middle of the terrain: east, north"),
+      SceneRow::number("terrain.island_radius_m", {5, 20000, "m"},
+                       SWELL_FIELD(terrain->island_radius_m),
+                       "mean distance from the middle to the beach"),
+      SceneRow::number("terrain.island_height_m", {0, 5000, "m"},
+                       SWELL_FIELD(terrain->island_height_m), "of the hills above the beach"),
+      SceneRow::number("terrain.floor_depth_m", {0.5, 10000, "m"},
+                       SWELL_FIELD(terrain->floor_depth_m), "of the sea around"),
+      SceneRow::integer("terrain.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(terrain->seed),
+                        "another number, another island"),
+  };
+}
+
+std::string basic_string_text(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+// Shortest text that parses to the same double, with a point or an exponent.
+std::string float_text(double number) {
+  std::string text = fmt::format("{}", number);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string list_text(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) {
+    if (!text.empty()) text += ", ";
+    text += float_text(number);
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+Rows scene_parameters() {
+  Rows rows = {
+      SceneRow::plain<std::string>("name", Kind::kText, SWELL_FIELD(name),
+                                   "of the scene in reports; the file's stem if left out")};
+  for (const Rows& part : {camera_rows(), sky_rows(), sea_rows(), water_rows(), terrain_rows()})
+    rows.insert(rows.end(), part.begin(), part.end());
+  return rows;
+}
+
+std::vector<Parameter<ocean::SineWave>> sine_parameters() {
+  using SineRow = Row<ocean::SineWave>;
+  std::vector<Parameter<ocean::SineWave>> rows = {
+      SineRow::number("amplitude_m", {0, 50, "m"}, SWELL_FIELD(amplitude_m),
+                      "half the height from trough to crest"),
+      SineRow::number("wavelength_m", {0.05, 10000, "m"}, SWELL_FIELD(wavelength_m),
+                      "from crest to crest"),
+      SineRow::angle("to_deg", {-360, 360, "deg"}, SWELL_FIELD(to_rad),
+                     "where the wave goes to, clockwise from north"),
+      SineRow::angle("phase_deg", {-360, 360, "deg"}, SWELL_FIELD(phase_rad),
+                     "at the origin at t = 0; 90 is a crest"),
+      SineRow::number("period_s", {0.05, 1000, "s"}, SWELL_FIELD(period_s),
+                      "from crest to crest at one place; 0: that of deep water"),
+  };
+  rows.back().zero_too = true;
+  return rows;
+}
+
+#undef SWELL_FIELD
+
+template <class Object>
+std::string allowed_text(const Parameter<Object>& parameter) {
+  const std::string range =
+      fmt::format("{}{} to {}{}{}", parameter.zero_too ? "0 or " : "", parameter.low,
+                  parameter.high, parameter.unit.empty() ? "" : " ", parameter.unit);
+  switch (parameter.kind) {
+    case Kind::kNumber:
+      return range;
+    case Kind::kNumbers:
+      if (parameter.count_low == parameter.count_high)
+        return fmt::format("{} numbers, each {}", parameter.count_low, range);
+      return fmt::format("{} to {} numbers, each {}", parameter.count_low, parameter.count_high,
+                         range);
+    case Kind::kInteger:
+      return "an integer, " + range;
+    case Kind::kPowerOfTwo:
+      return "a power of two, " + range;
+    case Kind::kBoolean:
+      return "true or false";
+    case Kind::kChoice:
+      return fmt::format("\"{}\" or \"{}\"", parameter.choices[0], parameter.choices[1]);
+    case Kind::kText:
+      return fmt::format("text of at most {} bytes", kMaxTextBytes);
+    case Kind::kPath:
+      return "the path of a readable picture file";
+  }
+  return {};
+}
+
+template std::string allowed_text(const Parameter<Scene>&);
+template std::string allowed_text(const Parameter<ocean::SineWave>&);
+
+template <class Object>
+std::string toml_text(const Parameter<Object>& parameter, const Object& object) {
+  const ParameterValue value = parameter.get(object);
+  switch (parameter.kind) {
+    case Kind::kNumber:
+      return float_text(std::get<std::vector<double>>(value)[0]);
+    case Kind::kNumbers:
+      return list_text(std::get<std::vector<double>>(value));
+    case Kind::kInteger:
+    case Kind::kPowerOfTwo:
+      return fmt::format("{}", std::get<std::int64_t>(value));
+    case Kind::kBoolean:
+      return std::get<bool>(value) ? "true" : "false";
+    case Kind::kChoice:
+    case Kind::kText:
+    case Kind::kPath:
+      return basic_string_text(std::get<std::string>(value));
+  }
+  return {};
+}
+
+template std::string toml_text(const Parameter<Scene>&, const Scene&);
+template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::SineWave&);
+
+}  // namespace swell::scene

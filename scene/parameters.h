@@ -1,0 +1,64 @@
+// Every key of a scene file in one table, which drives parsing, checks, defaults, the dump of the
+// effective scene and docs/scene.md (tests/scene compares it with the table).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace swell::scene {
+
+enum class ParameterKind : std::uint8_t {
+  kNumber,      // one finite number; an integer will do
+  kNumbers,     // an array of numbers, each in the range
+  kInteger,     // no decimal point
+  kPowerOfTwo,  // an integer
+  kBoolean,
+  kChoice,  // one of `choices`
+  kText,    // at most kMaxTextBytes
+  kPath,    // text; relative to the scene file's folder
+};
+
+// A value as the file has it: degrees, not radians. The kinds above map to double lists (kNumber
+// has one element), integers, booleans and text (kChoice, kText, kPath).
+using ParameterValue = std::variant<std::vector<double>, std::int64_t, bool, std::string>;
+
+template <class Object>
+struct Parameter {
+  std::string_view key;  // dotted: "camera.eye_m"
+  ParameterKind kind;
+  std::string_view unit;  // empty: none
+  double low = 0.0, high = 0.0;
+  bool zero_too = false;              // 0 is allowed although low > 0
+  int count_low = 1, count_high = 1;  // of kNumbers
+  std::array<std::string_view, 2> choices;
+  std::string_view meaning;
+  // get() gives a value that set() turns back into the same bits, with as few digits as possible.
+  ParameterValue (*get)(const Object&);
+  void (*set)(Object&, const ParameterValue&);
+};
+
+// Keys of the scene, in the order of docs/scene.md. Those of "terrain." need scene.terrain.
+std::vector<Parameter<Scene>> scene_parameters();
+
+// Keys of one table of [[sea.sines]].
+std::vector<Parameter<ocean::SineWave>> sine_parameters();
+
+inline constexpr int kMaxSines = 64;
+inline constexpr int kMaxTextBytes = 200;
+inline constexpr std::string_view kSinesKey = "sea.sines";
+
+// "1 to 170 deg", "true or false", ...
+template <class Object>
+std::string allowed_text(const Parameter<Object>& parameter);
+
+// The parameter's value in `object` as TOML text that parses to the same value.
+template <class Object>
+std::string toml_text(const Parameter<Object>& parameter, const Object& object);
+
+}  // namespace swell::scene
