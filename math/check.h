@@ -15,16 +15,17 @@ namespace swell {
 }  // namespace swell
 
 // SWELL_CHECK(a <= b, "a={} b={}", a, b)
-#define SWELL_CHECK(condition, ...)                                                         \
-  do {                                                                                      \
-    if (!(condition)) [[unlikely]]                                                          \
-      ::swell::check_failed(__FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__));    \
+#define SWELL_CHECK(condition, ...)                                                      \
+  do {                                                                                   \
+    if (!(condition)) [[unlikely]]                                                       \
+      ::swell::check_failed(__FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__)); \
   } while (false)
 
 #ifdef SWELL_DCHECKS
 #define SWELL_DCHECK(condition, ...) SWELL_CHECK(condition, __VA_ARGS__)
-#else
-#define SWELL_DCHECK(condition, ...) \
-  do {                               \
+#else  // compiled, so that it cannot rot, but never run
+#define SWELL_DCHECK(condition, ...)                \
+  do {                                              \
+    if (false) SWELL_CHECK(condition, __VA_ARGS__); \
   } while (false)
 #endif

@@ -15,7 +15,8 @@ namespace swell {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// sin and cos of 2 pi x. |x| < 2^22. Absolute error 2e-7.
+// sin and cos of 2 pi x. Absolute error 2e-7 for every finite x (from 2^23 on all x are whole
+// turns). Infinity and NaN give NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
   const hn::RebindToSigned<D> di;
@@ -39,8 +40,7 @@ HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
   c = hn::MulAdd(c, f2, hn::Set(d, 1.0f));
   // Quarter turns: odd ones swap, 1 and 2 negate the cosine, 2 and 3 the sine.
   const auto q = hn::ConvertTo(di, quarter);
-  const auto odd = hn::MaskFromVec(
-      hn::BitCast(d, hn::Neg(hn::And(q, hn::Set(di, 1)))));
+  const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(q, hn::Set(di, 1)))));
   const auto two = hn::Set(di, 2);
   const auto sin_sign = hn::ShiftLeft<30>(hn::And(q, two));
   const auto cos_sign = hn::ShiftLeft<30>(hn::And(hn::Add(q, hn::Set(di, 1)), two));
@@ -48,31 +48,37 @@ HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
   cos_out = hn::Xor(hn::IfThenElse(odd, s, c), hn::BitCast(d, cos_sign));
 }
 
-// 2^x, x clamped to [-126, 126]. Relative error 3e-7.
+// 2^x, x clamped to [-126, 126]; exact where x is whole. Relative error 2e-7. NaN gives NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp2(D d, V x) {
   const hn::RebindToSigned<D> di;
-  x = hn::Min(hn::Max(x, hn::Set(d, -126.0f)), hn::Set(d, 126.0f));
+  // Not Min and Max: which operand they return beside a NaN depends on the target.
+  const V low = hn::Set(d, -126.0f), high = hn::Set(d, 126.0f);
+  x = hn::IfThenElse(hn::Lt(x, low), low, x);
+  x = hn::IfThenElse(hn::Gt(x, high), high, x);
   const V k = hn::Round(x);
   const V r = hn::Sub(x, k);  // [-0.5, 0.5], exact
-  V p = hn::Set(d, 1.5403530e-4f);
-  p = hn::MulAdd(p, r, hn::Set(d, 1.3333558e-3f));
-  p = hn::MulAdd(p, r, hn::Set(d, 9.6181291e-3f));
-  p = hn::MulAdd(p, r, hn::Set(d, 5.5504109e-2f));
-  p = hn::MulAdd(p, r, hn::Set(d, 2.4022651e-1f));
-  p = hn::MulAdd(p, r, hn::Set(d, 6.9314718e-1f));
+  // (2^r - 1) / r by interpolation at Chebyshev nodes: relative error 9e-9.
+  V p = hn::Set(d, 0.000154531634f);
+  p = hn::MulAdd(p, r, hn::Set(d, 0.00133908633f));
+  p = hn::MulAdd(p, r, hn::Set(d, 0.00961808302f));
+  p = hn::MulAdd(p, r, hn::Set(d, 0.0555035695f));
+  p = hn::MulAdd(p, r, hn::Set(d, 0.240226507f));
+  p = hn::MulAdd(p, r, hn::Set(d, 0.693147182f));
   p = hn::MulAdd(p, r, hn::Set(d, 1.0f));
   const auto power = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, k), hn::Set(di, 127)));
   return hn::Mul(p, hn::BitCast(d, power));
 }
 
-// e^x, x clamped so that the result lies in [2^-126, 2^126]. Relative error 3e-7 (1 + |x|).
+// e^x, x clamped so that the result lies in [2^-126, 2^126]. Relative error
+// 2e-7 (1 + |x|). NaN gives NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp(D d, V x) {
   return Exp2(d, hn::Mul(x, hn::Set(d, 1.44269504f)));
 }
 
-// log2 of a positive normal x. Absolute error 2e-6.
+// log2 of a positive normal x. Error 2e-7 (min(1, |log2 x|) + |log2 x| / 2). Other x give finite
+// numbers: 0 and denormals [-127, -126], infinity 128, NaN and negative x anything.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2(D d, V x) {
   const hn::RebindToSigned<D> di;
@@ -83,11 +89,11 @@ HWY_INLINE V Log2(D d, V x) {
   const V one = hn::Set(d, 1.0f);
   const V s = hn::Div(hn::Sub(m, one), hn::Add(m, one));
   const V s2 = hn::Mul(s, s);
-  // 2 atanh(s) / ln 2, |s| <= 0.1716.
-  V p = hn::Set(d, 0.41219858f);
-  p = hn::MulAdd(p, s2, hn::Set(d, 0.57707802f));
-  p = hn::MulAdd(p, s2, hn::Set(d, 0.96179669f));
-  p = hn::MulAdd(p, s2, hn::Set(d, 2.8853901f));
+  // 2 atanh(s) / (s ln 2) in s^2, |s| <= 0.1716, at Chebyshev nodes: relative error 1.4e-8.
+  V p = hn::Set(d, 0.431717694f);
+  p = hn::MulAdd(p, s2, hn::Set(d, 0.576715171f));
+  p = hn::MulAdd(p, s2, hn::Set(d, 0.961798847f));
+  p = hn::MulAdd(p, s2, hn::Set(d, 2.88539004f));
   return hn::MulAdd(p, s, hn::ConvertTo(d, e));
 }
 

@@ -84,10 +84,14 @@ SinCos sin_cos_turns(double x) {
   const double s = y * polynomial(y * y, kSin);
   const double c = polynomial(y * y, kCos);
   switch (static_cast<int>(quarter) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
@@ -100,13 +104,13 @@ double tan(double x) {
 
 double exp(double x) {
   if (std::isnan(x)) return x;
-  if (x > 709.7) return std::numeric_limits<double>::infinity();
+  if (x > 710.0) return std::numeric_limits<double>::infinity();
   if (x < -745.0) return 0.0;
   const double k = std::nearbyint(x * (1.0 / (kLn2Hi + kLn2Lo)));
   const double r = (x - k * kLn2Hi) - k * kLn2Lo;  // |r| <= 0.347
   static constexpr auto kCoefficients = factorial_reciprocals<15>();
   const double e = polynomial(r, kCoefficients);
-  // Two steps, so that neither power leaves the normal range.
+  // Two steps, so that neither power leaves the normal range; only the last one rounds.
   const int half = static_cast<int>(k) / 2;
   return e * power_of_two(half) * power_of_two(static_cast<int>(k) - half);
 }
@@ -129,7 +133,8 @@ double log(double x) {
 }
 
 double pow(double x, double y) {
-  if (x == 0.0) return y > 0.0 ? 0.0 : (y == 0.0 ? 1.0 : std::numeric_limits<double>::infinity());
+  if (y == 0.0) return 1.0;
+  if (x == 0.0) return y > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
   return exp(y * log(x));
 }
 
@@ -162,6 +167,8 @@ double acos(double x) {
 }
 
 double log_gamma(double x) {
+  if (!(x > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (std::isinf(x)) return x;
   // Gamma(x) = Gamma(x + n) / (x (x + 1) ... (x + n - 1)) up to x >= 10, then Stirling's series.
   double product = 1.0;
   while (x < 10.0) {

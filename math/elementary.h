@@ -23,19 +23,20 @@ double sin(double x);
 double cos(double x);
 double tan(double x);
 
-// Relative error 1e-15; 0 below -745, infinity above 710.
+// Relative error 1e-15 down to 2^-1022, absolute error 1e-323 below; 0 below -745, infinity where
+// a double cannot hold the result (above 709.78).
 double exp(double x);
-// Relative error 1e-15 (absolute near 1); -infinity at 0, NaN below.
+// Relative error 1e-15; -infinity at 0, NaN below.
 double log(double x);
-// x > 0 (or x = 0 with y > 0): exp(y log x), relative error 1e-15 (1 + |y log x|).
+// x >= 0, y finite: exp(y log x), relative error 1e-15 (1 + |y log x|). 1 at y = 0. NaN for x < 0.
 double pow(double x, double y);
 double tanh(double x);  // relative error 1e-14
 
 // Absolute error 1e-15, in [-pi, pi]; 0 at the origin.
 double atan2(double y, double x);
-double acos(double x);  // x clamped to [-1, 1], absolute error 1e-15 (1e-8 next to +-1)
+double acos(double x);  // x clamped to [-1, 1], absolute error 1e-15
 
-// log Gamma(x) for x > 0, relative error 1e-14 (absolute near 1 and 2).
+// log Gamma(x) for x > 0, error 1e-14 max(1, |result|). NaN for other x.
 double log_gamma(double x);
 
 }  // namespace swell

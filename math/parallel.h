@@ -20,8 +20,8 @@ template <class Result, class... Args>
 class FunctionRef<Result(Args...)> {
  public:
   template <class F>
-    requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>)
-  FunctionRef(F&& f)  // NOLINT: implicit by design, as a parameter type
+  requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>)
+      FunctionRef(F&& f)  // NOLINT: implicit by design, as a parameter type
       : object_(const_cast<void*>(static_cast<const void*>(std::addressof(f)))),
         call_([](void* object, Args... args) -> Result {
           return (*static_cast<std::remove_reference_t<F>*>(object))(std::forward<Args>(args)...);
@@ -48,8 +48,10 @@ class Workers {
   int thread_count() const { return thread_count_; }
 
   // Calls body(index, slot) once for each index in [0, count), in any order, and returns when all
-  // are done. slot in [0, thread_count) is not used by two bodies at one time; a body that uses
-  // it must not call Workers again. Make an index a coarse piece of work (a tile, a row, a
+  // are done. slot in [0, thread_count) is not used by two bodies at one time; but a body that
+  // calls Workers again waits there, and its thread may take up another body with the same slot
+  // meanwhile, so it must not keep scratch memory across that call. After an exception the
+  // remaining indices may be left out. Make an index a coarse piece of work (a tile, a row, a
   // thousand vertices).
   void for_each(std::size_t count, FunctionRef<void(std::size_t index, int slot)> body);
 

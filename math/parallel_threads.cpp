@@ -11,7 +11,9 @@
 namespace swell {
 namespace {
 
-thread_local bool inside_body = false;
+// The slot of the body this thread is in, or -1. A nested loop runs where it stands, so it keeps
+// the slot.
+thread_local int current_slot = -1;
 
 }  // namespace
 
@@ -38,7 +40,7 @@ struct Workers::Pool {
   // Takes indices until none is left; the first exception is kept and ends the loop.
   void work(int slot) {
     const ScopedFloatEnvironment ieee;
-    inside_body = true;
+    current_slot = slot;
     for (std::size_t i; (i = loop.next.fetch_add(1)) < loop.count;) {
       try {
         (*loop.body)(i, slot);
@@ -48,7 +50,7 @@ struct Workers::Pool {
         loop.next = loop.count;
       }
     }
-    inside_body = false;
+    current_slot = -1;
   }
 
   void help(int slot) {
@@ -99,9 +101,10 @@ Workers::Workers(int thread_count) : thread_count_(thread_count) {
 Workers::~Workers() = default;
 
 void Workers::for_each(std::size_t count, FunctionRef<void(std::size_t, int)> body) {
-  if (inside_body || thread_count_ == 1) {  // a nested loop runs where it stands
+  if (current_slot >= 0 || thread_count_ == 1) {
     const ScopedFloatEnvironment ieee;
-    for (std::size_t i = 0; i < count; ++i) body(i, 0);
+    const int slot = thread_count_ == 1 ? 0 : current_slot;
+    for (std::size_t i = 0; i < count; ++i) body(i, slot);
     return;
   }
   pool_->run(count, body);

@@ -32,7 +32,7 @@ struct GaussianPair {
 
 // Two independent standard normal numbers (Box-Muller) from counters 2n and 2n + 1.
 inline GaussianPair random_gaussian_pair(std::uint64_t seed, std::uint64_t n) {
-  const double u = random_uniform(seed, 2 * n) + 0x1p-54;  // (0, 1)
+  const double u = random_uniform(seed, 2 * n) + 0x1p-54;  // (0, 1]
   const SinCos angle = sin_cos_turns(random_uniform(seed, 2 * n + 1));
   const double radius = std::sqrt(-2.0 * log(u));
   return {radius * angle.cos, radius * angle.sin};

@@ -1,5 +1,7 @@
 #include "math/view.h"
 
+#include <cmath>
+
 #include "math/check.h"
 #include "math/elementary.h"
 
@@ -8,6 +10,8 @@ namespace swell {
 View make_view(glm::dvec3 eye_world, double heading_rad, double pitch_rad, double fov_y_rad,
                float near_m, int width_px, int height_px) {
   SWELL_CHECK(width_px >= 1 && height_px >= 1, "size={}x{}", width_px, height_px);
+  SWELL_CHECK(std::isfinite(heading_rad), "heading_rad={}", heading_rad);
+  SWELL_CHECK(std::isfinite(pitch_rad), "pitch_rad={}", pitch_rad);
   SWELL_CHECK(fov_y_rad > 0.0 && fov_y_rad < kPi, "fov_y_rad={}", fov_y_rad);
   SWELL_CHECK(near_m > 0.0f, "near_m={}", near_m);
   const double sin_h = sin(heading_rad), cos_h = cos(heading_rad);
@@ -38,8 +42,7 @@ std::array<glm::vec4, 5> frustum_planes(const View& view) {
   return {plane(view.right + view.forward * view.tan_half_x),
           plane(-view.right + view.forward * view.tan_half_x),
           plane(view.up + view.forward * view.tan_half_y),
-          plane(-view.up + view.forward * view.tan_half_y),
-          glm::vec4(view.forward, -view.near_m)};
+          plane(-view.up + view.forward * view.tan_half_y), glm::vec4(view.forward, -view.near_m)};
 }
 
 }  // namespace swell

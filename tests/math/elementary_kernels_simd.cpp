@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "math/elementary_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "math/elementary_kernels_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "math/elementary-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::ScalableTag<float>;
+
+// Calls packet(d, x) on whole vectors; the last one is padded with ones.
+template <class Packet>
+void ForEachVector(std::span<const float> in, const Packet& packet) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t i = 0; i < in.size(); i += lanes) {
+    std::array<float, 64> x;
+    x.fill(1.0f);
+    const std::size_t n = std::min(lanes, in.size() - i);
+    std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(i), n, x.begin());
+    packet(d, hn::LoadU(d, x.data()), i, n);
+  }
+}
+
+template <class V>
+void StoreSome(V v, std::span<float> out, std::size_t at, std::size_t n) {
+  std::array<float, 64> buffer;
+  hn::StoreU(v, Floats(), buffer.data());
+  std::copy_n(buffer.begin(), n, out.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+void SinCosTurnsBatch(std::span<const float> in, std::span<float> sin_out,
+                      std::span<float> cos_out) {
+  ForEachVector(in, [&](Floats d, auto x, std::size_t at, std::size_t n) HWY_ATTR {
+    auto s = x, c = x;
+    SinCosTurns(d, x, s, c);
+    StoreSome(s, sin_out, at, n);
+    StoreSome(c, cos_out, at, n);
+  });
+}
+
+void Exp2Batch(std::span<const float> in, std::span<float> out) {
+  ForEachVector(in, [&](Floats d, auto x, std::size_t at, std::size_t n)
+                        HWY_ATTR { StoreSome(Exp2(d, x), out, at, n); });
+}
+
+void ExpBatch(std::span<const float> in, std::span<float> out) {
+  ForEachVector(in, [&](Floats d, auto x, std::size_t at, std::size_t n)
+                        HWY_ATTR { StoreSome(Exp(d, x), out, at, n); });
+}
+
+void Log2Batch(std::span<const float> in, std::span<float> out) {
+  ForEachVector(in, [&](Floats d, auto x, std::size_t at, std::size_t n)
+                        HWY_ATTR { StoreSome(Log2(d, x), out, at, n); });
+}
+
+int FloatLanes() { return static_cast<int>(hn::Lanes(Floats())); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell {
+
+HWY_EXPORT(SinCosTurnsBatch);
+HWY_EXPORT(Exp2Batch);
+HWY_EXPORT(ExpBatch);
+HWY_EXPORT(Log2Batch);
+HWY_EXPORT(FloatLanes);
+
+void sin_cos_turns_batch(std::span<const float> in, std::span<float> sin_out,
+                         std::span<float> cos_out) {
+  HWY_DYNAMIC_DISPATCH(SinCosTurnsBatch)(in, sin_out, cos_out);
+}
+void exp2_batch(std::span<const float> in, std::span<float> out) {
+  HWY_DYNAMIC_DISPATCH(Exp2Batch)(in, out);
+}
+void exp_batch(std::span<const float> in, std::span<float> out) {
+  HWY_DYNAMIC_DISPATCH(ExpBatch)(in, out);
+}
+void log2_batch(std::span<const float> in, std::span<float> out) {
+  HWY_DYNAMIC_DISPATCH(Log2Batch)(in, out);
+}
+int float_lanes() { return HWY_DYNAMIC_DISPATCH(FloatLanes)(); }
+
+}  // namespace swell
+#endif  // HWY_ONCE
