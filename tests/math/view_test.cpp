@@ -105,9 +105,11 @@ TEST(View, APointOnARayProjectsBackToItsPixel) {
         const float y = (1.0f - 0.8f * fx) * static_cast<float>(view.height_px);
         const glm::vec3 p_rel = view.ray(x, y) * depth;
         const Projection p = project(view, p_rel);
-        // A few float roundings of the point, seen at this scale; the same along x and y.
+        // A few float roundings of the point move it sideways by e |ray| and its depth by as much,
+        // which the division multiplies by the tangent of the view angle (< |ray|).
         const double px_per_unit = 0.5 * view.height_px / view.tan_half_y;
-        const double tolerance = 2e-6 * px_per_unit * glm::length(view.ray(x, y));
+        const double length = glm::length(view.ray(x, y));
+        const double tolerance = 5e-7 * px_per_unit * length * length;
         ASSERT_NEAR(p.x_px, x, tolerance);
         ASSERT_NEAR(p.y_px, y, tolerance);
         ASSERT_NEAR(p.w / depth, 1.0, 1e-5);
