@@ -1,5 +1,6 @@
 // Perlin noise as in Elykov et al., 2000: lattice values g in [-1, 1] through a permutation,
-// interpolated. Deterministic: tables come from the seed by counter-based random numbers.
+// interpolated. Deterministic: tables come from the seed by counter-based random numbers. All
+// functions take any coordinate; one of 2^52 or more is a lattice point, NaN or infinity gives NaN.
 #pragma once
 
 #include <array>
@@ -7,7 +8,10 @@
 
 namespace swell::texture {
 
+// The weight of the further lattice point at fraction t of the way: t, (1 - cos(pi t)) / 2 or
+// 3 t^2 - 2 t^3. The last two make the noise's first derivative continuous.
 enum class Interpolation : std::uint8_t { kLinear, kCosine, kCubic };
+double interpolation_weight(Interpolation interpolation, double t);  // t in [0, 1]
 
 class PerlinNoise {
  public:
@@ -27,11 +31,16 @@ class PerlinNoise {
   double periodic_fractal3(double x, double y, double z, int period, int octaves,
                            double persistence) const;
 
- private:
+  // The value at a lattice point, what noise3 is at (i, j, k). Period 256.
   double lattice3(int i, int j, int k) const;
+
+ private:
+  double wrapped_noise3(double x, double y, double z, int period) const;
+
   Interpolation interpolation_;
   std::array<double, 256> g_;
-  std::array<std::uint8_t, 512> p_;
+  std::array<std::uint8_t, 512>
+      p_;  // a permutation of 0 .. 255, twice: p[p[i] + j] needs no modulo
 };
 
 }  // namespace swell::texture

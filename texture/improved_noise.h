@@ -1,0 +1,23 @@
+// Gradient noise.
+// Source: Perlin, Improving Noise, 2002.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace swell::texture {
+
+class ImprovedNoise {
+ public:
+  ImprovedNoise();                             // Perlin's own permutation
+  explicit ImprovedNoise(std::uint64_t seed);  // a permutation by the seed
+
+  // In [-1.04, 1.04] (seen: +-0.92), 0 at lattice points, first and second derivative continuous,
+  // period 256 along each axis. NaN or infinity gives NaN.
+  double noise3(double x, double y, double z) const;
+
+ private:
+  std::array<std::uint8_t, 512> p_;
+};
+
+}  // namespace swell::texture

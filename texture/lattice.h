@@ -1,0 +1,36 @@
+// Where a coordinate lies on a periodic lattice of noise; shared by the noises of this folder.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "math/random.h"
+
+namespace swell::texture {
+
+struct LatticePosition {
+  int cell;         // in [0, period)
+  double fraction;  // in [0, 1); NaN for a coordinate that is not finite
+};
+
+// period: a power of two.
+inline LatticePosition lattice_position(double x, int period) {
+  if (!std::isfinite(x)) return {0, std::numeric_limits<double>::quiet_NaN()};
+  const double floor_x = std::floor(x);
+  const double turns = std::floor(floor_x / period);  // exact: period is a power of two
+  return {static_cast<int>(floor_x - turns * period), x - floor_x};
+}
+
+// A permutation of 0 .. 255 by the seed (Fisher and Yates), written twice.
+inline std::array<std::uint8_t, 512> make_permutation(std::uint64_t seed) {
+  std::array<std::uint8_t, 512> p;
+  for (int i = 0; i < 256; ++i) p[i] = static_cast<std::uint8_t>(i);
+  for (std::uint64_t i = 255; i > 0; --i) std::swap(p[i], p[random_bits(seed, i) % (i + 1)]);
+  for (int i = 0; i < 256; ++i) p[256 + i] = p[i];
+  return p;
+}
+
+}  // namespace swell::texture
