@@ -1,1 +1,254 @@
 #include "raster/pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/check.h"
+#include "raster/bin.h"
+#include "raster/clip.h"
+#include "raster/pass_state.h"
+#include "raster/setup.h"
+#include "raster/vertices.h"
+
+namespace swell::raster {
+namespace {
+
+constexpr std::size_t kVerticesPerJob = 8192;
+constexpr std::size_t kMinTrianglesPerChunk = 1024;
+constexpr std::size_t kTilesPerJob = 4096;
+
+void check_draw(const Draw& draw) {
+  SWELL_CHECK(draw.indices.size() % 3 == 0, "indices={}", draw.indices.size());
+  SWELL_CHECK(draw.clip_distance.empty() || draw.clip_distance.size() == draw.p_clip.size(),
+              "clip_distance={} p_clip={}", draw.clip_distance.size(), draw.p_clip.size());
+  SWELL_CHECK(draw.indices.size() / 3 <= kNoPrimitive - draw.first_primitive,
+              "first_primitive={} triangles={}", draw.first_primitive, draw.indices.size() / 3);
+}
+
+// Cuts the draws into chunks and finds the place of each draw's vertices. A chunk has a table of
+// all tiles, so with many tiles chunks get larger.
+void plan_chunks(std::span<const Draw> draws, Pass::State& state) {
+  const std::size_t chunk_size =
+      std::max(kMinTrianglesPerChunk, static_cast<std::size_t>(state.grid.count()) / 4);
+  std::size_t vertex_count = 0, chunk_count = 0;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    const std::size_t triangle_count = draws[d].indices.size() / 3;
+    for (std::size_t begin = 0; begin < triangle_count; begin += chunk_size) {
+      if (chunk_count == state.chunks.size()) state.chunks.emplace_back();
+      Chunk& chunk = state.chunks[chunk_count++];
+      chunk.draw = static_cast<std::uint32_t>(d);
+      chunk.begin = begin;
+      chunk.end = std::min(begin + chunk_size, triangle_count);
+      chunk.first_vertex = vertex_count;
+    }
+    vertex_count += draws[d].p_clip.size();
+  }
+  state.chunk_count = chunk_count;
+  if (state.vertices.size() < vertex_count) state.vertices.resize(vertex_count);
+}
+
+void project_draws(std::span<const Draw> draws, Pass::State& state, Workers& workers) {
+  std::size_t first = 0;
+  for (const Draw& draw : draws) {
+    const std::size_t count = draw.p_clip.size();
+    const std::span<WindowVertex> out = std::span(state.vertices).subspan(first, count);
+    workers.for_each((count + kVerticesPerJob - 1) / kVerticesPerJob, [&](std::size_t job, int) {
+      const std::size_t begin = job * kVerticesPerJob;
+      const std::size_t size = std::min(kVerticesPerJob, count - begin);
+      project_vertices(
+          draw.p_clip.subspan(begin, size),
+          draw.clip_distance.empty() ? draw.clip_distance : draw.clip_distance.subspan(begin, size),
+          state.viewport, out.subspan(begin, size));
+    });
+    first += count;
+  }
+}
+
+// One source triangle: its vertices before and after projection.
+struct SourceTriangle {
+  std::array<std::uint32_t, 3> index;
+  std::array<const WindowVertex*, 3> window;
+  std::uint32_t primitive;
+};
+
+void count_result(SetupResult result, PassStatistics& statistics) {
+  switch (result) {
+    case SetupResult::kReady:
+      break;
+    case SetupResult::kDegenerate:
+      ++statistics.culled_degenerate;
+      break;
+    case SetupResult::kFacing:
+      ++statistics.culled_facing;
+      break;
+    case SetupResult::kOutside:
+      ++statistics.culled_outside;
+      break;
+    case SetupResult::kBetweenPixels:
+      ++statistics.culled_between_pixels;
+      break;
+  }
+}
+
+SetupResult append_triangle(const WindowVertex& v0, const WindowVertex& v1, const WindowVertex& v2,
+                            const Draw& draw, Viewport viewport, std::uint32_t primitive,
+                            Chunk& chunk) {
+  chunk.triangles.emplace_back();
+  const SetupResult result =
+      set_up_triangle(v0, v1, v2, draw.cull, viewport, primitive, chunk.triangles.back());
+  if (result != SetupResult::kReady) chunk.triangles.pop_back();
+  return result;
+}
+
+// The window vertex of a vertex made by a cut; it lies within the clip planes up to rounding.
+WindowVertex project_cut_vertex(const glm::dvec4& p, Viewport viewport) {
+  const double half_x = 0.5 * kPixelFx8 * viewport.width_px;
+  const double half_y = 0.5 * kPixelFx8 * viewport.height_px;
+  const auto snap = [](double v) { return static_cast<std::int32_t>(std::nearbyint(v)); };
+  return {snap(p.x / p.w * half_x + half_x), snap(half_y - p.y / p.w * half_y),
+          static_cast<float>(std::clamp(p.z / p.w, 0.0, 1.0)), 0};
+}
+
+// Clips and sets up the pieces as a fan. Counts as culled, by the last piece's reason, only if no
+// piece is left.
+void clip_and_set_up(const SourceTriangle& source, const Draw& draw, Viewport viewport,
+                     Chunk& chunk) {
+  std::array<ClipVertex, 3> triangle;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t v = source.index[i];
+    triangle[i] = {glm::dvec4(draw.p_clip[v]),
+                   draw.clip_distance.empty() ? 0.0 : double{draw.clip_distance[v]}, i};
+  }
+  const ClipPolygon polygon = clip_triangle(triangle, viewport);
+  ++chunk.statistics.clipped;
+  std::array<WindowVertex, ClipPolygon::kMaxVertices> window;
+  for (int i = 0; i < polygon.count; ++i) {
+    const ClipVertex& v = polygon.vertices[i];
+    window[i] = v.source >= 0 ? *source.window[v.source] : project_cut_vertex(v.p_clip, viewport);
+  }
+
+  SetupResult last = SetupResult::kOutside;
+  bool any_ready = false;
+  for (int i = 2; i < polygon.count; ++i) {
+    last = append_triangle(window[0], window[i - 1], window[i], draw, viewport, source.primitive,
+                           chunk);
+    any_ready |= last == SetupResult::kReady;
+  }
+  if (!any_ready) count_result(last, chunk.statistics);
+}
+
+void set_up_source(const SourceTriangle& source, const Draw& draw, Viewport viewport,
+                   Chunk& chunk) {
+  const WindowVertex& v0 = *source.window[0];
+  const WindowVertex& v1 = *source.window[1];
+  const WindowVertex& v2 = *source.window[2];
+  const std::uint32_t any = v0.flags | v1.flags | v2.flags;
+  if ((any & (kClipFlags | kNotFinite)) == 0) [[likely]] {
+    if ((v0.flags & v1.flags & v2.flags & kRejectFlags) != 0) {
+      ++chunk.statistics.culled_outside;
+      return;
+    }
+    count_result(append_triangle(v0, v1, v2, draw, viewport, source.primitive, chunk),
+                 chunk.statistics);
+  } else if ((any & kNotFinite) != 0) {
+    ++chunk.statistics.culled_degenerate;
+  } else if ((v0.flags & v1.flags & v2.flags & kRejectFlags) != 0) {
+    ++chunk.statistics.culled_outside;
+  } else {
+    clip_and_set_up(source, draw, viewport, chunk);
+  }
+}
+
+void set_up_chunk(const Draw& draw, const Pass::State& state, Chunk& chunk) {
+  chunk.triangles.clear();
+  chunk.statistics = {};
+  const WindowVertex* vertices = state.vertices.data() + chunk.first_vertex;
+  for (std::size_t n = chunk.begin; n < chunk.end; ++n) {
+    SourceTriangle source;
+    for (int i = 0; i < 3; ++i) {
+      source.index[i] = draw.indices[3 * n + i];
+      SWELL_CHECK(source.index[i] < draw.p_clip.size(), "triangle={} index={} vertices={}", n,
+                  source.index[i], draw.p_clip.size());
+      source.window[i] = vertices + source.index[i];
+    }
+    source.primitive = draw.first_primitive + static_cast<std::uint32_t>(n);
+    set_up_source(source, draw, state.viewport, chunk);
+  }
+  chunk.statistics.submitted = chunk.end - chunk.begin;
+  chunk.statistics.set_up = chunk.triangles.size();
+}
+
+void mark_used_tiles(Pass::State& state, Workers& workers) {
+  const auto tile_count = static_cast<std::size_t>(state.grid.count());
+  state.tile_used.resize(tile_count);
+  workers.for_each((tile_count + kTilesPerJob - 1) / kTilesPerJob, [&](std::size_t job, int) {
+    const std::size_t begin = job * kTilesPerJob;
+    const std::size_t end = std::min(begin + kTilesPerJob, tile_count);
+    std::fill(state.tile_used.begin() + begin, state.tile_used.begin() + end, std::uint8_t{0});
+    for (std::size_t c = 0; c < state.chunk_count; ++c) {
+      const std::uint32_t* first = state.chunks[c].tile_begin.data();
+      for (std::size_t t = begin; t < end; ++t) state.tile_used[t] |= first[t] != first[t + 1];
+    }
+  });
+}
+
+void add_statistics(const PassStatistics& from, PassStatistics& to) {
+  to.submitted += from.submitted;
+  to.culled_outside += from.culled_outside;
+  to.culled_facing += from.culled_facing;
+  to.culled_degenerate += from.culled_degenerate;
+  to.culled_between_pixels += from.culled_between_pixels;
+  to.clipped += from.clipped;
+  to.set_up += from.set_up;
+  to.binned += from.binned;
+}
+
+}  // namespace
+
+Pass::Pass() : state_(std::make_unique<State>()) {}
+Pass::~Pass() = default;
+Pass::Pass(Pass&&) noexcept = default;
+Pass& Pass::operator=(Pass&&) noexcept = default;
+
+void prepare_pass(std::span<const Draw> draws, Viewport viewport, int tile_size_px, Pass& pass,
+                  Workers& workers) {
+  Pass::State& state = pass.state();
+  state.viewport = viewport;
+  state.grid = tile_grid(viewport, tile_size_px);
+  for (const Draw& draw : draws) check_draw(draw);
+
+  plan_chunks(draws, state);
+  project_draws(draws, state, workers);
+  workers.for_each(state.chunk_count, [&](std::size_t c, int) {
+    Chunk& chunk = state.chunks[c];
+    set_up_chunk(draws[chunk.draw], state, chunk);
+    bin_triangles(state.grid, chunk);
+  });
+  mark_used_tiles(state, workers);
+
+  state.statistics = {};
+  for (std::size_t c = 0; c < state.chunk_count; ++c) {
+    add_statistics(state.chunks[c].statistics, state.statistics);
+  }
+}
+
+const PassStatistics& pass_statistics(const Pass& pass) { return pass.state().statistics; }
+
+TileGrid tile_grid(Viewport viewport, int tile_size_px) {
+  SWELL_CHECK(viewport.width_px >= 1 && viewport.width_px <= kMaxViewport &&
+                  viewport.height_px >= 1 && viewport.height_px <= kMaxViewport,
+              "viewport={}x{}", viewport.width_px, viewport.height_px);
+  SWELL_CHECK(tile_size_px == 16 || tile_size_px == 32 || tile_size_px == 64, "tile_size_px={}",
+              tile_size_px);
+  return {tile_size_px, (viewport.width_px + tile_size_px - 1) / tile_size_px,
+          (viewport.height_px + tile_size_px - 1) / tile_size_px};
+}
+
+bool tile_has_triangles(const Pass& pass, int tile) {
+  const Pass::State& state = pass.state();
+  SWELL_CHECK(tile >= 0 && tile < state.grid.count(), "tile={} tiles={}", tile, state.grid.count());
+  return state.tile_used[static_cast<std::size_t>(tile)] != 0;
+}
+
+}  // namespace swell::raster

@@ -23,10 +23,10 @@ enum class Cull : std::uint8_t { kNone, kClockwise, kCounterClockwise };
 
 // Triangles that share vertices by index. Spans are borrowed during prepare_pass only.
 struct Draw {
-  std::span<const glm::vec4> p_clip;        // x, y in [-w, w] visible, 0 <= z <= w, reversed-Z
-  std::span<const std::uint32_t> indices;   // 3 per triangle, each < p_clip.size()
-  std::span<const float> clip_distance;     // empty, or one per vertex: the part >= 0 is kept
-  std::uint32_t first_primitive = 0;        // triangle n is primitive first_primitive + n
+  std::span<const glm::vec4> p_clip;          // x, y in [-w, w] visible, 0 <= z <= w, reversed-Z
+  std::span<const std::uint32_t> indices;     // 3 per triangle, each < p_clip.size()
+  std::span<const float> clip_distance = {};  // empty, or one per vertex: the part >= 0 is kept
+  std::uint32_t first_primitive = 0;          // triangle n is primitive first_primitive + n
   Cull cull = Cull::kNone;
 };
 
@@ -35,13 +35,14 @@ struct Viewport {
 };
 
 struct PassStatistics {
-  std::uint64_t submitted = 0;         // triangles
-  std::uint64_t culled_outside = 0;    // wholly outside a clip plane or the viewport
-  std::uint64_t culled_facing = 0;     // by Draw::cull
-  std::uint64_t culled_degenerate = 0; // zero area after snapping, or a NaN coordinate
-  std::uint64_t clipped = 0;           // cut by the near, user or guard-band planes
-  std::uint64_t set_up = 0;            // triangles after clipping
-  std::uint64_t binned = 0;            // (tile, triangle) pairs
+  std::uint64_t submitted = 0;              // triangles
+  std::uint64_t culled_outside = 0;         // wholly outside a clip plane or the viewport
+  std::uint64_t culled_facing = 0;          // by Draw::cull
+  std::uint64_t culled_degenerate = 0;      // zero area after snapping, or a NaN or infinite input
+  std::uint64_t culled_between_pixels = 0;  // no pixel centre in the bounding box
+  std::uint64_t clipped = 0;                // cut by the near, user or guard-band planes
+  std::uint64_t set_up = 0;                 // triangles after clipping
+  std::uint64_t binned = 0;                 // (tile, triangle) pairs
 };
 
 // Storage of one pass, kept between frames so that a steady state allocates nothing.

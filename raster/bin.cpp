@@ -1,0 +1,81 @@
+#include "raster/bin.h"
+
+#include <algorithm>
+#include <array>
+
+namespace swell::raster {
+namespace {
+
+struct TileRange {
+  std::int32_t x0, y0, x1, y1;  // inclusive
+};
+
+// Lists the tiles of a block of at least 2 x 2 that no edge excludes. An edge excludes a tile if
+// it is negative at the tile's pixel centre that lies farthest on its inner side.
+void bin_by_edges(const TileGrid& grid, const TileRange& range, const SetupTriangle& triangle,
+                  std::uint32_t index, std::vector<TileEntry>& entries) {
+  const std::int32_t tile_fx8 = grid.tile_size_px * kPixelFx8;
+  std::array<std::int64_t, 3> row, step_x, step_y;
+  for (int i = 0; i < 3; ++i) {
+    const Edge edge = edge_of(triangle, i);
+    const std::int32_t far_fx8 = tile_fx8 - kHalfPixelFx8;
+    const std::int32_t corner_x = edge.a > 0 ? far_fx8 : kHalfPixelFx8;
+    const std::int32_t corner_y = edge.b > 0 ? far_fx8 : kHalfPixelFx8;
+    row[i] = edge.at(range.x0 * tile_fx8 + corner_x, range.y0 * tile_fx8 + corner_y);
+    step_x[i] = std::int64_t{edge.a} * tile_fx8;
+    step_y[i] = std::int64_t{edge.b} * tile_fx8;
+  }
+  for (std::int32_t y = range.y0; y <= range.y1; ++y) {
+    std::array<std::int64_t, 3> e = row;
+    for (std::int32_t x = range.x0; x <= range.x1; ++x) {
+      if ((e[0] | e[1] | e[2]) >= 0) {
+        entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), index});
+      }
+      for (int i = 0; i < 3; ++i) e[i] += step_x[i];
+    }
+    for (int i = 0; i < 3; ++i) row[i] += step_y[i];
+  }
+}
+
+void list_entries(const TileGrid& grid, Chunk& chunk) {
+  const int shift = grid.tile_size_px == 64 ? 6 : grid.tile_size_px == 32 ? 5 : 4;
+  chunk.entries.clear();
+  for (std::uint32_t index = 0; index < chunk.triangles.size(); ++index) {
+    const SetupTriangle& t = chunk.triangles[index];
+    const TileRange range{t.min_x >> shift, t.min_y >> shift, t.max_x >> shift, t.max_y >> shift};
+    if (range.x0 != range.x1 && range.y0 != range.y1) {
+      bin_by_edges(grid, range, t, index, chunk.entries);
+      continue;
+    }
+    // In one row or column of tiles the triangle passes through every tile of its box.
+    for (std::int32_t y = range.y0; y <= range.y1; ++y) {
+      for (std::int32_t x = range.x0; x <= range.x1; ++x) {
+        chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), index});
+      }
+    }
+  }
+}
+
+// A counting sort, which keeps the order within each tile.
+void sort_entries_by_tile(const TileGrid& grid, Chunk& chunk) {
+  std::vector<std::uint32_t>& begin = chunk.tile_begin;
+  begin.assign(static_cast<std::size_t>(grid.count()) + 1, 0);
+  for (const TileEntry& entry : chunk.entries) ++begin[entry.tile];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& b : begin) sum = b += sum;
+  chunk.members.resize(chunk.entries.size());
+  // Backwards, so that begin[tile] ends as the tile's first place.
+  for (auto entry = chunk.entries.rbegin(); entry != chunk.entries.rend(); ++entry) {
+    chunk.members[--begin[entry->tile]] = entry->triangle;
+  }
+}
+
+}  // namespace
+
+void bin_triangles(const TileGrid& grid, Chunk& chunk) {
+  list_entries(grid, chunk);
+  sort_entries_by_tile(grid, chunk);
+  chunk.statistics.binned += chunk.entries.size();
+}
+
+}  // namespace swell::raster

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "math/check.h"
+#include "raster/pass_state.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/draw_tile_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::ScalableTag<std::int32_t>;
+using FloatVec = hn::Vec<FloatTag>;
+using IntVec = hn::Vec<IntTag>;
+
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+static_assert(kLanes <= 16, "a packet must fit the smallest tile");
+
+// While a tile is drawn, a pixel without a triangle has this depth, so that depth 0 still wins.
+constexpr float kEmptyDepth = -1.0f;
+
+// A triangle whose edges are all shorter than this, along x and along y, needs no check for
+// 32-bit overflow within a tile.
+constexpr std::int32_t kSmallFx8 = 1 << 15;
+
+struct TileTarget {
+  float* HWY_RESTRICT depth;
+  std::uint32_t* HWY_RESTRICT primitive;
+  std::int32_t size, x0, y0;  // [px]
+};
+
+// The pixels of a triangle in a tile as rows of whole packets. Relative to the tile, inclusive.
+struct PacketRect {
+  std::int32_t x, y0, y1, packets;
+};
+
+// Edge functions of a tile's pixels, in steps of one pixel:
+//   E(x, y) >= 0  <=>  floor(E / 256) >= 0,  and a pixel's step in E is 256 a or 256 b exactly,
+// so e = floor(E(origin) / 256) + a dx + b dy has the sign of E. If an edge changes sign inside
+// the tile, |e| <= 64 (|a| + |b|) < 2^30 everywhere in it.
+struct TileEdges {
+  std::int32_t e[3], a[3], b[3];
+};
+
+// Packets that cover the triangle's box; one packet where that is enough.
+HWY_INLINE PacketRect RectInTile(const SetupTriangle& t, const TileTarget& tile) {
+  const std::int32_t x0 = std::max(t.min_x - tile.x0, 0);
+  const std::int32_t x1 = std::min(t.max_x - tile.x0, tile.size - 1);
+  const std::int32_t y0 = std::max(t.min_y - tile.y0, 0);
+  const std::int32_t y1 = std::min(t.max_y - tile.y0, tile.size - 1);
+  if (x1 - x0 < kLanes) return {std::min(x0, tile.size - kLanes), y0, y1, 1};
+  const std::int32_t x = x0 & -kLanes;
+  return {x, y0, y1, (x1 - x) / kLanes + 1};
+}
+
+// Edge functions at the rectangle's first pixel; an edge that the whole rectangle is inside of
+// becomes 0. False if the whole rectangle is outside of an edge.
+HWY_INLINE bool EdgesInRect(const SetupTriangle& t, const TileTarget& tile, const PacketRect& rect,
+                            TileEdges& out) {
+  const std::int32_t px_fx8 = (tile.x0 + rect.x) * kPixelFx8 + kHalfPixelFx8;
+  const std::int32_t py_fx8 = (tile.y0 + rect.y0) * kPixelFx8 + kHalfPixelFx8;
+  const std::int64_t steps_x = rect.packets * kLanes - 1;
+  const std::int64_t steps_y = rect.y1 - rect.y0;
+  for (int i = 0; i < 3; ++i) {
+    const Edge edge = edge_of(t, i);
+    const std::int64_t e = edge.at(px_fx8, py_fx8) >> kFractionBits;
+    const std::int64_t span_x = edge.a * steps_x, span_y = edge.b * steps_y;
+    const std::int64_t lowest =
+        e + std::min<std::int64_t>(span_x, 0) + std::min<std::int64_t>(span_y, 0);
+    const std::int64_t highest =
+        e + std::max<std::int64_t>(span_x, 0) + std::max<std::int64_t>(span_y, 0);
+    if (highest < 0) return false;
+    const bool crosses = lowest < 0;
+    out.e[i] = crosses ? static_cast<std::int32_t>(e) : 0;
+    out.a[i] = crosses ? edge.a : 0;
+    out.b[i] = crosses ? edge.b : 0;
+  }
+  return true;
+}
+
+HWY_INLINE FloatVec ToPixels(std::int32_t fx8) {
+  const FloatTag d;
+  return hn::Set(d, static_cast<float>(fx8) * (1.0f / kPixelFx8));
+}
+
+// Depth test and masked stores of one packet whose covered lanes do not have the sign bit set in
+// `edges`.
+HWY_INLINE void DrawPacket(IntVec edges, FloatVec z, FloatVec primitive, float* HWY_RESTRICT depth,
+                           float* HWY_RESTRICT id) {
+  const FloatTag d;
+  const IntTag di;
+  const auto inside = hn::RebindMask(d, hn::Gt(edges, hn::Set(di, -1)));
+  const auto wins = hn::And(inside, hn::Gt(z, hn::LoadU(d, depth)));
+  hn::BlendedStore(z, wins, d, depth);
+  hn::BlendedStore(primitive, wins, d, id);
+}
+
+HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
+  const FloatTag d;
+  const IntTag di;
+  const PacketRect rect = RectInTile(t, tile);
+  TileEdges edges;
+  if (!EdgesInRect(t, tile, rect, edges)) return;
+
+  // Edges at the first packet's lanes.
+  const IntVec lane = hn::Iota(di, 0);
+  const auto first = [&](int i) {
+    return hn::Add(hn::Set(di, edges.e[i]), hn::Mul(hn::Set(di, edges.a[i]), lane));
+  };
+  IntVec e0 = first(0), e1 = first(1), e2 = first(2);
+  const IntVec b0 = hn::Set(di, edges.b[0]), b1 = hn::Set(di, edges.b[1]);
+  const IntVec b2 = hn::Set(di, edges.b[2]);
+
+  // Offsets from the depth plane's reference, exact: multiples of 1/256 below 2^15.
+  const std::int32_t px_fx8 = (tile.x0 + rect.x) * kPixelFx8 + kHalfPixelFx8;
+  const std::int32_t py_fx8 = (tile.y0 + rect.y0) * kPixelFx8 + kHalfPixelFx8;
+  const FloatVec dx = hn::Add(ToPixels(px_fx8 - t.x_ref_fx8), hn::Iota(d, 0.0f));
+  FloatVec dy = ToPixels(py_fx8 - t.y_ref_fx8);
+  const FloatVec dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
+  const FloatVec z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
+  const auto depth_at = [&](FloatVec x_offset, FloatVec z_row) {
+    return hn::Min(hn::Max(hn::MulAdd(dz_dx, x_offset, z_row), z_min), z_max);
+  };
+
+  const FloatVec primitive = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(t.primitive)));
+  float* HWY_RESTRICT depth = tile.depth + rect.y0 * tile.size + rect.x;
+  float* HWY_RESTRICT id = reinterpret_cast<float*>(tile.primitive) + (depth - tile.depth);
+  const std::int32_t rows = rect.y1 - rect.y0 + 1;
+  const FloatVec one = hn::Set(d, 1.0f);
+
+  if (rect.packets == 1) {
+    for (std::int32_t row = 0; row < rows; ++row) {
+      const FloatVec z = depth_at(dx, hn::MulAdd(dz_dy, dy, z_min));
+      DrawPacket(hn::Or(hn::Or(e0, e1), e2), z, primitive, depth, id);
+      e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+      dy = hn::Add(dy, one);
+      depth += tile.size, id += tile.size;
+    }
+    return;
+  }
+
+  const IntVec a0 = hn::Set(di, edges.a[0] * kLanes), a1 = hn::Set(di, edges.a[1] * kLanes);
+  const IntVec a2 = hn::Set(di, edges.a[2] * kLanes);
+  const FloatVec packet_width = hn::Set(d, static_cast<float>(kLanes));
+  for (std::int32_t row = 0; row < rows; ++row) {
+    const FloatVec z_row = hn::MulAdd(dz_dy, dy, z_min);
+    IntVec f0 = e0, f1 = e1, f2 = e2;
+    FloatVec x_offset = dx;
+    for (std::int32_t p = 0; p < rect.packets; ++p) {
+      const IntVec inside = hn::Or(hn::Or(f0, f1), f2);
+      DrawPacket(inside, depth_at(x_offset, z_row), primitive, depth + p * kLanes, id + p * kLanes);
+      f0 = hn::Add(f0, a0), f1 = hn::Add(f1, a1), f2 = hn::Add(f2, a2);
+      x_offset = hn::Add(x_offset, packet_width);
+    }
+    e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+    dy = hn::Add(dy, one);
+    depth += tile.size, id += tile.size;
+  }
+}
+
+void ClearTile(const TileTarget& tile) {
+  const FloatTag d;
+  const hn::ScalableTag<std::uint32_t> du;
+  const FloatVec empty = hn::Set(d, kEmptyDepth);
+  const auto none = hn::Set(du, kNoPrimitive);
+  for (int i = 0; i < tile.size * tile.size; i += kLanes) {
+    hn::StoreU(empty, d, tile.depth + i);
+    hn::StoreU(none, du, tile.primitive + i);
+  }
+}
+
+// Empties what lies right of the viewport, turns empty depths to 0 and counts the covered pixels.
+int FinishTile(const TileTarget& tile, Viewport viewport) {
+  const FloatTag d;
+  const IntTag di;
+  const hn::ScalableTag<std::uint32_t> du;
+  const auto none = hn::Set(du, kNoPrimitive);
+  const IntVec columns = hn::Set(di, viewport.width_px - tile.x0);
+  std::size_t covered = 0;
+  for (std::int32_t y = 0; y < tile.size; ++y) {
+    for (std::int32_t x = 0; x < tile.size; x += kLanes) {
+      const std::int32_t i = y * tile.size + x;
+      const auto id = hn::LoadU(du, tile.primitive + i);
+      const auto visible =
+          hn::And(hn::RebindMask(du, hn::Lt(hn::Iota(di, x), columns)), hn::Ne(id, none));
+      covered += hn::CountTrue(du, visible);
+      hn::StoreU(hn::IfThenElse(visible, id, none), du, tile.primitive + i);
+      const FloatVec depth = hn::LoadU(d, tile.depth + i);
+      hn::StoreU(hn::IfThenElseZero(hn::RebindMask(d, visible), depth), d, tile.depth + i);
+    }
+  }
+  return static_cast<int>(covered);
+}
+
+int DrawTile(const Pass::State& state, int tile_index, float* depth, std::uint32_t* primitive) {
+  const std::int32_t size = state.grid.tile_size_px;
+  const TileTarget tile{depth, primitive, size, tile_index % state.grid.tiles_x * size,
+                        tile_index / state.grid.tiles_x * size};
+  ClearTile(tile);
+  for (std::size_t c = 0; c < state.chunk_count; ++c) {
+    const Chunk& chunk = state.chunks[c];
+    const std::uint32_t end = chunk.tile_begin[tile_index + 1];
+    for (std::uint32_t m = chunk.tile_begin[tile_index]; m < end; ++m) {
+      DrawTriangle(chunk.triangles[chunk.members[m]], tile);
+    }
+  }
+  return FinishTile(tile, state.viewport);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::raster
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::raster {
+
+HWY_EXPORT(DrawTile);
+
+int draw_tile(const Pass& pass, int tile, std::span<float> depth,
+              std::span<std::uint32_t> primitive) {
+  const Pass::State& state = pass.state();
+  const auto pixels = static_cast<std::size_t>(state.grid.tile_size_px) *
+                      static_cast<std::size_t>(state.grid.tile_size_px);
+  SWELL_CHECK(tile >= 0 && tile < state.grid.count(), "tile={} tiles={}", tile, state.grid.count());
+  SWELL_CHECK(depth.size() == pixels && primitive.size() == pixels, "depth={} primitive={} of {}",
+              depth.size(), primitive.size(), pixels);
+  return HWY_DYNAMIC_DISPATCH(DrawTile)(state, tile, depth.data(), primitive.data());
+}
+
+}  // namespace swell::raster
+#endif

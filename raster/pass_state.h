@@ -1,0 +1,42 @@
+// The storage behind Pass. Triangles are worked on in chunks of fixed size; a chunk keeps what it
+// set up and which tiles that touches, and tiles walk the chunks in order, which is submission
+// order. No step depends on which thread did a chunk.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raster/pass.h"
+#include "raster/setup.h"
+#include "raster/vertices.h"
+
+namespace swell::raster {
+
+struct TileEntry {
+  std::uint32_t tile;
+  std::uint32_t triangle;  // index into the chunk's triangles
+};
+
+struct Chunk {
+  // Input: triangles [begin, end) of one draw, whose vertices start at first_vertex.
+  std::uint32_t draw = 0;
+  std::size_t begin = 0, end = 0, first_vertex = 0;
+  // Output.
+  std::vector<SetupTriangle> triangles;
+  std::vector<TileEntry> entries;         // in triangle order
+  std::vector<std::uint32_t> tile_begin;  // tiles + 1: where each tile's part of members begins
+  std::vector<std::uint32_t> members;     // indices into triangles, by tile, in triangle order
+  PassStatistics statistics;
+};
+
+struct Pass::State {
+  Viewport viewport;
+  TileGrid grid;
+  std::vector<WindowVertex> vertices;  // of all draws
+  std::vector<Chunk> chunks;           // keeps more than chunk_count to keep their storage
+  std::size_t chunk_count = 0;
+  std::vector<std::uint8_t> tile_used;
+  PassStatistics statistics;
+};
+
+}  // namespace swell::raster

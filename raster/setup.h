@@ -1,0 +1,53 @@
+// Step 3 of a pass: what a tile needs to know of a triangle, in one cache line.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raster/pass.h"
+#include "raster/vertices.h"
+
+namespace swell::raster {
+
+// Vertices in canonical order: the one with the smallest (y, x) first, then so that the inside
+// lies on the positive side of each edge. Any rotation of a triangle sets up to the same bits.
+struct alignas(64) SetupTriangle {
+  std::int32_t x_fx8[3], y_fx8[3];
+  // z = fma(dz_dx, x - x_ref, fma(dz_dy, y - y_ref, z_min)) with x, y in px at pixel centres,
+  // limited to [z_min, z_max]. The reference is the farthest vertex, where floats are finest.
+  std::int32_t x_ref_fx8, y_ref_fx8;
+  float z_min, z_max, dz_dx, dz_dy;
+  std::uint32_t primitive;
+  // Pixels whose centres the bounding box holds, within the viewport. Inclusive.
+  std::int16_t min_x, min_y, max_x, max_y;
+};
+static_assert(sizeof(SetupTriangle) == 64);
+
+enum class SetupResult { kReady, kDegenerate, kFacing, kOutside, kBetweenPixels };
+
+// Sets up the triangle of three vertices that need no clipping.
+SetupResult set_up_triangle(const WindowVertex& v0, const WindowVertex& v1, const WindowVertex& v2,
+                            Cull cull, Viewport viewport, std::uint32_t primitive,
+                            SetupTriangle& out);
+
+// Edge i runs from vertex i to vertex i + 1. A pixel centre (x, y) is inside if for all i
+//   E(x, y) = a (x - x_i) + b (y - y_i) + bias >= 0   (fx8 coordinates, so 16 fraction bits),
+// exactly. bias is 0 for top and left edges, which own their points, and -1 for the others.
+struct Edge {
+  std::int32_t a, b;  // 24 bits and sign
+  std::int32_t x_fx8, y_fx8, bias;
+
+  std::int64_t at(std::int32_t px_fx8, std::int32_t py_fx8) const {
+    return std::int64_t{a} * (px_fx8 - x_fx8) + std::int64_t{b} * (py_fx8 - y_fx8) + bias;
+  }
+};
+
+inline Edge edge_of(const SetupTriangle& t, int i) {
+  const int j = i == 2 ? 0 : i + 1;
+  const std::int32_t dx = t.x_fx8[j] - t.x_fx8[i];
+  const std::int32_t dy = t.y_fx8[j] - t.y_fx8[i];
+  const bool top_left = dy < 0 || (dy == 0 && dx > 0);
+  return {-dy, dx, t.x_fx8[i], t.y_fx8[i], top_left ? 0 : -1};
+}
+
+}  // namespace swell::raster

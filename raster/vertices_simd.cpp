@@ -1,0 +1,135 @@
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "math/check.h"
+#include "raster/vertices.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/vertices_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::ScalableTag<std::int32_t>;
+using FloatVec = hn::Vec<FloatTag>;
+using IntVec = hn::Vec<IntTag>;
+
+// Flag where the mask holds, else 0.
+template <class Mask>
+HWY_INLINE IntVec FlagIf(Mask mask, std::uint32_t flag) {
+  const IntTag di;
+  return hn::IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, static_cast<int>(flag)));
+}
+
+template <class V>
+HWY_INLINE auto IsFinite(V v) {
+  const FloatTag d;
+  return hn::Le(hn::Abs(v), hn::Set(d, 3.402823466e38f));
+}
+
+// The flags of one packet, before kNotFinite.
+HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, FloatVec user,
+                               FloatVec guard_x, FloatVec guard_y) {
+  const FloatTag d;
+  const FloatVec zero = hn::Zero(d);
+  // Frustum and user planes.
+  const FloatVec minus_w = hn::Neg(w);
+  IntVec flags = FlagIf(hn::Lt(x, minus_w), kOutsideLeft);
+  flags = hn::Or(flags, FlagIf(hn::Gt(x, w), kOutsideRight));
+  flags = hn::Or(flags, FlagIf(hn::Gt(y, w), kOutsideTop));
+  flags = hn::Or(flags, FlagIf(hn::Lt(y, minus_w), kOutsideBottom));
+  flags = hn::Or(flags, FlagIf(hn::Gt(z, w), kOutsideNear));
+  flags = hn::Or(flags, FlagIf(hn::Lt(z, zero), kOutsideFar));
+  flags = hn::Or(flags, FlagIf(hn::Lt(w, hn::Set(d, kMinW)), kOutsideW));
+  flags = hn::Or(flags, FlagIf(hn::Lt(user, zero), kOutsideUser));
+  // The fused k w - |x| has the sign of the exact value, as the clipper's double has.
+  const auto out_x = hn::Lt(hn::MulSub(guard_x, w, hn::Abs(x)), zero);
+  const auto out_y = hn::Lt(hn::MulSub(guard_y, w, hn::Abs(y)), zero);
+  return hn::Or(flags, FlagIf(hn::Or(out_x, out_y), kOutsideGuard));
+}
+
+// One packet: lanes from p_clip (4 floats a vertex) and user to out.
+HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, FloatVec user, Viewport viewport,
+                              std::int32_t* HWY_RESTRICT out) {
+  const FloatTag d;
+  const IntTag di;
+  FloatVec x, y, z, w;
+  hn::LoadInterleaved4(d, p_clip, x, y, z, w);
+  const auto width = static_cast<float>(viewport.width_px);
+  const auto height = static_cast<float>(viewport.height_px);
+
+  // Flags.
+  const FloatVec guard_x = hn::Set(d, 2.0f * kGuardPx / width - 1.0f);
+  const FloatVec guard_y = hn::Set(d, 2.0f * kGuardPx / height - 1.0f);
+  const auto finite = hn::And(hn::And(hn::And(IsFinite(x), IsFinite(y)), IsFinite(user)),
+                              hn::And(IsFinite(z), IsFinite(w)));
+  const IntVec outside = OutsideFlags(x, y, z, w, user, guard_x, guard_y);
+  const IntVec flags = hn::IfThenElse(hn::RebindMask(di, finite), outside,
+                                      hn::Set(di, static_cast<int>(kNotFinite)));
+
+  // Only vertices that need no clipping are divided; the others become the origin.
+  const IntVec unusable = hn::And(flags, hn::Set(di, static_cast<int>(kClipFlags | kNotFinite)));
+  const auto usable = hn::RebindMask(d, hn::Eq(unusable, hn::Zero(di)));
+  const FloatVec divisor = hn::IfThenElse(usable, w, hn::Set(d, 1.0f));
+  const FloatVec x_ndc = hn::Div(hn::IfThenElseZero(usable, x), divisor);
+  const FloatVec y_ndc = hn::Div(hn::IfThenElseZero(usable, y), divisor);
+  const FloatVec depth = hn::Div(hn::IfThenElseZero(usable, z), divisor);
+
+  // x_px = (x_ndc + 1) width / 2, y_px = (1 - y_ndc) height / 2, times 256, to nearest even.
+  const FloatVec half_x = hn::Set(d, 0.5f * kPixelFx8 * width);
+  const FloatVec half_y = hn::Set(d, 0.5f * kPixelFx8 * height);
+  const IntVec x_fx8 = hn::NearestInt(hn::MulAdd(x_ndc, half_x, half_x));
+  const IntVec y_fx8 = hn::NearestInt(hn::NegMulAdd(y_ndc, half_y, half_y));
+  hn::StoreInterleaved4(x_fx8, y_fx8, hn::BitCast(di, depth), flags, di, out);
+}
+
+void ProjectVertices(std::span<const glm::vec4> p_clip, std::span<const float> clip_distance,
+                     Viewport viewport, std::span<WindowVertex> out) {
+  const FloatTag d;
+  constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+  const bool has_user = !clip_distance.empty();
+  std::size_t i = 0;
+  for (; i + kLanes <= p_clip.size(); i += kLanes) {
+    const FloatVec user = has_user ? hn::LoadU(d, &clip_distance[i]) : hn::Zero(d);
+    ProjectPacket(&p_clip[i].x, user, viewport, &out[i].x_fx8);
+  }
+  if (i == p_clip.size()) return;
+
+  // The tail goes through padded copies.
+  std::array<float, 4 * kLanes> tail_in{};
+  std::array<float, kLanes> tail_user{};
+  std::array<std::int32_t, 4 * kLanes> tail_out;
+  const std::size_t count = p_clip.size() - i;
+  std::memcpy(tail_in.data(), &p_clip[i], count * sizeof(glm::vec4));
+  if (has_user) std::memcpy(tail_user.data(), &clip_distance[i], count * sizeof(float));
+  ProjectPacket(tail_in.data(), hn::LoadU(d, tail_user.data()), viewport, tail_out.data());
+  std::memcpy(&out[i], tail_out.data(), count * sizeof(WindowVertex));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::raster
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::raster {
+
+HWY_EXPORT(ProjectVertices);
+
+void project_vertices(std::span<const glm::vec4> p_clip, std::span<const float> clip_distance,
+                      Viewport viewport, std::span<WindowVertex> out) {
+  static_assert(sizeof(glm::vec4) == 4 * sizeof(float) && sizeof(WindowVertex) == 16);
+  SWELL_DCHECK(out.size() == p_clip.size(), "out={} p_clip={}", out.size(), p_clip.size());
+  HWY_DYNAMIC_DISPATCH(ProjectVertices)(p_clip, clip_distance, viewport, out);
+}
+
+}  // namespace swell::raster
+#endif
