@@ -56,14 +56,19 @@ double shore_distance(const Profile& p, const texture::PerlinNoise& noise, glm::
   return p.radius * (1.0 - glm::length(bent) + kBays * bays);
 }
 
-// Height above the beach at `inland` metres from the shore.
+// Turned by 37 degrees, so that the noise's lattice does not show through the layers.
+glm::dvec2 turned(glm::dvec2 q) { return {0.8 * q.x - 0.6 * q.y, 0.6 * q.x + 0.8 * q.y}; }
+
+// Height above the beach at `inland` metres from the shore: a broken dome with ridges.
 double hills(const Profile& p, const texture::PerlinNoise& noise, glm::dvec2 q, double inland) {
-  const double rise = smoothstep(0.5 * p.beach_width, 0.85 * p.radius, inland);
+  const double rise = smoothstep(0.75 * p.beach_width, 0.9 * p.radius, inland);
   if (rise == 0.0) return 0.0;
-  const double rolling = noise.fractal2(3.3 * q.x + 51.3, 3.3 * q.y + 29.1, 6, 0.5);
-  const double ridges = 1.0 - std::abs(noise.fractal2(2.2 * q.x + 3.9, 2.2 * q.y + 77.7, 4, 0.5));
-  const double shape = 0.25 + 0.55 * ridges * ridges + 0.35 * rolling;
-  return p.hill_height * rise * std::max(shape, 0.05);
+  const glm::dvec2 r = turned(q);
+  const double ridge = noise.fractal2(1.6 * r.x + 3.9, 1.6 * r.y + 77.7, 3, 0.4);
+  const double rolling = noise.fractal2(2.9 * q.x + 51.3, 2.9 * q.y + 29.1, 5, 0.42);
+  const double shape = 0.45 + 0.55 * (1.0 - 2.5 * ridge * ridge) + 0.3 * rolling;
+  const double positive = 0.5 * (shape + std::sqrt(shape * shape + 0.04));
+  return p.hill_height * rise * positive;
 }
 
 double land_height(const Profile& p, const texture::PerlinNoise& noise, glm::dvec2 q,
@@ -84,12 +89,13 @@ double sea_floor_height(const Profile& p, const texture::PerlinNoise& noise, glm
   if (deep == 1.0) return -p.floor_depth;
 
   // Sand banks and the reef, which is broken by noise.
-  const double banks = noise.fractal2(5.0 * q.x + 11.1, 5.0 * q.y + 63.3, 4, 0.5);
+  const glm::dvec2 r = turned(q);
+  const double banks = noise.fractal2(4.1 * r.x + 11.1, 4.1 * r.y + 63.3, 4, 0.45);
   const double away = smoothstep(0.0, 0.25 * p.lagoon_width, offshore);
   const double from_reef = (offshore - 0.95 * p.lagoon_width) / (0.12 * p.lagoon_width);
-  const double reef = exp(-from_reef * from_reef) * (0.6 + 0.5 * banks);
+  const double reef = exp(-from_reef * from_reef) * (0.6 + 0.4 * banks);
   const double shelf =
-      lagoon + away * (0.25 * p.lagoon_depth * banks + p.reef_rise * std::max(reef, 0.0));
+      lagoon + away * (0.22 * p.lagoon_depth * banks + p.reef_rise * std::max(reef, 0.0));
   return shelf + (-p.floor_depth - shelf) * deep;
 }
 

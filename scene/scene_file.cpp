@@ -90,20 +90,25 @@ class Reader {
   }
 
  private:
+  struct Entry {
+    std::string_view key;
+    const toml::node* node;
+    Place key_place;
+  };
+
   // In the order of the file, so that its first fault is the one reported.
-  static std::vector<std::pair<std::string_view, const toml::node*>> in_file_order(
-      const toml::table& table) {
-    std::vector<std::pair<std::string_view, const toml::node*>> entries;
-    for (const auto& [key, node] : table) entries.emplace_back(key.str(), &node);
-    std::ranges::stable_sort(entries, {}, [](const auto& entry) {
-      const Place place = place_of(entry.second->source());
-      return std::pair(place.line, place.column);
+  static std::vector<Entry> in_file_order(const toml::table& table) {
+    std::vector<Entry> entries;
+    for (const auto& [key, node] : table)
+      entries.push_back({key.str(), &node, place_of(key.source())});
+    std::ranges::stable_sort(entries, {}, [](const Entry& entry) {
+      return std::pair(entry.key_place.line, entry.key_place.column);
     });
     return entries;
   }
 
   void read_table(const toml::table& table, const std::string& prefix) {
-    for (const auto& [key, node] : in_file_order(table)) {
+    for (const auto& [key, node, key_place] : in_file_order(table)) {
       const std::string path = prefix + std::string(key);
       const auto parameter = std::ranges::find(parameters_, path, &Parameter<Scene>::key);
       if (parameter != parameters_.end())
@@ -113,7 +118,7 @@ class Reader {
       else if (is_section(path))
         read_section(*node, path);
       else
-        fail_unknown(*node, path);
+        fail_unknown(key_place, path);
       if (path == "sea.patch_lengths_m") check_patch_lengths(*node);
     }
   }
@@ -144,11 +149,11 @@ class Reader {
 
   void read_sine(const toml::table& table) {
     ocean::SineWave sine;
-    for (const auto& [key, node] : in_file_order(table)) {
+    for (const auto& [key, node, key_place] : in_file_order(table)) {
       const std::string path = fmt::format("{}.{}", kSinesKey, key);
       const auto parameter =
           std::ranges::find(sine_parameters_, key, &Parameter<ocean::SineWave>::key);
-      if (parameter == sine_parameters_.end()) fail_unknown(*node, path);
+      if (parameter == sine_parameters_.end()) fail_unknown(key_place, path);
       parameter->set(sine, checked_value(*node, path, *parameter));
     }
     scene_.sea.sines.push_back(sine);
@@ -263,10 +268,11 @@ class Reader {
     fail(file_, place_of(node.source()), fmt::format("{}, got {}, allowed {}", path, got, allowed));
   }
 
-  [[noreturn]] void fail_unknown(const toml::node& node, const std::string& path) const {
-    fail(file_, place_of(node.source()),
-         fmt::format("unknown key, got '{}', allowed '{}' and the others of docs/scene.md",
-                     path.substr(0, 100), nearest_key(path)));
+  [[noreturn]] void fail_unknown(Place place, const std::string& path) const {
+    fail(file_, place,
+         fmt::format(
+             "unknown key, got '{}', allowed '{}' (the nearest) and the others of docs/scene.md",
+             path.substr(0, 100), nearest_key(path)));
   }
 
   // The known key or table with the fewest edits from an unknown one.
