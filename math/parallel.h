@@ -55,7 +55,8 @@ class Workers {
   // thousand vertices).
   void for_each(std::size_t count, FunctionRef<void(std::size_t index, int slot)> body);
 
-  // Calls a() and b(), side by side where there are threads for it; both may use for_each.
+  // Calls a() and b(), side by side where there are threads for it; both may use for_each. If
+  // one throws, the other may not have run.
   void run_both(FunctionRef<void()> a, FunctionRef<void()> b);
 
  private:
