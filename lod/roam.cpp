@@ -1,1 +1,82 @@
 #include "lod/roam.h"
+
+#include <cmath>
+#include <optional>
+
+#include "lod/priority.h"
+#include "lod/tree.h"
+#include "math/check.h"
+
+namespace swell::lod {
+namespace {
+
+// The target is the longest prefix of the total order of diamonds (highest priority first, then
+// level, then place) that keeps the budget and holds no diamond of priority 0. Parents come before
+// children in that order, so every prefix is a valid mesh, the best diamond that is not split is
+// always splittable, and the worst that is split always mergeable.
+//
+// Each diamond moves at most once. One that is split was the first of all unsplit ones and had
+// room, so whatever is unsplit later comes after it, and it is not merged again. One that is
+// merged was the last of all split ones, and these with the best unsplit one do not fit together,
+// so no prefix that keeps the budget reaches to it.
+AdaptStatistics move_to_target(Roam::Tree& tree, int budget) {
+  AdaptStatistics done;
+  const int operation_cap = 2 * tree.max_triangles;
+  for (;;) {
+    const std::optional<QueueMember> best = tree.split_queue.first();
+    const bool wanted = best && best->key != kCulledKey;
+    const bool fits = wanted && tree.triangles + added_triangles(tree, best->node) <= budget;
+    const std::optional<QueueMember> worst = fits ? std::nullopt : tree.merge_queue.first();
+    const bool too_much = worst && (tree.triangles > budget || worst->key == kCulledKey ||
+                                    (wanted && *best < *worst));
+    if (!fits && !too_much) break;
+
+    done.operation_cap_hit = done.splits + done.merges >= operation_cap;
+    if (done.operation_cap_hit) break;
+    if (fits) {
+      done.splits += force_split(tree, best->node);
+    } else {
+      merge(tree, worst->node);
+      ++done.merges;
+    }
+  }
+  done.triangles = tree.triangles;
+  return done;
+}
+
+}  // namespace
+
+Roam::Roam(const Domain& domain, int max_triangles) {
+  SWELL_CHECK(domain.lattice_bits >= 1 && domain.lattice_bits <= 20, "lattice_bits={}",
+              domain.lattice_bits);
+  SWELL_CHECK(std::isfinite(domain.size_m) && domain.size_m > 0.0, "size_m={}", domain.size_m);
+  SWELL_CHECK(max_triangles >= 2 && max_triangles <= 1 << 28, "max_triangles={}", max_triangles);
+  tree_ = std::make_unique<Tree>(domain, max_triangles);
+  set_origin(domain.min_world);
+}
+
+Roam::~Roam() = default;
+Roam::Roam(Roam&&) noexcept = default;
+Roam& Roam::operator=(Roam&&) noexcept = default;
+
+const Domain& Roam::domain() const { return tree_->domain; }
+
+void Roam::set_origin(glm::dvec2 min_world) {
+  SWELL_CHECK(std::isfinite(min_world.x) && std::isfinite(min_world.y), "min_world=({}, {})",
+              min_world.x, min_world.y);
+  tree_->domain.min_world = min_world;
+}
+
+AdaptStatistics Roam::adapt(const AdaptRequest& request) {
+  SWELL_CHECK(request.triangle_budget >= 2 && request.triangle_budget <= tree_->max_triangles,
+              "triangle_budget={} max_triangles={}", request.triangle_budget, tree_->max_triangles);
+  set_priorities(*tree_, make_priority_frame(request, tree_->domain));
+  return move_to_target(*tree_, request.triangle_budget);
+}
+
+AdaptStatistics Roam::rebuild(const AdaptRequest& request) {
+  reset_tree(*tree_);
+  return adapt(request);
+}
+
+}  // namespace swell::lod

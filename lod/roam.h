@@ -28,7 +28,7 @@ enum class Priority : std::uint8_t {
 
 struct AdaptRequest {
   View view;
-  int triangle_budget = 10000;         // >= 2; never exceeded
+  int triangle_budget = 10000;  // >= 2; never exceeded
   Priority priority = Priority::kProjectedSize;
   float min_height_m = 0.0f, max_height_m = 0.0f;  // of all the surface, at all times
   // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
@@ -43,9 +43,9 @@ struct AdaptStatistics {
 // The triangulation as an indexed mesh. Order of vertices and triangles depends on the
 // triangulation alone, not on how it was reached.
 struct Mesh {
-  std::vector<glm::ivec2> lattice;      // per vertex, in [0, 2^lattice_bits]^2
-  std::vector<std::uint32_t> indices;   // 3 per triangle, counter-clockwise seen from +z
-  std::vector<std::uint8_t> level;      // per triangle: depth in the bintree
+  std::vector<glm::ivec2> lattice;     // per vertex, in [0, 2^lattice_bits]^2
+  std::vector<std::uint32_t> indices;  // 3 per triangle, counter-clockwise seen from +z
+  std::vector<std::uint8_t> level;     // per triangle: depth in the bintree
 };
 
 class Roam {

@@ -1,0 +1,58 @@
+// Which diamond matters most to a view.
+//
+// The priority of a diamond, in [0, 1], is 1 / sqrt(1 + k), with
+//   kProjectedSize    k = (d / size)^2, d the distance from the eye to the box around the diamond
+//                     and all its descendants (between the heights of the request), size the
+//                     diamond's width, here sqrt(2^-level) times the domain's
+//   kInverseDistance  k = d^2: the paper's 1 / distance, whatever the size; it refines all of the
+//                     nearest part to the last level first, and so suits lattices of few bits
+// and 0 (k = infinity) if that box lies outside the view. Only the order counts, so k itself is
+// kept: ascending k is descending priority. The bits of a float >= 0 sort like the float, and that
+// word is the key.
+//
+// A child's key is never below its parent's, to the last bit: boxes nest (exactly: they are
+// integers), sizes shrink by powers of two, and every operation is correctly rounded and thus
+// monotone. With ties broken by level, parents come before children in the order, so the first n
+// diamonds of the order are a valid triangulation for every n.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "lod/roam.h"
+
+namespace swell::lod {
+
+using PriorityKey = std::uint32_t;
+inline constexpr PriorityKey kCulledKey = 0x7f800000u;  // infinity: priority 0, never split
+
+// A request as seen from the lattice. Unit: one lattice step; z likewise.
+struct PriorityFrame {
+  int lattice_bits = 1;
+  // The eye: whole and fractional lattice steps, so that float differences stay exact near it.
+  glm::ivec2 eye_floor{0};
+  glm::vec2 eye_fraction{0.0f};
+  float distance2_z = 0.0f;  // squared distance from the eye to the slab of heights
+  // Outside, if for one plane max(x n.x) + max(y n.y) + max_z < 0 over the box.
+  struct Plane {
+    float nx, ny, max_z;
+  };
+  std::array<Plane, 5> planes{};
+  int level_mask = -1;  // -1: sizes count; 0: they do not
+};
+
+// Throws nothing; checks that the view, heights and margin are finite and ordered. Distances
+// beyond 2^28 lattice steps count as that.
+PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& domain);
+
+// The key of the diamond centred at lattice point (x, y).
+PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level);
+
+// The same for many, bit for bit; all spans of one size. SIMD.
+void compute_priority_keys(const PriorityFrame& frame, std::span<const std::int32_t> x,
+                           std::span<const std::int32_t> y, std::span<const std::int32_t> level,
+                           std::span<PriorityKey> keys);
+
+}  // namespace swell::lod

@@ -1,0 +1,128 @@
+#include "lod/queue.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "lod/diamond.h"
+#include "math/check.h"
+
+namespace swell::lod {
+namespace {
+
+constexpr std::uint64_t kRangeStep = 1u << 19;  // in a float's bits: 3 to 6 %
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Queue::Queue(Order order, int capacity, int node_capacity)
+    : rank_flip_(order == Order::kHighestPriorityFirst ? 0u : ~0u),
+      tie_flip_(order == Order::kHighestPriorityFirst ? 0u : ~std::uint64_t{0}),
+      positions_(index(node_capacity), -1) {
+  for (auto* array : {&nodes_, &x_, &y_, &level_}) array->reserve(index(capacity));
+  keys_.reserve(index(capacity));
+  heap_.reserve(index(capacity));
+}
+
+PriorityKey Queue::key(int node) const { return keys_[index(positions_[index(node)])]; }
+
+void Queue::clear() {
+  for (const std::int32_t node : nodes_) positions_[index(node)] = -1;
+  for (auto* array : {&nodes_, &x_, &y_, &level_}) array->clear();
+  keys_.clear();
+  heap_.clear();
+  range_end_ = 0;
+}
+
+void Queue::insert(const PriorityFrame& frame, int node, int x, int y, int level) {
+  SWELL_DCHECK(!contains(node) && nodes_.size() < nodes_.capacity(), "node={}", node);
+  const std::size_t position = nodes_.size();
+  positions_[index(node)] = static_cast<std::int32_t>(position);
+  nodes_.push_back(node);
+  x_.push_back(x);
+  y_.push_back(y);
+  level_.push_back(level);
+  keys_.push_back(priority_key(frame, x, y, level));
+
+  if (rank(position) >= range_end_) return;
+  if (heap_.size() == heap_.capacity()) return fill_heap();  // throws stale entries out
+  heap_.push_back(entry(position));
+  std::push_heap(heap_.begin(), heap_.end(), comes_later);
+}
+
+void Queue::erase(int node) {
+  SWELL_DCHECK(contains(node), "node={}", node);
+  const std::size_t position = index(positions_[index(node)]);
+  positions_[index(nodes_.back())] = static_cast<std::int32_t>(position);
+  positions_[index(node)] = -1;
+  for (auto* array : {&nodes_, &x_, &y_, &level_}) {
+    (*array)[position] = array->back();
+    array->pop_back();
+  }
+  keys_[position] = keys_.back();
+  keys_.pop_back();
+}
+
+void Queue::update_keys(const PriorityFrame& frame) {
+  compute_priority_keys(frame, x_, y_, level_, keys_);
+  heap_.clear();
+  range_end_ = 0;
+}
+
+std::optional<QueueMember> Queue::first() {
+  for (;;) {
+    while (!heap_.empty() && is_stale(heap_.front())) {
+      std::pop_heap(heap_.begin(), heap_.end(), comes_later);
+      heap_.pop_back();
+    }
+    if (!heap_.empty()) {
+      const Entry& front = heap_.front();
+      return QueueMember{front.node, front.rank ^ rank_flip_, front.tie ^ tie_flip_};
+    }
+    if (!widen_range()) return std::nullopt;
+  }
+}
+
+Queue::Entry Queue::entry(std::size_t position) const {
+  const std::uint64_t tie = lattice_order(level_[position], x_[position], y_[position]);
+  return {rank(position), nodes_[position], tie ^ tie_flip_};
+}
+
+// A node number may meanwhile stand for another diamond, so the tie is compared as well.
+bool Queue::is_stale(const Entry& e) const {
+  const std::int32_t position = positions_[index(e.node)];
+  return position < 0 || entry(index(position)).tie != e.tie;
+}
+
+void Queue::fill_heap() {
+  heap_.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (rank(i) < range_end_) heap_.push_back(entry(i));
+  std::make_heap(heap_.begin(), heap_.end(), comes_later);
+}
+
+// Moves the range's end behind the next member; false if there is none.
+bool Queue::widen_range() {
+  std::uint64_t next = std::numeric_limits<std::uint64_t>::max();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const std::uint64_t r = rank(i);
+    if (r >= range_end_ && r < next) next = r;
+  }
+  if (next == std::numeric_limits<std::uint64_t>::max()) return false;
+  range_end_ = next + kRangeStep;
+  fill_heap();
+  return true;
+}
+
+bool Queue::heap_is_consistent() const {
+  std::size_t in_range = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) in_range += rank(i) < range_end_;
+  std::vector<std::int32_t> live;
+  for (const Entry& e : heap_)
+    if (!is_stale(e)) live.push_back(e.node);
+  std::sort(live.begin(), live.end());
+  live.erase(std::unique(live.begin(), live.end()), live.end());
+  return live.size() == in_range && std::is_heap(heap_.begin(), heap_.end(), comes_later);
+}
+
+}  // namespace swell::lod

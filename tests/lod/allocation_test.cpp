@@ -1,0 +1,63 @@
+// A program of its own: it replaces operator new.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "lod/roam.h"
+
+namespace {
+std::atomic<long long> allocations{0}, allocated_bytes{0};
+
+void* counted(std::size_t size) {
+  ++allocations;
+  allocated_bytes += static_cast<long long>(size);
+  if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+
+namespace swell::lod {
+namespace {
+
+AdaptRequest flight(int frame, int budget) {
+  AdaptRequest request;
+  request.view = make_view({0.1 * frame, 0.5 * frame, 15.0}, 0.01 * frame, -0.1, 1.0, 0.1f, 64, 48);
+  request.triangle_budget = budget;
+  request.frustum_margin = 0.1f;
+  return request;
+}
+
+TEST(RoamAllocation, AFrameAllocatesNothing) {
+  Roam roam({{-32768.0, -32768.0}, 65536.0, 17}, 8000);
+  Mesh mesh;
+  roam.adapt(flight(0, 8000));
+  roam.extract_mesh(mesh);
+  mesh.lattice.reserve(8004);
+  const long long before = allocations;
+  for (int frame = 1; frame < 100; ++frame) {
+    // Smooth flight, a half turn every 20 frames, budgets that jump.
+    const int turned = frame + (frame / 20) * 314;
+    roam.adapt(flight(turned, frame % 7 == 0 ? 500 : 8000));
+    roam.extract_mesh(mesh);
+  }
+  EXPECT_EQ(allocations - before, 0);
+}
+
+TEST(RoamAllocation, TwoHundredThousandLeavesFitInto64Megabytes) {
+  const long long before = allocated_bytes;
+  const Roam roam({{-32768.0, -32768.0}, 65536.0, 17}, 200000);
+  EXPECT_LT(allocated_bytes - before, 64'000'000);
+  EXPECT_GT(allocated_bytes - before, 1'000'000);
+}
+
+}  // namespace
+}  // namespace swell::lod

@@ -1,0 +1,161 @@
+// The target triangulation from its definition: all diamonds of a small lattice, sorted by the
+// documented order, cut at the budget. Shares no code with lod/; the lattice's structure comes from
+// the coordinates' trailing zeros, the priorities from the formula in lod/priority.h.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "lod/roam.h"
+
+namespace swell::lod::oracle {
+
+using Point = std::pair<int, int>;
+
+struct OracleDiamond {
+  Point centre;
+  int level;
+  int half;  // the largest power of two that divides both coordinates
+  std::vector<Point> parents;
+};
+
+inline OracleDiamond make_diamond(int bits, int x, int y) {
+  const int n = 1 << bits;
+  int half = 1;
+  while (x % (2 * half) == 0 && y % (2 * half) == 0) half *= 2;
+  const bool x_odd = x / half % 2 != 0, y_odd = y / half % 2 != 0;
+  OracleDiamond d{{x, y}, 0, half, {}};
+  for (int size = n; size > 2 * half; size /= 2) d.level += 2;
+  std::vector<Point> candidates;
+  if (x_odd && y_odd) {
+    // A square. The parents are the corners that are not the ends of the common base.
+    for (const Point& p : {Point{x - half, y - half}, Point{x + half, y - half},
+                           Point{x - half, y + half}, Point{x + half, y + half}})
+      if ((p.first / (2 * half) + p.second / (2 * half)) % 2 != 0) candidates.push_back(p);
+    if (d.level == 0) candidates.clear();
+  } else {
+    ++d.level;
+    candidates = x_odd ? std::vector<Point>{{x, y - half}, {x, y + half}}
+                       : std::vector<Point>{{x - half, y}, {x + half, y}};
+  }
+  for (const Point& p : candidates)
+    if (p.first >= 0 && p.second >= 0 && p.first <= n && p.second <= n) d.parents.push_back(p);
+  return d;
+}
+
+// Every lattice point but the corners.
+inline std::vector<OracleDiamond> all_diamonds(int bits) {
+  const int n = 1 << bits;
+  std::vector<OracleDiamond> diamonds;
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x)
+      if ((x != 0 && x != n) || (y != 0 && y != n)) diamonds.push_back(make_diamond(bits, x, y));
+  return diamonds;
+}
+
+// (distance / size)^2 in lattice steps, or infinity if outside the view.
+inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDiamond& d) {
+  const int n = 1 << domain.lattice_bits;
+  const double step_m = domain.size_m / n;
+  const double far = std::pow(2.0, 28.0);
+  const auto steps = [&](double m) { return std::max(-far, std::min(far, m / step_m)); };
+  struct Range {
+    float low, high;
+    float distance() const { return low > 0.0f ? low : high < 0.0f ? -high : 0.0f; }
+  };
+  const int reach = d.level % 2 == 0 ? 3 * d.half : 2 * d.half;
+  const auto axis = [&](int centre, double eye_m, double min_m) {
+    const double eye = steps(eye_m - min_m), whole = std::floor(eye);
+    const auto rel = [&](int p) {
+      return static_cast<float>(p - static_cast<int>(whole)) - static_cast<float>(eye - whole);
+    };
+    return Range{rel(std::max(0, centre - reach)), rel(std::min(n, centre + reach))};
+  };
+  const glm::dvec3 eye = r.view.eye_world;
+  const Range x = axis(d.centre.first, eye.x, domain.min_world.x);
+  const Range y = axis(d.centre.second, eye.y, domain.min_world.y);
+  const Range z{static_cast<float>(steps(r.min_height_m - eye.z)),
+                static_cast<float>(steps(r.max_height_m - eye.z))};
+
+  View wide = r.view;
+  wide.tan_half_x += r.frustum_margin;
+  wide.tan_half_y += r.frustum_margin;
+  for (const glm::vec4& p : frustum_planes(wide)) {
+    // The corner furthest inside.
+    const float a = p.x * (p.x > 0.0f ? x.high : x.low);
+    const float b = p.y * (p.y > 0.0f ? y.high : y.low);
+    const float c = p.z * (p.z > 0.0f ? z.high : z.low);
+    if (a + b + c < 0.0f) return HUGE_VALF;
+  }
+  const float distance2 =
+      x.distance() * x.distance() + y.distance() * y.distance() + z.distance() * z.distance();
+  return r.priority == Priority::kProjectedSize ? std::ldexp(distance2, d.level) : distance2;
+}
+
+// The centres of the diamonds that must be split.
+inline std::set<Point> target(const AdaptRequest& request, const Domain& domain,
+                              const std::vector<OracleDiamond>& diamonds) {
+  std::vector<std::tuple<float, int, int, int>> order;  // badness, level, y, x
+  for (const OracleDiamond& d : diamonds)
+    order.emplace_back(badness(request, domain, d), d.level, d.centre.second, d.centre.first);
+  std::sort(order.begin(), order.end());
+  const int n = 1 << domain.lattice_bits;
+  std::set<Point> split;
+  int triangles = 2;
+  for (const auto& [key, level, y, x] : order) {
+    const int added = x == 0 || y == 0 || x == n || y == n ? 1 : 2;
+    if (key == HUGE_VALF || triangles + added > request.triangle_budget) break;
+    triangles += added;
+    split.insert({x, y});
+  }
+  return split;
+}
+
+// Leaf triangles: corners in ascending order, then the level.
+using Leaf = std::tuple<Point, Point, Point, int>;
+
+inline void add_leaves(const std::set<Point>& split, Point a, Point apex, Point b, int level,
+                       std::set<Leaf>& leaves) {
+  const int sum_x = a.first + b.first, sum_y = a.second + b.second;
+  const Point middle{sum_x / 2, sum_y / 2};
+  if (sum_x % 2 == 0 && sum_y % 2 == 0 && split.contains(middle)) {
+    add_leaves(split, a, middle, apex, level + 1, leaves);
+    add_leaves(split, apex, middle, b, level + 1, leaves);
+    return;
+  }
+  std::array<Point, 3> corners{a, apex, b};
+  std::sort(corners.begin(), corners.end());
+  leaves.emplace(corners[0], corners[1], corners[2], level);
+}
+
+inline std::set<Leaf> leaves_of(const std::set<Point>& split, int bits) {
+  const int n = 1 << bits;
+  std::set<Leaf> leaves;
+  add_leaves(split, {0, 0}, {n, 0}, {n, n}, 0, leaves);
+  add_leaves(split, {n, n}, {0, n}, {0, 0}, 0, leaves);
+  return leaves;
+}
+
+inline std::set<Leaf> leaves_of(const Mesh& mesh) {
+  std::set<Leaf> leaves;
+  for (std::size_t t = 0; t < mesh.level.size(); ++t) {
+    std::array<Point, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::ivec2 p = mesh.lattice[mesh.indices[3 * t + k]];
+      corners[k] = {p.x, p.y};
+    }
+    std::sort(corners.begin(), corners.end());
+    leaves.emplace(corners[0], corners[1], corners[2], mesh.level[t]);
+  }
+  return leaves;
+}
+
+}  // namespace swell::lod::oracle
