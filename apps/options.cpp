@@ -68,10 +68,11 @@ void add_quality_options(CLI::App& app, render::FrameOptions& frame) {
          },
          "Tile size in pixels: 16, 32 or 64; changes no pixel")
       ->default_str("64");
-  add_integer(app, "--triangles", frame.water_triangles, 0, 1000000,
-              "Triangles of the water; 0: the scene's");
-  add_number(app, "--lookup-scale", frame.lookup_scale, 0.0, 1.0,
-             "Size of reflection and refraction images against the picture; 0: the scene's");
+  add_integer(app, "--triangles", frame.water_triangles, 2, 1000000,
+              "Triangles of the water instead of the scene's");
+  add_number(
+      app, "--lookup-scale", frame.lookup_scale, 0.1, 1.0,
+      "Size of reflection and refraction images against the picture, instead of the scene's");
   app.add_flag("--wireframe", frame.wireframe, "Draw triangle edges");
 }
 
@@ -83,9 +84,8 @@ void add_integer(CLI::App& app, const std::string& name, int& value, int low, in
       refuse(name, text, fmt::format("whole numbers from {} to {}", low, high));
     value = *number;
   };
-  app.add_option_function<std::string>(name, store, help)
-      ->type_name("N")
-      ->default_str(fmt::format("{}", value));
+  auto* option = app.add_option_function<std::string>(name, store, help)->type_name("N");
+  if (value >= low) option->default_str(fmt::format("{}", value));
 }
 
 void add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
@@ -96,9 +96,8 @@ void add_number(CLI::App& app, const std::string& name, double& value, double lo
       refuse(name, text, fmt::format("numbers from {} to {}", low, high));
     value = *number;
   };
-  app.add_option_function<std::string>(name, store, help)
-      ->type_name("X")
-      ->default_str(fmt::format("{}", value));
+  auto* option = app.add_option_function<std::string>(name, store, help)->type_name("X");
+  if (value >= low) option->default_str(fmt::format("{}", value));
 }
 
 bool parse_command_line(CLI::App& app, int argc, char** argv) {

@@ -36,7 +36,8 @@ void add_quality_options(CLI::App& app, render::FrameOptions& frame);
 // --threads and --simd alone.
 void add_machine_options(CLI::App& app, int& threads, std::string& simd);
 
-// An option that is a whole number (a finite number) in [low, high]; `value` holds the default.
+// An option that is a whole number (a finite number) in [low, high]; `value` holds the
+// default, which may lie outside to mean "not given".
 void add_integer(CLI::App& app, const std::string& name, int& value, int low, int high,
                  const std::string& help);
 void add_number(CLI::App& app, const std::string& name, double& value, double low, double high,

@@ -19,6 +19,7 @@ struct RenderOptions {
   double fps = 60.0;
   std::string out;
   bool hash = false;
+  bool dump_scene = false;
 };
 
 std::optional<RenderOptions> parse_options(int argc, char** argv) {
@@ -38,6 +39,8 @@ std::optional<RenderOptions> parse_options(int argc, char** argv) {
                  "File to write: .png .exr .tif .tiff; %04d becomes the frame's number")
       ->type_name("FILE");
   app.add_flag("--hash", options.hash, "Print 'frame N xxh3 HASH' of the 8-bit RGB picture");
+  app.add_flag("--dump-scene", options.dump_scene,
+               "Print the scene with every value that the file leaves out");
   if (!parse_command_line(app, argc, argv)) return std::nullopt;
   return options;
 }
@@ -55,7 +58,8 @@ std::filesystem::path output_file(const RenderOptions& options, int k) {
 // Refuses, before any work is done, what could not be written after it.
 void check_output(const RenderOptions& options) {
   if (options.out.empty()) {
-    if (!options.hash) throw OptionError("command line: --out or --hash is required");
+    if (!options.hash && !options.dump_scene)
+      throw OptionError("command line: --out, --hash or --dump-scene is required");
     return;
   }
   const FrameRange range = frame_range(options);
@@ -71,11 +75,9 @@ void print_hash(int k, const render::Target& target) {
   if (std::fflush(stdout) != 0) throw std::runtime_error("cannot write to standard output");
 }
 
-void render(const RenderOptions& options) {
+void render_pictures(const RenderOptions& options, scene::Scene scene) {
   const FrameSetup& setup = options.setup;
-  select_simd(setup.simd);
-  check_output(options);
-  const render::World world(scene::load_scene(setup.scene_path));
+  const render::World world(std::move(scene));
   render::FrameOptions frame_options = setup.frame;
   frame_options.keep_linear = stores_linear_light(options.out);
 
@@ -93,11 +95,19 @@ void render(const RenderOptions& options) {
   }
 }
 
+void run(const RenderOptions& options) {
+  select_simd(options.setup.simd);
+  check_output(options);
+  scene::Scene scene = scene::load_scene(options.setup.scene_path);
+  if (options.dump_scene) fmt::print("{}", scene::dump_scene(scene));
+  if (options.hash || !options.out.empty()) render_pictures(options, std::move(scene));
+}
+
 }  // namespace
 }  // namespace swell::apps
 
 int main(int argc, char** argv) {
   return swell::apps::run_program([&] {
-    if (const auto options = swell::apps::parse_options(argc, argv)) swell::apps::render(*options);
+    if (const auto options = swell::apps::parse_options(argc, argv)) swell::apps::run(*options);
   });
 }

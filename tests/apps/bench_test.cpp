@@ -1,0 +1,146 @@
+// What swell-bench reports: the JSON that other tools rely on, and numbers that agree.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/program_runner.h"
+
+namespace swell::apps {
+namespace {
+
+using Json = nlohmann::json;
+
+class Bench : public testing::Test {
+ protected:
+  Bench() { write_text(scene_, island_scene_text()); }
+
+  // The JSON that is alone on standard output.
+  Json bench_json(const std::string& subcommand, const Arguments& more) {
+    Arguments arguments = {subcommand, "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_bench(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(Json::accept(outcome.out)) << outcome.out;
+    return Json::parse(outcome.out, nullptr, false);
+  }
+  Json frame_json(const Arguments& more = {}) {
+    Arguments arguments = {"--scene", scene_, "--size", "160x90", "--frames", "6"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return bench_json("frame", arguments);
+  }
+
+  ScratchFolder folder_;
+  std::string scene_ = folder_.file("island.toml");
+};
+
+TEST_F(Bench, TheFrameReportHasEveryKey) {
+  const Json report = frame_json({"--threads", "2", "--simd", "avx2", "--budget-ms", "17"});
+  EXPECT_EQ(report.at("scene"), "island");
+  EXPECT_EQ(report.at("size"), Json::parse("[160, 90]"));
+  EXPECT_EQ(report.at("frames"), 6);
+  EXPECT_EQ(report.at("threads"), 2);
+  EXPECT_EQ(report.at("simd"), "avx2");
+  EXPECT_EQ(report.at("budget_ms"), 17.0);
+  EXPECT_GT(report.at("triangles").get<int>(), 0);
+  EXPECT_GT(report.at("peak_rss_mb").get<double>(), 1.0);
+  EXPECT_EQ(report.at("hash").get<std::string>().size(), 16u);
+  for (const char* stage : {"sea", "triangulate", "displace", "visibility", "lookups", "shade"})
+    EXPECT_GE(report.at("stages_ms").at(stage).get<double>(), 0.0) << stage;
+}
+
+TEST_F(Bench, PercentilesAreInOrderAndTheBudgetIsCounted) {
+  const Json all_over = frame_json({"--budget-ms", "0.001"});
+  const Json& ms = all_over.at("frame_ms");
+  EXPECT_GT(ms.at("median"), 0.0);
+  EXPECT_LE(ms.at("median"), ms.at("p95"));
+  EXPECT_LE(ms.at("p95"), ms.at("p99"));
+  EXPECT_LE(ms.at("p99"), ms.at("max"));
+  EXPECT_EQ(all_over.at("over_budget"), 6);
+  EXPECT_EQ(frame_json({"--budget-ms", "100000"}).at("over_budget"), 0);
+}
+
+TEST_F(Bench, EveryVisiblePixelIsShadedOnce) {
+  const Json report = frame_json();
+  EXPECT_GT(report.at("visible_pixels").get<int>(), 1000);
+  EXPECT_LE(report.at("visible_pixels").get<int>(), 160 * 90);
+  EXPECT_EQ(report.at("shaded_pixels"), report.at("visible_pixels"));
+}
+
+TEST_F(Bench, TheHashIsThatOfTheLastFrame) {
+  const Json report = frame_json();
+  EXPECT_EQ(report.at("hash"), frame_json({"--warmup", "0", "--threads", "1"}).at("hash"));
+  const Outcome picture = run_render(
+      {"--scene", scene_, "--size", "160x90", "--frames", "5-5", "--fps", "60", "--hash"});
+  EXPECT_EQ(picture.out, "frame 5 xxh3 " + report.at("hash").get<std::string>() + "\n");
+}
+
+TEST_F(Bench, TheTableNamesEveryStageAndTheBudget) {
+  const Outcome outcome =
+      run_bench({"frame", "--scene", scene_, "--size", "64x36", "--frames", "2"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* word : {"sea", "triangulate", "displace", "visibility", "lookups", "shade",
+                           "frame", "budget 17 ms", "median", "p95", "p99", "max"})
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word << "\n" << outcome.out;
+}
+
+TEST_F(Bench, TheReportGoesIntoAFileBesideTheTable) {
+  const Outcome outcome = run_bench({"frame", "--scene", scene_, "--size", "64x36", "--frames", "2",
+                                     "--json", folder_.file("report.json")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("budget"), std::string::npos);
+  const Json report = Json::parse(read_text(folder_.file("report.json")), nullptr, false);
+  EXPECT_EQ(report.value("frames", 0), 2);
+}
+
+// One bar a frame and at least one a stage and frame, none outside its frame.
+TEST_F(Bench, TheTraceIsAChromeTrace) {
+  const std::string path = folder_.file("trace.json");
+  frame_json({"--trace", path, "--threads", "2"});
+  const Json trace = Json::parse(read_text(path), nullptr, false);
+  ASSERT_FALSE(trace.is_discarded());
+  std::map<std::string, int> count;
+  double frame_start_us = 0.0, frame_end_us = 0.0;
+  for (const Json& event : trace.at("traceEvents")) {
+    ++count[event.at("name").get<std::string>()];
+    EXPECT_EQ(event.at("ph"), "X");
+    const double start_us = event.at("ts"), end_us = start_us + event.at("dur").get<double>();
+    EXPECT_GE(event.at("tid").get<int>(), 0);
+    EXPECT_LT(event.at("tid").get<int>(), 2);
+    if (event.at("name") == "frame") {
+      EXPECT_GE(start_us, frame_end_us) << "frames overlap";
+      frame_start_us = start_us, frame_end_us = end_us;
+    }
+    EXPECT_LE(start_us, end_us);
+    EXPECT_GE(start_us, frame_start_us);
+    EXPECT_LE(end_us, frame_end_us + 1.0);
+  }
+  EXPECT_EQ(count["frame"], 6);
+  for (const char* stage : {"sea", "triangulate", "displace", "visibility", "lookups", "shade"})
+    EXPECT_GE(count[stage], 6) << stage;
+}
+
+TEST_F(Bench, TheLodReportHasEveryKey) {
+  const Json report = bench_json("lod", {"--triangles", "1500", "--frames", "30"});
+  const int triangles = report.at("triangles");
+  EXPECT_LE(triangles, 1500);
+  EXPECT_GT(triangles, 1400);
+  const double lod_ms = report.at("lod_ms");
+  EXPECT_GT(lod_ms, 0.0);
+  EXPECT_GE(report.at("module_ms").get<double>(), lod_ms);
+  EXPECT_NEAR(report.at("ns_per_leaf").get<double>(), lod_ms * 1e6 / triangles, 0.1);
+  EXPECT_GT(report.at("splits").get<int>(), 0);
+  EXPECT_GT(report.at("merges").get<int>(), 0);
+}
+
+TEST_F(Bench, TheQueryReportNamesTheModel) {
+  const Json report = bench_json("query", {"--scene", scene_, "--points", "1000"});
+  EXPECT_GT(report.at("points_per_s").get<double>(), 1e4);
+  EXPECT_EQ(report.at("model"), "spectrum");
+  write_text(scene_,
+             "[sea]\nspectrum = false\n[[sea.sines]]\namplitude_m = 1.0\n"
+             "wavelength_m = 30.0\n");
+  EXPECT_EQ(bench_json("query", {"--scene", scene_, "--points", "1000"}).at("model"), "sines");
+}
+
+}  // namespace
+}  // namespace swell::apps

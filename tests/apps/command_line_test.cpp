@@ -1,0 +1,177 @@
+// What the programs say to good and bad command lines and scenes.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include "apps/program_runner.h"
+
+namespace swell::apps {
+namespace {
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() { write_text(scene_, sea_scene_text()); }
+
+  // Expects exit code 2, one error line with the pieces, and nothing on standard output.
+  void expect_refused(const Outcome& outcome, const Arguments& pieces) {
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(is_one_error_line(outcome.err, pieces))
+        << "expected pieces " << fmt::format("{}", pieces) << ", got:\n"
+        << outcome.err;
+  }
+
+  ScratchFolder folder_;
+  std::string scene_ = folder_.file("sea.toml");
+};
+
+TEST_F(CommandLine, HelpNamesEveryOption) {
+  const Outcome outcome = run_render({"--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  for (const char* option :
+       {"--scene", "--size", "--time", "--frames", "--fps", "--out", "--threads", "--hash",
+        "--simd", "--tile", "--triangles", "--lookup-scale", "--wireframe", "--dump-scene"})
+    EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
+}
+
+TEST_F(CommandLine, BenchHelpNamesEverySubcommand) {
+  const Outcome outcome = run_bench({"--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* subcommand : {"frame", "lod", "query"})
+    EXPECT_NE(outcome.out.find(subcommand), std::string::npos) << subcommand;
+  const Outcome frame = run_bench({"frame", "--help"});
+  EXPECT_EQ(frame.exit_code, 0);
+  for (const char* option : {"--scene", "--size", "--frames", "--threads", "--simd", "--budget-ms",
+                             "--json", "--trace", "--warmup"})
+    EXPECT_NE(frame.out.find(option), std::string::npos) << option;
+}
+
+TEST_F(CommandLine, VersionIsOneLine) {
+  EXPECT_EQ(run_render({"--version"}).out, "swell-render 0.1.0\n");
+  EXPECT_EQ(run_bench({"--version"}).out, "swell-bench 0.1.0\n");
+}
+
+TEST_F(CommandLine, RenderRefusesBadOptions) {
+  struct Case {
+    Arguments arguments, pieces;
+  };
+  const std::string size = "--size", allowed = "1x1 to 8192x8192";
+  const Case cases[] = {
+      {{size, "0x0"}, {"--size", "'0x0'", allowed}},
+      {{size, "99999999x1"}, {"'99999999x1'", allowed}},
+      {{size, "99999999999999999999x1"}, {allowed}},
+      {{size, "8193x1"}, {allowed}},
+      {{size, "abc"}, {"'abc'", allowed}},
+      {{size, "64"}, {allowed}},
+      {{size, "64x"}, {allowed}},
+      {{size, "64x64x64"}, {allowed}},
+      {{size, "-64x64"}, {allowed}},
+      {{size, "64x64 "}, {allowed}},
+      {{"--threads", "0"}, {"--threads", "'0'", "1 to 256"}},
+      {{"--threads", "257"}, {"1 to 256"}},
+      {{"--threads", "two"}, {"'two'", "1 to 256"}},
+      {{"--threads", "1.5"}, {"1 to 256"}},
+      {{"--simd", "sse4"}, {"--simd", "'sse4'", "avx2"}},
+      {{"--time", "nan"}, {"--time", "'nan'"}},
+      {{"--time", "1e999"}, {"--time", "'1e999'"}},
+      {{"--time", "2e12"}, {"--time"}},
+      {{"--frames", "5-3"}, {"--frames", "'5-3'"}},
+      {{"--frames", "-1-3"}, {"--frames"}},
+      {{"--frames", "1-99999999"}, {"--frames", "9999999"}},
+      {{"--frames", "0-1", "--fps", "0"}, {"--fps"}},
+      {{"--frames", "0-1", "--time", "1"}, {"--frames", "--time"}},
+      {{"--tile", "48"}, {"--tile", "'48'", "16, 32 or 64"}},
+      {{"--triangles", "1"}, {"--triangles"}},
+      {{"--lookup-scale", "0.01"}, {"--lookup-scale"}},
+      {{"--size", "8x8", "--size", "9x9"}, {"--size"}},
+      {{"--colour"}, {"--colour"}},
+      {{"stray"}, {"stray"}},
+      {{"--size"}, {"--size"}},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(fmt::format("{}", c.arguments));
+    Arguments arguments = {"--scene", scene_, "--hash"};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    Arguments pieces = c.pieces;
+    pieces.push_back("error: command line: ");
+    expect_refused(run_render(arguments), pieces);
+  }
+}
+
+TEST_F(CommandLine, RenderNeedsASceneAndSomethingToDo) {
+  expect_refused(run_render({}), {"command line", "--scene"});
+  expect_refused(run_render({"--hash"}), {"command line", "--scene"});
+  expect_refused(run_render({"--scene", scene_}), {"command line", "--out", "--hash"});
+}
+
+TEST_F(CommandLine, BenchRefusesBadOptions) {
+  const std::vector<Arguments> cases = {
+      {},
+      {"optical"},
+      {"frame"},
+      {"frame", "--scene", scene_, "--frames", "0"},
+      {"frame", "--scene", scene_, "--budget-ms", "-1"},
+      {"frame", "--scene", scene_, "--budget-ms", "inf"},
+      {"frame", "--scene", scene_, "--warmup", "-1"},
+      {"frame", "--scene", scene_, "--size", "0x9"},
+      {"lod", "--triangles", "1"},
+      {"lod", "--triangles", "many"},
+      {"query"},
+      {"query", "--scene", scene_, "--points", "0"},
+  };
+  for (const Arguments& arguments : cases) {
+    SCOPED_TRACE(fmt::format("{}", arguments));
+    expect_refused(run_bench(arguments), {"error: command line: "});
+  }
+}
+
+TEST_F(CommandLine, AMissingSceneIsNamed) {
+  const std::string missing = folder_.file("no such scene.toml");
+  expect_refused(run_render({"--scene", missing, "--hash"}), {missing});
+  expect_refused(run_bench({"frame", "--scene", missing}), {missing});
+  expect_refused(run_bench({"query", "--scene", missing}), {missing});
+  expect_refused(run_render({"--scene", folder_.path().string(), "--hash"}),
+                 {folder_.path().string()});
+}
+
+TEST_F(CommandLine, LineBreaksInNamesDoNotBreakTheErrorLine) {
+  expect_refused(run_render({"--scene", folder_.file("two\nlines.toml"), "--hash"}), {"two lines"});
+  expect_refused(run_render({"--scene", scene_, "--hash", "--size", "1\n2"}), {"--size"});
+}
+
+TEST_F(CommandLine, BadScenesAreNamedWithTheLine) {
+  struct Case {
+    std::string text;
+    Arguments pieces;
+  };
+  const Case cases[] = {
+      {"[wind]\nspeed_mps = 1000.0\n", {":2:", "speed_mps", "1000"}},
+      {"[wind]\n\nspeed_mps = \"fast\"\n", {":3:", "speed_mps"}},
+      {"[wind]\nspeed = 5.0\n", {":2:", "speed", "speed_mps"}},
+      {"[wind\n", {":1:"}},
+      {"[camera]\nfov_y_deg = nan\n", {":2:", "fov_y_deg", "nan"}},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    const std::string path = folder_.file("bad.toml");
+    write_text(path, c.text);
+    Arguments pieces = c.pieces;
+    pieces.push_back("error: " + path);
+    expect_refused(run_render({"--scene", path, "--hash"}), pieces);
+  }
+}
+
+TEST_F(CommandLine, TheEffectiveSceneCanBeDumpedAndDrawsTheSamePicture) {
+  const Outcome dump = run_render({"--scene", scene_, "--dump-scene"});
+  ASSERT_EQ(dump.exit_code, 0) << dump.err;
+  EXPECT_NE(dump.out.find("near_m"), std::string::npos) << "a default value is missing";
+  const std::string copy = folder_.file("copy.toml");
+  write_text(copy, dump.out);
+  const Outcome original = run_render({"--scene", scene_, "--size", "64x36", "--hash"});
+  EXPECT_EQ(original.exit_code, 0) << original.err;
+  EXPECT_EQ(run_render({"--scene", copy, "--size", "64x36", "--hash"}).out, original.out);
+}
+
+}  // namespace
+}  // namespace swell::apps
