@@ -9,7 +9,7 @@
 namespace swell::lod {
 namespace {
 
-constexpr std::uint64_t kRangeStep = 1u << 19;  // in a float's bits: 3 to 6 %
+constexpr std::uint64_t kFirstRangeStep = 1u << 19;  // in a float's bits: 3 to 6 %
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -22,6 +22,7 @@ Queue::Queue(Order order, int capacity, int node_capacity)
   for (auto* array : {&nodes_, &x_, &y_, &level_}) array->reserve(index(capacity));
   keys_.reserve(index(capacity));
   heap_.reserve(index(capacity));
+  close_range();
 }
 
 PriorityKey Queue::key(int node) const { return keys_[index(positions_[index(node)])]; }
@@ -30,8 +31,7 @@ void Queue::clear() {
   for (const std::int32_t node : nodes_) positions_[index(node)] = -1;
   for (auto* array : {&nodes_, &x_, &y_, &level_}) array->clear();
   keys_.clear();
-  heap_.clear();
-  range_end_ = 0;
+  close_range();
 }
 
 void Queue::insert(const PriorityFrame& frame, int node, int x, int y, int level) {
@@ -65,8 +65,7 @@ void Queue::erase(int node) {
 
 void Queue::update_keys(const PriorityFrame& frame) {
   compute_priority_keys(frame, x_, y_, level_, keys_);
-  heap_.clear();
-  range_end_ = 0;
+  close_range();
 }
 
 std::optional<QueueMember> Queue::first() {
@@ -94,6 +93,12 @@ bool Queue::is_stale(const Entry& e) const {
   return position < 0 || entry(index(position)).tie != e.tie;
 }
 
+void Queue::close_range() {
+  heap_.clear();
+  range_end_ = 0;
+  range_step_ = kFirstRangeStep;
+}
+
 void Queue::fill_heap() {
   heap_.clear();
   for (std::size_t i = 0; i < nodes_.size(); ++i)
@@ -109,7 +114,8 @@ bool Queue::widen_range() {
     if (r >= range_end_ && r < next) next = r;
   }
   if (next == std::numeric_limits<std::uint64_t>::max()) return false;
-  range_end_ = next + kRangeStep;
+  range_end_ = next + range_step_;
+  range_step_ *= 2;
   fill_heap();
   return true;
 }

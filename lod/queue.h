@@ -2,8 +2,8 @@
 // for.
 //
 // Members lie in arrays (for SIMD over all keys); the nearest few also in a heap. "Near" is a
-// range of ranks that grows by a small step whenever the heap runs dry: a frame that changes a few
-// hundred of 30,000 diamonds never sorts the rest.
+// range of ranks that grows, by twice the last step, whenever the heap runs dry: a frame that changes
+// a few hundred of 30,000 diamonds never sorts the rest.
 #pragma once
 
 #include <cstdint>
@@ -63,6 +63,7 @@ class Queue {
   std::uint32_t rank(std::size_t position) const { return keys_[position] ^ rank_flip_; }
   Entry entry(std::size_t position) const;
   bool is_stale(const Entry& entry) const;
+  void close_range();
   void fill_heap();
   bool widen_range();
 
@@ -72,7 +73,7 @@ class Queue {
   std::vector<PriorityKey> keys_;
   std::vector<std::int32_t> positions_;  // by node; -1: not a member
   std::vector<Entry> heap_;              // members with rank < range_end_, and stale ones
-  std::uint64_t range_end_ = 0;
+  std::uint64_t range_end_ = 0, range_step_ = 0;
 };
 
 }  // namespace swell::lod
