@@ -1,0 +1,30 @@
+// Whole files as bytes, for image_io.cpp: read with limits, and words for what went wrong.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "texture/image_io.h"
+
+namespace swell::texture {
+
+// The text with control characters as spaces and none at its ends.
+std::string one_line(std::string_view text);
+
+// Throws FileError "PATH: TEXT".
+template <class... T>
+[[noreturn]] void fail(const std::filesystem::path& path, fmt::format_string<T...> text,
+                       T&&... values) {
+  throw FileError(one_line(path.string() + ": " + fmt::format(text, std::forward<T>(values)...)));
+}
+
+// The content of a regular, non-empty file of at most max_bytes. Does not wait for pipes or
+// devices; throws FileError.
+std::vector<char> read_bytes(const std::filesystem::path& path, std::uint64_t max_bytes);
+
+}  // namespace swell::texture
