@@ -21,7 +21,7 @@ struct TerrainDescription {
   // From a square image (grey or first channel, north on top, at most 4096 x 4096): PNG, PNM and
   // TIFF have height = low_m + value * (high_m - low_m), EXR, HDR and PFM metres; then minus
   // sea_level_m.
-  std::filesystem::path height_image;  // empty: islands from noise
+  std::filesystem::path height_image = {};  // empty: islands from noise
   double metres_per_pixel = 2.0;
   double low_m = -20.0, high_m = 40.0;
   double sea_level_m = 0.0;
@@ -40,7 +40,7 @@ struct Terrain {
   glm::dvec2 min_world{0.0};
   double spacing_m = 1.0;
   int samples = 0;
-  std::vector<float> height_m;
+  std::vector<float> height_m = {};
   float lowest_m = 0.0f, highest_m = 0.0f;
   double size_m() const { return spacing_m * (samples - 1); }
 };

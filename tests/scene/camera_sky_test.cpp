@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "math/random.h"
+#include "scene/scene.h"
+#include "scene/sky.h"
+
+namespace swell::scene {
+namespace {
+
+constexpr double kQuarter = 3.14159265358979323846 / 2.0;
+
+void expect_near(glm::dvec3 value, glm::dvec3 expected, double tolerance) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], expected[i], tolerance) << i;
+}
+
+TEST(Camera, LooksNorthFromItsEyeByDefault) {
+  const View view = camera_view({}, 0.0, 200, 100);
+  EXPECT_EQ(view.eye_world, glm::dvec3(0, 0, 10));
+  expect_near(view.forward, {0, 1, 0}, 1e-7);
+  expect_near(view.right, {1, 0, 0}, 1e-7);
+  expect_near(view.up, {0, 0, 1}, 1e-7);
+  EXPECT_EQ(view.width_px, 200);
+  EXPECT_EQ(view.height_px, 100);
+}
+
+TEST(Camera, MovesStraightAtItsVelocity) {
+  const Camera camera{.eye_m = {1, 2, 3}, .velocity_mps = {10, -20, 0.5}};
+  EXPECT_EQ(camera_view(camera, 4.0, 8, 8).eye_world, glm::dvec3(41, -78, 5));
+  EXPECT_EQ(camera_view(camera, -2.0, 8, 8).eye_world, glm::dvec3(-19, 42, 2));
+}
+
+TEST(Camera, TurnsClockwise) {
+  const Camera camera{.turn_rad_s = kQuarter};
+  expect_near(camera_view(camera, 1.0, 8, 8).forward, {1, 0, 0}, 1e-7);   // east
+  expect_near(camera_view(camera, 2.0, 8, 8).forward, {0, -1, 0}, 1e-7);  // south
+  expect_near(camera_view(camera, -1.0, 8, 8).forward, {-1, 0, 0}, 1e-7);
+}
+
+TEST(Camera, PitchLooksUp) {
+  const Camera camera{.heading_rad = kQuarter, .pitch_rad = kQuarter / 3.0};
+  expect_near(camera_view(camera, 0.0, 8, 8).forward, {std::sqrt(0.75), 0, 0.5}, 1e-7);
+}
+
+TEST(Camera, AnyFiniteTimeGivesAFiniteView) {
+  const Camera camera{.velocity_mps = {1000, -1000, 1}, .turn_rad_s = 6.0};
+  for (const double t_s : {1e9, -1e9, 1e15, -1e300, std::numeric_limits<double>::max()}) {
+    const View view = camera_view(camera, t_s, 64, 64);
+    EXPECT_LE(std::abs(view.eye_world.x), 1e7) << t_s;
+    EXPECT_LE(std::abs(view.eye_world.y), 1e7) << t_s;
+    EXPECT_NEAR(glm::length(view.forward), 1.0f, 1e-6f) << t_s;
+    EXPECT_NEAR(glm::dot(view.forward, view.right), 0.0f, 1e-6f) << t_s;
+  }
+}
+
+TEST(CameraDeathTest, TimeThatIsNoNumberIsTheCallersMistake) {
+  EXPECT_DEATH(camera_view({}, std::nan(""), 8, 8), "t_s=nan");
+}
+
+Sky clear_sky() {
+  Sky sky;
+  sky.cloud_cover = 0.0;
+  sky.sun_direction = sun_direction(0.0, 0.7);
+  return sky;
+}
+
+TEST(Sky, SunDirectionIsClockwiseFromNorth) {
+  expect_near(sun_direction(0.0, 0.0), {0, 1, 0}, 1e-7);
+  expect_near(sun_direction(kQuarter, 0.0), {1, 0, 0}, 1e-7);
+  expect_near(sun_direction(1.0, kQuarter), {0, 0, 1}, 1e-7);
+  expect_near(sun_direction(3.0 * kQuarter, kQuarter / 3.0), {-std::sqrt(0.75), 0, 0.5}, 1e-7);
+}
+
+TEST(Sky, WithoutSunAndCloudsHasItsZenithAndHorizonColours) {
+  Sky sky = clear_sky();
+  sky.sun_radiance = glm::vec3(0.0f);
+  expect_near(sky_radiance(sky, {0, 0, 1}), sky.zenith, 1e-3);
+  expect_near(sky_radiance(sky, {1, 0, 0}), sky.horizon, 0.1);
+}
+
+TEST(Sky, GoesFromHorizonToZenithWithoutSteps) {
+  const Sky sky = clear_sky();
+  glm::vec3 last = sky_radiance(sky, {-1, 0, 0});
+  for (int i = 1; i <= 2000; ++i) {
+    const double angle = kQuarter * i / 2000.0;
+    const glm::vec3 now =
+        sky_radiance(sky, {-static_cast<float>(std::cos(angle)), 0.0f, std::sin(angle)});
+    EXPECT_LT(glm::length(now - last), 0.01f) << i;
+    last = now;
+  }
+}
+
+TEST(Sky, IsBrightestAroundTheSun) {
+  const Sky sky = clear_sky();
+  const glm::vec3 at_sun = sky_radiance(sky, sky.sun_direction);
+  const glm::vec3 beside = sky_radiance(sky, sun_direction(0.3, 0.7));
+  const glm::vec3 opposite = sky_radiance(sky, sun_direction(2.0 * kQuarter, 0.7));
+  EXPECT_GT(at_sun.x, beside.x);
+  EXPECT_GT(beside.x, opposite.x);
+}
+
+TEST(Sky, BelowTheHorizonIsTheHorizonsColour) {
+  const Sky sky = clear_sky();
+  const glm::vec3 horizon = sky_radiance(sky, {0.6f, -0.8f, 0.0f});
+  expect_near(sky_radiance(sky, {0.3f, -0.4f, -0.7f}), horizon, 1e-6);
+  EXPECT_TRUE(std::isfinite(sky_radiance(sky, {0, 0, -1}).x));
+}
+
+TEST(Sky, CloudsBrightenAndFadeAtTheHorizon) {
+  Sky clear = clear_sky(), cloudy = clear;
+  cloudy.cloud_cover = 1.0;
+  const texture::PerlinNoise noise(cloudy.cloud_seed);
+  double brighter = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double azimuth = 4.0 * kQuarter * i / 200.0;
+    const glm::vec3 high = sun_direction(azimuth, 0.9), low = sun_direction(azimuth, 0.02);
+    brighter += sky_radiance(cloudy, noise, high).x - sky_radiance(clear, noise, high).x;
+    EXPECT_EQ(sky_radiance(cloudy, noise, low), sky_radiance(clear, noise, low));
+  }
+  EXPECT_GT(brighter / 200.0, 0.05);
+}
+
+TEST(Sky, IsFiniteAndNotNegativeForAnySkyAndDirection) {
+  for (int n = 0; n < 3000; ++n) {
+    const auto uniform = [&](int k) { return random_uniform(n, k); };
+    Sky sky;
+    sky.sun_direction = sun_direction(6.3 * uniform(0), kQuarter * (2.0 * uniform(1) - 1.0));
+    sky.zenith = glm::vec3(glm::dvec3(100.0 * uniform(2)));
+    sky.horizon = glm::vec3(uniform(3), 0.0, 100.0 * uniform(4));
+    sky.cloud_cover = n % 3 ? uniform(5) : 1.0;
+    const glm::vec3 direction =
+        sun_direction(6.3 * uniform(6), kQuarter * (2.0 * uniform(7) - 1.0));
+    const glm::vec3 radiance = sky_radiance(sky, direction);
+    for (int c = 0; c < 3; ++c) ASSERT_TRUE(radiance[c] >= 0.0f && radiance[c] < 1e4f) << n;
+  }
+}
+
+}  // namespace
+}  // namespace swell::scene

@@ -1,0 +1,416 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clocale>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "scene/scene_text.h"
+
+namespace swell::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "swell_scene_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  const fs::path& path() const { return path_; }
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  fs::path path_;
+};
+
+std::string load_error(const fs::path& path) {
+  try {
+    load_scene(path);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+constexpr const char* kEveryKey = R"(
+name = "every key"
+[camera]
+eye_m = [1.5, -2, 3.25]
+heading_deg = 90
+pitch_deg = -12.5
+fov_y_deg = 60
+near_m = 0.5
+velocity_mps = [4, 5, 6]
+turn_deg_s = 3
+[sky]
+sun_azimuth_deg = 90.0
+sun_elevation_deg = 60.0
+sun_radiance = [3, 2.5, 2]
+zenith = [0.1, 0.2, 0.3]
+horizon = [0.4, 0.5, 0.6]
+haze_distance_m = 9000
+cloud_cover = 0.75
+cloud_seed = 123456789012345
+exposure = 1.25
+[sea]
+spectrum = false
+patch_lengths_m = [300, 40.5]
+resolution = 256
+amplitude_scale = 1.5
+seed = 42
+gravity_mps2 = 3.7
+centre_m = [10, 20]
+size_m = [500, 600]
+[[sea.sines]]
+amplitude_m = 0.5
+wavelength_m = 30
+to_deg = 45
+phase_deg = 90
+period_s = 4
+[[sea.sines]]
+wavelength_m = 12
+[wind]
+speed_mps = 7.5
+from_deg = 270
+[water]
+refraction_index = 1.34
+body_colour = [0.01, 0.02, 0.03]
+absorption_per_m = [0.5, 0.25, 0.125]
+distortion = 0.1
+lookup_scale = 1
+bump_strength = 2
+uv_noise_amplitude_m = 0.5
+[detail]
+water_triangles = 1500
+terrain_triangles = 2000
+priority = "inverse_distance"
+[terrain]
+metres_per_pixel = 3
+low_m = -5
+high_m = 55
+sea_level_m = 1
+centre_m = [7, 8]
+island_radius_m = 90
+island_height_m = 20
+floor_depth_m = 11
+seed = 99
+)";
+
+TEST(SceneFile, EveryKeyReachesItsField) {
+  const Scene scene = parse_scene(kEveryKey, "test.toml");
+  EXPECT_EQ(scene.name, "every key");
+  EXPECT_EQ(scene.camera.eye_m, glm::dvec3(1.5, -2.0, 3.25));
+  EXPECT_EQ(scene.camera.heading_rad, 90 * kDegree);
+  EXPECT_EQ(scene.camera.pitch_rad, -12.5 * kDegree);
+  EXPECT_EQ(scene.camera.fov_y_rad, 60 * kDegree);
+  EXPECT_EQ(scene.camera.near_m, 0.5);
+  EXPECT_EQ(scene.camera.velocity_mps, glm::dvec3(4, 5, 6));
+  EXPECT_EQ(scene.camera.turn_rad_s, 3 * kDegree);
+  EXPECT_EQ(scene.sky.sun_azimuth_rad, 90 * kDegree);
+  EXPECT_EQ(scene.sky.sun_elevation_rad, 60 * kDegree);
+  EXPECT_EQ(scene.sky.sun_radiance, glm::vec3(3.0f, 2.5f, 2.0f));
+  EXPECT_EQ(scene.sky.zenith, glm::vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(scene.sky.horizon, glm::vec3(0.4f, 0.5f, 0.6f));
+  EXPECT_EQ(scene.sky.haze_distance_m, 9000.0);
+  EXPECT_EQ(scene.sky.cloud_cover, 0.75);
+  EXPECT_EQ(scene.sky.cloud_seed, 123456789012345u);
+  EXPECT_EQ(scene.sky.exposure, 1.25);
+  EXPECT_FALSE(scene.sea.spectrum);
+  EXPECT_EQ(scene.sea.patch_lengths_m, (std::vector<double>{300.0, 40.5}));
+  EXPECT_EQ(scene.sea.resolution, 256);
+  EXPECT_EQ(scene.sea.amplitude_scale, 1.5);
+  EXPECT_EQ(scene.sea.seed, 42u);
+  EXPECT_EQ(scene.sea.gravity_mps2, 3.7);
+  EXPECT_EQ(scene.area.centre_m, glm::dvec2(10, 20));
+  EXPECT_EQ(scene.area.size_m, glm::dvec2(500, 600));
+  ASSERT_EQ(scene.sea.sines.size(), 2u);
+  EXPECT_EQ(scene.sea.sines[0].amplitude_m, 0.5);
+  EXPECT_EQ(scene.sea.sines[0].wavelength_m, 30.0);
+  EXPECT_EQ(scene.sea.sines[0].to_rad, 45 * kDegree);
+  EXPECT_EQ(scene.sea.sines[0].phase_rad, 90 * kDegree);
+  EXPECT_EQ(scene.sea.sines[0].period_s, 4.0);
+  EXPECT_EQ(scene.sea.sines[1].wavelength_m, 12.0);
+  EXPECT_EQ(scene.sea.sines[1].period_s, 0.0);
+  EXPECT_EQ(scene.sea.wind_speed_mps, 7.5);
+  EXPECT_EQ(scene.sea.wind_from_rad, 270 * kDegree);
+  EXPECT_EQ(scene.water.refraction_index, 1.34);
+  EXPECT_EQ(scene.water.body_colour, glm::vec3(0.01f, 0.02f, 0.03f));
+  EXPECT_EQ(scene.water.absorption_per_m, glm::vec3(0.5f, 0.25f, 0.125f));
+  EXPECT_EQ(scene.water.distortion, 0.1);
+  EXPECT_EQ(scene.water.lookup_scale, 1.0);
+  EXPECT_EQ(scene.water.bump_strength, 2.0);
+  EXPECT_EQ(scene.water.uv_noise_amplitude, 0.5);
+  EXPECT_EQ(scene.detail.water_triangles, 1500);
+  EXPECT_EQ(scene.detail.terrain_triangles, 2000);
+  EXPECT_TRUE(scene.detail.inverse_distance_priority);
+  ASSERT_TRUE(scene.terrain.has_value());
+  EXPECT_TRUE(scene.terrain->height_image.empty());
+  EXPECT_EQ(scene.terrain->metres_per_pixel, 3.0);
+  EXPECT_EQ(scene.terrain->low_m, -5.0);
+  EXPECT_EQ(scene.terrain->high_m, 55.0);
+  EXPECT_EQ(scene.terrain->sea_level_m, 1.0);
+  EXPECT_EQ(scene.terrain->centre_m, glm::dvec2(7, 8));
+  EXPECT_EQ(scene.terrain->island_radius_m, 90.0);
+  EXPECT_EQ(scene.terrain->island_height_m, 20.0);
+  EXPECT_EQ(scene.terrain->floor_depth_m, 11.0);
+  EXPECT_EQ(scene.terrain->seed, 99u);
+}
+
+TEST(SceneFile, SunDirectionFollowsFromTheAngles) {
+  const Scene scene = parse_scene(kEveryKey, "test.toml");  // east, 60 degrees up
+  EXPECT_NEAR(scene.sky.sun_direction.x, 0.5, 1e-7);
+  EXPECT_NEAR(scene.sky.sun_direction.y, 0.0, 1e-7);
+  EXPECT_NEAR(scene.sky.sun_direction.z, 0.8660254, 1e-7);
+}
+
+TEST(SceneFile, EmptyFileIsTheDefaultsUnderTheFilesName) {
+  Scene expected;
+  expected.name = "calm";
+  Scene scene = parse_scene("", "folder/calm.toml");
+  EXPECT_NEAR(scene.sky.sun_direction.z, 0.5, 1e-7);  // 30 degrees up
+  expected.sky.sun_direction = scene.sky.sun_direction;
+  EXPECT_EQ(differences(scene, expected), "");
+}
+
+TEST(SceneFile, EmptyTerrainTableIsTheDefaultIsland) {
+  EXPECT_TRUE(parse_scene("[terrain]\n", "test.toml").terrain.has_value());
+  EXPECT_FALSE(parse_scene("[sea]\n", "test.toml").terrain.has_value());
+}
+
+TEST(SceneFile, DumpComesBackAsTheSameScene) {
+  const Scene scene = parse_scene(kEveryKey, "test.toml");
+  const Scene again = parse_scene(dump_scene(scene), "dump.toml");
+  EXPECT_EQ(differences(scene, again), "");
+}
+
+TEST(SceneFile, DumpOfTheDefaultsIsReadable) {
+  const std::string dump = dump_scene(parse_scene("", "calm.toml"));
+  EXPECT_NE(dump.find("name = \"calm\"\n"), std::string::npos) << dump;
+  EXPECT_NE(dump.find("\n[camera]\neye_m = [0.0, 0.0, 10.0]\n"), std::string::npos) << dump;
+  EXPECT_NE(dump.find("\nfov_y_deg = 50.0\n"), std::string::npos) << dump;
+  EXPECT_NE(dump.find("\nzenith = [0.1, 0.25, 0.6]\n"), std::string::npos) << dump;
+  EXPECT_EQ(dump.find("[terrain]"), std::string::npos) << dump;
+}
+
+TEST(SceneFile, DumpEscapesText) {
+  Scene scene;
+  scene.name = "a \"b\" \\ c\n\x01";
+  EXPECT_EQ(parse_scene(dump_scene(scene), "x.toml").name, scene.name);
+}
+
+TEST(SceneFile, WindowsLineEndsAndByteOrderMarkAreFine) {
+  const Scene scene = parse_scene("\xef\xbb\xbf[camera]\r\nnear_m = 0.5\r\n", "test.toml");
+  EXPECT_EQ(scene.camera.near_m, 0.5);
+}
+
+struct Fault {
+  const char* text;
+  const char* message;  // the whole of it
+};
+
+class SceneFileFault : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(SceneFileFault, IsNamedWithPlaceAndAllowedValues) {
+  EXPECT_EQ(error_of(GetParam().text), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, SceneFileFault,
+    ::testing::Values(
+        Fault{"[camera]\nfov_y_deg = 400\n",
+              "test.toml:2: column 13: camera.fov_y_deg, got 400, allowed 1 to 170 deg"},
+        Fault{"[camera]\nnear_m = nan\n",
+              "test.toml:2: column 10: camera.near_m, got nan, allowed 0.01 to 10 m"},
+        Fault{"[camera]\n\nnear_m = -inf\n",
+              "test.toml:3: column 10: camera.near_m, got -inf, allowed 0.01 to 10 m"},
+        Fault{"[camera]\nnear_m = \"near\"\n",
+              "test.toml:2: column 10: camera.near_m, got \"near\", allowed 0.01 to 10 m"},
+        Fault{"[camera]\neye_m = [0, 0]\n",
+              "test.toml:2: column 9: camera.eye_m, got an array of 2 values, allowed 3 numbers, "
+              "each -1000000 to 1000000 m"},
+        Fault{"[camera]\neye_m = [0, 0, 2e6]\n",
+              "test.toml:2: column 16: camera.eye_m[2], got 2000000, allowed 3 numbers, each "
+              "-1000000 to 1000000 m"},
+        Fault{"[camera]\neye_m = [0, 0, true]\n",
+              "test.toml:2: column 16: camera.eye_m[2], got true, allowed 3 numbers, each -1000000 "
+              "to 1000000 m"},
+        Fault{"[detail]\nwater_triangles = 1\n",
+              "test.toml:2: column 19: detail.water_triangles, got 1, allowed an integer, 2 to "
+              "1000000"},
+        Fault{"[detail]\nwater_triangles = -30000\n",
+              "test.toml:2: column 19: detail.water_triangles, got -30000, allowed an integer, 2 "
+              "to 1000000"},
+        Fault{"[detail]\nwater_triangles = 100.5\n",
+              "test.toml:2: column 19: detail.water_triangles, got 100.5, allowed an integer, 2 "
+              "to 1000000"},
+        Fault{"[detail]\npriority = \"size\"\n",
+              "test.toml:2: column 12: detail.priority, got \"size\", allowed \"projected_size\" "
+              "or \"inverse_distance\""},
+        Fault{"[sea]\nresolution = 100\n",
+              "test.toml:2: column 14: sea.resolution, got 100, allowed a power of two, 16 to 512"},
+        Fault{"[sea]\nspectrum = 1\n",
+              "test.toml:2: column 12: sea.spectrum, got 1, allowed true or false"},
+        Fault{"[sea]\npatch_lengths_m = [10, 20]\n",
+              "test.toml:2: column 19: sea.patch_lengths_m, got [10, 20], allowed lengths that go "
+              "down"},
+        Fault{"[sea]\npatch_lengths_m = []\n",
+              "test.toml:2: column 19: sea.patch_lengths_m, got an array of 0 values, allowed 1 to "
+              "4 numbers, each 0.5 to 50000 m"},
+        Fault{"[[sea.sines]]\nperiod_s = 0.01\n",
+              "test.toml:2: column 12: sea.sines.period_s, got 0.01, allowed 0 or 0.05 to 1000 s"},
+        Fault{"[sea.sines]\namplitude_m = 1\n",
+              "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
+              "[[sea.sines]]"},
+        Fault{"sea = 3\n", "test.toml:1: column 7: sea, got 3, allowed a table"},
+        Fault{"name = 1979-05-27\n",
+              "test.toml:1: column 8: name, got a date or time, allowed text of at most 200 "
+              "bytes"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    UnknownKeys, SceneFileFault,
+    ::testing::Values(
+        Fault{"[camera]\nfov_deg = 50\n",
+              "test.toml:2: column 1: unknown key, got 'camera.fov_deg', allowed "
+              "'camera.fov_y_deg' (the nearest) and the others of docs/scene.md"},
+        Fault{"[camrea]\nnear_m = 1\n",
+              "test.toml:1: column 2: unknown key, got 'camrea', allowed 'camera' (the nearest) "
+              "and the others of docs/scene.md"},
+        Fault{"[wind]\nspeed_kn = 3\n",
+              "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed "
+              "'wind.speed_mps' (the nearest) and the others of docs/scene.md"},
+        Fault{"[[sea.sines]]\namplitud_m = 3\n",
+              "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m', allowed "
+              "'sea.sines.amplitude_m' (the nearest) and the others of docs/scene.md"},
+        Fault{"\"na\\nme\" = 3\n",
+              "test.toml:1: column 1: unknown key, got 'na me', allowed 'name' (the nearest) and "
+              "the others of docs/scene.md"}));
+
+TEST(SceneFile, TheFirstOfSeveralFaultsIsTheOneNamed) {
+  EXPECT_TRUE(error_of("[water]\nlookup_scale = 7\n[camera]\nnear_m = 77\n")
+                  .starts_with("test.toml:2: column 16: water.lookup_scale, got 7,"));
+}
+
+TEST(SceneFile, SyntaxErrorsHaveTheirPlace) {
+  const auto starts = [](const std::string& text, const std::string& start) {
+    const std::string error = error_of(text);
+    EXPECT_TRUE(error.starts_with(start)) << error;
+    EXPECT_TRUE(error.ends_with(", allowed TOML 1.0")) << error;
+  };
+  starts("[camera]\nnear_m = 1\nnear_m = 1\n", "test.toml:3: column ");  // twice
+  starts("[camera]\nnear_m = 1e999\n", "test.toml:2: column ");
+  starts("[camera]\nnear_m = \n", "test.toml:2: column ");
+  starts("[camera]\n[camera]\n", "test.toml:2: column ");
+  starts("name = \"\xff\"\n", "test.toml:1: column ");  // not UTF-8
+  starts("name = 'open\n", "test.toml:1: column ");
+  starts(std::string("name = 'a\0b'\n", 13), "test.toml:1: column ");
+}
+
+TEST(SceneFile, DeepNestingIsRefusedWithItsLine) {
+  const std::string message =
+      "test.toml:2: column 1: syntax error, got nesting too deep to be a scene, allowed 16 levels";
+  std::string dots = "a";
+  for (int i = 0; i < 10000; ++i) dots += ".a";
+  EXPECT_EQ(error_of("\n" + dots + " = 1\n"), message);
+  EXPECT_EQ(error_of("\n[" + dots + "]\n"), message);
+  EXPECT_EQ(error_of("\na = " + std::string(10000, '[')), message);
+  std::string tables = "a = ";
+  for (int i = 0; i < 10000; ++i) tables += "{a = ";
+  EXPECT_EQ(error_of("\n" + tables), message);
+  EXPECT_EQ(error_of("# a comment\n" + dots + " = \"\"\"\n\n\"\"\"\n"), message);
+}
+
+TEST(SceneFile, DotsAndBracketsInTextAndCommentsAreNoNesting) {
+  const std::string many = "................[[[[[[[[[[[[[[[[[[[[[[[[{{{{{{{{{{{{{{{{{{{{{{{";
+  EXPECT_EQ(error_of("# \"" + many + "\nname = \"\\\"" + many + "\"  # '" + many + "\n"), "");
+  EXPECT_EQ(error_of("name = '''\n" + many + "'\n'''\n"), "");
+}
+
+TEST(SceneFile, HugeFilesAreRefused) {
+  const TemporaryFolder folder;
+  const std::string huge(100u << 20, '#');
+  const std::string message =
+      ":1: column 1: scene file, got more than 1048576 bytes, allowed 1048576";
+  const fs::path path = folder.write("huge.toml", huge);
+  EXPECT_EQ(load_error(path), path.string() + message);
+  EXPECT_EQ(error_of(std::string(1u << 20, '#')), "");
+}
+
+TEST(SceneFile, FilesThatAreNotThereOrNotFilesAreRefused) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path().string();
+  EXPECT_EQ(load_error(path), path + ": scene file, got a directory, allowed a readable TOML file");
+  EXPECT_EQ(load_error(path + "/none.toml"),
+            path +
+                "/none.toml: scene file, got 'No such file or directory', allowed a readable "
+                "TOML file");
+  EXPECT_EQ(load_error("/dev/null"),
+            "/dev/null: scene file, got a special file, allowed a readable TOML file");
+}
+
+TEST(SceneFile, PicturePathsAreRelativeToTheSceneFile) {
+  const TemporaryFolder folder;
+  folder.write("heights.png", "any");
+  const fs::path path = folder.write("a.toml", "[terrain]\nheight_image = \"./heights.png\"\n");
+  const Scene scene = load_scene(path);
+  EXPECT_EQ(scene.terrain->height_image, folder.path() / "heights.png");
+  EXPECT_EQ(differences(parse_scene(dump_scene(scene), "elsewhere/b.toml"), scene), "");
+}
+
+TEST(SceneFile, PicturesThatAreNotThereAreNamedWithTheLineThatNamesThem) {
+  const TemporaryFolder folder;
+  const std::string prefix = ":2: column 16: terrain.height_image, got \"";
+  const std::string allowed = ", allowed a readable picture file";
+  const fs::path a = folder.write("a.toml", "[terrain]\nheight_image = \"none.png\"\n");
+  EXPECT_EQ(load_error(a), a.string() + prefix + (folder.path() / "none.png").string() +
+                               "\" (No such file or directory)" + allowed);
+  const fs::path b = folder.write("b.toml", "[terrain]\nheight_image = \"..\"\n");
+  EXPECT_NE(load_error(b).find("(not a file)" + allowed), std::string::npos) << load_error(b);
+}
+
+TEST(SceneFile, MessagesAreOneShortLine) {
+  const std::string error = error_of("\"" + std::string(5000, 'k') + "\\u00e4\\n\" = 1\n");
+  EXPECT_LT(error.size(), 500u);
+  EXPECT_EQ(std::ranges::count(error, '\n'), 0);
+  EXPECT_FALSE(error.empty());
+}
+
+TEST(SceneFile, NumbersDoNotDependOnTheLocale) {
+  const TemporaryFolder folder;  // Debian's minimal image has no comma locale: compile one
+  const std::string locale = folder.path().string() + "/de_DE.UTF-8";
+  const std::string compile = "localedef -i de_DE -f UTF-8 " + locale + " >/dev/null 2>&1";
+  const bool compiled = std::system(compile.c_str()) == 0;
+  if (compiled) setenv("LOCPATH", folder.path().c_str(), 1);
+  if (!std::setlocale(LC_ALL, "de_DE.UTF-8")) GTEST_SKIP() << "no locale with decimal commas";
+  ASSERT_STREQ(std::localeconv()->decimal_point, ",");
+  const Scene scene = parse_scene("[camera]\nnear_m = 0.5\neye_m = [1.5, 2, 3e-1]\n", "a.toml");
+  const std::string dump = dump_scene(scene);
+  std::setlocale(LC_ALL, "C");
+  EXPECT_EQ(scene.camera.near_m, 0.5);
+  EXPECT_EQ(scene.camera.eye_m, glm::dvec3(1.5, 2.0, 0.3));
+  EXPECT_NE(dump.find("eye_m = [1.5, 2.0, 0.3]"), std::string::npos);
+}
+
+TEST(SceneFile, EveryDeliveredSceneLoadsAndComesBackFromItsDump) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(SWELL_SOURCE_DIR) / "scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++count;
+    const Scene scene = load_scene(entry.path());
+    EXPECT_EQ(scene.name, entry.path().stem().string());
+    EXPECT_EQ(differences(parse_scene(dump_scene(scene), "x.toml"), scene), "") << entry.path();
+  }
+  EXPECT_GE(count, 4);
+}
+
+}  // namespace
+}  // namespace swell::scene

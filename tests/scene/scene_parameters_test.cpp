@@ -1,0 +1,224 @@
+// Properties of the table of parameters on random scene files.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include "math/random.h"
+#include "scene/parameters.h"
+#include "scene/scene_text.h"
+
+namespace swell::scene {
+namespace {
+
+constexpr int kFiles = 10000;
+
+// Random numbers of one file.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t file) : seed_(file) {}
+  double uniform() { return random_uniform(seed_, next_++); }
+  int below(int n) { return static_cast<int>(random_bits(seed_, next_++) % n); }
+
+ private:
+  std::uint64_t seed_, next_ = 0;
+};
+
+std::string number_text(double value) { return fmt::format("{}", value); }
+
+// Inside the range, ends included.
+template <class Object>
+double number_inside(const Parameter<Object>& parameter, Dice& dice) {
+  const int choice = dice.below(10);
+  if (choice == 0) return parameter.low;
+  if (choice == 1) return parameter.high;
+  if (choice == 2 && parameter.zero_too) return 0.0;
+  return parameter.low + dice.uniform() * (parameter.high - parameter.low);
+}
+
+// Outside the range, far or by little, or no number at all.
+template <class Object>
+std::string number_outside(const Parameter<Object>& parameter, Dice& dice) {
+  const double width = parameter.high - parameter.low;
+  const double beyond = width * std::pow(10.0, -9.0 + 12.0 * dice.uniform());
+  switch (dice.below(6)) {
+    case 0:
+      return "nan";
+    case 1:
+      return dice.below(2) ? "inf" : "-inf";
+    case 2:
+      return number_text(std::nextafter(parameter.high, HUGE_VAL));
+    case 3:
+      return number_text(parameter.high + beyond);
+    default:
+      // Below a range that allows 0 too must not mean 0.
+      return number_text(parameter.low - beyond - (parameter.zero_too ? parameter.low : 0.0));
+  }
+}
+
+template <class Object>
+std::string list_text(const Parameter<Object>& parameter, Dice& dice, bool inside) {
+  const int spread = parameter.count_high - parameter.count_low;
+  int count = parameter.count_low + (spread ? dice.below(spread + 1) : 0);
+  if (!inside && dice.below(3) == 0) {
+    count = dice.below(2) ? parameter.count_high + 1 : parameter.count_low - 1;
+    inside = true;
+  }
+  std::vector<double> numbers;
+  for (int i = 0; i < count; ++i)
+    numbers.push_back(spread ? parameter.low + dice.uniform() * (parameter.high - parameter.low)
+                             : number_inside(parameter, dice));
+  if (spread) std::ranges::sort(numbers, std::greater{});  // patch lengths go down
+  std::string text;
+  const int wrong = inside ? -1 : dice.below(std::max(count, 1));
+  for (int i = 0; i < static_cast<int>(numbers.size()); ++i)
+    text +=
+        (i ? ", " : "") + (i == wrong ? number_outside(parameter, dice) : number_text(numbers[i]));
+  return "[" + text + "]";
+}
+
+template <class Object>
+std::string integer_text(const Parameter<Object>& parameter, Dice& dice, bool inside) {
+  const bool power = parameter.kind == ParameterKind::kPowerOfTwo;
+  if (inside && power) return fmt::format("{}", 16 << dice.below(6));
+  if (inside) return fmt::format("{:.0f}", std::floor(number_inside(parameter, dice)));
+  const char* kWrong[] = {"-1", "9007199254740993", "1.5", "true", "\"2\"", "[2]"};
+  if (power && dice.below(2)) return "100";
+  return kWrong[dice.below(6)];
+}
+
+template <class Object>
+std::string value_text(const Parameter<Object>& parameter, Dice& dice, bool inside) {
+  switch (parameter.kind) {
+    case ParameterKind::kNumber:
+      return inside ? number_text(number_inside(parameter, dice)) : number_outside(parameter, dice);
+    case ParameterKind::kNumbers:
+      return list_text(parameter, dice, inside);
+    case ParameterKind::kInteger:
+    case ParameterKind::kPowerOfTwo:
+      return integer_text(parameter, dice, inside);
+    case ParameterKind::kBoolean:
+      return inside ? (dice.below(2) ? "true" : "false") : (dice.below(2) ? "1" : "\"true\"");
+    case ParameterKind::kChoice:
+      return inside ? fmt::format("\"{}\"", parameter.choices[dice.below(2)]) : "\"other\"";
+    case ParameterKind::kText:
+      return inside ? fmt::format("\"{}\"", std::string(dice.below(201), 'x'))
+                    : fmt::format("\"{}\"", std::string(201, 'x'));
+    case ParameterKind::kPath:
+      return inside ? "\"\"" : "\"/none/heights.png\"";
+  }
+  return {};
+}
+
+struct RandomFile {
+  std::string text;
+  std::string wrong_key;  // as messages name it; empty: none
+};
+
+// About every second key, in random order within its table; the key number `wrong` of all keys
+// (negative: none) has a value outside its range.
+RandomFile random_file(Dice& dice, int wrong) {
+  RandomFile file;
+  std::map<std::string, std::string> sections;
+  int index = 0;
+  for (const auto& parameter : scene_parameters()) {
+    const bool is_wrong = index++ == wrong;
+    if (!is_wrong && dice.below(2)) continue;
+    if (is_wrong) file.wrong_key = parameter.key;
+    const std::string key(parameter.key);
+    const std::size_t dot = key.find('.');
+    const std::string section = dot == std::string::npos ? "" : key.substr(0, dot);
+    const std::string line =
+        fmt::format("{} = {}\n", key.substr(dot + 1), value_text(parameter, dice, !is_wrong));
+    std::string& lines = sections[section];
+    lines = dice.below(2) ? line + lines : lines + line;
+  }
+  for (const auto& [section, lines] : sections)
+    file.text += (section.empty() ? "" : "[" + section + "]\n") + lines;
+  const auto sines = sine_parameters();
+  const int wrong_sine = wrong - index;
+  for (int n = dice.below(3) + (wrong_sine >= 0); n > 0; --n) {
+    file.text += "[[sea.sines]]\n";
+    for (int i = 0; i < static_cast<int>(sines.size()); ++i) {
+      const bool is_wrong = n == 1 && i == wrong_sine;
+      if (is_wrong) file.wrong_key = fmt::format("sea.sines.{}", sines[i].key);
+      file.text += fmt::format("{} = {}\n", sines[i].key, value_text(sines[i], dice, !is_wrong));
+    }
+  }
+  return file;
+}
+
+TEST(SceneParameters, RandomFilesInsideTheRangesAreAccepted) {
+  for (int n = 0; n < kFiles; ++n) {
+    Dice dice(n);
+    const std::string text = random_file(dice, -1).text;
+    ASSERT_EQ(error_of(text), "") << text;
+  }
+}
+
+TEST(SceneParameters, RandomScenesComeBackFromTheirDump) {
+  for (int n = 0; n < 1000; ++n) {
+    Dice dice(n);
+    const std::string text = random_file(dice, -1).text;
+    const Scene scene = parse_scene(text, "a.toml");
+    const Scene again = parse_scene(dump_scene(scene), "b.toml");
+    ASSERT_EQ(differences(scene, again), "") << text;
+  }
+}
+
+TEST(SceneParameters, RandomFilesWithOneValueOutsideAreRefusedByItsName) {
+  const int keys = static_cast<int>(scene_parameters().size() + sine_parameters().size());
+  for (int n = 0; n < kFiles; ++n) {
+    Dice dice(n);
+    const RandomFile file = random_file(dice, n % keys);
+    const std::string error = error_of(file.text);
+    ASSERT_TRUE(error.starts_with("test.toml:")) << error << "\n" << file.text;
+    ASSERT_NE(error.find(": " + file.wrong_key), std::string::npos) << error << "\n" << file.text;
+    ASSERT_NE(error.find(", allowed "), std::string::npos) << error;
+  }
+}
+
+TEST(SceneParameters, TheSeaTakesWhatTheRangesAllow) {
+  for (int n = 0; n < 40; ++n) {
+    Dice dice(n);
+    const std::string text = random_file(dice, -1).text;
+    ocean::SeaDescription sea = parse_scene(text, "a.toml").sea;
+    sea.resolution = 16;
+    EXPECT_NO_THROW(ocean::Sea{sea}) << text;
+  }
+}
+
+TEST(SceneParameters, DefaultsLieInsideTheirRanges) {
+  Scene scene;
+  scene.terrain.emplace();
+  EXPECT_EQ(error_of(dump_scene(scene)), "");
+}
+
+TEST(SceneParameters, KeysAreUniqueAndExplained) {
+  std::set<std::string_view> keys;
+  for (const auto& parameter : scene_parameters()) {
+    EXPECT_TRUE(keys.insert(parameter.key).second) << parameter.key;
+    EXPECT_FALSE(parameter.meaning.empty()) << parameter.key;
+    EXPECT_LE(parameter.low, parameter.high) << parameter.key;
+    EXPECT_TRUE(std::isfinite(parameter.low) && std::isfinite(parameter.high)) << parameter.key;
+  }
+}
+
+// Values whose decimal text and radians are hard to bring together.
+TEST(SceneParameters, AnglesComeBackFromTheirDumpBitByBit) {
+  for (int n = 0; n < 2000; ++n) {
+    const double deg = -360.0 + 720.0 * random_uniform(5, n);
+    const std::string text = fmt::format("[camera]\nheading_deg = {}\n", deg);
+    const Scene scene = parse_scene(text, "a.toml");
+    const Scene again = parse_scene(dump_scene(scene), "a.toml");
+    ASSERT_EQ(scene.camera.heading_rad, again.camera.heading_rad) << text;
+  }
+}
+
+}  // namespace
+}  // namespace swell::scene

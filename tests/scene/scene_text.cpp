@@ -1,0 +1,93 @@
+#include "scene/scene_text.h"
+
+namespace swell::scene {
+namespace {
+
+template <class T>
+void compare(const char* name, const T& a, const T& b, std::string& list) {
+  if (!(a == b)) list += std::string(name) + "\n";
+}
+
+#define SWELL_COMPARE(FIELD) compare(#FIELD, a.FIELD, b.FIELD, list)
+
+void compare_sines(const ocean::SineWave& a, const ocean::SineWave& b, std::string& list) {
+  SWELL_COMPARE(amplitude_m);
+  SWELL_COMPARE(wavelength_m);
+  SWELL_COMPARE(to_rad);
+  SWELL_COMPARE(phase_rad);
+  SWELL_COMPARE(period_s);
+}
+
+void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, std::string& list) {
+  SWELL_COMPARE(height_image);
+  SWELL_COMPARE(metres_per_pixel);
+  SWELL_COMPARE(low_m);
+  SWELL_COMPARE(high_m);
+  SWELL_COMPARE(sea_level_m);
+  SWELL_COMPARE(centre_m);
+  SWELL_COMPARE(island_radius_m);
+  SWELL_COMPARE(island_height_m);
+  SWELL_COMPARE(floor_depth_m);
+  SWELL_COMPARE(seed);
+}
+
+}  // namespace
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_scene(text, "test.toml");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string differences(const Scene& a, const Scene& b) {
+  std::string list;
+  SWELL_COMPARE(name);
+  SWELL_COMPARE(camera.eye_m);
+  SWELL_COMPARE(camera.heading_rad);
+  SWELL_COMPARE(camera.pitch_rad);
+  SWELL_COMPARE(camera.fov_y_rad);
+  SWELL_COMPARE(camera.near_m);
+  SWELL_COMPARE(camera.velocity_mps);
+  SWELL_COMPARE(camera.turn_rad_s);
+  SWELL_COMPARE(sky.sun_azimuth_rad);
+  SWELL_COMPARE(sky.sun_elevation_rad);
+  SWELL_COMPARE(sky.sun_direction);
+  SWELL_COMPARE(sky.sun_radiance);
+  SWELL_COMPARE(sky.zenith);
+  SWELL_COMPARE(sky.horizon);
+  SWELL_COMPARE(sky.haze_distance_m);
+  SWELL_COMPARE(sky.cloud_cover);
+  SWELL_COMPARE(sky.cloud_seed);
+  SWELL_COMPARE(sky.exposure);
+  SWELL_COMPARE(sea.spectrum);
+  SWELL_COMPARE(sea.wind_speed_mps);
+  SWELL_COMPARE(sea.wind_from_rad);
+  SWELL_COMPARE(sea.amplitude_scale);
+  SWELL_COMPARE(sea.gravity_mps2);
+  SWELL_COMPARE(sea.seed);
+  SWELL_COMPARE(sea.resolution);
+  SWELL_COMPARE(sea.patch_lengths_m);
+  SWELL_COMPARE(area.centre_m);
+  SWELL_COMPARE(area.size_m);
+  SWELL_COMPARE(water.refraction_index);
+  SWELL_COMPARE(water.body_colour);
+  SWELL_COMPARE(water.absorption_per_m);
+  SWELL_COMPARE(water.distortion);
+  SWELL_COMPARE(water.lookup_scale);
+  SWELL_COMPARE(water.bump_strength);
+  SWELL_COMPARE(water.uv_noise_amplitude);
+  SWELL_COMPARE(detail.water_triangles);
+  SWELL_COMPARE(detail.terrain_triangles);
+  SWELL_COMPARE(detail.inverse_distance_priority);
+  SWELL_COMPARE(terrain.has_value());
+  SWELL_COMPARE(sea.sines.size());
+  if (a.terrain && b.terrain) compare_terrains(*a.terrain, *b.terrain, list);
+  for (std::size_t i = 0; i < std::min(a.sea.sines.size(), b.sea.sines.size()); ++i)
+    compare_sines(a.sea.sines[i], b.sea.sines[i], list);
+  return list;
+}
+
+}  // namespace swell::scene

@@ -1,0 +1,280 @@
+#include "scene/terrain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include "math/random.h"
+#include "texture/image_io.h"
+
+namespace swell::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TerrainImage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "swell_terrain_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
+
+  // A float image of one channel.
+  fs::path write_exr(const std::string& name, int width, int height,
+                     std::vector<float> pixels) const {
+    const texture::ImageF image{width, height, 1, std::move(pixels)};
+    texture::write_file(folder_ / name, texture::encode_image(image, ".exr"));
+    return folder_ / name;
+  }
+
+  static std::string error_of(const TerrainDescription& description) {
+    try {
+      build_terrain(description);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(TerrainImage, GreyLevelsGoFromLowToHighAboveTheSeaLevel) {
+  // Binary PGM of 2 x 2: top row black and white, bottom row 51 and 102 of 255.
+  const fs::path path = write("a.pgm", std::string("P5\n2 2\n255\n\x00\xff\x33\x66", 15));
+  const Terrain terrain = build_terrain({.height_image = path,
+                                         .metres_per_pixel = 10.0,
+                                         .low_m = -20.0,
+                                         .high_m = 80.0,
+                                         .sea_level_m = 5.0,
+                                         .centre_m = {100.0, 200.0}});
+  ASSERT_EQ(terrain.samples, 2);
+  EXPECT_EQ(terrain.size_m(), 10.0);
+  EXPECT_EQ(terrain.min_world, glm::dvec2(95.0, 195.0));
+  const std::vector<float> expected = {-5.0f, 15.0f, -25.0f, 75.0f};  // south first
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(terrain.height_m[k], expected[k], 1e-5f) << k;
+  EXPECT_EQ(terrain.lowest_m, terrain.height_m[2]);
+  EXPECT_EQ(terrain.highest_m, terrain.height_m[3]);
+}
+
+TEST_F(TerrainImage, SixteenBitImagesKeepTheirSteps) {
+  // PGM samples over one byte are big-endian: 0, 1, 2 and 65535 of 65535.
+  const fs::path path =
+      write("a.pgm", std::string("P5\n2 2\n65535\n\x00\x00\x00\x01\x00\x02\xff\xff", 21));
+  const Terrain terrain = build_terrain({.height_image = path, .low_m = 0.0, .high_m = 65535.0});
+  const std::vector<float> expected = {2.0f, 65535.0f, 0.0f, 1.0f};
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(terrain.height_m[k], expected[k], 4e-3f) << k;
+}
+
+TEST_F(TerrainImage, FloatImagesHoldMetres) {
+  const fs::path path = write_exr("a.exr", 2, 2, {1.5f, -2.5f, 300.0f, -11999.0f});
+  const Terrain terrain =
+      build_terrain({.height_image = path, .low_m = 7.0, .high_m = 9.0, .sea_level_m = 0.5});
+  EXPECT_EQ(terrain.height_m, (std::vector<float>{299.5f, -11999.5f, 1.0f, -3.0f}));
+}
+
+TEST_F(TerrainImage, OnePixelIsAFlatSquareOfItsSize) {
+  const Terrain terrain =
+      build_terrain({.height_image = write_exr("a.exr", 1, 1, {3.25f}), .metres_per_pixel = 4.0});
+  EXPECT_EQ(terrain.samples, 2);
+  EXPECT_EQ(terrain.size_m(), 4.0);
+  EXPECT_EQ(terrain.height_m, std::vector<float>(4, 3.25f));
+  const glm::dvec2 p(0.3, -0.7);
+  float height = 0.0f;
+  sample_heights(terrain, {&p, 1}, {&height, 1});
+  EXPECT_EQ(height, 3.25f);
+}
+
+TEST_F(TerrainImage, AnySideWorks) {
+  for (const int side : {2, 3, 5, 17, 100}) {
+    std::vector<float> pixels(static_cast<std::size_t>(side) * side);
+    for (std::size_t k = 0; k < pixels.size(); ++k) pixels[k] = static_cast<float>(k);
+    const Terrain terrain =
+        build_terrain({.height_image = write_exr("a.exr", side, side, std::move(pixels))});
+    EXPECT_EQ(terrain.samples, side);
+    EXPECT_EQ(terrain.height_m[0], static_cast<float>(side * (side - 1)));  // south west corner
+  }
+}
+
+TEST_F(TerrainImage, ImagesThatAreNotSquareAreRefused) {
+  const fs::path path = write_exr("a.exr", 3, 2, std::vector<float>(6, 0.0f));
+  EXPECT_EQ(
+      error_of({.height_image = path}),
+      path.string() + ": height image, got 3 x 2 pixels, allowed a square of 1 to 4096 a side");
+}
+
+TEST_F(TerrainImage, HeightsOutOfRangeAreRefusedWithTheirPixel) {
+  const fs::path path = write_exr("a.exr", 2, 2, {0.0f, 0.0f, 0.0f, 12001.0f});
+  EXPECT_EQ(error_of({.height_image = path}),
+            path.string() + ": height at pixel (1, 1), got 12001, allowed -12000 to 12000 m");
+}
+
+TEST_F(TerrainImage, HeightsThatAreNoNumberAreRefusedWithTheirPixel) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+    const fs::path path = write_exr("a.exr", 2, 2, {0.0f, bad, 0.0f, 0.0f});
+    const std::string error = error_of({.height_image = path});
+    EXPECT_NE(error.find(path.string()), std::string::npos) << error;
+    EXPECT_NE(error.find("1, 0"), std::string::npos) << error;
+  }
+}
+
+TEST_F(TerrainImage, BrokenFilesAreRefusedByName) {
+  const fs::path path = write("a.png", "\x89PNG\r\n\x1a\nrubbish");
+  EXPECT_NE(error_of({.height_image = path}).find(path.string()), std::string::npos);
+  EXPECT_NE(error_of({.height_image = folder_ / "none.png"}).find("none.png"), std::string::npos);
+}
+
+Terrain small_terrain() {
+  // 3 x 3, 2 m apart, from (10, 20): heights i + 10 j, but 100 in the middle.
+  Terrain terrain{.min_world = {10.0, 20.0}, .spacing_m = 2.0, .samples = 3};
+  terrain.height_m = {0, 1, 2, 10, 100, 12, 20, 21, 22};
+  return terrain;
+}
+
+float height_at(const Terrain& terrain, glm::dvec2 p) {
+  float height = 0.0f;
+  sample_heights(terrain, {&p, 1}, {&height, 1});
+  return height;
+}
+
+TEST(TerrainHeights, AreBilinearBetweenSamples) {
+  const Terrain terrain = small_terrain();
+  EXPECT_EQ(height_at(terrain, {10, 20}), 0.0f);
+  EXPECT_EQ(height_at(terrain, {12, 22}), 100.0f);
+  EXPECT_EQ(height_at(terrain, {14, 24}), 22.0f);
+  EXPECT_EQ(height_at(terrain, {11, 20}), 0.5f);
+  EXPECT_EQ(height_at(terrain, {10, 20.5}), 2.5f);
+  EXPECT_EQ(height_at(terrain, {11, 21}), 27.75f);   // (0 + 1 + 10 + 100) / 4
+  EXPECT_EQ(height_at(terrain, {13.5, 22}), 34.0f);  // 100 + (12 - 100) 3 / 4
+}
+
+TEST(TerrainHeights, AreThoseOfTheBorderOutside) {
+  const Terrain terrain = small_terrain();
+  EXPECT_EQ(height_at(terrain, {-1e9, -1e9}), 0.0f);
+  EXPECT_EQ(height_at(terrain, {1e300, 20}), 2.0f);
+  EXPECT_EQ(height_at(terrain, {12, 1e6}), 21.0f);
+  EXPECT_EQ(height_at(terrain, {9, 23}), 15.0f);
+}
+
+TEST(TerrainHeights, AreTheSameOnManyThreads) {
+  const Terrain terrain = build_terrain({});
+  std::vector<glm::dvec2> points;
+  for (int n = 0; n < 20000; ++n)
+    points.push_back(1000.0 * glm::dvec2(random_uniform(1, 2 * n), random_uniform(1, 2 * n + 1)) -
+                     500.0);
+  std::vector<float> alone(points.size());
+  sample_heights(terrain, points, alone);
+  std::vector<std::vector<float>> together(4, std::vector<float>(points.size()));
+  std::vector<std::thread> threads;
+  for (auto& heights : together)
+    threads.emplace_back([&] { sample_heights(terrain, points, heights); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& heights : together) EXPECT_EQ(heights, alone);
+}
+
+TEST(TerrainSlopes, AreCentralDifferences) {
+  const Terrain terrain = small_terrain();
+  std::vector<float> x(9), y(9);
+  terrain_slopes(terrain, x, y);
+  EXPECT_EQ(x, (std::vector<float>{0.5f, 0.5f, 0.5f, 45.0f, 0.5f, -44.0f, 0.5f, 0.5f, 0.5f}));
+  EXPECT_EQ(y, (std::vector<float>{5.0f, 49.5f, 5.0f, 5.0f, 5.0f, 5.0f, 5.0f, -39.5f, 5.0f}));
+}
+
+// Share of the samples whose height lies in [low, high].
+double share(const Terrain& terrain, float low, float high) {
+  const auto inside = [&](float h) { return h >= low && h <= high; };
+  return static_cast<double>(std::ranges::count_if(terrain.height_m, inside)) /
+         static_cast<double>(terrain.height_m.size());
+}
+
+class Island : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  Terrain terrain_ = build_terrain({.seed = GetParam()});
+};
+
+TEST_P(Island, HasLandLagoonAndDeepFloor) {
+  EXPECT_GT(share(terrain_, 0.0f, 1e9f), 0.08);
+  EXPECT_GT(share(terrain_, -4.0f, -1.0f), 0.12);
+  EXPECT_GT(share(terrain_, -14.0f, -13.9f), 0.2);
+  EXPECT_EQ(terrain_.lowest_m, -14.0f);
+  EXPECT_GT(terrain_.highest_m, 20.0f);
+  EXPECT_LT(terrain_.highest_m, 60.0f);
+}
+
+TEST_P(Island, LiesInTheMiddleWithinItsFloor) {
+  const int n = terrain_.samples;
+  for (int k = 0; k < n; ++k) {
+    for (const std::size_t border : {k, (n - 1) * n + k, k * n, k * n + n - 1})
+      ASSERT_EQ(terrain_.height_m[border], -14.0f);
+  }
+  const glm::dvec2 middle = terrain_.min_world + 0.5 * terrain_.size_m();
+  EXPECT_NEAR(middle.x, 0.0, 1e-9);
+  EXPECT_NEAR(middle.y, 0.0, 1e-9);
+  EXPECT_GT(height_at(terrain_, {0, 0}), 5.0f);
+}
+
+// Walking out from the middle, every direction meets a beach, then a belt of shallow water.
+TEST_P(Island, IsRingedByShallowWater) {
+  for (int k = 0; k < 64; ++k) {
+    const double angle = 2.0 * 3.14159265358979 * k / 64.0;
+    const glm::dvec2 direction(std::cos(angle), std::sin(angle));
+    double shore = 0.0, shallow = 0.0;
+    for (double r = 500.0; r > 0.0 && shore == 0.0; r -= 0.5) {
+      const float height = height_at(terrain_, r * direction);
+      if (height > 2.0f) shore = r;
+      if (height >= -4.0f && height <= -0.5f) shallow += 0.5;
+    }
+    EXPECT_GT(shore, 60.0) << angle;
+    EXPECT_LT(shore, 300.0) << angle;
+    EXPECT_GT(shallow, 40.0) << angle;
+  }
+}
+
+TEST_P(Island, HasGentleBeaches) {
+  std::vector<float> x(terrain_.height_m.size()), y(x);
+  terrain_slopes(terrain_, x, y);
+  std::vector<float> slopes;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (std::abs(terrain_.height_m[k]) < 1.0f) slopes.push_back(std::hypot(x[k], y[k]));
+  std::ranges::sort(slopes);
+  ASSERT_FALSE(slopes.empty());
+  EXPECT_GT(slopes[slopes.size() / 2], 1.0f / 40.0f);
+  EXPECT_LT(slopes[slopes.size() / 2], 1.0f / 15.0f);
+  EXPECT_LT(slopes[slopes.size() * 9 / 10], 1.0f / 7.0f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Island, ::testing::Values(0, 1, 3));
+
+TEST(IslandShape, IsAFunctionOfTheSeed) {
+  EXPECT_EQ(build_terrain({}).height_m, build_terrain({}).height_m);
+  EXPECT_NE(build_terrain({.seed = 3}).height_m, build_terrain({.seed = 4}).height_m);
+}
+
+TEST(IslandShape, IsFiniteAtTheEndsOfTheRanges) {
+  struct Ends {
+    double radius, height, depth;
+  };
+  for (const Ends& ends : {Ends{5, 5000, 0.5}, {5, 0, 10000}, {20000, 0, 0.5}}) {
+    const Terrain terrain = build_terrain({.island_radius_m = ends.radius,
+                                           .island_height_m = ends.height,
+                                           .floor_depth_m = ends.depth});
+    EXPECT_EQ(terrain.lowest_m, static_cast<float>(-ends.depth));
+    EXPECT_GT(terrain.highest_m, 0.0f);
+    EXPECT_LT(terrain.highest_m, 2.0 * ends.height + 10.0);  // false for NaN
+  }
+}
+
+}  // namespace
+}  // namespace swell::scene
