@@ -1,0 +1,63 @@
+#include "apps/view/camera_controls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/elementary.h"
+
+namespace swell::view {
+namespace {
+
+constexpr double kLook_rad_px = 0.0025;
+constexpr double kSlowest_mps = 8.0;
+constexpr double kSpeedPerHeight_s = 0.5;  // metres a second more for each metre above 16
+constexpr double kFastFactor = 6.0;
+constexpr double kLongestStep_s = 0.1;
+
+double axis(bool plus, bool minus) { return (plus ? 1.0 : 0.0) - (minus ? 1.0 : 0.0); }
+
+double wrap_heading(double heading_rad) {
+  const double turns = heading_rad / (2.0 * kPi);
+  const double wrapped = (turns - std::floor(turns)) * 2.0 * kPi;
+  return wrapped < 2.0 * kPi ? wrapped : 0.0;
+}
+
+double speed_mps(const CameraPose& pose, bool fast) {
+  const double cruise = std::max(kSlowest_mps, kSpeedPerHeight_s * std::abs(pose.eye_m.z));
+  return fast ? kFastFactor * cruise : cruise;
+}
+
+}  // namespace
+
+bool is_idle(const CameraInput& input) {
+  return axis(input.forward, input.back) == 0.0 && axis(input.right, input.left) == 0.0 &&
+         axis(input.up, input.down) == 0.0 && input.look_x_px == 0.0 && input.look_y_px == 0.0;
+}
+
+CameraPose fly(const CameraPose& pose, const CameraInput& input, double dt_s) {
+  CameraPose next = pose;
+  next.heading_rad = wrap_heading(pose.heading_rad + kLook_rad_px * input.look_x_px);
+  next.pitch_rad = std::clamp(pose.pitch_rad - kLook_rad_px * input.look_y_px, -kPitchLimit_rad,
+                              kPitchLimit_rad);
+
+  const double sin_h = sin(next.heading_rad), cos_h = cos(next.heading_rad);
+  const double sin_p = sin(next.pitch_rad), cos_p = cos(next.pitch_rad);
+  const glm::dvec3 direction =
+      axis(input.forward, input.back) * glm::dvec3(sin_h * cos_p, cos_h * cos_p, sin_p) +
+      axis(input.right, input.left) * glm::dvec3(cos_h, -sin_h, 0.0) +
+      axis(input.up, input.down) * glm::dvec3(0.0, 0.0, 1.0);
+  const double length = glm::length(direction);
+  if (length < 1e-9) return next;
+  const double distance_m = speed_mps(pose, input.fast) * std::clamp(dt_s, 0.0, kLongestStep_s);
+  next.eye_m += direction * (distance_m / length);
+  return next;
+}
+
+CameraPose pose_of(const View& view) {
+  const double horizontal = std::hypot(view.forward.x, view.forward.y);
+  const double pitch_rad = atan2(view.forward.z, horizontal);
+  return {view.eye_world, wrap_heading(atan2(view.forward.x, view.forward.y)),
+          std::clamp(pitch_rad, -kPitchLimit_rad, kPitchLimit_rad)};
+}
+
+}  // namespace swell::view

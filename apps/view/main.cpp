@@ -1,0 +1,62 @@
+// swell-view: flies over a scene in a window.
+#include <optional>
+#include <string>
+
+#include "apps/options.h"
+#include "apps/picture_file.h"
+#include "apps/program.h"
+#include "apps/view/viewer.h"
+
+namespace swell::view {
+namespace {
+
+constexpr int kMostFrames = 10'000'000;
+
+struct Options {
+  apps::FrameSetup setup;
+  int frames = 0;
+  std::string screenshot;
+};
+
+std::optional<Options> parse_options(int argc, char** argv) {
+  Options options;
+  CLI::App app("Flies over a scene in a window; F1 shows the keys.", "swell-view");
+  apps::add_standard_options(app);
+  apps::add_frame_setup(app, options.setup);
+  apps::add_quality_options(app, options.setup.frame);
+  apps::add_integer(app, "--frames", options.frames, 0, kMostFrames,
+                    "Quit after N frames, the k-th (from 0) at k/60 seconds; 0: when closed");
+  app.add_option("--screenshot", options.screenshot,
+                 "Write the last frame before quitting: .png .exr .tif .tiff")
+      ->type_name("FILE");
+  if (!apps::parse_command_line(app, argc, argv)) return std::nullopt;
+  return options;
+}
+
+void view(const Options& options) {
+  apps::select_simd(options.setup.simd);
+  if (!options.screenshot.empty()) apps::check_picture_file(options.screenshot);
+
+  ViewerSettings settings;
+  settings.size = {options.setup.size.width_px, options.setup.size.height_px};
+  settings.threads = options.setup.threads;
+  settings.frames = options.frames;
+  settings.frame = options.setup.frame;
+  settings.frame.keep_linear = apps::stores_linear_light(options.screenshot);
+
+  Viewer viewer(scene::load_scene(options.setup.scene_path), settings);
+  viewer.run();
+  if (options.screenshot.empty()) return;
+  if (viewer.frames_drawn() == 0)
+    throw std::runtime_error("the window was closed before a frame was drawn; no screenshot");
+  apps::write_picture(viewer.picture(), options.screenshot);
+}
+
+}  // namespace
+}  // namespace swell::view
+
+int main(int argc, char** argv) {
+  return swell::apps::run_program([&] {
+    if (const auto options = swell::view::parse_options(argc, argv)) swell::view::view(*options);
+  });
+}

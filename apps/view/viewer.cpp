@@ -1,0 +1,254 @@
+#include "apps/view/viewer.h"
+
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "apps/picture_file.h"
+#include "math/simd_target.h"
+
+namespace swell::view {
+namespace {
+
+constexpr int kSleepWhileHidden_ms = 200;
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+// The first of swell_0001.png, swell_0002.png ... that does not exist in the current folder.
+std::filesystem::path free_screenshot_name() {
+  std::filesystem::path path;
+  int number = 1;
+  do path = fmt::format("swell_{:04d}.png", number++);
+  while (std::filesystem::exists(path));
+  return path;
+}
+
+// The scene's values in place of the zeros that stand for them, so that sliders start there.
+render::FrameOptions resolve(render::FrameOptions frame, const scene::Scene& scene) {
+  if (frame.water_triangles == 0) frame.water_triangles = scene.detail.water_triangles;
+  if (frame.lookup_scale == 0.0) frame.lookup_scale = scene.water.lookup_scale;
+  return frame;
+}
+
+}  // namespace
+
+Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
+    : scene_(scene),
+      settings_(settings),
+      window_("swell - " + scene.name, settings.size),
+      gui_(window_.handle(), window_.renderer()),
+      world_(std::make_unique<render::World>(scene)),
+      workers_(settings.threads),
+      last_frame_start_(Clock::now()) {
+  clock_.by_steps = settings.frames > 0;
+  panel_.waves = wave_choice(scene);
+  panel_.frame = resolve(settings.frame, scene);
+  report_.threads = settings.threads;
+  report_.simd = simd_target_name(current_simd_target());
+  report_.scene_name = scene.name;
+}
+
+// ---- events ----
+
+void Viewer::handle(const SDL_Event& event) {
+  gui_.handle(event);
+  switch (event.type) {
+    case SDL_QUIT:
+      quit_ = true;
+      break;
+    case SDL_KEYDOWN:
+    case SDL_KEYUP:
+      handle_key(event.key);
+      break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+    case SDL_MOUSEMOTION:
+      handle_mouse(event);
+      break;
+    case SDL_WINDOWEVENT:
+      handle_window(event.window);
+      break;
+    case SDL_RENDER_TARGETS_RESET:
+    case SDL_RENDER_DEVICE_RESET:
+      window_.forget_textures();
+      gui_.forget_textures();
+      break;
+    default:
+      break;
+  }
+}
+
+void Viewer::handle_window(const SDL_WindowEvent& event) {
+  if (event.event == SDL_WINDOWEVENT_CLOSE) quit_ = true;
+  if (event.event != SDL_WINDOWEVENT_FOCUS_LOST) return;
+  held_.reset();  // their key-up events go to another window
+  capture_mouse(false);
+}
+
+void Viewer::handle_key(const SDL_KeyboardEvent& key) {
+  const SDL_Scancode place = key.keysym.scancode;
+  const bool is_down = key.type == SDL_KEYDOWN && !gui_.wants_text();
+  if (place >= 0 && place < SDL_NUM_SCANCODES) held_[place] = is_down;
+  if (!is_down || key.repeat != 0) return;
+  if (const auto command = command_for(key.keysym.sym)) run_command(*command);
+}
+
+void Viewer::handle_mouse(const SDL_Event& event) {
+  if (event.type == SDL_MOUSEMOTION) {
+    if (mouse_captured_) look_px_ += glm::dvec2(event.motion.xrel, event.motion.yrel);
+    return;
+  }
+  const bool is_right = event.button.button == SDL_BUTTON_RIGHT;
+  const bool is_left = event.button.button == SDL_BUTTON_LEFT;
+  if (event.type == SDL_MOUSEBUTTONUP) {
+    if (is_right && capture_ends_with_button_) capture_mouse(false);
+  } else if ((is_right || is_left) && !mouse_captured_ && !gui_.wants_mouse()) {
+    capture_mouse(true);
+    capture_ends_with_button_ = is_right;
+  }
+}
+
+void Viewer::capture_mouse(bool capture) {
+  if (capture == mouse_captured_) return;
+  mouse_captured_ = capture;
+  capture_ends_with_button_ = false;
+  SDL_SetRelativeMouseMode(capture ? SDL_TRUE : SDL_FALSE);
+}
+
+void Viewer::run_command(Command command) {
+  switch (command) {
+    case Command::kHelp:
+      show_help_ = !show_help_;
+      break;
+    case Command::kPanel:
+      show_panel_ = !show_panel_;
+      break;
+    case Command::kWireframe:
+      panel_.frame.wireframe = !panel_.frame.wireframe;
+      break;
+    case Command::kFullScreen:
+      window_.toggle_full_screen();
+      break;
+    case Command::kScreenshot:
+      save_screenshot();
+      break;
+    case Command::kPause:
+      panel_.paused = !panel_.paused;
+      break;
+    case Command::kStep:
+      panel_.paused = true;
+      clock_.step_once = true;
+      break;
+    case Command::kResetCamera:
+      pose_.reset();
+      break;
+    case Command::kEscape:
+      if (mouse_captured_)
+        capture_mouse(false);
+      else
+        quit_ = true;
+      break;
+  }
+}
+
+void Viewer::save_screenshot() {
+  try {
+    const std::filesystem::path path = free_screenshot_name();
+    apps::write_picture(target_, path);
+    report_.message = "wrote " + path.string();
+  } catch (const std::exception& e) {  // a full disk must not end the flight
+    report_.message = e.what();
+  }
+}
+
+void Viewer::choose_waves(const WaveChoice& waves) {
+  panel_.waves = waves;
+  rebuilder_.request(with_waves(scene_, waves));
+}
+
+// ---- frames ----
+
+void Viewer::run() {
+  while (turn()) {
+  }
+}
+
+bool Viewer::turn() {
+  SDL_Event event;
+  while (SDL_PollEvent(&event)) handle(event);
+  if (quit_) return false;
+
+  // A run of counted frames draws them all, seen or not.
+  if (settings_.frames == 0 && !window_.is_visible()) {
+    if (SDL_WaitEventTimeout(&event, kSleepWhileHidden_ms)) handle(event);
+    return !quit_;
+  }
+  draw_frame();
+  ++frames_drawn_;
+  if (settings_.frames == 0) wait_for_refresh();
+  return settings_.frames == 0 || frames_drawn_ < settings_.frames;
+}
+
+void Viewer::draw_frame() {
+  const double dt_s = time_since_last_frame_s();
+  if (rebuilder_.swap_if_ready(world_)) report_.message.clear();
+  build_panels();
+  clock_.paused = panel_.paused;
+  if (frames_drawn_ > 0) tick(clock_, dt_s);
+
+  // Draw. Nothing below handles events, so the window's surface stays what it is until shown.
+  const View view = next_view(dt_s);
+  report_.statistics =
+      render::render_frame(*world_, view, clock_.t_s, panel_.frame, workspace_, target_, workers_);
+  picture_time_s_ = clock_.t_s;
+  add_frame(report_.history, report_.statistics.frame_ms);
+
+  // Show.
+  const Clock::time_point drawn = Clock::now();
+  window_.draw_picture(target_);
+  gui_.draw();
+  window_.present();
+  report_.present_ms = Milliseconds(Clock::now() - drawn).count();
+}
+
+double Viewer::time_since_last_frame_s() {
+  const Clock::time_point now = Clock::now();
+  const std::chrono::duration<double> passed = now - last_frame_start_;
+  last_frame_start_ = now;
+  return clock_.by_steps ? 1.0 / kStepsPerSecond : passed.count();
+}
+
+View Viewer::next_view(double dt_s) {
+  const WindowSize size = window_.size_px();
+  CameraInput input = motion_of(held_);
+  input.look_x_px = look_px_.x;
+  input.look_y_px = look_px_.y;
+  look_px_ = glm::dvec2(0.0);
+
+  const scene::Camera& camera = scene_.camera;
+  const View on_path = scene::camera_view(camera, clock_.t_s, size.width_px, size.height_px);
+  if (!pose_ && is_idle(input)) return on_path;
+  pose_ = fly(pose_.value_or(pose_of(on_path)), input, dt_s);
+  return make_view(pose_->eye_m, pose_->heading_rad, pose_->pitch_rad, camera.fov_y_rad,
+                   static_cast<float>(camera.near_m), size.width_px, size.height_px);
+}
+
+void Viewer::build_panels() {
+  report_.t_s = clock_.t_s;
+  report_.rebuilding = rebuilder_.busy();
+  report_.width_px = target_.width_px;
+  report_.height_px = target_.height_px;
+  if (const std::string error = rebuilder_.error(); !error.empty()) report_.message = error;
+
+  gui_.begin_frame();
+  if (show_panel_ && draw_panel(report_, panel_)) choose_waves(panel_.waves);
+  if (show_help_) draw_help();
+  gui_.end_frame();
+}
+
+void Viewer::wait_for_refresh() const {
+  const std::chrono::duration<double> period(1.0 / window_.refresh_rate_hz());
+  std::this_thread::sleep_until(last_frame_start_ + period);
+}
+
+}  // namespace swell::view

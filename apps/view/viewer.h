@@ -1,0 +1,103 @@
+// The viewer: events in, frames out.
+#pragma once
+
+#include <SDL.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/view/camera_controls.h"
+#include "apps/view/gui.h"
+#include "apps/view/keys.h"
+#include "apps/view/panel.h"
+#include "apps/view/sim_clock.h"
+#include "apps/view/window.h"
+#include "apps/view/world_rebuild.h"
+#include "math/parallel.h"
+#include "render/frame.h"
+
+namespace swell::view {
+
+struct ViewerSettings {
+  WindowSize size{1280, 720};
+  int threads = 1;
+  int frames = 0;  // 0: until the window is closed; else frame k is at k/60 s exactly
+  render::FrameOptions frame;
+};
+
+class Viewer {
+ public:
+  // Throws DisplayError, and what render::World throws.
+  Viewer(const scene::Scene& scene, const ViewerSettings& settings);
+
+  // Draws frames until the window is closed or the frames are drawn.
+  void run();
+
+  // One turn of run(): handles the waiting events, then draws a frame if the window can be seen.
+  // False when it is time to end.
+  bool turn();
+
+  void handle(const SDL_Event& event);
+
+  // The last frame drawn; empty before the first one.
+  const render::Target& picture() const { return target_; }
+
+  // For tests and the panel.
+  const SimClock& clock() const { return clock_; }
+  const PanelSettings& panel() const { return panel_; }
+  double picture_time_s() const { return picture_time_s_; }
+  int frames_drawn() const { return frames_drawn_; }
+  bool has_own_camera() const { return pose_.has_value(); }
+  bool is_rebuilding() const { return rebuilder_.busy(); }
+  bool shows_panel() const { return show_panel_; }
+  bool shows_help() const { return show_help_; }
+  const render::World& world() const { return *world_; }
+  Window& window() { return window_; }
+
+  // What a slider of the panel does.
+  void choose_waves(const WaveChoice& waves);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void handle_key(const SDL_KeyboardEvent& key);
+  void handle_mouse(const SDL_Event& event);
+  void handle_window(const SDL_WindowEvent& event);
+  void run_command(Command command);
+  void capture_mouse(bool capture);
+  void save_screenshot();
+
+  double time_since_last_frame_s();
+  View next_view(double dt_s);
+  void build_panels();
+  void draw_frame();
+  void wait_for_refresh() const;
+
+  scene::Scene scene_;  // as loaded
+  ViewerSettings settings_;
+  Window window_;
+  Gui gui_;
+  std::unique_ptr<render::World> world_;
+  WorldRebuilder rebuilder_;
+  Workers workers_;
+  render::Workspace workspace_;
+  render::Target target_;
+
+  SimClock clock_;
+  HeldKeys held_;
+  glm::dvec2 look_px_{0.0};         // mouse motion not yet used
+  std::optional<CameraPose> pose_;  // none: the scene's camera
+  PanelSettings panel_;
+  PanelReport report_;
+  bool show_panel_ = true, show_help_ = false;
+  bool mouse_captured_ = false, capture_ends_with_button_ = false;
+  bool quit_ = false;
+  int frames_drawn_ = 0;
+  double picture_time_s_ = 0.0;
+  Clock::time_point last_frame_start_;
+};
+
+}  // namespace swell::view

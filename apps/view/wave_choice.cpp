@@ -1,0 +1,37 @@
+#include "apps/view/wave_choice.h"
+
+#include "math/elementary.h"
+
+namespace swell::view {
+namespace {
+
+// Three waves of moderate steepness (amplitude 1/60 of the length), fanned about the wind.
+std::vector<ocean::SineWave> waves_with_wind(double wind_from_rad) {
+  const double to_rad = wind_from_rad + kPi;
+  return {{.amplitude_m = 0.9, .wavelength_m = 54.0, .to_rad = to_rad},
+          {.amplitude_m = 0.5, .wavelength_m = 31.0, .to_rad = to_rad + 0.4, .phase_rad = 1.0},
+          {.amplitude_m = 0.3, .wavelength_m = 18.0, .to_rad = to_rad - 0.5, .phase_rad = 2.0}};
+}
+
+}  // namespace
+
+WaveChoice wave_choice(const scene::Scene& scene) {
+  const ocean::SeaDescription& sea = scene.sea;
+  const WaveModel model = sea.sines.empty() ? WaveModel::kSpectrum
+                          : sea.spectrum    ? WaveModel::kBoth
+                                            : WaveModel::kSines;
+  return {model, sea.wind_speed_mps, sea.wind_from_rad};
+}
+
+scene::Scene with_waves(scene::Scene scene, const WaveChoice& choice) {
+  scene.sea.spectrum = choice.model != WaveModel::kSines;
+  scene.sea.wind_speed_mps = choice.wind_speed_mps;
+  scene.sea.wind_from_rad = choice.wind_from_rad;
+  if (choice.model == WaveModel::kSpectrum)
+    scene.sea.sines.clear();
+  else if (scene.sea.sines.empty())
+    scene.sea.sines = waves_with_wind(choice.wind_from_rad);
+  return scene;
+}
+
+}  // namespace swell::view

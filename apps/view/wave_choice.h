@@ -1,0 +1,24 @@
+// What the panel lets one change about the waves, and the scene that results.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace swell::view {
+
+enum class WaveModel { kSpectrum, kSines, kBoth };
+
+struct WaveChoice {
+  WaveModel model = WaveModel::kSpectrum;
+  double wind_speed_mps = 0.0;  // [0, 60]
+  double wind_from_rad = 0.0;
+  bool operator==(const WaveChoice&) const = default;
+};
+
+// What the scene itself says.
+WaveChoice wave_choice(const scene::Scene& scene);
+
+// `scene` with other waves. Explicit waves are kept as the scene has them; a scene without any
+// gets three that run with the wind.
+scene::Scene with_waves(scene::Scene scene, const WaveChoice& choice);
+
+}  // namespace swell::view
