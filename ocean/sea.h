@@ -88,13 +88,14 @@ class Sea {
 
 // Fills `frame` with the sea at time t_s (any finite double; the result depends on nothing else).
 // Allocates nothing once the frame has been filled from a sea of this size. Three patches of
-// 128 x 128: about 0.4 ms on one thread; of 256 x 256: 2 ms.
+// 128 x 128: about 0.2 ms on one thread; of 256 x 256: 1 ms.
 void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers);
 
 // Heights at world points, from the frame's patches (bilinear between samples) and sines.
 // Positions in a patch are rounded to 1/65536 of the sample spacing, so that samples come back
 // exactly and the patches repeat exactly. p_world and height_m have the same length and do not
-// overlap; |p_world| below 1e9 m. May be called from many threads at once.
+// overlap; |p_world| below 1e9 m. May be called from many threads at once. 8 ns a point for three
+// patches.
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m);
 

@@ -69,6 +69,24 @@ TEST(PatchWaves, AreHermitianBitForBit) {
   });
 }
 
+TEST(PatchWaves, MakeARealField) {
+  const int size = 64;
+  const PatchWaves waves = waves_of(size);
+  const FftPlan plan = make_fft_plan(size);
+  std::vector<float> height(static_cast<std::size_t>(size) * size), rest(height.size()), planes;
+  const FftOutput output{height.data(), rest.data()};
+  Workers workers(1);
+  const auto fill = [&](int, int column0, float* re, float* im) {
+    return fill_heights(waves, nullptr, plan, 33.0, column0, re, im);
+  };
+  inverse_fft_2d(plan, fill, {&output, 1}, planes, workers);
+  double real = 0.0, imaginary = 0.0;
+  for (const float h : height) real += h * h;
+  for (const float r : rest) imaginary += r * r;
+  EXPECT_GT(real, 0.1 * size * size);
+  EXPECT_LE(std::sqrt(imaginary / real), 1e-6);
+}
+
 TEST(PatchWaves, HaveNoMeanAndNoNyquistWaves) {
   const WindSea sea = make_wind_sea(15.0, 1.0, kG);
   const auto h = wave_plane(make_patch_waves(sea, {0.0, 100.0}, kLength, 32, 1.0, 1, 0), 3.0);
