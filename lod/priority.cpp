@@ -66,9 +66,12 @@ PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& dom
   view.tan_half_x += request.frustum_margin;
   view.tan_half_y += request.frustum_margin;
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    frame.planes[i] = {planes[i].x, planes[i].y,
-                       std::max(planes[i].z * z.low, planes[i].z * z.high)};
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const glm::vec4& n = planes[i];
+    SWELL_CHECK(std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z),
+                "plane={} normal=({}, {}, {})", i, n.x, n.y, n.z);
+    frame.planes[i] = {n.x, n.y, std::max(n.z * z.low, n.z * z.high)};
+  }
   return frame;
 }
 

@@ -16,12 +16,13 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 Queue::Queue(Order order, int capacity, int node_capacity)
-    : rank_flip_(order == Order::kHighestPriorityFirst ? 0u : ~0u),
+    : capacity_(index(capacity)),
+      rank_flip_(order == Order::kHighestPriorityFirst ? 0u : ~0u),
       tie_flip_(order == Order::kHighestPriorityFirst ? 0u : ~std::uint64_t{0}),
       positions_(index(node_capacity), -1) {
-  for (auto* array : {&nodes_, &x_, &y_, &level_}) array->reserve(index(capacity));
-  keys_.reserve(index(capacity));
-  heap_.reserve(index(capacity));
+  for (auto* array : {&nodes_, &x_, &y_, &level_}) array->reserve(capacity_);
+  keys_.reserve(capacity_);
+  heap_.reserve(capacity_);
   close_range();
 }
 
@@ -35,7 +36,7 @@ void Queue::clear() {
 }
 
 void Queue::insert(const PriorityFrame& frame, int node, int x, int y, int level) {
-  SWELL_DCHECK(!contains(node) && nodes_.size() < nodes_.capacity(), "node={}", node);
+  SWELL_DCHECK(!contains(node) && nodes_.size() < capacity_, "node={}", node);
   const std::size_t position = nodes_.size();
   positions_[index(node)] = static_cast<std::int32_t>(position);
   nodes_.push_back(node);
@@ -45,7 +46,7 @@ void Queue::insert(const PriorityFrame& frame, int node, int x, int y, int level
   keys_.push_back(priority_key(frame, x, y, level));
 
   if (rank(position) >= range_end_) return;
-  if (heap_.size() == heap_.capacity()) return fill_heap();  // throws stale entries out
+  if (heap_.size() == capacity_) return fill_heap();  // throws stale entries out
   heap_.push_back(entry(position));
   std::push_heap(heap_.begin(), heap_.end(), comes_later);
 }

@@ -2,8 +2,8 @@
 // for.
 //
 // Members lie in arrays (for SIMD over all keys); the nearest few also in a heap. "Near" is a
-// range of ranks that grows, by twice the last step, whenever the heap runs dry: a frame that changes
-// a few hundred of 30,000 diamonds never sorts the rest.
+// range of ranks that grows, by twice the last step, whenever the heap runs dry: a frame that
+// changes a few hundred of 30,000 diamonds never sorts the rest.
 #pragma once
 
 #include <cstdint>
@@ -67,6 +67,7 @@ class Queue {
   void fill_heap();
   bool widen_range();
 
+  std::size_t capacity_;
   std::uint32_t rank_flip_;
   std::uint64_t tie_flip_;
   std::vector<std::int32_t> nodes_, x_, y_, level_;

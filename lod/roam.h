@@ -21,9 +21,10 @@ struct Domain {
   int lattice_bits = 10;  // [1, 20]; the deepest triangles have legs of size_m / 2^lattice_bits
 };
 
+// Formulas, and why a child never has more than its parents: lod/priority.h.
 enum class Priority : std::uint8_t {
   kProjectedSize,    // bound of the triangle's size over its nearest distance (default)
-  kInverseDistance,  // the paper's base variant
+  kInverseDistance,  // the paper's base variant: the nearest part to the last level first
 };
 
 struct AdaptRequest {
@@ -65,11 +66,12 @@ class Roam {
   // Algorithm I: the same from the two root triangles.
   AdaptStatistics rebuild(const AdaptRequest& request);
 
-  // Moves the domain's corner (an endless sea follows the camera); the next adapt starts over if
-  // it changed.
+  // Moves the domain's corner (an endless sea follows the camera). The triangulation stays in its
+  // place in the domain, so the next adapt is cheap if the eye keeps its place there too.
   void set_origin(glm::dvec2 min_world);
 
-  // Writes the mesh; vectors keep their capacity.
+  // Writes the mesh; vectors keep their capacity. Neighbours in the list share an edge. Uses
+  // scratch in the tree: not two calls at a time on one Roam.
   void extract_mesh(Mesh& mesh) const;
 
   struct Tree;

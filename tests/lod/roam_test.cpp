@@ -191,6 +191,9 @@ TEST(RoamDeathTest, RefusesWhatItCannotDo) {
   request = from_far_above(10);
   request.min_height_m = 1.0f;
   EXPECT_DEATH(roam.adapt(request), "min_height_m=1");
+  request = from_far_above(10);
+  request.view.forward.y = NAN;
+  EXPECT_DEATH(roam.adapt(request), "normal=\\(nan");
 }
 
 }  // namespace
