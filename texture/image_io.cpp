@@ -210,7 +210,10 @@ std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& e
     refuse_extension(extension, "8-bit pixels", ".png, .tif, .tiff");
   }
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeUInt8);
-  spec.attribute("png:compressionLevel", 3);
+  // Level 1 and libpng's filter "sub" (16): 2.5 times as fast as level 3 with its choice of filter
+  // for a 1280 x 720 picture, and 6 % more bytes.
+  spec.attribute("png:compressionLevel", 1);
+  spec.attribute("png:filter", 16);
   return encode(std::string(format), spec, OIIO::TypeUInt8, image.pixels.data());
 }
 
