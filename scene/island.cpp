@@ -99,6 +99,11 @@ double sea_floor_height(const Profile& p, const texture::PerlinNoise& noise, glm
   return shelf + (-p.floor_depth - shelf) * deep;
 }
 
+double island_height(const Profile& p, const texture::PerlinNoise& noise, glm::dvec2 q) {
+  const double inland = shore_distance(p, noise, q);
+  return inland >= 0.0 ? land_height(p, noise, q, inland) : sea_floor_height(p, noise, q, -inland);
+}
+
 }  // namespace
 
 Terrain build_island(const TerrainDescription& description) {
@@ -112,9 +117,8 @@ Terrain build_island(const TerrainDescription& description) {
   for (int j = 0; j < kIslandSamples; ++j) {
     for (int i = 0; i < kIslandSamples; ++i) {
       const glm::dvec2 q = (glm::dvec2(i, j) * terrain.spacing_m - p.half_size) / p.radius;
-      const double inland = shore_distance(p, noise, q);
-      const double height =
-          inland >= 0.0 ? land_height(p, noise, q, inland) : sea_floor_height(p, noise, q, -inland);
+      const bool corner = p.radius * glm::length(q) >= p.half_size;
+      const double height = corner ? -p.floor_depth : island_height(p, noise, q);
       terrain.height_m.push_back(static_cast<float>(height));
     }
   }

@@ -263,7 +263,7 @@ Rows terrain_rows() {
       SceneRow::plain<std::string>(
           "terrain.height_image", Kind::kPath, SWELL_FIELD(terrain->height_image),
           "square picture of heights, north on top, relative to the scene file; empty: an island "
-          "from noise. EXR, HDR and PFM hold metres; of PNG, PNM and TIFF black is low_m and "
+          "from noise. EXR and HDR hold metres; of PNG, PNM and TIFF black is low_m and "
           "white is high_m"),
       SceneRow::number("terrain.metres_per_pixel", {0.01, 1000, "m"},
                        SWELL_FIELD(terrain->metres_per_pixel), "of the picture"),

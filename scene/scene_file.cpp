@@ -215,9 +215,11 @@ class Reader {
                                const std::string& allowed) const {
     if (const auto* integer = node.as_integer()) {
       const std::int64_t value = integer->get();
-      const double number = static_cast<double>(value);
+      // Not as doubles, which have 2^53 + 1 for 2^53.
+      const auto low = static_cast<std::int64_t>(parameter.low);
+      const auto high = static_cast<std::int64_t>(parameter.high);
       const bool fits = parameter.kind == ParameterKind::kInteger || (value & (value - 1)) == 0;
-      if (number >= parameter.low && number <= parameter.high && fits) return value;
+      if (value >= low && value <= high && fits) return value;
     }
     fail_value(node, path, got_text(node), allowed);
   }

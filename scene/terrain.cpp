@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <string>
@@ -23,8 +22,7 @@ bool holds_metres(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<std::string_view, 3> kMetres = {".exr", ".hdr", ".pfm"};
-  return std::ranges::count(kMetres, extension) > 0;
+  return extension == ".exr" || extension == ".hdr";
 }
 
 [[noreturn]] void fail_pixel(const std::filesystem::path& path, int x, int y, float value,

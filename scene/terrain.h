@@ -19,7 +19,7 @@ class SceneError : public std::runtime_error {
 
 struct TerrainDescription {
   // From a square image (grey or first channel, north on top, at most 4096 x 4096): PNG, PNM and
-  // TIFF have height = low_m + value * (high_m - low_m), EXR, HDR and PFM metres; then minus
+  // TIFF have height = low_m + value * (high_m - low_m), EXR and HDR metres; then minus
   // sea_level_m.
   std::filesystem::path height_image = {};  // empty: islands from noise
   double metres_per_pixel = 2.0;
