@@ -57,6 +57,27 @@ TEST(Options, SizesAndRangesHoldTheirLimits) {
     EXPECT_THROW(parse_frame_range(text), OptionError) << text;
 }
 
+// What --threads 'text' leaves in the value, or 0 if it is refused.
+int parsed_integer(std::string text) {
+  CLI::App app("", "test");
+  int value = 0;
+  add_integer(app, "--threads", value, 1, 256, "");
+  std::string program = "test", option = "--threads";
+  char* argv[] = {program.data(), option.data(), text.data()};
+  try {
+    return parse_command_line(app, 3, argv) ? value : 0;
+  } catch (const OptionError&) {
+    return 0;
+  }
+}
+
+TEST(Options, WholeNumbersHoldTheirLimits) {
+  EXPECT_EQ(parsed_integer("1"), 1);
+  EXPECT_EQ(parsed_integer("256"), 256);
+  for (const char* text : {"0", "257", "-1", "1.5", "1e2", "0x10", "two", "99999999999999999999"})
+    EXPECT_EQ(parsed_integer(text), 0) << text;
+}
+
 TEST(Trace, PlacesStagesInTheRun) {
   Trace trace;
   trace.add_frame(3, 1000.0, 50.0,

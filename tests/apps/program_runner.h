@@ -13,8 +13,8 @@ struct Outcome {
 };
 
 struct Surroundings {
-  long max_file_bytes = -1;     // RLIMIT_FSIZE; -1: none
-  std::string standard_output;  // a path to use instead of the file that fills Outcome::out
+  long max_file_bytes = -1;          // RLIMIT_FSIZE; -1: none
+  std::string standard_output = {};  // a path to use instead of the file that fills Outcome::out
 };
 
 using Arguments = std::vector<std::string>;
