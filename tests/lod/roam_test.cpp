@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lod/mesh_checks.h"
 #include "lod/tree.h"
@@ -141,7 +142,6 @@ TEST(Roam, InverseDistanceRefinesTheNearestPartToTheEndFirst) {
   roam.adapt(request);
   Mesh mesh;
   roam.extract_mesh(mesh);
-  // A kilometre-wide ring of half size would get far fewer of the last level.
   EXPECT_GT(std::ranges::count(mesh.level, 16), 2000);
   EXPECT_EQ(find_mesh_fault(mesh, 8), "");
 }
