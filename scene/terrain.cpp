@@ -69,23 +69,31 @@ Terrain terrain_from_image(const TerrainDescription& description) {
   return terrain;
 }
 
-void check_positive(const char* name, double value) {
-  if (!(value > 0.0 && std::isfinite(value)))
-    throw SceneError(fmt::format("terrain.{}, got {}, allowed over 0", name, value));
+// `above` is not allowed itself.
+void check_value(const char* name, double value, double above = -HUGE_VAL) {
+  if (!(value > above && value < HUGE_VAL))
+    throw SceneError(
+        fmt::format("terrain.{}, got {}, allowed finite and over {}", name, value, above));
+}
+
+void check_description(const TerrainDescription& description) {
+  check_value("island_radius_m", description.island_radius_m, 0.0);
+  check_value("floor_depth_m", description.floor_depth_m, 0.0);
+  check_value("metres_per_pixel", description.metres_per_pixel, 0.0);
+  check_value("island_height_m", description.island_height_m);
+  check_value("low_m", description.low_m);
+  check_value("high_m", description.high_m);
+  check_value("sea_level_m", description.sea_level_m);
+  check_value("centre_m[0]", description.centre_m.x);
+  check_value("centre_m[1]", description.centre_m.y);
 }
 
 }  // namespace
 
 Terrain build_terrain(const TerrainDescription& description) {
-  Terrain terrain;
-  if (description.height_image.empty()) {
-    check_positive("island_radius_m", description.island_radius_m);
-    check_positive("floor_depth_m", description.floor_depth_m);
-    terrain = build_island(description);
-  } else {
-    check_positive("metres_per_pixel", description.metres_per_pixel);
-    terrain = terrain_from_image(description);
-  }
+  check_description(description);
+  Terrain terrain = description.height_image.empty() ? build_island(description)
+                                                     : terrain_from_image(description);
   const auto [lowest, highest] = std::ranges::minmax_element(terrain.height_m);
   terrain.lowest_m = *lowest;
   terrain.highest_m = *highest;

@@ -136,6 +136,15 @@ TEST_F(TerrainImage, HeightsThatAreNoNumberAreRefusedWithTheirPixel) {
   }
 }
 
+TEST_F(TerrainImage, ValuesThatMakeNoTerrainAreRefused) {
+  EXPECT_EQ(error_of({.island_radius_m = 0.0}),
+            "terrain.island_radius_m, got 0, allowed finite and over 0");
+  EXPECT_EQ(error_of({.floor_depth_m = -1.0}),
+            "terrain.floor_depth_m, got -1, allowed finite and over 0");
+  EXPECT_EQ(error_of({.island_height_m = std::nan("")}),
+            "terrain.island_height_m, got nan, allowed finite and over -inf");
+}
+
 TEST_F(TerrainImage, BrokenFilesAreRefusedByName) {
   const fs::path path = write("a.png", "\x89PNG\r\n\x1a\nrubbish");
   EXPECT_NE(error_of({.height_image = path}).find(path.string()), std::string::npos);
