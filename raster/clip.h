@@ -1,8 +1,8 @@
 // Step 2 of a pass, for the few triangles that need it: homogeneous clipping.
 //
 // Source: Sutherland and Hodgman, Reentrant Polygon Clipping, 1974, one plane after the other in a
-// fixed order. A new vertex is computed from its edge's two ends in an order that depends on their
-// coordinates alone, so both triangles at an edge, and both sides of a plane, get the same bits.
+// fixed order. A new vertex is computed from its edge's two ends by a formula that is symmetric bit
+// by bit, so both triangles at an edge, and both sides of a plane, get the same vertex.
 #pragma once
 
 #include <array>

@@ -1,0 +1,8 @@
+// Counts this program's calls of operator new.
+#pragma once
+
+#include <cstdint>
+
+namespace swell::raster {
+std::uint64_t allocation_count();
+}
