@@ -1,0 +1,213 @@
+// Stages 1 to 3: the sea at time t, the triangulations for the view, the vertices.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "math/elementary.h"
+#include "render/frame_state.h"
+
+namespace swell::render {
+namespace {
+
+// The endless sea: a square of 64 km around the eye, whose corner moves in whole steps.
+constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
+constexpr int kSeaLatticeBits = 17;
+constexpr int kUvNoiseSize = texture::UvNoiseOptions{}.size;
+constexpr double kUvNoiseCells_per_s = 0.25;
+constexpr std::size_t kChunk = 2048;  // vertices a task
+
+lod::Domain sea_domain(const View& view) {
+  const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
+  return {cell - 0.5 * kSeaSize_m, kSeaSize_m, kSeaLatticeBits};
+}
+
+lod::Domain land_domain(const scene::Terrain& terrain) {
+  const auto cells = static_cast<unsigned>(std::max(terrain.samples - 1, 2));
+  return {terrain.min_world, terrain.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
+}
+
+void adapt_surface(const Frame& frame, const lod::Domain& domain, int budget, float low_m,
+                   float high_m, float margin, Surface& surface) {
+  const bool fits = surface.roam && surface.max_triangles == budget &&
+                    surface.roam->domain().size_m == domain.size_m &&
+                    surface.roam->domain().lattice_bits == domain.lattice_bits;
+  if (!fits) {
+    surface.roam.emplace(domain, budget);
+    surface.max_triangles = budget;
+  }
+  surface.roam->set_origin(domain.min_world);
+  lod::AdaptRequest request;
+  request.view = frame.view;
+  request.triangle_budget = budget;
+  request.priority = frame.world.scene.detail.inverse_distance_priority
+                         ? lod::Priority::kInverseDistance
+                         : lod::Priority::kProjectedSize;
+  request.min_height_m = low_m;
+  request.max_height_m = high_m;
+  request.frustum_margin = margin;
+  surface.statistics = surface.roam->adapt(request);
+  surface.roam->extract_mesh(surface.mesh);
+}
+
+// Positions of the mesh's vertices relative to the eye.
+void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::dvec2 eye) {
+  const lod::Domain& domain = surface.roam->domain();
+  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
+  const glm::dvec2 corner = domain.min_world - eye;
+  for (std::size_t i = begin; i < end; ++i)
+    surface.offset[i] = glm::vec2(corner + spacing * glm::dvec2(surface.mesh.lattice[i]));
+}
+
+glm::vec4 to_clip(const View& view, glm::vec2 offset, float z_rel) {
+  return view.clip_from_rel * glm::vec4(offset, z_rel, 1.0f);
+}
+
+// How much of the waves' height a place shows: all inside the area, none from its border on; less
+// where the water is shallower than the waves are high, so that they do not dig into the sand.
+struct WaveFade {
+  const scene::SeaArea& area;
+  const scene::Terrain* terrain;
+  float wave_height_m;
+
+  float at(glm::dvec2 p, float ground_m) const {
+    const glm::dvec2 inside = 0.5 * area.size_m - glm::abs(p - area.centre_m);
+    const glm::dvec2 t = glm::clamp(inside / (0.1 * area.size_m), 0.0, 1.0);
+    const double edge = t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y);
+    if (!terrain) return static_cast<float>(edge);
+    const float depth = std::max(-ground_m, 0.0f);
+    return static_cast<float>(edge) * std::min(1.0f, depth / (0.2f + wave_height_m));
+  }
+};
+
+void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
+  Surface& water = frame.ws.water;
+  const glm::dvec2 eye(frame.view.eye_world);
+  place_vertices(water, begin, end, eye);
+  const std::size_t count = end - begin;
+  const auto offset = std::span(water.offset).subspan(begin, count);
+  const auto height = std::span(water.height_m).subspan(begin, count);
+  ocean::sample_heights(frame.ws.sea, eye, offset, height);
+
+  const auto& world = frame.world;
+  const WaveFade fade{world.scene.area, world.terrain ? &*world.terrain : nullptr,
+                      static_cast<float>(world.sea.significant_height_m())};
+  std::array<float, kChunk> ground{};
+  if (world.terrain) {
+    std::array<glm::dvec2, kChunk> p;
+    for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(offset[i]);
+    scene::sample_heights(*world.terrain, std::span(p).first(count),
+                          std::span(ground).first(count));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    height[i] *= fade.at(eye + glm::dvec2(offset[i]), ground[i]);
+    const float z_rel = height[i] - static_cast<float>(frame.view.eye_world.z);
+    water.p_clip[begin + i] = to_clip(frame.view, offset[i], z_rel);
+  }
+}
+
+// Apparent depth over true depth of a point below the water seen from the eye, at an angle theta
+// to the vertical: k = (1/n) cos / sqrt(1 - (sin/n)^2), from 1/n to 0.
+float squeeze(glm::vec3 p_rel, float n) {
+  const float horizontal2 = p_rel.x * p_rel.x + p_rel.y * p_rel.y;
+  const float sin2 = horizontal2 / (horizontal2 + p_rel.z * p_rel.z + 1e-6f);
+  return std::sqrt((1.0f - sin2) / (n * n - sin2));
+}
+
+void displace_land(Frame& frame, std::size_t begin, std::size_t end) {
+  Surface& land = frame.ws.land;
+  const glm::dvec2 eye(frame.view.eye_world);
+  place_vertices(land, begin, end, eye);
+  const std::size_t count = end - begin;
+  std::array<glm::dvec2, kChunk> p;
+  for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(land.offset[begin + i]);
+  scene::sample_heights(*frame.world.terrain, std::span(p).first(count),
+                        std::span(land.height_m).subspan(begin, count));
+
+  // Waves lift and lower the waterline: keep a little of the other side in both images.
+  constexpr float kClipMargin_m = 0.3f;
+  const auto eye_z = static_cast<float>(frame.view.eye_world.z);
+  const auto n = static_cast<float>(frame.world.scene.water.refraction_index);
+  LookupTarget &mirrored = frame.ws.reflection, &squeezed = frame.ws.refraction;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float z = land.height_m[i];
+    const glm::vec2 offset = land.offset[i];
+    land.p_clip[i] = to_clip(frame.view, offset, z - eye_z);
+    mirrored.p_clip[i] = to_clip(frame.view, offset, -z - eye_z);
+    mirrored.clip_distance[i] = z + kClipMargin_m;
+    const float z_apparent = z < 0.0f ? z * squeeze({offset, z - eye_z}, n) : z;
+    squeezed.p_clip[i] = to_clip(frame.view, offset, z_apparent - eye_z);
+    squeezed.clip_distance[i] = kClipMargin_m - z;
+  }
+}
+
+void resize_surface(Surface& surface) {
+  const std::size_t n = surface.mesh.lattice.size();
+  surface.offset.resize(n);
+  surface.height_m.resize(n);
+  surface.p_clip.resize(n);
+}
+
+}  // namespace
+
+void advance_sea(Frame& frame) {
+  Workspace::State& ws = frame.ws;
+  ocean::advance(frame.world.sea, frame.t_s, ws.sea, frame.workers);
+  ws.patch_maps.resize(ws.sea.patches.size());
+  ws.noise_cos.resize(kUvNoiseSize * kUvNoiseSize);
+  ws.noise_sin.resize(kUvNoiseSize * kUvNoiseSize);
+  frame.workers.for_each(ws.sea.patches.size() + 1, [&](std::size_t i, int slot) {
+    const WorkScope work(ws.profile, Stage::kSea, slot);
+    if (i < ws.sea.patches.size()) {
+      const ocean::PatchFrame& patch = ws.sea.patches[i];
+      // A scale fixed by the sea state, not by the frame, so that codes do not flicker.
+      const float scale = 5.0f * std::sqrt(std::max(patch.slope_variance, 1e-8f)) / 127.0f;
+      texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, ws.patch_maps[i]);
+    } else {
+      ws.uv_noise.evaluate(kUvNoiseCells_per_s * frame.t_s, ws.noise_cos, ws.noise_sin);
+      texture::pack_map2(kUvNoiseSize, ws.noise_cos, ws.noise_sin, 1.0f / 127.0f,
+                         ws.uv_noise_map);
+    }
+  });
+}
+
+void triangulate(Frame& frame) {
+  const scene::Detail& detail = frame.world.scene.detail;
+  const int budget =
+      frame.options.water_triangles > 0 ? frame.options.water_triangles : detail.water_triangles;
+  const auto bound = static_cast<float>(frame.world.sea.height_bound_m());
+  frame.workers.run_both(
+      [&] {
+        adapt_surface(frame, sea_domain(frame.view), budget, -bound, bound, 0.0f,
+                      frame.ws.water);
+      },
+      [&] {
+        if (!frame.world.terrain) return;
+        const scene::Terrain& terrain = *frame.world.terrain;
+        // The mirrored land lies outside the view at times.
+        adapt_surface(frame, land_domain(terrain), detail.terrain_triangles, terrain.lowest_m,
+                      terrain.highest_m, 0.3f, frame.ws.land);
+      });
+}
+
+void displace(Frame& frame) {
+  Workspace::State& ws = frame.ws;
+  const auto in_chunks = [&](std::size_t count, auto&& body) {
+    frame.workers.for_each((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int slot) {
+      const WorkScope work(ws.profile, Stage::kDisplace, slot);
+      body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
+    });
+  };
+  resize_surface(ws.water);
+  in_chunks(ws.water.mesh.lattice.size(),
+            [&](std::size_t begin, std::size_t end) { displace_water(frame, begin, end); });
+  if (!frame.world.terrain) return;
+  resize_surface(ws.land);
+  for (LookupTarget* lookup : {&ws.reflection, &ws.refraction}) {
+    lookup->p_clip.resize(ws.land.mesh.lattice.size());
+    lookup->clip_distance.resize(ws.land.mesh.lattice.size());
+  }
+  in_chunks(ws.land.mesh.lattice.size(),
+            [&](std::size_t begin, std::size_t end) { displace_land(frame, begin, end); });
+}
+
+}  // namespace swell::render

@@ -1,0 +1,182 @@
+// The value types of the shaders: a packet is one SIMD vector of pixels. Per-target code; the
+// targets are fixed-size (x86), so vectors may be members of these short-lived structs.
+#if defined(SWELL_RENDER_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_PACKET_INL_H_
+#undef SWELL_RENDER_PACKET_INL_H_
+#else
+#define SWELL_RENDER_PACKET_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "math/elementary-inl.h"
+#include "render/shade.h"
+#include "texture/packed_map-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // elementary functions
+
+using D = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+
+struct V3 {
+  V x, y, z;
+};
+
+HWY_INLINE V Constant(float value) { return hn::Set(D(), value); }
+HWY_INLINE V3 Constant(glm::vec3 v) { return {Constant(v.x), Constant(v.y), Constant(v.z)}; }
+
+HWY_INLINE V Dot(V3 a, V3 b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE V3 Scale(V3 a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
+HWY_INLINE V3 Product(V3 a, V3 b) {
+  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
+HWY_INLINE V3 Sum(V3 a, V3 b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+// a s + b
+HWY_INLINE V3 ScaleAdd(V3 a, V s, V3 b) {
+  return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
+}
+// a + t (b - a)
+HWY_INLINE V Lerp(V a, V b, V t) { return hn::MulAdd(hn::Sub(b, a), t, a); }
+HWY_INLINE V3 Lerp(V3 a, V3 b, V t) {
+  return {Lerp(a.x, b.x, t), Lerp(a.y, b.y, t), Lerp(a.z, b.z, t)};
+}
+HWY_INLINE V Clamp(V v, float low, float high) {
+  return hn::Min(hn::Max(v, Constant(low)), Constant(high));
+}
+HWY_INLINE V InverseSqrt(V x) { return hn::Div(Constant(1.0f), hn::Sqrt(x)); }
+
+// One packet of pixels and the points they show.
+struct Packet {
+  V x_px, y_px;  // whole pixel numbers
+  V depth;       // along the view axis [m]
+  V3 p;          // position relative to the eye [m]; of the mirrored or squeezed world if any
+  V distance;    // [m]
+  V3 to_eye;     // unit
+};
+
+// Pixels at (x_px, y_px) whose depth buffer holds z > 0.
+HWY_INLINE Packet MakePacket(const ShadeContext& c, V x_px, V y_px, V z) {
+  Packet packet;
+  packet.x_px = x_px;
+  packet.y_px = y_px;
+  packet.depth = hn::Div(Constant(c.near_m), z);
+  const V3 ray = ScaleAdd(Constant(c.ray_dx), x_px, ScaleAdd(Constant(c.ray_dy), y_px,
+                                                             Constant(c.ray)));
+  packet.p = Scale(ray, packet.depth);
+  const V length2 = Dot(ray, ray);
+  const V inverse_length = InverseSqrt(length2);
+  packet.distance = hn::Mul(packet.depth, hn::Mul(length2, inverse_length));
+  packet.to_eye = Scale(ray, hn::Neg(inverse_length));
+  return packet;
+}
+
+// A value in [0, 1) that differs from pixel to pixel without visible pattern, the same in every
+// frame. Source: Jimenez, Next Generation Post Processing in Call of Duty, 2014 (interleaved
+// gradient noise).
+HWY_INLINE V PixelNoise(V x_px, V y_px) {
+  const V a = hn::MulAdd(x_px, Constant(0.06711056f), hn::Mul(y_px, Constant(0.00583715f)));
+  const V b = hn::Mul(hn::Sub(a, hn::Floor(a)), Constant(52.9829189f));
+  return hn::Sub(b, hn::Floor(b));
+}
+
+// log2 of the footprint [m] of a pixel on a surface seen at cos_view: across the view, lengthened by
+// three quarters (in log) of the stretch along it. Less would leave grazing views aliased, more
+// would blur them across the view.
+HWY_INLINE V FootprintLevel(const ShadeContext& c, const Packet& packet, V cos_view) {
+  const V across = hn::Mul(packet.depth, Constant(c.pixel_angle));
+  const V stretch = hn::Mul(cos_view, hn::Sqrt(cos_view));
+  const V footprint2 = hn::Div(hn::Mul(across, across), stretch);
+  return hn::Mul(Log2(D(), hn::Max(footprint2, Constant(1e-12f))), Constant(0.5f));
+}
+
+// A layer's slopes at level (one sample), 0 for lanes whose level holds no detail.
+HWY_INLINE void SampleLevel(const SlopeLayer& layer, V u, V v, V level, V& a, V& b) {
+  const D d;
+  const auto has_detail = hn::Lt(level, Constant(static_cast<float>(layer.levels)));
+  a = b = hn::Zero(d);
+  if (hn::AllFalse(d, has_detail)) return;
+  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), a, b);
+  a = hn::IfThenElseZero(has_detail, a);
+  b = hn::IfThenElseZero(has_detail, b);
+}
+
+// Adds a layer's slopes at p to (slope_x, slope_y), blended between mip levels, and the variance
+// that they have lost to `variance`. (du, dv) perturb the coordinates, in units of uv_noise_m.
+HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, V& slope_x,
+                          V& slope_y, V& variance) {
+  const D d;
+  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m)), 0.0f,
+                        static_cast<float>(layer.levels));
+  const V base = hn::Floor(level), next = hn::Add(base, Constant(1.0f));
+  const V t = hn::Sub(level, base);
+  const V table = hn::LoadU(d, layer.lost_variance.data());
+  const V lost = hn::TableLookupLanes(table, hn::IndicesFromVec(d, hn::ConvertTo(DI(), base)));
+  const V lost_next = hn::TableLookupLanes(
+      table, hn::IndicesFromVec(
+                 d, hn::ConvertTo(DI(), hn::Min(next, Constant(kTableLevels - 1.0f)))));
+  variance = hn::Add(variance, Lerp(lost, lost_next, t));
+
+  const V noise = Constant(layer.uv_noise_m);
+  const V inv_length = Constant(layer.inv_length);
+  const V u = hn::MulAdd(hn::MulAdd(du, noise, p.x), inv_length, Constant(layer.u_eye));
+  const V v = hn::MulAdd(hn::MulAdd(dv, noise, p.y), inv_length, Constant(layer.v_eye));
+  V a, b;
+  SampleLevel(layer, u, v, base, a, b);
+  const auto between = hn::Gt(t, hn::Zero(d));
+  if (!hn::AllFalse(d, between)) {
+    V a_next, b_next;
+    SampleLevel(layer, u, v, next, a_next, b_next);
+    a = hn::IfThenElse(between, Lerp(a, a_next, t), a);
+    b = hn::IfThenElse(between, Lerp(b, b_next, t), b);
+  }
+  const V gain = Constant(layer.gain);
+  slope_x = hn::MulAdd(a, gain, slope_x);
+  slope_y = hn::MulAdd(b, gain, slope_y);
+}
+
+// Looks `image` up at texel position (x, y); radiance from the square-root code, alpha as is.
+HWY_INLINE V3 LookUp(const texture::RgbaImage& image, V x, V y, V& alpha) {
+  V r, g, b;
+  texture::HWY_NAMESPACE::SampleRgba(D(), image, x, y, r, g, b, alpha);
+  const V range = Constant(kLookupRange);
+  return {hn::Mul(hn::Mul(r, r), range), hn::Mul(hn::Mul(g, g), range),
+          hn::Mul(hn::Mul(b, b), range)};
+}
+
+// The sky's radiance in direction (x, y, z), z > -0.5, any length of (x, y, z) equal to `length`.
+HWY_INLINE V3 SkyRadiance(const texture::RgbaImage& map, V3 direction, V length) {
+  const V half = Constant(0.5f * static_cast<float>(map.width));
+  const V scale = hn::Div(half, hn::Add(length, direction.z));
+  V alpha;
+  return LookUp(map, hn::MulAdd(direction.x, scale, half), hn::MulAdd(direction.y, scale, half),
+                alpha);
+}
+
+// Blends towards the horizon's colour with distance, so that no edge of the sea shows.
+HWY_INLINE V3 Haze(const ShadeContext& c, const Packet& packet, V3 colour) {
+  const D d;
+  const V amount = hn::Sub(
+      Constant(1.0f), Exp(d, hn::Mul(packet.distance, Constant(-c.inv_haze_m))));
+  const auto visible = hn::Gt(amount, Constant(1.0f / 1024.0f));
+  if (hn::AllFalse(d, visible)) return colour;
+  const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
+  const V horizontal = hn::Sqrt(hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f)));
+  const V3 horizon = SkyRadiance(*c.sky_soft, {x, y, hn::Zero(d)}, horizontal);
+  return Lerp(colour, horizon, hn::IfThenElseZero(visible, amount));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

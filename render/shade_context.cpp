@@ -1,0 +1,173 @@
+// The constants of shading, from the scene, the view and the frame's maps.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "math/elementary.h"
+#include "render/frame_state.h"
+
+namespace swell::render {
+namespace {
+
+constexpr double kUvNoisePeriod_m = 23.0;
+constexpr double kTerrainDetailPeriod_m = 5.0;
+
+float fraction(double x) { return static_cast<float>(x - std::floor(x)); }
+
+// Lays `map` over the plane with period length_m; `moved_m` is how far it has drifted.
+SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain,
+                      glm::dvec2 eye, glm::dvec2 moved_m) {
+  SlopeLayer layer;
+  layer.map = &map;
+  layer.inv_length = static_cast<float>(1.0 / length_m);
+  layer.u_eye = fraction((eye.x - moved_m.x) / length_m);
+  layer.v_eye = fraction((eye.y - moved_m.y) / length_m);
+  layer.log2_texels_per_m =
+      static_cast<float>(log(map.size / length_m) * 1.4426950408889634);
+  layer.gain = gain;
+  // The two coarsest levels (1 and 4 texels) hold nothing worth a sample.
+  layer.levels = std::clamp(map.levels - 2, 1, kTableLevels - 1);
+  for (int i = 0; i < 2 * kTableLevels; ++i) {
+    const int level = i % kTableLevels;
+    const float lost = level < layer.levels ? map.lost_variance[level] : map.lost_variance.back();
+    layer.lost_variance[i] = lost * gain * gain;
+  }
+  return layer;
+}
+
+void add_water_layer(const SlopeLayer& layer, ShadeContext& c) {
+  if (c.water_layer_count < kMaxSlopeLayers) c.water_layers[c.water_layer_count++] = layer;
+}
+
+// Two layers of ripples that drift across each other, downwind.
+void add_bump_layers(const Frame& frame, ShadeContext& c) {
+  const scene::Scene& scene = frame.world.scene;
+  const texture::PackedMap2& bump = frame.world.bump;
+  const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
+  // Ripple slopes grow with the wind as the sea's whole slope variance does.
+  // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
+  const double wind = scene.sea.spectrum ? scene.sea.wind_speed_mps : 3.0;
+  const double variance = 0.25 * (0.003 + 0.00512 * wind);
+  const double travel = scene.sea.wind_from_rad + kPi;
+  struct Layer {
+    double length_m, turn_rad, speed_mps, share;
+  };
+  for (const Layer& l : {Layer{5.3, 0.35, 0.55, 0.5}, Layer{2.1, -0.5, 0.35, 0.5}}) {
+    const glm::dvec2 direction(sin(travel + l.turn_rad), cos(travel + l.turn_rad));
+    const auto gain = static_cast<float>(
+        scene.water.bump_strength * std::sqrt(l.share * variance / map_variance));
+    SlopeLayer layer = make_layer(bump, l.length_m, gain, glm::dvec2(frame.view.eye_world),
+                                  direction * (l.speed_mps * frame.t_s));
+    layer.uv_noise_m = static_cast<float>(scene.water.uv_noise_amplitude);
+    add_water_layer(layer, c);
+  }
+}
+
+void add_sines(const Frame& frame, ShadeContext& c) {
+  const glm::dvec2 eye(frame.view.eye_world);
+  for (const ocean::SineFrame& sine : frame.ws.sea.sines) {
+    if (c.sine_count == kMaxSines) break;
+    SineLayer& layer = c.sines[c.sine_count++];
+    const glm::dvec2 k = sine.cycles_per_m;
+    layer.kx = static_cast<float>(k.x);
+    layer.ky = static_cast<float>(k.y);
+    layer.cycles = fraction(k.x * eye.x + k.y * eye.y + sine.cycles);
+    layer.slope_x = static_cast<float>(2.0 * kPi * sine.amplitude_m * k.x);
+    layer.slope_y = static_cast<float>(2.0 * kPi * sine.amplitude_m * k.y);
+    layer.wavelength_log2 = static_cast<float>(-log(glm::length(k)) * 1.4426950408889634);
+  }
+}
+
+void fill_rays(const View& view, ShadeContext& c) {
+  c.width_px = view.width_px;
+  c.height_px = view.height_px;
+  c.ray = view.ray(0.5f, 0.5f);
+  c.ray_dx = view.right * (2.0f * view.tan_half_x / static_cast<float>(view.width_px));
+  c.ray_dy = -view.up * (2.0f * view.tan_half_y / static_cast<float>(view.height_px));
+  c.near_m = view.near_m;
+  c.eye_z = static_cast<float>(view.eye_world.z);
+  c.pixel_angle = 2.0f * view.tan_half_y / static_cast<float>(view.height_px);
+  const glm::vec2 right(view.right.x, view.right.y);
+  c.view_right = right / std::max(glm::length(right), 1e-6f);
+  c.view_ahead = glm::vec2(-c.view_right.y, c.view_right.x);
+}
+
+void fill_light(const Frame& frame, ShadeContext& c) {
+  const scene::Sky& sky = frame.world.scene.sky;
+  c.sun_direction = sky.sun_direction;
+  c.sun_irradiance = sky.sun_direction.z > 0.0f ? sky.sun_radiance : glm::vec3(0.0f);
+  c.ambient = frame.world.sky.ambient;
+  c.sky_sharp = &frame.world.sky.sharp;
+  c.sky_soft = &frame.world.sky.soft;
+  c.inv_haze_m = static_cast<float>(1.0 / sky.haze_distance_m);
+  c.exposure = static_cast<float>(sky.exposure);
+}
+
+void fill_water(const Frame& frame, ShadeContext& c) {
+  const scene::WaterOptics& water = frame.world.scene.water;
+  c.refraction_index = static_cast<float>(water.refraction_index);
+  c.absorption_per_m = water.absorption_per_m;
+  // Light that enters the water: the sky's and the sun's, as radiance of a white surface.
+  const glm::vec3 light =
+      c.ambient + c.sun_irradiance * (std::max(c.sun_direction.z, 0.0f) / static_cast<float>(kPi));
+  c.body = water.body_colour * light;
+  c.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * c.body;
+  c.inv_crest_height =
+      1.0f / std::max(static_cast<float>(frame.world.sea.significant_height_m()), 0.1f);
+  c.distortion_px = static_cast<float>(water.distortion * frame.view.height_px);
+  c.max_distortion_px = 0.1f * static_cast<float>(frame.view.height_px);
+}
+
+void fill_water_layers(const Frame& frame, ShadeContext& c) {
+  c.water_layer_count = 0;
+  c.sine_count = 0;
+  const glm::dvec2 eye(frame.view.eye_world);
+  for (std::size_t i = 0; i < frame.ws.patch_maps.size(); ++i)
+    add_water_layer(
+        make_layer(frame.ws.patch_maps[i], frame.ws.sea.patches[i].length_m, 1.0f, eye, {}), c);
+  add_bump_layers(frame, c);
+  add_sines(frame, c);
+  c.uv_noise = make_layer(frame.ws.uv_noise_map, kUvNoisePeriod_m, 1.0f, eye, {});
+  c.base_variance = 0.0012f;
+}
+
+void fill_terrain(const Frame& frame, ShadeContext& c) {
+  if (!frame.world.terrain) return;
+  const scene::Terrain& terrain = *frame.world.terrain;
+  const TerrainMaps& maps = frame.world.terrain_maps;
+  const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - terrain.min_world;
+  c.terrain_slopes = make_layer(maps.slopes, terrain.size_m(), 1.0f, from_corner, {});
+  // Not periodic: no wrapping of the eye's position, one map covers all.
+  c.terrain_slopes.u_eye = static_cast<float>(from_corner.x / terrain.size_m());
+  c.terrain_slopes.v_eye = static_cast<float>(from_corner.y / terrain.size_m());
+  const float detail_gain = 0.25f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
+  c.terrain_detail = make_layer(frame.world.bump, kTerrainDetailPeriod_m, detail_gain,
+                                glm::dvec2(frame.view.eye_world), {});
+  c.terrain_albedo = &maps.albedo;
+  const double texels_per_m = maps.albedo.width / terrain.size_m();
+  c.albedo_texels_per_m = static_cast<float>(texels_per_m);
+  // Texel centres lie at +0.5, the terrain's samples on the lattice.
+  c.albedo_x_eye = static_cast<float>(from_corner.x * texels_per_m + 0.5);
+  c.albedo_y_eye = static_cast<float>(from_corner.y * texels_per_m + 0.5);
+}
+
+}  // namespace
+
+void fill_shade_context(const Frame& frame, const View& view, ViewKind kind,
+                        ShadeContext& context) {
+  context.kind = kind;
+  context.tile_size_px = frame.options.tile_size_px;
+  context.tiles_x =
+      raster::tile_grid({view.width_px, view.height_px}, frame.options.tile_size_px).tiles_x;
+  fill_rays(view, context);
+  fill_light(frame, context);
+  fill_water(frame, context);
+  fill_terrain(frame, context);
+  context.water_primitives = 0;
+  if (kind != ViewKind::kWindow) return;
+  context.water_primitives =
+      static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
+  fill_water_layers(frame, context);
+}
+
+}  // namespace swell::render

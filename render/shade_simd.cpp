@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/check.h"
+#include "render/shade.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/shade_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/packet-inl.h"
+#include "render/sky-inl.h"
+#include "render/terrain-inl.h"
+#include "render/water-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+constexpr std::size_t kLanes = hn::MaxLanes(D());
+
+// A tile's place in the window.
+struct TileBox {
+  int x0, y0, width, height;  // the part inside the window
+};
+
+TileBox BoxOf(const ShadeContext& c, int tile) {
+  const int x0 = tile % c.tiles_x * c.tile_size_px, y0 = tile / c.tiles_x * c.tile_size_px;
+  return {x0, y0, std::min(c.tile_size_px, c.width_px - x0),
+          std::min(c.tile_size_px, c.height_px - y0)};
+}
+
+// The pixels of one material in a tile, as positions y * tile_size + x in its buffers.
+struct PixelList {
+  std::uint16_t* at;
+  std::size_t count = 0;
+};
+
+// Repeats the last pixel up to a full packet, so that every packet is shaded whole.
+void PadToPacket(PixelList& list) {
+  if (list.count == 0) return;
+  const std::uint16_t last = list.at[list.count - 1];
+  std::fill_n(list.at + list.count, kLanes, last);
+}
+
+// Sorts the tile's pixels by material.
+void SortByMaterial(const ShadeContext& c, const TileBox& box, const std::uint32_t* primitive,
+                    PixelList& water, PixelList& terrain, PixelList& sky) {
+  for (int y = 0; y < box.height; ++y) {
+    for (int x = 0; x < box.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
+      const std::uint32_t p = primitive[i];
+      // Branch-free: write to all three lists, advance one.
+      const auto index = static_cast<std::uint16_t>(i);
+      water.at[water.count] = terrain.at[terrain.count] = sky.at[sky.count] = index;
+      const bool is_water = p < c.water_primitives, is_sky = p == kNoSurface;
+      water.count += is_water;
+      sky.count += is_sky;
+      terrain.count += !is_water && !is_sky;
+    }
+  }
+  PadToPacket(water);
+  PadToPacket(terrain);
+  PadToPacket(sky);
+}
+
+// Calls shade(x_px, y_px, z) for the list's pixels, a packet at a time, and stores its colours.
+template <class Shade>
+HWY_INLINE void ShadeList(const ShadeContext& c, const TileBox& box, const PixelList& list,
+                          const float* depth, ShadeScratch& scratch, const Shade& shade) {
+  const D d;
+  const DI di;
+  const hn::Rebind<std::uint16_t, D> d16;
+  const int size_log2 = std::countr_zero(static_cast<unsigned>(c.tile_size_px));
+  HWY_ALIGN std::array<float, kLanes> z, red, green, blue;
+  for (std::size_t i = 0; i < list.count; i += kLanes) {
+    const std::uint16_t* at = list.at + i;
+    const VI index = hn::PromoteTo(di, hn::LoadU(d16, at));
+    const VI y = hn::ShiftRightSame(index, size_log2);
+    const VI x = hn::Sub(index, hn::ShiftLeftSame(y, size_log2));
+    const V x_px = hn::ConvertTo(d, hn::Add(x, hn::Set(di, box.x0)));
+    const V y_px = hn::ConvertTo(d, hn::Add(y, hn::Set(di, box.y0)));
+
+    // A run of neighbours is loaded and stored whole.
+    const bool run = at[kLanes - 1] - at[0] == static_cast<int>(kLanes) - 1;
+    if (!run)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = depth[at[lane]];
+    const V3 colour = shade(x_px, y_px, hn::LoadU(d, run ? depth + at[0] : z.data()));
+    if (run) {
+      hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
+      hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
+      hn::StoreU(colour.z, d, scratch.blue.data() + at[0]);
+      continue;
+    }
+    hn::Store(colour.x, d, red.data());
+    hn::Store(colour.y, d, green.data());
+    hn::Store(colour.z, d, blue.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      scratch.red[at[lane]] = red[lane];
+      scratch.green[at[lane]] = green[lane];
+      scratch.blue[at[lane]] = blue[lane];
+    }
+  }
+}
+
+// The sRGB curve times 255, for linear x in [0, 1]. Error 0.09. Above the linear part a polynomial
+// in sqrt(x), fitted by weighted least squares to 1.055 x^(1/2.4) - 0.055.
+HWY_INLINE V EncodeSrgb(V x) {
+  const V s = hn::Sqrt(x);
+  V p = Constant(0.5172983f);
+  p = hn::MulAdd(p, s, Constant(-1.6236454f));
+  p = hn::MulAdd(p, s, Constant(2.0315608f));
+  p = hn::MulAdd(p, s, Constant(-1.4027299f));
+  p = hn::MulAdd(p, s, Constant(1.5179496f));
+  p = hn::MulAdd(p, s, Constant(-0.0401095f));
+  const V curve = hn::IfThenElse(hn::Lt(x, Constant(0.0031308f)), hn::Mul(x, Constant(12.92f)), p);
+  return hn::Mul(curve, Constant(255.0f));
+}
+
+// Resolve: exposure, a soft shoulder above 3/4 of white, sRGB, a dither of one step, 8 bits.
+HWY_INLINE VI ToByte(V linear, V exposure, V dither) {
+  const V x = hn::Max(hn::Mul(linear, exposure), hn::Zero(D()));
+  const V over = hn::Max(hn::Sub(x, Constant(0.7f)), hn::Zero(D()));
+  const V shoulder = hn::Div(over, hn::MulAdd(over, Constant(2.2f), Constant(1.0f)));
+  const V mapped = hn::Min(hn::Add(hn::Min(x, Constant(0.7f)), shoulder), Constant(1.0f));
+  const V code = hn::Add(EncodeSrgb(mapped), dither);
+  return hn::ConvertTo(DI(), hn::Min(code, Constant(255.0f)));
+}
+
+HWY_INLINE void ResolveTile(const ShadeContext& c, const TileBox& box, const ShadeScratch& scratch,
+                            std::uint32_t* rgba, float* linear) {
+  const D d;
+  const DI di;
+  const V exposure = Constant(c.exposure);
+  HWY_ALIGN std::array<std::int32_t, kLanes> tail;
+  for (int y = 0; y < box.height; ++y) {
+    std::uint32_t* row = rgba + static_cast<std::size_t>(box.y0 + y) * c.width_px + box.x0;
+    for (int x = 0; x < box.width; x += static_cast<int>(kLanes)) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
+      const V dither = PixelNoise(
+          hn::ConvertTo(d, hn::Iota(di, box.x0 + x)), Constant(static_cast<float>(box.y0 + y)));
+      const VI r = ToByte(hn::Load(d, scratch.red.data() + i), exposure, dither);
+      const VI g = ToByte(hn::Load(d, scratch.green.data() + i), exposure, dither);
+      const VI b = ToByte(hn::Load(d, scratch.blue.data() + i), exposure, dither);
+      const VI pixel = hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)),
+                              hn::Or(hn::ShiftLeft<16>(b),
+                                     hn::Set(di, static_cast<std::int32_t>(0xff000000u))));
+      if (x + static_cast<int>(kLanes) <= box.width) {
+        hn::StoreU(pixel, di, reinterpret_cast<std::int32_t*>(row + x));
+      } else {
+        hn::Store(pixel, di, tail.data());
+        std::copy_n(tail.data(), box.width - x, reinterpret_cast<std::int32_t*>(row + x));
+      }
+    }
+    if (!linear) continue;
+    for (int x = 0; x < box.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
+      float* out = linear + 3 * (static_cast<std::size_t>(box.y0 + y) * c.width_px + box.x0 + x);
+      out[0] = scratch.red[i];
+      out[1] = scratch.green[i];
+      out[2] = scratch.blue[i];
+    }
+  }
+}
+
+int ShadeTile(const ShadeContext& c, int tile, const float* depth, const std::uint32_t* primitive,
+              TileLookups lookups, ShadeScratch& scratch, std::uint32_t* rgba, float* linear) {
+  const TileBox box = BoxOf(c, tile);
+  PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
+  SortByMaterial(c, box, primitive, water, terrain, sky);
+  ShadeList(c, box, water, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+    return ShadeWater(c, MakePacket(c, x, y, z), lookups);
+  });
+  ShadeList(c, box, terrain, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+    return ShadeTerrain(c, MakePacket(c, x, y, z));
+  });
+  ShadeList(c, box, sky, depth, scratch,
+            [&](V x, V y, V) HWY_ATTR { return ShadeSky(c, x, y); });
+  ResolveTile(c, box, scratch, rgba, linear);
+  return static_cast<int>(water.count + terrain.count);
+}
+
+void ShadeSkyTile(const ShadeContext& c, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
+                  float* linear) {
+  const D d;
+  const TileBox box = BoxOf(c, tile);
+  for (int y = 0; y < box.height; ++y) {
+    const V y_px = Constant(static_cast<float>(box.y0 + y));
+    for (int x = 0; x < box.width; x += static_cast<int>(kLanes)) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
+      const V3 colour = ShadeSky(c, hn::ConvertTo(d, hn::Iota(DI(), box.x0 + x)), y_px);
+      hn::Store(colour.x, d, scratch.red.data() + i);
+      hn::Store(colour.y, d, scratch.green.data() + i);
+      hn::Store(colour.z, d, scratch.blue.data() + i);
+    }
+  }
+  ResolveTile(c, box, scratch, rgba, linear);
+}
+
+void ShadeLookupTile(const ShadeContext& c, int tile, const float* depth,
+                     const std::uint32_t* primitive, ShadeScratch& scratch,
+                     texture::RgbaImage& image) {
+  const TileBox box = BoxOf(c, tile);
+  PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
+  SortByMaterial(c, box, primitive, water, terrain, sky);
+  ShadeList(c, box, terrain, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+    const Packet packet = MakePacket(c, x, y, z);
+    return c.kind == ViewKind::kRefraction ? ShadeSubmerged(c, packet) : ShadeTerrain(c, packet);
+  });
+  const auto encode = [](float radiance) {
+    const float code = std::sqrt(std::max(radiance, 0.0f) * (1.0f / kLookupRange)) * 255.0f;
+    return static_cast<std::uint32_t>(std::min(code, 255.0f) + 0.5f);
+  };
+  for (int y = 0; y < box.height; ++y) {
+    std::uint32_t* row =
+        image.texels.data() + static_cast<std::size_t>(box.y0 + y) * image.stride + box.x0;
+    for (int x = 0; x < box.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
+      row[x] = primitive[i] == kNoSurface
+                   ? 0u
+                   : encode(scratch.red[i]) | encode(scratch.green[i]) << 8 |
+                         encode(scratch.blue[i]) << 16 | 0xff000000u;
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::render {
+
+HWY_EXPORT(ShadeTile);
+HWY_EXPORT(ShadeSkyTile);
+HWY_EXPORT(ShadeLookupTile);
+
+int shade_tile(const ShadeContext& context, int tile, std::span<const float> depth,
+               std::span<const std::uint32_t> primitive, TileLookups lookups,
+               ShadeScratch& scratch, std::span<std::uint32_t> rgba, std::span<float> linear) {
+  return HWY_DYNAMIC_DISPATCH(ShadeTile)(context, tile, depth.data(), primitive.data(), lookups,
+                                         scratch, rgba.data(),
+                                         linear.empty() ? nullptr : linear.data());
+}
+
+void shade_sky_tile(const ShadeContext& context, int tile, ShadeScratch& scratch,
+                    std::span<std::uint32_t> rgba, std::span<float> linear) {
+  HWY_DYNAMIC_DISPATCH(ShadeSkyTile)(context, tile, scratch, rgba.data(),
+                                     linear.empty() ? nullptr : linear.data());
+}
+
+void shade_lookup_tile(const ShadeContext& context, int tile, std::span<const float> depth,
+                       std::span<const std::uint32_t> primitive, ShadeScratch& scratch,
+                       texture::RgbaImage& image) {
+  HWY_DYNAMIC_DISPATCH(ShadeLookupTile)(context, tile, depth.data(), primitive.data(), scratch,
+                                        image);
+}
+
+}  // namespace swell::render
+#endif  // HWY_ONCE

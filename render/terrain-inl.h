@@ -1,0 +1,75 @@
+// The land and the sea floor.
+#if defined(SWELL_RENDER_TERRAIN_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TERRAIN_INL_H_
+#undef SWELL_RENDER_TERRAIN_INL_H_
+#else
+#define SWELL_RENDER_TERRAIN_INL_H_
+#endif
+
+#include "render/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Radiance of the ground at p (relative to the eye, x and y true): diffuse, lit by sun and sky.
+HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const V level_m = FootprintLevel(c, packet, Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
+  V slope_x = zero, slope_y = zero, variance = zero;
+  AddSlopes(c.terrain_slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
+  AddSlopes(c.terrain_detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
+  const V inv_length = InverseSqrt(
+      hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
+  const V3 normal = {hn::Neg(hn::Mul(slope_x, inv_length)),
+                     hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
+
+  const V cos_sun = hn::Max(Dot(normal, Constant(c.sun_direction)), zero);
+  const V sky_seen = hn::MulAdd(normal.z, Constant(0.5f), Constant(0.5f));
+  const V3 light = ScaleAdd(Constant(c.sun_irradiance), hn::Mul(cos_sun, Constant(0.318309886f)),
+                            Scale(Constant(c.ambient), sky_seen));
+  const V x = hn::MulAdd(packet.p.x, Constant(c.albedo_texels_per_m), Constant(c.albedo_x_eye));
+  const V y = hn::MulAdd(packet.p.y, Constant(c.albedo_texels_per_m), Constant(c.albedo_y_eye));
+  V r, g, b, alpha;
+  texture::HWY_NAMESPACE::SampleRgba(d, *c.terrain_albedo, x, y, r, g, b, alpha);
+  return Product(light, {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)});
+}
+
+// The ground through water: the pixel's z is squeezed, so its depth is unsqueezed first; then
+// light is lost on the way down from the sun and up to the surface, and the body's colour takes its
+// place (Beer-Lambert).
+HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
+  const D d;
+  const V3 ground = GroundRadiance(c, packet);
+  const V cos_eye = hn::Max(packet.to_eye.z, Constant(0.02f));
+  const float inv_n = 1.0f / c.refraction_index;
+  // cos of the refracted ray; apparent depth / true depth k = (1/n) cos / cos_t.
+  const V sin_t = hn::Mul(hn::Sqrt(hn::Max(hn::NegMulAdd(cos_eye, cos_eye, Constant(1.0f)),
+                                           hn::Zero(d))),
+                          Constant(inv_n));
+  const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, Constant(1.0f)));
+  const V apparent = hn::Max(hn::Neg(hn::Add(packet.p.z, Constant(c.eye_z))), hn::Zero(d));
+  const V depth = hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(c.refraction_index)), cos_eye));
+  const V path_up = hn::Min(hn::Div(depth, cos_t), Constant(200.0f));
+  const V path = hn::MulAdd(depth, Constant(1.2f), path_up);  // sunlight comes down at a slant
+  const glm::vec3 absorption = c.absorption_per_m;
+  const auto lost = [&](float per_m, V body, V light) {
+    const V through = Exp(d, hn::Mul(path, Constant(-per_m)));
+    return Lerp(body, light, through);
+  };
+  return {lost(absorption.x, Constant(c.body.x), ground.x),
+          lost(absorption.y, Constant(c.body.y), ground.y),
+          lost(absorption.z, Constant(c.body.z), ground.z)};
+}
+
+// Dry ground, also as the reflection image shows it (p mirrored: the true height is -z).
+HWY_INLINE V3 ShadeTerrain(const ShadeContext& c, const Packet& packet) {
+  return Haze(c, packet, GroundRadiance(c, packet));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

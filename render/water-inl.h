@@ -1,0 +1,165 @@
+// The water material.
+#if defined(SWELL_RENDER_WATER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_INL_H_
+#undef SWELL_RENDER_WATER_INL_H_
+#else
+#define SWELL_RENDER_WATER_INL_H_
+#endif
+
+#include "render/fresnel-inl.h"
+#include "render/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// The water's surface at a packet: mean slopes that the maps show, and the variance (of both axes
+// together) of the slopes too fine for a pixel.
+struct WaterSurface {
+  V slope_x, slope_y, variance;
+};
+
+HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSurface& s) {
+  const V cycles = hn::MulAdd(p.x, Constant(sine.kx),
+                              hn::MulAdd(p.y, Constant(sine.ky), Constant(sine.cycles)));
+  V sin_unused, cosine;
+  SinCosTurns(D(), cycles, sin_unused, cosine);
+  // A wave shorter than two footprints turns into roughness.
+  const float level_lost = sine.wavelength_log2 - 1.0f;
+  const V seen = Clamp(hn::Sub(Constant(level_lost), level_m), 0.0f, 1.0f);
+  const V amount = hn::Mul(cosine, seen);
+  s.slope_x = hn::MulAdd(amount, Constant(sine.slope_x), s.slope_x);
+  s.slope_y = hn::MulAdd(amount, Constant(sine.slope_y), s.slope_y);
+  const float variance = 0.5f * (sine.slope_x * sine.slope_x + sine.slope_y * sine.slope_y);
+  s.variance = hn::MulAdd(hn::NegMulAdd(seen, seen, Constant(1.0f)), Constant(variance),
+                          s.variance);
+}
+
+// The unit normal of slopes.
+HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
+  const V inv_length =
+      InverseSqrt(hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
+  return {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
+}
+
+// Slopes from the wave patches and the scrolling bump layers, whose coordinates Perlin noise bends.
+// The first layer is that of the longest waves: how steeply the eye meets those decides how long a
+// pixel's footprint is on the shorter ones.
+HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet) {
+  const D d;
+  constexpr float kMinCos = 0.02f;
+  V level_m = FootprintLevel(c, packet, Clamp(packet.to_eye.z, kMinCos, 1.0f));
+  WaterSurface s = {hn::Zero(d), hn::Zero(d), Constant(c.base_variance)};
+  V du = hn::Zero(d), dv = hn::Zero(d), unused = hn::Zero(d);
+  AddSlopes(c.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
+  for (int i = 0; i < c.sine_count; ++i)
+    AddSine(c.sines[static_cast<std::size_t>(i)], packet.p, level_m, s);
+  for (int i = 0; i < c.water_layer_count; ++i) {
+    AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
+              s.slope_y, s.variance);
+    if (i > 0) continue;
+    const V cos_wave = Dot(NormalOf(s.slope_x, s.slope_y), packet.to_eye);
+    level_m = FootprintLevel(c, packet, Clamp(cos_wave, kMinCos, 1.0f));
+  }
+  return s;
+}
+
+// Looks a lookup image up at the pixel's own window position, moved by the slopes (spec: distortion
+// tied to the bump, fading where the surface is seen edge-on so that far, small things hold together).
+HWY_INLINE V3 LookUpDistorted(const ShadeContext& c, const LookupImage& lookup,
+                              const Packet& packet, const WaterSurface& s, float sign, V& alpha) {
+  const V right = hn::MulAdd(s.slope_x, Constant(c.view_right.x),
+                             hn::Mul(s.slope_y, Constant(c.view_right.y)));
+  const V ahead = hn::MulAdd(s.slope_x, Constant(c.view_ahead.x),
+                             hn::Mul(s.slope_y, Constant(c.view_ahead.y)));
+  const V gain = hn::Mul(Constant(sign * c.distortion_px),
+                         Clamp(hn::Mul(packet.to_eye.z, Constant(6.0f)), 0.1f, 1.0f));
+  const float bound = c.max_distortion_px;
+  const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
+  const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
+  const V half = Constant(0.5f);
+  const V x = hn::Mul(hn::Add(hn::Add(packet.x_px, half), dx), Constant(lookup.scale_x));
+  const V y = hn::Mul(hn::Add(hn::Add(packet.y_px, half), dy), Constant(lookup.scale_y));
+  return LookUp(*lookup.image, x, y, alpha);
+}
+
+// What the surface mirrors: the sky in the reflected direction, and in front of it whatever the
+// reflection image shows there.
+HWY_INLINE V3 ReflectedLight(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
+                             V3 normal, V cos_eye, bool use_image) {
+  V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
+  // Rays that would meet the sea again, and the spread of rough water, look above the horizon.
+  r.z = hn::Add(hn::Abs(r.z), hn::Mul(s.variance, Constant(0.8f)));
+  const V length = hn::Sqrt(Dot(r, r));
+  V3 light = SkyRadiance(*c.sky_soft, r, length);
+  if (use_image) {
+    V alpha;
+    const V3 image = LookUpDistorted(c, c.reflection, packet, s, 1.0f, alpha);
+    light = Lerp(light, image, alpha);
+  }
+  return light;
+}
+
+// What comes up through the surface: scattered light of the water body, brighter in thin crests
+// against the sun, and the floor where the refraction image shows one.
+HWY_INLINE V3 RefractedLight(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
+                             bool use_image) {
+  const V height = hn::Add(packet.p.z, Constant(c.eye_z));
+  const V crest = Clamp(hn::MulAdd(height, Constant(c.inv_crest_height), Constant(0.4f)), 0.0f,
+                        1.5f);
+  const V towards_sun = hn::Max(
+      hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(c.sun_direction.x),
+                         hn::Mul(packet.to_eye.y, Constant(c.sun_direction.y)))),
+      hn::Zero(D()));
+  const V glow = hn::Mul(hn::Mul(crest, crest), hn::Add(towards_sun, Constant(0.35f)));
+  V3 light = ScaleAdd(Constant(c.crest_glow), glow, Constant(c.body));
+  if (use_image) {
+    V alpha;
+    const V3 floor = LookUpDistorted(c, c.refraction, packet, s, -0.5f, alpha);
+    light = Lerp(light, floor, alpha);
+  }
+  return light;
+}
+
+// The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution.
+// Source: Ross, Dion, Potvin, Detailed analytical approach to the Gaussian surface bidirectional
+// reflectance distribution function, 2005, without its shadowing terms.
+HWY_INLINE V SunGlint(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
+                      V reflectance, V cos_eye) {
+  const V3 half = Sum(packet.to_eye, Constant(c.sun_direction));
+  const V inv_z = hn::Div(Constant(1.0f), hn::Max(half.z, Constant(1e-3f)));
+  const V dx = hn::MulAdd(half.x, inv_z, s.slope_x);  // half-way slope is -half.xy / half.z
+  const V dy = hn::MulAdd(half.y, inv_z, s.slope_y);
+  const V inv_variance = hn::Div(Constant(1.0f), s.variance);  // = 1 / (2 sigma^2) per axis
+  const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
+  const V density = hn::Mul(Exp(D(), hn::Max(exponent, Constant(-80.0f))),
+                            hn::Mul(inv_variance, Constant(0.318309886f)));
+  const V inv_cos2 = hn::Mul(Dot(half, half), hn::Mul(inv_z, inv_z));
+  const V numerator = hn::Mul(hn::Mul(reflectance, density), hn::Mul(inv_cos2, inv_cos2));
+  return hn::Div(numerator, hn::Mul(Constant(4.0f), hn::Max(cos_eye, Constant(0.08f))));
+}
+
+HWY_INLINE V3 ShadeWater(const ShadeContext& c, const Packet& packet, TileLookups lookups) {
+  const D d;
+  const WaterSurface s = SampleWater(c, packet);
+  // Normal, and the cosine to the eye, negative on back sides of waves that the mesh does not hide.
+  const V3 normal = NormalOf(s.slope_x, s.slope_y);
+  const V cos_eye = Dot(normal, packet.to_eye);
+  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper view;
+  // a back side counts as the facets in front of it, or crests would be lined with light.
+  const V cos_rough = hn::Sqrt(hn::MulAdd(
+      s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
+  const V reflectance = FresnelReflectance(d, cos_rough, c.refraction_index);
+
+  const V3 mirrored = ReflectedLight(c, packet, s, normal, cos_eye, lookups.reflection);
+  const V3 refracted = RefractedLight(c, packet, s, lookups.refraction);
+  const V3 light = Lerp(refracted, mirrored, reflectance);
+  const V glint = SunGlint(c, packet, s, reflectance, cos_rough);
+  return Haze(c, packet, ScaleAdd(Constant(c.sun_irradiance), glint, light));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

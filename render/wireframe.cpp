@@ -1,0 +1,79 @@
+// Triangle edges over the finished picture, tinted by level of detail: to look at, not for speed.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "raster/interpolate.h"
+#include "render/frame_state.h"
+
+namespace swell::render {
+namespace {
+
+constexpr float kLineWidth_px = 1.0f;
+
+// Neighbouring levels get clearly different colours; R in the low byte.
+std::uint32_t level_colour(int level) {
+  constexpr std::uint32_t kColours[] = {0x3030ffu, 0x30a0ffu, 0x30ffffu, 0x40ff40u,
+                                        0xffff40u, 0xff8040u, 0xff40c0u, 0xffffffu};
+  return kColours[level % std::size(kColours)];
+}
+
+std::uint32_t blend(std::uint32_t under, std::uint32_t over, float amount) {
+  std::uint32_t result = 0xff000000u;
+  for (int shift = 0; shift < 24; shift += 8) {
+    const auto a = static_cast<float>(under >> shift & 0xffu);
+    const auto b = static_cast<float>(over >> shift & 0xffu);
+    result |= static_cast<std::uint32_t>(a + amount * (b - a) + 0.5f) << shift;
+  }
+  return result;
+}
+
+// The surface and triangle that a primitive number of the window's pass means.
+struct Triangle {
+  std::array<glm::vec4, 3> p_clip;
+  int level;
+};
+
+Triangle triangle_of(const Frame& frame, std::uint32_t primitive) {
+  const auto water = static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
+  const bool is_water = primitive < water;
+  const Surface& surface = is_water ? frame.ws.water : frame.ws.land;
+  const std::size_t n = is_water ? primitive : primitive - water;
+  Triangle triangle;
+  for (std::size_t i = 0; i < 3; ++i)
+    triangle.p_clip[i] = surface.p_clip[surface.mesh.indices[3 * n + i]];
+  triangle.level = surface.mesh.level[n];
+  return triangle;
+}
+
+}  // namespace
+
+void draw_wireframe(const Frame& frame, int tile, Target& target) {
+  VisibilityBuffer& visibility = frame.ws.visibility;
+  const int size = visibility.grid.tile_size_px;
+  const int x0 = tile % visibility.grid.tiles_x * size, y0 = tile / visibility.grid.tiles_x * size;
+  const std::span<const std::uint32_t> primitive = visibility.primitive_of(tile);
+  std::uint32_t current = raster::kNoPrimitive;
+  std::optional<raster::TriangleInterpolator> interpolator;
+  std::uint32_t colour = 0;
+  for (int y = 0; y < std::min(size, target.height_px - y0); ++y) {
+    for (int x = 0; x < std::min(size, target.width_px - x0); ++x) {
+      const std::uint32_t p = primitive[static_cast<std::size_t>(y) * size + x];
+      if (p == raster::kNoPrimitive) continue;
+      if (p != current) {
+        const Triangle triangle = triangle_of(frame, p);
+        interpolator.emplace(triangle.p_clip, frame.viewport());
+        colour = level_colour(triangle.level);
+        current = p;
+      }
+      const auto& edge = interpolator->at(x0 + x, y0 + y).edge_distance_px;
+      const float nearest = std::min({std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2])});
+      const float line = std::clamp(kLineWidth_px - nearest, 0.0f, 1.0f);
+      std::uint32_t& pixel =
+          target.rgba[static_cast<std::size_t>(y0 + y) * target.width_px + x0 + x];
+      pixel = blend(pixel, colour, 0.15f + 0.65f * line);
+    }
+  }
+}
+
+}  // namespace swell::render

@@ -1,0 +1,165 @@
+// Making a scene ready to draw: maps of the sky and the land, which do not change with time.
+#include <algorithm>
+#include <cmath>
+
+#include "math/elementary.h"
+#include "render/shade.h"
+#include "render/world_state.h"
+#include "scene/sky.h"
+#include "texture/normal_map.h"
+#include "texture/perlin.h"
+
+namespace swell::render {
+namespace {
+
+constexpr int kSharpSkySize = 768, kSoftSkySize = 256;
+constexpr int kBumpSize = 256;
+constexpr int kTerrainMapSize = 1024;
+
+std::uint32_t encode_byte(float x) {
+  return static_cast<std::uint32_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+std::uint32_t encode_rgb(glm::vec3 linear, float range) {
+  const auto code = [&](float c) { return encode_byte(std::sqrt(std::max(c, 0.0f) / range)); };
+  return code(linear.x) | code(linear.y) << 8 | code(linear.z) << 16 | 0xff000000u;
+}
+
+// The direction that a sky map's texel shows; outside the horizon's circle it points below.
+glm::vec3 sky_direction(int x, int y, int size) {
+  const float u = (2.0f * (static_cast<float>(x) + 0.5f)) / static_cast<float>(size) - 1.0f;
+  const float v = (2.0f * (static_cast<float>(y) + 0.5f)) / static_cast<float>(size) - 1.0f;
+  const float r2 = u * u + v * v;
+  return glm::vec3(2.0f * u, 2.0f * v, 1.0f - r2) / (1.0f + r2);
+}
+
+texture::RgbaImage build_sky_map(const scene::Sky& sky, const texture::PerlinNoise& clouds,
+                                 int size) {
+  texture::RgbaImage image;
+  texture::resize_image(size, size, image);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const glm::vec3 d = sky_direction(x, y, size);
+      if (d.z < -0.1f) continue;  // no lookup reaches so far below the horizon
+      image.texels[static_cast<std::size_t>(y) * image.stride + x] =
+          encode_rgb(scene::sky_radiance(sky, clouds, d), kLookupRange);
+    }
+  }
+  texture::fill_padding(image);
+  return image;
+}
+
+// Mean radiance of the sky weighted by the cosine to the zenith: rings of equal weight.
+glm::vec3 ambient_radiance(const scene::Sky& sky, const texture::PerlinNoise& clouds) {
+  constexpr int kRings = 12, kSectors = 24;
+  glm::vec3 sum(0.0f);
+  for (int i = 0; i < kRings; ++i) {
+    const float sin2 = (static_cast<float>(i) + 0.5f) / kRings;  // sin^2 of the zenith angle
+    const float horizontal = std::sqrt(sin2), z = std::sqrt(1.0f - sin2);
+    for (int j = 0; j < kSectors; ++j) {
+      const SinCos a = sin_cos_turns((j + 0.5) / kSectors);
+      sum += scene::sky_radiance(sky, clouds,
+                                 {horizontal * static_cast<float>(a.cos),
+                                  horizontal * static_cast<float>(a.sin), z});
+    }
+  }
+  return sum / static_cast<float>(kRings * kSectors);
+}
+
+texture::PackedMap2 build_bump_map(std::uint64_t seed) {
+  const texture::SlopeMap slopes = texture::make_bump_slopes(kBumpSize, seed);
+  texture::PackedMap2 map;
+  texture::pack_map2(kBumpSize, slopes.x, slopes.y, 0.0f, map);
+  return map;
+}
+
+// Reflectance of the ground by height, steepness and noise: sand, then scrub and forest, rock
+// where it is steep, grey-green growth in deeper water.
+glm::vec3 ground_albedo(float height_m, float steepness, float noise) {
+  const auto blend = [](float low, float high, float x) {
+    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+  };
+  const glm::vec3 sand = glm::mix(glm::vec3(0.58f, 0.50f, 0.36f), glm::vec3(0.68f, 0.61f, 0.47f),
+                                  0.5f + 0.5f * noise);
+  const glm::vec3 wet_sand = sand * 0.62f;
+  const glm::vec3 green = glm::mix(glm::vec3(0.035f, 0.075f, 0.020f),
+                                   glm::vec3(0.13f, 0.17f, 0.05f), 0.5f + 0.5f * noise);
+  const glm::vec3 rock = glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.34f, 0.31f, 0.27f),
+                                  0.5f + 0.5f * noise);
+  const glm::vec3 reef(0.16f, 0.19f, 0.13f);
+  glm::vec3 c = glm::mix(wet_sand, sand, blend(0.1f, 0.7f, height_m));
+  c = glm::mix(c, green, blend(1.8f, 4.0f, height_m + 1.5f * noise));
+  c = glm::mix(c, rock, blend(0.55f, 0.9f, steepness + 0.15f * noise));
+  if (height_m < -0.5f) c = glm::mix(sand, reef, 0.75f * blend(0.15f, 0.5f, noise));
+  return c;
+}
+
+}  // namespace
+
+SkyMaps build_sky_maps(const scene::Sky& sky) {
+  const texture::PerlinNoise clouds(sky.cloud_seed);
+  return {build_sky_map(sky, clouds, kSharpSkySize), build_sky_map(sky, clouds, kSoftSkySize),
+          ambient_radiance(sky, clouds)};
+}
+
+TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed) {
+  constexpr int n = kTerrainMapSize;
+  const double step = terrain.size_m() / n;
+  std::vector<glm::dvec2> p(n);
+  std::vector<float> row(n), height(static_cast<std::size_t>(n) * n);
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i)
+      p[i] = terrain.min_world + step * glm::dvec2(i, j);
+    scene::sample_heights(terrain, p, row);
+    std::copy(row.begin(), row.end(), height.begin() + static_cast<std::ptrdiff_t>(j) * n);
+  }
+  const auto at = [&](int i, int j) {
+    return height[static_cast<std::size_t>(std::clamp(j, 0, n - 1)) * n + std::clamp(i, 0, n - 1)];
+  };
+
+  TerrainMaps maps;
+  texture::resize_image(n, n, maps.albedo);
+  const texture::PerlinNoise noise(seed);
+  std::vector<float> slope_x(height.size()), slope_y(height.size());
+  const float inv_span = static_cast<float>(0.5 / step);
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const std::size_t k = static_cast<std::size_t>(j) * n + i;
+      slope_x[k] = (at(i + 1, j) - at(i - 1, j)) * inv_span;
+      slope_y[k] = (at(i, j + 1) - at(i, j - 1)) * inv_span;
+      const float steepness = std::sqrt(slope_x[k] * slope_x[k] + slope_y[k] * slope_y[k]);
+      const auto patchiness =
+          static_cast<float>(noise.fractal2(i * step / 14.0, j * step / 14.0, 5, 0.6));
+      maps.albedo.texels[static_cast<std::size_t>(j) * maps.albedo.stride + i] =
+          encode_rgb(ground_albedo(height[k], steepness, std::clamp(patchiness, -1.0f, 1.0f)),
+                     1.0f);
+    }
+  }
+  texture::fill_padding(maps.albedo);
+  texture::pack_map2(n, slope_x, slope_y, 0.0f, maps.slopes);
+  return maps;
+}
+
+namespace {
+
+std::unique_ptr<World::State> make_state(scene::Scene scene) {
+  auto state = std::make_unique<World::State>(
+      World::State{scene, ocean::Sea(scene.sea), std::nullopt, build_sky_maps(scene.sky), {}, {}});
+  if (scene.terrain) {
+    state->terrain = scene::build_terrain(*scene.terrain);
+    state->terrain_maps = build_terrain_maps(*state->terrain, scene.terrain->seed);
+  }
+  state->bump = build_bump_map(scene.sea.seed);
+  return state;
+}
+
+}  // namespace
+
+World::World(scene::Scene scene) : state_(make_state(std::move(scene))) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+const scene::Scene& World::scene() const { return state_->scene; }
+
+}  // namespace swell::render

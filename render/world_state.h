@@ -1,0 +1,40 @@
+// What a World holds: everything about a scene that does not change from frame to frame.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "ocean/sea.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+#include "scene/terrain.h"
+#include "texture/packed_map.h"
+
+namespace swell::render {
+
+// The sky as a map of the upper hemisphere: direction d lies at the window position
+// (0.5 + 0.5 d.xy / (1 + d.z)) * size; the horizon is the circle of radius size / 2.
+struct SkyMaps {
+  texture::RgbaImage sharp;  // what the eye sees
+  texture::RgbaImage soft;   // what waves reflect
+  glm::vec3 ambient{0.0f};   // mean radiance of the upper hemisphere, cosine-weighted
+};
+
+struct TerrainMaps {
+  texture::PackedMap2 slopes;  // over the terrain's square
+  texture::RgbaImage albedo;   // sqrt-encoded reflectance
+};
+
+struct World::State {
+  scene::Scene scene;
+  ocean::Sea sea;
+  std::optional<scene::Terrain> terrain;
+  SkyMaps sky;
+  TerrainMaps terrain_maps;
+  texture::PackedMap2 bump;  // ripples, slopes of a map with period 1
+};
+
+SkyMaps build_sky_maps(const scene::Sky& sky);
+TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed);
+
+}  // namespace swell::render

@@ -1,0 +1,215 @@
+// Properties of whole frames: same bits however they are made, every visible pixel shaded once.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <xmmintrin.h>
+
+#include "math/simd_target.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+
+// Counts every allocation of the process.
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace swell::render {
+namespace {
+
+constexpr int kWidth = 200, kHeight = 120;
+
+World load_world(const std::string& name) {
+  return World(scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/scenes/" + name + ".toml"));
+}
+
+View view_of(const World& world, double t_s, int width = kWidth, int height = kHeight) {
+  return scene::camera_view(world.scene().camera, t_s, width, height);
+}
+
+FrameOptions few_triangles() {
+  FrameOptions options;
+  options.water_triangles = 4000;
+  return options;
+}
+
+struct Picture {
+  Target target;
+  FrameStatistics statistics;
+};
+
+Picture draw(const World& world, double t_s, int threads = 2, FrameOptions options = few_triangles()) {
+  Workers workers(threads);
+  Workspace workspace;
+  Picture picture;
+  picture.statistics = render_frame(world, view_of(world, t_s), t_s, options, workspace,
+                                    picture.target, workers);
+  return picture;
+}
+
+// Says where two pictures first differ, or nothing.
+std::string difference(const Target& a, const Target& b) {
+  if (a.rgba.size() != b.rgba.size()) return "sizes differ";
+  for (std::size_t i = 0; i < a.rgba.size(); ++i)
+    if (a.rgba[i] != b.rgba[i])
+      return "pixel (" + std::to_string(i % static_cast<std::size_t>(a.width_px)) + ", " +
+             std::to_string(i / static_cast<std::size_t>(a.width_px)) + ")";
+  return "";
+}
+
+class EachScene : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, EachScene, testing::Values("open_ocean", "lagoon", "sines"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(EachScene, ThreadCountChangesNoPixel) {
+  const World world = load_world(GetParam());
+  const Picture reference = draw(world, 2.0, 1);
+  for (const int threads : {2, 3, 7})
+    EXPECT_EQ(difference(draw(world, 2.0, threads).target, reference.target), "") << threads;
+}
+
+TEST_P(EachScene, SimdTargetChangesNoPixel) {
+  if (!simd_target_available(SimdTarget::kAvx512)) GTEST_SKIP() << "this CPU has no AVX-512";
+  const World world = load_world(GetParam());
+  select_simd_target(SimdTarget::kAvx512);
+  const Picture wide = draw(world, 2.0);
+  select_simd_target(SimdTarget::kAvx2);
+  const Picture narrow = draw(world, 2.0);
+  EXPECT_EQ(difference(wide.target, narrow.target), "");
+  const World narrow_world = load_world(GetParam());  // its maps made on AVX2, too
+  EXPECT_EQ(difference(draw(narrow_world, 2.0).target, wide.target), "");
+  select_simd_target(SimdTarget::kAvx512);
+}
+
+TEST_P(EachScene, TileSizeChangesNoPixel) {
+  const World world = load_world(GetParam());
+  FrameOptions options = few_triangles();
+  const Picture reference = draw(world, 2.0, 2, options);
+  for (const int tile : {16, 32}) {
+    options.tile_size_px = tile;
+    EXPECT_EQ(difference(draw(world, 2.0, 2, options).target, reference.target), "") << tile;
+  }
+}
+
+TEST_P(EachScene, FrameAloneEqualsFrameInSequence) {
+  const World world = load_world(GetParam());
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  for (const int k : {0, 1, 2, 3, 4, 5, 40, 7, 50}) {
+    const double t_s = k / 25.0;
+    render_frame(world, view_of(world, t_s), t_s, few_triangles(), workspace, target, workers);
+  }
+  EXPECT_EQ(difference(draw(world, 2.0).target, target), "");
+}
+
+TEST_P(EachScene, WorkspaceOfAnotherSizeAndSceneLeavesNoTrace) {
+  const World world = load_world(GetParam()), other = load_world("lagoon");
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options = few_triangles();
+  options.tile_size_px = 32;
+  options.lookup_scale = 1.0;
+  render_frame(other, view_of(other, 1.0, 333, 77), 1.0, options, workspace, target, workers);
+  render_frame(world, view_of(world, 2.0), 2.0, few_triangles(), workspace, target, workers);
+  EXPECT_EQ(difference(draw(world, 2.0).target, target), "");
+}
+
+TEST_P(EachScene, EveryVisiblePixelIsShadedOnce) {
+  const World world = load_world(GetParam());
+  const FrameStatistics s = draw(world, 1.0).statistics;
+  EXPECT_GT(s.visible_pixels, 0u);
+  EXPECT_LE(s.visible_pixels, std::uint64_t{kWidth} * kHeight);
+  EXPECT_EQ(s.visible_pixels, s.shaded_pixels);
+}
+
+TEST_P(EachScene, SteadyStateAllocatesNothing) {
+  const World world = load_world(GetParam());
+  Workers workers(1);
+  Workspace workspace;
+  Target target;
+  const auto frame = [&](int k) {
+    render_frame(world, view_of(world, 0.0), k / 60.0, few_triangles(), workspace, target, workers);
+  };
+  for (int k = 0; k < 3; ++k) frame(k);
+  const long before = allocations.load();
+  for (int k = 3; k < 6; ++k) frame(k);
+  EXPECT_EQ(allocations.load() - before, 0);
+}
+
+TEST(Frame, CallersFloatEnvironmentChangesNoPixel) {
+  const World world = load_world("lagoon");
+  const Picture reference = draw(world, 2.0);
+  const unsigned saved = _mm_getcsr();
+  _mm_setcsr(saved | 0x8040u);  // flush to zero, denormals are zero
+  const Picture flushed = draw(world, 2.0);
+  _mm_setcsr(saved);
+  EXPECT_EQ(difference(flushed.target, reference.target), "");
+}
+
+TEST(Frame, LookingDownAtTheSeaLeavesNoHole) {
+  const World world = load_world("open_ocean");
+  for (const double pitch : {-1.5, -1.0, -0.6}) {
+    const View view = make_view({0, 0, 30}, 0.7, pitch, 0.8, 0.25f, 320, 200);
+    Workers workers(2);
+    Workspace workspace;
+    Target target;
+    const FrameStatistics s =
+        render_frame(world, view, 3.0, few_triangles(), workspace, target, workers);
+    EXPECT_EQ(s.visible_pixels, std::uint64_t{320} * 200) << "pitch " << pitch;
+  }
+}
+
+TEST(Frame, WindChangesThePictureAndTheSeedToo) {
+  scene::Scene scene = load_world("open_ocean").scene();
+  const Picture reference = draw(World(scene), 2.0);
+  scene::Scene calm = scene, other_seed = scene;
+  calm.sea.wind_speed_mps = 5.0;
+  other_seed.sea.seed += 1;
+  EXPECT_NE(picture_hash(draw(World(calm), 2.0).target), picture_hash(reference.target));
+  EXPECT_NE(picture_hash(draw(World(other_seed), 2.0).target), picture_hash(reference.target));
+}
+
+TEST(Frame, OddSizesAndExtremeCamerasDraw) {
+  const World world = load_world("lagoon");
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), {1, 200}, {200, 1}, {63, 65}, {17, 3}}) {
+    for (const double pitch : {-1.57, 0.0, 1.57}) {
+      const View view = make_view({1, 2, 5}, 2.0, pitch, 1.0, 0.25f, size.x, size.y);
+      const FrameStatistics s =
+          render_frame(world, view, 1.0, few_triangles(), workspace, target, workers);
+      EXPECT_EQ(target.rgba.size(), static_cast<std::size_t>(size.x) * size.y);
+      EXPECT_EQ(s.visible_pixels, s.shaded_pixels);
+    }
+  }
+  for (const double z : {-3.0, 0.0, 40000.0})
+    for (const double fov : {0.01, 3.1})
+      render_frame(world, make_view({0, 0, z}, 0.0, -0.3, fov, 0.25f, 64, 48), 1e9,
+                   few_triangles(), workspace, target, workers);
+}
+
+TEST(Frame, LinearPictureHoldsOnlyFiniteRadiance) {
+  const World world = load_world("lagoon");
+  FrameOptions options = few_triangles();
+  options.keep_linear = true;
+  const Picture picture = draw(world, 2.0, 2, options);
+  ASSERT_EQ(picture.target.linear.size(), std::size_t{3} * kWidth * kHeight);
+  for (const float x : picture.target.linear) ASSERT_TRUE(std::isfinite(x) && x >= 0.0f) << x;
+}
+
+}  // namespace
+}  // namespace swell::render
