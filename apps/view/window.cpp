@@ -1,6 +1,7 @@
 #include "apps/view/window.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace swell::view {
 namespace {
@@ -13,9 +14,21 @@ int clamp_side(int side_px) { return std::clamp(side_px, 1, kLargestSide_px); }
   throw DisplayError("no display: " + what + ": " + SDL_GetError());
 }
 
+// Names the window systems to try. Left to itself SDL ends with drivers that draw nowhere, and a
+// viewer without a display would run on unseen.
+void choose_video_driver() {
+  if (std::getenv("SDL_VIDEODRIVER")) return;
+  std::string drivers;
+  if (std::getenv("WAYLAND_DISPLAY")) drivers = "wayland";
+  if (std::getenv("DISPLAY")) drivers = drivers.empty() ? "x11" : "x11," + drivers;
+  if (drivers.empty()) throw DisplayError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
+  SDL_SetHint(SDL_HINT_VIDEODRIVER, drivers.c_str());
+}
+
 }  // namespace
 
 Window::Session::Session() {
+  choose_video_driver();
   // SDL's defaults would put even the software renderer's surface through OpenGL.
   SDL_SetHintWithPriority(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0", SDL_HINT_DEFAULT);
   SDL_SetHintWithPriority(SDL_HINT_RENDER_DRIVER, "software", SDL_HINT_DEFAULT);

@@ -20,7 +20,7 @@ class ViewerTest : public testing::Test {
  protected:
   ViewerTest() {
     const char* driver = std::getenv("SWELL_TEST_VIDEO");
-    SDL_SetHintWithPriority(SDL_HINT_VIDEODRIVER, driver ? driver : "dummy", SDL_HINT_OVERRIDE);
+    setenv("SDL_VIDEODRIVER", driver ? driver : "dummy", 1);
   }
 };
 
