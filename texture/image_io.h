@@ -25,17 +25,22 @@ struct ReadLimits {
 };
 
 // Reads an image as float: integer formats as [0, 1], float formats as stored. Refuses more than
-// 4 channels, sizes over the limits (before allocating), NaN and infinite pixels (naming one).
+// 4 channels, sizes over the limits (before allocating), NaN and infinite pixels (naming one), and
+// whatever is not a regular file. Channels come as stored: alpha is not multiplied in.
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 // Encodes by the file name's extension: .png (8-bit), .exr (float), .tif/.tiff (float or 8-bit).
-// Throws FileError for other extensions.
+// Channels are written as they are: display-encoded bytes stay display-encoded, alpha is not
+// divided out. EXR channels are named Y, YA, RGB or RGBA unless names are given (then any number
+// of channels is allowed). The same image gives the same bytes: no dates. Throws FileError for
+// other extensions.
 std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension);
 std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,
                                        std::span<const std::string> channel_names = {});
 
 // Writes bytes to a temporary file beside `path`, syncs it, renames it over `path`. On any failure
-// throws FileError and leaves the old file and no temporary one.
+// throws FileError and leaves the old file and no temporary one. A symbolic link keeps standing and
+// its file is replaced; devices, pipes and folders are refused.
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
 }  // namespace swell::texture
