@@ -28,10 +28,6 @@ static_assert(kLanes <= 16, "a packet must fit the smallest tile");
 // While a tile is drawn, a pixel without a triangle has this depth, so that depth 0 still wins.
 constexpr float kEmptyDepth = -1.0f;
 
-// A triangle whose edges are all shorter than this, along x and along y, needs no check for
-// 32-bit overflow within a tile.
-constexpr std::int32_t kSmallFx8 = 1 << 15;
-
 struct TileTarget {
   float* HWY_RESTRICT depth;
   std::uint32_t* HWY_RESTRICT primitive;
@@ -92,16 +88,17 @@ HWY_INLINE FloatVec ToPixels(std::int32_t fx8) {
   return hn::Set(d, static_cast<float>(fx8) * (1.0f / kPixelFx8));
 }
 
-// Depth test and masked stores of one packet whose covered lanes do not have the sign bit set in
-// `edges`.
+// Depth test and store of one packet, whose covered lanes are those where `edges` is not negative.
+// Whole stores: masked ones took 1.7 times the time on AVX2.
 HWY_INLINE void DrawPacket(IntVec edges, FloatVec z, FloatVec primitive, float* HWY_RESTRICT depth,
                            float* HWY_RESTRICT id) {
   const FloatTag d;
   const IntTag di;
   const auto inside = hn::RebindMask(d, hn::Gt(edges, hn::Set(di, -1)));
-  const auto wins = hn::And(inside, hn::Gt(z, hn::LoadU(d, depth)));
-  hn::BlendedStore(z, wins, d, depth);
-  hn::BlendedStore(primitive, wins, d, id);
+  const FloatVec old = hn::LoadU(d, depth);
+  const auto wins = hn::And(inside, hn::Gt(z, old));
+  hn::StoreU(hn::IfThenElse(wins, z, old), d, depth);
+  hn::StoreU(hn::IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
 }
 
 HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
