@@ -7,9 +7,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json complete_event(std::string_view name, double start_us, double length_us, int thread) {
-  return {{"name", name},     {"cat", "frame"}, {"ph", "X"},    {"ts", start_us},
-          {"dur", length_us}, {"pid", 1},       {"tid", thread}};
+Json complete_event(std::string_view name, double start_us, double length_us, int track) {
+  return {{"name", name},     {"cat", "frame"}, {"ph", "X"},   {"ts", start_us},
+          {"dur", length_us}, {"pid", 1},       {"tid", track}};
+}
+
+int track_of(const render::TraceEvent& event) {
+  return event.thread < 0 ? 1000 + static_cast<int>(event.stage) : 1 + event.thread;
 }
 
 }  // namespace
@@ -27,7 +31,7 @@ std::string Trace::json() const {
     events.push_back(std::move(whole));
     for (const render::TraceEvent& e : frame.events)
       events.push_back(complete_event(stage_name(e.stage), frame.start_us + e.start_us,
-                                      e.end_us - e.start_us, e.thread));
+                                      e.end_us - e.start_us, track_of(e)));
   }
   return Json{{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}.dump() + "\n";
 }

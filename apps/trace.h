@@ -15,7 +15,8 @@ class Trace {
   void add_frame(int frame, double start_us, double length_us,
                  std::span<const render::TraceEvent> events);
 
-  // The trace-event JSON: complete events ("ph": "X"), microseconds, one tid a worker slot.
+  // The trace-event JSON: complete events ("ph": "X"), microseconds. Tracks (tid): 0 the frames,
+  // 1 + slot the work of one thread, 1000 + stage a stage from its start to its end (thread < 0).
   std::string json() const;
 
  private:

@@ -93,7 +93,7 @@ TEST(Trace, PlacesStagesInTheRun) {
   EXPECT_EQ(shade.at("name"), "shade");
   EXPECT_EQ(shade.at("ts"), 1010.0);
   EXPECT_EQ(shade.at("dur"), 20.0);
-  EXPECT_EQ(shade.at("tid"), 1);
+  EXPECT_EQ(shade.at("tid"), 2) << "track 0 holds the frames";
 }
 
 TEST(OneLine, RemovesWhatWouldBreakTheLine) {
