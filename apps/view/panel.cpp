@@ -14,7 +14,6 @@ namespace {
 
 constexpr float kPanelWidth_px = 330.0f;
 constexpr float kGraphHeight_px = 80.0f;
-constexpr float kGraphTop_ms = 40.0f;
 constexpr double kRadPerDeg = kPi / 180.0;
 
 void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
@@ -53,20 +52,45 @@ void draw_quality(render::FrameOptions& frame) {
   ImGui::Checkbox("wireframe", &frame.wireframe);
 }
 
-// Frame times from left (old) to right (new), with the budget as a line across.
+// The graph's top: twice the budget, doubled until nearly all frames fit.
+float graph_top_ms(const FrameHistory& history) {
+  double top_ms = 2.0 * kBudget_ms;
+  while (top_ms < percentile_ms(history, 0.95) && top_ms < 1e4) top_ms *= 2.0;
+  return static_cast<float>(top_ms);
+}
+
+// One bar a frame, the newest at the right edge; bars over the budget in another colour.
+void draw_bars(const FrameHistory& history, ImVec2 corner, ImVec2 size, float top_ms) {
+  constexpr auto kSlots = static_cast<float>(FrameHistory::kLength);
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  for (std::size_t age = 1; age <= history.count; ++age) {
+    const std::size_t i = (history.next + FrameHistory::kLength - age) % FrameHistory::kLength;
+    const float ms = history.frame_ms[i];
+    const float slot = kSlots - static_cast<float>(age);
+    const float x0 = std::floor(corner.x + size.x * slot / kSlots);
+    const float x1 = std::floor(corner.x + size.x * (slot + 1.0f) / kSlots);
+    const float height = std::floor(size.y * std::clamp(ms / top_ms, 0.0f, 1.0f));
+    const bool is_over = static_cast<double>(ms) > kBudget_ms;
+    list->AddRectFilled({x0, corner.y + size.y - height}, {x1, corner.y + size.y},
+                        is_over ? IM_COL32(190, 130, 40, 255) : IM_COL32(70, 150, 90, 255));
+  }
+}
+
+// Frame times with the budget as a labelled line across.
 void draw_graph(const FrameHistory& history) {
   const ImVec2 size(ImGui::GetContentRegionAvail().x, kGraphHeight_px);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const bool is_full = history.count == FrameHistory::kLength;
-  ImGui::PlotHistogram("##frame times", history.frame_ms.data(), static_cast<int>(history.count),
-                       is_full ? static_cast<int>(history.next) : 0, nullptr, 0.0f, kGraphTop_ms,
-                       size);
-  const float budget_ms = static_cast<float>(kBudget_ms);
-  const float y = std::floor(corner.y + size.y * (1.0f - budget_ms / kGraphTop_ms));
+  const float top_ms = graph_top_ms(history);
   ImDrawList* list = ImGui::GetWindowDrawList();
-  const ImU32 red = IM_COL32(255, 80, 60, 255);
-  list->AddRectFilled({corner.x, y}, {corner.x + size.x, y + 1.0f}, red);
-  list->AddText({corner.x + 4.0f, y - 14.0f}, red, "17 ms");
+  list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(15, 25, 35, 255));
+  draw_bars(history, corner, size, top_ms);
+
+  const float budget_ms = static_cast<float>(kBudget_ms);
+  const float y = std::floor(corner.y + size.y * (1.0f - budget_ms / top_ms));
+  list->AddRectFilled({corner.x, y}, {corner.x + size.x, y + 1.0f}, IM_COL32(255, 90, 70, 255));
+  list->AddRectFilled({corner.x, y - 15.0f}, {corner.x + 44.0f, y}, IM_COL32(15, 25, 35, 255));
+  list->AddText({corner.x + 4.0f, y - 14.0f}, IM_COL32(255, 140, 120, 255), "17 ms");
+  ImGui::Dummy(size);
 }
 
 void draw_times(const PanelReport& report) {
