@@ -37,6 +37,9 @@ function(swell_add_folder folder)
     $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include/swell>)
   target_link_libraries(swell_${folder} PUBLIC ${ARG_LINKS}
     PRIVATE $<BUILD_INTERFACE:swell_options> ${ARG_PRIVATE_LINKS})
+  # What programs that embed the library must compile its headers with.
+  target_compile_features(swell_${folder} INTERFACE cxx_std_20)
+  target_compile_options(swell_${folder} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
   install(TARGETS swell_${folder} EXPORT swell-targets)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/ DESTINATION include/swell/${folder}
     FILES_MATCHING PATTERN "*.h")
