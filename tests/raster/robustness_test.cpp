@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "raster/allocation_count.h"
+#include "allocation_count.h"
 #include "raster/picture.h"
 
 namespace swell::raster {

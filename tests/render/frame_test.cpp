@@ -1,29 +1,15 @@
 // Properties of whole frames: same bits however they are made, every visible pixel shaded once.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <string>
+
 #include <xmmintrin.h>
 
+#include "allocation_count.h"
 #include "math/simd_target.h"
 #include "render/frame.h"
 #include "scene/scene.h"
-
-// Counts every allocation of the process.
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace swell::render {
 namespace {
@@ -144,9 +130,9 @@ TEST_P(EachScene, SteadyStateAllocatesNothing) {
     render_frame(world, view_of(world, 0.0), k / 60.0, few_triangles(), workspace, target, workers);
   };
   for (int k = 0; k < 3; ++k) frame(k);
-  const long before = allocations.load();
+  const std::uint64_t before = allocation_count();
   for (int k = 3; k < 6; ++k) frame(k);
-  EXPECT_EQ(allocations.load() - before, 0);
+  EXPECT_EQ(allocation_count() - before, 0u);
 }
 
 TEST(Frame, CallersFloatEnvironmentChangesNoPixel) {
@@ -187,7 +173,7 @@ TEST(Frame, OddSizesAndExtremeCamerasDraw) {
   Workers workers(2);
   Workspace workspace;
   Target target;
-  for (const glm::ivec2 size : {glm::ivec2(1, 1), {1, 200}, {200, 1}, {63, 65}, {17, 3}}) {
+  for (const glm::ivec2& size : {glm::ivec2(1, 1), {1, 200}, {200, 1}, {63, 65}, {17, 3}}) {
     for (const double pitch : {-1.57, 0.0, 1.57}) {
       const View view = make_view({1, 2, 5}, 2.0, pitch, 1.0, 0.25f, size.x, size.y);
       const FrameStatistics s =

@@ -1,5 +1,5 @@
 // Golden pictures: the frame's exact hash, and a small PNG beside it for people.
-// To accept new pictures: SWELL_UPDATE_GOLDEN=1 build/release/bin/golden_test
+// To accept new pictures: SWELL_UPDATE_GOLDEN=1 build/release/bin/render_golden_test
 #include <gtest/gtest.h>
 
 #include <cstdlib>

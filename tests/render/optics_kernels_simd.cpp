@@ -1,7 +1,7 @@
-#include "optics_kernels.h"
+#include "render/optics_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "optics_kernels_simd.cpp"
+#define HWY_TARGET_INCLUDE "render/optics_kernels_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "math/simd_target.h"
-#include "optics_kernels.h"
+#include "render/optics_kernels.h"
 
 namespace swell::render {
 namespace {

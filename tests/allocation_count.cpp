@@ -1,4 +1,4 @@
-#include "raster/allocation_count.h"
+#include "allocation_count.h"
 
 #include <atomic>
 #include <cstdlib>
@@ -26,6 +26,6 @@ void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
-namespace swell::raster {
+namespace swell {
 std::uint64_t allocation_count() { return count; }
-}  // namespace swell::raster
+}  // namespace swell

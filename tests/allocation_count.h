@@ -3,6 +3,6 @@
 
 #include <cstdint>
 
-namespace swell::raster {
+namespace swell {
 std::uint64_t allocation_count();
 }
