@@ -2,6 +2,14 @@
 # reads this file too.
 include(CMakeFindDependencyMacro)
 
+# find_dependency gives up silently unless a required package is being looked for: our own build
+# says that it is one.
+if(NOT DEFINED CMAKE_FIND_PACKAGE_NAME)
+  set(CMAKE_FIND_PACKAGE_NAME swell)
+  set(swell_FIND_REQUIRED TRUE)
+  set(swell_is_building TRUE)
+endif()
+
 find_dependency(Threads)
 find_dependency(TBB)
 find_dependency(glm)
@@ -12,3 +20,9 @@ find_dependency(tomlplusplus)
 find_dependency(PkgConfig)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET GLOBAL OpenImageIO)
 pkg_check_modules(XXHash REQUIRED IMPORTED_TARGET GLOBAL libxxhash)
+
+if(swell_is_building)
+  unset(CMAKE_FIND_PACKAGE_NAME)
+  unset(swell_FIND_REQUIRED)
+  unset(swell_is_building)
+endif()
