@@ -14,8 +14,7 @@ namespace {
 
 // Sizes what depends on the picture and the thread count; after the first frame this does nothing.
 void prepare(Frame& frame, Target& target) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(frame.view.width_px) * frame.view.height_px;
+  const std::size_t pixels = static_cast<std::size_t>(frame.view.width_px) * frame.view.height_px;
   target.width_px = frame.view.width_px;
   target.height_px = frame.view.height_px;
   target.rgba.resize(pixels);

@@ -52,11 +52,11 @@ class World {
 };
 
 struct FrameOptions {
-  int tile_size_px = 64;          // 16, 32 or 64; changes no pixel
-  int water_triangles = 0;        // 0: the scene's
-  double lookup_scale = 0.0;      // 0: the scene's
-  bool wireframe = false;         // triangle edges, tinted by level of detail
-  bool keep_linear = false;       // fill Target::linear
+  int tile_size_px = 64;      // 16, 32 or 64; changes no pixel
+  int water_triangles = 0;    // 0: the scene's
+  double lookup_scale = 0.0;  // 0: the scene's
+  bool wireframe = false;     // triangle edges, tinted by level of detail
+  bool keep_linear = false;   // fill Target::linear
 };
 
 // The finished picture. Sized by render_frame; capacity is kept.
@@ -78,7 +78,7 @@ struct FrameStatistics {
 // What happened when, for --trace: one row per stage and thread.
 struct TraceEvent {
   Stage stage;
-  int thread;            // worker slot
+  int thread;               // worker slot
   double start_us, end_us;  // since the frame's start
 };
 

@@ -24,9 +24,9 @@ struct Surface {
   int max_triangles = 0;
   lod::AdaptStatistics statistics;
   lod::Mesh mesh;
-  std::vector<glm::vec2> offset;   // per vertex: x, y relative to the eye [m]
-  std::vector<float> height_m;     // per vertex
-  std::vector<glm::vec4> p_clip;   // in the window's view
+  std::vector<glm::vec2> offset;  // per vertex: x, y relative to the eye [m]
+  std::vector<float> height_m;    // per vertex
+  std::vector<glm::vec4> p_clip;  // in the window's view
 };
 
 // An off-screen picture: the land mirrored in the sea, or squeezed below it.
@@ -51,7 +51,9 @@ struct VisibilityBuffer {
   std::size_t tile_pixels() const {
     return static_cast<std::size_t>(grid.tile_size_px) * grid.tile_size_px;
   }
-  std::span<float> depth_of(int tile) { return {depth.data() + tile * tile_pixels(), tile_pixels()}; }
+  std::span<float> depth_of(int tile) {
+    return {depth.data() + tile * tile_pixels(), tile_pixels()};
+  }
   std::span<std::uint32_t> primitive_of(int tile) {
     return {primitive.data() + tile * tile_pixels(), tile_pixels()};
   }
@@ -110,7 +112,6 @@ void shade_pixels(Frame& frame, Target& target);
 void draw_wireframe(const Frame& frame, int tile, Target& target);
 
 // The constants of shading for a view of this frame; kind kWindow fills everything.
-void fill_shade_context(const Frame& frame, const View& view, ViewKind kind,
-                        ShadeContext& context);
+void fill_shade_context(const Frame& frame, const View& view, ViewKind kind, ShadeContext& context);
 
 }  // namespace swell::render

@@ -164,8 +164,7 @@ void advance_sea(Frame& frame) {
       texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, ws.patch_maps[i]);
     } else {
       ws.uv_noise.evaluate(kUvNoiseCells_per_s * frame.t_s, ws.noise_cos, ws.noise_sin);
-      texture::pack_map2(kUvNoiseSize, ws.noise_cos, ws.noise_sin, 1.0f / 127.0f,
-                         ws.uv_noise_map);
+      texture::pack_map2(kUvNoiseSize, ws.noise_cos, ws.noise_sin, 1.0f / 127.0f, ws.uv_noise_map);
     }
   });
 }
@@ -177,8 +176,7 @@ void triangulate(Frame& frame) {
   const auto bound = static_cast<float>(frame.world.sea.height_bound_m());
   frame.workers.run_both(
       [&] {
-        adapt_surface(frame, sea_domain(frame.view), budget, -bound, bound, 0.0f,
-                      frame.ws.water);
+        adapt_surface(frame, sea_domain(frame.view), budget, -bound, bound, 0.0f, frame.ws.water);
       },
       [&] {
         if (!frame.world.terrain) return;

@@ -38,9 +38,7 @@ HWY_INLINE V3 Scale(V3 a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::M
 HWY_INLINE V3 Product(V3 a, V3 b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
 }
-HWY_INLINE V3 Sum(V3 a, V3 b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
+HWY_INLINE V3 Sum(V3 a, V3 b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
 // a s + b
 HWY_INLINE V3 ScaleAdd(V3 a, V s, V3 b) {
   return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
@@ -70,8 +68,8 @@ HWY_INLINE Packet MakePacket(const ShadeContext& c, V x_px, V y_px, V z) {
   packet.x_px = x_px;
   packet.y_px = y_px;
   packet.depth = hn::Div(Constant(c.near_m), z);
-  const V3 ray = ScaleAdd(Constant(c.ray_dx), x_px, ScaleAdd(Constant(c.ray_dy), y_px,
-                                                             Constant(c.ray)));
+  const V3 ray =
+      ScaleAdd(Constant(c.ray_dx), x_px, ScaleAdd(Constant(c.ray_dy), y_px, Constant(c.ray)));
   packet.p = Scale(ray, packet.depth);
   const V length2 = Dot(ray, ray);
   const V inverse_length = InverseSqrt(length2);
@@ -89,8 +87,8 @@ HWY_INLINE V PixelNoise(V x_px, V y_px) {
   return hn::Sub(b, hn::Floor(b));
 }
 
-// log2 of the footprint [m] of a pixel on a surface seen at cos_view: across the view, lengthened by
-// three quarters (in log) of the stretch along it. Less would leave grazing views aliased, more
+// log2 of the footprint [m] of a pixel on a surface seen at cos_view: across the view, lengthened
+// by three quarters (in log) of the stretch along it. Less would leave grazing views aliased, more
 // would blur them across the view.
 HWY_INLINE V FootprintLevel(const ShadeContext& c, const Packet& packet, V cos_view) {
   const V across = hn::Mul(packet.depth, Constant(c.pixel_angle));
@@ -122,8 +120,8 @@ HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, 
   const V table = hn::LoadU(d, layer.lost_variance.data());
   const V lost = hn::TableLookupLanes(table, hn::IndicesFromVec(d, hn::ConvertTo(DI(), base)));
   const V lost_next = hn::TableLookupLanes(
-      table, hn::IndicesFromVec(
-                 d, hn::ConvertTo(DI(), hn::Min(next, Constant(kTableLevels - 1.0f)))));
+      table,
+      hn::IndicesFromVec(d, hn::ConvertTo(DI(), hn::Min(next, Constant(kTableLevels - 1.0f)))));
   variance = hn::Add(variance, Lerp(lost, lost_next, t));
 
   const V noise = Constant(layer.uv_noise_m);
@@ -165,8 +163,8 @@ HWY_INLINE V3 SkyRadiance(const texture::RgbaImage& map, V3 direction, V length)
 // Blends towards the horizon's colour with distance, so that no edge of the sea shows.
 HWY_INLINE V3 Haze(const ShadeContext& c, const Packet& packet, V3 colour) {
   const D d;
-  const V amount = hn::Sub(
-      Constant(1.0f), Exp(d, hn::Mul(packet.distance, Constant(-c.inv_haze_m))));
+  const V amount =
+      hn::Sub(Constant(1.0f), Exp(d, hn::Mul(packet.distance, Constant(-c.inv_haze_m))));
   const auto visible = hn::Gt(amount, Constant(1.0f / 1024.0f));
   if (hn::AllFalse(d, visible)) return colour;
   const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);

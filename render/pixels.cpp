@@ -54,8 +54,9 @@ TileRange reachable_tiles(const Frame& frame, int tile, const View& lookup_view,
     const auto low = static_cast<float>(index * grid.tile_size_px) - bound;
     const float high = static_cast<float>((index + 1) * grid.tile_size_px) + bound;
     const auto size = static_cast<float>(lookup_grid.tile_size_px);
-    return std::pair{std::clamp(static_cast<int>(std::floor((low * scale - 2.0f) / size)), 0, tiles - 1),
-                     std::clamp(static_cast<int>(std::floor((high * scale + 2.0f) / size)), 0, tiles - 1) + 1};
+    return std::pair{
+        std::clamp(static_cast<int>(std::floor((low * scale - 2.0f) / size)), 0, tiles - 1),
+        std::clamp(static_cast<int>(std::floor((high * scale + 2.0f) / size)), 0, tiles - 1) + 1};
   };
   const auto [x0, x1] = range(tile % grid.tiles_x, scale_x, lookup_grid.tiles_x);
   const auto [y0, y1] = range(tile / grid.tiles_x, scale_y, lookup_grid.tiles_y);
@@ -75,8 +76,8 @@ View lookup_view(const Frame& frame) {
 
 void size_lookup(const View& view, const raster::TileGrid& grid, LookupTarget& target) {
   const auto tiles = static_cast<std::size_t>(grid.count());
-  const bool same = target.image.width == view.width_px &&
-                    target.image.height == view.height_px && target.written.size() == tiles;
+  const bool same = target.image.width == view.width_px && target.image.height == view.height_px &&
+                    target.written.size() == tiles;
   if (!same) {
     texture::resize_image(view.width_px, view.height_px, target.image);
     target.written.assign(tiles, 0);
@@ -94,8 +95,7 @@ void clear_tile(const ShadeContext& c, int tile, texture::RgbaImage& image) {
   }
 }
 
-void draw_lookup_tile(const Frame& frame, int tile, ThreadScratch& scratch,
-                      LookupTarget& target) {
+void draw_lookup_tile(const Frame& frame, int tile, ThreadScratch& scratch, LookupTarget& target) {
   const bool drawn = target.wanted[tile] && raster::tile_has_triangles(target.pass, tile);
   if (drawn) {
     const std::size_t pixels = frame.ws.visibility.tile_pixels();
@@ -165,7 +165,8 @@ void draw_lookup_images(Frame& frame) {
       for (int x = r.x0; x < r.x1; ++x) visit(static_cast<std::size_t>(y) * grid.tiles_x + x);
   };
   for (std::size_t tile = 0; tile < tiles; ++tile)
-    for_reachable(tile, [&](std::size_t t) { ws.reflection.wanted[t] = ws.refraction.wanted[t] = 1; });
+    for_reachable(tile,
+                  [&](std::size_t t) { ws.reflection.wanted[t] = ws.refraction.wanted[t] = 1; });
 
   draw_lookup_image(frame, view, ViewKind::kReflection, ws.reflection);
   draw_lookup_image(frame, view, ViewKind::kRefraction, ws.refraction);
@@ -176,9 +177,9 @@ void draw_lookup_images(Frame& frame) {
       ws.tile_lookups[tile].refraction |= ws.refraction.written[t] != 0;
     });
   const auto lookup_of = [&](const LookupTarget& target) {
-    return LookupImage{&target.image,
-                       static_cast<float>(view.width_px) / static_cast<float>(frame.view.width_px),
-                       static_cast<float>(view.height_px) / static_cast<float>(frame.view.height_px)};
+    return LookupImage{
+        &target.image, static_cast<float>(view.width_px) / static_cast<float>(frame.view.width_px),
+        static_cast<float>(view.height_px) / static_cast<float>(frame.view.height_px)};
   };
   ws.context.reflection = lookup_of(ws.reflection);
   ws.context.refraction = lookup_of(ws.refraction);
@@ -196,9 +197,9 @@ void shade_pixels(Frame& frame, Target& target) {
     if (visibility.covered[tile] <= 0)
       shade_sky_tile(ws.context, tile, scratch, target.rgba, target.linear);
     else
-      ws.shaded[index] = shade_tile(ws.context, tile, visibility.depth_of(tile),
-                                    visibility.primitive_of(tile), ws.tile_lookups[index],
-                                    scratch, target.rgba, target.linear);
+      ws.shaded[index] =
+          shade_tile(ws.context, tile, visibility.depth_of(tile), visibility.primitive_of(tile),
+                     ws.tile_lookups[index], scratch, target.rgba, target.linear);
     if (frame.options.wireframe && visibility.covered[tile] > 0)
       draw_wireframe(frame, tile, target);
   });

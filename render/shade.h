@@ -23,17 +23,18 @@ inline constexpr float kCosSunRim = 0.99998f, kCosSunCore = 0.999992f;
 inline constexpr int kMaxTilePixels = 64 * 64;
 inline constexpr int kMaxSlopeLayers = 8;
 inline constexpr int kMaxSines = 16;
-inline constexpr int kTableLevels = 8;  // mip levels a shader tells apart; coarser ones hold nothing
+inline constexpr int kTableLevels =
+    8;  // mip levels a shader tells apart; coarser ones hold nothing
 
 // A periodic slope map laid over the sea or the land.
 struct SlopeLayer {
   const texture::PackedMap2* map = nullptr;
-  float inv_length = 1.0f;          // turns of the map per metre
+  float inv_length = 1.0f;           // turns of the map per metre
   float u_eye = 0.0f, v_eye = 0.0f;  // map position under the eye, [0, 1)
   float log2_texels_per_m = 0.0f;
-  float gain = 1.0f;                // multiplies the slopes
-  float uv_noise_m = 0.0f;          // how far the coordinates are perturbed
-  int levels = 1;                   // levels below this hold detail
+  float gain = 1.0f;        // multiplies the slopes
+  float uv_noise_m = 0.0f;  // how far the coordinates are perturbed
+  int levels = 1;           // levels below this hold detail
   // Slope variance that each mip level has lost, after gain; repeated for wide vectors.
   std::array<float, 2 * kTableLevels> lost_variance{};
 };
@@ -86,13 +87,13 @@ struct ShadeContext {
   int sine_count = 0;
   float base_variance = 0.001f;  // slope variance of ripples too fine for any map
   float refraction_index = 1.333f;
-  glm::vec3 body{0.0f};       // radiance of deep water
-  glm::vec3 crest_glow{0.0f}; // added where light shines through crests
+  glm::vec3 body{0.0f};        // radiance of deep water
+  glm::vec3 crest_glow{0.0f};  // added where light shines through crests
   float inv_crest_height = 0.0f;
   glm::vec3 absorption_per_m{0.0f};
   LookupImage reflection, refraction;
-  float distortion_px = 0.0f;      // window pixels per unit of slope
-  float max_distortion_px = 0.0f;  // bound of the displacement, each way
+  float distortion_px = 0.0f;                    // window pixels per unit of slope
+  float max_distortion_px = 0.0f;                // bound of the displacement, each way
   glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // horizontal unit vectors of the camera
 
   // Terrain.
@@ -116,8 +117,8 @@ struct ShadeScratch {
 // (the whole picture) and, unless empty, linear light to `linear` (RGB). `depth` and `primitive`
 // are the tile's visibility buffer. Returns the number of surface (not sky) pixels shaded.
 int shade_tile(const ShadeContext& context, int tile, std::span<const float> depth,
-               std::span<const std::uint32_t> primitive, TileLookups lookups,
-               ShadeScratch& scratch, std::span<std::uint32_t> rgba, std::span<float> linear);
+               std::span<const std::uint32_t> primitive, TileLookups lookups, ShadeScratch& scratch,
+               std::span<std::uint32_t> rgba, std::span<float> linear);
 
 // The same for a tile of open sky, without a visibility buffer.
 void shade_sky_tile(const ShadeContext& context, int tile, ShadeScratch& scratch,

@@ -15,15 +15,14 @@ constexpr double kTerrainDetailPeriod_m = 5.0;
 float fraction(double x) { return static_cast<float>(x - std::floor(x)); }
 
 // Lays `map` over the plane with period length_m; `moved_m` is how far it has drifted.
-SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain,
-                      glm::dvec2 eye, glm::dvec2 moved_m) {
+SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain, glm::dvec2 eye,
+                      glm::dvec2 moved_m) {
   SlopeLayer layer;
   layer.map = &map;
   layer.inv_length = static_cast<float>(1.0 / length_m);
   layer.u_eye = fraction((eye.x - moved_m.x) / length_m);
   layer.v_eye = fraction((eye.y - moved_m.y) / length_m);
-  layer.log2_texels_per_m =
-      static_cast<float>(log(map.size / length_m) * 1.4426950408889634);
+  layer.log2_texels_per_m = static_cast<float>(log(map.size / length_m) * 1.4426950408889634);
   layer.gain = gain;
   // The two coarsest levels (1 and 4 texels) hold nothing worth a sample.
   layer.levels = std::clamp(map.levels - 2, 1, kTableLevels - 1);
@@ -54,8 +53,8 @@ void add_bump_layers(const Frame& frame, ShadeContext& c) {
   };
   for (const Layer& l : {Layer{5.3, 0.35, 0.55, 0.5}, Layer{2.1, -0.5, 0.35, 0.5}}) {
     const glm::dvec2 direction(sin(travel + l.turn_rad), cos(travel + l.turn_rad));
-    const auto gain = static_cast<float>(
-        scene.water.bump_strength * std::sqrt(l.share * variance / map_variance));
+    const auto gain = static_cast<float>(scene.water.bump_strength *
+                                         std::sqrt(l.share * variance / map_variance));
     SlopeLayer layer = make_layer(bump, l.length_m, gain, glm::dvec2(frame.view.eye_world),
                                   direction * (l.speed_mps * frame.t_s));
     layer.uv_noise_m = static_cast<float>(scene.water.uv_noise_amplitude);
@@ -140,7 +139,8 @@ void fill_terrain(const Frame& frame, ShadeContext& c) {
   // Not periodic: no wrapping of the eye's position, one map covers all.
   c.terrain_slopes.u_eye = static_cast<float>(from_corner.x / terrain.size_m());
   c.terrain_slopes.v_eye = static_cast<float>(from_corner.y / terrain.size_m());
-  const float detail_gain = 0.25f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
+  const float detail_gain =
+      0.25f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
   c.terrain_detail = make_layer(frame.world.bump, kTerrainDetailPeriod_m, detail_gain,
                                 glm::dvec2(frame.view.eye_world), {});
   c.terrain_albedo = &maps.albedo;
@@ -165,8 +165,7 @@ void fill_shade_context(const Frame& frame, const View& view, ViewKind kind,
   fill_terrain(frame, context);
   context.water_primitives = 0;
   if (kind != ViewKind::kWindow) return;
-  context.water_primitives =
-      static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
+  context.water_primitives = static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
   fill_water_layers(frame, context);
 }
 

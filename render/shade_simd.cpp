@@ -83,8 +83,9 @@ HWY_INLINE void ShadeList(const ShadeContext& c, const TileBox& box, const Pixel
     const V x_px = hn::ConvertTo(d, hn::Add(x, hn::Set(di, box.x0)));
     const V y_px = hn::ConvertTo(d, hn::Add(y, hn::Set(di, box.y0)));
 
-    // A run of neighbours is loaded and stored whole.
-    const bool run = at[kLanes - 1] - at[0] == static_cast<int>(kLanes) - 1;
+    // A run of neighbours is loaded and stored whole; a padded packet is none.
+    const bool run =
+        i + kLanes <= list.count && at[kLanes - 1] - at[0] == static_cast<int>(kLanes) - 1;
     if (!run)
       for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = depth[at[lane]];
     const V3 colour = shade(x_px, y_px, hn::LoadU(d, run ? depth + at[0] : z.data()));
@@ -139,14 +140,14 @@ HWY_INLINE void ResolveTile(const ShadeContext& c, const TileBox& box, const Sha
     std::uint32_t* row = rgba + static_cast<std::size_t>(box.y0 + y) * c.width_px + box.x0;
     for (int x = 0; x < box.width; x += static_cast<int>(kLanes)) {
       const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
-      const V dither = PixelNoise(
-          hn::ConvertTo(d, hn::Iota(di, box.x0 + x)), Constant(static_cast<float>(box.y0 + y)));
+      const V dither = PixelNoise(hn::ConvertTo(d, hn::Iota(di, box.x0 + x)),
+                                  Constant(static_cast<float>(box.y0 + y)));
       const VI r = ToByte(hn::Load(d, scratch.red.data() + i), exposure, dither);
       const VI g = ToByte(hn::Load(d, scratch.green.data() + i), exposure, dither);
       const VI b = ToByte(hn::Load(d, scratch.blue.data() + i), exposure, dither);
-      const VI pixel = hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)),
-                              hn::Or(hn::ShiftLeft<16>(b),
-                                     hn::Set(di, static_cast<std::int32_t>(0xff000000u))));
+      const VI pixel =
+          hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)),
+                 hn::Or(hn::ShiftLeft<16>(b), hn::Set(di, static_cast<std::int32_t>(0xff000000u))));
       if (x + static_cast<int>(kLanes) <= box.width) {
         hn::StoreU(pixel, di, reinterpret_cast<std::int32_t*>(row + x));
       } else {
@@ -170,14 +171,11 @@ int ShadeTile(const ShadeContext& c, int tile, const float* depth, const std::ui
   const TileBox box = BoxOf(c, tile);
   PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
   SortByMaterial(c, box, primitive, water, terrain, sky);
-  ShadeList(c, box, water, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
-    return ShadeWater(c, MakePacket(c, x, y, z), lookups);
-  });
-  ShadeList(c, box, terrain, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
-    return ShadeTerrain(c, MakePacket(c, x, y, z));
-  });
-  ShadeList(c, box, sky, depth, scratch,
-            [&](V x, V y, V) HWY_ATTR { return ShadeSky(c, x, y); });
+  ShadeList(c, box, water, depth, scratch,
+            [&](V x, V y, V z) HWY_ATTR { return ShadeWater(c, MakePacket(c, x, y, z), lookups); });
+  ShadeList(c, box, terrain, depth, scratch,
+            [&](V x, V y, V z) HWY_ATTR { return ShadeTerrain(c, MakePacket(c, x, y, z)); });
+  ShadeList(c, box, sky, depth, scratch, [&](V x, V y, V) HWY_ATTR { return ShadeSky(c, x, y); });
   ResolveTile(c, box, scratch, rgba, linear);
   return static_cast<int>(water.count + terrain.count);
 }
@@ -218,10 +216,9 @@ void ShadeLookupTile(const ShadeContext& c, int tile, const float* depth,
         image.texels.data() + static_cast<std::size_t>(box.y0 + y) * image.stride + box.x0;
     for (int x = 0; x < box.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
-      row[x] = primitive[i] == kNoSurface
-                   ? 0u
-                   : encode(scratch.red[i]) | encode(scratch.green[i]) << 8 |
-                         encode(scratch.blue[i]) << 16 | 0xff000000u;
+      row[x] = primitive[i] == kNoSurface ? 0u
+                                          : encode(scratch.red[i]) | encode(scratch.green[i]) << 8 |
+                                                encode(scratch.blue[i]) << 16 | 0xff000000u;
     }
   }
 }
@@ -238,8 +235,8 @@ HWY_EXPORT(ShadeSkyTile);
 HWY_EXPORT(ShadeLookupTile);
 
 int shade_tile(const ShadeContext& context, int tile, std::span<const float> depth,
-               std::span<const std::uint32_t> primitive, TileLookups lookups,
-               ShadeScratch& scratch, std::span<std::uint32_t> rgba, std::span<float> linear) {
+               std::span<const std::uint32_t> primitive, TileLookups lookups, ShadeScratch& scratch,
+               std::span<std::uint32_t> rgba, std::span<float> linear) {
   return HWY_DYNAMIC_DISPATCH(ShadeTile)(context, tile, depth.data(), primitive.data(), lookups,
                                          scratch, rgba.data(),
                                          linear.empty() ? nullptr : linear.data());
@@ -247,15 +244,15 @@ int shade_tile(const ShadeContext& context, int tile, std::span<const float> dep
 
 void shade_sky_tile(const ShadeContext& context, int tile, ShadeScratch& scratch,
                     std::span<std::uint32_t> rgba, std::span<float> linear) {
-  HWY_DYNAMIC_DISPATCH(ShadeSkyTile)(context, tile, scratch, rgba.data(),
-                                     linear.empty() ? nullptr : linear.data());
+  HWY_DYNAMIC_DISPATCH(ShadeSkyTile)
+  (context, tile, scratch, rgba.data(), linear.empty() ? nullptr : linear.data());
 }
 
 void shade_lookup_tile(const ShadeContext& context, int tile, std::span<const float> depth,
                        std::span<const std::uint32_t> primitive, ShadeScratch& scratch,
                        texture::RgbaImage& image) {
-  HWY_DYNAMIC_DISPATCH(ShadeLookupTile)(context, tile, depth.data(), primitive.data(), scratch,
-                                        image);
+  HWY_DYNAMIC_DISPATCH(ShadeLookupTile)
+  (context, tile, depth.data(), primitive.data(), scratch, image);
 }
 
 }  // namespace swell::render

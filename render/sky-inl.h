@@ -13,8 +13,8 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE V3 ShadeSky(const ShadeContext& c, V x_px, V y_px) {
-  const V3 ray = ScaleAdd(Constant(c.ray_dx), x_px, ScaleAdd(Constant(c.ray_dy), y_px,
-                                                             Constant(c.ray)));
+  const V3 ray =
+      ScaleAdd(Constant(c.ray_dx), x_px, ScaleAdd(Constant(c.ray_dy), y_px, Constant(c.ray)));
   const V length = hn::Sqrt(Dot(ray, ray));
   // Below the horizon (beyond the sea's last triangle) the horizon's colour goes on.
   const V3 clamped = {ray.x, ray.y, hn::Max(ray.z, hn::Zero(D()))};
@@ -22,8 +22,9 @@ HWY_INLINE V3 ShadeSky(const ShadeContext& c, V x_px, V y_px) {
   const V3 light = SkyRadiance(*c.sky_sharp, clamped, clamped_length);
   // The sun's disc: half a degree across, with a soft rim.
   const V cos_sun = hn::Div(Dot(ray, Constant(c.sun_direction)), length);
-  const V rim = Clamp(hn::Mul(hn::Sub(cos_sun, Constant(kCosSunRim)),
-                              Constant(1.0f / (kCosSunCore - kCosSunRim))), 0.0f, 1.0f);
+  const V rim = Clamp(
+      hn::Mul(hn::Sub(cos_sun, Constant(kCosSunRim)), Constant(1.0f / (kCosSunCore - kCosSunRim))),
+      0.0f, 1.0f);
   const V disc = hn::IfThenElseZero(hn::Gt(ray.z, hn::Zero(D())), hn::Mul(rim, Constant(8.0f)));
   return ScaleAdd(Constant(c.sun_irradiance), disc, light);
 }

@@ -20,10 +20,10 @@ HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet) {
   V slope_x = zero, slope_y = zero, variance = zero;
   AddSlopes(c.terrain_slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
   AddSlopes(c.terrain_detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
-  const V inv_length = InverseSqrt(
-      hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
-  const V3 normal = {hn::Neg(hn::Mul(slope_x, inv_length)),
-                     hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
+  const V inv_length =
+      InverseSqrt(hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
+  const V3 normal = {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)),
+                     inv_length};
 
   const V cos_sun = hn::Max(Dot(normal, Constant(c.sun_direction)), zero);
   const V sky_seen = hn::MulAdd(normal.z, Constant(0.5f), Constant(0.5f));
@@ -45,9 +45,9 @@ HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
   const V cos_eye = hn::Max(packet.to_eye.z, Constant(0.02f));
   const float inv_n = 1.0f / c.refraction_index;
   // cos of the refracted ray; apparent depth / true depth k = (1/n) cos / cos_t.
-  const V sin_t = hn::Mul(hn::Sqrt(hn::Max(hn::NegMulAdd(cos_eye, cos_eye, Constant(1.0f)),
-                                           hn::Zero(d))),
-                          Constant(inv_n));
+  const V sin_t =
+      hn::Mul(hn::Sqrt(hn::Max(hn::NegMulAdd(cos_eye, cos_eye, Constant(1.0f)), hn::Zero(d))),
+              Constant(inv_n));
   const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, Constant(1.0f)));
   const V apparent = hn::Max(hn::Neg(hn::Add(packet.p.z, Constant(c.eye_z))), hn::Zero(d));
   const V depth = hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(c.refraction_index)), cos_eye));

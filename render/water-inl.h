@@ -20,8 +20,8 @@ struct WaterSurface {
 };
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSurface& s) {
-  const V cycles = hn::MulAdd(p.x, Constant(sine.kx),
-                              hn::MulAdd(p.y, Constant(sine.ky), Constant(sine.cycles)));
+  const V cycles =
+      hn::MulAdd(p.x, Constant(sine.kx), hn::MulAdd(p.y, Constant(sine.ky), Constant(sine.cycles)));
   V sin_unused, cosine;
   SinCosTurns(D(), cycles, sin_unused, cosine);
   // A wave shorter than two footprints turns into roughness.
@@ -31,8 +31,8 @@ HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSurface& s)
   s.slope_x = hn::MulAdd(amount, Constant(sine.slope_x), s.slope_x);
   s.slope_y = hn::MulAdd(amount, Constant(sine.slope_y), s.slope_y);
   const float variance = 0.5f * (sine.slope_x * sine.slope_x + sine.slope_y * sine.slope_y);
-  s.variance = hn::MulAdd(hn::NegMulAdd(seen, seen, Constant(1.0f)), Constant(variance),
-                          s.variance);
+  s.variance =
+      hn::MulAdd(hn::NegMulAdd(seen, seen, Constant(1.0f)), Constant(variance), s.variance);
 }
 
 // The unit normal of slopes.
@@ -65,13 +65,14 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
 }
 
 // Looks a lookup image up at the pixel's own window position, moved by the slopes (spec: distortion
-// tied to the bump, fading where the surface is seen edge-on so that far, small things hold together).
+// tied to the bump, fading where the surface is seen edge-on so that far, small things hold
+// together).
 HWY_INLINE V3 LookUpDistorted(const ShadeContext& c, const LookupImage& lookup,
                               const Packet& packet, const WaterSurface& s, float sign, V& alpha) {
-  const V right = hn::MulAdd(s.slope_x, Constant(c.view_right.x),
-                             hn::Mul(s.slope_y, Constant(c.view_right.y)));
-  const V ahead = hn::MulAdd(s.slope_x, Constant(c.view_ahead.x),
-                             hn::Mul(s.slope_y, Constant(c.view_ahead.y)));
+  const V right =
+      hn::MulAdd(s.slope_x, Constant(c.view_right.x), hn::Mul(s.slope_y, Constant(c.view_right.y)));
+  const V ahead =
+      hn::MulAdd(s.slope_x, Constant(c.view_ahead.x), hn::Mul(s.slope_y, Constant(c.view_ahead.y)));
   const V gain = hn::Mul(Constant(sign * c.distortion_px),
                          Clamp(hn::Mul(packet.to_eye.z, Constant(6.0f)), 0.1f, 1.0f));
   const float bound = c.max_distortion_px;
@@ -105,12 +106,12 @@ HWY_INLINE V3 ReflectedLight(const ShadeContext& c, const Packet& packet, const 
 HWY_INLINE V3 RefractedLight(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
                              bool use_image) {
   const V height = hn::Add(packet.p.z, Constant(c.eye_z));
-  const V crest = Clamp(hn::MulAdd(height, Constant(c.inv_crest_height), Constant(0.4f)), 0.0f,
-                        1.5f);
-  const V towards_sun = hn::Max(
-      hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(c.sun_direction.x),
-                         hn::Mul(packet.to_eye.y, Constant(c.sun_direction.y)))),
-      hn::Zero(D()));
+  const V crest =
+      Clamp(hn::MulAdd(height, Constant(c.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
+  const V towards_sun =
+      hn::Max(hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(c.sun_direction.x),
+                                 hn::Mul(packet.to_eye.y, Constant(c.sun_direction.y)))),
+              hn::Zero(D()));
   const V glow = hn::Mul(hn::Mul(crest, crest), hn::Add(towards_sun, Constant(0.35f)));
   V3 light = ScaleAdd(Constant(c.crest_glow), glow, Constant(c.body));
   if (use_image) {
@@ -147,8 +148,8 @@ HWY_INLINE V3 ShadeWater(const ShadeContext& c, const Packet& packet, TileLookup
   const V cos_eye = Dot(normal, packet.to_eye);
   // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper view;
   // a back side counts as the facets in front of it, or crests would be lined with light.
-  const V cos_rough = hn::Sqrt(hn::MulAdd(
-      s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
+  const V cos_rough = hn::Sqrt(
+      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
   const V reflectance = FresnelReflectance(d, cos_rough, c.refraction_index);
 
   const V3 mirrored = ReflectedLight(c, packet, s, normal, cos_eye, lookups.reflection);

@@ -58,9 +58,9 @@ glm::vec3 ambient_radiance(const scene::Sky& sky, const texture::PerlinNoise& cl
     const float horizontal = std::sqrt(sin2), z = std::sqrt(1.0f - sin2);
     for (int j = 0; j < kSectors; ++j) {
       const SinCos a = sin_cos_turns((j + 0.5) / kSectors);
-      sum += scene::sky_radiance(sky, clouds,
-                                 {horizontal * static_cast<float>(a.cos),
-                                  horizontal * static_cast<float>(a.sin), z});
+      sum += scene::sky_radiance(
+          sky, clouds,
+          {horizontal * static_cast<float>(a.cos), horizontal * static_cast<float>(a.sin), z});
     }
   }
   return sum / static_cast<float>(kRings * kSectors);
@@ -80,13 +80,13 @@ glm::vec3 ground_albedo(float height_m, float steepness, float noise) {
     const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
   };
-  const glm::vec3 sand = glm::mix(glm::vec3(0.58f, 0.50f, 0.36f), glm::vec3(0.68f, 0.61f, 0.47f),
-                                  0.5f + 0.5f * noise);
+  const glm::vec3 sand =
+      glm::mix(glm::vec3(0.58f, 0.50f, 0.36f), glm::vec3(0.68f, 0.61f, 0.47f), 0.5f + 0.5f * noise);
   const glm::vec3 wet_sand = sand * 0.62f;
   const glm::vec3 green = glm::mix(glm::vec3(0.035f, 0.075f, 0.020f),
                                    glm::vec3(0.13f, 0.17f, 0.05f), 0.5f + 0.5f * noise);
-  const glm::vec3 rock = glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.34f, 0.31f, 0.27f),
-                                  0.5f + 0.5f * noise);
+  const glm::vec3 rock =
+      glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.34f, 0.31f, 0.27f), 0.5f + 0.5f * noise);
   const glm::vec3 reef(0.16f, 0.19f, 0.13f);
   glm::vec3 c = glm::mix(wet_sand, sand, blend(0.1f, 0.7f, height_m));
   c = glm::mix(c, green, blend(1.8f, 4.0f, height_m + 1.5f * noise));
@@ -109,8 +109,7 @@ TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed
   std::vector<glm::dvec2> p(n);
   std::vector<float> row(n), height(static_cast<std::size_t>(n) * n);
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i)
-      p[i] = terrain.min_world + step * glm::dvec2(i, j);
+    for (int i = 0; i < n; ++i) p[i] = terrain.min_world + step * glm::dvec2(i, j);
     scene::sample_heights(terrain, p, row);
     std::copy(row.begin(), row.end(), height.begin() + static_cast<std::ptrdiff_t>(j) * n);
   }
@@ -131,9 +130,8 @@ TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed
       const float steepness = std::sqrt(slope_x[k] * slope_x[k] + slope_y[k] * slope_y[k]);
       const auto patchiness =
           static_cast<float>(noise.fractal2(i * step / 14.0, j * step / 14.0, 5, 0.6));
-      maps.albedo.texels[static_cast<std::size_t>(j) * maps.albedo.stride + i] =
-          encode_rgb(ground_albedo(height[k], steepness, std::clamp(patchiness, -1.0f, 1.0f)),
-                     1.0f);
+      maps.albedo.texels[static_cast<std::size_t>(j) * maps.albedo.stride + i] = encode_rgb(
+          ground_albedo(height[k], steepness, std::clamp(patchiness, -1.0f, 1.0f)), 1.0f);
     }
   }
   texture::fill_padding(maps.albedo);
