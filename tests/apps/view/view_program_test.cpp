@@ -35,7 +35,10 @@ ShellOutcome run(const std::string& command) {
 
 class ViewProgram : public testing::Test {
  protected:
-  ViewProgram() { write_text(scene(), island_scene_text()); }
+  ViewProgram() {
+    write_text(scene(), island_scene_text());
+    setenv("LSAN_OPTIONS", "suppressions=" THIRD_PARTY_LEAKS ":print_suppressions=0", 1);
+  }
 
   std::string file(const std::string& name) const { return folder_.file(name); }
   std::string scene() const { return file("scene.toml"); }
