@@ -10,7 +10,7 @@ namespace swell::render {
 namespace {
 
 constexpr double kUvNoisePeriod_m = 23.0;
-constexpr double kTerrainDetailPeriod_m = 5.0;
+constexpr double kTerrainDetailPeriod_m = 11.0;
 
 float fraction(double x) { return static_cast<float>(x - std::floor(x)); }
 
@@ -140,7 +140,7 @@ void fill_terrain(const Frame& frame, ShadeContext& c) {
   c.terrain_slopes.u_eye = static_cast<float>(from_corner.x / terrain.size_m());
   c.terrain_slopes.v_eye = static_cast<float>(from_corner.y / terrain.size_m());
   const float detail_gain =
-      0.25f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
+      0.4f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
   c.terrain_detail = make_layer(frame.world.bump, kTerrainDetailPeriod_m, detail_gain,
                                 glm::dvec2(frame.view.eye_world), {});
   c.terrain_albedo = &maps.albedo;

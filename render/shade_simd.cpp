@@ -120,11 +120,12 @@ HWY_INLINE V EncodeSrgb(V x) {
   return hn::Mul(curve, Constant(255.0f));
 }
 
-// Resolve: exposure, a soft shoulder above 3/4 of white, sRGB, a dither of one step, 8 bits.
+// Resolve: exposure, a shoulder from 0.7 up that reaches white at infinity only (so that glitter
+// keeps its form), sRGB, a dither of one step, 8 bits.
 HWY_INLINE VI ToByte(V linear, V exposure, V dither) {
   const V x = hn::Max(hn::Mul(linear, exposure), hn::Zero(D()));
   const V over = hn::Max(hn::Sub(x, Constant(0.7f)), hn::Zero(D()));
-  const V shoulder = hn::Div(over, hn::MulAdd(over, Constant(2.2f), Constant(1.0f)));
+  const V shoulder = hn::Div(over, hn::MulAdd(over, Constant(1.0f / 0.3f), Constant(1.0f)));
   const V mapped = hn::Min(hn::Add(hn::Min(x, Constant(0.7f)), shoulder), Constant(1.0f));
   const V code = hn::Add(EncodeSrgb(mapped), dither);
   return hn::ConvertTo(DI(), hn::Min(code, Constant(255.0f)));

@@ -43,11 +43,12 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
 }
 
 // Slopes from the wave patches and the scrolling bump layers, whose coordinates Perlin noise bends.
-// The first layer is that of the longest waves: how steeply the eye meets those decides how long a
-// pixel's footprint is on the shorter ones.
+// The first layers are those of the longest waves: how steeply the eye meets those decides how long
+// a pixel's footprint is on the shorter ones.
 HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet) {
   const D d;
   constexpr float kMinCos = 0.02f;
+  constexpr int kFootprintLayers = 2;
   V level_m = FootprintLevel(c, packet, Clamp(packet.to_eye.z, kMinCos, 1.0f));
   WaterSurface s = {hn::Zero(d), hn::Zero(d), Constant(c.base_variance)};
   V du = hn::Zero(d), dv = hn::Zero(d), unused = hn::Zero(d);
@@ -57,7 +58,7 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
   for (int i = 0; i < c.water_layer_count; ++i) {
     AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
               s.slope_y, s.variance);
-    if (i > 0) continue;
+    if (i >= kFootprintLayers) continue;
     const V cos_wave = Dot(NormalOf(s.slope_x, s.slope_y), packet.to_eye);
     level_m = FootprintLevel(c, packet, Clamp(cos_wave, kMinCos, 1.0f));
   }

@@ -13,6 +13,8 @@ namespace swell::render {
 namespace {
 
 constexpr int kSharpSkySize = 768, kSoftSkySize = 256;
+// Waves too small to see spread what they mirror: no cloud's edge is sharp in the sea.
+constexpr int kSoftSkyBlur = 5;
 constexpr int kBumpSize = 256;
 constexpr int kTerrainMapSize = 1024;
 
@@ -33,16 +35,48 @@ glm::vec3 sky_direction(int x, int y, int size) {
   return glm::vec3(2.0f * u, 2.0f * v, 1.0f - r2) / (1.0f + r2);
 }
 
+// Box filter of half width `radius` along rows (step 3 floats) or columns, edges repeated.
+void blur(std::vector<float>& rgb, int size, int radius, bool along_rows) {
+  std::vector<float> result(rgb.size());
+  const std::ptrdiff_t step = along_rows ? 3 : 3 * size, line = along_rows ? 3 * size : 3;
+  const float weight = 1.0f / static_cast<float>(2 * radius + 1);
+  for (int j = 0; j < size; ++j) {
+    for (int i = 0; i < size; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0.0f;
+        for (int k = i - radius; k <= i + radius; ++k)
+          sum += rgb[static_cast<std::size_t>(j * line + std::clamp(k, 0, size - 1) * step + c)];
+        result[static_cast<std::size_t>(j * line + i * step + c)] = weight * sum;
+      }
+    }
+  }
+  rgb.swap(result);
+}
+
+// blur_radius: two box filters of this half width each way, in texels.
 texture::RgbaImage build_sky_map(const scene::Sky& sky, const texture::PerlinNoise& clouds,
-                                 int size) {
+                                 int size, int blur_radius) {
+  std::vector<float> rgb;
+  rgb.reserve(static_cast<std::size_t>(3 * size * size));
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      glm::vec3 d = sky_direction(x, y, size);
+      d.z = std::max(d.z, -0.1f);
+      const glm::vec3 radiance = scene::sky_radiance(sky, clouds, d);
+      for (int c = 0; c < 3; ++c) rgb.push_back(radiance[c]);
+    }
+  }
+  for (int pass = 0; pass < (blur_radius > 0 ? 2 : 0); ++pass) {
+    blur(rgb, size, blur_radius, true);
+    blur(rgb, size, blur_radius, false);
+  }
   texture::RgbaImage image;
   texture::resize_image(size, size, image);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      const glm::vec3 d = sky_direction(x, y, size);
-      if (d.z < -0.1f) continue;  // no lookup reaches so far below the horizon
+      const float* p = rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * size + x);
       image.texels[static_cast<std::size_t>(y) * image.stride + x] =
-          encode_rgb(scene::sky_radiance(sky, clouds, d), kLookupRange);
+          encode_rgb({p[0], p[1], p[2]}, kLookupRange);
     }
   }
   texture::fill_padding(image);
@@ -75,7 +109,7 @@ texture::PackedMap2 build_bump_map(std::uint64_t seed) {
 
 // Reflectance of the ground by height, steepness and noise: sand, then scrub and forest, rock
 // where it is steep, grey-green growth in deeper water.
-glm::vec3 ground_albedo(float height_m, float steepness, float noise) {
+glm::vec3 ground_albedo(float height_m, float steepness, float noise, float clumps) {
   const auto blend = [](float low, float high, float x) {
     const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
@@ -83,8 +117,9 @@ glm::vec3 ground_albedo(float height_m, float steepness, float noise) {
   const glm::vec3 sand =
       glm::mix(glm::vec3(0.58f, 0.50f, 0.36f), glm::vec3(0.68f, 0.61f, 0.47f), 0.5f + 0.5f * noise);
   const glm::vec3 wet_sand = sand * 0.62f;
-  const glm::vec3 green = glm::mix(glm::vec3(0.035f, 0.075f, 0.020f),
-                                   glm::vec3(0.13f, 0.17f, 0.05f), 0.5f + 0.5f * noise);
+  const glm::vec3 green =
+      glm::mix(glm::vec3(0.035f, 0.075f, 0.020f), glm::vec3(0.14f, 0.18f, 0.05f),
+               blend(-0.35f, 0.45f, clumps + 0.3f * noise));
   const glm::vec3 rock =
       glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.34f, 0.31f, 0.27f), 0.5f + 0.5f * noise);
   const glm::vec3 reef(0.16f, 0.19f, 0.13f);
@@ -99,8 +134,8 @@ glm::vec3 ground_albedo(float height_m, float steepness, float noise) {
 
 SkyMaps build_sky_maps(const scene::Sky& sky) {
   const texture::PerlinNoise clouds(sky.cloud_seed);
-  return {build_sky_map(sky, clouds, kSharpSkySize), build_sky_map(sky, clouds, kSoftSkySize),
-          ambient_radiance(sky, clouds)};
+  return {build_sky_map(sky, clouds, kSharpSkySize, 0),
+          build_sky_map(sky, clouds, kSoftSkySize, kSoftSkyBlur), ambient_radiance(sky, clouds)};
 }
 
 TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed) {
@@ -130,8 +165,10 @@ TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed
       const float steepness = std::sqrt(slope_x[k] * slope_x[k] + slope_y[k] * slope_y[k]);
       const auto patchiness =
           static_cast<float>(noise.fractal2(i * step / 14.0, j * step / 14.0, 5, 0.6));
+      const auto clumps =
+          static_cast<float>(noise.fractal2(i * step / 5.0 + 31.7, j * step / 5.0, 3, 0.7));
       maps.albedo.texels[static_cast<std::size_t>(j) * maps.albedo.stride + i] = encode_rgb(
-          ground_albedo(height[k], steepness, std::clamp(patchiness, -1.0f, 1.0f)), 1.0f);
+          ground_albedo(height[k], steepness, std::clamp(patchiness, -1.0f, 1.0f), clumps), 1.0f);
     }
   }
   texture::fill_padding(maps.albedo);
