@@ -6,10 +6,34 @@
 #include <span>
 
 #include "math/check.h"
+#include "math/elementary.h"
 #include "ocean/sea.h"
 
 // A patch position is a 16.16 fixed-point number of samples: whole samples pick the cell, 16
 // fraction bits are the bilinear weight, and a power-of-two patch wraps by a mask.
+
+#ifndef SWELL_OCEAN_SAMPLE_FIELD  // this file is compiled once a target
+#define SWELL_OCEAN_SAMPLE_FIELD
+namespace swell::ocean {
+namespace {
+
+enum class Field { kHeight, kSlopeX, kSlopeY };
+
+const float* patch_samples(const PatchFrame& patch, Field field) {
+  if (field == Field::kHeight) return patch.height_m.data();
+  return field == Field::kSlopeX ? patch.slope_x.data() : patch.slope_y.data();
+}
+
+// Of A sin(phase), or of its derivative 2 pi k A cos(phase) along an axis.
+float sine_amplitude(const SineFrame& sine, Field field) {
+  if (field == Field::kHeight) return static_cast<float>(sine.amplitude_m);
+  const double cycles_per_m = field == Field::kSlopeX ? sine.cycles_per_m.x : sine.cycles_per_m.y;
+  return static_cast<float>(2.0 * kPi * cycles_per_m * sine.amplitude_m);
+}
+
+}  // namespace
+}  // namespace swell::ocean
+#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ocean/sample_heights_simd.cpp"
@@ -50,8 +74,9 @@ HWY_INLINE VInt FixedPosition(DoublePacket x_m, double fixed_per_m, double fixed
                      HalfFixedPosition(x_m.low, fixed_per_m, fixed_size));
 }
 
-// Bilinear height at 16.16 positions (any integers: they wrap).
-HWY_INLINE V PatchHeight(const PatchFrame& patch, VInt x_fx16, VInt y_fx16) {
+// Bilinear sample of a field at 16.16 positions (any integers: they wrap).
+template <Field kField>
+HWY_INLINE V PatchSample(const PatchFrame& patch, VInt x_fx16, VInt y_fx16) {
   const D d;
   const DInt di;
   const VInt mask = hn::Set(di, patch.resolution - 1), one = hn::Set(di, 1);
@@ -61,7 +86,7 @@ HWY_INLINE V PatchHeight(const PatchFrame& patch, VInt x_fx16, VInt y_fx16) {
   const VInt row0 = hn::Mul(y0, hn::Set(di, patch.resolution));
   const VInt row1 = hn::Mul(hn::And(hn::Add(y0, one), mask), hn::Set(di, patch.resolution));
 
-  const float* const samples = patch.height_m.data();
+  const float* const samples = patch_samples(patch, kField);
   const V h00 = hn::GatherIndex(d, samples, hn::Add(row0, x0));
   const V h10 = hn::GatherIndex(d, samples, hn::Add(row0, x1));
   const V h01 = hn::GatherIndex(d, samples, hn::Add(row1, x0));
@@ -84,34 +109,36 @@ HWY_INLINE hn::Vec<DHalf> HalfSineTurns(const SineFrame& sine, VDouble x_m, VDou
 }
 
 // Adds the sine waves; their phases are exact to double.
-HWY_INLINE V AddSines(std::span<const SineFrame> sines, DoublePacket x_m, DoublePacket y_m,
-                      V height) {
+template <Field kField>
+HWY_INLINE V AddSines(std::span<const SineFrame> sines, DoublePacket x_m, DoublePacket y_m, V sum) {
   const D d;
   for (const SineFrame& sine : sines) {
     const V turns = hn::Combine(d, HalfSineTurns(sine, x_m.high, y_m.high),
                                 HalfSineTurns(sine, x_m.low, y_m.low));
     V s, c;
     swell::HWY_NAMESPACE::SinCosTurns(d, turns, s, c);
-    height = hn::MulAdd(hn::Set(d, static_cast<float>(sine.amplitude_m)), s, height);
+    const V amplitude = hn::Set(d, sine_amplitude(sine, kField));
+    sum = hn::MulAdd(amplitude, kField == Field::kHeight ? s : c, sum);
   }
-  return height;
+  return sum;
 }
 
 // One packet of world points.
+template <Field kField>
 HWY_INLINE V WorldPacket(const SeaFrame& frame, const glm::dvec2* p_world) {
   const DDouble dd;
   const double* const p = &p_world->x;
   DoublePacket x, y;
   hn::LoadInterleaved2(dd, p, x.low, y.low);
   hn::LoadInterleaved2(dd, p + 2 * hn::Lanes(dd), x.high, y.high);
-  V height = hn::Zero(D());
+  V sum = hn::Zero(D());
   for (const PatchFrame& patch : frame.patches) {
     const double fixed_size = 65536.0 * patch.resolution;
     const double fixed_per_m = fixed_size / patch.length_m;
-    height = hn::Add(height, PatchHeight(patch, FixedPosition(x, fixed_per_m, fixed_size),
-                                         FixedPosition(y, fixed_per_m, fixed_size)));
+    sum = hn::Add(sum, PatchSample<kField>(patch, FixedPosition(x, fixed_per_m, fixed_size),
+                                           FixedPosition(y, fixed_per_m, fixed_size)));
   }
-  return AddSines(frame.sines, x, y, height);
+  return AddSines<kField>(frame.sines, x, y, sum);
 }
 
 // An offset in metres to 16.16 samples. Wrapped before it is scaled up: it has to fit.
@@ -145,11 +172,12 @@ HWY_INLINE V OffsetPacket(const SeaFrame& frame, glm::dvec2 origin, const glm::i
         hn::Add(FixedOffset(x, patches_per_m, fixed_size), hn::Set(di, origin_fx16->x));
     const VInt y_fx16 =
         hn::Add(FixedOffset(y, patches_per_m, fixed_size), hn::Set(di, origin_fx16->y));
-    height = hn::Add(height, PatchHeight(patch, x_fx16, y_fx16));
+    height = hn::Add(height, PatchSample<Field::kHeight>(patch, x_fx16, y_fx16));
     ++origin_fx16;
   }
   if (frame.sines.empty()) return height;
-  return AddSines(frame.sines, WorldCoordinate(origin.x, x), WorldCoordinate(origin.y, y), height);
+  return AddSines<Field::kHeight>(frame.sines, WorldCoordinate(origin.x, x),
+                                  WorldCoordinate(origin.y, y), height);
 }
 
 // Calls packet(points) for full packets, then once more for what is left, filled up with zeros.
@@ -169,9 +197,20 @@ HWY_INLINE void ForPackets(std::span<const Point> points, float* height_m, Packe
   std::copy_n(last_height.begin(), points.size() - i, height_m + i);
 }
 
+template <Field kField>
+void SampleField(const SeaFrame& frame, std::span<const glm::dvec2> p_world, float* samples) {
+  ForPackets(p_world, samples,
+             [&](const glm::dvec2* p) HWY_ATTR { return WorldPacket<kField>(frame, p); });
+}
+
 void SampleWorld(const SeaFrame& frame, std::span<const glm::dvec2> p_world, float* height_m) {
-  ForPackets(p_world, height_m,
-             [&](const glm::dvec2* p) HWY_ATTR { return WorldPacket(frame, p); });
+  SampleField<Field::kHeight>(frame, p_world, height_m);
+}
+
+void SampleSlopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world, float* slope_x,
+                  float* slope_y) {
+  SampleField<Field::kSlopeX>(frame, p_world, slope_x);
+  SampleField<Field::kSlopeY>(frame, p_world, slope_y);
 }
 
 void SampleOffsets(const SeaFrame& frame, glm::dvec2 origin, const glm::ivec2* origin_fx16,
@@ -202,12 +241,20 @@ int fixed_position(double x_m, const PatchFrame& patch) {
 
 HWY_EXPORT(SampleWorld);
 HWY_EXPORT(SampleOffsets);
+HWY_EXPORT(SampleSlopes);
 
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m) {
   SWELL_CHECK(p_world.size() == height_m.size(), "{} points, {} heights", p_world.size(),
               height_m.size());
   HWY_DYNAMIC_DISPATCH(SampleWorld)(frame, p_world, height_m.data());
+}
+
+void sample_slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+                   std::span<float> slope_x, std::span<float> slope_y) {
+  SWELL_CHECK(p_world.size() == slope_x.size() && p_world.size() == slope_y.size(),
+              "{} points, {} and {} slopes", p_world.size(), slope_x.size(), slope_y.size());
+  HWY_DYNAMIC_DISPATCH(SampleSlopes)(frame, p_world, slope_x.data(), slope_y.data());
 }
 
 void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,

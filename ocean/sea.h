@@ -104,4 +104,10 @@ void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
 void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
                     std::span<const glm::vec2> offset_m, std::span<float> height_m);
 
+// dH/dx and dH/dy at world points, both spans as long as p_world: of the spectrum waves the
+// slopes in the patches, bilinear between samples, of the sines the derivatives. Otherwise as
+// sample_heights().
+void sample_slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+                   std::span<float> slope_x, std::span<float> slope_y);
+
 }  // namespace swell::ocean

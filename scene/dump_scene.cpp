@@ -11,7 +11,8 @@ std::string line_of(const Parameter<Object>& parameter, const Object& object) {
   const std::size_t dot = parameter.key.rfind('.');
   const std::string_view key =
       dot == std::string_view::npos ? parameter.key : parameter.key.substr(dot + 1);
-  return fmt::format("{} = {}\n", key, toml_text(parameter, object));
+  const std::string value = toml_text(parameter, object);
+  return value.empty() ? "" : fmt::format("{} = {}\n", key, value);
 }
 
 std::string_view section_of(std::string_view key) {
@@ -40,6 +41,8 @@ std::string dump_scene(const Scene& scene) {
       section = its_section;
       text += fmt::format("\n[{}]\n", section);
     }
+    // A file may not have both a sea state and the wind that follows from it.
+    if (parameter.key == "wind.speed_mps" && (scene.douglas || scene.beaufort)) text += "# ";
     text += line_of(parameter, scene);
   }
   return text + sines_text(scene.sea.sines);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "ocean/sea_scale.h"
 
 namespace swell::scene {
 namespace {
@@ -118,6 +119,21 @@ struct Row {
     return row;
   }
 
+  // A field that may hold no integer.
+  template <class Field>
+  static Parameter<Object> optional_integer(std::string_view key, Range range, Field,
+                                            std::string_view meaning) {
+    Parameter<Object> row = ranged(key, Kind::kInteger, range, meaning);
+    row.get = [](const Object& object) -> Value {
+      return static_cast<std::int64_t>(Field{}(object).value_or(0));
+    };
+    row.set = [](Object& object, const Value& value) {
+      Field{}(object) = static_cast<int>(std::get<std::int64_t>(value));
+    };
+    row.is_set = [](const Object& object) { return Field{}(object).has_value(); };
+    return row;
+  }
+
   // A boolean field that the file names by one of two words.
   template <class Field>
   static Parameter<Object> choice(std::string_view key, Field, std::string_view meaning) {
@@ -208,6 +224,12 @@ Rows sky_rows() {
 
 Rows sea_rows() {
   return {
+      SceneRow::optional_integer(
+          "sea.douglas", {0, ocean::kMaxDouglas}, SWELL_FIELD(douglas),
+          "WMO sea state: sets the wind and, if they are left out, the patch lengths"),
+      SceneRow::optional_integer(
+          "sea.beaufort", {0, ocean::kMaxBeaufort}, SWELL_FIELD(beaufort),
+          "wind force: sets the wind and, if they are left out, the patch lengths"),
       SceneRow::plain<bool>("sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
                             "wind waves; false leaves the sines of [[sea.sines]] only"),
       SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, 4,
@@ -382,6 +404,7 @@ template std::string allowed_text(const Parameter<ocean::SineWave>&);
 
 template <class Object>
 std::string toml_text(const Parameter<Object>& parameter, const Object& object) {
+  if (parameter.is_set && !parameter.is_set(object)) return {};
   const ParameterValue value = parameter.get(object);
   switch (parameter.kind) {
     case Kind::kNumber:

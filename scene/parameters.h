@@ -41,6 +41,8 @@ struct Parameter {
   // get() gives a value that set() turns back into the same bits, with as few digits as possible.
   ParameterValue (*get)(const Object&);
   void (*set)(Object&, const ParameterValue&);
+  // False if the object has no value, nor a default. Null: always true.
+  bool (*is_set)(const Object&) = nullptr;
 };
 
 // Keys of the scene, in the order of docs/scene.md. Those of "terrain." need scene.terrain.
@@ -57,7 +59,7 @@ inline constexpr std::string_view kSinesKey = "sea.sines";
 template <class Object>
 std::string allowed_text(const Parameter<Object>& parameter);
 
-// The parameter's value in `object` as TOML text that parses to the same value.
+// The parameter's value in `object` as TOML text that parses to the same value; empty if not set.
 template <class Object>
 std::string toml_text(const Parameter<Object>& parameter, const Object& object);
 

@@ -79,6 +79,9 @@ struct Scene {
   Camera camera;
   Sky sky;
   ocean::SeaDescription sea;
+  // The sea state that the file asked for, at most one of them (ocean/sea_scale.h). The wind, and
+  // the patch lengths if the file has none, follow from it and stand in `sea`.
+  std::optional<int> douglas, beaufort;
   SeaArea area;
   WaterOptics water;
   Detail detail;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numeric>
 
+#include "ocean/sea_scale.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
@@ -18,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFileBytes = 1 << 20;
+constexpr double kMaxWind_mps = 60.0;
 
 // One line without control characters, at most 400 bytes, cut between UTF-8 characters.
 std::string one_line(std::string text) {
@@ -84,6 +87,7 @@ class Reader {
   Scene read(const toml::table& root) {
     scene_.name = file_.stem().string();
     read_table(root, "");
+    apply_sea_state();
     scene_.sky.sun_direction =
         sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
     return std::move(scene_);
@@ -111,15 +115,48 @@ class Reader {
     for (const auto& [key, node, key_place] : in_file_order(table)) {
       const std::string path = prefix + std::string(key);
       const auto parameter = std::ranges::find(parameters_, path, &Parameter<Scene>::key);
-      if (parameter != parameters_.end())
+      if (parameter != parameters_.end()) {
         parameter->set(scene_, checked_value(*node, path, *parameter));
-      else if (path == kSinesKey)
+        given_.emplace(path, place_of(node->source()));
+      } else if (path == kSinesKey) {
         read_sines(*node);
-      else if (is_section(path))
+      } else if (is_section(path)) {
         read_section(*node, path);
-      else
+      } else {
         fail_unknown(key_place, path);
+      }
       if (path == "sea.patch_lengths_m") check_patch_lengths(*node);
+    }
+  }
+
+  // Wind and patch lengths from sea.douglas or sea.beaufort.
+  void apply_sea_state() {
+    check_only_one_of({"sea.douglas", "sea.beaufort", "wind.speed_mps"});
+    if (!scene_.douglas && !scene_.beaufort) return;
+    ocean::SeaDescription& sea = scene_.sea;
+    const double gravity = sea.gravity_mps2;
+    sea.wind_speed_mps = scene_.douglas ? ocean::wind_of_developed_height(
+                                              ocean::douglas_step(*scene_.douglas).preset, gravity)
+                                        : ocean::beaufort_step(*scene_.beaufort).preset;
+    if (sea.wind_speed_mps > kMaxWind_mps)
+      fail(file_, given_.at("sea.douglas"),
+           fmt::format("sea.douglas, got {} with a gravity of {} m/s^2, which takes a wind of "
+                       "{:.3g} m/s, allowed {} m/s",
+                       *scene_.douglas, gravity, sea.wind_speed_mps, kMaxWind_mps));
+    if (!given_.contains("sea.patch_lengths_m"))
+      sea.patch_lengths_m = ocean::patch_lengths_for_wind(sea.wind_speed_mps, gravity);
+  }
+
+  // The keys set the same thing.
+  void check_only_one_of(std::initializer_list<std::string> keys) const {
+    const std::string* first = nullptr;
+    for (const std::string& key : keys) {
+      if (!given_.contains(key)) continue;
+      if (first)
+        fail(file_, given_.at(key),
+             fmt::format("{}, got it besides {} in line {}, allowed one of {}", key, *first,
+                         given_.at(*first).line, fmt::join(keys, ", ")));
+      first = &key;
     }
   }
 
@@ -295,6 +332,7 @@ class Reader {
   std::vector<Parameter<Scene>> parameters_;
   std::vector<Parameter<ocean::SineWave>> sine_parameters_;
   Scene scene_;
+  std::map<std::string, Place> given_;  // where the file has the keys that it has
 };
 
 std::string read_text(const fs::path& path) {

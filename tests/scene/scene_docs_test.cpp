@@ -19,8 +19,10 @@ constexpr std::string_view kBegin = "<!-- keys: begin -->\n", kEnd = "<!-- keys:
 template <class Object>
 std::string row(const Parameter<Object>& parameter, std::string_view key, const Object& defaults) {
   const std::string unit = parameter.unit.empty() ? "" : std::string(parameter.unit);
-  return fmt::format("| `{}` | {} | `{}` | {} | {} |\n", key, unit, toml_text(parameter, defaults),
-                     allowed_text(parameter), parameter.meaning);
+  const std::string value = toml_text(parameter, defaults);
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key, unit,
+                     value.empty() ? "none" : "`" + value + "`", allowed_text(parameter),
+                     parameter.meaning);
 }
 
 std::string head(std::string_view title) {

@@ -115,6 +115,10 @@ std::string value_text(const Parameter<Object>& parameter, Dice& dice, bool insi
   return {};
 }
 
+constexpr std::string_view kWindKeys[] = {"wind.speed_mps", "sea.douglas", "sea.beaufort"};
+
+bool is_wind_key(std::string_view key) { return std::ranges::count(kWindKeys, key) > 0; }
+
 struct RandomFile {
   std::string text;
   std::string wrong_key;  // as messages name it; empty: none
@@ -126,9 +130,13 @@ RandomFile random_file(Dice& dice, int wrong) {
   RandomFile file;
   std::map<std::string, std::string> sections;
   int index = 0;
+  // Keys that exclude each other; the winds of sea states suit a gravity near the earth's.
+  const std::string_view wind_key = kWindKeys[dice.below(3)];
   for (const auto& parameter : scene_parameters()) {
     const bool is_wrong = index++ == wrong;
     if (!is_wrong && dice.below(2)) continue;
+    if (!is_wrong && parameter.key != wind_key && is_wind_key(parameter.key)) continue;
+    if (!is_wrong && parameter.key == "sea.gravity_mps2" && wind_key == "sea.douglas") continue;
     if (is_wrong) file.wrong_key = parameter.key;
     const std::string key(parameter.key);
     const std::size_t dot = key.find('.');

@@ -62,6 +62,8 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sky.cloud_cover);
   SWELL_COMPARE(sky.cloud_seed);
   SWELL_COMPARE(sky.exposure);
+  SWELL_COMPARE(douglas);
+  SWELL_COMPARE(beaufort);
   SWELL_COMPARE(sea.spectrum);
   SWELL_COMPARE(sea.wind_speed_mps);
   SWELL_COMPARE(sea.wind_from_rad);

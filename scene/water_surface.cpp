@@ -1,0 +1,189 @@
+#include "scene/water_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/check.h"
+
+namespace swell::scene {
+namespace {
+
+constexpr std::size_t kChunk = 256;  // points whose ground is on the stack
+constexpr double kShareStep_m = 0.25;
+
+// Calls body(first, count) for pieces of at most kChunk points.
+template <class Body>
+void in_chunks(std::size_t points, Body body) {
+  for (std::size_t first = 0; first < points; first += kChunk)
+    body(first, std::min(kChunk, points - first));
+}
+
+// Six standard deviations of the spectrum's slope, the sines' largest, and what the fading adds:
+// the edge rises by 1.5 over a tenth of the area, shallow water (on sand of slope 1) by 1 over the
+// height of the waves.
+double slope_bound(const ocean::Sea& sea, const ocean::SeaFrame& frame, const SeaArea& area,
+                   const Terrain* terrain) {
+  double variance = 0.0, sines = 0.0;
+  for (const ocean::PatchFrame& patch : frame.patches) variance += patch.slope_variance;
+  for (const ocean::SineFrame& sine : frame.sines)
+    sines += std::abs(sine.amplitude_m) * 2.0 * kPi * glm::length(sine.cycles_per_m);
+  const double bound_m = sea.height_bound_m();
+  const double edge = 2.0 * bound_m * 1.5 / (0.1 * std::min(area.size_m.x, area.size_m.y));
+  const double shallow = terrain ? bound_m / (0.2 + sea.significant_height_m()) : 0.0;
+  return 6.0 * std::sqrt(variance) + sines + edge + shallow;
+}
+
+// The part of the ray between the planes z = -bound and z = bound, empty if first > last.
+struct Range {
+  double first_m, last_m;
+};
+Range clip_to_slab(double z, double dz, double bound_m, double max_distance_m) {
+  if (dz == 0.0) return {0.0, std::abs(z) <= bound_m ? max_distance_m : -1.0};
+  const double a = (-bound_m - z) / dz, b = (bound_m - z) / dz;
+  return {std::max(0.0, std::min(a, b)), std::min(max_distance_m, std::max(a, b))};
+}
+
+}  // namespace
+
+WaterSurface::WaterSurface(const ocean::Sea& sea, const ocean::SeaFrame& frame, const SeaArea& area,
+                           const Terrain* terrain)
+    : frame_(&frame),
+      area_(&area),
+      terrain_(terrain),
+      wave_height_m_(static_cast<float>(sea.significant_height_m())),
+      bound_m_(static_cast<float>(sea.height_bound_m())),
+      steepest_(slope_bound(sea, frame, area, terrain)) {}
+
+// How much of the waves' height a place shows.
+float WaterSurface::share(glm::dvec2 p_world, float ground_m) const {
+  const glm::dvec2 inside = 0.5 * area_->size_m - glm::abs(p_world - area_->centre_m);
+  const glm::dvec2 t = glm::clamp(inside / (0.1 * area_->size_m), 0.0, 1.0);
+  const double edge = t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y);
+  if (!terrain_) return static_cast<float>(edge);
+  const float depth = std::max(-ground_m, 0.0f);
+  return static_cast<float>(edge) * std::min(1.0f, depth / (0.2f + wave_height_m_));
+}
+
+float WaterSurface::share_at(glm::dvec2 p_world) const {
+  float result = 0.0f;
+  shares({&p_world, 1}, {&result, 1});
+  return result;
+}
+
+// At most kChunk points.
+void WaterSurface::shares(std::span<const glm::dvec2> p_world, std::span<float> result) const {
+  std::array<float, kChunk> ground{};
+  if (terrain_) sample_heights(*terrain_, p_world, std::span(ground).first(p_world.size()));
+  for (std::size_t i = 0; i < p_world.size(); ++i) result[i] = share(p_world[i], ground[i]);
+}
+
+glm::vec2 WaterSurface::share_slope(glm::dvec2 p) const {
+  const glm::dvec2 dx(0.5 * kShareStep_m, 0.0), dy(0.0, 0.5 * kShareStep_m);
+  const glm::vec2 difference(share_at(p + dx) - share_at(p - dx),
+                             share_at(p + dy) - share_at(p - dy));
+  return difference / static_cast<float>(kShareStep_m);
+}
+
+void WaterSurface::heights(std::span<const glm::dvec2> p_world, std::span<float> height_m) const {
+  ocean::sample_heights(*frame_, p_world, height_m);
+  in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
+    std::array<float, kChunk> factor;
+    shares(p_world.subspan(first, count), factor);
+    for (std::size_t i = 0; i < count; ++i) height_m[first + i] *= factor[i];
+  });
+}
+
+float WaterSurface::height(glm::dvec2 p_world) const {
+  float result = 0.0f;
+  heights({&p_world, 1}, {&result, 1});
+  return result;
+}
+
+void WaterSurface::slopes(std::span<const glm::dvec2> p_world, std::span<glm::vec2> slope) const {
+  SWELL_CHECK(p_world.size() == slope.size(), "{} points, {} slopes", p_world.size(), slope.size());
+  in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
+    const auto p = p_world.subspan(first, count);
+    std::array<float, kChunk> x, y, height, factor;
+    ocean::sample_slopes(*frame_, p, std::span(x).first(count), std::span(y).first(count));
+    ocean::sample_heights(*frame_, p, std::span(height).first(count));
+    shares(p, factor);
+    for (std::size_t i = 0; i < count; ++i) {
+      slope[first + i] = factor[i] * glm::vec2(x[i], y[i]);
+      if (factor[i] != 1.0f) slope[first + i] += height[i] * share_slope(p[i]);
+    }
+  });
+}
+
+void WaterSurface::normals(std::span<const glm::dvec2> p_world, std::span<glm::vec3> normal) const {
+  SWELL_CHECK(p_world.size() == normal.size(), "{} points, {} normals", p_world.size(),
+              normal.size());
+  in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
+    std::array<glm::vec2, kChunk> slope;
+    slopes(p_world.subspan(first, count), std::span(slope).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::vec3 up(-slope[i], 1.0f);
+      normal[first + i] = up / std::sqrt(up.x * up.x + up.y * up.y + 1.0f);
+    }
+  });
+}
+
+bool WaterSurface::in_water(glm::dvec3 p_world) const {
+  const glm::dvec2 p(p_world);
+  if (!(p_world.z <= height(p))) return false;
+  float ground_m = -HUGE_VALF;
+  if (terrain_) sample_heights(*terrain_, {&p, 1}, {&ground_m, 1});
+  return p_world.z > ground_m;
+}
+
+std::optional<WaterHit> WaterSurface::intersect(glm::dvec3 origin_world, glm::dvec3 direction,
+                                                double max_distance_m) const {
+  const double length = glm::length(direction);
+  SWELL_CHECK(std::isfinite(origin_world.x + origin_world.y + origin_world.z), "origin={},{},{}",
+              origin_world.x, origin_world.y, origin_world.z);
+  SWELL_CHECK(std::isfinite(length) && length > 0.0, "direction={},{},{}", direction.x, direction.y,
+              direction.z);
+  const glm::dvec3 along = direction / length;
+  const auto height_above = [&](double s) {
+    const glm::dvec3 p = origin_world + s * along;
+    return p.z - static_cast<double>(height(glm::dvec2(p)));
+  };
+  // Outside the slab that holds the surface nothing can be hit.
+  const double slab_m = static_cast<double>(bound_m_) + 1e-3;
+  const Range range = clip_to_slab(origin_world.z, along.z, slab_m, max_distance_m);
+  if (!(range.first_m <= range.last_m)) return std::nullopt;
+
+  // March: the gap closes by at most `closing` a metre.
+  const double closing = std::abs(along.z) + steepest_ * glm::length(glm::dvec2(along));
+  double near_m = range.first_m;
+  const double gap0 = height_above(near_m);
+  const bool from_above = gap0 > 0.0;
+  double gap = gap0, far_m = near_m;
+  while ((gap > 0.0) == from_above) {
+    if (far_m >= range.last_m) return std::nullopt;
+    near_m = far_m;
+    far_m =
+        std::min(range.last_m, near_m + std::max(std::abs(gap) / closing, 0.02 + 2e-4 * near_m));
+    gap = height_above(far_m);
+  }
+
+  // Bisect: the start is on one side, the end on the other.
+  while (far_m - near_m > 1e-7) {
+    const double middle = 0.5 * (near_m + far_m);
+    if (middle <= near_m || middle >= far_m) break;  // no number between them
+    ((height_above(middle) > 0.0) == from_above ? near_m : far_m) = middle;
+  }
+  const glm::dvec3 p = origin_world + far_m * along;
+  return WaterHit{far_m, p, from_above};
+}
+
+Water::Water(const Scene& scene) : sea_(scene.sea), area_(scene.area) {
+  if (scene.terrain) terrain_ = build_terrain(*scene.terrain);
+}
+
+WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers) const {
+  ocean::advance(sea_, t_s, frame, workers);
+  return {sea_, frame, area_, terrain()};
+}
+
+}  // namespace swell::scene

@@ -1,0 +1,207 @@
+// What the surface answers: against sines in closed form, against itself as it is drawn, from many
+// threads.
+#include "scene/water_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "math/random.h"
+#include "scene/scene.h"
+
+namespace swell::scene {
+namespace {
+
+constexpr double kPiRef = 3.14159265358979323846;
+
+std::vector<glm::dvec2> random_points(int count, glm::dvec2 centre, double range_m) {
+  std::vector<glm::dvec2> points;
+  for (int i = 0; i < count; ++i)
+    points.push_back(
+        centre +
+        range_m * (glm::dvec2(random_uniform(3, 2 * i), random_uniform(3, 2 * i + 1)) - 0.5));
+  return points;
+}
+
+// Two waves with known frequencies: 0.6 sin(2 pi (x / 40 - t / 5)) + 0.3 sin(2 pi (y / 25 - t /
+// 4)).
+Scene sine_scene() {
+  Scene scene;
+  scene.sea.spectrum = false;
+  scene.sea.sines = {{0.6, 40.0, 0.5 * kPiRef, 0.0, 5.0}, {0.3, 25.0, 0.0, 0.0, 4.0}};
+  scene.area.size_m = {2000.0, 1000.0};
+  return scene;
+}
+double sine_height(glm::dvec2 p, double t_s) {
+  return 0.6 * std::sin(2.0 * kPiRef * (p.x / 40.0 - t_s / 5.0)) +
+         0.3 * std::sin(2.0 * kPiRef * (p.y / 25.0 - t_s / 4.0));
+}
+glm::dvec2 sine_slope(glm::dvec2 p, double t_s) {
+  return {0.6 * 2.0 * kPiRef / 40.0 * std::cos(2.0 * kPiRef * (p.x / 40.0 - t_s / 5.0)),
+          0.3 * 2.0 * kPiRef / 25.0 * std::cos(2.0 * kPiRef * (p.y / 25.0 - t_s / 4.0))};
+}
+
+Scene windy_scene() {
+  Scene scene;
+  scene.sea.resolution = 64;
+  return scene;
+}
+
+Scene island_scene() {
+  Scene scene = windy_scene();
+  scene.terrain.emplace();
+  return scene;
+}
+
+// A scene's surface at one time, with all that it looks at.
+struct Snapshot {
+  Snapshot(const Scene& scene, double t_s) : water(scene), workers(1) {
+    surface.emplace(water.at(t_s, frame, workers));
+  }
+  const WaterSurface* operator->() const { return &*surface; }
+  Water water;
+  Workers workers;
+  ocean::SeaFrame frame;
+  std::optional<WaterSurface> surface;
+};
+
+TEST(WaterSurface, SinesHaveTheirHeightsAndNormalsInThePastAndInTheFuture) {
+  for (const double t_s : {-1234.5, 0.0, 0.7, 86400.25}) {
+    const Snapshot water(sine_scene(), t_s);
+    for (const glm::dvec2& p : random_points(200, {0.0, 0.0}, 700.0)) {
+      EXPECT_NEAR(water->height(p), sine_height(p, t_s), 2e-6);
+      glm::vec2 slope;
+      glm::vec3 normal;
+      water->slopes({&p, 1}, {&slope, 1});
+      water->normals({&p, 1}, {&normal, 1});
+      const glm::dvec2 want = sine_slope(p, t_s);
+      EXPECT_NEAR(slope.x, want.x, 1e-6);
+      EXPECT_NEAR(slope.y, want.y, 1e-6);
+      const glm::dvec3 up = glm::normalize(glm::dvec3(-want, 1.0));
+      EXPECT_LT(glm::distance(glm::dvec3(normal), up), 1e-6);
+    }
+  }
+}
+
+TEST(WaterSurface, TheSeaIsFlatFromTheAreasBorderOn) {
+  const Snapshot water(sine_scene(), 3.0);
+  EXPECT_EQ(water->height({1000.0, 0.0}), 0.0f);
+  EXPECT_EQ(water->height({0.0, -500.0}), 0.0f);
+  EXPECT_EQ(water->height({1e8, 1e8}), 0.0f);
+  const glm::dvec2 p(900.0, 3.0);  // half way through the fading: 3 t^2 - 2 t^3 = 1/2
+  EXPECT_NEAR(water->height(p), 0.5 * sine_height(p, 3.0), 2e-6);
+}
+
+TEST(WaterSurface, SlopesAreThoseOfTheHeightsWhereTheSeaFades) {
+  const Snapshot water(sine_scene(), 3.0);
+  const double h = 0.1;
+  for (const glm::dvec2& p : random_points(200, {930.0, 430.0}, 100.0)) {
+    glm::vec2 slope;
+    water->slopes({&p, 1}, {&slope, 1});
+    const double x = water->height(p + glm::dvec2(h, 0)) - water->height(p - glm::dvec2(h, 0));
+    const double y = water->height(p + glm::dvec2(0, h)) - water->height(p - glm::dvec2(0, h));
+    EXPECT_NEAR(slope.x, x / (2.0 * h), 2e-4);
+    EXPECT_NEAR(slope.y, y / (2.0 * h), 2e-4);
+  }
+}
+
+TEST(WaterSurface, ABatchOfAnyLengthGivesWhatEachPointGives) {
+  const Snapshot water(island_scene(), 5.0);
+  const auto points = random_points(700, {0.0, 0.0}, 1500.0);
+  for (const std::size_t count : {0u, 1u, 7u, 16u, 255u, 257u, 700u}) {
+    std::vector<float> heights(count);
+    water->heights(std::span(points).first(count), heights);
+    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(heights[i], water->height(points[i])) << i;
+  }
+}
+
+TEST(WaterSurface, LandAndItsWaterlineDoNotMove) {
+  const Snapshot early(island_scene(), 1.0), late(island_scene(), 4.0);
+  EXPECT_EQ(early->height({0.0, 0.0}), 0.0f);  // the middle of the island
+  EXPECT_EQ(late->height({0.0, 0.0}), 0.0f);
+  EXPECT_FALSE(early->in_water({0.0, 0.0, -0.1}));
+}
+
+TEST(WaterSurface, WaterIsBetweenTheSurfaceAndTheGround) {
+  const Snapshot water(island_scene(), 2.0);
+  const glm::dvec2 p(900.0, 600.0);  // floor at -14 m
+  const double z = water->height(p);
+  EXPECT_TRUE(water->in_water({p, z}));
+  EXPECT_TRUE(water->in_water({p, z - 1e-6}));
+  EXPECT_FALSE(water->in_water({p, z + 1e-6}));
+  EXPECT_TRUE(water->in_water({p, -13.0}));
+  EXPECT_FALSE(water->in_water({p, -15.0}));
+  EXPECT_TRUE(Snapshot(windy_scene(), 2.0)->in_water({p, -5000.0}));
+}
+
+// The oracle steps by a millimetre or so.
+double brute_distance(const WaterSurface& surface, glm::dvec3 origin, glm::dvec3 along,
+                      double end_m, double step_m) {
+  const auto above = [&](double s) {
+    const glm::dvec3 p = origin + s * along;
+    return p.z > static_cast<double>(surface.height(glm::dvec2(p)));
+  };
+  const bool start = above(0.0);
+  for (double s = 0.0; s <= end_m; s += step_m)
+    if (above(s) != start) return s;
+  return -1.0;
+}
+
+TEST(WaterSurface, RaysHitWhereSmallStepsFirstPassTheSurface) {
+  const Snapshot water(windy_scene(), 11.0);
+  int hits = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto dice = [&](int n) { return random_uniform(9, 10 * i + n); };
+    const glm::dvec3 origin(800.0 * (dice(0) - 0.5), 800.0 * (dice(1) - 0.5),
+                            12.0 * (dice(2) - 0.3));
+    const double heading = 2.0 * kPiRef * dice(3),
+                 down = (dice(4) - 0.6) * (dice(5) < 0.5 ? 0.3 : 3.0);
+    const glm::dvec3 along = glm::normalize(glm::dvec3(std::cos(heading), std::sin(heading), down));
+    const double step = 0.005;
+    const double want = brute_distance(*water.surface, origin, along, 100.0, step);
+    const auto hit = water->intersect(origin, 7.0 * along, 100.0);
+    ASSERT_EQ(hit.has_value(), want >= 0.0) << i;
+    if (!hit) continue;
+    ++hits;
+    EXPECT_NEAR(hit->distance_m, want, step + 1e-6) << i;
+    EXPECT_NEAR(hit->p_world.z, water->height(glm::dvec2(hit->p_world)), 2e-5) << i;
+    EXPECT_EQ(hit->from_above, origin.z > water->height(glm::dvec2(origin))) << i;
+  }
+  EXPECT_GT(hits, 30);
+}
+
+TEST(WaterSurface, RaysThatLeaveTheSeaBehindHitNothing) {
+  const Snapshot water(windy_scene(), 0.0);
+  EXPECT_FALSE(water->intersect({0, 0, 50}, {0, 0, 1}, 1e6));
+  EXPECT_FALSE(water->intersect({0, 0, 50}, {1, 0, 0}, 1e6));
+  EXPECT_FALSE(water->intersect({0, 0, 50}, {0, 0, -1}, 30.0));
+  const auto down = water->intersect({3, 4, 50}, {0, 0, -1}, 100.0);
+  ASSERT_TRUE(down);
+  EXPECT_NEAR(down->p_world.z, water->height({3, 4}), 1e-6);
+  EXPECT_TRUE(down->from_above);
+  const auto far = water->intersect({0, 0, 100}, {1.0, 0, -0.002}, 1e6);  // meets the flat sea
+  ASSERT_TRUE(far);
+  EXPECT_NEAR(far->p_world.x, 50000.0, 1e-3);
+}
+
+TEST(WaterSurface, ThreadsMayAskAtOnce) {
+  const Snapshot water(island_scene(), 5.0);
+  const auto points = random_points(2000, {0.0, 0.0}, 2000.0);
+  std::vector<float> want(points.size());
+  water->heights(points, want);
+  std::vector<std::vector<float>> got(4, std::vector<float>(points.size()));
+  {
+    std::vector<std::jthread> threads;
+    for (std::vector<float>& heights : got)
+      threads.emplace_back([&] {
+        for (int n = 0; n < 5; ++n) water->heights(points, heights);
+      });
+  }
+  for (const std::vector<float>& heights : got) EXPECT_EQ(heights, want);
+}
+
+}  // namespace
+}  // namespace swell::scene
