@@ -97,22 +97,43 @@ HWY_INLINE VB DotQuads(VB weights_u8, VB taps_s8) {
 }
 
 // Bilinear weights of the four taps as bytes (x,y), (x+1,y), (x,y+1), (x+1,y+1) from the low byte
-// of each lane up. They add up to exactly 255; each is monotonic in both fractions.
-//   row y+1 gets r1 = round(255 fy / 256), row y the rest; in each row, the right tap gets
-//   round(r fx / 256) and the left one the rest.
+// of each lane up, for the fractions x, y [the coordinates' low bytes / 256]. They add up to
+// exactly 255, and their positive errors to less than 1 (1/255 of the taps' range):
+//   row y+1 gets r1 = round(255 y), row y gets r0 = 255 - r1, off by e1 = r1 - 255 y = -e0;
+//   in each row, the right tap gets round(255 x y_i + e_i / 2), y1 = y, y0 = 1 - y, the left one
+//   the rest.
+// Why not round(r_i x), which is off by e_i x more than its rounding: where the two rows' roundings
+// then oppose, the errors add up to 1.49. Half the row's error, for all x, leaves 1 in every case.
+// Rows, and in them both taps along x, are monotonic; along y, single taps step back by one in
+// 169 places (the rows' ramp does not).
 template <class DI, class VI = hn::Vec<DI>>
-HWY_INLINE VI BilinearWeights(DI di, VI fx, VI fy) {  // fractions in [0, 255] / 256
+HWY_INLINE VI BilinearWeights(DI di, VI x_fx8, VI y_fx8) {
+  const hn::Repartition<std::uint8_t, DI> d8;
   const hn::Repartition<std::uint16_t, DI> d16;
-  // round(255 f / 256), ties down, is f - (f > 128).
-  const VI r1 = hn::Add(fy, hn::ShiftRight<31>(hn::Sub(hn::Set(di, 128), fy)));
-  const VI rows = hn::Add(hn::Sub(hn::ShiftLeft<16>(r1), r1), hn::Set(di, 255));
-  const VI fx_twice = hn::Or(fx, hn::ShiftLeft<16>(fx));
-  // 16-bit lanes: at most 255 * 255 + 128 < 2^16.
-  const auto rows16 = hn::BitCast(d16, rows);
-  const auto product = hn::Mul(rows16, hn::BitCast(d16, fx_twice));
-  const auto right = hn::ShiftRight<8>(hn::Add(product, hn::Set(d16, 128)));
-  const auto left = hn::Sub(rows16, right);
-  return hn::BitCast(di, hn::Or(left, hn::ShiftLeft<8>(right)));
+  // 16-bit lanes: row 0 low, row 1 high.
+  alignas(16) static constexpr std::uint8_t kLow[16] = {0, 128, 0, 128, 4,  128, 4,  128,
+                                                        8, 128, 8, 128, 12, 128, 12, 128};
+  alignas(16) static constexpr std::uint8_t kHigh[16] = {128, 0, 128, 0, 128, 4,  128, 4,
+                                                         128, 8, 128, 8, 128, 12, 128, 12};
+  const auto bytes = [&](VI v, const std::uint8_t* order) HWY_ATTR {
+    return hn::BitCast(d16, hn::TableLookupBytesOr0(hn::BitCast(d8, v), hn::LoadDup128(d8, order)));
+  };
+  const auto pair = [&](std::uint32_t row0, std::uint32_t row1) HWY_ATTR {
+    return hn::BitCast(d16, hn::Set(di, static_cast<std::int32_t>(row1 << 16 | row0)));
+  };
+  const auto fx = bytes(x_fx8, kHigh);  // 256 (256 x)
+  const auto fy = bytes(y_fx8, kLow);   // 256 y
+  // 255 y_i in 1/256, then rounded; the tie at y = 1/2 goes up in row 1 and down in row 0.
+  const auto signed_height = hn::Mul(fy, pair(0x10000 - 255, 255));
+  const auto height = hn::Add(signed_height, pair(255 * 256, 0));
+  const auto rounded = hn::Add(signed_height, pair(255 * 256 + 127, 128));
+  const auto rows = hn::ShiftRight<8>(rounded);
+  // The low byte of `rounded` is 128 - 256 e_i; 64 + 127 - byte / 2 is 256 (1 + e_i) / 2.
+  const auto half_error = hn::AndNot(hn::ShiftRight<1>(rounded), hn::Set(d16, 127));
+  const auto bias = hn::Add(half_error, hn::Set(d16, 64));
+  const auto right = hn::ShiftRight<8>(hn::Add(hn::MulHigh(height, fx), bias));
+  // (rows - right) + 256 right.
+  return hn::BitCast(di, hn::Add(rows, hn::Mul(right, hn::Set(d16, 255))));
 }
 
 // Coordinate u in turns of the map to 1/256 texels, in the low bits of the result: those above
@@ -162,8 +183,7 @@ HWY_INLINE void SamplePacked2(D d, const PackedMap2& map, V u, V v, VI level, V&
   const VI y_fx8 = TexelCoordinateFx8(d, v, size_fx8);
   const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
   const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
-  const VI byte = hn::Set(di, 255);
-  const VI weights = BilinearWeights(di, hn::And(x_fx8, byte), hn::And(y_fx8, byte));
+  const VI weights = BilinearWeights(di, x_fx8, y_fx8);
   // A level of size s begins at word s * s, so that its rows are rows s to 2 s - 1 of s words.
   const VI index = hn::Or(hn::Shl(hn::Or(y, size), k), x);
   BlendPacked2(d, map, index, weights, a, b);
@@ -184,8 +204,7 @@ HWY_INLINE void SamplePacked2Level(D d, const PackedMap2& map, V u, V v, int lev
   const VI y_fx8 = TexelCoordinateFx8(d, v, size_fx8);
   const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
   const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
-  const VI byte = hn::Set(di, 255);
-  const VI weights = BilinearWeights(di, hn::And(x_fx8, byte), hn::And(y_fx8, byte));
+  const VI weights = BilinearWeights(di, x_fx8, y_fx8);
   const VI index = hn::Or(hn::ShiftLeftSame(hn::Or(y, hn::Set(di, size)), k), x);
   BlendPacked2(d, map, index, weights, a, b);
 }
@@ -230,8 +249,7 @@ HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V&
   const hn::Repartition<std::uint8_t, D> d8;
   const auto x_fx8 = WindowCoordinateFx8(d, x_px, image.width);
   const auto y_fx8 = WindowCoordinateFx8(d, y_px, image.height);
-  const auto byte = hn::Set(di, 255);
-  const auto weights = BilinearWeights(di, hn::And(x_fx8, byte), hn::And(y_fx8, byte));
+  const auto weights = BilinearWeights(di, x_fx8, y_fx8);
 
   // Two texels of each of two rows.
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];

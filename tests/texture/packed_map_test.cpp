@@ -17,9 +17,9 @@
 namespace swell::texture {
 namespace {
 
-// Largest sum of positive errors of the four weights, in 1/255: what the blend of taps that differ
-// by one may be off (found by trying all 65,536 pairs of fractions; three roundings of a half).
-constexpr double kWeightError = 1.5 / 255.0;
+// Bound of the sum of positive errors of the four weights: what the blend of taps that differ by
+// one may be off.
+constexpr double kWeightError = 1.0 / 255.0;
 
 class OnEveryTarget : public testing::TestWithParam<SimdTarget> {
  protected:
@@ -403,6 +403,66 @@ TEST_P(Rgba, BlendsLikeDoubleArithmeticAndClamps) {
       expect_near_reference(image, x[i], y[i], samples[i]);
     }
   }
+}
+
+// The four weights [1/255] for the fractions fx / 256, fy / 256 at index 256 fy + fx: the channels
+// of an image whose texels each have a channel of their own.
+std::vector<std::array<double, 4>> all_weights() {
+  RgbaImage image;
+  resize_image(2, 2, image);
+  for (int n = 0; n < 4; ++n) image.texels[n / 2 * image.stride + n % 2] = 0xffu << (8 * n);
+  fill_padding(image);
+  std::vector<float> x, y;
+  for (int n = 0; n < 65536; ++n) {
+    x.push_back(0.5f + static_cast<float>(n % 256) / 256.0f);
+    y.push_back(0.5f + static_cast<float>(n / 256) / 256.0f);
+  }
+  std::vector<std::array<double, 4>> weights;
+  for (const Sample4& s : sample_rgba(image, x, y)) {
+    weights.push_back({s.r * 255.0, s.g * 255.0, s.b * 255.0, s.a * 255.0});
+  }
+  return weights;
+}
+
+TEST_P(Rgba, WeightsAreWholeAndWithinOneOfExactForAllFractions) {
+  const auto weights = all_weights();
+  for (int n = 0; n < 65536; ++n) {
+    const double x = n % 256 / 256.0, y = n / 256 / 256.0;
+    const double exact[4] = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+    double sum = 0.0, over = 0.0, under = 0.0;
+    for (int c = 0; c < 4; ++c) {
+      const double weight = std::nearbyint(weights[n][c]), error = weight - 255.0 * exact[c];
+      ASSERT_NEAR(weights[n][c], weight, 1e-4);
+      ASSERT_GE(weight, 0.0);
+      sum += weight;
+      (error > 0.0 ? over : under) += error;
+    }
+    ASSERT_EQ(sum, 255.0);
+    ASSERT_LE(over, 1.0) << n % 256 << " " << n / 256;
+    ASSERT_NEAR(under, -over, 1e-9);
+  }
+}
+
+TEST_P(Rgba, WeightsRiseAlongRowsAndRowsRiseDownwards) {
+  const auto weights = all_weights();
+  int steps_back = 0;
+  for (int n = 0; n < 65536; ++n) {
+    if (n % 256 > 0) {
+      ASSERT_GE(weights[n][1], weights[n - 1][1]);
+      ASSERT_GE(weights[n][3], weights[n - 1][3]);
+      ASSERT_LE(weights[n][0], weights[n - 1][0]);
+      ASSERT_LE(weights[n][2], weights[n - 1][2]);
+    }
+    if (n < 256) continue;
+    const auto& above = weights[n - 256];
+    ASSERT_GE(weights[n][2] + weights[n][3], above[2] + above[3] - 1e-4);
+    for (int c = 0; c < 4; ++c) {
+      const double rise = c < 2 ? above[c] - weights[n][c] : weights[n][c] - above[c];
+      ASSERT_GE(rise, -1.0001);
+      if (rise < -0.5) ++steps_back;
+    }
+  }
+  EXPECT_LE(steps_back, 169);  // of 4 * 65,280
 }
 
 TEST_P(Rgba, TexelCentresGiveTheirTexels) {
