@@ -245,6 +245,13 @@ TileGrid tile_grid(Viewport viewport, int tile_size_px) {
           (viewport.height_px + tile_size_px - 1) / tile_size_px};
 }
 
+PixelBox tile_box(Viewport viewport, const TileGrid& grid, int tile) {
+  const int x0 = tile % grid.tiles_x * grid.tile_size_px;
+  const int y0 = tile / grid.tiles_x * grid.tile_size_px;
+  return {x0, y0, std::min(grid.tile_size_px, viewport.width_px - x0),
+          std::min(grid.tile_size_px, viewport.height_px - y0)};
+}
+
 bool tile_has_triangles(const Pass& pass, int tile) {
   const Pass::State& state = pass.state();
   SWELL_CHECK(tile >= 0 && tile < state.grid.count(), "tile={} tiles={}", tile, state.grid.count());

@@ -75,6 +75,12 @@ struct TileGrid {
 };
 TileGrid tile_grid(Viewport viewport, int tile_size_px);
 
+// The pixels of a tile that lie in the viewport.
+struct PixelBox {
+  int x0_px, y0_px, width_px, height_px;
+};
+PixelBox tile_box(Viewport viewport, const TileGrid& grid, int tile);
+
 // True if any triangle may touch the tile. Tiles are numbered row by row from the top left.
 bool tile_has_triangles(const Pass& pass, int tile);
 

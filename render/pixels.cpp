@@ -7,8 +7,6 @@
 namespace swell::render {
 namespace {
 
-static_assert(kNoSurface == raster::kNoPrimitive);
-
 std::uint32_t triangle_count(const Surface& surface) {
   return static_cast<std::uint32_t>(surface.mesh.indices.size() / 3);
 }
@@ -86,12 +84,10 @@ void size_lookup(const View& view, const raster::TileGrid& grid, LookupTarget& t
 }
 
 void clear_tile(const ShadeContext& c, int tile, texture::RgbaImage& image) {
-  const int x0 = tile % c.tiles_x * c.tile_size_px, y0 = tile / c.tiles_x * c.tile_size_px;
-  const int x1 = std::min(x0 + c.tile_size_px, c.width_px);
-  const int y1 = std::min(y0 + c.tile_size_px, c.height_px);
-  for (int y = y0; y < y1; ++y) {
+  const raster::PixelBox box = raster::tile_box(c.viewport, c.grid, tile);
+  for (int y = box.y0_px; y < box.y0_px + box.height_px; ++y) {
     const auto row = image.texels.begin() + static_cast<std::ptrdiff_t>(y) * image.stride;
-    std::fill(row + x0, row + x1, 0u);
+    std::fill_n(row + box.x0_px, box.width_px, 0u);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "raster/pass.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
@@ -17,7 +18,6 @@ namespace swell::render {
 // the eye, and headroom over white.
 inline constexpr float kLookupRange = 2.0f;
 
-inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFFu;  // as raster::kNoPrimitive
 inline constexpr float kCosSunRim = 0.99998f, kCosSunCore = 0.999992f;
 
 inline constexpr int kMaxTilePixels = 64 * 64;
@@ -61,8 +61,8 @@ enum class ViewKind : std::uint8_t {
 
 // Constants of a frame and view. Colours are linear RGB, positions relative to the eye.
 struct ShadeContext {
-  int width_px = 0, height_px = 0;
-  int tile_size_px = 64, tiles_x = 0;
+  raster::Viewport viewport;
+  raster::TileGrid grid;
   std::uint32_t water_primitives = 0;  // primitives below this are water, the others terrain
   ViewKind kind = ViewKind::kWindow;
 

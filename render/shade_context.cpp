@@ -78,8 +78,6 @@ void add_sines(const Frame& frame, ShadeContext& c) {
 }
 
 void fill_rays(const View& view, ShadeContext& c) {
-  c.width_px = view.width_px;
-  c.height_px = view.height_px;
   c.ray = view.ray(0.5f, 0.5f);
   c.ray_dx = view.right * (2.0f * view.tan_half_x / static_cast<float>(view.width_px));
   c.ray_dy = -view.up * (2.0f * view.tan_half_y / static_cast<float>(view.height_px));
@@ -156,9 +154,8 @@ void fill_terrain(const Frame& frame, ShadeContext& c) {
 void fill_shade_context(const Frame& frame, const View& view, ViewKind kind,
                         ShadeContext& context) {
   context.kind = kind;
-  context.tile_size_px = frame.options.tile_size_px;
-  context.tiles_x =
-      raster::tile_grid({view.width_px, view.height_px}, frame.options.tile_size_px).tiles_x;
+  context.viewport = {view.width_px, view.height_px};
+  context.grid = raster::tile_grid(context.viewport, frame.options.tile_size_px);
   fill_rays(view, context);
   fill_light(frame, context);
   fill_water(frame, context);

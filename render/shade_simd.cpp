@@ -21,17 +21,6 @@ namespace HWY_NAMESPACE {
 
 constexpr std::size_t kLanes = hn::MaxLanes(D());
 
-// A tile's place in the window.
-struct TileBox {
-  int x0, y0, width, height;  // the part inside the window
-};
-
-TileBox BoxOf(const ShadeContext& c, int tile) {
-  const int x0 = tile % c.tiles_x * c.tile_size_px, y0 = tile / c.tiles_x * c.tile_size_px;
-  return {x0, y0, std::min(c.tile_size_px, c.width_px - x0),
-          std::min(c.tile_size_px, c.height_px - y0)};
-}
-
 // The pixels of one material in a tile, as positions y * tile_size + x in its buffers.
 struct PixelList {
   std::uint16_t* at;
@@ -46,16 +35,17 @@ void PadToPacket(PixelList& list) {
 }
 
 // Sorts the tile's pixels by material.
-void SortByMaterial(const ShadeContext& c, const TileBox& box, const std::uint32_t* primitive,
-                    PixelList& water, PixelList& terrain, PixelList& sky) {
-  for (int y = 0; y < box.height; ++y) {
-    for (int x = 0; x < box.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
+void SortByMaterial(const ShadeContext& c, const raster::PixelBox& box,
+                    const std::uint32_t* primitive, PixelList& water, PixelList& terrain,
+                    PixelList& sky) {
+  for (int y = 0; y < box.height_px; ++y) {
+    for (int x = 0; x < box.width_px; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
       const std::uint32_t p = primitive[i];
       // Branch-free: write to all three lists, advance one.
       const auto index = static_cast<std::uint16_t>(i);
       water.at[water.count] = terrain.at[terrain.count] = sky.at[sky.count] = index;
-      const bool is_water = p < c.water_primitives, is_sky = p == kNoSurface;
+      const bool is_water = p < c.water_primitives, is_sky = p == raster::kNoPrimitive;
       water.count += is_water;
       sky.count += is_sky;
       terrain.count += !is_water && !is_sky;
@@ -68,20 +58,20 @@ void SortByMaterial(const ShadeContext& c, const TileBox& box, const std::uint32
 
 // Calls shade(x_px, y_px, z) for the list's pixels, a packet at a time, and stores its colours.
 template <class Shade>
-HWY_INLINE void ShadeList(const ShadeContext& c, const TileBox& box, const PixelList& list,
+HWY_INLINE void ShadeList(const ShadeContext& c, const raster::PixelBox& box, const PixelList& list,
                           const float* depth, ShadeScratch& scratch, const Shade& shade) {
   const D d;
   const DI di;
   const hn::Rebind<std::uint16_t, D> d16;
-  const int size_log2 = std::countr_zero(static_cast<unsigned>(c.tile_size_px));
+  const int size_log2 = std::countr_zero(static_cast<unsigned>(c.grid.tile_size_px));
   HWY_ALIGN std::array<float, kLanes> z, red, green, blue;
   for (std::size_t i = 0; i < list.count; i += kLanes) {
     const std::uint16_t* at = list.at + i;
     const VI index = hn::PromoteTo(di, hn::LoadU(d16, at));
     const VI y = hn::ShiftRightSame(index, size_log2);
     const VI x = hn::Sub(index, hn::ShiftLeftSame(y, size_log2));
-    const V x_px = hn::ConvertTo(d, hn::Add(x, hn::Set(di, box.x0)));
-    const V y_px = hn::ConvertTo(d, hn::Add(y, hn::Set(di, box.y0)));
+    const V x_px = hn::ConvertTo(d, hn::Add(x, hn::Set(di, box.x0_px)));
+    const V y_px = hn::ConvertTo(d, hn::Add(y, hn::Set(di, box.y0_px)));
 
     // A run of neighbours is loaded and stored whole; a padded packet is none.
     const bool run =
@@ -131,35 +121,37 @@ HWY_INLINE VI ToByte(V linear, V exposure, V dither) {
   return hn::ConvertTo(DI(), hn::Min(code, Constant(255.0f)));
 }
 
-HWY_INLINE void ResolveTile(const ShadeContext& c, const TileBox& box, const ShadeScratch& scratch,
-                            std::uint32_t* rgba, float* linear) {
+HWY_INLINE void ResolveTile(const ShadeContext& c, const raster::PixelBox& box,
+                            const ShadeScratch& scratch, std::uint32_t* rgba, float* linear) {
   const D d;
   const DI di;
   const V exposure = Constant(c.exposure);
   HWY_ALIGN std::array<std::int32_t, kLanes> tail;
-  for (int y = 0; y < box.height; ++y) {
-    std::uint32_t* row = rgba + static_cast<std::size_t>(box.y0 + y) * c.width_px + box.x0;
-    for (int x = 0; x < box.width; x += static_cast<int>(kLanes)) {
-      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
-      const V dither = PixelNoise(hn::ConvertTo(d, hn::Iota(di, box.x0 + x)),
-                                  Constant(static_cast<float>(box.y0 + y)));
+  for (int y = 0; y < box.height_px; ++y) {
+    std::uint32_t* row =
+        rgba + static_cast<std::size_t>(box.y0_px + y) * c.viewport.width_px + box.x0_px;
+    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
+      const V dither = PixelNoise(hn::ConvertTo(d, hn::Iota(di, box.x0_px + x)),
+                                  Constant(static_cast<float>(box.y0_px + y)));
       const VI r = ToByte(hn::Load(d, scratch.red.data() + i), exposure, dither);
       const VI g = ToByte(hn::Load(d, scratch.green.data() + i), exposure, dither);
       const VI b = ToByte(hn::Load(d, scratch.blue.data() + i), exposure, dither);
       const VI pixel =
           hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)),
                  hn::Or(hn::ShiftLeft<16>(b), hn::Set(di, static_cast<std::int32_t>(0xff000000u))));
-      if (x + static_cast<int>(kLanes) <= box.width) {
+      if (x + static_cast<int>(kLanes) <= box.width_px) {
         hn::StoreU(pixel, di, reinterpret_cast<std::int32_t*>(row + x));
       } else {
         hn::Store(pixel, di, tail.data());
-        std::copy_n(tail.data(), box.width - x, reinterpret_cast<std::int32_t*>(row + x));
+        std::copy_n(tail.data(), box.width_px - x, reinterpret_cast<std::int32_t*>(row + x));
       }
     }
     if (!linear) continue;
-    for (int x = 0; x < box.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
-      float* out = linear + 3 * (static_cast<std::size_t>(box.y0 + y) * c.width_px + box.x0 + x);
+    for (int x = 0; x < box.width_px; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
+      float* out = linear + 3 * (static_cast<std::size_t>(box.y0_px + y) * c.viewport.width_px +
+                                 box.x0_px + x);
       out[0] = scratch.red[i];
       out[1] = scratch.green[i];
       out[2] = scratch.blue[i];
@@ -169,7 +161,7 @@ HWY_INLINE void ResolveTile(const ShadeContext& c, const TileBox& box, const Sha
 
 int ShadeTile(const ShadeContext& c, int tile, const float* depth, const std::uint32_t* primitive,
               TileLookups lookups, ShadeScratch& scratch, std::uint32_t* rgba, float* linear) {
-  const TileBox box = BoxOf(c, tile);
+  const raster::PixelBox box = raster::tile_box(c.viewport, c.grid, tile);
   PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
   SortByMaterial(c, box, primitive, water, terrain, sky);
   ShadeList(c, box, water, depth, scratch,
@@ -184,12 +176,12 @@ int ShadeTile(const ShadeContext& c, int tile, const float* depth, const std::ui
 void ShadeSkyTile(const ShadeContext& c, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
                   float* linear) {
   const D d;
-  const TileBox box = BoxOf(c, tile);
-  for (int y = 0; y < box.height; ++y) {
-    const V y_px = Constant(static_cast<float>(box.y0 + y));
-    for (int x = 0; x < box.width; x += static_cast<int>(kLanes)) {
-      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
-      const V3 colour = ShadeSky(c, hn::ConvertTo(d, hn::Iota(DI(), box.x0 + x)), y_px);
+  const raster::PixelBox box = raster::tile_box(c.viewport, c.grid, tile);
+  for (int y = 0; y < box.height_px; ++y) {
+    const V y_px = Constant(static_cast<float>(box.y0_px + y));
+    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
+      const V3 colour = ShadeSky(c, hn::ConvertTo(d, hn::Iota(DI(), box.x0_px + x)), y_px);
       hn::Store(colour.x, d, scratch.red.data() + i);
       hn::Store(colour.y, d, scratch.green.data() + i);
       hn::Store(colour.z, d, scratch.blue.data() + i);
@@ -201,7 +193,7 @@ void ShadeSkyTile(const ShadeContext& c, int tile, ShadeScratch& scratch, std::u
 void ShadeLookupTile(const ShadeContext& c, int tile, const float* depth,
                      const std::uint32_t* primitive, ShadeScratch& scratch,
                      texture::RgbaImage& image) {
-  const TileBox box = BoxOf(c, tile);
+  const raster::PixelBox box = raster::tile_box(c.viewport, c.grid, tile);
   PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
   SortByMaterial(c, box, primitive, water, terrain, sky);
   ShadeList(c, box, terrain, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
@@ -212,14 +204,15 @@ void ShadeLookupTile(const ShadeContext& c, int tile, const float* depth,
     const float code = std::sqrt(std::max(radiance, 0.0f) * (1.0f / kLookupRange)) * 255.0f;
     return static_cast<std::uint32_t>(std::min(code, 255.0f) + 0.5f);
   };
-  for (int y = 0; y < box.height; ++y) {
+  for (int y = 0; y < box.height_px; ++y) {
     std::uint32_t* row =
-        image.texels.data() + static_cast<std::size_t>(box.y0 + y) * image.stride + box.x0;
-    for (int x = 0; x < box.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * c.tile_size_px + x;
-      row[x] = primitive[i] == kNoSurface ? 0u
-                                          : encode(scratch.red[i]) | encode(scratch.green[i]) << 8 |
-                                                encode(scratch.blue[i]) << 16 | 0xff000000u;
+        image.texels.data() + static_cast<std::size_t>(box.y0_px + y) * image.stride + box.x0_px;
+    for (int x = 0; x < box.width_px; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
+      row[x] = primitive[i] == raster::kNoPrimitive
+                   ? 0u
+                   : encode(scratch.red[i]) | encode(scratch.green[i]) << 8 |
+                         encode(scratch.blue[i]) << 16 | 0xff000000u;
     }
   }
 }

@@ -50,15 +50,15 @@ Triangle triangle_of(const Frame& frame, std::uint32_t primitive) {
 
 void draw_wireframe(const Frame& frame, int tile, Target& target) {
   VisibilityBuffer& visibility = frame.ws.visibility;
-  const int size = visibility.grid.tile_size_px;
-  const int x0 = tile % visibility.grid.tiles_x * size, y0 = tile / visibility.grid.tiles_x * size;
+  const raster::PixelBox box = raster::tile_box(frame.viewport(), visibility.grid, tile);
   const std::span<const std::uint32_t> primitive = visibility.primitive_of(tile);
   std::uint32_t current = raster::kNoPrimitive;
   std::optional<raster::TriangleInterpolator> interpolator;
   std::uint32_t colour = 0;
-  for (int y = 0; y < std::min(size, target.height_px - y0); ++y) {
-    for (int x = 0; x < std::min(size, target.width_px - x0); ++x) {
-      const std::uint32_t p = primitive[static_cast<std::size_t>(y) * size + x];
+  for (int y = 0; y < box.height_px; ++y) {
+    for (int x = 0; x < box.width_px; ++x) {
+      const std::uint32_t p =
+          primitive[static_cast<std::size_t>(y) * visibility.grid.tile_size_px + x];
       if (p == raster::kNoPrimitive) continue;
       if (p != current) {
         const Triangle triangle = triangle_of(frame, p);
@@ -66,11 +66,11 @@ void draw_wireframe(const Frame& frame, int tile, Target& target) {
         colour = level_colour(triangle.level);
         current = p;
       }
-      const auto& edge = interpolator->at(x0 + x, y0 + y).edge_distance_px;
+      const auto& edge = interpolator->at(box.x0_px + x, box.y0_px + y).edge_distance_px;
       const float nearest = std::min({std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2])});
       const float line = std::clamp(kLineWidth_px - nearest, 0.0f, 1.0f);
       std::uint32_t& pixel =
-          target.rgba[static_cast<std::size_t>(y0 + y) * target.width_px + x0 + x];
+          target.rgba[static_cast<std::size_t>(box.y0_px + y) * target.width_px + box.x0_px + x];
       pixel = blend(pixel, colour, 0.15f + 0.65f * line);
     }
   }
