@@ -1,7 +1,9 @@
 // Means over many seeds: slower than the other tests of the sea, and the check of its physics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -110,6 +112,155 @@ TEST(SeaStatistics, PatchesTogetherHaveTheSignificantHeightOfTheWind) {
     mean_square += height * height / kSeeds;
   }
   EXPECT_NEAR(std::sqrt(mean_square) / (0.0246 * 15.0 * 15.0), 1.0, 0.05);
+}
+
+// 4 sqrt(m0), with m0 from the samples of all patches.
+double sampled_significant_height(double wind_mps) {
+  constexpr int kFields = 24;
+  Workers workers(1);
+  SeaFrame frame;
+  double variance = 0.0;
+  for (int seed = 0; seed < kFields; ++seed) {
+    SeaDescription description;
+    description.wind_speed_mps = wind_mps;
+    description.resolution = 64;
+    description.seed = static_cast<std::uint64_t>(2000 + seed);
+    advance(Sea(description), 50.0, frame, workers);
+    for (const PatchFrame& patch : frame.patches)
+      for (const double h : patch.height_m) variance += h * h / (kFields * 64.0 * 64.0);
+  }
+  return 4.0 * std::sqrt(variance);
+}
+
+TEST(SeaStatistics, SampledHeightsHaveTheSignificantHeightOfThePatchesBand) {
+  const double end_k = kTwoPi / 17.0 * 31.5;  // of the shortest default patch
+  for (const double wind_mps : {5.0, 10.0, 15.0}) {
+    const double want = 4.0 * std::sqrt(variance_below_k(wind_mps, end_k));
+    EXPECT_NEAR(sampled_significant_height(wind_mps) / want, 1.0, 0.05) << wind_mps << " m/s";
+  }
+}
+
+// --- Waves between zero up-crossings ------------------------------------------------------------
+
+// Heights, crest to trough, of the waves between the zero up-crossings of one point's heights.
+void append_wave_heights(const std::vector<float>& z_m, std::vector<double>& heights_m) {
+  bool inside = false;  // after the first up-crossing
+  float crest = 0.0f, trough = 0.0f;
+  for (std::size_t i = 1; i < z_m.size(); ++i) {
+    if (z_m[i - 1] < 0.0f && z_m[i] >= 0.0f) {
+      if (inside) heights_m.push_back(double{crest} - trough);
+      inside = true;
+      crest = trough = 0.0f;
+    }
+    crest = std::max(crest, z_m[i]);
+    trough = std::min(trough, z_m[i]);
+  }
+}
+
+double mean_of_highest_third(std::vector<double> heights_m) {
+  std::sort(heights_m.begin(), heights_m.end(), std::greater<>());
+  const std::size_t third = heights_m.size() / 3;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < third; ++i) sum += heights_m[i];
+  return sum / static_cast<double>(third);
+}
+
+// What 16 points far from each other see of one sea.
+struct Record {
+  std::vector<double> heights_m;
+  double mean_square_m2 = 0.0;
+};
+
+Record record_waves(const SeaDescription& description) {
+  constexpr int kPoints = 16, kSteps = 3000;
+  constexpr double kStep_s = 0.3;  // a fortieth of a period: crests are missed by 0.1 %
+  Workers workers(1);
+  const Sea sea(description);
+  SeaFrame frame;
+  std::vector<std::vector<float>> z_m(kPoints);
+  Record record;
+  const int n = description.resolution;
+  for (int step = 0; step < kSteps; ++step) {
+    advance(sea, step * kStep_s, frame, workers);
+    for (int point = 0; point < kPoints; ++point) {
+      const int i = point % 4 * n / 4, j = point / 4 * n / 4;
+      const float z = frame.patches[0].height_m[j * n + i];
+      z_m[point].push_back(z);
+      record.mean_square_m2 += double{z} * z / (kPoints * kSteps);
+    }
+  }
+  for (const auto& z : z_m) append_wave_heights(z, record.heights_m);
+  return record;
+}
+
+// H1/3 / sigma of all records but one (none left out: -1).
+double height_ratio(const std::vector<Record>& records, int left_out) {
+  std::vector<double> heights_m;
+  double mean_square = 0.0;
+  int used = 0;
+  for (int r = 0; r < static_cast<int>(records.size()); ++r) {
+    if (r == left_out) continue;
+    heights_m.insert(heights_m.end(), records[r].heights_m.begin(), records[r].heights_m.end());
+    mean_square += records[r].mean_square_m2;
+    ++used;
+  }
+  return mean_of_highest_third(std::move(heights_m)) / std::sqrt(mean_square / used);
+}
+
+struct Estimate {
+  double value = 0.0, standard_error = 0.0;  // the error by leaving out one seed at a time
+};
+
+Estimate significant_height_ratio(double length_m, int resolution, int seeds) {
+  std::vector<Record> records;
+  for (int seed = 0; seed < seeds; ++seed) {
+    SeaDescription description = one_patch(60.0, 3000 + seed);
+    description.patch_lengths_m = {length_m};
+    description.resolution = resolution;
+    records.push_back(record_waves(description));
+  }
+  Estimate estimate{height_ratio(records, -1), 0.0};
+  double squares = 0.0;
+  for (int r = 0; r < seeds; ++r) {
+    const double off = height_ratio(records, r) - estimate.value;
+    squares += off * off;
+  }
+  estimate.standard_error = std::sqrt(squares * (seeds - 1) / seeds);
+  return estimate;
+}
+
+// Spectral width nu of Pierson-Moskowitz waves below f_end: nu^2 = m0 m2 / m1^2 - 1.
+double squared_width_below(double f_m, double f_end) {
+  double m0 = 0.0, m1 = 0.0, m2 = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const double f = f_end * (i + 0.5) / 20000;
+    const double energy = std::pow(f, -5.0) * std::exp(-1.25 * std::pow(f_m / f, 4));
+    m0 += energy;
+    m1 += f * energy;
+    m2 += f * f * energy;
+  }
+  return m0 * m2 / (m1 * m1) - 1.0;
+}
+
+TEST(SeaStatistics, HighestThirdOfNarrowBandWavesIsThatOfRayleighHeights) {
+  // The patch ends at 0.9 f_m, and below that Pierson-Moskowitz falls steeply: a narrow band.
+  const double f_m = 0.13 * kG / 15.0, f_end = 0.9 * f_m;
+  const double k_end = kTwoPi * f_end * kTwoPi * f_end / kG;
+  const Estimate ratio = significant_height_ratio(kTwoPi / k_end * 15.5, 32, 24);
+  // From a crest to its trough half a period later, the envelope loses pi^2 nu^2 / 8 (M. A. Tayfun,
+  // "Distribution of crest-to-trough wave heights", 1981).
+  const double nu2 = squared_width_below(f_m, f_end);
+  EXPECT_LE(nu2, 0.08 * 0.08);
+  EXPECT_NEAR(ratio.value, 4.0043 * (1.0 - kPiRef * kPiRef * nu2 / 8.0),
+              3.0 * ratio.standard_error);
+  EXPECT_NEAR(ratio.value, 4.0043, 0.01 * 4.0043);
+  EXPECT_LE(ratio.standard_error, 0.003 * 4.0043);
+}
+
+TEST(SeaStatistics, HighestThirdOfTheWholeSpectrumIsAFewPerCentLower) {
+  const Estimate ratio = significant_height_ratio(3000.0, 64, 6);
+  EXPECT_LT(ratio.value, 0.99 * 4.0043);
+  EXPECT_GT(ratio.value, 0.95 * 4.0043);
 }
 
 }  // namespace
