@@ -1,0 +1,207 @@
+#include "ocean/peachey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+
+#include "math/check.h"
+#include "math/elementary.h"
+#include "math/random.h"
+
+namespace swell::ocean {
+namespace {
+
+constexpr double kTwoPi = 2.0 * kPi;
+
+// h / L0 of water that is `part` of the local wavelength deep: L = L0 tanh(k h).
+double depth_over_deep_length(double part) { return part * tanh(kTwoPi * part); }
+
+double deep_length_m(const WaveTrain& train) {
+  return train.gravity_mps2 * train.period_s * train.period_s / kTwoPi;
+}
+
+// 0, 1, ..., count - 1 in an order drawn from the seed (Fisher and Yates).
+std::array<int, kMaxTrains> shuffled(int count, std::uint64_t seed) {
+  std::array<int, kMaxTrains> order{};
+  for (int n = 0; n < count; ++n) order[n] = n;
+  for (int n = count - 1; n > 0; --n) {
+    const double u = random_uniform(seed, 1000 + static_cast<std::uint64_t>(n));
+    std::swap(order[n], order[static_cast<int>(u * (n + 1))]);
+  }
+  return order;
+}
+
+// Frequency over the peak's below which `part` in (0, 1) of the energy lies:
+// part = exp(-5/4 r^-4).
+double frequency_of_energy(double part) { return std::sqrt(std::sqrt(1.25 / -log(part))); }
+
+// Angle in [-pi, pi] from the wind below which `part` in [0, 1] of the energy of one frequency
+// lies.
+double angle_of_energy(double f_over_peak, double part) {
+  constexpr int kSteps = 512;
+  const double p = spreading_exponent(f_over_peak), step = kTwoPi / kSteps;
+  double below = 0.0;
+  for (int n = 0; n < kSteps; ++n) {
+    const double middle = -kPi + (n + 0.5) * step;
+    const double energy = directional_weight(p, cos(middle)) * step;
+    if (below + energy >= part) return middle + ((part - below) / energy - 0.5) * step;
+    below += energy;
+  }
+  return kPi;
+}
+
+// The wind's direction turned by an angle, counter-clockwise.
+glm::dvec2 turned(glm::dvec2 travel, double angle_rad) {
+  const double c = cos(angle_rad), s = sin(angle_rad);
+  return {c * travel.x - s * travel.y, s * travel.x + c * travel.y};
+}
+
+// Bilinear coefficients of four corner values.
+struct Bilinear {
+  double c0, c1, c2, c3;
+};
+Bilinear bilinear(double v00, double v10, double v01, double v11) {
+  return {v00, v10 - v00, v01 - v00, (v11 - v01) - (v10 - v00)};
+}
+
+void store(const Bilinear& b, double c0, float* out) {
+  out[0] = static_cast<float>(c0);
+  out[1] = static_cast<float>(b.c1);
+  out[2] = static_cast<float>(b.c2);
+  out[3] = static_cast<float>(b.c3);
+}
+
+// Sample numbers of a cell's corners; a grid one sample wide has cells without width.
+std::array<std::size_t, 4> cell_corners(const FloorGrid& grid, int i, int j) {
+  const int i1 = std::min(i + 1, grid.samples_x - 1), j1 = std::min(j + 1, grid.samples_y - 1);
+  return {grid.index(i, j), grid.index(i1, j), grid.index(i, j1), grid.index(i1, j1)};
+}
+
+Bilinear cell_bilinear(const auto& samples, const std::array<std::size_t, 4>& corners) {
+  const auto value = [&](int n) { return static_cast<double>(samples[corners[n]]); };
+  return bilinear(value(0), value(1), value(2), value(3));
+}
+
+// Turns relative amplitudes into metres, and limits their sum to what the depth carries. Returns
+// the largest sum.
+double break_waves(const SeaFloor& floor, std::span<const WaveTrain> trains,
+                   std::span<WavePhase> phases) {
+  double largest = 0.0;
+  for (std::size_t n = 0; n < floor.depth_m.size(); ++n) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < trains.size(); ++i) {
+      sum += trains[i].amplitude_m * static_cast<double>(phases[i].amplitude[n]);
+    }
+    const double factor = breaking_factor(sum, static_cast<double>(floor.depth_m[n]));
+    for (std::size_t i = 0; i < trains.size(); ++i) {
+      float& a = phases[i].amplitude[n];
+      a = static_cast<float>(trains[i].amplitude_m * static_cast<double>(a) * factor);
+    }
+    largest = std::max(largest, sum * factor);
+  }
+  return largest;
+}
+
+void fill_cells(const SeaFloor& floor, std::span<const WavePhase> phases, TrainSea& sea) {
+  float* wave = sea.waves.data();
+  float* depth = sea.depth.data();
+  for (int j = 0; j < sea.cells_y; ++j) {
+    for (int i = 0; i < sea.cells_x; ++i) {
+      const auto corners = cell_corners(floor.grid, i, j);
+      const Bilinear h = cell_bilinear(floor.depth_m, corners);
+      store(h, h.c0, depth);
+      depth += 4;
+      for (const WavePhase& phase : phases) {
+        const Bilinear theta = cell_bilinear(phase.cycles, corners);
+        const Bilinear amplitude = cell_bilinear(phase.amplitude, corners);
+        store(theta, theta.c0 - std::floor(theta.c0), wave);
+        store(amplitude, amplitude.c0, wave + 4);
+        wave += 8;
+      }
+    }
+  }
+}
+
+void set_trains(std::span<const WaveTrain> trains, TrainSea& sea) {
+  sea.trains = static_cast<int>(trains.size());
+  for (const WaveTrain& train : trains) {
+    const double length_m = deep_length_m(train);
+    sea.period_s.push_back(train.period_s);
+    sea.deep_depth_m.push_back(static_cast<float>(length_m * depth_over_deep_length(0.25)));
+    sea.shallow_depth_m.push_back(static_cast<float>(length_m * depth_over_deep_length(0.05)));
+  }
+}
+
+}  // namespace
+
+std::vector<WaveTrain> make_trains(const WindSea& wind, int count, std::uint64_t seed) {
+  SWELL_CHECK(count >= 1 && count <= kMaxTrains, "count={}", count);
+  SWELL_CHECK(wind.wind_speed_mps >= 0.0, "wind_speed_mps={}", wind.wind_speed_mps);
+  std::vector<WaveTrain> trains(static_cast<std::size_t>(count));
+  const std::array<int, kMaxTrains> direction_bin = shuffled(count, seed);
+  // A calm has no peak: any will do for waves without height.
+  const bool calm = wind.wind_speed_mps == 0.0;
+  const double peak_hz = calm ? 1.0 : peak_frequency_hz(wind);
+  const double m0 = variance_below(wind, std::numeric_limits<double>::infinity());
+  for (int n = 0; n < count; ++n) {
+    const auto uniform = [&](std::uint64_t k) {
+      return random_uniform(seed, 3 * static_cast<std::uint64_t>(n) + k);
+    };
+    WaveTrain& train = trains[static_cast<std::size_t>(n)];
+    const double part = kBandBegin + (kBandEnd - kBandBegin) * (n + uniform(0)) / count;
+    const double f_over_peak = frequency_of_energy(part);
+    const double angle = angle_of_energy(f_over_peak, (direction_bin[n] + uniform(1)) / count);
+    train.amplitude_m = std::sqrt(2.0 * m0 * (kBandEnd - kBandBegin) / count);
+    train.period_s = 1.0 / (f_over_peak * peak_hz);
+    train.travel = glm::normalize(turned(wind.travel, angle));
+    train.phase_cycles = uniform(2);
+    train.gravity_mps2 = wind.gravity_mps2;
+  }
+  return trains;
+}
+
+double profile_blend(double depth_m, double deep_length_m) {
+  const double deep = deep_length_m * depth_over_deep_length(0.25);
+  const double shallow = deep_length_m * depth_over_deep_length(0.05);
+  const double x = std::clamp((deep - depth_m) / (deep - shallow), 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+TrainSea make_train_sea(const SeaFloor& floor, std::span<const WaveTrain> trains,
+                        PhaseMethod method, Workers& workers) {
+  check_sea_floor(floor);
+  if (trains.size() > static_cast<std::size_t>(kMaxTrains)) {
+    throw std::invalid_argument(
+        fmt::format("{} wave trains, at most {}", trains.size(), kMaxTrains));
+  }
+  TrainSea sea;
+  sea.grid = floor.grid;
+  sea.cells_x = std::max(floor.grid.samples_x - 1, 1);
+  sea.cells_y = std::max(floor.grid.samples_y - 1, 1);
+  set_trains(trains, sea);
+  // One phase a train.
+  std::vector<WavePhase> phases(trains.size());
+  workers.for_each(trains.size(), [&](std::size_t i, int) {
+    phases[i] = make_wave_phase(floor, trains[i], method);
+  });
+  const double bound = break_waves(floor, trains, phases);
+  sea.height_bound_m = static_cast<float>(bound * (1.0 + 1e-6));
+  // Cells.
+  const std::size_t cells =
+      static_cast<std::size_t>(sea.cells_x) * static_cast<std::size_t>(sea.cells_y);
+  if (cells * 8 * std::max<std::size_t>(trains.size(), 1) > 0x7fffffffu) {
+    throw std::invalid_argument(
+        fmt::format("{} wave trains over {} cells, at most 2^28 in all", trains.size(), cells));
+  }
+  sea.depth.resize(cells * 4);
+  sea.waves.resize(cells * 8 * trains.size());
+  fill_cells(floor, phases, sea);
+  return sea;
+}
+
+}  // namespace swell::ocean
