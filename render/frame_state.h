@@ -29,6 +29,9 @@ struct Surface {
   std::vector<glm::vec4> p_clip;  // in the window's view
 };
 
+// Where a vertex is in the world: exact, for spacings of a power of two.
+glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex);
+
 // An off-screen picture: the land mirrored in the sea, or squeezed below it.
 struct LookupTarget {
   raster::Pass pass;

@@ -5,6 +5,7 @@
 
 #include "math/elementary.h"
 #include "render/frame_state.h"
+#include "scene/water_surface.h"
 
 namespace swell::render {
 namespace {
@@ -62,47 +63,21 @@ glm::vec4 to_clip(const View& view, glm::vec2 offset, float z_rel) {
   return view.clip_from_rel * glm::vec4(offset, z_rel, 1.0f);
 }
 
-// How much of the waves' height a place shows: all inside the area, none from its border on; less
-// where the water is shallower than the waves are high, so that they do not dig into the sand.
-struct WaveFade {
-  const scene::SeaArea& area;
-  const scene::Terrain* terrain;
-  float wave_height_m;
-
-  float at(glm::dvec2 p, float ground_m) const {
-    const glm::dvec2 inside = 0.5 * area.size_m - glm::abs(p - area.centre_m);
-    const glm::dvec2 t = glm::clamp(inside / (0.1 * area.size_m), 0.0, 1.0);
-    const double edge = t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y);
-    if (!terrain) return static_cast<float>(edge);
-    const float depth = std::max(-ground_m, 0.0f);
-    return static_cast<float>(edge) * std::min(1.0f, depth / (0.2f + wave_height_m));
-  }
-};
-
+// Heights come from where the vertex is in the world, exactly, not from its rounded offset: a query
+// of the surface there gives the same bits.
 void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
   Surface& water = frame.ws.water;
-  const glm::dvec2 eye(frame.view.eye_world);
-  place_vertices(water, begin, end, eye);
+  place_vertices(water, begin, end, glm::dvec2(frame.view.eye_world));
   const std::size_t count = end - begin;
-  const auto offset = std::span(water.offset).subspan(begin, count);
-  const auto height = std::span(water.height_m).subspan(begin, count);
-  ocean::sample_heights(frame.ws.sea, eye, offset, height);
-
+  std::array<glm::dvec2, kChunk> p;
+  for (std::size_t i = 0; i < count; ++i) p[i] = vertex_world(water, begin + i);
   const auto& world = frame.world;
-  const WaveFade fade{world.scene.area, world.terrain ? &*world.terrain : nullptr,
-                      static_cast<float>(world.sea.significant_height_m())};
-  std::array<float, kChunk> ground{};
-  if (world.terrain) {
-    std::array<glm::dvec2, kChunk> p;
-    for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(offset[i]);
-    scene::sample_heights(*world.terrain, std::span(p).first(count),
-                          std::span(ground).first(count));
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    height[i] *= fade.at(eye + glm::dvec2(offset[i]), ground[i]);
-    const float z_rel = height[i] - static_cast<float>(frame.view.eye_world.z);
-    water.p_clip[begin + i] = to_clip(frame.view, offset[i], z_rel);
-  }
+  const scene::WaterSurface surface(world.sea, frame.ws.sea, world.scene.area,
+                                    world.terrain ? &*world.terrain : nullptr);
+  surface.heights(std::span(p).first(count), std::span(water.height_m).subspan(begin, count));
+  const auto eye_z = static_cast<float>(frame.view.eye_world.z);
+  for (std::size_t i = begin; i < end; ++i)
+    water.p_clip[i] = to_clip(frame.view, water.offset[i], water.height_m[i] - eye_z);
 }
 
 // Apparent depth over true depth of a point below the water seen from the eye, at an angle theta
@@ -148,6 +123,12 @@ void resize_surface(Surface& surface) {
 }
 
 }  // namespace
+
+glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
+  const lod::Domain& domain = surface.roam->domain();
+  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
+  return domain.min_world + spacing * glm::dvec2(surface.mesh.lattice[vertex]);
+}
 
 void advance_sea(Frame& frame) {
   Workspace::State& ws = frame.ws;
