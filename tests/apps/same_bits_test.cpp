@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "apps/picture_runs.h"
 #include "apps/program_runner.h"
 
 namespace swell::apps {
@@ -26,24 +27,18 @@ class SameBits : public testing::TestWithParam<SceneCase> {
  protected:
   SameBits() { write_text(scene_, GetParam().text()); }
 
-  // The lines 'frame N xxh3 HASH' of a run.
-  std::string hashes(const Arguments& more) {
-    Arguments arguments = {"--scene", scene_, "--size", "160x90", "--hash"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_render(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.out;
-  }
+  PictureRun pictures(const Arguments& more) { return run_pictures(scene_, folder_, more); }
 
   ScratchFolder folder_;
   std::string scene_ = folder_.file("scene.toml");
 };
 
 TEST_P(SameBits, ForAnyNumberOfThreads) {
-  const std::string expected = hashes({"--time", "7.25", "--threads", "1"});
-  EXPECT_EQ(expected.size(), std::string("frame 0 xxh3 0123456789abcdef\n").size()) << expected;
-  for (const char* threads : {"2", "3", "7"})
-    EXPECT_EQ(hashes({"--time", "7.25", "--threads", threads}), expected) << threads << " threads";
+  const PictureRun expected = pictures({"--time", "7.25", "--threads", "1"});
+  EXPECT_EQ(expected.hashes.at(0).size(), std::string("0123456789abcdef").size());
+  for (const std::string threads : {"2", "3", "7", "16"})
+    expect_same_pictures(pictures({"--time", "7.25", "--threads", threads}), expected,
+                         threads + "_threads");
 }
 
 TEST_P(SameBits, ForEverySimdTarget) {
@@ -52,43 +47,60 @@ TEST_P(SameBits, ForEverySimdTarget) {
   Arguments avx2 = frames, avx512 = frames;
   avx2.insert(avx2.end(), {"--simd", "avx2"});
   avx512.insert(avx512.end(), {"--simd", "avx512"});
-  EXPECT_EQ(hashes(avx2), hashes(avx512));
+  expect_same_pictures(pictures(avx2), pictures(avx512), "simd");
 }
 
 TEST_P(SameBits, ForEveryTileSize) {
-  const std::string expected = hashes({"--time", "7.25", "--tile", "64"});
-  for (const char* tile : {"16", "32"})
-    EXPECT_EQ(hashes({"--time", "7.25", "--tile", tile}), expected) << "tile " << tile;
+  const PictureRun expected = pictures({"--time", "7.25", "--tile", "64"});
+  for (const std::string tile : {"16", "32"})
+    expect_same_pictures(pictures({"--time", "7.25", "--tile", tile}), expected, "tile_" + tile);
 }
 
 TEST_P(SameBits, ForAFrameAloneAndInASequence) {
-  const std::string sequence = hashes({"--frames", "0-50", "--fps", "30"});
-  for (const char* frame : {"0", "1", "50"}) {
-    const std::string alone = hashes({"--frames", fmt::format("{0}-{0}", frame), "--fps", "30"});
-    EXPECT_NE(sequence.find(alone), std::string::npos) << "alone: " << alone << sequence;
+  const PictureRun sequence = pictures({"--frames", "0-50", "--fps", "30"});
+  for (const int frame : {0, 1, 50}) {
+    const PictureRun alone = pictures({"--frames", fmt::format("{0}-{0}", frame), "--fps", "30"});
+    expect_same_picture(alone, frame, sequence, frame, fmt::format("alone_{}", frame));
   }
 }
 
 TEST_P(SameBits, ForAFrameAndItsTime) {
-  const std::string frame = hashes({"--frames", "45-45", "--fps", "30"});
-  const std::string time = hashes({"--time", "1.5"});
-  EXPECT_EQ(frame.substr(frame.find("xxh3")), time.substr(time.find("xxh3")));
+  const PictureRun frame = pictures({"--frames", "45-45", "--fps", "30"});
+  expect_same_picture(frame, 45, pictures({"--time", "1.5"}), 0, "time");
 }
 
 // The checks above are blind if nothing decides the picture.
 TEST_P(SameBits, ButOtherTimesAndSeedsGiveOtherPictures) {
-  const std::string picture = hashes({"--time", "7.25"});
-  EXPECT_NE(hashes({"--time", "7.3"}), picture);
+  const PictureRun picture = pictures({"--time", "7.25"});
+  EXPECT_NE(pictures({"--time", "7.3"}).hashes, picture.hashes);
   std::string other_seed = GetParam().text();
   other_seed.insert(other_seed.find("[sea]\n") + 6, "seed = 99\n");
   write_text(scene_, other_seed);
-  EXPECT_NE(hashes({"--time", "7.25"}), picture);
+  EXPECT_NE(pictures({"--time", "7.25"}).hashes, picture.hashes);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
                          testing::Values(SceneCase{"Sea", sea_scene_text},
                                          SceneCase{"Island", island_scene_text}),
                          [](const auto& test) { return test.param.name; });
+
+// A check that only says "different" helps nobody.
+TEST(PictureDifference, NamesTheFirstPixelAndItsTileAndKeepsThePictures) {
+  const ScratchFolder folder;
+  texture::Image8 expected{160, 90, 3, std::vector<std::uint8_t>(160 * 90 * 3, 100)};
+  EXPECT_EQ(picture_difference(expected, expected, folder.path(), "none"), "");
+  EXPECT_TRUE(folder.names().empty());
+  texture::Image8 actual = expected;
+  actual.pixels[3 * (70 * 160 + 130) + 1] = 102;
+  actual.pixels[3 * (80 * 160 + 3)] = 0;
+  const std::string text = picture_difference(actual, expected, folder.path(), "two");
+  EXPECT_TRUE(
+      text.starts_with("2 pixels differ, first (130, 70) in tile (2, 1): "
+                       "is 100 102 100, expected 100 100 100"))
+      << text;
+  EXPECT_EQ(folder.names(),
+            (std::vector<std::string>{"two_actual.png", "two_difference.png", "two_expected.png"}));
+}
 
 }  // namespace
 }  // namespace swell::apps
