@@ -132,10 +132,10 @@ double second_order_update(const EikonalProblem& problem, std::span<const double
   return std::min(solve_one(a, slowness), solve_one(b, slowness));
 }
 
-// How much of a cell's flux goes through its four faces, by sign: flux in from the wave's side
-// and out on the other, per unit of energy flux density.
+// Flux through a cell's four faces: out and in per unit of energy flux density, and the energy that
+// comes in.
 struct Faces {
-  double out = 0.0, in_energy = 0.0;
+  double out = 0.0, in = 0.0, in_energy = 0.0;
 };
 
 Faces measure_faces(const EikonalProblem& problem, std::span<const double> theta,
@@ -154,7 +154,9 @@ Faces measure_faces(const EikonalProblem& problem, std::span<const double> theta
       const std::size_t m = grid.index(i1, j1);
       const double slowness = 0.5 * (problem.slowness[n] + problem.slowness[m]);
       flux[side] = (neighbour - theta[n]) / (slowness * grid.spacing_m);
-      if (flux[side] < 0.0) faces.in_energy -= flux[side] * energy[m];
+      if (!(flux[side] < 0.0)) continue;
+      faces.in -= flux[side];
+      faces.in_energy -= flux[side] * energy[m];
     }
     // Through the grid's border and onto land the wave goes on as it came.
     for (int side = 0; side < 2; ++side) {
@@ -203,7 +205,10 @@ void spread_energy(const EikonalProblem& problem, std::span<const double> theta,
     const int i = static_cast<int>(n) % grid.samples_x, j = static_cast<int>(n) / grid.samples_x;
     const Faces faces = measure_faces(problem, theta, energy, i, j);
     if (faces.in_energy == 0.0) continue;
-    energy[n] = std::min(faces.in_energy / std::max(faces.out, 1e-6), kMaxFocus);
+    // Rays that bend together change the density little from cell to cell; where much more flux
+    // comes in than goes out, two waves meet, and what is too much for one goes with the other.
+    const double out = std::max(faces.out, 0.9 * faces.in);
+    energy[n] = std::min(faces.in_energy / out, kMaxFocus);
   }
 }
 

@@ -29,8 +29,9 @@ void solve_eikonal(const EikonalProblem& problem, std::vector<double>& theta);
 
 // Fills `energy`, resized to the grid, with the energy flux density of the wave along its rays:
 // div(energy grad theta / |grad theta|) = 0, source_energy at the sources, 0 in obstacles and where
-// no wave gets. Finite volumes: what enters a cell leaves it down the wave, exactly. At most
-// kMaxFocus, since rays that cross (caustics) would give infinity.
+// no wave gets. Finite volumes: what enters a cell leaves it down the wave, exactly, but on the
+// lines where two arrivals meet, which pass on the mean of both. At most kMaxFocus, since rays that
+// cross (caustics) would give infinity.
 inline constexpr double kMaxFocus = 4.0;
 void spread_energy(const EikonalProblem& problem, std::span<const double> theta,
                    std::vector<double>& energy);
