@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "math/elementary.h"
 #include "ocean/patch_waves.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -49,6 +50,29 @@ HWY_INLINE ComplexV WavesAt(D d, const PatchWaves& waves, std::size_t at, double
   return {re, im};
 }
 
+// omega, in rad/s.
+HWY_INLINE V OmegaAt(D d, const double* turns_per_s) {
+  const DHalf dh;
+  const DDouble dd;
+  const auto two_pi = hn::Set(dd, 2.0 * kPi);
+  const auto half = [&](const double* turns) HWY_ATTR {
+    return hn::DemoteTo(dh, hn::Mul(two_pi, hn::LoadU(dd, turns)));
+  };
+  return hn::Combine(d, half(turns_per_s + hn::Lanes(dd)), half(turns_per_s));
+}
+
+// dh/dt of the waves from position `at`.
+HWY_INLINE ComplexV RatesAt(D d, const PatchWaves& waves, std::size_t at, double t_s) {
+  V s, c;
+  swell::HWY_NAMESPACE::SinCosTurns(d, TurnsAt(d, waves.turns_per_s.data() + at, t_s), s, c);
+  const V omega = OmegaAt(d, waves.turns_per_s.data() + at);
+  const V re = hn::MulSub(hn::LoadU(d, waves.sin_re.data() + at), c,
+                          hn::Mul(hn::LoadU(d, waves.cos_re.data() + at), s));
+  const V im = hn::MulSub(hn::LoadU(d, waves.sin_im.data() + at), c,
+                          hn::Mul(hn::LoadU(d, waves.cos_im.data() + at), s));
+  return {hn::Mul(omega, re), hn::Mul(omega, im)};
+}
+
 HWY_INLINE void StoreRow(D d, ComplexV v, std::size_t offset, float* re, float* im) {
   hn::Store(v.re, d, re + offset);
   hn::Store(v.im, d, im + offset);
@@ -60,9 +84,10 @@ HWY_INLINE void ZeroRow(D d, std::size_t offset, float* re, float* im) {
   }
 }
 
-// h_a + i h_b.
-void FillHeights(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
-                 double t_s, int column0, float* re, float* im) {
+// f_a + i f_b, f = waves_at(waves, position).
+template <class WavesOfPatch>
+HWY_INLINE void FillPair(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
+                         int column0, float* re, float* im, WavesOfPatch waves_at) {
   const D d;
   for (int j = 0; j < a.size; ++j) {
     const std::size_t offset = static_cast<std::size_t>(plan.slot[j] * kFftBatch);
@@ -72,9 +97,9 @@ void FillHeights(const PatchWaves& a, const PatchWaves* b, int reach, const FftP
     }
     const std::size_t at = wave_position(column0, j, a.size);
     for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
-      ComplexV h = WavesAt(d, a, at + lane, t_s);
+      ComplexV h = waves_at(a, at + lane);
       if (b != nullptr) {
-        const ComplexV h_b = WavesAt(d, *b, at + lane, t_s);
+        const ComplexV h_b = waves_at(*b, at + lane);
         h = {hn::Sub(h.re, h_b.im), hn::Add(h.im, h_b.re)};
       }
       StoreRow(d, h, offset + lane, re, im);
@@ -82,9 +107,24 @@ void FillHeights(const PatchWaves& a, const PatchWaves* b, int reach, const FftP
   }
 }
 
-// (i k_x - k_y) h.
-void FillSlopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
-                float* im) {
+void FillHeights(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
+                 double t_s, int column0, float* re, float* im) {
+  FillPair(a, b, reach, plan, column0, re, im,
+           [&](const PatchWaves& waves, std::size_t at)
+               HWY_ATTR { return WavesAt(D(), waves, at, t_s); });
+}
+
+void FillRising(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
+                double t_s, int column0, float* re, float* im) {
+  FillPair(a, b, reach, plan, column0, re, im,
+           [&](const PatchWaves& waves, std::size_t at)
+               HWY_ATTR { return RatesAt(D(), waves, at, t_s); });
+}
+
+// (i k_x - k_y) f, f = waves_at(position, k_x, k_y).
+template <class WavesOfPatch>
+HWY_INLINE void FillGradient(const PatchWaves& waves, const FftPlan& plan, int column0, float* re,
+                             float* im, WavesOfPatch waves_at) {
   const D d;
   for (int j = 0; j < waves.size; ++j) {
     const std::size_t offset = static_cast<std::size_t>(plan.slot[j] * kFftBatch);
@@ -96,12 +136,28 @@ void FillSlopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int co
     const std::size_t at = wave_position(column0, j, waves.size);
     for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
       const V kx = hn::LoadU(d, waves.k_rad_m.data() + column0 + lane);
-      const ComplexV h = WavesAt(d, waves, at + lane, t_s);
+      const ComplexV h = waves_at(at + lane, kx, ky);
       const V re_out = hn::Neg(hn::MulAdd(ky, h.re, hn::Mul(kx, h.im)));
       const V im_out = hn::MulSub(kx, h.re, hn::Mul(ky, h.im));
       StoreRow(d, {re_out, im_out}, offset + lane, re, im);
     }
   }
+}
+
+void FillSlopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
+                float* im) {
+  FillGradient(waves, plan, column0, re, im,
+               [&](std::size_t at, V, V) HWY_ATTR { return WavesAt(D(), waves, at, t_s); });
+}
+
+void FillDrift(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
+               float* im) {
+  FillGradient(waves, plan, column0, re, im, [&](std::size_t at, V kx, V ky) HWY_ATTR {
+    const ComplexV rate = RatesAt(D(), waves, at, t_s);
+    const V k2 = hn::MulAdd(kx, kx, hn::Mul(ky, ky));
+    const V k = hn::Sqrt(hn::Max(k2, hn::Set(D(), 1e-30f)));  // no waves at k = 0
+    return ComplexV{hn::Div(rate.re, k), hn::Div(rate.im, k)};
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -124,6 +180,8 @@ bool columns_hold_waves(int column0, int size, int reach) {
 
 HWY_EXPORT(FillHeights);
 HWY_EXPORT(FillSlopes);
+HWY_EXPORT(FillRising);
+HWY_EXPORT(FillDrift);
 
 bool fill_heights(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,
                   int column0, float* re, float* im) {
@@ -137,6 +195,21 @@ bool fill_slopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int c
                  float* im) {
   if (!columns_hold_waves(column0, waves.size, waves.reach)) return false;
   HWY_DYNAMIC_DISPATCH(FillSlopes)(waves, plan, t_s, column0, re, im);
+  return true;
+}
+
+bool fill_rising(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,
+                 int column0, float* re, float* im) {
+  const int reach = b == nullptr ? a.reach : std::max(a.reach, b->reach);
+  if (!columns_hold_waves(column0, a.size, reach)) return false;
+  HWY_DYNAMIC_DISPATCH(FillRising)(a, b, reach, plan, t_s, column0, re, im);
+  return true;
+}
+
+bool fill_drift(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
+                float* im) {
+  if (!columns_hold_waves(column0, waves.size, waves.reach)) return false;
+  HWY_DYNAMIC_DISPATCH(FillDrift)(waves, plan, t_s, column0, re, im);
   return true;
 }
 

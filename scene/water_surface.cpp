@@ -128,6 +128,18 @@ void WaterSurface::normals(std::span<const glm::dvec2> p_world, std::span<glm::v
   });
 }
 
+void WaterSurface::velocities(std::span<const glm::dvec2> p_world,
+                              const ocean::VelocityFrame& velocity,
+                              std::span<glm::vec3> velocity_mps) const {
+  SWELL_CHECK(velocity.z.t_s == frame_->t_s, "t_s={}, velocity of {}", frame_->t_s, velocity.z.t_s);
+  ocean::sample_velocities(velocity, p_world, velocity_mps);
+  in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
+    std::array<float, kChunk> factor;
+    shares(p_world.subspan(first, count), factor);
+    for (std::size_t i = 0; i < count; ++i) velocity_mps[first + i] *= factor[i];
+  });
+}
+
 bool WaterSurface::in_water(glm::dvec3 p_world) const {
   const glm::dvec2 p(p_world);
   if (!(p_world.z <= height(p))) return false;

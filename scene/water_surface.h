@@ -19,6 +19,7 @@
 
 #include "math/parallel.h"
 #include "ocean/sea.h"
+#include "ocean/velocity.h"
 #include "scene/scene.h"
 #include "scene/terrain.h"
 
@@ -52,6 +53,11 @@ class WaterSurface {
 
   // Unit vectors (-dz/dx, -dz/dy, 1) / length.
   void normals(std::span<const glm::dvec2> p_world, std::span<glm::vec3> normal) const;
+
+  // Velocity of the water at the surface in m/s: east, north, up; up is the rate of height().
+  // `velocity` is of the same time, from ocean::advance_velocity().
+  void velocities(std::span<const glm::dvec2> p_world, const ocean::VelocityFrame& velocity,
+                  std::span<glm::vec3> velocity_mps) const;
 
   // Below or on the surface, and above the ground.
   bool in_water(glm::dvec3 p_world) const;

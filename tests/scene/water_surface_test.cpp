@@ -108,6 +108,19 @@ TEST(WaterSurface, SlopesAreThoseOfTheHeightsWhereTheSeaFades) {
   }
 }
 
+TEST(WaterSurface, TheWaterRisesAsFastAsItsHeightGrows) {
+  const double dt_s = 0.01;
+  Snapshot early(sine_scene(), 3.0 - dt_s), water(sine_scene(), 3.0),
+      late(sine_scene(), 3.0 + dt_s);
+  ocean::VelocityFrame velocity;
+  ocean::advance_velocity(water.water.sea(), water.frame, velocity, water.workers);
+  for (const glm::dvec2& p : random_points(100, {930.0, 430.0}, 100.0)) {  // on the fading edge
+    glm::vec3 v;
+    water->velocities({&p, 1}, velocity, {&v, 1});
+    EXPECT_NEAR(v.z, (late->height(p) - early->height(p)) / (2.0 * dt_s), 1e-4);
+  }
+}
+
 TEST(WaterSurface, ABatchOfAnyLengthGivesWhatEachPointGives) {
   const Snapshot water(island_scene(), 5.0);
   const auto points = random_points(700, {0.0, 0.0}, 1500.0);

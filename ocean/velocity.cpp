@@ -1,0 +1,94 @@
+#include "ocean/velocity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/check.h"
+#include "math/elementary.h"
+#include "ocean/fft.h"
+#include "ocean/patch_waves.h"
+#include "ocean/sea_state.h"
+
+namespace swell::ocean {
+namespace {
+
+constexpr std::size_t kMaxTransforms = 16, kChunk = 256;
+
+void size_component(const SeaFrame& frame, SeaFrame& component) {
+  component.t_s = frame.t_s;
+  component.patches.resize(frame.patches.size());
+  for (std::size_t p = 0; p < frame.patches.size(); ++p) {
+    component.patches[p].length_m = frame.patches[p].length_m;
+    component.patches[p].resolution = frame.patches[p].resolution;
+    component.patches[p].height_m.resize(frame.patches[p].height_m.size());
+  }
+}
+
+// One transform a patch for x and y, then one for z of two patches.
+void synthesize(const Sea::State& state, double t_s, VelocityFrame& velocity, Workers& workers) {
+  const int patches = static_cast<int>(state.patches.size());
+  const auto field = [](SeaFrame& component, int p) {
+    return component.patches[static_cast<std::size_t>(p)].height_m.data();
+  };
+  std::array<FftOutput, kMaxTransforms> outputs;
+  std::size_t transforms = 0;
+  for (int p = 0; p < patches; ++p)
+    outputs[transforms++] = {field(velocity.x, p), field(velocity.y, p)};
+  for (int p = 0; p < patches; p += 2)
+    outputs[transforms++] = {field(velocity.z, p),
+                             p + 1 < patches ? field(velocity.z, p + 1) : nullptr};
+  const auto fill = [&](int transform, int column0, float* re, float* im) {
+    if (transform < patches)
+      return fill_drift(state.patches[transform], state.plan, t_s, column0, re, im);
+    const int p = 2 * (transform - patches);
+    const PatchWaves* const second = p + 1 < patches ? &state.patches[p + 1] : nullptr;
+    return fill_rising(state.patches[p], second, state.plan, t_s, column0, re, im);
+  };
+  inverse_fft_2d(state.plan, fill, {outputs.data(), transforms}, velocity.z.fft_planes, workers);
+}
+
+// A sin(theta), theta falling at omega, moves the water by A omega (to sin(theta), -cos(theta)).
+void add_sines(const Sea::State& state, const SeaFrame& frame, VelocityFrame& velocity) {
+  velocity.x.sines = velocity.y.sines = velocity.z.sines = frame.sines;
+  for (std::size_t i = 0; i < frame.sines.size(); ++i) {
+    const SineFrame& sine = frame.sines[i];
+    const double speed_mps = sine.amplitude_m * 2.0 * kPi * state.sines[i].turns_per_s;
+    const glm::dvec2 to = sine.cycles_per_m / glm::length(sine.cycles_per_m);
+    velocity.x.sines[i].amplitude_m = speed_mps * to.x;
+    velocity.y.sines[i].amplitude_m = speed_mps * to.y;
+    velocity.z.sines[i].amplitude_m = speed_mps;
+    velocity.z.sines[i].cycles += sine.cycles < 0.25 ? 0.75 : -0.25;
+  }
+}
+
+}  // namespace
+
+void advance_velocity(const Sea& sea, const SeaFrame& frame, VelocityFrame& velocity,
+                      Workers& workers) {
+  const Sea::State& state = sea.state();
+  SWELL_CHECK(frame.patches.size() == state.patches.size(), "patches={}", frame.patches.size());
+  SWELL_CHECK(frame.sines.size() == state.sines.size(), "sines={}", frame.sines.size());
+  for (SeaFrame* component : {&velocity.x, &velocity.y, &velocity.z})
+    size_component(frame, *component);
+  const double t_safe_s = std::fmod(frame.t_s, 0x1p100);  // as advance()
+  if (!frame.patches.empty()) synthesize(state, t_safe_s, velocity, workers);
+  add_sines(state, frame, velocity);
+}
+
+void sample_velocities(const VelocityFrame& velocity, std::span<const glm::dvec2> p_world,
+                       std::span<glm::vec3> velocity_mps) {
+  SWELL_CHECK(p_world.size() == velocity_mps.size(), "{} points, {} velocities", p_world.size(),
+              velocity_mps.size());
+  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, p_world.size() - first);
+    const auto p = p_world.subspan(first, count);
+    std::array<float, kChunk> x, y, z;
+    sample_heights(velocity.x, p, std::span(x).first(count));
+    sample_heights(velocity.y, p, std::span(y).first(count));
+    sample_heights(velocity.z, p, std::span(z).first(count));
+    for (std::size_t i = 0; i < count; ++i) velocity_mps[first + i] = {x[i], y[i], z[i]};
+  }
+}
+
+}  // namespace swell::ocean
