@@ -1,4 +1,4 @@
-// swell-bench query: how many heights of the sea a program can ask for in a second.
+// swell-bench query: how many heights of the drawn water a program can ask for in a second.
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,8 +7,7 @@
 #include "apps/options.h"
 #include "apps/report.h"
 #include "math/random.h"
-#include "ocean/sea.h"
-#include "scene/scene.h"
+#include "scene/water_surface.h"
 
 namespace swell::apps {
 namespace {
@@ -37,13 +36,13 @@ std::vector<glm::dvec2> scattered_points(const scene::SeaArea& area, int count) 
 }
 
 // The median time of one call for all points, on one thread.
-double median_query_ms(const ocean::SeaFrame& frame, const std::vector<glm::dvec2>& points) {
+double median_query_ms(const scene::WaterSurface& surface, const std::vector<glm::dvec2>& points) {
   std::vector<float> height_m(points.size());
   std::vector<double> call_ms;
   const Stopwatch run;
   do {
     const Stopwatch call;
-    ocean::sample_heights(frame, points, height_m);
+    surface.heights(points, height_m);
     call_ms.push_back(call.elapsed_ms());
   } while (run.elapsed_ms() < 500.0 || call_ms.size() < 5);
   return spread(call_ms).median;
@@ -53,11 +52,11 @@ void run_query_bench(const QueryBench& bench) {
   select_simd(bench.simd);
   check_text_place(bench.json);
   const scene::Scene scene = scene::load_scene(bench.scene_path);
-  const ocean::Sea sea(scene.sea);
+  const scene::Water water(scene);
   ocean::SeaFrame frame;
   Workers workers(bench.threads);
-  ocean::advance(sea, 0.0, frame, workers);
-  const double ms = median_query_ms(frame, scattered_points(scene.area, bench.points));
+  const scene::WaterSurface surface = water.at(0.0, frame, workers);
+  const double ms = median_query_ms(surface, scattered_points(scene.area, bench.points));
 
   const Json json = {{"points_per_s", std::round(bench.points / (ms * 1e-3))},
                      {"model", model_name(scene.sea)},

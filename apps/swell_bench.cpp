@@ -1,4 +1,4 @@
-// swell-bench: measures whole frames, the level of detail, and height queries.
+// swell-bench: measures whole frames, the level of detail, height queries and sea states.
 #include "apps/bench.h"
 #include "apps/options.h"
 #include "apps/program.h"
@@ -10,7 +10,8 @@ void bench(int argc, char** argv) {
   CLI::App app("Measures the renderer.", "swell-bench");
   add_standard_options(app);
   app.require_subcommand(1);
-  const Subcommand subcommands[] = {add_bench_frame(app), add_bench_lod(app), add_bench_query(app)};
+  const Subcommand subcommands[] = {add_bench_frame(app), add_bench_lod(app), add_bench_query(app),
+                                    add_bench_sea_state(app)};
   if (!parse_command_line(app, argc, argv)) return;
   for (const Subcommand& subcommand : subcommands)
     if (subcommand.app->parsed()) subcommand.run();

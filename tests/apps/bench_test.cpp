@@ -1,4 +1,5 @@
 // What swell-bench reports: the JSON that other tools rely on, and numbers that agree.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -140,6 +141,46 @@ TEST_F(Bench, TheQueryReportNamesTheModel) {
              "[sea]\nspectrum = false\n[[sea.sines]]\namplitude_m = 1.0\n"
              "wavelength_m = 30.0\n");
   EXPECT_EQ(bench_json("query", {"--scene", scene_, "--points", "1000"}).at("model"), "sines");
+}
+
+// A sine of amplitude A has variance A^2 / 2: Hs = 4 A / sqrt(2).
+TEST_F(Bench, TheSeaStateIsMeasuredOnTheSurface) {
+  write_text(scene_,
+             "[sea]\nspectrum = false\n[[sea.sines]]\namplitude_m = 1.0\n"
+             "wavelength_m = 30.0\n");
+  const Json report = bench_json("sea-state", {"--scene", scene_});
+  EXPECT_NEAR(report.at("significant_height_m").get<double>(), 2.828427, 0.02);
+  EXPECT_EQ(report.at("wmo_code"), 5);
+  EXPECT_EQ(report.at("wmo_name"), "rough");
+  EXPECT_FALSE(report.contains("code"));
+}
+
+TEST_F(Bench, EverySeaStateSceneIsInsideItsBand) {
+  for (const int code : {1, 3, 4, 5, 6, 7}) {
+    const Json report =
+        bench_json("sea-state",
+                   {"--scene", fmt::format("{}/scenes/sea_state_{}.toml", SWELL_SOURCE_DIR, code)});
+    EXPECT_EQ(report.at("inside"), true) << report;
+    EXPECT_EQ(report.at("scale"), "douglas");
+    EXPECT_EQ(report.at("code"), code);
+    EXPECT_EQ(report.at("wmo_code"), code) << report;
+  }
+}
+
+TEST_F(Bench, BeaufortNumbersAreInsideTheirBands) {
+  for (const int number : {0, 4, 10, 12}) {
+    write_text(scene_, fmt::format("[sea]\nbeaufort = {}\nsize_m = [9000, 9000]\n", number));
+    const Json report = bench_json("sea-state", {"--scene", scene_});
+    EXPECT_EQ(report.at("inside"), true) << report;
+  }
+}
+
+TEST_F(Bench, ASeaThatIsNotTheOneAskedForFails) {
+  write_text(scene_, "[sea]\ndouglas = 5\namplitude_scale = 2.0\n");
+  const Outcome outcome = run_bench({"sea-state", "--scene", scene_});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(is_one_error_line(outcome.err, {"island.toml", "rough", "2.5 to 4 m"}))
+      << outcome.err;
 }
 
 }  // namespace

@@ -1,0 +1,136 @@
+// swell-bench sea-state: how high the waves that are drawn are, and whether that is the sea state
+// that the scene asked for.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/bench.h"
+#include "apps/options.h"
+#include "apps/report.h"
+#include "math/random.h"
+#include "ocean/sea_scale.h"
+#include "scene/water_surface.h"
+
+namespace swell::apps {
+namespace {
+
+constexpr int kTimes = 64, kPoints = 4096;
+constexpr double kTimeStep_s = 61.7;  // no multiple of a wave's period, over an hour
+
+struct SeaStateBench {
+  std::string scene_path, json;
+};
+
+// What the scene's code allows.
+struct Expected {
+  std::string_view scale, name;
+  int code;
+  double low_m, high_m;  // of the significant height
+};
+
+std::optional<Expected> expected_state(const scene::Scene& scene) {
+  if (scene.douglas) {
+    const ocean::SeaScaleStep step = ocean::douglas_step(*scene.douglas);
+    return Expected{"douglas", step.name, *scene.douglas, step.low, step.high};
+  }
+  if (!scene.beaufort) return std::nullopt;
+  const ocean::SeaScaleStep step = ocean::beaufort_step(*scene.beaufort);
+  const double gravity = scene.sea.gravity_mps2;
+  return Expected{"beaufort", step.name, *scene.beaufort,
+                  ocean::developed_height_m(step.low, gravity),
+                  ocean::developed_height_m(step.high, gravity)};
+}
+
+bool is_inside(const Expected& expected, double height_m) {
+  if (expected.code == 0) return height_m <= expected.high_m;
+  return height_m > expected.low_m && height_m <= expected.high_m;
+}
+
+// Points on the water where the sea does not fade: not on the outer tenth of the area.
+std::vector<glm::dvec2> open_water_points(const scene::Scene& scene, const scene::Water& water) {
+  std::vector<glm::dvec2> points;
+  for (std::uint64_t i = 0; i < kPoints; ++i) {
+    const glm::dvec2 unit(random_uniform(2, 2 * i), random_uniform(2, 2 * i + 1));
+    const glm::dvec2 p = scene.area.centre_m + 0.8 * (unit - 0.5) * scene.area.size_m;
+    float ground_m = -1.0f;
+    if (water.terrain()) scene::sample_heights(*water.terrain(), {&p, 1}, {&ground_m, 1});
+    if (ground_m < 0.0f) points.push_back(p);
+  }
+  return points;
+}
+
+// 4 standard deviations of the surface's height over place and time.
+double measured_height_m(const scene::Scene& scene) {
+  const scene::Water water(scene);
+  const std::vector<glm::dvec2> points = open_water_points(scene, water);
+  if (points.empty()) return 0.0;
+  std::vector<float> heights(points.size());
+  Workers workers(1);
+  ocean::SeaFrame frame;
+  double sum = 0.0, squares = 0.0;
+  for (int n = 0; n < kTimes; ++n) {
+    water.at(n * kTimeStep_s, frame, workers).heights(points, heights);
+    for (const double height : heights) sum += height, squares += height * height;
+  }
+  const double count = static_cast<double>(kTimes) * static_cast<double>(points.size());
+  const double mean = sum / count;
+  return 4.0 * std::sqrt(std::max(0.0, squares / count - mean * mean));
+}
+
+Json sea_state_json(const scene::Scene& scene, const std::optional<Expected>& expected,
+                    double height_m) {
+  const int wmo = ocean::douglas_code(height_m);
+  Json json = {{"scene", scene.name},
+               {"significant_height_m", height_m},
+               {"wind_speed_mps", scene.sea.wind_speed_mps},
+               {"wmo_code", wmo},
+               {"wmo_name", ocean::douglas_step(wmo).name}};
+  if (!expected) return json;
+  json["scale"] = expected->scale;
+  json["code"] = expected->code;
+  json["name"] = expected->name;
+  const Json high = std::isfinite(expected->high_m) ? Json(expected->high_m) : Json(nullptr);
+  json["band_m"] = {expected->low_m, high};
+  json["inside"] = is_inside(*expected, height_m);
+  return json;
+}
+
+std::string band_text(const Expected& expected) {
+  return fmt::format("{} {} ({}), {:.3g} to {:.3g} m", expected.scale, expected.code, expected.name,
+                     expected.low_m, expected.high_m);
+}
+
+void run_sea_state(const SeaStateBench& bench) {
+  check_text_place(bench.json);
+  const scene::Scene scene = scene::load_scene(bench.scene_path);
+  const double height_m = measured_height_m(scene);
+  const std::optional<Expected> expected = expected_state(scene);
+  const Json json = sea_state_json(scene, expected, height_m);
+  if (bench.json != "-")
+    fmt::print("{}: significant wave height {:.3g} m, WMO code {} ({}){}\n", scene.name, height_m,
+               json["wmo_code"].get<int>(), json["wmo_name"].get<std::string>(),
+               expected ? "; asked for " + band_text(*expected) : "");
+  if (!bench.json.empty()) write_text(bench.json, json.dump(2) + "\n");
+  if (expected && !is_inside(*expected, height_m))
+    throw std::runtime_error(
+        fmt::format("{}: sea state, got a significant height of {:.3g} m, "
+                    "allowed {}",
+                    bench.scene_path, height_m, band_text(*expected)));
+}
+
+}  // namespace
+
+Subcommand add_bench_sea_state(CLI::App& app) {
+  const auto bench = std::make_shared<SeaStateBench>();
+  CLI::App* sub = app.add_subcommand(
+      "sea-state", "Wave height of a scene's sea; fails if it is not the sea state asked for");
+  sub->add_option("--scene", bench->scene_path, "Scene file (TOML)")->required()->type_name("FILE");
+  sub->add_option("--json", bench->json, "Write the numbers as JSON; - is standard output")
+      ->type_name("FILE");
+  return {sub, [bench] { run_sea_state(*bench); }};
+}
+
+}  // namespace swell::apps
