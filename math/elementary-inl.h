@@ -97,6 +97,23 @@ HWY_INLINE V Log2(D d, V x) {
   return hn::MulAdd(p, s, hn::ConvertTo(d, e));
 }
 
+// log2 of a positive normal x without a division, for choosing levels of detail. Absolute error
+// 1.1e-4, exact at powers of two. Other x as Log2.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Log2Coarse(D d, V x) {
+  const hn::RebindToSigned<D> di;
+  const auto bits = hn::BitCast(di, x);
+  const auto e = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
+  const V m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(e)));
+  // log2(1 + y) / y on y in [sqrt(1/2) - 1, sqrt(2) - 1], by weighted least squares.
+  const V y = hn::Sub(m, hn::Set(d, 1.0f));
+  V p = hn::Set(d, -0.3296294f);
+  p = hn::MulAdd(p, y, hn::Set(d, 0.51750935f));
+  p = hn::MulAdd(p, y, hn::Set(d, -0.72490419f));
+  p = hn::MulAdd(p, y, hn::Set(d, 1.4417606f));
+  return hn::MulAdd(p, y, hn::ConvertTo(d, e));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace swell
 HWY_AFTER_NAMESPACE();

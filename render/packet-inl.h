@@ -87,14 +87,16 @@ HWY_INLINE V PixelNoise(V x_px, V y_px) {
   return hn::Sub(b, hn::Floor(b));
 }
 
-// log2 of the footprint [m] of a pixel on a surface seen at cos_view: across the view, lengthened
-// by three quarters (in log) of the stretch along it. Less would leave grazing views aliased, more
-// would blur them across the view.
-HWY_INLINE V FootprintLevel(const ShadeContext& c, const Packet& packet, V cos_view) {
-  const V across = hn::Mul(packet.depth, Constant(c.pixel_angle));
-  const V stretch = hn::Mul(cos_view, hn::Sqrt(cos_view));
-  const V footprint2 = hn::Div(hn::Mul(across, across), stretch);
-  return hn::Mul(Log2(D(), hn::Max(footprint2, Constant(1e-12f))), Constant(0.5f));
+// log2 of the size [m] of a pixel's footprint across the view.
+HWY_INLINE V FootprintAcross(const ShadeContext& c, const Packet& packet) {
+  return Log2Coarse(D(), hn::Mul(packet.depth, Constant(c.pixel_angle)));
+}
+
+// log2 of the footprint on a surface that the eye meets at cos_view: lengthened by three quarters
+// (in log) of the stretch along the view. Less would leave grazing views aliased, more would blur
+// them across the view.
+HWY_INLINE V FootprintLevel(V across_log2, V cos_view) {
+  return hn::NegMulAdd(Log2Coarse(D(), cos_view), Constant(0.75f), across_log2);
 }
 
 // A layer's slopes at level (one sample), 0 for lanes whose level holds no detail.
@@ -160,17 +162,17 @@ HWY_INLINE V3 SkyRadiance(const texture::RgbaImage& map, V3 direction, V length)
                 alpha);
 }
 
-// Blends towards the horizon's colour with distance, so that no edge of the sea shows.
+// Blends towards the horizon's colour with distance, so that no edge of the sea shows. Haze of less
+// than half a step of the picture is left out: near packets then need no lookup.
 HWY_INLINE V3 Haze(const ShadeContext& c, const Packet& packet, V3 colour) {
   const D d;
-  const V amount =
-      hn::Sub(Constant(1.0f), Exp(d, hn::Mul(packet.distance, Constant(-c.inv_haze_m))));
-  const auto visible = hn::Gt(amount, Constant(1.0f / 1024.0f));
-  if (hn::AllFalse(d, visible)) return colour;
+  const V clear = Exp(d, hn::Mul(packet.distance, Constant(-c.inv_haze_m)));
+  const V amount = hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), hn::Zero(d));
+  if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;
   const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
   const V horizontal = hn::Sqrt(hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f)));
   const V3 horizon = SkyRadiance(*c.sky_soft, {x, y, hn::Zero(d)}, horizontal);
-  return Lerp(colour, horizon, hn::IfThenElseZero(visible, amount));
+  return Lerp(colour, horizon, amount);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -34,21 +34,40 @@ void PadToPacket(PixelList& list) {
   std::fill_n(list.at + list.count, kLanes, last);
 }
 
-// Sorts the tile's pixels by material.
+// Appends pixels `first` and the kLanes - 1 after it.
+HWY_INLINE void AppendPacket(PixelList& list, std::size_t first) {
+  const hn::Rebind<std::uint16_t, D> d16;
+  hn::StoreU(hn::Iota(d16, static_cast<std::uint16_t>(first)), d16, list.at + list.count);
+  list.count += kLanes;
+}
+
+// Sorts the tile's pixels by material, whole packets of one material at once.
 void SortByMaterial(const ShadeContext& c, const raster::PixelBox& box,
                     const std::uint32_t* primitive, PixelList& water, PixelList& terrain,
                     PixelList& sky) {
+  const hn::RebindToUnsigned<D> du;
+  const auto water_end = hn::Set(du, c.water_primitives);
   for (int y = 0; y < box.height_px; ++y) {
-    for (int x = 0; x < box.width_px; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
-      const std::uint32_t p = primitive[i];
-      // Branch-free: write to all three lists, advance one.
-      const auto index = static_cast<std::uint16_t>(i);
-      water.at[water.count] = terrain.at[terrain.count] = sky.at[sky.count] = index;
-      const bool is_water = p < c.water_primitives, is_sky = p == raster::kNoPrimitive;
-      water.count += is_water;
-      sky.count += is_sky;
-      terrain.count += !is_water && !is_sky;
+    const std::size_t row = static_cast<std::size_t>(y) * c.grid.tile_size_px;
+    const auto width = static_cast<std::size_t>(box.width_px);
+    for (std::size_t x = 0; x < width;) {
+      const std::size_t i = row + x;
+      if (x + kLanes <= width && hn::AllTrue(du, hn::Lt(hn::LoadU(du, primitive + i), water_end))) {
+        AppendPacket(water, i);
+        x += kLanes;
+        continue;
+      }
+      const std::size_t end = std::min(x + kLanes, width);
+      for (; x < end; ++x) {
+        // Branch-free: write to all three lists, advance one.
+        const std::uint32_t p = primitive[row + x];
+        const auto index = static_cast<std::uint16_t>(row + x);
+        water.at[water.count] = terrain.at[terrain.count] = sky.at[sky.count] = index;
+        const bool is_water = p < c.water_primitives, is_sky = p == raster::kNoPrimitive;
+        water.count += is_water;
+        sky.count += is_sky;
+        terrain.count += !is_water && !is_sky;
+      }
     }
   }
   PadToPacket(water);
@@ -115,8 +134,11 @@ HWY_INLINE V EncodeSrgb(V x) {
 HWY_INLINE VI ToByte(V linear, V exposure, V dither) {
   const V x = hn::Max(hn::Mul(linear, exposure), hn::Zero(D()));
   const V over = hn::Max(hn::Sub(x, Constant(0.7f)), hn::Zero(D()));
-  const V shoulder = hn::Div(over, hn::MulAdd(over, Constant(1.0f / 0.3f), Constant(1.0f)));
-  const V mapped = hn::Min(hn::Add(hn::Min(x, Constant(0.7f)), shoulder), Constant(1.0f));
+  V mapped = x;
+  if (!hn::AllFalse(D(), hn::Gt(over, hn::Zero(D())))) {
+    const V shoulder = hn::Div(over, hn::MulAdd(over, Constant(1.0f / 0.3f), Constant(1.0f)));
+    mapped = hn::Min(hn::Add(hn::Min(x, Constant(0.7f)), shoulder), Constant(1.0f));
+  }
   const V code = hn::Add(EncodeSrgb(mapped), dither);
   return hn::ConvertTo(DI(), hn::Min(code, Constant(255.0f)));
 }

@@ -16,7 +16,8 @@ namespace HWY_NAMESPACE {
 HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet) {
   const D d;
   const V zero = hn::Zero(d);
-  const V level_m = FootprintLevel(c, packet, Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
+  const V level_m =
+      FootprintLevel(FootprintAcross(c, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
   V slope_x = zero, slope_y = zero, variance = zero;
   AddSlopes(c.terrain_slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
   AddSlopes(c.terrain_detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);

@@ -49,7 +49,8 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
   const D d;
   constexpr float kMinCos = 0.02f;
   constexpr int kFootprintLayers = 2;
-  V level_m = FootprintLevel(c, packet, Clamp(packet.to_eye.z, kMinCos, 1.0f));
+  const V across = FootprintAcross(c, packet);
+  V level_m = FootprintLevel(across, Clamp(packet.to_eye.z, kMinCos, 1.0f));
   WaterSurface s = {hn::Zero(d), hn::Zero(d), Constant(c.base_variance)};
   V du = hn::Zero(d), dv = hn::Zero(d), unused = hn::Zero(d);
   AddSlopes(c.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
@@ -59,8 +60,10 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
     AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
               s.slope_y, s.variance);
     if (i >= kFootprintLayers) continue;
-    const V cos_wave = Dot(NormalOf(s.slope_x, s.slope_y), packet.to_eye);
-    level_m = FootprintLevel(c, packet, Clamp(cos_wave, kMinCos, 1.0f));
+    // The normal's length is left out: it is near 1, and a level needs no better.
+    const V cos_wave = hn::NegMulAdd(s.slope_x, packet.to_eye.x,
+                                     hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
+    level_m = FootprintLevel(across, Clamp(cos_wave, kMinCos, 1.0f));
   }
   return s;
 }
@@ -129,16 +132,23 @@ HWY_INLINE V3 RefractedLight(const ShadeContext& c, const Packet& packet, const 
 HWY_INLINE V SunGlint(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
                       V reflectance, V cos_eye) {
   const V3 half = Sum(packet.to_eye, Constant(c.sun_direction));
-  const V inv_z = hn::Div(Constant(1.0f), hn::Max(half.z, Constant(1e-3f)));
+  // The three quotients' denominators share one division.
+  const V z = hn::Max(half.z, Constant(1e-3f));
+  const V cos4 = hn::Mul(Constant(4.0f), hn::Max(cos_eye, Constant(0.08f)));
+  const V z_cos4 = hn::Mul(z, cos4);
+  const V inverse = hn::Div(Constant(1.0f), hn::Mul(z_cos4, s.variance));
+  const V inv_variance = hn::Mul(inverse, z_cos4);  // = 1 / (2 sigma^2) per axis
+  const V inverse_z_cos4 = hn::Mul(inverse, s.variance);
+  const V inv_z = hn::Mul(inverse_z_cos4, cos4), inv_cos4 = hn::Mul(inverse_z_cos4, z);
+
   const V dx = hn::MulAdd(half.x, inv_z, s.slope_x);  // half-way slope is -half.xy / half.z
   const V dy = hn::MulAdd(half.y, inv_z, s.slope_y);
-  const V inv_variance = hn::Div(Constant(1.0f), s.variance);  // = 1 / (2 sigma^2) per axis
   const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
   const V density = hn::Mul(Exp(D(), hn::Max(exponent, Constant(-80.0f))),
                             hn::Mul(inv_variance, Constant(0.318309886f)));
   const V inv_cos2 = hn::Mul(Dot(half, half), hn::Mul(inv_z, inv_z));
-  const V numerator = hn::Mul(hn::Mul(reflectance, density), hn::Mul(inv_cos2, inv_cos2));
-  return hn::Div(numerator, hn::Mul(Constant(4.0f), hn::Max(cos_eye, Constant(0.08f))));
+  const V scale = hn::Mul(hn::Mul(inv_cos2, inv_cos2), inv_cos4);
+  return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
 HWY_INLINE V3 ShadeWater(const ShadeContext& c, const Packet& packet, TileLookups lookups) {

@@ -12,6 +12,7 @@ void sin_cos_turns_batch(std::span<const float> in, std::span<float> sin_out,
 void exp2_batch(std::span<const float> in, std::span<float> out);
 void exp_batch(std::span<const float> in, std::span<float> out);
 void log2_batch(std::span<const float> in, std::span<float> out);
+void log2_coarse_batch(std::span<const float> in, std::span<float> out);
 
 // The number of float lanes the chosen target works on at a time.
 int float_lanes();

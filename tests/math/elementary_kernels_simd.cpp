@@ -64,6 +64,11 @@ void Log2Batch(std::span<const float> in, std::span<float> out) {
                         HWY_ATTR { StoreSome(Log2(d, x), out, at, n); });
 }
 
+void Log2CoarseBatch(std::span<const float> in, std::span<float> out) {
+  ForEachVector(in, [&](Floats d, auto x, std::size_t at, std::size_t n)
+                        HWY_ATTR { StoreSome(Log2Coarse(d, x), out, at, n); });
+}
+
 int FloatLanes() { return static_cast<int>(hn::Lanes(Floats())); }
 
 }  // namespace HWY_NAMESPACE
@@ -77,6 +82,7 @@ HWY_EXPORT(SinCosTurnsBatch);
 HWY_EXPORT(Exp2Batch);
 HWY_EXPORT(ExpBatch);
 HWY_EXPORT(Log2Batch);
+HWY_EXPORT(Log2CoarseBatch);
 HWY_EXPORT(FloatLanes);
 
 void sin_cos_turns_batch(std::span<const float> in, std::span<float> sin_out,
@@ -91,6 +97,10 @@ void exp_batch(std::span<const float> in, std::span<float> out) {
 }
 void log2_batch(std::span<const float> in, std::span<float> out) {
   HWY_DYNAMIC_DISPATCH(Log2Batch)(in, out);
+}
+
+void log2_coarse_batch(std::span<const float> in, std::span<float> out) {
+  HWY_DYNAMIC_DISPATCH(Log2CoarseBatch)(in, out);
 }
 int float_lanes() { return HWY_DYNAMIC_DISPATCH(FloatLanes)(); }
 

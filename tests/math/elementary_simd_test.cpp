@@ -181,6 +181,17 @@ TEST_P(ElementarySimd, TheLogarithmKeepsItsErrorBoundAroundOne) {
   expect_log2_bound(bits_sweep(0x3f7ff000u, 0x3f801000u, 1));
 }
 
+TEST_P(ElementarySimd, TheCoarseLogarithmKeepsItsErrorBound) {
+  for (const auto& x :
+       {bits_sweep(0x00800000u, 0x7f7fffffu, 9973), bits_sweep(0x3f000000u, 0x40000000u, 97)}) {
+    const std::vector<float> y = run(log2_coarse_batch, x);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double exact = std::log2(static_cast<double>(x[i]));
+      ASSERT_NEAR(y[i], exact, 1.1e-4 + 1e-7 * std::abs(exact)) << x[i];
+    }
+  }
+}
+
 TEST_P(ElementarySimd, TheLogarithmIsExactAtPowersOfTwo) {
   std::vector<float> x, expected;
   for (int i = -126; i <= 127; ++i) {
@@ -188,6 +199,7 @@ TEST_P(ElementarySimd, TheLogarithmIsExactAtPowersOfTwo) {
     expected.push_back(static_cast<float>(i));
   }
   EXPECT_EQ(run(log2_batch, x), expected);
+  EXPECT_EQ(run(log2_coarse_batch, x), expected);
 }
 
 TEST_P(ElementarySimd, TheLogarithmOfZeroDenormalsAndInfinityIsFinite) {
