@@ -16,7 +16,7 @@ struct VelocityFrame {
 };
 
 // Fills `velocity` for the time of `frame`, which advance() has filled from `sea`. A sine wave with
-// a period of its own moves the water with that period. Half again the cost of advance().
+// a period of its own moves the water with that period. Costs what advance() does.
 void advance_velocity(const Sea& sea, const SeaFrame& frame, VelocityFrame& velocity,
                       Workers& workers);
 

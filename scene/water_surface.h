@@ -42,8 +42,8 @@ class WaterSurface {
 
   // z of the surface: the sea's waves inside the area, fading to the mean level over its last
   // tenth, and lower where the water is shallower than the waves are high, so that they do not dig
-  // into the sand. Over land 0. Spans of one length that do not overlap. Allocates nothing. 20 ns
-  // a point for three patches.
+  // into the sand. Over land 0. Spans of one length that do not overlap. Allocates nothing. 25 ns
+  // a point for three patches, 45 with terrain; alone, without a batch, 200.
   void heights(std::span<const glm::dvec2> p_world, std::span<float> height_m) const;
   float height(glm::dvec2 p_world) const;
 
