@@ -11,7 +11,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log"
 # A copy, so that nothing beside the example is found by a relative path.
 cp -r "$source/examples/embed" "$scratch/embed"
-"$cmake" -S "$scratch/embed" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
+"$cmake" -G Ninja -S "$scratch/embed" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
   -DCMAKE_BUILD_TYPE=Release
 "$cmake" --build "$scratch/build"
 "$scratch/build/embed" "$source/scenes/open_ocean.toml" "$scratch/embed.png"
