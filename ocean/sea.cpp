@@ -30,6 +30,7 @@ void check_spectrum(const SeaDescription& sea) {
   require(sea.wind_from_rad, -1e6, 1e6, "wind_from_rad");
   require(sea.amplitude_scale, 0.0, 4.0, "amplitude_scale");
   require(sea.gravity_mps2, 0.1, 100.0, "gravity_mps2");
+  if (sea.loop_s != 0.0) require(sea.loop_s, 1.0, 1e5, "loop_s (or 0)");
   if (sea.resolution < kMinFftSize || sea.resolution > kMaxFftSize ||
       !std::has_single_bit(static_cast<unsigned>(sea.resolution))) {
     throw std::invalid_argument(fmt::format("resolution: got {}, allowed powers of two in [{}, {}]",
@@ -54,15 +55,22 @@ void check_sine(const SineWave& sine) {
   if (sine.period_s != 0.0) require(sine.period_s, 1e-3, 1e6, "sines.period_s (or 0)");
 }
 
-SineTrain make_sine_train(const SineWave& sine, double gravity_mps2) {
+// The frequency nearest to turns_per_s > 0 with a whole number of turns, at least 1, in a loop.
+double looping_frequency(double turns_per_s, double loop_s) {
+  if (loop_s == 0.0) return turns_per_s;
+  return std::max(1.0, std::nearbyint(turns_per_s * loop_s)) / loop_s;
+}
+
+SineTrain make_sine_train(const SineWave& sine, const SeaDescription& sea) {
   const SinCos to = sin_cos_turns(sine.to_rad / kTwoPi);
   SineTrain train;
   train.at_start.cycles_per_m = {to.sin / sine.wavelength_m, to.cos / sine.wavelength_m};
   train.at_start.cycles = sine.phase_rad / kTwoPi;
   train.at_start.amplitude_m = sine.amplitude_m;
-  train.turns_per_s = sine.period_s > 0.0
-                          ? 1.0 / sine.period_s
-                          : deep_water_omega(kTwoPi / sine.wavelength_m, gravity_mps2) / kTwoPi;
+  const double turns_per_s =
+      sine.period_s > 0.0 ? 1.0 / sine.period_s
+                          : deep_water_omega(kTwoPi / sine.wavelength_m, sea.gravity_mps2) / kTwoPi;
+  train.turns_per_s = looping_frequency(turns_per_s, sea.loop_s);
   return train;
 }
 
@@ -87,7 +95,11 @@ void make_spectrum_waves(Sea::State& state) {
     state.patches.push_back(make_patch_waves(wind, band_of_patch(sea, p), sea.patch_lengths_m[p],
                                              sea.resolution, sea.amplitude_scale, sea.seed,
                                              static_cast<int>(p)));
-    state.spectrum_variance_m2 += state.patches.back().variance_m2;
+    PatchWaves& waves = state.patches.back();
+    state.spectrum_variance_m2 += waves.variance_m2;
+    for (double& turns_per_s : waves.turns_per_s) {
+      if (turns_per_s > 0.0) turns_per_s = looping_frequency(turns_per_s, sea.loop_s);
+    }
   }
 }
 
@@ -136,7 +148,7 @@ Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) 
   state_->description = description;
   if (description.spectrum && description.wind_speed_mps > 0.0) make_spectrum_waves(*state_);
   for (const SineWave& sine : description.sines) {
-    state_->sines.push_back(make_sine_train(sine, description.gravity_mps2));
+    state_->sines.push_back(make_sine_train(sine, description));
   }
 }
 
@@ -160,19 +172,27 @@ double Sea::significant_height_m() const {
   return 4.0 * std::sqrt(variance);
 }
 
+double wave_time_s(const SeaDescription& sea, double t_s) {
+  // Beyond 2^53 s the fractions of a turn are arbitrary, but products must stay finite.
+  if (sea.loop_s == 0.0) return std::fmod(t_s, 0x1p100);
+  // fmod is exact. So is the sum if t_s plus some number of loops is a positive double: both have
+  // no digits below those of loop_s.
+  const double rest_s = std::fmod(t_s, sea.loop_s);
+  return rest_s < 0.0 ? rest_s + sea.loop_s : rest_s;
+}
+
 void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers) {
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   const Sea::State& state = sea.state();
   frame.t_s = t_s;
-  // Beyond 2^53 s the fractions of a turn are arbitrary, but products must stay finite.
-  const double t_safe_s = std::fmod(t_s, 0x1p100);
+  const double t_wave_s = wave_time_s(state.description, t_s);
   size_patches(state, frame.patches);
-  if (!frame.patches.empty()) synthesize_patches(state, t_safe_s, frame, workers);
+  if (!frame.patches.empty()) synthesize_patches(state, t_wave_s, frame, workers);
 
   frame.sines.resize(state.sines.size());
   for (std::size_t i = 0; i < frame.sines.size(); ++i) {
     frame.sines[i] = state.sines[i].at_start;
-    const double cycles = frame.sines[i].cycles - state.sines[i].turns_per_s * t_safe_s;
+    const double cycles = frame.sines[i].cycles - state.sines[i].turns_per_s * t_wave_s;
     const double fraction = cycles - std::floor(cycles);
     frame.sines[i].cycles = fraction < 1.0 ? fraction : 0.0;  // -1e-20 + 1 rounds up
   }

@@ -28,6 +28,10 @@ struct SeaDescription {
   double wind_from_rad = 0.0;    // where the wind comes FROM, clockwise from north
   double amplitude_scale = 1.0;  // multiplies all spectrum heights, [0, 4]
   double gravity_mps2 = 9.81;
+  // The sea repeats itself after this time, 0: never, else [1, 100000]. Every wave, sines too, has
+  // a whole number n >= 1 of periods in it: the number nearest to its own, so that its speed is
+  // within 1/(2n) of what it would be without (waves of less than half a period a loop: faster).
+  double loop_s = 0.0;
   std::uint64_t seed = 1;
   int resolution = 128;  // FFT points per side, power of two in [16, 512]
   // Patch lengths, longest first. Each patch holds the waves that the next longer one is too
@@ -87,6 +91,7 @@ class Sea {
 };
 
 // Fills `frame` with the sea at time t_s (any finite double; the result depends on nothing else).
+// With a loop, times that are exactly whole loops apart give the same bits.
 // Allocates nothing once the frame has been filled from a sea of this size. Three patches of
 // 128 x 128: about 0.2 ms on one thread; of 256 x 256: 1 ms.
 void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers);

@@ -23,4 +23,8 @@ struct Sea::State {
   double spectrum_variance_m2 = 0.0;
 };
 
+// The time that the waves are put at instead of t_s (finite): in [0, loop_s] of the loop, or of a
+// size whose products with frequencies stay finite.
+double wave_time_s(const SeaDescription& sea, double t_s);
+
 }  // namespace swell::ocean

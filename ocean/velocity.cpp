@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "math/check.h"
 #include "math/elementary.h"
@@ -71,8 +70,8 @@ void advance_velocity(const Sea& sea, const SeaFrame& frame, VelocityFrame& velo
   SWELL_CHECK(frame.sines.size() == state.sines.size(), "sines={}", frame.sines.size());
   for (SeaFrame* component : {&velocity.x, &velocity.y, &velocity.z})
     size_component(frame, *component);
-  const double t_safe_s = std::fmod(frame.t_s, 0x1p100);  // as advance()
-  if (!frame.patches.empty()) synthesize(state, t_safe_s, velocity, workers);
+  const double t_wave_s = wave_time_s(state.description, frame.t_s);
+  if (!frame.patches.empty()) synthesize(state, t_wave_s, velocity, workers);
   add_sines(state, frame, velocity);
 }
 

@@ -247,6 +247,8 @@ TEST(Sea, NamesTheValueAndRangeOfABadDescription) {
       {[&](auto& d) { d.wind_from_rad = nan; }, "wind_from_rad", "nan", "["},
       {[](auto& d) { d.amplitude_scale = 4.5; }, "amplitude_scale", "4.5", "[0, 4]"},
       {[](auto& d) { d.gravity_mps2 = 0; }, "gravity_mps2", "0", "[0.1, 100]"},
+      {[](auto& d) { d.loop_s = 0.5; }, "loop_s", "0.5", "[1, 100000]"},
+      {[&](auto& d) { d.loop_s = nan; }, "loop_s", "nan", "[1, 100000]"},
       {[](auto& d) { d.resolution = 100; }, "resolution", "100", "[16, 512]"},
       {[](auto& d) { d.resolution = 1024; }, "resolution", "1024", "[16, 512]"},
       {[](auto& d) { d.resolution = -16; }, "resolution", "-16", "[16, 512]"},
