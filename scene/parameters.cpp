@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -134,17 +136,43 @@ struct Row {
     return row;
   }
 
-  // A boolean field that the file names by one of two words.
+  // A boolean or enumerated field that the file names by one of the words.
   template <class Field>
   static Parameter<Object> choice(std::string_view key, Field, std::string_view meaning) {
     Parameter<Object> row = ranged(key, Kind::kChoice, {}, meaning);
     row.choices = Field::words;
     row.get = [](const Object& object) -> Value {
-      return std::string(Field::words[Field{}(object) ? 1 : 0]);
+      return std::string(Field::words[static_cast<std::size_t>(Field{}(object))]);
     };
     row.set = [](Object& object, const Value& value) {
-      Field{}(object) = std::get<std::string>(value) == Field::words[1];
+      using Stored = std::remove_cvref_t<decltype(Field{}(object))>;
+      const auto word = std::ranges::find(Field::words, std::get<std::string>(value));
+      Field{}(object) = static_cast<Stored>(word - Field::words.begin());
     };
+    return row;
+  }
+
+  // A list of GLM vectors of two, without a value when empty.
+  template <class Field>
+  static Parameter<Object> points(std::string_view key, Range range, int count_low, int count_high,
+                                  Field, std::string_view meaning) {
+    Parameter<Object> row = ranged(key, Kind::kPoints, range, meaning);
+    row.count_low = count_low, row.count_high = count_high;
+    row.get = [](const Object& object) -> Value {
+      std::vector<double> numbers;
+      for (const glm::dvec2& point : Field{}(object)) {
+        numbers.push_back(point.x);
+        numbers.push_back(point.y);
+      }
+      return numbers;
+    };
+    row.set = [](Object& object, const Value& value) {
+      const auto& numbers = std::get<std::vector<double>>(value);
+      Field{}(object).clear();
+      for (std::size_t i = 0; i < numbers.size(); i += 2)
+        Field{}(object).emplace_back(numbers[i], numbers[i + 1]);
+    };
+    row.is_set = [](const Object& object) { return !Field{}(object).empty(); };
     return row;
   }
 
@@ -170,6 +198,16 @@ struct Row {
 struct Priority {
   static constexpr std::array<std::string_view, 2> words = {"projected_size", "inverse_distance"};
   auto& operator()(auto& scene) const { return scene.detail.inverse_distance_priority; }
+};
+
+struct CoastModelName {
+  static constexpr std::array<std::string_view, 3> words = {"none", "trains", "blend"};
+  auto& operator()(auto& scene) const { return scene.coast.model; }
+};
+
+struct CoastMethod {
+  static constexpr std::array<std::string_view, 2> words = {"straight", "eikonal"};
+  auto& operator()(auto& scene) const { return scene.coast.eikonal; }
 };
 
 #define SWELL_FIELD(PATH) \
@@ -280,6 +318,25 @@ Rows water_rows() {
   };
 }
 
+Rows coast_rows() {
+  Rows rows = {
+      SceneRow::choice("coast.model", CoastModelName{},
+                       "waves near the shore of a terrain: those of the open sea, trains that "
+                       "refract and shoal, or such trains there and the open sea's offshore; "
+                       "\"blend\" if left out beside terrain.coast_m"),
+      SceneRow::integer("coast.trains", Kind::kInteger, {1, 16}, SWELL_FIELD(coast.trains),
+                        "number of wave trains"),
+      SceneRow::choice("coast.method", CoastMethod{}, "whether the floor bends the trains' crests"),
+      SceneRow::integer("coast.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(coast.seed),
+                        "another number, other trains of the same sea"),
+      SceneRow::number("coast.grid_spacing_m", {0.5, 100, "m"}, SWELL_FIELD(coast.grid_spacing_m),
+                       "between the points that the trains are worked out at; 0: the terrain's "
+                       "side / 256"),
+  };
+  rows.back().zero_too = true;  // coast.grid_spacing_m
+  return rows;
+}
+
 Rows terrain_rows() {
   return {
       SceneRow::plain<std::string>(
@@ -305,8 +362,17 @@ Rows terrain_rows() {
                        SWELL_FIELD(terrain->island_height_m), "of the hills above the beach"),
       SceneRow::number("terrain.floor_depth_m", {0.5, 10000, "m"},
                        SWELL_FIELD(terrain->floor_depth_m), "of the sea around"),
+      SceneRow::points("terrain.coast_m", {-1e6, 1e6, "m"}, 2, kMaxCoastPoints,
+                       SWELL_FIELD(terrain->coast_m),
+                       "a beach along this line instead of an island: [east, north] of its points, "
+                       "the sea on the left when walking from the first to the last, beyond which "
+                       "the line goes straight on; excludes height_image"),
+      SceneRow::number("terrain.beach_slope", {0.001, 1}, SWELL_FIELD(terrain->beach_slope),
+                       "depth per distance from coast_m, down to floor_depth_m"),
+      SceneRow::number("terrain.beach_size_m", {50, 20000, "m"}, SWELL_FIELD(terrain->beach_size_m),
+                       "side of the terrain along coast_m"),
       SceneRow::integer("terrain.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(terrain->seed),
-                        "another number, another island"),
+                        "another number, another island or other dunes"),
   };
 }
 
@@ -339,20 +405,35 @@ std::string list_text(const std::vector<double>& numbers) {
   return "[" + text + "]";
 }
 
+// Points as pairs of numbers.
+std::string points_text(const std::vector<double>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    text += (i ? ", " : "") + list_text({numbers[i], numbers[i + 1]});
+  return "[" + text + "]";
+}
+
+// "a", "b" or "c".
+std::string choices_text(std::span<const std::string_view> choices) {
+  const auto last = choices.size() - 1;
+  return fmt::format("\"{}\" or \"{}\"", fmt::join(choices.first(last), "\", \""), choices[last]);
+}
+
 }  // namespace
 
 Rows scene_parameters() {
   Rows rows = {
       SceneRow::plain<std::string>("name", Kind::kText, SWELL_FIELD(name),
                                    "of the scene in reports; the file's stem if left out")};
-  for (const Rows& part : {camera_rows(), sky_rows(), sea_rows(), water_rows(), terrain_rows()})
+  for (const Rows& part :
+       {camera_rows(), sky_rows(), sea_rows(), water_rows(), coast_rows(), terrain_rows()})
     rows.insert(rows.end(), part.begin(), part.end());
   return rows;
 }
 
 std::vector<Parameter<ocean::SineWave>> sine_parameters() {
   using SineRow = Row<ocean::SineWave>;
-  std::vector<Parameter<ocean::SineWave>> rows = {
+  return {
       SineRow::number("amplitude_m", {0, 50, "m"}, SWELL_FIELD(amplitude_m),
                       "half the height from trough to crest"),
       SineRow::number("wavelength_m", {0.05, 10000, "m"}, SWELL_FIELD(wavelength_m),
@@ -361,11 +442,9 @@ std::vector<Parameter<ocean::SineWave>> sine_parameters() {
                      "where the wave goes to, clockwise from north"),
       SineRow::angle("phase_deg", {-360, 360, "deg"}, SWELL_FIELD(phase_rad),
                      "at the origin at t = 0; 90 is a crest"),
-      SineRow::number("period_s", {0.05, 1000, "s"}, SWELL_FIELD(period_s),
-                      "from crest to crest at one place; 0: that of deep water"),
+      SineRow::or_zero(SineRow::number("period_s", {0.05, 1000, "s"}, SWELL_FIELD(period_s),
+                                       "from crest to crest at one place; 0: that of deep water")),
   };
-  rows.back().zero_too = true;
-  return rows;
 }
 
 #undef SWELL_FIELD
@@ -383,6 +462,9 @@ std::string allowed_text(const Parameter<Object>& parameter) {
         return fmt::format("{} numbers, each {}", parameter.count_low, range);
       return fmt::format("{} to {} numbers, each {}", parameter.count_low, parameter.count_high,
                          range);
+    case Kind::kPoints:
+      return fmt::format("{} to {} points [east, north], each number {}", parameter.count_low,
+                         parameter.count_high, range);
     case Kind::kInteger:
       return "an integer, " + range;
     case Kind::kPowerOfTwo:
@@ -390,7 +472,7 @@ std::string allowed_text(const Parameter<Object>& parameter) {
     case Kind::kBoolean:
       return "true or false";
     case Kind::kChoice:
-      return fmt::format("\"{}\" or \"{}\"", parameter.choices[0], parameter.choices[1]);
+      return choices_text(parameter.choices);
     case Kind::kText:
       return fmt::format("text of at most {} bytes", kMaxTextBytes);
     case Kind::kPath:
@@ -411,6 +493,8 @@ std::string toml_text(const Parameter<Object>& parameter, const Object& object) 
       return float_text(std::get<std::vector<double>>(value)[0]);
     case Kind::kNumbers:
       return list_text(std::get<std::vector<double>>(value));
+    case Kind::kPoints:
+      return points_text(std::get<std::vector<double>>(value));
     case Kind::kInteger:
     case Kind::kPowerOfTwo:
       return fmt::format("{}", std::get<std::int64_t>(value));

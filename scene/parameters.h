@@ -2,8 +2,8 @@
 // effective scene and docs/scene.md (tests/scene compares it with the table).
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -16,6 +16,7 @@ namespace swell::scene {
 enum class ParameterKind : std::uint8_t {
   kNumber,      // one finite number; an integer will do
   kNumbers,     // an array of numbers, each in the range
+  kPoints,      // an array of arrays of two such numbers
   kInteger,     // no decimal point
   kPowerOfTwo,  // an integer
   kBoolean,
@@ -25,7 +26,7 @@ enum class ParameterKind : std::uint8_t {
 };
 
 // A value as the file has it: degrees, not radians. The kinds above map to double lists (kNumber
-// has one element), integers, booleans and text (kChoice, kText, kPath).
+// has one element, kPoints two a point), integers, booleans and text (kChoice, kText, kPath).
 using ParameterValue = std::variant<std::vector<double>, std::int64_t, bool, std::string>;
 
 template <class Object>
@@ -35,8 +36,8 @@ struct Parameter {
   std::string_view unit;  // empty: none
   double low = 0.0, high = 0.0;
   bool zero_too = false;              // 0 is allowed although low > 0
-  int count_low = 1, count_high = 1;  // of kNumbers
-  std::array<std::string_view, 2> choices;
+  int count_low = 1, count_high = 1;  // of kNumbers and kPoints
+  std::span<const std::string_view> choices;
   std::string_view meaning;
   // get() gives a value that set() turns back into the same bits, with as few digits as possible.
   ParameterValue (*get)(const Object&);
@@ -52,6 +53,7 @@ std::vector<Parameter<Scene>> scene_parameters();
 std::vector<Parameter<ocean::SineWave>> sine_parameters();
 
 inline constexpr int kMaxSines = 64;
+inline constexpr int kMaxCoastPoints = 200;
 inline constexpr int kMaxTextBytes = 200;
 inline constexpr std::string_view kSinesKey = "sea.sines";
 

@@ -61,6 +61,21 @@ struct WaterOptics {
   double uv_noise_amplitude = 0.35;  // of the Perlin perturbation of their coordinates, in metres
 };
 
+// How waves near a coast know the floor and the shore. Needs a terrain.
+enum class CoastModel : std::uint8_t {
+  kNone,    // the open sea's waves, lower over shallow water
+  kTrains,  // wave trains that refract and shoal, alone
+  kBlend,   // wave trains near the coast, the open sea's waves offshore
+};
+
+struct Coast {
+  CoastModel model = CoastModel::kNone;  // parse_scene: kBlend for a terrain from a coast line
+  int trains = 5;                        // [1, 16]
+  bool eikonal = true;                   // phases bent by the floor; false: straight ones
+  double grid_spacing_m = 0.0;           // [0.5, 100]; 0: the terrain's side / 256
+  std::uint64_t seed = 1;
+};
+
 struct Detail {
   int water_triangles = 30000;
   int terrain_triangles = 30000;
@@ -84,6 +99,7 @@ struct Scene {
   std::optional<int> douglas, beaufort;
   SeaArea area;
   WaterOptics water;
+  Coast coast;
   Detail detail;
   std::optional<TerrainDescription> terrain;
 };

@@ -88,6 +88,7 @@ class Reader {
     scene_.name = file_.stem().string();
     read_table(root, "");
     apply_sea_state();
+    finish_coast();
     scene_.sky.sun_direction =
         sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
     return std::move(scene_);
@@ -126,6 +127,7 @@ class Reader {
         fail_unknown(key_place, path);
       }
       if (path == "sea.patch_lengths_m") check_patch_lengths(*node);
+      if (path == "terrain.coast_m") check_coast(*node);
     }
   }
 
@@ -145,6 +147,13 @@ class Reader {
                        *scene_.douglas, gravity, sea.wind_speed_mps, kMaxWind_mps));
     if (!given_.contains("sea.patch_lengths_m"))
       sea.patch_lengths_m = ocean::patch_lengths_for_wind(sea.wind_speed_mps, gravity);
+  }
+
+  void finish_coast() {
+    if (!scene_.terrain || scene_.terrain->coast_m.empty()) return;
+    if (!scene_.terrain->height_image.empty())
+      check_only_one_of({"terrain.height_image", "terrain.coast_m"});
+    if (!given_.contains("coast.model")) scene_.coast.model = CoastModel::kBlend;
   }
 
   // The keys set the same thing.
@@ -205,6 +214,8 @@ class Reader {
         return std::vector<double>{checked_number(node, path, parameter, allowed)};
       case ParameterKind::kNumbers:
         return checked_numbers(node, path, parameter, allowed);
+      case ParameterKind::kPoints:
+        return checked_points(node, path, parameter, allowed);
       case ParameterKind::kInteger:
       case ParameterKind::kPowerOfTwo:
         return checked_integer(node, path, parameter, allowed);
@@ -243,6 +254,26 @@ class Reader {
     for (const toml::node& element : *array)
       numbers.push_back(
           checked_number(element, fmt::format("{}[{}]", path, numbers.size()), parameter, allowed));
+    return numbers;
+  }
+
+  // x and y of each point in turn.
+  template <class Object>
+  std::vector<double> checked_points(const toml::node& node, const std::string& path,
+                                     const Parameter<Object>& parameter,
+                                     const std::string& allowed) const {
+    const toml::array* array = node.as_array();
+    const int count = array ? static_cast<int>(std::min<std::size_t>(array->size(), 1000)) : -1;
+    if (count < parameter.count_low || count > parameter.count_high)
+      fail_value(node, path, got_text(node), allowed);
+    std::vector<double> numbers;
+    for (const toml::node& element : *array) {
+      const std::string its_path = fmt::format("{}[{}]", path, numbers.size() / 2);
+      const toml::array* pair = element.as_array();
+      if (!pair || pair->size() != 2) fail_value(element, its_path, got_text(element), allowed);
+      for (const toml::node& number : *pair)
+        numbers.push_back(checked_number(number, its_path, parameter, allowed));
+    }
     return numbers;
   }
 
@@ -300,6 +331,15 @@ class Reader {
     if (std::ranges::adjacent_find(lengths, std::less_equal{}) != lengths.end())
       fail_value(node, "sea.patch_lengths_m", fmt::format("[{}]", fmt::join(lengths, ", ")),
                  "lengths that go down");
+  }
+
+  void check_coast(const toml::node& node) const {
+    const auto& coast = scene_.terrain->coast_m;
+    const auto twin = std::ranges::adjacent_find(coast);
+    if (twin == coast.end()) return;
+    const auto n = static_cast<std::size_t>(twin - coast.begin()) + 1;
+    fail_value(*node.as_array()->get(n), fmt::format("terrain.coast_m[{}]", n),
+               fmt::format("[{}, {}]", twin->x, twin->y), "a point unlike the one before");
   }
 
   [[noreturn]] void fail_value(const toml::node& node, const std::string& path,

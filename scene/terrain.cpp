@@ -8,8 +8,11 @@
 #include <string>
 
 #include "math/check.h"
+#include "math/elementary.h"
+#include "ocean/sea_floor.h"
 #include "scene/island.h"
 #include "texture/image_io.h"
+#include "texture/perlin.h"
 
 namespace swell::scene {
 namespace {
@@ -69,6 +72,41 @@ Terrain terrain_from_image(const TerrainDescription& description) {
   return terrain;
 }
 
+constexpr int kBeachSamples = 513;
+constexpr double kBeachTop_m = 0.5;  // up to there the beach is a plane
+constexpr double kDunes_m = 5.0;     // mean height of the land behind, above the beach
+
+// The land's height where a plane goes on to plane_m > kBeachTop_m: a bend into dunes without an
+// edge, at most kBeachTop_m + 1.32 kDunes_m (three octaves add up to 1.56).
+double dune_height(const texture::PerlinNoise& noise, glm::dvec2 p_dunes, double plane_m) {
+  const double rise = 1.0 - exp(-(plane_m - kBeachTop_m) / kDunes_m);
+  const double rolling = noise.fractal2(p_dunes.x, p_dunes.y, 3, 0.4);
+  return kBeachTop_m + kDunes_m * rise * (1.0 + 0.2 * rise * rolling);
+}
+
+Terrain terrain_from_coast(const TerrainDescription& description) {
+  const texture::PerlinNoise noise(description.seed);
+  Terrain terrain;
+  terrain.samples = kBeachSamples;
+  terrain.spacing_m = description.beach_size_m / (kBeachSamples - 1);
+  terrain.min_world = description.centre_m - 0.5 * description.beach_size_m;
+  terrain.height_m.reserve(static_cast<std::size_t>(kBeachSamples) * kBeachSamples);
+  const double dune_length_m = std::max(45.0, 8.0 * terrain.spacing_m);  // 8 samples and more
+  for (int j = 0; j < kBeachSamples; ++j) {
+    for (int i = 0; i < kBeachSamples; ++i) {
+      const glm::dvec2 offset = terrain.spacing_m * glm::dvec2(i, j);
+      const double plane_m =
+          -description.beach_slope *
+          ocean::distance_to_coast(description.coast_m, terrain.min_world + offset);
+      const double height = plane_m > kBeachTop_m
+                                ? dune_height(noise, offset / dune_length_m, plane_m)
+                                : std::max(plane_m, -description.floor_depth_m);
+      terrain.height_m.push_back(static_cast<float>(height));
+    }
+  }
+  return terrain;
+}
+
 // `above` is not allowed itself.
 void check_value(const char* name, double value, double above = -HUGE_VAL) {
   if (!(value > above && value < HUGE_VAL))
@@ -76,7 +114,25 @@ void check_value(const char* name, double value, double above = -HUGE_VAL) {
         fmt::format("terrain.{}, got {}, allowed finite and over {}", name, value, above));
 }
 
+void check_coast(std::span<const glm::dvec2> coast_m) {
+  if (coast_m.size() == 1) throw SceneError("terrain.coast_m, got 1 point, allowed 2 or more");
+  for (std::size_t n = 0; n < coast_m.size(); ++n) {
+    check_value("coast_m, east", coast_m[n].x);
+    check_value("coast_m, north", coast_m[n].y);
+    if (n > 0 && coast_m[n] == coast_m[n - 1])
+      throw SceneError(
+          fmt::format("terrain.coast_m[{}], got [{}, {}], allowed one that differs "
+                      "from the point before",
+                      n, coast_m[n].x, coast_m[n].y));
+  }
+}
+
 void check_description(const TerrainDescription& description) {
+  check_coast(description.coast_m);
+  if (!description.coast_m.empty() && !description.height_image.empty())
+    throw SceneError("terrain.coast_m, got it besides height_image, allowed one of them");
+  check_value("beach_slope", description.beach_slope, 0.0);
+  check_value("beach_size_m", description.beach_size_m, 0.0);
   check_value("island_radius_m", description.island_radius_m, 0.0);
   check_value("floor_depth_m", description.floor_depth_m, 0.0);
   check_value("metres_per_pixel", description.metres_per_pixel, 0.0);
@@ -92,8 +148,9 @@ void check_description(const TerrainDescription& description) {
 
 Terrain build_terrain(const TerrainDescription& description) {
   check_description(description);
-  Terrain terrain = description.height_image.empty() ? build_island(description)
-                                                     : terrain_from_image(description);
+  Terrain terrain = !description.coast_m.empty()       ? terrain_from_coast(description)
+                    : description.height_image.empty() ? build_island(description)
+                                                       : terrain_from_image(description);
   const auto [lowest, highest] = std::ranges::minmax_element(terrain.height_m);
   terrain.lowest_m = *lowest;
   terrain.highest_m = *highest;

@@ -1,5 +1,5 @@
-// The sea floor and the land: a height field on a square, from a height image or from noise.
-// From noise, the border of the square is the deep floor.
+// The sea floor and the land: a height field on a square, from a height image, from a coast line or
+// from noise. From noise, the border of the square is the deep floor.
 #pragma once
 
 #include <cstdint>
@@ -30,12 +30,18 @@ struct TerrainDescription {
   double island_radius_m = 180.0;
   double island_height_m = 35.0;
   double floor_depth_m = 14.0;
-  std::uint64_t seed = 3;
+  // From a coast line of two points or more, the sea on the left when walking from the first to the
+  // last (ocean/sea_floor.h): a beach of one slope on a square around centre_m, down to
+  // floor_depth_m; on land the slope goes on up to dunes of less than 8 m.
+  std::vector<glm::dvec2> coast_m = {};  // empty: not used; excludes height_image
+  double beach_slope = 0.02;
+  double beach_size_m = 1200.0;  // the square's side
+  std::uint64_t seed = 3;        // of the island or of the dunes
 };
 
-// samples x samples heights (samples >= 2: 1025 from noise, the image's side from images, where
-// one pixel makes a flat square of 2 x 2), spacing_m apart, sample (i, j) at min_world + spacing_m
-// (i, j), row j northwards.
+// samples x samples heights (samples >= 2: 1025 from noise, 513 from a coast line, the image's side
+// from images, where one pixel makes a flat square of 2 x 2), spacing_m apart, sample (i, j) at
+// min_world + spacing_m (i, j), row j northwards.
 struct Terrain {
   glm::dvec2 min_world{0.0};
   double spacing_m = 1.0;

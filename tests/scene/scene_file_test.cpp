@@ -90,6 +90,12 @@ distortion = 0.1
 lookup_scale = 1
 bump_strength = 2
 uv_noise_amplitude_m = 0.5
+[coast]
+model = "trains"
+trains = 7
+method = "straight"
+grid_spacing_m = 2.5
+seed = 12
 [detail]
 water_triangles = 1500
 terrain_triangles = 2000
@@ -103,6 +109,9 @@ centre_m = [7, 8]
 island_radius_m = 90
 island_height_m = 20
 floor_depth_m = 11
+coast_m = [[-1, 2.5], [3, 4], [30, -4]]
+beach_slope = 0.05
+beach_size_m = 700
 seed = 99
 )";
 
@@ -150,6 +159,11 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.water.lookup_scale, 1.0);
   EXPECT_EQ(scene.water.bump_strength, 2.0);
   EXPECT_EQ(scene.water.uv_noise_amplitude, 0.5);
+  EXPECT_EQ(scene.coast.model, CoastModel::kTrains);
+  EXPECT_EQ(scene.coast.trains, 7);
+  EXPECT_FALSE(scene.coast.eikonal);
+  EXPECT_EQ(scene.coast.grid_spacing_m, 2.5);
+  EXPECT_EQ(scene.coast.seed, 12u);
   EXPECT_EQ(scene.detail.water_triangles, 1500);
   EXPECT_EQ(scene.detail.terrain_triangles, 2000);
   EXPECT_TRUE(scene.detail.inverse_distance_priority);
@@ -163,6 +177,9 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.terrain->island_radius_m, 90.0);
   EXPECT_EQ(scene.terrain->island_height_m, 20.0);
   EXPECT_EQ(scene.terrain->floor_depth_m, 11.0);
+  EXPECT_EQ(scene.terrain->coast_m, (std::vector<glm::dvec2>{{-1, 2.5}, {3, 4}, {30, -4}}));
+  EXPECT_EQ(scene.terrain->beach_slope, 0.05);
+  EXPECT_EQ(scene.terrain->beach_size_m, 700.0);
   EXPECT_EQ(scene.terrain->seed, 99u);
 }
 
@@ -185,6 +202,32 @@ TEST(SceneFile, EmptyFileIsTheDefaultsUnderTheFilesName) {
 TEST(SceneFile, EmptyTerrainTableIsTheDefaultIsland) {
   EXPECT_TRUE(parse_scene("[terrain]\n", "test.toml").terrain.has_value());
   EXPECT_FALSE(parse_scene("[sea]\n", "test.toml").terrain.has_value());
+}
+
+constexpr const char* kCoast = "[terrain]\ncoast_m = [[0, 0], [9, 0]]\n";
+
+TEST(SceneFile, CoastWavesAreBlendedInBesideACoastLineOnly) {
+  const auto model = [](const std::string& text) {
+    return parse_scene(text, "test.toml").coast.model;
+  };
+  EXPECT_EQ(model(""), CoastModel::kNone);
+  EXPECT_EQ(model("[terrain]\n"), CoastModel::kNone);
+  EXPECT_EQ(model(kCoast), CoastModel::kBlend);
+  EXPECT_EQ(model(std::string(kCoast) + "[coast]\nseed = 2\n"), CoastModel::kBlend);
+}
+
+TEST(SceneFile, TheCoastModelOfTheFileStays) {
+  const auto model = [](const std::string& before, const std::string& name) {
+    return parse_scene(before + "[coast]\nmodel = \"" + name + "\"\n", "test.toml").coast.model;
+  };
+  EXPECT_EQ(model(kCoast, "none"), CoastModel::kNone);
+  EXPECT_EQ(model(kCoast, "trains"), CoastModel::kTrains);
+  EXPECT_EQ(model("[terrain]\n", "blend"), CoastModel::kBlend);
+}
+
+TEST(SceneFile, AnIslandsDumpHasNoCoastLine) {
+  const std::string dump = dump_scene(parse_scene("[terrain]\n", "test.toml"));
+  EXPECT_EQ(dump.find("coast_m"), std::string::npos) << dump;
 }
 
 TEST(SceneFile, DumpComesBackAsTheSameScene) {
@@ -277,6 +320,40 @@ INSTANTIATE_TEST_SUITE_P(
               "bytes"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Coasts, SceneFileFault,
+    ::testing::Values(
+        Fault{"[terrain]\ncoast_m = [[1, 2]]\n",
+              "test.toml:2: column 11: terrain.coast_m, got an array of 1 values, allowed 2 to 200 "
+              "points [east, north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = []\n",
+              "test.toml:2: column 11: terrain.coast_m, got an array of 0 values, allowed 2 to 200 "
+              "points [east, north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [[1, 2],\n  [3, 4, 5]]\n",
+              "test.toml:3: column 3: terrain.coast_m[1], got an array of 3 values, allowed 2 to "
+              "200 points [east, north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [1, 2]\n",
+              "test.toml:2: column 12: terrain.coast_m[0], got 1, allowed 2 to 200 points [east, "
+              "north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [[1, 2],\n  [3, nan]]\n",
+              "test.toml:3: column 7: terrain.coast_m[1], got nan, allowed 2 to 200 points [east, "
+              "north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [[1, 2],\n  [3, 4],\n  [3, 4]]\n",
+              "test.toml:4: column 3: terrain.coast_m[2], got [3, 4], allowed a point unlike the "
+              "one before"},
+        Fault{"[terrain]\nbeach_slope = 0\n",
+              "test.toml:2: column 15: terrain.beach_slope, got 0, allowed 0.001 to 1"},
+        Fault{"[terrain]\nbeach_size_m = 20001\n",
+              "test.toml:2: column 16: terrain.beach_size_m, got 20001, allowed 50 to 20000 m"},
+        Fault{
+            "[coast]\nmodel = \"peachey\"\n",
+            "test.toml:2: column 9: coast.model, got \"peachey\", allowed \"none\", \"trains\" or "
+            "\"blend\""},
+        Fault{"[coast]\ntrains = 17\n",
+              "test.toml:2: column 10: coast.trains, got 17, allowed an integer, 1 to 16"},
+        Fault{"[coast]\ngrid_spacing_m = 0.4\n",
+              "test.toml:2: column 18: coast.grid_spacing_m, got 0.4, allowed 0 or 0.5 to 100 m"}));
+
+INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, SceneFileFault,
     ::testing::Values(
         Fault{"[camera]\nfov_deg = 50\n",
@@ -364,6 +441,19 @@ TEST(SceneFile, PicturePathsAreRelativeToTheSceneFile) {
   const Scene scene = load_scene(path);
   EXPECT_EQ(scene.terrain->height_image, folder.path() / "heights.png");
   EXPECT_EQ(differences(parse_scene(dump_scene(scene), "elsewhere/b.toml"), scene), "");
+}
+
+TEST(SceneFile, ATerrainIsMadeFromAPictureOrFromACoastLine) {
+  const TemporaryFolder folder;
+  folder.write("heights.png", "any");
+  const std::string coast = "coast_m = [[0, 0], [9, 0]]\n";
+  const fs::path both =
+      folder.write("a.toml", "[terrain]\nheight_image = \"heights.png\"\n" + coast);
+  EXPECT_EQ(load_error(both),
+            both.string() +
+                ":3: column 11: terrain.coast_m, got it besides terrain.height_image in line 2, "
+                "allowed one of terrain.height_image, terrain.coast_m");
+  EXPECT_EQ(error_of("[terrain]\nheight_image = \"\"\n" + coast), "");
 }
 
 TEST(SceneFile, PicturesThatAreNotThereAreNamedWithTheLineThatNamesThem) {

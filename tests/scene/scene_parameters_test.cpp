@@ -82,6 +82,23 @@ std::string list_text(const Parameter<Object>& parameter, Dice& dice, bool insid
   return "[" + text + "]";
 }
 
+// Up to five points, if wrong with one number outside, one too many, or one point too few.
+template <class Object>
+std::string points_text(const Parameter<Object>& parameter, Dice& dice, bool inside) {
+  const bool alone = !inside && dice.below(3) == 0;
+  const int count = alone ? parameter.count_low - 1 : parameter.count_low + dice.below(4);
+  const int wrong = inside || alone ? -1 : dice.below(count);
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    const double x = parameter.low + dice.uniform() * (parameter.high - parameter.low);
+    const std::string y = i != wrong      ? number_text(number_inside(parameter, dice))
+                          : dice.below(2) ? number_outside(parameter, dice)
+                                          : "1, 2";
+    text += fmt::format("{}[{}, {}]", i ? ", " : "", x, y);
+  }
+  return "[" + text + "]";
+}
+
 template <class Object>
 std::string integer_text(const Parameter<Object>& parameter, Dice& dice, bool inside) {
   const bool power = parameter.kind == ParameterKind::kPowerOfTwo;
@@ -99,13 +116,18 @@ std::string value_text(const Parameter<Object>& parameter, Dice& dice, bool insi
       return inside ? number_text(number_inside(parameter, dice)) : number_outside(parameter, dice);
     case ParameterKind::kNumbers:
       return list_text(parameter, dice, inside);
+    case ParameterKind::kPoints:
+      return points_text(parameter, dice, inside);
     case ParameterKind::kInteger:
     case ParameterKind::kPowerOfTwo:
       return integer_text(parameter, dice, inside);
     case ParameterKind::kBoolean:
       return inside ? (dice.below(2) ? "true" : "false") : (dice.below(2) ? "1" : "\"true\"");
     case ParameterKind::kChoice:
-      return inside ? fmt::format("\"{}\"", parameter.choices[dice.below(2)]) : "\"other\"";
+      return inside ? fmt::format(
+                          "\"{}\"",
+                          parameter.choices[dice.below(static_cast<int>(parameter.choices.size()))])
+                    : "\"other\"";
     case ParameterKind::kText:
       return inside ? fmt::format("\"{}\"", std::string(dice.below(201), 'x'))
                     : fmt::format("\"{}\"", std::string(201, 'x'));

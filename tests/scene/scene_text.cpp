@@ -28,6 +28,9 @@ void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, 
   SWELL_COMPARE(island_radius_m);
   SWELL_COMPARE(island_height_m);
   SWELL_COMPARE(floor_depth_m);
+  SWELL_COMPARE(coast_m);
+  SWELL_COMPARE(beach_slope);
+  SWELL_COMPARE(beach_size_m);
   SWELL_COMPARE(seed);
 }
 
@@ -81,6 +84,11 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(water.lookup_scale);
   SWELL_COMPARE(water.bump_strength);
   SWELL_COMPARE(water.uv_noise_amplitude);
+  SWELL_COMPARE(coast.model);
+  SWELL_COMPARE(coast.trains);
+  SWELL_COMPARE(coast.eikonal);
+  SWELL_COMPARE(coast.grid_spacing_m);
+  SWELL_COMPARE(coast.seed);
   SWELL_COMPARE(detail.water_triangles);
   SWELL_COMPARE(detail.terrain_triangles);
   SWELL_COMPARE(detail.inverse_distance_priority);
