@@ -1,0 +1,149 @@
+// Scenes with every value inside its documented range: each makes a picture of finite numbers.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "math/random.h"
+#include "render/frame.h"
+#include "scene/parameters.h"
+
+namespace swell::render {
+namespace {
+
+using scene::Parameter, scene::ParameterKind;
+
+constexpr int kScenes = 40, kSize = 64;
+
+// Random numbers of one scene.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t scene) : seed_(scene) {}
+  double uniform() { return random_uniform(seed_, next_++); }
+  int below(int n) { return static_cast<int>(random_bits(seed_, next_++) % n); }
+
+ private:
+  std::uint64_t seed_, next_ = 0;
+};
+
+// In the range, its ends included: of every size between 0.01 and the largest number that it
+// allows, or evenly spread. Evenly spread places alone would hold no sea.
+template <class Object>
+double random_number(const Parameter<Object>& parameter, Dice& dice) {
+  const int choice = dice.below(10);
+  if (choice == 0) return parameter.low;
+  if (choice == 1) return parameter.high;
+  if (choice == 2 && parameter.zero_too) return 0.0;
+  if (choice < 5) return parameter.low + dice.uniform() * (parameter.high - parameter.low);
+  const double largest = std::max(std::abs(parameter.low), std::abs(parameter.high));
+  const double size = 0.01 * std::pow(largest / 0.01, dice.uniform());
+  return std::clamp(dice.below(2) ? size : -size, parameter.low, parameter.high);
+}
+
+template <class Object>
+std::string random_list(const Parameter<Object>& parameter, Dice& dice) {
+  const int spread = parameter.count_high - parameter.count_low;
+  std::vector<double> numbers;
+  for (int n = parameter.count_low + dice.below(spread + 1); n > 0; --n)
+    numbers.push_back(random_number(parameter, dice));
+  if (spread) {  // patch lengths go down
+    std::ranges::sort(numbers, std::greater{});
+    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  }
+  return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
+
+template <class Object>
+std::string random_value(const Parameter<Object>& parameter, Dice& dice) {
+  switch (parameter.kind) {
+    case ParameterKind::kNumber:
+      return fmt::format("{}", random_number(parameter, dice));
+    case ParameterKind::kNumbers:
+      return random_list(parameter, dice);
+    case ParameterKind::kInteger:
+      return fmt::format("{:.0f}", std::ceil(random_number(parameter, dice)));
+    case ParameterKind::kPowerOfTwo:
+      return fmt::format("{}", 16 << dice.below(6));
+    case ParameterKind::kBoolean:
+      return dice.below(2) ? "true" : "false";
+    case ParameterKind::kChoice:
+      return fmt::format("\"{}\"", parameter.choices[dice.below(2)]);
+    case ParameterKind::kText:
+    case ParameterKind::kPath:
+      return "\"\"";
+  }
+  return {};
+}
+
+// What would take long, made small.
+std::optional<std::string> cheap_value(std::string_view key, Dice& dice) {
+  if (key == "sea.resolution") return fmt::format("{}", 16 << dice.below(3));
+  if (key.ends_with("_triangles")) return fmt::format("{}", 2 + dice.below(4000));
+  return std::nullopt;
+}
+
+// About two of three keys.
+std::string random_scene(Dice& dice, bool with_terrain) {
+  constexpr std::string_view kWindKeys[] = {"wind.speed_mps", "sea.douglas", "sea.beaufort"};
+  const std::string_view wind_key = kWindKeys[dice.below(3)];
+  std::map<std::string, std::string> tables;
+  for (const auto& parameter : scene::scene_parameters()) {
+    const std::string_view key = parameter.key;
+    std::optional<std::string> value = cheap_value(key, dice);
+    if (!value && dice.below(3) == 0) continue;
+    if (key != wind_key && std::ranges::count(kWindKeys, key)) continue;  // they exclude each other
+    // The winds of sea states suit a gravity near the earth's.
+    if (key == "sea.gravity_mps2" && wind_key == "sea.douglas") continue;
+    const std::size_t dot = key.find('.');
+    if (dot == std::string_view::npos) continue;
+    const std::string table(key.substr(0, dot));
+    if (table == "terrain" && !with_terrain) continue;
+    if (!value) value = random_value(parameter, dice);
+    tables[table] += fmt::format("{} = {}\n", key.substr(dot + 1), *value);
+  }
+  std::string text;
+  for (const auto& [name, lines] : tables) text += fmt::format("[{}]\n{}", name, lines);
+  for (int n = dice.below(3); n > 0; --n) {
+    text += "[[sea.sines]]\n";
+    for (const auto& parameter : scene::sine_parameters())
+      text += fmt::format("{} = {}\n", parameter.key, random_value(parameter, dice));
+  }
+  return text;
+}
+
+TEST(RandomScenes, GiveFinitePicturesAndShadeEveryVisiblePixelOnce) {
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options;
+  options.keep_linear = true;
+  int with_surface = 0, with_sky = 0;
+  for (int n = 0; n < kScenes; ++n) {
+    Dice dice(n);
+    // A terrain takes ten times as long to make as the rest.
+    const std::string text = random_scene(dice, n % 4 == 0);
+    const double t_s = 0.01 * std::pow(1e8, dice.uniform());
+    SCOPED_TRACE(fmt::format("scene {} at {} s:\n{}", n, t_s, text));
+    const World world(scene::parse_scene(text, "random.toml"));
+    const View view = camera_view(world.scene().camera, t_s, kSize, kSize);
+    const FrameStatistics statistics =
+        render_frame(world, view, t_s, options, workspace, target, workers);
+    EXPECT_EQ(statistics.shaded_pixels, statistics.visible_pixels);
+    ASSERT_EQ(target.linear.size(), 3u * kSize * kSize);
+    const auto wrong = std::ranges::count_if(
+        target.linear, [](float value) { return !(std::isfinite(value) && value >= 0.0f); });
+    EXPECT_EQ(wrong, 0);
+    with_surface += statistics.visible_pixels > 0;
+    with_sky += statistics.visible_pixels < kSize * kSize;
+  }
+  EXPECT_GE(with_surface, kScenes / 2);
+  EXPECT_GE(with_sky, kScenes / 4);
+}
+
+}  // namespace
+}  // namespace swell::render
