@@ -77,6 +77,12 @@ struct Row {
     return row;
   }
 
+  // A number or angle that may be 0 although its range begins above.
+  static Parameter<Object> or_zero(Parameter<Object> row) {
+    row.zero_too = true;
+    return row;
+  }
+
   // A GLM vector.
   template <class Field>
   static Parameter<Object> vector(std::string_view key, Range range, Field,
@@ -281,6 +287,9 @@ Rows sea_rows() {
                         "another number, another sea of the same state"),
       SceneRow::number("sea.gravity_mps2", {0.1, 100, "m/s^2"}, SWELL_FIELD(sea.gravity_mps2),
                        "acceleration of free fall"),
+      SceneRow::or_zero(
+          SceneRow::number("sea.loop_s", {1, 100000, "s"}, SWELL_FIELD(sea.loop_s),
+                           "after this time the sea's waves repeat exactly; 0: never")),
       SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),
                        "middle of the rectangle that waves displace: east, north"),
       SceneRow::vector("sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),
@@ -319,7 +328,7 @@ Rows water_rows() {
 }
 
 Rows coast_rows() {
-  Rows rows = {
+  return {
       SceneRow::choice("coast.model", CoastModelName{},
                        "waves near the shore of a terrain: those of the open sea, trains that "
                        "refract and shoal, or such trains there and the open sea's offshore; "
@@ -329,12 +338,10 @@ Rows coast_rows() {
       SceneRow::choice("coast.method", CoastMethod{}, "whether the floor bends the trains' crests"),
       SceneRow::integer("coast.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(coast.seed),
                         "another number, other trains of the same sea"),
-      SceneRow::number("coast.grid_spacing_m", {0.5, 100, "m"}, SWELL_FIELD(coast.grid_spacing_m),
-                       "between the points that the trains are worked out at; 0: the terrain's "
-                       "side / 256"),
+      SceneRow::or_zero(SceneRow::number(
+          "coast.grid_spacing_m", {0.5, 100, "m"}, SWELL_FIELD(coast.grid_spacing_m),
+          "between the points that the trains are worked out at; 0: the terrain's side / 256")),
   };
-  rows.back().zero_too = true;  // coast.grid_spacing_m
-  return rows;
 }
 
 Rows terrain_rows() {
