@@ -58,6 +58,16 @@ std::string random_list(const Parameter<Object>& parameter, Dice& dice) {
   return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
 
+// Two to four points.
+template <class Object>
+std::string random_points(const Parameter<Object>& parameter, Dice& dice) {
+  std::vector<std::string> points;
+  for (int n = parameter.count_low + dice.below(3); n > 0; --n)
+    points.push_back(
+        fmt::format("[{}, {}]", 1000.0 * dice.uniform() - 500.0, random_number(parameter, dice)));
+  return fmt::format("[{}]", fmt::join(points, ", "));
+}
+
 template <class Object>
 std::string random_value(const Parameter<Object>& parameter, Dice& dice) {
   switch (parameter.kind) {
@@ -65,6 +75,8 @@ std::string random_value(const Parameter<Object>& parameter, Dice& dice) {
       return fmt::format("{}", random_number(parameter, dice));
     case ParameterKind::kNumbers:
       return random_list(parameter, dice);
+    case ParameterKind::kPoints:
+      return random_points(parameter, dice);
     case ParameterKind::kInteger:
       return fmt::format("{:.0f}", std::ceil(random_number(parameter, dice)));
     case ParameterKind::kPowerOfTwo:
@@ -72,7 +84,8 @@ std::string random_value(const Parameter<Object>& parameter, Dice& dice) {
     case ParameterKind::kBoolean:
       return dice.below(2) ? "true" : "false";
     case ParameterKind::kChoice:
-      return fmt::format("\"{}\"", parameter.choices[dice.below(2)]);
+      return fmt::format("\"{}\"",
+                         parameter.choices[dice.below(static_cast<int>(parameter.choices.size()))]);
     case ParameterKind::kText:
     case ParameterKind::kPath:
       return "\"\"";
