@@ -77,6 +77,8 @@ struct Workspace::State {
   texture::UvNoise uv_noise{{}};
   std::vector<float> noise_cos, noise_sin;
   texture::PackedMap2 uv_noise_map;
+  std::vector<float> coast_slope_x, coast_slope_y;
+  texture::PackedMap2 coast_map;
   // Geometry.
   Surface water, land;
   // Pixels.

@@ -15,7 +15,8 @@ constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
 constexpr int kSeaLatticeBits = 17;
 constexpr int kUvNoiseSize = texture::UvNoiseOptions{}.size;
 constexpr double kUvNoiseCells_per_s = 0.25;
-constexpr std::size_t kChunk = 2048;  // vertices a task
+constexpr float kCoastSlopeScale = 1.5f / 127.0f;  // steeper fronts of breaking waves are clamped
+constexpr std::size_t kChunk = 2048;               // vertices a task
 
 lod::Domain sea_domain(const View& view) {
   const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
@@ -73,7 +74,8 @@ void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
   for (std::size_t i = 0; i < count; ++i) p[i] = vertex_world(water, begin + i);
   const auto& world = frame.world;
   const scene::WaterSurface surface(world.sea, frame.ws.sea, world.scene.area,
-                                    world.terrain ? &*world.terrain : nullptr);
+                                    world.terrain ? &*world.terrain : nullptr,
+                                    world.coast ? &*world.coast : nullptr);
   surface.heights(std::span(p).first(count), std::span(water.height_m).subspan(begin, count));
   const auto eye_z = static_cast<float>(frame.view.eye_world.z);
   for (std::size_t i = begin; i < end; ++i)
@@ -148,13 +150,21 @@ void advance_sea(Frame& frame) {
       texture::pack_map2(kUvNoiseSize, ws.noise_cos, ws.noise_sin, 1.0f / 127.0f, ws.uv_noise_map);
     }
   });
+  if (!frame.world.coast) return;
+  const std::size_t points = static_cast<std::size_t>(kCoastMapSize) * kCoastMapSize;
+  ws.coast_slope_x.resize(points);
+  ws.coast_slope_y.resize(points);
+  ocean::bake_coast_slopes(*frame.world.coast, frame.t_s, kCoastMapSize, ws.coast_slope_x,
+                           ws.coast_slope_y, frame.workers);
+  texture::pack_map2(kCoastMapSize, ws.coast_slope_x, ws.coast_slope_y, kCoastSlopeScale,
+                     ws.coast_map);
 }
 
 void triangulate(Frame& frame) {
   const scene::Detail& detail = frame.world.scene.detail;
   const int budget =
       frame.options.water_triangles > 0 ? frame.options.water_triangles : detail.water_triangles;
-  const auto bound = static_cast<float>(frame.world.sea.height_bound_m());
+  const float bound = frame.world.height_bound_m();
   frame.workers.run_both(
       [&] {
         adapt_surface(frame, sea_domain(frame.view), budget, -bound, bound, 0.0f, frame.ws.water);

@@ -83,6 +83,10 @@ struct ShadeContext {
   std::array<SlopeLayer, kMaxSlopeLayers> water_layers;
   int water_layer_count = 0;
   SlopeLayer uv_noise;  // values in [-1, 1], not slopes
+  // Near a coast: slopes of wave trains, and their share, which the longest waves of the sea make
+  // room for. Not periodic: they hold where both coordinates lie in [0, 1).
+  bool has_coast = false;
+  SlopeLayer coast_slopes, coast_share;
   std::array<SineLayer, kMaxSines> sines;
   int sine_count = 0;
   float base_variance = 0.001f;  // slope variance of ripples too fine for any map

@@ -10,7 +10,7 @@ namespace swell::render {
 namespace {
 
 constexpr double kUvNoisePeriod_m = 23.0;
-constexpr double kTerrainDetailPeriod_m = 11.0;
+constexpr double kTerrainDetailPeriod_m = 7.0;
 
 float fraction(double x) { return static_cast<float>(x - std::floor(x)); }
 
@@ -128,17 +128,33 @@ void fill_water_layers(const Frame& frame, ShadeContext& c) {
   c.base_variance = 0.0012f;
 }
 
+// A layer over one square that does not repeat: the eye's place in it is not wrapped.
+SlopeLayer make_square_layer(const texture::PackedMap2& map, double size_m,
+                             glm::dvec2 from_corner) {
+  SlopeLayer layer = make_layer(map, size_m, 1.0f, from_corner, {});
+  layer.u_eye = static_cast<float>(from_corner.x / size_m);
+  layer.v_eye = static_cast<float>(from_corner.y / size_m);
+  return layer;
+}
+
+void fill_coast(const Frame& frame, ShadeContext& c) {
+  c.has_coast = frame.world.coast.has_value();
+  if (!c.has_coast) return;
+  const ocean::FloorGrid& grid = frame.world.coast->trains.grid;
+  const double size_m = grid.spacing_m * (grid.samples_x - 1);
+  const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - grid.min_world;
+  c.coast_slopes = make_square_layer(frame.ws.coast_map, size_m, from_corner);
+  c.coast_share = make_square_layer(frame.world.coast_share, size_m, from_corner);
+}
+
 void fill_terrain(const Frame& frame, ShadeContext& c) {
   if (!frame.world.terrain) return;
   const scene::Terrain& terrain = *frame.world.terrain;
   const TerrainMaps& maps = frame.world.terrain_maps;
   const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - terrain.min_world;
-  c.terrain_slopes = make_layer(maps.slopes, terrain.size_m(), 1.0f, from_corner, {});
-  // Not periodic: no wrapping of the eye's position, one map covers all.
-  c.terrain_slopes.u_eye = static_cast<float>(from_corner.x / terrain.size_m());
-  c.terrain_slopes.v_eye = static_cast<float>(from_corner.y / terrain.size_m());
+  c.terrain_slopes = make_square_layer(maps.slopes, terrain.size_m(), from_corner);
   const float detail_gain =
-      0.4f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
+      0.11f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
   c.terrain_detail = make_layer(frame.world.bump, kTerrainDetailPeriod_m, detail_gain,
                                 glm::dvec2(frame.view.eye_world), {});
   c.terrain_albedo = &maps.albedo;
@@ -164,6 +180,7 @@ void fill_shade_context(const Frame& frame, const View& view, ViewKind kind,
   if (kind != ViewKind::kWindow) return;
   context.water_primitives = static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
   fill_water_layers(frame, context);
+  fill_coast(frame, context);
 }
 
 }  // namespace swell::render

@@ -42,6 +42,28 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
   return {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
 }
 
+// Near a coast the longest waves make room for the trains that know its floor.
+HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, WaterSurface& s) {
+  const D d;
+  const SlopeLayer& layer = c.coast_share;
+  const V u = hn::MulAdd(p.x, Constant(layer.inv_length), Constant(layer.u_eye));
+  const V v = hn::MulAdd(p.y, Constant(layer.inv_length), Constant(layer.v_eye));
+  const V low = hn::Zero(d), high = Constant(0.999f);
+  const auto inside =
+      hn::And(hn::And(hn::Gt(u, low), hn::Gt(v, low)), hn::And(hn::Lt(u, high), hn::Lt(v, high)));
+  if (hn::AllFalse(d, inside)) return;
+  V share, unused;
+  texture::HWY_NAMESPACE::SamplePacked2Level(d, *layer.map, u, v, 0, share, unused);
+  share = hn::IfThenElseZero(inside, share);
+  s.slope_x = hn::NegMulAdd(s.slope_x, share, s.slope_x);
+  s.slope_y = hn::NegMulAdd(s.slope_y, share, s.slope_y);
+  V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
+  AddSlopes(c.coast_slopes, p, level_m, x, y, x, y, lost);
+  s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(inside, x));
+  s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(inside, y));
+  s.variance = hn::Add(s.variance, hn::IfThenElseZero(inside, lost));
+}
+
 // Slopes from the wave patches and the scrolling bump layers, whose coordinates Perlin noise bends.
 // The first layers are those of the longest waves: how steeply the eye meets those decides how long
 // a pixel's footprint is on the shorter ones.
@@ -60,6 +82,7 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
     AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
               s.slope_y, s.variance);
     if (i >= kFootprintLayers) continue;
+    if (c.has_coast && i == kFootprintLayers - 1) BlendCoast(c, packet.p, level_m, s);
     // The normal's length is left out: it is near 1, and a level needs no better.
     const V cos_wave = hn::NegMulAdd(s.slope_x, packet.to_eye.x,
                                      hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));

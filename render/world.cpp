@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "render/shade.h"
 #include "render/world_state.h"
+#include "scene/coast.h"
 #include "scene/sky.h"
 #include "texture/normal_map.h"
 #include "texture/perlin.h"
@@ -178,12 +179,30 @@ TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed
 
 namespace {
 
+texture::PackedMap2 build_coast_share_map(const ocean::CoastSea& coast) {
+  constexpr int n = kCoastMapSize;
+  const ocean::FloorGrid& grid = coast.trains.grid;
+  const double step = grid.spacing_m * (grid.samples_x - 1) / n;
+  std::vector<glm::dvec2> p;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) p.push_back(grid.min_world + step * glm::dvec2(i, j));
+  std::vector<float> share(p.size());
+  ocean::sample_coast_share(coast, p, share);
+  texture::PackedMap2 map;
+  texture::pack_map2(n, share, share, 1.0f / 127.0f, map);
+  return map;
+}
+
 std::unique_ptr<World::State> make_state(scene::Scene scene) {
   auto state = std::make_unique<World::State>(
-      World::State{scene, ocean::Sea(scene.sea), std::nullopt, build_sky_maps(scene.sky), {}, {}});
+      World::State{scene, ocean::Sea(scene.sea), {}, {}, build_sky_maps(scene.sky), {}, {}, {}});
   if (scene.terrain) {
     state->terrain = scene::build_terrain(*scene.terrain);
     state->terrain_maps = build_terrain_maps(*state->terrain, scene.terrain->seed);
+    state->coast = scene::build_coast(scene, &*state->terrain);
+  }
+  if (state->coast) {
+    state->coast_share = build_coast_share_map(*state->coast);
   }
   state->bump = build_bump_map(scene.sea.seed);
   return state;

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "ocean/coast.h"
 #include "ocean/sea.h"
 #include "render/frame.h"
 #include "scene/scene.h"
@@ -29,10 +30,20 @@ struct World::State {
   scene::Scene scene;
   ocean::Sea sea;
   std::optional<scene::Terrain> terrain;
+  std::optional<ocean::CoastSea> coast;
   SkyMaps sky;
   TerrainMaps terrain_maps;
-  texture::PackedMap2 bump;  // ripples, slopes of a map with period 1
+  texture::PackedMap2 bump;         // ripples, slopes of a map with period 1
+  texture::PackedMap2 coast_share;  // over the coast's square, in both channels
+
+  // |z| of the surface is at most this in practice.
+  float height_bound_m() const {
+    return static_cast<float>(sea.height_bound_m()) + (coast ? coast->trains.height_bound_m : 0.0f);
+  }
 };
+
+// Points a side of the maps that lie over a coast's square.
+inline constexpr int kCoastMapSize = 256;
 
 SkyMaps build_sky_maps(const scene::Sky& sky);
 TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed);

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "math/check.h"
+#include "scene/coast.h"
 
 namespace swell::scene {
 namespace {
 
 constexpr std::size_t kChunk = 256;  // points whose ground is on the stack
 constexpr double kShareStep_m = 0.25;
+constexpr double kSteepestTrains = 2.0;  // breaking waves of 0.78 of the depth, all crests together
 
 // Calls body(first, count) for pieces of at most kChunk points.
 template <class Body>
@@ -47,22 +49,28 @@ Range clip_to_slab(double z, double dz, double bound_m, double max_distance_m) {
 }  // namespace
 
 WaterSurface::WaterSurface(const ocean::Sea& sea, const ocean::SeaFrame& frame, const SeaArea& area,
-                           const Terrain* terrain)
+                           const Terrain* terrain, const ocean::CoastSea* coast)
     : frame_(&frame),
       area_(&area),
       terrain_(terrain),
+      coast_(coast),
       wave_height_m_(static_cast<float>(sea.significant_height_m())),
-      bound_m_(static_cast<float>(sea.height_bound_m())),
-      steepest_(slope_bound(sea, frame, area, terrain)) {}
+      bound_m_(static_cast<float>(sea.height_bound_m()) +
+               (coast ? coast->trains.height_bound_m : 0.0f)),
+      steepest_(slope_bound(sea, frame, area, terrain) + (coast ? kSteepestTrains : 0.0)) {}
 
-// How much of the waves' height a place shows.
-float WaterSurface::share(glm::dvec2 p_world, float ground_m) const {
+// 1 inside the area, falling to 0 over its last tenth.
+float WaterSurface::edge(glm::dvec2 p_world) const {
   const glm::dvec2 inside = 0.5 * area_->size_m - glm::abs(p_world - area_->centre_m);
   const glm::dvec2 t = glm::clamp(inside / (0.1 * area_->size_m), 0.0, 1.0);
-  const double edge = t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y);
-  if (!terrain_) return static_cast<float>(edge);
+  return static_cast<float>(t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y));
+}
+
+// How much of the sea's own waves' height a place shows.
+float WaterSurface::share(glm::dvec2 p_world, float ground_m) const {
+  if (!terrain_) return edge(p_world);
   const float depth = std::max(-ground_m, 0.0f);
-  return static_cast<float>(edge) * std::min(1.0f, depth / (0.2f + wave_height_m_));
+  return edge(p_world) * std::min(1.0f, depth / (0.2f + wave_height_m_));
 }
 
 float WaterSurface::share_at(glm::dvec2 p_world) const {
@@ -76,6 +84,29 @@ void WaterSurface::shares(std::span<const glm::dvec2> p_world, std::span<float> 
   std::array<float, kChunk> ground{};
   if (terrain_) sample_heights(*terrain_, p_world, std::span(ground).first(p_world.size()));
   for (std::size_t i = 0; i < p_world.size(); ++i) result[i] = share(p_world[i], ground[i]);
+  if (!coast_) return;
+  std::array<float, kChunk> trains;
+  ocean::sample_coast_share(*coast_, p_world, std::span(trains).first(p_world.size()));
+  for (std::size_t i = 0; i < p_world.size(); ++i) result[i] *= 1.0f - trains[i];
+}
+
+// At most kChunk points.
+void WaterSurface::add_coast(std::span<const glm::dvec2> p_world, std::span<float> height_m) const {
+  std::array<float, kChunk> trains, unused;
+  ocean::sample_coast(*coast_, frame_->t_s, p_world, std::span(trains).first(p_world.size()),
+                      std::span(unused).first(p_world.size()));
+  for (std::size_t i = 0; i < p_world.size(); ++i) height_m[i] += trains[i] * edge(p_world[i]);
+}
+
+// By differences: the trains' height with its share and edge.
+glm::vec2 WaterSurface::coast_slope(glm::dvec2 p) const {
+  constexpr double kStep_m = 0.05;
+  const std::array<glm::dvec2, 4> at = {
+      p + glm::dvec2(0.5 * kStep_m, 0.0), p - glm::dvec2(0.5 * kStep_m, 0.0),
+      p + glm::dvec2(0.0, 0.5 * kStep_m), p - glm::dvec2(0.0, 0.5 * kStep_m)};
+  std::array<float, 4> z{};
+  add_coast(at, z);
+  return glm::vec2(z[0] - z[1], z[2] - z[3]) / static_cast<float>(kStep_m);
 }
 
 glm::vec2 WaterSurface::share_slope(glm::dvec2 p) const {
@@ -91,6 +122,7 @@ void WaterSurface::heights(std::span<const glm::dvec2> p_world, std::span<float>
     std::array<float, kChunk> factor;
     shares(p_world.subspan(first, count), factor);
     for (std::size_t i = 0; i < count; ++i) height_m[first + i] *= factor[i];
+    if (coast_) add_coast(p_world.subspan(first, count), height_m.subspan(first, count));
   });
 }
 
@@ -111,6 +143,7 @@ void WaterSurface::slopes(std::span<const glm::dvec2> p_world, std::span<glm::ve
     for (std::size_t i = 0; i < count; ++i) {
       slope[first + i] = factor[i] * glm::vec2(x[i], y[i]);
       if (factor[i] != 1.0f) slope[first + i] += height[i] * share_slope(p[i]);
+      if (coast_) slope[first + i] += coast_slope(p[i]);
     }
   });
 }
@@ -191,11 +224,12 @@ std::optional<WaterHit> WaterSurface::intersect(glm::dvec3 origin_world, glm::dv
 
 Water::Water(const Scene& scene) : sea_(scene.sea), area_(scene.area) {
   if (scene.terrain) terrain_ = build_terrain(*scene.terrain);
+  coast_ = build_coast(scene, terrain());
 }
 
 WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers) const {
   ocean::advance(sea_, t_s, frame, workers);
-  return {sea_, frame, area_, terrain()};
+  return {sea_, frame, area_, terrain(), coast()};
 }
 
 }  // namespace swell::scene

@@ -59,7 +59,8 @@ glm::dvec2 place_of(const Surface& drawn, std::size_t vertex) {
 }
 
 class DrawnSurface : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface, testing::Values("open_ocean", "lagoon", "sines"),
+INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface,
+                         testing::Values("open_ocean", "lagoon", "sines", "beach"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(DrawnSurface, HasTheHeightOfAQueryAtEveryVertex) {

@@ -56,7 +56,8 @@ std::string difference(const Target& a, const Target& b) {
 }
 
 class EachScene : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, EachScene, testing::Values("open_ocean", "lagoon", "sines"),
+INSTANTIATE_TEST_SUITE_P(Scenes, EachScene,
+                         testing::Values("open_ocean", "lagoon", "sines", "beach"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(EachScene, ThreadCountChangesNoPixel) {

@@ -1,0 +1,124 @@
+#include "ocean/coast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/check.h"
+#include "math/elementary.h"
+
+namespace swell::ocean {
+namespace {
+
+constexpr std::size_t kChunk = 256;
+
+double smooth_step(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+// 1 inside the grid, falling to 0 over its outer tenth.
+double inside_grid(const FloorGrid& grid, int i, int j) {
+  const auto rim = [](int k, int samples) {
+    const double last = std::max(samples - 1, 1);
+    return smooth_step(0.0, 0.1, std::min(k, samples - 1 - k) / last);
+  };
+  return rim(i, grid.samples_x) * rim(j, grid.samples_y);
+}
+
+float share_at(const CoastSea& coast, glm::dvec2 p_world) {
+  const FloorGrid& grid = coast.trains.grid;
+  const glm::dvec2 at = (p_world - grid.min_world) / grid.spacing_m;
+  const glm::dvec2 last(grid.samples_x - 1, grid.samples_y - 1);
+  if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < last.x && at.y < last.y)) return 0.0f;
+  const int i = static_cast<int>(at.x), j = static_cast<int>(at.y);
+  const auto fx = static_cast<float>(at.x - i), fy = static_cast<float>(at.y - j);
+  const float* s = coast.share.data() + grid.index(i, j);
+  const float* upper = s + grid.samples_x;
+  const float low = s[0] + fx * (s[1] - s[0]), high = upper[0] + fx * (upper[1] - upper[0]);
+  return low + fy * (high - low);
+}
+
+}  // namespace
+
+CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_count,
+                        std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers) {
+  const std::vector<WaveTrain> trains = make_trains(wind, train_count, seed);
+  CoastSea coast;
+  coast.trains = make_train_sea(floor, trains, method, workers);
+  const double f = wind.wind_speed_mps > 0.0 ? peak_frequency_hz(wind) : 1.0;
+  const double wavelength = wind.gravity_mps2 / (2.0 * kPi * f * f);
+  coast.peak_wavelength_m = static_cast<float>(wavelength);
+  coast.share.resize(floor.grid.size());
+  for (int j = 0; j < floor.grid.samples_y; ++j) {
+    for (int i = 0; i < floor.grid.samples_x; ++i) {
+      const std::size_t k = floor.grid.index(i, j);
+      const double depth = static_cast<double>(floor.depth_m[k]);
+      const double shallow =
+          blend ? 1.0 - smooth_step(kShallow * wavelength, kDeep * wavelength, depth) : 1.0;
+      coast.share[k] = static_cast<float>(shallow * inside_grid(floor.grid, i, j));
+    }
+  }
+  return coast;
+}
+
+void sample_coast_share(const CoastSea& coast, std::span<const glm::dvec2> p_world,
+                        std::span<float> share) {
+  SWELL_CHECK(p_world.size() == share.size(), "{} points, {} shares", p_world.size(), share.size());
+  for (std::size_t i = 0; i < p_world.size(); ++i) share[i] = share_at(coast, p_world[i]);
+}
+
+void sample_coast(const CoastSea& coast, double t_s, std::span<const glm::dvec2> p_world,
+                  std::span<float> height_m, std::span<float> share) {
+  SWELL_CHECK(p_world.size() == height_m.size() && p_world.size() == share.size(),
+              "{} points, {} heights, {} shares", p_world.size(), height_m.size(), share.size());
+  std::array<glm::dvec2, kChunk> near;
+  std::array<std::size_t, kChunk> place;
+  std::array<float, kChunk> z;
+  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
+    const std::size_t end = std::min(first + kChunk, p_world.size());
+    std::size_t count = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      share[i] = share_at(coast, p_world[i]);
+      height_m[i] = 0.0f;
+      if (share[i] == 0.0f) continue;
+      near[count] = p_world[i];
+      place[count++] = i;
+    }
+    sample_trains(coast.trains, t_s, std::span(near).first(count), std::span(z).first(count));
+    for (std::size_t k = 0; k < count; ++k) height_m[place[k]] = z[k] * share[place[k]];
+  }
+}
+
+void bake_coast_slopes(const CoastSea& coast, double t_s, int size, std::span<float> slope_x,
+                       std::span<float> slope_y, Workers& workers) {
+  const auto n = static_cast<std::size_t>(size);
+  SWELL_CHECK(size >= 1 && slope_x.size() == n * n && slope_y.size() == n * n,
+              "size={}, {} and {} slopes", size, slope_x.size(), slope_y.size());
+  const FloorGrid& grid = coast.trains.grid;
+  const glm::dvec2 step = grid.spacing_m * glm::dvec2(grid.samples_x - 1, grid.samples_y - 1) /
+                          static_cast<double>(size);
+  workers.for_each(n, [&](std::size_t j, int) {
+    std::array<glm::dvec2, kChunk> p;
+    std::array<float, kChunk> z;
+    for (std::size_t first = 0; first < n; first += kChunk) {
+      const std::size_t count = std::min(kChunk, n - first), at = j * n + first;
+      for (std::size_t i = 0; i < count; ++i)
+        p[i] = grid.min_world + step * glm::dvec2(first + i, j);
+      const auto x = slope_x.subspan(at, count), y = slope_y.subspan(at, count);
+      sample_trains(coast.trains, t_s, std::span(p).first(count), std::span(z).first(count), x, y);
+      for (std::size_t i = 0; i < count; ++i) {
+        // d(share z) = share dz + z dshare; the share is smooth, so a difference will do.
+        const auto share_near = [&](double dx, double dy) {
+          return share_at(coast, p[i] + 0.5 * grid.spacing_m * glm::dvec2(dx, dy));
+        };
+        const float share = share_at(coast, p[i]);
+        const auto inverse = static_cast<float>(1.0 / grid.spacing_m);
+        x[i] = share * x[i] + z[i] * (share_near(1, 0) - share_near(-1, 0)) * inverse;
+        y[i] = share * y[i] + z[i] * (share_near(0, 1) - share_near(0, -1)) * inverse;
+      }
+    }
+  });
+}
+
+}  // namespace swell::ocean

@@ -1,0 +1,46 @@
+// The waves of a coast: wave trains that know the sea floor where it is shallow, nothing where it
+// is deep, so that they can be blended into a spectrum sea that knows no coast.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "math/parallel.h"
+#include "ocean/peachey.h"
+
+namespace swell::ocean {
+
+// Trains and the part they have in the surface: share 1 at the shore, 0 in deep water and beyond
+// the grid. Read-only after it is made.
+struct CoastSea {
+  TrainSea trains;
+  std::vector<float> share;  // for the samples of trains.grid, in [0, 1]
+  float peak_wavelength_m = 1.0f;
+};
+
+// Where the spectrum ends and the trains begin, as depth over the peak's deep-water wavelength: all
+// trains below kShallow, all spectrum above kDeep. Waves feel the floor from a half down.
+inline constexpr double kShallow = 0.10, kDeep = 0.40;
+
+// Makes `train_count` trains of the wind's sea and their phases over the floor. If not `blend`,
+// there are trains in deep water, too. The share falls to 0 over the grid's outer tenth. Errors as
+// make_train_sea.
+CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_count,
+                        std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers);
+
+// The trains' share at world points, bilinear.
+void sample_coast_share(const CoastSea& coast, std::span<const glm::dvec2> p_world,
+                        std::span<float> share);
+
+// Heights of the trains at time t_s, times their share, and that share. Spans of one length. Points
+// without a share cost nothing more.
+void sample_coast(const CoastSea& coast, double t_s, std::span<const glm::dvec2> p_world,
+                  std::span<float> height_m, std::span<float> share);
+
+// Slopes of share x height on size x size points over the grid's square (sample (i, j) at its
+// corner plus (i, j) side / size), row by row, for shading.
+void bake_coast_slopes(const CoastSea& coast, double t_s, int size, std::span<float> slope_x,
+                       std::span<float> slope_y, Workers& workers);
+
+}  // namespace swell::ocean

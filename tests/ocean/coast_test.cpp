@@ -1,0 +1,115 @@
+// Trains near a coast and their share of the surface.
+#include "ocean/coast.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/random.h"
+
+namespace swell::ocean {
+namespace {
+
+// A beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
+SeaFloor beach() {
+  const FloorGrid grid{{-600.0, -300.0}, 5.0, 241, 241};
+  return make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
+}
+
+CoastSea make_coast(double wind_mps, bool blend, int threads = 2) {
+  Workers workers(threads);
+  return make_coast_sea(beach(), make_wind_sea(wind_mps, 0.3, 9.81), 4, 1, PhaseMethod::kEikonal,
+                        blend, workers);
+}
+
+std::vector<glm::dvec2> random_points(int count) {
+  std::vector<glm::dvec2> p;
+  for (int i = 0; i < count; ++i) {
+    const auto n = static_cast<std::uint64_t>(2 * i);
+    p.emplace_back(2400.0 * random_uniform(5, n) - 1200.0,
+                   2400.0 * random_uniform(5, n + 1) - 900.0);
+  }
+  return p;
+}
+
+float share_at(const CoastSea& coast, glm::dvec2 p) {
+  float share = -1.0f;
+  sample_coast_share(coast, {&p, 1}, {&share, 1});
+  return share;
+}
+
+TEST(Coast, TrainsHaveTheShoreAndTheSpectrumTheDeep) {
+  // 6 m/s: peak wavelength 34.6 m by L = U^2 / (2 pi 0.13^2 g), trains alone below 3.5 m of depth.
+  const CoastSea coast = make_coast(6.0, true);
+  EXPECT_NEAR(coast.peak_wavelength_m, 36.0 / (2.0 * M_PI * 0.13 * 0.13 * 9.81), 0.01);
+  EXPECT_FLOAT_EQ(share_at(coast, {0.0, 100.0}), 1.0f);  // 2.5 m deep
+  EXPECT_FLOAT_EQ(share_at(coast, {0.0, 700.0}), 0.0f);  // 17.5 m deep
+  const float between = share_at(coast, {0.0, 320.0});   // 8 m deep
+  EXPECT_GT(between, 0.1f);
+  EXPECT_LT(between, 0.9f);
+}
+
+TEST(Coast, ShareFallsToZeroAtTheGridsRim) {
+  const CoastSea coast = make_coast(10.0, false);
+  EXPECT_FLOAT_EQ(share_at(coast, {0.0, 300.0}), 1.0f);
+  for (const glm::dvec2& p : {glm::dvec2(-600.0, 100.0), {600.0, 100.0}, {0.0, 900.0}})
+    EXPECT_NEAR(share_at(coast, p), 0.0f, 1e-6f);
+  for (const glm::dvec2& p : {glm::dvec2(-601.0, 100.0), {5000.0, 0.0}, {0.0, -1e6}})
+    EXPECT_EQ(share_at(coast, p), 0.0f);
+}
+
+TEST(Coast, HeightsAreTheTrainsTimesTheirShare) {
+  const CoastSea coast = make_coast(10.0, true);
+  const std::vector<glm::dvec2> p = random_points(1000);
+  std::vector<float> height(p.size()), share(p.size()), trains(p.size()), expected(p.size());
+  sample_coast(coast, 12.5, p, height, share);
+  sample_coast_share(coast, p, expected);
+  sample_trains(coast.trains, 12.5, p, trains);
+  int some = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    ASSERT_EQ(share[i], expected[i]);
+    ASSERT_EQ(height[i], share[i] == 0.0f ? 0.0f : share[i] * trains[i]);
+    some += height[i] != 0.0f;
+  }
+  EXPECT_GT(some, 100);
+}
+
+// In the middle of the beach, where waves are some grid steps long.
+TEST(Coast, BakedSlopesAreTheHeightsDerivative) {
+  const CoastSea coast = make_coast(12.0, true);
+  constexpr int kSize = 64;
+  std::vector<float> x(kSize * kSize), y(kSize * kSize);
+  Workers workers(2);
+  bake_coast_slopes(coast, 3.0, kSize, x, y, workers);
+  constexpr double kStep = 0.01;
+  double error2 = 0.0, size2 = 0.0;
+  for (int j = 20; j < 50; ++j) {
+    for (int i = 10; i < 54; ++i) {
+      const glm::dvec2 p = glm::dvec2(-600.0, -300.0) + 18.75 * glm::dvec2(i, j);
+      const glm::dvec2 four[] = {p + glm::dvec2(kStep, 0.0), p - glm::dvec2(kStep, 0.0),
+                                 p + glm::dvec2(0.0, kStep), p - glm::dvec2(0.0, kStep)};
+      float z[4], share[4];
+      sample_coast(coast, 3.0, four, z, share);
+      const double dx = (z[0] - z[1]) / (2.0 * kStep), dy = (z[2] - z[3]) / (2.0 * kStep);
+      const std::size_t k = static_cast<std::size_t>(j) * kSize + i;
+      error2 += (x[k] - dx) * (x[k] - dx) + (y[k] - dy) * (y[k] - dy);
+      size2 += dx * dx + dy * dy;
+    }
+  }
+  ASSERT_GT(size2, 0.01);
+  EXPECT_LT(std::sqrt(error2 / size2), 0.05);
+}
+
+TEST(Coast, ThreadsChangeNoBit) {
+  const CoastSea one = make_coast(10.0, true, 1), three = make_coast(10.0, true, 3);
+  constexpr int kSize = 32;
+  std::vector<float> x1(kSize * kSize), y1(kSize * kSize), x3 = x1, y3 = y1;
+  Workers single(1), triple(3);
+  bake_coast_slopes(one, 7.0, kSize, x1, y1, single);
+  bake_coast_slopes(three, 7.0, kSize, x3, y3, triple);
+  EXPECT_EQ(x1, x3);
+  EXPECT_EQ(y1, y3);
+}
+
+}  // namespace
+}  // namespace swell::ocean
