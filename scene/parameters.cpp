@@ -289,7 +289,8 @@ Rows sea_rows() {
                        "acceleration of free fall"),
       SceneRow::or_zero(
           SceneRow::number("sea.loop_s", {1, 100000, "s"}, SWELL_FIELD(sea.loop_s),
-                           "after this time the sea's waves repeat exactly; 0: never")),
+                           "after this time the sea's waves repeat exactly, but not the ripples on "
+                           "them nor a coast's trains; 0: never")),
       SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),
                        "middle of the rectangle that waves displace: east, north"),
       SceneRow::vector("sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),
