@@ -1,0 +1,80 @@
+// The matrix of the determinism contract: every scene file, five times each, on several thread
+// counts, SIMD targets and tile sizes, each picture against one made in another way.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "math/simd_target.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+
+namespace swell::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Way {
+  int threads;
+  SimdTarget simd;
+  int tile_size_px;
+};
+constexpr Way kReference{2, SimdTarget::kAvx2, 64};
+constexpr Way kWays[] = {{1, SimdTarget::kAvx512, 64},
+                         {3, SimdTarget::kAvx2, 32},
+                         {7, SimdTarget::kAvx512, 16},
+                         {16, SimdTarget::kAvx512, 32}};
+constexpr double kTimes_s[] = {0.0, 0.7, 13.0, 601.5, 86400.0};
+
+std::vector<fs::path> scene_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(fs::path(SWELL_SOURCE_DIR) / "scenes"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string name_of(const fs::path& file) { return file.stem().string(); }
+
+class EverySceneFile : public testing::TestWithParam<fs::path> {
+ protected:
+  void TearDown() override {
+    select_simd_target(simd_target_available(SimdTarget::kAvx512) ? SimdTarget::kAvx512
+                                                                  : SimdTarget::kAvx2);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneFile, testing::ValuesIn(scene_files()),
+                         [](const auto& test) { return name_of(test.param); });
+
+std::uint64_t hash_of(const World& world, double t_s, const Way& way, Workspace& workspace,
+                      Target& target) {
+  select_simd_target(simd_target_available(way.simd) ? way.simd : SimdTarget::kAvx2);
+  Workers workers(way.threads);
+  FrameOptions options;
+  options.water_triangles = 6000;
+  options.tile_size_px = way.tile_size_px;
+  const View view = scene::camera_view(world.scene().camera, t_s, 160, 90);
+  render_frame(world, view, t_s, options, workspace, target, workers);
+  return picture_hash(target);
+}
+
+TEST_P(EverySceneFile, IsTheSamePictureHoweverItIsDrawn) {
+  const World world(scene::load_scene(GetParam()));
+  // One workspace goes through all ways and times, the reference has one of its own.
+  Workspace workspace, reference_workspace;
+  Target target;
+  for (const double t_s : kTimes_s) {
+    const std::uint64_t expected = hash_of(world, t_s, kReference, reference_workspace, target);
+    for (const Way& way : kWays)
+      ASSERT_EQ(hash_of(world, t_s, way, workspace, target), expected)
+          << "t=" << t_s << " threads=" << way.threads << ' ' << simd_target_name(way.simd)
+          << " tile=" << way.tile_size_px;
+  }
+}
+
+TEST(SceneFiles, AreAtLeastTwelve) { EXPECT_GE(scene_files().size(), 12u); }
+
+}  // namespace
+}  // namespace swell::render
