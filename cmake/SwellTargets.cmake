@@ -9,7 +9,7 @@ if(SWELL_SANITIZE)
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
   # Sanitized code makes GCC's flow warnings see paths that do not exist.
-  target_compile_options(swell_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
+  target_compile_options(swell_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
     -Wno-stringop-overflow)
 endif()
 
