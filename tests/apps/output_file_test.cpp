@@ -33,6 +33,9 @@ struct Picture {
 };
 
 Picture read_picture(const fs::path& path) {
+  // On this thread: the library's own pools are not built for the thread checks.
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
   auto input = OIIO::ImageInput::open(path.string());
   if (!input) return {};
   const OIIO::ImageSpec spec = input->spec();
