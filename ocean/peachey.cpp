@@ -132,6 +132,7 @@ void set_trains(std::span<const WaveTrain> trains, TrainSea& sea) {
   for (const WaveTrain& train : trains) {
     const double length_m = deep_length_m(train);
     sea.period_s.push_back(train.period_s);
+    sea.gravity_mps2.push_back(train.gravity_mps2);
     sea.deep_depth_m.push_back(static_cast<float>(length_m * depth_over_deep_length(0.25)));
     sea.shallow_depth_m.push_back(static_cast<float>(length_m * depth_over_deep_length(0.05)));
   }

@@ -39,7 +39,7 @@ struct TrainSea {
   int trains = 0;
   float height_bound_m = 0.0f;  // |z| is at most this, everywhere and always
   // By train.
-  std::vector<double> period_s;
+  std::vector<double> period_s, gravity_mps2;
   std::vector<float> deep_depth_m, shallow_depth_m;  // where the profile's blend begins and ends
   // Bilinear coefficients v = c0 + c1 fx + c2 fy + c3 fx fy. By cell and train: theta in cycles
   // (c0 wrapped into [0, 1]), then the amplitude in metres, broken. By cell: the depth in metres.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/check.h"
+#include "ocean/coast_velocity.h"
 #include "scene/coast.h"
 
 namespace swell::scene {
@@ -170,6 +171,11 @@ void WaterSurface::velocities(std::span<const glm::dvec2> p_world,
     std::array<float, kChunk> factor;
     shares(p_world.subspan(first, count), factor);
     for (std::size_t i = 0; i < count; ++i) velocity_mps[first + i] *= factor[i];
+    if (!coast_) return;
+    std::array<glm::vec3, kChunk> trains;
+    const auto p = p_world.subspan(first, count);
+    ocean::sample_coast_velocities(*coast_, frame_->t_s, p, std::span(trains).first(count));
+    for (std::size_t i = 0; i < count; ++i) velocity_mps[first + i] += edge(p[i]) * trains[i];
   });
 }
 

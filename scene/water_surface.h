@@ -57,8 +57,9 @@ class WaterSurface {
   void normals(std::span<const glm::dvec2> p_world, std::span<glm::vec3> normal) const;
 
   // Velocity of the water at the surface in m/s: east, north, up; up is the rate of height().
-  // `velocity` is of the same time, from ocean::advance_velocity(). Of the sea's waves alone: what
-  // the trains of a coast do is left out.
+  // Linear theory: of deep water for the sea's waves, of water of the local depth for the trains of
+  // a coast, blended as the heights are. `velocity` is of the same time, from
+  // ocean::advance_velocity(). 75 ns a point, with the trains of a coast 50 more a train.
   void velocities(std::span<const glm::dvec2> p_world, const ocean::VelocityFrame& velocity,
                   std::span<glm::vec3> velocity_mps) const;
 

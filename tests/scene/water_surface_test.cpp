@@ -56,6 +56,21 @@ Scene island_scene() {
   return scene;
 }
 
+// A beach of 1:40 with the sea in the north, a swell of three trains and a spectrum offshore.
+Scene beach_scene() {
+  Scene scene = windy_scene();
+  scene.sea.wind_speed_mps = 8.0;
+  scene.sea.patch_lengths_m = {180.0, 27.0};
+  scene.terrain.emplace();
+  scene.terrain->coast_m = {{-1000.0, -150.0}, {0.0, -150.0}, {1000.0, -200.0}};
+  scene.terrain->beach_slope = 0.025;
+  scene.terrain->beach_size_m = 800.0;
+  scene.coast.model = CoastModel::kBlend;
+  scene.coast.trains = 3;
+  scene.coast.grid_spacing_m = 10.0;
+  return scene;
+}
+
 // A scene's surface at one time, with all that it looks at.
 struct Snapshot {
   Snapshot(const Scene& scene, double t_s) : water(scene), workers(1) {
@@ -118,6 +133,33 @@ TEST(WaterSurface, TheWaterRisesAsFastAsItsHeightGrows) {
     glm::vec3 v;
     water->velocities({&p, 1}, velocity, {&v, 1});
     EXPECT_NEAR(v.z, (late->height(p) - early->height(p)) / (2.0 * dt_s), 1e-4);
+  }
+}
+
+// The spectrum's share, the trains' share and the edge all change from place to place here.
+TEST(WaterSurface, TheWaterOfABeachRisesAsFastAsItsHeightGrows) {
+  const double dt_s = 2e-3;
+  const Water water(beach_scene());
+  Workers workers(1);
+  for (const double t_s : {-300.0, 42.0}) {
+    ocean::SeaFrame before, frame, after;
+    const WaterSurface early = water.at(t_s - dt_s, before, workers),
+                       now = water.at(t_s, frame, workers),
+                       late = water.at(t_s + dt_s, after, workers);
+    ocean::VelocityFrame velocity;
+    ocean::advance_velocity(water.sea(), frame, velocity, workers);
+    int wrong = 0, moving = 0, drifting = 0;
+    for (const glm::dvec2& p : random_points(1000, {0.0, 0.0}, 850.0)) {
+      glm::vec3 v;
+      now.velocities({&p, 1}, velocity, {&v, 1});
+      const double rate = (late.height(p) - early.height(p)) / (2.0 * dt_s);
+      wrong += std::abs(v.z - rate) > 3e-3;
+      moving += std::abs(v.z) > 0.02;
+      drifting += std::hypot(v.x, v.y) > 0.02;
+    }
+    EXPECT_GT(moving, 500);
+    EXPECT_GT(drifting, 500);
+    EXPECT_LE(wrong, 10);  // a difference may straddle a sharp crest
   }
 }
 
@@ -186,6 +228,36 @@ TEST(WaterSurface, RaysHitWhereSmallStepsFirstPassTheSurface) {
   EXPECT_GT(hits, 30);
 }
 
+float ground_at(const Snapshot& water, glm::dvec2 p) {
+  float ground_m = 0.0f;
+  sample_heights(*water.water.terrain(), {&p, 1}, {&ground_m, 1});
+  return ground_m;
+}
+
+// The water's surface goes on below the land at mean level: who looks at a beach sees whichever
+// comes first, which in_water() tells.
+TEST(WaterSurface, RaysAtABeachMeetWaterOrTheLandAboveIt) {
+  const Snapshot water(beach_scene(), 9.0);
+  int wet = 0, dry = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto dice = [&](int n) { return random_uniform(12, 4 * i + n); };
+    const glm::dvec3 origin(600.0 * (dice(0) - 0.5), -260.0 + 250.0 * dice(1), 12.0);
+    const glm::dvec3 along =
+        glm::normalize(glm::dvec3(dice(2) - 0.5, dice(3) - 0.5, -0.3 - dice(2)));
+    const auto hit = water->intersect(origin, along, 200.0);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->distance_m, brute_distance(*water.surface, origin, along, 200.0, 0.01), 0.011);
+    const double above_ground = hit->p_world.z - ground_at(water, glm::dvec2(hit->p_world));
+    if (std::abs(above_ground) < 1e-3) continue;  // the waterline itself
+    const bool in_sea = above_ground > 0.0;
+    EXPECT_EQ(water->in_water(hit->p_world - glm::dvec3(0.0, 0.0, 1e-4)), in_sea);
+    EXPECT_FALSE(water->in_water(hit->p_world + glm::dvec3(0.0, 0.0, 1e-4)));
+    (in_sea ? wet : dry) += 1;
+  }
+  EXPECT_GT(wet, 15);
+  EXPECT_GT(dry, 5);
+}
+
 TEST(WaterSurface, RaysThatLeaveTheSeaBehindHitNothing) {
   const Snapshot water(windy_scene(), 0.0);
   EXPECT_FALSE(water->intersect({0, 0, 50}, {0, 0, 1}, 1e6));
@@ -200,20 +272,47 @@ TEST(WaterSurface, RaysThatLeaveTheSeaBehindHitNothing) {
   EXPECT_NEAR(far->p_world.x, 50000.0, 1e-3);
 }
 
+// Everything a surface answers.
+struct Answers {
+  std::vector<float> heights;
+  std::vector<glm::vec2> slopes;
+  std::vector<glm::vec3> normals, velocities;
+  std::vector<double> distances;
+  bool operator==(const Answers&) const = default;
+};
+Answers ask_all(const WaterSurface& surface, const ocean::VelocityFrame& velocity,
+                std::span<const glm::dvec2> points) {
+  Answers a{std::vector<float>(points.size()),
+            std::vector<glm::vec2>(points.size()),
+            std::vector<glm::vec3>(points.size()),
+            std::vector<glm::vec3>(points.size()),
+            {}};
+  surface.heights(points, a.heights);
+  surface.slopes(points, a.slopes);
+  surface.normals(points, a.normals);
+  surface.velocities(points, velocity, a.velocities);
+  for (std::size_t i = 0; i < points.size(); i += 100) {
+    const auto hit = surface.intersect({points[i], 9.0}, {0.4, 0.2, -1.0}, 100.0);
+    a.distances.push_back(hit ? hit->distance_m : -1.0);
+  }
+  return a;
+}
+
 TEST(WaterSurface, ThreadsMayAskAtOnce) {
-  const Snapshot water(island_scene(), 5.0);
-  const auto points = random_points(2000, {0.0, 0.0}, 2000.0);
-  std::vector<float> want(points.size());
-  water->heights(points, want);
-  std::vector<std::vector<float>> got(4, std::vector<float>(points.size()));
+  Snapshot water(beach_scene(), 5.0);
+  ocean::VelocityFrame velocity;
+  ocean::advance_velocity(water.water.sea(), water.frame, velocity, water.workers);
+  const auto points = random_points(1000, {0.0, 0.0}, 900.0);
+  const Answers want = ask_all(*water.surface, velocity, points);
+  std::vector<Answers> got(4);
   {
     std::vector<std::jthread> threads;
-    for (std::vector<float>& heights : got)
+    for (Answers& answers : got)
       threads.emplace_back([&] {
-        for (int n = 0; n < 5; ++n) water->heights(points, heights);
+        for (int n = 0; n < 3; ++n) answers = ask_all(*water.surface, velocity, points);
       });
   }
-  for (const std::vector<float>& heights : got) EXPECT_EQ(heights, want);
+  for (const Answers& answers : got) EXPECT_TRUE(answers == want);
 }
 
 }  // namespace
