@@ -26,9 +26,13 @@ enum class PhaseMethod {
   // theta = (1 / 2 pi) integral of k along the straight line of travel, from where that line enters
   // the grid; there theta is the deep-water wave's. The paper's way: crests turn because k differs
   // from line to line, but waves run straight through headlands and islands, and where lines of
-  // unequal depth part, |grad theta| is no longer k / (2 pi): the wave does not obey Snell's law.
-  // (The paper has k = sqrt(k_inf / h) below h = 0.05 L and k_inf / sqrt(tanh(k_inf h)) above 0.25
-  // L; here k solves k tanh(k h) = k_inf exactly everywhere.)
+  // unequal depth part, |grad theta| is no longer k / (2 pi). On a plane beach, at an angle a to
+  // its normal, k along the contours is Snell's k_inf sin a, and k across them
+  //   (k - k_inf sin^2 a) / cos a  for Snell's  sqrt(k^2 - k_inf^2 sin^2 a):
+  // right to first order in e = k / k_inf - 1, too much by k_inf e^2 sin^2 a / (2 cos^3 a) for
+  // little e and by 1 / cos a at the shore. (The paper has k = sqrt(k_inf / h) below h = 0.05 L and
+  // k_inf / sqrt(tanh(k_inf h)) above 0.25 L; here k solves k tanh(k h) = k_inf exactly
+  // everywhere.)
   kStraight,
   // |grad theta| = k / (2 pi): first arrivals, bent by the floor and round headlands. On the
   // borders that the wave comes in through, it obeys Snell's law for straight contours along the

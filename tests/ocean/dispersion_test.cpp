@@ -44,6 +44,7 @@ constexpr Row kTable[] = {{10, kInfinity, 0.0402430353, 156.130999, 15.613100, 0
                           {8, 4, 0.1308838452, 48.005812, 6.000727, 0.919109, 1.064117},
                           {2, 0.5, 1.5489459872, 4.056426, 2.028213, 0.844667, 0.954652}};
 
+// PHY-01, PHY-04.
 TEST(Dispersion, HasTheWavesOfTheTable) {
   for (const Row& row : kTable) {
     const double omega = omega_of(row.period_s);
@@ -57,6 +58,7 @@ TEST(Dispersion, HasTheWavesOfTheTable) {
   }
 }
 
+// PHY-01.
 TEST(Dispersion, FindsTheRootThatBisectionFinds) {
   double worst = 0.0, worst_residual = 0.0;
   for (std::uint64_t n = 0; n < 5000; ++n) {
@@ -72,6 +74,7 @@ TEST(Dispersion, FindsTheRootThatBisectionFinds) {
   EXPECT_LT(worst_residual, 1e-12);
 }
 
+// PHY-03.
 TEST(Dispersion, HasTheDeepAndShallowLimits) {
   const double omega = omega_of(7.0);
   const double k_deep = omega * omega / kG;
@@ -84,6 +87,7 @@ TEST(Dispersion, HasTheDeepAndShallowLimits) {
   }
 }
 
+// PHY-01.
 TEST(Dispersion, AnswersForNoDepthAndNoFrequency) {
   EXPECT_EQ(wave_number(1.0, 0.0, kG), kInfinity);
   EXPECT_EQ(wave_number(1.0, -3.0, kG), kInfinity);
@@ -97,6 +101,7 @@ TEST(Dispersion, AnswersForNoDepthAndNoFrequency) {
   EXPECT_EQ(shoaling_coefficient(kInfinity), 1.0);
 }
 
+// PHY-03.
 TEST(Dispersion, ShortensWavesAsTheWaterGetsShallower) {
   for (const double period_s : {1.0, 6.0, 14.0}) {
     double k_before = 0.0;
@@ -109,6 +114,7 @@ TEST(Dispersion, ShortensWavesAsTheWaterGetsShallower) {
   }
 }
 
+// PHY-04.
 TEST(Dispersion, GivesEnergyTheSpeedOfTheFrequencysSlope) {
   for (const double depth_m : {0.5, 3.0, 12.0, 70.0, 1000.0}) {
     for (const double period_s : {2.0, 5.0, 10.0, 20.0}) {
@@ -122,6 +128,7 @@ TEST(Dispersion, GivesEnergyTheSpeedOfTheFrequencysSlope) {
   }
 }
 
+// PHY-11.
 TEST(Dispersion, ShoalsLeastWhereKhTanhKhIsOne) {
   double least = 10.0, least_kh = 0.0;
   for (double kh = 0.5; kh < 3.0; kh += 1e-5) {
@@ -134,6 +141,7 @@ TEST(Dispersion, ShoalsLeastWhereKhTanhKhIsOne) {
   EXPECT_NEAR(least_kh * std::tanh(least_kh) / (2.0 * kPiRef), 0.15915, 5e-4);  // h / L0
 }
 
+// PHY-12.
 TEST(Dispersion, FollowsGreensLawInShallowWater) {
   // Green: Ks = (2 kh)^(-1/2) with kh = omega sqrt(h / g), so that H ~ h^(-1/4).
   const auto over_green = [](double kh) {

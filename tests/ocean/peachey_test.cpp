@@ -101,6 +101,7 @@ TEST(TrainSea, RunsAtThePhaseSpeedOfItsDepth) {
   }
 }
 
+// PHY-10.
 TEST(TrainSea, SwingsWithItsPeriodAtEveryDepth) {
   const TrainSea sea = make_sea(west_beach(60.0), {{0.01, 9.0, unit(20.0)}});
   for (const double x : {10.0, 1500.0, 2700.0, 2900.0, 2980.0}) {
@@ -119,6 +120,22 @@ TEST(TrainSea, SwingsWithItsPeriodAtEveryDepth) {
   }
 }
 
+// The angle between the crest that passes (x, 200) and the y axis, in degrees; `near_deg` tells
+// where to look for it 20 m aside.
+double crest_angle_deg(const TrainSea& sea, double period_s, double x, double near_deg) {
+  const double t_s = find_maximum(0.0, period_s, [&](double t) {
+    return height_at(sea, t, {x, 200.0});
+  });
+  const auto crest = [&](double y) {
+    const double near = x - (y - 200.0) * std::tan(near_deg * kDegree);
+    return find_maximum(near - 8.0, near + 8.0, [&](double at) {
+      return height_at(sea, t_s, {at, y});
+    });
+  };
+  return std::atan((crest(180.0) - crest(220.0)) / 40.0) / kDegree;
+}
+
+// PHY-10.
 TEST(TrainSea, ShowsCrestsInTheDirectionOfTheTable) {
   const TrainSea sea = make_sea(west_beach(400.0), {{0.01, 10.0, unit(30.0)}});
   struct Row {
@@ -126,22 +143,49 @@ TEST(TrainSea, ShowsCrestsInTheDirectionOfTheTable) {
   };
   for (const Row& row : {Row{50, 28.98127}, Row{20, 22.84589}, Row{10, 17.20682}, Row{5, 12.51778},
                          Row{2, 8.04467}, Row{1, 5.71787}}) {
-    // When is there a crest at this depth, and where does it cross the lines 20 m aside?
-    const double x = 3000.0 - 50.0 * row.depth_m;
-    const double t_s = find_maximum(0.0, 10.0, [&](double t) {
-      return height_at(sea, t, {x, 200.0});
-    });
-    const auto crest = [&](double y) {
-      const double near = x - (y - 200.0) * std::tan(row.angle_deg * kDegree);
-      return find_maximum(near - 8.0, near + 8.0, [&](double at) {
-        return height_at(sea, t_s, {at, y});
-      });
-    };
-    const double angle = std::atan((crest(180.0) - crest(220.0)) / 40.0) / kDegree;
+    const double angle = crest_angle_deg(sea, 10.0, 3000.0 - 50.0 * row.depth_m, row.angle_deg);
     EXPECT_NEAR(angle, row.angle_deg, 0.5) << row.depth_m;
   }
 }
 
+// PHY-10 for other waves: sin(angle) = sin(angle in deep water) k_inf / k.
+TEST(TrainSea, ShowsCrestsInTheDirectionOfSnellsLaw) {
+  struct Wave {
+    double period_s, angle_deg;
+  };
+  for (const Wave& wave : {Wave{6.0, 60.0}, {8.0, -45.0}, {12.0, 10.0}}) {
+    const TrainSea sea = make_sea(west_beach(400.0), {{0.01, wave.period_s, unit(wave.angle_deg)}});
+    const double k_inf = std::pow(kTwoPiRef / wave.period_s, 2) / kG;
+    for (const double depth_m : {20.0, 6.0, 2.0}) {
+      double k = k_inf;  // k tanh(kh) = k_inf, by halved steps
+      for (int n = 0; n < 200; ++n) k = 0.5 * (k + k_inf / std::tanh(k * depth_m));
+      const double expected = std::asin(std::sin(wave.angle_deg * kDegree) * k_inf / k) / kDegree;
+      const double got = crest_angle_deg(sea, wave.period_s, 3000.0 - 50.0 * depth_m, expected);
+      EXPECT_NEAR(got, expected, 0.5) << wave.period_s << " s, " << depth_m << " m";
+    }
+  }
+}
+
+// PHY-12: H ~ h^(-1/4) where kh < 0.2, measured on the surface: from crest to trough.
+TEST(TrainSea, GrowsByGreensLawTowardsTheShore) {
+  const FloorGrid grid{{0.0, 0.0}, 1.0, 3001, 2};
+  const SeaFloor floor = make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
+  const TrainSea sea = make_sea(floor, {{1e-3, 12.0, {1.0, 0.0}}});
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (double depth_m = 0.1; depth_m < 1.4; depth_m += 0.1) {  // kh 0.05 to 0.2
+    double low = 1.0, high = -1.0;
+    for (int t = 0; t < 240; ++t) {
+      const double z = height_at(sea, 0.05 * t, {3000.0 - 50.0 * depth_m, 0.5});
+      low = std::min(low, z), high = std::max(high, z);
+    }
+    const double log_depth = std::log(depth_m), log_height = std::log(high - low);
+    n += 1.0, x += log_depth, y += log_height;
+    xx += log_depth * log_depth, xy += log_depth * log_height;
+  }
+  EXPECT_NEAR((n * xy - x * y) / (n * xx - x * x), -0.25, 0.005);
+}
+
+// PHY-13.
 TEST(TrainSea, NeverStandsHigherThanTheDepthAllows) {
   const SeaFloor floor = west_beach(60.0);
   const TrainSea sea = make_sea(floor, {{1.0, 10.0, unit(10.0)}, {0.7, 7.0, unit(-20.0), 0.3}});
@@ -307,6 +351,7 @@ TEST(TrainSea, IsTheSameForAnyThreadCount) {
   EXPECT_EQ(a.depth, b.depth);
 }
 
+// PHY-13.
 TEST(TrainSea, HasNoStepsBetweenCells) {
   const TrainSea sea = make_sea(bumpy_floor(), six_trains());
   for (int i = 1; i < 89; ++i) {

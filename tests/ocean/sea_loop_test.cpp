@@ -54,6 +54,7 @@ bool same_bits(const Moment& a, const Moment& b) {
          same_heights(a.velocity.y, b.velocity.y) && same_heights(a.velocity.z, b.velocity.z);
 }
 
+// PHY-34.
 TEST(SeaLoop, TimesWholeLoopsApartGiveTheSameBits) {
   const Sea sea(looping_sea(20.0));
   for (const double t_s : {0.0, 3.25, 13.625}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -165,6 +166,39 @@ glm::dvec2 mean_travel(const Sea& sea, double t_s) {
     }
   }
   return sum;
+}
+
+// PHY-34: the phase of one wave of the synthesized heights, fitted over ten periods. It goes with
+// the wind; the spectrum has none of its length right against it.
+TEST(Sea, EachWaveAdvancesAtItsPhaseSpeed) {
+  SeaDescription description;
+  description.resolution = 64;
+  description.patch_lengths_m = {640.0};
+  description.wind_from_rad = kPiRef;  // from the south
+  const Sea sea(description);
+  const int counts = 4;  // wavelengths of 160 m, near the peak
+  const double k = 2.0 * kPiRef * counts / 640.0, period_s = 2.0 * kPiRef / std::sqrt(9.81 * k);
+  double t = 0.0, p = 0.0, tt = 0.0, tp = 0.0, before = 0.0, turns = 0.0;
+  const int steps = 200;
+  for (int n = 0; n <= steps; ++n) {
+    const double t_s = 10.0 * period_s * n / steps;
+    const SeaFrame frame = frame_at(sea, t_s);
+    std::complex<double> sum = 0.0;
+    for (int j = 0; j < 64; ++j) {
+      double row = 0.0;
+      for (int i = 0; i < 64; ++i)
+        row += static_cast<double>(frame.patches[0].height_m[64 * j + i]);
+      sum += row * std::polar(1.0, -2.0 * kPiRef * counts * j / 64.0);
+    }
+    const double phase = std::arg(sum);
+    if (n > 0 && phase > before) turns += 2.0 * kPiRef;  // it falls
+    before = phase;
+    const double unwrapped = phase - turns;
+    t += t_s, p += unwrapped, tt += t_s * t_s, tp += t_s * unwrapped;
+  }
+  const double count = steps + 1;
+  const double omega = -(count * tp - t * p) / (count * tt - t * t);
+  EXPECT_NEAR(omega / k / std::sqrt(9.81 / k), 1.0, 1e-4);
 }
 
 TEST(Sea, TravelsDownwind) {
