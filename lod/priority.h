@@ -6,14 +6,17 @@
 //                     diamond's width, here sqrt(2^-level) times the domain's
 //   kInverseDistance  k = d^2: the paper's 1 / distance, whatever the size; it refines all of the
 //                     nearest part to the last level first, and so suits lattices of few bits
-// and 0 (k = infinity) if that box lies outside the view. Only the order counts, so k itself is
-// kept: ascending k is descending priority. The bits of a float >= 0 sort like the float, and that
-// word is the key.
+// and 0 (k = infinity) if that box lies outside the view. k is then multiplied by
+//   1 / focus_nearer^2  if the box touches a focus and the diamond is wider than a quarter of the
+//                       focus's radius.
+// Only the order counts, so k itself is kept: ascending k is descending priority. The bits of a
+// float >= 0 sort like the float, and that word is the key.
 //
 // A child's key is never below its parent's, to the last bit: boxes nest (exactly: they are
 // integers), sizes shrink by powers of two, and every operation is correctly rounded and thus
-// monotone. With ties broken by level, parents come before children in the order, so the first n
-// diamonds of the order are a valid triangulation for every n.
+// monotone. So are the factors: none is ever smaller for a child, whose box touches nothing that
+// its parent's box does not touch. With ties broken by level, parents come before children in the
+// order, so the first n diamonds of the order are a valid triangulation for every n.
 #pragma once
 
 #include <array>
@@ -28,6 +31,17 @@ namespace swell::lod {
 using PriorityKey = std::uint32_t;
 inline constexpr PriorityKey kCulledKey = 0x7f800000u;  // infinity: priority 0, never split
 
+// The focuses of a request. Unit: one lattice step.
+struct FocusFrame {
+  int count = 0;
+  float factor = 1.0f;                                 // of k
+  glm::ivec2 low{0}, high{0};                          // a box around all of them
+  std::array<glm::ivec2, kMaxFocuses> centre_floor{};  // whole and fractional steps, as of the eye
+  std::array<glm::vec2, kMaxFocuses> centre_fraction{};
+  std::array<float, kMaxFocuses> radius2{};
+  std::array<std::int32_t, kMaxFocuses> last_level{};  // of diamonds that are wide enough
+};
+
 // A request as seen from the lattice. Unit: one lattice step; z likewise.
 struct PriorityFrame {
   int lattice_bits = 1;
@@ -41,9 +55,10 @@ struct PriorityFrame {
   };
   std::array<Plane, 5> planes{};
   int level_mask = -1;  // -1: sizes count; 0: they do not
+  FocusFrame focus;
 };
 
-// Throws nothing; checks that the view, heights and margin are finite and ordered. Distances
+// Checks that the request's numbers are finite, ordered and in their ranges. Distances
 // beyond 2^28 lattice steps count as that.
 PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& domain);
 

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "math/view.h"
+#include "lod/request.h"
 
 namespace swell::lod {
 
@@ -19,21 +19,6 @@ struct Domain {
   glm::dvec2 min_world{0.0};  // lower left corner
   double size_m = 1.0;
   int lattice_bits = 10;  // [1, 20]; the deepest triangles have legs of size_m / 2^lattice_bits
-};
-
-// Formulas, and why a child never has more than its parents: lod/priority.h.
-enum class Priority : std::uint8_t {
-  kProjectedSize,    // bound of the triangle's size over its nearest distance (default)
-  kInverseDistance,  // the paper's base variant: the nearest part to the last level first
-};
-
-struct AdaptRequest {
-  View view;
-  int triangle_budget = 10000;  // >= 2; never exceeded
-  Priority priority = Priority::kProjectedSize;
-  float min_height_m = 0.0f, max_height_m = 0.0f;  // of all the surface, at all times
-  // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
-  float frustum_margin = 0.0f;
 };
 
 struct AdaptStatistics {

@@ -47,6 +47,7 @@ void adapt_surface(const Frame& frame, const lod::Domain& domain, int budget, fl
   request.min_height_m = low_m;
   request.max_height_m = high_m;
   request.frustum_margin = margin;
+  request.factors.focus_nearer = static_cast<float>(frame.world.scene.detail.objects);
   surface.statistics = surface.roam->adapt(request);
   surface.roam->extract_mesh(surface.mesh);
 }

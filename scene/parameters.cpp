@@ -325,6 +325,8 @@ Rows water_rows() {
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.terrain_triangles), "most triangles of the terrain"),
       SceneRow::choice("detail.priority", Priority{}, "which triangles are split first"),
+      SceneRow::number("detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
+                       "the sea under floating things has triangles as if this many times nearer"),
   };
 }
 

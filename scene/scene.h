@@ -80,6 +80,7 @@ struct Detail {
   int water_triangles = 30000;
   int terrain_triangles = 30000;
   bool inverse_distance_priority = false;
+  double objects = 8.0;  // floating things' places count as this many times nearer, [1, 64]
 };
 
 // The sea in the world: waves displace the surface inside the rectangle (fading to flat over the

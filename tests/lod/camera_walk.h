@@ -1,9 +1,10 @@
 // Random requests: smooth flights with jumps, from inside the waves, below them, far off, looking
-// away, with changing budgets and heights. A pure function of the seed.
+// away, with changing budgets, heights and focuses. A pure function of the seed.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "lod/roam.h"
 #include "math/random.h"
@@ -36,6 +37,11 @@ class CameraWalk {
     request.max_height_m = height_;
     if (uniform() < 0.1) priority_ = other(priority_);
     request.priority = priority_;
+    if (uniform() < 0.2) focuses_.clear();
+    if (uniform() < 0.3) add_focuses();
+    for (Focus& f : focuses_) f.centre_m += 0.3 * f.radius_m * glm::dvec2(centred(), centred());
+    request.focuses = focuses_;  // until the next call
+    request.factors.focus_nearer = uniform() < 0.5 ? 4.0f : 11.7f;
     return request;
   }
 
@@ -54,6 +60,17 @@ class CameraWalk {
     heading_ = 7.0 * uniform();
   }
 
+  void add_focuses() {
+    const int count = uniform() < 0.1 ? kMaxFocuses : 1 + static_cast<int>(4.0 * uniform());
+    focuses_.clear();
+    for (int i = 0; i < count; ++i) {
+      const glm::dvec2 place(uniform() * 1.2 - 0.1, uniform() * 1.2 - 0.1);
+      const double size = uniform() < 0.1 ? 100.0 : uniform() < 0.5 ? 0.01 : 0.1;
+      focuses_.push_back(
+          {domain_.min_world + domain_.size_m * place, domain_.size_m * size * (0.01 + uniform())});
+    }
+  }
+
   int new_budget() {
     const double kind = uniform();
     if (kind < 0.2) return 2 + static_cast<int>(4.0 * uniform());
@@ -68,6 +85,7 @@ class CameraWalk {
   glm::dvec3 position_{0.0};
   double heading_ = 0.0;
   float height_ = 0.0f;
+  std::vector<Focus> focuses_;
   Priority priority_ = Priority::kProjectedSize;
 };
 

@@ -59,7 +59,7 @@ inline std::vector<OracleDiamond> all_diamonds(int bits) {
   return diamonds;
 }
 
-// (distance / size)^2 in lattice steps, or infinity if outside the view.
+// (distance / size)^2 in lattice steps with its factors, or infinity if outside the view.
 inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDiamond& d) {
   const int n = 1 << domain.lattice_bits;
   const double step_m = domain.size_m / n;
@@ -95,7 +95,18 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
   }
   const float distance2 =
       x.distance() * x.distance() + y.distance() * y.distance() + z.distance() * z.distance();
-  return r.priority == Priority::kProjectedSize ? std::ldexp(distance2, d.level) : distance2;
+  float k = r.priority == Priority::kProjectedSize ? std::ldexp(distance2, d.level) : distance2;
+
+  // Nearer under focuses, down to diamonds of a quarter of their radius.
+  const bool focused = std::ranges::any_of(r.focuses, [&](const Focus& f) {
+    const float dx = axis(d.centre.first, f.centre_m.x, domain.min_world.x).distance();
+    const float dy = axis(d.centre.second, f.centre_m.y, domain.min_world.y).distance();
+    const auto radius = static_cast<float>(steps(f.radius_m));
+    const double width_m = domain.size_m / std::sqrt(std::pow(2.0, d.level));
+    return dx * dx + dy * dy <= radius * radius && width_m > f.radius_m / 4.0;
+  });
+  if (focused) k *= 1.0f / (r.factors.focus_nearer * r.factors.focus_nearer);
+  return k;
 }
 
 // The centres of the diamonds that must be split.

@@ -74,6 +74,24 @@ TEST(Priority, KeysAreTheSquaredDistanceInUnitsOfTheSize) {
   EXPECT_EQ(key(9, 9, 6), 28.0f * 28.0f + 100.0f);
 }
 
+TEST(Priority, AFocusCountsAsNearerDownToAQuarterOfItsRadius) {
+  const Domain domain{{0.0, 0.0}, 16.0, 4};  // one step a metre
+  AdaptRequest request;
+  request.view = make_view({8.0, 40.0, 0.0}, 3.14159265, 0.0, 1.5, 0.1f, 64, 64);
+  const std::array<Focus, 1> focus{Focus{{8.0, 7.0}, 4.0}};
+  request.focuses = focus;
+  request.factors.focus_nearer = 4.0f;
+  const auto key = [&](int x, int y, int level) {
+    return std::bit_cast<float>(priority_key(make_priority_frame(request, domain), x, y, level));
+  };
+  EXPECT_EQ(key(8, 8, 0), 24.0f * 24.0f / 16.0f);
+  EXPECT_EQ(key(9, 9, 6), 64.0f * 28.0f * 28.0f / 16.0f);   // 2 m wide
+  EXPECT_EQ(key(9, 8, 7), 128.0f * 30.0f * 30.0f / 16.0f);  // 1.4 m wide
+  EXPECT_EQ(key(9, 15, 6), 64.0f * 24.0f * 24.0f);          // begins 5 m from the centre
+  request.focuses = {};
+  EXPECT_EQ(key(9, 9, 6), 64.0f * 28.0f * 28.0f);
+}
+
 TEST(Priority, WhatLiesBehindTheEyeIsCulledAndAMarginWidensTheView) {
   const Domain domain{{0.0, 0.0}, 1024.0, 10};
   AdaptRequest request;

@@ -146,6 +146,36 @@ TEST(Roam, InverseDistanceRefinesTheNearestPartToTheEndFirst) {
   EXPECT_EQ(find_mesh_fault(mesh, 8), "");
 }
 
+// The level of the triangle around a point in lattice steps.
+int level_at(const Mesh& mesh, glm::dvec2 p) {
+  for (std::size_t t = 0; t < mesh.level.size(); ++t) {
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec2 a(mesh.lattice[mesh.indices[3 * t + k]]);
+      const glm::dvec2 b(mesh.lattice[mesh.indices[3 * t + (k + 1) % 3]]);
+      inside = inside && (b.x - a.x) * (p.y - a.y) >= (b.y - a.y) * (p.x - a.x);
+    }
+    if (inside) return mesh.level[t];
+  }
+  return -1;
+}
+
+TEST(Roam, TheSeaUnderADistantObjectIsFinerThanBesideIt) {
+  Roam roam(sea(), 30000);
+  AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 30000);
+  const auto level_beside = [&](double x_m) {
+    Mesh mesh;
+    EXPECT_GE(roam.adapt(request).triangles, 29999);
+    roam.extract_mesh(mesh);
+    return level_at(mesh, 2.0 * (glm::dvec2(x_m, 800.7) + 32768.0));
+  };
+  const int without = level_beside(1.3), beside = level_beside(101.3);
+  const std::array<Focus, 1> focus{Focus{{0.0, 800.0}, 2.0}};
+  request.focuses = focus;
+  EXPECT_EQ(level_beside(1.3), without + 6);  // 8 times nearer: 2 log2(8) levels
+  EXPECT_EQ(level_beside(101.3), beside);
+}
+
 TEST(Roam, ASimplifiedGridKeepsItsFineTrianglesNearTheCamera) {
   Roam roam({{0.0, 0.0}, 8.0, 4}, 512);
   AdaptRequest request;
@@ -191,6 +221,13 @@ TEST(RoamDeathTest, RefusesWhatItCannotDo) {
   request = from_far_above(10);
   request.min_height_m = 1.0f;
   EXPECT_DEATH(roam.adapt(request), "min_height_m=1");
+  request = from_far_above(10);
+  const std::array<Focus, 1> point{Focus{{0.0, 0.0}, 0.0}};
+  request.focuses = point;
+  EXPECT_DEATH(roam.adapt(request), "radius_m=0");
+  request.focuses = {};
+  request.factors.focus_nearer = 0.5f;
+  EXPECT_DEATH(roam.adapt(request), "focus_nearer=0.5");
   request = from_far_above(10);
   request.view.forward.y = NAN;
   EXPECT_DEATH(roam.adapt(request), "normal=\\(nan");

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lod/diamond.h"
+#include "lod/priority.h"
+#include "math/check.h"
+
+namespace swell::lod {
+namespace {
+
+constexpr double kFarSteps = 0x1p28;  // squared, times 2^40 levels: still a finite float
+
+void check_request(const AdaptRequest& request) {
+  const glm::dvec3 eye = request.view.eye_world;
+  SWELL_CHECK(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z),
+              "eye=({}, {}, {})", eye.x, eye.y, eye.z);
+  SWELL_CHECK(std::isfinite(request.min_height_m) && std::isfinite(request.max_height_m) &&
+                  request.min_height_m <= request.max_height_m,
+              "min_height_m={} max_height_m={}", request.min_height_m, request.max_height_m);
+  SWELL_CHECK(std::isfinite(request.frustum_margin) && request.frustum_margin >= 0.0f,
+              "frustum_margin={}", request.frustum_margin);
+  const float nearer = request.factors.focus_nearer;
+  SWELL_CHECK(nearer >= 1.0f && nearer <= 64.0f, "focus_nearer={}", nearer);
+  SWELL_CHECK(request.focuses.size() <= kMaxFocuses, "focuses={}", request.focuses.size());
+  for (const Focus& f : request.focuses)
+    SWELL_CHECK(std::isfinite(f.centre_m.x) && std::isfinite(f.centre_m.y) &&
+                    std::isfinite(f.radius_m) && f.radius_m > 0.0,
+                "centre_m=({}, {}) radius_m={}", f.centre_m.x, f.centre_m.y, f.radius_m);
+}
+
+// From metres to lattice steps, clamped.
+struct Lattice {
+  double step_m;
+
+  explicit Lattice(const Domain& domain)
+      : step_m(std::ldexp(domain.size_m, -domain.lattice_bits)) {}
+
+  double steps(double metres) const { return std::clamp(metres / step_m, -kFarSteps, kFarSteps); }
+  glm::dvec2 steps(glm::dvec2 metres) const { return {steps(metres.x), steps(metres.y)}; }
+};
+
+void set_planes(const AdaptRequest& request, float z_low, float z_high, PriorityFrame& frame) {
+  // The near plane moves into the eye: what is nearer may still be displaced into view.
+  View view = request.view;
+  view.tan_half_x += request.frustum_margin;
+  view.tan_half_y += request.frustum_margin;
+  const std::array<glm::vec4, 5> planes = frustum_planes(view);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const glm::vec4& n = planes[i];
+    SWELL_CHECK(std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z),
+                "plane={} normal=({}, {}, {})", i, n.x, n.y, n.z);
+    frame.planes[i] = {n.x, n.y, std::max(n.z * z_low, n.z * z_high)};
+  }
+}
+
+// The deepest level of diamonds of a lattice of 2^bits steps that are wider than `width` steps:
+// 2^bits sqrt(2^-level) > width; -1 if there is none.
+int last_level_wider_than(int lattice_bits, double width) {
+  int level = -1;
+  while (level + 1 < level_count(lattice_bits) &&
+         std::ldexp(1.0, 2 * lattice_bits - (level + 1)) > width * width)
+    ++level;
+  return level;
+}
+
+void set_focuses(const AdaptRequest& request, const Domain& domain, FocusFrame& focus) {
+  const Lattice lattice(domain);
+  const float nearer = request.factors.focus_nearer;
+  focus.count = static_cast<int>(request.focuses.size());
+  focus.factor = 1.0f / (nearer * nearer);
+  glm::dvec2 low(kFarSteps), high(-kFarSteps);
+  for (std::size_t i = 0; i < request.focuses.size(); ++i) {
+    const glm::dvec2 centre = lattice.steps(request.focuses[i].centre_m - domain.min_world);
+    const double radius = lattice.steps(request.focuses[i].radius_m);
+    const glm::dvec2 whole = glm::floor(centre);
+    focus.centre_floor[i] = glm::ivec2(whole);
+    focus.centre_fraction[i] = glm::vec2(centre - whole);
+    focus.radius2[i] = static_cast<float>(radius) * static_cast<float>(radius);
+    focus.last_level[i] = last_level_wider_than(domain.lattice_bits, radius / 4.0);
+    low = glm::min(low, glm::floor(centre - radius));
+    high = glm::max(high, glm::ceil(centre + radius));
+  }
+  focus.low = glm::ivec2(low), focus.high = glm::ivec2(high);
+}
+
+}  // namespace
+
+PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& domain) {
+  check_request(request);
+  const Lattice lattice(domain);
+  PriorityFrame frame;
+  frame.lattice_bits = domain.lattice_bits;
+  frame.level_mask = request.priority == Priority::kProjectedSize ? -1 : 0;
+
+  // The eye on the lattice.
+  const glm::dvec3 eye = request.view.eye_world;
+  const glm::dvec2 at = lattice.steps(glm::dvec2(eye) - domain.min_world);
+  const glm::dvec2 whole = glm::floor(at);
+  frame.eye_floor = glm::ivec2(whole);
+  frame.eye_fraction = glm::vec2(at - whole);
+
+  // The slab of heights.
+  const auto z_low = static_cast<float>(lattice.steps(request.min_height_m - eye.z));
+  const auto z_high = static_cast<float>(lattice.steps(request.max_height_m - eye.z));
+  const float z_distance = std::max(std::max(z_low, -z_high), 0.0f);
+  frame.distance2_z = z_distance * z_distance;
+
+  set_planes(request, z_low, z_high, frame);
+  set_focuses(request, domain, frame.focus);
+  return frame;
+}
+
+}  // namespace swell::lod

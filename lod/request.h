@@ -1,0 +1,44 @@
+// What a triangulation is asked for: a view, a budget and what matters.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "math/view.h"
+
+namespace swell::lod {
+
+// Formulas, and why a child never has more than its parents: lod/priority.h.
+enum class Priority : std::uint8_t {
+  kProjectedSize,    // bound of the triangle's size over its nearest distance (default)
+  kInverseDistance,  // the paper's base variant: the nearest part to the last level first
+};
+
+// A disc in the plane where something lies on the surface, which must be finer there.
+struct Focus {
+  glm::dvec2 centre_m{0.0};  // world
+  double radius_m = 1.0;     // > 0
+};
+inline constexpr int kMaxFocuses = 64;
+
+// How much more or less than its place says a part of the surface matters: each is a number of
+// times, 1 is without it, and they multiply.
+struct PriorityFactors {
+  // Where a focus is touched, and triangles are wider than a quarter of its radius, the eye counts
+  // as this many times nearer: [1, 64].
+  float focus_nearer = 8.0f;
+};
+
+struct AdaptRequest {
+  View view;
+  int triangle_budget = 10000;  // >= 2; never exceeded
+  Priority priority = Priority::kProjectedSize;
+  float min_height_m = 0.0f, max_height_m = 0.0f;  // of all the surface, at all times
+  // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
+  float frustum_margin = 0.0f;
+  PriorityFactors factors = {};
+  std::span<const Focus> focuses = {};  // at most kMaxFocuses; read during the call only
+};
+
+}  // namespace swell::lod
