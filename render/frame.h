@@ -39,6 +39,11 @@ class World {
  public:
   // Throws SceneError or FileError.
   explicit World(scene::Scene scene);
+
+  // The same bits, sooner: what both scenes describe alike (sky, terrain with its maps) is shared
+  // with `like`, height images are not read again. On `threads` threads; with other waves over the
+  // sky and terrain of `like` 20 ms, 200 ms more for the trains of a coast.
+  World(scene::Scene scene, const World& like, int threads);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;

@@ -74,8 +74,7 @@ void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
   std::array<glm::dvec2, kChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = vertex_world(water, begin + i);
   const auto& world = frame.world;
-  const scene::WaterSurface surface(world.sea, frame.ws.sea, world.scene.area,
-                                    world.terrain ? &*world.terrain : nullptr,
+  const scene::WaterSurface surface(world.sea, frame.ws.sea, world.scene.area, world.terrain.get(),
                                     world.coast ? &*world.coast : nullptr);
   surface.heights(std::span(p).first(count), std::span(water.height_m).subspan(begin, count));
   const auto eye_z = static_cast<float>(frame.view.eye_world.z);

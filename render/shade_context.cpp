@@ -41,7 +41,7 @@ void add_water_layer(const SlopeLayer& layer, ShadeContext& c) {
 // Two layers of ripples that drift across each other, downwind.
 void add_bump_layers(const Frame& frame, ShadeContext& c) {
   const scene::Scene& scene = frame.world.scene;
-  const texture::PackedMap2& bump = frame.world.bump;
+  const texture::PackedMap2& bump = *frame.world.bump;
   const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
   // Ripple slopes grow with the wind as the sea's whole slope variance does.
   // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
@@ -93,9 +93,9 @@ void fill_light(const Frame& frame, ShadeContext& c) {
   const scene::Sky& sky = frame.world.scene.sky;
   c.sun_direction = sky.sun_direction;
   c.sun_irradiance = sky.sun_direction.z > 0.0f ? sky.sun_radiance : glm::vec3(0.0f);
-  c.ambient = frame.world.sky.ambient;
-  c.sky_sharp = &frame.world.sky.sharp;
-  c.sky_soft = &frame.world.sky.soft;
+  c.ambient = frame.world.sky->ambient;
+  c.sky_sharp = &frame.world.sky->sharp;
+  c.sky_soft = &frame.world.sky->soft;
   c.inv_haze_m = static_cast<float>(1.0 / sky.haze_distance_m);
   c.exposure = static_cast<float>(sky.exposure);
 }
@@ -150,12 +150,12 @@ void fill_coast(const Frame& frame, ShadeContext& c) {
 void fill_terrain(const Frame& frame, ShadeContext& c) {
   if (!frame.world.terrain) return;
   const scene::Terrain& terrain = *frame.world.terrain;
-  const TerrainMaps& maps = frame.world.terrain_maps;
+  const TerrainMaps& maps = *frame.world.terrain_maps;
   const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - terrain.min_world;
   c.terrain_slopes = make_square_layer(maps.slopes, terrain.size_m(), from_corner);
   const float detail_gain =
-      0.11f / std::sqrt(std::max(frame.world.bump.lost_variance.back(), 1e-12f));
-  c.terrain_detail = make_layer(frame.world.bump, kTerrainDetailPeriod_m, detail_gain,
+      0.11f / std::sqrt(std::max(frame.world.bump->lost_variance.back(), 1e-12f));
+  c.terrain_detail = make_layer(*frame.world.bump, kTerrainDetailPeriod_m, detail_gain,
                                 glm::dvec2(frame.view.eye_world), {});
   c.terrain_albedo = &maps.albedo;
   const double texels_per_m = maps.albedo.width / terrain.size_m();

@@ -193,24 +193,44 @@ texture::PackedMap2 build_coast_share_map(const ocean::CoastSea& coast) {
   return map;
 }
 
-std::unique_ptr<World::State> make_state(scene::Scene scene) {
-  auto state = std::make_unique<World::State>(
-      World::State{scene, ocean::Sea(scene.sea), {}, {}, build_sky_maps(scene.sky), {}, {}, {}});
-  if (scene.terrain) {
-    state->terrain = scene::build_terrain(*scene.terrain);
-    state->terrain_maps = build_terrain_maps(*state->terrain, scene.terrain->seed);
-    state->coast = scene::build_coast(scene, &*state->terrain);
+template <class T>
+std::shared_ptr<const T> share(T value) {
+  return std::make_shared<const T>(std::move(value));
+}
+
+// The terrain and its maps, those of `like` if there are such.
+void add_terrain(World::State& state, const World::State* like) {
+  if (!state.scene.terrain) return;
+  if (like && like->scene.terrain == state.scene.terrain) {
+    state.terrain = like->terrain;
+    state.terrain_maps = like->terrain_maps;
+    return;
   }
-  if (state->coast) {
-    state->coast_share = build_coast_share_map(*state->coast);
-  }
-  state->bump = build_bump_map(scene.sea.seed);
+  state.terrain = share(scene::build_terrain(*state.scene.terrain));
+  state.terrain_maps = share(build_terrain_maps(*state.terrain, state.scene.terrain->seed));
+}
+
+// like: may be null.
+std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
+                                         int threads) {
+  auto state =
+      std::make_unique<World::State>(World::State{.scene = scene, .sea = ocean::Sea(scene.sea)});
+  const bool same_sky = like && like->scene.sky == scene.sky;
+  state->sky = same_sky ? like->sky : share(build_sky_maps(scene.sky));
+  const bool same_bump = like && like->scene.sea.seed == scene.sea.seed;
+  state->bump = same_bump ? like->bump : share(build_bump_map(scene.sea.seed));
+  add_terrain(*state, like);
+  state->coast = scene::build_coast(scene, state->terrain.get(), threads);
+  if (state->coast) state->coast_share = build_coast_share_map(*state->coast);
   return state;
 }
 
 }  // namespace
 
-World::World(scene::Scene scene) : state_(make_state(std::move(scene))) {}
+World::World(scene::Scene scene)
+    : state_(make_state(std::move(scene), nullptr, available_cpus())) {}
+World::World(scene::Scene scene, const World& like, int threads)
+    : state_(make_state(std::move(scene), &like.state(), threads)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 
 #include "ocean/coast.h"
@@ -28,13 +29,17 @@ struct TerrainMaps {
 
 struct World::State {
   scene::Scene scene;
+
+  // The waves.
   ocean::Sea sea;
-  std::optional<scene::Terrain> terrain;
-  std::optional<ocean::CoastSea> coast;
-  SkyMaps sky;
-  TerrainMaps terrain_maps;
-  texture::PackedMap2 bump;         // ripples, slopes of a map with period 1
-  texture::PackedMap2 coast_share;  // over the coast's square, in both channels
+  std::optional<ocean::CoastSea> coast = {};
+  texture::PackedMap2 coast_share = {};  // over the coast's square, in both channels
+
+  // What waves do not change: shared with worlds that differ in their waves alone.
+  std::shared_ptr<const SkyMaps> sky = {};
+  std::shared_ptr<const scene::Terrain> terrain = {};  // none: deep water everywhere
+  std::shared_ptr<const TerrainMaps> terrain_maps = {};
+  std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
 
   // |z| of the surface is at most this in practice.
   float height_bound_m() const {

@@ -23,14 +23,15 @@ ocean::SeaFloor sea_floor_of(const Terrain& terrain, double spacing_m) {
 
 }  // namespace
 
-std::optional<ocean::CoastSea> build_coast(const Scene& scene, const Terrain* terrain) {
+std::optional<ocean::CoastSea> build_coast(const Scene& scene, const Terrain* terrain,
+                                           int threads) {
   const Coast& coast = scene.coast;
   const ocean::SeaDescription& sea = scene.sea;
   if (coast.model == CoastModel::kNone || !terrain || sea.wind_speed_mps <= 0.0)
     return std::nullopt;
   const double spacing =
       coast.grid_spacing_m > 0.0 ? coast.grid_spacing_m : terrain->size_m() / kDefaultCells;
-  Workers workers(available_cpus());
+  Workers workers(threads);
   return ocean::make_coast_sea(
       sea_floor_of(*terrain, spacing),
       ocean::make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2), coast.trains,

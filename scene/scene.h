@@ -49,6 +49,8 @@ struct Sky {
   double cloud_cover = 0.3;          // [0, 1], thin clouds
   std::uint64_t cloud_seed = 7;
   double exposure = 1.0;  // multiplies radiance before the sRGB curve
+
+  bool operator==(const Sky&) const = default;
 };
 
 struct WaterOptics {

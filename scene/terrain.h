@@ -37,6 +37,8 @@ struct TerrainDescription {
   double beach_slope = 0.02;
   double beach_size_m = 1200.0;  // the square's side
   std::uint64_t seed = 3;        // of the island or of the dunes
+
+  bool operator==(const TerrainDescription&) const = default;
 };
 
 // samples x samples heights (samples >= 2: 1025 from noise, 513 from a coast line, the image's side

@@ -37,7 +37,7 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
       settings_(settings),
       window_("swell - " + scene.name, settings.size),
       gui_(window_.handle(), window_.renderer()),
-      world_(std::make_unique<render::World>(scene)),
+      world_(std::make_shared<render::World>(scene)),
       workers_(settings.threads),
       last_frame_start_(Clock::now()) {
   clock_.by_steps = settings.frames > 0;
@@ -163,7 +163,7 @@ void Viewer::save_screenshot() {
 
 void Viewer::choose_waves(const WaveChoice& waves) {
   panel_.waves = waves;
-  rebuilder_.request(with_waves(scene_, waves));
+  rebuilder_.request(with_waves(scene_, waves), world_);
 }
 
 // ---- frames ----

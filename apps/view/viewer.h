@@ -80,7 +80,7 @@ class Viewer {
   ViewerSettings settings_;
   Window window_;
   Gui gui_;
-  std::unique_ptr<render::World> world_;
+  std::shared_ptr<const render::World> world_;
   WorldRebuilder rebuilder_;
   Workers workers_;
   render::Workspace workspace_;

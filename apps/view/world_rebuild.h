@@ -12,8 +12,8 @@
 
 namespace swell::view {
 
-// One thread that builds one world at a time. Requests that come while it is busy replace one
-// another: only the newest is built.
+// One thread of low priority that builds one world at a time, with what it can take over from an
+// older one. Requests that come while it is busy replace one another: only the newest is built.
 class WorldRebuilder {
  public:
   WorldRebuilder();
@@ -21,11 +21,12 @@ class WorldRebuilder {
   WorldRebuilder(const WorldRebuilder&) = delete;
   WorldRebuilder& operator=(const WorldRebuilder&) = delete;
 
-  void request(scene::Scene scene);
+  // `like`: a world whose sky and terrain are taken over where the scene has the same.
+  void request(scene::Scene scene, std::shared_ptr<const render::World> like);
 
   // Puts the newest finished world in place of `world` and has the old one freed by the thread.
   // False if there is none. Never waits for a build.
-  bool swap_if_ready(std::unique_ptr<render::World>& world);
+  bool swap_if_ready(std::shared_ptr<const render::World>& world);
 
   // True while a request is waiting or being built, or its world has not been taken.
   bool busy() const;
@@ -34,14 +35,18 @@ class WorldRebuilder {
   std::string error() const;
 
  private:
+  struct Request {
+    scene::Scene scene;
+    std::shared_ptr<const render::World> like;
+  };
+
   void run();
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   bool stop_ = false, building_ = false;
-  std::optional<scene::Scene> wanted_;
-  std::unique_ptr<render::World> ready_;
-  std::unique_ptr<render::World> retired_;
+  std::optional<Request> wanted_;
+  std::shared_ptr<const render::World> ready_, retired_;
   std::string error_;
   std::thread thread_;  // last: starts when everything above is there
 };

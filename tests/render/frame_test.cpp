@@ -171,6 +171,17 @@ TEST(Frame, WindChangesThePictureAndTheSeedToo) {
   EXPECT_NE(picture_hash(draw(World(other_seed), 2.0).target), picture_hash(reference.target));
 }
 
+TEST(Frame, AWorldMadeLikeAnotherDrawsTheSamePicture) {
+  const World beach = load_world("beach");
+  scene::Scene other_wind = beach.scene(), other_all = load_world("open_ocean").scene();
+  other_wind.sea.wind_speed_mps = 6.0;
+  other_all.sea.seed += 1;
+  for (const scene::Scene& scene : {other_wind, other_all}) {
+    const World like(scene, beach, 1);
+    EXPECT_EQ(difference(draw(like, 2.0).target, draw(World(scene), 2.0).target), "");
+  }
+}
+
 TEST(Frame, OddSizesAndExtremeCamerasDraw) {
   const World world = load_world("lagoon");
   Workers workers(2);

@@ -319,6 +319,32 @@ TEST_F(ViewerTest, NewWavesAppearWhileFramesGoOn) {
   expect_headless_picture(viewer, with_waves(small_scene(), choice));
 }
 
+// The trains of a coast take a hundred frames' time to work out.
+TEST_F(ViewerTest, NoFrameWaitsForNewWaves) {
+  scene::Scene coast = small_scene();
+  coast.terrain.emplace();
+  coast.terrain->coast_m = {{-500.0, 200.0}, {500.0, 200.0}};
+  coast.coast.model = scene::CoastModel::kBlend;
+  Viewer viewer(coast, settings_of(1000000));
+  for (int i = 0; i < 3; ++i) viewer.turn();
+
+  using Clock = std::chrono::steady_clock;
+  WaveChoice choice = wave_choice(coast);
+  choice.wind_speed_mps = 11.0;
+  const Clock::time_point asked = Clock::now();
+  viewer.choose_waves(choice);
+  Clock::duration longest{0};
+  int frames = 0;
+  for (; viewer.world().scene().sea.wind_speed_mps != 11.0; ++frames) {
+    const Clock::time_point begin = Clock::now();
+    ASSERT_TRUE(viewer.turn());
+    longest = std::max(longest, Clock::now() - begin);
+    ASSERT_LT(begin - asked, std::chrono::seconds(60));
+  }
+  EXPECT_LT(2 * longest, Clock::now() - asked);
+  EXPECT_GE(frames, 4);
+}
+
 TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
   namespace fs = std::filesystem;
   const fs::path old = fs::current_path();
