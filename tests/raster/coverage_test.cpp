@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "raster/picture.h"
+#include "trials.h"
 
 namespace swell::raster {
 namespace {
@@ -16,11 +17,7 @@ constexpr int kThreads[] = {1, 3};
 constexpr int kCellPx = 32, kCellsPerRow = 16;
 constexpr Viewport kCells{kCellPx * kCellsPerRow, kCellPx* kCellsPerRow};
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kBatches = 60;
-#else
-constexpr int kBatches = 400;
-#endif
+constexpr int kBatches = trials(400);
 
 struct Batch {
   std::vector<Triangle> triangles;
@@ -140,7 +137,7 @@ TEST(Coverage, TrianglesUpToTheGuardBandEqualTheIntegerOracle) {
   constexpr Viewport kView{256, 256};
   Random random(2);
   int wrong = 0, covered = 0;
-  for (int n = 0; n < 400; ++n) {
+  for (int n = 0; n < trials(400); ++n) {
     const std::int64_t limit = 256 * (n % 4 == 0 ? 12288 : n % 4 == 1 ? 3000 : 400);
     Triangle t;
     for (Point& p : t)
@@ -159,7 +156,7 @@ TEST(Coverage, TrianglesUpToTheGuardBandEqualTheIntegerOracle) {
     }
   }
   EXPECT_EQ(wrong, 0);
-  EXPECT_GT(covered, 1'000'000);
+  EXPECT_GT(covered, trials(1'000'000));
 }
 
 std::int64_t nearest_even(std::int64_t numerator, std::int64_t denominator) {
@@ -255,7 +252,7 @@ TEST(Coverage, VerticesFarBeyondTheGuardBandLeaveEveryPixelRight) {
 TEST(Coverage, RotatingTheVerticesChangesNoBit) {
   constexpr Viewport kView{64, 64};
   Random random(5);
-  for (int n = 0; n < 1500; ++n) {
+  for (int n = 0; n < trials(1500); ++n) {
     Batch batch;
     for (int i = 0; i < 3; ++i) {
       const double w = n % 3 == 0 ? random.between(-1.0, 3.0) : random.between(0.5, 3.0);

@@ -5,6 +5,7 @@
 #include <xmmintrin.h>
 
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "allocation_count.h"
@@ -18,6 +19,14 @@ constexpr int kWidth = 200, kHeight = 120;
 
 World load_world(const std::string& name) {
   return World(scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/scenes/" + name + ".toml"));
+}
+
+// The same, made once: drawing does not change it.
+const World& world_of(const std::string& name) {
+  static std::map<std::string, World> worlds;
+  const auto found = worlds.find(name);
+  return found != worlds.end() ? found->second
+                               : worlds.emplace(name, load_world(name)).first->second;
 }
 
 View view_of(const World& world, double t_s, int width = kWidth, int height = kHeight) {
@@ -61,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EachScene,
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(EachScene, ThreadCountChangesNoPixel) {
-  const World world = load_world(GetParam());
+  const World& world = world_of(GetParam());
   const Picture reference = draw(world, 2.0, 1);
   for (const int threads : {2, 3, 7})
     EXPECT_EQ(difference(draw(world, 2.0, threads).target, reference.target), "") << threads;
@@ -69,7 +78,7 @@ TEST_P(EachScene, ThreadCountChangesNoPixel) {
 
 TEST_P(EachScene, SimdTargetChangesNoPixel) {
   if (!simd_target_available(SimdTarget::kAvx512)) GTEST_SKIP() << "this CPU has no AVX-512";
-  const World world = load_world(GetParam());
+  const World& world = world_of(GetParam());
   select_simd_target(SimdTarget::kAvx512);
   const Picture wide = draw(world, 2.0);
   select_simd_target(SimdTarget::kAvx2);
@@ -81,7 +90,7 @@ TEST_P(EachScene, SimdTargetChangesNoPixel) {
 }
 
 TEST_P(EachScene, TileSizeChangesNoPixel) {
-  const World world = load_world(GetParam());
+  const World& world = world_of(GetParam());
   FrameOptions options = few_triangles();
   const Picture reference = draw(world, 2.0, 2, options);
   for (const int tile : {16, 32}) {
@@ -91,7 +100,7 @@ TEST_P(EachScene, TileSizeChangesNoPixel) {
 }
 
 TEST_P(EachScene, FrameAloneEqualsFrameInSequence) {
-  const World world = load_world(GetParam());
+  const World& world = world_of(GetParam());
   Workers workers(2);
   Workspace workspace;
   Target target;
@@ -103,7 +112,7 @@ TEST_P(EachScene, FrameAloneEqualsFrameInSequence) {
 }
 
 TEST_P(EachScene, WorkspaceOfAnotherSizeAndSceneLeavesNoTrace) {
-  const World world = load_world(GetParam()), other = load_world("lagoon");
+  const World &world = world_of(GetParam()), &other = world_of("lagoon");
   Workers workers(2);
   Workspace workspace;
   Target target;
@@ -116,7 +125,7 @@ TEST_P(EachScene, WorkspaceOfAnotherSizeAndSceneLeavesNoTrace) {
 }
 
 TEST_P(EachScene, EveryVisiblePixelIsShadedOnce) {
-  const World world = load_world(GetParam());
+  const World& world = world_of(GetParam());
   const FrameStatistics s = draw(world, 1.0).statistics;
   EXPECT_GT(s.visible_pixels, 0u);
   EXPECT_LE(s.visible_pixels, std::uint64_t{kWidth} * kHeight);
@@ -124,7 +133,7 @@ TEST_P(EachScene, EveryVisiblePixelIsShadedOnce) {
 }
 
 TEST_P(EachScene, SteadyStateAllocatesNothing) {
-  const World world = load_world(GetParam());
+  const World& world = world_of(GetParam());
   Workers workers(1);
   Workspace workspace;
   Target target;
@@ -139,7 +148,7 @@ TEST_P(EachScene, SteadyStateAllocatesNothing) {
 }
 
 TEST(Frame, CallersFloatEnvironmentChangesNoPixel) {
-  const World world = load_world("lagoon");
+  const World& world = world_of("lagoon");
   const Picture reference = draw(world, 2.0);
   const unsigned saved = _mm_getcsr();
   _mm_setcsr(saved | 0x8040u);  // flush to zero, denormals are zero
@@ -149,7 +158,7 @@ TEST(Frame, CallersFloatEnvironmentChangesNoPixel) {
 }
 
 TEST(Frame, LookingDownAtTheSeaLeavesNoHole) {
-  const World world = load_world("open_ocean");
+  const World& world = world_of("open_ocean");
   for (const double pitch : {-1.5, -1.0, -0.6}) {
     const View view = make_view({0, 0, 30}, 0.7, pitch, 0.8, 0.25f, 320, 200);
     Workers workers(2);
@@ -162,8 +171,8 @@ TEST(Frame, LookingDownAtTheSeaLeavesNoHole) {
 }
 
 TEST(Frame, WindChangesThePictureAndTheSeedToo) {
-  scene::Scene scene = load_world("open_ocean").scene();
-  const Picture reference = draw(World(scene), 2.0);
+  const scene::Scene& scene = world_of("open_ocean").scene();
+  const Picture reference = draw(world_of("open_ocean"), 2.0);
   scene::Scene calm = scene, other_seed = scene;
   calm.sea.wind_speed_mps = 5.0;
   other_seed.sea.seed += 1;
@@ -183,7 +192,7 @@ TEST(Frame, AWorldMadeLikeAnotherDrawsTheSamePicture) {
 }
 
 TEST(Frame, OddSizesAndExtremeCamerasDraw) {
-  const World world = load_world("lagoon");
+  const World& world = world_of("lagoon");
   Workers workers(2);
   Workspace workspace;
   Target target;
@@ -203,7 +212,7 @@ TEST(Frame, OddSizesAndExtremeCamerasDraw) {
 }
 
 TEST(Frame, LinearPictureHoldsOnlyFiniteRadiance) {
-  const World world = load_world("lagoon");
+  const World& world = world_of("lagoon");
   FrameOptions options = few_triangles();
   options.keep_linear = true;
   const Picture picture = draw(world, 2.0, 2, options);

@@ -12,11 +12,12 @@
 #include "math/random.h"
 #include "scene/parameters.h"
 #include "scene/scene_text.h"
+#include "trials.h"
 
 namespace swell::scene {
 namespace {
 
-constexpr int kFiles = 10000;
+constexpr int kFiles = trials(10000);
 
 // Random numbers of one file.
 class Dice {
