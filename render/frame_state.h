@@ -20,8 +20,9 @@ namespace swell::render {
 
 // A triangulated surface of one frame.
 struct Surface {
-  std::optional<lod::Roam> roam;
+  std::optional<lod::Roam> roam;  // of the land, and of the sea if ROAM triangulates it
   int max_triangles = 0;
+  lod::Domain domain;  // whose lattice the mesh is on
   lod::AdaptStatistics statistics;
   lod::Mesh mesh;
   std::vector<glm::vec2> offset;  // per vertex: x, y relative to the eye [m]

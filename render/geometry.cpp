@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "lod/plane.h"
+#include "lod/radial_grid.h"
 #include "math/elementary.h"
 #include "render/frame_state.h"
 #include "scene/water_surface.h"
@@ -50,11 +52,35 @@ void adapt_surface(const Frame& frame, const lod::Domain& domain, int budget, fl
   request.factors.focus_nearer = static_cast<float>(frame.world.scene.detail.objects);
   surface.statistics = surface.roam->adapt(request);
   surface.roam->extract_mesh(surface.mesh);
+  surface.domain = domain;
+}
+
+void triangulate_sea(const Frame& frame) {
+  const scene::Detail& detail = frame.world.scene.detail;
+  const int budget =
+      frame.options.water_triangles > 0 ? frame.options.water_triangles : detail.water_triangles;
+  Surface& water = frame.ws.water;
+  switch (detail.triangulation) {
+    case scene::Triangulation::kRoam: {
+      const float bound = frame.world.height_bound_m();
+      adapt_surface(frame, sea_domain(frame.view), budget, -bound, bound, 0.0f, water);
+      break;
+    }
+    case scene::Triangulation::kRadial:
+      water.domain = lod::radial_domain(frame.view);
+      water.statistics = lod::write_radial_grid(frame.view, budget, water.mesh);
+      break;
+    case scene::Triangulation::kPlane:
+      water.domain = sea_domain(frame.view);
+      lod::write_plane(water.domain, water.mesh);
+      water.statistics = {.triangles = 2};
+      break;
+  }
 }
 
 // Positions of the mesh's vertices relative to the eye.
 void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::dvec2 eye) {
-  const lod::Domain& domain = surface.roam->domain();
+  const lod::Domain& domain = surface.domain;
   const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
   const glm::dvec2 corner = domain.min_world - eye;
   for (std::size_t i = begin; i < end; ++i)
@@ -76,7 +102,11 @@ void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
   const auto& world = frame.world;
   const scene::WaterSurface surface(world.sea, frame.ws.sea, world.scene.area, world.terrain.get(),
                                     world.coast ? &*world.coast : nullptr);
-  surface.heights(std::span(p).first(count), std::span(water.height_m).subspan(begin, count));
+  const auto height_m = std::span(water.height_m).subspan(begin, count);
+  if (world.scene.detail.triangulation == scene::Triangulation::kPlane)
+    std::ranges::fill(height_m, 0.0f);
+  else
+    surface.heights(std::span(p).first(count), height_m);
   const auto eye_z = static_cast<float>(frame.view.eye_world.z);
   for (std::size_t i = begin; i < end; ++i)
     water.p_clip[i] = to_clip(frame.view, water.offset[i], water.height_m[i] - eye_z);
@@ -127,7 +157,7 @@ void resize_surface(Surface& surface) {
 }  // namespace
 
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
-  const lod::Domain& domain = surface.roam->domain();
+  const lod::Domain& domain = surface.domain;
   const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
   return domain.min_world + spacing * glm::dvec2(surface.mesh.lattice[vertex]);
 }
@@ -162,20 +192,14 @@ void advance_sea(Frame& frame) {
 
 void triangulate(Frame& frame) {
   const scene::Detail& detail = frame.world.scene.detail;
-  const int budget =
-      frame.options.water_triangles > 0 ? frame.options.water_triangles : detail.water_triangles;
-  const float bound = frame.world.height_bound_m();
-  frame.workers.run_both(
-      [&] {
-        adapt_surface(frame, sea_domain(frame.view), budget, -bound, bound, 0.0f, frame.ws.water);
-      },
-      [&] {
-        if (!frame.world.terrain) return;
-        const scene::Terrain& terrain = *frame.world.terrain;
-        // The mirrored land lies outside the view at times.
-        adapt_surface(frame, land_domain(terrain), detail.terrain_triangles, terrain.lowest_m,
-                      terrain.highest_m, 0.3f, frame.ws.land);
-      });
+  frame.workers.run_both([&] { triangulate_sea(frame); },
+                         [&] {
+                           if (!frame.world.terrain) return;
+                           const scene::Terrain& terrain = *frame.world.terrain;
+                           // The mirrored land lies outside the view at times.
+                           adapt_surface(frame, land_domain(terrain), detail.terrain_triangles,
+                                         terrain.lowest_m, terrain.highest_m, 0.3f, frame.ws.land);
+                         });
 }
 
 void displace(Frame& frame) {

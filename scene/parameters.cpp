@@ -206,6 +206,11 @@ struct Priority {
   auto& operator()(auto& scene) const { return scene.detail.inverse_distance_priority; }
 };
 
+struct TriangulationName {
+  static constexpr std::array<std::string_view, 3> words = {"roam", "radial", "plane"};
+  auto& operator()(auto& scene) const { return scene.detail.triangulation; }
+};
+
 struct CoastModelName {
   static constexpr std::array<std::string_view, 3> words = {"none", "trains", "blend"};
   auto& operator()(auto& scene) const { return scene.coast.model; }
@@ -324,6 +329,9 @@ Rows water_rows() {
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.terrain_triangles), "most triangles of the terrain"),
+      SceneRow::choice("detail.triangulation", TriangulationName{},
+                       "of the sea: a bintree that follows the view, rings around the eye, or two "
+                       "triangles, flat, with the waves in the shading only"),
       SceneRow::choice("detail.priority", Priority{}, "which triangles are split first"),
       SceneRow::number("detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
                        "the sea under floating things has triangles as if this many times nearer"),

@@ -78,7 +78,15 @@ struct Coast {
   std::uint64_t seed = 1;
 };
 
+// How the sea is cut into triangles.
+enum class Triangulation : std::uint8_t {
+  kRoam,    // a bintree that follows the view (lod/roam.h)
+  kRadial,  // rings around the eye (lod/radial_grid.h)
+  kPlane,   // two triangles, flat: waves in the shading only (lod/plane.h)
+};
+
 struct Detail {
+  Triangulation triangulation = Triangulation::kRoam;  // of the sea
   int water_triangles = 30000;
   int terrain_triangles = 30000;
   bool inverse_distance_priority = false;

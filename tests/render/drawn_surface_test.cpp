@@ -2,6 +2,7 @@
 // every vertex.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -14,8 +15,14 @@ namespace {
 
 constexpr int kFrames = 12;
 
+// The scene of that name; "_radial" after it: with the radial grid, "_plane": with the plane.
 scene::Scene load(const std::string& name) {
-  return scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/scenes/" + name + ".toml");
+  const std::size_t end = std::min(name.find("_radial"), name.find("_plane"));
+  scene::Scene scene =
+      scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/scenes/" + name.substr(0, end) + ".toml");
+  if (name.ends_with("_radial")) scene.detail.triangulation = scene::Triangulation::kRadial;
+  if (name.ends_with("_plane")) scene.detail.triangulation = scene::Triangulation::kPlane;
+  return scene;
 }
 
 // Random eyes within 2 km of the origin, times from a day ago to a day ahead.
@@ -50,9 +57,9 @@ void draw_shots(const std::string& name, Check check) {
   }
 }
 
-// The corner plus whole steps of 65536 m / 2^17: exact.
+// The corner plus whole steps of a power of two: exact.
 glm::dvec2 place_of(const Surface& drawn, std::size_t vertex) {
-  const lod::Domain& domain = drawn.roam->domain();
+  const lod::Domain& domain = drawn.domain;
   const double step_m = std::ldexp(domain.size_m, -domain.lattice_bits);
   const glm::ivec2 lattice = drawn.mesh.lattice[vertex];
   return {domain.min_world.x + step_m * lattice.x, domain.min_world.y + step_m * lattice.y};
@@ -60,7 +67,8 @@ glm::dvec2 place_of(const Surface& drawn, std::size_t vertex) {
 
 class DrawnSurface : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface,
-                         testing::Values("open_ocean", "lagoon", "sines", "beach"),
+                         testing::Values("open_ocean", "lagoon", "sines", "beach",
+                                         "open_ocean_radial"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(DrawnSurface, HasTheHeightOfAQueryAtEveryVertex) {
@@ -73,6 +81,14 @@ TEST_P(DrawnSurface, HasTheHeightOfAQueryAtEveryVertex) {
     }
   });
   EXPECT_GT(moved, 1000);
+}
+
+// The plane leaves all waves to the shading.
+TEST(DrawnPlane, IsTwoFlatTriangles) {
+  draw_shots("open_ocean_plane", [&](const scene::WaterSurface&, const Surface& drawn) {
+    ASSERT_EQ(drawn.mesh.level.size(), 2u);
+    for (const float height_m : drawn.height_m) ASSERT_EQ(height_m, 0.0f);
+  });
 }
 
 // Inside a triangle the picture is flat: it cuts off at most what the slope does over its edges.
