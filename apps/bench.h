@@ -16,6 +16,7 @@ Subcommand add_bench_frame(CLI::App& app);
 Subcommand add_bench_lod(CLI::App& app);
 Subcommand add_bench_query(CLI::App& app);
 Subcommand add_bench_sea_state(CLI::App& app);
+Subcommand add_bench_waves(CLI::App& app);
 
 class Stopwatch {
  public:

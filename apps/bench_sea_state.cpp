@@ -1,5 +1,5 @@
 // swell-bench sea-state: how high the waves that are drawn are, and whether that is the sea state
-// that the scene asked for.
+// that the scene asked for; or the same of every code of both scales.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,11 +17,12 @@
 namespace swell::apps {
 namespace {
 
-constexpr int kTimes = 64, kPoints = 4096;
+constexpr int kTimes = 64, kPoints = 1024;
 constexpr double kTimeStep_s = 61.7;  // no multiple of a wave's period, over an hour
 
 struct SeaStateBench {
   std::string scene_path, json;
+  bool table = false;
 };
 
 // What the scene's code allows.
@@ -103,8 +104,7 @@ std::string band_text(const Expected& expected) {
                      expected.low_m, expected.high_m);
 }
 
-void run_sea_state(const SeaStateBench& bench) {
-  check_text_place(bench.json);
+void run_scene(const SeaStateBench& bench) {
   const scene::Scene scene = scene::load_scene(bench.scene_path);
   const double height_m = measured_height_m(scene);
   const std::optional<Expected> expected = expected_state(scene);
@@ -121,13 +121,66 @@ void run_sea_state(const SeaStateBench& bench) {
                     bench.scene_path, height_m, band_text(*expected)));
 }
 
+// A scene with nothing but a code, on an area larger than the longest waves.
+Json measured_code(const std::string& scale, int code) {
+  const scene::Scene scene = scene::parse_scene(
+      fmt::format("[sea]\n{} = {}\nsize_m = [12000, 12000]\n", scale, code), "sea-state");
+  Json json = sea_state_json(scene, expected_state(scene), measured_height_m(scene));
+  const double wind = scene.sea.wind_speed_mps;
+  const double gravity = scene.sea.gravity_mps2;
+  json["peak_period_s"] = wind > 0.0 ? wind / (0.13 * gravity) : 0.0;
+  json["peak_wavelength_m"] = ocean::peak_wavelength_m(wind, gravity);
+  return json;
+}
+
+std::string table_line(const Json& row) {
+  const Json& band = row["band_m"];
+  const std::string high = band[1].is_null() ? "" : fmt::format("{:.3g}", band[1].get<double>());
+  return fmt::format("| {} | {} | {:.3g} to {} | {:.3g} | {:.1f} | {:.1f} | {:.0f} |\n",
+                     row["code"].get<int>(), row["name"].get<std::string>(), band[0].get<double>(),
+                     high, row["significant_height_m"].get<double>(),
+                     row["wind_speed_mps"].get<double>(), row["peak_period_s"].get<double>(),
+                     row["peak_wavelength_m"].get<double>());
+}
+
+void run_table(const SeaStateBench& bench) {
+  Json rows = Json::array();
+  for (int code = 0; code <= ocean::kMaxDouglas; ++code)
+    rows.push_back(measured_code("douglas", code));
+  for (int number = 0; number <= ocean::kMaxBeaufort; ++number)
+    rows.push_back(measured_code("beaufort", number));
+  std::string scale;
+  for (const Json& row : rows) {
+    if (bench.json == "-") break;
+    if (scale != row["scale"])
+      fmt::print(
+          "{}| {} | name | Hs of the code, m | Hs drawn, m | wind U10, m/s | peak, s | "
+          "peak, m |\n|---|---|---|---|---|---|---|\n",
+          scale.empty() ? "" : "\n", row["scale"].get<std::string>());
+    scale = row["scale"];
+    fmt::print("{}", table_line(row));
+  }
+  if (!bench.json.empty()) write_text(bench.json, rows.dump(2) + "\n");
+  for (const Json& row : rows)
+    if (!row["inside"].get<bool>())
+      throw std::runtime_error(fmt::format("sea state, got one outside its band: {}", row.dump()));
+}
+
+void run_sea_state(const SeaStateBench& bench) {
+  if (bench.table == !bench.scene_path.empty())
+    throw OptionError("command line: sea-state, allowed either --scene or --table");
+  check_text_place(bench.json);
+  bench.table ? run_table(bench) : run_scene(bench);
+}
+
 }  // namespace
 
 Subcommand add_bench_sea_state(CLI::App& app) {
   const auto bench = std::make_shared<SeaStateBench>();
   CLI::App* sub = app.add_subcommand(
       "sea-state", "Wave height of a scene's sea; fails if it is not the sea state asked for");
-  sub->add_option("--scene", bench->scene_path, "Scene file (TOML)")->required()->type_name("FILE");
+  sub->add_option("--scene", bench->scene_path, "Scene file (TOML)")->type_name("FILE");
+  sub->add_flag("--table", bench->table, "Measure every code of both scales instead");
   sub->add_option("--json", bench->json, "Write the numbers as JSON; - is standard output")
       ->type_name("FILE");
   return {sub, [bench] { run_sea_state(*bench); }};

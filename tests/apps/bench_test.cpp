@@ -139,6 +139,11 @@ TEST_F(Bench, TheQueryReportNamesTheModel) {
              "[sea]\nspectrum = false\n[[sea.sines]]\namplitude_m = 1.0\n"
              "wavelength_m = 30.0\n");
   EXPECT_EQ(bench_json("query", {"--scene", scene_, "--points", "1000"}).at("model"), "sines");
+  for (const char* model : {"trains", "blend"}) {
+    write_text(scene_, island_scene_text() + "[coast]\nmodel = \"" + model +
+                           "\"\ngrid_spacing_m = 4\ntrains = 1\n");
+    EXPECT_EQ(bench_json("query", {"--scene", scene_, "--points", "1000"}).at("model"), model);
+  }
 }
 
 // A sine of amplitude A has variance A^2 / 2: Hs = 4 A / sqrt(2).
@@ -154,7 +159,7 @@ TEST_F(Bench, TheSeaStateIsMeasuredOnTheSurface) {
 }
 
 TEST_F(Bench, EverySeaStateSceneIsInsideItsBand) {
-  for (const int code : {1, 3, 4, 5, 6, 7}) {
+  for (int code = 0; code <= 9; ++code) {
     const Json report =
         bench_json("sea-state",
                    {"--scene", fmt::format("{}/scenes/sea_state_{}.toml", SWELL_SOURCE_DIR, code)});
@@ -165,11 +170,14 @@ TEST_F(Bench, EverySeaStateSceneIsInsideItsBand) {
   }
 }
 
-TEST_F(Bench, BeaufortNumbersAreInsideTheirBands) {
-  for (const int number : {0, 4, 10, 12}) {
-    write_text(scene_, fmt::format("[sea]\nbeaufort = {}\nsize_m = [9000, 9000]\n", number));
-    const Json report = bench_json("sea-state", {"--scene", scene_});
-    EXPECT_EQ(report.at("inside"), true) << report;
+TEST_F(Bench, EveryCodeOfBothScalesIsInsideItsBand) {
+  const Json rows = bench_json("sea-state", {"--table"});
+  ASSERT_EQ(rows.size(), 23u);
+  for (int n = 0; n < 23; ++n) {
+    const Json& row = rows[static_cast<std::size_t>(n)];
+    EXPECT_EQ(row.at("scale"), n < 10 ? "douglas" : "beaufort");
+    EXPECT_EQ(row.at("code"), n < 10 ? n : n - 10);
+    EXPECT_EQ(row.at("inside"), true) << row;
   }
 }
 

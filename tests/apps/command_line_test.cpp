@@ -38,7 +38,7 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
 TEST_F(CommandLine, BenchHelpNamesEverySubcommand) {
   const Outcome outcome = run_bench({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* subcommand : {"frame", "lod", "query"})
+  for (const char* subcommand : {"frame", "lod", "query", "sea-state", "waves"})
     EXPECT_NE(outcome.out.find(subcommand), std::string::npos) << subcommand;
   const Outcome frame = run_bench({"frame", "--help"});
   EXPECT_EQ(frame.exit_code, 0);
@@ -105,6 +105,12 @@ TEST_F(CommandLine, BenchRefusesBadOptions) {
       {"lod", "--triangles", "1"},
       {"query"},
       {"query", "--scene", scene_, "--points", "0"},
+      {"sea-state"},
+      {"sea-state", "--scene", scene_, "--table"},
+      {"waves", "--scene", scene_},
+      {"waves", "--scene", scene_, "--section", "-", "--from", "1"},
+      {"waves", "--scene", scene_, "--section", "-", "--from", "nan", "1"},
+      {"waves", "--scene", scene_, "--section", "-", "--from", "1", "2", "--to", "1", "2"},
   };
   for (const Arguments& arguments : cases) {
     SCOPED_TRACE(fmt::format("{}", arguments));
