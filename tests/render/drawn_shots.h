@@ -1,0 +1,67 @@
+// Random pictures of the shipped scenes, for tests that look at the meshes they are drawn with.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "math/random.h"
+#include "render/frame_state.h"
+#include "scene/water_surface.h"
+
+namespace swell::render {
+
+// The scene of that name; "_radial" after it: with the radial grid, "_plane": with the plane.
+inline scene::Scene load_shipped(const std::string& name) {
+  const std::size_t end = std::min(name.find("_radial"), name.find("_plane"));
+  scene::Scene scene =
+      scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/scenes/" + name.substr(0, end) + ".toml");
+  if (name.ends_with("_radial")) scene.detail.triangulation = scene::Triangulation::kRadial;
+  if (name.ends_with("_plane")) scene.detail.triangulation = scene::Triangulation::kPlane;
+  return scene;
+}
+
+// Random eyes within 2 km of the origin, times from a day ago to a day ahead.
+struct Shot {
+  View view;
+  double t_s;
+};
+inline Shot random_shot(int n, int width_px, int height_px) {
+  const auto dice = [&](int i) {
+    return random_uniform(77, static_cast<std::uint64_t>(8 * n + i));
+  };
+  const glm::dvec3 eye(4000.0 * (dice(0) - 0.5), 4000.0 * (dice(1) - 0.5), 2.0 + 60.0 * dice(2));
+  return {make_view(eye, 6.3 * dice(3), -0.5 * dice(4), 0.9, 0.25f, width_px, height_px),
+          172800.0 * (dice(5) - 0.5)};
+}
+
+// The corner plus whole steps of a power of two: exact.
+inline glm::dvec2 place_of(const Surface& drawn, std::size_t vertex) {
+  const lod::Domain& domain = drawn.domain;
+  const double step_m = std::ldexp(domain.size_m, -domain.lattice_bits);
+  const glm::ivec2 lattice = drawn.mesh.lattice[vertex];
+  return {domain.min_world.x + step_m * lattice.x, domain.min_world.y + step_m * lattice.y};
+}
+
+// Draws random shots and gives each and what it was drawn with to
+// check(shot, surface of the same time, drawn water).
+template <class Check>
+void draw_shots(const scene::Scene& scene, int count, glm::ivec2 size_px, int triangles,
+                Check check) {
+  const World world(scene);
+  const scene::Water water(scene);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  ocean::SeaFrame frame;
+  FrameOptions options;
+  options.water_triangles = triangles;
+  for (int n = 0; n < count; ++n) {
+    const Shot shot = random_shot(n, size_px.x, size_px.y);
+    render_frame(world, shot.view, shot.t_s, options, workspace, target, workers);
+    check(shot, water.at(shot.t_s, frame, workers), workspace.state().water);
+  }
+}
+
+}  // namespace swell::render
