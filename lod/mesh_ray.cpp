@@ -1,0 +1,125 @@
+// Which triangle a ray hits.
+#include <limits>
+
+#include "lod/mesh_query.h"
+#include "lod/prism.h"
+#include "math/check.h"
+
+namespace swell::lod {
+namespace {
+
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+// What is left of the ray after cutting it.
+struct Span {
+  double begin_m, end_m;
+
+  // Keeps the part where value + s slope >= 0.
+  void cut(double value, double slope) {
+    if (slope > 0.0) {
+      begin_m = std::max(begin_m, -value / slope);
+    } else if (slope < 0.0) {
+      end_m = std::min(end_m, -value / slope);
+    } else if (value < 0.0) {
+      end_m = -1.0;
+    }
+  }
+  bool is_empty() const { return begin_m > end_m; }
+};
+
+struct RaySearch {
+  const HeightMesh& surface;
+  double step_m;
+  glm::dvec3 origin, along;  // along: of length 1
+  double max_m;
+  int main_axis;  // that the ray runs along most
+  RayHit hit = {};
+
+  // The part of the ray in the envelope's prism, a little widened.
+  Span span_in(const Envelope& e) const {
+    Span span{0.0, max_m};
+    const glm::dvec2 o(origin), d(along);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec2 side = side_direction(e, k);
+      const glm::dvec2 from = o - lattice_world(surface.domain, step_m, e.corner[k]);
+      const double slack = kSlack * (std::abs(from.x) + std::abs(from.y));
+      span.cut(side.x * from.y - side.y * from.x + slack, side.x * d.y - side.y * d.x);
+    }
+    const double above = origin.z - static_cast<double>(e.height.low_m);
+    const double below = static_cast<double>(e.height.high_m) - origin.z;
+    const double slack = kSlack * (std::abs(above) + std::abs(below));
+    span.cut(above + slack, along.z);
+    span.cut(below + slack, -along.z);
+    return span;
+  }
+
+  void visit(const Envelope& e) {
+    if (e.is_leaf()) return test(e.first_leaf);
+    const std::array<Envelope, 2> half = halves_of(surface.envelopes, e);
+    visit_nearer_first(half);
+  }
+
+  void visit_nearer_first(const std::array<Envelope, 2>& pair) {
+    const std::array<Span, 2> span = {span_in(pair[0]), span_in(pair[1])};
+    hit.visited += 2;
+    const std::size_t first = span[1].begin_m < span[0].begin_m ? 1 : 0;
+    for (const std::size_t i : {first, 1 - first})
+      if (!span[i].is_empty() && is_near(span[i].begin_m)) visit(pair[i]);
+  }
+
+  bool is_near(double begin_m) const {
+    return hit.triangle == kNoTriangle || begin_m <= hit.distance_m * (1.0 + kSlack);
+  }
+
+  // Along the ray, as seen from its end: corners move to (x, y), the ray stands at (0, 0). It
+  // passes inside if the areas it spans with the sides have one sign. Each is a difference of two
+  // products, whose sign rounding may take away but not turn, so no ray slips between triangles.
+  // Source: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013.
+  void test(int triangle) {
+    const std::array<glm::dvec3, 3> corner = corners_of(surface, triangle);
+    std::array<glm::dvec2, 3> p;
+    glm::dvec3 s;
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 from = corner[static_cast<std::size_t>(k)] - origin;
+      s[k] = from[main_axis] / along[main_axis];
+      p[static_cast<std::size_t>(k)] = {
+          from[(main_axis + 1) % 3] - along[(main_axis + 1) % 3] * s[k],
+          from[(main_axis + 2) % 3] - along[(main_axis + 2) % 3] * s[k]};
+    }
+    const glm::dvec3 area(cross(p[1], p[2]), cross(p[2], p[0]), cross(p[0], p[1]));
+    const bool is_inside = (area.x >= 0.0 && area.y >= 0.0 && area.z >= 0.0) ||
+                           (area.x <= 0.0 && area.y <= 0.0 && area.z <= 0.0);
+    const double sum = area.x + area.y + area.z;
+    if (!is_inside || sum == 0.0) return;
+    const glm::dvec3 weight = area / sum;
+    const double distance_m = glm::dot(weight, s);
+    const bool is_first = hit.triangle == kNoTriangle || distance_m < hit.distance_m ||
+                          (distance_m == hit.distance_m && triangle < hit.triangle);
+    if (distance_m < 0.0 || distance_m > max_m || !is_first) return;
+    hit = {triangle, distance_m, weight, hit.visited};
+  }
+};
+
+}  // namespace
+
+RayHit intersect_ray(const HeightMesh& surface, glm::dvec3 origin_world, glm::dvec3 direction,
+                     double max_distance_m) {
+  const double length = glm::length(direction);
+  SWELL_CHECK(std::isfinite(length) && length > 0.0, "direction=({}, {}, {})", direction.x,
+              direction.y, direction.z);
+  SWELL_CHECK(std::isfinite(origin_world.x + origin_world.y + origin_world.z),
+              "origin=({}, {}, {})", origin_world.x, origin_world.y, origin_world.z);
+  SWELL_CHECK(max_distance_m >= 0.0, "max_distance_m={}", max_distance_m);
+  const glm::dvec3 size = glm::abs(direction);
+  const int main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+  RaySearch search{surface,
+                   step_of(surface.domain),
+                   origin_world,
+                   direction / length,
+                   std::min(max_distance_m, std::numeric_limits<double>::max()),
+                   main_axis};
+  search.visit_nearer_first(roots_of(surface.envelopes, surface.domain.lattice_bits));
+  return search.hit;
+}
+
+}  // namespace swell::lod
