@@ -1,9 +1,12 @@
 #include "lod/priority.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 
 #include "lod/diamond.h"
+#include "lod/slope_bounds.h"
 
 namespace swell::lod {
 namespace {
@@ -28,6 +31,58 @@ Interval relative(LatticeInterval i, int point_floor, float point_fraction) {
 }
 
 float distance_to(Interval i) { return std::max(std::max(i.low, -i.high), 0.0f); }
+
+// The products of members of two intervals.
+Interval product(Interval a, Interval b) {
+  const float p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+  return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
+}
+
+// Slopes in a box, along x and y.
+struct SlopeRange {
+  Interval x, y;
+};
+
+using Codes = std::array<std::int8_t, 4>;
+
+SlopeRange slope_range(const PriorityFrame& frame, LatticeInterval x, LatticeInterval y,
+                       int level) {
+  const SlopeFrame& slopes = frame.slopes;
+  const float most = slopes.max_slope;
+  if (slopes.cells.empty()) return {{-most, most}, {-most, most}};
+  const int q = slope_level_of(level, slopes.levels), shift = frame.lattice_bits - q;
+  Codes bound = {-127, -127, -127, -127};
+  for (const int j : {y.low >> shift, (y.high - 1) >> shift}) {
+    for (const int i : {x.low >> shift, (x.high - 1) >> shift}) {
+      const auto cell = static_cast<std::size_t>(slope_level_begin(q) + (j << q) + i);
+      const Codes codes = std::bit_cast<Codes>(slopes.cells[cell]);
+      for (std::size_t c = 0; c < 4; ++c) bound[c] = std::max(bound[c], codes[c]);
+    }
+  }
+  const auto slope = [&](std::size_t c) { return static_cast<float>(bound[c]) * slopes.unit; };
+  return {{-slope(1), slope(0)}, {-slope(3), slope(2)}};
+}
+
+// How much further away than it is a part with these slopes counts, squared.
+float slope_factor(const SlopeFrame& slopes, const SlopeRange& range, Interval x, Interval y) {
+  const Interval along_x = product(range.x, x), along_y = product(range.y, y);
+  const float facing_most = (along_x.high + along_y.high) - slopes.z_low;
+  const float facing_least = (along_x.low + along_y.low) - slopes.z_high;
+  const bool silhouette = facing_least <= 0.0f && facing_most >= 0.0f;
+
+  const float width = std::max(range.x.high - range.x.low, range.y.high - range.y.low);
+  const float spread = std::min(width * kInvFullSpread, 1.0f);
+  const float flat = 1.0f + slopes.flat_gain * (1.0f - spread);
+  return (facing_most < 0.0f ? slopes.back_facing : 1.0f) *
+         (silhouette ? 1.0f : slopes.off_silhouette) * (flat * flat);
+}
+
+// (1 + d / (8 D))^16
+float haze_factor(float distance, float inv_haze) {
+  const float q = 1.0f + std::min(distance * inv_haze, kMostHaze);
+  const float q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
+  return q8 * q8;
+}
 
 bool touches_a_focus(const FocusFrame& focus, LatticeInterval x, LatticeInterval y, int level) {
   if (x.low > focus.high.x || x.high < focus.low.x) return false;
@@ -60,8 +115,13 @@ PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level) {
   const float distance2 = (dx * dx + dy * dy) + frame.distance2_z;
   const int exponent = 127 + (level & frame.level_mask);
   float key = distance2 * std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23);
-  if (frame.focus.count > 0 && touches_a_focus(frame.focus, box_x, box_y, level))
-    key *= frame.focus.factor;
+  if (frame.has_factors) {
+    if (frame.slopes.counts)
+      key *= slope_factor(frame.slopes, slope_range(frame, box_x, box_y, level), ix, iy);
+    if (frame.inv_haze > 0.0f) key *= haze_factor(std::sqrt(distance2), frame.inv_haze);
+    if (touches_a_focus(frame.focus, box_x, box_y, level)) key *= frame.focus.factor;
+    key = std::min(key, kLastKey);
+  }
   return std::bit_cast<PriorityKey>(key);
 }
 

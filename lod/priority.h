@@ -6,17 +6,24 @@
 //                     diamond's width, here sqrt(2^-level) times the domain's
 //   kInverseDistance  k = d^2: the paper's 1 / distance, whatever the size; it refines all of the
 //                     nearest part to the last level first, and so suits lattices of few bits
-// and 0 (k = infinity) if that box lies outside the view. k is then multiplied by
-//   1 / focus_nearer^2  if the box touches a focus and the diamond is wider than a quarter of the
-//                       focus's radius.
+// and 0 (k = infinity) if that box lies outside the view. k is then multiplied by what is asked for
+// of the squares of these:
+//   back_facing      if for all points p of the box (relative to the eye) and all normals
+//                    n = (-sx, -sy, 1) of the surface in it n.(-p) = sx px + sy py - pz is < 0
+//   off_silhouette   if that is < 0 for all or > 0 for all
+//   1 + (flat - 1) (1 - spread)   spread: width of the range of slopes in it over 0.5, at most 1
+//   (1 + d / (8 D))^8             D the haze's distance: like exp(d / D), 6 % less at d = D
+//   1 / focus_nearer if the box touches a focus and the diamond is wider than a quarter of the
+//                    focus's radius
 // Only the order counts, so k itself is kept: ascending k is descending priority. The bits of a
 // float >= 0 sort like the float, and that word is the key.
 //
-// A child's key is never below its parent's, to the last bit: boxes nest (exactly: they are
-// integers), sizes shrink by powers of two, and every operation is correctly rounded and thus
-// monotone. So are the factors: none is ever smaller for a child, whose box touches nothing that
-// its parent's box does not touch. With ties broken by level, parents come before children in the
-// order, so the first n diamonds of the order are a valid triangulation for every n.
+// A child's key is never below its parent's, to the last bit. Boxes nest (exactly: they are
+// integers), and so do ranges of slopes (slope_bounds.h), hence the intervals of n.(-p), whose ends
+// are the largest and least products of the ends of both; sizes shrink by powers of two; and every
+// operation is correctly rounded and thus monotone: distances and factors never shrink from parent
+// to child. With ties broken by level, parents come before children in the order, so the first n
+// diamonds of the order are a valid triangulation for every n.
 #pragma once
 
 #include <array>
@@ -30,6 +37,18 @@ namespace swell::lod {
 
 using PriorityKey = std::uint32_t;
 inline constexpr PriorityKey kCulledKey = 0x7f800000u;  // infinity: priority 0, never split
+
+// What the request says of normals. Unit: one lattice step.
+struct SlopeFrame {
+  bool counts = false;
+  float back_facing = 1.0f, off_silhouette = 1.0f;  // of k
+  float flat_gain = 0.0f;                           // flat - 1
+  float z_low = 0.0f, z_high = 0.0f;                // of the surface, relative to the eye
+  float max_slope = 1.0f;                           // if there are no cells
+  std::span<const std::uint32_t> cells = {};        // as of SlopeBounds
+  int levels = 0;
+  float unit = 0.0f;
+};
 
 // The focuses of a request. Unit: one lattice step.
 struct FocusFrame {
@@ -55,8 +74,16 @@ struct PriorityFrame {
   };
   std::array<Plane, 5> planes{};
   int level_mask = -1;  // -1: sizes count; 0: they do not
+
+  bool has_factors = false;  // any of these:
+  SlopeFrame slopes;
+  float inv_haze = 0.0f;  // 1 / (8 D), per lattice step
   FocusFrame focus;
 };
+
+inline constexpr float kMostHaze = 2.0f;            // d / (8 D) counts to here
+inline constexpr float kInvFullSpread = 2.0f;       // of slopes
+inline constexpr float kLastKey = 0x1.fffffep127f;  // of diamonds in view
 
 // Checks that the request's numbers are finite, ordered and in their ranges. Distances
 // beyond 2^28 lattice steps count as that.

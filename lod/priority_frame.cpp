@@ -3,6 +3,7 @@
 
 #include "lod/diamond.h"
 #include "lod/priority.h"
+#include "lod/slope_bounds.h"
 #include "math/check.h"
 
 namespace swell::lod {
@@ -19,13 +20,26 @@ void check_request(const AdaptRequest& request) {
               "min_height_m={} max_height_m={}", request.min_height_m, request.max_height_m);
   SWELL_CHECK(std::isfinite(request.frustum_margin) && request.frustum_margin >= 0.0f,
               "frustum_margin={}", request.frustum_margin);
-  const float nearer = request.factors.focus_nearer;
-  SWELL_CHECK(nearer >= 1.0f && nearer <= 64.0f, "focus_nearer={}", nearer);
+}
+
+void check_factors(const AdaptRequest& request) {
+  const PriorityFactors& f = request.factors;
+  SWELL_CHECK(f.focus_nearer >= 1.0f && f.focus_nearer <= 64.0f, "focus_nearer={}", f.focus_nearer);
+  for (const float times : {f.back_facing, f.flat, f.off_silhouette})
+    SWELL_CHECK(times >= 1.0f && times <= 16.0f, "back_facing={} flat={} off_silhouette={}",
+                f.back_facing, f.flat, f.off_silhouette);
+  SWELL_CHECK(f.haze_distance_m > 0.0f, "haze_distance_m={}", f.haze_distance_m);
+  SWELL_CHECK(request.max_slope >= 0.0f && request.max_slope <= 1e6f, "max_slope={}",
+              request.max_slope);
+}
+
+void check_focuses(const AdaptRequest& request) {
   SWELL_CHECK(request.focuses.size() <= kMaxFocuses, "focuses={}", request.focuses.size());
-  for (const Focus& f : request.focuses)
+  for (const Focus& f : request.focuses) {
     SWELL_CHECK(std::isfinite(f.centre_m.x) && std::isfinite(f.centre_m.y) &&
                     std::isfinite(f.radius_m) && f.radius_m > 0.0,
                 "centre_m=({}, {}) radius_m={}", f.centre_m.x, f.centre_m.y, f.radius_m);
+  }
 }
 
 // From metres to lattice steps, clamped.
@@ -63,6 +77,20 @@ int last_level_wider_than(int lattice_bits, double width) {
   return level;
 }
 
+void set_slopes(const AdaptRequest& request, float z_low, float z_high, SlopeFrame& slopes) {
+  const PriorityFactors& f = request.factors;
+  slopes.counts = f.back_facing > 1.0f || f.flat > 1.0f || f.off_silhouette > 1.0f;
+  slopes.back_facing = f.back_facing * f.back_facing;
+  slopes.off_silhouette = f.off_silhouette * f.off_silhouette;
+  slopes.flat_gain = f.flat - 1.0f;
+  slopes.z_low = z_low, slopes.z_high = z_high;
+  slopes.max_slope = request.max_slope;
+  if (!request.slopes) return;
+  slopes.cells = request.slopes->cells();
+  slopes.levels = request.slopes->levels();
+  slopes.unit = request.slopes->unit();
+}
+
 void set_focuses(const AdaptRequest& request, const Domain& domain, FocusFrame& focus) {
   const Lattice lattice(domain);
   const float nearer = request.factors.focus_nearer;
@@ -87,6 +115,8 @@ void set_focuses(const AdaptRequest& request, const Domain& domain, FocusFrame& 
 
 PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& domain) {
   check_request(request);
+  check_factors(request);
+  check_focuses(request);
   const Lattice lattice(domain);
   PriorityFrame frame;
   frame.lattice_bits = domain.lattice_bits;
@@ -106,7 +136,11 @@ PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& dom
   frame.distance2_z = z_distance * z_distance;
 
   set_planes(request, z_low, z_high, frame);
+  set_slopes(request, z_low, z_high, frame.slopes);
+  const double haze_steps = request.factors.haze_distance_m / lattice.step_m;
+  frame.inv_haze = static_cast<float>(1.0 / std::max(8.0 * haze_steps, 1e-9));
   set_focuses(request, domain, frame.focus);
+  frame.has_factors = frame.slopes.counts || frame.inv_haze > 0.0f || frame.focus.count > 0;
   return frame;
 }
 

@@ -43,6 +43,86 @@ struct Boxes {
   hn::Vec<I> x_low, x_high, y_low, y_high;
 };
 
+struct Interval {
+  hn::Vec<F> low, high;
+};
+
+// The products of members of two intervals.
+HWY_INLINE Interval Product(Interval a, Interval b) {
+  const auto p = hn::Mul(a.low, b.low), q = hn::Mul(a.low, b.high);
+  const auto r = hn::Mul(a.high, b.low), s = hn::Mul(a.high, b.high);
+  return {hn::Min(hn::Min(p, q), hn::Min(r, s)), hn::Max(hn::Max(p, q), hn::Max(r, s))};
+}
+
+// Slopes in boxes, along x and y.
+struct SlopeRange {
+  Interval x, y;
+};
+
+// The four bytes of the largest bound of each kind, from the cells under the corners of each box.
+HWY_INLINE hn::Vec<I> SlopeCodes(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
+  const I di;
+  const hn::Repartition<std::int8_t, F> db;
+  const auto zero = hn::Zero(di), one = hn::Set(di, 1);
+  const auto finest = hn::Set(di, frame.slopes.levels - 1);
+  const auto q = hn::Min(
+      hn::Max(hn::Sub(hn::ShiftRight<1>(hn::Add(level, one)), hn::Set(di, 2)), zero), finest);
+  const auto begin = hn::And(hn::Set(di, 0x55555555), hn::Sub(hn::Shl(one, hn::Add(q, q)), one));
+  const auto shift = hn::Sub(hn::Set(di, frame.lattice_bits), q);
+  const auto west = hn::Shr(box.x_low, shift), east = hn::Shr(hn::Sub(box.x_high, one), shift);
+  const auto south = hn::Add(begin, hn::Shl(hn::Shr(box.y_low, shift), q));
+  const auto north = hn::Add(begin, hn::Shl(hn::Shr(hn::Sub(box.y_high, one), shift), q));
+  const auto* cells = reinterpret_cast<const std::int32_t*>(frame.slopes.cells.data());
+  const auto cell = [&](hn::Vec<I> row, hn::Vec<I> column) HWY_ATTR {
+    return hn::BitCast(db, hn::GatherIndex(di, cells, hn::Add(row, column)));
+  };
+  return hn::BitCast(di, hn::Max(hn::Max(cell(south, west), cell(south, east)),
+                                 hn::Max(cell(north, west), cell(north, east))));
+}
+
+HWY_INLINE SlopeRange Slopes(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
+  const F d;
+  const auto most = hn::Set(d, frame.slopes.max_slope);
+  if (frame.slopes.cells.empty()) return {{hn::Neg(most), most}, {hn::Neg(most), most}};
+  const auto codes = SlopeCodes(frame, box, level);
+  const auto slope = [&](auto code_on_top) HWY_ATTR {
+    return hn::Mul(hn::ConvertTo(d, hn::ShiftRight<24>(code_on_top)),
+                   hn::Set(d, frame.slopes.unit));
+  };
+  return {{hn::Neg(slope(hn::ShiftLeft<16>(codes))), slope(hn::ShiftLeft<24>(codes))},
+          {hn::Neg(slope(codes)), slope(hn::ShiftLeft<8>(codes))}};
+}
+
+// How much further away than it is a part with these slopes counts, squared.
+HWY_INLINE hn::Vec<F> SlopeFactor(const SlopeFrame& slopes, SlopeRange range, Interval x,
+                                  Interval y) {
+  const F d;
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const Interval along_x = Product(range.x, x), along_y = Product(range.y, y);
+  const auto facing_most = hn::Sub(hn::Add(along_x.high, along_y.high), hn::Set(d, slopes.z_low));
+  const auto facing_least = hn::Sub(hn::Add(along_x.low, along_y.low), hn::Set(d, slopes.z_high));
+  const auto silhouette = hn::And(hn::Le(facing_least, zero), hn::Ge(facing_most, zero));
+  const auto back = hn::Lt(facing_most, zero);
+
+  const auto width =
+      hn::Max(hn::Sub(range.x.high, range.x.low), hn::Sub(range.y.high, range.y.low));
+  const auto spread = hn::Min(hn::Mul(width, hn::Set(d, kInvFullSpread)), one);
+  const auto flat = hn::Add(one, hn::Mul(hn::Set(d, slopes.flat_gain), hn::Sub(one, spread)));
+  const auto by_facing =
+      hn::Mul(hn::IfThenElse(back, hn::Set(d, slopes.back_facing), one),
+              hn::IfThenElse(silhouette, one, hn::Set(d, slopes.off_silhouette)));
+  return hn::Mul(by_facing, hn::Mul(flat, flat));
+}
+
+// (1 + d / (8 D))^16
+HWY_INLINE hn::Vec<F> HazeFactor(hn::Vec<F> distance, float inv_haze) {
+  const F d;
+  const auto share = hn::Min(hn::Mul(distance, hn::Set(d, inv_haze)), hn::Set(d, kMostHaze));
+  const auto q = hn::Add(hn::Set(d, 1.0f), share);
+  const auto q2 = hn::Mul(q, q), q4 = hn::Mul(q2, q2), q8 = hn::Mul(q4, q4);
+  return hn::Mul(q8, q8);
+}
+
 HWY_INLINE hn::Mask<F> TouchesAFocus(const FocusFrame& focus, const Boxes& box, hn::Vec<I> level) {
   const F d;
   const I di;
@@ -99,8 +179,14 @@ HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const
   const auto exponent = hn::Add(hn::And(level, hn::Set(di, frame.level_mask)), hn::Set(di, 127));
   auto key = hn::Mul(distance2, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
   if constexpr (kWithFactors) {
+    if (frame.slopes.counts) {
+      const SlopeRange range = Slopes(frame, box, level);
+      key = hn::Mul(key, SlopeFactor(frame.slopes, range, {x_low, x_high}, {y_low, y_high}));
+    }
+    if (frame.inv_haze > 0.0f) key = hn::Mul(key, HazeFactor(hn::Sqrt(distance2), frame.inv_haze));
     const auto focused = TouchesAFocus(frame.focus, box, level);
     key = hn::IfThenElse(focused, hn::Mul(key, hn::Set(d, frame.focus.factor)), key);
+    key = hn::Min(key, hn::Set(d, kLastKey));
   }
   const auto culled = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(kCulledKey)));
   return hn::BitCast(di, hn::IfThenElse(outside, culled, key));
@@ -125,7 +211,7 @@ void ComputeAllKeys(const PriorityFrame& frame, std::size_t count, const std::in
 
 void ComputeKeys(const PriorityFrame& frame, std::size_t count, const std::int32_t* x,
                  const std::int32_t* y, const std::int32_t* level, PriorityKey* keys) {
-  if (frame.focus.count > 0)
+  if (frame.has_factors)
     ComputeAllKeys<true>(frame, count, x, y, level, keys);
   else
     ComputeAllKeys<false>(frame, count, x, y, level, keys);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 
 #include "math/view.h"
@@ -22,12 +23,22 @@ struct Focus {
 };
 inline constexpr int kMaxFocuses = 64;
 
-// How much more or less than its place says a part of the surface matters: each is a number of
-// times, 1 is without it, and they multiply.
+class SlopeBounds;
+
+// What else than place and size counts. Where several apply, they multiply.
 struct PriorityFactors {
   // Where a focus is touched, and triangles are wider than a quarter of its radius, the eye counts
   // as this many times nearer: [1, 64].
   float focus_nearer = 8.0f;
+
+  // Parts of the surface that count as so many times further away, each in [1, 16], 1: not at all.
+  float back_facing = 1.0f;     // that turn their back to the eye, wholly
+  float flat = 1.0f;            // whose normals do not differ (in part, if they differ a little)
+  float off_silhouette = 1.0f;  // that turn no edge to the eye
+
+  // Where haze leaves a share s = exp(-distance / haze_distance_m) of the contrast, priorities are
+  // about s times as high. Infinity: clear air.
+  float haze_distance_m = std::numeric_limits<float>::infinity();
 };
 
 struct AdaptRequest {
@@ -38,6 +49,10 @@ struct AdaptRequest {
   // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
   float frustum_margin = 0.0f;
   PriorityFactors factors = {};
+  // Which normals a part of the surface can have: as the slopes at its place say, or with slopes
+  // of at most max_slope along each axis, at all times.
+  const SlopeBounds* slopes = nullptr;  // of the whole domain; outlives the next call
+  float max_slope = 1.0f;
   std::span<const Focus> focuses = {};  // at most kMaxFocuses; read during the call only
 };
 

@@ -23,6 +23,8 @@ struct OracleDiamond {
   int level;
   int half;  // the largest power of two that divides both coordinates
   std::vector<Point> parents;
+  // Of dz/dx and dz/dy in it: set by bound_slopes().
+  float x_least = 0.0f, x_most = 0.0f, y_least = 0.0f, y_most = 0.0f;
 };
 
 inline OracleDiamond make_diamond(int bits, int x, int y) {
@@ -30,7 +32,7 @@ inline OracleDiamond make_diamond(int bits, int x, int y) {
   int half = 1;
   while (x % (2 * half) == 0 && y % (2 * half) == 0) half *= 2;
   const bool x_odd = x / half % 2 != 0, y_odd = y / half % 2 != 0;
-  OracleDiamond d{{x, y}, 0, half, {}};
+  OracleDiamond d{{x, y}, 0, half, {}, 0.0f, 0.0f, 0.0f, 0.0f};
   for (int size = n; size > 2 * half; size /= 2) d.level += 2;
   std::vector<Point> candidates;
   if (x_odd && y_odd) {
@@ -59,6 +61,49 @@ inline std::vector<OracleDiamond> all_diamonds(int bits) {
   return diamonds;
 }
 
+// The slopes of a grid of heights with one sample a lattice point, in the cells (8 half sizes wide
+// at even levels, 4 at odd ones) that hold the diamond and its descendants, in 127ths of the
+// steepest.
+inline void bound_slopes(std::vector<OracleDiamond>& diamonds, int bits, double step_m,
+                         const std::vector<float>& height_m) {
+  const int n = 1 << bits;
+  const auto rise = [&](int x, int y, int x2, int y2) {
+    return (height_m[static_cast<std::size_t>(y2 * (n + 1) + x2)] -
+            height_m[static_cast<std::size_t>(y * (n + 1) + x)]) *
+           static_cast<float>(1.0 / step_m);
+  };
+  float steepest = 0.0f;
+  for (int a = 0; a <= n; ++a)
+    for (int b = 0; b < n; ++b)
+      steepest =
+          std::max({steepest, std::abs(rise(b, a, b + 1, a)), std::abs(rise(a, b, a, b + 1))});
+  const float unit = std::max(steepest / 127.0f, 1e-9f);
+  for (OracleDiamond& d : diamonds) {
+    const int reach = d.level % 2 == 0 ? 3 * d.half : 2 * d.half;
+    const int cell = std::min(n, (d.level % 2 == 0 ? 8 : 4) * d.half);
+    const auto begin = [&](int centre) { return std::max(0, centre - reach) / cell * cell; };
+    const auto end = [&](int centre) {
+      return (std::min(n, centre + reach) + cell - 1) / cell * cell;
+    };
+    const auto [cx, cy] = d.centre;
+    float x_least = HUGE_VALF, x_most = -HUGE_VALF, y_least = HUGE_VALF, y_most = -HUGE_VALF;
+    for (int y = begin(cy); y <= end(cy); ++y) {
+      for (int x = begin(cx); x <= end(cx); ++x) {
+        if (x < end(cx)) {
+          x_least = std::min(x_least, rise(x, y, x + 1, y));
+          x_most = std::max(x_most, rise(x, y, x + 1, y));
+        }
+        if (y < end(cy)) {
+          y_least = std::min(y_least, rise(x, y, x, y + 1));
+          y_most = std::max(y_most, rise(x, y, x, y + 1));
+        }
+      }
+    }
+    d.x_least = std::floor(x_least / unit) * unit, d.x_most = std::ceil(x_most / unit) * unit;
+    d.y_least = std::floor(y_least / unit) * unit, d.y_most = std::ceil(y_most / unit) * unit;
+  }
+}
+
 // (distance / size)^2 in lattice steps with its factors, or infinity if outside the view.
 inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDiamond& d) {
   const int n = 1 << domain.lattice_bits;
@@ -68,6 +113,9 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
   struct Range {
     float low, high;
     float distance() const { return low > 0.0f ? low : high < 0.0f ? -high : 0.0f; }
+    float most_times(float least, float most) const {
+      return std::max(std::max(least * low, least * high), std::max(most * low, most * high));
+    }
   };
   const int reach = d.level % 2 == 0 ? 3 * d.half : 2 * d.half;
   const auto axis = [&](int centre, double eye_m, double min_m) {
@@ -96,16 +144,38 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
   const float distance2 =
       x.distance() * x.distance() + y.distance() * y.distance() + z.distance() * z.distance();
   float k = r.priority == Priority::kProjectedSize ? std::ldexp(distance2, d.level) : distance2;
+  const PriorityFactors& f = r.factors;
+
+  // The normal (-sx, -sy, 1) against the direction to the eye, for all slopes and places.
+  if (std::max({f.back_facing, f.flat, f.off_silhouette}) > 1.0f) {
+    const float most = r.max_slope;
+    const float x0 = r.slopes ? d.x_least : -most, x1 = r.slopes ? d.x_most : most;
+    const float y0 = r.slopes ? d.y_least : -most, y1 = r.slopes ? d.y_most : most;
+    const bool back = x.most_times(x0, x1) + y.most_times(y0, y1) < z.low;
+    const bool front = x.most_times(-x1, -x0) + y.most_times(-y1, -y0) < -z.high;
+    const float spread = std::min(1.0f, std::max(x1 - x0, y1 - y0) / 0.5f);
+    const float flat = 1.0f + (f.flat - 1.0f) * (1.0f - spread);
+    k *= (back ? f.back_facing * f.back_facing : 1.0f) *
+         (back || front ? f.off_silhouette * f.off_silhouette : 1.0f) * (flat * flat);
+  }
+
+  // Haze: to the 16th power by squaring.
+  if (std::isfinite(f.haze_distance_m)) {
+    const auto per_step = static_cast<float>(1.0 / (8.0 * (f.haze_distance_m / step_m)));
+    float q = 1.0f + std::min(std::sqrt(distance2) * per_step, 2.0f);
+    for (int i = 0; i < 4; ++i) q *= q;
+    k *= q;
+  }
 
   // Nearer under focuses, down to diamonds of a quarter of their radius.
-  const bool focused = std::ranges::any_of(r.focuses, [&](const Focus& f) {
-    const float dx = axis(d.centre.first, f.centre_m.x, domain.min_world.x).distance();
-    const float dy = axis(d.centre.second, f.centre_m.y, domain.min_world.y).distance();
-    const auto radius = static_cast<float>(steps(f.radius_m));
+  const bool focused = std::ranges::any_of(r.focuses, [&](const Focus& focus) {
+    const float dx = axis(d.centre.first, focus.centre_m.x, domain.min_world.x).distance();
+    const float dy = axis(d.centre.second, focus.centre_m.y, domain.min_world.y).distance();
+    const auto radius = static_cast<float>(steps(focus.radius_m));
     const double width_m = domain.size_m / std::sqrt(std::pow(2.0, d.level));
-    return dx * dx + dy * dy <= radius * radius && width_m > f.radius_m / 4.0;
+    return dx * dx + dy * dy <= radius * radius && width_m > focus.radius_m / 4.0;
   });
-  if (focused) k *= 1.0f / (r.factors.focus_nearer * r.factors.focus_nearer);
+  if (focused) k *= 1.0f / (f.focus_nearer * f.focus_nearer);
   return k;
 }
 

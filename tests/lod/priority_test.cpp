@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <cmath>
 
 #include "lod/camera_walk.h"
 #include "lod/diamond.h"
 #include "lod/diamond_oracle.h"
+#include "lod/slope_bounds.h"
 #include "math/simd_target.h"
 
 namespace swell::lod {
@@ -45,8 +48,9 @@ TEST(Priority, AChildNeverComesBeforeItsParents) {
   const int bits = 5;
   const Domain domain{{-300.0, 2000.0}, 700.0, bits};
   const std::vector<oracle::OracleDiamond> diamonds = oracle::all_diamonds(bits);
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    CameraWalk walk(seed, domain, 100);
+  for (std::uint64_t seed = 0; seed < 15; ++seed) {
+    const SlopeBounds slopes(make_heights(bits, seed), (1 << bits) + 1, 1.0);
+    CameraWalk walk(seed, domain, 100, &slopes);
     for (int step = 0; step < 40; ++step) {
       const PriorityFrame frame = make_priority_frame(walk.next(), domain);
       for (const oracle::OracleDiamond& d : diamonds) {
@@ -92,6 +96,82 @@ TEST(Priority, AFocusCountsAsNearerDownToAQuarterOfItsRadius) {
   EXPECT_EQ(key(9, 9, 6), 64.0f * 28.0f * 28.0f);
 }
 
+// From 10 m above the middle of the south border of a lattice of one metre, looking north.
+AdaptRequest from_the_south() {
+  AdaptRequest request;
+  request.view = make_view({16.0, 0.0, 10.0}, 0.0, -0.5, 2.5, 0.1f, 64, 64);
+  return request;
+}
+
+float key_at(const AdaptRequest& request, int x, int y, int level) {
+  const Domain domain{{0.0, 0.0}, 32.0, 5};
+  return std::bit_cast<float>(priority_key(make_priority_frame(request, domain), x, y, level));
+}
+
+// How many times further away than without factors the diamond counts.
+float times_further(AdaptRequest request, int x, int y, int level) {
+  const float with = key_at(request, x, y, level);
+  request.factors = {};
+  return std::sqrt(with / key_at(request, x, y, level));
+}
+
+// A plane that falls northwards as steeply as it goes on turns its back to an eye 19 m above its
+// lowest point, for certain, from 19 m on.
+TEST(Priority, WhatTurnsItsBackCountsAsFurtherAway) {
+  std::vector<float> height_m;
+  for (int y = 0; y <= 32; ++y) height_m.insert(height_m.end(), 33, -1.0f * static_cast<float>(y));
+  const SlopeBounds falling(height_m, 33, 1.0);
+  AdaptRequest request = from_the_south();
+  request.min_height_m = -9.0f;
+  request.factors.back_facing = 3.0f;
+  request.slopes = &falling;
+  EXPECT_FLOAT_EQ(times_further(request, 17, 25, 8), 3.0f);  // from y = 22
+  EXPECT_FLOAT_EQ(times_further(request, 17, 21, 8), 1.0f);  // from y = 18
+  for (float& z : height_m) z = -z;
+  const SlopeBounds rising(height_m, 33, 1.0);
+  request.slopes = &rising;
+  EXPECT_FLOAT_EQ(times_further(request, 17, 25, 8), 1.0f);
+}
+
+// Seen from 10 m above it, a surface with slopes up to s can have a silhouette at a point (x, y)
+// if s (|x| + |y|) >= 10 m.
+TEST(Priority, WhatHasNoSilhouetteCountsAsFurtherAway) {
+  AdaptRequest request = from_the_south();
+  request.factors.off_silhouette = 2.5f;
+  request.max_slope = 0.5f;
+  EXPECT_FLOAT_EQ(times_further(request, 17, 9, 8), 2.5f);   // 12 m north, 4 m east at most
+  EXPECT_FLOAT_EQ(times_further(request, 17, 13, 8), 1.0f);  // 16 m and 4 m
+  request.max_slope = 0.0f;
+  EXPECT_FLOAT_EQ(times_further(request, 17, 13, 8), 2.5f);
+}
+
+TEST(Priority, FlatPartsCountAsFurtherAwayThanRoughOnes) {
+  std::vector<float> height_m;  // a gentle ridge from south to north; flat from x = 16 on
+  for (int y = 0; y <= 32; ++y)
+    for (int x = 0; x <= 32; ++x)
+      height_m.push_back(x < 16 ? 0.125f * static_cast<float>(8 - std::abs(x - 8)) : 0.0f);
+  const SlopeBounds ridge(height_m, 33, 1.0);
+  AdaptRequest request = from_the_south();
+  request.max_height_m = 1.0f;
+  request.factors.flat = 5.0f;
+  request.slopes = &ridge;
+  EXPECT_NEAR(times_further(request, 27, 21, 8), 5.0f, 1e-6f);
+  EXPECT_NEAR(times_further(request, 9, 21, 8), 3.0f, 0.05f);  // slopes +-1/8: half of 0.5 wide
+}
+
+TEST(Priority, HazeLowersPrioritiesByTheContrastThatIsLeft) {
+  AdaptRequest request = from_the_south();
+  request.factors.haze_distance_m = 20.0f;
+  for (const int y : {5, 9, 13, 17, 21, 25, 29}) {
+    const double distance = std::sqrt(key_at(from_the_south(), 17, y, 8) / 256.0f);
+    const float further = times_further(request, 17, y, 8);
+    EXPECT_NEAR(further, std::pow(1.0 + distance / 160.0, 8.0), 1e-5 * further) << y;
+    if (distance < 20.0) {
+      EXPECT_NEAR(further / std::exp(distance / 20.0), 1.0, 0.06) << y;
+    }
+  }
+}
+
 TEST(Priority, WhatLiesBehindTheEyeIsCulledAndAMarginWidensTheView) {
   const Domain domain{{0.0, 0.0}, 1024.0, 10};
   AdaptRequest request;
@@ -109,7 +189,7 @@ TEST(Priority, WhatLiesBehindTheEyeIsCulledAndAMarginWidensTheView) {
 TEST(Priority, EverySimdTargetGivesTheBitsOfTheScalarFormula) {
   const int bits = 6;
   const Domain domain{{-300.0, 2000.0}, 700.0, bits};
-  const std::vector<oracle::OracleDiamond> diamonds = oracle::all_diamonds(bits);
+  std::vector<oracle::OracleDiamond> diamonds = oracle::all_diamonds(bits);
   std::vector<std::int32_t> x, y, level;
   for (const oracle::OracleDiamond& d : diamonds) {
     x.push_back(d.centre.first);
@@ -121,8 +201,11 @@ TEST(Priority, EverySimdTargetGivesTheBitsOfTheScalarFormula) {
   for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
-    CameraWalk walk(7, domain, 100);
-    for (int step = 0; step < 30; ++step) {
+    const std::vector<float> height_m = make_heights(bits, 9);  // hills
+    const SlopeBounds slopes(height_m, (1 << bits) + 1, 1.0);
+    oracle::bound_slopes(diamonds, bits, 1.0, height_m);
+    CameraWalk walk(7, domain, 100, &slopes);
+    for (int step = 0; step < 100; ++step) {
       const AdaptRequest request = walk.next();
       compute_priority_keys(make_priority_frame(request, domain), x, y, level, keys);
       for (std::size_t i = 0; i < keys.size(); ++i)

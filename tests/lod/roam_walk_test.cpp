@@ -9,6 +9,7 @@
 #include "lod/mesh_checks.h"
 #include "lod/roam.h"
 #include "lod/tree.h"
+#include "trials.h"
 
 namespace swell::lod {
 namespace {
@@ -42,12 +43,16 @@ class RoamWalk : public testing::TestWithParam<int> {};
 TEST_P(RoamWalk, EveryStepReachesTheSetThatTheDefinitionNames) {
   const int bits = GetParam();
   const Domain domain = small_domain(bits);
-  const std::vector<oracle::OracleDiamond> diamonds = oracle::all_diamonds(bits);
-  const int steps = bits >= 6 ? 15 : 40, walks = bits >= 6 ? 8 : 20;
+  std::vector<oracle::OracleDiamond> diamonds = oracle::all_diamonds(bits);
+  const int steps = bits >= 6 ? 15 : 40, walks = trials(bits <= 3 ? 80 : 10);
   Mesh mesh;
   for (int seed = 0; seed < walks; ++seed) {
     Roam roam(domain, full_triangles(bits));
-    CameraWalk walk(static_cast<std::uint64_t>(seed), domain, full_triangles(bits));
+    const auto random = static_cast<std::uint64_t>(seed);
+    const std::vector<float> height_m = make_heights(bits, random);
+    const SlopeBounds slopes(height_m, (1 << bits) + 1, 1.0);
+    oracle::bound_slopes(diamonds, bits, 1.0, height_m);
+    CameraWalk walk(random, domain, full_triangles(bits), &slopes);
     std::set<oracle::Point> before;
     for (int step = 0; step < steps; ++step) {
       SCOPED_TRACE(fmt::format("bits {} seed {} step {}", bits, seed, step));
@@ -57,8 +62,10 @@ TEST_P(RoamWalk, EveryStepReachesTheSetThatTheDefinitionNames) {
 
       const std::set<oracle::Point> expected = oracle::target(request, domain, diamonds);
       ASSERT_EQ(split_set(mesh), expected);
-      ASSERT_EQ(oracle::leaves_of(mesh), oracle::leaves_of(expected, bits));
-      ASSERT_EQ(find_mesh_fault(mesh, bits), "");
+      if (bits <= 3 || step % 4 == 3) {  // slow
+        ASSERT_EQ(oracle::leaves_of(mesh), oracle::leaves_of(expected, bits));
+        ASSERT_EQ(find_mesh_fault(mesh, bits), "");
+      }
       ASSERT_EQ(find_fault(roam.tree()), "");
       ASSERT_LE(done.triangles, request.triangle_budget);
       ASSERT_EQ(done.triangles, static_cast<int>(mesh.level.size()));
@@ -69,14 +76,15 @@ TEST_P(RoamWalk, EveryStepReachesTheSetThatTheDefinitionNames) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(LatticeBits, RoamWalk, testing::Values(1, 2, 4, 5, 6));
+INSTANTIATE_TEST_SUITE_P(LatticeBits, RoamWalk, testing::Values(1, 2, 3, 4, 5, 6));
 
 // LOD-14, at the size of a real terrain and of a real sea.
 TEST(RoamHistory, AdaptMakesTheMeshOfRebuildWhateverCameBefore) {
   for (const int bits : {10, 17, 20}) {
     const Domain domain{{-32768.0, -32768.0}, 65536.0, bits};
     Roam roam(domain, 8000), fresh(domain, 8000);
-    CameraWalk walk(100u + static_cast<unsigned>(bits), domain, 8000);
+    const SlopeBounds slopes(make_heights(8, 4), 257, 256.0);
+    CameraWalk walk(100u + static_cast<unsigned>(bits), domain, 8000, &slopes);
     Mesh mesh, fresh_mesh;
     for (int step = 0; step < 30; ++step) {
       SCOPED_TRACE(fmt::format("bits {} step {}", bits, step));
@@ -106,7 +114,7 @@ TEST(RoamHistory, ManyPathsToOnePoseEndInOneMesh) {
   roam.rebuild(end);
   roam.extract_mesh(first);
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    CameraWalk walk(seed, domain, 4000);
+    CameraWalk walk(seed, domain, 4000, nullptr);
     for (int step = 0; step < 5; ++step) roam.adapt(walk.next());
     roam.adapt(end);
     roam.extract_mesh(mesh);
@@ -118,7 +126,7 @@ TEST(RoamHistory, ManyPathsToOnePoseEndInOneMesh) {
 TEST(RoamHistory, MovingTheOriginIsForgottenToo) {
   Domain domain = small_domain(9);
   Roam roam(domain, 3000);
-  CameraWalk walk(5, domain, 3000);
+  CameraWalk walk(5, domain, 3000, nullptr);
   Mesh mesh, fresh_mesh;
   for (int step = 0; step < 20; ++step) {
     domain.min_world += glm::dvec2(step % 3 == 0 ? 350.0 : 0.0, step % 5 == 0 ? -87.5 : 0.0);
