@@ -70,9 +70,13 @@ void add_quality_options(CLI::App& app, render::FrameOptions& frame) {
       ->default_str("64");
   add_integer(app, "--triangles", frame.water_triangles, 2, 1000000,
               "Triangles of the water instead of the scene's");
+  add_integer(app, "--terrain-triangles", frame.terrain_triangles, 2, 1000000,
+              "Triangles of the terrain instead of the scene's");
   add_number(
       app, "--lookup-scale", frame.lookup_scale, 0.1, 1.0,
       "Size of reflection and refraction images against the picture, instead of the scene's");
+  add_number(app, "--picture-scale", frame.picture_scale, 0.1, 1.0,
+             "Draw at this share of the size and enlarge: faster, less sharp");
   app.add_flag("--wireframe", frame.wireframe, "Draw triangle edges");
 }
 

@@ -26,15 +26,7 @@ std::string table_row(std::string_view name, const Spread& s, double budget_ms) 
                      s.p95, s.p99, s.max, 100.0 * s.median / budget_ms);
 }
 
-}  // namespace
-
-Spread spread(std::vector<double> samples) {
-  std::ranges::sort(samples);
-  return {percentile(samples, 0.5), percentile(samples, 0.95), percentile(samples, 0.99),
-          samples.back()};
-}
-
-Json frame_json(const FrameReport& r) {
+Json plain_frame_json(const FrameReport& r) {
   Json stages = Json::object();
   for (std::size_t i = 0; i < r.stage_ms.size(); ++i)
     stages[std::string(stage_name(static_cast<render::Stage>(i)))] = rounded(r.stage_ms[i].median);
@@ -62,6 +54,39 @@ Json frame_json(const FrameReport& r) {
           {"involuntary_switches", r.involuntary_switches}};
 }
 
+Json governed_json(const GovernedReport& g) {
+  return {{"share_within", rounded(g.share_within)},
+          {"largest_triangle_change", rounded(g.largest_change)},
+          {"triangles", {g.least_triangles, g.most_triangles}},
+          {"lookup_scale", {rounded(g.least_lookup_scale), rounded(g.most_lookup_scale)}},
+          {"picture_scale", {rounded(g.least_picture_scale), rounded(g.most_picture_scale)}},
+          {"step_changes", g.step_changes}};
+}
+
+std::string governed_text(const GovernedReport& g) {
+  return fmt::format(
+      "governed, after the first second: {:.2f} % of frames within 1.1 x budget, {} to {} "
+      "triangles (at most {:.1f} % from frame to frame), lookup scale {:.3g} to {:.3g}, picture "
+      "scale {:.3g} to {:.3g}, {} changes of scale\n",
+      100.0 * g.share_within, g.least_triangles, g.most_triangles, 100.0 * g.largest_change,
+      g.least_lookup_scale, g.most_lookup_scale, g.least_picture_scale, g.most_picture_scale,
+      g.step_changes);
+}
+
+}  // namespace
+
+Spread spread(std::vector<double> samples) {
+  std::ranges::sort(samples);
+  return {percentile(samples, 0.5), percentile(samples, 0.95), percentile(samples, 0.99),
+          samples.back()};
+}
+
+Json frame_json(const FrameReport& r) {
+  Json json = plain_frame_json(r);
+  if (r.governed) json["governed"] = governed_json(*r.governed);
+  return json;
+}
+
 std::string stage_table(const FrameReport& r) {
   std::string text = fmt::format("{} {}x{}, {} threads, {}, {} frames\n", r.scene, r.width_px,
                                  r.height_px, r.threads, r.simd, r.frames);
@@ -78,6 +103,7 @@ std::string stage_table(const FrameReport& r) {
       "visible, xxh3 {:016x}\n",
       r.last.water_triangles, r.last.terrain_triangles, r.last.shaded_pixels, r.last.visible_pixels,
       r.hash);
+  if (r.governed) text += governed_text(*r.governed);
   text += fmt::format("peak memory {:.0f} MB, {} involuntary context switches\n", r.peak_rss_mb,
                       r.involuntary_switches);
   return text;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,16 @@ struct Spread {
   double median = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;
 };
 Spread spread(std::vector<double> samples);  // at least one
+
+// What the frame governor did, over the frames after the first second.
+struct GovernedReport {
+  double share_within = 0.0;    // of frames within 1.1 x budget, [0, 1]
+  double largest_change = 0.0;  // of the drawn triangles, water and terrain, from frame to frame
+  int least_triangles = 0, most_triangles = 0;
+  double least_lookup_scale = 0.0, most_lookup_scale = 0.0;
+  double least_picture_scale = 0.0, most_picture_scale = 0.0;
+  int step_changes = 0;  // of the scales
+};
 
 struct FrameReport {
   std::string scene;  // its name
@@ -30,6 +41,7 @@ struct FrameReport {
   std::uint64_t hash = 0;        // of the last frame's picture
   double peak_rss_mb = 0.0;
   std::int64_t involuntary_switches = 0;  // while measuring: how busy the machine was otherwise
+  std::optional<GovernedReport> governed;
 };
 
 using Json = nlohmann::ordered_json;

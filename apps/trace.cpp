@@ -23,6 +23,10 @@ void Trace::add_frame(int frame, double start_us, double length_us,
   frames_.push_back({frame, start_us, length_us, {events.begin(), events.end()}});
 }
 
+void Trace::add_counter(std::string_view name, double time_us, double value) {
+  counters_.push_back({std::string(name), time_us, value});
+}
+
 std::string Trace::json() const {
   Json events = Json::array();
   for (const Frame& frame : frames_) {
@@ -33,6 +37,13 @@ std::string Trace::json() const {
       events.push_back(complete_event(stage_name(e.stage), frame.start_us + e.start_us,
                                       e.end_us - e.start_us, track_of(e)));
   }
+  for (const Counter& c : counters_)
+    events.push_back({{"name", c.name},
+                      {"cat", "governor"},
+                      {"ph", "C"},
+                      {"ts", c.time_us},
+                      {"pid", 1},
+                      {"args", {{"value", c.value}}}});
   return Json{{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}.dump() + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "math/check.h"
@@ -11,6 +12,18 @@
 
 namespace swell::render {
 namespace {
+
+// What is drawn when the picture is drawn small: the same view on fewer pixels.
+View drawn_view(const View& view, const FrameOptions& options) {
+  View drawn = view;
+  if (options.keep_linear) return drawn;
+  const auto scaled = [&](int size) {
+    return std::clamp(static_cast<int>(std::lround(size * options.picture_scale)), 1, size);
+  };
+  drawn.width_px = scaled(view.width_px);
+  drawn.height_px = scaled(view.height_px);
+  return drawn;
+}
 
 // Sizes what depends on the picture and the thread count; after the first frame this does nothing.
 void prepare(Frame& frame, Target& target) {
@@ -21,6 +34,15 @@ void prepare(Frame& frame, Target& target) {
   target.linear.resize(frame.options.keep_linear ? 3 * pixels : 0);
   while (frame.ws.scratch.size() < static_cast<std::size_t>(frame.workers.thread_count()))
     frame.ws.scratch.push_back(std::make_unique<ThreadScratch>());
+}
+
+void enlarge_picture(Frame& frame, const View& view, Target& target) {
+  target.width_px = view.width_px;
+  target.height_px = view.height_px;
+  target.rgba.resize(static_cast<std::size_t>(view.width_px) * view.height_px);
+  target.linear.clear();
+  enlarge(frame.ws.small.rgba, {frame.view.width_px, frame.view.height_px}, target.rgba,
+          {view.width_px, view.height_px}, frame.ws.enlarge, frame.workers);
 }
 
 FrameStatistics statistics_of(const Workspace::State& ws) {
@@ -45,16 +67,30 @@ std::string_view stage_name(Stage stage) {
   return kNames[static_cast<std::size_t>(stage)];
 }
 
+FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene& scene) {
+  FrameOptions result = options;
+  if (result.water_triangles <= 0) result.water_triangles = scene.detail.water_triangles;
+  if (result.terrain_triangles <= 0) result.terrain_triangles = scene.detail.terrain_triangles;
+  if (result.lookup_scale <= 0.0) result.lookup_scale = scene.water.lookup_scale;
+  return result;
+}
+
 FrameStatistics render_frame(const World& world, const View& view, double t_s,
-                             const FrameOptions& options, Workspace& workspace, Target& target,
+                             const FrameOptions& asked, Workspace& workspace, Target& target,
                              Workers& workers) {
+  SWELL_CHECK(asked.picture_scale > 0.0 && asked.picture_scale <= 1.0, "picture_scale={}",
+              asked.picture_scale);
   SWELL_CHECK(view.width_px <= raster::kMaxViewport && view.height_px <= raster::kMaxViewport,
               "size={}x{}", view.width_px, view.height_px);
   const ScopedFloatEnvironment ieee;
   Workspace::State& ws = workspace.state();
-  Frame frame{world.state(), view, t_s, options, ws, workers};
+  const FrameOptions options = with_scene_defaults(asked, world.scene());
+  const View drawn = drawn_view(view, options);
+  Frame frame{world.state(), drawn, t_s, options, ws, workers};
+  const bool small = drawn.width_px < view.width_px || drawn.height_px < view.height_px;
+  Target& drawn_target = small ? ws.small : target;
   ws.profile.begin_frame(workspace.trace_enabled);
-  prepare(frame, target);
+  prepare(frame, drawn_target);
 
   workers.run_both(
       [&] {
@@ -79,7 +115,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   }
   {
     const StageScope stage(ws.profile, Stage::kShade);
-    shade_pixels(frame, target);
+    shade_pixels(frame, drawn_target);
+    if (small) enlarge_picture(frame, view, target);
   }
   workspace.trace = ws.profile.trace();
   return statistics_of(ws);

@@ -59,10 +59,20 @@ class World {
 struct FrameOptions {
   int tile_size_px = 64;      // 16, 32 or 64; changes no pixel
   int water_triangles = 0;    // 0: the scene's
+  int terrain_triangles = 0;  // 0: the scene's
   double lookup_scale = 0.0;  // 0: the scene's
-  bool wireframe = false;     // triangle edges, tinted by level of detail
-  bool keep_linear = false;   // fill Target::linear
+  // The picture is drawn at this share of the view's size each way, in (0, 1], and enlarged. Not
+  // with keep_linear, which is for pictures that are kept.
+  double picture_scale = 1.0;
+  // Storage for so many triangles of each surface at once: a later frame that asks for more than
+  // any before, but no more than this, need not build its triangulation anew. Changes no pixel.
+  int triangle_capacity = 0;
+  bool wireframe = false;    // triangle edges, tinted by level of detail
+  bool keep_linear = false;  // fill Target::linear
 };
+
+// The options with the scene's own numbers in place of zeros.
+FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene& scene);
 
 // The finished picture. Sized by render_frame; capacity is kept.
 struct Target {

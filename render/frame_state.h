@@ -10,6 +10,7 @@
 #include "lod/roam.h"
 #include "ocean/sea.h"
 #include "raster/pass.h"
+#include "render/enlarge.h"
 #include "render/frame.h"
 #include "render/profile.h"
 #include "render/shade.h"
@@ -86,6 +87,8 @@ struct Workspace::State {
   raster::Pass pass;
   VisibilityBuffer visibility;
   LookupTarget reflection, refraction;
+  Target small;           // the picture before it is enlarged
+  EnlargeTables enlarge;
   std::vector<TileLookups> tile_lookups;
   std::vector<int> shaded;  // per tile
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
@@ -97,14 +100,11 @@ struct Frame {
   const World::State& world;
   const View& view;
   double t_s;
-  const FrameOptions& options;
+  const FrameOptions& options;  // without zeros that mean the scene's
   Workspace::State& ws;
   Workers& workers;
 
   raster::Viewport viewport() const { return {view.width_px, view.height_px}; }
-  double lookup_scale() const {
-    return options.lookup_scale > 0.0 ? options.lookup_scale : world.scene.water.lookup_scale;
-  }
 };
 
 void advance_sea(Frame& frame);

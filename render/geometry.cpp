@@ -32,12 +32,13 @@ lod::Domain land_domain(const scene::Terrain& terrain) {
 
 void adapt_surface(const Frame& frame, const lod::Domain& domain, int budget, float low_m,
                    float high_m, float margin, Surface& surface) {
-  const bool fits = surface.roam && surface.max_triangles == budget &&
+  const int capacity = std::max(budget, frame.options.triangle_capacity);
+  const bool fits = surface.roam && surface.max_triangles >= capacity &&
                     surface.roam->domain().size_m == domain.size_m &&
                     surface.roam->domain().lattice_bits == domain.lattice_bits;
   if (!fits) {
-    surface.roam.emplace(domain, budget);
-    surface.max_triangles = budget;
+    surface.roam.emplace(domain, capacity);
+    surface.max_triangles = capacity;
   }
   surface.roam->set_origin(domain.min_world);
   lod::AdaptRequest request;
@@ -57,8 +58,7 @@ void adapt_surface(const Frame& frame, const lod::Domain& domain, int budget, fl
 
 void triangulate_sea(const Frame& frame) {
   const scene::Detail& detail = frame.world.scene.detail;
-  const int budget =
-      frame.options.water_triangles > 0 ? frame.options.water_triangles : detail.water_triangles;
+  const int budget = frame.options.water_triangles;
   Surface& water = frame.ws.water;
   switch (detail.triangulation) {
     case scene::Triangulation::kRoam: {
@@ -191,14 +191,14 @@ void advance_sea(Frame& frame) {
 }
 
 void triangulate(Frame& frame) {
-  const scene::Detail& detail = frame.world.scene.detail;
   frame.workers.run_both([&] { triangulate_sea(frame); },
                          [&] {
                            if (!frame.world.terrain) return;
                            const scene::Terrain& terrain = *frame.world.terrain;
                            // The mirrored land lies outside the view at times.
-                           adapt_surface(frame, land_domain(terrain), detail.terrain_triangles,
-                                         terrain.lowest_m, terrain.highest_m, 0.3f, frame.ws.land);
+                           adapt_surface(frame, land_domain(terrain),
+                                         frame.options.terrain_triangles, terrain.lowest_m,
+                                         terrain.highest_m, 0.3f, frame.ws.land);
                          });
 }
 

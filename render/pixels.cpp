@@ -64,7 +64,7 @@ TileRange reachable_tiles(const Frame& frame, int tile, const View& lookup_view,
 View lookup_view(const Frame& frame) {
   View view = frame.view;
   const auto scaled = [&](int size) {
-    return std::clamp(static_cast<int>(std::lround(size * frame.lookup_scale())), 1,
+    return std::clamp(static_cast<int>(std::lround(size * frame.options.lookup_scale)), 1,
                       raster::kMaxViewport);
   };
   view.width_px = scaled(frame.view.width_px);

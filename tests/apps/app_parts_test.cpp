@@ -78,6 +78,17 @@ TEST(Options, WholeNumbersHoldTheirLimits) {
     EXPECT_EQ(parsed_integer(text), 0) << text;
 }
 
+TEST(Trace, HasCountersForGraphs) {
+  Trace trace;
+  trace.add_counter("triangles", 125.0, 30000);
+  const nlohmann::json events = nlohmann::json::parse(trace.json()).at("traceEvents");
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].at("ph"), "C");
+  EXPECT_EQ(events[0].at("name"), "triangles");
+  EXPECT_EQ(events[0].at("ts"), 125.0);
+  EXPECT_EQ(events[0].at("args").at("value"), 30000.0);
+}
+
 TEST(Trace, PlacesStagesInTheRun) {
   Trace trace;
   trace.add_frame(3, 1000.0, 50.0,

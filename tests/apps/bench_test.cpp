@@ -118,6 +118,31 @@ TEST_F(Bench, TheTraceIsAChromeTrace) {
     EXPECT_GE(count[stage], 6) << stage;
 }
 
+TEST_F(Bench, AGovernedRunReportsWhatGave) {
+  const std::string path = folder_.file("trace.json");
+  const Json hopeless =
+      bench_json("frame", {"--scene", scene_, "--size", "64x36", "--frames", "50", "--warmup", "0",
+                           "--govern", "--budget-ms", "0.01", "--triangles", "2000",
+                           "--terrain-triangles", "2000", "--trace", path})
+          .at("governed");
+  EXPECT_EQ(hopeless.at("share_within"), 0.0);
+  EXPECT_EQ(hopeless.at("picture_scale"), Json::parse("[0.5, 1.0]"));
+  EXPECT_EQ(hopeless.at("lookup_scale").at(0), 0.25);
+  EXPECT_LE(hopeless.at("largest_triangle_change").get<double>(), 0.101);
+  EXPECT_LT(hopeless.at("triangles").at(0), hopeless.at("triangles").at(1));
+  EXPECT_GE(hopeless.at("step_changes").get<int>(), 1);
+  int counters = 0;
+  const Json trace = Json::parse(read_text(path), nullptr, false);
+  for (const Json& event : trace.at("traceEvents")) counters += event.at("ph") == "C";
+  EXPECT_EQ(counters, 3 * 50);
+
+  const Json easy = frame_json({"--govern", "--budget-ms", "100000"}).at("governed");
+  EXPECT_EQ(easy.at("share_within"), 1.0);
+  EXPECT_EQ(easy.at("largest_triangle_change"), 0.0);
+  EXPECT_EQ(easy.at("picture_scale"), Json::parse("[1.0, 1.0]"));
+  EXPECT_FALSE(frame_json({}).contains("governed"));
+}
+
 TEST_F(Bench, TheLodReportHasEveryKey) {
   const Json report = bench_json("lod", {"--triangles", "1500", "--frames", "30"});
   const int triangles = report.at("triangles");

@@ -147,6 +147,49 @@ TEST_P(EachScene, SteadyStateAllocatesNothing) {
   EXPECT_EQ(allocation_count() - before, 0u);
 }
 
+TEST_P(EachScene, ASmallerPictureIsDrawnAndEnlarged) {
+  const World world = load_world(GetParam());
+  FrameOptions options = few_triangles();
+  options.picture_scale = 0.75;
+  const Picture picture = draw(world, 2.0, 2, options);
+  ASSERT_EQ(picture.target.rgba.size(), std::size_t{kWidth} * kHeight);
+  EXPECT_LE(picture.statistics.shaded_pixels, std::uint64_t{150} * 90);
+  EXPECT_EQ(difference(draw(world, 2.0, 1, options).target, picture.target), "");
+  // It shows the same view.
+  const Picture full = draw(world, 2.0);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < full.target.rgba.size(); ++i)
+    for (int c = 0; c < 24; c += 8)
+      sum += std::abs(static_cast<int>(full.target.rgba[i] >> c & 255u) -
+                      static_cast<int>(picture.target.rgba[i] >> c & 255u));
+  EXPECT_LT(sum / (3.0 * static_cast<double>(full.target.rgba.size())), 6.0);
+}
+
+TEST(Frame, StorageForMoreTrianglesChangesNoPixel) {
+  const World world = load_world("lagoon");
+  FrameOptions roomy = few_triangles();
+  roomy.triangle_capacity = 50000;
+  EXPECT_EQ(difference(draw(world, 2.0, 2, roomy).target, draw(world, 2.0).target), "");
+}
+
+// As a frame governor asks for them.
+TEST(Frame, ChangingTriangleCountsWithinTheCapacityAllocatesNothing) {
+  const World world = load_world("lagoon");
+  Workers workers(1);
+  Workspace workspace;
+  Target target;
+  FrameOptions options;
+  options.triangle_capacity = 8000;
+  const auto frame = [&](int triangles) {
+    options.water_triangles = options.terrain_triangles = triangles;
+    render_frame(world, view_of(world, 1.0), 1.0, options, workspace, target, workers);
+  };
+  for (const int triangles : {8000, 7200, 5000, 5500, 8000}) frame(triangles);
+  const std::uint64_t before = allocation_count();
+  for (const int triangles : {8000, 7200, 5000, 5500, 8000}) frame(triangles);
+  EXPECT_EQ(allocation_count() - before, 0u);
+}
+
 TEST(Frame, CallersFloatEnvironmentChangesNoPixel) {
   const World& world = world_of("lagoon");
   const Picture reference = draw(world, 2.0);

@@ -1,0 +1,276 @@
+// The frame governor against a simulated renderer: known costs, noise, spikes, steps of load.
+#include "render/governor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "math/random.h"
+
+namespace swell::render {
+namespace {
+
+constexpr double kBudget_ms = 17.0;
+constexpr int kSecond = 60;  // frames
+
+// What a frame at full quality costs on the simulated machine.
+struct Load {
+  double sea_ms = 0.5, triangles_ms = 2.0, visibility_ms = 1.5, lookups_ms = 0.0, shade_ms = 8.0;
+  double rest_ms = 0.2;
+  Load times(double factor) const {
+    return {factor * sea_ms,     factor * triangles_ms, factor * visibility_ms,
+            factor * lookups_ms, factor * shade_ms,     factor * rest_ms};
+  }
+};
+constexpr Load kOpenSea{};
+constexpr Load kCoast{1.0, 4.0, 2.5, 4.0, 14.0, 0.2};
+
+struct Noise {
+  double sigma = 0.0;        // of each stage's factor
+  double spike_share = 0.0;  // of frames that the machine disturbs
+  double spike_ms = 0.0;
+};
+
+FrameOptions full_quality() {
+  FrameOptions options;
+  options.water_triangles = 30000;
+  options.terrain_triangles = 20000;
+  options.lookup_scale = 0.5;
+  return options;
+}
+
+// Draws a frame: unlike the governor's model, part of the triangles' cost and of the pixels' cost
+// does not scale.
+FrameStatistics simulate(const Load& load, const FrameOptions& options, const Noise& noise,
+                         int frame) {
+  const auto dice = [&](int i) {
+    return random_uniform(5, static_cast<std::uint64_t>(16 * frame + i));
+  };
+  const auto factor = [&](int i) { return 1.0 + noise.sigma * std::sqrt(12.0) * (dice(i) - 0.5); };
+  const double triangles = options.water_triangles / 30000.0;
+  const double pixels = options.picture_scale * options.picture_scale;
+  const double lookups = pixels * options.lookup_scale * options.lookup_scale / 0.25;
+  FrameStatistics s;
+  const auto stage = [&](Stage which) -> double& {
+    return s.stage_ms[static_cast<std::size_t>(which)];
+  };
+  stage(Stage::kSea) = load.sea_ms * factor(0);
+  stage(Stage::kTriangulate) = load.triangles_ms * (0.05 + 0.95 * triangles) * factor(1);
+  stage(Stage::kVisibility) = load.visibility_ms * (0.6 * triangles + 0.4 * pixels) * factor(2);
+  stage(Stage::kLookups) = load.lookups_ms * (0.3 * triangles + 0.7 * lookups) * factor(3);
+  stage(Stage::kShade) = load.shade_ms * (0.05 + 0.95 * pixels) * factor(4);
+  if (dice(5) < noise.spike_share) {
+    const int hit = static_cast<int>(dice(6) * 5.0);
+    s.stage_ms[static_cast<std::size_t>(std::array{0, 1, 3, 4, 5}[hit])] += noise.spike_ms;
+  }
+  for (const double ms : s.stage_ms) s.frame_ms += ms;
+  s.frame_ms += load.rest_ms;
+  s.water_triangles = options.water_triangles;
+  return s;
+}
+
+struct Flight {
+  std::vector<double> frame_ms;
+  std::vector<FrameOptions> options;
+  GovernorReport last;
+};
+
+Flight run(Governor& governor, int frames, const std::function<Load(int)>& load, Noise noise = {}) {
+  Flight result;
+  for (int k = 0; k < frames; ++k) {
+    result.options.push_back(governor.options());
+    const FrameStatistics s = simulate(load(k), governor.options(), noise, k);
+    result.frame_ms.push_back(s.frame_ms);
+    governor.next(s);
+  }
+  result.last = governor.report();
+  return result;
+}
+
+Flight run(int frames, const std::function<Load(int)>& load, Noise noise = {}) {
+  Governor governor({.budget_ms = kBudget_ms}, full_quality());
+  return run(governor, frames, load, noise);
+}
+
+// Of the frames after the first second.
+double share_within(const Flight& run, double ms) {
+  const auto begin = run.frame_ms.begin() + kSecond;
+  return static_cast<double>(std::count_if(begin, run.frame_ms.end(),
+                                           [&](double frame_ms) { return frame_ms <= ms; })) /
+         static_cast<double>(run.frame_ms.end() - begin);
+}
+
+double largest_change(const Flight& run) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < run.options.size(); ++i)
+    for (const auto count : {&FrameOptions::water_triangles, &FrameOptions::terrain_triangles}) {
+      const double before = run.options[i - 1].*count, after = run.options[i].*count;
+      largest = std::max(largest, std::abs(after - before) / before);
+    }
+  return largest;
+}
+
+int size_changes(const Flight& run, std::size_t first) {
+  int changes = 0;
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < run.options.size(); ++i)
+    changes += run.options[i].lookup_scale != run.options[i - 1].lookup_scale ||
+               run.options[i].picture_scale != run.options[i - 1].picture_scale;
+  return changes;
+}
+
+auto always(const Load& load) {
+  return [load](int) { return load; };
+}
+
+bool is_full(const FrameOptions& o) {
+  return o.water_triangles == 30000 && o.terrain_triangles == 20000 && o.lookup_scale == 0.5 &&
+         o.picture_scale == 1.0;
+}
+
+TEST(Governor, LeavesAFrameThatFitsAtFullQuality) {
+  const Flight r = run(600, always(kOpenSea), {.sigma = 0.03});
+  for (const FrameOptions& options : r.options) ASSERT_TRUE(is_full(options));
+}
+
+TEST(Governor, PassesOtherOptionsThrough) {
+  FrameOptions full = full_quality();
+  full.tile_size_px = 32;
+  full.wireframe = true;
+  Governor governor({}, full);
+  run(governor, 100, always(kCoast));
+  EXPECT_EQ(governor.options().tile_size_px, 32);
+  EXPECT_TRUE(governor.options().wireframe);
+  EXPECT_GE(governor.options().triangle_capacity, 30000);
+}
+
+TEST(Governor, HoldsTheBudgetFromHalfToFourTimesTheLoad) {
+  for (const double factor : {0.5, 1.0, 1.2, 1.5, 2.0, 3.0, 4.0}) {
+    const Flight r = run(1200, always(kOpenSea.times(factor)), {.sigma = 0.03});
+    EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.999) << factor;
+    EXPECT_LE(largest_change(r), 0.1) << factor;
+  }
+  EXPECT_GE(share_within(run(1200, always(kCoast), {.sigma = 0.03}), 1.1 * kBudget_ms), 0.999);
+}
+
+TEST(Governor, UsesTheBudgetItHas) {
+  for (const double factor : {1.5, 2.0, 3.0, 4.0}) {
+    const Flight r = run(1200, always(kOpenSea.times(factor)), {.sigma = 0.02});
+    const double last_second_ms = *std::min_element(r.frame_ms.end() - kSecond, r.frame_ms.end());
+    EXPECT_GT(last_second_ms, 0.7 * kBudget_ms) << factor;
+  }
+}
+
+TEST(Governor, SettlesUnderAConstantLoad) {
+  for (const Load& load : {kOpenSea.times(1.5), kOpenSea.times(2.2), kCoast, kCoast.times(1.7)}) {
+    const Flight quiet = run(1800, always(load));
+    EXPECT_EQ(size_changes(quiet, 5 * kSecond), 0);
+    for (std::size_t i = 6 * kSecond; i < quiet.options.size(); ++i)
+      ASSERT_EQ(quiet.options[i].water_triangles, quiet.options[i - 1].water_triangles) << i;
+    const Flight noisy = run(3600, always(load), {.sigma = 0.05});
+    EXPECT_LE(size_changes(noisy, 5 * kSecond), 2);
+  }
+}
+
+TEST(Governor, TrianglesDoNotPumpInNoise) {
+  const Flight r = run(3600, always(kOpenSea.times(1.35)), {.sigma = 0.04});
+  int turns = 0, direction = 0;
+  for (std::size_t i = 5 * kSecond; i < r.options.size(); ++i) {
+    const int change = r.options[i].water_triangles - r.options[i - 1].water_triangles;
+    if (change * direction < 0) ++turns;
+    if (change) direction = change;
+  }
+  EXPECT_LE(turns, 55) << "more than one a second";
+}
+
+TEST(Governor, ASingleSlowFrameChangesNothing) {
+  Governor governor({.budget_ms = kBudget_ms}, full_quality());
+  run(governor, 120, always(kOpenSea));
+  FrameStatistics slow = simulate(kOpenSea.times(5.0), governor.options(), {}, 0);
+  EXPECT_TRUE(is_full(governor.next(slow)));
+  for (const FrameOptions& options : run(governor, 120, always(kOpenSea)).options)
+    ASSERT_TRUE(is_full(options));
+}
+
+TEST(Governor, HoldsTheBudgetOnADisturbedMachine) {
+  // One frame in fifty takes 3 ms more than it should.
+  const Flight r =
+      run(3600, always(kOpenSea.times(1.6)), {.sigma = 0.04, .spike_share = 0.02, .spike_ms = 3.0});
+  EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99);
+  EXPECT_LE(size_changes(r, 5 * kSecond), 4);
+}
+
+TEST(Governor, ReactsToASuddenLoadWithinATenthOfASecond) {
+  const auto load = [](int k) { return k < 120 ? kOpenSea : kCoast; };
+  const Flight r = run(600, load, {.sigma = 0.02});
+  for (std::size_t k = 126; k < r.frame_ms.size(); ++k)
+    ASSERT_LE(r.frame_ms[k], 1.1 * kBudget_ms) << k;
+  EXPECT_LE(largest_change(r), 0.1);
+}
+
+TEST(Governor, NinetyNineOfAHundredFramesFitWhileTheLoadComesAndGoes) {
+  // Out at sea, a slow way to the coast, a sudden turn away from it and back, each minute.
+  const auto load = [](int k) {
+    const int at = k % 3600;
+    if (at < 900) return kOpenSea;
+    if (at >= 2400 && at < 2700) return kOpenSea;
+    const double share = std::clamp((at - 900) / 600.0, 0.0, 1.0);
+    Load mixed;
+    const auto mix = [&](double Load::*m) {
+      mixed.*m = (1.0 - share) * kOpenSea.*m + share * kCoast.*m;
+    };
+    for (const auto m : {&Load::sea_ms, &Load::triangles_ms, &Load::visibility_ms,
+                         &Load::lookups_ms, &Load::shade_ms})
+      mix(m);
+    return mixed;
+  };
+  const Flight r = run(3 * 3600, load, {.sigma = 0.04, .spike_share = 0.004, .spike_ms = 4.0});
+  EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99);
+  EXPECT_LE(largest_change(r), 0.1);
+  EXPECT_LE(size_changes(r, 0), 45) << "in three minutes";
+}
+
+TEST(Governor, QualityComesBackWhenTheLoadGoes) {
+  const auto load = [](int k) { return k < 300 ? kCoast.times(2.0) : kOpenSea; };
+  const Flight r = run(900, load, {.sigma = 0.02});
+  EXPECT_LT(r.options[299].picture_scale, 1.0);
+  EXPECT_TRUE(is_full(r.options.back()));
+}
+
+TEST(Governor, AHopelessLoadEndsAtTheLeastQuality) {
+  const Flight r = run(600, always(kCoast.times(20.0)));
+  EXPECT_EQ(r.options.back().picture_scale, 0.5);
+  EXPECT_EQ(r.options.back().water_triangles, 4500);
+  EXPECT_LE(largest_change(r), 0.1);
+}
+
+TEST(Governor, TimeOutsideTheFrameCounts) {
+  Governor governor({.budget_ms = kBudget_ms}, full_quality());
+  for (int k = 0; k < 300; ++k) governor.next(simulate(kOpenSea, governor.options(), {}, k), 6.0);
+  const double frame_ms = simulate(kOpenSea, governor.options(), {}, 0).frame_ms;
+  EXPECT_LE(frame_ms + 6.0, 1.0 * kBudget_ms);
+  EXPECT_GE(frame_ms + 6.0, 0.8 * kBudget_ms);
+}
+
+TEST(Governor, FollowsANewBudget) {
+  Governor governor({.budget_ms = kBudget_ms}, full_quality());
+  run(governor, 120, always(kOpenSea));
+  governor.set_budget_ms(8.0);
+  EXPECT_LE(run(governor, 120, always(kOpenSea)).frame_ms.back(), 8.0);
+  governor.set_budget_ms(30.0);
+  EXPECT_TRUE(is_full(run(governor, 400, always(kOpenSea)).options.back()));
+}
+
+TEST(Governor, DependsOnTheNumbersItWasGivenAlone) {
+  const Flight a = run(300, always(kCoast), {.sigma = 0.1}),
+               b = run(300, always(kCoast), {.sigma = 0.1});
+  for (std::size_t i = 0; i < a.options.size(); ++i) {
+    ASSERT_EQ(a.options[i].water_triangles, b.options[i].water_triangles);
+    ASSERT_EQ(a.options[i].picture_scale, b.options[i].picture_scale);
+  }
+}
+
+}  // namespace
+}  // namespace swell::render
