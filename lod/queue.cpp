@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "lod/diamond.h"
 #include "math/check.h"
@@ -32,6 +33,7 @@ void Queue::clear() {
   for (const std::int32_t node : nodes_) positions_[index(node)] = -1;
   for (auto* array : {&nodes_, &x_, &y_, &level_}) array->clear();
   keys_.clear();
+  next_update_ = 0;
   close_range();
 }
 
@@ -64,8 +66,17 @@ void Queue::erase(int node) {
   keys_.pop_back();
 }
 
-void Queue::update_keys(const PriorityFrame& frame) {
-  compute_priority_keys(frame, x_, y_, level_, keys_);
+void Queue::update_keys(const PriorityFrame& frame, int groups) {
+  const auto update = [&](std::size_t begin, std::size_t count) {
+    const auto part = [&](auto& array) { return std::span(array).subspan(begin, count); };
+    compute_priority_keys(frame, part(x_), part(y_), part(level_), part(keys_));
+  };
+  // From where the last group ended, and on from the first member.
+  const std::size_t size = nodes_.size(), group = (size + index(groups) - 1) / index(groups);
+  const std::size_t begin = std::min(next_update_, size), to_end = std::min(group, size - begin);
+  update(begin, to_end);
+  update(0, group - to_end);
+  next_update_ = begin + to_end < size ? begin + to_end : group - to_end;
   close_range();
 }
 
@@ -88,10 +99,11 @@ Queue::Entry Queue::entry(std::size_t position) const {
   return {rank(position), nodes_[position], tie ^ tie_flip_};
 }
 
-// A node number may meanwhile stand for another diamond, so the tie is compared as well.
+// A node number may meanwhile stand for another diamond, or the diamond have come back with a newer
+// key, so both are compared as well.
 bool Queue::is_stale(const Entry& e) const {
   const std::int32_t position = positions_[index(e.node)];
-  return position < 0 || entry(index(position)).tie != e.tie;
+  return position < 0 || rank(index(position)) != e.rank || entry(index(position)).tie != e.tie;
 }
 
 void Queue::close_range() {

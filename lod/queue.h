@@ -40,8 +40,9 @@ class Queue {
   void insert(const PriorityFrame& frame, int node, int x, int y, int level);
   void erase(int node);  // must be a member
 
-  // New keys for all members.
-  void update_keys(const PriorityFrame& frame);
+  // New keys for one of `groups` >= 1 groups of about the same size, in turn; 1: for all members.
+  // Members that erase() moves may miss their turn.
+  void update_keys(const PriorityFrame& frame, int groups = 1);
 
   // The first member in the queue's order, if there is one.
   std::optional<QueueMember> first();
@@ -73,6 +74,7 @@ class Queue {
   std::vector<std::int32_t> nodes_, x_, y_, level_;
   std::vector<PriorityKey> keys_;
   std::vector<std::int32_t> positions_;  // by node; -1: not a member
+  std::size_t next_update_ = 0;          // the first position of the next group
   std::vector<Entry> heap_;              // members with rank < range_end_, and stale ones
   std::uint64_t range_end_ = 0, range_step_ = 0;
 };

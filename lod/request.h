@@ -1,6 +1,7 @@
 // What a triangulation is asked for: a view, a budget and what matters.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -41,6 +42,17 @@ struct PriorityFactors {
   float haze_distance_m = std::numeric_limits<float>::infinity();
 };
 
+// Ways to bound the work of one call. With any of them the mesh is valid and within the budget, but
+// depends on the calls before too; calls with one request approach the mesh without limits.
+struct AdaptLimits {
+  // Splits and merges, the most important first; merges that the budget asks for come on top.
+  int max_operations = std::numeric_limits<int>::max();
+  // No operation begins much later. Other runs then give other meshes: for viewers alone.
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  // Only one of so many groups of priorities is worked out anew in a call, in turn: >= 1.
+  int priority_groups = 1;
+};
+
 struct AdaptRequest {
   View view;
   int triangle_budget = 10000;  // >= 2; never exceeded
@@ -54,6 +66,7 @@ struct AdaptRequest {
   const SlopeBounds* slopes = nullptr;  // of the whole domain; outlives the next call
   float max_slope = 1.0f;
   std::span<const Focus> focuses = {};  // at most kMaxFocuses; read during the call only
+  AdaptLimits limits = {};
 };
 
 }  // namespace swell::lod

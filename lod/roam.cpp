@@ -1,5 +1,6 @@
 #include "lod/roam.h"
 
+#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -10,6 +11,14 @@
 namespace swell::lod {
 namespace {
 
+bool is_over(const AdaptLimits& limits, int operations) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kOperationsPerLook = 16;  // at the clock
+  if (operations >= limits.max_operations) return true;
+  return limits.deadline != Clock::time_point::max() && operations % kOperationsPerLook == 0 &&
+         Clock::now() >= limits.deadline;
+}
+
 // The target is the longest prefix of the total order of diamonds (highest priority first, then
 // level, then place) that keeps the budget and holds no diamond of priority 0. Parents come before
 // children in that order, so every prefix is a valid mesh, the best diamond that is not split is
@@ -19,9 +28,12 @@ namespace {
 // room, so whatever is unsplit later comes after it, and it is not merged again. One that is
 // merged was the last of all split ones, and these with the best unsplit one do not fit together,
 // so no prefix that keeps the budget reaches to it.
-AdaptStatistics move_to_target(Roam::Tree& tree, int budget) {
+//
+// With groups of priorities some keys are old. An operation renews those of the diamonds it
+// touches, and among renewed ones the above holds: each moves at most twice.
+AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& limits) {
   AdaptStatistics done;
-  const int operation_cap = 2 * tree.max_triangles;
+  const int operation_cap = (limits.priority_groups > 1 ? 4 : 2) * tree.max_triangles;
   for (;;) {
     const std::optional<QueueMember> best = tree.split_queue.first();
     const bool wanted = best && best->key != kCulledKey;
@@ -31,6 +43,8 @@ AdaptStatistics move_to_target(Roam::Tree& tree, int budget) {
                                     (wanted && *best < *worst));
     if (!fits && !too_much) break;
 
+    done.stopped = tree.triangles <= budget && is_over(limits, done.splits + done.merges);
+    if (done.stopped) break;
     done.operation_cap_hit = done.splits + done.merges >= operation_cap;
     if (done.operation_cap_hit) break;
     if (fits) {
@@ -70,8 +84,12 @@ void Roam::set_origin(glm::dvec2 min_world) {
 AdaptStatistics Roam::adapt(const AdaptRequest& request) {
   SWELL_CHECK(request.triangle_budget >= 2 && request.triangle_budget <= tree_->max_triangles,
               "triangle_budget={} max_triangles={}", request.triangle_budget, tree_->max_triangles);
-  set_priorities(*tree_, make_priority_frame(request, tree_->domain));
-  return move_to_target(*tree_, request.triangle_budget);
+  SWELL_CHECK(request.limits.max_operations >= 0 && request.limits.priority_groups >= 1,
+              "max_operations={} priority_groups={}", request.limits.max_operations,
+              request.limits.priority_groups);
+  set_priorities(*tree_, make_priority_frame(request, tree_->domain),
+                 request.limits.priority_groups);
+  return move_to_target(*tree_, request.triangle_budget, request.limits);
 }
 
 AdaptStatistics Roam::rebuild(const AdaptRequest& request) {

@@ -23,6 +23,7 @@ struct Domain {
 
 struct AdaptStatistics {
   int triangles = 0, splits = 0, merges = 0;
+  bool stopped = false;            // at one of the request's limits, with work left
   bool operation_cap_hit = false;  // must never be true; tests require it
 };
 
@@ -45,7 +46,7 @@ class Roam {
   const Domain& domain() const;
 
   // Algorithm II: changes the last triangulation until it fits the request. The result depends on
-  // the request alone: it is bit for bit what rebuild() makes.
+  // the request alone, if that has no limits: it is bit for bit what rebuild() makes.
   AdaptStatistics adapt(const AdaptRequest& request);
 
   // Algorithm I: the same from the two root triangles.

@@ -114,10 +114,10 @@ void reset_tree(Tree& tree) {
   enqueue(tree, tree.split_queue, root);
 }
 
-void set_priorities(Tree& tree, const PriorityFrame& frame) {
+void set_priorities(Tree& tree, const PriorityFrame& frame, int groups) {
   tree.frame = frame;
-  tree.split_queue.update_keys(frame);
-  tree.merge_queue.update_keys(frame);
+  tree.split_queue.update_keys(frame, groups);
+  tree.merge_queue.update_keys(frame, groups);
 }
 
 int added_triangles(const Tree& tree, int node) {

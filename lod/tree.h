@@ -54,8 +54,8 @@ struct Roam::Tree {
 // Back to the two root triangles.
 void reset_tree(Roam::Tree& tree);
 
-// New keys for all queue members.
-void set_priorities(Roam::Tree& tree, const PriorityFrame& frame);
+// New keys for one of `groups` groups of each queue's members, in turn; 1: for all.
+void set_priorities(Roam::Tree& tree, const PriorityFrame& frame, int groups = 1);
 
 // The number of triangles that splitting the node adds.
 int added_triangles(const Roam::Tree& tree, int node);
@@ -70,7 +70,8 @@ int force_split(Roam::Tree& tree, int node);
 // Undoes the split of a node without split children.
 void merge(Roam::Tree& tree, int node);
 
-// Says which invariant of the tree or its queues is broken, or nothing. Slow; for tests.
-std::string find_fault(const Roam::Tree& tree);
+// Says which invariant of the tree or its queues is broken, or nothing. Keys may be old if
+// priorities are worked out in groups. Slow; for tests.
+std::string find_fault(const Roam::Tree& tree, bool keys_may_be_old = false);
 
 }  // namespace swell::lod
