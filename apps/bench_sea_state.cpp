@@ -135,12 +135,14 @@ Json measured_code(const std::string& scale, int code) {
 
 std::string table_line(const Json& row) {
   const Json& band = row["band_m"];
-  const std::string high = band[1].is_null() ? "" : fmt::format("{:.3g}", band[1].get<double>());
-  return fmt::format("| {} | {} | {:.3g} to {} | {:.3g} | {:.1f} | {:.1f} | {:.0f} |\n",
-                     row["code"].get<int>(), row["name"].get<std::string>(), band[0].get<double>(),
-                     high, row["significant_height_m"].get<double>(),
-                     row["wind_speed_mps"].get<double>(), row["peak_period_s"].get<double>(),
-                     row["peak_wavelength_m"].get<double>());
+  const double low = band[0].get<double>();
+  const std::string limits = band[1].is_null()
+                                 ? fmt::format("over {:.3g}", low)
+                                 : fmt::format("{:.3g} to {:.3g}", low, band[1].get<double>());
+  return fmt::format("| {} | {} | {} | {:.3g} | {:.1f} | {:.1f} | {:.0f} |\n",
+                     row["code"].get<int>(), row["name"].get<std::string>(), limits,
+                     row["significant_height_m"].get<double>(), row["wind_speed_mps"].get<double>(),
+                     row["peak_period_s"].get<double>(), row["peak_wavelength_m"].get<double>());
 }
 
 void run_table(const SeaStateBench& bench) {

@@ -247,8 +247,10 @@ TEST(SeaStatistics, HighestThirdOfNarrowBandWavesIsThatOfRayleighHeights) {
   const double f_m = 0.13 * kG / 15.0, f_end = 0.9 * f_m;
   const double k_end = kTwoPi * f_end * kTwoPi * f_end / kG;
   const Estimate ratio = significant_height_ratio(kTwoPi / k_end * 15.5, 32, 24);
-  // From a crest to its trough half a period later, the envelope loses pi^2 nu^2 / 8 (M. A. Tayfun,
-  // "Distribution of crest-to-trough wave heights", 1981).
+  // A height is the sum of the envelope at a crest and at the trough half a period later. The two
+  // are Gaussian with correlation 1 - pi^2 nu^2 / 2, so that their mean's standard deviation is
+  // 1 - pi^2 nu^2 / 8 of one's. Heights are lower than twice the envelope for this reason: M. A.
+  // Tayfun, Distribution of Crest-to-Trough Wave Heights, 1981.
   const double nu2 = squared_width_below(f_m, f_end);
   EXPECT_LE(nu2, 0.08 * 0.08);
   EXPECT_NEAR(ratio.value, 4.0043 * (1.0 - kPiRef * kPiRef * nu2 / 8.0),
