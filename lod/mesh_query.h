@@ -53,6 +53,10 @@ struct RayHit {
 RayHit intersect_ray(const HeightMesh& surface, glm::dvec3 origin_world, glm::dvec3 direction,
                      double max_distance_m);
 
+// The same by testing every triangle: for meshes of no bintree, whose envelopes are not looked at.
+RayHit intersect_ray_in_all(const HeightMesh& surface, glm::dvec3 origin_world,
+                            glm::dvec3 direction, double max_distance_m);
+
 struct TriangleAt {
   int triangle = kNoTriangle;
   double height_m = 0.0;  // of the triangle there

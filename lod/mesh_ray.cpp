@@ -100,10 +100,8 @@ struct RaySearch {
   }
 };
 
-}  // namespace
-
-RayHit intersect_ray(const HeightMesh& surface, glm::dvec3 origin_world, glm::dvec3 direction,
-                     double max_distance_m) {
+RaySearch make_search(const HeightMesh& surface, glm::dvec3 origin_world, glm::dvec3 direction,
+                      double max_distance_m) {
   const double length = glm::length(direction);
   SWELL_CHECK(std::isfinite(length) && length > 0.0, "direction=({}, {}, {})", direction.x,
               direction.y, direction.z);
@@ -112,13 +110,27 @@ RayHit intersect_ray(const HeightMesh& surface, glm::dvec3 origin_world, glm::dv
   SWELL_CHECK(max_distance_m >= 0.0, "max_distance_m={}", max_distance_m);
   const glm::dvec3 size = glm::abs(direction);
   const int main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  RaySearch search{surface,
-                   step_of(surface.domain),
-                   origin_world,
-                   direction / length,
-                   std::min(max_distance_m, std::numeric_limits<double>::max()),
-                   main_axis};
+  return {surface,
+          step_of(surface.domain),
+          origin_world,
+          direction / length,
+          std::min(max_distance_m, std::numeric_limits<double>::max()),
+          main_axis};
+}
+
+}  // namespace
+
+RayHit intersect_ray(const HeightMesh& surface, glm::dvec3 origin_world, glm::dvec3 direction,
+                     double max_distance_m) {
+  RaySearch search = make_search(surface, origin_world, direction, max_distance_m);
   search.visit_nearer_first(roots_of(surface.envelopes, surface.domain.lattice_bits));
+  return search.hit;
+}
+
+RayHit intersect_ray_in_all(const HeightMesh& surface, glm::dvec3 origin_world,
+                            glm::dvec3 direction, double max_distance_m) {
+  RaySearch search = make_search(surface, origin_world, direction, max_distance_m);
+  for (std::size_t t = 0; t < surface.mesh.level.size(); ++t) search.test(static_cast<int>(t));
   return search.hit;
 }
 

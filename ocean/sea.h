@@ -19,6 +19,8 @@ struct SineWave {
   double to_rad = 0.0;  // direction of travel, clockwise from north
   double phase_rad = 0.0;
   double period_s = 0.0;  // 0: from deep-water dispersion, omega^2 = g k
+
+  bool operator==(const SineWave&) const = default;
 };
 
 struct SeaDescription {
@@ -38,6 +40,8 @@ struct SeaDescription {
   // coarse for: bands of wave numbers do not overlap.
   std::vector<double> patch_lengths_m = {640.0, 97.0, 17.0};
   std::vector<SineWave> sines;
+
+  bool operator==(const SeaDescription&) const = default;
 };
 
 // One patch at one time: resolution x resolution samples, periodic; sample [j * resolution + i] is

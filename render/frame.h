@@ -40,9 +40,9 @@ class World {
   // Throws SceneError or FileError.
   explicit World(scene::Scene scene);
 
-  // The same bits, sooner: what both scenes describe alike (sky, terrain with its maps) is shared
-  // with `like`, height images are not read again. On `threads` threads; with other waves over the
-  // sky and terrain of `like` 20 ms, 200 ms more for the trains of a coast.
+  // The same bits, sooner: what both scenes describe alike (sky, sea, terrain with its maps, coast)
+  // is shared with `like`, height images are not read again. On `threads` threads; with another
+  // wind alone 20 ms, 200 ms more for the trains of a coast.
   World(scene::Scene scene, const World& like, int threads);
   ~World();
   World(World&&) noexcept;
@@ -107,6 +107,7 @@ class Workspace {
 
   struct State;
   State& state() { return *state_; }
+  const State& state() const { return *state_; }
   // Of the last frame; empty unless trace_enabled was set before it.
   bool trace_enabled = false;
   std::vector<TraceEvent> trace;

@@ -100,8 +100,8 @@ void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
   std::array<glm::dvec2, kChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = vertex_world(water, begin + i);
   const auto& world = frame.world;
-  const scene::WaterSurface surface(world.sea, frame.ws.sea, world.scene.area, world.terrain.get(),
-                                    world.coast ? &*world.coast : nullptr);
+  const scene::WaterSurface surface(*world.sea, frame.ws.sea, world.scene.area, world.terrain.get(),
+                                    world.coast.get());
   const auto height_m = std::span(water.height_m).subspan(begin, count);
   if (world.scene.detail.triangulation == scene::Triangulation::kPlane)
     std::ranges::fill(height_m, 0.0f);
@@ -164,7 +164,7 @@ glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
 
 void advance_sea(Frame& frame) {
   Workspace::State& ws = frame.ws;
-  ocean::advance(frame.world.sea, frame.t_s, ws.sea, frame.workers);
+  ocean::advance(*frame.world.sea, frame.t_s, ws.sea, frame.workers);
   ws.patch_maps.resize(ws.sea.patches.size());
   ws.noise_cos.resize(kUvNoiseSize * kUvNoiseSize);
   ws.noise_sin.resize(kUvNoiseSize * kUvNoiseSize);

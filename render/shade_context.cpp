@@ -110,7 +110,7 @@ void fill_water(const Frame& frame, ShadeContext& c) {
   c.body = water.body_colour * light;
   c.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * c.body;
   c.inv_crest_height =
-      1.0f / std::max(static_cast<float>(frame.world.sea.significant_height_m()), 0.1f);
+      1.0f / std::max(static_cast<float>(frame.world.sea->significant_height_m()), 0.1f);
   c.distortion_px = static_cast<float>(water.distortion * frame.view.height_px);
   c.max_distortion_px = 0.1f * static_cast<float>(frame.view.height_px);
 }
@@ -138,13 +138,13 @@ SlopeLayer make_square_layer(const texture::PackedMap2& map, double size_m,
 }
 
 void fill_coast(const Frame& frame, ShadeContext& c) {
-  c.has_coast = frame.world.coast.has_value();
+  c.has_coast = frame.world.coast != nullptr;
   if (!c.has_coast) return;
   const ocean::FloorGrid& grid = frame.world.coast->trains.grid;
   const double size_m = grid.spacing_m * (grid.samples_x - 1);
   const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - grid.min_world;
   c.coast_slopes = make_square_layer(frame.ws.coast_map, size_m, from_corner);
-  c.coast_share = make_square_layer(frame.world.coast_share, size_m, from_corner);
+  c.coast_share = make_square_layer(*frame.world.coast_share, size_m, from_corner);
 }
 
 void fill_terrain(const Frame& frame, ShadeContext& c) {

@@ -198,30 +198,51 @@ std::shared_ptr<const T> share(T value) {
   return std::make_shared<const T>(std::move(value));
 }
 
-// The terrain and its maps, those of `like` if there are such.
-void add_terrain(World::State& state, const World::State* like) {
+// The parts of a world. like: one that describes the part alike, or null.
+
+void add_sky(const World::State* like, World::State& state) {
+  state.sky = like ? like->sky : share(build_sky_maps(state.scene.sky));
+}
+
+void add_sea(const World::State* like, World::State& state) {
+  state.sea = like ? like->sea : std::make_shared<const ocean::Sea>(state.scene.sea);
+}
+
+void add_bump(const World::State* like, World::State& state) {
+  state.bump = like ? like->bump : share(build_bump_map(state.scene.sea.seed));
+}
+
+void add_terrain(const World::State* like, World::State& state) {
   if (!state.scene.terrain) return;
-  if (like && like->scene.terrain == state.scene.terrain) {
-    state.terrain = like->terrain;
-    state.terrain_maps = like->terrain_maps;
-    return;
+  state.terrain = like ? like->terrain : share(scene::build_terrain(*state.scene.terrain));
+  state.terrain_maps = like ? like->terrain_maps
+                            : share(build_terrain_maps(*state.terrain, state.scene.terrain->seed));
+}
+
+void add_coast(const World::State* like, int threads, World::State& state) {
+  if (like) {
+    state.coast = like->coast;
+    state.coast_share = like->coast_share;
+  } else if (auto coast = scene::build_coast(state.scene, state.terrain.get(), threads)) {
+    state.coast = share(std::move(*coast));
+    state.coast_share = share(build_coast_share_map(*state.coast));
   }
-  state.terrain = share(scene::build_terrain(*state.scene.terrain));
-  state.terrain_maps = share(build_terrain_maps(*state.terrain, state.scene.terrain->seed));
 }
 
 // like: may be null.
 std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
                                          int threads) {
-  auto state =
-      std::make_unique<World::State>(World::State{.scene = scene, .sea = ocean::Sea(scene.sea)});
-  const bool same_sky = like && like->scene.sky == scene.sky;
-  state->sky = same_sky ? like->sky : share(build_sky_maps(scene.sky));
-  const bool same_bump = like && like->scene.sea.seed == scene.sea.seed;
-  state->bump = same_bump ? like->bump : share(build_bump_map(scene.sea.seed));
-  add_terrain(*state, like);
-  state->coast = scene::build_coast(scene, state->terrain.get(), threads);
-  if (state->coast) state->coast_share = build_coast_share_map(*state->coast);
+  auto state = std::make_unique<World::State>(World::State{.scene = std::move(scene)});
+  const scene::Scene& now = state->scene;
+  const auto if_alike = [&](bool is_alike) { return is_alike ? like : nullptr; };
+  const bool same_sea = like && like->scene.sea == now.sea;
+  const bool same_terrain = like && like->scene.terrain == now.terrain;
+  const bool same_coast = same_sea && same_terrain && like->scene.coast == now.coast;
+  add_sky(if_alike(like && like->scene.sky == now.sky), *state);
+  add_sea(if_alike(same_sea), *state);
+  add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
+  add_terrain(if_alike(same_terrain), *state);
+  add_coast(if_alike(same_coast), threads, *state);
   return state;
 }
 

@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 #include <memory>
-#include <optional>
 
 #include "ocean/coast.h"
 #include "ocean/sea.h"
@@ -27,15 +26,13 @@ struct TerrainMaps {
   texture::RgbaImage albedo;   // sqrt-encoded reflectance
 };
 
+// Parts are shared by worlds whose scenes describe them alike.
 struct World::State {
   scene::Scene scene;
-
-  // The waves.
-  ocean::Sea sea;
-  std::optional<ocean::CoastSea> coast = {};
-  texture::PackedMap2 coast_share = {};  // over the coast's square, in both channels
-
-  // What waves do not change: shared with worlds that differ in their waves alone.
+  std::shared_ptr<const ocean::Sea> sea = {};
+  std::shared_ptr<const ocean::CoastSea> coast = {};  // none: no wave trains
+  // Of the trains over the coast's square, in both channels.
+  std::shared_ptr<const texture::PackedMap2> coast_share = {};
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const scene::Terrain> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
@@ -43,7 +40,8 @@ struct World::State {
 
   // |z| of the surface is at most this in practice.
   float height_bound_m() const {
-    return static_cast<float>(sea.height_bound_m()) + (coast ? coast->trains.height_bound_m : 0.0f);
+    return static_cast<float>(sea->height_bound_m()) +
+           (coast ? coast->trains.height_bound_m : 0.0f);
   }
 };
 

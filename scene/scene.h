@@ -76,6 +76,8 @@ struct Coast {
   bool eikonal = true;                   // phases bent by the floor; false: straight ones
   double grid_spacing_m = 0.0;           // [0.5, 100]; 0: the terrain's side / 256
   std::uint64_t seed = 1;
+
+  bool operator==(const Coast&) const = default;
 };
 
 // How the sea is cut into triangles.

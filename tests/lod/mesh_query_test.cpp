@@ -72,6 +72,9 @@ TEST(RayQuery, HitsWhatATestOfEveryTriangleHits) {
       if (ray % 2 == 0) direction.z *= 0.02;  // grazing: hits waves after passing others by
       const Reference expected = hit_of_all(wavy, origin, direction);
       const RayHit hit = intersect_ray(wavy.surface(), origin, direction, kFar_m);
+      const RayHit same = intersect_ray_in_all(wavy.surface(), origin, direction, kFar_m);
+      ASSERT_EQ(hit.triangle, same.triangle);  // always, and to the bit
+      ASSERT_EQ(hit.distance_m, same.distance_m);
       if (expected.margin < 1e-9) continue;  // rounding decides
       ++compared;
       ASSERT_EQ(hit.triangle, expected.triangle) << "mesh " << i << " ray " << ray;
