@@ -1,8 +1,10 @@
 // sea.douglas and sea.beaufort: what they set, what excludes them, how they are written out.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "ocean/sea_scale.h"
 #include "scene/scene_text.h"
+#include "scene/water_surface.h"
 
 namespace swell::scene {
 namespace {
@@ -15,6 +17,47 @@ TEST(SeaState, ACodeSetsTheWindAndThePatchLengths) {
   const Scene gale = parse_scene("[sea]\nbeaufort = 8\n", "test.toml");
   EXPECT_NEAR(gale.sea.wind_speed_mps, 18.917, 1e-3);  // 0.836 8^1.5
   EXPECT_EQ(parse_scene("[sea]\ndouglas = 0\n", "test.toml").sea.wind_speed_mps, 0.0);
+}
+
+TEST(SeaState, EveryNumberOfBothScalesIsASea) {
+  for (const auto& [key, last] : {std::pair{"douglas", 9}, std::pair{"beaufort", 12}}) {
+    double wind_mps = -1.0;
+    for (int code = 0; code <= last; ++code) {
+      const Scene scene = parse_scene(fmt::format("[sea]\n{} = {}\n", key, code), "test.toml");
+      EXPECT_GT(scene.sea.wind_speed_mps, wind_mps) << key << code;
+      wind_mps = scene.sea.wind_speed_mps;
+      ASSERT_EQ(scene.sea.patch_lengths_m.size(), 3u);
+      EXPECT_GE(scene.sea.patch_lengths_m[0], 60.0);
+      EXPECT_GT(scene.sea.patch_lengths_m[2], 1.0);
+    }
+  }
+}
+
+// With a floor, and trains asked for: none of them may divide by the wind.
+TEST(SeaState, ACalmIsAMirror) {
+  const Scene scene = parse_scene(
+      "[sea]\ndouglas = 0\n[terrain]\nisland_radius_m = 60\n[coast]\nmodel = \"blend\"\n",
+      "test.toml");
+  const Water water(scene);
+  Workers workers(1);
+  ocean::SeaFrame frame;
+  const WaterSurface surface = water.at(12.5, frame, workers);
+  ocean::VelocityFrame velocity;
+  ocean::advance_velocity(water.sea(), frame, velocity, workers);
+  const std::vector<glm::dvec2> p = {{0.0, 0.0}, {70.0, -20.0}, {300.0, 400.0}, {5000.0, 0.0}};
+  std::vector<float> height(p.size(), 1.0f);
+  std::vector<glm::vec3> normal(p.size()), speed(p.size(), glm::vec3(1.0f));
+  surface.heights(p, height);
+  surface.normals(p, normal);
+  surface.velocities(p, velocity, speed);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_EQ(height[i], 0.0f) << i;
+    EXPECT_EQ(normal[i], glm::vec3(0.0f, 0.0f, 1.0f)) << i;
+    EXPECT_EQ(speed[i], glm::vec3(0.0f)) << i;
+  }
+  const auto hit = surface.intersect({300.0, 400.0, 5.0}, {0.0, 0.6, -0.8}, 100.0);
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_NEAR(hit->distance_m, 6.25, 1e-6);
 }
 
 TEST(SeaState, PatchLengthsOfTheFileStay) {
