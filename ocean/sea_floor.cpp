@@ -67,8 +67,11 @@ void check_beach(const PlaneBeach& beach) {
           fmt::format("coast line of {} points, at least 2", beach.coast.size()));
   for (std::size_t n = 0; n < beach.coast.size(); ++n) {
     const glm::dvec2 p = beach.coast[n];
-    require(std::isfinite(p.x) && std::isfinite(p.y) && (n == 0 || p != beach.coast[n - 1]),
-            fmt::format("coast line point {}: ({}, {})", n, p.x, p.y));
+    // NaN fails.
+    require(std::isfinite(p.x) && std::isfinite(p.y) &&
+                (n == 0 || glm::distance(p, beach.coast[n - 1]) >= kShortestStretch_m),
+            fmt::format("coast line point {}: ({}, {}), must be {} m or more from the one before",
+                        n, p.x, p.y, kShortestStretch_m));
   }
   require(beach.slope > 0.0, fmt::format("beach slope {}, must be positive", beach.slope));
   require(beach.max_depth_m > 0.0,

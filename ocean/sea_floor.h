@@ -48,11 +48,14 @@ SeaFloor make_sea_floor(const FloorGrid& grid, FunctionRef<double(glm::dvec2)> d
 // From heights above mean sea level (terrain: positive on land), row by row.
 SeaFloor make_sea_floor_from_heights(const FloorGrid& grid, std::span<const float> height_m);
 
+inline constexpr double kShortestStretch_m = 1e-3;
+
 // A beach of one slope along a coast line. Source: Elykov, Belago, Kuzikovsky, Nekrasov, 2000, the
 // figure of the waves at a beach.
 struct PlaneBeach {
-  // Two points or more, no two consecutive ones equal; the sea is on the left when walking from the
-  // first to the last. The first and last stretch go on for ever.
+  // Two points or more, each at least kShortestStretch_m from the one before; the sea is on the
+  // left when walking from the first to the last. The first and last stretch go on for ever. A line
+  // may cross itself: the nearest stretch decides.
   std::vector<glm::dvec2> coast;
   double slope = 0.02;        // metres of depth per metre of distance from the coast line, > 0
   double max_depth_m = 50.0;  // > 0; the floor is flat from there on

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "ocean/sea_floor.h"
 #include "ocean/sea_scale.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
@@ -335,11 +336,13 @@ class Reader {
 
   void check_coast(const toml::node& node) const {
     const auto& coast = scene_.terrain->coast_m;
-    const auto twin = std::ranges::adjacent_find(coast);
-    if (twin == coast.end()) return;
-    const auto n = static_cast<std::size_t>(twin - coast.begin()) + 1;
-    fail_value(*node.as_array()->get(n), fmt::format("terrain.coast_m[{}]", n),
-               fmt::format("[{}, {}]", twin->x, twin->y), "a point unlike the one before");
+    for (std::size_t n = 1; n < coast.size(); ++n) {
+      if (glm::distance(coast[n - 1], coast[n]) >= ocean::kShortestStretch_m) continue;
+      fail_value(
+          *node.as_array()->get(n), fmt::format("terrain.coast_m[{}]", n),
+          fmt::format("[{}, {}]", coast[n].x, coast[n].y),
+          fmt::format("a point {} m or more from the one before", ocean::kShortestStretch_m));
+    }
   }
 
   [[noreturn]] void fail_value(const toml::node& node, const std::string& path,

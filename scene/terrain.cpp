@@ -119,11 +119,11 @@ void check_coast(std::span<const glm::dvec2> coast_m) {
   for (std::size_t n = 0; n < coast_m.size(); ++n) {
     check_value("coast_m, east", coast_m[n].x);
     check_value("coast_m, north", coast_m[n].y);
-    if (n > 0 && coast_m[n] == coast_m[n - 1])
-      throw SceneError(
-          fmt::format("terrain.coast_m[{}], got [{}, {}], allowed one that differs "
-                      "from the point before",
-                      n, coast_m[n].x, coast_m[n].y));
+    if (n > 0 && glm::distance(coast_m[n], coast_m[n - 1]) < ocean::kShortestStretch_m)
+      throw SceneError(fmt::format(
+          "terrain.coast_m[{}], got [{}, {}], allowed a point {} m or more from the one "
+          "before",
+          n, coast_m[n].x, coast_m[n].y, ocean::kShortestStretch_m));
   }
 }
 

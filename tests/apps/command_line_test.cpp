@@ -3,6 +3,10 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+
 #include "apps/program_runner.h"
 
 namespace swell::apps {
@@ -151,6 +155,48 @@ TEST_F(CommandLine, BadScenesAreNamedWithTheLine) {
     Arguments pieces = c.pieces;
     pieces.push_back("error: " + path);
     expect_refused(run_render({"--scene", path, "--hash"}), pieces);
+  }
+}
+
+// A TIFF of 2 x 2 floats, little-endian, one strip.
+std::string float_tiff(const std::array<float, 4>& pixels) {
+  std::string bytes("II*\0\x18\0\0\0", 8);  // the directory comes after the pixels
+  bytes.append(reinterpret_cast<const char*>(pixels.data()), sizeof(pixels));
+  struct Entry {
+    std::uint16_t tag, type;  // 3: 16 bits, 4: 32 bits
+    std::uint32_t count, value;
+  };
+  constexpr Entry kEntries[] = {{256, 4, 1, 2},  {257, 4, 1, 2}, {258, 3, 1, 32}, {259, 3, 1, 1},
+                                {262, 3, 1, 1},  {273, 4, 1, 8}, {277, 3, 1, 1},  {278, 4, 1, 2},
+                                {279, 4, 1, 16}, {339, 3, 1, 3}};
+  const std::uint16_t count = std::size(kEntries);
+  bytes.append(reinterpret_cast<const char*>(&count), 2);
+  bytes.append(reinterpret_cast<const char*>(kEntries), sizeof(kEntries));
+  return bytes + std::string(4, '\0');
+}
+
+TEST_F(CommandLine, BadFloorsAreNamed) {
+  const std::string nan_tiff = folder_.file("nan.tif"), low_tiff = folder_.file("low.tif");
+  write_text(nan_tiff, float_tiff({0.1f, std::nanf(""), 0.3f, 0.4f}));
+  write_text(low_tiff, float_tiff({0.1f, 0.2f, 0.3f, -0.5f}));
+  const std::string path = folder_.file("floor.toml"), line3 = "error: " + path + ":3:";
+  const std::string coast = "[terrain]\n\ncoast_m = ", spacing = "[coast]\n\ngrid_spacing_m = ";
+  struct Case {
+    std::string text;
+    Arguments pieces;
+  };
+  const Case cases[] = {
+      {"[terrain]\nheight_image = \"nan.tif\"\n", {"error: " + nan_tiff, "pixel (1, 0)", "nan"}},
+      {"[terrain]\nheight_image = \"low.tif\"\n", {"error: " + low_tiff, "pixel (1, 1)", "-0.5"}},
+      {"[terrain]\n\nmetres_per_pixel = -2.0\n", {line3, "metres_per_pixel", "-2"}},
+      {coast + "[[0, 0]]\n", {line3, "terrain.coast_m", "2 to 200 points"}},
+      {coast + "[[3, 3], [3, 3], [3, 3]]\n", {line3, "terrain.coast_m[1]", "[3, 3]"}},
+      {spacing + "0.1\n", {line3, "coast.grid_spacing_m", "0.1", "0.5 to 100 m"}},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    write_text(path, c.text);
+    expect_refused(run_render({"--scene", path, "--size", "8x8", "--hash"}), c.pieces);
   }
 }
 

@@ -82,6 +82,8 @@ TEST(PlaneBeach, RefusesABadCoast) {
   EXPECT_NO_THROW(make_plane_beach(grid, {coast, 0.1, 5.0}));
   EXPECT_THROW(make_plane_beach(grid, {{{0.0, 0.0}}, 0.1, 5.0}), std::invalid_argument);
   EXPECT_THROW(make_plane_beach(grid, {{{0.0, 0.0}, {0.0, 0.0}}, 0.1, 5.0}), std::invalid_argument);
+  EXPECT_THROW(make_plane_beach(grid, {{{0.0, 0.0}, {1e-300, 0.0}}, 0.1, 5.0}),
+               std::invalid_argument);
   EXPECT_THROW(make_plane_beach(grid, {coast, 0.0, 5.0}), std::invalid_argument);
   EXPECT_THROW(make_plane_beach(grid, {coast, std::nan(""), 5.0}), std::invalid_argument);
   EXPECT_THROW(make_plane_beach(grid, {coast, 0.1, -5.0}), std::invalid_argument);

@@ -340,8 +340,11 @@ INSTANTIATE_TEST_SUITE_P(
               "test.toml:3: column 7: terrain.coast_m[1], got nan, allowed 2 to 200 points [east, "
               "north], each number -1000000 to 1000000 m"},
         Fault{"[terrain]\ncoast_m = [[1, 2],\n  [3, 4],\n  [3, 4]]\n",
-              "test.toml:4: column 3: terrain.coast_m[2], got [3, 4], allowed a point unlike the "
-              "one before"},
+              "test.toml:4: column 3: terrain.coast_m[2], got [3, 4], allowed a point 0.001 m "
+              "or more from the one before"},
+        Fault{"[terrain]\ncoast_m = [[1, 0], [0, 0],\n  [0, 1e-300]]\n",
+              "test.toml:3: column 3: terrain.coast_m[2], got [0, 1e-300], allowed a point 0.001 m "
+              "or more from the one before"},
         Fault{"[terrain]\nbeach_slope = 0\n",
               "test.toml:2: column 15: terrain.beach_slope, got 0, allowed 0.001 to 1"},
         Fault{"[terrain]\nbeach_size_m = 20001\n",

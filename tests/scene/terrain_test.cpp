@@ -387,7 +387,8 @@ TEST(Beach, IsFiniteAtTheEndsOfTheRanges) {
 TEST_F(TerrainImage, CoastsThatMakeNoBeachAreRefused) {
   EXPECT_EQ(error_of({.coast_m = {{1, 2}}}), "terrain.coast_m, got 1 point, allowed 2 or more");
   EXPECT_EQ(error_of({.coast_m = {{1, 2}, {3, 4}, {3, 4}}}),
-            "terrain.coast_m[2], got [3, 4], allowed one that differs from the point before");
+            "terrain.coast_m[2], got [3, 4], allowed a point 0.001 m or more from the one "
+            "before");
   EXPECT_EQ(error_of({.coast_m = {{1, 2}, {3, HUGE_VAL}}}),
             "terrain.coast_m, north, got inf, allowed finite and over -inf");
   EXPECT_EQ(error_of({.coast_m = {{1, 2}, {3, 4}}, .beach_slope = 0.0}),
