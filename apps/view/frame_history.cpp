@@ -21,11 +21,12 @@ double percentile_ms(const FrameHistory& history, double p) {
   return sorted[index];
 }
 
-double share_over_budget(const FrameHistory& history) {
+double share_over_budget(const FrameHistory& history, double budget_ms) {
   if (history.count == 0) return 0.0;
   const auto end = history.frame_ms.begin() + static_cast<std::ptrdiff_t>(history.count);
-  const auto over = std::count_if(history.frame_ms.begin(), end,
-                                  [](float ms) { return static_cast<double>(ms) > kBudget_ms; });
+  const auto over = std::count_if(history.frame_ms.begin(), end, [budget_ms](float ms) {
+    return static_cast<double>(ms) > budget_ms;
+  });
   return static_cast<double>(over) / static_cast<double>(history.count);
 }
 

@@ -19,7 +19,7 @@ void add_frame(FrameHistory& history, double frame_ms);
 // The value below which a share p in [0, 1] of the kept frames lie (nearest rank); 0 if empty.
 double percentile_ms(const FrameHistory& history, double p);
 
-// The share of the kept frames over the budget; 0 if empty.
-double share_over_budget(const FrameHistory& history);
+// The share of the kept frames over a budget; 0 if empty.
+double share_over_budget(const FrameHistory& history, double budget_ms = kBudget_ms);
 
 }  // namespace swell::view

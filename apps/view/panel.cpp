@@ -45,6 +45,26 @@ bool draw_waves(WaveChoice& waves) {
   return changed;
 }
 
+// How the sea is cut into triangles, and which of them count more.
+bool draw_detail(scene::Detail& detail) {
+  bool changed = false;
+  int kind = static_cast<int>(detail.triangulation);
+  if (ImGui::Combo("mesh", &kind, "ROAM\0radial grid\0plane\0")) {
+    detail.triangulation = static_cast<scene::Triangulation>(kind);
+    changed = true;
+  }
+  if (detail.triangulation != scene::Triangulation::kRoam) return changed;
+  int priority = detail.inverse_distance_priority;
+  if (ImGui::Combo("priority", &priority, "size over distance\0nearest\0")) {
+    detail.inverse_distance_priority = priority != 0;
+    changed = true;
+  }
+  if (!ImGui::TreeNode("what counts as nearer or further")) return changed;
+  changed |= slide("objects", detail.objects, 1.0, 64.0, "%.1f x nearer");
+  ImGui::TreePop();
+  return changed;
+}
+
 void draw_quality(render::FrameOptions& frame) {
   ImGui::SliderInt("triangles", &frame.water_triangles, 200, 200000, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
@@ -52,15 +72,27 @@ void draw_quality(render::FrameOptions& frame) {
   ImGui::Checkbox("wireframe", &frame.wireframe);
 }
 
+void draw_governor(const PanelReport& report, PanelSettings& settings) {
+  ImGui::SameLine();
+  ImGui::Checkbox("keep to the budget", &settings.governed);
+  if (!settings.governed) return;
+  slide("budget", settings.budget_ms, 5.0, 100.0, "%.0f ms");
+  const render::GovernorReport& g = report.governor;
+  text(fmt::format("{:3.0f} % of the triangles, {:3.0f} % of the size", 100.0 * g.detail,
+                   100.0 * report.picture_scale));
+  text(fmt::format("aims at {:.1f} ms, expects {:.1f} ms", g.aim_ms, g.predicted_ms));
+}
+
 // The graph's top: twice the budget, doubled until nearly all frames fit.
-float graph_top_ms(const FrameHistory& history) {
-  double top_ms = 2.0 * kBudget_ms;
+float graph_top_ms(const FrameHistory& history, double budget_ms) {
+  double top_ms = 2.0 * budget_ms;
   while (top_ms < percentile_ms(history, 0.95) && top_ms < 1e4) top_ms *= 2.0;
   return static_cast<float>(top_ms);
 }
 
 // One bar a frame, the newest at the right edge; bars over the budget in another colour.
-void draw_bars(const FrameHistory& history, ImVec2 corner, ImVec2 size, float top_ms) {
+void draw_bars(const FrameHistory& history, double budget_ms, ImVec2 corner, ImVec2 size,
+               float top_ms) {
   constexpr auto kSlots = static_cast<float>(FrameHistory::kLength);
   ImDrawList* list = ImGui::GetWindowDrawList();
   for (std::size_t age = 1; age <= history.count; ++age) {
@@ -70,35 +102,37 @@ void draw_bars(const FrameHistory& history, ImVec2 corner, ImVec2 size, float to
     const float x0 = std::floor(corner.x + size.x * slot / kSlots);
     const float x1 = std::floor(corner.x + size.x * (slot + 1.0f) / kSlots);
     const float height = std::floor(size.y * std::clamp(ms / top_ms, 0.0f, 1.0f));
-    const bool is_over = static_cast<double>(ms) > kBudget_ms;
+    const bool is_over = static_cast<double>(ms) > budget_ms;
     list->AddRectFilled({x0, corner.y + size.y - height}, {x1, corner.y + size.y},
                         is_over ? IM_COL32(190, 130, 40, 255) : IM_COL32(70, 150, 90, 255));
   }
 }
 
 // Frame times with the budget as a labelled line across.
-void draw_graph(const FrameHistory& history) {
+void draw_graph(const FrameHistory& history, double budget_ms) {
   const ImVec2 size(ImGui::GetContentRegionAvail().x, kGraphHeight_px);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float top_ms = graph_top_ms(history);
+  const float top_ms = graph_top_ms(history, budget_ms);
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(15, 25, 35, 255));
-  draw_bars(history, corner, size, top_ms);
+  draw_bars(history, budget_ms, corner, size, top_ms);
 
-  const float budget_ms = static_cast<float>(kBudget_ms);
-  const float y = std::floor(corner.y + size.y * (1.0f - budget_ms / top_ms));
+  const float share = static_cast<float>(budget_ms) / top_ms;
+  const float y = std::floor(corner.y + size.y * (1.0f - share));
   list->AddRectFilled({corner.x, y}, {corner.x + size.x, y + 1.0f}, IM_COL32(255, 90, 70, 255));
   list->AddRectFilled({corner.x, y - 15.0f}, {corner.x + 44.0f, y}, IM_COL32(15, 25, 35, 255));
-  list->AddText({corner.x + 4.0f, y - 14.0f}, IM_COL32(255, 140, 120, 255), "17 ms");
+  list->AddText({corner.x + 4.0f, y - 14.0f}, IM_COL32(255, 140, 120, 255),
+                fmt::format("{:.0f} ms", budget_ms).c_str());
   ImGui::Dummy(size);
 }
 
-void draw_times(const PanelReport& report) {
+void draw_times(const PanelReport& report, double budget_ms) {
   const render::FrameStatistics& s = report.statistics;
   text(fmt::format("frame {:5.1f} ms   median {:5.1f}   p95 {:5.1f}", s.frame_ms,
                    percentile_ms(report.history, 0.5), percentile_ms(report.history, 0.95)));
-  draw_graph(report.history);
-  text(fmt::format("{:.0f} % of frames over 17 ms", 100.0 * share_over_budget(report.history)));
+  draw_graph(report.history, budget_ms);
+  text(fmt::format("{:.0f} % of frames over {:.0f} ms",
+                   100.0 * share_over_budget(report.history, budget_ms), budget_ms));
   for (std::size_t i = 0; i < s.stage_ms.size(); ++i)
     row(render::stage_name(static_cast<render::Stage>(i)), fmt::format("{:.2f} ms", s.stage_ms[i]));
   row("present", fmt::format("{:.2f} ms", report.present_ms));
@@ -114,10 +148,14 @@ void draw_counts(const PanelReport& report) {
   row("threads", fmt::format("{} {}", report.threads, report.simd));
 }
 
+std::string heights_of(const render::Pick& pick) {
+  return fmt::format("z {:.2f} m, model {:.2f} m", pick.p_world.z, pick.model_height_m);
+}
+
 }  // namespace
 
-bool draw_panel(const PanelReport& report, PanelSettings& settings) {
-  bool waves_changed = false;
+PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
+  PanelChanges changes;
   ImGui::SetNextWindowPos({10.0f, 10.0f}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kPanelWidth_px, 0.0f});
   if (ImGui::Begin("swell", nullptr, ImGuiWindowFlags_NoResize)) {
@@ -127,17 +165,39 @@ bool draw_panel(const PanelReport& report, PanelSettings& settings) {
     ImGui::SameLine();
     ImGui::TextDisabled(report.rebuilding ? "making waves ..." : "F1: keys");
     ImGui::Separator();
-    waves_changed = draw_waves(settings.waves);
+    changes.waves = draw_waves(settings.waves);
+    changes.detail = draw_detail(settings.detail);
     draw_quality(settings.frame);
+    draw_governor(report, settings);
     ImGui::Separator();
-    draw_times(report);
+    draw_times(report, settings.governed ? settings.budget_ms : kBudget_ms);
     ImGui::Separator();
     draw_counts(report);
+    text(report.pick ? "pointer: " + heights_of(*report.pick) : "pointer: on no surface");
     if (!report.message.empty()) ImGui::TextWrapped("%s", report.message.c_str());
     ImGui::PopItemWidth();
   }
   ImGui::End();
-  return waves_changed;
+  return changes;
+}
+
+void draw_pick(const render::Pick& pick, glm::vec2 pointer_px) {
+  constexpr float kAside_px = 16.0f;
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize |
+                                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                      ImGuiWindowFlags_NoFocusOnAppearing;
+  // On the side of the pointer that has more room.
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const glm::vec2 pivot(pointer_px.x > 0.5f * window.x, pointer_px.y > 0.5f * window.y);
+  const glm::vec2 at = pointer_px + kAside_px * (1.0f - 2.0f * pivot);
+  ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_Always, {pivot.x, pivot.y});
+  if (ImGui::Begin("pointer", nullptr, kFlags)) {
+    text(fmt::format("{} {:.1f} m away", pick.is_water ? "water" : "land", pick.distance_m));
+    text(heights_of(pick));
+    text(fmt::format("x {:.1f} m, y {:.1f} m", pick.p_world.x, pick.p_world.y));
+    text(fmt::format("slope {:.2f}, level {}", glm::length(pick.slope), pick.level));
+  }
+  ImGui::End();
 }
 
 void draw_help() {

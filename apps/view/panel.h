@@ -1,18 +1,25 @@
 // The panel: what can be changed, what was measured.
 #pragma once
 
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "apps/view/frame_history.h"
 #include "apps/view/wave_choice.h"
 #include "render/frame.h"
+#include "render/governor.h"
+#include "render/pick.h"
 
 namespace swell::view {
 
 // What the panel changes.
 struct PanelSettings {
   WaveChoice waves;
-  render::FrameOptions frame;
+  scene::Detail detail;        // but for the numbers of triangles, which `frame` has
+  render::FrameOptions frame;  // full quality
+  bool governed = false;       // less of it where frames would take longer than the budget
+  double budget_ms = kBudget_ms;
   bool paused = false;
 };
 
@@ -20,17 +27,28 @@ struct PanelSettings {
 struct PanelReport {
   render::FrameStatistics statistics;  // of the last frame
   FrameHistory history;                // of render_frame
+  render::GovernorReport governor;     // if it is on
+  double picture_scale = 1.0;          // of the last frame
   double present_ms = 0.0;             // upload, panel and presentation of the last frame
   double t_s = 0.0;
   int width_px = 0, height_px = 0;
   int threads = 1;
   std::string scene_name, simd;
   bool rebuilding = false;
-  std::string message;  // the last thing that happened; may be empty
+  std::string message;               // the last thing that happened; may be empty
+  std::optional<render::Pick> pick;  // what the last picture shows under the pointer
 };
 
-// Between Gui::begin_frame and end_frame. True if the waves were changed.
-bool draw_panel(const PanelReport& report, PanelSettings& settings);
+// What draw_panel has changed of the scene.
+struct PanelChanges {
+  bool waves = false, detail = false;
+};
+
+// These between Gui::begin_frame and end_frame.
+PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings);
+
+// Beside the pointer: what the picture shows there.
+void draw_pick(const render::Pick& pick, glm::vec2 pointer_px);
 
 // The list of keys, in the middle of the window.
 void draw_help();

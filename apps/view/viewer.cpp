@@ -23,13 +23,6 @@ std::filesystem::path free_screenshot_name() {
   return path;
 }
 
-// The scene's values in place of the zeros that stand for them, so that sliders start there.
-render::FrameOptions resolve(render::FrameOptions frame, const scene::Scene& scene) {
-  if (frame.water_triangles == 0) frame.water_triangles = scene.detail.water_triangles;
-  if (frame.lookup_scale == 0.0) frame.lookup_scale = scene.water.lookup_scale;
-  return frame;
-}
-
 }  // namespace
 
 Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
@@ -39,10 +32,13 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
       gui_(window_.handle(), window_.renderer()),
       world_(std::make_shared<render::World>(scene)),
       workers_(settings.threads),
+      governor_({}, render::with_scene_defaults(settings.frame, scene)),
       last_frame_start_(Clock::now()) {
   clock_.by_steps = settings.frames > 0;
   panel_.waves = wave_choice(scene);
-  panel_.frame = resolve(settings.frame, scene);
+  panel_.detail = scene.detail;
+  panel_.frame = render::with_scene_defaults(settings.frame, scene);  // where sliders start
+  panel_.governed = settings.frames == 0;  // counted frames are to be the same each time
   report_.threads = settings.threads;
   report_.simd = simd_target_name(current_simd_target());
   report_.scene_name = scene.name;
@@ -80,6 +76,7 @@ void Viewer::handle(const SDL_Event& event) {
 
 void Viewer::handle_window(const SDL_WindowEvent& event) {
   if (event.event == SDL_WINDOWEVENT_CLOSE) quit_ = true;
+  if (event.event == SDL_WINDOWEVENT_LEAVE) pointer_.reset();
   if (event.event != SDL_WINDOWEVENT_FOCUS_LOST) return;
   held_.reset();  // their key-up events go to another window
   capture_mouse(false);
@@ -96,6 +93,7 @@ void Viewer::handle_key(const SDL_KeyboardEvent& key) {
 void Viewer::handle_mouse(const SDL_Event& event) {
   if (event.type == SDL_MOUSEMOTION) {
     if (mouse_captured_) look_px_ += glm::dvec2(event.motion.xrel, event.motion.yrel);
+    pointer_ = glm::vec2(event.motion.x, event.motion.y);
     return;
   }
   const bool is_right = event.button.button == SDL_BUTTON_RIGHT;
@@ -163,7 +161,23 @@ void Viewer::save_screenshot() {
 
 void Viewer::choose_waves(const WaveChoice& waves) {
   panel_.waves = waves;
-  rebuilder_.request(with_waves(scene_, waves), world_);
+  request_world();
+}
+
+void Viewer::choose_detail(const scene::Detail& detail) {
+  panel_.detail = detail;
+  request_world();
+}
+
+void Viewer::choose_budget(bool governed, double budget_ms) {
+  panel_.governed = governed;
+  panel_.budget_ms = budget_ms;
+}
+
+void Viewer::request_world() {
+  scene::Scene scene = with_waves(scene_, panel_.waves);
+  scene.detail = panel_.detail;
+  rebuilder_.request(std::move(scene), world_);
 }
 
 // ---- frames ----
@@ -198,10 +212,11 @@ void Viewer::draw_frame() {
 
   // Draw. Nothing below handles events, so the window's surface stays what it is until shown.
   const View view = next_view(dt_s);
-  report_.statistics =
-      render::render_frame(*world_, view, clock_.t_s, panel_.frame, workspace_, target_, workers_);
+  report_.statistics = render::render_frame(*world_, view, clock_.t_s, next_options(), workspace_,
+                                            target_, workers_);
   picture_time_s_ = clock_.t_s;
   add_frame(report_.history, report_.statistics.frame_ms);
+  pick_under_pointer(view);
 
   // Show.
   const Clock::time_point drawn = Clock::now();
@@ -209,6 +224,23 @@ void Viewer::draw_frame() {
   gui_.draw();
   window_.present();
   report_.present_ms = Milliseconds(Clock::now() - drawn).count();
+  if (panel_.governed) governor_.next(report_.statistics, report_.present_ms);
+}
+
+const render::FrameOptions& Viewer::next_options() {
+  governor_.set_budget_ms(panel_.budget_ms);
+  governor_.set_full_quality(panel_.frame);
+  const render::FrameOptions& options = panel_.governed ? governor_.options() : panel_.frame;
+  report_.governor = governor_.report();
+  report_.picture_scale = options.picture_scale;
+  return options;
+}
+
+void Viewer::pick_under_pointer(const View& view) {
+  report_.pick.reset();
+  if (!pointer_ || mouse_captured_ || !show_panel_ || gui_.wants_mouse()) return;
+  const glm::vec2 pixel = *pointer_ * window_.pixels_per_unit() + 0.5f;
+  report_.pick = render::pick(*world_, view, workspace_, pixel, pick_scratch_);
 }
 
 double Viewer::time_since_last_frame_s() {
@@ -241,7 +273,11 @@ void Viewer::build_panels() {
   if (const std::string error = rebuilder_.error(); !error.empty()) report_.message = error;
 
   gui_.begin_frame();
-  if (show_panel_ && draw_panel(report_, panel_)) choose_waves(panel_.waves);
+  if (show_panel_) {
+    const PanelChanges changes = draw_panel(report_, panel_);
+    if (changes.waves || changes.detail) request_world();
+    if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
+  }
   if (show_help_) draw_help();
   gui_.end_frame();
 }

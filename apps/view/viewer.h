@@ -48,6 +48,7 @@ class Viewer {
   // For tests and the panel.
   const SimClock& clock() const { return clock_; }
   const PanelSettings& panel() const { return panel_; }
+  const PanelReport& report() const { return report_; }
   double picture_time_s() const { return picture_time_s_; }
   int frames_drawn() const { return frames_drawn_; }
   bool has_own_camera() const { return pose_.has_value(); }
@@ -57,8 +58,10 @@ class Viewer {
   const render::World& world() const { return *world_; }
   Window& window() { return window_; }
 
-  // What a slider of the panel does.
+  // What the panel's sliders do.
   void choose_waves(const WaveChoice& waves);
+  void choose_detail(const scene::Detail& detail);
+  void choose_budget(bool governed, double budget_ms);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -72,8 +75,11 @@ class Viewer {
 
   double time_since_last_frame_s();
   View next_view(double dt_s);
+  void request_world();
   void build_panels();
   void draw_frame();
+  const render::FrameOptions& next_options();
+  void pick_under_pointer(const View& view);
   void wait_for_refresh() const;
 
   scene::Scene scene_;  // as loaded
@@ -85,11 +91,14 @@ class Viewer {
   Workers workers_;
   render::Workspace workspace_;
   render::Target target_;
+  render::Governor governor_;
+  render::PickScratch pick_scratch_;
 
   SimClock clock_;
   HeldKeys held_;
-  glm::dvec2 look_px_{0.0};         // mouse motion not yet used
-  std::optional<CameraPose> pose_;  // none: the scene's camera
+  glm::dvec2 look_px_{0.0};           // mouse motion not yet used
+  std::optional<glm::vec2> pointer_;  // over the window, in its own units
+  std::optional<CameraPose> pose_;    // none: the scene's camera
   PanelSettings panel_;
   PanelReport report_;
   bool show_panel_ = true, show_help_ = false;

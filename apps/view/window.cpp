@@ -57,6 +57,14 @@ WindowSize Window::size_px() const {
   return {clamp_side(width), clamp_side(height)};
 }
 
+glm::vec2 Window::pixels_per_unit() const {
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_.get(), &width, &height);
+  const WindowSize pixels = size_px();
+  return glm::vec2(pixels.width_px, pixels.height_px) /
+         glm::vec2(clamp_side(width), clamp_side(height));
+}
+
 bool Window::is_visible() const {
   return (SDL_GetWindowFlags(window_.get()) & (SDL_WINDOW_MINIMIZED | SDL_WINDOW_HIDDEN)) == 0;
 }

@@ -38,6 +38,9 @@ class Window {
   // The area to draw, each side in [1, 8192] whatever the window system says.
   WindowSize size_px() const;
 
+  // Pixels of that area for each unit of mouse positions, which count window units.
+  glm::vec2 pixels_per_unit() const;
+
   // False while minimised or hidden.
   bool is_visible() const;
 

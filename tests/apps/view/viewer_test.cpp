@@ -345,6 +345,68 @@ TEST_F(ViewerTest, NoFrameWaitsForNewWaves) {
   EXPECT_GE(frames, 4);
 }
 
+TEST_F(ViewerTest, AnotherTriangulationAppearsLikeNewWaves) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  scene::Scene other = small_scene();
+  other.detail.triangulation = scene::Triangulation::kRadial;
+  viewer.choose_detail(other.detail);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (viewer.is_rebuilding() && std::chrono::steady_clock::now() < end) viewer.turn();
+  viewer.turn();
+  expect_headless_picture(viewer, other);
+}
+
+void push_pointer(int x, int y) {
+  SDL_Event event{};
+  event.motion.type = SDL_MOUSEMOTION;
+  event.motion.x = x;
+  event.motion.y = y;
+  SDL_PushEvent(&event);
+}
+
+TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
+  Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
+  viewer.turn();
+  EXPECT_FALSE(viewer.report().pick);
+  push_pointer(600, 390);  // beside the panel
+  viewer.turn();
+  ASSERT_TRUE(viewer.report().pick);
+  const render::Pick pick = *viewer.report().pick;
+  EXPECT_TRUE(pick.is_water);
+  const View view = scene::camera_view(small_scene().camera, viewer.picture_time_s(), 640, 400);
+  const glm::vec4 clip = view.clip_from_rel * glm::vec4(pick.p_world - view.eye_world, 1.0);
+  EXPECT_NEAR((clip.x / clip.w + 1.0f) * 320.0f, 600.5f, 0.01f);
+  EXPECT_NEAR((1.0f - clip.y / clip.w) * 200.0f, 390.5f, 0.01f);
+
+  push_pointer(600, 10);  // the sky
+  viewer.turn();
+  EXPECT_FALSE(viewer.report().pick);
+  push_pointer(600, 390);
+  push_window_event(viewer, SDL_WINDOWEVENT_LEAVE);
+  viewer.turn();
+  EXPECT_FALSE(viewer.report().pick);
+}
+
+TEST_F(ViewerTest, TheGovernorIsOnUnlessFramesAreCounted) {
+  EXPECT_TRUE(Viewer(small_scene(), settings_of(0)).panel().governed);
+  EXPECT_FALSE(Viewer(small_scene(), settings_of(5)).panel().governed);
+}
+
+TEST_F(ViewerTest, FramesDrawLessToKeepASmallBudgetAndAllWithoutOne) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  const int all = viewer.report().statistics.water_triangles;
+  viewer.choose_budget(true, 0.01);
+  for (int i = 0; i < 60; ++i) viewer.turn();
+  EXPECT_LT(viewer.report().statistics.water_triangles, all / 2);
+  EXPECT_LT(viewer.report().picture_scale, 1.0);
+  viewer.choose_budget(false, 0.01);
+  viewer.turn();
+  EXPECT_EQ(viewer.report().picture_scale, 1.0);
+  expect_headless_picture(viewer, small_scene());
+}
+
 TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
   namespace fs = std::filesystem;
   const fs::path old = fs::current_path();
