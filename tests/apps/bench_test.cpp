@@ -195,8 +195,11 @@ TEST_F(Bench, EverySeaStateSceneIsInsideItsBand) {
   }
 }
 
-TEST_F(Bench, EveryCodeOfBothScalesIsInsideItsBand) {
-  const Json rows = bench_json("sea-state", {"--table"});
+TEST_F(Bench, EveryCodeOfBothScalesIsInsideItsBandAndInTheDocs) {
+  const std::string path = folder_.file("rows.json");
+  const Outcome outcome = run_bench({"sea-state", "--table", "--json", path});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json rows = Json::parse(read_text(path), nullptr, false);
   ASSERT_EQ(rows.size(), 23u);
   for (int n = 0; n < 23; ++n) {
     const Json& row = rows[static_cast<std::size_t>(n)];
@@ -204,6 +207,8 @@ TEST_F(Bench, EveryCodeOfBothScalesIsInsideItsBand) {
     EXPECT_EQ(row.at("code"), n < 10 ? n : n - 10);
     EXPECT_EQ(row.at("inside"), true) << row;
   }
+  const std::string docs = read_text(SWELL_SOURCE_DIR "/docs/waves.md");
+  EXPECT_NE(docs.find(outcome.out), std::string::npos) << outcome.out;
 }
 
 TEST_F(Bench, ASeaThatIsNotTheOneAskedForFails) {
