@@ -90,35 +90,4 @@ void sample_coast(const CoastSea& coast, double t_s, std::span<const glm::dvec2>
   }
 }
 
-void bake_coast_slopes(const CoastSea& coast, double t_s, int size, std::span<float> slope_x,
-                       std::span<float> slope_y, Workers& workers) {
-  const auto n = static_cast<std::size_t>(size);
-  SWELL_CHECK(size >= 1 && slope_x.size() == n * n && slope_y.size() == n * n,
-              "size={}, {} and {} slopes", size, slope_x.size(), slope_y.size());
-  const FloorGrid& grid = coast.trains.grid;
-  const glm::dvec2 step = grid.spacing_m * glm::dvec2(grid.samples_x - 1, grid.samples_y - 1) /
-                          static_cast<double>(size);
-  workers.for_each(n, [&](std::size_t j, int) {
-    std::array<glm::dvec2, kChunk> p;
-    std::array<float, kChunk> z;
-    for (std::size_t first = 0; first < n; first += kChunk) {
-      const std::size_t count = std::min(kChunk, n - first), at = j * n + first;
-      for (std::size_t i = 0; i < count; ++i)
-        p[i] = grid.min_world + step * glm::dvec2(first + i, j);
-      const auto x = slope_x.subspan(at, count), y = slope_y.subspan(at, count);
-      sample_trains(coast.trains, t_s, std::span(p).first(count), std::span(z).first(count), x, y);
-      for (std::size_t i = 0; i < count; ++i) {
-        // d(share z) = share dz + z dshare; the share is smooth, so a difference will do.
-        const auto share_near = [&](double dx, double dy) {
-          return share_at(coast, p[i] + 0.5 * grid.spacing_m * glm::dvec2(dx, dy));
-        };
-        const float share = share_at(coast, p[i]);
-        const auto inverse = static_cast<float>(1.0 / grid.spacing_m);
-        x[i] = share * x[i] + z[i] * (share_near(1, 0) - share_near(-1, 0)) * inverse;
-        y[i] = share * y[i] + z[i] * (share_near(0, 1) - share_near(0, -1)) * inverse;
-      }
-    }
-  });
-}
-
 }  // namespace swell::ocean

@@ -38,9 +38,4 @@ void sample_coast_share(const CoastSea& coast, std::span<const glm::dvec2> p_wor
 void sample_coast(const CoastSea& coast, double t_s, std::span<const glm::dvec2> p_world,
                   std::span<float> height_m, std::span<float> share);
 
-// Slopes of share x height on size x size points over the grid's square (sample (i, j) at its
-// corner plus (i, j) side / size), row by row, for shading.
-void bake_coast_slopes(const CoastSea& coast, double t_s, int size, std::span<float> slope_x,
-                       std::span<float> slope_y, Workers& workers);
-
 }  // namespace swell::ocean

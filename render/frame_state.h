@@ -79,15 +79,15 @@ struct Workspace::State {
   texture::UvNoise uv_noise{{}};
   std::vector<float> noise_cos, noise_sin;
   texture::PackedMap2 uv_noise_map;
-  std::vector<float> coast_slope_x, coast_slope_y;
-  texture::PackedMap2 coast_map;
+  std::vector<float> coast_slope_x, coast_slope_y, coast_foam;
+  texture::PackedMap2 coast_slopes, coast_surf;  // slopes; the trains' share and their foam
   // Geometry.
   Surface water, land;
   // Pixels.
   raster::Pass pass;
   VisibilityBuffer visibility;
   LookupTarget reflection, refraction;
-  Target small;           // the picture before it is enlarged
+  Target small;  // the picture before it is enlarged
   EnlargeTables enlarge;
   std::vector<TileLookups> tile_lookups;
   std::vector<int> shaded;  // per tile

@@ -130,7 +130,8 @@ void displace_land(Frame& frame, std::size_t begin, std::size_t end) {
   scene::sample_heights(*frame.world.terrain, std::span(p).first(count),
                         std::span(land.height_m).subspan(begin, count));
 
-  // Waves lift and lower the waterline: keep a little of the other side in both images.
+  // Waves lift the waterline: keep a little of the land in the refraction image. Not the other way:
+  // the floor mirrored in flat shallow water is a band of sand instead of sky.
   constexpr float kClipMargin_m = 0.3f;
   const auto eye_z = static_cast<float>(frame.view.eye_world.z);
   const auto n = static_cast<float>(frame.world.scene.water.refraction_index);
@@ -140,11 +141,26 @@ void displace_land(Frame& frame, std::size_t begin, std::size_t end) {
     const glm::vec2 offset = land.offset[i];
     land.p_clip[i] = to_clip(frame.view, offset, z - eye_z);
     mirrored.p_clip[i] = to_clip(frame.view, offset, -z - eye_z);
-    mirrored.clip_distance[i] = z + kClipMargin_m;
+    mirrored.clip_distance[i] = z;
     const float z_apparent = z < 0.0f ? z * squeeze({offset, z - eye_z}, n) : z;
     squeezed.p_clip[i] = to_clip(frame.view, offset, z_apparent - eye_z);
     squeezed.clip_distance[i] = kClipMargin_m - z;
   }
+}
+
+void bake_coast(Frame& frame) {
+  Workspace::State& ws = frame.ws;
+  constexpr std::size_t kPoints = static_cast<std::size_t>(kCoastMapSize) * kCoastMapSize;
+  for (std::vector<float>* map : {&ws.coast_slope_x, &ws.coast_slope_y, &ws.coast_foam})
+    map->resize(kPoints);
+  ocean::bake_coast(frame.world.coast_maps->waves, frame.t_s, ws.coast_slope_x, ws.coast_slope_y,
+                    ws.coast_foam, frame.workers);
+}
+
+void pack_patch(const ocean::PatchFrame& patch, texture::PackedMap2& map) {
+  // A scale fixed by the sea state, not by the frame, so that codes do not flicker.
+  const float scale = 5.0f * std::sqrt(std::max(patch.slope_variance, 1e-8f)) / 127.0f;
+  texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, map);
 }
 
 void resize_surface(Surface& surface) {
@@ -165,29 +181,28 @@ glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
 void advance_sea(Frame& frame) {
   Workspace::State& ws = frame.ws;
   ocean::advance(*frame.world.sea, frame.t_s, ws.sea, frame.workers);
-  ws.patch_maps.resize(ws.sea.patches.size());
+  const bool has_coast = frame.world.coast != nullptr;
+  if (has_coast) bake_coast(frame);
+  // Pack the maps that shading looks into: the waves', the noise's, the coast's.
+  const std::size_t patches = ws.sea.patches.size();
+  ws.patch_maps.resize(patches);
   ws.noise_cos.resize(kUvNoiseSize * kUvNoiseSize);
   ws.noise_sin.resize(kUvNoiseSize * kUvNoiseSize);
-  frame.workers.for_each(ws.sea.patches.size() + 1, [&](std::size_t i, int slot) {
+  frame.workers.for_each(patches + (has_coast ? 3 : 1), [&](std::size_t i, int slot) {
     const WorkScope work(ws.profile, Stage::kSea, slot);
-    if (i < ws.sea.patches.size()) {
-      const ocean::PatchFrame& patch = ws.sea.patches[i];
-      // A scale fixed by the sea state, not by the frame, so that codes do not flicker.
-      const float scale = 5.0f * std::sqrt(std::max(patch.slope_variance, 1e-8f)) / 127.0f;
-      texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, ws.patch_maps[i]);
-    } else {
+    if (i < patches) {
+      pack_patch(ws.sea.patches[i], ws.patch_maps[i]);
+    } else if (i == patches) {
       ws.uv_noise.evaluate(kUvNoiseCells_per_s * frame.t_s, ws.noise_cos, ws.noise_sin);
       texture::pack_map2(kUvNoiseSize, ws.noise_cos, ws.noise_sin, 1.0f / 127.0f, ws.uv_noise_map);
+    } else if (i == patches + 1) {
+      texture::pack_map2(kCoastMapSize, ws.coast_slope_x, ws.coast_slope_y, kCoastSlopeScale,
+                         ws.coast_slopes);
+    } else {
+      texture::pack_map2(kCoastMapSize, frame.world.coast_maps->share, ws.coast_foam, 1.0f / 127.0f,
+                         ws.coast_surf);
     }
   });
-  if (!frame.world.coast) return;
-  const std::size_t points = static_cast<std::size_t>(kCoastMapSize) * kCoastMapSize;
-  ws.coast_slope_x.resize(points);
-  ws.coast_slope_y.resize(points);
-  ocean::bake_coast_slopes(*frame.world.coast, frame.t_s, kCoastMapSize, ws.coast_slope_x,
-                           ws.coast_slope_y, frame.workers);
-  texture::pack_map2(kCoastMapSize, ws.coast_slope_x, ws.coast_slope_y, kCoastSlopeScale,
-                     ws.coast_map);
 }
 
 void triangulate(Frame& frame) {

@@ -92,12 +92,12 @@ void clear_tile(const ShadeContext& c, int tile, texture::RgbaImage& image) {
 }
 
 void draw_lookup_tile(const Frame& frame, int tile, ThreadScratch& scratch, LookupTarget& target) {
-  const bool drawn = target.wanted[tile] && raster::tile_has_triangles(target.pass, tile);
+  const std::size_t pixels = frame.ws.visibility.tile_pixels();
+  const auto depth = std::span(scratch.depth).first(pixels);
+  const auto primitive = std::span(scratch.primitive).first(pixels);
+  const bool drawn = target.wanted[tile] && raster::tile_has_triangles(target.pass, tile) &&
+                     raster::draw_tile(target.pass, tile, depth, primitive) > 0;
   if (drawn) {
-    const std::size_t pixels = frame.ws.visibility.tile_pixels();
-    const auto depth = std::span(scratch.depth).first(pixels);
-    const auto primitive = std::span(scratch.primitive).first(pixels);
-    raster::draw_tile(target.pass, tile, depth, primitive);
     shade_lookup_tile(target.context, tile, depth, primitive, scratch.shade, target.image);
   } else if (target.written[tile]) {
     clear_tile(target.context, tile, target.image);

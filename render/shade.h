@@ -83,10 +83,16 @@ struct ShadeContext {
   std::array<SlopeLayer, kMaxSlopeLayers> water_layers;
   int water_layer_count = 0;
   SlopeLayer uv_noise;  // values in [-1, 1], not slopes
-  // Near a coast: slopes of wave trains, and their share, which the longest waves of the sea make
-  // room for. Not periodic: they hold where both coordinates lie in [0, 1).
+  // Near a coast: slopes of wave trains; their share, which the longest waves of the sea make room
+  // for, and their foam. Not periodic: they hold where both coordinates lie in [0, 1).
   bool has_coast = false;
-  SlopeLayer coast_slopes, coast_share;
+  SlopeLayer coast_slopes, coast_surf;
+  SlopeLayer foam_pattern;     // thresholds of foam in [-1, 1], not slopes
+  glm::vec3 foam_light{0.0f};  // radiance of foam
+  float swash_m = 0.0f;        // height on the beach that sheets of water reach; 0: none
+  float swash_cycles = 0.0f;   // time, in turns of the sheets' coming and going
+  glm::vec3 swash_a{0.0f},
+      swash_b{0.0f};  // their lag along the shore: cycles by x, y, under the eye
   std::array<SineLayer, kMaxSines> sines;
   int sine_count = 0;
   float base_variance = 0.001f;  // slope variance of ripples too fine for any map

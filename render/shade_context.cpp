@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kUvNoisePeriod_m = 23.0;
 constexpr double kTerrainDetailPeriod_m = 7.0;
+constexpr double kFoamPeriod_m = 9.0;
+constexpr float kFoamAlbedo = 0.8f;
+constexpr float kSwashPart = 0.1f;  // how high sheets of water run, of the highest waves
 
 float fraction(double x) { return static_cast<float>(x - std::floor(x)); }
 
@@ -143,8 +146,28 @@ void fill_coast(const Frame& frame, ShadeContext& c) {
   const ocean::FloorGrid& grid = frame.world.coast->trains.grid;
   const double size_m = grid.spacing_m * (grid.samples_x - 1);
   const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - grid.min_world;
-  c.coast_slopes = make_square_layer(frame.ws.coast_map, size_m, from_corner);
-  c.coast_share = make_square_layer(*frame.world.coast_share, size_m, from_corner);
+  c.coast_slopes = make_square_layer(frame.ws.coast_slopes, size_m, from_corner);
+  c.coast_surf = make_square_layer(frame.ws.coast_surf, size_m, from_corner);
+}
+
+// Foam lies still; the sheets of water on the beach come and go with the slowest of the trains.
+void fill_foam(const Frame& frame, ShadeContext& c) {
+  c.swash_m = 0.0f;
+  if (!frame.world.coast) return;
+  const glm::dvec2 eye(frame.view.eye_world);
+  c.foam_pattern = make_layer(frame.world.coast_maps->foam_pattern, kFoamPeriod_m, 1.0f, eye, {});
+  const float sun = std::max(c.sun_direction.z, 0.0f) / static_cast<float>(kPi);
+  c.foam_light = kFoamAlbedo * (c.ambient + c.sun_irradiance * sun);
+
+  const ocean::TrainSea& trains = frame.world.coast->trains;
+  const double period_s = *std::ranges::max_element(trains.period_s);
+  c.swash_m = kSwashPart * trains.height_bound_m;
+  c.swash_cycles = fraction(frame.t_s / period_s);
+  const auto along = [&](double x_m, double y_m) {
+    return glm::vec3(1.0 / x_m, 1.0 / y_m, fraction(eye.x / x_m + eye.y / y_m));
+  };
+  c.swash_a = along(310.0, 230.0);
+  c.swash_b = along(-97.0, 71.0);
 }
 
 void fill_terrain(const Frame& frame, ShadeContext& c) {
@@ -181,6 +204,7 @@ void fill_shade_context(const Frame& frame, const View& view, ViewKind kind,
   context.water_primitives = static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
   fill_water_layers(frame, context);
   fill_coast(frame, context);
+  fill_foam(frame, context);
 }
 
 }  // namespace swell::render

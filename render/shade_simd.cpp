@@ -186,8 +186,14 @@ int ShadeTile(const ShadeContext& c, int tile, const float* depth, const std::ui
   const raster::PixelBox box = raster::tile_box(c.viewport, c.grid, tile);
   PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
   SortByMaterial(c, box, primitive, water, terrain, sky);
-  ShadeList(c, box, water, depth, scratch,
-            [&](V x, V y, V z) HWY_ATTR { return ShadeWater(c, MakePacket(c, x, y, z), lookups); });
+  if (c.has_coast)
+    ShadeList(c, box, water, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+      return ShadeWater<true>(c, MakePacket(c, x, y, z), lookups);
+    });
+  else
+    ShadeList(c, box, water, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+      return ShadeWater<false>(c, MakePacket(c, x, y, z), lookups);
+    });
   ShadeList(c, box, terrain, depth, scratch,
             [&](V x, V y, V z) HWY_ATTR { return ShadeTerrain(c, MakePacket(c, x, y, z)); });
   ShadeList(c, box, sky, depth, scratch, [&](V x, V y, V) HWY_ATTR { return ShadeSky(c, x, y); });
@@ -212,6 +218,43 @@ void ShadeSkyTile(const ShadeContext& c, int tile, ShadeScratch& scratch, std::u
   ResolveTile(c, box, scratch, rgba, linear);
 }
 
+// Radiance as a byte of a lookup image.
+HWY_INLINE VI EncodeRadiance(V radiance) {
+  const V scaled = hn::Mul(hn::Max(radiance, hn::Zero(D())), Constant(1.0f / kLookupRange));
+  const V code = hn::Min(hn::Mul(hn::Sqrt(scaled), Constant(255.0f)), Constant(255.0f));
+  return hn::ConvertTo(DI(), hn::Add(code, Constant(0.5f)));
+}
+
+// Writes a tile's colours to the lookup image, zeros where there is no primitive and so no colour.
+HWY_INLINE void EncodeLookupTile(const ShadeContext& c, const raster::PixelBox& box,
+                                 const std::uint32_t* primitive, const ShadeScratch& scratch,
+                                 texture::RgbaImage& image) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  HWY_ALIGN std::array<std::uint32_t, kLanes> tail;
+  const auto width = static_cast<std::size_t>(box.width_px);
+  for (int y = 0; y < box.height_px; ++y) {
+    std::uint32_t* row =
+        image.texels.data() + static_cast<std::size_t>(box.y0_px + y) * image.stride + box.x0_px;
+    for (std::size_t x = 0; x < width; x += kLanes) {
+      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
+      const VI r = EncodeRadiance(hn::Load(d, scratch.red.data() + i));
+      const VI g = EncodeRadiance(hn::Load(d, scratch.green.data() + i));
+      const VI b = EncodeRadiance(hn::Load(d, scratch.blue.data() + i));
+      const VI rgb = hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)), hn::ShiftLeft<16>(b));
+      const auto texel = hn::Or(hn::BitCast(du, rgb), hn::Set(du, 0xff000000u));
+      const auto drawn = hn::Ne(hn::LoadU(du, primitive + i), hn::Set(du, raster::kNoPrimitive));
+      const auto result = hn::IfThenElseZero(drawn, texel);
+      if (x + kLanes <= width) {
+        hn::StoreU(result, du, row + x);
+        continue;
+      }
+      hn::Store(result, du, tail.data());
+      std::copy_n(tail.begin(), width - x, row + x);
+    }
+  }
+}
+
 void ShadeLookupTile(const ShadeContext& c, int tile, const float* depth,
                      const std::uint32_t* primitive, ShadeScratch& scratch,
                      texture::RgbaImage& image) {
@@ -220,23 +263,9 @@ void ShadeLookupTile(const ShadeContext& c, int tile, const float* depth,
   SortByMaterial(c, box, primitive, water, terrain, sky);
   ShadeList(c, box, terrain, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
     const Packet packet = MakePacket(c, x, y, z);
-    return c.kind == ViewKind::kRefraction ? ShadeSubmerged(c, packet) : ShadeTerrain(c, packet);
+    return c.kind == ViewKind::kRefraction ? ShadeSubmerged(c, packet) : ShadeMirrored(c, packet);
   });
-  const auto encode = [](float radiance) {
-    const float code = std::sqrt(std::max(radiance, 0.0f) * (1.0f / kLookupRange)) * 255.0f;
-    return static_cast<std::uint32_t>(std::min(code, 255.0f) + 0.5f);
-  };
-  for (int y = 0; y < box.height_px; ++y) {
-    std::uint32_t* row =
-        image.texels.data() + static_cast<std::size_t>(box.y0_px + y) * image.stride + box.x0_px;
-    for (int x = 0; x < box.width_px; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * c.grid.tile_size_px + x;
-      row[x] = primitive[i] == raster::kNoPrimitive
-                   ? 0u
-                   : encode(scratch.red[i]) | encode(scratch.green[i]) << 8 |
-                         encode(scratch.blue[i]) << 16 | 0xff000000u;
-    }
-  }
+  EncodeLookupTile(c, box, primitive, scratch, image);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,21 +6,27 @@
 #define SWELL_RENDER_TERRAIN_INL_H_
 #endif
 
+#include "render/foam-inl.h"
 #include "render/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
+HWY_INLINE V GroundLevel(const ShadeContext& c, const Packet& packet) {
+  return FootprintLevel(FootprintAcross(c, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
+}
+
 // Radiance of the ground at p (relative to the eye, x and y true): diffuse, lit by sun and sky.
-HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet) {
+// Without detail for what is seen through or in water.
+template <bool kDetail>
+HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet, V level_m) {
   const D d;
   const V zero = hn::Zero(d);
-  const V level_m =
-      FootprintLevel(FootprintAcross(c, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
   V slope_x = zero, slope_y = zero, variance = zero;
   AddSlopes(c.terrain_slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
-  AddSlopes(c.terrain_detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
+  if constexpr (kDetail)
+    AddSlopes(c.terrain_detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
   const V inv_length =
       InverseSqrt(hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
   const V3 normal = {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)),
@@ -42,7 +48,7 @@ HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet) {
 // place (Beer-Lambert).
 HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
   const D d;
-  const V3 ground = GroundRadiance(c, packet);
+  const V3 ground = GroundRadiance<false>(c, packet, GroundLevel(c, packet));
   const V cos_eye = hn::Max(packet.to_eye.z, Constant(0.02f));
   const float inv_n = 1.0f / c.refraction_index;
   // cos of the refracted ray; apparent depth / true depth k = (1/n) cos / cos_t.
@@ -64,9 +70,17 @@ HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
           lost(absorption.z, Constant(c.body.z), ground.z)};
 }
 
-// Dry ground, also as the reflection image shows it (p mirrored: the true height is -z).
+// Dry ground as the reflection image shows it (p mirrored: the true height is -z).
+HWY_INLINE V3 ShadeMirrored(const ShadeContext& c, const Packet& packet) {
+  return Haze(c, packet, GroundRadiance<false>(c, packet, GroundLevel(c, packet)));
+}
+
+// Ground as the eye sees it, with the sea's last sheets on it.
 HWY_INLINE V3 ShadeTerrain(const ShadeContext& c, const Packet& packet) {
-  return Haze(c, packet, GroundRadiance(c, packet));
+  const V level_m = GroundLevel(c, packet);
+  const V3 ground = GroundRadiance<true>(c, packet, level_m);
+  const V height_m = hn::Add(packet.p.z, Constant(c.eye_z));
+  return Haze(c, packet, AddSwash(c, packet, level_m, height_m, ground));
 }
 
 }  // namespace HWY_NAMESPACE

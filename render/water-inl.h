@@ -6,6 +6,7 @@
 #define SWELL_RENDER_WATER_INL_H_
 #endif
 
+#include "render/foam-inl.h"
 #include "render/fresnel-inl.h"
 #include "render/packet-inl.h"
 
@@ -17,6 +18,7 @@ namespace HWY_NAMESPACE {
 // together) of the slopes too fine for a pixel.
 struct WaterSurface {
   V slope_x, slope_y, variance;
+  V foam_cover;  // part hidden by foam, in [0, 1]
 };
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSurface& s) {
@@ -42,47 +44,83 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
   return {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
 }
 
-// Near a coast the longest waves make room for the trains that know its floor.
-HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, WaterSurface& s) {
+// What a coast's maps say of a packet: the part in the surface of the trains that know its floor,
+// and the foam where they break, both 0 outside the maps.
+struct Surf {
+  V share, foam;
+  hn::Mask<D> inside;
+  bool is_near;   // any lane inside
+  bool is_whole;  // no lane has anything of the sea's long waves
+};
+
+HWY_INLINE Surf SampleSurf(const ShadeContext& c, V3 p, V level_m) {
   const D d;
-  const SlopeLayer& layer = c.coast_share;
+  const SlopeLayer& layer = c.coast_surf;
   const V u = hn::MulAdd(p.x, Constant(layer.inv_length), Constant(layer.u_eye));
   const V v = hn::MulAdd(p.y, Constant(layer.inv_length), Constant(layer.v_eye));
   const V low = hn::Zero(d), high = Constant(0.999f);
-  const auto inside =
+  Surf surf;
+  surf.inside =
       hn::And(hn::And(hn::Gt(u, low), hn::Gt(v, low)), hn::And(hn::Lt(u, high), hn::Lt(v, high)));
-  if (hn::AllFalse(d, inside)) return;
-  V share, unused;
-  texture::HWY_NAMESPACE::SamplePacked2Level(d, *layer.map, u, v, 0, share, unused);
-  share = hn::IfThenElseZero(inside, share);
-  s.slope_x = hn::NegMulAdd(s.slope_x, share, s.slope_x);
-  s.slope_y = hn::NegMulAdd(s.slope_y, share, s.slope_y);
+  surf.share = surf.foam = hn::Zero(d);
+  surf.is_near = !hn::AllFalse(d, surf.inside);
+  surf.is_whole = false;
+  if (!surf.is_near) return surf;
+  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m)), 0.0f,
+                        static_cast<float>(layer.levels - 1));
+  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), surf.share,
+                                        surf.foam);
+  // A share of all but half a step is whole.
+  surf.share = hn::IfThenElse(hn::Gt(surf.share, Constant(0.996f)), Constant(1.0f), surf.share);
+  surf.share = hn::IfThenElseZero(surf.inside, surf.share);
+  surf.foam = hn::IfThenElseZero(surf.inside, surf.foam);
+  surf.is_whole = hn::AllTrue(d, hn::Ge(surf.share, Constant(1.0f)));
+  return surf;
+}
+
+// Near a coast the longest waves make room for the trains that know its floor.
+HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, const Surf& surf,
+                           WaterSurface& s) {
+  const D d;
+  const V long_variance = hn::Sub(s.variance, Constant(c.base_variance));
+  s.slope_x = hn::NegMulAdd(s.slope_x, surf.share, s.slope_x);
+  s.slope_y = hn::NegMulAdd(s.slope_y, surf.share, s.slope_y);
+  s.variance =
+      hn::Add(hn::NegMulAdd(long_variance, surf.share, long_variance), Constant(c.base_variance));
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
   AddSlopes(c.coast_slopes, p, level_m, x, y, x, y, lost);
-  s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(inside, x));
-  s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(inside, y));
-  s.variance = hn::Add(s.variance, hn::IfThenElseZero(inside, lost));
+  s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(surf.inside, x));
+  s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(surf.inside, y));
+  s.variance = hn::Add(s.variance, hn::IfThenElseZero(surf.inside, lost));
 }
 
 // Slopes from the wave patches and the scrolling bump layers, whose coordinates Perlin noise bends.
 // The first layers are those of the longest waves: how steeply the eye meets those decides how long
 // a pixel's footprint is on the shorter ones.
+template <bool kCoast>
 HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet) {
   const D d;
   constexpr float kMinCos = 0.02f;
   constexpr int kFootprintLayers = 2;
   const V across = FootprintAcross(c, packet);
-  V level_m = FootprintLevel(across, Clamp(packet.to_eye.z, kMinCos, 1.0f));
-  WaterSurface s = {hn::Zero(d), hn::Zero(d), Constant(c.base_variance)};
+  const V level_flat_m = FootprintLevel(across, Clamp(packet.to_eye.z, kMinCos, 1.0f));
+  V level_m = level_flat_m;
+  Surf surf = {hn::Zero(d), hn::Zero(d), hn::MaskFromVec(hn::Zero(d)), false, false};
+  if constexpr (kCoast) surf = SampleSurf(c, packet.p, level_flat_m);
+  WaterSurface s = {hn::Zero(d), hn::Zero(d), Constant(c.base_variance),
+                    FoamCover(c, packet.p, level_flat_m, surf.foam)};
   V du = hn::Zero(d), dv = hn::Zero(d), unused = hn::Zero(d);
   AddSlopes(c.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
   for (int i = 0; i < c.sine_count; ++i)
     AddSine(c.sines[static_cast<std::size_t>(i)], packet.p, level_m, s);
   for (int i = 0; i < c.water_layer_count; ++i) {
-    AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
-              s.slope_y, s.variance);
-    if (i >= kFootprintLayers) continue;
-    if (c.has_coast && i == kFootprintLayers - 1) BlendCoast(c, packet.p, level_m, s);
+    const bool is_long = i < kFootprintLayers;
+    if (!(kCoast && is_long && surf.is_whole))
+      AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
+                s.slope_y, s.variance);
+    if (!is_long) continue;
+    if (kCoast && surf.is_near && i == kFootprintLayers - 1)
+      BlendCoast(c, packet.p, level_flat_m, surf, s);
     // The normal's length is left out: it is near 1, and a level needs no better.
     const V cos_wave = hn::NegMulAdd(s.slope_x, packet.to_eye.x,
                                      hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
@@ -174,9 +212,11 @@ HWY_INLINE V SunGlint(const ShadeContext& c, const Packet& packet, const WaterSu
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
+// kCoast: c.has_coast.
+template <bool kCoast>
 HWY_INLINE V3 ShadeWater(const ShadeContext& c, const Packet& packet, TileLookups lookups) {
   const D d;
-  const WaterSurface s = SampleWater(c, packet);
+  const WaterSurface s = SampleWater<kCoast>(c, packet);
   // Normal, and the cosine to the eye, negative on back sides of waves that the mesh does not hide.
   const V3 normal = NormalOf(s.slope_x, s.slope_y);
   const V cos_eye = Dot(normal, packet.to_eye);
@@ -190,7 +230,9 @@ HWY_INLINE V3 ShadeWater(const ShadeContext& c, const Packet& packet, TileLookup
   const V3 refracted = RefractedLight(c, packet, s, lookups.refraction);
   const V3 light = Lerp(refracted, mirrored, reflectance);
   const V glint = SunGlint(c, packet, s, reflectance, cos_rough);
-  return Haze(c, packet, ScaleAdd(Constant(c.sun_irradiance), glint, light));
+  V3 water = ScaleAdd(Constant(c.sun_irradiance), glint, light);
+  if constexpr (kCoast) water = AddFoam(c, s.foam_cover, water);
+  return Haze(c, packet, water);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #include "render/world_state.h"
 #include "scene/coast.h"
 #include "scene/sky.h"
+#include "texture/foam_pattern.h"
 #include "texture/normal_map.h"
 #include "texture/perlin.h"
 
@@ -16,7 +17,8 @@ namespace {
 constexpr int kSharpSkySize = 768, kSoftSkySize = 256;
 // Waves too small to see spread what they mirror: no cloud's edge is sharp in the sea.
 constexpr int kSoftSkyBlur = 5;
-constexpr int kBumpSize = 256;
+constexpr int kBumpSize = 256, kFoamSize = 256;
+constexpr std::uint64_t kFoamSeed = 4;
 constexpr int kTerrainMapSize = 1024;
 
 std::uint32_t encode_byte(float x) {
@@ -179,7 +181,7 @@ TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed
 
 namespace {
 
-texture::PackedMap2 build_coast_share_map(const ocean::CoastSea& coast) {
+std::vector<float> build_coast_share(const ocean::CoastSea& coast) {
   constexpr int n = kCoastMapSize;
   const ocean::FloorGrid& grid = coast.trains.grid;
   const double step = grid.spacing_m * (grid.samples_x - 1) / n;
@@ -188,9 +190,21 @@ texture::PackedMap2 build_coast_share_map(const ocean::CoastSea& coast) {
     for (int i = 0; i < n; ++i) p.push_back(grid.min_world + step * glm::dvec2(i, j));
   std::vector<float> share(p.size());
   ocean::sample_coast_share(coast, p, share);
+  return share;
+}
+
+texture::PackedMap2 build_foam_pattern() {
+  std::vector<float> threshold = texture::make_foam_pattern(kFoamSize, kFoamSeed);
+  for (float& x : threshold) x = 2.0f * x - 1.0f;
   texture::PackedMap2 map;
-  texture::pack_map2(n, share, share, 1.0f / 127.0f, map);
+  texture::pack_map2(kFoamSize, threshold, threshold, 1.0f / 127.0f, map);
   return map;
+}
+
+CoastMaps build_coast_maps(const ocean::CoastSea& coast, int threads) {
+  Workers workers(threads);
+  return {ocean::make_coast_map(coast, kCoastMapSize, workers), build_coast_share(coast),
+          build_foam_pattern()};
 }
 
 template <class T>
@@ -222,10 +236,10 @@ void add_terrain(const World::State* like, World::State& state) {
 void add_coast(const World::State* like, int threads, World::State& state) {
   if (like) {
     state.coast = like->coast;
-    state.coast_share = like->coast_share;
+    state.coast_maps = like->coast_maps;
   } else if (auto coast = scene::build_coast(state.scene, state.terrain.get(), threads)) {
     state.coast = share(std::move(*coast));
-    state.coast_share = share(build_coast_share_map(*state.coast));
+    state.coast_maps = share(build_coast_maps(*state.coast, threads));
   }
 }
 

@@ -3,8 +3,10 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <vector>
 
 #include "ocean/coast.h"
+#include "ocean/coast_map.h"
 #include "ocean/sea.h"
 #include "render/frame.h"
 #include "scene/scene.h"
@@ -26,13 +28,19 @@ struct TerrainMaps {
   texture::RgbaImage albedo;   // sqrt-encoded reflectance
 };
 
+// Over a coast's square, kCoastMapSize points a side.
+struct CoastMaps {
+  ocean::CoastMap waves;
+  std::vector<float> share;          // the trains'
+  texture::PackedMap2 foam_pattern;  // thresholds, stretched to [-1, 1]; of any size, it repeats
+};
+
 // Parts are shared by worlds whose scenes describe them alike.
 struct World::State {
   scene::Scene scene;
   std::shared_ptr<const ocean::Sea> sea = {};
   std::shared_ptr<const ocean::CoastSea> coast = {};  // none: no wave trains
-  // Of the trains over the coast's square, in both channels.
-  std::shared_ptr<const texture::PackedMap2> coast_share = {};
+  std::shared_ptr<const CoastMaps> coast_maps = {};   // there is one if there is a coast
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const scene::Terrain> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};

@@ -34,6 +34,16 @@ HWY_INLINE std::uint64_t LoadWord(const void* bytes) {
   return word;
 }
 
+// Stores the lanes' word numbers for LoadWords, for good: left to itself, GCC takes each lane out of
+// the vector again by shuffles, on the one port that also puts the words together.
+template <class VI, std::size_t kLanes>
+HWY_INLINE void StoreIndex(VI index, std::uint32_t (&lane_index)[kLanes]) {
+  const hn::ScalableTag<std::uint32_t> du;
+  static_assert(hn::MaxLanes(du) == kLanes);
+  hn::Store(hn::BitCast(du, index), du, lane_index);
+  asm volatile("" : "+m"(lane_index));
+}
+
 // The words at base + kBytes * index of one half of the packet's lanes.
 template <int kBytes, int kHalf, class D8>
 HWY_INLINE hn::Vec<D8> LoadWords(D8, const void* base, const std::uint32_t* HWY_RESTRICT index) {
@@ -152,7 +162,7 @@ HWY_INLINE void BlendPacked2(D d, const PackedMap2& map, VI index, VI weights, V
   const hn::RebindToSigned<D> di;
   const hn::Repartition<std::uint8_t, D> d8;
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
-  hn::Store(hn::BitCast(hn::RebindToUnsigned<D>(), index), hn::RebindToUnsigned<D>(), lane_index);
+  StoreIndex(index, lane_index);
   const auto words0 = LoadWords<8, 0>(d8, map.words.data(), lane_index);
   const auto words1 = LoadWords<8, 1>(d8, map.words.data(), lane_index);
   // Each lane's weights twice: for channel a and for channel b.
@@ -255,7 +265,7 @@ HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V&
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
   const auto row = hn::Mul(hn::ShiftRight<8>(y_fx8), hn::Set(di, image.stride));
   const auto index = hn::Add(row, hn::ShiftRight<8>(x_fx8));
-  hn::Store(hn::BitCast(du, index), du, lane_index);
+  StoreIndex(index, lane_index);
   const std::uint32_t* const upper = image.texels.data();
   const std::uint32_t* const lower = upper + image.stride;
 

@@ -74,42 +74,5 @@ TEST(Coast, HeightsAreTheTrainsTimesTheirShare) {
   EXPECT_GT(some, 100);
 }
 
-// In the middle of the beach, where waves are some grid steps long.
-TEST(Coast, BakedSlopesAreTheHeightsDerivative) {
-  const CoastSea coast = make_coast(12.0, true);
-  constexpr int kSize = 64;
-  std::vector<float> x(kSize * kSize), y(kSize * kSize);
-  Workers workers(2);
-  bake_coast_slopes(coast, 3.0, kSize, x, y, workers);
-  constexpr double kStep = 0.01;
-  double error2 = 0.0, size2 = 0.0;
-  for (int j = 20; j < 50; ++j) {
-    for (int i = 10; i < 54; ++i) {
-      const glm::dvec2 p = glm::dvec2(-600.0, -300.0) + 18.75 * glm::dvec2(i, j);
-      const glm::dvec2 four[] = {p + glm::dvec2(kStep, 0.0), p - glm::dvec2(kStep, 0.0),
-                                 p + glm::dvec2(0.0, kStep), p - glm::dvec2(0.0, kStep)};
-      float z[4], share[4];
-      sample_coast(coast, 3.0, four, z, share);
-      const double dx = (z[0] - z[1]) / (2.0 * kStep), dy = (z[2] - z[3]) / (2.0 * kStep);
-      const std::size_t k = static_cast<std::size_t>(j) * kSize + i;
-      error2 += (x[k] - dx) * (x[k] - dx) + (y[k] - dy) * (y[k] - dy);
-      size2 += dx * dx + dy * dy;
-    }
-  }
-  ASSERT_GT(size2, 0.01);
-  EXPECT_LT(std::sqrt(error2 / size2), 0.05);
-}
-
-TEST(Coast, ThreadsChangeNoBit) {
-  const CoastSea one = make_coast(10.0, true, 1), three = make_coast(10.0, true, 3);
-  constexpr int kSize = 32;
-  std::vector<float> x1(kSize * kSize), y1(kSize * kSize), x3 = x1, y3 = y1;
-  Workers single(1), triple(3);
-  bake_coast_slopes(one, 7.0, kSize, x1, y1, single);
-  bake_coast_slopes(three, 7.0, kSize, x3, y3, triple);
-  EXPECT_EQ(x1, x3);
-  EXPECT_EQ(y1, y3);
-}
-
 }  // namespace
 }  // namespace swell::ocean
