@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDomainSize_m = 131072.0;
 constexpr int kDomainBits = 30;
-constexpr double kSquareCells_m = 300.0;  // where cells are as wide as they are deep
+constexpr double kSquareCells_m = 100.0;  // where cells are as wide as they are deep
 // More would bring vertices near the middle within a few lattice steps of each other.
 constexpr int kMostColumns = 2048, kMostRings = 16384;
 

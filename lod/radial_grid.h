@@ -6,7 +6,7 @@
 // Only the columns that the view can see are made, and a fan closes the hole in the middle. Rings
 // between r_0 and 2 r_0 are left out: a million triangles would have a hundred there. N and M
 // follow from the budget and from the share of the turn in view, so that cells are as wide as deep
-// at 300 m. Turning about the vertical moves no vertex; moving the eye moves all of them, so
+// at 100 m. Turning about the vertical moves no vertex; moving the eye moves all of them, so
 // waves that the grid is too coarse for swim, which ROAM's do not.
 //
 // Source: Gabdrakhmanov, interactive water of large worlds.

@@ -14,15 +14,18 @@ namespace {
 
 // The endless sea: a square of 64 km around the eye, whose corner moves in whole steps.
 constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
-constexpr int kSeaLatticeBits = 17;
 constexpr int kUvNoiseSize = texture::UvNoiseOptions{}.size;
 constexpr double kUvNoiseCells_per_s = 0.25;
 constexpr float kCoastSlopeScale = 1.5f / 127.0f;  // steeper fronts of breaking waves are clamped
 constexpr std::size_t kChunk = 2048;               // vertices a task
 
-lod::Domain sea_domain(const View& view) {
+// Vertices every 2 m, 0.5 m or 0.125 m at the closest. A small budget is better spent further off,
+// a large one has nothing left to do there: docs/lod.md has the errors of all three.
+int sea_lattice_bits(int budget) { return budget < 4000 ? 15 : budget <= 40000 ? 17 : 19; }
+
+lod::Domain sea_domain(const View& view, int budget) {
   const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
-  return {cell - 0.5 * kSeaSize_m, kSeaSize_m, kSeaLatticeBits};
+  return {cell - 0.5 * kSeaSize_m, kSeaSize_m, sea_lattice_bits(budget)};
 }
 
 lod::Domain land_domain(const scene::Terrain& terrain) {
@@ -63,7 +66,7 @@ void triangulate_sea(const Frame& frame) {
   switch (detail.triangulation) {
     case scene::Triangulation::kRoam: {
       const float bound = frame.world.height_bound_m();
-      adapt_surface(frame, sea_domain(frame.view), budget, -bound, bound, 0.0f, water);
+      adapt_surface(frame, sea_domain(frame.view, budget), budget, -bound, bound, 0.0f, water);
       break;
     }
     case scene::Triangulation::kRadial:
@@ -71,7 +74,7 @@ void triangulate_sea(const Frame& frame) {
       water.statistics = lod::write_radial_grid(frame.view, budget, water.mesh);
       break;
     case scene::Triangulation::kPlane:
-      water.domain = sea_domain(frame.view);
+      water.domain = sea_domain(frame.view, budget);
       lod::write_plane(water.domain, water.mesh);
       water.statistics = {.triangles = 2};
       break;
