@@ -154,6 +154,19 @@ TEST_F(Bench, TheLodReportHasEveryKey) {
   EXPECT_NEAR(report.at("ns_per_leaf").get<double>(), lod_ms * 1e6 / triangles, 0.1);
   EXPECT_GT(report.at("splits").get<int>(), 0);
   EXPECT_GT(report.at("merges").get<int>(), 0);
+  EXPECT_EQ(report.at("rows").size(), 1u);
+  EXPECT_EQ(report.at("rows")[0].at("triangles"), triangles);
+}
+
+// Four sizes, then the same work with a camera that stands still: nothing is split or merged.
+TEST_F(Bench, TheLodReportWithoutASizeIsATable) {
+  const Json rows = bench_json("lod", {"--frames", "3"}).at("rows");
+  ASSERT_EQ(rows.size(), 5u);
+  for (std::size_t i = 1; i < 4; ++i)
+    EXPECT_GT(rows[i].at("triangles").get<int>(), rows[i - 1].at("triangles").get<int>());
+  EXPECT_EQ(rows[4].at("speed_mps"), 0.0);
+  EXPECT_EQ(rows[4].at("splits"), 0);
+  EXPECT_EQ(rows[4].at("merges"), 0);
 }
 
 TEST_F(Bench, TheQueryReportNamesTheModel) {

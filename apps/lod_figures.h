@@ -1,0 +1,24 @@
+// swell-bench lod --figures: the original paper's two figures of triangulations, drawn by the
+// triangulation code itself.
+// Source: Elykov et al., 2000.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace swell::apps {
+
+// Two triangulations of one square, side by side as SVG.
+struct LodFigure {
+  std::string file;  // "lod_grid_9x9.svg"
+  int left_triangles = 0, right_triangles = 0;
+  int deepest_level = 0;  // of both sides
+  std::string svg;
+};
+
+// 1. The uniform grid of 9 x 9 points, each square in four triangles, and its simplification for
+//    an eye over the lower left corner.
+// 2. A triangulation, and what one forced split makes of it: ten triangles more.
+std::vector<LodFigure> lod_figures();
+
+}  // namespace swell::apps
