@@ -20,11 +20,13 @@ std::string_view section_of(std::string_view key) {
   return dot == std::string_view::npos ? std::string_view() : key.substr(0, dot);
 }
 
-std::string sines_text(const std::vector<ocean::SineWave>& sines) {
+template <class Object>
+std::string tables_text(std::string_view key, const std::vector<Parameter<Object>>& parameters,
+                        const std::vector<Object>& objects) {
   std::string text;
-  for (const ocean::SineWave& sine : sines) {
-    text += fmt::format("\n[[{}]]\n", kSinesKey);
-    for (const auto& parameter : sine_parameters()) text += line_of(parameter, sine);
+  for (const Object& object : objects) {
+    text += fmt::format("\n[[{}]]\n", key);
+    for (const auto& parameter : parameters) text += line_of(parameter, object);
   }
   return text;
 }
@@ -45,7 +47,8 @@ std::string dump_scene(const Scene& scene) {
     if (parameter.key == "wind.speed_mps" && (scene.douglas || scene.beaufort)) text += "# ";
     text += line_of(parameter, scene);
   }
-  return text + sines_text(scene.sea.sines);
+  return text + tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +
+         tables_text(kObjectsKey, object_parameters(), scene.objects);
 }
 
 }  // namespace swell::scene

@@ -221,6 +221,16 @@ struct CoastMethod {
   auto& operator()(auto& scene) const { return scene.coast.eikonal; }
 };
 
+struct ObjectKindName {
+  static constexpr std::array<std::string_view, 3> words = {"buoy", "sphere", "box"};
+  auto& operator()(auto& object) const { return object.kind; }
+};
+
+struct TopMarkName {
+  static constexpr std::array<std::string_view, 3> words = {"can", "cone", "sphere"};
+  auto& operator()(auto& object) const { return object.top_mark; }
+};
+
 #define SWELL_FIELD(PATH) \
   [](auto& object) -> auto& { return object.PATH; }
 
@@ -465,6 +475,24 @@ std::vector<Parameter<ocean::SineWave>> sine_parameters() {
   };
 }
 
+std::vector<Parameter<FloatingObject>> object_parameters() {
+  using ObjectRow = Row<FloatingObject>;
+  return {
+      ObjectRow::choice("kind", ObjectKindName{}, "what floats there, moored"),
+      ObjectRow::choice("top_mark", TopMarkName{}, "what a buoy carries on top"),
+      ObjectRow::vector("position_m", {-1e6, 1e6, "m"}, SWELL_FIELD(position_m),
+                        "of its middle: east, north"),
+      ObjectRow::vector("size_m", {0.05, 500, "m"}, SWELL_FIELD(size_m),
+                        "across, along its heading, and from the bottom of the hull to the top"),
+      ObjectRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
+                       "where it points, clockwise from north"),
+      ObjectRow::number("draught", {0, 1}, SWELL_FIELD(draught),
+                        "share of its height that lies below still water"),
+      ObjectRow::vector("colour", {0, 1}, SWELL_FIELD(colour),
+                        "linear RGB reflectance of its paint"),
+  };
+}
+
 #undef SWELL_FIELD
 
 template <class Object>
@@ -501,6 +529,7 @@ std::string allowed_text(const Parameter<Object>& parameter) {
 
 template std::string allowed_text(const Parameter<Scene>&);
 template std::string allowed_text(const Parameter<ocean::SineWave>&);
+template std::string allowed_text(const Parameter<FloatingObject>&);
 
 template <class Object>
 std::string toml_text(const Parameter<Object>& parameter, const Object& object) {
@@ -528,5 +557,6 @@ std::string toml_text(const Parameter<Object>& parameter, const Object& object) 
 
 template std::string toml_text(const Parameter<Scene>&, const Scene&);
 template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::SineWave&);
+template std::string toml_text(const Parameter<FloatingObject>&, const FloatingObject&);
 
 }  // namespace swell::scene

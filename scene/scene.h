@@ -16,6 +16,7 @@
 #include "math/elementary.h"
 #include "math/view.h"
 #include "ocean/sea.h"
+#include "scene/objects.h"
 #include "scene/terrain.h"
 
 namespace swell::scene {
@@ -115,6 +116,7 @@ struct Scene {
   Coast coast;
   Detail detail;
   std::optional<TerrainDescription> terrain;
+  std::vector<FloatingObject> objects;  // at most 64
 };
 
 // Reads and checks a scene file. Relative image paths are relative to the scene file's folder.

@@ -83,7 +83,10 @@ std::string got_text(const toml::node& node) {
 class Reader {
  public:
   explicit Reader(const fs::path& file)
-      : file_(file), parameters_(scene_parameters()), sine_parameters_(sine_parameters()) {}
+      : file_(file),
+        parameters_(scene_parameters()),
+        sine_parameters_(sine_parameters()),
+        object_parameters_(object_parameters()) {}
 
   Scene read(const toml::table& root) {
     scene_.name = file_.stem().string();
@@ -121,7 +124,9 @@ class Reader {
         parameter->set(scene_, checked_value(*node, path, *parameter));
         given_.emplace(path, place_of(node->source()));
       } else if (path == kSinesKey) {
-        read_sines(*node);
+        read_tables(*node, kSinesKey, kMaxSines, sine_parameters_, scene_.sea.sines);
+      } else if (path == kObjectsKey) {
+        read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
       } else if (is_section(path)) {
         read_section(*node, path);
       } else {
@@ -182,28 +187,34 @@ class Reader {
     read_table(*node.as_table(), path + ".");
   }
 
-  void read_sines(const toml::node& node) {
-    const std::string allowed = fmt::format("at most {} tables [[{}]]", kMaxSines, kSinesKey);
+  // The tables [[key]], one object each.
+  template <class Object>
+  void read_tables(const toml::node& node, std::string_view key, std::size_t count_high,
+                   const std::vector<Parameter<Object>>& parameters, std::vector<Object>& objects) {
+    const std::string allowed = fmt::format("at most {} tables [[{}]]", count_high, key);
     const toml::array* tables = node.as_array();
-    if (!tables || tables->size() > kMaxSines)
-      fail_value(node, std::string(kSinesKey), got_text(node), allowed);
+    if (!tables || tables->size() > count_high)
+      fail_value(node, std::string(key), got_text(node), allowed);
     for (const toml::node& element : *tables) {
-      if (!element.is_table())
-        fail_value(element, std::string(kSinesKey), got_text(element), allowed);
-      read_sine(*element.as_table());
+      if (!element.is_table()) fail_value(element, std::string(key), got_text(element), allowed);
+      objects.push_back(
+          read_object(*element.as_table(), key, static_cast<int>(objects.size()), parameters));
     }
   }
 
-  void read_sine(const toml::table& table) {
-    ocean::SineWave sine;
+  // `index` is the table's number among those of its key.
+  template <class Object>
+  Object read_object(const toml::table& table, std::string_view table_key, int index,
+                     const std::vector<Parameter<Object>>& parameters) {
+    Object object;
     for (const auto& [key, node, key_place] : in_file_order(table)) {
-      const std::string path = fmt::format("{}.{}", kSinesKey, key);
-      const auto parameter =
-          std::ranges::find(sine_parameters_, key, &Parameter<ocean::SineWave>::key);
-      if (parameter == sine_parameters_.end()) fail_unknown(key_place, path);
-      parameter->set(sine, checked_value(*node, path, *parameter));
+      const auto parameter = std::ranges::find(parameters, key, &Parameter<Object>::key);
+      if (parameter == parameters.end())
+        fail_unknown(key_place, fmt::format("{}.{}", table_key, key));
+      const std::string path = fmt::format("{}[{}].{}", table_key, index, key);
+      parameter->set(object, checked_value(*node, path, *parameter));
     }
-    scene_.sea.sines.push_back(sine);
+    return object;
   }
 
   template <class Object>
@@ -359,13 +370,15 @@ class Reader {
 
   // The known key or table with the fewest edits from an unknown one.
   std::string nearest_key(const std::string& path) const {
-    std::vector<std::string> known{std::string(kSinesKey)};
+    std::vector<std::string> known{std::string(kSinesKey), std::string(kObjectsKey)};
     for (const auto& parameter : parameters_) {
       known.emplace_back(parameter.key);
       known.emplace_back(parameter.key.substr(0, parameter.key.find('.')));
     }
     for (const auto& parameter : sine_parameters_)
       known.push_back(fmt::format("{}.{}", kSinesKey, parameter.key));
+    for (const auto& parameter : object_parameters_)
+      known.push_back(fmt::format("{}.{}", kObjectsKey, parameter.key));
     const std::string shortened = path.substr(0, 200);
     return *std::ranges::min_element(
         known, {}, [&](const std::string& key) { return edit_distance(shortened, key); });
@@ -374,6 +387,7 @@ class Reader {
   fs::path file_;
   std::vector<Parameter<Scene>> parameters_;
   std::vector<Parameter<ocean::SineWave>> sine_parameters_;
+  std::vector<Parameter<FloatingObject>> object_parameters_;
   Scene scene_;
   std::map<std::string, Place> given_;  // where the file has the keys that it has
 };

@@ -311,11 +311,21 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[sea]\npatch_lengths_m = []\n",
               "test.toml:2: column 19: sea.patch_lengths_m, got an array of 0 values, allowed 1 to "
               "4 numbers, each 0.5 to 50000 m"},
-        Fault{"[[sea.sines]]\nperiod_s = 0.01\n",
-              "test.toml:2: column 12: sea.sines.period_s, got 0.01, allowed 0 or 0.05 to 1000 s"},
+        Fault{
+            "[[sea.sines]]\nperiod_s = 0.01\n",
+            "test.toml:2: column 12: sea.sines[0].period_s, got 0.01, allowed 0 or 0.05 to 1000 s"},
         Fault{"[sea.sines]\namplitude_m = 1\n",
               "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
               "[[sea.sines]]"},
+        Fault{
+            "[[object]]\n[[object]]\nkind = \"boat\"\n",
+            "test.toml:3: column 8: object[1].kind, got \"boat\", allowed \"buoy\", \"sphere\" or "
+            "\"box\""},
+        Fault{"[[object]]\nsize_m = [1, 1, 0]\n",
+              "test.toml:2: column 17: object[0].size_m[2], got 0, allowed 3 numbers, each 0.05 to "
+              "500 m"},
+        Fault{"object = 3\n",
+              "test.toml:1: column 10: object, got 3, allowed at most 64 tables [[object]]"},
         Fault{"sea = 3\n", "test.toml:1: column 7: sea, got 3, allowed a table"},
         Fault{"name = 1979-05-27\n",
               "test.toml:1: column 8: name, got a date or time, allowed text of at most 200 "
@@ -373,9 +383,21 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[[sea.sines]]\namplitud_m = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m', allowed "
               "'sea.sines.amplitude_m' (the nearest) and the others of docs/scene.md"},
+        Fault{
+            "[[object]]\ncolor = [1, 0, 0]\n",
+            "test.toml:2: column 1: unknown key, got 'object.color', allowed 'object.colour' (the "
+            "nearest) and the others of docs/scene.md"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed 'name' (the nearest) and "
               "the others of docs/scene.md"}));
+
+TEST(SceneFile, AtMost64ObjectsAreTaken) {
+  std::string text;
+  for (int i = 0; i < 64; ++i) text += "[[object]]\n";
+  EXPECT_EQ(parse_scene(text, "test.toml").objects.size(), 64u);
+  EXPECT_NE(error_of(text + "[[object]]\n").find("allowed at most 64 tables [[object]]"),
+            std::string::npos);
+}
 
 TEST(SceneFile, TheFirstOfSeveralFaultsIsTheOneNamed) {
   EXPECT_TRUE(error_of("[water]\nlookup_scale = 7\n[camera]\nnear_m = 77\n")

@@ -147,6 +147,24 @@ struct RandomFile {
   std::string wrong_key;  // as messages name it; empty: none
 };
 
+// Up to two tables [[key]] with every key; one more, whose key number `wrong` has a value outside
+// its range, if there is such a key.
+template <class Object>
+void add_random_tables(std::string_view table_key, const std::vector<Parameter<Object>>& parameters,
+                       int wrong, Dice& dice, RandomFile& file) {
+  const bool any_wrong = wrong >= 0 && wrong < static_cast<int>(parameters.size());
+  const int count = dice.below(3) + any_wrong;
+  for (int n = 0; n < count; ++n) {
+    file.text += fmt::format("[[{}]]\n", table_key);
+    for (int i = 0; i < static_cast<int>(parameters.size()); ++i) {
+      const bool is_wrong = n == count - 1 && i == wrong;
+      const std::string_view key = parameters[i].key;
+      if (is_wrong) file.wrong_key = fmt::format("{}[{}].{}", table_key, n, key);
+      file.text += fmt::format("{} = {}\n", key, value_text(parameters[i], dice, !is_wrong));
+    }
+  }
+}
+
 // About every second key, in random order within its table; the key number `wrong` of all keys
 // (negative: none) has a value outside its range.
 RandomFile random_file(Dice& dice, int wrong) {
@@ -171,16 +189,9 @@ RandomFile random_file(Dice& dice, int wrong) {
   }
   for (const auto& [section, lines] : sections)
     file.text += (section.empty() ? "" : "[" + section + "]\n") + lines;
-  const auto sines = sine_parameters();
-  const int wrong_sine = wrong - index;
-  for (int n = dice.below(3) + (wrong_sine >= 0); n > 0; --n) {
-    file.text += "[[sea.sines]]\n";
-    for (int i = 0; i < static_cast<int>(sines.size()); ++i) {
-      const bool is_wrong = n == 1 && i == wrong_sine;
-      if (is_wrong) file.wrong_key = fmt::format("sea.sines.{}", sines[i].key);
-      file.text += fmt::format("{} = {}\n", sines[i].key, value_text(sines[i], dice, !is_wrong));
-    }
-  }
+  add_random_tables(kSinesKey, sine_parameters(), wrong - index, dice, file);
+  index += static_cast<int>(sine_parameters().size());
+  add_random_tables(kObjectsKey, object_parameters(), wrong - index, dice, file);
   return file;
 }
 
@@ -203,7 +214,8 @@ TEST(SceneParameters, RandomScenesComeBackFromTheirDump) {
 }
 
 TEST(SceneParameters, RandomFilesWithOneValueOutsideAreRefusedByItsName) {
-  const int keys = static_cast<int>(scene_parameters().size() + sine_parameters().size());
+  const int keys = static_cast<int>(scene_parameters().size() + sine_parameters().size() +
+                                    object_parameters().size());
   for (int n = 0; n < kFiles; ++n) {
     Dice dice(n);
     const RandomFile file = random_file(dice, n % keys);

@@ -18,6 +18,16 @@ void compare_sines(const ocean::SineWave& a, const ocean::SineWave& b, std::stri
   SWELL_COMPARE(period_s);
 }
 
+void compare_objects(const FloatingObject& a, const FloatingObject& b, std::string& list) {
+  SWELL_COMPARE(kind);
+  SWELL_COMPARE(top_mark);
+  SWELL_COMPARE(position_m);
+  SWELL_COMPARE(size_m);
+  SWELL_COMPARE(heading_rad);
+  SWELL_COMPARE(draught);
+  SWELL_COMPARE(colour);
+}
+
 void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, std::string& list) {
   SWELL_COMPARE(height_image);
   SWELL_COMPARE(metres_per_pixel);
@@ -98,6 +108,9 @@ std::string differences(const Scene& a, const Scene& b) {
   if (a.terrain && b.terrain) compare_terrains(*a.terrain, *b.terrain, list);
   for (std::size_t i = 0; i < std::min(a.sea.sines.size(), b.sea.sines.size()); ++i)
     compare_sines(a.sea.sines[i], b.sea.sines[i], list);
+  SWELL_COMPARE(objects.size());
+  for (std::size_t i = 0; i < std::min(a.objects.size(), b.objects.size()); ++i)
+    compare_objects(a.objects[i], b.objects[i], list);
   return list;
 }
 
