@@ -104,6 +104,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   {
     const StageScope stage(ws.profile, Stage::kDisplace);
     displace(frame);
+    place_objects(frame);
   }
   {
     const StageScope stage(ws.profile, Stage::kVisibility);

@@ -15,6 +15,7 @@
 #include "render/profile.h"
 #include "render/shade.h"
 #include "render/world_state.h"
+#include "scene/water_surface.h"
 #include "texture/uv_noise.h"
 
 namespace swell::render {
@@ -31,6 +32,10 @@ struct Surface {
   std::vector<glm::vec4> p_clip;  // in the window's view
 };
 
+// Apparent depth over true depth of a point below the water seen from the eye, at an angle theta
+// to the vertical: k = (1/n) cos / sqrt(1 - (sin/n)^2), from 1/n to 0.
+float squeeze(glm::vec3 p_rel, float n);
+
 // Where a vertex is in the world: exact, for spacings of a power of two.
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex);
 
@@ -43,6 +48,17 @@ struct LookupTarget {
   std::vector<std::uint8_t> wanted;   // per tile: water can look into it
   std::vector<std::uint8_t> written;  // per tile: holds anything but zeros
   ShadeContext context;
+};
+
+// The floating objects that a frame may show, as the triangles of three views.
+struct ObjectGeometry {
+  std::vector<scene::ObjectPose> poses;         // of all objects of the scene
+  std::vector<ObjectInstance> instances;        // of those in view
+  std::vector<ObjectPrimitive> primitives;      // per triangle
+  std::vector<std::uint32_t> indices;           // 3 per triangle
+  std::vector<glm::vec4> p_clip;                // in the window's view
+  std::vector<glm::vec4> mirrored, squeezed;    // of the reflection and the refraction image
+  std::vector<float> above_water, below_water;  // their clip distances [m]
 };
 
 // Per-tile results of visibility, in tile order.
@@ -83,6 +99,7 @@ struct Workspace::State {
   texture::PackedMap2 coast_slopes, coast_surf;  // slopes; the trains' share and their foam
   // Geometry.
   Surface water, land;
+  ObjectGeometry objects;
   // Pixels.
   raster::Pass pass;
   VisibilityBuffer visibility;
@@ -110,9 +127,17 @@ struct Frame {
 void advance_sea(Frame& frame);
 void triangulate(Frame& frame);
 void displace(Frame& frame);
+void place_objects(Frame& frame);
 void find_visible(Frame& frame);
 void draw_lookup_images(Frame& frame);
 void shade_pixels(Frame& frame, Target& target);
+
+// Primitives are numbered through the water, then the land, then the objects.
+std::uint32_t water_triangles(const Frame& frame);
+std::uint32_t land_triangles(const Frame& frame);  // 0 without terrain
+
+// The sea's surface at the frame's time, after advance_sea.
+scene::WaterSurface water_surface(const Frame& frame);
 
 // Draws triangle edges, tinted by level of detail, over a tile of the finished picture.
 void draw_wireframe(const Frame& frame, int tile, Target& target);

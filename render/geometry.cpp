@@ -7,7 +7,6 @@
 #include "lod/radial_grid.h"
 #include "math/elementary.h"
 #include "render/frame_state.h"
-#include "scene/water_surface.h"
 
 namespace swell::render {
 namespace {
@@ -33,9 +32,22 @@ lod::Domain land_domain(const scene::Terrain& terrain) {
   return {terrain.min_world, terrain.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
 }
 
-void adapt_surface(const Frame& frame, const lod::Domain& domain, int budget, float low_m,
-                   float high_m, float margin, Surface& surface) {
-  const int capacity = std::max(budget, frame.options.triangle_capacity);
+lod::AdaptRequest request_for(const Frame& frame, int budget, float low_m, float high_m) {
+  const scene::Detail& detail = frame.world.scene.detail;
+  lod::AdaptRequest request;
+  request.view = frame.view;
+  request.triangle_budget = budget;
+  request.priority = detail.inverse_distance_priority ? lod::Priority::kInverseDistance
+                                                      : lod::Priority::kProjectedSize;
+  request.min_height_m = low_m;
+  request.max_height_m = high_m;
+  return request;
+}
+
+// capacity: triangles to keep storage for, besides those of the request.
+void adapt_surface(const lod::Domain& domain, const lod::AdaptRequest& request, int capacity,
+                   Surface& surface) {
+  capacity = std::max(capacity, request.triangle_budget);
   const bool fits = surface.roam && surface.max_triangles >= capacity &&
                     surface.roam->domain().size_m == domain.size_m &&
                     surface.roam->domain().lattice_bits == domain.lattice_bits;
@@ -44,29 +56,23 @@ void adapt_surface(const Frame& frame, const lod::Domain& domain, int budget, fl
     surface.max_triangles = capacity;
   }
   surface.roam->set_origin(domain.min_world);
-  lod::AdaptRequest request;
-  request.view = frame.view;
-  request.triangle_budget = budget;
-  request.priority = frame.world.scene.detail.inverse_distance_priority
-                         ? lod::Priority::kInverseDistance
-                         : lod::Priority::kProjectedSize;
-  request.min_height_m = low_m;
-  request.max_height_m = high_m;
-  request.frustum_margin = margin;
-  request.factors.focus_nearer = static_cast<float>(frame.world.scene.detail.objects);
   surface.statistics = surface.roam->adapt(request);
   surface.roam->extract_mesh(surface.mesh);
   surface.domain = domain;
 }
 
-void triangulate_sea(const Frame& frame) {
+void triangulate_water(const Frame& frame) {
   const scene::Detail& detail = frame.world.scene.detail;
   const int budget = frame.options.water_triangles;
   Surface& water = frame.ws.water;
   switch (detail.triangulation) {
     case scene::Triangulation::kRoam: {
       const float bound = frame.world.height_bound_m();
-      adapt_surface(frame, sea_domain(frame.view, budget), budget, -bound, bound, 0.0f, water);
+      lod::AdaptRequest request = request_for(frame, budget, -bound, bound);
+      request.factors.focus_nearer = static_cast<float>(detail.objects);
+      request.focuses = frame.world.focuses;
+      adapt_surface(sea_domain(frame.view, budget), request, frame.options.triangle_capacity,
+                    water);
       break;
     }
     case scene::Triangulation::kRadial:
@@ -79,6 +85,15 @@ void triangulate_sea(const Frame& frame) {
       water.statistics = {.triangles = 2};
       break;
   }
+}
+
+void triangulate_land(const Frame& frame) {
+  if (!frame.world.terrain) return;
+  const scene::Terrain& terrain = *frame.world.terrain;
+  lod::AdaptRequest request =
+      request_for(frame, frame.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);
+  request.frustum_margin = 0.3f;  // the mirrored land lies outside the view at times
+  adapt_surface(land_domain(terrain), request, frame.options.triangle_capacity, frame.ws.land);
 }
 
 // Positions of the mesh's vertices relative to the eye.
@@ -102,25 +117,14 @@ void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
   const std::size_t count = end - begin;
   std::array<glm::dvec2, kChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = vertex_world(water, begin + i);
-  const auto& world = frame.world;
-  const scene::WaterSurface surface(*world.sea, frame.ws.sea, world.scene.area, world.terrain.get(),
-                                    world.coast.get());
   const auto height_m = std::span(water.height_m).subspan(begin, count);
-  if (world.scene.detail.triangulation == scene::Triangulation::kPlane)
+  if (frame.world.scene.detail.triangulation == scene::Triangulation::kPlane)
     std::ranges::fill(height_m, 0.0f);
   else
-    surface.heights(std::span(p).first(count), height_m);
+    water_surface(frame).heights(std::span(p).first(count), height_m);
   const auto eye_z = static_cast<float>(frame.view.eye_world.z);
   for (std::size_t i = begin; i < end; ++i)
     water.p_clip[i] = to_clip(frame.view, water.offset[i], water.height_m[i] - eye_z);
-}
-
-// Apparent depth over true depth of a point below the water seen from the eye, at an angle theta
-// to the vertical: k = (1/n) cos / sqrt(1 - (sin/n)^2), from 1/n to 0.
-float squeeze(glm::vec3 p_rel, float n) {
-  const float horizontal2 = p_rel.x * p_rel.x + p_rel.y * p_rel.y;
-  const float sin2 = horizontal2 / (horizontal2 + p_rel.z * p_rel.z + 1e-6f);
-  return std::sqrt((1.0f - sin2) / (n * n - sin2));
 }
 
 void displace_land(Frame& frame, std::size_t begin, std::size_t end) {
@@ -175,6 +179,17 @@ void resize_surface(Surface& surface) {
 
 }  // namespace
 
+scene::WaterSurface water_surface(const Frame& frame) {
+  const World::State& world = frame.world;
+  return {*world.sea, frame.ws.sea, world.scene.area, world.terrain.get(), world.coast.get()};
+}
+
+float squeeze(glm::vec3 p_rel, float n) {
+  const float horizontal2 = p_rel.x * p_rel.x + p_rel.y * p_rel.y;
+  const float sin2 = horizontal2 / (horizontal2 + p_rel.z * p_rel.z + 1e-6f);
+  return std::sqrt((1.0f - sin2) / (n * n - sin2));
+}
+
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
   const lod::Domain& domain = surface.domain;
   const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
@@ -209,15 +224,7 @@ void advance_sea(Frame& frame) {
 }
 
 void triangulate(Frame& frame) {
-  frame.workers.run_both([&] { triangulate_sea(frame); },
-                         [&] {
-                           if (!frame.world.terrain) return;
-                           const scene::Terrain& terrain = *frame.world.terrain;
-                           // The mirrored land lies outside the view at times.
-                           adapt_surface(frame, land_domain(terrain),
-                                         frame.options.terrain_triangles, terrain.lowest_m,
-                                         terrain.highest_m, 0.3f, frame.ws.land);
-                         });
+  frame.workers.run_both([&] { triangulate_water(frame); }, [&] { triangulate_land(frame); });
 }
 
 void displace(Frame& frame) {

@@ -1,5 +1,6 @@
 // Stages 4 to 7: what is visible, what water can look into, the colour of every pixel.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/frame_state.h"
@@ -7,15 +8,20 @@
 namespace swell::render {
 namespace {
 
-std::uint32_t triangle_count(const Surface& surface) {
-  return static_cast<std::uint32_t>(surface.mesh.indices.size() / 3);
-}
-
 raster::Draw draw_of(const Surface& surface, std::span<const glm::vec4> p_clip,
                      std::uint32_t first_primitive) {
   raster::Draw draw;
   draw.p_clip = p_clip;
   draw.indices = surface.mesh.indices;
+  draw.first_primitive = first_primitive;
+  return draw;
+}
+
+raster::Draw draw_of(const ObjectGeometry& objects, std::span<const glm::vec4> p_clip,
+                     std::uint32_t first_primitive) {
+  raster::Draw draw;
+  draw.p_clip = p_clip;
+  draw.indices = objects.indices;
   draw.first_primitive = first_primitive;
   return draw;
 }
@@ -28,7 +34,7 @@ void find_visible_in_tile(const Frame& frame, int tile) {
   const std::span<std::uint32_t> primitive = visibility.primitive_of(tile);
   visibility.covered[tile] =
       raster::draw_tile(frame.ws.pass, tile, visibility.depth_of(tile), primitive);
-  const std::uint32_t water = triangle_count(frame.ws.water);
+  const std::uint32_t water = water_triangles(frame);
   bool any = false;
   for (const std::uint32_t p : primitive) any |= p < water;
   visibility.has_water[tile] = any;
@@ -106,10 +112,19 @@ void draw_lookup_tile(const Frame& frame, int tile, ThreadScratch& scratch, Look
 }
 
 void draw_lookup_image(Frame& frame, const View& view, ViewKind kind, LookupTarget& target) {
-  raster::Draw draw = draw_of(frame.ws.land, target.p_clip, 0);
-  draw.clip_distance = target.clip_distance;
-  raster::prepare_pass({&draw, 1}, {view.width_px, view.height_px}, frame.options.tile_size_px,
-                       target.pass, frame.workers);
+  const ObjectGeometry& objects = frame.ws.objects;
+  const bool mirrored = kind == ViewKind::kReflection;
+  std::array<raster::Draw, 2> draws;
+  std::size_t draw_count = 0;
+  if (frame.world.terrain) {
+    draws[draw_count] = draw_of(frame.ws.land, target.p_clip, 0);
+    draws[draw_count++].clip_distance = target.clip_distance;
+  }
+  draws[draw_count] =
+      draw_of(objects, mirrored ? objects.mirrored : objects.squeezed, land_triangles(frame));
+  draws[draw_count++].clip_distance = mirrored ? objects.above_water : objects.below_water;
+  raster::prepare_pass(std::span(draws).first(draw_count), {view.width_px, view.height_px},
+                       frame.options.tile_size_px, target.pass, frame.workers);
   fill_shade_context(frame, view, kind, target.context);
   frame.workers.for_each(target.wanted.size(), [&](std::size_t tile, int slot) {
     const WorkScope work(frame.ws.profile, Stage::kLookups, slot);
@@ -120,12 +135,22 @@ void draw_lookup_image(Frame& frame, const View& view, ViewKind kind, LookupTarg
 
 }  // namespace
 
+std::uint32_t water_triangles(const Frame& frame) {
+  return static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
+}
+
+std::uint32_t land_triangles(const Frame& frame) {
+  if (!frame.world.terrain) return 0;
+  return static_cast<std::uint32_t>(frame.ws.land.mesh.indices.size() / 3);
+}
+
 void find_visible(Frame& frame) {
   Workspace::State& ws = frame.ws;
-  const std::array<raster::Draw, 2> draws = {
-      draw_of(ws.water, ws.water.p_clip, 0),
-      draw_of(ws.land, ws.land.p_clip, triangle_count(ws.water))};
-  const std::size_t draw_count = frame.world.terrain ? 2 : 1;
+  const std::uint32_t water = water_triangles(frame);
+  std::array<raster::Draw, 3> draws = {draw_of(ws.water, ws.water.p_clip, 0)};
+  std::size_t draw_count = 1;
+  if (frame.world.terrain) draws[draw_count++] = draw_of(ws.land, ws.land.p_clip, water);
+  draws[draw_count++] = draw_of(ws.objects, ws.objects.p_clip, water + land_triangles(frame));
   raster::prepare_pass(std::span(draws).first(draw_count), frame.viewport(),
                        frame.options.tile_size_px, ws.pass, frame.workers);
 
@@ -147,7 +172,7 @@ void draw_lookup_images(Frame& frame) {
   fill_shade_context(frame, frame.view, ViewKind::kWindow, ws.context);
   const auto tiles = static_cast<std::size_t>(ws.visibility.grid.count());
   ws.tile_lookups.assign(tiles, {});
-  if (!frame.world.terrain) return;
+  if (!frame.world.terrain && ws.objects.primitives.empty()) return;
 
   const View view = lookup_view(frame);
   const raster::TileGrid grid =

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "raster/pass.h"
+#include "scene/object_mesh.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
@@ -59,11 +60,29 @@ enum class ViewKind : std::uint8_t {
   kRefraction,  // below z = 0 squeezed towards it
 };
 
+// A floating object in a frame. Its axes are divided by its sizes: a point p_rel has the mesh's
+// coordinates (right, ahead, up) . (p_rel - bottom_rel), and a normal (x, y, z) of the mesh is
+// x right + y ahead + z up in the world, but for its length.
+struct ObjectInstance {
+  glm::vec3 right{1, 0, 0}, ahead{0, 1, 0}, up{0, 0, 1};
+  glm::vec3 bottom_rel{0.0f};
+  float waterline_rel_m = 0.0f;  // height of its waterline above the eye
+  glm::vec3 colour{0.0f};
+};
+
+// Which triangle of which object a primitive is.
+struct ObjectPrimitive {
+  const scene::ObjectTriangle* triangle = nullptr;
+  const ObjectInstance* object = nullptr;
+};
+
 // Constants of a frame and view. Colours are linear RGB, positions relative to the eye.
 struct ShadeContext {
   raster::Viewport viewport;
   raster::TileGrid grid;
-  std::uint32_t water_primitives = 0;  // primitives below this are water, the others terrain
+  // Primitives below the first number are water, those from the second on objects, between them
+  // lies terrain.
+  std::uint32_t water_primitives = 0, first_object = raster::kNoPrimitive;
   ViewKind kind = ViewKind::kWindow;
 
   // p_rel = depth (ray + x_px ray_dx + y_px ray_dy), depth = near_m / z.
@@ -110,6 +129,10 @@ struct ShadeContext {
   SlopeLayer terrain_slopes, terrain_detail;
   const texture::RgbaImage* terrain_albedo = nullptr;
   float albedo_texels_per_m = 0.0f, albedo_x_eye = 0.0f, albedo_y_eye = 0.0f;
+
+  // Objects: of primitive first_object + n, in the window and the lookup images alike.
+  std::span<const ObjectPrimitive> object_primitives;
+  glm::vec3 sea_light{0.0f};  // mean radiance of the sea, seen from above
 };
 
 // What water in a tile can see in the lookup images.
@@ -120,7 +143,7 @@ struct TileLookups {
 // Working memory of one thread.
 struct ShadeScratch {
   alignas(64) std::array<float, kMaxTilePixels> red, green, blue;
-  alignas(64) std::array<std::uint16_t, kMaxTilePixels + 64> water, terrain, sky;
+  alignas(64) std::array<std::uint16_t, kMaxTilePixels + 64> water, terrain, objects, sky;
 };
 
 // Shades all pixels of a tile that lie in the window and writes their 8-bit sRGB values to `rgba`
@@ -134,8 +157,8 @@ int shade_tile(const ShadeContext& context, int tile, std::span<const float> dep
 void shade_sky_tile(const ShadeContext& context, int tile, ShadeScratch& scratch,
                     std::span<std::uint32_t> rgba, std::span<float> linear);
 
-// Shades a tile of a reflection or refraction image: terrain pixels get their encoded radiance and
-// alpha 255, the others 0.
+// Shades a tile of a reflection or refraction image: land and objects get their encoded radiance
+// and alpha 255, the others 0.
 void shade_lookup_tile(const ShadeContext& context, int tile, std::span<const float> depth,
                        std::span<const std::uint32_t> primitive, ShadeScratch& scratch,
                        texture::RgbaImage& image);

@@ -111,6 +111,8 @@ void fill_water(const Frame& frame, ShadeContext& c) {
   const glm::vec3 light =
       c.ambient + c.sun_irradiance * (std::max(c.sun_direction.z, 0.0f) / static_cast<float>(kPi));
   c.body = water.body_colour * light;
+  // Besides its own light the sea mirrors some of the sky.
+  c.sea_light = c.body + 0.15f * c.ambient;
   c.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * c.body;
   c.inv_crest_height =
       1.0f / std::max(static_cast<float>(frame.world.sea->significant_height_m()), 0.1f);
@@ -199,9 +201,12 @@ void fill_shade_context(const Frame& frame, const View& view, ViewKind kind,
   fill_light(frame, context);
   fill_water(frame, context);
   fill_terrain(frame, context);
+  context.object_primitives = frame.ws.objects.primitives;
   context.water_primitives = 0;
+  context.first_object = land_triangles(frame);
   if (kind != ViewKind::kWindow) return;
-  context.water_primitives = static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
+  context.water_primitives = water_triangles(frame);
+  context.first_object += context.water_primitives;
   fill_water_layers(frame, context);
   fill_coast(frame, context);
   fill_foam(frame, context);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "math/check.h"
 #include "render/shade.h"
@@ -10,6 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/object-inl.h"
 #include "render/packet-inl.h"
 #include "render/sky-inl.h"
 #include "render/terrain-inl.h"
@@ -75,7 +77,32 @@ void SortByMaterial(const ShadeContext& c, const raster::PixelBox& box,
   PadToPacket(sky);
 }
 
-// Calls shade(x_px, y_px, z) for the list's pixels, a packet at a time, and stores its colours.
+// Moves the objects' pixels out of the list of terrain, which keeps its order.
+void SplitObjects(const ShadeContext& c, const std::uint32_t* primitive, PixelList& terrain,
+                  PixelList& objects) {
+  if (c.object_primitives.empty()) return;
+  const std::size_t count = std::exchange(terrain.count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t at = terrain.at[i];
+    PixelList& list = primitive[at] < c.first_object ? terrain : objects;
+    list.at[list.count++] = at;
+  }
+  PadToPacket(terrain);
+  PadToPacket(objects);
+}
+
+// The primitives of the pixels at[0] to at[kLanes - 1].
+using ObjectPacket = std::array<const ObjectPrimitive*, kLanes>;
+ObjectPacket ObjectsAt(const ShadeContext& c, const std::uint32_t* primitive,
+                       const std::uint16_t* at) {
+  ObjectPacket packet;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    packet[lane] = &c.object_primitives[primitive[at[lane]] - c.first_object];
+  return packet;
+}
+
+// Calls shade(at, x_px, y_px, z) for the list's pixels, a packet at a time, and stores its colours.
+// `at`: the packet's part of the list.
 template <class Shade>
 HWY_INLINE void ShadeList(const ShadeContext& c, const raster::PixelBox& box, const PixelList& list,
                           const float* depth, ShadeScratch& scratch, const Shade& shade) {
@@ -97,7 +124,7 @@ HWY_INLINE void ShadeList(const ShadeContext& c, const raster::PixelBox& box, co
         i + kLanes <= list.count && at[kLanes - 1] - at[0] == static_cast<int>(kLanes) - 1;
     if (!run)
       for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = depth[at[lane]];
-    const V3 colour = shade(x_px, y_px, hn::LoadU(d, run ? depth + at[0] : z.data()));
+    const V3 colour = shade(at, x_px, y_px, hn::LoadU(d, run ? depth + at[0] : z.data()));
     if (run) {
       hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
       hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
@@ -185,20 +212,27 @@ int ShadeTile(const ShadeContext& c, int tile, const float* depth, const std::ui
               TileLookups lookups, ShadeScratch& scratch, std::uint32_t* rgba, float* linear) {
   const raster::PixelBox box = raster::tile_box(c.viewport, c.grid, tile);
   PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
+  PixelList objects{scratch.objects.data()};
+  using At = const std::uint16_t*;
   SortByMaterial(c, box, primitive, water, terrain, sky);
+  SplitObjects(c, primitive, terrain, objects);
   if (c.has_coast)
-    ShadeList(c, box, water, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+    ShadeList(c, box, water, depth, scratch, [&](At, V x, V y, V z) HWY_ATTR {
       return ShadeWater<true>(c, MakePacket(c, x, y, z), lookups);
     });
   else
-    ShadeList(c, box, water, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+    ShadeList(c, box, water, depth, scratch, [&](At, V x, V y, V z) HWY_ATTR {
       return ShadeWater<false>(c, MakePacket(c, x, y, z), lookups);
     });
   ShadeList(c, box, terrain, depth, scratch,
-            [&](V x, V y, V z) HWY_ATTR { return ShadeTerrain(c, MakePacket(c, x, y, z)); });
-  ShadeList(c, box, sky, depth, scratch, [&](V x, V y, V) HWY_ATTR { return ShadeSky(c, x, y); });
+            [&](At, V x, V y, V z) HWY_ATTR { return ShadeTerrain(c, MakePacket(c, x, y, z)); });
+  ShadeList(c, box, objects, depth, scratch, [&](At at, V x, V y, V z) HWY_ATTR {
+    return ShadeObject(c, MakePacket(c, x, y, z), ObjectsAt(c, primitive, at).data());
+  });
+  ShadeList(c, box, sky, depth, scratch,
+            [&](At, V x, V y, V) HWY_ATTR { return ShadeSky(c, x, y); });
   ResolveTile(c, box, scratch, rgba, linear);
-  return static_cast<int>(water.count + terrain.count);
+  return static_cast<int>(water.count + terrain.count + objects.count);
 }
 
 void ShadeSkyTile(const ShadeContext& c, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -260,10 +294,20 @@ void ShadeLookupTile(const ShadeContext& c, int tile, const float* depth,
                      texture::RgbaImage& image) {
   const raster::PixelBox box = raster::tile_box(c.viewport, c.grid, tile);
   PixelList water{scratch.water.data()}, terrain{scratch.terrain.data()}, sky{scratch.sky.data()};
+  PixelList objects{scratch.objects.data()};
+  using At = const std::uint16_t*;
   SortByMaterial(c, box, primitive, water, terrain, sky);
-  ShadeList(c, box, terrain, depth, scratch, [&](V x, V y, V z) HWY_ATTR {
+  SplitObjects(c, primitive, terrain, objects);
+  const bool submerged = c.kind == ViewKind::kRefraction;
+  ShadeList(c, box, terrain, depth, scratch, [&](At, V x, V y, V z) HWY_ATTR {
     const Packet packet = MakePacket(c, x, y, z);
-    return c.kind == ViewKind::kRefraction ? ShadeSubmerged(c, packet) : ShadeMirrored(c, packet);
+    return submerged ? ShadeSubmerged(c, packet) : ShadeMirrored(c, packet);
+  });
+  ShadeList(c, box, objects, depth, scratch, [&](At at, V x, V y, V z) HWY_ATTR {
+    const Packet packet = MakePacket(c, x, y, z);
+    const ObjectPacket shown = ObjectsAt(c, primitive, at);
+    return submerged ? ShadeSubmergedObject(c, packet, shown.data())
+                     : ShadeObject(c, packet, shown.data());
   });
   EncodeLookupTile(c, box, primitive, scratch, image);
 }

@@ -43,12 +43,14 @@ HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet, V leve
   return Product(light, {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)});
 }
 
-// The ground through water: the pixel's z is squeezed, so its depth is unsqueezed first; then
-// light is lost on the way down from the sun and up to the surface, and the body's colour takes its
-// place (Beer-Lambert).
-HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
+// Light's way through water to something at a depth.
+struct WaterPath {
+  V depth;   // true, of a thing that is seen at the apparent one [m]
+  V length;  // down from the sun and up to the surface [m]
+};
+
+HWY_INLINE WaterPath PathThroughWater(const ShadeContext& c, const Packet& packet, V apparent) {
   const D d;
-  const V3 ground = GroundRadiance<false>(c, packet, GroundLevel(c, packet));
   const V cos_eye = hn::Max(packet.to_eye.z, Constant(0.02f));
   const float inv_n = 1.0f / c.refraction_index;
   // cos of the refracted ray; apparent depth / true depth k = (1/n) cos / cos_t.
@@ -56,18 +58,29 @@ HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
       hn::Mul(hn::Sqrt(hn::Max(hn::NegMulAdd(cos_eye, cos_eye, Constant(1.0f)), hn::Zero(d))),
               Constant(inv_n));
   const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, Constant(1.0f)));
-  const V apparent = hn::Max(hn::Neg(hn::Add(packet.p.z, Constant(c.eye_z))), hn::Zero(d));
   const V depth = hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(c.refraction_index)), cos_eye));
   const V path_up = hn::Min(hn::Div(depth, cos_t), Constant(200.0f));
-  const V path = hn::MulAdd(depth, Constant(1.2f), path_up);  // sunlight comes down at a slant
+  return {depth, hn::MulAdd(depth, Constant(1.2f), path_up)};  // sunlight comes down at a slant
+}
+
+// Light is lost on its way, and the water body's takes its place (Beer-Lambert).
+HWY_INLINE V3 AbsorbInWater(const ShadeContext& c, const WaterPath& path, V3 light) {
+  const D d;
   const glm::vec3 absorption = c.absorption_per_m;
-  const auto lost = [&](float per_m, V body, V light) {
-    const V through = Exp(d, hn::Mul(path, Constant(-per_m)));
-    return Lerp(body, light, through);
+  const auto lost = [&](float per_m, V body, V seen) {
+    const V through = Exp(d, hn::Mul(path.length, Constant(-per_m)));
+    return Lerp(body, seen, through);
   };
-  return {lost(absorption.x, Constant(c.body.x), ground.x),
-          lost(absorption.y, Constant(c.body.y), ground.y),
-          lost(absorption.z, Constant(c.body.z), ground.z)};
+  return {lost(absorption.x, Constant(c.body.x), light.x),
+          lost(absorption.y, Constant(c.body.y), light.y),
+          lost(absorption.z, Constant(c.body.z), light.z)};
+}
+
+// The ground through water: the pixel's z is squeezed.
+HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
+  const V3 ground = GroundRadiance<false>(c, packet, GroundLevel(c, packet));
+  const V apparent = hn::Max(hn::Neg(hn::Add(packet.p.z, Constant(c.eye_z))), hn::Zero(D()));
+  return AbsorbInWater(c, PathThroughWater(c, packet, apparent), ground);
 }
 
 // Dry ground as the reflection image shows it (p mirrored: the true height is -z).

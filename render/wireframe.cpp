@@ -28,22 +28,27 @@ std::uint32_t blend(std::uint32_t under, std::uint32_t over, float amount) {
   return result;
 }
 
-// The surface and triangle that a primitive number of the window's pass means.
+// The triangle that a primitive number of the window's pass means.
 struct Triangle {
   std::array<glm::vec4, 3> p_clip;
   int level;
 };
 
+Triangle triangle_at(std::span<const glm::vec4> p_clip, std::span<const std::uint32_t> indices,
+                     std::size_t n, int level) {
+  return {{p_clip[indices[3 * n]], p_clip[indices[3 * n + 1]], p_clip[indices[3 * n + 2]]}, level};
+}
+
 Triangle triangle_of(const Frame& frame, std::uint32_t primitive) {
-  const auto water = static_cast<std::uint32_t>(frame.ws.water.mesh.indices.size() / 3);
-  const bool is_water = primitive < water;
-  const Surface& surface = is_water ? frame.ws.water : frame.ws.land;
-  const std::size_t n = is_water ? primitive : primitive - water;
-  Triangle triangle;
-  for (std::size_t i = 0; i < 3; ++i)
-    triangle.p_clip[i] = surface.p_clip[surface.mesh.indices[3 * n + i]];
-  triangle.level = surface.mesh.level[n];
-  return triangle;
+  const auto of_surface = [](const Surface& surface, std::size_t n) {
+    return triangle_at(surface.p_clip, surface.mesh.indices, n, surface.mesh.level[n]);
+  };
+  const std::uint32_t water = water_triangles(frame), land = land_triangles(frame);
+  if (primitive < water) return of_surface(frame.ws.water, primitive);
+  if (primitive < water + land) return of_surface(frame.ws.land, primitive - water);
+  const ObjectGeometry& objects = frame.ws.objects;
+  constexpr int kWhite = 7;
+  return triangle_at(objects.p_clip, objects.indices, primitive - water - land, kWhite);
 }
 
 }  // namespace

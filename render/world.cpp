@@ -257,6 +257,8 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
   add_terrain(if_alike(same_terrain), *state);
   add_coast(if_alike(same_coast), threads, *state);
+  state->objects = build_object_meshes(now.objects);
+  state->focuses = object_focuses(now.objects);
   return state;
 }
 

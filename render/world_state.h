@@ -3,12 +3,15 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "lod/request.h"
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
 #include "ocean/sea.h"
 #include "render/frame.h"
+#include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "scene/terrain.h"
 #include "texture/packed_map.h"
@@ -35,6 +38,15 @@ struct CoastMaps {
   texture::PackedMap2 foam_pattern;  // thresholds, stretched to [-1, 1]; of any size, it repeats
 };
 
+// The shapes that a scene's objects need, and which of them each object has.
+struct ObjectMeshes {
+  struct Choice {
+    std::size_t near = 0, far = 0;  // indices into meshes: many triangles, few
+  };
+  std::vector<scene::ObjectMesh> meshes;
+  std::vector<Choice> of_object;
+};
+
 // Parts are shared by worlds whose scenes describe them alike.
 struct World::State {
   scene::Scene scene;
@@ -45,6 +57,10 @@ struct World::State {
   std::shared_ptr<const scene::Terrain> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
+
+  // What floats.
+  ObjectMeshes objects = {};
+  std::vector<lod::Focus> focuses = {};  // where it does
 
   // |z| of the surface is at most this in practice.
   float height_bound_m() const {
@@ -57,6 +73,8 @@ struct World::State {
 inline constexpr int kCoastMapSize = 256;
 
 SkyMaps build_sky_maps(const scene::Sky& sky);
+ObjectMeshes build_object_meshes(std::span<const scene::FloatingObject> objects);
+std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> objects);
 TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed);
 
 }  // namespace swell::render

@@ -68,5 +68,72 @@ TEST_P(DrawnSurface, StaysBetweenItsVerticesWithinTheWavesSlope) {
   EXPECT_LT(std::sqrt(near_square / near), 0.02) << "rms over triangles with edges up to 1 m";
 }
 
+// The longest edge of the drawn triangle that holds a place, and the drawn height there.
+struct DrawnPlace {
+  double edge_m = 0.0, height_m = NAN;
+};
+DrawnPlace drawn_at(const Surface& drawn, glm::dvec2 p) {
+  for (std::size_t i = 0; i + 2 < drawn.mesh.indices.size(); i += 3) {
+    const std::uint32_t* v = &drawn.mesh.indices[i];
+    const glm::dvec2 a = place_of(drawn, v[0]), b = place_of(drawn, v[1]),
+                     c = place_of(drawn, v[2]);
+    const auto cross = [](glm::dvec2 u, glm::dvec2 w) { return u.x * w.y - u.y * w.x; };
+    const double area = cross(b - a, c - a);
+    const double wb = cross(p - a, c - a) / area, wc = cross(b - a, p - a) / area;
+    if (wb < 0.0 || wc < 0.0 || wb + wc > 1.0) continue;
+    return {std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}),
+            (1.0 - wb - wc) * drawn.height_m[v[0]] + wb * drawn.height_m[v[1]] +
+                wc * drawn.height_m[v[2]]};
+  }
+  return {};
+}
+
+// The mean over the buoys of a scene of the triangle's edge under each and of the distance between
+// its waterline and the drawn sea.
+struct Afloat {
+  double edge_m = 0.0, gap_m = 0.0, largest_gap_m = 0.0;
+  int count = 0;
+};
+World buoys(double nearer) {
+  scene::Scene scene = load_shipped("buoys");
+  scene.detail.objects = nearer;
+  return World(scene);
+}
+
+Afloat draw_buoys(const World& world, double t_s) {
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options;
+  options.water_triangles = 10000;
+  const View view = scene::camera_view(world.scene().camera, t_s, 320, 180);
+  render_frame(world, view, t_s, options, workspace, target, workers);
+  Afloat result;
+  for (const scene::ObjectPose& pose : workspace.state().objects.poses) {
+    const DrawnPlace place = drawn_at(workspace.state().water, glm::dvec2(pose.position_world));
+    const double gap_m = std::abs(place.height_m - pose.position_world.z);
+    result.edge_m += place.edge_m;
+    result.gap_m += gap_m;
+    result.largest_gap_m = std::max(result.largest_gap_m, gap_m);
+    ++result.count;
+  }
+  result.edge_m /= result.count;
+  result.gap_m /= result.count;
+  return result;
+}
+
+// Waves of Hs = 1.9 m, buoys up to 900 m away.
+TEST(DrawnObjects, FloatOnTheDrawnSeaWhoseTrianglesAreFinerUnderThem) {
+  const World refined = buoys(8.0), plain = buoys(1.0);
+  for (const double t_s : {0.0, 4.0, 33.0}) {
+    const Afloat with = draw_buoys(refined, t_s), without = draw_buoys(plain, t_s);
+    ASSERT_GT(with.count, 10);
+    EXPECT_LT(with.edge_m, without.edge_m / 4.0);
+    EXPECT_LT(with.gap_m, without.gap_m / 3.0);
+    EXPECT_LT(with.gap_m, 0.08);
+    EXPECT_LT(with.largest_gap_m, 0.4);
+  }
+}
+
 }  // namespace
 }  // namespace swell::render

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 
 #include "allocation_count.h"
 #include "math/simd_target.h"
+#include "render/frame_state.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -66,7 +68,7 @@ std::string difference(const Target& a, const Target& b) {
 
 class EachScene : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, EachScene,
-                         testing::Values("open_ocean", "lagoon", "sines", "beach"),
+                         testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(EachScene, ThreadCountChangesNoPixel) {
@@ -261,6 +263,80 @@ TEST(Frame, LinearPictureHoldsOnlyFiniteRadiance) {
   const Picture picture = draw(world, 2.0, 2, options);
   ASSERT_EQ(picture.target.linear.size(), std::size_t{3} * kWidth * kHeight);
   for (const float x : picture.target.linear) ASSERT_TRUE(std::isfinite(x) && x >= 0.0f) << x;
+}
+
+// A flat, smooth sea with a clear view to the south, and one white object 40 m ahead.
+scene::Scene calm_scene(scene::ObjectKind kind, double size_m, double draught) {
+  scene::Scene scene;
+  scene.sea.wind_speed_mps = 0.0;
+  scene.detail.objects = 1.0;  // the same triangles as without the object
+  scene.water.bump_strength = 0.0;
+  scene.camera.eye_m = {0.0, -40.0, 4.0};
+  scene::FloatingObject object;
+  object.kind = kind;
+  object.size_m = glm::dvec3(size_m);
+  object.draught = draught;
+  object.colour = glm::vec3(1.0f);
+  scene.objects = {object};
+  return scene;
+}
+
+std::uint64_t object_pixels(Workspace& workspace) {
+  const Workspace::State& state = workspace.state();
+  const std::size_t first = state.water.mesh.indices.size() / 3;
+  return static_cast<std::uint64_t>(std::ranges::count_if(
+      state.visibility.primitive,
+      [&](std::uint32_t p) { return p >= first && p != raster::kNoPrimitive; }));
+}
+
+// A ball of radius r at distance d fills a cone of half angle asin(r / d); near the middle of the
+// picture that is pi (f tan(angle))^2 pixels.
+TEST(Objects, ABallOnTheWaterCoversTheAreaOfItsDisc) {
+  const scene::Scene scene = calm_scene(scene::ObjectKind::kSphere, 8.0, 0.0);
+  const World world(scene);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const int height_px = 400;
+  render_frame(world, view_of(world, 0.0, 400, height_px), 0.0, few_triangles(), workspace, target,
+               workers);
+  const double focal_px = 0.5 * height_px / std::tan(0.5 * scene.camera.fov_y_rad);
+  const double radius_px = focal_px * std::tan(std::asin(4.0 / 40.0));
+  const double expected = 3.14159265 * radius_px * radius_px;
+  // Flat sides take 1 % away.
+  EXPECT_NEAR(static_cast<double>(object_pixels(workspace)), 0.99 * expected, 0.01 * expected);
+}
+
+TEST(Objects, ABoxShowsItselfAndItsMirrorImageAndNothingElseChanges) {
+  const scene::Scene scene = calm_scene(scene::ObjectKind::kBox, 4.0, 0.0);
+  scene::Scene empty = scene;
+  empty.objects.clear();
+  const Target with = draw(World(scene), 0.0).target, without = draw(World(empty), 0.0).target;
+  // The eye is as high as the box: the box's top lies at the horizon, and the mirror image is as
+  // high as the box.
+  const double focal_px = 0.5 * kHeight / std::tan(0.5 * scene.camera.fov_y_rad);
+  const double half_px = focal_px * 2.0 / 38.0, level_px = focal_px * 4.0 / 38.0;
+  int changed = 0, changed_far = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const auto i = static_cast<std::size_t>(y) * kWidth + x;
+      if (with.rgba[i] == without.rgba[i]) continue;
+      ++changed;
+      const double right = std::abs(x + 0.5 - 0.5 * kWidth), down = y + 0.5 - 0.5 * kHeight;
+      // A lookup image's texel is two pixels, and a bilinear sample reads one further.
+      changed_far += right > half_px + 4.0 || down < -1.0 || down > 2.0 * level_px + 4.0;
+    }
+  }
+  EXPECT_EQ(changed_far, 0);
+  EXPECT_NEAR(changed, 2.0 * half_px * 2.0 * level_px, 0.15 * 4.0 * half_px * level_px);
+}
+
+TEST(Objects, OutOfViewChangeNoPixel) {
+  scene::Scene scene = calm_scene(scene::ObjectKind::kBuoy, 4.0, 0.2);
+  scene::Scene empty = scene;
+  empty.objects.clear();
+  scene.objects[0].position_m = {0.0, -60.0};
+  EXPECT_EQ(difference(draw(World(scene), 0.0).target, draw(World(empty), 0.0).target), "");
 }
 
 }  // namespace

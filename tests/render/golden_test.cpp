@@ -33,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(Pictures, Golden,
                          testing::Values(Case{"open_ocean", 0.0, false},
                                          Case{"open_ocean", 37.0, false},
                                          Case{"open_ocean", 0.0, true}, Case{"lagoon", 5.0, false},
-                                         Case{"sines", 3.0, false}, Case{"beach", 4.0, false}),
+                                         Case{"sines", 3.0, false}, Case{"beach", 4.0, false},
+                                         Case{"buoys", 4.0, false}),
                          [](const auto& test) { return case_name(test.param); });
 
 texture::Image8 rgb_image(const Target& target) {

@@ -100,6 +100,17 @@ std::optional<std::string> cheap_value(std::string_view key, Dice& dice) {
   return std::nullopt;
 }
 
+// Up to two tables [[key]] with every key.
+template <class Object>
+void add_random_tables(std::string_view table_key, const std::vector<Parameter<Object>>& parameters,
+                       Dice& dice, std::string& text) {
+  for (int n = dice.below(3); n > 0; --n) {
+    text += fmt::format("[[{}]]\n", table_key);
+    for (const auto& parameter : parameters)
+      text += fmt::format("{} = {}\n", parameter.key, random_value(parameter, dice));
+  }
+}
+
 // About two of three keys.
 std::string random_scene(Dice& dice, bool with_terrain) {
   constexpr std::string_view kWindKeys[] = {"wind.speed_mps", "sea.douglas", "sea.beaufort"};
@@ -121,11 +132,8 @@ std::string random_scene(Dice& dice, bool with_terrain) {
   }
   std::string text;
   for (const auto& [name, lines] : tables) text += fmt::format("[{}]\n{}", name, lines);
-  for (int n = dice.below(3); n > 0; --n) {
-    text += "[[sea.sines]]\n";
-    for (const auto& parameter : scene::sine_parameters())
-      text += fmt::format("{} = {}\n", parameter.key, random_value(parameter, dice));
-  }
+  add_random_tables(scene::kSinesKey, scene::sine_parameters(), dice, text);
+  add_random_tables(scene::kObjectsKey, scene::object_parameters(), dice, text);
   return text;
 }
 
