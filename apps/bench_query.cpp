@@ -56,6 +56,24 @@ double median_ms(double run_ms, FunctionRef<double()> clock_ms, FunctionRef<void
   return spread(call_ms).median;
 }
 
+// Heights a second of what the surface is made of, each alone, on one thread.
+Json layer_rates(const scene::Water& water, const ocean::SeaFrame& frame,
+                 std::span<const glm::dvec2> points) {
+  std::vector<float> height_m(points.size());
+  Json rates = Json::object();
+  const auto add = [&](const char* layer, FunctionRef<void()> call) {
+    const double call_ms = median_ms(
+        200.0, [] { return thread_ms(); }, call);
+    rates[layer] = std::round(static_cast<double>(points.size()) / (call_ms * 1e-3));
+  };
+  if (!frame.patches.empty() || !frame.sines.empty())
+    add(frame.patches.empty() ? "sines" : "spectrum",
+        [&] { ocean::sample_heights(frame, points, height_m); });
+  if (water.coast())
+    add("trains", [&] { ocean::sample_trains(water.coast()->trains, 0.0, points, height_m); });
+  return rates;
+}
+
 void run_query_bench(const QueryBench& bench) {
   select_simd(bench.simd);
   check_text_place(bench.json);
@@ -74,19 +92,24 @@ void run_query_bench(const QueryBench& bench) {
       50.0, [&] { return building.elapsed_ms(); },
       [&] { ocean::advance(water.sea(), 0.0, frame, workers); });
 
-  const Json json = {{"points_per_s", std::round(bench.points / (ms * 1e-3))},
+  const auto per_s = [&](double call_ms) { return std::round(bench.points / (call_ms * 1e-3)); };
+  const Json json = {{"points_per_s", per_s(ms)},
                      {"model", model_name(scene, water)},
+                     {"layers_per_s", layer_rates(water, frame, points)},
                      {"points", bench.points},
                      {"scene", scene.name},
                      {"query_ms", ms},
                      {"setup_ms", setup_ms},
                      {"advance_ms", advance_ms}};
-  if (bench.json != "-")
+  if (bench.json != "-") {
     fmt::print(
-        "{}: {:.3g} heights a second on one thread, model {}; a new time {:.2f} ms, set-up "
+        "{}: {:.3g} heights a second on one core, model {}; a new time {:.2f} ms, set-up "
         "{:.0f} ms\n",
         scene.name, json["points_per_s"].get<double>(), json["model"].get<std::string>(),
         advance_ms, setup_ms);
+    for (const auto& [layer, rate] : json["layers_per_s"].items())
+      fmt::print("  {} alone: {:.3g} heights a second\n", layer, rate.get<double>());
+  }
   if (!bench.json.empty()) write_text(bench.json, json.dump(2) + "\n");
 }
 

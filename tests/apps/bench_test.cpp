@@ -180,7 +180,10 @@ TEST_F(Bench, TheQueryReportNamesTheModel) {
   for (const char* model : {"trains", "blend"}) {
     write_text(scene_, island_scene_text() + "[coast]\nmodel = \"" + model +
                            "\"\ngrid_spacing_m = 4\ntrains = 1\n");
-    EXPECT_EQ(bench_json("query", {"--scene", scene_, "--points", "1000"}).at("model"), model);
+    const Json coast = bench_json("query", {"--scene", scene_, "--points", "1000"});
+    EXPECT_EQ(coast.at("model"), model);
+    for (const char* layer : {"spectrum", "trains"})
+      EXPECT_GT(coast.at("layers_per_s").at(layer).get<double>(), 1e4) << layer;
   }
 }
 
