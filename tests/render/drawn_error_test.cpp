@@ -175,16 +175,16 @@ TEST(DrawnError, StaysBelowWhatThePriorityClaimsForSines) {
   scene.area.size_m = {20000.0, 20000.0};
   const Found found = check_shots(scene, 100, 3000);
   EXPECT_GT(found.claimed, 150000);
-  EXPECT_GT(found.claimed, 0.99 * found.seen);
+  EXPECT_GT(found.claimed, 0.98 * found.seen);  // the rest cannot be split
   // The bounds are not idle.
-  EXPECT_GT(found.worst_m, 0.5);
+  EXPECT_GT(found.worst_m, 0.4);
   EXPECT_GT(found.worst_px, 0.2);
 }
 
 TEST(DrawnError, StaysBelowWhatThePriorityClaimsForTheOpenOcean) {
   const Found found = check_shots(load_shipped("open_ocean"), 100, 3000);
   EXPECT_GT(found.claimed, 150000);
-  EXPECT_GT(found.claimed, 0.99 * found.seen);
+  EXPECT_GT(found.claimed, 0.98 * found.seen);
   EXPECT_GT(found.worst_m, 0.1);  // all waves at their steepest in one place are rare
 }
 
