@@ -61,7 +61,7 @@ class WaterSurface {
   // Velocity of the water at the surface in m/s: east, north, up; up is the rate of height().
   // Linear theory: of deep water for the sea's waves, of water of the local depth for the trains of
   // a coast, blended as the heights are. `velocity` is of the same time, from
-  // ocean::advance_velocity(). 75 ns a point, with the trains of a coast 50 more a train.
+  // ocean::advance_velocity(). 60 ns a point, with the trains of a coast 45 more a train.
   void velocities(std::span<const glm::dvec2> p_world, const ocean::VelocityFrame& velocity,
                   std::span<glm::vec3> velocity_mps) const;
 
