@@ -58,15 +58,20 @@ AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& 
   return done;
 }
 
-}  // namespace
-
-Roam::Roam(const Domain& domain, int max_triangles) {
+void check_domain(const Domain& domain) {
   SWELL_CHECK(domain.lattice_bits >= 1 && domain.lattice_bits <= 20, "lattice_bits={}",
               domain.lattice_bits);
   SWELL_CHECK(std::isfinite(domain.size_m) && domain.size_m > 0.0, "size_m={}", domain.size_m);
+  SWELL_CHECK(std::isfinite(domain.min_world.x) && std::isfinite(domain.min_world.y),
+              "min_world=({}, {})", domain.min_world.x, domain.min_world.y);
+}
+
+}  // namespace
+
+Roam::Roam(const Domain& domain, int max_triangles) {
+  check_domain(domain);
   SWELL_CHECK(max_triangles >= 2 && max_triangles <= 1 << 28, "max_triangles={}", max_triangles);
   tree_ = std::make_unique<Tree>(domain, max_triangles);
-  set_origin(domain.min_world);
 }
 
 Roam::~Roam() = default;
@@ -79,6 +84,16 @@ void Roam::set_origin(glm::dvec2 min_world) {
   SWELL_CHECK(std::isfinite(min_world.x) && std::isfinite(min_world.y), "min_world=({}, {})",
               min_world.x, min_world.y);
   tree_->domain.min_world = min_world;
+}
+
+void Roam::set_domain(const Domain& domain) {
+  check_domain(domain);
+  const Domain old = tree_->domain;
+  tree_->domain = domain;
+  if (old.lattice_bits == domain.lattice_bits && old.size_m == domain.size_m) return;
+  tree_->frame = {};
+  tree_->frame.lattice_bits = domain.lattice_bits;
+  reset_tree(*tree_);
 }
 
 AdaptStatistics Roam::adapt(const AdaptRequest& request) {

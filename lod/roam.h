@@ -56,6 +56,10 @@ class Roam {
   // place in the domain, so the next adapt is cheap if the eye keeps its place there too.
   void set_origin(glm::dvec2 min_world);
 
+  // Goes to another domain, in the same storage. If more than its corner differs, the next adapt
+  // starts from the two root triangles.
+  void set_domain(const Domain& domain);
+
   // Writes the mesh; vectors keep their capacity. Neighbours in the list share an edge. Uses
   // scratch in the tree: not two calls at a time on one Roam.
   void extract_mesh(Mesh& mesh) const;

@@ -48,14 +48,11 @@ lod::AdaptRequest request_for(const Frame& frame, int budget, float low_m, float
 void adapt_surface(const lod::Domain& domain, const lod::AdaptRequest& request, int capacity,
                    Surface& surface) {
   capacity = std::max(capacity, request.triangle_budget);
-  const bool fits = surface.roam && surface.max_triangles >= capacity &&
-                    surface.roam->domain().size_m == domain.size_m &&
-                    surface.roam->domain().lattice_bits == domain.lattice_bits;
-  if (!fits) {
+  if (!surface.roam || surface.max_triangles < capacity) {
     surface.roam.emplace(domain, capacity);
     surface.max_triangles = capacity;
   }
-  surface.roam->set_origin(domain.min_world);
+  surface.roam->set_domain(domain);
   surface.statistics = surface.roam->adapt(request);
   surface.roam->extract_mesh(surface.mesh);
   surface.domain = domain;

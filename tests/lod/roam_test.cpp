@@ -160,6 +160,21 @@ int level_at(const Mesh& mesh, glm::dvec2 p) {
   return -1;
 }
 
+TEST(Roam, InAnotherDomainItMakesWhatAFreshOneMakes) {
+  const AdaptRequest request = over_the_sea({3.0, 4.0, 8.0}, 3000);
+  Mesh moved_mesh, fresh_mesh;
+  Roam moved(sea(), 5000), fresh({{-100.0, -50.0}, 4096.0, 12}, 3000);
+  moved.adapt(request);
+  moved.set_domain(fresh.domain());
+  moved.adapt(request);
+  fresh.adapt(request);
+  moved.extract_mesh(moved_mesh);
+  fresh.extract_mesh(fresh_mesh);
+  EXPECT_EQ(find_fault(moved.tree()), "");
+  EXPECT_EQ(moved_mesh.lattice, fresh_mesh.lattice);
+  EXPECT_EQ(moved_mesh.indices, fresh_mesh.indices);
+}
+
 TEST(Roam, TheSeaUnderADistantObjectIsFinerThanBesideIt) {
   Roam roam(sea(), 30000);
   AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 30000);
