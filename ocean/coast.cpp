@@ -56,7 +56,8 @@ CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_co
       const double depth = static_cast<double>(floor.depth_m[k]);
       const double shallow =
           blend ? 1.0 - smooth_step(kShallow * wavelength, kDeep * wavelength, depth) : 1.0;
-      coast.share[k] = static_cast<float>(shallow * inside_grid(floor.grid, i, j));
+      // A sine, so that spectrum_weight(), the cosine, is smooth as well.
+      coast.share[k] = static_cast<float>(sin(0.5 * kPi * shallow * inside_grid(floor.grid, i, j)));
     }
   }
   return coast;

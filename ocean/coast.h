@@ -2,6 +2,8 @@
 // is deep, so that they can be blended into a spectrum sea that knows no coast.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -12,7 +14,8 @@
 namespace swell::ocean {
 
 // Trains and the part they have in the surface: share 1 at the shore, 0 in deep water and beyond
-// the grid. Read-only after it is made.
+// the grid. Read-only after it is made. The surface is share x trains + spectrum_weight(share) x
+// spectrum.
 struct CoastSea {
   TrainSea trains;
   std::vector<float> share;  // for the samples of trains.grid, in [0, 1]
@@ -22,6 +25,12 @@ struct CoastSea {
 // Where the spectrum ends and the trains begin, as depth over the peak's deep-water wavelength: all
 // trains below kShallow, all spectrum above kDeep. Waves feel the floor from a half down.
 inline constexpr double kShallow = 0.10, kDeep = 0.40;
+
+// What is left of the spectrum's waves beside trains of this share: sqrt(1 - share^2), so that the
+// two variances, of waves that know nothing of each other, add up to that of one.
+inline float spectrum_weight(float share) {
+  return std::sqrt(std::max(0.0f, 1.0f - share * share));
+}
 
 // Makes `train_count` trains of the wind's sea and their phases over the floor. If not `blend`,
 // there are trains in deep water, too. The share falls to 0 over the grid's outer tenth. Errors as

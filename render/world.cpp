@@ -181,6 +181,7 @@ TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed
 
 namespace {
 
+// The part that the sea's own waves give up to the trains.
 std::vector<float> build_coast_share(const ocean::CoastSea& coast) {
   constexpr int n = kCoastMapSize;
   const ocean::FloorGrid& grid = coast.trains.grid;
@@ -190,6 +191,7 @@ std::vector<float> build_coast_share(const ocean::CoastSea& coast) {
     for (int i = 0; i < n; ++i) p.push_back(grid.min_world + step * glm::dvec2(i, j));
   std::vector<float> share(p.size());
   ocean::sample_coast_share(coast, p, share);
+  for (float& x : share) x = 1.0f - ocean::spectrum_weight(x);
   return share;
 }
 

@@ -88,7 +88,7 @@ void WaterSurface::shares(std::span<const glm::dvec2> p_world, std::span<float> 
   if (!coast_) return;
   std::array<float, kChunk> trains;
   ocean::sample_coast_share(*coast_, p_world, std::span(trains).first(p_world.size()));
-  for (std::size_t i = 0; i < p_world.size(); ++i) result[i] *= 1.0f - trains[i];
+  for (std::size_t i = 0; i < p_world.size(); ++i) result[i] *= ocean::spectrum_weight(trains[i]);
 }
 
 // At most kChunk points.

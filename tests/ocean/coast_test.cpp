@@ -49,6 +49,23 @@ TEST(Coast, TrainsHaveTheShoreAndTheSpectrumTheDeep) {
   EXPECT_LT(between, 0.9f);
 }
 
+// sin and cos of 0, 30, 45 and 90 degrees.
+TEST(Coast, TrainsAndSpectrumShareTheEnergy) {
+  EXPECT_EQ(spectrum_weight(0.0f), 1.0f);
+  EXPECT_FLOAT_EQ(spectrum_weight(0.5f), 0.8660254f);
+  EXPECT_FLOAT_EQ(spectrum_weight(0.70710678f), 0.70710678f);
+  EXPECT_EQ(spectrum_weight(1.0f), 0.0f);
+  EXPECT_EQ(spectrum_weight(1.0000001f), 0.0f);
+}
+
+// 6 m/s: half of either's energy where the depth is midway between 3.46 and 13.8 m, at a distance
+// of 40 times that.
+TEST(Coast, BothHaveHalfOfTheEnergyMidway) {
+  const CoastSea coast = make_coast(6.0, true);
+  const double midway_m = 0.25 * static_cast<double>(coast.peak_wavelength_m);
+  EXPECT_NEAR(share_at(coast, {0.0, 40.0 * midway_m}), std::sqrt(0.5), 0.01);
+}
+
 TEST(Coast, ShareFallsToZeroAtTheGridsRim) {
   const CoastSea coast = make_coast(10.0, false);
   EXPECT_FLOAT_EQ(share_at(coast, {0.0, 300.0}), 1.0f);

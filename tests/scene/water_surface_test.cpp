@@ -163,6 +163,38 @@ TEST(WaterSurface, TheWaterOfABeachRisesAsFastAsItsHeightGrows) {
   }
 }
 
+// Mean square height along a line of one depth, over five minutes.
+double variance_along(const Scene& scene, double y_m) {
+  constexpr int kPoints = 32, kTimes = 100;
+  const Water water(scene);
+  Workers workers(1);
+  ocean::SeaFrame frame;
+  std::vector<glm::dvec2> p;
+  for (int i = 0; i < kPoints; ++i) p.emplace_back(-300.0 + 18.0 * i, y_m);
+  std::vector<float> z(p.size());
+  double sum = 0.0;
+  for (int n = 0; n < kTimes; ++n) {
+    water.at(3.1 * n, frame, workers).heights(p, z);
+    for (const double height : z) sum += height * height / (kPoints * kTimes);
+  }
+  return sum;
+}
+
+// Where trains and spectrum have half of the energy each, the sea is as high as the mean of both.
+TEST(WaterSurface, ABlendedCoastKeepsItsEnergy) {
+  Scene scene = beach_scene();
+  scene.terrain->coast_m = {{-1000.0, -300.0}, {1000.0, -300.0}};
+  const Water water(scene);
+  const double midway_m = 0.25 * static_cast<double>(water.coast()->peak_wavelength_m);
+  const double y_m = -300.0 + midway_m / scene.terrain->beach_slope;
+  const double blend = variance_along(scene, y_m);
+  scene.coast.model = CoastModel::kTrains;
+  const double trains = variance_along(scene, y_m);
+  scene.coast.model = CoastModel::kNone;
+  const double spectrum = variance_along(scene, y_m);
+  EXPECT_NEAR(blend / (0.5 * (trains + spectrum)), 1.0, 0.1) << trains << " " << spectrum;
+}
+
 TEST(WaterSurface, ABatchOfAnyLengthGivesWhatEachPointGives) {
   const Snapshot water(island_scene(), 5.0);
   const auto points = random_points(700, {0.0, 0.0}, 1500.0);
