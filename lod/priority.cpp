@@ -1,12 +1,10 @@
 #include "lod/priority.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
 #include "lod/diamond.h"
-#include "lod/slope_bounds.h"
 
 namespace swell::lod {
 namespace {
@@ -38,43 +36,51 @@ Interval product(Interval a, Interval b) {
   return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
 }
 
-// Slopes in a box, along x and y.
-struct SlopeRange {
-  Interval x, y;
+// What the surface in a box can be: slopes along x and y, and z relative to the eye.
+struct Relief {
+  Interval slope_x, slope_y, z;
 };
 
-using Codes = std::array<std::int8_t, 4>;
-
-SlopeRange slope_range(const PriorityFrame& frame, LatticeInterval x, LatticeInterval y,
-                       int level) {
-  const SlopeFrame& slopes = frame.slopes;
-  const float most = slopes.max_slope;
-  if (slopes.cells.empty()) return {{-most, most}, {-most, most}};
-  const int q = slope_level_of(level, slopes.levels), shift = frame.lattice_bits - q;
-  Codes bound = {-127, -127, -127, -127};
+Relief relief_in(const PriorityFrame& frame, LatticeInterval x, LatticeInterval y, int level) {
+  const ReliefFrame& relief = frame.relief;
+  const float most = relief.max_slope;
+  if (relief.cells.empty()) return {{-most, most}, {-most, most}, {relief.z_low, relief.z_high}};
+  const int q = relief_level_of(level, relief.levels), shift = frame.lattice_bits - q;
+  ReliefCell bound = relief.cells[static_cast<std::size_t>(
+      relief_level_begin(q) + ((y.low >> shift) << q) + (x.low >> shift))];
   for (const int j : {y.low >> shift, (y.high - 1) >> shift}) {
     for (const int i : {x.low >> shift, (x.high - 1) >> shift}) {
-      const auto cell = static_cast<std::size_t>(slope_level_begin(q) + (j << q) + i);
-      const Codes codes = std::bit_cast<Codes>(slopes.cells[cell]);
-      for (std::size_t c = 0; c < 4; ++c) bound[c] = std::max(bound[c], codes[c]);
+      const auto number = static_cast<std::size_t>(relief_level_begin(q) + (j << q) + i);
+      const ReliefCell& cell = relief.cells[number];
+      for (std::size_t c = 0; c < 4; ++c) bound.slope[c] = std::max(bound.slope[c], cell.slope[c]);
+      for (std::size_t c = 0; c < 2; ++c)
+        bound.height[c] = std::max(bound.height[c], cell.height[c]);
     }
   }
-  const auto slope = [&](std::size_t c) { return static_cast<float>(bound[c]) * slopes.unit; };
-  return {{-slope(1), slope(0)}, {-slope(3), slope(2)}};
+  const auto slope = [&](std::size_t c) {
+    return static_cast<float>(bound.slope[c]) * relief.slope_unit;
+  };
+  const auto height = [&](std::size_t c) {
+    return static_cast<float>(bound.height[c]) * relief.height_unit;
+  };
+  return {{-slope(1), slope(0)},
+          {-slope(3), slope(2)},
+          {-height(1) - relief.eye_z, height(0) - relief.eye_z}};
 }
 
-// How much further away than it is a part with these slopes counts, squared.
-float slope_factor(const SlopeFrame& slopes, const SlopeRange& range, Interval x, Interval y) {
-  const Interval along_x = product(range.x, x), along_y = product(range.y, y);
-  const float facing_most = (along_x.high + along_y.high) - slopes.z_low;
-  const float facing_least = (along_x.low + along_y.low) - slopes.z_high;
+// How much further away than it is a part with this relief counts, squared.
+float relief_factor(const ReliefFrame& frame, const Relief& relief, Interval x, Interval y) {
+  const Interval along_x = product(relief.slope_x, x), along_y = product(relief.slope_y, y);
+  const float facing_most = (along_x.high + along_y.high) - relief.z.low;
+  const float facing_least = (along_x.low + along_y.low) - relief.z.high;
   const bool silhouette = facing_least <= 0.0f && facing_most >= 0.0f;
 
-  const float width = std::max(range.x.high - range.x.low, range.y.high - range.y.low);
+  const float width =
+      std::max(relief.slope_x.high - relief.slope_x.low, relief.slope_y.high - relief.slope_y.low);
   const float spread = std::min(width * kInvFullSpread, 1.0f);
-  const float flat = 1.0f + slopes.flat_gain * (1.0f - spread);
-  return (facing_most < 0.0f ? slopes.back_facing : 1.0f) *
-         (silhouette ? 1.0f : slopes.off_silhouette) * (flat * flat);
+  const float flat = 1.0f + frame.flat_gain * (1.0f - spread);
+  return (facing_most < 0.0f ? frame.back_facing : 1.0f) *
+         (silhouette ? 1.0f : frame.off_silhouette) * (flat * flat);
 }
 
 // (1 + d / (8 D))^16
@@ -116,8 +122,8 @@ PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level) {
   const int exponent = 127 + (level & frame.level_mask);
   float key = distance2 * std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23);
   if (frame.has_factors) {
-    if (frame.slopes.counts)
-      key *= slope_factor(frame.slopes, slope_range(frame, box_x, box_y, level), ix, iy);
+    if (frame.relief.counts)
+      key *= relief_factor(frame.relief, relief_in(frame, box_x, box_y, level), ix, iy);
     if (frame.inv_haze > 0.0f) key *= haze_factor(std::sqrt(distance2), frame.inv_haze);
     if (touches_a_focus(frame.focus, box_x, box_y, level)) key *= frame.focus.factor;
     key = std::min(key, kLastKey);

@@ -19,11 +19,11 @@
 // float >= 0 sort like the float, and that word is the key.
 //
 // A child's key is never below its parent's, to the last bit. Boxes nest (exactly: they are
-// integers), and so do ranges of slopes (slope_bounds.h), hence the intervals of n.(-p), whose ends
-// are the largest and least products of the ends of both; sizes shrink by powers of two; and every
-// operation is correctly rounded and thus monotone: distances and factors never shrink from parent
-// to child. With ties broken by level, parents come before children in the order, so the first n
-// diamonds of the order are a valid triangulation for every n.
+// integers), and so do ranges of slopes and heights (relief_bounds.h), hence the intervals of
+// n.(-p), whose ends are the largest and least products of the ends of both; sizes shrink by powers
+// of two; and every operation is correctly rounded and thus monotone: distances and factors never
+// shrink from parent to child. With ties broken by level, parents come before children in the
+// order, so the first n diamonds of the order are a valid triangulation for every n.
 #pragma once
 
 #include <array>
@@ -31,6 +31,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "lod/relief_bounds.h"
 #include "lod/roam.h"
 
 namespace swell::lod {
@@ -39,15 +40,18 @@ using PriorityKey = std::uint32_t;
 inline constexpr PriorityKey kCulledKey = 0x7f800000u;  // infinity: priority 0, never split
 
 // What the request says of normals. Unit: one lattice step.
-struct SlopeFrame {
+struct ReliefFrame {
   bool counts = false;
   float back_facing = 1.0f, off_silhouette = 1.0f;  // of k
   float flat_gain = 0.0f;                           // flat - 1
-  float z_low = 0.0f, z_high = 0.0f;                // of the surface, relative to the eye
-  float max_slope = 1.0f;                           // if there are no cells
-  std::span<const std::uint32_t> cells = {};        // as of SlopeBounds
+  // Everywhere, if there are no cells:
+  float max_slope = 1.0f;
+  float z_low = 0.0f, z_high = 0.0f;  // relative to the eye
+  // Else, as of ReliefBounds:
+  std::span<const ReliefCell> cells = {};
   int levels = 0;
-  float unit = 0.0f;
+  float slope_unit = 0.0f, height_unit = 0.0f;
+  float eye_z = 0.0f;
 };
 
 // The focuses of a request. Unit: one lattice step.
@@ -76,7 +80,7 @@ struct PriorityFrame {
   int level_mask = -1;  // -1: sizes count; 0: they do not
 
   bool has_factors = false;  // any of these:
-  SlopeFrame slopes;
+  ReliefFrame relief;
   float inv_haze = 0.0f;  // 1 / (8 D), per lattice step
   FocusFrame focus;
 };

@@ -3,7 +3,6 @@
 
 #include "lod/diamond.h"
 #include "lod/priority.h"
-#include "lod/slope_bounds.h"
 #include "math/check.h"
 
 namespace swell::lod {
@@ -77,18 +76,18 @@ int last_level_wider_than(int lattice_bits, double width) {
   return level;
 }
 
-void set_slopes(const AdaptRequest& request, float z_low, float z_high, SlopeFrame& slopes) {
+void set_relief(const AdaptRequest& request, double step_m, ReliefFrame& relief) {
   const PriorityFactors& f = request.factors;
-  slopes.counts = f.back_facing > 1.0f || f.flat > 1.0f || f.off_silhouette > 1.0f;
-  slopes.back_facing = f.back_facing * f.back_facing;
-  slopes.off_silhouette = f.off_silhouette * f.off_silhouette;
-  slopes.flat_gain = f.flat - 1.0f;
-  slopes.z_low = z_low, slopes.z_high = z_high;
-  slopes.max_slope = request.max_slope;
-  if (!request.slopes) return;
-  slopes.cells = request.slopes->cells();
-  slopes.levels = request.slopes->levels();
-  slopes.unit = request.slopes->unit();
+  relief.counts = f.back_facing > 1.0f || f.flat > 1.0f || f.off_silhouette > 1.0f;
+  relief.back_facing = f.back_facing * f.back_facing;
+  relief.off_silhouette = f.off_silhouette * f.off_silhouette;
+  relief.flat_gain = f.flat - 1.0f;
+  relief.max_slope = request.max_slope;
+  if (!request.relief) return;
+  relief.cells = request.relief->cells();
+  relief.levels = request.relief->levels();
+  relief.slope_unit = request.relief->slope_unit();
+  relief.height_unit = static_cast<float>(request.relief->height_unit_m() / step_m);
 }
 
 void set_focuses(const AdaptRequest& request, const Domain& domain, FocusFrame& focus) {
@@ -136,11 +135,13 @@ PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& dom
   frame.distance2_z = z_distance * z_distance;
 
   set_planes(request, z_low, z_high, frame);
-  set_slopes(request, z_low, z_high, frame.slopes);
+  set_relief(request, lattice.step_m, frame.relief);
+  frame.relief.z_low = z_low, frame.relief.z_high = z_high;
+  frame.relief.eye_z = static_cast<float>(lattice.steps(eye.z));
   const double haze_steps = request.factors.haze_distance_m / lattice.step_m;
   frame.inv_haze = static_cast<float>(1.0 / std::max(8.0 * haze_steps, 1e-9));
   set_focuses(request, domain, frame.focus);
-  frame.has_factors = frame.slopes.counts || frame.inv_haze > 0.0f || frame.focus.count > 0;
+  frame.has_factors = frame.relief.counts || frame.inv_haze > 0.0f || frame.focus.count > 0;
   return frame;
 }
 

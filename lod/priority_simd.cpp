@@ -54,17 +54,20 @@ HWY_INLINE Interval Product(Interval a, Interval b) {
   return {hn::Min(hn::Min(p, q), hn::Min(r, s)), hn::Max(hn::Max(p, q), hn::Max(r, s))};
 }
 
-// Slopes in boxes, along x and y.
-struct SlopeRange {
-  Interval x, y;
+// What the surface in boxes can be: slopes along x and y, and z relative to the eye.
+struct Relief {
+  Interval slope_x, slope_y, z;
 };
 
-// The four bytes of the largest bound of each kind, from the cells under the corners of each box.
-HWY_INLINE hn::Vec<I> SlopeCodes(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
+// The largest codes in the cells under the corners of each box; two words, as of ReliefCell.
+struct ReliefCodes {
+  hn::Vec<I> slope, height;
+};
+
+HWY_INLINE ReliefCodes CodesUnder(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
   const I di;
-  const hn::Repartition<std::int8_t, F> db;
   const auto zero = hn::Zero(di), one = hn::Set(di, 1);
-  const auto finest = hn::Set(di, frame.slopes.levels - 1);
+  const auto finest = hn::Set(di, frame.relief.levels - 1);
   const auto q = hn::Min(
       hn::Max(hn::Sub(hn::ShiftRight<1>(hn::Add(level, one)), hn::Set(di, 2)), zero), finest);
   const auto begin = hn::And(hn::Set(di, 0x55555555), hn::Sub(hn::Shl(one, hn::Add(q, q)), one));
@@ -72,45 +75,62 @@ HWY_INLINE hn::Vec<I> SlopeCodes(const PriorityFrame& frame, const Boxes& box, h
   const auto west = hn::Shr(box.x_low, shift), east = hn::Shr(hn::Sub(box.x_high, one), shift);
   const auto south = hn::Add(begin, hn::Shl(hn::Shr(box.y_low, shift), q));
   const auto north = hn::Add(begin, hn::Shl(hn::Shr(hn::Sub(box.y_high, one), shift), q));
-  const auto* cells = reinterpret_cast<const std::int32_t*>(frame.slopes.cells.data());
-  const auto cell = [&](hn::Vec<I> row, hn::Vec<I> column) HWY_ATTR {
-    return hn::BitCast(db, hn::GatherIndex(di, cells, hn::Add(row, column)));
+
+  static_assert(sizeof(ReliefCell) == 8);
+  const auto* words = reinterpret_cast<const std::int32_t*>(frame.relief.cells.data());
+  const auto largest = [&](auto codes_tag, int word) HWY_ATTR {
+    const auto at = [&](hn::Vec<I> row, hn::Vec<I> column) HWY_ATTR {
+      const auto number = hn::Add(row, column);
+      return hn::BitCast(codes_tag, hn::GatherIndex(di, words + word, hn::Add(number, number)));
+    };
+    return hn::BitCast(di, hn::Max(hn::Max(at(south, west), at(south, east)),
+                                   hn::Max(at(north, west), at(north, east))));
   };
-  return hn::BitCast(di, hn::Max(hn::Max(cell(south, west), cell(south, east)),
-                                 hn::Max(cell(north, west), cell(north, east))));
+  return {largest(hn::Repartition<std::int8_t, F>(), 0),
+          largest(hn::Repartition<std::int16_t, F>(), 1)};
 }
 
-HWY_INLINE SlopeRange Slopes(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
+HWY_INLINE Relief ReliefIn(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
   const F d;
-  const auto most = hn::Set(d, frame.slopes.max_slope);
-  if (frame.slopes.cells.empty()) return {{hn::Neg(most), most}, {hn::Neg(most), most}};
-  const auto codes = SlopeCodes(frame, box, level);
+  const ReliefFrame& relief = frame.relief;
+  const auto most = hn::Set(d, relief.max_slope);
+  if (relief.cells.empty())
+    return {{hn::Neg(most), most},
+            {hn::Neg(most), most},
+            {hn::Set(d, relief.z_low), hn::Set(d, relief.z_high)}};
+  const ReliefCodes codes = CodesUnder(frame, box, level);
   const auto slope = [&](auto code_on_top) HWY_ATTR {
     return hn::Mul(hn::ConvertTo(d, hn::ShiftRight<24>(code_on_top)),
-                   hn::Set(d, frame.slopes.unit));
+                   hn::Set(d, relief.slope_unit));
   };
-  return {{hn::Neg(slope(hn::ShiftLeft<16>(codes))), slope(hn::ShiftLeft<24>(codes))},
-          {hn::Neg(slope(codes)), slope(hn::ShiftLeft<8>(codes))}};
+  const auto height = [&](auto code_on_top) HWY_ATTR {
+    return hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(code_on_top)),
+                   hn::Set(d, relief.height_unit));
+  };
+  const auto eye_z = hn::Set(d, relief.eye_z);
+  return {{hn::Neg(slope(hn::ShiftLeft<16>(codes.slope))), slope(hn::ShiftLeft<24>(codes.slope))},
+          {hn::Neg(slope(codes.slope)), slope(hn::ShiftLeft<8>(codes.slope))},
+          {hn::Sub(hn::Neg(height(codes.height)), eye_z),
+           hn::Sub(height(hn::ShiftLeft<16>(codes.height)), eye_z)}};
 }
 
-// How much further away than it is a part with these slopes counts, squared.
-HWY_INLINE hn::Vec<F> SlopeFactor(const SlopeFrame& slopes, SlopeRange range, Interval x,
-                                  Interval y) {
+// How much further away than it is a part with this relief counts, squared.
+HWY_INLINE hn::Vec<F> ReliefFactor(const ReliefFrame& frame, const Relief& relief, Interval x,
+                                   Interval y) {
   const F d;
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const Interval along_x = Product(range.x, x), along_y = Product(range.y, y);
-  const auto facing_most = hn::Sub(hn::Add(along_x.high, along_y.high), hn::Set(d, slopes.z_low));
-  const auto facing_least = hn::Sub(hn::Add(along_x.low, along_y.low), hn::Set(d, slopes.z_high));
+  const Interval along_x = Product(relief.slope_x, x), along_y = Product(relief.slope_y, y);
+  const auto facing_most = hn::Sub(hn::Add(along_x.high, along_y.high), relief.z.low);
+  const auto facing_least = hn::Sub(hn::Add(along_x.low, along_y.low), relief.z.high);
   const auto silhouette = hn::And(hn::Le(facing_least, zero), hn::Ge(facing_most, zero));
   const auto back = hn::Lt(facing_most, zero);
 
-  const auto width =
-      hn::Max(hn::Sub(range.x.high, range.x.low), hn::Sub(range.y.high, range.y.low));
+  const auto width = hn::Max(hn::Sub(relief.slope_x.high, relief.slope_x.low),
+                             hn::Sub(relief.slope_y.high, relief.slope_y.low));
   const auto spread = hn::Min(hn::Mul(width, hn::Set(d, kInvFullSpread)), one);
-  const auto flat = hn::Add(one, hn::Mul(hn::Set(d, slopes.flat_gain), hn::Sub(one, spread)));
-  const auto by_facing =
-      hn::Mul(hn::IfThenElse(back, hn::Set(d, slopes.back_facing), one),
-              hn::IfThenElse(silhouette, one, hn::Set(d, slopes.off_silhouette)));
+  const auto flat = hn::Add(one, hn::Mul(hn::Set(d, frame.flat_gain), hn::Sub(one, spread)));
+  const auto by_facing = hn::Mul(hn::IfThenElse(back, hn::Set(d, frame.back_facing), one),
+                                 hn::IfThenElse(silhouette, one, hn::Set(d, frame.off_silhouette)));
   return hn::Mul(by_facing, hn::Mul(flat, flat));
 }
 
@@ -179,9 +199,9 @@ HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const
   const auto exponent = hn::Add(hn::And(level, hn::Set(di, frame.level_mask)), hn::Set(di, 127));
   auto key = hn::Mul(distance2, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
   if constexpr (kWithFactors) {
-    if (frame.slopes.counts) {
-      const SlopeRange range = Slopes(frame, box, level);
-      key = hn::Mul(key, SlopeFactor(frame.slopes, range, {x_low, x_high}, {y_low, y_high}));
+    if (frame.relief.counts) {
+      const Relief relief = ReliefIn(frame, box, level);
+      key = hn::Mul(key, ReliefFactor(frame.relief, relief, {x_low, x_high}, {y_low, y_high}));
     }
     if (frame.inv_haze > 0.0f) key = hn::Mul(key, HazeFactor(hn::Sqrt(distance2), frame.inv_haze));
     const auto focused = TouchesAFocus(frame.focus, box, level);

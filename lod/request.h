@@ -24,7 +24,7 @@ struct Focus {
 };
 inline constexpr int kMaxFocuses = 64;
 
-class SlopeBounds;
+class ReliefBounds;
 
 // What else than place and size counts. Where several apply, they multiply.
 struct PriorityFactors {
@@ -61,9 +61,9 @@ struct AdaptRequest {
   // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
   float frustum_margin = 0.0f;
   PriorityFactors factors = {};
-  // Which normals a part of the surface can have: as the slopes at its place say, or with slopes
+  // Which normals a part of the surface can have: as the relief at its place says, or with slopes
   // of at most max_slope along each axis, at all times.
-  const SlopeBounds* slopes = nullptr;  // of the whole domain; outlives the next call
+  const ReliefBounds* relief = nullptr;  // of the whole domain; outlives the next call
   float max_slope = 1.0f;
   std::span<const Focus> focuses = {};  // at most kMaxFocuses; read during the call only
   AdaptLimits limits = {};

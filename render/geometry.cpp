@@ -13,6 +13,7 @@ namespace {
 
 // The endless sea: a square of 64 km around the eye, whose corner moves in whole steps.
 constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
+constexpr float kSteepestWave = 0.58f;  // slope of Stokes' highest wave: 30 degrees
 constexpr int kUvNoiseSize = texture::UvNoiseOptions{}.size;
 constexpr double kUvNoiseCells_per_s = 0.25;
 constexpr float kCoastSlopeScale = 1.5f / 127.0f;  // steeper fronts of breaking waves are clamped
@@ -32,6 +33,18 @@ lod::Domain land_domain(const scene::Terrain& terrain) {
   return {terrain.min_world, terrain.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
 }
 
+lod::PriorityFactors priority_factors(const scene::Scene& scene) {
+  const scene::Detail& detail = scene.detail;
+  lod::PriorityFactors factors;
+  factors.focus_nearer = static_cast<float>(detail.objects);
+  factors.back_facing = static_cast<float>(detail.back_facing);
+  factors.flat = static_cast<float>(detail.normal_spread);
+  factors.off_silhouette = static_cast<float>(detail.silhouette);
+  if (detail.visibility > 0.0)
+    factors.haze_distance_m = static_cast<float>(scene.sky.haze_distance_m / detail.visibility);
+  return factors;
+}
+
 lod::AdaptRequest request_for(const Frame& frame, int budget, float low_m, float high_m) {
   const scene::Detail& detail = frame.world.scene.detail;
   lod::AdaptRequest request;
@@ -41,6 +54,7 @@ lod::AdaptRequest request_for(const Frame& frame, int budget, float low_m, float
                                                       : lod::Priority::kProjectedSize;
   request.min_height_m = low_m;
   request.max_height_m = high_m;
+  request.factors = priority_factors(frame.world.scene);
   return request;
 }
 
@@ -66,7 +80,7 @@ void triangulate_water(const Frame& frame) {
     case scene::Triangulation::kRoam: {
       const float bound = frame.world.height_bound_m();
       lod::AdaptRequest request = request_for(frame, budget, -bound, bound);
-      request.factors.focus_nearer = static_cast<float>(detail.objects);
+      request.max_slope = kSteepestWave;
       request.focuses = frame.world.focuses;
       adapt_surface(sea_domain(frame.view, budget), request, frame.options.triangle_capacity,
                     water);
@@ -89,6 +103,7 @@ void triangulate_land(const Frame& frame) {
   const scene::Terrain& terrain = *frame.world.terrain;
   lod::AdaptRequest request =
       request_for(frame, frame.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);
+  request.relief = frame.world.relief_bounds.get();
   request.frustum_margin = 0.3f;  // the mirrored land lies outside the view at times
   adapt_surface(land_domain(terrain), request, frame.options.triangle_capacity, frame.ws.land);
 }

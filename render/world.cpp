@@ -245,6 +245,15 @@ void add_coast(const World::State* like, int threads, World::State& state) {
   }
 }
 
+void add_relief_bounds(const World::State* like, World::State& state) {
+  if (!state.terrain || !state.scene.detail.normals_count()) return;
+  const scene::Terrain& terrain = *state.terrain;
+  state.relief_bounds =
+      like && like->relief_bounds
+          ? like->relief_bounds
+          : share(lod::ReliefBounds(terrain.height_m, terrain.samples, terrain.spacing_m));
+}
+
 // like: may be null.
 std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
                                          int threads) {
@@ -258,6 +267,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   add_sea(if_alike(same_sea), *state);
   add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
   add_terrain(if_alike(same_terrain), *state);
+  add_relief_bounds(if_alike(same_terrain), *state);
   add_coast(if_alike(same_coast), threads, *state);
   state->objects = build_object_meshes(now.objects);
   state->focuses = object_focuses(now.objects);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lod/relief_bounds.h"
 #include "lod/request.h"
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
@@ -56,6 +57,7 @@ struct World::State {
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const scene::Terrain> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
+  std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain, if they count
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
 
   // What floats.

@@ -345,6 +345,15 @@ Rows water_rows() {
       SceneRow::choice("detail.priority", Priority{}, "which triangles are split first"),
       SceneRow::number("detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
                        "the sea under floating things has triangles as if this many times nearer"),
+      SceneRow::number(
+          "detail.back_facing", {1, 16}, SWELL_FIELD(detail.back_facing),
+          "what turns its back to the eye has triangles as if this many times further"),
+      SceneRow::number("detail.normal_spread", {1, 16}, SWELL_FIELD(detail.normal_spread),
+                       "what is smooth has triangles as if up to this many times further away"),
+      SceneRow::number("detail.silhouette", {1, 16}, SWELL_FIELD(detail.silhouette),
+                       "what can show no silhouette has triangles as if this many times further"),
+      SceneRow::number("detail.visibility", {0, 4}, SWELL_FIELD(detail.visibility),
+                       "haze takes triangles from what it hides: 1 as the contrast falls, 0 none"),
   };
 }
 

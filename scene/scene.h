@@ -94,6 +94,13 @@ struct Detail {
   int terrain_triangles = 30000;
   bool inverse_distance_priority = false;
   double objects = 8.0;  // floating things' places count as this many times nearer, [1, 64]
+  // Parts that count as this many times further away, [1, 16]; 1: as they are (lod/request.h).
+  double back_facing = 1.0, normal_spread = 1.0, silhouette = 1.0;
+  double visibility = 0.0;  // the haze counts this much, [0, 4]
+
+  bool normals_count() const {
+    return back_facing > 1.0 || normal_spread > 1.0 || silhouette > 1.0;
+  }
 };
 
 // The sea in the world: waves displace the surface inside the rectangle (fading to flat over the

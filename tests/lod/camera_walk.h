@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "lod/relief_bounds.h"
 #include "lod/roam.h"
-#include "lod/slope_bounds.h"
 #include "math/random.h"
 
 namespace swell::lod {
@@ -32,12 +32,12 @@ inline std::vector<float> make_heights(int bits, std::uint64_t seed) {
 
 class CameraWalk {
  public:
-  // `slopes` outlives the walk's requests, or is null.
-  CameraWalk(std::uint64_t seed, const Domain& domain, int max_budget, const SlopeBounds* slopes)
+  // `relief` outlives the walk's requests, or is null.
+  CameraWalk(std::uint64_t seed, const Domain& domain, int max_budget, const ReliefBounds* relief)
       : seed_(seed),
         domain_(domain),
         max_budget_(max_budget),
-        slopes_(slopes),
+        relief_(relief),
         budget_(std::min(100, max_budget)) {
     jump();
   }
@@ -68,7 +68,7 @@ class CameraWalk {
     request.focuses = focuses_;  // until the next call
     if (uniform() < 0.15) choose_factors();
     request.factors = factors_;
-    request.slopes = uniform() < 0.8 ? slopes_ : nullptr;
+    request.relief = uniform() < 0.8 ? relief_ : nullptr;
     request.max_slope = static_cast<float>(2.0 * uniform());
     return request;
   }
@@ -122,7 +122,7 @@ class CameraWalk {
   std::uint64_t seed_, counter_ = 0;
   Domain domain_;
   int max_budget_;
-  const SlopeBounds* slopes_;
+  const ReliefBounds* relief_;
   int budget_;
   glm::dvec3 position_{0.0};
   double heading_ = 0.0;

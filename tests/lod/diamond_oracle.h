@@ -23,8 +23,9 @@ struct OracleDiamond {
   int level;
   int half;  // the largest power of two that divides both coordinates
   std::vector<Point> parents;
-  // Of dz/dx and dz/dy in it: set by bound_slopes().
+  // Of dz/dx, dz/dy and z in it: set by bound_relief().
   float x_least = 0.0f, x_most = 0.0f, y_least = 0.0f, y_most = 0.0f;
+  float z_unit_m = 0.0f, z_least = 0.0f, z_most = 0.0f;
 };
 
 inline OracleDiamond make_diamond(int bits, int x, int y) {
@@ -32,7 +33,8 @@ inline OracleDiamond make_diamond(int bits, int x, int y) {
   int half = 1;
   while (x % (2 * half) == 0 && y % (2 * half) == 0) half *= 2;
   const bool x_odd = x / half % 2 != 0, y_odd = y / half % 2 != 0;
-  OracleDiamond d{{x, y}, 0, half, {}, 0.0f, 0.0f, 0.0f, 0.0f};
+  OracleDiamond d;
+  d.centre = {x, y}, d.level = 0, d.half = half;
   for (int size = n; size > 2 * half; size /= 2) d.level += 2;
   std::vector<Point> candidates;
   if (x_odd && y_odd) {
@@ -61,10 +63,10 @@ inline std::vector<OracleDiamond> all_diamonds(int bits) {
   return diamonds;
 }
 
-// The slopes of a grid of heights with one sample a lattice point, in the cells (8 half sizes wide
-// at even levels, 4 at odd ones) that hold the diamond and its descendants, in 127ths of the
-// steepest.
-inline void bound_slopes(std::vector<OracleDiamond>& diamonds, int bits, double step_m,
+// The slopes and heights of a grid of heights with one sample a lattice point, in the cells (8 half
+// sizes wide at even levels, 4 at odd ones) that hold the diamond and its descendants, in 127ths of
+// the steepest.
+inline void bound_relief(std::vector<OracleDiamond>& diamonds, int bits, double step_m,
                          const std::vector<float>& height_m) {
   const int n = 1 << bits;
   const auto rise = [&](int x, int y, int x2, int y2) {
@@ -77,7 +79,10 @@ inline void bound_slopes(std::vector<OracleDiamond>& diamonds, int bits, double 
     for (int b = 0; b < n; ++b)
       steepest =
           std::max({steepest, std::abs(rise(b, a, b + 1, a)), std::abs(rise(a, b, a, b + 1))});
+  float highest = 0.0f;
+  for (const float z : height_m) highest = std::max(highest, std::abs(z));
   const float unit = std::max(steepest / 127.0f, 1e-9f);
+  const float z_unit = std::max(highest / 32767.0f, 1e-9f);
   for (OracleDiamond& d : diamonds) {
     const int reach = d.level % 2 == 0 ? 3 * d.half : 2 * d.half;
     const int cell = std::min(n, (d.level % 2 == 0 ? 8 : 4) * d.half);
@@ -86,9 +91,12 @@ inline void bound_slopes(std::vector<OracleDiamond>& diamonds, int bits, double 
       return (std::min(n, centre + reach) + cell - 1) / cell * cell;
     };
     const auto [cx, cy] = d.centre;
+    float z_least = HUGE_VALF, z_most = -HUGE_VALF;
     float x_least = HUGE_VALF, x_most = -HUGE_VALF, y_least = HUGE_VALF, y_most = -HUGE_VALF;
     for (int y = begin(cy); y <= end(cy); ++y) {
       for (int x = begin(cx); x <= end(cx); ++x) {
+        const float z = height_m[static_cast<std::size_t>(y * (n + 1) + x)];
+        z_least = std::min(z_least, z), z_most = std::max(z_most, z);
         if (x < end(cx)) {
           x_least = std::min(x_least, rise(x, y, x + 1, y));
           x_most = std::max(x_most, rise(x, y, x + 1, y));
@@ -100,6 +108,8 @@ inline void bound_slopes(std::vector<OracleDiamond>& diamonds, int bits, double 
       }
     }
     d.x_least = std::floor(x_least / unit) * unit, d.x_most = std::ceil(x_most / unit) * unit;
+    d.z_unit_m = z_unit;
+    d.z_least = std::floor(z_least / z_unit), d.z_most = std::ceil(z_most / z_unit);
     d.y_least = std::floor(y_least / unit) * unit, d.y_most = std::ceil(y_most / unit) * unit;
   }
 }
@@ -149,10 +159,14 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
   // The normal (-sx, -sy, 1) against the direction to the eye, for all slopes and places.
   if (std::max({f.back_facing, f.flat, f.off_silhouette}) > 1.0f) {
     const float most = r.max_slope;
-    const float x0 = r.slopes ? d.x_least : -most, x1 = r.slopes ? d.x_most : most;
-    const float y0 = r.slopes ? d.y_least : -most, y1 = r.slopes ? d.y_most : most;
-    const bool back = x.most_times(x0, x1) + y.most_times(y0, y1) < z.low;
-    const bool front = x.most_times(-x1, -x0) + y.most_times(-y1, -y0) < -z.high;
+    const float x0 = r.relief ? d.x_least : -most, x1 = r.relief ? d.x_most : most;
+    const float y0 = r.relief ? d.y_least : -most, y1 = r.relief ? d.y_most : most;
+    const auto z_unit = static_cast<float>(d.z_unit_m / step_m);
+    const auto eye_z = static_cast<float>(steps(eye.z));
+    const Range height =
+        r.relief ? Range{d.z_least * z_unit - eye_z, d.z_most * z_unit - eye_z} : z;
+    const bool back = x.most_times(x0, x1) + y.most_times(y0, y1) < height.low;
+    const bool front = x.most_times(-x1, -x0) + y.most_times(-y1, -y0) < -height.high;
     const float spread = std::min(1.0f, std::max(x1 - x0, y1 - y0) / 0.5f);
     const float flat = 1.0f + (f.flat - 1.0f) * (1.0f - spread);
     k *= (back ? f.back_facing * f.back_facing : 1.0f) *

@@ -9,7 +9,7 @@
 #include "lod/camera_walk.h"
 #include "lod/diamond.h"
 #include "lod/diamond_oracle.h"
-#include "lod/slope_bounds.h"
+#include "lod/relief_bounds.h"
 #include "math/simd_target.h"
 
 namespace swell::lod {
@@ -49,8 +49,8 @@ TEST(Priority, AChildNeverComesBeforeItsParents) {
   const Domain domain{{-300.0, 2000.0}, 700.0, bits};
   const std::vector<oracle::OracleDiamond> diamonds = oracle::all_diamonds(bits);
   for (std::uint64_t seed = 0; seed < 15; ++seed) {
-    const SlopeBounds slopes(make_heights(bits, seed), (1 << bits) + 1, 1.0);
-    CameraWalk walk(seed, domain, 100, &slopes);
+    const ReliefBounds relief(make_heights(bits, seed), (1 << bits) + 1, 1.0);
+    CameraWalk walk(seed, domain, 100, &relief);
     for (int step = 0; step < 40; ++step) {
       const PriorityFrame frame = make_priority_frame(walk.next(), domain);
       for (const oracle::OracleDiamond& d : diamonds) {
@@ -115,21 +115,25 @@ float times_further(AdaptRequest request, int x, int y, int level) {
   return std::sqrt(with / key_at(request, x, y, level));
 }
 
-// A plane that falls northwards as steeply as it goes on turns its back to an eye 19 m above its
-// lowest point, for certain, from 19 m on.
-TEST(Priority, WhatTurnsItsBackCountsAsFurtherAway) {
+// A plane through (0, 0, foot_m) with slope s northwards.
+ReliefBounds plane(float foot_m, float s) {
   std::vector<float> height_m;
-  for (int y = 0; y <= 32; ++y) height_m.insert(height_m.end(), 33, -1.0f * static_cast<float>(y));
-  const SlopeBounds falling(height_m, 33, 1.0);
+  for (int y = 0; y <= 32; ++y)
+    height_m.insert(height_m.end(), 33, foot_m + s * static_cast<float>(y));
+  return {height_m, 33, 1.0};
+}
+
+TEST(Priority, WhatTurnsItsBackCountsAsFurtherAway) {
+  const ReliefBounds below_the_eye = plane(8.0f, -1.0f), above_the_eye = plane(40.0f, -1.0f);
+  const ReliefBounds rising = plane(0.0f, 1.0f);
   AdaptRequest request = from_the_south();
-  request.min_height_m = -9.0f;
   request.factors.back_facing = 3.0f;
-  request.slopes = &falling;
-  EXPECT_FLOAT_EQ(times_further(request, 17, 25, 8), 3.0f);  // from y = 22
-  EXPECT_FLOAT_EQ(times_further(request, 17, 21, 8), 1.0f);  // from y = 18
-  for (float& z : height_m) z = -z;
-  const SlopeBounds rising(height_m, 33, 1.0);
-  request.slopes = &rising;
+  request.relief = &above_the_eye;
+  EXPECT_FLOAT_EQ(times_further(request, 17, 25, 8), 3.0f);
+  EXPECT_FLOAT_EQ(times_further(request, 9, 19, 8), 3.0f);
+  request.relief = &below_the_eye;
+  EXPECT_FLOAT_EQ(times_further(request, 17, 25, 8), 1.0f);
+  request.relief = &rising;
   EXPECT_FLOAT_EQ(times_further(request, 17, 25, 8), 1.0f);
 }
 
@@ -150,11 +154,11 @@ TEST(Priority, FlatPartsCountAsFurtherAwayThanRoughOnes) {
   for (int y = 0; y <= 32; ++y)
     for (int x = 0; x <= 32; ++x)
       height_m.push_back(x < 16 ? 0.125f * static_cast<float>(8 - std::abs(x - 8)) : 0.0f);
-  const SlopeBounds ridge(height_m, 33, 1.0);
+  const ReliefBounds ridge(height_m, 33, 1.0);
   AdaptRequest request = from_the_south();
   request.max_height_m = 1.0f;
   request.factors.flat = 5.0f;
-  request.slopes = &ridge;
+  request.relief = &ridge;
   EXPECT_NEAR(times_further(request, 27, 21, 8), 5.0f, 1e-6f);
   EXPECT_NEAR(times_further(request, 9, 21, 8), 3.0f, 0.05f);  // slopes +-1/8: half of 0.5 wide
 }
@@ -202,9 +206,9 @@ TEST(Priority, EverySimdTargetGivesTheBitsOfTheScalarFormula) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
     const std::vector<float> height_m = make_heights(bits, 9);  // hills
-    const SlopeBounds slopes(height_m, (1 << bits) + 1, 1.0);
-    oracle::bound_slopes(diamonds, bits, 1.0, height_m);
-    CameraWalk walk(7, domain, 100, &slopes);
+    const ReliefBounds relief(height_m, (1 << bits) + 1, 1.0);
+    oracle::bound_relief(diamonds, bits, 1.0, height_m);
+    CameraWalk walk(7, domain, 100, &relief);
     for (int step = 0; step < 100; ++step) {
       const AdaptRequest request = walk.next();
       compute_priority_keys(make_priority_frame(request, domain), x, y, level, keys);

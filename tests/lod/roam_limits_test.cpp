@@ -150,9 +150,9 @@ TEST(RoamLimits, WhateverIsLeftUndoneTheMeshIsValidAndTheNextFullStepMendsIt) {
   const Domain domain{{-300.0, 2000.0}, 700.0, bits};
   for (int seed = 0; seed < trials(20); ++seed) {
     const auto random = static_cast<std::uint64_t>(seed);
-    const SlopeBounds slopes(make_heights(bits, random), (1 << bits) + 1, 1.0);
+    const ReliefBounds relief(make_heights(bits, random), (1 << bits) + 1, 1.0);
     Roam roam(domain, 8192);
-    CameraWalk walk(random, domain, 8192, &slopes);
+    CameraWalk walk(random, domain, 8192, &relief);
     for (int step = 0; step < 40; ++step) {
       SCOPED_TRACE(fmt::format("seed {} step {}", seed, step));
       AdaptRequest request = walk.next();

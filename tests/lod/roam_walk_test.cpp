@@ -50,9 +50,9 @@ TEST_P(RoamWalk, EveryStepReachesTheSetThatTheDefinitionNames) {
     Roam roam(domain, full_triangles(bits));
     const auto random = static_cast<std::uint64_t>(seed);
     const std::vector<float> height_m = make_heights(bits, random);
-    const SlopeBounds slopes(height_m, (1 << bits) + 1, 1.0);
-    oracle::bound_slopes(diamonds, bits, 1.0, height_m);
-    CameraWalk walk(random, domain, full_triangles(bits), &slopes);
+    const ReliefBounds relief(height_m, (1 << bits) + 1, 1.0);
+    oracle::bound_relief(diamonds, bits, 1.0, height_m);
+    CameraWalk walk(random, domain, full_triangles(bits), &relief);
     std::set<oracle::Point> before;
     for (int step = 0; step < steps; ++step) {
       SCOPED_TRACE(fmt::format("bits {} seed {} step {}", bits, seed, step));
@@ -83,8 +83,8 @@ TEST(RoamHistory, AdaptMakesTheMeshOfRebuildWhateverCameBefore) {
   for (const int bits : {10, 17, 20}) {
     const Domain domain{{-32768.0, -32768.0}, 65536.0, bits};
     Roam roam(domain, 8000), fresh(domain, 8000);
-    const SlopeBounds slopes(make_heights(8, 4), 257, 256.0);
-    CameraWalk walk(100u + static_cast<unsigned>(bits), domain, 8000, &slopes);
+    const ReliefBounds relief(make_heights(8, 4), 257, 256.0);
+    CameraWalk walk(100u + static_cast<unsigned>(bits), domain, 8000, &relief);
     Mesh mesh, fresh_mesh;
     for (int step = 0; step < 30; ++step) {
       SCOPED_TRACE(fmt::format("bits {} step {}", bits, step));

@@ -1,4 +1,4 @@
-#include "lod/slope_bounds.h"
+#include "lod/relief_bounds.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,19 +26,25 @@ Slopes corner_slopes(const std::vector<float>& z, int samples, double spacing_m,
           (at(column, j + 1) - at(column, j)) / spacing_m};
 }
 
-float bound(const SlopeBounds& bounds, int q, int i, int j, int byte) {
-  const std::uint32_t word =
-      bounds.cells()[static_cast<std::size_t>(slope_level_begin(q) + (j << q) + i)];
-  return bounds.unit() * static_cast<float>(static_cast<std::int8_t>(word >> (8 * byte)));
+const ReliefCell& cell_at(const ReliefBounds& bounds, int q, int i, int j) {
+  return bounds.cells()[static_cast<std::size_t>(relief_level_begin(q) + (j << q) + i)];
 }
 
-TEST(SlopeBounds, EveryCellOfEveryLevelBoundsTheSlopesInIt) {
+float bound(const ReliefBounds& bounds, int q, int i, int j, std::size_t which) {
+  return bounds.slope_unit() * static_cast<float>(cell_at(bounds, q, i, j).slope[which]);
+}
+
+float height_bound_m(const ReliefBounds& bounds, int q, int i, int j, std::size_t which) {
+  return bounds.height_unit_m() * static_cast<float>(cell_at(bounds, q, i, j).height[which]);
+}
+
+TEST(ReliefBounds, EveryCellOfEveryLevelBoundsTheSlopesAndHeightsInIt) {
   for (const int samples : {2, 3, 7, 9, 50}) {
     std::vector<float> z(static_cast<std::size_t>(samples * samples));
     for (std::size_t k = 0; k < z.size(); ++k)
       z[k] = static_cast<float>(random_uniform(5, k) * random_uniform(6, k));
     const double spacing_m = 0.7;
-    const SlopeBounds bounds(z, samples, spacing_m);
+    const ReliefBounds bounds(z, samples, spacing_m);
     ASSERT_GE(2 << (bounds.levels() - 1), samples - 1);
     for (int q = 0; q < bounds.levels(); ++q) {
       const double cell = (samples - 1.0) / (1 << q);  // in samples
@@ -56,17 +62,21 @@ TEST(SlopeBounds, EveryCellOfEveryLevelBoundsTheSlopesInIt) {
                 ASSERT_LE(-s.x, bound(bounds, q, a, b, 1) + 1e-5);
                 ASSERT_LE(s.y, bound(bounds, q, a, b, 2) + 1e-5);
                 ASSERT_LE(-s.y, bound(bounds, q, a, b, 3) + 1e-5);
+                const std::size_t at =
+                    static_cast<std::size_t>((j + corner / 2) * samples + i + corner % 2);
+                ASSERT_LE(z[at], height_bound_m(bounds, q, a, b, 0) + 1e-5);
+                ASSERT_LE(-z[at], height_bound_m(bounds, q, a, b, 1) + 1e-5);
               }
           }
     }
   }
 }
 
-TEST(SlopeBounds, APlaneHasItsSlopeInEveryCell) {
+TEST(ReliefBounds, APlaneHasItsSlopeInEveryCellAndItsHeights) {
   std::vector<float> z;
   for (int y = 0; y < 33; ++y)
     for (int x = 0; x < 33; ++x) z.push_back(0.25f * static_cast<float>(x - 2 * y));
-  const SlopeBounds bounds(z, 33, 0.5);
+  const ReliefBounds bounds(z, 33, 0.5);
   EXPECT_EQ(bounds.levels(), 6);
   for (int q = 0; q < 6; ++q) {
     const int middle = (1 << q) / 2;
@@ -74,13 +84,18 @@ TEST(SlopeBounds, APlaneHasItsSlopeInEveryCell) {
     EXPECT_NEAR(bound(bounds, q, middle, middle, 1), -0.5f, 0.01f);
     EXPECT_NEAR(bound(bounds, q, middle, middle, 2), -1.0f, 0.01f);
     EXPECT_NEAR(bound(bounds, q, middle, middle, 3), 1.0f, 0.01f);
+    // z = 0.25 (i - 2 j), from the corner in the south-west of the cell in the middle.
+    const float corner = -0.25f * 32.0f * static_cast<float>(middle) / static_cast<float>(1 << q);
+    const float side = 32.0f / static_cast<float>(1 << q);
+    EXPECT_NEAR(height_bound_m(bounds, q, middle, middle, 0), corner + 0.25f * side, 0.01f);
+    EXPECT_NEAR(height_bound_m(bounds, q, middle, middle, 1), -corner + 0.5f * side, 0.01f);
   }
 }
 
-TEST(SlopeBounds, HeightsMoreThanTheFinestLevelHoldsShareCells) {
+TEST(ReliefBounds, HeightsMoreThanTheFinestLevelHoldsShareCells) {
   std::vector<float> z(1100 * 1100, 0.0f);
   z[800 * 1100 + 700] = 1.0f;  // one spike
-  const SlopeBounds bounds(z, 1100, 1.0);
+  const ReliefBounds bounds(z, 1100, 1.0);
   EXPECT_EQ(bounds.levels(), 11);
   int steep = 0;
   for (int j = 0; j < 1024; ++j)
@@ -89,10 +104,10 @@ TEST(SlopeBounds, HeightsMoreThanTheFinestLevelHoldsShareCells) {
   EXPECT_LE(steep, 6);
 }
 
-TEST(SlopeBoundsDeathTest, RefusesWhatIsNoGrid) {
-  EXPECT_DEATH(SlopeBounds(std::vector<float>(8), 3, 1.0), "samples=3");
-  EXPECT_DEATH(SlopeBounds(std::vector<float>(9), 3, 0.0), "spacing_m=0");
-  EXPECT_DEATH(SlopeBounds(std::vector<float>(9, NAN), 3, 1.0), "finite heights");
+TEST(ReliefBoundsDeathTest, RefusesWhatIsNoGrid) {
+  EXPECT_DEATH(ReliefBounds(std::vector<float>(8), 3, 1.0), "samples=3");
+  EXPECT_DEATH(ReliefBounds(std::vector<float>(9), 3, 0.0), "spacing_m=0");
+  EXPECT_DEATH(ReliefBounds(std::vector<float>(9, NAN), 3, 1.0), "finite heights");
 }
 
 }  // namespace
