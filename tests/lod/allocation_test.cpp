@@ -1,6 +1,7 @@
 // A program of its own: it replaces operator new.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -28,11 +29,20 @@ void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
 namespace swell::lod {
 namespace {
 
+constexpr std::array<Focus, 2> kFocuses = {Focus{{3.0, 40.0}, 2.0}, Focus{{-50.0, 70.0}, 5.0}};
+
 AdaptRequest flight(int frame, int budget) {
   AdaptRequest request;
   request.view = make_view({0.1 * frame, 0.5 * frame, 15.0}, 0.01 * frame, -0.1, 1.0, 0.1f, 64, 48);
   request.triangle_budget = budget;
   request.frustum_margin = 0.1f;
+  if (frame % 2 == 0) return request;
+  // All that costs more, every other frame.
+  request.factors = {.back_facing = 2.0f, .flat = 2.0f, .off_silhouette = 2.0f};
+  request.factors.haze_distance_m = 5000.0f;
+  request.focuses = kFocuses;
+  request.limits.priority_groups = 1 + frame % 5;
+  request.limits.max_operations = 5000;
   return request;
 }
 

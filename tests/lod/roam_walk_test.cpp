@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "lod/camera_walk.h"
 #include "lod/diamond_oracle.h"
@@ -101,6 +102,28 @@ TEST(RoamHistory, AdaptMakesTheMeshOfRebuildWhateverCameBefore) {
     }
     ASSERT_EQ(find_mesh_fault(mesh, bits), "");
   }
+}
+
+TEST(RoamHistory, AMillionTrianglesAreKeptLikeAFew) {
+  const int most = trials(1000000);
+  const Domain domain{{-32768.0, -32768.0}, 65536.0, 20};
+  Roam roam(domain, most);
+  AdaptRequest request;
+  request.max_height_m = 2.0f;
+  Mesh mesh, fresh_mesh;
+  for (const auto& [north_m, up_m, budget] :
+       {std::tuple{0.0, 20.0, most}, {9.0, 40000.0, 2}, {9.0, -3.0, most}, {9.5, -3.0, most}}) {
+    request.view = make_view({0.0, north_m, up_m}, 0.2, -0.3, 1.0, 0.1f, 640, 480);
+    request.triangle_budget = budget;
+    const AdaptStatistics done = roam.adapt(request);
+    EXPECT_LE(done.triangles, budget);
+    EXPECT_GE(done.triangles, budget - 1);
+    EXPECT_FALSE(done.operation_cap_hit);
+  }
+  roam.extract_mesh(mesh);
+  roam.rebuild(request);
+  roam.extract_mesh(fresh_mesh);
+  EXPECT_TRUE(mesh.indices == fresh_mesh.indices && mesh.lattice == fresh_mesh.lattice);
 }
 
 TEST(RoamHistory, ManyPathsToOnePoseEndInOneMesh) {

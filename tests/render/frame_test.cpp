@@ -66,6 +66,26 @@ std::string difference(const Target& a, const Target& b) {
   return "";
 }
 
+TEST(Detail, EveryPriorityOfASceneMovesTriangles) {
+  const World& world = world_of("lagoon");
+  const Picture reference = draw(world, 2.0);
+  const auto picture_with = [&](auto set) {
+    scene::Scene scene = world.scene();
+    set(scene.detail);
+    return draw(World(scene, world, 2), 2.0).target;
+  };
+  const auto back_facing = picture_with([](scene::Detail& d) { d.back_facing = 16.0; });
+  const auto normal_spread = picture_with([](scene::Detail& d) { d.normal_spread = 4.0; });
+  const auto silhouette = picture_with([](scene::Detail& d) { d.silhouette = 4.0; });
+  const auto visibility = picture_with([](scene::Detail& d) { d.visibility = 4.0; });
+  const auto objects = picture_with([](scene::Detail& d) { d.objects = 64.0; });
+  EXPECT_NE(difference(back_facing, reference.target), "");
+  EXPECT_NE(difference(normal_spread, reference.target), "");
+  EXPECT_NE(difference(silhouette, reference.target), "");
+  EXPECT_NE(difference(visibility, reference.target), "");
+  EXPECT_EQ(difference(objects, reference.target), "");  // nothing floats there
+}
+
 class EachScene : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, EachScene,
                          testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys"),
