@@ -20,15 +20,9 @@ HWY_INLINE V FoamCover(const ShadeContext& c, V3 p, V level_m, V foam) {
   constexpr float kSoft = 0.3f;  // width of a bubble's rim, as a threshold
   const auto some = hn::Gt(foam, Constant(0.02f));
   if (hn::AllFalse(d, some)) return hn::Zero(d);
-  const SlopeLayer& layer = c.foam_pattern;
-  const V u = hn::MulAdd(p.x, Constant(layer.inv_length), Constant(layer.u_eye));
-  const V v = hn::MulAdd(p.y, Constant(layer.inv_length), Constant(layer.v_eye));
-  // The nearest mip level: a step between two is no wider than the lace's own irregularity.
-  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m + 0.5f)), 0.0f,
-                        static_cast<float>(layer.levels));
+  // A step between two mip levels is no wider than the lace's own irregularity.
   V code, unused;
-  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), code,
-                                        unused);
+  NearestSlopes(c.foam_pattern, p, level_m, code, unused);
   const V threshold = hn::MulAdd(code, Constant(0.5f), Constant(0.5f));
   const V over = hn::MulSub(foam, Constant(1.0f + kSoft), threshold);
   return hn::IfThenElseZero(some, Clamp(hn::Mul(over, Constant(1.0f / kSoft)), 0.0f, 1.0f));
@@ -73,8 +67,8 @@ HWY_INLINE Swash FindSwash(const ShadeContext& c, V3 p) {
 HWY_INLINE V3 AddSwash(const ShadeContext& c, const Packet& packet, V level_m, V height_m,
                        V3 ground) {
   const D d;
-  if (c.swash_m <= 0.0f || hn::AllFalse(d, hn::Lt(height_m, Constant(1.6f * c.swash_m))))
-    return ground;
+  const auto reached = hn::Lt(height_m, Constant(1.6f * c.swash_m));
+  if (c.swash_m <= 0.0f || hn::AllFalse(d, reached)) return ground;
   const Swash swash = FindSwash(c, packet.p);
   // Sand stays wet for a while up to where the sheets come.
   const V dry = Clamp(hn::Mul(height_m, Constant(1.0f / (1.6f * c.swash_m))), 0.0f, 1.0f);
@@ -94,7 +88,9 @@ HWY_INLINE V3 AddSwash(const ShadeContext& c, const Packet& packet, V level_m, V
   const V lace = Clamp(hn::NegMulAdd(from_rim, Constant(0.9f), Constant(0.6f)), 0.0f, 1.0f);
   const V fresh = hn::NegMulAdd(swash.retreat, Constant(0.6f), Constant(1.0f));
   const V foam = hn::IfThenElseZero(hn::Gt(below, hn::Zero(d)), hn::Mul(hn::Max(rim, lace), fresh));
-  return AddFoam(c, FoamCover(c, packet.p, level_m, foam), light);
+  light = AddFoam(c, FoamCover(c, packet.p, level_m, foam), light);
+  return {hn::IfThenElse(reached, light.x, ground.x), hn::IfThenElse(reached, light.y, ground.y),
+          hn::IfThenElse(reached, light.z, ground.z)};
 }
 
 }  // namespace HWY_NAMESPACE

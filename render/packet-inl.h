@@ -144,6 +144,19 @@ HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, 
   slope_y = hn::MulAdd(b, gain, slope_y);
 }
 
+// A layer's values at p on the nearest mip level, at least the coarsest with detail: one sample.
+HWY_INLINE void NearestSlopes(const SlopeLayer& layer, V3 p, V level_m, V& a, V& b) {
+  const D d;
+  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m + 0.5f)), 0.0f,
+                        static_cast<float>(layer.levels));
+  const V u = hn::MulAdd(p.x, Constant(layer.inv_length), Constant(layer.u_eye));
+  const V v = hn::MulAdd(p.y, Constant(layer.inv_length), Constant(layer.v_eye));
+  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), a, b);
+  const V gain = Constant(layer.gain);
+  a = hn::Mul(a, gain);
+  b = hn::Mul(b, gain);
+}
+
 // Looks `image` up at texel position (x, y); radiance from the square-root code, alpha as is.
 HWY_INLINE V3 LookUp(const texture::RgbaImage& image, V x, V y, V& alpha) {
   V r, g, b;

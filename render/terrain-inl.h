@@ -24,9 +24,12 @@ HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet, V leve
   const D d;
   const V zero = hn::Zero(d);
   V slope_x = zero, slope_y = zero, variance = zero;
-  AddSlopes(c.terrain_slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
-  if constexpr (kDetail)
+  if constexpr (kDetail) {
+    AddSlopes(c.terrain_slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
     AddSlopes(c.terrain_detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
+  } else {
+    NearestSlopes(c.terrain_slopes, packet.p, level_m, slope_x, slope_y);
+  }
   const V inv_length =
       InverseSqrt(hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
   const V3 normal = {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)),
@@ -76,11 +79,24 @@ HWY_INLINE V3 AbsorbInWater(const ShadeContext& c, const WaterPath& path, V3 lig
           lost(absorption.z, Constant(c.body.z), light.z)};
 }
 
+// 1 over the land's square, falling to 0 at its rim, beyond which there is deep water.
+HWY_INLINE V InsideLand(const ShadeContext& c, V3 p) {
+  constexpr float kRim = 1.0f / 30.0f;  // of the side
+  const SlopeLayer& square = c.terrain_slopes;
+  const auto from_rim = [&](float eye, V x) HWY_ATTR {
+    const V u = hn::MulAdd(x, Constant(square.inv_length), Constant(eye));
+    return hn::Min(u, hn::Sub(Constant(1.0f), u));
+  };
+  const V nearest = hn::Min(from_rim(square.u_eye, p.x), from_rim(square.v_eye, p.y));
+  return Clamp(hn::Mul(nearest, Constant(1.0f / kRim)), 0.0f, 1.0f);
+}
+
 // The ground through water: the pixel's z is squeezed.
 HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
   const V3 ground = GroundRadiance<false>(c, packet, GroundLevel(c, packet));
   const V apparent = hn::Max(hn::Neg(hn::Add(packet.p.z, Constant(c.eye_z))), hn::Zero(D()));
-  return AbsorbInWater(c, PathThroughWater(c, packet, apparent), ground);
+  const V3 seen = AbsorbInWater(c, PathThroughWater(c, packet, apparent), ground);
+  return Lerp(Constant(c.body), seen, InsideLand(c, packet.p));
 }
 
 // Dry ground as the reflection image shows it (p mirrored: the true height is -z).

@@ -85,8 +85,10 @@ HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, const Surf& s
   const V long_variance = hn::Sub(s.variance, Constant(c.base_variance));
   s.slope_x = hn::NegMulAdd(s.slope_x, surf.share, s.slope_x);
   s.slope_y = hn::NegMulAdd(s.slope_y, surf.share, s.slope_y);
-  s.variance =
+  const V blended =
       hn::Add(hn::NegMulAdd(long_variance, surf.share, long_variance), Constant(c.base_variance));
+  // Not rounded outside: a packet with no lane inside does not come by here.
+  s.variance = hn::IfThenElse(surf.inside, blended, s.variance);
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
   AddSlopes(c.coast_slopes, p, level_m, x, y, x, y, lost);
   s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(surf.inside, x));
@@ -110,7 +112,11 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
   WaterSurface s = {hn::Zero(d), hn::Zero(d), Constant(c.base_variance),
                     FoamCover(c, packet.p, level_flat_m, surf.foam)};
   V du = hn::Zero(d), dv = hn::Zero(d), unused = hn::Zero(d);
-  AddSlopes(c.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
+  // In scenes with surf nobody sees the step between two levels of the noise.
+  if constexpr (kCoast)
+    NearestSlopes(c.uv_noise, packet.p, level_m, du, dv);
+  else
+    AddSlopes(c.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
   for (int i = 0; i < c.sine_count; ++i)
     AddSine(c.sines[static_cast<std::size_t>(i)], packet.p, level_m, s);
   for (int i = 0; i < c.water_layer_count; ++i) {

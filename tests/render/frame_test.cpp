@@ -121,6 +121,26 @@ TEST_P(EachScene, TileSizeChangesNoPixel) {
   }
 }
 
+// Where the maps of a coast end, what a packet skips depends on its other pixels.
+TEST(Frame, PacketsOfAnyPixelsShowTheSameRimOfACoast) {
+  const World& world = world_of("beach");
+  const View view = make_view({590.0, 250.0, 8.0}, 0.2, -0.12, 0.9, 0.25f, kWidth, kHeight);
+  const auto draw_in = [&](int tile) {
+    FrameOptions options = few_triangles();
+    options.tile_size_px = tile;
+    Workers workers(2);
+    Workspace workspace;
+    Target target;
+    render_frame(world, view, 3.0, options, workspace, target, workers);
+    return target;
+  };
+  const Target reference = draw_in(64);
+  EXPECT_EQ(difference(draw_in(16), reference), "");
+  select_simd_target(SimdTarget::kAvx2);
+  EXPECT_EQ(difference(draw_in(32), reference), "");
+  if (simd_target_available(SimdTarget::kAvx512)) select_simd_target(SimdTarget::kAvx512);
+}
+
 TEST_P(EachScene, FrameAloneEqualsFrameInSequence) {
   const World& world = world_of(GetParam());
   Workers workers(2);
