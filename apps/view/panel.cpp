@@ -61,9 +61,9 @@ bool draw_detail(scene::Detail& detail) {
   }
   if (!ImGui::TreeNode("what counts as nearer or further")) return changed;
   changed |= slide("objects", detail.objects, 1.0, 64.0, "%.1f x nearer");
-  changed |= slide("turned away", detail.back_facing, 1.0, 16.0, "%.1f x further");
+  changed |= slide("backs", detail.back_facing, 1.0, 16.0, "%.1f x further");
   changed |= slide("smooth", detail.normal_spread, 1.0, 16.0, "%.1f x further");
-  changed |= slide("no silhouette", detail.silhouette, 1.0, 16.0, "%.1f x further");
+  changed |= slide("not outline", detail.silhouette, 1.0, 16.0, "%.1f x further");
   changed |= slide("haze", detail.visibility, 0.0, 4.0, "counts %.1f x");
   ImGui::TreePop();
   return changed;
