@@ -75,6 +75,8 @@ void add_quality_options(CLI::App& app, render::FrameOptions& frame) {
   add_number(
       app, "--lookup-scale", frame.lookup_scale, 0.1, 1.0,
       "Size of reflection and refraction images against the picture, instead of the scene's");
+  add_number(app, "--background-error", frame.background_error_px, 1e-3, 8.0,
+             "Pixels by which far water may lie off for waves left out, instead of the scene's");
   add_number(app, "--picture-scale", frame.picture_scale, 0.1, 1.0,
              "Draw at this share of the size and enlarge: faster, less sharp");
   app.add_flag("--wireframe", frame.wireframe, "Draw triangle edges");

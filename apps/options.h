@@ -30,7 +30,8 @@ void add_standard_options(CLI::App& app);
 // --scene, --size, --threads, --simd
 void add_frame_setup(CLI::App& app, FrameSetup& setup);
 
-// --tile, --triangles, --terrain-triangles, --lookup-scale, --picture-scale, --wireframe
+// --tile, --triangles, --terrain-triangles, --lookup-scale, --background-error,
+// --picture-scale, --wireframe
 void add_quality_options(CLI::App& app, render::FrameOptions& frame);
 
 // --threads and --simd alone.

@@ -125,14 +125,14 @@ HWY_INLINE V AddSines(std::span<const SineFrame> sines, DoublePacket x_m, Double
 
 // One packet of world points.
 template <Field kField>
-HWY_INLINE V WorldPacket(const SeaFrame& frame, const glm::dvec2* p_world) {
+HWY_INLINE V WorldPacket(const SeaFrame& frame, std::size_t patches, const glm::dvec2* p_world) {
   const DDouble dd;
   const double* const p = &p_world->x;
   DoublePacket x, y;
   hn::LoadInterleaved2(dd, p, x.low, y.low);
   hn::LoadInterleaved2(dd, p + 2 * hn::Lanes(dd), x.high, y.high);
   V sum = hn::Zero(D());
-  for (const PatchFrame& patch : frame.patches) {
+  for (const PatchFrame& patch : std::span(frame.patches).first(patches)) {
     const double fixed_size = 65536.0 * patch.resolution;
     const double fixed_per_m = fixed_size / patch.length_m;
     sum = hn::Add(sum, PatchSample<kField>(patch, FixedPosition(x, fixed_per_m, fixed_size),
@@ -198,19 +198,21 @@ HWY_INLINE void ForPackets(std::span<const Point> points, float* height_m, Packe
 }
 
 template <Field kField>
-void SampleField(const SeaFrame& frame, std::span<const glm::dvec2> p_world, float* samples) {
+void SampleField(const SeaFrame& frame, std::size_t patches, std::span<const glm::dvec2> p_world,
+                 float* samples) {
   ForPackets(p_world, samples,
-             [&](const glm::dvec2* p) HWY_ATTR { return WorldPacket<kField>(frame, p); });
+             [&](const glm::dvec2* p) HWY_ATTR { return WorldPacket<kField>(frame, patches, p); });
 }
 
-void SampleWorld(const SeaFrame& frame, std::span<const glm::dvec2> p_world, float* height_m) {
-  SampleField<Field::kHeight>(frame, p_world, height_m);
+void SampleWorld(const SeaFrame& frame, std::size_t patches, std::span<const glm::dvec2> p_world,
+                 float* height_m) {
+  SampleField<Field::kHeight>(frame, patches, p_world, height_m);
 }
 
 void SampleSlopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world, float* slope_x,
                   float* slope_y) {
-  SampleField<Field::kSlopeX>(frame, p_world, slope_x);
-  SampleField<Field::kSlopeY>(frame, p_world, slope_y);
+  SampleField<Field::kSlopeX>(frame, frame.patches.size(), p_world, slope_x);
+  SampleField<Field::kSlopeY>(frame, frame.patches.size(), p_world, slope_y);
 }
 
 void SampleOffsets(const SeaFrame& frame, glm::dvec2 origin, const glm::ivec2* origin_fx16,
@@ -244,10 +246,11 @@ HWY_EXPORT(SampleOffsets);
 HWY_EXPORT(SampleSlopes);
 
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
-                    std::span<float> height_m) {
+                    std::span<float> height_m, std::size_t longest_patches) {
   SWELL_CHECK(p_world.size() == height_m.size(), "{} points, {} heights", p_world.size(),
               height_m.size());
-  HWY_DYNAMIC_DISPATCH(SampleWorld)(frame, p_world, height_m.data());
+  HWY_DYNAMIC_DISPATCH(SampleWorld)
+  (frame, std::min(longest_patches, frame.patches.size()), p_world, height_m.data());
 }
 
 void sample_slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,

@@ -164,6 +164,13 @@ double Sea::height_bound_m() const {
   return bound;
 }
 
+double Sea::short_wave_bound_m(std::size_t longest_patches) const {
+  double variance_m2 = 0.0;
+  for (std::size_t p = longest_patches; p < state_->patches.size(); ++p)
+    variance_m2 += state_->patches[p].variance_m2;
+  return 6.0 * std::sqrt(variance_m2);
+}
+
 double Sea::significant_height_m() const {
   double variance = state_->spectrum_variance_m2;
   for (const SineWave& sine : state_->description.sines) {

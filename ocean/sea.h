@@ -82,6 +82,8 @@ class Sea {
   // A bound on |H| that holds everywhere and always in practice (6 standard deviations of the
   // spectrum plus the sum of the sines' amplitudes).
   double height_bound_m() const;
+  // The same of the waves of all patches but the `longest_patches` longest, without sines.
+  double short_wave_bound_m(std::size_t longest_patches) const;
 
   // 4 sqrt(m0) of the waves the patches can hold, sines included; m0 is the mean over time and
   // place of the waves that were drawn for this seed.
@@ -104,9 +106,9 @@ void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers);
 // Positions in a patch are rounded to 1/65536 of the sample spacing, so that samples come back
 // exactly and the patches repeat exactly. p_world and height_m have the same length and do not
 // overlap; |p_world| below 1e9 m. May be called from many threads at once. 8 ns a point for three
-// patches.
+// patches. With `longest_patches` only so many patches, longest first, count, and the sines.
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
-                    std::span<float> height_m);
+                    std::span<float> height_m, std::size_t longest_patches = SIZE_MAX);
 
 // The same at origin_world + offset, for points around an eye: faster, and exact to the float
 // rounding of the offsets (0.1 mm at 1 km).

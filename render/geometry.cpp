@@ -6,6 +6,7 @@
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
 #include "math/elementary.h"
+#include "render/background.h"
 #include "render/frame_state.h"
 
 namespace swell::render {
@@ -130,8 +131,14 @@ void displace_water(Frame& frame, std::size_t begin, std::size_t end) {
   std::array<glm::dvec2, kChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = vertex_world(water, begin + i);
   const auto height_m = std::span(water.height_m).subspan(begin, count);
+  const auto error_px = static_cast<float>(frame.options.background_error_px);
   if (frame.world.scene.detail.triangulation == scene::Triangulation::kPlane)
     std::ranges::fill(height_m, 0.0f);
+  else if (error_px > 0.0f)
+    background_heights(
+        Background(frame.view, *frame.world.sea, frame.world.height_bound_m(), error_px),
+        water_surface(frame), std::span(p).first(count),
+        std::span<const glm::vec2>(water.offset).subspan(begin, count), height_m);
   else
     water_surface(frame).heights(std::span(p).first(count), height_m);
   const auto eye_z = static_cast<float>(frame.view.eye_world.z);

@@ -1,21 +1,87 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "math/check.h"
 #include "math/elementary.h"
 #include "scene/scene.h"
 
 namespace swell::scene {
+namespace {
+
+struct Pose {
+  glm::dvec3 eye_m;
+  double heading_rad, pitch_rad;
+};
+
+// A stretch of a path between two waypoints, and its neighbours; those beyond an end have length 0.
+struct Stretch {
+  double before_s, length_s, after_s;
+  double u;  // how far along, [0, 1]
+};
+
+// The slope at a waypoint where the value changes by d0 in h0 and then by d1 in h1: a harmonic mean
+// of the slopes on both sides, 0 if they differ in sign or a side is missing. The curve then stays
+// between its waypoints' values.
+// Source: Fritsch, Butland, A method for constructing local monotone piecewise cubic interpolants,
+// 1984, eq. 5.
+double slope_at(double d0, double h0, double d1, double h1) {
+  if (h0 <= 0.0 || h1 <= 0.0 || d0 * d1 <= 0.0) return 0.0;
+  const double share = (h0 + 2.0 * h1) / (3.0 * (h0 + h1));
+  const double s0 = d0 / h0, s1 = d1 / h1;
+  return s0 * s1 / (share * s1 + (1.0 - share) * s0);
+}
+
+// Hermite's cubic: how far the value has moved from its start, given what it changes by before, on
+// and after the stretch.
+double moved(const Stretch& s, double before, double change, double after) {
+  const double start_slope = slope_at(before, s.before_s, change, s.length_s) * s.length_s;
+  const double end_slope = slope_at(change, s.length_s, after, s.after_s) * s.length_s;
+  const double u = s.u, u2 = u * u, u3 = u2 * u;
+  return (u3 - 2.0 * u2 + u) * start_slope + (3.0 * u2 - 2.0 * u3) * change + (u3 - u2) * end_slope;
+}
+
+Pose pose_on_path(std::span<const Waypoint> path, double t_s) {
+  const auto next = std::ranges::upper_bound(path, t_s, {}, &Waypoint::t_s);
+  if (next == path.begin() || next == path.end()) {
+    const Waypoint& end = next == path.begin() ? path.front() : path.back();
+    return {end.eye_m, end.heading_rad, end.pitch_rad};
+  }
+  const Waypoint &from = next[-1], &to = *next;
+  const Waypoint& before = next - 1 == path.begin() ? from : next[-2];
+  const Waypoint& after = next + 1 == path.end() ? to : next[1];
+  const double length_s = to.t_s - from.t_s;
+  const Stretch stretch = {from.t_s - before.t_s, length_s, after.t_s - to.t_s,
+                           (t_s - from.t_s) / length_s};
+  const auto value = [&](auto of) {
+    return of(from) + moved(stretch, of(from) - of(before), of(to) - of(from), of(after) - of(to));
+  };
+  const auto turn = [](const Waypoint& a, const Waypoint& b) {
+    return std::remainder(b.heading_rad - a.heading_rad, 2.0 * kPi);  // exact
+  };
+  return {{value([](const Waypoint& w) { return w.eye_m.x; }),
+           value([](const Waypoint& w) { return w.eye_m.y; }),
+           value([](const Waypoint& w) { return w.eye_m.z; })},
+          from.heading_rad + moved(stretch, turn(before, from), turn(from, to), turn(to, after)),
+          value([](const Waypoint& w) { return w.pitch_rad; })};
+}
+
+Pose pose_at(const Camera& camera, double t_s) {
+  if (!camera.path.empty()) return pose_on_path(camera.path, t_s);
+  // fmod is exact, so this costs no bits that the product had.
+  return {camera.eye_m + camera.velocity_mps * t_s,
+          std::fmod(camera.heading_rad + camera.turn_rad_s * t_s, 2.0 * kPi), camera.pitch_rad};
+}
+
+}  // namespace
 
 View camera_view(const Camera& camera, double t_s, int width_px, int height_px) {
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   constexpr double kMaxTime = 1e12, kMaxDistance = 1e7;
-  const double t = std::clamp(t_s, -kMaxTime, kMaxTime);
-  const glm::dvec3 eye_world = glm::clamp(camera.eye_m + camera.velocity_mps * t,
-                                          glm::dvec3(-kMaxDistance), glm::dvec3(kMaxDistance));
-  // fmod is exact, so this costs no bits that the product had.
-  const double heading_rad = std::fmod(camera.heading_rad + camera.turn_rad_s * t, 2.0 * kPi);
-  return make_view(eye_world, heading_rad, camera.pitch_rad, camera.fov_y_rad,
+  const Pose pose = pose_at(camera, std::clamp(t_s, -kMaxTime, kMaxTime));
+  const glm::dvec3 eye_world =
+      glm::clamp(pose.eye_m, glm::dvec3(-kMaxDistance), glm::dvec3(kMaxDistance));
+  return make_view(eye_world, pose.heading_rad, pose.pitch_rad, camera.fov_y_rad,
                    static_cast<float>(camera.near_m), width_px, height_px);
 }
 

@@ -48,6 +48,7 @@ std::string dump_scene(const Scene& scene) {
     text += line_of(parameter, scene);
   }
   return text + tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +
+         tables_text(kPathKey, waypoint_parameters(), scene.camera.path) +
          tables_text(kObjectsKey, object_parameters(), scene.objects);
 }
 

@@ -342,6 +342,9 @@ Rows water_rows() {
       SceneRow::choice("detail.triangulation", TriangulationName{},
                        "of the sea: a bintree that follows the view, rings around the eye, or two "
                        "triangles, flat, with the waves in the shading only"),
+      SceneRow::number("detail.background_error_px", {0, 8, "pixels"},
+                       SWELL_FIELD(detail.background_error_px),
+                       "far water leaves out waves that move it by less than this; 0: none"),
       SceneRow::choice("detail.priority", Priority{}, "which triangles are split first"),
       SceneRow::number("detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
                        "the sea under floating things has triangles as if this many times nearer"),
@@ -502,6 +505,19 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
   };
 }
 
+std::vector<Parameter<Waypoint>> waypoint_parameters() {
+  using WaypointRow = Row<Waypoint>;
+  return {
+      WaypointRow::number("t_s", {-1e6, 1e6, "s"}, SWELL_FIELD(t_s),
+                          "when the camera is there; more than that of the table before"),
+      WaypointRow::vector("eye_m", {-1e6, 1e6, "m"}, SWELL_FIELD(eye_m),
+                          "position: east, north, up from mean sea level"),
+      WaypointRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
+                         "where the camera looks, clockwise from north; turns the shorter way"),
+      WaypointRow::angle("pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(pitch_rad), "up positive"),
+  };
+}
+
 #undef SWELL_FIELD
 
 template <class Object>
@@ -539,6 +555,7 @@ std::string allowed_text(const Parameter<Object>& parameter) {
 template std::string allowed_text(const Parameter<Scene>&);
 template std::string allowed_text(const Parameter<ocean::SineWave>&);
 template std::string allowed_text(const Parameter<FloatingObject>&);
+template std::string allowed_text(const Parameter<Waypoint>&);
 
 template <class Object>
 std::string toml_text(const Parameter<Object>& parameter, const Object& object) {
@@ -567,5 +584,6 @@ std::string toml_text(const Parameter<Object>& parameter, const Object& object) 
 template std::string toml_text(const Parameter<Scene>&, const Scene&);
 template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::SineWave&);
 template std::string toml_text(const Parameter<FloatingObject>&, const FloatingObject&);
+template std::string toml_text(const Parameter<Waypoint>&, const Waypoint&);
 
 }  // namespace swell::scene

@@ -52,13 +52,17 @@ std::vector<Parameter<Scene>> scene_parameters();
 // Keys of one table of [[sea.sines]].
 std::vector<Parameter<ocean::SineWave>> sine_parameters();
 
+// Keys of one table of [[camera.path]].
+std::vector<Parameter<Waypoint>> waypoint_parameters();
+
 // Keys of one table of [[object]].
 std::vector<Parameter<FloatingObject>> object_parameters();
 
-inline constexpr int kMaxSines = 64, kMaxObjects = 64;
+inline constexpr int kMaxSines = 64, kMaxWaypoints = 200, kMaxObjects = 64;
 inline constexpr int kMaxCoastPoints = 200;
 inline constexpr int kMaxTextBytes = 200;
-inline constexpr std::string_view kSinesKey = "sea.sines", kObjectsKey = "object";
+inline constexpr std::string_view kSinesKey = "sea.sines", kPathKey = "camera.path",
+                                  kObjectsKey = "object";
 
 // "1 to 170 deg", "true or false", ...
 template <class Object>

@@ -24,7 +24,16 @@ namespace swell::scene {
 inline constexpr double kRadPerDeg = kPi / 180.0;
 constexpr double radians(double deg) { return deg * kRadPerDeg; }
 
-// The camera at a time: a fixed pose, or a straight path with constant speed and turn rate.
+// Where the camera is and looks at a time.
+struct Waypoint {
+  double t_s = 0.0;
+  glm::dvec3 eye_m{0.0, 0.0, 10.0};
+  double heading_rad = 0.0;  // clockwise from north
+  double pitch_rad = 0.0;    // up positive
+};
+
+// The camera at a time: a fixed pose, a straight path with constant speed and turn rate, or a path
+// through waypoints.
 struct Camera {
   glm::dvec3 eye_m{0.0, 0.0, 10.0};
   double heading_rad = 0.0;  // clockwise from north
@@ -33,6 +42,10 @@ struct Camera {
   double near_m = 0.25;
   glm::dvec3 velocity_mps{0.0};
   double turn_rad_s = 0.0;
+  // In order of time, no two at one. Takes the place of the poses and motions above: smooth through
+  // the waypoints, each coordinate between its values at the two around; headings turn the shorter
+  // way; at rest before the first, after the last, and where two waypoints have the same place.
+  std::vector<Waypoint> path{};
 };
 
 // The camera's view at time t_s [s] (finite; taken as 1e12 beyond that) of a picture of at least
@@ -96,7 +109,8 @@ struct Detail {
   double objects = 8.0;  // floating things' places count as this many times nearer, [1, 64]
   // Parts that count as this many times further away, [1, 16]; 1: as they are (lod/request.h).
   double back_facing = 1.0, normal_spread = 1.0, silhouette = 1.0;
-  double visibility = 0.0;  // the haze counts this much, [0, 4]
+  double visibility = 0.0;           // the haze counts this much, [0, 4]
+  double background_error_px = 0.0;  // far water may be so far from where it should be drawn
 
   bool normals_count() const {
     return back_facing > 1.0 || normal_spread > 1.0 || silhouette > 1.0;

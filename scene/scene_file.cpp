@@ -86,6 +86,7 @@ class Reader {
       : file_(file),
         parameters_(scene_parameters()),
         sine_parameters_(sine_parameters()),
+        waypoint_parameters_(waypoint_parameters()),
         object_parameters_(object_parameters()) {}
 
   Scene read(const toml::table& root) {
@@ -127,6 +128,9 @@ class Reader {
         read_tables(*node, kSinesKey, kMaxSines, sine_parameters_, scene_.sea.sines);
       } else if (path == kObjectsKey) {
         read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
+      } else if (path == kPathKey) {
+        read_tables(*node, kPathKey, kMaxWaypoints, waypoint_parameters_, scene_.camera.path);
+        check_path(*node);
       } else if (is_section(path)) {
         read_section(*node, path);
       } else {
@@ -356,6 +360,17 @@ class Reader {
     }
   }
 
+  // `node` holds the tables of the path.
+  void check_path(const toml::node& node) const {
+    const auto& path = scene_.camera.path;
+    const auto late = std::ranges::adjacent_find(path, std::greater_equal{}, &Waypoint::t_s);
+    if (late == path.end()) return;
+    const auto n = static_cast<std::size_t>(late - path.begin()) + 1;
+    fail_value(*node.as_array()->get(n), fmt::format("{}[{}].t_s", kPathKey, n),
+               fmt::format("{}", path[n].t_s),
+               fmt::format("more than that of the table before, {}", path[n - 1].t_s));
+  }
+
   [[noreturn]] void fail_value(const toml::node& node, const std::string& path,
                                const std::string& got, const std::string& allowed) const {
     fail(file_, place_of(node.source()), fmt::format("{}, got {}, allowed {}", path, got, allowed));
@@ -370,7 +385,8 @@ class Reader {
 
   // The known key or table with the fewest edits from an unknown one.
   std::string nearest_key(const std::string& path) const {
-    std::vector<std::string> known{std::string(kSinesKey), std::string(kObjectsKey)};
+    std::vector<std::string> known{std::string(kSinesKey), std::string(kPathKey),
+                                   std::string(kObjectsKey)};
     for (const auto& parameter : parameters_) {
       known.emplace_back(parameter.key);
       known.emplace_back(parameter.key.substr(0, parameter.key.find('.')));
@@ -379,6 +395,8 @@ class Reader {
       known.push_back(fmt::format("{}.{}", kSinesKey, parameter.key));
     for (const auto& parameter : object_parameters_)
       known.push_back(fmt::format("{}.{}", kObjectsKey, parameter.key));
+    for (const auto& parameter : waypoint_parameters_)
+      known.push_back(fmt::format("{}.{}", kPathKey, parameter.key));
     const std::string shortened = path.substr(0, 200);
     return *std::ranges::min_element(
         known, {}, [&](const std::string& key) { return edit_distance(shortened, key); });
@@ -387,6 +405,7 @@ class Reader {
   fs::path file_;
   std::vector<Parameter<Scene>> parameters_;
   std::vector<Parameter<ocean::SineWave>> sine_parameters_;
+  std::vector<Parameter<Waypoint>> waypoint_parameters_;
   std::vector<Parameter<FloatingObject>> object_parameters_;
   Scene scene_;
   std::map<std::string, Place> given_;  // where the file has the keys that it has

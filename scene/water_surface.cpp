@@ -117,8 +117,9 @@ glm::vec2 WaterSurface::share_slope(glm::dvec2 p) const {
   return difference / static_cast<float>(kShareStep_m);
 }
 
-void WaterSurface::heights(std::span<const glm::dvec2> p_world, std::span<float> height_m) const {
-  ocean::sample_heights(*frame_, p_world, height_m);
+void WaterSurface::heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
+                           std::size_t longest_patches) const {
+  ocean::sample_heights(*frame_, p_world, height_m, longest_patches);
   in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
     std::array<float, kChunk> factor;
     shares(p_world.subspan(first, count), factor);

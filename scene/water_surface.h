@@ -13,6 +13,7 @@
 //   const bool wet = surface.in_water({12.0, 40.0, -0.5});
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -48,7 +49,9 @@ class WaterSurface {
   // mesh; inside a triangle with the longest edge s it is at most L s / 2 off, L the waves'
   // steepest slope. Spans of one length that do not overlap. Allocates nothing. 25 ns a point for
   // three patches, 45 with terrain; alone, without a batch, 200.
-  void heights(std::span<const glm::dvec2> p_world, std::span<float> height_m) const;
+  // With `longest_patches` the shorter waves of the open sea are left out, by patches.
+  void heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
+               std::size_t longest_patches = SIZE_MAX) const;
   float height(glm::dvec2 p_world) const;
 
   // dz/dx and dz/dy: of the waves their own slopes (smoother than the difference of two heights,

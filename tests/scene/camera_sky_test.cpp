@@ -55,6 +55,78 @@ TEST(Camera, AnyFiniteTimeGivesAFiniteView) {
   }
 }
 
+// There and back, with a turn on the spot over north.
+Camera camera_on_path() {
+  const auto deg = [](double angle) { return radians(angle); };
+  return {.path = {{0.0, {0, 0, 20}, deg(350), deg(-5)},
+                   {4.0, {100, 40, 8}, deg(350), deg(-9)},
+                   {6.0, {100, 40, 8}, deg(30), deg(0)},
+                   {7.0, {100, 40, 8}, deg(160), deg(0)},
+                   {12.0, {20, 90, 30}, deg(-140), deg(-20)}}};
+}
+
+TEST(CameraPath, PassesThroughItsWaypoints) {
+  const Camera camera = camera_on_path();
+  for (const Waypoint& w : camera.path) {
+    const View view = camera_view(camera, w.t_s, 8, 8);
+    expect_near(view.eye_world, w.eye_m, 1e-12);
+    expect_near(view.forward, make_view({}, w.heading_rad, w.pitch_rad, 1.0, 1.0f, 8, 8).forward,
+                1e-6);
+  }
+}
+
+TEST(CameraPath, RestsBeforeItsStartAndAfterItsEnd) {
+  const Camera camera = camera_on_path();
+  EXPECT_EQ(camera_view(camera, -1e300, 8, 8).eye_world, camera.path.front().eye_m);
+  EXPECT_EQ(camera_view(camera, 1e9, 8, 8).eye_world, camera.path.back().eye_m);
+  const Camera fixed{.path = {{5.0, {1, 2, 3}, kQuarter, 0.0}}};
+  for (const double t_s : {0.0, 5.0, 6.0}) {
+    EXPECT_EQ(camera_view(fixed, t_s, 8, 8).eye_world, glm::dvec3(1, 2, 3));
+    expect_near(camera_view(fixed, t_s, 8, 8).forward, {1, 0, 0}, 1e-7);
+  }
+}
+
+TEST(CameraPath, TurnsOnTheSpotWithoutMoving) {
+  const Camera camera = camera_on_path();
+  for (double t_s = 4.0; t_s <= 7.0; t_s += 0.01)
+    ASSERT_EQ(camera_view(camera, t_s, 8, 8).eye_world, glm::dvec3(100, 40, 8)) << t_s;
+}
+
+TEST(CameraPath, TurnsTheShorterWayOverNorth) {
+  // From 350 to 30 degrees: half way it looks to between north-north-west and north-east.
+  const Camera camera = camera_on_path();
+  for (double t_s = 4.0; t_s <= 6.0; t_s += 0.01)
+    ASSERT_GT(camera_view(camera, t_s, 8, 8).forward.y, 0.8f) << t_s;
+}
+
+// Each coordinate stays between its values at the waypoints around, and steps of a millisecond
+// change neither the place nor the speed by leaps.
+TEST(CameraPath, IsSmoothAndDoesNotOvershoot) {
+  const Camera camera = camera_on_path();
+  const double dt_s = 1e-3;
+  glm::dvec3 last = camera.path.front().eye_m, last_step(0.0);
+  for (std::size_t i = 0; i + 1 < camera.path.size(); ++i) {
+    const Waypoint &from = camera.path[i], &to = camera.path[i + 1];
+    const glm::dvec3 low = glm::min(from.eye_m, to.eye_m), high = glm::max(from.eye_m, to.eye_m);
+    for (double t_s = from.t_s; t_s < to.t_s; t_s += dt_s) {
+      const glm::dvec3 eye = camera_view(camera, t_s, 8, 8).eye_world, step = eye - last;
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_GE(eye[c], low[c] - 1e-9) << t_s;
+        ASSERT_LE(eye[c], high[c] + 1e-9) << t_s;
+      }
+      ASSERT_LT(glm::length(step), 60.0 * dt_s) << t_s;
+      ASSERT_LT(glm::length(step - last_step), 100.0 * dt_s * dt_s) << t_s;
+      last = eye, last_step = step;
+    }
+  }
+}
+
+TEST(CameraPath, KeepsAConstantSpeedBetweenEvenWaypoints) {
+  const Camera camera{.path = {{0, {0, 0, 5}}, {1, {10, 0, 5}}, {3, {30, 0, 5}}, {4, {40, 0, 5}}}};
+  for (double t_s = 1.0; t_s <= 3.0; t_s += 0.125)
+    EXPECT_NEAR(camera_view(camera, t_s, 8, 8).eye_world.x, 10.0 * t_s, 1e-12);
+}
+
 TEST(CameraDeathTest, TimeThatIsNoNumberIsTheCallersMistake) {
   EXPECT_DEATH(camera_view({}, std::nan(""), 8, 8), "t_s=nan");
 }

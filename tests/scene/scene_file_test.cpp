@@ -227,6 +227,22 @@ TEST(SceneFile, TheCoastModelOfTheFileStays) {
   EXPECT_EQ(model("[terrain]\n", "blend"), CoastModel::kBlend);
 }
 
+TEST(SceneFile, ACamerasPathIsReadAndDumped) {
+  const Scene scene = parse_scene(
+      "[camera]\nfov_y_deg = 40\n[[camera.path]]\n[[camera.path]]\nt_s = 2.5\n"
+      "eye_m = [1, 2, 3]\nheading_deg = 90\npitch_deg = -30\n",
+      "test.toml");
+  for (const Scene& read : {scene, parse_scene(dump_scene(scene), "dump.toml")}) {
+    ASSERT_EQ(read.camera.path.size(), 2u);
+    EXPECT_EQ(read.camera.path[0].eye_m, glm::dvec3(0, 0, 10));
+    const Waypoint& second = read.camera.path[1];
+    EXPECT_EQ(second.t_s, 2.5);
+    EXPECT_EQ(second.eye_m, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(second.heading_rad, 90 * kDegree);
+    EXPECT_EQ(second.pitch_rad, -30 * kDegree);
+  }
+}
+
 TEST(SceneFile, AnIslandsDumpHasNoCoastLine) {
   const std::string dump = dump_scene(parse_scene("[terrain]\n", "test.toml"));
   EXPECT_EQ(dump.find("coast_m"), std::string::npos) << dump;
@@ -314,6 +330,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "[[sea.sines]]\nperiod_s = 0.01\n",
             "test.toml:2: column 12: sea.sines[0].period_s, got 0.01, allowed 0 or 0.05 to 1000 s"},
+        Fault{"[[camera.path]]\nt_s = 2\n[[camera.path]]\npitch_deg = 90\n",
+              "test.toml:4: column 13: camera.path[1].pitch_deg, got 90, allowed -89 to 89 deg"},
+        Fault{"[[camera.path]]\nt_s = 2\n[[camera.path]]\nt_s = 2\n",
+              "test.toml:3: column 1: camera.path[1].t_s, got 2, allowed more than that of the "
+              "table before, 2"},
         Fault{"[sea.sines]\namplitude_m = 1\n",
               "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
               "[[sea.sines]]"},

@@ -28,6 +28,13 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(colour);
 }
 
+void compare_waypoints(const Waypoint& a, const Waypoint& b, std::string& list) {
+  SWELL_COMPARE(t_s);
+  SWELL_COMPARE(eye_m);
+  SWELL_COMPARE(heading_rad);
+  SWELL_COMPARE(pitch_rad);
+}
+
 void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, std::string& list) {
   SWELL_COMPARE(height_image);
   SWELL_COMPARE(metres_per_pixel);
@@ -102,6 +109,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(coast.seed);
   SWELL_COMPARE(detail.water_triangles);
   SWELL_COMPARE(detail.terrain_triangles);
+  SWELL_COMPARE(detail.background_error_px);
   SWELL_COMPARE(detail.inverse_distance_priority);
   SWELL_COMPARE(terrain.has_value());
   SWELL_COMPARE(sea.sines.size());
@@ -111,6 +119,9 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(objects.size());
   for (std::size_t i = 0; i < std::min(a.objects.size(), b.objects.size()); ++i)
     compare_objects(a.objects[i], b.objects[i], list);
+  SWELL_COMPARE(camera.path.size());
+  for (std::size_t i = 0; i < std::min(a.camera.path.size(), b.camera.path.size()); ++i)
+    compare_waypoints(a.camera.path[i], b.camera.path[i], list);
   return list;
 }
 
