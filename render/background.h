@@ -1,7 +1,9 @@
 // Far water: waves that move a vertex by less than a share of a pixel need not be evaluated there.
 // A vertex keeps the sea's longest patches of waves, as few as the allowed error takes, or none
 // at all and lies at the mean level. What it keeps depends on the view and the sea state alone,
-// not on time or on frames before.
+// not on time or on frames before. With the triangles of a bintree, few of which are far, this pays
+// little: 0.28 ms for open_ocean's 30,000 at 1280x720 with and without, 0.96 ms instead of 1.02 on
+// the beach with 0.5 pixels allowed. So it is off unless asked for.
 //
 // A point whose place relative to the eye is p, with depth w along the view and horizontal
 // distance r from the eye, moves by at most f r |dz| / (w (w - |dz|)) pixels when it rises by dz
