@@ -44,15 +44,3 @@ function(swell_add_folder folder)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/ DESTINATION include/swell/${folder}
     FILES_MATCHING PATTERN "*.h")
 endfunction()
-
-# swell_precompile_headers(NAME HEADERS ... LINKS ...)
-# Large headers that many sources include, compiled once:
-# target_precompile_headers(TARGET REUSE_FROM NAME) saves a third to a half of a source's time.
-function(swell_precompile_headers name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINKS" ${ARGN})
-  set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
-  file(WRITE ${empty} "")
-  add_library(${name} OBJECT ${empty})
-  target_link_libraries(${name} PRIVATE swell_options ${ARG_LINKS})
-  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
-endfunction()
