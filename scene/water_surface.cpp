@@ -91,12 +91,17 @@ void WaterSurface::shares(std::span<const glm::dvec2> p_world, std::span<float> 
   for (std::size_t i = 0; i < p_world.size(); ++i) result[i] *= ocean::spectrum_weight(trains[i]);
 }
 
-// At most kChunk points.
-void WaterSurface::add_coast(std::span<const glm::dvec2> p_world, std::span<float> height_m) const {
-  std::array<float, kChunk> trains, unused;
-  ocean::sample_coast(*coast_, frame_->t_s, p_world, std::span(trains).first(p_world.size()),
-                      std::span(unused).first(p_world.size()));
-  for (std::size_t i = 0; i < p_world.size(); ++i) height_m[i] += trains[i] * edge(p_world[i]);
+// At most kChunk points. The trains' heights, and `factor` of all other waves times what the trains
+// leave of them.
+void WaterSurface::coast_heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
+                                 std::span<float> factor) const {
+  std::array<float, kChunk> shares_of_trains;
+  const auto share = std::span(shares_of_trains).first(p_world.size());
+  ocean::sample_coast(*coast_, frame_->t_s, p_world, height_m, share);
+  for (std::size_t i = 0; i < p_world.size(); ++i) {
+    height_m[i] *= edge(p_world[i]);
+    factor[i] *= ocean::spectrum_weight(share[i]);
+  }
 }
 
 // By differences: the trains' height with its share and edge.
@@ -105,8 +110,8 @@ glm::vec2 WaterSurface::coast_slope(glm::dvec2 p) const {
   const std::array<glm::dvec2, 4> at = {
       p + glm::dvec2(0.5 * kStep_m, 0.0), p - glm::dvec2(0.5 * kStep_m, 0.0),
       p + glm::dvec2(0.0, 0.5 * kStep_m), p - glm::dvec2(0.0, 0.5 * kStep_m)};
-  std::array<float, 4> z{};
-  add_coast(at, z);
+  std::array<float, 4> z, unused{};
+  coast_heights(at, z, unused);
   return glm::vec2(z[0] - z[1], z[2] - z[3]) / static_cast<float>(kStep_m);
 }
 
@@ -119,13 +124,33 @@ glm::vec2 WaterSurface::share_slope(glm::dvec2 p) const {
 
 void WaterSurface::heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
                            std::size_t longest_patches) const {
-  ocean::sample_heights(*frame_, p_world, height_m, longest_patches);
   in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
-    std::array<float, kChunk> factor;
-    shares(p_world.subspan(first, count), factor);
-    for (std::size_t i = 0; i < count; ++i) height_m[first + i] *= factor[i];
-    if (coast_) add_coast(p_world.subspan(first, count), height_m.subspan(first, count));
+    const auto p = p_world.subspan(first, count);
+    const auto z = height_m.subspan(first, count);
+    std::array<float, kChunk> factor, ground{};
+    if (terrain_) sample_heights(*terrain_, p, std::span(ground).first(count));
+    for (std::size_t i = 0; i < count; ++i) factor[i] = share(p[i], ground[i]);
+    std::ranges::fill(z, 0.0f);
+    if (coast_) coast_heights(p, z, factor);
+    add_sea(p, factor, longest_patches, z);
   });
+}
+
+// At most kChunk points. The sea's own waves times a factor; places where that is 0 cost nothing.
+void WaterSurface::add_sea(std::span<const glm::dvec2> p_world, std::span<const float> factor,
+                           std::size_t longest_patches, std::span<float> height_m) const {
+  std::array<glm::dvec2, kChunk> shown;
+  std::array<std::size_t, kChunk> place;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < p_world.size(); ++i) {
+    if (factor[i] == 0.0f) continue;
+    shown[count] = p_world[i];
+    place[count++] = i;
+  }
+  std::array<float, kChunk> z;
+  ocean::sample_heights(*frame_, std::span(shown).first(count), std::span(z).first(count),
+                        longest_patches);
+  for (std::size_t k = 0; k < count; ++k) height_m[place[k]] += z[k] * factor[place[k]];
 }
 
 float WaterSurface::height(glm::dvec2 p_world) const {

@@ -89,7 +89,10 @@ class WaterSurface {
   glm::vec2 coast_slope(glm::dvec2 p_world) const;
   float edge(glm::dvec2 p_world) const;
   void shares(std::span<const glm::dvec2> p_world, std::span<float> share) const;
-  void add_coast(std::span<const glm::dvec2> p_world, std::span<float> height_m) const;
+  void coast_heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
+                     std::span<float> factor) const;
+  void add_sea(std::span<const glm::dvec2> p_world, std::span<const float> factor,
+               std::size_t longest_patches, std::span<float> height_m) const;
 
   const ocean::SeaFrame* frame_;
   const SeaArea* area_;
