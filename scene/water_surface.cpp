@@ -63,7 +63,9 @@ WaterSurface::WaterSurface(const ocean::Sea& sea, const ocean::SeaFrame& frame, 
 // 1 inside the area, falling to 0 over its last tenth.
 float WaterSurface::edge(glm::dvec2 p_world) const {
   const glm::dvec2 inside = 0.5 * area_->size_m - glm::abs(p_world - area_->centre_m);
-  const glm::dvec2 t = glm::clamp(inside / (0.1 * area_->size_m), 0.0, 1.0);
+  const glm::dvec2 rim = 0.1 * area_->size_m;
+  if (inside.x >= rim.x && inside.y >= rim.y) return 1.0f;
+  const glm::dvec2 t = glm::clamp(inside / rim, 0.0, 1.0);
   return static_cast<float>(t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y));
 }
 
