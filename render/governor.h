@@ -60,7 +60,7 @@ class Governor {
   const FrameOptions& options() const { return options_; }
 
   // Takes what the last frame took, drawn with options(); `outside_ms` is what the frame took
-  // besides render_frame (presentation). Depends on the numbers it was given alone. 3 us.
+  // besides render_frame (presentation). Depends on the numbers it was given alone.
   const FrameOptions& next(const FrameStatistics& last, double outside_ms = 0.0);
 
   // New limits; what was learnt stays.
