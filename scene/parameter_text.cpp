@@ -1,0 +1,122 @@
+// How values of the table are said: in messages, in docs/scene.md and in dumped scenes.
+#include <fmt/format.h>
+
+#include "scene/parameters.h"
+
+namespace swell::scene {
+namespace {
+
+using Kind = ParameterKind;
+
+std::string basic_string_text(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+// Shortest text that parses to the same double, with a point or an exponent.
+std::string float_text(double number) {
+  std::string text = fmt::format("{}", number);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string list_text(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) {
+    if (!text.empty()) text += ", ";
+    text += float_text(number);
+  }
+  return "[" + text + "]";
+}
+
+// Points as pairs of numbers.
+std::string points_text(const std::vector<double>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    text += (i ? ", " : "") + list_text({numbers[i], numbers[i + 1]});
+  return "[" + text + "]";
+}
+
+// "a", "b" or "c".
+std::string choices_text(std::span<const std::string_view> choices) {
+  const auto last = choices.size() - 1;
+  return fmt::format("\"{}\" or \"{}\"", fmt::join(choices.first(last), "\", \""), choices[last]);
+}
+
+}  // namespace
+
+template <class Object>
+std::string allowed_text(const Parameter<Object>& parameter) {
+  const std::string range =
+      fmt::format("{}{} to {}{}{}", parameter.zero_too ? "0 or " : "", parameter.low,
+                  parameter.high, parameter.unit.empty() ? "" : " ", parameter.unit);
+  switch (parameter.kind) {
+    case Kind::kNumber:
+      return range;
+    case Kind::kNumbers:
+      if (parameter.count_low == parameter.count_high)
+        return fmt::format("{} numbers, each {}", parameter.count_low, range);
+      return fmt::format("{} to {} numbers, each {}", parameter.count_low, parameter.count_high,
+                         range);
+    case Kind::kPoints:
+      return fmt::format("{} to {} points [east, north], each number {}", parameter.count_low,
+                         parameter.count_high, range);
+    case Kind::kInteger:
+      return "an integer, " + range;
+    case Kind::kPowerOfTwo:
+      return "a power of two, " + range;
+    case Kind::kBoolean:
+      return "true or false";
+    case Kind::kChoice:
+      return choices_text(parameter.choices);
+    case Kind::kText:
+      return fmt::format("text of at most {} bytes", kMaxTextBytes);
+    case Kind::kPath:
+      return "the path of a readable picture file";
+  }
+  return {};
+}
+
+template std::string allowed_text(const Parameter<Scene>&);
+template std::string allowed_text(const Parameter<ocean::SineWave>&);
+template std::string allowed_text(const Parameter<FloatingObject>&);
+template std::string allowed_text(const Parameter<Waypoint>&);
+
+template <class Object>
+std::string toml_text(const Parameter<Object>& parameter, const Object& object) {
+  if (parameter.is_set && !parameter.is_set(object)) return {};
+  const ParameterValue value = parameter.get(object);
+  switch (parameter.kind) {
+    case Kind::kNumber:
+      return float_text(std::get<std::vector<double>>(value)[0]);
+    case Kind::kNumbers:
+      return list_text(std::get<std::vector<double>>(value));
+    case Kind::kPoints:
+      return points_text(std::get<std::vector<double>>(value));
+    case Kind::kInteger:
+    case Kind::kPowerOfTwo:
+      return fmt::format("{}", std::get<std::int64_t>(value));
+    case Kind::kBoolean:
+      return std::get<bool>(value) ? "true" : "false";
+    case Kind::kChoice:
+    case Kind::kText:
+    case Kind::kPath:
+      return basic_string_text(std::get<std::string>(value));
+  }
+  return {};
+}
+
+template std::string toml_text(const Parameter<Scene>&, const Scene&);
+template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::SineWave&);
+template std::string toml_text(const Parameter<FloatingObject>&, const FloatingObject&);
+template std::string toml_text(const Parameter<Waypoint>&, const Waypoint&);
+
+}  // namespace swell::scene
