@@ -258,16 +258,24 @@ class Reader {
     fail_value(node, path, got_text(node), allowed);
   }
 
+  // An array of as many elements as the parameter takes.
   template <class Object>
-  std::vector<double> checked_numbers(const toml::node& node, const std::string& path,
-                                      const Parameter<Object>& parameter,
-                                      const std::string& allowed) const {
+  const toml::array& checked_array(const toml::node& node, const std::string& path,
+                                   const Parameter<Object>& parameter,
+                                   const std::string& allowed) const {
     const toml::array* array = node.as_array();
     const int count = array ? static_cast<int>(std::min<std::size_t>(array->size(), 1000)) : -1;
     if (count < parameter.count_low || count > parameter.count_high)
       fail_value(node, path, got_text(node), allowed);
+    return *array;
+  }
+
+  template <class Object>
+  std::vector<double> checked_numbers(const toml::node& node, const std::string& path,
+                                      const Parameter<Object>& parameter,
+                                      const std::string& allowed) const {
     std::vector<double> numbers;
-    for (const toml::node& element : *array)
+    for (const toml::node& element : checked_array(node, path, parameter, allowed))
       numbers.push_back(
           checked_number(element, fmt::format("{}[{}]", path, numbers.size()), parameter, allowed));
     return numbers;
@@ -278,12 +286,8 @@ class Reader {
   std::vector<double> checked_points(const toml::node& node, const std::string& path,
                                      const Parameter<Object>& parameter,
                                      const std::string& allowed) const {
-    const toml::array* array = node.as_array();
-    const int count = array ? static_cast<int>(std::min<std::size_t>(array->size(), 1000)) : -1;
-    if (count < parameter.count_low || count > parameter.count_high)
-      fail_value(node, path, got_text(node), allowed);
     std::vector<double> numbers;
-    for (const toml::node& element : *array) {
+    for (const toml::node& element : checked_array(node, path, parameter, allowed)) {
       const std::string its_path = fmt::format("{}[{}]", path, numbers.size() / 2);
       const toml::array* pair = element.as_array();
       if (!pair || pair->size() != 2) fail_value(element, its_path, got_text(element), allowed);

@@ -187,13 +187,7 @@ bool has_part_inside(std::array<glm::dvec3, 3> corners, const View& view) {
   for (const glm::vec4& plane : frustum_planes(view)) {
     const glm::dvec4 n(plane);
     const auto side = [&](glm::dvec3 p) { return glm::dot(glm::dvec3(n), p) + n.w; };
-    std::vector<glm::dvec3> inside;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      if (side(a) >= 0.0) inside.push_back(a);
-      if (side(a) * side(b) < 0.0) inside.push_back(glm::mix(a, b, side(a) / (side(a) - side(b))));
-    }
-    polygon = inside;
+    polygon = clipped(polygon, side);
   }
   return !polygon.empty();
 }

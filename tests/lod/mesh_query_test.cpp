@@ -262,13 +262,7 @@ bool clipped_is_left(std::array<glm::dvec3, 3> corners, glm::dvec3 low, glm::dve
     const auto side = [&](glm::dvec3 p) {
       return face % 2 == 0 ? p[axis] - low[axis] : high[axis] - p[axis];
     };
-    std::vector<glm::dvec3> inside;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      if (side(a) >= 0.0) inside.push_back(a);
-      if (side(a) * side(b) < 0.0) inside.push_back(glm::mix(a, b, side(a) / (side(a) - side(b))));
-    }
-    polygon = inside;
+    polygon = clipped(polygon, side);
   }
   return !polygon.empty();
 }

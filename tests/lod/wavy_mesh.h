@@ -67,4 +67,16 @@ inline WavyMesh make_wavy_mesh(std::uint64_t seed, int triangles, double height_
   return wavy;
 }
 
+// The part of a convex polygon where side(p) >= 0.
+template <class Side>
+std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, Side side) {
+  std::vector<glm::dvec3> inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    if (side(a) >= 0.0) inside.push_back(a);
+    if (side(a) * side(b) < 0.0) inside.push_back(glm::mix(a, b, side(a) / (side(a) - side(b))));
+  }
+  return inside;
+}
+
 }  // namespace swell::lod
