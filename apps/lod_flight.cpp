@@ -110,6 +110,7 @@ FlightRow measure_flight(const Flight& flight, Workers& workers) {
   ocean::SeaFrame sea_frame;
   TextureCoordinates texture_coordinates;
   lod::Mesh mesh;
+  std::uint64_t mesh_revision = 0;
   Vertices vertices;
   FlightRow row{.speed_mps = flight.speed_mps, .frames = flight.frames};
   std::vector<double> lod_ms, module_ms;
@@ -123,7 +124,8 @@ FlightRow measure_flight(const Flight& flight, Workers& workers) {
     request.max_height_m = bound_m;
     const Stopwatch stopwatch;
     const lod::AdaptStatistics statistics = roam.adapt(request);
-    roam.extract_mesh(mesh);
+    if (mesh_revision != roam.revision()) roam.extract_mesh(mesh);
+    mesh_revision = roam.revision();
     const double lod_end_ms = stopwatch.elapsed_ms();
     ocean::advance(sea, t_s, sea_frame, workers);
     place(domain, mesh, vertices);

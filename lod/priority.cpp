@@ -120,7 +120,8 @@ PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level) {
   const float dx = distance_to(ix), dy = distance_to(iy);
   const float distance2 = (dx * dx + dy * dy) + frame.distance2_z;
   const int exponent = 127 + (level & frame.level_mask);
-  float key = distance2 * std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23);
+  const float inv_size2 = std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23);
+  float key = distance2 * std::max(inv_size2, frame.least_inv_size2);
   if (frame.has_factors) {
     if (frame.relief.counts)
       key *= relief_factor(frame.relief, relief_in(frame, box_x, box_y, level), ix, iy);

@@ -3,7 +3,8 @@
 // The priority of a diamond, in [0, 1], is 1 / sqrt(1 + k), with
 //   kProjectedSize    k = (d / size)^2, d the distance from the eye to the box around the diamond
 //                     and all its descendants (between the heights of the request), size the
-//                     diamond's width, here sqrt(2^-level) times the domain's
+//                     diamond's width, here sqrt(2^-level) times the domain's, or the request's
+//                     largest size if that is less
 //   kInverseDistance  k = d^2: the paper's 1 / distance, whatever the size; it refines all of the
 //                     nearest part to the last level first, and so suits lattices of few bits
 // and 0 (k = infinity) if that box lies outside the view. k is then multiplied by what is asked for
@@ -77,7 +78,8 @@ struct PriorityFrame {
     float nx, ny, max_z;
   };
   std::array<Plane, 5> planes{};
-  int level_mask = -1;  // -1: sizes count; 0: they do not
+  int level_mask = -1;           // -1: sizes count; 0: they do not
+  float least_inv_size2 = 0.0f;  // of the largest size, in units of the domain's
 
   bool has_factors = false;  // any of these:
   ReliefFrame relief;

@@ -17,6 +17,7 @@ void check_request(const AdaptRequest& request) {
   SWELL_CHECK(std::isfinite(request.min_height_m) && std::isfinite(request.max_height_m) &&
                   request.min_height_m <= request.max_height_m,
               "min_height_m={} max_height_m={}", request.min_height_m, request.max_height_m);
+  SWELL_CHECK(request.largest_size_m > 0.0, "largest_size_m={}", request.largest_size_m);
   SWELL_CHECK(std::isfinite(request.frustum_margin) && request.frustum_margin >= 0.0f,
               "frustum_margin={}", request.frustum_margin);
 }
@@ -119,7 +120,12 @@ PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& dom
   const Lattice lattice(domain);
   PriorityFrame frame;
   frame.lattice_bits = domain.lattice_bits;
-  frame.level_mask = request.priority == Priority::kProjectedSize ? -1 : 0;
+  if (request.priority == Priority::kProjectedSize) {
+    const double sizes = domain.size_m / std::max(request.largest_size_m, lattice.step_m);
+    frame.least_inv_size2 = static_cast<float>(sizes * sizes);
+  } else {
+    frame.level_mask = 0;
+  }
 
   // The eye on the lattice.
   const glm::dvec3 eye = request.view.eye_world;

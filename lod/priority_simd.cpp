@@ -197,7 +197,8 @@ HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const
   const auto distance2 =
       hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Set(d, frame.distance2_z));
   const auto exponent = hn::Add(hn::And(level, hn::Set(di, frame.level_mask)), hn::Set(di, 127));
-  auto key = hn::Mul(distance2, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
+  const auto inv_size2 = hn::BitCast(d, hn::ShiftLeft<23>(exponent));
+  auto key = hn::Mul(distance2, hn::Max(inv_size2, hn::Set(d, frame.least_inv_size2)));
   if constexpr (kWithFactors) {
     if (frame.relief.counts) {
       const Relief relief = ReliefIn(frame, box, level);

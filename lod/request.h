@@ -13,7 +13,7 @@ namespace swell::lod {
 
 // Formulas, and why a child never has more than its parents: lod/priority.h.
 enum class Priority : std::uint8_t {
-  kProjectedSize,    // bound of the triangle's size over its nearest distance (default)
+  kProjectedSize,    // bound of the triangle's size, or error, over its nearest distance (default)
   kInverseDistance,  // the paper's base variant: the nearest part to the last level first
 };
 
@@ -57,6 +57,9 @@ struct AdaptRequest {
   View view;
   int triangle_budget = 10000;  // >= 2; never exceeded
   Priority priority = Priority::kProjectedSize;
+  // Triangles wider than this are not further from the surface than these are, and kProjectedSize
+  // counts them as this wide: half the mean wavelength for waves. > 0.
+  double largest_size_m = std::numeric_limits<double>::infinity();
   float min_height_m = 0.0f, max_height_m = 0.0f;  // of all the surface, at all times
   // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
   float frustum_margin = 0.0f;

@@ -109,6 +109,7 @@ void reset_tree(Tree& tree) {
   tree.free_node = -1;
   tree.triangles = 2;
   tree.split_count = 0;
+  ++tree.revision;
   const int middle = half_size(tree.domain.lattice_bits, 0);
   const int root = make_node(tree, {middle, middle}, 0);
   enqueue(tree, tree.split_queue, root);
@@ -130,6 +131,7 @@ void split(Tree& tree, int i) {
   tree.node(i).split = true;
   tree.triangles += added_triangles(tree, i);
   ++tree.split_count;
+  ++tree.revision;
 
   // The parents cannot be merged any more.
   for (const int p : tree.node(i).parent) {
@@ -170,6 +172,7 @@ void merge(Tree& tree, int i) {
   tree.node(i).split = false;
   tree.triangles -= added_triangles(tree, i);
   --tree.split_count;
+  ++tree.revision;
   enqueue(tree, tree.split_queue, i);
 }
 

@@ -106,6 +106,7 @@ PatchWaves make_patch_waves(const WindSea& sea, WaveBand band, double length_m, 
       waves.turns_per_s[at] = deep_water_omega(std::sqrt(k2), sea.gravity_mps2) / (2.0 * kPi);
       // The real wave 2 |a| cos(...) has variance 2 |a|^2.
       waves.variance_m2 += 2.0 * std::norm(a);
+      waves.variance_k_m += 2.0 * std::norm(a) * std::sqrt(k2);
       waves.slope_variance += 2.0 * std::norm(a) * k2;
       waves.reach =
           std::max({waves.reach, std::abs(wave_count(i, size)), std::abs(wave_count(j, size))});

@@ -39,6 +39,7 @@ struct PatchWaves {
   int size = 0;
   int reach = 0;                // every wave has |wave count| <= reach on both axes
   double variance_m2 = 0.0;     // of the height, mean over time and place
+  double variance_k_m = 0.0;    // the same, each wave's times its wave number
   double slope_variance = 0.0;  // of both slopes together
   // h(k, t) = (cos_re c + sin_re s) + i (cos_im c + sin_im s), c + i s = e^(i omega t).
   // In the order of wave_position. DC and the Nyquist row and column are zero.

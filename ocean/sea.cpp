@@ -179,6 +179,20 @@ double Sea::significant_height_m() const {
   return 4.0 * std::sqrt(variance);
 }
 
+double Sea::mean_wavelength_m() const {
+  double variance = 0.0, variance_k = 0.0;
+  for (const PatchWaves& waves : state_->patches) {
+    variance += waves.variance_m2;
+    variance_k += waves.variance_k_m;
+  }
+  for (const SineWave& sine : state_->description.sines) {
+    const double square = 0.5 * sine.amplitude_m * sine.amplitude_m;
+    variance += square;
+    variance_k += square * kTwoPi / sine.wavelength_m;
+  }
+  return variance > 0.0 ? kTwoPi * variance / variance_k : 0.0;
+}
+
 double wave_time_s(const SeaDescription& sea, double t_s) {
   // Beyond 2^53 s the fractions of a turn are arbitrary, but products must stay finite.
   if (sea.loop_s == 0.0) return std::fmod(t_s, 0x1p100);

@@ -89,6 +89,9 @@ class Sea {
   // place of the waves that were drawn for this seed.
   double significant_height_m() const;
 
+  // 2 pi / the mean wave number of the same waves, weighted by their variances; 0 without waves.
+  double mean_wavelength_m() const;
+
   struct State;
   const State& state() const { return *state_; }
 

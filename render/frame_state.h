@@ -27,9 +27,10 @@ struct Surface {
   lod::Domain domain;  // whose lattice the mesh is on
   lod::AdaptStatistics statistics;
   lod::Mesh mesh;
-  std::vector<glm::vec2> offset;  // per vertex: x, y relative to the eye [m]
-  std::vector<float> height_m;    // per vertex
-  std::vector<glm::vec4> p_clip;  // in the window's view
+  std::uint64_t mesh_revision = 0;  // the ROAM's that the mesh was written from, 0: from none
+  std::vector<glm::vec2> offset;    // per vertex: x, y relative to the eye [m]
+  std::vector<float> height_m;      // per vertex
+  std::vector<glm::vec4> p_clip;    // in the window's view
 };
 
 // Apparent depth over true depth of a point below the water seen from the eye, at an angle theta

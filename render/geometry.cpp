@@ -20,9 +20,9 @@ constexpr double kUvNoiseCells_per_s = 0.25;
 constexpr float kCoastSlopeScale = 1.5f / 127.0f;  // steeper fronts of breaking waves are clamped
 constexpr std::size_t kChunk = 2048;               // vertices a task
 
-// Vertices every 2 m, 0.5 m or 0.125 m at the closest. A small budget is better spent further off,
+// Vertices every 1 m, 0.25 m or 0.125 m at the closest. A small budget is better spent further off,
 // a large one has nothing left to do there: docs/lod.md has the errors of all three.
-int sea_lattice_bits(int budget) { return budget < 4000 ? 15 : budget <= 40000 ? 17 : 19; }
+int sea_lattice_bits(int budget) { return budget < 4000 ? 16 : budget <= 40000 ? 18 : 19; }
 
 lod::Domain sea_domain(const View& view, int budget) {
   const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
@@ -66,22 +66,28 @@ void adapt_surface(const lod::Domain& domain, const lod::AdaptRequest& request, 
   if (!surface.roam || surface.max_triangles < capacity) {
     surface.roam.emplace(domain, capacity);
     surface.max_triangles = capacity;
+    surface.mesh_revision = 0;
   }
   surface.roam->set_domain(domain);
   surface.statistics = surface.roam->adapt(request);
-  surface.roam->extract_mesh(surface.mesh);
   surface.domain = domain;
+  if (surface.mesh_revision == surface.roam->revision()) return;  // a still camera
+  surface.roam->extract_mesh(surface.mesh);
+  surface.mesh_revision = surface.roam->revision();
 }
 
 void triangulate_water(const Frame& frame) {
   const scene::Detail& detail = frame.world.scene.detail;
   const int budget = frame.options.water_triangles;
   Surface& water = frame.ws.water;
+  if (detail.triangulation != scene::Triangulation::kRoam) water.mesh_revision = 0;
   switch (detail.triangulation) {
     case scene::Triangulation::kRoam: {
       const float bound = frame.world.height_bound_m();
       lod::AdaptRequest request = request_for(frame, budget, -bound, bound);
       request.max_slope = kSteepestWave;
+      if (const double mean_m = frame.world.mean_wavelength_m(); mean_m > 0.0)
+        request.largest_size_m = 0.5 * mean_m;
       request.focuses = frame.world.focuses;
       adapt_surface(sea_domain(frame.view, budget), request, frame.options.triangle_capacity,
                     water);

@@ -69,6 +69,11 @@ struct World::State {
     return static_cast<float>(sea->height_bound_m()) +
            (coast ? coast->trains.height_bound_m : 0.0f);
   }
+  // 0 without waves. The trains of a coast are of the spectrum's length, if there is one.
+  double mean_wavelength_m() const {
+    const double sea_m = sea->mean_wavelength_m();
+    return sea_m == 0.0 && coast ? static_cast<double>(coast->peak_wavelength_m) : sea_m;
+  }
 };
 
 // Points a side of the maps that lie over a coast's square.

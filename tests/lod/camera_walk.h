@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "lod/relief_bounds.h"
@@ -62,6 +64,9 @@ class CameraWalk {
     request.max_height_m = height_;
     if (uniform() < 0.1) priority_ = other(priority_);
     request.priority = priority_;
+    if (uniform() < 0.1) largest_size_m_ = 2.0 * domain_.size_m * std::pow(uniform(), 4.0);
+    if (uniform() < 0.05) largest_size_m_ = std::numeric_limits<double>::infinity();
+    request.largest_size_m = largest_size_m_;
     if (uniform() < 0.2) focuses_.clear();
     if (uniform() < 0.3) add_focuses();
     for (Focus& f : focuses_) f.centre_m += 0.3 * f.radius_m * glm::dvec2(centred(), centred());
@@ -130,6 +135,7 @@ class CameraWalk {
   PriorityFactors factors_;
   std::vector<Focus> focuses_;
   Priority priority_ = Priority::kProjectedSize;
+  double largest_size_m_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace swell::lod

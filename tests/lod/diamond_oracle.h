@@ -153,7 +153,11 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
   }
   const float distance2 =
       x.distance() * x.distance() + y.distance() * y.distance() + z.distance() * z.distance();
-  float k = r.priority == Priority::kProjectedSize ? std::ldexp(distance2, d.level) : distance2;
+  float k = distance2;
+  if (r.priority == Priority::kProjectedSize) {
+    const double largest = domain.size_m / std::max(r.largest_size_m, step_m);
+    k *= std::max(std::ldexp(1.0f, d.level), static_cast<float>(largest * largest));
+  }
   const PriorityFactors& f = r.factors;
 
   // The normal (-sx, -sy, 1) against the direction to the eye, for all slopes and places.

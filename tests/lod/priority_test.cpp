@@ -74,6 +74,10 @@ TEST(Priority, KeysAreTheSquaredDistanceInUnitsOfTheSize) {
   EXPECT_EQ(key(8, 8, 0), 24.0f * 24.0f + 100.0f);             // clipped to the domain
   EXPECT_EQ(key(9, 9, 6), 64.0f * (28.0f * 28.0f + 100.0f));   // reaches 3 up to y = 12
   EXPECT_EQ(key(8, 9, 7), 128.0f * (29.0f * 29.0f + 100.0f));  // reaches 2 up to y = 11
+  request.largest_size_m = 2.0;
+  EXPECT_EQ(key(8, 8, 0), 64.0f * (24.0f * 24.0f + 100.0f)) << "no worse than one of 2 m";
+  EXPECT_EQ(key(9, 9, 6), 64.0f * (28.0f * 28.0f + 100.0f)) << "2 m wide";
+  EXPECT_EQ(key(8, 9, 7), 128.0f * (29.0f * 29.0f + 100.0f)) << "1.4 m wide";
   request.priority = Priority::kInverseDistance;
   EXPECT_EQ(key(9, 9, 6), 28.0f * 28.0f + 100.0f);
 }

@@ -98,6 +98,24 @@ TEST(Roam, NothingChangesForACameraThatStandsStill) {
   EXPECT_GE(again.triangles, 9999);
 }
 
+TEST(Roam, ItsRevisionRisesWithTheTriangulationOnly) {
+  Roam roam(sea(), 5000);
+  const std::uint64_t fresh = roam.revision();
+  EXPECT_GE(fresh, 1u);
+  roam.adapt(over_the_sea({0.0, 0.0, 10.0}, 5000));
+  const std::uint64_t adapted = roam.revision();
+  EXPECT_GT(adapted, fresh);
+  roam.adapt(over_the_sea({0.0, 0.0, 10.0}, 5000));
+  roam.set_origin({-100.0, 0.0});
+  EXPECT_EQ(roam.revision(), adapted) << "a still camera, a domain elsewhere";
+  const AdaptStatistics fewer = roam.adapt(over_the_sea({0.0, 0.0, 10.0}, 4000));
+  EXPECT_GT(fewer.merges, 0);
+  const std::uint64_t merged = roam.revision();
+  EXPECT_GT(merged, adapted);
+  roam.set_domain({{-100.0, -50.0}, 4096.0, 11});
+  EXPECT_GT(roam.revision(), merged) << "two triangles, on another lattice";
+}
+
 // LOD-16: 30 m/s at 60 frames a second.
 TEST(Roam, AFlightChangesAFewPerCentOfTheMeshAFrame) {
   Roam roam(sea(), 10000);

@@ -269,6 +269,24 @@ TEST(Sea, AddsSinesToItsHeightBoundAndSignificantHeight) {
   EXPECT_DOUBLE_EQ(sea.significant_height_m(), 4.0 * std::sqrt(0.125 + 0.03125));
 }
 
+TEST(Sea, WeighsItsWaveNumbersByTheirVariances) {
+  SeaDescription description = small_sea();
+  description.spectrum = false;
+  EXPECT_EQ(Sea(description).mean_wavelength_m(), 0.0) << "no waves";
+  description.sines = {{.amplitude_m = 2.0, .wavelength_m = 30.0},
+                       {.amplitude_m = -1.0, .wavelength_m = 10.0}};
+  EXPECT_DOUBLE_EQ(Sea(description).mean_wavelength_m(), 5.0 / (4.0 / 30.0 + 1.0 / 10.0));
+
+  // Pierson-Moskowitz in wave numbers, k^-3 exp(-5/4 (k_m / k)^2), has mean sqrt(5/4 pi) k_m.
+  description = {};
+  description.wind_speed_mps = 10.0;
+  description.resolution = 256;
+  description.patch_lengths_m = {1500.0, 97.0};
+  const double peak_rad_s = 2.0 * kPiRef * 0.13 * 9.81 / 10.0;
+  const double mean_k = std::sqrt(1.25 * kPiRef) * peak_rad_s * peak_rad_s / 9.81;
+  EXPECT_NEAR(Sea(description).mean_wavelength_m() * mean_k / (2.0 * kPiRef), 1.0, 0.05);
+}
+
 TEST(Sea, NamesTheValueAndRangeOfABadDescription) {
   struct Case {
     std::function<void(SeaDescription&)> spoil;

@@ -33,7 +33,7 @@ TEST_P(EachSea, BackgroundIsDrawnWithinItsError) {
     scene.detail.background_error_px = error_px;
     int seen = 0, left_out = 0;
     double worst_px = 0.0;
-    draw_shots(scene, 4, kSize_px, 5000,
+    draw_shots(scene, 8, kSize_px, 5000,
                [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
                  for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
                    glm::dvec2 drawn_px, true_px;

@@ -6,9 +6,10 @@
 // curvature of at most K it is at most K s^2 / 8 off; let L be at most K s / 4. Where the priority
 // says that the diamond's width is 1 / r of its distance d from the eye, s <= sqrt(2) d / r, and
 // the error looks at most
-//   f q / (c^2 - c q) pixels,  q = L / (sqrt(2) r),
-// large, f the focal length in pixels and c the cosine of half the picture's diagonal angle. L and
-// K are bounds of that moment's waves.
+//   f q / (c^2 - c q) pixels,  q = min(L / (sqrt(2) r), 2 H / d),
+// large, f the focal length in pixels and c the cosine of half the picture's diagonal angle:
+// heights of at most H are at most 2 H apart. L and K are bounds of that moment's waves, H is one
+// for ever.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,13 +43,14 @@ double steepest_of(const ocean::PatchFrame& patch) {
 
 // Bounds of the open sea in an area: its waves, and their fading over the area's outer tenth.
 struct Bounds {
-  double slope, curvature;
+  double slope, curvature, height_m;
 
   // Of the distance to a triangle with this longest edge, per half edge.
   double over(double edge_m) const { return std::min(slope, 0.25 * curvature * edge_m); }
 };
 Bounds bounds_of(const ocean::Sea& sea, const ocean::SeaFrame& frame, glm::dvec2 area_m) {
-  Bounds bounds{sea.height_bound_m() * glm::length(1.5 / (0.1 * area_m)), HUGE_VAL};
+  const double height_m = sea.height_bound_m();
+  Bounds bounds{height_m * glm::length(1.5 / (0.1 * area_m)), HUGE_VAL, height_m};
   for (const ocean::PatchFrame& patch : frame.patches) bounds.slope += steepest_of(patch);
   double sines = 0.0;
   for (const ocean::SineFrame& sine : frame.sines) {
@@ -112,9 +114,12 @@ void check_triangle(const Shot& shot, const scene::WaterSurface& surface, const 
   for (int c = 0; c < 3; ++c) corner[c] = {place_of(drawn, v[c]), drawn.height_m[v[c]]};
   const double edge_m = glm::distance(glm::dvec2(corner[0]), glm::dvec2(corner[2]));
   // The bounds.
-  const double slope = bounds.over(edge_m), bound_m = 0.5 * slope * edge_m + 1e-5;
-  const double r = distance_over_width(priority, drawn, v, drawn.mesh.level[triangle]);
-  const double q = slope / (std::sqrt(2.0) * r),
+  const double slope = bounds.over(edge_m), apart_m = 2.0 * bounds.height_m;
+  const double bound_m = std::min(0.5 * slope * edge_m, apart_m) + 1e-5;
+  const int level = drawn.mesh.level[triangle];
+  const double r = distance_over_width(priority, drawn, v, level);
+  const double d = r * drawn.domain.size_m * std::sqrt(std::ldexp(1.0, -level));
+  const double q = std::min(slope / (std::sqrt(2.0) * r), apart_m / d),
                cosine = 1.0 / std::sqrt(1.0 + view.tan_half_x * view.tan_half_x +
                                         view.tan_half_y * view.tan_half_y);
   const double focal_px = 0.5 * view.height_px / view.tan_half_y;

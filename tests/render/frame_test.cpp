@@ -166,6 +166,30 @@ TEST_P(EachScene, WorkspaceOfAnotherSizeAndSceneLeavesNoTrace) {
   EXPECT_EQ(difference(draw(world, 2.0).target, target), "");
 }
 
+// A still camera, whose mesh is not written anew: but for another triangulation or more storage.
+TEST(Frame, OtherTriangulationsInBetweenLeaveNoTrace) {
+  scene::Scene radial_scene = load_world("open_ocean").scene();
+  radial_scene.detail.triangulation = scene::Triangulation::kRadial;
+  const World &roam = world_of("open_ocean"), radial(radial_scene);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const auto frame = [&](const World& world, int capacity) {
+    FrameOptions options = few_triangles();
+    options.triangle_capacity = capacity;
+    render_frame(world, view_of(world, 2.0), 2.0, options, workspace, target, workers);
+  };
+  const Target alone = draw(roam, 2.0).target;
+  for (const int capacity : {0, 0, 9000}) {
+    frame(roam, capacity);
+    EXPECT_EQ(difference(alone, target), "") << capacity;
+  }
+  frame(radial, 9000);
+  EXPECT_NE(difference(alone, target), "");
+  frame(roam, 9000);
+  EXPECT_EQ(difference(alone, target), "");
+}
+
 TEST_P(EachScene, EveryVisiblePixelIsShadedOnce) {
   const World& world = world_of(GetParam());
   const FrameStatistics s = draw(world, 1.0).statistics;
