@@ -47,7 +47,7 @@ struct PriorityFactors {
 struct AdaptLimits {
   // Splits and merges, the most important first; merges that the budget asks for come on top.
   int max_operations = std::numeric_limits<int>::max();
-  // No operation begins much later. Other runs then give other meshes: for viewers alone.
+  // Few operations begin later. Other runs then give other meshes: for viewers alone.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   // Only one of so many groups of priorities is worked out anew in a call, in turn: >= 1.
   int priority_groups = 1;

@@ -11,11 +11,12 @@
 namespace swell::lod {
 namespace {
 
-bool is_over(const AdaptLimits& limits, int operations) {
+// Not by the clock before the first few steps, so that every call gets on.
+bool is_over(const AdaptLimits& limits, int operations, int step) {
   using Clock = std::chrono::steady_clock;
-  constexpr int kOperationsPerLook = 16;  // at the clock
+  constexpr int kStepsPerLook = 16;  // at the clock
   if (operations >= limits.max_operations) return true;
-  return limits.deadline != Clock::time_point::max() && operations % kOperationsPerLook == 0 &&
+  return limits.deadline != Clock::time_point::max() && step % kStepsPerLook == 0 &&
          Clock::now() >= limits.deadline;
 }
 
@@ -34,7 +35,7 @@ bool is_over(const AdaptLimits& limits, int operations) {
 AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& limits) {
   AdaptStatistics done;
   const int operation_cap = (limits.priority_groups > 1 ? 4 : 2) * tree.max_triangles;
-  for (;;) {
+  for (int step = 1;; ++step) {
     const std::optional<QueueMember> best = tree.split_queue.first();
     const bool wanted = best && best->key != kCulledKey;
     const bool fits = wanted && tree.triangles + added_triangles(tree, best->node) <= budget;
@@ -43,7 +44,7 @@ AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& 
                                     (wanted && *best < *worst));
     if (!fits && !too_much) break;
 
-    done.stopped = tree.triangles <= budget && is_over(limits, done.splits + done.merges);
+    done.stopped = tree.triangles <= budget && is_over(limits, done.splits + done.merges, step);
     if (done.stopped) break;
     done.operation_cap_hit = done.splits + done.merges >= operation_cap;
     if (done.operation_cap_hit) break;

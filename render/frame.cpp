@@ -53,6 +53,7 @@ FrameStatistics statistics_of(const Workspace::State& ws) {
   s.terrain_triangles = ws.land.statistics.triangles;
   s.splits = ws.water.statistics.splits + ws.land.statistics.splits;
   s.merges = ws.water.statistics.merges + ws.land.statistics.merges;
+  s.lod_stopped = ws.water.statistics.stopped || ws.land.statistics.stopped;
   for (const int covered : ws.visibility.covered)
     s.visible_pixels += static_cast<std::uint64_t>(std::max(covered, 0));
   for (const int shaded : ws.shaded) s.shaded_pixels += static_cast<std::uint64_t>(shaded);
@@ -82,6 +83,9 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              Workers& workers) {
   SWELL_CHECK(asked.picture_scale > 0.0 && asked.picture_scale <= 1.0, "picture_scale={}",
               asked.picture_scale);
+  SWELL_CHECK(asked.lod_operations >= 0 && asked.lod_ms >= 0.0 && asked.lod_groups >= 1,
+              "lod_operations={} lod_ms={} lod_groups={}", asked.lod_operations, asked.lod_ms,
+              asked.lod_groups);
   SWELL_CHECK(view.width_px <= raster::kMaxViewport && view.height_px <= raster::kMaxViewport,
               "size={}x{}", view.width_px, view.height_px);
   const ScopedFloatEnvironment ieee;

@@ -69,6 +69,11 @@ struct FrameOptions {
   // Storage for so many triangles of each surface at once: a later frame that asks for more than
   // any before, but no more than this, need not build its triangulation anew. Changes no pixel.
   int triangle_capacity = 0;
+  // Bounds on triangulating each surface in one frame, 0: none; the most important is done first,
+  // the rest in the frames after. Pictures then depend on the frames before them: for viewers.
+  int lod_operations = 0;    // splits and merges
+  double lod_ms = 0.0;       // time
+  int lod_groups = 1;        // of priorities, one of which is worked out anew
   bool wireframe = false;    // triangle edges, tinted by level of detail
   bool keep_linear = false;  // fill Target::linear
 };
@@ -88,6 +93,7 @@ struct FrameStatistics {
   double frame_ms = 0.0;
   int water_triangles = 0, terrain_triangles = 0;
   int splits = 0, merges = 0;
+  bool lod_stopped = false;          // at one of the bounds, with work left
   std::uint64_t visible_pixels = 0;  // pixels that show water, terrain or an object
   std::uint64_t shaded_pixels = 0;   // surface shader runs; equal to visible_pixels
 };

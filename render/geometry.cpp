@@ -1,6 +1,7 @@
 // Stages 1 to 3: the sea at time t, the triangulations for the view, the vertices.
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 
 #include "lod/plane.h"
@@ -46,6 +47,17 @@ lod::PriorityFactors priority_factors(const scene::Scene& scene) {
   return factors;
 }
 
+lod::AdaptLimits adapt_limits(const FrameOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  lod::AdaptLimits limits;
+  if (options.lod_operations > 0) limits.max_operations = options.lod_operations;
+  if (options.lod_ms > 0.0)
+    limits.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                         std::chrono::duration<double, std::milli>(options.lod_ms));
+  limits.priority_groups = options.lod_groups;
+  return limits;
+}
+
 lod::AdaptRequest request_for(const Frame& frame, int budget, float low_m, float high_m) {
   const scene::Detail& detail = frame.world.scene.detail;
   lod::AdaptRequest request;
@@ -56,6 +68,7 @@ lod::AdaptRequest request_for(const Frame& frame, int budget, float low_m, float
   request.min_height_m = low_m;
   request.max_height_m = high_m;
   request.factors = priority_factors(frame.world.scene);
+  request.limits = adapt_limits(frame.options);
   return request;
 }
 

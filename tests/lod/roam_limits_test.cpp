@@ -91,17 +91,20 @@ TEST(RoamLimits, TheBudgetHoldsWhateverTheLimitIs) {
   EXPECT_EQ(find_mesh_fault(mesh_of(roam), 17), "");
 }
 
-TEST(RoamLimits, APassedDeadlineLeavesTheMeshAndAFarOneChangesNothing) {
+TEST(RoamLimits, APassedDeadlineAllowsAFewStepsAndAFarOneChangesNothing) {
   Roam roam(kSea, 10000);
   AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 10000);
   roam.adapt(request);
   const Mesh before = mesh_of(roam);
   AdaptRequest there = over_the_sea({200.0, 500.0, 35.0}, 10000);
   there.limits.deadline = Clock::now();
-  const AdaptStatistics late = roam.adapt(there);
-  EXPECT_EQ(late.splits + late.merges, 0);
-  EXPECT_TRUE(late.stopped);
-  EXPECT_EQ(mesh_of(roam).indices, before.indices);
+  for (int call = 0; call < 5; ++call) {
+    const AdaptStatistics late = roam.adapt(there);
+    EXPECT_TRUE(late.stopped);
+    EXPECT_GT(late.splits + late.merges, 0) << "even without time it gets on";
+    EXPECT_LE(late.splits + late.merges, 50);
+  }
+  EXPECT_NE(mesh_of(roam).indices, before.indices);
   there.limits.deadline = Clock::now() + std::chrono::hours(1);
   EXPECT_FALSE(roam.adapt(there).stopped);
   EXPECT_EQ(mesh_of(roam).indices, rebuilt(there, kSea).indices);

@@ -256,6 +256,44 @@ TEST(Frame, ChangingTriangleCountsWithinTheCapacityAllocatesNothing) {
   EXPECT_EQ(allocation_count() - before, 0u);
 }
 
+// Constant frame time: a cut to another place is worked off over some frames.
+TEST(Frame, BoundedTriangulationReachesThePictureOfOneWithoutBounds) {
+  const World& world = world_of("lagoon");
+  FrameOptions unbounded = few_triangles();
+  unbounded.terrain_triangles = 3000;
+  const Target alone = draw(world, 2.0, 2, unbounded).target;
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const auto frame = [&](const FrameOptions& options, glm::dvec3 moved_m) {
+    View view = view_of(world, 2.0);
+    view.eye_world += moved_m;
+    return render_frame(world, view, 2.0, options, workspace, target, workers);
+  };
+  // The number of frames until nothing is left to do, whatever the group of priorities.
+  const auto frames_to_settle = [&](const FrameOptions& options) {
+    int frames = 0;
+    for (int settled = 0; settled < options.lod_groups && frames < 1000; ++frames)
+      settled = frame(options, {}).lod_stopped ? 0 : settled + 1;
+    return frames;
+  };
+
+  FrameOptions by_work = unbounded, by_time = unbounded;
+  by_work.lod_operations = 1000;
+  const FrameStatistics first = frame(by_work, {});
+  EXPECT_TRUE(first.lod_stopped);
+  EXPECT_EQ(first.splits, 2 * 1000) << "sea and land";
+  EXPECT_NE(difference(alone, target), "");
+  EXPECT_GT(frames_to_settle(by_work), 1);
+  EXPECT_EQ(difference(alone, target), "");
+
+  by_time.lod_ms = 0.1;
+  by_time.lod_groups = 3;
+  frame(unbounded, {40.0, -30.0, 2.0});
+  EXPECT_GT(frames_to_settle(by_time), 3);
+  EXPECT_EQ(difference(alone, target), "");
+}
+
 TEST(Frame, CallersFloatEnvironmentChangesNoPixel) {
   const World& world = world_of("lagoon");
   const Picture reference = draw(world, 2.0);
