@@ -1,22 +1,23 @@
-// swell-bench's subcommands: each adds itself to the command line and says what to run.
+// swell-bench's modes: each adds itself to the program's command line and says what to run.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <functional>
 
+#include "apps/command_line.h"
+
 namespace swell::apps {
 
-struct Subcommand {
-  CLI::App* app;
-  std::function<void()> run;  // after `app` has been parsed
+struct BenchMode {
+  CommandLine line;
+  std::function<void()> run;  // after the command line has been parsed
 };
 
-Subcommand add_bench_frame(CLI::App& app);
-Subcommand add_bench_lod(CLI::App& app);
-Subcommand add_bench_query(CLI::App& app);
-Subcommand add_bench_sea_state(CLI::App& app);
-Subcommand add_bench_waves(CLI::App& app);
+BenchMode add_bench_frame(CommandLine& program);
+BenchMode add_bench_lod(CommandLine& program);
+BenchMode add_bench_query(CommandLine& program);
+BenchMode add_bench_sea_state(CommandLine& program);
+BenchMode add_bench_waves(CommandLine& program);
 
 class Stopwatch {
  public:

@@ -158,21 +158,19 @@ void run_frame_bench(const FrameBench& bench) {
 
 }  // namespace
 
-Subcommand add_bench_frame(CLI::App& app) {
+BenchMode add_bench_frame(CommandLine& program) {
   const auto bench = std::make_shared<FrameBench>();
-  CLI::App* sub = app.add_subcommand("frame", "Whole frames of a scene; frame k is at k / 60 s");
-  add_frame_setup(*sub, bench->setup);
-  add_quality_options(*sub, bench->setup.frame);
-  add_integer(*sub, "--frames", bench->frames, 1, 1000000, "Frames to measure");
-  add_integer(*sub, "--warmup", bench->warm_up, 0, 10000, "Frames to draw before them");
-  add_number(*sub, "--budget-ms", bench->budget_ms, 1e-3, 1e6, "Time that a frame may take");
-  sub->add_flag("--govern", bench->govern,
+  CommandLine line = program.add_mode("frame", "Whole frames of a scene; frame k is at k / 60 s");
+  add_frame_setup(line, bench->setup);
+  add_quality_options(line, bench->setup.frame);
+  add_integer(line, "--frames", bench->frames, 1, 1000000, "Frames to measure");
+  add_integer(line, "--warmup", bench->warm_up, 0, 10000, "Frames to draw before them");
+  add_number(line, "--budget-ms", bench->budget_ms, 1e-3, 1e6, "Time that a frame may take");
+  line.add_flag("--govern", bench->govern,
                 "Lower triangles and scales as far as the budget takes, as the viewer can");
-  sub->add_option("--json", bench->json, "Write the numbers as JSON; - is standard output")
-      ->type_name("FILE");
-  sub->add_option("--trace", bench->trace, "Write a Chrome trace of the measured frames")
-      ->type_name("FILE");
-  return {sub, [bench] { run_frame_bench(*bench); }};
+  add_json_option(line, bench->json);
+  line.add_text("--trace", "FILE", bench->trace, "Write a Chrome trace of the measured frames");
+  return {line, [bench] { run_frame_bench(*bench); }};
 }
 
 }  // namespace swell::apps

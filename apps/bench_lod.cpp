@@ -66,27 +66,25 @@ void run_lod_bench(const LodBench& bench) {
 
 }  // namespace
 
-Subcommand add_bench_lod(CLI::App& app) {
+BenchMode add_bench_lod(CommandLine& program) {
   const auto bench = std::make_shared<LodBench>();
-  CLI::App* sub = app.add_subcommand(
+  CommandLine line = program.add_mode(
       "lod",
       "Level of detail along a low flight, 60 frames a second, over four sine waves. lod_ms: adapt "
       "the triangulation and extract its mesh; module_ms: that, and heights, normals and texture "
       "coordinates of its vertices. Medians; splits and merges of all frames together. Without "
       "--triangles a table of sizes, the last row with a still camera");
-  add_integer(*sub, "--triangles", bench->triangles, 2, 1000000, "Triangles to keep");
-  add_integer(*sub, "--frames", bench->frames, 1, 1000000, "Frames to measure");
-  add_number(*sub, "--speed", bench->speed_mps, 0.0, 100.0, "Of the flight, m/s; 0 stands still");
-  sub->add_flag("--compare", bench->compare,
+  add_integer(line, "--triangles", bench->triangles, 2, 1000000, "Triangles to keep");
+  add_integer(line, "--frames", bench->frames, 1, 1000000, "Frames to measure");
+  add_number(line, "--speed", bench->speed_mps, 0.0, 100.0, "Of the flight, m/s; 0 stands still");
+  line.add_flag("--compare", bench->compare,
                 "Also ROAM, the radial and a uniform grid and the plane of one sea: error in "
                 "pixels and time");
-  add_machine_options(*sub, bench->threads, bench->simd);
-  sub->add_option("--json", bench->json, "Write the numbers as JSON; - is standard output")
-      ->type_name("FILE");
-  sub->add_option("--figures", bench->figures,
-                  "Measure nothing; draw the paper's figures of triangulations as SVG files")
-      ->type_name("FOLDER");
-  return {sub, [bench] { run_lod_bench(*bench); }};
+  add_machine_options(line, bench->threads, bench->simd);
+  add_json_option(line, bench->json);
+  line.add_text("--figures", "FOLDER", bench->figures,
+                "Measure nothing; draw the paper's figures of triangulations as SVG files");
+  return {line, [bench] { run_lod_bench(*bench); }};
 }
 
 }  // namespace swell::apps

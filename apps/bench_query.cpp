@@ -115,15 +115,14 @@ void run_query_bench(const QueryBench& bench) {
 
 }  // namespace
 
-Subcommand add_bench_query(CLI::App& app) {
+BenchMode add_bench_query(CommandLine& program) {
   const auto bench = std::make_shared<QueryBench>();
-  CLI::App* sub = app.add_subcommand("query", "Heights of a scene's sea at scattered points");
-  sub->add_option("--scene", bench->scene_path, "Scene file (TOML)")->required()->type_name("FILE");
-  add_machine_options(*sub, bench->threads, bench->simd);
-  add_integer(*sub, "--points", bench->points, 1, 16777216, "Points of one query");
-  sub->add_option("--json", bench->json, "Write the numbers as JSON; - is standard output")
-      ->type_name("FILE");
-  return {sub, [bench] { run_query_bench(*bench); }};
+  CommandLine line = program.add_mode("query", "Heights of a scene's sea at scattered points");
+  add_scene_option(line, bench->scene_path);
+  add_machine_options(line, bench->threads, bench->simd);
+  add_integer(line, "--points", bench->points, 1, 16777216, "Points of one query");
+  add_json_option(line, bench->json);
+  return {line, [bench] { run_query_bench(*bench); }};
 }
 
 }  // namespace swell::apps

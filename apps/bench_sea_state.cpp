@@ -177,15 +177,14 @@ void run_sea_state(const SeaStateBench& bench) {
 
 }  // namespace
 
-Subcommand add_bench_sea_state(CLI::App& app) {
+BenchMode add_bench_sea_state(CommandLine& program) {
   const auto bench = std::make_shared<SeaStateBench>();
-  CLI::App* sub = app.add_subcommand(
+  CommandLine line = program.add_mode(
       "sea-state", "Wave height of a scene's sea; fails if it is not the sea state asked for");
-  sub->add_option("--scene", bench->scene_path, "Scene file (TOML)")->type_name("FILE");
-  sub->add_flag("--table", bench->table, "Measure every code of both scales instead");
-  sub->add_option("--json", bench->json, "Write the numbers as JSON; - is standard output")
-      ->type_name("FILE");
-  return {sub, [bench] { run_sea_state(*bench); }};
+  line.add_text("--scene", "FILE", bench->scene_path, "Scene file (TOML)");
+  line.add_flag("--table", bench->table, "Measure every code of both scales instead");
+  add_json_option(line, bench->json);
+  return {line, [bench] { run_sea_state(*bench); }};
 }
 
 }  // namespace swell::apps

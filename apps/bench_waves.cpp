@@ -26,10 +26,6 @@ struct WaveFigures {
   Pair centre_m, from_m, to_m;  // empty if not given
 };
 
-void add_point(CLI::App& app, const std::string& name, Pair& value, const std::string& help) {
-  app.add_option(name, value, help)->expected(2)->type_name("X Y");
-}
-
 // As a point; `otherwise` if it was not given.
 glm::dvec2 point(const char* name, const Pair& value, glm::dvec2 otherwise) {
   if (value.empty()) return otherwise;
@@ -107,24 +103,21 @@ void run_waves(const WaveFigures& figures) {
 
 }  // namespace
 
-Subcommand add_bench_waves(CLI::App& app) {
+BenchMode add_bench_waves(CommandLine& program) {
   const auto figures = std::make_shared<WaveFigures>();
-  CLI::App* sub = app.add_subcommand("waves", "Figures of a scene's waves");
-  sub->add_option("--scene", figures->scene_path, "Scene file (TOML)")
-      ->required()
-      ->type_name("FILE");
-  add_number(*sub, "--time", figures->t_s, -1e9, 1e9, "Seconds since the scene's start");
-  sub->add_option("--filter", figures->filter, "Write the spectrum as a filter of wave vectors")
-      ->type_name("F.png");
-  sub->add_option("--map", figures->map, "Write the surface from above")->type_name("F.png");
-  add_point(*sub, "--centre", figures->centre_m, "Middle of the map");
-  add_number(*sub, "--side", figures->side_m, 0.0, 1e6, "Metres along each side; 0: all there is");
-  add_integer(*sub, "--pixels", figures->pixels, 2, 4096, "Side of filter and map");
-  sub->add_option("--section", figures->section, "Write surface and floor along a line")
-      ->type_name("F.svg");
-  add_point(*sub, "--from", figures->from_m, "Where the section begins");
-  add_point(*sub, "--to", figures->to_m, "Where it ends");
-  return {sub, [figures] { run_waves(*figures); }};
+  CommandLine line = program.add_mode("waves", "Figures of a scene's waves");
+  add_scene_option(line, figures->scene_path);
+  add_number(line, "--time", figures->t_s, -1e9, 1e9, "Seconds since the scene's start");
+  line.add_text("--filter", "F.png", figures->filter,
+                "Write the spectrum as a filter of wave vectors");
+  line.add_text("--map", "F.png", figures->map, "Write the surface from above");
+  line.add_pair("--centre", figures->centre_m, "Middle of the map");
+  add_number(line, "--side", figures->side_m, 0.0, 1e6, "Metres along each side; 0: all there is");
+  add_integer(line, "--pixels", figures->pixels, 2, 4096, "Side of filter and map");
+  line.add_text("--section", "F.svg", figures->section, "Write surface and floor along a line");
+  line.add_pair("--from", figures->from_m, "Where the section begins");
+  line.add_pair("--to", figures->to_m, "Where it ends");
+  return {line, [figures] { run_waves(*figures); }};
 }
 
 }  // namespace swell::apps

@@ -27,6 +27,12 @@ std::optional<Number> parse(std::string_view text) {
   return value;
 }
 
+// As the help shows it; nothing for a value below `low`, which means "not given".
+template <class Number>
+std::string default_text(Number value, Number low) {
+  return value >= low ? fmt::format("{}", value) : std::string();
+}
+
 // "AxB" with the given separator as two integers, each in [low, high].
 std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separator, int low,
                                               int high) {
@@ -39,50 +45,50 @@ std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separa
 
 }  // namespace
 
-void add_standard_options(CLI::App& app) {
-  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), version()));
+void add_scene_option(CommandLine& line, std::string& path) {
+  line.add_text("--scene", "FILE", path, "Scene file (TOML)");
+  line.require("--scene");
 }
 
-void add_frame_setup(CLI::App& app, FrameSetup& setup) {
-  app.add_option("--scene", setup.scene_path, "Scene file (TOML)")->required()->type_name("FILE");
-  app.add_option_function<std::string>(
-         "--size", [&setup](const std::string& text) { setup.size = parse_size(text); },
-         "Picture size in pixels")
-      ->type_name("WxH")
-      ->default_str("1280x720");
-  add_machine_options(app, setup.threads, setup.simd);
+void add_frame_setup(CommandLine& line, FrameSetup& setup) {
+  add_scene_option(line, setup.scene_path);
+  line.add_value({"--size", "WxH", "1280x720", "Picture size in pixels",
+                  [&setup](const std::string& text) { setup.size = parse_size(text); }});
+  add_machine_options(line, setup.threads, setup.simd);
 }
 
-void add_machine_options(CLI::App& app, int& threads, std::string& simd) {
-  add_integer(app, "--threads", threads, 1, 256, "Threads; changes no pixel");
-  app.add_option("--simd", simd, "avx2 or avx512; changes no pixel")->type_name("TARGET");
+void add_machine_options(CommandLine& line, int& threads, std::string& simd) {
+  add_integer(line, "--threads", threads, 1, 256, "Threads; changes no pixel");
+  line.add_text("--simd", "TARGET", simd, "avx2 or avx512; changes no pixel");
 }
 
-void add_quality_options(CLI::App& app, render::FrameOptions& frame) {
-  app.add_option_function<std::string>(
-         "--tile",
-         [&frame](const std::string& text) {
-           const int size = parse<int>(text).value_or(0);
-           if (size != 16 && size != 32 && size != 64) refuse("--tile", text, "16, 32 or 64");
-           frame.tile_size_px = size;
-         },
-         "Tile size in pixels: 16, 32 or 64; changes no pixel")
-      ->default_str("64");
-  add_integer(app, "--triangles", frame.water_triangles, 2, 1000000,
+void add_json_option(CommandLine& line, std::string& path) {
+  line.add_text("--json", "FILE", path, "Write the numbers as JSON; - is standard output");
+}
+
+void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
+  const auto take_tile = [&frame](const std::string& text) {
+    const int size = parse<int>(text).value_or(0);
+    if (size != 16 && size != 32 && size != 64) refuse("--tile", text, "16, 32 or 64");
+    frame.tile_size_px = size;
+  };
+  line.add_value(
+      {"--tile", "", "64", "Tile size in pixels: 16, 32 or 64; changes no pixel", take_tile});
+  add_integer(line, "--triangles", frame.water_triangles, 2, 1000000,
               "Triangles of the water instead of the scene's");
-  add_integer(app, "--terrain-triangles", frame.terrain_triangles, 2, 1000000,
+  add_integer(line, "--terrain-triangles", frame.terrain_triangles, 2, 1000000,
               "Triangles of the terrain instead of the scene's");
   add_number(
-      app, "--lookup-scale", frame.lookup_scale, 0.1, 1.0,
+      line, "--lookup-scale", frame.lookup_scale, 0.1, 1.0,
       "Size of reflection and refraction images against the picture, instead of the scene's");
-  add_number(app, "--background-error", frame.background_error_px, 1e-3, 8.0,
+  add_number(line, "--background-error", frame.background_error_px, 1e-3, 8.0,
              "Pixels by which far water may lie off for waves left out, instead of the scene's");
-  add_number(app, "--picture-scale", frame.picture_scale, 0.1, 1.0,
+  add_number(line, "--picture-scale", frame.picture_scale, 0.1, 1.0,
              "Draw at this share of the size and enlarge: faster, less sharp");
-  app.add_flag("--wireframe", frame.wireframe, "Draw triangle edges");
+  line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges");
 }
 
-void add_integer(CLI::App& app, const std::string& name, int& value, int low, int high,
+void add_integer(CommandLine& line, const std::string& name, int& value, int low, int high,
                  const std::string& help) {
   const auto store = [&value, name, low, high](const std::string& text) {
     const auto number = parse<int>(text);
@@ -90,11 +96,10 @@ void add_integer(CLI::App& app, const std::string& name, int& value, int low, in
       refuse(name, text, fmt::format("whole numbers from {} to {}", low, high));
     value = *number;
   };
-  auto* option = app.add_option_function<std::string>(name, store, help)->type_name("N");
-  if (value >= low) option->default_str(fmt::format("{}", value));
+  line.add_value({name, "N", default_text(value, low), help, store});
 }
 
-void add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
+void add_number(CommandLine& line, const std::string& name, double& value, double low, double high,
                 const std::string& help) {
   const auto store = [&value, name, low, high](const std::string& text) {
     const auto number = parse<double>(text);
@@ -102,20 +107,7 @@ void add_number(CLI::App& app, const std::string& name, double& value, double lo
       refuse(name, text, fmt::format("numbers from {} to {}", low, high));
     value = *number;
   };
-  auto* option = app.add_option_function<std::string>(name, store, help)->type_name("X");
-  if (value >= low) option->default_str(fmt::format("{}", value));
-}
-
-bool parse_command_line(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-    return true;
-  } catch (const CLI::Success& request) {  // --help, --version
-    app.exit(request);
-    return false;
-  } catch (const CLI::ParseError& e) {
-    throw OptionError(fmt::format("command line: {}", e.what()));
-  }
+  line.add_value({name, "X", default_text(value, low), help, store});
 }
 
 void select_simd(std::string_view name) {

@@ -2,10 +2,10 @@
 // option, what was given and what is allowed.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 
+#include "apps/command_line.h"
 #include "apps/program.h"
 #include "render/frame.h"
 
@@ -24,28 +24,28 @@ struct FrameSetup {
   render::FrameOptions frame;
 };
 
-// Adds --help and --version, and makes `app` print defaults.
-void add_standard_options(CLI::App& app);
+// --scene, which must be given.
+void add_scene_option(CommandLine& line, std::string& path);
 
 // --scene, --size, --threads, --simd
-void add_frame_setup(CLI::App& app, FrameSetup& setup);
+void add_frame_setup(CommandLine& line, FrameSetup& setup);
 
 // --tile, --triangles, --terrain-triangles, --lookup-scale, --background-error,
 // --picture-scale, --wireframe
-void add_quality_options(CLI::App& app, render::FrameOptions& frame);
+void add_quality_options(CommandLine& line, render::FrameOptions& frame);
 
 // --threads and --simd alone.
-void add_machine_options(CLI::App& app, int& threads, std::string& simd);
+void add_machine_options(CommandLine& line, int& threads, std::string& simd);
+
+// --json: where the numbers go; "-" is standard output, empty nowhere.
+void add_json_option(CommandLine& line, std::string& path);
 
 // An option that is a whole number (a finite number) in [low, high]; `value` holds the
 // default, which may lie outside to mean "not given".
-void add_integer(CLI::App& app, const std::string& name, int& value, int low, int high,
+void add_integer(CommandLine& line, const std::string& name, int& value, int low, int high,
                  const std::string& help);
-void add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
+void add_number(CommandLine& line, const std::string& name, double& value, double low, double high,
                 const std::string& help);
-
-// Parses the command line. False: --help or --version was asked for and has been printed.
-bool parse_command_line(CLI::App& app, int argc, char** argv);
 
 // Makes the kernels run on the target named "avx2" or "avx512"; keeps the best one for "".
 // Throws OptionError if this CPU does not have it.

@@ -1,21 +1,18 @@
 // swell-bench: measures whole frames, the level of detail, height queries and sea states; draws
 // figures of a scene's waves.
 #include "apps/bench.h"
-#include "apps/options.h"
 #include "apps/program.h"
 
 namespace swell::apps {
 namespace {
 
 void bench(int argc, char** argv) {
-  CLI::App app("Measures the renderer.", "swell-bench");
-  add_standard_options(app);
-  app.require_subcommand(1);
-  const Subcommand subcommands[] = {add_bench_frame(app), add_bench_lod(app), add_bench_query(app),
-                                    add_bench_sea_state(app), add_bench_waves(app)};
-  if (!parse_command_line(app, argc, argv)) return;
-  for (const Subcommand& subcommand : subcommands)
-    if (subcommand.app->parsed()) subcommand.run();
+  CommandLine line("swell-bench", "Measures the renderer.");
+  const BenchMode modes[] = {add_bench_frame(line), add_bench_lod(line), add_bench_query(line),
+                             add_bench_sea_state(line), add_bench_waves(line)};
+  if (!line.parse(argc, argv)) return;
+  for (const BenchMode& mode : modes)
+    if (mode.line.given()) mode.run();
 }
 
 }  // namespace

@@ -24,24 +24,21 @@ struct RenderOptions {
 
 std::optional<RenderOptions> parse_options(int argc, char** argv) {
   RenderOptions options;
-  CLI::App app("Draws pictures of a scene.", "swell-render");
-  add_standard_options(app);
-  add_frame_setup(app, options.setup);
-  add_quality_options(app, options.setup.frame);
-  add_number(app, "--time", options.time_s, -1e12, 1e12, "Time of a single picture in seconds");
-  auto* frames = app.add_option_function<std::string>(
-      "--frames", [&](const std::string& text) { options.frames = parse_frame_range(text); },
-      "Draw frames A to B; frame k is at k / fps seconds");
-  frames->type_name("A-B")->excludes("--time");
-  add_number(app, "--fps", options.fps, 1e-3, 1e6, "Frames a second of a sequence");
-  app.get_option("--fps")->needs(frames);
-  app.add_option("--out", options.out,
-                 "File to write: .png .exr .tif .tiff; %04d becomes the frame's number")
-      ->type_name("FILE");
-  app.add_flag("--hash", options.hash, "Print 'frame N xxh3 HASH' of the 8-bit RGB picture");
-  app.add_flag("--dump-scene", options.dump_scene,
-               "Print the scene with every value that the file leaves out");
-  if (!parse_command_line(app, argc, argv)) return std::nullopt;
+  CommandLine line("swell-render", "Draws pictures of a scene.");
+  add_frame_setup(line, options.setup);
+  add_quality_options(line, options.setup.frame);
+  add_number(line, "--time", options.time_s, -1e12, 1e12, "Time of a single picture in seconds");
+  line.add_value({"--frames", "A-B", "", "Draw frames A to B; frame k is at k / fps seconds",
+                  [&](const std::string& text) { options.frames = parse_frame_range(text); }});
+  line.exclude("--frames", "--time");
+  add_number(line, "--fps", options.fps, 1e-3, 1e6, "Frames a second of a sequence");
+  line.need("--fps", "--frames");
+  line.add_text("--out", "FILE", options.out,
+                "File to write: .png .exr .tif .tiff; %04d becomes the frame's number");
+  line.add_flag("--hash", options.hash, "Print 'frame N xxh3 HASH' of the 8-bit RGB picture");
+  line.add_flag("--dump-scene", options.dump_scene,
+                "Print the scene with every value that the file leaves out");
+  if (!line.parse(argc, argv)) return std::nullopt;
   return options;
 }
 

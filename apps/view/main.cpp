@@ -20,16 +20,14 @@ struct Options {
 
 std::optional<Options> parse_options(int argc, char** argv) {
   Options options;
-  CLI::App app("Flies over a scene in a window; F1 shows the keys.", "swell-view");
-  apps::add_standard_options(app);
-  apps::add_frame_setup(app, options.setup);
-  apps::add_quality_options(app, options.setup.frame);
-  apps::add_integer(app, "--frames", options.frames, 0, kMostFrames,
+  apps::CommandLine line("swell-view", "Flies over a scene in a window; F1 shows the keys.");
+  apps::add_frame_setup(line, options.setup);
+  apps::add_quality_options(line, options.setup.frame);
+  apps::add_integer(line, "--frames", options.frames, 0, kMostFrames,
                     "Quit after N frames, the k-th (from 0) at k/60 seconds; 0: when closed");
-  app.add_option("--screenshot", options.screenshot,
-                 "Write the last frame before quitting: .png .exr .tif .tiff")
-      ->type_name("FILE");
-  if (!apps::parse_command_line(app, argc, argv)) return std::nullopt;
+  line.add_text("--screenshot", "FILE", options.screenshot,
+                "Write the last frame before quitting: .png .exr .tif .tiff");
+  if (!line.parse(argc, argv)) return std::nullopt;
   return options;
 }
 

@@ -59,13 +59,13 @@ TEST(Options, SizesAndRangesHoldTheirLimits) {
 
 // What --threads 'text' leaves in the value, or 0 if it is refused.
 int parsed_integer(std::string text) {
-  CLI::App app("", "test");
+  CommandLine line("test", "");
   int value = 0;
-  add_integer(app, "--threads", value, 1, 256, "");
+  add_integer(line, "--threads", value, 1, 256, "");
   std::string program = "test", option = "--threads";
   char* argv[] = {program.data(), option.data(), text.data()};
   try {
-    return parse_command_line(app, 3, argv) ? value : 0;
+    return line.parse(3, argv) ? value : 0;
   } catch (const OptionError&) {
     return 0;
   }
