@@ -1,5 +1,5 @@
 // swell-bench frame: whole frames of a scene against the frame budget.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // swell-bench lod: what level of detail costs, and what each triangulation of the sea leaves out.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,5 @@
 // swell-bench query: how many heights of the drawn water a program can ask for in a second.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <time.h>
 
 #include <memory>

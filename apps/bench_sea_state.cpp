@@ -1,6 +1,6 @@
 // swell-bench sea-state: how high the waves that are drawn are, and whether that is the sea state
 // that the scene asked for; or the same of every code of both scales.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <memory>

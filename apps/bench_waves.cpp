@@ -1,5 +1,5 @@
 // swell-bench waves: figures of a scene's waves, for those who want to see what the models do.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "apps/lod_comparison.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

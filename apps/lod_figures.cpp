@@ -1,6 +1,6 @@
 #include "apps/lod_figures.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "apps/lod_flight.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "apps/program.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <csignal>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // swell-render: draws one picture or a sequence of a scene.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 #include <optional>

@@ -2,7 +2,7 @@
 // SWELL_DCHECK guards inner code and is compiled in only with SWELL_DCHECKS.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 

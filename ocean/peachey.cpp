@@ -1,6 +1,6 @@
 #include "ocean/peachey.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "ocean/sea.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

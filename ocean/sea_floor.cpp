@@ -1,6 +1,6 @@
 #include "ocean/sea_floor.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

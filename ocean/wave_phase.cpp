@@ -1,6 +1,6 @@
 #include "ocean/wave_phase.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Whole files as bytes, for image_io.cpp: read with limits, and words for what went wrong.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "apps/view/viewer.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <thread>
 

@@ -1,5 +1,5 @@
 // What swell-bench reports: the JSON that other tools rely on, and numbers that agree.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

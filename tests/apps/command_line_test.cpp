@@ -1,5 +1,5 @@
 // What the programs say to good and bad command lines and scenes.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 

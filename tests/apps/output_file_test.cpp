@@ -1,6 +1,6 @@
 // Files that swell-render and swell-bench write: whole or not there, and what was asked for.
 #include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 #include <xxhash.h>

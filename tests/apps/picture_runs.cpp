@@ -1,6 +1,6 @@
 #include "apps/picture_runs.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // One process, one picture: twenty times over, on many threads, in any order of frames.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // One binary, one picture: threads, SIMD target, tile size, history and process do not matter.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,7 +1,7 @@
 // What every mesh of the bintree must be, in integers.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <map>

@@ -1,6 +1,6 @@
 #include "lod/relief_bounds.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

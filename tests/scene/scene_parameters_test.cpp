@@ -1,5 +1,5 @@
 // Properties of the table of parameters on random scene files.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // sea.douglas and sea.beaufort: what they set, what excludes them, how they are written out.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "ocean/sea_scale.h"

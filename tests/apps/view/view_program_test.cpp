@@ -1,5 +1,5 @@
 // swell-view as a user starts it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
