@@ -26,6 +26,8 @@ constexpr double kSlackAbove = 0.03, kSlackBelow = 0.04;  // around the aim noth
 constexpr double kSlackToRaise = 0.05;
 constexpr double kBroken = 1.05;
 
+constexpr double kLod = 0.15;  // of triangulating, at most
+
 // Frames.
 constexpr std::size_t kFast = 5, kSlow = 31;
 constexpr int kPatience = 60, kMostPatience = 16 * kPatience;
@@ -88,6 +90,8 @@ void Governor::write_options() {
   options_.terrain_triangles = share(full_.terrain_triangles);
   options_.lookup_scale = full_.lookup_scale * sizes.lookups;
   options_.picture_scale = full_.picture_scale * sizes.picture;
+  const double lod_ms = kLod * settings_.budget_ms;
+  options_.lod_ms = full_.lod_ms > 0.0 ? std::min(full_.lod_ms, lod_ms) : lod_ms;
   options_.triangle_capacity =
       std::max({full_.triangle_capacity, full_.water_triangles, full_.terrain_triangles});
 }

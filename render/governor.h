@@ -17,7 +17,8 @@
 //      costs sharpness everywhere alike. (Fewer layers of ripples far away would leave a line on
 //      the sea where they end, and save less.);
 //   4. at the smallest picture, triangles again, down to `least_detail`.
-// It all comes back in the opposite order. Full quality is what the caller gives, never more.
+// It all comes back in the opposite order. Triangulating may take a part of the budget at most:
+// where the camera jumps, triangles follow over a few frames, the most important first. Full quality is what the caller gives, never more.
 //
 // Triangles change by at most 10 % from frame to frame, which no eye sees (a triangle that goes
 // covered a few pixels); steps of size are seen, so a step up waits until the model has said for
@@ -56,7 +57,8 @@ class Governor {
   // Full quality: triangles and scales, none of them 0; the other options pass through.
   Governor(const GovernorSettings& settings, const FrameOptions& full_quality);
 
-  // What to draw the next frame with.
+  // What to draw the next frame with. With a bound on the time of triangulating (a smaller one of
+  // full quality stays).
   const FrameOptions& options() const { return options_; }
 
   // Takes what the last frame took, drawn with options(); `outside_ms` is what the frame took

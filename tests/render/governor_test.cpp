@@ -146,6 +146,16 @@ TEST(Governor, PassesOtherOptionsThrough) {
   EXPECT_GE(governor.options().triangle_capacity, 30000);
 }
 
+TEST(Governor, BoundsTheTimeOfTriangulating) {
+  Governor governor({.budget_ms = 20.0}, full_quality());
+  EXPECT_GT(governor.options().lod_ms, 1.0);
+  EXPECT_LT(governor.options().lod_ms, 5.0);
+  FrameOptions hasty = full_quality();
+  hasty.lod_ms = 0.5;
+  governor.set_full_quality(hasty);
+  EXPECT_EQ(governor.options().lod_ms, 0.5);
+}
+
 TEST(Governor, HoldsTheBudgetFromHalfToFourTimesTheLoad) {
   for (const double factor : {0.5, 1.0, 1.2, 1.5, 2.0, 3.0, 4.0}) {
     const Flight r = run(1200, always(kOpenSea.times(factor)), {.sigma = 0.03});
