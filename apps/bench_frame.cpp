@@ -166,6 +166,10 @@ BenchMode add_bench_frame(CommandLine& program) {
   add_integer(line, "--frames", bench->frames, 1, 1000000, "Frames to measure");
   add_integer(line, "--warmup", bench->warm_up, 0, 10000, "Frames to draw before them");
   add_number(line, "--budget-ms", bench->budget_ms, 1e-3, 1e6, "Time that a frame may take");
+  add_integer(line, "--lod-operations", bench->setup.frame.lod_operations, 1, 1000000,
+              "Splits and merges of a surface a frame at most; pictures depend on those before");
+  add_integer(line, "--lod-groups", bench->setup.frame.lod_groups, 1, 64,
+              "Groups of priorities, one of which is worked out anew in a frame; as above");
   line.add_flag("--govern", bench->govern,
                 "Lower triangles and scales as far as the budget takes, as the viewer can");
   add_json_option(line, bench->json);

@@ -19,6 +19,7 @@ constexpr int kBudgets[] = {1500, 10000, 50000, 200000};
 struct LodBench {
   int triangles = 0, frames = 300;  // 0: kBudgets
   double speed_mps = 30.0;
+  int operations = 0, groups = 1;
   bool compare = false;
   int threads = available_cpus();
   std::string simd, json, figures;
@@ -26,7 +27,8 @@ struct LodBench {
 
 std::vector<FlightRow> measure_flights(const LodBench& bench, Workers& workers) {
   const auto fly = [&](int triangles, double speed_mps) {
-    return measure_flight({triangles, bench.frames, speed_mps}, workers);
+    return measure_flight({triangles, bench.frames, speed_mps, bench.operations, bench.groups},
+                          workers);
   };
   if (bench.triangles > 0) return {fly(bench.triangles, bench.speed_mps)};
   std::vector<FlightRow> rows;
@@ -77,6 +79,10 @@ BenchMode add_bench_lod(CommandLine& program) {
   add_integer(line, "--triangles", bench->triangles, 2, 1000000, "Triangles to keep");
   add_integer(line, "--frames", bench->frames, 1, 1000000, "Frames to measure");
   add_number(line, "--speed", bench->speed_mps, 0.0, 100.0, "Of the flight, m/s; 0 stands still");
+  add_integer(line, "--operations", bench->operations, 1, 1000000,
+              "Splits and merges a frame at most, the most important first");
+  add_integer(line, "--groups", bench->groups, 1, 64,
+              "Groups of priorities, one of which is worked out anew in a frame");
   line.add_flag("--compare", bench->compare,
                 "Also ROAM, the radial and a uniform grid and the plane of one sea: error in "
                 "pixels and time");

@@ -120,6 +120,8 @@ FlightRow measure_flight(const Flight& flight, Workers& workers) {
     lod::AdaptRequest request;
     request.view = flight_view(flight.speed_mps, k);
     request.triangle_budget = flight.triangles;
+    request.limits.priority_groups = flight.groups;
+    if (flight.operations > 0 && k >= 0) request.limits.max_operations = flight.operations;
     request.min_height_m = -bound_m;
     request.max_height_m = bound_m;
     const Stopwatch stopwatch;

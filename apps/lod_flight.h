@@ -14,6 +14,8 @@ namespace swell::apps {
 struct Flight {
   int triangles = 1500, frames = 300;
   double speed_mps = 30.0;  // 0: a still camera
+  int operations = 0;       // splits and merges a frame at most; 0: any number
+  int groups = 1;           // of priorities, one of which is worked out anew in a frame
 };
 
 struct FlightRow {
