@@ -164,6 +164,15 @@ double Sea::height_bound_m() const {
   return bound;
 }
 
+double Sea::slope_bound() const {
+  double variance = 0.0;
+  for (const PatchWaves& waves : state_->patches) variance += waves.slope_variance;
+  double bound = 6.0 * std::sqrt(variance);
+  for (const SineWave& sine : state_->description.sines)
+    bound += std::abs(sine.amplitude_m) * kTwoPi / sine.wavelength_m;
+  return bound;
+}
+
 double Sea::short_wave_bound_m(std::size_t longest_patches) const {
   double variance_m2 = 0.0;
   for (std::size_t p = longest_patches; p < state_->patches.size(); ++p)

@@ -82,7 +82,9 @@ class Sea {
   // A bound on |H| that holds everywhere and always in practice (6 standard deviations of the
   // spectrum plus the sum of the sines' amplitudes).
   double height_bound_m() const;
-  // The same of the waves of all patches but the `longest_patches` longest, without sines.
+  // The same of dH/dx and dH/dy.
+  double slope_bound() const;
+  // A height bound of the waves of all patches but the `longest_patches` longest, without sines.
   double short_wave_bound_m(std::size_t longest_patches) const;
 
   // 4 sqrt(m0) of the waves the patches can hold, sines included; m0 is the mean over time and

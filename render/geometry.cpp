@@ -15,7 +15,6 @@ namespace {
 
 // The endless sea: a square of 64 km around the eye, whose corner moves in whole steps.
 constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
-constexpr float kSteepestWave = 0.58f;  // slope of Stokes' highest wave: 30 degrees
 constexpr int kUvNoiseSize = texture::UvNoiseOptions{}.size;
 constexpr double kUvNoiseCells_per_s = 0.25;
 constexpr float kCoastSlopeScale = 1.5f / 127.0f;  // steeper fronts of breaking waves are clamped
@@ -98,7 +97,7 @@ void triangulate_water(const Frame& frame) {
     case scene::Triangulation::kRoam: {
       const float bound = frame.world.height_bound_m();
       lod::AdaptRequest request = request_for(frame, budget, -bound, bound);
-      request.max_slope = kSteepestWave;
+      request.max_slope = frame.world.slope_bound();
       if (const double mean_m = frame.world.mean_wavelength_m(); mean_m > 0.0)
         request.largest_size_m = 0.5 * mean_m;
       request.focuses = frame.world.focuses;

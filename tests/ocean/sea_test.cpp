@@ -223,19 +223,25 @@ TEST(Sea, StatesTheVarianceAndBoundOfWhatItDraws) {
   for (int f = 0; f < frames; ++f) {
     const SeaFrame frame = frame_at(sea, 7.3 * f);
     double extreme = 0.0;
+    glm::dvec2 steepest(0.0);
     for (std::size_t p = 0; p < frame.patches.size(); ++p) {
       const PatchFrame& patch = frame.patches[p];
       const double part = 1.0 / (frames * static_cast<double>(patch.height_m.size()));
       float highest = 0.0f;
+      glm::vec2 steep(0.0f);
       for (std::size_t i = 0; i < patch.height_m.size(); ++i) {
         const double h = patch.height_m[i], sx = patch.slope_x[i], sy = patch.slope_y[i];
         variance += part * h * h;
         slope_variance[p] += part * (sx * sx + sy * sy);
         highest = std::max(highest, std::abs(patch.height_m[i]));
+        steep = glm::max(steep, glm::abs(glm::vec2(patch.slope_x[i], patch.slope_y[i])));
       }
       extreme += highest;
+      steepest += glm::dvec2(steep);
     }
     EXPECT_LE(extreme, sea.height_bound_m());
+    EXPECT_LE(std::max(steepest.x, steepest.y), sea.slope_bound());
+    EXPECT_GE(std::max(steepest.x, steepest.y), 0.3 * sea.slope_bound()) << "the bound is not idle";
   }
   EXPECT_NEAR(4.0 * std::sqrt(variance) / sea.significant_height_m(), 1.0, 0.02);
   const SeaFrame frame = frame_at(sea, 0.0);
@@ -259,13 +265,14 @@ TEST(Sea, ScalesAllHeightsByTheAmplitudeScale) {
   for (const float h : flat.patches[0].height_m) ASSERT_EQ(h, 0.0f);
 }
 
-TEST(Sea, AddsSinesToItsHeightBoundAndSignificantHeight) {
+TEST(Sea, AddsSinesToItsBoundsAndSignificantHeight) {
   SeaDescription description = small_sea();
   description.spectrum = false;
   description.sines = {{.amplitude_m = 0.5, .wavelength_m = 20.0},
                        {.amplitude_m = -0.25, .wavelength_m = 7.0}};
   const Sea sea(description);
   EXPECT_DOUBLE_EQ(sea.height_bound_m(), 0.75);
+  EXPECT_DOUBLE_EQ(sea.slope_bound(), 2.0 * kPiRef * (0.5 / 20.0 + 0.25 / 7.0));
   EXPECT_DOUBLE_EQ(sea.significant_height_m(), 4.0 * std::sqrt(0.125 + 0.03125));
 }
 
