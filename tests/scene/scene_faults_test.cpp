@@ -1,0 +1,208 @@
+// What is said of scene texts that are not as they should be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "scene/scene_text.h"
+
+namespace swell::scene {
+namespace {
+
+struct Fault {
+  const char* text;
+  const char* message;  // the whole of it
+};
+
+class SceneFileFault : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(SceneFileFault, IsNamedWithPlaceAndAllowedValues) {
+  EXPECT_EQ(error_of(GetParam().text), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, SceneFileFault,
+    ::testing::Values(
+        Fault{"[camera]\nfov_y_deg = 400\n",
+              "test.toml:2: column 13: camera.fov_y_deg, got 400, allowed 1 to 170 deg"},
+        Fault{"[camera]\nnear_m = nan\n",
+              "test.toml:2: column 10: camera.near_m, got nan, allowed 0.01 to 10 m"},
+        Fault{"[camera]\n\nnear_m = -inf\n",
+              "test.toml:3: column 10: camera.near_m, got -inf, allowed 0.01 to 10 m"},
+        Fault{"[camera]\nnear_m = \"near\"\n",
+              "test.toml:2: column 10: camera.near_m, got \"near\", allowed 0.01 to 10 m"},
+        Fault{"[camera]\neye_m = [0, 0]\n",
+              "test.toml:2: column 9: camera.eye_m, got an array of 2 values, allowed 3 numbers, "
+              "each -1000000 to 1000000 m"},
+        Fault{"[camera]\neye_m = [0, 0, 2e6]\n",
+              "test.toml:2: column 16: camera.eye_m[2], got 2000000, allowed 3 numbers, each "
+              "-1000000 to 1000000 m"},
+        Fault{"[camera]\neye_m = [0, 0, true]\n",
+              "test.toml:2: column 16: camera.eye_m[2], got true, allowed 3 numbers, each -1000000 "
+              "to 1000000 m"},
+        Fault{"[detail]\nwater_triangles = 1\n",
+              "test.toml:2: column 19: detail.water_triangles, got 1, allowed an integer, 2 to "
+              "1000000"},
+        Fault{"[detail]\nwater_triangles = -30000\n",
+              "test.toml:2: column 19: detail.water_triangles, got -30000, allowed an integer, 2 "
+              "to 1000000"},
+        Fault{"[detail]\nwater_triangles = 100.5\n",
+              "test.toml:2: column 19: detail.water_triangles, got 100.5, allowed an integer, 2 "
+              "to 1000000"},
+        Fault{"[detail]\npriority = \"size\"\n",
+              "test.toml:2: column 12: detail.priority, got \"size\", allowed \"projected_size\" "
+              "or \"inverse_distance\""},
+        Fault{"[sea]\nresolution = 100\n",
+              "test.toml:2: column 14: sea.resolution, got 100, allowed a power of two, 16 to 512"},
+        Fault{"[sea]\nspectrum = 1\n",
+              "test.toml:2: column 12: sea.spectrum, got 1, allowed true or false"},
+        Fault{"[sea]\npatch_lengths_m = [10, 20]\n",
+              "test.toml:2: column 19: sea.patch_lengths_m, got [10, 20], allowed lengths that go "
+              "down"},
+        Fault{"[sea]\npatch_lengths_m = []\n",
+              "test.toml:2: column 19: sea.patch_lengths_m, got an array of 0 values, allowed 1 to "
+              "4 numbers, each 0.5 to 50000 m"},
+        Fault{
+            "[[sea.sines]]\nperiod_s = 0.01\n",
+            "test.toml:2: column 12: sea.sines[0].period_s, got 0.01, allowed 0 or 0.05 to 1000 s"},
+        Fault{"[[camera.path]]\nt_s = 2\n[[camera.path]]\npitch_deg = 90\n",
+              "test.toml:4: column 13: camera.path[1].pitch_deg, got 90, allowed -89 to 89 deg"},
+        Fault{"[[camera.path]]\nt_s = 2\n[[camera.path]]\nt_s = 2\n",
+              "test.toml:3: column 1: camera.path[1].t_s, got 2, allowed more than that of the "
+              "table before, 2"},
+        Fault{"[sea.sines]\namplitude_m = 1\n",
+              "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
+              "[[sea.sines]]"},
+        Fault{
+            "[[object]]\n[[object]]\nkind = \"boat\"\n",
+            "test.toml:3: column 8: object[1].kind, got \"boat\", allowed \"buoy\", \"sphere\" or "
+            "\"box\""},
+        Fault{"[[object]]\nsize_m = [1, 1, 0]\n",
+              "test.toml:2: column 17: object[0].size_m[2], got 0, allowed 3 numbers, each 0.05 to "
+              "500 m"},
+        Fault{"object = 3\n",
+              "test.toml:1: column 10: object, got 3, allowed at most 64 tables [[object]]"},
+        Fault{"sea = 3\n", "test.toml:1: column 7: sea, got 3, allowed a table"},
+        Fault{"name = 1979-05-27\n",
+              "test.toml:1: column 8: name, got a date or time, allowed text of at most 200 "
+              "bytes"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Coasts, SceneFileFault,
+    ::testing::Values(
+        Fault{"[terrain]\ncoast_m = [[1, 2]]\n",
+              "test.toml:2: column 11: terrain.coast_m, got an array of 1 values, allowed 2 to 200 "
+              "points [east, north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = []\n",
+              "test.toml:2: column 11: terrain.coast_m, got an array of 0 values, allowed 2 to 200 "
+              "points [east, north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [[1, 2],\n  [3, 4, 5]]\n",
+              "test.toml:3: column 3: terrain.coast_m[1], got an array of 3 values, allowed 2 to "
+              "200 points [east, north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [1, 2]\n",
+              "test.toml:2: column 12: terrain.coast_m[0], got 1, allowed 2 to 200 points [east, "
+              "north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [[1, 2],\n  [3, nan]]\n",
+              "test.toml:3: column 7: terrain.coast_m[1], got nan, allowed 2 to 200 points [east, "
+              "north], each number -1000000 to 1000000 m"},
+        Fault{"[terrain]\ncoast_m = [[1, 2],\n  [3, 4],\n  [3, 4]]\n",
+              "test.toml:4: column 3: terrain.coast_m[2], got [3, 4], allowed a point 0.001 m "
+              "or more from the one before"},
+        Fault{"[terrain]\ncoast_m = [[1, 0], [0, 0],\n  [0, 1e-300]]\n",
+              "test.toml:3: column 3: terrain.coast_m[2], got [0, 1e-300], allowed a point 0.001 m "
+              "or more from the one before"},
+        Fault{"[terrain]\nbeach_slope = 0\n",
+              "test.toml:2: column 15: terrain.beach_slope, got 0, allowed 0.001 to 1"},
+        Fault{"[terrain]\nbeach_size_m = 20001\n",
+              "test.toml:2: column 16: terrain.beach_size_m, got 20001, allowed 50 to 20000 m"},
+        Fault{
+            "[coast]\nmodel = \"peachey\"\n",
+            "test.toml:2: column 9: coast.model, got \"peachey\", allowed \"none\", \"trains\" or "
+            "\"blend\""},
+        Fault{"[coast]\ntrains = 17\n",
+              "test.toml:2: column 10: coast.trains, got 17, allowed an integer, 1 to 16"},
+        Fault{"[coast]\ngrid_spacing_m = 0.4\n",
+              "test.toml:2: column 18: coast.grid_spacing_m, got 0.4, allowed 0 or 0.5 to 100 m"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    UnknownKeys, SceneFileFault,
+    ::testing::Values(
+        Fault{"[camera]\nfov_deg = 50\n",
+              "test.toml:2: column 1: unknown key, got 'camera.fov_deg', allowed "
+              "'camera.fov_y_deg' (the nearest) and the others of docs/scene.md"},
+        Fault{"[camrea]\nnear_m = 1\n",
+              "test.toml:1: column 2: unknown key, got 'camrea', allowed 'camera' (the nearest) "
+              "and the others of docs/scene.md"},
+        Fault{"[wind]\nspeed_kn = 3\n",
+              "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed "
+              "'wind.speed_mps' (the nearest) and the others of docs/scene.md"},
+        Fault{"[[sea.sines]]\namplitud_m = 3\n",
+              "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m', allowed "
+              "'sea.sines.amplitude_m' (the nearest) and the others of docs/scene.md"},
+        Fault{
+            "[[object]]\ncolor = [1, 0, 0]\n",
+            "test.toml:2: column 1: unknown key, got 'object.color', allowed 'object.colour' (the "
+            "nearest) and the others of docs/scene.md"},
+        Fault{"\"na\\nme\" = 3\n",
+              "test.toml:1: column 1: unknown key, got 'na me', allowed 'name' (the nearest) and "
+              "the others of docs/scene.md"}));
+
+TEST(SceneFileFaults, AtMost64ObjectsAreTaken) {
+  std::string text;
+  for (int i = 0; i < 64; ++i) text += "[[object]]\n";
+  EXPECT_EQ(parse_scene(text, "test.toml").objects.size(), 64u);
+  EXPECT_NE(error_of(text + "[[object]]\n").find("allowed at most 64 tables [[object]]"),
+            std::string::npos);
+}
+
+TEST(SceneFileFaults, TheFirstOfSeveralFaultsIsTheOneNamed) {
+  EXPECT_TRUE(error_of("[water]\nlookup_scale = 7\n[camera]\nnear_m = 77\n")
+                  .starts_with("test.toml:2: column 16: water.lookup_scale, got 7,"));
+}
+
+TEST(SceneFileFaults, SyntaxErrorsHaveTheirPlace) {
+  const auto starts = [](const std::string& text, const std::string& start) {
+    const std::string error = error_of(text);
+    EXPECT_TRUE(error.starts_with(start)) << error;
+    EXPECT_TRUE(error.ends_with(", allowed TOML 1.0")) << error;
+  };
+  starts("[camera]\nnear_m = 1\nnear_m = 1\n", "test.toml:3: column ");  // twice
+  starts("[camera]\nnear_m = 1e999\n", "test.toml:2: column ");
+  starts("[camera]\nnear_m = \n", "test.toml:2: column ");
+  starts("[camera]\n[camera]\n", "test.toml:2: column ");
+  starts("name = \"\xff\"\n", "test.toml:1: column ");  // not UTF-8
+  starts("name = 'open\n", "test.toml:1: column ");
+  starts(std::string("name = 'a\0b'\n", 13), "test.toml:1: column ");
+}
+
+TEST(SceneFileFaults, DeepNestingIsRefusedWithItsLine) {
+  const std::string message =
+      "test.toml:2: column 1: syntax error, got nesting too deep to be a scene, allowed 16 levels";
+  std::string dots = "a";
+  for (int i = 0; i < 10000; ++i) dots += ".a";
+  EXPECT_EQ(error_of("\n" + dots + " = 1\n"), message);
+  EXPECT_EQ(error_of("\n[" + dots + "]\n"), message);
+  const std::string arrays(10000, '[');
+  EXPECT_EQ(error_of("\na = " + arrays), message);
+  std::string tables = "a = ";
+  for (int i = 0; i < 10000; ++i) tables += "{a = ";
+  EXPECT_EQ(error_of("\n" + tables), message);
+  EXPECT_EQ(error_of("# a comment\n" + dots + " = \"\"\"\n\n\"\"\"\n"), message);
+}
+
+TEST(SceneFileFaults, DotsAndBracketsInTextAndCommentsAreNoNesting) {
+  const std::string many = "................[[[[[[[[[[[[[[[[[[[[[[[[{{{{{{{{{{{{{{{{{{{{{{{";
+  EXPECT_EQ(error_of("# \"" + many + "\nname = \"\\\"" + many + "\"  # '" + many + "\n"), "");
+  EXPECT_EQ(error_of("name = '''\n" + many + "'\n'''\n"), "");
+}
+
+TEST(SceneFileFaults, MessagesAreOneShortLine) {
+  const std::string key(5000, 'k');
+  const std::string error = error_of("\"" + key + "\\u00e4\\n\" = 1\n");
+  EXPECT_LT(error.size(), 500u);
+  EXPECT_EQ(std::ranges::count(error, '\n'), 0);
+  EXPECT_FALSE(error.empty());
+}
+
+}  // namespace
+}  // namespace swell::scene
