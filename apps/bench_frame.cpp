@@ -152,7 +152,7 @@ void run_frame_bench(const FrameBench& bench) {
   report.involuntary_switches = resource_usage().ru_nivcsw - switches_before;
 
   if (bench.json != "-") fmt::print("{}", stage_table(report));
-  if (!bench.json.empty()) write_text(bench.json, frame_json(report).dump(2) + "\n");
+  if (!bench.json.empty()) write_text(bench.json, frame_json(report));
   if (!bench.trace.empty()) write_text(bench.trace, trace.json());
 }
 

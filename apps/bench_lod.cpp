@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "apps/bench.h"
+#include "apps/json.h"
 #include "apps/lod_comparison.h"
 #include "apps/lod_figures.h"
 #include "apps/lod_flight.h"
@@ -45,6 +47,42 @@ void write_figures(const std::string& folder) {
   }
 }
 
+Json flight_json(const FlightRow& r) {
+  return {{"triangles", r.triangles},
+          {"speed_mps", r.speed_mps},
+          {"lod_ms", r.lod_ms.median},
+          {"lod_p95_ms", r.lod_ms.p95},
+          {"module_ms", r.module_ms.median},
+          {"module_p95_ms", r.module_ms.p95},
+          {"ns_per_leaf", r.ns_per_leaf()},
+          {"splits", r.splits},
+          {"merges", r.merges},
+          {"frames", r.frames}};
+}
+
+Json comparison_json(std::span<const ComparisonRow> rows) {
+  Json json = Json::array();
+  for (const ComparisonRow& r : rows)
+    json.push_back(
+        {{"view", r.view},
+         {"triangulation", r.triangulation},
+         {"triangles", r.triangles},
+         {"height_px",
+          {{"median", r.height_px.median}, {"p95", r.height_px.p95}, {"max", r.height_px.max}}},
+         {"silhouette_px", {{"mean", r.silhouette_mean_px}, {"max", r.silhouette_px.max}}},
+         {"triangulate_ms", r.triangulate_ms}});
+  return json;
+}
+
+// The first row stands for all where one is asked for.
+Json lod_json(std::span<const FlightRow> flights, std::span<const ComparisonRow> comparison) {
+  Json json = flight_json(flights.front());
+  json["rows"] = Json::array();
+  for (const FlightRow& row : flights) json["rows"].push_back(flight_json(row));
+  if (!comparison.empty()) json["triangulations"] = comparison_json(comparison);
+  return json;
+}
+
 void run_lod_bench(const LodBench& bench) {
   if (!bench.figures.empty()) return write_figures(bench.figures);
   select_simd(bench.simd);
@@ -57,13 +95,7 @@ void run_lod_bench(const LodBench& bench) {
     fmt::print("{}", flight_table(flights));
     if (bench.compare) fmt::print("\n{}", comparison_table(comparison));
   }
-
-  // The first row stands for all where one is asked for.
-  Json json = flight_json(flights.front());
-  json["rows"] = Json::array();
-  for (const FlightRow& row : flights) json["rows"].push_back(flight_json(row));
-  if (bench.compare) json["triangulations"] = comparison_json(comparison);
-  if (!bench.json.empty()) write_text(bench.json, json.dump(2) + "\n");
+  if (!bench.json.empty()) write_text(bench.json, lod_json(flights, comparison).dump(2) + "\n");
 }
 
 }  // namespace

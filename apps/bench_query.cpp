@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/bench.h"
+#include "apps/json.h"
 #include "apps/options.h"
 #include "apps/report.h"
 #include "math/random.h"

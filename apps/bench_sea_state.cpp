@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/bench.h"
+#include "apps/json.h"
 #include "apps/options.h"
 #include "apps/report.h"
 #include "math/random.h"

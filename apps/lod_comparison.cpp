@@ -146,18 +146,4 @@ std::string comparison_table(std::span<const ComparisonRow> rows) {
   return text;
 }
 
-Json comparison_json(std::span<const ComparisonRow> rows) {
-  Json json = Json::array();
-  for (const ComparisonRow& r : rows)
-    json.push_back(
-        {{"view", r.view},
-         {"triangulation", r.triangulation},
-         {"triangles", r.triangles},
-         {"height_px",
-          {{"median", r.height_px.median}, {"p95", r.height_px.p95}, {"max", r.height_px.max}}},
-         {"silhouette_px", {{"mean", r.silhouette_mean_px}, {"max", r.silhouette_px.max}}},
-         {"triangulate_ms", r.triangulate_ms}});
-  return json;
-}
-
 }  // namespace swell::apps

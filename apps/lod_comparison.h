@@ -31,6 +31,5 @@ struct Comparison {
 std::vector<ComparisonRow> compare_triangulations(const Comparison& comparison, Workers& workers);
 
 std::string comparison_table(std::span<const ComparisonRow> rows);
-Json comparison_json(std::span<const ComparisonRow> rows);
 
 }  // namespace swell::apps

@@ -164,17 +164,4 @@ std::string flight_table(std::span<const FlightRow> rows) {
          "coordinates. Splits and merges a frame.\n";
 }
 
-Json flight_json(const FlightRow& r) {
-  return {{"triangles", r.triangles},
-          {"speed_mps", r.speed_mps},
-          {"lod_ms", r.lod_ms.median},
-          {"lod_p95_ms", r.lod_ms.p95},
-          {"module_ms", r.module_ms.median},
-          {"module_p95_ms", r.module_ms.p95},
-          {"ns_per_leaf", r.ns_per_leaf()},
-          {"splits", r.splits},
-          {"merges", r.merges},
-          {"frames", r.frames}};
-}
-
 }  // namespace swell::apps

@@ -31,6 +31,5 @@ struct FlightRow {
 FlightRow measure_flight(const Flight& flight, Workers& workers);
 
 std::string flight_table(std::span<const FlightRow> rows);
-Json flight_json(const FlightRow& row);
 
 }  // namespace swell::apps

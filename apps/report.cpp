@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <span>
 
+#include "apps/json.h"
 #include "apps/picture_file.h"
 #include "texture/image_io.h"
 
@@ -81,10 +82,10 @@ Spread spread(std::vector<double> samples) {
           samples.back()};
 }
 
-Json frame_json(const FrameReport& r) {
+std::string frame_json(const FrameReport& r) {
   Json json = plain_frame_json(r);
   if (r.governed) json["governed"] = governed_json(*r.governed);
-  return json;
+  return json.dump(2) + "\n";
 }
 
 std::string stage_table(const FrameReport& r) {

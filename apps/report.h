@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,9 +43,8 @@ struct FrameReport {
   std::optional<GovernedReport> governed;
 };
 
-using Json = nlohmann::ordered_json;
-
-Json frame_json(const FrameReport& report);
+// The whole of the JSON file.
+std::string frame_json(const FrameReport& report);
 
 // One row a stage, one for the frame, and the verdict against the budget.
 std::string stage_table(const FrameReport& report);

@@ -1,11 +1,9 @@
 #include "apps/trace.h"
 
-#include <nlohmann/json.hpp>
+#include "apps/json.h"
 
 namespace swell::apps {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json complete_event(std::string_view name, double start_us, double length_us, int track) {
   return {{"name", name},     {"cat", "frame"}, {"ph", "X"},   {"ts", start_us},
