@@ -4,11 +4,10 @@
 #include "lod/mesh_query.h"
 #include "lod/prism.h"
 #include "math/check.h"
+#include "math/ray_triangle.h"
 
 namespace swell::lod {
 namespace {
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 // What is left of the ray after cutting it.
 struct Span {
@@ -30,26 +29,25 @@ struct Span {
 struct RaySearch {
   const HeightMesh& surface;
   double step_m;
-  glm::dvec3 origin, along;  // along: of length 1
+  Ray ray;  // along: of length 1
   double max_m;
-  int main_axis;  // that the ray runs along most
   RayHit hit = {};
 
   // The part of the ray in the envelope's prism, a little widened.
   Span span_in(const Envelope& e) const {
     Span span{0.0, max_m};
-    const glm::dvec2 o(origin), d(along);
+    const glm::dvec2 o(ray.origin), d(ray.along);
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::dvec2 side = side_direction(e, k);
       const glm::dvec2 from = o - lattice_world(surface.domain, step_m, e.corner[k]);
       const double slack = kSlack * (std::abs(from.x) + std::abs(from.y));
       span.cut(side.x * from.y - side.y * from.x + slack, side.x * d.y - side.y * d.x);
     }
-    const double above = origin.z - static_cast<double>(e.height.low_m);
-    const double below = static_cast<double>(e.height.high_m) - origin.z;
+    const double above = ray.origin.z - static_cast<double>(e.height.low_m);
+    const double below = static_cast<double>(e.height.high_m) - ray.origin.z;
     const double slack = kSlack * (std::abs(above) + std::abs(below));
-    span.cut(above + slack, along.z);
-    span.cut(below + slack, -along.z);
+    span.cut(above + slack, ray.along.z);
+    span.cut(below + slack, -ray.along.z);
     return span;
   }
 
@@ -71,32 +69,14 @@ struct RaySearch {
     return hit.triangle == kNoTriangle || begin_m <= hit.distance_m * (1.0 + kSlack);
   }
 
-  // Along the ray, as seen from its end: corners move to (x, y), the ray stands at (0, 0). It
-  // passes inside if the areas it spans with the sides have one sign. Each is a difference of two
-  // products, whose sign rounding may take away but not turn, so no ray slips between triangles.
-  // Source: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013.
   void test(int triangle) {
-    const std::array<glm::dvec3, 3> corner = corners_of(surface, triangle);
-    std::array<glm::dvec2, 3> p;
-    glm::dvec3 s;
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 from = corner[static_cast<std::size_t>(k)] - origin;
-      s[k] = from[main_axis] / along[main_axis];
-      p[static_cast<std::size_t>(k)] = {
-          from[(main_axis + 1) % 3] - along[(main_axis + 1) % 3] * s[k],
-          from[(main_axis + 2) % 3] - along[(main_axis + 2) % 3] * s[k]};
-    }
-    const glm::dvec3 area(cross(p[1], p[2]), cross(p[2], p[0]), cross(p[0], p[1]));
-    const bool is_inside = (area.x >= 0.0 && area.y >= 0.0 && area.z >= 0.0) ||
-                           (area.x <= 0.0 && area.y <= 0.0 && area.z <= 0.0);
-    const double sum = area.x + area.y + area.z;
-    if (!is_inside || sum == 0.0) return;
-    const glm::dvec3 weight = area / sum;
-    const double distance_m = glm::dot(weight, s);
+    const auto crossing = cross_triangle(ray, corners_of(surface, triangle));
+    if (!crossing) return;
+    const double distance_m = crossing->s;
     const bool is_first = hit.triangle == kNoTriangle || distance_m < hit.distance_m ||
                           (distance_m == hit.distance_m && triangle < hit.triangle);
     if (distance_m < 0.0 || distance_m > max_m || !is_first) return;
-    hit = {triangle, distance_m, weight, hit.visited};
+    hit = {triangle, distance_m, crossing->weight, hit.visited};
   }
 };
 
@@ -108,14 +88,8 @@ RaySearch make_search(const HeightMesh& surface, glm::dvec3 origin_world, glm::d
   SWELL_CHECK(std::isfinite(origin_world.x + origin_world.y + origin_world.z),
               "origin=({}, {}, {})", origin_world.x, origin_world.y, origin_world.z);
   SWELL_CHECK(max_distance_m >= 0.0, "max_distance_m={}", max_distance_m);
-  const glm::dvec3 size = glm::abs(direction);
-  const int main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  return {surface,
-          step_of(surface.domain),
-          origin_world,
-          direction / length,
-          std::min(max_distance_m, std::numeric_limits<double>::max()),
-          main_axis};
+  return {surface, step_of(surface.domain), make_ray(origin_world, direction / length),
+          std::min(max_distance_m, std::numeric_limits<double>::max())};
 }
 
 }  // namespace

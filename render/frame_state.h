@@ -53,13 +53,14 @@ struct LookupTarget {
 
 // The floating objects that a frame may show, as the triangles of three views.
 struct ObjectGeometry {
-  std::vector<scene::ObjectPose> poses;         // of all objects of the scene
-  std::vector<ObjectInstance> instances;        // of those in view
-  std::vector<ObjectPrimitive> primitives;      // per triangle
-  std::vector<std::uint32_t> indices;           // 3 per triangle
-  std::vector<glm::vec4> p_clip;                // in the window's view
-  std::vector<glm::vec4> mirrored, squeezed;    // of the reflection and the refraction image
-  std::vector<float> above_water, below_water;  // their clip distances [m]
+  std::vector<scene::ObjectPose> poses;          // of all objects of the scene
+  std::vector<const scene::ObjectMesh*> meshes;  // of the same; null: not in view
+  std::vector<ObjectInstance> instances;         // of those in view
+  std::vector<ObjectPrimitive> primitives;       // per triangle
+  std::vector<std::uint32_t> indices;            // 3 per triangle
+  std::vector<glm::vec4> p_clip;                 // in the window's view
+  std::vector<glm::vec4> mirrored, squeezed;     // of the reflection and the refraction image
+  std::vector<float> above_water, below_water;   // their clip distances [m]
 };
 
 // Per-tile results of visibility, in tile order.

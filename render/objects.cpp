@@ -90,6 +90,7 @@ void add_triangles(const scene::ObjectMesh& mesh, const ObjectInstance& instance
 }
 
 void clear_geometry(ObjectGeometry& geometry) {
+  geometry.meshes.clear();
   geometry.instances.clear();
   geometry.primitives.clear();
   geometry.indices.clear();
@@ -135,6 +136,7 @@ void place_objects(Frame& frame) {
   clear_geometry(geometry);
   if (objects.empty()) return;
   geometry.poses.resize(objects.size());
+  geometry.meshes.resize(objects.size(), nullptr);
   scene::object_poses(objects, water_surface(frame), geometry.poses);
   if (frame.world.scene.detail.triangulation == scene::Triangulation::kPlane)
     for (scene::ObjectPose& pose : geometry.poses) pose.position_world.z = 0.0;  // as it is drawn
@@ -147,6 +149,7 @@ void place_objects(Frame& frame) {
     const ObjectMeshes::Choice choice = frame.world.objects.of_object[i];
     const bool near = height_px(objects[i], placement, frame.view) >= kNearHeight_px;
     const scene::ObjectMesh& mesh = frame.world.objects.meshes[near ? choice.near : choice.far];
+    geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
     add_triangles(mesh, geometry.instances.back(),
                   static_cast<std::uint32_t>(geometry.p_clip.size()), geometry);

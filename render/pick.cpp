@@ -3,7 +3,9 @@
 #include <array>
 
 #include "lod/mesh_query.h"
+#include "math/ray_triangle.h"
 #include "render/frame_state.h"
+#include "scene/object_ray.h"
 #include "scene/water_surface.h"
 
 namespace swell::render {
@@ -11,17 +13,39 @@ namespace {
 
 constexpr double kFarthest_m = 1e6;
 
-struct Ray {
-  glm::dvec3 origin, direction;
-};
+void keep_nearer(const Pick& met, std::optional<Pick>& nearest) {
+  if (!nearest || met.distance_m < nearest->distance_m) nearest = met;
+}
 
-// Nothing before the surface was drawn.
-lod::RayHit hit_of(const Surface& surface, bool is_bintree, const Ray& ray, PickScratch& scratch) {
+void meet_surface(Shown what, const Surface& surface, bool is_bintree, const Ray& ray,
+                  PickScratch& scratch, std::optional<Pick>& nearest) {
+  if (surface.mesh.level.empty()) return;  // not drawn yet
   const lod::HeightMesh mesh{surface.mesh, scratch.envelopes, surface.height_m, surface.domain};
-  if (surface.mesh.level.empty()) return {};
-  if (!is_bintree) return intersect_ray_in_all(mesh, ray.origin, ray.direction, kFarthest_m);
-  lod::build_envelopes(surface.mesh, surface.height_m, scratch.envelopes);
-  return intersect_ray(mesh, ray.origin, ray.direction, kFarthest_m);
+  if (is_bintree) lod::build_envelopes(surface.mesh, surface.height_m, scratch.envelopes);
+  const lod::RayHit hit = is_bintree
+                              ? intersect_ray(mesh, ray.origin, ray.along, kFarthest_m)
+                              : intersect_ray_in_all(mesh, ray.origin, ray.along, kFarthest_m);
+  if (hit.triangle == lod::kNoTriangle) return;
+  const int level = surface.mesh.level[static_cast<std::size_t>(hit.triangle)];
+  keep_nearer(
+      {.what = what, .distance_m = hit.distance_m, .triangle = hit.triangle, .level = level},
+      nearest);
+}
+
+void meet_objects(std::span<const scene::FloatingObject> objects, const ObjectGeometry& drawn,
+                  const Ray& ray, std::optional<Pick>& nearest) {
+  for (std::size_t i = 0; i < drawn.meshes.size(); ++i) {
+    if (!drawn.meshes[i]) continue;
+    const auto hit =
+        scene::intersect_ray(objects[i], drawn.poses[i], *drawn.meshes[i], ray.origin, ray.along);
+    if (hit)
+      keep_nearer({.what = Shown::kObject,
+                   .distance_m = hit->distance_m,
+                   .object = i,
+                   .object_kind = objects[i].kind,
+                   .triangle = hit->triangle},
+                  nearest);
+  }
 }
 
 void ask_water(const World::State& world, const ocean::SeaFrame& sea, Pick& pick) {
@@ -50,28 +74,25 @@ std::optional<Pick> pick(const World& world, const View& view, const Workspace& 
                          glm::vec2 at_px, PickScratch& scratch) {
   const World::State& w = world.state();
   const Workspace::State& ws = workspace.state();
-  const Ray ray{view.eye_world, glm::dvec3(view.ray(at_px.x, at_px.y))};
-  const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
-  const lod::RayHit water = hit_of(ws.water, is_bintree, ray, scratch);
-  const lod::RayHit land = w.terrain ? hit_of(ws.land, true, ray, scratch) : lod::RayHit{};
+  // From where the picture begins.
+  const glm::dvec3 to_pixel(view.ray(at_px.x, at_px.y));
+  const glm::dvec3 to_near_plane = static_cast<double>(view.near_m) * to_pixel;
+  const Ray ray = make_ray(view.eye_world + to_near_plane, glm::normalize(to_pixel));
 
-  // The nearer one.
-  const bool hits_water = water.triangle != lod::kNoTriangle;
-  const bool hits_land = land.triangle != lod::kNoTriangle;
-  if (!hits_water && !hits_land) return std::nullopt;
-  Pick pick;
-  pick.is_water = hits_water && (!hits_land || water.distance_m <= land.distance_m);
-  const lod::RayHit& hit = pick.is_water ? water : land;
-  pick.p_world = ray.origin + hit.distance_m * glm::normalize(ray.direction);
-  pick.distance_m = hit.distance_m;
-  pick.triangle = hit.triangle;
-  const lod::Mesh& mesh = pick.is_water ? ws.water.mesh : ws.land.mesh;
-  pick.level = mesh.level[static_cast<std::size_t>(hit.triangle)];
-  if (pick.is_water)
-    ask_water(w, ws.sea, pick);
+  std::optional<Pick> nearest;
+  const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
+  meet_surface(Shown::kWater, ws.water, is_bintree, ray, scratch, nearest);
+  if (w.terrain) meet_surface(Shown::kLand, ws.land, true, ray, scratch, nearest);
+  meet_objects(w.scene.objects, ws.objects, ray, nearest);
+  if (!nearest) return nearest;
+
+  nearest->p_world = ray.origin + nearest->distance_m * ray.along;
+  nearest->distance_m += glm::length(to_near_plane);
+  if (nearest->what == Shown::kLand)
+    ask_land(*w.terrain, *nearest);
   else
-    ask_land(*w.terrain, pick);
-  return pick;
+    ask_water(w, ws.sea, *nearest);
+  return nearest;
 }
 
 }  // namespace swell::render

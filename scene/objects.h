@@ -4,9 +4,11 @@
 //   scene::object_poses(scene.objects, water.at(t_s, frame, workers), poses);
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string_view>
 
 namespace swell::scene {
 
@@ -17,6 +19,7 @@ enum class ObjectKind : std::uint8_t {
   kSphere,  // an ellipsoid, if its sizes differ
   kBox,
 };
+inline constexpr std::array<std::string_view, 3> kObjectKindNames = {"buoy", "sphere", "box"};
 
 // What a buoy carries on top.
 enum class TopMark : std::uint8_t { kCan, kCone, kSphere };

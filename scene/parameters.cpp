@@ -222,7 +222,7 @@ struct CoastMethod {
 };
 
 struct ObjectKindName {
-  static constexpr std::array<std::string_view, 3> words = {"buoy", "sphere", "box"};
+  static constexpr auto words = kObjectKindNames;
   auto& operator()(auto& object) const { return object.kind; }
 };
 

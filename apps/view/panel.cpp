@@ -20,7 +20,7 @@ void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
 
 // A row of two columns: a name, a number to the right of it.
 void row(std::string_view name, const std::string& value) {
-  text(fmt::format("{:<14}{:>12}", name, value));
+  text(fmt::format("{:<14}{:>16}", name, value));
 }
 
 // A slider over a value kept in double, shown with one decimal.
@@ -144,15 +144,31 @@ void draw_times(const PanelReport& report, double budget_ms) {
 
 void draw_counts(const PanelReport& report) {
   const render::FrameStatistics& s = report.statistics;
-  row("water", fmt::format("{} tris", s.water_triangles));
-  row("terrain", fmt::format("{} tris", s.terrain_triangles));
+  row("water/terrain", fmt::format("{} / {} tris", s.water_triangles, s.terrain_triangles));
   row("splits/merges", fmt::format("{} / {}", s.splits, s.merges));
   row("shaded", fmt::format("{} px", s.shaded_pixels));
-  row("size", fmt::format("{}x{}", report.width_px, report.height_px));
-  row("threads", fmt::format("{} {}", report.threads, report.simd));
+  text(fmt::format("{}x{} on {} threads, {}", report.width_px, report.height_px, report.threads,
+                   report.simd));
+}
+
+// An object has the number that errors of its scene file have.
+std::string name_of(const render::Pick& pick) {
+  switch (pick.what) {
+    case render::Shown::kWater:
+      return "water";
+    case render::Shown::kLand:
+      return "land";
+    case render::Shown::kObject:
+      break;
+  }
+  const auto kind = static_cast<std::size_t>(pick.object_kind);
+  return fmt::format("{}, object[{}],", scene::kObjectKindNames[kind], pick.object);
 }
 
 std::string heights_of(const render::Pick& pick) {
+  if (pick.what == render::Shown::kObject)
+    return fmt::format("z {:.2f} m, {:.2f} m above the water", pick.p_world.z,
+                       pick.p_world.z - pick.model_height_m);
   return fmt::format("z {:.2f} m, model {:.2f} m", pick.p_world.z, pick.model_height_m);
 }
 
@@ -196,10 +212,11 @@ void draw_pick(const render::Pick& pick, glm::vec2 pointer_px) {
   const glm::vec2 at = pointer_px + kAside_px * (1.0f - 2.0f * pivot);
   ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_Always, {pivot.x, pivot.y});
   if (ImGui::Begin("pointer", nullptr, kFlags)) {
-    text(fmt::format("{} {:.1f} m away", pick.is_water ? "water" : "land", pick.distance_m));
+    text(fmt::format("{} {:.1f} m away", name_of(pick), pick.distance_m));
     text(heights_of(pick));
     text(fmt::format("x {:.1f} m, y {:.1f} m", pick.p_world.x, pick.p_world.y));
-    text(fmt::format("slope {:.2f}, level {}", glm::length(pick.slope), pick.level));
+    if (pick.what != render::Shown::kObject)
+      text(fmt::format("slope {:.2f}, level {}", glm::length(pick.slope), pick.level));
   }
   ImGui::End();
 }

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include "render/drawn_shots.h"
 
@@ -12,10 +15,10 @@ namespace {
 
 constexpr glm::ivec2 kSize_px(160, 90);
 
-// A frame of a shipped scene at 3 s.
+// A frame of a scene at 3 s.
 struct Drawn {
-  explicit Drawn(const scene::Scene& scene)
-      : world(scene), view(scene::camera_view(scene.camera, t_s, kSize_px.x, kSize_px.y)) {
+  explicit Drawn(const scene::Scene& scene, glm::ivec2 size_px = kSize_px)
+      : world(scene), view(scene::camera_view(scene.camera, t_s, size_px.x, size_px.y)) {
     FrameOptions options;
     options.water_triangles = 4000;
     Workers workers(2);
@@ -35,29 +38,48 @@ struct Drawn {
 };
 
 struct DrawnPixel {
-  bool is_water = false, is_land = false;
+  Shown what = Shown::kWater;
   int triangle = 0;
   double depth_m = 0.0;
+  std::size_t object = 0;
 };
 
-DrawnPixel pixel_at(Drawn& drawn, int x, int y) {
+// The object that stands where the primitive's does.
+std::size_t object_of(const Drawn& drawn, const ObjectPrimitive& primitive) {
+  const std::vector<scene::FloatingObject>& objects = drawn.world.scene().objects;
+  const glm::dvec3 bottom = drawn.view.eye_world + glm::dvec3(primitive.object->bottom_rel);
+  const auto distance_m = [&](const scene::FloatingObject& object) {
+    return glm::distance(object.position_m, glm::dvec2(bottom));
+  };
+  return static_cast<std::size_t>(std::ranges::min_element(objects, {}, distance_m) -
+                                  objects.begin());
+}
+
+// Nothing where the sky is.
+std::optional<DrawnPixel> pixel_at(Drawn& drawn, int x, int y) {
   Workspace::State& ws = drawn.workspace.state();
   const int tile_px = ws.visibility.grid.tile_size_px;
   const int tile = y / tile_px * ws.visibility.grid.tiles_x + x / tile_px;
-  if (ws.visibility.covered[static_cast<std::size_t>(tile)] < 0) return {};
+  if (ws.visibility.covered[static_cast<std::size_t>(tile)] < 0) return std::nullopt;
   const auto at = static_cast<std::size_t>(y % tile_px * tile_px + x % tile_px);
   const float depth = ws.visibility.depth_of(tile)[at];
-  if (depth <= 0.0f) return {};
-  const auto id = static_cast<int>(ws.visibility.primitive_of(tile)[at]);
+  if (depth <= 0.0f) return std::nullopt;
+  const double depth_m = static_cast<double>(drawn.view.near_m / depth);
+  auto id = static_cast<int>(ws.visibility.primitive_of(tile)[at]);
   const int water = static_cast<int>(ws.water.mesh.level.size());
-  return {id < water, id >= water, id < water ? id : id - water,
-          static_cast<double>(drawn.view.near_m / depth)};
+  const int land = static_cast<int>(ws.land.mesh.level.size());
+  if (id < water) return DrawnPixel{Shown::kWater, id, depth_m};
+  if ((id -= water) < land) return DrawnPixel{Shown::kLand, id, depth_m};
+  const ObjectPrimitive& primitive = ws.objects.primitives[static_cast<std::size_t>(id - land)];
+  const std::size_t object = object_of(drawn, primitive);
+  const scene::ObjectTriangle* first = ws.objects.meshes[object]->triangles.data();
+  return DrawnPixel{Shown::kObject, static_cast<int>(primitive.triangle - first), depth_m, object};
 }
 
 class PickEachScene : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, PickEachScene,
                          testing::Values("open_ocean", "beach", "open_ocean_radial",
-                                         "open_ocean_plane"),
+                                         "open_ocean_plane", "buoys", "buoys_plane"),
                          [](const auto& test) { return std::string(test.param); });
 
 void expect_query_answer(const Pick& found, const scene::WaterSurface& surface) {
@@ -68,39 +90,75 @@ void expect_query_answer(const Pick& found, const scene::WaterSurface& surface) 
   EXPECT_EQ(found.slope, glm::dvec2(slope));
 }
 
+scene::WaterSurface surface_of(Drawn& drawn) {
+  const World::State& world = drawn.world.state();
+  return {*world.sea, drawn.workspace.state().sea, world.scene.area, world.terrain.get(),
+          world.coast.get()};
+}
+
+// How often a pick found what the pixel there shows.
+struct Agreement {
+  int pixels = 0, same = 0, as_deep = 0;
+};
+
 // Vertices snap to 1/256 of a pixel when they are drawn: at edges the neighbour may be, and what is
 // seen edge-on gets another depth.
+void compare(Drawn& drawn, glm::ivec2 at, const DrawnPixel& pixel, Agreement& agreement) {
+  const glm::vec2 at_px = glm::vec2(at) + 0.5f;
+  const auto found = drawn.pick_at(at_px);
+  ++agreement.pixels;
+  if (!found || found->what != pixel.what || found->triangle != pixel.triangle ||
+      found->object != pixel.object)
+    return;
+  ++agreement.same;
+  const glm::dvec3 rel = found->p_world - drawn.view.eye_world;
+  const double depth_m = glm::dot(rel, glm::dvec3(drawn.view.forward));
+  agreement.as_deep += std::abs(depth_m - pixel.depth_m) < 2e-3 * pixel.depth_m;
+  ASSERT_LT(glm::distance(glm::dvec3(drawn.view.ray(at_px.x, at_px.y)), rel / depth_m), 1e-6);
+  ASSERT_NEAR(glm::length(rel), found->distance_m, 1e-9 * found->distance_m);
+  if (pixel.what == Shown::kObject) {
+    ASSERT_EQ(found->object_kind, drawn.world.scene().objects[pixel.object].kind);
+  }
+  if (pixel.what != Shown::kLand) expect_query_answer(*found, surface_of(drawn));
+}
+
 TEST_P(PickEachScene, IsTheTriangleThatThePixelShowsAndAsksTheSurfaceThere) {
   Drawn drawn(load_shipped(GetParam()));
-  const World::State& world = drawn.world.state();
-  const scene::WaterSurface water(*world.sea, drawn.workspace.state().sea, world.scene.area,
-                                  world.terrain.get(), world.coast.get());
-  int surface = 0, same = 0, as_deep = 0, sky = 0;
+  Agreement agreement;
+  int sky = 0;
   for (int y = 1; y < kSize_px.y; y += 3) {
     for (int x = 1; x < kSize_px.x; x += 3) {
-      const DrawnPixel pixel = pixel_at(drawn, x, y);
-      const glm::vec2 at_px = glm::vec2(x, y) + 0.5f;
-      const auto found = drawn.pick_at(at_px);
-      if (!pixel.is_water && !pixel.is_land) {
-        sky += !found;
-        continue;
-      }
-      ++surface;
-      if (!found || found->is_water != pixel.is_water || found->triangle != pixel.triangle)
-        continue;
-      ++same;
-      const glm::dvec3 rel = found->p_world - drawn.view.eye_world;
-      const double depth_m = glm::dot(rel, glm::dvec3(drawn.view.forward));
-      as_deep += std::abs(depth_m - pixel.depth_m) < 2e-3 * pixel.depth_m;
-      ASSERT_LT(glm::distance(glm::dvec3(drawn.view.ray(at_px.x, at_px.y)), rel / depth_m), 1e-6);
-      ASSERT_NEAR(glm::length(rel), found->distance_m, 1e-9 * found->distance_m);
-      if (pixel.is_water) expect_query_answer(*found, water);
+      if (const auto pixel = pixel_at(drawn, x, y))
+        compare(drawn, {x, y}, *pixel, agreement);
+      else
+        sky += !drawn.pick_at(glm::vec2(x, y) + 0.5f);
     }
   }
-  EXPECT_GT(surface, 500);
+  EXPECT_GT(agreement.pixels, 500);
   EXPECT_GT(sky, 50);
-  EXPECT_GE(same, 0.98 * surface);
-  EXPECT_GE(as_deep, 0.98 * same);
+  EXPECT_GE(agreement.same, 0.98 * agreement.pixels);
+  EXPECT_GE(agreement.as_deep, 0.98 * agreement.same);
+}
+
+// Objects of every distance: near ones of many triangles, far ones of few pixels.
+TEST(Pick, IsTheObjectThatThePixelShows) {
+  constexpr glm::ivec2 kLarge_px(640, 360);
+  const scene::Scene scene = load_shipped("buoys");
+  Drawn drawn(scene, kLarge_px);
+  Agreement agreement;
+  std::set<std::size_t> seen;
+  for (int y = 0; y < kLarge_px.y; ++y) {
+    for (int x = y % 2; x < kLarge_px.x; x += 2) {
+      const auto pixel = pixel_at(drawn, x, y);
+      if (!pixel || pixel->what != Shown::kObject) continue;
+      compare(drawn, {x, y}, *pixel, agreement);
+      seen.insert(pixel->object);
+    }
+  }
+  EXPECT_GT(agreement.pixels, 900);
+  EXPECT_GE(seen.size(), 10);
+  EXPECT_GE(agreement.same, 0.96 * agreement.pixels);
+  EXPECT_GE(agreement.as_deep, 0.98 * agreement.same);
 }
 
 TEST(Pick, OfTheSkyIsNothing) {

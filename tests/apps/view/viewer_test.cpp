@@ -372,7 +372,7 @@ TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
   viewer.turn();
   ASSERT_TRUE(viewer.report().pick);
   const render::Pick pick = *viewer.report().pick;
-  EXPECT_TRUE(pick.is_water);
+  EXPECT_EQ(pick.what, render::Shown::kWater);
   const View view = scene::camera_view(small_scene().camera, viewer.picture_time_s(), 640, 400);
   const glm::vec4 clip = view.clip_from_rel * glm::vec4(pick.p_world - view.eye_world, 1.0);
   EXPECT_NEAR((clip.x / clip.w + 1.0f) * 320.0f, 600.5f, 0.01f);
