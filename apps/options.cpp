@@ -81,7 +81,7 @@ void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
   add_number(
       line, "--lookup-scale", frame.lookup_scale, 0.1, 1.0,
       "Size of reflection and refraction images against the picture, instead of the scene's");
-  add_number(line, "--background-error", frame.background_error_px, 1e-3, 8.0,
+  add_number(line, "--background-error", frame.background_error_px, 0.0, 8.0,
              "Pixels by which far water may lie off for waves left out, instead of the scene's");
   add_number(line, "--picture-scale", frame.picture_scale, 0.1, 1.0,
              "Draw at this share of the size and enlarge: faster, less sharp");

@@ -61,8 +61,9 @@ struct FrameOptions {
   int water_triangles = 0;    // 0: the scene's
   int terrain_triangles = 0;  // 0: the scene's
   double lookup_scale = 0.0;  // 0: the scene's
-  // Far vertices of the sea leave out waves that move them by less than this; 0: the scene's.
-  double background_error_px = 0.0;
+  // Far vertices of the sea leave out waves that move them by less than this; 0: they leave out
+  // none, below 0: the scene's.
+  double background_error_px = -1.0;
   // The picture is drawn at this share of the view's size each way, in (0, 1], and enlarged. Not
   // with keep_linear, which is for pictures that are kept.
   double picture_scale = 1.0;

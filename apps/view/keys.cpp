@@ -48,7 +48,7 @@ std::span<const KeyHelp> key_help() {
       KeyHelp{"F2, H", "panel"},
       KeyHelp{"F3", "triangles, tinted by level of detail"},
       KeyHelp{"F11", "full screen"},
-      KeyHelp{"F12", "screenshot"},
+      KeyHelp{"F12", "screenshot, at full quality"},
       KeyHelp{"Esc", "release the mouse, then quit"},
   };
   return kRows;

@@ -47,7 +47,7 @@ void view(const Options& options) {
   if (options.screenshot.empty()) return;
   if (viewer.frames_drawn() == 0)
     throw std::runtime_error("the window was closed before a frame was drawn; no screenshot");
-  apps::write_picture(viewer.picture(), options.screenshot);
+  apps::write_picture(viewer.full_picture(), options.screenshot);
 }
 
 }  // namespace

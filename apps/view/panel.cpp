@@ -72,6 +72,7 @@ bool draw_detail(scene::Detail& detail) {
 void draw_quality(render::FrameOptions& frame) {
   ImGui::SliderInt("triangles", &frame.water_triangles, 200, 200000, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  slide("far waves", frame.background_error_px, 0.0, 8.0, "may be %.1f px off");
   slide("lookup size", frame.lookup_scale, 0.1, 1.0, "%.2f");
   ImGui::Checkbox("wireframe", &frame.wireframe);
 }

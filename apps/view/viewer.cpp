@@ -150,9 +150,10 @@ void Viewer::run_command(Command command) {
 }
 
 void Viewer::save_screenshot() {
+  if (frames_drawn_ == 0) return;
   try {
     const std::filesystem::path path = free_screenshot_name();
-    apps::write_picture(target_, path);
+    apps::write_picture(full_picture(), path);
     report_.message = "wrote " + path.string();
   } catch (const std::exception& e) {  // a full disk must not end the flight
     report_.message = e.what();
@@ -172,6 +173,10 @@ void Viewer::choose_detail(const scene::Detail& detail) {
 void Viewer::choose_budget(bool governed, double budget_ms) {
   panel_.governed = governed;
   panel_.budget_ms = budget_ms;
+}
+
+void Viewer::choose_quality(const render::FrameOptions& full_quality) {
+  panel_.frame = full_quality;
 }
 
 void Viewer::request_world() {
@@ -211,12 +216,12 @@ void Viewer::draw_frame() {
   if (frames_drawn_ > 0) tick(clock_, dt_s);
 
   // Draw. Nothing below handles events, so the window's surface stays what it is until shown.
-  const View view = next_view(dt_s);
-  report_.statistics = render::render_frame(*world_, view, clock_.t_s, next_options(), workspace_,
-                                            target_, workers_);
+  picture_view_ = next_view(dt_s);
   picture_time_s_ = clock_.t_s;
+  report_.statistics = render::render_frame(*world_, picture_view_, picture_time_s_, next_options(),
+                                            workspace_, target_, workers_);
   add_frame(report_.history, report_.statistics.frame_ms);
-  pick_under_pointer(view);
+  pick_under_pointer();
 
   // Show.
   const Clock::time_point drawn = Clock::now();
@@ -236,11 +241,19 @@ const render::FrameOptions& Viewer::next_options() {
   return options;
 }
 
-void Viewer::pick_under_pointer(const View& view) {
+render::Target Viewer::full_picture() {
+  render::Workspace workspace;
+  render::Target picture;
+  render::render_frame(*world_, picture_view_, picture_time_s_, panel_.frame, workspace, picture,
+                       workers_);
+  return picture;
+}
+
+void Viewer::pick_under_pointer() {
   report_.pick.reset();
   if (!pointer_ || mouse_captured_ || !show_panel_ || gui_.wants_mouse()) return;
   const glm::vec2 pixel = *pointer_ * window_.pixels_per_unit() + 0.5f;
-  report_.pick = render::pick(*world_, view, workspace_, pixel, pick_scratch_);
+  report_.pick = render::pick(*world_, picture_view_, workspace_, pixel, pick_scratch_);
 }
 
 double Viewer::time_since_last_frame_s() {

@@ -9,8 +9,11 @@
 #include <ctime>
 #include <filesystem>
 #include <random>
+#include <set>
 #include <thread>
 
+#include "apps/picture_file.h"
+#include "texture/image_io.h"
 #include "view_scene.h"
 
 namespace swell::view {
@@ -62,23 +65,23 @@ void push_window_event(Viewer& viewer, int what, int data1 = 0, int data2 = 0) {
 }
 
 // What a program without a window draws.
-std::uint64_t headless_hash(const scene::Scene& scene, double t_s, int width_px, int height_px,
-                            const render::FrameOptions& options = {}) {
+render::Target headless_picture(const scene::Scene& scene, double t_s, int width_px, int height_px,
+                                const render::FrameOptions& options = {}) {
   const render::World world{scene::Scene(scene)};
   Workers workers(1);
   render::Workspace workspace;
   render::Target target;
   render::render_frame(world, scene::camera_view(scene.camera, t_s, width_px, height_px), t_s,
                        options, workspace, target, workers);
-  return render::picture_hash(target);
+  return target;
 }
 
 void expect_headless_picture(const Viewer& viewer, const scene::Scene& scene,
                              const render::FrameOptions& options = {}) {
   const render::Target& picture = viewer.picture();
-  EXPECT_EQ(
-      render::picture_hash(picture),
-      headless_hash(scene, viewer.picture_time_s(), picture.width_px, picture.height_px, options));
+  EXPECT_EQ(picture.rgba, headless_picture(scene, viewer.picture_time_s(), picture.width_px,
+                                           picture.height_px, options)
+                              .rgba);
 }
 
 TEST_F(ViewerTest, DrawsTheCountedFramesAtExactTimesAndEnds) {
@@ -387,6 +390,45 @@ TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
   EXPECT_FALSE(viewer.report().pick);
 }
 
+TEST_F(ViewerTest, ThePointerPicksWhatFloatsThere) {
+  scene::Scene scene = small_scene();
+  scene.objects.resize(2);
+  scene.objects[0].position_m = {0.0, -50.0};  // behind the eye
+  scene.objects[1].kind = scene::ObjectKind::kBox;
+  scene.objects[1].position_m = {6.0, 30.0};
+  scene.objects[1].size_m = glm::dvec3(4.0);
+  Viewer viewer(scene, settings_of(1000000, {640, 400}));
+  viewer.turn();
+  push_pointer(420, 240);
+  viewer.turn();
+  ASSERT_TRUE(viewer.report().pick);
+  const render::Pick pick = *viewer.report().pick;
+  EXPECT_EQ(pick.what, render::Shown::kObject);
+  EXPECT_EQ(pick.object, 1);
+  EXPECT_EQ(pick.object_kind, scene::ObjectKind::kBox);
+  EXPECT_NEAR(pick.p_world.y, 28.0, 1.0);
+}
+
+TEST_F(ViewerTest, FarWavesAreLeftOutAndDrawnAgainFromFrameToFrame) {
+  scene::Scene scene = small_scene();
+  scene.detail.background_error_px = 2.0;
+  Viewer viewer(scene, settings_of(100));
+  viewer.turn();
+  render::FrameOptions quality = viewer.panel().frame;
+  EXPECT_EQ(quality.background_error_px, 2.0);
+  std::set<std::uint64_t> pictures;
+  push_key(SDL_KEYDOWN, SDLK_p);
+  for (const double error_px : {0.0, 2.0, 8.0}) {
+    quality.background_error_px = error_px;
+    viewer.choose_quality(quality);
+    viewer.turn();
+    scene.detail.background_error_px = error_px;
+    expect_headless_picture(viewer, scene);
+    pictures.insert(render::picture_hash(viewer.picture()));
+  }
+  EXPECT_EQ(pictures.size(), 3);
+}
+
 TEST_F(ViewerTest, TheGovernorIsOnUnlessFramesAreCounted) {
   EXPECT_TRUE(Viewer(small_scene(), settings_of(0)).panel().governed);
   EXPECT_FALSE(Viewer(small_scene(), settings_of(5)).panel().governed);
@@ -406,23 +448,61 @@ TEST_F(ViewerTest, FramesDrawLessToKeepASmallBudgetAndAllWithoutOne) {
   expect_headless_picture(viewer, small_scene());
 }
 
+namespace fs = std::filesystem;
+
+// A new working folder, for as long as it lives.
+class ScreenshotFolder {
+ public:
+  ScreenshotFolder()
+      : old_(fs::current_path()), own_(fs::path(testing::TempDir()) / "swell_shots") {
+    fs::remove_all(own_);
+    fs::create_directories(own_);
+    fs::current_path(own_);
+  }
+  ~ScreenshotFolder() { fs::current_path(old_); }
+  ScreenshotFolder(const ScreenshotFolder&) = delete;
+  ScreenshotFolder& operator=(const ScreenshotFolder&) = delete;
+
+ private:
+  fs::path old_, own_;
+};
+
 TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
-  namespace fs = std::filesystem;
-  const fs::path old = fs::current_path();
-  const fs::path folder = fs::path(testing::TempDir()) / "swell_screenshots";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  fs::current_path(folder);
+  const ScreenshotFolder folder;
   Viewer viewer(small_scene(), settings_of(100));
+  push_key(SDL_KEYDOWN, SDLK_F12);  // there is no picture yet
   viewer.turn();
   for (int i = 0; i < 2; ++i) {
     push_key(SDL_KEYDOWN, SDLK_F12);
     viewer.turn();
   }
-  fs::current_path(old);
-  EXPECT_TRUE(fs::exists(folder / "swell_0001.png"));
-  EXPECT_TRUE(fs::exists(folder / "swell_0002.png"));
-  EXPECT_FALSE(fs::exists(folder / "swell_0003.png"));
+  EXPECT_TRUE(fs::exists("swell_0001.png"));
+  EXPECT_TRUE(fs::exists("swell_0002.png"));
+  EXPECT_FALSE(fs::exists("swell_0003.png"));
+}
+
+TEST_F(ViewerTest, AScreenshotIsThePictureAtFullQualityAndTheGovernorGoesOnAsBefore) {
+  const ScreenshotFolder folder;
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.choose_budget(true, 0.01);
+  for (int i = 0; i < 60; ++i) viewer.turn();
+  push_key(SDL_KEYDOWN, SDLK_p);
+  viewer.turn();
+  viewer.turn();
+  ASSERT_LT(viewer.report().picture_scale, 1.0);
+  const std::uint64_t shown = render::picture_hash(viewer.picture());
+  const int step_changes = viewer.report().governor.step_changes;
+
+  push_key(SDL_KEYDOWN, SDLK_F12);
+  viewer.turn();
+  apps::write_picture(headless_picture(small_scene(), viewer.picture_time_s(), 160, 100),
+                      "expected.png");
+  EXPECT_EQ(texture::read_image("swell_0001.png").pixels,
+            texture::read_image("expected.png").pixels);
+  EXPECT_EQ(render::picture_hash(viewer.picture()), shown);
+  EXPECT_EQ(viewer.report().governor.step_changes, step_changes);
+  EXPECT_EQ(viewer.report().statistics.splits + viewer.report().statistics.merges, 0)
+      << "frames go on from the mesh of the last one";
 }
 
 }  // namespace
