@@ -1,11 +1,13 @@
 // What the last frame shows at a place of its picture.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 
 #include "lod/envelope.h"
 #include "render/frame.h"
+#include "scene/objects.h"
 
 namespace swell::render {
 

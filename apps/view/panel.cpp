@@ -154,14 +154,8 @@ void draw_counts(const PanelReport& report) {
 
 // An object has the number that errors of its scene file have.
 std::string name_of(const render::Pick& pick) {
-  switch (pick.what) {
-    case render::Shown::kWater:
-      return "water";
-    case render::Shown::kLand:
-      return "land";
-    case render::Shown::kObject:
-      break;
-  }
+  if (pick.what == render::Shown::kWater) return "water";
+  if (pick.what == render::Shown::kLand) return "land";
   const auto kind = static_cast<std::size_t>(pick.object_kind);
   return fmt::format("{}, object[{}],", scene::kObjectKindNames[kind], pick.object);
 }

@@ -46,8 +46,8 @@ class Viewer {
   const render::Target& picture() const { return target_; }
 
   // The last frame once more, at the full quality that the panel asks for, whatever the governor
-  // left out; not before the first frame. Makes its own workspace, so that frames go on as if
-  // nothing had happened: 0.1 s at 1280x720.
+  // left out; not before the first frame. In a workspace of its own, so that the next frame is as
+  // it would have been. 50 ms at 1280x720.
   render::Target full_picture();
 
   // For tests and the panel.

@@ -161,6 +161,23 @@ TEST(Pick, IsTheObjectThatThePixelShows) {
   EXPECT_GE(agreement.as_deep, 0.98 * agreement.same);
 }
 
+TEST(Pick, BeginsWhereThePictureDoes) {
+  scene::Scene scene = load_shipped("buoys");
+  scene.camera.near_m = 40.0;  // two of the buoys and most of the water are nearer
+  Drawn drawn(scene);
+  int same = 0, pixels = 0, empty = 0;
+  for (int y = kSize_px.y / 2; y < kSize_px.y; y += 2) {
+    for (int x = 0; x < kSize_px.x; x += 2, ++pixels) {
+      const auto pixel = pixel_at(drawn, x, y);
+      const auto found = drawn.pick_at(glm::vec2(x, y) + 0.5f);
+      same += pixel ? found && found->what == pixel->what : !found;
+      empty += !pixel;
+    }
+  }
+  EXPECT_GT(empty, pixels / 2);
+  EXPECT_GE(same, 0.98 * pixels);
+}
+
 TEST(Pick, OfTheSkyIsNothing) {
   scene::Scene scene = load_shipped("open_ocean");
   scene.camera.pitch_rad = 1.2;
