@@ -3,6 +3,7 @@
 #include "apps/view/viewer.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdlib>
@@ -450,16 +451,19 @@ TEST_F(ViewerTest, FramesDrawLessToKeepASmallBudgetAndAllWithoutOne) {
 
 namespace fs = std::filesystem;
 
-// A new working folder, for as long as it lives.
+// A working folder of this process alone, for as long as it lives.
 class ScreenshotFolder {
  public:
   ScreenshotFolder()
-      : old_(fs::current_path()), own_(fs::path(testing::TempDir()) / "swell_shots") {
-    fs::remove_all(own_);
+      : old_(fs::current_path()),
+        own_(fs::path(testing::TempDir()) / ("swell_shots_" + std::to_string(getpid()))) {
     fs::create_directories(own_);
     fs::current_path(own_);
   }
-  ~ScreenshotFolder() { fs::current_path(old_); }
+  ~ScreenshotFolder() {
+    fs::current_path(old_);
+    fs::remove_all(own_);
+  }
   ScreenshotFolder(const ScreenshotFolder&) = delete;
   ScreenshotFolder& operator=(const ScreenshotFolder&) = delete;
 
