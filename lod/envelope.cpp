@@ -45,8 +45,8 @@ void build(const Mesh& mesh, Envelopes& envelopes, LeafRange leaf_range) {
   builder.build(0);
 }
 
-Envelope envelope(const Envelopes& envelopes, std::array<glm::ivec2, 3> corner, int level, int node,
-                  int first_leaf) {
+Envelope envelope(const Envelopes& envelopes, const std::array<glm::ivec2, 3>& corner, int level,
+                  int node, int first_leaf) {
   const auto i = static_cast<std::size_t>(node);
   return {corner, envelopes.height[i], level, node, first_leaf, envelopes.leaves[i]};
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -109,7 +110,7 @@ void ProjectVertices(std::span<const glm::vec4> p_clip, std::span<const float> c
   std::array<float, kLanes> tail_user{};
   std::array<std::int32_t, 4 * kLanes> tail_out;
   const std::size_t count = p_clip.size() - i;
-  std::memcpy(tail_in.data(), &p_clip[i], count * sizeof(glm::vec4));
+  std::copy_n(&p_clip[i].x, 4 * count, tail_in.data());
   if (has_user) std::memcpy(tail_user.data(), &clip_distance[i], count * sizeof(float));
   ProjectPacket(tail_in.data(), hn::LoadU(d, tail_user.data()), viewport, tail_out.data());
   std::memcpy(&out[i], tail_out.data(), count * sizeof(WindowVertex));
