@@ -72,6 +72,8 @@ bool draw_detail(scene::Detail& detail) {
 void draw_quality(render::FrameOptions& frame) {
   ImGui::SliderInt("triangles", &frame.water_triangles, 200, 200000, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  slide("refining", frame.lod_ms, 0.0, 10.0,
+        frame.lod_ms > 0.0 ? "at most %.1f ms" : "takes its time");
   slide("far waves", frame.background_error_px, 0.0, 8.0, "may be %.1f px off");
   slide("lookup size", frame.lookup_scale, 0.1, 1.0, "%.2f");
   ImGui::Checkbox("wireframe", &frame.wireframe);
@@ -146,7 +148,7 @@ void draw_times(const PanelReport& report, double budget_ms) {
 void draw_counts(const PanelReport& report) {
   const render::FrameStatistics& s = report.statistics;
   row("water/terrain", fmt::format("{} / {} tris", s.water_triangles, s.terrain_triangles));
-  row("splits/merges", fmt::format("{} / {}", s.splits, s.merges));
+  row("splits/merges", fmt::format("{} / {}{}", s.splits, s.merges, s.lod_stopped ? " ..." : ""));
   row("shaded", fmt::format("{} px", s.shaded_pixels));
   text(fmt::format("{}x{} on {} threads, {}", report.width_px, report.height_px, report.threads,
                    report.simd));

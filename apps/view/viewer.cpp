@@ -242,9 +242,11 @@ const render::FrameOptions& Viewer::next_options() {
 }
 
 render::Target Viewer::full_picture() {
+  render::FrameOptions options = panel_.frame;
+  options.lod_ms = 0.0;  // of refining
   render::Workspace workspace;
   render::Target picture;
-  render::render_frame(*world_, picture_view_, picture_time_s_, panel_.frame, workspace, picture,
+  render::render_frame(*world_, picture_view_, picture_time_s_, options, workspace, picture,
                        workers_);
   return picture;
 }
