@@ -90,20 +90,23 @@ void Governor::write_options() {
   options_.terrain_triangles = share(full_.terrain_triangles);
   options_.lookup_scale = full_.lookup_scale * sizes.lookups;
   options_.picture_scale = full_.picture_scale * sizes.picture;
-  const double lod_ms = kLod * settings_.budget_ms;
-  options_.lod_ms = full_.lod_ms > 0.0 ? std::min(full_.lod_ms, lod_ms) : lod_ms;
+  if (frames_ > 0) {  // the first is drawn whole
+    const double lod_ms = kLod * settings_.budget_ms;
+    options_.lod_ms = full_.lod_ms > 0.0 ? std::min(full_.lod_ms, lod_ms) : lod_ms;
+  }
   options_.triangle_capacity =
       std::max({full_.triangle_capacity, full_.water_triangles, full_.terrain_triangles});
 }
 
 const FrameOptions& Governor::next(const FrameStatistics& last, double outside_ms) {
   learn(last, outside_ms);
-  if (frames_ < kFast) return options_;  // the first frame makes storage
-  const Model model = {median_cost(kFast), median_cost(kSlow)};
-  choose_aim();
-  choose_step(model);
-  choose_detail(model);
-  report_.predicted_ms = predicted_ms(model.fast, report_.step, report_.detail);
+  if (frames_ >= kFast) {  // the first frame makes storage
+    const Model model = {median_cost(kFast), median_cost(kSlow)};
+    choose_aim();
+    choose_step(model);
+    choose_detail(model);
+    report_.predicted_ms = predicted_ms(model.fast, report_.step, report_.detail);
+  }
   write_options();
   return options_;
 }

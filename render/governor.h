@@ -57,8 +57,8 @@ class Governor {
   // Full quality: triangles and scales, none of them 0; the other options pass through.
   Governor(const GovernorSettings& settings, const FrameOptions& full_quality);
 
-  // What to draw the next frame with. With a bound on the time of triangulating (a smaller one of
-  // full quality stays).
+  // What to draw the next frame with. After the first, with a bound on the time of triangulating (a
+  // smaller one of full quality stays).
   const FrameOptions& options() const { return options_; }
 
   // Takes what the last frame took, drawn with options(); `outside_ms` is what the frame took
