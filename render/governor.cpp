@@ -29,7 +29,7 @@ constexpr double kBroken = 1.05;
 constexpr double kLod = 0.15;  // of triangulating, at most
 
 // Frames.
-constexpr std::size_t kFast = 5, kSlow = 31;
+constexpr std::size_t kFast = 3, kSlow = 31;
 constexpr int kPatience = 60, kMostPatience = 16 * kPatience;
 constexpr int kFramesToLower = 15;
 constexpr int kRaiseFailed = 2 * kPatience;  // a step down so soon after one up
