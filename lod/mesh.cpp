@@ -1,5 +1,7 @@
 // The leaves of the tree as an indexed mesh, in the order of a Sierpinski curve: each triangle
 // shares an edge with the one before it, which keeps vertex caches warm.
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -55,6 +57,8 @@ struct MeshWriter {
   // to the apex, in eighths of a turn from east.
   void write_split(std::int32_t i, int direction, Corners c) {
     const Node& node = nodes[i];
+    // Nodes lie anywhere, and waiting for them is most of the work.
+    for (const std::int32_t child : node.child) hwy::Prefetch(nodes + std::max(child, 0));
     const std::uint32_t middle = vertex(i);
     const auto first_half = [&] {
       write_child(node, (direction + 7) & 7, {c.apex, middle, c.first});
