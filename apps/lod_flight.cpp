@@ -126,8 +126,7 @@ FlightRow measure_flight(const Flight& flight, Workers& workers) {
     request.max_height_m = bound_m;
     const Stopwatch stopwatch;
     const lod::AdaptStatistics statistics = roam.adapt(request);
-    if (mesh_revision != roam.revision()) roam.extract_mesh(mesh);
-    mesh_revision = roam.revision();
+    roam.update_mesh(mesh, mesh_revision);
     const double lod_end_ms = stopwatch.elapsed_ms();
     ocean::advance(sea, t_s, sea_frame, workers);
     place(domain, mesh, vertices);

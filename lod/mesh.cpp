@@ -108,4 +108,10 @@ void Roam::extract_mesh(Mesh& mesh) const {
   writer.write_split(Tree::kRoot, 3, north_west);
 }
 
+void Roam::update_mesh(Mesh& mesh, std::uint64_t& revision) const {
+  if (revision == tree_->revision) return;
+  extract_mesh(mesh);
+  revision = tree_->revision;
+}
+
 }  // namespace swell::lod

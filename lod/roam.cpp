@@ -81,8 +81,6 @@ Roam& Roam::operator=(Roam&&) noexcept = default;
 
 const Domain& Roam::domain() const { return tree_->domain; }
 
-std::uint64_t Roam::revision() const { return tree_->revision; }
-
 void Roam::set_origin(glm::dvec2 min_world) {
   SWELL_CHECK(std::isfinite(min_world.x) && std::isfinite(min_world.y), "min_world=({}, {})",
               min_world.x, min_world.y);

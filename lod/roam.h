@@ -60,13 +60,13 @@ class Roam {
   // starts from the two root triangles.
   void set_domain(const Domain& domain);
 
-  // A number, from 1, that rises whenever the triangulation changes in its domain: as long as it
-  // does not, a mesh that was written need not be written again.
-  std::uint64_t revision() const;
-
   // Writes the mesh; vectors keep their capacity. Neighbours in the list share an edge. Uses
   // scratch in the tree: not two calls at a time on one Roam.
   void extract_mesh(Mesh& mesh) const;
+
+  // The same, but only if the triangulation has changed in its domain since `revision` was set by
+  // the call that wrote `mesh`. 0: write it; after another Roam, or something else, wrote the mesh.
+  void update_mesh(Mesh& mesh, std::uint64_t& revision) const;
 
   struct Tree;
   const Tree& tree() const { return *tree_; }  // for tests and queries

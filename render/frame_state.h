@@ -27,7 +27,7 @@ struct Surface {
   lod::Domain domain;  // whose lattice the mesh is on
   lod::AdaptStatistics statistics;
   lod::Mesh mesh;
-  std::uint64_t mesh_revision = 0;  // the ROAM's that the mesh was written from, 0: from none
+  std::uint64_t mesh_revision = 0;  // as of Roam::update_mesh
   std::vector<glm::vec2> offset;    // per vertex: x, y relative to the eye [m]
   std::vector<float> height_m;      // per vertex
   std::vector<glm::vec4> p_clip;    // in the window's view

@@ -83,9 +83,7 @@ void adapt_surface(const lod::Domain& domain, const lod::AdaptRequest& request, 
   surface.roam->set_domain(domain);
   surface.statistics = surface.roam->adapt(request);
   surface.domain = domain;
-  if (surface.mesh_revision == surface.roam->revision()) return;  // a still camera
-  surface.roam->extract_mesh(surface.mesh);
-  surface.mesh_revision = surface.roam->revision();
+  surface.roam->update_mesh(surface.mesh, surface.mesh_revision);
 }
 
 void triangulate_water(const Frame& frame) {

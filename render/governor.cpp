@@ -25,8 +25,7 @@ constexpr double kHighestAim = 0.92, kLowestAim = 0.8;
 constexpr double kSlackAbove = 0.03, kSlackBelow = 0.04;  // around the aim nothing is changed
 constexpr double kSlackToRaise = 0.05;
 constexpr double kBroken = 1.05;
-
-constexpr double kLod = 0.15;  // of triangulating, at most
+constexpr double kMostLod = 0.15;  // of triangulating
 
 // Frames.
 constexpr std::size_t kFast = 3, kSlow = 31;
@@ -91,7 +90,7 @@ void Governor::write_options() {
   options_.lookup_scale = full_.lookup_scale * sizes.lookups;
   options_.picture_scale = full_.picture_scale * sizes.picture;
   if (frames_ > 0) {  // the first is drawn whole
-    const double lod_ms = kLod * settings_.budget_ms;
+    const double lod_ms = kMostLod * settings_.budget_ms;
     options_.lod_ms = full_.lod_ms > 0.0 ? std::min(full_.lod_ms, lod_ms) : lod_ms;
   }
   options_.triangle_capacity =

@@ -17,8 +17,9 @@
 //      costs sharpness everywhere alike. (Fewer layers of ripples far away would leave a line on
 //      the sea where they end, and save less.);
 //   4. at the smallest picture, triangles again, down to `least_detail`.
-// It all comes back in the opposite order. Triangulating may take a part of the budget at most:
-// where the camera jumps, triangles follow over a few frames, the most important first. Full quality is what the caller gives, never more.
+// It all comes back in the opposite order. Full quality is what the caller gives, never more.
+// Triangulating may take a part of the budget at most: where the camera jumps, triangles follow
+// over a few frames, the most important first.
 //
 // Triangles change by at most 10 % from frame to frame, which no eye sees (a triangle that goes
 // covered a few pixels); steps of size are seen, so a step up waits until the model has said for

@@ -1,0 +1,222 @@
+// The whole viewer: what its panel changes, what the pointer picks, what screenshots keep.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "apps/picture_file.h"
+#include "apps/view/viewer.h"
+#include "texture/image_io.h"
+#include "viewer_harness.h"
+
+namespace swell::view {
+namespace {
+
+TEST_F(ViewerTest, NewWavesAppearWhileFramesGoOn) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  WaveChoice choice = wave_choice(small_scene());
+  for (int i = 0; i < 10; ++i) {  // a slider being dragged
+    choice.wind_speed_mps = 5.0 + i;
+    viewer.choose_waves(choice);
+    viewer.turn();
+  }
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (viewer.is_rebuilding() && std::chrono::steady_clock::now() < end) viewer.turn();
+  viewer.turn();
+  EXPECT_EQ(viewer.world().scene().sea.wind_speed_mps, 14.0);
+  expect_headless_picture(viewer, with_waves(small_scene(), choice));
+}
+
+// The trains of a coast take a hundred frames' time to work out.
+TEST_F(ViewerTest, NoFrameWaitsForNewWaves) {
+  scene::Scene coast = small_scene();
+  coast.terrain.emplace();
+  coast.terrain->coast_m = {{-500.0, 200.0}, {500.0, 200.0}};
+  coast.coast.model = scene::CoastModel::kBlend;
+  Viewer viewer(coast, settings_of(1000000));
+  for (int i = 0; i < 3; ++i) viewer.turn();
+
+  using Clock = std::chrono::steady_clock;
+  WaveChoice choice = wave_choice(coast);
+  choice.wind_speed_mps = 11.0;
+  const Clock::time_point asked = Clock::now();
+  viewer.choose_waves(choice);
+  Clock::duration longest{0};
+  int frames = 0;
+  for (; viewer.world().scene().sea.wind_speed_mps != 11.0; ++frames) {
+    const Clock::time_point begin = Clock::now();
+    ASSERT_TRUE(viewer.turn());
+    longest = std::max(longest, Clock::now() - begin);
+    ASSERT_LT(begin - asked, std::chrono::seconds(60));
+  }
+  EXPECT_LT(2 * longest, Clock::now() - asked);
+  EXPECT_GE(frames, 4);
+}
+
+TEST_F(ViewerTest, AnotherTriangulationAppearsLikeNewWaves) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  scene::Scene other = small_scene();
+  other.detail.triangulation = scene::Triangulation::kRadial;
+  viewer.choose_detail(other.detail);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (viewer.is_rebuilding() && std::chrono::steady_clock::now() < end) viewer.turn();
+  viewer.turn();
+  expect_headless_picture(viewer, other);
+}
+
+void push_pointer(int x, int y) {
+  SDL_Event event{};
+  event.motion.type = SDL_MOUSEMOTION;
+  event.motion.x = x;
+  event.motion.y = y;
+  SDL_PushEvent(&event);
+}
+
+TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
+  Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
+  viewer.turn();
+  push_pointer(600, 390);  // beside the panel
+  viewer.turn();
+  ASSERT_TRUE(viewer.report().pick);
+  const render::Pick pick = *viewer.report().pick;
+  EXPECT_EQ(pick.what, render::Shown::kWater);
+  const View view = scene::camera_view(small_scene().camera, viewer.picture_time_s(), 640, 400);
+  const glm::vec4 clip = view.clip_from_rel * glm::vec4(pick.p_world - view.eye_world, 1.0);
+  EXPECT_NEAR((clip.x / clip.w + 1.0f) * 320.0f, 600.5f, 0.01f);
+  EXPECT_NEAR((1.0f - clip.y / clip.w) * 200.0f, 390.5f, 0.01f);
+
+  push_pointer(600, 10);  // the sky
+  viewer.turn();
+  EXPECT_FALSE(viewer.report().pick);
+  push_pointer(600, 390);
+  push_window_event(viewer, SDL_WINDOWEVENT_LEAVE);
+  viewer.turn();
+  EXPECT_FALSE(viewer.report().pick);
+}
+
+TEST_F(ViewerTest, ThePointerPicksWhatFloatsThere) {
+  scene::Scene scene = small_scene();
+  scene.objects.resize(2);
+  scene.objects[0].position_m = {0.0, -50.0};  // behind the eye
+  scene.objects[1].kind = scene::ObjectKind::kBox;
+  scene.objects[1].position_m = {6.0, 30.0};
+  scene.objects[1].size_m = glm::dvec3(4.0);
+  Viewer viewer(scene, settings_of(1000000, {640, 400}));
+  viewer.turn();
+  push_pointer(420, 240);
+  viewer.turn();
+  ASSERT_TRUE(viewer.report().pick);
+  const render::Pick pick = *viewer.report().pick;
+  EXPECT_EQ(pick.what, render::Shown::kObject);
+  EXPECT_EQ(pick.object, 1);
+  EXPECT_EQ(pick.object_kind, scene::ObjectKind::kBox);
+  EXPECT_NEAR(pick.p_world.y, 28.0, 1.0);
+}
+
+TEST_F(ViewerTest, FarWavesAreLeftOutAndDrawnAgainFromFrameToFrame) {
+  scene::Scene scene = small_scene();
+  scene.detail.background_error_px = 2.0;
+  Viewer viewer(scene, settings_of(100));
+  viewer.turn();
+  render::FrameOptions quality = viewer.panel().frame;
+  EXPECT_EQ(quality.background_error_px, 2.0);
+  std::set<std::uint64_t> pictures;
+  push_key(SDL_KEYDOWN, SDLK_p);
+  for (const double error_px : {0.0, 2.0, 8.0}) {
+    quality.background_error_px = error_px;
+    viewer.choose_quality(quality);
+    viewer.turn();
+    scene.detail.background_error_px = error_px;
+    expect_headless_picture(viewer, scene);
+    pictures.insert(render::picture_hash(viewer.picture()));
+  }
+  EXPECT_EQ(pictures.size(), 3);
+}
+
+TEST_F(ViewerTest, TheGovernorIsOnUnlessFramesAreCounted) {
+  EXPECT_TRUE(Viewer(small_scene(), settings_of(0)).panel().governed);
+  EXPECT_FALSE(Viewer(small_scene(), settings_of(5)).panel().governed);
+}
+
+TEST_F(ViewerTest, FramesDrawLessToKeepASmallBudgetAndAllWithoutOne) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  const int all = viewer.report().statistics.water_triangles;
+  viewer.choose_budget(true, 0.01);
+  for (int i = 0; i < 60; ++i) viewer.turn();
+  EXPECT_LT(viewer.report().statistics.water_triangles, all / 2);
+  EXPECT_LT(viewer.report().picture_scale, 1.0);
+  viewer.choose_budget(false, 0.01);
+  viewer.turn();
+  EXPECT_EQ(viewer.report().picture_scale, 1.0);
+  expect_headless_picture(viewer, small_scene());
+}
+
+namespace fs = std::filesystem;
+
+// A working folder of this process alone, for as long as it lives.
+class ScreenshotFolder {
+ public:
+  ScreenshotFolder()
+      : old_(fs::current_path()),
+        own_(fs::path(testing::TempDir()) / ("swell_shots_" + std::to_string(getpid()))) {
+    fs::create_directories(own_);
+    fs::current_path(own_);
+  }
+  ~ScreenshotFolder() {
+    fs::current_path(old_);
+    fs::remove_all(own_);
+  }
+  ScreenshotFolder(const ScreenshotFolder&) = delete;
+  ScreenshotFolder& operator=(const ScreenshotFolder&) = delete;
+
+ private:
+  fs::path old_, own_;
+};
+
+TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
+  const ScreenshotFolder folder;
+  Viewer viewer(small_scene(), settings_of(100));
+  push_key(SDL_KEYDOWN, SDLK_F12);  // there is no picture yet
+  viewer.turn();
+  for (int i = 0; i < 2; ++i) {
+    push_key(SDL_KEYDOWN, SDLK_F12);
+    viewer.turn();
+  }
+  EXPECT_TRUE(fs::exists("swell_0001.png"));
+  EXPECT_TRUE(fs::exists("swell_0002.png"));
+  EXPECT_FALSE(fs::exists("swell_0003.png"));
+}
+
+TEST_F(ViewerTest, AScreenshotIsThePictureAtFullQualityAndTheGovernorGoesOnAsBefore) {
+  const ScreenshotFolder folder;
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.choose_budget(true, 0.01);
+  for (int i = 0; i < 60; ++i) viewer.turn();
+  push_key(SDL_KEYDOWN, SDLK_p);
+  viewer.turn();
+  viewer.turn();
+  ASSERT_LT(viewer.report().picture_scale, 1.0);
+  const std::uint64_t shown = render::picture_hash(viewer.picture());
+  const int step_changes = viewer.report().governor.step_changes;
+
+  push_key(SDL_KEYDOWN, SDLK_F12);
+  viewer.turn();
+  apps::write_picture(headless_picture(small_scene(), viewer.picture_time_s(), 160, 100),
+                      "expected.png");
+  EXPECT_EQ(texture::read_image("swell_0001.png").pixels,
+            texture::read_image("expected.png").pixels);
+  EXPECT_EQ(render::picture_hash(viewer.picture()), shown);
+  EXPECT_EQ(viewer.report().governor.step_changes, step_changes);
+  EXPECT_EQ(viewer.report().statistics.splits + viewer.report().statistics.merges, 0)
+      << "frames go on from the mesh of the last one";
+}
+
+}  // namespace
+}  // namespace swell::view
