@@ -39,6 +39,24 @@ float share_at(const CoastSea& coast, glm::dvec2 p_world) {
   return low + fy * (high - low);
 }
 
+// The largest difference between neighbouring samples of the share or its spectrum_weight(), as a
+// slope in both directions together.
+float share_slope_per_m(const CoastSea& coast) {
+  const FloorGrid& grid = coast.trains.grid;
+  const auto difference = [&](std::size_t a, std::size_t b) {
+    const float s = coast.share[a], t = coast.share[b];
+    return std::max(std::abs(s - t), std::abs(spectrum_weight(s) - spectrum_weight(t)));
+  };
+  float by_x = 0.0f, by_y = 0.0f;
+  for (int j = 0; j < grid.samples_y; ++j)
+    for (int i = 0; i < grid.samples_x; ++i) {
+      const std::size_t k = grid.index(i, j);
+      if (i > 0) by_x = std::max(by_x, difference(k, k - 1));
+      if (j > 0) by_y = std::max(by_y, difference(k, grid.index(i, j - 1)));
+    }
+  return std::sqrt(by_x * by_x + by_y * by_y) / static_cast<float>(grid.spacing_m);
+}
+
 }  // namespace
 
 CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_count,
@@ -60,6 +78,7 @@ CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_co
       coast.share[k] = static_cast<float>(sin(0.5 * kPi * shallow * inside_grid(floor.grid, i, j)));
     }
   }
+  coast.share_slope_per_m = share_slope_per_m(coast);
   return coast;
 }
 

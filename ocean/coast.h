@@ -20,6 +20,13 @@ struct CoastSea {
   TrainSea trains;
   std::vector<float> share;  // for the samples of trains.grid, in [0, 1]
   float peak_wavelength_m = 1.0f;
+  // The steepest slopes [1/m] of the share and of spectrum_weight(share), between samples.
+  float share_slope_per_m = 0.0f;
+
+  // A bound on the slope of share x trains, everywhere and always.
+  float slope_bound() const {
+    return trains.slope_bound + share_slope_per_m * trains.height_bound_m;
+  }
 };
 
 // Where the spectrum ends and the trains begin, as depth over the peak's deep-water wavelength: all

@@ -107,24 +107,60 @@ double break_waves(const SeaFloor& floor, std::span<const WaveTrain> trains,
   return largest;
 }
 
-void fill_cells(const SeaFloor& floor, std::span<const WavePhase> phases, TrainSea& sea) {
+// The largest length of a bilinear function's gradient, per sample spacing.
+double steepest(const Bilinear& b) {
+  const double by_x = std::max(std::abs(b.c1), std::abs(b.c1 + b.c3));
+  const double by_y = std::max(std::abs(b.c2), std::abs(b.c2 + b.c3));
+  return std::sqrt(by_x * by_x + by_y * by_y);
+}
+
+double largest(const Bilinear& b) {
+  return std::max({b.c0, b.c0 + b.c1, b.c0 + b.c2, b.c0 + b.c1 + b.c2 + b.c3});
+}
+
+double smallest(const Bilinear& b) { return -largest({-b.c0, -b.c1, -b.c2, -b.c3}); }
+
+// A bound on |grad (A w)| per sample spacing in one cell, for z = A w(theta, h):
+//   w grad A + A (dw/dtheta grad theta + dw/db db/dh grad h), b the blend of the two profiles.
+// Their slopes are at most 2 pi and 8; they differ by at most 0.611, and |db/dh| is at most 1.5
+// over the depths between them.
+double train_slope_bound(const TrainSea& sea, std::size_t train, const Bilinear& theta,
+                         const Bilinear& amplitude, const Bilinear& depth) {
+  const double between_m = static_cast<double>(sea.deep_depth_m[train]) -
+                           static_cast<double>(sea.shallow_depth_m[train]);
+  const double shore = std::clamp(
+      (static_cast<double>(sea.deep_depth_m[train]) - smallest(depth)) / between_m, 0.0, 1.0);
+  const double blend = shore * shore * (3.0 - 2.0 * shore);
+  const double by_theta = kTwoPi + blend * (8.0 - kTwoPi);
+  const double by_depth = 0.611 * 1.5 / between_m;
+  return steepest(amplitude) +
+         largest(amplitude) * (by_theta * steepest(theta) + by_depth * steepest(depth));
+}
+
+// Fills the cells and returns a bound on the slope of all trains together.
+double fill_cells(const SeaFloor& floor, std::span<const WavePhase> phases, TrainSea& sea) {
   float* wave = sea.waves.data();
   float* depth = sea.depth.data();
+  double slope_bound = 0.0;
   for (int j = 0; j < sea.cells_y; ++j) {
     for (int i = 0; i < sea.cells_x; ++i) {
       const auto corners = cell_corners(floor.grid, i, j);
       const Bilinear h = cell_bilinear(floor.depth_m, corners);
       store(h, h.c0, depth);
       depth += 4;
-      for (const WavePhase& phase : phases) {
-        const Bilinear theta = cell_bilinear(phase.cycles, corners);
-        const Bilinear amplitude = cell_bilinear(phase.amplitude, corners);
+      double slope = 0.0;
+      for (std::size_t train = 0; train < phases.size(); ++train) {
+        const Bilinear theta = cell_bilinear(phases[train].cycles, corners);
+        const Bilinear amplitude = cell_bilinear(phases[train].amplitude, corners);
         store(theta, theta.c0 - std::floor(theta.c0), wave);
         store(amplitude, amplitude.c0, wave + 4);
         wave += 8;
+        slope += train_slope_bound(sea, train, theta, amplitude, h);
       }
+      slope_bound = std::max(slope_bound, slope / floor.grid.spacing_m);
     }
   }
+  return slope_bound;
 }
 
 void set_trains(std::span<const WaveTrain> trains, TrainSea& sea) {
@@ -201,7 +237,7 @@ TrainSea make_train_sea(const SeaFloor& floor, std::span<const WaveTrain> trains
   }
   sea.depth.resize(cells * 4);
   sea.waves.resize(cells * 8 * trains.size());
-  fill_cells(floor, phases, sea);
+  sea.slope_bound = static_cast<float>(fill_cells(floor, phases, sea) * (1.0 + 1e-4));
   return sea;
 }
 

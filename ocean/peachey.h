@@ -37,7 +37,8 @@ struct TrainSea {
   FloorGrid grid;  // the sea floor's
   int cells_x = 0, cells_y = 0;
   int trains = 0;
-  float height_bound_m = 0.0f;  // |z| is at most this, everywhere and always
+  // |z| and |grad z| are at most this on the grid, always.
+  float height_bound_m = 0.0f, slope_bound = 0.0f;
   // By train.
   std::vector<double> period_s, gravity_mps2;
   std::vector<float> deep_depth_m, shallow_depth_m;  // where the profile's blend begins and ends

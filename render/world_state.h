@@ -69,11 +69,9 @@ struct World::State {
     return static_cast<float>(sea->height_bound_m()) +
            (coast ? coast->trains.height_bound_m : 0.0f);
   }
-  // |dz/dx| and |dz/dy| are at most this in practice. A coast's trains stay below the slope of
-  // Stokes' highest wave, 30 degrees (0.3 on the shipped coasts).
+  // |dz/dx| and |dz/dy| are at most this in practice.
   float slope_bound() const {
-    constexpr float kHighestWave = 0.58f;
-    return static_cast<float>(sea->slope_bound()) + (coast ? kHighestWave : 0.0f);
+    return static_cast<float>(sea->slope_bound()) + (coast ? coast->slope_bound() : 0.0f);
   }
   // 0 without waves. The trains of a coast are of the spectrum's length, if there is one.
   double mean_wavelength_m() const {

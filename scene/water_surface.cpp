@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kChunk = 256;  // points whose ground is on the stack
 constexpr double kShareStep_m = 0.25;
-constexpr double kSteepestTrains = 2.0;  // breaking waves of 0.78 of the depth, all crests together
 
 // Calls body(first, count) for pieces of at most kChunk points.
 template <class Body>
@@ -22,19 +21,19 @@ void in_chunks(std::size_t points, Body body) {
     body(first, std::min(kChunk, points - first));
 }
 
-// Six standard deviations of the spectrum's slope, the sines' largest, and what the fading adds:
-// the edge rises by 1.5 over a tenth of the area, shallow water (on sand of slope 1) by 1 over the
-// height of the waves.
-double slope_bound(const ocean::Sea& sea, const ocean::SeaFrame& frame, const SeaArea& area,
-                   const Terrain* terrain) {
-  double variance = 0.0, sines = 0.0;
-  for (const ocean::PatchFrame& patch : frame.patches) variance += patch.slope_variance;
-  for (const ocean::SineFrame& sine : frame.sines)
-    sines += std::abs(sine.amplitude_m) * 2.0 * kPi * glm::length(sine.cycles_per_m);
-  const double bound_m = sea.height_bound_m();
-  const double edge = 2.0 * bound_m * 1.5 / (0.1 * std::min(area.size_m.x, area.size_m.y));
-  const double shallow = terrain ? bound_m / (0.2 + sea.significant_height_m()) : 0.0;
-  return 6.0 * std::sqrt(variance) + sines + edge + shallow;
+// The sea's and the trains' own, and what the fading adds: the edge rises by 1.5 over a tenth of
+// the area, shallow water (on sand of slope 1) by 1 over the height of the waves, the sea makes
+// room for the trains.
+double slope_bound(const ocean::Sea& sea, const SeaArea& area, const Terrain* terrain,
+                   const ocean::CoastSea* coast) {
+  const double sea_m = sea.height_bound_m();
+  const double all_m = sea_m + (coast ? static_cast<double>(coast->trains.height_bound_m) : 0.0);
+  const double edge = 2.0 * all_m * 1.5 / (0.1 * std::min(area.size_m.x, area.size_m.y));
+  const double shallow = terrain ? sea_m / (0.2 + sea.significant_height_m()) : 0.0;
+  const double own = sea.slope_bound() + edge + shallow;
+  if (!coast) return own;
+  return own + static_cast<double>(coast->slope_bound()) +
+         static_cast<double>(coast->share_slope_per_m) * sea_m;
 }
 
 // The part of the ray between the planes z = -bound and z = bound, empty if first > last.
@@ -58,7 +57,7 @@ WaterSurface::WaterSurface(const ocean::Sea& sea, const ocean::SeaFrame& frame, 
       wave_height_m_(static_cast<float>(sea.significant_height_m())),
       bound_m_(static_cast<float>(sea.height_bound_m()) +
                (coast ? coast->trains.height_bound_m : 0.0f)),
-      steepest_(slope_bound(sea, frame, area, terrain) + (coast ? kSteepestTrains : 0.0)) {}
+      steepest_(slope_bound(sea, area, terrain, coast)) {}
 
 // 1 inside the area, falling to 0 over its last tenth.
 float WaterSurface::edge(glm::dvec2 p_world) const {

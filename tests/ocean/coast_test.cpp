@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "math/random.h"
@@ -89,6 +90,24 @@ TEST(Coast, HeightsAreTheTrainsTimesTheirShare) {
     some += height[i] != 0.0f;
   }
   EXPECT_GT(some, 100);
+}
+
+// By differences over 2 cm, with what they round.
+TEST(Coast, HeightsAreNoSteeperThanTheirBound) {
+  const CoastSea coast = make_coast(10.0, true);
+  constexpr double kStep_m = 0.02;
+  float steepest = 0.0f;
+  for (int n = 0; n < 20; ++n) {
+    for (const glm::dvec2& p : random_points(2000)) {
+      const std::array<glm::dvec2, 3> at = {p, p + glm::dvec2(kStep_m, 0.0),
+                                            p + glm::dvec2(0.0, kStep_m)};
+      std::array<float, 3> z, share;
+      sample_coast(coast, 1.7 * n, at, z, share);
+      steepest = std::max(steepest, std::hypot(z[1] - z[0], z[2] - z[0]) / 0.02f);
+    }
+  }
+  EXPECT_LE(steepest, coast.slope_bound() + 1e-3f);
+  EXPECT_GT(steepest, 0.3f * coast.slope_bound());
 }
 
 }  // namespace

@@ -212,6 +212,29 @@ SeaFloor bumpy_floor() {
 
 std::vector<WaveTrain> six_trains() { return make_trains(make_wind_sea(7.0, 4.0, kG), 6, 11); }
 
+// The bound holds at every place and time, and is not far from what there is.
+TEST(TrainSea, IsNoSteeperThanItsBound) {
+  for (const bool is_beach : {false, true}) {
+    const SeaFloor floor = is_beach ? west_beach(60.0) : bumpy_floor();
+    const TrainSea sea = make_sea(floor, six_trains());
+    const FloorGrid& grid = floor.grid;
+    const glm::dvec2 size = grid.spacing_m * glm::dvec2(grid.samples_x - 1, grid.samples_y - 1);
+    std::vector<glm::dvec2> p(20000);
+    std::vector<float> z(p.size()), slope_x(p.size()), slope_y(p.size());
+    float steepest = 0.0f;
+    for (std::uint64_t n = 0; n < 20; ++n) {
+      for (std::size_t i = 0; i < p.size(); ++i)
+        p[i] = grid.min_world +
+               size * glm::dvec2(random_uniform(n, 2 * i), random_uniform(n, 2 * i + 1));
+      sample_trains(sea, 3.7 * static_cast<double>(n), p, z, slope_x, slope_y);
+      for (std::size_t i = 0; i < p.size(); ++i)
+        steepest = std::max(steepest, std::hypot(slope_x[i], slope_y[i]));
+    }
+    EXPECT_LE(steepest, sea.slope_bound) << is_beach;
+    EXPECT_GT(steepest, 0.15f * sea.slope_bound) << is_beach;  // crests seldom meet
+  }
+}
+
 // The sum of the trains as the header words it, in double, from the same phases.
 class Reference {
  public:
