@@ -230,8 +230,6 @@ HWY_AFTER_NAMESPACE();
 namespace swell::ocean {
 namespace {
 
-constexpr std::size_t kMaxPatches = 16;
-
 // x_m to 16.16 samples in [0, resolution].
 int fixed_position(double x_m, const PatchFrame& patch) {
   const double patches = x_m / patch.length_m;

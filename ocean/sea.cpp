@@ -18,7 +18,6 @@ namespace swell::ocean {
 namespace {
 
 constexpr double kTwoPi = 2.0 * kPi;
-constexpr std::size_t kMaxPatches = 8;
 
 void require(double value, double low, double high, const char* name) {
   if (value >= low && value <= high) return;  // NaN fails
@@ -39,6 +38,10 @@ void check_spectrum(const SeaDescription& sea) {
   if (sea.patch_lengths_m.empty() || sea.patch_lengths_m.size() > kMaxPatches) {
     throw std::invalid_argument(fmt::format("patch_lengths_m: got {} lengths, allowed [1, {}]",
                                             sea.patch_lengths_m.size(), kMaxPatches));
+  }
+  if (sea.sines.size() > kMaxSines) {
+    throw std::invalid_argument(
+        fmt::format("sines: got {} waves, allowed at most {}", sea.sines.size(), kMaxSines));
   }
   double longest = 1e6;
   for (const double length : sea.patch_lengths_m) {

@@ -2,6 +2,7 @@
 // explicit sine waves. z = H(x, y, t) is a height field; mean level 0, z up, metres.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -11,6 +12,9 @@
 #include "math/parallel.h"
 
 namespace swell::ocean {
+
+// What a sea is made of at most; everything that is drawn or asked has all of it.
+inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64;
 
 // One explicit wave: A sin(k . x - 2 pi t / T + phase).
 struct SineWave {
@@ -36,10 +40,10 @@ struct SeaDescription {
   double loop_s = 0.0;
   std::uint64_t seed = 1;
   int resolution = 128;  // FFT points per side, power of two in [16, 512]
-  // Patch lengths, longest first. Each patch holds the waves that the next longer one is too
-  // coarse for: bands of wave numbers do not overlap.
+  // 1 to kMaxPatches lengths, longest first. Each patch holds the waves that the next longer one is
+  // too coarse for: bands of wave numbers do not overlap.
   std::vector<double> patch_lengths_m = {640.0, 97.0, 17.0};
-  std::vector<SineWave> sines;
+  std::vector<SineWave> sines;  // at most kMaxSines
 
   bool operator==(const SeaDescription&) const = default;
 };

@@ -17,7 +17,7 @@ Background::Background(const View& view, const ocean::Sea& sea, float bound_m, f
     : forward_(view.forward),
       eye_z_(static_cast<float>(view.eye_world.z)),
       bound_m_(bound_m),
-      most_detail_(std::clamp(static_cast<int>(sea.description().patch_lengths_m.size()), 1, 16)) {
+      most_detail_(static_cast<int>(sea.description().patch_lengths_m.size())) {
   SWELL_CHECK(error_px > 0.0f, "error_px={}", error_px);
   const float f_x = 0.5f * static_cast<float>(view.width_px) / view.tan_half_x;
   const float f_y = 0.5f * static_cast<float>(view.height_px) / view.tan_half_y;

@@ -33,11 +33,10 @@ class Background {
   int most_detail() const { return most_detail_; }
 
  private:
-  static constexpr int kMaxPatches = 16;
   glm::vec3 forward_;
   float eye_z_, bound_m_, error_per_f_;
   int most_detail_;
-  std::array<float, kMaxPatches + 1> left_out_m_{};  // bound of what detail k leaves out
+  std::array<float, ocean::kMaxPatches> left_out_m_{};  // bound of what detail k leaves out
 };
 
 // Heights of vertices as WaterSurface::heights() has them, but for what the background leaves

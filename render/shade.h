@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "ocean/sea.h"
 #include "raster/pass.h"
 #include "scene/object_mesh.h"
 #include "texture/packed_map.h"
@@ -22,8 +23,8 @@ inline constexpr float kLookupRange = 2.0f;
 inline constexpr float kCosSunRim = 0.99998f, kCosSunCore = 0.999992f;
 
 inline constexpr int kMaxTilePixels = 64 * 64;
-inline constexpr int kMaxSlopeLayers = 8;
-inline constexpr int kMaxSines = 16;
+// The sea's patches and two layers of ripples.
+inline constexpr int kMaxSlopeLayers = static_cast<int>(ocean::kMaxPatches) + 2;
 inline constexpr int kTableLevels =
     8;  // mip levels a shader tells apart; coarser ones hold nothing
 
@@ -99,9 +100,10 @@ struct ShadeContext {
   float exposure = 1.0f;
 
   // Water.
-  std::array<SlopeLayer, kMaxSlopeLayers> water_layers;
+  std::array<SlopeLayer, kMaxSlopeLayers> water_layers;  // patches, longest first, then ripples
   int water_layer_count = 0;
-  SlopeLayer uv_noise;  // values in [-1, 1], not slopes
+  int long_layer_count = 0;  // the first so many are of the sea's long waves
+  SlopeLayer uv_noise;       // values in [-1, 1], not slopes
   // Near a coast: slopes of wave trains; their share, which the longest waves of the sea make room
   // for, and their foam. Not periodic: they hold where both coordinates lie in [0, 1).
   bool has_coast = false;
@@ -112,7 +114,7 @@ struct ShadeContext {
   float swash_cycles = 0.0f;   // time, in turns of the sheets' coming and going
   glm::vec3 swash_a{0.0f},
       swash_b{0.0f};  // their lag along the shore: cycles by x, y, under the eye
-  std::array<SineLayer, kMaxSines> sines;
+  std::array<SineLayer, ocean::kMaxSines> sines;
   int sine_count = 0;
   float base_variance = 0.001f;  // slope variance of ripples too fine for any map
   float refraction_index = 1.333f;

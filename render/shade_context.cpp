@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "math/check.h"
 #include "math/elementary.h"
 #include "render/frame_state.h"
 
@@ -12,6 +13,7 @@ namespace {
 constexpr double kUvNoisePeriod_m = 23.0;
 constexpr double kTerrainDetailPeriod_m = 7.0;
 constexpr double kFoamPeriod_m = 9.0;
+constexpr int kMostLongLayers = 2;
 constexpr float kFoamAlbedo = 0.8f;
 constexpr float kSwashPart = 0.1f;  // how high sheets of water run, of the highest waves
 
@@ -38,7 +40,8 @@ SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gai
 }
 
 void add_water_layer(const SlopeLayer& layer, ShadeContext& c) {
-  if (c.water_layer_count < kMaxSlopeLayers) c.water_layers[c.water_layer_count++] = layer;
+  SWELL_DCHECK(c.water_layer_count < kMaxSlopeLayers, "layers={}", c.water_layer_count);
+  c.water_layers[c.water_layer_count++] = layer;
 }
 
 // Two layers of ripples that drift across each other, downwind.
@@ -68,7 +71,6 @@ void add_bump_layers(const Frame& frame, ShadeContext& c) {
 void add_sines(const Frame& frame, ShadeContext& c) {
   const glm::dvec2 eye(frame.view.eye_world);
   for (const ocean::SineFrame& sine : frame.ws.sea.sines) {
-    if (c.sine_count == kMaxSines) break;
     SineLayer& layer = c.sines[c.sine_count++];
     const glm::dvec2 k = sine.cycles_per_m;
     layer.kx = static_cast<float>(k.x);
@@ -127,6 +129,7 @@ void fill_water_layers(const Frame& frame, ShadeContext& c) {
   for (std::size_t i = 0; i < frame.ws.patch_maps.size(); ++i)
     add_water_layer(
         make_layer(frame.ws.patch_maps[i], frame.ws.sea.patches[i].length_m, 1.0f, eye, {}), c);
+  c.long_layer_count = std::min(c.water_layer_count, kMostLongLayers);
   add_bump_layers(frame, c);
   add_sines(frame, c);
   c.uv_noise = make_layer(frame.ws.uv_noise_map, kUvNoisePeriod_m, 1.0f, eye, {});

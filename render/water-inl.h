@@ -78,15 +78,16 @@ HWY_INLINE Surf SampleSurf(const ShadeContext& c, V3 p, V level_m) {
   return surf;
 }
 
-// Near a coast the longest waves make room for the trains that know its floor.
+// Near a coast the longest waves make room for the trains that know its floor: their slopes keep
+// 1 - share, their variance its square.
 HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, const Surf& surf,
                            WaterSurface& s) {
   const D d;
+  const V kept = hn::Sub(Constant(1.0f), surf.share);
   const V long_variance = hn::Sub(s.variance, Constant(c.base_variance));
   s.slope_x = hn::NegMulAdd(s.slope_x, surf.share, s.slope_x);
   s.slope_y = hn::NegMulAdd(s.slope_y, surf.share, s.slope_y);
-  const V blended =
-      hn::Add(hn::NegMulAdd(long_variance, surf.share, long_variance), Constant(c.base_variance));
+  const V blended = hn::MulAdd(long_variance, hn::Mul(kept, kept), Constant(c.base_variance));
   // Not rounded outside: a packet with no lane inside does not come by here.
   s.variance = hn::IfThenElse(surf.inside, blended, s.variance);
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
@@ -96,14 +97,22 @@ HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, const Surf& s
   s.variance = hn::Add(s.variance, hn::IfThenElseZero(surf.inside, lost));
 }
 
-// Slopes from the wave patches and the scrolling bump layers, whose coordinates Perlin noise bends.
-// The first layers are those of the longest waves: how steeply the eye meets those decides how long
-// a pixel's footprint is on the shorter ones.
+constexpr float kMinCos = 0.02f;
+
+// log2 of the footprint [m] on waves of these slopes.
+HWY_INLINE V LevelOnWaves(const Packet& packet, V across, const WaterSurface& s) {
+  // The normal's length is left out: it is near 1, and a level needs no better.
+  const V cos_wave = hn::NegMulAdd(s.slope_x, packet.to_eye.x,
+                                   hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
+  return FootprintLevel(across, Clamp(cos_wave, kMinCos, 1.0f));
+}
+
+// Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates Perlin
+// noise bends. How steeply the eye meets the long waves decides how long a pixel's footprint is on
+// the shorter ones.
 template <bool kCoast>
 HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet) {
   const D d;
-  constexpr float kMinCos = 0.02f;
-  constexpr int kFootprintLayers = 2;
   const V across = FootprintAcross(c, packet);
   const V level_flat_m = FootprintLevel(across, Clamp(packet.to_eye.z, kMinCos, 1.0f));
   V level_m = level_flat_m;
@@ -119,19 +128,19 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
     AddSlopes(c.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
   for (int i = 0; i < c.sine_count; ++i)
     AddSine(c.sines[static_cast<std::size_t>(i)], packet.p, level_m, s);
-  for (int i = 0; i < c.water_layer_count; ++i) {
-    const bool is_long = i < kFootprintLayers;
-    if (!(kCoast && is_long && surf.is_whole))
-      AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
-                s.slope_y, s.variance);
-    if (!is_long) continue;
-    if (kCoast && surf.is_near && i == kFootprintLayers - 1)
-      BlendCoast(c, packet.p, level_flat_m, surf, s);
-    // The normal's length is left out: it is near 1, and a level needs no better.
-    const V cos_wave = hn::NegMulAdd(s.slope_x, packet.to_eye.x,
-                                     hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
-    level_m = FootprintLevel(across, Clamp(cos_wave, kMinCos, 1.0f));
+  const auto add_layer = [&](int i) HWY_ATTR {
+    AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
+              s.slope_y, s.variance);
+  };
+  if (!(kCoast && surf.is_whole)) {
+    for (int i = 0; i < c.long_layer_count; ++i) {
+      if (i > 0) level_m = LevelOnWaves(packet, across, s);
+      add_layer(i);
+    }
   }
+  if (kCoast && surf.is_near) BlendCoast(c, packet.p, level_flat_m, surf, s);
+  level_m = LevelOnWaves(packet, across, s);
+  for (int i = c.long_layer_count; i < c.water_layer_count; ++i) add_layer(i);
   return s;
 }
 

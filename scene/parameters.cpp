@@ -291,7 +291,7 @@ Rows sea_rows() {
           "wind force: sets the wind and, if they are left out, the patch lengths"),
       SceneRow::plain<bool>("sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
                             "wind waves; false leaves the sines of [[sea.sines]] only"),
-      SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, 4,
+      SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, ocean::kMaxPatches,
                      SWELL_FIELD(sea.patch_lengths_m),
                      "periods of the patches that hold the wind waves, longest first"),
       SceneRow::integer("sea.resolution", Kind::kPowerOfTwo, {16, 512}, SWELL_FIELD(sea.resolution),

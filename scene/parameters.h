@@ -58,7 +58,7 @@ std::vector<Parameter<Waypoint>> waypoint_parameters();
 // Keys of one table of [[object]].
 std::vector<Parameter<FloatingObject>> object_parameters();
 
-inline constexpr int kMaxSines = 64, kMaxWaypoints = 200, kMaxObjects = 64;
+inline constexpr int kMaxWaypoints = 200, kMaxObjects = 64;
 inline constexpr int kMaxCoastPoints = 200;
 inline constexpr int kMaxTextBytes = 200;
 inline constexpr std::string_view kSinesKey = "sea.sines", kPathKey = "camera.path",

@@ -125,7 +125,7 @@ class Reader {
         parameter->set(scene_, checked_value(*node, path, *parameter));
         given_.emplace(path, place_of(node->source()));
       } else if (path == kSinesKey) {
-        read_tables(*node, kSinesKey, kMaxSines, sine_parameters_, scene_.sea.sines);
+        read_tables(*node, kSinesKey, ocean::kMaxSines, sine_parameters_, scene_.sea.sines);
       } else if (path == kObjectsKey) {
         read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
       } else if (path == kPathKey) {

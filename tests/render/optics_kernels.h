@@ -1,10 +1,21 @@
 // The shaders' optics on arrays, on the SIMD target selected now.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <span>
+
+#include "render/shade.h"
 
 namespace swell::render {
 
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance);
+
+// The water's slopes at p_rel (relative to the eye, seen from straight above) and the variance of
+// those too fine to see, as the shader finds them. c.has_coast chooses its form.
+struct WaterSlopes {
+  glm::vec2 slope{0.0f};
+  float variance = 0.0f;
+};
+WaterSlopes sample_water(const ShadeContext& c, glm::vec3 p_rel);
 
 }  // namespace swell::render

@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include "render/fresnel-inl.h"
+#include "render/water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -20,6 +21,17 @@ void Fresnel(std::span<const float> cos_theta, float n, std::span<float> reflect
   }
 }
 
+void Water(const ShadeContext& c, glm::vec3 p_rel, WaterSlopes& result) {
+  Packet packet;
+  packet.x_px = packet.y_px = hn::Zero(D());
+  packet.p = Constant(p_rel);
+  packet.depth = packet.distance = Constant(-p_rel.z);
+  packet.to_eye = Constant(glm::vec3(0.0f, 0.0f, 1.0f));
+  const WaterSurface s = c.has_coast ? SampleWater<true>(c, packet) : SampleWater<false>(c, packet);
+  result.slope = {hn::GetLane(s.slope_x), hn::GetLane(s.slope_y)};
+  result.variance = hn::GetLane(s.variance);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render
 HWY_AFTER_NAMESPACE();
@@ -28,9 +40,16 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(Fresnel);
+HWY_EXPORT(Water);
 
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance) {
   HWY_DYNAMIC_DISPATCH(Fresnel)(cos_theta, n, reflectance);
+}
+
+WaterSlopes sample_water(const ShadeContext& c, glm::vec3 p_rel) {
+  WaterSlopes result;
+  HWY_DYNAMIC_DISPATCH(Water)(c, p_rel, result);
+  return result;
 }
 
 }  // namespace swell::render

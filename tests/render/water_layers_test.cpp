@@ -1,0 +1,181 @@
+// Which waves the water shader shows: all that the scene has, and near a coast the right part of
+// them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "math/simd_target.h"
+#include "render/frame_state.h"
+#include "render/optics_kernels.h"
+
+namespace swell::render {
+namespace {
+
+constexpr double kTime_s = 3.0;
+
+// A flat mesh, so that waves show in the shading only.
+scene::Scene shading_scene() {
+  scene::Scene scene;
+  scene.camera.eye_m = {0.0, 0.0, 12.0};
+  scene.camera.pitch_rad = scene::radians(-40.0);
+  scene.sky.sun_direction = glm::normalize(glm::vec3(0.3f, 0.6f, 0.5f));
+  scene.detail.triangulation = scene::Triangulation::kPlane;
+  scene.sea.resolution = 16;
+  return scene;
+}
+
+struct Drawn {
+  Workspace workspace;
+  Target target;
+};
+
+void draw(const scene::Scene& scene, const World& like, Drawn& drawn) {
+  const World world(scene, like, 1);
+  Workers workers(1);
+  const View view = scene::camera_view(scene.camera, kTime_s, 64, 48);
+  render_frame(world, view, kTime_s, {}, drawn.workspace, drawn.target, workers);
+}
+
+int different_pixels(const Target& a, const Target& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) count += a.rgba[i] != b.rgba[i];
+  return count;
+}
+
+TEST(WaterLayers, EverySineIsShaded) {
+  scene::Scene scene = shading_scene();
+  scene.sea.spectrum = false;
+  for (std::size_t i = 0; i < ocean::kMaxSines; ++i)
+    scene.sea.sines.push_back({.amplitude_m = 0.02,
+                               .wavelength_m = 2.0 + 0.1 * static_cast<double>(i),
+                               .to_rad = 0.3 * static_cast<double>(i)});
+  const World like(scene);
+  Drawn whole, part;
+  draw(scene, like, whole);
+  for (std::size_t i = 0; i < ocean::kMaxSines; ++i) {
+    scene::Scene without = scene;
+    without.sea.sines[i].amplitude_m = 0.0;
+    draw(without, like, part);
+    EXPECT_GT(different_pixels(whole.target, part.target), 300) << "sine " << i;
+  }
+}
+
+TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
+  scene::Scene scene = shading_scene();
+  scene.sea.patch_lengths_m.clear();
+  const World like(shading_scene());
+  double length_m = 4000.0;
+  for (std::size_t patches = 1; patches <= ocean::kMaxPatches; ++patches) {
+    scene.sea.patch_lengths_m.push_back(length_m *= 0.4);
+    Drawn drawn;
+    draw(scene, like, drawn);
+    const ShadeContext& c = drawn.workspace.state().context;
+    ASSERT_EQ(c.water_layer_count, static_cast<int>(patches) + 2);
+    for (std::size_t i = 0; i < patches; ++i)
+      EXPECT_EQ(c.water_layers[i].map, &drawn.workspace.state().patch_maps[i]);
+
+    scene::Scene smooth = scene;
+    smooth.water.bump_strength = 0.0;
+    Drawn without_ripples;
+    draw(smooth, like, without_ripples);
+    EXPECT_GT(different_pixels(drawn.target, without_ripples.target), 300) << patches;
+  }
+}
+
+// Trains alone: nothing of the open sea's long waves is left.
+TEST(WaterLayers, RipplesStayNearTheShoreHoweverManyPatchesTheSeaHas) {
+  scene::Scene scene = shading_scene();
+  scene.terrain.emplace();
+  scene.terrain->coast_m = {{-400.0, -40.0}, {400.0, -40.0}};
+  scene.terrain->beach_size_m = 800.0;
+  scene.coast.model = scene::CoastModel::kTrains;
+  scene.coast.trains = 1;
+  scene.coast.grid_spacing_m = 10.0;
+  const World like(scene);
+  for (const std::size_t patches : {0, 1, 2, 3}) {
+    scene::Scene with_ripples = scene;
+    with_ripples.sea.spectrum = patches > 0;
+    if (patches > 0) with_ripples.sea.patch_lengths_m.assign({640.0, 97.0, 17.0});
+    if (patches > 0) with_ripples.sea.patch_lengths_m.resize(patches);
+    scene::Scene without = with_ripples;
+    without.water.bump_strength = 0.0;
+    Drawn a, b;
+    draw(with_ripples, like, a);
+    draw(without, like, b);
+    EXPECT_GT(different_pixels(a.target, b.target), 1000) << patches << " patches";
+  }
+}
+
+// ---- The shader's own numbers
+
+class WaterShader : public testing::TestWithParam<SimdTarget> {
+ protected:
+  void SetUp() override {
+    if (!simd_target_available(GetParam())) GTEST_SKIP() << "this CPU lacks the target";
+    select_simd_target(GetParam());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Targets, WaterShader,
+                         testing::Values(SimdTarget::kAvx2, SimdTarget::kAvx512),
+                         [](const auto& test) {
+                           return std::string(simd_target_name(test.param));
+                         });
+
+constexpr float kBaseVariance = 0.0012f;
+
+// Maps of one value everywhere, and a context that has nothing but them and one sine.
+struct PlainWater {
+  PlainWater(float share_of_trains, float wavelength_m) {
+    constexpr int kSize = 16;
+    const std::vector<float> zero(kSize * kSize), share(kSize * kSize, share_of_trains);
+    texture::pack_map2(kSize, zero, zero, 1.0f / 127.0f, still);
+    texture::pack_map2(kSize, share, zero, 1.0f / 127.0f, surf);
+    c.uv_noise = c.coast_slopes = c.foam_pattern = layer(still);
+    c.coast_surf = layer(surf);
+    c.has_coast = true;
+    c.base_variance = kBaseVariance;
+    // Its slope is largest under the eye.
+    c.sines[0] = {.kx = 1.0f / wavelength_m,
+                  .slope_x = 0.3f,
+                  .slope_y = -0.4f,
+                  .wavelength_log2 = std::log2(wavelength_m)};
+    c.sine_count = 1;
+  }
+
+  static SlopeLayer layer(const texture::PackedMap2& map) {
+    SlopeLayer layer;
+    layer.map = &map;
+    layer.inv_length = 1e-6f;
+    layer.u_eye = layer.v_eye = 0.5f;
+    return layer;
+  }
+
+  texture::PackedMap2 still, surf;
+  ShadeContext c;
+};
+
+constexpr float kShare = 64.0f / 127.0f;  // what a map holds exactly
+
+// A pixel is 0.001 of the depth wide.
+TEST_P(WaterShader, TrainsTakeTheirShareOfTheSlopesThatAreSeen) {
+  const PlainWater water(kShare, 100.0f);
+  const WaterSlopes s = sample_water(water.c, {0.0f, 0.0f, -10.0f});
+  EXPECT_NEAR(s.slope.x, (1.0f - kShare) * 0.3f, 1e-5f);
+  EXPECT_NEAR(s.slope.y, (1.0f - kShare) * -0.4f, 1e-5f);
+  EXPECT_NEAR(s.variance, kBaseVariance, 1e-6f);
+}
+
+// Slopes scaled by a factor have their variance scaled by its square: here 0.25 / 2 of a sine too
+// short to see.
+TEST_P(WaterShader, TrainsTakeTheSquareOfTheirShareOfTheVariance) {
+  const PlainWater water(kShare, 0.001f);
+  const WaterSlopes s = sample_water(water.c, {0.0f, 0.0f, -1000.0f});
+  EXPECT_EQ(s.slope, glm::vec2(0.0f));
+  EXPECT_NEAR(s.variance, kBaseVariance + (1.0f - kShare) * (1.0f - kShare) * 0.125f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace swell::render
