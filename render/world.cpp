@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/check.h"
 #include "math/elementary.h"
 #include "render/shade.h"
 #include "render/world_state.h"
+#include "scene/check_scene.h"
 #include "scene/coast.h"
 #include "scene/sky.h"
 #include "texture/foam_pattern.h"
@@ -257,6 +259,8 @@ void add_relief_bounds(const World::State* like, World::State& state) {
 // like: may be null.
 std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
                                          int threads) {
+  scene::check_scene(scene);
+  SWELL_CHECK(threads >= 1 && threads <= 256, "threads={}", threads);
   auto state = std::make_unique<World::State>(World::State{.scene = std::move(scene)});
   const scene::Scene& now = state->scene;
   const auto if_alike = [&](bool is_alike) { return is_alike ? like : nullptr; };
@@ -283,6 +287,6 @@ World::World(scene::Scene scene, const World& like, int threads)
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
-const scene::Scene& World::scene() const { return state_->scene; }
+const scene::Scene& World::scene() const { return state().scene; }
 
 }  // namespace swell::render

@@ -148,7 +148,9 @@ struct Row {
     Parameter<Object> row = ranged(key, Kind::kChoice, {}, meaning);
     row.choices = Field::words;
     row.get = [](const Object& object) -> Value {
-      return std::string(Field::words[static_cast<std::size_t>(Field{}(object))]);
+      const auto index = static_cast<std::size_t>(Field{}(object));  // of a scene made in code: any
+      return index < Field::words.size() ? std::string(Field::words[index])
+                                         : fmt::format("value {}", index);
     };
     row.set = [](Object& object, const Value& value) {
       using Stored = std::remove_cvref_t<decltype(Field{}(object))>;
@@ -266,10 +268,13 @@ Rows sky_rows() {
                       "above the horizon"),
       SceneRow::vector("sky.sun_radiance", {0, 1000}, SWELL_FIELD(sky.sun_radiance),
                        "linear RGB, strength of direct sunlight"),
-      SceneRow::vector("sky.zenith", {0, 100}, SWELL_FIELD(sky.zenith),
-                       "linear RGB radiance of the sky overhead"),
-      SceneRow::vector("sky.horizon", {0, 100}, SWELL_FIELD(sky.horizon),
-                       "linear RGB radiance of the sky at the horizon"),
+      SceneRow::vector("sky.zenith", {0, 2}, SWELL_FIELD(sky.zenith),
+                       "linear RGB radiance of the sky overhead; at most 7.66 times `horizon`"),
+      SceneRow::vector(
+          "sky.horizon", {0, 1.7}, SWELL_FIELD(sky.horizon),
+          "linear RGB radiance of the sky about 1 degree above the horizon; below it the "
+          "gradient goes on, to 1.15 `horizon` - 0.15 `zenith`. The sky's radiance is "
+          "drawn up to 2"),
       SceneRow::number("sky.haze_distance_m", {10, 1e7, "m"}, SWELL_FIELD(sky.haze_distance_m),
                        "at this range 1/e of the contrast is left"),
       SceneRow::number("sky.cloud_cover", {0, 1}, SWELL_FIELD(sky.cloud_cover),

@@ -2,6 +2,7 @@
 // effective scene and docs/scene.md (tests/scene compares it with the table).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -58,11 +59,40 @@ std::vector<Parameter<Waypoint>> waypoint_parameters();
 // Keys of one table of [[object]].
 std::vector<Parameter<FloatingObject>> object_parameters();
 
-inline constexpr int kMaxWaypoints = 200, kMaxObjects = 64;
+inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 64;
 inline constexpr int kMaxCoastPoints = 200;
-inline constexpr int kMaxTextBytes = 200;
+inline constexpr std::size_t kMaxTextBytes = 200;
 inline constexpr std::string_view kSinesKey = "sea.sines", kPathKey = "camera.path",
                                   kObjectsKey = "object";
+
+// Whether the parameter allows a number, an integer, a choice or text; a list's number of numbers
+// or points. Not NaN.
+template <class Object>
+bool allows(const Parameter<Object>& parameter, double number) {
+  return (number >= parameter.low && number <= parameter.high) ||
+         (parameter.zero_too && number == 0.0);
+}
+template <class Object>
+bool allows(const Parameter<Object>& parameter, std::int64_t number) {
+  // Not as doubles, which have 2^53 + 1 for 2^53.
+  const auto low = static_cast<std::int64_t>(parameter.low);
+  const auto high = static_cast<std::int64_t>(parameter.high);
+  const bool fits = parameter.kind == ParameterKind::kInteger || (number & (number - 1)) == 0;
+  return number >= low && number <= high && fits;
+}
+template <class Object>
+bool allows(const Parameter<Object>& parameter, std::string_view text) {
+  if (parameter.kind == ParameterKind::kText) return text.size() <= kMaxTextBytes;
+  return std::ranges::count(parameter.choices, text) > 0;
+}
+template <class Object>
+bool allows_count(const Parameter<Object>& parameter, std::size_t count) {
+  return count >= static_cast<std::size_t>(parameter.count_low) &&
+         count <= static_cast<std::size_t>(parameter.count_high);
+}
+
+// One line without control characters, at most 400 bytes, cut between UTF-8 characters.
+std::string one_line(std::string text);
 
 // "1 to 170 deg", "true or false", ...
 template <class Object>

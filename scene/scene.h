@@ -55,10 +55,11 @@ View camera_view(const Camera& camera, double t_s, int width_px, int height_px);
 struct Sky {
   double sun_azimuth_rad = 0.0;  // where the sun stands, clockwise from north
   double sun_elevation_rad = radians(30.0);
-  glm::vec3 sun_direction{0, 0, 1};       // unit, world, towards the sun; from the two angles
-  glm::vec3 sun_radiance{1.0f};           // linear RGB, irradiance scale of direct light
-  glm::vec3 zenith{0.10f, 0.25f, 0.60f};  // linear RGB radiance
-  glm::vec3 horizon{0.65f, 0.75f, 0.85f};
+  // Unit, world, towards the sun: the direction of the two angles (scene::sun_direction).
+  glm::vec3 sun_direction{0.0f, 0.8660254f, 0.5f};
+  glm::vec3 sun_radiance{1.0f};            // linear RGB, irradiance scale of direct light
+  glm::vec3 zenith{0.10f, 0.25f, 0.60f};   // linear RGB radiance overhead
+  glm::vec3 horizon{0.65f, 0.75f, 0.85f};  // the same about 1 degree above the horizon
   double haze_distance_m = 15000.0;  // exponential haze: 1/e of the contrast is left at this range
   double cloud_cover = 0.3;          // [0, 1], thin clouds
   std::uint64_t cloud_seed = 7;
@@ -124,6 +125,8 @@ struct SeaArea {
   glm::dvec2 size_m{3000.0, 2000.0};
 };
 
+// May be made in code: render::World and scene::Water throw SceneError unless every value is in
+// the range that docs/scene.md states for its key (check_scene.h).
 struct Scene {
   std::string name;  // the file's stem
   Camera camera;

@@ -8,8 +8,8 @@
 #include <map>
 #include <numeric>
 
-#include "ocean/sea_floor.h"
 #include "ocean/sea_scale.h"
+#include "scene/check_scene.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
@@ -22,17 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFileBytes = 1 << 20;
 constexpr double kMaxWind_mps = 60.0;
-
-// One line without control characters, at most 400 bytes, cut between UTF-8 characters.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  constexpr std::size_t kMaxBytes = 400;
-  if (text.size() <= kMaxBytes) return text;
-  std::size_t end = kMaxBytes;
-  while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  return text.substr(0, end) + "...";
-}
 
 struct Place {
   std::uint32_t line = 1, column = 1;
@@ -96,6 +85,9 @@ class Reader {
     finish_coast();
     scene_.sky.sun_direction =
         sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
+    if (const auto fault = find_disagreement(scene_))
+      fail(file_, place_of_key(fault->key),
+           fmt::format("{}, got {}, allowed {}", fault->key, fault->got, fault->allowed));
     return std::move(scene_);
   }
 
@@ -130,14 +122,11 @@ class Reader {
         read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
       } else if (path == kPathKey) {
         read_tables(*node, kPathKey, kMaxWaypoints, waypoint_parameters_, scene_.camera.path);
-        check_path(*node);
       } else if (is_section(path)) {
         read_section(*node, path);
       } else {
         fail_unknown(key_place, path);
       }
-      if (path == "sea.patch_lengths_m") check_patch_lengths(*node);
-      if (path == "terrain.coast_m") check_coast(*node);
     }
   }
 
@@ -179,6 +168,16 @@ class Reader {
     }
   }
 
+  // Where the file has the key, or the table or array that it is an element of.
+  Place place_of_key(std::string key) const {
+    while (!given_.contains(key)) {
+      const std::size_t end = key.find_last_of(".[");
+      if (end == std::string::npos) return {};
+      key.resize(end);
+    }
+    return given_.at(key);
+  }
+
   bool is_section(std::string_view path) const {
     const std::string prefix = std::string(path) + ".";
     return std::ranges::any_of(parameters_,
@@ -217,13 +216,14 @@ class Reader {
         fail_unknown(key_place, fmt::format("{}.{}", table_key, key));
       const std::string path = fmt::format("{}[{}].{}", table_key, index, key);
       parameter->set(object, checked_value(*node, path, *parameter));
+      given_.emplace(path, place_of(node->source()));
     }
     return object;
   }
 
   template <class Object>
   ParameterValue checked_value(const toml::node& node, const std::string& path,
-                               const Parameter<Object>& parameter) const {
+                               const Parameter<Object>& parameter) {
     const std::string allowed = allowed_text(parameter);
     switch (parameter.kind) {
       case ParameterKind::kNumber:
@@ -251,10 +251,7 @@ class Reader {
                         const Parameter<Object>& parameter, const std::string& allowed) const {
     const std::optional<double> number =
         node.is_number() ? node.value<double>() : std::optional<double>();
-    // NaN compares false.
-    if (number && ((*number >= parameter.low && *number <= parameter.high) ||
-                   (parameter.zero_too && *number == 0.0)))
-      return *number;
+    if (number && allows(parameter, *number)) return *number;
     fail_value(node, path, got_text(node), allowed);
   }
 
@@ -264,8 +261,7 @@ class Reader {
                                    const Parameter<Object>& parameter,
                                    const std::string& allowed) const {
     const toml::array* array = node.as_array();
-    const int count = array ? static_cast<int>(std::min<std::size_t>(array->size(), 1000)) : -1;
-    if (count < parameter.count_low || count > parameter.count_high)
+    if (!array || !allows_count(parameter, array->size()))
       fail_value(node, path, got_text(node), allowed);
     return *array;
   }
@@ -285,10 +281,11 @@ class Reader {
   template <class Object>
   std::vector<double> checked_points(const toml::node& node, const std::string& path,
                                      const Parameter<Object>& parameter,
-                                     const std::string& allowed) const {
+                                     const std::string& allowed) {
     std::vector<double> numbers;
     for (const toml::node& element : checked_array(node, path, parameter, allowed)) {
       const std::string its_path = fmt::format("{}[{}]", path, numbers.size() / 2);
+      given_.emplace(its_path, place_of(element.source()));
       const toml::array* pair = element.as_array();
       if (!pair || pair->size() != 2) fail_value(element, its_path, got_text(element), allowed);
       for (const toml::node& number : *pair)
@@ -302,12 +299,7 @@ class Reader {
                                const Parameter<Object>& parameter,
                                const std::string& allowed) const {
     if (const auto* integer = node.as_integer()) {
-      const std::int64_t value = integer->get();
-      // Not as doubles, which have 2^53 + 1 for 2^53.
-      const auto low = static_cast<std::int64_t>(parameter.low);
-      const auto high = static_cast<std::int64_t>(parameter.high);
-      const bool fits = parameter.kind == ParameterKind::kInteger || (value & (value - 1)) == 0;
-      if (value >= low && value <= high && fits) return value;
+      if (allows(parameter, integer->get())) return integer->get();
     }
     fail_value(node, path, got_text(node), allowed);
   }
@@ -318,10 +310,7 @@ class Reader {
     const auto* text = node.as_string();
     if (!text) fail_value(node, path, got_text(node), allowed);
     if (parameter.kind == ParameterKind::kPath) return checked_path(node, path, text->get());
-    const bool fits = parameter.kind == ParameterKind::kText
-                          ? text->get().size() <= kMaxTextBytes
-                          : std::ranges::count(parameter.choices, text->get()) > 0;
-    if (!fits) fail_value(node, path, got_text(node), allowed);
+    if (!allows(parameter, text->get())) fail_value(node, path, got_text(node), allowed);
     return text->get();
   }
 
@@ -344,35 +333,6 @@ class Reader {
       fault = "cannot be opened";
     if (fault.empty()) return path.string();
     fail_value(node, key, fmt::format("\"{}\" ({})", path.string(), fault), allowed);
-  }
-
-  void check_patch_lengths(const toml::node& node) const {
-    const auto& lengths = scene_.sea.patch_lengths_m;
-    if (std::ranges::adjacent_find(lengths, std::less_equal{}) != lengths.end())
-      fail_value(node, "sea.patch_lengths_m", fmt::format("[{}]", fmt::join(lengths, ", ")),
-                 "lengths that go down");
-  }
-
-  void check_coast(const toml::node& node) const {
-    const auto& coast = scene_.terrain->coast_m;
-    for (std::size_t n = 1; n < coast.size(); ++n) {
-      if (glm::distance(coast[n - 1], coast[n]) >= ocean::kShortestStretch_m) continue;
-      fail_value(
-          *node.as_array()->get(n), fmt::format("terrain.coast_m[{}]", n),
-          fmt::format("[{}, {}]", coast[n].x, coast[n].y),
-          fmt::format("a point {} m or more from the one before", ocean::kShortestStretch_m));
-    }
-  }
-
-  // `node` holds the tables of the path.
-  void check_path(const toml::node& node) const {
-    const auto& path = scene_.camera.path;
-    const auto late = std::ranges::adjacent_find(path, std::greater_equal{}, &Waypoint::t_s);
-    if (late == path.end()) return;
-    const auto n = static_cast<std::size_t>(late - path.begin()) + 1;
-    fail_value(*node.as_array()->get(n), fmt::format("{}[{}].t_s", kPathKey, n),
-               fmt::format("{}", path[n].t_s),
-               fmt::format("more than that of the table before, {}", path[n - 1].t_s));
   }
 
   [[noreturn]] void fail_value(const toml::node& node, const std::string& path,

@@ -8,6 +8,10 @@
 
 namespace swell::scene {
 
+// How far the gradient goes on beyond sky.horizon: at the horizon itself the sky's radiance is
+// (1 + kBeyondHorizon) horizon - kBeyondHorizon zenith, which must not be negative.
+inline constexpr float kBeyondHorizon = 0.15f;
+
 // The unit vector towards azimuth_rad (clockwise from north) and elevation_rad (up positive).
 glm::vec3 sun_direction(double azimuth_rad, double elevation_rad);
 

@@ -106,7 +106,7 @@ class WaterSurface {
 // What of a scene's water does not change with time, for programs that ask and do not draw.
 class Water {
  public:
-  // Throws SceneError, texture::FileError or std::invalid_argument.
+  // Throws SceneError (a value out of its range) or texture::FileError (a height image).
   explicit Water(const Scene& scene);
 
   // Fills `frame` with the sea at any finite time, past or to come, and looks at it.

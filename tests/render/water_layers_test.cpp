@@ -21,7 +21,6 @@ scene::Scene shading_scene() {
   scene::Scene scene;
   scene.camera.eye_m = {0.0, 0.0, 12.0};
   scene.camera.pitch_rad = scene::radians(-40.0);
-  scene.sky.sun_direction = glm::normalize(glm::vec3(0.3f, 0.6f, 0.5f));
   scene.detail.triangulation = scene::Triangulation::kPlane;
   scene.sea.resolution = 16;
   return scene;
@@ -51,7 +50,7 @@ TEST(WaterLayers, EverySineIsShaded) {
   for (std::size_t i = 0; i < ocean::kMaxSines; ++i)
     scene.sea.sines.push_back({.amplitude_m = 0.02,
                                .wavelength_m = 2.0 + 0.1 * static_cast<double>(i),
-                               .to_rad = 0.3 * static_cast<double>(i)});
+                               .to_rad = 0.09 * static_cast<double>(i)});
   const World like(scene);
   Drawn whole, part;
   draw(scene, like, whole);

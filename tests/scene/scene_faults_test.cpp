@@ -61,14 +61,14 @@ INSTANTIATE_TEST_SUITE_P(
               "down"},
         Fault{"[sea]\npatch_lengths_m = []\n",
               "test.toml:2: column 19: sea.patch_lengths_m, got an array of 0 values, allowed 1 to "
-              "4 numbers, each 0.5 to 50000 m"},
+              "8 numbers, each 0.5 to 50000 m"},
         Fault{
             "[[sea.sines]]\nperiod_s = 0.01\n",
             "test.toml:2: column 12: sea.sines[0].period_s, got 0.01, allowed 0 or 0.05 to 1000 s"},
         Fault{"[[camera.path]]\nt_s = 2\n[[camera.path]]\npitch_deg = 90\n",
               "test.toml:4: column 13: camera.path[1].pitch_deg, got 90, allowed -89 to 89 deg"},
         Fault{"[[camera.path]]\nt_s = 2\n[[camera.path]]\nt_s = 2\n",
-              "test.toml:3: column 1: camera.path[1].t_s, got 2, allowed more than that of the "
+              "test.toml:4: column 7: camera.path[1].t_s, got 2, allowed more than that of the "
               "table before, 2"},
         Fault{"[sea.sines]\namplitude_m = 1\n",
               "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
@@ -83,6 +83,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"object = 3\n",
               "test.toml:1: column 10: object, got 3, allowed at most 64 tables [[object]]"},
         Fault{"sea = 3\n", "test.toml:1: column 7: sea, got 3, allowed a table"},
+        Fault{"[sky]\nhorizon = [1, 0.1, 1]\nzenith = [0, 0.8, 0]\n",
+              "test.toml:3: column 10: sky.zenith[1], got 0.8, allowed at most 7.66 times "
+              "sky.horizon[1], which is 0.1"},
         Fault{"name = 1979-05-27\n",
               "test.toml:1: column 8: name, got a date or time, allowed text of at most 200 "
               "bytes"}));

@@ -182,8 +182,11 @@ RandomFile random_file(Dice& dice, int wrong) {
     const std::string key(parameter.key);
     const std::size_t dot = key.find('.');
     const std::string section = dot == std::string::npos ? "" : key.substr(0, dot);
-    const std::string line =
-        fmt::format("{} = {}\n", key.substr(dot + 1), value_text(parameter, dice, !is_wrong));
+    // A horizon that goes with every zenith.
+    const std::string value = key == "sky.horizon" && !is_wrong
+                                  ? "[0.3, 1.0, 1.7]"
+                                  : value_text(parameter, dice, !is_wrong);
+    const std::string line = fmt::format("{} = {}\n", key.substr(dot + 1), value);
     std::string& lines = sections[section];
     lines = dice.below(2) ? line + lines : lines + line;
   }

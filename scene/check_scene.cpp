@@ -1,0 +1,179 @@
+#include "scene/check_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ocean/sea_floor.h"
+#include "scene/parameters.h"
+#include "scene/sky.h"
+
+namespace swell::scene {
+namespace {
+
+using Fault = std::optional<SceneFault>;
+
+// ---- One value
+
+// `element`: the name of the n-th number.
+template <class Object, class Name>
+Fault fault_of_numbers(const Parameter<Object>& parameter, const std::vector<double>& numbers,
+                       const Name& element) {
+  for (std::size_t n = 0; n < numbers.size(); ++n)
+    if (!allows(parameter, numbers[n]))
+      return SceneFault{element(n), fmt::format("{}", numbers[n]), allowed_text(parameter)};
+  return std::nullopt;
+}
+
+template <class Object>
+Fault fault_of(const Parameter<Object>& parameter, const Object& object, const std::string& key) {
+  if (parameter.is_set && !parameter.is_set(object)) return std::nullopt;
+  const ParameterValue value = parameter.get(object);
+  const auto fault = [&](const std::string& got) {
+    return SceneFault{key, got, allowed_text(parameter)};
+  };
+  const auto fault_of_count = [&](std::size_t count, std::string_view what) -> Fault {
+    if (allows_count(parameter, count)) return std::nullopt;
+    return fault(fmt::format("{} {}", count, what));
+  };
+  switch (parameter.kind) {
+    case ParameterKind::kNumber:
+      return fault_of_numbers(parameter, std::get<std::vector<double>>(value),
+                              [&](std::size_t) { return key; });
+    case ParameterKind::kNumbers: {
+      const auto& numbers = std::get<std::vector<double>>(value);
+      if (Fault wrong = fault_of_count(numbers.size(), "numbers")) return wrong;
+      return fault_of_numbers(parameter, numbers,
+                              [&](std::size_t n) { return fmt::format("{}[{}]", key, n); });
+    }
+    case ParameterKind::kPoints: {
+      const auto& numbers = std::get<std::vector<double>>(value);
+      if (Fault wrong = fault_of_count(numbers.size() / 2, "points")) return wrong;
+      return fault_of_numbers(parameter, numbers,
+                              [&](std::size_t n) { return fmt::format("{}[{}]", key, n / 2); });
+    }
+    case ParameterKind::kInteger:
+    case ParameterKind::kPowerOfTwo: {
+      const auto number = std::get<std::int64_t>(value);
+      if (allows(parameter, number)) return std::nullopt;
+      return fault(fmt::format("{}", number));
+    }
+    case ParameterKind::kChoice:
+    case ParameterKind::kText: {
+      const auto& text = std::get<std::string>(value);
+      if (allows(parameter, text)) return std::nullopt;
+      return fault(fmt::format("\"{}\"", text.substr(0, kMaxTextBytes)));
+    }
+    case ParameterKind::kBoolean:
+    case ParameterKind::kPath:  // reading the file will tell
+      break;
+  }
+  return std::nullopt;
+}
+
+// ---- All values
+
+Fault fault_of_keys(const Scene& scene) {
+  static const std::vector<Parameter<Scene>> parameters = scene_parameters();
+  for (const auto& parameter : parameters) {
+    if (parameter.key.starts_with("terrain.") && !scene.terrain) continue;
+    if (Fault fault = fault_of(parameter, scene, std::string(parameter.key))) return fault;
+  }
+  return std::nullopt;
+}
+
+template <class Object>
+Fault fault_of_tables(std::string_view key, const std::vector<Object>& objects, std::size_t most,
+                      const std::vector<Parameter<Object>>& parameters) {
+  if (objects.size() > most)
+    return SceneFault{std::string(key), fmt::format("{} tables", objects.size()),
+                      fmt::format("at most {} tables [[{}]]", most, key)};
+  for (std::size_t n = 0; n < objects.size(); ++n)
+    for (const auto& parameter : parameters) {
+      const std::string path = fmt::format("{}[{}].{}", key, n, parameter.key);
+      if (Fault fault = fault_of(parameter, objects[n], path)) return fault;
+    }
+  return std::nullopt;
+}
+
+// ---- Values that have to agree
+
+Fault fault_of_sky(const Sky& sky) {
+  const glm::vec3 direction = sun_direction(sky.sun_azimuth_rad, sky.sun_elevation_rad);
+  if (!(glm::distance(sky.sun_direction, direction) < 1e-3f))
+    return SceneFault{
+        "sky.sun_direction",
+        fmt::format("[{}, {}, {}]", sky.sun_direction.x, sky.sun_direction.y, sky.sun_direction.z),
+        fmt::format("the direction of the azimuth and the elevation, [{}, {}, {}]", direction.x,
+                    direction.y, direction.z)};
+  for (int c = 0; c < 3; ++c)
+    if (kBeyondHorizon * sky.zenith[c] > (1.0f + kBeyondHorizon) * sky.horizon[c])
+      return SceneFault{
+          fmt::format("sky.zenith[{}]", c), fmt::format("{}", sky.zenith[c]),
+          fmt::format("at most 7.66 times sky.horizon[{}], which is {}", c, sky.horizon[c])};
+  return std::nullopt;
+}
+
+Fault fault_of_sea(const Scene& scene) {
+  const auto& lengths = scene.sea.patch_lengths_m;
+  if (std::ranges::adjacent_find(lengths, std::less_equal{}) != lengths.end())
+    return SceneFault{"sea.patch_lengths_m", fmt::format("[{}]", fmt::join(lengths, ", ")),
+                      "lengths that go down"};
+  if (scene.douglas && scene.beaufort)
+    return SceneFault{"sea.beaufort", "it besides sea.douglas", "one of them"};
+  return std::nullopt;
+}
+
+Fault fault_of_coast_line(const TerrainDescription& terrain) {
+  const auto& coast = terrain.coast_m;
+  for (std::size_t n = 1; n < coast.size(); ++n)
+    if (glm::distance(coast[n - 1], coast[n]) < ocean::kShortestStretch_m)
+      return SceneFault{
+          fmt::format("terrain.coast_m[{}]", n), fmt::format("[{}, {}]", coast[n].x, coast[n].y),
+          fmt::format("a point {} m or more from the one before", ocean::kShortestStretch_m)};
+  if (!coast.empty() && !terrain.height_image.empty())
+    return SceneFault{"terrain.coast_m", "it besides terrain.height_image", "one of them"};
+  return std::nullopt;
+}
+
+Fault fault_of_path(const std::vector<Waypoint>& path) {
+  const auto late = std::ranges::adjacent_find(path, std::greater_equal{}, &Waypoint::t_s);
+  if (late == path.end()) return std::nullopt;
+  const auto n = static_cast<std::size_t>(late - path.begin()) + 1;
+  return SceneFault{fmt::format("{}[{}].t_s", kPathKey, n), fmt::format("{}", path[n].t_s),
+                    fmt::format("more than that of the table before, {}", late->t_s)};
+}
+
+}  // namespace
+
+std::optional<SceneFault> find_fault(const Scene& scene) {
+  if (Fault fault = fault_of_keys(scene)) return fault;
+  if (Fault fault =
+          fault_of_tables(kPathKey, scene.camera.path, kMaxWaypoints, waypoint_parameters()))
+    return fault;
+  if (Fault fault =
+          fault_of_tables(kSinesKey, scene.sea.sines, ocean::kMaxSines, sine_parameters()))
+    return fault;
+  if (Fault fault = fault_of_tables(kObjectsKey, scene.objects, kMaxObjects, object_parameters()))
+    return fault;
+  return find_disagreement(scene);
+}
+
+std::optional<SceneFault> find_disagreement(const Scene& scene) {
+  if (Fault fault = fault_of_path(scene.camera.path)) return fault;
+  if (Fault fault = fault_of_sky(scene.sky)) return fault;
+  if (Fault fault = fault_of_sea(scene)) return fault;
+  return scene.terrain ? fault_of_coast_line(*scene.terrain) : std::nullopt;
+}
+
+void check_scene(const Scene& scene) {
+  const Fault fault = find_fault(scene);
+  if (!fault) return;
+  const bool has_name = !scene.name.empty() && scene.name.size() <= kMaxTextBytes;
+  throw SceneError(
+      one_line(fmt::format("{}: {}, got {}, allowed {}", has_name ? scene.name : "scene",
+                           fault->key, fault->got, fault->allowed)));
+}
+
+}  // namespace swell::scene
