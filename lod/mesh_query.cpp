@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void check_finite(glm::dvec3 p) {
+void check_query(const HeightMesh& surface, glm::dvec3 p) {
+  check_heights(surface);
   SWELL_CHECK(std::isfinite(p.x + p.y + p.z), "({}, {}, {})", p.x, p.y, p.z);
 }
 
@@ -88,7 +89,7 @@ struct BestEdge {
 
 template <class Best>
 NearestSearch<Best> find_nearest(const HeightMesh& surface, glm::dvec3 p) {
-  check_finite(p);
+  check_query(surface, p);
   NearestSearch<Best> search{surface, step_of(surface.domain), p, Best{surface, p}};
   search.visit(roots_of(surface.envelopes, surface.domain.lattice_bits));
   return search;
@@ -182,7 +183,7 @@ glm::dvec3 vertex_world(const HeightMesh& surface, std::size_t vertex) {
 }
 
 TriangleAt triangle_at(const HeightMesh& surface, glm::dvec2 p_world) {
-  check_finite({p_world, 0.0});
+  check_query(surface, {p_world, 0.0});
   const int n = 1 << surface.domain.lattice_bits;
   const glm::dvec2 p = (p_world - surface.domain.min_world) / step_of(surface.domain);
   TriangleAt at;
@@ -218,8 +219,8 @@ NearestEdge nearest_edge(const HeightMesh& surface, glm::dvec3 p_world) {
 
 int find_in_box(const HeightMesh& surface, glm::dvec3 low_world, glm::dvec3 high_world,
                 std::vector<int>& triangles) {
-  check_finite(low_world);
-  check_finite(high_world);
+  check_query(surface, low_world);
+  check_query(surface, high_world);
   triangles.clear();
   BoxSearch search{surface, step_of(surface.domain), {low_world, high_world}, triangles};
   for (const Envelope& root : roots_of(surface.envelopes, surface.domain.lattice_bits))

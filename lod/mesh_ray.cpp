@@ -82,6 +82,7 @@ struct RaySearch {
 
 RaySearch make_search(const HeightMesh& surface, glm::dvec3 origin_world, glm::dvec3 direction,
                       double max_distance_m) {
+  check_heights(surface);
   const double length = glm::length(direction);
   SWELL_CHECK(std::isfinite(length) && length > 0.0, "direction=({}, {}, {})", direction.x,
               direction.y, direction.z);

@@ -8,12 +8,18 @@
 
 #include "lod/envelope.h"
 #include "lod/mesh_query.h"
+#include "math/check.h"
 
 namespace swell::lod {
 
 // Queries prune by tests that rounding may tip. Each gives way by this part of the largest number
 // in it, a thousand times what rounding does.
 inline constexpr double kSlack = 0x1p-42;
+
+inline void check_heights(const HeightMesh& surface) {
+  SWELL_CHECK(surface.height_m.size() == surface.mesh.lattice.size(), "{} vertices, {} heights",
+              surface.mesh.lattice.size(), surface.height_m.size());
+}
 
 inline double step_of(const Domain& domain) {
   return std::ldexp(domain.size_m, -domain.lattice_bits);

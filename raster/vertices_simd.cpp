@@ -128,7 +128,9 @@ HWY_EXPORT(ProjectVertices);
 void project_vertices(std::span<const glm::vec4> p_clip, std::span<const float> clip_distance,
                       Viewport viewport, std::span<WindowVertex> out) {
   static_assert(sizeof(glm::vec4) == 4 * sizeof(float) && sizeof(WindowVertex) == 16);
-  SWELL_DCHECK(out.size() == p_clip.size(), "out={} p_clip={}", out.size(), p_clip.size());
+  SWELL_CHECK(out.size() == p_clip.size(), "out={} p_clip={}", out.size(), p_clip.size());
+  SWELL_CHECK(clip_distance.empty() || clip_distance.size() == p_clip.size(),
+              "clip_distance={} p_clip={}", clip_distance.size(), p_clip.size());
   HWY_DYNAMIC_DISPATCH(ProjectVertices)(p_clip, clip_distance, viewport, out);
 }
 

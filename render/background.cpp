@@ -40,7 +40,10 @@ int Background::detail_at(glm::vec2 offset_m) const {
 void background_heights(const Background& background, const scene::WaterSurface& surface,
                         std::span<const glm::dvec2> p_world, std::span<const glm::vec2> offset_m,
                         std::span<float> height_m) {
-  SWELL_CHECK(p_world.size() <= kMostVertices, "{} vertices", p_world.size());
+  SWELL_CHECK(p_world.size() <= kMostVertices && offset_m.size() == p_world.size() &&
+                  height_m.size() == p_world.size(),
+              "{} vertices, {} offsets, {} heights", p_world.size(), offset_m.size(),
+              height_m.size());
   std::array<std::uint8_t, kMostVertices> detail;
   for (std::size_t i = 0; i < p_world.size(); ++i)
     detail[i] = static_cast<std::uint8_t>(background.detail_at(offset_m[i]));

@@ -47,6 +47,12 @@ void enlarge(std::span<const std::uint32_t> small, PictureExtent from,
              Workers& workers) {
   SWELL_CHECK(from.width_px <= to.width_px && from.height_px <= to.height_px, "{}x{} to {}x{}",
               from.width_px, from.height_px, to.width_px, to.height_px);
+  const auto pixels = [](PictureExtent size) {
+    return static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
+  };
+  SWELL_CHECK(small.size() == pixels(from) && large.size() == pixels(to),
+              "{} pixels of {}x{}, {} of {}x{}", small.size(), from.width_px, from.height_px,
+              large.size(), to.width_px, to.height_px);
   prepare(from, to, workers.thread_count(), tables);
   const auto small_row = [&](int y) {
     return small.data() + static_cast<std::size_t>(y) * from.width_px;

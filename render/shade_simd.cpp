@@ -323,9 +323,30 @@ HWY_EXPORT(ShadeTile);
 HWY_EXPORT(ShadeSkyTile);
 HWY_EXPORT(ShadeLookupTile);
 
+namespace {
+
+void check_picture(const ShadeContext& c, std::span<const std::uint32_t> rgba,
+                   std::span<const float> linear) {
+  const std::size_t pixels = static_cast<std::size_t>(c.viewport.width_px) * c.viewport.height_px;
+  SWELL_CHECK(rgba.size() == pixels && (linear.empty() || linear.size() == 3 * pixels),
+              "{} pixels, {} linear of {}x{}", rgba.size(), linear.size(), c.viewport.width_px,
+              c.viewport.height_px);
+}
+
+void check_tile(const ShadeContext& c, std::span<const float> depth,
+                std::span<const std::uint32_t> primitive) {
+  const auto side = static_cast<std::size_t>(c.grid.tile_size_px);
+  SWELL_CHECK(depth.size() == side * side && primitive.size() == side * side,
+              "depth={} primitive={} tile_size_px={}", depth.size(), primitive.size(), side);
+}
+
+}  // namespace
+
 int shade_tile(const ShadeContext& context, int tile, std::span<const float> depth,
                std::span<const std::uint32_t> primitive, TileLookups lookups, ShadeScratch& scratch,
                std::span<std::uint32_t> rgba, std::span<float> linear) {
+  check_tile(context, depth, primitive);
+  check_picture(context, rgba, linear);
   return HWY_DYNAMIC_DISPATCH(ShadeTile)(context, tile, depth.data(), primitive.data(), lookups,
                                          scratch, rgba.data(),
                                          linear.empty() ? nullptr : linear.data());
@@ -333,6 +354,7 @@ int shade_tile(const ShadeContext& context, int tile, std::span<const float> dep
 
 void shade_sky_tile(const ShadeContext& context, int tile, ShadeScratch& scratch,
                     std::span<std::uint32_t> rgba, std::span<float> linear) {
+  check_picture(context, rgba, linear);
   HWY_DYNAMIC_DISPATCH(ShadeSkyTile)
   (context, tile, scratch, rgba.data(), linear.empty() ? nullptr : linear.data());
 }
@@ -340,6 +362,7 @@ void shade_sky_tile(const ShadeContext& context, int tile, ShadeScratch& scratch
 void shade_lookup_tile(const ShadeContext& context, int tile, std::span<const float> depth,
                        std::span<const std::uint32_t> primitive, ShadeScratch& scratch,
                        texture::RgbaImage& image) {
+  check_tile(context, depth, primitive);
   HWY_DYNAMIC_DISPATCH(ShadeLookupTile)
   (context, tile, depth.data(), primitive.data(), scratch, image);
 }

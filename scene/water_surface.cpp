@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "ocean/coast_velocity.h"
+#include "scene/check_scene.h"
 #include "scene/coast.h"
 
 namespace swell::scene {
@@ -125,6 +126,8 @@ glm::vec2 WaterSurface::share_slope(glm::dvec2 p) const {
 
 void WaterSurface::heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
                            std::size_t longest_patches) const {
+  SWELL_CHECK(p_world.size() == height_m.size(), "{} points, {} heights", p_world.size(),
+              height_m.size());
   in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
     const auto p = p_world.subspan(first, count);
     const auto z = height_m.subspan(first, count);
@@ -193,6 +196,8 @@ void WaterSurface::velocities(std::span<const glm::dvec2> p_world,
                               const ocean::VelocityFrame& velocity,
                               std::span<glm::vec3> velocity_mps) const {
   SWELL_CHECK(velocity.z.t_s == frame_->t_s, "t_s={}, velocity of {}", frame_->t_s, velocity.z.t_s);
+  SWELL_CHECK(p_world.size() == velocity_mps.size(), "{} points, {} velocities", p_world.size(),
+              velocity_mps.size());
   ocean::sample_velocities(velocity, p_world, velocity_mps);
   in_chunks(p_world.size(), [&](std::size_t first, std::size_t count) {
     std::array<float, kChunk> factor;
@@ -255,7 +260,16 @@ std::optional<WaterHit> WaterSurface::intersect(glm::dvec3 origin_world, glm::dv
   return WaterHit{far_m, p, from_above};
 }
 
-Water::Water(const Scene& scene) : sea_(scene.sea), area_(scene.area) {
+namespace {
+
+const Scene& checked(const Scene& scene) {
+  check_scene(scene);
+  return scene;
+}
+
+}  // namespace
+
+Water::Water(const Scene& scene) : sea_(checked(scene).sea), area_(scene.area) {
   if (scene.terrain) terrain_ = build_terrain(*scene.terrain);
   coast_ = build_coast(scene, terrain());
 }
