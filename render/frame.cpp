@@ -13,6 +13,39 @@
 namespace swell::render {
 namespace {
 
+void check_view(const View& view) {
+  SWELL_CHECK(view.width_px >= 1 && view.width_px <= raster::kMaxViewport && view.height_px >= 1 &&
+                  view.height_px <= raster::kMaxViewport,
+              "size={}x{}", view.width_px, view.height_px);
+  const glm::dvec3& eye = view.eye_world;
+  SWELL_CHECK(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z),
+              "eye_world=({}, {}, {})", eye.x, eye.y, eye.z);
+  for (const glm::vec3& axis : {view.right, view.up, view.forward})
+    SWELL_CHECK(std::abs(glm::length(axis) - 1.0f) < 1e-3f, "axis=({}, {}, {})", axis.x, axis.y,
+                axis.z);
+  SWELL_CHECK(view.near_m > 0.0f && std::isfinite(view.near_m), "near_m={}", view.near_m);
+  SWELL_CHECK(view.tan_half_x > 0.0f && std::isfinite(view.tan_half_x) && view.tan_half_y > 0.0f &&
+                  std::isfinite(view.tan_half_y),
+              "tan_half={}, {}", view.tan_half_x, view.tan_half_y);
+}
+
+void check_options(const FrameOptions& o) {
+  const auto check_triangles = [](int triangles) {
+    SWELL_CHECK(triangles == 0 || (triangles >= 2 && triangles <= kMostTriangles), "triangles={}",
+                triangles);
+  };
+  check_triangles(o.water_triangles);
+  check_triangles(o.terrain_triangles);
+  check_triangles(o.triangle_capacity);
+  SWELL_CHECK(o.lookup_scale == 0.0 || (o.lookup_scale >= 0.01 && o.lookup_scale <= 1.0),
+              "lookup_scale={}", o.lookup_scale);
+  SWELL_CHECK(o.background_error_px <= 8.0, "background_error_px={}", o.background_error_px);
+  SWELL_CHECK(o.picture_scale > 0.0 && o.picture_scale <= 1.0, "picture_scale={}", o.picture_scale);
+  SWELL_CHECK(o.lod_operations >= 0 && o.lod_ms >= 0.0 && o.lod_groups >= 1,
+              "lod_operations={} lod_ms={} lod_groups={}", o.lod_operations, o.lod_ms,
+              o.lod_groups);
+}
+
 // What is drawn when the picture is drawn small: the same view on fewer pixels.
 View drawn_view(const View& view, const FrameOptions& options) {
   View drawn = view;
@@ -70,9 +103,9 @@ std::string_view stage_name(Stage stage) {
 
 FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene& scene) {
   FrameOptions result = options;
-  if (result.water_triangles <= 0) result.water_triangles = scene.detail.water_triangles;
-  if (result.terrain_triangles <= 0) result.terrain_triangles = scene.detail.terrain_triangles;
-  if (result.lookup_scale <= 0.0) result.lookup_scale = scene.water.lookup_scale;
+  if (result.water_triangles == 0) result.water_triangles = scene.detail.water_triangles;
+  if (result.terrain_triangles == 0) result.terrain_triangles = scene.detail.terrain_triangles;
+  if (result.lookup_scale == 0.0) result.lookup_scale = scene.water.lookup_scale;
   if (result.background_error_px < 0.0)
     result.background_error_px = scene.detail.background_error_px;
   return result;
@@ -81,13 +114,9 @@ FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene
 FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& asked, Workspace& workspace, Target& target,
                              Workers& workers) {
-  SWELL_CHECK(asked.picture_scale > 0.0 && asked.picture_scale <= 1.0, "picture_scale={}",
-              asked.picture_scale);
-  SWELL_CHECK(asked.lod_operations >= 0 && asked.lod_ms >= 0.0 && asked.lod_groups >= 1,
-              "lod_operations={} lod_ms={} lod_groups={}", asked.lod_operations, asked.lod_ms,
-              asked.lod_groups);
-  SWELL_CHECK(view.width_px <= raster::kMaxViewport && view.height_px <= raster::kMaxViewport,
-              "size={}x{}", view.width_px, view.height_px);
+  check_view(view);
+  check_options(asked);
+  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   const ScopedFloatEnvironment ieee;
   Workspace::State& ws = workspace.state();
   const FrameOptions options = with_scene_defaults(asked, world.scene());
@@ -128,6 +157,18 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   workspace.trace = ws.profile.trace();
   return statistics_of(ws);
 }
+
+const World::State& World::state() const {
+  SWELL_CHECK(state_, "the World was moved from");
+  return *state_;
+}
+
+Workspace::State& Workspace::state() {
+  SWELL_CHECK(state_, "the Workspace was moved from");
+  return *state_;
+}
+
+const Workspace::State& Workspace::state() const { return const_cast<Workspace*>(this)->state(); }
 
 Workspace::Workspace() : state_(std::make_unique<State>()) {}
 Workspace::~Workspace() = default;

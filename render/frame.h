@@ -34,10 +34,12 @@ enum class Stage : std::uint8_t {
 std::string_view stage_name(Stage stage);  // "sea", "triangulate", ...
 
 // A scene made ready to draw: sea state, terrain, static maps. Read-only while frames are drawn;
-// several threads may draw the same World with a Workspace each.
+// several threads may draw the same World with a Workspace each. One that was moved from may only
+// be assigned to or destroyed; whatever else is done with it aborts with a message.
 class World {
  public:
-  // Throws SceneError or FileError.
+  // Throws scene::SceneError (a value out of its range, as for files) or texture::FileError (a
+  // height image).
   explicit World(scene::Scene scene);
 
   // The same bits, sooner: what both scenes describe alike (sky, sea, terrain with its maps, coast)
@@ -50,25 +52,29 @@ class World {
   const scene::Scene& scene() const;
 
   struct State;
-  const State& state() const { return *state_; }
+  const State& state() const;
 
  private:
   std::unique_ptr<State> state_;
 };
 
+inline constexpr int kMostTriangles = 1'000'000;
+
+// Values outside the ranges are refused by render_frame.
 struct FrameOptions {
   int tile_size_px = 64;      // 16, 32 or 64; changes no pixel
-  int water_triangles = 0;    // 0: the scene's
-  int terrain_triangles = 0;  // 0: the scene's
-  double lookup_scale = 0.0;  // 0: the scene's
-  // Far vertices of the sea leave out waves that move them by less than this; 0: they leave out
-  // none, below 0: the scene's.
+  int water_triangles = 0;    // [2, kMostTriangles]; 0: the scene's
+  int terrain_triangles = 0;  // the same
+  double lookup_scale = 0.0;  // [0.01, 1]; 0: the scene's
+  // Far vertices of the sea leave out waves that move them by less than this, at most 8; 0: they
+  // leave out none, below 0: the scene's.
   double background_error_px = -1.0;
   // The picture is drawn at this share of the view's size each way, in (0, 1], and enlarged. Not
   // with keep_linear, which is for pictures that are kept.
   double picture_scale = 1.0;
   // Storage for so many triangles of each surface at once: a later frame that asks for more than
-  // any before, but no more than this, need not build its triangulation anew. Changes no pixel.
+  // any before, but no more than this, need not build its triangulation anew; at most
+  // kMostTriangles. Changes no pixel.
   int triangle_capacity = 0;
   // Bounds on triangulating each surface in one frame, 0: none; the most important is done first,
   // the rest in the frames after. Pictures then depend on the frames before them: for viewers.
@@ -106,7 +112,8 @@ struct TraceEvent {
   double start_us, end_us;  // since the frame's start
 };
 
-// Everything that is reused from frame to frame: a cache, never an input. One frame at a time.
+// Everything that is reused from frame to frame: a cache, never an input. One frame at a time. One
+// that was moved from: as a World.
 class Workspace {
  public:
   Workspace();
@@ -115,8 +122,8 @@ class Workspace {
   Workspace& operator=(Workspace&&) noexcept;
 
   struct State;
-  State& state() { return *state_; }
-  const State& state() const { return *state_; }
+  State& state();
+  const State& state() const;
   // Of the last frame; empty unless trace_enabled was set before it.
   bool trace_enabled = false;
   std::vector<TraceEvent> trace;
@@ -126,7 +133,9 @@ class Workspace {
 };
 
 // Draws the world at time t_s. The picture depends on (world, view, t_s, options) alone: any
-// worker count, SIMD target, tile size and history give the same bits.
+// worker count, SIMD target, tile size and history give the same bits. Aborts with a message where
+// the view has no size in [1, 8192] x [1, 8192], is not finite or its axes are no unit vectors,
+// where t_s is not finite, and where an option lies outside its range.
 FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& options, Workspace& workspace, Target& target,
                              Workers& workers);

@@ -116,7 +116,10 @@ void triangulate_water(const Frame& frame) {
 }
 
 void triangulate_land(const Frame& frame) {
-  if (!frame.world.terrain) return;
+  if (!frame.world.terrain) {
+    frame.ws.land.statistics = {};  // of an earlier world
+    return;
+  }
   const scene::Terrain& terrain = *frame.world.terrain;
   lod::AdaptRequest request =
       request_for(frame, frame.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);

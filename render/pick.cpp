@@ -1,8 +1,10 @@
 #include "render/pick.h"
 
 #include <array>
+#include <cmath>
 
 #include "lod/mesh_query.h"
+#include "math/check.h"
 #include "math/ray_triangle.h"
 #include "render/frame_state.h"
 #include "scene/object_ray.h"
@@ -72,6 +74,7 @@ void ask_land(const scene::Terrain& terrain, Pick& pick) {
 
 std::optional<Pick> pick(const World& world, const View& view, const Workspace& workspace,
                          glm::vec2 at_px, PickScratch& scratch) {
+  SWELL_CHECK(std::isfinite(at_px.x) && std::isfinite(at_px.y), "at_px=({}, {})", at_px.x, at_px.y);
   const World::State& w = world.state();
   const Workspace::State& ws = workspace.state();
   // From where the picture begins.

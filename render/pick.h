@@ -31,8 +31,9 @@ struct PickScratch {
 
 // The water, land or floating object that window point (x_px, y_px) of the last frame shows, by a
 // ray through what it was drawn with; nothing where it shows the sky. What is mirrored, or seen
-// through the water, is water. `world`, `view` and `workspace` are of that frame. 0.2 ms for 30,000
-// triangles, nearly all of it for the envelopes.
+// through the water, is water. at_px is finite (checked: NaN aborts with a message). `world`,
+// `view` and `workspace` are of that frame. 0.2 ms for 30,000 triangles, nearly all of it for the
+// envelopes.
 std::optional<Pick> pick(const World& world, const View& view, const Workspace& workspace,
                          glm::vec2 at_px, PickScratch& scratch);
 

@@ -5,9 +5,11 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "allocation_count.h"
 #include "math/simd_target.h"
@@ -338,7 +340,7 @@ TEST(Frame, AWorldMadeLikeAnotherDrawsTheSamePicture) {
   }
 }
 
-TEST(Frame, OddSizesAndExtremeCamerasDraw) {
+TEST(Frame, OddSizesDraw) {
   const World& world = world_of("lagoon");
   Workers workers(2);
   Workspace workspace;
@@ -352,10 +354,112 @@ TEST(Frame, OddSizesAndExtremeCamerasDraw) {
       EXPECT_EQ(s.visible_pixels, s.shaded_pixels);
     }
   }
-  for (const double z : {-3.0, 0.0, 40000.0})
-    for (const double fov : {0.01, 3.1})
-      render_frame(world, make_view({0, 0, z}, 0.0, -0.3, fov, 0.25f, 64, 48), 1e9, few_triangles(),
-                   workspace, target, workers);
+}
+
+// From below, from within and from far above the water, through a telescope and a fish-eye: whole
+// pictures, the same from a workspace that has drawn something else.
+TEST(Frame, ExtremeCamerasGiveWholePictures) {
+  const World& world = world_of("lagoon");
+  Workers workers(2), one_worker(1);
+  Workspace workspace;
+  FrameOptions options = few_triangles();
+  options.keep_linear = true;
+  for (const double z : {-3.0, 0.0, 40000.0}) {
+    for (const double fov : {0.01, 3.1}) {
+      SCOPED_TRACE("z " + std::to_string(z) + " fov " + std::to_string(fov));
+      const View view = make_view({0, 0, z}, 0.0, -0.3, fov, 0.25f, 64, 48);
+      Target target, alone;
+      Workspace fresh;
+      const FrameStatistics s = render_frame(world, view, 1e9, options, workspace, target, workers);
+      render_frame(world, view, 1e9, options, fresh, alone, one_worker);
+      EXPECT_EQ(difference(target, alone), "");
+      EXPECT_EQ(s.visible_pixels, s.shaded_pixels);
+      EXPECT_TRUE(fov < 1.0 || s.visible_pixels > 0);
+      EXPECT_TRUE(std::ranges::all_of(target.rgba, [](std::uint32_t p) { return p >> 24 == 255; }));
+      EXPECT_TRUE(std::ranges::all_of(target.linear,
+                                      [](float x) { return std::isfinite(x) && x >= 0.0f; }));
+    }
+  }
+}
+
+// Every number of a frame is of its own world.
+TEST(Frame, StatisticsForgetTheWorldBefore) {
+  Workspace workspace, fresh;
+  Workers workers(2);
+  Target target;
+  const auto counts = [&](const World& world, Workspace& ws) {
+    const FrameStatistics s =
+        render_frame(world, view_of(world, 1.0), 1.0, few_triangles(), ws, target, workers);
+    return std::array<std::uint64_t, 5>{static_cast<std::uint64_t>(s.water_triangles),
+                                        static_cast<std::uint64_t>(s.terrain_triangles),
+                                        static_cast<std::uint64_t>(s.lod_stopped), s.visible_pixels,
+                                        s.shaded_pixels};
+  };
+  for (const char* before : {"lagoon", "buoys", "beach"}) {
+    counts(world_of(before), workspace);
+    EXPECT_EQ(counts(world_of("open_ocean"), workspace), counts(world_of("open_ocean"), fresh))
+        << before;
+    const FrameStatistics again =
+        render_frame(world_of("open_ocean"), view_of(world_of("open_ocean"), 1.0), 1.0,
+                     few_triangles(), workspace, target, workers);
+    EXPECT_EQ(again.splits + again.merges, 0) << before;
+  }
+}
+
+TEST(FrameDeathTest, RefusesWhatItCannotDraw) {
+  const World& world = world_of("open_ocean");
+  Workspace workspace;
+  Target target;
+  Workers workers(1);
+  const auto draw_with = [&](const View& view, double t_s, const FrameOptions& options) {
+    render_frame(world, view, t_s, options, workspace, target, workers);
+  };
+  const View good = view_of(world, 0.0);
+  EXPECT_DEATH(draw_with(good, NAN, {}), "t_s=nan");
+  EXPECT_DEATH(draw_with(good, INFINITY, {}), "t_s=inf");
+  const auto expect_view_refused = [&](auto&& change, const char* message) {
+    View view = good;
+    change(view);
+    EXPECT_DEATH(draw_with(view, 0.0, {}), message);
+  };
+  expect_view_refused([](View& v) { v.eye_world.y = NAN; }, "eye_world=\\(0, nan");
+  expect_view_refused([](View& v) { v.forward.x = NAN; }, "axis=\\(nan");
+  expect_view_refused([](View& v) { v.width_px = 0; }, "size=0x");
+  expect_view_refused([](View& v) { v.height_px = 8193; }, "x8193");
+  expect_view_refused([](View& v) { v.near_m = 0.0f; }, "near_m=0");
+  expect_view_refused([](View& v) { v.tan_half_x = NAN; }, "tan_half=nan");
+  const auto expect_refused = [&](auto&& change, const char* message) {
+    FrameOptions options;
+    change(options);
+    EXPECT_DEATH(draw_with(good, 0.0, options), message);
+  };
+  expect_refused([](FrameOptions& o) { o.tile_size_px = 24; }, "tile_size_px=24");
+  expect_refused([](FrameOptions& o) { o.water_triangles = -1; }, "triangles=-1");
+  expect_refused([](FrameOptions& o) { o.terrain_triangles = 1; }, "triangles=1");
+  expect_refused([](FrameOptions& o) { o.triangle_capacity = 1000001; }, "triangles=1000001");
+  expect_refused([](FrameOptions& o) { o.lookup_scale = NAN; }, "lookup_scale=nan");
+  expect_refused([](FrameOptions& o) { o.lookup_scale = 1e9; }, "lookup_scale=1000000000");
+  expect_refused([](FrameOptions& o) { o.background_error_px = NAN; }, "background_error_px=nan");
+  expect_refused([](FrameOptions& o) { o.picture_scale = 0.0; }, "picture_scale=0");
+  expect_refused([](FrameOptions& o) { o.lod_ms = NAN; }, "lod_ms=nan");
+  expect_refused([](FrameOptions& o) { o.lod_groups = 0; }, "lod_groups=0");
+}
+
+TEST(FrameDeathTest, RefusesWhatWasMovedFrom) {
+  World world = load_world("open_ocean");
+  const View view = view_of(world, 0.0);
+  const World taken = std::move(world);
+  Workspace workspace;
+  Target target;
+  Workers workers(1);
+  EXPECT_DEATH(world.scene(), "the World was moved from");
+  EXPECT_DEATH(render_frame(world, view, 0.0, {}, workspace, target, workers),
+               "the World was moved from");
+  Workspace other = std::move(workspace);
+  EXPECT_DEATH(render_frame(taken, view, 0.0, {}, workspace, target, workers),
+               "the Workspace was moved from");
+  workspace = std::move(other);  // good again
+  render_frame(taken, view, 0.0, few_triangles(), workspace, target, workers);
 }
 
 TEST(Frame, LinearPictureHoldsOnlyFiniteRadiance) {

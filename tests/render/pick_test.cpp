@@ -18,7 +18,9 @@ constexpr glm::ivec2 kSize_px(160, 90);
 // A frame of a scene at 3 s.
 struct Drawn {
   explicit Drawn(const scene::Scene& scene, glm::ivec2 size_px = kSize_px)
-      : world(scene), view(scene::camera_view(scene.camera, t_s, size_px.x, size_px.y)) {
+      : Drawn(scene, scene.camera, size_px) {}
+  Drawn(const scene::Scene& scene, const scene::Camera& camera, glm::ivec2 size_px = kSize_px)
+      : world(scene), view(scene::camera_view(camera, t_s, size_px.x, size_px.y)) {
     FrameOptions options;
     options.water_triangles = 4000;
     Workers workers(2);
@@ -162,9 +164,10 @@ TEST(Pick, IsTheObjectThatThePixelShows) {
 }
 
 TEST(Pick, BeginsWhereThePictureDoes) {
-  scene::Scene scene = load_shipped("buoys");
-  scene.camera.near_m = 40.0;  // two of the buoys and most of the water are nearer
-  Drawn drawn(scene);
+  const scene::Scene scene = load_shipped("buoys");
+  scene::Camera camera = scene.camera;
+  camera.near_m = 40.0;  // two of the buoys and most of the water are nearer
+  Drawn drawn(scene, camera);
   int same = 0, pixels = 0, empty = 0;
   for (int y = kSize_px.y / 2; y < kSize_px.y; y += 2) {
     for (int x = 0; x < kSize_px.x; x += 2, ++pixels) {
@@ -176,6 +179,12 @@ TEST(Pick, BeginsWhereThePictureDoes) {
   }
   EXPECT_GT(empty, pixels / 2);
   EXPECT_GE(same, 0.98 * pixels);
+}
+
+TEST(PickDeathTest, RefusesPlacesThatAreNoNumbers) {
+  Drawn drawn(load_shipped("open_ocean"));
+  EXPECT_DEATH(drawn.pick_at({NAN, 45.0f}), "at_px=\\(nan, 45\\)");
+  EXPECT_DEATH(drawn.pick_at({80.0f, INFINITY}), "at_px=\\(80, inf\\)");
 }
 
 TEST(Pick, OfTheSkyIsNothing) {
