@@ -344,24 +344,34 @@ Rows water_rows() {
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.terrain_triangles), "most triangles of the terrain"),
-      SceneRow::choice("detail.triangulation", TriangulationName{},
-                       "of the sea: a bintree that follows the view, rings around the eye, or two "
-                       "triangles, flat, with the waves in the shading only"),
-      SceneRow::number("detail.background_error_px", {0, 8, "pixels"},
-                       SWELL_FIELD(detail.background_error_px),
-                       "far water leaves out waves that move it by less than this; 0: none"),
+      SceneRow::choice(
+          "detail.triangulation", TriangulationName{},
+          "how the sea is cut into triangles: a bintree that follows the view, rings around "
+          "the camera, or two flat triangles, with waves in the shading only"),
+      SceneRow::number(
+          "detail.background_error_px", {0, 8, "pixels"}, SWELL_FIELD(detail.background_error_px),
+          "far water may leave out waves that move it by less than this; 0 leaves out none"),
       SceneRow::choice("detail.priority", Priority{}, "which triangles are split first"),
-      SceneRow::number("detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
-                       "the sea under floating things has triangles as if this many times nearer"),
+      SceneRow::number(
+          "detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
+          "the sea under floating objects is triangulated as finely as if it were this "
+          "many times nearer"),
       SceneRow::number(
           "detail.back_facing", {1, 16}, SWELL_FIELD(detail.back_facing),
-          "what turns its back to the eye has triangles as if this many times further"),
-      SceneRow::number("detail.normal_spread", {1, 16}, SWELL_FIELD(detail.normal_spread),
-                       "what is smooth has triangles as if up to this many times further away"),
-      SceneRow::number("detail.silhouette", {1, 16}, SWELL_FIELD(detail.silhouette),
-                       "what can show no silhouette has triangles as if this many times further"),
-      SceneRow::number("detail.visibility", {0, 4}, SWELL_FIELD(detail.visibility),
-                       "haze takes triangles from what it hides: 1 as the contrast falls, 0 none"),
+          "surfaces that face away from the camera are triangulated as coarsely as if they were "
+          "this many times further away"),
+      SceneRow::number(
+          "detail.normal_spread", {1, 16}, SWELL_FIELD(detail.normal_spread),
+          "smooth areas are triangulated as coarsely as if they were up to this many times "
+          "further away"),
+      SceneRow::number(
+          "detail.silhouette", {1, 16}, SWELL_FIELD(detail.silhouette),
+          "what cannot be part of an outline, a crest or a hill against what lies behind "
+          "it, is triangulated as coarsely as if it were this many times further away"),
+      SceneRow::number(
+          "detail.visibility", {0, 4}, SWELL_FIELD(detail.visibility),
+          "how far haze coarsens what it hides: 1 in proportion to the contrast that is "
+          "lost, 0 not at all"),
   };
 }
 
