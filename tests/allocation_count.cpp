@@ -6,10 +6,11 @@
 
 namespace {
 
-std::atomic<std::uint64_t> count = 0;
+std::atomic<std::uint64_t> count = 0, bytes = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++count;
+  bytes += size;
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   if (void* p = std::aligned_alloc(alignment, whole == 0 ? alignment : whole)) return p;
   throw std::bad_alloc();
@@ -36,4 +37,5 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::fre
 
 namespace swell {
 std::uint64_t allocation_count() { return count; }
+std::uint64_t allocated_bytes() { return bytes; }
 }  // namespace swell

@@ -1,8 +1,9 @@
-// Counts this program's calls of operator new.
+// Counts this program's calls of operator new, and their bytes.
 #pragma once
 
 #include <cstdint>
 
 namespace swell {
 std::uint64_t allocation_count();
+std::uint64_t allocated_bytes();
 }
