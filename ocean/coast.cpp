@@ -50,7 +50,8 @@ CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_co
   const double wavelength = wind.gravity_mps2 / (2.0 * kPi * f * f);
   coast.peak_wavelength_m = static_cast<float>(wavelength);
   coast.share.resize(floor.grid.size());
-  for (int j = 0; j < floor.grid.samples_y; ++j) {
+  workers.for_each(static_cast<std::size_t>(floor.grid.samples_y), [&](std::size_t row, int) {
+    const int j = static_cast<int>(row);
     for (int i = 0; i < floor.grid.samples_x; ++i) {
       const std::size_t k = floor.grid.index(i, j);
       const double depth = static_cast<double>(floor.depth_m[k]);
@@ -59,7 +60,7 @@ CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_co
       // A sine, so that spectrum_weight(), the cosine, is smooth as well.
       coast.share[k] = static_cast<float>(sin(0.5 * kPi * shallow * inside_grid(floor.grid, i, j)));
     }
-  }
+  });
   return coast;
 }
 

@@ -123,6 +123,7 @@ SeaFloor make_sea_floor(const FloorGrid& grid, FunctionRef<double(glm::dvec2)> d
 
 SeaFloor make_sea_floor_from_heights(const FloorGrid& grid, std::span<const float> height_m) {
   SeaFloor floor{grid, {}};
+  floor.depth_m.reserve(height_m.size());
   for (const float height : height_m) floor.depth_m.push_back(-height);
   check_sea_floor(floor);
   return floor;
