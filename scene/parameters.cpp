@@ -373,7 +373,9 @@ Rows coast_rows() {
                         "another number, other trains of the same sea"),
       SceneRow::or_zero(SceneRow::number(
           "coast.grid_spacing_m", {0.5, 100, "m"}, SWELL_FIELD(coast.grid_spacing_m),
-          "between the points that the trains are worked out at; 0: the terrain's side / 256")),
+          "most distance between the points that the trains are worked out at, which may make at "
+          "most 2048 cells a side of the terrain, and in all 2^24 cells times trains; 0: the "
+          "terrain's side / 256")),
   };
 }
 

@@ -10,6 +10,7 @@
 
 #include "ocean/sea_floor.h"
 #include "ocean/sea_scale.h"
+#include "scene/coast.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
@@ -160,10 +161,16 @@ class Reader {
   }
 
   void finish_coast() {
-    if (!scene_.terrain || scene_.terrain->coast_m.empty()) return;
-    if (!scene_.terrain->height_image.empty())
-      check_only_one_of({"terrain.height_image", "terrain.coast_m"});
-    if (!given_.contains("coast.model")) scene_.coast.model = CoastModel::kBlend;
+    if (!scene_.terrain) return;
+    if (!scene_.terrain->coast_m.empty()) {
+      if (!scene_.terrain->height_image.empty())
+        check_only_one_of({"terrain.height_image", "terrain.coast_m"});
+      if (!given_.contains("coast.model")) scene_.coast.model = CoastModel::kBlend;
+    }
+    // Over an image, whose size is not known yet, build_coast() checks this.
+    const std::optional<double> size_m = described_size_m(*scene_.terrain);
+    const std::string fault = size_m ? coast_fault(scene_.coast, *size_m) : "";
+    if (!fault.empty()) fail(file_, given_.at("coast.grid_spacing_m"), fault);
   }
 
   // The keys set the same thing.

@@ -96,6 +96,8 @@ std::string random_value(const Parameter<Object>& parameter, Dice& dice) {
 // What would take long, made small.
 std::optional<std::string> cheap_value(std::string_view key, Dice& dice) {
   if (key == "sea.resolution") return fmt::format("{}", 16 << dice.below(3));
+  // On the largest island 16 trains need 100 m.
+  if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
   if (key.ends_with("_triangles")) return fmt::format("{}", 2 + dice.below(4000));
   return std::nullopt;
 }
