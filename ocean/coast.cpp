@@ -43,7 +43,12 @@ float share_at(const CoastSea& coast, glm::dvec2 p_world) {
 
 CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers) {
-  const std::vector<WaveTrain> trains = make_trains(wind, train_count, seed);
+  return make_coast_sea(floor, wind, make_trains(wind, train_count, seed), method, blend, workers);
+}
+
+CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind,
+                        std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
+                        Workers& workers) {
   CoastSea coast;
   coast.trains = make_train_sea(floor, trains, method, workers);
   const double f = wind.wind_speed_mps > 0.0 ? peak_frequency_hz(wind) : 1.0;

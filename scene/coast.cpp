@@ -82,11 +82,14 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const Terrain* te
   if (const std::string fault = coast_fault(coast, terrain->size_m()); !fault.empty())
     throw SceneError(fault);
   if (sea.wind_speed_mps <= 0.0) return std::nullopt;
+  const ocean::WindSea wind =
+      ocean::make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2);
+  std::vector<ocean::WaveTrain> trains = ocean::make_trains(wind, coast.trains, coast.seed);
+  for (ocean::WaveTrain& train : trains) train.amplitude_m *= sea.amplitude_scale;
   Workers workers(threads);
   return ocean::make_coast_sea(
-      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->size_m()))),
-      ocean::make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2), coast.trains,
-      coast.seed, coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
+      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->size_m()))), wind,
+      trains, coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
       coast.model == CoastModel::kBlend, workers);
 }
 

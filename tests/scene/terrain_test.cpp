@@ -565,6 +565,23 @@ TEST(CoastGrid, IsAnnouncedIfItTakesLong) {
   EXPECT_EQ(slow_coast_text(scene), "");
 }
 
+// Far from the shore, where no wave breaks.
+TEST(CoastTrains, HaveTheAmplitudeScaleOfTheWindsOtherWaves) {
+  Scene scene = beach_scene(3, 10.0);
+  scene.sea.wind_speed_mps = 5.0;
+  const Water plain(scene);
+  for (const double scale : {0.0, 0.5, 2.0}) {
+    scene.sea.amplitude_scale = scale;
+    const Water water(scene);
+    const glm::dvec2 p[] = {{-100.0, 200.0}, {0.0, 210.0}, {120.0, 220.0}};
+    std::array<float, 3> height{}, expected{};
+    ocean::sample_trains(water.coast()->trains, 3.0, p, height);
+    ocean::sample_trains(plain.coast()->trains, 3.0, p, expected);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_FLOAT_EQ(height[i], static_cast<float>(scale) * expected[i]) << scale;
+  }
+}
+
 TEST(CoastGrid, KnowsTheSizeOfATerrainBeforeItIsMade) {
   TerrainDescription island{.island_radius_m = 431.0};
   EXPECT_EQ(described_size_m(island), build_terrain(island).size_m());
