@@ -61,14 +61,20 @@ float share_slope_per_m(const CoastSea& coast) {
 
 CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers) {
-  const std::vector<WaveTrain> trains = make_trains(wind, train_count, seed);
+  return make_coast_sea(floor, wind, make_trains(wind, train_count, seed), method, blend, workers);
+}
+
+CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind,
+                        std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
+                        Workers& workers) {
   CoastSea coast;
   coast.trains = make_train_sea(floor, trains, method, workers);
   const double f = wind.wind_speed_mps > 0.0 ? peak_frequency_hz(wind) : 1.0;
   const double wavelength = wind.gravity_mps2 / (2.0 * kPi * f * f);
   coast.peak_wavelength_m = static_cast<float>(wavelength);
   coast.share.resize(floor.grid.size());
-  for (int j = 0; j < floor.grid.samples_y; ++j) {
+  workers.for_each(static_cast<std::size_t>(floor.grid.samples_y), [&](std::size_t row, int) {
+    const int j = static_cast<int>(row);
     for (int i = 0; i < floor.grid.samples_x; ++i) {
       const std::size_t k = floor.grid.index(i, j);
       const double depth = static_cast<double>(floor.depth_m[k]);
@@ -77,7 +83,7 @@ CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_co
       // A sine, so that spectrum_weight(), the cosine, is smooth as well.
       coast.share[k] = static_cast<float>(sin(0.5 * kPi * shallow * inside_grid(floor.grid, i, j)));
     }
-  }
+  });
   coast.share_slope_per_m = share_slope_per_m(coast);
   return coast;
 }

@@ -45,6 +45,11 @@ inline float spectrum_weight(float share) {
 CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers);
 
+// The same with trains of the caller's own. `wind` says where the spectrum ends.
+CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind,
+                        std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
+                        Workers& workers);
+
 // The trains' share at world points, bilinear.
 void sample_coast_share(const CoastSea& coast, std::span<const glm::dvec2> p_world,
                         std::span<float> share);

@@ -87,12 +87,12 @@ Bilinear cell_bilinear(const auto& samples, const std::array<std::size_t, 4>& co
   return bilinear(value(0), value(1), value(2), value(3));
 }
 
-// Turns relative amplitudes into metres, and limits their sum to what the depth carries. Returns
-// the largest sum.
+// Turns relative amplitudes into metres, and limits their sum to what the depth carries, for the
+// samples first to end. Returns the largest sum.
 double break_waves(const SeaFloor& floor, std::span<const WaveTrain> trains,
-                   std::span<WavePhase> phases) {
+                   std::span<WavePhase> phases, std::size_t first, std::size_t end) {
   double largest = 0.0;
-  for (std::size_t n = 0; n < floor.depth_m.size(); ++n) {
+  for (std::size_t n = first; n < end; ++n) {
     double sum = 0.0;
     for (std::size_t i = 0; i < trains.size(); ++i) {
       sum += trains[i].amplitude_m * static_cast<double>(phases[i].amplitude[n]);
@@ -137,28 +137,27 @@ double train_slope_bound(const TrainSea& sea, std::size_t train, const Bilinear&
          largest(amplitude) * (by_theta * steepest(theta) + by_depth * steepest(depth));
 }
 
-// Fills the cells and returns a bound on the slope of all trains together.
-double fill_cells(const SeaFloor& floor, std::span<const WavePhase> phases, TrainSea& sea) {
-  float* wave = sea.waves.data();
-  float* depth = sea.depth.data();
+// Fills a row of cells and returns a bound on the slope of all trains together there.
+double fill_row(const SeaFloor& floor, std::span<const WavePhase> phases, int j, TrainSea& sea) {
+  const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(sea.cells_x);
+  float* wave = sea.waves.data() + cell * 8 * phases.size();
+  float* depth = sea.depth.data() + cell * 4;
   double slope_bound = 0.0;
-  for (int j = 0; j < sea.cells_y; ++j) {
-    for (int i = 0; i < sea.cells_x; ++i) {
-      const auto corners = cell_corners(floor.grid, i, j);
-      const Bilinear h = cell_bilinear(floor.depth_m, corners);
-      store(h, h.c0, depth);
-      depth += 4;
-      double slope = 0.0;
-      for (std::size_t train = 0; train < phases.size(); ++train) {
-        const Bilinear theta = cell_bilinear(phases[train].cycles, corners);
-        const Bilinear amplitude = cell_bilinear(phases[train].amplitude, corners);
-        store(theta, theta.c0 - std::floor(theta.c0), wave);
-        store(amplitude, amplitude.c0, wave + 4);
-        wave += 8;
-        slope += train_slope_bound(sea, train, theta, amplitude, h);
-      }
-      slope_bound = std::max(slope_bound, slope / floor.grid.spacing_m);
+  for (int i = 0; i < sea.cells_x; ++i) {
+    const auto corners = cell_corners(floor.grid, i, j);
+    const Bilinear h = cell_bilinear(floor.depth_m, corners);
+    store(h, h.c0, depth);
+    depth += 4;
+    double slope = 0.0;
+    for (std::size_t train = 0; train < phases.size(); ++train) {
+      const Bilinear theta = cell_bilinear(phases[train].cycles, corners);
+      const Bilinear amplitude = cell_bilinear(phases[train].amplitude, corners);
+      store(theta, theta.c0 - std::floor(theta.c0), wave);
+      store(amplitude, amplitude.c0, wave + 4);
+      wave += 8;
+      slope += train_slope_bound(sea, train, theta, amplitude, h);
     }
+    slope_bound = std::max(slope_bound, slope / floor.grid.spacing_m);
   }
   return slope_bound;
 }
@@ -220,24 +219,32 @@ TrainSea make_train_sea(const SeaFloor& floor, std::span<const WaveTrain> trains
   sea.grid = floor.grid;
   sea.cells_x = std::max(floor.grid.samples_x - 1, 1);
   sea.cells_y = std::max(floor.grid.samples_y - 1, 1);
-  set_trains(trains, sea);
-  // One phase a train.
-  std::vector<WavePhase> phases(trains.size());
-  workers.for_each(trains.size(), [&](std::size_t i, int) {
-    phases[i] = make_wave_phase(floor, trains[i], method);
-  });
-  const double bound = break_waves(floor, trains, phases);
-  sea.height_bound_m = static_cast<float>(bound * (1.0 + 1e-6));
-  // Cells.
   const std::size_t cells =
       static_cast<std::size_t>(sea.cells_x) * static_cast<std::size_t>(sea.cells_y);
   if (cells * 8 * std::max<std::size_t>(trains.size(), 1) > 0x7fffffffu) {
     throw std::invalid_argument(
         fmt::format("{} wave trains over {} cells, at most 2^28 in all", trains.size(), cells));
   }
+  set_trains(trains, sea);
+  // One phase a train.
+  std::vector<WavePhase> phases(trains.size());
+  workers.for_each(trains.size(), [&](std::size_t i, int) {
+    phases[i] = make_wave_phase(floor, trains[i], method);
+  });
+  std::vector<double> largest(static_cast<std::size_t>(floor.grid.samples_y));
+  workers.for_each(largest.size(), [&](std::size_t j, int) {
+    const std::size_t first = floor.grid.index(0, static_cast<int>(j));
+    largest[j] = break_waves(floor, trains, phases, first, first + floor.grid.samples_x);
+  });
+  sea.height_bound_m = static_cast<float>(std::ranges::max(largest) * (1.0 + 1e-6));
+  // Cells.
   sea.depth.resize(cells * 4);
   sea.waves.resize(cells * 8 * trains.size());
-  sea.slope_bound = static_cast<float>(fill_cells(floor, phases, sea) * (1.0 + 1e-4));
+  std::vector<double> steepest_row(static_cast<std::size_t>(sea.cells_y));
+  workers.for_each(steepest_row.size(), [&](std::size_t j, int) {
+    steepest_row[j] = fill_row(floor, phases, static_cast<int>(j), sea);
+  });
+  sea.slope_bound = static_cast<float>(std::ranges::max(steepest_row) * (1.0 + 1e-4));
   return sea;
 }
 

@@ -12,6 +12,7 @@
 #include "math/elementary.h"
 #include "ocean/dispersion.h"
 #include "ocean/eikonal.h"
+#include "ocean/wave_numbers.h"
 
 namespace swell::ocean {
 namespace {
@@ -43,9 +44,48 @@ double local_wave_number(const WaveTrain& train, double depth_m) {
   return wave_number(omega_of(train), std::max(depth_m, kShallowestDepth), train.gravity_mps2);
 }
 
-double local_shoaling(const WaveTrain& train, double depth_m) {
-  const double h = std::max(depth_m, kShallowestDepth);
-  return shoaling_coefficient(local_wave_number(train, h) * h);
+// k and the shoaling coefficient Ks for the samples of one row of a floor after the other; land
+// counts as the shallowest water.
+class RowWaves {
+ public:
+  RowWaves(const SeaFloor& floor, const WaveTrain& train)
+      : floor_(floor),
+        train_(train),
+        depth_m_(static_cast<std::size_t>(floor.grid.samples_x)),
+        values_(depth_m_.size()) {}
+
+  std::span<const double> numbers(int j) {
+    const float* depth = floor_.depth_m.data() + floor_.grid.index(0, j);
+    for (std::size_t i = 0; i < depth_m_.size(); ++i)
+      depth_m_[i] = std::max(static_cast<double>(depth[i]), kShallowestDepth);
+    wave_numbers(omega_of(train_), train_.gravity_mps2, depth_m_, values_);
+    return values_;
+  }
+
+  std::span<const double> shoaling(int j) {
+    numbers(j);
+    shoaling_coefficients(values_, depth_m_, values_);
+    return values_;
+  }
+
+ private:
+  const SeaFloor& floor_;
+  const WaveTrain& train_;
+  std::vector<double> depth_m_, values_;
+};
+
+// amplitude = amplitude_of(sample, Ks there).
+template <class AmplitudeOf>
+void set_amplitude(const SeaFloor& floor, const WaveTrain& train, WavePhase& phase,
+                   AmplitudeOf amplitude_of) {
+  phase.amplitude.resize(floor.grid.size());
+  RowWaves waves(floor, train);
+  for (int j = 0; j < floor.grid.samples_y; ++j) {
+    const std::span<const double> shoaling = waves.shoaling(j);
+    const std::size_t first = floor.grid.index(0, j);
+    for (std::size_t i = 0; i < shoaling.size(); ++i)
+      phase.amplitude[first + i] = static_cast<float>(amplitude_of(first + i, shoaling[i]));
+  }
 }
 
 // Phase of the deep-water wave, in cycles.
@@ -56,11 +96,14 @@ double deep_cycles(const WaveTrain& train, glm::dvec2 p) {
 
 // ---- Straight lines of travel
 
-// (1 / 2 pi) integral of k from a to b, k at both known: Simpson's rule.
-double integrate_cycles(const SeaFloor& floor, const WaveTrain& train, glm::dvec2 a, double k_a,
-                        glm::dvec2 b, double k_b) {
-  const double k_middle = local_wave_number(train, depth_at(floor, 0.5 * (a + b)));
-  return glm::length(b - a) * (k_a + 4.0 * k_middle + k_b) / (6.0 * kTwoPi);
+// A stretch of a line of travel: the phase where it begins, k at both ends, the depth midway.
+struct Stretch {
+  double cycles, length_m, k_begin, k_end, middle_depth_m;
+};
+
+// The phase where the stretch ends, with (1 / 2 pi) integral of k along it by Simpson's rule.
+double end_cycles(const Stretch& s, double k_middle) {
+  return s.cycles + s.length_m * (s.k_begin + 4.0 * k_middle + s.k_end) / (6.0 * kTwoPi);
 }
 
 // theta at sample (i, j) from the samples one grid line upstream. The main axis is the one the
@@ -75,18 +118,29 @@ class StraightMarch {
         x_main_(std::abs(train.travel.x) >= std::abs(train.travel.y)),
         main_(x_main_ ? train.travel.x : train.travel.y),
         shift_((x_main_ ? train.travel.y : train.travel.x) / std::abs(main_)) {
-    for (const float depth : floor.depth_m) k_.push_back(local_wave_number(train, depth));
+    k_.reserve(floor.grid.size());
+    RowWaves waves(floor, train);
+    for (int j = 0; j < floor.grid.samples_y; ++j) {
+      const std::span<const double> row = waves.numbers(j);
+      k_.insert(k_.end(), row.begin(), row.end());
+    }
   }
 
   void run() {
     const FloorGrid& grid = floor_.grid;
     const int lines = x_main_ ? grid.samples_x : grid.samples_y;
     const int across = x_main_ ? grid.samples_y : grid.samples_x;
+    std::vector<Stretch> stretch(static_cast<std::size_t>(across));
+    std::vector<double> middle_m(stretch.size()), k_middle(stretch.size());
     for (int n = 0; n < lines; ++n) {
       const int line = main_ > 0.0 ? n : lines - 1 - n;
       for (int a = 0; a < across; ++a) {
-        cycles_[index(line, a)] = n == 0 ? enter(line, a, 0.0) : step(line, a, across);
+        stretch[a] = n == 0 ? enter(line, a, 0.0) : step(line, a, across);
+        middle_m[a] = std::max(stretch[a].middle_depth_m, kShallowestDepth);
       }
+      wave_numbers(omega_of(train_), train_.gravity_mps2, middle_m, k_middle);
+      for (int a = 0; a < across; ++a)
+        cycles_[index(line, a)] = end_cycles(stretch[a], k_middle[a]);
     }
   }
 
@@ -99,16 +153,21 @@ class StraightMarch {
            floor_.grid.spacing_m * (x_main_ ? glm::dvec2(line, a) : glm::dvec2(a, line));
   }
 
-  // The line entered the grid `back` grid lines before the sample.
-  double enter(int line, int a, double back) const {
-    const glm::dvec2 p = point(line, a);
-    const glm::dvec2 entry = p - train_.travel * (back * floor_.grid.spacing_m / std::abs(main_));
-    const double k_entry = local_wave_number(train_, depth_at(floor_, entry));
-    return deep_cycles(train_, entry) +
-           integrate_cycles(floor_, train_, entry, k_entry, p, k_[index(line, a)]);
+  Stretch stretch_to(int line, int a, glm::dvec2 begin, double cycles, double k_begin) const {
+    const glm::dvec2 end = point(line, a);
+    return {cycles, glm::length(end - begin), k_begin, k_[index(line, a)],
+            depth_at(floor_, 0.5 * (begin + end))};
   }
 
-  double step(int line, int a, int across) const {
+  // The line entered the grid `back` grid lines before the sample.
+  Stretch enter(int line, int a, double back) const {
+    const glm::dvec2 entry =
+        point(line, a) - train_.travel * (back * floor_.grid.spacing_m / std::abs(main_));
+    return stretch_to(line, a, entry, deep_cycles(train_, entry),
+                      local_wave_number(train_, depth_at(floor_, entry)));
+  }
+
+  Stretch step(int line, int a, int across) const {
     const double upstream_a = a - shift_;
     if (upstream_a < 0.0) return enter(line, a, a / shift_);
     if (upstream_a > across - 1) return enter(line, a, (across - 1 - a) / -shift_);
@@ -118,10 +177,9 @@ class StraightMarch {
     const int a1 = std::min(a0 + 1, across - 1);
     const double f = upstream_a - a0;
     const std::size_t n0 = index(upstream, a0), n1 = index(upstream, a1);
-    const double cycles = cycles_[n0] + f * (cycles_[n1] - cycles_[n0]);
-    const double k = k_[n0] + f * (k_[n1] - k_[n0]);
-    return cycles + integrate_cycles(floor_, train_, point(upstream, upstream_a), k, point(line, a),
-                                     k_[index(line, a)]);
+    return stretch_to(line, a, point(upstream, upstream_a),
+                      cycles_[n0] + f * (cycles_[n1] - cycles_[n0]),
+                      k_[n0] + f * (k_[n1] - k_[n0]));
   }
 
   const SeaFloor& floor_;
@@ -136,10 +194,9 @@ WavePhase make_straight_phase(const SeaFloor& floor, const WaveTrain& train) {
   WavePhase phase;
   phase.cycles.resize(floor.grid.size());
   StraightMarch(floor, train, phase.cycles).run();
-  for (const float depth : floor.depth_m) {
-    phase.amplitude.push_back(depth > 0.0f ? static_cast<float>(local_shoaling(train, depth))
-                                           : 0.0f);
-  }
+  set_amplitude(floor, train, phase, [&](std::size_t n, double shoaling) {
+    return floor.depth_m[n] > 0.0f ? shoaling : 0.0;
+  });
   return phase;
 }
 
@@ -215,9 +272,13 @@ EikonalProblem make_problem(const SeaFloor& floor, const WaveTrain& train) {
   EikonalProblem problem{grid, std::vector<double>(grid.size(), 0.0),
                          std::vector<double>(grid.size(), kInfinity),
                          std::vector<double>(grid.size(), 0.0)};
-  for (std::size_t n = 0; n < grid.size(); ++n) {
-    const float depth = floor.depth_m[n];
-    if (depth > 0.0f) problem.slowness[n] = local_wave_number(train, depth) / kTwoPi;
+  RowWaves waves(floor, train);
+  for (int j = 0; j < grid.samples_y; ++j) {
+    const std::span<const double> k = waves.numbers(j);
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      const std::size_t n = grid.index(0, j) + i;
+      if (floor.depth_m[n] > 0.0f) problem.slowness[n] = k[i] / kTwoPi;
+    }
   }
   // The two borders at the corner that the wave reaches first.
   const glm::ivec2 inward(train.travel.x >= 0.0 ? 1 : -1, train.travel.y >= 0.0 ? 1 : -1);
@@ -269,12 +330,9 @@ WavePhase make_eikonal_phase(const SeaFloor& floor, const WaveTrain& train) {
   std::vector<double> energy;
   solve_eikonal(problem, phase.cycles);
   spread_energy(problem, phase.cycles, energy);
-  for (std::size_t n = 0; n < energy.size(); ++n) {
-    const double depth = static_cast<double>(floor.depth_m[n]);
-    const double factor =
-        energy[n] > 0.0 ? local_shoaling(train, depth) * std::sqrt(energy[n]) : 0.0;
-    phase.amplitude.push_back(static_cast<float>(factor));
-  }
+  set_amplitude(floor, train, phase, [&](std::size_t n, double shoaling) {
+    return energy[n] > 0.0 ? shoaling * std::sqrt(energy[n]) : 0.0;
+  });
   continue_onto_land(floor.grid, phase.cycles);
   return phase;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ocean/sea_floor.h"
+#include "scene/coast.h"
 #include "scene/parameters.h"
 #include "scene/sky.h"
 
@@ -164,7 +165,15 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_path(scene.camera.path)) return fault;
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
-  return scene.terrain ? fault_of_coast_line(*scene.terrain) : std::nullopt;
+  if (!scene.terrain) return std::nullopt;
+  if (Fault fault = fault_of_coast_line(*scene.terrain)) return fault;
+  // Over an image, whose size is not known yet, build_coast() checks this.
+  const std::optional<double> size_m = described_size_m(*scene.terrain);
+  return size_m ? fault_of_coast_grid(scene.coast, *size_m) : std::nullopt;
+}
+
+std::string fault_text(const SceneFault& fault) {
+  return fmt::format("{}, got {}, allowed {}", fault.key, fault.got, fault.allowed);
 }
 
 void check_scene(const Scene& scene) {
@@ -172,8 +181,7 @@ void check_scene(const Scene& scene) {
   if (!fault) return;
   const bool has_name = !scene.name.empty() && scene.name.size() <= kMaxTextBytes;
   throw SceneError(
-      one_line(fmt::format("{}: {}, got {}, allowed {}", has_name ? scene.name : "scene",
-                           fault->key, fault->got, fault->allowed)));
+      one_line(fmt::format("{}: {}", has_name ? scene.name : "scene", fault_text(*fault))));
 }
 
 }  // namespace swell::scene

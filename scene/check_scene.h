@@ -16,6 +16,9 @@ struct SceneFault {
   std::string allowed;  // "0.01 to 10 m"
 };
 
+// 'KEY, got GOT, allowed ALLOWED'
+std::string fault_text(const SceneFault& fault);
+
 // The scene's first fault in the order of docs/scene.md; none: it can be drawn, if its files can be
 // read. 0.3 ms.
 std::optional<SceneFault> find_fault(const Scene& scene);

@@ -1,41 +1,95 @@
 #include "scene/coast.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace swell::scene {
 namespace {
 
-constexpr int kDefaultCells = 256, kMaxCells = 2048;
+constexpr int kDefaultCells = 256;
+constexpr double kLeastSpacing_m = 0.5, kMostSpacing_m = 100.0;
+constexpr double kSlowWork = 5e6;  // cells times trains in a second, less on a slow core
 
-ocean::SeaFloor sea_floor_of(const Terrain& terrain, double spacing_m) {
-  const int cells =
-      std::clamp(static_cast<int>(std::ceil(terrain.size_m() / spacing_m)), 1, kMaxCells);
+// Cells a side, as a double: there may be more than an integer holds.
+double cells_a_side(const Coast& coast, double terrain_size_m) {
+  if (coast.grid_spacing_m == 0.0) return kDefaultCells;
+  return std::max(1.0, std::ceil(terrain_size_m / coast.grid_spacing_m));
+}
+
+double most_cells(int trains) {
+  const double work = static_cast<double>(kMaxCoastWork) / std::max(trains, 1);
+  return std::min<double>(kMaxCoastCells, std::floor(std::sqrt(work)));
+}
+
+// The least spacing of two decimals that the bounds allow; infinity if there is none.
+double least_spacing_m(Coast coast, double terrain_size_m) {
+  const double most = most_cells(coast.trains);
+  const double least_cm = std::ceil(100.0 * terrain_size_m / most);
+  if (!(least_cm < 1e12)) return HUGE_VAL;
+  for (int n = 0;; ++n) {
+    coast.grid_spacing_m = std::max(kLeastSpacing_m, (least_cm + n) / 100.0);
+    if (cells_a_side(coast, terrain_size_m) <= most) return coast.grid_spacing_m;
+  }
+}
+
+ocean::SeaFloor sea_floor_of(const Terrain& terrain, int cells) {
   const ocean::FloorGrid grid{terrain.min_world, terrain.size_m() / cells, cells + 1, cells + 1};
-  std::vector<glm::dvec2> p;
-  p.reserve(grid.size());
-  for (int j = 0; j <= cells; ++j)
-    for (int i = 0; i <= cells; ++i) p.push_back(grid.point(i, j));
   std::vector<float> height(grid.size());
-  sample_heights(terrain, p, height);
+  std::vector<glm::dvec2> p(static_cast<std::size_t>(grid.samples_x));
+  for (int j = 0; j <= cells; ++j) {
+    for (int i = 0; i <= cells; ++i) p[static_cast<std::size_t>(i)] = grid.point(i, j);
+    sample_heights(terrain, p, std::span(height).subspan(grid.index(0, j), p.size()));
+  }
   return ocean::make_sea_floor_from_heights(grid, height);
 }
 
 }  // namespace
 
+std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain_size_m) {
+  if (coast.model == CoastModel::kNone || coast.grid_spacing_m == 0.0) return std::nullopt;
+  // NaN fails.
+  if (coast.grid_spacing_m > 0.0 && cells_a_side(coast, terrain_size_m) <= most_cells(coast.trains))
+    return std::nullopt;
+  const double least_m = least_spacing_m(coast, terrain_size_m);
+  const std::string range =
+      least_m <= kMostSpacing_m ? fmt::format("0 or {} to {} m", least_m, kMostSpacing_m) : "0";
+  return SceneFault{"coast.grid_spacing_m", fmt::format("{}", coast.grid_spacing_m),
+                    fmt::format("{} with trains = {} over {:.6g} m of terrain", range, coast.trains,
+                                terrain_size_m)};
+}
+
+std::string slow_coast_text(const Scene& scene) {
+  const Coast& coast = scene.coast;
+  if (coast.model == CoastModel::kNone || !scene.terrain || scene.sea.wind_speed_mps <= 0.0)
+    return {};
+  const std::optional<double> size_m = described_size_m(*scene.terrain);
+  const double cells = std::min(
+      cells_a_side(coast, size_m.value_or(kMaxImageSide * scene.terrain->metres_per_pixel)),
+      most_cells(coast.trains));
+  if (cells * cells * coast.trains < kSlowWork) return {};
+  return size_m ? fmt::format("making {0} wave trains on {1} x {1} points", coast.trains, cells + 1)
+                : fmt::format("making {} wave trains on points {} m apart", coast.trains,
+                              coast.grid_spacing_m);
+}
+
 std::optional<ocean::CoastSea> build_coast(const Scene& scene, const Terrain* terrain,
                                            int threads) {
   const Coast& coast = scene.coast;
   const ocean::SeaDescription& sea = scene.sea;
-  if (coast.model == CoastModel::kNone || !terrain || sea.wind_speed_mps <= 0.0)
-    return std::nullopt;
-  const double spacing =
-      coast.grid_spacing_m > 0.0 ? coast.grid_spacing_m : terrain->size_m() / kDefaultCells;
+  if (coast.model == CoastModel::kNone || !terrain) return std::nullopt;
+  if (const auto fault = fault_of_coast_grid(coast, terrain->size_m()))
+    throw SceneError(fault_text(*fault));
+  if (sea.wind_speed_mps <= 0.0) return std::nullopt;
+  const ocean::WindSea wind =
+      ocean::make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2);
+  std::vector<ocean::WaveTrain> trains = ocean::make_trains(wind, coast.trains, coast.seed);
+  for (ocean::WaveTrain& train : trains) train.amplitude_m *= sea.amplitude_scale;
   Workers workers(threads);
   return ocean::make_coast_sea(
-      sea_floor_of(*terrain, spacing),
-      ocean::make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2), coast.trains,
-      coast.seed, coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
+      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->size_m()))), wind,
+      trains, coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
       coast.model == CoastModel::kBlend, workers);
 }
 

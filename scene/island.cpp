@@ -106,6 +106,10 @@ double island_height(const Profile& p, const texture::PerlinNoise& noise, glm::d
 
 }  // namespace
 
+double island_size_m(const TerrainDescription& description) {
+  return 2.0 * make_profile(description).half_size;
+}
+
 Terrain build_island(const TerrainDescription& description) {
   const Profile p = make_profile(description);
   const texture::PerlinNoise noise(description.seed);

@@ -7,6 +7,9 @@ namespace swell::scene {
 
 inline constexpr int kIslandSamples = 1025;
 
+// The side of its square.
+double island_size_m(const TerrainDescription& description);
+
 // The terrain's heights from island_radius_m, island_height_m, floor_depth_m and seed (the first
 // and third over 0). The border is exactly -floor_depth_m. lowest_m and highest_m are not set.
 Terrain build_island(const TerrainDescription& description);

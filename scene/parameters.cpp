@@ -294,8 +294,10 @@ Rows sea_rows() {
       SceneRow::optional_integer(
           "sea.beaufort", {0, ocean::kMaxBeaufort}, SWELL_FIELD(beaufort),
           "wind force: sets the wind and, if they are left out, the patch lengths"),
-      SceneRow::plain<bool>("sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
-                            "wind waves; false leaves the sines of [[sea.sines]] only"),
+      SceneRow::plain<bool>(
+          "sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
+          "the open sea's wind waves; false leaves the sines of [[sea.sines]] and a "
+          "coast's trains"),
       SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, ocean::kMaxPatches,
                      SWELL_FIELD(sea.patch_lengths_m),
                      "periods of the patches that hold the wind waves, longest first"),
@@ -388,7 +390,9 @@ Rows coast_rows() {
                         "another number, other trains of the same sea"),
       SceneRow::or_zero(SceneRow::number(
           "coast.grid_spacing_m", {0.5, 100, "m"}, SWELL_FIELD(coast.grid_spacing_m),
-          "between the points that the trains are worked out at; 0: the terrain's side / 256")),
+          "most distance between the points that the trains are worked out at, which may make at "
+          "most 2048 cells a side of the terrain, and in all 2^24 cells times trains; 0: the "
+          "terrain's side / 256")),
   };
 }
 

@@ -86,8 +86,7 @@ class Reader {
     scene_.sky.sun_direction =
         sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
     if (const auto fault = find_disagreement(scene_))
-      fail(file_, place_of_key(fault->key),
-           fmt::format("{}, got {}, allowed {}", fault->key, fault->got, fault->allowed));
+      fail(file_, place_of_key(fault->key), fault_text(*fault));
     return std::move(scene_);
   }
 

@@ -17,7 +17,6 @@
 namespace swell::scene {
 namespace {
 
-constexpr int kMaxImageSide = 4096;
 constexpr float kMaxHeight = 12000.0f;  // metres, up and down
 
 // Whether a picture file holds metres (true) or shares of white (false).
@@ -145,6 +144,12 @@ void check_description(const TerrainDescription& description) {
 }
 
 }  // namespace
+
+std::optional<double> described_size_m(const TerrainDescription& description) {
+  if (!description.coast_m.empty()) return description.beach_size_m;
+  if (!description.height_image.empty()) return std::nullopt;
+  return island_size_m(description);
+}
 
 Terrain build_terrain(const TerrainDescription& description) {
   check_description(description);

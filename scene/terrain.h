@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -52,6 +53,12 @@ struct Terrain {
   float lowest_m = 0.0f, highest_m = 0.0f;
   double size_m() const { return spacing_m * (samples - 1); }
 };
+
+// Images are at most this many pixels a side.
+inline constexpr int kMaxImageSide = 4096;
+
+// The side of the square that build_terrain() makes; none for images, whose size is in the file.
+std::optional<double> described_size_m(const TerrainDescription& description);
 
 // Single-threaded, the same bits everywhere. Throws SceneError (bad values) or texture::FileError
 // (bad image).

@@ -97,6 +97,8 @@ std::string random_value(const Parameter<Object>& parameter, Dice& dice) {
 std::optional<std::string> tame_value(std::string_view key, Dice& dice) {
   if (key == "sea.resolution") return fmt::format("{}", 16 << dice.below(3));
   if (key == "sky.horizon") return "[0.3, 1.0, 1.7]";  // goes with every zenith
+  // On the largest island 16 trains need 100 m.
+  if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
   if (key.ends_with("_triangles")) return fmt::format("{}", 2 + dice.below(4000));
   return std::nullopt;
 }
