@@ -6,4 +6,4 @@
 namespace swell {
 std::uint64_t allocation_count();
 std::uint64_t allocated_bytes();
-}
+}  // namespace swell

@@ -34,8 +34,8 @@ HWY_INLINE std::uint64_t LoadWord(const void* bytes) {
   return word;
 }
 
-// Stores the lanes' word numbers for LoadWords, for good: left to itself, GCC takes each lane out of
-// the vector again by shuffles, on the one port that also puts the words together.
+// Stores the lanes' word numbers for LoadWords, for good: left to itself, GCC takes each lane out
+// of the vector again by shuffles, on the one port that also puts the words together.
 template <class VI, std::size_t kLanes>
 HWY_INLINE void StoreIndex(VI index, std::uint32_t (&lane_index)[kLanes]) {
   const hn::ScalableTag<std::uint32_t> du;
