@@ -160,7 +160,7 @@ void fill_foam(const Frame& frame, ShadeContext& c) {
   c.swash_m = 0.0f;
   if (!frame.world.coast) return;
   const glm::dvec2 eye(frame.view.eye_world);
-  c.foam_pattern = make_layer(frame.world.coast_maps->foam_pattern, kFoamPeriod_m, 1.0f, eye, {});
+  c.foam_pattern = make_layer(*frame.world.coast_maps->foam_pattern, kFoamPeriod_m, 1.0f, eye, {});
   const float sun = std::max(c.sun_direction.z, 0.0f) / static_cast<float>(kPi);
   c.foam_light = kFoamAlbedo * (c.ambient + c.sun_irradiance * sun);
 

@@ -205,15 +205,16 @@ texture::PackedMap2 build_foam_pattern() {
   return map;
 }
 
-CoastMaps build_coast_maps(const ocean::CoastSea& coast, int threads) {
-  Workers workers(threads);
-  return {ocean::make_coast_map(coast, kCoastMapSize, workers), build_coast_share(coast),
-          build_foam_pattern()};
-}
-
 template <class T>
 std::shared_ptr<const T> share(T value) {
   return std::make_shared<const T>(std::move(value));
+}
+
+// like: of another coast, or null.
+CoastMaps build_coast_maps(const ocean::CoastSea& coast, const CoastMaps* like, int threads) {
+  Workers workers(threads);
+  return {ocean::make_coast_map(coast, kCoastMapSize, workers), build_coast_share(coast),
+          like ? like->foam_pattern : share(build_foam_pattern())};
 }
 
 // The parts of a world. like: one that describes the part alike, or null.
@@ -237,13 +238,15 @@ void add_terrain(const World::State* like, World::State& state) {
                             : share(build_terrain_maps(*state.terrain, state.scene.terrain->seed));
 }
 
-void add_coast(const World::State* like, int threads, World::State& state) {
-  if (like) {
+// like: may have another coast.
+void add_coast(const World::State* like, bool same_coast, int threads, World::State& state) {
+  if (same_coast) {
     state.coast = like->coast;
     state.coast_maps = like->coast_maps;
   } else if (auto coast = scene::build_coast(state.scene, state.terrain.get(), threads)) {
     state.coast = share(std::move(*coast));
-    state.coast_maps = share(build_coast_maps(*state.coast, threads));
+    state.coast_maps =
+        share(build_coast_maps(*state.coast, like ? like->coast_maps.get() : nullptr, threads));
   }
 }
 
@@ -272,7 +275,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
   add_terrain(if_alike(same_terrain), *state);
   add_relief_bounds(if_alike(same_terrain), *state);
-  add_coast(if_alike(same_coast), threads, *state);
+  add_coast(like, same_coast, threads, *state);
   state->objects = build_object_meshes(now.objects);
   state->focuses = object_focuses(now.objects);
   return state;

@@ -35,8 +35,9 @@ struct TerrainMaps {
 // Over a coast's square, kCoastMapSize points a side.
 struct CoastMaps {
   ocean::CoastMap waves;
-  std::vector<float> share;          // the trains'
-  texture::PackedMap2 foam_pattern;  // thresholds, stretched to [-1, 1]; of any size, it repeats
+  std::vector<float> share;  // the trains'
+  // Thresholds, stretched to [-1, 1]; of any size, it repeats. The same for every coast.
+  std::shared_ptr<const texture::PackedMap2> foam_pattern;
 };
 
 // The shapes that a scene's objects need, and which of them each object has.
