@@ -8,8 +8,7 @@
 #include <span>
 
 #include "apps/json.h"
-#include "apps/picture_file.h"
-#include "texture/image_io.h"
+#include "apps/output_file.h"
 
 namespace swell::apps {
 namespace {
@@ -116,7 +115,7 @@ void write_text(const std::string& path, const std::string& text) {
     return;
   }
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  texture::write_file(path, {bytes, text.size()});
+  write_output(path, {bytes, text.size()});
 }
 
 void check_text_place(const std::string& path) {

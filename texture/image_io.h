@@ -1,6 +1,6 @@
 // Image files. The one door to OpenImageIO. Reads PNG, EXR, HDR, TIFF and PNM (by name and by
-// content) and nothing else; writes PNG, EXR and TIFF to memory first and then to a temporary
-// file that is renamed, so that a file is whole or not there.
+// content) and nothing else; writes PNG, EXR and TIFF to memory first and then to a new file that
+// gets the name when it is done, so that a file is whole or not there.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +38,24 @@ std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& e
 std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,
                                        std::span<const std::string> channel_names = {});
 
-// Writes bytes to a temporary file beside `path`, syncs it, renames it over `path`. On any failure
-// throws FileError and leaves the old file and no temporary one. A symbolic link keeps standing and
-// its file is replaced; devices, pipes and folders are refused.
+// Writes bytes to a new file in the folder of `path`, syncs it and gives it the name. On any
+// failure throws FileError and leaves the old file and no other one. A symbolic link keeps standing
+// and its file is replaced; devices, pipes and folders are refused. The new file has the mode of
+// the one that it replaces, and its owner and group where the system allows it (else its group may
+// do no more than others might); access lists are not kept. Other hard links to the old file keep
+// the old content: only so is the file whole at any time. Until it is whole the file has no name
+// (O_TMPFILE), where the file system has such files; else, and for the moment of replacing, it is
+// .swell-HOST-BOOT-PID-N.tmp. Several threads may write.
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+// For the signal handler of a program that is to end: removes what write_file() has under temporary
+// names, on any thread, and waits for a replacement that is going on. No other begins. Safe in
+// handlers; call it once.
+void abandon_writes() noexcept;
+
+// Removes the temporary files in `folder` of processes that were killed in write_file(): of this
+// host alone (its name, machine id and process ids), and only where the process is surely dead. A
+// folder that cannot be read is left as it is.
+void remove_abandoned_files(const std::filesystem::path& folder);
 
 }  // namespace swell::texture

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "refused_calls.h"
+
 namespace swell::apps {
 namespace {
 
@@ -32,6 +34,7 @@ void replace_stream(int stream, const std::string& path, int flags) {
     const rlimit limit{bytes, bytes};
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
   }
+  if (!surroundings.unnamed_files && !refuse_unnamed_files()) _exit(126);
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -47,6 +50,10 @@ Outcome run(const std::string& program, const Arguments& arguments,
   const std::string err = folder.file("err");
   const pid_t child = fork();
   if (child == 0) become(program, arguments, surroundings, out, err);
+  if (child > 0 && surroundings.signal != 0) {
+    usleep(static_cast<useconds_t>(surroundings.signal_after_us));
+    kill(child, surroundings.signal);
+  }
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) != child) {
     ADD_FAILURE() << "cannot run " << program;

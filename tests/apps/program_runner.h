@@ -1,6 +1,7 @@
 // Runs swell-render and swell-bench as a user does: exit code, standard output, standard error.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ struct Outcome {
 struct Surroundings {
   long max_file_bytes = -1;          // RLIMIT_FSIZE; -1: none
   std::string standard_output = {};  // a path to use instead of the file that fills Outcome::out
+  bool unnamed_files = true;         // false: as on a file system without O_TMPFILE
+  int signal = 0;                    // sent to the program after so long; 0: none
+  std::uint64_t signal_after_us = 0;
 };
 
 using Arguments = std::vector<std::string>;
