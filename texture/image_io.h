@@ -1,6 +1,8 @@
-// Image files. The one door to OpenImageIO. Reads PNG, EXR, HDR, TIFF and PNM (by name and by
-// content) and nothing else; writes PNG, EXR and TIFF to memory first and then to a new file that
-// gets the name when it is done, so that a file is whole or not there.
+// Image files. The one door to OpenImageIO, which is loaded with the first image that is decoded or
+// encoded (texture/image_codec.h; throws std::runtime_error if there is no room for it). Reads PNG,
+// EXR, HDR, TIFF and PNM (by name and by content) and nothing else; writes PNG, EXR and TIFF to
+// memory first and then to a new file that gets the name when it is done, so that a file is whole
+// or not there.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +26,10 @@ struct ReadLimits {
   std::uint64_t max_bytes = 512ull << 20;  // of the decoded image as float
 };
 
-// Reads an image as float: integer formats as [0, 1], float formats as stored. Refuses more than
-// 4 channels, sizes over the limits (before allocating), NaN and infinite pixels (naming one), and
+// Reads an image as float: 8 and 16-bit integers as [0, 1], floats as stored, and the 32-bit
+// integers of EXR as the numbers that they are. Refuses integers of 32 bits or with a sign in other
+// formats, and those of EXR that a float does not hold (2^24 + 1 is the first); more than 4
+// channels, sizes over the limits (before allocating), NaN and infinite pixels (naming one), and
 // whatever is not a regular file. Channels come as stored: alpha is not multiplied in.
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
 
