@@ -16,6 +16,7 @@ find_dependency(glm)
 find_dependency(hwy)
 find_dependency(fmt)
 find_dependency(tomlplusplus)
+find_dependency(ZLIB)
 find_dependency(PkgConfig)
 pkg_check_modules(XXHash REQUIRED IMPORTED_TARGET GLOBAL libxxhash)
 
