@@ -28,9 +28,9 @@ struct ReadLimits {
 
 // Reads an image as float: 8 and 16-bit integers as [0, 1], floats as stored, and the 32-bit
 // integers of EXR as the numbers that they are. Refuses integers of 32 bits or with a sign in other
-// formats, and those of EXR that a float does not hold (2^24 + 1 is the first); more than 4
-// channels, sizes over the limits (before allocating), NaN and infinite pixels (naming one), and
-// whatever is not a regular file. Channels come as stored: alpha is not multiplied in.
+// formats, those of EXR that a float does not hold (2^24 + 1 is the first), and 64-bit floats; more
+// than 4 channels, sizes over the limits (before allocating), NaN and infinite pixels (naming one),
+// and whatever is not a regular file. Channels come as stored: alpha is not multiplied in.
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 // Encodes by the file name's extension: .png (8-bit), .exr (float), .tif/.tiff (float or 8-bit).
