@@ -97,6 +97,67 @@ TEST_F(CommandLine, RenderNeedsASceneAndSomethingToDo) {
   expect_refused(run_render({"--scene", scene_}), {"command line", "--out", "--hash"});
 }
 
+// They used to be left out without a word.
+TEST_F(CommandLine, WhatExrFilesDoNotShowIsRefused) {
+  const auto render = [&](const std::string& file, const Arguments& more) {
+    Arguments arguments = {"--scene", scene_,  "--size",          "32x18",
+                           "--hash",  "--out", folder_.file(file)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_render(arguments);
+  };
+  for (const char* file : {"a.exr", "a.EXR", "a_%04d.exr"}) {
+    expect_refused(render(file, {"--picture-scale", "0.5"}), {"--picture-scale", file, "--out"});
+    expect_refused(render(file, {"--wireframe"}), {"--wireframe", file, "--out"});
+  }
+  EXPECT_EQ(render("a.exr", {"--picture-scale", "1"}).exit_code, 0);
+  const Outcome full = render("a.png", {}), small = render("a.png", {"--picture-scale", "0.5"});
+  EXPECT_EQ(small.exit_code, 0);
+  EXPECT_NE(small.out, full.out);
+}
+
+// And not that something is missing, which it may be because of it.
+TEST_F(CommandLine, WhatIsUnknownIsNamed) {
+  struct Case {
+    Arguments arguments, pieces;
+  };
+  const Case render[] = {
+      {{"--bogus"}, {"unknown option", "'--bogus'", "--scene"}},
+      {{"--bogus", "3"}, {"unknown option", "'--bogus'"}},
+      {{"--bogus=3"}, {"unknown option", "'--bogus"}},
+      {{"-x"}, {"unknown option", "'-x'"}},
+      {{"--scen", scene_, "--hash"}, {"unknown option", "'--scen'", "--scene,"}},
+      {{"--scene", scene_, "--sise", "3x3"}, {"unknown option", "'--sise'", "--size"}},
+      {{"--scene", scene_, "--fps", "3", "--bogus"}, {"unknown option", "'--bogus'"}},
+      {{"bogus"}, {"unknown argument", "'bogus'"}},
+      {{"--hash", "bogus", "more"}, {"unknown argument", "'bogus'"}},
+      {{"--scene"}, {"--scene", "missing"}},
+      {{"--hash"}, {"--scene is required"}},
+  };
+  for (const Case& c : render) {
+    SCOPED_TRACE(fmt::format("{}", c.arguments));
+    expect_refused(run_render(c.arguments), c.pieces);
+  }
+  const Case bench[] = {
+      {{"bogus"}, {"unknown mode", "'bogus'", "frame, lod, query, sea-state, waves"}},
+      {{"frme", "--scene", scene_}, {"unknown mode", "'frme'", "frame"}},
+      {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
+      {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},
+      {{"frame", "lod"}, {"unknown argument", "'lod'"}},
+      {{"frame", "--scene"}, {"--scene", "missing"}},
+      {{}, {"no mode"}},
+  };
+  for (const Case& c : bench) {
+    SCOPED_TRACE(fmt::format("{}", c.arguments));
+    expect_refused(run_bench(c.arguments), c.pieces);
+  }
+  for (const char* mode : {"frame", "lod", "query", "sea-state", "waves"}) {
+    SCOPED_TRACE(mode);
+    expect_refused(run_bench({mode, "--bogus"}), {"unknown option", "'--bogus'", "--help"});
+    expect_refused(run_bench({mode, "--bogus", "1"}), {"unknown option", "'--bogus'"});
+    expect_refused(run_bench({mode, "bogus"}), {"unknown argument", "'bogus'"});
+  }
+}
+
 TEST_F(CommandLine, BenchRefusesBadOptions) {
   const std::vector<Arguments> cases = {
       {},
