@@ -64,6 +64,7 @@ void check_output(const RenderOptions& options) {
     throw OptionError(fmt::format(
         "command line: --out: got '{}' for {} frames, allowed names with %d or %04d in them",
         options.out, range.last - range.first + 1));
+  check_linear_light(options.setup.frame, "--out", options.out);
   check_picture_file(output_file(options, range.last));
 }
 

@@ -33,6 +33,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
 
 void view(const Options& options) {
   apps::select_simd(options.setup.simd);
+  apps::check_linear_light(options.setup.frame, "--screenshot", options.screenshot);
   if (!options.screenshot.empty()) apps::check_picture_file(options.screenshot);
 
   ViewerSettings settings;
