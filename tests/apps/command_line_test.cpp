@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -95,6 +96,43 @@ TEST_F(CommandLine, RenderNeedsASceneAndSomethingToDo) {
   expect_refused(run_render({}), {"command line", "--scene"});
   expect_refused(run_render({"--hash"}), {"command line", "--scene"});
   expect_refused(run_render({"--scene", scene_}), {"command line", "--out", "--hash"});
+}
+
+// Where nothing is drawn right yet.
+TEST_F(CommandLine, AnEyeBelowTheWaterOrTheGroundIsWarnedOfOnce) {
+  struct Case {
+    std::string camera, warning;  // the pieces of one line; empty: none
+  };
+  const std::string flat = "[sea]\nspectrum = false\n";
+  const std::string island = flat + "[terrain]\nisland_height_m = 35.0\n";
+  const std::string dive = "[camera]\neye_m = [0, 0, 1.05]\nvelocity_mps = [0, 0, -6.0]\n";
+  const auto eye = [](const std::string& place) { return "[camera]\neye_m = " + place + "\n"; };
+  const Case cases[] = {
+      {flat + eye("[0, 0, 0.01]"), ""},
+      {flat + eye("[0, 0, -0.01]"), "frame 0: the camera is under water"},
+      {flat + dive, "frame 11: the camera is under water"},  // at 1.05 - 0.1 k m
+      {island + eye("[0, 0, 2.0]"), "frame 0: the camera is inside the ground"},
+      {island + eye("[5000, 0, 2.0]"), ""},
+      {flat + "[[sea.sines]]\namplitude_m = 2.0\nwavelength_m = 100.0\n" + eye("[0, 0, 2.1]"), ""},
+      {flat + "[[sea.sines]]\namplitude_m = 2.0\nwavelength_m = 100.0\n" + eye("[0, 0, -2.1]"),
+       "under water"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.camera);
+    write_text(scene_, c.camera);
+    const Arguments small = {"--scene", scene_, "--size", "16x9", "--triangles", "200"};
+    const auto run = [&](auto program, Arguments arguments) {
+      arguments.insert(arguments.end(), small.begin(), small.end());
+      const Outcome outcome = program(arguments, Surroundings{});
+      EXPECT_EQ(outcome.exit_code, 0);
+      EXPECT_EQ(std::ranges::count(outcome.err, '\n'), c.warning.empty() ? 0 : 1) << outcome.err;
+      EXPECT_TRUE(c.warning.empty() || outcome.err.starts_with("warning: ")) << outcome.err;
+      EXPECT_NE(outcome.err.find(c.warning), std::string::npos) << outcome.err;
+    };
+    run(run_render, {"--frames", "0-12", "--fps", "60", "--hash"});
+    if (c.camera == flat + dive || c.warning.empty())
+      run(run_bench, {"frame", "--frames", "13", "--warmup", "0", "--json", "-"});
+  }
 }
 
 // They used to be left out without a word.
