@@ -51,7 +51,8 @@ Json plain_frame_json(const FrameReport& r) {
           {"hash", fmt::format("{:016x}", r.hash)},
           {"water_triangles", r.last.water_triangles},
           {"terrain_triangles", r.last.terrain_triangles},
-          {"involuntary_switches", r.involuntary_switches}};
+          {"involuntary_switches", r.involuntary_switches},
+          {"cpu", r.cpu}};
 }
 
 Json governed_json(const GovernedReport& g) {
@@ -88,8 +89,8 @@ std::string frame_json(const FrameReport& r) {
 }
 
 std::string stage_table(const FrameReport& r) {
-  std::string text = fmt::format("{} {}x{}, {} threads, {}, {} frames\n", r.scene, r.width_px,
-                                 r.height_px, r.threads, r.simd, r.frames);
+  std::string text = fmt::format("{} {}x{}, {} threads, {}, {} frames on {}\n", r.scene, r.width_px,
+                                 r.height_px, r.threads, r.simd, r.frames, r.cpu);
   text += fmt::format("{:<12} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "stage, ms", "median", "p95",
                       "p99", "max", "of budget");
   for (std::size_t i = 0; i < r.stage_ms.size(); ++i)
