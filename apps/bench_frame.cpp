@@ -10,6 +10,8 @@
 #include <span>
 
 #include "apps/bench.h"
+#include "apps/cpu_name.h"
+#include "apps/eye_warning.h"
 #include "apps/options.h"
 #include "apps/picture_file.h"
 #include "apps/report.h"
@@ -67,6 +69,7 @@ Samples measure(const FrameBench& bench, const render::World& world, Trace& trac
   const render::FrameOptions full = render::with_scene_defaults(bench.setup.frame, world.scene());
   render::Governor governor({.budget_ms = bench.budget_ms}, full);
   Samples samples;
+  EyeWarning warning;
   const Stopwatch run;
   for (int k = -bench.warm_up; k < bench.frames; ++k) {
     const double t_s = k / kFramesPerSecond;
@@ -78,6 +81,7 @@ Samples measure(const FrameBench& bench, const render::World& world, Trace& trac
     if (bench.govern) governor.next(samples.last);
     const double frame_ms = run.elapsed_ms() - start_ms;
     if (k < 0) continue;
+    warning.look(k, world, view, workspace);
     samples.quality.push_back({samples.last.water_triangles + samples.last.terrain_triangles,
                                options.lookup_scale, options.picture_scale});
     samples.frame_ms.push_back(frame_ms);
@@ -127,6 +131,7 @@ FrameReport summarize(const FrameBench& bench, const render::World& world, const
   report.height_px = bench.setup.size.height_px;
   report.frames = bench.frames;
   report.threads = bench.setup.threads;
+  report.cpu = cpu_name();
   report.simd = simd_target_name(current_simd_target());
   report.budget_ms = bench.budget_ms;
   report.frame_ms = spread(samples.frame_ms);

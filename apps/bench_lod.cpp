@@ -6,6 +6,7 @@
 #include <span>
 
 #include "apps/bench.h"
+#include "apps/cpu_name.h"
 #include "apps/json.h"
 #include "apps/lod_comparison.h"
 #include "apps/lod_figures.h"
@@ -80,6 +81,7 @@ Json lod_json(std::span<const FlightRow> flights, std::span<const ComparisonRow>
   json["rows"] = Json::array();
   for (const FlightRow& row : flights) json["rows"].push_back(flight_json(row));
   if (!comparison.empty()) json["triangulations"] = comparison_json(comparison);
+  json["cpu"] = cpu_name();
   return json;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/bench.h"
+#include "apps/cpu_name.h"
 #include "apps/json.h"
 #include "apps/options.h"
 #include "apps/report.h"
@@ -101,7 +102,8 @@ void run_query_bench(const QueryBench& bench) {
                      {"scene", scene.name},
                      {"query_ms", ms},
                      {"setup_ms", setup_ms},
-                     {"advance_ms", advance_ms}};
+                     {"advance_ms", advance_ms},
+                     {"cpu", cpu_name()}};
   if (bench.json != "-") {
     fmt::print(
         "{}: {:.3g} heights a second on one core, model {}; a new time {:.2f} ms, set-up "

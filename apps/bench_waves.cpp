@@ -7,6 +7,7 @@
 
 #include "apps/bench.h"
 #include "apps/options.h"
+#include "apps/output_file.h"
 #include "apps/picture_file.h"
 #include "apps/report.h"
 #include "apps/wave_figures.h"
@@ -45,7 +46,7 @@ void check_figure_files(const WaveFigures& figures) {
 }
 
 void write_image(const texture::Image8& image, const std::filesystem::path& path) {
-  texture::write_file(path, texture::encode_image(image, path.extension().string()));
+  write_output(path, texture::encode_image(image, path.extension().string()));
 }
 
 void write_filter(const WaveFigures& figures, const scene::Scene& scene) {

@@ -1,10 +1,41 @@
 #include "apps/command_line.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "apps/program.h"
 
 namespace swell::apps {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+[[noreturn]] void refuse(std::string_view what, std::string_view got, const Texts& allowed,
+                         std::string_view more = "") {
+  throw OptionError(fmt::format("command line: {}, got '{}', allowed {}{}", what, got,
+                                fmt::join(allowed, ", "), more));
+}
+
+// Throws for the first argument that is no option of this line, nor a mode.
+void check_no_extras(const CLI::App& app) {
+  const Texts extras = app.remaining();
+  if (extras.empty()) return;
+  Texts modes, options;
+  for (const CLI::App* mode : app.get_subcommands([](const CLI::App*) { return true; }))
+    modes.push_back(mode->get_name());
+  for (const CLI::Option* option : app.get_options()) options.push_back(option->get_name());
+
+  const auto is_option = [](const std::string& text) { return text.starts_with('-'); };
+  if (!modes.empty() && !is_option(extras.front())) refuse("unknown mode", extras.front(), modes);
+  // An unknown option's value comes after it.
+  const auto option = std::ranges::find_if(extras, is_option);
+  if (option == extras.end()) refuse("unknown argument", extras.front(), options);
+  refuse("unknown option", *option, options, modes.empty() ? "" : "; a mode's own come after it");
+}
+
+}  // namespace
 
 CommandLine::CommandLine(const std::string& program, const std::string& purpose)
     : app_(std::make_shared<CLI::App>(purpose, program)) {
@@ -56,6 +87,11 @@ bool CommandLine::parse(int argc, char** argv) {
     app_->exit(request);
     return false;
   } catch (const CLI::ParseError& e) {
+    // An unknown option before what may be missing only because of it.
+    check_no_extras(*app_);
+    for (const CLI::App* mode : app_->get_subcommands()) check_no_extras(*mode);
+    if (argc < 2 && app_->get_require_subcommand_min() > 0)
+      throw OptionError("command line: got no mode, allowed those that --help lists");
     throw OptionError(std::string("command line: ") + e.what());
   }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "apps/picture_file.h"
 #include "math/simd_target.h"
 
 namespace swell::apps {
@@ -84,8 +85,19 @@ void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
   add_number(line, "--background-error", frame.background_error_px, 0.0, 8.0,
              "Pixels by which far water may lie off for waves left out, instead of the scene's");
   add_number(line, "--picture-scale", frame.picture_scale, 0.1, 1.0,
-             "Draw at this share of the size and enlarge: faster, less sharp");
-  line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges");
+             "Draw at this share of the size and enlarge: faster, less sharp; not for .exr");
+  line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges; not for .exr");
+}
+
+void check_linear_light(const render::FrameOptions& frame, std::string_view option,
+                        const std::string& file) {
+  if (!stores_linear_light(file)) return;
+  const auto refuse_with_file = [&](std::string_view name, std::string_view allowed) {
+    throw OptionError(fmt::format("command line: {}, got it with {} '{}', allowed {} .exr files",
+                                  name, option, file, allowed));
+  };
+  if (frame.picture_scale != 1.0) refuse_with_file("--picture-scale", "1 with");
+  if (frame.wireframe) refuse_with_file("--wireframe", "without");
 }
 
 void add_integer(CommandLine& line, const std::string& name, int& value, int low, int high,

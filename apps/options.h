@@ -34,6 +34,11 @@ void add_frame_setup(CommandLine& line, FrameSetup& setup);
 // --picture-scale, --wireframe
 void add_quality_options(CommandLine& line, render::FrameOptions& frame);
 
+// Throws OptionError for what a file of linear light (.exr) does not show: --picture-scale,
+// --wireframe. `option` is the one that names the file.
+void check_linear_light(const render::FrameOptions& frame, std::string_view option,
+                        const std::string& file);
+
 // --threads and --simd alone.
 void add_machine_options(CommandLine& line, int& threads, std::string& simd);
 

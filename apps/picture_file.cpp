@@ -1,13 +1,13 @@
 #include "apps/picture_file.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
 
+#include "apps/output_file.h"
 #include "texture/image.h"
 #include "texture/image_io.h"
 
@@ -55,16 +55,6 @@ fs::path frame_file(const FrameFilePattern& pattern, int frame) {
   return fmt::format("{}{:0{}}{}", pattern.before, frame, pattern.digits, pattern.after);
 }
 
-void check_output_place(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) refuse(path, "its directory does not exist");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse(path, "its directory is not writable");
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::none) refuse(path, error.message());
-  if (fs::is_directory(status)) refuse(path, "is a directory, allowed a file name");
-}
-
 void check_picture_file(const fs::path& path) {
   constexpr std::array kExtensions = {".png", ".exr", ".tif", ".tiff"};
   const std::string extension = lower_extension(path);
@@ -78,12 +68,12 @@ bool stores_linear_light(const fs::path& path) { return lower_extension(path) ==
 void write_picture(const render::Target& target, const fs::path& path) {
   const std::string extension = lower_extension(path);
   if (!stores_linear_light(path)) {
-    texture::write_file(path, texture::encode_image(rgb_image(target), extension));
+    write_output(path, texture::encode_image(rgb_image(target), extension));
     return;
   }
   const texture::ImageF image{target.width_px, target.height_px, 3, target.linear};
   const std::array<std::string, 3> names = {"R", "G", "B"};
-  texture::write_file(path, texture::encode_image(image, extension, names));
+  write_output(path, texture::encode_image(image, extension, names));
 }
 
 }  // namespace swell::apps

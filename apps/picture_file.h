@@ -21,11 +21,7 @@ FrameFilePattern parse_file_pattern(const std::filesystem::path& path);
 // The file of one frame.
 std::filesystem::path frame_file(const FrameFilePattern& pattern, int frame);
 
-// Throws texture::FileError if no file can be written to `path`: directory missing or
-// not writable, path is a directory or too long.
-void check_output_place(const std::filesystem::path& path);
-
-// The same for pictures, whose extension must be .png, .exr, .tif or .tiff.
+// check_output_place() for pictures, whose extension must be .png, .exr, .tif or .tiff.
 void check_picture_file(const std::filesystem::path& path);
 
 // True if the file stores linear light (.exr): render_frame must fill Target::linear.

@@ -1,9 +1,11 @@
 #include "apps/program.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <new>
 
 #include "math/simd_target.h"
@@ -39,11 +41,28 @@ int run_and_report(FunctionRef<void()> work) {
   }
 }
 
+// For what no catch can see: oneTBB ends the program where it gets no thread or no memory for one.
+[[noreturn]] void report_and_exit() {
+  const char* what = "unknown fault";
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    what = "out of memory";
+  } catch (const std::exception& e) {
+    report(kExitFailure, e.what());
+    _exit(kExitFailure);
+  } catch (...) {
+  }
+  std::fprintf(stderr, "error: %s\n", what);
+  _exit(kExitFailure);
+}
+
 }  // namespace
 
 int run_program(FunctionRef<void()> work) {
   if (!cpu_is_supported())
     return report(kExitFailure, "this CPU cannot run swell: it needs AVX2, FMA, BMI2 and F16C");
+  std::set_terminate(report_and_exit);
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   return run_and_report(work);

@@ -8,8 +8,7 @@
 #include <span>
 
 #include "apps/json.h"
-#include "apps/picture_file.h"
-#include "texture/image_io.h"
+#include "apps/output_file.h"
 
 namespace swell::apps {
 namespace {
@@ -52,7 +51,8 @@ Json plain_frame_json(const FrameReport& r) {
           {"hash", fmt::format("{:016x}", r.hash)},
           {"water_triangles", r.last.water_triangles},
           {"terrain_triangles", r.last.terrain_triangles},
-          {"involuntary_switches", r.involuntary_switches}};
+          {"involuntary_switches", r.involuntary_switches},
+          {"cpu", r.cpu}};
 }
 
 Json governed_json(const GovernedReport& g) {
@@ -89,8 +89,8 @@ std::string frame_json(const FrameReport& r) {
 }
 
 std::string stage_table(const FrameReport& r) {
-  std::string text = fmt::format("{} {}x{}, {} threads, {}, {} frames\n", r.scene, r.width_px,
-                                 r.height_px, r.threads, r.simd, r.frames);
+  std::string text = fmt::format("{} {}x{}, {} threads, {}, {} frames on {}\n", r.scene, r.width_px,
+                                 r.height_px, r.threads, r.simd, r.frames, r.cpu);
   text += fmt::format("{:<12} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "stage, ms", "median", "p95",
                       "p99", "max", "of budget");
   for (std::size_t i = 0; i < r.stage_ms.size(); ++i)
@@ -116,7 +116,7 @@ void write_text(const std::string& path, const std::string& text) {
     return;
   }
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  texture::write_file(path, {bytes, text.size()});
+  write_output(path, {bytes, text.size()});
 }
 
 void check_text_place(const std::string& path) {

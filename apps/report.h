@@ -31,7 +31,7 @@ struct FrameReport {
   std::string scene;  // its name
   int width_px = 0, height_px = 0;
   int frames = 0, threads = 0;
-  std::string simd;
+  std::string cpu, simd;
   double budget_ms = 0.0;
   Spread frame_ms;
   int over_budget = 0;  // frames slower than the budget

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "apps/eye_warning.h"
 #include "apps/options.h"
 #include "apps/picture_file.h"
 #include "apps/program.h"
@@ -64,6 +65,7 @@ void check_output(const RenderOptions& options) {
     throw OptionError(fmt::format(
         "command line: --out: got '{}' for {} frames, allowed names with %d or %04d in them",
         options.out, range.last - range.first + 1));
+  check_linear_light(options.setup.frame, "--out", options.out);
   check_picture_file(output_file(options, range.last));
 }
 
@@ -81,12 +83,14 @@ void render_pictures(const RenderOptions& options, scene::Scene scene) {
   Workers workers(setup.threads);
   render::Workspace workspace;
   render::Target target;
+  EyeWarning warning;
   const FrameRange range = frame_range(options);
   for (int k = range.first; k <= range.last; ++k) {
     const double t_s = options.frames ? k / options.fps : options.time_s;
     const View view =
         scene::camera_view(world.scene().camera, t_s, setup.size.width_px, setup.size.height_px);
     render::render_frame(world, view, t_s, frame_options, workspace, target, workers);
+    warning.look(k, world, view, workspace);
     if (!options.out.empty()) write_picture(target, output_file(options, k));
     if (options.hash) print_hash(k, target);
   }

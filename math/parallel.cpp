@@ -1,13 +1,19 @@
 #include "math/parallel.h"
 
+#include <fmt/core.h>
 #include <sched.h>
 #include <xmmintrin.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace swell {
 namespace {
@@ -31,6 +37,26 @@ int available_cpus() {
   int cpus = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
   if (const int quota = cgroup_cpus(); quota > 0) cpus = std::min(cpus, quota);
   return std::clamp(cpus, 1, 256);
+}
+
+void check_threads(int count) {
+  struct Waiting {
+    std::atomic<bool> may_end{false};
+    std::vector<std::thread> threads;
+    ~Waiting() {
+      may_end = true;
+      may_end.notify_all();
+      for (std::thread& thread : threads) thread.join();
+    }
+  } waiting;
+  waiting.threads.reserve(static_cast<std::size_t>(count));
+  try {
+    while (std::ssize(waiting.threads) < count)
+      waiting.threads.emplace_back([&] { waiting.may_end.wait(false); });
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(fmt::format("threads besides those that run, got {} of {}: {}",
+                                         waiting.threads.size(), count, error.code().message()));
+  }
 }
 
 ScopedFloatEnvironment::ScopedFloatEnvironment() : saved_(_mm_getcsr()) {

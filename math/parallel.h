@@ -39,7 +39,9 @@ class FunctionRef<Result(Args...)> {
 // An exception thrown by a body reaches the caller; the pool stays usable.
 class Workers {
  public:
-  // thread_count in [1, 256], the calling thread included.
+  // thread_count in [1, 256], the calling thread included. Throws std::runtime_error if the system
+  // does not let us start so many, for which it starts them once beforehand (30 us each): where
+  // oneTBB cannot start one later it ends the program.
   explicit Workers(int thread_count);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -67,6 +69,9 @@ class Workers {
 
 // The number of CPUs this process may use: the affinity mask and the cgroup quota, at least 1.
 int available_cpus();
+
+// Starts so many threads at once, which end again. Throws std::runtime_error if there are fewer.
+void check_threads(int count);
 
 // Sets IEEE defaults for the calling thread (MXCSR) and restores the old state at scope exit.
 class ScopedFloatEnvironment {

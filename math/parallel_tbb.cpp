@@ -27,6 +27,7 @@ struct Workers::Pool {
 
 Workers::Workers(int thread_count) : thread_count_(thread_count) {
   SWELL_CHECK(thread_count >= 1 && thread_count <= 256, "thread_count={}", thread_count);
+  check_threads(thread_count - 1);
   pool_ = std::make_unique<Pool>(thread_count);
 }
 

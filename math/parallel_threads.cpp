@@ -25,10 +25,17 @@ struct Workers::Pool {
   };
 
   explicit Pool(int threads) {
-    for (int slot = 1; slot < threads; ++slot) helpers.emplace_back([this, slot] { help(slot); });
+    try {
+      for (int slot = 1; slot < threads; ++slot) helpers.emplace_back([this, slot] { help(slot); });
+    } catch (...) {
+      stop();
+      throw;
+    }
   }
 
-  ~Pool() {
+  ~Pool() { stop(); }
+
+  void stop() {
     {
       const std::lock_guard lock(mutex);
       stopping = true;
@@ -95,6 +102,7 @@ struct Workers::Pool {
 
 Workers::Workers(int thread_count) : thread_count_(thread_count) {
   SWELL_CHECK(thread_count >= 1 && thread_count <= 256, "thread_count={}", thread_count);
+  check_threads(thread_count - 1);
   pool_ = std::make_unique<Pool>(thread_count);
 }
 

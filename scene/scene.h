@@ -144,7 +144,7 @@ struct Scene {
 };
 
 // Reads and checks a scene file. Relative image paths are relative to the scene file's folder.
-// Throws SceneError for: missing file, TOML syntax, unknown key (with the nearest known one),
+// Throws SceneError for: missing file, TOML syntax, unknown key (with those of its table),
 // wrong type, NaN, value out of range, unreadable image.
 Scene load_scene(const std::filesystem::path& path);
 

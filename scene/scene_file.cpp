@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -124,7 +125,7 @@ class Reader {
       } else if (is_section(path)) {
         read_section(*node, path);
       } else {
-        fail_unknown(key_place, path);
+        fail_unknown(key_place, std::string_view(prefix).substr(0, prefix.find_last_of('.')), key);
       }
     }
   }
@@ -211,8 +212,7 @@ class Reader {
     Object object;
     for (const auto& [key, node, key_place] : in_file_order(table)) {
       const auto parameter = std::ranges::find(parameters, key, &Parameter<Object>::key);
-      if (parameter == parameters.end())
-        fail_unknown(key_place, fmt::format("{}.{}", table_key, key));
+      if (parameter == parameters.end()) fail_unknown(key_place, table_key, key);
       const std::string path = fmt::format("{}[{}].{}", table_key, index, key);
       parameter->set(object, checked_value(*node, path, *parameter));
       given_.emplace(path, place_of(node->source()));
@@ -339,30 +339,51 @@ class Reader {
     fail(file_, place_of(node.source()), fmt::format("{}, got {}, allowed {}", path, got, allowed));
   }
 
-  [[noreturn]] void fail_unknown(Place place, const std::string& path) const {
+  // `table` is the path of the key's table, or empty.
+  [[noreturn]] void fail_unknown(Place place, std::string_view table, std::string_view key) const {
+    const std::string shortened(key.substr(0, 100));
+    const std::string prefix = table.empty() ? "" : fmt::format("{}.", table);
+    const std::string where = table.empty() ? "" : fmt::format(" in [{}]", table);
     fail(file_, place,
-         fmt::format(
-             "unknown key, got '{}', allowed '{}' (the nearest) and the others of docs/scene.md",
-             path.substr(0, 100), nearest_key(path)));
+         fmt::format("unknown key, got '{}{}', allowed{} {}", prefix, shortened, where,
+                     fmt::join(known_in_table(table, shortened), ", ")));
   }
 
-  // The known key or table with the fewest edits from an unknown one.
-  std::string nearest_key(const std::string& path) const {
-    std::vector<std::string> known{std::string(kSinesKey), std::string(kPathKey),
-                                   std::string(kObjectsKey)};
-    for (const auto& parameter : parameters_) {
-      known.emplace_back(parameter.key);
-      known.emplace_back(parameter.key.substr(0, parameter.key.find('.')));
-    }
-    for (const auto& parameter : sine_parameters_)
-      known.push_back(fmt::format("{}.{}", kSinesKey, parameter.key));
-    for (const auto& parameter : object_parameters_)
-      known.push_back(fmt::format("{}.{}", kObjectsKey, parameter.key));
-    for (const auto& parameter : waypoint_parameters_)
-      known.push_back(fmt::format("{}.{}", kPathKey, parameter.key));
-    const std::string shortened = path.substr(0, 200);
-    return *std::ranges::min_element(
-        known, {}, [&](const std::string& key) { return edit_distance(shortened, key); });
+  // The keys of a table and, in brackets, the tables in it; those most like `key` first.
+  std::vector<std::string> known_in_table(std::string_view table, const std::string& key) const {
+    struct Known {
+      std::string text;
+      int unlikeness;
+    };
+    // Edits; those that the lengths take count half, for keys that were cut short.
+    const auto unlikeness = [&](std::string_view name) {
+      return 2 * edit_distance(key, name) -
+             std::abs(static_cast<int>(std::ssize(key) - std::ssize(name)));
+    };
+    std::vector<Known> known;
+    const std::string prefix = table.empty() ? "" : fmt::format("{}.", table);
+    const auto add = [&](std::string_view path, bool is_array) {
+      if (!path.starts_with(prefix)) return;
+      const std::string_view rest = path.substr(prefix.size());
+      const std::string_view name = is_array ? rest : rest.substr(0, rest.find('.'));
+      std::string text(name);
+      if (is_array || name != rest) text = fmt::format("[{}{}]", prefix, name);
+      if (is_array) text = '[' + text + ']';
+      if (std::ranges::find(known, text, &Known::text) == known.end())
+        known.push_back({text, unlikeness(name)});
+    };
+    const auto add_tables = [&](std::string_view path, const auto& parameters) {
+      if (table != path) return add(path, true);
+      for (const auto& p : parameters) known.push_back({std::string(p.key), unlikeness(p.key)});
+    };
+    for (const auto& parameter : parameters_) add(parameter.key, false);
+    add_tables(kSinesKey, sine_parameters_);
+    add_tables(kPathKey, waypoint_parameters_);
+    add_tables(kObjectsKey, object_parameters_);
+    std::ranges::stable_sort(known, {}, &Known::unlikeness);
+    std::vector<std::string> texts;
+    for (Known& one : known) texts.push_back(std::move(one.text));
+    return texts;
   }
 
   fs::path file_;

@@ -1,15 +1,14 @@
 #include "texture/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string_view>
 
 #include "math/check.h"
 #include "texture/file_bytes.h"
+#include "texture/image_codec.h"
 #include "texture/image_structure.h"
 
 namespace swell::texture {
@@ -55,12 +54,6 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// OpenImageIO on the calling thread only: files are small, and its pools would outlive the call.
-void use_one_thread() {
-  OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);
-}
-
 std::string_view checked_format(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
   const std::string_view format = format_of_extension(extension);
@@ -70,28 +63,73 @@ std::string_view checked_format(const std::filesystem::path& path) {
 }
 
 void check_content(const std::filesystem::path& path, std::string_view format,
-                   std::string_view bytes) {
+                   std::string_view bytes, const ReadLimits& limits) {
   const std::string_view found = format_of_content(bytes);
   if (found.empty()) fail(path, "the content is no image of: {}", kReadable);
   if (found != format) fail(path, "the extension says {}, the content says {}", format, found);
-  if (found == "png") check_png_structure(path, bytes);
+  if (found == "png") check_png_structure(path, bytes, limits);
   if (found == "pnm") check_pnm_structure(path, bytes);
 }
 
-void check_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+void check_room(CodecResult result) {
+  if (result == CodecResult::kNoRoom)
+    throw std::runtime_error("no memory or no thread left for reading and writing image files");
+}
+
+// Throws unless the codec is done.
+void check_result(const std::filesystem::path& path, const char* what, CodecResult result,
+                  const std::string& error) {
+  check_room(result);
+  if (result == CodecResult::kFault) fail(path, "{}: {}", what, error);
+}
+
+void check_size(const std::filesystem::path& path, const ImageInfo& info,
                 const ReadLimits& limits) {
-  if (spec.width < 1 || spec.height < 1 || spec.width > limits.max_side_px ||
-      spec.height > limits.max_side_px) {
-    fail(path, "the size is {}x{}, allowed: 1x1 to {}x{}", spec.width, spec.height,
+  if (info.width < 1 || info.height < 1 || info.width > limits.max_side_px ||
+      info.height > limits.max_side_px) {
+    fail(path, "the size is {}x{}, allowed: 1x1 to {}x{}", info.width, info.height,
          limits.max_side_px, limits.max_side_px);
   }
-  if (spec.deep || spec.depth != 1) fail(path, "deep and volume images are not readable");
-  if (spec.nchannels < 1 || spec.nchannels > 4) {
-    fail(path, "the image has {} channels, allowed: 1 to 4", spec.nchannels);
+  if (info.is_deep || info.depth != 1) fail(path, "deep and volume images are not readable");
+  if (info.channels < 1 || info.channels > 4) {
+    fail(path, "the image has {} channels, allowed: 1 to 4", info.channels);
   }
-  const std::uint64_t bytes = std::uint64_t{4} * spec.width * spec.height * spec.nchannels;
+  const std::uint64_t bytes = std::uint64_t{4} * info.width * info.height * info.channels;
   if (bytes > limits.max_bytes) {
     fail(path, "the image needs {} bytes, allowed: {}", bytes, limits.max_bytes);
+  }
+}
+
+std::string_view kind_name(SampleKind kind) {
+  constexpr std::array<std::string_view, 12> kNames = {"8-bit unsigned whole numbers",
+                                                       "16-bit unsigned whole numbers",
+                                                       "32-bit unsigned whole numbers",
+                                                       "64-bit unsigned whole numbers",
+                                                       "8-bit signed whole numbers",
+                                                       "16-bit signed whole numbers",
+                                                       "32-bit signed whole numbers",
+                                                       "64-bit signed whole numbers",
+                                                       "16-bit floats",
+                                                       "32-bit floats",
+                                                       "64-bit floats",
+                                                       "samples of an unknown kind"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+// Only EXR says what its whole numbers mean: themselves. Those of 8 and 16 bits are shares of the
+// largest elsewhere, but of 32 bits, or with a sign, some mean that and some metres. Of TIFFs with
+// 64-bit floats OpenImageIO 2.4 reads zeros.
+void check_kinds(const std::filesystem::path& path, std::string_view format,
+                 const ImageInfo& info) {
+  using enum SampleKind;
+  for (std::size_t c = 0; c < info.kinds.size(); ++c) {
+    const SampleKind kind = info.kinds[c];
+    if (kind == kUnsigned8 || kind == kUnsigned16 || kind == kHalf || kind == kFloat) continue;
+    if (kind == kUnsigned32 && format == "openexr") continue;
+    fail(path,
+         "channel {} holds {}, allowed: unsigned whole numbers of 8 or 16 bits, 16 or 32-bit "
+         "floats{}",
+         c, kind_name(kind), format == "openexr" ? ", unsigned whole numbers of 32 bits" : "");
   }
 }
 
@@ -105,25 +143,19 @@ void check_finite(const std::filesystem::path& path, const ImageF& image) {
        pixel / image.width, index % image.channels, *bad);
 }
 
-ImageF decode(const std::filesystem::path& path, const std::string& format, std::string_view bytes,
-              const ReadLimits& limits) {
-  use_one_thread();
-  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
-  const auto input = OIIO::ImageInput::create(format);
-  if (!input || !input->set_ioproxy(&memory)) fail(path, "this build cannot read {}", format);
-  OIIO::ImageSpec spec, hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  if (!input->open("image." + format, spec, hints)) {
-    fail(path, "not a readable {} file: {}", format, input->geterror());
-  }
-  check_size(path, spec, limits);
-  ImageF image{spec.width, spec.height, spec.nchannels, {}};
-  image.pixels.resize(std::size_t{1} * spec.width * spec.height * spec.nchannels);
-  // Not every reader says false for every pixel it could not read.
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.pixels.data()) ||
-      input->has_error()) {
-    fail(path, "cannot decode the pixels: {}", input->geterror());
-  }
+ImageF decode(const std::filesystem::path& path, std::string_view format,
+              std::span<const char> bytes, const ReadLimits& limits) {
+  const ImageCodec& codec = image_codec();
+  void* opened = nullptr;
+  ImageInfo info;
+  std::string error;
+  check_result(path, "not a readable file", codec.open(format, bytes, opened, info, error), error);
+  const std::unique_ptr<void, void (*)(void*)> closes_it(opened, codec.close);
+  check_size(path, info, limits);
+  check_kinds(path, format, info);
+  ImageF image{info.width, info.height, info.channels, {}};
+  image.pixels.resize(std::size_t{1} * info.width * info.height * info.channels);
+  check_result(path, "cannot decode the pixels", codec.read(opened, image.pixels, error), error);
   check_finite(path, image);
   return image;
 }
@@ -148,22 +180,14 @@ void drop_png_notes(std::vector<std::uint8_t>& png) {
   png.resize(to);
 }
 
-std::vector<std::uint8_t> encode(const std::string& format, OIIO::ImageSpec spec,
-                                 OIIO::TypeDesc type, const void* pixels) {
-  use_one_thread();
-  spec.attribute("oiio:UnassociatedAlpha", 1);  // channels as they are
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
+std::vector<std::uint8_t> encode(const EncodeRequest& request) {
   std::vector<std::uint8_t> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create(format);
-  const bool done = output && output->set_ioproxy(&memory) &&
-                    output->open("image." + format, spec) && output->write_image(type, pixels) &&
-                    output->close();
-  if (!done) {
-    throw FileError("cannot encode " + format + ": " +
-                    one_line(output ? output->geterror() : "the format is missing"));
-  }
-  if (format == "png") drop_png_notes(bytes);
+  std::string error;
+  const CodecResult result = image_codec().encode(request, bytes, error);
+  check_room(result);
+  if (result == CodecResult::kFault)
+    throw FileError(fmt::format("cannot encode {}: {}", request.format, one_line(error)));
+  if (request.format == "png") drop_png_notes(bytes);
   return bytes;
 }
 
@@ -189,17 +213,11 @@ std::vector<std::string> default_channel_names(int channels) {
 }  // namespace
 
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits) {
-  const std::string format(checked_format(path));
+  const std::string_view format = checked_format(path);
   // A text PNM takes up to as many bytes a sample as a float; every other format fewer.
   const std::vector<char> bytes = read_bytes(path, limits.max_bytes + (1u << 20));
-  check_content(path, format, {bytes.data(), bytes.size()});
-  try {
-    return decode(path, format, {bytes.data(), bytes.size()}, limits);
-  } catch (const FileError&) {
-    throw;
-  } catch (const std::exception& error) {
-    fail(path, "cannot decode: {}", error.what());
-  }
+  check_content(path, format, {bytes.data(), bytes.size()}, limits);
+  return decode(path, format, bytes, limits);
 }
 
 std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension) {
@@ -209,12 +227,11 @@ std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& e
   if (format != "png" && format != "tiff") {
     refuse_extension(extension, "8-bit pixels", ".png, .tif, .tiff");
   }
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeUInt8);
-  // Level 1 and libpng's filter "sub" (16): 2.5 times as fast as level 3 with its choice of filter
-  // for a 1280 x 720 picture, and 6 % more bytes.
-  spec.attribute("png:compressionLevel", 1);
-  spec.attribute("png:filter", 16);
-  return encode(std::string(format), spec, OIIO::TypeUInt8, image.pixels.data());
+  return encode({.format = format,
+                 .width = image.width,
+                 .height = image.height,
+                 .channels = image.channels,
+                 .bytes = image.pixels.data()});
 }
 
 std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,
@@ -224,14 +241,17 @@ std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& e
   if (format != "openexr" && format != "tiff") {
     refuse_extension(extension, "float pixels", ".exr, .tif, .tiff");
   }
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeFloat);
   SWELL_CHECK(!channel_names.empty() || image.channels <= 4, "channels={}", image.channels);
-  spec.channelnames.assign(channel_names.begin(), channel_names.end());
-  if (channel_names.empty()) spec.channelnames = default_channel_names(image.channels);
-  SWELL_CHECK(std::ssize(spec.channelnames) == image.channels, "names={} channels={}",
-              spec.channelnames.size(), image.channels);
-  spec.attribute("compression", "zip");
-  return encode(std::string(format), spec, OIIO::TypeFloat, image.pixels.data());
+  EncodeRequest request{.format = format,
+                        .width = image.width,
+                        .height = image.height,
+                        .channels = image.channels,
+                        .floats = image.pixels.data()};
+  request.names.assign(channel_names.begin(), channel_names.end());
+  if (channel_names.empty()) request.names = default_channel_names(image.channels);
+  SWELL_CHECK(std::ssize(request.names) == image.channels, "names={} channels={}",
+              request.names.size(), image.channels);
+  return encode(request);
 }
 
 }  // namespace swell::texture

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/eye_warning.h"
 #include "apps/options.h"
 #include "apps/picture_file.h"
 #include "apps/program.h"
@@ -31,8 +32,21 @@ std::optional<Options> parse_options(int argc, char** argv) {
   return options;
 }
 
+// Draws a frame of few pixels and triangles, whose water and ground are those of the first one.
+void warn_of_eye(const render::World& world) {
+  Workers workers(1);
+  render::Workspace workspace;
+  render::Target target;
+  render::FrameOptions frame;
+  frame.water_triangles = frame.terrain_triangles = 2;
+  const View view = scene::camera_view(world.scene().camera, 0.0, 16, 9);
+  render::render_frame(world, view, 0.0, frame, workspace, target, workers);
+  apps::EyeWarning().look(0, world, view, workspace);
+}
+
 void view(const Options& options) {
   apps::select_simd(options.setup.simd);
+  apps::check_linear_light(options.setup.frame, "--screenshot", options.screenshot);
   if (!options.screenshot.empty()) apps::check_picture_file(options.screenshot);
 
   ViewerSettings settings;
@@ -43,6 +57,7 @@ void view(const Options& options) {
   settings.frame.keep_linear = apps::stores_linear_light(options.screenshot);
 
   Viewer viewer(scene::load_scene(options.setup.scene_path), settings);
+  warn_of_eye(viewer.world());
   viewer.run();
   if (options.screenshot.empty()) return;
   if (viewer.frames_drawn() == 0)

@@ -51,6 +51,8 @@ TEST_F(Bench, TheFrameReportHasEveryKey) {
   EXPECT_GT(report.at("triangles").get<int>(), 0);
   EXPECT_GT(report.at("peak_rss_mb").get<double>(), 1.0);
   EXPECT_EQ(report.at("hash").get<std::string>().size(), 16u);
+  const std::string cpu = report.at("cpu").get<std::string>();
+  EXPECT_TRUE(cpu == "unknown" || read_text("/proc/cpuinfo").find(cpu) != std::string::npos) << cpu;
   for (const char* stage : {"sea", "triangulate", "displace", "visibility", "lookups", "shade"})
     EXPECT_GE(report.at("stages_ms").at(stage).get<double>(), 0.0) << stage;
 }

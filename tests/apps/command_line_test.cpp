@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -95,6 +96,104 @@ TEST_F(CommandLine, RenderNeedsASceneAndSomethingToDo) {
   expect_refused(run_render({}), {"command line", "--scene"});
   expect_refused(run_render({"--hash"}), {"command line", "--scene"});
   expect_refused(run_render({"--scene", scene_}), {"command line", "--out", "--hash"});
+}
+
+// Where nothing is drawn right yet.
+TEST_F(CommandLine, AnEyeBelowTheWaterOrTheGroundIsWarnedOfOnce) {
+  struct Case {
+    std::string camera, warning;  // the pieces of one line; empty: none
+  };
+  const std::string flat = "[sea]\nspectrum = false\n";
+  const std::string island = flat + "[terrain]\nisland_height_m = 35.0\n";
+  const std::string dive = "[camera]\neye_m = [0, 0, 1.05]\nvelocity_mps = [0, 0, -6.0]\n";
+  const auto eye = [](const std::string& place) { return "[camera]\neye_m = " + place + "\n"; };
+  const Case cases[] = {
+      {flat + eye("[0, 0, 0.01]"), ""},
+      {flat + eye("[0, 0, -0.01]"), "frame 0: the camera is under water"},
+      {flat + dive, "frame 11: the camera is under water"},  // at 1.05 - 0.1 k m
+      {island + eye("[0, 0, 2.0]"), "frame 0: the camera is inside the ground"},
+      {island + eye("[5000, 0, 2.0]"), ""},
+      {flat + "[[sea.sines]]\namplitude_m = 2.0\nwavelength_m = 100.0\n" + eye("[0, 0, 2.1]"), ""},
+      {flat + "[[sea.sines]]\namplitude_m = 2.0\nwavelength_m = 100.0\n" + eye("[0, 0, -2.1]"),
+       "under water"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.camera);
+    write_text(scene_, c.camera);
+    const Arguments small = {"--scene", scene_, "--size", "16x9", "--triangles", "200"};
+    const auto run = [&](auto program, Arguments arguments) {
+      arguments.insert(arguments.end(), small.begin(), small.end());
+      const Outcome outcome = program(arguments, Surroundings{});
+      EXPECT_EQ(outcome.exit_code, 0);
+      EXPECT_EQ(std::ranges::count(outcome.err, '\n'), c.warning.empty() ? 0 : 1) << outcome.err;
+      EXPECT_TRUE(c.warning.empty() || outcome.err.starts_with("warning: ")) << outcome.err;
+      EXPECT_NE(outcome.err.find(c.warning), std::string::npos) << outcome.err;
+    };
+    run(run_render, {"--frames", "0-12", "--fps", "60", "--hash"});
+    if (c.camera == flat + dive || c.warning.empty())
+      run(run_bench, {"frame", "--frames", "13", "--warmup", "0", "--json", "-"});
+  }
+}
+
+// They used to be left out without a word.
+TEST_F(CommandLine, WhatExrFilesDoNotShowIsRefused) {
+  const auto render = [&](const std::string& file, const Arguments& more) {
+    Arguments arguments = {"--scene", scene_,  "--size",          "32x18",
+                           "--hash",  "--out", folder_.file(file)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_render(arguments);
+  };
+  for (const char* file : {"a.exr", "a.EXR", "a_%04d.exr"}) {
+    expect_refused(render(file, {"--picture-scale", "0.5"}), {"--picture-scale", file, "--out"});
+    expect_refused(render(file, {"--wireframe"}), {"--wireframe", file, "--out"});
+  }
+  EXPECT_EQ(render("a.exr", {"--picture-scale", "1"}).exit_code, 0);
+  const Outcome full = render("a.png", {}), small = render("a.png", {"--picture-scale", "0.5"});
+  EXPECT_EQ(small.exit_code, 0);
+  EXPECT_NE(small.out, full.out);
+}
+
+// And not that something is missing, which it may be because of it.
+TEST_F(CommandLine, WhatIsUnknownIsNamed) {
+  struct Case {
+    Arguments arguments, pieces;
+  };
+  const Case render[] = {
+      {{"--bogus"}, {"unknown option", "'--bogus'", "--scene"}},
+      {{"--bogus", "3"}, {"unknown option", "'--bogus'"}},
+      {{"--bogus=3"}, {"unknown option", "'--bogus"}},
+      {{"-x"}, {"unknown option", "'-x'"}},
+      {{"--scen", scene_, "--hash"}, {"unknown option", "'--scen'", "--scene,"}},
+      {{"--scene", scene_, "--sise", "3x3"}, {"unknown option", "'--sise'", "--size"}},
+      {{"--scene", scene_, "--fps", "3", "--bogus"}, {"unknown option", "'--bogus'"}},
+      {{"bogus"}, {"unknown argument", "'bogus'"}},
+      {{"--hash", "bogus", "more"}, {"unknown argument", "'bogus'"}},
+      {{"--scene"}, {"--scene", "missing"}},
+      {{"--hash"}, {"--scene is required"}},
+  };
+  for (const Case& c : render) {
+    SCOPED_TRACE(fmt::format("{}", c.arguments));
+    expect_refused(run_render(c.arguments), c.pieces);
+  }
+  const Case bench[] = {
+      {{"bogus"}, {"unknown mode", "'bogus'", "frame, lod, query, sea-state, waves"}},
+      {{"frme", "--scene", scene_}, {"unknown mode", "'frme'", "frame"}},
+      {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
+      {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},
+      {{"frame", "lod"}, {"unknown argument", "'lod'"}},
+      {{"frame", "--scene"}, {"--scene", "missing"}},
+      {{}, {"no mode"}},
+  };
+  for (const Case& c : bench) {
+    SCOPED_TRACE(fmt::format("{}", c.arguments));
+    expect_refused(run_bench(c.arguments), c.pieces);
+  }
+  for (const char* mode : {"frame", "lod", "query", "sea-state", "waves"}) {
+    SCOPED_TRACE(mode);
+    expect_refused(run_bench({mode, "--bogus"}), {"unknown option", "'--bogus'", "--help"});
+    expect_refused(run_bench({mode, "--bogus", "1"}), {"unknown option", "'--bogus'"});
+    expect_refused(run_bench({mode, "bogus"}), {"unknown argument", "'bogus'"});
+  }
 }
 
 TEST_F(CommandLine, BenchRefusesBadOptions) {

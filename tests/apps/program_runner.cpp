@@ -11,6 +11,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "refused_calls.h"
+
 namespace swell::apps {
 namespace {
 
@@ -32,6 +34,21 @@ void replace_stream(int stream, const std::string& path, int flags) {
     const rlimit limit{bytes, bytes};
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
   }
+  if (surroundings.max_memory_bytes >= 0) {
+    const auto bytes = static_cast<rlim_t>(surroundings.max_memory_bytes);
+    const rlimit limit{bytes, bytes};
+    if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
+  }
+  if (surroundings.own_user) {
+    constexpr unsigned kNobodyElse = 54321;
+    if (geteuid() == 0 && (setgid(kNobodyElse) != 0 || setuid(kNobodyElse) != 0)) _exit(126);
+    const rlimit limit{1, 1};
+    if (setrlimit(RLIMIT_NPROC, &limit) != 0) _exit(126);
+  }
+  if (!surroundings.threads && !refuse_threads()) _exit(126);
+  for (const std::string& variable : surroundings.environment)
+    putenv(const_cast<char*>(variable.c_str()));
+  if (!surroundings.unnamed_files && !refuse_unnamed_files()) _exit(126);
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -39,16 +56,23 @@ void replace_stream(int stream, const std::string& path, int flags) {
   _exit(127);
 }
 
-Outcome run(const std::string& program, const Arguments& arguments,
-            const Surroundings& surroundings) {
+}  // namespace
+
+Outcome run_program(const std::string& program, const Arguments& arguments,
+                    const Surroundings& surroundings) {
   const ScratchFolder folder;
   const std::string out =
       surroundings.standard_output.empty() ? folder.file("out") : surroundings.standard_output;
   const std::string err = folder.file("err");
   const pid_t child = fork();
   if (child == 0) become(program, arguments, surroundings, out, err);
+  if (child > 0 && surroundings.signal != 0) {
+    usleep(static_cast<useconds_t>(surroundings.signal_after_us));
+    kill(child, surroundings.signal);
+  }
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) != child) {
+  rusage usage{};
+  if (child < 0 || wait4(child, &status, 0, &usage) != child) {
     ADD_FAILURE() << "cannot run " << program;
     return {};
   }
@@ -56,17 +80,20 @@ Outcome run(const std::string& program, const Arguments& arguments,
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   if (surroundings.standard_output.empty()) outcome.out = read_text(out);
   outcome.err = read_text(err);
+  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+    outcome.cpu_ms +=
+        static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_usec) / 1e3;
   return outcome;
 }
 
-}  // namespace
-
 Outcome run_render(const Arguments& arguments, const Surroundings& surroundings) {
-  return run(SWELL_RENDER, arguments, surroundings);
+  return run_program(SWELL_RENDER, arguments, surroundings);
 }
 
+std::string render_program() { return SWELL_RENDER; }
+
 Outcome run_bench(const Arguments& arguments, const Surroundings& surroundings) {
-  return run(SWELL_BENCH, arguments, surroundings);
+  return run_program(SWELL_BENCH, arguments, surroundings);
 }
 
 ScratchFolder::ScratchFolder() {

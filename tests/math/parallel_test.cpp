@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <xmmintrin.h>
 
 #include <algorithm>
@@ -14,6 +16,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "refused_calls.h"
 
 namespace swell {
 namespace {
@@ -262,6 +266,27 @@ TEST(Workers, SeveralPoolsCanExistAtOneTime) {
     three.for_each(10, [&](std::size_t, int) { ++calls; });
   }
   EXPECT_EQ(calls, 400);
+}
+
+// oneTBB would end the program where a thread cannot be started.
+TEST(Workers, ThatGetTooFewThreadsAreRefused) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!refuse_threads()) _exit(9);
+    Workers alone(1);
+    int calls = 0;
+    alone.for_each(3, [&](std::size_t, int) { ++calls; });
+    try {
+      Workers many(8);
+    } catch (const std::runtime_error& error) {
+      _exit(calls == 3 && std::string(error.what()).find("0 of 7") != std::string::npos ? 3 : 4);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3);
 }
 
 TEST(ScopedFloatEnvironment, SetsIeeeDefaultsAndRestoresTheOldState) {

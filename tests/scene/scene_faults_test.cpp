@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
+#include "scene/parameters.h"
 #include "scene/scene_text.h"
 
 namespace swell::scene {
@@ -131,24 +133,67 @@ INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, SceneFileFault,
     ::testing::Values(
         Fault{"[camera]\nfov_deg = 50\n",
-              "test.toml:2: column 1: unknown key, got 'camera.fov_deg', allowed "
-              "'camera.fov_y_deg' (the nearest) and the others of docs/scene.md"},
+              "test.toml:2: column 1: unknown key, got 'camera.fov_deg', allowed in [camera] "
+              "fov_y_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, [[camera.path]], near_m, "
+              "velocity_mps"},
         Fault{"[camrea]\nnear_m = 1\n",
-              "test.toml:1: column 2: unknown key, got 'camrea', allowed 'camera' (the nearest) "
-              "and the others of docs/scene.md"},
+              "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
+              "[water], [[camera.path]], [sky], [coast], [wind], [terrain], [[sea.sines]], "
+              "[detail], [[object]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
-              "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed "
-              "'wind.speed_mps' (the nearest) and the others of docs/scene.md"},
+              "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
+              "speed_mps, from_deg"},
         Fault{"[[sea.sines]]\namplitud_m = 3\n",
-              "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m', allowed "
-              "'sea.sines.amplitude_m' (the nearest) and the others of docs/scene.md"},
-        Fault{
-            "[[object]]\ncolor = [1, 0, 0]\n",
-            "test.toml:2: column 1: unknown key, got 'object.color', allowed 'object.colour' (the "
-            "nearest) and the others of docs/scene.md"},
+              "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m', allowed in "
+              "[sea.sines] amplitude_m, period_s, wavelength_m, to_deg, phase_deg"},
+        Fault{"[[object]]\ncolor = [1, 0, 0]\n",
+              "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
+              "kind, top_mark, position_m, size_m, draught, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
-              "test.toml:1: column 1: unknown key, got 'na me', allowed 'name' (the nearest) and "
-              "the others of docs/scene.md"}));
+              "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
+              "[sea], [water], [wind], [coast], [[sea.sines]], [detail], [[object]], [terrain], "
+              "[[camera.path]]"},
+        Fault{
+            "[camera]\nfov = 3\n",
+            "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
+            "[[camera.path]], eye_m, near_m, pitch_deg, velocity_mps, turn_deg_s, heading_deg"},
+        Fault{"[sea]\nstate = 3\n",
+              "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] seed, "
+              "[[sea.sines]], spectrum, centre_m, size_m, beaufort, resolution, loop_s, douglas, "
+              "gravity_mps2, amplitude_scale, patch_lengths_m"},
+        Fault{
+            "[camera]\n\"eye.m\" = 3\n",
+            "test.toml:2: column 1: unknown key, got 'camera.eye.m', allowed in [camera] eye_m, "
+            "near_m, [[camera.path]], fov_y_deg, velocity_mps, turn_deg_s, heading_deg, pitch_deg"},
+        Fault{"a.b = 3\n",
+              "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
+              "[coast], [camera], [wind], [detail], [terrain], [[object]], [[sea.sines]], "
+              "[[camera.path]]"},
+        Fault{"[[camera.path]]\nt = 0\n",
+              "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
+              "t_s, eye_m, pitch_deg, heading_deg"},
+        Fault{
+            "[terrain]\nheigth = 3\n",
+            "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
+            "height_image, high_m, seed, low_m, island_height_m, coast_m, centre_m, beach_size_m, "
+            "sea_level_m, floor_depth_m, beach_slope, metres_per_pixel, island_radius_m"}));
+
+TEST(SceneFileFaults, AnUnknownKeyListsTheKeysOfItsTable) {
+  std::set<std::string> tables;
+  for (const auto& parameter : scene_parameters())
+    tables.insert(std::string(parameter.key.substr(0, parameter.key.find('.'))));
+  tables.erase("name");
+  for (const std::string& table : tables) {
+    const std::string line = error_of("[" + table + "]\nx = 1\n");
+    EXPECT_FALSE(line.ends_with("...")) << line;
+    for (const auto& parameter : scene_parameters()) {
+      if (!parameter.key.starts_with(table + ".")) continue;
+      const std::string key(parameter.key.substr(table.size() + 1));
+      EXPECT_NE((line + ",").find(" " + key + ","), std::string::npos) << key << ": " << line;
+    }
+    EXPECT_NE(error_of("x = 1\n").find("[" + table + "]"), std::string::npos);
+  }
+}
 
 TEST(SceneFileFaults, AtMost64ObjectsAreTaken) {
   std::string text;

@@ -1,5 +1,7 @@
 #include "texture/image_io.h"
 
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -166,6 +168,71 @@ TEST_F(ImageFiles, OtherExtensionsAreNotEncoded) {
   EXPECT_THROW(encode_image(random_imagef(2, 2, 3), ".hdr"), FileError);
 }
 
+// --- Kinds of samples
+
+// A file of one row as OpenImageIO writes it; a type for all channels, or for each.
+Bytes encoded(const std::string& format, const std::vector<OIIO::TypeDesc>& types,
+              OIIO::TypeDesc pixel_type, const void* row, int width) {
+  OIIO::ImageSpec spec(width, 1, static_cast<int>(types.size()), types[0]);
+  if (types.size() > 1) spec.channelformats = types;
+  Bytes bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create(format);
+  if (!output || !output->set_ioproxy(&memory) || !output->open("image." + format, spec) ||
+      !output->write_image(pixel_type, row) || !output->close())
+    throw std::runtime_error("cannot encode " + format);
+  return bytes;
+}
+
+template <class T>
+Bytes encoded(const std::string& format, OIIO::TypeDesc type, const std::vector<T>& row) {
+  return encoded(format, {type}, type, row.data(), static_cast<int>(row.size()));
+}
+
+TEST_F(ImageFiles, WholeNumbersOfExrAreTakenAsTheyAre) {
+  const std::vector<std::uint32_t> row{0, 1, 255, 65535, 16777216, 16777218, 0xffffff00u};
+  const ImageF image = read_image(put("a.exr", encoded("openexr", OIIO::TypeUInt32, row)));
+  ASSERT_EQ(image.channels, 1);
+  for (std::size_t i = 0; i < row.size(); ++i) EXPECT_EQ(image.pixels[i], row[i]);
+}
+
+TEST_F(ImageFiles, ExrChannelsOfDifferentKindsAreEachTakenAsStored) {
+  struct Pixel {
+    std::uint16_t half;
+    std::uint32_t whole;
+    float real;
+    std::uint32_t other;
+  } __attribute__((packed));
+  const Pixel row[] = {{0x3800, 7, -2.25f, 1000}, {0x3400, 65536, 3.5f, 4000000}};
+  const Bytes exr =
+      encoded("openexr", {OIIO::TypeHalf, OIIO::TypeUInt32, OIIO::TypeFloat, OIIO::TypeUInt32},
+              OIIO::TypeUnknown, row, 2);
+  const ImageF image = read_image(put("a.exr", exr));
+  EXPECT_EQ(image.pixels,
+            (std::vector<float>{0.5f, 7.0f, -2.25f, 1000.0f, 0.25f, 65536.0f, 3.5f, 4e6f}));
+}
+
+TEST_F(ImageFiles, SamplesOf8And16BitsAreSharesAndFloatsAreTakenAsTheyAre) {
+  const std::vector<std::uint8_t> bytes{0, 51, 255};
+  const std::vector<std::uint16_t> words{0, 13107, 65535};
+  const std::vector<float> floats{-3.5f, 0.2f, 1e6f};
+  const std::vector<std::uint16_t> halves{0xc300, 0x3400, 0x7bff};  // -3.5, 0.25, 65504
+  const std::vector<float> shares{0.0f, 0.2f, 1.0f};
+  const std::pair<std::string, Bytes> files[] = {
+      {"8.png", encoded("png", OIIO::TypeUInt8, bytes)},
+      {"16.png", encoded("png", OIIO::TypeUInt16, words)},
+      {"8.tif", encoded("tiff", OIIO::TypeUInt8, bytes)},
+      {"16.tif", encoded("tiff", OIIO::TypeUInt16, words)}};
+  for (const auto& [name, file] : files) {
+    const ImageF image = read_image(put(name, file));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(image.pixels[i], shares[i]) << name;
+  }
+  EXPECT_EQ(read_image(put("32f.tif", encoded("tiff", OIIO::TypeFloat, floats))).pixels, floats);
+  EXPECT_EQ(read_image(put("32f.exr", encoded("openexr", OIIO::TypeFloat, floats))).pixels, floats);
+  EXPECT_EQ(read_image(put("16f.exr", encoded("openexr", OIIO::TypeHalf, halves))).pixels,
+            (std::vector<float>{-3.5f, 0.25f, 65504.0f}));
+}
+
 // --- Bad files
 
 // Reads a file that must be refused: quickly, in one line that names it. Returns the line.
@@ -218,7 +285,8 @@ TEST_F(BadImages, TruncatedFilesAreRefused) {
   }
 }
 
-TEST_F(BadImages, BrokenBytesNeverCrash) {
+TEST_F(BadImages, BrokenBytesNeverCrashNorPrint) {
+  testing::internal::CaptureStderr();
   for (const auto& [name, bytes] : valid_files()) {
     for (std::uint64_t n = 0; n < 60; ++n) {
       Bytes broken = bytes;
@@ -236,6 +304,7 @@ TEST_F(BadImages, BrokenBytesNeverCrash) {
       }
     }
   }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(BadImages, EmptyAndTinyFilesAreRefused) {
@@ -272,6 +341,26 @@ TEST_F(BadImages, ThingsThatAreNoFilesAreRefused) {
     const fs::path secret = put("secret.png", encode_image(random_image8(4, 4, 3), ".png"));
     fs::permissions(secret, fs::perms::none);
     refusal(secret);
+  }
+}
+
+TEST_F(BadImages, SamplesThatWouldBeMisreadAreRefused) {
+  const auto expect_kind = [&](OIIO::TypeDesc type, const auto& row, const std::string& kind) {
+    expect_in(refusal(put("a.tif", encoded("tiff", type, row))), "channel 0 holds " + kind);
+  };
+  expect_kind(OIIO::TypeDesc::UINT32, std::vector<std::uint32_t>{0, 7}, "32-bit unsigned");
+  expect_kind(OIIO::TypeDesc::INT8, std::vector<std::int8_t>{0, 7}, "8-bit signed");
+  expect_kind(OIIO::TypeDesc::INT16, std::vector<std::int16_t>{0, 7}, "16-bit signed");
+  expect_kind(OIIO::TypeDesc::INT32, std::vector<std::int32_t>{0, 7}, "32-bit signed");
+  // OpenImageIO 2.4 reads zeros.
+  expect_kind(OIIO::TypeDesc::DOUBLE, std::vector<double>{0.0, 7.0}, "64-bit floats");
+}
+
+TEST_F(BadImages, WholeNumbersThatNoFloatHoldsAreNamed) {
+  for (const std::uint32_t number : {16777217u, 4294967295u, 2147483649u}) {
+    const std::vector<std::uint32_t> row{0, 1, number};
+    expect_in(refusal(put("a.exr", encoded("openexr", OIIO::TypeUInt32, row))),
+              "pixel (2, 0) channel 0 is " + std::to_string(number));
   }
 }
 

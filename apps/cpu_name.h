@@ -1,0 +1,11 @@
+// What a report says of the machine.
+#pragma once
+
+#include <string>
+
+namespace swell::apps {
+
+// The CPU's own name for itself, "AMD EPYC 9R14"; "unknown" if it has none.
+std::string cpu_name();
+
+}  // namespace swell::apps

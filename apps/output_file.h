@@ -1,0 +1,19 @@
+// Files that the programs write: whole, or not there, also when a signal ends the program.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace swell::apps {
+
+// Throws texture::FileError if no file can be written to `path`: directory missing or
+// not writable, path is a directory or too long. Removes what killed runs left in the directory.
+void check_output_place(const std::filesystem::path& path);
+
+// texture::write_file(). A signal that ends the program meanwhile (Ctrl-C, SIGTERM, SIGHUP, ...;
+// not one that the program ignores or handles) still ends it, with no temporary file left. One
+// call at a time.
+void write_output(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+}  // namespace swell::apps

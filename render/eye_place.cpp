@@ -1,0 +1,27 @@
+#include "render/eye_place.h"
+
+#include "render/frame_state.h"
+#include "scene/water_surface.h"
+
+namespace swell::render {
+
+EyeReport find_eye(const World& world, const Workspace& workspace, glm::dvec3 eye_world) {
+  const World::State& w = world.state();
+  const glm::dvec2 p(eye_world);
+  if (w.terrain) {
+    const glm::dvec2 from_corner = p - w.terrain->min_world;
+    const double side_m = w.terrain->size_m();
+    float ground_m = 0.0f;
+    scene::sample_heights(*w.terrain, {&p, 1}, {&ground_m, 1});
+    if (from_corner.x >= 0.0 && from_corner.y >= 0.0 && from_corner.x <= side_m &&
+        from_corner.y <= side_m && eye_world.z < static_cast<double>(ground_m))
+      return {EyePlace::kGround, static_cast<double>(ground_m)};
+  }
+  const scene::WaterSurface water(*w.sea, workspace.state().sea, w.scene.area, w.terrain.get(),
+                                  w.coast.get());
+  const double surface_m = static_cast<double>(water.height(p));
+  if (eye_world.z < surface_m) return {EyePlace::kWater, surface_m};
+  return {EyePlace::kAir, surface_m};
+}
+
+}  // namespace swell::render

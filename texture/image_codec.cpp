@@ -1,0 +1,179 @@
+// The module behind image_codec.h: OpenImageIO, and nothing else of Swell.
+#include "texture/image_codec.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/core.h>
+
+#include <exception>
+#include <memory>
+#include <new>
+#include <system_error>
+
+namespace swell::texture {
+namespace {
+
+// OpenImageIO on the calling thread only: files are small, and its pools would outlive the call.
+void use_one_thread() {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+}
+
+// Runs `work`, which returns false after it has set the error.
+template <class Work>
+CodecResult guarded(std::string& error, Work&& work) noexcept {
+  try {
+    use_one_thread();
+    return work() ? CodecResult::kDone : CodecResult::kFault;
+  } catch (const std::bad_alloc&) {
+    return CodecResult::kNoRoom;
+  } catch (const std::system_error&) {  // of a thread that could not be started
+    return CodecResult::kNoRoom;
+  } catch (const std::exception& e) {
+    error = e.what();
+  } catch (...) {
+    error = "unknown fault";
+  }
+  return CodecResult::kFault;
+}
+
+// --- Decoding
+
+struct OpenImage {
+  OIIO::Filesystem::IOMemReader memory;
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+};
+
+SampleKind kind_of(OIIO::TypeDesc type) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+      return SampleKind::kUnsigned8;
+    case OIIO::TypeDesc::UINT16:
+      return SampleKind::kUnsigned16;
+    case OIIO::TypeDesc::UINT32:
+      return SampleKind::kUnsigned32;
+    case OIIO::TypeDesc::UINT64:
+      return SampleKind::kUnsigned64;
+    case OIIO::TypeDesc::INT8:
+      return SampleKind::kSigned8;
+    case OIIO::TypeDesc::INT16:
+      return SampleKind::kSigned16;
+    case OIIO::TypeDesc::INT32:
+      return SampleKind::kSigned32;
+    case OIIO::TypeDesc::INT64:
+      return SampleKind::kSigned64;
+    case OIIO::TypeDesc::HALF:
+      return SampleKind::kHalf;
+    case OIIO::TypeDesc::FLOAT:
+      return SampleKind::kFloat;
+    case OIIO::TypeDesc::DOUBLE:
+      return SampleKind::kDouble;
+    default:
+      return SampleKind::kUnknown;
+  }
+}
+
+CodecResult open_image(std::string_view format, std::span<const char> bytes, void*& image,
+                       ImageInfo& info, std::string& error) {
+  return guarded(error, [&] {
+    auto open = std::make_unique<OpenImage>(
+        OIIO::Filesystem::IOMemReader(const_cast<char*>(bytes.data()), bytes.size()),
+        OIIO::ImageInput::create(format), OIIO::ImageSpec());
+    if (!open->input || !open->input->set_ioproxy(&open->memory)) {
+      error = "this build has no such format";
+      return false;
+    }
+    OIIO::ImageSpec hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    if (!open->input->open("image." + std::string(format), open->spec, hints)) {
+      error = open->input->geterror();
+      return false;
+    }
+    const OIIO::ImageSpec& spec = open->spec;
+    info = {spec.width, spec.height, spec.depth, spec.nchannels, spec.deep, {}};
+    for (int c = 0; c < spec.nchannels; ++c) info.kinds.push_back(kind_of(spec.channelformat(c)));
+    image = open.release();
+    return true;
+  });
+}
+
+// One channel of 32-bit whole numbers; other types would come divided by the largest.
+bool read_whole_numbers(OpenImage& open, int channel, std::span<float> pixels, std::string& error) {
+  const OIIO::ImageSpec& spec = open.spec;
+  std::vector<std::uint32_t> plane(std::size_t{1} * spec.width * spec.height);
+  if (!open.input->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::UINT32, plane.data()))
+    return false;
+  for (std::size_t i = 0; i < plane.size(); ++i) {
+    const float value = static_cast<float>(plane[i]);
+    if (static_cast<double>(value) != static_cast<double>(plane[i])) {
+      error = fmt::format(
+          "pixel ({}, {}) channel {} is {}, allowed: whole numbers that a 32-bit float holds",
+          i % spec.width, i / spec.width, channel, plane[i]);
+      return false;
+    }
+    pixels[i * spec.nchannels + channel] = value;
+  }
+  return true;
+}
+
+bool read_channels(OpenImage& open, int first, int end, std::span<float> pixels) {
+  const OIIO::stride_t stride = open.spec.nchannels * static_cast<OIIO::stride_t>(sizeof(float));
+  return open.input->read_image(0, 0, first, end, OIIO::TypeFloat, pixels.data() + first, stride);
+}
+
+CodecResult read_image(void* image, std::span<float> pixels, std::string& error) {
+  return guarded(error, [&] {
+    OpenImage& open = *static_cast<OpenImage*>(image);
+    bool done = true;
+    for (int c = 0, end; done && c < open.spec.nchannels; c = end) {
+      const auto is_whole = [&](int channel) {
+        return open.spec.channelformat(channel).basetype == OIIO::TypeDesc::UINT32;
+      };
+      for (end = c + 1; end < open.spec.nchannels && is_whole(end) == is_whole(c);) ++end;
+      if (is_whole(c)) end = c + 1;
+      done = is_whole(c) ? read_whole_numbers(open, c, pixels, error)
+                         : read_channels(open, c, end, pixels);
+    }
+    // Not every reader says false for every pixel it could not read.
+    if (done && !open.input->has_error()) return true;
+    if (error.empty()) error = open.input->geterror();
+    return false;
+  });
+}
+
+void close_image(void* image) { delete static_cast<OpenImage*>(image); }
+
+// --- Encoding
+
+CodecResult encode_image(const EncodeRequest& request, std::vector<std::uint8_t>& bytes,
+                         std::string& error) {
+  return guarded(error, [&] {
+    const OIIO::TypeDesc type = request.bytes ? OIIO::TypeUInt8 : OIIO::TypeFloat;
+    OIIO::ImageSpec spec(request.width, request.height, request.channels, type);
+    if (!request.names.empty()) spec.channelnames = request.names;
+    spec.attribute("oiio:UnassociatedAlpha", 1);  // channels as they are
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (request.floats) spec.attribute("compression", "zip");
+    // Level 1 and libpng's filter "sub" (16): 2.5 times as fast as level 3 with its choice of
+    // filter for a 1280 x 720 picture, and 6 % more bytes.
+    spec.attribute("png:compressionLevel", 1);
+    spec.attribute("png:filter", 16);
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const std::string format(request.format);
+    const auto output = OIIO::ImageOutput::create(format);
+    const void* pixels = request.bytes ? static_cast<const void*>(request.bytes) : request.floats;
+    const bool done = output && output->set_ioproxy(&memory) &&
+                      output->open("image." + format, spec) && output->write_image(type, pixels) &&
+                      output->close();
+    if (!done) error = output ? output->geterror() : "the format is missing";
+    return done;
+  });
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const ImageCodec swell_image_codec = {
+    kImageCodecVersion, open_image, read_image, close_image, encode_image};
+
+}  // namespace swell::texture

@@ -1,0 +1,67 @@
+#include <dlfcn.h>
+#include <link.h>
+#include <sys/mman.h>
+
+#include <array>
+
+#include "math/parallel.h"
+#include "texture/file_bytes.h"
+#include "texture/image_codec.h"
+
+namespace swell::texture {
+namespace {
+
+// The folder of the program, or of the shared library that this code is part of.
+std::filesystem::path folder_of_this_code() {
+  static const char here = 0;
+  Dl_info info{};
+  link_map* object = nullptr;
+  const int found = dladdr1(&here, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP);
+  if (found != 0 && object->l_name[0] != '\0')
+    return std::filesystem::path(object->l_name).parent_path();
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+// Initialisers among the libraries abort the program where they get no memory or no thread.
+void check_room() {
+  constexpr std::size_t kAddressSpace = 600u << 20;  // of what a load takes
+  constexpr int kThreads = 5;                        // that the libraries start
+  void* const room =
+      mmap(nullptr, kAddressSpace, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    throw std::runtime_error(
+        fmt::format("out of memory: reading and writing image files takes {} MB of address space",
+                    kAddressSpace >> 20));
+  munmap(room, kAddressSpace);
+  check_threads(kThreads);
+}
+
+const ImageCodec& load() {
+  check_room();
+  const std::filesystem::path folder = folder_of_this_code();
+  const std::array<std::filesystem::path, 3> places = {folder / "../lib/swell" / kImageCodecFile,
+                                                       folder / kImageCodecFile, kImageCodecFile};
+  for (const std::filesystem::path& place : places) {
+    // Not RTLD_NOW, which takes twice as long.
+    if (void* const module = dlopen(place.c_str(), RTLD_LAZY | RTLD_LOCAL)) {
+      const auto* codec = static_cast<const ImageCodec*>(dlsym(module, kImageCodecSymbol));
+      if (codec && codec->version == kImageCodecVersion) return *codec;
+      fail(place, "not the image module of this version of Swell");
+    }
+    const std::string fault = dlerror();
+    if (!fault.starts_with(place.string() + ": cannot open"))  // it is there
+      throw std::runtime_error("cannot load the module for image files: " + one_line(fault));
+  }
+  fail(kImageCodecFile, "the module for image files is not beside the program nor in {}",
+       (folder / "../lib/swell").lexically_normal().string());
+}
+
+}  // namespace
+
+const ImageCodec& image_codec() {
+  static const ImageCodec& codec = load();
+  return codec;
+}
+
+}  // namespace swell::texture
