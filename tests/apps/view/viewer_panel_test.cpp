@@ -100,6 +100,48 @@ TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
   EXPECT_FALSE(viewer.report().pick);
 }
 
+void push_button_at(Uint32 type, int x, int y) {
+  SDL_Event event{};
+  event.button.type = type;
+  event.button.button = SDL_BUTTON_LEFT;
+  event.button.x = x;
+  event.button.y = y;
+  SDL_PushEvent(&event);
+}
+
+// As remote desktops and tests do it: with no motion of a device before, so that SDL_GetMouseState
+// and Dear ImGui's last frame have the pointer elsewhere. The press once looked around instead.
+TEST_F(ViewerTest, APointerThatMovesAndPressesAtOnceWorksThePanel) {
+  Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
+  for (int i = 0; i < 2; ++i) viewer.turn();  // a panel has its size from the second on
+  const int x = 26, y = 64;  // "pause"
+  push_pointer(x, y);
+  push_button_at(SDL_MOUSEBUTTONDOWN, x, y);
+  push_button_at(SDL_MOUSEBUTTONUP, x, y);
+  viewer.turn();
+  viewer.turn();
+  EXPECT_TRUE(viewer.panel().paused);
+  push_motion(50, 10);
+  viewer.turn();
+  EXPECT_FALSE(viewer.has_own_camera()) << "the press was not for looking around";
+  push_pointer(600, 390);
+  viewer.turn();
+  EXPECT_TRUE(viewer.report().pick);
+}
+
+TEST_F(ViewerTest, APressBesideThePanelLooksAround) {
+  Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
+  viewer.turn();
+  push_pointer(26, 64);
+  viewer.turn();
+  push_pointer(600, 390);
+  push_button_at(SDL_MOUSEBUTTONDOWN, 600, 390);
+  viewer.turn();
+  push_motion(50, 10);
+  viewer.turn();
+  EXPECT_TRUE(viewer.has_own_camera());
+}
+
 TEST_F(ViewerTest, ThePointerPicksWhatFloatsThere) {
   scene::Scene scene = small_scene();
   scene.objects.resize(2);
