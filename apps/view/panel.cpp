@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "apps/view/keys.h"
 #include "math/elementary.h"
@@ -29,10 +30,10 @@ bool slide(const char* label, double& value, double low, double high, const char
                              ImGuiSliderFlags_AlwaysClamp);
 }
 
-bool draw_waves(WaveChoice& waves) {
+bool draw_waves(std::span<const char* const> names, WaveChoice& waves) {
   bool changed = false;
   int model = static_cast<int>(waves.model);
-  if (ImGui::Combo("waves", &model, "spectrum\0sines\0both\0")) {
+  if (ImGui::Combo("waves", &model, names.data(), static_cast<int>(names.size()))) {
     waves.model = static_cast<WaveModel>(model);
     changed = true;
   }
@@ -182,7 +183,7 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
     ImGui::SameLine();
     ImGui::TextDisabled(report.rebuilding ? "making waves ..." : "F1: keys");
     ImGui::Separator();
-    changes.waves = draw_waves(settings.waves);
+    changes.waves = draw_waves(report.wave_names, settings.waves);
     changes.detail = draw_detail(settings.detail);
     draw_quality(settings.frame);
     draw_governor(report, settings);

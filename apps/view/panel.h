@@ -1,6 +1,7 @@
 // The panel: what can be changed, what was measured.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct PanelReport {
   int width_px = 0, height_px = 0;
   int threads = 1;
   std::string scene_name, simd;
+  std::array<const char*, 3> wave_names{};  // of WaveModel's values
   bool rebuilding = false;
   std::string message;               // the last thing that happened; may be empty
   std::optional<render::Pick> pick;  // what the last picture shows under the pointer

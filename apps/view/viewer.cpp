@@ -42,6 +42,7 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
   report_.threads = settings.threads;
   report_.simd = simd_target_name(current_simd_target());
   report_.scene_name = scene.name;
+  report_.wave_names = wave_names(scene);
 }
 
 // ---- events ----
