@@ -16,6 +16,7 @@ void set_style() {
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 0.0f;  // rounded corners cost hundreds of triangles
   style.FrameRounding = 0.0f;
+  style.ItemSpacing.y = 3.0f;  // the panel fits a window of 720 rows
   style.AntiAliasedLines = false;
   style.AntiAliasedFill = false;
   style.Colors[ImGuiCol_WindowBg].w = 0.75f;
@@ -82,12 +83,12 @@ void Gui::begin_frame() {
   int width = 0, height = 0;
   ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
   ImGui_ImplSDL2_NewFrame();
-  ImGui::NewFrame();
   // That asks X for the pointer's place on the screen, which SDL knows from the motion of devices
   // alone: where a program moves the pointer (a remote desktop, a test) it is that of the last
   // press. Events have the place in the window always.
   ImGui::GetIO().MousePos =
       pointer_ ? ImVec2(pointer_->x, pointer_->y) : ImVec2(-FLT_MAX, -FLT_MAX);
+  ImGui::NewFrame();
 }
 
 void Gui::end_frame() { ImGui::Render(); }

@@ -14,7 +14,7 @@ namespace swell::view {
 namespace {
 
 constexpr float kPanelWidth_px = 330.0f;
-constexpr float kGraphHeight_px = 80.0f;
+constexpr float kGraphHeight_px = 56.0f;
 constexpr double kRadPerDeg = kPi / 180.0;
 
 void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
@@ -176,6 +176,9 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
   PanelChanges changes;
   ImGui::SetNextWindowPos({10.0f, 10.0f}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kPanelWidth_px, 0.0f});
+  // A window that is lower than the panel gets a scroll bar.
+  const float most_px = std::max(ImGui::GetIO().DisplaySize.y - 20.0f, 100.0f);
+  ImGui::SetNextWindowSizeConstraints({kPanelWidth_px, 0.0f}, {kPanelWidth_px, most_px});
   if (ImGui::Begin("swell", nullptr, ImGuiWindowFlags_NoResize)) {
     ImGui::PushItemWidth(0.62f * kPanelWidth_px);
     text(fmt::format("{}   t = {:.2f} s", report.scene_name, report.t_s));
@@ -192,7 +195,6 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
     ImGui::Separator();
     draw_counts(report);
     text(report.pick ? "pointer: " + heights_of(*report.pick) : "pointer: on no surface");
-    if (!report.message.empty()) ImGui::TextWrapped("%s", report.message.c_str());
     ImGui::PopItemWidth();
   }
   ImGui::End();
@@ -217,6 +219,20 @@ void draw_pick(const render::Pick& pick, glm::vec2 pointer_px) {
       text(fmt::format("slope {:.2f}, level {}", glm::length(pick.slope), pick.level));
   }
   ImGui::End();
+}
+
+void draw_message(const std::string& message) {
+  constexpr float kFromTop_px = 20.0f, kMargin_px = 8.0f;
+  const float window_px = ImGui::GetIO().DisplaySize.x;
+  const float wrap_px = std::max(0.8f * window_px, 100.0f);
+  const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, wrap_px);
+  const ImVec2 at(std::floor(0.5f * (window_px - size.x)), kFromTop_px);
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled({at.x - kMargin_px, at.y - kMargin_px},
+                      {at.x + size.x + kMargin_px, at.y + size.y + kMargin_px},
+                      IM_COL32(15, 25, 35, 220));
+  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, IM_COL32_WHITE, message.c_str(),
+                nullptr, wrap_px);
 }
 
 void draw_help() {

@@ -37,7 +37,7 @@ struct PanelReport {
   std::string scene_name, simd;
   std::array<const char*, 3> wave_names{};  // of WaveModel's values
   bool rebuilding = false;
-  std::string message;               // the last thing that happened; may be empty
+  std::string message;  // what has just happened; may be empty
   std::optional<render::Pick> pick;  // what the last picture shows under the pointer
 };
 
@@ -51,6 +51,9 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings);
 
 // Beside the pointer: what the picture shows there.
 void draw_pick(const render::Pick& pick, glm::vec2 pointer_px);
+
+// At the top of the window, over everything, wrapped.
+void draw_message(const std::string& message);
 
 // The list of keys, in the middle of the window.
 void draw_help();

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <thread>
+#include <utility>
 
 #include "apps/picture_file.h"
 #include "math/simd_target.h"
@@ -11,6 +12,7 @@ namespace swell::view {
 namespace {
 
 constexpr int kSleepWhileHidden_ms = 200;
+constexpr std::chrono::seconds kMessageStays{5};
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
@@ -155,10 +157,15 @@ void Viewer::save_screenshot() {
   try {
     const std::filesystem::path path = free_screenshot_name();
     apps::write_picture(full_picture(), path);
-    report_.message = "wrote " + path.string();
+    say("wrote " + path.string());
   } catch (const std::exception& e) {  // a full disk must not end the flight
-    report_.message = e.what();
+    say(e.what());
   }
+}
+
+void Viewer::say(std::string message) {
+  report_.message = std::move(message);
+  said_ = Clock::now();
 }
 
 void Viewer::choose_waves(const WaveChoice& waves) {
@@ -211,7 +218,7 @@ bool Viewer::turn() {
 
 void Viewer::draw_frame() {
   const double dt_s = time_since_last_frame_s();
-  if (rebuilder_.swap_if_ready(world_)) report_.message.clear();
+  rebuilder_.swap_if_ready(world_);
   build_panels();
   clock_.paused = panel_.paused;
   if (frames_drawn_ > 0) tick(clock_, dt_s);
@@ -254,7 +261,7 @@ render::Target Viewer::full_picture() {
 
 void Viewer::pick_under_pointer() {
   report_.pick.reset();
-  if (!pointer_ || mouse_captured_ || !show_panel_ || gui_.wants_mouse()) return;
+  if (!pointer_ || mouse_captured_ || gui_.wants_mouse()) return;
   const glm::vec2 pixel = *pointer_ * window_.pixels_per_unit() + 0.5f;
   report_.pick = render::pick(*world_, picture_view_, workspace_, pixel, pick_scratch_);
 }
@@ -286,15 +293,17 @@ void Viewer::build_panels() {
   report_.rebuilding = rebuilder_.busy();
   report_.width_px = target_.width_px;
   report_.height_px = target_.height_px;
-  if (const std::string error = rebuilder_.error(); !error.empty()) report_.message = error;
+  if (const std::string error = rebuilder_.error(); !error.empty()) say(error);
+  if (Clock::now() - said_ > kMessageStays) report_.message.clear();
 
   gui_.begin_frame();
   if (show_panel_) {
     const PanelChanges changes = draw_panel(report_, panel_);
     if (changes.waves || changes.detail) request_world();
-    if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
   }
+  if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
   if (show_help_) draw_help();
+  if (!report_.message.empty()) draw_message(report_.message);
   gui_.end_frame();
 }
 

@@ -78,6 +78,7 @@ class Viewer {
   void run_command(Command command);
   void capture_mouse(bool capture);
   void save_screenshot();
+  void say(std::string message);
 
   double time_since_last_frame_s();
   View next_view(double dt_s);
@@ -113,7 +114,7 @@ class Viewer {
   int frames_drawn_ = 0;
   double picture_time_s_ = 0.0;
   View picture_view_;
-  Clock::time_point last_frame_start_;
+  Clock::time_point last_frame_start_, said_;
 };
 
 }  // namespace swell::view

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "apps/picture_file.h"
 #include "apps/view/viewer.h"
@@ -90,6 +91,11 @@ TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
   const glm::vec4 clip = view.clip_from_rel * glm::vec4(pick.p_world - view.eye_world, 1.0);
   EXPECT_NEAR((clip.x / clip.w + 1.0f) * 320.0f, 600.5f, 0.01f);
   EXPECT_NEAR((1.0f - clip.y / clip.w) * 200.0f, 390.5f, 0.01f);
+
+  push_key(SDL_KEYDOWN, SDLK_F2);
+  viewer.turn();
+  EXPECT_FALSE(viewer.shows_panel());
+  EXPECT_TRUE(viewer.report().pick) << "with or without the panel";
 
   push_pointer(600, 10);  // the sky
   viewer.turn();
@@ -234,6 +240,32 @@ TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
   EXPECT_TRUE(fs::exists("swell_0001.png"));
   EXPECT_TRUE(fs::exists("swell_0002.png"));
   EXPECT_FALSE(fs::exists("swell_0003.png"));
+}
+
+// Of the window's top right of the panel, in the middle of which messages stand.
+int white_pixels_at_the_top(Viewer& viewer) {
+  const SDL_Rect top = {340, 0, 300, 60};
+  std::vector<std::uint32_t> pixels(static_cast<std::size_t>(top.w * top.h));
+  EXPECT_EQ(SDL_RenderReadPixels(viewer.window().renderer(), &top, SDL_PIXELFORMAT_ABGR8888,
+                                 pixels.data(), 4 * top.w),
+            0);
+  return static_cast<int>(std::ranges::count(pixels, 0xffffffffu));
+}
+
+TEST_F(ViewerTest, AMessageIsSeenWithAndWithoutThePanel) {
+  const ScreenshotFolder folder;
+  for (const bool panel : {true, false}) {
+    Viewer viewer(small_scene(), settings_of(100, {640, 400}));
+    if (!panel) push_key(SDL_KEYDOWN, SDLK_F2);
+    viewer.turn();
+    viewer.turn();
+    const int before = white_pixels_at_the_top(viewer);
+    push_key(SDL_KEYDOWN, SDLK_F12);
+    viewer.turn();
+    viewer.turn();
+    EXPECT_EQ(viewer.report().message, panel ? "wrote swell_0001.png" : "wrote swell_0002.png");
+    EXPECT_GT(white_pixels_at_the_top(viewer), before + 100) << panel;
+  }
 }
 
 TEST_F(ViewerTest, AScreenshotIsThePictureAtFullQualityAndTheGovernorGoesOnAsBefore) {
