@@ -30,6 +30,18 @@ bool slide(const char* label, double& value, double low, double high, const char
                              ImGuiSliderFlags_AlwaysClamp);
 }
 
+// Where the camera is. True if it is to be copied.
+bool draw_camera(const CameraPose& pose, double fov_y_rad) {
+  constexpr const char* kCopy = "copy as TOML";
+  const float right_px = ImGui::GetContentRegionMax().x;
+  text(fmt::format("x {:.1f} y {:.1f} z {:.1f} m", pose.eye_m.x, pose.eye_m.y, pose.eye_m.z));
+  ImGui::SameLine(right_px - ImGui::CalcTextSize(kCopy).x - 8.0f);
+  const bool copy = ImGui::SmallButton(kCopy);
+  text(fmt::format("heading {:.1f}  pitch {:.1f}  fov {:.1f} deg", pose.heading_rad / kRadPerDeg,
+                   pose.pitch_rad / kRadPerDeg, fov_y_rad / kRadPerDeg));
+  return copy;
+}
+
 bool draw_waves(std::span<const char* const> names, WaveChoice& waves) {
   bool changed = false;
   int model = static_cast<int>(waves.model);
@@ -185,6 +197,8 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
     ImGui::Checkbox("pause", &settings.paused);
     ImGui::SameLine();
     ImGui::TextDisabled(report.rebuilding ? "making waves ..." : "F1: keys");
+    ImGui::Separator();
+    changes.copy_camera = draw_camera(report.camera, report.fov_y_rad);
     ImGui::Separator();
     changes.waves = draw_waves(report.wave_names, settings.waves);
     changes.detail = draw_detail(settings.detail);

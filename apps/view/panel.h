@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/view/camera_controls.h"
 #include "apps/view/frame_history.h"
 #include "apps/view/wave_choice.h"
 #include "render/frame.h"
@@ -38,12 +39,15 @@ struct PanelReport {
   std::array<const char*, 3> wave_names{};  // of WaveModel's values
   bool rebuilding = false;
   std::string message;  // what has just happened; may be empty
+  CameraPose camera;    // of the last frame
+  double fov_y_rad = 0.0;
   std::optional<render::Pick> pick;  // what the last picture shows under the pointer
 };
 
-// What draw_panel has changed of the scene.
+// What draw_panel has changed of the scene, and what was asked for.
 struct PanelChanges {
   bool waves = false, detail = false;
+  bool copy_camera = false;
 };
 
 // These between Gui::begin_frame and end_frame.

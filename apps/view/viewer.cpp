@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/picture_file.h"
+#include "apps/view/camera_text.h"
 #include "math/simd_target.h"
 
 namespace swell::view {
@@ -45,6 +46,7 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
   report_.simd = simd_target_name(current_simd_target());
   report_.scene_name = scene.name;
   report_.wave_names = wave_names(scene);
+  report_.fov_y_rad = scene.camera.fov_y_rad;
 }
 
 // ---- events ----
@@ -143,6 +145,9 @@ void Viewer::run_command(Command command) {
     case Command::kResetCamera:
       pose_.reset();
       break;
+    case Command::kCopyCamera:
+      copy_camera();
+      break;
     case Command::kEscape:
       if (mouse_captured_)
         capture_mouse(false);
@@ -161,6 +166,13 @@ void Viewer::save_screenshot() {
   } catch (const std::exception& e) {  // a full disk must not end the flight
     say(e.what());
   }
+}
+
+void Viewer::copy_camera() {
+  if (frames_drawn_ == 0) return;
+  const std::string toml = camera_toml(report_.camera, scene_.camera);
+  const bool is_copied = SDL_SetClipboardText(toml.c_str()) == 0;
+  say(is_copied ? "copied the camera as TOML" : std::string("nothing copied: ") + SDL_GetError());
 }
 
 void Viewer::say(std::string message) {
@@ -282,8 +294,10 @@ View Viewer::next_view(double dt_s) {
 
   const scene::Camera& camera = scene_.camera;
   const View on_path = scene::camera_view(camera, clock_.t_s, size.width_px, size.height_px);
+  report_.camera = pose_.value_or(pose_of_scene(camera, on_path));
   if (!pose_ && is_idle(input)) return on_path;
-  pose_ = fly(pose_.value_or(pose_of(on_path)), input, dt_s);
+  pose_ = fly(report_.camera, input, dt_s);
+  report_.camera = *pose_;
   return make_view(pose_->eye_m, pose_->heading_rad, pose_->pitch_rad, camera.fov_y_rad,
                    static_cast<float>(camera.near_m), size.width_px, size.height_px);
 }
@@ -300,6 +314,7 @@ void Viewer::build_panels() {
   if (show_panel_) {
     const PanelChanges changes = draw_panel(report_, panel_);
     if (changes.waves || changes.detail) request_world();
+    if (changes.copy_camera) copy_camera();
   }
   if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
   if (show_help_) draw_help();

@@ -78,6 +78,7 @@ class Viewer {
   void run_command(Command command);
   void capture_mouse(bool capture);
   void save_screenshot();
+  void copy_camera();
   void say(std::string message);
 
   double time_since_last_frame_s();
