@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 
 #include "apps/picture_file.h"
 #include "apps/view/camera_text.h"
+#include "apps/view/eye_floor.h"
 #include "math/simd_target.h"
 
 namespace swell::view {
@@ -248,8 +250,10 @@ void Viewer::draw_frame() {
   window_.draw_picture(target_);
   gui_.draw();
   window_.present();
-  report_.present_ms = Milliseconds(Clock::now() - drawn).count();
-  if (panel_.governed) governor_.next(report_.statistics, report_.present_ms);
+  const Clock::time_point shown = Clock::now();
+  report_.present_ms = Milliseconds(shown - drawn).count();
+  const double whole_ms = Milliseconds(shown - last_frame_start_).count();
+  if (panel_.governed) governor_.next(report_.statistics, whole_ms - report_.statistics.frame_ms);
 }
 
 const render::FrameOptions& Viewer::next_options() {
@@ -296,7 +300,11 @@ View Viewer::next_view(double dt_s) {
   const View on_path = scene::camera_view(camera, clock_.t_s, size.width_px, size.height_px);
   report_.camera = pose_.value_or(pose_of_scene(camera, on_path));
   if (!pose_ && is_idle(input)) return on_path;
+
+  // Moved by hand, the eye stays above the waves and the land.
   pose_ = fly(report_.camera, input, dt_s);
+  glm::dvec3& eye_m = pose_->eye_m;
+  eye_m.z = std::max(eye_m.z, eye_floor_m(*world_, eye_m, clock_.t_s, sea_below_, workers_));
   report_.camera = *pose_;
   return make_view(pose_->eye_m, pose_->heading_rad, pose_->pitch_rad, camera.fov_y_rad,
                    static_cast<float>(camera.near_m), size.width_px, size.height_px);

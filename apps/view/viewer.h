@@ -107,6 +107,7 @@ class Viewer {
   glm::dvec2 look_px_{0.0};           // mouse motion not yet used
   std::optional<glm::vec2> pointer_;  // over the window, in its own units
   std::optional<CameraPose> pose_;    // none: the scene's camera
+  ocean::SeaFrame sea_below_;         // of the waves that the eye stays above
   PanelSettings panel_;
   PanelReport report_;
   bool show_panel_ = true, show_help_ = false;
