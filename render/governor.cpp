@@ -18,10 +18,13 @@ constexpr std::array<Sizes, Governor::kSteps> kSizes = {
 
 // Fewer triangles than this only when there is no smaller picture.
 constexpr double kLeastDetail = 0.4;
+// A better size has to fit with so many, so that fewer of them can make up for what comes next: at
+// 0.4 a flight whose load varied by a tenth changed size 10 times instead of 5.
+constexpr double kDetailToRaise = 0.55;
 constexpr double kDown = 0.905, kUp = 1.04;  // of triangles a frame
 
 // Shares of the budget.
-constexpr double kHighestAim = 0.92, kLowestAim = 0.8;
+constexpr double kHighestAim = 0.9, kLowestAim = 0.8;
 constexpr double kSlackAbove = 0.03, kSlackBelow = 0.04;  // around the aim nothing is changed
 constexpr double kSlackToRaise = 0.05;
 constexpr double kBroken = 1.05;
@@ -163,10 +166,11 @@ double Governor::least_detail(int step) const {
                            : settings_.least_detail;
 }
 
-// The first step that fits into `ms` with few triangles, else the last.
-int Governor::best_step(const Cost& cost, double ms) const {
+// The first step that fits into `ms` with few triangles, but `detail` at least, else the last.
+int Governor::best_step(const Cost& cost, double detail, double ms) const {
   int step = 0;
-  while (step < kSteps - 1 && predicted_ms(cost, step, least_detail(step)) > ms) ++step;
+  while (step < kSteps - 1 && predicted_ms(cost, step, std::max(detail, least_detail(step))) > ms)
+    ++step;
   return step;
 }
 
@@ -179,7 +183,7 @@ void Governor::choose_step(const Model& model) {
   }
 
   // Down: to what fits once triangles have followed; at once if the budget is broken.
-  const int fitting = best_step(model.firm, aim_ms + kSlackAbove * budget_ms);
+  const int fitting = best_step(model.firm, kLeastDetail, aim_ms + kSlackAbove * budget_ms);
   const double now_ms = predicted_ms(model.firm, report_.step, report_.detail);
   frames_wanting_less_ = fitting > report_.step ? frames_wanting_less_ + 1 : 0;
   if (frames_wanting_less_ > (now_ms > kBroken * budget_ms ? 0 : kFramesToLower)) {
@@ -202,7 +206,8 @@ void Governor::choose_step(const Model& model) {
 // The best step that all of the last frames allowed, for long enough, else the present one.
 int Governor::step_wanted(const Model& model) {
   const double ms = report_.aim_ms - kSlackToRaise * settings_.budget_ms;
-  const int allowed = std::max(best_step(model.firm, ms), best_step(model.slow, ms));
+  const int allowed = std::max(best_step(model.firm, kDetailToRaise, ms),
+                               best_step(model.slow, kDetailToRaise, ms));
   for (int step = 0; step < kSteps; ++step) {
     int& frames = frames_allowing_[static_cast<std::size_t>(step)];
     frames = step >= allowed ? frames + 1 : 0;

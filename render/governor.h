@@ -98,7 +98,7 @@ class Governor {
   void move_to_step(int step);
   void write_options();
   double least_detail(int step) const;
-  int best_step(const Cost& cost, double ms) const;
+  int best_step(const Cost& cost, double detail, double ms) const;
 
   GovernorSettings settings_;
   FrameOptions full_, options_;

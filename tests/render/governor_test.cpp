@@ -351,6 +351,17 @@ TEST(Governor, HalfAsMuchAgainAsTheBudgetIsHeldToATenth) {
     }
 }
 
+TEST(Governor, TrianglesTakeUpALoadThatVariesByATenth) {
+  for (const double factor : {0.6, 0.75, 0.9, 1.05, 1.2}) {
+    const auto load = [&](int k) {
+      return kCoast.times(factor * (1.0 + 0.07 * std::sin(0.05 * k) + 0.04 * std::sin(0.37 * k)));
+    };
+    const Flight r = run(1900, load, {.sigma = 0.04}, kPresent_ms);
+    EXPECT_LE(r.last.step_changes, 8) << factor;
+    EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99) << factor;
+  }
+}
+
 TEST(Governor, AFailedRaiseDoublesTheWait) {
   // A full-sized picture costs more than the model, which has seen smaller ones, can know.
   Governor governor({.budget_ms = kBudget_ms}, full_quality());

@@ -120,7 +120,7 @@ void push_button_at(Uint32 type, int x, int y) {
 TEST_F(ViewerTest, APointerThatMovesAndPressesAtOnceWorksThePanel) {
   Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
   for (int i = 0; i < 2; ++i) viewer.turn();  // a panel has its size from the second on
-  const int x = 26, y = 64;  // "pause"
+  const int x = 26, y = 64;                   // "pause"
   push_pointer(x, y);
   push_button_at(SDL_MOUSEBUTTONDOWN, x, y);
   push_button_at(SDL_MOUSEBUTTONUP, x, y);
