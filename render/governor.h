@@ -22,13 +22,15 @@
 // over a few frames, the most important first.
 //
 // Triangles change by at most 10 % from frame to frame, which no eye sees (a triangle that goes
-// covered a few pixels); steps of size are seen, so a step up waits until the model has said for
-// a second that it fits, and twice as long each time that it turned out not to. Steps down wait
-// for nothing if the budget is broken.
+// covered a few pixels), so they follow two late frames in three. Steps of size are seen: five late
+// frames in nine bring the first step that fits once triangles have followed; a step up waits until
+// the model has said for a second that it fits, and twice as long each time that it turned out not
+// to. Frames that other work makes late, up to four in a row, cost no size; after more of them it
+// is back in two seconds.
 //
-// The model of a frame's cost: ms a triangle, a lookup pixel, a picture pixel and what is left,
-// each the median over the last frames of what the stages took by what they had to do; so what a
-// change will cost is known before it is made, and a single frame that the machine disturbed
+// The model of a frame's cost: ms a triangle, a row of the lookup images, a picture pixel and what
+// is left, each the median over the last frames of what the stages took by what they had to do; so
+// what a change will cost is known before it is made, and a single frame that the machine disturbed
 // changes nothing. How far frames stray from the model sets how far below the budget to aim.
 #pragma once
 
@@ -77,13 +79,13 @@ class Governor {
   static constexpr double kMostChange = 0.1;  // of triangles, from frame to frame
 
  private:
-  // Of a frame at full quality: ms for its triangles, lookup pixels, picture pixels, and the rest.
+  // Of a frame at full quality: ms for its triangles, lookup images, picture pixels, and the rest.
   struct Cost {
     double triangles = 0.0, lookups = 0.0, pixels = 0.0, rest = 0.0;
   };
   // The model over few frames, quick to see that frames got slower, and over many, hard to fool.
   struct Model {
-    Cost fast, slow;
+    Cost fast, firm, slow;
   };
   static constexpr std::size_t kRemembered = 32;
 
@@ -92,11 +94,11 @@ class Governor {
   void choose_aim();
   void choose_step(const Model& model);
   void choose_detail(const Model& model);
-  bool wants_more(const Model& model);
+  int step_wanted(const Model& model);
   void move_to_step(int step);
   void write_options();
   double least_detail(int step) const;
-  int best_step(const Cost& cost, double ms) const;
+  int best_step(const Cost& cost, double detail, double ms) const;
 
   GovernorSettings settings_;
   FrameOptions full_, options_;
@@ -104,11 +106,13 @@ class Governor {
   std::array<Cost, kRemembered> costs_{};     // of the last frames, a ring
   std::array<double, kRemembered> strays_{};  // their times over the model's
   std::size_t frames_ = 0;
-  double aim_share_;       // of the budget
-  int better_step_ = 0;    // the one to go up to, while frames want more
-  bool going_up_ = false;  // triangles make room for it
-  int frames_wanting_more_ = 0, frames_wanting_less_ = 0;
+  double aim_share_;                           // of the budget
+  int better_step_ = 0;                        // the one to go up to
+  bool going_up_ = false;                      // triangles make room for it
+  std::array<int, kSteps> frames_allowing_{};  // each step, in a row; not fewer for a worse one
+  int frames_wanting_less_ = 0;
   int patience_frames_, frames_since_raise_ = 0;
+  int frames_kept_since_raise_;  // that took no longer than the budget
 };
 
 }  // namespace swell::render

@@ -13,6 +13,7 @@ constexpr double kSlowest_mps = 8.0;
 constexpr double kSpeedPerHeight_s = 0.5;  // metres a second more for each metre above 16
 constexpr double kFastFactor = 6.0;
 constexpr double kLongestStep_s = 0.1;
+constexpr double kFarthest_m = 1e6;
 
 double axis(bool plus, bool minus) { return (plus ? 1.0 : 0.0) - (minus ? 1.0 : 0.0); }
 
@@ -50,6 +51,7 @@ CameraPose fly(const CameraPose& pose, const CameraInput& input, double dt_s) {
   if (length < 1e-9) return next;
   const double distance_m = speed_mps(pose, input.fast) * std::clamp(dt_s, 0.0, kLongestStep_s);
   next.eye_m += direction * (distance_m / length);
+  next.eye_m = glm::clamp(next.eye_m, -kFarthest_m, kFarthest_m);
   return next;
 }
 

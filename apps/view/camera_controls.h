@@ -29,7 +29,7 @@ bool is_idle(const CameraInput& input);
 // The pose dt_s >= 0 seconds later. Forward goes where the camera looks, up and down go along
 // world z; opposite keys cancel and a diagonal is no faster than a straight line. The speed grows
 // with the height above the mean sea. Steps over 0.1 s count as 0.1 s, so that a stall does not
-// throw the camera away.
+// throw the camera away. The eye stays within 1e6 m of the origin along each axis, as in scenes.
 CameraPose fly(const CameraPose& pose, const CameraInput& input, double dt_s);
 
 // The pose that a view was made from.

@@ -2,8 +2,10 @@
 
 #include <backends/imgui_impl_sdl.h>
 #include <imgui.h>
+#include <imgui_internal.h>  // its windows
 
 #include <algorithm>
+#include <cfloat>
 #include <stdexcept>
 
 namespace swell::view {
@@ -14,6 +16,7 @@ void set_style() {
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 0.0f;  // rounded corners cost hundreds of triangles
   style.FrameRounding = 0.0f;
+  style.ItemSpacing.y = 3.0f;  // the panel fits a window of 720 rows
   style.AntiAliasedLines = false;
   style.AntiAliasedFill = false;
   style.Colors[ImGuiCol_WindowBg].w = 0.75f;
@@ -51,9 +54,27 @@ Gui::~Gui() {
   ImGui::DestroyContext();
 }
 
-void Gui::handle(const SDL_Event& event) { ImGui_ImplSDL2_ProcessEvent(&event); }
+void Gui::handle(const SDL_Event& event) {
+  ImGui_ImplSDL2_ProcessEvent(&event);
+  if (event.type == SDL_MOUSEMOTION && !SDL_GetRelativeMouseMode())
+    pointer_ = glm::vec2(event.motion.x, event.motion.y);
+  if (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_LEAVE &&
+      !ImGui::IsAnyMouseDown())
+    pointer_.reset();
+}
 
-bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+// By where the pointer is now. Dear ImGui's own answer is of its last frame, when a pointer that
+// moves and presses at once (a remote desktop's) was elsewhere.
+bool Gui::wants_mouse() const {
+  if (ImGui::IsAnyItemActive()) return true;
+  if (!pointer_) return false;
+  const auto is_under = [this](const ImGuiWindow* window) {
+    return window->WasActive && !window->Hidden && !(window->Flags & ImGuiWindowFlags_NoInputs) &&
+           window->Rect().Contains({pointer_->x, pointer_->y});
+  };
+  return std::ranges::any_of(ImGui::GetCurrentContext()->Windows, is_under);
+}
+
 bool Gui::wants_text() const { return ImGui::GetIO().WantTextInput; }
 
 void Gui::begin_frame() {
@@ -62,6 +83,11 @@ void Gui::begin_frame() {
   int width = 0, height = 0;
   ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
   ImGui_ImplSDL2_NewFrame();
+  // That asks X for the pointer's place on the screen, which SDL knows from the motion of devices
+  // alone: where a program moves the pointer (a remote desktop, a test) it is that of the last
+  // press. Events have the place in the window always.
+  ImGui::GetIO().MousePos =
+      pointer_ ? ImVec2(pointer_->x, pointer_->y) : ImVec2(-FLT_MAX, -FLT_MAX);
   ImGui::NewFrame();
 }
 

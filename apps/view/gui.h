@@ -4,6 +4,9 @@
 
 #include <SDL.h>
 
+#include <glm/glm.hpp>
+#include <optional>
+
 struct ImDrawList;
 
 namespace swell::view {
@@ -18,7 +21,7 @@ class Gui {
   Gui& operator=(const Gui&) = delete;
 
   void handle(const SDL_Event& event);
-  bool wants_mouse() const;  // the pointer is over a panel
+  bool wants_mouse() const;  // the pointer is over a panel, or drags something of one
   bool wants_text() const;   // a number is being typed
 
   // Around the calls that build the panels.
@@ -37,6 +40,7 @@ class Gui {
 
   SDL_Renderer* renderer_;
   SDL_Texture* font_ = nullptr;
+  std::optional<glm::vec2> pointer_;  // over the window, in its own units
 };
 
 }  // namespace swell::view

@@ -14,7 +14,8 @@ std::optional<Command> command_for(SDL_Keycode key) {
       Binding{SDLK_h, Command::kPanel},        Binding{SDLK_F3, Command::kWireframe},
       Binding{SDLK_F11, Command::kFullScreen}, Binding{SDLK_F12, Command::kScreenshot},
       Binding{SDLK_p, Command::kPause},        Binding{SDLK_PERIOD, Command::kStep},
-      Binding{SDLK_r, Command::kResetCamera},  Binding{SDLK_ESCAPE, Command::kEscape},
+      Binding{SDLK_r, Command::kResetCamera},  Binding{SDLK_c, Command::kCopyCamera},
+      Binding{SDLK_ESCAPE, Command::kEscape},
   };
   for (const Binding& binding : kBindings)
     if (binding.key == key) return binding.command;
@@ -42,6 +43,7 @@ std::span<const KeyHelp> key_help() {
       KeyHelp{"right button held", "look around"},
       KeyHelp{"left click", "look around until Esc"},
       KeyHelp{"R", "back to the scene's camera"},
+      KeyHelp{"C", "copy the camera as TOML"},
       KeyHelp{"P", "pause"},
       KeyHelp{".", "pause and step by 1/60 s"},
       KeyHelp{"F1", "this help"},

@@ -20,6 +20,7 @@ enum class Command {
   kPause,
   kStep,
   kResetCamera,
+  kCopyCamera,
   kEscape
 };
 

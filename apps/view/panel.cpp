@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "apps/view/keys.h"
 #include "math/elementary.h"
@@ -13,7 +14,7 @@ namespace swell::view {
 namespace {
 
 constexpr float kPanelWidth_px = 330.0f;
-constexpr float kGraphHeight_px = 80.0f;
+constexpr float kGraphHeight_px = 56.0f;
 constexpr double kRadPerDeg = kPi / 180.0;
 
 void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
@@ -29,10 +30,22 @@ bool slide(const char* label, double& value, double low, double high, const char
                              ImGuiSliderFlags_AlwaysClamp);
 }
 
-bool draw_waves(WaveChoice& waves) {
+// Where the camera is. True if it is to be copied.
+bool draw_camera(const CameraPose& pose, double fov_y_rad) {
+  constexpr const char* kCopy = "copy as TOML";
+  const float right_px = ImGui::GetContentRegionMax().x;
+  text(fmt::format("x {:.1f} y {:.1f} z {:.1f} m", pose.eye_m.x, pose.eye_m.y, pose.eye_m.z));
+  ImGui::SameLine(right_px - ImGui::CalcTextSize(kCopy).x - 8.0f);
+  const bool copy = ImGui::SmallButton(kCopy);
+  text(fmt::format("heading {:.1f}  pitch {:.1f}  fov {:.1f} deg", pose.heading_rad / kRadPerDeg,
+                   pose.pitch_rad / kRadPerDeg, fov_y_rad / kRadPerDeg));
+  return copy;
+}
+
+bool draw_waves(std::span<const char* const> names, WaveChoice& waves) {
   bool changed = false;
   int model = static_cast<int>(waves.model);
-  if (ImGui::Combo("waves", &model, "spectrum\0sines\0both\0")) {
+  if (ImGui::Combo("waves", &model, names.data(), static_cast<int>(names.size()))) {
     waves.model = static_cast<WaveModel>(model);
     changed = true;
   }
@@ -175,6 +188,9 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
   PanelChanges changes;
   ImGui::SetNextWindowPos({10.0f, 10.0f}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kPanelWidth_px, 0.0f});
+  // A window that is lower than the panel gets a scroll bar.
+  const float most_px = std::max(ImGui::GetIO().DisplaySize.y - 20.0f, 100.0f);
+  ImGui::SetNextWindowSizeConstraints({kPanelWidth_px, 0.0f}, {kPanelWidth_px, most_px});
   if (ImGui::Begin("swell", nullptr, ImGuiWindowFlags_NoResize)) {
     ImGui::PushItemWidth(0.62f * kPanelWidth_px);
     text(fmt::format("{}   t = {:.2f} s", report.scene_name, report.t_s));
@@ -182,7 +198,9 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
     ImGui::SameLine();
     ImGui::TextDisabled(report.rebuilding ? "making waves ..." : "F1: keys");
     ImGui::Separator();
-    changes.waves = draw_waves(settings.waves);
+    changes.copy_camera = draw_camera(report.camera, report.fov_y_rad);
+    ImGui::Separator();
+    changes.waves = draw_waves(report.wave_names, settings.waves);
     changes.detail = draw_detail(settings.detail);
     draw_quality(settings.frame);
     draw_governor(report, settings);
@@ -191,7 +209,6 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
     ImGui::Separator();
     draw_counts(report);
     text(report.pick ? "pointer: " + heights_of(*report.pick) : "pointer: on no surface");
-    if (!report.message.empty()) ImGui::TextWrapped("%s", report.message.c_str());
     ImGui::PopItemWidth();
   }
   ImGui::End();
@@ -216,6 +233,20 @@ void draw_pick(const render::Pick& pick, glm::vec2 pointer_px) {
       text(fmt::format("slope {:.2f}, level {}", glm::length(pick.slope), pick.level));
   }
   ImGui::End();
+}
+
+void draw_message(const std::string& message) {
+  constexpr float kFromTop_px = 20.0f, kMargin_px = 8.0f;
+  const float window_px = ImGui::GetIO().DisplaySize.x;
+  const float wrap_px = std::max(0.8f * window_px, 100.0f);
+  const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, wrap_px);
+  const ImVec2 at(std::floor(0.5f * (window_px - size.x)), kFromTop_px);
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled({at.x - kMargin_px, at.y - kMargin_px},
+                      {at.x + size.x + kMargin_px, at.y + size.y + kMargin_px},
+                      IM_COL32(15, 25, 35, 220));
+  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, IM_COL32_WHITE, message.c_str(),
+                nullptr, wrap_px);
 }
 
 void draw_help() {

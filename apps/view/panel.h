@@ -1,10 +1,12 @@
 // The panel: what can be changed, what was measured.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 
+#include "apps/view/camera_controls.h"
 #include "apps/view/frame_history.h"
 #include "apps/view/wave_choice.h"
 #include "render/frame.h"
@@ -34,14 +36,18 @@ struct PanelReport {
   int width_px = 0, height_px = 0;
   int threads = 1;
   std::string scene_name, simd;
+  std::array<const char*, 3> wave_names{};  // of WaveModel's values
   bool rebuilding = false;
-  std::string message;               // the last thing that happened; may be empty
+  std::string message;  // what has just happened; may be empty
+  CameraPose camera;    // of the last frame
+  double fov_y_rad = 0.0;
   std::optional<render::Pick> pick;  // what the last picture shows under the pointer
 };
 
-// What draw_panel has changed of the scene.
+// What draw_panel has changed of the scene, and what was asked for.
 struct PanelChanges {
   bool waves = false, detail = false;
+  bool copy_camera = false;
 };
 
 // These between Gui::begin_frame and end_frame.
@@ -49,6 +55,9 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings);
 
 // Beside the pointer: what the picture shows there.
 void draw_pick(const render::Pick& pick, glm::vec2 pointer_px);
+
+// At the top of the window, over everything, wrapped.
+void draw_message(const std::string& message);
 
 // The list of keys, in the middle of the window.
 void draw_help();

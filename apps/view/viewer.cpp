@@ -2,15 +2,20 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "apps/picture_file.h"
+#include "apps/view/camera_text.h"
+#include "apps/view/eye_floor.h"
 #include "math/simd_target.h"
 
 namespace swell::view {
 namespace {
 
 constexpr int kSleepWhileHidden_ms = 200;
+constexpr std::chrono::seconds kMessageStays{5};
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
@@ -42,6 +47,8 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
   report_.threads = settings.threads;
   report_.simd = simd_target_name(current_simd_target());
   report_.scene_name = scene.name;
+  report_.wave_names = wave_names(scene);
+  report_.fov_y_rad = scene.camera.fov_y_rad;
 }
 
 // ---- events ----
@@ -140,6 +147,9 @@ void Viewer::run_command(Command command) {
     case Command::kResetCamera:
       pose_.reset();
       break;
+    case Command::kCopyCamera:
+      copy_camera();
+      break;
     case Command::kEscape:
       if (mouse_captured_)
         capture_mouse(false);
@@ -154,10 +164,22 @@ void Viewer::save_screenshot() {
   try {
     const std::filesystem::path path = free_screenshot_name();
     apps::write_picture(full_picture(), path);
-    report_.message = "wrote " + path.string();
+    say("wrote " + path.string());
   } catch (const std::exception& e) {  // a full disk must not end the flight
-    report_.message = e.what();
+    say(e.what());
   }
+}
+
+void Viewer::copy_camera() {
+  if (frames_drawn_ == 0) return;
+  const std::string toml = camera_toml(report_.camera, scene_.camera);
+  const bool is_copied = SDL_SetClipboardText(toml.c_str()) == 0;
+  say(is_copied ? "copied the camera as TOML" : std::string("nothing copied: ") + SDL_GetError());
+}
+
+void Viewer::say(std::string message) {
+  report_.message = std::move(message);
+  said_ = Clock::now();
 }
 
 void Viewer::choose_waves(const WaveChoice& waves) {
@@ -210,7 +232,7 @@ bool Viewer::turn() {
 
 void Viewer::draw_frame() {
   const double dt_s = time_since_last_frame_s();
-  if (rebuilder_.swap_if_ready(world_)) report_.message.clear();
+  rebuilder_.swap_if_ready(world_);
   build_panels();
   clock_.paused = panel_.paused;
   if (frames_drawn_ > 0) tick(clock_, dt_s);
@@ -228,8 +250,10 @@ void Viewer::draw_frame() {
   window_.draw_picture(target_);
   gui_.draw();
   window_.present();
-  report_.present_ms = Milliseconds(Clock::now() - drawn).count();
-  if (panel_.governed) governor_.next(report_.statistics, report_.present_ms);
+  const Clock::time_point shown = Clock::now();
+  report_.present_ms = Milliseconds(shown - drawn).count();
+  const double whole_ms = Milliseconds(shown - last_frame_start_).count();
+  if (panel_.governed) governor_.next(report_.statistics, whole_ms - report_.statistics.frame_ms);
 }
 
 const render::FrameOptions& Viewer::next_options() {
@@ -253,7 +277,7 @@ render::Target Viewer::full_picture() {
 
 void Viewer::pick_under_pointer() {
   report_.pick.reset();
-  if (!pointer_ || mouse_captured_ || !show_panel_ || gui_.wants_mouse()) return;
+  if (!pointer_ || mouse_captured_ || gui_.wants_mouse()) return;
   const glm::vec2 pixel = *pointer_ * window_.pixels_per_unit() + 0.5f;
   report_.pick = render::pick(*world_, picture_view_, workspace_, pixel, pick_scratch_);
 }
@@ -274,8 +298,14 @@ View Viewer::next_view(double dt_s) {
 
   const scene::Camera& camera = scene_.camera;
   const View on_path = scene::camera_view(camera, clock_.t_s, size.width_px, size.height_px);
+  report_.camera = pose_.value_or(pose_of_scene(camera, on_path));
   if (!pose_ && is_idle(input)) return on_path;
-  pose_ = fly(pose_.value_or(pose_of(on_path)), input, dt_s);
+
+  // Moved by hand, the eye stays above the waves and the land.
+  pose_ = fly(report_.camera, input, dt_s);
+  glm::dvec3& eye_m = pose_->eye_m;
+  eye_m.z = std::max(eye_m.z, eye_floor_m(*world_, eye_m, clock_.t_s, sea_below_, workers_));
+  report_.camera = *pose_;
   return make_view(pose_->eye_m, pose_->heading_rad, pose_->pitch_rad, camera.fov_y_rad,
                    static_cast<float>(camera.near_m), size.width_px, size.height_px);
 }
@@ -285,15 +315,18 @@ void Viewer::build_panels() {
   report_.rebuilding = rebuilder_.busy();
   report_.width_px = target_.width_px;
   report_.height_px = target_.height_px;
-  if (const std::string error = rebuilder_.error(); !error.empty()) report_.message = error;
+  if (const std::string error = rebuilder_.error(); !error.empty()) say(error);
+  if (Clock::now() - said_ > kMessageStays) report_.message.clear();
 
   gui_.begin_frame();
   if (show_panel_) {
     const PanelChanges changes = draw_panel(report_, panel_);
     if (changes.waves || changes.detail) request_world();
-    if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
+    if (changes.copy_camera) copy_camera();
   }
+  if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
   if (show_help_) draw_help();
+  if (!report_.message.empty()) draw_message(report_.message);
   gui_.end_frame();
 }
 

@@ -78,6 +78,8 @@ class Viewer {
   void run_command(Command command);
   void capture_mouse(bool capture);
   void save_screenshot();
+  void copy_camera();
+  void say(std::string message);
 
   double time_since_last_frame_s();
   View next_view(double dt_s);
@@ -105,6 +107,7 @@ class Viewer {
   glm::dvec2 look_px_{0.0};           // mouse motion not yet used
   std::optional<glm::vec2> pointer_;  // over the window, in its own units
   std::optional<CameraPose> pose_;    // none: the scene's camera
+  ocean::SeaFrame sea_below_;         // of the waves that the eye stays above
   PanelSettings panel_;
   PanelReport report_;
   bool show_panel_ = true, show_help_ = false;
@@ -113,7 +116,7 @@ class Viewer {
   int frames_drawn_ = 0;
   double picture_time_s_ = 0.0;
   View picture_view_;
-  Clock::time_point last_frame_start_;
+  Clock::time_point last_frame_start_, said_;
 };
 
 }  // namespace swell::view

@@ -23,6 +23,18 @@ WaveChoice wave_choice(const scene::Scene& scene) {
   return {model, sea.wind_speed_mps, sea.wind_from_rad};
 }
 
+std::array<const char*, 3> wave_names(const scene::Scene& scene) {
+  switch (scene.terrain ? scene.coast.model : scene::CoastModel::kNone) {
+    case scene::CoastModel::kNone:
+      break;
+    case scene::CoastModel::kTrains:  // which end at the border of the terrain
+      return {"trains, spectrum beyond", "trains, sines beyond", "trains, both beyond"};
+    case scene::CoastModel::kBlend:
+      return {"spectrum and trains", "sines and trains", "spectrum, sines, trains"};
+  }
+  return {"spectrum", "sines", "spectrum and sines"};
+}
+
 scene::Scene with_waves(scene::Scene scene, const WaveChoice& choice) {
   scene.sea.spectrum = choice.model != WaveModel::kSines;
   scene.sea.wind_speed_mps = choice.wind_speed_mps;

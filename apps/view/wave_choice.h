@@ -1,6 +1,8 @@
 // What the panel lets one change about the waves, and the scene that results.
 #pragma once
 
+#include <array>
+
 #include "scene/scene.h"
 
 namespace swell::view {
@@ -17,8 +19,12 @@ struct WaveChoice {
 // What the scene itself says.
 WaveChoice wave_choice(const scene::Scene& scene);
 
-// `scene` with other waves. Explicit waves are kept as the scene has them; a scene without any
-// gets three that run with the wind.
+// The scene's waves with each model, in the order of WaveModel. With a coast they have its trains,
+// too, which no choice takes away.
+std::array<const char*, 3> wave_names(const scene::Scene& scene);
+
+// `scene` with other waves, its coast as it is. Explicit waves are kept as the scene has them; a
+// scene without any gets three that run with the wind.
 scene::Scene with_waves(scene::Scene scene, const WaveChoice& choice);
 
 }  // namespace swell::view

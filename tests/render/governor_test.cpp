@@ -27,6 +27,8 @@ struct Load {
 };
 constexpr Load kOpenSea{};
 constexpr Load kCoast{1.0, 4.0, 2.5, 4.0, 14.0, 0.2};
+constexpr Load kLagoon{0.5, 0.8, 0.9, 1.0, 3.8, 0.2};
+constexpr double kPresent_ms = 0.9;
 
 struct Noise {
   double sigma = 0.0;        // of each stage's factor
@@ -78,21 +80,24 @@ struct Flight {
   GovernorReport last;
 };
 
-Flight run(Governor& governor, int frames, const std::function<Load(int)>& load, Noise noise = {}) {
+// `outside_ms`: of presentation.
+Flight run(Governor& governor, int frames, const std::function<Load(int)>& load, Noise noise = {},
+           double outside_ms = 0.0) {
   Flight result;
   for (int k = 0; k < frames; ++k) {
     result.options.push_back(governor.options());
     const FrameStatistics s = simulate(load(k), governor.options(), noise, k);
-    result.frame_ms.push_back(s.frame_ms);
-    governor.next(s);
+    result.frame_ms.push_back(s.frame_ms + outside_ms);
+    governor.next(s, outside_ms);
   }
   result.last = governor.report();
   return result;
 }
 
-Flight run(int frames, const std::function<Load(int)>& load, Noise noise = {}) {
+Flight run(int frames, const std::function<Load(int)>& load, Noise noise = {},
+           double outside_ms = 0.0) {
   Governor governor({.budget_ms = kBudget_ms}, full_quality());
-  return run(governor, frames, load, noise);
+  return run(governor, frames, load, noise, outside_ms);
 }
 
 // Of the frames after the first second.
@@ -128,6 +133,36 @@ auto always(const Load& load) {
 bool is_full(const FrameOptions& o) {
   return o.water_triangles == 30000 && o.terrain_triangles == 20000 && o.lookup_scale == 0.5 &&
          o.picture_scale == 1.0;
+}
+
+bool is_full_size(const FrameOptions& o) { return o.lookup_scale == 0.5 && o.picture_scale == 1.0; }
+
+// Of all frames.
+double share_at_full_size(const Flight& run) {
+  return static_cast<double>(std::ranges::count_if(run.options, is_full_size)) /
+         static_cast<double>(run.options.size());
+}
+
+// The first frame of those from `first` on that all have full size.
+std::size_t full_size_since(const Flight& run, std::size_t first) {
+  std::size_t since = run.options.size();
+  while (since > first && is_full_size(run.options[since - 1])) --since;
+  return since;
+}
+
+// Bursts of frames that other work makes late, `factor` times, one to `longest` frames each, with
+// quiet frames between: `least_gap` to twice as many.
+std::vector<double> other_work(int frames, int longest, int least_gap, double factor,
+                               std::uint64_t seed) {
+  std::vector<double> factors(static_cast<std::size_t>(frames), 1.0);
+  std::uint64_t draws = 0;
+  const auto dice = [&](int low, int high) {
+    return low + static_cast<int>(random_uniform(seed, draws++) * (high - low + 1));
+  };
+  for (int k = dice(least_gap, 2 * least_gap); k < frames; k += dice(least_gap, 2 * least_gap))
+    for (const int end = std::min(k + dice(1, longest), frames); k < end; ++k)
+      factors[static_cast<std::size_t>(k)] = factor;
+  return factors;
 }
 
 TEST(Governor, LeavesAFrameThatFitsAtFullQuality) {
@@ -204,6 +239,143 @@ TEST(Governor, ASingleSlowFrameChangesNothing) {
   EXPECT_TRUE(is_full(governor.next(slow)));
   for (const FrameOptions& options : run(governor, 120, always(kOpenSea)).options)
     ASSERT_TRUE(is_full(options));
+}
+
+TEST(Governor, OneLateFrameOfAnyKindChangesNothing) {
+  for (const double share_ms : {8.1, 12.0, 14.5})
+    for (const double late_ms : {20.0, 34.0, 85.0, 340.0})
+      for (int where = -1; where <= static_cast<int>(Stage::kCount); ++where) {
+        Governor governor({.budget_ms = kBudget_ms}, full_quality());
+        for (int k = 0; k < 300; ++k) {
+          FrameStatistics s = simulate(kLagoon.times(share_ms / 8.1), governor.options(), {}, k);
+          double outside_ms = kPresent_ms;
+          const double more_ms = k == 150 ? late_ms - s.frame_ms : 0.0;
+          if (where < 0) {  // everywhere
+            for (double& ms : s.stage_ms) ms *= 1.0 + more_ms / s.frame_ms;
+          } else if (where < static_cast<int>(Stage::kCount)) {
+            s.stage_ms[static_cast<std::size_t>(where)] += more_ms;
+          } else {
+            outside_ms += more_ms;
+          }
+          if (where < static_cast<int>(Stage::kCount)) s.frame_ms += more_ms;
+          ASSERT_TRUE(is_full(governor.next(s, outside_ms))) << share_ms << ' ' << late_ms << k;
+        }
+      }
+}
+
+TEST(Governor, AFewLateFramesInARowCostNoSizeAndFewTriangles) {
+  for (const double factor : {2.5, 5.0, 20.0})
+    for (int length = 2; length <= 4; ++length) {
+      const auto load = [&](int k) {
+        return kLagoon.times(k >= 150 && k < 150 + length ? factor : 1.0);
+      };
+      const Flight r = run(400, load, {.sigma = 0.03}, kPresent_ms);
+      EXPECT_EQ(r.last.step_changes, 0) << factor << ' ' << length;
+      for (const FrameOptions& options : r.options) EXPECT_GE(options.water_triangles, 18000);
+      EXPECT_TRUE(is_full(r.options[200]));
+    }
+}
+
+TEST(Governor, FullSizeStaysWhileSingleFramesAreLateEverySecondOrTwo) {
+  for (const double factor : {2.5, 5.0, 20.0})
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+      const std::vector<double> late = other_work(3600, 1, 60, factor, seed);
+      const auto load = [&](int k) { return kLagoon.times(late[static_cast<std::size_t>(k)]); };
+      const Flight r = run(3600, load, {.sigma = 0.05}, kPresent_ms);
+      EXPECT_EQ(share_at_full_size(r), 1.0) << factor << ' ' << seed;
+    }
+}
+
+TEST(Governor, FullSizeIsBackTwoSecondsAfterABurstOfLateFrames) {
+  for (const double factor : {1.6, 3.0, 10.0})
+    for (const int length : {5, 10, 20, 60, 300})
+      for (const int begin : {5, 30, 200}) {
+        const int end = begin + length;
+        const auto load = [&](int k) {
+          return kLagoon.times(k >= begin && k < end ? 1.3 * factor : 1.3);
+        };
+        const Flight r = run(end + 400, load, {.sigma = 0.05}, kPresent_ms);
+        EXPECT_LE(full_size_since(r, 0), static_cast<std::size_t>(end + 2 * kSecond))
+            << factor << ' ' << length << ' ' << begin;
+      }
+}
+
+// The last late frame of a burst, not the number of bursts, decides when size comes back.
+TEST(Governor, BurstsAreNoFailedRaises) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const std::vector<double> late = other_work(3600, 20, 170, 4.0, seed);
+    const auto load = [&](int k) { return kLagoon.times(late[static_cast<std::size_t>(k)]); };
+    const Flight r = run(3600, load, {.sigma = 0.05}, kPresent_ms);
+    for (std::size_t k = 0, quiet = 0; k < late.size(); ++k) {
+      quiet = late[k] > 1.0 ? 0 : quiet + 1;
+      if (quiet > 2 * kSecond) {
+        ASSERT_TRUE(is_full_size(r.options[k])) << seed << ' ' << k;
+      }
+    }
+    EXPECT_GT(share_at_full_size(r), 0.7) << seed;
+  }
+}
+
+TEST(Governor, TrianglesGiveWayBeforeLookupsAndLookupsBeforeThePicture) {
+  // By what is left of a frame with few triangles and small lookups: 0.6 of the coast's.
+  int with_triangles = 0, with_lookups = 0, with_picture = 0;
+  for (double factor = 0.4; factor < 2.0; factor += 0.02) {
+    const Flight r = run(1200, always(kCoast.times(factor)), {.sigma = 0.02});
+    EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99) << factor;
+    const FrameOptions& end = r.options.back();
+    with_triangles += end.water_triangles < 30000 && end.lookup_scale == 0.5;
+    with_lookups += end.lookup_scale < 0.5 && end.picture_scale == 1.0;
+    with_picture += end.picture_scale < 1.0;
+    for (const FrameOptions& options : r.options) {
+      if (end.lookup_scale == 0.5) {
+        ASSERT_EQ(options.lookup_scale, 0.5) << factor;
+      }
+      if (end.picture_scale == 1.0) {
+        ASSERT_EQ(options.picture_scale, 1.0) << factor;
+      }
+    }
+  }
+  EXPECT_GE(with_triangles, 2);
+  EXPECT_GE(with_lookups, 2);
+  EXPECT_GE(with_picture, 2);
+}
+
+TEST(Governor, HalfAsMuchAgainAsTheBudgetIsHeldToATenth) {
+  for (const Load& load : {kLagoon, kOpenSea, kCoast})
+    for (const double sigma : {0.0, 0.03, 0.05}) {
+      const double full_ms = simulate(load, full_quality(), {}, 0).frame_ms;
+      const double factor = (1.5 * kBudget_ms - kPresent_ms) / full_ms;
+      const Flight r = run(3600, always(load.times(factor)), {.sigma = sigma}, kPresent_ms);
+      EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99) << full_ms << ' ' << sigma;
+      EXPECT_LE(size_changes(r, 5 * kSecond), 2) << full_ms << ' ' << sigma;
+    }
+}
+
+TEST(Governor, TrianglesTakeUpALoadThatVariesByATenth) {
+  for (const double factor : {0.6, 0.75, 0.9, 1.05, 1.2}) {
+    const auto load = [&](int k) {
+      return kCoast.times(factor * (1.0 + 0.07 * std::sin(0.05 * k) + 0.04 * std::sin(0.37 * k)));
+    };
+    const Flight r = run(1900, load, {.sigma = 0.04}, kPresent_ms);
+    EXPECT_LE(r.last.step_changes, 8) << factor;
+    EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99) << factor;
+  }
+}
+
+TEST(Governor, AFailedRaiseDoublesTheWait) {
+  // A full-sized picture costs more than the model, which has seen smaller ones, can know.
+  Governor governor({.budget_ms = kBudget_ms}, full_quality());
+  std::vector<int> raises;
+  for (int k = 0; k < 3600; ++k) {
+    const FrameOptions options = governor.options();
+    const Load load = kOpenSea.times(k < 60 || is_full_size(options) ? 2.2 : 1.1);
+    governor.next(simulate(load, options, {.sigma = 0.02}, k));
+    if (!is_full_size(options) && is_full_size(governor.options())) raises.push_back(k);
+  }
+  ASSERT_GE(raises.size(), 4);
+  EXPECT_LE(raises.size(), 7);
+  for (std::size_t i = 2; i < raises.size(); ++i)
+    EXPECT_GE(raises[i] - raises[i - 1], std::min(3 * (raises[i - 1] - raises[i - 2]) / 2, 960));
 }
 
 TEST(Governor, HoldsTheBudgetOnADisturbedMachine) {

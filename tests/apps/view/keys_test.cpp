@@ -13,6 +13,7 @@ TEST(Keys, TheKeysOfTheHelpScreenDoWhatItSays) {
   EXPECT_EQ(command_for(SDLK_F12), Command::kScreenshot);
   EXPECT_EQ(command_for(SDLK_p), Command::kPause);
   EXPECT_EQ(command_for(SDLK_PERIOD), Command::kStep);
+  EXPECT_EQ(command_for(SDLK_c), Command::kCopyCamera);
   EXPECT_EQ(command_for(SDLK_ESCAPE), Command::kEscape);
   EXPECT_EQ(command_for(SDLK_w), std::nullopt);
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "apps/picture_file.h"
 #include "apps/view/viewer.h"
@@ -91,6 +92,11 @@ TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
   EXPECT_NEAR((clip.x / clip.w + 1.0f) * 320.0f, 600.5f, 0.01f);
   EXPECT_NEAR((1.0f - clip.y / clip.w) * 200.0f, 390.5f, 0.01f);
 
+  push_key(SDL_KEYDOWN, SDLK_F2);
+  viewer.turn();
+  EXPECT_FALSE(viewer.shows_panel());
+  EXPECT_TRUE(viewer.report().pick) << "with or without the panel";
+
   push_pointer(600, 10);  // the sky
   viewer.turn();
   EXPECT_FALSE(viewer.report().pick);
@@ -98,6 +104,48 @@ TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
   push_window_event(viewer, SDL_WINDOWEVENT_LEAVE);
   viewer.turn();
   EXPECT_FALSE(viewer.report().pick);
+}
+
+void push_button_at(Uint32 type, int x, int y) {
+  SDL_Event event{};
+  event.button.type = type;
+  event.button.button = SDL_BUTTON_LEFT;
+  event.button.x = x;
+  event.button.y = y;
+  SDL_PushEvent(&event);
+}
+
+// As remote desktops and tests do it: with no motion of a device before, so that SDL_GetMouseState
+// and Dear ImGui's last frame have the pointer elsewhere. The press once looked around instead.
+TEST_F(ViewerTest, APointerThatMovesAndPressesAtOnceWorksThePanel) {
+  Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
+  for (int i = 0; i < 2; ++i) viewer.turn();  // a panel has its size from the second on
+  const int x = 26, y = 64;                   // "pause"
+  push_pointer(x, y);
+  push_button_at(SDL_MOUSEBUTTONDOWN, x, y);
+  push_button_at(SDL_MOUSEBUTTONUP, x, y);
+  viewer.turn();
+  viewer.turn();
+  EXPECT_TRUE(viewer.panel().paused);
+  push_motion(50, 10);
+  viewer.turn();
+  EXPECT_FALSE(viewer.has_own_camera()) << "the press was not for looking around";
+  push_pointer(600, 390);
+  viewer.turn();
+  EXPECT_TRUE(viewer.report().pick);
+}
+
+TEST_F(ViewerTest, APressBesideThePanelLooksAround) {
+  Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
+  viewer.turn();
+  push_pointer(26, 64);
+  viewer.turn();
+  push_pointer(600, 390);
+  push_button_at(SDL_MOUSEBUTTONDOWN, 600, 390);
+  viewer.turn();
+  push_motion(50, 10);
+  viewer.turn();
+  EXPECT_TRUE(viewer.has_own_camera());
 }
 
 TEST_F(ViewerTest, ThePointerPicksWhatFloatsThere) {
@@ -192,6 +240,32 @@ TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
   EXPECT_TRUE(fs::exists("swell_0001.png"));
   EXPECT_TRUE(fs::exists("swell_0002.png"));
   EXPECT_FALSE(fs::exists("swell_0003.png"));
+}
+
+// Of the window's top right of the panel, in the middle of which messages stand.
+int white_pixels_at_the_top(Viewer& viewer) {
+  const SDL_Rect top = {340, 0, 300, 60};
+  std::vector<std::uint32_t> pixels(static_cast<std::size_t>(top.w * top.h));
+  EXPECT_EQ(SDL_RenderReadPixels(viewer.window().renderer(), &top, SDL_PIXELFORMAT_ABGR8888,
+                                 pixels.data(), 4 * top.w),
+            0);
+  return static_cast<int>(std::ranges::count(pixels, 0xffffffffu));
+}
+
+TEST_F(ViewerTest, AMessageIsSeenWithAndWithoutThePanel) {
+  const ScreenshotFolder folder;
+  for (const bool panel : {true, false}) {
+    Viewer viewer(small_scene(), settings_of(100, {640, 400}));
+    if (!panel) push_key(SDL_KEYDOWN, SDLK_F2);
+    viewer.turn();
+    viewer.turn();
+    const int before = white_pixels_at_the_top(viewer);
+    push_key(SDL_KEYDOWN, SDLK_F12);
+    viewer.turn();
+    viewer.turn();
+    EXPECT_EQ(viewer.report().message, panel ? "wrote swell_0001.png" : "wrote swell_0002.png");
+    EXPECT_GT(white_pixels_at_the_top(viewer), before + 100) << panel;
+  }
 }
 
 TEST_F(ViewerTest, AScreenshotIsThePictureAtFullQualityAndTheGovernorGoesOnAsBefore) {

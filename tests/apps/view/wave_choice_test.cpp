@@ -43,6 +43,26 @@ TEST(WaveChoice, EachModelHasExactlyItsWaves) {
   EXPECT_FALSE(sea_of(WaveModel::kBoth).sines.empty());
 }
 
+TEST(WaveChoice, NamesSayWhatTheSceneHas) {
+  scene::Scene scene = windy();
+  EXPECT_STREQ(wave_names(scene)[0], "spectrum");
+  scene.coast.model = scene::CoastModel::kBlend;
+  EXPECT_STREQ(wave_names(scene)[0], "spectrum") << "no terrain, no coast";
+  scene.terrain.emplace();
+  EXPECT_STREQ(wave_names(scene)[0], "spectrum and trains");
+  EXPECT_STREQ(wave_names(scene)[1], "sines and trains");
+  scene.coast.model = scene::CoastModel::kTrains;
+  EXPECT_STREQ(wave_names(scene)[0], "trains, spectrum beyond");
+}
+
+TEST(WaveChoice, NoChoiceTakesTheCoastAway) {
+  scene::Scene scene = windy();
+  scene.terrain.emplace();
+  scene.coast = {.model = scene::CoastModel::kBlend, .trains = 7, .seed = 9};
+  for (const WaveModel model : {WaveModel::kSpectrum, WaveModel::kSines, WaveModel::kBoth})
+    EXPECT_EQ(with_waves(scene, {model, 5.0, 2.0}).coast, scene.coast);
+}
+
 TEST(WaveChoice, WavesOfASceneWithoutAnyRunWithTheWindAndDoNotBreak) {
   const double from_rad = 1.0;
   for (const ocean::SineWave& wave :

@@ -1,0 +1,114 @@
+// The whole viewer: a camera moved by hand stays in the air, and comes back from what is copied.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "apps/view/eye_floor.h"
+#include "apps/view/viewer.h"
+#include "scene/water_surface.h"
+#include "viewer_harness.h"
+
+namespace swell::view {
+namespace {
+
+// Waves of 4 m and an island, an eye over the water before it that looks there, slightly down.
+scene::Scene rough_scene() {
+  scene::Scene scene = small_scene();
+  scene.camera = {.eye_m = {0.0, -120.0, 6.0}, .pitch_rad = -0.15};
+  scene.sea.spectrum = false;
+  scene.sea.sines = {{.amplitude_m = 2.0, .wavelength_m = 60.0, .to_rad = 0.3}};
+  scene.terrain.emplace();
+  scene.terrain->island_radius_m = 60.0;
+  scene.terrain->floor_depth_m = 30.0;
+  return scene;
+}
+
+// What the eye of the last frame has below it, asked of the scene alone.
+class Below {
+ public:
+  explicit Below(const scene::Scene& scene) : water_(scene) {}
+
+  double height_m(const Viewer& viewer) {
+    const glm::dvec2 p(viewer.report().camera.eye_m);
+    const float water_m = water_.at(viewer.picture_time_s(), frame_, workers_).height(p);
+    float ground_m = -1e6f;
+    if (water_.terrain()) scene::sample_heights(*water_.terrain(), {&p, 1}, {&ground_m, 1});
+    on_land_ = on_land_ || ground_m > 1.0f;
+    return static_cast<double>(std::max(water_m, ground_m));
+  }
+  bool was_on_land() const { return on_land_; }
+
+ private:
+  scene::Water water_;
+  ocean::SeaFrame frame_;
+  Workers workers_{1};
+  bool on_land_ = false;
+};
+
+TEST_F(ViewerTest, TheEyeStaysAboveTheWavesAndTheLandWhereverItIsFlown) {
+  Viewer viewer(rough_scene(), settings_of(1000000));
+  Below below(rough_scene());
+  push_key(SDL_KEYDOWN, SDLK_w, SDL_SCANCODE_W);
+  push_key(SDL_KEYDOWN, SDLK_LSHIFT, SDL_SCANCODE_LSHIFT);
+  double lowest_m = 1e9;
+  for (int k = 0; k < 400; ++k) {
+    if (k == 100) push_key(SDL_KEYDOWN, SDLK_q, SDL_SCANCODE_Q);
+    if (k == 250)  // stands still and lets the waves pass
+      push_window_event(viewer, SDL_WINDOWEVENT_FOCUS_LOST);
+    ASSERT_TRUE(viewer.turn());
+    if (k == 0) continue;
+    const double over_m = viewer.report().camera.eye_m.z - below.height_m(viewer);
+    ASSERT_GE(over_m, kEyeClearance_m - 1e-6) << k;
+    lowest_m = std::min(lowest_m, over_m);
+  }
+  EXPECT_LT(lowest_m, kEyeClearance_m + 0.01) << "it may come as near as that";
+  EXPECT_TRUE(below.was_on_land());
+}
+
+TEST_F(ViewerTest, AnEyeThatWasHeldUpGoesUpAtOnce) {
+  Viewer viewer(rough_scene(), settings_of(1000000));
+  push_key(SDL_KEYDOWN, SDLK_q, SDL_SCANCODE_Q);
+  for (int k = 0; k < 200; ++k) viewer.turn();
+  push_key(SDL_KEYUP, SDLK_q, SDL_SCANCODE_Q);
+  push_key(SDL_KEYDOWN, SDLK_e, SDL_SCANCODE_E);
+  const double before_m = viewer.report().camera.eye_m.z;
+  viewer.turn();
+  EXPECT_GT(viewer.report().camera.eye_m.z, before_m + 0.1);
+}
+
+TEST_F(ViewerTest, TheScenesOwnCameraIsDrawnWhereTheSceneHasIt) {
+  scene::Scene scene = rough_scene();
+  scene.camera.eye_m.z = 0.2;
+  Viewer viewer(scene, settings_of(3));
+  viewer.run();
+  EXPECT_EQ(viewer.report().camera.eye_m, scene.camera.eye_m);
+  expect_headless_picture(viewer, scene);
+}
+
+TEST_F(ViewerTest, TheCopiedCameraShowsTheSamePicture) {
+  Viewer viewer(small_scene(), settings_of(100));
+  viewer.turn();
+  push_key(SDL_KEYDOWN, SDLK_w, SDL_SCANCODE_W);
+  push_key(SDL_KEYDOWN, SDLK_F2);
+  push_button(SDL_MOUSEBUTTONDOWN, SDL_BUTTON_RIGHT);
+  viewer.turn();
+  push_motion(57, 13);
+  for (int k = 0; k < 5; ++k) viewer.turn();
+  ASSERT_TRUE(viewer.has_own_camera());
+  push_key(SDL_KEYUP, SDLK_w, SDL_SCANCODE_W);
+  push_key(SDL_KEYDOWN, SDLK_p);
+  viewer.turn();
+  push_key(SDL_KEYDOWN, SDLK_c);
+  viewer.turn();
+  EXPECT_EQ(viewer.report().message, "copied the camera as TOML");
+
+  const std::unique_ptr<char, void (*)(void*)> copied(SDL_GetClipboardText(), SDL_free);
+  scene::Scene scene = small_scene();
+  scene.camera = scene::parse_scene(copied.get(), "copied.toml").camera;
+  EXPECT_EQ(scene.camera.eye_m, viewer.report().camera.eye_m);
+  expect_headless_picture(viewer, scene);
+}
+
+}  // namespace
+}  // namespace swell::view
