@@ -11,7 +11,7 @@
 
 #include "apps/bench.h"
 #include "apps/cpu_name.h"
-#include "apps/eye_warning.h"
+#include "apps/notices.h"
 #include "apps/options.h"
 #include "apps/picture_file.h"
 #include "apps/report.h"
@@ -149,7 +149,7 @@ void run_frame_bench(const FrameBench& bench) {
   select_simd(bench.setup.simd);
   check_text_place(bench.json);
   check_text_place(bench.trace);
-  const render::World world(scene::load_scene(bench.setup.scene_path));
+  const render::World world(load_scene(bench.setup.scene_path));
   Trace trace;
   const auto switches_before = resource_usage().ru_nivcsw;
   const Samples samples = measure(bench, world, trace);

@@ -7,6 +7,7 @@
 #include "apps/bench.h"
 #include "apps/cpu_name.h"
 #include "apps/json.h"
+#include "apps/notices.h"
 #include "apps/options.h"
 #include "apps/report.h"
 #include "math/random.h"
@@ -79,7 +80,7 @@ Json layer_rates(const scene::Water& water, const ocean::SeaFrame& frame,
 void run_query_bench(const QueryBench& bench) {
   select_simd(bench.simd);
   check_text_place(bench.json);
-  const scene::Scene scene = scene::load_scene(bench.scene_path);
+  const scene::Scene scene = load_scene(bench.scene_path);
   const Stopwatch building;
   const scene::Water water(scene);
   const double setup_ms = building.elapsed_ms();

@@ -9,6 +9,7 @@
 
 #include "apps/bench.h"
 #include "apps/json.h"
+#include "apps/notices.h"
 #include "apps/options.h"
 #include "apps/report.h"
 #include "math/random.h"
@@ -106,7 +107,7 @@ std::string band_text(const Expected& expected) {
 }
 
 void run_scene(const SeaStateBench& bench) {
-  const scene::Scene scene = scene::load_scene(bench.scene_path);
+  const scene::Scene scene = load_scene(bench.scene_path);
   const double height_m = measured_height_m(scene);
   const std::optional<Expected> expected = expected_state(scene);
   const Json json = sea_state_json(scene, expected, height_m);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/bench.h"
+#include "apps/notices.h"
 #include "apps/options.h"
 #include "apps/output_file.h"
 #include "apps/picture_file.h"
@@ -91,7 +92,7 @@ void write_section(const WaveFigures& figures, const scene::Scene& scene, const 
 
 void run_waves(const WaveFigures& figures) {
   check_figure_files(figures);
-  const scene::Scene scene = scene::load_scene(figures.scene_path);
+  const scene::Scene scene = load_scene(figures.scene_path);
   if (!figures.filter.empty()) write_filter(figures, scene);
   if (figures.map.empty() && figures.section.empty()) return;
   const scene::Water water(scene);

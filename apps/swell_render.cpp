@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "apps/eye_warning.h"
+#include "apps/notices.h"
 #include "apps/options.h"
 #include "apps/picture_file.h"
 #include "apps/program.h"
@@ -99,9 +99,11 @@ void render_pictures(const RenderOptions& options, scene::Scene scene) {
 void run(const RenderOptions& options) {
   select_simd(options.setup.simd);
   check_output(options);
-  scene::Scene scene = scene::load_scene(options.setup.scene_path);
+  const bool draws = options.hash || !options.out.empty();
+  const std::string& path = options.setup.scene_path;
+  scene::Scene scene = draws ? load_scene(path) : scene::load_scene(path);
   if (options.dump_scene) fmt::print("{}", scene::dump_scene(scene));
-  if (options.hash || !options.out.empty()) render_pictures(options, std::move(scene));
+  if (draws) render_pictures(options, std::move(scene));
 }
 
 }  // namespace

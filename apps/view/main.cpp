@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/eye_warning.h"
+#include "apps/notices.h"
 #include "apps/options.h"
 #include "apps/picture_file.h"
 #include "apps/program.h"
@@ -56,7 +56,7 @@ void view(const Options& options) {
   settings.frame = options.setup.frame;
   settings.frame.keep_linear = apps::stores_linear_light(options.screenshot);
 
-  Viewer viewer(scene::load_scene(options.setup.scene_path), settings);
+  Viewer viewer(apps::load_scene(options.setup.scene_path), settings);
   warn_of_eye(viewer.world());
   viewer.run();
   if (options.screenshot.empty()) return;

@@ -1,12 +1,20 @@
-#include "apps/eye_warning.h"
+#include "apps/notices.h"
 
 #include <fmt/core.h>
 
 #include <cstdio>
 
 #include "render/eye_place.h"
+#include "scene/coast.h"
 
 namespace swell::apps {
+
+scene::Scene load_scene(const std::filesystem::path& path) {
+  scene::Scene scene = scene::load_scene(path);
+  if (const std::string work = scene::slow_coast_text(scene); !work.empty())
+    fmt::print(stderr, "note: {}; that takes a while\n", work);
+  return scene;
+}
 
 void EyeWarning::look(int frame, const render::World& world, const View& view,
                       const render::Workspace& workspace) {

@@ -1,9 +1,16 @@
-// A warning where a picture cannot be what was meant.
+// What the programs tell on standard error besides errors: what takes long, and where a picture
+// cannot be what was meant.
 #pragma once
+
+#include <filesystem>
 
 #include "render/frame.h"
 
 namespace swell::apps {
+
+// Reads a scene file; prints one line 'note: ...' if making the scene ready will take a second or
+// more. Throws as scene::load_scene does.
+scene::Scene load_scene(const std::filesystem::path& path);
 
 // Prints one line 'warning: ...' on standard error for the first frame whose eye is below the
 // water or the ground, which are drawn from above alone.
