@@ -24,6 +24,13 @@ scene::Scene rough_scene() {
   return scene;
 }
 
+// Small, coarse pictures: what is asked is where the eye goes over hundreds of them.
+ViewerSettings flight_settings(ViewerSettings settings) {
+  settings.size = {64, 48};
+  settings.frame.water_triangles = settings.frame.terrain_triangles = 50;
+  return settings;
+}
+
 // What the eye of the last frame has below it, asked of the scene alone.
 class Below {
  public:
@@ -47,7 +54,7 @@ class Below {
 };
 
 TEST_F(ViewerTest, TheEyeStaysAboveTheWavesAndTheLandWhereverItIsFlown) {
-  Viewer viewer(rough_scene(), settings_of(1000000));
+  Viewer viewer(rough_scene(), flight_settings(settings_of(1000000)));
   Below below(rough_scene());
   push_key(SDL_KEYDOWN, SDLK_w, SDL_SCANCODE_W);
   push_key(SDL_KEYDOWN, SDLK_LSHIFT, SDL_SCANCODE_LSHIFT);
@@ -67,7 +74,7 @@ TEST_F(ViewerTest, TheEyeStaysAboveTheWavesAndTheLandWhereverItIsFlown) {
 }
 
 TEST_F(ViewerTest, AnEyeThatWasHeldUpGoesUpAtOnce) {
-  Viewer viewer(rough_scene(), settings_of(1000000));
+  Viewer viewer(rough_scene(), flight_settings(settings_of(1000000)));
   push_key(SDL_KEYDOWN, SDLK_q, SDL_SCANCODE_Q);
   for (int k = 0; k < 200; ++k) viewer.turn();
   push_key(SDL_KEYUP, SDLK_q, SDL_SCANCODE_Q);
