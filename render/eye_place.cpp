@@ -1,7 +1,6 @@
 #include "render/eye_place.h"
 
 #include "render/frame_state.h"
-#include "scene/water_surface.h"
 
 namespace swell::render {
 
@@ -17,9 +16,7 @@ EyeReport find_eye(const World& world, const Workspace& workspace, glm::dvec3 ey
         from_corner.y <= side_m && eye_world.z < static_cast<double>(ground_m))
       return {EyePlace::kGround, static_cast<double>(ground_m)};
   }
-  const scene::WaterSurface water(*w.sea, workspace.state().sea, w.scene.area, w.terrain.get(),
-                                  w.coast.get());
-  const double surface_m = static_cast<double>(water.height(p));
+  const double surface_m = static_cast<double>(water_surface(w, workspace.state().sea).height(p));
   if (eye_world.z < surface_m) return {EyePlace::kWater, surface_m};
   return {EyePlace::kAir, surface_m};
 }

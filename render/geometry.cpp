@@ -218,8 +218,7 @@ void resize_surface(Surface& surface) {
 }  // namespace
 
 scene::WaterSurface water_surface(const Frame& frame) {
-  const World::State& world = frame.world;
-  return {*world.sea, frame.ws.sea, world.scene.area, world.terrain.get(), world.coast.get()};
+  return water_surface(frame.world, frame.ws.sea);
 }
 
 float squeeze(glm::vec3 p_rel, float n) {

@@ -51,8 +51,7 @@ void meet_objects(std::span<const scene::FloatingObject> objects, const ObjectGe
 }
 
 void ask_water(const World::State& world, const ocean::SeaFrame& sea, Pick& pick) {
-  const scene::WaterSurface water(*world.sea, sea, world.scene.area, world.terrain.get(),
-                                  world.coast.get());
+  const scene::WaterSurface water = water_surface(world, sea);
   const glm::dvec2 p(pick.p_world);
   glm::vec2 slope;
   water.slopes({&p, 1}, {&slope, 1});

@@ -15,6 +15,7 @@
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "scene/terrain.h"
+#include "scene/water_surface.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
@@ -80,6 +81,11 @@ struct World::State {
     return sea_m == 0.0 && coast ? static_cast<double>(coast->peak_wavelength_m) : sea_m;
   }
 };
+
+// The water's surface at the time of `sea`, a frame of the world's sea.
+inline scene::WaterSurface water_surface(const World::State& world, const ocean::SeaFrame& sea) {
+  return {*world.sea, sea, world.scene.area, world.terrain.get(), world.coast.get()};
+}
 
 // Points a side of the maps that lie over a coast's square.
 inline constexpr int kCoastMapSize = 256;

@@ -76,8 +76,7 @@ Fault fault_of(const Parameter<Object>& parameter, const Object& object, const s
 // ---- All values
 
 Fault fault_of_keys(const Scene& scene) {
-  static const std::vector<Parameter<Scene>> parameters = scene_parameters();
-  for (const auto& parameter : parameters) {
+  for (const auto& parameter : scene_parameters()) {
     if (parameter.key.starts_with("terrain.") && !scene.terrain) continue;
     if (Fault fault = fault_of(parameter, scene, std::string(parameter.key))) return fault;
   }

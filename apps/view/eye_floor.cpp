@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "render/world_state.h"
-#include "scene/water_surface.h"
 
 namespace swell::view {
 
@@ -14,8 +13,7 @@ double eye_floor_m(const render::World& world, glm::dvec3 eye_m, double t_s, oce
   double top_m = static_cast<double>(w.height_bound_m());
   if (eye_m.z < top_m + kEyeClearance_m) {
     ocean::advance(*w.sea, t_s, sea, workers);
-    const scene::WaterSurface water(*w.sea, sea, w.scene.area, w.terrain.get(), w.coast.get());
-    top_m = static_cast<double>(water.height(p));
+    top_m = static_cast<double>(render::water_surface(w, sea).height(p));
   }
   if (w.terrain) {
     float ground_m = 0.0f;
