@@ -18,7 +18,7 @@
 #include "apps/trace.h"
 #include "math/simd_target.h"
 #include "render/frame.h"
-#include "render/governor.h"
+#include "render/quality/governor.h"
 
 namespace swell::apps {
 namespace {

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "lod/uniform_grid.h"
-#include "render/frame_state.h"
-#include "render/mesh_error.h"
+#include "render/measure/mesh_error.h"
+#include "render/workspace.h"
 
 namespace swell::apps {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "render/eye_place.h"
+#include "render/measure/eye_place.h"
 #include "scene/coast.h"
 
 namespace swell::apps {

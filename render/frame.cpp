@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "math/check.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {

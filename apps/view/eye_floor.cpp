@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/world_state.h"
+#include "render/world/world_state.h"
 
 namespace swell::view {
 

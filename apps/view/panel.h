@@ -10,8 +10,8 @@
 #include "apps/view/frame_history.h"
 #include "apps/view/wave_choice.h"
 #include "render/frame.h"
-#include "render/governor.h"
-#include "render/pick.h"
+#include "render/measure/pick.h"
+#include "render/quality/governor.h"
 
 namespace swell::view {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "math/random.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 #include "scene/water_surface.h"
 
 namespace swell::render {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "raster/pass.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {

@@ -1,5 +1,5 @@
 // Enlarging against bilinear interpolation in double.
-#include "render/enlarge.h"
+#include "render/quality/enlarge.h"
 
 #include <gtest/gtest.h>
 

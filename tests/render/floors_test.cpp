@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "math/random.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 #include "texture/image_io.h"
 
 namespace swell::render {

@@ -13,7 +13,7 @@
 
 #include "allocation_count.h"
 #include "math/simd_target.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 #include "scene/scene.h"
 
 namespace swell::render {

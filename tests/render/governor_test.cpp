@@ -1,5 +1,5 @@
 // The frame governor against a simulated renderer: known costs, noise, spikes, steps of load.
-#include "render/governor.h"
+#include "render/quality/governor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The measure of a mesh's error on seas and meshes whose errors are known.
-#include "render/mesh_error.h"
+#include "render/measure/mesh_error.h"
 
 #include <gtest/gtest.h>
 

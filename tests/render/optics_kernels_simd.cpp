@@ -5,8 +5,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/fresnel-inl.h"
-#include "render/water-inl.h"
+#include "render/materials/fresnel-inl.h"
+#include "render/materials/water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

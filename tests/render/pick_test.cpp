@@ -1,5 +1,5 @@
 // What a pick finds is what the rasterizer has drawn there, and what a query answers.
-#include "render/pick.h"
+#include "render/measure/pick.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "math/simd_target.h"
-#include "render/frame_state.h"
 #include "render/optics_kernels.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {

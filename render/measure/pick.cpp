@@ -1,4 +1,4 @@
-#include "render/pick.h"
+#include "render/measure/pick.h"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "lod/mesh_query.h"
 #include "math/check.h"
 #include "math/ray_triangle.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 #include "scene/object_ray.h"
 #include "scene/water_surface.h"
 

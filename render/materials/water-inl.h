@@ -8,9 +8,9 @@
 
 #include <algorithm>
 
-#include "render/foam-inl.h"
-#include "render/fresnel-inl.h"
-#include "render/packet-inl.h"
+#include "render/materials/foam-inl.h"
+#include "render/materials/fresnel-inl.h"
+#include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,4 +1,4 @@
-#include "render/background.h"
+#include "render/quality/background.h"
 
 #include <algorithm>
 #include <cmath>

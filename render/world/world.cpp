@@ -4,8 +4,8 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "render/shade.h"
-#include "render/world_state.h"
+#include "render/tile/shade_tile.h"
+#include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
 #include "scene/sky.h"

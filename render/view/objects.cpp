@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/frame_state.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/governor.h"
+#include "render/quality/governor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #define SWELL_RENDER_SKY_INL_H_
 #endif
 
-#include "render/packet-inl.h"
+#include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

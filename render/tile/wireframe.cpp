@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "raster/interpolate.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {

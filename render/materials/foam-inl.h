@@ -6,8 +6,8 @@
 #define SWELL_RENDER_FOAM_INL_H_
 #endif
 
-#include "render/fresnel-inl.h"
-#include "render/packet-inl.h"
+#include "render/materials/fresnel-inl.h"
+#include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

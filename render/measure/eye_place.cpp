@@ -1,6 +1,6 @@
-#include "render/eye_place.h"
+#include "render/measure/eye_place.h"
 
-#include "render/frame_state.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 

@@ -4,18 +4,18 @@
 #include <utility>
 
 #include "math/check.h"
-#include "render/shade.h"
+#include "render/tile/shade_tile.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/shade_simd.cpp"
+#define HWY_TARGET_INCLUDE "render/tile/shade_tile_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/object-inl.h"
-#include "render/packet-inl.h"
-#include "render/sky-inl.h"
-#include "render/terrain-inl.h"
-#include "render/water-inl.h"
+#include "render/materials/object-inl.h"
+#include "render/materials/terrain-inl.h"
+#include "render/materials/water-inl.h"
+#include "render/tile/packet-inl.h"
+#include "render/tile/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

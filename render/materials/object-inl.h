@@ -6,9 +6,9 @@
 #define SWELL_RENDER_OBJECT_INL_H_
 #endif
 
-#include "render/fresnel-inl.h"
-#include "render/packet-inl.h"
-#include "render/terrain-inl.h"
+#include "render/materials/fresnel-inl.h"
+#include "render/materials/terrain-inl.h"
+#include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -6,8 +6,8 @@
 #define SWELL_RENDER_TERRAIN_INL_H_
 #endif
 
-#include "render/foam-inl.h"
-#include "render/packet-inl.h"
+#include "render/materials/foam-inl.h"
+#include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,4 +1,4 @@
-#include "render/mesh_error.h"
+#include "render/measure/mesh_error.h"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 #include <hwy/highway.h>
 
 #include "math/elementary-inl.h"
-#include "render/shade.h"
+#include "render/tile/shade_tile.h"
 #include "texture/packed_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();

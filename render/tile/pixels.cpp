@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/frame_state.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/enlarge.h"
+#include "render/quality/enlarge.h"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
 #include "math/elementary.h"
-#include "render/background.h"
-#include "render/frame_state.h"
+#include "render/quality/background.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {

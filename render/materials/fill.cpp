@@ -5,7 +5,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "render/frame_state.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {
