@@ -49,7 +49,7 @@ class Drawn {
     render::FrameOptions options;
     options.water_triangles = budget;
     statistics_ = render_frame(world_, view, kTime_s, options, workspace_, target_, workers);
-    return workspace_.state().water;
+    return workspace_.state().meshes.water;
   }
 
   // The median over a short straight flight; the picture's size does not matter.

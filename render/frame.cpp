@@ -4,8 +4,8 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 
 #include "math/check.h"
 #include "render/workspace.h"
@@ -59,34 +59,47 @@ View drawn_view(const View& view, const FrameOptions& options) {
 }
 
 // Sizes what depends on the picture and the thread count; after the first frame this does nothing.
-void prepare(Frame& frame, Target& target) {
-  const std::size_t pixels = static_cast<std::size_t>(frame.view.width_px) * frame.view.height_px;
-  target.width_px = frame.view.width_px;
-  target.height_px = frame.view.height_px;
-  target.rgba.resize(pixels);
-  target.linear.resize(frame.options.keep_linear ? 3 * pixels : 0);
-  while (frame.ws.scratch.size() < static_cast<std::size_t>(frame.workers.thread_count()))
-    frame.ws.scratch.push_back(std::make_unique<ThreadScratch>());
-}
-
-void enlarge_picture(Frame& frame, const View& view, Target& target) {
+void prepare_target(const View& view, bool keep_linear, Target& target) {
+  const std::size_t pixels = static_cast<std::size_t>(view.width_px) * view.height_px;
   target.width_px = view.width_px;
   target.height_px = view.height_px;
-  target.rgba.resize(static_cast<std::size_t>(view.width_px) * view.height_px);
-  target.linear.clear();
-  enlarge(frame.ws.small.rgba, {frame.view.width_px, frame.view.height_px}, target.rgba,
-          {view.width_px, view.height_px}, frame.ws.enlarge, frame.workers);
+  target.rgba.resize(pixels);
+  target.linear.resize(keep_linear ? 3 * pixels : 0);
+}
+
+void prepare_scratch(int threads, Workspace::State& ws) {
+  while (ws.scratch.size() < static_cast<std::size_t>(threads))
+    ws.scratch.push_back(std::make_unique<ThreadScratch>());
+}
+
+// The cameras of the window and of what its water looks into.
+std::array<RenderView*, 3> prepare_views(const World::State& world, const View& view,
+                                         const FrameOptions& options, Workspace::State& ws) {
+  RenderView &reflection = ws.lookups.reflection.view, &refraction = ws.lookups.refraction.view;
+  reflection.kind = ViewKind::kReflection;
+  refraction.kind = ViewKind::kRefraction;
+  refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
+  ws.window.camera = view;
+  reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
+  return {&ws.window, &reflection, &refraction};
+}
+
+void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
+                     Workers& workers) {
+  prepare_target(view, false, target);
+  enlarge(small.rgba, {small.width_px, small.height_px}, target.rgba,
+          {view.width_px, view.height_px}, tables, workers);
 }
 
 FrameStatistics statistics_of(const Workspace::State& ws) {
   FrameStatistics s;
   s.stage_ms = ws.profile.stage_ms();
   s.frame_ms = ws.profile.now_us() * 1e-3;
-  s.water_triangles = ws.water.statistics.triangles;
-  s.terrain_triangles = ws.land.statistics.triangles;
-  s.splits = ws.water.statistics.splits + ws.land.statistics.splits;
-  s.merges = ws.water.statistics.merges + ws.land.statistics.merges;
-  s.lod_stopped = ws.water.statistics.stopped || ws.land.statistics.stopped;
+  s.water_triangles = ws.meshes.water.statistics.triangles;
+  s.terrain_triangles = ws.meshes.land.statistics.triangles;
+  s.splits = ws.meshes.water.statistics.splits + ws.meshes.land.statistics.splits;
+  s.merges = ws.meshes.water.statistics.merges + ws.meshes.land.statistics.merges;
+  s.lod_stopped = ws.meshes.water.statistics.stopped || ws.meshes.land.statistics.stopped;
   for (const int covered : ws.visibility.covered)
     s.visible_pixels += static_cast<std::uint64_t>(std::max(covered, 0));
   for (const int shaded : ws.shaded) s.shaded_pixels += static_cast<std::uint64_t>(shaded);
@@ -118,42 +131,51 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   check_options(asked);
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   const ScopedFloatEnvironment ieee;
+  const World::State& world_state = world.state();
   Workspace::State& ws = workspace.state();
   const FrameOptions options = with_scene_defaults(asked, world.scene());
   const View drawn = drawn_view(view, options);
-  Frame frame{world.state(), drawn, t_s, options, ws, workers};
   const bool small = drawn.width_px < view.width_px || drawn.height_px < view.height_px;
   Target& drawn_target = small ? ws.small : target;
   ws.profile.begin_frame(workspace.trace_enabled);
-  prepare(frame, drawn_target);
+  prepare_target(drawn, options.keep_linear, drawn_target);
+  prepare_scratch(workers.thread_count(), ws);
+  const std::array<RenderView*, 3> views = prepare_views(world_state, drawn, options, ws);
+  const auto stage = [&](Stage name, auto&& work) {
+    const StageScope scope(ws.profile, name);
+    work(StageRun{workers, ws.profile, name});
+  };
 
   workers.run_both(
       [&] {
-        const StageScope stage(ws.profile, Stage::kSea);
-        advance_sea(frame);
+        stage(Stage::kSea,
+              [&](const StageRun& run) { advance_sea(world_state, t_s, ws.sea, run); });
       },
       [&] {
-        const StageScope stage(ws.profile, Stage::kTriangulate);
-        triangulate(frame);
+        stage(Stage::kTriangulate, [&](const StageRun& run) {
+          triangulate(world_state, drawn, options, ws.meshes, run);
+        });
       });
-  {
-    const StageScope stage(ws.profile, Stage::kDisplace);
-    displace(frame);
-    place_objects(frame);
-  }
-  {
-    const StageScope stage(ws.profile, Stage::kVisibility);
-    find_visible(frame);
-  }
-  {
-    const StageScope stage(ws.profile, Stage::kLookups);
-    draw_lookup_images(frame);
-  }
-  {
-    const StageScope stage(ws.profile, Stage::kShade);
-    shade_pixels(frame, drawn_target);
-    if (small) enlarge_picture(frame, view, target);
-  }
+  stage(Stage::kDisplace, [&](const StageRun& run) {
+    displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
+    place_objects(world_state, ws.sea, drawn, ws.meshes, views);
+  });
+  stage(Stage::kVisibility, [&](const StageRun& run) {
+    find_visible(ws.meshes, options.tile_size_px, ws.window, ws.visibility, run);
+  });
+  const Light light = make_light(world_state);
+  const Media media = make_media(world_state, light);
+  MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media};
+  stage(Stage::kLookups, [&](const StageRun& run) {
+    draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.lookups, run);
+    fill_shading(inputs, ws.window, options.tile_size_px, ws.shading);
+  });
+  stage(Stage::kShade, [&](const StageRun& run) {
+    shade_picture(
+        {ws.meshes, ws.window, ws.visibility, ws.lookups.of_tile, ws.shading, options.wireframe},
+        ws.scratch, ws.shaded, drawn_target, run);
+    if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
+  });
   workspace.trace = ws.profile.trace();
   return statistics_of(ws);
 }

@@ -77,4 +77,20 @@ class WorkScope {
   double start_us_;
 };
 
+// What a stage works with: threads, and its row of the profile.
+struct StageRun {
+  Workers& workers;
+  Profile& profile;
+  Stage stage;
+
+  // Calls body(i, thread) for all i below count.
+  template <class Body>
+  void for_each(std::size_t count, const Body& body) const {
+    workers.for_each(count, [&](std::size_t i, int thread) {
+      const WorkScope work(profile, stage, thread);
+      body(i, thread);
+    });
+  }
+};
+
 }  // namespace swell::render

@@ -1,14 +1,14 @@
 // Floating objects: painted steel above the water, seen through it below.
-#if defined(SWELL_RENDER_OBJECT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_OBJECT_INL_H_
-#undef SWELL_RENDER_OBJECT_INL_H_
+#if defined(SWELL_RENDER_MATERIALS_OBJECT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_OBJECT_INL_H_
+#undef SWELL_RENDER_MATERIALS_OBJECT_INL_H_
 #else
-#define SWELL_RENDER_OBJECT_INL_H_
+#define SWELL_RENDER_MATERIALS_OBJECT_INL_H_
 #endif
 
 #include "render/materials/fresnel-inl.h"
-#include "render/materials/terrain-inl.h"
-#include "render/tile/packet-inl.h"
+#include "render/materials/object.h"
+#include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -72,16 +72,16 @@ HWY_INLINE ObjectSurface SampleObject(const ObjectPrimitive* const* primitive, V
 }
 
 // Light that a matt surface sends back: of the sun, of the sky above, of the sea below.
-HWY_INLINE V3 MattLight(const ShadeContext& c, const ObjectSurface& s) {
-  const V cos_sun = hn::Max(Dot(s.normal, Constant(c.sun_direction)), hn::Zero(D()));
+HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s) {
+  const V cos_sun = hn::Max(Dot(s.normal, Constant(light.sun_direction)), hn::Zero(D()));
   const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
-  const V3 around = Lerp(Constant(c.sea_light), Constant(c.ambient), sky_seen);
-  return Product(s.albedo, ScaleAdd(Constant(c.sun_irradiance),
+  const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen);
+  return Product(s.albedo, ScaleAdd(Constant(light.sun_irradiance),
                                     hn::Mul(cos_sun, Constant(0.318309886f)), around));
 }
 
 // What varnish mirrors of sky and sun, to the eye in direction to_eye.
-HWY_INLINE V3 Gloss(const ShadeContext& c, const ObjectSurface& s, V3 to_eye) {
+HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye) {
   const D d;
   const V zero = hn::Zero(d);
   const V cos_eye = hn::Max(Dot(s.normal, to_eye), zero);
@@ -92,44 +92,50 @@ HWY_INLINE V3 Gloss(const ShadeContext& c, const ObjectSurface& s, V3 to_eye) {
   // Rays that go down meet the sea, which is darker.
   const V share = hn::IfThenElse(hn::Lt(r.z, zero), Constant(0.3f), Constant(1.0f));
   r.z = hn::Add(hn::Abs(r.z), Constant(1e-3f));
-  const V3 sky = Scale(SkyRadiance(*c.sky_soft, r, hn::Sqrt(Dot(r, r))), share);
+  const V3 sky = Scale(SkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), share);
 
   // Blinn and Phong's highlight with exponent 64, normalised.
-  const V3 half = Sum(to_eye, Constant(c.sun_direction));
+  const V3 half = Sum(to_eye, Constant(light.sun_direction));
   const V cos_half = hn::Mul(hn::Max(Dot(s.normal, half), zero),
                              InverseSqrt(hn::Max(Dot(half, half), Constant(1e-6f))));
   V highlight = hn::Min(cos_half, Constant(1.0f));
   for (int i = 0; i < 6; ++i) highlight = hn::Mul(highlight, highlight);
-  const V cos_sun = hn::Max(Dot(s.normal, Constant(c.sun_direction)), zero);
+  const V cos_sun = hn::Max(Dot(s.normal, Constant(light.sun_direction)), zero);
   const V sun =
       hn::Mul(hn::Mul(highlight, cos_sun), Constant(0.04f * 72.0f / (8.0f * 3.14159265f)));
-  return ScaleAdd(Constant(c.sun_irradiance), sun, Scale(sky, reflectance));
+  return ScaleAdd(Constant(light.sun_irradiance), sun, Scale(sky, reflectance));
 }
 
-// An object in air, also as the reflection image shows it: mirrored at its own waterline.
-HWY_INLINE V3 ShadeObject(const ShadeContext& c, const Packet& packet,
-                          const ObjectPrimitive* const* primitive) {
-  V3 p = packet.p, to_eye = packet.to_eye;
-  if (c.kind == ViewKind::kReflection) {
-    const V waterline = WaterlineOf(primitive);
-    p.z = hn::Sub(hn::Add(waterline, waterline), p.z);
-    to_eye.z = hn::Neg(to_eye.z);
+// The primitives of the pixels at[0] to at[kCount - 1].
+using ObjectPacket = std::array<const ObjectPrimitive*, Lanes3::kCount>;
+HWY_INLINE ObjectPacket ObjectsAt(const Shading& s, const TilePixels& tile,
+                                  const std::uint16_t* at) {
+  const std::uint32_t first = s.primitives.begin(Object::kSurface);
+  ObjectPacket packet;
+  for (std::size_t lane = 0; lane < packet.size(); ++lane)
+    packet[lane] = &s.material<Object>().primitives[tile.primitive[at[lane]] - first];
+  return packet;
+}
+
+// An object's images in the water begin at its own waterline.
+HWY_INLINE V WaterLevel(const Object&, const Shading& s, const TilePixels& tile,
+                        const std::uint16_t* at) {
+  return WaterlineOf(ObjectsAt(s, tile, at).data());
+}
+
+// A hull in the water shows no gloss.
+template <ViewKind kView>
+struct Shader<Object, kView> {
+  const Object& object;
+
+  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const std::uint16_t* at,
+                               const Packet& packet) const {
+    const ObjectSurface surface = SampleObject(ObjectsAt(s, tile, at).data(), packet.p);
+    const V3 matt = MattLight(s.light, object.sea_light, surface);
+    if constexpr (kView == ViewKind::kRefraction) return {matt};
+    return {Sum(matt, Gloss(s.light, surface, packet.to_eye))};
   }
-  const ObjectSurface s = SampleObject(primitive, p);
-  return Haze(c, packet, Sum(MattLight(c, s), Gloss(c, s, to_eye)));
-}
-
-// A hull below the water, as the refraction image shows it: squeezed towards its waterline.
-HWY_INLINE V3 ShadeSubmergedObject(const ShadeContext& c, const Packet& packet,
-                                   const ObjectPrimitive* const* primitive) {
-  const V waterline = WaterlineOf(primitive);
-  const V apparent = hn::Max(hn::Sub(waterline, packet.p.z), hn::Zero(D()));
-  const WaterPath path = PathThroughWater(c, packet, apparent);
-  const V above = hn::Max(hn::Sub(packet.p.z, waterline), hn::Zero(D()));
-  const V z = hn::Add(hn::Sub(waterline, path.depth), above);
-  const ObjectSurface s = SampleObject(primitive, {packet.p.x, packet.p.y, z});
-  return AbsorbInWater(c, path, MattLight(c, s));
-}
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render

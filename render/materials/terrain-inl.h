@@ -1,88 +1,122 @@
 // The land and the sea floor.
-#if defined(SWELL_RENDER_TERRAIN_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TERRAIN_INL_H_
-#undef SWELL_RENDER_TERRAIN_INL_H_
+#if defined(SWELL_RENDER_MATERIALS_TERRAIN_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_TERRAIN_INL_H_
+#undef SWELL_RENDER_MATERIALS_TERRAIN_INL_H_
 #else
-#define SWELL_RENDER_TERRAIN_INL_H_
+#define SWELL_RENDER_MATERIALS_TERRAIN_INL_H_
 #endif
 
 #include "render/materials/foam-inl.h"
-#include "render/tile/packet-inl.h"
+#include "render/materials/fresnel-inl.h"
+#include "render/materials/terrain.h"
+#include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE V GroundLevel(const ShadeContext& c, const Packet& packet) {
-  return FootprintLevel(FootprintAcross(c, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
+HWY_INLINE V GroundLevel(const ViewRays& rays, const Packet& packet) {
+  return FootprintLevel(FootprintAcross(rays, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
 }
 
-// Radiance of the ground at p (relative to the eye, x and y true): diffuse, lit by sun and sky.
-// Without detail for what is seen through or in water.
+// Radiance of the ground: diffuse, lit by sun and sky.
 template <bool kDetail>
-HWY_INLINE V3 GroundRadiance(const ShadeContext& c, const Packet& packet, V level_m) {
+HWY_INLINE V3 GroundRadiance(const Terrain& terrain, const Light& light, const Packet& packet,
+                             V level_m) {
   const D d;
   const V zero = hn::Zero(d);
   V slope_x = zero, slope_y = zero, variance = zero;
   if constexpr (kDetail) {
-    AddSlopes(c.terrain_slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
-    AddSlopes(c.terrain_detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
+    AddSlopes(terrain.slopes, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
+    AddSlopes(terrain.detail, packet.p, level_m, zero, zero, slope_x, slope_y, variance);
   } else {
-    NearestSlopes(c.terrain_slopes, packet.p, level_m, slope_x, slope_y);
+    NearestSlopes(terrain.slopes, packet.p, level_m, slope_x, slope_y);
   }
   const V inv_length =
       InverseSqrt(hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
   const V3 normal = {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)),
                      inv_length};
 
-  const V cos_sun = hn::Max(Dot(normal, Constant(c.sun_direction)), zero);
+  const V cos_sun = hn::Max(Dot(normal, Constant(light.sun_direction)), zero);
   const V sky_seen = hn::MulAdd(normal.z, Constant(0.5f), Constant(0.5f));
-  const V3 light = ScaleAdd(Constant(c.sun_irradiance), hn::Mul(cos_sun, Constant(0.318309886f)),
-                            Scale(Constant(c.ambient), sky_seen));
-  const V x = hn::MulAdd(packet.p.x, Constant(c.albedo_texels_per_m), Constant(c.albedo_x_eye));
-  const V y = hn::MulAdd(packet.p.y, Constant(c.albedo_texels_per_m), Constant(c.albedo_y_eye));
+  const V3 arriving =
+      ScaleAdd(Constant(light.sun_irradiance), hn::Mul(cos_sun, Constant(0.318309886f)),
+               Scale(Constant(light.ambient), sky_seen));
+  const V x =
+      hn::MulAdd(packet.p.x, Constant(terrain.albedo_texels_per_m), Constant(terrain.albedo_x_eye));
+  const V y =
+      hn::MulAdd(packet.p.y, Constant(terrain.albedo_texels_per_m), Constant(terrain.albedo_y_eye));
   V r, g, b, alpha;
-  texture::HWY_NAMESPACE::SampleRgba(d, *c.terrain_albedo, x, y, r, g, b, alpha);
-  return Product(light, {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)});
+  texture::HWY_NAMESPACE::SampleRgba(d, *terrain.albedo, x, y, r, g, b, alpha);
+  return Product(arriving, {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)});
 }
 
-// Light's way through water to something at a depth.
-struct WaterPath {
-  V depth;   // true, of a thing that is seen at the apparent one [m]
-  V length;  // down from the sun and up to the surface [m]
+// Where the sea's edge is now, as a height on the beach from 0 to reach_m: it runs up fast and
+// back slowly, not everywhere at one time.
+struct SwashEdge {
+  V edge_m;
+  V retreat;  // 0 while it comes, up to 1 as it goes
 };
 
-HWY_INLINE WaterPath PathThroughWater(const ShadeContext& c, const Packet& packet, V apparent) {
+HWY_INLINE SwashEdge FindSwashEdge(const Swash& swash, V3 p) {
   const D d;
-  const V cos_eye = hn::Max(packet.to_eye.z, Constant(0.02f));
-  const float inv_n = 1.0f / c.refraction_index;
-  // cos of the refracted ray; apparent depth / true depth k = (1/n) cos / cos_t.
-  const V sin_t =
-      hn::Mul(hn::Sqrt(hn::Max(hn::NegMulAdd(cos_eye, cos_eye, Constant(1.0f)), hn::Zero(d))),
-              Constant(inv_n));
-  const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, Constant(1.0f)));
-  const V depth = hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(c.refraction_index)), cos_eye));
-  const V path_up = hn::Min(hn::Div(depth, cos_t), Constant(200.0f));
-  return {depth, hn::MulAdd(depth, Constant(1.2f), path_up)};  // sunlight comes down at a slant
+  V along_a, along_b, sine, cosine, unused;
+  SinCosTurns(d,
+              hn::MulAdd(p.x, Constant(swash.lag_a.x),
+                         hn::MulAdd(p.y, Constant(swash.lag_a.y), Constant(swash.lag_a.z))),
+              along_a, unused);
+  SinCosTurns(d,
+              hn::MulAdd(p.x, Constant(swash.lag_b.x),
+                         hn::MulAdd(p.y, Constant(swash.lag_b.y), Constant(swash.lag_b.z))),
+              along_b, unused);
+  const V lag = hn::Mul(hn::Add(along_a, along_b), Constant(0.3f));
+  const V turns = hn::Sub(Constant(swash.cycles), lag);
+  SinCosTurns(d, turns, sine, cosine);
+  // cos(phi - 0.35 cos phi) leans forward: up in less than half the time.
+  const V leaning = hn::MulAdd(cosine, Constant(-0.056f), turns);
+  SinCosTurns(d, leaning, sine, cosine);
+  const V half = Constant(0.5f);
+  const V reach = hn::MulAdd(along_b, Constant(0.15f), Constant(0.85f));
+  const V edge = hn::Mul(hn::MulAdd(sine, half, half), hn::Mul(reach, Constant(swash.reach_m)));
+  return {edge, hn::MulAdd(cosine, hn::Neg(half), half)};
 }
 
-// Light is lost on its way, and the water body's takes its place (Beer-Lambert).
-HWY_INLINE V3 AbsorbInWater(const ShadeContext& c, const WaterPath& path, V3 light) {
+// Wet sand mirrors the sky; a sheet of water with foam at its rim runs over it. `ground` is the
+// ground's light at p, whose height is height_m.
+HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& packet, V level_m,
+                       V height_m, V3 ground) {
   const D d;
-  const glm::vec3 absorption = c.absorption_per_m;
-  const auto lost = [&](float per_m, V body, V seen) {
-    const V through = Exp(d, hn::Mul(path.length, Constant(-per_m)));
-    return Lerp(body, seen, through);
-  };
-  return {lost(absorption.x, Constant(c.body.x), light.x),
-          lost(absorption.y, Constant(c.body.y), light.y),
-          lost(absorption.z, Constant(c.body.z), light.z)};
+  const float reach_m = terrain.swash.reach_m;
+  const auto reached = hn::Lt(height_m, Constant(1.6f * reach_m));
+  if (reach_m <= 0.0f || hn::AllFalse(d, reached)) return ground;
+  const SwashEdge swash = FindSwashEdge(terrain.swash, packet.p);
+  // Sand stays wet for a while up to where the sheets come.
+  const V dry = Clamp(hn::Mul(height_m, Constant(1.0f / (1.6f * reach_m))), 0.0f, 1.0f);
+  const V wet = hn::NegMulAdd(hn::Mul(dry, dry), dry, Constant(1.0f));
+  const V cos_eye = Clamp(packet.to_eye.z, 0.05f, 1.0f);
+  const V mirror = FresnelReflectance(d, cos_eye, s.media.refraction_index);
+  const V3 up = {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), hn::Abs(packet.to_eye.z)};
+  const V3 sky = SkyRadiance(*s.light.sky_soft, up, Constant(1.0f));
+  const V below = hn::Sub(swash.edge_m, height_m);  // of the sheet's rim [m of height]
+  const V sheet = Clamp(hn::Mul(below, Constant(40.0f)), 0.0f, 1.0f);
+  const V shine = hn::Mul(mirror, hn::MulAdd(sheet, Constant(0.5f), hn::Mul(wet, Constant(0.5f))));
+  const V darkened = hn::NegMulAdd(wet, Constant(0.15f), Constant(1.0f));
+  V3 light = Lerp(Scale(ground, darkened), sky, shine);
+  // A bright rim, then lace that thins out.
+  const V from_rim = hn::Mul(below, Constant(1.0f / reach_m));
+  const V rim = Clamp(hn::NegMulAdd(from_rim, Constant(9.0f), Constant(1.0f)), 0.0f, 1.0f);
+  const V lace = Clamp(hn::NegMulAdd(from_rim, Constant(0.9f), Constant(0.6f)), 0.0f, 1.0f);
+  const V fresh = hn::NegMulAdd(swash.retreat, Constant(0.6f), Constant(1.0f));
+  const V foam = hn::IfThenElseZero(hn::Gt(below, hn::Zero(d)), hn::Mul(hn::Max(rim, lace), fresh));
+  light = AddFoam(terrain.foam, FoamCover(terrain.foam, packet.p, level_m, foam), light);
+  return {hn::IfThenElse(reached, light.x, ground.x), hn::IfThenElse(reached, light.y, ground.y),
+          hn::IfThenElse(reached, light.z, ground.z)};
 }
 
 // 1 over the land's square, falling to 0 at its rim, beyond which there is deep water.
-HWY_INLINE V InsideLand(const ShadeContext& c, V3 p) {
+HWY_INLINE V InsideLand(const Terrain& terrain, V3 p) {
   constexpr float kRim = 1.0f / 30.0f;  // of the side
-  const SlopeLayer& square = c.terrain_slopes;
+  const SlopeLayer& square = terrain.slopes;
   const auto from_rim = [&](float eye, V x) HWY_ATTR {
     const V u = hn::MulAdd(x, Constant(square.inv_length), Constant(eye));
     return hn::Min(u, hn::Sub(Constant(1.0f), u));
@@ -91,26 +125,27 @@ HWY_INLINE V InsideLand(const ShadeContext& c, V3 p) {
   return Clamp(hn::Mul(nearest, Constant(1.0f / kRim)), 0.0f, 1.0f);
 }
 
-// The ground through water: the pixel's z is squeezed.
-HWY_INLINE V3 ShadeSubmerged(const ShadeContext& c, const Packet& packet) {
-  const V3 ground = GroundRadiance<false>(c, packet, GroundLevel(c, packet));
-  const V apparent = hn::Max(hn::Neg(hn::Add(packet.p.z, Constant(c.eye_z))), hn::Zero(D()));
-  const V3 seen = AbsorbInWater(c, PathThroughWater(c, packet, apparent), ground);
-  return Lerp(Constant(c.body), seen, InsideLand(c, packet.p));
-}
+// Ground as the eye sees it, with the sea's last sheets on it; without detail for what is seen
+// through or in water.
+template <ViewKind kView>
+struct Shader<Terrain, kView> {
+  const Terrain& terrain;
 
-// Dry ground as the reflection image shows it (p mirrored: the true height is -z).
-HWY_INLINE V3 ShadeMirrored(const ShadeContext& c, const Packet& packet) {
-  return Haze(c, packet, GroundRadiance<false>(c, packet, GroundLevel(c, packet)));
-}
-
-// Ground as the eye sees it, with the sea's last sheets on it.
-HWY_INLINE V3 ShadeTerrain(const ShadeContext& c, const Packet& packet) {
-  const V level_m = GroundLevel(c, packet);
-  const V3 ground = GroundRadiance<true>(c, packet, level_m);
-  const V height_m = hn::Add(packet.p.z, Constant(c.eye_z));
-  return Haze(c, packet, AddSwash(c, packet, level_m, height_m, ground));
-}
+  HWY_INLINE auto operator()(const Shading& s, const TilePixels&, const std::uint16_t*,
+                             const Packet& packet) const {
+    const V level_m = GroundLevel(s.rays, packet);
+    constexpr bool kDetail = kView == ViewKind::kWindow;
+    const V3 ground = GroundRadiance<kDetail>(terrain, s.light, packet, level_m);
+    if constexpr (kView == ViewKind::kWindow) {
+      const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
+      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, ground)};
+    } else if constexpr (kView == ViewKind::kRefraction) {
+      return FadingSurfel{{ground}, InsideLand(terrain, packet.p)};
+    } else {
+      return Surfel{ground};
+    }
+  }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render

@@ -1,16 +1,17 @@
 // The water material.
-#if defined(SWELL_RENDER_WATER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_WATER_INL_H_
-#undef SWELL_RENDER_WATER_INL_H_
+#if defined(SWELL_RENDER_MATERIALS_WATER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_WATER_INL_H_
+#undef SWELL_RENDER_MATERIALS_WATER_INL_H_
 #else
-#define SWELL_RENDER_WATER_INL_H_
+#define SWELL_RENDER_MATERIALS_WATER_INL_H_
 #endif
 
 #include <algorithm>
 
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
-#include "render/tile/packet-inl.h"
+#include "render/materials/water.h"
+#include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -18,12 +19,12 @@ namespace HWY_NAMESPACE {
 
 // The water's surface at a packet: mean slopes that the maps show, and the variance (of both axes
 // together) of the slopes too fine for a pixel.
-struct WaterSurface {
+struct WaterSlopes {
   V slope_x, slope_y, variance;
   V foam_cover;  // part hidden by foam, in [0, 1]
 };
 
-HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSurface& s) {
+HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
   const V cycles =
       hn::MulAdd(p.x, Constant(sine.kx), hn::MulAdd(p.y, Constant(sine.ky), Constant(sine.cycles)));
   V sin_unused, cosine;
@@ -55,9 +56,9 @@ struct Surf {
   bool is_whole;  // no lane has anything of the sea's long waves
 };
 
-HWY_INLINE Surf SampleSurf(const ShadeContext& c, V3 p, V level_m) {
+HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
   const D d;
-  const SlopeLayer& layer = c.coast_surf;
+  const SlopeLayer& layer = water.coast_surf;
   const V u = hn::MulAdd(p.x, Constant(layer.inv_length), Constant(layer.u_eye));
   const V v = hn::MulAdd(p.y, Constant(layer.inv_length), Constant(layer.v_eye));
   const V low = hn::Zero(d), high = Constant(0.999f);
@@ -82,18 +83,17 @@ HWY_INLINE Surf SampleSurf(const ShadeContext& c, V3 p, V level_m) {
 
 // Near a coast the longest waves make room for the trains that know its floor: their slopes keep
 // 1 - share, their variance its square.
-HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, const Surf& surf,
-                           WaterSurface& s) {
+HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf, WaterSlopes& s) {
   const D d;
   const V kept = hn::Sub(Constant(1.0f), surf.share);
-  const V long_variance = hn::Sub(s.variance, Constant(c.base_variance));
+  const V long_variance = hn::Sub(s.variance, Constant(water.base_variance));
   s.slope_x = hn::NegMulAdd(s.slope_x, surf.share, s.slope_x);
   s.slope_y = hn::NegMulAdd(s.slope_y, surf.share, s.slope_y);
-  const V blended = hn::MulAdd(long_variance, hn::Mul(kept, kept), Constant(c.base_variance));
+  const V blended = hn::MulAdd(long_variance, hn::Mul(kept, kept), Constant(water.base_variance));
   // Not rounded outside: a packet with no lane inside does not come by here.
   s.variance = hn::IfThenElse(surf.inside, blended, s.variance);
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
-  AddSlopes(c.coast_slopes, p, level_m, x, y, x, y, lost);
+  AddSlopes(water.coast_slopes, p, level_m, x, y, x, y, lost);
   s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(surf.inside, x));
   s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(surf.inside, y));
   s.variance = hn::Add(s.variance, hn::IfThenElseZero(surf.inside, lost));
@@ -102,7 +102,7 @@ HWY_INLINE void BlendCoast(const ShadeContext& c, V3 p, V level_m, const Surf& s
 constexpr float kMinCos = 0.02f;
 
 // log2 of the footprint [m] on waves of these slopes.
-HWY_INLINE V LevelOnWaves(const Packet& packet, V across, const WaterSurface& s) {
+HWY_INLINE V LevelOnWaves(const Packet& packet, V across, const WaterSlopes& s) {
   // The normal's length is left out: it is near 1, and a level needs no better.
   const V cos_wave = hn::NegMulAdd(s.slope_x, packet.to_eye.x,
                                    hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
@@ -113,33 +113,34 @@ HWY_INLINE V LevelOnWaves(const Packet& packet, V across, const WaterSurface& s)
 // noise bends. How steeply the eye meets the long waves decides how long a pixel's footprint is on
 // the shorter ones.
 template <bool kCoast>
-HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet) {
+HWY_INLINE WaterSlopes SampleWater(const Water& water, const ViewRays& rays, const Packet& packet) {
   const D d;
-  const V across = FootprintAcross(c, packet);
+  const V across = FootprintAcross(rays, packet);
   const V level_flat_m = FootprintLevel(across, Clamp(packet.to_eye.z, kMinCos, 1.0f));
   V level_m = level_flat_m;
   Surf surf = {hn::Zero(d), hn::Zero(d), hn::MaskFromVec(hn::Zero(d)), false, false};
-  if constexpr (kCoast) surf = SampleSurf(c, packet.p, level_flat_m);
-  WaterSurface s = {hn::Zero(d), hn::Zero(d), Constant(c.base_variance),
-                    FoamCover(c, packet.p, level_flat_m, surf.foam)};
+  if constexpr (kCoast) surf = SampleSurf(water, packet.p, level_flat_m);
+  WaterSlopes s = {hn::Zero(d), hn::Zero(d), Constant(water.base_variance),
+                   FoamCover(water.foam, packet.p, level_flat_m, surf.foam)};
   V du = hn::Zero(d), dv = hn::Zero(d), unused = hn::Zero(d);
   // In scenes with surf nobody sees the step between two levels of the noise.
   if constexpr (kCoast)
-    NearestSlopes(c.uv_noise, packet.p, level_m, du, dv);
+    NearestSlopes(water.uv_noise, packet.p, level_m, du, dv);
   else
-    AddSlopes(c.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
-  for (int i = 0; i < c.sine_count; ++i)
-    AddSine(c.sines[static_cast<std::size_t>(i)], packet.p, level_m, s);
+    AddSlopes(water.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
+  for (int i = 0; i < water.sine_count; ++i)
+    AddSine(water.sines[static_cast<std::size_t>(i)], packet.p, level_m, s);
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
-  const int last_long = c.long_layer_count - 1;
-  for (int i = std::min(last_long, 0); i < c.water_layer_count; ++i) {
+  const int last_long = water.long_layer_count - 1;
+  for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
     const bool is_long = i <= last_long;
     if (i >= 0 && !(kCoast && is_long && surf.is_whole))
-      AddSlopes(c.water_layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
+      AddSlopes(water.layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
                 s.slope_y, s.variance);
     if (!is_long) continue;
-    if (kCoast && surf.is_near && i == last_long) BlendCoast(c, packet.p, level_flat_m, surf, s);
+    if (kCoast && surf.is_near && i == last_long)
+      BlendCoast(water, packet.p, level_flat_m, surf, s);
     level_m = LevelOnWaves(packet, across, s);
   }
   return s;
@@ -148,15 +149,15 @@ HWY_INLINE WaterSurface SampleWater(const ShadeContext& c, const Packet& packet)
 // Looks a lookup image up at the pixel's own window position, moved by the slopes (spec: distortion
 // tied to the bump, fading where the surface is seen edge-on so that far, small things hold
 // together).
-HWY_INLINE V3 LookUpDistorted(const ShadeContext& c, const LookupImage& lookup,
-                              const Packet& packet, const WaterSurface& s, float sign, V& alpha) {
-  const V right =
-      hn::MulAdd(s.slope_x, Constant(c.view_right.x), hn::Mul(s.slope_y, Constant(c.view_right.y)));
-  const V ahead =
-      hn::MulAdd(s.slope_x, Constant(c.view_ahead.x), hn::Mul(s.slope_y, Constant(c.view_ahead.y)));
-  const V gain = hn::Mul(Constant(sign * c.distortion_px),
+HWY_INLINE V3 LookUpDistorted(const Water& water, const LookupImage& lookup, const Packet& packet,
+                              const WaterSlopes& s, float sign, V& alpha) {
+  const V right = hn::MulAdd(s.slope_x, Constant(water.view_right.x),
+                             hn::Mul(s.slope_y, Constant(water.view_right.y)));
+  const V ahead = hn::MulAdd(s.slope_x, Constant(water.view_ahead.x),
+                             hn::Mul(s.slope_y, Constant(water.view_ahead.y)));
+  const V gain = hn::Mul(Constant(sign * water.distortion_px),
                          Clamp(hn::Mul(packet.to_eye.z, Constant(6.0f)), 0.1f, 1.0f));
-  const float bound = c.max_distortion_px;
+  const float bound = water.max_distortion_px;
   const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
   const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
   const V half = Constant(0.5f);
@@ -167,37 +168,37 @@ HWY_INLINE V3 LookUpDistorted(const ShadeContext& c, const LookupImage& lookup,
 
 // What the surface mirrors: the sky in the reflected direction, and in front of it whatever the
 // reflection image shows there.
-HWY_INLINE V3 ReflectedLight(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
-                             V3 normal, V cos_eye, bool use_image) {
+HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
+                             const WaterSlopes& s, V3 normal, V cos_eye, bool use_image) {
   V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
   // Rays that would meet the sea again, and the spread of rough water, look above the horizon.
   r.z = hn::Add(hn::Abs(r.z), hn::Mul(s.variance, Constant(0.8f)));
   const V length = hn::Sqrt(Dot(r, r));
-  V3 light = SkyRadiance(*c.sky_soft, r, length);
+  V3 mirrored = SkyRadiance(*light.sky_soft, r, length);
   if (use_image) {
     V alpha;
-    const V3 image = LookUpDistorted(c, c.reflection, packet, s, 1.0f, alpha);
-    light = Lerp(light, image, alpha);
+    const V3 image = LookUpDistorted(water, water.reflection, packet, s, 1.0f, alpha);
+    mirrored = Lerp(mirrored, image, alpha);
   }
-  return light;
+  return mirrored;
 }
 
 // What comes up through the surface: scattered light of the water body, brighter in thin crests
 // against the sun, and the floor where the refraction image shows one.
-HWY_INLINE V3 RefractedLight(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
-                             bool use_image) {
-  const V height = hn::Add(packet.p.z, Constant(c.eye_z));
+HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
+                             const WaterSlopes& s, bool use_image) {
+  const V height = hn::Add(packet.p.z, Constant(shading.rays.eye_z));
   const V crest =
-      Clamp(hn::MulAdd(height, Constant(c.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
-  const V towards_sun =
-      hn::Max(hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(c.sun_direction.x),
-                                 hn::Mul(packet.to_eye.y, Constant(c.sun_direction.y)))),
-              hn::Zero(D()));
+      Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
+  const V towards_sun = hn::Max(
+      hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(shading.light.sun_direction.x),
+                         hn::Mul(packet.to_eye.y, Constant(shading.light.sun_direction.y)))),
+      hn::Zero(D()));
   const V glow = hn::Mul(hn::Mul(crest, crest), hn::Add(towards_sun, Constant(0.35f)));
-  V3 light = ScaleAdd(Constant(c.crest_glow), glow, Constant(c.body));
+  V3 light = ScaleAdd(Constant(water.crest_glow), glow, Constant(shading.media.body));
   if (use_image) {
     V alpha;
-    const V3 floor = LookUpDistorted(c, c.refraction, packet, s, -0.5f, alpha);
+    const V3 floor = LookUpDistorted(water, water.refraction, packet, s, -0.5f, alpha);
     light = Lerp(light, floor, alpha);
   }
   return light;
@@ -206,9 +207,9 @@ HWY_INLINE V3 RefractedLight(const ShadeContext& c, const Packet& packet, const 
 // The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution.
 // Source: Ross, Dion, Potvin, Detailed analytical approach to the Gaussian surface bidirectional
 // reflectance distribution function, 2005, without its shadowing terms.
-HWY_INLINE V SunGlint(const ShadeContext& c, const Packet& packet, const WaterSurface& s,
+HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const WaterSlopes& s,
                       V reflectance, V cos_eye) {
-  const V3 half = Sum(packet.to_eye, Constant(c.sun_direction));
+  const V3 half = Sum(packet.to_eye, Constant(sun_direction));
   // The three quotients' denominators share one division.
   const V z = hn::Max(half.z, Constant(1e-3f));
   const V cos4 = hn::Mul(Constant(4.0f), hn::Max(cos_eye, Constant(0.08f)));
@@ -228,27 +229,46 @@ HWY_INLINE V SunGlint(const ShadeContext& c, const Packet& packet, const WaterSu
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
-// kCoast: c.has_coast.
+// kCoast: water.has_coast.
 template <bool kCoast>
-HWY_INLINE V3 ShadeWater(const ShadeContext& c, const Packet& packet, TileLookups lookups) {
-  const D d;
-  const WaterSurface s = SampleWater<kCoast>(c, packet);
-  // Normal, and the cosine to the eye, negative on back sides of waves that the mesh does not hide.
-  const V3 normal = NormalOf(s.slope_x, s.slope_y);
-  const V cos_eye = Dot(normal, packet.to_eye);
-  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper view;
-  // a back side counts as the facets in front of it, or crests would be lined with light.
-  const V cos_rough = hn::Sqrt(
-      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
-  const V reflectance = FresnelReflectance(d, cos_rough, c.refraction_index);
+struct WaterShader {
+  const Water& water;
 
-  const V3 mirrored = ReflectedLight(c, packet, s, normal, cos_eye, lookups.reflection);
-  const V3 refracted = RefractedLight(c, packet, s, lookups.refraction);
-  const V3 light = Lerp(refracted, mirrored, reflectance);
-  const V glint = SunGlint(c, packet, s, reflectance, cos_rough);
-  V3 water = ScaleAdd(Constant(c.sun_irradiance), glint, light);
-  if constexpr (kCoast) water = AddFoam(c, s.foam_cover, water);
-  return Haze(c, packet, water);
+  HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const std::uint16_t*,
+                               const Packet& packet) const {
+    const D d;
+    const Light& light = shading.light;
+    const WaterSlopes s = SampleWater<kCoast>(water, shading.rays, packet);
+    // Normal, and the cosine to the eye, negative on back sides of waves that the mesh does not
+    // hide.
+    const V3 normal = NormalOf(s.slope_x, s.slope_y);
+    const V cos_eye = Dot(normal, packet.to_eye);
+    // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
+    // view; a back side counts as the facets in front of it, or crests would be lined with light.
+    const V cos_rough = hn::Sqrt(
+        hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
+    const V reflectance = FresnelReflectance(d, cos_rough, shading.media.refraction_index);
+
+    const V3 mirrored =
+        ReflectedLight(light, water, packet, s, normal, cos_eye, tile.lookups.reflection);
+    const V3 refracted = RefractedLight(shading, water, packet, s, tile.lookups.refraction);
+    const V3 arriving = Lerp(refracted, mirrored, reflectance);
+    const V glint = SunGlint(light.sun_direction, packet, s, reflectance, cos_rough);
+    V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
+    if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
+    return {seen};
+  }
+};
+
+// Water far from any coast is spared the coast's code.
+template <ViewKind kView, class Use>
+HWY_INLINE void WithShader(const Water& water, const Use& use) {
+  if constexpr (shows(kView, Water::kSurface)) {
+    if (water.has_coast)
+      use(WaterShader<true>{water});
+    else
+      use(WaterShader<false>{water});
+  }
 }
 
 }  // namespace HWY_NAMESPACE

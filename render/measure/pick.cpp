@@ -83,9 +83,9 @@ std::optional<Pick> pick(const World& world, const View& view, const Workspace& 
 
   std::optional<Pick> nearest;
   const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
-  meet_surface(Shown::kWater, ws.water, is_bintree, ray, scratch, nearest);
-  if (w.terrain) meet_surface(Shown::kLand, ws.land, true, ray, scratch, nearest);
-  meet_objects(w.scene.objects, ws.objects, ray, nearest);
+  meet_surface(Shown::kWater, ws.meshes.water, is_bintree, ray, scratch, nearest);
+  if (w.terrain) meet_surface(Shown::kLand, ws.meshes.land, true, ray, scratch, nearest);
+  meet_objects(w.scene.objects, ws.meshes.objects, ray, nearest);
   if (!nearest) return nearest;
 
   nearest->p_world = ray.origin + nearest->distance_m * ray.along;
@@ -93,7 +93,7 @@ std::optional<Pick> pick(const World& world, const View& view, const Workspace& 
   if (nearest->what == Shown::kLand)
     ask_land(*w.terrain, *nearest);
   else
-    ask_water(w, ws.sea, *nearest);
+    ask_water(w, ws.sea.frame, *nearest);
   return nearest;
 }
 

@@ -1,10 +1,10 @@
 // The value types of the shaders: a packet is one SIMD vector of pixels. Per-target code; the
 // targets are fixed-size (x86), so vectors may be members of these short-lived structs.
-#if defined(SWELL_RENDER_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_PACKET_INL_H_
-#undef SWELL_RENDER_PACKET_INL_H_
+#if defined(SWELL_RENDER_TILE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_PACKET_INL_H_
+#undef SWELL_RENDER_TILE_PACKET_INL_H_
 #else
-#define SWELL_RENDER_PACKET_INL_H_
+#define SWELL_RENDER_TILE_PACKET_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -62,14 +62,19 @@ struct Packet {
   V3 to_eye;     // unit
 };
 
+// The ray through the centres of pixels (x_px, y_px), of depth 1.
+HWY_INLINE V3 RayAt(const ViewRays& rays, V x_px, V y_px) {
+  return ScaleAdd(Constant(rays.ray_dx), x_px,
+                  ScaleAdd(Constant(rays.ray_dy), y_px, Constant(rays.ray)));
+}
+
 // Pixels at (x_px, y_px) whose depth buffer holds z > 0.
-HWY_INLINE Packet MakePacket(const ShadeContext& c, V x_px, V y_px, V z) {
+HWY_INLINE Packet MakePacket(const ViewRays& rays, V x_px, V y_px, V z) {
   Packet packet;
   packet.x_px = x_px;
   packet.y_px = y_px;
-  packet.depth = hn::Div(Constant(c.near_m), z);
-  const V3 ray =
-      ScaleAdd(Constant(c.ray_dx), x_px, ScaleAdd(Constant(c.ray_dy), y_px, Constant(c.ray)));
+  packet.depth = hn::Div(Constant(rays.near_m), z);
+  const V3 ray = RayAt(rays, x_px, y_px);
   packet.p = Scale(ray, packet.depth);
   const V length2 = Dot(ray, ray);
   const V inverse_length = InverseSqrt(length2);
@@ -88,8 +93,8 @@ HWY_INLINE V PixelNoise(V x_px, V y_px) {
 }
 
 // log2 of the size [m] of a pixel's footprint across the view.
-HWY_INLINE V FootprintAcross(const ShadeContext& c, const Packet& packet) {
-  return Log2Coarse(D(), hn::Mul(packet.depth, Constant(c.pixel_angle)));
+HWY_INLINE V FootprintAcross(const ViewRays& rays, const Packet& packet) {
+  return Log2Coarse(D(), hn::Mul(packet.depth, Constant(rays.pixel_angle)));
 }
 
 // log2 of the footprint on a surface that the eye meets at cos_view: lengthened by three quarters
@@ -173,19 +178,6 @@ HWY_INLINE V3 SkyRadiance(const texture::RgbaImage& map, V3 direction, V length)
   V alpha;
   return LookUp(map, hn::MulAdd(direction.x, scale, half), hn::MulAdd(direction.y, scale, half),
                 alpha);
-}
-
-// Blends towards the horizon's colour with distance, so that no edge of the sea shows. Haze of less
-// than half a step of the picture is left out: near packets then need no lookup.
-HWY_INLINE V3 Haze(const ShadeContext& c, const Packet& packet, V3 colour) {
-  const D d;
-  const V clear = Exp(d, hn::Mul(packet.distance, Constant(-c.inv_haze_m)));
-  const V amount = hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), hn::Zero(d));
-  if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;
-  const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
-  const V horizontal = hn::Sqrt(hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f)));
-  const V3 horizon = SkyRadiance(*c.sky_soft, {x, y, hn::Zero(d)}, horizontal);
-  return Lerp(colour, horizon, amount);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "raster/interpolate.h"
-#include "render/workspace.h"
+#include "render/tile/shade_picture.h"
 
 namespace swell::render {
 namespace {
@@ -39,23 +39,26 @@ Triangle triangle_at(std::span<const glm::vec4> p_clip, std::span<const std::uin
   return {{p_clip[indices[3 * n]], p_clip[indices[3 * n + 1]], p_clip[indices[3 * n + 2]]}, level};
 }
 
-Triangle triangle_of(const Frame& frame, std::uint32_t primitive) {
-  const auto of_surface = [](const Surface& surface, std::size_t n) {
-    return triangle_at(surface.p_clip, surface.mesh.indices, n, surface.mesh.level[n]);
-  };
-  const std::uint32_t water = water_triangles(frame), land = land_triangles(frame);
-  if (primitive < water) return of_surface(frame.ws.water, primitive);
-  if (primitive < water + land) return of_surface(frame.ws.land, primitive - water);
-  const ObjectGeometry& objects = frame.ws.objects;
+Triangle triangle_of(const PictureInputs& in, std::uint32_t primitive) {
   constexpr int kWhite = 7;
-  return triangle_at(objects.p_clip, objects.indices, primitive - water - land, kWhite);
+  const PrimitiveRanges& ranges = in.window.primitives;
+  const Meshes& meshes = in.meshes;
+  SurfaceKind kind = SurfaceKind::kWater;
+  for (const SurfaceKind k : kAllSurfaces)
+    if (ranges.holds(k, primitive)) kind = k;
+  const std::size_t n = primitive - ranges.begin(kind);
+  const int level = kind == SurfaceKind::kWater     ? meshes.water.mesh.level[n]
+                    : kind == SurfaceKind::kTerrain ? meshes.land.mesh.level[n]
+                                                    : kWhite;
+  return triangle_at(in.window.vertices_of(kind).p_clip, meshes.indices(kind), n, level);
 }
 
 }  // namespace
 
-void draw_wireframe(const Frame& frame, int tile, Target& target) {
-  VisibilityBuffer& visibility = frame.ws.visibility;
-  const raster::PixelBox box = raster::tile_box(frame.viewport(), visibility.grid, tile);
+void draw_wireframe(const PictureInputs& in, int tile, Target& target) {
+  const VisibilityBuffer& visibility = in.visibility;
+  const raster::Viewport viewport = in.window.viewport();
+  const raster::PixelBox box = raster::tile_box(viewport, visibility.grid, tile);
   const std::span<const std::uint32_t> primitive = visibility.primitive_of(tile);
   std::uint32_t current = raster::kNoPrimitive;
   std::optional<raster::TriangleInterpolator> interpolator;
@@ -66,8 +69,8 @@ void draw_wireframe(const Frame& frame, int tile, Target& target) {
           primitive[static_cast<std::size_t>(y) * visibility.grid.tile_size_px + x];
       if (p == raster::kNoPrimitive) continue;
       if (p != current) {
-        const Triangle triangle = triangle_of(frame, p);
-        interpolator.emplace(triangle.p_clip, frame.viewport());
+        const Triangle triangle = triangle_of(in, p);
+        interpolator.emplace(triangle.p_clip, viewport);
         colour = level_colour(triangle.level);
         current = p;
       }

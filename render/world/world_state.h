@@ -20,6 +20,10 @@
 
 namespace swell::render {
 
+// Radiance in 8-bit lookup images is stored as sqrt(radiance / kLookupRange) * 255: even steps for
+// the eye, and headroom over white.
+inline constexpr float kLookupRange = 2.0f;
+
 // The sky as a map of the upper hemisphere: direction d lies at the window position
 // (0.5 + 0.5 d.xy / (1 + d.z)) * size; the horizon is the circle of radius size / 2.
 struct SkyMaps {

@@ -33,22 +33,27 @@ TEST_P(EachSea, BackgroundIsDrawnWithinItsError) {
     scene.detail.background_error_px = error_px;
     int seen = 0, left_out = 0;
     double worst_px = 0.0;
-    draw_shots(scene, 8, kSize_px, 5000,
-               [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
-                 for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
-                   glm::dvec2 drawn_px, true_px;
-                   if (!seen_at(shot.view, drawn.p_clip[v], drawn_px)) continue;
-                   ++seen;
-                   const float height_m = surface.height(place_of(drawn, v));
-                   left_out += height_m != drawn.height_m[v];
-                   const float z_rel = height_m - static_cast<float>(shot.view.eye_world.z);
-                   if (!seen_at(shot.view,
-                                shot.view.clip_from_rel * glm::vec4(drawn.offset[v], z_rel, 1.0f),
-                                true_px))
-                     continue;
-                   worst_px = std::max(worst_px, glm::distance(drawn_px, true_px));
-                 }
-               });
+    draw_shots(
+        scene, 8, kSize_px, 5000,
+        [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
+          for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
+            glm::dvec2 drawn_px, true_px;
+            const float drawn_z_rel = drawn.height_m[v] - static_cast<float>(shot.view.eye_world.z);
+            if (!seen_at(shot.view,
+                         shot.view.clip_from_rel * glm::vec4(drawn.offset[v], drawn_z_rel, 1.0f),
+                         drawn_px))
+              continue;
+            ++seen;
+            const float height_m = surface.height(place_of(drawn, v));
+            left_out += height_m != drawn.height_m[v];
+            const float z_rel = height_m - static_cast<float>(shot.view.eye_world.z);
+            if (!seen_at(shot.view,
+                         shot.view.clip_from_rel * glm::vec4(drawn.offset[v], z_rel, 1.0f),
+                         true_px))
+              continue;
+            worst_px = std::max(worst_px, glm::distance(drawn_px, true_px));
+          }
+        });
     EXPECT_LE(worst_px, error_px + 0.002) << "rounding of float positions";
     ASSERT_GT(seen, 1000);
     if (error_px > 1.0) {

@@ -60,7 +60,7 @@ void draw_shots(const scene::Scene& scene, int count, glm::ivec2 size_px, int tr
   for (int n = 0; n < count; ++n) {
     const Shot shot = random_shot(n, size_px.x, size_px.y);
     render_frame(world, shot.view, shot.t_s, options, workspace, target, workers);
-    check(shot, water.at(shot.t_s, frame, workers), workspace.state().water);
+    check(shot, water.at(shot.t_s, frame, workers), workspace.state().meshes.water);
   }
 }
 

@@ -109,8 +109,9 @@ Afloat draw_buoys(const World& world, double t_s) {
   const View view = scene::camera_view(world.scene().camera, t_s, 320, 180);
   render_frame(world, view, t_s, options, workspace, target, workers);
   Afloat result;
-  for (const scene::ObjectPose& pose : workspace.state().objects.poses) {
-    const DrawnPlace place = drawn_at(workspace.state().water, glm::dvec2(pose.position_world));
+  for (const scene::ObjectPose& pose : workspace.state().meshes.objects.poses) {
+    const DrawnPlace place =
+        drawn_at(workspace.state().meshes.water, glm::dvec2(pose.position_world));
     const double gap_m = std::abs(place.height_m - pose.position_world.z);
     result.edge_m += place.edge_m;
     result.gap_m += gap_m;

@@ -489,10 +489,9 @@ scene::Scene calm_scene(scene::ObjectKind kind, double size_m, double draught) {
 
 std::uint64_t object_pixels(Workspace& workspace) {
   const Workspace::State& state = workspace.state();
-  const std::size_t first = state.water.mesh.indices.size() / 3;
   return static_cast<std::uint64_t>(std::ranges::count_if(
       state.visibility.primitive,
-      [&](std::uint32_t p) { return p >= first && p != raster::kNoPrimitive; }));
+      [&](std::uint32_t p) { return state.window.primitives.holds(SurfaceKind::kObjects, p); }));
 }
 
 // A ball of radius r at distance d fills a cone of half angle asin(r / d); near the middle of the

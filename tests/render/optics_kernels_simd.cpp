@@ -21,13 +21,14 @@ void Fresnel(std::span<const float> cos_theta, float n, std::span<float> reflect
   }
 }
 
-void Water(const ShadeContext& c, glm::vec3 p_rel, WaterSlopes& result) {
+void Slopes(const Water& water, glm::vec3 p_rel, SeenSlopes& result) {
   Packet packet;
   packet.x_px = packet.y_px = hn::Zero(D());
   packet.p = Constant(p_rel);
   packet.depth = packet.distance = Constant(-p_rel.z);
   packet.to_eye = Constant(glm::vec3(0.0f, 0.0f, 1.0f));
-  const WaterSurface s = c.has_coast ? SampleWater<true>(c, packet) : SampleWater<false>(c, packet);
+  const WaterSlopes s = water.has_coast ? SampleWater<true>(water, ViewRays{}, packet)
+                                        : SampleWater<false>(water, ViewRays{}, packet);
   result.slope = {hn::GetLane(s.slope_x), hn::GetLane(s.slope_y)};
   result.variance = hn::GetLane(s.variance);
 }
@@ -40,15 +41,15 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(Fresnel);
-HWY_EXPORT(Water);
+HWY_EXPORT(Slopes);
 
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance) {
   HWY_DYNAMIC_DISPATCH(Fresnel)(cos_theta, n, reflectance);
 }
 
-WaterSlopes sample_water(const ShadeContext& c, glm::vec3 p_rel) {
-  WaterSlopes result;
-  HWY_DYNAMIC_DISPATCH(Water)(c, p_rel, result);
+SeenSlopes sample_water(const Water& water, glm::vec3 p_rel) {
+  SeenSlopes result;
+  HWY_DYNAMIC_DISPATCH(Slopes)(water, p_rel, result);
   return result;
 }
 

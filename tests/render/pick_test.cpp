@@ -67,14 +67,19 @@ std::optional<DrawnPixel> pixel_at(Drawn& drawn, int x, int y) {
   const float depth = ws.visibility.depth_of(tile)[at];
   if (depth <= 0.0f) return std::nullopt;
   const double depth_m = static_cast<double>(drawn.view.near_m / depth);
-  auto id = static_cast<int>(ws.visibility.primitive_of(tile)[at]);
-  const int water = static_cast<int>(ws.water.mesh.level.size());
-  const int land = static_cast<int>(ws.land.mesh.level.size());
-  if (id < water) return DrawnPixel{Shown::kWater, id, depth_m};
-  if ((id -= water) < land) return DrawnPixel{Shown::kLand, id, depth_m};
-  const ObjectPrimitive& primitive = ws.objects.primitives[static_cast<std::size_t>(id - land)];
+  const std::uint32_t id = ws.visibility.primitive_of(tile)[at];
+  const auto number_in = [&](SurfaceKind kind) {
+    return static_cast<int>(id - ws.window.primitives.begin(kind));
+  };
+  if (ws.window.primitives.holds(SurfaceKind::kWater, id))
+    return DrawnPixel{Shown::kWater, number_in(SurfaceKind::kWater), depth_m};
+  if (ws.window.primitives.holds(SurfaceKind::kTerrain, id))
+    return DrawnPixel{Shown::kLand, number_in(SurfaceKind::kTerrain), depth_m};
+  const ObjectGeometry& drawn_objects = ws.meshes.objects;
+  const ObjectPrimitive& primitive =
+      drawn_objects.primitives[static_cast<std::size_t>(number_in(SurfaceKind::kObjects))];
   const std::size_t object = object_of(drawn, primitive);
-  const scene::ObjectTriangle* first = ws.objects.meshes[object]->triangles.data();
+  const scene::ObjectTriangle* first = drawn_objects.meshes[object]->triangles.data();
   return DrawnPixel{Shown::kObject, static_cast<int>(primitive.triangle - first), depth_m, object};
 }
 
@@ -94,7 +99,7 @@ void expect_query_answer(const Pick& found, const scene::WaterSurface& surface) 
 
 scene::WaterSurface surface_of(Drawn& drawn) {
   const World::State& world = drawn.world.state();
-  return {*world.sea, drawn.workspace.state().sea, world.scene.area, world.terrain.get(),
+  return {*world.sea, drawn.workspace.state().sea.frame, world.scene.area, world.terrain.get(),
           world.coast.get()};
 }
 

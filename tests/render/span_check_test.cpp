@@ -216,22 +216,22 @@ TEST_F(SpanDeathTest, RenderChecksEveryPair) {
   EXPECT_REFUSED(background_heights(background, surface, p.right, v2.shorter, a.right));
   EXPECT_REFUSED(background_heights(background, surface, p.right, v2.right, a.shorter));
 
-  ShadeContext context;
-  context.viewport = {16, 16};
-  context.grid = raster::tile_grid(context.viewport, 16);
+  Shading shading;
+  shading.viewport = {16, 16};
+  shading.grid = raster::tile_grid(shading.viewport, 16);
   auto scratch = std::make_unique<ShadeScratch>();
   std::vector<float> depth(256), shallow(255), linear(767);
   std::vector<std::uint32_t> primitive(256), fewer(255), rgba(256);
   texture::RgbaImage image;
   const auto shade = [&](auto& z, auto& id, auto& pixels, std::span<float> light) {
-    shade_tile(context, 0, z, id, {}, *scratch, pixels, light);
+    shade_tile(shading, 0, z, id, {}, *scratch, pixels, light);
   };
   EXPECT_REFUSED(shade(shallow, primitive, rgba, {}));
   EXPECT_REFUSED(shade(depth, fewer, rgba, {}));
   EXPECT_REFUSED(shade(depth, primitive, fewer, {}));
   EXPECT_REFUSED(shade(depth, primitive, rgba, linear));
-  EXPECT_REFUSED(shade_sky_tile(context, 0, *scratch, fewer, {}));
-  EXPECT_REFUSED(shade_lookup_tile(context, 0, shallow, primitive, *scratch, image));
+  EXPECT_REFUSED(shade_sky_tile(shading, 0, *scratch, fewer, {}));
+  EXPECT_REFUSED(shade_lookup_tile(shading, 0, shallow, primitive, *scratch, image));
 }
 
 }  // namespace

@@ -71,10 +71,10 @@ TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
     scene.sea.patch_lengths_m.push_back(length_m *= 0.4);
     Drawn drawn;
     draw(scene, like, drawn);
-    const ShadeContext& c = drawn.workspace.state().context;
-    ASSERT_EQ(c.water_layer_count, static_cast<int>(patches) + 2);
+    const Water& water = drawn.workspace.state().shading.material<Water>();
+    ASSERT_EQ(water.layer_count, static_cast<int>(patches) + 2);
     for (std::size_t i = 0; i < patches; ++i)
-      EXPECT_EQ(c.water_layers[i].map, &drawn.workspace.state().patch_maps[i]);
+      EXPECT_EQ(water.layers[i].map, &drawn.workspace.state().sea.patch_slopes[i]);
 
     scene::Scene smooth = scene;
     smooth.water.bump_strength = 0.0;
@@ -125,23 +125,23 @@ INSTANTIATE_TEST_SUITE_P(Targets, WaterShader,
 
 constexpr float kBaseVariance = 0.0012f;
 
-// Maps of one value everywhere, and a context that has nothing but them and one sine.
+// Maps of one value everywhere, and water that has nothing but them and one sine.
 struct PlainWater {
   PlainWater(float share_of_trains, float wavelength_m) {
     constexpr int kSize = 16;
     const std::vector<float> zero(kSize * kSize), share(kSize * kSize, share_of_trains);
     texture::pack_map2(kSize, zero, zero, 1.0f / 127.0f, still);
     texture::pack_map2(kSize, share, zero, 1.0f / 127.0f, surf);
-    c.uv_noise = c.coast_slopes = c.foam_pattern = layer(still);
-    c.coast_surf = layer(surf);
-    c.has_coast = true;
-    c.base_variance = kBaseVariance;
+    water.uv_noise = water.coast_slopes = water.foam.pattern = layer(still);
+    water.coast_surf = layer(surf);
+    water.has_coast = true;
+    water.base_variance = kBaseVariance;
     // Its slope is largest under the eye.
-    c.sines[0] = {.kx = 1.0f / wavelength_m,
-                  .slope_x = 0.3f,
-                  .slope_y = -0.4f,
-                  .wavelength_log2 = std::log2(wavelength_m)};
-    c.sine_count = 1;
+    water.sines[0] = {.kx = 1.0f / wavelength_m,
+                      .slope_x = 0.3f,
+                      .slope_y = -0.4f,
+                      .wavelength_log2 = std::log2(wavelength_m)};
+    water.sine_count = 1;
   }
 
   static SlopeLayer layer(const texture::PackedMap2& map) {
@@ -153,15 +153,15 @@ struct PlainWater {
   }
 
   texture::PackedMap2 still, surf;
-  ShadeContext c;
+  Water water;
 };
 
 constexpr float kShare = 64.0f / 127.0f;  // what a map holds exactly
 
 // A pixel is 0.001 of the depth wide.
 TEST_P(WaterShader, TrainsTakeTheirShareOfTheSlopesThatAreSeen) {
-  const PlainWater water(kShare, 100.0f);
-  const WaterSlopes s = sample_water(water.c, {0.0f, 0.0f, -10.0f});
+  const PlainWater plain(kShare, 100.0f);
+  const SeenSlopes s = sample_water(plain.water, {0.0f, 0.0f, -10.0f});
   EXPECT_NEAR(s.slope.x, (1.0f - kShare) * 0.3f, 1e-5f);
   EXPECT_NEAR(s.slope.y, (1.0f - kShare) * -0.4f, 1e-5f);
   EXPECT_NEAR(s.variance, kBaseVariance, 1e-6f);
@@ -170,8 +170,8 @@ TEST_P(WaterShader, TrainsTakeTheirShareOfTheSlopesThatAreSeen) {
 // Slopes scaled by a factor have their variance scaled by its square: here 0.25 / 2 of a sine too
 // short to see.
 TEST_P(WaterShader, TrainsTakeTheSquareOfTheirShareOfTheVariance) {
-  const PlainWater water(kShare, 0.001f);
-  const WaterSlopes s = sample_water(water.c, {0.0f, 0.0f, -1000.0f});
+  const PlainWater plain(kShare, 0.001f);
+  const SeenSlopes s = sample_water(plain.water, {0.0f, 0.0f, -1000.0f});
   EXPECT_EQ(s.slope, glm::vec2(0.0f));
   EXPECT_NEAR(s.variance, kBaseVariance + (1.0f - kShare) * (1.0f - kShare) * 0.125f, 1e-6f);
 }

@@ -1,17 +1,14 @@
-// Floating objects: where the sea carries them, and their vertices in the frame's three views.
+// Stage 3: floating objects, where the sea carries them.
 #include <algorithm>
 #include <cmath>
 
-#include "render/workspace.h"
+#include "render/view/render_view.h"
 
 namespace swell::render {
 namespace {
 
 constexpr int kNearSegments = 24, kFarSegments = 8;
 constexpr float kNearHeight_px = 24.0f;  // objects at least this high are drawn with many triangles
-
-// Waves lift and lower the waterline: keep a little of the other side in both images.
-constexpr float kClipMargin_m = 0.3f;
 
 // How an object lies relative to the eye.
 struct Placement {
@@ -63,22 +60,12 @@ float height_px(const scene::FloatingObject& object, const Placement& placement,
          (distance_m * view.tan_half_y);
 }
 
-// Each object is mirrored in, and squeezed towards, the level of its own waterline, so that its
-// images meet it there on any wave.
-void add_vertices(const Frame& frame, const scene::ObjectMesh& mesh, const Placement& placement) {
-  ObjectGeometry& out = frame.ws.objects;
-  const float level = placement.waterline_rel_m;
-  const auto n = static_cast<float>(frame.world.scene.water.refraction_index);
-  const auto to_clip = [&](glm::vec3 p) { return frame.view.clip_from_rel * glm::vec4(p, 1.0f); };
+void add_vertices(const scene::ObjectMesh& mesh, const Placement& placement, ObjectGeometry& out) {
   for (const glm::vec3& q : mesh.position) {
-    const glm::vec3 p = placement.rel_from_unit * q + placement.bottom_rel;
-    const float above = p.z - level;
-    const float apparent = above < 0.0f ? above * squeeze(p, n) : above;
-    out.p_clip.push_back(to_clip(p));
-    out.mirrored.push_back(to_clip({p.x, p.y, level - above}));
-    out.squeezed.push_back(to_clip({p.x, p.y, level + apparent}));
-    out.above_water.push_back(kClipMargin_m + above);
-    out.below_water.push_back(kClipMargin_m - above);
+    out.p_rel.push_back(placement.rel_from_unit * q + placement.bottom_rel);
+    // Each object is mirrored in, and squeezed towards, the level of its own waterline, so that its
+    // images meet it there on any wave.
+    out.waterline_rel_m.push_back(placement.waterline_rel_m);
   }
 }
 
@@ -94,11 +81,8 @@ void clear_geometry(ObjectGeometry& geometry) {
   geometry.instances.clear();
   geometry.primitives.clear();
   geometry.indices.clear();
-  geometry.p_clip.clear();
-  geometry.mirrored.clear();
-  geometry.squeezed.clear();
-  geometry.above_water.clear();
-  geometry.below_water.clear();
+  geometry.p_rel.clear();
+  geometry.waterline_rel_m.clear();
 }
 
 }  // namespace
@@ -130,31 +114,33 @@ std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> ob
   return focuses;
 }
 
-void place_objects(Frame& frame) {
-  const std::vector<scene::FloatingObject>& objects = frame.world.scene.objects;
-  ObjectGeometry& geometry = frame.ws.objects;
+void place_objects(const World::State& world, const SeaMaps& sea, const View& view, Meshes& meshes,
+                   FrameViews views) {
+  const std::vector<scene::FloatingObject>& objects = world.scene.objects;
+  ObjectGeometry& geometry = meshes.objects;
   clear_geometry(geometry);
-  if (objects.empty()) return;
   geometry.poses.resize(objects.size());
   geometry.meshes.resize(objects.size(), nullptr);
-  scene::object_poses(objects, water_surface(frame), geometry.poses);
-  if (frame.world.scene.detail.triangulation == scene::Triangulation::kPlane)
+  if (!objects.empty()) scene::object_poses(objects, water_surface(world, sea), geometry.poses);
+  if (world.scene.detail.triangulation == scene::Triangulation::kPlane)
     for (scene::ObjectPose& pose : geometry.poses) pose.position_world.z = 0.0;  // as it is drawn
 
   geometry.instances.reserve(objects.size());  // primitives point into it
-  const std::array<glm::vec4, 5> planes = frustum_planes(frame.view);
+  const std::array<glm::vec4, 5> planes = frustum_planes(view);
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const Placement placement = placement_of(objects[i], geometry.poses[i], frame.view);
+    const Placement placement = placement_of(objects[i], geometry.poses[i], view);
     if (!in_view(objects[i], placement, planes)) continue;
-    const ObjectMeshes::Choice choice = frame.world.objects.of_object[i];
-    const bool near = height_px(objects[i], placement, frame.view) >= kNearHeight_px;
-    const scene::ObjectMesh& mesh = frame.world.objects.meshes[near ? choice.near : choice.far];
+    const ObjectMeshes::Choice choice = world.objects.of_object[i];
+    const bool near = height_px(objects[i], placement, view) >= kNearHeight_px;
+    const scene::ObjectMesh& mesh = world.objects.meshes[near ? choice.near : choice.far];
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
     add_triangles(mesh, geometry.instances.back(),
-                  static_cast<std::uint32_t>(geometry.p_clip.size()), geometry);
-    add_vertices(frame, mesh, placement);
+                  static_cast<std::uint32_t>(geometry.p_rel.size()), geometry);
+    add_vertices(mesh, placement, geometry);
   }
+  resize_vertices(SurfaceKind::kObjects, geometry.p_rel.size(), views);
+  map_vertices(meshes, SurfaceKind::kObjects, 0, geometry.p_rel.size(), views);
 }
 
 }  // namespace swell::render

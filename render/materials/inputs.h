@@ -1,0 +1,26 @@
+// What materials are filled from, once a view.
+#pragma once
+
+#include "render/materials/light.h"
+#include "render/view/render_view.h"
+#include "render/world/sea_maps.h"
+
+namespace swell::render {
+
+// An off-screen picture that water looks into, at `scale` of the window's size.
+struct LookupImage {
+  const texture::RgbaImage* image = nullptr;
+  float scale_x = 1.0f, scale_y = 1.0f;
+};
+
+struct MaterialInputs {
+  const World::State& world;
+  double t_s;
+  const SeaMaps& sea;
+  const ObjectGeometry& objects;
+  const Light& light;
+  const Media& media;
+  LookupImage reflection = {}, refraction = {};  // once they are drawn
+};
+
+}  // namespace swell::render

@@ -1,0 +1,34 @@
+#include "render/materials/light.h"
+
+#include <algorithm>
+
+#include "math/elementary.h"
+
+namespace swell::render {
+
+Light make_light(const World::State& world) {
+  const scene::Sky& sky = world.scene.sky;
+  Light light;
+  light.sun_direction = sky.sun_direction;
+  light.sun_irradiance = sky.sun_direction.z > 0.0f ? sky.sun_radiance : glm::vec3(0.0f);
+  light.ambient = world.sky->ambient;
+  light.sky_sharp = &world.sky->sharp;
+  light.sky_soft = &world.sky->soft;
+  return light;
+}
+
+Media make_media(const World::State& world, const Light& light) {
+  const scene::WaterOptics& water = world.scene.water;
+  Media media;
+  media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
+  media.refraction_index = static_cast<float>(water.refraction_index);
+  media.absorption_per_m = water.absorption_per_m;
+  // Light that enters the water: the sky's and the sun's, as radiance of a white surface.
+  const glm::vec3 entering =
+      light.ambient +
+      light.sun_irradiance * (std::max(light.sun_direction.z, 0.0f) / static_cast<float>(kPi));
+  media.body = water.body_colour * entering;
+  return media;
+}
+
+}  // namespace swell::render

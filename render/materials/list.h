@@ -1,0 +1,33 @@
+// The materials: one line each here, and one in list-inl.h. Shading folds over the list at compile
+// time, so that a pixel costs no call through a pointer. A surface whose material is not in the
+// list is not drawn.
+//
+// A material M is a plain struct with
+//   static constexpr SurfaceKind kSurface;                    // whose triangles it shades
+//   void fill(const MaterialInputs&, const RenderView&, M&);  // its constants, once a view
+// and, in its M-inl.h, the per-pixel code that list-inl.h describes.
+#pragma once
+
+#include <tuple>
+
+#include "render/materials/object.h"
+#include "render/materials/terrain.h"
+#include "render/materials/water.h"
+
+namespace swell::render {
+
+// The first one's pixels are found fastest.
+using Materials = std::tuple<  //
+    Water,                     //
+    Terrain,                   //
+    Object                     //
+    >;
+
+inline constexpr std::size_t kMaterialCount = std::tuple_size_v<Materials>;
+
+constexpr bool has_material(SurfaceKind surface) {
+  return []<class... M>(SurfaceKind s, std::tuple<M...>*) { return ((M::kSurface == s) || ...); }(
+             surface, static_cast<Materials*>(nullptr));
+}
+
+}  // namespace swell::render

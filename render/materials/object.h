@@ -1,0 +1,24 @@
+// Floating objects: what their per-pixel code (object-inl.h) reads.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "render/materials/inputs.h"
+
+namespace swell::render {
+
+struct Object {
+  static constexpr SurfaceKind kSurface = SurfaceKind::kObjects;
+
+  std::span<const ObjectPrimitive> primitives;  // of the surface's n-th triangle
+  glm::vec3 sea_light{0.0f};                    // mean radiance of the sea, seen from above
+};
+
+inline void fill(const MaterialInputs& in, const RenderView&, Object& object) {
+  object.primitives = in.objects.primitives;
+  // Besides its own light the sea mirrors some of the sky.
+  object.sea_light = in.media.body + 0.15f * in.light.ambient;
+}
+
+}  // namespace swell::render

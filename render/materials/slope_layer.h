@@ -1,0 +1,38 @@
+// A map laid over the sea or the land, as shaders sample it.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "texture/packed_map.h"
+
+namespace swell::render {
+
+// Mip levels a shader tells apart; coarser ones hold nothing.
+inline constexpr int kTableLevels = 8;
+
+// A map of two channels, slopes as a rule, that repeats or lies over one square.
+struct SlopeLayer {
+  const texture::PackedMap2* map = nullptr;
+  float inv_length = 1.0f;           // turns of the map per metre
+  float u_eye = 0.0f, v_eye = 0.0f;  // map position under the eye, [0, 1)
+  float log2_texels_per_m = 0.0f;
+  float gain = 1.0f;        // multiplies the slopes
+  float uv_noise_m = 0.0f;  // how far the coordinates are perturbed
+  int levels = 1;           // levels below this hold detail
+  // Slope variance that each mip level has lost, after gain; repeated for wide vectors.
+  std::array<float, 2 * kTableLevels> lost_variance{};
+};
+
+// x without its whole part, in [0, 1].
+float fraction(double x);
+
+// Lays `map` over the plane with period length_m > 0; `moved_m` is how far it has drifted.
+SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain, glm::dvec2 eye,
+                      glm::dvec2 moved_m);
+
+// A layer over one square that does not repeat: the eye's place in it, from_corner [m], is not
+// wrapped.
+SlopeLayer make_square_layer(const texture::PackedMap2& map, double size_m, glm::dvec2 from_corner);
+
+}  // namespace swell::render

@@ -1,0 +1,50 @@
+#include "render/materials/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swell::render {
+namespace {
+
+constexpr double kDetailPeriod_m = 7.0;
+constexpr float kSwashPart = 0.1f;  // how high sheets of water run, of the highest waves
+
+// The sheets of water come and go with the slowest of the trains.
+Swash make_swash(const ocean::TrainSea& trains, double t_s, glm::dvec2 eye) {
+  const double period_s = *std::ranges::max_element(trains.period_s);
+  Swash swash;
+  swash.reach_m = kSwashPart * trains.height_bound_m;
+  swash.cycles = fraction(t_s / period_s);
+  const auto along = [&](double x_m, double y_m) {
+    return glm::vec3(1.0 / x_m, 1.0 / y_m, fraction(eye.x / x_m + eye.y / y_m));
+  };
+  swash.lag_a = along(310.0, 230.0);
+  swash.lag_b = along(-97.0, 71.0);
+  return swash;
+}
+
+}  // namespace
+
+void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
+  if (!in.world.terrain) return;
+  const scene::Terrain& land = *in.world.terrain;
+  const TerrainMaps& maps = *in.world.terrain_maps;
+  const glm::dvec2 eye(view.camera.eye_world), from_corner = eye - land.min_world;
+  terrain.slopes = make_square_layer(maps.slopes, land.size_m(), from_corner);
+  const float detail_gain =
+      0.11f / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
+  terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});
+  terrain.albedo = &maps.albedo;
+  const double texels_per_m = maps.albedo.width / land.size_m();
+  terrain.albedo_texels_per_m = static_cast<float>(texels_per_m);
+  // Texel centres lie at +0.5, the terrain's samples on the lattice.
+  terrain.albedo_x_eye = static_cast<float>(from_corner.x * texels_per_m + 0.5);
+  terrain.albedo_y_eye = static_cast<float>(from_corner.y * texels_per_m + 0.5);
+
+  terrain.swash = {};
+  if (!in.world.coast) return;
+  terrain.swash = make_swash(in.world.coast->trains, in.t_s, eye);
+  terrain.foam = make_foam(in, eye);
+}
+
+}  // namespace swell::render

@@ -1,0 +1,32 @@
+// The land and the sea floor: what their per-pixel code (terrain-inl.h) reads.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "render/materials/foam.h"
+#include "render/materials/inputs.h"
+#include "render/materials/slope_layer.h"
+
+namespace swell::render {
+
+// The thin sheets of water that waves send up the beach.
+struct Swash {
+  float reach_m = 0.0f;  // height on the beach that sheets reach; 0: none
+  float cycles = 0.0f;   // time, in turns of the sheets' coming and going
+  // Their lag along the shore: cycles by x, by y, under the eye.
+  glm::vec3 lag_a{0.0f}, lag_b{0.0f};
+};
+
+struct Terrain {
+  static constexpr SurfaceKind kSurface = SurfaceKind::kTerrain;
+
+  SlopeLayer slopes, detail;
+  const texture::RgbaImage* albedo = nullptr;
+  float albedo_texels_per_m = 0.0f, albedo_x_eye = 0.0f, albedo_y_eye = 0.0f;
+  Swash swash;
+  Foam foam;
+};
+
+void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain);
+
+}  // namespace swell::render

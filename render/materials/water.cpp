@@ -1,0 +1,103 @@
+#include "render/materials/water.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/check.h"
+#include "math/elementary.h"
+
+namespace swell::render {
+namespace {
+
+constexpr double kUvNoisePeriod_m = 23.0;
+constexpr int kMostLongLayers = 2;
+
+void add_layer(const SlopeLayer& layer, Water& water) {
+  SWELL_DCHECK(water.layer_count < kMaxSlopeLayers, "layers={}", water.layer_count);
+  water.layers[water.layer_count++] = layer;
+}
+
+// Two layers of ripples that drift across each other, downwind.
+void add_ripples(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
+  const scene::Scene& scene = in.world.scene;
+  const texture::PackedMap2& bump = *in.world.bump;
+  const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
+  // Ripple slopes grow with the wind as the sea's whole slope variance does.
+  // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
+  const double wind = scene.sea.spectrum ? scene.sea.wind_speed_mps : 3.0;
+  const double variance = 0.25 * (0.003 + 0.00512 * wind);
+  const double travel = scene.sea.wind_from_rad + kPi;
+  struct Ripples {
+    double length_m, turn_rad, speed_mps, part;
+  };
+  for (const Ripples& r : {Ripples{5.3, 0.35, 0.55, 0.5}, Ripples{2.1, -0.5, 0.35, 0.5}}) {
+    const glm::dvec2 direction(sin(travel + r.turn_rad), cos(travel + r.turn_rad));
+    const auto gain =
+        static_cast<float>(scene.water.bump_strength * std::sqrt(r.part * variance / map_variance));
+    SlopeLayer layer = make_layer(bump, r.length_m, gain, eye, direction * (r.speed_mps * in.t_s));
+    layer.uv_noise_m = static_cast<float>(scene.water.uv_noise_amplitude);
+    add_layer(layer, water);
+  }
+}
+
+SineLayer make_sine(const ocean::SineFrame& sine, glm::dvec2 eye) {
+  const glm::dvec2 k = sine.cycles_per_m;
+  SineLayer layer;
+  layer.kx = static_cast<float>(k.x);
+  layer.ky = static_cast<float>(k.y);
+  layer.cycles = fraction(k.x * eye.x + k.y * eye.y + sine.cycles);
+  layer.slope_x = static_cast<float>(2.0 * kPi * sine.amplitude_m * k.x);
+  layer.slope_y = static_cast<float>(2.0 * kPi * sine.amplitude_m * k.y);
+  layer.wavelength_log2 = static_cast<float>(-log(glm::length(k)) * 1.4426950408889634);
+  return layer;
+}
+
+void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
+  water.layer_count = water.sine_count = 0;
+  for (std::size_t i = 0; i < in.sea.patch_slopes.size(); ++i)
+    add_layer(make_layer(in.sea.patch_slopes[i], in.sea.frame.patches[i].length_m, 1.0f, eye, {}),
+              water);
+  water.long_layer_count = std::min(water.layer_count, kMostLongLayers);
+  add_ripples(in, eye, water);
+  for (const ocean::SineFrame& sine : in.sea.frame.sines)
+    water.sines[water.sine_count++] = make_sine(sine, eye);
+  water.uv_noise = make_layer(in.sea.uv_noise, kUvNoisePeriod_m, 1.0f, eye, {});
+}
+
+void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
+  water.has_coast = in.world.coast != nullptr;
+  if (!water.has_coast) return;
+  const ocean::FloorGrid& grid = in.world.coast->trains.grid;
+  const double size_m = grid.spacing_m * (grid.samples_x - 1);
+  const glm::dvec2 from_corner = eye - grid.min_world;
+  water.coast_slopes = make_square_layer(in.sea.coast_slopes, size_m, from_corner);
+  water.coast_surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);
+  water.foam = make_foam(in, eye);
+}
+
+void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
+  water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
+  water.inv_crest_height =
+      1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
+  water.reflection = in.reflection;
+  water.refraction = in.refraction;
+  water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
+  water.max_distortion_px = max_distortion_px(camera);
+  const glm::vec2 right(camera.right.x, camera.right.y);
+  water.view_right = right / std::max(glm::length(right), 1e-6f);
+  water.view_ahead = glm::vec2(-water.view_right.y, water.view_right.x);
+}
+
+}  // namespace
+
+float max_distortion_px(const View& window) { return 0.1f * static_cast<float>(window.height_px); }
+
+void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
+  if (!shows(view.kind, Water::kSurface)) return;
+  const glm::dvec2 eye(view.camera.eye_world);
+  fill_waves(in, eye, water);
+  fill_coast(in, eye, water);
+  fill_optics(in, view.camera, water);
+}
+
+}  // namespace swell::render

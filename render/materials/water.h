@@ -1,0 +1,54 @@
+// The water's surface: what its per-pixel code (water-inl.h) reads.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "ocean/sea.h"
+#include "render/materials/foam.h"
+#include "render/materials/inputs.h"
+#include "render/materials/slope_layer.h"
+
+namespace swell::render {
+
+// The sea's patches and two layers of ripples.
+inline constexpr int kMaxSlopeLayers = static_cast<int>(ocean::kMaxPatches) + 2;
+
+// A sine wave's slopes: amplitude_slope * cos(2 pi (cycles_per_m . p_rel + cycles)).
+struct SineLayer {
+  float kx = 0.0f, ky = 0.0f;  // cycles per metre
+  float cycles = 0.0f;         // under the eye
+  float slope_x = 0.0f, slope_y = 0.0f;
+  float wavelength_log2 = 0.0f;
+};
+
+struct Water {
+  static constexpr SurfaceKind kSurface = SurfaceKind::kWater;
+
+  std::array<SlopeLayer, kMaxSlopeLayers> layers;  // patches, longest first, then ripples
+  int layer_count = 0;
+  int long_layer_count = 0;  // the first so many are of the sea's long waves
+  std::array<SineLayer, ocean::kMaxSines> sines;
+  int sine_count = 0;
+  SlopeLayer uv_noise;            // values in [-1, 1], not slopes
+  float base_variance = 0.0012f;  // slope variance of ripples too fine for any map
+  // Near a coast: slopes of wave trains; their share, which the longest waves of the sea make room
+  // for, and their foam. Not periodic: they hold where both coordinates lie in [0, 1).
+  bool has_coast = false;
+  SlopeLayer coast_slopes, coast_surf;
+  Foam foam;
+
+  glm::vec3 crest_glow{0.0f};  // added where light shines through crests
+  float inv_crest_height = 0.0f;
+  LookupImage reflection, refraction;
+  float distortion_px = 0.0f;                    // window pixels per unit of slope
+  float max_distortion_px = 0.0f;                // bound of the displacement, each way
+  glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // horizontal unit vectors of the camera
+};
+
+// How far slopes may displace a lookup, each way.
+float max_distortion_px(const View& window);
+
+void fill(const MaterialInputs& in, const RenderView& view, Water& water);
+
+}  // namespace swell::render

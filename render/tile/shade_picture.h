@@ -1,0 +1,30 @@
+// Stages 6 and 7: the colour of every pixel of the window.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/frame.h"
+#include "render/view/lookup_images.h"
+
+namespace swell::render {
+
+// What the finished picture is made from.
+struct PictureInputs {
+  const Meshes& meshes;
+  const RenderView& window;
+  const VisibilityBuffer& visibility;
+  const std::vector<TileLookups>& lookups;  // by tile
+  const Shading& shading;
+  bool wireframe;
+};
+
+// Shades every visible pixel once and resolves it. `shaded`: the number of surface pixels shaded,
+// by tile. `target` has the window's size.
+void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int>& shaded,
+                   Target& target, const StageRun& run);
+
+// Draws triangle edges, tinted by level of detail, over a tile of the finished picture.
+void draw_wireframe(const PictureInputs& in, int tile, Target& target);
+
+}  // namespace swell::render

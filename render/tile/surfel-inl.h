@@ -1,0 +1,59 @@
+// What a material's per-pixel code gets and gives.
+#if defined(SWELL_RENDER_TILE_SURFEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_SURFEL_INL_H_
+#undef SWELL_RENDER_TILE_SURFEL_INL_H_
+#else
+#define SWELL_RENDER_TILE_SURFEL_INL_H_
+#endif
+
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// A tile of the visibility buffer.
+struct TilePixels {
+  raster::PixelBox box;
+  const float* depth;
+  const std::uint32_t* primitive;
+  TileLookups lookups;
+};
+
+// What a packet's pixels show of a surface.
+struct Surfel {
+  V3 light;  // that leaves it towards the eye, before the medium between
+};
+
+// A surface that ends softly: where `cover` is 0 the medium alone is seen.
+struct FadingSurfel : Surfel {
+  V cover;
+};
+
+// The per-pixel code of material M in a kind of view: specialised in M's -inl.h with
+//   const M& material;  (its only member)
+//   Surfel operator()(const Shading&, const TilePixels&, const std::uint16_t* at, const Packet&)
+// The packet holds true places in the world, also in views that mirror or squeeze them; the medium
+// is not its business. `at` holds the pixels' positions in the tile, for materials that fetch what
+// their triangles hold.
+template <class M, ViewKind kView>
+struct Shader;
+
+// Calls use(shader) with the shader for this view; a material with variants overloads it.
+template <ViewKind kView, class M, class Use>
+HWY_INLINE void WithShader(const M& material, const Use& use) {
+  use(Shader<M, kView>{material});
+}
+
+// Height of the level that mirrors the pixels' surface, relative to the eye: the mean level, or
+// what a material's overload says.
+template <class M>
+HWY_INLINE V WaterLevel(const M&, const Shading& s, const TilePixels&, const std::uint16_t*) {
+  return Constant(-s.rays.eye_z);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,96 @@
+// Stage 3: heights of the vertices of water and land.
+#include <algorithm>
+#include <array>
+
+#include "render/quality/background.h"
+#include "render/view/render_view.h"
+
+namespace swell::render {
+namespace {
+
+constexpr std::size_t kChunk = 2048;  // vertices a task
+
+// Positions of the mesh's vertices relative to the eye.
+void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::dvec2 eye) {
+  const lod::Domain& domain = surface.domain;
+  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
+  const glm::dvec2 corner = domain.min_world - eye;
+  for (std::size_t i = begin; i < end; ++i)
+    surface.offset[i] = glm::vec2(corner + spacing * glm::dvec2(surface.mesh.lattice[i]));
+}
+
+// What all vertices of the water are displaced by.
+struct WaterHeights {
+  const World::State& world;
+  const SeaMaps& sea;
+  const View& view;
+  float background_error_px;
+};
+
+// Heights come from where the vertex is in the world, exactly, not from its rounded offset: a query
+// of the surface there gives the same bits.
+void displace_water(const WaterHeights& in, std::size_t begin, std::size_t end, Surface& water) {
+  place_vertices(water, begin, end, glm::dvec2(in.view.eye_world));
+  const std::size_t count = end - begin;
+  std::array<glm::dvec2, kChunk> places;
+  for (std::size_t i = 0; i < count; ++i) places[i] = vertex_world(water, begin + i);
+  const auto p_world = std::span(places).first(count);
+  const auto height_m = std::span(water.height_m).subspan(begin, count);
+  const scene::WaterSurface surface = water_surface(in.world, in.sea);
+  if (in.world.scene.detail.triangulation == scene::Triangulation::kPlane)
+    std::ranges::fill(height_m, 0.0f);
+  else if (in.background_error_px > 0.0f)
+    background_heights(
+        Background(in.view, *in.world.sea, in.world.height_bound_m(), in.background_error_px),
+        surface, p_world, std::span<const glm::vec2>(water.offset).subspan(begin, count), height_m);
+  else
+    surface.heights(p_world, height_m);
+}
+
+void displace_land(const scene::Terrain& terrain, glm::dvec2 eye, std::size_t begin,
+                   std::size_t end, Surface& land) {
+  place_vertices(land, begin, end, eye);
+  const std::size_t count = end - begin;
+  std::array<glm::dvec2, kChunk> p;
+  for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(land.offset[begin + i]);
+  scene::sample_heights(terrain, std::span(p).first(count),
+                        std::span(land.height_m).subspan(begin, count));
+}
+
+// Calls displace_some(begin, end) for all vertices of the surface, in chunks, and maps them.
+template <class Body>
+void displace_in_chunks(SurfaceKind kind, Surface& surface, const Meshes& meshes, FrameViews views,
+                        const StageRun& run, const Body& displace_some) {
+  const std::size_t count = surface.mesh.lattice.size();
+  surface.offset.resize(count);
+  surface.height_m.resize(count);
+  resize_vertices(kind, count, views);
+  run.for_each((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
+    const std::size_t begin = chunk * kChunk, end = std::min(count, begin + kChunk);
+    displace_some(begin, end);
+    map_vertices(meshes, kind, begin, end, views);
+  });
+}
+
+}  // namespace
+
+glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
+  const lod::Domain& domain = surface.domain;
+  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
+  return domain.min_world + spacing * glm::dvec2(surface.mesh.lattice[vertex]);
+}
+
+void displace(const World::State& world, const SeaMaps& sea, const View& view,
+              const FrameOptions& options, Meshes& meshes, FrameViews views, const StageRun& run) {
+  const WaterHeights water{world, sea, view, static_cast<float>(options.background_error_px)};
+  displace_in_chunks(
+      SurfaceKind::kWater, meshes.water, meshes, views, run,
+      [&](std::size_t begin, std::size_t end) { displace_water(water, begin, end, meshes.water); });
+  const glm::dvec2 eye(view.eye_world);
+  displace_in_chunks(SurfaceKind::kTerrain, meshes.land, meshes, views, run,
+                     [&](std::size_t begin, std::size_t end) {
+                       displace_land(*world.terrain, eye, begin, end, meshes.land);
+                     });
+}
+
+}  // namespace swell::render

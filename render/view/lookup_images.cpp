@@ -1,0 +1,135 @@
+#include "render/view/lookup_images.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swell::render {
+namespace {
+
+// The tiles of a lookup image that a window tile's water can look into.
+struct TileRange {
+  int x0, y0, x1, y1;  // half open
+};
+
+// Size of the lookup images over that of the window.
+glm::vec2 scale_of(const View& lookup, const View& window) {
+  return {static_cast<float>(lookup.width_px) / static_cast<float>(window.width_px),
+          static_cast<float>(lookup.height_px) / static_cast<float>(window.height_px)};
+}
+
+TileRange reachable_tiles(const View& window, const raster::TileGrid& grid, int tile,
+                          glm::vec2 lookup_scale, const raster::TileGrid& lookup_grid) {
+  const float bound = max_distortion_px(window);
+  // A bilinear sample reads one texel further each way.
+  const auto range = [&](int index, float scale, int tiles) {
+    const auto low = static_cast<float>(index * grid.tile_size_px) - bound;
+    const float high = static_cast<float>((index + 1) * grid.tile_size_px) + bound;
+    const auto size = static_cast<float>(lookup_grid.tile_size_px);
+    return std::pair{
+        std::clamp(static_cast<int>(std::floor((low * scale - 2.0f) / size)), 0, tiles - 1),
+        std::clamp(static_cast<int>(std::floor((high * scale + 2.0f) / size)), 0, tiles - 1) + 1};
+  };
+  const auto [x0, x1] = range(tile % grid.tiles_x, lookup_scale.x, lookup_grid.tiles_x);
+  const auto [y0, y1] = range(tile / grid.tiles_x, lookup_scale.y, lookup_grid.tiles_y);
+  return {x0, y0, x1, y1};
+}
+
+void size_target(const raster::TileGrid& grid, LookupTarget& target) {
+  const View& view = target.view.camera;
+  const auto tiles = static_cast<std::size_t>(grid.count());
+  const bool same = target.image.width == view.width_px && target.image.height == view.height_px &&
+                    target.written.size() == tiles;
+  if (!same) {
+    texture::resize_image(view.width_px, view.height_px, target.image);
+    target.written.assign(tiles, 0);
+  }
+  target.wanted.assign(tiles, 0);
+}
+
+void clear_tile(const Shading& s, int tile, texture::RgbaImage& image) {
+  const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, tile);
+  for (int y = box.y0_px; y < box.y0_px + box.height_px; ++y) {
+    const auto row = image.texels.begin() + static_cast<std::ptrdiff_t>(y) * image.stride;
+    std::fill_n(row + box.x0_px, box.width_px, 0u);
+  }
+}
+
+void draw_lookup_tile(int tile, ThreadScratch& scratch, LookupTarget& target) {
+  const auto side = static_cast<std::size_t>(target.shading.grid.tile_size_px);
+  const auto depth = std::span(scratch.depth).first(side * side);
+  const auto primitive = std::span(scratch.primitive).first(side * side);
+  const raster::Pass& pass = target.view.pass;
+  const bool drawn = target.wanted[tile] && raster::tile_has_triangles(pass, tile) &&
+                     raster::draw_tile(pass, tile, depth, primitive) > 0;
+  if (drawn) {
+    shade_lookup_tile(target.shading, tile, depth, primitive, scratch.shade, target.image);
+  } else if (target.written[tile]) {
+    clear_tile(target.shading, tile, target.image);
+  }
+  target.written[tile] = drawn;
+}
+
+void draw_lookup_image(const Meshes& meshes, const MaterialInputs& inputs, int tile_size_px,
+                       ScratchList scratch, LookupTarget& target, const StageRun& run) {
+  prepare_view_pass(meshes, tile_size_px, target.view, run.workers);
+  fill_shading(inputs, target.view, tile_size_px, target.shading);
+  run.for_each(target.wanted.size(), [&](std::size_t tile, int thread) {
+    draw_lookup_tile(static_cast<int>(tile), *scratch[thread], target);
+  });
+  texture::fill_padding(target.image);
+}
+
+}  // namespace
+
+View lookup_camera(const View& window, double scale) {
+  View view = window;
+  const auto scaled = [&](int size) {
+    return std::clamp(static_cast<int>(std::lround(size * scale)), 1, raster::kMaxViewport);
+  };
+  view.width_px = scaled(window.width_px);
+  view.height_px = scaled(window.height_px);
+  return view;
+}
+
+void draw_lookup_images(const Meshes& meshes, const RenderView& window,
+                        const VisibilityBuffer& visibility, ScratchList scratch,
+                        MaterialInputs& inputs, LookupImages& images, const StageRun& run) {
+  const auto tiles = static_cast<std::size_t>(visibility.grid.count());
+  images.of_tile.assign(tiles, {});
+  const bool any = std::ranges::any_of(kAllSurfaces, [&](SurfaceKind s) {
+    return shows(ViewKind::kReflection, s) && !meshes.indices(s).empty();
+  });
+  if (!any) return;
+
+  // Which tiles of the images water can look into.
+  LookupTarget &reflection = images.reflection, &refraction = images.refraction;
+  const int tile_size_px = visibility.grid.tile_size_px;
+  const View& camera = reflection.view.camera;
+  const raster::TileGrid grid = raster::tile_grid(reflection.view.viewport(), tile_size_px);
+  const glm::vec2 scale = scale_of(camera, window.camera);
+  size_target(grid, reflection);
+  size_target(grid, refraction);
+  const auto for_reachable = [&](std::size_t tile, auto&& visit) {
+    if (!visibility.has_water[tile]) return;
+    const TileRange r =
+        reachable_tiles(window.camera, visibility.grid, static_cast<int>(tile), scale, grid);
+    for (int y = r.y0; y < r.y1; ++y)
+      for (int x = r.x0; x < r.x1; ++x) visit(static_cast<std::size_t>(y) * grid.tiles_x + x);
+  };
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+    for_reachable(tile, [&](std::size_t t) { reflection.wanted[t] = refraction.wanted[t] = 1; });
+
+  draw_lookup_image(meshes, inputs, tile_size_px, scratch, reflection, run);
+  draw_lookup_image(meshes, inputs, tile_size_px, scratch, refraction, run);
+
+  // What the window's tiles see of them.
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+    for_reachable(tile, [&](std::size_t t) {
+      images.of_tile[tile].reflection |= reflection.written[t] != 0;
+      images.of_tile[tile].refraction |= refraction.written[t] != 0;
+    });
+  inputs.reflection = {&reflection.image, scale.x, scale.y};
+  inputs.refraction = {&refraction.image, scale.x, scale.y};
+}
+
+}  // namespace swell::render

@@ -1,0 +1,83 @@
+// The triangles of a frame: the water's, the land's, the floating objects'. They know no view; a
+// RenderView holds what becomes of their vertices in a picture.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lod/roam.h"
+#include "render/profile.h"
+#include "render/view/surfaces.h"
+#include "render/world/sea_maps.h"
+#include "render/world/world_state.h"
+#include "scene/object_mesh.h"
+#include "scene/objects.h"
+
+namespace swell::render {
+
+// A triangulated height field at one time.
+struct Surface {
+  std::optional<lod::Roam> roam;  // of the land, and of the sea if ROAM triangulates it
+  int max_triangles = 0;
+  lod::Domain domain;  // whose lattice the mesh is on
+  lod::AdaptStatistics statistics;
+  lod::Mesh mesh;
+  std::uint64_t mesh_revision = 0;  // as of Roam::update_mesh
+  std::vector<glm::vec2> offset;    // per vertex: x, y relative to the eye [m]
+  std::vector<float> height_m;      // per vertex
+};
+
+// Where a vertex is in the world: exact, for spacings of a power of two.
+glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex);
+
+// A floating object in a frame. Its axes are divided by its sizes: a point p_rel has the mesh's
+// coordinates (right, ahead, up) . (p_rel - bottom_rel), and a normal (x, y, z) of the mesh is
+// x right + y ahead + z up in the world, but for its length.
+struct ObjectInstance {
+  glm::vec3 right{1, 0, 0}, ahead{0, 1, 0}, up{0, 0, 1};
+  glm::vec3 bottom_rel{0.0f};
+  float waterline_rel_m = 0.0f;  // height of its waterline above the eye
+  glm::vec3 colour{0.0f};
+};
+
+// Which triangle of which object a primitive is.
+struct ObjectPrimitive {
+  const scene::ObjectTriangle* triangle = nullptr;
+  const ObjectInstance* object = nullptr;
+};
+
+// The floating objects that a frame may show.
+struct ObjectGeometry {
+  std::vector<scene::ObjectPose> poses;          // of all objects of the scene
+  std::vector<const scene::ObjectMesh*> meshes;  // of the same; null: not in view
+  std::vector<ObjectInstance> instances;         // of those in view
+  std::vector<ObjectPrimitive> primitives;       // per triangle
+  std::vector<std::uint32_t> indices;            // 3 per triangle
+  std::vector<glm::vec3> p_rel;                  // per vertex, relative to the eye
+  std::vector<float> waterline_rel_m;            // per vertex: its object's
+};
+
+struct Meshes {
+  Surface water, land;  // land: empty without terrain
+  ObjectGeometry objects;
+
+  std::span<const std::uint32_t> indices(SurfaceKind kind) const {
+    switch (kind) {
+      case SurfaceKind::kWater:
+        return water.mesh.indices;
+      case SurfaceKind::kTerrain:
+        return land.mesh.indices;
+      case SurfaceKind::kObjects:
+        return objects.indices;
+    }
+    return {};
+  }
+};
+
+// Stage 2: triangulates water and land for the view.
+void triangulate(const World::State& world, const View& view, const FrameOptions& options,
+                 Meshes& meshes, const StageRun& run);
+
+}  // namespace swell::render

@@ -1,0 +1,140 @@
+#include "render/view/render_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/check.h"
+#include "render/materials/list.h"
+
+namespace swell::render {
+float squeeze(glm::vec3 p_rel, float n) {
+  const float horizontal2 = p_rel.x * p_rel.x + p_rel.y * p_rel.y;
+  const float sin2 = horizontal2 / (horizontal2 + p_rel.z * p_rel.z + 1e-6f);
+  return std::sqrt((1.0f - sin2) / (n * n - sin2));
+}
+
+glm::vec3 map_point(ViewKind kind, const WorldPoint& point, float refraction_index) {
+  const glm::vec3 p = point.p_rel;
+  switch (kind) {
+    case ViewKind::kWindow:
+      return p;
+    case ViewKind::kReflection:
+      return {p.x, p.y, point.level_rel_m - point.above_m};
+    case ViewKind::kRefraction:
+      break;
+  }
+  const float above = point.above_m;
+  const float apparent = above < 0.0f ? above * squeeze(p, refraction_index) : above;
+  return {p.x, p.y, point.level_rel_m + apparent};
+}
+
+namespace {
+
+// Waves lift and lower the water's edge: the pictures that water looks into keep a little of the
+// other side. But not of the land in the mirror: the floor mirrored in flat shallow water would be
+// a band of sand instead of sky.
+constexpr float kClipMargin_m = 0.3f;
+
+float clip_distance(ViewKind kind, SurfaceKind surface, float above_m) {
+  if (kind == ViewKind::kRefraction) return kClipMargin_m - above_m;
+  return surface == SurfaceKind::kTerrain ? above_m : kClipMargin_m + above_m;
+}
+
+// A vertex of a height field: over the mean level, which is level_rel_m over the eye.
+WorldPoint point_of(const Surface& surface, std::size_t i, float level_rel_m) {
+  const float height_m = surface.height_m[i];
+  return {{surface.offset[i], height_m + level_rel_m}, height_m, level_rel_m};
+}
+
+WorldPoint point_of(const ObjectGeometry& objects, std::size_t i) {
+  const glm::vec3 p = objects.p_rel[i];
+  return {p, p.z - objects.waterline_rel_m[i], objects.waterline_rel_m[i]};
+}
+
+// Maps vertices [begin, end) of a surface, whose points are point(i).
+template <ViewKind kView, class Point>
+void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, RenderView& view,
+                const Point& point) {
+  ViewVertices& out = view.vertices_of(surface);
+  const glm::mat4 clip_from_rel = view.camera.clip_from_rel;
+  const float n = view.refraction_index;
+  glm::vec4* const p_clip = out.p_clip.data();
+  float* const distance = out.clip_distance.data();
+  for (std::size_t i = begin; i < end; ++i) {
+    const WorldPoint p = point(i);
+    p_clip[i] = clip_from_rel * glm::vec4(map_point(kView, p, n), 1.0f);
+    if constexpr (kView != ViewKind::kWindow)
+      distance[i] = clip_distance(kView, surface, p.above_m);
+  }
+}
+
+template <class Point>
+void map_range(SurfaceKind surface, std::size_t begin, std::size_t end, RenderView& view,
+               const Point& point) {
+  switch (view.kind) {
+    case ViewKind::kWindow:
+      return map_points<ViewKind::kWindow>(surface, begin, end, view, point);
+    case ViewKind::kReflection:
+      return map_points<ViewKind::kReflection>(surface, begin, end, view, point);
+    case ViewKind::kRefraction:
+      return map_points<ViewKind::kRefraction>(surface, begin, end, view, point);
+  }
+}
+
+void map_range(const Meshes& meshes, SurfaceKind surface, std::size_t begin, std::size_t end,
+               RenderView& view) {
+  const auto level_rel_m = -static_cast<float>(view.camera.eye_world.z);
+  switch (surface) {
+    case SurfaceKind::kWater:
+      return map_range(surface, begin, end, view,
+                       [&](std::size_t i) { return point_of(meshes.water, i, level_rel_m); });
+    case SurfaceKind::kTerrain:
+      return map_range(surface, begin, end, view,
+                       [&](std::size_t i) { return point_of(meshes.land, i, level_rel_m); });
+    case SurfaceKind::kObjects:
+      return map_range(surface, begin, end, view,
+                       [&](std::size_t i) { return point_of(meshes.objects, i); });
+  }
+}
+
+}  // namespace
+
+void resize_vertices(SurfaceKind surface, std::size_t count, FrameViews views) {
+  for (RenderView* view : views) {
+    if (!shows(view->kind, surface)) continue;
+    ViewVertices& out = view->vertices_of(surface);
+    out.p_clip.resize(count);
+    if (view->kind != ViewKind::kWindow) out.clip_distance.resize(count);
+  }
+}
+
+void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, std::size_t end,
+                  FrameViews views) {
+  for (RenderView* view : views)
+    if (shows(view->kind, surface)) map_range(meshes, surface, begin, end, *view);
+}
+
+void prepare_view_pass(const Meshes& meshes, int tile_size_px, RenderView& view, Workers& workers) {
+  const auto is_drawn = [&](SurfaceKind s) { return shows(view.kind, s) && has_material(s); };
+  std::array<std::uint32_t, kSurfaceKinds> triangles{};
+  for (const SurfaceKind s : kAllSurfaces)
+    if (is_drawn(s))
+      triangles[static_cast<std::size_t>(s)] =
+          static_cast<std::uint32_t>(meshes.indices(s).size() / 3);
+  view.primitives = PrimitiveRanges(triangles);
+
+  std::array<raster::Draw, kSurfaceKinds> draws;
+  std::size_t count = 0;
+  for (const SurfaceKind s : kAllSurfaces) {
+    if (!is_drawn(s)) continue;
+    const ViewVertices& vertices = view.vertices_of(s);
+    draws[count].p_clip = vertices.p_clip;
+    draws[count].clip_distance = vertices.clip_distance;
+    draws[count].indices = meshes.indices(s);
+    draws[count++].first_primitive = view.primitives.begin(s);
+  }
+  raster::prepare_pass(std::span(draws).first(count), view.viewport(), tile_size_px, view.pass,
+                       workers);
+}
+
+}  // namespace swell::render

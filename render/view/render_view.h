@@ -1,0 +1,91 @@
+// A picture of the frame's surfaces: the window, or one of the pictures that water looks into.
+//
+// What a view shows is the world itself, the world mirrored in the water's level, or the world
+// below that level squeezed towards it, as it appears through the surface. One function maps the
+// vertices of every surface; the rest of the frame treats all views alike.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "math/parallel.h"
+#include "math/view.h"
+#include "raster/pass.h"
+#include "render/view/meshes.h"
+#include "render/view/surfaces.h"
+
+namespace swell::render {
+
+enum class ViewKind : std::uint8_t {
+  kWindow,      // as seen, through air
+  kReflection,  // mirrored in the water's level, through air
+  kRefraction,  // below the water's level squeezed towards it, through water
+};
+
+// Water shows in the window only: it looks into the other pictures.
+constexpr bool shows(ViewKind view, SurfaceKind surface) {
+  return view == ViewKind::kWindow || surface != SurfaceKind::kWater;
+}
+
+// A surface's vertices in a view.
+struct ViewVertices {
+  std::vector<glm::vec4> p_clip;
+  std::vector<float> clip_distance;  // none in the window
+};
+
+struct RenderView {
+  ViewKind kind = ViewKind::kWindow;
+  View camera;
+  float refraction_index = 1.333f;
+  std::array<ViewVertices, kSurfaceKinds> vertices;
+  PrimitiveRanges primitives;  // of the surfaces that it shows
+  raster::Pass pass;
+
+  ViewVertices& vertices_of(SurfaceKind k) { return vertices[static_cast<std::size_t>(k)]; }
+  const ViewVertices& vertices_of(SurfaceKind k) const {
+    return vertices[static_cast<std::size_t>(k)];
+  }
+  raster::Viewport viewport() const { return {camera.width_px, camera.height_px}; }
+};
+
+// Apparent depth over true depth of a point below the water seen from the eye, at an angle theta
+// to the vertical: k = (1/n) cos / sqrt(1 - (sin/n)^2), from 1/n to 0.
+float squeeze(glm::vec3 p_rel, float n);
+
+// A point of the world on its way into a view.
+struct WorldPoint {
+  glm::vec3 p_rel;    // relative to the eye [m]
+  float above_m;      // its height over the water's level
+  float level_rel_m;  // that level over the eye
+};
+
+// Where a view shows the point, relative to the eye.
+glm::vec3 map_point(ViewKind kind, const WorldPoint& point, float refraction_index);
+
+// All views of a frame.
+using FrameViews = std::span<RenderView* const>;
+
+// Makes room for a surface's vertices in the views that show it.
+void resize_vertices(SurfaceKind surface, std::size_t count, FrameViews views);
+
+// Maps vertices [begin, end) of a surface into the views that show it.
+void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, std::size_t end,
+                  FrameViews views);
+
+// Stage 3: heights of all vertices of water and land at the time of `sea`, and their places in the
+// views.
+void displace(const World::State& world, const SeaMaps& sea, const View& view,
+              const FrameOptions& options, Meshes& meshes, FrameViews views, const StageRun& run);
+
+// Stage 3: floating objects where the sea carries them, as far as the view may show them, and their
+// vertices in the views.
+void place_objects(const World::State& world, const SeaMaps& sea, const View& view, Meshes& meshes,
+                   FrameViews views);
+
+// Numbers the triangles of what the view shows, clips, sets up and bins them.
+void prepare_view_pass(const Meshes& meshes, int tile_size_px, RenderView& view, Workers& workers);
+
+}  // namespace swell::render

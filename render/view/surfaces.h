@@ -1,0 +1,38 @@
+// The surfaces that a frame draws, and which primitive numbers are whose.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace swell::render {
+
+// In the order of their primitive numbers.
+enum class SurfaceKind : std::uint8_t { kWater, kTerrain, kObjects };
+inline constexpr std::size_t kSurfaceKinds = 3;
+inline constexpr std::array<SurfaceKind, kSurfaceKinds> kAllSurfaces = {
+    SurfaceKind::kWater, SurfaceKind::kTerrain, SurfaceKind::kObjects};
+
+// The one table of primitive numbers: the triangles of each surface have consecutive ones, surface
+// after surface. raster::kNoPrimitive lies in no range.
+class PrimitiveRanges {
+ public:
+  PrimitiveRanges() = default;
+  // From the number of triangles of each surface.
+  explicit PrimitiveRanges(const std::array<std::uint32_t, kSurfaceKinds>& triangles) {
+    for (std::size_t k = 0; k < kSurfaceKinds; ++k) begin_[k + 1] = begin_[k] + triangles[k];
+  }
+
+  std::uint32_t begin(SurfaceKind kind) const { return begin_[static_cast<std::size_t>(kind)]; }
+  std::uint32_t end(SurfaceKind kind) const { return begin_[static_cast<std::size_t>(kind) + 1]; }
+  bool empty(SurfaceKind kind) const { return begin(kind) == end(kind); }
+  bool holds(SurfaceKind kind, std::uint32_t primitive) const {
+    return primitive - begin(kind) < end(kind) - begin(kind);
+  }
+  std::uint32_t count() const { return begin_.back(); }
+
+ private:
+  std::array<std::uint32_t, kSurfaceKinds + 1> begin_{};
+};
+
+}  // namespace swell::render

@@ -1,0 +1,146 @@
+// Stage 2: the triangulations for the view.
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+
+#include "lod/plane.h"
+#include "lod/radial_grid.h"
+#include "render/view/meshes.h"
+
+namespace swell::render {
+namespace {
+
+// The endless sea: a square of 64 km around the eye, whose corner moves in whole steps.
+constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
+
+// Vertices every 1 m, 0.25 m or 0.125 m at the closest. A small budget is better spent further off,
+// a large one has nothing left to do there: docs/lod.md has the errors of all three.
+int sea_lattice_bits(int budget) { return budget < 4000 ? 16 : budget <= 40000 ? 18 : 19; }
+
+lod::Domain sea_domain(const View& view, int budget) {
+  const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
+  return {cell - 0.5 * kSeaSize_m, kSeaSize_m, sea_lattice_bits(budget)};
+}
+
+lod::Domain land_domain(const scene::Terrain& terrain) {
+  const auto cells = static_cast<unsigned>(std::max(terrain.samples - 1, 2));
+  return {terrain.min_world, terrain.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
+}
+
+lod::PriorityFactors priority_factors(const scene::Scene& scene) {
+  const scene::Detail& detail = scene.detail;
+  lod::PriorityFactors factors;
+  factors.focus_nearer = static_cast<float>(detail.objects);
+  factors.back_facing = static_cast<float>(detail.back_facing);
+  factors.flat = static_cast<float>(detail.normal_spread);
+  factors.off_silhouette = static_cast<float>(detail.silhouette);
+  if (detail.visibility > 0.0)
+    factors.haze_distance_m = static_cast<float>(scene.sky.haze_distance_m / detail.visibility);
+  return factors;
+}
+
+lod::AdaptLimits adapt_limits(const FrameOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  lod::AdaptLimits limits;
+  if (options.lod_operations > 0) limits.max_operations = options.lod_operations;
+  if (options.lod_ms > 0.0)
+    limits.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                         std::chrono::duration<double, std::milli>(options.lod_ms));
+  limits.priority_groups = options.lod_groups;
+  return limits;
+}
+
+// What both surfaces are triangulated for.
+struct Wanted {
+  const World::State& world;
+  const View& view;
+  const FrameOptions& options;
+};
+
+lod::AdaptRequest request_for(const Wanted& wanted, int budget, float low_m, float high_m) {
+  const scene::Detail& detail = wanted.world.scene.detail;
+  lod::AdaptRequest request;
+  request.view = wanted.view;
+  request.triangle_budget = budget;
+  request.priority = detail.inverse_distance_priority ? lod::Priority::kInverseDistance
+                                                      : lod::Priority::kProjectedSize;
+  request.min_height_m = low_m;
+  request.max_height_m = high_m;
+  request.factors = priority_factors(wanted.world.scene);
+  request.limits = adapt_limits(wanted.options);
+  return request;
+}
+
+// capacity: triangles to keep storage for, besides those of the request.
+void adapt_surface(const lod::Domain& domain, const lod::AdaptRequest& request, int capacity,
+                   Surface& surface) {
+  capacity = std::max(capacity, request.triangle_budget);
+  if (!surface.roam || surface.max_triangles < capacity) {
+    surface.roam.emplace(domain, capacity);
+    surface.max_triangles = capacity;
+    surface.mesh_revision = 0;
+  }
+  surface.roam->set_domain(domain);
+  surface.statistics = surface.roam->adapt(request);
+  surface.domain = domain;
+  surface.roam->update_mesh(surface.mesh, surface.mesh_revision);
+}
+
+void triangulate_water(const Wanted& wanted, Surface& water) {
+  const scene::Detail& detail = wanted.world.scene.detail;
+  const int budget = wanted.options.water_triangles;
+  if (detail.triangulation != scene::Triangulation::kRoam) water.mesh_revision = 0;
+  switch (detail.triangulation) {
+    case scene::Triangulation::kRoam: {
+      const float bound = wanted.world.height_bound_m();
+      lod::AdaptRequest request = request_for(wanted, budget, -bound, bound);
+      request.max_slope = wanted.world.slope_bound();
+      if (const double mean_m = wanted.world.mean_wavelength_m(); mean_m > 0.0)
+        request.largest_size_m = 0.5 * mean_m;
+      request.focuses = wanted.world.focuses;
+      adapt_surface(sea_domain(wanted.view, budget), request, wanted.options.triangle_capacity,
+                    water);
+      break;
+    }
+    case scene::Triangulation::kRadial:
+      water.domain = lod::radial_domain(wanted.view);
+      water.statistics = lod::write_radial_grid(wanted.view, budget, water.mesh);
+      break;
+    case scene::Triangulation::kPlane:
+      water.domain = sea_domain(wanted.view, budget);
+      lod::write_plane(water.domain, water.mesh);
+      water.statistics = {.triangles = 2};
+      break;
+  }
+}
+
+// Of an earlier world.
+void clear_surface(Surface& surface) {
+  surface.statistics = {};
+  surface.mesh_revision = 0;
+  surface.mesh.lattice.clear();
+  surface.mesh.indices.clear();
+  surface.mesh.level.clear();
+}
+
+void triangulate_land(const Wanted& wanted, Surface& land) {
+  if (!wanted.world.terrain) return clear_surface(land);
+  const scene::Terrain& terrain = *wanted.world.terrain;
+  lod::AdaptRequest request =
+      request_for(wanted, wanted.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);
+  request.relief = wanted.world.relief_bounds.get();
+  request.frustum_margin = 0.3f;  // the mirrored land lies outside the view at times
+  adapt_surface(land_domain(terrain), request, wanted.options.triangle_capacity, land);
+}
+
+}  // namespace
+
+void triangulate(const World::State& world, const View& view, const FrameOptions& options,
+                 Meshes& meshes, const StageRun& run) {
+  const Wanted wanted{world, view, options};
+  run.workers.run_both([&] { triangulate_water(wanted, meshes.water); },
+                       [&] { triangulate_land(wanted, meshes.land); });
+}
+
+}  // namespace swell::render

@@ -1,0 +1,42 @@
+#include "render/view/visibility.h"
+
+#include <algorithm>
+
+namespace swell::render {
+namespace {
+
+bool holds_any(const PrimitiveRanges& ranges, SurfaceKind kind,
+               std::span<const std::uint32_t> primitives) {
+  const std::uint32_t begin = ranges.begin(kind), count = ranges.end(kind) - begin;
+  std::uint32_t any = 0;
+  for (const std::uint32_t p : primitives) any |= static_cast<std::uint32_t>(p - begin < count);
+  return any != 0;
+}
+
+void find_visible_in_tile(const RenderView& window, int tile, VisibilityBuffer& visibility) {
+  visibility.covered[tile] = -1;
+  visibility.has_water[tile] = 0;
+  if (!raster::tile_has_triangles(window.pass, tile)) return;
+  const std::span<std::uint32_t> primitive = visibility.primitive_of(tile);
+  visibility.covered[tile] =
+      raster::draw_tile(window.pass, tile, visibility.depth_of(tile), primitive);
+  visibility.has_water[tile] = holds_any(window.primitives, SurfaceKind::kWater, primitive);
+}
+
+}  // namespace
+
+void find_visible(const Meshes& meshes, int tile_size_px, RenderView& window,
+                  VisibilityBuffer& visibility, const StageRun& run) {
+  prepare_view_pass(meshes, tile_size_px, window, run.workers);
+  visibility.grid = raster::tile_grid(window.viewport(), tile_size_px);
+  const auto tiles = static_cast<std::size_t>(visibility.grid.count());
+  visibility.depth.resize(tiles * visibility.tile_pixels());
+  visibility.primitive.resize(tiles * visibility.tile_pixels());
+  visibility.covered.resize(tiles);
+  visibility.has_water.resize(tiles);
+  run.for_each(tiles, [&](std::size_t tile, int) {
+    find_visible_in_tile(window, static_cast<int>(tile), visibility);
+  });
+}
+
+}  // namespace swell::render

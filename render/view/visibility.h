@@ -1,0 +1,43 @@
+// Stage 4: what is visible in the window.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raster/pass.h"
+#include "render/profile.h"
+#include "render/view/render_view.h"
+
+namespace swell::render {
+
+// Per-tile results, in tile order.
+struct VisibilityBuffer {
+  raster::TileGrid grid;
+  std::vector<float> depth;
+  std::vector<std::uint32_t> primitive;
+  std::vector<int> covered;             // pixels with a surface; -1: no triangle, buffers unset
+  std::vector<std::uint8_t> has_water;  // 0 or 1
+
+  std::size_t tile_pixels() const {
+    return static_cast<std::size_t>(grid.tile_size_px) * grid.tile_size_px;
+  }
+  std::span<float> depth_of(int tile) {
+    return {depth.data() + tile * tile_pixels(), tile_pixels()};
+  }
+  std::span<std::uint32_t> primitive_of(int tile) {
+    return {primitive.data() + tile * tile_pixels(), tile_pixels()};
+  }
+  std::span<const float> depth_of(int tile) const {
+    return {depth.data() + tile * tile_pixels(), tile_pixels()};
+  }
+  std::span<const std::uint32_t> primitive_of(int tile) const {
+    return {primitive.data() + tile * tile_pixels(), tile_pixels()};
+  }
+};
+
+// Prepares the window's pass and draws its visibility buffer.
+void find_visible(const Meshes& meshes, int tile_size_px, RenderView& window,
+                  VisibilityBuffer& visibility, const StageRun& run);
+
+}  // namespace swell::render

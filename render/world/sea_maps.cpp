@@ -1,0 +1,57 @@
+#include "render/world/sea_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swell::render {
+namespace {
+
+constexpr int kUvNoiseSize = texture::UvNoiseOptions{}.size;
+constexpr double kUvNoiseCells_per_s = 0.25;
+constexpr float kCoastSlopeScale = 1.5f / 127.0f;  // steeper fronts of breaking waves are clamped
+
+void bake_coast(const World::State& world, double t_s, SeaMaps& sea, Workers& workers) {
+  constexpr std::size_t kPoints = static_cast<std::size_t>(kCoastMapSize) * kCoastMapSize;
+  for (std::vector<float>* map : {&sea.coast_slope_x, &sea.coast_slope_y, &sea.coast_foam})
+    map->resize(kPoints);
+  ocean::bake_coast(world.coast_maps->waves, t_s, sea.coast_slope_x, sea.coast_slope_y,
+                    sea.coast_foam, workers);
+}
+
+void pack_patch(const ocean::PatchFrame& patch, texture::PackedMap2& map) {
+  // A scale fixed by the sea state, not by the frame, so that codes do not flicker.
+  const float scale = 5.0f * std::sqrt(std::max(patch.slope_variance, 1e-8f)) / 127.0f;
+  texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, map);
+}
+
+void pack_noise(double t_s, SeaMaps& sea) {
+  sea.noise_cos.resize(kUvNoiseSize * kUvNoiseSize);
+  sea.noise_sin.resize(kUvNoiseSize * kUvNoiseSize);
+  sea.noise.evaluate(kUvNoiseCells_per_s * t_s, sea.noise_cos, sea.noise_sin);
+  texture::pack_map2(kUvNoiseSize, sea.noise_cos, sea.noise_sin, 1.0f / 127.0f, sea.uv_noise);
+}
+
+}  // namespace
+
+void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const StageRun& run) {
+  ocean::advance(*world.sea, t_s, sea.frame, run.workers);
+  const bool has_coast = world.coast != nullptr;
+  if (has_coast) bake_coast(world, t_s, sea, run.workers);
+  // Pack the maps that shading looks into: the waves', the noise's, the coast's.
+  const std::size_t patches = sea.frame.patches.size();
+  sea.patch_slopes.resize(patches);
+  run.for_each(patches + (has_coast ? 3 : 1), [&](std::size_t i, int) {
+    if (i < patches)
+      pack_patch(sea.frame.patches[i], sea.patch_slopes[i]);
+    else if (i == patches)
+      pack_noise(t_s, sea);
+    else if (i == patches + 1)
+      texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
+                         sea.coast_slopes);
+    else
+      texture::pack_map2(kCoastMapSize, world.coast_maps->share, sea.coast_foam, 1.0f / 127.0f,
+                         sea.coast_surf);
+  });
+}
+
+}  // namespace swell::render

@@ -1,0 +1,33 @@
+// Stage 1: the sea at one time, and the maps that shading looks into.
+#pragma once
+
+#include <vector>
+
+#include "ocean/sea.h"
+#include "render/profile.h"
+#include "render/world/world_state.h"
+#include "texture/packed_map.h"
+#include "texture/uv_noise.h"
+
+namespace swell::render {
+
+struct SeaMaps {
+  ocean::SeaFrame frame;
+  std::vector<texture::PackedMap2> patch_slopes;  // one a patch, longest first
+  texture::PackedMap2 uv_noise;                   // bends the coordinates of ripples
+  texture::PackedMap2 coast_slopes, coast_surf;   // slopes; the trains' share and their foam
+  // Storage.
+  texture::UvNoise noise{{}};
+  std::vector<float> noise_cos, noise_sin;
+  std::vector<float> coast_slope_x, coast_slope_y, coast_foam;
+};
+
+// Fills `sea` with the world's sea at time t_s.
+void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const StageRun& run);
+
+// The water's surface at the time of `sea`, of the same world.
+inline scene::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {
+  return water_surface(world, sea.frame);
+}
+
+}  // namespace swell::render
