@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "apps/shared/parse_number.h"
 #include "apps/shared/picture_file.h"
 #include "math/simd_target.h"
 
@@ -19,15 +19,6 @@ constexpr int kMaxFrame = 9999999;
   throw OptionError(fmt::format("command line: {}: got '{}', allowed {}", option, got, allowed));
 }
 
-// The whole of `text` as a number, or nothing. Does not depend on the locale.
-template <class Number>
-std::optional<Number> parse(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 // As the help shows it; nothing for a value below `low`, which means "not given".
 template <class Number>
 std::string default_text(Number value, Number low) {
@@ -39,7 +30,8 @@ std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separa
                                               int high) {
   const std::size_t middle = text.find(separator);
   if (middle == std::string_view::npos) return std::nullopt;
-  const auto a = parse<int>(text.substr(0, middle)), b = parse<int>(text.substr(middle + 1));
+  const auto a = parse_number<int>(text.substr(0, middle)),
+             b = parse_number<int>(text.substr(middle + 1));
   if (!a || !b || *a < low || *a > high || *b < low || *b > high) return std::nullopt;
   return std::pair(*a, *b);
 }
@@ -69,7 +61,7 @@ void add_json_option(CommandLine& line, std::string& path) {
 
 void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
   const auto take_tile = [&frame](const std::string& text) {
-    const int size = parse<int>(text).value_or(0);
+    const int size = parse_number<int>(text).value_or(0);
     if (size != 16 && size != 32 && size != 64) refuse("--tile", text, "16, 32 or 64");
     frame.tile_size_px = size;
   };
@@ -103,7 +95,7 @@ void check_linear_light(const render::FrameOptions& frame, std::string_view opti
 void add_integer(CommandLine& line, const std::string& name, int& value, int low, int high,
                  const std::string& help) {
   const auto store = [&value, name, low, high](const std::string& text) {
-    const auto number = parse<int>(text);
+    const auto number = parse_number<int>(text);
     if (!number || *number < low || *number > high)
       refuse(name, text, fmt::format("whole numbers from {} to {}", low, high));
     value = *number;
@@ -114,7 +106,7 @@ void add_integer(CommandLine& line, const std::string& name, int& value, int low
 void add_number(CommandLine& line, const std::string& name, double& value, double low, double high,
                 const std::string& help) {
   const auto store = [&value, name, low, high](const std::string& text) {
-    const auto number = parse<double>(text);
+    const auto number = parse_number<double>(text);
     if (!number || !std::isfinite(*number) || *number < low || *number > high)
       refuse(name, text, fmt::format("numbers from {} to {}", low, high));
     value = *number;

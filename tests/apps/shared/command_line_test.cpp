@@ -34,9 +34,9 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
   const Outcome outcome = run_render({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* option :
-       {"--scene", "--size", "--time", "--frames", "--fps", "--out", "--threads", "--hash",
-        "--simd", "--tile", "--triangles", "--lookup-scale", "--wireframe", "--dump-scene"})
+  for (const char* option : {"--scene", "--size", "--time", "--frames", "--fps", "--out",
+                             "--threads", "--hash", "--simd", "--tile", "--triangles",
+                             "--lookup-scale", "--wireframe", "--dump-scene", "--json", "--expect"})
     EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
 }
 
@@ -95,7 +95,8 @@ TEST_F(CommandLine, RenderRefusesBadOptions) {
 TEST_F(CommandLine, RenderNeedsASceneAndSomethingToDo) {
   expect_refused(run_render({}), {"command line", "--scene"});
   expect_refused(run_render({"--hash"}), {"command line", "--scene"});
-  expect_refused(run_render({"--scene", scene_}), {"command line", "--out", "--hash"});
+  expect_refused(run_render({"--scene", scene_}),
+                 {"command line", "--out", "--hash", "--json", "--expect"});
 }
 
 // Where nothing is drawn right yet.
