@@ -9,8 +9,9 @@ if(SWELL_SANITIZE)
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
   # Sanitized code makes GCC's flow warnings see paths that do not exist.
-  target_compile_options(swell_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
+  set(flow_warnings -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
     -Wno-stringop-overflow)
+  target_compile_options(swell_options INTERFACE "$<$<CXX_COMPILER_ID:GNU>:${flow_warnings}>")
 endif()
 
 # -ffp-contract=off is a correctness flag: without it GCC fuses a*b+c where it likes, and
