@@ -100,7 +100,7 @@ TEST_F(FrameLines, JsonIsWholeOrNotThere) {
   write_text(file_, "before");
   const std::string nowhere = folder_.file("none/f.json");
   expect_failure(sequence({"--json", nowhere}), 2, {nowhere});
-  // The third picture cannot be written: a folder has its name.
+  // The second picture cannot be written: a folder has its name.
   std::filesystem::create_directory(folder_.file("f_3.png"));
   const Outcome failed = sequence({"--out", folder_.file("f_%d.png"), "--json", file_});
   EXPECT_NE(failed.exit_code, 0);
