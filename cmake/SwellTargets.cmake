@@ -9,8 +9,9 @@ if(SWELL_SANITIZE)
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
   # Sanitized code makes GCC's flow warnings see paths that do not exist.
-  target_compile_options(swell_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
+  set(flow_warnings -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
     -Wno-stringop-overflow)
+  target_compile_options(swell_options INTERFACE "$<$<CXX_COMPILER_ID:GNU>:${flow_warnings}>")
 endif()
 
 # -ffp-contract=off is a correctness flag: without it GCC fuses a*b+c where it likes, and
@@ -24,6 +25,7 @@ endif()
 # swell_add_folder(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...)
 # A static library of one folder. Its headers are visible as "folder/x.h" only to targets that
 # link it, because each folder has an include root of its own: a wrong include does not build.
+# cmake/PublicHeaders.cmake says which headers are installed.
 function(swell_add_folder folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   set(root ${CMAKE_BINARY_DIR}/include/${folder})
@@ -41,6 +43,4 @@ function(swell_add_folder folder)
   target_compile_features(swell_${folder} INTERFACE cxx_std_20)
   target_compile_options(swell_${folder} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
   install(TARGETS swell_${folder} EXPORT swell-targets)
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/ DESTINATION include/swell/${folder}
-    FILES_MATCHING PATTERN "*.h")
 endfunction()

@@ -1,5 +1,6 @@
 #include "math/simd_target.h"
 
+#include <cpuid.h>
 #include <hwy/highway.h>
 
 #include "math/check.h"
@@ -11,11 +12,17 @@ constexpr int64_t highway_bit(SimdTarget target) {
   return target == SimdTarget::kAvx2 ? int64_t{HWY_AVX2} : int64_t{HWY_AVX3};
 }
 
+// Clang 14's __builtin_cpu_supports does not know this one.
+bool cpu_has_f16c() {
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  return __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 && (ecx & bit_F16C) != 0;
+}
+
 }  // namespace
 
 bool cpu_is_supported() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-         __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c");
+         __builtin_cpu_supports("bmi2") && cpu_has_f16c();
 }
 
 bool simd_target_available(SimdTarget target) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <system_error>
+#include <utility>
 
 namespace swell::texture {
 namespace {
@@ -77,9 +78,9 @@ SampleKind kind_of(OIIO::TypeDesc type) {
 CodecResult open_image(std::string_view format, std::span<const char> bytes, void*& image,
                        ImageInfo& info, std::string& error) {
   return guarded(error, [&] {
-    auto open = std::make_unique<OpenImage>(
-        OIIO::Filesystem::IOMemReader(const_cast<char*>(bytes.data()), bytes.size()),
-        OIIO::ImageInput::create(format), OIIO::ImageSpec());
+    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
+    std::unique_ptr<OpenImage> open(
+        new OpenImage{std::move(memory), OIIO::ImageInput::create(format), OIIO::ImageSpec()});
     if (!open->input || !open->input->set_ioproxy(&open->memory)) {
       error = "this build has no such format";
       return false;

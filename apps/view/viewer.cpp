@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "apps/picture_file.h"
+#include "apps/shared/picture_file.h"
 #include "apps/view/camera_text.h"
 #include "apps/view/eye_floor.h"
 #include "math/simd_target.h"

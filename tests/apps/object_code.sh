@@ -22,7 +22,8 @@ report() {
 for archive; do
   # "file.cpp.o: instruction" of everything that is forbidden.
   listing=$("$objdump" -d --no-show-raw-insn "$archive" | awk '
-    /^[^ ].*file format/ { object = $1; sub(/:$/, "", object); next }
+    # "x.cpp.o:" with the GNU program, "archive.a(x.cpp.o):" with that of LLVM.
+    /^[^ ].*file format/ { object = $1; sub(/\)?:$/, "", object); sub(/.*\(/, "", object); next }
     $2 ~ /^v?rcp(14|28)?[ps][sdh]$/ || $2 ~ /^v?rsqrt(14|28)?[ps][sdh]$/ {
       print object ": approximate " $2; next }
     $2 ~ /^vfn?m(add|sub|addsub|subadd)/ && object !~ /_simd\.cpp\.o$/ {

@@ -53,7 +53,7 @@ std::string random_list(const Parameter<Object>& parameter, Dice& dice) {
     numbers.push_back(random_number(parameter, dice));
   if (spread) {  // patch lengths go down
     std::ranges::sort(numbers, std::greater{});
-    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   }
   return fmt::format("[{}]", fmt::join(numbers, ", "));
 }

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-#include "apps/program_runner.h"
+#include "apps/shared/program_runner.h"
 #include "texture/image_io.h"
 
 namespace swell::apps {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/picture_file.h"
+#include "apps/shared/picture_file.h"
 #include "apps/view/viewer.h"
 #include "texture/image_io.h"
 #include "viewer_harness.h"

@@ -1,0 +1,33 @@
+#include "apps/shared/notices.h"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+
+#include "render/measure/eye_place.h"
+#include "scene/coast.h"
+
+namespace swell::apps {
+
+scene::Scene load_scene(const std::filesystem::path& path) {
+  scene::Scene scene = scene::load_scene(path);
+  if (const std::string work = scene::slow_coast_text(scene); !work.empty())
+    fmt::print(stderr, "note: {}; that takes a while\n", work);
+  return scene;
+}
+
+void EyeWarning::look(int frame, const render::World& world, const View& view,
+                      const render::Workspace& workspace) {
+  if (was_given_) return;
+  const render::EyeReport eye = find_eye(world, workspace, view.eye_world);
+  if (eye.place == render::EyePlace::kAir) return;
+  was_given_ = true;
+  const bool is_water = eye.place == render::EyePlace::kWater;
+  fmt::print(stderr,
+             "warning: frame {}: the camera is {}, at {:.2f} m where {} is at {:.2f} m; "
+             "what it sees from there is not drawn right\n",
+             frame, is_water ? "under water" : "inside the ground", view.eye_world.z,
+             is_water ? "the water" : "the ground", eye.surface_m);
+}
+
+}  // namespace swell::apps

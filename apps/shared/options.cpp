@@ -1,0 +1,141 @@
+#include "apps/shared/options.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <optional>
+
+#include "apps/shared/parse_number.h"
+#include "apps/shared/picture_file.h"
+#include "math/simd_target.h"
+
+namespace swell::apps {
+namespace {
+
+constexpr int kMaxSidePx = 8192;
+constexpr int kMaxFrame = 9999999;
+
+[[noreturn]] void refuse(std::string_view option, std::string_view got, std::string_view allowed) {
+  throw OptionError(fmt::format("command line: {}: got '{}', allowed {}", option, got, allowed));
+}
+
+// As the help shows it; nothing for a value below `low`, which means "not given".
+template <class Number>
+std::string default_text(Number value, Number low) {
+  return value >= low ? fmt::format("{}", value) : std::string();
+}
+
+// "AxB" with the given separator as two integers, each in [low, high].
+std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separator, int low,
+                                              int high) {
+  const std::size_t middle = text.find(separator);
+  if (middle == std::string_view::npos) return std::nullopt;
+  const auto a = parse_number<int>(text.substr(0, middle)),
+             b = parse_number<int>(text.substr(middle + 1));
+  if (!a || !b || *a < low || *a > high || *b < low || *b > high) return std::nullopt;
+  return std::pair(*a, *b);
+}
+
+}  // namespace
+
+void add_scene_option(CommandLine& line, std::string& path) {
+  line.add_text("--scene", "FILE", path, "Scene file (TOML)");
+  line.require("--scene");
+}
+
+void add_frame_setup(CommandLine& line, FrameSetup& setup) {
+  add_scene_option(line, setup.scene_path);
+  line.add_value({"--size", "WxH", "1280x720", "Picture size in pixels",
+                  [&setup](const std::string& text) { setup.size = parse_size(text); }});
+  add_machine_options(line, setup.threads, setup.simd);
+}
+
+void add_machine_options(CommandLine& line, int& threads, std::string& simd) {
+  add_integer(line, "--threads", threads, 1, 256, "Threads; changes no pixel");
+  line.add_text("--simd", "TARGET", simd, "avx2 or avx512; changes no pixel");
+}
+
+void add_json_option(CommandLine& line, std::string& path) {
+  line.add_text("--json", "FILE", path, "Write the numbers as JSON; - is standard output");
+}
+
+void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
+  const auto take_tile = [&frame](const std::string& text) {
+    const int size = parse_number<int>(text).value_or(0);
+    if (size != 16 && size != 32 && size != 64) refuse("--tile", text, "16, 32 or 64");
+    frame.tile_size_px = size;
+  };
+  line.add_value(
+      {"--tile", "", "64", "Tile size in pixels: 16, 32 or 64; changes no pixel", take_tile});
+  add_integer(line, "--triangles", frame.water_triangles, 2, 1000000,
+              "Triangles of the water instead of the scene's");
+  add_integer(line, "--terrain-triangles", frame.terrain_triangles, 2, 1000000,
+              "Triangles of the terrain instead of the scene's");
+  add_number(
+      line, "--lookup-scale", frame.lookup_scale, 0.1, 1.0,
+      "Size of reflection and refraction images against the picture, instead of the scene's");
+  add_number(line, "--background-error", frame.background_error_px, 0.0, 8.0,
+             "Pixels by which far water may lie off for waves left out, instead of the scene's");
+  add_number(line, "--picture-scale", frame.picture_scale, 0.1, 1.0,
+             "Draw at this share of the size and enlarge: faster, less sharp; not for .exr");
+  line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges; not for .exr");
+}
+
+void check_linear_light(const render::FrameOptions& frame, std::string_view option,
+                        const std::string& file) {
+  if (!stores_linear_light(file)) return;
+  const auto refuse_with_file = [&](std::string_view name, std::string_view allowed) {
+    throw OptionError(fmt::format("command line: {}, got it with {} '{}', allowed {} .exr files",
+                                  name, option, file, allowed));
+  };
+  if (frame.picture_scale != 1.0) refuse_with_file("--picture-scale", "1 with");
+  if (frame.wireframe) refuse_with_file("--wireframe", "without");
+}
+
+void add_integer(CommandLine& line, const std::string& name, int& value, int low, int high,
+                 const std::string& help) {
+  const auto store = [&value, name, low, high](const std::string& text) {
+    const auto number = parse_number<int>(text);
+    if (!number || *number < low || *number > high)
+      refuse(name, text, fmt::format("whole numbers from {} to {}", low, high));
+    value = *number;
+  };
+  line.add_value({name, "N", default_text(value, low), help, store});
+}
+
+void add_number(CommandLine& line, const std::string& name, double& value, double low, double high,
+                const std::string& help) {
+  const auto store = [&value, name, low, high](const std::string& text) {
+    const auto number = parse_number<double>(text);
+    if (!number || !std::isfinite(*number) || *number < low || *number > high)
+      refuse(name, text, fmt::format("numbers from {} to {}", low, high));
+    value = *number;
+  };
+  line.add_value({name, "X", default_text(value, low), help, store});
+}
+
+void select_simd(std::string_view name) {
+  if (name.empty()) return;
+  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+    if (name != simd_target_name(target)) continue;
+    if (!simd_target_available(target)) refuse("--simd", name, "avx2 on this CPU");
+    select_simd_target(target);
+    return;
+  }
+  refuse("--simd", name, "avx2 or avx512");
+}
+
+PictureSize parse_size(std::string_view text) {
+  const auto size = parse_pair(text, 'x', 1, kMaxSidePx);
+  if (!size) refuse("--size", text, fmt::format("1x1 to {0}x{0}", kMaxSidePx));
+  return {size->first, size->second};
+}
+
+FrameRange parse_frame_range(std::string_view text) {
+  const auto range = parse_pair(text, '-', 0, kMaxFrame);
+  if (!range || range->first > range->second)
+    refuse("--frames", text, fmt::format("A-B with 0 <= A <= B <= {}", kMaxFrame));
+  return {range->first, range->second};
+}
+
+}  // namespace swell::apps
