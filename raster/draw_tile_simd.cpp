@@ -34,7 +34,8 @@ struct TileTarget {
   std::int32_t size, x0, y0;  // [px]
 };
 
-// The pixels of a triangle in a tile as rows of whole packets. Relative to the tile, inclusive.
+// The pixels of a triangle in a tile as rows of whole packets. Relative to the tile, inclusive. No
+// packets if the box holds no pixel centre: the triangle is listed for its samples.
 struct PacketRect {
   std::int32_t x, y0, y1, packets;
 };
@@ -53,6 +54,7 @@ HWY_INLINE PacketRect RectInTile(const SetupTriangle& t, const TileTarget& tile)
   const std::int32_t x1 = std::min(t.max_x - tile.x0, tile.size - 1);
   const std::int32_t y0 = std::max(t.min_y - tile.y0, 0);
   const std::int32_t y1 = std::min(t.max_y - tile.y0, tile.size - 1);
+  if (((x1 - x0) | (y1 - y0)) < 0) return {0, 0, 0, 0};
   if (x1 - x0 < kLanes) return {std::min(x0, tile.size - kLanes), y0, y1, 1};
   const std::int32_t x = x0 & -kLanes;
   return {x, y0, y1, (x1 - x) / kLanes + 1};
@@ -106,7 +108,7 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
   const IntTag di;
   const PacketRect rect = RectInTile(t, tile);
   TileEdges edges;
-  if (!EdgesInRect(t, tile, rect, edges)) return;
+  if (rect.packets == 0 || !EdgesInRect(t, tile, rect, edges)) return;
 
   // Edges at the first packet's lanes.
   const IntVec lane = hn::Iota(di, 0);

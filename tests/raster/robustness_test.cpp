@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "allocation_count.h"
-#include "raster/picture.h"
+#include "raster/sample_picture.h"
 
 namespace swell::raster {
 namespace {
@@ -205,11 +205,18 @@ TEST(Storage, ARepeatedPassAllocatesNothing) {
   Workers workers(1);
   std::vector<float> depth(256);
   std::vector<std::uint32_t> primitive(256);
+  PixelMask mask;
+  std::vector<float> sample_depth(256 * 8);
+  std::vector<std::uint32_t> sample_primitive(256 * 8);
   std::uint64_t before = 0;
   for (int frame = 0; frame < 10; ++frame) {
     if (frame == 2) before = allocation_count();
-    prepare_pass(std::span(&draw, 1), {100, 100}, 16, pass, workers);
-    for (int tile = 0; tile < 49; ++tile) draw_tile(pass, tile, depth, primitive);
+    prepare_pass(std::span(&draw, 1), {100, 100}, 16, pass, workers, 8);
+    for (int tile = 0; tile < 49; ++tile) {
+      draw_tile(pass, tile, depth, primitive);
+      mark_touched(pass, tile, 0, kNoPrimitive, mask);
+      draw_samples(pass, tile, full_mask(16), sample_depth, sample_primitive);
+    }
   }
   EXPECT_EQ(allocation_count(), before);
 }
