@@ -34,8 +34,7 @@ struct TileTarget {
   std::int32_t size, x0, y0;  // [px]
 };
 
-// The pixels of a triangle in a tile as rows of whole packets. Relative to the tile, inclusive. No
-// packets if the box holds no pixel centre: the triangle is listed for its samples.
+// The pixels of a triangle in a tile as rows of whole packets. Relative to the tile, inclusive.
 struct PacketRect {
   std::int32_t x, y0, y1, packets;
 };
@@ -48,13 +47,14 @@ struct TileEdges {
   std::int32_t e[3], a[3], b[3];
 };
 
-// Packets that cover the triangle's box; one packet where that is enough.
+// Packets that cover the triangle's box; one packet where that is enough. A triangle listed for its
+// samples may have no pixel centre in the tile: no rows (y0 > y1), or packets that no edge lets
+// through within the viewport.
 HWY_INLINE PacketRect RectInTile(const SetupTriangle& t, const TileTarget& tile) {
   const std::int32_t x0 = std::max(t.min_x - tile.x0, 0);
   const std::int32_t x1 = std::min(t.max_x - tile.x0, tile.size - 1);
   const std::int32_t y0 = std::max(t.min_y - tile.y0, 0);
   const std::int32_t y1 = std::min(t.max_y - tile.y0, tile.size - 1);
-  if (((x1 - x0) | (y1 - y0)) < 0) return {0, 0, 0, 0};
   if (x1 - x0 < kLanes) return {std::min(x0, tile.size - kLanes), y0, y1, 1};
   const std::int32_t x = x0 & -kLanes;
   return {x, y0, y1, (x1 - x) / kLanes + 1};
@@ -108,7 +108,7 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
   const IntTag di;
   const PacketRect rect = RectInTile(t, tile);
   TileEdges edges;
-  if (rect.packets == 0 || !EdgesInRect(t, tile, rect, edges)) return;
+  if (rect.y0 > rect.y1 || !EdgesInRect(t, tile, rect, edges)) return;
 
   // Edges at the first packet's lanes.
   const IntVec lane = hn::Iota(di, 0);

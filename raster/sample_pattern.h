@@ -43,13 +43,20 @@ struct SampleExtent {
   std::int32_t low_fx8, high_fx8;
 };
 
-constexpr SampleExtent sample_extent(int samples) {
+constexpr SampleExtent extent_of(std::span<const SamplePosition> positions) {
   SampleExtent extent{256, 0};
-  for (const SamplePosition& p : sample_positions(samples)) {
+  for (const SamplePosition& p : positions) {
     extent.low_fx8 = std::min({extent.low_fx8, p.x_fx8, p.y_fx8});
     extent.high_fx8 = std::max({extent.high_fx8, p.x_fx8, p.y_fx8});
   }
   return extent;
+}
+
+// Of a pass with `samples` of them.
+constexpr SampleExtent sample_extent(int samples) {
+  constexpr SampleExtent kCentre = extent_of(kCentrePosition);
+  constexpr SampleExtent kOf4 = extent_of(kPositionsOf4), kOf8 = extent_of(kPositionsOf8);
+  return samples == 4 ? kOf4 : samples == 8 ? kOf8 : kCentre;
 }
 
 }  // namespace swell::raster

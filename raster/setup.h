@@ -45,9 +45,9 @@ struct BoundsFx8 {
 };
 
 inline BoundsFx8 bounds_of(const SetupTriangle& t) {
-  const auto [x0, x1] = std::minmax({t.x_fx8[0], t.x_fx8[1], t.x_fx8[2]});
   // The first vertex has the smallest y.
-  return {x0, t.y_fx8[0], x1, std::max(t.y_fx8[1], t.y_fx8[2])};
+  return {std::min(std::min(t.x_fx8[0], t.x_fx8[1]), t.x_fx8[2]), t.y_fx8[0],
+          std::max(std::max(t.x_fx8[0], t.x_fx8[1]), t.x_fx8[2]), std::max(t.y_fx8[1], t.y_fx8[2])};
 }
 
 // Inclusive; none if x0 > x1 or y0 > y1.

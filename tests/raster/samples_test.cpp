@@ -171,6 +171,26 @@ TEST(Samples, ATriangleBetweenPixelCentresCoversTheSampleItHolds) {
   }
 }
 
+// Slight triangles with an edge through one sample: top and left edges own it, the others do not.
+TEST(Samples, OnATopOrLeftEdgeBelongToTheTriangle) {
+  constexpr Viewport kView{64, 64};
+  for (const int samples : kSampleCounts) {
+    for (int s = 0; s < samples; ++s) {
+      const Point p = sample_point(32, 17, s, samples);
+      const Point left{p.x - 3, p.y}, right{p.x + 4, p.y}, up{p.x, p.y - 3}, down{p.x, p.y + 5};
+      const auto owned = [&](const Triangle& t) {
+        FlatSoup soup;
+        soup.add(t, 0.5f, kView);
+        return draw_sample_picture(soup.draw(), kView, samples, 32).primitive_at(32, 17, s) == 0;
+      };
+      EXPECT_TRUE(owned({left, right, down})) << samples << " samples, number " << s;
+      EXPECT_TRUE(owned({up, down, right})) << samples << " samples, number " << s;
+      EXPECT_FALSE(owned({left, right, up})) << samples << " samples, number " << s;
+      EXPECT_FALSE(owned({up, down, left})) << samples << " samples, number " << s;
+    }
+  }
+}
+
 double ulp(float v) {
   return double{std::nextafter(v, std::numeric_limits<float>::infinity())} - double{v};
 }
