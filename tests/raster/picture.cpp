@@ -145,6 +145,17 @@ bool covers(const Triangle& t, int x, int y, Ties ties) {
   return covers_point(t, {256 * std::int64_t{x} + 128, 256 * std::int64_t{y} + 128}, ties);
 }
 
+ExactLine::ExactLine(const glm::vec4& p, const glm::vec4& q, Viewport viewport) {
+  const __float128 px = p.x, py = p.y, pw = p.w, qx = q.x, qy = q.y, qw = q.w;
+  const __float128 la = py * qw - pw * qy, lb = pw * qx - px * qw, lc = px * qy - py * qx;
+  a_ = 2 * la / viewport.width_px, b_ = -2 * lb / viewport.height_px, c_ = lc - la + lb;
+  length_ = std::hypot(static_cast<double>(a_), static_cast<double>(b_));
+}
+
+double ExactLine::distance(double x_px, double y_px) const {
+  return static_cast<double>(a_ * x_px + b_ * y_px + c_) / length_;
+}
+
 double Random::uniform() { return random_uniform(seed_, counter_++); }
 
 std::int64_t Random::integer(std::int64_t low, std::int64_t high) {

@@ -74,6 +74,17 @@ bool covers_point(const Triangle& t, const Point& p, Ties ties = Ties::kTopLeft)
 // The same of the centre of pixel (x, y).
 bool covers(const Triangle& t, int x, int y, Ties ties = Ties::kTopLeft);
 
+// The exact line through two vertices of any w: a window point's signed distance [px].
+class ExactLine {
+ public:
+  ExactLine(const glm::vec4& p, const glm::vec4& q, Viewport viewport);
+  double distance(double x_px, double y_px) const;
+
+ private:
+  __float128 a_, b_, c_;
+  double length_;
+};
+
 // A small generator on the library's counter-based numbers.
 class Random {
  public:

@@ -113,116 +113,31 @@ TEST(EdgeCoverage, NearlyLevelAndNearlyUprightEdgesClimbInEvenSteps) {
   EXPECT_EQ(eight.levels.size(), 9u);
 }
 
-struct Mesh {
+struct Mast {
   std::vector<glm::vec4> p_clip;
-  std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> indices = {0, 1, 2, 2, 1, 3};
+
+  Draw draw() const { return {.p_clip = p_clip, .indices = indices}; }
 };
 
-// How many triangles, each drawn alone, cover each sample.
-std::vector<int> times_covered(const Mesh& mesh, Viewport viewport, int samples) {
-  std::vector<int> times;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Draw draw{.p_clip = mesh.p_clip, .indices = std::span(mesh.indices).subspan(i, 3)};
-    const SamplePicture picture = draw_sample_picture(draw, viewport, samples, 16 << (i % 3));
-    times.resize(picture.primitive.size());
-    for (std::size_t s = 0; s < times.size(); ++s) times[s] += picture.primitive[s] == 0;
+// 0.3 px wide, 200 px tall, from x_px to the right by lean_px.
+Mast make_mast(double x_px, double lean_px, Viewport viewport) {
+  Mast mast;
+  for (const glm::dvec2& p :
+       {glm::dvec2(x_px, 20.0), glm::dvec2(x_px + 0.3, 20.0), glm::dvec2(x_px + lean_px, 220.0),
+        glm::dvec2(x_px + lean_px + 0.3, 220.0)}) {
+    mast.p_clip.push_back(clip_from_window(p.x, p.y, 0.5, 1.0, viewport));
   }
-  return times;
+  return mast;
 }
 
-void add_quads(Mesh& mesh, std::uint32_t cells) {
-  for (std::uint32_t y = 0; y < cells; ++y) {
-    for (std::uint32_t x = 0; x < cells; ++x) {
-      const std::uint32_t a = y * (cells + 1) + x, b = a + 1, c = a + cells + 1, d = c + 1;
-      for (const std::uint32_t i : {a, b, c, c, b, d}) mesh.indices.push_back(i);
-    }
-  }
-}
-
-// AAX-01 with a surface to each triangle: their masks add up to every sample once.
-TEST(MeshSamples, JitteredGridsCoverEachSampleOnce) {
-  constexpr Viewport kView{32, 16};
-  Random random(3);
-  for (const int samples : kSampleCounts) {
-    // Cells from smaller than the gaps between samples to wider than a tile.
-    for (const std::uint32_t cells : {2u, 9u, 24u}) {
-      Mesh mesh;
-      const double step_x = 40.0 / cells, step_y = 24.0 / cells;
-      const double jitter = std::min(0.3, 3.0 / step_x);
-      for (std::uint32_t i = 0; i < (cells + 1) * (cells + 1); ++i) {
-        const double x = -4 + step_x * (i % (cells + 1) + random.between(-jitter, jitter));
-        const double y = -4 + step_y * (i / (cells + 1) + random.between(-jitter, jitter));
-        mesh.p_clip.push_back(clip_from_window(x, y, 0.5, random.between(0.3, 5.0), kView));
-      }
-      add_quads(mesh, cells);
-      const std::vector<int> times = times_covered(mesh, kView, samples);
-      EXPECT_EQ(static_cast<std::size_t>(std::count(times.begin(), times.end(), 1)), times.size());
-    }
-  }
-}
-
-// Corners on the samples themselves, all edges along rows, columns and diagonals of the pattern.
-TEST(MeshSamples, AFanAroundASampleCoversItOnce) {
-  constexpr Viewport kView{32, 32};
-  for (const int samples : kSampleCounts) {
-    for (int s = 0; s < samples; ++s) {
-      const Point centre = sample_point(11, 13, s, samples);
-      Mesh mesh;
-      mesh.p_clip.push_back(clip_from_fx8(centre, 0.5, 1.0, kView));
-      constexpr int kSlices = 16;
-      for (int i = 0; i < kSlices; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / kSlices;
-        mesh.p_clip.push_back(clip_from_fx8({centre.x + 4096 * std::lround(3 * std::cos(angle)),
-                                             centre.y + 4096 * std::lround(3 * std::sin(angle))},
-                                            0.5, 1.0, kView));
-        for (const int v : {0, 1 + i, 1 + (i + 1) % kSlices}) {
-          mesh.indices.push_back(static_cast<std::uint32_t>(v));
-        }
-      }
-      const std::vector<int> times = times_covered(mesh, kView, samples);
-      EXPECT_EQ(static_cast<std::size_t>(std::count(times.begin(), times.end(), 1)), times.size());
-    }
-  }
-}
-
-// A floor from behind the eye to far away, in several random versions.
-TEST(MeshSamples, AFloorCutByTheNearPlaneHasNoHoles) {
-  constexpr Viewport kView{64, 32};
-  constexpr std::uint32_t kCells = 12;
-  Random random(4);
-  std::uint64_t clipped = 0;
-  for (int n = 0; n < 40; ++n) {
-    Mesh mesh;
-    for (std::uint32_t i = 0; i < (kCells + 1) * (kCells + 1); ++i) {
-      const double right = -60.0 + 10.0 * (i % (kCells + 1) + random.between(-0.3, 0.3));
-      const double ahead = -25.0 + 10.0 * (i / (kCells + 1) + random.between(-0.3, 0.3));
-      mesh.p_clip.push_back(glm::vec4(right, -1.5, 0.1, ahead));
-    }
-    add_quads(mesh, kCells);
-    const Draw draw{.p_clip = mesh.p_clip, .indices = mesh.indices};
-    const SamplePicture picture = draw_sample_picture(draw, kView, kSampleCounts[n % 2], 16);
-    clipped += picture.statistics.clipped;
-    for (int y = 18; y < kView.height_px; ++y) {
-      for (int x = 0; x < kView.width_px; ++x) ASSERT_EQ(picture.coverage(x, y), 1.0);
-    }
-  }
-  EXPECT_GT(clipped, 80u);
-}
-
-// AAX-06: a mast 0.3 px wide, as it creeps to the right, keeps its brightness.
+// AAX-06: a mast as it creeps to the right keeps its brightness.
 TEST(ThinCoverage, ALeaningMastCoversItsArea) {
   constexpr Viewport kView{64, 256};
   for (const int samples : kSampleCounts) {
     for (int step = 0; step < 16; ++step) {
-      const double x = 20.0 + step / 16.0;
-      Mesh mesh;
-      for (const glm::dvec2& p : {glm::dvec2(x, 20.0), glm::dvec2(x + 0.3, 20.0),
-                                  glm::dvec2(x + 10.0, 220.0), glm::dvec2(x + 10.3, 220.0)}) {
-        mesh.p_clip.push_back(clip_from_window(p.x, p.y, 0.5, 1.0, kView));
-      }
-      mesh.indices = {0, 1, 2, 2, 1, 3};
-      const SamplePicture picture =
-          draw_sample_picture({.p_clip = mesh.p_clip, .indices = mesh.indices}, kView, samples);
+      const Mast mast = make_mast(20.0 + step / 16.0, 10.0, kView);
+      const SamplePicture picture = draw_sample_picture(mast.draw(), kView, samples);
       const auto none =
           std::count(picture.primitive.begin(), picture.primitive.end(), kNoPrimitive);
       const double covered =
@@ -235,16 +150,10 @@ TEST(ThinCoverage, ALeaningMastCoversItsArea) {
 // From 1.6/16 to 6.4/16 px: no pixel centre, but the columns of two samples of 4 and two of 8.
 TEST(ThinCoverage, AnUprightMastBetweenPixelCentresIsSeenBySamplesAlone) {
   constexpr Viewport kView{64, 256};
-  Mesh mesh;
-  for (const glm::dvec2& p : {glm::dvec2(30.1, 20.0), glm::dvec2(30.4, 20.0),
-                              glm::dvec2(30.1, 220.0), glm::dvec2(30.4, 220.0)}) {
-    mesh.p_clip.push_back(clip_from_window(p.x, p.y, 0.5, 1.0, kView));
-  }
-  mesh.indices = {0, 1, 2, 2, 1, 3};
-  const Draw draw{.p_clip = mesh.p_clip, .indices = mesh.indices};
-  EXPECT_EQ(draw_picture(draw, kView).covered, 0);
-  const SamplePicture four = draw_sample_picture(draw, kView, 4);
-  const SamplePicture eight = draw_sample_picture(draw, kView, 8);
+  const Mast mast = make_mast(30.1, 0.0, kView);
+  EXPECT_EQ(draw_picture(mast.draw(), kView).covered, 0);
+  const SamplePicture four = draw_sample_picture(mast.draw(), kView, 4);
+  const SamplePicture eight = draw_sample_picture(mast.draw(), kView, 8);
   for (int y = 20; y < 220; ++y) {
     ASSERT_EQ(four.coverage(30, y), 0.5) << y;
     ASSERT_EQ(eight.coverage(30, y), 0.25) << y;
