@@ -11,16 +11,18 @@ struct TileRange {
 };
 
 // Lists the tiles of a block of at least 2 x 2 that no edge excludes. An edge excludes a tile if
-// it is negative at the tile's pixel centre that lies farthest on its inner side.
-void bin_by_edges(const TileGrid& grid, const TileRange& range, const SetupTriangle& triangle,
-                  std::uint32_t index, std::vector<TileEntry>& entries) {
+// it is negative at the point that lies farthest on its inner side in the square around the
+// samples, or centres, of the tile's pixels.
+void bin_by_edges(const TileGrid& grid, const TileRange& range, SampleExtent extent, Chunk& chunk,
+                  std::uint32_t index) {
+  const SetupTriangle& triangle = chunk.triangles[index];
   const std::int32_t tile_fx8 = grid.tile_size_px * kPixelFx8;
   std::array<std::int64_t, 3> row, step_x, step_y;
   for (int i = 0; i < 3; ++i) {
     const Edge edge = edge_of(triangle, i);
-    const std::int32_t far_fx8 = tile_fx8 - kHalfPixelFx8;
-    const std::int32_t corner_x = edge.a > 0 ? far_fx8 : kHalfPixelFx8;
-    const std::int32_t corner_y = edge.b > 0 ? far_fx8 : kHalfPixelFx8;
+    const std::int32_t far_fx8 = tile_fx8 - kPixelFx8 + extent.high_fx8;
+    const std::int32_t corner_x = edge.a > 0 ? far_fx8 : extent.low_fx8;
+    const std::int32_t corner_y = edge.b > 0 ? far_fx8 : extent.low_fx8;
     row[i] = edge.at(range.x0 * tile_fx8 + corner_x, range.y0 * tile_fx8 + corner_y);
     step_x[i] = std::int64_t{edge.a} * tile_fx8;
     step_y[i] = std::int64_t{edge.b} * tile_fx8;
@@ -29,7 +31,7 @@ void bin_by_edges(const TileGrid& grid, const TileRange& range, const SetupTrian
     std::array<std::int64_t, 3> e = row;
     for (std::int32_t x = range.x0; x <= range.x1; ++x) {
       if ((e[0] | e[1] | e[2]) >= 0) {
-        entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), index});
+        chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), index});
       }
       for (int i = 0; i < 3; ++i) e[i] += step_x[i];
     }
@@ -37,14 +39,20 @@ void bin_by_edges(const TileGrid& grid, const TileRange& range, const SetupTrian
   }
 }
 
-void list_entries(const TileGrid& grid, Chunk& chunk) {
+// The pixels of the viewport whose samples, or centres, the triangle may cover; not empty.
+PixelRect pixels_to_list(const SetupTriangle& t, Viewport viewport, int samples) {
+  if (samples == 0) return {t.min_x, t.min_y, t.max_x, t.max_y};
+  return limit_to(viewport, pixels_between(bounds_of(t), sample_extent(samples)));
+}
+
+void list_entries(const TileGrid& grid, Viewport viewport, int samples, Chunk& chunk) {
   const int shift = grid.tile_size_px == 64 ? 6 : grid.tile_size_px == 32 ? 5 : 4;
   chunk.entries.clear();
   for (std::uint32_t index = 0; index < chunk.triangles.size(); ++index) {
-    const SetupTriangle& t = chunk.triangles[index];
-    const TileRange range{t.min_x >> shift, t.min_y >> shift, t.max_x >> shift, t.max_y >> shift};
+    const PixelRect rect = pixels_to_list(chunk.triangles[index], viewport, samples);
+    const TileRange range{rect.x0 >> shift, rect.y0 >> shift, rect.x1 >> shift, rect.y1 >> shift};
     if (range.x0 != range.x1 && range.y0 != range.y1) {
-      bin_by_edges(grid, range, t, index, chunk.entries);
+      bin_by_edges(grid, range, sample_extent(samples), chunk, index);
       continue;
     }
     // In one row or column of tiles the triangle passes through every tile of its box.
@@ -72,8 +80,8 @@ void sort_entries_by_tile(const TileGrid& grid, Chunk& chunk) {
 
 }  // namespace
 
-void bin_triangles(const TileGrid& grid, Chunk& chunk) {
-  list_entries(grid, chunk);
+void bin_triangles(const TileGrid& grid, Viewport viewport, int samples, Chunk& chunk) {
+  list_entries(grid, viewport, samples, chunk);
   sort_entries_by_tile(grid, chunk);
   chunk.statistics.binned += chunk.entries.size();
 }

@@ -47,7 +47,9 @@ struct TileEdges {
   std::int32_t e[3], a[3], b[3];
 };
 
-// Packets that cover the triangle's box; one packet where that is enough.
+// Packets that cover the triangle's box; one packet where that is enough. A triangle listed for its
+// samples may have no pixel centre in the tile: no rows (y0 > y1), or packets that no edge lets
+// through within the viewport.
 HWY_INLINE PacketRect RectInTile(const SetupTriangle& t, const TileTarget& tile) {
   const std::int32_t x0 = std::max(t.min_x - tile.x0, 0);
   const std::int32_t x1 = std::min(t.max_x - tile.x0, tile.size - 1);
@@ -106,7 +108,7 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
   const IntTag di;
   const PacketRect rect = RectInTile(t, tile);
   TileEdges edges;
-  if (!EdgesInRect(t, tile, rect, edges)) return;
+  if (rect.y0 > rect.y1 || !EdgesInRect(t, tile, rect, edges)) return;
 
   // Edges at the first packet's lanes.
   const IntVec lane = hn::Iota(di, 0);

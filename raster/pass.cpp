@@ -41,6 +41,7 @@ void plan_chunks(std::span<const Draw> draws, Pass::State& state) {
       chunk.begin = begin;
       chunk.end = std::min(begin + chunk_size, triangle_count);
       chunk.first_vertex = vertex_count;
+      chunk.first_primitive = draws[d].first_primitive + static_cast<std::uint32_t>(begin);
     }
     vertex_count += draws[d].p_clip.size();
   }
@@ -92,12 +93,15 @@ void count_result(SetupResult result, PassStatistics& statistics) {
 }
 
 SetupResult append_triangle(const WindowVertex& v0, const WindowVertex& v1, const WindowVertex& v2,
-                            const Draw& draw, Viewport viewport, std::uint32_t primitive,
-                            Chunk& chunk) {
+                            const SetupRules& rules, std::uint32_t primitive, Chunk& chunk) {
   chunk.triangles.emplace_back();
-  const SetupResult result =
-      set_up_triangle(v0, v1, v2, draw.cull, viewport, primitive, chunk.triangles.back());
-  if (result != SetupResult::kReady) chunk.triangles.pop_back();
+  const SetupTriangle& t = chunk.triangles.back();
+  const SetupResult result = set_up_triangle(v0, v1, v2, rules, primitive, chunk.triangles.back());
+  if (result != SetupResult::kReady) {
+    chunk.triangles.pop_back();
+  } else if (t.min_x > t.max_x || t.min_y > t.max_y) {
+    ++chunk.statistics.set_up_for_samples;
+  }
   return result;
 }
 
@@ -112,7 +116,7 @@ WindowVertex project_cut_vertex(const glm::dvec4& p, Viewport viewport) {
 
 // Clips and sets up the pieces as a fan. Counts as culled, by the last piece's reason, only if no
 // piece is left.
-void clip_and_set_up(const SourceTriangle& source, const Draw& draw, Viewport viewport,
+void clip_and_set_up(const SourceTriangle& source, const Draw& draw, const SetupRules& rules,
                      Chunk& chunk) {
   std::array<ClipVertex, 3> triangle;
   for (int i = 0; i < 3; ++i) {
@@ -120,25 +124,25 @@ void clip_and_set_up(const SourceTriangle& source, const Draw& draw, Viewport vi
     triangle[i] = {glm::dvec4(draw.p_clip[v]),
                    draw.clip_distance.empty() ? 0.0 : double{draw.clip_distance[v]}, i};
   }
-  const ClipPolygon polygon = clip_triangle(triangle, viewport);
+  const ClipPolygon polygon = clip_triangle(triangle, rules.viewport);
   ++chunk.statistics.clipped;
   std::array<WindowVertex, ClipPolygon::kMaxVertices> window;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipVertex& v = polygon.vertices[i];
-    window[i] = v.source >= 0 ? *source.window[v.source] : project_cut_vertex(v.p_clip, viewport);
+    window[i] =
+        v.source >= 0 ? *source.window[v.source] : project_cut_vertex(v.p_clip, rules.viewport);
   }
 
   SetupResult last = SetupResult::kOutside;
   bool any_ready = false;
   for (int i = 2; i < polygon.count; ++i) {
-    last = append_triangle(window[0], window[i - 1], window[i], draw, viewport, source.primitive,
-                           chunk);
+    last = append_triangle(window[0], window[i - 1], window[i], rules, source.primitive, chunk);
     any_ready |= last == SetupResult::kReady;
   }
   if (!any_ready) count_result(last, chunk.statistics);
 }
 
-void set_up_source(const SourceTriangle& source, const Draw& draw, Viewport viewport,
+void set_up_source(const SourceTriangle& source, const Draw& draw, const SetupRules& rules,
                    Chunk& chunk) {
   const WindowVertex& v0 = *source.window[0];
   const WindowVertex& v1 = *source.window[1];
@@ -149,14 +153,13 @@ void set_up_source(const SourceTriangle& source, const Draw& draw, Viewport view
       ++chunk.statistics.culled_outside;
       return;
     }
-    count_result(append_triangle(v0, v1, v2, draw, viewport, source.primitive, chunk),
-                 chunk.statistics);
+    count_result(append_triangle(v0, v1, v2, rules, source.primitive, chunk), chunk.statistics);
   } else if ((any & kNotFinite) != 0) {
     ++chunk.statistics.culled_degenerate;
   } else if ((v0.flags & v1.flags & v2.flags & kRejectFlags) != 0) {
     ++chunk.statistics.culled_outside;
   } else {
-    clip_and_set_up(source, draw, viewport, chunk);
+    clip_and_set_up(source, draw, rules, chunk);
   }
 }
 
@@ -164,6 +167,7 @@ void set_up_chunk(const Draw& draw, const Pass::State& state, Chunk& chunk) {
   chunk.triangles.clear();
   chunk.statistics = {};
   const WindowVertex* vertices = state.vertices.data() + chunk.first_vertex;
+  const SetupRules rules{draw.cull, state.viewport, state.samples};
   for (std::size_t n = chunk.begin; n < chunk.end; ++n) {
     SourceTriangle source;
     for (int i = 0; i < 3; ++i) {
@@ -173,7 +177,7 @@ void set_up_chunk(const Draw& draw, const Pass::State& state, Chunk& chunk) {
       source.window[i] = vertices + source.index[i];
     }
     source.primitive = draw.first_primitive + static_cast<std::uint32_t>(n);
-    set_up_source(source, draw, state.viewport, chunk);
+    set_up_source(source, draw, rules, chunk);
   }
   chunk.statistics.submitted = chunk.end - chunk.begin;
   chunk.statistics.set_up = chunk.triangles.size();
@@ -201,6 +205,7 @@ void add_statistics(const PassStatistics& from, PassStatistics& to) {
   to.culled_between_pixels += from.culled_between_pixels;
   to.clipped += from.clipped;
   to.set_up += from.set_up;
+  to.set_up_for_samples += from.set_up_for_samples;
   to.binned += from.binned;
 }
 
@@ -212,9 +217,11 @@ Pass::Pass(Pass&&) noexcept = default;
 Pass& Pass::operator=(Pass&&) noexcept = default;
 
 void prepare_pass(std::span<const Draw> draws, Viewport viewport, int tile_size_px, Pass& pass,
-                  Workers& workers) {
+                  Workers& workers, int samples) {
+  SWELL_CHECK(is_sample_count(samples), "samples={}", samples);
   Pass::State& state = pass.state();
   state.viewport = viewport;
+  state.samples = samples;
   state.grid = tile_grid(viewport, tile_size_px);
   for (const Draw& draw : draws) check_draw(draw);
 
@@ -223,7 +230,7 @@ void prepare_pass(std::span<const Draw> draws, Viewport viewport, int tile_size_
   workers.for_each(state.chunk_count, [&](std::size_t c, int) {
     Chunk& chunk = state.chunks[c];
     set_up_chunk(draws[chunk.draw], state, chunk);
-    bin_triangles(state.grid, chunk);
+    bin_triangles(state.grid, viewport, samples, chunk);
   });
   mark_used_tiles(state, workers);
 

@@ -39,9 +39,10 @@ struct PassStatistics {
   std::uint64_t culled_outside = 0;         // wholly outside a clip plane or the viewport
   std::uint64_t culled_facing = 0;          // by Draw::cull
   std::uint64_t culled_degenerate = 0;      // zero area after snapping, or a NaN or infinite input
-  std::uint64_t culled_between_pixels = 0;  // no pixel centre in the bounding box
+  std::uint64_t culled_between_pixels = 0;  // no pixel centre, and no sample, in the bounding box
   std::uint64_t clipped = 0;                // cut by the near, user or guard-band planes
   std::uint64_t set_up = 0;                 // triangles after clipping
+  std::uint64_t set_up_for_samples = 0;     // of these, without a pixel centre in the bounding box
   std::uint64_t binned = 0;                 // (tile, triangle) pairs
 };
 
@@ -62,10 +63,11 @@ class Pass {
 };
 
 // Clips, sets up and bins `draws`, in submission order. tile_size_px in {16, 32, 64}; it changes
-// no pixel. Primitive numbers must not reach kNoPrimitive. The result is the same bits for any
-// worker count.
+// no pixel. Primitive numbers must not reach kNoPrimitive. `samples` in {0, 4, 8}: with 4 or 8 the
+// pass keeps also what only samples can see, for the functions of raster/samples.h; draw_tile gives
+// the same bits. The result is the same bits for any worker count.
 void prepare_pass(std::span<const Draw> draws, Viewport viewport, int tile_size_px, Pass& pass,
-                  Workers& workers);
+                  Workers& workers, int samples = 0);
 
 const PassStatistics& pass_statistics(const Pass& pass);
 
@@ -81,7 +83,8 @@ struct PixelBox {
 };
 PixelBox tile_box(Viewport viewport, const TileGrid& grid, int tile);
 
-// True if any triangle may touch the tile. Tiles are numbered row by row from the top left.
+// True if any triangle may touch the tile, or a sample in it. Tiles are numbered row by row from
+// the top left.
 bool tile_has_triangles(const Pass& pass, int tile);
 
 // Fills the tile's depth and primitive buffers, each tile_size_px^2 long, row by row (pixels

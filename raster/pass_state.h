@@ -18,8 +18,9 @@ struct TileEntry {
 };
 
 struct Chunk {
-  // Input: triangles [begin, end) of one draw, whose vertices start at first_vertex.
-  std::uint32_t draw = 0;
+  // Input: triangles [begin, end) of one draw, whose vertices start at first_vertex. The first of
+  // them is primitive first_primitive.
+  std::uint32_t draw = 0, first_primitive = 0;
   std::size_t begin = 0, end = 0, first_vertex = 0;
   // Output.
   std::vector<SetupTriangle> triangles;
@@ -32,6 +33,7 @@ struct Chunk {
 struct Pass::State {
   Viewport viewport;
   TileGrid grid;
+  int samples = 0;
   std::vector<WindowVertex> vertices;  // of all draws
   std::vector<Chunk> chunks;           // keeps more than chunk_count to keep their storage
   std::size_t chunk_count = 0;

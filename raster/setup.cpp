@@ -32,47 +32,45 @@ void set_up_depth(const std::array<const WindowVertex*, 3>& v, std::int64_t area
   out.z_max = std::max({v[0]->depth, v[1]->depth, v[2]->depth});
 }
 
-// The pixels whose centres lie in [min_fx8, max_fx8] and in [0, size_px): {first, last}.
-std::pair<std::int32_t, std::int32_t> centres_between(std::int32_t min_fx8, std::int32_t max_fx8,
-                                                      int size_px) {
-  const std::int32_t first = (min_fx8 - kHalfPixelFx8 + kPixelFx8 - 1) >> kFractionBits;
-  const std::int32_t last = (max_fx8 - kHalfPixelFx8) >> kFractionBits;
-  return {std::max(first, 0), std::min(last, size_px - 1)};
+bool misses_viewport(const BoundsFx8& bounds, Viewport viewport) {
+  return bounds.x1 <= 0 || bounds.y1 <= 0 || bounds.x0 >= viewport.width_px * kPixelFx8 ||
+         bounds.y0 >= viewport.height_px * kPixelFx8;
 }
 
-bool box_misses_viewport(std::int32_t min_x, std::int32_t max_x, std::int32_t min_y,
-                         std::int32_t max_y, Viewport viewport) {
-  return max_x <= 0 || max_y <= 0 || min_x >= viewport.width_px * kPixelFx8 ||
-         min_y >= viewport.height_px * kPixelFx8;
+// Why a triangle whose bounds hold no pixel centre is left out; kReady if it is kept because they
+// may hold a sample.
+SetupResult result_without_centres(const BoundsFx8& bounds, const SetupRules& rules) {
+  if (misses_viewport(bounds, rules.viewport)) return SetupResult::kOutside;
+  const PixelRect rect = pixels_between(bounds, sample_extent(rules.samples));
+  return limit_to(rules.viewport, rect).empty() ? SetupResult::kBetweenPixels : SetupResult::kReady;
 }
 
 }  // namespace
 
 SetupResult set_up_triangle(const WindowVertex& v0, const WindowVertex& v1, const WindowVertex& v2,
-                            Cull cull, Viewport viewport, std::uint32_t primitive,
-                            SetupTriangle& out) {
+                            const SetupRules& rules, std::uint32_t primitive, SetupTriangle& out) {
   // Area and facing. Positive is clockwise on the screen, as y points down.
   std::array<const WindowVertex*, 3> v{&v0, &v1, &v2};
   std::int64_t area_fx16 = std::int64_t{v1.x_fx8 - v0.x_fx8} * (v2.y_fx8 - v0.y_fx8) -
                            std::int64_t{v2.x_fx8 - v0.x_fx8} * (v1.y_fx8 - v0.y_fx8);
   if (area_fx16 == 0) return SetupResult::kDegenerate;
-  if (cull == (area_fx16 > 0 ? Cull::kClockwise : Cull::kCounterClockwise)) {
+  if (rules.cull == (area_fx16 > 0 ? Cull::kClockwise : Cull::kCounterClockwise)) {
     return SetupResult::kFacing;
   }
 
   // Bounding box.
   const auto [min_x, max_x] = std::minmax({v0.x_fx8, v1.x_fx8, v2.x_fx8});
   const auto [min_y, max_y] = std::minmax({v0.y_fx8, v1.y_fx8, v2.y_fx8});
-  const auto [first_x, last_x] = centres_between(min_x, max_x, viewport.width_px);
-  const auto [first_y, last_y] = centres_between(min_y, max_y, viewport.height_px);
-  if (first_x > last_x || first_y > last_y) {
-    return box_misses_viewport(min_x, max_x, min_y, max_y, viewport) ? SetupResult::kOutside
-                                                                     : SetupResult::kBetweenPixels;
+  const BoundsFx8 bounds{min_x, min_y, max_x, max_y};
+  const PixelRect rect = limit_to(rules.viewport, pixels_between(bounds, sample_extent(0)));
+  if (rect.empty()) {
+    const SetupResult result = result_without_centres(bounds, rules);
+    if (result != SetupResult::kReady) return result;
   }
-  out.min_x = static_cast<std::int16_t>(first_x);
-  out.max_x = static_cast<std::int16_t>(last_x);
-  out.min_y = static_cast<std::int16_t>(first_y);
-  out.max_y = static_cast<std::int16_t>(last_y);
+  out.min_x = static_cast<std::int16_t>(rect.x0);
+  out.max_x = static_cast<std::int16_t>(rect.x1);
+  out.min_y = static_cast<std::int16_t>(rect.y0);
+  out.max_y = static_cast<std::int16_t>(rect.y1);
 
   // Canonical order.
   if (area_fx16 < 0) {

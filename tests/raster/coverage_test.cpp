@@ -188,30 +188,17 @@ TEST(Coverage, VerticesSnapToTheNearestEvenStepOf1Over256) {
   EXPECT_EQ(wrong, 0);
 }
 
-// The exact line through two vertices: a pixel centre's signed distance [px].
-struct Line {
-  __float128 a, b, c;
-  Line(const glm::vec4& p, const glm::vec4& q, Viewport viewport) {
-    const __float128 px = p.x, py = p.y, pw = p.w, qx = q.x, qy = q.y, qw = q.w;
-    const __float128 la = py * qw - pw * qy, lb = pw * qx - px * qw, lc = px * qy - py * qx;
-    a = 2 * la / viewport.width_px, b = -2 * lb / viewport.height_px, c = lc - la + lb;
-  }
-  double distance(int x, int y) const {
-    const double length = std::hypot(static_cast<double>(a), static_cast<double>(b));
-    return static_cast<double>(a * (x + __float128(0.5)) + b * (y + __float128(0.5)) + c) / length;
-  }
-};
-
 // Pixels farther than 3/256 px from every edge that are drawn and should not be, or reverse.
 int clearly_wrong_pixels(const Picture& picture, const std::vector<glm::vec4>& p,
                          Viewport viewport) {
-  const Line lines[] = {{p[0], p[1], viewport}, {p[1], p[2], viewport}, {p[2], p[0], viewport}};
+  const ExactLine lines[] = {
+      {p[0], p[1], viewport}, {p[1], p[2], viewport}, {p[2], p[0], viewport}};
   int wrong = 0;
   for (int y = 0; y < viewport.height_px; ++y) {
     for (int x = 0; x < viewport.width_px; ++x) {
       double low = 1e300, high = -1e300, nearest = 1e300;
-      for (const Line& line : lines) {
-        const double d = line.distance(x, y);
+      for (const ExactLine& line : lines) {
+        const double d = line.distance(x + 0.5, y + 0.5);
         low = std::min(low, d), high = std::max(high, d), nearest = std::min(nearest, std::abs(d));
       }
       const bool inside = low > 0.0 || high < 0.0;

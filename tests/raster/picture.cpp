@@ -66,13 +66,13 @@ bool Picture::same_bits(const Picture& other) const {
 }
 
 Picture draw_picture(std::span<const Draw> draws, Viewport viewport, int tile_size_px,
-                     Workers& workers) {
+                     Workers& workers, int samples) {
   Picture picture{viewport.width_px, viewport.height_px, {}, {}, 0, {}};
   const std::size_t pixels = static_cast<std::size_t>(viewport.width_px) * viewport.height_px;
   picture.depth.resize(pixels);
   picture.primitive.resize(pixels);
   Pass pass;
-  prepare_pass(draws, viewport, tile_size_px, pass, workers);
+  prepare_pass(draws, viewport, tile_size_px, pass, workers, samples);
   picture.statistics = pass_statistics(pass);
 
   const TileGrid grid = tile_grid(viewport, tile_size_px);
@@ -119,14 +119,13 @@ glm::vec4 clip_from_fx8(const Point& p, double depth, double w, Viewport viewpor
                           w, viewport);
 }
 
-bool covers(const Triangle& t, int x, int y, Ties ties) {
-  const std::int64_t px = 256 * std::int64_t{x} + 128, py = 256 * std::int64_t{y} + 128;
+bool covers_point(const Triangle& t, const Point& p, Ties ties) {
   const std::int64_t area =
       (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
   if (area == 0) return false;
   for (int i = 0; i < 3; ++i) {
     const Point &a = t[i], &b = t[(i + 1) % 3], &c = t[(i + 2) % 3];
-    std::int64_t e = (b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x);
+    std::int64_t e = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
     if (area < 0) e = -e;
     if (e < 0) return false;
     if (e > 0) continue;
@@ -140,6 +139,21 @@ bool covers(const Triangle& t, int x, int y, Ties ties) {
     if ((c.x - up.x) * (low.y - up.y) - (low.x - up.x) * (c.y - up.y) < 0) return false;
   }
   return true;
+}
+
+bool covers(const Triangle& t, int x, int y, Ties ties) {
+  return covers_point(t, {256 * std::int64_t{x} + 128, 256 * std::int64_t{y} + 128}, ties);
+}
+
+ExactLine::ExactLine(const glm::vec4& p, const glm::vec4& q, Viewport viewport) {
+  const __float128 px = p.x, py = p.y, pw = p.w, qx = q.x, qy = q.y, qw = q.w;
+  const __float128 la = py * qw - pw * qy, lb = pw * qx - px * qw, lc = px * qy - py * qx;
+  a_ = 2 * la / viewport.width_px, b_ = -2 * lb / viewport.height_px, c_ = lc - la + lb;
+  length_ = std::hypot(static_cast<double>(a_), static_cast<double>(b_));
+}
+
+double ExactLine::distance(double x_px, double y_px) const {
+  return static_cast<double>(a_ * x_px + b_ * y_px + c_) / length_;
 }
 
 double Random::uniform() { return random_uniform(seed_, counter_++); }

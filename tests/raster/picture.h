@@ -28,9 +28,10 @@ struct Picture {
 };
 
 // Draws with guard words around every tile, and expects what draw_tile promises: guards and the
-// outside of the viewport untouched or empty, depth 0 where nothing is, a true count.
+// outside of the viewport untouched or empty, depth 0 where nothing is, a true count. `samples` is
+// what the pass is prepared with.
 Picture draw_picture(std::span<const Draw> draws, Viewport viewport, int tile_size_px,
-                     Workers& workers);
+                     Workers& workers, int samples = 0);
 Picture draw_picture(const Draw& draw, Viewport viewport, int tile_size_px = 32);
 
 struct Configuration {
@@ -67,8 +68,22 @@ glm::vec4 clip_from_fx8(const Point& p, double depth, double w, Viewport viewpor
 
 enum class Ties { kTopLeft, kBottomLeft };
 
-// True if the triangle covers the centre of pixel (x, y), in 64-bit integers.
+// True if the triangle covers the point, in 64-bit integers.
+bool covers_point(const Triangle& t, const Point& p, Ties ties = Ties::kTopLeft);
+
+// The same of the centre of pixel (x, y).
 bool covers(const Triangle& t, int x, int y, Ties ties = Ties::kTopLeft);
+
+// The exact line through two vertices of any w: a window point's signed distance [px].
+class ExactLine {
+ public:
+  ExactLine(const glm::vec4& p, const glm::vec4& q, Viewport viewport);
+  double distance(double x_px, double y_px) const;
+
+ private:
+  __float128 a_, b_, c_;
+  double length_;
+};
 
 // A small generator on the library's counter-based numbers.
 class Random {

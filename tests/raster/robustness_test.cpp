@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "allocation_count.h"
-#include "raster/picture.h"
+#include "raster/sample_picture.h"
 
 namespace swell::raster {
 namespace {
@@ -136,11 +136,19 @@ TEST(Fuzz, RawBitsGiveTheSamePictureOnEveryConfiguration) {
     ASSERT_EQ(s.submitted, soup.indices.size() / 3);
     ASSERT_LE(s.submitted, s.culled_outside + s.culled_facing + s.culled_degenerate +
                                s.culled_between_pixels + s.set_up);
+    const int samples = n % 2 == 0 ? 4 : 8;
+    const SamplePicture at_samples = draw_sample_picture(draw, viewport, samples);
     for (const Configuration& c : all_configurations(kThreads)) {
       const ScopedSimdTarget target(c.target);
+      Workers& workers = c.threads == 1 ? one : four;
+      ASSERT_TRUE(draw_picture(std::span(&draw, 1), viewport, c.tile_size_px, workers, n % 2 * 8)
+                      .same_bits(first))
+          << n;
+      // Ten times the work of the pixel centres.
+      if (n % 5 != 0) continue;
       ASSERT_TRUE(
-          draw_picture(std::span(&draw, 1), viewport, c.tile_size_px, c.threads == 1 ? one : four)
-              .same_bits(first))
+          draw_sample_picture(std::span(&draw, 1), viewport, samples, c.tile_size_px, workers)
+              .same_bits(at_samples))
           << n;
     }
   }
@@ -205,11 +213,18 @@ TEST(Storage, ARepeatedPassAllocatesNothing) {
   Workers workers(1);
   std::vector<float> depth(256);
   std::vector<std::uint32_t> primitive(256);
+  PixelMask mask;
+  std::vector<float> sample_depth(256 * 8);
+  std::vector<std::uint32_t> sample_primitive(256 * 8);
   std::uint64_t before = 0;
   for (int frame = 0; frame < 10; ++frame) {
     if (frame == 2) before = allocation_count();
-    prepare_pass(std::span(&draw, 1), {100, 100}, 16, pass, workers);
-    for (int tile = 0; tile < 49; ++tile) draw_tile(pass, tile, depth, primitive);
+    prepare_pass(std::span(&draw, 1), {100, 100}, 16, pass, workers, 8);
+    for (int tile = 0; tile < 49; ++tile) {
+      draw_tile(pass, tile, depth, primitive);
+      mark_touched(pass, tile, 0, kNoPrimitive, mask);
+      draw_samples(pass, tile, full_mask(16), sample_depth, sample_primitive);
+    }
   }
   EXPECT_EQ(allocation_count(), before);
 }

@@ -1,0 +1,106 @@
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "math/check.h"
+#include "raster/pass_state.h"
+#include "raster/sample_edges.h"
+#include "raster/samples.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/mark_touched_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using IntTag = hn::ScalableTag<std::int32_t>;
+using IntVec = hn::Vec<IntTag>;
+
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(IntTag()));
+static_assert(kLanes <= 64, "a packet's mask must fit one word");
+
+// A bit for each lane that is not negative.
+HWY_INLINE std::uint64_t BitsNotNegative(IntVec v) {
+  const IntTag di;
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(di, hn::Gt(v, hn::Set(di, -1)), bytes);
+  std::uint64_t bits;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
+}
+
+// A pixel is touched if each edge is not negative at the point of the pixel's sample square that
+// lies farthest on the edge's inner side. In steps of one pixel, so that
+//   E(x, y) + reach >= 0  <=>  floor((E(first) + reach) / 256) + a dx + b dy >= 0.
+HWY_INLINE void MarkTriangle(const SetupTriangle& t, SampleExtent extent, const PixelBox& box,
+                             PixelMask& mask) {
+  const IntTag di;
+  const PixelRect rect = sample_rect_in_tile(t, extent, box);
+  std::array<SampleEdge, 3> edges;
+  if (rect.empty() || !set_up_sample_edges(t, extent, box, rect, edges)) return;
+
+  const IntVec lane = hn::Iota(di, 0);
+  const auto first = [&](const SampleEdge& edge) {
+    const auto e = static_cast<std::int32_t>((edge.at_corner + edge.reach) >> kFractionBits);
+    return hn::Add(hn::Set(di, e), hn::Mul(hn::Set(di, edge.a), lane));
+  };
+  IntVec e0 = first(edges[0]), e1 = first(edges[1]), e2 = first(edges[2]);
+  const IntVec a0 = hn::Set(di, edges[0].a * kLanes), b0 = hn::Set(di, edges[0].b);
+  const IntVec a1 = hn::Set(di, edges[1].a * kLanes), b1 = hn::Set(di, edges[1].b);
+  const IntVec a2 = hn::Set(di, edges[2].a * kLanes), b2 = hn::Set(di, edges[2].b);
+
+  const std::uint64_t columns = bits_between(rect.x0, rect.x1);
+  for (std::int32_t y = rect.y0; y <= rect.y1; ++y) {
+    IntVec f0 = e0, f1 = e1, f2 = e2;
+    std::uint64_t bits = 0;
+    for (std::int32_t x = rect.x0; x <= rect.x1; x += kLanes) {
+      bits |= BitsNotNegative(hn::Or(hn::Or(f0, f1), f2)) << x;
+      f0 = hn::Add(f0, a0), f1 = hn::Add(f1, a1), f2 = hn::Add(f2, a2);
+    }
+    mask.add_to_row(y, bits & columns);
+    e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+  }
+}
+
+void MarkTouched(const Pass::State& state, int tile, std::uint32_t first_primitive,
+                 std::uint32_t end_primitive, PixelMask& mask) {
+  const PixelBox box = tile_box(state.viewport, state.grid, tile);
+  const SampleExtent extent = sample_extent(state.samples);
+  for (std::size_t c = 0; c < state.chunk_count; ++c) {
+    const Chunk& chunk = state.chunks[c];
+    const std::size_t chunk_end = chunk.first_primitive + (chunk.end - chunk.begin);
+    if (chunk.first_primitive >= end_primitive || chunk_end <= first_primitive) continue;
+    const std::uint32_t end = chunk.tile_begin[tile + 1];
+    for (std::uint32_t m = chunk.tile_begin[tile]; m < end; ++m) {
+      const SetupTriangle& t = chunk.triangles[chunk.members[m]];
+      if (t.primitive < first_primitive || t.primitive >= end_primitive) continue;
+      MarkTriangle(t, extent, box, mask);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::raster
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::raster {
+
+HWY_EXPORT(MarkTouched);
+
+void mark_touched(const Pass& pass, int tile, std::uint32_t first_primitive,
+                  std::uint32_t end_primitive, PixelMask& mask) {
+  const Pass::State& state = pass.state();
+  SWELL_CHECK(state.samples != 0, "samples={}", state.samples);
+  SWELL_CHECK(tile >= 0 && tile < state.grid.count(), "tile={} tiles={}", tile, state.grid.count());
+  SWELL_CHECK(first_primitive <= end_primitive, "first_primitive={} end_primitive={}",
+              first_primitive, end_primitive);
+  HWY_DYNAMIC_DISPATCH(MarkTouched)(state, tile, first_primitive, end_primitive, mask);
+}
+
+}  // namespace swell::raster
+#endif
