@@ -8,7 +8,8 @@ set(swell_entry_headers
   texture/uv_noise.h
   raster/pass.h
   scene/object_ray.h scene/objects.h scene/scene.h scene/terrain.h scene/water_surface.h
-  render/eye_place.h render/frame.h render/governor.h render/mesh_error.h render/pick.h)
+  render/frame.h render/measure/eye_place.h render/measure/mesh_error.h render/measure/pick.h
+  render/quality/governor.h)
 
 # swell_find_public_headers(OUT SOURCE_FOLDER)
 # The entry headers and all that they reach by #include "...", as paths from the source folder.
