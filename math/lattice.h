@@ -6,9 +6,12 @@
 
 namespace swell {
 
-// Point (i, j) of a lattice with its corner (0, 0) at `corner` and steps of step_m, both in metres;
-// the result is in the corner's space.
+// Point (i, j) of a lattice with its corner (0, 0) at `corner` and steps of step_m, both in metres,
+// along both axes or along each; the result is in the corner's space.
 inline glm::dvec2 lattice_point(glm::dvec2 corner, double step_m, glm::dvec2 ij) {
+  return corner + step_m * ij;
+}
+inline glm::dvec2 lattice_point(glm::dvec2 corner, glm::dvec2 step_m, glm::dvec2 ij) {
   return corner + step_m * ij;
 }
 

@@ -9,13 +9,13 @@
 
 #include "lod/roam.h"
 #include "ocean/sea.h"
+#include "ocean/water_surface.h"
 #include "raster/pass.h"
 #include "render/enlarge.h"
 #include "render/frame.h"
 #include "render/profile.h"
 #include "render/shade.h"
 #include "render/world_state.h"
-#include "scene/water_surface.h"
 #include "texture/uv_noise.h"
 
 namespace swell::render {
@@ -139,7 +139,7 @@ std::uint32_t water_triangles(const Frame& frame);
 std::uint32_t land_triangles(const Frame& frame);  // 0 without terrain
 
 // The sea's surface at the frame's time, after advance_sea.
-scene::WaterSurface water_surface(const Frame& frame);
+ocean::WaterSurface water_surface(const Frame& frame);
 
 // Draws triangle edges, tinted by level of detail, over a tile of the finished picture.
 void draw_wireframe(const Frame& frame, int tile, Target& target);

@@ -29,9 +29,10 @@ lod::Domain sea_domain(const View& view, int budget) {
   return {cell - 0.5 * kSeaSize_m, kSeaSize_m, sea_lattice_bits(budget)};
 }
 
-lod::Domain land_domain(const scene::Terrain& terrain) {
-  const auto cells = static_cast<unsigned>(std::max(terrain.samples - 1, 2));
-  return {terrain.min_world, terrain.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
+lod::Domain land_domain(const terrain::HeightGrid& terrain) {
+  const auto cells = static_cast<unsigned>(std::max(terrain.grid.samples_x - 1, 2));
+  return {terrain.grid.min_world, terrain.grid.size_m(),
+          std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
 }
 
 lod::PriorityFactors priority_factors(const scene::Scene& scene) {
@@ -120,7 +121,7 @@ void triangulate_land(const Frame& frame) {
     frame.ws.land.statistics = {};  // of an earlier world
     return;
   }
-  const scene::Terrain& terrain = *frame.world.terrain;
+  const terrain::HeightGrid& terrain = *frame.world.terrain;
   lod::AdaptRequest request =
       request_for(frame, frame.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);
   request.relief = frame.world.relief_bounds.get();
@@ -130,11 +131,10 @@ void triangulate_land(const Frame& frame) {
 
 // Positions of the mesh's vertices relative to the eye.
 void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::dvec2 eye) {
-  const lod::Domain& domain = surface.domain;
-  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
-  const glm::dvec2 corner = domain.min_world - eye;
+  lod::Domain from_eye = surface.domain;
+  from_eye.min_world -= eye;
   for (std::size_t i = begin; i < end; ++i)
-    surface.offset[i] = glm::vec2(corner + spacing * glm::dvec2(surface.mesh.lattice[i]));
+    surface.offset[i] = glm::vec2(from_eye.point(surface.mesh.lattice[i]));
 }
 
 glm::vec4 to_clip(const View& view, glm::vec2 offset, float z_rel) {
@@ -172,8 +172,8 @@ void displace_land(Frame& frame, std::size_t begin, std::size_t end) {
   const std::size_t count = end - begin;
   std::array<glm::dvec2, kChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(land.offset[begin + i]);
-  scene::sample_heights(*frame.world.terrain, std::span(p).first(count),
-                        std::span(land.height_m).subspan(begin, count));
+  terrain::sample_heights(*frame.world.terrain, std::span(p).first(count),
+                          std::span(land.height_m).subspan(begin, count));
 
   // Waves lift the waterline: keep a little of the land in the refraction image. Not the other way:
   // the floor mirrored in flat shallow water is a band of sand instead of sky.
@@ -217,7 +217,7 @@ void resize_surface(Surface& surface) {
 
 }  // namespace
 
-scene::WaterSurface water_surface(const Frame& frame) {
+ocean::WaterSurface water_surface(const Frame& frame) {
   return water_surface(frame.world, frame.ws.sea);
 }
 
@@ -228,9 +228,7 @@ float squeeze(glm::vec3 p_rel, float n) {
 }
 
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
-  const lod::Domain& domain = surface.domain;
-  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
-  return domain.min_world + spacing * glm::dvec2(surface.mesh.lattice[vertex]);
+  return surface.domain.point(surface.mesh.lattice[vertex]);
 }
 
 void advance_sea(Frame& frame) {

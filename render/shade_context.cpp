@@ -148,8 +148,8 @@ SlopeLayer make_square_layer(const texture::PackedMap2& map, double size_m,
 void fill_coast(const Frame& frame, ShadeContext& c) {
   c.has_coast = frame.world.coast != nullptr;
   if (!c.has_coast) return;
-  const ocean::FloorGrid& grid = frame.world.coast->trains.grid;
-  const double size_m = grid.spacing_m * (grid.samples_x - 1);
+  const terrain::Grid& grid = frame.world.coast->trains.grid;
+  const double size_m = grid.size_m();
   const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - grid.min_world;
   c.coast_slopes = make_square_layer(frame.ws.coast_slopes, size_m, from_corner);
   c.coast_surf = make_square_layer(frame.ws.coast_surf, size_m, from_corner);
@@ -177,16 +177,16 @@ void fill_foam(const Frame& frame, ShadeContext& c) {
 
 void fill_terrain(const Frame& frame, ShadeContext& c) {
   if (!frame.world.terrain) return;
-  const scene::Terrain& terrain = *frame.world.terrain;
+  const terrain::HeightGrid& terrain = *frame.world.terrain;
   const TerrainMaps& maps = *frame.world.terrain_maps;
-  const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - terrain.min_world;
-  c.terrain_slopes = make_square_layer(maps.slopes, terrain.size_m(), from_corner);
+  const glm::dvec2 from_corner = glm::dvec2(frame.view.eye_world) - terrain.grid.min_world;
+  c.terrain_slopes = make_square_layer(maps.slopes, terrain.grid.size_m(), from_corner);
   const float detail_gain =
       0.11f / std::sqrt(std::max(frame.world.bump->lost_variance.back(), 1e-12f));
   c.terrain_detail = make_layer(*frame.world.bump, kTerrainDetailPeriod_m, detail_gain,
                                 glm::dvec2(frame.view.eye_world), {});
   c.terrain_albedo = &maps.albedo;
-  const double texels_per_m = maps.albedo.width / terrain.size_m();
+  const double texels_per_m = maps.albedo.width / terrain.grid.size_m();
   c.albedo_texels_per_m = static_cast<float>(texels_per_m);
   // Texel centres lie at +0.5, the terrain's samples on the lattice.
   c.albedo_x_eye = static_cast<float>(from_corner.x * texels_per_m + 0.5);

@@ -30,6 +30,7 @@ TEST(Smoothstep, IsFlatAtBothEnds) {
 TEST(LatticePoint, LiesWholeStepsFromItsCorner) {
   EXPECT_EQ(lattice_point({10.0, -20.0}, 0.25, {3.0, 8.0}), glm::dvec2(10.75, -18.0));
   EXPECT_EQ(lattice_point({10.0, -20.0}, 0.25, {0.0, 0.0}), glm::dvec2(10.0, -20.0));
+  EXPECT_EQ(lattice_point({10.0, -20.0}, {0.25, 2.0}, {3.0, 8.0}), glm::dvec2(10.75, -4.0));
 }
 
 }  // namespace
