@@ -1,7 +1,5 @@
 #include "lod/envelope.h"
 
-#include <cmath>
-
 #include "math/check.h"
 
 namespace swell::lod {

@@ -135,7 +135,7 @@ TEST(WaterSurface, TheWaterRisesAsFastAsItsHeightGrows) {
   }
 }
 
-// The spectrum's share, the trains' share and the edge all change from place to place here.
+// The sea's weight, the trains' share and the edge all change from place to place here.
 TEST(WaterSurface, TheWaterOfABeachRisesAsFastAsItsHeightGrows) {
   const double dt_s = 2e-3;
   const Water water(beach_scene());
