@@ -1,7 +1,5 @@
 #include "lod/envelope.h"
 
-#include <cmath>
-
 #include "math/check.h"
 
 namespace swell::lod {
@@ -129,7 +127,7 @@ int find_in_view(const Envelopes& envelopes, const Domain& domain, const View& v
                  std::vector<TriangleRange>& in_view) {
   in_view.clear();
   ViewSearch search{.envelopes = envelopes,
-                    .step_m = std::ldexp(domain.size_m, -domain.lattice_bits),
+                    .step_m = domain.step_m(),
                     .corner_rel = glm::dvec3(domain.min_world, 0.0) - view.eye_world,
                     .planes = {},
                     .in_view = in_view};

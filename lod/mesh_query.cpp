@@ -90,7 +90,7 @@ struct BestEdge {
 template <class Best>
 NearestSearch<Best> find_nearest(const HeightMesh& surface, glm::dvec3 p) {
   check_query(surface, p);
-  NearestSearch<Best> search{surface, step_of(surface.domain), p, Best{surface, p}};
+  NearestSearch<Best> search{surface, surface.domain.step_m(), p, Best{surface, p}};
   search.visit(roots_of(surface.envelopes, surface.domain.lattice_bits));
   return search;
 }
@@ -178,14 +178,13 @@ const Envelope& half_at(const Envelope& whole, const std::array<Envelope, 2>& ha
 }  // namespace
 
 glm::dvec3 vertex_world(const HeightMesh& surface, std::size_t vertex) {
-  return {lattice_world(surface.domain, step_of(surface.domain), surface.mesh.lattice[vertex]),
-          surface.height_m[vertex]};
+  return {surface.domain.point(surface.mesh.lattice[vertex]), surface.height_m[vertex]};
 }
 
 TriangleAt triangle_at(const HeightMesh& surface, glm::dvec2 p_world) {
   check_query(surface, {p_world, 0.0});
   const int n = 1 << surface.domain.lattice_bits;
-  const glm::dvec2 p = (p_world - surface.domain.min_world) / step_of(surface.domain);
+  const glm::dvec2 p = (p_world - surface.domain.min_world) / surface.domain.step_m();
   TriangleAt at;
   if (!(p.x >= 0.0 && p.y >= 0.0 && p.x <= n && p.y <= n)) return at;
 
@@ -222,7 +221,7 @@ int find_in_box(const HeightMesh& surface, glm::dvec3 low_world, glm::dvec3 high
   check_query(surface, low_world);
   check_query(surface, high_world);
   triangles.clear();
-  BoxSearch search{surface, step_of(surface.domain), {low_world, high_world}, triangles};
+  BoxSearch search{surface, surface.domain.step_m(), {low_world, high_world}, triangles};
   for (const Envelope& root : roots_of(surface.envelopes, surface.domain.lattice_bits))
     search.visit(root);
   return search.visited;

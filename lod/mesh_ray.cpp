@@ -89,7 +89,7 @@ RaySearch make_search(const HeightMesh& surface, glm::dvec3 origin_world, glm::d
   SWELL_CHECK(std::isfinite(origin_world.x + origin_world.y + origin_world.z),
               "origin=({}, {}, {})", origin_world.x, origin_world.y, origin_world.z);
   SWELL_CHECK(max_distance_m >= 0.0, "max_distance_m={}", max_distance_m);
-  return {surface, step_of(surface.domain), make_ray(origin_world, direction / length),
+  return {surface, surface.domain.step_m(), make_ray(origin_world, direction / length),
           std::min(max_distance_m, std::numeric_limits<double>::max())};
 }
 

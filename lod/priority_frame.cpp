@@ -46,8 +46,7 @@ void check_focuses(const AdaptRequest& request) {
 struct Lattice {
   double step_m;
 
-  explicit Lattice(const Domain& domain)
-      : step_m(std::ldexp(domain.size_m, -domain.lattice_bits)) {}
+  explicit Lattice(const Domain& domain) : step_m(domain.step_m()) {}
 
   double steps(double metres) const { return std::clamp(metres / step_m, -kFarSteps, kFarSteps); }
   glm::dvec2 steps(glm::dvec2 metres) const { return {steps(metres.x), steps(metres.y)}; }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/glm.hpp>
 
 #include "lod/envelope.h"
@@ -21,13 +20,9 @@ inline void check_heights(const HeightMesh& surface) {
               surface.mesh.lattice.size(), surface.height_m.size());
 }
 
-inline double step_of(const Domain& domain) {
-  return std::ldexp(domain.size_m, -domain.lattice_bits);
-}
-
-// The same expression wherever a lattice point is placed: boxes hold their vertices to the bit.
+// Domain::point(), step_m worked out before: boxes hold their vertices to the bit.
 inline glm::dvec2 lattice_world(const Domain& domain, double step_m, glm::ivec2 p) {
-  return domain.min_world + step_m * glm::dvec2(p);
+  return lattice_point(domain.min_world, step_m, glm::dvec2(p));
 }
 
 struct Box {

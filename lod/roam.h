@@ -12,13 +12,17 @@
 #include <vector>
 
 #include "lod/request.h"
+#include "math/lattice.h"
 
 namespace swell::lod {
 
 struct Domain {
   glm::dvec2 min_world{0.0};  // lower left corner
   double size_m = 1.0;
-  int lattice_bits = 10;  // [1, 20]; the deepest triangles have legs of size_m / 2^lattice_bits
+  int lattice_bits = 10;  // [1, 20]; the deepest triangles have legs of step_m()
+
+  double step_m() const { return size_m / static_cast<double>(1 << lattice_bits); }
+  glm::dvec2 point(glm::ivec2 p) const { return lattice_point(min_world, step_m(), glm::dvec2(p)); }
 };
 
 struct AdaptStatistics {

@@ -12,22 +12,17 @@ namespace {
 
 constexpr std::size_t kChunk = 256;
 
-double smooth_step(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
 // 1 inside the grid, falling to 0 over its outer tenth.
-double inside_grid(const FloorGrid& grid, int i, int j) {
+double inside_grid(const terrain::Grid& grid, int i, int j) {
   const auto rim = [](int k, int samples) {
     const double last = std::max(samples - 1, 1);
-    return smooth_step(0.0, 0.1, std::min(k, samples - 1 - k) / last);
+    return smoothstep(0.0, 0.1, std::min(k, samples - 1 - k) / last);
   };
   return rim(i, grid.samples_x) * rim(j, grid.samples_y);
 }
 
 float share_at(const CoastSea& coast, glm::dvec2 p_world) {
-  const FloorGrid& grid = coast.trains.grid;
+  const terrain::Grid& grid = coast.trains.grid;
   const glm::dvec2 at = (p_world - grid.min_world) / grid.spacing_m;
   const glm::dvec2 last(grid.samples_x - 1, grid.samples_y - 1);
   if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < last.x && at.y < last.y)) return 0.0f;
@@ -42,7 +37,7 @@ float share_at(const CoastSea& coast, glm::dvec2 p_world) {
 // The largest difference between neighbouring samples of the share or its spectrum_weight(), as a
 // slope in both directions together.
 float share_slope_per_m(const CoastSea& coast) {
-  const FloorGrid& grid = coast.trains.grid;
+  const terrain::Grid& grid = coast.trains.grid;
   const auto difference = [&](std::size_t a, std::size_t b) {
     const float s = coast.share[a], t = coast.share[b];
     return std::max(std::abs(s - t), std::abs(spectrum_weight(s) - spectrum_weight(t)));
@@ -59,12 +54,12 @@ float share_slope_per_m(const CoastSea& coast) {
 
 }  // namespace
 
-CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind, int train_count,
+CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WindSea& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers) {
   return make_coast_sea(floor, wind, make_trains(wind, train_count, seed), method, blend, workers);
 }
 
-CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind,
+CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WindSea& wind,
                         std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
                         Workers& workers) {
   CoastSea coast;
@@ -77,9 +72,9 @@ CoastSea make_coast_sea(const SeaFloor& floor, const WindSea& wind,
     const int j = static_cast<int>(row);
     for (int i = 0; i < floor.grid.samples_x; ++i) {
       const std::size_t k = floor.grid.index(i, j);
-      const double depth = static_cast<double>(floor.depth_m[k]);
+      const double depth = depth_of_sample(floor, k);
       const double shallow =
-          blend ? 1.0 - smooth_step(kShallow * wavelength, kDeep * wavelength, depth) : 1.0;
+          blend ? 1.0 - smoothstep(kShallow * wavelength, kDeep * wavelength, depth) : 1.0;
       // A sine, so that spectrum_weight(), the cosine, is smooth as well.
       coast.share[k] = static_cast<float>(sin(0.5 * kPi * shallow * inside_grid(floor.grid, i, j)));
     }

@@ -12,11 +12,6 @@ namespace {
 // Crests of waves that are not quite at their limit spill already.
 constexpr double kSpilling = 0.6;
 
-double smooth(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
 // A point's cell and its place in it.
 struct Place {
   std::size_t cell;
@@ -49,16 +44,16 @@ Wave wave_at(const TrainSea& sea, std::size_t train, const Place& at, float shar
   const float* c = sea.waves.data() + 8 * (at.cell * static_cast<std::size_t>(sea.trains) + train);
   const Value theta = bilinear(c, at), amplitude = bilinear(c + 4, at);
   const float factor = share * amplitude.v / static_cast<float>(sea.grid.spacing_m);
-  const float deep = sea.deep_depth_m[train], shallow = sea.shallow_depth_m[train];
-  const auto part = static_cast<float>(smooth((deep - depth_m) / (deep - shallow)));
-  return {theta.v - std::floor(theta.v), factor * theta.dx, factor * theta.dy, part};
+  const double part = shore_part(depth_m, sea.deep_depth_m[train], sea.shallow_depth_m[train]);
+  return {theta.v - std::floor(theta.v), factor * theta.dx, factor * theta.dy,
+          static_cast<float>(part)};
 }
 
 float surf_at(const TrainSea& sea, const Place& at, float depth_m) {
   double sum = 0.0;
   for (int i = 0; i < sea.trains; ++i)
     sum += bilinear(sea.waves.data() + 8 * (at.cell * sea.trains + i) + 4, at).v;
-  return static_cast<float>(surf_share(sum, depth_m));
+  return static_cast<float>(breaking_part(sum, depth_m));
 }
 
 // All of the map's points, unpacked: waves by point, then train.
@@ -76,7 +71,7 @@ Points find_points(const CoastSea& coast, int size, Workers& workers) {
   Points points{std::vector<Wave>(n * n * trains), std::vector<float>(n * n)};
   workers.for_each(n, [&](std::size_t j, int) {
     for (std::size_t i = 0; i < n; ++i) {
-      const glm::dvec2 p = sea.grid.min_world + step * glm::dvec2(i, j);
+      const glm::dvec2 p = lattice_point(sea.grid.min_world, step, glm::dvec2(i, j));
       const Place at = find_place(sea, p);
       const float depth_m = bilinear(sea.depth.data() + 4 * at.cell, at).v;
       float share = 0.0f;
@@ -111,10 +106,10 @@ void pack_group(std::span<const Wave> wave, std::size_t stride, float unit, std:
 
 }  // namespace
 
-double surf_share(double sum_m, double depth_m) {
+double breaking_part(double sum_m, double depth_m) {
   if (!(depth_m > 0.0)) return 0.0;
   const double limit_m = 0.5 * kBreakingRatio * depth_m;
-  return smooth((sum_m / limit_m - kSpilling) / (1.0 - kSpilling));
+  return smoothstep(kSpilling, 1.0, sum_m / limit_m);
 }
 
 CoastMap make_coast_map(const CoastSea& coast, int size, Workers& workers) {

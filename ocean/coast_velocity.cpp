@@ -59,13 +59,8 @@ Profile profile_at(double turns, double part) {
           deep_rate + part * (16.0 * centred - deep_rate)};
 }
 
-double shore_part(double depth_m, double deep_m, double shallow_m) {
-  const double x = std::clamp((deep_m - depth_m) / (deep_m - shallow_m), 0.0, 1.0);
-  return x * x * (3.0 - 2.0 * x);
-}
-
 glm::vec3 train_velocity(const TrainSea& sea, double t_s, glm::dvec2 p_world) {
-  const FloorGrid& grid = sea.grid;
+  const terrain::Grid& grid = sea.grid;
   const AxisPlace x = find_axis(p_world.x, grid.min_world.x, grid.spacing_m, sea.cells_x);
   const AxisPlace y = find_axis(p_world.y, grid.min_world.y, grid.spacing_m, sea.cells_y);
   const auto cell = static_cast<std::size_t>(y.cell) * static_cast<std::size_t>(sea.cells_x) +

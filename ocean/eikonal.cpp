@@ -27,7 +27,7 @@ struct Sample {
 // Values of a grid's samples within a rim of infinity, so that neighbours need no check.
 class RimmedGrid {
  public:
-  RimmedGrid(const FloorGrid& grid, std::span<const double> values)
+  RimmedGrid(const terrain::Grid& grid, std::span<const double> values)
       : stride_(grid.samples_x + 2),
         values_(static_cast<std::size_t>(stride_) * (grid.samples_y + 2), kInfinity) {
     for (int j = 0; j < grid.samples_y; ++j) {
@@ -67,7 +67,7 @@ class FirstArrivals {
         theta_(theta),
         state_(static_cast<std::size_t>(theta.stride()) * (problem.grid.samples_y + 2), kFixed),
         rows_(static_cast<std::size_t>(problem.grid.samples_y) + 2) {
-    const FloorGrid& grid = problem.grid;
+    const terrain::Grid& grid = problem.grid;
     for (int j = 0; j < grid.samples_y; ++j) {
       for (int i = 0; i < grid.samples_x; ++i) {
         const std::size_t n = grid.index(i, j);
@@ -189,7 +189,7 @@ void sweep_until_converged(const EikonalProblem& problem, RimmedGrid& theta) {
 // to begin at, is near the wave's beginning. No order by arrival is needed: sorting took a third of
 // the time.
 template <class Solve>
-void solve_down_the_wave(const FloorGrid& grid, Sample first, Solve solve) {
+void solve_down_the_wave(const terrain::Grid& grid, Sample first, Solve solve) {
   std::vector<Sample> waiting;
   for (int jj = 0; jj < grid.samples_y; ++jj) {
     const int j = first.j == 0 ? jj : grid.samples_y - 1 - jj;
@@ -210,7 +210,7 @@ void solve_down_the_wave(const FloorGrid& grid, Sample first, Solve solve) {
 
 // The grid's corner where theta_of(sample) is least.
 template <class Theta>
-Sample earliest_corner(const FloorGrid& grid, Theta theta_of) {
+Sample earliest_corner(const terrain::Grid& grid, Theta theta_of) {
   const int i = grid.samples_x - 1, j = grid.samples_y - 1;
   return std::ranges::min(std::array<Sample, 4>{{{0, 0}, {i, 0}, {0, j}, {i, j}}}, {}, theta_of);
 }
@@ -226,7 +226,7 @@ constexpr double kWaiting = std::numeric_limits<double>::quiet_NaN();
 // The difference towards the neighbour that the wave reached first: three points where the wave
 // comes through the second one too, else two. False if one of them is waiting, which is `needed`
 // then.
-bool upwind_difference(const FloorGrid& grid, const RimmedGrid& arrival,
+bool upwind_difference(const terrain::Grid& grid, const RimmedGrid& arrival,
                        std::span<const double> theta, Sample at, Axis axis, Difference& difference,
                        Sample& needed) {
   const int stride = axis.dx + axis.dy * arrival.stride();
@@ -276,7 +276,7 @@ struct Faces {
 };
 
 // theta at a grid point, infinity beyond the grid.
-double value_at(const FloorGrid& grid, std::span<const double> theta, int i, int j) {
+double value_at(const terrain::Grid& grid, std::span<const double> theta, int i, int j) {
   if (i < 0 || j < 0 || i >= grid.samples_x || j >= grid.samples_y) return kInfinity;
   return theta[grid.index(i, j)];
 }
@@ -284,7 +284,7 @@ double value_at(const FloorGrid& grid, std::span<const double> theta, int i, int
 // False if the wave comes in from a sample that is waiting, which is `needed` then.
 bool measure_faces(const EikonalProblem& problem, std::span<const double> theta,
                    std::span<const double> energy, Sample at, Faces& faces, Sample& needed) {
-  const FloorGrid& grid = problem.grid;
+  const terrain::Grid& grid = problem.grid;
   const std::size_t n = grid.index(at.i, at.j);
   for (const Axis axis : kAxes) {
     std::array<double, 2> flux{};  // out of the cell, before and after along the axis
@@ -315,7 +315,7 @@ bool measure_faces(const EikonalProblem& problem, std::span<const double> theta,
 }  // namespace
 
 void solve_eikonal(const EikonalProblem& problem, std::vector<double>& theta) {
-  const FloorGrid& grid = problem.grid;
+  const terrain::Grid& grid = problem.grid;
   SWELL_CHECK(problem.slowness.size() == grid.size() && problem.source.size() == grid.size(),
               "samples={} slowness={} source={}", grid.size(), problem.slowness.size(),
               problem.source.size());
@@ -350,7 +350,7 @@ void solve_eikonal(const EikonalProblem& problem, std::vector<double>& theta) {
 
 void spread_energy(const EikonalProblem& problem, std::span<const double> theta,
                    std::vector<double>& energy) {
-  const FloorGrid& grid = problem.grid;
+  const terrain::Grid& grid = problem.grid;
   SWELL_CHECK(problem.source_energy.size() == grid.size() && theta.size() == grid.size(),
               "samples={} source_energy={} theta={}", grid.size(), problem.source_energy.size(),
               theta.size());

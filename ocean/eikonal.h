@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "ocean/sea_floor.h"
+#include "terrain/height_grid.h"
 
 namespace swell::ocean {
 
 // Arrays of grid.size() elements, sample (i, j) at grid.index(i, j).
 struct EikonalProblem {
-  FloorGrid grid;
+  terrain::Grid grid;
   std::vector<double> slowness;       // |grad theta| per metre, > 0; 0: an obstacle
   std::vector<double> source;         // theta where it is given; infinity elsewhere
   std::vector<double> source_energy;  // for spread_energy: >= 0 at sources

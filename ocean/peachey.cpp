@@ -77,19 +77,19 @@ void store(const Bilinear& b, double c0, float* out) {
 }
 
 // Sample numbers of a cell's corners; a grid one sample wide has cells without width.
-std::array<std::size_t, 4> cell_corners(const FloorGrid& grid, int i, int j) {
+std::array<std::size_t, 4> cell_corners(const terrain::Grid& grid, int i, int j) {
   const int i1 = std::min(i + 1, grid.samples_x - 1), j1 = std::min(j + 1, grid.samples_y - 1);
   return {grid.index(i, j), grid.index(i1, j), grid.index(i, j1), grid.index(i1, j1)};
 }
 
-Bilinear cell_bilinear(const auto& samples, const std::array<std::size_t, 4>& corners) {
-  const auto value = [&](int n) { return static_cast<double>(samples[corners[n]]); };
-  return bilinear(value(0), value(1), value(2), value(3));
+// value(sample): of the corners.
+Bilinear cell_bilinear(const std::array<std::size_t, 4>& corners, auto value) {
+  return bilinear(value(corners[0]), value(corners[1]), value(corners[2]), value(corners[3]));
 }
 
 // Turns relative amplitudes into metres, and limits their sum to what the depth carries, for the
 // samples first to end. Returns the largest sum.
-double break_waves(const SeaFloor& floor, std::span<const WaveTrain> trains,
+double break_waves(const terrain::HeightGrid& floor, std::span<const WaveTrain> trains,
                    std::span<WavePhase> phases, std::size_t first, std::size_t end) {
   double largest = 0.0;
   for (std::size_t n = first; n < end; ++n) {
@@ -97,7 +97,7 @@ double break_waves(const SeaFloor& floor, std::span<const WaveTrain> trains,
     for (std::size_t i = 0; i < trains.size(); ++i) {
       sum += trains[i].amplitude_m * static_cast<double>(phases[i].amplitude[n]);
     }
-    const double factor = breaking_factor(sum, static_cast<double>(floor.depth_m[n]));
+    const double factor = breaking_factor(sum, depth_of_sample(floor, n));
     for (std::size_t i = 0; i < trains.size(); ++i) {
       float& a = phases[i].amplitude[n];
       a = static_cast<float>(trains[i].amplitude_m * static_cast<double>(a) * factor);
@@ -126,32 +126,34 @@ double smallest(const Bilinear& b) { return -largest({-b.c0, -b.c1, -b.c2, -b.c3
 // over the depths between them.
 double train_slope_bound(const TrainSea& sea, std::size_t train, const Bilinear& theta,
                          const Bilinear& amplitude, const Bilinear& depth) {
-  const double between_m = static_cast<double>(sea.deep_depth_m[train]) -
-                           static_cast<double>(sea.shallow_depth_m[train]);
-  const double shore = std::clamp(
-      (static_cast<double>(sea.deep_depth_m[train]) - smallest(depth)) / between_m, 0.0, 1.0);
-  const double blend = shore * shore * (3.0 - 2.0 * shore);
-  const double by_theta = kTwoPi + blend * (8.0 - kTwoPi);
-  const double by_depth = 0.611 * 1.5 / between_m;
+  const auto deep_m = static_cast<double>(sea.deep_depth_m[train]),
+             shallow_m = static_cast<double>(sea.shallow_depth_m[train]);
+  const double by_theta = kTwoPi + shore_part(smallest(depth), deep_m, shallow_m) * (8.0 - kTwoPi);
+  const double by_depth = 0.611 * 1.5 / (deep_m - shallow_m);
   return steepest(amplitude) +
          largest(amplitude) * (by_theta * steepest(theta) + by_depth * steepest(depth));
 }
 
 // Fills a row of cells and returns a bound on the slope of all trains together there.
-double fill_row(const SeaFloor& floor, std::span<const WavePhase> phases, int j, TrainSea& sea) {
+double fill_row(const terrain::HeightGrid& floor, std::span<const WavePhase> phases, int j,
+                TrainSea& sea) {
   const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(sea.cells_x);
   float* wave = sea.waves.data() + cell * 8 * phases.size();
   float* depth = sea.depth.data() + cell * 4;
   double slope_bound = 0.0;
+  const auto values_of = [](const auto& samples) {
+    return [&samples](std::size_t n) { return static_cast<double>(samples[n]); };
+  };
   for (int i = 0; i < sea.cells_x; ++i) {
     const auto corners = cell_corners(floor.grid, i, j);
-    const Bilinear h = cell_bilinear(floor.depth_m, corners);
+    const Bilinear h =
+        cell_bilinear(corners, [&](std::size_t n) { return depth_of_sample(floor, n); });
     store(h, h.c0, depth);
     depth += 4;
     double slope = 0.0;
     for (std::size_t train = 0; train < phases.size(); ++train) {
-      const Bilinear theta = cell_bilinear(phases[train].cycles, corners);
-      const Bilinear amplitude = cell_bilinear(phases[train].amplitude, corners);
+      const Bilinear theta = cell_bilinear(corners, values_of(phases[train].cycles));
+      const Bilinear amplitude = cell_bilinear(corners, values_of(phases[train].amplitude));
       store(theta, theta.c0 - std::floor(theta.c0), wave);
       store(amplitude, amplitude.c0, wave + 4);
       wave += 8;
@@ -165,11 +167,11 @@ double fill_row(const SeaFloor& floor, std::span<const WavePhase> phases, int j,
 void set_trains(std::span<const WaveTrain> trains, TrainSea& sea) {
   sea.trains = static_cast<int>(trains.size());
   for (const WaveTrain& train : trains) {
-    const double length_m = deep_length_m(train);
+    const ProfileDepths depths = profile_depths(deep_length_m(train));
     sea.period_s.push_back(train.period_s);
     sea.gravity_mps2.push_back(train.gravity_mps2);
-    sea.deep_depth_m.push_back(static_cast<float>(length_m * depth_over_deep_length(0.25)));
-    sea.shallow_depth_m.push_back(static_cast<float>(length_m * depth_over_deep_length(0.05)));
+    sea.deep_depth_m.push_back(static_cast<float>(depths.deep_m));
+    sea.shallow_depth_m.push_back(static_cast<float>(depths.shallow_m));
   }
 }
 
@@ -201,14 +203,12 @@ std::vector<WaveTrain> make_trains(const WindSea& wind, int count, std::uint64_t
   return trains;
 }
 
-double profile_blend(double depth_m, double deep_length_m) {
-  const double deep = deep_length_m * depth_over_deep_length(0.25);
-  const double shallow = deep_length_m * depth_over_deep_length(0.05);
-  const double x = std::clamp((deep - depth_m) / (deep - shallow), 0.0, 1.0);
-  return x * x * (3.0 - 2.0 * x);
+ProfileDepths profile_depths(double deep_length_m) {
+  return {deep_length_m * depth_over_deep_length(0.25),
+          deep_length_m * depth_over_deep_length(0.05)};
 }
 
-TrainSea make_train_sea(const SeaFloor& floor, std::span<const WaveTrain> trains,
+TrainSea make_train_sea(const terrain::HeightGrid& floor, std::span<const WaveTrain> trains,
                         PhaseMethod method, Workers& workers) {
   check_sea_floor(floor);
   if (trains.size() > static_cast<std::size_t>(kMaxTrains)) {

@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "math/parallel.h"
-#include "ocean/sea_floor.h"
+#include "math/smoothstep.h"
 #include "ocean/spectrum.h"
 #include "ocean/wave_phase.h"
+#include "terrain/sea_floor.h"
 
 namespace swell::ocean {
 
@@ -27,14 +28,24 @@ inline constexpr int kMaxTrains = 16;
 inline constexpr double kBandBegin = 0.02, kBandEnd = 0.9;
 std::vector<WaveTrain> make_trains(const WindSea& wind, int count, std::uint64_t seed);
 
-// Part of the shore's profile in the wave's: 0 where the water is deeper than a quarter of the
-// local wavelength, 1 below a twentieth, smooth between. deep_length_m is g T^2 / (2 pi).
-double profile_blend(double depth_m, double deep_length_m);
+// The depths where a train's profile begins to change from deep water's into the shore's, a quarter
+// of the local wavelength, and has become it, a twentieth. deep_length_m is g T^2 / (2 pi).
+struct ProfileDepths {
+  double deep_m, shallow_m;
+};
+ProfileDepths profile_depths(double deep_length_m);
+
+// Part of the shore's profile in the wave's: 0 from deep_m down, 1 from shallow_m up, smooth
+// between. The quotient is one of T, float or double.
+template <class T>
+double shore_part(T depth_m, T deep_m, T shallow_m) {
+  return smoothstep(0.0, 1.0, static_cast<double>((deep_m - depth_m) / (deep_m - shallow_m)));
+}
 
 // Trains over a sea floor, ready to be sampled; read-only after it is made. 32 bytes a train and 16
 // more for each cell between four samples.
 struct TrainSea {
-  FloorGrid grid;  // the sea floor's
+  terrain::Grid grid;  // the sea floor's
   int cells_x = 0, cells_y = 0;
   int trains = 0;
   // |z| and |grad z| are at most this on the grid, always.
@@ -51,7 +62,7 @@ struct TrainSea {
 // there are none. Throws std::invalid_argument for a bad floor or train, or more than kMaxTrains.
 // Each train's phase is worked out by one worker; about 0.2 microseconds a sample and train, and 45
 // bytes while it is made.
-TrainSea make_train_sea(const SeaFloor& floor, std::span<const WaveTrain> trains,
+TrainSea make_train_sea(const terrain::HeightGrid& floor, std::span<const WaveTrain> trains,
                         PhaseMethod method, Workers& workers);
 
 // Heights above mean sea level at time t_s (finite), and slopes dz/dx and dz/dy, at world points.

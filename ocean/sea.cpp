@@ -12,6 +12,7 @@
 #include "math/elementary.h"
 #include "ocean/dispersion.h"
 #include "ocean/fft.h"
+#include "ocean/patch_transforms.h"
 #include "ocean/sea_state.h"
 
 namespace swell::ocean {
@@ -120,27 +121,14 @@ void size_patches(const Sea::State& state, std::vector<PatchFrame>& patches) {
   }
 }
 
-// One transform a patch for both slopes, then one for the heights of two patches.
 void synthesize_patches(const Sea::State& state, double t_s, SeaFrame& frame, Workers& workers) {
-  const int patches = static_cast<int>(state.patches.size());
-  std::array<FftOutput, kMaxPatches + (kMaxPatches + 1) / 2> outputs;
-  std::size_t transforms = 0;
-  for (PatchFrame& patch : frame.patches) {
-    outputs[transforms++] = {patch.slope_x.data(), patch.slope_y.data()};
+  std::array<PatchFields, kMaxPatches> fields;
+  for (std::size_t p = 0; p < frame.patches.size(); ++p) {
+    PatchFrame& patch = frame.patches[p];
+    fields[p] = {patch.slope_x.data(), patch.slope_y.data(), patch.height_m.data()};
   }
-  for (int p = 0; p < patches; p += 2) {
-    float* const second = p + 1 < patches ? frame.patches[p + 1].height_m.data() : nullptr;
-    outputs[transforms++] = {frame.patches[p].height_m.data(), second};
-  }
-  const auto fill = [&](int transform, int column0, float* re, float* im) {
-    if (transform < patches) {
-      return fill_slopes(state.patches[transform], state.plan, t_s, column0, re, im);
-    }
-    const int p = 2 * (transform - patches);
-    const PatchWaves* const second = p + 1 < patches ? &state.patches[p + 1] : nullptr;
-    return fill_heights(state.patches[p], second, state.plan, t_s, column0, re, im);
-  };
-  inverse_fft_2d(state.plan, fill, {outputs.data(), transforms}, frame.fft_planes, workers);
+  transform_patches(state, t_s, {fill_slopes, fill_heights}, {fields.data(), frame.patches.size()},
+                    frame.fft_planes, workers);
 }
 
 }  // namespace

@@ -5,14 +5,14 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "ocean/fft.h"
+#include "ocean/patch_transforms.h"
 #include "ocean/patch_waves.h"
 #include "ocean/sea_state.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr std::size_t kMaxTransforms = 16, kChunk = 256;
+constexpr std::size_t kChunk = 256;
 
 void size_component(const SeaFrame& frame, SeaFrame& component) {
   component.t_s = frame.t_s;
@@ -24,27 +24,14 @@ void size_component(const SeaFrame& frame, SeaFrame& component) {
   }
 }
 
-// One transform a patch for x and y, then one for z of two patches.
 void synthesize(const Sea::State& state, double t_s, VelocityFrame& velocity, Workers& workers) {
-  const int patches = static_cast<int>(state.patches.size());
-  const auto field = [](SeaFrame& component, int p) {
-    return component.patches[static_cast<std::size_t>(p)].height_m.data();
-  };
-  std::array<FftOutput, kMaxTransforms> outputs;
-  std::size_t transforms = 0;
-  for (int p = 0; p < patches; ++p)
-    outputs[transforms++] = {field(velocity.x, p), field(velocity.y, p)};
-  for (int p = 0; p < patches; p += 2)
-    outputs[transforms++] = {field(velocity.z, p),
-                             p + 1 < patches ? field(velocity.z, p + 1) : nullptr};
-  const auto fill = [&](int transform, int column0, float* re, float* im) {
-    if (transform < patches)
-      return fill_drift(state.patches[transform], state.plan, t_s, column0, re, im);
-    const int p = 2 * (transform - patches);
-    const PatchWaves* const second = p + 1 < patches ? &state.patches[p + 1] : nullptr;
-    return fill_rising(state.patches[p], second, state.plan, t_s, column0, re, im);
-  };
-  inverse_fft_2d(state.plan, fill, {outputs.data(), transforms}, velocity.z.fft_planes, workers);
+  const std::size_t patches = state.patches.size();
+  std::array<PatchFields, kMaxPatches> fields;
+  for (std::size_t p = 0; p < patches; ++p)
+    fields[p] = {velocity.x.patches[p].height_m.data(), velocity.y.patches[p].height_m.data(),
+                 velocity.z.patches[p].height_m.data()};
+  transform_patches(state, t_s, {fill_drift, fill_rising}, {fields.data(), patches},
+                    velocity.z.fft_planes, workers);
 }
 
 // A sin(theta), theta falling at omega, moves the water by A omega (to sin(theta), -cos(theta)).

@@ -48,16 +48,16 @@ double local_wave_number(const WaveTrain& train, double depth_m) {
 // counts as the shallowest water.
 class RowWaves {
  public:
-  RowWaves(const SeaFloor& floor, const WaveTrain& train)
+  RowWaves(const terrain::HeightGrid& floor, const WaveTrain& train)
       : floor_(floor),
         train_(train),
         depth_m_(static_cast<std::size_t>(floor.grid.samples_x)),
         values_(depth_m_.size()) {}
 
   std::span<const double> numbers(int j) {
-    const float* depth = floor_.depth_m.data() + floor_.grid.index(0, j);
+    const std::size_t first = floor_.grid.index(0, j);
     for (std::size_t i = 0; i < depth_m_.size(); ++i)
-      depth_m_[i] = std::max(static_cast<double>(depth[i]), kShallowestDepth);
+      depth_m_[i] = std::max(depth_of_sample(floor_, first + i), kShallowestDepth);
     wave_numbers(omega_of(train_), train_.gravity_mps2, depth_m_, values_);
     return values_;
   }
@@ -69,14 +69,14 @@ class RowWaves {
   }
 
  private:
-  const SeaFloor& floor_;
+  const terrain::HeightGrid& floor_;
   const WaveTrain& train_;
   std::vector<double> depth_m_, values_;
 };
 
 // amplitude = amplitude_of(sample, Ks there).
 template <class AmplitudeOf>
-void set_amplitude(const SeaFloor& floor, const WaveTrain& train, WavePhase& phase,
+void set_amplitude(const terrain::HeightGrid& floor, const WaveTrain& train, WavePhase& phase,
                    AmplitudeOf amplitude_of) {
   phase.amplitude.resize(floor.grid.size());
   RowWaves waves(floor, train);
@@ -111,7 +111,8 @@ double end_cycles(const Stretch& s, double k_middle) {
 // two of them, or leaves the grid.
 class StraightMarch {
  public:
-  StraightMarch(const SeaFloor& floor, const WaveTrain& train, std::vector<double>& cycles)
+  StraightMarch(const terrain::HeightGrid& floor, const WaveTrain& train,
+                std::vector<double>& cycles)
       : floor_(floor),
         train_(train),
         cycles_(cycles),
@@ -127,7 +128,7 @@ class StraightMarch {
   }
 
   void run() {
-    const FloorGrid& grid = floor_.grid;
+    const terrain::Grid& grid = floor_.grid;
     const int lines = x_main_ ? grid.samples_x : grid.samples_y;
     const int across = x_main_ ? grid.samples_y : grid.samples_x;
     std::vector<Stretch> stretch(static_cast<std::size_t>(across));
@@ -149,8 +150,8 @@ class StraightMarch {
     return x_main_ ? floor_.grid.index(line, a) : floor_.grid.index(a, line);
   }
   glm::dvec2 point(double line, double a) const {
-    return floor_.grid.min_world +
-           floor_.grid.spacing_m * (x_main_ ? glm::dvec2(line, a) : glm::dvec2(a, line));
+    return lattice_point(floor_.grid.min_world, floor_.grid.spacing_m,
+                         x_main_ ? glm::dvec2(line, a) : glm::dvec2(a, line));
   }
 
   Stretch stretch_to(int line, int a, glm::dvec2 begin, double cycles, double k_begin) const {
@@ -182,7 +183,7 @@ class StraightMarch {
                       k_[n0] + f * (k_[n1] - k_[n0]));
   }
 
-  const SeaFloor& floor_;
+  const terrain::HeightGrid& floor_;
   const WaveTrain& train_;
   std::vector<double>& cycles_;
   bool x_main_;
@@ -190,12 +191,12 @@ class StraightMarch {
   std::vector<double> k_;
 };
 
-WavePhase make_straight_phase(const SeaFloor& floor, const WaveTrain& train) {
+WavePhase make_straight_phase(const terrain::HeightGrid& floor, const WaveTrain& train) {
   WavePhase phase;
   phase.cycles.resize(floor.grid.size());
   StraightMarch(floor, train, phase.cycles).run();
   set_amplitude(floor, train, phase, [&](std::size_t n, double shoaling) {
-    return floor.depth_m[n] > 0.0f ? shoaling : 0.0;
+    return depth_of_sample(floor, n) > 0.0 ? shoaling : 0.0;
   });
   return phase;
 }
@@ -227,15 +228,15 @@ struct Border {
   int count;
 };
 
-// Mean direction of the depth's gradient along a border; 0 if the floor is flat there.
-glm::dvec2 mean_uphill(const SeaFloor& floor, const Border& border) {
+// Mean direction in which the floor rises along a border; 0 if it is flat there.
+glm::dvec2 mean_uphill(const terrain::HeightGrid& floor, const Border& border) {
   glm::dvec2 sum(0.0);
   double depth = 0.0;
   for (int n = 0; n < border.count; ++n) {
     const glm::ivec2 at = border.start + n * border.step;
-    const float h = floor.depth_m[floor.grid.index(at.x, at.y)];
-    if (!(h > 0.0f)) continue;
-    sum -= depth_gradient_at(floor, floor.grid.point(at.x, at.y));
+    const double h = depth_of_sample(floor, floor.grid.index(at.x, at.y));
+    if (!(h > 0.0)) continue;
+    sum += slope_at(floor, floor.grid.point(at.x, at.y));
     depth += h;
   }
   // Flat: the whole grid's width changes the depth by less than 1 %.
@@ -246,16 +247,16 @@ glm::dvec2 mean_uphill(const SeaFloor& floor, const Border& border) {
 
 // Gives the eikonal problem its values on a border that the wave comes in through; inward is the
 // border's normal. theta is integrated along the border from its value at the start.
-void set_border(const SeaFloor& floor, const WaveTrain& train, const Border& border,
+void set_border(const terrain::HeightGrid& floor, const WaveTrain& train, const Border& border,
                 glm::dvec2 inward, EikonalProblem& problem) {
-  const FloorGrid& grid = floor.grid;
+  const terrain::Grid& grid = floor.grid;
   const glm::dvec2 uphill = mean_uphill(floor, border);
   double cycles = deep_cycles(train, grid.point(border.start.x, border.start.y));
   double rate_before = 0.0;
   for (int n = 0; n < border.count; ++n) {
     const glm::ivec2 at = border.start + n * border.step;
     const std::size_t sample = grid.index(at.x, at.y);
-    const double depth = static_cast<double>(floor.depth_m[sample]);
+    const double depth = depth_of_sample(floor, sample);
     const RefractedWave wave = refract(train, uphill, depth > 0.0 ? depth : kInfinity);
     const double rate = glm::dot(wave.k_rad_m, glm::dvec2(border.step)) * grid.spacing_m / kTwoPi;
     if (n > 0) cycles += 0.5 * (rate_before + rate);
@@ -267,8 +268,8 @@ void set_border(const SeaFloor& floor, const WaveTrain& train, const Border& bor
   }
 }
 
-EikonalProblem make_problem(const SeaFloor& floor, const WaveTrain& train) {
-  const FloorGrid& grid = floor.grid;
+EikonalProblem make_problem(const terrain::HeightGrid& floor, const WaveTrain& train) {
+  const terrain::Grid& grid = floor.grid;
   EikonalProblem problem{grid, std::vector<double>(grid.size(), 0.0),
                          std::vector<double>(grid.size(), kInfinity),
                          std::vector<double>(grid.size(), 0.0)};
@@ -277,7 +278,7 @@ EikonalProblem make_problem(const SeaFloor& floor, const WaveTrain& train) {
     const std::span<const double> k = waves.numbers(j);
     for (std::size_t i = 0; i < k.size(); ++i) {
       const std::size_t n = grid.index(0, j) + i;
-      if (floor.depth_m[n] > 0.0f) problem.slowness[n] = k[i] / kTwoPi;
+      if (depth_of_sample(floor, n) > 0.0) problem.slowness[n] = k[i] / kTwoPi;
     }
   }
   // The two borders at the corner that the wave reaches first.
@@ -293,7 +294,8 @@ EikonalProblem make_problem(const SeaFloor& floor, const WaveTrain& train) {
 
 // The mean of what the waves at the eight neighbours of a sample without any become there, each
 // carried on along its own slope; 0 if there are none.
-double continued_cycles(const FloorGrid& grid, const std::vector<double>& cycles, int i, int j) {
+double continued_cycles(const terrain::Grid& grid, const std::vector<double>& cycles, int i,
+                        int j) {
   const auto at = [&](int x, int y) {
     const bool inside = x >= 0 && y >= 0 && x < grid.samples_x && y < grid.samples_y;
     return inside ? cycles[grid.index(x, y)] : kInfinity;
@@ -313,7 +315,7 @@ double continued_cycles(const FloorGrid& grid, const std::vector<double>& cycles
 }
 
 // Replaces infinite phases.
-void continue_onto_land(const FloorGrid& grid, std::vector<double>& cycles) {
+void continue_onto_land(const terrain::Grid& grid, std::vector<double>& cycles) {
   std::vector<double> filled(cycles);
   for (int j = 0; j < grid.samples_y; ++j) {
     for (int i = 0; i < grid.samples_x; ++i) {
@@ -324,7 +326,7 @@ void continue_onto_land(const FloorGrid& grid, std::vector<double>& cycles) {
   cycles.swap(filled);
 }
 
-WavePhase make_eikonal_phase(const SeaFloor& floor, const WaveTrain& train) {
+WavePhase make_eikonal_phase(const terrain::HeightGrid& floor, const WaveTrain& train) {
   const EikonalProblem problem = make_problem(floor, train);
   WavePhase phase;
   std::vector<double> energy;
@@ -339,14 +341,15 @@ WavePhase make_eikonal_phase(const SeaFloor& floor, const WaveTrain& train) {
 
 }  // namespace
 
-WavePhase make_wave_phase(const SeaFloor& floor, const WaveTrain& train, PhaseMethod method) {
+WavePhase make_wave_phase(const terrain::HeightGrid& floor, const WaveTrain& train,
+                          PhaseMethod method) {
   check_sea_floor(floor);
   check_train(train);
   return method == PhaseMethod::kStraight ? make_straight_phase(floor, train)
                                           : make_eikonal_phase(floor, train);
 }
 
-glm::dvec2 wave_vector_at(const FloorGrid& grid, const WavePhase& phase, glm::dvec2 p_world) {
+glm::dvec2 wave_vector_at(const terrain::Grid& grid, const WavePhase& phase, glm::dvec2 p_world) {
   // Central differences at a sample, one-sided on the border; 0 next to samples without waves.
   const auto slope = [&](int i, int j) {
     const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, grid.samples_x - 1);

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "ocean/sea_floor.h"
+#include "terrain/sea_floor.h"
 
 namespace swell::ocean {
 
@@ -56,11 +56,12 @@ inline constexpr double kShallowestDepth = 0.05;
 
 // Throws std::invalid_argument for a bad floor (see check_sea_floor) or train. About 0.15
 // microseconds a sample with either method.
-WavePhase make_wave_phase(const SeaFloor& floor, const WaveTrain& train, PhaseMethod method);
+WavePhase make_wave_phase(const terrain::HeightGrid& floor, const WaveTrain& train,
+                          PhaseMethod method);
 
 // k = 2 pi grad theta in rad/m at p_world: central differences, bilinear between samples. 0 where
 // there are no waves all around. Points beyond the grid are moved to its border.
-glm::dvec2 wave_vector_at(const FloorGrid& grid, const WavePhase& phase, glm::dvec2 p_world);
+glm::dvec2 wave_vector_at(const terrain::Grid& grid, const WavePhase& phase, glm::dvec2 p_world);
 
 // Waves break where the height of all trains together, twice the sum of their amplitudes, would
 // exceed this part of the depth.

@@ -27,9 +27,9 @@ struct Stretch {
 // 1984, eq. 5.
 double slope_at(double d0, double h0, double d1, double h1) {
   if (h0 <= 0.0 || h1 <= 0.0 || d0 * d1 <= 0.0) return 0.0;
-  const double share = (h0 + 2.0 * h1) / (3.0 * (h0 + h1));
+  const double weight = (h0 + 2.0 * h1) / (3.0 * (h0 + h1));
   const double s0 = d0 / h0, s1 = d1 / h1;
-  return s0 * s1 / (share * s1 + (1.0 - share) * s0);
+  return s0 * s1 / (weight * s1 + (1.0 - weight) * s0);
 }
 
 // Hermite's cubic: how far the value has moved from its start, given what it changes by before, on

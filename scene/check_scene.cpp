@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ocean/sea_floor.h"
 #include "scene/coast.h"
 #include "scene/parameters.h"
 #include "scene/sky.h"
+#include "terrain/sea_floor.h"
 
 namespace swell::scene {
 namespace {
@@ -128,10 +128,10 @@ Fault fault_of_sea(const Scene& scene) {
 Fault fault_of_coast_line(const TerrainDescription& terrain) {
   const auto& coast = terrain.coast_m;
   for (std::size_t n = 1; n < coast.size(); ++n)
-    if (glm::distance(coast[n - 1], coast[n]) < ocean::kShortestStretch_m)
+    if (glm::distance(coast[n - 1], coast[n]) < terrain::kShortestStretch_m)
       return SceneFault{
           fmt::format("terrain.coast_m[{}]", n), fmt::format("[{}, {}]", coast[n].x, coast[n].y),
-          fmt::format("a point {} m or more from the one before", ocean::kShortestStretch_m)};
+          fmt::format("a point {} m or more from the one before", terrain::kShortestStretch_m)};
   if (!coast.empty() && !terrain.height_image.empty())
     return SceneFault{"terrain.coast_m", "it besides terrain.height_image", "one of them"};
   return std::nullopt;

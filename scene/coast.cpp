@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/terrain.h"
+
 namespace swell::scene {
 namespace {
 
@@ -34,15 +36,9 @@ double least_spacing_m(Coast coast, double terrain_size_m) {
   }
 }
 
-ocean::SeaFloor sea_floor_of(const Terrain& terrain, int cells) {
-  const ocean::FloorGrid grid{terrain.min_world, terrain.size_m() / cells, cells + 1, cells + 1};
-  std::vector<float> height(grid.size());
-  std::vector<glm::dvec2> p(static_cast<std::size_t>(grid.samples_x));
-  for (int j = 0; j <= cells; ++j) {
-    for (int i = 0; i <= cells; ++i) p[static_cast<std::size_t>(i)] = grid.point(i, j);
-    sample_heights(terrain, p, std::span(height).subspan(grid.index(0, j), p.size()));
-  }
-  return ocean::make_sea_floor_from_heights(grid, height);
+terrain::HeightGrid sea_floor_of(const terrain::HeightGrid& terrain, int cells) {
+  const terrain::Grid& land = terrain.grid;
+  return resample(terrain, {land.min_world, land.size_m() / cells, cells + 1, cells + 1});
 }
 
 }  // namespace
@@ -66,7 +62,8 @@ std::string slow_coast_text(const Scene& scene) {
     return {};
   const std::optional<double> size_m = described_size_m(*scene.terrain);
   const double cells = std::min(
-      cells_a_side(coast, size_m.value_or(kMaxImageSide * scene.terrain->metres_per_pixel)),
+      cells_a_side(coast,
+                   size_m.value_or(terrain::kMaxImageSide * scene.terrain->metres_per_pixel)),
       most_cells(coast.trains));
   if (cells * cells * coast.trains < kSlowWork) return {};
   return size_m ? fmt::format("making {0} wave trains on {1} x {1} points", coast.trains, cells + 1)
@@ -74,12 +71,12 @@ std::string slow_coast_text(const Scene& scene) {
                               coast.grid_spacing_m);
 }
 
-std::optional<ocean::CoastSea> build_coast(const Scene& scene, const Terrain* terrain,
+std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::HeightGrid* terrain,
                                            int threads) {
   const Coast& coast = scene.coast;
   const ocean::SeaDescription& sea = scene.sea;
   if (coast.model == CoastModel::kNone || !terrain) return std::nullopt;
-  if (const auto fault = fault_of_coast_grid(coast, terrain->size_m()))
+  if (const auto fault = fault_of_coast_grid(coast, terrain->grid.size_m()))
     throw SceneError(fault_text(*fault));
   if (sea.wind_speed_mps <= 0.0) return std::nullopt;
   const ocean::WindSea wind =
@@ -88,7 +85,7 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const Terrain* te
   for (ocean::WaveTrain& train : trains) train.amplitude_m *= sea.amplitude_scale;
   Workers workers(threads);
   return ocean::make_coast_sea(
-      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->size_m()))), wind,
+      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->grid.size_m()))), wind,
       trains, coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
       coast.model == CoastModel::kBlend, workers);
 }

@@ -9,7 +9,7 @@
 #include "ocean/coast.h"
 #include "scene/check_scene.h"
 #include "scene/scene.h"
-#include "scene/terrain.h"
+#include "terrain/height_grid.h"
 
 namespace swell::scene {
 
@@ -30,7 +30,7 @@ std::string slow_coast_text(const Scene& scene);
 // bits with any: 0.2 microseconds of one core a train and cell, 50 ms to 3 s in all. Nothing for
 // scenes without terrain, without wind or with coast.model = "none". Throws SceneError for a grid
 // beyond the bounds.
-std::optional<ocean::CoastSea> build_coast(const Scene& scene, const Terrain* terrain,
+std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::HeightGrid* terrain,
                                            int threads = available_cpus());
 
 }  // namespace swell::scene

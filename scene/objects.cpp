@@ -5,7 +5,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "scene/water_surface.h"
+#include "ocean/water_surface.h"
 
 namespace swell::scene {
 namespace {
@@ -53,7 +53,7 @@ glm::dmat3 upright_frame(glm::dvec2 right, glm::dvec2 ahead, glm::dvec2 slope) {
   return {side, glm::cross(up, side), up};
 }
 
-ObjectPose pose_of(const FloatingObject& object, const WaterSurface& surface,
+ObjectPose pose_of(const FloatingObject& object, const ocean::WaterSurface& surface,
                    const std::array<glm::dvec2, kProbes>& plan) {
   const glm::dvec2 ahead(sin(object.heading_rad), cos(object.heading_rad));
   const glm::dvec2 right(ahead.y, -ahead.x);
@@ -71,7 +71,7 @@ ObjectPose pose_of(const FloatingObject& object, const WaterSurface& surface,
 
 }  // namespace
 
-void object_poses(std::span<const FloatingObject> objects, const WaterSurface& surface,
+void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,
                   std::span<ObjectPose> poses) {
   SWELL_CHECK(objects.size() == poses.size(), "{} objects, {} poses", objects.size(), poses.size());
   const std::array<glm::dvec2, kProbes> plan = probe_plan();

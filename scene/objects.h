@@ -10,9 +10,11 @@
 #include <span>
 #include <string_view>
 
-namespace swell::scene {
-
+namespace swell::ocean {
 class WaterSurface;
+}
+
+namespace swell::scene {
 
 enum class ObjectKind : std::uint8_t {
   kBuoy,    // a navigation buoy: hull, tower, lantern, top mark
@@ -30,7 +32,7 @@ struct FloatingObject {
   glm::dvec2 position_m{0.0};             // east, north; moored there
   glm::dvec3 size_m{2.6, 2.6, 6.0};       // across, along the heading, up
   double heading_rad = 0.0;               // clockwise from north
-  double draught = 0.2;                   // share of the height below still water
+  double draught = 0.2;                   // part of the height below still water
   glm::vec3 colour{0.60f, 0.03f, 0.02f};  // linear RGB reflectance of the paint
 };
 
@@ -45,7 +47,7 @@ struct ObjectPose {
 // than the hull hardly lift it; the tilt is kTiltShare of that of the plane of least squares there.
 // A pose depends on the object and the surface alone. Spans of one length. Allocates nothing;
 // 0.5 us an object.
-void object_poses(std::span<const FloatingObject> objects, const WaterSurface& surface,
+void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,
                   std::span<ObjectPose> poses);
 
 // A hull's weight and mooring keep it more upright than the water is.

@@ -8,7 +8,6 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +15,10 @@
 #include "math/elementary.h"
 #include "math/view.h"
 #include "ocean/sea.h"
+#include "ocean/sea_area.h"
 #include "scene/objects.h"
-#include "scene/terrain.h"
+#include "scene/scene_error.h"
+#include "terrain/terrain.h"
 
 namespace swell::scene {
 
@@ -118,12 +119,8 @@ struct Detail {
   }
 };
 
-// The sea in the world: waves displace the surface inside the rectangle (fading to flat over the
-// last tenth), and the flat sea with the same wave normals goes on to the horizon.
-struct SeaArea {
-  glm::dvec2 centre_m{0.0};
-  glm::dvec2 size_m{3000.0, 2000.0};
-};
+using SeaArea = ocean::SeaArea;
+using TerrainDescription = terrain::TerrainDescription;
 
 // May be made in code: render::World and scene::Water throw SceneError unless every value is in
 // the range that docs/scene.md states for its key (check_scene.h).

@@ -4,14 +4,10 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "math/smoothstep.h"
 
 namespace swell::scene {
 namespace {
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 // Henyey and Greenstein's phase function times 4 pi: haze droplets throw light forward.
 // Source: L. G. Henyey, J. L. Greenstein, Diffuse radiation in the galaxy, 1941, eq. 2.
@@ -20,7 +16,7 @@ double forward_scattering(double cos_theta, double g) {
   return (1.0 - g * g) / (base * std::sqrt(base));
 }
 
-// Share of light that thin clouds send or hide, in [0, 1]: noise on a plane overhead, stretched
+// Part of the light that thin clouds send or hide, in [0, 1]: noise on a plane overhead, stretched
 // along one axis as high clouds are.
 double cloud_density(const Sky& sky, const texture::PerlinNoise& clouds, glm::dvec3 d) {
   constexpr double kFade = 0.06;  // sine of the elevation at which clouds start to show

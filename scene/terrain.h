@@ -1,76 +1,15 @@
-// The sea floor and the land: a height field on a square, from a height image, from a coast line or
-// from noise. From noise, the border of the square is the deep floor.
+// The land and sea floor of a scene.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <glm/glm.hpp>
 #include <optional>
-#include <span>
-#include <stdexcept>
-#include <vector>
+
+#include "scene/scene.h"
+#include "terrain/height_grid.h"
 
 namespace swell::scene {
 
-// What is wrong with a scene: what() is one line, 'FILE:LINE: column N: what, got what, allowed
-// what' (without the places that are not known).
-class SceneError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-struct TerrainDescription {
-  // From a square image (grey or first channel, north on top, at most 4096 x 4096): PNG, PNM and
-  // TIFF have height = low_m + value * (high_m - low_m), EXR and HDR metres; then minus
-  // sea_level_m.
-  std::filesystem::path height_image = {};  // empty: islands from noise
-  double metres_per_pixel = 2.0;
-  double low_m = -20.0, high_m = 40.0;
-  double sea_level_m = 0.0;
-  glm::dvec2 centre_m{0.0};
-  // From noise: one island of this radius on a floor of this depth, with shallow water around it.
-  double island_radius_m = 180.0;
-  double island_height_m = 35.0;
-  double floor_depth_m = 14.0;
-  // From a coast line of two points or more, the sea on the left when walking from the first to the
-  // last (ocean/sea_floor.h): a beach of one slope on a square around centre_m, down to
-  // floor_depth_m; on land the slope goes on up to dunes of less than 8 m.
-  std::vector<glm::dvec2> coast_m = {};  // empty: not used; excludes height_image
-  double beach_slope = 0.02;
-  double beach_size_m = 1200.0;  // the square's side
-  std::uint64_t seed = 3;        // of the island or of the dunes
-
-  bool operator==(const TerrainDescription&) const = default;
-};
-
-// samples x samples heights (samples >= 2: 1025 from noise, 513 from a coast line, the image's side
-// from images, where one pixel makes a flat square of 2 x 2), spacing_m apart, sample (i, j) at
-// min_world + spacing_m (i, j), row j northwards.
-struct Terrain {
-  glm::dvec2 min_world{0.0};
-  double spacing_m = 1.0;
-  int samples = 0;
-  std::vector<float> height_m = {};
-  float lowest_m = 0.0f, highest_m = 0.0f;
-  double size_m() const { return spacing_m * (samples - 1); }
-};
-
-// Images are at most this many pixels a side.
-inline constexpr int kMaxImageSide = 4096;
-
-// The side of the square that build_terrain() makes; none for images, whose size is in the file.
-std::optional<double> described_size_m(const TerrainDescription& description);
-
-// Single-threaded, the same bits everywhere. Throws SceneError (bad values) or texture::FileError
-// (bad image).
-Terrain build_terrain(const TerrainDescription& description);
-
-// Bilinear height at world points; outside the square the nearest border sample. p_world and
-// height_m have the same length and do not overlap. May run on several threads at once.
-void sample_heights(const Terrain& terrain, std::span<const glm::dvec2> p_world,
-                    std::span<float> height_m);
-
-// dH/dx and dH/dy at every sample, laid out as height_m: central differences, one-sided at the
-// border. Both arrays hold samples * samples.
-void terrain_slopes(const Terrain& terrain, std::span<float> slope_x, std::span<float> slope_y);
+// Builds the scene's terrain; nothing for scenes without one. What terrain::build_terrain() throws
+// as TerrainError, it throws as SceneError with the same text.
+std::optional<terrain::HeightGrid> build_terrain(const Scene& scene);
 
 }  // namespace swell::scene

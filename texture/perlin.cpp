@@ -5,6 +5,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/smoothstep.h"
 #include "texture/lattice.h"
 
 namespace swell::texture {
@@ -42,7 +43,7 @@ double interpolation_weight(Interpolation interpolation, double t) {
     case Interpolation::kCosine:
       return 0.5 * (1.0 - sin_cos_turns(0.5 * t).cos);
     default:
-      return t * t * (3.0 - 2.0 * t);
+      return smooth_blend(t);
   }
 }
 

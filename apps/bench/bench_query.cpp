@@ -11,7 +11,7 @@
 #include "apps/shared/options.h"
 #include "apps/shared/report.h"
 #include "math/random.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 
 namespace swell::apps {
 namespace {

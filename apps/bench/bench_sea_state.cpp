@@ -14,7 +14,7 @@
 #include "apps/shared/report.h"
 #include "math/random.h"
 #include "ocean/sea_scale.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 
 namespace swell::apps {
 namespace {
@@ -59,7 +59,7 @@ std::vector<glm::dvec2> open_water_points(const scene::Scene& scene, const scene
     const glm::dvec2 unit(random_uniform(2, 2 * i), random_uniform(2, 2 * i + 1));
     const glm::dvec2 p = scene.area.centre_m + 0.8 * (unit - 0.5) * scene.area.size_m;
     float ground_m = -1.0f;
-    if (water.terrain()) scene::sample_heights(*water.terrain(), {&p, 1}, {&ground_m, 1});
+    if (water.terrain()) terrain::sample_heights(*water.terrain(), {&p, 1}, {&ground_m, 1});
     if (ground_m < 0.0f) points.push_back(p);
   }
   return points;

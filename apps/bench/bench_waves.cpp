@@ -65,11 +65,11 @@ void write_filter(const WaveFigures& figures, const scene::Scene& scene) {
 
 void write_map(const WaveFigures& figures, const scene::Scene& scene, const scene::Water& water,
                const scene::WaterSurface& surface) {
-  const scene::Terrain* terrain = water.terrain();
+  const terrain::HeightGrid* terrain = water.terrain();
   const glm::dvec2 centre =
-      terrain ? terrain->min_world + 0.5 * terrain->size_m() : scene.area.centre_m;
+      terrain ? terrain->grid.min_world + 0.5 * terrain->grid.size_m() : scene.area.centre_m;
   const double widest =
-      terrain ? terrain->size_m() : std::min(scene.area.size_m.x, scene.area.size_m.y);
+      terrain ? terrain->grid.size_m() : std::min(scene.area.size_m.x, scene.area.size_m.y);
   const double from = scene.sea.wind_from_rad;
   const MapView view{point("--centre", figures.centre_m, centre),
                      figures.side_m > 0.0 ? figures.side_m : widest,

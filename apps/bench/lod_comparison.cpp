@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "lod/uniform_grid.h"
 #include "render/measure/mesh_error.h"
 #include "render/workspace.h"
+#include "scene/water.h"
 
 namespace swell::apps {
 namespace {
@@ -85,13 +85,11 @@ ComparisonRow uniform_row(const NamedView& view, const render::SeaReference& sea
                           const scene::WaterSurface& surface, const scene::SeaArea& area,
                           int budget, Workers& workers) {
   const lod::Domain domain{area.centre_m - 2048.0, 4096.0, 20};
-  const double spacing_m = std::ldexp(domain.size_m, -domain.lattice_bits);
   lod::Mesh mesh;
   lod::write_uniform_grid(domain, area.centre_m - 0.5 * area.size_m,
                           area.centre_m + 0.5 * area.size_m, budget, mesh);
   std::vector<glm::dvec2> p;
-  for (const glm::ivec2& lattice : mesh.lattice)
-    p.push_back(domain.min_world + spacing_m * glm::dvec2(lattice));
+  for (const glm::ivec2& lattice : mesh.lattice) p.push_back(domain.point(lattice));
   std::vector<float> height_m(p.size());
   surface.heights(p, height_m);
   return row_of(view, "uniform", static_cast<int>(mesh.level.size()),

@@ -57,10 +57,8 @@ struct Vertices {
 };
 
 void place(const lod::Domain& domain, const lod::Mesh& mesh, Vertices& v) {
-  const double spacing_m = std::ldexp(domain.size_m, -domain.lattice_bits);
   v.resize(mesh.lattice.size());
-  for (std::size_t i = 0; i < v.p_world.size(); ++i)
-    v.p_world[i] = domain.min_world + spacing_m * glm::dvec2(mesh.lattice[i]);
+  for (std::size_t i = 0; i < v.p_world.size(); ++i) v.p_world[i] = domain.point(mesh.lattice[i]);
 }
 
 // Smooth normals: of the waves' own slopes, so that they do not change with the triangles.

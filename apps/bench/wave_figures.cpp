@@ -57,7 +57,7 @@ void take_slopes(MapFields& map, const MapView& view) {
   }
 }
 
-MapFields sample_map(const scene::WaterSurface& surface, const scene::Terrain* terrain,
+MapFields sample_map(const scene::WaterSurface& surface, const terrain::HeightGrid* terrain,
                      const MapView& view) {
   MapFields map;
   const double pixel_m = view.side_m / view.size_px, middle = 0.5 * view.size_px;
@@ -70,7 +70,7 @@ MapFields sample_map(const scene::WaterSurface& surface, const scene::Terrain* t
   surface.heights(map.p_world, map.height_m);
   take_slopes(map, view);
   if (!terrain) return map;
-  scene::sample_heights(*terrain, map.p_world, map.depth_m);
+  terrain::sample_heights(*terrain, map.p_world, map.depth_m);
   for (float& depth : map.depth_m) depth = -depth;
   return map;
 }
@@ -140,7 +140,7 @@ texture::Image8 draw_filter(const ocean::WindSea& wind, int size_px) {
   return image;
 }
 
-texture::Image8 draw_map(const scene::WaterSurface& surface, const scene::Terrain* terrain,
+texture::Image8 draw_map(const scene::WaterSurface& surface, const terrain::HeightGrid* terrain,
                          const MapView& view) {
   const MapFields map = sample_map(surface, terrain, view);
   const MapScale scale = scale_of(map);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "ocean/spectrum.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 #include "texture/image.h"
 
 namespace swell::apps {
@@ -27,12 +27,12 @@ struct MapView {
 // The surface from straight above, north up: crests and lit slopes white, troughs and shadows black
 // (all of the scale belongs to the map: a ripple looks like a storm), greener where it is shallow,
 // with lines at depths of 1, 2, 4, 8, ... m; land is sand.
-texture::Image8 draw_map(const scene::WaterSurface& surface, const scene::Terrain* terrain,
+texture::Image8 draw_map(const scene::WaterSurface& surface, const terrain::HeightGrid* terrain,
                          const MapView& view);
 
 // An SVG picture of surface and floor along the straight line between two different points, heights
 // exaggerated as it says; `title` (any text) goes before that.
-std::string draw_section(const scene::WaterSurface& surface, const scene::Terrain* terrain,
+std::string draw_section(const scene::WaterSurface& surface, const terrain::HeightGrid* terrain,
                          glm::dvec2 from_m, glm::dvec2 to_m, const std::string& title);
 
 }  // namespace swell::apps

@@ -19,7 +19,7 @@ struct Profile {
   std::vector<float> surface_m, ground_m;  // no ground: the sea is deep
 };
 
-Profile sample_profile(const scene::WaterSurface& surface, const scene::Terrain* terrain,
+Profile sample_profile(const scene::WaterSurface& surface, const terrain::HeightGrid* terrain,
                        glm::dvec2 from_m, glm::dvec2 to_m) {
   Profile profile{glm::distance(from_m, to_m), std::vector<float>(kSamples), {}};
   std::vector<glm::dvec2> p_world;
@@ -28,7 +28,7 @@ Profile sample_profile(const scene::WaterSurface& surface, const scene::Terrain*
   surface.heights(p_world, profile.surface_m);
   if (!terrain) return profile;
   profile.ground_m.resize(kSamples);
-  scene::sample_heights(*terrain, p_world, profile.ground_m);
+  terrain::sample_heights(*terrain, p_world, profile.ground_m);
   return profile;
 }
 
@@ -116,7 +116,7 @@ std::string tick_lines(const Axes& axes) {
 
 }  // namespace
 
-std::string draw_section(const scene::WaterSurface& surface, const scene::Terrain* terrain,
+std::string draw_section(const scene::WaterSurface& surface, const terrain::HeightGrid* terrain,
                          glm::dvec2 from_m, glm::dvec2 to_m, const std::string& title) {
   const Profile profile = sample_profile(surface, terrain, from_m, to_m);
   const Axes axes = make_axes(profile);

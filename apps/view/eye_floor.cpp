@@ -17,7 +17,7 @@ double eye_floor_m(const render::World& world, glm::dvec3 eye_m, double t_s, oce
   }
   if (w.terrain) {
     float ground_m = 0.0f;
-    scene::sample_heights(*w.terrain, {&p, 1}, {&ground_m, 1});
+    terrain::sample_heights(*w.terrain, {&p, 1}, {&ground_m, 1});
     top_m = std::max(top_m, static_cast<double>(ground_m));
   }
   return top_m + kEyeClearance_m;

@@ -27,15 +27,15 @@ Swash make_swash(const ocean::TrainSea& trains, double t_s, glm::dvec2 eye) {
 
 void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
   if (!in.world.terrain) return;
-  const scene::Terrain& land = *in.world.terrain;
+  const terrain::HeightGrid& land = *in.world.terrain;
   const TerrainMaps& maps = *in.world.terrain_maps;
-  const glm::dvec2 eye(view.camera.eye_world), from_corner = eye - land.min_world;
-  terrain.slopes = make_square_layer(maps.slopes, land.size_m(), from_corner);
+  const glm::dvec2 eye(view.camera.eye_world), from_corner = eye - land.grid.min_world;
+  terrain.slopes = make_square_layer(maps.slopes, land.grid.size_m(), from_corner);
   const float detail_gain =
       0.11f / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
   terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});
   terrain.albedo = &maps.albedo;
-  const double texels_per_m = maps.albedo.width / land.size_m();
+  const double texels_per_m = maps.albedo.width / land.grid.size_m();
   terrain.albedo_texels_per_m = static_cast<float>(texels_per_m);
   // Texel centres lie at +0.5, the terrain's samples on the lattice.
   terrain.albedo_x_eye = static_cast<float>(from_corner.x * texels_per_m + 0.5);

@@ -67,8 +67,8 @@ void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
 void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   water.has_coast = in.world.coast != nullptr;
   if (!water.has_coast) return;
-  const ocean::FloorGrid& grid = in.world.coast->trains.grid;
-  const double size_m = grid.spacing_m * (grid.samples_x - 1);
+  const terrain::Grid& grid = in.world.coast->trains.grid;
+  const double size_m = grid.size_m();
   const glm::dvec2 from_corner = eye - grid.min_world;
   water.coast_slopes = make_square_layer(in.sea.coast_slopes, size_m, from_corner);
   water.coast_surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);

@@ -53,7 +53,7 @@ void raise(const WindowEdge& edge, std::span<double> y_px) {
 struct Skyline {
   glm::dvec3 waves, flat;
 };
-Skyline skyline_along(const View& view, const scene::WaterSurface& surface, glm::dvec2 direction) {
+Skyline skyline_along(const View& view, const ocean::WaterSurface& surface, glm::dvec2 direction) {
   constexpr std::size_t kChunk = 256;
   const glm::dvec2 eye(view.eye_world);
   const glm::dvec3 horizon(eye + kLast_m * direction, view.eye_world.z);
@@ -79,7 +79,7 @@ Skyline skyline_along(const View& view, const scene::WaterSurface& surface, glm:
   return result;
 }
 
-void find_skyline(const scene::WaterSurface& surface, SeaReference& sea, Workers& workers) {
+void find_skyline(const ocean::WaterSurface& surface, SeaReference& sea, Workers& workers) {
   // Rays through the columns, and one column more on either side.
   const View& view = sea.view;
   const glm::dvec2 right = glm::normalize(glm::dvec2(view.right));
@@ -140,8 +140,8 @@ double height_at(const std::array<glm::dvec3, 3>& v, glm::dvec2 p) {
 
 }  // namespace
 
-SeaReference look_at_sea(const View& view, const scene::WaterSurface& surface,
-                         const scene::SeaArea& area, int pixel_step, Workers& workers) {
+SeaReference look_at_sea(const View& view, const ocean::WaterSurface& surface,
+                         const ocean::SeaArea& area, int pixel_step, Workers& workers) {
   SWELL_CHECK(view.eye_world.z > 0.0 && view.right.z == 0.0f, "eye z={} right z={}",
               view.eye_world.z, view.right.z);
   SWELL_CHECK(pixel_step >= 1, "pixel_step={}", pixel_step);
@@ -170,11 +170,9 @@ MeshError measure_mesh_error(const SeaReference& sea, const lod::Domain& domain,
   SWELL_CHECK(height_m.size() == mesh.lattice.size(), "{} heights, {} vertices", height_m.size(),
               mesh.lattice.size());
   const View& view = sea.view;
-  const double spacing_m = std::ldexp(domain.size_m, -domain.lattice_bits);
   std::vector<glm::dvec2> vertices;
   vertices.reserve(mesh.lattice.size());
-  for (const glm::ivec2& p : mesh.lattice)
-    vertices.push_back(domain.min_world + spacing_m * glm::dvec2(p));
+  for (const glm::ivec2& p : mesh.lattice) vertices.push_back(domain.point(p));
   const auto corner = [&](std::size_t index) {
     const std::uint32_t v = mesh.indices[index];
     return glm::dvec3(vertices[v], height_m[v]);

@@ -12,7 +12,7 @@
 #include "lod/roam.h"
 #include "math/parallel.h"
 #include "math/view.h"
-#include "scene/water_surface.h"
+#include "ocean/water_surface.h"
 
 namespace swell::render {
 
@@ -29,8 +29,8 @@ struct SeaReference {
 // Looks at places of every pixel_step-th pixel of each row and column that lie inside `area`, and
 // at the surface from 1 m to 32 km in steps of 1/1000 of the distance, at least 0.25 m. The eye is
 // above the mean level and the view's right is level. About 1 s a thread for 1280 x 720.
-SeaReference look_at_sea(const View& view, const scene::WaterSurface& surface,
-                         const scene::SeaArea& area, int pixel_step, Workers& workers);
+SeaReference look_at_sea(const View& view, const ocean::WaterSurface& surface,
+                         const ocean::SeaArea& area, int pixel_step, Workers& workers);
 
 struct MeshError {
   std::vector<double> height_px;      // one each place of the reference that the mesh holds

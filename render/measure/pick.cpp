@@ -6,9 +6,9 @@
 #include "lod/mesh_query.h"
 #include "math/check.h"
 #include "math/ray_triangle.h"
+#include "ocean/water_surface.h"
 #include "render/workspace.h"
 #include "scene/object_ray.h"
-#include "scene/water_surface.h"
 
 namespace swell::render {
 namespace {
@@ -51,7 +51,7 @@ void meet_objects(std::span<const scene::FloatingObject> objects, const ObjectGe
 }
 
 void ask_water(const World::State& world, const ocean::SeaFrame& sea, Pick& pick) {
-  const scene::WaterSurface water = water_surface(world, sea);
+  const ocean::WaterSurface water = water_surface(world, sea);
   const glm::dvec2 p(pick.p_world);
   glm::vec2 slope;
   water.slopes({&p, 1}, {&slope, 1});
@@ -60,13 +60,13 @@ void ask_water(const World::State& world, const ocean::SeaFrame& sea, Pick& pick
 }
 
 // The slope by a difference over one sample.
-void ask_land(const scene::Terrain& terrain, Pick& pick) {
-  const glm::dvec2 p(pick.p_world), dx(0.5 * terrain.spacing_m, 0.0), dy(0.0, dx.x);
+void ask_land(const terrain::HeightGrid& terrain, Pick& pick) {
+  const glm::dvec2 p(pick.p_world), dx(0.5 * terrain.grid.spacing_m, 0.0), dy(0.0, dx.x);
   const std::array<glm::dvec2, 5> at = {p, p + dx, p - dx, p + dy, p - dy};
   std::array<float, 5> z;
-  scene::sample_heights(terrain, at, z);
+  terrain::sample_heights(terrain, at, z);
   pick.model_height_m = static_cast<double>(z[0]);
-  pick.slope = glm::dvec2(z[1] - z[2], z[3] - z[4]) / terrain.spacing_m;
+  pick.slope = glm::dvec2(z[1] - z[2], z[3] - z[4]) / terrain.grid.spacing_m;
 }
 
 }  // namespace

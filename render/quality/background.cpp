@@ -37,7 +37,7 @@ int Background::detail_at(glm::vec2 offset_m) const {
   return detail;
 }
 
-void background_heights(const Background& background, const scene::WaterSurface& surface,
+void background_heights(const Background& background, const ocean::WaterSurface& surface,
                         std::span<const glm::dvec2> p_world, std::span<const glm::vec2> offset_m,
                         std::span<float> height_m) {
   SWELL_CHECK(p_world.size() <= kMostVertices && offset_m.size() == p_world.size() &&

@@ -17,7 +17,7 @@
 
 #include "math/view.h"
 #include "ocean/sea.h"
-#include "scene/water_surface.h"
+#include "ocean/water_surface.h"
 
 namespace swell::render {
 
@@ -42,7 +42,7 @@ class Background {
 // Heights of vertices as WaterSurface::heights() has them, but for what the background leaves
 // out. Spans of one length, at most 2048; `offset_m` are the places of p_world relative to the
 // eye. Allocates nothing.
-void background_heights(const Background& background, const scene::WaterSurface& surface,
+void background_heights(const Background& background, const ocean::WaterSurface& surface,
                         std::span<const glm::dvec2> p_world, std::span<const glm::vec2> offset_m,
                         std::span<float> height_m);
 

@@ -12,11 +12,10 @@ constexpr std::size_t kChunk = 2048;  // vertices a task
 
 // Positions of the mesh's vertices relative to the eye.
 void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::dvec2 eye) {
-  const lod::Domain& domain = surface.domain;
-  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
-  const glm::dvec2 corner = domain.min_world - eye;
+  lod::Domain from_eye = surface.domain;
+  from_eye.min_world -= eye;
   for (std::size_t i = begin; i < end; ++i)
-    surface.offset[i] = glm::vec2(corner + spacing * glm::dvec2(surface.mesh.lattice[i]));
+    surface.offset[i] = glm::vec2(from_eye.point(surface.mesh.lattice[i]));
 }
 
 // What all vertices of the water are displaced by.
@@ -36,7 +35,7 @@ void displace_water(const WaterHeights& in, std::size_t begin, std::size_t end, 
   for (std::size_t i = 0; i < count; ++i) places[i] = vertex_world(water, begin + i);
   const auto p_world = std::span(places).first(count);
   const auto height_m = std::span(water.height_m).subspan(begin, count);
-  const scene::WaterSurface surface = water_surface(in.world, in.sea);
+  const ocean::WaterSurface surface = water_surface(in.world, in.sea);
   if (in.world.scene.detail.triangulation == scene::Triangulation::kPlane)
     std::ranges::fill(height_m, 0.0f);
   else if (in.background_error_px > 0.0f)
@@ -47,13 +46,13 @@ void displace_water(const WaterHeights& in, std::size_t begin, std::size_t end, 
     surface.heights(p_world, height_m);
 }
 
-void displace_land(const scene::Terrain& terrain, glm::dvec2 eye, std::size_t begin,
+void displace_land(const terrain::HeightGrid& terrain, glm::dvec2 eye, std::size_t begin,
                    std::size_t end, Surface& land) {
   place_vertices(land, begin, end, eye);
   const std::size_t count = end - begin;
   std::array<glm::dvec2, kChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(land.offset[begin + i]);
-  scene::sample_heights(terrain, std::span(p).first(count),
+  terrain::sample_heights(terrain, std::span(p).first(count),
                         std::span(land.height_m).subspan(begin, count));
 }
 
@@ -75,9 +74,7 @@ void displace_in_chunks(SurfaceKind kind, Surface& surface, const Meshes& meshes
 }  // namespace
 
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
-  const lod::Domain& domain = surface.domain;
-  const double spacing = domain.size_m / static_cast<double>(1 << domain.lattice_bits);
-  return domain.min_world + spacing * glm::dvec2(surface.mesh.lattice[vertex]);
+  return surface.domain.point(surface.mesh.lattice[vertex]);
 }
 
 void displace(const World::State& world, const SeaMaps& sea, const View& view,

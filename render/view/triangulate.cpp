@@ -23,9 +23,10 @@ lod::Domain sea_domain(const View& view, int budget) {
   return {cell - 0.5 * kSeaSize_m, kSeaSize_m, sea_lattice_bits(budget)};
 }
 
-lod::Domain land_domain(const scene::Terrain& terrain) {
-  const auto cells = static_cast<unsigned>(std::max(terrain.samples - 1, 2));
-  return {terrain.min_world, terrain.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
+lod::Domain land_domain(const terrain::HeightGrid& terrain) {
+  const auto cells = static_cast<unsigned>(std::max(terrain.grid.samples_x - 1, 2));
+  return {terrain.grid.min_world, terrain.grid.size_m(),
+          std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
 }
 
 lod::PriorityFactors priority_factors(const scene::Scene& scene) {
@@ -126,7 +127,7 @@ void clear_surface(Surface& surface) {
 
 void triangulate_land(const Wanted& wanted, Surface& land) {
   if (!wanted.world.terrain) return clear_surface(land);
-  const scene::Terrain& terrain = *wanted.world.terrain;
+  const terrain::HeightGrid& terrain = *wanted.world.terrain;
   lod::AdaptRequest request =
       request_for(wanted, wanted.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);
   request.relief = wanted.world.relief_bounds.get();

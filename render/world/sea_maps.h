@@ -26,7 +26,7 @@ struct SeaMaps {
 void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const StageRun& run);
 
 // The water's surface at the time of `sea`, of the same world.
-inline scene::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {
+inline ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {
   return water_surface(world, sea.frame);
 }
 

@@ -4,11 +4,12 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "render/tile/shade_tile.h"
+#include "math/smoothstep.h"
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
 #include "scene/sky.h"
+#include "scene/terrain.h"
 #include "texture/foam_pattern.h"
 #include "texture/normal_map.h"
 #include "texture/perlin.h"
@@ -115,23 +116,19 @@ texture::PackedMap2 build_bump_map(std::uint64_t seed) {
 // Reflectance of the ground by height, steepness and noise: sand, then scrub and forest, rock
 // where it is steep, grey-green growth in deeper water.
 glm::vec3 ground_albedo(float height_m, float steepness, float noise, float clumps) {
-  const auto blend = [](float low, float high, float x) {
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-  };
   const glm::vec3 sand =
       glm::mix(glm::vec3(0.58f, 0.50f, 0.36f), glm::vec3(0.68f, 0.61f, 0.47f), 0.5f + 0.5f * noise);
   const glm::vec3 wet_sand = sand * 0.62f;
   const glm::vec3 green =
       glm::mix(glm::vec3(0.035f, 0.075f, 0.020f), glm::vec3(0.14f, 0.18f, 0.05f),
-               blend(-0.35f, 0.45f, clumps + 0.3f * noise));
+               smoothstep(-0.35f, 0.45f, clumps + 0.3f * noise));
   const glm::vec3 rock =
       glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.34f, 0.31f, 0.27f), 0.5f + 0.5f * noise);
   const glm::vec3 reef(0.16f, 0.19f, 0.13f);
-  glm::vec3 c = glm::mix(wet_sand, sand, blend(0.1f, 0.7f, height_m));
-  c = glm::mix(c, green, blend(1.8f, 4.0f, height_m + 1.5f * noise));
-  c = glm::mix(c, rock, blend(0.55f, 0.9f, steepness + 0.15f * noise));
-  if (height_m < -0.5f) c = glm::mix(sand, reef, 0.75f * blend(0.15f, 0.5f, noise));
+  glm::vec3 c = glm::mix(wet_sand, sand, smoothstep(0.1f, 0.7f, height_m));
+  c = glm::mix(c, green, smoothstep(1.8f, 4.0f, height_m + 1.5f * noise));
+  c = glm::mix(c, rock, smoothstep(0.55f, 0.9f, steepness + 0.15f * noise));
+  if (height_m < -0.5f) c = glm::mix(sand, reef, 0.75f * smoothstep(0.15f, 0.5f, noise));
   return c;
 }
 
@@ -143,16 +140,11 @@ SkyMaps build_sky_maps(const scene::Sky& sky) {
           build_sky_map(sky, clouds, kSoftSkySize, kSoftSkyBlur), ambient_radiance(sky, clouds)};
 }
 
-TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed) {
+TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t seed) {
   constexpr int n = kTerrainMapSize;
-  const double step = terrain.size_m() / n;
-  std::vector<glm::dvec2> p(n);
-  std::vector<float> row(n), height(static_cast<std::size_t>(n) * n);
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) p[i] = terrain.min_world + step * glm::dvec2(i, j);
-    scene::sample_heights(terrain, p, row);
-    std::copy(row.begin(), row.end(), height.begin() + static_cast<std::ptrdiff_t>(j) * n);
-  }
+  const double step = terrain.grid.size_m() / n;
+  const std::vector<float> height =
+      terrain::resample(terrain, {terrain.grid.min_world, step, n, n}).height_m;
   const auto at = [&](int i, int j) {
     return height[static_cast<std::size_t>(std::clamp(j, 0, n - 1)) * n + std::clamp(i, 0, n - 1)];
   };
@@ -186,11 +178,11 @@ namespace {
 // The part that the sea's own waves give up to the trains.
 std::vector<float> build_coast_share(const ocean::CoastSea& coast) {
   constexpr int n = kCoastMapSize;
-  const ocean::FloorGrid& grid = coast.trains.grid;
-  const double step = grid.spacing_m * (grid.samples_x - 1) / n;
+  const terrain::Grid& floor = coast.trains.grid;
+  const terrain::Grid grid{floor.min_world, floor.size_m() / n, n, n};
   std::vector<glm::dvec2> p;
   for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) p.push_back(grid.min_world + step * glm::dvec2(i, j));
+    for (int i = 0; i < n; ++i) p.push_back(grid.point(i, j));
   std::vector<float> share(p.size());
   ocean::sample_coast_share(coast, p, share);
   for (float& x : share) x = 1.0f - ocean::spectrum_weight(x);
@@ -233,7 +225,7 @@ void add_bump(const World::State* like, World::State& state) {
 
 void add_terrain(const World::State* like, World::State& state) {
   if (!state.scene.terrain) return;
-  state.terrain = like ? like->terrain : share(scene::build_terrain(*state.scene.terrain));
+  state.terrain = like ? like->terrain : share(*scene::build_terrain(state.scene));
   state.terrain_maps = like ? like->terrain_maps
                             : share(build_terrain_maps(*state.terrain, state.scene.terrain->seed));
 }
@@ -252,11 +244,11 @@ void add_coast(const World::State* like, bool same_coast, int threads, World::St
 
 void add_relief_bounds(const World::State* like, World::State& state) {
   if (!state.terrain || !state.scene.detail.normals_count()) return;
-  const scene::Terrain& terrain = *state.terrain;
-  state.relief_bounds =
-      like && like->relief_bounds
-          ? like->relief_bounds
-          : share(lod::ReliefBounds(terrain.height_m, terrain.samples, terrain.spacing_m));
+  const terrain::HeightGrid& terrain = *state.terrain;
+  state.relief_bounds = like && like->relief_bounds
+                            ? like->relief_bounds
+                            : share(lod::ReliefBounds(terrain.height_m, terrain.grid.samples_x,
+                                                      terrain.grid.spacing_m));
 }
 
 // like: may be null.

@@ -11,11 +11,11 @@
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
 #include "ocean/sea.h"
+#include "ocean/water_surface.h"
 #include "render/frame.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
-#include "scene/terrain.h"
-#include "scene/water_surface.h"
+#include "terrain/height_grid.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
@@ -61,7 +61,7 @@ struct World::State {
   std::shared_ptr<const ocean::CoastSea> coast = {};  // none: no wave trains
   std::shared_ptr<const CoastMaps> coast_maps = {};   // there is one if there is a coast
   std::shared_ptr<const SkyMaps> sky = {};
-  std::shared_ptr<const scene::Terrain> terrain = {};  // none: deep water everywhere
+  std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain, if they count
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
@@ -70,25 +70,16 @@ struct World::State {
   ObjectMeshes objects = {};
   std::vector<lod::Focus> focuses = {};  // where it does
 
-  // |z| of the surface is at most this in practice.
-  float height_bound_m() const {
-    return static_cast<float>(sea->height_bound_m()) +
-           (coast ? coast->trains.height_bound_m : 0.0f);
-  }
-  // |dz/dx| and |dz/dy| are at most this in practice.
-  float slope_bound() const {
-    return static_cast<float>(sea->slope_bound()) + (coast ? coast->slope_bound() : 0.0f);
-  }
-  // 0 without waves. The trains of a coast are of the spectrum's length, if there is one.
-  double mean_wavelength_m() const {
-    const double sea_m = sea->mean_wavelength_m();
-    return sea_m == 0.0 && coast ? static_cast<double>(coast->peak_wavelength_m) : sea_m;
-  }
+  ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
+  ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
+  float height_bound_m() const { return water_bounds().height_m; }
+  float slope_bound() const { return water_bounds().slope; }
+  double mean_wavelength_m() const { return water_bounds().mean_wavelength_m; }
 };
 
 // The water's surface at the time of `sea`, a frame of the world's sea.
-inline scene::WaterSurface water_surface(const World::State& world, const ocean::SeaFrame& sea) {
-  return {*world.sea, sea, world.scene.area, world.terrain.get(), world.coast.get()};
+inline ocean::WaterSurface water_surface(const World::State& world, const ocean::SeaFrame& sea) {
+  return {world.water(), sea};
 }
 
 // Points a side of the maps that lie over a coast's square.
@@ -97,6 +88,6 @@ inline constexpr int kCoastMapSize = 256;
 SkyMaps build_sky_maps(const scene::Sky& sky);
 ObjectMeshes build_object_meshes(std::span<const scene::FloatingObject> objects);
 std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> objects);
-TerrainMaps build_terrain_maps(const scene::Terrain& terrain, std::uint64_t seed);
+TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t seed);
 
 }  // namespace swell::render

@@ -11,7 +11,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log"
 include=$scratch/prefix/include/swell
 
-for header in render/frame.h scene/water_surface.h; do
+for header in render/frame.h scene/water.h; do
   [ -f "$include/$header" ] || { echo "missing: $header"; exit 1; }
 done
 

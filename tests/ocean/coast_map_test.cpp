@@ -15,9 +15,9 @@ constexpr double kStep_m = 1200.0 / kSize;  // between the map's points
 constexpr glm::dvec2 kCorner{-600.0, -300.0};
 
 // A beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
-SeaFloor beach() {
-  const FloorGrid grid{kCorner, 10.0, 121, 121};
-  return make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
+terrain::HeightGrid beach() {
+  const terrain::Grid grid{kCorner, 10.0, 121, 121};
+  return terrain::make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
 }
 
 CoastSea make_coast(double wind_mps, int trains, int threads = 2) {
@@ -128,12 +128,12 @@ TEST(CoastMap, FoamFollowsTheCrestOfASingleTrain) {
 
 TEST(CoastMap, SurfBeginsAtThreeFifthsOfTheLimit) {
   // The limit of 2 m of depth: 0.39 x 2 m.
-  EXPECT_EQ(surf_share(0.59 * 0.78, 2.0), 0.0);
-  EXPECT_NEAR(surf_share(0.8 * 0.78, 2.0), 0.5, 1e-12);
-  EXPECT_EQ(surf_share(0.78, 2.0), 1.0);
-  EXPECT_EQ(surf_share(5.0, 2.0), 1.0);
-  EXPECT_EQ(surf_share(1.0, 0.0), 0.0);
-  EXPECT_EQ(surf_share(1.0, -3.0), 0.0);
+  EXPECT_EQ(breaking_part(0.59 * 0.78, 2.0), 0.0);
+  EXPECT_NEAR(breaking_part(0.8 * 0.78, 2.0), 0.5, 1e-12);
+  EXPECT_EQ(breaking_part(0.78, 2.0), 1.0);
+  EXPECT_EQ(breaking_part(5.0, 2.0), 1.0);
+  EXPECT_EQ(breaking_part(1.0, 0.0), 0.0);
+  EXPECT_EQ(breaking_part(1.0, -3.0), 0.0);
 }
 
 TEST(CoastMap, ThreadsChangeNoBit) {

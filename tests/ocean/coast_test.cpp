@@ -12,9 +12,9 @@ namespace swell::ocean {
 namespace {
 
 // A beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
-SeaFloor beach() {
-  const FloorGrid grid{{-600.0, -300.0}, 5.0, 241, 241};
-  return make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
+terrain::HeightGrid beach() {
+  const terrain::Grid grid{{-600.0, -300.0}, 5.0, 241, 241};
+  return terrain::make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
 }
 
 CoastSea make_coast(double wind_mps, bool blend, int threads = 2) {

@@ -29,14 +29,15 @@ double bisected_wave_number(double period_s, double depth_m) {
   return low;
 }
 
-TrainSea make_sea(const SeaFloor& floor, const std::vector<WaveTrain>& trains) {
+TrainSea make_sea(const terrain::HeightGrid& floor, const std::vector<WaveTrain>& trains) {
   Workers workers(1);
   return make_train_sea(floor, trains, PhaseMethod::kEikonal, workers);
 }
 
 TrainSea flat_sea(double depth_m, const WaveTrain& train) {
-  return make_sea(make_sea_floor({{0.0, 0.0}, 5.0, 101, 61}, [=](glm::dvec2) { return depth_m; }),
-                  {train});
+  return make_sea(
+      terrain::make_sea_floor({{0.0, 0.0}, 5.0, 101, 61}, [=](glm::dvec2) { return depth_m; }),
+      {train});
 }
 
 glm::dvec3 velocity_at(const TrainSea& sea, double t_s, glm::dvec2 p) {
@@ -95,10 +96,11 @@ TEST(TrainVelocity, ShallowWaterMovesAlikeAtAllDepths) {
 
 // A bumpy floor with an island and six trains.
 TrainSea bumpy_sea() {
-  const SeaFloor floor = make_sea_floor({{-100.0, 50.0}, 4.0, 90, 70}, [](glm::dvec2 p) {
-    return 9.0 + 6.0 * std::sin(0.02 * p.x) * std::cos(0.017 * p.y) -
-           15.0 * std::exp(-1e-3 * std::pow(glm::length(p - glm::dvec2(100.0, 200.0)), 2));
-  });
+  const terrain::HeightGrid floor =
+      terrain::make_sea_floor({{-100.0, 50.0}, 4.0, 90, 70}, [](glm::dvec2 p) {
+        return 9.0 + 6.0 * std::sin(0.02 * p.x) * std::cos(0.017 * p.y) -
+               15.0 * std::exp(-1e-3 * std::pow(glm::length(p - glm::dvec2(100.0, 200.0)), 2));
+      });
   return make_sea(floor, make_trains(make_wind_sea(7.0, 4.0, kG), 6, 11));
 }
 
@@ -120,8 +122,9 @@ TEST(TrainVelocity, TheUpwardPartIsTheRateOfTheHeights) {
 // the depth = u(0) tanh(kh) / k. On a slope linear theory is right to first order: to the
 // slope over kh (measured: 0.3 % at 25 m, 4.3 % at 2 m).
 TEST(TrainVelocity, NoWaterIsLostOnABeach) {
-  const FloorGrid grid{{0.0, 0.0}, 5.0, 311, 5};
-  const SeaFloor floor = make_plane_beach(grid, {{{1500.0, 0.0}, {1500.0, 1.0}}, 0.02, 100.0});
+  const terrain::Grid grid{{0.0, 0.0}, 5.0, 311, 5};
+  const terrain::HeightGrid floor =
+      terrain::make_plane_beach(grid, {{{1500.0, 0.0}, {1500.0, 1.0}}, 0.02, 100.0});
   const TrainSea sea = make_sea(floor, {{0.01, 8.0, {1.0, 0.0}}});
   const auto flow = [&](double t_s, double x) {
     const double depth_m = 0.02 * (1500.0 - x), k = bisected_wave_number(8.0, depth_m);
@@ -174,8 +177,9 @@ TEST(TrainVelocity, AnyBatchAndAnyThreadGivesTheSameBits) {
 
 TEST(CoastVelocity, IsTheTrainsVelocityTimesTheirShare) {
   Workers workers(2);
-  const FloorGrid grid{{-600.0, -300.0}, 10.0, 121, 121};
-  const SeaFloor floor = make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
+  const terrain::Grid grid{{-600.0, -300.0}, 10.0, 121, 121};
+  const terrain::HeightGrid floor =
+      terrain::make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
   const CoastSea coast = make_coast_sea(floor, make_wind_sea(9.0, 0.3, kG), 4, 1,
                                         PhaseMethod::kEikonal, true, workers);
   const auto points = random_points(1000, {-800.0, -500.0}, {1600.0, 1600.0});

@@ -152,7 +152,7 @@ class Dice {
 // Waves into a grid of any shape through two of its borders, or from some samples inside; many
 // samples have the same slowness, so that arrivals tie; up to half of all are obstacles.
 EikonalProblem random_problem(Dice& dice) {
-  const FloorGrid grid{
+  const terrain::Grid grid{
       {0.0, 0.0}, 0.5 + 3.0 * dice.uniform(), 1 + dice.below(40), 1 + dice.below(40)};
   EikonalProblem problem{grid, {}, {}, {}};
   const double obstacles = dice.below(2) * 0.5 * dice.uniform();

@@ -26,20 +26,20 @@ glm::dvec2 unit(double angle_deg) {
   return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
 }
 
-TrainSea make_sea(const SeaFloor& floor, const std::vector<WaveTrain>& trains,
+TrainSea make_sea(const terrain::HeightGrid& floor, const std::vector<WaveTrain>& trains,
                   PhaseMethod method = PhaseMethod::kEikonal) {
   Workers workers(1);
   return make_train_sea(floor, trains, method, workers);
 }
 
-SeaFloor flat_floor(double depth_m) {
-  return make_sea_floor({{0.0, 0.0}, 5.0, 201, 21}, [=](glm::dvec2) { return depth_m; });
+terrain::HeightGrid flat_floor(double depth_m) {
+  return terrain::make_sea_floor({{0.0, 0.0}, 5.0, 201, 21}, [=](glm::dvec2) { return depth_m; });
 }
 
 // 1:50, 60 m deep at x = 0, the coast at x = 3000.
-SeaFloor west_beach(double width_m) {
-  const FloorGrid grid{{0.0, 0.0}, 5.0, 611, static_cast<int>(width_m / 5.0) + 1};
-  return make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
+terrain::HeightGrid west_beach(double width_m) {
+  const terrain::Grid grid{{0.0, 0.0}, 5.0, 611, static_cast<int>(width_m / 5.0) + 1};
+  return terrain::make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
 }
 
 double height_at(const TrainSea& sea, double t_s, glm::dvec2 p) {
@@ -65,7 +65,7 @@ double find_maximum(double low, double high, F f) {
 }
 
 TEST(TrainSea, IsAPlaneCosineInDeepWater) {
-  const SeaFloor floor = flat_floor(3000.0);
+  const terrain::HeightGrid floor = flat_floor(3000.0);
   const WaveTrain train{1.5, 6.0, unit(33.0), 0.4};
   const TrainSea sea = make_sea(floor, {train});
   const double k = std::pow(kTwoPiRef / 6.0, 2) / kG;
@@ -168,8 +168,9 @@ TEST(TrainSea, ShowsCrestsInTheDirectionOfSnellsLaw) {
 
 // PHY-12: H ~ h^(-1/4) where kh < 0.2, measured on the surface: from crest to trough.
 TEST(TrainSea, GrowsByGreensLawTowardsTheShore) {
-  const FloorGrid grid{{0.0, 0.0}, 1.0, 3001, 2};
-  const SeaFloor floor = make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
+  const terrain::Grid grid{{0.0, 0.0}, 1.0, 3001, 2};
+  const terrain::HeightGrid floor =
+      terrain::make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
   const TrainSea sea = make_sea(floor, {{1e-3, 12.0, {1.0, 0.0}}});
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (double depth_m = 0.1; depth_m < 1.4; depth_m += 0.1) {  // kh 0.05 to 0.2
@@ -187,7 +188,7 @@ TEST(TrainSea, GrowsByGreensLawTowardsTheShore) {
 
 // PHY-13.
 TEST(TrainSea, NeverStandsHigherThanTheDepthAllows) {
-  const SeaFloor floor = west_beach(60.0);
+  const terrain::HeightGrid floor = west_beach(60.0);
   const TrainSea sea = make_sea(floor, {{1.0, 10.0, unit(10.0)}, {0.7, 7.0, unit(-20.0), 0.3}});
   float highest = 0.0f;
   for (int i = 0; i < 611; ++i) {
@@ -203,8 +204,8 @@ TEST(TrainSea, NeverStandsHigherThanTheDepthAllows) {
 }
 
 // A bumpy floor with an island and six trains.
-SeaFloor bumpy_floor() {
-  return make_sea_floor({{-100.0, 50.0}, 4.0, 90, 70}, [](glm::dvec2 p) {
+terrain::HeightGrid bumpy_floor() {
+  return terrain::make_sea_floor({{-100.0, 50.0}, 4.0, 90, 70}, [](glm::dvec2 p) {
     return 9.0 + 6.0 * std::sin(0.02 * p.x) * std::cos(0.017 * p.y) -
            15.0 * std::exp(-1e-3 * std::pow(glm::length(p - glm::dvec2(100.0, 200.0)), 2));
   });
@@ -215,9 +216,9 @@ std::vector<WaveTrain> six_trains() { return make_trains(make_wind_sea(7.0, 4.0,
 // The bound holds at every place and time, and is not far from what there is.
 TEST(TrainSea, IsNoSteeperThanItsBound) {
   for (const bool is_beach : {false, true}) {
-    const SeaFloor floor = is_beach ? west_beach(60.0) : bumpy_floor();
+    const terrain::HeightGrid floor = is_beach ? west_beach(60.0) : bumpy_floor();
     const TrainSea sea = make_sea(floor, six_trains());
-    const FloorGrid& grid = floor.grid;
+    const terrain::Grid& grid = floor.grid;
     const glm::dvec2 size = grid.spacing_m * glm::dvec2(grid.samples_x - 1, grid.samples_y - 1);
     std::vector<glm::dvec2> p(20000);
     std::vector<float> z(p.size()), slope_x(p.size()), slope_y(p.size());
@@ -238,7 +239,7 @@ TEST(TrainSea, IsNoSteeperThanItsBound) {
 // The sum of the trains as the header words it, in double, from the same phases.
 class Reference {
  public:
-  Reference(const SeaFloor& floor, const std::vector<WaveTrain>& trains)
+  Reference(const terrain::HeightGrid& floor, const std::vector<WaveTrain>& trains)
       : floor_(floor), trains_(trains) {
     for (const WaveTrain& train : trains) {
       phases_.push_back(make_wave_phase(floor, train, PhaseMethod::kEikonal));
@@ -246,7 +247,7 @@ class Reference {
   }
 
   double height(double t_s, glm::dvec2 p) const {
-    const FloorGrid& grid = floor_.grid;
+    const terrain::Grid& grid = floor_.grid;
     const glm::dvec2 u = (p - grid.min_world) / grid.spacing_m;
     const int i = static_cast<int>(u.x), j = static_cast<int>(u.y);
     const double fx = u.x - i, fy = u.y - j;
@@ -256,7 +257,7 @@ class Reference {
              (1 - fx) * fy * value(grid.index(i, j + 1)) +
              fx * fy * value(grid.index(i + 1, j + 1));
     };
-    const double h = bilinear([&](std::size_t n) { return double{floor_.depth_m[n]}; });
+    const double h = bilinear([&](std::size_t n) { return depth_of_sample(floor_, n); });
     double z = 0.0;
     for (std::size_t t = 0; t < trains_.size(); ++t) {
       const double theta = bilinear([&](std::size_t n) { return phases_[t].cycles[n]; });
@@ -272,7 +273,7 @@ class Reference {
     for (std::size_t s = 0; s < trains_.size(); ++s) {
       sum += trains_[s].amplitude_m * double{phases_[s].amplitude[n]};
     }
-    const double most = std::max(0.39 * double{floor_.depth_m[n]}, 0.0);
+    const double most = std::max(0.39 * depth_of_sample(floor_, n), 0.0);
     const double a = trains_[t].amplitude_m * double{phases_[t].amplitude[n]};
     return sum > most ? a * most / sum : a;
   }
@@ -287,7 +288,7 @@ class Reference {
     return (1 - b) * std::cos(kTwoPiRef * u) + b * (8 * (u - 0.5) * (u - 0.5) - 1);
   }
 
-  const SeaFloor& floor_;
+  const terrain::HeightGrid& floor_;
   const std::vector<WaveTrain>& trains_;
   std::vector<WavePhase> phases_;
 };
@@ -314,7 +315,7 @@ Samples sample(const TrainSea& sea, double t_s, const std::vector<glm::dvec2>& p
 }
 
 TEST(TrainSea, IsTheSumOfItsTrains) {
-  const SeaFloor floor = bumpy_floor();
+  const terrain::HeightGrid floor = bumpy_floor();
   const std::vector<WaveTrain> trains = six_trains();
   const Reference reference(floor, trains);
   const TrainSea sea = make_sea(floor, trains);
@@ -329,7 +330,7 @@ TEST(TrainSea, IsTheSumOfItsTrains) {
 }
 
 TEST(TrainSea, HasTheSlopesOfItsHeights) {
-  const SeaFloor floor = bumpy_floor();
+  const terrain::HeightGrid floor = bumpy_floor();
   const std::vector<WaveTrain> trains = six_trains();
   const Reference reference(floor, trains);
   std::vector<glm::dvec2> points;
@@ -403,7 +404,8 @@ TEST(TrainSea, IsFlatWithoutWavesOrWater) {
 }
 
 TEST(TrainSea, WorksOnAFloorOfOneSample) {
-  const SeaFloor floor = make_sea_floor({{0.0, 0.0}, 5.0, 1, 1}, [](glm::dvec2) { return 900.0; });
+  const terrain::HeightGrid floor =
+      terrain::make_sea_floor({{0.0, 0.0}, 5.0, 1, 1}, [](glm::dvec2) { return 900.0; });
   const TrainSea sea = make_sea(floor, {{1.0, 5.0, {1.0, 0.0}}});
   EXPECT_NEAR(height_at(sea, 0.0, {0.0, 0.0}), 1.0, 1e-5);
   EXPECT_NEAR(height_at(sea, 2.5, {70.0, -30.0}), -1.0, 1e-5);
@@ -420,9 +422,13 @@ TEST(ProfileBlend, GoesFromAQuarterToATwentiethOfTheWavelength) {
   const double length = kG * 100.0 / kTwoPiRef;
   const double deep = length * 0.25 * std::tanh(0.5 * kPiRef);
   const double shallow = length * 0.05 * std::tanh(0.1 * kPiRef);
-  EXPECT_EQ(profile_blend(1.001 * deep, length), 0.0);
-  EXPECT_EQ(profile_blend(0.999 * shallow, length), 1.0);
-  EXPECT_NEAR(profile_blend(0.5 * (deep + shallow), length), 0.5, 1e-12);
+  const ProfileDepths depths = profile_depths(length);
+  EXPECT_NEAR(depths.deep_m, deep, 1e-12 * deep);
+  EXPECT_NEAR(depths.shallow_m, shallow, 1e-12 * shallow);
+  EXPECT_EQ(shore_part(1.001 * deep, deep, shallow), 0.0);
+  EXPECT_EQ(shore_part(0.999 * shallow, deep, shallow), 1.0);
+  EXPECT_NEAR(shore_part(0.5 * (deep + shallow), deep, shallow), 0.5, 1e-12);
+  EXPECT_NEAR(shore_part(0.75 * deep + 0.25 * shallow, deep, shallow), 5.0 / 32.0, 1e-12);
 }
 
 TEST(MakeTrains, HoldTheEnergyOfTheirBand) {

@@ -40,12 +40,12 @@ glm::dvec2 unit(double angle_deg) {
 }
 
 // 1:50, deepening to the west of the coast at x = 3000: depth 60 m at x = 0.
-SeaFloor west_beach(double spacing_m, double width_m) {
-  const FloorGrid grid{{0.0, 0.0},
-                       spacing_m,
-                       static_cast<int>(3000.0 / spacing_m) + 11,
-                       static_cast<int>(width_m / spacing_m) + 1};
-  return make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
+terrain::HeightGrid west_beach(double spacing_m, double width_m) {
+  const terrain::Grid grid{{0.0, 0.0},
+                           spacing_m,
+                           static_cast<int>(3000.0 / spacing_m) + 11,
+                           static_cast<int>(width_m / spacing_m) + 1};
+  return terrain::make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
 }
 
 double angle_deg(glm::dvec2 v) { return std::atan2(v.y, v.x) / kDegree; }
@@ -59,7 +59,7 @@ constexpr BeachRow kBeachTable[] = {{50, 28.98127, 0.950584}, {20, 22.84589, 0.8
                                     {2, 8.04467, 1.266905},   {1, 5.71787, 1.487783}};
 
 TEST(WavePhase, TurnsAndSteepensWavesAsTheTableOfThePlaneBeach) {
-  const SeaFloor floor = west_beach(5.0, 600.0);
+  const terrain::HeightGrid floor = west_beach(5.0, 600.0);
   const WaveTrain train{1.0, 10.0, unit(30.0)};
   const WavePhase phase = make_wave_phase(floor, train, PhaseMethod::kEikonal);
   for (const BeachRow& row : kBeachTable) {
@@ -75,7 +75,7 @@ TEST(WavePhase, TurnsAndSteepensWavesAsTheTableOfThePlaneBeach) {
 
 // PHY-10: k sin(alpha) is what it was in deep water.
 TEST(WavePhase, ObeysSnellsLawForEveryPeriodAndAngle) {
-  const SeaFloor floor = west_beach(7.5, 150.0);
+  const terrain::HeightGrid floor = west_beach(7.5, 150.0);
   for (const double period_s : {4.0, 6.0, 8.0, 10.0, 12.0}) {
     for (const double angle : {10.0, 20.0, -30.0, 40.0, -50.0, 60.0}) {
       const WaveTrain train{1.0, period_s, unit(angle)};
@@ -97,8 +97,8 @@ TEST(WavePhase, BendsAlongStraightLinesToFirstOrder) {
   const double period_s = 6.0, angle = 30.0, k_inf = deep_wave_number(period_s);
   const double sin = std::sin(angle * kDegree), cos = std::cos(angle * kDegree);
   // 1:50, 40 m deep in the west; lines that enter there cover y > 1150 at the shore.
-  const SeaFloor floor = make_plane_beach({{0.0, 0.0}, 10.0, 201, 141},
-                                          {{{2000.0, 0.0}, {2000.0, 1.0}}, 0.02, 1000.0});
+  const terrain::HeightGrid floor = terrain::make_plane_beach(
+      {{0.0, 0.0}, 10.0, 201, 141}, {{{2000.0, 0.0}, {2000.0, 1.0}}, 0.02, 1000.0});
   const WavePhase phase =
       make_wave_phase(floor, {1.0, period_s, unit(angle)}, PhaseMethod::kStraight);
   struct Found {
@@ -125,9 +125,9 @@ TEST(WavePhase, BendsAlongStraightLinesToFirstOrder) {
 TEST(WavePhase, DoesNotCareHowTheBeachIsTurned) {
   // The same beach with its coast at 37 degrees: contours cut every border at an angle.
   const glm::dvec2 uphill = unit(37.0), along(-uphill.y, uphill.x);
-  const FloorGrid grid{{-500.0, -500.0}, 5.0, 201, 201};
-  const SeaFloor floor =
-      make_sea_floor(grid, [&](glm::dvec2 p) { return 0.02 * (1000.0 - glm::dot(p, uphill)); });
+  const terrain::Grid grid{{-500.0, -500.0}, 5.0, 201, 201};
+  const terrain::HeightGrid floor = terrain::make_sea_floor(
+      grid, [&](glm::dvec2 p) { return 0.02 * (1000.0 - glm::dot(p, uphill)); });
   const WaveTrain train{1.0, 8.0, unit(37.0 + 25.0)};
   const WavePhase phase = make_wave_phase(floor, train, PhaseMethod::kEikonal);
   const double k_along = deep_wave_number(8.0) * std::sin(25.0 * kDegree);
@@ -143,7 +143,7 @@ TEST(WavePhase, DoesNotCareHowTheBeachIsTurned) {
 // PHY-13.
 TEST(WavePhase, CarriesItsEnergyToTheShore) {
   // a^2 cg cos(angle) is constant on a plane beach.
-  const SeaFloor floor = west_beach(5.0, 300.0);
+  const terrain::HeightGrid floor = west_beach(5.0, 300.0);
   const double period_s = 9.0, omega = kTwoPiRef / period_s;
   const WavePhase phase =
       make_wave_phase(floor, {1.0, period_s, unit(40.0)}, PhaseMethod::kEikonal);
@@ -187,7 +187,7 @@ TEST(WavePhase, IsTheIntegralOfTheWaveNumber) {
   for (const Case& c : {Case{PhaseMethod::kStraight, 5.0, 1e-3},
                         {PhaseMethod::kEikonal, 1.0, 1e-3},
                         {PhaseMethod::kEikonal, 5.0, 2e-2}}) {
-    const SeaFloor floor = west_beach(c.spacing_m, 2.0 * c.spacing_m);
+    const terrain::HeightGrid floor = west_beach(c.spacing_m, 2.0 * c.spacing_m);
     const WavePhase phase = make_wave_phase(floor, {1.0, 10.0, {1.0, 0.0}}, c.method);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t n = floor.grid.index(static_cast<int>(places[i] / c.spacing_m), 1);
@@ -198,8 +198,9 @@ TEST(WavePhase, IsTheIntegralOfTheWaveNumber) {
 }
 
 TEST(WavePhase, IsThePlaneWaveInDeepWater) {
-  const FloorGrid grid{{1000.0, -300.0}, 10.0, 60, 40};
-  const SeaFloor floor = make_sea_floor(grid, [](glm::dvec2) { return 2000.0; });
+  const terrain::Grid grid{{1000.0, -300.0}, 10.0, 60, 40};
+  const terrain::HeightGrid floor =
+      terrain::make_sea_floor(grid, [](glm::dvec2) { return 2000.0; });
   for (const PhaseMethod method : {PhaseMethod::kStraight, PhaseMethod::kEikonal}) {
     for (const double angle : {0.0, 20.0, 45.0, 90.0, 130.0, 180.0, 250.0, 359.0}) {
       const WaveTrain train{1.0, 7.0, unit(angle), 0.25};
@@ -220,8 +221,8 @@ TEST(WavePhase, IsThePlaneWaveInDeepWater) {
 }
 
 TEST(WavePhase, CastsAShadowBehindAnIsland) {
-  const FloorGrid grid{{0.0, 0.0}, 5.0, 201, 121};
-  const SeaFloor floor = make_sea_floor(grid, [](glm::dvec2 p) {
+  const terrain::Grid grid{{0.0, 0.0}, 5.0, 201, 121};
+  const terrain::HeightGrid floor = terrain::make_sea_floor(grid, [](glm::dvec2 p) {
     return glm::length(p - glm::dvec2(400.0, 300.0)) < 100.0 ? -1.0 : 30.0;
   });
   const WaveTrain train{1.0, 6.0, {1.0, 0.0}};
@@ -250,7 +251,7 @@ TEST(WavePhase, CastsAShadowBehindAnIsland) {
 // PHY-13.
 TEST(WavePhase, IsSmoothAcrossTheWater) {
   // No jump from cell to cell beyond what the local wave number explains.
-  const SeaFloor floor = west_beach(5.0, 200.0);
+  const terrain::HeightGrid floor = west_beach(5.0, 200.0);
   const WaveTrain train{1.0, 8.0, unit(35.0)};
   for (const PhaseMethod method : {PhaseMethod::kStraight, PhaseMethod::kEikonal}) {
     const WavePhase phase = make_wave_phase(floor, train, method);
@@ -267,11 +268,11 @@ TEST(WavePhase, IsSmoothAcrossTheWater) {
 }
 
 TEST(WavePhase, IsFiniteOnEveryFloor) {
-  const auto check = [](const SeaFloor& floor, float expected_amplitude) {
+  const auto check = [](const terrain::HeightGrid& floor, float expected_amplitude) {
     for (const PhaseMethod method : {PhaseMethod::kStraight, PhaseMethod::kEikonal}) {
       const WavePhase phase = make_wave_phase(floor, {1.0, 5.0, unit(200.0)}, method);
-      ASSERT_EQ(phase.cycles.size(), floor.depth_m.size());
-      ASSERT_EQ(phase.amplitude.size(), floor.depth_m.size());
+      ASSERT_EQ(phase.cycles.size(), floor.grid.size());
+      ASSERT_EQ(phase.amplitude.size(), floor.grid.size());
       for (std::size_t n = 0; n < phase.cycles.size(); ++n) {
         ASSERT_TRUE(std::isfinite(phase.cycles[n]));
         ASSERT_NEAR(phase.amplitude[n], expected_amplitude, 1e-5f);
@@ -279,7 +280,7 @@ TEST(WavePhase, IsFiniteOnEveryFloor) {
     }
   };
   const auto flat = [](int nx, int ny, double depth_m) {
-    return make_sea_floor({{0.0, 0.0}, 3.0, nx, ny}, [=](glm::dvec2) { return depth_m; });
+    return terrain::make_sea_floor({{0.0, 0.0}, 3.0, nx, ny}, [=](glm::dvec2) { return depth_m; });
   };
   check(flat(9, 7, -2.0), 0.0f);  // all land
   check(flat(9, 7, 0.0), 0.0f);
@@ -290,7 +291,8 @@ TEST(WavePhase, IsFiniteOnEveryFloor) {
 }
 
 TEST(WavePhase, RefusesBadTrains) {
-  const SeaFloor floor = make_sea_floor({{0.0, 0.0}, 3.0, 2, 2}, [](glm::dvec2) { return 5.0; });
+  const terrain::HeightGrid floor =
+      terrain::make_sea_floor({{0.0, 0.0}, 3.0, 2, 2}, [](glm::dvec2) { return 5.0; });
   const auto make = [&](const WaveTrain& train) {
     return make_wave_phase(floor, train, PhaseMethod::kEikonal);
   };

@@ -8,7 +8,7 @@
 
 #include "math/random.h"
 #include "render/workspace.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 
 namespace swell::render {
 

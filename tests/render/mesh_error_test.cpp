@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "lod/plane.h"
+#include "scene/water.h"
 
 namespace swell::render {
 namespace {

@@ -99,8 +99,7 @@ void expect_query_answer(const Pick& found, const scene::WaterSurface& surface) 
 
 scene::WaterSurface surface_of(Drawn& drawn) {
   const World::State& world = drawn.world.state();
-  return {*world.sea, drawn.workspace.state().sea.frame, world.scene.area, world.terrain.get(),
-          world.coast.get()};
+  return {world.water(), drawn.workspace.state().sea.frame};
 }
 
 // How often a pick found what the pixel there shows.

@@ -25,7 +25,7 @@
 #include "render/tile/shade_tile.h"
 #include "scene/coast.h"
 #include "scene/objects.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 #include "texture/normal_map.h"
 #include "texture/packed_map.h"
 #include "texture/uv_noise.h"
@@ -138,7 +138,8 @@ TEST_F(SpanDeathTest, OceanChecksEveryPair) {
   std::vector<double> theta;
   EXPECT_REFUSED(ocean::solve_eikonal(problem, theta));
   EXPECT_REFUSED(ocean::spread_energy(problem, std::vector<double>(8), theta));
-  EXPECT_THROW(ocean::make_sea_floor_from_heights({{0.0, 0.0}, 1.0, 4, 2}, a.shorter),
+  const terrain::HeightGrid floor{{{0.0, 0.0}, 1.0, 4, 2}, std::vector<float>(7)};
+  EXPECT_THROW(ocean::make_train_sea(floor, {}, ocean::PhaseMethod::kEikonal, workers),
                std::invalid_argument);
 }
 
@@ -181,10 +182,12 @@ TEST_F(SpanDeathTest, TextureChecksEveryPair) {
   const texture::ImageF image{4, 4, 1, whole};
   EXPECT_REFUSED(texture::compute_slopes(image, texture::Edges::kClamped, 1.0f, less, whole));
   EXPECT_REFUSED(texture::compute_slopes(image, texture::Edges::kClamped, 1.0f, whole, less));
-  scene::Terrain terrain{.samples = 2, .height_m = {0.0f, 0.0f, 0.0f, 0.0f}};
-  EXPECT_REFUSED(scene::sample_heights(terrain, p.right, a.shorter));
-  EXPECT_REFUSED(scene::sample_heights(terrain, p.right, a.longer));
-  EXPECT_REFUSED(scene::terrain_slopes(terrain, a.right, b.right));
+  terrain::HeightGrid terrain{{.samples_x = 2, .samples_y = 2}, {0.0f, 0.0f, 0.0f, 0.0f}};
+  EXPECT_REFUSED(terrain::sample_heights(terrain, p.right, a.shorter));
+  EXPECT_REFUSED(terrain::sample_heights(terrain, p.right, a.longer));
+  EXPECT_REFUSED(terrain::sample_slopes(terrain, a.right, b.right));
+  terrain.height_m.pop_back();
+  EXPECT_REFUSED(terrain::sample_heights(terrain, p.right, a.right));
 }
 
 TEST_F(SpanDeathTest, RasterChecksEveryPair) {

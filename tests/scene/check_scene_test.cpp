@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scene/parameters.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 
 namespace swell::scene {
 namespace {

@@ -10,7 +10,7 @@
 #include "math/random.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 
 namespace swell::scene {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "ocean/sea_scale.h"
 #include "scene/scene_text.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 
 namespace swell::scene {
 namespace {

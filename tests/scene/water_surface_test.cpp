@@ -1,7 +1,5 @@
 // What the surface answers: against sines in closed form, against itself as it is drawn, from many
 // threads.
-#include "scene/water_surface.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "math/random.h"
 #include "scene/scene.h"
+#include "scene/water.h"
 
 namespace swell::scene {
 namespace {
@@ -136,7 +135,7 @@ TEST(WaterSurface, TheWaterRisesAsFastAsItsHeightGrows) {
   }
 }
 
-// The spectrum's share, the trains' share and the edge all change from place to place here.
+// The sea's weight, the trains' share and the edge all change from place to place here.
 TEST(WaterSurface, TheWaterOfABeachRisesAsFastAsItsHeightGrows) {
   const double dt_s = 2e-3;
   const Water water(beach_scene());

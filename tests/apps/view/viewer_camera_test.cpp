@@ -6,7 +6,7 @@
 
 #include "apps/view/eye_floor.h"
 #include "apps/view/viewer.h"
-#include "scene/water_surface.h"
+#include "scene/water.h"
 #include "viewer_harness.h"
 
 namespace swell::view {
@@ -40,7 +40,7 @@ class Below {
     const glm::dvec2 p(viewer.report().camera.eye_m);
     const float water_m = water_.at(viewer.picture_time_s(), frame_, workers_).height(p);
     float ground_m = -1e6f;
-    if (water_.terrain()) scene::sample_heights(*water_.terrain(), {&p, 1}, {&ground_m, 1});
+    if (water_.terrain()) terrain::sample_heights(*water_.terrain(), {&p, 1}, {&ground_m, 1});
     on_land_ = on_land_ || ground_m > 1.0f;
     return static_cast<double>(std::max(water_m, ground_m));
   }

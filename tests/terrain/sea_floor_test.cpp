@@ -1,4 +1,4 @@
-#include "ocean/sea_floor.h"
+#include "terrain/sea_floor.h"
 
 #include <gtest/gtest.h>
 
@@ -7,40 +7,35 @@
 #include <limits>
 #include <stdexcept>
 
-namespace swell::ocean {
+namespace swell::terrain {
 namespace {
 
-TEST(SeaFloor, IsBilinearBetweenItsSamples) {
-  const SeaFloor floor{{{10.0, 20.0}, 2.0, 2, 2}, {1.0f, 3.0f, 5.0f, 11.0f}};
+TEST(SeaFloor, HasDepthsBelowTheSea) {
+  const HeightGrid floor{{{10.0, 20.0}, 2.0, 2, 2}, {-1.0f, -3.0f, -5.0f, 11.0f}};
   EXPECT_EQ(depth_at(floor, {10.0, 20.0}), 1.0);
-  EXPECT_EQ(depth_at(floor, {12.0, 22.0}), 11.0);
+  EXPECT_EQ(depth_at(floor, {12.0, 22.0}), -11.0);
   EXPECT_EQ(depth_at(floor, {11.0, 20.0}), 2.0);
-  EXPECT_EQ(depth_at(floor, {11.0, 21.0}), 5.0);  // the mean of all four
-  EXPECT_EQ(depth_gradient_at(floor, {11.0, 20.0}), glm::dvec2(1.0, 3.0));
-}
-
-TEST(SeaFloor, GoesOnBeyondItsBorder) {
-  const SeaFloor floor{{{0.0, 0.0}, 2.0, 2, 2}, {1.0f, 3.0f, 5.0f, 11.0f}};
-  EXPECT_EQ(depth_at(floor, {-50.0, -1.0}), 1.0);
-  EXPECT_EQ(depth_at(floor, {99.0, 1.0}), 7.0);
+  EXPECT_EQ(depth_at(floor, {11.0, 21.0}), -0.5);  // the mean of all four
+  EXPECT_EQ(depth_of_sample(floor, 2), 5.0);
+  EXPECT_EQ(depth_of_sample(floor, 3), -11.0);
 }
 
 TEST(SeaFloor, MayHaveOneSample) {
-  const SeaFloor floor = make_sea_floor({{0.0, 0.0}, 1.0, 1, 1}, [](glm::dvec2) { return 7.0; });
+  const HeightGrid floor = make_sea_floor({{0.0, 0.0}, 1.0, 1, 1}, [](glm::dvec2) { return 7.0; });
   EXPECT_EQ(depth_at(floor, {3.0, -4.0}), 7.0);
-  EXPECT_EQ(depth_gradient_at(floor, {3.0, -4.0}), glm::dvec2(0.0));
+  EXPECT_EQ(slope_at(floor, {3.0, -4.0}), glm::dvec2(0.0));
 }
 
-TEST(SeaFloor, IsMadeFromHeightsAboveTheSea) {
-  const std::array<float, 2> heights{-4.0f, 3.0f};
-  const SeaFloor floor = make_sea_floor_from_heights({{0.0, 0.0}, 1.0, 2, 1}, heights);
-  EXPECT_EQ(floor.depth_m, (std::vector<float>{4.0f, -3.0f}));
+TEST(SeaFloor, AsksForTheDepthAtEachPoint) {
+  const HeightGrid floor = make_sea_floor({{10.0, 20.0}, 2.0, 2, 2},
+                                          [](glm::dvec2 p) { return p.x - 2.0 * (p.y - 20.0); });
+  EXPECT_EQ(floor.height_m, (std::vector<float>{-10.0f, -12.0f, -6.0f, -8.0f}));
 }
 
 TEST(SeaFloor, RefusesWhatIsNoFloor) {
   const auto depth = [](glm::dvec2) { return 1.0; };
   const auto nan = [](glm::dvec2) { return std::nan(""); };
-  const FloorGrid good{{0.0, 0.0}, 1.0, 3, 3};
+  const Grid good{{0.0, 0.0}, 1.0, 3, 3};
   EXPECT_NO_THROW(make_sea_floor(good, depth));
   EXPECT_THROW(make_sea_floor(good, nan), std::invalid_argument);
   EXPECT_THROW(make_sea_floor({{0.0, 0.0}, -1.0, 3, 3}, depth), std::invalid_argument);
@@ -49,7 +44,6 @@ TEST(SeaFloor, RefusesWhatIsNoFloor) {
   EXPECT_THROW(make_sea_floor({{0.0, 0.0}, 1.0, 100000, 100000}, depth), std::invalid_argument);
   EXPECT_THROW(make_sea_floor({{std::nan(""), 0.0}, 1.0, 3, 3}, depth), std::invalid_argument);
   EXPECT_THROW(check_sea_floor({good, {1.0f}}), std::invalid_argument);
-  EXPECT_THROW(make_sea_floor_from_heights(good, std::array<float, 2>{}), std::invalid_argument);
 }
 
 TEST(PlaneBeach, MeasuresTheDistanceToItsCoastLine) {
@@ -69,15 +63,15 @@ TEST(PlaneBeach, MeasuresTheDistanceToItsCoastLine) {
 
 TEST(PlaneBeach, DeepensInProportionToTheDistance) {
   const PlaneBeach beach{{{100.0, 0.0}, {100.0, 1.0}}, 0.02, 1.5};  // sea in the west
-  const SeaFloor floor = make_plane_beach({{0.0, 0.0}, 10.0, 13, 2}, beach);
-  EXPECT_FLOAT_EQ(floor.depth_m[0], 1.5f);  // 2 m by the slope
-  EXPECT_FLOAT_EQ(floor.depth_m[5], 1.0f);
-  EXPECT_FLOAT_EQ(floor.depth_m[10], 0.0f);
-  EXPECT_FLOAT_EQ(floor.depth_m[12], -0.4f);
+  const HeightGrid floor = make_plane_beach({{0.0, 0.0}, 10.0, 13, 2}, beach);
+  EXPECT_FLOAT_EQ(floor.height_m[0], -1.5f);  // 2 m by the slope
+  EXPECT_FLOAT_EQ(floor.height_m[5], -1.0f);
+  EXPECT_FLOAT_EQ(floor.height_m[10], -0.0f);
+  EXPECT_FLOAT_EQ(floor.height_m[12], 0.4f);
 }
 
 TEST(PlaneBeach, RefusesABadCoast) {
-  const FloorGrid grid{{0.0, 0.0}, 1.0, 3, 3};
+  const Grid grid{{0.0, 0.0}, 1.0, 3, 3};
   const std::vector<glm::dvec2> coast{{0.0, 0.0}, {1.0, 0.0}};
   EXPECT_NO_THROW(make_plane_beach(grid, {coast, 0.1, 5.0}));
   EXPECT_THROW(make_plane_beach(grid, {{{0.0, 0.0}}, 0.1, 5.0}), std::invalid_argument);
@@ -90,4 +84,4 @@ TEST(PlaneBeach, RefusesABadCoast) {
 }
 
 }  // namespace
-}  // namespace swell::ocean
+}  // namespace swell::terrain

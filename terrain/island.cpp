@@ -1,18 +1,14 @@
-#include "scene/island.h"
+#include "terrain/island.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/elementary.h"
+#include "math/smoothstep.h"
 #include "texture/perlin.h"
 
-namespace swell::scene {
+namespace swell::terrain {
 namespace {
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 // The island's measures, all in metres. Widths are counted from the shore line.
 struct Profile {
@@ -110,23 +106,22 @@ double island_size_m(const TerrainDescription& description) {
   return 2.0 * make_profile(description).half_size;
 }
 
-Terrain build_island(const TerrainDescription& description) {
+HeightGrid build_island(const TerrainDescription& description) {
   const Profile p = make_profile(description);
   const texture::PerlinNoise noise(description.seed);
-  Terrain terrain;
-  terrain.samples = kIslandSamples;
-  terrain.spacing_m = 2.0 * p.half_size / (kIslandSamples - 1);
-  terrain.min_world = description.centre_m - p.half_size;
-  terrain.height_m.reserve(static_cast<std::size_t>(kIslandSamples) * kIslandSamples);
+  const double spacing_m = 2.0 * p.half_size / (kIslandSamples - 1);
+  HeightGrid island{
+      {description.centre_m - p.half_size, spacing_m, kIslandSamples, kIslandSamples}};
+  island.height_m.reserve(island.grid.size());
   for (int j = 0; j < kIslandSamples; ++j) {
     for (int i = 0; i < kIslandSamples; ++i) {
-      const glm::dvec2 q = (glm::dvec2(i, j) * terrain.spacing_m - p.half_size) / p.radius;
+      const glm::dvec2 q = (glm::dvec2(i, j) * spacing_m - p.half_size) / p.radius;
       const bool corner = p.radius * glm::length(q) >= p.half_size;
       const double height = corner ? -p.floor_depth : island_height(p, noise, q);
-      terrain.height_m.push_back(static_cast<float>(height));
+      island.height_m.push_back(static_cast<float>(height));
     }
   }
-  return terrain;
+  return island;
 }
 
-}  // namespace swell::scene
+}  // namespace swell::terrain

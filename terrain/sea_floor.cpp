@@ -1,4 +1,4 @@
-#include "ocean/sea_floor.h"
+#include "terrain/sea_floor.h"
 
 #include <fmt/core.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace swell::ocean {
+namespace swell::terrain {
 namespace {
 
 constexpr double kMaxSamples = 0x1p26;
@@ -17,7 +17,7 @@ void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
 }
 
-void check_grid(const FloorGrid& grid) {
+void check_grid(const Grid& grid) {
   require(grid.samples_x >= 1 && grid.samples_y >= 1 &&
               static_cast<double>(grid.samples_x) * grid.samples_y <= kMaxSamples,
           fmt::format("sea floor of {} x {} samples, allowed 1 to 2^26 in all", grid.samples_x,
@@ -26,35 +26,6 @@ void check_grid(const FloorGrid& grid) {
           fmt::format("sea floor spacing {} m, must be positive", grid.spacing_m));
   require(std::isfinite(grid.min_world.x) && std::isfinite(grid.min_world.y),
           fmt::format("sea floor corner ({}, {})", grid.min_world.x, grid.min_world.y));
-}
-
-// The grid's cell below a point, and the place in it in [0, 1]; along an axis of one sample the
-// cell has no width.
-struct Cell {
-  int i0, i1;
-  double fraction;
-};
-
-Cell find_cell(double x, double min, double spacing_m, int samples) {
-  const double u = std::clamp((x - min) / spacing_m, 0.0, static_cast<double>(samples - 1));
-  const int i0 = std::min(static_cast<int>(u), std::max(samples - 2, 0));
-  return {i0, std::min(i0 + 1, samples - 1), u - i0};
-}
-
-struct Corners {
-  double d00, d10, d01, d11;
-  double fx, fy;
-};
-
-Corners find_corners(const SeaFloor& floor, glm::dvec2 p) {
-  const FloorGrid& grid = floor.grid;
-  const Cell x = find_cell(p.x, grid.min_world.x, grid.spacing_m, grid.samples_x);
-  const Cell y = find_cell(p.y, grid.min_world.y, grid.spacing_m, grid.samples_y);
-  const auto depth = [&](int i, int j) {
-    return static_cast<double>(floor.depth_m[grid.index(i, j)]);
-  };
-  return {depth(x.i0, y.i0), depth(x.i1, y.i0), depth(x.i0, y.i1),
-          depth(x.i1, y.i1), x.fraction,        y.fraction};
 }
 
 glm::dvec2 left_normal(glm::dvec2 from, glm::dvec2 to) {
@@ -80,51 +51,29 @@ void check_beach(const PlaneBeach& beach) {
 
 }  // namespace
 
-void check_sea_floor(const SeaFloor& floor) {
+void check_sea_floor(const HeightGrid& floor) {
   check_grid(floor.grid);
-  require(floor.depth_m.size() == floor.grid.size(),
+  require(floor.height_m.size() == floor.grid.size(),
           fmt::format("sea floor of {} samples with {} depths", floor.grid.size(),
-                      floor.depth_m.size()));
+                      floor.height_m.size()));
   // NaN is bad, too. Text is made for a bad depth only: made for each, it was a third of the whole
   // making of a coast.
   const auto bad = std::ranges::find_if_not(
-      floor.depth_m, [](float depth) { return std::abs(depth) <= kMaxDepth; });
-  if (bad != floor.depth_m.end())
-    require(false, fmt::format("depth {} m at sample {}, allowed +-1e6", *bad,
-                               bad - floor.depth_m.begin()));
+      floor.height_m, [](float height) { return std::abs(height) <= kMaxDepth; });
+  if (bad != floor.height_m.end())
+    require(false, fmt::format("depth {} m at sample {}, allowed +-1e6", -*bad,
+                               bad - floor.height_m.begin()));
 }
 
-double depth_at(const SeaFloor& floor, glm::dvec2 p_world) {
-  const Corners c = find_corners(floor, p_world);
-  const double below = c.d00 + c.fx * (c.d10 - c.d00);
-  const double above = c.d01 + c.fx * (c.d11 - c.d01);
-  return below + c.fy * (above - below);
-}
-
-glm::dvec2 depth_gradient_at(const SeaFloor& floor, glm::dvec2 p_world) {
-  const Corners c = find_corners(floor, p_world);
-  const double dx = (c.d10 - c.d00) + c.fy * ((c.d11 - c.d01) - (c.d10 - c.d00));
-  const double dy = (c.d01 - c.d00) + c.fx * ((c.d11 - c.d10) - (c.d01 - c.d00));
-  return glm::dvec2(dx, dy) / floor.grid.spacing_m;
-}
-
-SeaFloor make_sea_floor(const FloorGrid& grid, FunctionRef<double(glm::dvec2)> depth_m) {
+HeightGrid make_sea_floor(const Grid& grid, FunctionRef<double(glm::dvec2)> depth_m) {
   check_grid(grid);
-  SeaFloor floor{grid, {}};
-  floor.depth_m.reserve(grid.size());
+  HeightGrid floor{grid};
+  floor.height_m.reserve(grid.size());
   for (int j = 0; j < grid.samples_y; ++j) {
     for (int i = 0; i < grid.samples_x; ++i) {
-      floor.depth_m.push_back(static_cast<float>(depth_m(grid.point(i, j))));
+      floor.height_m.push_back(-static_cast<float>(depth_m(grid.point(i, j))));
     }
   }
-  check_sea_floor(floor);
-  return floor;
-}
-
-SeaFloor make_sea_floor_from_heights(const FloorGrid& grid, std::span<const float> height_m) {
-  SeaFloor floor{grid, {}};
-  floor.depth_m.reserve(height_m.size());
-  for (const float height : height_m) floor.depth_m.push_back(-height);
   check_sea_floor(floor);
   return floor;
 }
@@ -151,11 +100,11 @@ double distance_to_coast(std::span<const glm::dvec2> coast, glm::dvec2 p_world) 
   return side * std::sqrt(nearest2);
 }
 
-SeaFloor make_plane_beach(const FloorGrid& grid, const PlaneBeach& beach) {
+HeightGrid make_plane_beach(const Grid& grid, const PlaneBeach& beach) {
   check_beach(beach);
   return make_sea_floor(grid, [&](glm::dvec2 p) {
     return std::min(beach.slope * distance_to_coast(beach.coast, p), beach.max_depth_m);
   });
 }
 
-}  // namespace swell::ocean
+}  // namespace swell::terrain

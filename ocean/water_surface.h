@@ -2,30 +2,18 @@
 // water, at any place and time. The renderer moves its vertices with the same heights(), so that
 // a drawn vertex and an answer at its place are the same bits; within a triangle the picture is
 // flat and differs from the answer by what the triangle cuts off.
-//
-//   const scene::Scene scene = scene::load_scene("harbour.toml");
-//   const scene::Water water(scene);
-//   swell::Workers workers(2);
-//   ocean::SeaFrame frame;  // one for each time that is kept
-//   const scene::WaterSurface surface = water.at(t_s, frame, workers);
-//   std::vector<float> height_m(buoys.size());
-//   surface.heights(buoys, height_m);  // std::vector<glm::dvec2> buoys: x east, y north
-//   const bool wet = surface.in_water({12.0, 40.0, -0.5});
+// Programs get one of a scene from scene/water.h.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
 
-#include "math/parallel.h"
-#include "ocean/coast.h"
-#include "ocean/sea.h"
-#include "ocean/velocity.h"
-#include "scene/scene.h"
-#include "scene/terrain.h"
+#include "ocean/water.h"
 
-namespace swell::scene {
+namespace swell::ocean {
 
 // Where a ray meets the surface.
 struct WaterHit {
@@ -38,9 +26,8 @@ struct WaterHit {
 // may be called from many threads at once. Points are world x, y below 1e9 m.
 class WaterSurface {
  public:
-  // `frame` is of `sea`; no terrain: the sea is deep everywhere; no coast: no trains.
-  WaterSurface(const ocean::Sea& sea, const ocean::SeaFrame& frame, const SeaArea& area,
-               const Terrain* terrain, const ocean::CoastSea* coast);
+  // `frame` is of the parts' sea.
+  WaterSurface(const WaterParts& parts, const SeaFrame& frame);
 
   // z of the surface: the sea's waves inside the area, fading to the mean level over its last
   // tenth, and lower where the water is shallower than the waves are high, so that they do not dig
@@ -64,8 +51,8 @@ class WaterSurface {
   // Velocity of the water at the surface in m/s: east, north, up; up is the rate of height().
   // Linear theory: of deep water for the sea's waves, of water of the local depth for the trains of
   // a coast, blended as the heights are. `velocity` is of the same time, from
-  // ocean::advance_velocity(). 60 ns a point, with the trains of a coast 45 more a train.
-  void velocities(std::span<const glm::dvec2> p_world, const ocean::VelocityFrame& velocity,
+  // advance_velocity(). 60 ns a point, with the trains of a coast 45 more a train.
+  void velocities(std::span<const glm::dvec2> p_world, const VelocityFrame& velocity,
                   std::span<glm::vec3> velocity_mps) const;
 
   // Below or on the surface, and above the ground.
@@ -80,47 +67,12 @@ class WaterSurface {
                                     double max_distance_m) const;
 
   double t_s() const { return frame_->t_s; }
-  float bound_m() const { return bound_m_; }  // |z| stays below in practice
+  const WaterBounds& bounds() const { return water_.bounds(); }
+  float bound_m() const { return bounds().height_m; }  // |z| stays below in practice
 
  private:
-  float share(glm::dvec2 p_world, float ground_m) const;
-  float share_at(glm::dvec2 p_world) const;
-  glm::vec2 share_slope(glm::dvec2 p_world) const;
-  glm::vec2 coast_slope(glm::dvec2 p_world) const;
-  float edge(glm::dvec2 p_world) const;
-  void shares(std::span<const glm::dvec2> p_world, std::span<float> share) const;
-  void coast_heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
-                     std::span<float> factor) const;
-  void add_sea(std::span<const glm::dvec2> p_world, std::span<const float> factor,
-               std::size_t longest_patches, std::span<float> height_m) const;
-
-  const ocean::SeaFrame* frame_;
-  const SeaArea* area_;
-  const Terrain* terrain_;
-  const ocean::CoastSea* coast_;
-  float wave_height_m_;  // significant
-  float bound_m_;
-  double steepest_;  // a bound of the surface's slope
+  WaterBody water_;
+  const SeaFrame* frame_;
 };
 
-// What of a scene's water does not change with time, for programs that ask and do not draw.
-class Water {
- public:
-  // Throws SceneError (a value out of its range) or texture::FileError (a height image).
-  explicit Water(const Scene& scene);
-
-  // Fills `frame` with the sea at any finite time, past or to come, and looks at it.
-  WaterSurface at(double t_s, ocean::SeaFrame& frame, Workers& workers) const;
-
-  const ocean::Sea& sea() const { return sea_; }
-  const Terrain* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
-  const ocean::CoastSea* coast() const { return coast_ ? &*coast_ : nullptr; }
-
- private:
-  ocean::Sea sea_;
-  SeaArea area_;
-  std::optional<Terrain> terrain_;
-  std::optional<ocean::CoastSea> coast_;
-};
-
-}  // namespace swell::scene
+}  // namespace swell::ocean

@@ -1,0 +1,233 @@
+#include "ocean/water.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/check.h"
+#include "ocean/coast_velocity.h"
+
+namespace swell::ocean {
+namespace {
+
+constexpr std::size_t kChunk = 256;  // points whose fields are on the stack
+constexpr double kEdgePart = 0.1;    // of the area, over which waves fade
+
+using Points = std::span<const glm::dvec2>;  // at most kChunk
+using Room = std::span<float>;
+
+// 1 inside the area, falling to 0 over its last tenth.
+float edge(const SeaArea& area, glm::dvec2 p_world) {
+  const glm::dvec2 inside = 0.5 * area.size_m - glm::abs(p_world - area.centre_m);
+  const glm::dvec2 rim = kEdgePart * area.size_m;
+  if (inside.x >= rim.x && inside.y >= rim.y) return 1.0f;
+  const glm::dvec2 t = glm::clamp(inside / rim, 0.0, 1.0);
+  // Two smooth_blend(), multiplied from left to right: another order may give other bits.
+  return static_cast<float>(t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y));
+}
+
+// ---- The trains of a coast
+
+struct TrainWaves {
+  const WaterParts& water;
+
+  void take_room(Points p, Room room) const {
+    std::array<float, kChunk> share;
+    sample_coast_share(*water.coast, p, std::span(share).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) room[i] *= spectrum_weight(share[i]);
+  }
+
+  void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
+    std::array<float, kChunk> z, share;
+    sample_coast(*water.coast, frame.t_s, p, std::span(z).first(p.size()),
+                 std::span(share).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      height_m[i] += z[i] * edge(water.area, p[i]);
+      room[i] *= spectrum_weight(share[i]);
+    }
+  }
+
+  // By differences: the trains' height with its share and edge.
+  void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const {
+    constexpr double kStep_m = 0.05;
+    const glm::dvec2 dx(0.5 * kStep_m, 0.0), dy(0.0, 0.5 * kStep_m);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const std::array<glm::dvec2, 4> at = {p[i] + dx, p[i] - dx, p[i] + dy, p[i] - dy};
+      std::array<float, 4> z{}, room_unused{};
+      add_heights(frame, at, room_unused, z);
+      slope[i] += glm::vec2(z[0] - z[1], z[2] - z[3]) / static_cast<float>(kStep_m);
+    }
+    take_room(p, room);
+  }
+
+  void add_velocities(const VelocityFrame& velocity, Points p, Room room,
+                      std::span<glm::vec3> velocity_mps) const {
+    std::array<glm::vec3, kChunk> v;
+    sample_coast_velocities(*water.coast, velocity.z.t_s, p, std::span(v).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) velocity_mps[i] += edge(water.area, p[i]) * v[i];
+    take_room(p, room);
+  }
+};
+
+// ---- The sea: patches and sines
+
+struct SeaWaves {
+  const WaterParts& water;
+  float wave_height_m;                     // significant
+  std::size_t longest_patches = SIZE_MAX;  // that heights have
+
+  // room times how much of the waves the edge and the depth let through: the weight of the waves.
+  void weigh(Points p, Room room) const {
+    if (!water.land) {
+      for (std::size_t i = 0; i < p.size(); ++i) room[i] *= edge(water.area, p[i]);
+      return;
+    }
+    std::array<float, kChunk> ground;
+    terrain::sample_heights(*water.land, p, std::span(ground).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const float depth = std::max(-ground[i], 0.0f);
+      room[i] *= edge(water.area, p[i]) * std::min(1.0f, depth / (0.2f + wave_height_m));
+    }
+  }
+
+  float weight_at(glm::dvec2 p_world) const {
+    float weight = 1.0f;
+    if (water.coast) TrainWaves{water}.take_room({&p_world, 1}, {&weight, 1});
+    weigh({&p_world, 1}, {&weight, 1});
+    return weight;
+  }
+
+  glm::vec2 weight_slope(glm::dvec2 p) const {
+    constexpr double kStep_m = 0.25;
+    const glm::dvec2 dx(0.5 * kStep_m, 0.0), dy(0.0, 0.5 * kStep_m);
+    const glm::vec2 difference(weight_at(p + dx) - weight_at(p - dx),
+                               weight_at(p + dy) - weight_at(p - dy));
+    return difference / static_cast<float>(kStep_m);
+  }
+
+  // Places where the weight is 0 cost nothing.
+  void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
+    weigh(p, room);
+    std::array<glm::dvec2, kChunk> wavy;
+    std::array<std::size_t, kChunk> place;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (room[i] == 0.0f) continue;
+      wavy[count] = p[i];
+      place[count++] = i;
+    }
+    std::array<float, kChunk> z;
+    sample_heights(frame, std::span(wavy).first(count), std::span(z).first(count), longest_patches);
+    for (std::size_t k = 0; k < count; ++k) height_m[place[k]] += z[k] * room[place[k]];
+  }
+
+  // The waves' own slopes by their weight, and their height by the weight's slope.
+  void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const {
+    weigh(p, room);
+    std::array<float, kChunk> x, y, z;
+    sample_slopes(frame, p, std::span(x).first(p.size()), std::span(y).first(p.size()));
+    sample_heights(frame, p, std::span(z).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      glm::vec2 own = room[i] * glm::vec2(x[i], y[i]);
+      if (room[i] != 1.0f) own += z[i] * weight_slope(p[i]);
+      slope[i] += own;
+    }
+  }
+
+  void add_velocities(const VelocityFrame& velocity, Points p, Room room,
+                      std::span<glm::vec3> velocity_mps) const {
+    weigh(p, room);
+    std::array<glm::vec3, kChunk> v;
+    sample_velocities(velocity, p, std::span(v).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) velocity_mps[i] += v[i] * room[i];
+  }
+};
+
+// ---- All of them
+
+// Calls body(source) for each source, in the order in which they take their room.
+template <class Body>
+void for_each_source(const WaterParts& water, const SeaWaves& sea, Body body) {
+  if (water.coast) body(TrainWaves{water});
+  body(sea);
+}
+
+// steepest: the sea's and the trains' own, and what the fading adds: the edge rises by 1.5 over a
+// tenth of the area, shallow water (on sand of slope 1) by 1 over the height of the waves, the sea
+// makes room for the trains.
+WaterBounds bounds_of(const WaterParts& water) {
+  const Sea& sea = *water.sea;
+  const CoastSea* coast = water.coast;
+  const double sea_m = sea.height_bound_m(), sea_slope = sea.slope_bound();
+  const float trains_m = coast ? coast->trains.height_bound_m : 0.0f;
+  const float trains_slope = coast ? coast->slope_bound() : 0.0f;
+  WaterBounds bounds;
+  bounds.height_m = static_cast<float>(sea_m) + trains_m;
+  bounds.slope = static_cast<float>(sea_slope) + trains_slope;
+  const double all_m = sea_m + static_cast<double>(trains_m);
+  const double rim_m = kEdgePart * std::min(water.area.size_m.x, water.area.size_m.y);
+  const double shallow = water.land ? sea_m / (0.2 + sea.significant_height_m()) : 0.0;
+  bounds.steepest = sea_slope + 2.0 * all_m * 1.5 / rim_m + shallow;
+  bounds.mean_wavelength_m = sea.mean_wavelength_m();
+  if (!coast) return bounds;
+  bounds.steepest += static_cast<double>(trains_slope);
+  bounds.steepest += static_cast<double>(coast->share_slope_per_m) * sea_m;
+  if (bounds.mean_wavelength_m == 0.0)
+    bounds.mean_wavelength_m = static_cast<double>(coast->peak_wavelength_m);
+  return bounds;
+}
+
+// Fills `sums`, one for each point, chunk by chunk: add(source, points, room, sums) adds a source.
+template <class T, class Add>
+void add_up(const WaterParts& water, const SeaWaves& sea, std::span<const glm::dvec2> p_world,
+            std::span<T> sums, Add add) {
+  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, p_world.size() - first);
+    const auto some = sums.subspan(first, count);
+    std::ranges::fill(some, T(0.0f));
+    std::array<float, kChunk> storage;
+    const Room room = std::span(storage).first(count);
+    std::ranges::fill(room, 1.0f);
+    for_each_source(water, sea, [&](const auto& source) {
+      add(source, p_world.subspan(first, count), room, some);
+    });
+  }
+}
+
+}  // namespace
+
+WaterBody::WaterBody(const WaterParts& parts)
+    : parts_(parts),
+      bounds_(bounds_of(parts)),
+      wave_height_m_(static_cast<float>(parts.sea->significant_height_m())) {}
+
+void WaterBody::heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+                        std::span<float> height_m, std::size_t longest_patches) const {
+  SWELL_CHECK(p_world.size() == height_m.size(), "{} points, {} heights", p_world.size(),
+              height_m.size());
+  add_up(parts_, {parts_, wave_height_m_, longest_patches}, p_world, height_m,
+         [&](const auto& source, Points p, Room room, std::span<float> z) {
+           source.add_heights(frame, p, room, z);
+         });
+}
+
+void WaterBody::slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+                       std::span<glm::vec2> slope) const {
+  SWELL_CHECK(p_world.size() == slope.size(), "{} points, {} slopes", p_world.size(), slope.size());
+  add_up(parts_, {parts_, wave_height_m_}, p_world, slope,
+         [&](const auto& source, Points p, Room room, std::span<glm::vec2> some) {
+           source.add_slopes(frame, p, room, some);
+         });
+}
+
+void WaterBody::velocities(const VelocityFrame& velocity, std::span<const glm::dvec2> p_world,
+                           std::span<glm::vec3> velocity_mps) const {
+  SWELL_CHECK(p_world.size() == velocity_mps.size(), "{} points, {} velocities", p_world.size(),
+              velocity_mps.size());
+  add_up(parts_, {parts_, wave_height_m_}, p_world, velocity_mps,
+         [&](const auto& source, Points p, Room room, std::span<glm::vec3> v) {
+           source.add_velocities(velocity, p, room, v);
+         });
+}
+
+}  // namespace swell::ocean

@@ -1,0 +1,79 @@
+// The one definition of the water: which waves there are, how they divide the surface, and what
+// they add up to. Heights, slopes, velocities and bounds come from one list of sources in
+// water.cpp.
+//
+// The sources, in the order in which they take their room:
+//   trains  the coast's, which know the sea floor; they leave the rest of their share
+//   sea     spectrum waves on patches and sines: in the room that is left, fading where the water
+//   is
+//           shallower than they are high
+// All fade to the mean level over the area's last tenth.
+//
+// A source is a struct in water.cpp with these members, for up to kChunk points at a time:
+//   take_room(p, room)                       room[i] *= what it leaves to the sources after it
+//   add_heights(frame, p, room, height_m)    adds z in m, with its fading, and takes its room
+//   add_slopes(frame, p, room, slope)        adds dz/dx and dz/dy of these heights, takes its room
+//   add_velocities(velocity, p, room, v)     adds m/s (east, north, up: dz/dt), takes its room
+// To add one: give WaterParts what it is made from, write the struct, name it in for_each_source()
+// and count it in bounds_of(), which stand side by side there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "ocean/coast.h"
+#include "ocean/sea.h"
+#include "ocean/sea_area.h"
+#include "ocean/velocity.h"
+#include "terrain/height_grid.h"
+
+namespace swell::ocean {
+
+// What does not change with time; all of it has to outlive those who look at it, unchanged.
+struct WaterParts {
+  const Sea* sea = nullptr;  // never null where water is asked
+  SeaArea area = {};
+  const terrain::HeightGrid* land = nullptr;  // and the sea floor; null: deep everywhere
+  const CoastSea* coast = nullptr;            // null: no trains
+};
+
+// What the surface stays within, always and everywhere in practice (Sea::height_bound_m()).
+struct WaterBounds {
+  float height_m = 0.0f;  // |z|
+  float slope = 0.0f;     // |dz/dx| and |dz/dy| of the waves, without what their fading adds
+  double steepest = 0.0;  // the slope in any direction, fading and all
+  // 0 without waves. The trains of a coast are of the spectrum's length, if there is one.
+  double mean_wavelength_m = 0.0;
+};
+
+// May be asked by many threads at once. Points are world x, y below 1e9 m; spans of a call have one
+// length and do not overlap. Frames are of the parts' sea. Allocates nothing.
+class WaterBody {
+ public:
+  explicit WaterBody(const WaterParts& parts);
+
+  const WaterParts& parts() const { return parts_; }
+  const WaterBounds& bounds() const { return bounds_; }
+
+  // z above mean sea level in metres at the frame's time. With `longest_patches` the shorter waves
+  // of the open sea are left out, by patches.
+  void heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+               std::span<float> height_m, std::size_t longest_patches = SIZE_MAX) const;
+
+  // dz/dx and dz/dy.
+  void slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+              std::span<glm::vec2> slope) const;
+
+  // m/s: east, north, up.
+  void velocities(const VelocityFrame& velocity, std::span<const glm::dvec2> p_world,
+                  std::span<glm::vec3> velocity_mps) const;
+
+ private:
+  WaterParts parts_;
+  WaterBounds bounds_;
+  float wave_height_m_;  // the sea's, significant
+};
+
+}  // namespace swell::ocean

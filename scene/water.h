@@ -1,0 +1,48 @@
+// The water of a scene, as something to ask at any place and time.
+//
+//   const scene::Scene scene = scene::load_scene("harbour.toml");
+//   const scene::Water water(scene);
+//   swell::Workers workers(2);
+//   ocean::SeaFrame frame;  // one for each time that is kept
+//   const scene::WaterSurface surface = water.at(t_s, frame, workers);
+//   std::vector<float> height_m(buoys.size());
+//   surface.heights(buoys, height_m);  // std::vector<glm::dvec2> buoys: x east, y north
+//   const bool wet = surface.in_water({12.0, 40.0, -0.5});
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "math/parallel.h"
+#include "ocean/coast.h"
+#include "ocean/sea.h"
+#include "ocean/water_surface.h"
+#include "scene/scene.h"
+#include "terrain/height_grid.h"
+
+namespace swell::scene {
+
+using WaterHit = ocean::WaterHit;
+using WaterSurface = ocean::WaterSurface;
+
+// What of a scene's water does not change with time, for programs that ask and do not draw.
+class Water {
+ public:
+  // Throws SceneError (a value out of its range) or texture::FileError (a height image).
+  explicit Water(const Scene& scene);
+
+  // Fills `frame` with the sea at any finite time, past or to come, and looks at it.
+  WaterSurface at(double t_s, ocean::SeaFrame& frame, Workers& workers) const;
+
+  const ocean::Sea& sea() const { return sea_; }
+  const terrain::HeightGrid* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
+  const ocean::CoastSea* coast() const { return coast_ ? &*coast_ : nullptr; }
+
+ private:
+  ocean::Sea sea_;
+  SeaArea area_;
+  std::optional<terrain::HeightGrid> terrain_;
+  std::optional<ocean::CoastSea> coast_;
+};
+
+}  // namespace swell::scene

@@ -1,0 +1,58 @@
+// The sea floor and the land: heights on a square, from a height image, from a coast line or from
+// noise. From noise, the border of the square is the deep floor.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "terrain/height_grid.h"
+
+namespace swell::terrain {
+
+// What is wrong with a description or its height image: what() is one line, 'WHERE, got what,
+// allowed what', WHERE 'terrain.KEY' or 'FILE: what'.
+class TerrainError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct TerrainDescription {
+  // From a square image (grey or first channel, north on top, at most 4096 x 4096): PNG, PNM and
+  // TIFF have height = low_m + value * (high_m - low_m), EXR and HDR metres; then minus
+  // sea_level_m.
+  std::filesystem::path height_image = {};  // empty: islands from noise
+  double metres_per_pixel = 2.0;
+  double low_m = -20.0, high_m = 40.0;
+  double sea_level_m = 0.0;
+  glm::dvec2 centre_m{0.0};
+  // From noise: one island of this radius on a floor of this depth, with shallow water around it.
+  double island_radius_m = 180.0;
+  double island_height_m = 35.0;
+  double floor_depth_m = 14.0;
+  // From a coast line of two points or more, the sea on the left when walking from the first to the
+  // last (terrain/sea_floor.h): a beach of one slope on a square around centre_m, down to
+  // floor_depth_m; on land the slope goes on up to dunes of less than 8 m.
+  std::vector<glm::dvec2> coast_m = {};  // empty: not used; excludes height_image
+  double beach_slope = 0.02;
+  double beach_size_m = 1200.0;  // the square's side
+  std::uint64_t seed = 3;        // of the island or of the dunes
+
+  bool operator==(const TerrainDescription&) const = default;
+};
+
+// Images are at most this many pixels a side.
+inline constexpr int kMaxImageSide = 4096;
+
+// The side of the square that build_terrain() makes; none for images, whose size is in the file.
+std::optional<double> described_size_m(const TerrainDescription& description);
+
+// A square of heights with lowest_m and highest_m set: 1025 samples a side from noise, 513 from a
+// coast line, the image's side from images, where one pixel makes a flat square of 2 x 2. Rows go
+// northwards. Single-threaded, the same bits everywhere. Throws TerrainError (bad values) or
+// texture::FileError (bad image).
+HeightGrid build_terrain(const TerrainDescription& description);
+
+}  // namespace swell::terrain

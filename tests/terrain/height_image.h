@@ -1,0 +1,52 @@
+// What the tests of land from images have in common.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "terrain/terrain.h"
+#include "texture/image_io.h"
+
+namespace swell::terrain {
+
+// A folder for images, gone after the test.
+class HeightImage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "swell_terrain_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
+
+  // A float image of one channel.
+  std::filesystem::path write_exr(const std::string& name, int width, int height,
+                                  std::vector<float> pixels) const {
+    const texture::ImageF image{width, height, 1, std::move(pixels)};
+    texture::write_file(folder_ / name, texture::encode_image(image, ".exr"));
+    return folder_ / name;
+  }
+
+  // what() of the error that a description is refused with; empty if it is taken.
+  static std::string error_of(const TerrainDescription& description) {
+    try {
+      build_terrain(description);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace swell::terrain
