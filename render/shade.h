@@ -125,7 +125,7 @@ struct ShadeContext {
   LookupImage reflection, refraction;
   float distortion_px = 0.0f;                    // window pixels per unit of slope
   float max_distortion_px = 0.0f;                // bound of the displacement, each way
-  glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // horizontal unit vectors of the camera
+  glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
 
   // Terrain.
   SlopeLayer terrain_slopes, terrain_detail;

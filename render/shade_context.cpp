@@ -82,6 +82,21 @@ void add_sines(const Frame& frame, ShadeContext& c) {
   }
 }
 
+// The displacement of the lookups turns with the picture. Across the line of sight it is half as
+// large (LookUpDistorted), hence the factors of a rolled camera.
+void fill_slope_axes(const View& view, ShadeContext& c) {
+  const bool level = view.right.z == 0.0f;
+  const glm::vec2 right =
+      level ? glm::vec2(view.right) : glm::vec2(view.forward.y, -view.forward.x);
+  c.view_right = right / std::max(glm::length(right), 1e-6f);
+  c.view_ahead = glm::vec2(-c.view_right.y, c.view_right.x);
+  if (level) return;
+  const glm::vec2 l = c.view_right, a = c.view_ahead;
+  const float cos_r = glm::dot(glm::vec2(view.right), l), sin_r = glm::dot(glm::vec2(view.up), l);
+  c.view_right = cos_r * l - 2.0f * sin_r * a;
+  c.view_ahead = cos_r * a + 0.5f * sin_r * l;
+}
+
 void fill_rays(const View& view, ShadeContext& c) {
   c.ray = view.ray(0.5f, 0.5f);
   c.ray_dx = view.right * (2.0f * view.tan_half_x / static_cast<float>(view.width_px));
@@ -89,9 +104,7 @@ void fill_rays(const View& view, ShadeContext& c) {
   c.near_m = view.near_m;
   c.eye_z = static_cast<float>(view.eye_world.z);
   c.pixel_angle = 2.0f * view.tan_half_y / static_cast<float>(view.height_px);
-  const glm::vec2 right(view.right.x, view.right.y);
-  c.view_right = right / std::max(glm::length(right), 1e-6f);
-  c.view_ahead = glm::vec2(-c.view_right.y, c.view_right.x);
+  fill_slope_axes(view, c);
 }
 
 void fill_light(const Frame& frame, ShadeContext& c) {

@@ -19,13 +19,19 @@ struct Shot {
   int budget;
 };
 
-// Eyes within 1000 km; every third looks steeply down or up.
+// Eyes within 1000 km; every third looks steeply down or up, every second is rolled and looks past
+// its picture's middle.
 Shot random_shot(int n) {
   const auto dice = [&](int i) { return random_uniform(5, static_cast<std::uint64_t>(8 * n + i)); };
   const glm::dvec3 eye(2e6 * (dice(0) - 0.5), 2e6 * (dice(1) - 0.5), 500.0 * dice(2) - 20.0);
   const double steepest = n % 3 == 0 ? 1.5 : 0.4;
-  const View view = make_view(eye, 12.0 * dice(3) - 6.0, steepest * (2.0 * dice(4) - 1.0),
-                              0.2 + 1.4 * dice(5), 0.1f, 160, 90);
+  Lens lens = lens_of_fov(0.2 + 1.4 * dice(5), 160, 90);
+  const double odd = n % 2;
+  lens.tan_middle_x = odd * (3.0 * dice(7) - 1.5);
+  lens.tan_middle_y = odd * (1.5 - 3.0 * dice(6));
+  const glm::dmat3 axes = camera_axes(12.0 * dice(3) - 6.0, steepest * (2.0 * dice(4) - 1.0),
+                                      odd * (6.0 * dice(2) - 3.0));
+  const View view = make_view(eye, axes, lens, 0.1f, 160, 90);
   return {view, static_cast<int>(64.0 * std::pow(300.0, dice(6)))};
 }
 
