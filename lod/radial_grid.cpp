@@ -30,16 +30,20 @@ Sector sector_in_view(const View& view) {
   constexpr float kSlack = 1.001f;
   for (const float side : {1.0f, -1.0f}) {
     const float depth = side * view.forward.z * kSlack;
-    if (depth > 0.0f && std::abs(view.right.z) <= view.tan_half_x * depth &&
-        std::abs(view.up.z) <= view.tan_half_y * depth)
+    const float x = view.right.z - view.tan_middle_x * view.forward.z;  // from the window's middle
+    const float y = view.up.z - view.tan_middle_y * view.forward.z;
+    if (depth > 0.0f && std::abs(x) <= view.tan_half_x * depth &&
+        std::abs(y) <= view.tan_half_y * depth)
       return {0.0, 1.0};
   }
   constexpr double kMargin = 1e-7;
-  const glm::dvec2 ahead(view.forward);
+  const glm::vec3 to_middle =
+      view.forward + view.right * view.tan_middle_x + view.up * view.tan_middle_y;
+  const glm::dvec2 ahead(to_middle);
   double low = 0.0, high = 0.0;
   for (const float x : {-view.tan_half_x, view.tan_half_x}) {
     for (const float y : {-view.tan_half_y, view.tan_half_y}) {
-      const glm::dvec2 corner(view.forward + view.right * x + view.up * y);
+      const glm::dvec2 corner(to_middle + view.right * x + view.up * y);
       const double turns =
           atan2(ahead.x * corner.y - ahead.y * corner.x, glm::dot(ahead, corner)) / (2.0 * kPi);
       low = std::min(low, turns), high = std::max(high, turns);

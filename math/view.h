@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <glm/ext/quaternion_double.hpp>
 #include <glm/glm.hpp>
 
 namespace swell {
@@ -16,7 +17,11 @@ struct View {
   glm::dvec3 eye_world{0.0};
   // Unit vectors in world axes, up = right x forward.
   glm::vec3 right{1, 0, 0}, up{0, 0, 1}, forward{0, 1, 0};
+  // Tangents of the angles from the axis, to the right and up: the window reaches from middle -
+  // half to middle + half. The middle is not 0 where the axis does not go through the window's
+  // middle.
   float tan_half_x = 1.0f, tan_half_y = 1.0f;
+  float tan_middle_x = 0.0f, tan_middle_y = 0.0f;
   float near_m = 0.1f;
   glm::mat4 clip_from_rel{1.0f};
 
@@ -25,7 +30,8 @@ struct View {
   glm::vec3 ray(float x_px, float y_px) const {
     const float x_ndc = 2.0f * x_px / static_cast<float>(width_px) - 1.0f;
     const float y_ndc = 1.0f - 2.0f * y_px / static_cast<float>(height_px);
-    return forward + right * (x_ndc * tan_half_x) + up * (y_ndc * tan_half_y);
+    return forward + right * (x_ndc * tan_half_x + tan_middle_x) +
+           up * (y_ndc * tan_half_y + tan_middle_y);
   }
 };
 
@@ -37,5 +43,55 @@ View make_view(glm::dvec3 eye_world, double heading_rad, double pitch_rad, doubl
 // The half-spaces dot(n, p_rel) + w >= 0 that enclose what the view sees: left, right, bottom,
 // top, near. Unit normals.
 std::array<glm::vec4, 5> frustum_planes(const View& view);
+
+// --- Views from their parts
+
+// Which way a camera looks, as columns: unit right, ahead and up, right-handed. They are given in
+// the world's axes (east, north, up), or in those of what carries the camera.
+
+// The axes of a camera with a heading and a pitch as above, which is then turned about the line it
+// looks along by roll_rad: positive lowers its right side, so that the horizon rises on the right.
+glm::dmat3 camera_axes(double heading_rad, double pitch_rad, double roll_rad);
+
+// The axes from a rotation that takes the optical frame of robotics and computer vision (x to the
+// right of the picture, y down, z ahead) to the world (east, north, up). The quaternion is taken at
+// its direction, and not 0. The identity looks straight up, with south at the picture's top.
+glm::dmat3 camera_axes(const glm::dquat& world_from_optical);
+
+// What a camera of one picture size sees, in tangents (View).
+struct Lens {
+  double tan_half_x = 1.0, tan_half_y = 1.0;
+  double tan_middle_x = 0.0, tan_middle_y = 0.0;
+};
+
+// A pinhole camera's matrix K in pixels: a point at x right, y down and z ahead lies at
+// (fx x / z + cx, fy y / z + cy) in the window, whose upper left corner is (0, 0). Where the middle
+// of the first pixel is (0, 0), as OpenCV has it, cx and cy are less by 0.5 than here.
+struct Intrinsics {
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
+};
+
+// The lens whose window spans fov_y_rad in (0, pi) from edge to edge, with square pixels.
+Lens lens_of_fov(double fov_y_rad, int width_px, int height_px);
+
+// The lens of a picture of that size; fx and fy > 0.
+Lens lens_of_intrinsics(const Intrinsics& k, int width_px, int height_px);
+
+// Builds a view from eye_world [m], axes, a lens for the size, near_m > 0 and a size.
+View make_view(glm::dvec3 eye_world, const glm::dmat3& world_from_camera, const Lens& lens,
+               float near_m, int width_px, int height_px);
+
+// The same from a pose of the optical frame and K.
+View make_view(glm::dvec3 eye_world, const glm::dquat& world_from_optical, const Intrinsics& k,
+               float near_m, int width_px, int height_px);
+
+// Where a view stands, in the words of robotics: the inverse of the function above, to the
+// precision of the view's floats (2e-7).
+struct OpticalPose {
+  glm::dvec3 eye_world{0.0};
+  glm::dquat world_from_optical{1.0, 0.0, 0.0, 0.0};  // w, x, y, z; unit, w >= 0
+  Intrinsics k;
+};
+OpticalPose camera_pose(const View& view);
 
 }  // namespace swell

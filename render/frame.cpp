@@ -27,6 +27,8 @@ void check_view(const View& view) {
   SWELL_CHECK(view.tan_half_x > 0.0f && std::isfinite(view.tan_half_x) && view.tan_half_y > 0.0f &&
                   std::isfinite(view.tan_half_y),
               "tan_half={}, {}", view.tan_half_x, view.tan_half_y);
+  SWELL_CHECK(std::isfinite(view.tan_middle_x) && std::isfinite(view.tan_middle_y),
+              "tan_middle={}, {}", view.tan_middle_x, view.tan_middle_y);
 }
 
 void check_options(const FrameOptions& o) {

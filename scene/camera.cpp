@@ -1,3 +1,5 @@
+#include "scene/camera.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -11,7 +13,7 @@ namespace {
 
 struct Pose {
   glm::dvec3 eye_m;
-  double heading_rad, pitch_rad;
+  double heading_rad, pitch_rad, roll_rad;
 };
 
 // A stretch of a path between two waypoints, and its neighbours; those beyond an end have length 0.
@@ -45,7 +47,7 @@ Pose pose_on_path(std::span<const Waypoint> path, double t_s) {
   const auto next = std::ranges::upper_bound(path, t_s, {}, &Waypoint::t_s);
   if (next == path.begin() || next == path.end()) {
     const Waypoint& end = next == path.begin() ? path.front() : path.back();
-    return {end.eye_m, end.heading_rad, end.pitch_rad};
+    return {end.eye_m, end.heading_rad, end.pitch_rad, end.roll_rad};
   }
   const Waypoint &from = next[-1], &to = *next;
   const Waypoint& before = next - 1 == path.begin() ? from : next[-2];
@@ -63,26 +65,75 @@ Pose pose_on_path(std::span<const Waypoint> path, double t_s) {
            value([](const Waypoint& w) { return w.eye_m.y; }),
            value([](const Waypoint& w) { return w.eye_m.z; })},
           from.heading_rad + moved(stretch, turn(before, from), turn(from, to), turn(to, after)),
-          value([](const Waypoint& w) { return w.pitch_rad; })};
+          value([](const Waypoint& w) { return w.pitch_rad; }),
+          value([](const Waypoint& w) { return w.roll_rad; })};
 }
 
+constexpr double kMaxTime = 1e12, kMaxDistance = 1e7;
+
 Pose pose_at(const Camera& camera, double t_s) {
+  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
+  t_s = std::clamp(t_s, -kMaxTime, kMaxTime);
   if (!camera.path.empty()) return pose_on_path(camera.path, t_s);
   // fmod is exact, so this costs no bits that the product had.
   return {camera.eye_m + camera.velocity_mps * t_s,
-          std::fmod(camera.heading_rad + camera.turn_rad_s * t_s, 2.0 * kPi), camera.pitch_rad};
+          std::fmod(camera.heading_rad + camera.turn_rad_s * t_s, 2.0 * kPi), camera.pitch_rad,
+          camera.roll_rad};
+}
+
+// In the world's axes, or the object's.
+glm::dmat3 axes_of(const Camera& camera, const Pose& pose) {
+  if (!camera.quaternion) return camera_axes(pose.heading_rad, pose.pitch_rad, pose.roll_rad);
+  const glm::dvec4& q = *camera.quaternion;
+  return camera_axes(glm::dquat(q[0], q[1], q[2], q[3]));
+}
+
+View view_from(const Camera& camera, glm::dvec3 eye_m, const glm::dmat3& world_from_camera,
+               int width_px, int height_px) {
+  const glm::dvec3 eye_world =
+      glm::clamp(eye_m, glm::dvec3(-kMaxDistance), glm::dvec3(kMaxDistance));
+  return make_view(eye_world, world_from_camera, camera_lens(camera, width_px, height_px),
+                   static_cast<float>(camera.near_m), width_px, height_px);
 }
 
 }  // namespace
 
+Lens camera_lens(const Camera& camera, int width_px, int height_px) {
+  if (!camera.focal_px) return lens_of_fov(camera.fov_y_rad, width_px, height_px);
+  SWELL_CHECK(camera.size_px.has_value(), "focal_px without size_px");
+  const glm::dvec2 centre_px = camera.principal_px.value_or(0.5 * *camera.size_px);
+  const glm::dvec2 scale = glm::dvec2(width_px, height_px) / *camera.size_px;
+  const glm::dvec2 f = scale * *camera.focal_px, c = scale * centre_px;
+  return lens_of_intrinsics({f.x, f.y, c.x, c.y}, width_px, height_px);
+}
+
 View camera_view(const Camera& camera, double t_s, int width_px, int height_px) {
-  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
-  constexpr double kMaxTime = 1e12, kMaxDistance = 1e7;
-  const Pose pose = pose_at(camera, std::clamp(t_s, -kMaxTime, kMaxTime));
-  const glm::dvec3 eye_world =
-      glm::clamp(pose.eye_m, glm::dvec3(-kMaxDistance), glm::dvec3(kMaxDistance));
-  return make_view(eye_world, pose.heading_rad, pose.pitch_rad, camera.fov_y_rad,
-                   static_cast<float>(camera.near_m), width_px, height_px);
+  SWELL_CHECK(camera.mount.empty(), "mount={}", camera.mount);
+  const Pose pose = pose_at(camera, t_s);
+  return view_from(camera, pose.eye_m, axes_of(camera, pose), width_px, height_px);
+}
+
+View mounted_view(const Camera& camera, const ObjectPose& object, double t_s, int width_px,
+                  int height_px) {
+  const glm::dmat3& world_from_object = object.world_from_object;
+  return view_from(camera, object.position_world + world_from_object * camera.mount_offset_m,
+                   world_from_object * axes_of(camera, pose_at(camera, t_s)), width_px, height_px);
+}
+
+const FloatingObject* camera_mount(const Scene& scene) {
+  if (scene.camera.mount.empty()) return nullptr;
+  const auto mount = std::ranges::find(scene.objects, scene.camera.mount, &FloatingObject::name);
+  return mount == scene.objects.end() ? nullptr : &*mount;
+}
+
+View camera_view(const Scene& scene, const ocean::WaterSurface& surface, double t_s, int width_px,
+                 int height_px) {
+  const FloatingObject* object = camera_mount(scene);
+  if (!object) return camera_view(scene.camera, t_s, width_px, height_px);
+  ObjectPose pose;
+  object_poses({object, 1}, surface, {&pose, 1});
+  if (scene.detail.triangulation == Triangulation::kPlane) pose.position_world.z = 0.0;
+  return mounted_view(scene.camera, pose, t_s, width_px, height_px);
 }
 
 }  // namespace swell::scene

@@ -137,6 +137,46 @@ Fault fault_of_coast_line(const TerrainDescription& terrain) {
   return std::nullopt;
 }
 
+// Which way the camera looks and what it sees is said in one way only.
+Fault fault_of_camera(const Camera& camera) {
+  if (camera.quaternion && !(std::abs(glm::length(*camera.quaternion) - 1.0) < 1e-3))
+    return SceneFault{"camera.quaternion",
+                      fmt::format("a length of {}", glm::length(*camera.quaternion)),
+                      "a length of 1, within 0.001"};
+  const auto beside_path = [&](std::string_view key) {
+    return SceneFault{std::string(key), fmt::format("it besides [[{}]]", kPathKey), "one of them"};
+  };
+  if (camera.quaternion && !camera.path.empty()) return beside_path("camera.quaternion");
+  if (!camera.mount.empty() && !camera.path.empty()) return beside_path("camera.mount");
+  const auto alone = [](std::string_view key, std::string_view other) {
+    return SceneFault{std::string(key), fmt::format("it without {}", other), "both or neither"};
+  };
+  if (camera.focal_px && !camera.size_px) return alone("camera.focal_px", "camera.size_px");
+  if (camera.size_px && !camera.focal_px) return alone("camera.size_px", "camera.focal_px");
+  if (camera.principal_px && !camera.focal_px)
+    return alone("camera.principal_px", "camera.focal_px");
+  if (camera.mount.empty() && camera.mount_offset_m != glm::dvec3(0.0))
+    return alone("camera.mount_offset_m", "camera.mount");
+  return std::nullopt;
+}
+
+Fault fault_of_names(const Scene& scene) {
+  std::vector<std::string_view> names;
+  for (std::size_t n = 0; n < scene.objects.size(); ++n) {
+    const std::string& name = scene.objects[n].name;
+    if (name.empty()) continue;
+    if (std::ranges::count(names, name) > 0)
+      return SceneFault{fmt::format("{}[{}].name", kObjectsKey, n), fmt::format("\"{}\"", name),
+                        "a name that no object before it has"};
+    names.push_back(name);
+  }
+  if (scene.camera.mount.empty() || camera_mount(scene)) return std::nullopt;
+  return SceneFault{"camera.mount", fmt::format("\"{}\"", scene.camera.mount),
+                    names.empty()
+                        ? "the name of an object, which none has"
+                        : fmt::format("the name of an object: \"{}\"", fmt::join(names, "\", \""))};
+}
+
 Fault fault_of_path(const std::vector<Waypoint>& path) {
   const auto late = std::ranges::adjacent_find(path, std::greater_equal{}, &Waypoint::t_s);
   if (late == path.end()) return std::nullopt;
@@ -161,7 +201,9 @@ std::optional<SceneFault> find_fault(const Scene& scene) {
 }
 
 std::optional<SceneFault> find_disagreement(const Scene& scene) {
+  if (Fault fault = fault_of_camera(scene.camera)) return fault;
   if (Fault fault = fault_of_path(scene.camera.path)) return fault;
+  if (Fault fault = fault_of_names(scene)) return fault;
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
   if (!scene.terrain) return std::nullopt;

@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
@@ -31,20 +33,30 @@ std::string tables_text(std::string_view key, const std::vector<Parameter<Object
   return text;
 }
 
+// Whether a file may not have the key, because another one of the scene's takes its place.
+bool is_replaced(std::string_view key, const Scene& scene,
+                 const std::vector<Parameter<Scene>>& parameters) {
+  if (key == "wind.speed_mps") return scene.douglas || scene.beaufort;
+  return std::ranges::any_of(kReplacements, [&](const Replacement& r) {
+    return r.replaced == key &&
+           std::ranges::find(parameters, r.key, &Parameter<Scene>::key)->is_set(scene);
+  });
+}
+
 }  // namespace
 
 std::string dump_scene(const Scene& scene) {
   std::string text;
   std::string_view section;
-  for (const auto& parameter : scene_parameters()) {
+  const std::vector<Parameter<Scene>> parameters = scene_parameters();
+  for (const auto& parameter : parameters) {
     const std::string_view its_section = section_of(parameter.key);
     if (its_section == "terrain" && !scene.terrain) continue;
     if (its_section != section) {
       section = its_section;
       text += fmt::format("\n[{}]\n", section);
     }
-    // A file may not have both a sea state and the wind that follows from it.
-    if (parameter.key == "wind.speed_mps" && (scene.douglas || scene.beaufort)) text += "# ";
+    if (is_replaced(parameter.key, scene, parameters)) text += "# ";
     text += line_of(parameter, scene);
   }
   return text + tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +

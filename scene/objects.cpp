@@ -71,6 +71,11 @@ ObjectPose pose_of(const FloatingObject& object, const ocean::WaterSurface& surf
 
 }  // namespace
 
+std::string_view object_class(const FloatingObject& object) {
+  return object.label.empty() ? kObjectKindNames[static_cast<std::size_t>(object.kind)]
+                              : std::string_view(object.label);
+}
+
 void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,
                   std::span<ObjectPose> poses) {
   SWELL_CHECK(objects.size() == poses.size(), "{} objects, {} poses", objects.size(), poses.size());

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace swell::ocean {
@@ -34,7 +35,12 @@ struct FloatingObject {
   double heading_rad = 0.0;               // clockwise from north
   double draught = 0.2;                   // part of the height below still water
   glm::vec3 colour{0.60f, 0.03f, 0.02f};  // linear RGB reflectance of the paint
+  std::string name{};                     // no other object's, or empty
+  std::string label{};                    // its class in labelled pictures; empty: the kind's name
 };
+
+// The name of the object's class in labelled pictures.
+std::string_view object_class(const FloatingObject& object);
 
 // Where an object is at one time. In its own axes (right, ahead, up) the origin lies on its
 // vertical axis at the waterline.

@@ -1,207 +1,14 @@
 #include "scene/parameters.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
-#include "math/elementary.h"
 #include "ocean/sea_scale.h"
+#include "scene/parameter_row.h"
 
 namespace swell::scene {
 namespace {
 
 using Kind = ParameterKind;
-
-// The number with the fewest digits that `convert` turns into `stored`, near `guess`. Not every
-// double is some number of degrees; then the nearest one.
-template <class Stored, class Convert>
-double shortest_preimage(Stored stored, double guess, Convert convert) {
-  for (int digits = 1; digits <= 17; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", guess, digits);
-    double number = guess;
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    if (convert(number) == stored) return number;
-  }
-  for (double up = guess, down = guess; std::abs(up - guess) < 8e-16 * std::abs(guess);) {
-    up = std::nextafter(up, INFINITY);
-    down = std::nextafter(down, -INFINITY);
-    if (convert(up) == stored) return up;
-    if (convert(down) == stored) return down;
-  }
-  return guess;
-}
-
-double to_file(double value) { return value; }
-double to_file(float value) {
-  return shortest_preimage(value, value, [](double x) { return static_cast<float>(x); });
-}
-
-// Makes rows of the table. `Field` is the type of a captureless lambda from the object to a
-// reference to the field.
-template <class Object>
-struct Row {
-  using Value = ParameterValue;
-  struct Range {
-    double low, high;
-    std::string_view unit = "";
-  };
-
-  template <class Field>
-  static Parameter<Object> number(std::string_view key, Range range, Field,
-                                  std::string_view meaning) {
-    Parameter<Object> row = ranged(key, Kind::kNumber, range, meaning);
-    row.get = [](const Object& object) -> Value {
-      return std::vector<double>{to_file(Field{}(object))};
-    };
-    row.set = [](Object& object, const Value& value) {
-      Field{}(object) = std::get<std::vector<double>>(value)[0];
-    };
-    return row;
-  }
-
-  // A field in radians.
-  template <class Field>
-  static Parameter<Object> angle(std::string_view key, Range range, Field,
-                                 std::string_view meaning) {
-    Parameter<Object> row = ranged(key, Kind::kNumber, range, meaning);
-    row.get = [](const Object& object) -> Value {
-      const double rad = Field{}(object);
-      return std::vector<double>{shortest_preimage(rad, rad / kRadPerDeg, radians)};
-    };
-    row.set = [](Object& object, const Value& value) {
-      Field{}(object) = radians(std::get<std::vector<double>>(value)[0]);
-    };
-    return row;
-  }
-
-  // A number or angle that may be 0 although its range begins above.
-  static Parameter<Object> or_zero(Parameter<Object> row) {
-    row.zero_too = true;
-    return row;
-  }
-
-  // A GLM vector.
-  template <class Field>
-  static Parameter<Object> vector(std::string_view key, Range range, Field,
-                                  std::string_view meaning) {
-    using Vector = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
-    Parameter<Object> row = ranged(key, Kind::kNumbers, range, meaning);
-    row.count_low = row.count_high = Vector::length();
-    row.get = [](const Object& object) -> Value {
-      const Vector& v = Field{}(object);
-      std::vector<double> numbers;
-      for (int i = 0; i < Vector::length(); ++i) numbers.push_back(to_file(v[i]));
-      return numbers;
-    };
-    row.set = [](Object& object, const Value& value) {
-      const auto& numbers = std::get<std::vector<double>>(value);
-      for (int i = 0; i < Vector::length(); ++i)
-        Field{}(object)[i] = static_cast<typename Vector::value_type>(numbers[i]);
-    };
-    return row;
-  }
-
-  template <class Field>
-  static Parameter<Object> list(std::string_view key, Range range, int count_low, int count_high,
-                                Field, std::string_view meaning) {
-    Parameter<Object> row = plain<std::vector<double>>(key, Kind::kNumbers, Field{}, meaning);
-    row.low = range.low, row.high = range.high, row.unit = range.unit;
-    row.count_low = count_low, row.count_high = count_high;
-    return row;
-  }
-
-  template <class Field>
-  static Parameter<Object> integer(std::string_view key, Kind kind, Range range, Field,
-                                   std::string_view meaning) {
-    using Integer = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
-    Parameter<Object> row = ranged(key, kind, range, meaning);
-    row.get = [](const Object& object) -> Value {
-      return static_cast<std::int64_t>(Field{}(object));
-    };
-    row.set = [](Object& object, const Value& value) {
-      Field{}(object) = static_cast<Integer>(std::get<std::int64_t>(value));
-    };
-    return row;
-  }
-
-  // A field that may hold no integer.
-  template <class Field>
-  static Parameter<Object> optional_integer(std::string_view key, Range range, Field,
-                                            std::string_view meaning) {
-    Parameter<Object> row = ranged(key, Kind::kInteger, range, meaning);
-    row.get = [](const Object& object) -> Value {
-      return static_cast<std::int64_t>(Field{}(object).value_or(0));
-    };
-    row.set = [](Object& object, const Value& value) {
-      Field{}(object) = static_cast<int>(std::get<std::int64_t>(value));
-    };
-    row.is_set = [](const Object& object) { return Field{}(object).has_value(); };
-    return row;
-  }
-
-  // A boolean or enumerated field that the file names by one of the words.
-  template <class Field>
-  static Parameter<Object> choice(std::string_view key, Field, std::string_view meaning) {
-    Parameter<Object> row = ranged(key, Kind::kChoice, {}, meaning);
-    row.choices = Field::words;
-    row.get = [](const Object& object) -> Value {
-      const auto index = static_cast<std::size_t>(Field{}(object));  // of a scene made in code: any
-      return index < Field::words.size() ? std::string(Field::words[index])
-                                         : fmt::format("value {}", index);
-    };
-    row.set = [](Object& object, const Value& value) {
-      using Stored = std::remove_cvref_t<decltype(Field{}(object))>;
-      const auto word = std::ranges::find(Field::words, std::get<std::string>(value));
-      Field{}(object) = static_cast<Stored>(word - Field::words.begin());
-    };
-    return row;
-  }
-
-  // A list of GLM vectors of two, without a value when empty.
-  template <class Field>
-  static Parameter<Object> points(std::string_view key, Range range, int count_low, int count_high,
-                                  Field, std::string_view meaning) {
-    Parameter<Object> row = ranged(key, Kind::kPoints, range, meaning);
-    row.count_low = count_low, row.count_high = count_high;
-    row.get = [](const Object& object) -> Value {
-      std::vector<double> numbers;
-      for (const glm::dvec2& point : Field{}(object)) {
-        numbers.push_back(point.x);
-        numbers.push_back(point.y);
-      }
-      return numbers;
-    };
-    row.set = [](Object& object, const Value& value) {
-      const auto& numbers = std::get<std::vector<double>>(value);
-      Field{}(object).clear();
-      for (std::size_t i = 0; i < numbers.size(); i += 2)
-        Field{}(object).emplace_back(numbers[i], numbers[i + 1]);
-    };
-    row.is_set = [](const Object& object) { return !Field{}(object).empty(); };
-    return row;
-  }
-
-  // A field that holds what the file has: a boolean, text, a path, a list.
-  template <class Stored, class Field>
-  static Parameter<Object> plain(std::string_view key, Kind kind, Field, std::string_view meaning) {
-    Parameter<Object> row = ranged(key, kind, {}, meaning);
-    row.get = [](const Object& object) -> Value { return Stored(Field{}(object)); };
-    row.set = [](Object& object, const Value& value) { Field{}(object) = std::get<Stored>(value); };
-    return row;
-  }
-
- private:
-  static Parameter<Object> ranged(std::string_view key, Kind kind, Range range,
-                                  std::string_view meaning) {
-    Parameter<Object> row;
-    row.key = key, row.kind = kind, row.meaning = meaning;
-    row.low = range.low, row.high = range.high, row.unit = range.unit;
-    return row;
-  }
-};
 
 struct Priority {
   static constexpr std::array<std::string_view, 2> words = {"projected_size", "inverse_distance"};
@@ -249,6 +56,8 @@ Rows camera_rows() {
                       "where the camera looks, clockwise from north"),
       SceneRow::angle("camera.pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(camera.pitch_rad),
                       "up positive"),
+      SceneRow::angle("camera.roll_deg", {-180, 180, "deg"}, SWELL_FIELD(camera.roll_rad),
+                      "about the line it looks along; positive lowers its right side"),
       SceneRow::angle("camera.fov_y_deg", {1, 170, "deg"}, SWELL_FIELD(camera.fov_y_rad),
                       "field of view from the lower to the upper edge"),
       SceneRow::number("camera.near_m", {0.01, 10, "m"}, SWELL_FIELD(camera.near_m),
@@ -257,6 +66,27 @@ Rows camera_rows() {
                        SWELL_FIELD(camera.velocity_mps), "constant, in world axes"),
       SceneRow::angle("camera.turn_deg_s", {-360, 360, "deg/s"}, SWELL_FIELD(camera.turn_rad_s),
                       "change of heading; the velocity does not turn with it"),
+      SceneRow::optional_vector(
+          "camera.quaternion", {-1, 1}, SWELL_FIELD(camera.quaternion),
+          "[w, x, y, z] of length 1: the rotation to the world (east, north, up) from the "
+          "camera's optical frame (right, down, ahead); excludes heading_deg, pitch_deg, roll_deg "
+          "and turn_deg_s"),
+      SceneRow::optional_vector("camera.focal_px", {1, 1e6, "pixels"}, SWELL_FIELD(camera.focal_px),
+                                "[fx, fy] of the camera matrix for a picture of size_px; excludes "
+                                "fov_y_deg"),
+      SceneRow::optional_vector(
+          "camera.principal_px", {-1e5, 1e5, "pixels"}, SWELL_FIELD(camera.principal_px),
+          "[cx, cy] of the camera matrix, right and down from the picture's upper left corner "
+          "(OpenCV's are less by 0.5); the middle if left out"),
+      SceneRow::optional_vector("camera.size_px", {1, 65536, "pixels"}, SWELL_FIELD(camera.size_px),
+                                "[width, height] that focal_px and principal_px are given for"),
+      SceneRow::optional_text(
+          "camera.mount", SWELL_FIELD(camera.mount),
+          "name of the object that carries the camera, whose directions are then in the axes of "
+          "the object; excludes eye_m and velocity_mps"),
+      SceneRow::vector("camera.mount_offset_m", {-1000, 1000, "m"},
+                       SWELL_FIELD(camera.mount_offset_m),
+                       "from the object's middle at its waterline: right, ahead, up"),
   };
 }
 
@@ -478,6 +308,10 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
                         "part of its height that lies below still water"),
       ObjectRow::vector("colour", {0, 1}, SWELL_FIELD(colour),
                         "linear RGB reflectance of its paint"),
+      ObjectRow::optional_text("name", SWELL_FIELD(name),
+                               "by which camera.mount may call it; no two alike"),
+      ObjectRow::optional_text("class", SWELL_FIELD(label),
+                               "what it is in labelled pictures; its kind if left out"),
   };
 }
 
@@ -491,6 +325,8 @@ std::vector<Parameter<Waypoint>> waypoint_parameters() {
       WaypointRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
                          "where the camera looks, clockwise from north; turns the shorter way"),
       WaypointRow::angle("pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(pitch_rad), "up positive"),
+      WaypointRow::angle("roll_deg", {-180, 180, "deg"}, SWELL_FIELD(roll_rad),
+                         "positive lowers its right side"),
   };
 }
 

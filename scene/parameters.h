@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -64,6 +65,20 @@ inline constexpr int kMaxCoastPoints = 200;
 inline constexpr std::size_t kMaxTextBytes = 200;
 inline constexpr std::string_view kSinesKey = "sea.sines", kPathKey = "camera.path",
                                   kObjectsKey = "object";
+
+// A key that may be without a value, and one whose place it takes: a file has only one of them.
+struct Replacement {
+  std::string_view key, replaced;
+};
+inline constexpr std::array<Replacement, 7> kReplacements = {{
+    {"camera.quaternion", "camera.heading_deg"},
+    {"camera.quaternion", "camera.pitch_deg"},
+    {"camera.quaternion", "camera.roll_deg"},
+    {"camera.quaternion", "camera.turn_deg_s"},
+    {"camera.focal_px", "camera.fov_y_deg"},
+    {"camera.mount", "camera.eye_m"},
+    {"camera.mount", "camera.velocity_mps"},
+}};
 
 // Whether the parameter allows a number, an integer, a choice or text; a list's number of numbers
 // or points. Not NaN.

@@ -12,46 +12,14 @@
 #include <string_view>
 #include <vector>
 
-#include "math/elementary.h"
-#include "math/view.h"
 #include "ocean/sea.h"
 #include "ocean/sea_area.h"
+#include "scene/camera.h"
 #include "scene/objects.h"
 #include "scene/scene_error.h"
 #include "terrain/terrain.h"
 
 namespace swell::scene {
-
-inline constexpr double kRadPerDeg = kPi / 180.0;
-constexpr double radians(double deg) { return deg * kRadPerDeg; }
-
-// Where the camera is and looks at a time.
-struct Waypoint {
-  double t_s = 0.0;
-  glm::dvec3 eye_m{0.0, 0.0, 10.0};
-  double heading_rad = 0.0;  // clockwise from north
-  double pitch_rad = 0.0;    // up positive
-};
-
-// The camera at a time: a fixed pose, a straight path with constant speed and turn rate, or a path
-// through waypoints.
-struct Camera {
-  glm::dvec3 eye_m{0.0, 0.0, 10.0};
-  double heading_rad = 0.0;  // clockwise from north
-  double pitch_rad = 0.0;    // up positive
-  double fov_y_rad = radians(50.0);
-  double near_m = 0.25;
-  glm::dvec3 velocity_mps{0.0};
-  double turn_rad_s = 0.0;
-  // In order of time, no two at one. Takes the place of the poses and motions above: smooth through
-  // the waypoints, each coordinate between its values at the two around; headings turn the shorter
-  // way; at rest before the first, after the last, and where two waypoints have the same place.
-  std::vector<Waypoint> path{};
-};
-
-// The camera's view at time t_s [s] (finite; taken as 1e12 beyond that) of a picture of at least
-// 1 x 1 pixels. The eye stays within 1e7 m of the origin along each axis.
-View camera_view(const Camera& camera, double t_s, int width_px, int height_px);
 
 struct Sky {
   double sun_azimuth_rad = 0.0;  // where the sun stands, clockwise from north

@@ -82,6 +82,7 @@ class Reader {
   Scene read(const toml::table& root) {
     scene_.name = file_.stem().string();
     read_table(root, "");
+    check_replacements();
     apply_sea_state();
     finish_coast();
     scene_.sky.sun_direction =
@@ -153,6 +154,12 @@ class Reader {
     if (!scene_.terrain->height_image.empty())
       check_only_one_of({"terrain.height_image", "terrain.coast_m"});
     if (!given_.contains("coast.model")) scene_.coast.model = CoastModel::kBlend;
+  }
+
+  void check_replacements() const {
+    for (const auto& [key, replaced] : kReplacements)
+      if (std::ranges::find(parameters_, key, &Parameter<Scene>::key)->is_set(scene_))
+        check_only_one_of({std::string(key), std::string(replaced)});
   }
 
   // The keys set the same thing.

@@ -17,6 +17,11 @@ struct ImageF {
   }
 };
 
+struct Image16 {
+  int width = 0, height = 0, channels = 0;
+  std::vector<std::uint16_t> pixels;
+};
+
 struct Image8 {
   int width = 0, height = 0, channels = 0;
   std::vector<std::uint8_t> pixels;

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace swell::texture {
@@ -38,9 +39,15 @@ struct ImageInfo {
 struct EncodeRequest {
   std::string_view format;
   int width = 0, height = 0, channels = 0;
-  const std::uint8_t* bytes = nullptr;  // width * height * channels 8-bit samples, or null and
-  const float* floats = nullptr;        // as many of these
+  // width * height * channels samples of one of these kinds, the others null.
+  const std::uint8_t* bytes = nullptr;
+  const std::uint16_t* words = nullptr;
+  const float* floats = nullptr;
+  // 32 bits each, as the channels' kinds say; interleaved as all samples are.
+  const std::uint32_t* bits = nullptr;
+  std::vector<SampleKind> kinds = {};   // of `bits`: kUnsigned32 or kFloat for each channel
   std::vector<std::string> names = {};  // of the channels; empty: the format's own
+  std::vector<std::pair<std::string, std::string>> notes = {};  // further attributes: name, text
 };
 
 // Formats go by OpenImageIO's names: "png", "openexr", "hdr", "tiff", "pnm". Where the result is
@@ -58,7 +65,7 @@ struct ImageCodec {
                         std::string& error);
 };
 
-inline constexpr std::uint32_t kImageCodecVersion = 1;  // another after each change above
+inline constexpr std::uint32_t kImageCodecVersion = 2;  // another after each change above
 inline constexpr char kImageCodecFile[] = "libswell_image_codec.so";
 inline constexpr char kImageCodecSymbol[] = "swell_image_codec";  // an ImageCodec
 
@@ -67,5 +74,9 @@ inline constexpr char kImageCodecSymbol[] = "swell_image_codec";  // an ImageCod
 // std::runtime_error if there is not enough memory or no thread to be had for loading it, where its
 // libraries would abort the program. May be called by several threads at once.
 const ImageCodec& image_codec();
+
+// What the codec makes of the request, without the notes of time and program that it puts into PNG.
+// Throws FileError.
+std::vector<std::uint8_t> encode(const EncodeRequest& request);
 
 }  // namespace swell::texture

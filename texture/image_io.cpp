@@ -180,17 +180,6 @@ void drop_png_notes(std::vector<std::uint8_t>& png) {
   png.resize(to);
 }
 
-std::vector<std::uint8_t> encode(const EncodeRequest& request) {
-  std::vector<std::uint8_t> bytes;
-  std::string error;
-  const CodecResult result = image_codec().encode(request, bytes, error);
-  check_room(result);
-  if (result == CodecResult::kFault)
-    throw FileError(fmt::format("cannot encode {}: {}", request.format, one_line(error)));
-  if (request.format == "png") drop_png_notes(bytes);
-  return bytes;
-}
-
 [[noreturn]] void refuse_extension(const std::string& extension, const char* what,
                                    const char* allowed) {
   throw FileError("extension '" + one_line(extension) + "' cannot hold " + what +
@@ -210,7 +199,30 @@ std::vector<std::string> default_channel_names(int channels) {
                        : std::vector<std::string>{"R", "G", "B", "A"};
 }
 
+// Of an image of whole numbers, without its samples.
+template <class Image>
+EncodeRequest whole_number_request(const Image& image, const std::string& extension,
+                                   const char* what) {
+  check_pixels(image.width, image.height, image.channels, image.pixels.size());
+  SWELL_CHECK(image.channels <= 4, "channels={}", image.channels);
+  const std::string_view format = format_of_extension(lower_case(extension));
+  if (format != "png" && format != "tiff") refuse_extension(extension, what, ".png, .tif, .tiff");
+  return {
+      .format = format, .width = image.width, .height = image.height, .channels = image.channels};
+}
+
 }  // namespace
+
+std::vector<std::uint8_t> encode(const EncodeRequest& request) {
+  std::vector<std::uint8_t> bytes;
+  std::string error;
+  const CodecResult result = image_codec().encode(request, bytes, error);
+  check_room(result);
+  if (result == CodecResult::kFault)
+    throw FileError(fmt::format("cannot encode {}: {}", request.format, one_line(error)));
+  if (request.format == "png") drop_png_notes(bytes);
+  return bytes;
+}
 
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string_view format = checked_format(path);
@@ -221,17 +233,15 @@ ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits) {
 }
 
 std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension) {
-  check_pixels(image.width, image.height, image.channels, image.pixels.size());
-  SWELL_CHECK(image.channels <= 4, "channels={}", image.channels);
-  const std::string_view format = format_of_extension(lower_case(extension));
-  if (format != "png" && format != "tiff") {
-    refuse_extension(extension, "8-bit pixels", ".png, .tif, .tiff");
-  }
-  return encode({.format = format,
-                 .width = image.width,
-                 .height = image.height,
-                 .channels = image.channels,
-                 .bytes = image.pixels.data()});
+  EncodeRequest request = whole_number_request(image, extension, "8-bit pixels");
+  request.bytes = image.pixels.data();
+  return encode(request);
+}
+
+std::vector<std::uint8_t> encode_image(const Image16& image, const std::string& extension) {
+  EncodeRequest request = whole_number_request(image, extension, "16-bit pixels");
+  request.words = image.pixels.data();
+  return encode(request);
 }
 
 std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,

@@ -33,12 +33,14 @@ struct ReadLimits {
 // and whatever is not a regular file. Channels come as stored: alpha is not multiplied in.
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
 
-// Encodes by the file name's extension: .png (8-bit), .exr (float), .tif/.tiff (float or 8-bit).
+// Encodes by the file name's extension: .png (8 or 16-bit), .exr (float), .tif/.tiff (float, 8 or
+// 16-bit).
 // Channels are written as they are: display-encoded bytes stay display-encoded, alpha is not
 // divided out. EXR channels are named Y, YA, RGB or RGBA unless names are given (then any number
 // of channels is allowed). The same image gives the same bytes: no dates. Throws FileError for
 // other extensions.
 std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension);
+std::vector<std::uint8_t> encode_image(const Image16& image, const std::string& extension);
 std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,
                                        std::span<const std::string> channel_names = {});
 

@@ -10,7 +10,7 @@ double eye_floor_m(const render::World& world, glm::dvec3 eye_m, double t_s, oce
                    Workers& workers) {
   const render::World::State& w = world.state();
   const glm::dvec2 p(eye_m);
-  double top_m = static_cast<double>(w.height_bound_m());
+  double top_m = static_cast<double>(w.water_bounds().height_m);
   if (eye_m.z < top_m + kEyeClearance_m) {
     ocean::advance(*w.sea, t_s, sea, workers);
     top_m = static_cast<double>(render::water_surface(w, sea).height(p));

@@ -75,6 +75,22 @@ void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   water.foam = make_foam(in, eye);
 }
 
+// The displacement of the lookups turns with the picture. Across the line of sight it is half as
+// large (LookUpDistorted), hence the factors of a rolled camera.
+void fill_slope_axes(const View& camera, Water& water) {
+  const bool level = camera.right.z == 0.0f;
+  const glm::vec2 right =
+      level ? glm::vec2(camera.right) : glm::vec2(camera.forward.y, -camera.forward.x);
+  water.view_right = right / std::max(glm::length(right), 1e-6f);
+  water.view_ahead = glm::vec2(-water.view_right.y, water.view_right.x);
+  if (level) return;
+  const glm::vec2 l = water.view_right, a = water.view_ahead;
+  const float cos_r = glm::dot(glm::vec2(camera.right), l);
+  const float sin_r = glm::dot(glm::vec2(camera.up), l);
+  water.view_right = cos_r * l - 2.0f * sin_r * a;
+  water.view_ahead = cos_r * a + 0.5f * sin_r * l;
+}
+
 void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =
@@ -83,9 +99,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
   water.max_distortion_px = max_distortion_px(camera);
-  const glm::vec2 right(camera.right.x, camera.right.y);
-  water.view_right = right / std::max(glm::length(right), 1e-6f);
-  water.view_ahead = glm::vec2(-water.view_right.y, water.view_right.x);
+  fill_slope_axes(camera, water);
 }
 
 }  // namespace

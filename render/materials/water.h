@@ -43,7 +43,7 @@ struct Water {
   LookupImage reflection, refraction;
   float distortion_px = 0.0f;                    // window pixels per unit of slope
   float max_distortion_px = 0.0f;                // bound of the displacement, each way
-  glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // horizontal unit vectors of the camera
+  glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
 };
 
 // How far slopes may displace a lookup, each way.

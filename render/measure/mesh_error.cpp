@@ -88,7 +88,9 @@ void find_skyline(const ocean::WaterSurface& surface, SeaReference& sea, Workers
   std::vector<Skyline> rays(static_cast<std::size_t>(count));
   workers.for_each(rays.size(), [&](std::size_t k, int) {
     const double x_px = static_cast<double>(k) / kRaysPerColumn - 1.0;
-    const double across = (2.0 * x_px / view.width_px - 1.0) * static_cast<double>(view.tan_half_x);
+    const double across =
+        (2.0 * x_px / view.width_px - 1.0) * static_cast<double>(view.tan_half_x) +
+        static_cast<double>(view.tan_middle_x);
     // Of a pitched view the horizon's distance along the axis is the cosine of a level one's.
     const double cos_pitch = glm::length(glm::dvec2(view.forward));
     rays[k] = skyline_along(view, surface, glm::normalize(ahead + right * (across * cos_pitch)));

@@ -39,9 +39,10 @@ void displace_water(const WaterHeights& in, std::size_t begin, std::size_t end, 
   if (in.world.scene.detail.triangulation == scene::Triangulation::kPlane)
     std::ranges::fill(height_m, 0.0f);
   else if (in.background_error_px > 0.0f)
-    background_heights(
-        Background(in.view, *in.world.sea, in.world.height_bound_m(), in.background_error_px),
-        surface, p_world, std::span<const glm::vec2>(water.offset).subspan(begin, count), height_m);
+    background_heights(Background(in.view, *in.world.sea, in.world.water_bounds().height_m,
+                                  in.background_error_px),
+                       surface, p_world,
+                       std::span<const glm::vec2>(water.offset).subspan(begin, count), height_m);
   else
     surface.heights(p_world, height_m);
 }
@@ -53,7 +54,7 @@ void displace_land(const terrain::HeightGrid& terrain, glm::dvec2 eye, std::size
   std::array<glm::dvec2, kChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(land.offset[begin + i]);
   terrain::sample_heights(terrain, std::span(p).first(count),
-                        std::span(land.height_m).subspan(begin, count));
+                          std::span(land.height_m).subspan(begin, count));
 }
 
 // Calls displace_some(begin, end) for all vertices of the surface, in chunks, and maps them.

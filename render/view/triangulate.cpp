@@ -94,11 +94,10 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
   if (detail.triangulation != scene::Triangulation::kRoam) water.mesh_revision = 0;
   switch (detail.triangulation) {
     case scene::Triangulation::kRoam: {
-      const float bound = wanted.world.height_bound_m();
-      lod::AdaptRequest request = request_for(wanted, budget, -bound, bound);
-      request.max_slope = wanted.world.slope_bound();
-      if (const double mean_m = wanted.world.mean_wavelength_m(); mean_m > 0.0)
-        request.largest_size_m = 0.5 * mean_m;
+      const ocean::WaterBounds bounds = wanted.world.water_bounds();
+      lod::AdaptRequest request = request_for(wanted, budget, -bounds.height_m, bounds.height_m);
+      request.max_slope = bounds.slope;
+      if (bounds.mean_wavelength_m > 0.0) request.largest_size_m = 0.5 * bounds.mean_wavelength_m;
       request.focuses = wanted.world.focuses;
       adapt_surface(sea_domain(wanted.view, budget), request, wanted.options.triangle_capacity,
                     water);

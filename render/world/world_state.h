@@ -72,9 +72,6 @@ struct World::State {
 
   ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
   ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
-  float height_bound_m() const { return water_bounds().height_m; }
-  float slope_bound() const { return water_bounds().slope; }
-  double mean_wavelength_m() const { return water_bounds().mean_wavelength_m; }
 };
 
 // The water's surface at the time of `sea`, a frame of the world's sea.

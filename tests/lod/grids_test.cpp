@@ -19,13 +19,19 @@ struct Shot {
   int budget;
 };
 
-// Eyes within 1000 km; every third looks steeply down or up.
+// Eyes within 1000 km; every third looks steeply down or up, every second is rolled and looks past
+// its picture's middle.
 Shot random_shot(int n) {
   const auto dice = [&](int i) { return random_uniform(5, static_cast<std::uint64_t>(8 * n + i)); };
   const glm::dvec3 eye(2e6 * (dice(0) - 0.5), 2e6 * (dice(1) - 0.5), 500.0 * dice(2) - 20.0);
   const double steepest = n % 3 == 0 ? 1.5 : 0.4;
-  const View view = make_view(eye, 12.0 * dice(3) - 6.0, steepest * (2.0 * dice(4) - 1.0),
-                              0.2 + 1.4 * dice(5), 0.1f, 160, 90);
+  Lens lens = lens_of_fov(0.2 + 1.4 * dice(5), 160, 90);
+  const double odd = n % 2;
+  lens.tan_middle_x = odd * (3.0 * dice(7) - 1.5);
+  lens.tan_middle_y = odd * (1.5 - 3.0 * dice(6));
+  const glm::dmat3 axes = camera_axes(12.0 * dice(3) - 6.0, steepest * (2.0 * dice(4) - 1.0),
+                                      odd * (6.0 * dice(2) - 3.0));
+  const View view = make_view(eye, axes, lens, 0.1f, 160, 90);
   return {view, static_cast<int>(64.0 * std::pow(300.0, dice(6)))};
 }
 
@@ -113,21 +119,42 @@ TEST(RadialGrid, HasItsRingsWhereTheFormulaPutsThem) {
 }
 
 // Points on the pixels' rays between 1 m and 30 km from the eye lie in a column that is made.
-TEST(RadialGrid, HasEveryColumnThatTheViewSees) {
-  for (int n = 0; n < kViews; ++n) {
-    const Shot shot = random_shot(n);
-    const RadialLayout layout = radial_layout(shot.view, shot.budget);
-    for (int y = 0; y <= 90; y += 5) {
-      for (int x = 0; x <= 160; x += 5) {
-        const glm::dvec3 ray(shot.view.ray(static_cast<float>(x), static_cast<float>(y)));
-        const double turns = std::atan2(ray.y, ray.x) / (2.0 * std::numbers::pi);
-        const double column = std::floor((turns + 1.0) * layout.columns);
-        const int from_first =
-            (static_cast<int>(column) - layout.first_column + 2 * layout.columns) % layout.columns;
-        ASSERT_LT(from_first, layout.columns_seen) << n << ": pixel " << x << ", " << y;
-      }
+void expect_columns_seen(const View& view, int budget) {
+  const RadialLayout layout = radial_layout(view, budget);
+  for (int y = 0; y <= 90; y += 5) {
+    for (int x = 0; x <= 160; x += 5) {
+      const glm::dvec3 ray(view.ray(static_cast<float>(x), static_cast<float>(y)));
+      const double turns = std::atan2(ray.y, ray.x) / (2.0 * std::numbers::pi);
+      const double column = std::floor((turns + 1.0) * layout.columns);
+      const int from_first =
+          (static_cast<int>(column) - layout.first_column + 2 * layout.columns) % layout.columns;
+      ASSERT_LT(from_first, layout.columns_seen) << "pixel " << x << ", " << y;
     }
   }
+}
+
+TEST(RadialGrid, HasEveryColumnThatTheViewSees) {
+  for (int n = 0; n < kViews; ++n) {
+    SCOPED_TRACE(n);
+    const Shot shot = random_shot(n);
+    expect_columns_seen(shot.view, shot.budget);
+  }
+}
+
+// Far below the axis of a camera that looks ahead lies the nadir, and of one that looks down what
+// is behind it.
+TEST(RadialGrid, HasEveryColumnOfAViewFarFromItsAxis) {
+  const auto view = [](double pitch_rad, double tan_middle_y, double tan_half) {
+    const Lens lens = {
+        .tan_half_x = tan_half, .tan_half_y = tan_half, .tan_middle_y = tan_middle_y};
+    return make_view({0.0, 0.0, 9.0}, camera_axes(0.4, pitch_rad, 0.0), lens, 0.1f, 160, 90);
+  };
+  expect_columns_seen(view(-0.3, -4.0, 1.0), 2000);
+  EXPECT_EQ(radial_layout(view(-0.3, -4.0, 1.0), 2000).columns_seen,
+            radial_layout(view(-0.3, -4.0, 1.0), 2000).columns);
+  expect_columns_seen(view(-1.55, -3.0, 0.3), 2000);
+  EXPECT_LT(radial_layout(view(-1.55, -3.0, 0.3), 2000).columns_seen,
+            radial_layout(view(-1.55, -3.0, 0.3), 2000).columns / 2);
 }
 
 TEST(RadialGrid, KeepsItsVerticesWhenTheEyeTurns) {

@@ -81,7 +81,7 @@ TEST_P(OddFloor, GivesAFiniteSea) {
   Workers one(1), three(3);
   render_frame(world, view, 3.0, options, workspace, target, three);
   const Surface& water = workspace.state().meshes.water;
-  const float bound_m = world.state().height_bound_m();
+  const float bound_m = world.state().water_bounds().height_m;
   EXPECT_LT(bound_m, 20.0f);
   EXPECT_TRUE(std::ranges::all_of(water.height_m, [&](float z) { return std::abs(z) <= bound_m; }));
   EXPECT_TRUE(std::ranges::all_of(target.linear, [](float c) { return c >= 0.0f && c < 1e6f; }));

@@ -100,7 +100,29 @@ std::optional<std::string> tame_value(std::string_view key, Dice& dice) {
   // On the largest island 16 trains need 100 m.
   if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
   if (key.ends_with("_triangles")) return fmt::format("{}", 2 + dice.below(4000));
+  if (key == "camera.mount") return "\"\"";  // the test of mounted cameras has some
+  if (key == "camera.mount_offset_m") return "[0, 0, 0]";
+  if (key == "camera.quaternion") {
+    const glm::dvec4 q(dice.uniform() - 0.5, dice.uniform() - 0.5, dice.uniform() - 0.5, 0.1);
+    const glm::dvec4 unit = q / glm::length(q);
+    return fmt::format("[{}, {}, {}, {}]", unit[0], unit[1], unit[2], unit[3]);
+  }
+  if (key == "camera.focal_px")
+    return fmt::format("[{}, {}]", 20 + 200 * dice.uniform(), 20 + 200 * dice.uniform());
+  if (key == "camera.principal_px")
+    return fmt::format("[{}, {}]", 200 * dice.uniform() - 50, 200 * dice.uniform() - 50);
+  if (key == "camera.size_px") return "[100, 90]";
   return std::nullopt;
+}
+
+// Whether the camera of a scene by a quaternion and a matrix, or of another one, has the key.
+bool goes_with(std::string_view key, bool by_matrix) {
+  for (const scene::Replacement& r : scene::kReplacements) {
+    if (r.key == "camera.mount") continue;
+    if (key == r.key) return by_matrix;
+    if (key == r.replaced) return !by_matrix;
+  }
+  return by_matrix || (key != "camera.principal_px" && key != "camera.size_px");
 }
 
 // Up to two tables [[key]] with every key.
@@ -118,11 +140,13 @@ void add_random_tables(std::string_view table_key, const std::vector<Parameter<O
 std::string random_scene(Dice& dice, bool with_terrain) {
   constexpr std::string_view kWindKeys[] = {"wind.speed_mps", "sea.douglas", "sea.beaufort"};
   const std::string_view wind_key = kWindKeys[dice.below(3)];
+  const bool by_matrix = dice.below(3) == 0;
   std::map<std::string, std::string> tables;
   for (const auto& parameter : scene::scene_parameters()) {
     const std::string_view key = parameter.key;
     std::optional<std::string> value = tame_value(key, dice);
     if (!value && dice.below(3) == 0) continue;
+    if (!goes_with(key, by_matrix)) continue;
     if (key != wind_key && std::ranges::count(kWindKeys, key)) continue;  // they exclude each other
     // The winds of sea states suit a gravity near the earth's.
     if (key == "sea.gravity_mps2" && wind_key == "sea.douglas") continue;

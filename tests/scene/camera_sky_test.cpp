@@ -55,6 +55,54 @@ TEST(Camera, AnyFiniteTimeGivesAFiniteView) {
   }
 }
 
+TEST(Camera, RollLowersTheRightSide) {
+  const Camera camera{.heading_rad = kQuarter, .roll_rad = kQuarter / 3.0};
+  const View view = camera_view(camera, 0.0, 8, 8);
+  expect_near(view.forward, {1, 0, 0}, 1e-7);
+  expect_near(view.right, {0, -std::sqrt(0.75), -0.5}, 1e-7);
+}
+
+// The identity looks at the zenith; the eye still moves.
+TEST(Camera, AQuaternionTakesThePlaceOfTheAngles) {
+  Camera camera{.eye_m = {0, 0, 2}, .heading_rad = 1.0, .velocity_mps = {1, 0, 0}};
+  camera.quaternion = glm::dvec4(1, 0, 0, 0);
+  const View view = camera_view(camera, 5.0, 8, 8);
+  expect_near(view.forward, {0, 0, 1}, 1e-7);
+  expect_near(view.up, {0, -1, 0}, 1e-7);
+  EXPECT_EQ(view.eye_world, glm::dvec3(5, 0, 2));
+}
+
+// The same directions at the corners and at the principal point, whatever the size.
+TEST(Camera, AMatrixIsStretchedToThePicturesSize) {
+  Camera camera;
+  camera.focal_px = glm::dvec2(800.0, 780.0);
+  camera.principal_px = glm::dvec2(300.0, 250.0);
+  camera.size_px = glm::dvec2(640.0, 480.0);
+  const View given = camera_view(camera, 0.0, 640, 480);
+  const Intrinsics k = camera_pose(given).k;
+  expect_near({k.fx, k.fy, 0.0}, {800.0, 780.0, 0.0}, 1e-4);
+  expect_near({k.cx, k.cy, 0.0}, {300.0, 250.0, 0.0}, 1e-4);
+  expect_near(given.ray(300.0f, 250.0f), given.forward, 1e-6);
+  for (const glm::ivec2& size : {glm::ivec2(320, 240), glm::ivec2(1280, 960), glm::ivec2(64, 99)}) {
+    const View view = camera_view(camera, 0.0, size.x, size.y);
+    EXPECT_EQ(view.ray(0, 0), given.ray(0, 0));
+    expect_near(view.ray(static_cast<float>(size.x), static_cast<float>(size.y)),
+                given.ray(640.0f, 480.0f), 1e-6);
+    EXPECT_NEAR(camera_pose(view).k.fx, 800.0 * size.x / 640.0, 2e-4);
+    EXPECT_NEAR(camera_pose(view).k.cy, 250.0 * size.y / 480.0, 2e-4);
+  }
+  camera.principal_px.reset();
+  EXPECT_EQ(camera_view(camera, 0.0, 640, 480).tan_middle_x, 0.0f);
+}
+
+TEST(CameraPath, RollsFromWaypointToWaypoint) {
+  const Camera camera{.path = {{.t_s = 0.0}, {.t_s = 1.0, .roll_rad = 0.2}, {.t_s = 2.0}}};
+  EXPECT_EQ(camera_view(camera, 0.0, 8, 8).right.z, 0.0f);
+  EXPECT_NEAR(camera_view(camera, 1.0, 8, 8).right.z, -std::sin(0.2), 1e-7);
+  EXPECT_LT(camera_view(camera, 0.5, 8, 8).right.z, -0.01f);
+  EXPECT_GT(camera_view(camera, 0.5, 8, 8).right.z, -0.19f);
+}
+
 // There and back, with a turn on the spot over north.
 Camera camera_on_path() {
   const auto deg = [](double angle) { return radians(angle); };
@@ -129,6 +177,12 @@ TEST(CameraPath, KeepsAConstantSpeedBetweenEvenWaypoints) {
 
 TEST(CameraDeathTest, TimeThatIsNoNumberIsTheCallersMistake) {
   EXPECT_DEATH(camera_view({}, std::nan(""), 8, 8), "t_s=nan");
+}
+
+TEST(CameraDeathTest, AMountedCamerasViewNeedsItsObject) {
+  Camera camera;
+  camera.mount = "boat";
+  EXPECT_DEATH(camera_view(camera, 0.0, 8, 8), "mount=boat");
 }
 
 Sky clear_sky() {

@@ -72,6 +72,44 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[[camera.path]]\nt_s = 2\n[[camera.path]]\nt_s = 2\n",
               "test.toml:4: column 7: camera.path[1].t_s, got 2, allowed more than that of the "
               "table before, 2"},
+        Fault{"[camera]\nheading_deg = 3\nquaternion = [1, 0, 0, 0]\n",
+              "test.toml:2: column 15: camera.heading_deg, got it besides camera.quaternion in "
+              "line 3, allowed one of camera.quaternion, camera.heading_deg"},
+        Fault{"[camera]\nquaternion = [1, 1, 0, 0]\n",
+              "test.toml:2: column 14: camera.quaternion, got a length of 1.4142135623730951, "
+              "allowed a length of 1, within 0.001"},
+        Fault{"[camera]\nquaternion = [1, 0, 0, 0]\n[[camera.path]]\n",
+              "test.toml:2: column 14: camera.quaternion, got it besides [[camera.path]], allowed "
+              "one of them"},
+        Fault{"[camera]\nfov_y_deg = 40\nfocal_px = [9, 9]\nsize_px = [9, 9]\n",
+              "test.toml:2: column 13: camera.fov_y_deg, got it besides camera.focal_px in line 3, "
+              "allowed one of camera.focal_px, camera.fov_y_deg"},
+        Fault{
+            "[camera]\nfocal_px = [9, 9]\n",
+            "test.toml:2: column 12: camera.focal_px, got it without camera.size_px, allowed both "
+            "or neither"},
+        Fault{
+            "[camera]\nprincipal_px = [9, 9]\n",
+            "test.toml:2: column 16: camera.principal_px, got it without camera.focal_px, allowed "
+            "both or neither"},
+        Fault{"[camera]\nfocal_px = [800, 0]\n",
+              "test.toml:2: column 18: camera.focal_px[1], got 0, allowed 2 numbers, each 1 to "
+              "1000000 pixels"},
+        Fault{"[camera]\nmount = \"boat\"\n[[object]]\nname = \"a\"\n[[object]]\nname = \"b\"\n",
+              "test.toml:2: column 9: camera.mount, got \"boat\", allowed the name of an object: "
+              "\"a\", \"b\""},
+        Fault{"[camera]\nmount = \"boat\"\n",
+              "test.toml:2: column 9: camera.mount, got \"boat\", allowed the name of an object, "
+              "which none has"},
+        Fault{"[camera]\neye_m = [0, 0, 9]\nmount = \"a\"\n[[object]]\nname = \"a\"\n",
+              "test.toml:2: column 9: camera.eye_m, got it besides camera.mount in line 3, allowed "
+              "one of camera.mount, camera.eye_m"},
+        Fault{"[camera]\nmount_offset_m = [0, 0, 1]\n",
+              "test.toml:2: column 18: camera.mount_offset_m, got it without camera.mount, allowed "
+              "both or neither"},
+        Fault{"[[object]]\nname = \"a\"\n[[object]]\nname = \"a\"\n",
+              "test.toml:4: column 8: object[1].name, got \"a\", allowed a name that no object "
+              "before it has"},
         Fault{"[sea.sines]\namplitude_m = 1\n",
               "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
               "[[sea.sines]]"},
@@ -134,8 +172,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Fault{"[camera]\nfov_deg = 50\n",
               "test.toml:2: column 1: unknown key, got 'camera.fov_deg', allowed in [camera] "
-              "fov_y_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, [[camera.path]], near_m, "
-              "velocity_mps"},
+              "fov_y_deg, roll_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, mount, focal_px, "
+              "[[camera.path]], near_m, size_px, velocity_mps, mount_offset_m, quaternion, "
+              "principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
               "[water], [[camera.path]], [sky], [coast], [wind], [terrain], [[sea.sines]], "
@@ -148,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
               "[sea.sines] amplitude_m, period_s, wavelength_m, to_deg, phase_deg"},
         Fault{"[[object]]\ncolor = [1, 0, 0]\n",
               "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
-              "kind, top_mark, position_m, size_m, draught, heading_deg"},
+              "class, kind, top_mark, name, position_m, size_m, draught, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
               "[sea], [water], [wind], [coast], [[sea.sines]], [detail], [[object]], [terrain], "
@@ -156,22 +195,24 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "[camera]\nfov = 3\n",
             "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
-            "[[camera.path]], eye_m, near_m, pitch_deg, velocity_mps, turn_deg_s, heading_deg"},
+            "mount, focal_px, [[camera.path]], eye_m, roll_deg, near_m, size_px, quaternion, "
+            "pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, mount_offset_m"},
         Fault{"[sea]\nstate = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] seed, "
               "[[sea.sines]], spectrum, centre_m, size_m, beaufort, resolution, loop_s, douglas, "
               "gravity_mps2, amplitude_scale, patch_lengths_m"},
-        Fault{
-            "[camera]\n\"eye.m\" = 3\n",
-            "test.toml:2: column 1: unknown key, got 'camera.eye.m', allowed in [camera] eye_m, "
-            "near_m, [[camera.path]], fov_y_deg, velocity_mps, turn_deg_s, heading_deg, pitch_deg"},
+        Fault{"[camera]\n\"eye.m\" = 3\n",
+              "test.toml:2: column 1: unknown key, got 'camera.eye.m', allowed in [camera] eye_m, "
+              "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "
+              "turn_deg_s, "
+              "quaternion, focal_px, heading_deg, pitch_deg, mount_offset_m, principal_px"},
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
               "[coast], [camera], [wind], [detail], [terrain], [[object]], [[sea.sines]], "
               "[[camera.path]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
-              "t_s, eye_m, pitch_deg, heading_deg"},
+              "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
         Fault{
             "[terrain]\nheigth = 3\n",
             "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "

@@ -47,6 +47,7 @@ name = "every key"
 eye_m = [1.5, -2, 3.25]
 heading_deg = 90
 pitch_deg = -12.5
+roll_deg = 7
 fov_y_deg = 60
 near_m = 0.5
 velocity_mps = [4, 5, 6]
@@ -121,6 +122,7 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.camera.eye_m, glm::dvec3(1.5, -2.0, 3.25));
   EXPECT_EQ(scene.camera.heading_rad, 90 * kDegree);
   EXPECT_EQ(scene.camera.pitch_rad, -12.5 * kDegree);
+  EXPECT_EQ(scene.camera.roll_rad, 7 * kDegree);
   EXPECT_EQ(scene.camera.fov_y_rad, 60 * kDegree);
   EXPECT_EQ(scene.camera.near_m, 0.5);
   EXPECT_EQ(scene.camera.velocity_mps, glm::dvec3(4, 5, 6));
@@ -229,7 +231,7 @@ TEST(SceneFile, TheCoastModelOfTheFileStays) {
 TEST(SceneFile, ACamerasPathIsReadAndDumped) {
   const Scene scene = parse_scene(
       "[camera]\nfov_y_deg = 40\n[[camera.path]]\n[[camera.path]]\nt_s = 2.5\n"
-      "eye_m = [1, 2, 3]\nheading_deg = 90\npitch_deg = -30\n",
+      "eye_m = [1, 2, 3]\nheading_deg = 90\npitch_deg = -30\nroll_deg = 4\n",
       "test.toml");
   for (const Scene& read : {scene, parse_scene(dump_scene(scene), "dump.toml")}) {
     ASSERT_EQ(read.camera.path.size(), 2u);
@@ -239,7 +241,35 @@ TEST(SceneFile, ACamerasPathIsReadAndDumped) {
     EXPECT_EQ(second.eye_m, glm::dvec3(1, 2, 3));
     EXPECT_EQ(second.heading_rad, 90 * kDegree);
     EXPECT_EQ(second.pitch_rad, -30 * kDegree);
+    EXPECT_EQ(second.roll_rad, 4 * kDegree);
   }
+}
+
+TEST(SceneFile, ACameraOfRoboticsIsReadAndDumped) {
+  const Scene scene = parse_scene(
+      "[camera]\nquaternion = [0.5, -0.5, 0.5, 0.5]\nfocal_px = [800, 790.5]\n"
+      "principal_px = [322, 239.5]\nsize_px = [640, 480]\n",
+      "test.toml");
+  EXPECT_EQ(scene.camera.quaternion, glm::dvec4(0.5, -0.5, 0.5, 0.5));
+  EXPECT_EQ(scene.camera.focal_px, glm::dvec2(800.0, 790.5));
+  EXPECT_EQ(scene.camera.principal_px, glm::dvec2(322.0, 239.5));
+  EXPECT_EQ(scene.camera.size_px, glm::dvec2(640.0, 480.0));
+  EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
+}
+
+TEST(SceneFile, ACameraOnAnObjectIsReadAndDumped) {
+  const Scene scene = parse_scene(
+      "[camera]\nmount = \"skiff\"\nmount_offset_m = [0, 1, 2]\nheading_deg = 90\n"
+      "[[object]]\n[[object]]\nname = \"skiff\"\nclass = \"boat\"\n",
+      "test.toml");
+  EXPECT_EQ(scene.camera.mount, "skiff");
+  EXPECT_EQ(scene.camera.mount_offset_m, glm::dvec3(0, 1, 2));
+  EXPECT_EQ(scene.objects[0].name, "");
+  EXPECT_EQ(object_class(scene.objects[0]), "buoy");
+  EXPECT_EQ(scene.objects[1].name, "skiff");
+  EXPECT_EQ(object_class(scene.objects[1]), "boat");
+  EXPECT_EQ(camera_mount(scene), &scene.objects[1]);
+  EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
 }
 
 TEST(SceneFile, AnIslandsDumpHasNoCoastLine) {

@@ -142,6 +142,28 @@ constexpr std::string_view kWindKeys[] = {"wind.speed_mps", "sea.douglas", "sea.
 
 bool is_wind_key(std::string_view key) { return std::ranges::count(kWindKeys, key) > 0; }
 
+// Whether a file has the key, of those of which it may have only some; `by_matrix`: its camera is
+// given by a quaternion and a matrix.
+bool goes_with(std::string_view key, bool by_matrix) {
+  if (key == "camera.mount_offset_m") return false;  // wants an object of a name
+  for (const std::string_view other :
+       {"camera.quaternion", "camera.focal_px", "camera.principal_px", "camera.size_px"})
+    if (key == other) return by_matrix;
+  for (const Replacement& r : kReplacements)
+    if (key == r.replaced && r.key != "camera.mount") return !by_matrix;
+  return true;
+}
+
+// A value that agrees with those of other keys; empty: any.
+std::string agreeing_value(std::string_view key, Dice& dice) {
+  // A horizon that goes with every zenith; on the largest island 16 trains need 100 m.
+  if (key == "sky.horizon") return "[0.3, 1.0, 1.7]";
+  if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
+  if (key == "camera.quaternion") return "[0.1, -0.7, 0.5, 0.5]";
+  if (key == "camera.mount") return "\"\"";
+  return "";
+}
+
 struct RandomFile {
   std::string text;
   std::string wrong_key;  // as messages name it; empty: none
@@ -160,7 +182,9 @@ void add_random_tables(std::string_view table_key, const std::vector<Parameter<O
       const bool is_wrong = n == count - 1 && i == wrong;
       const std::string_view key = parameters[i].key;
       if (is_wrong) file.wrong_key = fmt::format("{}[{}].{}", table_key, n, key);
-      file.text += fmt::format("{} = {}\n", key, value_text(parameters[i], dice, !is_wrong));
+      std::string value = value_text(parameters[i], dice, !is_wrong);
+      if (key == "name" && !is_wrong) value = fmt::format("\"number {}\"", n);  // its own
+      file.text += fmt::format("{} = {}\n", key, value);
     }
   }
 }
@@ -173,9 +197,13 @@ RandomFile random_file(Dice& dice, int wrong) {
   int index = 0;
   // Keys that exclude each other; the winds of sea states suit a gravity near the earth's.
   const std::string_view wind_key = kWindKeys[dice.below(3)];
+  const bool by_matrix = dice.below(2) == 0;
   for (const auto& parameter : scene_parameters()) {
     const bool is_wrong = index++ == wrong;
-    if (!is_wrong && dice.below(2)) continue;
+    const bool needed = by_matrix && (parameter.key == "camera.focal_px" ||  // by each other
+                                      parameter.key == "camera.size_px");
+    if (!is_wrong && !needed && dice.below(2)) continue;
+    if (!is_wrong && !goes_with(parameter.key, by_matrix)) continue;
     if (!is_wrong && parameter.key != wind_key && is_wind_key(parameter.key)) continue;
     if (!is_wrong && parameter.key == "sea.gravity_mps2" && wind_key == "sea.douglas") continue;
     if (is_wrong) file.wrong_key = parameter.key;
@@ -183,9 +211,8 @@ RandomFile random_file(Dice& dice, int wrong) {
     const std::size_t dot = key.find('.');
     const std::string section = dot == std::string::npos ? "" : key.substr(0, dot);
     std::string value = value_text(parameter, dice, !is_wrong);
-    // A horizon that goes with every zenith; on the largest island 16 trains need 100 m.
-    if (!is_wrong && key == "sky.horizon") value = "[0.3, 1.0, 1.7]";
-    if (!is_wrong && key == "coast.grid_spacing_m") value = dice.below(2) ? "100" : "0";
+    const std::string agreeing = is_wrong ? "" : agreeing_value(key, dice);
+    if (!agreeing.empty()) value = agreeing;
     const std::string line = fmt::format("{} = {}\n", key.substr(dot + 1), value);
     std::string& lines = sections[section];
     lines = dice.below(2) ? line + lines : lines + line;

@@ -26,6 +26,8 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(heading_rad);
   SWELL_COMPARE(draught);
   SWELL_COMPARE(colour);
+  SWELL_COMPARE(name);
+  SWELL_COMPARE(label);
 }
 
 void compare_waypoints(const Waypoint& a, const Waypoint& b, std::string& list) {
@@ -33,6 +35,7 @@ void compare_waypoints(const Waypoint& a, const Waypoint& b, std::string& list) 
   SWELL_COMPARE(eye_m);
   SWELL_COMPARE(heading_rad);
   SWELL_COMPARE(pitch_rad);
+  SWELL_COMPARE(roll_rad);
 }
 
 void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, std::string& list) {
@@ -72,6 +75,13 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(camera.near_m);
   SWELL_COMPARE(camera.velocity_mps);
   SWELL_COMPARE(camera.turn_rad_s);
+  SWELL_COMPARE(camera.roll_rad);
+  SWELL_COMPARE(camera.quaternion);
+  SWELL_COMPARE(camera.focal_px);
+  SWELL_COMPARE(camera.principal_px);
+  SWELL_COMPARE(camera.size_px);
+  SWELL_COMPARE(camera.mount);
+  SWELL_COMPARE(camera.mount_offset_m);
   SWELL_COMPARE(sky.sun_azimuth_rad);
   SWELL_COMPARE(sky.sun_elevation_rad);
   SWELL_COMPARE(sky.sun_direction);

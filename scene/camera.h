@@ -1,0 +1,79 @@
+// Where the camera of a scene is and looks at a time: a fixed pose, a straight path with constant
+// speed and turn rate, a path through waypoints, or a place on a floating object.
+//
+//   const View view = scene::camera_view(scene, water.at(t_s, frame, workers), t_s, 1280, 720);
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math/elementary.h"
+#include "math/view.h"
+#include "scene/objects.h"
+
+namespace swell::scene {
+
+struct Scene;
+
+inline constexpr double kRadPerDeg = kPi / 180.0;
+constexpr double radians(double deg) { return deg * kRadPerDeg; }
+
+// Where the camera is and looks at a time.
+struct Waypoint {
+  double t_s = 0.0;
+  glm::dvec3 eye_m{0.0, 0.0, 10.0};
+  double heading_rad = 0.0;  // clockwise from north
+  double pitch_rad = 0.0;    // up positive
+  double roll_rad = 0.0;     // positive lowers the right side
+};
+
+struct Camera {
+  glm::dvec3 eye_m{0.0, 0.0, 10.0};
+  double heading_rad = 0.0;  // clockwise from north
+  double pitch_rad = 0.0;    // up positive
+  double roll_rad = 0.0;     // positive lowers the right side
+  double fov_y_rad = radians(50.0);
+  double near_m = 0.25;
+  glm::dvec3 velocity_mps{0.0};
+  double turn_rad_s = 0.0;
+  // In order of time, no two at one. Takes the place of the poses and motions above: smooth through
+  // the waypoints, each coordinate between its values at the two around; headings turn the shorter
+  // way; at rest before the first, after the last, and where two waypoints have the same place.
+  std::vector<Waypoint> path{};
+
+  // World from optical frame (math/view.h) as w, x, y, z, of length 1. Takes the place of heading,
+  // pitch, roll and turn.
+  std::optional<glm::dvec4> quaternion{};
+  // K (math/view.h) of a picture of size_px, in place of the field of view: fx and fy, cx and cy
+  // (the middle if there is none). A picture of another size shows the same, stretched to it.
+  std::optional<glm::dvec2> focal_px{}, principal_px{}, size_px{};
+
+  // The name of the object that carries the camera; empty: none. The eye is then not at eye_m but
+  // at an offset from the object's origin, and all directions are given in the object's axes in
+  // place of the world's. No velocity, no path.
+  std::string mount{};
+  glm::dvec3 mount_offset_m{0.0};  // right, ahead, up
+};
+
+// The lens for a picture of at least 1 x 1 pixels.
+Lens camera_lens(const Camera& camera, int width_px, int height_px);
+
+// The view at time t_s [s] (finite; taken as 1e12 beyond that) of a picture of at least 1 x 1
+// pixels. The eye stays within 1e7 m of the origin along each axis. Not of mounted cameras.
+View camera_view(const Camera& camera, double t_s, int width_px, int height_px);
+
+// The view of a mounted camera from the pose of its object at that time.
+View mounted_view(const Camera& camera, const ObjectPose& object, double t_s, int width_px,
+                  int height_px);
+
+// The object that carries the scene's camera; null: none, or none of its name.
+const FloatingObject* camera_mount(const Scene& scene);
+
+// The view of the scene's camera, mounted or not. `surface` is the scene's water at time t_s, which
+// carries the object; with Triangulation::kPlane objects stay at the mean level, as they are drawn.
+View camera_view(const Scene& scene, const ocean::WaterSurface& surface, double t_s, int width_px,
+                 int height_px);
+
+}  // namespace swell::scene
