@@ -12,11 +12,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "math/parallel.h"
 #include "math/view.h"
+#include "render/labels/labels.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -83,6 +85,12 @@ struct FrameOptions {
   int lod_groups = 1;        // of priorities, one of which is worked out anew
   bool wireframe = false;    // triangle edges, tinted by level of detail
   bool keep_linear = false;  // fill Target::linear
+  // Samples a pixel where surfaces meet, 0, 4 or 8; below 0: the scene's. Labels do not change.
+  int edge_samples = -1;
+  LabelSet labels;  // fill these of Target::labels; not with picture_scale below 1
+  // For the label of motion: the camera of the next frame, and how much later it is, over 0.
+  std::optional<View> next_view = {};  // none: as this frame's
+  double next_frame_s = 1.0 / 60.0;
 };
 
 // The options with the scene's own numbers in place of zeros.
@@ -93,6 +101,7 @@ struct Target {
   int width_px = 0, height_px = 0;
   std::vector<std::uint32_t> rgba;  // 8-bit sRGB, R in the low byte, alpha 255; row by row
   std::vector<float> linear;        // RGB linear light before exposure, if asked for
+  Labels labels;                    // as asked for
 };
 
 struct FrameStatistics {

@@ -106,21 +106,19 @@ HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye) {
   return ScaleAdd(Constant(light.sun_irradiance), sun, Scale(sky, reflectance));
 }
 
-// The primitives of the pixels at[0] to at[kCount - 1].
+// What the lanes show.
 using ObjectPacket = std::array<const ObjectPrimitive*, Lanes3::kCount>;
-HWY_INLINE ObjectPacket ObjectsAt(const Shading& s, const TilePixels& tile,
-                                  const std::uint16_t* at) {
+HWY_INLINE ObjectPacket ObjectsAt(const Shading& s, const Lanes& lanes) {
   const std::uint32_t first = s.primitives.begin(Object::kSurface);
   ObjectPacket packet;
   for (std::size_t lane = 0; lane < packet.size(); ++lane)
-    packet[lane] = &s.material<Object>().primitives[tile.primitive[at[lane]] - first];
+    packet[lane] = &s.material<Object>().primitives[lanes.primitive(lane) - first];
   return packet;
 }
 
 // An object's images in the water begin at its own waterline.
-HWY_INLINE V WaterLevel(const Object&, const Shading& s, const TilePixels& tile,
-                        const std::uint16_t* at) {
-  return WaterlineOf(ObjectsAt(s, tile, at).data());
+HWY_INLINE V WaterLevel(const Object&, const Shading& s, const Lanes& lanes) {
+  return WaterlineOf(ObjectsAt(s, lanes).data());
 }
 
 // A hull in the water shows no gloss.
@@ -128,9 +126,9 @@ template <ViewKind kView>
 struct Shader<Object, kView> {
   const Object& object;
 
-  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const std::uint16_t* at,
+  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels&, const Lanes& lanes,
                                const Packet& packet) const {
-    const ObjectSurface surface = SampleObject(ObjectsAt(s, tile, at).data(), packet.p);
+    const ObjectSurface surface = SampleObject(ObjectsAt(s, lanes).data(), packet.p);
     const V3 matt = MattLight(s.light, object.sea_light, surface);
     if constexpr (kView == ViewKind::kRefraction) return {matt};
     return {Sum(matt, Gloss(s.light, surface, packet.to_eye))};

@@ -131,7 +131,7 @@ template <ViewKind kView>
 struct Shader<Terrain, kView> {
   const Terrain& terrain;
 
-  HWY_INLINE auto operator()(const Shading& s, const TilePixels&, const std::uint16_t*,
+  HWY_INLINE auto operator()(const Shading& s, const TilePixels&, const Lanes&,
                              const Packet& packet) const {
     const V level_m = GroundLevel(s.rays, packet);
     constexpr bool kDetail = kView == ViewKind::kWindow;

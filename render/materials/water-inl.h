@@ -234,7 +234,7 @@ template <bool kCoast>
 struct WaterShader {
   const Water& water;
 
-  HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const std::uint16_t*,
+  HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
                                const Packet& packet) const {
     const D d;
     const Light& light = shading.light;

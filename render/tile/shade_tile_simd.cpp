@@ -151,12 +151,12 @@ HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelL
 // The light of a packet's pixels as it arrives.
 template <ViewKind kView, class M, class Shade>
 HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& material,
-                            const std::uint16_t* at, const Packet& shown, const Shade& shade) {
+                            const Lanes& lanes, const Packet& shown, const Shade& shade) {
   if constexpr (kView == ViewKind::kWindow) {
-    return Haze(s, shown, shade(s, tile, at, shown).light);
+    return Haze(s, shown, shade(s, tile, lanes, shown).light);
   } else {
-    const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, tile, at));
-    const auto surfel = shade(s, tile, at, seen.packet);
+    const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
+    const auto surfel = shade(s, tile, lanes, seen.packet);
     const V3 light = Attenuate<kView>(s, shown, seen, surfel.light);
     if constexpr (requires { surfel.cover; })
       return Lerp(Constant(s.media.body), light, surfel.cover);
@@ -172,7 +172,8 @@ HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const Pi
   WithShader<kView>(material, [&](const auto& shade) HWY_ATTR {
     ShadeList(s, tile, list, scratch, [&](const std::uint16_t* at, V x_px, V y_px, V z) HWY_ATTR {
       const Packet shown = MakePacket(s.rays, x_px, y_px, z);
-      return ArrivingLight<kView>(s, tile, material, at, shown, shade);
+      const Lanes lanes{tile.primitive, at};
+      return ArrivingLight<kView>(s, tile, material, lanes, shown, shade);
     });
   });
 }

@@ -20,6 +20,14 @@ struct TilePixels {
   TileLookups lookups;
 };
 
+// Which primitives a packet's lanes show, for materials that fetch what their triangles hold.
+struct Lanes {
+  const std::uint32_t* primitives;
+  const std::uint16_t* at;  // by lane: where in `primitives`
+
+  std::uint32_t primitive(std::size_t lane) const { return primitives[at[lane]]; }
+};
+
 // What a packet's pixels show of a surface.
 struct Surfel {
   V3 light;  // that leaves it towards the eye, before the medium between
@@ -32,10 +40,9 @@ struct FadingSurfel : Surfel {
 
 // The per-pixel code of material M in a kind of view: specialised in M's -inl.h with
 //   const M& material;  (its only member)
-//   Surfel operator()(const Shading&, const TilePixels&, const std::uint16_t* at, const Packet&)
+//   Surfel operator()(const Shading&, const TilePixels&, const Lanes&, const Packet&)
 // The packet holds true places in the world, also in views that mirror or squeeze them; the medium
-// is not its business. `at` holds the pixels' positions in the tile, for materials that fetch what
-// their triangles hold.
+// is not its business.
 template <class M, ViewKind kView>
 struct Shader;
 
@@ -48,7 +55,7 @@ HWY_INLINE void WithShader(const M& material, const Use& use) {
 // Height of the level that mirrors the pixels' surface, relative to the eye: the mean level, or
 // what a material's overload says.
 template <class M>
-HWY_INLINE V WaterLevel(const M&, const Shading& s, const TilePixels&, const std::uint16_t*) {
+HWY_INLINE V WaterLevel(const M&, const Shading& s, const Lanes&) {
   return Constant(-s.rays.eye_z);
 }
 

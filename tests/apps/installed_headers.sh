@@ -19,7 +19,7 @@ done
 private=$(cd "$include" && find . -name '*-inl.h' -o -name '*_state.h' -o -name '*_kernels.h' \
   -o -name '*_bytes.h' -o -name '*_codec.h' -o -name '*_structure.h' -o -name '*_lock.h' \
   -o -name '*_limits.h' -o -name 'check*.h' -o -name 'parameters.h' -o -name 'shade*.h' \
-  -o -name 'packed_map.h' -o -name 'lattice.h' -o -name 'bin.h' -o -name 'clip.h' \
+  -o -name 'packed_map.h' -o -path './texture/lattice.h' -o -name 'workspace.h' -o -name 'meshes.h' -o -name 'render_view.h' -o -name 'list.h' -o -name 'bin.h' -o -name 'clip.h' \
   -o -name 'setup.h' -o -name 'vertices.h' -o -name 'tree.h' -o -name 'queue.h')
 [ -z "$private" ] || { echo "private headers are installed:"; echo "$private"; exit 1; }
 others=$(find "$include" -type f ! -name '*.h')

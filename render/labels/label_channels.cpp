@@ -1,0 +1,102 @@
+#include "render/labels/label_channels.h"
+
+#include <algorithm>
+
+namespace swell::render {
+namespace {
+
+constexpr std::array<LabelInfo, kLabelCount> kTable = {{
+    {Label::kDepth,
+     "depth",
+     {"Z"},
+     false,
+     "m",
+     "Distance from the eye along the view axis.",
+     "+inf",
+     ""},
+    {Label::kDistance, "distance", {"distance"}, false, "m", "Distance from the eye.", "+inf", ""},
+    {Label::kPosition,
+     "position",
+     {"P.X", "P.Y", "P.Z"},
+     false,
+     "m",
+     "Place in the world: east, north, up.",
+     "+inf or -inf by the sign of the direction's component, 0 where that is 0",
+     ""},
+    {Label::kNormal,
+     "normal",
+     {"N.X", "N.Y", "N.Z"},
+     false,
+     "1",
+     "Unit normal in the world that shading used, with the waves that triangles cannot hold.",
+     "0, 0, 0",
+     ""},
+    {Label::kGeometricNormal,
+     "geometric_normal",
+     {"Ng.X", "Ng.Y", "Ng.Z"},
+     false,
+     "1",
+     "Unit normal in the world of the drawn triangle, on the side that is seen.",
+     "0, 0, 0",
+     ""},
+    {Label::kId,
+     "id",
+     {"id"},
+     true,
+     "",
+     "Which thing is seen: 1 the sea, 2 the land, 16 + n object n of the scene.",
+     "0",
+     ""},
+    {Label::kClass,
+     "class",
+     {"class"},
+     true,
+     "",
+     "What is seen: 1 water, 2 terrain, 3 object, 4 foam, from 5 on classes that objects name.",
+     "0",
+     ""},
+    {Label::kMotion,
+     "motion",
+     {"motion.X", "motion.Y"},
+     false,
+     "px",
+     "Where in the picture the same point is one frame later, less where it is now; x right, y "
+     "down. Water moves as its column does: up and down at one place.",
+     "by the camera's rotation alone",
+     "0 where the point is behind the next camera"},
+    {Label::kElevation,
+     "elevation",
+     {"elevation"},
+     false,
+     "m",
+     "Height of the water's surface above the mean level.",
+     "0",
+     "0"},
+    {Label::kFoam,
+     "foam",
+     {"foam"},
+     false,
+     "1",
+     "Part of the water that foam hides, in [0, 1].",
+     "0",
+     "0"},
+    {Label::kFlags,
+     "flags",
+     {"flags"},
+     true,
+     "",
+     "What the water shows besides itself: 1 something mirrored, 2 something below it; 3 both.",
+     "0",
+     "0"},
+}};
+
+}  // namespace
+
+std::span<const LabelInfo, kLabelCount> label_table() { return kTable; }
+
+const LabelInfo* find_label(std::string_view name) {
+  const auto found = std::ranges::find(kTable, name, &LabelInfo::name);
+  return found == kTable.end() ? nullptr : &*found;
+}
+
+}  // namespace swell::render

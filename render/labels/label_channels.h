@@ -1,0 +1,75 @@
+// The outputs beside colour, exact per pixel: each is that of the surface at the pixel's centre,
+// never mixed with a neighbour's. This one table names them for code, files and documents.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace swell::render {
+
+enum class Label : std::uint8_t {
+  kDepth,            // along the view axis
+  kDistance,         // from the eye
+  kPosition,         // in the world
+  kNormal,           // as shaded
+  kGeometricNormal,  // of the drawn triangle
+  kId,               // which thing
+  kClass,            // what kind of thing
+  kMotion,           // in the picture, to the next frame
+  kElevation,        // of the water
+  kFoam,
+  kFlags,
+};
+inline constexpr std::size_t kLabelCount = 11;
+
+// Which labels are wanted.
+class LabelSet {
+ public:
+  constexpr LabelSet() = default;
+  static constexpr LabelSet all() {
+    LabelSet set;
+    set.bits_ = (1u << kLabelCount) - 1;
+    return set;
+  }
+  constexpr bool has(Label label) const { return (bits_ >> static_cast<unsigned>(label) & 1) != 0; }
+  constexpr void add(Label label) { bits_ |= 1u << static_cast<unsigned>(label); }
+  constexpr bool empty() const { return bits_ == 0; }
+  bool operator==(const LabelSet&) const = default;
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+struct LabelInfo {
+  Label label;
+  std::string_view name;                   // in options and documents
+  std::array<std::string_view, 3> planes;  // channel names in files; empty: no further one
+  bool is_integer;                         // UINT, else FLOAT
+  std::string_view unit;                   // "m", "px", "1" or "" for numbers that name something
+  std::string_view meaning;                // one sentence
+  std::string_view of_sky;                 // its value where the sky is seen
+  std::string_view elsewhere;              // its value where it does not apply, or ""
+  std::size_t plane_count() const { return planes[1].empty() ? 1 : planes[2].empty() ? 2 : 3; }
+};
+
+// In the order of Label.
+std::span<const LabelInfo, kLabelCount> label_table();
+
+// The label of a name of the table; nullptr for others.
+const LabelInfo* find_label(std::string_view name);
+
+// Values of kId: the sky's, the water's, the land's; object n of the scene has kFirstObjectId + n.
+inline constexpr std::uint32_t kSkyId = 0, kWaterId = 1, kLandId = 2, kFirstObjectId = 16;
+
+// Values of kClass. Classes that objects name are numbered on from kFirstOwnClass, in the order in
+// which the scene first names them; objects that name none are of kObjectClass.
+inline constexpr std::uint32_t kSkyClass = 0, kWaterClass = 1, kTerrainClass = 2, kObjectClass = 3,
+                               kFoamClass = 4, kFirstOwnClass = 5;
+
+// Bits of kFlags, at water pixels: what the picture shows there besides the water itself.
+inline constexpr std::uint32_t kShowsMirrored = 1, kShowsRefracted = 2;
+
+}  // namespace swell::render
