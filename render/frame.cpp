@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "math/check.h"
+#include "raster/sample_pattern.h"
 #include "render/workspace.h"
 
 namespace swell::render {
@@ -43,6 +44,8 @@ void check_options(const FrameOptions& o) {
               "lookup_scale={}", o.lookup_scale);
   SWELL_CHECK(o.background_error_px <= 8.0, "background_error_px={}", o.background_error_px);
   SWELL_CHECK(o.picture_scale > 0.0 && o.picture_scale <= 1.0, "picture_scale={}", o.picture_scale);
+  SWELL_CHECK(o.edge_samples < 0 || raster::is_sample_count(o.edge_samples), "edge_samples={}",
+              o.edge_samples);
   SWELL_CHECK(o.lod_operations >= 0 && o.lod_ms >= 0.0 && o.lod_groups >= 1,
               "lod_operations={} lod_ms={} lod_groups={}", o.lod_operations, o.lod_ms,
               o.lod_groups);
@@ -70,8 +73,10 @@ void prepare_target(const View& view, bool keep_linear, Target& target) {
 }
 
 void prepare_scratch(int threads, Workspace::State& ws) {
-  while (ws.scratch.size() < static_cast<std::size_t>(threads))
+  while (ws.scratch.size() < static_cast<std::size_t>(threads)) {
     ws.scratch.push_back(std::make_unique<ThreadScratch>());
+    ws.edge_scratch.push_back(std::make_unique<EdgeScratch>());
+  }
 }
 
 // The cameras of the window and of what its water looks into.
@@ -123,6 +128,7 @@ FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene
   if (result.lookup_scale == 0.0) result.lookup_scale = scene.water.lookup_scale;
   if (result.background_error_px < 0.0)
     result.background_error_px = scene.detail.background_error_px;
+  if (result.edge_samples < 0) result.edge_samples = scene.picture.edge_samples;
   return result;
 }
 
@@ -163,7 +169,10 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     place_objects(world_state, ws.sea, drawn, ws.meshes, views);
   });
   stage(Stage::kVisibility, [&](const StageRun& run) {
-    find_visible(ws.meshes, options.tile_size_px, ws.window, ws.visibility, run);
+    find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,
+                 run);
+    ws.edges.samples = options.edge_samples;
+    find_edges(ws.meshes.objects, ws.window, ws.edge_scratch, ws.visibility, ws.edges, run);
   });
   const Light light = make_light(world_state);
   const Media media = make_media(world_state, light);
@@ -173,9 +182,9 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     fill_shading(inputs, ws.window, options.tile_size_px, ws.shading);
   });
   stage(Stage::kShade, [&](const StageRun& run) {
-    shade_picture(
-        {ws.meshes, ws.window, ws.visibility, ws.lookups.of_tile, ws.shading, options.wireframe},
-        ws.scratch, ws.shaded, drawn_target, run);
+    shade_picture({ws.meshes, ws.window, ws.visibility, ws.edges, ws.lookups.of_tile, ws.shading,
+                   options.wireframe},
+                  ws.scratch, ws.shaded, drawn_target, run);
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
   });
   workspace.trace = ws.profile.trace();

@@ -23,10 +23,12 @@ struct Workspace::State {
   Meshes meshes;
   RenderView window;
   VisibilityBuffer visibility;
+  EdgeBuffer edges;
   LookupImages lookups;
   Shading shading;          // of the window
   std::vector<int> shaded;  // per tile
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
+  std::vector<std::unique_ptr<EdgeScratch>> edge_scratch;
   Target small;  // the picture before it is enlarged
   EnlargeTables enlarge;
 };

@@ -82,7 +82,8 @@ std::string allowed_text(const Parameter<Object>& parameter) {
     case Kind::kInteger:
       return "an integer, " + range;
     case Kind::kPowerOfTwo:
-      return "a power of two, " + range;
+      return fmt::format("a power of two, {} to {}{}", parameter.low, parameter.high,
+                         parameter.zero_too ? ", or 0" : "");
     case Kind::kBoolean:
       return "true or false";
     case Kind::kChoice:

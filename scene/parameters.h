@@ -93,7 +93,7 @@ bool allows(const Parameter<Object>& parameter, std::int64_t number) {
   const auto low = static_cast<std::int64_t>(parameter.low);
   const auto high = static_cast<std::int64_t>(parameter.high);
   const bool fits = parameter.kind == ParameterKind::kInteger || (number & (number - 1)) == 0;
-  return number >= low && number <= high && fits;
+  return (number >= low && number <= high && fits) || (parameter.zero_too && number == 0);
 }
 template <class Object>
 bool allows(const Parameter<Object>& parameter, std::string_view text) {

@@ -87,6 +87,10 @@ struct Detail {
   }
 };
 
+struct Picture {
+  int edge_samples = 0;  // a pixel where surfaces meet: 0, 4 or 8
+};
+
 using SeaArea = ocean::SeaArea;
 using TerrainDescription = terrain::TerrainDescription;
 
@@ -104,6 +108,7 @@ struct Scene {
   WaterOptics water;
   Coast coast;
   Detail detail;
+  Picture picture;
   std::optional<TerrainDescription> terrain;
   std::vector<FloatingObject> objects;  // at most 64
 };

@@ -8,8 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
-#include "render/tile/packet-inl.h"
+#include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -31,9 +32,9 @@ HWY_INLINE V EncodeSrgb(V x) {
   return hn::Mul(curve, Constant(255.0f));
 }
 
-// Resolve: exposure, a shoulder from 0.7 up that reaches white at infinity only (so that glitter
-// keeps its form), sRGB, a dither of one step, 8 bits.
-HWY_INLINE VI ToByte(V linear, V exposure, V dither) {
+// Exposed light as light of the display, in [0, 1]: a shoulder from 0.7 up that reaches white at
+// infinity only, so that glitter keeps its form.
+HWY_INLINE V ToneCurve(V linear, V exposure) {
   const V x = hn::Max(hn::Mul(linear, exposure), hn::Zero(D()));
   const V over = hn::Max(hn::Sub(x, Constant(0.7f)), hn::Zero(D()));
   V mapped = x;
@@ -41,8 +42,23 @@ HWY_INLINE VI ToByte(V linear, V exposure, V dither) {
     const V shoulder = hn::Div(over, hn::MulAdd(over, Constant(1.0f / 0.3f), Constant(1.0f)));
     mapped = hn::Min(hn::Add(hn::Min(x, Constant(0.7f)), shoulder), Constant(1.0f));
   }
-  const V code = hn::Add(EncodeSrgb(mapped), dither);
+  return mapped;
+}
+
+// sRGB, a dither of one step, 8 bits.
+HWY_INLINE VI ToByte(V display, V dither) {
+  const V code = hn::Add(EncodeSrgb(display), dither);
   return hn::ConvertTo(DI(), hn::Min(code, Constant(255.0f)));
+}
+
+// Pixels of display light at these places, alpha 255.
+HWY_INLINE VI ToPixel(V3 display, V x_px, V y_px) {
+  const V dither = PixelNoise(x_px, y_px);
+  const VI r = ToByte(display.x, dither), g = ToByte(display.y, dither);
+  const VI b = ToByte(display.z, dither);
+  return hn::Or(
+      hn::Or(r, hn::ShiftLeft<8>(g)),
+      hn::Or(hn::ShiftLeft<16>(b), hn::Set(DI(), static_cast<std::int32_t>(0xff000000u))));
 }
 
 // Writes linear light, three floats a pixel.
@@ -71,14 +87,11 @@ HWY_INLINE void ResolveTile(const Shading& s, const raster::PixelBox& box,
         rgba + static_cast<std::size_t>(box.y0_px + y) * s.viewport.width_px + box.x0_px;
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
       const std::size_t i = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-      const V dither = PixelNoise(hn::ConvertTo(d, hn::Iota(di, box.x0_px + x)),
-                                  Constant(static_cast<float>(box.y0_px + y)));
-      const VI r = ToByte(hn::Load(d, scratch.red.data() + i), exposure, dither);
-      const VI g = ToByte(hn::Load(d, scratch.green.data() + i), exposure, dither);
-      const VI b = ToByte(hn::Load(d, scratch.blue.data() + i), exposure, dither);
-      const VI pixel =
-          hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)),
-                 hn::Or(hn::ShiftLeft<16>(b), hn::Set(di, static_cast<std::int32_t>(0xff000000u))));
+      const V3 display = {ToneCurve(hn::Load(d, scratch.red.data() + i), exposure),
+                          ToneCurve(hn::Load(d, scratch.green.data() + i), exposure),
+                          ToneCurve(hn::Load(d, scratch.blue.data() + i), exposure)};
+      const VI pixel = ToPixel(display, hn::ConvertTo(d, hn::Iota(di, box.x0_px + x)),
+                               Constant(static_cast<float>(box.y0_px + y)));
       if (x + static_cast<int>(kLanes) <= box.width_px) {
         hn::StoreU(pixel, di, reinterpret_cast<std::int32_t*>(row + x));
       } else {
@@ -88,6 +101,89 @@ HWY_INLINE void ResolveTile(const Shading& s, const raster::PixelBox& box,
     }
   }
   if (linear) CopyLinear(s, box, scratch, linear);
+}
+
+// The light of fragments, those that the centre shows with it, goes to the scratch's fragments.
+inline void GatherCentres(const TilePixels& tile, ShadeScratch& scratch) {
+  for (std::size_t n = 0; n < tile.fragments.size(); ++n) {
+    if (!tile.fragments[n].is_centre) continue;
+    const std::uint16_t at = tile.fragments[n].pixel;
+    scratch.fragment_red[n] = scratch.red[at];
+    scratch.fragment_green[n] = scratch.green[at];
+    scratch.fragment_blue[n] = scratch.blue[at];
+  }
+}
+
+// Calls visit(first, end) for the fragments of each pixel.
+template <class Visit>
+HWY_INLINE void ForEachEdgePixel(std::span<const EdgeFragment> fragments, const Visit& visit) {
+  for (std::size_t first = 0; first < fragments.size();) {
+    std::size_t end = first + 1;
+    while (end < fragments.size() && fragments[end].pixel == fragments[first].pixel) ++end;
+    visit(first, end);
+    first = end;
+  }
+}
+
+// The mean of a pixel's fragments, by their samples.
+HWY_INLINE float MixFragments(std::span<const EdgeFragment> fragments, const float* value,
+                              std::size_t first, std::size_t end) {
+  float sum = 0.0f, samples = 0.0f;
+  for (std::size_t n = first; n < end; ++n) {
+    const auto weight = static_cast<float>(fragments[n].samples);
+    sum += weight * value[n];
+    samples += weight;
+  }
+  return sum / samples;
+}
+
+// Mixes the fragments of the tile's edges, after all of them are shaded: as light of the display,
+// so that light too bright to show counts for no more than white. Overwrites those pixels.
+HWY_INLINE void ResolveFragments(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                                 std::uint32_t* rgba, float* linear) {
+  const D d;
+  const std::span<const EdgeFragment> fragments = tile.fragments;
+  GatherCentres(tile, scratch);
+  const std::array<float*, 3> colour = {scratch.fragment_red.data(), scratch.fragment_green.data(),
+                                        scratch.fragment_blue.data()};
+  const auto at = [&](std::uint16_t pixel) {
+    const int side = s.grid.tile_size_px;
+    return static_cast<std::size_t>(tile.box.y0_px + pixel / side) * s.viewport.width_px +
+           static_cast<std::size_t>(tile.box.x0_px + pixel % side);
+  };
+  if (linear)
+    ForEachEdgePixel(fragments, [&](std::size_t first, std::size_t end) {
+      float* out = linear + 3 * at(fragments[first].pixel);
+      for (std::size_t c = 0; c < 3; ++c) out[c] = MixFragments(fragments, colour[c], first, end);
+    });
+
+  for (float* value : colour)
+    for (std::size_t n = 0; n < fragments.size(); n += kLanes)
+      hn::Store(ToneCurve(hn::Load(d, value + n), Constant(s.exposure)), d, value + n);
+  // A packet of pixels at a time; the last one with its first pixel repeated.
+  HWY_ALIGN std::array<float, kLanes> red{}, green{}, blue{}, x{}, y{};
+  HWY_ALIGN std::array<std::int32_t, kLanes> pixels;
+  std::array<std::size_t, kLanes> place{};
+  std::size_t count = 0;
+  const auto flush = [&]() HWY_ATTR {
+    const VI packet =
+        ToPixel({hn::Load(d, red.data()), hn::Load(d, green.data()), hn::Load(d, blue.data())},
+                hn::Load(d, x.data()), hn::Load(d, y.data()));
+    hn::Store(packet, DI(), pixels.data());
+    for (std::size_t i = 0; i < count; ++i) rgba[place[i]] = static_cast<std::uint32_t>(pixels[i]);
+    count = 0;
+  };
+  ForEachEdgePixel(fragments, [&](std::size_t first, std::size_t end) HWY_ATTR {
+    const std::uint16_t pixel = fragments[first].pixel;
+    red[count] = MixFragments(fragments, colour[0], first, end);
+    green[count] = MixFragments(fragments, colour[1], first, end);
+    blue[count] = MixFragments(fragments, colour[2], first, end);
+    x[count] = static_cast<float>(tile.box.x0_px + pixel % s.grid.tile_size_px);
+    y[count] = static_cast<float>(tile.box.y0_px + pixel / s.grid.tile_size_px);
+    place[count++] = at(pixel);
+    if (count == kLanes) flush();
+  });
+  if (count > 0) flush();
 }
 
 }  // namespace HWY_NAMESPACE

@@ -14,6 +14,7 @@ struct PictureInputs {
   const Meshes& meshes;
   const RenderView& window;
   const VisibilityBuffer& visibility;
+  const EdgeBuffer& edges;
   const std::vector<TileLookups>& lookups;  // by tile
   const Shading& shading;
   bool wireframe;

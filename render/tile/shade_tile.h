@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "render/tile/edges.h"
 #include "render/tile/shading.h"
 
 namespace swell::render {
@@ -19,18 +20,34 @@ struct TileLookups {
   bool reflection = false, refraction = false;
 };
 
+inline constexpr std::size_t kMaxTileFragments = kMaxFragments * kMaxTilePixels;
+
 // Working memory of one thread.
 struct ShadeScratch {
   alignas(64) std::array<float, kMaxTilePixels> red, green, blue;
   // By material, and the sky last: its pixels, padded to whole packets.
   alignas(64) std::array<std::array<std::uint16_t, kMaxTilePixels + 64>, kMaterialCount + 1> lists;
+  // The tile's fragments: their primitives, their colours, and again lists.
+  std::array<std::uint32_t, kMaxTileFragments> fragment_primitive;
+  alignas(64) std::array<float, kMaxTileFragments + 64> fragment_red, fragment_green, fragment_blue;
+  std::array<std::uint16_t, kMaxTileFragments + 64> fragment_list;
+};
+
+// A tile as the window sees it.
+struct TileInput {
+  int tile = 0;
+  std::span<const float> depth;  // its visibility buffer
+  std::span<const std::uint32_t> primitive;
+  std::span<const EdgeFragment> fragments = {};
+  TileLookups lookups = {};
 };
 
 // Shades all pixels of a tile that lie in the window and writes their 8-bit sRGB values to `rgba`
-// (the whole picture) and, unless empty, linear light to `linear` (RGB). `depth` and `primitive`
-// are the tile's visibility buffer. Returns the number of surface (not sky) pixels shaded.
-int shade_tile(const Shading& shading, int tile, std::span<const float> depth,
-               std::span<const std::uint32_t> primitive, TileLookups lookups, ShadeScratch& scratch,
+// (the whole picture) and, unless empty, linear light to `linear` (RGB). Fragments that their
+// pixels' centres do not show are shaded too and mixed by their samples: as light of the display,
+// after the tone curve, so that a glint counts for no more than white; linear light as it is.
+// Returns the number of surface (not sky) pixels shaded, fragments left out.
+int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
                std::span<std::uint32_t> rgba, std::span<float> linear);
 
 // The same for a tile of open sky, without a visibility buffer.

@@ -107,8 +107,8 @@ PixelLists ListPixels(const Shading& s, const TilePixels& tile, ShadeScratch& sc
   return lists;
 }
 
-// Calls shade(at, x_px, y_px, z) for the list's pixels, a packet at a time, and stores its colours.
-// `at`: the packet's part of the list.
+// Calls shade(lanes, x_px, y_px, z) for the list's pixels, a packet at a time, and stores its
+// colours.
 template <class Shade>
 HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelList& list,
                           ShadeScratch& scratch, const Shade& shade) {
@@ -130,7 +130,8 @@ HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelL
         i + kLanes <= list.count && at[kLanes - 1] - at[0] == static_cast<int>(kLanes) - 1;
     if (!run)
       for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = tile.depth[at[lane]];
-    const V3 colour = shade(at, x_px, y_px, hn::LoadU(d, run ? tile.depth + at[0] : z.data()));
+    const V3 colour = shade(Lanes{tile.primitive, at}, x_px, y_px,
+                            hn::LoadU(d, run ? tile.depth + at[0] : z.data()));
     if (run) {
       hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
       hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
@@ -165,16 +166,59 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   }
 }
 
+// Calls shade(lanes, x_px, y_px, z) for the listed fragments, a packet at a time, and stores their
+// colours.
+template <class Shade>
+HWY_INLINE void ShadeFragments(std::span<const EdgeFragment> fragments, const PixelList& list,
+                               ShadeScratch& scratch, const Shade& shade) {
+  const D d;
+  HWY_ALIGN std::array<float, kLanes> x, y, z, red, green, blue;
+  for (std::size_t i = 0; i < list.count; i += kLanes) {
+    const std::uint16_t* at = list.at + i;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const EdgeFragment& fragment = fragments[at[lane]];
+      x[lane] = fragment.x_px, y[lane] = fragment.y_px, z[lane] = fragment.z;
+    }
+    const V3 colour = shade(Lanes{scratch.fragment_primitive.data(), at}, hn::Load(d, x.data()),
+                            hn::Load(d, y.data()), hn::Load(d, z.data()));
+    hn::Store(colour.x, d, red.data());
+    hn::Store(colour.y, d, green.data());
+    hn::Store(colour.z, d, blue.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      scratch.fragment_red[at[lane]] = red[lane];
+      scratch.fragment_green[at[lane]] = green[lane];
+      scratch.fragment_blue[at[lane]] = blue[lane];
+    }
+  }
+}
+
+// The fragments to shade that have primitives in [begin, end).
+PixelList ListFragments(std::span<const EdgeFragment> fragments, std::uint32_t begin,
+                        std::uint32_t end, ShadeScratch& scratch) {
+  PixelList list{scratch.fragment_list.data()};
+  for (std::size_t n = 0; n < fragments.size(); ++n)
+    if (!fragments[n].is_centre && fragments[n].primitive - begin < end - begin)
+      list.Append(static_cast<std::uint16_t>(n));
+  PadToPacket(list);
+  return list;
+}
+
 template <ViewKind kView, class M>
 HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const PixelList& list,
                               ShadeScratch& scratch) {
   const M& material = s.material<M>();
   WithShader<kView>(material, [&](const auto& shade) HWY_ATTR {
-    ShadeList(s, tile, list, scratch, [&](const std::uint16_t* at, V x_px, V y_px, V z) HWY_ATTR {
+    const auto shade_lanes = [&](const Lanes& lanes, V x_px, V y_px, V z) HWY_ATTR {
       const Packet shown = MakePacket(s.rays, x_px, y_px, z);
-      const Lanes lanes{tile.primitive, at};
       return ArrivingLight<kView>(s, tile, material, lanes, shown, shade);
-    });
+    };
+    ShadeList(s, tile, list, scratch, shade_lanes);
+    if constexpr (kView == ViewKind::kWindow)
+      if (!tile.fragments.empty())
+        ShadeFragments(tile.fragments,
+                       ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
+                                     s.primitives.end(M::kSurface), scratch),
+                       scratch, shade_lanes);
   });
 }
 
@@ -189,15 +233,21 @@ HWY_INLINE std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile,
   return shade_all(std::make_index_sequence<kMaterialCount>());
 }
 
-int ShadeTile(const Shading& s, int tile_index, const float* depth, const std::uint32_t* primitive,
-              TileLookups lookups, ShadeScratch& scratch, std::uint32_t* rgba, float* linear) {
-  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive,
-                        lookups};
+int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
+              float* linear) {
+  const TilePixels tile{raster::tile_box(s.viewport, s.grid, input.tile), input.depth.data(),
+                        input.primitive.data(), input.fragments, input.lookups};
+  for (std::size_t n = 0; n < tile.fragments.size(); ++n)
+    scratch.fragment_primitive[n] = tile.fragments[n].primitive;
   const PixelLists lists = ListPixels(s, tile, scratch);
   const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch);
-  ShadeList(s, tile, lists[kSky], scratch,
-            [&](const std::uint16_t*, V x, V y, V) HWY_ATTR { return ShadeSky(s, x, y); });
+  const auto shade_sky = [&](const Lanes&, V x, V y, V) HWY_ATTR { return ShadeSky(s, x, y); };
+  ShadeList(s, tile, lists[kSky], scratch, shade_sky);
+  if (!tile.fragments.empty())
+    ShadeFragments(tile.fragments, ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch),
+                   scratch, shade_sky);
   ResolveTile(s, tile.box, scratch, rgba, linear);
+  if (!tile.fragments.empty()) ResolveFragments(s, tile, scratch, rgba, linear);
   return static_cast<int>(shaded);
 }
 
@@ -258,7 +308,7 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
 void ShadeLookupTile(const Shading& s, int tile_index, const float* depth,
                      const std::uint32_t* primitive, ShadeScratch& scratch,
                      texture::RgbaImage& image) {
-  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}};
+  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {}};
   const PixelLists lists = ListPixels(s, tile, scratch);
   if (s.kind == ViewKind::kRefraction)
     ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch);
@@ -297,13 +347,12 @@ void check_tile(const Shading& s, std::span<const float> depth,
 
 }  // namespace
 
-int shade_tile(const Shading& shading, int tile, std::span<const float> depth,
-               std::span<const std::uint32_t> primitive, TileLookups lookups, ShadeScratch& scratch,
+int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
                std::span<std::uint32_t> rgba, std::span<float> linear) {
-  check_tile(shading, depth, primitive);
+  check_tile(shading, input.depth, input.primitive);
   check_picture(shading, rgba, linear);
-  return HWY_DYNAMIC_DISPATCH(ShadeTile)(shading, tile, depth.data(), primitive.data(), lookups,
-                                         scratch, rgba.data(),
+  SWELL_CHECK(input.fragments.size() <= kMaxTileFragments, "fragments={}", input.fragments.size());
+  return HWY_DYNAMIC_DISPATCH(ShadeTile)(shading, input, scratch, rgba.data(),
                                          linear.empty() ? nullptr : linear.data());
 }
 

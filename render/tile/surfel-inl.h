@@ -17,6 +17,7 @@ struct TilePixels {
   raster::PixelBox box;
   const float* depth;
   const std::uint32_t* primitive;
+  std::span<const EdgeFragment> fragments;
   TileLookups lookups;
 };
 

@@ -71,7 +71,7 @@ void draw_lookup_tile(int tile, ThreadScratch& scratch, LookupTarget& target) {
 
 void draw_lookup_image(const Meshes& meshes, const MaterialInputs& inputs, int tile_size_px,
                        ScratchList scratch, LookupTarget& target, const StageRun& run) {
-  prepare_view_pass(meshes, tile_size_px, target.view, run.workers);
+  prepare_view_pass(meshes, tile_size_px, 0, target.view, run.workers);
   fill_shading(inputs, target.view, tile_size_px, target.shading);
   run.for_each(target.wanted.size(), [&](std::size_t tile, int thread) {
     draw_lookup_tile(static_cast<int>(tile), *scratch[thread], target);

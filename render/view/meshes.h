@@ -48,11 +48,18 @@ struct ObjectPrimitive {
   const ObjectInstance* object = nullptr;
 };
 
+// Which triangles and vertices of ObjectGeometry are one object's.
+struct ObjectPart {
+  std::uint32_t first_triangle = 0, triangles = 0;
+  std::uint32_t first_vertex = 0, vertices = 0;
+};
+
 // The floating objects that a frame may show.
 struct ObjectGeometry {
   std::vector<scene::ObjectPose> poses;          // of all objects of the scene
   std::vector<const scene::ObjectMesh*> meshes;  // of the same; null: not in view
   std::vector<ObjectInstance> instances;         // of those in view
+  std::vector<ObjectPart> parts;                 // of the same
   std::vector<ObjectPrimitive> primitives;       // per triangle
   std::vector<std::uint32_t> indices;            // 3 per triangle
   std::vector<glm::vec3> p_rel;                  // per vertex, relative to the eye

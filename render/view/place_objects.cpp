@@ -79,6 +79,7 @@ void add_triangles(const scene::ObjectMesh& mesh, const ObjectInstance& instance
 void clear_geometry(ObjectGeometry& geometry) {
   geometry.meshes.clear();
   geometry.instances.clear();
+  geometry.parts.clear();
   geometry.primitives.clear();
   geometry.indices.clear();
   geometry.p_rel.clear();
@@ -135,6 +136,10 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
     const scene::ObjectMesh& mesh = world.objects.meshes[near ? choice.near : choice.far];
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
+    geometry.parts.push_back({static_cast<std::uint32_t>(geometry.primitives.size()),
+                              static_cast<std::uint32_t>(mesh.triangles.size()),
+                              static_cast<std::uint32_t>(geometry.p_rel.size()),
+                              static_cast<std::uint32_t>(mesh.position.size())});
     add_triangles(mesh, geometry.instances.back(),
                   static_cast<std::uint32_t>(geometry.p_rel.size()), geometry);
     add_vertices(mesh, placement, geometry);

@@ -114,7 +114,8 @@ void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, 
     if (shows(view->kind, surface)) map_range(meshes, surface, begin, end, *view);
 }
 
-void prepare_view_pass(const Meshes& meshes, int tile_size_px, RenderView& view, Workers& workers) {
+void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples, RenderView& view,
+                       Workers& workers) {
   const auto is_drawn = [&](SurfaceKind s) { return shows(view.kind, s) && has_material(s); };
   std::array<std::uint32_t, kSurfaceKinds> triangles{};
   for (const SurfaceKind s : kAllSurfaces)
@@ -134,7 +135,7 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, RenderView& view,
     draws[count++].first_primitive = view.primitives.begin(s);
   }
   raster::prepare_pass(std::span(draws).first(count), view.viewport(), tile_size_px, view.pass,
-                       workers);
+                       workers, edge_samples);
 }
 
 }  // namespace swell::render

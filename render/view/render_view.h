@@ -85,7 +85,9 @@ void displace(const World::State& world, const SeaMaps& sea, const View& view,
 void place_objects(const World::State& world, const SeaMaps& sea, const View& view, Meshes& meshes,
                    FrameViews views);
 
-// Numbers the triangles of what the view shows, clips, sets up and bins them.
-void prepare_view_pass(const Meshes& meshes, int tile_size_px, RenderView& view, Workers& workers);
+// Numbers the triangles of what the view shows, clips, sets up and bins them; with edge_samples
+// (0, 4 or 8) also for samples.
+void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples, RenderView& view,
+                       Workers& workers);
 
 }  // namespace swell::render

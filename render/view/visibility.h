@@ -16,8 +16,9 @@ struct VisibilityBuffer {
   raster::TileGrid grid;
   std::vector<float> depth;
   std::vector<std::uint32_t> primitive;
-  std::vector<int> covered;             // pixels with a surface; -1: no triangle, buffers unset
-  std::vector<std::uint8_t> has_water;  // 0 or 1
+  std::vector<int> covered;  // pixels with a surface; -1: no triangle, buffers unset
+  std::vector<int> water_pixels;
+  std::vector<std::uint8_t> has_water;  // 0 or 1: in a pixel's centre, or in a part of one
 
   std::size_t tile_pixels() const {
     return static_cast<std::size_t>(grid.tile_size_px) * grid.tile_size_px;
@@ -36,8 +37,9 @@ struct VisibilityBuffer {
   }
 };
 
-// Prepares the window's pass and draws its visibility buffer.
-void find_visible(const Meshes& meshes, int tile_size_px, RenderView& window,
+// Prepares the window's pass, with edge_samples (0, 4 or 8) also for samples, and draws its
+// visibility buffer.
+void find_visible(const Meshes& meshes, int tile_size_px, int edge_samples, RenderView& window,
                   VisibilityBuffer& visibility, const StageRun& run);
 
 }  // namespace swell::render

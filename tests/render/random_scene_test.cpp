@@ -80,7 +80,7 @@ std::string random_value(const Parameter<Object>& parameter, Dice& dice) {
     case ParameterKind::kInteger:
       return fmt::format("{:.0f}", std::ceil(random_number(parameter, dice)));
     case ParameterKind::kPowerOfTwo:
-      return fmt::format("{}", 16 << dice.below(6));
+      return fmt::format("{}", static_cast<int>(parameter.low) << dice.below(2));
     case ParameterKind::kBoolean:
       return dice.below(2) ? "true" : "false";
     case ParameterKind::kChoice:

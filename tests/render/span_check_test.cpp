@@ -227,7 +227,7 @@ TEST_F(SpanDeathTest, RenderChecksEveryPair) {
   std::vector<std::uint32_t> primitive(256), fewer(255), rgba(256);
   texture::RgbaImage image;
   const auto shade = [&](auto& z, auto& id, auto& pixels, std::span<float> light) {
-    shade_tile(shading, 0, z, id, {}, *scratch, pixels, light);
+    shade_tile(shading, {.tile = 0, .depth = z, .primitive = id}, *scratch, pixels, light);
   };
   EXPECT_REFUSED(shade(shallow, primitive, rgba, {}));
   EXPECT_REFUSED(shade(depth, fewer, rgba, {}));

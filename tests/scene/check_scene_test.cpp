@@ -56,9 +56,9 @@ std::vector<ParameterValue> values_outside(const Parameter<Object>& parameter) {
       values.emplace_back(static_cast<std::int64_t>(parameter.high) + 1);
       break;
     case ParameterKind::kPowerOfTwo:
-      values.emplace_back(std::int64_t{8});
-      values.emplace_back(std::int64_t{100});
-      values.emplace_back(std::int64_t{1024});
+      values.emplace_back(static_cast<std::int64_t>(parameter.low) / 2);
+      values.emplace_back(static_cast<std::int64_t>(parameter.high) - 1);
+      values.emplace_back(static_cast<std::int64_t>(parameter.high) * 2);
       break;
     case ParameterKind::kText:
       values.emplace_back(std::string(kMaxTextBytes + 1, 'x'));

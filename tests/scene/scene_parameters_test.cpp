@@ -103,7 +103,11 @@ std::string points_text(const Parameter<Object>& parameter, Dice& dice, bool ins
 template <class Object>
 std::string integer_text(const Parameter<Object>& parameter, Dice& dice, bool inside) {
   const bool power = parameter.kind == ParameterKind::kPowerOfTwo;
-  if (inside && power) return fmt::format("{}", 16 << dice.below(6));
+  if (inside && power) {
+    const auto low = static_cast<unsigned>(parameter.low),
+               high = static_cast<unsigned>(parameter.high);
+    return fmt::format("{}", low << dice.below(std::bit_width(high / low)));
+  }
   if (inside) return fmt::format("{:.0f}", std::floor(number_inside(parameter, dice)));
   const char* kWrong[] = {"-1", "9007199254740993", "1.5", "true", "\"2\"", "[2]"};
   if (power && dice.below(2)) return "100";

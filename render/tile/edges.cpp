@@ -1,0 +1,230 @@
+#include "render/tile/edges.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace swell::render {
+namespace {
+
+// Samples of one surface whose depths differ by more than this part are of two places of it: a
+// crest and farther water.
+constexpr float kPartOfDepth = 1.0f / 4.0f;
+
+// What samples are told apart by: 0 the sky, 1 the water, 2 the land, from 3 on the objects.
+class SurfaceNumbers {
+ public:
+  SurfaceNumbers(const PrimitiveRanges& ranges, const ObjectGeometry& objects)
+      : ranges_(ranges), objects_(objects) {}
+
+  int of(std::uint32_t primitive) const {
+    if (ranges_.holds(SurfaceKind::kWater, primitive)) return 1;
+    if (ranges_.holds(SurfaceKind::kTerrain, primitive)) return 2;
+    if (ranges_.holds(SurfaceKind::kObjects, primitive)) return 3 + object_of(primitive);
+    return 0;
+  }
+
+ private:
+  int object_of(std::uint32_t primitive) const {
+    const std::uint32_t n = primitive - ranges_.begin(SurfaceKind::kObjects);
+    return static_cast<int>(objects_.primitives[n].object - objects_.instances.data());
+  }
+
+  const PrimitiveRanges& ranges_;
+  const ObjectGeometry& objects_;
+};
+
+// The samples of one pixel that show one surface.
+struct Group {
+  int surface = 0;
+  int count = 0;
+  float nearest = 0.0f, x_px = 0.0f, y_px = 0.0f, z = 0.0f;  // z and place: sums
+  std::uint32_t primitive = raster::kNoPrimitive;
+};
+
+bool same_place(float a, float b) { return std::abs(a - b) <= kPartOfDepth * std::max(a, b); }
+
+// What one sample shows.
+struct Sample {
+  std::uint32_t primitive;
+  int surface;
+  float z;
+};
+
+// Into which of the groups a sample goes; a new one while there is room. A triangle is one place
+// however deep it is: towards the horizon it may be kilometres in one pixel.
+Group& group_of(const Sample& sample, std::span<Group, kMaxFragments> groups, std::size_t& count) {
+  for (Group& g : groups.first(count))
+    if (g.surface == sample.surface &&
+        (g.primitive == sample.primitive || same_place(g.nearest, sample.z)))
+      return g;
+  if (count < kMaxFragments) {
+    groups[count] = {.surface = sample.surface, .nearest = sample.z, .primitive = sample.primitive};
+    return groups[count++];
+  }
+  // No room: to the like, or the last.
+  for (Group& g : groups)
+    if (g.surface == sample.surface) return g;
+  return groups.back();
+}
+
+struct Pixel {
+  std::uint16_t at;
+  int x_px, y_px;  // in the picture
+  // Of the centre.
+  float z;
+  std::uint32_t primitive;
+  int surface;
+};
+
+// Appends the fragments of one pixel, none if all of its samples show what the centre does.
+void add_fragments(const Pixel& pixel, std::span<const float> depth,
+                   std::span<const std::uint32_t> primitive, const SurfaceNumbers& surfaces,
+                   std::vector<EdgeFragment>& out) {
+  const auto positions = raster::sample_positions(static_cast<int>(depth.size()));
+  std::array<Group, kMaxFragments> groups;
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < depth.size(); ++s) {
+    Group& g = group_of({primitive[s], surfaces.of(primitive[s]), depth[s]}, groups, count);
+    ++g.count;
+    g.x_px += static_cast<float>(positions[s].x_fx8) * (1.0f / 256.0f) - 0.5f;
+    g.y_px += static_cast<float>(positions[s].y_fx8) * (1.0f / 256.0f) - 0.5f;
+    g.z += depth[s];
+  }
+  bool centre_found = false;
+  const auto is_centre = [&](const Group& g) {
+    return !centre_found && g.surface == pixel.surface &&
+           (g.primitive == pixel.primitive || same_place(g.nearest, pixel.z));
+  };
+  if (count == 1 && is_centre(groups[0])) return;
+  for (const Group& g : std::span(groups).first(count)) {
+    const float part = 1.0f / static_cast<float>(g.count);
+    const bool centre = is_centre(g);
+    centre_found |= centre;
+    out.push_back({.x_px = static_cast<float>(pixel.x_px) + part * g.x_px,
+                   .y_px = static_cast<float>(pixel.y_px) + part * g.y_px,
+                   .z = part * g.z,
+                   .primitive = g.primitive,
+                   .pixel = pixel.at,
+                   .samples = static_cast<std::uint8_t>(g.count),
+                   .is_centre = centre});
+  }
+}
+
+TileBox tile_box_of(std::span<const glm::vec4> p_clip, raster::Viewport viewport,
+                    const raster::TileGrid& grid) {
+  glm::vec2 low(1.0f), high(-1.0f);
+  for (const glm::vec4& p : p_clip) {
+    // Beside or behind the eye: anywhere.
+    if (!(p.w > p.z)) return {0, 0, grid.tiles_x - 1, grid.tiles_y - 1};
+    low = glm::min(low, glm::vec2(p) / p.w);
+    high = glm::max(high, glm::vec2(p) / p.w);
+  }
+  // One pixel more, for rounding.
+  const auto tile_at = [&](float ndc, int size_px, float more_px, int tiles) {
+    const float px = (0.5f + 0.5f * ndc) * static_cast<float>(size_px) + more_px;
+    const float tile = std::floor(px / static_cast<float>(grid.tile_size_px));
+    return static_cast<int>(std::clamp(tile, -1.0f, static_cast<float>(tiles)));
+  };
+  return {tile_at(low.x, viewport.width_px, -1.0f, grid.tiles_x),
+          tile_at(-high.y, viewport.height_px, -1.0f, grid.tiles_y),
+          tile_at(high.x, viewport.width_px, 1.0f, grid.tiles_x),
+          tile_at(-low.y, viewport.height_px, 1.0f, grid.tiles_y)};
+}
+
+// Marks what triangles of an object touch, but for the pixels inside it.
+void mark_object(const RenderView& window, const VisibilityBuffer& visibility, int tile,
+                 const ObjectPart& part, raster::PixelMask& mask) {
+  const std::uint32_t begin = window.primitives.begin(SurfaceKind::kObjects) + part.first_triangle;
+  const std::uint32_t end = begin + part.triangles;
+  raster::PixelMask touched;
+  raster::mark_touched(window.pass, tile, begin, end, touched);
+  if (touched.count() == 0) return;
+  const raster::PixelMask interior = find_interior(visibility, window.viewport(), tile, begin, end);
+  for (int y = 0; y < visibility.grid.tile_size_px; ++y)
+    mask.add_to_row(y, touched.row(y) & ~interior.row(y));
+}
+
+struct TileEdges {
+  const RenderView& window;
+  const VisibilityBuffer& visibility;
+  const SurfaceNumbers& surfaces;
+  std::span<const ObjectPart> objects;
+  std::span<const TileBox> object_tiles;
+  int samples;
+};
+
+raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratch) {
+  raster::PixelMask mask;
+  mark_jumps(in.visibility, in.window.primitives, in.window.viewport(), tile, scratch, mask);
+  const int tiles_x = in.visibility.grid.tiles_x;
+  for (std::size_t i = 0; i < in.objects.size(); ++i)
+    if (in.object_tiles[i].holds(tile % tiles_x, tile / tiles_x))
+      mark_object(in.window, in.visibility, tile, in.objects[i], mask);
+  return mask;
+}
+
+void find_in_tile(const TileEdges& in, int tile, EdgeScratch& scratch,
+                  std::vector<EdgeFragment>& out) {
+  out.clear();
+  const VisibilityBuffer& visibility = in.visibility;
+  if (visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
+  const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
+  const auto pixels = static_cast<std::size_t>(mask.count());
+  if (pixels == 0) return;
+
+  const auto samples = static_cast<std::size_t>(in.samples);
+  scratch.depth.resize(pixels * samples);
+  scratch.primitive.resize(pixels * samples);
+  raster::draw_samples(in.window.pass, tile, mask, scratch.depth, scratch.primitive);
+
+  const raster::PixelBox box = raster::tile_box(in.window.viewport(), visibility.grid, tile);
+  const std::span<const float> depth = visibility.depth_of(tile);
+  const std::span<const std::uint32_t> primitive = visibility.primitive_of(tile);
+  std::size_t n = 0;
+  for (int y = 0; y < box.height_px; ++y) {
+    for (std::uint64_t left = mask.row(y); left != 0; left &= left - 1, n += samples) {
+      const int x = std::countr_zero(left);
+      const auto at = static_cast<std::uint16_t>(y * visibility.grid.tile_size_px + x);
+      const Pixel pixel{.at = at,
+                        .x_px = box.x0_px + x,
+                        .y_px = box.y0_px + y,
+                        .z = depth[at],
+                        .primitive = primitive[at],
+                        .surface = in.surfaces.of(primitive[at])};
+      add_fragments(pixel, std::span(scratch.depth).subspan(n, samples),
+                    std::span(scratch.primitive).subspan(n, samples), in.surfaces, out);
+    }
+  }
+}
+
+}  // namespace
+
+void find_edges(const ObjectGeometry& objects, const RenderView& window,
+                std::span<const std::unique_ptr<EdgeScratch>> scratch, VisibilityBuffer& visibility,
+                EdgeBuffer& edges, const StageRun& run) {
+  const auto tiles = static_cast<std::size_t>(visibility.grid.count());
+  edges.of_tile.resize(tiles);
+  if (edges.samples == 0) {
+    for (std::vector<EdgeFragment>& fragments : edges.of_tile) fragments.clear();
+    return;
+  }
+  edges.object_tiles.clear();
+  const std::span<const glm::vec4> p_clip = window.vertices_of(SurfaceKind::kObjects).p_clip;
+  for (const ObjectPart& part : objects.parts)
+    edges.object_tiles.push_back(tile_box_of(p_clip.subspan(part.first_vertex, part.vertices),
+                                             window.viewport(), visibility.grid));
+  const SurfaceNumbers surfaces(window.primitives, objects);
+  const TileEdges in{window,        visibility,         surfaces,
+                     objects.parts, edges.object_tiles, edges.samples};
+  run.for_each(tiles, [&](std::size_t tile, int thread) {
+    find_in_tile(in, static_cast<int>(tile), *scratch[thread], edges.of_tile[tile]);
+    visibility.has_water[tile] |= std::ranges::any_of(
+        edges.of_tile[tile],
+        [&](std::uint32_t p) { return window.primitives.holds(SurfaceKind::kWater, p); },
+        &EdgeFragment::primitive);
+  });
+}
+
+}  // namespace swell::render

@@ -1,0 +1,65 @@
+// Smooth edges: which pixels show more than one surface, and how much of each.
+//
+// The visibility buffer has one surface a pixel, that of its centre. Where surfaces meet, 4 or 8
+// samples of the pixel say how much of it each of them covers; the pixel is then shaded once for
+// each, and the colours are mixed by their numbers of samples. Nothing else is mixed: depth, labels
+// and the count of visible pixels stay those of the centres.
+//
+// A pixel is looked at if a neighbour shows another kind of surface (tile/jumps.h), if the depth
+// jumps to a neighbour by more than the surfaces' own slope explains, or if a triangle of an object
+// touches it that the centres around do not all show, so that a mast thinner than a pixel is found.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "raster/samples.h"
+#include "render/tile/jumps.h"
+#include "render/view/render_view.h"
+#include "render/view/visibility.h"
+
+namespace swell::render {
+
+// A part of a pixel: what some of its samples show.
+struct EdgeFragment {
+  float x_px, y_px;         // middle of its samples; whole numbers are centres of pixels
+  float z;                  // depth there, as in the visibility buffer; 0 in the sky
+  std::uint32_t primitive;  // kNoPrimitive in the sky
+  std::uint16_t pixel;      // y * tile_size + x in its tile
+  std::uint8_t samples;     // of its pixel that show it, at least 1
+  bool is_centre;           // the surface that the centre shows, which is shaded anyway
+};
+
+inline constexpr std::size_t kMaxFragments = 4;  // a pixel
+
+// Where an object's triangles lie in the window, in tiles; inclusive.
+struct TileBox {
+  int x0, y0, x1, y1;
+  bool holds(int x, int y) const { return x >= x0 && x <= x1 && y >= y0 && y <= y1; }
+};
+
+// The pixels of a frame where surfaces meet.
+struct EdgeBuffer {
+  int samples = 0;  // a pixel: 0, 4 or 8
+  // By tile; a pixel's fragments lie side by side and have all of its samples together.
+  std::vector<std::vector<EdgeFragment>> of_tile;
+  std::vector<TileBox> object_tiles;  // by ObjectGeometry::parts
+};
+
+// Working memory of one thread.
+struct EdgeScratch {
+  JumpScratch jumps;
+  std::vector<float> depth;  // of samples
+  std::vector<std::uint32_t> primitive;
+};
+
+// Stage 4, after the visibility of all tiles: finds the fragments of all tiles' edges. The window's
+// pass was prepared with edges.samples, 4 or 8; with 0 there are none. Adds to
+// visibility.has_water the tiles that show water in fragments only.
+void find_edges(const ObjectGeometry& objects, const RenderView& window,
+                std::span<const std::unique_ptr<EdgeScratch>> scratch, VisibilityBuffer& visibility,
+                EdgeBuffer& edges, const StageRun& run);
+
+}  // namespace swell::render

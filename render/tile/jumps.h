@@ -1,0 +1,30 @@
+// Where a tile's pixel centres show that surfaces meet: another kind of surface next door, or a
+// jump of the depth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raster/samples.h"
+#include "render/view/surfaces.h"
+#include "render/view/visibility.h"
+
+namespace swell::render {
+
+// A tile's depth with a rim of its neighbours'. Beyond the picture the nearest pixel goes on.
+struct JumpScratch {
+  static constexpr int kSide = raster::PixelMask::kMaxRows, kRim = 2;
+  static constexpr int kStride = 80;  // a row, with room for a whole vector past its end
+  alignas(64) std::array<float, kStride*(kSide + 2 * kRim + 1)> depth{};
+};
+
+// Marks both pixels of each such pair, so far as they lie in the tile. `visibility` is that of the
+// whole window, so that the result does not depend on the size of tiles.
+void mark_jumps(const VisibilityBuffer& visibility, const PrimitiveRanges& primitives,
+                raster::Viewport viewport, int tile, JumpScratch& scratch, raster::PixelMask& mask);
+
+// The tile's pixels that show, like their four neighbours, primitives in [begin, end).
+raster::PixelMask find_interior(const VisibilityBuffer& visibility, raster::Viewport viewport,
+                                int tile, std::uint32_t begin, std::uint32_t end);
+
+}  // namespace swell::render
