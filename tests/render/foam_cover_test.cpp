@@ -124,14 +124,37 @@ Edges over_a_period(float reach_m) {
   return result;
 }
 
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+// (1 + sin(phi - 0.352 cos phi)) / 2 of the reach, which differs by 0.15 either way about 0.85
+// along the shore, where phi lags by 0.3 of two sines.
+double exact_edge_m(const Swash& swash, glm::dvec2 p) {
+  const auto along = [&](glm::dvec3 lag) {
+    return std::sin(kTurn * (lag.x * p.x + lag.y * p.y + lag.z));
+  };
+  const double a = along(swash.lag_a), b = along(swash.lag_b);
+  const double phase = kTurn * (swash.cycles - 0.3 * (a + b));
+  const double leaning = phase - kTurn * 0.056 * std::cos(phase);
+  return swash.reach_m * (0.85 + 0.15 * b) * 0.5 * (1.0 + std::sin(leaning));
+}
+
 TEST_P(SwashEdges, RunFromTheWatersLevelTo85PercentOfTheirReach) {
   const Edges edges = over_a_period(2.0f);
   EXPECT_NEAR(std::ranges::min(edges.edge_m), 0.0, 1e-5);
   EXPECT_NEAR(std::ranges::max(edges.edge_m), 2.0 * 0.85, 1e-5);
+  Swash swash;
+  swash.reach_m = 2.0f;
   for (int i = 0; i < kTimes; ++i) {
-    const double phase = 2.0 * std::numbers::pi * i / kTimes;
-    const double leaning = phase - 2.0 * std::numbers::pi * 0.056 * std::cos(phase);
-    ASSERT_NEAR(edges.edge_m[i], 2.0 * 0.85 * 0.5 * (1.0 + std::sin(leaning)), 1e-5) << i;
+    swash.cycles = static_cast<float>(i) / kTimes;
+    ASSERT_NEAR(edges.edge_m[i], exact_edge_m(swash, {0.0, 0.0}), 1e-5) << i;
+  }
+}
+
+// Not at all while it comes in fastest, wholly while it goes out fastest, half at both turns.
+TEST_P(SwashEdges, RetreatAfterTheyHaveComeIn) {
+  const Edges edges = over_a_period(1.0f);
+  for (int i = 0; i < kTimes; ++i) {
+    const double phase = kTurn * i / kTimes, leaning = phase - kTurn * 0.056 * std::cos(phase);
     ASSERT_NEAR(edges.retreat[i], 0.5 * (1.0 - std::cos(leaning)), 1e-5) << i;
   }
 }
@@ -163,6 +186,8 @@ TEST_P(SwashEdges, StayWithinTheirReachAllAlongTheShore) {
     p.emplace_back(3.0f * static_cast<float>(i), 1.7f * static_cast<float>(i), -2.0f);
   std::vector<float> edge_m(p.size()), retreat(p.size());
   swash_edge(swash, p, edge_m, retreat);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    ASSERT_NEAR(edge_m[i], exact_edge_m(swash, glm::dvec2(p[i])), 2e-4) << i;
   const auto [low, high] = std::ranges::minmax(edge_m);
   EXPECT_GE(low, 0.0f);
   EXPECT_LT(low, 0.1f);
