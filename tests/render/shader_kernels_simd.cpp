@@ -1,0 +1,299 @@
+#include "render/shader_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/shader_kernels_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "render/materials/list-inl.h"
+#include "render/tile/attenuate-inl.h"
+#include "render/tile/resolve-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Elements [first, first + kLanes), the last one repeated.
+V LoadSome(std::span<const float> from, std::size_t first) {
+  HWY_ALIGN float lanes[kLanes];
+  for (std::size_t i = 0; i < kLanes; ++i) lanes[i] = from[std::min(first + i, from.size() - 1)];
+  return hn::Load(D(), lanes);
+}
+
+V3 LoadSome(std::span<const glm::vec3> from, std::size_t first) {
+  HWY_ALIGN float lanes[3][kLanes];
+  for (std::size_t i = 0; i < kLanes; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      lanes[axis][i] = from[std::min(first + i, from.size() - 1)][axis];
+  return {hn::Load(D(), lanes[0]), hn::Load(D(), lanes[1]), hn::Load(D(), lanes[2])};
+}
+
+void StoreSome(V from, std::span<float> to, std::size_t first) {
+  HWY_ALIGN float lanes[kLanes];
+  hn::Store(from, D(), lanes);
+  for (std::size_t i = 0; i < kLanes && first + i < to.size(); ++i) to[first + i] = lanes[i];
+}
+
+void StoreSome(V3 from, std::span<glm::vec3> to, std::size_t first) {
+  HWY_ALIGN float lanes[3][kLanes];
+  hn::Store(from.x, D(), lanes[0]);
+  hn::Store(from.y, D(), lanes[1]);
+  hn::Store(from.z, D(), lanes[2]);
+  for (std::size_t i = 0; i < kLanes && first + i < to.size(); ++i)
+    to[first + i] = {lanes[0][i], lanes[1][i], lanes[2][i]};
+}
+
+// Calls each(first element) for each packet of `count`.
+template <class Each>
+void ForPackets(std::size_t count, const Each& each) {
+  for (std::size_t i = 0; i < count; i += kLanes) each(i);
+}
+
+WaterSlopes NoSlopes() {
+  const V zero = hn::Zero(D());
+  return {zero, zero, zero, zero};
+}
+
+void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
+           std::span<const float> cos_eye, std::span<float> glint) {
+  WaterSlopes s = NoSlopes();
+  s.slope_x = Constant(surface.slope.x);
+  s.slope_y = Constant(surface.slope.y);
+  s.variance = Constant(surface.variance);
+  ForPackets(glint.size(), [&](std::size_t i) {
+    Packet packet;
+    packet.to_eye = LoadSome(to_eye, i);
+    StoreSome(SunGlint(surface.sun_direction, packet, s, Constant(surface.reflectance),
+                       LoadSome(cos_eye, i)),
+              glint, i);
+  });
+}
+
+void LightOfWater(const Shading& shading, std::span<const glm::vec3> to_eye,
+                  std::span<glm::vec3> light) {
+  const WaterShader<false> shader{shading.material<Water>()};
+  ForPackets(light.size(), [&](std::size_t i) {
+    Packet packet;
+    packet.x_px = packet.y_px = hn::Zero(D());
+    packet.to_eye = LoadSome(to_eye, i);
+    packet.distance = hn::Div(Constant(shading.rays.eye_z), packet.to_eye.z);
+    packet.depth = packet.distance;
+    packet.p = Scale(packet.to_eye, hn::Neg(packet.distance));
+    StoreSome(shader(shading, TilePixels{}, Lanes{}, packet).light, light, i);
+  });
+}
+
+void Cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
+           std::span<const float> amount, std::span<float> cover) {
+  ForPackets(cover.size(), [&](std::size_t i) {
+    StoreSome(FoamCover(foam, LoadSome(p_rel, i), Constant(level_m), LoadSome(amount, i)), cover,
+              i);
+  });
+}
+
+void Edge(const Swash& swash, std::span<const glm::vec3> p_rel, std::span<float> edge_m,
+          std::span<float> retreat) {
+  ForPackets(edge_m.size(), [&](std::size_t i) {
+    const SwashEdge edge = FindSwashEdge(swash, LoadSome(p_rel, i));
+    StoreSome(edge.edge_m, edge_m, i);
+    StoreSome(edge.retreat, retreat, i);
+  });
+}
+
+void Footprints(const ViewRays& rays, std::span<const float> depth, std::span<const float> cos_view,
+                std::span<float> across, std::span<float> level) {
+  ForPackets(depth.size(), [&](std::size_t i) {
+    Packet packet;
+    packet.depth = LoadSome(depth, i);
+    const V log2_m = FootprintAcross(rays, packet);
+    StoreSome(log2_m, across, i);
+    StoreSome(FootprintLevel(log2_m, LoadSome(cos_view, i)), level, i);
+  });
+}
+
+void LayerSlopes(const SlopeLayer& layer, std::span<const glm::vec3> p_rel,
+                 std::span<const float> level_m, std::span<glm::vec3> slopes) {
+  const V zero = hn::Zero(D());
+  ForPackets(slopes.size(), [&](std::size_t i) {
+    WaterSlopes s = NoSlopes();
+    AddSlopes(layer, LoadSome(p_rel, i), LoadSome(level_m, i), zero, zero, s.slope_x, s.slope_y,
+              s.variance);
+    StoreSome(V3{s.slope_x, s.slope_y, s.variance}, slopes, i);
+  });
+}
+
+void SineSlopes(const SineLayer& sine, std::span<const glm::vec3> p_rel,
+                std::span<const float> level_m, std::span<glm::vec3> slopes) {
+  ForPackets(slopes.size(), [&](std::size_t i) {
+    WaterSlopes s = NoSlopes();
+    AddSine(sine, LoadSome(p_rel, i), LoadSome(level_m, i), s);
+    StoreSome(V3{s.slope_x, s.slope_y, s.variance}, slopes, i);
+  });
+}
+
+void Path(const Media& media, std::span<const float> cos_eye, std::span<const float> apparent_m,
+          std::span<float> depth_m, std::span<float> length_m) {
+  ForPackets(cos_eye.size(), [&](std::size_t i) {
+    Packet packet;
+    packet.to_eye = {hn::Zero(D()), hn::Zero(D()), LoadSome(cos_eye, i)};
+    const WaterPath path = PathThroughWater(media, packet, LoadSome(apparent_m, i));
+    StoreSome(path.depth, depth_m, i);
+    StoreSome(path.length, length_m, i);
+  });
+}
+
+void Absorb(const Media& media, std::span<const float> length_m, glm::vec3 light,
+            std::span<glm::vec3> seen) {
+  ForPackets(seen.size(), [&](std::size_t i) {
+    const WaterPath path = {hn::Zero(D()), LoadSome(length_m, i)};
+    StoreSome(AbsorbInWater(media, path, Constant(light)), seen, i);
+  });
+}
+
+void HazeBetween(const Shading& shading, std::span<const float> distance_m, glm::vec3 to_eye,
+                 glm::vec3 light, std::span<glm::vec3> seen) {
+  ForPackets(seen.size(), [&](std::size_t i) {
+    Packet packet;
+    packet.distance = LoadSome(distance_m, i);
+    packet.to_eye = Constant(to_eye);
+    StoreSome(Haze(shading, packet, Constant(light)), seen, i);
+  });
+}
+
+template <ViewKind kView>
+void FindPoints(const Media& media, float level_rel_m, std::span<const glm::vec3> p_shown,
+                std::span<glm::vec3> p_rel) {
+  Shading shading;
+  shading.media = media;
+  ForPackets(p_rel.size(), [&](std::size_t i) {
+    Packet packet;
+    packet.p = LoadSome(p_shown, i);
+    packet.to_eye = Scale(packet.p, hn::Neg(InverseSqrt(Dot(packet.p, packet.p))));
+    StoreSome(FindSeen<kView>(shading, packet, Constant(level_rel_m)).packet.p, p_rel, i);
+  });
+}
+
+void Find(ViewKind kind, const Media& media, float level_rel_m, std::span<const glm::vec3> p_shown,
+          std::span<glm::vec3> p_rel) {
+  if (kind == ViewKind::kReflection)
+    FindPoints<ViewKind::kReflection>(media, level_rel_m, p_shown, p_rel);
+  else
+    FindPoints<ViewKind::kRefraction>(media, level_rel_m, p_shown, p_rel);
+}
+
+void Srgb(std::span<const float> linear, std::span<float> code) {
+  ForPackets(code.size(),
+             [&](std::size_t i) { StoreSome(EncodeSrgb(LoadSome(linear, i)), code, i); });
+}
+
+void Bytes(std::span<const float> linear, float exposure, std::span<const float> dither,
+           std::span<int> byte) {
+  HWY_ALIGN int lanes[kLanes];
+  ForPackets(byte.size(), [&](std::size_t first) {
+    hn::Store(ToByte(LoadSome(linear, first), Constant(exposure), LoadSome(dither, first)), DI(),
+              lanes);
+    for (std::size_t i = 0; i < kLanes && first + i < byte.size(); ++i) byte[first + i] = lanes[i];
+  });
+}
+
+void Noise(std::span<const float> x_px, std::span<const float> y_px, std::span<float> noise) {
+  ForPackets(noise.size(), [&](std::size_t i) {
+    StoreSome(PixelNoise(LoadSome(x_px, i), LoadSome(y_px, i)), noise, i);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::render {
+
+HWY_EXPORT(Glint);
+HWY_EXPORT(LightOfWater);
+HWY_EXPORT(Cover);
+HWY_EXPORT(Edge);
+HWY_EXPORT(Footprints);
+HWY_EXPORT(LayerSlopes);
+HWY_EXPORT(SineSlopes);
+HWY_EXPORT(Path);
+HWY_EXPORT(Absorb);
+HWY_EXPORT(HazeBetween);
+HWY_EXPORT(Find);
+HWY_EXPORT(Srgb);
+HWY_EXPORT(Bytes);
+HWY_EXPORT(Noise);
+
+void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
+               std::span<const float> cos_eye, std::span<float> glint) {
+  HWY_DYNAMIC_DISPATCH(Glint)(surface, to_eye, cos_eye, glint);
+}
+
+void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,
+                 std::span<glm::vec3> light) {
+  HWY_DYNAMIC_DISPATCH(LightOfWater)(shading, to_eye, light);
+}
+
+void foam_cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
+                std::span<const float> amount, std::span<float> cover) {
+  HWY_DYNAMIC_DISPATCH(Cover)(foam, p_rel, level_m, amount, cover);
+}
+
+void swash_edge(const Swash& swash, std::span<const glm::vec3> p_rel, std::span<float> edge_m,
+                std::span<float> retreat) {
+  HWY_DYNAMIC_DISPATCH(Edge)(swash, p_rel, edge_m, retreat);
+}
+
+void footprints(const ViewRays& rays, std::span<const float> depth, std::span<const float> cos_view,
+                std::span<float> across, std::span<float> level) {
+  HWY_DYNAMIC_DISPATCH(Footprints)(rays, depth, cos_view, across, level);
+}
+
+void add_slopes(const SlopeLayer& layer, std::span<const glm::vec3> p_rel,
+                std::span<const float> level_m, std::span<glm::vec3> slopes) {
+  HWY_DYNAMIC_DISPATCH(LayerSlopes)(layer, p_rel, level_m, slopes);
+}
+
+void add_sine(const SineLayer& sine, std::span<const glm::vec3> p_rel,
+              std::span<const float> level_m, std::span<glm::vec3> slopes) {
+  HWY_DYNAMIC_DISPATCH(SineSlopes)(sine, p_rel, level_m, slopes);
+}
+
+void path_through_water(const Media& media, std::span<const float> cos_eye,
+                        std::span<const float> apparent_m, std::span<float> depth_m,
+                        std::span<float> length_m) {
+  HWY_DYNAMIC_DISPATCH(Path)(media, cos_eye, apparent_m, depth_m, length_m);
+}
+
+void absorb_in_water(const Media& media, std::span<const float> length_m, glm::vec3 light,
+                     std::span<glm::vec3> seen) {
+  HWY_DYNAMIC_DISPATCH(Absorb)(media, length_m, light, seen);
+}
+
+void haze(const Shading& shading, std::span<const float> distance_m, glm::vec3 to_eye,
+          glm::vec3 light, std::span<glm::vec3> seen) {
+  HWY_DYNAMIC_DISPATCH(HazeBetween)(shading, distance_m, to_eye, light, seen);
+}
+
+void find_seen(ViewKind kind, const Media& media, float level_rel_m,
+               std::span<const glm::vec3> p_shown, std::span<glm::vec3> p_rel) {
+  HWY_DYNAMIC_DISPATCH(Find)(kind, media, level_rel_m, p_shown, p_rel);
+}
+
+void encode_srgb(std::span<const float> linear, std::span<float> code) {
+  HWY_DYNAMIC_DISPATCH(Srgb)(linear, code);
+}
+
+void to_byte(std::span<const float> linear, float exposure, std::span<const float> dither,
+             std::span<int> byte) {
+  HWY_DYNAMIC_DISPATCH(Bytes)(linear, exposure, dither, byte);
+}
+
+void pixel_noise(std::span<const float> x_px, std::span<const float> y_px, std::span<float> noise) {
+  HWY_DYNAMIC_DISPATCH(Noise)(x_px, y_px, noise);
+}
+
+}  // namespace swell::render
+#endif  // HWY_ONCE
