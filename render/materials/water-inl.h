@@ -47,13 +47,13 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
   return {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
 }
 
-// What a coast's maps say of a packet: the part in the surface of the trains that know its floor,
-// and the foam where they break, both 0 outside the maps.
+// What a coast's maps say of a packet: what the sea's own waves cede to the trains that know its
+// floor, and the foam where they break, both 0 outside the maps.
 struct Surf {
-  V share, foam;
+  V ceded, foam;
   hn::Mask<D> inside;
-  bool is_near;   // any lane inside
-  bool is_whole;  // no lane has anything of the sea's long waves
+  bool is_near;    // any lane inside
+  bool all_ceded;  // no lane has anything of the sea's long waves
 };
 
 HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
@@ -65,30 +65,30 @@ HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
   Surf surf;
   surf.inside =
       hn::And(hn::And(hn::Gt(u, low), hn::Gt(v, low)), hn::And(hn::Lt(u, high), hn::Lt(v, high)));
-  surf.share = surf.foam = hn::Zero(d);
+  surf.ceded = surf.foam = hn::Zero(d);
   surf.is_near = !hn::AllFalse(d, surf.inside);
-  surf.is_whole = false;
+  surf.all_ceded = false;
   if (!surf.is_near) return surf;
   const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m)), 0.0f,
                         static_cast<float>(layer.levels - 1));
-  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), surf.share,
+  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), surf.ceded,
                                         surf.foam);
-  // A share of all but half a step is whole.
-  surf.share = hn::IfThenElse(hn::Gt(surf.share, Constant(0.996f)), Constant(1.0f), surf.share);
-  surf.share = hn::IfThenElseZero(surf.inside, surf.share);
+  // All but half a step is all.
+  surf.ceded = hn::IfThenElse(hn::Gt(surf.ceded, Constant(0.996f)), Constant(1.0f), surf.ceded);
+  surf.ceded = hn::IfThenElseZero(surf.inside, surf.ceded);
   surf.foam = hn::IfThenElseZero(surf.inside, surf.foam);
-  surf.is_whole = hn::AllTrue(d, hn::Ge(surf.share, Constant(1.0f)));
+  surf.all_ceded = hn::AllTrue(d, hn::Ge(surf.ceded, Constant(1.0f)));
   return surf;
 }
 
 // Near a coast the longest waves make room for the trains that know its floor: their slopes keep
-// 1 - share, their variance its square.
+// 1 - ceded, their variance its square.
 HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf, WaterSlopes& s) {
   const D d;
-  const V kept = hn::Sub(Constant(1.0f), surf.share);
+  const V kept = hn::Sub(Constant(1.0f), surf.ceded);
   const V long_variance = hn::Sub(s.variance, Constant(water.base_variance));
-  s.slope_x = hn::NegMulAdd(s.slope_x, surf.share, s.slope_x);
-  s.slope_y = hn::NegMulAdd(s.slope_y, surf.share, s.slope_y);
+  s.slope_x = hn::NegMulAdd(s.slope_x, surf.ceded, s.slope_x);
+  s.slope_y = hn::NegMulAdd(s.slope_y, surf.ceded, s.slope_y);
   const V blended = hn::MulAdd(long_variance, hn::Mul(kept, kept), Constant(water.base_variance));
   // Not rounded outside: a packet with no lane inside does not come by here.
   s.variance = hn::IfThenElse(surf.inside, blended, s.variance);
@@ -135,7 +135,7 @@ HWY_INLINE WaterSlopes SampleWater(const Water& water, const ViewRays& rays, con
   const int last_long = water.long_layer_count - 1;
   for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
     const bool is_long = i <= last_long;
-    if (i >= 0 && !(kCoast && is_long && surf.is_whole))
+    if (i >= 0 && !(kCoast && is_long && surf.all_ceded))
       AddSlopes(water.layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
                 s.slope_y, s.variance);
     if (!is_long) continue;

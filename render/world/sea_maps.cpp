@@ -49,7 +49,7 @@ void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const Stag
       texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
                          sea.coast_slopes);
     else
-      texture::pack_map2(kCoastMapSize, world.coast_maps->share, sea.coast_foam, 1.0f / 127.0f,
+      texture::pack_map2(kCoastMapSize, world.coast_maps->ceded, sea.coast_foam, 1.0f / 127.0f,
                          sea.coast_surf);
   });
 }

@@ -15,7 +15,7 @@ struct SeaMaps {
   ocean::SeaFrame frame;
   std::vector<texture::PackedMap2> patch_slopes;  // one a patch, longest first
   texture::PackedMap2 uv_noise;                   // bends the coordinates of ripples
-  texture::PackedMap2 coast_slopes, coast_surf;   // slopes; the trains' share and their foam
+  texture::PackedMap2 coast_slopes, coast_surf;   // slopes of the trains; ceded, foam
   // Storage.
   texture::UvNoise noise{{}};
   std::vector<float> noise_cos, noise_sin;

@@ -40,7 +40,7 @@ struct TerrainMaps {
 // Over a coast's square, kCoastMapSize points a side.
 struct CoastMaps {
   ocean::CoastMap waves;
-  std::vector<float> share;  // the trains'
+  std::vector<float> ceded;  // what the sea's own waves give up to the trains, in [0, 1]
   // Thresholds, stretched to [-1, 1]; of any size, it repeats. The same for every coast.
   std::shared_ptr<const texture::PackedMap2> foam_pattern;
 };

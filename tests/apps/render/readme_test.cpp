@@ -1,10 +1,11 @@
-// What the README says that a command prints, it prints.
+// What the README says that a command prints, it prints; what documents point at is there.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <regex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "apps/shared/program_runner.h"
 
@@ -26,6 +27,41 @@ TEST(Readme, CommandsPrintTheHashesThatStandBesideThem) {
     EXPECT_EQ(outcome.out, (*i)[2].str() + "\n") << (*i)[0];
   }
   EXPECT_GE(claims, 1);
+}
+
+std::vector<std::filesystem::path> documents() {
+  const std::filesystem::path root(SWELL_SOURCE_DIR);
+  std::vector<std::filesystem::path> found = {root / "README.md"};
+  for (const auto& entry : std::filesystem::directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") found.push_back(entry.path());
+  return found;
+}
+
+TEST(Documents, LinksLeadToFiles) {
+  const std::regex link("\\]\\(([^)#:]+)(#[^)]*)?\\)");
+  int links = 0;
+  for (const std::filesystem::path& document : documents()) {
+    const std::string text = read_text(document);
+    for (std::sregex_iterator i(text.begin(), text.end(), link), end; i != end; ++i, ++links)
+      EXPECT_TRUE(std::filesystem::exists(document.parent_path() / (*i)[1].str()))
+          << document.filename() << ": " << (*i)[0];
+  }
+  EXPECT_GT(links, 20);
+}
+
+TEST(Documents, FunctionsThatTheFramesPageNamesAreThere) {
+  const std::filesystem::path root(SWELL_SOURCE_DIR);
+  std::string sources;
+  for (const char* folder : {"lod", "ocean", "raster", "render"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
+        sources += read_text(entry.path());
+  const std::string page = read_text(root / "docs/frame.md");
+  const std::regex call("`(?:\\w+::)*(\\w+)\\([^`]*\\)`");
+  int calls = 0;
+  for (std::sregex_iterator i(page.begin(), page.end(), call), end; i != end; ++i, ++calls)
+    EXPECT_NE(sources.find((*i)[1].str() + "("), std::string::npos) << (*i)[0];
+  EXPECT_GT(calls, 20);
 }
 
 }  // namespace

@@ -1,0 +1,100 @@
+// The sky as maps of its upper hemisphere.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "math/elementary.h"
+#include "render/world/rgb_code.h"
+#include "render/world/world_state.h"
+#include "scene/sky.h"
+#include "texture/perlin.h"
+
+namespace swell::render {
+namespace {
+
+constexpr int kSharpSkySize = 768, kSoftSkySize = 256;
+// Waves too small to see spread what they mirror: no cloud's edge is sharp in the sea.
+constexpr int kSoftSkyBlur = 5;
+
+// The direction that a sky map's texel shows; outside the horizon's circle it points below.
+glm::vec3 sky_direction(int x, int y, int size) {
+  const float u = (2.0f * (static_cast<float>(x) + 0.5f)) / static_cast<float>(size) - 1.0f;
+  const float v = (2.0f * (static_cast<float>(y) + 0.5f)) / static_cast<float>(size) - 1.0f;
+  const float r2 = u * u + v * v;
+  return glm::vec3(2.0f * u, 2.0f * v, 1.0f - r2) / (1.0f + r2);
+}
+
+// Box filter of half width `radius` along rows (step 3 floats) or columns, edges repeated.
+void blur(std::vector<float>& rgb, int size, int radius, bool along_rows) {
+  std::vector<float> result(rgb.size());
+  const std::ptrdiff_t step = along_rows ? 3 : 3 * size, line = along_rows ? 3 * size : 3;
+  const float weight = 1.0f / static_cast<float>(2 * radius + 1);
+  for (int j = 0; j < size; ++j) {
+    for (int i = 0; i < size; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0.0f;
+        for (int k = i - radius; k <= i + radius; ++k)
+          sum += rgb[static_cast<std::size_t>(j * line + std::clamp(k, 0, size - 1) * step + c)];
+        result[static_cast<std::size_t>(j * line + i * step + c)] = weight * sum;
+      }
+    }
+  }
+  rgb.swap(result);
+}
+
+// blur_radius: two box filters of this half width each way, in texels.
+texture::RgbaImage build_sky_map(const scene::Sky& sky, const texture::PerlinNoise& clouds,
+                                 int size, int blur_radius) {
+  std::vector<float> rgb;
+  rgb.reserve(static_cast<std::size_t>(3 * size * size));
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      glm::vec3 d = sky_direction(x, y, size);
+      d.z = std::max(d.z, -0.1f);
+      const glm::vec3 radiance = scene::sky_radiance(sky, clouds, d);
+      for (int c = 0; c < 3; ++c) rgb.push_back(radiance[c]);
+    }
+  }
+  for (int pass = 0; pass < (blur_radius > 0 ? 2 : 0); ++pass) {
+    blur(rgb, size, blur_radius, true);
+    blur(rgb, size, blur_radius, false);
+  }
+  texture::RgbaImage image;
+  texture::resize_image(size, size, image);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const float* p = rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * size + x);
+      image.texels[static_cast<std::size_t>(y) * image.stride + x] =
+          encode_rgb({p[0], p[1], p[2]}, kLookupRange);
+    }
+  }
+  texture::fill_padding(image);
+  return image;
+}
+
+// Mean radiance of the sky weighted by the cosine to the zenith: rings of equal weight.
+glm::vec3 ambient_radiance(const scene::Sky& sky, const texture::PerlinNoise& clouds) {
+  constexpr int kRings = 12, kSectors = 24;
+  glm::vec3 sum(0.0f);
+  for (int i = 0; i < kRings; ++i) {
+    const float sin2 = (static_cast<float>(i) + 0.5f) / kRings;  // sin^2 of the zenith angle
+    const float horizontal = std::sqrt(sin2), z = std::sqrt(1.0f - sin2);
+    for (int j = 0; j < kSectors; ++j) {
+      const SinCos a = sin_cos_turns((j + 0.5) / kSectors);
+      sum += scene::sky_radiance(
+          sky, clouds,
+          {horizontal * static_cast<float>(a.cos), horizontal * static_cast<float>(a.sin), z});
+    }
+  }
+  return sum / static_cast<float>(kRings * kSectors);
+}
+
+}  // namespace
+
+SkyMaps build_sky_maps(const scene::Sky& sky) {
+  const texture::PerlinNoise clouds(sky.cloud_seed);
+  return {build_sky_map(sky, clouds, kSharpSkySize, 0),
+          build_sky_map(sky, clouds, kSoftSkySize, kSoftSkyBlur), ambient_radiance(sky, clouds)};
+}
+
+}  // namespace swell::render
