@@ -192,8 +192,8 @@ void Bytes(std::span<const float> linear, float exposure, std::span<const float>
            std::span<int> byte) {
   HWY_ALIGN int lanes[kLanes];
   ForPackets(byte.size(), [&](std::size_t first) {
-    hn::Store(ToByte(LoadSome(linear, first), Constant(exposure), LoadSome(dither, first)), DI(),
-              lanes);
+    const V display = ToneCurve(LoadSome(linear, first), Constant(exposure));
+    hn::Store(ToByte(display, LoadSome(dither, first)), DI(), lanes);
     for (std::size_t i = 0; i < kLanes && first + i < byte.size(); ++i) byte[first + i] = lanes[i];
   });
 }
