@@ -177,8 +177,8 @@ INSTANTIATE_TEST_SUITE_P(
               "principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
-              "[water], [[camera.path]], [sky], [coast], [wind], [terrain], [[sea.sines]], "
-              "[detail], [[object]]"},
+              "[water], [[camera.path]], [sky], [picture], [coast], [wind], [terrain], "
+              "[[sea.sines]], [detail], [[object]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
               "speed_mps, from_deg"},
@@ -190,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
               "class, kind, top_mark, name, position_m, size_m, draught, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
-              "[sea], [water], [wind], [coast], [[sea.sines]], [detail], [[object]], [terrain], "
-              "[[camera.path]]"},
+              "[sea], [water], [wind], [picture], [coast], [[sea.sines]], [detail], [[object]], "
+              "[terrain], [[camera.path]]"},
         Fault{
             "[camera]\nfov = 3\n",
             "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
@@ -208,8 +208,8 @@ INSTANTIATE_TEST_SUITE_P(
               "quaternion, focal_px, heading_deg, pitch_deg, mount_offset_m, principal_px"},
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
-              "[coast], [camera], [wind], [detail], [terrain], [[object]], [[sea.sines]], "
-              "[[camera.path]]"},
+              "[coast], [camera], [wind], [detail], [terrain], [[object]], [picture], "
+              "[[sea.sines]], [[camera.path]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
