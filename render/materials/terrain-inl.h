@@ -51,8 +51,8 @@ HWY_INLINE V3 GroundRadiance(const Terrain& terrain, const Light& light, const P
   return Product(arriving, {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)});
 }
 
-// Where the sea's edge is now, as a height on the beach from 0 to reach_m: it runs up fast and
-// back slowly, not everywhere at one time.
+// Where the sea's edge is now, as a height on the beach from 0 to reach_m: it stays low
+// longer than high, and is not everywhere alike at one time.
 struct SwashEdge {
   V edge_m;
   V retreat;  // 0 while it comes, up to 1 as it goes
@@ -72,7 +72,7 @@ HWY_INLINE SwashEdge FindSwashEdge(const Swash& swash, V3 p) {
   const V lag = hn::Mul(hn::Add(along_a, along_b), Constant(0.3f));
   const V turns = hn::Sub(Constant(swash.cycles), lag);
   SinCosTurns(d, turns, sine, cosine);
-  // cos(phi - 0.35 cos phi) leans forward: up in less than half the time.
+  // sin(phi - 0.35 cos phi) is high for a shorter time than low.
   const V leaning = hn::MulAdd(cosine, Constant(-0.056f), turns);
   SinCosTurns(d, leaning, sine, cosine);
   const V half = Constant(0.5f);
