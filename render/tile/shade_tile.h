@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "render/labels/shaded_labels.h"
 #include "render/tile/shading.h"
 
 namespace swell::render {
@@ -28,10 +29,12 @@ struct ShadeScratch {
 
 // Shades all pixels of a tile that lie in the window and writes their 8-bit sRGB values to `rgba`
 // (the whole picture) and, unless empty, linear light to `linear` (RGB). `depth` and `primitive`
-// are the tile's visibility buffer. Returns the number of surface (not sky) pixels shaded.
+// are the tile's visibility buffer. `labels`, if any, gets what shading knows of the surface
+// pixels. Returns the number of surface (not sky) pixels shaded.
 int shade_tile(const Shading& shading, int tile, std::span<const float> depth,
                std::span<const std::uint32_t> primitive, TileLookups lookups, ShadeScratch& scratch,
-               std::span<std::uint32_t> rgba, std::span<float> linear);
+               std::span<std::uint32_t> rgba, std::span<float> linear,
+               ShadedLabels* labels = nullptr);
 
 // The same for a tile of open sky, without a visibility buffer.
 void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,

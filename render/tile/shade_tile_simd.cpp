@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/labels/keep_labels-inl.h"
 #include "render/materials/list-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/packet-inl.h"
@@ -148,12 +149,15 @@ HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelL
   }
 }
 
-// The light of a packet's pixels as it arrives.
-template <ViewKind kView, class M, class Shade>
+// The light of a packet's pixels as it arrives. What labels want of the window's goes to `keep`.
+template <ViewKind kView, class M, class Shade, class Keep>
 HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& material,
-                            const Lanes& lanes, const Packet& shown, const Shade& shade) {
+                            const Lanes& lanes, const Packet& shown, const Shade& shade,
+                            const Keep& keep) {
   if constexpr (kView == ViewKind::kWindow) {
-    return Haze(s, shown, shade(s, tile, lanes, shown).light);
+    const auto surfel = shade(s, tile, lanes, shown);
+    keep(lanes.at, surfel);
+    return Haze(s, shown, surfel.light);
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
     const auto surfel = shade(s, tile, lanes, seen.packet);
@@ -165,40 +169,57 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   }
 }
 
-template <ViewKind kView, class M>
+template <ViewKind kView, class M, class Keep>
 HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const PixelList& list,
-                              ShadeScratch& scratch) {
+                              ShadeScratch& scratch, const Keep& keep) {
   const M& material = s.material<M>();
   WithShader<kView>(material, [&](const auto& shade) HWY_ATTR {
     ShadeList(s, tile, list, scratch, [&](const std::uint16_t* at, V x_px, V y_px, V z) HWY_ATTR {
       const Packet shown = MakePacket(s.rays, x_px, y_px, z);
       const Lanes lanes{tile.primitive, at};
-      return ArrivingLight<kView>(s, tile, material, lanes, shown, shade);
+      return ArrivingLight<kView>(s, tile, material, lanes, shown, shade, keep);
     });
   });
 }
 
 // Shades the pixels of all materials and returns their number.
-template <ViewKind kView>
+template <ViewKind kView, class Keep>
 HWY_INLINE std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile,
-                                     const PixelLists& lists, ShadeScratch& scratch) {
+                                     const PixelLists& lists, ShadeScratch& scratch,
+                                     const Keep& keep) {
   const auto shade_all = [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
-    (ShadeMaterial<kView, std::tuple_element_t<k, Materials>>(s, tile, lists[k], scratch), ...);
+    (ShadeMaterial<kView, std::tuple_element_t<k, Materials>>(s, tile, lists[k], scratch, keep),
+     ...);
     return (lists[k].count + ... + 0);
   };
   return shade_all(std::make_index_sequence<kMaterialCount>());
+}
+
+template <class Keep>
+HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                              std::uint32_t* rgba, float* linear, const Keep& keep) {
+  const PixelLists lists = ListPixels(s, tile, scratch);
+  const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch, keep);
+  ShadeList(s, tile, lists[kSky], scratch,
+            [&](const std::uint16_t*, V x, V y, V) HWY_ATTR { return ShadeSky(s, x, y); });
+  ResolveTile(s, tile.box, scratch, rgba, linear);
+  return static_cast<int>(shaded);
 }
 
 int ShadeTile(const Shading& s, int tile_index, const float* depth, const std::uint32_t* primitive,
               TileLookups lookups, ShadeScratch& scratch, std::uint32_t* rgba, float* linear) {
   const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive,
                         lookups};
-  const PixelLists lists = ListPixels(s, tile, scratch);
-  const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch);
-  ShadeList(s, tile, lists[kSky], scratch,
-            [&](const std::uint16_t*, V x, V y, V) HWY_ATTR { return ShadeSky(s, x, y); });
-  ResolveTile(s, tile.box, scratch, rgba, linear);
-  return static_cast<int>(shaded);
+  return ShadeAllPixels(s, tile, scratch, rgba, linear, KeepNothing());
+}
+
+// A function of its own: what labels take costs registers.
+int ShadeLabelledTile(const Shading& s, int tile_index, const float* depth,
+                      const std::uint32_t* primitive, TileLookups lookups, ShadeScratch& scratch,
+                      std::uint32_t* rgba, float* linear, ShadedLabels& labels) {
+  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive,
+                        lookups};
+  return ShadeAllPixels(s, tile, scratch, rgba, linear, KeepLabels{labels});
 }
 
 void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -261,9 +282,9 @@ void ShadeLookupTile(const Shading& s, int tile_index, const float* depth,
   const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}};
   const PixelLists lists = ListPixels(s, tile, scratch);
   if (s.kind == ViewKind::kRefraction)
-    ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch);
+    ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch, KeepNothing());
   else
-    ShadeSurfaces<ViewKind::kReflection>(s, tile, lists, scratch);
+    ShadeSurfaces<ViewKind::kReflection>(s, tile, lists, scratch, KeepNothing());
   EncodeLookupTile(s, tile.box, primitive, scratch, image);
 }
 
@@ -275,6 +296,7 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(ShadeTile);
+HWY_EXPORT(ShadeLabelledTile);
 HWY_EXPORT(ShadeSkyTile);
 HWY_EXPORT(ShadeLookupTile);
 
@@ -299,12 +321,15 @@ void check_tile(const Shading& s, std::span<const float> depth,
 
 int shade_tile(const Shading& shading, int tile, std::span<const float> depth,
                std::span<const std::uint32_t> primitive, TileLookups lookups, ShadeScratch& scratch,
-               std::span<std::uint32_t> rgba, std::span<float> linear) {
+               std::span<std::uint32_t> rgba, std::span<float> linear, ShadedLabels* labels) {
   check_tile(shading, depth, primitive);
   check_picture(shading, rgba, linear);
+  float* const light = linear.empty() ? nullptr : linear.data();
+  if (labels)
+    return HWY_DYNAMIC_DISPATCH(ShadeLabelledTile)(shading, tile, depth.data(), primitive.data(),
+                                                   lookups, scratch, rgba.data(), light, *labels);
   return HWY_DYNAMIC_DISPATCH(ShadeTile)(shading, tile, depth.data(), primitive.data(), lookups,
-                                         scratch, rgba.data(),
-                                         linear.empty() ? nullptr : linear.data());
+                                         scratch, rgba.data(), light);
 }
 
 void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,
