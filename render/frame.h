@@ -4,7 +4,8 @@
 //   swell::render::World world(swell::scene::load_scene("open_ocean.toml"));
 //   swell::render::Workspace workspace;
 //   swell::render::Target target;
-//   const auto view = camera_view(world.scene().camera, t_s, 1280, 720);
+//   swell::ocean::SeaFrame sea;
+//   const auto view = world_view(world, t_s, 1280, 720, sea, workers);  // world/world_view.h
 //   swell::render::render_frame(world, view, t_s, {}, workspace, target, workers);
 //   // target.rgba: 1280 * 720 pixels, R in the low byte
 #pragma once
