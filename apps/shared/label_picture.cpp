@@ -9,7 +9,8 @@
 namespace swell::apps {
 namespace {
 
-constexpr double kFarthest_m = 1e4, kStripes_m = 100.0, kHighest_m = 4.0, kLongest_px = 64.0;
+constexpr double kFarthest_m = 1e4, kStripes_m = 100.0, kHighest_m = 4.0;
+constexpr double kLongest_px = 64.0, kShortest_px = 0.01;  // of motion
 
 // Components in [0, 1].
 std::uint32_t pack(glm::dvec3 rgb) {
@@ -72,7 +73,8 @@ std::uint32_t motion_colour(glm::vec2 motion_px) {
   const double x = motion_px.x, y = motion_px.y;
   const double length_px = std::hypot(x, y);
   if (!(length_px > 0.0)) return grey(0.0);
-  const double share = log(1.0 + std::min(length_px, kLongest_px)) / log(1.0 + kLongest_px);
+  const double share = log(1.0 + std::min(length_px, kLongest_px) / kShortest_px) /
+                       log(1.0 + kLongest_px / kShortest_px);
   return pack(share * hue_rgb(atan2(-y, x) / (2.0 * kPi), 1.0));
 }
 

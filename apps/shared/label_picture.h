@@ -26,7 +26,7 @@ std::uint32_t normal_colour(glm::vec3 normal);
 std::uint32_t number_colour(std::uint32_t number);
 
 // Hue by direction (right red, up green-yellow, left cyan, down violet), brightness by the
-// logarithm of the length: black at 0, full from 64 px on.
+// logarithm of the length: black at 0, half at 0.8 px, full from 64 px on.
 std::uint32_t motion_colour(glm::vec2 motion_px);
 
 // Grey: black at -4 m and below, white at 4 m and above.
