@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 
 #include "math/random.h"
@@ -12,6 +13,14 @@
 #include "render/workspace.h"
 
 namespace swell::render {
+
+// The world of load_shipped(name), made once: drawing does not change it.
+inline const World& shipped_world(const std::string& name) {
+  static std::map<std::string, World> worlds;
+  const auto found = worlds.find(name);
+  return found != worlds.end() ? found->second
+                               : worlds.emplace(name, World(load_shipped(name))).first->second;
+}
 
 // A frame of a world, and what it was drawn with.
 struct LabelledFrame {

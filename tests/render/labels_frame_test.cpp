@@ -64,7 +64,7 @@ std::string difference(const Labels& a, const Labels& b) {
 
 class LabelsOfFrame : public testing::TestWithParam<const char*> {
  protected:
-  const World world{load_shipped(GetParam())};
+  const World& world = shipped_world(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, LabelsOfFrame,
                          testing::Values("lagoon", "beach", "buoys", "open_ocean_radial"),
@@ -135,7 +135,7 @@ TEST(LabelsOfFrames, AWorkspaceGoesFromWorldToWorld) {
   Workspace workspace;
   Target target;
   for (const char* name : {"lagoon", "buoys", "open_ocean_plane", "beach", "sines", "lagoon"}) {
-    const World world(load_shipped(name));
+    const World& world = shipped_world(name);
     draw(world, {}, workspace, target);
     EXPECT_EQ(difference(target.labels, draw(world, {}).labels), "") << name;
     draw(world, {.labels = {}}, workspace, target);
@@ -144,12 +144,12 @@ TEST(LabelsOfFrames, AWorkspaceGoesFromWorldToWorld) {
 }
 
 TEST(LabelsOfFrames, WireframeChangesNone) {
-  const World world(load_shipped("lagoon"));
+  const World& world = shipped_world("lagoon");
   EXPECT_EQ(difference(draw(world, {.wireframe = true}).labels, draw(world, {}).labels), "");
 }
 
 TEST(LabelsOfFramesDeathTest, OptionsThatDoNotGoWithLabelsAreRefused) {
-  const World world(load_shipped("sines"));
+  const World& world = shipped_world("sines");
   const auto draw_with = [&](auto set) {
     Workers workers(1);
     Workspace workspace;

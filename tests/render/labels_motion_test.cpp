@@ -35,7 +35,7 @@ glm::dvec2 motion_to_point(const View& next, glm::ivec2 p, glm::dvec3 p_next) {
 }
 
 TEST(LabelMotion, WhatStandsStillHasExactlyNone) {
-  const World world(load_shipped("lagoon"));
+  const World& world = shipped_world("lagoon");
   const View view = scene::camera_view(world.scene().camera, kTime_s, kSize_px.x, kSize_px.y);
   for (const std::optional<View>& next : {std::optional<View>(), std::optional<View>(view)}) {
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
@@ -54,7 +54,7 @@ TEST(LabelMotion, WhatStandsStillHasExactlyNone) {
 
 // OUT-03: the homography of the plane z = 0, by its rays.
 TEST(LabelMotion, APlaneMovesByItsHomographyAndTheSkyByTheRotation) {
-  const World world(load_shipped("open_ocean_plane"));
+  const World& world = shipped_world("open_ocean_plane");
   const View view = view_at({1000.0, -300.0, 9.0}, 0.4, -0.15, 0.05);
   for (const View& next : {view_at({1000.5, -299.0, 9.2}, 0.43, -0.16, 0.0),
                            view_at({1008.0, -301.0, 8.0}, 0.2, -0.1, 0.3)}) {
@@ -82,7 +82,7 @@ TEST(LabelMotion, APlaneMovesByItsHomographyAndTheSkyByTheRotation) {
 }
 
 TEST(LabelMotion, IsZeroOfWhatLiesBehindTheNextCamera) {
-  const World world(load_shipped("open_ocean"));
+  const World& world = shipped_world("open_ocean");
   const View view = view_at({0.0, 0.0, 9.0}, 0.0, -0.2, 0.0);
   const LabelledFrame frame(world, view, kTime_s,
                             motion_to(view_at({0.0, 0.0, 9.0}, 3.1, -0.2, 0.0)));
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MotionOfScene,
 // Places of depth from the picture itself: it is the move that is judged here.
 TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
   const scene::Scene scene = load_shipped(GetParam());
-  const World world(scene);
+  const World& world = shipped_world(GetParam());
   const NextPlaces places(scene, kTime_s);
   int water = 0, others = 0;
   for (int n = 0; n < 6; ++n) {
@@ -149,6 +149,10 @@ TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
     View next = random_view(scene, n, kSize_px);
     next.eye_world += glm::dvec3(0.3, -0.2, 0.1);
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
+    const Workspace::State& drawn = frame.workspace.state();
+    for (std::size_t v = 0; v < drawn.labels.next_height_m.size(); v += 7)
+      ASSERT_EQ(drawn.labels.next_height_m[v],
+                places.next.height(vertex_world(drawn.meshes.water, v)));
     frame.for_pixels(3, [&](glm::ivec2 p) {
       const std::uint32_t id = frame.labels().id[frame.at(p)];
       if (id == kSkyId) return;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -48,7 +47,7 @@ TEST(Labels, TheSkyIsEndlesslyFarInItsDirection) {
 
 // By hand: the eye's height over the ray's fall.
 TEST(Labels, APlaneHasTheDepthOfItsRays) {
-  const World world(load_shipped("open_ocean_plane"));
+  const World& world = shipped_world("open_ocean_plane");
   const View view = make_view({10.0, 20.0, 8.0}, camera_axes(0.3, -0.2, 0.2),
                               lens_of_fov(0.9, 320, 180), 0.25f, 320, 180);
   const LabelledFrame frame(world, view, 2.0);
@@ -72,7 +71,7 @@ TEST(Labels, APlaneHasTheDepthOfItsRays) {
 
 class LabelsOfScene : public testing::TestWithParam<const char*> {
  protected:
-  const World world{load_shipped(GetParam())};
+  const World& world = shipped_world(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, LabelsOfScene,
                          testing::Values("lagoon", "beach", "buoys", "open_ocean"),
@@ -110,7 +109,7 @@ constexpr std::array<glm::dvec2, 8> kAround = {
 // Vertices snap to 1/256 of a pixel: beside an edge the neighbour may be drawn, and a surface that
 // is seen edge-on is as deep as it is so far up or down.
 struct IdErrors {
-  int pixels = 0, beside_edge = 0, wrong = 0, shallow = 0;
+  int pixels = 0, beside_edge = 0, shallow = 0;
 };
 
 void compare_pixel(Traced& traced, glm::ivec2 p, IdErrors& errors) {
@@ -131,12 +130,11 @@ void compare_pixel(Traced& traced, glm::ivec2 p, IdErrors& errors) {
     farthest = std::max(farthest, traced.depth_of(found));
   }
   errors.beside_edge += !is_same && is_beside;
-  errors.wrong += !is_beside;
   const bool is_deep = depth > nearest * (1.0 - 1e-5) && depth < farthest * (1.0 + 1e-5);
   errors.shallow += is_beside && id != kSkyId && !is_deep;
-  if (!is_beside)
-    std::printf("wrong at (%d, %d): id %u depth %g, traced %u depth %g\n", p.x, p.y, id, depth,
-                Traced::id_of(centre), traced.depth_of(centre));
+  EXPECT_TRUE(is_beside) << "at " << p.x << ", " << p.y << ": " << id << " of depth " << depth
+                         << ", traced " << Traced::id_of(centre) << " of "
+                         << traced.depth_of(centre);
 }
 
 TEST_P(LabelsOfScene, AreOfWhatARayThroughThePixelMeets) {
@@ -155,9 +153,6 @@ TEST_P(LabelsOfScene, AreOfWhatARayThroughThePixelMeets) {
                     errors);
     }
   }
-  std::printf("%d pixels, %d beside an edge, %d wrong, %d depth\n", errors.pixels,
-              errors.beside_edge, errors.wrong, errors.shallow);
-  EXPECT_EQ(errors.wrong, 0);
   EXPECT_LE(errors.beside_edge, errors.pixels / 200);
   EXPECT_LE(errors.shallow, errors.pixels / 500);
 }

@@ -16,7 +16,7 @@ constexpr glm::ivec2 kSize_px(320, 180);
 class LabelsOfWater : public testing::TestWithParam<const char*> {
  protected:
   const scene::Scene scene = load_shipped(GetParam());
-  const World world{scene};
+  const World& world = shipped_world(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, LabelsOfWater,
                          testing::Values("lagoon", "beach", "buoys", "open_ocean"),
@@ -130,7 +130,7 @@ double share_of(const LabelledFrame& frame, const Holds& holds) {
 }
 
 TEST(Labels, SurfIsFoamAndFarFromACoastThereIsNone) {
-  const World beach(load_shipped("beach")), sea(load_shipped("open_ocean"));
+  const World &beach = shipped_world("beach"), &sea = shipped_world("open_ocean");
   const auto foam_of = [](const World& world) {
     const LabelledFrame frame(world, random_view(world.scene(), 0, kSize_px), 5.0);
     return share_of(frame, [&](std::size_t i) { return frame.labels().klass[i] == kFoamClass; });
@@ -141,10 +141,9 @@ TEST(Labels, SurfIsFoamAndFarFromACoastThereIsNone) {
 }
 
 TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
-  const scene::Scene lagoon = load_shipped("lagoon");
-  const World world(lagoon), sea(load_shipped("open_ocean"));
-  const LabelledFrame frame(world, scene::camera_view(lagoon.camera, 5.0, kSize_px.x, kSize_px.y),
-                            5.0);
+  const World &world = shipped_world("lagoon"), &sea = shipped_world("open_ocean");
+  const LabelledFrame frame(
+      world, scene::camera_view(world.scene().camera, 5.0, kSize_px.x, kSize_px.y), 5.0);
   const auto share = [](const LabelledFrame& f, std::uint32_t bit) {
     return share_of(f, [&](std::size_t i) { return (f.labels().flags[i] & bit) != 0; });
   };
