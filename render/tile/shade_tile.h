@@ -14,6 +14,7 @@
 namespace swell::render {
 
 inline constexpr int kMaxTilePixels = 64 * 64;
+static_assert(ShadedLabels::kMostPixels == kMaxTilePixels);
 
 // What water in a tile can see in the lookup images.
 struct TileLookups {
