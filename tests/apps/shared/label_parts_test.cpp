@@ -155,7 +155,7 @@ TEST(LabelColours, MotionHasAHueByDirectionAndGrowsBrighter) {
   EXPECT_EQ(motion_colour({-640.0f, 0.0f}), rgb(0, 255, 255));
   EXPECT_EQ(motion_colour({0.0f, -100.0f}), rgb(128, 255, 0)) << "up";
   EXPECT_EQ(motion_colour({0.0f, 100.0f}), rgb(128, 0, 255)) << "down";
-  EXPECT_EQ(motion_colour({0.7900625f, 0.0f}), rgb(128, 0, 0)) << "1 + 79.006 = sqrt(6401)";
+  EXPECT_EQ(motion_colour({0.791f, 0.0f}), rgb(128, 0, 0)) << "1 + 79.1 > sqrt(6401)";
 }
 
 TEST(LabelColours, TheRestIsGreyOrTwoBits) {
