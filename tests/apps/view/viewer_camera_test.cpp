@@ -120,6 +120,7 @@ TEST_F(ViewerTest, AFlightStartsWithTheRollAndTheLensOfTheScenesCamera) {
   viewer.turn();
   const CameraPose start = viewer.report().camera;
   EXPECT_NEAR(start.roll_rad, 0.2, 0.15) << "and what the waves add";
+  push_key(SDL_KEYDOWN, SDLK_F2);  // the pointer may be over the panel
   push_key(SDL_KEYDOWN, SDLK_p);
   viewer.turn();
   const render::Target before = viewer.picture();
