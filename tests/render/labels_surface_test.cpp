@@ -69,6 +69,30 @@ TEST(Labels, APlaneHasTheDepthOfItsRays) {
   EXPECT_GT(sky, 5000);
 }
 
+// The first object is behind the camera and is not drawn.
+TEST(Labels, AnObjectHasTheNumberOfItsPlaceInTheScene) {
+  scene::Scene scene = load_shipped("open_ocean_plane");
+  scene.objects.resize(3);
+  scene.objects[0].position_m = {0.0, -500.0};
+  scene.objects[1].position_m = {-4.0, 30.0};
+  scene.objects[2].position_m = {4.0, 30.0};
+  scene.objects[0].label = "boat";
+  scene.objects[2].label = "beacon";
+  const World world(scene);
+  const View view = make_view({0.0, 0.0, 4.0}, 0.0, 0.0, 0.6, 0.25f, kSize_px.x, kSize_px.y);
+  const LabelledFrame frame(world, view, 2.0);
+  int left = 0, right = 0;
+  frame.for_pixels(1, [&](glm::ivec2 p) {
+    const std::uint32_t id = frame.labels().id[frame.at(p)];
+    if (id < kFirstObjectId) return;
+    const bool is_left = p.x < kSize_px.x / 2;
+    ++(is_left ? left : right);
+    ASSERT_EQ(id, kFirstObjectId + (is_left ? 1 : 2));
+    ASSERT_EQ(frame.labels().klass[frame.at(p)], is_left ? kObjectClass : kFirstOwnClass + 1);
+  });
+  EXPECT_GT(std::min(left, right), 200);
+}
+
 class LabelsOfScene : public testing::TestWithParam<const char*> {
  protected:
   const World& world = shipped_world(GetParam());

@@ -93,6 +93,18 @@ TEST_P(LabelsOfWater, GeometricNormalsAreThoseOfThePlacesSeen) {
   EXPECT_GT(compared, 5000);
 }
 
+TEST(Labels, SeenFromBelowTheWatersGeometricNormalsPointDown) {
+  const View view = make_view({0.0, 0.0, -20.0}, 0.0, 0.8, 0.9, 0.25f, kSize_px.x, kSize_px.y);
+  const LabelledFrame frame(shipped_world("open_ocean"), view, 5.0);
+  int water = 0;
+  frame.for_pixels(1, [&](glm::ivec2 p) {
+    if (frame.labels().id[frame.at(p)] != kWaterId) return;
+    ++water;
+    ASSERT_LT(frame.labels().geometric_normal[frame.at(p)].z, -0.3f);
+  });
+  EXPECT_GT(water, 10000);
+}
+
 TEST_P(LabelsOfWater, EveryLabelOfEveryPixelIsInItsRange) {
   const std::vector<std::uint32_t>& classes = world.state().object_classes;
   for (int n = 0; n < 4; ++n) {
@@ -158,6 +170,16 @@ TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
     terrain::sample_heights(land, {&place, 1}, {&floor_m, 1});
     ASSERT_GT(floor_m, -60.0f);
   });
+  // Straight down, it mirrors nothing but the sky.
+  glm::dvec3 shallow(0.0);
+  frame.for_pixels(1, [&](glm::ivec2 p) {
+    if ((frame.labels().flags[frame.at(p)] & kShowsRefracted) != 0) shallow = frame.position(p);
+  });
+  const View down = make_view(shallow + glm::dvec3(0.0, 0.0, 12.0), 0.0, -0.5 * kPi, 0.5, 0.25f,
+                              kSize_px.x, kSize_px.y);
+  const LabelledFrame below(world, down, 5.0);
+  EXPECT_GT(share(below, kShowsRefracted), 0.5);
+  EXPECT_LT(share(below, kShowsMirrored), 0.01);
   const LabelledFrame open(sea, random_view(sea.scene(), 0, kSize_px), 5.0);
   EXPECT_EQ(share(open, kShowsMirrored | kShowsRefracted), 0.0);
 }
