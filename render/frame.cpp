@@ -51,6 +51,18 @@ void check_options(const FrameOptions& o) {
               o.lod_groups);
 }
 
+void check_labels(const FrameOptions& o, const View& view) {
+  if (o.labels.empty()) return;
+  SWELL_CHECK(o.picture_scale == 1.0, "labels of picture_scale={}", o.picture_scale);
+  SWELL_CHECK(o.next_frame_s > 0.0 && std::isfinite(o.next_frame_s), "next_frame_s={}",
+              o.next_frame_s);
+  if (!o.next_view) return;
+  check_view(*o.next_view);
+  SWELL_CHECK(o.next_view->width_px == view.width_px && o.next_view->height_px == view.height_px,
+              "next_view of {}x{}, view of {}x{}", o.next_view->width_px, o.next_view->height_px,
+              view.width_px, view.height_px);
+}
+
 // What is drawn when the picture is drawn small: the same view on fewer pixels.
 View drawn_view(const View& view, const FrameOptions& options) {
   View drawn = view;
@@ -64,12 +76,13 @@ View drawn_view(const View& view, const FrameOptions& options) {
 }
 
 // Sizes what depends on the picture and the thread count; after the first frame this does nothing.
-void prepare_target(const View& view, bool keep_linear, Target& target) {
+void prepare_target(const View& view, const FrameOptions& options, Target& target) {
   const std::size_t pixels = static_cast<std::size_t>(view.width_px) * view.height_px;
   target.width_px = view.width_px;
   target.height_px = view.height_px;
   target.rgba.resize(pixels);
-  target.linear.resize(keep_linear ? 3 * pixels : 0);
+  target.linear.resize(options.keep_linear ? 3 * pixels : 0);
+  resize_labels(options.labels, {view.width_px, view.height_px}, target.labels);
 }
 
 void prepare_scratch(int threads, Workspace::State& ws) {
@@ -93,7 +106,7 @@ std::array<RenderView*, 3> prepare_views(const World::State& world, const View& 
 
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
                      Workers& workers) {
-  prepare_target(view, false, target);
+  prepare_target(view, {}, target);
   enlarge(small.rgba, {small.width_px, small.height_px}, target.rgba,
           {view.width_px, view.height_px}, tables, workers);
 }
@@ -137,6 +150,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              Workers& workers) {
   check_view(view);
   check_options(asked);
+  check_labels(asked, view);
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   const ScopedFloatEnvironment ieee;
   const World::State& world_state = world.state();
@@ -146,7 +160,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   const bool small = drawn.width_px < view.width_px || drawn.height_px < view.height_px;
   Target& drawn_target = small ? ws.small : target;
   ws.profile.begin_frame(workspace.trace_enabled);
-  prepare_target(drawn, options.keep_linear, drawn_target);
+  prepare_target(drawn, options, drawn_target);
   prepare_scratch(workers.thread_count(), ws);
   const std::array<RenderView*, 3> views = prepare_views(world_state, drawn, options, ws);
   const auto stage = [&](Stage name, auto&& work) {
@@ -182,8 +196,11 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     fill_shading(inputs, ws.window, options.tile_size_px, ws.shading);
   });
   stage(Stage::kShade, [&](const StageRun& run) {
+    if (!options.labels.empty())
+      fill_label_tables({world_state, ws.meshes, ws.window, options, t_s}, ws.labels, run);
+    const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects, world_state};
     shade_picture({ws.meshes, ws.window, ws.visibility, ws.edges, ws.lookups.of_tile, ws.shading,
-                   options.wireframe},
+                   options.wireframe, options.labels.empty() ? nullptr : &labels},
                   ws.scratch, ws.shaded, drawn_target, run);
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
   });

@@ -4,7 +4,8 @@
 //   swell::render::World world(swell::scene::load_scene("open_ocean.toml"));
 //   swell::render::Workspace workspace;
 //   swell::render::Target target;
-//   const auto view = camera_view(world.scene().camera, t_s, 1280, 720);
+//   swell::ocean::SeaFrame sea;
+//   const auto view = world_view(world, t_s, 1280, 720, sea, workers);  // world/world_view.h
 //   swell::render::render_frame(world, view, t_s, {}, workspace, target, workers);
 //   // target.rgba: 1280 * 720 pixels, R in the low byte
 #pragma once
@@ -30,7 +31,7 @@ enum class Stage : std::uint8_t {
   kDisplace,     // displace vertices, transform them
   kVisibility,   // clip, set up, bin, find what is visible
   kLookups,      // reflection and refraction images
-  kShade,        // shade and resolve every visible pixel once
+  kShade,        // shade and resolve every visible pixel once; labels
   kCount
 };
 std::string_view stage_name(Stage stage);  // "sea", "triangulate", ...
@@ -88,7 +89,8 @@ struct FrameOptions {
   // Samples a pixel where surfaces meet, 0, 4 or 8; below 0: the scene's. Labels do not change.
   int edge_samples = -1;
   LabelSet labels;  // fill these of Target::labels; not with picture_scale below 1
-  // For the label of motion: the camera of the next frame, and how much later it is, over 0.
+  // For the label of motion: the camera of the next frame, of the same size, and how much later it
+  // is, over 0.
   std::optional<View> next_view = {};  // none: as this frame's
   double next_frame_s = 1.0 / 60.0;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/frame.h"
+#include "render/labels/label_tables.h"
 #include "render/profile.h"
 #include "render/quality/enlarge.h"
 #include "render/tile/shade_picture.h"
@@ -27,6 +28,7 @@ struct Workspace::State {
   LookupImages lookups;
   Shading shading;          // of the window
   std::vector<int> shaded;  // per tile
+  LabelTables labels;
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
   std::vector<std::unique_ptr<EdgeScratch>> edge_scratch;
   Target small;  // the picture before it is enlarged

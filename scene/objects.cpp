@@ -72,8 +72,7 @@ ObjectPose pose_of(const FloatingObject& object, const ocean::WaterSurface& surf
 }  // namespace
 
 std::string_view object_class(const FloatingObject& object) {
-  return object.label.empty() ? kObjectKindNames[static_cast<std::size_t>(object.kind)]
-                              : std::string_view(object.label);
+  return object.label.empty() ? "object" : std::string_view(object.label);
 }
 
 void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,

@@ -36,7 +36,7 @@ struct FloatingObject {
   double draught = 0.2;                   // part of the height below still water
   glm::vec3 colour{0.60f, 0.03f, 0.02f};  // linear RGB reflectance of the paint
   std::string name{};                     // no other object's, or empty
-  std::string label{};                    // its class in labelled pictures; empty: the kind's name
+  std::string label{};                    // its class in labelled pictures; empty: "object"
 };
 
 // The name of the object's class in labelled pictures.

@@ -314,7 +314,7 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::optional_text("name", SWELL_FIELD(name),
                                "by which camera.mount may call it; no two alike"),
       ObjectRow::optional_text("class", SWELL_FIELD(label),
-                               "what it is in labelled pictures; its kind if left out"),
+                               "what it is in labelled pictures; \"object\" if left out"),
   };
 }
 

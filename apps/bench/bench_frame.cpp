@@ -19,6 +19,7 @@
 #include "math/simd_target.h"
 #include "render/frame.h"
 #include "render/quality/governor.h"
+#include "render/world/world_view.h"
 
 namespace swell::apps {
 namespace {
@@ -66,6 +67,7 @@ Samples measure(const FrameBench& bench, const render::World& world, Trace& trac
   render::Workspace workspace;
   workspace.trace_enabled = !bench.trace.empty();
   render::Target target;
+  ocean::SeaFrame camera_sea;
   const render::FrameOptions full = render::with_scene_defaults(bench.setup.frame, world.scene());
   render::Governor governor({.budget_ms = bench.budget_ms}, full);
   Samples samples;
@@ -74,8 +76,8 @@ Samples measure(const FrameBench& bench, const render::World& world, Trace& trac
   for (int k = -bench.warm_up; k < bench.frames; ++k) {
     const double t_s = k / kFramesPerSecond;
     const double start_ms = run.elapsed_ms();
-    const View view = scene::camera_view(world.scene().camera, t_s, bench.setup.size.width_px,
-                                         bench.setup.size.height_px);
+    const View view = render::world_view(world, t_s, bench.setup.size.width_px,
+                                         bench.setup.size.height_px, camera_sea, workers);
     const render::FrameOptions options = bench.govern ? governor.options() : full;
     samples.last = render::render_frame(world, view, t_s, options, workspace, target, workers);
     if (bench.govern) governor.next(samples.last);

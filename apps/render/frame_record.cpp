@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "apps/shared/json.h"
 #include "apps/shared/parse_number.h"
 
@@ -49,6 +51,7 @@ std::string json_line(const FrameRecord& record) {
   json["xxh3"] = hash_text(record.hash);
   json["scene"] = record.scene;
   json["out"] = record.out.empty() ? Json() : Json(record.out);
+  json["file_ms"] = record.file_ms < 0.0 ? Json() : Json(std::round(record.file_ms * 1e3) / 1e3);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -16,13 +16,14 @@ struct FrameRecord {
   std::uint64_t hash = 0;  // render::picture_hash
   std::string scene;       // its name
   std::string out;         // the picture's file, or empty
+  double file_ms = -1.0;   // what encoding and writing all of its files took; below 0: none
 };
 
 // 'frame N xxh3 <16 hex digits>' and a line break.
 std::string hash_line(const FrameRecord& record);
 
-// {"frame", "t_s", "size": [w, h], "xxh3": 16 hex digits, "scene", "out": path or null} and a line
-// break. Bytes of names that are not UTF-8 become U+FFFD.
+// {"frame", "t_s", "size": [w, h], "xxh3": 16 hex digits, "scene", "out": path or null, "file_ms":
+// number or null} and a line break. Bytes of names that are not UTF-8 become U+FFFD.
 std::string json_line(const FrameRecord& record);
 
 struct FrameHash {

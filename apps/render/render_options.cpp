@@ -2,6 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <vector>
+
+#include "apps/shared/label_file.h"
+#include "apps/shared/output_file.h"
 #include "apps/shared/picture_file.h"
 #include "apps/shared/report.h"
 
@@ -29,14 +33,80 @@ void add_output_options(CommandLine& line, RenderOptions& options) {
                 "Print the scene with every value that the file leaves out");
 }
 
-void check_picture_output(const RenderOptions& options) {
+void add_label_options(CommandLine& line, RenderOptions& options) {
+  const auto take_labels = [&options](const std::string& text) {
+    const auto labels = parse_labels(text);
+    if (!labels)
+      throw OptionError(fmt::format("command line: --labels: got '{}', allowed {}, with commas",
+                                    text, label_names()));
+    options.labels = *labels;
+  };
+  line.add_value({"--labels", "LIST", "",
+                  "Write labels beside the picture, or into it if it is .exr, and a .labels.json; "
+                  "LIST is of " +
+                      label_names(),
+                  take_labels});
+  line.add_text("--labels-out", "FILE", options.labels_out, "The file of --labels: .exr");
+  line.need("--labels-out", "--labels");
+  line.add_text("--depth", "FILE", options.depth,
+                "Write the depth alone: .npy (metres), .png (16 bits, metres x 256)");
+  line.add_text("--ids", "FILE", options.ids, "Write the ids alone: .npy, .png (16 bits)");
+}
+
+void check_numbered(const RenderOptions& options, std::string_view option,
+                    const std::string& pattern) {
   const FrameRange range = frame_range(options);
-  if (range.first < range.last && !parse_file_pattern(options.out).numbered)
+  if (range.first < range.last && !parse_file_pattern(pattern).numbered)
     throw OptionError(fmt::format(
-        "command line: --out: got '{}' for {} frames, allowed names with %d or %04d in them",
-        options.out, range.last - range.first + 1));
+        "command line: {}: got '{}' for {} frames, allowed names with %d or %04d in them", option,
+        pattern, range.last - range.first + 1));
+}
+
+void check_picture_output(const RenderOptions& options) {
+  check_numbered(options, "--out", options.out);
   check_linear_light(options.setup.frame, "--out", options.out);
-  check_picture_file(picture_path(options, range.last));
+  check_picture_file(picture_path(options, frame_range(options).last));
+}
+
+// The files of labels: names of frames, formats, places.
+void check_label_output(const RenderOptions& options) {
+  const int last = frame_range(options).last;
+  if (!drawn_labels(options).empty() && options.setup.frame.picture_scale != 1.0)
+    throw OptionError("command line: --picture-scale, got it with labels, allowed 1 with them");
+  if (!options.labels.empty()) {
+    if (options.out.empty() && options.labels_out.empty())
+      throw OptionError(
+          "command line: --labels, got no file for them, allowed with --out or "
+          "--labels-out");
+    if (!options.labels_out.empty()) check_numbered(options, "--labels-out", options.labels_out);
+    if (lower_extension(label_path(options, last)) != ".exr")
+      throw OptionError(fmt::format("command line: --labels-out: got '{}', allowed .exr files",
+                                    options.labels_out));
+    check_output_place(label_path(options, last));
+    check_output_place(sidecar_path(label_path(options, last)));
+  }
+  for (const auto& [option, pattern] :
+       {std::pair("--depth", options.depth), std::pair("--ids", options.ids)}) {
+    if (pattern.empty()) continue;
+    check_numbered(options, option, pattern);
+    check_plane_file(numbered_path(options, pattern, last));
+  }
+}
+
+// Two options that name one file would leave what is written last.
+void check_distinct(const RenderOptions& options) {
+  std::vector<std::pair<std::string_view, std::string>> files = {
+      {"--out", options.out},
+      {"--labels-out", options.labels_out},
+      {"--depth", options.depth},
+      {"--ids", options.ids},
+      {"--json", options.json}};
+  std::erase_if(files, [](const auto& file) { return file.second.empty(); });
+  for (std::size_t i = 1; i < files.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (files[i].second == files[j].second)
+        throw OptionError(fmt::format("command line: {}: got '{}', allowed another file than {}",
+                                      files[i].first, files[i].second, files[j].first));
 }
 
 }  // namespace
@@ -48,12 +118,14 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   add_quality_options(line, options.setup.frame);
   add_time_options(line, options);
   add_output_options(line, options);
+  add_label_options(line, options);
+  options.command_line = {argv, argv + argc};
   if (!line.parse(argc, argv)) return std::nullopt;
   return options;
 }
 
 bool draws_pictures(const RenderOptions& options) {
-  return options.hash || !options.out.empty() || !options.json.empty() || !options.expect.empty();
+  return options.hash || !options.json.empty() || !options.expect.empty() || writes_files(options);
 }
 
 FrameRange frame_range(const RenderOptions& options) {
@@ -64,19 +136,57 @@ double frame_time_s(const RenderOptions& options, int frame) {
   return options.frames ? frame / options.fps : options.time_s;
 }
 
+double next_time_s(const RenderOptions& options, int frame) {
+  return options.frames ? frame_time_s(options, frame + 1) : options.time_s + 1.0 / options.fps;
+}
+
 std::filesystem::path picture_path(const RenderOptions& options, int frame) {
-  if (!options.frames) return options.out;
-  return frame_file(parse_file_pattern(options.out), frame);
+  return numbered_path(options, options.out, frame);
+}
+
+std::filesystem::path numbered_path(const RenderOptions& options, const std::string& pattern,
+                                    int frame) {
+  if (!options.frames) return pattern;
+  return frame_file(parse_file_pattern(pattern), frame);
+}
+
+std::filesystem::path label_path(const RenderOptions& options, int frame) {
+  if (!options.labels_out.empty()) return numbered_path(options, options.labels_out, frame);
+  std::filesystem::path path = picture_path(options, frame);
+  return stores_linear_light(path) ? path : path.replace_extension(".labels.exr");
+}
+
+std::filesystem::path sidecar_path(const std::filesystem::path& labels) {
+  std::filesystem::path path = labels;
+  path.replace_extension();
+  if (path.extension() == ".labels") path.replace_extension();
+  return path += ".labels.json";
+}
+
+render::LabelSet drawn_labels(const RenderOptions& options) {
+  render::LabelSet set = options.labels;
+  if (!options.depth.empty()) set.add(render::Label::kDepth);
+  if (!options.ids.empty()) set.add(render::Label::kId);
+  return set;
+}
+
+bool writes_files(const RenderOptions& options) {
+  return !options.out.empty() || !options.labels.empty() || !options.depth.empty() ||
+         !options.ids.empty();
 }
 
 void check_output(const RenderOptions& options) {
   if (!draws_pictures(options) && !options.dump_scene)
-    throw OptionError("command line: --out, --hash, --json, --expect or --dump-scene is required");
+    throw OptionError(
+        "command line: --out, --labels-out, --depth, --ids, --hash, --json, --expect or "
+        "--dump-scene is required");
   if (options.dump_scene && options.json == "-")
     throw OptionError(
         "command line: --dump-scene, got it with --json '-', allowed --json FILE: both would "
         "print");
+  check_distinct(options);
   if (!options.out.empty()) check_picture_output(options);
+  check_label_output(options);
   check_text_place(options.json);
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/shared/options.h"
 
@@ -14,7 +15,10 @@ struct RenderOptions {
   double time_s = 0.0;
   std::optional<FrameRange> frames;  // none: one picture at time_s
   double fps = 60.0;
-  std::string out, json, expect;  // files; empty: not asked for
+  std::string out, json, expect;       // files; empty: not asked for
+  render::LabelSet labels;             // of the file of labels
+  std::string labels_out, depth, ids;  // files; empty: not asked for
+  std::vector<std::string> command_line;
   bool hash = false;
   bool dump_scene = false;
 };
@@ -29,9 +33,26 @@ bool draws_pictures(const RenderOptions& options);
 FrameRange frame_range(const RenderOptions& options);
 
 double frame_time_s(const RenderOptions& options, int frame);
+double next_time_s(const RenderOptions& options, int frame);  // 1 / fps later
 
 // The picture's file, empty if none is to be written. A single picture's name is taken as it is.
 std::filesystem::path picture_path(const RenderOptions& options, int frame);
+
+// The same of any other file that a frame has.
+std::filesystem::path numbered_path(const RenderOptions& options, const std::string& pattern,
+                                    int frame);
+
+// Where the labels go, if any: the file of --labels-out; else the picture's if that is an EXR file;
+// else, beside "x.png", "x.labels.exr".
+std::filesystem::path label_path(const RenderOptions& options, int frame);
+
+// Beside a file of labels, "x.exr" or "x.labels.exr": "x.labels.json".
+std::filesystem::path sidecar_path(const std::filesystem::path& labels);
+
+// All labels that a frame has to be drawn with.
+render::LabelSet drawn_labels(const RenderOptions& options);
+
+bool writes_files(const RenderOptions& options);  // of frames
 
 // Refuses, before any work is done, what could not be written after it: throws OptionError or
 // texture::FileError.

@@ -1,12 +1,16 @@
 // swell-render: draws one picture or a sequence of a scene.
 #include <fmt/core.h>
 
+#include <chrono>
+
+#include "apps/render/frame_files.h"
 #include "apps/render/frame_log.h"
 #include "apps/render/render_options.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/picture_file.h"
 #include "apps/shared/program.h"
 #include "render/frame.h"
+#include "render/world/world_view.h"
 
 namespace swell::apps {
 namespace {
@@ -14,35 +18,49 @@ namespace {
 render::FrameOptions frame_options(const RenderOptions& options) {
   render::FrameOptions frame = options.setup.frame;
   frame.keep_linear = stores_linear_light(options.out);
+  frame.labels = drawn_labels(options);
+  frame.next_frame_s = 1.0 / options.fps;
   return frame;
 }
 
-FrameRecord frame_record(const RenderOptions& options, const scene::Scene& scene, int k,
-                         const render::Target& target) {
-  return {k,
-          frame_time_s(options, k),
-          target.width_px,
-          target.height_px,
-          render::picture_hash(target),
-          scene.name,
-          picture_path(options, k).string()};
+// Writes the frame's files and tells of it.
+FrameRecord finish_frame(const RenderOptions& options, const DrawnFrame& frame) {
+  FrameRecord record = {frame.frame,
+                        frame.t_s,
+                        frame.view.width_px,
+                        frame.view.height_px,
+                        frame.hash,
+                        frame.scene.name,
+                        picture_path(options, frame.frame).string()};
+  if (!writes_files(options)) return record;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  write_frame_files(options, frame);
+  record.file_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return record;
 }
 
 void draw_frames(const RenderOptions& options, const render::World& world, FrameLog& log) {
   const PictureSize size = options.setup.size;
-  const render::FrameOptions frame = frame_options(options);
+  render::FrameOptions frame = frame_options(options);
   Workers workers(options.setup.threads);
   render::Workspace workspace;
   render::Target target;
+  ocean::SeaFrame sea;
+  const auto view_at = [&](double t_s) {
+    return render::world_view(world, t_s, size.width_px, size.height_px, sea, workers);
+  };
   EyeWarning warning;
   const FrameRange range = frame_range(options);
   for (int k = range.first; k <= range.last; ++k) {
     const double t_s = frame_time_s(options, k);
-    const View view = scene::camera_view(world.scene().camera, t_s, size.width_px, size.height_px);
+    const View view = view_at(t_s);
+    if (frame.labels.has(render::Label::kMotion))
+      frame.next_view = view_at(next_time_s(options, k));
     render::render_frame(world, view, t_s, frame, workspace, target, workers);
     warning.look(k, world, view, workspace);
-    if (!options.out.empty()) write_picture(target, picture_path(options, k));
-    log.add(frame_record(options, world.scene(), k, target));
+    log.add(
+        finish_frame(options, {k, t_s, render::picture_hash(target), world.scene(), view, target}));
   }
 }
 

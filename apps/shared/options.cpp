@@ -78,6 +78,14 @@ void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
              "Pixels by which far water may lie off for waves left out, instead of the scene's");
   add_number(line, "--picture-scale", frame.picture_scale, 0.1, 1.0,
              "Draw at this share of the size and enlarge: faster, less sharp; not for .exr");
+  const auto take_samples = [&frame](const std::string& text) {
+    const int samples = parse_number<int>(text).value_or(-1);
+    if (samples != 0 && samples != 4 && samples != 8) refuse("--edge-samples", text, "0, 4 or 8");
+    frame.edge_samples = samples;
+  };
+  line.add_value({"--edge-samples", "N", "",
+                  "Samples a pixel where surfaces meet, 0, 4 or 8, instead of the scene's",
+                  take_samples});
   line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges; not for .exr");
 }
 

@@ -31,7 +31,7 @@ void add_scene_option(CommandLine& line, std::string& path);
 void add_frame_setup(CommandLine& line, FrameSetup& setup);
 
 // --tile, --triangles, --terrain-triangles, --lookup-scale, --background-error,
-// --picture-scale, --wireframe
+// --picture-scale, --edge-samples, --wireframe
 void add_quality_options(CommandLine& line, render::FrameOptions& frame);
 
 // Throws OptionError for what a file of linear light (.exr) does not show: --picture-scale,

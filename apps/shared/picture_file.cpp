@@ -16,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 [[noreturn]] void refuse(const fs::path& path, std::string_view what) {
   throw texture::FileError(fmt::format("{}: {}", path.string(), what));
 }
@@ -53,6 +46,13 @@ FrameFilePattern parse_file_pattern(const fs::path& path) {
 fs::path frame_file(const FrameFilePattern& pattern, int frame) {
   if (!pattern.numbered) return pattern.before;
   return fmt::format("{}{:0{}}{}", pattern.before, frame, pattern.digits, pattern.after);
+}
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 void check_picture_file(const fs::path& path) {

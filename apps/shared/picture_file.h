@@ -21,6 +21,9 @@ FrameFilePattern parse_file_pattern(const std::filesystem::path& path);
 // The file of one frame.
 std::filesystem::path frame_file(const FrameFilePattern& pattern, int frame);
 
+// The extension with its dot, in small letters: ".png".
+std::string lower_extension(const std::filesystem::path& path);
+
 // check_output_place() for pictures, whose extension must be .png, .exr, .tif or .tiff.
 void check_picture_file(const std::filesystem::path& path);
 

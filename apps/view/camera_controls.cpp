@@ -14,6 +14,7 @@ constexpr double kSpeedPerHeight_s = 0.5;  // metres a second more for each metr
 constexpr double kFastFactor = 6.0;
 constexpr double kLongestStep_s = 0.1;
 constexpr double kFarthest_m = 1e6;
+constexpr double kVertical = 1e-4;  // of a unit vector in the horizontal; views are floats
 
 double axis(bool plus, bool minus) { return (plus ? 1.0 : 0.0) - (minus ? 1.0 : 0.0); }
 
@@ -56,10 +57,18 @@ CameraPose fly(const CameraPose& pose, const CameraInput& input, double dt_s) {
 }
 
 CameraPose pose_of(const View& view) {
-  const double horizontal = std::hypot(view.forward.x, view.forward.y);
-  const double pitch_rad = atan2(view.forward.z, horizontal);
-  return {view.eye_world, wrap_heading(atan2(view.forward.x, view.forward.y)),
-          std::clamp(pitch_rad, -kPitchLimit_rad, kPitchLimit_rad)};
+  const glm::dvec3 forward(view.forward), right(view.right), up(view.up);
+  const double horizontal = std::hypot(forward.x, forward.y);
+  // Straight up or down the picture's top says where the heading is.
+  const glm::dvec3 ahead = horizontal > kVertical ? forward : (forward.z < 0.0 ? up : -up);
+  const double heading_rad = wrap_heading(atan2(ahead.x, ahead.y));
+
+  // What is left is a turn from level axes of the same heading.
+  const glm::dvec3 level_right(cos(heading_rad), -sin(heading_rad), 0.0);
+  const glm::dvec3 level_up = glm::cross(level_right, forward);
+  const double roll_rad = atan2(-glm::dot(right, level_up), glm::dot(right, level_right));
+  return {view.eye_world, heading_rad,
+          std::clamp(atan2(forward.z, horizontal), -kPitchLimit_rad, kPitchLimit_rad), roll_rad};
 }
 
 }  // namespace swell::view

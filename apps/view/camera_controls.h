@@ -12,6 +12,7 @@ struct CameraPose {
   glm::dvec3 eye_m{0.0};     // world
   double heading_rad = 0.0;  // clockwise from north, [0, 2 pi)
   double pitch_rad = 0.0;    // up positive, within kPitchLimit_rad of 0
+  double roll_rad = 0.0;     // positive lowers the right side; no flight changes it
 };
 
 // Looking straight up or down would leave no heading to turn about.
@@ -32,7 +33,8 @@ bool is_idle(const CameraInput& input);
 // throw the camera away. The eye stays within 1e6 m of the origin along each axis, as in scenes.
 CameraPose fly(const CameraPose& pose, const CameraInput& input, double dt_s);
 
-// The pose that a view was made from.
+// The pose of a view. One that looks nearer to straight up or down than kPitchLimit_rad is taken
+// from there to the limit, with the same heading.
 CameraPose pose_of(const View& view);
 
 }  // namespace swell::view

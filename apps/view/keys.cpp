@@ -12,10 +12,10 @@ std::optional<Command> command_for(SDL_Keycode key) {
   static constexpr std::array kBindings = {
       Binding{SDLK_F1, Command::kHelp},        Binding{SDLK_F2, Command::kPanel},
       Binding{SDLK_h, Command::kPanel},        Binding{SDLK_F3, Command::kWireframe},
-      Binding{SDLK_F11, Command::kFullScreen}, Binding{SDLK_F12, Command::kScreenshot},
-      Binding{SDLK_p, Command::kPause},        Binding{SDLK_PERIOD, Command::kStep},
-      Binding{SDLK_r, Command::kResetCamera},  Binding{SDLK_c, Command::kCopyCamera},
-      Binding{SDLK_ESCAPE, Command::kEscape},
+      Binding{SDLK_F4, Command::kLabel},       Binding{SDLK_F11, Command::kFullScreen},
+      Binding{SDLK_F12, Command::kScreenshot}, Binding{SDLK_p, Command::kPause},
+      Binding{SDLK_PERIOD, Command::kStep},    Binding{SDLK_r, Command::kResetCamera},
+      Binding{SDLK_c, Command::kCopyCamera},   Binding{SDLK_ESCAPE, Command::kEscape},
   };
   for (const Binding& binding : kBindings)
     if (binding.key == key) return binding.command;
@@ -49,6 +49,7 @@ std::span<const KeyHelp> key_help() {
       KeyHelp{"F1", "this help"},
       KeyHelp{"F2, H", "panel"},
       KeyHelp{"F3", "triangles, tinted by level of detail"},
+      KeyHelp{"F4", "the next label as a picture: depth ... flags, then colour"},
       KeyHelp{"F11", "full screen"},
       KeyHelp{"F12", "screenshot, at full quality"},
       KeyHelp{"Esc", "release the mouse, then quit"},

@@ -15,6 +15,7 @@ enum class Command {
   kHelp,
   kPanel,
   kWireframe,
+  kLabel,
   kFullScreen,
   kScreenshot,
   kPause,

@@ -39,7 +39,19 @@ bool draw_camera(const CameraPose& pose, double fov_y_rad) {
   const bool copy = ImGui::SmallButton(kCopy);
   text(fmt::format("heading {:.1f}  pitch {:.1f}  fov {:.1f} deg", pose.heading_rad / kRadPerDeg,
                    pose.pitch_rad / kRadPerDeg, fov_y_rad / kRadPerDeg));
+  if (pose.roll_rad != 0.0) text(fmt::format("roll {:.1f}", pose.roll_rad / kRadPerDeg));
   return copy;
+}
+
+// Which label is shown, or colour.
+void draw_label_choice(std::optional<render::Label>& label) {
+  std::array<const char*, render::kLabelCount + 1> names = {"colour"};
+  for (const render::LabelInfo& info : render::label_table())
+    names[1 + static_cast<std::size_t>(info.label)] = info.name.data();
+  int choice = label ? 1 + static_cast<int>(*label) : 0;
+  if (!ImGui::Combo("picture (F4)", &choice, names.data(), static_cast<int>(names.size()))) return;
+  label.reset();
+  if (choice > 0) label = static_cast<render::Label>(choice - 1);
 }
 
 bool draw_waves(std::span<const char* const> names, WaveChoice& waves) {
@@ -200,6 +212,7 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
     ImGui::Separator();
     changes.copy_camera = draw_camera(report.camera, report.fov_y_rad);
     ImGui::Separator();
+    draw_label_choice(settings.label);
     changes.waves = draw_waves(report.wave_names, settings.waves);
     changes.detail = draw_detail(settings.detail);
     draw_quality(settings.frame);

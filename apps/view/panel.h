@@ -23,6 +23,7 @@ struct PanelSettings {
   bool governed = false;       // less of it where frames would take longer than the budget
   double budget_ms = kBudget_ms;
   bool paused = false;
+  std::optional<render::Label> label{};  // shown in place of colour
 };
 
 // What the panel shows.

@@ -7,6 +7,7 @@
 #include "apps/shared/picture_file.h"
 #include "apps/shared/program.h"
 #include "apps/view/viewer.h"
+#include "render/world/world_view.h"
 
 namespace swell::view {
 namespace {
@@ -39,7 +40,8 @@ void warn_of_eye(const render::World& world) {
   render::Target target;
   render::FrameOptions frame;
   frame.water_triangles = frame.terrain_triangles = 2;
-  const View view = scene::camera_view(world.scene().camera, 0.0, 16, 9);
+  ocean::SeaFrame sea;
+  const View view = render::world_view(world, 0.0, 16, 9, sea, workers);
   render::render_frame(world, view, 0.0, frame, workspace, target, workers);
   apps::EyeWarning().look(0, world, view, workspace);
 }

@@ -6,10 +6,13 @@
 #include <thread>
 #include <utility>
 
+#include "apps/shared/label_picture.h"
 #include "apps/shared/picture_file.h"
 #include "apps/view/camera_text.h"
 #include "apps/view/eye_floor.h"
+#include "math/elementary.h"
 #include "math/simd_target.h"
+#include "render/world/world_view.h"
 
 namespace swell::view {
 namespace {
@@ -26,6 +29,19 @@ std::filesystem::path free_screenshot_name() {
   do path = fmt::format("swell_{:04d}.png", number++);
   while (std::filesystem::exists(path));
   return path;
+}
+
+// Colour, then the labels in the table's order, then colour again.
+std::optional<render::Label> next_label(std::optional<render::Label> label) {
+  const std::size_t next = label ? 1 + static_cast<std::size_t>(*label) : 0;
+  if (next == render::kLabelCount) return std::nullopt;
+  return static_cast<render::Label>(next);
+}
+
+// From the picture's lower to its upper edge.
+double fov_y_rad(const View& view) {
+  const auto angle = [](float tangent) { return atan2(static_cast<double>(tangent), 1.0); };
+  return angle(view.tan_middle_y + view.tan_half_y) - angle(view.tan_middle_y - view.tan_half_y);
 }
 
 }  // namespace
@@ -48,7 +64,6 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
   report_.simd = simd_target_name(current_simd_target());
   report_.scene_name = scene.name;
   report_.wave_names = wave_names(scene);
-  report_.fov_y_rad = scene.camera.fov_y_rad;
 }
 
 // ---- events ----
@@ -131,6 +146,9 @@ void Viewer::run_command(Command command) {
     case Command::kWireframe:
       panel_.frame.wireframe = !panel_.frame.wireframe;
       break;
+    case Command::kLabel:
+      choose_label(next_label(panel_.label));
+      break;
     case Command::kFullScreen:
       window_.toggle_full_screen();
       break;
@@ -201,6 +219,8 @@ void Viewer::choose_quality(const render::FrameOptions& full_quality) {
   panel_.frame = full_quality;
 }
 
+void Viewer::choose_label(std::optional<render::Label> label) { panel_.label = label; }
+
 void Viewer::request_world() {
   scene::Scene scene = with_waves(scene_, panel_.waves);
   scene.detail = panel_.detail;
@@ -239,39 +259,78 @@ void Viewer::draw_frame() {
 
   // Draw. Nothing below handles events, so the window's surface stays what it is until shown.
   picture_view_ = next_view(dt_s);
+  report_.fov_y_rad = fov_y_rad(picture_view_);
   picture_time_s_ = clock_.t_s;
   report_.statistics = render::render_frame(*world_, picture_view_, picture_time_s_, next_options(),
                                             workspace_, target_, workers_);
+  shows_label_ = panel_.label.has_value();
+  if (shows_label_) {
+    label_picture_.width_px = target_.width_px;
+    label_picture_.height_px = target_.height_px;
+    apps::paint_label(*panel_.label, target_.labels, picture_view_, label_picture_.rgba);
+  }
   add_frame(report_.history, report_.statistics.frame_ms);
   pick_under_pointer();
 
   // Show.
   const Clock::time_point drawn = Clock::now();
-  window_.draw_picture(target_);
+  window_.draw_picture(shown());
   gui_.draw();
   window_.present();
   const Clock::time_point shown = Clock::now();
   report_.present_ms = Milliseconds(shown - drawn).count();
   const double whole_ms = Milliseconds(shown - last_frame_start_).count();
-  if (panel_.governed) governor_.next(report_.statistics, whole_ms - report_.statistics.frame_ms);
+  if (panel_.governed && !shows_label_)  // whose frames are not drawn as it said
+    governor_.next(report_.statistics, whole_ms - report_.statistics.frame_ms);
 }
 
 const render::FrameOptions& Viewer::next_options() {
   governor_.set_budget_ms(panel_.budget_ms);
   governor_.set_full_quality(panel_.frame);
-  const render::FrameOptions& options = panel_.governed ? governor_.options() : panel_.frame;
+  options_ = panel_.governed ? governor_.options() : panel_.frame;
+  ask_for_label(options_);
   report_.governor = governor_.report();
-  report_.picture_scale = options.picture_scale;
-  return options;
+  report_.picture_scale = options_.picture_scale;
+  return options_;
+}
+
+// Labels are of the picture's own pixels: it is drawn at its full size.
+void Viewer::ask_for_label(render::FrameOptions& options) {
+  if (!panel_.label) return;
+  options.labels = {};
+  options.labels.add(*panel_.label);
+  options.picture_scale = 1.0;
+  options.next_frame_s = 1.0 / kStepsPerSecond;
+  if (*panel_.label != render::Label::kMotion || pose_) return;
+  options.next_view =
+      render::world_view(*world_, picture_time_s_ + options.next_frame_s, picture_view_.width_px,
+                         picture_view_.height_px, sea_, workers_);
+}
+
+// In the title, for as long as it is shown, and in a message.
+void Viewer::name_label() {
+  if (panel_.label == named_label_) return;
+  named_label_ = panel_.label;
+  std::string title = "swell - " + scene_.name;
+  if (named_label_) {
+    const render::LabelInfo& info = render::label_table()[static_cast<std::size_t>(*named_label_)];
+    title += fmt::format(" - {}", info.name);
+    say(fmt::format("{}: {}", info.name, info.meaning));
+  } else {
+    say("colour");
+  }
+  SDL_SetWindowTitle(window_.handle(), title.c_str());
 }
 
 render::Target Viewer::full_picture() {
   render::FrameOptions options = panel_.frame;
   options.lod_ms = 0.0;  // of refining
+  ask_for_label(options);
   render::Workspace workspace;
   render::Target picture;
   render::render_frame(*world_, picture_view_, picture_time_s_, options, workspace, picture,
                        workers_);
+  if (panel_.label) apps::paint_label(*panel_.label, picture.labels, picture_view_, picture.rgba);
   return picture;
 }
 
@@ -297,17 +356,17 @@ View Viewer::next_view(double dt_s) {
   look_px_ = glm::dvec2(0.0);
 
   const scene::Camera& camera = scene_.camera;
-  const View on_path = scene::camera_view(camera, clock_.t_s, size.width_px, size.height_px);
+  const View on_path =
+      render::world_view(*world_, clock_.t_s, size.width_px, size.height_px, sea_, workers_);
   report_.camera = pose_.value_or(pose_of_scene(camera, on_path));
   if (!pose_ && is_idle(input)) return on_path;
 
   // Moved by hand, the eye stays above the waves and the land.
   pose_ = fly(report_.camera, input, dt_s);
   glm::dvec3& eye_m = pose_->eye_m;
-  eye_m.z = std::max(eye_m.z, eye_floor_m(*world_, eye_m, clock_.t_s, sea_below_, workers_));
+  eye_m.z = std::max(eye_m.z, eye_floor_m(*world_, eye_m, clock_.t_s, sea_, workers_));
   report_.camera = *pose_;
-  return make_view(pose_->eye_m, pose_->heading_rad, pose_->pitch_rad, camera.fov_y_rad,
-                   static_cast<float>(camera.near_m), size.width_px, size.height_px);
+  return scene::camera_view(camera_at(*pose_, camera), clock_.t_s, size.width_px, size.height_px);
 }
 
 void Viewer::build_panels() {
@@ -324,6 +383,7 @@ void Viewer::build_panels() {
     if (changes.waves || changes.detail) request_world();
     if (changes.copy_camera) copy_camera();
   }
+  name_label();
   if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
   if (show_help_) draw_help();
   if (!report_.message.empty()) draw_message(report_.message);

@@ -45,9 +45,12 @@ class Viewer {
   // The last frame drawn; empty before the first one.
   const render::Target& picture() const { return target_; }
 
+  // What the window shows of it: the same, or a label of it in false colours.
+  const render::Target& shown() const { return shows_label_ ? label_picture_ : target_; }
+
   // The last frame once more, at the full quality that the panel asks for, whatever the governor
-  // left out; not before the first frame. In a workspace of its own, so that the next frame is as
-  // it would have been. 50 ms at 1280x720.
+  // left out, with the label that is shown in place of 8-bit colour; not before the first frame. In
+  // a workspace of its own, so that the next frame is as it would have been. 50 ms at 1280x720.
   render::Target full_picture();
 
   // For tests and the panel.
@@ -68,6 +71,7 @@ class Viewer {
   void choose_detail(const scene::Detail& detail);
   void choose_budget(bool governed, double budget_ms);
   void choose_quality(const render::FrameOptions& full_quality);
+  void choose_label(std::optional<render::Label> label);  // none: colour
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -87,6 +91,8 @@ class Viewer {
   void build_panels();
   void draw_frame();
   const render::FrameOptions& next_options();
+  void ask_for_label(render::FrameOptions& options);
+  void name_label();
   void pick_under_pointer();
   void wait_for_refresh() const;
 
@@ -98,7 +104,10 @@ class Viewer {
   WorldRebuilder rebuilder_;
   Workers workers_;
   render::Workspace workspace_;
+  render::FrameOptions options_;  // of the last frame
   render::Target target_;
+  render::Target label_picture_;
+  bool shows_label_ = false;  // of the last frame
   render::Governor governor_;
   render::PickScratch pick_scratch_;
 
@@ -107,9 +116,10 @@ class Viewer {
   glm::dvec2 look_px_{0.0};           // mouse motion not yet used
   std::optional<glm::vec2> pointer_;  // over the window, in its own units
   std::optional<CameraPose> pose_;    // none: the scene's camera
-  ocean::SeaFrame sea_below_;         // of the waves that the eye stays above
+  ocean::SeaFrame sea_;               // of the waves that carry the eye, or that it stays above
   PanelSettings panel_;
   PanelReport report_;
+  std::optional<render::Label> named_label_;  // in the title
   bool show_panel_ = true, show_help_ = false;
   bool mouse_captured_ = false, capture_ends_with_button_ = false;
   bool quit_ = false;

@@ -1,5 +1,6 @@
 // Draws a scene into a PNG file: embed SCENE.toml PICTURE.png
 #include <render/frame.h>
+#include <render/world/world_view.h>
 #include <texture/image_io.h>
 
 int main(int argc, char** argv) {
@@ -9,7 +10,8 @@ int main(int argc, char** argv) {
   swell::render::Workspace workspace;
   swell::render::Target target;
   const double t_s = 0.0;
-  const auto view = swell::scene::camera_view(world.scene().camera, t_s, 640, 360);
+  swell::ocean::SeaFrame sea;  // for a camera that an object carries
+  const auto view = swell::render::world_view(world, t_s, 640, 360, sea, workers);
   swell::render::render_frame(world, view, t_s, {}, workspace, target, workers);
 
   swell::texture::Image8 image{target.width_px, target.height_px, 3, {}};

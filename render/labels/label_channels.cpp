@@ -28,7 +28,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"N.X", "N.Y", "N.Z"},
      false,
      "1",
-     "Unit normal in the world that shading used, with the waves that triangles cannot hold.",
+     "Unit normal that shading used, in the world: with the waves and the unevenness of the ground "
+     "that triangles cannot hold, as far as pixels of that size show them.",
      "0, 0, 0",
      ""},
     {Label::kGeometricNormal,
@@ -36,7 +37,7 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"Ng.X", "Ng.Y", "Ng.Z"},
      false,
      "1",
-     "Unit normal in the world of the drawn triangle, on the side that is seen.",
+     "Unit normal of the drawn triangle, in the world, on the side that is seen.",
      "0, 0, 0",
      ""},
     {Label::kId,
@@ -52,7 +53,9 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"class"},
      true,
      "",
-     "What is seen: 1 water, 2 terrain, 3 object, 4 foam, from 5 on classes that objects name.",
+     "What kind of thing is seen: 1 water, 2 terrain, 3 an object that names no class, 4 water "
+     "that "
+     "foam hides more than half of, from 5 on classes that objects name.",
      "0",
      ""},
     {Label::kMotion,
@@ -60,16 +63,17 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"motion.X", "motion.Y"},
      false,
      "px",
-     "Where in the picture the same point is one frame later, less where it is now; x right, y "
-     "down. Water moves as its column does: up and down at one place.",
+     "Where in the picture the point that is seen is one frame later, whether it is seen then or "
+     "not, less where it is now; x right, y down. Water moves as its column does, up and down at "
+     "one place, objects as they float; what water mirrors or shows does not count.",
      "by the camera's rotation alone",
-     "0 where the point is behind the next camera"},
+     "0, 0 where the point is behind the next camera"},
     {Label::kElevation,
      "elevation",
      {"elevation"},
      false,
      "m",
-     "Height of the water's surface above the mean level.",
+     "Height of the drawn water above the mean level.",
      "0",
      "0"},
     {Label::kFoam,
@@ -77,7 +81,7 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"foam"},
      false,
      "1",
-     "Part of the water that foam hides, in [0, 1].",
+     "Part of the water that foam of breaking waves hides, in [0, 1].",
      "0",
      "0"},
     {Label::kFlags,
@@ -85,7 +89,9 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"flags"},
      true,
      "",
-     "What the water shows besides itself: 1 something mirrored, 2 something below it; 3 both.",
+     "What the water shows besides the sky and its own colour: 1 where land or an object is more "
+     "than half of what it mirrors, 2 where the ground or an object is more than half of what is "
+     "seen through it, 3 both.",
      "0",
      "0"},
 }};

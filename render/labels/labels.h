@@ -11,7 +11,7 @@
 namespace swell::render {
 
 // One value a pixel each, row by row; empty where it was not asked for. Distance and position are
-// not stored: they follow from the depth.
+// not stored: they follow from the depth, which is there for them.
 struct Labels {
   LabelSet set;
   std::vector<float> depth_m;

@@ -130,8 +130,8 @@ struct Shader<Object, kView> {
                                const Packet& packet) const {
     const ObjectSurface surface = SampleObject(ObjectsAt(s, lanes).data(), packet.p);
     const V3 matt = MattLight(s.light, object.sea_light, surface);
-    if constexpr (kView == ViewKind::kRefraction) return {matt};
-    return {Sum(matt, Gloss(s.light, surface, packet.to_eye))};
+    if constexpr (kView == ViewKind::kRefraction) return {matt, surface.normal};
+    return {Sum(matt, Gloss(s.light, surface, packet.to_eye)), surface.normal};
   }
 };
 

@@ -19,10 +19,13 @@ HWY_INLINE V GroundLevel(const ViewRays& rays, const Packet& packet) {
   return FootprintLevel(FootprintAcross(rays, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
 }
 
-// Radiance of the ground: diffuse, lit by sun and sky.
+// Ground, diffuse and lit by sun and sky.
+struct Ground {
+  V3 light, normal;
+};
 template <bool kDetail>
-HWY_INLINE V3 GroundRadiance(const Terrain& terrain, const Light& light, const Packet& packet,
-                             V level_m) {
+HWY_INLINE Ground LightGround(const Terrain& terrain, const Light& light, const Packet& packet,
+                              V level_m) {
   const D d;
   const V zero = hn::Zero(d);
   V slope_x = zero, slope_y = zero, variance = zero;
@@ -48,7 +51,7 @@ HWY_INLINE V3 GroundRadiance(const Terrain& terrain, const Light& light, const P
       hn::MulAdd(packet.p.y, Constant(terrain.albedo_texels_per_m), Constant(terrain.albedo_y_eye));
   V r, g, b, alpha;
   texture::HWY_NAMESPACE::SampleRgba(d, *terrain.albedo, x, y, r, g, b, alpha);
-  return Product(arriving, {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)});
+  return {Product(arriving, {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)}), normal};
 }
 
 // Where the sea's edge is now, as a height on the beach from 0 to reach_m: it stays low
@@ -135,14 +138,14 @@ struct Shader<Terrain, kView> {
                              const Packet& packet) const {
     const V level_m = GroundLevel(s.rays, packet);
     constexpr bool kDetail = kView == ViewKind::kWindow;
-    const V3 ground = GroundRadiance<kDetail>(terrain, s.light, packet, level_m);
+    const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m);
     if constexpr (kView == ViewKind::kWindow) {
       const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
-      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, ground)};
+      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, ground.light), ground.normal};
     } else if constexpr (kView == ViewKind::kRefraction) {
-      return FadingSurfel{{ground}, InsideLand(terrain, packet.p)};
+      return FadingSurfel{{ground.light, ground.normal}, InsideLand(terrain, packet.p)};
     } else {
-      return Surfel{ground};
+      return Surfel{ground.light, ground.normal};
     }
   }
 };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "render/labels/label_channels.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/water.h"
@@ -167,26 +168,27 @@ HWY_INLINE V3 LookUpDistorted(const Water& water, const LookupImage& lookup, con
 }
 
 // What the surface mirrors: the sky in the reflected direction, and in front of it whatever the
-// reflection image shows there.
+// reflection image shows there, whose part is `image_alpha`.
 HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V3 normal, V cos_eye, bool use_image) {
+                             const WaterSlopes& s, V3 normal, V cos_eye, bool use_image,
+                             V& image_alpha) {
   V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
   // Rays that would meet the sea again, and the spread of rough water, look above the horizon.
   r.z = hn::Add(hn::Abs(r.z), hn::Mul(s.variance, Constant(0.8f)));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SkyRadiance(*light.sky_soft, r, length);
+  image_alpha = hn::Zero(D());
   if (use_image) {
-    V alpha;
-    const V3 image = LookUpDistorted(water, water.reflection, packet, s, 1.0f, alpha);
-    mirrored = Lerp(mirrored, image, alpha);
+    const V3 image = LookUpDistorted(water, water.reflection, packet, s, 1.0f, image_alpha);
+    mirrored = Lerp(mirrored, image, image_alpha);
   }
   return mirrored;
 }
 
 // What comes up through the surface: scattered light of the water body, brighter in thin crests
-// against the sun, and the floor where the refraction image shows one.
+// against the sun, and the floor where the refraction image shows one, whose part is `image_alpha`.
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, bool use_image) {
+                             const WaterSlopes& s, bool use_image, V& image_alpha) {
   const V height = hn::Add(packet.p.z, Constant(shading.rays.eye_z));
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
@@ -196,10 +198,10 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
       hn::Zero(D()));
   const V glow = hn::Mul(hn::Mul(crest, crest), hn::Add(towards_sun, Constant(0.35f)));
   V3 light = ScaleAdd(Constant(water.crest_glow), glow, Constant(shading.media.body));
+  image_alpha = hn::Zero(D());
   if (use_image) {
-    V alpha;
-    const V3 floor = LookUpDistorted(water, water.refraction, packet, s, -0.5f, alpha);
-    light = Lerp(light, floor, alpha);
+    const V3 floor = LookUpDistorted(water, water.refraction, packet, s, -0.5f, image_alpha);
+    light = Lerp(light, floor, image_alpha);
   }
   return light;
 }
@@ -229,6 +231,14 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
+// Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
+HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
+  const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
+    return hn::IfThenElseZero(hn::Gt(alpha, Constant(0.5f)), Constant(static_cast<float>(value)));
+  };
+  return hn::Add(bit(mirrored_alpha, kShowsMirrored), bit(refracted_alpha, kShowsRefracted));
+}
+
 // kCoast: water.has_coast.
 template <bool kCoast>
 struct WaterShader {
@@ -249,14 +259,16 @@ struct WaterShader {
         hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
     const V reflectance = FresnelReflectance(d, cos_rough, shading.media.refraction_index);
 
-    const V3 mirrored =
-        ReflectedLight(light, water, packet, s, normal, cos_eye, tile.lookups.reflection);
-    const V3 refracted = RefractedLight(shading, water, packet, s, tile.lookups.refraction);
+    V mirrored_alpha, refracted_alpha;
+    const V3 mirrored = ReflectedLight(light, water, packet, s, normal, cos_eye,
+                                       tile.lookups.reflection, mirrored_alpha);
+    const V3 refracted =
+        RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
     const V3 arriving = Lerp(refracted, mirrored, reflectance);
     const V glint = SunGlint(light.sun_direction, packet, s, reflectance, cos_rough);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
     if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
-    return {seen};
+    return {seen, normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/frame.h"
+#include "render/labels/label_tile.h"
 #include "render/view/lookup_images.h"
 
 namespace swell::render {
@@ -18,10 +19,11 @@ struct PictureInputs {
   const std::vector<TileLookups>& lookups;  // by tile
   const Shading& shading;
   bool wireframe;
+  const LabelSources* labels = nullptr;  // none: no labels
 };
 
-// Shades every visible pixel once and resolves it. `shaded`: the number of surface pixels shaded,
-// by tile. `target` has the window's size.
+// Shades every visible pixel once and resolves it, and fills the labels that are asked for.
+// `shaded`: the number of surface pixels shaded, by tile. `target` has the window's size.
 void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int>& shaded,
                    Target& target, const StageRun& run);
 

@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <span>
 
+#include "render/labels/shaded_labels.h"
 #include "render/tile/edges.h"
 #include "render/tile/shading.h"
 
 namespace swell::render {
 
 inline constexpr int kMaxTilePixels = 64 * 64;
+static_assert(ShadedLabels::kMostPixels == kMaxTilePixels);
 
 // What water in a tile can see in the lookup images.
 struct TileLookups {
@@ -46,9 +48,11 @@ struct TileInput {
 // (the whole picture) and, unless empty, linear light to `linear` (RGB). Fragments that their
 // pixels' centres do not show are shaded too and mixed by their samples: as light of the display,
 // after the tone curve, so that a glint counts for no more than white; linear light as it is.
-// Returns the number of surface (not sky) pixels shaded, fragments left out.
+// `labels`, if any, gets what shading knows of the surface pixels' centres. Returns the number of
+// surface (not sky) pixels shaded, fragments left out.
 int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
-               std::span<std::uint32_t> rgba, std::span<float> linear);
+               std::span<std::uint32_t> rgba, std::span<float> linear,
+               ShadedLabels* labels = nullptr);
 
 // The same for a tile of open sky, without a visibility buffer.
 void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,

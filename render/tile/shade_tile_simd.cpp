@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/labels/keep_labels-inl.h"
 #include "render/materials/list-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/packet-inl.h"
@@ -149,12 +150,15 @@ HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelL
   }
 }
 
-// The light of a packet's pixels as it arrives.
-template <ViewKind kView, class M, class Shade>
+// The light of a packet's pixels as it arrives. What labels want of the window's goes to `keep`.
+template <ViewKind kView, class M, class Shade, class Keep>
 HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& material,
-                            const Lanes& lanes, const Packet& shown, const Shade& shade) {
+                            const Lanes& lanes, const Packet& shown, const Shade& shade,
+                            const Keep& keep) {
   if constexpr (kView == ViewKind::kWindow) {
-    return Haze(s, shown, shade(s, tile, lanes, shown).light);
+    const auto surfel = shade(s, tile, lanes, shown);
+    keep(lanes.at, surfel);
+    return Haze(s, shown, surfel.light);
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
     const auto surfel = shade(s, tile, lanes, seen.packet);
@@ -203,44 +207,46 @@ PixelList ListFragments(std::span<const EdgeFragment> fragments, std::uint32_t b
   return list;
 }
 
-template <ViewKind kView, class M>
+// Labels are of the pixels' centres alone: fragments keep nothing.
+template <ViewKind kView, class M, class Keep>
 HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const PixelList& list,
-                              ShadeScratch& scratch) {
+                              ShadeScratch& scratch, const Keep& keep) {
   const M& material = s.material<M>();
   WithShader<kView>(material, [&](const auto& shade) HWY_ATTR {
-    const auto shade_lanes = [&](const Lanes& lanes, V x_px, V y_px, V z) HWY_ATTR {
-      const Packet shown = MakePacket(s.rays, x_px, y_px, z);
-      return ArrivingLight<kView>(s, tile, material, lanes, shown, shade);
+    const auto shading_with = [&](const auto& kept) HWY_ATTR {
+      return [&](const Lanes& lanes, V x_px, V y_px, V z) HWY_ATTR {
+        const Packet shown = MakePacket(s.rays, x_px, y_px, z);
+        return ArrivingLight<kView>(s, tile, material, lanes, shown, shade, kept);
+      };
     };
-    ShadeList(s, tile, list, scratch, shade_lanes);
-    if constexpr (kView == ViewKind::kWindow)
-      if (!tile.fragments.empty())
-        ShadeFragments(tile.fragments,
-                       ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
-                                     s.primitives.end(M::kSurface), scratch),
-                       scratch, shade_lanes);
+    ShadeList(s, tile, list, scratch, shading_with(keep));
+    if (kView != ViewKind::kWindow || tile.fragments.empty()) return;
+    const KeepNothing nothing;
+    ShadeFragments(tile.fragments,
+                   ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
+                                 s.primitives.end(M::kSurface), scratch),
+                   scratch, shading_with(nothing));
   });
 }
 
 // Shades the pixels of all materials and returns their number.
-template <ViewKind kView>
+template <ViewKind kView, class Keep>
 HWY_INLINE std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile,
-                                     const PixelLists& lists, ShadeScratch& scratch) {
+                                     const PixelLists& lists, ShadeScratch& scratch,
+                                     const Keep& keep) {
   const auto shade_all = [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
-    (ShadeMaterial<kView, std::tuple_element_t<k, Materials>>(s, tile, lists[k], scratch), ...);
+    (ShadeMaterial<kView, std::tuple_element_t<k, Materials>>(s, tile, lists[k], scratch, keep),
+     ...);
     return (lists[k].count + ... + 0);
   };
   return shade_all(std::make_index_sequence<kMaterialCount>());
 }
 
-int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
-              float* linear) {
-  const TilePixels tile{raster::tile_box(s.viewport, s.grid, input.tile), input.depth.data(),
-                        input.primitive.data(), input.fragments, input.lookups};
-  for (std::size_t n = 0; n < tile.fragments.size(); ++n)
-    scratch.fragment_primitive[n] = tile.fragments[n].primitive;
+template <class Keep>
+HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                              std::uint32_t* rgba, float* linear, const Keep& keep) {
   const PixelLists lists = ListPixels(s, tile, scratch);
-  const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch);
+  const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch, keep);
   const auto shade_sky = [&](const Lanes&, V x, V y, V) HWY_ATTR { return ShadeSky(s, x, y); };
   ShadeList(s, tile, lists[kSky], scratch, shade_sky);
   if (!tile.fragments.empty())
@@ -249,6 +255,24 @@ int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, s
   ResolveTile(s, tile.box, scratch, rgba, linear);
   if (!tile.fragments.empty()) ResolveFragments(s, tile, scratch, rgba, linear);
   return static_cast<int>(shaded);
+}
+
+TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scratch) {
+  for (std::size_t n = 0; n < input.fragments.size(); ++n)
+    scratch.fragment_primitive[n] = input.fragments[n].primitive;
+  return {raster::tile_box(s.viewport, s.grid, input.tile), input.depth.data(),
+          input.primitive.data(), input.fragments, input.lookups};
+}
+
+int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
+              float* linear) {
+  return ShadeAllPixels(s, PixelsOf(s, input, scratch), scratch, rgba, linear, KeepNothing());
+}
+
+// A function of its own: what labels take costs registers.
+int ShadeLabelledTile(const Shading& s, const TileInput& input, ShadeScratch& scratch,
+                      std::uint32_t* rgba, float* linear, ShadedLabels& labels) {
+  return ShadeAllPixels(s, PixelsOf(s, input, scratch), scratch, rgba, linear, KeepLabels{labels});
 }
 
 void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -311,9 +335,9 @@ void ShadeLookupTile(const Shading& s, int tile_index, const float* depth,
   const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {}};
   const PixelLists lists = ListPixels(s, tile, scratch);
   if (s.kind == ViewKind::kRefraction)
-    ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch);
+    ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch, KeepNothing());
   else
-    ShadeSurfaces<ViewKind::kReflection>(s, tile, lists, scratch);
+    ShadeSurfaces<ViewKind::kReflection>(s, tile, lists, scratch, KeepNothing());
   EncodeLookupTile(s, tile.box, primitive, scratch, image);
 }
 
@@ -325,6 +349,7 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(ShadeTile);
+HWY_EXPORT(ShadeLabelledTile);
 HWY_EXPORT(ShadeSkyTile);
 HWY_EXPORT(ShadeLookupTile);
 
@@ -348,12 +373,15 @@ void check_tile(const Shading& s, std::span<const float> depth,
 }  // namespace
 
 int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
-               std::span<std::uint32_t> rgba, std::span<float> linear) {
+               std::span<std::uint32_t> rgba, std::span<float> linear, ShadedLabels* labels) {
   check_tile(shading, input.depth, input.primitive);
   check_picture(shading, rgba, linear);
   SWELL_CHECK(input.fragments.size() <= kMaxTileFragments, "fragments={}", input.fragments.size());
-  return HWY_DYNAMIC_DISPATCH(ShadeTile)(shading, input, scratch, rgba.data(),
-                                         linear.empty() ? nullptr : linear.data());
+  float* const light = linear.empty() ? nullptr : linear.data();
+  if (labels)
+    return HWY_DYNAMIC_DISPATCH(ShadeLabelledTile)(shading, input, scratch, rgba.data(), light,
+                                                   *labels);
+  return HWY_DYNAMIC_DISPATCH(ShadeTile)(shading, input, scratch, rgba.data(), light);
 }
 
 void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,

@@ -31,7 +31,10 @@ struct Lanes {
 
 // What a packet's pixels show of a surface.
 struct Surfel {
-  V3 light;  // that leaves it towards the eye, before the medium between
+  V3 light;                      // that leaves it towards the eye, before the medium between
+  V3 normal;                     // as shaded, of length 1: for labels, as what follows
+  V foam_cover = hn::Zero(D());  // part of the water that foam hides
+  V flags = hn::Zero(D());       // bits of Label::kFlags, as a number
 };
 
 // A surface that ends softly: where `cover` is 0 the medium alone is seen.

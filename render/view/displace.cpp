@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <array>
 
+#include "math/check.h"
 #include "render/quality/background.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {
 namespace {
 
-constexpr std::size_t kChunk = 2048;  // vertices a task
+constexpr std::size_t kChunk = kVertexChunk;  // vertices a task
 
 // Positions of the mesh's vertices relative to the eye.
 void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::dvec2 eye) {
@@ -16,35 +17,6 @@ void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::d
   from_eye.min_world -= eye;
   for (std::size_t i = begin; i < end; ++i)
     surface.offset[i] = glm::vec2(from_eye.point(surface.mesh.lattice[i]));
-}
-
-// What all vertices of the water are displaced by.
-struct WaterHeights {
-  const World::State& world;
-  const SeaMaps& sea;
-  const View& view;
-  float background_error_px;
-};
-
-// Heights come from where the vertex is in the world, exactly, not from its rounded offset: a query
-// of the surface there gives the same bits.
-void displace_water(const WaterHeights& in, std::size_t begin, std::size_t end, Surface& water) {
-  place_vertices(water, begin, end, glm::dvec2(in.view.eye_world));
-  const std::size_t count = end - begin;
-  std::array<glm::dvec2, kChunk> places;
-  for (std::size_t i = 0; i < count; ++i) places[i] = vertex_world(water, begin + i);
-  const auto p_world = std::span(places).first(count);
-  const auto height_m = std::span(water.height_m).subspan(begin, count);
-  const ocean::WaterSurface surface = water_surface(in.world, in.sea);
-  if (in.world.scene.detail.triangulation == scene::Triangulation::kPlane)
-    std::ranges::fill(height_m, 0.0f);
-  else if (in.background_error_px > 0.0f)
-    background_heights(Background(in.view, *in.world.sea, in.world.water_bounds().height_m,
-                                  in.background_error_px),
-                       surface, p_world,
-                       std::span<const glm::vec2>(water.offset).subspan(begin, count), height_m);
-  else
-    surface.heights(p_world, height_m);
 }
 
 void displace_land(const terrain::HeightGrid& terrain, glm::dvec2 eye, std::size_t begin,
@@ -78,13 +50,38 @@ glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
   return surface.domain.point(surface.mesh.lattice[vertex]);
 }
 
+// Heights come from where the vertex is in the world, exactly, not from its rounded offset: a query
+// of the surface there gives the same bits.
+void water_heights(const WaterHeights& in, const Surface& water, std::size_t begin, std::size_t end,
+                   std::span<float> vertex_height_m) {
+  const std::size_t count = end - begin;
+  SWELL_DCHECK(count <= kVertexChunk, "{} vertices", count);
+  std::array<glm::dvec2, kVertexChunk> places;
+  for (std::size_t i = 0; i < count; ++i) places[i] = vertex_world(water, begin + i);
+  const auto p_world = std::span(places).first(count);
+  const auto height_m = vertex_height_m.subspan(begin, count);
+  const ocean::WaterSurface surface = water_surface(in.world, in.sea);
+  if (in.world.scene.detail.triangulation == scene::Triangulation::kPlane)
+    std::ranges::fill(height_m, 0.0f);
+  else if (in.background_error_px > 0.0f)
+    background_heights(Background(in.view, *in.world.sea, in.world.water_bounds().height_m,
+                                  in.background_error_px),
+                       surface, p_world,
+                       std::span<const glm::vec2>(water.offset).subspan(begin, count), height_m);
+  else
+    surface.heights(p_world, height_m);
+}
+
 void displace(const World::State& world, const SeaMaps& sea, const View& view,
               const FrameOptions& options, Meshes& meshes, FrameViews views, const StageRun& run) {
-  const WaterHeights water{world, sea, view, static_cast<float>(options.background_error_px)};
-  displace_in_chunks(
-      SurfaceKind::kWater, meshes.water, meshes, views, run,
-      [&](std::size_t begin, std::size_t end) { displace_water(water, begin, end, meshes.water); });
+  const WaterHeights heights{world, sea.frame, view,
+                             static_cast<float>(options.background_error_px)};
   const glm::dvec2 eye(view.eye_world);
+  displace_in_chunks(SurfaceKind::kWater, meshes.water, meshes, views, run,
+                     [&](std::size_t begin, std::size_t end) {
+                       place_vertices(meshes.water, begin, end, eye);
+                       water_heights(heights, meshes.water, begin, end, meshes.water.height_m);
+                     });
   displace_in_chunks(SurfaceKind::kTerrain, meshes.land, meshes, views, run,
                      [&](std::size_t begin, std::size_t end) {
                        displace_land(*world.terrain, eye, begin, end, meshes.land);

@@ -15,6 +15,7 @@ namespace swell::render {
 // Working memory of one thread.
 struct ThreadScratch {
   ShadeScratch shade;
+  ShadedLabels labels;
   alignas(64) std::array<float, kMaxTilePixels> depth;
   alignas(64) std::array<std::uint32_t, kMaxTilePixels> primitive;
 };

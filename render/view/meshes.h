@@ -40,6 +40,7 @@ struct ObjectInstance {
   glm::vec3 bottom_rel{0.0f};
   float waterline_rel_m = 0.0f;  // height of its waterline above the eye
   glm::vec3 colour{0.0f};
+  std::uint32_t object = 0;  // its index in the scene
 };
 
 // Which triangle of which object a primitive is.

@@ -115,6 +115,14 @@ std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> ob
   return focuses;
 }
 
+void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
+                 std::span<scene::ObjectPose> poses) {
+  if (poses.empty()) return;
+  scene::object_poses(world.scene.objects, water_surface(world, sea), poses);
+  if (world.scene.detail.triangulation == scene::Triangulation::kPlane)
+    for (scene::ObjectPose& pose : poses) pose.position_world.z = 0.0;
+}
+
 void place_objects(const World::State& world, const SeaMaps& sea, const View& view, Meshes& meshes,
                    FrameViews views) {
   const std::vector<scene::FloatingObject>& objects = world.scene.objects;
@@ -122,9 +130,7 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
   clear_geometry(geometry);
   geometry.poses.resize(objects.size());
   geometry.meshes.resize(objects.size(), nullptr);
-  if (!objects.empty()) scene::object_poses(objects, water_surface(world, sea), geometry.poses);
-  if (world.scene.detail.triangulation == scene::Triangulation::kPlane)
-    for (scene::ObjectPose& pose : geometry.poses) pose.position_world.z = 0.0;  // as it is drawn
+  drawn_poses(world, sea.frame, geometry.poses);
 
   geometry.instances.reserve(objects.size());  // primitives point into it
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
@@ -136,6 +142,7 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
     const scene::ObjectMesh& mesh = world.objects.meshes[near ? choice.near : choice.far];
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
+    geometry.instances.back().object = static_cast<std::uint32_t>(i);
     geometry.parts.push_back({static_cast<std::uint32_t>(geometry.primitives.size()),
                               static_cast<std::uint32_t>(mesh.triangles.size()),
                               static_cast<std::uint32_t>(geometry.p_rel.size()),

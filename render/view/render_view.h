@@ -80,6 +80,24 @@ void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, 
 void displace(const World::State& world, const SeaMaps& sea, const View& view,
               const FrameOptions& options, Meshes& meshes, FrameViews views, const StageRun& run);
 
+// What the water's vertices are displaced by at the time of `sea`, as the view needs them.
+struct WaterHeights {
+  const World::State& world;
+  const ocean::SeaFrame& sea;
+  const View& view;
+  float background_error_px;
+};
+
+// The heights of vertices [begin, end) of the water, at most kVertexChunk, whose offsets are those
+// of the view. Allocates nothing.
+inline constexpr std::size_t kVertexChunk = 2048;
+void water_heights(const WaterHeights& in, const Surface& water, std::size_t begin, std::size_t end,
+                   std::span<float> vertex_height_m);
+
+// Where the sea carries all objects, as they are drawn.
+void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
+                 std::span<scene::ObjectPose> poses);
+
 // Stage 3: floating objects where the sea carries them, as far as the view may show them, and their
 // vertices in the views.
 void place_objects(const World::State& world, const SeaMaps& sea, const View& view, Meshes& meshes,

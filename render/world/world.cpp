@@ -1,5 +1,6 @@
 // Making a scene ready to draw: everything that does not change with time.
 #include "math/check.h"
+#include "render/labels/classes.h"
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
@@ -115,6 +116,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   add_relief_bounds(if_alike(same_terrain), *state);
   add_coast(like, same_coast, threads, *state);
   state->objects = build_object_meshes(now.objects);
+  state->object_classes = object_classes(now);
   state->focuses = object_focuses(now.objects);
   return state;
 }

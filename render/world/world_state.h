@@ -68,7 +68,8 @@ struct World::State {
 
   // What floats.
   ObjectMeshes objects = {};
-  std::vector<lod::Focus> focuses = {};  // where it does
+  std::vector<std::uint32_t> object_classes = {};  // of labelled pictures
+  std::vector<lod::Focus> focuses = {};            // where it does
 
   ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
   ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }

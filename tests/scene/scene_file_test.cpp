@@ -265,7 +265,7 @@ TEST(SceneFile, ACameraOnAnObjectIsReadAndDumped) {
   EXPECT_EQ(scene.camera.mount, "skiff");
   EXPECT_EQ(scene.camera.mount_offset_m, glm::dvec3(0, 1, 2));
   EXPECT_EQ(scene.objects[0].name, "");
-  EXPECT_EQ(object_class(scene.objects[0]), "buoy");
+  EXPECT_EQ(object_class(scene.objects[0]), "object");
   EXPECT_EQ(scene.objects[1].name, "skiff");
   EXPECT_EQ(object_class(scene.objects[1]), "boat");
   EXPECT_EQ(camera_mount(scene), &scene.objects[1]);

@@ -63,7 +63,8 @@ TEST_F(FrameLines, JsonHasOneLineAFrameWithTheHashThatIsPrinted) {
     const Json line = Json::parse(lines[static_cast<std::size_t>(i)]);
     const int frame = 2 + i;
     const Json expected = {{"frame", frame},       {"t_s", frame / 10.0}, {"size", {32, 18}},
-                           {"xxh3", line["xxh3"]}, {"scene", "sea"},      {"out", nullptr}};
+                           {"xxh3", line["xxh3"]}, {"scene", "sea"},      {"out", nullptr},
+                           {"file_ms", nullptr}};
     EXPECT_EQ(line, expected);
     printed += fmt::format("frame {} xxh3 {}\n", frame, line["xxh3"].get<std::string>());
   }
@@ -77,6 +78,7 @@ TEST_F(FrameLines, JsonNamesThePictureAndTheTime) {
   EXPECT_EQ(line["frame"], 0);
   EXPECT_EQ(line["t_s"], -1.25);
   EXPECT_EQ(line["out"], single);
+  EXPECT_GT(line["file_ms"].get<double>(), 0.0) << "what its files took";
 
   const Outcome many = sequence({"--out", folder_.file("f_%03d.png"), "--json", "-"});
   const std::vector<std::string> lines = lines_of(many.out);

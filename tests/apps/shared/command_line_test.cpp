@@ -34,9 +34,11 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
   const Outcome outcome = run_render({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* option : {"--scene", "--size", "--time", "--frames", "--fps", "--out",
-                             "--threads", "--hash", "--simd", "--tile", "--triangles",
-                             "--lookup-scale", "--wireframe", "--dump-scene", "--json", "--expect"})
+  for (const char* option :
+       {"--scene",     "--size",       "--time",        "--frames", "--fps",       "--out",
+        "--threads",   "--hash",       "--simd",        "--tile",   "--triangles", "--lookup-scale",
+        "--wireframe", "--dump-scene", "--json",        "--expect", "--labels",    "--labels-out",
+        "--depth",     "--ids",        "--edge-samples"})
     EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
 }
 

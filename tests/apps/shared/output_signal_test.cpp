@@ -121,21 +121,25 @@ TEST_P(Signals, EndTheProgramsWithWholeFilesAndNoOthers) {
   write_text(scene, sea_scene_text());
   int round = 0;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
-    for (const char* kind : {"%04d.png", "%04d.exr", "json"}) {
+    for (const char* kind : {"%04d.png", "%04d.exr", "labels", "json"}) {
       for (int n = 0; n < 3; ++n, ++round) {
         const Surroundings surroundings = {
             .unnamed_files = GetParam().unnamed_files,
             .signal = signal,
             .signal_after_us = random_bits(2, static_cast<std::uint64_t>(round)) % 100'000};
         const std::string file = folder_.file("file_"), size = "32x18";
+        Arguments arguments = {"--scene", scene, "--size", size, "--frames", "0-9999"};
+        if (kind == std::string("labels"))
+          arguments.insert(arguments.end(),
+                           {"--labels", "normal", "--labels-out", file + "l_%04d.exr"});
+        else
+          arguments.insert(arguments.end(), {"--out", file + kind});
         const Outcome outcome =
             kind == std::string("json")
                 ? run_bench({"frame", "--scene", scene, "--size", size, "--frames", "2", "--json",
                              file + "report.json", "--trace", file + "trace.json"},
                             surroundings)
-                : run_render({"--scene", scene, "--size", size, "--frames", "0-9999", "--out",
-                              file + kind},
-                             surroundings);
+                : run_render(arguments, surroundings);
         if (outcome.exit_code != 0) {
           EXPECT_EQ(outcome.exit_code, -signal);
         }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "math/elementary.h"
+
 namespace swell::view {
 namespace {
 
@@ -95,6 +97,27 @@ TEST(CameraControls, APoseComesBackFromItsView) {
     EXPECT_EQ(pose_of(view).eye_m, pose.eye_m);
     EXPECT_NEAR(pose_of(view).heading_rad, pose.heading_rad, 3e-6);
     EXPECT_NEAR(pose_of(view).pitch_rad, pose.pitch_rad, 3e-6);
+  }
+}
+
+TEST(CameraControls, TheRollOfAViewIsKnown) {
+  for (const double roll_rad : {-3.0, -1.2, -0.1, 0.0, 0.4, 2.5}) {
+    const View view = make_view({1.0, 2.0, 3.0}, camera_axes(0.7, -0.3, roll_rad),
+                                lens_of_fov(1.0, 64, 48), 0.25f, 64, 48);
+    const CameraPose pose = pose_of(view);
+    EXPECT_NEAR(pose.heading_rad, 0.7, 1e-6);
+    EXPECT_NEAR(pose.pitch_rad, -0.3, 1e-6);
+    EXPECT_NEAR(pose.roll_rad, roll_rad, 1e-6);
+    EXPECT_EQ(fly(pose, {.forward = true, .look_x_px = 30.0}, 0.1).roll_rad, pose.roll_rad);
+  }
+}
+
+TEST(CameraControls, AVerticalViewHasTheHeadingOfItsUpperEdge) {
+  for (const double pitch_rad : {-kPi / 2.0, kPi / 2.0}) {
+    const CameraPose pose = pose_of(make_view({}, 0.7, pitch_rad, 1.0, 0.25f, 64, 48));
+    EXPECT_NEAR(pose.heading_rad, 0.7, 1e-6);
+    EXPECT_NEAR(pose.roll_rad, 0.0, 1e-6);
+    EXPECT_EQ(std::abs(pose.pitch_rad), kPitchLimit_rad);
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "math/elementary.h"
+
 namespace swell::view {
 namespace {
 
@@ -41,6 +43,22 @@ TEST(CameraText, SaysNoMoreThanIsNeeded) {
             "near_m = 0.25\n");
 }
 
+TEST(CameraText, RollAndTheMatrixKComeBackToo) {
+  const CameraPose pose = {{1.0, 2.0, 3.0}, 0.5, -0.25, scene::radians(7.0)};
+  const scene::Camera lens = {.near_m = 0.5,
+                              .focal_px = glm::dvec2(912.5, 910.75),
+                              .principal_px = glm::dvec2(644.0, 352.5),
+                              .size_px = glm::dvec2(1280.0, 720.0)};
+  const std::string text = camera_toml(pose, lens);
+  EXPECT_EQ(text.find("fov"), std::string::npos) << text;
+  const scene::Camera read = scene::parse_scene(text, "copied.toml").camera;
+  EXPECT_DOUBLE_EQ(read.roll_rad, pose.roll_rad);
+  EXPECT_EQ(read.focal_px, lens.focal_px);
+  EXPECT_EQ(read.principal_px, lens.principal_px);
+  EXPECT_EQ(read.size_px, lens.size_px);
+  EXPECT_EQ(read.near_m, 0.5);
+}
+
 TEST(CameraText, ACameraThatStandsStillIsCopiedInItsOwnNumbers) {
   scene::Camera camera = {.heading_rad = 0.1, .pitch_rad = 0.2};
   const View view = scene::camera_view(camera, 3.0, 64, 48);
@@ -48,6 +66,18 @@ TEST(CameraText, ACameraThatStandsStillIsCopiedInItsOwnNumbers) {
   camera.turn_rad_s = 0.1;
   const View later = scene::camera_view(camera, 3.0, 64, 48);
   EXPECT_NEAR(pose_of_scene(camera, later).heading_rad, 0.4, 3e-6);
+  camera.turn_rad_s = 0.0;
+  camera.roll_rad = 0.3;
+  EXPECT_EQ(pose_of_scene(camera, view).roll_rad, 0.3);
+}
+
+TEST(CameraText, AQuaternionIsReadFromTheView) {
+  scene::Camera camera;
+  camera.quaternion = {0.5, -0.5, 0.5, -0.5};  // looks east
+  const CameraPose pose = pose_of_scene(camera, scene::camera_view(camera, 0.0, 64, 48));
+  EXPECT_NEAR(pose.heading_rad, kPi / 2.0, 1e-6);
+  EXPECT_NEAR(pose.pitch_rad, 0.0, 1e-6);
+  EXPECT_NEAR(pose.roll_rad, 0.0, 1e-6);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ TEST(Keys, TheKeysOfTheHelpScreenDoWhatItSays) {
   EXPECT_EQ(command_for(SDLK_F1), Command::kHelp);
   EXPECT_EQ(command_for(SDLK_F2), Command::kPanel);
   EXPECT_EQ(command_for(SDLK_F3), Command::kWireframe);
+  EXPECT_EQ(command_for(SDLK_F4), Command::kLabel);
   EXPECT_EQ(command_for(SDLK_F11), Command::kFullScreen);
   EXPECT_EQ(command_for(SDLK_F12), Command::kScreenshot);
   EXPECT_EQ(command_for(SDLK_p), Command::kPause);

@@ -93,6 +93,54 @@ TEST_F(ViewerTest, TheScenesOwnCameraIsDrawnWhereTheSceneHasIt) {
   expect_headless_picture(viewer, scene);
 }
 
+// A camera on the waves, rolled, with a lens whose middle is not the picture's.
+scene::Scene mounted_scene() {
+  scene::Scene scene = rough_scene();
+  scene.terrain.reset();
+  scene.objects = {{.kind = scene::ObjectKind::kBox, .position_m = {5.0, -100.0}, .name = "raft"}};
+  scene.camera = {.pitch_rad = -0.05,
+                  .roll_rad = 0.2,
+                  .focal_px = glm::dvec2(200.0, 180.0),
+                  .principal_px = glm::dvec2(90.0, 40.0),
+                  .size_px = glm::dvec2(160.0, 100.0),
+                  .mount = "raft",
+                  .mount_offset_m = {0.0, 2.0, 8.0}};
+  return scene;
+}
+
+TEST_F(ViewerTest, AMountedCameraRidesOnItsObject) {
+  Viewer viewer(mounted_scene(), settings_of(4));
+  viewer.run();
+  EXPECT_NE(viewer.report().camera.eye_m.z, 8.0) << "the waves lift it";
+  expect_headless_picture(viewer, mounted_scene());
+}
+
+TEST_F(ViewerTest, AFlightStartsWithTheRollAndTheLensOfTheScenesCamera) {
+  Viewer viewer(mounted_scene(), settings_of(1000000));
+  viewer.turn();
+  const CameraPose start = viewer.report().camera;
+  EXPECT_NEAR(start.roll_rad, 0.2, 0.15) << "and what the waves add";
+  push_key(SDL_KEYDOWN, SDLK_F2);  // the pointer may be over the panel
+  push_key(SDL_KEYDOWN, SDLK_p);
+  viewer.turn();
+  const render::Target before = viewer.picture();
+  push_button(SDL_MOUSEBUTTONDOWN, SDL_BUTTON_RIGHT);
+  viewer.turn();
+  push_motion(1, 0);
+  viewer.turn();
+  push_motion(-1, 0);
+  viewer.turn();
+  ASSERT_TRUE(viewer.has_own_camera());
+  EXPECT_EQ(viewer.report().camera.roll_rad, start.roll_rad);
+
+  // Back where it was: the same picture but for the last bits of its angles.
+  const std::vector<std::uint32_t>& after = viewer.picture().rgba;
+  ASSERT_EQ(after.size(), before.rgba.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < after.size(); ++i) different += after[i] != before.rgba[i];
+  EXPECT_LT(different, after.size() / 10);
+}
+
 TEST_F(ViewerTest, TheCopiedCameraShowsTheSamePicture) {
   Viewer viewer(small_scene(), settings_of(100));
   viewer.turn();

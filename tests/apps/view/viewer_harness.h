@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "apps/view/viewer.h"
+#include "render/world/world_view.h"
 #include "view_scene.h"
 
 namespace swell::view {
@@ -64,8 +65,9 @@ inline render::Target headless_picture(const scene::Scene& scene, double t_s, in
   Workers workers(1);
   render::Workspace workspace;
   render::Target target;
-  render::render_frame(world, scene::camera_view(scene.camera, t_s, width_px, height_px), t_s,
-                       options, workspace, target, workers);
+  ocean::SeaFrame sea;
+  const View view = render::world_view(world, t_s, width_px, height_px, sea, workers);
+  render::render_frame(world, view, t_s, options, workspace, target, workers);
   return target;
 }
 

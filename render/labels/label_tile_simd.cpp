@@ -1,0 +1,318 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "math/check.h"
+#include "render/labels/label_tile.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/labels/label_tile_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+using DU = hn::RebindToUnsigned<D>;
+using VU = hn::Vec<DU>;
+using Mask = hn::Mask<D>;
+constexpr std::size_t kLanes = hn::MaxLanes(D());
+
+// --- Stores: of the first `count` lanes
+
+HWY_INLINE void StoreLanes(V v, std::size_t count, float* to) {
+  if (count == kLanes)
+    hn::StoreU(v, D(), to);
+  else
+    hn::BlendedStore(v, hn::FirstN(D(), count), D(), to);
+}
+
+HWY_INLINE void StoreLanes(VU v, std::size_t count, std::uint32_t* to) {
+  if (count == kLanes)
+    hn::StoreU(v, DU(), to);
+  else
+    hn::BlendedStore(v, hn::FirstN(DU(), count), DU(), to);
+}
+
+HWY_INLINE void StoreLanes(V3 v, std::size_t count, glm::vec3* to) {
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  if (count == kLanes) return hn::StoreInterleaved3(v.x, v.y, v.z, D(), &to->x);
+  HWY_ALIGN std::array<glm::vec3, kLanes> all;
+  hn::StoreInterleaved3(v.x, v.y, v.z, D(), &all[0].x);
+  std::copy_n(all.begin(), count, to);
+}
+
+HWY_INLINE void StoreLanes(V x, V y, std::size_t count, glm::vec2* to) {
+  static_assert(sizeof(glm::vec2) == 2 * sizeof(float));
+  if (count == kLanes) return hn::StoreInterleaved2(x, y, D(), &to->x);
+  HWY_ALIGN std::array<glm::vec2, kLanes> all;
+  hn::StoreInterleaved2(x, y, D(), &all[0].x);
+  std::copy_n(all.begin(), count, to);
+}
+
+HWY_INLINE void StoreBytes(V v, std::size_t count, std::uint8_t* to) {
+  const hn::Rebind<std::uint8_t, D> d8;
+  HWY_ALIGN std::array<std::uint8_t, kLanes> all;
+  hn::StoreU(hn::DemoteTo(d8, hn::ConvertTo(DI(), v)), d8, all.data());
+  std::copy_n(all.data(), count, to);
+}
+
+// --- Pixels
+
+// A packet of neighbours in a row.
+struct LabelPacket {
+  V x_px, y_px;  // whole pixel numbers
+  V z;           // as in the depth buffer; 0 where the sky is seen
+  V depth;       // [m]; +inf where the sky is seen
+  V3 ray;        // of depth 1
+  VU primitive;
+  Mask is_sky, is_water, is_object;
+  std::size_t tile_at;  // of the first pixel in the tile's buffers
+  std::size_t count;    // of pixels in the picture
+};
+
+HWY_INLINE Mask InRange(const PrimitiveRanges& ranges, SurfaceKind kind, VU primitive) {
+  const DU du;
+  const std::uint32_t begin = ranges.begin(kind), size = ranges.end(kind) - begin;
+  return hn::RebindMask(D(), hn::Lt(hn::Sub(primitive, hn::Set(du, begin)), hn::Set(du, size)));
+}
+
+HWY_INLINE LabelPacket LoadPacket(const Shading& s, const LabelTile& tile,
+                                  const raster::PixelBox& box, int x, int y) {
+  const D d;
+  const DU du;
+  LabelPacket p;
+  p.tile_at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
+  p.count = std::min(kLanes, static_cast<std::size_t>(box.width_px - x));
+  p.x_px = hn::ConvertTo(d, hn::Iota(DI(), box.x0_px + x));
+  p.y_px = Constant(static_cast<float>(box.y0_px + y));
+  p.ray = RayAt(s.rays, p.x_px, p.y_px);
+  const bool open_sky = tile.depth.empty();
+  p.primitive = open_sky ? hn::Set(du, raster::kNoPrimitive)
+                         : hn::LoadU(du, tile.primitive.data() + p.tile_at);
+  p.is_sky = hn::RebindMask(d, hn::Eq(p.primitive, hn::Set(du, raster::kNoPrimitive)));
+  p.is_water = InRange(s.primitives, SurfaceKind::kWater, p.primitive);
+  p.is_object = InRange(s.primitives, SurfaceKind::kObjects, p.primitive);
+  // So far that floats have no depth for it, a surface is not at infinity all the same.
+  const V z = open_sky ? hn::Zero(d) : hn::LoadU(d, tile.depth.data() + p.tile_at);
+  p.z = hn::IfThenZeroElse(p.is_sky, hn::Max(z, Constant(1e-30f)));
+  p.depth = hn::IfThenElse(p.is_sky, Constant(std::numeric_limits<float>::infinity()),
+                           hn::Div(Constant(s.rays.near_m), p.z));
+  return p;
+}
+
+// A table's vectors by the number of the packet's primitives, less first; of lanes outside `where`
+// any of them.
+HWY_INLINE V3 GatherAt(std::span<const glm::vec3> table, std::uint32_t first, const Mask& where,
+                       const LabelPacket& p) {
+  const D d;
+  const DU du;
+  const VU number =
+      hn::IfThenElseZero(hn::RebindMask(du, where), hn::Sub(p.primitive, hn::Set(du, first)));
+  const VI at = hn::BitCast(DI(), hn::Add(number, hn::Add(number, number)));
+  const float* const base = &table[0].x;
+  return {hn::GatherIndex(d, base, at), hn::GatherIndex(d, base + 1, at),
+          hn::GatherIndex(d, base + 2, at)};
+}
+
+HWY_INLINE V3 OnlyWhere(const Mask& where, V3 v) {
+  return {hn::IfThenElseZero(where, v.x), hn::IfThenElseZero(where, v.y),
+          hn::IfThenElseZero(where, v.z)};
+}
+
+// Calls visit(lane, object) with the number in the scene of each lane's object, where there is one.
+template <class Visit>
+HWY_INLINE void VisitObjects(const LabelSources& in, const LabelPacket& p, const Visit& visit) {
+  if (hn::AllFalse(D(), p.is_object)) return;
+  HWY_ALIGN std::array<std::uint32_t, kLanes> primitive;
+  hn::Store(p.primitive, DU(), primitive.data());
+  const PrimitiveRanges& ranges = in.shading.primitives;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if (ranges.holds(SurfaceKind::kObjects, primitive[lane]))
+      visit(lane, in.objects.primitives[primitive[lane] - ranges.begin(SurfaceKind::kObjects)]
+                      .object->object);
+}
+
+// --- Labels
+
+// What is seen, as numbers: of the sky, of the water, of the land; of object n what of_object(n)
+// is.
+template <class OfObject>
+HWY_INLINE VU NumberOf(const LabelSources& in, const LabelPacket& p, VU sky, VU water, VU land,
+                       const OfObject& of_object) {
+  const DU du;
+  const VU number = hn::IfThenElse(hn::RebindMask(du, p.is_sky), sky,
+                                   hn::IfThenElse(hn::RebindMask(du, p.is_water), water, land));
+  if (hn::AllFalse(D(), p.is_object)) return number;
+  HWY_ALIGN std::array<std::uint32_t, kLanes> lanes;
+  hn::Store(number, du, lanes.data());
+  VisitObjects(in, p,
+               [&](std::size_t lane, std::uint32_t object) { lanes[lane] = of_object(object); });
+  return hn::Load(du, lanes.data());
+}
+
+HWY_INLINE VU IdOf(const LabelSources& in, const LabelPacket& p) {
+  const DU du;
+  return NumberOf(in, p, hn::Set(du, kSkyId), hn::Set(du, kWaterId), hn::Set(du, kLandId),
+                  [](std::uint32_t object) { return kFirstObjectId + object; });
+}
+
+HWY_INLINE VU ClassOf(const LabelSources& in, const LabelPacket& p, V foam) {
+  const DU du;
+  const auto is_foam = hn::RebindMask(du, hn::Gt(foam, Constant(0.5f)));
+  const VU water = hn::IfThenElse(is_foam, hn::Set(du, kFoamClass), hn::Set(du, kWaterClass));
+  return NumberOf(in, p, hn::Set(du, kSkyClass), water, hn::Set(du, kTerrainClass),
+                  [&](std::uint32_t object) { return in.world.object_classes[object]; });
+}
+
+HWY_INLINE V3 ShadedNormal(const LabelTile& tile, const LabelPacket& p) {
+  const D d;
+  if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  const ShadedLabels& s = *tile.shaded;
+  return OnlyWhere(hn::Not(p.is_sky), {hn::LoadU(d, s.normal_x.data() + p.tile_at),
+                                       hn::LoadU(d, s.normal_y.data() + p.tile_at),
+                                       hn::LoadU(d, s.normal_z.data() + p.tile_at)});
+}
+
+HWY_INLINE V3 GeometricNormal(const LabelSources& in, const LabelPacket& p) {
+  const D d;
+  if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  const Mask is_surface = hn::Not(p.is_sky);
+  return OnlyWhere(is_surface, GatherAt(in.tables.normal, 0, is_surface, p));
+}
+
+// What the shader has left of the water; 0 elsewhere.
+template <class Plane>
+HWY_INLINE V OfWater(const Plane& plane, const LabelPacket& p) {
+  const D d;
+  if (hn::AllFalse(d, p.is_water)) return hn::Zero(d);
+  return hn::IfThenElseZero(p.is_water, hn::LoadU(d, plane.data() + p.tile_at));
+}
+
+HWY_INLINE V FoamOf(const LabelSources& in, const LabelTile& tile, const LabelPacket& p) {
+  if (!in.world.coast || !tile.shaded) return hn::Zero(D());
+  return OfWater(tile.shaded->foam_cover, p);
+}
+
+HWY_INLINE V ElevationOf(const Shading& s, const LabelPacket& p) {
+  return hn::IfThenElseZero(p.is_water, hn::MulAdd(p.depth, p.ray.z, Constant(s.rays.eye_z)));
+}
+
+// How far what is seen moves in the world to the next frame.
+HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
+  const D d;
+  V3 move = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  if (!hn::AllFalse(d, p.is_water)) {
+    const V3 rise =
+        GatherAt(in.tables.rise, in.shading.primitives.begin(SurfaceKind::kWater), p.is_water, p);
+    const V x = hn::Mul(p.depth, p.ray.x), y = hn::Mul(p.depth, p.ray.y);
+    move.z = hn::IfThenElseZero(p.is_water, hn::MulAdd(rise.z, y, hn::MulAdd(rise.y, x, rise.x)));
+  }
+  if (hn::AllFalse(d, p.is_object)) return move;
+  HWY_ALIGN std::array<float, kLanes> depth, ray_x, ray_y, ray_z, x, y, z;
+  hn::Store(p.depth, d, depth.data());
+  hn::Store(p.ray.x, d, ray_x.data());
+  hn::Store(p.ray.y, d, ray_y.data());
+  hn::Store(p.ray.z, d, ray_z.data());
+  hn::Store(move.x, d, x.data());
+  hn::Store(move.y, d, y.data());
+  hn::Store(move.z, d, z.data());
+  VisitObjects(in, p, [&](std::size_t lane, std::uint32_t object) {
+    const ObjectMotion& motion = in.tables.object_motion[object];
+    const glm::vec3 p_rel = depth[lane] * glm::vec3(ray_x[lane], ray_y[lane], ray_z[lane]);
+    const glm::vec3 moved = motion.turn * (p_rel - motion.origin_rel) + motion.shift;
+    x[lane] = moved.x, y[lane] = moved.y, z[lane] = moved.z;
+  });
+  return {hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data())};
+}
+
+// m v + b
+HWY_INLINE V3 MultiplyAdd(const glm::mat3& m, V3 v, V3 b) {
+  return ScaleAdd(Constant(m[0]), v.x,
+                  ScaleAdd(Constant(m[1]), v.y, ScaleAdd(Constant(m[2]), v.z, b)));
+}
+
+// CameraMotion's formula: with q = (x, y, 1) and m what is added to q, the point moves by
+// (m.xy - q.xy m.z) / (1 + m.z).
+HWY_INLINE void StoreMotion(const LabelSources& in, const LabelPacket& p, glm::vec2* to) {
+  const CameraMotion& camera = in.tables.camera;
+  const raster::Viewport viewport = in.shading.viewport;
+  const V x = hn::Add(p.x_px, Constant(0.5f - 0.5f * static_cast<float>(viewport.width_px)));
+  const V y = hn::Add(p.y_px, Constant(0.5f - 0.5f * static_cast<float>(viewport.height_px)));
+  const V inverse_depth = hn::Mul(p.z, Constant(1.0f / in.shading.rays.near_m));
+  const V3 moved = MultiplyAdd(camera.next, MoveOf(in, p), Constant(camera.shift));
+  const V3 added = MultiplyAdd(camera.turn, {x, y, Constant(1.0f)}, Scale(moved, inverse_depth));
+  const V ahead = hn::Add(Constant(1.0f), added.z);
+  const Mask is_ahead = hn::Gt(ahead, Constant(1e-6f));
+  const V inverse = hn::Div(Constant(1.0f), hn::IfThenElse(is_ahead, ahead, Constant(1.0f)));
+  const V dx = hn::Mul(hn::NegMulAdd(x, added.z, added.x), inverse);
+  const V dy = hn::Mul(hn::NegMulAdd(y, added.z, added.y), inverse);
+  StoreLanes(hn::IfThenElseZero(is_ahead, dx), hn::IfThenElseZero(is_ahead, dy), p.count, to);
+}
+
+void FillTile(const LabelSources& in, const LabelTile& tile, Labels& labels) {
+  const Shading& s = in.shading;
+  const LabelSet set = in.tables.set;
+  const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, tile.number);
+  for (int y = 0; y < box.height_px; ++y) {
+    const std::size_t row =
+        static_cast<std::size_t>(box.y0_px + y) * s.viewport.width_px + box.x0_px;
+    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
+      const LabelPacket p = LoadPacket(s, tile, box, x, y);
+      const std::size_t at = row + static_cast<std::size_t>(x);
+      if (needs_depth(set)) StoreLanes(p.depth, p.count, &labels.depth_m[at]);
+      if (set.has(Label::kNormal)) StoreLanes(ShadedNormal(tile, p), p.count, &labels.normal[at]);
+      if (set.has(Label::kGeometricNormal))
+        StoreLanes(GeometricNormal(in, p), p.count, &labels.geometric_normal[at]);
+      if (set.has(Label::kId)) StoreLanes(IdOf(in, p), p.count, &labels.id[at]);
+      if (set.has(Label::kClass))
+        StoreLanes(ClassOf(in, p, FoamOf(in, tile, p)), p.count, &labels.klass[at]);
+      if (set.has(Label::kMotion)) StoreMotion(in, p, &labels.motion_px[at]);
+      if (set.has(Label::kElevation))
+        StoreLanes(ElevationOf(s, p), p.count, &labels.elevation_m[at]);
+      if (set.has(Label::kFoam)) StoreLanes(FoamOf(in, tile, p), p.count, &labels.foam[at]);
+      if (set.has(Label::kFlags))
+        StoreBytes(tile.shaded ? OfWater(tile.shaded->flags, p) : hn::Zero(D()), p.count,
+                   &labels.flags[at]);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::render {
+
+HWY_EXPORT(FillTile);
+
+void resize_labels(LabelSet set, raster::Viewport viewport, Labels& labels) {
+  const std::size_t pixels = static_cast<std::size_t>(viewport.width_px) * viewport.height_px;
+  const auto resize = [&](bool is_wanted, auto& plane) { plane.resize(is_wanted ? pixels : 0); };
+  labels.set = set;
+  resize(needs_depth(set), labels.depth_m);
+  resize(set.has(Label::kNormal), labels.normal);
+  resize(set.has(Label::kGeometricNormal), labels.geometric_normal);
+  resize(set.has(Label::kId), labels.id);
+  resize(set.has(Label::kClass), labels.klass);
+  resize(set.has(Label::kMotion), labels.motion_px);
+  resize(set.has(Label::kElevation), labels.elevation_m);
+  resize(set.has(Label::kFoam), labels.foam);
+  resize(set.has(Label::kFlags), labels.flags);
+}
+
+void fill_label_tile(const LabelSources& in, const LabelTile& tile, Labels& labels) {
+  const auto side = static_cast<std::size_t>(in.shading.grid.tile_size_px);
+  SWELL_CHECK(tile.depth.size() == tile.primitive.size() &&
+                  (tile.depth.empty() || tile.depth.size() == side * side),
+              "depth={} primitive={} tile_size_px={}", tile.depth.size(), tile.primitive.size(),
+              side);
+  HWY_DYNAMIC_DISPATCH(FillTile)(in, tile, labels);
+}
+
+}  // namespace swell::render
+#endif  // HWY_ONCE

@@ -1,0 +1,20 @@
+// The camera of a world's scene at a time, also where an object on the waves carries it.
+//
+//   ocean::SeaFrame sea;  // reused from frame to frame
+//   const View view = render::world_view(world, t_s, 1280, 720, sea, workers);
+#pragma once
+
+#include "math/parallel.h"
+#include "math/view.h"
+#include "ocean/sea.h"
+#include "render/frame.h"
+
+namespace swell::render {
+
+// The view of the scene's camera at t_s (finite) for a picture of at least 1 x 1 pixels. Where an
+// object carries the camera it fills `sea` with the waves of that time, in as long as a frame's
+// stage "sea" takes; else `sea` stays as it is.
+View world_view(const World& world, double t_s, int width_px, int height_px, ocean::SeaFrame& sea,
+                Workers& workers);
+
+}  // namespace swell::render
