@@ -68,23 +68,25 @@ void check_picture_output(const RenderOptions& options) {
   check_picture_file(picture_path(options, frame_range(options).last));
 }
 
-// The files of labels: names of frames, formats, places.
+// The file of --labels and its sidecar: names of frames, format, places.
+void check_label_file(const RenderOptions& options) {
+  if (options.out.empty() && options.labels_out.empty())
+    throw OptionError(
+        "command line: --labels, got no file for them, allowed with --out or --labels-out");
+  if (!options.labels_out.empty()) check_numbered(options, "--labels-out", options.labels_out);
+  const std::filesystem::path path = label_path(options, frame_range(options).last);
+  if (lower_extension(path) != ".exr")
+    throw OptionError(fmt::format("command line: --labels-out: got '{}', allowed .exr files",
+                                  options.labels_out));
+  check_output_place(path);
+  check_output_place(sidecar_path(path));
+}
+
 void check_label_output(const RenderOptions& options) {
   const int last = frame_range(options).last;
   if (!drawn_labels(options).empty() && options.setup.frame.picture_scale != 1.0)
     throw OptionError("command line: --picture-scale, got it with labels, allowed 1 with them");
-  if (!options.labels.empty()) {
-    if (options.out.empty() && options.labels_out.empty())
-      throw OptionError(
-          "command line: --labels, got no file for them, allowed with --out or "
-          "--labels-out");
-    if (!options.labels_out.empty()) check_numbered(options, "--labels-out", options.labels_out);
-    if (lower_extension(label_path(options, last)) != ".exr")
-      throw OptionError(fmt::format("command line: --labels-out: got '{}', allowed .exr files",
-                                    options.labels_out));
-    check_output_place(label_path(options, last));
-    check_output_place(sidecar_path(label_path(options, last)));
-  }
+  if (!options.labels.empty()) check_label_file(options);
   for (const auto& [option, pattern] :
        {std::pair("--depth", options.depth), std::pair("--ids", options.ids)}) {
     if (pattern.empty()) continue;
@@ -102,9 +104,12 @@ void check_distinct(const RenderOptions& options) {
       {"--ids", options.ids},
       {"--json", options.json}};
   std::erase_if(files, [](const auto& file) { return file.second.empty(); });
+  const auto place = [&](std::size_t i) {
+    return std::filesystem::path(files[i].second).lexically_normal();
+  };
   for (std::size_t i = 1; i < files.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (files[i].second == files[j].second)
+      if (place(i) == place(j))
         throw OptionError(fmt::format("command line: {}: got '{}', allowed another file than {}",
                                       files[i].first, files[i].second, files[j].first));
 }

@@ -443,6 +443,7 @@ TEST_F(LabelOutput, ImpossibleOptionsAreOneLine) {
       {{"--depth", png, "--picture-scale", "0.5"}, {"--picture-scale"}},
       {{"--depth", png, "--ids", png}, {"--ids", png, "--depth"}},
       {{"--out", exr, "--labels", "id", "--labels-out", exr}, {"--labels-out", exr, "--out"}},
+      {{"--out", exr, "--labels", "id", "--labels-out", folder_.file("./a.exr")}, {"--labels-out"}},
       {{"--out", png, "--edge-samples", "3"}, {"--edge-samples", "'3'", "0, 4 or 8"}},
       {{"--out", png, "--edge-samples", "-1"}, {"--edge-samples", "'-1'"}},
   };
