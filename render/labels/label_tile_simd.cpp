@@ -80,24 +80,33 @@ HWY_INLINE Mask InRange(const PrimitiveRanges& ranges, SurfaceKind kind, VU prim
   return hn::RebindMask(D(), hn::Lt(hn::Sub(primitive, hn::Set(du, begin)), hn::Set(du, size)));
 }
 
-HWY_INLINE LabelPacket LoadPacket(const Shading& s, const LabelTile& tile,
-                                  const raster::PixelBox& box, int x, int y) {
+// What packets are made from. A copy, so that storing labels cannot be thought to change it.
+struct PacketSource {
+  ViewRays rays;
+  PrimitiveRanges primitives;
+  raster::PixelBox box;
+  int tile_size_px;
+  const float* depth;  // null: open sky
+  const std::uint32_t* primitive;
+};
+
+HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   const D d;
   const DU du;
   LabelPacket p;
-  p.tile_at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-  p.count = std::min(kLanes, static_cast<std::size_t>(box.width_px - x));
-  p.x_px = hn::ConvertTo(d, hn::Iota(DI(), box.x0_px + x));
-  p.y_px = Constant(static_cast<float>(box.y0_px + y));
+  p.tile_at = static_cast<std::size_t>(y) * s.tile_size_px + x;
+  p.count = std::min(kLanes, static_cast<std::size_t>(s.box.width_px - x));
+  p.x_px = hn::ConvertTo(d, hn::Iota(DI(), s.box.x0_px + x));
+  p.y_px = Constant(static_cast<float>(s.box.y0_px + y));
   p.ray = RayAt(s.rays, p.x_px, p.y_px);
-  const bool open_sky = tile.depth.empty();
-  p.primitive = open_sky ? hn::Set(du, raster::kNoPrimitive)
-                         : hn::LoadU(du, tile.primitive.data() + p.tile_at);
+  const bool open_sky = !s.depth;
+  p.primitive =
+      open_sky ? hn::Set(du, raster::kNoPrimitive) : hn::LoadU(du, s.primitive + p.tile_at);
   p.is_sky = hn::RebindMask(d, hn::Eq(p.primitive, hn::Set(du, raster::kNoPrimitive)));
   p.is_water = InRange(s.primitives, SurfaceKind::kWater, p.primitive);
   p.is_object = InRange(s.primitives, SurfaceKind::kObjects, p.primitive);
   // So far that floats have no depth for it, a surface is not at infinity all the same.
-  const V z = open_sky ? hn::Zero(d) : hn::LoadU(d, tile.depth.data() + p.tile_at);
+  const V z = open_sky ? hn::Zero(d) : hn::LoadU(d, s.depth + p.tile_at);
   p.z = hn::IfThenZeroElse(p.is_sky, hn::Max(z, Constant(1e-30f)));
   p.depth = hn::IfThenElse(p.is_sky, Constant(std::numeric_limits<float>::infinity()),
                            hn::Div(Constant(s.rays.near_m), p.z));
@@ -253,32 +262,68 @@ HWY_INLINE void StoreMotion(const LabelSources& in, const LabelPacket& p, glm::v
   StoreLanes(hn::IfThenElseZero(is_ahead, dx), hn::IfThenElseZero(is_ahead, dy), p.count, to);
 }
 
-void FillTile(const LabelSources& in, const LabelTile& tile, Labels& labels) {
+// Calls put(packet, at) for the tile's packets; `at`: of the first pixel in the picture. What `put`
+// does not use of a packet costs nothing.
+template <class Put>
+HWY_INLINE void ForPackets(const LabelSources& in, const LabelTile& tile, const Put& put) {
   const Shading& s = in.shading;
+  const PacketSource source{s.rays,
+                            s.primitives,
+                            raster::tile_box(s.viewport, s.grid, tile.number),
+                            s.grid.tile_size_px,
+                            tile.depth.empty() ? nullptr : tile.depth.data(),
+                            tile.primitive.data()};
+  const raster::PixelBox box = source.box;
+  const auto width_px = static_cast<std::size_t>(s.viewport.width_px);
+  for (int y = 0; y < box.height_px; ++y)
+    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
+      put(LoadPacket(source, x, y),
+          static_cast<std::size_t>(box.y0_px + y) * width_px + box.x0_px + x);
+}
+
+// What needs no more of a packet than its depth or its primitives: a loop each, which leaves out
+// the rest of the packet, takes half the instructions that one loop takes.
+HWY_INLINE void FillPlainLabels(const LabelSources& in, const LabelTile& tile, Labels& labels) {
   const LabelSet set = in.tables.set;
-  const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, tile.number);
-  for (int y = 0; y < box.height_px; ++y) {
-    const std::size_t row =
-        static_cast<std::size_t>(box.y0_px + y) * s.viewport.width_px + box.x0_px;
-    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
-      const LabelPacket p = LoadPacket(s, tile, box, x, y);
-      const std::size_t at = row + static_cast<std::size_t>(x);
-      if (needs_depth(set)) StoreLanes(p.depth, p.count, &labels.depth_m[at]);
-      if (set.has(Label::kNormal)) StoreLanes(ShadedNormal(tile, p), p.count, &labels.normal[at]);
-      if (set.has(Label::kGeometricNormal))
-        StoreLanes(GeometricNormal(in, p), p.count, &labels.geometric_normal[at]);
-      if (set.has(Label::kId)) StoreLanes(IdOf(in, p), p.count, &labels.id[at]);
-      if (set.has(Label::kClass))
-        StoreLanes(ClassOf(in, p, FoamOf(in, tile, p)), p.count, &labels.klass[at]);
-      if (set.has(Label::kMotion)) StoreMotion(in, p, &labels.motion_px[at]);
-      if (set.has(Label::kElevation))
-        StoreLanes(ElevationOf(s, p), p.count, &labels.elevation_m[at]);
-      if (set.has(Label::kFoam)) StoreLanes(FoamOf(in, tile, p), p.count, &labels.foam[at]);
-      if (set.has(Label::kFlags))
-        StoreBytes(tile.shaded ? OfWater(tile.shaded->flags, p) : hn::Zero(D()), p.count,
-                   &labels.flags[at]);
-    }
-  }
+  if (needs_depth(set))
+    ForPackets(in, tile, [&](const LabelPacket& p, std::size_t at) HWY_ATTR {
+      StoreLanes(p.depth, p.count, &labels.depth_m[at]);
+    });
+  if (set.has(Label::kId))
+    ForPackets(in, tile, [&](const LabelPacket& p, std::size_t at) HWY_ATTR {
+      StoreLanes(IdOf(in, p), p.count, &labels.id[at]);
+    });
+  if (set.has(Label::kClass))
+    ForPackets(in, tile, [&](const LabelPacket& p, std::size_t at) HWY_ATTR {
+      StoreLanes(ClassOf(in, p, FoamOf(in, tile, p)), p.count, &labels.klass[at]);
+    });
+}
+
+// The others in one loop: a loop each took 1.1 times as long a frame with all of them.
+HWY_INLINE void FillOtherLabels(const LabelSources& in, const LabelTile& tile, Labels& labels) {
+  const LabelSet set = in.tables.set;
+  ForPackets(in, tile, [&](const LabelPacket& p, std::size_t at) HWY_ATTR {
+    if (set.has(Label::kNormal)) StoreLanes(ShadedNormal(tile, p), p.count, &labels.normal[at]);
+    if (set.has(Label::kGeometricNormal))
+      StoreLanes(GeometricNormal(in, p), p.count, &labels.geometric_normal[at]);
+    if (set.has(Label::kMotion)) StoreMotion(in, p, &labels.motion_px[at]);
+    if (set.has(Label::kElevation))
+      StoreLanes(ElevationOf(in.shading, p), p.count, &labels.elevation_m[at]);
+    if (set.has(Label::kFoam)) StoreLanes(FoamOf(in, tile, p), p.count, &labels.foam[at]);
+    if (set.has(Label::kFlags))
+      StoreBytes(tile.shaded ? OfWater(tile.shaded->flags, p) : hn::Zero(D()), p.count,
+                 &labels.flags[at]);
+  });
+}
+
+void FillTile(const LabelSources& in, const LabelTile& tile, Labels& labels) {
+  FillPlainLabels(in, tile, labels);
+  constexpr std::array kOthers = {Label::kNormal, Label::kGeometricNormal,
+                                  Label::kMotion, Label::kElevation,
+                                  Label::kFoam,   Label::kFlags};
+  const LabelSet set = in.tables.set;
+  if (std::any_of(kOthers.begin(), kOthers.end(), [&](Label label) { return set.has(label); }))
+    FillOtherLabels(in, tile, labels);
 }
 
 }  // namespace HWY_NAMESPACE
