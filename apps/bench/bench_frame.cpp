@@ -151,6 +151,9 @@ void run_frame_bench(const FrameBench& bench) {
   select_simd(bench.setup.simd);
   check_text_place(bench.json);
   check_text_place(bench.trace);
+  check_labels_scale(bench.setup.frame.labels, bench.setup.frame);
+  if (bench.govern && !bench.setup.frame.labels.empty())
+    throw OptionError("command line: --govern, got it with labels, allowed without them");
   const render::World world(load_scene(bench.setup.scene_path));
   Trace trace;
   const auto switches_before = resource_usage().ru_nivcsw;
@@ -177,6 +180,7 @@ BenchMode add_bench_frame(CommandLine& program) {
               "Splits and merges of a surface a frame at most; pictures depend on those before");
   add_integer(line, "--lod-groups", bench->setup.frame.lod_groups, 1, 64,
               "Groups of priorities, one of which is worked out anew in a frame; as above");
+  add_labels_option(line, bench->setup.frame.labels, "Fill these labels too, in memory");
   line.add_flag("--govern", bench->govern,
                 "Lower triangles and scales as far as the budget takes, as the viewer can");
   add_json_option(line, bench->json);

@@ -34,18 +34,9 @@ void add_output_options(CommandLine& line, RenderOptions& options) {
 }
 
 void add_label_options(CommandLine& line, RenderOptions& options) {
-  const auto take_labels = [&options](const std::string& text) {
-    const auto labels = parse_labels(text);
-    if (!labels)
-      throw OptionError(fmt::format("command line: --labels: got '{}', allowed {}, with commas",
-                                    text, label_names()));
-    options.labels = *labels;
-  };
-  line.add_value({"--labels", "LIST", "",
-                  "Write labels beside the picture, or into it if it is .exr, and a .labels.json; "
-                  "LIST is of " +
-                      label_names(),
-                  take_labels});
+  add_labels_option(
+      line, options.labels,
+      "Write labels beside the picture, or into it if it is .exr, and a .labels.json");
   line.add_text("--labels-out", "FILE", options.labels_out, "The file of --labels: .exr");
   line.need("--labels-out", "--labels");
   line.add_text("--depth", "FILE", options.depth,
@@ -84,8 +75,7 @@ void check_label_file(const RenderOptions& options) {
 
 void check_label_output(const RenderOptions& options) {
   const int last = frame_range(options).last;
-  if (!drawn_labels(options).empty() && options.setup.frame.picture_scale != 1.0)
-    throw OptionError("command line: --picture-scale, got it with labels, allowed 1 with them");
+  check_labels_scale(drawn_labels(options), options.setup.frame);
   if (!options.labels.empty()) check_label_file(options);
   for (const auto& [option, pattern] :
        {std::pair("--depth", options.depth), std::pair("--ids", options.ids)}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "apps/shared/label_file.h"
 #include "apps/shared/parse_number.h"
 #include "apps/shared/picture_file.h"
 #include "math/simd_target.h"
@@ -87,6 +88,20 @@ void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
                   "Samples a pixel where surfaces meet, 0, 4 or 8, instead of the scene's",
                   take_samples});
   line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges; not for .exr");
+}
+
+void add_labels_option(CommandLine& line, render::LabelSet& labels, const std::string& help) {
+  const auto take_labels = [&labels](const std::string& text) {
+    const auto wanted = parse_labels(text);
+    if (!wanted) refuse("--labels", text, label_names() + ", with commas");
+    labels = *wanted;
+  };
+  line.add_value({"--labels", "LIST", "", help + "; LIST is of " + label_names(), take_labels});
+}
+
+void check_labels_scale(render::LabelSet labels, const render::FrameOptions& frame) {
+  if (!labels.empty() && frame.picture_scale != 1.0)
+    throw OptionError("command line: --picture-scale, got it with labels, allowed 1 with them");
 }
 
 void check_linear_light(const render::FrameOptions& frame, std::string_view option,

@@ -34,6 +34,12 @@ void add_frame_setup(CommandLine& line, FrameSetup& setup);
 // --picture-scale, --edge-samples, --wireframe
 void add_quality_options(CommandLine& line, render::FrameOptions& frame);
 
+// --labels LIST; `help` says what becomes of them.
+void add_labels_option(CommandLine& line, render::LabelSet& labels, const std::string& help);
+
+// Refuses labels of a picture that is drawn small.
+void check_labels_scale(render::LabelSet labels, const render::FrameOptions& frame);
+
 // Throws OptionError for what a file of linear light (.exr) does not show: --picture-scale,
 // --wireframe. `option` is the one that names the file.
 void check_linear_light(const render::FrameOptions& frame, std::string_view option,
