@@ -77,6 +77,8 @@ class Mast : public testing::TestWithParam<double> {
     }
   }
 
+  World without_{plain_scene()}, with_{mast_scene()};
+
   // The brightness that the mast adds to each pixel of the finished picture, in that of a pixel all
   // mast.
   std::vector<double> brightness(const EdgeRenderer& r) {
@@ -97,7 +99,6 @@ class Mast : public testing::TestWithParam<double> {
   }
 
  private:
-  World without_{plain_scene()}, with_{mast_scene()};
   std::vector<std::uint32_t> sky_;
   double mast_ = 0.0;
 };
@@ -161,6 +162,24 @@ TEST_P(Mast, CreepsWithoutJumps) {
   EXPECT_EQ(largest_step(0), 1.0);
   EXPECT_LE(largest_step(4), 0.25);
   EXPECT_LE(largest_step(8), 0.25);
+}
+
+// Upright in the middle of the picture, where two pixels meet: no centre is in it, of each row's
+// samples the two next to the middle.
+TEST_P(Mast, BetweenTheCentresIsFoundInTilesThatShowNothingElse) {
+  if (GetParam() > 0.3) GTEST_SKIP() << "reaches more samples";
+  for (const int samples : {4, 8}) {
+    for (const int tile_size_px : {16, 64}) {
+      EdgeRenderer renderer(with_);
+      renderer.options.tile_size_px = tile_size_px;
+      renderer.draw(view_of_width(GetParam(), 0.0), samples);
+      for (const Centre& centre : renderer.centres())
+        ASSERT_NE(renderer.kind_of(centre.primitive), 3);
+      for (const double row : rows_of(covered(renderer))) ASSERT_EQ(row, 2.0 / samples);
+      for (const double row : rows_of(brightness(renderer)))
+        ASSERT_NEAR(row, 2.0 / samples, 0.03) << samples << " samples, tile " << tile_size_px;
+    }
+  }
 }
 
 // FAILS with render/tile/edges.cpp as it is, and is to be enabled when that is mended: a part is
