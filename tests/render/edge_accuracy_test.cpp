@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "render/edge_frames.h"
+#include "render/edge_scenes.h"
 #include "trials.h"
 
 namespace swell::render {

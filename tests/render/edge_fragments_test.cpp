@@ -5,6 +5,7 @@
 #include <set>
 
 #include "render/edge_frames.h"
+#include "render/edge_scenes.h"
 
 namespace swell::render {
 namespace {

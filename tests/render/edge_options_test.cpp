@@ -1,8 +1,11 @@
 // Smooth edges: how parts of pixels are mixed, who asks for them, and what they cost.
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "allocation_count.h"
 #include "render/edge_frames.h"
+#include "render/edge_scenes.h"
 
 namespace swell::render {
 namespace {

@@ -1,7 +1,9 @@
 // Pictures with smooth edges are the same bits however they are made.
 #include <gtest/gtest.h>
 
+#include "math/simd_target.h"
 #include "render/edge_frames.h"
+#include "trials.h"
 
 namespace swell::render {
 namespace {
@@ -54,6 +56,25 @@ TEST_P(SmoothEdgesOf, AreTheSameBitsForAnyThreadsTilesAndSimdTarget) {
               << " threads, tile " << way.tile_size_px << ' ' << simd_target_name(simd);
         }
       }
+    }
+  }
+}
+
+TEST_P(SmoothEdgesOf, AreTheSameBitsFromAnywhere) {
+  const World& world = shipped_world(GetParam());
+  for (int n = 0; n < std::max(1, trials(20)); ++n) {
+    const Shot shot = random_shot(n, 90 + 7 * n, 60 + 3 * n);
+    const auto drawn = [&](const Way& way) {
+      select_simd_target(way.simd);
+      EdgeRenderer renderer(world, shot.t_s, way.threads);
+      renderer.options.tile_size_px = way.tile_size_px;
+      renderer.draw(shot.view, n % 2 == 0 ? 8 : 4);
+      return renderer.target.rgba;
+    };
+    const auto reference = drawn({2, 64, SimdTarget::kAvx2});
+    EXPECT_TRUE(drawn({1, 16, SimdTarget::kAvx2}) == reference) << "shot " << n;
+    if (simd_target_available(SimdTarget::kAvx512)) {
+      EXPECT_TRUE(drawn({3, 32, SimdTarget::kAvx512}) == reference) << "shot " << n;
     }
   }
 }
