@@ -1,0 +1,197 @@
+// Smooth edges against the same frames averaged over 64 places in every pixel (AAX-04).
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "render/edge_frames.h"
+#include "render/edge_scenes.h"
+#include "trials.h"
+
+namespace swell::render {
+namespace {
+
+constexpr glm::ivec2 kSize_px(160, 100);
+
+using Values = std::vector<double>;  // by pixel
+
+// What colours the surfaces have: those of edges and nothing else, or of the finished picture.
+enum class Paint { kByKind, kByDepth, kLit };
+
+double colour_of(const EdgeRenderer& r, Paint paint, std::uint32_t primitive, float z) {
+  constexpr std::array<double, 4> kOfKind = {0.0, 0.4, 0.7, 1.0};
+  if (paint == Paint::kByKind) return kOfKind[static_cast<std::size_t>(r.kind_of(primitive))];
+  return std::sqrt(std::sqrt(static_cast<double>(z)));
+}
+
+// A frame whose surfaces are painted so.
+Values painted(const EdgeRenderer& r, Paint paint) {
+  Values values;
+  if (paint == Paint::kLit) {  // its green
+    for (const std::uint32_t rgba : r.target.rgba) values.push_back(display_light(rgba, 1));
+    return values;
+  }
+  const std::vector<Centre> centres = r.centres();
+  const auto of_pixel = r.fragments();
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    double sum = 0.0, samples = 0.0;
+    for (const EdgeFragment& f : of_pixel[i]) {
+      sum += f.samples * colour_of(r, paint, f.primitive, f.z);
+      samples += f.samples;
+    }
+    values.push_back(samples > 0.0 ? sum / samples
+                                   : colour_of(r, paint, centres[i].primitive, centres[i].z));
+  }
+  return values;
+}
+
+// What the 64 places of one pixel show.
+struct Places {
+  unsigned kinds = 0;  // bit EdgeRenderer::kind_of
+  float nearest = 0.0f, farthest = 1.0f;
+  double mean = 0.0;
+
+  void add(int kind, float z, double value) {
+    kinds |= 1u << kind;
+    nearest = std::max(nearest, z);
+    farthest = std::min(farthest, z);
+    mean += value / 64.0;
+  }
+};
+
+constexpr unsigned kSky = 1, kWater = 2, kLand = 4, kObject = 8;
+
+// Which pixels count: those whose places show exactly these kinds. Of one kind: those with a place
+// half as far again as another, this side of where a level sea goes on so far in one pixel.
+struct Edge {
+  unsigned kinds;
+  Paint paint = Paint::kByKind;
+
+  bool holds(const Places& p, float farthest_crest) const {
+    return p.kinds == kinds && (std::popcount(kinds) > 1 ||
+                                (p.nearest > 1.5f * p.farthest && p.farthest > farthest_crest));
+  }
+};
+
+// Sums of squares on the pixels of one kind of edges.
+struct Errors {
+  double without = 0.0, with_4 = 0.0, with_8 = 0.0;
+  int pixels = 0;
+  double ratio_4() const { return std::sqrt(with_4 / without); }
+  double ratio_8() const { return std::sqrt(with_8 / without); }
+};
+
+struct Drawn {
+  Values without, with_4, with_8;
+  std::vector<Places> exact;
+};
+
+Drawn draw_all(EdgeRenderer& r, const View& view, Paint paint) {
+  Drawn drawn;
+  drawn.exact.resize(static_cast<std::size_t>(kSize_px.x) * kSize_px.y);
+  for (const glm::dvec2& place : rook_places()) {
+    r.draw(moved(view, place), 0);
+    const Values values = painted(r, paint);
+    const std::vector<Centre> centres = r.centres();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      drawn.exact[i].add(r.kind_of(centres[i].primitive), centres[i].z, values[i]);
+  }
+  const auto draw = [&](int samples) {
+    r.draw(moved(view, {0.0, 0.0}), samples);
+    return painted(r, paint);
+  };
+  drawn.without = draw(0);
+  drawn.with_4 = draw(4);
+  drawn.with_8 = draw(8);
+  return drawn;
+}
+
+// Over pictures moved by parts of a pixel: an edge along the rows is as wrong in all of its pixels
+// as the place of the rows makes it. `view` looks at a level sea from eye_m above it.
+Errors measure(const World& world, const View& view, double t_s, Edge edge, double eye_m = 10.0) {
+  constexpr std::array<glm::dvec2, 4> kMoves = {{{0.0, 0.0}, {0.6, 0.5}, {0.3, 0.25}, {0.9, 0.75}}};
+  const double rad_per_px = 2.0 * static_cast<double>(view.tan_half_y) / kSize_px.y;
+  const auto farthest_crest =
+      static_cast<float>(static_cast<double>(view.near_m) * 5.0 * rad_per_px / eye_m);
+  EdgeRenderer renderer(world, t_s);
+  Errors errors;
+  for (int n = 0; n < std::max(1, trials(4)); ++n) {
+    const Drawn drawn =
+        draw_all(renderer, moved(view, kMoves[static_cast<std::size_t>(n)]), edge.paint);
+    for (std::size_t i = 0; i < drawn.exact.size(); ++i) {
+      if (!edge.holds(drawn.exact[i], farthest_crest)) continue;
+      ++errors.pixels;
+      const auto square = [&](const Values& v) {
+        return (v[i] - drawn.exact[i].mean) * (v[i] - drawn.exact[i].mean);
+      };
+      errors.without += square(drawn.without);
+      errors.with_4 += square(drawn.with_4);
+      errors.with_8 += square(drawn.with_8);
+    }
+  }
+  return errors;
+}
+
+void expect_smooth(const Errors& errors, double most_4 = 0.45, double most_8 = 0.30) {
+  EXPECT_GT(errors.pixels, 40);
+  EXPECT_LE(errors.ratio_4(), most_4);
+  EXPECT_LE(errors.ratio_8(), most_8);
+}
+
+TEST(EdgeAccuracy, OfABoxAgainstTheSkyAndTheSea) {
+  scene::Scene scene = plain_scene();
+  scene.objects = {white_box({0.0, 30.0}, {6.0, 6.0, 6.0})};
+  const World world(scene);
+  const View view = north_view(3.0, 0.23, 0.5, kSize_px.x, kSize_px.y);
+  for (const unsigned kinds : {kSky | kObject, kWater | kObject, kWater | kSky})
+    expect_smooth(measure(world, view, 0.0, {kinds}));
+  expect_smooth(measure(world, view, 0.0, {kSky | kObject, Paint::kLit}));
+  expect_smooth(measure(world, view, 0.0, {kSky | kWater, Paint::kLit}));
+}
+
+TEST(EdgeAccuracy, OfALeaningMast) {
+  scene::Scene scene = plain_scene();
+  scene.objects = {white_box({0.0, 53.0}, {0.05, 0.05, 12.0})};
+  const World world(scene);
+  for (const double fov_rad : {0.1, 0.3}) {  // 0.9 and 0.3 pixels wide
+    const View view = north_view(3.0, 0.05, fov_rad, kSize_px.x, kSize_px.y);
+    for (const Paint paint : {Paint::kByKind, Paint::kLit})
+      expect_smooth(measure(world, view, 0.0, {kSky | kObject, paint}));
+  }
+}
+
+Errors measure_shipped(const char* name, Edge edge) {
+  const World& world = shipped_world(name);
+  return measure(world, view_of(world, 2.0, kSize_px.x, kSize_px.y), 2.0, edge);
+}
+
+TEST(EdgeAccuracy, OfAShoreAndOfAnIslandAgainstTheSky) {
+  expect_smooth(measure_shipped("lagoon", {kLand | kWater}));
+  expect_smooth(measure_shipped("lagoon", {kLand | kSky}));
+  expect_smooth(measure_shipped("lagoon", {kLand | kSky, Paint::kLit}));
+}
+
+TEST(EdgeAccuracy, OfTheHorizonAndOfBuoys) {
+  const View rolled =
+      make_view({0.0, 0.0, 10.0}, camera_axes(0.5, -0.05, 0.1),
+                lens_of_fov(0.8, kSize_px.x, kSize_px.y), 0.25f, kSize_px.x, kSize_px.y);
+  expect_smooth(measure(shipped_world("open_ocean"), rolled, 2.0, {kWater | kSky}));
+  expect_smooth(measure_shipped("buoys", {kWater | kObject}));
+}
+
+// Seen from between the waves through a long lens.
+Errors measure_crests(const char* name, double fov_rad) {
+  constexpr double kEye_m = 4.0;
+  const View view =
+      make_view({0.0, 0.0, kEye_m}, 0.5, -0.4 * fov_rad, fov_rad, 0.25f, kSize_px.x, kSize_px.y);
+  return measure(shipped_world(name), view, 2.0, {kWater, Paint::kByDepth}, kEye_m);
+}
+
+TEST(EdgeAccuracy, OfCrestsAgainstFartherWater) {
+  for (const char* name : {"open_ocean", "sea_state_8", "sines"})
+    expect_smooth(measure_crests(name, 0.1));
+  // A crest that hides little is no jump for the rule that finds edges: two fifths of these pixels.
+  expect_smooth(measure_crests("sea_state_6", 0.1), 0.55, 0.5);
+}
+
+}  // namespace
+}  // namespace swell::render

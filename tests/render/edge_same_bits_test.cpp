@@ -1,0 +1,152 @@
+// Pictures with smooth edges are the same bits however they are made.
+#include <gtest/gtest.h>
+
+#include "math/simd_target.h"
+#include "render/edge_frames.h"
+#include "trials.h"
+
+namespace swell::render {
+namespace {
+
+constexpr double kTime_s = 2.0;
+constexpr glm::ivec2 kSizes_px[] = {{201, 117}, {63, 65}, {130, 31}};
+
+class SmoothEdgesOf : public testing::TestWithParam<const char*> {
+ protected:
+  void TearDown() override {
+    if (simd_target_available(SimdTarget::kAvx512)) select_simd_target(SimdTarget::kAvx512);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Scenes, SmoothEdgesOf,
+                         testing::Values("lagoon", "buoys", "beach", "open_ocean"),
+                         [](const auto& test) { return std::string(test.param); });
+
+// The picture's colours before and after the tone curve.
+struct Picture {
+  std::vector<std::uint32_t> rgba;
+  std::vector<float> linear;
+  bool operator==(const Picture&) const = default;
+};
+
+struct Way {
+  int threads, tile_size_px;
+  SimdTarget simd;
+};
+
+Picture draw(const World& world, glm::ivec2 size_px, int samples, const Way& way) {
+  select_simd_target(way.simd);
+  EdgeRenderer renderer(world, kTime_s, way.threads);
+  renderer.options.tile_size_px = way.tile_size_px;
+  renderer.options.keep_linear = true;
+  renderer.draw(view_of(world, kTime_s, size_px.x, size_px.y), samples);
+  return {renderer.target.rgba, renderer.target.linear};
+}
+
+TEST_P(SmoothEdgesOf, AreTheSameBitsForAnyThreadsTilesAndSimdTarget) {
+  const World& world = shipped_world(GetParam());
+  for (const glm::ivec2& size_px : kSizes_px) {
+    for (const int samples : {4, 8}) {
+      const Picture reference = draw(world, size_px, samples, {1, 64, SimdTarget::kAvx2});
+      EXPECT_FALSE(reference == draw(world, size_px, 0, {1, 64, SimdTarget::kAvx2}));
+      for (const SimdTarget simd : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+        if (!simd_target_available(simd)) continue;
+        for (const Way& way : {Way{2, 16, simd}, {3, 32, simd}, {2, 64, simd}}) {
+          EXPECT_TRUE(draw(world, size_px, samples, way) == reference)
+              << size_px.x << 'x' << size_px.y << ' ' << samples << " samples, " << way.threads
+              << " threads, tile " << way.tile_size_px << ' ' << simd_target_name(simd);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(SmoothEdgesOf, AreTheSameBitsFromAnywhere) {
+  const World& world = shipped_world(GetParam());
+  for (int n = 0; n < std::max(1, trials(20)); ++n) {
+    const Shot shot = random_shot(n, 90 + 7 * n, 60 + 3 * n);
+    const auto drawn = [&](const Way& way) {
+      select_simd_target(way.simd);
+      EdgeRenderer renderer(world, shot.t_s, way.threads);
+      renderer.options.tile_size_px = way.tile_size_px;
+      renderer.draw(shot.view, n % 2 == 0 ? 8 : 4);
+      return renderer.target.rgba;
+    };
+    const auto reference = drawn({2, 64, SimdTarget::kAvx2});
+    EXPECT_TRUE(drawn({1, 16, SimdTarget::kAvx2}) == reference) << "shot " << n;
+    if (simd_target_available(SimdTarget::kAvx512)) {
+      EXPECT_TRUE(drawn({3, 32, SimdTarget::kAvx512}) == reference) << "shot " << n;
+    }
+  }
+}
+
+// From below, from within and from far above the water, through a telescope and a fish-eye.
+TEST(SmoothEdges, OfExtremeCamerasAreTheSameBitsAndFinite) {
+  const World& world = shipped_world("lagoon");
+  for (const double z_m : {-3.0, 0.0, 40000.0}) {
+    for (const double fov_rad : {0.01, 3.1}) {
+      const View view = make_view({0.0, 0.0, z_m}, 0.0, -0.3, fov_rad, 0.25f, 90, 48);
+      std::vector<std::uint32_t> reference;
+      for (const int tile : {64, 16}) {
+        EdgeRenderer renderer(world, 1e9);
+        renderer.options.tile_size_px = tile;
+        renderer.options.keep_linear = true;
+        const FrameStatistics statistics = renderer.draw(view, 8);
+        EXPECT_EQ(statistics.shaded_pixels, statistics.visible_pixels);
+        EXPECT_TRUE(std::ranges::all_of(renderer.target.linear,
+                                        [](float x) { return std::isfinite(x) && x >= 0.0f; }));
+        if (tile == 64) reference = renderer.target.rgba;
+        EXPECT_TRUE(renderer.target.rgba == reference) << z_m << ' ' << fov_rad;
+      }
+    }
+  }
+}
+
+// The smaller picture has the samples.
+TEST(SmoothEdges, OfASmallerPictureAreEnlarged) {
+  const World& world = shipped_world("buoys");
+  const auto drawn = [&](int samples, int threads) {
+    EdgeRenderer renderer(world, kTime_s, threads);
+    renderer.options.picture_scale = 0.75;
+    renderer.draw(view_of(world, kTime_s, 201, 117), samples);
+    return renderer.target.rgba;
+  };
+  const auto reference = drawn(4, 1);
+  EXPECT_EQ(reference.size(), std::size_t{201} * 117);
+  EXPECT_TRUE(drawn(4, 3) == reference);
+  EXPECT_FALSE(drawn(0, 1) == reference);
+}
+
+// Storage that has held other scenes, sizes and numbers of samples.
+TEST_P(SmoothEdgesOf, OtherFramesLeaveNoTrace) {
+  const World& world = shipped_world(GetParam());
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const auto frame = [&](const World& shown, glm::ivec2 size_px, int samples, int tile) {
+    FrameOptions options;
+    options.water_triangles = options.terrain_triangles = 4000;
+    options.edge_samples = samples;
+    options.tile_size_px = tile;
+    render_frame(shown, view_of(shown, kTime_s, size_px.x, size_px.y), kTime_s, options, workspace,
+                 target, workers);
+    return target.rgba;
+  };
+  constexpr glm::ivec2 kSize_px(201, 117);
+  const auto alone = [&](int samples) {
+    return draw(world, kSize_px, samples, {2, 64, SimdTarget::kAvx2}).rgba;
+  };
+  const auto expected_0 = alone(0), expected_4 = alone(4), expected_8 = alone(8);
+  EXPECT_FALSE(expected_4 == expected_0);
+  EXPECT_FALSE(expected_4 == expected_8);
+  EXPECT_TRUE(frame(world, kSize_px, 0, 64) == expected_0);
+  EXPECT_TRUE(frame(world, kSize_px, 4, 64) == expected_4);
+  EXPECT_TRUE(frame(world, kSize_px, 0, 64) == expected_0);
+  frame(shipped_world("buoys"), {95, 130}, 8, 16);
+  frame(shipped_world("lagoon"), {333, 77}, 4, 32);
+  EXPECT_TRUE(frame(world, kSize_px, 8, 64) == expected_8);
+  EXPECT_TRUE(frame(world, kSize_px, 4, 64) == expected_4);
+  EXPECT_TRUE(frame(world, kSize_px, 0, 64) == expected_0);
+}
+
+}  // namespace
+}  // namespace swell::render
