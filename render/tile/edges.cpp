@@ -12,7 +12,9 @@ namespace {
 // crest and farther water.
 constexpr float kPartOfDepth = 1.0f / 4.0f;
 
-// What samples are told apart by: 0 the sky, 1 the water, 2 the land, from 3 on the objects.
+constexpr int kFirstObject = 3;
+
+// What samples are told apart by: 0 the sky, 1 the water, 2 the land, then the objects.
 class SurfaceNumbers {
  public:
   SurfaceNumbers(const PrimitiveRanges& ranges, const ObjectGeometry& objects)
@@ -21,7 +23,7 @@ class SurfaceNumbers {
   int of(std::uint32_t primitive) const {
     if (ranges_.holds(SurfaceKind::kWater, primitive)) return 1;
     if (ranges_.holds(SurfaceKind::kTerrain, primitive)) return 2;
-    if (ranges_.holds(SurfaceKind::kObjects, primitive)) return 3 + object_of(primitive);
+    if (ranges_.holds(SurfaceKind::kObjects, primitive)) return kFirstObject + object_of(primitive);
     return 0;
   }
 
@@ -78,16 +80,33 @@ struct Pixel {
   int surface;
 };
 
+// The triangle that most of the group's samples show, the first of equals: an object is shaded as
+// it, and a box's side that one sample grazes must not stand for its front.
+std::uint32_t most_seen(const Group* group, std::span<const Group* const> group_of_sample,
+                        std::span<const std::uint32_t> primitive) {
+  std::uint32_t best = group->primitive;
+  int most = 0;
+  for (std::size_t s = 0; s < primitive.size(); ++s) {
+    int same = 0;
+    for (std::size_t t = 0; t < primitive.size(); ++t)
+      same += group_of_sample[t] == group && primitive[t] == primitive[s];
+    if (group_of_sample[s] == group && same > most) most = same, best = primitive[s];
+  }
+  return best;
+}
+
 // Appends the fragments of one pixel, none if all of its samples show what the centre does.
 void add_fragments(const Pixel& pixel, std::span<const float> depth,
                    std::span<const std::uint32_t> primitive, const SurfaceNumbers& surfaces,
                    std::vector<EdgeFragment>& out) {
   const auto positions = raster::sample_positions(static_cast<int>(depth.size()));
   std::array<Group, kMaxFragments> groups;
+  std::array<const Group*, raster::kMaxSamples> group_of_sample{};
   std::size_t count = 0;
   for (std::size_t s = 0; s < depth.size(); ++s) {
     Group& g = group_of({primitive[s], surfaces.of(primitive[s]), depth[s]}, groups, count);
     ++g.count;
+    group_of_sample[s] = &g;
     g.x_px += static_cast<float>(positions[s].x_fx8) * (1.0f / 256.0f) - 0.5f;
     g.y_px += static_cast<float>(positions[s].y_fx8) * (1.0f / 256.0f) - 0.5f;
     g.z += depth[s];
@@ -105,7 +124,9 @@ void add_fragments(const Pixel& pixel, std::span<const float> depth,
     out.push_back({.x_px = static_cast<float>(pixel.x_px) + part * g.x_px,
                    .y_px = static_cast<float>(pixel.y_px) + part * g.y_px,
                    .z = part * g.z,
-                   .primitive = g.primitive,
+                   .primitive = g.surface >= kFirstObject
+                                    ? most_seen(&g, group_of_sample, primitive)
+                                    : g.primitive,
                    .pixel = pixel.at,
                    .samples = static_cast<std::uint8_t>(g.count),
                    .is_centre = centre});

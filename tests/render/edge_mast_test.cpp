@@ -183,12 +183,9 @@ TEST_P(Mast, BetweenTheCentresIsFoundInTilesThatShowNothingElse) {
   }
 }
 
-// FAILS with render/tile/edges.cpp as it is, and is to be enabled when that is mended: a part is
-// shaded as the triangle of the first of its samples. Where that one shows the mast's dark side,
-// which is thinner than 1/256 pixel, and two others the white front, the whole row is as dark as
-// the sky. With the triangle that most of the samples show, such a side costs one or two samples:
-// its own, and the other one of a part of two.
-TEST_P(Mast, DISABLED_ShowsItsFrontInEveryRow) {
+// A part is shaded as the triangle that most of its samples show. The mast's dark side, which is
+// thinner than 1/256 pixel, costs one or two samples: its own, and the other one of a part of two.
+TEST_P(Mast, ShowsItsFrontInEveryRow) {
   turn_camera(8, [&](const EdgeRenderer& r, int) {
     const std::vector<double> rows = rows_of(brightness(r)), shares = rows_of(covered(r));
     for (std::size_t y = 0; y < rows.size(); ++y)
