@@ -121,6 +121,9 @@ HWY_INLINE V3 GatherAt(std::span<const glm::vec3> table, std::uint32_t first, co
   const DU du;
   const VU number =
       hn::IfThenElseZero(hn::RebindMask(du, where), hn::Sub(p.primitive, hn::Set(du, first)));
+  // Neighbours often share a triangle, and gathers are slow.
+  const std::uint32_t one = hn::GetLane(number);
+  if (hn::AllTrue(du, hn::Eq(number, hn::Set(du, one)))) return Constant(table[one]);
   const VI at = hn::BitCast(DI(), hn::Add(number, hn::Add(number, number)));
   const float* const base = &table[0].x;
   return {hn::GatherIndex(d, base, at), hn::GatherIndex(d, base + 1, at),
