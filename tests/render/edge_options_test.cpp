@@ -113,7 +113,8 @@ TEST(EdgeSamples, ComeFromTheSceneUnlessTheOptionsHaveSome) {
   scene::Scene scene = load_shipped("buoys");
   scene.picture.edge_samples = 4;
   const World with(scene);
-  const World& without = shipped_world("buoys");
+  scene.picture.edge_samples = 0;
+  const World without(scene);
   const View view = view_of(without, 1.0, kSize_px.x, kSize_px.y);
   const auto picture = [&](const World& world, int samples) {
     EdgeRenderer renderer(world, 1.0);
