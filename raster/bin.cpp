@@ -39,18 +39,23 @@ void bin_by_edges(const TileGrid& grid, const TileRange& range, SampleExtent ext
   }
 }
 
-// The pixels of the viewport whose samples, or centres, the triangle may cover; not empty.
-PixelRect pixels_to_list(const SetupTriangle& t, Viewport viewport, int samples) {
-  if (samples == 0) return {t.min_x, t.min_y, t.max_x, t.max_y};
-  return limit_to(viewport, pixels_between(bounds_of(t), sample_extent(samples)));
+// The tiles in whose pixels the triangle may cover a sample, or a centre; not empty.
+TileRange tiles_to_list(const SetupTriangle& t, Viewport viewport, int samples, int shift) {
+  const auto tiles_of = [&](const PixelRect& rect) {
+    return TileRange{rect.x0 >> shift, rect.y0 >> shift, rect.x1 >> shift, rect.y1 >> shift};
+  };
+  if (samples == 0) return tiles_of({t.min_x, t.min_y, t.max_x, t.max_y});
+  // Samples lie at most one pixel farther than centres, so mostly in the same tile.
+  const TileRange wider = tiles_of({t.min_x - 1, t.min_y - 1, t.max_x + 1, t.max_y + 1});
+  if (wider.x0 == wider.x1 && wider.y0 == wider.y1) return wider;
+  return tiles_of(limit_to(viewport, pixels_between(bounds_of(t), sample_extent(samples))));
 }
 
 void list_entries(const TileGrid& grid, Viewport viewport, int samples, Chunk& chunk) {
   const int shift = grid.tile_size_px == 64 ? 6 : grid.tile_size_px == 32 ? 5 : 4;
   chunk.entries.clear();
   for (std::uint32_t index = 0; index < chunk.triangles.size(); ++index) {
-    const PixelRect rect = pixels_to_list(chunk.triangles[index], viewport, samples);
-    const TileRange range{rect.x0 >> shift, rect.y0 >> shift, rect.x1 >> shift, rect.y1 >> shift};
+    const TileRange range = tiles_to_list(chunk.triangles[index], viewport, samples, shift);
     if (range.x0 != range.x1 && range.y0 != range.y1) {
       bin_by_edges(grid, range, sample_extent(samples), chunk, index);
       continue;

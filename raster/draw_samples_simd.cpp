@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "math/check.h"
@@ -12,6 +13,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/draw_samples_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -23,14 +25,26 @@ namespace hn = hwy::HWY_NAMESPACE;
 // While samples are drawn, one without a triangle has this depth, so that depth 0 still wins.
 constexpr float kEmptyDepth = -1.0f;
 
-// The marked pixels of a tile and their samples. Lanes are the samples of one pixel.
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using FloatVec = hn::Vec<FloatTag>;
+using IntVec = hn::Vec<IntTag>;
+using FloatMask = hn::Mask<FloatTag>;
+
+constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(hn::MaxLanes(FloatTag()));
+static_assert(kLanes % kMaxSamples == 0, "a packet holds whole pixels");
+
+// The marked pixels of a tile and their samples. Lanes are the samples of one or more pixels that
+// follow each other in their row.
 struct SampleTarget {
   const PixelMask& mask;
   PixelBox box;
   SampleExtent extent;
-  std::uint64_t rows, columns;                               // that hold a marked pixel
-  std::array<std::uint32_t, PixelMask::kMaxRows> row_begin;  // marked pixels in the rows above
-  alignas(64) std::array<std::int32_t, kMaxSamples> x_fx8, y_fx8;
+  std::uint32_t samples;                                      // of all marked pixels, >= kLanes
+  std::uint64_t rows, columns;                                // that hold a marked pixel
+  std::array<std::uint32_t, PixelMask::kMaxRows> row_begin;   // marked pixels in the rows above
+  alignas(64) std::array<std::int32_t, kLanes> x_fx8, y_fx8;  // of one pixel's samples, repeated
+  const std::uint8_t* HWY_RESTRICT column;                    // of each sample's pixel
   float* HWY_RESTRICT depth;
   std::uint32_t* HWY_RESTRICT primitive;
 };
@@ -46,83 +60,127 @@ HWY_INLINE bool MayHoldMarked(const SetupTriangle& t, const SampleTarget& target
   return (target.columns & bits_between(x0, x1)) != 0 && (target.rows & bits_between(y0, y1)) != 0;
 }
 
-// The rows of the rectangle that hold a marked pixel of it, from the first one on.
-HWY_INLINE std::uint64_t RowsFromFirstMarked(const SampleTarget& target, const PixelRect& rect,
-                                             std::uint64_t columns) {
+// Cuts rows without a marked pixel off the rectangle's top; false if none is left.
+HWY_INLINE bool CutToMarked(const SampleTarget& target, std::uint64_t columns, PixelRect& rect) {
   std::uint64_t rows = target.rows & bits_between(rect.y0, rect.y1);
   while (rows != 0 && (target.mask.row(std::countr_zero(rows)) & columns) == 0) rows &= rows - 1;
-  return rows;
+  if (rows == 0) return false;
+  rect.y0 = std::countr_zero(rows);
+  rect.y1 = 63 - std::countl_zero(rows);
+  return true;
+}
+
+// An edge at the samples of a rectangle's first pixel, and its steps of one pixel.
+struct LaneEdge {
+  IntVec first;
+  std::int32_t step_x, step_y;
+};
+
+// E itself, where the triangle is small enough for 32 bits.
+HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, const PixelRect& rect) {
+  const IntTag di;
+  const IntVec offset = hn::Add(hn::Mul(hn::Set(di, edge.a), hn::Load(di, target.x_fx8.data())),
+                                hn::Mul(hn::Set(di, edge.b), hn::Load(di, target.y_fx8.data())));
+  const auto at_corner = static_cast<std::int32_t>(
+      edge.at((target.box.x0_px + rect.x0) * kPixelFx8, (target.box.y0_px + rect.y0) * kPixelFx8));
+  return {hn::Add(hn::Set(di, at_corner), offset), edge.a * kPixelFx8, edge.b * kPixelFx8};
 }
 
 // A pixel's step in E is 256 a or 256 b exactly, and sample positions are multiples of 16 / 256 px,
 // so a sample is inside an edge if
 //   floor(E / 256) = e + a dx + b dy >= 0 with e = floor((E(corner) + a x_fx8 + b y_fx8) / 256),
 // which fits 32 bits with E(corner) / 16 taken apart into whole pixels and the rest.
+HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target) {
+  const IntTag di;
+  const IntVec x_step = hn::ShiftRight<4>(hn::Load(di, target.x_fx8.data()));
+  const IntVec y_step = hn::ShiftRight<4>(hn::Load(di, target.y_fx8.data()));
+  const auto whole = static_cast<std::int32_t>(edge.at_corner >> kFractionBits);
+  const auto rest = static_cast<std::int32_t>(edge.at_corner >> 4) & 15;
+  const IntVec offset =
+      hn::Add(hn::Mul(hn::Set(di, edge.a), x_step), hn::Mul(hn::Set(di, edge.b), y_step));
+  return {hn::Add(hn::Set(di, whole), hn::ShiftRight<4>(hn::Add(hn::Set(di, rest), offset))),
+          edge.a, edge.b};
+}
+
+// Edges whose sign says on which side the rectangle's samples lie. False if all are outside of one.
+HWY_INLINE bool SetUpEdges(const SetupTriangle& t, const SampleTarget& target,
+                           const PixelRect& rect, LaneEdge (&out)[3]) {
+  if (is_small(t)) {
+    for (int i = 0; i < 3; ++i) out[i] = SmallEdge(edge_of(t, i), target, rect);
+    return true;
+  }
+  std::array<SampleEdge, 3> edges;
+  if (!set_up_sample_edges(t, target.extent, target.box, rect, edges)) return false;
+  for (int i = 0; i < 3; ++i) out[i] = LargeEdge(edges[i], target);
+  return true;
+}
+
+// Depth test and store of one packet.
+HWY_INLINE void DrawPacket(FloatMask inside, FloatVec z, FloatVec primitive,
+                           float* HWY_RESTRICT depth, float* HWY_RESTRICT id) {
+  const FloatTag d;
+  const FloatVec old = hn::LoadU(d, depth);
+  const FloatMask wins = hn::And(inside, hn::Gt(z, old));
+  hn::StoreU(hn::IfThenElse(wins, z, old), d, depth);
+  hn::StoreU(hn::IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
+}
+
 template <int kSamples>
 HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& target) {
-  const hn::CappedTag<float, kSamples> d;
-  const hn::RebindToSigned<decltype(d)> di;
-  static_assert(hn::MaxLanes(d) == kSamples, "a pixel's samples are one vector");
+  const FloatTag d;
+  const IntTag di;
+  const hn::RebindToUnsigned<FloatTag> du;
+  const hn::Rebind<std::uint8_t, FloatTag> d8;
 
   // Is there anything to do?
-  const PixelRect rect = sample_rect_in_tile(t, target.extent, target.box);
+  PixelRect rect = sample_rect_in_tile(t, target.extent, target.box);
   if (rect.empty()) return;
   const std::uint64_t columns = bits_between(rect.x0, rect.x1);
-  std::uint64_t rows = RowsFromFirstMarked(target, rect, columns);
-  if (rows == 0) return;
-  std::array<SampleEdge, 3> edges;
-  if (!set_up_sample_edges(t, target.extent, target.box, rect, edges)) return;
-
-  // Edges at the samples of the rectangle's first pixel.
-  const auto x_fx8 = hn::Load(di, target.x_fx8.data()), y_fx8 = hn::Load(di, target.y_fx8.data());
-  const auto x_step = hn::ShiftRight<4>(x_fx8), y_step = hn::ShiftRight<4>(y_fx8);
-  const auto first = [&](const SampleEdge& edge) {
-    const auto whole = static_cast<std::int32_t>(edge.at_corner >> kFractionBits);
-    const auto rest = static_cast<std::int32_t>(edge.at_corner >> 4) & 15;
-    const auto offset =
-        hn::Add(hn::Mul(hn::Set(di, edge.a), x_step), hn::Mul(hn::Set(di, edge.b), y_step));
-    return hn::Add(hn::Set(di, whole), hn::ShiftRight<4>(hn::Add(hn::Set(di, rest), offset)));
-  };
-  const auto e0 = first(edges[0]), e1 = first(edges[1]), e2 = first(edges[2]);
+  if (!CutToMarked(target, columns, rect)) return;
+  LaneEdge edges[3];
+  if (!SetUpEdges(t, target, rect, edges)) return;
 
   // Offsets from the depth plane's reference, exact: multiples of 1/256 below 2^15.
-  const auto to_px = hn::Set(d, 1.0f / kPixelFx8);
+  const FloatVec to_px = hn::Set(d, 1.0f / kPixelFx8);
+  const IntVec x_fx8 = hn::Load(di, target.x_fx8.data()), y_fx8 = hn::Load(di, target.y_fx8.data());
   const std::int32_t corner_x = (target.box.x0_px + rect.x0) * kPixelFx8 - t.x_ref_fx8;
   const std::int32_t corner_y = (target.box.y0_px + rect.y0) * kPixelFx8 - t.y_ref_fx8;
-  const auto dx = hn::Mul(hn::ConvertTo(d, hn::Add(hn::Set(di, corner_x), x_fx8)), to_px);
-  const auto dy = hn::Mul(hn::ConvertTo(d, hn::Add(hn::Set(di, corner_y), y_fx8)), to_px);
-  const auto dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
-  const auto z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
-  const auto primitive = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(t.primitive)));
+  const FloatVec dx = hn::Mul(hn::ConvertTo(d, hn::Add(hn::Set(di, corner_x), x_fx8)), to_px);
+  FloatVec dy = hn::Mul(hn::ConvertTo(d, hn::Add(hn::Set(di, corner_y), y_fx8)), to_px);
+  const FloatVec dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
+  const FloatVec z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
+  const FloatVec primitive = hn::BitCast(d, hn::Set(du, t.primitive));
+  const auto lane = hn::Iota(du, 0);
+  const IntVec x0 = hn::Set(di, rect.x0);
+  const IntVec a0 = hn::Set(di, edges[0].step_x), b0 = hn::Set(di, edges[0].step_y);
+  const IntVec a1 = hn::Set(di, edges[1].step_x), b1 = hn::Set(di, edges[1].step_y);
+  const IntVec a2 = hn::Set(di, edges[2].step_x), b2 = hn::Set(di, edges[2].step_y);
+  IntVec e0 = edges[0].first, e1 = edges[1].first, e2 = edges[2].first;
 
-  for (; rows != 0; rows &= rows - 1) {
-    const std::int32_t y = std::countr_zero(rows);
+  for (std::int32_t y = rect.y0; y <= rect.y1; ++y) {
+    // The samples of the row's marked pixels in the rectangle lie side by side. A packet that would
+    // pass the end of all samples begins earlier.
     const std::uint64_t marked = target.mask.row(y);
-    const std::int32_t down = y - rect.y0;
-    const auto f0 = hn::Add(e0, hn::Set(di, edges[0].b * down));
-    const auto f1 = hn::Add(e1, hn::Set(di, edges[1].b * down));
-    const auto f2 = hn::Add(e2, hn::Set(di, edges[2].b * down));
-    const auto z_row = hn::MulAdd(dz_dy, hn::Add(dy, hn::Set(d, static_cast<float>(down))), z_min);
     const int before = std::popcount(marked & ~(~std::uint64_t{0} << rect.x0));
-    const std::size_t n = (target.row_begin[y] + static_cast<std::uint32_t>(before)) * kSamples;
-    float* HWY_RESTRICT depth = target.depth + n;
-    float* HWY_RESTRICT id = reinterpret_cast<float*>(target.primitive) + n;
-    for (std::uint64_t left = marked & columns; left != 0; left &= left - 1) {
-      const std::int32_t right = std::countr_zero(left) - rect.x0;
-      // Covered?
-      const auto g0 = hn::Add(f0, hn::Set(di, edges[0].a * right));
-      const auto g1 = hn::Add(f1, hn::Set(di, edges[1].a * right));
-      const auto g2 = hn::Add(f2, hn::Set(di, edges[2].a * right));
-      const auto inside = hn::RebindMask(d, hn::Gt(hn::Or(hn::Or(g0, g1), g2), hn::Set(di, -1)));
-      // Nearest?
-      const auto x_offset = hn::Add(dx, hn::Set(d, static_cast<float>(right)));
-      const auto z = hn::Min(hn::Max(hn::MulAdd(dz_dx, x_offset, z_row), z_min), z_max);
-      const auto old = hn::LoadU(d, depth);
-      const auto wins = hn::And(inside, hn::Gt(z, old));
-      hn::StoreU(hn::IfThenElse(wins, z, old), d, depth);
-      hn::StoreU(hn::IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
-      depth += kSamples, id += kSamples;
+    const int inside = std::popcount(marked & columns);
+    const std::uint32_t begin =
+        (target.row_begin[y] + static_cast<std::uint32_t>(before)) * kSamples;
+    const std::uint32_t count = static_cast<std::uint32_t>(inside) * kSamples;
+    const FloatVec z_row = hn::MulAdd(dz_dy, dy, z_min);
+    for (std::uint32_t n = 0; n < count; n += kLanes) {
+      const auto at = std::min<std::uint32_t>(begin + n, target.samples - kLanes);
+      const auto in_row = hn::Lt(hn::Add(lane, hn::Set(du, at - begin)), hn::Set(du, count));
+      const IntVec right = hn::Sub(hn::PromoteTo(di, hn::LoadU(d8, target.column + at)), x0);
+      const IntVec f0 = hn::Add(hn::Mul(a0, right), e0), f1 = hn::Add(hn::Mul(a1, right), e1);
+      const IntVec f2 = hn::Add(hn::Mul(a2, right), e2);
+      const auto covered = hn::Gt(hn::Or(hn::Or(f0, f1), f2), hn::Set(di, -1));
+      const FloatVec z = hn::MulAdd(dz_dx, hn::Add(dx, hn::ConvertTo(d, right)), z_row);
+      DrawPacket(hn::And(hn::RebindMask(d, covered), hn::RebindMask(d, in_row)),
+                 hn::Min(hn::Max(z, z_min), z_max), primitive, target.depth + at,
+                 reinterpret_cast<float*>(target.primitive) + at);
     }
+    e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+    dy = hn::Add(dy, hn::Set(d, 1.0f));
   }
 }
 
@@ -142,49 +200,75 @@ void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& targe
   for (std::size_t c = 0; c < state.chunk_count; ++c) {
     const Chunk& chunk = state.chunks[c];
     const std::uint32_t end = chunk.tile_begin[tile + 1];
+    constexpr std::uint32_t kAhead = 4;  // triangles fetched before their turn
     for (std::uint32_t m = chunk.tile_begin[tile]; m < end; ++m) {
+      hwy::Prefetch(&chunk.triangles[chunk.members[std::min(m + kAhead, end - 1)]]);
       const SetupTriangle& t = chunk.triangles[chunk.members[m]];
       if (MayHoldMarked(t, target)) SampleTriangle<kSamples>(t, target);
     }
   }
 }
 
-int DrawSamples(const Pass::State& state, int tile, const PixelMask& mask, std::span<float> depth,
-                std::span<std::uint32_t> primitive) {
-  std::fill(depth.begin(), depth.end(), kEmptyDepth);
-  std::fill(primitive.begin(), primitive.end(), kNoPrimitive);
-
-  // Where the marked pixels are.
-  SampleTarget target{mask,
-                      tile_box(state.viewport, state.grid, tile),
-                      sample_extent(state.samples),
-                      0,
-                      0,
-                      {},
-                      {},
-                      {},
-                      depth.data(),
-                      primitive.data()};
+// Fills in where the marked pixels are; `column` has kMaxSamples values for each pixel of a tile.
+template <int kSamples>
+void FindMarked(const Pass::State& state, SampleTarget& target, std::uint8_t* column) {
   std::uint32_t pixels = 0;
   for (int y = 0; y < state.grid.tile_size_px; ++y) {
-    const std::uint64_t bits = mask.row(y);
+    const std::uint64_t bits = target.mask.row(y);
     target.row_begin[y] = pixels;
-    pixels += static_cast<std::uint32_t>(std::popcount(bits));
     target.rows |= std::uint64_t{bits != 0} << y;
     target.columns |= bits;
+    for (std::uint64_t left = bits; left != 0; left &= left - 1, ++pixels)
+      std::memset(column + pixels * kSamples, std::countr_zero(left), kSamples);
   }
-  const std::span<const SamplePosition> positions = sample_positions(state.samples);
-  for (std::size_t s = 0; s < positions.size(); ++s) {
-    target.x_fx8[s] = positions[s].x_fx8;
-    target.y_fx8[s] = positions[s].y_fx8;
+  const std::span<const SamplePosition> positions = sample_positions(kSamples);
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+    target.x_fx8[lane] = positions[lane % kSamples].x_fx8;
+    target.y_fx8[lane] = positions[lane % kSamples].y_fx8;
   }
+}
 
-  if (state.samples == 8) {
-    DrawTriangles<8>(state, tile, target);
-  } else {
-    DrawTriangles<4>(state, tile, target);
+template <int kSamples>
+int DrawMarked(const Pass::State& state, int tile, const PixelMask& mask, std::span<float> depth,
+               std::span<std::uint32_t> primitive) {
+  std::array<std::uint8_t, kSamples * PixelMask::kMaxRows * PixelMask::kMaxRows> column;
+  SampleTarget target{mask,
+                      tile_box(state.viewport, state.grid, tile),
+                      sample_extent(kSamples),
+                      static_cast<std::uint32_t>(depth.size()),
+                      0,
+                      0,
+                      {},
+                      {},
+                      {},
+                      column.data(),
+                      depth.data(),
+                      primitive.data()};
+  // Fewer samples than a packet are drawn in a packet of their own.
+  std::array<float, kLanes> few_depths;
+  std::array<std::uint32_t, kLanes> few_primitives;
+  const bool few = depth.size() < kLanes;
+  if (few) {
+    std::fill_n(column.begin(), kLanes, std::uint8_t{0});
+    target.samples = kLanes;
+    target.depth = few_depths.data();
+    target.primitive = few_primitives.data();
+  }
+  std::fill_n(target.depth, target.samples, kEmptyDepth);
+  std::fill_n(target.primitive, target.samples, kNoPrimitive);
+  FindMarked<kSamples>(state, target, column.data());
+  DrawTriangles<kSamples>(state, tile, target);
+  if (few) {
+    std::copy_n(few_depths.begin(), depth.size(), depth.begin());
+    std::copy_n(few_primitives.begin(), depth.size(), primitive.begin());
   }
   return FinishSamples(depth, primitive);
+}
+
+int DrawSamples(const Pass::State& state, int tile, const PixelMask& mask, std::span<float> depth,
+                std::span<std::uint32_t> primitive) {
+  if (state.samples == 8) return DrawMarked<8>(state, tile, mask, depth, primitive);
+  return DrawMarked<4>(state, tile, mask, depth, primitive);
 }
 
 }  // namespace HWY_NAMESPACE

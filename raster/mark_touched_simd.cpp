@@ -1,6 +1,5 @@
 #include <array>
 #include <cstdint>
-#include <cstring>
 
 #include "math/check.h"
 #include "raster/pass_state.h"
@@ -21,16 +20,21 @@ using IntTag = hn::ScalableTag<std::int32_t>;
 using IntVec = hn::Vec<IntTag>;
 
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(IntTag()));
-static_assert(kLanes <= 64, "a packet's mask must fit one word");
+static_assert(kLanes <= 16, "a packet's mask has at most 16 bits");
 
 // A bit for each lane that is not negative.
 HWY_INLINE std::uint64_t BitsNotNegative(IntVec v) {
   const IntTag di;
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(di, hn::Gt(v, hn::Set(di, -1)), bytes);
-  std::uint64_t bits;
-  std::memcpy(&bits, bytes, sizeof(bits));
+  std::uint16_t bits = 0;
+  hn::StoreMaskBits(di, hn::Gt(v, hn::Set(di, -1)), reinterpret_cast<std::uint8_t*>(&bits));
   return bits;
+}
+
+// Whether the mask has all pixels of the rectangle.
+HWY_INLINE bool HasAll(const PixelMask& mask, const PixelRect& rect, std::uint64_t columns) {
+  std::uint64_t missing = 0;
+  for (std::int32_t y = rect.y0; y <= rect.y1; ++y) missing |= columns & ~mask.row(y);
+  return missing == 0;
 }
 
 // A pixel is touched if each edge is not negative at the point of the pixel's sample square that
@@ -40,8 +44,10 @@ HWY_INLINE void MarkTriangle(const SetupTriangle& t, SampleExtent extent, const 
                              PixelMask& mask) {
   const IntTag di;
   const PixelRect rect = sample_rect_in_tile(t, extent, box);
+  if (rect.empty()) return;
+  const std::uint64_t columns = bits_between(rect.x0, rect.x1);
   std::array<SampleEdge, 3> edges;
-  if (rect.empty() || !set_up_sample_edges(t, extent, box, rect, edges)) return;
+  if (HasAll(mask, rect, columns) || !set_up_sample_edges(t, extent, box, rect, edges)) return;
 
   const IntVec lane = hn::Iota(di, 0);
   const auto first = [&](const SampleEdge& edge) {
@@ -53,7 +59,6 @@ HWY_INLINE void MarkTriangle(const SetupTriangle& t, SampleExtent extent, const 
   const IntVec a1 = hn::Set(di, edges[1].a * kLanes), b1 = hn::Set(di, edges[1].b);
   const IntVec a2 = hn::Set(di, edges[2].a * kLanes), b2 = hn::Set(di, edges[2].b);
 
-  const std::uint64_t columns = bits_between(rect.x0, rect.x1);
   for (std::int32_t y = rect.y0; y <= rect.y1; ++y) {
     IntVec f0 = e0, f1 = e1, f2 = e2;
     std::uint64_t bits = 0;

@@ -19,6 +19,14 @@ inline PixelRect sample_rect_in_tile(const SetupTriangle& t, SampleExtent extent
           std::min(rect.y1 - box.y0_px, box.height_px - 1)};
 }
 
+// True if the triangle is so small that its edge functions fit 32 bits in the pixels of its
+// sample_rect_in_tile: |E| <= 2 * 2^13 * 2^14.
+inline bool is_small(const SetupTriangle& t) {
+  constexpr std::int32_t kSmallFx8 = 32 * kPixelFx8;
+  const BoundsFx8 bounds = bounds_of(t);
+  return bounds.x1 - bounds.x0 <= kSmallFx8 && bounds.y1 - bounds.y0 <= kSmallFx8;
+}
+
 // An edge function over a rectangle of pixels: E at the upper left corner of the first one, its
 // steps of one pixel (256 a and 256 b exactly), and its largest value above E at a pixel's corner
 // in the square that holds the pixel's samples. If the edge changes sign in the rectangle,

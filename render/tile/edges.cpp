@@ -12,25 +12,32 @@ namespace {
 // crest and farther water.
 constexpr float kPartOfDepth = 1.0f / 4.0f;
 
-constexpr int kFirstObject = 3;
+// The primitives of what samples are told apart by: the water, the land, an object, or the sky,
+// which has kNoPrimitive alone. No two begin alike.
+struct SurfaceRange {
+  std::uint32_t begin = raster::kNoPrimitive, size = 1;
+  bool holds(std::uint32_t primitive) const { return primitive - begin < size; }
+};
 
-// What samples are told apart by: 0 the sky, 1 the water, 2 the land, then the objects.
-class SurfaceNumbers {
+class SurfaceRanges {
  public:
-  SurfaceNumbers(const PrimitiveRanges& ranges, const ObjectGeometry& objects)
+  SurfaceRanges(const PrimitiveRanges& ranges, const ObjectGeometry& objects)
       : ranges_(ranges), objects_(objects) {}
 
-  int of(std::uint32_t primitive) const {
-    if (ranges_.holds(SurfaceKind::kWater, primitive)) return 1;
-    if (ranges_.holds(SurfaceKind::kTerrain, primitive)) return 2;
-    if (ranges_.holds(SurfaceKind::kObjects, primitive)) return kFirstObject + object_of(primitive);
-    return 0;
+  SurfaceRange of(std::uint32_t primitive) const {
+    for (const SurfaceKind kind : {SurfaceKind::kWater, SurfaceKind::kTerrain})
+      if (ranges_.holds(kind, primitive))
+        return {ranges_.begin(kind), ranges_.end(kind) - ranges_.begin(kind)};
+    if (ranges_.holds(SurfaceKind::kObjects, primitive)) return object_of(primitive);
+    return {};
   }
 
  private:
-  int object_of(std::uint32_t primitive) const {
-    const std::uint32_t n = primitive - ranges_.begin(SurfaceKind::kObjects);
-    return static_cast<int>(objects_.primitives[n].object - objects_.instances.data());
+  SurfaceRange object_of(std::uint32_t primitive) const {
+    const std::uint32_t begin = ranges_.begin(SurfaceKind::kObjects);
+    const auto object = objects_.primitives[primitive - begin].object - objects_.instances.data();
+    const ObjectPart& part = objects_.parts[static_cast<std::size_t>(object)];
+    return {begin + part.first_triangle, part.triangles};
   }
 
   const PrimitiveRanges& ranges_;
@@ -39,7 +46,7 @@ class SurfaceNumbers {
 
 // The samples of one pixel that show one surface.
 struct Group {
-  int surface = 0;
+  std::uint32_t surface = raster::kNoPrimitive;  // its first primitive
   int count = 0;
   float nearest = 0.0f, x_px = 0.0f, y_px = 0.0f, z = 0.0f;  // z and place: sums
   std::uint32_t primitive = raster::kNoPrimitive;
@@ -50,7 +57,7 @@ bool same_place(float a, float b) { return std::abs(a - b) <= kPartOfDepth * std
 // What one sample shows.
 struct Sample {
   std::uint32_t primitive;
-  int surface;
+  std::uint32_t surface;  // its first primitive
   float z;
 };
 
@@ -77,7 +84,7 @@ struct Pixel {
   // Of the centre.
   float z;
   std::uint32_t primitive;
-  int surface;
+  SurfaceRange surface;
 };
 
 // The triangle that most of the group's samples show, the first of equals: an object is shaded as
@@ -95,16 +102,30 @@ std::uint32_t most_seen(const Group* group, std::span<const Group* const> group_
   return best;
 }
 
+// Whether all samples lie on the centre's triangle, or on its surface near its depth, as most do.
+bool shows_one_place(const Pixel& pixel, std::span<const float> depth,
+                     std::span<const std::uint32_t> primitive) {
+  bool one_triangle = true, one_place = same_place(depth[0], pixel.z);
+  for (std::size_t s = 0; s < depth.size(); ++s) {
+    one_triangle &= primitive[s] == pixel.primitive;
+    one_place &= pixel.surface.holds(primitive[s]) && same_place(depth[0], depth[s]);
+  }
+  return one_triangle || one_place;
+}
+
 // Appends the fragments of one pixel, none if all of its samples show what the centre does.
 void add_fragments(const Pixel& pixel, std::span<const float> depth,
-                   std::span<const std::uint32_t> primitive, const SurfaceNumbers& surfaces,
+                   std::span<const std::uint32_t> primitive, const SurfaceRanges& surfaces,
                    std::vector<EdgeFragment>& out) {
+  if (shows_one_place(pixel, depth, primitive)) return;
   const auto positions = raster::sample_positions(static_cast<int>(depth.size()));
   std::array<Group, kMaxFragments> groups;
   std::array<const Group*, raster::kMaxSamples> group_of_sample{};
   std::size_t count = 0;
   for (std::size_t s = 0; s < depth.size(); ++s) {
-    Group& g = group_of({primitive[s], surfaces.of(primitive[s]), depth[s]}, groups, count);
+    const bool like_centre = pixel.surface.holds(primitive[s]);
+    const SurfaceRange surface = like_centre ? pixel.surface : surfaces.of(primitive[s]);
+    Group& g = group_of({primitive[s], surface.begin, depth[s]}, groups, count);
     ++g.count;
     group_of_sample[s] = &g;
     g.x_px += static_cast<float>(positions[s].x_fx8) * (1.0f / 256.0f) - 0.5f;
@@ -113,7 +134,7 @@ void add_fragments(const Pixel& pixel, std::span<const float> depth,
   }
   bool centre_found = false;
   const auto is_centre = [&](const Group& g) {
-    return !centre_found && g.surface == pixel.surface &&
+    return !centre_found && g.surface == pixel.surface.begin &&
            (g.primitive == pixel.primitive || same_place(g.nearest, pixel.z));
   };
   if (count == 1 && is_centre(groups[0])) return;
@@ -124,9 +145,7 @@ void add_fragments(const Pixel& pixel, std::span<const float> depth,
     out.push_back({.x_px = static_cast<float>(pixel.x_px) + part * g.x_px,
                    .y_px = static_cast<float>(pixel.y_px) + part * g.y_px,
                    .z = part * g.z,
-                   .primitive = g.surface >= kFirstObject
-                                    ? most_seen(&g, group_of_sample, primitive)
-                                    : g.primitive,
+                   .primitive = most_seen(&g, group_of_sample, primitive),
                    .pixel = pixel.at,
                    .samples = static_cast<std::uint8_t>(g.count),
                    .is_centre = centre});
@@ -159,10 +178,11 @@ void mark_object(const RenderView& window, const VisibilityBuffer& visibility, i
                  const ObjectPart& part, raster::PixelMask& mask) {
   const std::uint32_t begin = window.primitives.begin(SurfaceKind::kObjects) + part.first_triangle;
   const std::uint32_t end = begin + part.triangles;
-  raster::PixelMask touched;
-  raster::mark_touched(window.pass, tile, begin, end, touched);
-  if (touched.count() == 0) return;
   const raster::PixelMask interior = find_interior(visibility, window.viewport(), tile, begin, end);
+  // Triangles with nothing but interior and marked pixels around need no look.
+  raster::PixelMask touched = mask;
+  for (int y = 0; y < visibility.grid.tile_size_px; ++y) touched.add_to_row(y, interior.row(y));
+  raster::mark_touched(window.pass, tile, begin, end, touched);
   for (int y = 0; y < visibility.grid.tile_size_px; ++y)
     mask.add_to_row(y, touched.row(y) & ~interior.row(y));
 }
@@ -170,7 +190,7 @@ void mark_object(const RenderView& window, const VisibilityBuffer& visibility, i
 struct TileEdges {
   const RenderView& window;
   const VisibilityBuffer& visibility;
-  const SurfaceNumbers& surfaces;
+  const SurfaceRanges& surfaces;
   std::span<const ObjectPart> objects;
   std::span<const TileBox> object_tiles;
   int samples;
@@ -236,7 +256,7 @@ void find_edges(const ObjectGeometry& objects, const RenderView& window,
   for (const ObjectPart& part : objects.parts)
     edges.object_tiles.push_back(tile_box_of(p_clip.subspan(part.first_vertex, part.vertices),
                                              window.viewport(), visibility.grid));
-  const SurfaceNumbers surfaces(window.primitives, objects);
+  const SurfaceRanges surfaces(window.primitives, objects);
   const TileEdges in{window,        visibility,         surfaces,
                      objects.parts, edges.object_tiles, edges.samples};
   run.for_each(tiles, [&](std::size_t tile, int thread) {

@@ -23,53 +23,45 @@ constexpr int kStride = JumpScratch::kStride, kRim = JumpScratch::kRim;
 
 template <class Tag, class Mask>
 HWY_INLINE std::uint64_t BitsOf(Tag d, Mask mask) {
-  std::array<std::uint8_t, 8> bits{};
-  hn::StoreMaskBits(d, mask, bits.data());
-  return static_cast<std::uint64_t>(bits[0]) | static_cast<std::uint64_t>(bits[1]) << 8;
+  static_assert(kLanes <= 16);
+  std::uint16_t bits = 0;
+  hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
 }
 
 // Depth is linear in the window along a plane. A jump is more than this many times the change next
 // to it on either side, and more than this part of the depth itself.
 constexpr float kTimesSlope = 2.0f, kPartOfDepth = 1.0f / 8.0f;
 
-// Where depth jumps between b and c, for rows a, b, c, d of pixels side by side: one bit a lane.
-HWY_INLINE std::uint64_t Jumps(V a, V b, V c, V d) {
-  const D df;
+// Where depth jumps between pixels p[0] and p[step], for pixels side by side: one bit a lane.
+HWY_INLINE std::uint64_t Jumps(const float* p, int step) {
+  const D d;
+  const V b = hn::LoadU(d, p), c = hn::LoadU(d, p + step);
   const V jump = hn::Abs(hn::Sub(b, c));
-  const V slope = hn::Max(hn::Abs(hn::Sub(a, b)), hn::Abs(hn::Sub(c, d)));
-  const V allowed = hn::MulAdd(slope, hn::Set(df, kTimesSlope),
-                               hn::Mul(hn::Max(b, c), hn::Set(df, kPartOfDepth)));
-  return BitsOf(df, hn::Gt(jump, allowed));
+  const V part = hn::Mul(hn::Max(b, c), hn::Set(d, kPartOfDepth));
+  if (hn::AllFalse(d, hn::Gt(jump, part))) return 0;
+  const V before = hn::Abs(hn::Sub(hn::LoadU(d, p - step), b));
+  const V after = hn::Abs(hn::Sub(c, hn::LoadU(d, p + 2 * step)));
+  const V allowed = hn::MulAdd(hn::Max(before, after), hn::Set(d, kTimesSlope), part);
+  return BitsOf(d, hn::Gt(jump, allowed));
 }
 
-// Pixels 0 to width - 1 of a row of depths that jump to their right neighbour.
-HWY_INLINE std::uint64_t JumpsToRight(const float* row, int width) {
-  const D d;
+// Pixels 0 to width - 1 of a row of depths that jump to the pixel `step` farther on.
+HWY_INLINE std::uint64_t JumpsInRow(const float* row, int width, int step) {
   std::uint64_t jumps = 0;
-  for (int x = 0; x < width; x += kLanes)
-    jumps |= Jumps(hn::LoadU(d, row + x - 1), hn::LoadU(d, row + x), hn::LoadU(d, row + x + 1),
-                   hn::LoadU(d, row + x + 2))
-             << x;
-  return jumps;
-}
-
-HWY_INLINE std::uint64_t JumpsToBelow(const float* row, int width) {
-  const D d;
-  std::uint64_t jumps = 0;
-  for (int x = 0; x < width; x += kLanes)
-    jumps |= Jumps(hn::LoadU(d, row + x - kStride), hn::LoadU(d, row + x),
-                   hn::LoadU(d, row + x + kStride), hn::LoadU(d, row + x + 2 * kStride))
-             << x;
+  for (int x = 0; x < width; x += kLanes) jumps |= Jumps(row + x, step) << x;
   return jumps;
 }
 
 void MarkDepthJumps(const JumpScratch& scratch, int side, raster::PixelMask& mask) {
   const std::uint64_t inside = ~std::uint64_t{0} >> (64 - side);
-  std::uint64_t from_above = JumpsToBelow(scratch.depth.data() + (kRim - 1) * kStride + kRim, side);
+  const float* above = scratch.depth.data() + (kRim - 1) * kStride + kRim;
+  std::uint64_t from_above = JumpsInRow(above, side, kStride);
   for (int y = 0; y < side; ++y) {
     const float* row = scratch.depth.data() + (y + kRim) * kStride + kRim;
-    const std::uint64_t right = JumpsToRight(row, side), below = JumpsToBelow(row, side);
-    const std::uint64_t from_left = JumpsToRight(row - 1, 1) & 1;
+    const std::uint64_t right = JumpsInRow(row, side, 1);
+    const std::uint64_t below = JumpsInRow(row, side, kStride);
+    const std::uint64_t from_left = Jumps(row - 1, 1) & 1;
     mask.add_to_row(y, (right | right << 1 | from_left | below | from_above) & inside);
     from_above = below;
   }

@@ -44,12 +44,13 @@ void PadToPacket(PixelList& list) {
 // Appends pixels `first` and the kLanes - 1 after it.
 HWY_INLINE void AppendPacket(PixelList& list, std::size_t first) {
   const hn::Rebind<std::uint16_t, D> d16;
-  hn::StoreU(hn::Iota(d16, static_cast<std::uint16_t>(first)), d16, list.at + list.count);
+  hn::StoreU(hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::uint16_t>(first))), d16,
+             list.at + list.count);
   list.count += kLanes;
 }
 
-// Sorts the tile's pixels into those of the first material, whole packets of it at once, those of
-// the others together, and the sky's.
+// Sorts the tile's pixels into those of the first material, those of the others together, and the
+// sky's; whole packets of the first material or the sky at once.
 void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, PixelList& others,
                     PixelList& sky) {
   constexpr SurfaceKind kFirst = std::tuple_element_t<0, Materials>::kSurface;
@@ -57,16 +58,20 @@ void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, 
   const std::uint32_t first_begin = s.primitives.begin(kFirst);
   const std::uint32_t first_size = s.primitives.end(kFirst) - first_begin;
   const auto begin = hn::Set(du, first_begin), size = hn::Set(du, first_size);
+  const auto none = hn::Set(du, raster::kNoPrimitive);
   for (int y = 0; y < tile.box.height_px; ++y) {
     const std::size_t row = static_cast<std::size_t>(y) * s.grid.tile_size_px;
     const auto width = static_cast<std::size_t>(tile.box.width_px);
     for (std::size_t x = 0; x < width;) {
       const std::size_t i = row + x;
-      if (x + kLanes <= width &&
-          hn::AllTrue(du, hn::Lt(hn::Sub(hn::LoadU(du, tile.primitive + i), begin), size))) {
-        AppendPacket(first, i);
-        x += kLanes;
-        continue;
+      if (x + kLanes <= width) {
+        const auto p = hn::LoadU(du, tile.primitive + i);
+        const bool all_first = hn::AllTrue(du, hn::Lt(hn::Sub(p, begin), size));
+        if (all_first || hn::AllTrue(du, hn::Eq(p, none))) {
+          AppendPacket(all_first ? first : sky, i);
+          x += kLanes;
+          continue;
+        }
       }
       const std::size_t end = std::min(x + kLanes, width);
       for (; x < end; ++x) {
