@@ -209,7 +209,7 @@ void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& targe
   }
 }
 
-// Fills in where the marked pixels are; `column` has kMaxSamples values for each pixel of a tile.
+// Fills in where the marked pixels are; `column` has room for the samples of a whole tile.
 template <int kSamples>
 void FindMarked(const Pass::State& state, SampleTarget& target, std::uint8_t* column) {
   std::uint32_t pixels = 0;

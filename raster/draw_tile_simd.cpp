@@ -184,13 +184,14 @@ int FinishTile(const TileTarget& tile, Viewport viewport) {
   const hn::ScalableTag<std::uint32_t> du;
   const auto none = hn::Set(du, kNoPrimitive);
   const IntVec columns = hn::Set(di, viewport.width_px - tile.x0);
+  const IntVec lane = hn::Iota(di, 0);
   std::size_t covered = 0;
   for (std::int32_t y = 0; y < tile.size; ++y) {
     for (std::int32_t x = 0; x < tile.size; x += kLanes) {
       const std::int32_t i = y * tile.size + x;
       const auto id = hn::LoadU(du, tile.primitive + i);
-      const auto visible =
-          hn::And(hn::RebindMask(du, hn::Lt(hn::Iota(di, x), columns)), hn::Ne(id, none));
+      const auto visible = hn::And(
+          hn::RebindMask(du, hn::Lt(lane, hn::Sub(columns, hn::Set(di, x)))), hn::Ne(id, none));
       covered += hn::CountTrue(du, visible);
       hn::StoreU(hn::IfThenElse(visible, id, none), du, tile.primitive + i);
       const FloatVec depth = hn::LoadU(d, tile.depth + i);

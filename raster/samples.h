@@ -38,7 +38,8 @@ class PixelMask {
 // triangle whose primitive number lies in [first_primitive, end_primitive), seen or hidden. Also
 // pixels where such a triangle only passes between the samples, through the square that holds them.
 // The pass must have been prepared with samples. Different tiles may be marked by different
-// threads at one time. Triangles of other primitives cost next to nothing where a draw has many.
+// threads at one time. Triangles of other primitives cost next to nothing where a draw has many,
+// and those cost little around which `mask` has all pixels already.
 void mark_touched(const Pass& pass, int tile, std::uint32_t first_primitive,
                   std::uint32_t end_primitive, PixelMask& mask);
 

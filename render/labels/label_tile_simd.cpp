@@ -96,7 +96,7 @@ HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   LabelPacket p;
   p.tile_at = static_cast<std::size_t>(y) * s.tile_size_px + x;
   p.count = std::min(kLanes, static_cast<std::size_t>(s.box.width_px - x));
-  p.x_px = hn::ConvertTo(d, hn::Iota(DI(), s.box.x0_px + x));
+  p.x_px = hn::ConvertTo(d, CountFrom(s.box.x0_px + x));
   p.y_px = Constant(static_cast<float>(s.box.y0_px + y));
   p.ray = RayAt(s.rays, p.x_px, p.y_px);
   const bool open_sky = !s.depth;

@@ -31,6 +31,9 @@ struct V3 {
 HWY_INLINE V Constant(float value) { return hn::Set(D(), value); }
 HWY_INLINE V3 Constant(glm::vec3 v) { return {Constant(v.x), Constant(v.y), Constant(v.z)}; }
 
+// first, first + 1, ... by lane. Highway's Iota of a variable goes through memory, a store a lane.
+HWY_INLINE VI CountFrom(int first) { return hn::Add(hn::Iota(DI(), 0), hn::Set(DI(), first)); }
+
 HWY_INLINE V Dot(V3 a, V3 b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }

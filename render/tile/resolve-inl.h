@@ -90,7 +90,7 @@ HWY_INLINE void ResolveTile(const Shading& s, const raster::PixelBox& box,
       const V3 display = {ToneCurve(hn::Load(d, scratch.red.data() + i), exposure),
                           ToneCurve(hn::Load(d, scratch.green.data() + i), exposure),
                           ToneCurve(hn::Load(d, scratch.blue.data() + i), exposure)};
-      const VI pixel = ToPixel(display, hn::ConvertTo(d, hn::Iota(di, box.x0_px + x)),
+      const VI pixel = ToPixel(display, hn::ConvertTo(d, CountFrom(box.x0_px + x)),
                                Constant(static_cast<float>(box.y0_px + y)));
       if (x + static_cast<int>(kLanes) <= box.width_px) {
         hn::StoreU(pixel, di, reinterpret_cast<std::int32_t*>(row + x));

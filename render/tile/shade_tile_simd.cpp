@@ -288,7 +288,7 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
     const V y_px = Constant(static_cast<float>(box.y0_px + y));
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
       const std::size_t i = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-      const V3 colour = ShadeSky(s, hn::ConvertTo(d, hn::Iota(DI(), box.x0_px + x)), y_px);
+      const V3 colour = ShadeSky(s, hn::ConvertTo(d, CountFrom(box.x0_px + x)), y_px);
       hn::Store(colour.x, d, scratch.red.data() + i);
       hn::Store(colour.y, d, scratch.green.data() + i);
       hn::Store(colour.z, d, scratch.blue.data() + i);
