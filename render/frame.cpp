@@ -63,6 +63,13 @@ void check_labels(const FrameOptions& o, const View& view) {
               view.width_px, view.height_px);
 }
 
+void check_arguments(const View& view, double t_s, const FrameOptions& options) {
+  check_view(view);
+  check_options(options);
+  check_labels(options, view);
+  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
+}
+
 // What is drawn when the picture is drawn small: the same view on fewer pixels.
 View drawn_view(const View& view, const FrameOptions& options) {
   View drawn = view;
@@ -148,10 +155,7 @@ FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene
 FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& asked, Workspace& workspace, Target& target,
                              Workers& workers) {
-  check_view(view);
-  check_options(asked);
-  check_labels(asked, view);
-  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
+  check_arguments(view, t_s, asked);
   const ScopedFloatEnvironment ieee;
   const World::State& world_state = world.state();
   Workspace::State& ws = workspace.state();
