@@ -103,21 +103,22 @@ std::uint32_t most_seen(const Group* group, std::span<const Group* const> group_
 }
 
 // Whether all samples lie on the centre's triangle, or on its surface near its depth, as most do.
-bool shows_one_place(const Pixel& pixel, std::span<const float> depth,
-                     std::span<const std::uint32_t> primitive) {
-  bool one_triangle = true, one_place = same_place(depth[0], pixel.z);
-  for (std::size_t s = 0; s < depth.size(); ++s) {
-    one_triangle &= primitive[s] == pixel.primitive;
-    one_place &= pixel.surface.holds(primitive[s]) && same_place(depth[0], depth[s]);
-  }
-  return one_triangle || one_place;
+template <std::size_t kSamples>
+bool shows_one_place(const Pixel& pixel, std::span<const float, kSamples> depth,
+                     std::span<const std::uint32_t, kSamples> primitive) {
+  std::uint32_t other_triangle = 0, other_place = !same_place(depth[0], pixel.z);
+  for (std::size_t s = 0; s < kSamples; ++s) other_triangle |= primitive[s] ^ pixel.primitive;
+  if (other_triangle == 0) return true;
+  for (std::size_t s = 0; s < kSamples; ++s)
+    other_place |= !pixel.surface.holds(primitive[s]) | !same_place(depth[0], depth[s]);
+  return other_place == 0;
 }
 
-// Appends the fragments of one pixel, none if all of its samples show what the centre does.
+// Appends the fragments of a pixel that shows more than one place; none if all of its samples show
+// what the centre does.
 void add_fragments(const Pixel& pixel, std::span<const float> depth,
                    std::span<const std::uint32_t> primitive, const SurfaceRanges& surfaces,
                    std::vector<EdgeFragment>& out) {
-  if (shows_one_place(pixel, depth, primitive)) return;
   const auto positions = raster::sample_positions(static_cast<int>(depth.size()));
   std::array<Group, kMaxFragments> groups;
   std::array<const Group*, raster::kMaxSamples> group_of_sample{};
@@ -206,26 +207,18 @@ raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratc
   return mask;
 }
 
-void find_in_tile(const TileEdges& in, int tile, EdgeScratch& scratch,
-                  std::vector<EdgeFragment>& out) {
-  out.clear();
+// The fragments of the marked pixels, whose samples are in the scratch.
+template <std::size_t kSamples>
+void sort_samples(const TileEdges& in, int tile, const raster::PixelMask& mask,
+                  const EdgeScratch& scratch, std::vector<EdgeFragment>& out) {
   const VisibilityBuffer& visibility = in.visibility;
-  if (visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
-  const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
-  const auto pixels = static_cast<std::size_t>(mask.count());
-  if (pixels == 0) return;
-
-  const auto samples = static_cast<std::size_t>(in.samples);
-  scratch.depth.resize(pixels * samples);
-  scratch.primitive.resize(pixels * samples);
-  raster::draw_samples(in.window.pass, tile, mask, scratch.depth, scratch.primitive);
-
   const raster::PixelBox box = raster::tile_box(in.window.viewport(), visibility.grid, tile);
   const std::span<const float> depth = visibility.depth_of(tile);
   const std::span<const std::uint32_t> primitive = visibility.primitive_of(tile);
-  std::size_t n = 0;
+  const float* sample_depth = scratch.depth.data();
+  const std::uint32_t* sample_primitive = scratch.primitive.data();
   for (int y = 0; y < box.height_px; ++y) {
-    for (std::uint64_t left = mask.row(y); left != 0; left &= left - 1, n += samples) {
+    for (std::uint64_t left = mask.row(y); left != 0; left &= left - 1) {
       const int x = std::countr_zero(left);
       const auto at = static_cast<std::uint16_t>(y * visibility.grid.tile_size_px + x);
       const Pixel pixel{.at = at,
@@ -234,10 +227,29 @@ void find_in_tile(const TileEdges& in, int tile, EdgeScratch& scratch,
                         .z = depth[at],
                         .primitive = primitive[at],
                         .surface = in.surfaces.of(primitive[at])};
-      add_fragments(pixel, std::span(scratch.depth).subspan(n, samples),
-                    std::span(scratch.primitive).subspan(n, samples), in.surfaces, out);
+      const std::span<const float, kSamples> depths(sample_depth, kSamples);
+      const std::span<const std::uint32_t, kSamples> primitives(sample_primitive, kSamples);
+      if (!shows_one_place(pixel, depths, primitives))
+        add_fragments(pixel, depths, primitives, in.surfaces, out);
+      sample_depth += kSamples, sample_primitive += kSamples;
     }
   }
+}
+
+void find_in_tile(const TileEdges& in, int tile, EdgeScratch& scratch,
+                  std::vector<EdgeFragment>& out) {
+  out.clear();
+  if (in.visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
+  const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
+  const auto samples = static_cast<std::size_t>(mask.count()) * static_cast<unsigned>(in.samples);
+  if (samples == 0) return;
+  scratch.depth.resize(samples);
+  scratch.primitive.resize(samples);
+  raster::draw_samples(in.window.pass, tile, mask, scratch.depth, scratch.primitive);
+  if (in.samples == 8)
+    sort_samples<8>(in, tile, mask, scratch, out);
+  else
+    sort_samples<4>(in, tile, mask, scratch, out);
 }
 
 }  // namespace
