@@ -9,11 +9,33 @@
 #endif
 
 #include <hwy/highway.h>
+#include <immintrin.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace swell {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// x without its fraction, and the whole number nearest to x (of two, the even one). The lowest
+// integer where |x| >= 2^31 or x is NaN; Highway's own conversions take three more instructions to
+// give the highest one on that side.
+template <class V>
+HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> TruncateToInt(V x) {
+#if HWY_TARGET == HWY_AVX2
+  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm256_cvttps_epi32(x.raw)};
+#else
+  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm512_cvttps_epi32(x.raw)};
+#endif
+}
+
+template <class V>
+HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> RoundToInt(V x) {
+#if HWY_TARGET == HWY_AVX2
+  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm256_cvtps_epi32(x.raw)};
+#else
+  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm512_cvtps_epi32(x.raw)};
+#endif
+}
 
 // sin and cos of 2 pi x. Absolute error 1e-7 for every finite x (from 2^23 on all x are whole
 // turns). Infinity and NaN give NaN.

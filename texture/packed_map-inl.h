@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "math/elementary-inl.h"
 #include "texture/packed_map.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -94,15 +95,13 @@ HWY_INLINE VB DotPairs(VB weights_u8, VB taps_s8) {
 #endif
 }
 
-// Sums of four neighbouring products: 32 bits each.
-template <class VB>
-HWY_INLINE VB DotQuads(VB weights_u8, VB taps_s8) {
+// Sums of neighbouring products of signed 16-bit numbers: 32 bits each.
+template <class VI>
+HWY_INLINE VI DotWords(VI weights_s16, VI sums_s16) {
 #if HWY_TARGET == HWY_AVX2
-  return VB{
-      _mm256_madd_epi16(_mm256_maddubs_epi16(weights_u8.raw, taps_s8.raw), _mm256_set1_epi16(1))};
+  return VI{_mm256_madd_epi16(weights_s16.raw, sums_s16.raw)};
 #else
-  return VB{
-      _mm512_madd_epi16(_mm512_maddubs_epi16(weights_u8.raw, taps_s8.raw), _mm512_set1_epi16(1))};
+  return VI{_mm512_madd_epi16(weights_s16.raw, sums_s16.raw)};
 #endif
 }
 
@@ -146,77 +145,141 @@ HWY_INLINE VI BilinearWeights(DI di, VI x_fx8, VI y_fx8) {
   return hn::BitCast(di, hn::Add(rows, hn::Mul(right, hn::Set(d16, 255))));
 }
 
-// Coordinate u in turns of the map to 1/256 texels, in the low bits of the result: those above
-// log2(256 * size) mean nothing. Any float gives some number; |u| < 2^20 gives the right one.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Vec<hn::RebindToSigned<D>> TexelCoordinateFx8(D d, V u, V size_fx8) {
-  const V fraction = hn::Sub(u, hn::Floor(u));
-  // Adding 1.5 * 2^23 rounds to an integer, to nearest even; fraction * size_fx8 <= 2^20 is exact.
-  return hn::BitCast(hn::RebindToSigned<D>(),
-                     hn::MulAdd(fraction, size_fx8, hn::Set(d, 12582912.0f)));
+// Weights of the left and right taps of both rows, as bytes 255 - f, f, 255 - f, f for the fraction
+// f in the coordinates' low bytes: f / 255 for f / 256, off by at most 1 / 256.
+template <class DI, class VI = hn::Vec<DI>>
+HWY_INLINE VI WeightsAlongX(DI di, VI x_fx8) {
+  const hn::Repartition<std::uint8_t, DI> d8;
+  alignas(16) static constexpr std::uint8_t kRepeat[16] = {0, 0, 0, 0, 4,  4,  4,  4,
+                                                           8, 8, 8, 8, 12, 12, 12, 12};
+  const auto f = hn::TableLookupBytes(hn::BitCast(d8, x_fx8), hn::LoadDup128(d8, kRepeat));
+  return hn::Xor(hn::BitCast(di, f), hn::Set(di, 0x00ff00ff));
 }
 
-// The dot products of the words at `index` with the weights, times scale / 255.
-template <class D, class V = hn::Vec<D>, class VI>
-HWY_INLINE void BlendPacked2(D d, const PackedMap2& map, VI index, VI weights, V& a, V& b) {
+// A byte that both 16-bit halves of a lane get: its low byte.
+template <class DI, class VI = hn::Vec<DI>>
+HWY_INLINE VI LowByteTwice(DI di, VI v) {
+  const hn::Repartition<std::uint8_t, DI> d8;
+  alignas(16) static constexpr std::uint8_t kWiden[16] = {0, 128, 0, 128, 4,  128, 4,  128,
+                                                          8, 128, 8, 128, 12, 128, 12, 128};
+  return hn::BitCast(di, hn::TableLookupBytesOr0(hn::BitCast(d8, v), hn::LoadDup128(d8, kWiden)));
+}
+
+// Weights of the upper and lower row, 16 bits each: 256 - f and f for the fraction f in the
+// coordinates' low bytes.
+template <class DI, class VI = hn::Vec<DI>>
+HWY_INLINE VI WeightsAlongY(DI di, VI y_fx8) {
+  return hn::Add(hn::Xor(LowByteTwice(di, y_fx8), hn::Set(di, 0x000000ff)), hn::Set(di, 1));
+}
+
+// Where the words of texels (x, y) lie; coordinates in 1/256 texels of each lane's level, which is
+// one of the map's. A level of size s begins at word s * s, so that its rows are rows s to 2 s - 1
+// of s words.
+template <class DI, class VI = hn::Vec<DI>>
+HWY_INLINE VI WordIndex(DI di, const PackedMap2& map, VI x_fx8, VI y_fx8, VI level) {
+  const VI mask = hn::Shr(hn::Set(di, map.size - 1), level);
+  const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
+  const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
+  const VI row = hn::Or(y, hn::Add(mask, hn::Set(di, 1)));
+  return hn::Or(hn::Shl(row, hn::Sub(hn::Set(di, map.levels - 1), level)), x);
+}
+
+// The 32 bits of the lane with lane % 4 == kPart, from `fine` in the low and from `coarse` in the
+// high half of its block of 128 bits: as LoadPairs puts the words of those lanes.
+template <int kPart, class DI, class VI = hn::Vec<DI>>
+HWY_INLINE VI SpreadPart(DI di, VI fine, VI coarse) {
+  const hn::RebindToFloat<DI> df;
+  const auto lo = hn::BitCast(df, fine), hi = hn::BitCast(df, coarse);
+#if HWY_TARGET == HWY_AVX2
+  return hn::BitCast(di, hn::Vec<decltype(df)>{_mm256_shuffle_ps(lo.raw, hi.raw, kPart * 0x55)});
+#else
+  return hn::BitCast(di, hn::Vec<decltype(df)>{_mm512_shuffle_ps(lo.raw, hi.raw, kPart * 0x55)});
+#endif
+}
+
+// The whole words of the lanes with lane % 4 == kPart.
+template <int kPart, class D8>
+HWY_INLINE hn::Vec<D8> LoadPairs(D8, const PackedWord* words,
+                                 const std::uint32_t* HWY_RESTRICT index) {
+  const auto word = [&](int block) HWY_ATTR {
+    return _mm_load_si128(reinterpret_cast<const __m128i*>(words + index[4 * block + kPart]));
+  };
+  const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(word(0)), word(1), 1);
+#if HWY_TARGET == HWY_AVX2
+  return hn::Vec<D8>{low};
+#else
+  const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(word(2)), word(3), 1);
+  return hn::Vec<D8>{_mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1)};
+#endif
+}
+
+// Adds `gain` times what `map` holds at (x_fx8, y_fx8) [1/256 texels of level 0; texel (i, j) lies
+// at (i, j), and the map repeats], bilinearly on mip levels `base` and `base` + 1 and between them
+// by t in [0, 1], to (a, b). base in [0, detail_levels); the level after the last one of those is
+// 0. The positive weights add up to 1 and are off by less than 1/127 together; with t 0 a texel's
+// own position gives that texel.
+template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI base, V t, float gain,
+                           V& a, V& b) {
   const hn::RebindToSigned<D> di;
   const hn::Repartition<std::uint8_t, D> d8;
+  const hn::Repartition<std::int16_t, D> d16;
+  constexpr int kWhole = 127;  // of the blend: 256 * 127 fits 16 bits
+  const VI x = hn::Shr(x_fx8, base), y = hn::Shr(y_fx8, base);
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
-  StoreIndex(index, lane_index);
-  const auto words0 = LoadWords<8, 0>(d8, map.words.data(), lane_index);
-  const auto words1 = LoadWords<8, 1>(d8, map.words.data(), lane_index);
+  StoreIndex(WordIndex(di, map, x, y, base), lane_index);
+
+  const auto part_coarse = hn::BitCast(
+      d16, LowByteTwice(di, swell::HWY_NAMESPACE::RoundToInt(hn::Mul(t, hn::Set(d, kWhole)))));
+  const auto part_fine = hn::Sub(hn::Set(d16, kWhole), part_coarse);
+  const auto weights_y = [&](VI coordinate, auto part) HWY_ATTR {
+    return hn::BitCast(di, hn::Mul(hn::BitCast(d16, WeightsAlongY(di, coordinate)), part));
+  };
+  const VI fine_x = WeightsAlongX(di, x), coarse_x = WeightsAlongX(di, hn::ShiftRight<1>(x));
+  const VI fine_y = weights_y(y, part_fine);
+  const VI coarse_y = weights_y(hn::ShiftRight<1>(y), part_coarse);
+  // Of each lane four sums: fine a, fine b, coarse a, coarse b.
+  const auto sums = [&]<int kPart>() HWY_ATTR {
+    const auto rows = DotPairs(hn::BitCast(d8, SpreadPart<kPart>(di, fine_x, coarse_x)),
+                               LoadPairs<kPart>(d8, map.words.data(), lane_index));
+    return DotWords(SpreadPart<kPart>(di, fine_y, coarse_y), hn::BitCast(di, rows));
+  };
+  const VI s0 = sums.template operator()<0>(), s1 = sums.template operator()<1>();
+  const VI s2 = sums.template operator()<2>(), s3 = sums.template operator()<3>();
+  // a and b of lanes 0, 1 (2, 3) of each four.
+  const hn::Repartition<std::int64_t, D> d64;
+  const auto add_levels = [&](VI even, VI odd) HWY_ATTR {
+    const auto e = hn::BitCast(d64, even), o = hn::BitCast(d64, odd);
+    return hn::Add(hn::BitCast(di, hn::InterleaveLower(d64, e, o)),
+                   hn::BitCast(di, hn::InterleaveUpper(d64, e, o)));
+  };
+  const VI low = add_levels(s0, s1), high = add_levels(s2, s3);
+  const V unit = hn::Set(d, gain * (map.scale / (255.0f * 256.0f * kWhole)));
+  a = hn::MulAdd(hn::ConvertTo(d, EvenParts(di, low, high)), unit, a);
+  b = hn::MulAdd(hn::ConvertTo(d, OddParts(di, low, high)), unit, b);
+}
+
+// What `map` holds at (x_fx8, y_fx8), as AddBlended, bilinearly on one of its mip levels a lane.
+template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE void SampleLevel(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI level, V& a, V& b) {
+  const hn::RebindToSigned<D> di;
+  const hn::Repartition<std::uint8_t, D> d8;
+  const VI x = hn::Shr(x_fx8, level), y = hn::Shr(y_fx8, level);
+  HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
+  StoreIndex(WordIndex(di, map, x, y, level), lane_index);
+  const VI weights_x = WeightsAlongX(di, x), weights_y = WeightsAlongY(di, y);
   // Each lane's weights twice: for channel a and for channel b.
-  const auto weights0 = hn::BitCast(d8, hn::InterleaveLower(di, weights, weights));
-  const auto weights1 = hn::BitCast(d8, hn::InterleaveUpper(di, weights, weights));
-  const auto sums0 = DotQuads(weights0, words0);
-  const auto sums1 = DotQuads(weights1, words1);
-  const V unit = hn::Set(d, map.scale / 255.0f);
+  const auto quads0 = LoadWords<sizeof(PackedWord), 0>(d8, map.words.data(), lane_index);
+  const auto quads1 = LoadWords<sizeof(PackedWord), 1>(d8, map.words.data(), lane_index);
+  const auto rows0 =
+      DotPairs(hn::BitCast(d8, hn::InterleaveLower(di, weights_x, weights_x)), quads0);
+  const auto rows1 =
+      DotPairs(hn::BitCast(d8, hn::InterleaveUpper(di, weights_x, weights_x)), quads1);
+  const VI sums0 = DotWords(hn::InterleaveLower(di, weights_y, weights_y), hn::BitCast(di, rows0));
+  const VI sums1 = DotWords(hn::InterleaveUpper(di, weights_y, weights_y), hn::BitCast(di, rows1));
+  const V unit = hn::Set(d, map.scale / (255.0f * 256.0f));
   a = hn::Mul(hn::ConvertTo(d, EvenParts(di, sums0, sums1)), unit);
   b = hn::Mul(hn::ConvertTo(d, OddParts(di, sums0, sums1)), unit);
-}
-
-// Samples `map` bilinearly at (u, v) [turns of the map: 1 is one period; texel (i, j) lies at
-// (i, j) / size; |u|, |v| < 2^20] on a mip level per lane [clamped to the map's]. Positions are
-// snapped to 1/256 texel. The result lies within the taps' minimum and maximum; a texel's own
-// position gives that texel. A NaN or infinite coordinate gives some texel's value.
-template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
-HWY_INLINE void SamplePacked2(D d, const PackedMap2& map, V u, V v, VI level, V& a, V& b) {
-  const hn::RebindToSigned<D> di;
-  // Level l is 2^k texels wide.
-  const VI finest = hn::Set(di, map.levels - 1);
-  const VI k = hn::Sub(finest, hn::Min(hn::Max(level, hn::Zero(di)), finest));
-  const VI size = hn::Shl(hn::Set(di, 1), k);
-  const VI mask = hn::Sub(size, hn::Set(di, 1));
-  const V size_fx8 = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(k, hn::Set(di, 127 + 8))));
-
-  const VI x_fx8 = TexelCoordinateFx8(d, u, size_fx8);
-  const VI y_fx8 = TexelCoordinateFx8(d, v, size_fx8);
-  const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
-  const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
-  const VI weights = BilinearWeights(di, x_fx8, y_fx8);
-  // A level of size s begins at word s * s, so that its rows are rows s to 2 s - 1 of s words.
-  const VI index = hn::Or(hn::Shl(hn::Or(y, size), k), x);
-  BlendPacked2(d, map, index, weights, a, b);
-}
-
-// As SamplePacked2 with one level for all lanes.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void SamplePacked2Level(D d, const PackedMap2& map, V u, V v, int level, V& a, V& b) {
-  const hn::RebindToSigned<D> di;
-  using VI = hn::Vec<hn::RebindToSigned<D>>;
-  const int finest = map.levels - 1;
-  const int k = finest - (level < 0 ? 0 : level > finest ? finest : level);
-  const int size = 1 << k;
-  const VI mask = hn::Set(di, size - 1);
-  const V size_fx8 = hn::Set(d, static_cast<float>(size * 256));
-
-  const VI x_fx8 = TexelCoordinateFx8(d, u, size_fx8);
-  const VI y_fx8 = TexelCoordinateFx8(d, v, size_fx8);
-  const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
-  const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
-  const VI weights = BilinearWeights(di, x_fx8, y_fx8);
-  const VI index = hn::Or(hn::ShiftLeftSame(hn::Or(y, hn::Set(di, size)), k), x);
-  BlendPacked2(d, map, index, weights, a, b);
 }
 
 // Window coordinate to 1/256 texels from the first texel's centre, clamped to [0, texels - 1];

@@ -10,16 +10,28 @@
 
 namespace swell::texture {
 
-// A periodic two-channel map with mip levels, for slopes, normals and offsets. Every texel is a
-// 64-bit word that holds the 2 x 2 neighbourhood of both channels as signed bytes, from the low
-// byte up: a(i,j) a(i+1,j) a(i,j+1) a(i+1,j+1) b(i,j) b(i+1,j) b(i,j+1) b(i+1,j+1).
-// value = byte * scale. Level l is (size >> l) squared, down to 1 x 1; a level of side s begins at
-// word s * s, so that a sampler finds it without a table.
+// The 2 x 2 neighbourhood of a texel, both channels, as signed bytes from the low byte up:
+// a(i,j) a(i+1,j) a(i,j+1) a(i+1,j+1) b(i,j) b(i+1,j) b(i,j+1) b(i+1,j+1).
+using PackedQuad = std::uint64_t;
+
+// All that a sample between two mip levels needs: the quad of a texel (i, j), and the quad of the
+// next coarser level that it lies in, (i / 2, j / 2).
+struct alignas(16) PackedWord {
+  PackedQuad fine, coarse;
+  bool operator==(const PackedWord&) const = default;
+};
+
+// A periodic two-channel map with mip levels, for slopes, normals and offsets; value = byte *
+// scale. Level l is (size >> l) squared, down to 1 x 1; a level of side s begins at word s * s, so
+// that a sampler finds it without a table.
 struct PackedMap2 {
   int size = 0;    // power of two, [1, 4096]
   int levels = 0;  // log2(size) + 1
+  // Levels below this hold detail worth blending, [1, kMostDetailLevels]: all but the two coarsest.
+  // The words of the last of them blend to 0.
+  int detail_levels = 1;
   float scale = 1.0f;
-  std::vector<std::uint64_t> words;
+  std::vector<PackedWord> words;
   std::vector<std::uint32_t> level_offset;  // first word of each level
   // Variance of a and b together that each level has lost against level 0, >= 0: feeds the
   // roughness of far water.
@@ -27,7 +39,10 @@ struct PackedMap2 {
   // What building needs; kept so that a frame allocates nothing.
   std::vector<float> scratch;
   std::vector<std::int8_t> scratch_bytes;
+  std::vector<PackedQuad> scratch_quads;
 };
+
+inline constexpr int kMostDetailLevels = 7;
 
 // Builds `map` from size x size samples of each channel (row-major, sample (i, j) at texel centre
 // u = i / size: texel centres lie on the lattice, not at +0.5). Mip levels by the tent filter

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Eight lanes on every target, so that sums have one order.
 using D = hn::CappedTag<float, 8>;
 constexpr int kLanes = 8;
-constexpr int kWordsAtOnce = 16;
+constexpr int kQuadsAtOnce = 16;
 
 // max |value| over `count` floats.
 float max_magnitude(const float* HWY_RESTRICT values, std::size_t count) {
@@ -123,16 +123,16 @@ void filter_down(const float* HWY_RESTRICT from, int size, float* HWY_RESTRICT c
   }
 }
 
-// Words of one row from the byte rows j (0) and j + 1 (1) of both channels.
+// Quads of one row from the byte rows j (0) and j + 1 (1) of both channels.
 void pack_row(const std::int8_t* HWY_RESTRICT a0, const std::int8_t* HWY_RESTRICT a1,
               const std::int8_t* HWY_RESTRICT b0, const std::int8_t* HWY_RESTRICT b1, int size,
-              std::uint64_t* HWY_RESTRICT words) {
+              PackedQuad* HWY_RESTRICT quads) {
   const hn::CappedTag<std::int8_t, 16> d8;
   const hn::Repartition<std::int16_t, decltype(d8)> d16;
   const hn::Repartition<std::int32_t, decltype(d8)> d32;
   const hn::Repartition<std::uint64_t, decltype(d8)> d64;
   int i = 0;
-  for (; i + kWordsAtOnce <= size; i += kWordsAtOnce) {
+  for (; i + kQuadsAtOnce <= size; i += kQuadsAtOnce) {
     // Neighbours in x side by side, then rows, then channels.
     const auto pairs = [&](const std::int8_t* row, auto& low, auto& high) HWY_ATTR {
       const auto left = hn::LoadU(d8, row + i), right = hn::LoadU(d8, row + i + 1);
@@ -145,7 +145,7 @@ void pack_row(const std::int8_t* HWY_RESTRICT a0, const std::int8_t* HWY_RESTRIC
     pairs(b0, b0_pairs[0], b0_pairs[1]);
     pairs(b1, b1_pairs[0], b1_pairs[1]);
     for (int h = 0; h < 2; ++h) {
-      std::uint64_t* const out = words + i + 8 * h;
+      PackedQuad* const out = quads + i + 8 * h;
       const auto a_low = hn::BitCast(d32, hn::InterleaveLower(d16, a0_pairs[h], a1_pairs[h]));
       const auto a_high = hn::BitCast(d32, hn::InterleaveUpper(d16, a0_pairs[h], a1_pairs[h]));
       const auto b_low = hn::BitCast(d32, hn::InterleaveLower(d16, b0_pairs[h], b1_pairs[h]));
@@ -159,15 +159,15 @@ void pack_row(const std::int8_t* HWY_RESTRICT a0, const std::int8_t* HWY_RESTRIC
   for (; i < size; ++i) {
     const std::int8_t taps[8] = {a0[i], a0[i + 1], a1[i], a1[i + 1],
                                  b0[i], b0[i + 1], b1[i], b1[i + 1]};
-    std::uint64_t word = 0;
-    for (int n = 8; n-- > 0;) word = word << 8 | static_cast<std::uint8_t>(taps[n]);
-    words[i] = word;
+    PackedQuad quad = 0;
+    for (int n = 8; n-- > 0;) quad = quad << 8 | static_cast<std::uint8_t>(taps[n]);
+    quads[i] = quad;
   }
 }
 
 // Quantises and packs one level; returns the sum of squares of both channels.
 double build_level(const float* a, const float* b, int size, float per_unit, std::int8_t* bytes,
-                   std::uint64_t* words) {
+                   PackedQuad* quads) {
   const std::ptrdiff_t stride = size + 1;
   std::int8_t* const a_bytes = bytes;
   std::int8_t* const b_bytes = bytes + stride * size;
@@ -180,9 +180,39 @@ double build_level(const float* a, const float* b, int size, float per_unit, std
   for (std::ptrdiff_t j = 0; j < size; ++j) {
     const std::ptrdiff_t next = (j + 1) & (size - 1);
     pack_row(a_bytes + j * stride, a_bytes + next * stride, b_bytes + j * stride,
-             b_bytes + next * stride, size, words + j * size);
+             b_bytes + next * stride, size, quads + j * size);
   }
   return squares;
+}
+
+// Puts each quad of a level beside the one of the next coarser level around it, or beside 0 if
+// that is null.
+void join_levels(const PackedQuad* HWY_RESTRICT fine, const PackedQuad* HWY_RESTRICT coarse,
+                 int size, PackedWord* HWY_RESTRICT words) {
+  const hn::Full128<PackedQuad> d;
+  if (size == 1 || !coarse) {
+    for (std::ptrdiff_t n = 0; n < std::ptrdiff_t{size} * size; ++n) words[n] = {fine[n], 0};
+    return;
+  }
+  for (std::ptrdiff_t j = 0; j < size; ++j) {
+    const PackedQuad* const above = coarse + j / 2 * (size / 2);
+    for (std::ptrdiff_t i = 0; i < size; i += 2) {
+      const auto pair = hn::LoadU(d, fine + j * size + i), around = hn::Set(d, above[i / 2]);
+      auto* const out = reinterpret_cast<PackedQuad*>(words + j * size + i);
+      hn::Store(hn::InterleaveLower(d, pair, around), d, out);
+      hn::Store(hn::InterleaveUpper(d, pair, around), d, out + 2);
+    }
+  }
+}
+
+void join_all_levels(PackedMap2& map) {
+  for (int level = 0; level < map.levels; ++level) {
+    const PackedQuad* const quads = map.scratch_quads.data();
+    const bool blends = level + 1 < map.levels && level + 1 != map.detail_levels;
+    join_levels(quads + map.level_offset[level],
+                blends ? quads + map.level_offset[level + 1] : nullptr, map.size >> level,
+                map.words.data() + map.level_offset[level]);
+  }
 }
 
 void build_map(const float* a, const float* b, float fixed_scale, PackedMap2& map) {
@@ -200,7 +230,7 @@ void build_map(const float* a, const float* b, float fixed_scale, PackedMap2& ma
     const int size = map.size >> level;
     const std::ptrdiff_t level_texels = static_cast<std::ptrdiff_t>(size) * size;
     const double squares = build_level(a, b, size, per_unit, map.scratch_bytes.data(),
-                                       map.words.data() + map.level_offset[level]);
+                                       map.scratch_quads.data() + map.level_offset[level]);
     const double mean = squares / static_cast<double>(level_texels);
     if (level == 0) first_mean = mean;
     map.lost_variance[level] = static_cast<float>(std::max(0.0, first_mean - mean));
@@ -211,6 +241,7 @@ void build_map(const float* a, const float* b, float fixed_scale, PackedMap2& ma
     b = next + level_texels / 4;
     next += level_texels / 2;
   }
+  join_all_levels(map);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -231,7 +262,9 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
               size);
   map.size = size;
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
+  map.detail_levels = std::clamp(map.levels - 2, 1, kMostDetailLevels);
   map.words.resize(2 * texels);
+  map.scratch_quads.resize(2 * texels);
   map.level_offset.resize(map.levels);
   map.lost_variance.resize(map.levels);
   for (int level = 0; level < map.levels; ++level) {

@@ -8,20 +8,19 @@
 
 namespace swell::render {
 
-// Mip levels a shader tells apart; coarser ones hold nothing.
-inline constexpr int kTableLevels = 8;
-
 // A map of two channels, slopes as a rule, that repeats or lies over one square.
 struct SlopeLayer {
   const texture::PackedMap2* map = nullptr;
-  float inv_length = 1.0f;           // turns of the map per metre
-  float u_eye = 0.0f, v_eye = 0.0f;  // map position under the eye, [0, 1)
+  float texels_fx8_per_m = 1.0f;             // 1/256 texels of level 0
+  float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // map position under the eye; in the map if it repeats
   float log2_texels_per_m = 0.0f;
   float gain = 1.0f;        // multiplies the slopes
   float uv_noise_m = 0.0f;  // how far the coordinates are perturbed
-  int levels = 1;           // levels below this hold detail
-  // Slope variance that each mip level has lost, after gain; repeated for wide vectors.
-  std::array<float, 2 * kTableLevels> lost_variance{};
+  float coarsest = 1.0f;    // the level from which on nothing is left, a little less
+  // Slope variance that each mip level has lost, after gain, and how much more the next one has;
+  // repeated for wide vectors.
+  static constexpr int kTableLevels = 8;
+  std::array<float, 2 * kTableLevels> lost_variance{}, lost_by_next{};
 };
 
 // x without its whole part, in [0, 1].

@@ -120,12 +120,11 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
 HWY_INLINE V InsideLand(const Terrain& terrain, V3 p) {
   constexpr float kRim = 1.0f / 30.0f;  // of the side
   const SlopeLayer& square = terrain.slopes;
-  const auto from_rim = [&](float eye, V x) HWY_ATTR {
-    const V u = hn::MulAdd(x, Constant(square.inv_length), Constant(eye));
-    return hn::Min(u, hn::Sub(Constant(1.0f), u));
-  };
-  const V nearest = hn::Min(from_rim(square.u_eye, p.x), from_rim(square.v_eye, p.y));
-  return Clamp(hn::Mul(nearest, Constant(1.0f / kRim)), 0.0f, 1.0f);
+  const LayerPlace place = PlaceIn(square, p.x, p.y);
+  const float side_fx8 = 256.0f * static_cast<float>(square.map->size);
+  const auto from_rim = [&](V x) HWY_ATTR { return hn::Min(x, hn::Sub(Constant(side_fx8), x)); };
+  const V nearest = hn::Min(from_rim(place.x_fx8), from_rim(place.y_fx8));
+  return Clamp(hn::Mul(nearest, Constant(1.0f / (kRim * side_fx8))), 0.0f, 1.0f);
 }
 
 // Ground as the eye sees it, with the sea's last sheets on it; without detail for what is seen

@@ -7,6 +7,8 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "render/labels/label_channels.h"
 #include "render/materials/foam-inl.h"
@@ -60,20 +62,16 @@ struct Surf {
 HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
   const D d;
   const SlopeLayer& layer = water.coast_surf;
-  const V u = hn::MulAdd(p.x, Constant(layer.inv_length), Constant(layer.u_eye));
-  const V v = hn::MulAdd(p.y, Constant(layer.inv_length), Constant(layer.v_eye));
-  const V low = hn::Zero(d), high = Constant(0.999f);
+  const LayerPlace place = PlaceIn(layer, p.x, p.y);
+  const V low = hn::Zero(d), high = Constant(0.999f * 256.0f * static_cast<float>(layer.map->size));
   Surf surf;
-  surf.inside =
-      hn::And(hn::And(hn::Gt(u, low), hn::Gt(v, low)), hn::And(hn::Lt(u, high), hn::Lt(v, high)));
+  surf.inside = hn::And(hn::And(hn::Gt(place.x_fx8, low), hn::Gt(place.y_fx8, low)),
+                        hn::And(hn::Lt(place.x_fx8, high), hn::Lt(place.y_fx8, high)));
   surf.ceded = surf.foam = hn::Zero(d);
   surf.is_near = !hn::AllFalse(d, surf.inside);
   surf.all_ceded = false;
   if (!surf.is_near) return surf;
-  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m)), 0.0f,
-                        static_cast<float>(layer.levels - 1));
-  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), surf.ceded,
-                                        surf.foam);
+  SampleNearest(layer, place, hn::Sub(level_m, Constant(0.5f)), surf.ceded, surf.foam);
   // All but half a step is all.
   surf.ceded = hn::IfThenElse(hn::Gt(surf.ceded, Constant(0.996f)), Constant(1.0f), surf.ceded);
   surf.ceded = hn::IfThenElseZero(surf.inside, surf.ceded);
@@ -112,37 +110,52 @@ HWY_INLINE V LevelOnWaves(const Packet& packet, V across, const WaterSlopes& s) 
 
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates Perlin
 // noise bends. How steeply the eye meets the long waves decides how long a pixel's footprint is on
-// the shorter ones.
-template <bool kCoast>
-HWY_INLINE WaterSlopes SampleWater(const Water& water, const ViewRays& rays, const Packet& packet) {
+// the shorter ones. A layer waits for the longer ones: packets side by side hide that.
+template <bool kCoast, std::size_t kCount, std::size_t... k>
+HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const ViewRays& rays,
+                                                       const std::array<Packet, kCount>& packets,
+                                                       std::index_sequence<k...>) {
   const D d;
-  const V across = FootprintAcross(rays, packet);
-  const V level_flat_m = FootprintLevel(across, Clamp(packet.to_eye.z, kMinCos, 1.0f));
-  V level_m = level_flat_m;
-  Surf surf = {hn::Zero(d), hn::Zero(d), hn::MaskFromVec(hn::Zero(d)), false, false};
-  if constexpr (kCoast) surf = SampleSurf(water, packet.p, level_flat_m);
-  WaterSlopes s = {hn::Zero(d), hn::Zero(d), Constant(water.base_variance),
-                   FoamCover(water.foam, packet.p, level_flat_m, surf.foam)};
-  V du = hn::Zero(d), dv = hn::Zero(d), unused = hn::Zero(d);
+  const V zero = hn::Zero(d);
+  const std::array<V, kCount> across = {FootprintAcross(rays, packets[k])...};
+  const std::array<V, kCount> level_flat_m = {
+      FootprintLevel(across[k], Clamp(packets[k].to_eye.z, kMinCos, 1.0f))...};
+  std::array<V, kCount> level_m = level_flat_m;
+  std::array<Surf, kCount> surf = {
+      (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
+  if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
+  std::array<WaterSlopes, kCount> s = {
+      WaterSlopes{zero, zero, Constant(water.base_variance),
+                  FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam)}...};
+  std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du, unused = du;
   // In scenes with surf nobody sees the step between two levels of the noise.
   if constexpr (kCoast)
-    NearestSlopes(water.uv_noise, packet.p, level_m, du, dv);
+    (NearestSlopes(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k]), ...);
   else
-    AddSlopes(water.uv_noise, packet.p, level_m, du, dv, du, dv, unused);
+    (AddSlopes(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k], du[k], dv[k], unused[k]),
+     ...);
   for (int i = 0; i < water.sine_count; ++i)
-    AddSine(water.sines[static_cast<std::size_t>(i)], packet.p, level_m, s);
+    (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
   const int last_long = water.long_layer_count - 1;
+  const bool all_ceded = kCoast && (surf[k].all_ceded && ...);
   for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
     const bool is_long = i <= last_long;
-    if (i >= 0 && !(kCoast && is_long && surf.all_ceded))
-      AddSlopes(water.layers[static_cast<std::size_t>(i)], packet.p, level_m, du, dv, s.slope_x,
-                s.slope_y, s.variance);
+    if (i >= 0 && !(is_long && all_ceded)) {
+      const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
+      (AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
+                 s[k].variance),
+       ...);
+    }
     if (!is_long) continue;
-    if (kCoast && surf.is_near && i == last_long)
-      BlendCoast(water, packet.p, level_flat_m, surf, s);
-    level_m = LevelOnWaves(packet, across, s);
+    const auto blend_coast = [&](const Packet& packet, V level, const Surf& at, WaterSlopes& slopes)
+                                 HWY_ATTR {
+                                   if (kCoast && at.is_near && i == last_long)
+                                     BlendCoast(water, packet.p, level, at, slopes);
+                                 };
+    (blend_coast(packets[k], level_flat_m[k], surf[k], s[k]), ...);
+    ((level_m[k] = LevelOnWaves(packets[k], across[k], s[k])), ...);
   }
   return s;
 }
@@ -242,13 +255,19 @@ HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
 // kCoast: water.has_coast.
 template <bool kCoast>
 struct WaterShader {
+  static constexpr std::size_t kPacketsAtOnce = 3;
   const Water& water;
 
+  template <std::size_t kCount>
+  HWY_INLINE std::array<WaterSlopes, kCount> LookUp(
+      const Shading& shading, const std::array<Packet, kCount>& packets) const {
+    return SampleWater<kCoast>(water, shading.rays, packets, std::make_index_sequence<kCount>());
+  }
+
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
-                               const Packet& packet) const {
+                               const Packet& packet, const WaterSlopes& s) const {
     const D d;
     const Light& light = shading.light;
-    const WaterSlopes s = SampleWater<kCoast>(water, shading.rays, packet);
     // Normal, and the cosine to the eye, negative on back sides of waves that the mesh does not
     // hide.
     const V3 normal = NormalOf(s.slope_x, s.slope_y);

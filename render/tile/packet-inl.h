@@ -107,15 +107,15 @@ HWY_INLINE V FootprintLevel(V across_log2, V cos_view) {
   return hn::NegMulAdd(Log2Coarse(D(), cos_view), Constant(0.75f), across_log2);
 }
 
-// A layer's slopes at level (one sample), 0 for lanes whose level holds no detail.
-HWY_INLINE void SampleLevel(const SlopeLayer& layer, V u, V v, V level, V& a, V& b) {
-  const D d;
-  const auto has_detail = hn::Lt(level, Constant(static_cast<float>(layer.levels)));
-  a = b = hn::Zero(d);
-  if (hn::AllFalse(d, has_detail)) return;
-  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), a, b);
-  a = hn::IfThenElseZero(has_detail, a);
-  b = hn::IfThenElseZero(has_detail, b);
+// The place of p [m] in a layer's map, in 1/256 texels of level 0.
+struct LayerPlace {
+  V x_fx8, y_fx8;
+};
+
+HWY_INLINE LayerPlace PlaceIn(const SlopeLayer& layer, V x_m, V y_m) {
+  const V per_m = Constant(layer.texels_fx8_per_m);
+  return {hn::MulAdd(x_m, per_m, Constant(layer.x_eye_fx8)),
+          hn::MulAdd(y_m, per_m, Constant(layer.y_eye_fx8))};
 }
 
 // Adds a layer's slopes at p to (slope_x, slope_y), blended between mip levels, and the variance
@@ -123,43 +123,35 @@ HWY_INLINE void SampleLevel(const SlopeLayer& layer, V u, V v, V level, V& a, V&
 HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, V& slope_x,
                           V& slope_y, V& variance) {
   const D d;
-  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m)), 0.0f,
-                        static_cast<float>(layer.levels));
-  const V base = hn::Floor(level), next = hn::Add(base, Constant(1.0f));
-  const V t = hn::Sub(level, base);
-  const V table = hn::LoadU(d, layer.lost_variance.data());
-  const V lost = hn::TableLookupLanes(table, hn::IndicesFromVec(d, hn::ConvertTo(DI(), base)));
-  const V lost_next = hn::TableLookupLanes(
-      table,
-      hn::IndicesFromVec(d, hn::ConvertTo(DI(), hn::Min(next, Constant(kTableLevels - 1.0f)))));
-  variance = hn::Add(variance, Lerp(lost, lost_next, t));
+  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m)), 0.0f, layer.coarsest);
+  const VI base = TruncateToInt(level);
+  const V t = hn::Sub(level, hn::ConvertTo(d, base));
+  const auto lane = hn::IndicesFromVec(d, base);
+  const V lost = hn::TableLookupLanes(hn::LoadU(d, layer.lost_variance.data()), lane);
+  const V lost_by_next = hn::TableLookupLanes(hn::LoadU(d, layer.lost_by_next.data()), lane);
+  variance = hn::MulAdd(lost_by_next, t, hn::Add(variance, lost));
+  if (hn::AllTrue(d, hn::Ge(level, Constant(layer.coarsest)))) return;
 
   const V noise = Constant(layer.uv_noise_m);
-  const V inv_length = Constant(layer.inv_length);
-  const V u = hn::MulAdd(hn::MulAdd(du, noise, p.x), inv_length, Constant(layer.u_eye));
-  const V v = hn::MulAdd(hn::MulAdd(dv, noise, p.y), inv_length, Constant(layer.v_eye));
-  V a, b;
-  SampleLevel(layer, u, v, base, a, b);
-  const auto between = hn::Gt(t, hn::Zero(d));
-  if (!hn::AllFalse(d, between)) {
-    V a_next, b_next;
-    SampleLevel(layer, u, v, next, a_next, b_next);
-    a = hn::IfThenElse(between, Lerp(a, a_next, t), a);
-    b = hn::IfThenElse(between, Lerp(b, b_next, t), b);
-  }
-  const V gain = Constant(layer.gain);
-  slope_x = hn::MulAdd(a, gain, slope_x);
-  slope_y = hn::MulAdd(b, gain, slope_y);
+  const LayerPlace place = PlaceIn(layer, hn::MulAdd(du, noise, p.x), hn::MulAdd(dv, noise, p.y));
+  texture::HWY_NAMESPACE::AddBlended(d, *layer.map, RoundToInt(place.x_fx8),
+                                     RoundToInt(place.y_fx8), base, t, layer.gain, slope_x,
+                                     slope_y);
 }
 
-// A layer's values at p on the nearest mip level, at least the coarsest with detail: one sample.
+// What a layer's map holds at a place on the nearest mip level with detail: one sample, and nothing
+// multiplied by the layer's gain.
+HWY_INLINE void SampleNearest(const SlopeLayer& layer, const LayerPlace& place, V level_m, V& a,
+                              V& b) {
+  const V level =
+      Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m + 0.5f)), 0.0f, layer.coarsest);
+  texture::HWY_NAMESPACE::SampleLevel(D(), *layer.map, RoundToInt(place.x_fx8),
+                                      RoundToInt(place.y_fx8), TruncateToInt(level), a, b);
+}
+
+// A layer's values at p on the nearest mip level with detail.
 HWY_INLINE void NearestSlopes(const SlopeLayer& layer, V3 p, V level_m, V& a, V& b) {
-  const D d;
-  const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m + 0.5f)), 0.0f,
-                        static_cast<float>(layer.levels));
-  const V u = hn::MulAdd(p.x, Constant(layer.inv_length), Constant(layer.u_eye));
-  const V v = hn::MulAdd(p.y, Constant(layer.inv_length), Constant(layer.v_eye));
-  texture::HWY_NAMESPACE::SamplePacked2(d, *layer.map, u, v, hn::ConvertTo(DI(), level), a, b);
+  SampleNearest(layer, PlaceIn(layer, p.x, p.y), level_m, a, b);
   const V gain = Constant(layer.gain);
   a = hn::Mul(a, gain);
   b = hn::Mul(b, gain);

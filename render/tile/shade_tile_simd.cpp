@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 #include "math/check.h"
 #include "render/tile/shade_tile.h"
@@ -34,11 +35,13 @@ struct PixelList {
 using PixelLists = std::array<PixelList, kMaterialCount + 1>;
 constexpr std::size_t kSky = kMaterialCount;
 
-// Repeats the last pixel up to a full packet, so that every packet is shaded whole.
-void PadToPacket(PixelList& list) {
+constexpr std::size_t kMostPacketsAtOnce = 3;
+
+// Repeats the last pixel up to full packets, so that every packet is shaded whole.
+void PadToPackets(PixelList& list) {
   if (list.count == 0) return;
   const std::uint16_t last = list.at[list.count - 1];
-  std::fill_n(list.at + list.count, kLanes, last);
+  std::fill_n(list.at + list.count, kMostPacketsAtOnce * kLanes, last);
 }
 
 // Appends pixels `first` and the kLanes - 1 after it.
@@ -109,41 +112,57 @@ PixelLists ListPixels(const Shading& s, const TilePixels& tile, ShadeScratch& sc
   for (std::size_t i = 0; i < lists.size(); ++i) lists[i].at = scratch.lists[i].data();
   SortByMaterial(s, tile, lists[0], lists[std::min<std::size_t>(1, kSky)], lists[kSky]);
   SplitOff<2>(s, tile, lists);
-  for (PixelList& list : lists) PadToPacket(list);
+  for (PixelList& list : lists) PadToPackets(list);
   return lists;
 }
 
-// Calls shade(lanes, x_px, y_px, z) for the list's pixels, a packet at a time, and stores its
-// colours.
-template <class Shade>
-HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelList& list,
-                          ShadeScratch& scratch, const Shade& shade) {
-  const D d;
-  const DI di;
-  const hn::Rebind<std::uint16_t, D> d16;
-  const int size_log2 = std::countr_zero(static_cast<unsigned>(s.grid.tile_size_px));
-  HWY_ALIGN std::array<float, kLanes> z, red, green, blue;
-  for (std::size_t i = 0; i < list.count; i += kLanes) {
+// Where a packet's pixels, or parts of pixels, lie in the window, and what they show.
+struct ListedPacket {
+  Lanes lanes;
+  V x_px, y_px, z;
+};
+
+// Listed pixels, a packet from `at` on.
+struct PixelsInTile {
+  const Shading& s;
+  const TilePixels& tile;
+  const PixelList& list;
+  ShadeScratch& scratch;
+
+  // A run of neighbours is loaded and stored whole; a padded packet is none.
+  HWY_INLINE bool IsRun(std::size_t i) const {
+    return i + kLanes <= list.count &&
+           list.at[i + kLanes - 1] - list.at[i] == static_cast<int>(kLanes) - 1;
+  }
+
+  HWY_INLINE ListedPacket Load(std::size_t i) const {
+    const D d;
+    const DI di;
+    const hn::Rebind<std::uint16_t, D> d16;
     const std::uint16_t* at = list.at + i;
+    const int size_log2 = std::countr_zero(static_cast<unsigned>(s.grid.tile_size_px));
     const VI index = hn::PromoteTo(di, hn::LoadU(d16, at));
     const VI y = hn::ShiftRightSame(index, size_log2);
     const VI x = hn::Sub(index, hn::ShiftLeftSame(y, size_log2));
-    const V x_px = hn::ConvertTo(d, hn::Add(x, hn::Set(di, tile.box.x0_px)));
-    const V y_px = hn::ConvertTo(d, hn::Add(y, hn::Set(di, tile.box.y0_px)));
-
-    // A run of neighbours is loaded and stored whole; a padded packet is none.
-    const bool run =
-        i + kLanes <= list.count && at[kLanes - 1] - at[0] == static_cast<int>(kLanes) - 1;
+    HWY_ALIGN std::array<float, kLanes> z;
+    const bool run = IsRun(i);
     if (!run)
       for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = tile.depth[at[lane]];
-    const V3 colour = shade(Lanes{tile.primitive, at}, x_px, y_px,
-                            hn::LoadU(d, run ? tile.depth + at[0] : z.data()));
-    if (run) {
+    return {Lanes{tile.primitive, at}, hn::ConvertTo(d, hn::Add(x, hn::Set(di, tile.box.x0_px))),
+            hn::ConvertTo(d, hn::Add(y, hn::Set(di, tile.box.y0_px))),
+            hn::LoadU(d, run ? tile.depth + at[0] : z.data())};
+  }
+
+  HWY_INLINE void Store(std::size_t i, const V3& colour) const {
+    const D d;
+    const std::uint16_t* at = list.at + i;
+    if (IsRun(i)) {
       hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
       hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
       hn::StoreU(colour.z, d, scratch.blue.data() + at[0]);
-      continue;
+      return;
     }
+    HWY_ALIGN std::array<float, kLanes> red, green, blue;
     hn::Store(colour.x, d, red.data());
     hn::Store(colour.y, d, green.data());
     hn::Store(colour.z, d, blue.data());
@@ -153,20 +172,34 @@ HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelL
       scratch.blue[at[lane]] = blue[lane];
     }
   }
+};
+
+// Calls shade(packets) for the list's pixels, some packets at a time, and stores their colours.
+template <std::size_t kPacketsAtOnce, class Shade>
+HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelList& list,
+                          ShadeScratch& scratch, const Shade& shade) {
+  static_assert(kPacketsAtOnce <= kMostPacketsAtOnce);
+  const PixelsInTile pixels{s, tile, list, scratch};
+  const auto shade_at = [&]<std::size_t... k>(std::size_t i, std::index_sequence<k...>) HWY_ATTR {
+    const auto colours = shade(std::array{pixels.Load(i + k * kLanes)...});
+    (pixels.Store(i + k * kLanes, colours[k]), ...);
+  };
+  for (std::size_t i = 0; i < list.count; i += kPacketsAtOnce * kLanes)
+    shade_at(i, std::make_index_sequence<kPacketsAtOnce>());
 }
 
 // The light of a packet's pixels as it arrives. What labels want of the window's goes to `keep`.
-template <ViewKind kView, class M, class Shade, class Keep>
+template <ViewKind kView, class M, class Shade, class Keep, class... Found>
 HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& material,
                             const Lanes& lanes, const Packet& shown, const Shade& shade,
-                            const Keep& keep) {
+                            const Keep& keep, const Found&... found) {
   if constexpr (kView == ViewKind::kWindow) {
-    const auto surfel = shade(s, tile, lanes, shown);
+    const auto surfel = shade(s, tile, lanes, shown, found...);
     keep(lanes.at, surfel);
     return Haze(s, shown, surfel.light);
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
-    const auto surfel = shade(s, tile, lanes, seen.packet);
+    const auto surfel = shade(s, tile, lanes, seen.packet, found...);
     const V3 light = Attenuate<kView>(s, shown, seen, surfel.light);
     if constexpr (requires { surfel.cover; })
       return Lerp(Constant(s.media.body), light, surfel.cover);
@@ -175,8 +208,7 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   }
 }
 
-// Calls shade(lanes, x_px, y_px, z) for the listed fragments, a packet at a time, and stores their
-// colours.
+// Calls shade(packets) for the listed fragments, a packet at a time, and stores their colours.
 template <class Shade>
 HWY_INLINE void ShadeFragments(std::span<const EdgeFragment> fragments, const PixelList& list,
                                ShadeScratch& scratch, const Shade& shade) {
@@ -188,8 +220,9 @@ HWY_INLINE void ShadeFragments(std::span<const EdgeFragment> fragments, const Pi
       const EdgeFragment& fragment = fragments[at[lane]];
       x[lane] = fragment.x_px, y[lane] = fragment.y_px, z[lane] = fragment.z;
     }
-    const V3 colour = shade(Lanes{scratch.fragment_primitive.data(), at}, hn::Load(d, x.data()),
-                            hn::Load(d, y.data()), hn::Load(d, z.data()));
+    const auto [colour] = shade(
+        std::array{ListedPacket{Lanes{scratch.fragment_primitive.data(), at}, hn::Load(d, x.data()),
+                                hn::Load(d, y.data()), hn::Load(d, z.data())}});
     hn::Store(colour.x, d, red.data());
     hn::Store(colour.y, d, green.data());
     hn::Store(colour.z, d, blue.data());
@@ -208,8 +241,32 @@ PixelList ListFragments(std::span<const EdgeFragment> fragments, std::uint32_t b
   for (std::size_t n = 0; n < fragments.size(); ++n)
     if (!fragments[n].is_centre && fragments[n].primitive - begin < end - begin)
       list.Append(static_cast<std::uint16_t>(n));
-  PadToPacket(list);
+  PadToPackets(list);
   return list;
+}
+
+// The light of packets side by side as it arrives.
+template <ViewKind kView, class M, class Shade, class Keep, std::size_t... k>
+HWY_INLINE std::array<V3, sizeof...(k)> ArrivingLights(
+    const Shading& s, const TilePixels& tile, const M& material,
+    const std::array<ListedPacket, sizeof...(k)>& listed, const Shade& shade, const Keep& keep,
+    std::index_sequence<k...>) {
+  const std::array<Packet, sizeof...(k)> shown = {
+      MakePacket(s.rays, listed[k].x_px, listed[k].y_px, listed[k].z)...};
+  if constexpr (requires { shade.LookUp(s, shown); }) {
+    const auto found = shade.LookUp(s, shown);
+    return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep,
+                                 found[k])...};
+  } else {
+    return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep)...};
+  }
+}
+
+// How many packets a shader wants at a time.
+template <class Shade>
+constexpr std::size_t PacketsAtOnce() {
+  if constexpr (requires { Shade::kPacketsAtOnce; }) return Shade::kPacketsAtOnce;
+  return 1;
 }
 
 // Labels are of the pixels' centres alone: fragments keep nothing.
@@ -217,14 +274,14 @@ template <ViewKind kView, class M, class Keep>
 HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const PixelList& list,
                               ShadeScratch& scratch, const Keep& keep) {
   const M& material = s.material<M>();
-  WithShader<kView>(material, [&](const auto& shade) HWY_ATTR {
+  WithShader<kView>(material, [&]<class Shade>(const Shade& shade) HWY_ATTR {
     const auto shading_with = [&](const auto& kept) HWY_ATTR {
-      return [&](const Lanes& lanes, V x_px, V y_px, V z) HWY_ATTR {
-        const Packet shown = MakePacket(s.rays, x_px, y_px, z);
-        return ArrivingLight<kView>(s, tile, material, lanes, shown, shade, kept);
+      return [&]<std::size_t kCount>(const std::array<ListedPacket, kCount>& listed) HWY_ATTR {
+        return ArrivingLights<kView>(s, tile, material, listed, shade, kept,
+                                     std::make_index_sequence<kCount>());
       };
     };
-    ShadeList(s, tile, list, scratch, shading_with(keep));
+    ShadeList<PacketsAtOnce<Shade>()>(s, tile, list, scratch, shading_with(keep));
     if (kView != ViewKind::kWindow || tile.fragments.empty()) return;
     const KeepNothing nothing;
     ShadeFragments(tile.fragments,
@@ -252,8 +309,14 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
                               std::uint32_t* rgba, float* linear, const Keep& keep) {
   const PixelLists lists = ListPixels(s, tile, scratch);
   const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch, keep);
-  const auto shade_sky = [&](const Lanes&, V x, V y, V) HWY_ATTR { return ShadeSky(s, x, y); };
-  ShadeList(s, tile, lists[kSky], scratch, shade_sky);
+  const auto shade_sky = [&]<std::size_t kCount>(const std::array<ListedPacket, kCount>& listed)
+                             HWY_ATTR {
+                               std::array<V3, kCount> light;
+                               for (std::size_t k = 0; k < kCount; ++k)
+                                 light[k] = ShadeSky(s, listed[k].x_px, listed[k].y_px);
+                               return light;
+                             };
+  ShadeList<1>(s, tile, lists[kSky], scratch, shade_sky);
   if (!tile.fragments.empty())
     ShadeFragments(tile.fragments, ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch),
                    scratch, shade_sky);

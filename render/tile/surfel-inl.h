@@ -46,7 +46,11 @@ struct FadingSurfel : Surfel {
 //   const M& material;  (its only member)
 //   Surfel operator()(const Shading&, const TilePixels&, const Lanes&, const Packet&)
 // The packet holds true places in the world, also in views that mirror or squeeze them; the medium
-// is not its business.
+// is not its business. A shader that waits for what it looks up may do so for several packets side
+// by side, so that they wait together:
+//   static constexpr std::size_t kPacketsAtOnce = n;
+//   std::array<Found, n> LookUp(const Shading&, const std::array<Packet, n>&)
+// for n packets and for single ones; Found is then the last argument of the call.
 template <class M, ViewKind kView>
 struct Shader;
 
