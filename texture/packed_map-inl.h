@@ -172,16 +172,18 @@ HWY_INLINE VI WeightsAlongY(DI di, VI y_fx8) {
   return hn::Add(hn::Xor(LowByteTwice(di, y_fx8), hn::Set(di, 0x000000ff)), hn::Set(di, 1));
 }
 
-// Where the words of texels (x, y) lie; coordinates in 1/256 texels of each lane's level, which is
-// one of the map's. A level of size s begins at word s * s, so that its rows are rows s to 2 s - 1
-// of s words.
+// Where the words of texels (x, y) lie, in bytes; coordinates in 1/256 texels of each lane's level,
+// which is one of the map's. A level of size s begins at word s * s, so that its rows are rows s to
+// 2 s - 1 of s words.
 template <class DI, class VI = hn::Vec<DI>>
-HWY_INLINE VI WordIndex(DI di, const PackedMap2& map, VI x_fx8, VI y_fx8, VI level) {
+HWY_INLINE VI WordOffset(DI di, const PackedMap2& map, VI x_fx8, VI y_fx8, VI level) {
   const VI mask = hn::Shr(hn::Set(di, map.size - 1), level);
   const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
   const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
   const VI row = hn::Or(y, hn::Add(mask, hn::Set(di, 1)));
-  return hn::Or(hn::Shl(row, hn::Sub(hn::Set(di, map.levels - 1), level)), x);
+  const VI word = hn::Or(hn::Shl(row, hn::Sub(hn::Set(di, map.levels - 1), level)), x);
+  static_assert(sizeof(PackedWord) == 16);
+  return hn::ShiftLeft<4>(word);
 }
 
 // The 32 bits of the lane with lane % 4 == kPart, from `fine` in the low and from `coarse` in the
@@ -197,12 +199,13 @@ HWY_INLINE VI SpreadPart(DI di, VI fine, VI coarse) {
 #endif
 }
 
-// The whole words of the lanes with lane % 4 == kPart.
+// The whole words of the lanes with lane % 4 == kPart, at these offsets [bytes].
 template <int kPart, class D8>
 HWY_INLINE hn::Vec<D8> LoadPairs(D8, const PackedWord* words,
-                                 const std::uint32_t* HWY_RESTRICT index) {
+                                 const std::uint32_t* HWY_RESTRICT offset) {
   const auto word = [&](int block) HWY_ATTR {
-    return _mm_load_si128(reinterpret_cast<const __m128i*>(words + index[4 * block + kPart]));
+    return _mm_load_si128(reinterpret_cast<const __m128i*>(
+        reinterpret_cast<const std::uint8_t*>(words) + offset[4 * block + kPart]));
   };
   const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(word(0)), word(1), 1);
 #if HWY_TARGET == HWY_AVX2
@@ -227,7 +230,7 @@ HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI ba
   constexpr int kWhole = 127;  // of the blend: 256 * 127 fits 16 bits
   const VI x = hn::Shr(x_fx8, base), y = hn::Shr(y_fx8, base);
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
-  StoreIndex(WordIndex(di, map, x, y, base), lane_index);
+  StoreIndex(WordOffset(di, map, x, y, base), lane_index);
 
   const auto part_coarse = hn::BitCast(
       d16, LowByteTwice(di, swell::HWY_NAMESPACE::RoundToInt(hn::Mul(t, hn::Set(d, kWhole)))));
@@ -254,7 +257,7 @@ HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI ba
                    hn::BitCast(di, hn::InterleaveUpper(d64, e, o)));
   };
   const VI low = add_levels(s0, s1), high = add_levels(s2, s3);
-  const V unit = hn::Set(d, gain * (map.scale / (255.0f * 256.0f * kWhole)));
+  const V unit = hn::Set(d, gain * map.scale * (1.0f / (255.0f * 256.0f * kWhole)));
   a = hn::MulAdd(hn::ConvertTo(d, EvenParts(di, low, high)), unit, a);
   b = hn::MulAdd(hn::ConvertTo(d, OddParts(di, low, high)), unit, b);
 }
@@ -266,18 +269,18 @@ HWY_INLINE void SampleLevel(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI l
   const hn::Repartition<std::uint8_t, D> d8;
   const VI x = hn::Shr(x_fx8, level), y = hn::Shr(y_fx8, level);
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
-  StoreIndex(WordIndex(di, map, x, y, level), lane_index);
+  StoreIndex(WordOffset(di, map, x, y, level), lane_index);
   const VI weights_x = WeightsAlongX(di, x), weights_y = WeightsAlongY(di, y);
   // Each lane's weights twice: for channel a and for channel b.
-  const auto quads0 = LoadWords<sizeof(PackedWord), 0>(d8, map.words.data(), lane_index);
-  const auto quads1 = LoadWords<sizeof(PackedWord), 1>(d8, map.words.data(), lane_index);
+  const auto quads0 = LoadWords<1, 0>(d8, map.words.data(), lane_index);
+  const auto quads1 = LoadWords<1, 1>(d8, map.words.data(), lane_index);
   const auto rows0 =
       DotPairs(hn::BitCast(d8, hn::InterleaveLower(di, weights_x, weights_x)), quads0);
   const auto rows1 =
       DotPairs(hn::BitCast(d8, hn::InterleaveUpper(di, weights_x, weights_x)), quads1);
   const VI sums0 = DotWords(hn::InterleaveLower(di, weights_y, weights_y), hn::BitCast(di, rows0));
   const VI sums1 = DotWords(hn::InterleaveUpper(di, weights_y, weights_y), hn::BitCast(di, rows1));
-  const V unit = hn::Set(d, map.scale / (255.0f * 256.0f));
+  const V unit = hn::Set(d, map.scale * (1.0f / (255.0f * 256.0f)));
   a = hn::Mul(hn::ConvertTo(d, EvenParts(di, sums0, sums1)), unit);
   b = hn::Mul(hn::ConvertTo(d, OddParts(di, sums0, sums1)), unit);
 }

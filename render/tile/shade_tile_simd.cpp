@@ -8,6 +8,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/tile/shade_tile_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -69,6 +70,7 @@ void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, 
       const std::size_t i = row + x;
       if (x + kLanes <= width) {
         const auto p = hn::LoadU(du, tile.primitive + i);
+        hwy::Prefetch(tile.depth + i);  // read next
         const bool all_first = hn::AllTrue(du, hn::Lt(hn::Sub(p, begin), size));
         if (all_first || hn::AllTrue(du, hn::Eq(p, none))) {
           AppendPacket(all_first ? first : sky, i);
