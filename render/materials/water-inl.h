@@ -108,9 +108,21 @@ HWY_INLINE V LevelOnWaves(const Packet& packet, V across, const WaterSlopes& s) 
   return FootprintLevel(across, Clamp(cos_wave, kMinCos, 1.0f));
 }
 
-// Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates Perlin
-// noise bends. How steeply the eye meets the long waves decides how long a pixel's footprint is on
-// the shorter ones. A layer waits for the longer ones: packets side by side hide that.
+// How Perlin noise bends the coordinates of the ripples.
+template <bool kCoast>
+HWY_INLINE void BendRipples(const SlopeLayer& noise, V3 p, V level_m, V& du, V& dv) {
+  V unused = hn::Zero(D());
+  // In scenes with surf nobody sees the step between two levels of the noise.
+  if constexpr (kCoast)
+    NearestSlopes(noise, p, level_m, du, dv);
+  else
+    AddSlopes(noise, p, level_m, du, dv, du, dv, unused);
+}
+
+// Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
+// bends where the longest of them are seen. How steeply the eye meets the long waves decides how
+// long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
+// by side hide that.
 template <bool kCoast, std::size_t kCount, std::size_t... k>
 HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const ViewRays& rays,
                                                        const std::array<Packet, kCount>& packets,
@@ -127,13 +139,7 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<WaterSlopes, kCount> s = {
       WaterSlopes{zero, zero, Constant(water.base_variance),
                   FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam)}...};
-  std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du, unused = du;
-  // In scenes with surf nobody sees the step between two levels of the noise.
-  if constexpr (kCoast)
-    (NearestSlopes(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k]), ...);
-  else
-    (AddSlopes(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k], du[k], dv[k], unused[k]),
-     ...);
+  std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
   for (int i = 0; i < water.sine_count; ++i)
     (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
   // Without patches the sines alone are the long waves: the loop then begins before the first
@@ -142,6 +148,8 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   const bool all_ceded = kCoast && (surf[k].all_ceded && ...);
   for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
     const bool is_long = i <= last_long;
+    if (i == water.first_ripples && (ShowsDetail(water.layers[i], level_m[k]) || ...))
+      (BendRipples<kCoast>(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k]), ...);
     if (i >= 0 && !(is_long && all_ceded)) {
       const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
       (AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,

@@ -58,6 +58,7 @@ void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
     add_layer(make_layer(in.sea.patch_slopes[i], in.sea.frame.patches[i].length_m, 1.0f, eye, {}),
               water);
   water.long_layer_count = std::min(water.layer_count, kMostLongLayers);
+  water.first_ripples = water.layer_count;
   add_ripples(in, eye, water);
   for (const ocean::SineFrame& sine : in.sea.frame.sines)
     water.sines[water.sine_count++] = make_sine(sine, eye);

@@ -118,6 +118,12 @@ HWY_INLINE LayerPlace PlaceIn(const SlopeLayer& layer, V x_m, V y_m) {
           hn::MulAdd(y_m, per_m, Constant(layer.y_eye_fx8))};
 }
 
+// Whether a layer has detail at any lane's level.
+HWY_INLINE bool ShowsDetail(const SlopeLayer& layer, V level_m) {
+  const float coarsest_m = layer.coarsest - layer.log2_texels_per_m;
+  return !hn::AllFalse(D(), hn::Lt(level_m, Constant(coarsest_m)));
+}
+
 // Adds a layer's slopes at p to (slope_x, slope_y), blended between mip levels, and the variance
 // that they have lost to `variance`. (du, dv) perturb the coordinates, in units of uv_noise_m.
 HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, V& slope_x,
