@@ -77,8 +77,7 @@ void MarkTouched(const Pass::State& state, int tile, std::uint32_t first_primiti
   const SampleExtent extent = sample_extent(state.samples);
   for (std::size_t c = 0; c < state.chunk_count; ++c) {
     const Chunk& chunk = state.chunks[c];
-    const std::size_t chunk_end = chunk.first_primitive + (chunk.end - chunk.begin);
-    if (chunk.first_primitive >= end_primitive || chunk_end <= first_primitive) continue;
+    if (!holds_any(chunk, first_primitive, end_primitive)) continue;
     const std::uint32_t end = chunk.tile_begin[tile + 1];
     for (std::uint32_t m = chunk.tile_begin[tile]; m < end; ++m) {
       const SetupTriangle& t = chunk.triangles[chunk.members[m]];

@@ -265,4 +265,15 @@ bool tile_has_triangles(const Pass& pass, int tile) {
   return state.tile_used[static_cast<std::size_t>(tile)] != 0;
 }
 
+bool tile_has_triangles(const Pass& pass, int tile, std::uint32_t first_primitive,
+                        std::uint32_t end_primitive) {
+  const Pass::State& state = pass.state();
+  SWELL_CHECK(tile >= 0 && tile < state.grid.count(), "tile={} tiles={}", tile, state.grid.count());
+  const auto chunks = std::span(state.chunks).first(state.chunk_count);
+  return std::ranges::any_of(chunks, [&](const Chunk& chunk) {
+    return holds_any(chunk, first_primitive, end_primitive) &&
+           chunk.tile_begin[tile] != chunk.tile_begin[tile + 1];
+  });
+}
+
 }  // namespace swell::raster

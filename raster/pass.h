@@ -87,6 +87,10 @@ PixelBox tile_box(Viewport viewport, const TileGrid& grid, int tile);
 // the top left.
 bool tile_has_triangles(const Pass& pass, int tile);
 
+// The same for the triangles of draws that have primitives in [first_primitive, end_primitive).
+bool tile_has_triangles(const Pass& pass, int tile, std::uint32_t first_primitive,
+                        std::uint32_t end_primitive);
+
 // Fills the tile's depth and primitive buffers, each tile_size_px^2 long, row by row (pixels
 // outside the viewport too: as never covered). Pixels without a triangle get depth 0 and
 // kNoPrimitive. Different tiles may be drawn by different threads at one time. Returns the number

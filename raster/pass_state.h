@@ -30,6 +30,11 @@ struct Chunk {
   PassStatistics statistics;
 };
 
+// Whether the chunk has primitives in [first, end).
+inline bool holds_any(const Chunk& chunk, std::uint32_t first, std::uint32_t end) {
+  return chunk.first_primitive < end && chunk.first_primitive + (chunk.end - chunk.begin) > first;
+}
+
 struct Pass::State {
   Viewport viewport;
   TileGrid grid;

@@ -93,10 +93,8 @@ void prepare_target(const View& view, const FrameOptions& options, Target& targe
 }
 
 void prepare_scratch(int threads, Workspace::State& ws) {
-  while (ws.scratch.size() < static_cast<std::size_t>(threads)) {
+  while (ws.scratch.size() < static_cast<std::size_t>(threads))
     ws.scratch.push_back(std::make_unique<ThreadScratch>());
-    ws.edge_scratch.push_back(std::make_unique<EdgeScratch>());
-  }
 }
 
 // The cameras of the window and of what its water looks into.
@@ -189,8 +187,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,
                  run);
-    ws.edges.samples = options.edge_samples;
-    find_edges(ws.meshes.objects, ws.window, ws.edge_scratch, ws.visibility, ws.edges, run);
+    prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
   const Light light = make_light(world_state);
   const Media media = make_media(world_state, light);

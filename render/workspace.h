@@ -30,7 +30,6 @@ struct Workspace::State {
   std::vector<int> shaded;  // per tile
   LabelTables labels;
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
-  std::vector<std::unique_ptr<EdgeScratch>> edge_scratch;
   Target small;  // the picture before it is enlarged
   EnlargeTables enlarge;
 };

@@ -191,10 +191,9 @@ void mark_object(const RenderView& window, const VisibilityBuffer& visibility, i
 struct TileEdges {
   const RenderView& window;
   const VisibilityBuffer& visibility;
-  const SurfaceRanges& surfaces;
+  SurfaceRanges surfaces;
   std::span<const ObjectPart> objects;
   std::span<const TileBox> object_tiles;
-  int samples;
 };
 
 raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratch) {
@@ -236,48 +235,39 @@ void sort_samples(const TileEdges& in, int tile, const raster::PixelMask& mask,
   }
 }
 
-void find_in_tile(const TileEdges& in, int tile, EdgeScratch& scratch,
-                  std::vector<EdgeFragment>& out) {
-  out.clear();
-  if (in.visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
-  const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
-  const auto samples = static_cast<std::size_t>(mask.count()) * static_cast<unsigned>(in.samples);
-  if (samples == 0) return;
-  scratch.depth.resize(samples);
-  scratch.primitive.resize(samples);
-  raster::draw_samples(in.window.pass, tile, mask, scratch.depth, scratch.primitive);
-  if (in.samples == 8)
-    sort_samples<8>(in, tile, mask, scratch, out);
-  else
-    sort_samples<4>(in, tile, mask, scratch, out);
-}
-
 }  // namespace
 
-void find_edges(const ObjectGeometry& objects, const RenderView& window,
-                std::span<const std::unique_ptr<EdgeScratch>> scratch, VisibilityBuffer& visibility,
-                EdgeBuffer& edges, const StageRun& run) {
-  const auto tiles = static_cast<std::size_t>(visibility.grid.count());
-  edges.of_tile.resize(tiles);
-  if (edges.samples == 0) {
-    for (std::vector<EdgeFragment>& fragments : edges.of_tile) fragments.clear();
-    return;
-  }
+void prepare_edges(const ObjectGeometry& objects, const RenderView& window,
+                   const VisibilityBuffer& visibility, int samples, EdgeBuffer& edges) {
+  edges.samples = samples;
+  edges.of_tile.resize(static_cast<std::size_t>(visibility.grid.count()));
+  for (std::vector<EdgeFragment>& fragments : edges.of_tile) fragments.clear();
   edges.object_tiles.clear();
+  if (samples == 0) return;
   const std::span<const glm::vec4> p_clip = window.vertices_of(SurfaceKind::kObjects).p_clip;
   for (const ObjectPart& part : objects.parts)
     edges.object_tiles.push_back(tile_box_of(p_clip.subspan(part.first_vertex, part.vertices),
                                              window.viewport(), visibility.grid));
-  const SurfaceRanges surfaces(window.primitives, objects);
-  const TileEdges in{window,        visibility,         surfaces,
-                     objects.parts, edges.object_tiles, edges.samples};
-  run.for_each(tiles, [&](std::size_t tile, int thread) {
-    find_in_tile(in, static_cast<int>(tile), *scratch[thread], edges.of_tile[tile]);
-    visibility.has_water[tile] |= std::ranges::any_of(
-        edges.of_tile[tile],
-        [&](std::uint32_t p) { return window.primitives.holds(SurfaceKind::kWater, p); },
-        &EdgeFragment::primitive);
-  });
+}
+
+void find_edges(const ObjectGeometry& objects, const RenderView& window,
+                const VisibilityBuffer& visibility, int tile, EdgeScratch& scratch,
+                EdgeBuffer& edges) {
+  if (edges.samples == 0 || visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
+  const TileEdges in{window, visibility, SurfaceRanges(window.primitives, objects), objects.parts,
+                     edges.object_tiles};
+  const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
+  const auto samples =
+      static_cast<std::size_t>(mask.count()) * static_cast<std::size_t>(edges.samples);
+  if (samples == 0) return;
+  scratch.depth.resize(samples);
+  scratch.primitive.resize(samples);
+  raster::draw_samples(window.pass, tile, mask, scratch.depth, scratch.primitive);
+  std::vector<EdgeFragment>& fragments = edges.of_tile[static_cast<std::size_t>(tile)];
+  if (edges.samples == 8)
+    sort_samples<8>(in, tile, mask, scratch, fragments);
+  else
+    sort_samples<4>(in, tile, mask, scratch, fragments);
 }
 
 }  // namespace swell::render

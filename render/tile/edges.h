@@ -55,11 +55,15 @@ struct EdgeScratch {
   std::vector<std::uint32_t> primitive;
 };
 
-// Stage 4, after the visibility of all tiles: finds the fragments of all tiles' edges. The window's
-// pass was prepared with edges.samples, 4 or 8; with 0 there are none. Adds to
-// visibility.has_water the tiles that show water in fragments only.
+// Stage 4, after the visibility of all tiles: makes room for the edges' fragments, and says where
+// objects lie. The window's pass was prepared with `samples`, 4 or 8; with 0 there are none.
+void prepare_edges(const ObjectGeometry& objects, const RenderView& window,
+                   const VisibilityBuffer& visibility, int samples, EdgeBuffer& edges);
+
+// Stage 6, before the tile is shaded and while its visibility comes into cache anyway: finds the
+// fragments of its edges. Different tiles may be searched by different threads at one time.
 void find_edges(const ObjectGeometry& objects, const RenderView& window,
-                std::span<const std::unique_ptr<EdgeScratch>> scratch, VisibilityBuffer& visibility,
-                EdgeBuffer& edges, const StageRun& run);
+                const VisibilityBuffer& visibility, int tile, EdgeScratch& scratch,
+                EdgeBuffer& edges);
 
 }  // namespace swell::render

@@ -22,6 +22,7 @@ void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int
     const auto tile = static_cast<int>(index);
     ShadeScratch& memory = scratch[thread]->shade;
     ShadedLabels& shaded_labels = scratch[thread]->labels;
+    find_edges(in.meshes.objects, in.window, visibility, tile, scratch[thread]->edges, in.edges);
     const bool labels_shading = in.labels && in.labels->tables.from_shading;
     const std::span<const EdgeFragment> fragments = in.edges.of_tile[index];
     if (visibility.covered[tile] <= 0 && fragments.empty())

@@ -15,15 +15,16 @@ struct PictureInputs {
   const Meshes& meshes;
   const RenderView& window;
   const VisibilityBuffer& visibility;
-  const EdgeBuffer& edges;
+  EdgeBuffer& edges;                        // filled tile by tile
   const std::vector<TileLookups>& lookups;  // by tile
   const Shading& shading;
   bool wireframe;
   const LabelSources* labels = nullptr;  // none: no labels
 };
 
-// Shades every visible pixel once and resolves it, and fills the labels that are asked for.
-// `shaded`: the number of surface pixels shaded, by tile. `target` has the window's size.
+// Finds the edges of each tile, shades every visible pixel once and resolves it, and fills the
+// labels that are asked for. `shaded`: the number of surface pixels shaded, by tile. `target` has
+// the window's size.
 void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int>& shaded,
                    Target& target, const StageRun& run);
 

@@ -110,7 +110,7 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
   size_target(grid, reflection);
   size_target(grid, refraction);
   const auto for_reachable = [&](std::size_t tile, auto&& visit) {
-    if (!visibility.has_water[tile]) return;
+    if (!visibility.may_show_water[tile]) return;
     const TileRange r =
         reachable_tiles(window.camera, visibility.grid, static_cast<int>(tile), scale, grid);
     for (int y = r.y0; y < r.y1; ++y)

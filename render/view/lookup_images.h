@@ -16,6 +16,7 @@ namespace swell::render {
 struct ThreadScratch {
   ShadeScratch shade;
   ShadedLabels labels;
+  EdgeScratch edges;
   alignas(64) std::array<float, kMaxTilePixels> depth;
   alignas(64) std::array<std::uint32_t, kMaxTilePixels> primitive;
 };

@@ -13,16 +13,21 @@ int count_of(const PrimitiveRanges& ranges, SurfaceKind kind,
   return static_cast<int>(count);
 }
 
-void find_visible_in_tile(const RenderView& window, int tile, VisibilityBuffer& visibility) {
+void find_visible_in_tile(const RenderView& window, int tile, bool samples,
+                          VisibilityBuffer& visibility) {
   visibility.covered[tile] = -1;
   visibility.water_pixels[tile] = 0;
-  visibility.has_water[tile] = 0;
+  visibility.may_show_water[tile] = 0;
   if (!raster::tile_has_triangles(window.pass, tile)) return;
   const std::span<std::uint32_t> primitive = visibility.primitive_of(tile);
   visibility.covered[tile] =
       raster::draw_tile(window.pass, tile, visibility.depth_of(tile), primitive);
   visibility.water_pixels[tile] = count_of(window.primitives, SurfaceKind::kWater, primitive);
-  visibility.has_water[tile] = visibility.water_pixels[tile] > 0;
+  visibility.may_show_water[tile] =
+      visibility.water_pixels[tile] > 0 ||
+      (samples &&
+       raster::tile_has_triangles(window.pass, tile, window.primitives.begin(SurfaceKind::kWater),
+                                  window.primitives.end(SurfaceKind::kWater)));
 }
 
 }  // namespace
@@ -36,9 +41,9 @@ void find_visible(const Meshes& meshes, int tile_size_px, int edge_samples, Rend
   visibility.primitive.resize(tiles * visibility.tile_pixels());
   visibility.covered.resize(tiles);
   visibility.water_pixels.resize(tiles);
-  visibility.has_water.resize(tiles);
+  visibility.may_show_water.resize(tiles);
   run.for_each(tiles, [&](std::size_t tile, int) {
-    find_visible_in_tile(window, static_cast<int>(tile), visibility);
+    find_visible_in_tile(window, static_cast<int>(tile), edge_samples != 0, visibility);
   });
 }
 
