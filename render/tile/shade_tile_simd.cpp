@@ -54,7 +54,7 @@ HWY_INLINE void AppendPacket(PixelList& list, std::size_t first) {
 }
 
 // Sorts the tile's pixels into those of the first material, those of the others together, and the
-// sky's; whole packets of the first material or the sky at once.
+// sky's; whole packets of one of these at once.
 void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, PixelList& others,
                     PixelList& sky) {
   constexpr SurfaceKind kFirst = std::tuple_element_t<0, Materials>::kSurface;
@@ -71,9 +71,13 @@ void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, 
       if (x + kLanes <= width) {
         const auto p = hn::LoadU(du, tile.primitive + i);
         hwy::Prefetch(tile.depth + i);  // read next
-        const bool all_first = hn::AllTrue(du, hn::Lt(hn::Sub(p, begin), size));
-        if (all_first || hn::AllTrue(du, hn::Eq(p, none))) {
-          AppendPacket(all_first ? first : sky, i);
+        const auto is_first = hn::Lt(hn::Sub(p, begin), size), is_sky = hn::Eq(p, none);
+        PixelList* const list = hn::AllTrue(du, is_first)                    ? &first
+                                : hn::AllTrue(du, is_sky)                    ? &sky
+                                : hn::AllFalse(du, hn::Or(is_first, is_sky)) ? &others
+                                                                             : nullptr;
+        if (list) {
+          AppendPacket(*list, i);
           x += kLanes;
           continue;
         }
