@@ -180,17 +180,48 @@ struct PixelsInTile {
   }
 };
 
-// Calls shade(packets) for the list's pixels, some packets at a time, and stores their colours.
-template <std::size_t kPacketsAtOnce, class Shade>
-HWY_INLINE void ShadeList(const Shading& s, const TilePixels& tile, const PixelList& list,
-                          ShadeScratch& scratch, const Shade& shade) {
+// Listed fragments, the same way.
+struct FragmentsInTile {
+  std::span<const EdgeFragment> fragments;
+  const PixelList& list;
+  ShadeScratch& scratch;
+
+  HWY_INLINE ListedPacket Load(std::size_t i) const {
+    const D d;
+    const std::uint16_t* at = list.at + i;
+    HWY_ALIGN std::array<float, kLanes> x, y, z;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const EdgeFragment& fragment = fragments[at[lane]];
+      x[lane] = fragment.x_px, y[lane] = fragment.y_px, z[lane] = fragment.z;
+    }
+    return {Lanes{scratch.fragment_primitive.data(), at}, hn::Load(d, x.data()),
+            hn::Load(d, y.data()), hn::Load(d, z.data())};
+  }
+
+  HWY_INLINE void Store(std::size_t i, const V3& colour) const {
+    const D d;
+    const std::uint16_t* at = list.at + i;
+    HWY_ALIGN std::array<float, kLanes> red, green, blue;
+    hn::Store(colour.x, d, red.data());
+    hn::Store(colour.y, d, green.data());
+    hn::Store(colour.z, d, blue.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      scratch.fragment_red[at[lane]] = red[lane];
+      scratch.fragment_green[at[lane]] = green[lane];
+      scratch.fragment_blue[at[lane]] = blue[lane];
+    }
+  }
+};
+
+// Calls shade(packets) for what is listed, some packets at a time, and stores the colours.
+template <std::size_t kPacketsAtOnce, class Listed, class Shade>
+HWY_INLINE void ShadeList(const Listed& listed, const Shade& shade) {
   static_assert(kPacketsAtOnce <= kMostPacketsAtOnce);
-  const PixelsInTile pixels{s, tile, list, scratch};
   const auto shade_at = [&]<std::size_t... k>(std::size_t i, std::index_sequence<k...>) HWY_ATTR {
-    const auto colours = shade(std::array{pixels.Load(i + k * kLanes)...});
-    (pixels.Store(i + k * kLanes, colours[k]), ...);
+    const auto colours = shade(std::array{listed.Load(i + k * kLanes)...});
+    (listed.Store(i + k * kLanes, colours[k]), ...);
   };
-  for (std::size_t i = 0; i < list.count; i += kPacketsAtOnce * kLanes)
+  for (std::size_t i = 0; i < listed.list.count; i += kPacketsAtOnce * kLanes)
     shade_at(i, std::make_index_sequence<kPacketsAtOnce>());
 }
 
@@ -211,32 +242,6 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
       return Lerp(Constant(s.media.body), light, surfel.cover);
     else
       return light;
-  }
-}
-
-// Calls shade(packets) for the listed fragments, a packet at a time, and stores their colours.
-template <class Shade>
-HWY_INLINE void ShadeFragments(std::span<const EdgeFragment> fragments, const PixelList& list,
-                               ShadeScratch& scratch, const Shade& shade) {
-  const D d;
-  HWY_ALIGN std::array<float, kLanes> x, y, z, red, green, blue;
-  for (std::size_t i = 0; i < list.count; i += kLanes) {
-    const std::uint16_t* at = list.at + i;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const EdgeFragment& fragment = fragments[at[lane]];
-      x[lane] = fragment.x_px, y[lane] = fragment.y_px, z[lane] = fragment.z;
-    }
-    const auto [colour] = shade(
-        std::array{ListedPacket{Lanes{scratch.fragment_primitive.data(), at}, hn::Load(d, x.data()),
-                                hn::Load(d, y.data()), hn::Load(d, z.data())}});
-    hn::Store(colour.x, d, red.data());
-    hn::Store(colour.y, d, green.data());
-    hn::Store(colour.z, d, blue.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      scratch.fragment_red[at[lane]] = red[lane];
-      scratch.fragment_green[at[lane]] = green[lane];
-      scratch.fragment_blue[at[lane]] = blue[lane];
-    }
   }
 }
 
@@ -287,13 +292,12 @@ HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const Pi
                                      std::make_index_sequence<kCount>());
       };
     };
-    ShadeList<PacketsAtOnce<Shade>()>(s, tile, list, scratch, shading_with(keep));
+    ShadeList<PacketsAtOnce<Shade>()>(PixelsInTile{s, tile, list, scratch}, shading_with(keep));
     if (kView != ViewKind::kWindow || tile.fragments.empty()) return;
-    const KeepNothing nothing;
-    ShadeFragments(tile.fragments,
-                   ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
-                                 s.primitives.end(M::kSurface), scratch),
-                   scratch, shading_with(nothing));
+    const PixelList parts = ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
+                                          s.primitives.end(M::kSurface), scratch);
+    ShadeList<PacketsAtOnce<Shade>()>(FragmentsInTile{tile.fragments, parts, scratch},
+                                      shading_with(KeepNothing()));
   });
 }
 
@@ -315,17 +319,14 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
                               std::uint32_t* rgba, float* linear, const Keep& keep) {
   const PixelLists lists = ListPixels(s, tile, scratch);
   const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch, keep);
-  const auto shade_sky = [&]<std::size_t kCount>(const std::array<ListedPacket, kCount>& listed)
-                             HWY_ATTR {
-                               std::array<V3, kCount> light;
-                               for (std::size_t k = 0; k < kCount; ++k)
-                                 light[k] = ShadeSky(s, listed[k].x_px, listed[k].y_px);
-                               return light;
-                             };
-  ShadeList<1>(s, tile, lists[kSky], scratch, shade_sky);
-  if (!tile.fragments.empty())
-    ShadeFragments(tile.fragments, ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch),
-                   scratch, shade_sky);
+  const auto shade_sky = [&](const std::array<ListedPacket, 1>& listed) HWY_ATTR {
+    return std::array{ShadeSky(s, listed[0].x_px, listed[0].y_px)};
+  };
+  ShadeList<1>(PixelsInTile{s, tile, lists[kSky], scratch}, shade_sky);
+  if (!tile.fragments.empty()) {
+    const PixelList parts = ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch);
+    ShadeList<1>(FragmentsInTile{tile.fragments, parts, scratch}, shade_sky);
+  }
   ResolveTile(s, tile.box, scratch, rgba, linear);
   if (!tile.fragments.empty()) ResolveFragments(s, tile, scratch, rgba, linear);
   return static_cast<int>(shaded);
