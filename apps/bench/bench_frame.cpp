@@ -10,6 +10,8 @@
 #include <span>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/compare_programs.h"
+#include "apps/bench/run_comparison.h"
 #include "apps/shared/cpu_name.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/options.h"
@@ -32,6 +34,8 @@ struct FrameBench {
   double budget_ms = 17.0;
   bool govern = false;
   std::string json, trace;
+  std::string compare;  // the old program, or empty
+  int runs = 7;
 };
 
 // What a frame was drawn with and how many triangles it had.
@@ -166,6 +170,14 @@ void run_frame_bench(const FrameBench& bench) {
   if (!bench.trace.empty()) write_text(bench.trace, trace.json());
 }
 
+void run_comparison(const FrameBench& bench, const CommandLine& line) {
+  check_text_place(bench.json);
+  compare_programs({.old_program = bench.compare,
+                    .arguments = line.arguments_without({"--compare", "--runs", "--json"}),
+                    .pairs = bench.runs,
+                    .json = bench.json});
+}
+
 }  // namespace
 
 BenchMode add_bench_frame(CommandLine& program) {
@@ -185,7 +197,16 @@ BenchMode add_bench_frame(CommandLine& program) {
                 "Lower triangles and scales as far as the budget takes, as the viewer can");
   add_json_option(line, bench->json);
   line.add_text("--trace", "FILE", bench->trace, "Write a Chrome trace of the measured frames");
-  return {line, [bench] { run_frame_bench(*bench); }};
+  line.add_text("--compare", "PROGRAM", bench->compare,
+                "Run an older swell-bench and this one by turns, and exit with 1 where a stage is "
+                "slower now, beyond noise and by over 1 % of the frame");
+  add_integer(line, "--runs", bench->runs, kFewestPairs, 1000, "Pairs of runs to compare");
+  line.need("--runs", "--compare");
+  line.exclude("--compare", "--govern");
+  line.exclude("--compare", "--trace");
+  return {line, [bench, line] {
+            bench->compare.empty() ? run_frame_bench(*bench) : run_comparison(*bench, line);
+          }};
 }
 
 }  // namespace swell::apps
