@@ -45,6 +45,7 @@ struct Quality {
 };
 
 struct Samples {
+  double first_frame_ms = 0.0;
   std::vector<double> frame_ms;
   std::vector<Quality> quality;
   int step_changes = 0;
@@ -86,6 +87,7 @@ Samples measure(const FrameBench& bench, const render::World& world, Trace& trac
     samples.last = render::render_frame(world, view, t_s, options, workspace, target, workers);
     if (bench.govern) governor.next(samples.last);
     const double frame_ms = run.elapsed_ms() - start_ms;
+    if (k == -bench.warm_up) samples.first_frame_ms = frame_ms;
     if (k < 0) continue;
     warning.look(k, world, view, workspace);
     samples.quality.push_back({samples.last.water_triangles + samples.last.terrain_triangles,
@@ -140,6 +142,7 @@ FrameReport summarize(const FrameBench& bench, const render::World& world, const
   report.cpu = cpu_name();
   report.simd = simd_target_name(current_simd_target());
   report.budget_ms = bench.budget_ms;
+  report.first_frame_ms = samples.first_frame_ms;
   report.frame_ms = spread(samples.frame_ms);
   for (const double ms : samples.frame_ms) report.over_budget += ms > bench.budget_ms;
   for (std::size_t i = 0; i < samples.stage_ms.size(); ++i)
@@ -158,11 +161,15 @@ void run_frame_bench(const FrameBench& bench) {
   check_labels_scale(bench.setup.frame.labels, bench.setup.frame);
   if (bench.govern && !bench.setup.frame.labels.empty())
     throw OptionError("command line: --govern, got it with labels, allowed without them");
-  const render::World world(load_scene(bench.setup.scene_path));
+  scene::Scene scene = load_scene(bench.setup.scene_path);
+  const Stopwatch making;
+  const render::World world(std::move(scene), bench.setup.threads);
+  const double world_ms = making.elapsed_ms();
   Trace trace;
   const auto switches_before = resource_usage().ru_nivcsw;
   const Samples samples = measure(bench, world, trace);
   FrameReport report = summarize(bench, world, samples);
+  report.world_ms = world_ms;
   report.involuntary_switches = resource_usage().ru_nivcsw - switches_before;
 
   if (bench.json != "-") fmt::print("{}", stage_table(report));

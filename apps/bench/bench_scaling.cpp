@@ -92,7 +92,7 @@ Measurement measure(const ScalingBench& bench, const render::World& world) {
 void run_scaling_bench(const ScalingBench& bench) {
   select_simd(bench.setup.simd);
   check_text_place(bench.json);
-  const render::World world(load_scene(bench.setup.scene_path));
+  const render::World world(load_scene(bench.setup.scene_path), bench.setup.threads);
   const Measurement measurement = measure(bench, world);
   const ScalingReport report = predict_scaling(measurement.frames, bench.setup.threads);
   const PictureSize size = bench.setup.size;
