@@ -17,11 +17,12 @@ find_dependency(hwy)
 find_dependency(fmt)
 find_dependency(tomlplusplus)
 find_dependency(ZLIB)
+find_dependency(PNG)
 find_dependency(PkgConfig)
 pkg_check_modules(XXHash REQUIRED IMPORTED_TARGET GLOBAL libxxhash)
 
 if(swell_is_building)
-  # For the module that reads images; what embeds the library does not link it. OpenImageIO's own
+  # For the module that reads images and writes EXR and TIFF; what embeds the library does not link it. OpenImageIO's own
   # CMake files name folders of packages that Debian does not make it depend on.
   pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET GLOBAL OpenImageIO)
   unset(CMAKE_FIND_PACKAGE_NAME)

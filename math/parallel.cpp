@@ -15,6 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "math/check.h"
+
 namespace swell {
 namespace {
 
@@ -57,6 +59,30 @@ void check_threads(int count) {
     throw std::runtime_error(fmt::format("threads besides those that run, got {} of {}: {}",
                                          waiting.threads.size(), count, error.code().message()));
   }
+}
+
+void Workers::observe(WorkObserver observer) {
+  SWELL_CHECK(thread_count_ == 1, "thread_count={}", thread_count_);
+  observer_ = std::move(observer);
+}
+
+void Workers::for_each_alone(std::size_t count, FunctionRef<void(std::size_t, int)> body, int slot,
+                             const std::source_location& caller) const {
+  if (observer_) observer_(WorkStep::kLoopBegin, caller);
+  for (std::size_t i = 0; i < count; ++i) {
+    body(i, slot);
+    if (observer_) observer_(WorkStep::kItemEnd, caller);
+  }
+  if (observer_) observer_(WorkStep::kLoopEnd, caller);
+}
+
+void Workers::run_both_in_turn(FunctionRef<void()> a, FunctionRef<void()> b,
+                               const std::source_location& caller) const {
+  if (observer_) observer_(WorkStep::kBothBegin, caller);
+  a();
+  if (observer_) observer_(WorkStep::kBothMiddle, caller);
+  b();
+  if (observer_) observer_(WorkStep::kBothEnd, caller);
 }
 
 ScopedFloatEnvironment::ScopedFloatEnvironment() : saved_(_mm_getcsr()) {

@@ -6,7 +6,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <source_location>
 #include <type_traits>
 #include <utility>
 
@@ -34,6 +37,17 @@ class FunctionRef<Result(Args...)> {
   Result (*call_)(void*, Args...);
 };
 
+// What for_each and run_both do one after the other where there is one thread.
+enum class WorkStep : std::uint8_t {
+  kLoopBegin,  // of for_each
+  kItemEnd,    // after each body
+  kLoopEnd,
+  kBothBegin,   // of run_both, before a
+  kBothMiddle,  // before b
+  kBothEnd,
+};
+using WorkObserver = std::function<void(WorkStep step, const std::source_location& caller)>;
+
 // A fixed number of threads that work together on one frame at a time. Every body runs with
 // IEEE defaults (round to nearest, no flush to zero), whatever the calling program has set.
 // An exception thrown by a body reaches the caller; the pool stays usable.
@@ -55,16 +69,28 @@ class Workers {
   // meanwhile, so it must not keep scratch memory across that call. After an exception the
   // remaining indices may be left out. Make an index a coarse piece of work (a tile, a row, a
   // thousand vertices).
-  void for_each(std::size_t count, FunctionRef<void(std::size_t index, int slot)> body);
+  void for_each(std::size_t count, FunctionRef<void(std::size_t index, int slot)> body,
+                const std::source_location& caller = std::source_location::current());
 
   // Calls a() and b(), side by side where there are threads for it; both may use for_each. If
   // one throws, the other may not have run.
-  void run_both(FunctionRef<void()> a, FunctionRef<void()> b);
+  void run_both(FunctionRef<void()> a, FunctionRef<void()> b,
+                const std::source_location& caller = std::source_location::current());
+
+  // Tells the observer of each step from now on; an empty one ends that. For one thread alone,
+  // whose steps say what more threads could share: aborts with more.
+  void observe(WorkObserver observer);
 
  private:
   struct Pool;
+  void for_each_alone(std::size_t count, FunctionRef<void(std::size_t, int)> body, int slot,
+                      const std::source_location& caller) const;
+  void run_both_in_turn(FunctionRef<void()> a, FunctionRef<void()> b,
+                        const std::source_location& caller) const;
+
   int thread_count_;
   std::unique_ptr<Pool> pool_;
+  WorkObserver observer_;
 };
 
 // The number of CPUs this process may use: the affinity mask and the cgroup quota, at least 1.

@@ -108,21 +108,20 @@ Workers::Workers(int thread_count) : thread_count_(thread_count) {
 
 Workers::~Workers() = default;
 
-void Workers::for_each(std::size_t count, FunctionRef<void(std::size_t, int)> body) {
+void Workers::for_each(std::size_t count, FunctionRef<void(std::size_t, int)> body,
+                       const std::source_location& caller) {
   if (current_slot >= 0 || thread_count_ == 1) {
     const ScopedFloatEnvironment ieee;
-    const int slot = thread_count_ == 1 ? 0 : current_slot;
-    for (std::size_t i = 0; i < count; ++i) body(i, slot);
-    return;
+    return for_each_alone(count, body, thread_count_ == 1 ? 0 : current_slot, caller);
   }
   pool_->run(count, body);
 }
 
 // One after the other: the loops inside each already use every thread.
-void Workers::run_both(FunctionRef<void()> a, FunctionRef<void()> b) {
+void Workers::run_both(FunctionRef<void()> a, FunctionRef<void()> b,
+                       const std::source_location& caller) {
   const ScopedFloatEnvironment ieee;
-  a();
-  b();
+  run_both_in_turn(a, b, caller);
 }
 
 }  // namespace swell

@@ -41,9 +41,10 @@ std::string_view stage_name(Stage stage);  // "sea", "triangulate", ...
 // be assigned to or destroyed; whatever else is done with it aborts with a message.
 class World {
  public:
-  // Throws scene::SceneError (a value out of its range, as for files) or texture::FileError (a
-  // height image).
-  explicit World(scene::Scene scene);
+  // The same bits with any number of threads, in [1, 256]. Throws scene::SceneError (a value out of
+  // its range, as for files), texture::FileError (a height image), or std::runtime_error if there
+  // are not so many threads to be had.
+  explicit World(scene::Scene scene, int threads = available_cpus());
 
   // The same bits, sooner: what both scenes describe alike (sky, sea, terrain with its maps, coast)
   // is shared with `like`, height images are not read again. On `threads` threads; with another

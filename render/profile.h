@@ -85,11 +85,13 @@ struct StageRun {
 
   // Calls body(i, thread) for all i below count.
   template <class Body>
-  void for_each(std::size_t count, const Body& body) const {
-    workers.for_each(count, [&](std::size_t i, int thread) {
+  void for_each(std::size_t count, const Body& body,
+                const std::source_location& caller = std::source_location::current()) const {
+    const auto timed = [&](std::size_t i, int thread) {
       const WorkScope work(profile, stage, thread);
       body(i, thread);
-    });
+    };
+    workers.for_each(count, timed, caller);
   }
 };
 

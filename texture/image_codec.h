@@ -1,6 +1,7 @@
 // What image_io.cpp asks of OpenImageIO. The library behind these calls is a module of its own
-// (image_codec.cpp), loaded when the first image is read or written: OpenImageIO brings 260 shared
-// libraries with it, which take 0.2 s and 250 MB of address space to load.
+// (image_codec.cpp), loaded when the first image is read, or written in another format than PNG
+// (png_file.h): OpenImageIO brings 260 shared libraries with it, which take 0.2 s and 250 MB of
+// address space to load.
 #pragma once
 
 #include <cstdint>
@@ -75,8 +76,7 @@ inline constexpr char kImageCodecSymbol[] = "swell_image_codec";  // an ImageCod
 // libraries would abort the program. May be called by several threads at once.
 const ImageCodec& image_codec();
 
-// What the codec makes of the request, without the notes of time and program that it puts into PNG.
-// Throws FileError.
+// What the codec, or for PNG libpng, makes of the request. Throws FileError.
 std::vector<std::uint8_t> encode(const EncodeRequest& request);
 
 }  // namespace swell::texture

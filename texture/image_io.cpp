@@ -10,6 +10,7 @@
 #include "texture/file_bytes.h"
 #include "texture/image_codec.h"
 #include "texture/image_structure.h"
+#include "texture/png_file.h"
 
 namespace swell::texture {
 namespace {
@@ -162,24 +163,6 @@ ImageF decode(const std::filesystem::path& path, std::string_view format,
 
 // --- Encoding
 
-// PNG chunks that carry the time or the writing program: the same picture, the same bytes.
-void drop_png_notes(std::vector<std::uint8_t>& png) {
-  constexpr std::size_t kSignature = 8, kChunkFrame = 12;  // length, type, check sum
-  std::size_t from = kSignature, to = kSignature;
-  while (from + kChunkFrame <= png.size()) {
-    const std::size_t size = kChunkFrame + (std::size_t{png[from]} << 24 | png[from + 1] << 16 |
-                                            png[from + 2] << 8 | png[from + 3]);
-    const std::string_view type(reinterpret_cast<const char*>(&png[from + 4]), 4);
-    if (type != "tIME" && type != "tEXt" && type != "zTXt" && type != "iTXt") {
-      std::copy_n(png.begin() + static_cast<std::ptrdiff_t>(from), size,
-                  png.begin() + static_cast<std::ptrdiff_t>(to));
-      to += size;
-    }
-    from += size;
-  }
-  png.resize(to);
-}
-
 [[noreturn]] void refuse_extension(const std::string& extension, const char* what,
                                    const char* allowed) {
   throw FileError("extension '" + one_line(extension) + "' cannot hold " + what +
@@ -214,13 +197,13 @@ EncodeRequest whole_number_request(const Image& image, const std::string& extens
 }  // namespace
 
 std::vector<std::uint8_t> encode(const EncodeRequest& request) {
+  if (request.format == "png") return encode_png(request);
   std::vector<std::uint8_t> bytes;
   std::string error;
   const CodecResult result = image_codec().encode(request, bytes, error);
   check_room(result);
   if (result == CodecResult::kFault)
     throw FileError(fmt::format("cannot encode {}: {}", request.format, one_line(error)));
-  if (request.format == "png") drop_png_notes(bytes);
   return bytes;
 }
 

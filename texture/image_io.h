@@ -1,8 +1,8 @@
-// Image files. The one door to OpenImageIO, which is loaded with the first image that is decoded or
-// encoded (texture/image_codec.h; throws std::runtime_error if there is no room for it). Reads PNG,
-// EXR, HDR, TIFF and PNM (by name and by content) and nothing else; writes PNG, EXR and TIFF to
-// memory first and then to a new file that gets the name when it is done, so that a file is whole
-// or not there.
+// Image files. The one door to OpenImageIO, which is loaded with the first image that is decoded,
+// or encoded as anything but PNG (texture/image_codec.h; throws std::runtime_error if there is no
+// room for it), and to libpng. Reads PNG, EXR, HDR, TIFF and PNM (by name and by content) and
+// nothing else; writes PNG, EXR and TIFF to memory first and then to a new file that gets the name
+// when it is done, so that a file is whole or not there.
 #pragma once
 
 #include <cstdint>

@@ -16,12 +16,21 @@ struct LatticePosition {
   double fraction;  // in [0, 1); NaN for a coordinate that is not finite
 };
 
+// Of a coordinate of 2^52 or more, which is a whole number, or one that is not finite.
+inline LatticePosition far_lattice_position(double x, int period) {
+  if (!std::isfinite(x)) return {0, std::numeric_limits<double>::quiet_NaN()};
+  const double turns = std::floor(x / period);  // exact: period is a power of two
+  return {static_cast<int>(x - turns * period), 0.0};
+}
+
 // period: a power of two.
 inline LatticePosition lattice_position(double x, int period) {
-  if (!std::isfinite(x)) return {0, std::numeric_limits<double>::quiet_NaN()};
-  const double floor_x = std::floor(x);
-  const double turns = std::floor(floor_x / period);  // exact: period is a power of two
-  return {static_cast<int>(floor_x - turns * period), x - floor_x};
+  constexpr double kAllWhole = 4503599627370496.0;  // 2^52
+  if (!(std::abs(x) < kAllWhole)) return far_lattice_position(x, period);
+  auto cell = static_cast<std::int64_t>(x);  // towards 0
+  cell -= x < static_cast<double>(cell);
+  const double fraction = x - static_cast<double>(cell);
+  return {static_cast<int>(cell & (period - 1)), fraction + 0.0};  // of -0.0 it is 0.0
 }
 
 // A permutation of 0 .. 255 by the seed (Fisher and Yates), written twice.

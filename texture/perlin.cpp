@@ -16,6 +16,12 @@ constexpr std::uint64_t kValueStream = 0x76616c7565;  // apart from the permutat
 
 double mix(double a, double b, double weight) { return a + weight * (b - a); }
 
+// interpolation_weight(), without a call for the usual one.
+double weight_at(Interpolation interpolation, double t) {
+  return interpolation == Interpolation::kCubic ? smooth_blend(t)
+                                                : interpolation_weight(interpolation, t);
+}
+
 void check_fractal(int octaves, double persistence) {
   SWELL_CHECK(octaves >= 1 && octaves <= 16, "octaves={}", octaves);
   SWELL_CHECK(persistence >= 0.0 && persistence <= 1.0, "persistence={}", persistence);
@@ -60,17 +66,17 @@ double PerlinNoise::lattice3(int i, int j, int k) const {
 
 double PerlinNoise::noise1(double x) const {
   const auto [i, t] = lattice_position(x, kPeriod);
-  return mix(g_[p_[i]], g_[p_[i + 1]], interpolation_weight(interpolation_, t));
+  return mix(g_[p_[i]], g_[p_[i + 1]], weight_at(interpolation_, t));
 }
 
 double PerlinNoise::noise2(double x, double y) const {
   const auto [i, s] = lattice_position(x, kPeriod);
   const auto [j, t] = lattice_position(y, kPeriod);
-  const double s_weight = interpolation_weight(interpolation_, s);
+  const double s_weight = weight_at(interpolation_, s);
   const auto row = [&, column = i](int at_j) {
     return mix(g_[p_[p_[column] + at_j]], g_[p_[p_[column + 1] + at_j]], s_weight);
   };
-  return mix(row(j), row((j + 1) & 255), interpolation_weight(interpolation_, t));
+  return mix(row(j), row((j + 1) & 255), weight_at(interpolation_, t));
 }
 
 double PerlinNoise::noise3(double x, double y, double z) const {
@@ -80,9 +86,9 @@ double PerlinNoise::noise3(double x, double y, double z) const {
 double PerlinNoise::wrapped_noise3(double x, double y, double z, int period) const {
   const LatticePosition px = lattice_position(x, period), py = lattice_position(y, period);
   const LatticePosition pz = lattice_position(z, period);
-  const double x_weight = interpolation_weight(interpolation_, px.fraction);
-  const double y_weight = interpolation_weight(interpolation_, py.fraction);
-  const double z_weight = interpolation_weight(interpolation_, pz.fraction);
+  const double x_weight = weight_at(interpolation_, px.fraction);
+  const double y_weight = weight_at(interpolation_, py.fraction);
+  const double z_weight = weight_at(interpolation_, pz.fraction);
   const int next_i = (px.cell + 1) & (period - 1);
   const int next_j = (py.cell + 1) & (period - 1);
   const int next_k = (pz.cell + 1) & (period - 1);

@@ -10,6 +10,8 @@
 #include <span>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/compare_programs.h"
+#include "apps/bench/run_comparison.h"
 #include "apps/shared/cpu_name.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/options.h"
@@ -32,6 +34,8 @@ struct FrameBench {
   double budget_ms = 17.0;
   bool govern = false;
   std::string json, trace;
+  std::string compare;  // the old program, or empty
+  int runs = 7;
 };
 
 // What a frame was drawn with and how many triangles it had.
@@ -41,6 +45,7 @@ struct Quality {
 };
 
 struct Samples {
+  double first_frame_ms = 0.0;
   std::vector<double> frame_ms;
   std::vector<Quality> quality;
   int step_changes = 0;
@@ -82,6 +87,7 @@ Samples measure(const FrameBench& bench, const render::World& world, Trace& trac
     samples.last = render::render_frame(world, view, t_s, options, workspace, target, workers);
     if (bench.govern) governor.next(samples.last);
     const double frame_ms = run.elapsed_ms() - start_ms;
+    if (k == -bench.warm_up) samples.first_frame_ms = frame_ms;
     if (k < 0) continue;
     warning.look(k, world, view, workspace);
     samples.quality.push_back({samples.last.water_triangles + samples.last.terrain_triangles,
@@ -136,6 +142,7 @@ FrameReport summarize(const FrameBench& bench, const render::World& world, const
   report.cpu = cpu_name();
   report.simd = simd_target_name(current_simd_target());
   report.budget_ms = bench.budget_ms;
+  report.first_frame_ms = samples.first_frame_ms;
   report.frame_ms = spread(samples.frame_ms);
   for (const double ms : samples.frame_ms) report.over_budget += ms > bench.budget_ms;
   for (std::size_t i = 0; i < samples.stage_ms.size(); ++i)
@@ -154,16 +161,28 @@ void run_frame_bench(const FrameBench& bench) {
   check_labels_scale(bench.setup.frame.labels, bench.setup.frame);
   if (bench.govern && !bench.setup.frame.labels.empty())
     throw OptionError("command line: --govern, got it with labels, allowed without them");
-  const render::World world(load_scene(bench.setup.scene_path));
+  scene::Scene scene = load_scene(bench.setup.scene_path);
+  const Stopwatch making;
+  const render::World world(std::move(scene), bench.setup.threads);
+  const double world_ms = making.elapsed_ms();
   Trace trace;
   const auto switches_before = resource_usage().ru_nivcsw;
   const Samples samples = measure(bench, world, trace);
   FrameReport report = summarize(bench, world, samples);
+  report.world_ms = world_ms;
   report.involuntary_switches = resource_usage().ru_nivcsw - switches_before;
 
   if (bench.json != "-") fmt::print("{}", stage_table(report));
   if (!bench.json.empty()) write_text(bench.json, frame_json(report));
   if (!bench.trace.empty()) write_text(bench.trace, trace.json());
+}
+
+void run_comparison(const FrameBench& bench, const CommandLine& line) {
+  check_text_place(bench.json);
+  compare_programs({.old_program = bench.compare,
+                    .arguments = line.arguments_without({"--compare", "--runs", "--json"}),
+                    .pairs = bench.runs,
+                    .json = bench.json});
 }
 
 }  // namespace
@@ -185,7 +204,16 @@ BenchMode add_bench_frame(CommandLine& program) {
                 "Lower triangles and scales as far as the budget takes, as the viewer can");
   add_json_option(line, bench->json);
   line.add_text("--trace", "FILE", bench->trace, "Write a Chrome trace of the measured frames");
-  return {line, [bench] { run_frame_bench(*bench); }};
+  line.add_text("--compare", "PROGRAM", bench->compare,
+                "Run an older swell-bench and this one by turns, and exit with 1 where a stage is "
+                "slower now, beyond noise and by over 1 % of the frame");
+  add_integer(line, "--runs", bench->runs, kFewestPairs, 1000, "Pairs of runs to compare");
+  line.need("--runs", "--compare");
+  line.exclude("--compare", "--govern");
+  line.exclude("--compare", "--trace");
+  return {line, [bench, line] {
+            bench->compare.empty() ? run_frame_bench(*bench) : run_comparison(*bench, line);
+          }};
 }
 
 }  // namespace swell::apps

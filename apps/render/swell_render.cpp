@@ -73,7 +73,7 @@ void run(const RenderOptions& options) {
   scene::Scene scene = draws ? load_scene(path) : scene::load_scene(path);
   if (options.dump_scene) fmt::print("{}", scene::dump_scene(scene));
   if (!draws) return;
-  draw_frames(options, render::World(std::move(scene)), log);
+  draw_frames(options, render::World(std::move(scene), options.setup.threads), log);
   log.finish();
 }
 

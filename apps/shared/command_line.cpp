@@ -98,4 +98,17 @@ bool CommandLine::parse(int argc, char** argv) {
 
 bool CommandLine::given() const { return app_->parsed(); }
 
+Texts CommandLine::arguments_without(const Texts& left_out) const {
+  Texts arguments;
+  for (const CLI::Option* option : app_->get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::ranges::count(left_out, name) > 0) continue;
+    arguments.push_back(name);
+    const bool is_flag = option->get_items_expected_max() == 0;
+    if (!is_flag)
+      arguments.insert(arguments.end(), option->results().begin(), option->results().end());
+  }
+  return arguments;
+}
+
 }  // namespace swell::apps

@@ -53,6 +53,10 @@ class CommandLine {
   // Whether this mode was given; after the program's parse().
   bool given() const;
 
+  // Options as they were given, with their values, but for those left out: another program may
+  // take them again.
+  std::vector<std::string> arguments_without(const std::vector<std::string>& left_out) const;
+
  private:
   explicit CommandLine(std::shared_ptr<CLI::App> app);
 

@@ -52,7 +52,9 @@ Json plain_frame_json(const FrameReport& r) {
           {"water_triangles", r.last.water_triangles},
           {"terrain_triangles", r.last.terrain_triangles},
           {"involuntary_switches", r.involuntary_switches},
-          {"cpu", r.cpu}};
+          {"cpu", r.cpu},
+          {"world_ms", rounded(r.world_ms)},
+          {"first_frame_ms", rounded(r.first_frame_ms)}};
 }
 
 Json governed_json(const GovernedReport& g) {
@@ -105,6 +107,8 @@ std::string stage_table(const FrameReport& r) {
       r.last.water_triangles, r.last.terrain_triangles, r.last.shaded_pixels, r.last.visible_pixels,
       r.hash);
   if (r.governed) text += governed_text(*r.governed);
+  text += fmt::format("once: making the world {:.1f} ms, the first frame {:.1f} ms\n", r.world_ms,
+                      r.first_frame_ms);
   text += fmt::format("peak memory {:.0f} MB, {} involuntary context switches\n", r.peak_rss_mb,
                       r.involuntary_switches);
   return text;

@@ -33,6 +33,7 @@ struct FrameReport {
   int frames = 0, threads = 0;
   std::string cpu, simd;
   double budget_ms = 0.0;
+  double world_ms = 0.0, first_frame_ms = 0.0;  // before there was a picture: made once
   Spread frame_ms;
   int over_budget = 0;  // frames slower than the budget
   std::array<Spread, static_cast<std::size_t>(render::Stage::kCount)> stage_ms;

@@ -51,7 +51,7 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
       settings_(settings),
       window_("swell - " + scene.name, settings.size),
       gui_(window_.handle(), window_.renderer()),
-      world_(std::make_shared<render::World>(scene)),
+      world_(std::make_shared<render::World>(scene, settings.threads)),
       workers_(settings.threads),
       governor_({}, render::with_scene_defaults(settings.frame, scene)),
       last_frame_start_(Clock::now()) {

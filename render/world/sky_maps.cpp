@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "math/elementary.h"
+#include "render/world/for_each_row.h"
 #include "render/world/rgb_code.h"
 #include "render/world/world_state.h"
 #include "scene/sky.h"
@@ -25,11 +26,11 @@ glm::vec3 sky_direction(int x, int y, int size) {
 }
 
 // Box filter of half width `radius` along rows (step 3 floats) or columns, edges repeated.
-void blur(std::vector<float>& rgb, int size, int radius, bool along_rows) {
+void blur(std::vector<float>& rgb, int size, int radius, bool along_rows, Workers& workers) {
   std::vector<float> result(rgb.size());
   const std::ptrdiff_t step = along_rows ? 3 : 3 * size, line = along_rows ? 3 * size : 3;
   const float weight = 1.0f / static_cast<float>(2 * radius + 1);
-  for (int j = 0; j < size; ++j) {
+  for_each_row(size, workers, [&](int j) {
     for (int i = 0; i < size; ++i) {
       for (int c = 0; c < 3; ++c) {
         float sum = 0.0f;
@@ -38,36 +39,36 @@ void blur(std::vector<float>& rgb, int size, int radius, bool along_rows) {
         result[static_cast<std::size_t>(j * line + i * step + c)] = weight * sum;
       }
     }
-  }
+  });
   rgb.swap(result);
 }
 
 // blur_radius: two box filters of this half width each way, in texels.
 texture::RgbaImage build_sky_map(const scene::Sky& sky, const texture::PerlinNoise& clouds,
-                                 int size, int blur_radius) {
-  std::vector<float> rgb;
-  rgb.reserve(static_cast<std::size_t>(3 * size * size));
-  for (int y = 0; y < size; ++y) {
+                                 int size, int blur_radius, Workers& workers) {
+  std::vector<float> rgb(static_cast<std::size_t>(3 * size * size));
+  for_each_row(size, workers, [&](int y) {
+    float* p = rgb.data() + std::ptrdiff_t{3} * y * size;
     for (int x = 0; x < size; ++x) {
       glm::vec3 d = sky_direction(x, y, size);
       d.z = std::max(d.z, -0.1f);
       const glm::vec3 radiance = scene::sky_radiance(sky, clouds, d);
-      for (int c = 0; c < 3; ++c) rgb.push_back(radiance[c]);
+      for (int c = 0; c < 3; ++c) *p++ = radiance[c];
     }
-  }
+  });
   for (int pass = 0; pass < (blur_radius > 0 ? 2 : 0); ++pass) {
-    blur(rgb, size, blur_radius, true);
-    blur(rgb, size, blur_radius, false);
+    blur(rgb, size, blur_radius, true, workers);
+    blur(rgb, size, blur_radius, false, workers);
   }
   texture::RgbaImage image;
   texture::resize_image(size, size, image);
-  for (int y = 0; y < size; ++y) {
+  for_each_row(size, workers, [&](int y) {
     for (int x = 0; x < size; ++x) {
       const float* p = rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * size + x);
       image.texels[static_cast<std::size_t>(y) * image.stride + x] =
           encode_rgb({p[0], p[1], p[2]}, kLookupRange);
     }
-  }
+  });
   texture::fill_padding(image);
   return image;
 }
@@ -91,10 +92,11 @@ glm::vec3 ambient_radiance(const scene::Sky& sky, const texture::PerlinNoise& cl
 
 }  // namespace
 
-SkyMaps build_sky_maps(const scene::Sky& sky) {
+SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers) {
   const texture::PerlinNoise clouds(sky.cloud_seed);
-  return {build_sky_map(sky, clouds, kSharpSkySize, 0),
-          build_sky_map(sky, clouds, kSoftSkySize, kSoftSkyBlur), ambient_radiance(sky, clouds)};
+  return {build_sky_map(sky, clouds, kSharpSkySize, 0, workers),
+          build_sky_map(sky, clouds, kSoftSkySize, kSoftSkyBlur, workers),
+          ambient_radiance(sky, clouds)};
 }
 
 }  // namespace swell::render

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "math/smoothstep.h"
+#include "render/world/for_each_row.h"
 #include "render/world/rgb_code.h"
 #include "render/world/world_state.h"
 #include "texture/perlin.h"
@@ -34,7 +35,8 @@ glm::vec3 ground_albedo(float height_m, float steepness, float noise, float clum
 
 }  // namespace
 
-TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t seed) {
+TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t seed,
+                               Workers& workers) {
   constexpr int n = kTerrainMapSize;
   const double step = terrain.grid.size_m() / n;
   const std::vector<float> height =
@@ -48,7 +50,7 @@ TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t
   const texture::PerlinNoise noise(seed);
   std::vector<float> slope_x(height.size()), slope_y(height.size());
   const float inv_span = static_cast<float>(0.5 / step);
-  for (int j = 0; j < n; ++j) {
+  for_each_row(n, workers, [&](int j) {
     for (int i = 0; i < n; ++i) {
       const std::size_t k = static_cast<std::size_t>(j) * n + i;
       slope_x[k] = (at(i + 1, j) - at(i - 1, j)) * inv_span;
@@ -61,7 +63,7 @@ TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t
       maps.albedo.texels[static_cast<std::size_t>(j) * maps.albedo.stride + i] = encode_rgb(
           ground_albedo(height[k], steepness, std::clamp(patchiness, -1.0f, 1.0f), clumps), 1.0f);
     }
-  }
+  });
   texture::fill_padding(maps.albedo);
   texture::pack_map2(n, slope_x, slope_y, 0.0f, maps.slopes);
   return maps;

@@ -50,16 +50,21 @@ std::shared_ptr<const T> shared(T value) {
 }
 
 // like: of another coast, or null.
-CoastMaps build_coast_maps(const ocean::CoastSea& coast, const CoastMaps* like, int threads) {
-  Workers workers(threads);
-  return {ocean::make_coast_map(coast, kCoastMapSize, workers), build_ceded_map(coast),
-          like ? like->foam_pattern : shared(build_foam_pattern())};
+CoastMaps build_coast_maps(const ocean::CoastSea& coast, const CoastMaps* like, Workers& workers) {
+  CoastMaps maps;
+  workers.run_both(
+      [&] {
+        maps.waves = ocean::make_coast_map(coast, kCoastMapSize, workers);
+        maps.ceded = build_ceded_map(coast);
+      },
+      [&] { maps.foam_pattern = like ? like->foam_pattern : shared(build_foam_pattern()); });
+  return maps;
 }
 
 // The parts of a world. like: one that describes the part alike, or null.
 
-void add_sky(const World::State* like, World::State& state) {
-  state.sky = like ? like->sky : shared(build_sky_maps(state.scene.sky));
+void add_sky(const World::State* like, Workers& workers, World::State& state) {
+  state.sky = like ? like->sky : shared(build_sky_maps(state.scene.sky, workers));
 }
 
 void add_sea(const World::State* like, World::State& state) {
@@ -70,22 +75,24 @@ void add_bump(const World::State* like, World::State& state) {
   state.bump = like ? like->bump : shared(build_bump_map(state.scene.sea.seed));
 }
 
-void add_terrain(const World::State* like, World::State& state) {
+void add_terrain(const World::State* like, Workers& workers, World::State& state) {
   if (!state.scene.terrain) return;
   state.terrain = like ? like->terrain : shared(*scene::build_terrain(state.scene));
-  state.terrain_maps = like ? like->terrain_maps
-                            : shared(build_terrain_maps(*state.terrain, state.scene.terrain->seed));
+  state.terrain_maps =
+      like ? like->terrain_maps
+           : shared(build_terrain_maps(*state.terrain, state.scene.terrain->seed, workers));
 }
 
 // like: may have another coast.
-void add_coast(const World::State* like, bool same_coast, int threads, World::State& state) {
+void add_coast(const World::State* like, bool same_coast, Workers& workers, World::State& state) {
   if (same_coast) {
     state.coast = like->coast;
     state.coast_maps = like->coast_maps;
-  } else if (auto coast = scene::build_coast(state.scene, state.terrain.get(), threads)) {
+  } else if (auto coast =
+                 scene::build_coast(state.scene, state.terrain.get(), workers.thread_count())) {
     state.coast = shared(std::move(*coast));
     state.coast_maps =
-        shared(build_coast_maps(*state.coast, like ? like->coast_maps.get() : nullptr, threads));
+        shared(build_coast_maps(*state.coast, like ? like->coast_maps.get() : nullptr, workers));
   }
 }
 
@@ -109,12 +116,18 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   const bool same_sea = like && like->scene.sea == now.sea;
   const bool same_terrain = like && like->scene.terrain == now.terrain;
   const bool same_coast = same_sea && same_terrain && like->scene.coast == now.coast;
-  add_sky(if_alike(like && like->scene.sky == now.sky), *state);
-  add_sea(if_alike(same_sea), *state);
-  add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
-  add_terrain(if_alike(same_terrain), *state);
-  add_relief_bounds(if_alike(same_terrain), *state);
-  add_coast(like, same_coast, threads, *state);
+  Workers workers(threads);
+  workers.run_both(
+      [&] {
+        add_terrain(if_alike(same_terrain), workers, *state);
+        add_relief_bounds(if_alike(same_terrain), *state);
+        add_coast(like, same_coast, workers, *state);
+      },
+      [&] {
+        add_sea(if_alike(same_sea), *state);
+        add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
+        add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);
+      });
   state->objects = build_object_meshes(now.objects);
   state->object_classes = object_classes(now);
   state->focuses = object_focuses(now.objects);
@@ -123,8 +136,8 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
 
 }  // namespace
 
-World::World(scene::Scene scene)
-    : state_(make_state(std::move(scene), nullptr, available_cpus())) {}
+World::World(scene::Scene scene, int threads)
+    : state_(make_state(std::move(scene), nullptr, threads)) {}
 World::World(scene::Scene scene, const World& like, int threads)
     : state_(make_state(std::move(scene), &like.state(), threads)) {}
 World::~World() = default;

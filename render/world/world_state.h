@@ -83,9 +83,11 @@ inline ocean::WaterSurface water_surface(const World::State& world, const ocean:
 // Points a side of the maps that lie over a coast's square.
 inline constexpr int kCoastMapSize = 256;
 
-SkyMaps build_sky_maps(const scene::Sky& sky);
+// The same bits with any workers.
+SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers);
 ObjectMeshes build_object_meshes(std::span<const scene::FloatingObject> objects);
 std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> objects);
-TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t seed);
+TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t seed,
+                               Workers& workers);
 
 }  // namespace swell::render

@@ -334,5 +334,21 @@ TEST(FunctionRef, CallsWhatItWasMadeFromWithoutACopy) {
   EXPECT_EQ(calls, 6);
 }
 
+TEST(Workers, AnObserverIsToldOfEachStepAndOfItsCaller) {
+  Workers workers(1);
+  std::string steps;
+  workers.observe([&](WorkStep step, const std::source_location& caller) {
+    steps += "(i)<|>"[static_cast<std::size_t>(step)];
+    EXPECT_NE(std::string(caller.file_name()).find("parallel_test.cpp"), std::string::npos);
+  });
+  const auto body = [&](std::size_t i, int) { steps += std::to_string(i); };
+  workers.run_both([&] { workers.for_each(3, body); }, [&] { steps += "b"; });
+  workers.for_each(0, body);
+  EXPECT_EQ(steps, "<(0i1i2i)|b>()");
+  workers.observe({});
+  workers.for_each(1, body);
+  EXPECT_EQ(steps, "<(0i1i2i)|b>()0");
+}
+
 }  // namespace
 }  // namespace swell

@@ -8,6 +8,7 @@
 
 #include "math/random.h"
 #include "texture/improved_noise.h"
+#include "texture/lattice.h"
 #include "texture/perlin.h"
 
 namespace swell::texture {
@@ -25,6 +26,21 @@ double reference_weight(Interpolation interpolation, double t) {
   if (interpolation == Interpolation::kLinear) return t;
   if (interpolation == Interpolation::kCosine) return (1 - std::cos(kPi * t)) / 2;
   return 3 * t * t - 2 * t * t * t;
+}
+
+TEST(LatticePosition, IsTheFloorAndWhatIsOverItEverywhere) {
+  std::vector<double> xs = {0.0,           -0.0,         1.0,    -1.0,     255.0,
+                            256.0,         -256.0,       0.5,    -0x1p-60, 0x1p51 + 0.5,
+                            -0x1p51 - 0.5, 0x1p52 - 1.0, 0x1p52, -0x1p52,  0x1p53 + 2.0,
+                            -0x1p60,       0x1p64,       -1e300};
+  for (std::uint64_t n = 0; n < 2000; ++n) xs.push_back(random_in(-1000.0, 1000.0, n));
+  for (const double x : xs) {
+    const LatticePosition at = lattice_position(x, 64);
+    const double cell = std::fmod(std::floor(x), 64.0);
+    EXPECT_EQ(at.cell, cell < 0.0 ? cell + 64.0 : cell) << x;
+    EXPECT_EQ(at.fraction, x - std::floor(x)) << x;
+    EXPECT_FALSE(std::signbit(at.fraction)) << x;
+  }
 }
 
 TEST(InterpolationWeight, FollowsItsFormula) {

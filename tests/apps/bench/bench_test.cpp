@@ -50,6 +50,8 @@ TEST_F(Bench, TheFrameReportHasEveryKey) {
   EXPECT_EQ(report.at("budget_ms"), 0.001);
   EXPECT_GT(report.at("triangles").get<int>(), 0);
   EXPECT_GT(report.at("peak_rss_mb").get<double>(), 1.0);
+  EXPECT_GT(report.at("world_ms").get<double>(), 1.0);
+  EXPECT_GT(report.at("first_frame_ms").get<double>(), 0.0);
   EXPECT_EQ(report.at("hash").get<std::string>().size(), 16u);
   const std::string cpu = report.at("cpu").get<std::string>();
   EXPECT_TRUE(cpu == "unknown" || read_text("/proc/cpuinfo").find(cpu) != std::string::npos) << cpu;
@@ -86,8 +88,9 @@ TEST_F(Bench, TheTableNamesEveryStageAndTheBudgetAndTheReportGoesIntoAFile) {
   const Outcome outcome = run_bench({"frame", "--scene", scene_, "--size", "64x36", "--frames", "2",
                                      "--json", folder_.file("report.json")});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* word : {"sea", "triangulate", "displace", "visibility", "lookups", "shade",
-                           "frame", "budget 17 ms", "median", "p95", "p99", "max"})
+  for (const char* word :
+       {"sea", "triangulate", "displace", "visibility", "lookups", "shade", "frame", "budget 17 ms",
+        "median", "p95", "p99", "max", "making the world", "first frame"})
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word << "\n" << outcome.out;
   const Json report = Json::parse(read_text(folder_.file("report.json")), nullptr, false);
   EXPECT_EQ(report.value("frames", 0), 2);

@@ -56,13 +56,14 @@ TEST_F(ScarceResources, WhatReadsNoImageNeedsLittleMemory) {
   EXPECT_EQ(run_render({"--help"}, little).exit_code, 0);
   EXPECT_EQ(run_bench({"frame", "--help"}, little).exit_code, 0);
   EXPECT_EQ(render({"--hash", "--threads", "2"}, little).exit_code, 0);
+  EXPECT_EQ(render({"--out", folder_.file("a.png")}, little).exit_code, 0);
   EXPECT_EQ(
       run_bench({"frame", "--scene", scene_, "--size", "64x36", "--frames", "1"}, little).exit_code,
       0);
 }
 
 TEST_F(ScarceResources, TooLittleMemoryIsOneErrorLine) {
-  expect_failure(render({"--out", folder_.file("a.png")}, {.max_memory_bytes = 390 * kMegabyte}),
+  expect_failure(render({"--out", folder_.file("a.exr")}, {.max_memory_bytes = 390 * kMegabyte}),
                  "out of memory");
   expect_failure(run_render({"--scene", scene_, "--size", "8192x8192", "--hash"},
                             {.max_memory_bytes = 200 * kMegabyte}));
@@ -73,7 +74,7 @@ TEST_F(ScarceResources, TooLittleMemoryIsOneErrorLine) {
         render({"--hash", "--threads", "3"}, {.max_memory_bytes = megabytes * kMegabyte}));
   for (const long megabytes : {500, 640, 680, 700, 720})
     expect_done_or_failure(
-        render({"--out", folder_.file("a.png")}, {.max_memory_bytes = megabytes * kMegabyte}));
+        render({"--out", folder_.file("a.exr")}, {.max_memory_bytes = megabytes * kMegabyte}));
 }
 
 TEST_F(ScarceResources, NoThreadsIsOneErrorLine) {
@@ -86,7 +87,7 @@ TEST_F(ScarceResources, NoThreadsIsOneErrorLine) {
     EXPECT_EQ(alone.exit_code, 0) << alone.err;
     EXPECT_EQ(run_render({"--version"}, surroundings).exit_code, 0);
     expect_failure(render({"--hash", "--threads", "2"}, surroundings), "threads");
-    expect_failure(render({"--threads", "1", "--out", folder_.file("a.png")}, surroundings),
+    expect_failure(render({"--threads", "1", "--out", folder_.file("a.exr")}, surroundings),
                    "threads");
     expect_failure(
         run_bench({"frame", "--scene", scene_, "--size", "64x36", "--threads", "4"}, surroundings),
@@ -100,9 +101,9 @@ TEST_F(ScarceResources, NoThreadsIsOneErrorLine) {
 TEST_F(ScarceResources, AProgramWithoutTheModuleForImagesSaysSo) {
   const std::string alone = folder_.file("swell-render");
   fs::copy_file(render_program(), alone);
-  const Arguments hash = {"--scene", scene_, "--size", "64x36", "--hash"};
-  EXPECT_EQ(run_program(alone, hash).exit_code, 0);
-  const Arguments picture = {"--scene", scene_, "--size", "64x36", "--out", folder_.file("a.png")};
+  const Arguments png = {"--scene", scene_, "--size", "64x36", "--out", folder_.file("a.png")};
+  EXPECT_EQ(run_program(alone, png).exit_code, 0);
+  const Arguments picture = {"--scene", scene_, "--size", "64x36", "--out", folder_.file("a.exr")};
   const Outcome outcome = run_program(alone, picture);
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_TRUE(is_one_error_line(outcome.err, {"libswell_image_codec.so"})) << outcome.err;

@@ -1,0 +1,38 @@
+// A World is the same bits on any number of threads.
+#include <gtest/gtest.h>
+
+#include "render/world/world_state.h"
+#include "scene/scene.h"
+
+namespace swell::render {
+namespace {
+
+TEST(World, HasTheSameMapsOnAnyNumberOfThreads) {
+  scene::Scene scene = scene::load_scene(SWELL_SOURCE_DIR "/scenes/beach.toml");
+  scene.coast.trains = 1;
+  const World alone(scene, 1);
+  const World::State& a = alone.state();
+  for (const int threads : {2, 7}) {
+    const World shared(scene, threads);
+    const World::State& b = shared.state();
+    EXPECT_EQ(a.sky->sharp.texels, b.sky->sharp.texels);
+    EXPECT_EQ(a.sky->soft.texels, b.sky->soft.texels);
+    EXPECT_EQ(a.sky->ambient, b.sky->ambient);
+    EXPECT_EQ(a.terrain->height_m, b.terrain->height_m);
+    EXPECT_EQ(a.terrain_maps->albedo.texels, b.terrain_maps->albedo.texels);
+    EXPECT_EQ(a.terrain_maps->slopes.words, b.terrain_maps->slopes.words);
+    EXPECT_EQ(a.coast_maps->waves.wave, b.coast_maps->waves.wave);
+    EXPECT_EQ(a.coast_maps->waves.surf, b.coast_maps->waves.surf);
+    EXPECT_EQ(a.coast_maps->ceded, b.coast_maps->ceded);
+    EXPECT_EQ(a.coast_maps->foam_pattern->words, b.coast_maps->foam_pattern->words);
+    EXPECT_EQ(a.bump->words, b.bump->words);
+  }
+}
+
+TEST(World, RefusesANumberOfThreadsThatIsNone) {
+  EXPECT_DEATH(World(scene::Scene{}, 0), "threads=0");
+  EXPECT_DEATH(World(scene::Scene{}, 257), "threads=257");
+}
+
+}  // namespace
+}  // namespace swell::render
