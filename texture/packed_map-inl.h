@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 #include <immintrin.h>
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
@@ -187,7 +188,7 @@ HWY_INLINE VI WordOffset(DI di, const PackedMap2& map, VI x_fx8, VI y_fx8, VI le
 }
 
 // The 32 bits of the lane with lane % 4 == kPart, from `fine` in the low and from `coarse` in the
-// high half of its block of 128 bits: as LoadPairs puts the words of those lanes.
+// high half of its block of 128 bits: as LoadBlocks puts the words of those lanes.
 template <int kPart, class DI, class VI = hn::Vec<DI>>
 HWY_INLINE VI SpreadPart(DI di, VI fine, VI coarse) {
   const hn::RebindToFloat<DI> df;
@@ -199,13 +200,12 @@ HWY_INLINE VI SpreadPart(DI di, VI fine, VI coarse) {
 #endif
 }
 
-// The whole words of the lanes with lane % 4 == kPart, at these offsets [bytes].
+// The 128-bit words of the lanes with lane % 4 == kPart, at these offsets [bytes].
 template <int kPart, class D8>
-HWY_INLINE hn::Vec<D8> LoadPairs(D8, const PackedWord* words,
-                                 const std::uint32_t* HWY_RESTRICT offset) {
+HWY_INLINE hn::Vec<D8> LoadBlocks(D8, const void* words, const std::uint32_t* HWY_RESTRICT offset) {
   const auto word = [&](int block) HWY_ATTR {
-    return _mm_load_si128(reinterpret_cast<const __m128i*>(
-        reinterpret_cast<const std::uint8_t*>(words) + offset[4 * block + kPart]));
+    return _mm_load_si128(reinterpret_cast<const __m128i*>(static_cast<const std::uint8_t*>(words) +
+                                                           offset[4 * block + kPart]));
   };
   const __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(word(0)), word(1), 1);
 #if HWY_TARGET == HWY_AVX2
@@ -244,7 +244,7 @@ HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI ba
   // Of each lane four sums: fine a, fine b, coarse a, coarse b.
   const auto sums = [&]<int kPart>() HWY_ATTR {
     const auto rows = DotPairs(hn::BitCast(d8, SpreadPart<kPart>(di, fine_x, coarse_x)),
-                               LoadPairs<kPart>(d8, map.words.data(), lane_index));
+                               LoadBlocks<kPart>(d8, map.words.data(), lane_index));
     return DotWords(SpreadPart<kPart>(di, fine_y, coarse_y), hn::BitCast(di, rows));
   };
   const VI s0 = sums.template operator()<0>(), s1 = sums.template operator()<1>();
@@ -364,6 +364,46 @@ HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V&
   g = high_channel(rg);
   b = low_channel(ba);
   a = high_channel(ba);
+}
+
+// Samples `map` bilinearly at (x_fx8, y_fx8) [1/256 texels from the first texel's centre], clamped
+// to the map; NaN counts as 0. Results in [0, 1].
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void SampleRgb(D d, const RgbMap& map, V x_fx8, V y_fx8, V& r, V& g, V& b) {
+  const hn::RebindToSigned<D> di;
+  using VI = hn::Vec<decltype(di)>;
+  const hn::Repartition<std::uint8_t, D> d8;
+  const V last = hn::Set(d, static_cast<float>(256 * (map.size - 1)));
+  const auto whole = [&](V v) HWY_ATTR {
+    return swell::HWY_NAMESPACE::RoundToInt(hn::Min(hn::Max(v, hn::Zero(d)), last));
+  };
+  const VI x = whole(x_fx8), y = whole(y_fx8);
+  HWY_ALIGN std::uint32_t lane_offset[hn::MaxLanes(d)];
+  const VI row =
+      hn::ShiftLeftSame(hn::ShiftRight<8>(y), std::countr_zero(static_cast<unsigned>(map.size)));
+  StoreIndex(hn::ShiftLeft<4>(hn::Or(row, hn::ShiftRight<8>(x))), lane_offset);
+
+  const VI weights_x = WeightsAlongX(di, x), weights_y = WeightsAlongY(di, y);
+  // Of each lane four sums: red, green, blue, 0.
+  const auto sums = [&]<int kPart>() HWY_ATTR {
+    const auto rows = DotPairs(hn::BitCast(d8, SpreadPart<kPart>(di, weights_x, weights_x)),
+                               LoadBlocks<kPart>(d8, map.words.data(), lane_offset));
+    return DotWords(SpreadPart<kPart>(di, weights_y, weights_y), hn::BitCast(di, rows));
+  };
+  const VI s0 = sums.template operator()<0>(), s1 = sums.template operator()<1>();
+  const VI s2 = sums.template operator()<2>(), s3 = sums.template operator()<3>();
+  const hn::Repartition<std::int64_t, D> d64;
+  const auto rg01 = hn::BitCast(d64, hn::InterleaveLower(di, s0, s1));
+  const auto rg23 = hn::BitCast(d64, hn::InterleaveLower(di, s2, s3));
+  const auto b01 = hn::BitCast(d64, hn::InterleaveUpper(di, s0, s1));
+  const auto b23 = hn::BitCast(d64, hn::InterleaveUpper(di, s2, s3));
+  const auto channel = [&](auto sum) HWY_ATTR {
+    return hn::MulAdd(hn::ConvertTo(d, hn::BitCast(di, sum)),
+                      hn::Set(d, 1.0f / (255.0f * 255.0f * 256.0f)), hn::Set(d, 128.0f / 255.0f));
+  };
+  r = channel(hn::InterleaveLower(d64, rg01, rg23));
+  g = channel(hn::InterleaveUpper(d64, rg01, rg23));
+  b = channel(hn::InterleaveLower(d64, b01, b23));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -2,6 +2,7 @@
 // See packed_map-inl.h for the SIMD samplers and tests/texture for the scalar references.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -68,5 +69,20 @@ void resize_image(int width, int height, RgbaImage& image);
 
 // Copies the last column and row into the padding; call after texels have been written.
 void fill_padding(RgbaImage& image);
+
+// A square image of three channels, for lookups at continuous positions that cost one load: a word
+// holds the 2 x 2 neighbourhood of a texel, as PackedQuad does, of red, green and blue, each byte
+// less 128. Texel (x, y) is word y * size + x; beyond the last row and column they repeat.
+struct alignas(16) RgbWord {
+  std::array<std::int8_t, 16> bytes;
+  bool operator==(const RgbWord&) const = default;
+};
+struct RgbMap {
+  int size = 0;  // power of two, [1, 4096]
+  std::vector<RgbWord> words;
+};
+
+// The red, green and blue of a square image whose size is a power of two.
+RgbMap pack_rgb(const RgbaImage& image);
 
 }  // namespace swell::texture

@@ -16,7 +16,7 @@ struct Light {
   glm::vec3 sun_irradiance{1.0f};
   glm::vec3 ambient{0.3f};  // the sky's mean radiance
   const texture::RgbaImage* sky_sharp = nullptr;
-  const texture::RgbaImage* sky_soft = nullptr;
+  const texture::RgbMap* sky_soft = nullptr;
 };
 
 // What light passes on its way.

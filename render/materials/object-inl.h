@@ -92,7 +92,7 @@ HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye) {
   // Rays that go down meet the sea, which is darker.
   const V share = hn::IfThenElse(hn::Lt(r.z, zero), Constant(0.3f), Constant(1.0f));
   r.z = hn::Add(hn::Abs(r.z), Constant(1e-3f));
-  const V3 sky = Scale(SkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), share);
+  const V3 sky = Scale(SoftSkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), share);
 
   // Blinn and Phong's highlight with exponent 64, normalised.
   const V3 half = Sum(to_eye, Constant(light.sun_direction));

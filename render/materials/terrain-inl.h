@@ -99,7 +99,7 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const V cos_eye = Clamp(packet.to_eye.z, 0.05f, 1.0f);
   const V mirror = FresnelReflectance(d, cos_eye, s.media.refraction_index);
   const V3 up = {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), hn::Abs(packet.to_eye.z)};
-  const V3 sky = SkyRadiance(*s.light.sky_soft, up, Constant(1.0f));
+  const V3 sky = SoftSkyRadiance(*s.light.sky_soft, up, Constant(1.0f));
   const V below = hn::Sub(swash.edge_m, height_m);  // of the sheet's rim [m of height]
   const V sheet = Clamp(hn::Mul(below, Constant(40.0f)), 0.0f, 1.0f);
   const V shine = hn::Mul(mirror, hn::MulAdd(sheet, Constant(0.5f), hn::Mul(wet, Constant(0.5f))));

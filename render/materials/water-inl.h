@@ -197,7 +197,7 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   // Rays that would meet the sea again, and the spread of rough water, look above the horizon.
   r.z = hn::Add(hn::Abs(r.z), hn::Mul(s.variance, Constant(0.8f)));
   const V length = hn::Sqrt(Dot(r, r));
-  V3 mirrored = SkyRadiance(*light.sky_soft, r, length);
+  V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
   image_alpha = hn::Zero(D());
   if (use_image) {
     const V3 image = LookUpDistorted(water, water.reflection, packet, s, 1.0f, image_alpha);

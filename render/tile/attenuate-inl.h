@@ -21,7 +21,7 @@ HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
   if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;
   const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
   const V horizontal = hn::Sqrt(hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f)));
-  const V3 horizon = SkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, horizontal);
+  const V3 horizon = SoftSkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, horizontal);
   return Lerp(colour, horizon, amount);
 }
 

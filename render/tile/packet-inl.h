@@ -181,6 +181,20 @@ HWY_INLINE V3 SkyRadiance(const texture::RgbaImage& map, V3 direction, V length)
                 alpha);
 }
 
+// The same of the blurred sky.
+HWY_INLINE V3 SoftSkyRadiance(const texture::RgbMap& map, V3 direction, V length) {
+  const D d;
+  const float half_fx8 = 128.0f * static_cast<float>(map.size);
+  const V scale = hn::Div(Constant(half_fx8), hn::Add(length, direction.z));
+  const V middle = Constant(half_fx8 - 128.0f);
+  V r, g, b;
+  texture::HWY_NAMESPACE::SampleRgb(d, map, hn::MulAdd(direction.x, scale, middle),
+                                    hn::MulAdd(direction.y, scale, middle), r, g, b);
+  const V range = Constant(kLookupRange);
+  return {hn::Mul(hn::Mul(r, r), range), hn::Mul(hn::Mul(g, g), range),
+          hn::Mul(hn::Mul(b, b), range)};
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render
 HWY_AFTER_NAMESPACE();

@@ -13,9 +13,9 @@
 namespace swell::render {
 namespace {
 
-constexpr int kSharpSkySize = 768, kSoftSkySize = 256;
+constexpr int kSharpSkySize = 768, kSoftSkySize = 128;
 // Waves too small to see spread what they mirror: no cloud's edge is sharp in the sea.
-constexpr int kSoftSkyBlur = 5;
+constexpr int kSoftSkyBlur = 5;  // at twice its size
 
 // The direction that a sky map's texel shows; outside the horizon's circle it points below.
 glm::vec3 sky_direction(int x, int y, int size) {
@@ -43,9 +43,9 @@ void blur(std::vector<float>& rgb, int size, int radius, bool along_rows, Worker
   rgb.swap(result);
 }
 
-// blur_radius: two box filters of this half width each way, in texels.
-texture::RgbaImage build_sky_map(const scene::Sky& sky, const texture::PerlinNoise& clouds,
-                                 int size, int blur_radius, Workers& workers) {
+// size x size texels of three floats each.
+std::vector<float> sample_sky(const scene::Sky& sky, const texture::PerlinNoise& clouds, int size,
+                              Workers& workers) {
   std::vector<float> rgb(static_cast<std::size_t>(3 * size * size));
   for_each_row(size, workers, [&](int y) {
     float* p = rgb.data() + std::ptrdiff_t{3} * y * size;
@@ -56,10 +56,23 @@ texture::RgbaImage build_sky_map(const scene::Sky& sky, const texture::PerlinNoi
       for (int c = 0; c < 3; ++c) *p++ = radiance[c];
     }
   });
-  for (int pass = 0; pass < (blur_radius > 0 ? 2 : 0); ++pass) {
-    blur(rgb, size, blur_radius, true, workers);
-    blur(rgb, size, blur_radius, false, workers);
+  return rgb;
+}
+
+// Means of 2 x 2 texels.
+std::vector<float> halve(const std::vector<float>& rgb, int size) {
+  std::vector<float> result;
+  for (std::ptrdiff_t y = 0; y < size; y += 2) {
+    for (std::ptrdiff_t x = 0; x < size; x += 2) {
+      const float* p = rgb.data() + 3 * (y * size + x);
+      for (int c = 0; c < 3; ++c)
+        result.push_back(0.25f * (p[c] + p[c + 3] + p[3 * size + c] + p[3 * size + c + 3]));
+    }
   }
+  return result;
+}
+
+texture::RgbaImage encode(const std::vector<float>& rgb, int size, Workers& workers) {
   texture::RgbaImage image;
   texture::resize_image(size, size, image);
   for_each_row(size, workers, [&](int y) {
@@ -71,6 +84,18 @@ texture::RgbaImage build_sky_map(const scene::Sky& sky, const texture::PerlinNoi
   });
   texture::fill_padding(image);
   return image;
+}
+
+// Two box filters each way, then half the size.
+texture::RgbMap build_soft_sky(const scene::Sky& sky, const texture::PerlinNoise& clouds,
+                               Workers& workers) {
+  constexpr int size = 2 * kSoftSkySize;
+  std::vector<float> rgb = sample_sky(sky, clouds, size, workers);
+  for (int pass = 0; pass < 2; ++pass) {
+    blur(rgb, size, kSoftSkyBlur, true, workers);
+    blur(rgb, size, kSoftSkyBlur, false, workers);
+  }
+  return texture::pack_rgb(encode(halve(rgb, size), kSoftSkySize, workers));
 }
 
 // Mean radiance of the sky weighted by the cosine to the zenith: rings of equal weight.
@@ -94,9 +119,8 @@ glm::vec3 ambient_radiance(const scene::Sky& sky, const texture::PerlinNoise& cl
 
 SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers) {
   const texture::PerlinNoise clouds(sky.cloud_seed);
-  return {build_sky_map(sky, clouds, kSharpSkySize, 0, workers),
-          build_sky_map(sky, clouds, kSoftSkySize, kSoftSkyBlur, workers),
-          ambient_radiance(sky, clouds)};
+  return {encode(sample_sky(sky, clouds, kSharpSkySize, workers), kSharpSkySize, workers),
+          build_soft_sky(sky, clouds, workers), ambient_radiance(sky, clouds)};
 }
 
 }  // namespace swell::render

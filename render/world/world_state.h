@@ -28,7 +28,7 @@ inline constexpr float kLookupRange = 2.0f;
 // (0.5 + 0.5 d.xy / (1 + d.z)) * size; the horizon is the circle of radius size / 2.
 struct SkyMaps {
   texture::RgbaImage sharp;  // what the eye sees
-  texture::RgbaImage soft;   // what waves reflect
+  texture::RgbMap soft;      // what waves reflect, and the haze's colour at the horizon
   glm::vec3 ambient{0.0f};   // mean radiance of the upper hemisphere, cosine-weighted
 };
 
