@@ -1,0 +1,129 @@
+#include "apps/peer/peer_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace swell::apps {
+namespace {
+
+void set_sampling(const Gl& gl, GLint minify, GLint wrap, int last_level) {
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, last_level);
+}
+
+// Halves a periodic map, size x size. OpenGL's texels of a level lie between those of the finer
+// one, Swell's on every second one. [1 7 7 1] / 16 between texels is as wide (it has the same
+// variance) as Swell's [1 2 1] / 4 on them, so that levels of both are equally smooth.
+void filter_down(const std::vector<glm::vec2>& from, int size, std::vector<glm::vec2>& rows,
+                 std::vector<glm::vec2>& to) {
+  const int half = size / 2, mask = size - 1;
+  const auto blend = [](glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
+    return (a + d + 7.0f * (b + c)) / 16.0f;
+  };
+  rows.resize(static_cast<std::size_t>(size) * half);
+  for (int y = 0; y < size; ++y) {
+    const glm::vec2* const v = from.data() + static_cast<std::ptrdiff_t>(y) * size;
+    for (int x = 0; x < half; ++x)
+      rows[static_cast<std::size_t>(y) * half + x] =
+          blend(v[(2 * x - 1) & mask], v[2 * x], v[2 * x + 1], v[(2 * x + 2) & mask]);
+  }
+  to.resize(static_cast<std::size_t>(half) * half);
+  for (int y = 0; y < half; ++y) {
+    const auto row = [&](int j) {
+      return rows.data() + static_cast<std::ptrdiff_t>(j & mask) * half;
+    };
+    for (int x = 0; x < half; ++x)
+      to[static_cast<std::size_t>(y) * half + x] =
+          blend(row(2 * y - 1)[x], row(2 * y)[x], row(2 * y + 1)[x], row(2 * y + 2)[x]);
+  }
+}
+
+std::uint8_t signed_code(float value, float scale) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value / scale, -127.0f, 127.0f)) + 128);
+}
+
+}  // namespace
+
+glm::vec2 texel(const texture::PackedMap2& map, int level, int x, int y) {
+  const int size = map.size >> level;
+  const std::uint64_t word =
+      map.words[map.level_offset[static_cast<std::size_t>(level)] +
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+                static_cast<std::size_t>(x)];
+  const auto byte = [&](int n) { return static_cast<std::int8_t>(word >> (8 * n)); };
+  return map.scale * glm::vec2(byte(0), byte(4));
+}
+
+void PeerMaps::upload_level(const render::SlopeLayer& layer, Levels levels, int level) {
+  const texture::PackedMap2& map = *layer.map;
+  const int size = map.size >> level;
+  const bool is_empty = levels == Levels::kBlended && level == layer.levels;
+  const float lost =
+      is_empty ? map.lost_variance.back() : map.lost_variance[static_cast<std::size_t>(level)];
+  const float all_lost = std::max(map.lost_variance.back(), 1e-30f);
+  const auto variance = static_cast<std::uint8_t>(std::lround(255.0f * lost / all_lost));
+  bytes_.resize(4 * values_.size());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    bytes_[4 * i] = is_empty ? 128 : signed_code(values_[i].x, map.scale);
+    bytes_[4 * i + 1] = is_empty ? 128 : signed_code(values_[i].y, map.scale);
+    bytes_[4 * i + 2] = variance;
+  }
+  gl_.TexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 bytes_.data());
+}
+
+void PeerMaps::upload(const render::SlopeLayer& layer, Levels levels, GLuint texture) {
+  const texture::PackedMap2& map = *layer.map;
+  gl_.BindTexture(GL_TEXTURE_2D, texture);
+  set_sampling(gl_, levels == Levels::kBlended ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST,
+               GL_REPEAT, std::min(layer.levels, map.levels - 1));
+  values_.resize(static_cast<std::size_t>(map.size) * map.size);
+  for (int y = 0; y < map.size; ++y)
+    for (int x = 0; x < map.size; ++x)
+      values_[static_cast<std::size_t>(y) * map.size + x] = texel(map, 0, x, y);
+  for (int level = 0; level <= std::min(layer.levels, map.levels - 1); ++level) {
+    if (level > 0) {
+      filter_down(values_, map.size >> (level - 1), rows_, finer_);
+      std::swap(values_, finer_);
+    }
+    upload_level(layer, levels, level);
+  }
+}
+
+GLuint PeerMaps::slopes(const render::SlopeLayer& layer, Levels levels, bool changed) {
+  const auto [entry, is_new] = textures_.try_emplace(layer.map, 0);
+  if (is_new) gl_.GenTextures(1, &entry->second);
+  if (is_new || changed) upload(layer, levels, entry->second);
+  return entry->second;
+}
+
+GLuint PeerMaps::image(const texture::RgbaImage& image) {
+  const auto [entry, is_new] = textures_.try_emplace(&image, 0);
+  if (!is_new) return entry->second;
+  gl_.GenTextures(1, &entry->second);
+  gl_.BindTexture(GL_TEXTURE_2D, entry->second);
+  set_sampling(gl_, GL_LINEAR, GL_CLAMP_TO_EDGE, 0);
+  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, image.stride);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, image.texels.data());
+  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  return entry->second;
+}
+
+glm::vec4 texture_place(const render::SlopeLayer& layer) {
+  const float half_texel = 0.5f / static_cast<float>(layer.map->size);
+  return {layer.inv_length, layer.u_eye + half_texel, layer.v_eye + half_texel,
+          layer.log2_texels_per_m};
+}
+
+glm::vec4 texture_scale(const render::SlopeLayer& layer) {
+  const float step = layer.map->scale * layer.gain;
+  const float variance = layer.map->lost_variance.back() * layer.gain * layer.gain;
+  return {255.0f * step, -128.0f * step, variance, layer.uv_noise_m};
+}
+
+}  // namespace swell::apps

@@ -1,0 +1,29 @@
+// Which texture unit each of the peer's maps is bound to, for all programs alike.
+#pragma once
+
+#include <array>
+
+namespace swell::apps {
+
+enum TextureUnit : int {
+  kSkySoftUnit,
+  kSkySharpUnit,
+  kNoiseUnit,
+  kFoamUnit,
+  kCoastSlopesUnit,
+  kCoastSurfUnit,
+  kReflectionUnit,
+  kRefractionUnit,
+  kTerrainSlopesUnit,
+  kDetailUnit,
+  kAlbedoUnit,
+  kWaterDepthUnit,
+  kFirstLayerUnit,  // and those after it: the water's layers
+};
+
+// The shaders' names of the units before the layers'.
+inline constexpr std::array<const char*, kFirstLayerUnit> kSamplerNames = {
+    "sky_soft",   "sky_sharp",  "noise",          "foam_pattern", "coast_slopes", "coast_surf",
+    "reflection", "refraction", "terrain_slopes", "detail",       "albedo_map",   "water_depth"};
+
+}  // namespace swell::apps
