@@ -20,16 +20,14 @@ namespace swell::apps {
   X(ClearColor, CLEARCOLOR)                           \
   X(ClearDepth, CLEARDEPTH)                           \
   X(ClipControl, CLIPCONTROL)                         \
-  X(ColorMask, COLORMASK)                             \
   X(CompileShader, COMPILESHADER)                     \
   X(CreateProgram, CREATEPROGRAM)                     \
   X(CreateShader, CREATESHADER)                       \
+  X(CullFace, CULLFACE)                               \
   X(DeleteShader, DELETESHADER)                       \
   X(DepthFunc, DEPTHFUNC)                             \
-  X(DepthMask, DEPTHMASK)                             \
   X(Disable, DISABLE)                                 \
   X(DrawArrays, DRAWARRAYS)                           \
-  X(DrawBuffers, DRAWBUFFERS)                         \
   X(DrawElements, DRAWELEMENTS)                       \
   X(Enable, ENABLE)                                   \
   X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY) \

@@ -15,6 +15,13 @@ namespace swell::apps {
 
 using render::Workspace;
 
+namespace {
+
+// In the stencil buffer.
+constexpr int kWaterMark = 1, kLandMark = 2;
+
+}  // namespace
+
 struct Peer::State {
   explicit State(int threads);
 
@@ -23,16 +30,16 @@ struct Peer::State {
   void bind_layer(int unit, const render::SlopeLayer& layer, Levels levels, bool changed);
   void draw_pass(PeerPass pass) const;
   void draw_lookup_image(const PeerTarget& target, const ViewPrograms& programs) const;
-  void draw_solids(const ViewPrograms& programs) const;
-  void draw_water() const;
+  void draw_visible(const PeerTarget& target, const ViewPrograms& programs, bool with_water) const;
+  void shade_marked(const GlProgram& program, int mark) const;
   void draw_sky() const;
+  void draw_over_screen(const GlProgram& program) const;
 
   EglContext context;
   const Gl& gl = context.gl();
   PeerMaps maps{gl};
   PeerMesh water{gl}, land{gl}, objects{gl};
-  PeerTarget window{gl, GL_RGBA8}, water_depth{gl, GL_R32F, window.depth()};
-  PeerTarget reflection{gl, GL_RGBA8}, refraction{gl, GL_RGBA8};
+  PeerTarget window{gl}, reflection{gl}, refraction{gl};
   GLuint screen = 0;  // a vertex array without vertices
   std::string features;
   std::optional<PeerPrograms> programs;
@@ -56,7 +63,7 @@ void Peer::State::bind_texture(int unit, GLuint texture) const {
 
 void Peer::State::bind_layer(int unit, const render::SlopeLayer& layer, Levels levels,
                              bool changed) {
-  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));  // which an upload binds to as well
   bind_texture(unit, maps.slopes(layer, levels, changed));
 }
 
@@ -85,7 +92,9 @@ void Peer::State::take_maps(const Workspace::State& frame) {
   }
   bind_texture(kReflectionUnit, reflection.colour());
   bind_texture(kRefractionUnit, refraction.colour());
-  bind_texture(kWaterDepthUnit, water_depth.colour());
+  bind_texture(kWindowDistanceUnit, window.distance());
+  bind_texture(kReflectionDistanceUnit, reflection.distance());
+  bind_texture(kRefractionDistanceUnit, refraction.distance());
 }
 
 void Peer::take(const Workspace& workspace) {
@@ -98,7 +107,6 @@ void Peer::take(const Workspace& workspace) {
 
   const View& camera = frame.window.camera;
   peer.window.resize(camera.width_px, camera.height_px);
-  peer.water_depth.resize(camera.width_px, camera.height_px);
   const View& lookup = frame.lookups.reflection.view.camera;
   peer.reflection.resize(lookup.width_px, lookup.height_px);
   peer.refraction.resize(lookup.width_px, lookup.height_px);
@@ -114,50 +122,65 @@ void Peer::take(const Workspace& workspace) {
 
 // --- Drawing
 
-void Peer::State::draw_solids(const ViewPrograms& view) const {
+void Peer::State::draw_over_screen(const GlProgram& program) const {
+  program.use();
+  gl.BindVertexArray(screen);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// Objects with their colours; where land and water are nearest: how far, and a mark in the stencil.
+void Peer::State::draw_visible(const PeerTarget& target, const ViewPrograms& view,
+                               bool with_water) const {
   if (!objects.empty()) {
+    target.bind_colour();
     view.object.use();
     objects.draw();
   }
-  if (land.empty()) return;
-  view.terrain.use();
-  land.draw();
-}
-
-void Peer::State::draw_lookup_image(const PeerTarget& target, const ViewPrograms& view) const {
-  if (land.empty() && objects.empty()) return;
-  target.bind();
-  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  gl.Enable(GL_CLIP_DISTANCE0);
-  draw_solids(view);
-  gl.Disable(GL_CLIP_DISTANCE0);
-}
-
-// First where the water is nearest and how far, then its light, once a pixel.
-void Peer::State::draw_water() const {
+  target.bind_distance();
+  view.distance.use();
   gl.Enable(GL_STENCIL_TEST);
-  gl.StencilFunc(GL_ALWAYS, 1, 0xff);
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  water_depth.bind();
-  programs->water_depth.use();
-  water.draw();
-
-  gl.StencilFunc(GL_EQUAL, 1, 0xff);
+  if (!land.empty()) {
+    gl.StencilFunc(GL_ALWAYS, kLandMark, 0xff);
+    land.draw();
+  }
+  if (with_water) {
+    gl.StencilFunc(GL_ALWAYS, kWaterMark, 0xff);
+    // Without the backs of waves, which their fronts hide. In a picture whose rows go down the
+    // corners' order is turned round.
+    gl.Enable(GL_CULL_FACE);
+    gl.CullFace(GL_FRONT);
+    water.draw();
+    gl.Disable(GL_CULL_FACE);
+  }
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  gl.Disable(GL_STENCIL_TEST);
+  target.bind_colour();
+}
+
+// Shades what draw_visible() marked, each pixel once.
+void Peer::State::shade_marked(const GlProgram& program, int mark) const {
+  gl.Enable(GL_STENCIL_TEST);
+  gl.StencilFunc(GL_EQUAL, mark, 0xff);
   gl.Disable(GL_DEPTH_TEST);
-  window.bind();
-  programs->water.use();
-  gl.BindVertexArray(screen);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  draw_over_screen(program);
   gl.Enable(GL_DEPTH_TEST);
   gl.Disable(GL_STENCIL_TEST);
 }
 
+void Peer::State::draw_lookup_image(const PeerTarget& target, const ViewPrograms& view) const {
+  if (land.empty() && objects.empty()) return;
+  target.bind_colour();
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  gl.Enable(GL_CLIP_DISTANCE0);
+  draw_visible(target, view, false);
+  gl.Disable(GL_CLIP_DISTANCE0);
+  if (!land.empty()) shade_marked(view.terrain, kLandMark);
+}
+
 void Peer::State::draw_sky() const {
   gl.DepthFunc(GL_GEQUAL);
-  programs->sky.use();
-  gl.BindVertexArray(screen);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  draw_over_screen(programs->sky);
   gl.DepthFunc(GL_GREATER);
 }
 
@@ -167,12 +190,15 @@ void Peer::State::draw_pass(PeerPass pass) const {
       return draw_lookup_image(reflection, programs->reflection);
     case PeerPass::kRefraction:
       return draw_lookup_image(refraction, programs->refraction);
-    case PeerPass::kSolids:
-      window.bind();
+    case PeerPass::kVisible:
+      window.bind_colour();
       gl.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-      return draw_solids(programs->window);
+      return draw_visible(window, programs->window, true);
+    case PeerPass::kLand:
+      if (!land.empty()) shade_marked(programs->window.terrain, kLandMark);
+      return;
     case PeerPass::kWater:
-      return draw_water();
+      return shade_marked(programs->water, kWaterMark);
     case PeerPass::kSky:
       return draw_sky();
     case PeerPass::kCount:
@@ -199,7 +225,7 @@ std::array<double, kPeerPasses> Peer::draw_by_pass() {
 }
 
 void Peer::read(std::span<std::uint32_t> rgba) const {
-  state_->window.bind();
+  state_->window.bind_colour();
   state_->gl.ReadPixels(0, 0, state_->window.width_px(), state_->window.height_px(), GL_RGBA,
                         GL_UNSIGNED_BYTE, rgba.data());
 }

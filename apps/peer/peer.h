@@ -17,7 +17,8 @@ namespace swell::apps {
 enum class PeerPass : std::uint8_t {
   kReflection,  // both lookup images; nothing without land and objects
   kRefraction,
-  kSolids,  // objects and land
+  kVisible,  // objects, and where land and water are nearest
+  kLand,
   kWater,
   kSky,
   kCount

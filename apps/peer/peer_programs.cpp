@@ -25,7 +25,9 @@ bool has_lookups(const Shading& window) {
 // each of the long waves the footprint's level is that on the waves so far.
 std::string layers_text(const render::Water& water) {
   std::string text;
-  const auto next_level = [&] { text += "level_m = level_on_waves(to_eye, across, s.slope);\n"; };
+  const auto next_level = [&] {
+    text += "level_m = level_on_waves(to_eye, point.across, s.slope);\n";
+  };
   const std::string blend =
       water.has_coast ? "blend_coast(p.xy, level_flat_m, surf.x, inside, s);\n" : "";
   if (water.long_layer_count == 0) {
@@ -48,24 +50,23 @@ std::string replaced(std::string text, std::string_view mark, std::string_view b
   return text.replace(text.find(mark), mark.size(), by);
 }
 
+// What all that is shaded by surface_point() needs.
+std::string surface_text() {
+  return std::string(kLightShader) + kSurfacePointShader + kSlopesShader + kFoamShader;
+}
+
 ProgramText water_text(const ShaderFeatures& features) {
-  const std::string body = replaced(kWaterShader, "ADD_LAYERS", features.water_layers);
   return {features.water_defines, kScreenShader,
-          std::string(kLightShader) + kSlopesShader + kFoamShader + body};
-}
-
-ProgramText terrain_text(const ShaderFeatures& features, const std::string& view) {
-  return {features.terrain_defines + view, kVertexShader,
-          std::string(kLightShader) + kSlopesShader + kFoamShader + kTerrainShader};
-}
-
-ProgramText object_text(const std::string& view) {
-  return {"#define OBJECT\n" + view, kVertexShader, std::string(kLightShader) + kObjectShader};
+          surface_text() + replaced(kWaterShader, "ADD_LAYERS();", features.water_layers)};
 }
 
 ViewPrograms view_programs(const Gl& gl, const ShaderFeatures& features, const char* view) {
   const std::string define = fmt::format("#define {}\n", view);
-  return {GlProgram(gl, terrain_text(features, define)), GlProgram(gl, object_text(define))};
+  const std::string light = kLightShader;
+  return {GlProgram(gl, {define + "#define OBJECT\n", kVertexShader, light + kObjectShader}),
+          GlProgram(gl, {define, kVertexShader, kDistanceShader}),
+          GlProgram(gl, {define + features.terrain_defines, kScreenShader,
+                         surface_text() + kTerrainShader})};
 }
 
 // --- Constants
@@ -92,8 +93,9 @@ void set_view(const Shading& s, const View& camera, float refraction_index,
   program.set("ray", s.rays.ray - 0.5f * (s.rays.ray_dx + s.rays.ray_dy));
   program.set("ray_dx", s.rays.ray_dx);
   program.set("ray_dy", s.rays.ray_dy);
-  for (int unit = 0; unit < kFirstLayerUnit; ++unit)
-    program.set_sampler(kSamplerNames[static_cast<std::size_t>(unit)], unit);
+  for (std::size_t unit = 0; unit < kSamplerNames.size(); ++unit)
+    program.set_sampler(kSamplerNames[unit], static_cast<int>(unit));
+  program.set_sampler("distance_map", kWindowDistanceUnit + static_cast<int>(s.kind));
 }
 
 void set_layer(const SlopeLayer& layer, const std::string& name, const GlProgram& program) {
@@ -164,7 +166,7 @@ void set_terrain(const Shading& s, const GlProgram& program) {
 
 void set_view_programs(const Shading& s, const render::RenderView& view,
                        const ViewPrograms& programs) {
-  for (const GlProgram* program : {&programs.terrain, &programs.object})
+  for (const GlProgram* program : {&programs.object, &programs.distance, &programs.terrain})
     set_view(s, view.camera, s.media.refraction_index, *program);
   set_terrain(s, programs.terrain);
   programs.object.set("sea_light", s.material<render::Object>().sea_light);
@@ -180,7 +182,6 @@ ShaderFeatures features_of(const render::Workspace::State& frame) {
       fmt::format("#define LAYERS {}\n#define SINES {}\n", water.layer_count, water.sine_count);
   for (int i = 0; i < water.layer_count; ++i)
     features.water_defines += fmt::format("uniform sampler2D layer_{};\n", i);
-  features.water_defines += "#define DEFERRED\n";
   if (water.has_coast) features.water_defines += "#define COAST\n";
   if (has_lookups(s)) features.water_defines += "#define LOOKUPS\n";
   features.water_layers = layers_text(water);
@@ -190,8 +191,7 @@ ShaderFeatures features_of(const render::Workspace::State& frame) {
 }
 
 PeerPrograms::PeerPrograms(const Gl& gl, const ShaderFeatures& features)
-    : water_depth(gl, {"", kVertexShader, kDepthShader}),
-      water(gl, water_text(features)),
+    : water(gl, water_text(features)),
       sky(gl, {"", kScreenShader, std::string(kLightShader) + kSkyShader}),
       window(view_programs(gl, features, "WINDOW")),
       reflection(view_programs(gl, features, "REFLECTION")),
@@ -200,7 +200,7 @@ PeerPrograms::PeerPrograms(const Gl& gl, const ShaderFeatures& features)
 void set_constants(const render::Workspace::State& frame, const PeerPrograms& programs) {
   const Shading& s = frame.shading;
   const View& camera = frame.window.camera;
-  for (const GlProgram* program : {&programs.water_depth, &programs.water, &programs.sky})
+  for (const GlProgram* program : {&programs.water, &programs.sky})
     set_view(s, camera, s.media.refraction_index, *program);
   set_water(s, programs.water);
   set_view_programs(s, frame.window, programs.window);

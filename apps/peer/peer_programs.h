@@ -21,15 +21,16 @@ struct ShaderFeatures {
 };
 ShaderFeatures features_of(const render::Workspace::State& frame);
 
-// Programs of what one view shows.
+// Programs of one view: objects are shaded as they are drawn, land and water once it is known where
+// they are nearest.
 struct ViewPrograms {
-  GlProgram terrain, object;
+  GlProgram object, distance, terrain;
 };
 
 struct PeerPrograms {
   PeerPrograms(const Gl& gl, const ShaderFeatures& features);
 
-  GlProgram water_depth, water, sky;
+  GlProgram water, sky;
   ViewPrograms window, reflection, refraction;
 };
 

@@ -1,28 +1,32 @@
-// What the peer draws into.
+// What the peer draws a view into.
 #pragma once
 
 #include "apps/peer/gl.h"
 
 namespace swell::apps {
 
-// A colour and a depth texture. Depths are reversed, as Swell's: near / distance, 0 infinitely far.
+// Three textures of one size: colours; the distance along the view of what is shaded later; depth
+// and stencil. Depths are reversed, as Swell's: near / distance, 0 infinitely far.
 class PeerTarget {
  public:
-  // `depth` may be another target's; then that one is sized first.
-  PeerTarget(const Gl& gl, GLenum colour_format, GLuint depth = 0);
+  explicit PeerTarget(const Gl& gl);
 
   void resize(int width_px, int height_px);
-  void bind() const;  // for drawing, with the viewport
+  // For drawing, with the viewport. Both have the same depth and stencil.
+  void bind_colour() const { bind(colour_framebuffer_); }
+  void bind_distance() const { bind(distance_framebuffer_); }
   GLuint colour() const { return colour_; }
-  GLuint depth() const { return depth_; }
+  GLuint distance() const { return distance_; }
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
 
  private:
+  void bind(GLuint framebuffer) const;
+  void attach(GLuint framebuffer, GLuint texture) const;
+
   const Gl& gl_;
-  GLenum colour_format_;
-  bool owns_depth_;
-  GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
+  GLuint colour_framebuffer_ = 0, distance_framebuffer_ = 0;
+  GLuint colour_ = 0, distance_ = 0, depth_ = 0;
   int width_px_ = 0, height_px_ = 0;
 };
 

@@ -17,13 +17,15 @@ enum TextureUnit : int {
   kTerrainSlopesUnit,
   kDetailUnit,
   kAlbedoUnit,
-  kWaterDepthUnit,
+  kWindowDistanceUnit,
+  kReflectionDistanceUnit,
+  kRefractionDistanceUnit,
   kFirstLayerUnit,  // and those after it: the water's layers
 };
 
-// The shaders' names of the units before the layers'.
-inline constexpr std::array<const char*, kFirstLayerUnit> kSamplerNames = {
+// The shaders' names of the units before the distances', which are "distance_map" of their view.
+inline constexpr std::array<const char*, kWindowDistanceUnit> kSamplerNames = {
     "sky_soft",   "sky_sharp",  "noise",          "foam_pattern", "coast_slopes", "coast_surf",
-    "reflection", "refraction", "terrain_slopes", "detail",       "albedo_map",   "water_depth"};
+    "reflection", "refraction", "terrain_slopes", "detail",       "albedo_map"};
 
 }  // namespace swell::apps

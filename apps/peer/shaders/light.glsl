@@ -14,10 +14,8 @@ vec3 sky_radiance(sampler2D map, vec3 direction, float size) {
   return decode(texture(map, direction.xy * (0.5 / (size + direction.z)) + 0.5).rgb);
 }
 
-// log2 of a pixel's footprint [m] across the view. gl_FragCoord.w is 1 / depth.
-float footprint_across() { return pixel_angle_log2 - log2(gl_FragCoord.w); }
-
-// The same on a surface that the eye meets at cos_view.
+// log2 of a pixel's footprint [m], `across` of it across the view, on a surface that the eye meets at
+// cos_view.
 float footprint_level(float across, float cos_view) { return across - 0.75 * log2(cos_view); }
 
 float fresnel(float cos_theta, float n) {

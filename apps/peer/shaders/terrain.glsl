@@ -1,5 +1,4 @@
 // The land and the sea floor, as render/materials/terrain-inl.h.
-in vec3 v_p;
 out vec4 colour;
 
 uniform sampler2D terrain_slopes, detail, albedo_map;
@@ -54,11 +53,9 @@ float inside_land(vec2 p) {
 }
 
 void main() {
-  vec3 p = v_p;
-  float length2 = dot(p, p), inv_length = inversesqrt(length2);
-  vec3 to_eye = p * -inv_length;
-  float distance_m = length2 * inv_length;
-  float level_m = footprint_level(footprint_across(), clamp(abs(to_eye.z), 0.3, 1.0));
+  SurfacePoint point = surface_point();
+  vec3 p = point.p, to_eye = point.to_eye;
+  float level_m = footprint_level(point.across, clamp(abs(to_eye.z), 0.3, 1.0));
 
 #ifdef WINDOW
   Slopes s = Slopes(vec2(0.0), 0.0);
@@ -68,7 +65,7 @@ void main() {
 #ifdef SWASH
   light = add_swash(p, to_eye, level_m, light);
 #endif
-  colour = to_display(add_haze(light, to_eye, distance_m));
+  colour = to_display(add_haze(light, to_eye, point.distance_m));
 #else
   // What is seen in or through water: the nearest level, no detail.
   float nearest = floor(level_m + slopes_place.w + 0.5) - slopes_place.w;
@@ -79,7 +76,7 @@ void main() {
   vec2 path = path_through_water(to_eye, max(-eye_z - p.z, 0.0));
   light = mix(body, absorb_in_water(light, path.y), inside_land(p.xy));
 #else
-  light = add_haze(light, to_eye, distance_m);
+  light = add_haze(light, to_eye, point.distance_m);
 #endif
   colour = to_lookup(light);
 #endif

@@ -1,11 +1,5 @@
-// The water, as render/materials/water-inl.h. ADD_LONG_WAVES and ADD_RIPPLES are written by
-// apps/peer/water_program.cpp: a call for each of the scene's maps.
-#ifdef DEFERRED
-uniform sampler2D water_depth;
-uniform vec3 ray, ray_dx, ray_dy;
-#else
-in vec3 v_p;
-#endif
+// The water, as render/materials/water-inl.h. ADD_LAYERS is written by peer_programs.cpp: a call for
+// each of the scene's maps.
 out vec4 colour;
 
 uniform float base_variance;
@@ -91,22 +85,9 @@ float sun_glint(vec3 to_eye, Slopes s, float reflectance, float cos_eye) {
 }
 
 void main() {
-#ifdef DEFERRED
-  float depth = texelFetch(water_depth, ivec2(gl_FragCoord.xy), 0).r;
-  vec3 v_ray = ray + gl_FragCoord.x * ray_dx + gl_FragCoord.y * ray_dy;
-  vec3 p = v_ray * depth;
-  float across = pixel_angle_log2 + log2(depth);
-  float length2 = dot(v_ray, v_ray), inv_length = inversesqrt(length2);
-  vec3 to_eye = v_ray * -inv_length;
-  float distance_m = depth * length2 * inv_length;
-#else
-  vec3 p = v_p;
-  float across = footprint_across();
-  float length2 = dot(p, p), inv_length = inversesqrt(length2);
-  vec3 to_eye = p * -inv_length;
-  float distance_m = length2 * inv_length;
-#endif
-  float level_flat_m = footprint_level(across, clamp(to_eye.z, 0.02, 1.0));
+  SurfacePoint point = surface_point();
+  vec3 p = point.p, to_eye = point.to_eye;
+  float level_flat_m = footprint_level(point.across, clamp(to_eye.z, 0.02, 1.0));
   float level_m = level_flat_m;
 
   // Slopes: long waves, then what is finer at the level that their slopes give.
@@ -119,7 +100,7 @@ void main() {
 #if SINES > 0
   for (int i = 0; i < SINES; ++i) add_sine(sine_wave[i], sine_slope[i], p.xy, level_flat_m, s);
 #endif
-  ADD_LAYERS
+  ADD_LAYERS();
 
   // Light from above and from below.
   vec3 normal = normal_of(s.slope);
@@ -143,5 +124,5 @@ void main() {
 #ifdef COAST
   seen = add_foam(foam_cover(p.xy, level_flat_m, surf.y), seen);
 #endif
-  colour = to_display(add_haze(seen, to_eye, distance_m));
+  colour = to_display(add_haze(seen, to_eye, point.distance_m));
 }
