@@ -21,6 +21,8 @@ void choose_llvmpipe(int threads) {
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+  // Code that Mesa kept from another run may be for another vector width.
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
 EGLContext create_context(EGLDisplay display) {

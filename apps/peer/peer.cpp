@@ -30,7 +30,7 @@ struct Peer::State {
   void bind_layer(int unit, const render::SlopeLayer& layer, Levels levels, bool changed);
   void draw_pass(PeerPass pass) const;
   void draw_lookup_image(const PeerTarget& target, const ViewPrograms& programs) const;
-  void draw_visible(const PeerTarget& target, const ViewPrograms& programs, bool with_water) const;
+  void draw_visible(const PeerTarget& target, const ViewPrograms& programs, bool is_window) const;
   void shade_marked(const GlProgram& program, int mark) const;
   void draw_sky() const;
   void draw_over_screen(const GlProgram& program) const;
@@ -50,6 +50,7 @@ Peer::State::State(int threads) : context(threads) {
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
+  gl.CullFace(GL_FRONT);
   gl.ClearDepth(0.0);
   gl.ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
 }
@@ -130,7 +131,7 @@ void Peer::State::draw_over_screen(const GlProgram& program) const {
 
 // Objects with their colours; where land and water are nearest: how far, and a mark in the stencil.
 void Peer::State::draw_visible(const PeerTarget& target, const ViewPrograms& view,
-                               bool with_water) const {
+                               bool is_window) const {
   if (!objects.empty()) {
     target.bind_colour();
     view.object.use();
@@ -138,21 +139,20 @@ void Peer::State::draw_visible(const PeerTarget& target, const ViewPrograms& vie
   }
   target.bind_distance();
   view.distance.use();
+  // From above, the fronts of waves and hills hide their backs; not where land is cut off at the
+  // water's level. In a picture whose rows go down the corners' order is turned round.
+  if (is_window) gl.Enable(GL_CULL_FACE);
   gl.Enable(GL_STENCIL_TEST);
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   if (!land.empty()) {
     gl.StencilFunc(GL_ALWAYS, kLandMark, 0xff);
     land.draw();
   }
-  if (with_water) {
+  if (is_window) {
     gl.StencilFunc(GL_ALWAYS, kWaterMark, 0xff);
-    // Without the backs of waves, which their fronts hide. In a picture whose rows go down the
-    // corners' order is turned round.
-    gl.Enable(GL_CULL_FACE);
-    gl.CullFace(GL_FRONT);
     water.draw();
-    gl.Disable(GL_CULL_FACE);
   }
+  gl.Disable(GL_CULL_FACE);
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   gl.Disable(GL_STENCIL_TEST);
   target.bind_colour();
