@@ -211,7 +211,7 @@ BenchMode add_bench_peer(CommandLine& program) {
       "peer", "The same frames by OpenGL on Mesa's llvmpipe: times and how pictures differ");
   add_frame_setup(line, bench->setup);
   add_integer(line, "--frames", bench->frames, 1, 100000, "Frames to measure, of each");
-  add_integer(line, "--warmup", bench->warm_up, 1, 10000, "Frames to draw before them");
+  add_integer(line, "--warmup", bench->warm_up, 2, 10000, "Frames to draw before them");
   add_number(line, "--time", bench->first_s, 0.0, 1e6,
              "Time of the first frame in seconds; the next are 1/60 s apart");
   add_json_option(line, bench->json);
