@@ -59,7 +59,7 @@ class Duel {
   }
 
   void draw(int frame, PeerSamples* samples);
-  // Draws the last frame of both again, waiting after each of the peer's passes.
+  // The peer draws its last frame again and waits after each pass.
   void draw_by_pass(PeerSamples& samples);
   PictureDifference compare_and_write();
 
@@ -120,7 +120,7 @@ PictureDifference Duel::compare_and_write() {
 PeerSamples measure(const PeerBench& bench, const render::World& world, Peer& peer) {
   Duel duel(bench, world, peer);
   PeerSamples samples;
-  // The first frame twice: the peer compiles its shaders, both make their storage.
+  // The first frame a few times: the peer compiles its shaders, both make their storage.
   for (int k = -bench.warm_up; k < 0; ++k) duel.draw(0, nullptr);
   for (int k = 0; k < bench.frames; ++k) {
     duel.draw(k, &samples);
@@ -188,11 +188,19 @@ std::string report_text(const Json& r) {
   return text;
 }
 
+void check_peer_picture(const std::string& path) {
+  if (path.empty()) return;
+  check_picture_file(path);
+  if (stores_linear_light(path))
+    throw OptionError(fmt::format(
+        "command line: picture of a peer, got '{}', allowed 8 bits: .png .tif .tiff", path));
+}
+
 void run_peer_bench(const PeerBench& bench) {
   select_simd(bench.setup.simd);
   check_text_place(bench.json);
   for (const std::string* path : {&bench.picture, &bench.peer_picture, &bench.difference_picture})
-    if (!path->empty()) check_picture_file(*path);
+    check_peer_picture(*path);
   scene::Scene scene = load_scene(bench.setup.scene_path);
   Peer peer(bench.setup.threads);  // before any thread starts
   const render::World world(std::move(scene));

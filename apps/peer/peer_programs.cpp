@@ -72,14 +72,13 @@ ViewPrograms view_programs(const Gl& gl, const ShaderFeatures& features, const c
 // --- Constants
 
 // What the vertex shader and light.glsl read.
-void set_view(const Shading& s, const View& camera, float refraction_index,
-              const GlProgram& program) {
+void set_view(const Shading& s, const View& camera, const GlProgram& program) {
   glm::mat4 clip_from_rel = camera.clip_from_rel;
-  // OpenGL's rows go up, ours down: a mirrored picture makes them the same.
+  // OpenGL's rows go up, Swell's down: a picture upside down makes them the same.
   for (int column = 0; column < 4; ++column) clip_from_rel[column].y *= -1.0f;
   program.set("clip_from_rel", clip_from_rel);
   program.set("level_rel_m", -s.rays.eye_z);
-  program.set("refraction_index", refraction_index);
+  program.set("refraction_index", s.media.refraction_index);
   program.set("eye_z", s.rays.eye_z);
   program.set("pixel_angle_log2", std::log2(s.rays.pixel_angle));
   program.set("sun_direction", s.light.sun_direction);
@@ -167,7 +166,7 @@ void set_terrain(const Shading& s, const GlProgram& program) {
 void set_view_programs(const Shading& s, const render::RenderView& view,
                        const ViewPrograms& programs) {
   for (const GlProgram* program : {&programs.object, &programs.distance, &programs.terrain})
-    set_view(s, view.camera, s.media.refraction_index, *program);
+    set_view(s, view.camera, *program);
   set_terrain(s, programs.terrain);
   programs.object.set("sea_light", s.material<render::Object>().sea_light);
 }
@@ -199,9 +198,8 @@ PeerPrograms::PeerPrograms(const Gl& gl, const ShaderFeatures& features)
 
 void set_constants(const render::Workspace::State& frame, const PeerPrograms& programs) {
   const Shading& s = frame.shading;
-  const View& camera = frame.window.camera;
   for (const GlProgram* program : {&programs.water, &programs.sky})
-    set_view(s, camera, s.media.refraction_index, *program);
+    set_view(s, frame.window.camera, *program);
   set_water(s, programs.water);
   set_view_programs(s, frame.window, programs.window);
   if (!has_lookups(s)) return;

@@ -104,6 +104,7 @@ TEST_F(PeerProgram, RefusesWhatItDoesNotTake) {
   refuses({"--warmup", "1"}, {"--warmup", "'1'"});
   refuses({"--time", "soon"}, {"--time", "'soon'"});
   refuses({"--picture", folder_.file("a.gif")}, {".gif", ".png"});
+  refuses({"--picture", folder_.file("a.exr")}, {"a.exr", "8 bits"});
   refuses({"--peer-picture", folder_.file("none/a.png")}, {"none"});
   refuses({"--edge-samples", "4"}, {"--edge-samples"});
 }
