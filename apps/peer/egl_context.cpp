@@ -11,10 +11,11 @@ namespace swell::apps {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(fmt::format(
-      "OpenGL: {} (EGL code {:#x}); Debian's libgl1-mesa-dri and libegl-mesa0 have what "
-      "is needed",
-      what, eglGetError()));
+  throw std::runtime_error(
+      fmt::format("OpenGL does not start: {} (EGL code {:#x}); Debian's libgl1-mesa-dri and "
+                  "libegl-mesa0 have what "
+                  "is needed",
+                  what, eglGetError()));
 }
 
 void choose_llvmpipe(int threads) {
@@ -56,7 +57,7 @@ EglContext::EglContext(int threads) {
   choose_llvmpipe(threads);
   display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (!display_) fail("no display without a window");
-  if (!eglInitialize(display_, nullptr, nullptr)) fail("EGL does not start");
+  if (!eglInitialize(display_, nullptr, nullptr)) fail("no EGL");
   if (eglBindAPI(EGL_OPENGL_API)) context_ = create_context(display_);
   if (!context_ || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
     eglTerminate(display_);

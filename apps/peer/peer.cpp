@@ -76,7 +76,7 @@ void Peer::State::take_maps(const Workspace::State& frame) {
   // Where there is surf nobody sees the step between two levels of the noise.
   bind_layer(kNoiseUnit, sea.uv_noise, sea.has_coast ? Levels::kNearest : Levels::kBlended, true);
   for (int i = 0; i < sea.layer_count; ++i) {
-    const bool is_patch = i < sea.layer_count - 2;
+    const bool is_patch = i < sea.layer_count - 2;  // the last two are ripples, whose map stays
     bind_layer(kFirstLayerUnit + i, sea.layers[static_cast<std::size_t>(i)], Levels::kBlended,
                is_patch);
   }

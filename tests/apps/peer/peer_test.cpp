@@ -19,8 +19,9 @@ Arguments scene_arguments(const std::string& scene) {
 }
 
 bool cannot_start(const Outcome& outcome) {
-  return outcome.exit_code == 1 && (outcome.err.find("OpenGL:") != std::string::npos ||
-                                    outcome.err.find("built without") != std::string::npos);
+  return outcome.exit_code == 1 &&
+         (outcome.err.find("OpenGL does not start") != std::string::npos ||
+          outcome.err.find("built without") != std::string::npos);
 }
 
 class PeerPicture : public testing::TestWithParam<const char*> {};
@@ -92,6 +93,15 @@ TEST_F(PeerProgram, TheTableNamesEveryPass) {
   for (const char* word :
        {"llvmpipe", "shade", "refraction", "visible", "water", "sky", "ratio", "read back", "PSNR"})
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word << "\n" << outcome.out;
+}
+
+TEST_F(PeerProgram, SaysWhatToInstallWhereOpenGlDoesNotStart) {
+  const Outcome outcome =
+      run_bench({"peer", "--scene", scene_, "--frames", "1"},
+                {.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=" + folder_.file("none.json")}});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(cannot_start(outcome)) << outcome.err;
+  EXPECT_TRUE(is_one_error_line(outcome.err, {"libgl1-mesa-dri"})) << outcome.err;
 }
 
 TEST_F(PeerProgram, RefusesWhatItDoesNotTake) {

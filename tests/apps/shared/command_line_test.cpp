@@ -179,7 +179,7 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
     expect_refused(run_render(c.arguments), c.pieces);
   }
   const Case bench[] = {
-      {{"bogus"}, {"unknown mode", "'bogus'", "frame, lod, query, sea-state, waves"}},
+      {{"bogus"}, {"unknown mode", "'bogus'", "frame, lod, peer, query, sea-state, waves"}},
       {{"frme", "--scene", scene_}, {"unknown mode", "'frme'", "frame"}},
       {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
       {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},
