@@ -45,7 +45,7 @@ TEST_F(CommandLine, HelpNamesEveryOption) {
 TEST_F(CommandLine, BenchHelpNamesEverySubcommand) {
   const Outcome outcome = run_bench({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* subcommand : {"frame", "lod", "query", "sea-state", "waves"})
+  for (const char* subcommand : {"frame", "lod", "peer", "query", "sea-state", "waves"})
     EXPECT_NE(outcome.out.find(subcommand), std::string::npos) << subcommand;
   const Outcome frame = run_bench({"frame", "--help"});
   EXPECT_EQ(frame.exit_code, 0);
@@ -179,7 +179,8 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
     expect_refused(run_render(c.arguments), c.pieces);
   }
   const Case bench[] = {
-      {{"bogus"}, {"unknown mode", "'bogus'", "frame, lod, query, scaling, sea-state, waves"}},
+      {{"bogus"},
+       {"unknown mode", "'bogus'", "frame, lod, peer, query, scaling, sea-state, waves"}},
       {{"frme", "--scene", scene_}, {"unknown mode", "'frme'", "frame"}},
       {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
       {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},
@@ -191,7 +192,7 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
     SCOPED_TRACE(fmt::format("{}", c.arguments));
     expect_refused(run_bench(c.arguments), c.pieces);
   }
-  for (const char* mode : {"frame", "lod", "query", "sea-state", "waves"}) {
+  for (const char* mode : {"frame", "lod", "peer", "query", "sea-state", "waves"}) {
     SCOPED_TRACE(mode);
     expect_refused(run_bench({mode, "--bogus"}), {"unknown option", "'--bogus'", "--help"});
     expect_refused(run_bench({mode, "--bogus", "1"}), {"unknown option", "'--bogus'"});

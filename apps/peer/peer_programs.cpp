@@ -1,0 +1,216 @@
+#include "apps/peer/peer_programs.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <vector>
+
+#include "apps/peer/peer_maps.h"
+#include "apps/peer/shaders.h"
+#include "apps/peer/texture_units.h"
+
+namespace swell::apps {
+namespace {
+
+using render::Shading;
+using render::SlopeLayer;
+
+bool has_lookups(const Shading& window) {
+  return window.material<render::Water>().reflection.image != nullptr;
+}
+
+// --- Texts
+
+// The calls that sample the water's layers, in the order of render/materials/water-inl.h: after
+// each of the long waves the footprint's level is that on the waves so far.
+std::string layers_text(const render::Water& water) {
+  std::string text;
+  const auto next_level = [&] {
+    text += "level_m = level_on_waves(to_eye, point.across, s.slope);\n";
+  };
+  const std::string blend =
+      water.has_coast ? "blend_coast(p.xy, level_flat_m, surf.x, inside, s);\n" : "";
+  if (water.long_layer_count == 0) {
+    text += blend;
+    next_level();
+  }
+  for (int i = 0; i < water.layer_count; ++i) {
+    const bool is_bent = i >= water.first_ripples;
+    if (i == water.first_ripples)
+      text +=
+          "bend = sample_map(noise, noise_place, p.xy, level_m).rg * noise_scale.x + "
+          "noise_scale.y;\n";
+    text += fmt::format(
+        "add_slopes(layer_{0}, layer_place[{0}], layer_scale[{0}], p.xy{1}, level_m, s);\n", i,
+        is_bent ? fmt::format(" + bend * layer_scale[{}].w", i) : "");
+    if (i >= water.long_layer_count) continue;
+    if (i == water.long_layer_count - 1) text += blend;
+    next_level();
+  }
+  return text;
+}
+
+std::string replaced(std::string text, std::string_view mark, std::string_view by) {
+  return text.replace(text.find(mark), mark.size(), by);
+}
+
+// What all that is shaded by surface_point() needs.
+std::string surface_text() {
+  return std::string(kLightShader) + kSurfacePointShader + kSlopesShader + kFoamShader;
+}
+
+ProgramText water_text(const ShaderFeatures& features) {
+  return {features.water_defines, kScreenShader,
+          surface_text() + replaced(kWaterShader, "ADD_LAYERS();", features.water_layers)};
+}
+
+ViewPrograms view_programs(const Gl& gl, const ShaderFeatures& features, const char* view) {
+  const std::string define = fmt::format("#define {}\n", view);
+  const std::string light = kLightShader;
+  return {GlProgram(gl, {define + "#define OBJECT\n", kVertexShader, light + kObjectShader}),
+          GlProgram(gl, {define, kVertexShader, kDistanceShader}),
+          GlProgram(gl, {define + features.terrain_defines, kScreenShader,
+                         surface_text() + kTerrainShader})};
+}
+
+// --- Constants
+
+// What the vertex shader and light.glsl read.
+void set_view(const Shading& s, const View& camera, const GlProgram& program) {
+  glm::mat4 clip_from_rel = camera.clip_from_rel;
+  // OpenGL's rows go up, Swell's down: a picture upside down makes them the same.
+  for (int column = 0; column < 4; ++column) clip_from_rel[column].y *= -1.0f;
+  program.set("clip_from_rel", clip_from_rel);
+  program.set("level_rel_m", -s.rays.eye_z);
+  program.set("refraction_index", s.media.refraction_index);
+  program.set("eye_z", s.rays.eye_z);
+  program.set("pixel_angle_log2", std::log2(s.rays.pixel_angle));
+  program.set("sun_direction", s.light.sun_direction);
+  program.set("sun_irradiance", s.light.sun_irradiance);
+  program.set("ambient", s.light.ambient);
+  program.set("inv_haze_m", s.media.inv_haze_m);
+  program.set("exposure", s.exposure);
+  program.set("body", s.media.body);
+  program.set("absorption_per_m", s.media.absorption_per_m);
+  // Through window point (0, 0), not through the first pixel's middle.
+  program.set("ray", s.rays.ray - 0.5f * (s.rays.ray_dx + s.rays.ray_dy));
+  program.set("ray_dx", s.rays.ray_dx);
+  program.set("ray_dy", s.rays.ray_dy);
+  for (std::size_t unit = 0; unit < kSamplerNames.size(); ++unit)
+    program.set_sampler(kSamplerNames[unit], static_cast<int>(unit));
+  program.set_sampler("distance_map", kWindowDistanceUnit + static_cast<int>(s.kind));
+}
+
+void set_layer(const SlopeLayer& layer, const std::string& name, const GlProgram& program) {
+  if (!layer.map) return;
+  program.set(name + "_place", texture_place(layer));
+  program.set(name + "_scale", texture_scale(layer));
+}
+
+void set_foam(const render::Foam& foam, const GlProgram& program) {
+  set_layer(foam.pattern, "foam", program);
+  program.set("foam_light", foam.light);
+}
+
+void set_waves(const render::Water& water, const GlProgram& program) {
+  std::vector<glm::vec4> place, scale, wave, slope;
+  for (int i = 0; i < water.layer_count; ++i) {
+    const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
+    place.push_back(texture_place(layer));
+    scale.push_back(texture_scale(layer));
+    program.set_sampler(fmt::format("layer_{}", i), kFirstLayerUnit + i);
+  }
+  for (int i = 0; i < water.sine_count; ++i) {
+    const render::SineLayer& sine = water.sines[static_cast<std::size_t>(i)];
+    wave.emplace_back(sine.kx, sine.ky, sine.cycles, sine.wavelength_log2 - 1.0f);
+    const glm::vec2 slopes(sine.slope_x, sine.slope_y);
+    slope.emplace_back(slopes, 0.5f * glm::dot(slopes, slopes), 0.0f);
+  }
+  program.set("layer_place", place);
+  program.set("layer_scale", scale);
+  program.set("sine_wave", wave);
+  program.set("sine_slope", slope);
+  set_layer(water.uv_noise, "noise", program);
+}
+
+void set_water(const Shading& s, const GlProgram& program) {
+  const auto& water = s.material<render::Water>();
+  program.set("base_variance", water.base_variance);
+  set_waves(water, program);
+  if (water.has_coast) {
+    set_layer(water.coast_slopes, "coast_slopes", program);
+    set_layer(water.coast_surf, "coast_surf", program);
+    set_foam(water.foam, program);
+  }
+  program.set("crest_glow", water.crest_glow);
+  program.set("inv_crest_height", water.inv_crest_height);
+  program.set("inv_window", 1.0f / glm::vec2(s.viewport.width_px, s.viewport.height_px));
+  program.set("distortion_px", water.distortion_px);
+  program.set("max_distortion_px", water.max_distortion_px);
+  program.set("view_right", water.view_right);
+  program.set("view_ahead", water.view_ahead);
+}
+
+void set_terrain(const Shading& s, const GlProgram& program) {
+  const auto& terrain = s.material<render::Terrain>();
+  if (!terrain.albedo) return;
+  set_layer(terrain.slopes, "slopes", program);
+  set_layer(terrain.detail, "detail", program);
+  const auto size = static_cast<float>(terrain.albedo->width);
+  program.set(
+      "albedo_place",
+      glm::vec3(terrain.albedo_texels_per_m, terrain.albedo_x_eye, terrain.albedo_y_eye) / size);
+  program.set("swash_reach_m", terrain.swash.reach_m);
+  program.set("swash_cycles", terrain.swash.cycles);
+  program.set("lag_a", terrain.swash.lag_a);
+  program.set("lag_b", terrain.swash.lag_b);
+  set_foam(terrain.foam, program);
+}
+
+void set_view_programs(const Shading& s, const render::RenderView& view,
+                       const ViewPrograms& programs) {
+  for (const GlProgram* program : {&programs.object, &programs.distance, &programs.terrain})
+    set_view(s, view.camera, *program);
+  set_terrain(s, programs.terrain);
+  programs.object.set("sea_light", s.material<render::Object>().sea_light);
+}
+
+}  // namespace
+
+ShaderFeatures features_of(const render::Workspace::State& frame) {
+  const Shading& s = frame.shading;
+  const auto& water = s.material<render::Water>();
+  ShaderFeatures features;
+  features.water_defines =
+      fmt::format("#define LAYERS {}\n#define SINES {}\n", water.layer_count, water.sine_count);
+  for (int i = 0; i < water.layer_count; ++i)
+    features.water_defines += fmt::format("uniform sampler2D layer_{};\n", i);
+  if (water.has_coast) features.water_defines += "#define COAST\n";
+  if (has_lookups(s)) features.water_defines += "#define LOOKUPS\n";
+  features.water_layers = layers_text(water);
+  if (s.material<render::Terrain>().swash.reach_m > 0.0f)
+    features.terrain_defines = "#define SWASH\n";
+  return features;
+}
+
+PeerPrograms::PeerPrograms(const Gl& gl, const ShaderFeatures& features)
+    : water(gl, water_text(features)),
+      sky(gl, {"", kScreenShader, std::string(kLightShader) + kSkyShader}),
+      window(view_programs(gl, features, "WINDOW")),
+      reflection(view_programs(gl, features, "REFLECTION")),
+      refraction(view_programs(gl, features, "REFRACTION")) {}
+
+void set_constants(const render::Workspace::State& frame, const PeerPrograms& programs) {
+  const Shading& s = frame.shading;
+  for (const GlProgram* program : {&programs.water, &programs.sky})
+    set_view(s, frame.window.camera, *program);
+  set_water(s, programs.water);
+  set_view_programs(s, frame.window, programs.window);
+  if (!has_lookups(s)) return;
+  set_view_programs(frame.lookups.reflection.shading, frame.lookups.reflection.view,
+                    programs.reflection);
+  set_view_programs(frame.lookups.refraction.shading, frame.lookups.refraction.view,
+                    programs.refraction);
+}
+
+}  // namespace swell::apps

@@ -1,0 +1,53 @@
+// Floating objects, as render/materials/object-inl.h.
+in vec3 v_p, v_normal, v_albedo;
+in float v_level;
+out vec4 colour;
+
+uniform vec3 sea_light;
+
+vec3 matt_light(vec3 normal) {
+  float cos_sun = max(dot(normal, sun_direction), 0.0);
+  vec3 around = mix(sea_light, ambient, 0.5 * normal.z + 0.5);
+  return v_albedo * (sun_irradiance * (cos_sun * 0.318309886) + around);
+}
+
+vec3 gloss(vec3 normal, vec3 to_eye) {
+  float cos_eye = max(dot(normal, to_eye), 0.0);
+  float reflectance = 0.5 * fresnel(max(cos_eye, 0.1), 1.5);
+  vec3 r = normal * (2.0 * cos_eye) - to_eye;
+  float share = r.z < 0.0 ? 0.3 : 1.0;
+  r.z = abs(r.z) + 1e-3;
+  vec3 sky = sky_radiance(sky_soft, r, sqrt(dot(r, r))) * share;
+  vec3 half_way = to_eye + sun_direction;
+  float cos_half = max(dot(normal, half_way), 0.0) *
+                   inversesqrt(max(dot(half_way, half_way), 1e-6));
+  float h2 = min(cos_half, 1.0) * min(cos_half, 1.0), h4 = h2 * h2, h8 = h4 * h4, h16 = h8 * h8;
+  float highlight = h16 * h16 * h16 * h16;
+  float cos_sun = max(dot(normal, sun_direction), 0.0);
+  return sun_irradiance * (highlight * cos_sun * (0.04 * 72.0 / (8.0 * 3.14159265))) +
+         sky * reflectance;
+}
+
+void main() {
+  float length2 = dot(v_p, v_p), inv_length = inversesqrt(length2);
+  vec3 to_eye = v_p * -inv_length;
+  vec3 normal = normalize(v_normal);
+#ifdef REFRACTION
+  vec2 path = path_through_water(to_eye, max(v_level - v_p.z, 0.0));
+  colour = to_lookup(absorb_in_water(matt_light(normal), path.y));
+#else
+  // The true direction to the eye, which a mirrored point has upside down.
+#ifdef REFLECTION
+  vec3 true_to_eye = vec3(to_eye.xy, -to_eye.z);
+#else
+  vec3 true_to_eye = to_eye;
+#endif
+  vec3 light = matt_light(normal) + gloss(normal, true_to_eye);
+  light = add_haze(light, to_eye, length2 * inv_length);
+#ifdef REFLECTION
+  colour = to_lookup(light);
+#else
+  colour = to_display(light);
+#endif
+#endif
+}
