@@ -228,7 +228,7 @@ TEST_P(ElementarySimd, TruncatingDropsTheFractionAndRoundingTakesTheNearestOrEve
             (std::vector<std::int32_t>{0, 0, 0, 0, 0, 1, 2, -2, 2, -2, 3, -3, 8388608, -8388606}));
 }
 
-TEST_P(ElementarySimd, WholeNumbersAreExactAtEveryMagnitude) {
+TEST_P(ElementarySimd, ConvertingToIntegersIsExactAtEveryMagnitude) {
   std::vector<float> x = bits_sweep(0, 0x4effffffu, 9973);  // below 2^31
   const std::vector<float> negative = bits_sweep(0x80000000u, 0xcf000000u, 9973);
   x.insert(x.end(), negative.begin(), negative.end());
