@@ -1,9 +1,9 @@
 // Samplers of the packed maps on Highway vectors of float: one bilinear sample for every lane.
 // Include after the std and own headers inside a *_simd.cpp file (included once per target).
 //
-// All sums are exact integers, so that every target gives the same bits. Taps come by scalar
-// 64-bit loads: hardware gathers of eight words take two to five times as long.
-// The one-packet functions expect full vectors (hn::ScalableTag<float>).
+// All sums are exact integers, so that every target gives the same bits. Taps come by one load of
+// 64 or 128 bits a lane: hardware gathers of eight 64-bit words take two to five times as long. The
+// one-packet functions expect full vectors (hn::ScalableTag<float>).
 #if defined(SWELL_TEXTURE_PACKED_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_TEXTURE_PACKED_MAP_INL_H_
 #undef SWELL_TEXTURE_PACKED_MAP_INL_H_

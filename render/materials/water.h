@@ -34,7 +34,7 @@ struct Water {
   SlopeLayer uv_noise;            // values in [-1, 1], not slopes
   float base_variance = 0.0012f;  // slope variance of ripples too fine for any map
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
-  // foam. Not periodic: they hold where both coordinates lie in [0, 1).
+  // foam. Not periodic: they hold within their square.
   bool has_coast = false;
   SlopeLayer coast_slopes, coast_surf;
   Foam foam;

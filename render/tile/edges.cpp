@@ -110,7 +110,7 @@ bool shows_one_place(const Pixel& pixel, std::span<const float, kSamples> depth,
   for (std::size_t s = 0; s < kSamples; ++s) other_triangle |= primitive[s] ^ pixel.primitive;
   if (other_triangle == 0) return true;
   for (std::size_t s = 0; s < kSamples; ++s)
-    other_place |= !pixel.surface.holds(primitive[s]) | !same_place(depth[0], depth[s]);
+    other_place |= int{!pixel.surface.holds(primitive[s])} | int{!same_place(depth[0], depth[s])};
   return other_place == 0;
 }
 

@@ -2,6 +2,7 @@
 // chosen with select_simd_target.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 namespace swell {
@@ -13,6 +14,8 @@ void exp2_batch(std::span<const float> in, std::span<float> out);
 void exp_batch(std::span<const float> in, std::span<float> out);
 void log2_batch(std::span<const float> in, std::span<float> out);
 void log2_coarse_batch(std::span<const float> in, std::span<float> out);
+void truncate_to_int_batch(std::span<const float> in, std::span<std::int32_t> out);
+void round_to_int_batch(std::span<const float> in, std::span<std::int32_t> out);
 
 // The number of float lanes the chosen target works on at a time.
 int float_lanes();

@@ -32,10 +32,10 @@ void ForEachVector(std::span<const float> in, const Packet& packet) {
   }
 }
 
-template <class V>
-void StoreSome(V v, std::span<float> out, std::size_t at, std::size_t n) {
-  std::array<float, 64> buffer;
-  hn::StoreU(v, Floats(), buffer.data());
+template <class V, class T>
+void StoreSome(V v, std::span<T> out, std::size_t at, std::size_t n) {
+  std::array<T, 64> buffer;
+  hn::StoreU(v, hn::DFromV<V>(), buffer.data());
   std::copy_n(buffer.begin(), n, out.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
@@ -69,6 +69,16 @@ void Log2CoarseBatch(std::span<const float> in, std::span<float> out) {
                         HWY_ATTR { StoreSome(Log2Coarse(d, x), out, at, n); });
 }
 
+void TruncateToIntBatch(std::span<const float> in, std::span<std::int32_t> out) {
+  ForEachVector(in, [&](Floats, auto x, std::size_t at, std::size_t n)
+                        HWY_ATTR { StoreSome(TruncateToInt(x), out, at, n); });
+}
+
+void RoundToIntBatch(std::span<const float> in, std::span<std::int32_t> out) {
+  ForEachVector(in, [&](Floats, auto x, std::size_t at, std::size_t n)
+                        HWY_ATTR { StoreSome(RoundToInt(x), out, at, n); });
+}
+
 int FloatLanes() { return static_cast<int>(hn::Lanes(Floats())); }
 
 }  // namespace HWY_NAMESPACE
@@ -83,6 +93,8 @@ HWY_EXPORT(Exp2Batch);
 HWY_EXPORT(ExpBatch);
 HWY_EXPORT(Log2Batch);
 HWY_EXPORT(Log2CoarseBatch);
+HWY_EXPORT(TruncateToIntBatch);
+HWY_EXPORT(RoundToIntBatch);
 HWY_EXPORT(FloatLanes);
 
 void sin_cos_turns_batch(std::span<const float> in, std::span<float> sin_out,
@@ -101,6 +113,12 @@ void log2_batch(std::span<const float> in, std::span<float> out) {
 
 void log2_coarse_batch(std::span<const float> in, std::span<float> out) {
   HWY_DYNAMIC_DISPATCH(Log2CoarseBatch)(in, out);
+}
+void truncate_to_int_batch(std::span<const float> in, std::span<std::int32_t> out) {
+  HWY_DYNAMIC_DISPATCH(TruncateToIntBatch)(in, out);
+}
+void round_to_int_batch(std::span<const float> in, std::span<std::int32_t> out) {
+  HWY_DYNAMIC_DISPATCH(RoundToIntBatch)(in, out);
 }
 int float_lanes() { return HWY_DYNAMIC_DISPATCH(FloatLanes)(); }
 

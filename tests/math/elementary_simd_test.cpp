@@ -212,6 +212,42 @@ TEST_P(ElementarySimd, TheLogarithmOfZeroDenormalsAndInfinityIsFinite) {
   EXPECT_TRUE(std::isfinite(y[5]));
 }
 
+std::vector<std::int32_t> run_to_int(void (*batch)(std::span<const float>, std::span<std::int32_t>),
+                                     const std::vector<float>& x) {
+  std::vector<std::int32_t> out(x.size(), 1234567);
+  batch(x, out);
+  return out;
+}
+
+TEST_P(ElementarySimd, TruncatingDropsTheFractionAndRoundingTakesTheNearestOrEvenNumber) {
+  const std::vector<float> x = {0.0f,  -0.0f, 1e-45f, 0.5f,  -0.5f,  0.50000006f, 1.5f,
+                                -1.5f, 2.5f,  -2.5f,  2.75f, -2.75f, 8388607.5f,  -8388606.5f};
+  EXPECT_EQ(run_to_int(truncate_to_int_batch, x),
+            (std::vector<std::int32_t>{0, 0, 0, 0, 0, 0, 1, -1, 2, -2, 2, -2, 8388607, -8388606}));
+  EXPECT_EQ(run_to_int(round_to_int_batch, x),
+            (std::vector<std::int32_t>{0, 0, 0, 0, 0, 1, 2, -2, 2, -2, 3, -3, 8388608, -8388606}));
+}
+
+TEST_P(ElementarySimd, ConvertingToIntegersIsExactAtEveryMagnitude) {
+  std::vector<float> x = bits_sweep(0, 0x4effffffu, 9973);  // below 2^31
+  const std::vector<float> negative = bits_sweep(0x80000000u, 0xcf000000u, 9973);
+  x.insert(x.end(), negative.begin(), negative.end());
+  for (const float last : {0x1.fffffep30f, -0x1.fffffep30f, -0x1p31f}) x.push_back(last);
+  const auto truncated = run_to_int(truncate_to_int_batch, x);
+  const auto rounded = run_to_int(round_to_int_batch, x);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    ASSERT_EQ(truncated[i], std::trunc(static_cast<double>(x[i]))) << x[i];
+    ASSERT_EQ(rounded[i], std::nearbyint(static_cast<double>(x[i]))) << x[i];
+  }
+}
+
+TEST_P(ElementarySimd, WhatNoIntegerHoldsIsTheLowestOne) {
+  const std::vector<float> x = {0x1p31f, 3e38f, kInf, -0x1.000002p31f, -3e38f, -kInf, kNan, -kNan};
+  const std::vector<std::int32_t> lowest(x.size(), std::numeric_limits<std::int32_t>::min());
+  EXPECT_EQ(run_to_int(truncate_to_int_batch, x), lowest);
+  EXPECT_EQ(run_to_int(round_to_int_batch, x), lowest);
+}
+
 // One hash over sweeps that include every special value: equal on each target and over time.
 TEST_P(ElementarySimd, EveryTargetGivesTheGoldenBits) {
   std::vector<float> x = bits_sweep(0, 0xffff0000u, 49999);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -109,7 +110,7 @@ TEST_P(MapLayers, SlopesAndLostVarianceAddUpToTheWavesOnEveryLevel) {
   for (const int cycles : {1, 3, 5, 8}) {
     const WaveLayer wave(cycles);
     double left = 1.0;
-    for (int level = 0; (cycles << level) < kSize && level < wave.layer.levels; ++level) {
+    for (int level = 0; (cycles << level) < kSize && level < wave.map.detail_levels; ++level) {
       const auto [shown, lost] = wave.shown_and_lost(level);
       EXPECT_NEAR(shown, left * left * kVariance, 0.006 * kVariance) << cycles << " " << level;
       EXPECT_NEAR(lost, (1.0 - left * left) * kVariance, 1e-5 * kVariance);
@@ -125,7 +126,8 @@ TEST_P(MapLayers, BetweenLevelsTheSumLacksTheSquareOfTheDifference) {
   for (const int cycles : {1, 5, 8}) {
     const WaveLayer wave(cycles);
     double left = 1.0;
-    for (int level = 0; (cycles << level) < kSize / 2 && level + 1 < wave.layer.levels; ++level) {
+    for (int level = 0; (cycles << level) < kSize / 2 && level + 1 < wave.map.detail_levels;
+         ++level) {
       const double r = left_by_filter(cycles, level);
       for (const double t : {0.25, 0.5, 0.75}) {
         const auto [shown, lost] = wave.shown_and_lost(level + t);
@@ -148,6 +150,25 @@ TEST_P(MapLayers, LevelsBeyondTheMapHoldNothingButVariance) {
     EXPECT_NEAR(lost, kVariance, 1e-4 * kVariance) << level;
   }
   EXPECT_EQ(wave.shown_and_lost(-9.0), wave.shown_and_lost(0.0));
+}
+
+// No place is outside of a map that repeats, not even one that is no number; and what is read there
+// are slopes of the map.
+TEST_P(MapLayers, StrangePlacesStayInsideTheMap) {
+  const WaveLayer wave(3);
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+  std::vector<glm::vec3> p;
+  for (const float x : {nan, -nan, inf, -inf, 3e38f, -3e38f, 1e-45f, 0.5f})
+    for (const float y : {0.25f, nan, inf, -3e38f}) p.emplace_back(x, y, -1.0f);
+  for (const float level_m : {-30.0f, -2.0f, -0.4f, 1.7f, 30.0f, inf, -inf, nan}) {
+    std::vector<glm::vec3> slopes(p.size());
+    add_slopes(wave.layer, p, std::vector<float>(p.size(), level_m), slopes);
+    const double largest = 127.001 * wave.map.scale * kGain;
+    for (const glm::vec3& s : slopes) {
+      EXPECT_LE(std::abs(s.x), largest) << level_m;
+      EXPECT_LE(std::abs(s.y), largest) << level_m;
+    }
+  }
 }
 
 // A single wave fades from four footprints long to two; what it shows and what it lost are one

@@ -10,12 +10,15 @@ namespace swell::render {
 
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance);
 
-// The water's slopes at p_rel (relative to the eye, seen from straight above) and the variance of
-// those too fine to see, as the shader finds them. water.has_coast chooses its form.
-struct SeenSlopes {
+// The water's slopes at p_rel (relative to the eye), the variance of those too fine to see and the
+// part that foam hides, as the shader finds them with 1 or 3 packets side by side. water.has_coast
+// chooses its form.
+struct SeenWater {
   glm::vec2 slope{0.0f};
-  float variance = 0.0f;
+  float variance = 0.0f, foam_cover = 0.0f;
+  bool operator==(const SeenWater&) const = default;
 };
-SeenSlopes sample_water(const Water& water, glm::vec3 p_rel);
+void sample_water(const Water& water, const ViewRays& rays, int packets_at_once,
+                  std::span<const glm::vec3> p_rel, std::span<SeenWater> seen);
 
 }  // namespace swell::render

@@ -5,6 +5,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/water-inl.h"
 
@@ -21,16 +25,54 @@ void Fresnel(std::span<const float> cos_theta, float n, std::span<float> reflect
   }
 }
 
-void Slopes(const Water& water, glm::vec3 p_rel, SeenSlopes& result) {
+constexpr std::size_t kLanes = hn::MaxLanes(D());
+
+// The points from `first` on, the last one repeated, each seen along its own ray.
+Packet PacketAt(std::span<const glm::vec3> p_rel, std::size_t first) {
+  HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const glm::vec3 p = p_rel[std::min(first + lane, p_rel.size() - 1)];
+    x[lane] = p.x, y[lane] = p.y, z[lane] = p.z;
+  }
+  const D d;
   Packet packet;
-  packet.x_px = packet.y_px = hn::Zero(D());
-  packet.p = Constant(p_rel);
-  packet.depth = packet.distance = Constant(-p_rel.z);
-  packet.to_eye = Constant(glm::vec3(0.0f, 0.0f, 1.0f));
-  const WaterSlopes s = water.has_coast ? SampleWater<true>(water, ViewRays{}, packet)
-                                        : SampleWater<false>(water, ViewRays{}, packet);
-  result.slope = {hn::GetLane(s.slope_x), hn::GetLane(s.slope_y)};
-  result.variance = hn::GetLane(s.variance);
+  packet.x_px = packet.y_px = hn::Zero(d);
+  packet.p = {hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)};
+  packet.depth = packet.distance = hn::Sqrt(Dot(packet.p, packet.p));
+  packet.to_eye = Scale(packet.p, hn::Div(Constant(-1.0f), packet.distance));
+  return packet;
+}
+
+void StoreSeen(const WaterSlopes& s, std::span<SeenWater> seen, std::size_t first) {
+  HWY_ALIGN float lanes[4][kLanes];
+  const V values[4] = {s.slope_x, s.slope_y, s.variance, s.foam_cover};
+  for (int i = 0; i < 4; ++i) hn::Store(values[i], D(), lanes[i]);
+  for (std::size_t lane = 0; lane < kLanes && first + lane < seen.size(); ++lane)
+    seen[first + lane] = {{lanes[0][lane], lanes[1][lane]}, lanes[2][lane], lanes[3][lane]};
+}
+
+template <bool kCoast, std::size_t... k>
+void SampleAll(const Water& water, const ViewRays& rays, std::span<const glm::vec3> p_rel,
+               std::span<SeenWater> seen, std::index_sequence<k...> side_by_side) {
+  for (std::size_t i = 0; i < seen.size(); i += sizeof...(k) * kLanes) {
+    const auto found = SampleWater<kCoast>(
+        water, rays, std::array{PacketAt(p_rel, i + k * kLanes)...}, side_by_side);
+    (StoreSeen(found[k], seen, i + k * kLanes), ...);
+  }
+}
+
+void SampleInPackets(const Water& water, const ViewRays& rays, int packets_at_once,
+                     std::span<const glm::vec3> p_rel, std::span<SeenWater> seen) {
+  const auto sample = [&](auto side_by_side) {
+    if (water.has_coast)
+      SampleAll<true>(water, rays, p_rel, seen, side_by_side);
+    else
+      SampleAll<false>(water, rays, p_rel, seen, side_by_side);
+  };
+  if (packets_at_once == 1)
+    sample(std::make_index_sequence<1>());
+  else
+    sample(std::make_index_sequence<3>());
 }
 
 }  // namespace HWY_NAMESPACE
@@ -41,16 +83,15 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(Fresnel);
-HWY_EXPORT(Slopes);
+HWY_EXPORT(SampleInPackets);
 
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance) {
   HWY_DYNAMIC_DISPATCH(Fresnel)(cos_theta, n, reflectance);
 }
 
-SeenSlopes sample_water(const Water& water, glm::vec3 p_rel) {
-  SeenSlopes result;
-  HWY_DYNAMIC_DISPATCH(Slopes)(water, p_rel, result);
-  return result;
+void sample_water(const Water& water, const ViewRays& rays, int packets_at_once,
+                  std::span<const glm::vec3> p_rel, std::span<SeenWater> seen) {
+  HWY_DYNAMIC_DISPATCH(SampleInPackets)(water, rays, packets_at_once, p_rel, seen);
 }
 
 }  // namespace swell::render

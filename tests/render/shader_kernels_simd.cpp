@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 
 #include "render/materials/list-inl.h"
 #include "render/tile/attenuate-inl.h"
@@ -81,7 +82,8 @@ void LightOfWater(const Shading& shading, std::span<const glm::vec3> to_eye,
     packet.distance = hn::Div(Constant(shading.rays.eye_z), packet.to_eye.z);
     packet.depth = packet.distance;
     packet.p = Scale(packet.to_eye, hn::Neg(packet.distance));
-    StoreSome(shader(shading, TilePixels{}, Lanes{}, packet).light, light, i);
+    const auto [slopes] = shader.LookUp(shading, std::array{packet});
+    StoreSome(shader(shading, TilePixels{}, Lanes{}, packet, slopes).light, light, i);
   });
 }
 

@@ -2,11 +2,13 @@
 // them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "math/random.h"
 #include "math/simd_target.h"
 #include "render/optics_kernels.h"
 #include "render/workspace.h"
@@ -144,24 +146,28 @@ struct PlainWater {
     water.sine_count = 1;
   }
 
+  // The eye is over the middle of the map.
   static SlopeLayer layer(const texture::PackedMap2& map) {
-    SlopeLayer layer;
-    layer.map = &map;
-    layer.inv_length = 1e-6f;
-    layer.u_eye = layer.v_eye = 0.5f;
-    return layer;
+    return make_square_layer(map, 1e6, glm::dvec2(5e5));
   }
 
   texture::PackedMap2 still, surf;
   Water water;
 };
 
+SeenWater seen_below(const Water& water, float height_m) {
+  const glm::vec3 below(0.0f, 0.0f, -height_m);
+  SeenWater seen;
+  sample_water(water, ViewRays{}, 1, {&below, 1}, {&seen, 1});
+  return seen;
+}
+
 constexpr float kShare = 64.0f / 127.0f;  // what a map holds exactly
 
 // A pixel is 0.001 of the depth wide.
 TEST_P(WaterShader, TrainsTakeTheirShareOfTheSlopesThatAreSeen) {
   const PlainWater plain(kShare, 100.0f);
-  const SeenSlopes s = sample_water(plain.water, {0.0f, 0.0f, -10.0f});
+  const SeenWater s = seen_below(plain.water, 10.0f);
   EXPECT_NEAR(s.slope.x, (1.0f - kShare) * 0.3f, 1e-5f);
   EXPECT_NEAR(s.slope.y, (1.0f - kShare) * -0.4f, 1e-5f);
   EXPECT_NEAR(s.variance, kBaseVariance, 1e-6f);
@@ -171,9 +177,66 @@ TEST_P(WaterShader, TrainsTakeTheirShareOfTheSlopesThatAreSeen) {
 // short to see.
 TEST_P(WaterShader, TrainsTakeTheSquareOfTheirShareOfTheVariance) {
   const PlainWater plain(kShare, 0.001f);
-  const SeenSlopes s = sample_water(plain.water, {0.0f, 0.0f, -1000.0f});
+  const SeenWater s = seen_below(plain.water, 1000.0f);
   EXPECT_EQ(s.slope, glm::vec2(0.0f));
   EXPECT_NEAR(s.variance, kBaseVariance + (1.0f - kShare) * (1.0f - kShare) * 0.125f, 1e-6f);
+}
+
+// ---- Packets side by side
+
+// Near a shore some packets lie among the trains, some across their edge and some at sea, each of
+// which takes its own way through the shader.
+scene::Scene shore_scene() {
+  scene::Scene scene = shading_scene();
+  scene.sea.patch_lengths_m = {640.0, 97.0, 17.0};
+  scene.terrain.emplace();
+  scene.terrain->coast_m = {{-400.0, 0.0}, {400.0, 0.0}};
+  scene.terrain->beach_size_m = 800.0;
+  scene.coast.model = scene::CoastModel::kBlend;
+  scene.coast.trains = 1;
+  scene.coast.grid_spacing_m = 10.0;
+  return scene;
+}
+
+// Runs of 16 places, a packet or two, within a few metres of each other; the runs are anywhere
+// within 600 m of the eye's foot.
+std::vector<glm::vec3> scattered_runs(int count) {
+  std::vector<glm::vec3> p;
+  for (int i = 0; i < 16 * count; ++i) {
+    const auto within = [&](float metres, std::uint64_t seed, int n) {
+      return metres * static_cast<float>(2.0 * random_uniform(seed, n) - 1.0);
+    };
+    p.emplace_back(within(600.0f, 1, i / 16) + within(3.0f, 3, i),
+                   within(600.0f, 2, i / 16) + within(3.0f, 4, i), -12.0f);
+  }
+  return p;
+}
+
+std::vector<SeenWater> seen_at(const Water& water, const ViewRays& rays, int packets_at_once,
+                               const std::vector<glm::vec3>& p) {
+  std::vector<SeenWater> seen(p.size());
+  sample_water(water, rays, packets_at_once, p, seen);
+  return seen;
+}
+
+TEST_P(WaterShader, ShowsTheSameHoweverManyPacketsAreSideBySide) {
+  for (const bool has_coast : {true, false}) {
+    scene::Scene scene = shore_scene();
+    if (!has_coast) scene.coast = {};
+    Drawn drawn;
+    draw(scene, World(scene), drawn);
+    const Shading& shading = drawn.workspace.state().shading;
+    const Water& water = shading.material<Water>();
+    ASSERT_EQ(water.has_coast, has_coast);
+    std::vector<glm::vec3> p = scattered_runs(300);
+    p.resize(p.size() - 21);  // the last packets are not full
+    std::vector<SeenWater> alone = seen_at(water, shading.rays, 1, p);
+    EXPECT_EQ(seen_at(water, shading.rays, 3, p), alone);
+    // Nor does it matter which packets they are.
+    std::ranges::reverse(p);
+    std::ranges::reverse(alone);
+    EXPECT_EQ(seen_at(water, shading.rays, 3, p), alone);
+  }
 }
 
 }  // namespace

@@ -6,205 +6,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <utility>
 #include <vector>
 
 #include "allocation_count.h"
-#include "texture/on_every_target.h"
-#include "texture/sample_packets.h"
+#include "texture/packed_texels.h"
 
 namespace swell::texture {
 namespace {
 
 using PackedMap = OnEveryTarget;
 INSTANTIATE_TEST_SUITE_P(Simd, PackedMap, every_target(), target_name);
-
-PackedMap2 random_map(int size, std::uint64_t seed) {
-  const std::size_t texels = static_cast<std::size_t>(size) * size;
-  PackedMap2 map;
-  pack_map2(size, random_floats(texels, -3.0, 3.0, seed),
-            random_floats(texels, -1.0, 2.0, seed + 1), 0.0f, map);
-  return map;
-}
-
-int wrap(int i, int size) { return ((i % size) + size) % size; }
-
-// Texel (i, j) of a level, from the low bytes of its own word.
-std::array<int, 2> texel(const PackedMap2& map, int level, int i, int j) {
-  const int size = map.size >> level;
-  const std::uint64_t word =
-      map.words[map.level_offset[level] + static_cast<std::size_t>(wrap(j, size)) * size +
-                wrap(i, size)];
-  return {static_cast<std::int8_t>(word & 0xff), static_cast<std::int8_t>(word >> 32 & 0xff)};
-}
-
-// Bilinear in double at a coordinate snapped to 1/256 texel, with the taps used.
-struct Reference {
-  double value[2];
-  int lowest[2], highest[2];
-};
-Reference reference_sample(const PackedMap2& map, float u, float v, int level) {
-  const int size = map.size >> level;
-  // The library snaps the fraction of a turn; so does exact arithmetic here.
-  const double x = std::nearbyint((u - std::floor(static_cast<double>(u))) * size * 256.0) / 256.0;
-  const double y = std::nearbyint((v - std::floor(static_cast<double>(v))) * size * 256.0) / 256.0;
-  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
-  const double fx = x - i, fy = y - j;
-  Reference out{};
-  for (int c = 0; c < 2; ++c) {
-    const int taps[4] = {texel(map, level, i, j)[c], texel(map, level, i + 1, j)[c],
-                         texel(map, level, i, j + 1)[c], texel(map, level, i + 1, j + 1)[c]};
-    out.value[c] = ((taps[0] * (1 - fx) + taps[1] * fx) * (1 - fy) +
-                    (taps[2] * (1 - fx) + taps[3] * fx) * fy) *
-                   map.scale;
-    out.lowest[c] = *std::min_element(taps, taps + 4);
-    out.highest[c] = *std::max_element(taps, taps + 4);
-  }
-  return out;
-}
-
-void expect_near_reference(const PackedMap2& map, float u, float v, int level, Sample2 got) {
-  const Reference want = reference_sample(map, u, v, level);
-  const float values[2] = {got.a, got.b};
-  for (int c = 0; c < 2; ++c) {
-    const double scale = map.scale, ulp = 1e-6 * scale * 127;
-    const double range = (want.highest[c] - want.lowest[c]) * scale;
-    ASSERT_NEAR(values[c], want.value[c], kWeightError * range + ulp)
-        << u << " " << v << " " << level;
-    ASSERT_GE(values[c], want.lowest[c] * scale - ulp);
-    ASSERT_LE(values[c], want.highest[c] * scale + ulp);
-  }
-}
-
-TEST_P(PackedMap, BlendsLikeDoubleArithmeticOnEveryLevel) {
-  for (const int size : {1, 2, 8, 64, 256}) {
-    const PackedMap2 map = random_map(size, 10 + size);
-    const auto u = random_floats(3001, -5.0, 5.0, 1), v = random_floats(3001, -1000.0, 1000.0, 2);
-    std::vector<int> level(u.size());
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      level[i] = static_cast<int>(random_bits(3, i) % map.levels);
-    }
-    const auto samples = sample_packed2(map, u, v, level);
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      expect_near_reference(map, u[i], v[i], level[i], samples[i]);
-    }
-  }
-}
-
-TEST_P(PackedMap, OneLevelForAllLanesGivesTheSameAsALevelPerLane) {
-  const PackedMap2 map = random_map(128, 4);
-  const auto u = random_floats(999, -50.0, 50.0, 5), v = random_floats(999, -50.0, 50.0, 6);
-  for (int level = -1; level <= map.levels; ++level) {
-    const std::vector<int> levels(u.size(), level);
-    EXPECT_EQ(sample_packed2_level(map, u, v, level), sample_packed2(map, u, v, levels));
-  }
-}
-
-TEST_P(PackedMap, LevelsAreClampedToTheMaps) {
-  const PackedMap2 map = random_map(32, 7);
-  const auto u = random_floats(100, 0.0, 1.0, 8);
-  const auto at = [&](int level) {
-    return sample_packed2(map, u, u, std::vector<int>(u.size(), level));
-  };
-  EXPECT_EQ(at(-1), at(0));
-  EXPECT_EQ(at(std::numeric_limits<int>::min()), at(0));
-  EXPECT_EQ(at(6), at(5));
-  EXPECT_EQ(at(std::numeric_limits<int>::max()), at(5));
-}
-
-TEST_P(PackedMap, TexelPositionsGiveTheirTexels) {
-  const PackedMap2 map = random_map(64, 9);
-  const float unit = map.scale / 255.0f;
-  for (int level = 0; level < map.levels; ++level) {
-    const int size = map.size >> level;
-    std::vector<float> u, v;
-    for (int n = 0; n < size * size; ++n) {
-      const int turn = n % 7 - 3;  // also left of the map and right of it
-      u.push_back(static_cast<float>(n % size) / static_cast<float>(size) +
-                  static_cast<float>(turn));
-      v.push_back(static_cast<float>(n / size) / static_cast<float>(size) -
-                  static_cast<float>(turn));
-    }
-    const auto samples = sample_packed2_level(map, u, v, level);
-    for (int n = 0; n < size * size; ++n) {
-      const auto bytes = texel(map, level, n % size, n / size);
-      ASSERT_EQ(samples[n].a, static_cast<float>(255 * bytes[0]) * unit);
-      ASSERT_EQ(samples[n].b, static_cast<float>(255 * bytes[1]) * unit);
-      ASSERT_NEAR(samples[n].a, static_cast<float>(bytes[0]) * map.scale, 1e-6);
-    }
-  }
-}
-
-TEST_P(PackedMap, ConstantMapIsConstantEverywhere) {
-  PackedMap2 map;
-  pack_map2(32, std::vector<float>(1024, 0.7f), std::vector<float>(1024, -0.35f), 0.0f, map);
-  const auto u = random_floats(2000, -1e6, 1e6, 11), v = random_floats(2000, -1.0, 1.0, 12);
-  std::vector<int> level(u.size());
-  for (std::size_t i = 0; i < level.size(); ++i) level[i] = static_cast<int>(i % 6);
-  const auto samples = sample_packed2(map, u, v, level);
-  for (const Sample2& sample : samples) {
-    ASSERT_EQ(sample, samples[0]);
-    ASSERT_FLOAT_EQ(sample.a, 0.7f);
-    ASSERT_NEAR(sample.b, -0.35f, 0.5f * map.scale * 1.0001f);
-  }
-  const Sample2 zero{0.0f, 0.0f};
-  pack_map2(32, std::vector<float>(1024, 0.0f), std::vector<float>(1024, 0.0f), 0.0f, map);
-  EXPECT_EQ(map.scale, 1.0f);
-  for (const Sample2& sample : sample_packed2(map, u, v, level)) ASSERT_EQ(sample, zero);
-}
-
-TEST_P(PackedMap, RisesMonotonicallyBetweenTexels) {
-  // A ramp down each axis between texels 0 and 1: all 65,536 fractions.
-  PackedMap2 map;
-  pack_map2(2, std::vector<float>{-127, 127, -127, 127}, std::vector<float>{-127, -127, 127, 127},
-            1.0f, map);
-  for (int fy = 0; fy < 256; ++fy) {
-    std::vector<float> along, across(256, static_cast<float>(fy) / 512.0f);
-    for (int fx = 0; fx < 256; ++fx) along.push_back(static_cast<float>(fx) / 512.0f);
-    const auto row = sample_packed2_level(map, along, across, 0);
-    const auto column = sample_packed2_level(map, across, along, 0);
-    for (int f = 1; f < 256; ++f) {
-      ASSERT_GE(row[f].a, row[f - 1].a);
-      ASSERT_GE(column[f].b, column[f - 1].b);
-      ASSERT_NEAR(row[f].a, -127 + 254 * f / 256.0, 254 * kWeightError);
-      ASSERT_NEAR(row[f].b, -127 + 254 * fy / 256.0, 254 * kWeightError);
-    }
-  }
-}
-
-TEST_P(PackedMap, WrapsFarOutAndAcrossTheSeam) {
-  const PackedMap2 map = random_map(16, 13);
-  std::vector<float> near_u, far_u, v;
-  for (int n = 0; n < 256; ++n) {
-    near_u.push_back(static_cast<float>(n) / 16.0f);  // multiples of 2^-4 stay exact at 2^20
-    far_u.push_back(static_cast<float>(n) / 16.0f - 1048560.0f);
-    v.push_back(static_cast<float>(n % 16) / 16.0f);
-  }
-  EXPECT_EQ(sample_packed2_level(map, near_u, v, 0), sample_packed2_level(map, far_u, v, 0));
-  expect_near_reference(
-      map, 1.0f - 0x1p-10f, -0x1p-10f, 0,
-      sample_packed2_level(map, std::vector{1.0f - 0x1p-10f}, std::vector{-0x1p-10f}, 0)[0]);
-  // A tiny step left of the seam rounds onto it.
-  EXPECT_EQ(sample_packed2_level(map, std::vector{-1e-12f}, std::vector{0.0f}, 0),
-            sample_packed2_level(map, std::vector{0.0f}, std::vector{0.0f}, 0));
-}
-
-TEST_P(PackedMap, StrangeCoordinatesStayInsideTheMap) {
-  const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
-  const PackedMap2 map = random_map(64, 14);
-  const std::vector<float> u{nan, -nan, inf, -inf, 3e38f, -3e38f, 1e-45f, 0.5f};
-  for (int level = 0; level < map.levels; ++level) {
-    for (const float v : {0.25f, nan, inf, -3e38f}) {
-      for (const Sample2& s :
-           sample_packed2_level(map, u, std::vector<float>(u.size(), v), level)) {
-        ASSERT_LE(std::abs(s.a), 128 * map.scale);
-        ASSERT_LE(std::abs(s.b), 128 * map.scale);
-      }
-    }
-  }
-}
-
-// --- Packing ---------------------------------------------------------------------------------
 
 // Tent-filtered level in double.
 std::vector<double> filter_reference(const std::vector<double>& from, int size) {
@@ -267,15 +79,41 @@ TEST_P(PackedMap, WordsHoldTheirNeighbourhoods) {
     const int size = map.size >> level;
     for (int j = 0; j < size; ++j) {
       for (int i = 0; i < size; ++i) {
-        std::uint64_t want = 0;
+        PackedQuad want = 0;
         for (int n = 0; n < 8; ++n) {
           const int byte = texel(map, level, i + n % 2, j + n / 2 % 2)[n / 4];
-          want |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(byte)) << (8 * n);
+          want |= static_cast<PackedQuad>(static_cast<std::uint8_t>(byte)) << (8 * n);
         }
-        ASSERT_EQ(map.words[map.level_offset[level] + j * size + i], want) << level;
+        ASSERT_EQ(word_at(map, level, i, j).fine, want) << level;
       }
     }
   }
+}
+
+// Beside it the quad of the texel of the next level that it lies in; nothing after the last level
+// with detail, and nothing after the last of all.
+TEST_P(PackedMap, WordsHoldTheCoarserNeighbourhoodsAroundThem) {
+  for (const int size : {1, 2, 4, 8, 64, 512}) {
+    const PackedMap2 map = random_map(size, 25);
+    for (int level = 0; level < map.levels; ++level) {
+      const bool blends = level + 1 < map.levels && level + 1 != map.detail_levels;
+      const int side = size >> level;
+      for (int n = 0; n < side * side; ++n) {
+        const int i = n % side, j = n / side;
+        const PackedQuad around = blends ? word_at(map, level + 1, i / 2, j / 2).fine : 0;
+        ASSERT_EQ(word_at(map, level, i, j).coarse, around) << size << " " << level;
+      }
+    }
+  }
+}
+
+// Two by two texels and their mean hold nothing worth a sample; of small maps the first level is
+// kept, of large ones the first seven.
+TEST_P(PackedMap, AllLevelsButTheTwoCoarsestHoldDetail) {
+  const std::vector<std::pair<int, int>> table = {{1, 1},  {2, 1},  {4, 1},   {8, 2},
+                                                  {16, 3}, {64, 5}, {256, 7}, {1024, 7}};
+  for (const auto& [size, detail_levels] : table)
+    EXPECT_EQ(random_map(size, 26).detail_levels, detail_levels) << size;
 }
 
 TEST_P(PackedMap, AllLevelsAgreeOnPositions) {
@@ -324,17 +162,12 @@ TEST(PackedMapTargets, GiveTheSameBits) {
   for (const int size : {1, 2, 4, 8, 16, 64, 256}) {
     select_simd_target(SimdTarget::kAvx2);
     const PackedMap2 narrow = random_map(size, 40);
-    const auto u = random_floats(4099, -9.0, 9.0, 41), v = random_floats(4099, -9.0, 9.0, 42);
-    std::vector<int> level(u.size());
-    for (std::size_t i = 0; i < level.size(); ++i) level[i] = static_cast<int>(i % 9);
-    const auto narrow_samples = sample_packed2(narrow, u, v, level);
 
     select_simd_target(SimdTarget::kAvx512);
     const PackedMap2 wide = random_map(size, 40);
     EXPECT_EQ(wide.scale, narrow.scale);
     EXPECT_EQ(wide.words, narrow.words);
     EXPECT_EQ(wide.lost_variance, narrow.lost_variance);
-    EXPECT_EQ(sample_packed2(wide, u, v, level), narrow_samples);
   }
 }
 

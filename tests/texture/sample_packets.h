@@ -18,11 +18,17 @@ struct Sample4 {
   bool operator==(const Sample4&) const = default;
 };
 
-// One sample per element of u; v and level have as many elements.
-std::vector<Sample2> sample_packed2(const PackedMap2& map, std::span<const float> u,
-                                    std::span<const float> v, std::span<const int> level);
-std::vector<Sample2> sample_packed2_level(const PackedMap2& map, std::span<const float> u,
-                                          std::span<const float> v, int level);
+// Where to sample a map: coordinates in 1/256 texels of level 0, and a level. Spans of one length.
+struct MapPlaces {
+  std::span<const int> x_fx8, y_fx8, level;
+};
+
+std::vector<Sample2> sample_level(const PackedMap2& map, const MapPlaces& places);
+
+// Adds to sums[i] `gain` times the blend of places.level[i] and the next level by t[i].
+void add_blended(const PackedMap2& map, const MapPlaces& places, std::span<const float> t,
+                 float gain, std::span<Sample2> sums);
+
 std::vector<Sample4> sample_rgba(const RgbaImage& image, std::span<const float> x_px,
                                  std::span<const float> y_px);
 

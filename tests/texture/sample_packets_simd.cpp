@@ -24,28 +24,43 @@ void copy_packet(std::span<const T> from, std::size_t first, T* packet) {
   for (std::size_t i = 0; i < kLanes; ++i) packet[i] = from[std::min(first + i, from.size() - 1)];
 }
 
-void packed2(const PackedMap2& map, std::span<const float> u, std::span<const float> v,
-             std::span<const int> level, int uniform_level, std::span<Sample2> out) {
-  const D d;
-  const DI di;
-  HWY_ALIGN float u_packet[kLanes], v_packet[kLanes], a_packet[kLanes], b_packet[kLanes];
-  HWY_ALIGN int level_packet[kLanes];
-  for (std::size_t first = 0; first < u.size(); first += kLanes) {
-    copy_packet(u, first, u_packet);
-    copy_packet(v, first, v_packet);
+void store_packet(hn::Vec<D> a, hn::Vec<D> b, std::size_t first, std::span<Sample2> out) {
+  HWY_ALIGN float a_packet[kLanes], b_packet[kLanes];
+  hn::Store(a, D(), a_packet);
+  hn::Store(b, D(), b_packet);
+  for (std::size_t i = 0; i < kLanes && first + i < out.size(); ++i)
+    out[first + i] = {a_packet[i], b_packet[i]};
+}
+
+hn::Vec<DI> load_packet(std::span<const int> from, std::size_t first) {
+  HWY_ALIGN int packet[kLanes];
+  copy_packet(from, first, packet);
+  return hn::Load(DI(), packet);
+}
+
+void one_level(const PackedMap2& map, const MapPlaces& places, std::span<Sample2> out) {
+  for (std::size_t first = 0; first < out.size(); first += kLanes) {
     hn::Vec<D> a, b;
-    if (level.empty()) {
-      SamplePacked2Level(d, map, hn::Load(d, u_packet), hn::Load(d, v_packet), uniform_level, a, b);
-    } else {
-      copy_packet(level, first, level_packet);
-      SamplePacked2(d, map, hn::Load(d, u_packet), hn::Load(d, v_packet),
-                    hn::Load(di, level_packet), a, b);
+    SampleLevel(D(), map, load_packet(places.x_fx8, first), load_packet(places.y_fx8, first),
+                load_packet(places.level, first), a, b);
+    store_packet(a, b, first, out);
+  }
+}
+
+void blended(const PackedMap2& map, const MapPlaces& places, std::span<const float> t, float gain,
+             std::span<Sample2> sums) {
+  const D d;
+  HWY_ALIGN float t_packet[kLanes], a_packet[kLanes], b_packet[kLanes];
+  for (std::size_t first = 0; first < sums.size(); first += kLanes) {
+    copy_packet(t, first, t_packet);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const Sample2& before = sums[std::min(first + i, sums.size() - 1)];
+      a_packet[i] = before.a, b_packet[i] = before.b;
     }
-    hn::Store(a, d, a_packet);
-    hn::Store(b, d, b_packet);
-    for (std::size_t i = 0; i < kLanes && first + i < u.size(); ++i) {
-      out[first + i] = {a_packet[i], b_packet[i]};
-    }
+    hn::Vec<D> a = hn::Load(d, a_packet), b = hn::Load(d, b_packet);
+    AddBlended(d, map, load_packet(places.x_fx8, first), load_packet(places.y_fx8, first),
+               load_packet(places.level, first), hn::Load(d, t_packet), gain, a, b);
+    store_packet(a, b, first, sums);
   }
 }
 
@@ -75,21 +90,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swell::texture {
 
-HWY_EXPORT(packed2);
+HWY_EXPORT(one_level);
+HWY_EXPORT(blended);
 HWY_EXPORT(rgba);
 
-std::vector<Sample2> sample_packed2(const PackedMap2& map, std::span<const float> u,
-                                    std::span<const float> v, std::span<const int> level) {
-  std::vector<Sample2> out(u.size());
-  HWY_DYNAMIC_DISPATCH(packed2)(map, u, v, level, 0, out);
+std::vector<Sample2> sample_level(const PackedMap2& map, const MapPlaces& places) {
+  std::vector<Sample2> out(places.level.size());
+  HWY_DYNAMIC_DISPATCH(one_level)(map, places, out);
   return out;
 }
 
-std::vector<Sample2> sample_packed2_level(const PackedMap2& map, std::span<const float> u,
-                                          std::span<const float> v, int level) {
-  std::vector<Sample2> out(u.size());
-  HWY_DYNAMIC_DISPATCH(packed2)(map, u, v, {}, level, out);
-  return out;
+void add_blended(const PackedMap2& map, const MapPlaces& places, std::span<const float> t,
+                 float gain, std::span<Sample2> sums) {
+  HWY_DYNAMIC_DISPATCH(blended)(map, places, t, gain, sums);
 }
 
 std::vector<Sample4> sample_rgba(const RgbaImage& image, std::span<const float> x_px,
