@@ -16,7 +16,7 @@ struct SlopeLayer {
   float log2_texels_per_m = 0.0f;
   float gain = 1.0f;        // multiplies the slopes
   float uv_noise_m = 0.0f;  // how far the coordinates are perturbed
-  float coarsest = 1.0f;    // the level from which on nothing is left, a little less
+  float coarsest = 0.0f;    // the level from which on nothing is left, a little less
   // Slope variance that each mip level has lost, after gain, and how much more the next one has;
   // repeated for wide vectors.
   static constexpr int kTableLevels = 8;

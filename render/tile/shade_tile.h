@@ -23,16 +23,19 @@ struct TileLookups {
 };
 
 inline constexpr std::size_t kMaxTileFragments = kMaxFragments * kMaxTilePixels;
+inline constexpr std::size_t kListPadding = 64;  // a list's end, up to whole packets
 
 // Working memory of one thread.
 struct ShadeScratch {
   alignas(64) std::array<float, kMaxTilePixels> red, green, blue;
   // By material, and the sky last: its pixels, padded to whole packets.
-  alignas(64) std::array<std::array<std::uint16_t, kMaxTilePixels + 64>, kMaterialCount + 1> lists;
+  alignas(64) std::array<std::array<std::uint16_t, kMaxTilePixels + kListPadding>,
+                         kMaterialCount + 1> lists;
   // The tile's fragments: their primitives, their colours, and again lists.
   std::array<std::uint32_t, kMaxTileFragments> fragment_primitive;
-  alignas(64) std::array<float, kMaxTileFragments + 64> fragment_red, fragment_green, fragment_blue;
-  std::array<std::uint16_t, kMaxTileFragments + 64> fragment_list;
+  alignas(64) std::array<float, kMaxTileFragments + kListPadding> fragment_red, fragment_green,
+      fragment_blue;
+  std::array<std::uint16_t, kMaxTileFragments + kListPadding> fragment_list;
 };
 
 // A tile as the window sees it.

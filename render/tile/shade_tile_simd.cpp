@@ -37,6 +37,7 @@ using PixelLists = std::array<PixelList, kMaterialCount + 1>;
 constexpr std::size_t kSky = kMaterialCount;
 
 constexpr std::size_t kMostPacketsAtOnce = 3;
+static_assert(kMostPacketsAtOnce * kLanes <= kListPadding);
 
 // Repeats the last pixel up to full packets, so that every packet is shaded whole.
 void PadToPackets(PixelList& list) {
@@ -265,6 +266,8 @@ HWY_INLINE std::array<V3, sizeof...(k)> ArrivingLights(
   const std::array<Packet, sizeof...(k)> shown = {
       MakePacket(s.rays, listed[k].x_px, listed[k].y_px, listed[k].z)...};
   if constexpr (requires { shade.LookUp(s, shown); }) {
+    static_assert(kView == ViewKind::kWindow,
+                  "elsewhere what is shown is not where it seems to be");
     const auto found = shade.LookUp(s, shown);
     return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep,
                                  found[k])...};

@@ -145,8 +145,10 @@ constexpr double kHazeCut = 1.0 / 512.0;  // half a step of the picture
 
 struct HazyAir {
   HazyAir() {
-    texture::resize_image(16, 16, sky);
-    std::ranges::fill(sky.texels, 0xff204080u);  // R 128, G 64, B 32
+    texture::RgbaImage image;
+    texture::resize_image(16, 16, image);
+    std::ranges::fill(image.texels, 0xff204080u);  // R 128, G 64, B 32
+    sky = texture::pack_rgb(image);
     shading.light.sky_soft = &sky;
     shading.media.inv_haze_m = static_cast<float>(1.0 / kHaze_m);
   }
@@ -159,7 +161,7 @@ struct HazyAir {
     const glm::dvec3 code(128.0, 64.0, 32.0);
     return code * code * (static_cast<double>(kLookupRange) / (255.0 * 255.0));
   }
-  texture::RgbaImage sky;
+  texture::RgbMap sky;
   Shading shading;
 };
 

@@ -16,7 +16,7 @@ TEST(World, HasTheSameMapsOnAnyNumberOfThreads) {
     const World shared(scene, threads);
     const World::State& b = shared.state();
     EXPECT_EQ(a.sky->sharp.texels, b.sky->sharp.texels);
-    EXPECT_EQ(a.sky->soft.texels, b.sky->soft.texels);
+    EXPECT_EQ(a.sky->soft.words, b.sky->soft.words);
     EXPECT_EQ(a.sky->ambient, b.sky->ambient);
     EXPECT_EQ(a.terrain->height_m, b.terrain->height_m);
     EXPECT_EQ(a.terrain_maps->albedo.texels, b.terrain_maps->albedo.texels);
