@@ -8,10 +8,6 @@
 namespace swell::render {
 namespace {
 
-// Samples of one surface whose depths differ by more than this part are of two places of it: a
-// crest and farther water.
-constexpr float kPartOfDepth = 1.0f / 4.0f;
-
 // The primitives of what samples are told apart by: the water, the land, an object, or the sky,
 // which has kNoPrimitive alone. No two begin alike.
 struct SurfaceRange {
@@ -52,7 +48,7 @@ struct Group {
   std::uint32_t primitive = raster::kNoPrimitive;
 };
 
-bool same_place(float a, float b) { return std::abs(a - b) <= kPartOfDepth * std::max(a, b); }
+bool same_place(float a, float b) { return std::abs(a - b) <= kPartOfJump * std::max(a, b); }
 
 // What one sample shows.
 struct Sample {
@@ -153,14 +149,14 @@ void add_fragments(const Pixel& pixel, std::span<const float> depth,
   }
 }
 
-TileBox tile_box_of(std::span<const glm::vec4> p_clip, raster::Viewport viewport,
-                    const raster::TileGrid& grid) {
-  glm::vec2 low(1.0f), high(-1.0f);
+ObjectExtent extent_of(std::span<const glm::vec4> p_clip, raster::Viewport viewport,
+                       const raster::TileGrid& grid) {
+  glm::vec3 low(1.0f), high(-1.0f);
   for (const glm::vec4& p : p_clip) {
     // Beside or behind the eye: anywhere.
-    if (!(p.w > p.z)) return {0, 0, grid.tiles_x - 1, grid.tiles_y - 1};
-    low = glm::min(low, glm::vec2(p) / p.w);
-    high = glm::max(high, glm::vec2(p) / p.w);
+    if (!(p.w > p.z)) return {{0, 0, grid.tiles_x - 1, grid.tiles_y - 1}, 1.0f};
+    low = glm::min(low, glm::vec3(p) / p.w);
+    high = glm::max(high, glm::vec3(p) / p.w);
   }
   // One pixel more, for rounding.
   const auto tile_at = [&](float ndc, int size_px, float more_px, int tiles) {
@@ -168,24 +164,28 @@ TileBox tile_box_of(std::span<const glm::vec4> p_clip, raster::Viewport viewport
     const float tile = std::floor(px / static_cast<float>(grid.tile_size_px));
     return static_cast<int>(std::clamp(tile, -1.0f, static_cast<float>(tiles)));
   };
-  return {tile_at(low.x, viewport.width_px, -1.0f, grid.tiles_x),
-          tile_at(-high.y, viewport.height_px, -1.0f, grid.tiles_y),
-          tile_at(high.x, viewport.width_px, 1.0f, grid.tiles_x),
-          tile_at(-low.y, viewport.height_px, 1.0f, grid.tiles_y)};
+  return {{tile_at(low.x, viewport.width_px, -1.0f, grid.tiles_x),
+           tile_at(-high.y, viewport.height_px, -1.0f, grid.tiles_y),
+           tile_at(high.x, viewport.width_px, 1.0f, grid.tiles_x),
+           tile_at(-low.y, viewport.height_px, 1.0f, grid.tiles_y)},
+          high.z};
 }
 
-// Marks what triangles of an object touch, but for the pixels inside it.
+// Marks what triangles of an object touch, but for the pixels inside it and those that hide it.
 void mark_object(const RenderView& window, const VisibilityBuffer& visibility, int tile,
-                 const ObjectPart& part, raster::PixelMask& mask) {
+                 const ObjectPart& part, float nearest_z, const JumpScratch& scratch,
+                 raster::PixelMask& mask) {
   const std::uint32_t begin = window.primitives.begin(SurfaceKind::kObjects) + part.first_triangle;
   const std::uint32_t end = begin + part.triangles;
   const raster::PixelMask interior = find_interior(visibility, window.viewport(), tile, begin, end);
-  // Triangles with nothing but interior and marked pixels around need no look.
+  const int side = visibility.grid.tile_size_px;
+  const raster::PixelMask behind = find_behind(scratch, side, nearest_z);
+  const auto may_show = [&](int y) { return behind.row(y) & ~interior.row(y); };
+  // Triangles with nothing but other and marked pixels around need no look.
   raster::PixelMask touched = mask;
-  for (int y = 0; y < visibility.grid.tile_size_px; ++y) touched.add_to_row(y, interior.row(y));
+  for (int y = 0; y < side; ++y) touched.add_to_row(y, ~may_show(y));
   raster::mark_touched(window.pass, tile, begin, end, touched);
-  for (int y = 0; y < visibility.grid.tile_size_px; ++y)
-    mask.add_to_row(y, touched.row(y) & ~interior.row(y));
+  for (int y = 0; y < side; ++y) mask.add_to_row(y, touched.row(y) & may_show(y));
 }
 
 struct TileEdges {
@@ -193,7 +193,7 @@ struct TileEdges {
   const VisibilityBuffer& visibility;
   SurfaceRanges surfaces;
   std::span<const ObjectPart> objects;
-  std::span<const TileBox> object_tiles;
+  std::span<const ObjectExtent> extents;  // of the objects
 };
 
 raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratch) {
@@ -201,8 +201,9 @@ raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratc
   mark_jumps(in.visibility, in.window.primitives, in.window.viewport(), tile, scratch, mask);
   const int tiles_x = in.visibility.grid.tiles_x;
   for (std::size_t i = 0; i < in.objects.size(); ++i)
-    if (in.object_tiles[i].holds(tile % tiles_x, tile / tiles_x))
-      mark_object(in.window, in.visibility, tile, in.objects[i], mask);
+    if (in.extents[i].tiles.holds(tile % tiles_x, tile / tiles_x))
+      mark_object(in.window, in.visibility, tile, in.objects[i], in.extents[i].nearest_z, scratch,
+                  mask);
   return mask;
 }
 
@@ -242,12 +243,12 @@ void prepare_edges(const ObjectGeometry& objects, const RenderView& window,
   edges.samples = samples;
   edges.of_tile.resize(static_cast<std::size_t>(visibility.grid.count()));
   for (std::vector<EdgeFragment>& fragments : edges.of_tile) fragments.clear();
-  edges.object_tiles.clear();
+  edges.objects.clear();
   if (samples == 0) return;
   const std::span<const glm::vec4> p_clip = window.vertices_of(SurfaceKind::kObjects).p_clip;
   for (const ObjectPart& part : objects.parts)
-    edges.object_tiles.push_back(tile_box_of(p_clip.subspan(part.first_vertex, part.vertices),
-                                             window.viewport(), visibility.grid));
+    edges.objects.push_back(extent_of(p_clip.subspan(part.first_vertex, part.vertices),
+                                      window.viewport(), visibility.grid));
 }
 
 void find_edges(const ObjectGeometry& objects, const RenderView& window,
@@ -255,7 +256,7 @@ void find_edges(const ObjectGeometry& objects, const RenderView& window,
                 EdgeBuffer& edges) {
   if (edges.samples == 0 || visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
   const TileEdges in{window, visibility, SurfaceRanges(window.primitives, objects), objects.parts,
-                     edges.object_tiles};
+                     edges.objects};
   const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
   const auto samples =
       static_cast<std::size_t>(mask.count()) * static_cast<std::size_t>(edges.samples);

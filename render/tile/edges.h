@@ -7,7 +7,8 @@
 //
 // A pixel is looked at if a neighbour shows another kind of surface (tile/jumps.h), if the depth
 // jumps to a neighbour by more than the surfaces' own slope explains, or if a triangle of an object
-// touches it that the centres around do not all show, so that a mast thinner than a pixel is found.
+// touches it that the centres around neither all show nor all hide, so that a mast thinner than a
+// pixel is found.
 #pragma once
 
 #include <cstdint>
@@ -34,10 +35,16 @@ struct EdgeFragment {
 
 inline constexpr std::size_t kMaxFragments = 4;  // a pixel
 
-// Where an object's triangles lie in the window, in tiles; inclusive.
+// In tiles; inclusive.
 struct TileBox {
   int x0, y0, x1, y1;
   bool holds(int x, int y) const { return x >= x0 && x <= x1 && y >= y0 && y <= y1; }
+};
+
+// Where an object's triangles lie in the window.
+struct ObjectExtent {
+  TileBox tiles;
+  float nearest_z;  // depth of its nearest vertex, as in the visibility buffer
 };
 
 // The pixels of a frame where surfaces meet.
@@ -45,7 +52,7 @@ struct EdgeBuffer {
   int samples = 0;  // a pixel: 0, 4 or 8
   // By tile; a pixel's fragments lie side by side and have all of its samples together.
   std::vector<std::vector<EdgeFragment>> of_tile;
-  std::vector<TileBox> object_tiles;  // by ObjectGeometry::parts
+  std::vector<ObjectExtent> objects;  // by ObjectGeometry::parts
 };
 
 // Working memory of one thread.

@@ -18,10 +18,18 @@ struct JumpScratch {
   alignas(64) std::array<float, kStride*(kSide + 2 * kRim + 1)> depth{};
 };
 
+// A surface jumps where its depth changes by more than this part; and samples of one surface whose
+// depths differ by more are of two places of it: a crest and farther water.
+inline constexpr float kPartOfJump = 0.3f;
+
 // Marks both pixels of each such pair, so far as they lie in the tile. `visibility` is that of the
 // whole window, so that the result does not depend on the size of tiles.
 void mark_jumps(const VisibilityBuffer& visibility, const PrimitiveRanges& primitives,
                 raster::Viewport viewport, int tile, JumpScratch& scratch, raster::PixelMask& mask);
+
+// The tile's pixels that show, or one of whose four neighbours shows, nothing nearer than depth z
+// (of the visibility buffer): where something at z may be seen. `scratch` is as mark_jumps left it.
+raster::PixelMask find_behind(const JumpScratch& scratch, int side, float z);
 
 // The tile's pixels that show, like their four neighbours, primitives in [begin, end).
 raster::PixelMask find_interior(const VisibilityBuffer& visibility, raster::Viewport viewport,

@@ -29,16 +29,17 @@ HWY_INLINE std::uint64_t BitsOf(Tag d, Mask mask) {
   return bits;
 }
 
-// Depth is linear in the window along a plane. A jump is more than this many times the change next
-// to it on either side, and more than this part of the depth itself.
-constexpr float kTimesSlope = 2.0f, kPartOfDepth = 1.0f / 8.0f;
+// Depth is linear in the window along a plane. A jump is more than this part of the depth itself
+// and this much of the change next to it on either side. (More of that, twice with an eighth of the
+// depth, marks more and finds less: behind a crest the far side is steep.)
+constexpr float kTimesSlope = 0.25f;
 
 // Where depth jumps between pixels p[0] and p[step], for pixels side by side: one bit a lane.
 HWY_INLINE std::uint64_t Jumps(const float* p, int step) {
   const D d;
   const V b = hn::LoadU(d, p), c = hn::LoadU(d, p + step);
   const V jump = hn::Abs(hn::Sub(b, c));
-  const V part = hn::Mul(hn::Max(b, c), hn::Set(d, kPartOfDepth));
+  const V part = hn::Mul(hn::Max(b, c), hn::Set(d, kPartOfJump));
   if (hn::AllFalse(d, hn::Gt(jump, part))) return 0;
   const V before = hn::Abs(hn::Sub(hn::LoadU(d, p - step), b));
   const V after = hn::Abs(hn::Sub(c, hn::LoadU(d, p + 2 * step)));
@@ -67,6 +68,19 @@ void MarkDepthJumps(const JumpScratch& scratch, int side, raster::PixelMask& mas
   }
 }
 
+// Which pixels of each row, from the one above the tile to the one below, show nothing nearer than
+// depth z.
+void PixelsBehind(const JumpScratch& scratch, int side, float z, std::uint64_t* bits) {
+  const D d;
+  const V nearest = hn::Set(d, z);
+  for (int y = -1; y <= side; ++y) {
+    const float* row = scratch.depth.data() + (y + kRim) * kStride + kRim;
+    bits[y + 1] = 0;
+    for (int x = 0; x < side; x += kLanes)
+      bits[y + 1] |= BitsOf(d, hn::Le(hn::LoadU(d, row + x), nearest)) << x;
+  }
+}
+
 // Which pixels of `rows` rows have primitives in [begin, end), one bit a pixel.
 void PixelsOf(const std::uint32_t* primitive, int side, int rows, std::uint32_t begin,
               std::uint32_t end, std::uint64_t* bits) {
@@ -88,6 +102,7 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(MarkDepthJumps);
+HWY_EXPORT(PixelsBehind);
 HWY_EXPORT(PixelsOf);
 
 namespace {
@@ -234,6 +249,20 @@ void mark_jumps(const VisibilityBuffer& visibility, const PrimitiveRanges& primi
       for_each_row(
           around, primitives.begin(kind), primitives.end(kind),
           [&](int y, std::uint64_t, std::uint64_t differs) { mask.add_to_row(y, differs); });
+}
+
+raster::PixelMask find_behind(const JumpScratch& scratch, int side, float z) {
+  RowBits bits{};
+  HWY_DYNAMIC_DISPATCH(PixelsBehind)(scratch, side, z, bits.data());
+  raster::PixelMask behind;
+  for (int y = 0; y < side; ++y) {
+    const float* row = scratch.depth.data() + (y + kRim) * kStride + kRim;
+    const std::uint64_t here = bits[y + 1], left = row[-1] <= z, right = row[side] <= z;
+    behind.set_row(
+        y, (here | bits[y] | bits[y + 2] | here << 1 | left | here >> 1 | right << (side - 1)) &
+               lowest_bits(side));
+  }
+  return behind;
 }
 
 raster::PixelMask find_interior(const VisibilityBuffer& visibility, raster::Viewport viewport,
