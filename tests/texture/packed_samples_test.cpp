@@ -186,7 +186,7 @@ void expect_texels(const PackedMap2& map, int level, int weight, float unit,
 TEST_P(PackedSamples, AtTexelPositionsAreTheirTexels) {
   const PackedMap2 map = random_map(64, 9);
   constexpr int kWeight = 255 * 256, kBlendWeight = kWeight * 127;
-  const float unit = map.scale / kWeight, blend_unit = map.scale / kBlendWeight;
+  const float unit = map.scale * (1.0f / kWeight), blend_unit = map.scale * (1.0f / kBlendWeight);
   for (int level = 0; level < map.levels; ++level) {
     const Places at = texel_positions(map, level);
     expect_texels(map, level, kWeight, unit, sample_level(map, at));
