@@ -24,8 +24,12 @@ class SurfaceRanges {
     for (const SurfaceKind kind : {SurfaceKind::kWater, SurfaceKind::kTerrain})
       if (ranges_.holds(kind, primitive))
         return {ranges_.begin(kind), ranges_.end(kind) - ranges_.begin(kind)};
-    if (ranges_.holds(SurfaceKind::kObjects, primitive)) return object_of(primitive);
+    if (is_object(primitive)) return object_of(primitive);
     return {};
+  }
+
+  bool is_object(std::uint32_t primitive) const {
+    return ranges_.holds(SurfaceKind::kObjects, primitive);
   }
 
  private:
@@ -142,7 +146,9 @@ void add_fragments(const Pixel& pixel, std::span<const float> depth,
     out.push_back({.x_px = static_cast<float>(pixel.x_px) + part * g.x_px,
                    .y_px = static_cast<float>(pixel.y_px) + part * g.y_px,
                    .z = part * g.z,
-                   .primitive = most_seen(&g, group_of_sample, primitive),
+                   .primitive = surfaces.is_object(g.primitive)
+                                    ? most_seen(&g, group_of_sample, primitive)
+                                    : g.primitive,
                    .pixel = pixel.at,
                    .samples = static_cast<std::uint8_t>(g.count),
                    .is_centre = centre});
