@@ -292,7 +292,9 @@ struct WaterShader {
     const V3 refracted =
         RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
     const V3 arriving = Lerp(refracted, mirrored, reflectance);
-    const V glint = SunGlint(light.sun_direction, packet, s, reflectance, cos_rough);
+    // What is mirrored in front of the sky hides the sun's path in it too.
+    const V glint = hn::Mul(SunGlint(light.sun_direction, packet, s, reflectance, cos_rough),
+                            hn::Sub(Constant(1.0f), mirrored_alpha));
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
     if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
     return {seen, normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};

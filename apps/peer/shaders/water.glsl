@@ -119,8 +119,11 @@ void main() {
   vec4 floor_seen = look_up(refraction, s.slope, to_eye.z, -0.5);
   refracted = mix(refracted, floor_seen.rgb, floor_seen.a);
 #endif
-  vec3 seen = mix(refracted, mirrored, reflectance) +
-              sun_irradiance * sun_glint(to_eye, s, reflectance, cos_rough);
+  float glint = sun_glint(to_eye, s, reflectance, cos_rough);
+#ifdef LOOKUPS
+  glint *= 1.0 - mirror.a;
+#endif
+  vec3 seen = mix(refracted, mirrored, reflectance) + sun_irradiance * glint;
 #ifdef COAST
   seen = add_foam(foam_cover(p.xy, level_flat_m, surf.y), seen);
 #endif

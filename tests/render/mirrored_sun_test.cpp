@@ -1,0 +1,71 @@
+// The sun's path on the water ends where the water mirrors something that stands before the sun.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "edge_scenes.h"
+#include "render/frame.h"
+
+namespace swell::render {
+namespace {
+
+constexpr int kSize_px = 160;
+constexpr double kEye_m = 3.0, kFov_rad = 0.6;
+
+// Ripples under a sun low in the north, and a box there that is higher than the sun's path.
+scene::Scene sea_with_sun_ahead(bool box) {
+  scene::Scene scene = plain_scene();
+  scene.sea.wind_speed_mps = 5.0;
+  scene.water.bump_strength = 1.0;
+  scene.sky.sun_azimuth_rad = 0.0;
+  scene.sky.sun_elevation_rad = kPi / 12.0;
+  scene.sky.sun_direction = {0.0f, 0.9659258f, 0.2588190f};
+  if (box) {
+    scene.objects = {white_box({0.0, 30.0}, {8.0, 2.0, 8.0})};
+    scene.objects[0].colour = glm::vec3(0.02f);
+  }
+  return scene;
+}
+
+// Linear light.
+std::vector<float> draw(const scene::Scene& scene) {
+  FrameOptions options;
+  options.lookup_scale = 1.0;
+  options.keep_linear = true;
+  options.edge_samples = 0;
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  render_frame(World(scene), north_view(kEye_m, 0.0, kFov_rad, kSize_px, kSize_px), 1.0, options,
+               workspace, target, workers);
+  return target.linear;
+}
+
+// The largest green radiance on the water `far_m` ahead, within 2 m of the middle.
+float brightest(const std::vector<float>& linear, double far_m) {
+  const double px_per_rad = 0.5 * kSize_px / std::tan(0.5 * kFov_rad);
+  const auto y = static_cast<int>(0.5 * kSize_px + px_per_rad * kEye_m / far_m);
+  const auto half = static_cast<int>(px_per_rad * 2.0 / far_m);
+  float most = 0.0f;
+  for (int x = kSize_px / 2 - half; x <= kSize_px / 2 + half; ++x)
+    most = std::max(most, linear[3 * static_cast<std::size_t>(y * kSize_px + x) + 1]);
+  return most;
+}
+
+TEST(MirroredSun, IsHiddenByWhatStandsBeforeIt) {
+  const std::vector<float> open = draw(sea_with_sun_ahead(false));
+  const std::vector<float> hidden = draw(sea_with_sun_ahead(true));
+  // A ray from the water at far_m meets the box, which is 29 m away and 4 m high above the water,
+  // kEye_m (29 - far_m) / far_m up.
+  for (const double far_m : {16.0, 18.0, 21.0, 24.0}) {
+    EXPECT_GT(brightest(open, far_m), 0.5f) << far_m;
+    EXPECT_LT(brightest(hidden, far_m), 0.1f) << far_m;  // the sky is 0.08 bright
+  }
+  // Nearer water looks over the box.
+  EXPECT_GT(brightest(hidden, 10.0), 0.5f);
+}
+
+}  // namespace
+}  // namespace swell::render
