@@ -14,13 +14,13 @@ struct ShadedTile {
   int pixels = 0;                                                   // in the window
   double us = 0.0;
 };
-using ShadedFrame = std::vector<ShadedTile>;
+using ShadedFrame = std::vector<ShadedTile>;  // by number
 
-// Medians of the frames that have tiles of a kind: of a frame's time for all of them, divided by
-// their pixels.
+// Of tiles that show one kind in more than half of the frames: the time of all of them, each the
+// median of these frames, divided by their pixels. Other programs that interrupt most frames in a
+// few tiles do not count so.
 struct PixelCost {
-  int frames = 0;
-  double tiles = 0.0;  // a frame's
+  int tiles = 0;
   double ns = 0.0, cycles = 0.0;
 };
 struct ShadingReport {
@@ -29,7 +29,7 @@ struct ShadingReport {
   PixelCost water, sky;
 };
 
-// At least one frame.
+// At least one frame, all of as many tiles; a tile's pixels are the same in all.
 ShadingReport report_shading(std::span<const ShadedFrame> frames, double clock_ghz);
 
 std::string shading_text(const ShadingReport& report);
