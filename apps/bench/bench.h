@@ -19,6 +19,7 @@ BenchMode add_bench_peer(CommandLine& program);
 BenchMode add_bench_query(CommandLine& program);
 BenchMode add_bench_scaling(CommandLine& program);
 BenchMode add_bench_sea_state(CommandLine& program);
+BenchMode add_bench_shading(CommandLine& program);
 BenchMode add_bench_waves(CommandLine& program);
 
 class Stopwatch {

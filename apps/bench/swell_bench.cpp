@@ -1,4 +1,4 @@
-// swell-bench: measures whole frames, the level of detail, height queries and sea states;
+// swell-bench: measures whole frames, shading, the level of detail, height queries and sea states;
 // predicts what more threads would give; draws figures of a scene's waves.
 #include "apps/bench/bench.h"
 #include "apps/shared/program.h"
@@ -11,7 +11,7 @@ void bench(int argc, char** argv) {
   const BenchMode modes[] = {add_bench_frame(line),   add_bench_lod(line),
                              add_bench_peer(line),    add_bench_query(line),
                              add_bench_scaling(line), add_bench_sea_state(line),
-                             add_bench_waves(line)};
+                             add_bench_shading(line), add_bench_waves(line)};
   if (!line.parse(argc, argv)) return;
   for (const BenchMode& mode : modes)
     if (mode.line.given()) mode.run();

@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "math/random.h"
 #include "texture/on_every_target.h"
 #include "texture/packed_map.h"
+#include "texture/rgba_texels.h"
 #include "texture/sample_packets.h"
 
 namespace swell::texture {
@@ -18,25 +18,6 @@ namespace {
 
 using Rgba = OnEveryTarget;
 INSTANTIATE_TEST_SUITE_P(Simd, Rgba, every_target(), target_name);
-
-RgbaImage random_image(int width, int height, std::uint64_t seed) {
-  RgbaImage image;
-  resize_image(width, height, image);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      image.texels[static_cast<std::size_t>(y) * image.stride + x] =
-          static_cast<std::uint32_t>(random_bits(seed, y * width + x));
-    }
-  }
-  fill_padding(image);
-  return image;
-}
-
-int channel(const RgbaImage& image, int x, int y, int c) {
-  x = std::clamp(x, 0, image.width - 1);
-  y = std::clamp(y, 0, image.height - 1);
-  return image.texels[static_cast<std::size_t>(y) * image.stride + x] >> (8 * c) & 0xff;
-}
 
 double clamped_fx8(double x, int texels) {
   return std::nearbyint(std::clamp(x - 0.5, 0.0, texels - 1.0) * 256.0) / 256.0;

@@ -18,6 +18,11 @@ struct Sample4 {
   bool operator==(const Sample4&) const = default;
 };
 
+struct Sample3 {
+  float r, g, b;
+  bool operator==(const Sample3&) const = default;
+};
+
 // Where to sample a map: coordinates in 1/256 texels of level 0, and a level. Spans of one length.
 struct MapPlaces {
   std::span<const int> x_fx8, y_fx8, level;
@@ -31,5 +36,8 @@ void add_blended(const PackedMap2& map, const MapPlaces& places, std::span<const
 
 std::vector<Sample4> sample_rgba(const RgbaImage& image, std::span<const float> x_px,
                                  std::span<const float> y_px);
+
+std::vector<Sample3> sample_rgb(const RgbMap& map, std::span<const float> x_fx8,
+                                std::span<const float> y_fx8);
 
 }  // namespace swell::texture

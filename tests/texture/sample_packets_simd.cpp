@@ -83,6 +83,23 @@ void rgba(const RgbaImage& image, std::span<const float> x_px, std::span<const f
   }
 }
 
+void rgb(const RgbMap& map, std::span<const float> x_fx8, std::span<const float> y_fx8,
+         std::span<Sample3> out) {
+  const D d;
+  HWY_ALIGN float x_packet[kLanes], y_packet[kLanes], channels[3][kLanes];
+  for (std::size_t first = 0; first < x_fx8.size(); first += kLanes) {
+    copy_packet(x_fx8, first, x_packet);
+    copy_packet(y_fx8, first, y_packet);
+    hn::Vec<D> r, g, b;
+    SampleRgb(d, map, hn::Load(d, x_packet), hn::Load(d, y_packet), r, g, b);
+    hn::Store(r, d, channels[0]);
+    hn::Store(g, d, channels[1]);
+    hn::Store(b, d, channels[2]);
+    for (std::size_t i = 0; i < kLanes && first + i < x_fx8.size(); ++i)
+      out[first + i] = {channels[0][i], channels[1][i], channels[2][i]};
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::texture
 HWY_AFTER_NAMESPACE();
@@ -93,6 +110,7 @@ namespace swell::texture {
 HWY_EXPORT(one_level);
 HWY_EXPORT(blended);
 HWY_EXPORT(rgba);
+HWY_EXPORT(rgb);
 
 std::vector<Sample2> sample_level(const PackedMap2& map, const MapPlaces& places) {
   std::vector<Sample2> out(places.level.size());
@@ -109,6 +127,13 @@ std::vector<Sample4> sample_rgba(const RgbaImage& image, std::span<const float> 
                                  std::span<const float> y_px) {
   std::vector<Sample4> out(x_px.size());
   HWY_DYNAMIC_DISPATCH(rgba)(image, x_px, y_px, out);
+  return out;
+}
+
+std::vector<Sample3> sample_rgb(const RgbMap& map, std::span<const float> x_fx8,
+                                std::span<const float> y_fx8) {
+  std::vector<Sample3> out(x_fx8.size());
+  HWY_DYNAMIC_DISPATCH(rgb)(map, x_fx8, y_fx8, out);
   return out;
 }
 
