@@ -5,6 +5,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "ocean/sea_state.h"
 
 namespace swell::render {
 namespace {
@@ -15,6 +16,20 @@ constexpr int kMostLongLayers = 2;
 void add_layer(const SlopeLayer& layer, Water& water) {
   SWELL_DCHECK(water.layer_count < kMaxSlopeLayers, "layers={}", water.layer_count);
   water.layers[water.layer_count++] = layer;
+}
+
+// How far a map of period length_m has drifted at t_s. In a sea that loops it drifts by whole
+// periods a loop along both axes: the nearest ones, but not by none.
+glm::dvec2 drift_m(const ocean::SeaDescription& sea, glm::dvec2 direction, double speed_mps,
+                   double length_m, double t_s) {
+  if (sea.loop_s == 0.0) return direction * (speed_mps * t_s);
+  const glm::dvec2 periods = direction * (speed_mps * sea.loop_s / length_m);
+  glm::dvec2 whole(std::nearbyint(periods.x), std::nearbyint(periods.y));
+  if (whole == glm::dvec2(0.0) && speed_mps != 0.0) {
+    const int axis = std::abs(periods.x) > std::abs(periods.y) ? 0 : 1;
+    whole[axis] = std::copysign(1.0, periods[axis]);
+  }
+  return whole * (length_m * (ocean::wave_time_s(sea, t_s) / sea.loop_s));
 }
 
 // Two layers of ripples that drift across each other, downwind.
@@ -34,7 +49,8 @@ void add_ripples(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
     const glm::dvec2 direction(sin(travel + r.turn_rad), cos(travel + r.turn_rad));
     const auto gain =
         static_cast<float>(scene.water.bump_strength * std::sqrt(r.part * variance / map_variance));
-    SlopeLayer layer = make_layer(bump, r.length_m, gain, eye, direction * (r.speed_mps * in.t_s));
+    const glm::dvec2 moved_m = drift_m(scene.sea, direction, r.speed_mps, r.length_m, in.t_s);
+    SlopeLayer layer = make_layer(bump, r.length_m, gain, eye, moved_m);
     layer.uv_noise_m = static_cast<float>(scene.water.uv_noise_amplitude);
     add_layer(layer, water);
   }
