@@ -1,4 +1,5 @@
-// The ripples, which are finer than any triangle: they drift, and loop with the sea.
+// The ripples, which are finer than any triangle: they drift, loop with the sea and die with the
+// wind.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,6 +94,42 @@ TEST(Ripples, DriftByTheNearestWholePeriodsOfALoop) {
       EXPECT_GE(glm::length(whole), 1.0 - slack) << loop_s << " " << i;
     }
   }
+}
+
+// ---- Under little wind
+
+// Slope variance of all that is finer than the sea's own waves, both axes together.
+double ripple_variance(double wind_mps) {
+  scene::Scene scene = ripple_scene();
+  scene.sea.wind_speed_mps = wind_mps;
+  Drawn drawn;
+  draw(World(scene), 0.0, drawn);
+  const Water& water = drawn.water();
+  double variance = water.base_variance;
+  for (int i = water.first_ripples; i < water.layer_count; ++i) {
+    const SlopeLayer& layer = water.layers[i];
+    variance += static_cast<double>(layer.map->lost_variance.back()) * layer.gain * layer.gain;
+  }
+  return variance;
+}
+
+TEST(Ripples, LeaveASeaWithoutWindAsGlass) {
+  const double glass = ripple_variance(0.0);
+  EXPECT_LE(glass, 1e-4);
+  // The sun's disc, half a degree across, has slopes within 0.0023: a narrower glint would be
+  // brighter than the disc itself.
+  EXPECT_GE(glass, 0.5 * 0.0023 * 0.0023);
+}
+
+TEST(Ripples, GrowWithTheWind) {
+  double before = 0.0;
+  for (const double wind : {0.0, 0.05, 0.2, 0.5, 0.8, 0.999, 1.0, 1.5, 3.0, 8.0, 20.0, 60.0}) {
+    const double variance = ripple_variance(wind);
+    EXPECT_GT(variance, before) << wind;
+    before = variance;
+  }
+  // Cox and Munk's variance: a quarter of it in the two maps.
+  EXPECT_NEAR(ripple_variance(5.0), 0.0012 + 0.25 * (0.003 + 0.00512 * 5.0), 1e-5);
 }
 
 }  // namespace
