@@ -139,10 +139,10 @@ Rows sea_rows() {
                         "another number, another sea of the same state"),
       SceneRow::number("sea.gravity_mps2", {0.1, 100, "m/s^2"}, SWELL_FIELD(sea.gravity_mps2),
                        "acceleration of free fall"),
-      SceneRow::or_zero(
-          SceneRow::number("sea.loop_s", {1, 100000, "s"}, SWELL_FIELD(sea.loop_s),
-                           "after this time the sea's waves repeat exactly, but not the ripples on "
-                           "them nor a coast's trains; 0: never")),
+      SceneRow::or_zero(SceneRow::number(
+          "sea.loop_s", {1, 100000, "s"}, SWELL_FIELD(sea.loop_s),
+          "after this time the sea's waves and the ripples on them repeat exactly, "
+          "but not a coast's trains; 0: never")),
       SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),
                        "middle of the rectangle that waves displace: east, north"),
       SceneRow::vector("sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),

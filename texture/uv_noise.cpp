@@ -38,6 +38,29 @@ UvNoise::UvNoise(const UvNoiseOptions& options) : options_(options), noise_(opti
 
 void UvNoise::evaluate(double t, std::span<float> cos_out, std::span<float> sin_out) {
   SWELL_CHECK(std::isfinite(t), "t={}", t);
+  write(
+      [&](int octave) {
+        const LatticePosition time = lattice_position(std::ldexp(t, octave), kPeriod);
+        return LatticeTimes{time.cell, time.cell + 1, cubic_weight(time.fraction)};
+      },
+      cos_out, sin_out);
+}
+
+void UvNoise::evaluate_looping(double t, int loop_cells, std::span<float> cos_out,
+                               std::span<float> sin_out) {
+  SWELL_CHECK(loop_cells >= 1 && loop_cells <= 1 << 20, "loop_cells={}", loop_cells);
+  SWELL_CHECK(t >= 0.0 && t <= loop_cells, "t={} loop_cells={}", t, loop_cells);
+  write(
+      [&](int octave) {
+        const double octave_t = std::ldexp(t, octave), cell = std::floor(octave_t);
+        const int cells = loop_cells << octave, now = static_cast<int>(cell) % cells;
+        return LatticeTimes{now, (now + 1) % cells, cubic_weight(octave_t - cell)};
+      },
+      cos_out, sin_out);
+}
+
+template <class TimesOf>
+void UvNoise::write(const TimesOf& times_of, std::span<float> cos_out, std::span<float> sin_out) {
   SWELL_CHECK(cos_out.size() == turns_.size() && sin_out.size() == turns_.size(), "cos={} sin={}",
               cos_out.size(), sin_out.size());
   double sum = 0.0, amplitude = 1.0;
@@ -47,21 +70,19 @@ void UvNoise::evaluate(double t, std::span<float> cos_out, std::span<float> sin_
   std::fill(turns_.begin(), turns_.end(), 0.0f);
   amplitude = options_.angle_turns / sum;
   for (int octave = 0; octave < options_.octaves; ++octave, amplitude *= options_.persistence) {
-    add_octave(octave, static_cast<float>(amplitude), std::ldexp(t, octave));
+    add_octave(octave, static_cast<float>(amplitude), times_of(octave));
   }
   write_unit_vectors(turns_, cos_out, sin_out);
 }
 
-void UvNoise::add_octave(int octave, float amplitude, double t) {
+void UvNoise::add_octave(int octave, float amplitude, const LatticeTimes& times) {
   const int size = options_.size, cells = options_.cells << octave, per_cell = size / cells;
-  // The lattice at time t.
-  const LatticePosition time = lattice_position(t, 256);
-  const float time_weight = cubic_weight(time.fraction);
+  // The lattice between the two times.
   for (int j = 0; j < cells; ++j) {
     for (int i = 0; i < cells; ++i) {
-      const float now = static_cast<float>(noise_.lattice3(i, j, time.cell));
-      const float next = static_cast<float>(noise_.lattice3(i, j, time.cell + 1));
-      plane_[static_cast<std::size_t>(j) * cells + i] = amplitude * mix(now, next, time_weight);
+      const float now = static_cast<float>(noise_.lattice3(i, j, times.now));
+      const float next = static_cast<float>(noise_.lattice3(i, j, times.next));
+      plane_[static_cast<std::size_t>(j) * cells + i] = amplitude * mix(now, next, times.weight);
     }
   }
   // Along rows, then between them.

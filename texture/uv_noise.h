@@ -30,11 +30,24 @@ class UvNoise {
   // ready for pack_map2. noise = sum of persistence^o value(2^o i cells / size, 2^o j cells / size,
   // 2^o t), o < octaves, divided by the sum of persistence^o; value is PerlinNoise's lattice with
   // cubic interpolation, wrapped at the grid's edges. t [cells] may be any finite time; the motion
-  // has a continuous speed and repeats after 256. About 0.01 ms for 64 x 64 and two octaves.
+  // has a continuous speed and repeats after kPeriod. About 0.01 ms for 64 x 64 and two octaves.
+  static constexpr int kPeriod = 256;
   void evaluate(double t, std::span<float> cos_out, std::span<float> sin_out);
 
+  // The same, but repeating after loop_cells, a whole number in [1, 2^20], in which it passes
+  // through as many values of the lattice: 1 stands still. t is in [0, loop_cells].
+  void evaluate_looping(double t, int loop_cells, std::span<float> cos_out,
+                        std::span<float> sin_out);
+
  private:
-  void add_octave(int octave, float amplitude, double t);
+  // Lattice times before and after t, and how far it lies between them.
+  struct LatticeTimes {
+    int now, next;
+    float weight;
+  };
+  void add_octave(int octave, float amplitude, const LatticeTimes& times);
+  template <class TimesOf>
+  void write(const TimesOf& times_of, std::span<float> cos_out, std::span<float> sin_out);
 
   UvNoiseOptions options_;
   PerlinNoise noise_;

@@ -88,6 +88,7 @@ void set_view(const Shading& s, const View& camera, const GlProgram& program) {
   program.set("sun_direction", s.light.sun_direction);
   program.set("sun_irradiance", s.light.sun_irradiance);
   program.set("ambient", s.light.ambient);
+  program.set("horizon", s.light.horizon);
   program.set("inv_haze_m", s.media.inv_haze_m);
   program.set("exposure", s.exposure);
   program.set("body", s.media.body);

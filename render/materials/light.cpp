@@ -12,6 +12,7 @@ Light make_light(const World::State& world) {
   light.sun_direction = sky.sun_direction;
   light.sun_irradiance = sky.sun_direction.z > 0.0f ? sky.sun_radiance : glm::vec3(0.0f);
   light.ambient = world.sky->ambient;
+  light.horizon = world.sky->horizon;
   light.sky_sharp = &world.sky->sharp;
   light.sky_soft = &world.sky->soft;
   return light;

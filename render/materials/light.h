@@ -15,6 +15,7 @@ struct Light {
   glm::vec3 sun_direction{0, 0, 1};
   glm::vec3 sun_irradiance{1.0f};
   glm::vec3 ambient{0.3f};  // the sky's mean radiance
+  glm::vec3 horizon{0.3f};  // its mean round the horizon
   const texture::RgbaImage* sky_sharp = nullptr;
   const texture::RgbMap* sky_soft = nullptr;
 };

@@ -5,6 +5,8 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/smoothstep.h"
+#include "ocean/sea_state.h"
 
 namespace swell::render {
 namespace {
@@ -12,9 +14,36 @@ namespace {
 constexpr double kUvNoisePeriod_m = 23.0;
 constexpr int kMostLongLayers = 2;
 
+// Slope variance of what is too fine for any map: in a breeze, and of glass, which spreads the
+// sun's disc to about twice its width.
+constexpr float kBaseVariance = 0.0012f, kGlassVariance = 2e-5f;
+
+// The wind that makes ripples; sines have a breeze of their own.
+double ripple_wind_mps(const scene::Scene& scene) {
+  return scene.sea.spectrum ? scene.sea.wind_speed_mps : 3.0;
+}
+
+// How much of the ripples there is: below 1 m/s the wind raises fewer and fewer, until the sea is
+// glass. Cox and Munk's line, which ends at 0.003, was fitted to winds of 0.7 to 14 m/s.
+double ripple_share(double wind_mps) { return smoothstep(0.0, 1.0, wind_mps); }
+
 void add_layer(const SlopeLayer& layer, Water& water) {
   SWELL_DCHECK(water.layer_count < kMaxSlopeLayers, "layers={}", water.layer_count);
   water.layers[water.layer_count++] = layer;
+}
+
+// How far a map of period length_m has drifted at t_s. In a sea that loops it drifts by whole
+// periods a loop along both axes: the nearest ones, but not by none.
+glm::dvec2 drift_m(const ocean::SeaDescription& sea, glm::dvec2 direction, double speed_mps,
+                   double length_m, double t_s) {
+  if (sea.loop_s == 0.0) return direction * (speed_mps * t_s);
+  const glm::dvec2 periods = direction * (speed_mps * sea.loop_s / length_m);
+  glm::dvec2 whole(std::nearbyint(periods.x), std::nearbyint(periods.y));
+  if (whole == glm::dvec2(0.0) && speed_mps != 0.0) {
+    const int axis = std::abs(periods.x) > std::abs(periods.y) ? 0 : 1;
+    whole[axis] = std::copysign(1.0, periods[axis]);
+  }
+  return whole * (length_m * (ocean::wave_time_s(sea, t_s) / sea.loop_s));
 }
 
 // Two layers of ripples that drift across each other, downwind.
@@ -24,8 +53,8 @@ void add_ripples(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
   // Ripple slopes grow with the wind as the sea's whole slope variance does.
   // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
-  const double wind = scene.sea.spectrum ? scene.sea.wind_speed_mps : 3.0;
-  const double variance = 0.25 * (0.003 + 0.00512 * wind);
+  const double wind = ripple_wind_mps(scene);
+  const double variance = ripple_share(wind) * 0.25 * (0.003 + 0.00512 * wind);
   const double travel = scene.sea.wind_from_rad + kPi;
   struct Ripples {
     double length_m, turn_rad, speed_mps, part;
@@ -34,7 +63,8 @@ void add_ripples(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
     const glm::dvec2 direction(sin(travel + r.turn_rad), cos(travel + r.turn_rad));
     const auto gain =
         static_cast<float>(scene.water.bump_strength * std::sqrt(r.part * variance / map_variance));
-    SlopeLayer layer = make_layer(bump, r.length_m, gain, eye, direction * (r.speed_mps * in.t_s));
+    const glm::dvec2 moved_m = drift_m(scene.sea, direction, r.speed_mps, r.length_m, in.t_s);
+    SlopeLayer layer = make_layer(bump, r.length_m, gain, eye, moved_m);
     layer.uv_noise_m = static_cast<float>(scene.water.uv_noise_amplitude);
     add_layer(layer, water);
   }
@@ -59,6 +89,9 @@ void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
               water);
   water.long_layer_count = std::min(water.layer_count, kMostLongLayers);
   water.first_ripples = water.layer_count;
+  water.base_variance =
+      std::lerp(kGlassVariance, kBaseVariance,
+                static_cast<float>(ripple_share(ripple_wind_mps(in.world.scene))));
   add_ripples(in, eye, water);
   for (const ocean::SineFrame& sine : in.sea.frame.sines)
     water.sines[water.sine_count++] = make_sine(sine, eye);

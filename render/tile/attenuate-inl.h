@@ -13,15 +13,19 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 // Blends towards the horizon's colour with distance, so that no edge of the sea shows. Haze of less
-// than half a step of the picture is left out: near packets then need no lookup.
+// than half a step of the picture is left out: near packets then need no lookup. Straight down
+// there is no azimuth to look up: within 45 degrees of it the mean of the horizon takes over.
 HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
   const D d;
   const V clear = Exp(d, hn::Mul(packet.distance, Constant(-s.media.inv_haze_m)));
   const V amount = hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), hn::Zero(d));
   if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;
   const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
-  const V horizontal = hn::Sqrt(hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f)));
-  const V3 horizon = SoftSkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, horizontal);
+  const V horizontal2 = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f));
+  V3 horizon = SoftSkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, hn::Sqrt(horizontal2));
+  const V steep = hn::Max(hn::NegMulAdd(horizontal2, Constant(2.0f), Constant(1.0f)), hn::Zero(d));
+  if (!hn::AllFalse(d, hn::Gt(steep, hn::Zero(d))))
+    horizon = Lerp(horizon, Constant(s.light.horizon), hn::Mul(steep, steep));
   return Lerp(colour, horizon, amount);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/sea_state.h"
+
 namespace swell::render {
 namespace {
 
@@ -24,10 +26,18 @@ void pack_patch(const ocean::PatchFrame& patch, texture::PackedMap2& map) {
   texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, map);
 }
 
-void pack_noise(double t_s, SeaMaps& sea) {
+// A sea that loops has whole cells of noise in its loop, two at least: one would stand still.
+void pack_noise(const ocean::SeaDescription& description, double t_s, SeaMaps& sea) {
   sea.noise_cos.resize(kUvNoiseSize * kUvNoiseSize);
   sea.noise_sin.resize(kUvNoiseSize * kUvNoiseSize);
-  sea.noise.evaluate(kUvNoiseCells_per_s * t_s, sea.noise_cos, sea.noise_sin);
+  if (const double loop_s = description.loop_s; loop_s == 0.0) {
+    sea.noise.evaluate(kUvNoiseCells_per_s * t_s, sea.noise_cos, sea.noise_sin);
+  } else {
+    const double cells = std::max(2.0, std::nearbyint(kUvNoiseCells_per_s * loop_s));
+    const double loops = ocean::wave_time_s(description, t_s) / loop_s;
+    sea.noise.evaluate_looping(cells * loops, static_cast<int>(cells), sea.noise_cos,
+                               sea.noise_sin);
+  }
   texture::pack_map2(kUvNoiseSize, sea.noise_cos, sea.noise_sin, 1.0f / 127.0f, sea.uv_noise);
 }
 
@@ -44,7 +54,7 @@ void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const Stag
     if (i < patches)
       pack_patch(sea.frame.patches[i], sea.patch_slopes[i]);
     else if (i == patches)
-      pack_noise(t_s, sea);
+      pack_noise(world.scene.sea, t_s, sea);
     else if (i == patches + 1)
       texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
                          sea.coast_slopes);

@@ -115,12 +115,23 @@ glm::vec3 ambient_radiance(const scene::Sky& sky, const texture::PerlinNoise& cl
   return sum / static_cast<float>(kRings * kSectors);
 }
 
+glm::vec3 horizon_radiance(const scene::Sky& sky, const texture::PerlinNoise& clouds) {
+  constexpr int kSectors = 96;
+  glm::vec3 sum(0.0f);
+  for (int j = 0; j < kSectors; ++j) {
+    const SinCos a = sin_cos_turns((j + 0.5) / kSectors);
+    sum += scene::sky_radiance(sky, clouds, glm::vec3(glm::dvec3(a.cos, a.sin, 0.0)));
+  }
+  return sum / static_cast<float>(kSectors);
+}
+
 }  // namespace
 
 SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers) {
   const texture::PerlinNoise clouds(sky.cloud_seed);
   return {encode(sample_sky(sky, clouds, kSharpSkySize, workers), kSharpSkySize, workers),
-          build_soft_sky(sky, clouds, workers), ambient_radiance(sky, clouds)};
+          build_soft_sky(sky, clouds, workers), ambient_radiance(sky, clouds),
+          horizon_radiance(sky, clouds)};
 }
 
 }  // namespace swell::render

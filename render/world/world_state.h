@@ -30,6 +30,7 @@ struct SkyMaps {
   texture::RgbaImage sharp;  // what the eye sees
   texture::RgbMap soft;      // what waves reflect, and the haze's colour at the horizon
   glm::vec3 ambient{0.0f};   // mean radiance of the upper hemisphere, cosine-weighted
+  glm::vec3 horizon{0.0f};   // mean radiance round the horizon
 };
 
 struct TerrainMaps {

@@ -203,6 +203,25 @@ TEST_P(MediaOptics, HazeOfLessThanHalfAStepIsLeftOut) {
   EXPECT_NE(seen[3], light);
 }
 
+// Within 45 degrees of straight down the mean of the horizon takes the place of what is seen at the
+// azimuth: wholly at 0, smoothly between.
+TEST_P(MediaOptics, HazeStraightDownIsTheHorizonsMean) {
+  HazyAir air;
+  air.shading.light.horizon = {0.9f, 0.5f, 0.1f};
+  for (const double degrees : {0.0, 0.1, 10.0, 30.0, 44.9, 45.1, 70.0}) {
+    const double horizontal = std::sin(degrees * kDegree);
+    const glm::vec3 to_eye(0.8 * horizontal, -0.6 * horizontal, std::cos(degrees * kDegree));
+    std::vector<glm::vec3> seen(1);
+    haze(air.shading, std::vector<float>{1e9f}, to_eye, {}, seen);
+    const double steep = std::max(1.0 - 2.0 * horizontal * horizontal, 0.0);
+    for (int c = 0; c < 3; ++c) {
+      const double mean = air.shading.light.horizon[c];
+      const double expected = air.horizon()[c] + (mean - air.horizon()[c]) * steep * steep;
+      EXPECT_NEAR(seen[0][c], (1.0 - kHazeCut) * expected, 2e-6) << degrees;
+    }
+  }
+}
+
 // ---- Views
 
 TEST(RenderViews, SqueezeIsTheTablesApparentDepth) {

@@ -108,6 +108,30 @@ TEST(UvNoise, DependsOnTheTimeAlone) {
   EXPECT_EQ(frame_of(used, 64, 0.75), frame_of(used, 64, 256.75));
 }
 
+Frame looping_frame(UvNoise& noise, double t, int loop_cells) {
+  Frame frame{std::vector<float>(64 * 64), std::vector<float>(64 * 64)};
+  noise.evaluate_looping(t, loop_cells, frame.cos, frame.sin);
+  return frame;
+}
+
+// Only the way from the last lattice time of an octave to the first is not what it is without a
+// loop.
+TEST(UvNoise, ALoopEndsWhereItBegan) {
+  UvNoise noise({});
+  for (const int cells : {2, 5, 256, 300}) {
+    const Frame first = looping_frame(noise, 0.0, cells);
+    EXPECT_EQ(looping_frame(noise, cells, cells), first) << cells;
+    for (const double t : {0.0, 0.3, 0.75, cells - 1.25, cells - 1.0})
+      EXPECT_EQ(looping_frame(noise, t, cells), frame_of(noise, 64, t)) << t << " " << cells;
+    // Continuous at the end.
+    const double step = 1.0 / 256;
+    const Frame last = looping_frame(noise, cells - step, cells);
+    for (std::size_t n = 0; n < first.sin.size(); n += 7)
+      ASSERT_LT(std::abs(last.sin[n] - first.sin[n]), 12.6 * step) << cells;
+    EXPECT_NE(looping_frame(noise, 0.5 * cells, cells), first) << cells;
+  }
+}
+
 TEST(UvNoise, TargetsGiveTheSameBits) {
   if (!simd_target_available(SimdTarget::kAvx512)) GTEST_SKIP() << "this CPU lacks AVX-512";
   UvNoise noise({});

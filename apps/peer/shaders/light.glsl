@@ -1,6 +1,6 @@
 // What all fragment shaders share: sky, haze, water's absorption, from light to a picture.
 uniform sampler2D sky_soft;
-uniform vec3 sun_direction, sun_irradiance, ambient;
+uniform vec3 sun_direction, sun_irradiance, ambient, horizon;
 uniform float inv_haze_m, exposure, refraction_index;
 uniform vec3 body, absorption_per_m;
 uniform float pixel_angle_log2;
@@ -30,8 +30,10 @@ float fresnel(float cos_theta, float n) {
 vec3 add_haze(vec3 colour, vec3 to_eye, float distance_m) {
   float amount = max((1.0 - 1.0 / 512.0) - exp(-inv_haze_m * distance_m), 0.0);
   vec2 away = -to_eye.xy;
-  float to_rim = 0.5 * inversesqrt(max(dot(away, away), 1e-12));
-  return mix(colour, decode(texture(sky_soft, away * to_rim + 0.5).rgb), amount);
+  float horizontal2 = max(dot(away, away), 1e-12);
+  float to_rim = 0.5 * inversesqrt(horizontal2), steep = max(1.0 - 2.0 * horizontal2, 0.0);
+  vec3 sky = mix(decode(texture(sky_soft, away * to_rim + 0.5).rgb), horizon, steep * steep);
+  return mix(colour, sky, amount);
 }
 
 // Light's way through water to something at an apparent depth: x is the true depth, y the length of
