@@ -168,11 +168,43 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   return s;
 }
 
+// What a lookup image shows at a place, and what part of the place it fills.
+struct Looked {
+  V3 light;
+  V alpha;
+};
+
+// Looks a lookup image up at a window position. Samples beside nothing are no darker: only their
+// alpha is less.
+HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
+  const D d;
+  const V one = Constant(1.0f);
+  Looked seen;
+  seen.light = LookUp(*lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
+                      hn::Mul(y_px, Constant(lookup.scale_y)), seen.alpha);
+  const auto is_part = hn::And(hn::Gt(seen.alpha, hn::Zero(d)), hn::Lt(seen.alpha, one));
+  if (hn::AllFalse(d, is_part)) return seen;
+  // The codes that were blended with zeros are square roots of light.
+  const V whole = hn::Div(one, hn::Max(seen.alpha, Constant(1.0f / 512.0f)));
+  seen.light = Scale(seen.light, hn::Mul(whole, whole));
+  return seen;
+}
+
+// What `front` leaves of a place shows `behind`.
+HWY_INLINE Looked LayOver(const Looked& front, const Looked& behind) {
+  const V shown = hn::Mul(hn::Sub(Constant(1.0f), front.alpha), behind.alpha);
+  const V alpha = hn::Add(front.alpha, shown);
+  const V part = hn::Div(shown, hn::Max(alpha, Constant(1.0f / 512.0f)));
+  return {Lerp(front.light, behind.light, part), alpha};
+}
+
 // Looks a lookup image up at the pixel's own window position, moved by the slopes (spec: distortion
 // tied to the bump, fading where the surface is seen edge-on so that far, small things hold
-// together).
-HWY_INLINE V3 LookUpDistorted(const Water& water, const LookupImage& lookup, const Packet& packet,
-                              const WaterSlopes& s, float sign, V& alpha) {
+// together). Where kBacked, what is not found there is looked up at the pixel's own position.
+template <bool kBacked>
+HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
+                                  const Packet& packet, const WaterSlopes& s, float sign) {
+  const D d;
   const V right = hn::MulAdd(s.slope_x, Constant(water.view_right.x),
                              hn::Mul(s.slope_y, Constant(water.view_right.y)));
   const V ahead = hn::MulAdd(s.slope_x, Constant(water.view_ahead.x),
@@ -183,9 +215,10 @@ HWY_INLINE V3 LookUpDistorted(const Water& water, const LookupImage& lookup, con
   const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
   const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
   const V half = Constant(0.5f);
-  const V x = hn::Mul(hn::Add(hn::Add(packet.x_px, half), dx), Constant(lookup.scale_x));
-  const V y = hn::Mul(hn::Add(hn::Add(packet.y_px, half), dy), Constant(lookup.scale_y));
-  return LookUp(*lookup.image, x, y, alpha);
+  const V x = hn::Add(packet.x_px, half), y = hn::Add(packet.y_px, half);
+  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy));
+  const bool found = hn::AllTrue(d, hn::Ge(moved.alpha, Constant(1.0f)));
+  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y));
 }
 
 // What the surface mirrors: the sky in the reflected direction, and in front of it whatever the
@@ -200,8 +233,9 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
   image_alpha = hn::Zero(D());
   if (use_image) {
-    const V3 image = LookUpDistorted(water, water.reflection, packet, s, 1.0f, image_alpha);
-    mirrored = Lerp(mirrored, image, image_alpha);
+    const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
+    image_alpha = image.alpha;
+    mirrored = Lerp(mirrored, image.light, image_alpha);
   }
   return mirrored;
 }
@@ -221,8 +255,9 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   V3 light = ScaleAdd(Constant(water.crest_glow), glow, Constant(shading.media.body));
   image_alpha = hn::Zero(D());
   if (use_image) {
-    const V3 floor = LookUpDistorted(water, water.refraction, packet, s, -0.5f, image_alpha);
-    light = Lerp(light, floor, image_alpha);
+    const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
+    image_alpha = floor.alpha;
+    light = Lerp(light, floor.light, image_alpha);
   }
   return light;
 }

@@ -1,0 +1,118 @@
+// The line where sea and land meet, as it is seen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/labelled_frame.h"
+
+namespace swell::render {
+namespace {
+
+constexpr glm::ivec2 kSize_px(1280, 720);
+
+double luma(std::uint32_t rgba) {
+  const auto channel = [&](int shift) { return static_cast<double>(rgba >> shift & 255u); };
+  return 0.2126 * channel(0) + 0.7152 * channel(8) + 0.0722 * channel(16);
+}
+
+// Marks what is at most `reach_px` from both water and land.
+std::vector<char> mark_shore(const LabelledFrame& frame, int reach_px) {
+  const glm::ivec2 size(frame.view.width_px, frame.view.height_px);
+  const std::vector<std::uint32_t>& id = frame.labels().id;
+  std::vector<char> near(id.size(), 0);
+  for (int y = 1; y < size.y; ++y)
+    for (int x = 1; x < size.x; ++x) {
+      const std::uint32_t here = id[frame.at({x, y})];
+      const auto meets = [&](std::uint32_t other) {
+        return (here == kWaterId && other == kLandId) || (here == kLandId && other == kWaterId);
+      };
+      if (!meets(id[frame.at({x - 1, y})]) && !meets(id[frame.at({x, y - 1})])) continue;
+      for (int v = std::max(y - reach_px, 0); v <= std::min(y + reach_px, size.y - 1); ++v)
+        for (int u = std::max(x - reach_px, 0); u <= std::min(x + reach_px, size.x - 1); ++u)
+          near[frame.at({u, v})] = 1;
+    }
+  return near;
+}
+
+// Pixels of water near the shore that are darker than each of their eight neighbours by a tenth,
+// though they mirror nothing dark: a hill's image breaks up into small pieces at its edge.
+int count_specks(const LabelledFrame& frame) {
+  const std::vector<char> near = mark_shore(frame, 30);
+  const auto luma_at = [&](int x, int y) { return luma(frame.target.rgba[frame.at({x, y})]); };
+  int specks = 0;
+  for (int y = 1; y + 1 < frame.view.height_px; ++y)
+    for (int x = 1; x + 1 < frame.view.width_px; ++x) {
+      const std::size_t at = frame.at({x, y});
+      const bool mirrors = (frame.labels().flags[at] & kShowsMirrored) != 0;
+      if (!near[at] || mirrors || frame.labels().id[at] != kWaterId) continue;
+      double darkest = 255.0;
+      for (int v = -1; v <= 1; ++v)
+        for (int u = -1; u <= 1; ++u)
+          if (u != 0 || v != 0) darkest = std::min(darkest, luma_at(x + u, y + v));
+      specks += darkest - luma_at(x, y) > 25.0;
+    }
+  return specks;
+}
+
+// Pixels of water near the shore that show no floor.
+int count_floorless(const LabelledFrame& frame) {
+  const std::vector<char> near = mark_shore(frame, 30);
+  int count = 0;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    count += near[i] && frame.labels().id[i] == kWaterId &&
+             (frame.labels().flags[i] & kShowsRefracted) == 0;
+  return count;
+}
+
+View view_from(const scene::Scene& scene, glm::dvec3 eye, double heading_rad, double pitch_rad) {
+  return make_view(eye, camera_axes(heading_rad, pitch_rad, 0.0),
+                   lens_of_fov(scene.camera.fov_y_rad, kSize_px.x, kSize_px.y), 0.25f, kSize_px.x,
+                   kSize_px.y);
+}
+
+constexpr std::array kDistortions = {0.06, 0.2, 0.5};
+
+// ---- Lookups
+
+class ShippedShores : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedShores, testing::Values("beach", "lagoon"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(ShippedShores, HaveNoDarkSpecksHoweverFarLookupsAreMoved) {
+  scene::Scene scene = load_shipped(GetParam());
+  const scene::Camera& camera = scene.camera;
+  const View view = view_from(scene, camera.eye_m, camera.heading_rad, camera.pitch_rad);
+  for (const double distortion : kDistortions) {
+    scene.water.distortion = distortion;
+    const World world(scene, 2);
+    for (const double t_s : {0.0, 5.0, 23.0}) {
+      const LabelledFrame frame(world, view, t_s);
+      EXPECT_EQ(count_specks(frame), 0) << distortion << " " << t_s;
+    }
+  }
+}
+
+// The lagoon in a strong breeze, from where there is a floor under all of the water near the shore.
+// Lookups that were moved onto dry land found nothing, and showed deep water in the shallows.
+TEST(Lookups, ShowTheFloorOfShallowWaterHoweverSteepItsWaves) {
+  scene::Scene scene = load_shipped("lagoon");
+  scene.sea.wind_speed_mps = 12.0;
+  scene.sea.amplitude_scale = 1.0;
+  for (const double distortion : kDistortions) {
+    scene.water.distortion = distortion;
+    const World world(scene, 2);
+    const auto expect_floor = [&](const View& view, double t_s) {
+      const LabelledFrame frame(world, view, t_s);
+      EXPECT_EQ(count_floorless(frame), 0) << distortion;
+      EXPECT_EQ(count_specks(frame), 0) << distortion;
+    };
+    expect_floor(view_from(scene, {178.2, 90.7, 2.5}, 4.24, -0.15), 3.7);
+    expect_floor(view_from(scene, {-190.3, -61.5, 6.0}, 1.26, -0.15), 14.8);
+  }
+}
+
+}  // namespace
+}  // namespace swell::render
