@@ -114,5 +114,44 @@ TEST(Lookups, ShowTheFloorOfShallowWaterHoweverSteepItsWaves) {
   }
 }
 
+// ---- The floor
+
+// Mean square-root code of the ground's reflectance, red and green together, by height in steps of
+// 0.1 m from 3 m below the water to 1 m over it.
+std::vector<double> ground_codes(const World& world) {
+  constexpr double kLow_m = -3.0, kStep_m = 0.1;
+  constexpr int kSteps = 40;
+  const terrain::HeightGrid& land = *world.state().terrain;
+  const texture::RgbaImage& albedo = world.state().terrain_maps->albedo;
+  const terrain::Grid texels{land.grid.min_world, land.grid.size_m() / albedo.width, albedo.width,
+                             albedo.height};
+  const std::vector<float> height_m = terrain::resample(land, texels).height_m;
+  std::vector<double> sum(kSteps), count(kSteps);
+  for (int y = 0; y < albedo.height; ++y)
+    for (int x = 0; x < albedo.width; ++x) {
+      const double above_m = height_m[static_cast<std::size_t>(y) * albedo.width + x] - kLow_m;
+      const auto step = static_cast<std::size_t>(std::max(above_m / kStep_m, 0.0));
+      if (above_m < 0.0 || step >= kSteps) continue;
+      const std::uint32_t texel = albedo.texels[static_cast<std::size_t>(y) * albedo.stride + x];
+      sum[step] += 0.5 * ((texel & 255u) + (texel >> 8 & 255u));
+      ++count[step];
+    }
+  for (std::size_t k = 0; k < kSteps; ++k) sum[k] /= count[k];
+  return sum;
+}
+
+// Once it did in one step at half a metre of depth, from wet sand to dry, which drew a line along
+// every shore.
+TEST(Floor, BrightensWithDepthLittleByLittle) {
+  for (const char* name : {"beach", "lagoon"}) {
+    const std::vector<double> code = ground_codes(shipped_world(name));
+    for (std::size_t k = 1; k < code.size(); ++k)
+      EXPECT_NEAR(code[k], code[k - 1], 12.0) << name << " " << k;
+    const double darkest = *std::ranges::min_element(code);
+    EXPECT_GT(code.front(), darkest + 10.0) << name;
+    EXPECT_GT(code.back(), darkest + 10.0) << name;
+  }
+}
+
 }  // namespace
 }  // namespace swell::render
