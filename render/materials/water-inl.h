@@ -287,6 +287,27 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
+// How the water's surface meets the eye.
+struct Facing {
+  V3 normal;
+  V cos_eye;    // negative on back sides of waves that the mesh does not hide
+  V cos_rough;  // of the facets that are seen
+  V reflectance;
+};
+
+HWY_INLINE Facing FaceEye(const Media& media, const Packet& packet, const WaterSlopes& s) {
+  const D d;
+  Facing f;
+  f.normal = NormalOf(s.slope_x, s.slope_y);
+  f.cos_eye = Dot(f.normal, packet.to_eye);
+  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
+  // view; a back side counts as the facets in front of it, or crests would be lined with light.
+  f.cos_rough = hn::Sqrt(
+      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(f.cos_eye, f.cos_eye, Constant(0.006f))));
+  f.reflectance = FresnelReflectance(d, f.cos_rough, media.refraction_index);
+  return f;
+}
+
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
 HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
@@ -309,28 +330,19 @@ struct WaterShader {
 
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
                                const Packet& packet, const WaterSlopes& s) const {
-    const D d;
     const Light& light = shading.light;
-    // Normal, and the cosine to the eye, negative on back sides of waves that the mesh does not
-    // hide.
-    const V3 normal = NormalOf(s.slope_x, s.slope_y);
-    const V cos_eye = Dot(normal, packet.to_eye);
-    // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
-    // view; a back side counts as the facets in front of it, or crests would be lined with light.
-    const V cos_rough = hn::Sqrt(
-        hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
-    const V reflectance = FresnelReflectance(d, cos_rough, shading.media.refraction_index);
+    const Facing f = FaceEye(shading.media, packet, s);
 
     V mirrored_alpha, refracted_alpha;
-    const V3 mirrored = ReflectedLight(light, water, packet, s, normal, cos_eye,
+    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye,
                                        tile.lookups.reflection, mirrored_alpha);
     const V3 refracted =
         RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
-    const V3 arriving = Lerp(refracted, mirrored, reflectance);
-    const V glint = SunGlint(light.sun_direction, packet, s, reflectance, cos_rough);
+    const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
+    const V glint = SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
     if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
-    return {seen, normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
+    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -111,6 +112,67 @@ TEST(Lookups, ShowTheFloorOfShallowWaterHoweverSteepItsWaves) {
     };
     expect_floor(view_from(scene, {178.2, 90.7, 2.5}, 4.24, -0.15), 3.7);
     expect_floor(view_from(scene, {-190.3, -61.5, 6.0}, 1.26, -0.15), 14.8);
+  }
+}
+
+// ---- Swash
+
+// How water and the land that comes next to it in a row or a column, at about the same depth,
+// differ: means over all such pairs and over red, green and blue.
+struct Steps {
+  double mean = 0.0;  // of the differences' sizes
+  double bias = 0.0;  // size of the mean difference of each colour
+};
+
+Steps steps_at_shore(const LabelledFrame& frame) {
+  const Labels& labels = frame.labels();
+  Steps steps;
+  std::array<double, 3> sums{};
+  int pairs = 0;
+  const auto compare = [&](std::size_t water, std::size_t land) {
+    if (labels.id[water] != kWaterId || labels.id[land] != kLandId) return;
+    const float depth_m = labels.depth_m[water];
+    if (std::abs(depth_m - labels.depth_m[land]) > 0.1f * depth_m) return;
+    ++pairs;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto channel = [&](std::size_t i) {
+        return static_cast<double>(frame.target.rgba[i] >> 8 * k & 255u);
+      };
+      const double step = channel(water) - channel(land);
+      steps.mean += std::abs(step);
+      sums[k] += step;
+    }
+  };
+  for (int y = 1; y < frame.view.height_px; ++y)
+    for (int x = 1; x < frame.view.width_px; ++x)
+      for (const glm::ivec2& before : {glm::ivec2(x - 1, y), glm::ivec2(x, y - 1)}) {
+        compare(frame.at({x, y}), frame.at(before));
+        compare(frame.at(before), frame.at({x, y}));
+      }
+  EXPECT_GT(pairs, 300);
+  steps.mean /= 3.0 * pairs;
+  for (const double sum : sums) steps.bias += std::abs(sum) / (3.0 * pairs);
+  return steps;
+}
+
+// The sheets on the sand are the sea's water, with its ripples and its foam: one does not see where
+// the one ends and the other begins. Ripples alone make neighbours differ by 2 to 9.
+TEST(Swash, GoesOnWhereTheSeaEnds) {
+  const World& world = shipped_world("beach");
+  const scene::Camera& camera = world.scene().camera;
+  FrameOptions options;
+  options.labels = LabelSet::all();
+  options.edge_samples = 0;  // which would blend the two
+  for (const double t_s : {0.0, 3.0, 6.0, 9.0, 12.0}) {
+    const auto expect_joined = [&](glm::dvec3 eye, double pitch_rad) {
+      const View view = view_from(world.scene(), eye, camera.heading_rad, pitch_rad);
+      const Steps steps = steps_at_shore({world, view, t_s, options});
+      EXPECT_LT(steps.bias, 8.0) << t_s;
+      EXPECT_LT(steps.mean, 15.0) << t_s;
+    };
+    expect_joined(camera.eye_m, camera.pitch_rad);
+    expect_joined({-150.0, -235.0, 2.5}, -0.2);
+    expect_joined({-100.0, -230.0, 80.0}, -1.4);
   }
 }
 
