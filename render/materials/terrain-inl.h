@@ -9,6 +9,7 @@
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/terrain.h"
+#include "render/materials/water-inl.h"
 #include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -84,8 +85,33 @@ HWY_INLINE SwashEdge FindSwashEdge(const Swash& swash, V3 p) {
   return {edge, hn::MulAdd(cosine, hn::Neg(half), half)};
 }
 
-// Wet sand mirrors the sky; a sheet of water with foam at its rim runs over it. `ground` is the
-// ground's light at p, whose height is height_m.
+// The sea's waves where they run out over the sand: `kept` of them is left, in [0, 1].
+HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V kept) {
+  const V zero = hn::Zero(D());
+  const Water& water = s.material<Water>();
+  const V flat = Constant(water.base_variance);
+  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero};
+  const WaterSlopes sea =
+      SampleWater<true>(water, s.rays, std::array{packet}, std::make_index_sequence<1>())[0];
+  return {hn::Mul(sea.slope_x, kept), hn::Mul(sea.slope_y, kept), Lerp(flat, sea.variance, kept),
+          hn::Mul(sea.foam_cover, kept)};
+}
+
+// Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.
+// None where the sea begins, which brings its own.
+HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V calm) {
+  const V from_rim = hn::Mul(below, Constant(1.0f / reach_m));
+  const V rim = Clamp(hn::NegMulAdd(from_rim, Constant(9.0f), Constant(1.0f)), 0.0f, 1.0f);
+  const V lace = Clamp(hn::NegMulAdd(from_rim, Constant(0.9f), Constant(0.6f)), 0.0f, 1.0f);
+  const V fresh = hn::NegMulAdd(swash.retreat, Constant(0.6f), Constant(1.0f));
+  const V begun = hn::Min(hn::Mul(calm, Constant(2.0f)), Constant(1.0f));
+  const V foam = hn::Mul(hn::Max(rim, lace), hn::Mul(fresh, begun));
+  return hn::IfThenElseZero(hn::Gt(below, hn::Zero(D())), foam);
+}
+
+// Wet sand mirrors the sky; a sheet of water with foam at its rim runs over it, and at the sea's
+// level both are what the sea is where it has no depth. `ground` is the ground's light at p, whose
+// height is height_m.
 HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& packet, V level_m,
                        V height_m, V3 ground) {
   const D d;
@@ -96,22 +122,30 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   // Sand stays wet for a while up to where the sheets come.
   const V dry = Clamp(hn::Mul(height_m, Constant(1.0f / (1.6f * reach_m))), 0.0f, 1.0f);
   const V wet = hn::NegMulAdd(hn::Mul(dry, dry), dry, Constant(1.0f));
-  const V cos_eye = Clamp(packet.to_eye.z, 0.05f, 1.0f);
-  const V mirror = FresnelReflectance(d, cos_eye, s.media.refraction_index);
-  const V3 up = {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), hn::Abs(packet.to_eye.z)};
-  const V3 sky = SoftSkyRadiance(*s.light.sky_soft, up, Constant(1.0f));
+  const V calm = Clamp(hn::Mul(height_m, Constant(4.0f / reach_m)), 0.0f, 1.0f);
   const V below = hn::Sub(swash.edge_m, height_m);  // of the sheet's rim [m of height]
   const V sheet = Clamp(hn::Mul(below, Constant(40.0f)), 0.0f, 1.0f);
-  const V shine = hn::Mul(mirror, hn::MulAdd(sheet, Constant(0.5f), hn::Mul(wet, Constant(0.5f))));
-  const V darkened = hn::NegMulAdd(wet, Constant(0.15f), Constant(1.0f));
-  V3 light = Lerp(Scale(ground, darkened), sky, shine);
-  // A bright rim, then lace that thins out.
-  const V from_rim = hn::Mul(below, Constant(1.0f / reach_m));
-  const V rim = Clamp(hn::NegMulAdd(from_rim, Constant(9.0f), Constant(1.0f)), 0.0f, 1.0f);
-  const V lace = Clamp(hn::NegMulAdd(from_rim, Constant(0.9f), Constant(0.6f)), 0.0f, 1.0f);
-  const V fresh = hn::NegMulAdd(swash.retreat, Constant(0.6f), Constant(1.0f));
-  const V foam = hn::IfThenElseZero(hn::Gt(below, hn::Zero(d)), hn::Mul(hn::Max(rim, lace), fresh));
-  light = AddFoam(terrain.foam, FoamCover(terrain.foam, packet.p, level_m, foam), light);
+  // The sea thins out over a little of the sand, also where no sheet comes in.
+  const V film =
+      hn::Max(sheet, Clamp(hn::NegMulAdd(calm, Constant(1.5f), Constant(1.0f)), 0.0f, 1.0f));
+
+  const WaterSlopes waves = SampleRunOut(s, packet, hn::NegMulAdd(calm, film, film));
+  const Facing f = FaceEye(s.media, packet, waves);
+  V unused;
+  const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f.normal,
+                                     f.cos_eye, false, unused);
+  const V half = Constant(0.5f);
+  const V shine = hn::Mul(f.reflectance, hn::MulAdd(film, half, hn::Mul(wet, half)));
+  const V bare = hn::NegMulAdd(wet, film, wet);
+  const V darkened = hn::NegMulAdd(bare, Constant(0.15f), Constant(1.0f));
+  V3 light = Lerp(Scale(ground, darkened), mirrored, shine);
+  if (!hn::AllFalse(d, hn::Gt(film, hn::Zero(d)))) {
+    const V glint = SunGlint(s.light.sun_direction, packet, waves, f.reflectance, f.cos_rough);
+    light = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, film), light);
+  }
+  const V foam = SheetFoam(reach_m, swash, below, calm);
+  const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
+  light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover), light);
   return {hn::IfThenElse(reached, light.x, ground.x), hn::IfThenElse(reached, light.y, ground.y),
           hn::IfThenElse(reached, light.z, ground.z)};
 }

@@ -168,11 +168,43 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   return s;
 }
 
+// What a lookup image shows at a place, and what part of the place it fills.
+struct Looked {
+  V3 light;
+  V alpha;
+};
+
+// Looks a lookup image up at a window position. Samples beside nothing are no darker: only their
+// alpha is less.
+HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
+  const D d;
+  const V one = Constant(1.0f);
+  Looked seen;
+  seen.light = LookUp(*lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
+                      hn::Mul(y_px, Constant(lookup.scale_y)), seen.alpha);
+  const auto is_part = hn::And(hn::Gt(seen.alpha, hn::Zero(d)), hn::Lt(seen.alpha, one));
+  if (hn::AllFalse(d, is_part)) return seen;
+  // The codes that were blended with zeros are square roots of light.
+  const V whole = hn::Div(one, hn::Max(seen.alpha, Constant(1.0f / 512.0f)));
+  seen.light = Scale(seen.light, hn::Mul(whole, whole));
+  return seen;
+}
+
+// What `front` leaves of a place shows `behind`.
+HWY_INLINE Looked LayOver(const Looked& front, const Looked& behind) {
+  const V shown = hn::Mul(hn::Sub(Constant(1.0f), front.alpha), behind.alpha);
+  const V alpha = hn::Add(front.alpha, shown);
+  const V part = hn::Div(shown, hn::Max(alpha, Constant(1.0f / 512.0f)));
+  return {Lerp(front.light, behind.light, part), alpha};
+}
+
 // Looks a lookup image up at the pixel's own window position, moved by the slopes (spec: distortion
 // tied to the bump, fading where the surface is seen edge-on so that far, small things hold
-// together).
-HWY_INLINE V3 LookUpDistorted(const Water& water, const LookupImage& lookup, const Packet& packet,
-                              const WaterSlopes& s, float sign, V& alpha) {
+// together). Where kBacked, what is not found there is looked up at the pixel's own position.
+template <bool kBacked>
+HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
+                                  const Packet& packet, const WaterSlopes& s, float sign) {
+  const D d;
   const V right = hn::MulAdd(s.slope_x, Constant(water.view_right.x),
                              hn::Mul(s.slope_y, Constant(water.view_right.y)));
   const V ahead = hn::MulAdd(s.slope_x, Constant(water.view_ahead.x),
@@ -183,9 +215,10 @@ HWY_INLINE V3 LookUpDistorted(const Water& water, const LookupImage& lookup, con
   const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
   const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
   const V half = Constant(0.5f);
-  const V x = hn::Mul(hn::Add(hn::Add(packet.x_px, half), dx), Constant(lookup.scale_x));
-  const V y = hn::Mul(hn::Add(hn::Add(packet.y_px, half), dy), Constant(lookup.scale_y));
-  return LookUp(*lookup.image, x, y, alpha);
+  const V x = hn::Add(packet.x_px, half), y = hn::Add(packet.y_px, half);
+  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy));
+  const bool found = hn::AllTrue(d, hn::Ge(moved.alpha, Constant(1.0f)));
+  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y));
 }
 
 // What the surface mirrors: the sky in the reflected direction, and in front of it whatever the
@@ -200,8 +233,9 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
   image_alpha = hn::Zero(D());
   if (use_image) {
-    const V3 image = LookUpDistorted(water, water.reflection, packet, s, 1.0f, image_alpha);
-    mirrored = Lerp(mirrored, image, image_alpha);
+    const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
+    image_alpha = image.alpha;
+    mirrored = Lerp(mirrored, image.light, image_alpha);
   }
   return mirrored;
 }
@@ -221,8 +255,9 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   V3 light = ScaleAdd(Constant(water.crest_glow), glow, Constant(shading.media.body));
   image_alpha = hn::Zero(D());
   if (use_image) {
-    const V3 floor = LookUpDistorted(water, water.refraction, packet, s, -0.5f, image_alpha);
-    light = Lerp(light, floor, image_alpha);
+    const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
+    image_alpha = floor.alpha;
+    light = Lerp(light, floor.light, image_alpha);
   }
   return light;
 }
@@ -252,6 +287,27 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
+// How the water's surface meets the eye.
+struct Facing {
+  V3 normal;
+  V cos_eye;    // negative on back sides of waves that the mesh does not hide
+  V cos_rough;  // of the facets that are seen
+  V reflectance;
+};
+
+HWY_INLINE Facing FaceEye(const Media& media, const Packet& packet, const WaterSlopes& s) {
+  const D d;
+  Facing f;
+  f.normal = NormalOf(s.slope_x, s.slope_y);
+  f.cos_eye = Dot(f.normal, packet.to_eye);
+  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
+  // view; a back side counts as the facets in front of it, or crests would be lined with light.
+  f.cos_rough = hn::Sqrt(
+      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(f.cos_eye, f.cos_eye, Constant(0.006f))));
+  f.reflectance = FresnelReflectance(d, f.cos_rough, media.refraction_index);
+  return f;
+}
+
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
 HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
@@ -274,30 +330,21 @@ struct WaterShader {
 
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
                                const Packet& packet, const WaterSlopes& s) const {
-    const D d;
     const Light& light = shading.light;
-    // Normal, and the cosine to the eye, negative on back sides of waves that the mesh does not
-    // hide.
-    const V3 normal = NormalOf(s.slope_x, s.slope_y);
-    const V cos_eye = Dot(normal, packet.to_eye);
-    // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
-    // view; a back side counts as the facets in front of it, or crests would be lined with light.
-    const V cos_rough = hn::Sqrt(
-        hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(cos_eye, cos_eye, Constant(0.006f))));
-    const V reflectance = FresnelReflectance(d, cos_rough, shading.media.refraction_index);
+    const Facing f = FaceEye(shading.media, packet, s);
 
     V mirrored_alpha, refracted_alpha;
-    const V3 mirrored = ReflectedLight(light, water, packet, s, normal, cos_eye,
+    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye,
                                        tile.lookups.reflection, mirrored_alpha);
     const V3 refracted =
         RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
-    const V3 arriving = Lerp(refracted, mirrored, reflectance);
+    const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
     // What is mirrored in front of the sky hides the sun's path in it too.
-    const V glint = hn::Mul(SunGlint(light.sun_direction, packet, s, reflectance, cos_rough),
+    const V glint = hn::Mul(SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough),
                             hn::Sub(Constant(1.0f), mirrored_alpha));
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
     if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
-    return {seen, normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
+    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

@@ -15,7 +15,8 @@ namespace {
 constexpr int kTerrainMapSize = 1024;
 
 // Reflectance of the ground by height, steepness and noise: sand, then scrub and forest, rock
-// where it is steep, grey-green growth in deeper water.
+// where it is steep, grey-green growth in deeper water. Wet sand passes into the floor's colours
+// within two metres of depth.
 glm::vec3 ground_albedo(float height_m, float steepness, float noise, float clumps) {
   const glm::vec3 sand =
       glm::mix(glm::vec3(0.58f, 0.50f, 0.36f), glm::vec3(0.68f, 0.61f, 0.47f), 0.5f + 0.5f * noise);
@@ -29,8 +30,8 @@ glm::vec3 ground_albedo(float height_m, float steepness, float noise, float clum
   glm::vec3 c = glm::mix(wet_sand, sand, smoothstep(0.1f, 0.7f, height_m));
   c = glm::mix(c, green, smoothstep(1.8f, 4.0f, height_m + 1.5f * noise));
   c = glm::mix(c, rock, smoothstep(0.55f, 0.9f, steepness + 0.15f * noise));
-  if (height_m < -0.5f) c = glm::mix(sand, reef, 0.75f * smoothstep(0.15f, 0.5f, noise));
-  return c;
+  const glm::vec3 floor = glm::mix(sand, reef, 0.75f * smoothstep(0.15f, 0.5f, noise));
+  return glm::mix(c, floor, smoothstep(0.1f, 2.0f, -height_m));
 }
 
 }  // namespace
