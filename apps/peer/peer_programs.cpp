@@ -143,6 +143,8 @@ void set_water(const Shading& s, const GlProgram& program) {
     set_layer(water.coast_surf, "coast_surf", program);
     set_foam(water.foam, program);
   }
+  program.set("mirrored_sea", water.mirrored_sea);
+  program.set("wave_horizon", water.wave_horizon);
   program.set("crest_glow", water.crest_glow);
   program.set("inv_crest_height", water.inv_crest_height);
   program.set("inv_window", 1.0f / glm::vec2(s.viewport.width_px, s.viewport.height_px));

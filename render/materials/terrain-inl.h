@@ -131,18 +131,17 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
 
   const WaterSlopes waves = SampleRunOut(s, packet, hn::NegMulAdd(calm, film, film));
   const Facing f = FaceEye(s.media, packet, waves);
-  V unused;
+  V inv_variance, unused;
+  const V glint =
+      SunGlint(s.light.sun_direction, packet, waves, f.reflectance, f.cos_rough, inv_variance);
   const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f.normal,
-                                     f.cos_eye, false, unused);
+                                     f.cos_eye, inv_variance, false, unused);
   const V half = Constant(0.5f);
   const V shine = hn::Mul(f.reflectance, hn::MulAdd(film, half, hn::Mul(wet, half)));
   const V bare = hn::NegMulAdd(wet, film, wet);
   const V darkened = hn::NegMulAdd(bare, Constant(0.15f), Constant(1.0f));
   V3 light = Lerp(Scale(ground, darkened), mirrored, shine);
-  if (!hn::AllFalse(d, hn::Gt(film, hn::Zero(d)))) {
-    const V glint = SunGlint(s.light.sun_direction, packet, waves, f.reflectance, f.cos_rough);
-    light = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, film), light);
-  }
+  light = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, film), light);
   const V foam = SheetFoam(reach_m, swash, below, calm);
   const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
   light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover), light);

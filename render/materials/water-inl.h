@@ -221,16 +221,39 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
   return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y));
 }
 
-// What the surface mirrors: the sky in the reflected direction, and in front of it whatever the
-// reflection image shows there, whose part is `image_alpha`.
+// The part of the facets seen that mirror the sea again, not the sky. The mean slopes send the ray
+// to r_z, and slopes that a pixel cannot resolve spread it by 2 sigma, sigma^2 = variance / 2; the
+// blend is 1.4 times as wide as that normal distribution, or dark lines would show on fine waves.
+// Of the facets that throw rays down, the fewer are turned to the eye the lower it is: a part that
+// grows with to_eye_z^2 / (8 sigma^2), and on back sides with r_z^2. Root mean square error against
+// the facets themselves 0.06; in the mean over waves at most 0.06 too much.
+HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
+  const V zero = hn::Zero(D()), one = Constant(1.0f);
+  const V scale = hn::Mul(inv_variance, Constant(0.125f));
+  const V r_z2 = hn::Mul(r_z, hn::Abs(r_z));
+  const V turn = Clamp(hn::Mul(r_z2, scale), -1.0f, 1.0f);
+  const V up = hn::Mul(turn, hn::Sub(Constant(2.0f), hn::Abs(turn)));  // in [-1, 1]
+  const V down = hn::NegMulAdd(up, Constant(0.5f), Constant(0.5f));
+  const V low2 = hn::MulAdd(hn::Min(r_z2, zero), Constant(-0.125f), hn::Mul(to_eye_z, to_eye_z));
+  const V hidden = hn::Max(hn::NegMulAdd(low2, scale, one), zero);
+  return hn::Mul(down, hn::NegMulAdd(hidden, hidden, one));
+}
+
+// What the surface mirrors: the sky in the reflected direction, the sea where that points below the
+// horizon that waves make, and in front of both whatever the reflection image shows there, whose
+// part is `image_alpha`.
 HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V3 normal, V cos_eye, bool use_image,
-                             V& image_alpha) {
+                             const WaterSlopes& s, V3 normal, V cos_eye, V inv_variance,
+                             bool use_image, V& image_alpha) {
   V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
-  // Rays that would meet the sea again, and the spread of rough water, look above the horizon.
-  r.z = hn::Add(hn::Abs(r.z), hn::Mul(s.variance, Constant(0.8f)));
+  const V horizon = Constant(water.wave_horizon);
+  const V sea =
+      PartOfSeaMirrored(hn::Sub(r.z, horizon), hn::Add(packet.to_eye.z, horizon), inv_variance);
+  // The spread of rough water looks higher. Outside its circle the map goes on as at the horizon.
+  r.z = hn::MulAdd(s.variance, Constant(0.8f), hn::Max(r.z, Constant(-0.25f)));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
+  mirrored = Lerp(mirrored, Constant(water.mirrored_sea), sea);
   image_alpha = hn::Zero(D());
   if (use_image) {
     const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
@@ -263,17 +286,18 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
 }
 
 // The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution.
+// `inv_variance` becomes 1 / s.variance.
 // Source: Ross, Dion, Potvin, Detailed analytical approach to the Gaussian surface bidirectional
 // reflectance distribution function, 2005, without its shadowing terms.
 HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const WaterSlopes& s,
-                      V reflectance, V cos_eye) {
+                      V reflectance, V cos_eye, V& inv_variance) {
   const V3 half = Sum(packet.to_eye, Constant(sun_direction));
   // The three quotients' denominators share one division.
   const V z = hn::Max(half.z, Constant(1e-3f));
   const V cos4 = hn::Mul(Constant(4.0f), hn::Max(cos_eye, Constant(0.08f)));
   const V z_cos4 = hn::Mul(z, cos4);
   const V inverse = hn::Div(Constant(1.0f), hn::Mul(z_cos4, s.variance));
-  const V inv_variance = hn::Mul(inverse, z_cos4);  // = 1 / (2 sigma^2) per axis
+  inv_variance = hn::Mul(inverse, z_cos4);  // = 1 / (2 sigma^2) per axis
   const V inverse_z_cos4 = hn::Mul(inverse, s.variance);
   const V inv_z = hn::Mul(inverse_z_cos4, cos4), inv_cos4 = hn::Mul(inverse_z_cos4, z);
 
@@ -333,15 +357,16 @@ struct WaterShader {
     const Light& light = shading.light;
     const Facing f = FaceEye(shading.media, packet, s);
 
-    V mirrored_alpha, refracted_alpha;
-    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye,
+    V inv_variance, mirrored_alpha, refracted_alpha;
+    const V sun_path =
+        SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
+    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye, inv_variance,
                                        tile.lookups.reflection, mirrored_alpha);
     const V3 refracted =
         RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
     // What is mirrored in front of the sky hides the sun's path in it too.
-    const V glint = hn::Mul(SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough),
-                            hn::Sub(Constant(1.0f), mirrored_alpha));
+    const V glint = hn::Mul(sun_path, hn::Sub(Constant(1.0f), mirrored_alpha));
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
     if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
     return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};

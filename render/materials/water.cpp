@@ -125,7 +125,46 @@ void fill_slope_axes(const View& camera, Water& water) {
   water.view_ahead = cos_r * a + 0.5f * sin_r * l;
 }
 
+// As FresnelReflectance() of the shaders.
+float fresnel_reflectance(float c, float n) {
+  const float g = std::sqrt(c * c + n * n - 1.0f);
+  const float s = (g - c) / (g + c), p = (c * (g + c) - 1.0f) / (c * (g - c) + 1.0f);
+  return 0.5f * s * s * (1.0f + p * p);
+}
+
+// Slope variance of all waves, both axes together.
+float slope_variance(const MaterialInputs& in, const Water& water) {
+  float variance = water.base_variance;
+  for (const ocean::PatchFrame& patch : in.sea.frame.patches) variance += patch.slope_variance;
+  for (int i = water.first_ripples; i < water.layer_count; ++i) {
+    const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
+    variance += layer.map->lost_variance.back() * layer.gain * layer.gain;
+  }
+  for (int i = 0; i < water.sine_count; ++i) {
+    const SineLayer& sine = water.sines[static_cast<std::size_t>(i)];
+    variance += 0.5f * (sine.slope_x * sine.slope_x + sine.slope_y * sine.slope_y);
+  }
+  return variance;
+}
+
+// The sine of the elevation at which half of the rays that leave waves of this slope variance, both
+// axes together, meet another wave: 1 / (1 + Lambda) = 1/2.
+// Source: Smith, Geometrical Shadowing of a Random Rough Surface, 1967.
+float wave_horizon(float variance) { return 0.195f * std::sqrt(variance); }
+
+// Light that leaves the sea towards a wave that mirrors it: the water body's and the mean sky's.
+// The ray goes down by about the slopes' standard deviation, and the facets that it meets are
+// turned to it by as much again. No brighter than the horizon, whose place it takes.
+glm::vec3 mirrored_sea(const MaterialInputs& in, float variance) {
+  const float cosine = std::min(std::sqrt(variance), 1.0f), n = in.media.refraction_index;
+  const float reflectance = fresnel_reflectance(cosine, n);
+  return glm::min(glm::mix(in.media.body, in.light.ambient, reflectance), in.light.horizon);
+}
+
 void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
+  const float variance = slope_variance(in, water);
+  water.mirrored_sea = mirrored_sea(in, variance);
+  water.wave_horizon = wave_horizon(variance);
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);

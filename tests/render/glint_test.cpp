@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/plain_sea.h"
 #include "render/shader_kernels.h"
 #include "texture/on_every_target.h"
 
@@ -182,29 +183,6 @@ TEST_P(Glint, ReachesAsFarAsTheSlopesSay) {
 
 // ---- In the water's light
 
-// Open water of one roughness under a sky of one colour.
-struct PlainSea {
-  PlainSea(double sky_code, float variance) {
-    texture::RgbaImage image;
-    texture::resize_image(16, 16, image);
-    const auto code = static_cast<std::uint32_t>(sky_code);
-    std::ranges::fill(image.texels, code * 0x010101u);
-    sky = texture::pack_rgb(image);
-    const std::vector<float> zero(16 * 16);
-    texture::pack_map2(16, zero, zero, 1.0f / 127.0f, still);
-    shading.light.sky_soft = &sky;
-    shading.light.sun_irradiance = glm::vec3(0.0f);
-    shading.rays.eye_z = 2.0f;
-    auto& water = std::get<Water>(shading.materials);
-    water.uv_noise.map = &still;
-    water.base_variance = variance;
-    water.inv_crest_height = 1.0f;
-  }
-  texture::RgbMap sky;
-  texture::PackedMap2 still;
-  Shading shading;
-};
-
 // Unpolarised, by Snell's law and Fresnel's two formulas.
 double fresnel(double cos_i, double n) {
   const double cos_t = std::sqrt(1.0 - (1.0 - cos_i * cos_i) / (n * n));
@@ -228,9 +206,11 @@ TEST_P(Glint, IsAddedToTheMirroredSkyAndTheWatersOwnLight) {
   for (const double degrees : {0.0, 20.0, 50.0, 65.0, 80.0, 88.0})
     for (const double azimuth : {0.4, 3.4, 3.6})
       to_eye.push_back(direction(degrees * kPi / 180, azimuth));
+  const double sky = kLookupRange * (128.0 / 255.0) * (128.0 / 255.0);
+  // Rays that go down see the same.
+  std::get<Water>(sea.shading.materials).mirrored_sea = glm::vec3(static_cast<float>(sky));
   std::vector<glm::vec3> light(to_eye.size());
   water_light(sea.shading, to_eye, light);
-  const double sky = kLookupRange * (128.0 / 255.0) * (128.0 / 255.0);
   for (std::size_t i = 0; i < to_eye.size(); ++i) {
     const glm::dvec3 eye(to_eye[i]), half = eye + glm::dvec3(sea.shading.light.sun_direction);
     const double cosine = cos_rough(eye.z, kVariance),

@@ -66,8 +66,9 @@ void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
   ForPackets(glint.size(), [&](std::size_t i) {
     Packet packet;
     packet.to_eye = LoadSome(to_eye, i);
+    V inv_variance;
     StoreSome(SunGlint(surface.sun_direction, packet, s, Constant(surface.reflectance),
-                       LoadSome(cos_eye, i)),
+                       LoadSome(cos_eye, i), inv_variance),
               glint, i);
   });
 }

@@ -10,8 +10,8 @@ uniform vec4 sine_slope[SINES];  // slopes, variance
 #endif
 uniform sampler2D noise;
 uniform vec4 noise_place, noise_scale;
-uniform vec3 crest_glow;
-uniform float inv_crest_height;
+uniform vec3 crest_glow, mirrored_sea;
+uniform float inv_crest_height, wave_horizon;
 #ifdef COAST
 uniform sampler2D coast_slopes, coast_surf;
 uniform vec4 coast_slopes_place, coast_slopes_scale, coast_surf_place, coast_surf_scale;
@@ -69,6 +69,14 @@ vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
 }
 #endif
 
+float part_of_sea_mirrored(float r_z, float to_eye_z, float variance) {
+  float scale = 0.125 / variance;
+  float r_z2 = r_z * abs(r_z);
+  float turn = clamp(scale * r_z2, -1.0, 1.0);
+  float hidden = max(1.0 - (to_eye_z * to_eye_z - 0.125 * min(r_z2, 0.0)) * scale, 0.0);
+  return (0.5 - 0.5 * turn * (2.0 - abs(turn))) * (1.0 - hidden * hidden);
+}
+
 float sun_glint(vec3 to_eye, Slopes s, float reflectance, float cos_eye) {
   vec3 half_way = to_eye + sun_direction;
   float z = max(half_way.z, 1e-3);
@@ -108,8 +116,9 @@ void main() {
   float cos_rough = sqrt(0.5 * s.variance + cos_eye * cos_eye + 0.006);
   float reflectance = fresnel(cos_rough, refraction_index);
   vec3 r = normal * (2.0 * cos_eye) - to_eye;
-  r.z = abs(r.z) + 0.8 * s.variance;
-  vec3 mirrored = sky_radiance(sky_soft, r, sqrt(dot(r, r)));
+  float sea = part_of_sea_mirrored(r.z - wave_horizon, to_eye.z + wave_horizon, s.variance);
+  r.z = max(r.z, -0.25) + 0.8 * s.variance;
+  vec3 mirrored = mix(sky_radiance(sky_soft, r, sqrt(dot(r, r))), mirrored_sea, sea);
   float crest = clamp((p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
   float towards_sun = max(-dot(to_eye.xy, sun_direction.xy), 0.0);
   vec3 refracted = body + crest_glow * (crest * crest * (towards_sun + 0.35));
