@@ -311,6 +311,15 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
+// The part of the sun that is hidden by what is mirrored in front of the sky, whose part is
+// `mirrored_alpha`. What level water mirrors at a pixel is as high as the eye looks down; it says
+// less and less of a sun that is higher, over a low shore for one.
+HWY_INLINE V SunHidden(glm::vec3 sun_direction, const Packet& packet, V mirrored_alpha) {
+  const V higher = hn::Sub(Constant(sun_direction.z), packet.to_eye.z);
+  return hn::Mul(mirrored_alpha,
+                 Clamp(hn::NegMulAdd(higher, Constant(5.0f), Constant(2.0f)), 0.0f, 1.0f));
+}
+
 // How the water's surface meets the eye.
 struct Facing {
   V3 normal;
@@ -365,8 +374,8 @@ struct WaterShader {
     const V3 refracted =
         RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
-    // What is mirrored in front of the sky hides the sun's path in it too.
-    const V glint = hn::Mul(sun_path, hn::Sub(Constant(1.0f), mirrored_alpha));
+    const V glint =
+        hn::NegMulAdd(sun_path, SunHidden(light.sun_direction, packet, mirrored_alpha), sun_path);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
     if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
     return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};

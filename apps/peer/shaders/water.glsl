@@ -130,7 +130,7 @@ void main() {
 #endif
   float glint = sun_glint(to_eye, s, reflectance, cos_rough);
 #ifdef LOOKUPS
-  glint *= 1.0 - mirror.a;
+  glint *= 1.0 - mirror.a * clamp(2.0 - 5.0 * (sun_direction.z - to_eye.z), 0.0, 1.0);
 #endif
   vec3 seen = mix(refracted, mirrored, reflectance) + sun_irradiance * glint;
 #ifdef COAST
