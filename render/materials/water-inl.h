@@ -6,6 +6,11 @@
 #define SWELL_RENDER_MATERIALS_WATER_INL_H_
 #endif
 
+// 1 in sanitizer builds: with their checks GCC takes ten minutes for three.
+#ifndef SWELL_WATER_PACKETS_AT_ONCE
+#define SWELL_WATER_PACKETS_AT_ONCE 3
+#endif
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -352,7 +357,7 @@ HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
 // kCoast: water.has_coast.
 template <bool kCoast>
 struct WaterShader {
-  static constexpr std::size_t kPacketsAtOnce = 3;
+  static constexpr std::size_t kPacketsAtOnce = SWELL_WATER_PACKETS_AT_ONCE;
   const Water& water;
 
   template <std::size_t kCount>
