@@ -102,8 +102,9 @@ TEST(Ripples, DriftByTheNearestWholePeriodsOfALoop) {
 double ripple_variance(double wind_mps) {
   scene::Scene scene = ripple_scene();
   scene.sea.wind_speed_mps = wind_mps;
+  const World world(scene);  // whose maps the drawn water refers to
   Drawn drawn;
-  draw(World(scene), 0.0, drawn);
+  draw(world, 0.0, drawn);
   const Water& water = drawn.water();
   double variance = water.base_variance;
   for (int i = water.first_ripples; i < water.layer_count; ++i) {
