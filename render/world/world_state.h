@@ -29,6 +29,7 @@ inline constexpr float kLookupRange = 2.0f;
 struct CloudLight {
   float threshold = 0.0f;  // of the noise over its deviation: what is above is cloud
   float overcast = 0.0f;   // 0 as a rule, 1 where no gap is left
+  float loss = 0.15f;      // 1 / (1 + loss depth) of the light that falls on clouds comes through
   float mean_opacity = 0.0f, direct_part = 1.0f;  // means over the sky
   glm::vec3 to_light{0, 0, 1};
   // Linear RGB radiances.

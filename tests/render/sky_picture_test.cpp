@@ -12,6 +12,8 @@
 namespace swell::render {
 namespace {
 
+using scene::radians;
+
 constexpr int kSize_px = 96;
 
 scene::Scene sky_scene(double elevation_deg, double cloud_cover) {
