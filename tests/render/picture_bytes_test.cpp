@@ -103,11 +103,11 @@ TEST_P(PictureBytes, ShowNoLightAndLessAsBlack) {
 }
 
 // The tone curve reaches white at infinity only. The code's error of 0.083 at 1 makes that 255
-// comes early, without dither from light 125 on (0.9993 after the curve); the exact curve would
+// comes early, without dither from light 500 on (0.9993 after the curve); the exact curve would
 // never show it.
 TEST_P(PictureBytes, ReachWhiteInVeryBrightLightOnly) {
   EXPECT_NEAR(encoded({1.0f})[0], 255.0826, 1e-3);
-  EXPECT_EQ(bytes({100.0f, 124.0f, 127.0f, 1e6f, 1e30f}, 1.0f, 0.0f),
+  EXPECT_EQ(bytes({400.0f, 494.0f, 508.0f, 1e6f, 1e30f}, 1.0f, 0.0f),
             (std::vector<int>{254, 254, 255, 255, 255}));
   EXPECT_EQ(bytes({1e30f}, 1.0f, 0.999f)[0], 255);  // no overflow
 }
