@@ -9,8 +9,9 @@
 namespace swell::render {
 
 struct Foam {
-  SlopeLayer pattern;     // thresholds of foam in [-1, 1], not slopes
-  glm::vec3 light{0.0f};  // radiance of foam
+  SlopeLayer pattern;  // thresholds of foam in [-1, 1], not slopes
+  // Radiance of foam, of the sky and of a sun that nothing hides.
+  glm::vec3 sky_light{0.0f}, sun_light{0.0f};
 };
 
 // Foam lies still. For worlds with a coast.

@@ -83,6 +83,17 @@ void add_terrain(const World::State* like, Workers& workers, World::State& state
            : shared(build_terrain_maps(*state.terrain, state.scene.terrain->seed, workers));
 }
 
+// like: with the same land, sun and water.
+void add_land_shadow(const World::State* like, Workers& workers, World::State& state) {
+  if (!state.terrain) return;
+  if (like) {
+    state.land_shadow = like->land_shadow;
+  } else if (auto shadow = cast_land_shadow(*state.terrain, state.scene.sky.sun_direction,
+                                            state.scene.water.refraction_index, workers)) {
+    state.land_shadow = shared(std::move(*shadow));
+  }
+}
+
 // like: may have another coast.
 void add_coast(const World::State* like, bool same_coast, Workers& workers, World::State& state) {
   if (same_coast) {
@@ -116,10 +127,13 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   const bool same_sea = like && like->scene.sea == now.sea;
   const bool same_terrain = like && like->scene.terrain == now.terrain;
   const bool same_coast = same_sea && same_terrain && like->scene.coast == now.coast;
+  const bool same_sun = like && like->scene.sky.sun_direction == now.sky.sun_direction &&
+                        like->scene.water.refraction_index == now.water.refraction_index;
   Workers workers(threads);
   workers.run_both(
       [&] {
         add_terrain(if_alike(same_terrain), workers, *state);
+        add_land_shadow(if_alike(same_terrain && same_sun), workers, *state);
         add_relief_bounds(if_alike(same_terrain), *state);
         add_coast(like, same_coast, workers, *state);
       },

@@ -13,6 +13,7 @@
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
 #include "render/frame.h"
+#include "render/world/land_shadow.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
@@ -64,6 +65,7 @@ struct World::State {
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
+  std::shared_ptr<const LandShadow> land_shadow = {};  // none: no land, or no sun
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain, if they count
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
 
