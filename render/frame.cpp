@@ -185,7 +185,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   stage(Stage::kDisplace, [&](const StageRun& run) {
     displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
     place_objects(world_state, ws.sea, drawn, ws.meshes, views);
-    find_shadow_casters(world_state, light.sun_direction, drawn, ws.meshes.objects, run);
+    find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
+                        ws.meshes.objects, run);
   });
   stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,

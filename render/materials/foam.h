@@ -14,7 +14,10 @@ struct Foam {
   glm::vec3 sky_light{0.0f}, sun_light{0.0f};
 };
 
-// Foam lies still. For worlds with a coast.
-Foam make_foam(const MaterialInputs& in, glm::dvec2 eye);
+inline constexpr double kFoamPeriod_m = 9.0;      // of broken waves
+inline constexpr double kHullFoamPeriod_m = 2.5;  // of what splashes about hulls
+
+// Foam lies still.
+Foam make_foam(const MaterialInputs& in, glm::dvec2 eye, double period_m = kFoamPeriod_m);
 
 }  // namespace swell::render

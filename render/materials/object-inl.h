@@ -84,7 +84,8 @@ HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSur
 }
 
 // What varnish mirrors of sky and sun, to the eye in direction to_eye.
-HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye, V sun_visible) {
+HWY_INLINE V3 Gloss(const Light& light, glm::vec3 sea_light, const ObjectSurface& s, V3 to_eye,
+                    V sun_visible) {
   const D d;
   const V zero = hn::Zero(d);
   const V cos_eye = hn::Max(Dot(s.normal, to_eye), zero);
@@ -92,10 +93,16 @@ HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye, V sun
   const V reflectance =
       hn::Mul(FresnelReflectance(d, hn::Max(cos_eye, Constant(0.1f)), 1.5f), Constant(0.5f));
   V3 r = ScaleAdd(s.normal, hn::Add(cos_eye, cos_eye), Scale(to_eye, Constant(-1.0f)));
-  // Rays that go down meet the sea, which is darker.
-  const V share = hn::IfThenElse(hn::Lt(r.z, zero), Constant(0.3f), Constant(1.0f));
-  r.z = hn::Add(hn::Abs(r.z), Constant(1e-3f));
-  const V3 sky = Scale(SoftSkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), share);
+  // Rays that go down meet the sea, which is darker. Dull paint spreads what it mirrors: a line
+  // between the two would be drawn on everything round.
+  const V below = Clamp(hn::MulAdd(r.z, Constant(-1.6f), Constant(0.5f)), 0.0f, 1.0f);
+  const V sea =
+      hn::Mul(hn::Mul(below, below), hn::NegMulAdd(below, Constant(2.0f), Constant(3.0f)));
+  const V lowest = Constant(0.02f), over = hn::Sub(r.z, lowest);
+  r.z = hn::MulAdd(hn::Add(over, hn::Sqrt(hn::MulAdd(over, over, Constant(0.01f)))), Constant(0.5f),
+                   lowest);
+  const V3 sky =
+      Lerp(SoftSkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), Constant(sea_light), sea);
 
   // Blinn and Phong's highlight with exponent 64, normalised.
   const V3 half = Sum(to_eye, Constant(light.sun_direction));
@@ -145,7 +152,8 @@ struct Shader<Object, kView> {
     const V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
     const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);
     if constexpr (kView == ViewKind::kRefraction) return {matt, surface.normal};
-    return {Sum(matt, Gloss(s.light, surface, packet.to_eye, sun_visible)), surface.normal};
+    return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),
+            surface.normal};
   }
 };
 

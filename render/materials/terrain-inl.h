@@ -20,20 +20,30 @@ HWY_INLINE V GroundLevel(const ViewRays& rays, const Packet& packet) {
   return FootprintLevel(FootprintAcross(rays, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
 }
 
+// The sun on the ground by its map, and outside that by the light's own way.
+HWY_INLINE V SunFromMap(const Shading& s, const SlopeLayer& map, V3 p, V level_m, const V3& p_lit) {
+  const V zero = hn::Zero(D()), half = Constant(0.5f);
+  const LayerPlace place = PlaceIn(map, p.x, p.y);
+  V code, unused;
+  SampleNearest(map, place, level_m, code, unused);
+  const V visible = hn::MulAdd(code, half, half);
+  const V side = Constant(256.0f * static_cast<float>(map.map->size - 1));
+  const auto inside = hn::And(hn::And(hn::Ge(place.x_fx8, zero), hn::Ge(place.y_fx8, zero)),
+                              hn::And(hn::Lt(place.x_fx8, side), hn::Lt(place.y_fx8, side)));
+  if (hn::AllTrue(D(), inside) || !s.sun_shadow.land) return visible;
+  return hn::IfThenElse(inside, visible, SunOverLand(s.sun_shadow, p_lit, s.rays.eye_z));
+}
+
 // The part of the sun that the ground sees: over the sea floor, from where its light enters the
 // water.
 template <ViewKind kView>
 HWY_INLINE V SunOnGround(const Shading& s, const Terrain& terrain, const TilePixels& tile,
                          const Packet& packet, V level_m) {
-  const V half = Constant(0.5f);
-  V visible = Constant(1.0f), unused;
-  if (terrain.sun.map) {
-    NearestSlopes(terrain.sun, packet.p, level_m, visible, unused);
-    visible = hn::MulAdd(visible, half, half);
-  }
-  if (tile.casters.empty()) return visible;
   LitPoint point = {packet.p, PixelSoftness(s, packet.depth), Constant(-1.0f)};
   if constexpr (kView == ViewKind::kRefraction) point.p = WhereLightEnters(s, packet.p);
+  V visible = Constant(1.0f);
+  if (terrain.sun.map) visible = SunFromMap(s, terrain.sun, packet.p, level_m, point.p);
+  if (tile.casters.empty()) return visible;
   return hn::Mul(visible, SunOverObjects(*s.sun_shadow.objects, tile.casters, point));
 }
 

@@ -18,6 +18,7 @@
 #include "render/labels/label_channels.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
+#include "render/materials/hull-inl.h"
 #include "render/materials/water.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
@@ -374,12 +375,21 @@ struct WaterShader {
         SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
     const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye, inv_variance,
                                        tile.lookups.reflection, mirrored_alpha);
-    const V3 refracted = RefractedLight(shading, water, packet, s, sun_visible,
-                                        tile.lookups.refraction, refracted_alpha);
+    V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
+                                  refracted_alpha);
+    V foam_cover = s.foam_cover;
+    if (!tile.casters.empty()) {
+      const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
+                                       Clamp(packet.to_eye.z, kMinCos, 1.0f));
+      const AtHulls hulls = SampleHulls(*shading.sun_shadow.objects, water.hull_foam, tile.casters,
+                                        packet.p, level_m);
+      refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
+      foam_cover = hn::Max(foam_cover, hulls.foam_cover);
+    }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
-    if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, sun_visible, seen);
-    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
+    if (kCoast || !tile.casters.empty()) seen = AddFoam(water.foam, foam_cover, sun_visible, seen);
+    return {seen, f.normal, foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

@@ -7,13 +7,11 @@ namespace swell::render {
 void fill_sun_shadow(const MaterialInputs& in, const RenderView& view, const raster::TileGrid& grid,
                      SunShadow& shadow) {
   shadow.land = nullptr;
-  shadow.objects = nullptr;
-  shadow.casters.first.clear();
-  if (in.without.has(Part::kShadows)) return;
   shadow.objects = &in.objects.shadows;
   shadow.entry = underwater_slant(in.light.sun_direction, in.media.refraction_index);
   list_casters(in.objects.shadows, view, grid, shadow.casters);
-  if (!in.world.land_shadow || in.world.land_shadow->is_empty()) return;
+  if (in.without.has(Part::kShadows) || !in.world.land_shadow || in.world.land_shadow->is_empty())
+    return;
   const LandShadow& land = *in.world.land_shadow;
   shadow.land = &land;
   const double per_m = 1.0 / land.texel_m;

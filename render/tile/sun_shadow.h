@@ -1,4 +1,5 @@
-// What stands before the sun, as the shaders of a view look for it (sun_shadow-inl.h).
+// What stands before the sun, and what floats near by, as the shaders of a view look for it
+// (sun_shadow-inl.h).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,7 +22,6 @@ struct SunShadow {
   TileCasters casters;
 };
 
-// No shadows where they are left out, or where there is no sun.
 void fill_sun_shadow(const MaterialInputs& in, const RenderView& view, const raster::TileGrid& grid,
                      SunShadow& shadow);
 

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "math/elementary.h"
 #include "render/world/land_shadow.h"
 
 namespace swell::render {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kRounding_m = 0.5f;  // of the places of pixels far away
 constexpr auto kSunRadius = static_cast<float>(kSunRadius_rad);
 
 // In metres along right, up and towards the sun, from the object's place.
@@ -75,20 +77,64 @@ Waterline waterline_of(const scene::FloatingObject& object, const scene::ObjectP
   return w;
 }
 
+// How the sea moves its water about, as if all waves were one long swell down the wind.
+struct WaterMotion {
+  double omega_rad_s = 0.0;  // of the mean wave
+  double speed_mps = 0.0;    // root mean square, along the wind
+  glm::dvec2 downwind{0.0, 1.0};
+};
+
+WaterMotion motion_of(const World::State& world) {
+  const double length_m = world.water_bounds().mean_wavelength_m;
+  const double travel = world.scene.sea.wind_from_rad + kPi;
+  WaterMotion motion;
+  motion.downwind = {sin(travel), cos(travel)};
+  if (length_m <= 0.0) return motion;
+  motion.omega_rad_s = std::sqrt(2.0 * kPi * world.scene.sea.gravity_mps2 / length_m);
+  motion.speed_mps = 0.25 * world.sea->significant_height_m() * motion.omega_rad_s;
+  return motion;
+}
+
+// Water in a crest runs with the waves, in a trough against them.
+void add_foam(const WaterMotion& motion, double height_m, Waterline& line) {
+  const double speed = motion.speed_mps;
+  line.foam = static_cast<float>(0.8 * (1.0 - exp(-speed / 0.3)));
+  line.foam_m = static_cast<float>(0.1 + 0.6 * std::min(speed, 1.0));
+  if (speed > 0.0)
+    line.flow = glm::vec2(motion.downwind *
+                          std::clamp(0.5 * motion.omega_rad_s * height_m / speed, -1.0, 1.0));
+}
+
 // Where the sun's disc is four times as broad as the object, which hides a tenth of it.
 float reach_of(const scene::FloatingObject& object) {
   const glm::dvec3 size = object.size_m;
   return 2.0f * static_cast<float>(std::max({size.x, size.y, 0.3 * size.z})) / kSunRadius;
 }
 
+// Whatever way the sun stands, no outline is larger.
+Outline largest_outline(const scene::FloatingObject& object) {
+  const double above = std::max(object.draught, 1.0 - object.draught);
+  const auto radius = static_cast<float>(glm::length(object.size_m * glm::dvec3(0.5, 0.5, above)));
+  Outline outline;
+  outline.left_most_m = outline.least_depth_m = outline.lowest_m = -radius;
+  outline.right_most_m = outline.most_depth_m = radius;
+  outline.rows_per_m = (Outline::kRows - 1) / (2.0f * radius);
+  return outline;
+}
+
+// All but its outline.
 ShadowCaster caster_of(const scene::FloatingObject& object, const scene::ObjectPose& pose,
-                       const View& view, bool sun_is_up) {
+                       const ShadowOptions& options, const View& view) {
   ShadowCaster caster;
   caster.place_rel = glm::vec3(pose.position_world - view.eye_world);
-  const glm::vec2 size(object.size_m);
-  caster.near_m = 0.5f * glm::length(size) + ShadowCaster::kContact_m;
-  caster.waterline = waterline_of(object, pose);
-  caster.reach_m = sun_is_up ? reach_of(object) : 0.0f;
+  if (!options.without.has(Part::kHulls)) {
+    const glm::vec2 size(object.size_m);
+    caster.near_m = 0.5f * glm::length(size) + ShadowCaster::kContact_m;
+    caster.waterline = waterline_of(object, pose);
+  }
+  if (options.sun_direction.z > 0.0f && !options.without.has(Part::kShadows))
+    caster.reach_m = reach_of(object);
+  caster.outline = largest_outline(object);
   return caster;
 }
 
@@ -234,27 +280,31 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::FloatingObject& o
   return outline;
 }
 
-void find_shadow_casters(const World::State& world, glm::vec3 sun_direction, const View& view,
+void find_shadow_casters(const World::State& world, const ShadowOptions& options, const View& view,
                          ObjectGeometry& objects, const StageRun& run) {
   const std::vector<scene::FloatingObject>& all = world.scene.objects;
   ObjectShadows& shadows = objects.shadows;
   shadows.casters.clear();
   if (all.empty()) return;
-  set_axes(sun_direction, shadows);
-  shadows.lowest_rel_m = -world.water_bounds().height_m - static_cast<float>(view.eye_world.z);
-  shadows.casters.resize(all.size());
-  run.for_each(all.size(), [&](std::size_t i, int) {
-    ShadowCaster& caster = shadows.casters[i];
-    caster = caster_of(all[i], objects.poses[i], view, sun_direction.z > 0.0f);
-    caster.object = static_cast<std::uint32_t>(i);
-    if (caster.reach_m > 0.0f)
-      caster.outline = outline_of(drawn_mesh(world, i, caster.place_rel, view), all[i],
-                                  objects.poses[i], shadows);
-  });
-  const std::array<glm::vec4, 5> planes = frustum_planes(view);
+  set_axes(options.sun_direction, shadows);
   const auto level = -static_cast<float>(view.eye_world.z);
-  std::erase_if(shadows.casters, [&](const ShadowCaster& caster) {
-    return !in_view(corners_of(caster, shadows), level, planes);
+  shadows.lowest_rel_m = level - world.water_bounds().height_m - kRounding_m;
+  const WaterMotion motion = motion_of(world);
+  const std::array<glm::vec4, 5> planes = frustum_planes(view);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ShadowCaster caster = caster_of(all[i], objects.poses[i], options, view);
+    caster.object = static_cast<std::uint32_t>(i);
+    add_foam(motion, objects.poses[i].position_world.z, caster.waterline);
+    const bool tells = caster.near_m > 0.0f || caster.reach_m > 0.0f;
+    if (tells && in_view(corners_of(caster, shadows), level, planes))
+      shadows.casters.push_back(caster);
+  }
+  run.for_each(shadows.casters.size(), [&](std::size_t i, int) {
+    ShadowCaster& caster = shadows.casters[i];
+    if (caster.reach_m <= 0.0f) return;
+    const std::size_t object = caster.object;
+    caster.outline = outline_of(drawn_mesh(world, object, caster.place_rel, view), all[object],
+                                objects.poses[object], shadows);
   });
 }
 

@@ -11,9 +11,15 @@ namespace swell::render {
 Outline outline_of(const scene::ObjectMesh& mesh, const scene::FloatingObject& object,
                    const scene::ObjectPose& pose, const ObjectShadows& shadows);
 
+// The light of a frame, and what of its pictures is left out.
+struct ShadowOptions {
+  glm::vec3 sun_direction{0.0f, 0.0f, 1.0f};  // unit; below the horizon it casts no shadows
+  PartSet without;
+};
+
 // Sets objects.shadows: all objects that may tell on what the view shows, in front of it or not, at
-// the poses in `objects`, under a sun in a unit direction. Below the horizon it casts no shadows.
-void find_shadow_casters(const World::State& world, glm::vec3 sun_direction, const View& view,
+// the poses in `objects`.
+void find_shadow_casters(const World::State& world, const ShadowOptions& options, const View& view,
                          ObjectGeometry& objects, const StageRun& run);
 
 // The casters of each tile of a view. The same pixels are shaded with tiles of any size.

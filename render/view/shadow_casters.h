@@ -28,6 +28,10 @@ struct Waterline {
   bool is_round = true;
   float radius_m = 1.0f;     // mean
   float freeboard_m = 1.0f;  // how high the hull stands over the water
+  // Foam where water and hull move against each other: its amount at the hull, in [0, 1], how far
+  // it reaches, and how the water moves now, 1 being as fast as it mostly does.
+  float foam = 0.0f, foam_m = 0.1f;
+  glm::vec2 flow{0.0f};
 };
 
 // Nothing under more water than this is in an object's shadow.
@@ -38,7 +42,7 @@ struct ShadowCaster {
 
   glm::vec3 place_rel{0.0f};  // on its axis at the waterline, relative to the eye
   float reach_m = 0.0f;       // at this distance the sun is far broader than the object; 0: no sun
-  float near_m = 0.0f;        // plan distance to which the hull tells
+  float near_m = 0.0f;        // half the side of a cube that the hull tells on
   std::uint32_t object = 0;   // its index in the scene
   Waterline waterline;
   Outline outline;

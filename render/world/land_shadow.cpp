@@ -51,9 +51,11 @@ void lay_out(const terrain::HeightGrid& land, double tan_sun, LandShadow& s) {
   s.texel_m = std::max(land.grid.spacing_m, land.grid.size_m() / kTexelsOfSide);
   s.corner_world = extent.low.x * s.away + extent.low.y * s.left();
   const auto texels = [&](double m) { return static_cast<int>(std::ceil(m / s.texel_m)) + 2; };
+  // As far as the land stands before the sun's lower rim.
   const double above_m = static_cast<double>(land.highest_m) - LandShadow::kLowest_m;
-  const double margin_m =
-      std::min(above_m / tan_sun, static_cast<double>(kMostMargin_texels) * s.texel_m);
+  const double drop = static_cast<double>(sun_drop(tan_sun, 1.0).lower_m);
+  const double margin_m = std::clamp(above_m / std::max(drop, 1e-6), 0.0,
+                                     static_cast<double>(kMostMargin_texels) * s.texel_m);
   const glm::dvec2 size_m = extent.high - extent.low;
   s.texels_along = texels(size_m.x + margin_m);
   s.texels_across = texels(size_m.y);
@@ -81,14 +83,15 @@ void sweep_row(std::span<const float> height_m, SunDrop drop, float step_m,
   }
 }
 
-// Rows are kept from the sweep at its far end, where a bound on the box may cut a shadow off.
+// Softens the far ends of rows that stop where there still is shadow.
 void fade_out(LandShadow& s, Workers& workers) {
-  const int faded = std::min(64, s.texels_along);
+  constexpr int kFaded = 64;
+  if (s.texels_along <= kMostMargin_texels) return;
   for_each_row(s.texels_across, workers, [&](int across) {
     std::uint32_t* row = s.bounds.data() + static_cast<std::size_t>(across) * s.texels_along;
-    for (int i = 0; i < faded; ++i) {
+    for (int i = 0; i < kFaded; ++i) {
       std::uint32_t& b = row[s.texels_along - 1 - i];
-      const auto scaled = [&](std::uint32_t code) { return code * i / faded; };
+      const auto scaled = [&](std::uint32_t code) { return code * i / kFaded; };
       b = scaled(b & 0xffffu) | scaled(b >> 16) << 16;
     }
   });

@@ -43,8 +43,6 @@ struct TerrainMaps {
 struct CoastMaps {
   ocean::CoastMap waves;
   std::vector<float> ceded;  // what the sea's own waves give up to the trains, in [0, 1]
-  // Thresholds, stretched to [-1, 1]; of any size, it repeats. The same for every coast.
-  std::shared_ptr<const texture::PackedMap2> foam_pattern;
 };
 
 // The shapes that a scene's objects need, and which of them each object has.
@@ -68,6 +66,8 @@ struct World::State {
   std::shared_ptr<const LandShadow> land_shadow = {};  // none: no land, or no sun
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain, if they count
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
+  // Thresholds of foam, stretched to [-1, 1]; of any size, it repeats. The same in every world.
+  std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
 
   // What floats.
   ObjectMeshes objects = {};
