@@ -40,9 +40,9 @@ HWY_INLINE V OutsideWaterline(const Waterline& line, V x, V y) {
 }
 
 // All hulls together at a packet of water.
-HWY_NOINLINE AtHulls SampleHulls(const ObjectShadows& objects, const Foam& material,
-                                 std::span<const std::uint16_t> casters, const V3& p,
-                                 const V& level_m) {
+inline HWY_NOINLINE AtHulls SampleHulls(const ObjectShadows& objects, const Foam& material,
+                                        std::span<const std::uint16_t> casters, const V3& p,
+                                        const V& level_m) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
   AtHulls at = {zero, zero};

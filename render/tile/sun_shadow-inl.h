@@ -23,7 +23,7 @@ HWY_INLINE V DiscPart(V lit) {
 
 // What the land leaves of the sun at p, relative to the eye. A function of its own, and few lanes
 // come far: what it takes would cost the shaders registers.
-HWY_NOINLINE V SunOverLand(const SunShadow& shadow, const V3& p, float eye_z) {
+inline HWY_NOINLINE V SunOverLand(const SunShadow& shadow, const V3& p, float eye_z) {
   const D d;
   const DI di;
   const LandShadow& land = *shadow.land;
@@ -128,8 +128,9 @@ struct LitPoint {
 };
 
 // What the objects leave of the sun.
-HWY_NOINLINE V SunOverObjects(const ObjectShadows& shadows, std::span<const std::uint16_t> casters,
-                              const LitPoint& point) {
+inline HWY_NOINLINE V SunOverObjects(const ObjectShadows& shadows,
+                                     std::span<const std::uint16_t> casters,
+                                     const LitPoint& point) {
   const D d;
   constexpr auto kRadius = static_cast<float>(kSunRadius_rad);
   const V zero = hn::Zero(d), one = Constant(1.0f);

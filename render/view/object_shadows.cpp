@@ -273,6 +273,9 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::FloatingObject& o
     const std::array<SunPoint, 3> p = {frame(mesh.position[mesh.indices[i]]),
                                        frame(mesh.position[mesh.indices[i + 1]]),
                                        frame(mesh.position[mesh.indices[i + 2]])};
+    // What is turned to the sun has the outline of the whole.
+    const glm::vec2 along = p[1] - p[0], aside = p[2] - p[0];
+    if (along.x * aside.y - along.y * aside.x >= 0.0f) continue;
     for (int k = 0; k < 3; ++k) add_edge(p[k], p[(k + 1) % 3], outline);
   }
   for (int i = 0; i < Outline::kRows; ++i)
