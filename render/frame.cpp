@@ -171,17 +171,20 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     work(StageRun{workers, ws.profile, name});
   };
 
-  const Light light = make_light(world_state);
+  const Clouds clouds = make_clouds(world_state, t_s, view.eye_world, options.without);
   workers.run_both(
       [&] {
-        stage(Stage::kSea,
-              [&](const StageRun& run) { advance_sea(world_state, t_s, ws.sea, run); });
+        stage(Stage::kSea, [&](const StageRun& run) {
+          advance_sea(world_state, t_s, ws.sea, run);
+          advance_sky(world_state, clouds, ws.sky, run);
+        });
       },
       [&] {
         stage(Stage::kTriangulate, [&](const StageRun& run) {
           triangulate(world_state, drawn, options, ws.meshes, run);
         });
       });
+  const Light light = make_light(world_state, clouds, ws.sky.soft);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
     place_objects(world_state, ws.sea, drawn, ws.meshes, views);

@@ -79,17 +79,6 @@ void add_terrain(const World::State* like, Workers& workers, World::State& state
            : shared(build_terrain_maps(*state.terrain, state.scene.terrain->seed, workers));
 }
 
-// like: with the same land, sun and water.
-void add_land_shadow(const World::State* like, Workers& workers, World::State& state) {
-  if (!state.terrain) return;
-  if (like) {
-    state.land_shadow = like->land_shadow;
-  } else if (auto shadow = cast_land_shadow(*state.terrain, state.scene.sky.sun_direction,
-                                            state.scene.water.refraction_index, workers)) {
-    state.land_shadow = shared(std::move(*shadow));
-  }
-}
-
 // like: may have another coast.
 void add_coast(const World::State* like, bool same_coast, Workers& workers, World::State& state) {
   if (same_coast) {
@@ -99,6 +88,18 @@ void add_coast(const World::State* like, bool same_coast, Workers& workers, Worl
                  scene::build_coast(state.scene, state.terrain.get(), workers.thread_count())) {
     state.coast = shared(std::move(*coast));
     state.coast_maps = shared(build_coast_maps(*state.coast, workers));
+  }
+}
+
+// Once there are land and sky. like: with the same land and water.
+void add_land_shadow(const World::State* like, Workers& workers, World::State& state) {
+  if (!state.terrain) return;
+  const glm::vec3 to_light = state.sky->to_light;
+  if (like && like->sky->to_light == to_light) {
+    state.land_shadow = like->land_shadow;
+  } else if (auto shadow = cast_land_shadow(*state.terrain, to_light,
+                                            state.scene.water.refraction_index, workers)) {
+    state.land_shadow = shared(std::move(*shadow));
   }
 }
 
@@ -122,13 +123,10 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   const bool same_sea = like && like->scene.sea == now.sea;
   const bool same_terrain = like && like->scene.terrain == now.terrain;
   const bool same_coast = same_sea && same_terrain && like->scene.coast == now.coast;
-  const bool same_sun = like && like->scene.sky.sun_direction == now.sky.sun_direction &&
-                        like->scene.water.refraction_index == now.water.refraction_index;
   Workers workers(threads);
   workers.run_both(
       [&] {
         add_terrain(if_alike(same_terrain), workers, *state);
-        add_land_shadow(if_alike(same_terrain && same_sun), workers, *state);
         add_relief_bounds(if_alike(same_terrain), *state);
         add_coast(like, same_coast, workers, *state);
       },
@@ -138,6 +136,8 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
         add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
         add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);
       });
+  const bool same_water = like && like->scene.water.refraction_index == now.water.refraction_index;
+  add_land_shadow(if_alike(same_terrain && same_water), workers, *state);
   state->objects = build_object_meshes(now.objects);
   state->object_classes = object_classes(now);
   state->focuses = object_focuses(now.objects);
