@@ -113,7 +113,7 @@ void set_layer(const SlopeLayer& layer, const std::string& name, const GlProgram
 
 void set_foam(const render::Foam& foam, const GlProgram& program) {
   set_layer(foam.pattern, "foam", program);
-  program.set("foam_light", foam.light);
+  program.set("foam_light", foam.sky_light + foam.sun_light);
 }
 
 void set_waves(const render::Water& water, const GlProgram& program) {

@@ -20,13 +20,40 @@ HWY_INLINE V GroundLevel(const ViewRays& rays, const Packet& packet) {
   return FootprintLevel(FootprintAcross(rays, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
 }
 
+// The sun on the ground by its map, and outside that by the light's own way.
+HWY_INLINE V SunFromMap(const Shading& s, const SlopeLayer& map, V3 p, V level_m, const V3& p_lit) {
+  const V zero = hn::Zero(D()), half = Constant(0.5f);
+  const LayerPlace place = PlaceIn(map, p.x, p.y);
+  V code, unused;
+  SampleNearest(map, place, level_m, code, unused);
+  const V visible = hn::MulAdd(code, half, half);
+  const V side = Constant(256.0f * static_cast<float>(map.map->size - 1));
+  const auto inside = hn::And(hn::And(hn::Ge(place.x_fx8, zero), hn::Ge(place.y_fx8, zero)),
+                              hn::And(hn::Lt(place.x_fx8, side), hn::Lt(place.y_fx8, side)));
+  if (hn::AllTrue(D(), inside) || !s.sun_shadow.land) return visible;
+  return hn::IfThenElse(inside, visible, SunOverLand(s.sun_shadow, p_lit, s.rays.eye_z));
+}
+
+// The part of the sun that the ground sees: over the sea floor, from where its light enters the
+// water.
+template <ViewKind kView>
+HWY_INLINE V SunOnGround(const Shading& s, const Terrain& terrain, const TilePixels& tile,
+                         const Packet& packet, V level_m) {
+  LitPoint point = {packet.p, PixelSoftness(s, packet.depth), Constant(-1.0f)};
+  if constexpr (kView == ViewKind::kRefraction) point.p = WhereLightEnters(s, packet.p);
+  V visible = Constant(1.0f);
+  if (terrain.sun.map) visible = SunFromMap(s, terrain.sun, packet.p, level_m, point.p);
+  if (tile.casters.empty()) return visible;
+  return hn::Mul(visible, SunOverObjects(*s.sun_shadow.objects, tile.casters, point));
+}
+
 // Ground, diffuse and lit by sun and sky.
 struct Ground {
   V3 light, normal;
 };
 template <bool kDetail>
 HWY_INLINE Ground LightGround(const Terrain& terrain, const Light& light, const Packet& packet,
-                              V level_m) {
+                              V level_m, V sun_visible) {
   const D d;
   const V zero = hn::Zero(d);
   V slope_x = zero, slope_y = zero, variance = zero;
@@ -41,7 +68,7 @@ HWY_INLINE Ground LightGround(const Terrain& terrain, const Light& light, const 
   const V3 normal = {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)),
                      inv_length};
 
-  const V cos_sun = hn::Max(Dot(normal, Constant(light.sun_direction)), zero);
+  const V cos_sun = hn::Mul(hn::Max(Dot(normal, Constant(light.sun_direction)), zero), sun_visible);
   const V sky_seen = hn::MulAdd(normal.z, Constant(0.5f), Constant(0.5f));
   const V3 arriving =
       ScaleAdd(Constant(light.sun_irradiance), hn::Mul(cos_sun, Constant(0.318309886f)),
@@ -111,9 +138,9 @@ HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V calm) {
 
 // Wet sand mirrors the sky; a sheet of water with foam at its rim runs over it, and at the sea's
 // level both are what the sea is where it has no depth. `ground` is the ground's light at p, whose
-// height is height_m.
+// height is height_m and which sees the part sun_visible of the sun.
 HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& packet, V level_m,
-                       V height_m, V3 ground) {
+                       V height_m, V sun_visible, V3 ground) {
   const D d;
   const float reach_m = terrain.swash.reach_m;
   const auto reached = hn::Lt(height_m, Constant(1.6f * reach_m));
@@ -141,10 +168,11 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const V bare = hn::NegMulAdd(wet, film, wet);
   const V darkened = hn::NegMulAdd(bare, Constant(0.15f), Constant(1.0f));
   V3 light = Lerp(Scale(ground, darkened), mirrored, shine);
-  light = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, film), light);
+  light =
+      ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, hn::Mul(film, sun_visible)), light);
   const V foam = SheetFoam(reach_m, swash, below, calm);
   const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
-  light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover), light);
+  light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover), sun_visible, light);
   return {hn::IfThenElse(reached, light.x, ground.x), hn::IfThenElse(reached, light.y, ground.y),
           hn::IfThenElse(reached, light.z, ground.z)};
 }
@@ -166,14 +194,16 @@ template <ViewKind kView>
 struct Shader<Terrain, kView> {
   const Terrain& terrain;
 
-  HWY_INLINE auto operator()(const Shading& s, const TilePixels&, const Lanes&,
+  HWY_INLINE auto operator()(const Shading& s, const TilePixels& tile, const Lanes&,
                              const Packet& packet) const {
     const V level_m = GroundLevel(s.rays, packet);
     constexpr bool kDetail = kView == ViewKind::kWindow;
-    const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m);
+    const V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
+    const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
       const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
-      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, ground.light), ground.normal};
+      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, sun_visible, ground.light),
+                    ground.normal};
     } else if constexpr (kView == ViewKind::kRefraction) {
       return FadingSurfel{{ground.light, ground.normal}, InsideLand(terrain, packet.p)};
     } else {

@@ -31,6 +31,10 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
   const TerrainMaps& maps = *in.world.terrain_maps;
   const glm::dvec2 eye(view.camera.eye_world), from_corner = eye - land.grid.min_world;
   terrain.slopes = make_square_layer(maps.slopes, land.grid.size_m(), from_corner);
+  terrain.sun.map = nullptr;
+  if (const LandShadow* shadow = in.world.land_shadow.get();
+      shadow && shadow->ground.size > 0 && !in.without.has(Part::kShadows))
+    terrain.sun = make_square_layer(shadow->ground, land.grid.size_m(), from_corner);
   const float detail_gain =
       0.11f / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
   terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});

@@ -21,6 +21,7 @@ struct Terrain {
   static constexpr SurfaceKind kSurface = SurfaceKind::kTerrain;
 
   SlopeLayer slopes, detail;
+  SlopeLayer sun;  // LandShadow::ground; no map: lit everywhere
   const texture::RgbaImage* albedo = nullptr;
   float albedo_texels_per_m = 0.0f, albedo_x_eye = 0.0f, albedo_y_eye = 0.0f;
   Swash swash;

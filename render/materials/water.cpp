@@ -106,7 +106,6 @@ void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   const glm::dvec2 from_corner = eye - grid.min_world;
   water.coast_slopes = make_square_layer(in.sea.coast_slopes, size_m, from_corner);
   water.coast_surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);
-  water.foam = make_foam(in, eye);
 }
 
 // The displacement of the lookups turns with the picture. Across the line of sight it is half as
@@ -184,6 +183,8 @@ void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);
+  water.foam = make_foam(in, eye);
+  water.hull_foam = make_foam(in, eye, kHullFoamPeriod_m);
   fill_optics(in, view.camera, water);
 }
 

@@ -37,7 +37,7 @@ struct Water {
   // foam. Not periodic: they hold within their square.
   bool has_coast = false;
   SlopeLayer coast_slopes, coast_surf;
-  Foam foam;
+  Foam foam, hull_foam;
 
   glm::vec3 mirrored_sea{0.0f};  // radiance of the sea where waves mirror it
   float wave_horizon = 0.0f;     // sine of the elevation at which half of the rays meet a wave

@@ -338,8 +338,12 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
 TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scratch) {
   for (std::size_t n = 0; n < input.fragments.size(); ++n)
     scratch.fragment_primitive[n] = input.fragments[n].primitive;
-  return {raster::tile_box(s.viewport, s.grid, input.tile), input.depth.data(),
-          input.primitive.data(), input.fragments, input.lookups};
+  return {raster::tile_box(s.viewport, s.grid, input.tile),
+          input.depth.data(),
+          input.primitive.data(),
+          input.fragments,
+          input.lookups,
+          s.sun_shadow.casters.of_tile(input.tile)};
 }
 
 int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -410,7 +414,8 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
 void ShadeLookupTile(const Shading& s, int tile_index, const float* depth,
                      const std::uint32_t* primitive, ShadeScratch& scratch,
                      texture::RgbaImage& image) {
-  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {}};
+  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {},
+                        s.sun_shadow.casters.of_tile(tile_index)};
   const PixelLists lists = ListPixels(s, tile, scratch);
   if (s.kind == ViewKind::kRefraction)
     ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch, KeepNothing());

@@ -13,6 +13,7 @@
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
 #include "render/frame.h"
+#include "render/world/land_shadow.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
@@ -71,8 +72,6 @@ struct TerrainMaps {
 struct CoastMaps {
   ocean::CoastMap waves;
   std::vector<float> ceded;  // what the sea's own waves give up to the trains, in [0, 1]
-  // Thresholds, stretched to [-1, 1]; of any size, it repeats. The same for every coast.
-  std::shared_ptr<const texture::PackedMap2> foam_pattern;
 };
 
 // The shapes that a scene's objects need, and which of them each object has.
@@ -93,8 +92,11 @@ struct World::State {
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
+  std::shared_ptr<const LandShadow> land_shadow = {};  // none: no land, or no sun
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain, if they count
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
+  // Thresholds of foam, stretched to [-1, 1]; of any size, it repeats. The same in every world.
+  std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
 
   // What floats.
   ObjectMeshes objects = {};

@@ -129,9 +129,6 @@ void main() {
   refracted = mix(refracted, floor_seen.rgb, floor_seen.a);
 #endif
   float glint = sun_glint(to_eye, s, reflectance, cos_rough);
-#ifdef LOOKUPS
-  glint *= 1.0 - mirror.a * clamp(2.0 - 5.0 * (sun_direction.z - to_eye.z), 0.0, 1.0);
-#endif
   vec3 seen = mix(refracted, mirrored, reflectance) + sun_irradiance * glint;
 #ifdef COAST
   seen = add_foam(foam_cover(p.xy, level_flat_m, surf.y), seen);
