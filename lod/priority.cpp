@@ -80,7 +80,8 @@ float relief_factor(const ReliefFrame& frame, const Relief& relief, Interval x, 
   const float spread = std::min(width * kInvFullSpread, 1.0f);
   const float flat = 1.0f + frame.flat_gain * (1.0f - spread);
   return (facing_most < 0.0f ? frame.back_facing : 1.0f) *
-         (silhouette ? 1.0f : frame.off_silhouette) * (flat * flat);
+         (silhouette ? 1.0f : frame.off_silhouette) *
+         (relief.z.high < -frame.eye_z ? frame.sunken : 1.0f) * (flat * flat);
 }
 
 // (1 + d / (8 D))^16
@@ -118,13 +119,15 @@ PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level) {
   }
 
   const float dx = distance_to(ix), dy = distance_to(iy);
-  const float distance2 = (dx * dx + dy * dy) + frame.distance2_z;
+  const bool with_relief = frame.has_factors && frame.relief.counts;
+  const Relief relief = with_relief ? relief_in(frame, box_x, box_y, level) : Relief{};
+  const float dz = distance_to(relief.z);
+  const float distance2 = (dx * dx + dy * dy) + (with_relief ? dz * dz : frame.distance2_z);
   const int exponent = 127 + (level & frame.level_mask);
   const float inv_size2 = std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23);
   float key = distance2 * std::max(inv_size2, frame.least_inv_size2);
   if (frame.has_factors) {
-    if (frame.relief.counts)
-      key *= relief_factor(frame.relief, relief_in(frame, box_x, box_y, level), ix, iy);
+    if (with_relief) key *= relief_factor(frame.relief, relief, ix, iy);
     if (frame.inv_haze > 0.0f) key *= haze_factor(std::sqrt(distance2), frame.inv_haze);
     if (touches_a_focus(frame.focus, box_x, box_y, level)) key *= frame.focus.factor;
     key = std::min(key, kLastKey);

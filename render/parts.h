@@ -20,13 +20,14 @@ enum class Part : std::uint8_t {
   kClouds,      // in the sky, and in what the water mirrors of it
   kShadows,     // of land and objects before sun or moon
   kHulls,       // foam and dark water where floating things meet it
+  kApron,       // the ground beyond the terrain's square
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples", "haze", "clouds", "shadows", "hulls"};
+    "reflection", "refraction", "ripples", "haze", "clouds", "shadows", "hulls", "apron"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

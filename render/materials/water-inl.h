@@ -20,6 +20,7 @@
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/hull-inl.h"
 #include "render/materials/water.h"
+#include "render/tile/light_code-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
 
@@ -186,15 +187,17 @@ struct Looked {
 HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
   const D d;
   const V one = Constant(1.0f);
-  Looked seen;
-  seen.light = LookUp(*lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
-                      hn::Mul(y_px, Constant(lookup.scale_y)), seen.alpha);
-  const auto is_part = hn::And(hn::Gt(seen.alpha, hn::Zero(d)), hn::Lt(seen.alpha, one));
-  if (hn::AllFalse(d, is_part)) return seen;
-  // The codes that were blended with zeros are square roots of light.
-  const V whole = hn::Div(one, hn::Max(seen.alpha, Constant(1.0f / 512.0f)));
-  seen.light = Scale(seen.light, hn::Mul(whole, whole));
-  return seen;
+  V3 code;
+  V alpha;
+  texture::HWY_NAMESPACE::SampleRgba(d, *lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
+                                     hn::Mul(y_px, Constant(lookup.scale_y)), code.x, code.y,
+                                     code.z, alpha);
+  const auto some = hn::Gt(alpha, hn::Zero(d));
+  if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
+  // Codes that were blended with zeros.
+  if (!hn::AllFalse(d, hn::And(some, hn::Lt(alpha, one))))
+    code = Scale(code, hn::Div(one, hn::Max(alpha, Constant(1.0f / 512.0f))));
+  return {DecodeLight(code), alpha};
 }
 
 // What `front` leaves of a place shows `behind`.
@@ -247,10 +250,10 @@ HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
 }
 
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
-// horizon that waves make, and in front of both whatever the reflection image shows there, whose
-// part is `image_alpha`.
+// horizon that waves make, brighter by what its floor adds here, and in front of both whatever the
+// reflection image shows there, whose part is `image_alpha`.
 HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V3 normal, V cos_eye, V inv_variance,
+                             const WaterSlopes& s, V3 normal, V cos_eye, V inv_variance, V3 floor,
                              bool use_image, V& image_alpha) {
   V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
   const V horizon = Constant(water.wave_horizon);
@@ -260,7 +263,9 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   r.z = hn::MulAdd(s.variance, Constant(0.8f), hn::Max(r.z, Constant(-0.25f)));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
-  mirrored = Lerp(mirrored, Constant(water.mirrored_sea), sea);
+  const V3 mirrored_sea =
+      ScaleAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
+  mirrored = Lerp(mirrored, mirrored_sea, sea);
   image_alpha = hn::Zero(D());
   if (use_image) {
     const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
@@ -272,9 +277,10 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
 
 // What comes up through the surface: scattered light of the water body, which comes in from around
 // and so is never quite in the shade, brighter in thin crests against the sun, and the floor where
-// the refraction image shows one, whose part is `image_alpha`.
+// the refraction image shows one, whose part is `image_alpha`; `floor_added` is what that changes.
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha) {
+                             const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha,
+                             V3& floor_added) {
   const V height = hn::Add(packet.p.z, Constant(shading.rays.eye_z));
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
@@ -285,16 +291,16 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   const V glow =
       hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
   const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
-  V3 light =
+  const V3 deep =
       ScaleAdd(Constant(water.crest_glow), glow,
                ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
   image_alpha = hn::Zero(D());
-  if (use_image) {
-    const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
-    image_alpha = floor.alpha;
-    light = Lerp(light, floor.light, image_alpha);
-  }
-  return light;
+  floor_added = Constant(glm::vec3(0.0f));
+  if (!use_image) return deep;
+  const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
+  image_alpha = floor.alpha;
+  floor_added = Scale(Difference(floor.light, deep), image_alpha);
+  return Sum(deep, floor_added);
 }
 
 // The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution.
@@ -373,10 +379,11 @@ struct WaterShader {
     V inv_variance, mirrored_alpha, refracted_alpha;
     const V sun_path =
         SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
-    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye, inv_variance,
-                                       tile.lookups.reflection, mirrored_alpha);
+    V3 floor;
     V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
-                                  refracted_alpha);
+                                  refracted_alpha, floor);
+    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye, inv_variance,
+                                       floor, tile.lookups.reflection, mirrored_alpha);
     V foam_cover = s.foam_cover;
     if (!tile.casters.empty()) {
       const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),

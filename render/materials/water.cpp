@@ -154,15 +154,16 @@ float wave_horizon(float variance) { return 0.195f * std::sqrt(variance); }
 // Light that leaves the sea towards a wave that mirrors it: the water body's and the mean sky's.
 // The ray goes down by about the slopes' standard deviation, and the facets that it meets are
 // turned to it by as much again. No brighter than the horizon, whose place it takes.
-glm::vec3 mirrored_sea(const MaterialInputs& in, float variance) {
-  const float cosine = std::min(std::sqrt(variance), 1.0f), n = in.media.refraction_index;
-  const float reflectance = fresnel_reflectance(cosine, n);
+glm::vec3 mirrored_sea(const MaterialInputs& in, float reflectance) {
   return glm::min(glm::mix(in.media.body, in.light.ambient, reflectance), in.light.horizon);
 }
 
 void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   const float variance = slope_variance(in, water);
-  water.mirrored_sea = mirrored_sea(in, variance);
+  const float cosine = std::min(std::sqrt(variance), 1.0f);
+  const float reflectance = fresnel_reflectance(cosine, in.media.refraction_index);
+  water.mirrored_sea = mirrored_sea(in, reflectance);
+  water.mirrored_floor_part = 1.0f - reflectance;
   water.wave_horizon = wave_horizon(variance);
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =

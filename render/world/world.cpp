@@ -73,10 +73,18 @@ void add_foam_pattern(const World::State* like, World::State& state) {
 
 void add_terrain(const World::State* like, Workers& workers, World::State& state) {
   if (!state.scene.terrain) return;
-  state.terrain = like ? like->terrain : shared(*scene::build_terrain(state.scene));
+  if (like) {
+    state.terrain = like->terrain;
+    state.terrain_maps = like->terrain_maps;
+    state.relief_bounds = like->relief_bounds;
+    return;
+  }
+  state.terrain = shared(*scene::build_terrain(state.scene));
+  const terrain::HeightGrid around = sample_around(*state.terrain, workers);
   state.terrain_maps =
-      like ? like->terrain_maps
-           : shared(build_terrain_maps(*state.terrain, state.scene.terrain->seed, workers));
+      shared(build_terrain_maps(*state.terrain, around, state.scene.terrain->seed, workers));
+  state.relief_bounds =
+      shared(lod::ReliefBounds(around.height_m, around.grid.samples_x, around.grid.spacing_m));
 }
 
 // like: may have another coast.
@@ -103,15 +111,6 @@ void add_land_shadow(const World::State* like, Workers& workers, World::State& s
   }
 }
 
-void add_relief_bounds(const World::State* like, World::State& state) {
-  if (!state.terrain || !state.scene.detail.normals_count()) return;
-  const terrain::HeightGrid& terrain = *state.terrain;
-  state.relief_bounds = like && like->relief_bounds
-                            ? like->relief_bounds
-                            : shared(lod::ReliefBounds(terrain.height_m, terrain.grid.samples_x,
-                                                       terrain.grid.spacing_m));
-}
-
 // like: may be null.
 std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
                                          int threads) {
@@ -127,7 +126,6 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   workers.run_both(
       [&] {
         add_terrain(if_alike(same_terrain), workers, *state);
-        add_relief_bounds(if_alike(same_terrain), *state);
         add_coast(like, same_coast, workers, *state);
       },
       [&] {
