@@ -29,8 +29,9 @@ struct Sky {
   glm::vec3 sun_radiance{1.0f};            // linear RGB, irradiance scale of direct light
   glm::vec3 zenith{0.10f, 0.25f, 0.60f};   // linear RGB radiance overhead
   glm::vec3 horizon{0.65f, 0.75f, 0.85f};  // the same about 1 degree above the horizon
-  double haze_distance_m = 15000.0;  // exponential haze: 1/e of the contrast is left at this range
-  double cloud_cover = 0.3;          // [0, 1], thin clouds
+  double haze_distance_m = 15000.0;        // at sea level 1/e of the contrast is left at this range
+  double haze_height_m = 1200.0;           // at this height there is 1/e of the haze
+  double cloud_cover = 0.3;                // [0, 1], thin clouds
   std::uint64_t cloud_seed = 7;
   double exposure = 1.0;  // multiplies radiance before the sRGB curve
 
@@ -105,6 +106,7 @@ struct Scene {
   // the patch lengths if the file has none, follow from it and stand in `sea`.
   std::optional<int> douglas, beaufort;
   SeaArea area;
+  bool round_earth = true;  // false: flat, with the horizon at infinity
   WaterOptics water;
   Coast coast;
   Detail detail;

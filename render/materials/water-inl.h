@@ -20,6 +20,7 @@
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/water.h"
 #include "render/tile/surfel-inl.h"
+#include "render/view/wave_reach.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -272,7 +273,12 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
 // against the sun, and the floor where the refraction image shows one, whose part is `image_alpha`.
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
                              const WaterSlopes& s, bool use_image, V& image_alpha) {
-  const V height = hn::Add(packet.p.z, Constant(shading.rays.eye_z));
+  // Far triangles cut off some of the earth's curve: that is no trough.
+  const V share =
+      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveReachSlope * water.inv_wave_reach),
+                          Constant(kWaveReachSlope)),
+            0.0f, 1.0f);
+  const V height = hn::Mul(share, hn::Add(packet.p.z, Constant(shading.rays.eye_z)));
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
   const V towards_sun = hn::Max(

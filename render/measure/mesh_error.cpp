@@ -155,7 +155,9 @@ SeaReference look_at_sea(const View& view, const ocean::WaterSurface& surface,
       if (ray.z >= 0.0) continue;
       const glm::dvec2 p(view.eye_world - ray * (view.eye_world.z / ray.z));
       const glm::dvec2 from_centre = glm::abs(p - area.centre_m);
-      if (from_centre.x > 0.5 * area.size_m.x || from_centre.y > 0.5 * area.size_m.y) continue;
+      const bool inside =
+          from_centre.x <= 0.5 * area.size_m.x && from_centre.y <= 0.5 * area.size_m.y;
+      if (!area.is_endless() && !inside) continue;
       sea.pixel.emplace_back(x, y);
       sea.p_world.push_back(p);
     }

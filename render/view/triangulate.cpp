@@ -11,12 +11,14 @@
 namespace swell::render {
 namespace {
 
-// The endless sea: a square of 64 km around the eye, whose corner moves in whole steps.
-constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
+// The endless sea: a square of 2097 km around the eye, whose corner moves in whole steps. From
+// 40 km up the horizon is 765 km away. A step changes triangles wider than half of it alone, which
+// lie far from any eye and, without waves, miss the earth's curve by less than a picture shows.
+constexpr double kSeaSize_m = 0x1p21, kSeaStep_m = 0x1p16;
 
 // Vertices every 1 m, 0.25 m or 0.125 m at the closest. A small budget is better spent further off,
 // a large one has nothing left to do there: docs/lod.md has the errors of all three.
-int sea_lattice_bits(int budget) { return budget < 4000 ? 16 : budget <= 40000 ? 18 : 19; }
+int sea_lattice_bits(int budget) { return budget < 4000 ? 21 : budget <= 40000 ? 23 : 24; }
 
 lod::Domain sea_domain(const View& view, int budget) {
   const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
@@ -68,6 +70,7 @@ lod::AdaptRequest request_for(const Wanted& wanted, int budget, float low_m, flo
                                                       : lod::Priority::kProjectedSize;
   request.min_height_m = low_m;
   request.max_height_m = high_m;
+  request.earth_radius_m = wanted.world.earth_radius_m();
   request.factors = priority_factors(wanted.world.scene);
   request.limits = adapt_limits(wanted.options);
   return request;
