@@ -107,7 +107,7 @@ std::array<RenderView*, 3> prepare_views(const World::State& world, const View& 
   ws.window.camera = view;
   reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
   for (RenderView* const shown : {&ws.window, &reflection, &refraction})
-    shown->drop_per_m2 = drop_per_m2(world.earth_radius_m());
+    shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
   return {&ws.window, &reflection, &refraction};
 }
 
@@ -192,8 +192,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
   const Light light = make_light(world_state);
-  const Media media = make_media(world_state, light);
-  MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media};
+  const Media media = make_media(world_state, light, options.without);
+  MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
   inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   stage(Stage::kLookups, [&](const StageRun& run) {
     draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.lookups, run);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "render/materials/light.h"
+#include "render/parts.h"
 #include "render/view/render_view.h"
 #include "render/world/sea_maps.h"
 
@@ -22,6 +23,7 @@ struct MaterialInputs {
   const ObjectGeometry& objects;
   const Light& light;
   const Media& media;
+  PartSet without;
   LookupImage reflection = {}, refraction = {};  // once they are drawn
   // How far out the water's vertices show waves.
   double wave_reach_m = std::numeric_limits<double>::infinity();

@@ -70,7 +70,7 @@ lod::AdaptRequest request_for(const Wanted& wanted, int budget, float low_m, flo
                                                       : lod::Priority::kProjectedSize;
   request.min_height_m = low_m;
   request.max_height_m = high_m;
-  request.earth_radius_m = wanted.world.earth_radius_m();
+  request.earth_radius_m = wanted.world.earth_radius_m(wanted.options.without);
   request.factors = priority_factors(wanted.world.scene);
   request.limits = adapt_limits(wanted.options);
   return request;

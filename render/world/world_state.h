@@ -77,8 +77,9 @@ struct World::State {
   ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
 
   // As pictures have it (math/earth.h): infinity if flat. Two triangles cannot bend.
-  double earth_radius_m() const {
-    const bool bends = scene.detail.triangulation != scene::Triangulation::kPlane;
+  double earth_radius_m(PartSet without) const {
+    const bool bends =
+        scene.detail.triangulation != scene::Triangulation::kPlane && !without.has(Part::kEarth);
     return scene.round_earth && bends ? kEarthRadius_m : std::numeric_limits<double>::infinity();
   }
 };
