@@ -275,8 +275,8 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
                              const WaterSlopes& s, bool use_image, V& image_alpha) {
   // Far triangles cut off some of the earth's curve: that is no trough.
   const V share =
-      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveReachSlope * water.inv_wave_reach),
-                          Constant(kWaveReachSlope)),
+      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
+                          Constant(kWaveShareAtEye)),
             0.0f, 1.0f);
   const V height = hn::Mul(share, hn::Add(packet.p.z, Constant(shading.rays.eye_z)));
   const V crest =

@@ -134,7 +134,7 @@ std::optional<Pick> pick(const World& world, const View& view, const Workspace& 
   if (!nearest) return nearest;
 
   nearest->p_world = ray.origin + nearest->distance_m * bent.chord_to(nearest->distance_m).along;
-  nearest->distance_m += glm::length(to_near_plane);
+  nearest->distance_m = glm::distance(nearest->p_world, view.eye_world);
   if (nearest->what == Shown::kLand)
     ask_land(*w.terrain, *nearest);
   else

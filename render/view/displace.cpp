@@ -47,6 +47,32 @@ void displace_in_chunks(SurfaceKind kind, Surface& surface, const Meshes& meshes
   });
 }
 
+// Floating things further out than waves reach. There the sea has finer triangles, as if it were
+// focus_nearer times nearer (PriorityFactors), on which waves carry the thing.
+struct FarFocuses {
+  std::array<lod::Focus, lod::kMaxFocuses> focus;
+  std::size_t count = 0;
+
+  FarFocuses(const World::State& world, glm::dvec3 eye, double reach_m) {
+    const auto inv_reach = static_cast<float>(1.0 / reach_m);
+    const double widest_m = 0.5 * world.water_bounds().mean_wavelength_m;
+    for (const lod::Focus& f : world.focuses) {
+      const double distance_m = glm::length(glm::dvec3(f.centre_m - glm::dvec2(eye), eye.z));
+      if (wave_share(static_cast<float>(distance_m), inv_reach) == 1.0f) continue;
+      const double width_m = widest_m * distance_m / (reach_m * world.scene.detail.objects);
+      focus[count++] = {f.centre_m, f.radius_m + width_m};
+    }
+  }
+
+  // What of the waves a vertex shows for their sake: all within a radius, none beyond two.
+  float share_at(glm::dvec2 p_world) const {
+    double share = 0.0;
+    for (const lod::Focus& f : std::span(focus).first(count))
+      share = std::max(share, 2.0 - glm::distance(p_world, f.centre_m) / f.radius_m);
+    return static_cast<float>(std::min(share, 1.0));
+  }
+};
+
 }  // namespace
 
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
@@ -69,12 +95,15 @@ void water_heights(const WaterHeights& in, const Surface& water, std::size_t beg
   std::array<std::uint16_t, kVertexChunk> vertex;
   const auto eye_z = static_cast<float>(in.view.eye_world.z);
   const auto inv_reach = static_cast<float>(1.0 / water.statistics.reach_m);
+  const FarFocuses focuses(in.world, in.view.eye_world, water.statistics.reach_m);
   std::size_t count = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const glm::vec2 p = water.offset[i];
-    share[count] = wave_share(std::sqrt(p.x * p.x + p.y * p.y + eye_z * eye_z), inv_reach);
-    if (share[count] == 0.0f) continue;
     place[count] = vertex_world(water, i);
+    share[count] = wave_share(std::sqrt(p.x * p.x + p.y * p.y + eye_z * eye_z), inv_reach);
+    if (share[count] < 1.0f && focuses.count > 0)
+      share[count] = std::max(share[count], focuses.share_at(place[count]));
+    if (share[count] == 0.0f) continue;
     offset[count] = p;
     vertex[count++] = static_cast<std::uint16_t>(i - begin);
   }

@@ -20,10 +20,17 @@ constexpr double kSeaSize_m = 0x1p21, kSeaStep_m = 0x1p16;
 // a large one has nothing left to do there: docs/lod.md has the errors of all three.
 int sea_lattice_bits(int budget) { return budget < 4000 ? 21 : budget <= 40000 ? 23 : 24; }
 
-lod::Domain sea_domain(const View& view, int budget) {
-  const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
-  return {cell - 0.5 * kSeaSize_m, kSeaSize_m, sea_lattice_bits(budget)};
+lod::Domain domain_around(const View& view, double size_m, double step_m, int lattice_bits) {
+  const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / step_m) * step_m;
+  return {cell - 0.5 * size_m, size_m, lattice_bits};
 }
+
+lod::Domain sea_domain(const View& view, int budget) {
+  return domain_around(view, kSeaSize_m, kSeaStep_m, sea_lattice_bits(budget));
+}
+
+// Two triangles: larger ones would take the nearest water's depth from corners too far away.
+lod::Domain plane_domain(const View& view) { return domain_around(view, 0x1p16, 0x1p12, 1); }
 
 lod::Domain land_domain(const terrain::HeightGrid& terrain) {
   const auto cells = static_cast<unsigned>(std::max(terrain.grid.samples_x - 1, 2));
@@ -111,7 +118,7 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
       water.statistics = lod::write_radial_grid(wanted.view, budget, water.mesh);
       break;
     case scene::Triangulation::kPlane:
-      water.domain = sea_domain(wanted.view, budget);
+      water.domain = plane_domain(wanted.view);
       lod::write_plane(water.domain, water.mesh);
       water.statistics = {.triangles = 2};
       break;

@@ -119,7 +119,7 @@ void main() {
   float sea = part_of_sea_mirrored(r.z - wave_horizon, to_eye.z + wave_horizon, s.variance);
   r.z = max(r.z, -0.25) + 0.8 * s.variance;
   vec3 mirrored = mix(sky_radiance(sky_soft, r, sqrt(dot(r, r))), mirrored_sea, sea);
-  float share = clamp(2.5 - 2.5 * inv_wave_reach * point.distance_m, 0.0, 1.0);
+  float share = clamp(2.0 - 1.25 * inv_wave_reach * point.distance_m, 0.0, 1.0);
   float crest = clamp(share * (p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
   float towards_sun = max(-dot(to_eye.xy, sun_direction.xy), 0.0);
   vec3 refracted = body + crest_glow * (crest * crest * (towards_sun + 0.35));
