@@ -120,12 +120,6 @@ Fault fault_of_sea(const Scene& scene) {
   if (std::ranges::adjacent_find(lengths, std::less_equal{}) != lengths.end())
     return SceneFault{"sea.patch_lengths_m", fmt::format("[{}]", fmt::join(lengths, ", ")),
                       "lengths that go down"};
-  if ((scene.area.size_m.x == 0.0) != (scene.area.size_m.y == 0.0))
-    return SceneFault{"sea.size_m",
-                      fmt::format("[{}, {}]", scene.area.size_m.x, scene.area.size_m.y),
-                      "two lengths, or [0, 0] for a sea without end"};
-  if (scene.douglas && scene.beaufort)
-    return SceneFault{"sea.beaufort", "it besides sea.douglas", "one of them"};
   return std::nullopt;
 }
 

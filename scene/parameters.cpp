@@ -156,7 +156,7 @@ Rows sea_rows() {
       SceneRow::or_zero(SceneRow::vector(
           "sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),
           "its size, west to east and south to north; outside, waves are in the shading alone; "
-          "[0, 0]: no limit, waves go on to the horizon")),
+          "0: no limit, waves go on to the horizon")),
       SceneRow::choice("sea.earth", EarthName{},
                        "round: what is far sinks by r^2 / 14646 km and behind the horizon"),
       SceneRow::number("wind.speed_mps", {0, 60, "m/s"}, SWELL_FIELD(sea.wind_speed_mps),

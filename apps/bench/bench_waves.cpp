@@ -63,9 +63,8 @@ void write_filter(const WaveFigures& figures, const scene::Scene& scene) {
              2.0 * kPi / length_m, length_m);
 }
 
-// Of a limited sea, or as much of an endless one.
 glm::dvec2 shown_size_m(const scene::SeaArea& area) {
-  return area.is_endless() ? glm::dvec2(2000.0) : area.size_m;
+  return glm::min(area.limits_m(), glm::dvec2(4000.0));
 }
 
 void write_map(const WaveFigures& figures, const scene::Scene& scene, const scene::Water& water,
