@@ -1,5 +1,6 @@
 #include "lod/roam.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -65,7 +66,8 @@ double reach_of(Roam::Tree& tree, bool stopped) {
   const std::optional<QueueMember> border =
       stopped ? tree.merge_queue.first() : tree.split_queue.first();
   if (!border) return std::numeric_limits<double>::infinity();
-  return distance_of_largest(tree.frame, border->key) * tree.domain.step_m();
+  const double steps = distance_of_largest(tree.frame, border->key);
+  return std::max(steps, 1.0) * tree.domain.step_m();
 }
 
 void check_domain(const Domain& domain) {

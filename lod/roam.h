@@ -30,7 +30,7 @@ struct AdaptStatistics {
   int triangles = 0, splits = 0, merges = 0;
   bool stopped = false;            // at one of the request's limits, with work left
   bool operation_cap_hit = false;  // must never be true; tests require it
-  // Out to here, in metres from the eye, no triangle in view is wider than the request's
+  // Out to here, in metres from the eye, > 0, no triangle in view is wider than the request's
   // largest_size_m; beyond, their vertices lie too far apart to follow a wave.
   double reach_m = std::numeric_limits<double>::infinity();
 };

@@ -2,7 +2,7 @@
 //
 // The world is flat: x east, y north, z above the sea. A picture sinks what it shows by
 // r^2 / (2 R') at the horizontal distance r from the eye. That is a sphere's curve to 1 part in
-// 4 (R' / r)^2: to 2 m of the 40 km that the horizon of an eye 40 km up has sunk.
+// 4 (R' / r)^2: to 110 m of the 40 km that the horizon of an eye 40 km up has sunk.
 #pragma once
 
 namespace swell {

@@ -54,6 +54,7 @@ struct FarFocuses {
   std::size_t count = 0;
 
   FarFocuses(const World::State& world, glm::dvec3 eye, double reach_m) {
+    if (world.focuses.empty()) return;
     const auto inv_reach = static_cast<float>(1.0 / reach_m);
     const double widest_m = 0.5 * world.water_bounds().mean_wavelength_m;
     for (const lod::Focus& f : world.focuses) {
