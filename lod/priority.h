@@ -8,8 +8,11 @@
 //                     largest size if that is less
 //   kInverseDistance  k = d^2: the paper's 1 / distance, whatever the size; it refines all of the
 //                     nearest part to the last level first, and so suits lattices of few bits
-// and 0 (k = infinity) if that box lies outside the view. k is then multiplied by what is asked for
-// of the squares of these:
+// and 0 (k = infinity) if that box lies outside the view, or behind the horizon of a round earth.
+// There a flat triangle of width s cuts off s^2 / (8 R'), which a horizon without waves shows. So
+// for kProjectedSize a size counts for at least kCurvatureCounts s^2 / (4 R' slope): the width at
+// which waves of the request's slope are missed by as much, times how much more it matters.
+// k is then multiplied by what is asked for of the squares of these:
 //   back_facing      if for all points p of the box (relative to the eye) and all normals
 //                    n = (-sx, -sy, 1) of the surface in it n.(-p) = sx px + sy py - pz is < 0
 //   off_silhouette   if that is < 0 for all or > 0 for all
@@ -32,6 +35,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 
 #include "lod/relief_bounds.h"
@@ -78,10 +82,15 @@ struct PriorityFrame {
   // Outside, if for one plane max(x n.x) + max(y n.y) + max_z < 0 over the box.
   struct Plane {
     float nx, ny, max_z;
+    float by_drop;  // what a step of the box's sinking adds
   };
   std::array<Plane, 5> planes{};
-  int level_mask = -1;           // -1: sizes count; 0: they do not
+  float drop_per_step2 = 0.0f;  // of a round earth, by the squared horizontal distance
+  float horizon2 = std::numeric_limits<float>::infinity();  // of this no box is seen beyond
+  int level_mask = -1;                                      // -1: sizes count; 0: they do not
   float least_inv_size2 = 0.0f;  // of the largest size, in units of the domain's
+  // The size that counts for a round earth's curvature is this times 4^level, likewise.
+  float curvature_inv_size2 = std::numeric_limits<float>::infinity();
 
   bool has_factors = false;  // any of these:
   ReliefFrame relief;
@@ -92,10 +101,15 @@ struct PriorityFrame {
 inline constexpr float kMostHaze = 2.0f;            // d / (8 D) counts to here
 inline constexpr float kInvFullSpread = 2.0f;       // of slopes
 inline constexpr float kLastKey = 0x1.fffffep127f;  // of diamonds in view
+inline constexpr double kCurvatureCounts = 16.0;    // over waves that are missed by as much
 
 // Checks that the request's numbers are finite, ordered and in their ranges. Distances
 // beyond 2^28 lattice steps count as that.
 PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& domain);
+
+// The distance from the eye, in lattice steps, at which the largest size has this key; infinity
+// without such a size.
+double distance_of_largest(const PriorityFrame& frame, PriorityKey key);
 
 // The key of the diamond centred at lattice point (x, y).
 PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level);

@@ -62,6 +62,9 @@ struct AdaptRequest {
   // counts them as this wide: half the mean wavelength for waves. > 0.
   double largest_size_m = std::numeric_limits<double>::infinity();
   float min_height_m = 0.0f, max_height_m = 0.0f;  // of all the surface, at all times
+  // The surface sinks by r^2 / (2 earth_radius_m) at the horizontal distance r from the eye, and
+  // what lies behind its own horizon gets priority 0. > 0; infinity: flat.
+  double earth_radius_m = std::numeric_limits<double>::infinity();
   // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
   float frustum_margin = 0.0f;
   PriorityFactors factors = {};

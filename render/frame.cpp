@@ -107,6 +107,8 @@ std::array<RenderView*, 3> prepare_views(const World::State& world, const View& 
   refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
   ws.window.camera = view;
   reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
+  for (RenderView* const shown : {&ws.window, &reflection, &refraction})
+    shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
   return {&ws.window, &reflection, &refraction};
 }
 
@@ -198,6 +200,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   });
   const Media media = make_media(world_state, light, options.without);
   MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
+  inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   stage(Stage::kLookups, [&](const StageRun& run) {
     draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.lookups, run);
     fill_shading(inputs, ws.window, options.tile_size_px, ws.shading);

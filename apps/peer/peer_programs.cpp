@@ -93,6 +93,8 @@ void set_view(const Shading& s, const View& camera, const GlProgram& program) {
   program.set("ambient", s.light.ambient);
   program.set("horizon", s.light.horizon);
   program.set("inv_haze_m", s.media.inv_haze_m);
+  program.set("inv_haze_height_m", s.media.inv_haze_height_m);
+  program.set("drop_per_m2", s.rays.drop_per_m2);
   program.set("exposure", s.exposure);
   program.set("body", s.media.body);
   program.set("absorption_per_m", s.media.absorption_per_m);
@@ -151,6 +153,7 @@ void set_water(const Shading& s, const GlProgram& program) {
   program.set("wave_horizon", water.wave_horizon);
   program.set("crest_glow", water.crest_glow);
   program.set("inv_crest_height", water.inv_crest_height);
+  program.set("inv_wave_reach", water.inv_wave_reach);
   program.set("inv_window", 1.0f / glm::vec2(s.viewport.width_px, s.viewport.height_px));
   program.set("distortion_px", water.distortion_px);
   program.set("max_distortion_px", water.max_distortion_px);

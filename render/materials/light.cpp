@@ -25,6 +25,7 @@ Media make_media(const World::State& world, const Light& light, PartSet without)
   Media media;
   if (!without.has(Part::kHaze))
     media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
+  media.inv_haze_height_m = static_cast<float>(1.0 / world.scene.sky.haze_height_m);
   media.refraction_index = static_cast<float>(water.refraction_index);
   media.absorption_per_m = water.absorption_per_m;
   // Light that enters the water: the sky's and the sun's, as radiance of a white surface.

@@ -23,6 +23,7 @@
 #include "render/tile/light_code-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
+#include "render/view/wave_reach.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -281,7 +282,12 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
                              const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha,
                              V3& floor_added) {
-  const V height = hn::Add(packet.p.z, Constant(shading.rays.eye_z));
+  // Far triangles cut off some of the earth's curve: that is no trough.
+  const V share =
+      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
+                          Constant(kWaveShareAtEye)),
+            0.0f, 1.0f);
+  const V height = hn::Mul(share, hn::Add(packet.p.z, Constant(shading.rays.eye_z)));
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
   const V towards_sun = hn::Max(

@@ -168,6 +168,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
+  water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);

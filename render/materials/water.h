@@ -44,6 +44,7 @@ struct Water {
   float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
   glm::vec3 crest_glow{0.0f};        // added where light shines through crests
   float inv_crest_height = 0.0f;
+  float inv_wave_reach = 0.0f;  // of the vertices, per metre
   LookupImage reflection, refraction;
   float distortion_px = 0.0f;                    // window pixels per unit of slope
   float max_distortion_px = 0.0f;                // bound of the displacement, each way

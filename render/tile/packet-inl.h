@@ -68,9 +68,11 @@ HWY_INLINE V InverseSqrt(V x) { return hn::Div(Constant(1.0f), hn::Sqrt(x)); }
 struct Packet {
   V x_px, y_px;  // whole pixel numbers
   V depth;       // along the view axis [m]
-  V3 p;          // position relative to the eye [m]; of the mirrored or squeezed world if any
-  V distance;    // [m]
-  V3 to_eye;     // unit
+  // Position relative to the eye [m], in the flat world: on a round earth raised by what the place
+  // has sunk. Of the mirrored or squeezed world if any.
+  V3 p;
+  V distance;  // [m]
+  V3 to_eye;   // unit, as the level at that place has it
 };
 
 // The ray through the centres of pixels (x_px, y_px), of depth 1.
@@ -91,6 +93,13 @@ HWY_INLINE Packet MakePacket(const ViewRays& rays, V x_px, V y_px, V z) {
   const V inverse_length = InverseSqrt(length2);
   packet.distance = hn::Mul(packet.depth, hn::Mul(length2, inverse_length));
   packet.to_eye = Scale(ray, hn::Neg(inverse_length));
+  // The level there has sunk by c r^2 and leans by 2 c r, with r / distance the ray's horizontal
+  // part: level rays meet it at the horizon. (What to_eye's x and y change by is left out: 0.5 % at
+  // the horizon of an eye 40 km up.)
+  const V horizontal2 = hn::MulAdd(ray.x, ray.x, hn::Mul(ray.y, ray.y));
+  const V sunk = hn::Mul(hn::Mul(horizontal2, packet.depth), Constant(rays.drop_per_m2));
+  packet.p.z = hn::MulAdd(sunk, packet.depth, packet.p.z);
+  packet.to_eye.z = hn::NegMulAdd(hn::Add(sunk, sunk), inverse_length, packet.to_eye.z);
   return packet;
 }
 

@@ -19,6 +19,7 @@ struct ViewRays {
   float near_m = 0.25f;
   float eye_z = 0.0f;
   float pixel_angle = 0.001f;  // size of a pixel at depth 1
+  float drop_per_m2 = 0.0f;    // how far a round earth sinks (math/earth.h)
 };
 
 struct Shading {

@@ -41,11 +41,12 @@ ObjectInstance instance_of(const scene::FloatingObject& object, const scene::Obj
 }
 
 // Whether the view may show any of the object or of its mirror image.
-bool in_view(const scene::FloatingObject& object, const Placement& placement,
+bool in_view(const scene::FloatingObject& object, const Placement& placement, float drop_per_m2,
              const std::array<glm::vec4, 5>& planes) {
   const glm::vec3 size(object.size_m);
   const float radius = std::sqrt(0.25f * (size.x * size.x + size.y * size.y) + size.z * size.z);
-  const glm::vec3 centre = placement.bottom_rel;
+  glm::vec3 centre = placement.bottom_rel;
+  centre.z -= (centre.x * centre.x + centre.y * centre.y) * drop_per_m2;
   // The bottom lies within a height of the waterline; so does all of both images.
   const float reach = 2.0f * radius;
   return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
@@ -139,7 +140,7 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Placement placement = placement_of(objects[i], geometry.poses[i], view);
-    if (!in_view(objects[i], placement, planes)) continue;
+    if (!in_view(objects[i], placement, views.front()->drop_per_m2, planes)) continue;
     const scene::ObjectMesh& mesh = drawn_mesh(world, i, placement.bottom_rel, view);
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));

@@ -8,6 +8,7 @@
 
 #include "lod/relief_bounds.h"
 #include "lod/request.h"
+#include "math/earth.h"
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
 #include "ocean/sea.h"
@@ -102,6 +103,13 @@ struct World::State {
 
   ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
   ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
+
+  // As pictures have it (math/earth.h): infinity if flat. Two triangles cannot bend.
+  double earth_radius_m(PartSet without) const {
+    const bool bends =
+        scene.detail.triangulation != scene::Triangulation::kPlane && !without.has(Part::kEarth);
+    return scene.round_earth && bends ? kEarthRadius_m : std::numeric_limits<double>::infinity();
+  }
 };
 
 // The water's surface at the time of `sea`, a frame of the world's sea.

@@ -75,6 +75,9 @@ class CameraWalk {
     request.factors = factors_;
     request.relief = uniform() < 0.8 ? relief_ : nullptr;
     request.max_slope = static_cast<float>(2.0 * uniform());
+    if (uniform() < 0.1) earth_radius_m_ = domain_.size_m * std::pow(1000.0, uniform());
+    if (uniform() < 0.1) earth_radius_m_ = std::numeric_limits<double>::infinity();
+    request.earth_radius_m = earth_radius_m_;
     return request;
   }
 
@@ -137,6 +140,7 @@ class CameraWalk {
   std::vector<Focus> focuses_;
   Priority priority_ = Priority::kProjectedSize;
   double largest_size_m_ = std::numeric_limits<double>::infinity();
+  double earth_radius_m_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace swell::lod

@@ -161,6 +161,9 @@ void HazeBetween(const Shading& shading, std::span<const float> distance_m, glm:
     Packet packet;
     packet.distance = LoadSome(distance_m, i);
     packet.to_eye = Constant(to_eye);
+    packet.p = Scale(packet.to_eye, hn::Neg(packet.distance));
+    const V r2 = hn::MulAdd(packet.p.x, packet.p.x, hn::Mul(packet.p.y, packet.p.y));
+    packet.p.z = hn::MulAdd(r2, Constant(shading.rays.drop_per_m2), packet.p.z);
     StoreSome(Haze(shading, packet, Constant(light)), seen, i);
   });
 }

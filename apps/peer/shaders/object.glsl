@@ -45,7 +45,7 @@ void main() {
   vec3 true_to_eye = to_eye;
 #endif
   vec3 light = matt_light(normal) + gloss(normal, true_to_eye);
-  light = add_haze(light, to_eye, length2 * inv_length);
+  light = add_haze(light, v_p, to_eye, length2 * inv_length);
 #ifdef REFLECTION
   colour = to_lookup(light);
 #else

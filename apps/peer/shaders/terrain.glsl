@@ -83,7 +83,7 @@ void main() {
 #ifdef SWASH
   light = add_swash(p, to_eye, level_m, light);
 #endif
-  colour = to_display(add_haze(light, to_eye, point.distance_m));
+  colour = to_display(add_haze(light, p, to_eye, point.distance_m));
 #else
   // What is seen in or through water: the nearest level, no detail.
   float nearest = floor(level_m + slopes_place.w + 0.5) - slopes_place.w;
@@ -98,7 +98,7 @@ void main() {
   vec2 path = path_through_water(to_eye, max(-eye_z - p.z, 0.0));
   light = mix(body, absorb_in_water(light, path.y), floor_shown(p.xy));
 #else
-  light = add_haze(light, to_eye, point.distance_m);
+  light = add_haze(light, p, to_eye, point.distance_m);
 #endif
   colour = to_lookup(light);
 #endif

@@ -12,7 +12,7 @@ uniform sampler2D noise;
 uniform vec4 noise_place, noise_scale;
 uniform vec3 crest_glow, mirrored_sea;
 uniform float mirrored_floor_part;
-uniform float inv_crest_height, wave_horizon;
+uniform float inv_crest_height, inv_wave_reach, wave_horizon;
 #ifdef COAST
 uniform sampler2D coast_slopes, coast_surf;
 uniform vec4 coast_slopes_place, coast_slopes_scale, coast_surf_place, coast_surf_scale;
@@ -119,7 +119,8 @@ void main() {
   vec3 r = normal * (2.0 * cos_eye) - to_eye;
   float sea = part_of_sea_mirrored(r.z - wave_horizon, to_eye.z + wave_horizon, s.variance);
   r.z = max(r.z, -0.25) + 0.8 * s.variance;
-  float crest = clamp((p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
+  float share = clamp(2.0 - 1.25 * inv_wave_reach * point.distance_m, 0.0, 1.0);
+  float crest = clamp(share * (p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
   float towards_sun = max(-dot(to_eye.xy, sun_direction.xy), 0.0);
   vec3 refracted = body + crest_glow * (crest * crest * (towards_sun + 0.35));
   vec3 floor_added = vec3(0.0);
@@ -139,5 +140,5 @@ void main() {
 #ifdef COAST
   seen = add_foam(foam_cover(p.xy, level_flat_m, surf.y), seen);
 #endif
-  colour = to_display(add_haze(seen, to_eye, point.distance_m));
+  colour = to_display(add_haze(seen, p, to_eye, point.distance_m));
 }
