@@ -184,6 +184,7 @@ void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);
+  water.whitecaps = make_whitecaps(in, eye);
   fill_optics(in, view.camera, water);
 }
 

@@ -37,10 +37,12 @@ std::vector<float> build_ceded_map(const ocean::CoastSea& coast) {
 }
 
 texture::PackedMap2 build_foam_pattern() {
-  std::vector<float> threshold = texture::make_foam_pattern(kFoamSize, kFoamSeed);
-  for (float& x : threshold) x = 2.0f * x - 1.0f;
+  std::vector<float> lace = texture::make_foam_pattern(kFoamSize, kFoamSeed);
+  std::vector<float> tears = texture::make_tear_pattern(kFoamSize, kFoamSeed);
+  for (std::vector<float>* const thresholds : {&lace, &tears})
+    for (float& x : *thresholds) x = 2.0f * x - 1.0f;
   texture::PackedMap2 map;
-  texture::pack_map2(kFoamSize, threshold, threshold, 1.0f / 127.0f, map);
+  texture::pack_map2(kFoamSize, lace, tears, 1.0f / 127.0f, map);
   return map;
 }
 
@@ -49,16 +51,8 @@ std::shared_ptr<const T> shared(T value) {
   return std::make_shared<const T>(std::move(value));
 }
 
-// like: of another coast, or null.
-CoastMaps build_coast_maps(const ocean::CoastSea& coast, const CoastMaps* like, Workers& workers) {
-  CoastMaps maps;
-  workers.run_both(
-      [&] {
-        maps.waves = ocean::make_coast_map(coast, kCoastMapSize, workers);
-        maps.ceded = build_ceded_map(coast);
-      },
-      [&] { maps.foam_pattern = like ? like->foam_pattern : shared(build_foam_pattern()); });
-  return maps;
+CoastMaps build_coast_maps(const ocean::CoastSea& coast, Workers& workers) {
+  return {ocean::make_coast_map(coast, kCoastMapSize, workers), build_ceded_map(coast)};
 }
 
 // The parts of a world. like: one that describes the part alike, or null.
@@ -67,12 +61,17 @@ void add_sky(const World::State* like, Workers& workers, World::State& state) {
   state.sky = like ? like->sky : shared(build_sky_maps(state.scene.sky, workers));
 }
 
-void add_sea(const World::State* like, World::State& state) {
+void add_sea(const World::State* like, Workers& workers, World::State& state) {
   state.sea = like ? like->sea : std::make_shared<const ocean::Sea>(state.scene.sea);
+  state.whitecaps = like ? like->whitecaps : shared(ocean::make_whitecaps(*state.sea, workers));
 }
 
 void add_bump(const World::State* like, World::State& state) {
   state.bump = like ? like->bump : shared(build_bump_map(state.scene.sea.seed));
+}
+
+void add_foam_pattern(const World::State* like, World::State& state) {
+  state.foam_pattern = like ? like->foam_pattern : shared(build_foam_pattern());
 }
 
 void add_terrain(const World::State* like, Workers& workers, World::State& state) {
@@ -91,8 +90,7 @@ void add_coast(const World::State* like, bool same_coast, Workers& workers, Worl
   } else if (auto coast =
                  scene::build_coast(state.scene, state.terrain.get(), workers.thread_count())) {
     state.coast = shared(std::move(*coast));
-    state.coast_maps =
-        shared(build_coast_maps(*state.coast, like ? like->coast_maps.get() : nullptr, workers));
+    state.coast_maps = shared(build_coast_maps(*state.coast, workers));
   }
 }
 
@@ -124,7 +122,8 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
         add_coast(like, same_coast, workers, *state);
       },
       [&] {
-        add_sea(if_alike(same_sea), *state);
+        add_sea(if_alike(same_sea), workers, *state);
+        add_foam_pattern(like, *state);
         add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
         add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);
       });

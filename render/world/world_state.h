@@ -12,6 +12,7 @@
 #include "ocean/coast_map.h"
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
+#include "ocean/whitecaps.h"
 #include "render/frame.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
@@ -42,8 +43,6 @@ struct TerrainMaps {
 struct CoastMaps {
   ocean::CoastMap waves;
   std::vector<float> ceded;  // what the sea's own waves give up to the trains, in [0, 1]
-  // Thresholds, stretched to [-1, 1]; of any size, it repeats. The same for every coast.
-  std::shared_ptr<const texture::PackedMap2> foam_pattern;
 };
 
 // The shapes that a scene's objects need, and which of them each object has.
@@ -59,13 +58,17 @@ struct ObjectMeshes {
 struct World::State {
   scene::Scene scene;
   std::shared_ptr<const ocean::Sea> sea = {};
-  std::shared_ptr<const ocean::CoastSea> coast = {};  // none: no wave trains
-  std::shared_ptr<const CoastMaps> coast_maps = {};   // there is one if there is a coast
+  std::shared_ptr<const ocean::Whitecaps> whitecaps = {};  // of the sea
+  std::shared_ptr<const ocean::CoastSea> coast = {};       // none: no wave trains
+  std::shared_ptr<const CoastMaps> coast_maps = {};        // there is one if there is a coast
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain, if they count
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
+  // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. Of any
+  // size, it repeats. The same in every world.
+  std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
 
   // What floats.
   ObjectMeshes objects = {};

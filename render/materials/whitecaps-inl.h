@@ -1,0 +1,130 @@
+// Foam of the open sea's breaking waves.
+#if defined(SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#undef SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#endif
+
+#include "render/materials/whitecaps.h"
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Both in [0, 1]: the part of a packet's pixels that foam hides, and how thick it is there.
+struct WhitecapFoam {
+  V cover, thick;
+};
+
+HWY_INLINE WhitecapFoam NoWhitecaps() { return {hn::Zero(D()), hn::Zero(D())}; }
+
+// The foam of one map. What a pixel far away shows of it is the mean: maps of small numbers of
+// eight bits lose it from the fifth level on.
+HWY_INLINE V FoamOfMap(const SlopeLayer& layer, float mean, float past, V3 p, V level_m) {
+  constexpr float kFirstLost = 3.0f, kAllLost = 5.0f;
+  const V past_first = hn::Add(level_m, Constant(layer.log2_texels_per_m - kFirstLost));
+  const V lost = Clamp(hn::Mul(past_first, Constant(1.0f / (kAllLost - kFirstLost))), 0.0f, 1.0f);
+  if (hn::AllTrue(D(), hn::Ge(lost, Constant(1.0f)))) return Constant(mean);
+  V before, after;
+  SampleNearest(layer, PlaceIn(layer, p.x, p.y), level_m, before, after);
+  const V code = Lerp(before, after, Constant(past));
+  return Lerp(hn::MulAdd(code, Constant(0.5f), Constant(0.5f)), Constant(mean), lost);
+}
+
+// Two thresholds of foam in [0, 1], spread evenly, and how much of their pattern is left in pixels
+// of that size.
+struct Thresholds {
+  V lace, tears, seen;
+};
+
+HWY_INLINE Thresholds SampleLace(const FoamLace& lace, V3 p, V level_m) {
+  // Levels of the map at which its cells begin to melt, and are gone.
+  constexpr float kMelt = 2.0f, kGone = 4.5f;
+  const V x = hn::MulAdd(p.x, Constant(lace.x_fx8_per_m.x),
+                         hn::MulAdd(p.y, Constant(lace.x_fx8_per_m.y), Constant(lace.x_eye_fx8)));
+  const V y = hn::MulAdd(p.x, Constant(lace.y_fx8_per_m.x),
+                         hn::MulAdd(p.y, Constant(lace.y_fx8_per_m.y), Constant(lace.y_eye_fx8)));
+  const V level = hn::Add(level_m, Constant(lace.log2_texels_per_m));
+  V lace_code, tears_code;
+  texture::HWY_NAMESPACE::SampleLevel(
+      D(), *lace.map, RoundToInt(x), RoundToInt(y),
+      TruncateToInt(Clamp(hn::Add(level, Constant(0.5f)), 0.0f, kGone)), lace_code, tears_code);
+  const V gone = hn::Mul(hn::Sub(level, Constant(kMelt)), Constant(1.0f / (kGone - kMelt)));
+  const V half = Constant(0.5f);
+  return {hn::MulAdd(lace_code, half, half), hn::MulAdd(tears_code, half, half),
+          hn::Sub(Constant(1.0f), Clamp(gone, 0.0f, 1.0f))};
+}
+
+// The sum of both thresholds, each with its weight, as a threshold that is itself spread evenly:
+// the distribution of the sum of two even ones.
+HWY_INLINE V JoinThresholds(V coarse, V fine, float coarse_width, V fine_width) {
+  const V a = Constant(coarse_width), b = hn::Max(fine_width, Constant(1e-3f));
+  const V z = hn::MulAdd(coarse, a, hn::Mul(fine, b)), rest = hn::Sub(hn::Add(a, b), z);
+  const V half_inverse = hn::Div(Constant(0.5f / coarse_width), b);
+  const V low = hn::Mul(hn::Mul(z, z), half_inverse);
+  const V high = hn::NegMulAdd(hn::Mul(rest, rest), half_inverse, Constant(1.0f));
+  const V middle = hn::Mul(hn::NegMulAdd(b, Constant(0.5f), z), Constant(1.0f / coarse_width));
+  return hn::IfThenElse(hn::Lt(z, b), low, hn::IfThenElse(hn::Lt(rest, b), high, middle));
+}
+
+// The part of a pixel that foam hides: in the mean over thresholds it is `foam`, exactly.
+HWY_INLINE V CoverOf(V foam, V threshold) {
+  constexpr float kRim = 0.3f;  // width of a bubble's rim, as a threshold
+  // Rims are narrow where they would reach beyond 0 or 1.
+  const V room = hn::Min(foam, hn::Sub(Constant(1.0f), foam));
+  const V width = hn::Max(hn::Min(hn::Add(room, room), Constant(kRim)), Constant(1e-3f));
+  return Clamp(hn::Add(hn::Div(hn::Sub(foam, threshold), width), Constant(0.5f)), 0.0f, 1.0f);
+}
+
+// As ocean::foam_on_crest().
+HWY_INLINE V OnCrests(const Whitecaps& material, V height_m) {
+  const V part = hn::MulAdd(height_m, Constant(material.crest_per_m), Constant(1.0f));
+  return Clamp(part, 2.0f - ocean::kMostOnCrest, ocean::kMostOnCrest);
+}
+
+// `ceded` is what the open sea's waves leave to a coast's.
+HWY_INLINE WhitecapFoam SampleWhitecaps(const Whitecaps& material, V3 p, V height_m, V level_m,
+                                        V ceded) {
+  const D d;
+  WhitecapFoam seen = NoWhitecaps();
+  if (material.count == 0) return seen;
+  V free = Constant(1.0f);
+  for (int n = 0; n < material.count; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    V of_map = FoamOfMap(material.foam[i], material.mean[i], material.past, p, level_m);
+    if (n > 0) of_map = hn::Min(hn::Mul(of_map, OnCrests(material, height_m)), Constant(1.0f));
+    free = hn::NegMulAdd(of_map, free, free);
+  }
+  const V foam = hn::Mul(hn::Sub(Constant(1.0f), free), hn::Sub(Constant(1.0f), ceded));
+  const auto some = hn::Gt(foam, Constant(3e-4f));
+  if (hn::AllFalse(d, some)) return seen;
+  const Thresholds tears = SampleLace(material.tears, p, level_m);
+  const Thresholds lace = SampleLace(material.lace, p, level_m);
+  const V threshold =
+      JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
+  const V torn = CoverOf(foam, threshold);
+  seen.cover = hn::IfThenElseZero(some, Lerp(foam, torn, tears.seen));
+  // Thick where there is more of it than its lace needs.
+  seen.thick =
+      Clamp(hn::MulAdd(hn::Sub(foam, threshold), Constant(1.5f), Constant(0.5f)), 0.0f, 1.0f);
+  return seen;
+}
+
+// Water of radiance `light` with whitecaps on it.
+HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, const WhitecapFoam& foam,
+                           glm::vec3 sun_direction, V3 normal, V3 light) {
+  const D d;
+  if (hn::AllFalse(d, hn::Gt(foam.cover, hn::Zero(d)))) return light;
+  const V cos_sun = hn::Max(Dot(normal, Constant(sun_direction)), hn::Zero(d));
+  const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light));
+  const V opacity = hn::MulAdd(foam.thick, Constant(0.3f), Constant(0.65f));
+  return Lerp(light, white, hn::Mul(foam.cover, opacity));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
