@@ -205,7 +205,7 @@ HWY_INLINE V OfWater(const Plane& plane, const LabelPacket& p) {
 }
 
 HWY_INLINE V FoamOf(const LabelSources& in, const LabelTile& tile, const LabelPacket& p) {
-  if (!in.world.coast || !tile.shaded) return hn::Zero(D());
+  if (!tile.shaded) return hn::Zero(D());
   return OfWater(tile.shaded->foam_cover, p);
 }
 

@@ -33,6 +33,9 @@ HWY_INLINE V FoamOfMap(const SlopeLayer& layer, float mean, float past, V3 p, V 
   return Lerp(hn::MulAdd(code, Constant(0.5f), Constant(0.5f)), Constant(mean), lost);
 }
 
+// Levels of a lace's map at which its cells begin to melt, and are gone.
+constexpr float kCellsMelt = 2.0f, kCellsGone = 4.5f;
+
 // Two thresholds of foam in [0, 1], spread evenly, and how much of their pattern is left in pixels
 // of that size.
 struct Thresholds {
@@ -40,21 +43,22 @@ struct Thresholds {
 };
 
 HWY_INLINE Thresholds SampleLace(const FoamLace& lace, V3 p, V level_m) {
-  // Levels of the map at which its cells begin to melt, and are gone.
-  constexpr float kMelt = 2.0f, kGone = 4.5f;
+  const D d;
+  const V half = Constant(0.5f), one = Constant(1.0f);
+  const V level = hn::Add(level_m, Constant(lace.log2_texels_per_m));
+  const V gone =
+      hn::Mul(hn::Sub(level, Constant(kCellsMelt)), Constant(1.0f / (kCellsGone - kCellsMelt)));
+  if (hn::AllTrue(d, hn::Ge(gone, one))) return {half, half, hn::Zero(d)};
   const V x = hn::MulAdd(p.x, Constant(lace.x_fx8_per_m.x),
                          hn::MulAdd(p.y, Constant(lace.x_fx8_per_m.y), Constant(lace.x_eye_fx8)));
   const V y = hn::MulAdd(p.x, Constant(lace.y_fx8_per_m.x),
                          hn::MulAdd(p.y, Constant(lace.y_fx8_per_m.y), Constant(lace.y_eye_fx8)));
-  const V level = hn::Add(level_m, Constant(lace.log2_texels_per_m));
   V lace_code, tears_code;
-  texture::HWY_NAMESPACE::SampleLevel(
-      D(), *lace.map, RoundToInt(x), RoundToInt(y),
-      TruncateToInt(Clamp(hn::Add(level, Constant(0.5f)), 0.0f, kGone)), lace_code, tears_code);
-  const V gone = hn::Mul(hn::Sub(level, Constant(kMelt)), Constant(1.0f / (kGone - kMelt)));
-  const V half = Constant(0.5f);
+  texture::HWY_NAMESPACE::SampleLevel(d, *lace.map, RoundToInt(x), RoundToInt(y),
+                                      TruncateToInt(Clamp(hn::Add(level, half), 0.0f, kCellsGone)),
+                                      lace_code, tears_code);
   return {hn::MulAdd(lace_code, half, half), hn::MulAdd(tears_code, half, half),
-          hn::Sub(Constant(1.0f), Clamp(gone, 0.0f, 1.0f))};
+          hn::Sub(one, Clamp(gone, 0.0f, 1.0f))};
 }
 
 // The sum of both thresholds, each with its weight, as a threshold that is itself spread evenly:
@@ -98,14 +102,17 @@ HWY_INLINE WhitecapFoam SampleWhitecaps(const Whitecaps& material, V3 p, V heigh
     free = hn::NegMulAdd(of_map, free, free);
   }
   const V foam = hn::Mul(hn::Sub(Constant(1.0f), free), hn::Sub(Constant(1.0f), ceded));
-  const auto some = hn::Gt(foam, Constant(3e-4f));
+  // Less than a map's smallest step is none.
+  const auto some = hn::Gt(foam, Constant(material.least));
   if (hn::AllFalse(d, some)) return seen;
+  V cover = foam, threshold = Constant(0.5f);
   const Thresholds tears = SampleLace(material.tears, p, level_m);
-  const Thresholds lace = SampleLace(material.lace, p, level_m);
-  const V threshold =
-      JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
-  const V torn = CoverOf(foam, threshold);
-  seen.cover = hn::IfThenElseZero(some, Lerp(foam, torn, tears.seen));
+  if (!hn::AllTrue(d, hn::Eq(tears.seen, hn::Zero(d)))) {
+    const Thresholds lace = SampleLace(material.lace, p, level_m);
+    threshold = JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
+    cover = Lerp(foam, CoverOf(foam, threshold), tears.seen);
+  }
+  seen.cover = hn::IfThenElseZero(some, cover);
   // Thick where there is more of it than its lace needs.
   seen.thick =
       Clamp(hn::MulAdd(hn::Sub(foam, threshold), Constant(1.5f), Constant(0.5f)), 0.0f, 1.0f);

@@ -1,5 +1,7 @@
 #include "render/materials/whitecaps.h"
 
+#include <algorithm>
+
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 
@@ -34,10 +36,13 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   const ocean::Whitecaps& sea = *in.world.whitecaps;
   if (in.without.has(Part::kWhitecaps) || sea.patches.empty()) return whitecaps;
   whitecaps.count = static_cast<int>(sea.patches.size());
+  float free = 1.0f;
   for (std::size_t p = 0; p < sea.patches.size(); ++p) {
     whitecaps.foam[p] = make_layer(in.sea.foam[p], sea.patches[p].length_m, 1.0f, eye, {});
     whitecaps.mean[p] = static_cast<float>(sea.patches[p].cover);
+    free *= 1.0f - whitecaps.mean[p];
   }
+  whitecaps.least = std::min(0.002f, 0.5f * (1.0f - free));
   whitecaps.past = in.sea.whitecaps.past;
   whitecaps.crest_per_m = sea.crest_per_m;
   // Lines of foam along the wind are seen from Beaufort 7 on, 13.9 m/s.

@@ -25,6 +25,7 @@ struct Whitecaps {
   std::array<float, ocean::kMostFoamPatches> mean{};
   float past = 0.0f;         // of the step
   float crest_per_m = 0.0f;  // ocean::foam_on_crest()
+  float least = 0.0f;        // less foam is not drawn: less than far water shows
   FoamLace tears, lace;
   glm::vec3 sky_light{0.0f}, sun_light{0.0f};  // radiance of snow under the sky, facing the sun
 };
