@@ -90,11 +90,11 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const V zero = hn::Zero(D());
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
-  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, NoWhitecaps()};
+  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero};
   const WaterSlopes sea =
       SampleWater<true>(water, s.rays, std::array{packet}, std::make_index_sequence<1>())[0];
   return {hn::Mul(sea.slope_x, kept), hn::Mul(sea.slope_y, kept), Lerp(flat, sea.variance, kept),
-          hn::Mul(sea.foam_cover, kept), NoWhitecaps()};
+          hn::Mul(sea.foam_cover, kept)};
 }
 
 // Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.

@@ -31,7 +31,6 @@ namespace HWY_NAMESPACE {
 struct WaterSlopes {
   V slope_x, slope_y, variance;
   V foam_cover;  // part hidden by foam, in [0, 1]
-  WhitecapFoam whitecaps;
 };
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
@@ -143,11 +142,13 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<Surf, kCount> surf = {
       (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
+  const std::array<V, kCount> whitecaps = {
+      WhitecapsAt(water.whitecaps, packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
+                  level_flat_m[k], surf[k].ceded)...};
   std::array<WaterSlopes, kCount> s = {WaterSlopes{
       zero, zero, Constant(water.base_variance),
-      FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam),
-      SampleWhitecaps(water.whitecaps, packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
-                      level_flat_m[k], surf[k].ceded)}...};
+      hn::Max(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]),
+              FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam))}...};
   std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
   for (int i = 0; i < water.sine_count; ++i)
     (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
@@ -386,10 +387,11 @@ struct WaterShader {
     const V glint =
         hn::NegMulAdd(sun_path, SunHidden(light.sun_direction, packet, mirrored_alpha), sun_path);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
-    seen = AddWhitecaps(water.whitecaps, s.whitecaps, light.sun_direction, f.normal, seen);
-    if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
-    return {seen, f.normal, hn::Max(s.foam_cover, s.whitecaps.cover),
-            FlagsOf(mirrored_alpha, refracted_alpha)};
+    if constexpr (kCoast)
+      seen = AddFoam(water.foam, s.foam_cover, seen);
+    else
+      seen = AddWhitecaps(water.whitecaps, s.foam_cover, light.sun_direction, f.normal, seen);
+    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

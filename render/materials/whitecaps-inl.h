@@ -13,13 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// Both in [0, 1]: the part of a packet's pixels that foam hides, and how thick it is there.
-struct WhitecapFoam {
-  V cover, thick;
-};
-
-HWY_INLINE WhitecapFoam NoWhitecaps() { return {hn::Zero(D()), hn::Zero(D())}; }
-
 // The foam of one map. What a pixel far away shows of it is the mean: maps of small numbers of
 // eight bits lose it from the fifth level on.
 HWY_INLINE V FoamOfMap(const SlopeLayer& layer, float mean, float past, V3 p, V level_m) {
@@ -34,7 +27,7 @@ HWY_INLINE V FoamOfMap(const SlopeLayer& layer, float mean, float past, V3 p, V 
 }
 
 // Levels of a lace's map at which its cells begin to melt, and are gone.
-constexpr float kCellsMelt = 2.0f, kCellsGone = 4.5f;
+constexpr float kCellsMelt = 1.0f, kCellsGone = 3.5f;
 
 // Two thresholds of foam in [0, 1], spread evenly, and how much of their pattern is left in pixels
 // of that size.
@@ -88,46 +81,46 @@ HWY_INLINE V OnCrests(const Whitecaps& material, V height_m) {
   return Clamp(part, 2.0f - ocean::kMostOnCrest, ocean::kMostOnCrest);
 }
 
+// The part of the surface that is white at p, height_m over the mean level, but for its lace.
 // `ceded` is what the open sea's waves leave to a coast's.
-HWY_INLINE WhitecapFoam SampleWhitecaps(const Whitecaps& material, V3 p, V height_m, V level_m,
-                                        V ceded) {
-  const D d;
-  WhitecapFoam seen = NoWhitecaps();
-  if (material.count == 0) return seen;
-  V free = Constant(1.0f);
-  for (int n = 0; n < material.count; ++n) {
-    const auto i = static_cast<std::size_t>(n);
-    V of_map = FoamOfMap(material.foam[i], material.mean[i], material.past, p, level_m);
-    if (n > 0) of_map = hn::Min(hn::Mul(of_map, OnCrests(material, height_m)), Constant(1.0f));
-    free = hn::NegMulAdd(of_map, free, free);
+HWY_INLINE V WhitecapsAt(const Whitecaps& material, V3 p, V height_m, V level_m, V ceded) {
+  if (material.count == 0) return hn::Zero(D());
+  const V one = Constant(1.0f);
+  V free = hn::Sub(one, FoamOfMap(material.foam[0], material.mean[0], material.past, p, level_m));
+  if (material.count > 1) {
+    const V foam = FoamOfMap(material.foam[1], material.mean[1], material.past, p, level_m);
+    const V on_crest = hn::Min(hn::Mul(foam, OnCrests(material, height_m)), one);
+    free = hn::NegMulAdd(on_crest, free, free);
   }
-  const V foam = hn::Mul(hn::Sub(Constant(1.0f), free), hn::Sub(Constant(1.0f), ceded));
-  // Less than a map's smallest step is none.
-  const auto some = hn::Gt(foam, Constant(material.least));
-  if (hn::AllFalse(d, some)) return seen;
-  V cover = foam, threshold = Constant(0.5f);
-  const Thresholds tears = SampleLace(material.tears, p, level_m);
-  if (!hn::AllTrue(d, hn::Eq(tears.seen, hn::Zero(d)))) {
-    const Thresholds lace = SampleLace(material.lace, p, level_m);
-    threshold = JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
-    cover = Lerp(foam, CoverOf(foam, threshold), tears.seen);
-  }
-  seen.cover = hn::IfThenElseZero(some, cover);
-  // Thick where there is more of it than its lace needs.
-  seen.thick =
-      Clamp(hn::MulAdd(hn::Sub(foam, threshold), Constant(1.5f), Constant(0.5f)), 0.0f, 1.0f);
-  return seen;
+  return hn::Mul(hn::Sub(one, free), hn::Sub(one, ceded));
 }
 
-// Water of radiance `light` with whitecaps on it.
-HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, const WhitecapFoam& foam,
-                           glm::vec3 sun_direction, V3 normal, V3 light) {
+// The part of a packet's pixels that this foam hides.
+HWY_INLINE V TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
   const D d;
-  if (hn::AllFalse(d, hn::Gt(foam.cover, hn::Zero(d)))) return light;
-  const V cos_sun = hn::Max(Dot(normal, Constant(sun_direction)), hn::Zero(d));
+  const V zero = hn::Zero(d);
+  const auto some = hn::Gt(foam, Constant(material.least));
+  if (hn::AllFalse(d, some)) return zero;
+  V cover = foam;
+  const Thresholds tears = SampleLace(material.tears, p, level_m);
+  if (!hn::AllTrue(d, hn::Eq(tears.seen, zero))) {
+    const Thresholds lace = SampleLace(material.lace, p, level_m);
+    const V threshold =
+        JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
+    cover = Lerp(foam, CoverOf(foam, threshold), tears.seen);
+  }
+  return hn::IfThenElseZero(some, cover);
+}
+
+// Water of radiance `light` under foam, thin where it covers little.
+HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, V cover, glm::vec3 sun_direction, V3 normal,
+                           V3 light) {
+  const V zero = hn::Zero(D());
+  if (hn::AllFalse(D(), hn::Gt(cover, zero))) return light;
+  const V cos_sun = hn::Max(Dot(normal, Constant(sun_direction)), zero);
   const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light));
-  const V opacity = hn::MulAdd(foam.thick, Constant(0.3f), Constant(0.65f));
-  return Lerp(light, white, hn::Mul(foam.cover, opacity));
+  const V opacity = hn::MulAdd(cover, Constant(0.25f), Constant(0.7f));
+  return Lerp(light, white, hn::Mul(cover, opacity));
 }
 
 }  // namespace HWY_NAMESPACE

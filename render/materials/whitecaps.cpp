@@ -42,7 +42,7 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
     whitecaps.mean[p] = static_cast<float>(sea.patches[p].cover);
     free *= 1.0f - whitecaps.mean[p];
   }
-  whitecaps.least = std::min(0.002f, 0.5f * (1.0f - free));
+  whitecaps.least = std::min(0.01f, 0.5f * (1.0f - free));
   whitecaps.past = in.sea.whitecaps.past;
   whitecaps.crest_per_m = sea.crest_per_m;
   // Lines of foam along the wind are seen from Beaufort 7 on, 13.9 m/s.

@@ -111,7 +111,8 @@ TEST(DrawnWhitecaps, AreWhatIsAskedInTheMeanOverTheirLace) {
     }
     ASSERT_GT(asked / blocks, 0.005) << height_m;
     EXPECT_NEAR(drawn / asked, 1.0, 0.15) << height_m;
-    EXPECT_GT(both / std::sqrt(drawn2 * asked2), 0.85) << height_m;
+    // Lace as coarse as the blocks is noise to them; foam elsewhere than asked gives 0.
+    EXPECT_GT(both / std::sqrt(drawn2 * asked2), 0.5) << height_m;
   }
 }
 
