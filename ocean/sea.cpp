@@ -30,6 +30,7 @@ void check_spectrum(const SeaDescription& sea) {
   require(sea.wind_from_rad, -1e6, 1e6, "wind_from_rad");
   require(sea.amplitude_scale, 0.0, 4.0, "amplitude_scale");
   require(sea.gravity_mps2, 0.1, 100.0, "gravity_mps2");
+  require(sea.whitecaps, 0.0, 10.0, "whitecaps");
   if (sea.loop_s != 0.0) require(sea.loop_s, 1.0, 1e5, "loop_s (or 0)");
   if (sea.resolution < kMinFftSize || sea.resolution > kMaxFftSize ||
       !std::has_single_bit(static_cast<unsigned>(sea.resolution))) {

@@ -44,6 +44,7 @@ struct SeaDescription {
   // too coarse for: bands of wave numbers do not overlap.
   std::vector<double> patch_lengths_m = {640.0, 97.0, 17.0};
   std::vector<SineWave> sines;  // at most kMaxSines
+  double whitecaps = 1.0;       // multiplies the part of the sea that foam covers, [0, 10]
 
   bool operator==(const SeaDescription&) const = default;
 };

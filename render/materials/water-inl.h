@@ -20,6 +20,7 @@
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/hull-inl.h"
 #include "render/materials/water.h"
+#include "render/materials/whitecaps-inl.h"
 #include "render/tile/light_code-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
@@ -145,9 +146,13 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<Surf, kCount> surf = {
       (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
-  std::array<WaterSlopes, kCount> s = {
-      WaterSlopes{zero, zero, Constant(water.base_variance),
-                  FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam)}...};
+  const std::array<V, kCount> whitecaps = {
+      WhitecapsAt(water.whitecaps, packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
+                  level_flat_m[k], surf[k].ceded)...};
+  std::array<WaterSlopes, kCount> s = {WaterSlopes{
+      zero, zero, Constant(water.base_variance),
+      hn::Max(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]),
+              FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam))}...};
   std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
   for (int i = 0; i < water.sine_count; ++i)
     (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
@@ -401,7 +406,11 @@ struct WaterShader {
     }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
-    if (kCoast || !tile.casters.empty()) seen = AddFoam(water.foam, foam_cover, sun_visible, seen);
+    if constexpr (kCoast)
+      seen = AddFoam(water.foam, foam_cover, sun_visible, seen);
+    else
+      seen = AddWhitecaps(water.whitecaps, foam_cover, light.sun_direction, sun_visible, f.normal,
+                          seen);
     return {seen, f.normal, foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };

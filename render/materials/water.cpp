@@ -187,6 +187,7 @@ void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
   fill_coast(in, eye, water);
   water.foam = make_foam(in, eye);
   water.hull_foam = make_foam(in, eye, kHullFoamPeriod_m);
+  water.whitecaps = make_whitecaps(in, eye);
   fill_optics(in, view.camera, water);
 }
 
