@@ -18,6 +18,7 @@
 #include "render/labels/label_channels.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
+#include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/water.h"
 #include "render/tile/surfel-inl.h"
 
@@ -157,8 +158,8 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
       (BendRipples<kCoast>(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k]), ...);
     if (i >= 0 && !(is_long && all_ceded)) {
       const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
-      (AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
-                 s[k].variance),
+      (AddTiledSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
+                      s[k].variance),
        ...);
     }
     if (!is_long) continue;

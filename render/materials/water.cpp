@@ -84,9 +84,10 @@ SineLayer make_sine(const ocean::SineFrame& sine, glm::dvec2 eye) {
 
 void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   water.layer_count = water.sine_count = 0;
-  for (std::size_t i = 0; i < in.sea.patch_slopes.size(); ++i)
-    add_layer(make_layer(in.sea.patch_slopes[i], in.sea.frame.patches[i].length_m, 1.0f, eye, {}),
-              water);
+  for (std::size_t i = 0; i < in.sea.patch_slopes.size(); ++i) {
+    const ocean::PatchFrame& patch = in.sea.frame.patches[i];
+    add_layer(make_patch_layer(in.sea.patch_slopes[i], patch.length_m, patch.tiling, eye), water);
+  }
   water.long_layer_count = std::min(water.layer_count, kMostLongLayers);
   water.first_ripples = water.layer_count;
   water.base_variance =
