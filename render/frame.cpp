@@ -190,8 +190,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
   const Light light = make_light(world_state);
-  const Media media = make_media(world_state, light);
-  MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media};
+  const Media media = make_media(world_state, light, options.without);
+  MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
   stage(Stage::kLookups, [&](const StageRun& run) {
     draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.lookups, run);
     fill_shading(inputs, ws.window, options.tile_size_px, ws.shading);

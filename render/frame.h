@@ -20,6 +20,7 @@
 #include "math/parallel.h"
 #include "math/view.h"
 #include "render/labels/labels.h"
+#include "render/parts.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -89,6 +90,7 @@ struct FrameOptions {
   bool keep_linear = false;  // fill Target::linear
   // Samples a pixel where surfaces meet, 0, 4 or 8; below 0: the scene's. Labels do not change.
   int edge_samples = -1;
+  PartSet without;  // leave these parts of the picture out
   LabelSet labels;  // fill these of Target::labels; not with picture_scale below 1
   // For the label of motion: the camera of the next frame, of the same size, and how much later it
   // is, over 0.

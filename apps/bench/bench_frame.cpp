@@ -11,6 +11,7 @@
 
 #include "apps/bench/bench.h"
 #include "apps/bench/compare_programs.h"
+#include "apps/bench/part_costs.h"
 #include "apps/bench/run_comparison.h"
 #include "apps/shared/cpu_name.h"
 #include "apps/shared/notices.h"
@@ -36,6 +37,7 @@ struct FrameBench {
   std::string json, trace;
   std::string compare;  // the old program, or empty
   int runs = 7;
+  bool parts = false;
 };
 
 // What a frame was drawn with and how many triangles it had.
@@ -177,6 +179,15 @@ void run_frame_bench(const FrameBench& bench) {
   if (!bench.trace.empty()) write_text(bench.trace, trace.json());
 }
 
+void run_parts(const FrameBench& bench) {
+  select_simd(bench.setup.simd);
+  check_text_place(bench.json);
+  const render::World world(load_scene(bench.setup.scene_path), bench.setup.threads);
+  const PartReport report = measure_parts(bench.setup, world, bench.warm_up, bench.frames);
+  if (bench.json != "-") fmt::print("{}", parts_text(report));
+  if (!bench.json.empty()) write_text(bench.json, parts_json(report).dump(2) + "\n");
+}
+
 void run_comparison(const FrameBench& bench, const CommandLine& line) {
   check_text_place(bench.json);
   compare_programs({.old_program = bench.compare,
@@ -209,10 +220,16 @@ BenchMode add_bench_frame(CommandLine& program) {
                 "slower now, beyond noise and by over 1 % of the frame");
   add_integer(line, "--runs", bench->runs, kFewestPairs, 1000, "Pairs of runs to compare");
   line.need("--runs", "--compare");
+  line.add_flag("--parts", bench->parts,
+                "Draw each frame also without one part after the other: what do they cost?");
+  for (const char* other : {"--govern", "--trace", "--compare"}) line.exclude("--parts", other);
   line.exclude("--compare", "--govern");
   line.exclude("--compare", "--trace");
   return {line, [bench, line] {
-            bench->compare.empty() ? run_frame_bench(*bench) : run_comparison(*bench, line);
+            if (bench->parts)
+              run_parts(*bench);
+            else
+              bench->compare.empty() ? run_frame_bench(*bench) : run_comparison(*bench, line);
           }};
 }
 

@@ -218,6 +218,7 @@ BenchMode add_bench_peer(CommandLine& program) {
   CommandLine line = program.add_mode(
       "peer", "The same frames by OpenGL on Mesa's llvmpipe: times and how pictures differ");
   add_frame_setup(line, bench->setup);
+  add_without_option(line, bench->setup.frame.without);
   add_integer(line, "--frames", bench->frames, 1, 100000, "Frames to measure, of each");
   add_integer(line, "--warmup", bench->warm_up, 2, 10000, "Frames to draw before them");
   add_number(line, "--time", bench->first_s, 0.0, 1e6,
@@ -227,7 +228,10 @@ BenchMode add_bench_peer(CommandLine& program) {
   line.add_text("--peer-picture", "FILE", bench->peer_picture, "Write the peer's");
   line.add_text("--difference-picture", "FILE", bench->difference_picture,
                 "Write their difference, times 8");
-  return {line, [bench] { run_peer_bench(*bench); }};
+  return {line, [bench] {
+            bench->setup.frame.without.add(kPeerLacks);
+            run_peer_bench(*bench);
+          }};
 }
 
 }  // namespace swell::apps

@@ -26,6 +26,9 @@ enum class PeerPass : std::uint8_t {
 inline constexpr auto kPeerPasses = static_cast<std::size_t>(PeerPass::kCount);
 std::string_view peer_pass_name(PeerPass pass);  // "reflection", "refraction", ...
 
+// Parts of the picture that the peer does not draw.
+inline constexpr render::PartSet kPeerLacks = {};
+
 // On one thread, one at a time: OpenGL has one current context.
 class Peer {
  public:
@@ -42,7 +45,7 @@ class Peer {
 
   // Takes over what the workspace's last frame was drawn from, whose world still lives: uploads
   // vertices and maps, sets constants, compiles shaders where the scene needs others. Frames with
-  // edge samples or wireframe are drawn without.
+  // edge samples, wireframe or parts in kPeerLacks are drawn without.
   void take(const render::Workspace& workspace);
 
   // Draws the frame that was taken and waits until it is finished.

@@ -1,6 +1,7 @@
 #include "apps/shared/options.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <optional>
@@ -88,6 +89,18 @@ void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
                   "Samples a pixel where surfaces meet, 0, 4 or 8, instead of the scene's",
                   take_samples});
   line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges; not for .exr");
+  add_without_option(line, frame.without);
+}
+
+void add_without_option(CommandLine& line, render::PartSet& without) {
+  const std::string names = fmt::format("{}", fmt::join(render::kPartNames, ", "));
+  const auto take_parts = [&without, names](const std::string& text) {
+    const auto parts = render::parse_parts(text);
+    if (!parts) refuse("--without", text, names + ", with commas");
+    without = *parts;
+  };
+  line.add_value(
+      {"--without", "LIST", "", "Leave these parts of the picture out, of " + names, take_parts});
 }
 
 void add_labels_option(CommandLine& line, render::LabelSet& labels, const std::string& help) {

@@ -31,8 +31,11 @@ void add_scene_option(CommandLine& line, std::string& path);
 void add_frame_setup(CommandLine& line, FrameSetup& setup);
 
 // --tile, --triangles, --terrain-triangles, --lookup-scale, --background-error,
-// --picture-scale, --edge-samples, --wireframe
+// --picture-scale, --edge-samples, --wireframe, --without
 void add_quality_options(CommandLine& line, render::FrameOptions& frame);
+
+// --without LIST
+void add_without_option(CommandLine& line, render::PartSet& without);
 
 // --labels LIST; `help` says what becomes of them.
 void add_labels_option(CommandLine& line, render::LabelSet& labels, const std::string& help);

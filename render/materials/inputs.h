@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/materials/light.h"
+#include "render/parts.h"
 #include "render/view/render_view.h"
 #include "render/world/sea_maps.h"
 
@@ -20,6 +21,7 @@ struct MaterialInputs {
   const ObjectGeometry& objects;
   const Light& light;
   const Media& media;
+  PartSet without;
   LookupImage reflection = {}, refraction = {};  // once they are drawn
 };
 

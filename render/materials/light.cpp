@@ -18,10 +18,11 @@ Light make_light(const World::State& world) {
   return light;
 }
 
-Media make_media(const World::State& world, const Light& light) {
+Media make_media(const World::State& world, const Light& light, PartSet without) {
   const scene::WaterOptics& water = world.scene.water;
   Media media;
-  media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
+  if (!without.has(Part::kHaze))
+    media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
   media.refraction_index = static_cast<float>(water.refraction_index);
   media.absorption_per_m = water.absorption_per_m;
   // Light that enters the water: the sky's and the sun's, as radiance of a white surface.

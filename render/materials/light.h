@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include "render/parts.h"
 #include "render/world/world_state.h"
 #include "texture/packed_map.h"
 
@@ -31,6 +32,6 @@ struct Media {
 };
 
 Light make_light(const World::State& world);
-Media make_media(const World::State& world, const Light& light);
+Media make_media(const World::State& world, const Light& light, PartSet without);
 
 }  // namespace swell::render

@@ -93,7 +93,7 @@ void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   water.base_variance =
       std::lerp(kGlassVariance, kBaseVariance,
                 static_cast<float>(ripple_share(ripple_wind_mps(in.world.scene))));
-  add_ripples(in, eye, water);
+  if (!in.without.has(Part::kRipples)) add_ripples(in, eye, water);
   for (const ocean::SineFrame& sine : in.sea.frame.sines)
     water.sines[water.sine_count++] = make_sine(sine, eye);
   water.uv_noise = make_layer(in.sea.uv_noise, kUvNoisePeriod_m, 1.0f, eye, {});

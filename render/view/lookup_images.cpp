@@ -116,8 +116,13 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
     for (int y = r.y0; y < r.y1; ++y)
       for (int x = r.x0; x < r.x1; ++x) visit(static_cast<std::size_t>(y) * grid.tiles_x + x);
   };
+  const std::uint8_t mirrors = !inputs.without.has(Part::kReflection);
+  const std::uint8_t refracts = !inputs.without.has(Part::kRefraction);
   for (std::size_t tile = 0; tile < tiles; ++tile)
-    for_reachable(tile, [&](std::size_t t) { reflection.wanted[t] = refraction.wanted[t] = 1; });
+    for_reachable(tile, [&](std::size_t t) {
+      reflection.wanted[t] = mirrors;
+      refraction.wanted[t] = refracts;
+    });
 
   draw_lookup_image(meshes, inputs, tile_size_px, scratch, reflection, run);
   draw_lookup_image(meshes, inputs, tile_size_px, scratch, refraction, run);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/shared/program_runner.h"
+#include "render/parts.h"
 
 namespace swell::apps {
 namespace {
@@ -238,6 +239,30 @@ TEST_F(Bench, ASeaThatIsNotTheOneAskedForFails) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(is_one_error_line(outcome.err, {"island.toml", "rough", "2.5 to 4 m"}))
       << outcome.err;
+}
+
+// The island scene has land to mirror and to see through the water, ripples and haze.
+TEST_F(Bench, PartsAreLeftOutOneAtATime) {
+  const Json whole = frame_json({"--parts"});
+  EXPECT_GT(whole.at("frame_ms").get<double>(), 0.0);
+  std::vector<std::string> names;
+  for (const auto& [name, ms] : whole.at("parts_ms").items()) names.push_back(name);
+  EXPECT_EQ(names.size(), render::kPartCount);
+  for (const std::string_view part : render::kPartNames)
+    EXPECT_TRUE(whole.at("parts_ms").contains(std::string(part))) << part;
+
+  const Json rest = frame_json({"--parts", "--without", "haze,ripples"});
+  EXPECT_EQ(rest.at("parts_ms").size(), render::kPartCount - 2);
+  EXPECT_FALSE(rest.at("parts_ms").contains("haze"));
+}
+
+TEST_F(Bench, WithoutAPartThePictureIsAnother) {
+  for (const char* part : {"reflection", "refraction", "ripples", "haze"})
+    EXPECT_NE(frame_json({"--without", part}).at("hash"), frame_json({}).at("hash")) << part;
+  EXPECT_EQ(frame_json({"--without", "haze,ripples"}).at("hash"),
+            frame_json({"--without", "ripples,haze"}).at("hash"));
+  for (const char* list : {"", "hazel", "haze,", "haze ripples"})
+    EXPECT_EQ(run_bench({"frame", "--scene", scene_, "--without", list}).exit_code, 2) << list;
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+// Parts of a picture that can be left out: to see what each costs, or not to have it. This one
+// table names them for code, options and reports.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace swell::render {
+
+enum class Part : std::uint8_t {
+  kReflection,  // what the water mirrors besides the sky
+  kRefraction,  // what lies under the water's surface
+  kRipples,     // the water's waves too short for the wave patches
+  kHaze,        // between the eye and what it sees
+  kCount
+};
+inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
+
+// In the order of Part; words of lower-case letters and '-'.
+inline constexpr std::array<std::string_view, kPartCount> kPartNames = {"reflection", "refraction",
+                                                                        "ripples", "haze"};
+constexpr std::string_view part_name(Part part) {
+  return kPartNames[static_cast<std::size_t>(part)];
+}
+
+class PartSet {
+ public:
+  constexpr PartSet() = default;
+  constexpr bool has(Part part) const { return (bits_ >> static_cast<unsigned>(part) & 1) != 0; }
+  constexpr void add(Part part) { bits_ |= 1u << static_cast<unsigned>(part); }
+  constexpr void add(PartSet parts) { bits_ |= parts.bits_; }
+  constexpr bool empty() const { return bits_ == 0; }
+  bool operator==(const PartSet&) const = default;
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+// "ripples,haze"; nothing for a name that is not in the table, or none.
+constexpr std::optional<PartSet> parse_parts(std::string_view text) {
+  PartSet set;
+  for (;;) {
+    const std::string_view name = text.substr(0, text.find(','));
+    const auto at = std::ranges::find(kPartNames, name);
+    if (at == kPartNames.end()) return std::nullopt;
+    set.add(static_cast<Part>(at - kPartNames.begin()));
+    if (name.size() == text.size()) return set;
+    text.remove_prefix(name.size() + 1);
+  }
+}
+
+}  // namespace swell::render
