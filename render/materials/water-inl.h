@@ -19,6 +19,7 @@
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
+#include "render/materials/visible_slopes-inl.h"
 #include "render/materials/water.h"
 #include "render/tile/surfel-inl.h"
 
@@ -30,7 +31,9 @@ namespace HWY_NAMESPACE {
 // together) of the slopes too fine for a pixel.
 struct WaterSlopes {
   V slope_x, slope_y, variance;
-  V foam_cover;  // part hidden by foam, in [0, 1]
+  V foam_cover;     // part hidden by foam, in [0, 1]
+  V fine_variance;  // of all slopes but the drawn ones of the long waves: triangles do not show
+                    // them
 };
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
@@ -144,7 +147,7 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
   std::array<WaterSlopes, kCount> s = {
       WaterSlopes{zero, zero, Constant(water.base_variance),
-                  FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam)}...};
+                  FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), zero}...};
   std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
   for (int i = 0; i < water.sine_count; ++i)
     (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
@@ -170,6 +173,7 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
                                  };
     (blend_coast(packets[k], level_flat_m[k], surf[k], s[k]), ...);
     ((level_m[k] = LevelOnWaves(packets[k], across[k], s[k])), ...);
+    ((s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance))), ...);
   }
   return s;
 }
@@ -245,18 +249,44 @@ HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
   return hn::Mul(down, hn::NegMulAdd(hidden, hidden, one));
 }
 
+// How the water's surface meets the eye.
+struct Facing {
+  V3 normal;
+  V cos_eye;    // of the slopes drawn here; negative on back sides that the mesh does not hide
+  V cos_rough;  // of the facets that are seen
+  V reflectance;
+};
+
+HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& packet,
+                          const WaterSlopes& s) {
+  const D d;
+  Facing f;
+  f.normal = NormalOf(s.slope_x, s.slope_y);
+  f.cos_eye =
+      UnhiddenCosine(Dot(f.normal, packet.to_eye),
+                     hn::Mul(hn::Sub(s.fine_variance, s.variance), Constant(water.seen_slopes)));
+  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
+  // view; a back side counts as the facets in front of it, or crests would be lined with light.
+  f.cos_rough = hn::Sqrt(
+      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(f.cos_eye, f.cos_eye, Constant(0.006f))));
+  f.reflectance = FresnelReflectance(d, f.cos_rough, media.refraction_index);
+  return f;
+}
+
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
 // horizon that waves make, and in front of both whatever the reflection image shows there, whose
 // part is `image_alpha`.
 HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V3 normal, V cos_eye, V inv_variance,
-                             bool use_image, V& image_alpha) {
-  V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
+                             const WaterSlopes& s, const Facing& f, V inv_variance, bool use_image,
+                             V& image_alpha) {
   const V horizon = Constant(water.wave_horizon);
+  const V r_z = hn::MulSub(hn::Add(f.cos_eye, f.cos_eye), f.normal.z, packet.to_eye.z);
   const V sea =
-      PartOfSeaMirrored(hn::Sub(r.z, horizon), hn::Add(packet.to_eye.z, horizon), inv_variance);
-  // The spread of rough water looks higher. Outside its circle the map goes on as at the horizon.
-  r.z = hn::MulAdd(s.variance, Constant(0.8f), hn::Max(r.z, Constant(-0.25f)));
+      PartOfSeaMirrored(hn::Sub(r_z, horizon), hn::Add(packet.to_eye.z, horizon), inv_variance);
+  const V cosine = MirroringCosine(f.cos_eye, hn::Mul(s.variance, Constant(water.seen_slopes)));
+  V3 r = ScaleAdd(f.normal, hn::Add(cosine, cosine), Scale(packet.to_eye, Constant(-1.0f)));
+  // Outside its circle the map goes on as at the horizon.
+  r.z = hn::Max(r.z, Constant(-0.25f));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
   mirrored = Lerp(mirrored, Constant(water.mirrored_sea), sea);
@@ -326,27 +356,6 @@ HWY_INLINE V SunHidden(glm::vec3 sun_direction, const Packet& packet, V mirrored
                  Clamp(hn::NegMulAdd(higher, Constant(5.0f), Constant(2.0f)), 0.0f, 1.0f));
 }
 
-// How the water's surface meets the eye.
-struct Facing {
-  V3 normal;
-  V cos_eye;    // negative on back sides of waves that the mesh does not hide
-  V cos_rough;  // of the facets that are seen
-  V reflectance;
-};
-
-HWY_INLINE Facing FaceEye(const Media& media, const Packet& packet, const WaterSlopes& s) {
-  const D d;
-  Facing f;
-  f.normal = NormalOf(s.slope_x, s.slope_y);
-  f.cos_eye = Dot(f.normal, packet.to_eye);
-  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
-  // view; a back side counts as the facets in front of it, or crests would be lined with light.
-  f.cos_rough = hn::Sqrt(
-      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(f.cos_eye, f.cos_eye, Constant(0.006f))));
-  f.reflectance = FresnelReflectance(d, f.cos_rough, media.refraction_index);
-  return f;
-}
-
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
 HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
@@ -370,12 +379,12 @@ struct WaterShader {
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
                                const Packet& packet, const WaterSlopes& s) const {
     const Light& light = shading.light;
-    const Facing f = FaceEye(shading.media, packet, s);
+    const Facing f = FaceEye(shading.media, water, packet, s);
 
     V inv_variance, mirrored_alpha, refracted_alpha;
     const V sun_path =
         SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
-    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye, inv_variance,
+    const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance,
                                        tile.lookups.reflection, mirrored_alpha);
     const V3 refracted =
         RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);

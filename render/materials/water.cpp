@@ -133,14 +133,20 @@ float fresnel_reflectance(float c, float n) {
   return 0.5f * s * s * (1.0f + p * p);
 }
 
-// Slope variance of all waves, both axes together.
-float slope_variance(const MaterialInputs& in, const Water& water) {
-  float variance = water.base_variance;
-  for (const ocean::PatchFrame& patch : in.sea.frame.patches) variance += patch.slope_variance;
-  for (int i = water.first_ripples; i < water.layer_count; ++i) {
+// Slope variance that the layers' maps have, from one layer on.
+float layer_variance(const Water& water, int first) {
+  float variance = 0.0f;
+  for (int i = first; i < water.layer_count; ++i) {
     const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
     variance += layer.map->lost_variance.back() * layer.gain * layer.gain;
   }
+  return variance;
+}
+
+// Slope variance of all waves, both axes together.
+float slope_variance(const MaterialInputs& in, const Water& water) {
+  float variance = water.base_variance + layer_variance(water, water.first_ripples);
+  for (const ocean::PatchFrame& patch : in.sea.frame.patches) variance += patch.slope_variance;
   for (int i = 0; i < water.sine_count; ++i) {
     const SineLayer& sine = water.sines[static_cast<std::size_t>(i)];
     variance += 0.5f * (sine.slope_x * sine.slope_x + sine.slope_y * sine.slope_y);
@@ -164,6 +170,8 @@ glm::vec3 mirrored_sea(const MaterialInputs& in, float variance) {
 
 void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   const float variance = slope_variance(in, water);
+  water.short_variance = layer_variance(water, water.long_layer_count);
+  water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
   water.mirrored_sea = mirrored_sea(in, variance);
   water.wave_horizon = wave_horizon(variance);
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;

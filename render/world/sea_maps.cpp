@@ -43,8 +43,11 @@ void pack_noise(const ocean::SeaDescription& description, double t_s, SeaMaps& s
 
 }  // namespace
 
-void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const StageRun& run) {
+void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
+                 const StageRun& run) {
   ocean::advance(*world.sea, t_s, sea.frame, run.workers);
+  if (without.has(Part::kTiling))
+    for (ocean::PatchFrame& patch : sea.frame.patches) patch.tiling = {};
   const bool has_coast = world.coast != nullptr;
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
   // Pack the maps that shading looks into: the waves', the noise's, the coast's.

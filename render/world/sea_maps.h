@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ocean/sea.h"
+#include "render/parts.h"
 #include "render/profile.h"
 #include "render/world/world_state.h"
 #include "texture/packed_map.h"
@@ -23,7 +24,8 @@ struct SeaMaps {
 };
 
 // Fills `sea` with the world's sea at time t_s.
-void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const StageRun& run);
+void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
+                 const StageRun& run);
 
 // The water's surface at the time of `sea`, of the same world.
 inline ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {

@@ -54,7 +54,7 @@ void ForPackets(std::size_t count, const Each& each) {
 
 WaterSlopes NoSlopes() {
   const V zero = hn::Zero(D());
-  return {zero, zero, zero, zero};
+  return {zero, zero, zero, zero, zero};
 }
 
 void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
