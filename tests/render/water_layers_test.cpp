@@ -224,7 +224,8 @@ TEST_P(WaterShader, ShowsTheSameHoweverManyPacketsAreSideBySide) {
     scene::Scene scene = shore_scene();
     if (!has_coast) scene.coast = {};
     Drawn drawn;
-    draw(scene, World(scene), drawn);
+    const World like(scene);  // whose maps the drawn water refers to
+    draw(scene, like, drawn);
     const Shading& shading = drawn.workspace.state().shading;
     const Water& water = shading.material<Water>();
     ASSERT_EQ(water.has_coast, has_coast);
