@@ -71,6 +71,19 @@ HWY_INLINE TileOffset<VI> OffsetOfTile(DI di, std::uint32_t seed, VI column, VI 
           hn::And(hn::BitCast(di, hn::ShiftRight<16>(bits)), mask)};
 }
 
+// cos(pi s / 2) for s in [0, 1] within 0.002, exact at both ends, and its slope.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V QuarterCosine(D d, V s) {
+  const V s2 = hn::Mul(s, s);
+  const V sum = hn::MulAdd(s2, hn::Set(d, 0.22265625f), hn::Set(d, -1.22265625f));
+  return hn::MulAdd(sum, s2, hn::Set(d, 1.0f));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V QuarterCosineSlope(D d, V s) {
+  return hn::Mul(s, hn::MulAdd(hn::Mul(s, s), hn::Set(d, 0.890625f), hn::Set(d, -2.4453125f)));
+}
+
 // Across one axis: the weights of the tile that a place lies in and of the one behind the nearer
 // border, their slopes [1 / tiles], and which tile that is. The squares of the weights add up to 1.
 template <class D>
@@ -85,18 +98,16 @@ HWY_INLINE AxisBlend<D> BlendAlong(D d, VI tile, V place) {
   const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
   const auto is_low = hn::Lt(place, half);
   const V to_border = hn::IfThenElse(is_low, place, hn::Sub(one, place));
-  // From 1/2 on the border to 1 where the border ends; then smooth_blend().
-  const V t = hn::Min(hn::MulAdd(to_border, hn::Set(d, 1.0f / kTileBorder), half), one);
-  const V own = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(t, hn::Set(d, 2.0f), hn::Set(d, 3.0f)));
-  const V other = hn::Sub(one, own);
-  const V scale = hn::Div(one, hn::Sqrt(hn::MulAdd(own, own, hn::Mul(other, other))));
-  // d(own)/dt = 6 t (1 - t), and own + other = 1.
+  // The other's share: from 1/2 on the border to 0 where the blend ends, as smooth_blend() falls.
+  const V t = hn::Max(hn::NegMulAdd(to_border, hn::Set(d, 1.0f / kTileBorder), half), hn::Zero(d));
+  const V share = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(t, hn::Set(d, 2.0f), hn::Set(d, 3.0f)));
+  const V rest = hn::Sub(one, share);
   const V rise = hn::Mul(hn::Mul(t, hn::Sub(one, t)), hn::Set(d, 6.0f / kTileBorder));
-  const V turn =
-      hn::Mul(hn::Mul(hn::IfThenElse(is_low, rise, hn::Neg(rise)), scale), hn::Mul(scale, scale));
+  const V turn = hn::IfThenElse(is_low, hn::Neg(rise), rise);
   const VI step = hn::IfThenElse(hn::RebindMask(di, is_low), hn::Set(di, -1), hn::Set(di, 1));
-  return {{hn::Mul(own, scale), hn::Mul(other, scale)},
-          {hn::Mul(turn, other), hn::Neg(hn::Mul(turn, own))},
+  return {{QuarterCosine(d, share), QuarterCosine(d, rest)},
+          {hn::Mul(QuarterCosineSlope(d, share), turn),
+           hn::Neg(hn::Mul(QuarterCosineSlope(d, rest), turn))},
           {tile, hn::Add(tile, step)}};
 }
 

@@ -17,8 +17,9 @@ namespace swell::ocean {
 // What a sea is made of at most; everything that is drawn or asked has all of it.
 inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64;
 
-// So many of the longest patches are tiled.
-inline constexpr std::size_t kTiledPatches = 2;
+// So many of the longest patches are tiled: what the next ones hold is too short to be seen from
+// where they would be seen to repeat themselves.
+inline constexpr std::size_t kTiledPatches = 1;
 
 // One explicit wave: A sin(k . x - 2 pi t / T + phase).
 struct SineWave {
@@ -47,8 +48,8 @@ struct SeaDescription {
   // 1 to kMaxPatches lengths, longest first. Each patch holds the waves that the next longer one is
   // too coarse for: bands of wave numbers do not overlap.
   std::vector<double> patch_lengths_m = {640.0, 97.0, 17.0};
-  // The longest two patches cover the sea by tiles that differ (ocean/patch_tiles.h); false: all
-  // patches repeat themselves, the others always.
+  // The longest patch covers the sea by tiles that differ (ocean/patch_tiles.h); false: it repeats
+  // itself as the others do.
   bool tiling = true;
   std::vector<SineWave> sines;  // at most kMaxSines
 

@@ -46,15 +46,25 @@ glm::dvec2 drift_m(const ocean::SeaDescription& sea, glm::dvec2 direction, doubl
   return whole * (length_m * (ocean::wave_time_s(sea, t_s) / sea.loop_s));
 }
 
+// Slope variance of the ripples, both axes together: they are what the patches' waves leave of the
+// sea's whole variance; where those are higher than the wind makes them, a quarter of it.
+// Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
+double ripple_variance(const MaterialInputs& in, const Water& water) {
+  const double wind = ripple_wind_mps(in.world.scene);
+  const double whole = ripple_share(wind) * (0.003 + 0.00512 * wind);
+  if (in.sea.frame.patches.empty()) return 0.25 * whole;
+  double rest = whole - static_cast<double>(water.base_variance);
+  for (const ocean::PatchFrame& patch : in.sea.frame.patches)
+    rest -= static_cast<double>(patch.slope_variance);
+  return std::max(rest, 0.25 * whole);
+}
+
 // Two layers of ripples that drift across each other, downwind.
 void add_ripples(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   const scene::Scene& scene = in.world.scene;
   const texture::PackedMap2& bump = *in.world.bump;
   const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
-  // Ripple slopes grow with the wind as the sea's whole slope variance does.
-  // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
-  const double wind = ripple_wind_mps(scene);
-  const double variance = ripple_share(wind) * 0.25 * (0.003 + 0.00512 * wind);
+  const double variance = ripple_variance(in, water);
   const double travel = scene.sea.wind_from_rad + kPi;
   struct Ripples {
     double length_m, turn_rad, speed_mps, part;

@@ -28,9 +28,9 @@ vec2 offset_of_tile(ivec2 tile, vec4 tiles, int samples) {
 
 // Weights of the tile at `place` in [0, 1] and of the one behind the nearer border.
 vec2 blend_along(float place) {
-  float t = min(min(place, 1.0 - place) * 6.0 + 0.5, 1.0);
-  float own = t * t * (3.0 - 2.0 * t);
-  return normalize(vec2(own, 1.0 - own));
+  float t = max(0.5 - 8.0 * min(place, 1.0 - place), 0.0);
+  float share = t * t * (3.0 - 2.0 * t);
+  return cos(vec2(share, 1.0 - share) * 1.5707963);
 }
 
 void add_tiled_slopes(sampler2D map, vec4 place, vec4 scale, vec4 tiles, vec2 p, float level_m,
