@@ -10,6 +10,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/random.h"
 #include "ocean/dispersion.h"
 #include "ocean/fft.h"
 #include "ocean/patch_transforms.h"
@@ -116,6 +117,7 @@ void size_patches(const Sea::State& state, std::vector<PatchFrame>& patches) {
     patches[p].length_m = waves.length_m;
     patches[p].resolution = waves.size;
     patches[p].slope_variance = static_cast<float>(waves.slope_variance);
+    patches[p].tiling = tiling_of_patch(state.description, p);
     for (auto* field : {&patches[p].height_m, &patches[p].slope_x, &patches[p].slope_y}) {
       field->resize(samples);
     }
@@ -158,7 +160,13 @@ double Sea::height_bound_m() const {
 
 double Sea::slope_bound() const {
   double variance = 0.0;
-  for (const PatchWaves& waves : state_->patches) variance += waves.slope_variance;
+  for (std::size_t p = 0; p < state_->patches.size(); ++p) {
+    const PatchWaves& waves = state_->patches[p];
+    variance += waves.slope_variance;
+    if (!tiling_of_patch(state_->description, p).on) continue;
+    const double blend_per_m = kTileBlendSlope / waves.length_m;
+    variance += waves.variance_m2 * blend_per_m * blend_per_m;
+  }
   double bound = 6.0 * std::sqrt(variance);
   for (const SineWave& sine : state_->description.sines)
     bound += std::abs(sine.amplitude_m) * kTwoPi / sine.wavelength_m;
@@ -192,6 +200,12 @@ double Sea::mean_wavelength_m() const {
     variance_k += square * kTwoPi / sine.wavelength_m;
   }
   return variance > 0.0 ? kTwoPi * variance / variance_k : 0.0;
+}
+
+PatchTiling tiling_of_patch(const SeaDescription& sea, std::size_t patch) {
+  constexpr std::uint64_t kStream = 0x74696c6573;  // apart from the waves' random numbers
+  if (!sea.tiling || patch >= kTiledPatches) return {};
+  return {true, static_cast<std::uint32_t>(random_bits(sea.seed ^ kStream, patch))};
 }
 
 double wave_time_s(const SeaDescription& sea, double t_s) {

@@ -10,11 +10,16 @@
 #include <vector>
 
 #include "math/parallel.h"
+#include "ocean/patch_tiles.h"
 
 namespace swell::ocean {
 
 // What a sea is made of at most; everything that is drawn or asked has all of it.
 inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64;
+
+// So many of the longest patches are tiled: what the next ones hold is too short to be seen from
+// where they would be seen to repeat themselves.
+inline constexpr std::size_t kTiledPatches = 1;
 
 // One explicit wave: A sin(k . x - 2 pi t / T + phase).
 struct SineWave {
@@ -43,6 +48,9 @@ struct SeaDescription {
   // 1 to kMaxPatches lengths, longest first. Each patch holds the waves that the next longer one is
   // too coarse for: bands of wave numbers do not overlap.
   std::vector<double> patch_lengths_m = {640.0, 97.0, 17.0};
+  // The longest patch covers the sea by tiles that differ (ocean/patch_tiles.h); false: it repeats
+  // itself as the others do.
+  bool tiling = true;
   std::vector<SineWave> sines;  // at most kMaxSines
   double whitecaps = 1.0;       // multiplies the part of the sea that foam covers, [0, 10]
 
@@ -50,13 +58,14 @@ struct SeaDescription {
 };
 
 // One patch at one time: resolution x resolution samples, periodic; sample [j * resolution + i] is
-// at world x = i L / n, y = j L / n.
+// at world x = i L / n, y = j L / n, in a tile moved by that tile's offset.
 struct PatchFrame {
   double length_m = 0.0;
   int resolution = 0;
   std::vector<float> height_m, slope_x, slope_y;  // slope = dH/dx, dH/dy from the same spectrum
   // Mean square slope (both axes together) of the waves in the patch: a constant of the sea state.
   float slope_variance = 0.0f;
+  PatchTiling tiling;
 };
 
 // A sine wave at one time, for SIMD evaluation: amplitude sin(2 pi (cycles_per_m . x + cycles)).
@@ -114,9 +123,10 @@ void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers);
 
 // Heights at world points, from the frame's patches (bilinear between samples) and sines.
 // Positions in a patch are rounded to 1/65536 of the sample spacing, so that samples come back
-// exactly and the patches repeat exactly. p_world and height_m have the same length and do not
-// overlap; |p_world| below 1e9 m. May be called from many threads at once. 8 ns a point for three
-// patches. With `longest_patches` only so many patches, longest first, count, and the sines.
+// exactly and patches that are not tiled repeat exactly. p_world and height_m have the same length
+// and do not overlap; |p_world| below 1e9 m. May be called from many threads at once. 8 ns a point
+// for three patches. With `longest_patches` only so many patches, longest first, count, and the
+// sines.
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m, std::size_t longest_patches = SIZE_MAX);
 
@@ -126,8 +136,8 @@ void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
                     std::span<const glm::vec2> offset_m, std::span<float> height_m);
 
 // dH/dx and dH/dy at world points, both spans as long as p_world: of the spectrum waves the
-// slopes in the patches, bilinear between samples, of the sines the derivatives. Otherwise as
-// sample_heights().
+// slopes in the patches, bilinear between samples, with what the blend of tiles adds, of the sines
+// the derivatives. Otherwise as sample_heights().
 void sample_slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                    std::span<float> slope_x, std::span<float> slope_y);
 

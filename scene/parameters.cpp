@@ -157,6 +157,9 @@ Rows sea_rows() {
                      "periods of the patches that hold the wind waves, longest first"),
       SceneRow::integer("sea.resolution", Kind::kPowerOfTwo, {16, 512}, SWELL_FIELD(sea.resolution),
                         "samples along each side of a patch"),
+      SceneRow::plain<bool>(
+          "sea.tiling", Kind::kBoolean, SWELL_FIELD(sea.tiling),
+          "the longest patch covers the sea by tiles that differ; false: it repeats itself"),
       SceneRow::number("sea.amplitude_scale", {0, 4}, SWELL_FIELD(sea.amplitude_scale),
                        "multiplies the heights of the wind waves"),
       SceneRow::integer("sea.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(sea.seed),

@@ -105,6 +105,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sea.gravity_mps2);
   SWELL_COMPARE(sea.loop_s);
   SWELL_COMPARE(sea.whitecaps);
+  SWELL_COMPARE(sea.tiling);
   SWELL_COMPARE(sea.seed);
   SWELL_COMPARE(sea.resolution);
   SWELL_COMPARE(sea.patch_lengths_m);
