@@ -150,8 +150,8 @@ bool is_wind_key(std::string_view key) { return std::ranges::count(kWindKeys, ke
 // given by a quaternion and a matrix.
 bool goes_with(std::string_view key, bool by_matrix) {
   if (key == "camera.mount_offset_m") return false;  // wants an object of a name
-  for (const std::string_view other :
-       {"camera.quaternion", "camera.focal_px", "camera.principal_px", "camera.size_px"})
+  for (const std::string_view other : {"camera.quaternion", "camera.focal_px",
+                                       "camera.principal_px", "camera.size_px", "sea.fetch_km"})
     if (key == other) return by_matrix;
   for (const Replacement& r : kReplacements)
     if (key == r.replaced && r.key != "camera.mount") return !by_matrix;
