@@ -170,10 +170,13 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     work(StageRun{workers, ws.profile, name});
   };
 
+  const Clouds clouds = make_clouds(world_state, t_s, view.eye_world, options.without);
   workers.run_both(
       [&] {
-        stage(Stage::kSea,
-              [&](const StageRun& run) { advance_sea(world_state, t_s, ws.sea, run); });
+        stage(Stage::kSea, [&](const StageRun& run) {
+          advance_sea(world_state, t_s, ws.sea, run);
+          advance_sky(world_state, clouds, ws.sky, run);
+        });
       },
       [&] {
         stage(Stage::kTriangulate, [&](const StageRun& run) {
@@ -189,7 +192,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                  run);
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
-  const Light light = make_light(world_state);
+  const Light light = make_light(world_state, clouds, ws.sky.soft);
   const Media media = make_media(world_state, light, options.without);
   MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
   stage(Stage::kLookups, [&](const StageRun& run) {

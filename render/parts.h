@@ -16,13 +16,14 @@ enum class Part : std::uint8_t {
   kRefraction,  // what lies under the water's surface
   kRipples,     // the water's waves too short for the wave patches
   kHaze,        // between the eye and what it sees
+  kClouds,      // in the sky, and in what the water mirrors of it
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {"reflection", "refraction",
-                                                                        "ripples", "haze"};
+                                                                        "ripples", "haze", "clouds"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

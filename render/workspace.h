@@ -15,12 +15,14 @@
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
 #include "render/world/sea_maps.h"
+#include "render/world/sky_frame.h"
 
 namespace swell::render {
 
 struct Workspace::State {
   Profile profile;
   SeaMaps sea;
+  SkyFrame sky;
   Meshes meshes;
   RenderView window;
   VisibilityBuffer visibility;

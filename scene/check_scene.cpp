@@ -107,11 +107,12 @@ Fault fault_of_sky(const Sky& sky) {
         fmt::format("[{}, {}, {}]", sky.sun_direction.x, sky.sun_direction.y, sky.sun_direction.z),
         fmt::format("the direction of the azimuth and the elevation, [{}, {}, {}]", direction.x,
                     direction.y, direction.z)};
+  const GradientSky gradient = gradient_of(sky);
   for (int c = 0; c < 3; ++c)
-    if (kBeyondHorizon * sky.zenith[c] > (1.0f + kBeyondHorizon) * sky.horizon[c])
+    if (kBeyondHorizon * gradient.zenith[c] > (1.0f + kBeyondHorizon) * gradient.horizon[c])
       return SceneFault{
-          fmt::format("sky.zenith[{}]", c), fmt::format("{}", sky.zenith[c]),
-          fmt::format("at most 7.66 times sky.horizon[{}], which is {}", c, sky.horizon[c])};
+          fmt::format("sky.zenith[{}]", c), fmt::format("{}", gradient.zenith[c]),
+          fmt::format("at most 7.66 times sky.horizon[{}], which is {}", c, gradient.horizon[c])};
   return std::nullopt;
 }
 

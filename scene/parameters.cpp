@@ -20,6 +20,11 @@ struct TriangulationName {
   auto& operator()(auto& scene) const { return scene.detail.triangulation; }
 };
 
+struct SkyModelName {
+  static constexpr std::array<std::string_view, 2> words = {"atmosphere", "gradient"};
+  auto& operator()(auto& scene) const { return scene.sky.model; }
+};
+
 struct CoastModelName {
   static constexpr std::array<std::string_view, 3> words = {"none", "trains", "blend"};
   auto& operator()(auto& scene) const { return scene.coast.model; }
@@ -96,23 +101,34 @@ Rows sky_rows() {
                       "where the sun stands, clockwise from north"),
       SceneRow::angle("sky.sun_elevation_deg", {-90, 90, "deg"}, SWELL_FIELD(sky.sun_elevation_rad),
                       "above the horizon"),
-      SceneRow::vector("sky.sun_radiance", {0, 1000}, SWELL_FIELD(sky.sun_radiance),
-                       "linear RGB, strength of direct sunlight"),
-      SceneRow::vector("sky.zenith", {0, 2}, SWELL_FIELD(sky.zenith),
-                       "linear RGB radiance of the sky overhead; at most 7.66 times `horizon`"),
-      SceneRow::vector(
+      SceneRow::choice("sky.model", SkyModelName{},
+                       "light of sun, moon and stars in the earth's air; or a gradient painted "
+                       "from the keys below, each of which makes it one"),
+      SceneRow::number("sky.turbidity", {1, 10}, SWELL_FIELD(sky.turbidity),
+                       "haze of the atmosphere: optical depth over that of pure air"),
+      SceneRow::number("sky.moon_phase", {0, 1}, SWELL_FIELD(sky.moon_phase),
+                       "lit part of the moon's disc; the moon stands opposite the sun"),
+      SceneRow::optional_vector("sky.sun_radiance", {0, 1000}, SWELL_FIELD(sky.sun_radiance),
+                                "of a gradient: linear RGB, strength of direct sunlight, 1 if "
+                                "left out"),
+      SceneRow::optional_vector("sky.zenith", {0, 2}, SWELL_FIELD(sky.zenith),
+                                "of a gradient: linear RGB radiance of the sky overhead; at most "
+                                "7.66 times `horizon`; [0.1, 0.25, 0.6] if left out"),
+      SceneRow::optional_vector(
           "sky.horizon", {0, 1.7}, SWELL_FIELD(sky.horizon),
-          "linear RGB radiance of the sky about 1 degree above the horizon; below it the "
-          "gradient goes on, to 1.15 `horizon` - 0.15 `zenith`. The sky's radiance is "
-          "drawn up to 2"),
+          "of a gradient: linear RGB radiance of the sky about 1 degree above the horizon; below "
+          "it the gradient goes on, to 1.15 `horizon` - 0.15 `zenith`; [0.65, 0.75, 0.85] if left "
+          "out"),
       SceneRow::number("sky.haze_distance_m", {10, 1e7, "m"}, SWELL_FIELD(sky.haze_distance_m),
                        "at this range 1/e of the contrast is left"),
       SceneRow::number("sky.cloud_cover", {0, 1}, SWELL_FIELD(sky.cloud_cover),
-                       "part of the sky that thin clouds cover"),
+                       "part of the sky that clouds cover; 1 is overcast"),
       SceneRow::integer("sky.cloud_seed", Kind::kInteger, {0, kMaxSeed},
                         SWELL_FIELD(sky.cloud_seed), "another number, other clouds"),
-      SceneRow::number("sky.exposure", {0.001, 1000}, SWELL_FIELD(sky.exposure),
-                       "multiplies radiance before the sRGB curve"),
+      SceneRow::optional_number(
+          "sky.exposure", {1e-6, 1e9}, SWELL_FIELD(sky.exposure),
+          "multiplies radiance, in 10 000 cd/m^2, or in its own unit for a gradient; if left out "
+          "it follows from the sky's light, and is 1 for a gradient"),
   };
 }
 

@@ -21,18 +21,25 @@
 
 namespace swell::scene {
 
+enum class SkyModel : std::uint8_t {
+  kAtmosphere,  // the light of sun, moon and stars in the earth's air (scene/atmosphere.h)
+  kGradient,    // painted from two colours
+};
+
 struct Sky {
   double sun_azimuth_rad = 0.0;  // where the sun stands, clockwise from north
   double sun_elevation_rad = radians(30.0);
   // Unit, world, towards the sun: the direction of the two angles (scene::sun_direction).
   glm::vec3 sun_direction{0.0f, 0.8660254f, 0.5f};
-  glm::vec3 sun_radiance{1.0f};            // linear RGB, irradiance scale of direct light
-  glm::vec3 zenith{0.10f, 0.25f, 0.60f};   // linear RGB radiance overhead
-  glm::vec3 horizon{0.65f, 0.75f, 0.85f};  // the same about 1 degree above the horizon
+  SkyModel model = SkyModel::kAtmosphere;
+  double turbidity = 2.2;   // of the atmosphere, [1, 10]
+  double moon_phase = 1.0;  // lit part of the moon's disc, [0, 1]
+  // The gradient's (scene::gradient_of). A sky that has one of them is a gradient.
+  std::optional<glm::vec3> sun_radiance, zenith, horizon;
   double haze_distance_m = 15000.0;  // exponential haze: 1/e of the contrast is left at this range
-  double cloud_cover = 0.3;          // [0, 1], thin clouds
+  double cloud_cover = 0.3;          // [0, 1]
   std::uint64_t cloud_seed = 7;
-  double exposure = 1.0;  // multiplies radiance before the sRGB curve
+  std::optional<double> exposure;  // none: that of the sky's light, 1 for a gradient
 
   bool operator==(const Sky&) const = default;
 };

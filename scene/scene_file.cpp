@@ -86,6 +86,7 @@ class Reader {
     check_replacements();
     apply_sea_state();
     finish_coast();
+    if (is_gradient(scene_.sky)) scene_.sky.model = SkyModel::kGradient;
     scene_.sky.sun_direction =
         sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
     if (const auto fault = find_disagreement(scene_))

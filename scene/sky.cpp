@@ -9,6 +9,8 @@
 namespace swell::scene {
 namespace {
 
+// ---- A painted sky
+
 // Henyey and Greenstein's phase function times 4 pi: haze droplets throw light forward.
 // Source: L. G. Henyey, J. L. Greenstein, Diffuse radiation in the galaxy, 1941, eq. 2.
 double forward_scattering(double cos_theta, double g) {
@@ -16,18 +18,87 @@ double forward_scattering(double cos_theta, double g) {
   return (1.0 - g * g) / (base * std::sqrt(base));
 }
 
-// Part of the light that thin clouds send or hide, in [0, 1]: noise on a plane overhead, stretched
-// along one axis as high clouds are.
-double cloud_density(const Sky& sky, const texture::PerlinNoise& clouds, glm::dvec3 d) {
-  constexpr double kFade = 0.06;  // sine of the elevation at which clouds start to show
-  const double fade = smoothstep(kFade, 0.35, d.z);
-  if (fade == 0.0 || sky.cloud_cover <= 0.0) return 0.0;
-  const glm::dvec2 p = glm::dvec2(d.x, d.y) / d.z;
-  const double bend = clouds.fractal2(0.9 * p.x + 31.7, 0.9 * p.y + 11.3, 2, 0.5);
-  const double noise =
-      clouds.fractal2(1.3 * p.x + 0.8 * bend + 5.1, 2.6 * p.y + 1.1 * bend, 5, 0.55);
-  const double threshold = 0.9 - 1.5 * sky.cloud_cover;
-  return fade * smoothstep(threshold, threshold + 1.0, noise);
+// The direction, or that of the horizon below it, of length 1.
+glm::dvec3 above_horizon(glm::vec3 direction) {
+  const glm::dvec3 d(direction.x, direction.y, std::max(direction.z, 0.0f));
+  const double length = glm::length(d);
+  return length > 0.0 ? d / length : glm::dvec3(0.0, 1.0, 0.0);
+}
+
+// ---- An atmosphere
+
+// Irradiance of the sun outside the air, in the unit of radiance: 127 500 lx.
+// Source: Illuminating Engineering Society, Recommended Practice for the Calculation of Daylight
+// Availability, 1984.
+constexpr float kSunIrradiance = 12.75f;
+// The full moon is 14 magnitudes fainter.
+// Source: C. W. Allen, Astrophysical Quantities, 1973, section 66.
+// Eyes in the dark see it bluer than it is: Purkinje's effect.
+constexpr glm::vec3 kFullMoon = kSunIrradiance / 398000.0f * glm::vec3(0.75f, 1.02f, 1.45f);
+// Of the stars and the air's own glow: 2e-4 cd/m^2, which gives 6e-4 lx.
+// Source: F. Patat, UBVRI night sky brightness during sunspot maximum, 2003: 21.6 magnitudes per
+// square second of arc.
+constexpr glm::vec3 kNight = 2e-8f * glm::vec3(0.8f, 1.0f, 1.6f);
+
+constexpr float kDiscSolidAngle = static_cast<float>(kPi * kSunRadius_rad * kSunRadius_rad);
+
+// Brightness of the moon by the lit part of its disc, 1 when full.
+// Source: K. Krisciunas, B. E. Schaefer, A model of the brightness of moonlight, 1991, eq. 9.
+float moon_brightness(double lit_part) {
+  const double phase_deg = acos(2.0 * lit_part - 1.0) * (180.0 / kPi);
+  const double squared = phase_deg * phase_deg;
+  return static_cast<float>(pow(10.0, -0.4 * (0.026 * phase_deg + 4e-9 * squared * squared)));
+}
+
+// What is left of the computed light of the sky when the sun is down: a fit to the illuminance of
+// twilight. The air computed has no haze above a few kilometres, and its light is too strong by
+// 1.5 to 1.7 from -4 degrees down.
+// Source: P. M. Janiczek, J. A. DeYoung, Computer Programs for Sun and Moon Illuminance, United
+// States Naval Observatory Circular 171, 1987.
+float twilight_part(double sine) {
+  return static_cast<float>(1.0 - 0.38 * smoothstep(0.02, -0.07, sine));
+}
+
+void add_source(const Atmosphere& atmosphere, glm::vec3 to_light, glm::vec3 irradiance,
+                Workers& workers, SkyLight& light) {
+  light.sources.push_back({make_sky_table(atmosphere, glm::dvec3(to_light), workers),
+                           irradiance * twilight_part(to_light.z)});
+}
+
+void set_direct_light(const Atmosphere& atmosphere, glm::vec3 to_light, glm::vec3 irradiance,
+                      SkyLight& light) {
+  light.to_light = to_light;
+  light.irradiance = irradiance * disc_transmittance(atmosphere, 0.0, to_light.z);
+  light.cloud_irradiance = irradiance * disc_transmittance(atmosphere, kCloudHeight_m, to_light.z);
+  const double whole = std::max(static_cast<double>(to_light.z), kSunRadius_rad);
+  light.disc_radiance = irradiance / kDiscSolidAngle * disc_transmittance(atmosphere, 0.0, whole);
+}
+
+SkyLight make_atmosphere_light(const Sky& sky, Workers& workers) {
+  const Atmosphere atmosphere = make_atmosphere(sky.turbidity, workers);
+  const glm::vec3 to_sun = sky.sun_direction;
+  SkyLight light;
+  light.sky = sky;
+  const glm::vec3 sun(kSunIrradiance);
+  add_source(atmosphere, to_sun, sun, workers, light);
+  if (to_sun.z > -static_cast<float>(kSunRadius_rad) || sky.moon_phase == 0.0) {
+    set_direct_light(atmosphere, to_sun, sun, light);
+  } else {
+    const glm::vec3 moon = moon_brightness(sky.moon_phase) * kFullMoon;
+    add_source(atmosphere, -to_sun, moon, workers, light);
+    set_direct_light(atmosphere, -to_sun, moon, light);
+  }
+  return light;
+}
+
+SkyLight make_gradient_light(const Sky& sky) {
+  SkyLight light;
+  light.sky = sky;
+  light.to_light = sky.sun_direction;
+  light.irradiance = sky.sun_direction.z > 0.0f ? gradient_of(sky).sun_radiance : glm::vec3(0.0f);
+  light.cloud_irradiance = light.irradiance;
+  light.disc_radiance = 8.0f * light.irradiance;
+  return light;
 }
 
 }  // namespace
@@ -38,14 +109,22 @@ glm::vec3 sun_direction(double azimuth_rad, double elevation_rad) {
                    sin(elevation_rad));
 }
 
-glm::vec3 sky_radiance(const Sky& sky, const texture::PerlinNoise& clouds, glm::vec3 direction) {
-  // Below the horizon the sky goes on as at the horizon.
-  glm::dvec3 d = glm::dvec3(direction);
-  d.z = std::max(d.z, 0.0);
-  const double length = glm::length(d);
-  d = length > 0.0 ? d / length : glm::dvec3(0.0, 1.0, 0.0);
-  const glm::dvec3 to_sun(sky.sun_direction);
-  const glm::dvec3 zenith(sky.zenith), horizon(sky.horizon), sun(sky.sun_radiance);
+bool is_gradient(const Sky& sky) {
+  return sky.model == SkyModel::kGradient || sky.sun_radiance || sky.zenith || sky.horizon;
+}
+
+GradientSky gradient_of(const Sky& sky) {
+  GradientSky gradient;
+  gradient.sun_radiance = sky.sun_radiance.value_or(gradient.sun_radiance);
+  gradient.zenith = sky.zenith.value_or(gradient.zenith);
+  gradient.horizon = sky.horizon.value_or(gradient.horizon);
+  return gradient;
+}
+
+glm::vec3 gradient_radiance(const Sky& sky, glm::vec3 direction) {
+  const glm::dvec3 d = above_horizon(direction), to_sun(sky.sun_direction);
+  const GradientSky gradient = gradient_of(sky);
+  const glm::dvec3 zenith(gradient.zenith), horizon(gradient.horizon), sun(gradient.sun_radiance);
   const double cos_theta = glm::dot(d, to_sun);
 
   // Gradient: the air's path grows towards the horizon about as 1 / (sin elevation + 0.15).
@@ -63,17 +142,22 @@ glm::vec3 sky_radiance(const Sky& sky, const texture::PerlinNoise& clouds, glm::
   const double wide = forward_scattering(cos_theta, 0.6);
   const double narrow = forward_scattering(cos_theta, 0.9);
   radiance += sun * (up * (0.012 * wide + 0.0016 * narrow));
-
-  // Clouds: as bright as the haze, brighter in front of the sun.
-  const double density = cloud_density(sky, clouds, d);
-  const glm::dvec3 white =
-      0.5 * (horizon + glm::dvec3(0.9 * horizon.y)) + sun * (up * (0.06 + 0.012 * wide));
-  radiance += (white - radiance) * (0.75 * density);
   return glm::vec3(glm::max(radiance, glm::dvec3(0.0)));
 }
 
-glm::vec3 sky_radiance(const Sky& sky, glm::vec3 direction) {
-  return sky_radiance(sky, texture::PerlinNoise(sky.cloud_seed), direction);
+SkyLight make_sky_light(const Sky& sky, Workers& workers) {
+  return is_gradient(sky) ? make_gradient_light(sky) : make_atmosphere_light(sky, workers);
 }
+
+glm::vec3 clear_radiance(const SkyLight& light, glm::vec3 direction) {
+  if (light.sources.empty()) return gradient_radiance(light.sky, direction);
+  const glm::dvec3 d = above_horizon(direction);
+  glm::vec3 radiance = kNight;
+  for (const SkyLight::Source& source : light.sources)
+    radiance += source.irradiance * sky_radiance(source.table, d);
+  return radiance;
+}
+
+double automatic_exposure(double light) { return 2.5 * pow(light, -0.83); }
 
 }  // namespace swell::scene

@@ -27,26 +27,30 @@ void fill_padding(RgbaImage& image) {
   std::copy_n(last_row, image.width + 1, last_row + image.stride);
 }
 
-RgbMap pack_rgb(const RgbaImage& image) {
+void pack_rgb(const RgbaImage& image, RgbMap& map) {
   SWELL_CHECK(image.width == image.height && image.width <= 4096 &&
                   std::has_single_bit(static_cast<unsigned>(image.width)),
               "size={}x{}", image.width, image.height);
   const int size = image.width;
-  RgbMap map{size, {}};
-  map.words.reserve(static_cast<std::size_t>(size) * size);
+  map.size = size;
+  map.words.resize(static_cast<std::size_t>(size) * size);
   for (int y = 0; y < size; ++y) {
+    const std::uint32_t* upper =
+        image.texels.data() + static_cast<std::ptrdiff_t>(y) * image.stride;
+    const std::uint32_t* lower = upper + (y + 1 < size ? image.stride : 0);
     for (int x = 0; x < size; ++x) {
-      RgbWord word{};
-      for (int n = 0; n < 12; ++n) {
-        const int at_x = std::min(x + n % 2, size - 1), at_y = std::min(y + n / 2 % 2, size - 1);
-        const std::uint32_t texel =
-            image.texels[static_cast<std::size_t>(at_y) * image.stride + at_x];
-        const auto code = static_cast<int>(texel >> (8 * (n / 4)) & 0xff);
-        word.bytes[static_cast<std::size_t>(n)] = static_cast<std::int8_t>(code - 128);
-      }
-      map.words.push_back(word);
+      const int next = std::min(x + 1, size - 1);
+      RgbWord& word = map.words[static_cast<std::size_t>(y) * size + x];
+      const std::array<std::uint32_t, 4> texels = {upper[x], upper[next], lower[x], lower[next]};
+      for (std::size_t n = 0; n < 12; ++n)
+        word.bytes[n] = static_cast<std::int8_t>((texels[n % 4] >> (8 * (n / 4)) & 0xff) ^ 0x80);
     }
   }
+}
+
+RgbMap pack_rgb(const RgbaImage& image) {
+  RgbMap map;
+  pack_rgb(image, map);
   return map;
 }
 

@@ -82,7 +82,8 @@ struct RgbMap {
   std::vector<RgbWord> words;
 };
 
-// The red, green and blue of a square image whose size is a power of two.
+// The red, green and blue of a square image whose size is a power of two. `map` keeps its capacity.
+void pack_rgb(const RgbaImage& image, RgbMap& map);
 RgbMap pack_rgb(const RgbaImage& image);
 
 }  // namespace swell::texture

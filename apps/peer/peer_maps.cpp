@@ -146,6 +146,18 @@ GLuint PeerMaps::image(const texture::RgbaImage& image) {
   return texture;
 }
 
+GLuint PeerMaps::image(const texture::SmoothImage& image) {
+  const auto [texture, is_new] = still(&image);
+  if (!is_new) return texture;
+  std::vector<std::uint16_t> codes;
+  for (std::size_t i = 0; i < image.channels[0].size(); ++i)
+    for (const std::vector<std::uint32_t>& words : image.channels)
+      codes.push_back(static_cast<std::uint16_t>(words[i]));
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB16, image.size, image.size, 0, GL_RGB, GL_UNSIGNED_SHORT,
+                 codes.data());
+  return texture;
+}
+
 glm::vec4 texture_place(const render::SlopeLayer& layer) {
   const float turns = 1.0f / (256.0f * static_cast<float>(layer.map->size));  // for 1/256 texels
   constexpr float kHalfTexel = 128.0f;

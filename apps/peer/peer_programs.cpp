@@ -87,6 +87,9 @@ void set_view(const Shading& s, const View& camera, const GlProgram& program) {
   program.set("pixel_angle_log2", std::log2(s.rays.pixel_angle));
   program.set("sun_direction", s.light.sun_direction);
   program.set("sun_irradiance", s.light.sun_irradiance);
+  program.set("disc_radiance", s.light.disc_radiance);
+  program.set("sky_clear_range", s.light.sky_clear->range);
+  program.set("pixel_angle", s.rays.pixel_angle);
   program.set("ambient", s.light.ambient);
   program.set("horizon", s.light.horizon);
   program.set("inv_haze_m", s.media.inv_haze_m);

@@ -7,7 +7,7 @@ namespace swell::apps {
 
 enum TextureUnit : int {
   kSkySoftUnit,
-  kSkySharpUnit,
+  kSkyClearUnit,
   kNoiseUnit,
   kFoamUnit,
   kCoastSlopesUnit,
@@ -25,7 +25,7 @@ enum TextureUnit : int {
 
 // The shaders' names of the units before the distances', which are "distance_map" of their view.
 inline constexpr std::array<const char*, kWindowDistanceUnit> kSamplerNames = {
-    "sky_soft",   "sky_sharp",  "noise",          "foam_pattern", "coast_slopes", "coast_surf",
+    "sky_soft",   "sky_clear",  "noise",          "foam_pattern", "coast_slopes", "coast_surf",
     "reflection", "refraction", "terrain_slopes", "detail",       "albedo_map"};
 
 }  // namespace swell::apps

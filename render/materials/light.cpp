@@ -6,15 +6,17 @@
 
 namespace swell::render {
 
-Light make_light(const World::State& world) {
-  const scene::Sky& sky = world.scene.sky;
+Light make_light(const World::State& world, const Clouds& clouds, const texture::RgbMap& soft) {
+  const SkyMaps& sky = *world.sky;
   Light light;
-  light.sun_direction = sky.sun_direction;
-  light.sun_irradiance = sky.sun_direction.z > 0.0f ? sky.sun_radiance : glm::vec3(0.0f);
-  light.ambient = world.sky->ambient;
-  light.horizon = world.sky->horizon;
-  light.sky_sharp = &world.sky->sharp;
-  light.sky_soft = &world.sky->soft;
+  light.sun_direction = sky.to_light;
+  light.sun_irradiance = sky.irradiance;
+  light.disc_radiance = sky.disc_radiance;
+  light.ambient = sky.ambient;
+  light.horizon = sky.horizon;
+  light.sky_clear = &sky.clear;
+  light.sky_soft = clouds.any ? &soft : &sky.soft;
+  light.clouds = clouds;
   return light;
 }
 

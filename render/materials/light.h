@@ -3,22 +3,24 @@
 
 #include <glm/glm.hpp>
 
+#include "render/materials/clouds.h"
 #include "render/parts.h"
 #include "render/world/world_state.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
 
-inline constexpr float kCosSunRim = 0.99998f, kCosSunCore = 0.999992f;
-
-// Linear RGB.
+// Linear RGB, exposed (but for a gradient's: SkyMaps).
 struct Light {
+  // Of the sun, or of the moon when the sun is down.
   glm::vec3 sun_direction{0, 0, 1};
-  glm::vec3 sun_irradiance{1.0f};
+  glm::vec3 sun_irradiance{1.0f};  // what clouds leave of it on average
+  glm::vec3 disc_radiance{0.0f};
   glm::vec3 ambient{0.3f};  // the sky's mean radiance
   glm::vec3 horizon{0.3f};  // its mean round the horizon
-  const texture::RgbaImage* sky_sharp = nullptr;
+  const texture::SmoothImage* sky_clear = nullptr;
   const texture::RgbMap* sky_soft = nullptr;
+  Clouds clouds;
 };
 
 // What light passes on its way.
@@ -31,7 +33,8 @@ struct Media {
   glm::vec3 absorption_per_m{0.0f};
 };
 
-Light make_light(const World::State& world);
+// clouds: of the frame. soft: the blurred sky with them, to be kept as long as the light.
+Light make_light(const World::State& world, const Clouds& clouds, const texture::RgbMap& soft);
 Media make_media(const World::State& world, const Light& light, PartSet without);
 
 }  // namespace swell::render

@@ -172,16 +172,8 @@ HWY_INLINE V3 LookUp(const texture::RgbaImage& image, V x, V y, V& alpha) {
           hn::Mul(hn::Mul(b, b), range)};
 }
 
-// The sky's radiance in direction (x, y, z), z > -0.5, any length of (x, y, z) equal to `length`.
-HWY_INLINE V3 SkyRadiance(const texture::RgbaImage& map, V3 direction, V length) {
-  const V half = Constant(0.5f * static_cast<float>(map.width));
-  const V scale = hn::Div(half, hn::Add(length, direction.z));
-  V alpha;
-  return LookUp(map, hn::MulAdd(direction.x, scale, half), hn::MulAdd(direction.y, scale, half),
-                alpha);
-}
-
-// The same of the blurred sky.
+// The blurred sky's radiance in direction (x, y, z), z > -0.5, any length of (x, y, z) equal to
+// `length`.
 HWY_INLINE V3 SoftSkyRadiance(const texture::RgbMap& map, V3 direction, V length) {
   const D d;
   const float half_fx8 = 128.0f * static_cast<float>(map.size);
@@ -190,7 +182,7 @@ HWY_INLINE V3 SoftSkyRadiance(const texture::RgbMap& map, V3 direction, V length
   V r, g, b;
   texture::HWY_NAMESPACE::SampleRgb(d, map, hn::MulAdd(direction.x, scale, middle),
                                     hn::MulAdd(direction.y, scale, middle), r, g, b);
-  const V range = Constant(kLookupRange);
+  const V range = Constant(kSoftSkyRange);
   return {hn::Mul(hn::Mul(r, r), range), hn::Mul(hn::Mul(g, g), range),
           hn::Mul(hn::Mul(b, b), range)};
 }

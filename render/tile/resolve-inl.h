@@ -32,15 +32,18 @@ HWY_INLINE V EncodeSrgb(V x) {
   return hn::Mul(curve, Constant(255.0f));
 }
 
-// Exposed light as light of the display, in [0, 1]: a shoulder from 0.7 up that reaches white at
-// infinity only, so that glitter keeps its form.
+// Exposed light as light of the display, in [0, 1]: a long shoulder from kShoulder up that reaches
+// white at infinity only, so that foam and glitter keep their form: 1 is shown at 0.70, 4 at 0.91.
+constexpr float kShoulder = 0.4f;
+
 HWY_INLINE V ToneCurve(V linear, V exposure) {
   const V x = hn::Max(hn::Mul(linear, exposure), hn::Zero(D()));
-  const V over = hn::Max(hn::Sub(x, Constant(0.7f)), hn::Zero(D()));
+  const V over = hn::Max(hn::Sub(x, Constant(kShoulder)), hn::Zero(D()));
   V mapped = x;
   if (!hn::AllFalse(D(), hn::Gt(over, hn::Zero(D())))) {
-    const V shoulder = hn::Div(over, hn::MulAdd(over, Constant(1.0f / 0.3f), Constant(1.0f)));
-    mapped = hn::Min(hn::Add(hn::Min(x, Constant(0.7f)), shoulder), Constant(1.0f));
+    const V shoulder =
+        hn::Div(over, hn::MulAdd(over, Constant(1.0f / (1.0f - kShoulder)), Constant(1.0f)));
+    mapped = hn::Min(hn::Add(hn::Min(x, Constant(kShoulder)), shoulder), Constant(1.0f));
   }
   return mapped;
 }

@@ -21,7 +21,7 @@ void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_siz
   shading.rays = make_rays(view.camera);
   shading.light = in.light;
   shading.media = in.media;
-  shading.exposure = static_cast<float>(in.world.scene.sky.exposure);
+  shading.exposure = in.world.sky->exposure;
   shading.primitives = view.primitives;
   std::apply([&](auto&... material) { (fill(in, view, material), ...); }, shading.materials);
 }

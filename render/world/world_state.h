@@ -17,6 +17,7 @@
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
 #include "texture/packed_map.h"
+#include "texture/smooth_image.h"
 
 namespace swell::render {
 
@@ -24,13 +25,40 @@ namespace swell::render {
 // the eye, and headroom over white.
 inline constexpr float kLookupRange = 2.0f;
 
-// The sky as a map of the upper hemisphere: direction d lies at the window position
-// (0.5 + 0.5 d.xy / (1 + d.z)) * size; the horizon is the circle of radius size / 2.
+// Cover and light of the clouds, constants of a world.
+struct CloudLight {
+  float threshold = 0.0f;  // of the noise over its deviation: what is above is cloud
+  float overcast = 0.0f;   // 0 as a rule, 1 where no gap is left
+  float mean_opacity = 0.0f, direct_part = 1.0f;  // means over the sky
+  glm::vec3 to_light{0, 0, 1};
+  // Linear RGB radiances.
+  glm::vec3 base{0.0f};     // of a bright side, where light comes through
+  glm::vec3 forward{0.0f};  // times the phase function: light that goes straight on
+  glm::vec3 mean_radiance{0.0f};
+};
+
+// Radiance in the blurred sky is stored as sqrt(radiance / kSoftSkyRange) * 255; what is brighter
+// keeps its hue.
+inline constexpr float kSoftSkyRange = 4.0f;
+inline constexpr int kSoftSkySize = 128;
+
+// The sky, exposed. Its maps show the upper hemisphere. Direction d of length 1 lies at
+// r = |d.xy| / (1 + d.z) from the middle of the blurred one, whose horizon is the circle of radius
+// size / 2, and at 1 - sqrt(1 - r) from that of the clear one, which so has more room near the
+// horizon.
 struct SkyMaps {
-  texture::RgbaImage sharp;  // what the eye sees
-  texture::RgbMap soft;      // what waves reflect, and the haze's colour at the horizon
-  glm::vec3 ambient{0.0f};   // mean radiance of the upper hemisphere, cosine-weighted
-  glm::vec3 horizon{0.0f};   // mean radiance round the horizon
+  texture::SmoothImage clear;     // what the eye sees behind the clouds
+  std::vector<float> soft_clear;  // the same blurred, kSoftSkySize^2 reds, greens, blues
+  texture::RgbMap soft;           // the same as a map, for a sky without clouds
+  texture::PackedMap2 clouds;     // noise
+  float cloud_variance = 0.0f;
+  CloudLight cloud_light;
+  glm::vec3 ambient{0.0f};  // mean radiance of the upper hemisphere, cosine-weighted
+  glm::vec3 horizon{0.0f};  // mean radiance round the horizon
+  // Of the sun or the moon: irradiance under the clouds, and radiance of the disc.
+  glm::vec3 to_light{0, 0, 1};
+  glm::vec3 irradiance{0.0f}, disc_radiance{0.0f};
+  float exposure = 1.0f;  // that is still to be applied: a gradient's
 };
 
 struct TerrainMaps {

@@ -34,9 +34,9 @@ struct BoxScene {
   std::optional<EdgeRenderer> renderer;
 };
 
-// Light as the display shows it (resolve-inl.h): a shoulder from 0.7 up.
+// Light as the display shows it (resolve-inl.h): a shoulder from 0.4 up.
 double tone(double x) {
-  return x <= 0.7 ? x : std::min(1.0, 0.7 + (x - 0.7) / (1.0 + (x - 0.7) / 0.3));
+  return x <= 0.4 ? x : std::min(1.0, 0.4 + (x - 0.4) / (1.0 + (x - 0.4) / 0.6));
 }
 
 // The mean of two lights by their samples.

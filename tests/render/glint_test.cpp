@@ -206,7 +206,7 @@ TEST_P(Glint, IsAddedToTheMirroredSkyAndTheWatersOwnLight) {
   for (const double degrees : {0.0, 20.0, 50.0, 65.0, 80.0, 88.0})
     for (const double azimuth : {0.4, 3.4, 3.6})
       to_eye.push_back(direction(degrees * kPi / 180, azimuth));
-  const double sky = kLookupRange * (128.0 / 255.0) * (128.0 / 255.0);
+  const double sky = kSoftSkyRange * (128.0 / 255.0) * (128.0 / 255.0);
   // Rays that go down see the same.
   std::get<Water>(sea.shading.materials).mirrored_sea = glm::vec3(static_cast<float>(sky));
   std::vector<glm::vec3> light(to_eye.size());

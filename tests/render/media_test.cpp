@@ -159,7 +159,7 @@ struct HazyAir {
   }
   glm::dvec3 horizon() const {
     const glm::dvec3 code(128.0, 64.0, 32.0);
-    return code * code * (static_cast<double>(kLookupRange) / (255.0 * 255.0));
+    return code * code * (static_cast<double>(kSoftSkyRange) / (255.0 * 255.0));
   }
   texture::RgbMap sky;
   Shading shading;

@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, MirroredSea, texture::every_target(), texture:
 
 constexpr double kPi = std::numbers::pi;
 constexpr float kSkyCode = 128.0f;
-constexpr float kSky = kLookupRange * (kSkyCode / 255.0f) * (kSkyCode / 255.0f);
+constexpr float kSky = kSoftSkyRange * (kSkyCode / 255.0f) * (kSkyCode / 255.0f);
 
 // Water that mirrors everything, under a sky of radiance kSky, over a black sea.
 PlainSea mirror(float variance) {

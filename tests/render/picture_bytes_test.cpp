@@ -22,8 +22,8 @@ double srgb(double x) {
   return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
 }
 
-// Linear up to 0.7, then a hyperbola with the same slope there that reaches 1 at infinity.
-double tone(double x) { return x <= 0.7 ? x : 1.0 - 0.09 / (x - 0.4); }
+// Linear up to 0.4, then a hyperbola with the same slope there that reaches 1 at infinity.
+double tone(double x) { return x <= 0.4 ? x : 1.0 - 0.36 / (x + 0.2); }
 
 std::vector<float> steps(double first, double last, int count) {
   std::vector<float> x;
@@ -91,7 +91,7 @@ TEST_P(PictureBytes, AreTheToneCurveOfTheExposedLight) {
 }
 
 TEST_P(PictureBytes, AreThoseOfTheLightItselfUpToTheShoulder) {
-  const std::vector<float> x = steps(0.0, 0.7, 5001);
+  const std::vector<float> x = steps(0.0, 0.4, 5001);
   const std::vector<int> byte = bytes(x, 1.0f, 0.0f);
   const std::vector<float> code = encoded(x);
   for (std::size_t i = 0; i < x.size(); ++i)

@@ -186,7 +186,7 @@ TEST(CheckScene, WantsASkyThatIsNotBlackAtTheHorizon) {
   scene.sky.zenith = glm::vec3(0.0f, 0.0f, 1.0f);
   scene.sky.horizon = glm::vec3(0.2f, 0.2f, 0.131f);
   EXPECT_EQ(key_of_fault(scene), "");
-  scene.sky.horizon.z = 0.130f;
+  scene.sky.horizon->z = 0.130f;
   EXPECT_EQ(key_of_fault(scene), "sky.zenith[2]");
 }
 

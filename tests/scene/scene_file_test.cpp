@@ -288,7 +288,7 @@ TEST(SceneFile, DumpOfTheDefaultsIsReadable) {
   EXPECT_NE(dump.find("name = \"calm\"\n"), std::string::npos) << dump;
   EXPECT_NE(dump.find("\n[camera]\neye_m = [0.0, 0.0, 10.0]\n"), std::string::npos) << dump;
   EXPECT_NE(dump.find("\nfov_y_deg = 50.0\n"), std::string::npos) << dump;
-  EXPECT_NE(dump.find("\nzenith = [0.1, 0.25, 0.6]\n"), std::string::npos) << dump;
+  EXPECT_NE(dump.find("\nturbidity = 2.2\n"), std::string::npos) << dump;
   EXPECT_EQ(dump.find("[terrain]"), std::string::npos) << dump;
 }
 

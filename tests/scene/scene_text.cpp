@@ -93,6 +93,9 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sky.sun_azimuth_rad);
   SWELL_COMPARE(sky.sun_elevation_rad);
   SWELL_COMPARE(sky.sun_direction);
+  SWELL_COMPARE(sky.model);
+  SWELL_COMPARE(sky.turbidity);
+  SWELL_COMPARE(sky.moon_phase);
   SWELL_COMPARE(sky.sun_radiance);
   SWELL_COMPARE(sky.zenith);
   SWELL_COMPARE(sky.horizon);

@@ -9,9 +9,12 @@ uniform float eye_z;
 // Radiance from a lookup image's square-root code.
 vec3 decode(vec3 code) { return 2.0 * code * code; }
 
-// The sky in a direction, any length of it equal to `size`.
+// The same of the blurred sky.
+vec3 decode_sky(vec3 code) { return 4.0 * code * code; }
+
+// The blurred sky in a direction, any length of it equal to `size`.
 vec3 sky_radiance(sampler2D map, vec3 direction, float size) {
-  return decode(texture(map, direction.xy * (0.5 / (size + direction.z)) + 0.5).rgb);
+  return decode_sky(texture(map, direction.xy * (0.5 / (size + direction.z)) + 0.5).rgb);
 }
 
 // log2 of a pixel's footprint [m], `across` of it across the view, on a surface that the eye meets at
@@ -32,7 +35,7 @@ vec3 add_haze(vec3 colour, vec3 to_eye, float distance_m) {
   vec2 away = -to_eye.xy;
   float horizontal2 = max(dot(away, away), 1e-12);
   float to_rim = 0.5 * inversesqrt(horizontal2), steep = max(1.0 - 2.0 * horizontal2, 0.0);
-  vec3 sky = mix(decode(texture(sky_soft, away * to_rim + 0.5).rgb), horizon, steep * steep);
+  vec3 sky = mix(decode_sky(texture(sky_soft, away * to_rim + 0.5).rgb), horizon, steep * steep);
   return mix(colour, sky, amount);
 }
 
@@ -53,8 +56,8 @@ vec3 absorb_in_water(vec3 light, float path_m) {
 // Exposure, tone curve, sRGB and a dither of one step.
 vec4 to_display(vec3 light) {
   vec3 x = max(light * exposure, vec3(0.0));
-  vec3 over = max(x - 0.7, vec3(0.0));
-  vec3 display = min(min(x, vec3(0.7)) + over / (over * (1.0 / 0.3) + 1.0), vec3(1.0));
+  vec3 over = max(x - 0.4, vec3(0.0));
+  vec3 display = min(min(x, vec3(0.4)) + over / (over * (1.0 / 0.6) + 1.0), vec3(1.0));
   vec3 s = sqrt(display);
   vec3 curve = ((((0.5172983 * s - 1.6236454) * s + 2.0315608) * s - 1.4027299) * s + 1.5179496) * s -
                0.0401095;

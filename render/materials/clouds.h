@@ -1,0 +1,42 @@
+// A layer of clouds, drawn into the sky behind everything else.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "render/materials/slope_layer.h"
+#include "render/parts.h"
+#include "render/world/world_state.h"
+
+namespace swell::scene {
+struct SkyLight;
+}
+
+namespace swell::render {
+
+// Optical depth of clouds at one deviation of the noise over the threshold; with its square.
+inline constexpr float kCloudDepth = 1.3f;
+// Clouds let 1 / (1 + kCloudLoss depth) of the light through that falls on them.
+inline constexpr float kCloudLoss = 0.11f;
+
+// light: exposed. ambient: mean radiance of the clear sky.
+CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, float cover);
+
+// Noise that repeats, of mean 0, and how much less of it there is towards the light.
+void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
+                     texture::PackedMap2& map, float& variance);
+
+// As seen at one time.
+struct Clouds {
+  bool any = false;
+  static constexpr std::size_t kLayers = 3;
+  std::array<SlopeLayer, kLayers> layers;  // values, not slopes
+  float inv_deviation = 1.0f;
+  float height_m = 1.0f;  // over the eye
+  CloudLight light;
+};
+
+// What drifts with the wind is a function of t_s; none for an eye above the clouds.
+Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without);
+
+}  // namespace swell::render

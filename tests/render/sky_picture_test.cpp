@@ -1,0 +1,210 @@
+// The sky in pictures: what is drawn is the model's light; disc, clouds and darkness.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/elementary.h"
+#include "render/frame.h"
+#include "render/workspace.h"
+#include "scene/sky.h"
+
+namespace swell::render {
+namespace {
+
+constexpr int kSize_px = 96;
+
+scene::Scene sky_scene(double elevation_deg, double cloud_cover) {
+  scene::Scene scene;
+  scene.sky.sun_elevation_rad = radians(elevation_deg);
+  scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
+  scene.sky.cloud_cover = cloud_cover;
+  scene.sea.resolution = 16;
+  scene.detail.water_triangles = 100;
+  return scene;
+}
+
+// Square pictures from the height of the sea, northwards.
+struct SkyRenderer {
+  explicit SkyRenderer(const scene::Scene& scene) : world(scene, 2) { options.keep_linear = true; }
+
+  void draw(double pitch_deg, double fov_deg, double t_s = 0.0) {
+    view = make_view({0.0, 0.0, 10.0}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f, kSize_px,
+                     kSize_px);
+    render_frame(world, view, t_s, options, workspace, target, workers);
+  }
+  glm::vec3 at(int x, int y) const {
+    const float* p = target.linear.data() + 3 * (y * kSize_px + x);
+    return {p[0], p[1], p[2]};
+  }
+  glm::vec3 direction(int x, int y) const {
+    return glm::normalize(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+  }
+  float brightest() const { return *std::ranges::max_element(target.linear); }
+
+  World world;
+  Workers workers{2};
+  FrameOptions options;
+  Workspace workspace;
+  Target target;
+  View view;
+};
+
+template <class Visit>
+void for_each_pixel(const Visit& visit) {
+  for (int y = 0; y < kSize_px; ++y)
+    for (int x = 0; x < kSize_px; ++x) visit(x, y);
+}
+
+// Through maps and samplers, to 2 %; the radiance is the picture's times one factor.
+TEST(SkyPicture, ShowsTheModelsLight) {
+  for (const double elevation_deg : {70.0, 20.0, 3.0, -5.0, -14.0}) {
+    const scene::Scene scene = sky_scene(elevation_deg, 0.0);
+    SkyRenderer sky(scene);
+    Workers workers(1);
+    const scene::SkyLight light = scene::make_sky_light(scene.sky, workers);
+    sky.draw(50.0, 80.0);
+    const float exposure = sky.at(5, 60).y / clear_radiance(light, sky.direction(5, 60)).y;
+    for_each_pixel([&](int x, int y) {
+      const glm::vec3 d = sky.direction(x, y);
+      if (glm::distance(d, light.to_light) < 0.06f) return;  // the disc, and next to it
+      const glm::vec3 expected = exposure * clear_radiance(light, d);
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(sky.at(x, y)[c], expected[c], 0.02f * expected[c] + 1e-4f)
+            << elevation_deg << " " << x << " " << y;
+    });
+  }
+}
+
+TEST(SkyPicture, DiscIsHalfADegreeAcross) {
+  SkyRenderer sky(sky_scene(30.0, 0.0));
+  sky.draw(30.0, 1.0);
+  const float half = 0.5f * sky.brightest();
+  int bright = 0;
+  for_each_pixel([&](int x, int y) { bright += sky.at(x, y).y > half; });
+  const double radius_px = 0.004654 * kSize_px / (2.0 * sky.view.tan_half_y);
+  EXPECT_NEAR(bright / (kPi * radius_px * radius_px), 1.0, 0.03);
+}
+
+// Its radiance times the solid angle that it fills is the light that it gives.
+TEST(SkyPicture, DiscIsAsBrightAsItsLight) {
+  SkyRenderer sky(sky_scene(30.0, 0.0));
+  sky.draw(30.0, 1.0);
+  const Light& light = sky.workspace.state().shading.light;
+  const float solid_angle = static_cast<float>(kPi) * 0.004654f * 0.004654f;
+  EXPECT_NEAR(sky.at(kSize_px / 2, kSize_px / 2).y * solid_angle / light.sun_irradiance.y, 1.0f,
+              0.02f);
+}
+
+TEST(SkyPicture, OvercastHidesTheDiscAndTheBlue) {
+  SkyRenderer sky(sky_scene(40.0, 1.0));
+  sky.draw(40.0, 60.0);
+  const glm::vec3 middle = sky.at(10, 10);
+  EXPECT_LT(sky.brightest(), 4.0f * middle.y);
+  for_each_pixel([&](int x, int y) {
+    const glm::vec3 here = sky.at(x, y);
+    ASSERT_LT(here.z, 1.4f * here.x) << x << " " << y;
+  });
+  EXPECT_LT(sky.workspace.state().shading.light.sun_irradiance.y, 1e-3f);
+}
+
+TEST(SkyPicture, CloudsCoverWhatTheSceneSays) {
+  double before = -1.0;
+  for (const double cover : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+    SkyRenderer sky(sky_scene(50.0, cover));
+    double covered = 0.0;
+    for (const double t_s : {0.0, 900.0, 1800.0, 2700.0}) {
+      sky.options.without = {};
+      sky.draw(70.0, 110.0, t_s);
+      const std::vector<float> clouds = sky.target.linear;
+      sky.options.without.add(Part::kClouds);
+      sky.draw(70.0, 110.0, t_s);
+      for (std::size_t i = 0; i < clouds.size(); i += 3)
+        covered += std::abs(clouds[i] - sky.target.linear[i]) > 0.1f * sky.target.linear[i];
+    }
+    covered /= 4.0 * kSize_px * kSize_px;
+    EXPECT_GT(covered, before) << cover;
+    EXPECT_NEAR(covered, cover, 0.22);
+    before = covered;
+  }
+}
+
+// Magnified, a cloud is smooth: the map's texels do not show.
+TEST(SkyPicture, CloudsAreSmoothAtEveryZoom) {
+  SkyRenderer sky(sky_scene(50.0, 0.6));
+  for (const double fov_deg : {1.0, 4.0}) {
+    sky.draw(35.0, fov_deg);
+    for (int y = 0; y < kSize_px; ++y)
+      for (int x = 1; x + 1 < kSize_px; ++x) {
+        const float bend = sky.at(x - 1, y).y - 2.0f * sky.at(x, y).y + sky.at(x + 1, y).y;
+        ASSERT_LT(std::abs(bend), 0.012f) << fov_deg << " " << x << " " << y;
+      }
+  }
+}
+
+// Nowhere in a dark sky does the light jump by what the eye would see: 1 of 255.
+TEST(SkyPicture, DarkSkiesHaveNoBands) {
+  for (const double elevation_deg : {-8.0, -13.0, -25.0}) {
+    SkyRenderer sky(sky_scene(elevation_deg, 0.0));
+    sky.draw(30.0, 20.0);
+    for (int y = 1; y < kSize_px; ++y) {
+      const float above = sky.at(7, y - 1).y, here = sky.at(7, y).y;
+      ASSERT_NEAR(here / above, 1.0f, 0.012f) << elevation_deg << " " << y;
+    }
+  }
+}
+
+TEST(SkyPicture, CloudsDriftWithTheWindAndInTheMirror) {
+  scene::Scene scene = sky_scene(50.0, 0.5);
+  scene.sea.wind_speed_mps = 10.0;
+  SkyRenderer sky(scene);
+  const auto soft_at = [&](double t_s) {
+    sky.draw(30.0, 60.0, t_s);
+    return sky.workspace.state().shading.light.sky_soft->words;
+  };
+  const auto first = soft_at(0.0);
+  const std::vector<float> picture = sky.target.linear;
+  EXPECT_FALSE(first == soft_at(300.0));
+  EXPECT_FALSE(picture == sky.target.linear);
+  EXPECT_TRUE(first == soft_at(0.0));
+  EXPECT_TRUE(picture == sky.target.linear);
+}
+
+TEST(SkyPicture, LoopsWithTheSea) {
+  scene::Scene scene = sky_scene(50.0, 0.5);
+  scene.sea.loop_s = 8.0;
+  SkyRenderer sky(scene);
+  sky.draw(30.0, 60.0, 3.0);
+  const std::vector<std::uint32_t> first = sky.target.rgba;
+  sky.draw(30.0, 60.0, 11.0);
+  EXPECT_TRUE(first == sky.target.rgba);
+}
+
+TEST(SkyPicture, AFixedExposureIsKept) {
+  scene::Scene scene = sky_scene(50.0, 0.0);
+  scene.sky.exposure = 0.5;
+  SkyRenderer sky(scene);
+  sky.draw(80.0, 20.0);
+  const float once = sky.at(40, 40).y;
+  scene.sky.exposure = 1.0;
+  SkyRenderer brighter(scene);
+  brighter.draw(80.0, 20.0);
+  EXPECT_NEAR(brighter.at(40, 40).y / once, 2.0f, 1e-3f);
+}
+
+TEST(SkyPicture, NightsAreDarkerThanDuskAndDuskThanDay) {
+  double before = 1e9;
+  for (const double elevation_deg : {40.0, -4.0, -20.0}) {
+    SkyRenderer sky(sky_scene(elevation_deg, 0.0));
+    sky.draw(60.0, 60.0);
+    double sum = 0.0;
+    for_each_pixel([&](int x, int y) { sum += std::min(sky.at(x, y).y, 1.0f); });
+    const double mean = sum / (kSize_px * kSize_px);
+    EXPECT_LT(mean, before) << elevation_deg;
+    EXPECT_GT(mean, 0.01) << elevation_deg;
+    before = mean;
+  }
+}
+
+}  // namespace
+}  // namespace swell::render

@@ -1,0 +1,368 @@
+// The light of sun, moon and stars in clear air: against standard tables, against paths of light
+// followed one by one, and what must hold for any height of the sun.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "math/elementary.h"
+#include "math/random.h"
+#include "scene/sky.h"
+
+namespace swell::scene {
+namespace {
+
+constexpr double kLux = 1e4;  // of the unit of irradiance
+
+double luminance(glm::dvec3 rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+SkyLight light_at(double elevation_deg, double moon_phase = 0.0, double turbidity = 2.2) {
+  Sky sky;
+  sky.turbidity = turbidity;
+  sky.moon_phase = moon_phase;
+  sky.sun_elevation_rad = radians(elevation_deg);
+  sky.sun_direction = sun_direction(0.0, sky.sun_elevation_rad);
+  Workers workers(2);
+  return make_sky_light(sky, workers);
+}
+
+// Of a level plane.
+glm::dvec3 sky_irradiance(const SkyLight& light) {
+  constexpr int kRings = 60, kSectors = 48;
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < kRings; ++i) {
+    const double x = (i + 0.5) / kRings, z = x * x, across = std::sqrt(1.0 - z * z);
+    for (int j = 0; j < kSectors; ++j) {
+      const double azimuth = 2.0 * kPi * (j + 0.5) / kSectors;
+      const glm::vec3 d(across * std::sin(azimuth), across * std::cos(azimuth), z);
+      sum += glm::dvec3(clear_radiance(light, d)) * (z * 2.0 * x / kRings * 2.0 * kPi / kSectors);
+    }
+  }
+  return sum;
+}
+
+double direct_irradiance(const SkyLight& light) {
+  return luminance(light.irradiance) * std::max(static_cast<double>(light.to_light.z), 0.0);
+}
+
+double illuminance_lx(const SkyLight& light) {
+  return kLux * (direct_irradiance(light) + luminance(sky_irradiance(light)));
+}
+
+// Of a level plane under a clear sky, without the moon, with the glow of the night sky.
+// Source: P. M. Janiczek, J. A. DeYoung, Computer Programs for Sun and Moon Illuminance, United
+// States Naval Observatory Circular 171, 1987: log10 in powers of the altitude over 90 degrees.
+double standard_illuminance_lx(double altitude_deg) {
+  struct Piece {
+    double from_deg;
+    std::array<double, 4> c;
+  };
+  constexpr Piece kPieces[] = {
+      {20.0, {3.74, 3.97, -4.07, 1.47}},         {5.0, {3.05, 13.28, -45.98, 64.33}},
+      {-0.8, {2.88, 22.26, -207.64, 1034.30}},   {-5.0, {2.88, 21.81, -258.11, -858.36}},
+      {-12.0, {2.70, 12.17, -431.69, -1899.83}}, {-18.0, {13.84, 262.72, 1447.42, 2797.93}}};
+  const double x = altitude_deg / 90.0;
+  for (const Piece& piece : kPieces)
+    if (altitude_deg >= piece.from_deg)
+      return std::pow(10.0, piece.c[0] + x * (piece.c[1] + x * (piece.c[2] + x * piece.c[3])));
+  return NAN;
+}
+
+TEST(Atmosphere, LightsTheGroundAsTheStandardTable) {
+  const auto expect_within = [](double altitude_deg, double factor) {
+    const double lx = illuminance_lx(light_at(altitude_deg));
+    const double standard_lx = standard_illuminance_lx(altitude_deg);
+    EXPECT_LE(lx, factor * standard_lx) << altitude_deg;
+    EXPECT_GE(lx, standard_lx / factor) << altitude_deg;
+  };
+  for (const double altitude_deg : {90.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0})
+    expect_within(altitude_deg, 1.2);
+  for (const double altitude_deg : {2.0, 0.0, -0.8, -2.0, -4.0, -6.0})
+    expect_within(altitude_deg, 1.5);
+  for (const double altitude_deg : {-8.0, -10.0, -12.0}) expect_within(altitude_deg, 3.0);
+}
+
+TEST(Atmosphere, HasAFloorOfNight) {
+  for (const double altitude_deg : {-18.0, -40.0, -90.0}) {
+    const double lx = illuminance_lx(light_at(altitude_deg));
+    EXPECT_GE(lx, 5e-4) << altitude_deg;
+    EXPECT_LE(lx, 8e-4) << altitude_deg;
+  }
+}
+
+// Source: the same, of the full moon: 0.27 lx at the zenith.
+TEST(Atmosphere, MoonLightsTheNight) {
+  EXPECT_NEAR(illuminance_lx(light_at(-90.0, 1.0)), 0.27, 0.05);
+  const double half = illuminance_lx(light_at(-60.0, 0.5)) - illuminance_lx(light_at(-60.0));
+  const double full = illuminance_lx(light_at(-60.0, 1.0)) - illuminance_lx(light_at(-60.0));
+  EXPECT_NEAR(half / full, 0.09, 0.02);  // the quarter moon is 2.6 magnitudes fainter
+}
+
+TEST(Atmosphere, EnergyNeverRisesAsTheSunSinks) {
+  double before = 1e9;
+  for (const double altitude_deg :
+       {90.0,  75.0, 60.0, 40.0, 20.0, 10.0, 5.0,  3.0,  2.0,   1.0,   0.5,   0.25, 0.0,
+        -0.25, -0.5, -1.0, -2.0, -3.0, -4.0, -6.0, -9.0, -12.0, -15.0, -18.0, -25.0}) {
+    const SkyLight light = light_at(altitude_deg);
+    const glm::dvec3 sky = sky_irradiance(light);
+    const glm::dvec3 direct =
+        glm::dvec3(light.irradiance) * std::max(static_cast<double>(light.to_light.z), 0.0);
+    const double energy = sky.x + sky.y + sky.z + direct.x + direct.y + direct.z;
+    EXPECT_LE(energy, before * (1.0 + 1e-6)) << altitude_deg;
+    before = energy;
+  }
+}
+
+TEST(Atmosphere, SunIsSeveralTimesAsStrongAsTheSky) {
+  for (const double altitude_deg : {30.0, 45.0, 60.0}) {
+    const SkyLight light = light_at(altitude_deg);
+    const double ratio = direct_irradiance(light) / luminance(sky_irradiance(light));
+    EXPECT_GT(ratio, 2.5) << altitude_deg;
+    EXPECT_LT(ratio, 7.0) << altitude_deg;
+  }
+}
+
+// ---- Colours
+
+TEST(Atmosphere, SunReddensAsItSinks) {
+  double before = 0.0;
+  for (const double altitude_deg : {90.0, 40.0, 20.0, 10.0, 5.0, 2.0, 0.5}) {
+    const glm::vec3 sun = light_at(altitude_deg).irradiance;
+    const double redness = static_cast<double>(sun.x / sun.z);
+    EXPECT_GT(redness, before) << altitude_deg;
+    before = redness;
+  }
+  EXPECT_GT(before, 100.0);
+}
+
+// Source: chromaticities of clear skies, x = 0.25 and y = 0.26 about the zenith (CIE 1931), within
+// 0.02: S. T. Henderson, Daylight and its Spectrum, 1977.
+TEST(Atmosphere, ZenithIsAsBlueAsSkiesAre) {
+  const glm::dvec3 rgb(clear_radiance(light_at(40.0), {0, 0, 1}));
+  const glm::dmat3 xyz_from_rgb(0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722,
+                                0.9505);
+  const glm::dvec3 xyz = xyz_from_rgb * rgb;
+  EXPECT_NEAR(xyz.x / (xyz.x + xyz.y + xyz.z), 0.25, 0.02);
+  EXPECT_NEAR(xyz.y / (xyz.x + xyz.y + xyz.z), 0.26, 0.02);
+}
+
+TEST(Atmosphere, TwilightIsRedAtTheSunsSideAndBlueAbove) {
+  for (const double altitude_deg : {-2.0, -5.0, -8.0}) {
+    const SkyLight light = light_at(altitude_deg);
+    const glm::vec3 low = clear_radiance(light, sun_direction(0.0, radians(1.0)));
+    const glm::vec3 zenith = clear_radiance(light, {0, 0, 1});
+    EXPECT_GT(low.x, 1.4f * clear_radiance(light, {0, 0, 1}).x * low.z /
+                         clear_radiance(light, {0, 0, 1}).z)
+        << altitude_deg;
+    EXPECT_GT(zenith.z, 1.5f * zenith.x) << altitude_deg;
+    EXPECT_GT(luminance(low), luminance(zenith)) << altitude_deg;
+  }
+}
+
+// ---- Against paths of light
+
+// A second opinion on the sky: paths from the eye that are scattered one by one, each collision
+// lit by the sun. Source: Woodcock et al., Techniques used in the GEM code, 1965 (free paths).
+class LightPaths {
+ public:
+  explicit LightPaths(double turbidity) : air_(make_air(turbidity)) {}
+
+  // Of the green channel and a sun of irradiance 1, from so many paths.
+  double radiance(glm::dvec3 direction, glm::dvec3 to_sun, int paths) {
+    double sum = 0.0;
+    for (int n = 0; n < paths; ++n) sum += one_path(direction, to_sun);
+    return sum / paths;
+  }
+
+ private:
+  static constexpr double kAlbedo = 0.92;
+
+  double uniform() { return random_uniform(11, counter_++); }
+  static double height(glm::dvec3 p) { return glm::length(p) - kEarthRadius_m; }
+  double rayleigh(double h) const { return air_.rayleigh_per_m.y * std::exp(-h / 8000.0); }
+  double mie(double h) const { return air_.mie_per_m.y * std::exp(-h / 1200.0); }
+  double ozone(double h) const {
+    return air_.ozone_per_m.y * std::max(0.0, 1.0 - std::abs(h - 25000.0) / 15000.0);
+  }
+
+  // The part of the sun's light that arrives at p.
+  double sunlight(glm::dvec3 p, glm::dvec3 to_sun) const {
+    const double b = glm::dot(p, to_sun);
+    if (b < 0.0 && glm::dot(p, p) - b * b < kEarthRadius_m * kEarthRadius_m) return 0.0;
+    const double top = kEarthRadius_m + kAirTop_m;
+    const double length = -b + std::sqrt(b * b + top * top - glm::dot(p, p));
+    constexpr int kSteps = 100;
+    double depth = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double h = height(p + to_sun * (length * (i + 0.5) / kSteps));
+      depth += rayleigh(h) + mie(h) + ozone(h);
+    }
+    return std::exp(-depth * length / kSteps);
+  }
+
+  static double phase(double c, double share_of_mie) {
+    const auto lobe = [&](double g) {
+      return (1.0 - g * g) / (4.0 * kPi * std::pow(1.0 + g * g - 2.0 * g * c, 1.5));
+    };
+    const double mie = 0.53 * lobe(0.88) + 0.47 * lobe(0.45);
+    const double rayleigh = 3.0 / (16.0 * kPi) * (1.0 + c * c);
+    return share_of_mie * mie + (1.0 - share_of_mie) * rayleigh;
+  }
+
+  // The cosine of an angle of scattering, of the phase functions above.
+  double scattered_cosine(double share_of_mie) {
+    if (uniform() < share_of_mie) {
+      const double g = uniform() < 0.53 ? 0.88 : 0.45;
+      const double x = (1.0 - g * g) / (1.0 - g + 2.0 * g * uniform());
+      return (1.0 + g * g - x * x) / (2.0 * g);
+    }
+    for (;;) {
+      const double c = 2.0 * uniform() - 1.0;
+      if (2.0 * uniform() < 1.0 + c * c) return c;
+    }
+  }
+
+  glm::dvec3 scattered(glm::dvec3 d, double share_of_mie) {
+    const double c = scattered_cosine(share_of_mie), a = 2.0 * kPi * uniform();
+    const glm::dvec3 other = std::abs(d.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(d, other)), y = glm::cross(d, x);
+    return c * d + std::sqrt(1.0 - c * c) * (std::cos(a) * x + std::sin(a) * y);
+  }
+
+  // The next collision along `d`, or none.
+  bool fly(glm::dvec3& p, glm::dvec3 d) {
+    const double most = rayleigh(0.0) + mie(0.0) + ozone(25000.0);
+    for (;;) {
+      p += d * (-std::log(1.0 - uniform()) / most);
+      const double h = height(p);
+      if (h < 0.0 || h > kAirTop_m) return false;
+      if (uniform() * most < rayleigh(h) + mie(h) + ozone(h)) return true;
+    }
+  }
+
+  double one_path(glm::dvec3 d, glm::dvec3 to_sun) {
+    glm::dvec3 p(0.0, 0.0, kEarthRadius_m + 2.0);
+    double weight = 1.0, sum = 0.0;
+    for (int order = 0; order < 12 && fly(p, d); ++order) {
+      const double h = height(p), lit = rayleigh(h) + kAlbedo * mie(h);
+      weight *= lit / (rayleigh(h) + mie(h) + ozone(h));
+      const double share_of_mie = kAlbedo * mie(h) / lit;
+      sum += weight * phase(glm::dot(d, to_sun), share_of_mie) * sunlight(p, to_sun);
+      d = scattered(d, share_of_mie);
+    }
+    return sum;
+  }
+
+  Air air_;
+  std::uint64_t counter_ = 0;
+};
+
+// The sea's own light is left out of the paths, and their number leaves 2 %.
+TEST(Atmosphere, IsAsBrightAsPathsOfLightSay) {
+  Workers workers(2);
+  const Atmosphere air = make_atmosphere(2.2, workers);
+  LightPaths paths(2.2);
+  struct Case {
+    double sun_deg, azimuth_deg, elevation_deg;
+  };
+  for (const Case& c : {Case{50.0, 0.0, 90.0}, Case{50.0, 120.0, 40.0}, Case{20.0, 90.0, 60.0},
+                        Case{10.0, 180.0, 30.0}}) {
+    const glm::dvec3 to_sun(sun_direction(0.0, radians(c.sun_deg)));
+    const glm::dvec3 d(sun_direction(radians(c.azimuth_deg), radians(c.elevation_deg)));
+    const double ours = sky_radiance(make_sky_table(air, to_sun, workers), d).y;
+    const double theirs = paths.radiance(d, to_sun, 40000);
+    EXPECT_NEAR(ours / theirs, 1.0, 0.07)
+        << c.sun_deg << " " << c.azimuth_deg << " " << ours << " " << theirs;
+  }
+}
+
+// The optical depth of the air overhead, by hand: density times scale height.
+TEST(Atmosphere, OverheadLightPassesTheKnownDepth) {
+  Workers workers(1);
+  const Atmosphere pure = make_atmosphere(1.0, workers);
+  const glm::dvec3 depth = pure.air.rayleigh_per_m * 8000.0 + pure.air.ozone_per_m * 15000.0;
+  const glm::vec3 passes = transmittance(pure, 0.0, 1.0);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(passes[c], std::exp(-depth[c]), 1e-3) << c;
+  EXPECT_NEAR(pure.air.rayleigh_per_m.y * 8000.0, 0.0973, 0.012);  // Bucholtz 1995, 550 nm
+  const Atmosphere hazy = make_atmosphere(3.0, workers);
+  EXPECT_NEAR(std::log(passes.y / transmittance(hazy, 0.0, 1.0).y),
+              2.0 * pure.air.rayleigh_per_m.y * 8000.0, 2e-3);
+}
+
+// ---- The light that throws shadows
+
+TEST(Atmosphere, HalfOfASettingSunIsHidden) {
+  Workers workers(1);
+  const Atmosphere air = make_atmosphere(2.2, workers);
+  const double r = kSunRadius_rad;
+  EXPECT_EQ(disc_transmittance(air, 0.0, -r), glm::vec3(0.0f));
+  EXPECT_NEAR(disc_transmittance(air, 0.0, 0.0).x / transmittance(air, 0.0, 0.0).x, 0.5f, 1e-3f);
+  EXPECT_NEAR(disc_transmittance(air, 0.0, r).x / transmittance(air, 0.0, r).x, 1.0f, 1e-3f);
+}
+
+TEST(Atmosphere, SunAndMoonGiveWayWithoutAStep) {
+  double before = illuminance_lx(light_at(1.0, 1.0));
+  for (double altitude_deg = 0.9; altitude_deg > -1.0; altitude_deg -= 0.1) {
+    const double now = illuminance_lx(light_at(altitude_deg, 1.0));
+    EXPECT_NEAR(now / before, 0.95, 0.05) << altitude_deg;
+    before = now;
+  }
+  EXPECT_GT(light_at(0.0, 1.0).to_light.y, 0.0f);  // the sun
+  const SkyLight night = light_at(-30.0, 1.0);
+  EXPECT_LT(night.to_light.y, 0.0f);  // the moon, opposite
+  EXPECT_NEAR(night.to_light.z, 0.5f, 1e-6f);
+}
+
+TEST(Atmosphere, IsTheSameOnAnyNumberOfThreads) {
+  const auto of = [](int threads) {
+    Workers workers(threads);
+    return make_atmosphere(2.2, workers);
+  };
+  const Atmosphere one = of(1), two = of(2), seven = of(7);
+  EXPECT_EQ(one.transmittance, two.transmittance);
+  EXPECT_EQ(one.multiple, two.multiple);
+  EXPECT_EQ(one.multiple, seven.multiple);
+}
+
+TEST(Atmosphere, IsFiniteForAnyTurbidityAndDirection) {
+  for (const double turbidity : {1.0, 4.0, 10.0})
+    for (const double altitude_deg : {-90.0, -7.0, 0.0, 0.1, 3.0, 90.0}) {
+      const SkyLight light = light_at(altitude_deg, 1.0, turbidity);
+      for (int n = 0; n < 300; ++n) {
+        const glm::vec3 d = sun_direction(6.3 * random_uniform(1, 2 * n),
+                                          3.1 * random_uniform(1, 2 * n + 1) - 1.55);
+        const glm::vec3 radiance = clear_radiance(light, d);
+        for (int c = 0; c < 3; ++c) ASSERT_TRUE(radiance[c] > 0.0f && radiance[c] < 1e3f) << n;
+      }
+      EXPECT_TRUE(std::isfinite(clear_radiance(light, {0, 0, 1}).x));
+    }
+}
+
+// ---- Which sky a scene has
+
+TEST(SkyModel, AKeyOfTheGradientMakesItOne) {
+  EXPECT_FALSE(is_gradient(Sky()));
+  Sky sky;
+  sky.zenith = glm::vec3(0.5f);
+  EXPECT_TRUE(is_gradient(sky));
+  Workers workers(1);
+  const glm::vec3 overhead = clear_radiance(make_sky_light(sky, workers), {0, 0, 1});
+  EXPECT_EQ(overhead, gradient_radiance(sky, {0, 0, 1}));
+  EXPECT_EQ(parse_scene("[sky]\nhorizon = [1, 1, 1]\n", "a.toml").sky.model, SkyModel::kGradient);
+  EXPECT_EQ(parse_scene("[sky]\nturbidity = 3\n", "a.toml").sky.model, SkyModel::kAtmosphere);
+}
+
+TEST(SkyModel, ExposureFollowsTheLightButNotQuite) {
+  double before = 0.0;
+  for (const double light : {1e-8, 1e-5, 1e-2, 1.0, 4.0}) {
+    const double shown = light * automatic_exposure(light);
+    EXPECT_GT(shown, 1.2 * before) << light;
+    before = shown;
+  }
+  EXPECT_LT(before, 5.0);
+  EXPECT_GT(1e-8 * automatic_exposure(1e-8), 0.05);
+}
+
+}  // namespace
+}  // namespace swell::scene

@@ -1,0 +1,58 @@
+// The sampler of SmoothImage.
+#if defined(SWELL_TEXTURE_SMOOTH_IMAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_TEXTURE_SMOOTH_IMAGE_INL_H_
+#undef SWELL_TEXTURE_SMOOTH_IMAGE_INL_H_
+#else
+#define SWELL_TEXTURE_SMOOTH_IMAGE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "math/elementary-inl.h"
+#include "texture/smooth_image.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::texture {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Samples `image` bilinearly at (x, y), in texels from the first one's centre, clamped to the
+// image; not NaN.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void SampleSmooth(D d, const SmoothImage& image, V x, V y, V& r, V& g, V& b) {
+  const hn::RebindToSigned<D> di;
+  const V zero = hn::Zero(d), last = hn::Set(d, static_cast<float>(image.size - 1));
+  x = hn::Min(hn::Max(x, zero), last);
+  y = hn::Min(hn::Max(y, zero), last);
+  const auto before_last = hn::Set(di, image.size - 2);
+  const auto column = hn::Min(swell::HWY_NAMESPACE::TruncateToInt(x), before_last);
+  const auto row = hn::Min(swell::HWY_NAMESPACE::TruncateToInt(y), before_last);
+  const V right = hn::Sub(x, hn::ConvertTo(d, column)), below = hn::Sub(y, hn::ConvertTo(d, row));
+  const auto upper = hn::Add(hn::Mul(row, hn::Set(di, image.size)), column);
+  const auto lower = hn::Add(upper, hn::Set(di, image.size));
+  const V scale = hn::Set(d, image.range / (65535.0f * 65535.0f));
+
+  const auto along_row = [&](const std::int32_t* words, auto index) HWY_ATTR {
+    const auto word = hn::GatherIndex(di, words, index);
+    const V left = hn::ConvertTo(d, hn::And(word, hn::Set(di, 0xffff)));
+    const hn::RebindToUnsigned<D> du;
+    const auto high = hn::ShiftRight<16>(hn::BitCast(du, word));
+    const V next = hn::ConvertTo(d, hn::BitCast(di, high));
+    return hn::MulAdd(hn::Sub(next, left), right, left);
+  };
+  const auto channel = [&](std::size_t c) HWY_ATTR {
+    const auto* words = reinterpret_cast<const std::int32_t*>(image.channels[c].data());
+    const V top = along_row(words, upper);
+    const V code = hn::MulAdd(hn::Sub(along_row(words, lower), top), below, top);
+    return hn::Mul(hn::Mul(code, code), scale);
+  };
+  r = channel(0);
+  g = channel(1);
+  b = channel(2);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::texture
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
