@@ -6,16 +6,19 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "math/elementary.h"
 #include "math/parallel.h"
 #include "ocean/patch_tiles.h"
+#include "ocean/spectrum.h"
 
 namespace swell::ocean {
 
 // What a sea is made of at most; everything that is drawn or asked has all of it.
-inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64;
+inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64, kMaxSwells = 4;
 
 // So many of the longest patches are tiled: what the next ones hold is too short to be seen from
 // where they would be seen to repeat themselves.
@@ -32,12 +35,31 @@ struct SineWave {
   bool operator==(const SineWave&) const = default;
 };
 
+// Waves that another wind left behind, besides the wind's own: a narrow JONSWAP spectrum.
+struct Swell {
+  double hs_m = 1.0;                       // significant height, [0, 30]
+  double tp_s = 12.0;                      // period of the peak, [1, 40]
+  double from_rad = 0.0;                   // where it comes FROM, clockwise from north
+  double gamma = 3.3;                      // enhancement of the peak, [1, 20]
+  double spread_rad = 15.0 * kPi / 180.0;  // standard deviation of the directions, [1, 60] degrees
+
+  bool operator==(const Swell&) const = default;
+};
+
 struct SeaDescription {
-  // Pierson-Moskowitz x Hasselmann spectrum; no spectrum waves if wind_speed_mps == 0.
+  // The wind's own waves, with Hasselmann's directions: by default Pierson and Moskowitz's spectrum
+  // of a fully developed sea, none if wind_speed_mps == 0.
   bool spectrum = true;
   double wind_speed_mps = 15.0;  // U10, at 10 m height, [0, 60]
   double wind_from_rad = 0.0;    // where the wind comes FROM, clockwise from north
-  double amplitude_scale = 1.0;  // multiplies all spectrum heights, [0, 4]
+  // In place of the fully developed sea: water that the wind has blown over, (0, 10000]; or the
+  // significant height [0, 30] and the peak's period [0.5, 40], each of which follows from the
+  // other if it is left out, and from the wind if both are.
+  std::optional<double> fetch_km = {};
+  std::optional<double> hs_m = {}, tp_s = {};
+  std::optional<double> gamma = {};  // the peak's enhancement, [1, 20]; none: 3.3 with a fetch or 1
+  std::vector<Swell> swells = {};    // at most kMaxSwells
+  double amplitude_scale = 1.0;      // multiplies the heights of wind waves and swells, [0, 4]
   double gravity_mps2 = 9.81;
   // The sea repeats itself after this time, 0: never, else [1, 100000]. Every wave, sines too, has
   // a whole number n >= 1 of periods in it: the number nearest to its own, so that its speed is
@@ -56,6 +78,9 @@ struct SeaDescription {
 
   bool operator==(const SeaDescription&) const = default;
 };
+
+// The wind's own waves and the swells that a sea has, without those of no height.
+std::vector<WaveSystem> wave_systems(const SeaDescription& sea);
 
 // One patch at one time: resolution x resolution samples, periodic; sample [j * resolution + i] is
 // at world x = i L / n, y = j L / n, in a tile moved by that tile's offset.
