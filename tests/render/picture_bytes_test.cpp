@@ -184,5 +184,30 @@ TEST_P(PictureBytes, KeepTheMeanOfAPlainAreaByTheDither) {
   }
 }
 
+// ---- Lookup images
+
+// sqrt(x / (x + 1)) of 255, to the nearest, at most 254: no light but 0 is lost, and none is cut
+// off at white.
+TEST_P(PictureBytes, OfLookupImagesHoldLightFromNightToGlints) {
+  std::vector<float> light = {0.0f, -1.0f, 1e30f};
+  for (int i = 0; i < 4000; ++i) light.push_back(std::exp2(static_cast<float>(i) / 200.0f - 13.0f));
+  std::vector<int> byte(light.size());
+  std::vector<float> decoded(light.size());
+  light_code(light, byte, decoded);
+  EXPECT_EQ(byte[0], 0);
+  EXPECT_EQ(byte[1], 0);
+  EXPECT_EQ(byte[2], 254);
+  for (std::size_t i = 3; i < light.size(); ++i) {
+    const double x = light[i], code = std::sqrt(x / (x + 1.0));
+    ASSERT_NEAR(byte[i], std::min(255.0 * code, 254.0), 0.501) << x;
+    const double c2 = byte[i] / 255.0 * byte[i] / 255.0, exact = c2 / (1.0 - c2);
+    ASSERT_NEAR(decoded[i], exact, 3e-5 * exact) << x;
+    const double step = 2.0 * code / std::pow(1.0 - code * code, 2.0) / 255.0;
+    if (x < 5.0) {
+      ASSERT_NEAR(exact, x, 0.53 * step + 2e-5);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swell::render
