@@ -80,7 +80,8 @@ float relief_factor(const ReliefFrame& frame, const Relief& relief, Interval x, 
   const float spread = std::min(width * kInvFullSpread, 1.0f);
   const float flat = 1.0f + frame.flat_gain * (1.0f - spread);
   return (facing_most < 0.0f ? frame.back_facing : 1.0f) *
-         (silhouette ? 1.0f : frame.off_silhouette) * (flat * flat);
+         (silhouette ? 1.0f : frame.off_silhouette) *
+         (relief.z.high < -frame.eye_z ? frame.sunken : 1.0f) * (flat * flat);
 }
 
 // (1 + d / (8 D))^16
@@ -141,15 +142,17 @@ PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level) {
   }
 
   const float dx = distance_to(ix), dy = distance_to(iy);
+  const bool with_relief = frame.has_factors && frame.relief.counts;
+  const Relief relief = with_relief ? relief_in(frame, box_x, box_y, level) : Relief{};
+  const float dz = distance_to(relief.z);
   const float horizontal2 = dx * dx + dy * dy;
   if (horizontal2 > frame.horizon2) return kCulledKey;
-  const float distance2 = horizontal2 + frame.distance2_z;
+  const float distance2 = horizontal2 + (with_relief ? dz * dz : frame.distance2_z);
   const float inv_size2 = std::max(power_of_two(level & frame.level_mask), frame.least_inv_size2);
   const float inv_curved2 = power_of_two(level + level) * frame.curvature_inv_size2;
   float key = distance2 * std::min(inv_size2, inv_curved2);
   if (frame.has_factors) {
-    if (frame.relief.counts)
-      key *= relief_factor(frame.relief, relief_in(frame, box_x, box_y, level), ix, iy);
+    if (with_relief) key *= relief_factor(frame.relief, relief, ix, iy);
     if (frame.inv_haze > 0.0f) key *= haze_factor(std::sqrt(distance2), frame.inv_haze);
     if (touches_a_focus(frame.focus, box_x, box_y, level)) key *= frame.focus.factor;
     key = std::min(key, kLastKey);

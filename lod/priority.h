@@ -2,7 +2,8 @@
 //
 // The priority of a diamond, in [0, 1], is 1 / sqrt(1 + k), with
 //   kProjectedSize    k = (d / size)^2, d the distance from the eye to the box around the diamond
-//                     and all its descendants (between the heights of the request), size the
+//                     and all its descendants (between the heights of the request, or of the relief
+//                     there if there is one), size the
 //                     diamond's width, here sqrt(2^-level) times the domain's, or the request's
 //                     largest size if that is less
 //   kInverseDistance  k = d^2: the paper's 1 / distance, whatever the size; it refines all of the
@@ -15,6 +16,7 @@
 //   back_facing      if for all points p of the box (relative to the eye) and all normals
 //                    n = (-sx, -sy, 1) of the surface in it n.(-p) = sx px + sy py - pz is < 0
 //   off_silhouette   if that is < 0 for all or > 0 for all
+//   sunken           if all of it lies below height 0
 //   1 + (flat - 1) (1 - spread)   spread: width of the range of slopes in it over 0.5, at most 1
 //   (1 + d / (8 D))^8             D the haze's distance: like exp(d / D), 6 % less at d = D
 //   1 / focus_nearer if the box touches a focus and the diamond is wider than a quarter of the
@@ -47,8 +49,8 @@ inline constexpr PriorityKey kCulledKey = 0x7f800000u;  // infinity: priority 0,
 // What the request says of normals. Unit: one lattice step.
 struct ReliefFrame {
   bool counts = false;
-  float back_facing = 1.0f, off_silhouette = 1.0f;  // of k
-  float flat_gain = 0.0f;                           // flat - 1
+  float back_facing = 1.0f, off_silhouette = 1.0f, sunken = 1.0f;  // of k
+  float flat_gain = 0.0f;                                          // flat - 1
   // Everywhere, if there are no cells:
   float max_slope = 1.0f;
   float z_low = 0.0f, z_high = 0.0f;  // relative to the eye

@@ -26,9 +26,10 @@ void check_request(const AdaptRequest& request) {
 void check_factors(const AdaptRequest& request) {
   const PriorityFactors& f = request.factors;
   SWELL_CHECK(f.focus_nearer >= 1.0f && f.focus_nearer <= 64.0f, "focus_nearer={}", f.focus_nearer);
-  for (const float times : {f.back_facing, f.flat, f.off_silhouette})
-    SWELL_CHECK(times >= 1.0f && times <= 16.0f, "back_facing={} flat={} off_silhouette={}",
-                f.back_facing, f.flat, f.off_silhouette);
+  for (const float times : {f.back_facing, f.flat, f.off_silhouette, f.sunken})
+    SWELL_CHECK(times >= 1.0f && times <= 16.0f,
+                "back_facing={} flat={} off_silhouette={} sunken={}", f.back_facing, f.flat,
+                f.off_silhouette, f.sunken);
   SWELL_CHECK(f.haze_distance_m > 0.0f, "haze_distance_m={}", f.haze_distance_m);
   SWELL_CHECK(request.max_slope >= 0.0f && request.max_slope <= 1e6f, "max_slope={}",
               request.max_slope);
@@ -95,9 +96,11 @@ int last_level_wider_than(int lattice_bits, double width) {
 
 void set_relief(const AdaptRequest& request, double step_m, ReliefFrame& relief) {
   const PriorityFactors& f = request.factors;
-  relief.counts = f.back_facing > 1.0f || f.flat > 1.0f || f.off_silhouette > 1.0f;
+  relief.counts = request.relief || f.back_facing > 1.0f || f.flat > 1.0f ||
+                  f.off_silhouette > 1.0f || f.sunken > 1.0f;
   relief.back_facing = f.back_facing * f.back_facing;
   relief.off_silhouette = f.off_silhouette * f.off_silhouette;
+  relief.sunken = f.sunken * f.sunken;
   relief.flat_gain = f.flat - 1.0f;
   relief.max_slope = request.max_slope;
   if (!request.relief) return;

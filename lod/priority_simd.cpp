@@ -131,7 +131,9 @@ HWY_INLINE hn::Vec<F> ReliefFactor(const ReliefFrame& frame, const Relief& relie
   const auto flat = hn::Add(one, hn::Mul(hn::Set(d, frame.flat_gain), hn::Sub(one, spread)));
   const auto by_facing = hn::Mul(hn::IfThenElse(back, hn::Set(d, frame.back_facing), one),
                                  hn::IfThenElse(silhouette, one, hn::Set(d, frame.off_silhouette)));
-  return hn::Mul(by_facing, hn::Mul(flat, flat));
+  const auto below = hn::Lt(relief.z.high, hn::Set(d, -frame.eye_z));
+  const auto by_place = hn::Mul(by_facing, hn::IfThenElse(below, hn::Set(d, frame.sunken), one));
+  return hn::Mul(by_place, hn::Mul(flat, flat));
 }
 
 // (1 + d / (8 D))^16
@@ -205,17 +207,24 @@ HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const
   const auto dx = DistanceTo(x_low, x_high), dy = DistanceTo(y_low, y_high);
   const auto horizontal2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
   outside = hn::Or(outside, hn::Gt(horizontal2, hn::Set(d, frame.horizon2)));
-  const auto distance2 = hn::Add(horizontal2, hn::Set(d, frame.distance2_z));
+  auto distance2_z = hn::Set(d, frame.distance2_z);
+  auto relief_factor = hn::Set(d, 1.0f);
+  if constexpr (kWithFactors) {
+    if (frame.relief.counts) {
+      const Relief relief = ReliefIn(frame, box, level);
+      const auto dz = DistanceTo(relief.z.low, relief.z.high);
+      distance2_z = hn::Mul(dz, dz);
+      relief_factor = ReliefFactor(frame.relief, relief, {x_low, x_high}, {y_low, y_high});
+    }
+  }
+  const auto distance2 = hn::Add(horizontal2, distance2_z);
   const auto inv_size2 = hn::Max(PowerOfTwo(hn::And(level, hn::Set(di, frame.level_mask))),
                                  hn::Set(d, frame.least_inv_size2));
   const auto inv_curved2 =
       hn::Mul(PowerOfTwo(hn::Add(level, level)), hn::Set(d, frame.curvature_inv_size2));
   auto key = hn::Mul(distance2, hn::Min(inv_size2, inv_curved2));
   if constexpr (kWithFactors) {
-    if (frame.relief.counts) {
-      const Relief relief = ReliefIn(frame, box, level);
-      key = hn::Mul(key, ReliefFactor(frame.relief, relief, {x_low, x_high}, {y_low, y_high}));
-    }
+    key = hn::Mul(key, relief_factor);
     if (frame.inv_haze > 0.0f) key = hn::Mul(key, HazeFactor(hn::Sqrt(distance2), frame.inv_haze));
     const auto focused = TouchesAFocus(frame.focus, box, level);
     key = hn::IfThenElse(focused, hn::Mul(key, hn::Set(d, frame.focus.factor)), key);

@@ -36,6 +36,7 @@ struct PriorityFactors {
   float back_facing = 1.0f;     // that turn their back to the eye, wholly
   float flat = 1.0f;            // whose normals do not differ (in part, if they differ a little)
   float off_silhouette = 1.0f;  // that turn no edge to the eye
+  float sunken = 1.0f;          // that lie below height 0, wholly
 
   // Where haze leaves a share s = exp(-distance / haze_distance_m) of the contrast, priorities are
   // about s times as high. Infinity: clear air.
@@ -67,8 +68,8 @@ struct AdaptRequest {
   // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
   float frustum_margin = 0.0f;
   PriorityFactors factors = {};
-  // Which normals a part of the surface can have: as the relief at its place says, or with slopes
-  // of at most max_slope along each axis, at all times.
+  // How high a part of the surface can be and which normals it can have: as the relief there says,
+  // or between the heights above, with slopes of at most max_slope along each axis, at all times.
   const ReliefBounds* relief = nullptr;  // of the whole domain; outlives the next call
   float max_slope = 1.0f;
   std::span<const Focus> focuses = {};  // at most kMaxFocuses; read during the call only

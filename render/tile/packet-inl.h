@@ -42,6 +42,9 @@ HWY_INLINE V3 Product(V3 a, V3 b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
 }
 HWY_INLINE V3 Sum(V3 a, V3 b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
+HWY_INLINE V3 Difference(V3 a, V3 b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
 // a s + b
 HWY_INLINE V3 ScaleAdd(V3 a, V s, V3 b) {
   return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
@@ -53,6 +56,11 @@ HWY_INLINE V3 Lerp(V3 a, V3 b, V t) {
 }
 HWY_INLINE V Clamp(V v, float low, float high) {
   return hn::Min(hn::Max(v, Constant(low)), Constant(high));
+}
+// 3 t^2 - 2 t^3 of t clamped to [0, 1].
+HWY_INLINE V SmoothBlend(V t) {
+  const V x = Clamp(t, 0.0f, 1.0f);
+  return hn::Mul(hn::Mul(x, x), hn::NegMulAdd(x, Constant(2.0f), Constant(3.0f)));
 }
 HWY_INLINE V InverseSqrt(V x) { return hn::Div(Constant(1.0f), hn::Sqrt(x)); }
 
@@ -170,15 +178,6 @@ HWY_INLINE void NearestSlopes(const SlopeLayer& layer, V3 p, V level_m, V& a, V&
   const V gain = Constant(layer.gain);
   a = hn::Mul(a, gain);
   b = hn::Mul(b, gain);
-}
-
-// Looks `image` up at texel position (x, y); radiance from the square-root code, alpha as is.
-HWY_INLINE V3 LookUp(const texture::RgbaImage& image, V x, V y, V& alpha) {
-  V r, g, b;
-  texture::HWY_NAMESPACE::SampleRgba(D(), image, x, y, r, g, b, alpha);
-  const V range = Constant(kLookupRange);
-  return {hn::Mul(hn::Mul(r, r), range), hn::Mul(hn::Mul(g, g), range),
-          hn::Mul(hn::Mul(b, b), range)};
 }
 
 // The blurred sky's radiance in direction (x, y, z), z > -0.5, any length of (x, y, z) equal to

@@ -7,6 +7,7 @@
 #include "raster/pass.h"
 #include "render/materials/light.h"
 #include "render/materials/list.h"
+#include "render/tile/sun_shadow.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {
@@ -28,6 +29,7 @@ struct Shading {
   ViewRays rays;
   Light light;
   Media media;
+  SunShadow sun_shadow;
   float exposure = 1.0f;
   PrimitiveRanges primitives;
   Materials materials;

@@ -54,13 +54,6 @@ bool in_view(const scene::FloatingObject& object, const Placement& placement, fl
   });
 }
 
-float height_px(const scene::FloatingObject& object, const Placement& placement, const View& view) {
-  const glm::vec3 p = placement.bottom_rel;
-  const float distance_m = std::max(std::sqrt(glm::dot(p, p)), view.near_m);
-  return 0.5f * static_cast<float>(view.height_px) * static_cast<float>(object.size_m.z) /
-         (distance_m * view.tan_half_y);
-}
-
 void add_vertices(const scene::ObjectMesh& mesh, const Placement& placement, ObjectGeometry& out) {
   for (const glm::vec3& q : mesh.position) {
     out.p_rel.push_back(placement.rel_from_unit * q + placement.bottom_rel);
@@ -116,6 +109,16 @@ std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> ob
   return focuses;
 }
 
+const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                    const View& view) {
+  const auto height_m = static_cast<float>(world.scene.objects[object].size_m.z);
+  const float distance_m = std::max(std::sqrt(glm::dot(p_rel, p_rel)), view.near_m);
+  const float height_px =
+      0.5f * static_cast<float>(view.height_px) * height_m / (distance_m * view.tan_half_y);
+  const ObjectMeshes::Choice choice = world.objects.of_object[object];
+  return world.objects.meshes[height_px >= kNearHeight_px ? choice.near : choice.far];
+}
+
 void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
                  std::span<scene::ObjectPose> poses) {
   if (poses.empty()) return;
@@ -138,9 +141,7 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Placement placement = placement_of(objects[i], geometry.poses[i], view);
     if (!in_view(objects[i], placement, views.front()->drop_per_m2, planes)) continue;
-    const ObjectMeshes::Choice choice = world.objects.of_object[i];
-    const bool near = height_px(objects[i], placement, view) >= kNearHeight_px;
-    const scene::ObjectMesh& mesh = world.objects.meshes[near ? choice.near : choice.far];
+    const scene::ObjectMesh& mesh = drawn_mesh(world, i, placement.bottom_rel, view);
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
     geometry.instances.back().object = static_cast<std::uint32_t>(i);

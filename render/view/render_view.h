@@ -100,6 +100,10 @@ void water_heights(const WaterHeights& in, const Surface& water, std::size_t beg
 void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
                  std::span<scene::ObjectPose> poses);
 
+// The mesh that an object is drawn with when it is at p_rel: few triangles where it looks small.
+const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                    const View& view);
+
 // Stage 3: floating objects where the sea carries them, as far as the view may show them, and their
 // vertices in the views.
 void place_objects(const World::State& world, const SeaMaps& sea, const View& view, Meshes& meshes,

@@ -7,6 +7,7 @@
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
 #include "render/view/meshes.h"
+#include "terrain/apron.h"
 
 namespace swell::render {
 namespace {
@@ -32,11 +33,16 @@ lod::Domain sea_domain(const View& view, int budget) {
 // Two triangles: larger ones would take the nearest water's depth from corners too far away.
 lod::Domain plane_domain(const View& view) { return domain_around(view, 0x1p16, 0x1p12, 1); }
 
-lod::Domain land_domain(const terrain::HeightGrid& terrain) {
-  const auto cells = static_cast<unsigned>(std::max(terrain.grid.samples_x - 1, 2));
-  return {terrain.grid.min_world, terrain.grid.size_m(),
-          std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
+// The terrain with its apron. With 2^n + 1 samples a side, vertices on the map are on samples.
+lod::Domain land_domain(const terrain::HeightGrid& terrain, bool has_apron) {
+  const terrain::Grid square = has_apron ? terrain::square_with_apron(terrain) : terrain.grid;
+  const auto cells = static_cast<unsigned>(std::max(square.samples_x - 1, 2));
+  return {square.min_world, square.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 13)};
 }
+
+// Maps give the land its look, so triangles are needed for its shape alone: fewer where it is flat,
+// and under water, which blurs what it shows.
+constexpr float kFlatLand = 8.0f, kSunkenLand = 16.0f, kMostTimes = 16.0f;
 
 lod::PriorityFactors priority_factors(const scene::Scene& scene) {
   const scene::Detail& detail = scene.detail;
@@ -137,11 +143,17 @@ void clear_surface(Surface& surface) {
 void triangulate_land(const Wanted& wanted, Surface& land) {
   if (!wanted.world.terrain) return clear_surface(land);
   const terrain::HeightGrid& terrain = *wanted.world.terrain;
+  const auto floor_m = std::min(terrain.lowest_m, static_cast<float>(terrain.apron.floor_m));
   lod::AdaptRequest request =
-      request_for(wanted, wanted.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);
-  request.relief = wanted.world.relief_bounds.get();
+      request_for(wanted, wanted.options.terrain_triangles, floor_m, terrain.highest_m);
+  const bool has_apron = !wanted.options.without.has(Part::kApron);
+  if (has_apron) {
+    request.relief = wanted.world.relief_bounds.get();
+    request.factors.flat = std::min(kFlatLand * request.factors.flat, kMostTimes);
+    request.factors.sunken = kSunkenLand;
+  }
   request.frustum_margin = 0.3f;  // the mirrored land lies outside the view at times
-  adapt_surface(land_domain(terrain), request, wanted.options.triangle_capacity, land);
+  adapt_surface(land_domain(terrain, has_apron), request, wanted.options.triangle_capacity, land);
 }
 
 }  // namespace

@@ -156,8 +156,12 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
     const float c = sunk * std::max(-p.z, 0.0f) + p.z * (p.z > 0.0f ? z.high : z.low);
     if (a + b + c < 0.0f) return HUGE_VALF;
   }
-  const float distance2 =
-      x.distance() * x.distance() + y.distance() * y.distance() + z.distance() * z.distance();
+  const PriorityFactors& f = r.factors;
+  const auto z_unit = static_cast<float>(d.z_unit_m / step_m);
+  const auto eye_z = static_cast<float>(steps(eye.z));
+  const Range height = r.relief ? Range{d.z_least * z_unit - eye_z, d.z_most * z_unit - eye_z} : z;
+  const float distance2 = x.distance() * x.distance() + y.distance() * y.distance() +
+                          height.distance() * height.distance();
   const bool is_round = std::isfinite(r.earth_radius_m);
   if (is_round) {
     const double lowest_m = r.min_height_m, highest_m = r.max_height_m;
@@ -180,23 +184,19 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
     }
     k *= size2;
   }
-  const PriorityFactors& f = r.factors;
 
   // The normal (-sx, -sy, 1) against the direction to the eye, for all slopes and places.
-  if (std::max({f.back_facing, f.flat, f.off_silhouette}) > 1.0f) {
+  if (std::max({f.back_facing, f.flat, f.off_silhouette, f.sunken}) > 1.0f) {
     const float most = r.max_slope;
     const float x0 = r.relief ? d.x_least : -most, x1 = r.relief ? d.x_most : most;
     const float y0 = r.relief ? d.y_least : -most, y1 = r.relief ? d.y_most : most;
-    const auto z_unit = static_cast<float>(d.z_unit_m / step_m);
-    const auto eye_z = static_cast<float>(steps(eye.z));
-    const Range height =
-        r.relief ? Range{d.z_least * z_unit - eye_z, d.z_most * z_unit - eye_z} : z;
     const bool back = x.most_times(x0, x1) + y.most_times(y0, y1) < height.low;
     const bool front = x.most_times(-x1, -x0) + y.most_times(-y1, -y0) < -height.high;
     const float spread = std::min(1.0f, std::max(x1 - x0, y1 - y0) / 0.5f);
     const float flat = 1.0f + (f.flat - 1.0f) * (1.0f - spread);
     k *= (back ? f.back_facing * f.back_facing : 1.0f) *
-         (back || front ? f.off_silhouette * f.off_silhouette : 1.0f) * (flat * flat);
+         (back || front ? f.off_silhouette * f.off_silhouette : 1.0f) *
+         (height.high < -eye_z ? f.sunken * f.sunken : 1.0f) * (flat * flat);
   }
 
   // Haze: to the 16th power by squaring.

@@ -213,13 +213,13 @@ TEST(WaterSurface, LandAndItsWaterlineDoNotMove) {
 
 TEST(WaterSurface, WaterIsBetweenTheSurfaceAndTheGround) {
   const Snapshot water(island_scene(), 2.0);
-  const glm::dvec2 p(900.0, 600.0);  // floor at -14 m
+  const glm::dvec2 p(900.0, 600.0);  // beyond the island's apron: floor at -60 m
   const double z = water->height(p);
   EXPECT_TRUE(water->in_water({p, z}));
   EXPECT_TRUE(water->in_water({p, z - 1e-6}));
   EXPECT_FALSE(water->in_water({p, z + 1e-6}));
-  EXPECT_TRUE(water->in_water({p, -13.0}));
-  EXPECT_FALSE(water->in_water({p, -15.0}));
+  EXPECT_TRUE(water->in_water({p, -59.0}));
+  EXPECT_FALSE(water->in_water({p, -61.0}));
   EXPECT_TRUE(Snapshot(windy_scene(), 2.0)->in_water({p, -5000.0}));
 }
 

@@ -7,10 +7,7 @@ uniform vec3 body, absorption_per_m;
 uniform float pixel_angle_log2;
 uniform float eye_z;
 
-// Radiance from a lookup image's square-root code.
-vec3 decode(vec3 code) { return 2.0 * code * code; }
-
-// The same of the blurred sky.
+// Radiance from the blurred sky's square-root code.
 vec3 decode_sky(vec3 code) { return 4.0 * code * code; }
 
 // The blurred sky in a direction, any length of it equal to `size`.
@@ -78,5 +75,12 @@ vec4 to_display(vec3 light) {
   return vec4(code + (dither - 0.5) / 255.0, 1.0);
 }
 
-// A texel of a lookup image.
-vec4 to_lookup(vec3 light) { return vec4(sqrt(0.5 * max(light, vec3(0.0))), 1.0); }
+// A texel of a lookup image, and radiance from it.
+vec4 to_lookup(vec3 light) {
+  vec3 x = max(light, vec3(0.0));
+  return vec4(min(sqrt(x / (x + 1.0)), 254.0 / 255.0), 1.0);
+}
+vec3 from_lookup(vec3 code) {
+  vec3 c2 = min(code * code, vec3(254.0 / 255.0 * 254.0 / 255.0));
+  return c2 / (1.0 - c2);
+}
