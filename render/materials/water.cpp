@@ -178,6 +178,15 @@ glm::vec3 mirrored_sea(const MaterialInputs& in, float variance) {
   return glm::min(glm::mix(in.media.body, in.light.ambient, reflectance), in.light.horizon);
 }
 
+// From so high above that triangles are longer than waves their vertices stand on any part of a
+// wave: then no crest shines. 1 while a pixel straight below shows less than 1/24 of a wave.
+float crests_shown(const MaterialInputs& in, const View& camera) {
+  const double pixel = 2.0 * static_cast<double>(camera.tan_half_y) / camera.height_px;
+  const double footprint_m = pixel * std::max(camera.eye_world.z, 0.0);
+  const double wavelength_m = std::max(in.world.sea->mean_wavelength_m(), 1e-3);
+  return static_cast<float>(std::clamp(2.0 - 24.0 * footprint_m / wavelength_m, 0.0, 1.0));
+}
+
 void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   const float variance = slope_variance(in, water);
   water.short_variance = layer_variance(water, water.long_layer_count);
@@ -185,8 +194,8 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.mirrored_sea = mirrored_sea(in, variance);
   water.wave_horizon = wave_horizon(variance);
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
-  water.inv_crest_height =
-      1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
+  water.inv_crest_height = crests_shown(in, camera) /
+                           std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
