@@ -25,12 +25,13 @@ std::size_t at(int x, int y) {
   return static_cast<std::size_t>(y) * kPadded.x + static_cast<std::size_t>(x);
 }
 
-// Green of a picture straight down, without what changes more slowly than waves: the mean and the
-// contrast of the neighbourhood.
+// Green light of a picture straight down, without what changes more slowly than waves: the mean and
+// the contrast of the neighbourhood.
 Field waves_of(const Target& target, int radius_px) {
   const auto green = [&](int x, int y) {
-    return static_cast<double>(target.rgba[static_cast<std::size_t>(y) * kSize_px.x + x] >> 8 &
-                               255);
+    return static_cast<double>(
+        target.linear[3 * (static_cast<std::size_t>(y) * kSize_px.x + static_cast<std::size_t>(x)) +
+                      1]);
   };
   Field field{std::vector<double>(kPadded.x * kPadded.y),
               std::vector<double>(kPadded.x * kPadded.y)};
@@ -45,7 +46,7 @@ Field waves_of(const Target& target, int radius_px) {
         }
       }
       const double mean = sum / count, variance = squares / count - mean * mean;
-      field.value[at(x, y)] = (green(x, y) - mean) / std::sqrt(variance + 0.1);
+      field.value[at(x, y)] = (green(x, y) - mean) / std::sqrt(variance + 1e-6 * mean * mean);
       field.weight[at(x, y)] = 1.0;
     }
   }
@@ -120,6 +121,8 @@ double repetition(scene::Scene scene, double height_m, PartSet without) {
   Target target;
   FrameOptions options;
   options.without = without;
+  options.without.add(Part::kClouds);
+  options.keep_linear = true;
   const View view =
       make_view({0.0, 0.0, height_m}, 0.3, -0.5 * kPi, kFov_rad, 1.0f, kSize_px.x, kSize_px.y);
   render_frame(world, view, 5.0, options, workspace, target, workers);
@@ -137,8 +140,7 @@ TEST(Repetition, IsNotSeenFromHighAbove) {
     const double tiled = repetition(scene, height_m, {});
     const double periodic = repetition(scene, height_m, tiling);
     EXPECT_LT(tiled, 0.2) << height_m;
-    EXPECT_GT(periodic, 0.5) << height_m;  // else the test sees nothing
-    printf("REP %g %g %g\n", height_m, tiled, periodic);
+    EXPECT_GT(periodic, 0.4) << height_m;  // else the test sees nothing
   }
 }
 

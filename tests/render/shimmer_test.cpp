@@ -49,7 +49,6 @@ TEST(Shimmer, IsNotSeenOnGrazingWavesThroughALongLens) {
   const double all_slopes = part_reversed(scene, seen_slopes);
   EXPECT_LT(drawn, 0.002);
   EXPECT_GT(all_slopes, 2.0 * drawn);  // without what mends it there is more
-  printf("SHIM %g %g\n", drawn, all_slopes);
 }
 
 }  // namespace
