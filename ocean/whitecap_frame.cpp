@@ -79,22 +79,27 @@ float foam_at_texels(const WhitecapFrame::Patch& patch, float past, glm::dvec2 t
                   part.y);
 }
 
+}  // namespace
+}  // namespace swell::ocean
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::ocean {
+namespace HWY_NAMESPACE {
+
 // Foam of tiles that are blended: in the mean what it is without, since the squares of their
 // weights add up to 1.
-float foam_at(const WhitecapFrame::Patch& patch, float past, glm::dvec2 p_world) {
-  namespace tiles = HWY_NAMESPACE;
-  namespace hn = hwy::HWY_NAMESPACE;
+static float foam_at(const WhitecapFrame::Patch& patch, float past, glm::dvec2 p_world) {
   using D = hn::CappedTag<float, 1>;
   const hn::RebindToSigned<D> di;
   const glm::dvec2 periods = p_world / patch.length_m, period = glm::floor(periods);
   const glm::dvec2 inside = periods - period;
   if (!patch.tiling.on) return foam_at_texels(patch, past, inside * double{kFoamMapSize});
   const D d;
-  const tiles::SquarePlace<D> place = {
+  const SquarePlace<D> place = {
       hn::Set(di, tile_number(period.x)), hn::Set(di, tile_number(period.y)),
       hn::Set(d, static_cast<float>(inside.x)), hn::Set(d, static_cast<float>(inside.y))};
   float foam = 0.0f;
-  tiles::ForEachTile(d, patch.tiling, patch.wave_samples, place, [&](auto by, const auto& tile) {
+  ForEachTile(d, patch.tiling, patch.wave_samples, place, [&](auto by, const auto& tile) HWY_ATTR {
     const glm::dvec2 moved(hn::GetLane(by.x), hn::GetLane(by.y));
     const float weight = hn::GetLane(tile.weight);
     foam += weight * weight *
@@ -104,7 +109,11 @@ float foam_at(const WhitecapFrame::Patch& patch, float past, glm::dvec2 p_world)
   return foam;
 }
 
-}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::ocean
+HWY_AFTER_NAMESPACE();
+
+namespace swell::ocean {
 
 void break_waves(const Whitecaps& whitecaps, const FftPlan& plan,
                  std::span<const PatchWaves* const> waves, double step, std::span<float> a,
@@ -156,7 +165,7 @@ void sample_whitecaps(const WhitecapFrame& frame, std::span<const glm::dvec2> p_
   for (std::size_t k = 0; k < p_world.size(); ++k) {
     float free = 1.0f;
     for (std::size_t p = 0; p < frame.patches.size(); ++p) {
-      float part = foam_at(frame.patches[p], frame.past, p_world[k]);
+      float part = HWY_NAMESPACE::foam_at(frame.patches[p], frame.past, p_world[k]);
       if (p > 0) part = std::min(part * foam_on_crest(height_m[k], frame.crest_per_m), 1.0f);
       free *= 1.0f - part;
     }

@@ -372,8 +372,6 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
-}
-
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
 HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
