@@ -417,11 +417,8 @@ struct WaterShader {
     }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
-    if constexpr (kCoast)
-      seen = AddFoam(water.foam, foam_cover, sun_visible, seen);
-    else
-      seen = AddWhitecaps(water.whitecaps, foam_cover, light.sun_direction, sun_visible, f.normal,
-                          seen);
+    seen =
+        AddWhitecaps(water.whitecaps, foam_cover, light.sun_direction, sun_visible, f.normal, seen);
     return {seen, f.normal, foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
