@@ -26,7 +26,7 @@ struct Air {
     std::ranges::fill(image.texels, 0xffb4b4b4u);
     sky = texture::pack_rgb(image);
     shading.light.sky_soft = &sky;
-    shading.light.horizon = glm::vec3(kLookupRange * 180.0f * 180.0f / (255.0f * 255.0f));
+    shading.light.horizon = glm::vec3(kSoftSkyRange * 180.0f * 180.0f / (255.0f * 255.0f));
     shading.media.inv_haze_m = static_cast<float>(1.0 / kHaze_m);
     shading.media.inv_haze_height_m = static_cast<float>(1.0 / kHeight_m);
     shading.rays.eye_z = static_cast<float>(eye_m);
