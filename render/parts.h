@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 
@@ -16,7 +17,11 @@ enum class Part : std::uint8_t {
   kRefraction,  // what lies under the water's surface
   kRipples,     // the water's waves too short for the wave patches
   kHaze,        // between the eye and what it sees
+  kEarth,       // its curve: without it the sea is flat
   kClouds,      // in the sky, and in what the water mirrors of it
+  kShadows,     // of land and objects before sun or moon
+  kHulls,       // foam and dark water where floating things meet it
+  kApron,       // the ground beyond the terrain's square
   kTiling,      // what tells the places of a wave patch apart; queries of the sea keep it
   kSeenSlopes,  // that of rough water slopes turned to the eye are seen, and others are not
   kCount
@@ -25,7 +30,8 @@ inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount)
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples", "haze", "clouds", "tiling", "seen-slopes"};
+    "reflection", "refraction", "ripples", "haze",   "earth",      "clouds",
+    "shadows",    "hulls",      "apron",   "tiling", "seen-slopes"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }
@@ -33,6 +39,9 @@ constexpr std::string_view part_name(Part part) {
 class PartSet {
  public:
   constexpr PartSet() = default;
+  constexpr PartSet(std::initializer_list<Part> parts) {
+    for (const Part part : parts) add(part);
+  }
   constexpr bool has(Part part) const { return (bits_ >> static_cast<unsigned>(part) & 1) != 0; }
   constexpr void add(Part part) { bits_ |= 1u << static_cast<unsigned>(part); }
   constexpr void add(PartSet parts) { bits_ |= parts.bits_; }

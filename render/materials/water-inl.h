@@ -18,10 +18,14 @@
 #include "render/labels/label_channels.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
+#include "render/materials/hull-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/visible_slopes-inl.h"
 #include "render/materials/water.h"
+#include "render/tile/light_code-inl.h"
+#include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
+#include "render/view/wave_reach.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -189,15 +193,17 @@ struct Looked {
 HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
   const D d;
   const V one = Constant(1.0f);
-  Looked seen;
-  seen.light = LookUp(*lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
-                      hn::Mul(y_px, Constant(lookup.scale_y)), seen.alpha);
-  const auto is_part = hn::And(hn::Gt(seen.alpha, hn::Zero(d)), hn::Lt(seen.alpha, one));
-  if (hn::AllFalse(d, is_part)) return seen;
-  // The codes that were blended with zeros are square roots of light.
-  const V whole = hn::Div(one, hn::Max(seen.alpha, Constant(1.0f / 512.0f)));
-  seen.light = Scale(seen.light, hn::Mul(whole, whole));
-  return seen;
+  V3 code;
+  V alpha;
+  texture::HWY_NAMESPACE::SampleRgba(d, *lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
+                                     hn::Mul(y_px, Constant(lookup.scale_y)), code.x, code.y,
+                                     code.z, alpha);
+  const auto some = hn::Gt(alpha, hn::Zero(d));
+  if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
+  // Codes that were blended with zeros.
+  if (!hn::AllFalse(d, hn::And(some, hn::Lt(alpha, one))))
+    code = Scale(code, hn::Div(one, hn::Max(alpha, Constant(1.0f / 512.0f))));
+  return {DecodeLight(code), alpha};
 }
 
 // What `front` leaves of a place shows `behind`.
@@ -274,11 +280,11 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
 }
 
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
-// horizon that waves make, and in front of both whatever the reflection image shows there, whose
-// part is `image_alpha`.
+// horizon that waves make, brighter by what its floor adds here, and in front of both whatever the
+// reflection image shows there, whose part is `image_alpha`.
 HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, const Facing& f, V inv_variance, bool use_image,
-                             V& image_alpha) {
+                             const WaterSlopes& s, const Facing& f, V inv_variance, V3 floor,
+                             bool use_image, V& image_alpha) {
   const V horizon = Constant(water.wave_horizon);
   const V r_z = hn::MulSub(hn::Add(f.cos_eye, f.cos_eye), f.normal.z, packet.to_eye.z);
   const V sea =
@@ -289,7 +295,9 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   r.z = hn::Max(r.z, Constant(-0.25f));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
-  mirrored = Lerp(mirrored, Constant(water.mirrored_sea), sea);
+  const V3 mirrored_sea =
+      ScaleAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
+  mirrored = Lerp(mirrored, mirrored_sea, sea);
   image_alpha = hn::Zero(D());
   if (use_image) {
     const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
@@ -299,26 +307,37 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   return mirrored;
 }
 
-// What comes up through the surface: scattered light of the water body, brighter in thin crests
-// against the sun, and the floor where the refraction image shows one, whose part is `image_alpha`.
+// What comes up through the surface: scattered light of the water body, which comes in from around
+// and so is never quite in the shade, brighter in thin crests against the sun, and the floor where
+// the refraction image shows one, whose part is `image_alpha`; `floor_added` is what that changes.
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, bool use_image, V& image_alpha) {
-  const V height = hn::Add(packet.p.z, Constant(shading.rays.eye_z));
+                             const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha,
+                             V3& floor_added) {
+  // Far triangles cut off some of the earth's curve: that is no trough.
+  const V share =
+      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
+                          Constant(kWaveShareAtEye)),
+            0.0f, 1.0f);
+  const V height = hn::Mul(share, hn::Add(packet.p.z, Constant(shading.rays.eye_z)));
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
   const V towards_sun = hn::Max(
       hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(shading.light.sun_direction.x),
                          hn::Mul(packet.to_eye.y, Constant(shading.light.sun_direction.y)))),
       hn::Zero(D()));
-  const V glow = hn::Mul(hn::Mul(crest, crest), hn::Add(towards_sun, Constant(0.35f)));
-  V3 light = ScaleAdd(Constant(water.crest_glow), glow, Constant(shading.media.body));
+  const V glow =
+      hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
+  const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
+  const V3 deep =
+      ScaleAdd(Constant(water.crest_glow), glow,
+               ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
   image_alpha = hn::Zero(D());
-  if (use_image) {
-    const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
-    image_alpha = floor.alpha;
-    light = Lerp(light, floor.light, image_alpha);
-  }
-  return light;
+  floor_added = Constant(glm::vec3(0.0f));
+  if (!use_image) return deep;
+  const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
+  image_alpha = floor.alpha;
+  floor_added = Scale(Difference(floor.light, deep), image_alpha);
+  return Sum(deep, floor_added);
 }
 
 // The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution.
@@ -347,15 +366,6 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
-// The part of the sun that is hidden by what is mirrored in front of the sky, whose part is
-// `mirrored_alpha`. What level water mirrors at a pixel is as high as the eye looks down; it says
-// less and less of a sun that is higher, over a low shore for one.
-HWY_INLINE V SunHidden(glm::vec3 sun_direction, const Packet& packet, V mirrored_alpha) {
-  const V higher = hn::Sub(Constant(sun_direction.z), packet.to_eye.z);
-  return hn::Mul(mirrored_alpha,
-                 Clamp(hn::NegMulAdd(higher, Constant(5.0f), Constant(2.0f)), 0.0f, 1.0f));
-}
-
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
 HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
@@ -381,19 +391,28 @@ struct WaterShader {
     const Light& light = shading.light;
     const Facing f = FaceEye(shading.media, water, packet, s);
 
+    const V sun_visible = SunVisible(shading, tile, packet);
     V inv_variance, mirrored_alpha, refracted_alpha;
     const V sun_path =
         SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
-    const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance,
+    V3 floor;
+    V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
+                                  refracted_alpha, floor);
+    const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance, floor,
                                        tile.lookups.reflection, mirrored_alpha);
-    const V3 refracted =
-        RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
+    V foam_cover = s.foam_cover;
+    if (!tile.casters.empty()) {
+      const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
+                                       Clamp(packet.to_eye.z, kMinCos, 1.0f));
+      const AtHulls hulls = SampleHulls(*shading.sun_shadow.objects, water.hull_foam, tile.casters,
+                                        packet.p, level_m);
+      refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
+      foam_cover = hn::Max(foam_cover, hulls.foam_cover);
+    }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
-    const V glint =
-        hn::NegMulAdd(sun_path, SunHidden(light.sun_direction, packet, mirrored_alpha), sun_path);
-    V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
-    if constexpr (kCoast) seen = AddFoam(water.foam, s.foam_cover, seen);
-    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
+    V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
+    if (kCoast || !tile.casters.empty()) seen = AddFoam(water.foam, foam_cover, sun_visible, seen);
+    return {seen, f.normal, foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

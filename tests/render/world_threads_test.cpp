@@ -26,7 +26,7 @@ TEST(World, HasTheSameMapsOnAnyNumberOfThreads) {
     EXPECT_EQ(a.coast_maps->waves.wave, b.coast_maps->waves.wave);
     EXPECT_EQ(a.coast_maps->waves.surf, b.coast_maps->waves.surf);
     EXPECT_EQ(a.coast_maps->ceded, b.coast_maps->ceded);
-    EXPECT_EQ(a.coast_maps->foam_pattern->words, b.coast_maps->foam_pattern->words);
+    EXPECT_EQ(a.foam_pattern->words, b.foam_pattern->words);
     EXPECT_EQ(a.bump->words, b.bump->words);
   }
 }
