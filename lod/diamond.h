@@ -56,9 +56,9 @@ constexpr bool on_border(int lattice_bits, glm::ivec2 p) {
   return p.x == 0 || p.y == 0 || p.x == n || p.y == n;
 }
 
-// The last part of the total order of diamonds: level, then y, then x. 47 bits.
+// The last part of the total order of diamonds: level, then y, then x. 56 bits.
 constexpr std::uint64_t lattice_order(int level, int x, int y) {
-  return static_cast<std::uint64_t>(level) << 42 | static_cast<std::uint64_t>(y) << 21 |
+  return static_cast<std::uint64_t>(level) << 50 | static_cast<std::uint64_t>(y) << 25 |
          static_cast<std::uint64_t>(x);
 }
 

@@ -80,7 +80,8 @@ float relief_factor(const ReliefFrame& frame, const Relief& relief, Interval x, 
   const float spread = std::min(width * kInvFullSpread, 1.0f);
   const float flat = 1.0f + frame.flat_gain * (1.0f - spread);
   return (facing_most < 0.0f ? frame.back_facing : 1.0f) *
-         (silhouette ? 1.0f : frame.off_silhouette) * (flat * flat);
+         (silhouette ? 1.0f : frame.off_silhouette) *
+         (relief.z.high < -frame.eye_z ? frame.sunken : 1.0f) * (flat * flat);
 }
 
 // (1 + d / (8 D))^16
@@ -103,7 +104,27 @@ bool touches_a_focus(const FocusFrame& focus, LatticeInterval x, LatticeInterval
   return false;
 }
 
+float power_of_two(int exponent) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23);
+}
+
 }  // namespace
+
+double distance_of_largest(const PriorityFrame& frame, PriorityKey key) {
+  if (!(frame.least_inv_size2 > 0.0f) || key >= kCulledKey)
+    return std::numeric_limits<double>::infinity();
+  const double clear =
+      std::sqrt(static_cast<double>(std::bit_cast<float>(key)) / frame.least_inv_size2);
+  if (!(frame.inv_haze > 0.0f)) return clear;
+  // d (1 + d / (8 D))^8 = clear has one root; it lies in [0, clear].
+  double low = 0.0, high = clear;
+  for (int i = 0; i < 40; ++i) {
+    const double d = 0.5 * (low + high);
+    const double hazy = std::sqrt(haze_factor(static_cast<float>(d), frame.inv_haze));
+    (d * hazy < clear ? low : high) = d;
+  }
+  return low;
+}
 
 PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level) {
   const int half = subtree_half_size(frame.lattice_bits, level), n = 1 << frame.lattice_bits;
@@ -111,20 +132,27 @@ PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level) {
   const Interval ix = relative(box_x, frame.eye_floor.x, frame.eye_fraction.x);
   const Interval iy = relative(box_y, frame.eye_floor.y, frame.eye_fraction.y);
 
+  const float far_x = std::max(-ix.low, ix.high), far_y = std::max(-iy.low, iy.high);
+  const float most_drop = (far_x * far_x + far_y * far_y) * frame.drop_per_step2;
   for (const PriorityFrame::Plane& plane : frame.planes) {
     const float most_x = std::max(plane.nx * ix.low, plane.nx * ix.high);
     const float most_y = std::max(plane.ny * iy.low, plane.ny * iy.high);
-    if ((most_x + most_y) + plane.max_z < 0.0f) return kCulledKey;
+    const float most_z = most_drop * plane.by_drop + plane.max_z;
+    if ((most_x + most_y) + most_z < 0.0f) return kCulledKey;
   }
 
   const float dx = distance_to(ix), dy = distance_to(iy);
-  const float distance2 = (dx * dx + dy * dy) + frame.distance2_z;
-  const int exponent = 127 + (level & frame.level_mask);
-  const float inv_size2 = std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23);
-  float key = distance2 * std::max(inv_size2, frame.least_inv_size2);
+  const bool with_relief = frame.has_factors && frame.relief.counts;
+  const Relief relief = with_relief ? relief_in(frame, box_x, box_y, level) : Relief{};
+  const float dz = distance_to(relief.z);
+  const float horizontal2 = dx * dx + dy * dy;
+  if (horizontal2 > frame.horizon2) return kCulledKey;
+  const float distance2 = horizontal2 + (with_relief ? dz * dz : frame.distance2_z);
+  const float inv_size2 = std::max(power_of_two(level & frame.level_mask), frame.least_inv_size2);
+  const float inv_curved2 = power_of_two(level + level) * frame.curvature_inv_size2;
+  float key = distance2 * std::min(inv_size2, inv_curved2);
   if (frame.has_factors) {
-    if (frame.relief.counts)
-      key *= relief_factor(frame.relief, relief_in(frame, box_x, box_y, level), ix, iy);
+    if (with_relief) key *= relief_factor(frame.relief, relief, ix, iy);
     if (frame.inv_haze > 0.0f) key *= haze_factor(std::sqrt(distance2), frame.inv_haze);
     if (touches_a_focus(frame.focus, box_x, box_y, level)) key *= frame.focus.factor;
     key = std::min(key, kLastKey);

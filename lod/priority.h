@@ -2,16 +2,21 @@
 //
 // The priority of a diamond, in [0, 1], is 1 / sqrt(1 + k), with
 //   kProjectedSize    k = (d / size)^2, d the distance from the eye to the box around the diamond
-//                     and all its descendants (between the heights of the request), size the
+//                     and all its descendants (between the heights of the request, or of the relief
+//                     there if there is one), size the
 //                     diamond's width, here sqrt(2^-level) times the domain's, or the request's
 //                     largest size if that is less
 //   kInverseDistance  k = d^2: the paper's 1 / distance, whatever the size; it refines all of the
 //                     nearest part to the last level first, and so suits lattices of few bits
-// and 0 (k = infinity) if that box lies outside the view. k is then multiplied by what is asked for
-// of the squares of these:
+// and 0 (k = infinity) if that box lies outside the view, or behind the horizon of a round earth.
+// There a flat triangle of width s cuts off s^2 / (8 R'), which a horizon without waves shows. So
+// for kProjectedSize a size counts for at least kCurvatureCounts s^2 / (4 R' slope): the width at
+// which waves of the request's slope are missed by as much, times how much more it matters.
+// k is then multiplied by what is asked for of the squares of these:
 //   back_facing      if for all points p of the box (relative to the eye) and all normals
 //                    n = (-sx, -sy, 1) of the surface in it n.(-p) = sx px + sy py - pz is < 0
 //   off_silhouette   if that is < 0 for all or > 0 for all
+//   sunken           if all of it lies below height 0
 //   1 + (flat - 1) (1 - spread)   spread: width of the range of slopes in it over 0.5, at most 1
 //   (1 + d / (8 D))^8             D the haze's distance: like exp(d / D), 6 % less at d = D
 //   1 / focus_nearer if the box touches a focus and the diamond is wider than a quarter of the
@@ -30,6 +35,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 
 #include "lod/relief_bounds.h"
@@ -43,8 +49,8 @@ inline constexpr PriorityKey kCulledKey = 0x7f800000u;  // infinity: priority 0,
 // What the request says of normals. Unit: one lattice step.
 struct ReliefFrame {
   bool counts = false;
-  float back_facing = 1.0f, off_silhouette = 1.0f;  // of k
-  float flat_gain = 0.0f;                           // flat - 1
+  float back_facing = 1.0f, off_silhouette = 1.0f, sunken = 1.0f;  // of k
+  float flat_gain = 0.0f;                                          // flat - 1
   // Everywhere, if there are no cells:
   float max_slope = 1.0f;
   float z_low = 0.0f, z_high = 0.0f;  // relative to the eye
@@ -76,10 +82,15 @@ struct PriorityFrame {
   // Outside, if for one plane max(x n.x) + max(y n.y) + max_z < 0 over the box.
   struct Plane {
     float nx, ny, max_z;
+    float by_drop;  // what a step of the box's sinking adds
   };
   std::array<Plane, 5> planes{};
-  int level_mask = -1;           // -1: sizes count; 0: they do not
+  float drop_per_step2 = 0.0f;  // of a round earth, by the squared horizontal distance
+  float horizon2 = std::numeric_limits<float>::infinity();  // of this no box is seen beyond
+  int level_mask = -1;                                      // -1: sizes count; 0: they do not
   float least_inv_size2 = 0.0f;  // of the largest size, in units of the domain's
+  // The size that counts for a round earth's curvature is this times 4^level, likewise.
+  float curvature_inv_size2 = std::numeric_limits<float>::infinity();
 
   bool has_factors = false;  // any of these:
   ReliefFrame relief;
@@ -90,10 +101,15 @@ struct PriorityFrame {
 inline constexpr float kMostHaze = 2.0f;            // d / (8 D) counts to here
 inline constexpr float kInvFullSpread = 2.0f;       // of slopes
 inline constexpr float kLastKey = 0x1.fffffep127f;  // of diamonds in view
+inline constexpr double kCurvatureCounts = 16.0;    // over waves that are missed by as much
 
 // Checks that the request's numbers are finite, ordered and in their ranges. Distances
 // beyond 2^28 lattice steps count as that.
 PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& domain);
+
+// The distance from the eye, in lattice steps, at which the largest size has this key; infinity
+// without such a size.
+double distance_of_largest(const PriorityFrame& frame, PriorityKey key);
 
 // The key of the diamond centred at lattice point (x, y).
 PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level);

@@ -18,6 +18,7 @@ void check_request(const AdaptRequest& request) {
                   request.min_height_m <= request.max_height_m,
               "min_height_m={} max_height_m={}", request.min_height_m, request.max_height_m);
   SWELL_CHECK(request.largest_size_m > 0.0, "largest_size_m={}", request.largest_size_m);
+  SWELL_CHECK(request.earth_radius_m > 0.0, "earth_radius_m={}", request.earth_radius_m);
   SWELL_CHECK(std::isfinite(request.frustum_margin) && request.frustum_margin >= 0.0f,
               "frustum_margin={}", request.frustum_margin);
 }
@@ -25,9 +26,10 @@ void check_request(const AdaptRequest& request) {
 void check_factors(const AdaptRequest& request) {
   const PriorityFactors& f = request.factors;
   SWELL_CHECK(f.focus_nearer >= 1.0f && f.focus_nearer <= 64.0f, "focus_nearer={}", f.focus_nearer);
-  for (const float times : {f.back_facing, f.flat, f.off_silhouette})
-    SWELL_CHECK(times >= 1.0f && times <= 16.0f, "back_facing={} flat={} off_silhouette={}",
-                f.back_facing, f.flat, f.off_silhouette);
+  for (const float times : {f.back_facing, f.flat, f.off_silhouette, f.sunken})
+    SWELL_CHECK(times >= 1.0f && times <= 16.0f,
+                "back_facing={} flat={} off_silhouette={} sunken={}", f.back_facing, f.flat,
+                f.off_silhouette, f.sunken);
   SWELL_CHECK(f.haze_distance_m > 0.0f, "haze_distance_m={}", f.haze_distance_m);
   SWELL_CHECK(request.max_slope >= 0.0f && request.max_slope <= 1e6f, "max_slope={}",
               request.max_slope);
@@ -62,8 +64,24 @@ void set_planes(const AdaptRequest& request, float z_low, float z_high, Priority
     const glm::vec4& n = planes[i];
     SWELL_CHECK(std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z),
                 "plane={} normal=({}, {}, {})", i, n.x, n.y, n.z);
-    frame.planes[i] = {n.x, n.y, std::max(n.z * z_low, n.z * z_high)};
+    frame.planes[i] = {n.x, n.y, std::max(n.z * z_low, n.z * z_high), std::max(-n.z, 0.0f)};
   }
+}
+
+// How the surface bends away, and how far one sees over its lowest part to its highest.
+void set_earth(const AdaptRequest& request, const Domain& domain, PriorityFrame& frame) {
+  const double radius_m = request.earth_radius_m, step_m = domain.step_m();
+  if (!std::isfinite(radius_m)) return;
+  frame.drop_per_step2 = static_cast<float>(step_m / (2.0 * radius_m));
+  const double low_m = request.min_height_m, high_m = request.max_height_m;
+  const double horizon_m =
+      std::sqrt(2.0 * radius_m) *
+      (std::sqrt(std::max(request.view.eye_world.z - low_m, 0.0)) + std::sqrt(high_m - low_m));
+  frame.horizon2 = static_cast<float>((horizon_m / step_m) * (horizon_m / step_m));
+  if (request.priority != Priority::kProjectedSize) return;
+  const double slope = std::max(static_cast<double>(request.max_slope), 0.02);
+  const double of_domain = kCurvatureCounts * domain.size_m / (4.0 * radius_m * slope);
+  frame.curvature_inv_size2 = static_cast<float>(1.0 / (of_domain * of_domain));
 }
 
 // The deepest level of diamonds of a lattice of 2^bits steps that are wider than `width` steps:
@@ -78,9 +96,11 @@ int last_level_wider_than(int lattice_bits, double width) {
 
 void set_relief(const AdaptRequest& request, double step_m, ReliefFrame& relief) {
   const PriorityFactors& f = request.factors;
-  relief.counts = f.back_facing > 1.0f || f.flat > 1.0f || f.off_silhouette > 1.0f;
+  relief.counts = request.relief || f.back_facing > 1.0f || f.flat > 1.0f ||
+                  f.off_silhouette > 1.0f || f.sunken > 1.0f;
   relief.back_facing = f.back_facing * f.back_facing;
   relief.off_silhouette = f.off_silhouette * f.off_silhouette;
+  relief.sunken = f.sunken * f.sunken;
   relief.flat_gain = f.flat - 1.0f;
   relief.max_slope = request.max_slope;
   if (!request.relief) return;
@@ -140,6 +160,7 @@ PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& dom
   frame.distance2_z = z_distance * z_distance;
 
   set_planes(request, z_low, z_high, frame);
+  set_earth(request, domain, frame);
   set_relief(request, lattice.step_m, frame.relief);
   frame.relief.z_low = z_low, frame.relief.z_high = z_high;
   frame.relief.eye_z = static_cast<float>(lattice.steps(eye.z));

@@ -131,7 +131,9 @@ HWY_INLINE hn::Vec<F> ReliefFactor(const ReliefFrame& frame, const Relief& relie
   const auto flat = hn::Add(one, hn::Mul(hn::Set(d, frame.flat_gain), hn::Sub(one, spread)));
   const auto by_facing = hn::Mul(hn::IfThenElse(back, hn::Set(d, frame.back_facing), one),
                                  hn::IfThenElse(silhouette, one, hn::Set(d, frame.off_silhouette)));
-  return hn::Mul(by_facing, hn::Mul(flat, flat));
+  const auto below = hn::Lt(relief.z.high, hn::Set(d, -frame.eye_z));
+  const auto by_place = hn::Mul(by_facing, hn::IfThenElse(below, hn::Set(d, frame.sunken), one));
+  return hn::Mul(by_place, hn::Mul(flat, flat));
 }
 
 // (1 + d / (8 D))^16
@@ -165,6 +167,10 @@ HWY_INLINE hn::Mask<F> TouchesAFocus(const FocusFrame& focus, const Boxes& box, 
   return hn::AndNot(hn::RebindMask(d, apart), touches);
 }
 
+HWY_INLINE hn::Vec<F> PowerOfTwo(hn::Vec<I> exponent) {
+  return hn::BitCast(F(), hn::ShiftLeft<23>(hn::Add(exponent, hn::Set(I(), 127))));
+}
+
 // The keys of one vector of diamonds; priority_key in priority.cpp says the same in scalars.
 template <bool kWithFactors>
 HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const Axis& axis_y,
@@ -182,28 +188,43 @@ HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const
   const auto x_low = axis_x.Relative(box.x_low), x_high = axis_x.Relative(box.x_high);
   const auto y_low = axis_y.Relative(box.y_low), y_high = axis_y.Relative(box.y_high);
 
-  // Outside one of the planes?
+  // Outside one of the planes, sunk as far as any of it may be?
   auto outside = hn::FirstN(d, 0);
+  const auto far_x = hn::Max(hn::Neg(x_low), x_high), far_y = hn::Max(hn::Neg(y_low), y_high);
+  const auto most_drop = hn::Mul(hn::Add(hn::Mul(far_x, far_x), hn::Mul(far_y, far_y)),
+                                 hn::Set(d, frame.drop_per_step2));
   for (const PriorityFrame::Plane& plane : frame.planes) {
     const auto nx = hn::Set(d, plane.nx), ny = hn::Set(d, plane.ny);
     const auto most_x = hn::Max(hn::Mul(nx, x_low), hn::Mul(nx, x_high));
     const auto most_y = hn::Max(hn::Mul(ny, y_low), hn::Mul(ny, y_high));
-    const auto most = hn::Add(hn::Add(most_x, most_y), hn::Set(d, plane.max_z));
+    const auto most_z =
+        hn::Add(hn::Mul(most_drop, hn::Set(d, plane.by_drop)), hn::Set(d, plane.max_z));
+    const auto most = hn::Add(hn::Add(most_x, most_y), most_z);
     outside = hn::Or(outside, hn::Lt(most, hn::Zero(d)));
   }
 
   // (distance / size)^2.
   const auto dx = DistanceTo(x_low, x_high), dy = DistanceTo(y_low, y_high);
-  const auto distance2 =
-      hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Set(d, frame.distance2_z));
-  const auto exponent = hn::Add(hn::And(level, hn::Set(di, frame.level_mask)), hn::Set(di, 127));
-  const auto inv_size2 = hn::BitCast(d, hn::ShiftLeft<23>(exponent));
-  auto key = hn::Mul(distance2, hn::Max(inv_size2, hn::Set(d, frame.least_inv_size2)));
+  const auto horizontal2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+  outside = hn::Or(outside, hn::Gt(horizontal2, hn::Set(d, frame.horizon2)));
+  auto distance2_z = hn::Set(d, frame.distance2_z);
+  auto relief_factor = hn::Set(d, 1.0f);
   if constexpr (kWithFactors) {
     if (frame.relief.counts) {
       const Relief relief = ReliefIn(frame, box, level);
-      key = hn::Mul(key, ReliefFactor(frame.relief, relief, {x_low, x_high}, {y_low, y_high}));
+      const auto dz = DistanceTo(relief.z.low, relief.z.high);
+      distance2_z = hn::Mul(dz, dz);
+      relief_factor = ReliefFactor(frame.relief, relief, {x_low, x_high}, {y_low, y_high});
     }
+  }
+  const auto distance2 = hn::Add(horizontal2, distance2_z);
+  const auto inv_size2 = hn::Max(PowerOfTwo(hn::And(level, hn::Set(di, frame.level_mask))),
+                                 hn::Set(d, frame.least_inv_size2));
+  const auto inv_curved2 =
+      hn::Mul(PowerOfTwo(hn::Add(level, level)), hn::Set(d, frame.curvature_inv_size2));
+  auto key = hn::Mul(distance2, hn::Min(inv_size2, inv_curved2));
+  if constexpr (kWithFactors) {
+    key = hn::Mul(key, relief_factor);
     if (frame.inv_haze > 0.0f) key = hn::Mul(key, HazeFactor(hn::Sqrt(distance2), frame.inv_haze));
     const auto focused = TouchesAFocus(frame.focus, box, level);
     key = hn::IfThenElse(focused, hn::Mul(key, hn::Set(d, frame.focus.factor)), key);

@@ -36,6 +36,7 @@ struct PriorityFactors {
   float back_facing = 1.0f;     // that turn their back to the eye, wholly
   float flat = 1.0f;            // whose normals do not differ (in part, if they differ a little)
   float off_silhouette = 1.0f;  // that turn no edge to the eye
+  float sunken = 1.0f;          // that lie below height 0, wholly
 
   // Where haze leaves a share s = exp(-distance / haze_distance_m) of the contrast, priorities are
   // about s times as high. Infinity: clear air.
@@ -61,11 +62,14 @@ struct AdaptRequest {
   // counts them as this wide: half the mean wavelength for waves. > 0.
   double largest_size_m = std::numeric_limits<double>::infinity();
   float min_height_m = 0.0f, max_height_m = 0.0f;  // of all the surface, at all times
+  // The surface sinks by r^2 / (2 earth_radius_m) at the horizontal distance r from the eye, and
+  // what lies behind its own horizon gets priority 0. > 0; infinity: flat.
+  double earth_radius_m = std::numeric_limits<double>::infinity();
   // Triangles outside the frustum, widened by this angle's tangent, get priority 0.
   float frustum_margin = 0.0f;
   PriorityFactors factors = {};
-  // Which normals a part of the surface can have: as the relief at its place says, or with slopes
-  // of at most max_slope along each axis, at all times.
+  // How high a part of the surface can be and which normals it can have: as the relief there says,
+  // or between the heights above, with slopes of at most max_slope along each axis, at all times.
   const ReliefBounds* relief = nullptr;  // of the whole domain; outlives the next call
   float max_slope = 1.0f;
   std::span<const Focus> focuses = {};  // at most kMaxFocuses; read during the call only

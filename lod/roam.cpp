@@ -1,5 +1,6 @@
 #include "lod/roam.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -59,8 +60,18 @@ AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& 
   return done;
 }
 
+// Where the diamonds that are not split begin. Of a mesh that is not finished, where those that are
+// split end.
+double reach_of(Roam::Tree& tree, bool stopped) {
+  const std::optional<QueueMember> border =
+      stopped ? tree.merge_queue.first() : tree.split_queue.first();
+  if (!border) return std::numeric_limits<double>::infinity();
+  const double steps = distance_of_largest(tree.frame, border->key);
+  return std::max(steps, 1.0) * tree.domain.step_m();
+}
+
 void check_domain(const Domain& domain) {
-  SWELL_CHECK(domain.lattice_bits >= 1 && domain.lattice_bits <= 20, "lattice_bits={}",
+  SWELL_CHECK(domain.lattice_bits >= 1 && domain.lattice_bits <= 24, "lattice_bits={}",
               domain.lattice_bits);
   SWELL_CHECK(std::isfinite(domain.size_m) && domain.size_m > 0.0, "size_m={}", domain.size_m);
   SWELL_CHECK(std::isfinite(domain.min_world.x) && std::isfinite(domain.min_world.y),
@@ -105,7 +116,9 @@ AdaptStatistics Roam::adapt(const AdaptRequest& request) {
               request.limits.priority_groups);
   set_priorities(*tree_, make_priority_frame(request, tree_->domain),
                  request.limits.priority_groups);
-  return move_to_target(*tree_, request.triangle_budget, request.limits);
+  AdaptStatistics done = move_to_target(*tree_, request.triangle_budget, request.limits);
+  done.reach_m = reach_of(*tree_, done.stopped);
+  return done;
 }
 
 AdaptStatistics Roam::rebuild(const AdaptRequest& request) {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace swell::lod {
 struct Domain {
   glm::dvec2 min_world{0.0};  // lower left corner
   double size_m = 1.0;
-  int lattice_bits = 10;  // [1, 20]; the deepest triangles have legs of step_m()
+  int lattice_bits = 10;  // [1, 24]; the deepest triangles have legs of step_m()
 
   double step_m() const { return size_m / static_cast<double>(1 << lattice_bits); }
   glm::dvec2 point(glm::ivec2 p) const { return lattice_point(min_world, step_m(), glm::dvec2(p)); }
@@ -29,6 +30,9 @@ struct AdaptStatistics {
   int triangles = 0, splits = 0, merges = 0;
   bool stopped = false;            // at one of the request's limits, with work left
   bool operation_cap_hit = false;  // must never be true; tests require it
+  // Out to here, in metres from the eye, > 0, no triangle in view is wider than the request's
+  // largest_size_m; beyond, their vertices lie too far apart to follow a wave.
+  double reach_m = std::numeric_limits<double>::infinity();
 };
 
 // The triangulation as an indexed mesh. Order of vertices and triangles depends on the

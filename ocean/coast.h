@@ -40,8 +40,8 @@ inline float spectrum_weight(float share) {
 }
 
 // Makes `train_count` trains of the wind's sea and their phases over the floor. If not `blend`,
-// there are trains in deep water, too. The share falls to 0 over the grid's outer tenth. Errors as
-// make_train_sea.
+// there are trains in deep water, too. The share falls to 0 over the grid's rim, a tenth to three
+// tenths of its side wide. Errors as make_train_sea.
 CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WindSea& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers);
 

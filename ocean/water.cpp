@@ -18,8 +18,10 @@ using Room = std::span<float>;
 
 // 1 inside the area, falling to 0 over its last tenth.
 float edge(const SeaArea& area, glm::dvec2 p_world) {
-  const glm::dvec2 inside = 0.5 * area.size_m - glm::abs(p_world - area.centre_m);
-  const glm::dvec2 rim = kEdgePart * area.size_m;
+  if (area.is_endless()) return 1.0f;
+  const glm::dvec2 size_m = area.limits_m();
+  const glm::dvec2 inside = 0.5 * size_m - glm::abs(p_world - area.centre_m);
+  const glm::dvec2 rim = kEdgePart * size_m;
   if (inside.x >= rim.x && inside.y >= rim.y) return 1.0f;
   const glm::dvec2 t = glm::clamp(inside / rim, 0.0, 1.0);
   // Two smooth_blend(), multiplied from left to right: another order may give other bits.
@@ -165,7 +167,8 @@ WaterBounds bounds_of(const WaterParts& water) {
   bounds.height_m = static_cast<float>(sea_m) + trains_m;
   bounds.slope = static_cast<float>(sea_slope) + trains_slope;
   const double all_m = sea_m + static_cast<double>(trains_m);
-  const double rim_m = kEdgePart * std::min(water.area.size_m.x, water.area.size_m.y);
+  const glm::dvec2 limits_m = water.area.limits_m();
+  const double rim_m = kEdgePart * std::min(limits_m.x, limits_m.y);
   const double shallow = water.land ? sea_m / (0.2 + sea.significant_height_m()) : 0.0;
   bounds.steepest = sea_slope + 2.0 * all_m * 1.5 / rim_m + shallow;
   bounds.mean_wavelength_m = sea.mean_wavelength_m();

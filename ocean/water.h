@@ -7,7 +7,7 @@
 //   sea     spectrum waves on patches and sines: in the room that is left, fading where the water
 //   is
 //           shallower than they are high
-// All fade to the mean level over the area's last tenth.
+// All fade to the mean level over the last tenth of an area that has an end.
 //
 // A source is a struct in water.cpp with these members, for up to kChunk points at a time:
 //   take_room(p, room)                       room[i] *= what it leaves to the sources after it

@@ -9,6 +9,7 @@
 
 #include "math/check.h"
 #include "raster/sample_pattern.h"
+#include "render/view/object_shadows.h"
 #include "render/workspace.h"
 
 namespace swell::render {
@@ -106,6 +107,8 @@ std::array<RenderView*, 3> prepare_views(const World::State& world, const View& 
   refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
   ws.window.camera = view;
   reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
+  for (RenderView* const shown : {&ws.window, &reflection, &refraction})
+    shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
   return {&ws.window, &reflection, &refraction};
 }
 
@@ -183,18 +186,21 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
           triangulate(world_state, drawn, options, ws.meshes, run);
         });
       });
+  const Light light = make_light(world_state, clouds, ws.sky.soft);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
     place_objects(world_state, ws.sea, drawn, ws.meshes, views);
+    find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
+                        ws.meshes.objects, run);
   });
   stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,
                  run);
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
-  const Light light = make_light(world_state, clouds, ws.sky.soft);
   const Media media = make_media(world_state, light, options.without);
   MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
+  inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   stage(Stage::kLookups, [&](const StageRun& run) {
     draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.lookups, run);
     fill_shading(inputs, ws.window, options.tile_size_px, ws.shading);

@@ -105,7 +105,7 @@ FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene
 struct Target {
   int width_px = 0, height_px = 0;
   std::vector<std::uint32_t> rgba;  // 8-bit sRGB, R in the low byte, alpha 255; row by row
-  std::vector<float> linear;        // RGB linear light before exposure, if asked for
+  std::vector<float> linear;        // RGB linear light before the tone curve, if asked for
   Labels labels;                    // as asked for
 };
 

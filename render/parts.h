@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 
@@ -17,14 +18,19 @@ enum class Part : std::uint8_t {
   kRipples,     // the water's waves too short for the wave patches
   kWhitecaps,   // foam of the open sea
   kHaze,        // between the eye and what it sees
+  kEarth,       // its curve: without it the sea is flat
   kClouds,      // in the sky, and in what the water mirrors of it
+  kShadows,     // of land and objects before sun or moon
+  kHulls,       // foam and dark water where floating things meet it
+  kApron,       // the ground beyond the terrain's square
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples", "whitecaps", "haze", "clouds"};
+    "reflection", "refraction", "ripples", "whitecaps", "haze",
+    "earth",      "clouds",     "shadows", "hulls",     "apron"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }
@@ -32,6 +38,9 @@ constexpr std::string_view part_name(Part part) {
 class PartSet {
  public:
   constexpr PartSet() = default;
+  constexpr PartSet(std::initializer_list<Part> parts) {
+    for (const Part part : parts) add(part);
+  }
   constexpr bool has(Part part) const { return (bits_ >> static_cast<unsigned>(part) & 1) != 0; }
   constexpr void add(Part part) { bits_ |= 1u << static_cast<unsigned>(part); }
   constexpr void add(PartSet parts) { bits_ |= parts.bits_; }

@@ -11,49 +11,10 @@
 namespace swell::scene {
 namespace {
 
-constexpr double kRayleighHeight_m = 8000.0, kMieHeight_m = 1200.0;
-constexpr double kOzoneMiddle_m = 25000.0, kOzoneHalfWidth_m = 15000.0;
-constexpr double kMieAlbedo = 0.92, kAngstrom = 0.7;
-constexpr double kNarrow = 0.88, kWide = 0.45, kNarrowPart = 0.53;
 constexpr double kSeaAlbedo = 0.08;
 constexpr double kTop_m = kEarthRadius_m + kAirTop_m;
 
-// ---- The air at a height
-
-struct Density {
-  double rayleigh, mie, ozone;
-};
-
-Density density_at(double height_m) {
-  return {exp(-height_m / kRayleighHeight_m), exp(-height_m / kMieHeight_m),
-          std::max(0.0, 1.0 - std::abs(height_m - kOzoneMiddle_m) / kOzoneHalfWidth_m)};
-}
-
-glm::dvec3 extinction_per_m(const Air& air, const Density& d) {
-  return air.rayleigh_per_m * d.rayleigh + air.mie_per_m * d.mie + air.ozone_per_m * d.ozone;
-}
-
 glm::dvec3 exp_each(glm::dvec3 x) { return {exp(x.x), exp(x.y), exp(x.z)}; }
-
-// ---- Rays from a height, towards the sine of an elevation
-
-double height_along(double radius_m, double sine, double t_m) {
-  return std::sqrt(std::max(radius_m * radius_m + t_m * (t_m + 2.0 * radius_m * sine), 0.0)) -
-         kEarthRadius_m;
-}
-
-// None where the ray leaves the earth alone.
-std::optional<double> distance_to_sea_m(double radius_m, double sine) {
-  const double in_circle =
-      kEarthRadius_m * kEarthRadius_m - radius_m * radius_m * (1.0 - sine * sine);
-  if (sine >= 0.0 || in_circle < 0.0) return std::nullopt;
-  return std::max(-radius_m * sine - std::sqrt(in_circle), 0.0);
-}
-
-double distance_to_top_m(double radius_m, double sine) {
-  const double in_circle = kTop_m * kTop_m - radius_m * radius_m * (1.0 - sine * sine);
-  return std::max(-radius_m * sine + std::sqrt(std::max(in_circle, 0.0)), 0.0);
-}
 
 // ---- Tables
 
@@ -96,14 +57,14 @@ Between height_row(double height_m) {
 // Light of optical depth up to the air's top, for a ray that misses the earth.
 glm::dvec3 transmittance_to_top(const Air& air, double radius_m, double sine) {
   constexpr int kSteps = 60;
-  const double length_m = distance_to_top_m(radius_m, sine);
+  const double length_m = distance_to_air_top_m(radius_m, sine);
   glm::dvec3 depth(0.0);
   for (int i = 0; i < kSteps; ++i) {
     // Steps that grow from the start, where air is densest or the ray lowest.
     const double begin = double(i) / kSteps, end = double(i + 1) / kSteps;
     const double t = 0.5 * (begin * begin + end * end), dt = end * end - begin * begin;
-    depth += extinction_per_m(air, density_at(height_along(radius_m, sine, t * length_m))) *
-             (dt * length_m);
+    depth +=
+        air_light(air, height_along(radius_m, sine, t * length_m)).lost_per_m * (dt * length_m);
   }
   return exp_each(-depth);
 }
@@ -141,7 +102,7 @@ HeightRow height_row_of(double height_m) {
 glm::vec3 transmittance_over_horizon(const Atmosphere& atmosphere, const HeightRow& at,
                                      double sine) {
   const double place =
-      (distance_to_top_m(at.radius_m, sine) - at.nearest_m) * at.inv_span_m * (kDistances - 1);
+      (distance_to_air_top_m(at.radius_m, sine) - at.nearest_m) * at.inv_span_m * (kDistances - 1);
   return interpolate(atmosphere.transmittance, kDistances, at.row, between(place, kDistances));
 }
 
@@ -203,21 +164,21 @@ Path trace(const Air& air, double height_m, double sine, int step_count) {
   Path path;
   const std::optional<double> sea_m = distance_to_sea_m(radius_m, sine);
   path.meets_sea = sea_m.has_value();
-  const double length_m = sea_m ? *sea_m : distance_to_top_m(radius_m, sine);
+  const double length_m = sea_m ? *sea_m : distance_to_air_top_m(radius_m, sine);
   glm::dvec3 left(1.0);
   for (int i = 0; i < step_count; ++i) {
     const double begin = double(i) / step_count, end = double(i + 1) / step_count;
     const double t_m = 0.5 * (begin * begin + end * end) * length_m;
     const double dt_m = (end * end - begin * begin) * length_m;
     const double h_m = std::max(height_along(radius_m, sine, t_m), 0.0);
-    const Density density = density_at(h_m);
-    const glm::dvec3 lost = glm::max(extinction_per_m(air, density), 1e-12);
+    const AirLight here = air_light(air, h_m);
+    const glm::dvec3 lost = glm::max(here.lost_per_m, 1e-12);
     const glm::dvec3 passes = exp_each(-lost * dt_m);
     const glm::dvec3 weight = left * (1.0 - passes) / lost;
     const double r_m = kEarthRadius_m + h_m;
     path.steps.push_back({height_row_of(h_m), source_row(h_m), (radius_m + t_m * sine) / r_m,
-                          t_m * cosine / r_m, weight * air.rayleigh_per_m * density.rayleigh,
-                          weight * air.mie_per_m * (kMieAlbedo * density.mie)});
+                          t_m * cosine / r_m, weight * here.rayleigh_per_m,
+                          weight * here.mie_per_m});
     left *= passes;
   }
   path.sea = left * kSeaAlbedo;
@@ -257,25 +218,6 @@ glm::vec3 scatter_evenly(const std::vector<glm::vec3>& source, const Path& path,
            interpolate(source, kSourceSines, step.source, source_column(sine));
   }
   return sum;
-}
-
-// Source: Rayleigh 1871.
-double rayleigh_phase(double cos_theta) {
-  return 3.0 / (16.0 * kPi) * (1.0 + cos_theta * cos_theta);
-}
-
-// Source: L. G. Henyey, J. L. Greenstein, Diffuse radiation in the galaxy, 1941, eq. 2.
-double henyey_greenstein(double cos_theta, double g) {
-  const double base = 1.0 + g * g - 2.0 * g * cos_theta;
-  return (1.0 - g * g) / (4.0 * kPi * base * std::sqrt(base));
-}
-
-// Haze throws a narrow beam forward, and the rest widely: two terms, of mean cosine 0.68.
-// Source: G. W. Kattawar, A three-parameter analytic phase function for multiple scattering
-// calculations, 1975.
-double mie_phase(double cos_theta) {
-  return kNarrowPart * henyey_greenstein(cos_theta, kNarrow) +
-         (1.0 - kNarrowPart) * henyey_greenstein(cos_theta, kWide);
 }
 
 // ---- Orders of scattering
@@ -391,16 +333,6 @@ constexpr int kRows = 64, kColumns = 49, kViewSteps = 32;
 constexpr double kEye_m = 2.0;
 
 }  // namespace
-
-Air make_air(double turbidity) {
-  Air air;
-  const double depth = (turbidity - 1.0) * air.rayleigh_per_m.y * kRayleighHeight_m;
-  const auto at = [&](double wavelength_nm) {
-    return depth / kMieHeight_m * pow(wavelength_nm / 550.0, -kAngstrom);
-  };
-  air.mie_per_m = {at(680.0), at(550.0), at(440.0)};
-  return air;
-}
 
 Atmosphere make_atmosphere(double turbidity, Workers& workers) {
   Atmosphere atmosphere;

@@ -8,29 +8,16 @@
 // for in twilight all light comes from far away.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "math/parallel.h"
+#include "scene/air.h"
 
 namespace swell::scene {
 
-inline constexpr double kEarthRadius_m = 6360e3;
-inline constexpr double kAirTop_m = 100e3;
 // Half the angle that the sun and the moon measure.
 inline constexpr double kSunRadius_rad = 0.004654;
-
-// Three wavelengths, 680, 550 and 440 nm, stand for linear red, green and blue.
-struct Air {
-  glm::dvec3 rayleigh_per_m{5.802e-6, 13.558e-6, 33.1e-6};  // at sea level, scattered
-  glm::dvec3 mie_per_m{0.0};                                // at sea level, scattered and absorbed
-  glm::dvec3 ozone_per_m{2.2e-6, 1.7e-6, 0.2e-6};           // at 25 km, absorbed
-};
-
-// turbidity: the optical depth of molecules and haze over that of molecules alone, at 550 nm, in
-// [1, 20]; 1 is pure air.
-Air make_air(double turbidity);
 
 // Of light that comes from one direction with irradiance 1 outside the air.
 struct Atmosphere {
@@ -40,7 +27,7 @@ struct Atmosphere {
                                          // mean radiance of what was scattered once or more
 };
 
-// The same bits with any workers. About 25 ms on two threads.
+// The same bits with any workers. About 40 ms on two threads.
 Atmosphere make_atmosphere(double turbidity, Workers& workers);
 
 // The part of a light's rays that reach a height [0, kAirTop_m] from the sine of an elevation; 0

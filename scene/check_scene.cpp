@@ -121,8 +121,6 @@ Fault fault_of_sea(const Scene& scene) {
   if (std::ranges::adjacent_find(lengths, std::less_equal{}) != lengths.end())
     return SceneFault{"sea.patch_lengths_m", fmt::format("[{}]", fmt::join(lengths, ", ")),
                       "lengths that go down"};
-  if (scene.douglas && scene.beaufort)
-    return SceneFault{"sea.beaufort", "it besides sea.douglas", "one of them"};
   return std::nullopt;
 }
 

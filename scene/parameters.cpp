@@ -20,6 +20,11 @@ struct TriangulationName {
   auto& operator()(auto& scene) const { return scene.detail.triangulation; }
 };
 
+struct EarthName {
+  static constexpr std::array<std::string_view, 2> words = {"flat", "round"};
+  auto& operator()(auto& scene) const { return scene.round_earth; }
+};
+
 struct SkyModelName {
   static constexpr std::array<std::string_view, 2> words = {"atmosphere", "gradient"};
   auto& operator()(auto& scene) const { return scene.sky.model; }
@@ -120,7 +125,10 @@ Rows sky_rows() {
           "it the gradient goes on, to 1.15 `horizon` - 0.15 `zenith`; [0.65, 0.75, 0.85] if left "
           "out"),
       SceneRow::number("sky.haze_distance_m", {10, 1e7, "m"}, SWELL_FIELD(sky.haze_distance_m),
-                       "at this range 1/e of the contrast is left"),
+                       "at sea level 1/e of the contrast is left at this range"),
+      SceneRow::number("sky.haze_height_m", {10, 1e7, "m"}, SWELL_FIELD(sky.haze_height_m),
+                       "the haze thins with height: 1/e of it is left at this one; 1e7: the same "
+                       "at all heights"),
       SceneRow::number("sky.cloud_cover", {0, 1}, SWELL_FIELD(sky.cloud_cover),
                        "part of the sky that clouds cover; 1 is overcast"),
       SceneRow::integer("sky.cloud_seed", Kind::kInteger, {0, kMaxSeed},
@@ -162,9 +170,13 @@ Rows sea_rows() {
       SceneRow::number("sea.whitecaps", {0, 10}, SWELL_FIELD(sea.whitecaps),
                        "multiplies the part of the open sea that foam covers; 0: no foam there"),
       SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),
-                       "middle of the rectangle that waves displace: east, north"),
-      SceneRow::vector("sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),
-                       "its size, west to east and south to north"),
+                       "middle of the rectangle that `size_m` limits waves to: east, north"),
+      SceneRow::or_zero(SceneRow::vector(
+          "sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),
+          "its size, west to east and south to north; outside, waves are in the shading alone; "
+          "0: no limit, waves go on to the horizon")),
+      SceneRow::choice("sea.earth", EarthName{},
+                       "round: what is far sinks by r^2 / 14646 km and behind the horizon"),
       SceneRow::number("wind.speed_mps", {0, 60, "m/s"}, SWELL_FIELD(sea.wind_speed_mps),
                        "at 10 m above the sea; 0 makes no wind waves"),
       SceneRow::angle("wind.from_deg", {-360, 360, "deg"}, SWELL_FIELD(sea.wind_from_rad),

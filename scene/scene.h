@@ -36,7 +36,8 @@ struct Sky {
   double moon_phase = 1.0;  // lit part of the moon's disc, [0, 1]
   // The gradient's (scene::gradient_of). A sky that has one of them is a gradient.
   std::optional<glm::vec3> sun_radiance, zenith, horizon;
-  double haze_distance_m = 15000.0;  // exponential haze: 1/e of the contrast is left at this range
+  double haze_distance_m = 15000.0;  // at sea level 1/e of the contrast is left at this range
+  double haze_height_m = 1200.0;     // at this height there is 1/e of the haze
   double cloud_cover = 0.3;          // [0, 1]
   std::uint64_t cloud_seed = 7;
   std::optional<double> exposure;  // none: that of the sky's light, 1 for a gradient
@@ -112,6 +113,7 @@ struct Scene {
   // the patch lengths if the file has none, follow from it and stand in `sea`.
   std::optional<int> douglas, beaufort;
   SeaArea area;
+  bool round_earth = true;  // false: flat, with the horizon at infinity
   WaterOptics water;
   Coast coast;
   Detail detail;

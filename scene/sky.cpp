@@ -158,6 +158,6 @@ glm::vec3 clear_radiance(const SkyLight& light, glm::vec3 direction) {
   return radiance;
 }
 
-double automatic_exposure(double light) { return 2.5 * pow(light, -0.83); }
+double automatic_exposure(double light) { return 2.2 * pow(light, -0.83); }
 
 }  // namespace swell::scene

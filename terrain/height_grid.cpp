@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "math/check.h"
+#include "terrain/apron.h"
 
 namespace swell::terrain {
 namespace {
@@ -38,6 +39,8 @@ Corners find_corners(const HeightGrid& heights, glm::dvec2 p) {
 }  // namespace
 
 double height_at(const HeightGrid& heights, glm::dvec2 p_world) {
+  if (heights.apron.width_m > 0.0 && !heights.grid.holds(p_world))
+    return height_on_apron(heights, p_world);
   const Corners c = find_corners(heights, p_world);
   const double south = c.h00 + c.fx * (c.h10 - c.h00);
   const double north = c.h01 + c.fx * (c.h11 - c.h01);

@@ -29,19 +29,34 @@ struct Grid {
   }
   // From the first sample of a row to its last: the side of a square.
   double size_m() const { return spacing_m * (samples_x - 1); }
+  glm::dvec2 extent_m() const { return spacing_m * glm::dvec2(samples_x - 1, samples_y - 1); }
+  bool holds(glm::dvec2 p_world) const {  // border included; NaN is nowhere
+    const glm::dvec2 high = min_world + extent_m();
+    return p_world.x >= min_world.x && p_world.y >= min_world.y && p_world.x <= high.x &&
+           p_world.y <= high.y;
+  }
+};
+
+// The ground around a map (terrain/apron.h): it goes on and sinks to the floor over this width.
+struct Apron {
+  double width_m = 0.0;  // 0: none, the height of the border goes on
+  double floor_m = 0.0;  // from there on
+  bool operator==(const Apron&) const = default;
 };
 
 // Heights above mean sea level in metres: positive on land, negative under water.
 struct HeightGrid {
   Grid grid;
   std::vector<float> height_m = {};         // sample (i, j) at grid.index(i, j)
-  float lowest_m = 0.0f, highest_m = 0.0f;  // set by build_terrain() (terrain/terrain.h)
+  float lowest_m = 0.0f, highest_m = 0.0f;  // of the samples; set by build_terrain()
+  Apron apron = {};                         // likewise (terrain/terrain.h)
 };
 
-// Bilinear height at a world point, and its slopes dH/dx and dH/dy in the cell there. Beyond the
-// grid the height of its border goes on. The grid has a sample or more; NaN counts as the lower
-// border.
+// Bilinear height at a world point. Beyond the grid there is its apron, or without one the height
+// of the border. The grid has a sample or more; NaN counts as the lower border, or as far away.
 double height_at(const HeightGrid& heights, glm::dvec2 p_world);
+
+// Its slopes dH/dx and dH/dy in the cell there; beyond the grid those of the cell at the border.
 glm::dvec2 slope_at(const HeightGrid& heights, glm::dvec2 p_world);
 
 // height_at() of many points. p_world and height_m have the same length and do not overlap. May run

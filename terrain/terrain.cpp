@@ -8,6 +8,7 @@
 #include <string>
 
 #include "math/elementary.h"
+#include "terrain/apron.h"
 #include "terrain/island.h"
 #include "terrain/sea_floor.h"
 #include "texture/image_io.h"
@@ -155,6 +156,7 @@ HeightGrid build_terrain(const TerrainDescription& description) {
   const auto [lowest, highest] = std::ranges::minmax_element(terrain.height_m);
   terrain.lowest_m = *lowest;
   terrain.highest_m = *highest;
+  terrain.apron = make_apron(terrain);
   return terrain;
 }
 

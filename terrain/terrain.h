@@ -1,5 +1,6 @@
 // The sea floor and the land: heights on a square, from a height image, from a coast line or from
-// noise. From noise, the border of the square is the deep floor.
+// noise. From noise, the border of the square is the deep floor. Beyond the square the ground goes
+// on and sinks into the sea (terrain/apron.h).
 #pragma once
 
 #include <cstdint>
@@ -49,10 +50,10 @@ inline constexpr int kMaxImageSide = 4096;
 // The side of the square that build_terrain() makes; none for images, whose size is in the file.
 std::optional<double> described_size_m(const TerrainDescription& description);
 
-// A square of heights with lowest_m and highest_m set: 1025 samples a side from noise, 513 from a
-// coast line, the image's side from images, where one pixel makes a flat square of 2 x 2. Rows go
-// northwards. Single-threaded, the same bits everywhere. Throws TerrainError (bad values) or
-// texture::FileError (bad image).
+// A square of heights with an apron, lowest_m and highest_m set: 1025 samples a side from noise,
+// 513 from a coast line, the image's side from images, where one pixel makes a flat square of 2
+// x 2. Rows go northwards. Single-threaded, the same bits everywhere. Throws TerrainError (bad
+// values) or texture::FileError (bad image).
 HeightGrid build_terrain(const TerrainDescription& description);
 
 }  // namespace swell::terrain

@@ -30,12 +30,13 @@ std::string model_name(const scene::Scene& scene, const scene::Water& water) {
   return scene.sea.sines.empty() ? "flat" : "sines";
 }
 
-// Points spread over the sea's area, in no order.
+// Points spread over the sea's area, or 3000 x 2000 m of a larger one, in no order.
 std::vector<glm::dvec2> scattered_points(const scene::SeaArea& area, int count) {
+  const glm::dvec2 size_m = glm::min(area.limits_m(), glm::dvec2(3000.0, 2000.0));
   std::vector<glm::dvec2> points(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::dvec2 unit(random_uniform(1, 2 * i), random_uniform(1, 2 * i + 1));
-    points[i] = area.centre_m + (unit - 0.5) * area.size_m;
+    points[i] = area.centre_m + (unit - 0.5) * size_m;
   }
   return points;
 }

@@ -63,13 +63,17 @@ void write_filter(const WaveFigures& figures, const scene::Scene& scene) {
              2.0 * kPi / length_m, length_m);
 }
 
+glm::dvec2 shown_size_m(const scene::SeaArea& area) {
+  return glm::min(area.limits_m(), glm::dvec2(4000.0));
+}
+
 void write_map(const WaveFigures& figures, const scene::Scene& scene, const scene::Water& water,
                const scene::WaterSurface& surface) {
   const terrain::HeightGrid* terrain = water.terrain();
   const glm::dvec2 centre =
       terrain ? terrain->grid.min_world + 0.5 * terrain->grid.size_m() : scene.area.centre_m;
-  const double widest =
-      terrain ? terrain->grid.size_m() : std::min(scene.area.size_m.x, scene.area.size_m.y);
+  const glm::dvec2 size_m = shown_size_m(scene.area);
+  const double widest = terrain ? terrain->grid.size_m() : std::min(size_m.x, size_m.y);
   const double from = scene.sea.wind_from_rad;
   const MapView view{point("--centre", figures.centre_m, centre),
                      figures.side_m > 0.0 ? figures.side_m : widest,
@@ -82,7 +86,7 @@ void write_map(const WaveFigures& figures, const scene::Scene& scene, const scen
 
 void write_section(const WaveFigures& figures, const scene::Scene& scene, const scene::Water& water,
                    const scene::WaterSurface& surface) {
-  const glm::dvec2 half(0.5 * scene.area.size_m.x, 0.0);
+  const glm::dvec2 half(0.5 * shown_size_m(scene.area).x, 0.0);
   const glm::dvec2 from = point("--from", figures.from_m, scene.area.centre_m - half);
   const glm::dvec2 to = point("--to", figures.to_m, scene.area.centre_m + half);
   if (from == to) throw OptionError("command line: --to, got the same point as --from");

@@ -86,10 +86,12 @@ void Peer::State::take_maps(const Workspace::State& frame) {
     bind_layer(kCoastSurfUnit, sea.coast_surf, Levels::kNearest, true);
   }
   const auto& terrain = s.material<render::Terrain>();
-  if (terrain.albedo) {
-    bind_layer(kTerrainSlopesUnit, terrain.slopes, Levels::kBlended, false);
+  if (terrain.map.albedo) {
+    bind_layer(kTerrainSlopesUnit, terrain.map.slopes, Levels::kBlended, false);
+    bind_layer(kAroundSlopesUnit, terrain.around.slopes, Levels::kBlended, false);
     bind_layer(kDetailUnit, terrain.detail, Levels::kBlended, false);
-    bind_texture(kAlbedoUnit, maps.image(*terrain.albedo));
+    bind_texture(kAlbedoUnit, maps.image(*terrain.map.albedo));
+    bind_texture(kAroundAlbedoUnit, maps.image(*terrain.around.albedo));
   }
   bind_texture(kReflectionUnit, reflection.colour());
   bind_texture(kRefractionUnit, refraction.colour());

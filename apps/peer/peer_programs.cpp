@@ -93,6 +93,8 @@ void set_view(const Shading& s, const View& camera, const GlProgram& program) {
   program.set("ambient", s.light.ambient);
   program.set("horizon", s.light.horizon);
   program.set("inv_haze_m", s.media.inv_haze_m);
+  program.set("inv_haze_height_m", s.media.inv_haze_height_m);
+  program.set("drop_per_m2", s.rays.drop_per_m2);
   program.set("exposure", s.exposure);
   program.set("body", s.media.body);
   program.set("absorption_per_m", s.media.absorption_per_m);
@@ -113,7 +115,7 @@ void set_layer(const SlopeLayer& layer, const std::string& name, const GlProgram
 
 void set_foam(const render::Foam& foam, const GlProgram& program) {
   set_layer(foam.pattern, "foam", program);
-  program.set("foam_light", foam.light);
+  program.set("foam_light", foam.sky_light + foam.sun_light);
 }
 
 void set_waves(const render::Water& water, const GlProgram& program) {
@@ -147,9 +149,11 @@ void set_water(const Shading& s, const GlProgram& program) {
     set_foam(water.foam, program);
   }
   program.set("mirrored_sea", water.mirrored_sea);
+  program.set("mirrored_floor_part", water.mirrored_floor_part);
   program.set("wave_horizon", water.wave_horizon);
   program.set("crest_glow", water.crest_glow);
   program.set("inv_crest_height", water.inv_crest_height);
+  program.set("inv_wave_reach", water.inv_wave_reach);
   program.set("inv_window", 1.0f / glm::vec2(s.viewport.width_px, s.viewport.height_px));
   program.set("distortion_px", water.distortion_px);
   program.set("max_distortion_px", water.max_distortion_px);
@@ -157,19 +161,26 @@ void set_water(const Shading& s, const GlProgram& program) {
   program.set("view_ahead", water.view_ahead);
 }
 
+void set_ground(const render::GroundLayer& ground, const std::string& name,
+                const GlProgram& program) {
+  set_layer(ground.slopes, name + "slopes", program);
+  const auto size = static_cast<float>(ground.albedo->width);
+  program.set(
+      name + "albedo_place",
+      glm::vec3(ground.albedo_texels_per_m, ground.albedo_x_eye, ground.albedo_y_eye) / size);
+}
+
 void set_terrain(const Shading& s, const GlProgram& program) {
   const auto& terrain = s.material<render::Terrain>();
-  if (!terrain.albedo) return;
-  set_layer(terrain.slopes, "slopes", program);
+  if (!terrain.map.albedo) return;
+  set_ground(terrain.map, "", program);
+  set_ground(terrain.around, "around_", program);
   set_layer(terrain.detail, "detail", program);
-  const auto size = static_cast<float>(terrain.albedo->width);
-  program.set(
-      "albedo_place",
-      glm::vec3(terrain.albedo_texels_per_m, terrain.albedo_x_eye, terrain.albedo_y_eye) / size);
   program.set("swash_reach_m", terrain.swash.reach_m);
   program.set("swash_cycles", terrain.swash.cycles);
   program.set("lag_a", terrain.swash.lag_a);
   program.set("lag_b", terrain.swash.lag_b);
+  program.set("lag_c", terrain.swash.lag_c);
   set_foam(terrain.foam, program);
 }
 

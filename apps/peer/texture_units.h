@@ -17,6 +17,8 @@ enum TextureUnit : int {
   kTerrainSlopesUnit,
   kDetailUnit,
   kAlbedoUnit,
+  kAroundSlopesUnit,
+  kAroundAlbedoUnit,
   kWindowDistanceUnit,
   kReflectionDistanceUnit,
   kRefractionDistanceUnit,
@@ -25,7 +27,8 @@ enum TextureUnit : int {
 
 // The shaders' names of the units before the distances', which are "distance_map" of their view.
 inline constexpr std::array<const char*, kWindowDistanceUnit> kSamplerNames = {
-    "sky_soft",   "sky_clear",  "noise",          "foam_pattern", "coast_slopes", "coast_surf",
-    "reflection", "refraction", "terrain_slopes", "detail",       "albedo_map"};
+    "sky_soft",   "sky_clear",     "noise",        "foam_pattern",   "coast_slopes",
+    "coast_surf", "reflection",    "refraction",   "terrain_slopes", "detail",
+    "albedo_map", "around_slopes", "around_albedo"};
 
 }  // namespace swell::apps

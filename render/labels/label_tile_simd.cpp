@@ -209,8 +209,15 @@ HWY_INLINE V FoamOf(const LabelTile& tile, const LabelPacket& p) {
   return OfWater(tile.shaded->foam_cover, p);
 }
 
+// How far the sea has sunk where a packet's pixels look, on a round earth.
+HWY_INLINE V DropOf(const ViewRays& rays, const LabelPacket& p) {
+  const V x = hn::Mul(p.depth, p.ray.x), y = hn::Mul(p.depth, p.ray.y);
+  return hn::Mul(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(rays.drop_per_m2));
+}
+
 HWY_INLINE V ElevationOf(const Shading& s, const LabelPacket& p) {
-  return hn::IfThenElseZero(p.is_water, hn::MulAdd(p.depth, p.ray.z, Constant(s.rays.eye_z)));
+  const V height = hn::MulAdd(p.depth, p.ray.z, Constant(s.rays.eye_z));
+  return hn::IfThenElseZero(p.is_water, hn::Add(height, DropOf(s.rays, p)));
 }
 
 // How far what is seen moves in the world to the next frame.

@@ -71,7 +71,7 @@ HWY_INLINE V3 AddClouds(const Clouds& clouds, V3 direction, V pixel_angle_log2, 
   const V opacity = hn::Mul(hn::Sub(one, passes), shown);
 
   // Light that comes through, less of it where clouds are thick; and at their bright sides.
-  const V through = hn::Div(one, hn::MulAdd(cloud.depth, Constant(kCloudLoss), one));
+  const V through = hn::Div(one, hn::MulAdd(cloud.depth, Constant(clouds.light.loss), one));
   const V bright = Clamp(hn::MulAdd(cloud.bright, Constant(0.5f), one), 0.6f, 1.5f);
   // The zenith of an overcast sky is three times as bright as its horizon.
   // Source: Moon, Spencer, Illumination from a non-uniform sky, 1942.

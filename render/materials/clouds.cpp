@@ -35,7 +35,7 @@ void set_means(CloudLight& clouds) {
     const double over = std::max(x - clouds.threshold, 0.0);
     const double depth = kCloudDepth * over * over, clear = exp(-depth);
     opacity += weight * (1.0 - clear);
-    through += weight * (1.0 - clear) / (1.0 + kCloudLoss * depth);
+    through += weight * (1.0 - clear) / (1.0 + static_cast<double>(clouds.loss) * depth);
     passes += weight * clear;
     weights += weight;
   }
@@ -66,6 +66,9 @@ CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, flo
   const float incident = 0.85f * std::max(light.to_light.z, 0.0f) + 0.12f;
   clouds.base = light.cloud_irradiance * (incident / static_cast<float>(kPi)) + 0.9f * ambient;
   clouds.forward = light.cloud_irradiance;
+  // A closed layer is thicker, and more even.
+  clouds.loss *= 1.0f - 0.7f * clouds.overcast;
+  clouds.base *= 1.0f - 0.4f * clouds.overcast;
   set_means(clouds);
   return clouds;
 }

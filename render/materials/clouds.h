@@ -16,8 +16,6 @@ namespace swell::render {
 
 // Optical depth of clouds at one deviation of the noise over the threshold; with its square.
 inline constexpr float kCloudDepth = 1.3f;
-// Clouds let 1 / (1 + kCloudLoss depth) of the light through that falls on them.
-inline constexpr float kCloudLoss = 0.11f;
 
 // light: exposed. ambient: mean radiance of the clear sky.
 CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, float cover);

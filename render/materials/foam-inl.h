@@ -28,8 +28,10 @@ HWY_INLINE V FoamCover(const Foam& material, V3 p, V level_m, V foam) {
   return hn::IfThenElseZero(some, Clamp(hn::Mul(over, Constant(1.0f / kSoft)), 0.0f, 1.0f));
 }
 
-HWY_INLINE V3 AddFoam(const Foam& material, V cover, V3 light) {
-  return Lerp(light, Constant(material.light), hn::Mul(cover, Constant(0.92f)));
+// sun_visible: the part of the sun that the foam sees.
+HWY_INLINE V3 AddFoam(const Foam& material, V cover, V sun_visible, V3 light) {
+  const V3 foam = ScaleAdd(Constant(material.sun_light), sun_visible, Constant(material.sky_light));
+  return Lerp(light, foam, hn::Mul(cover, Constant(0.92f)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,11 +9,15 @@
 namespace swell::render {
 
 struct Foam {
-  SlopeLayer pattern;     // thresholds of foam in [-1, 1], not slopes
-  glm::vec3 light{0.0f};  // radiance of foam
+  SlopeLayer pattern;  // thresholds of foam in [-1, 1], not slopes
+  // Radiance of foam, of the sky and of a sun that nothing hides.
+  glm::vec3 sky_light{0.0f}, sun_light{0.0f};
 };
 
-// Foam lies still. For worlds with a coast.
-Foam make_foam(const MaterialInputs& in, glm::dvec2 eye);
+inline constexpr double kFoamPeriod_m = 9.0;      // of broken waves
+inline constexpr double kHullFoamPeriod_m = 2.5;  // of what splashes about hulls
+
+// Foam lies still.
+Foam make_foam(const MaterialInputs& in, glm::dvec2 eye, double period_m = kFoamPeriod_m);
 
 }  // namespace swell::render

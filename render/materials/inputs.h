@@ -1,6 +1,8 @@
 // What materials are filled from, once a view.
 #pragma once
 
+#include <limits>
+
 #include "render/materials/light.h"
 #include "render/parts.h"
 #include "render/view/render_view.h"
@@ -23,6 +25,8 @@ struct MaterialInputs {
   const Media& media;
   PartSet without;
   LookupImage reflection = {}, refraction = {};  // once they are drawn
+  // How far out the water's vertices show waves.
+  double wave_reach_m = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace swell::render

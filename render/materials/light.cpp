@@ -25,13 +25,14 @@ Media make_media(const World::State& world, const Light& light, PartSet without)
   Media media;
   if (!without.has(Part::kHaze))
     media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
+  media.inv_haze_height_m = static_cast<float>(1.0 / world.scene.sky.haze_height_m);
   media.refraction_index = static_cast<float>(water.refraction_index);
   media.absorption_per_m = water.absorption_per_m;
   // Light that enters the water: the sky's and the sun's, as radiance of a white surface.
-  const glm::vec3 entering =
-      light.ambient +
+  const glm::vec3 entering_sun =
       light.sun_irradiance * (std::max(light.sun_direction.z, 0.0f) / static_cast<float>(kPi));
-  media.body = water.body_colour * entering;
+  media.body = water.body_colour * (light.ambient + entering_sun);
+  media.body_sun = water.body_colour * entering_sun;
   return media;
 }
 

@@ -25,11 +25,13 @@ struct Light {
 
 // What light passes on its way.
 struct Media {
-  // Air: haze takes the horizon's colour.
-  float inv_haze_m = 0.0f;
+  // Air: haze takes the horizon's colour, and thins with height.
+  float inv_haze_m = 0.0f;  // at sea level
+  float inv_haze_height_m = 0.0f;
   // Water.
   float refraction_index = 1.333f;
-  glm::vec3 body{0.0f};  // radiance of deep water
+  glm::vec3 body{0.0f};      // radiance of deep water
+  glm::vec3 body_sun{0.0f};  // the part of it that is the sun's
   glm::vec3 absorption_per_m{0.0f};
 };
 

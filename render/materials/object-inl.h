@@ -8,6 +8,7 @@
 
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
+#include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -72,8 +73,10 @@ HWY_INLINE ObjectSurface SampleObject(const ObjectPrimitive* const* primitive, V
 }
 
 // Light that a matt surface sends back: of the sun, of the sky above, of the sea below.
-HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s) {
-  const V cos_sun = hn::Max(Dot(s.normal, Constant(light.sun_direction)), hn::Zero(D()));
+HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
+                        V sun_visible) {
+  const V cos_sun =
+      hn::Mul(hn::Max(Dot(s.normal, Constant(light.sun_direction)), hn::Zero(D())), sun_visible);
   const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
   const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen);
   return Product(s.albedo, ScaleAdd(Constant(light.sun_irradiance),
@@ -81,7 +84,8 @@ HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSur
 }
 
 // What varnish mirrors of sky and sun, to the eye in direction to_eye.
-HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye) {
+HWY_INLINE V3 Gloss(const Light& light, glm::vec3 sea_light, const ObjectSurface& s, V3 to_eye,
+                    V sun_visible) {
   const D d;
   const V zero = hn::Zero(d);
   const V cos_eye = hn::Max(Dot(s.normal, to_eye), zero);
@@ -89,10 +93,16 @@ HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye) {
   const V reflectance =
       hn::Mul(FresnelReflectance(d, hn::Max(cos_eye, Constant(0.1f)), 1.5f), Constant(0.5f));
   V3 r = ScaleAdd(s.normal, hn::Add(cos_eye, cos_eye), Scale(to_eye, Constant(-1.0f)));
-  // Rays that go down meet the sea, which is darker.
-  const V share = hn::IfThenElse(hn::Lt(r.z, zero), Constant(0.3f), Constant(1.0f));
-  r.z = hn::Add(hn::Abs(r.z), Constant(1e-3f));
-  const V3 sky = Scale(SoftSkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), share);
+  // Rays that go down meet the sea, which is darker. Dull paint spreads what it mirrors: a line
+  // between the two would be drawn on everything round.
+  const V below = Clamp(hn::MulAdd(r.z, Constant(-1.6f), Constant(0.5f)), 0.0f, 1.0f);
+  const V sea =
+      hn::Mul(hn::Mul(below, below), hn::NegMulAdd(below, Constant(2.0f), Constant(3.0f)));
+  const V lowest = Constant(0.02f), over = hn::Sub(r.z, lowest);
+  r.z = hn::MulAdd(hn::Add(over, hn::Sqrt(hn::MulAdd(over, over, Constant(0.01f)))), Constant(0.5f),
+                   lowest);
+  const V3 sky =
+      Lerp(SoftSkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), Constant(sea_light), sea);
 
   // Blinn and Phong's highlight with exponent 64, normalised.
   const V3 half = Sum(to_eye, Constant(light.sun_direction));
@@ -100,7 +110,8 @@ HWY_INLINE V3 Gloss(const Light& light, const ObjectSurface& s, V3 to_eye) {
                              InverseSqrt(hn::Max(Dot(half, half), Constant(1e-6f))));
   V highlight = hn::Min(cos_half, Constant(1.0f));
   for (int i = 0; i < 6; ++i) highlight = hn::Mul(highlight, highlight);
-  const V cos_sun = hn::Max(Dot(s.normal, Constant(light.sun_direction)), zero);
+  const V cos_sun =
+      hn::Mul(hn::Max(Dot(s.normal, Constant(light.sun_direction)), zero), sun_visible);
   const V sun =
       hn::Mul(hn::Mul(highlight, cos_sun), Constant(0.04f * 72.0f / (8.0f * 3.14159265f)));
   return ScaleAdd(Constant(light.sun_irradiance), sun, Scale(sky, reflectance));
@@ -116,6 +127,14 @@ HWY_INLINE ObjectPacket ObjectsAt(const Shading& s, const Lanes& lanes) {
   return packet;
 }
 
+// Their numbers in the scene.
+HWY_INLINE V NumbersOf(const ObjectPacket& objects) {
+  HWY_ALIGN float number[Lanes3::kCount];
+  for (std::size_t i = 0; i < Lanes3::kCount; ++i)
+    number[i] = static_cast<float>(objects[i]->object->object);
+  return hn::Load(D(), number);
+}
+
 // An object's images in the water begin at its own waterline.
 HWY_INLINE V WaterLevel(const Object&, const Shading& s, const Lanes& lanes) {
   return WaterlineOf(ObjectsAt(s, lanes).data());
@@ -126,12 +145,15 @@ template <ViewKind kView>
 struct Shader<Object, kView> {
   const Object& object;
 
-  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels&, const Lanes& lanes,
+  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes& lanes,
                                const Packet& packet) const {
-    const ObjectSurface surface = SampleObject(ObjectsAt(s, lanes).data(), packet.p);
-    const V3 matt = MattLight(s.light, object.sea_light, surface);
+    const ObjectPacket objects = ObjectsAt(s, lanes);
+    const ObjectSurface surface = SampleObject(objects.data(), packet.p);
+    const V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
+    const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);
     if constexpr (kView == ViewKind::kRefraction) return {matt, surface.normal};
-    return {Sum(matt, Gloss(s.light, surface, packet.to_eye)), surface.normal};
+    return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),
+            surface.normal};
   }
 };
 

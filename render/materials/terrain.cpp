@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/apron.h"
+
 namespace swell::render {
 namespace {
 
@@ -20,7 +22,20 @@ Swash make_swash(const ocean::TrainSea& trains, double t_s, glm::dvec2 eye) {
   };
   swash.lag_a = along(310.0, 230.0);
   swash.lag_b = along(-97.0, 71.0);
+  swash.lag_c = along(17.0, 23.0);
   return swash;
+}
+
+GroundLayer make_ground_layer(const texture::PackedMap2& slopes, const texture::RgbaImage& albedo,
+                              const terrain::Grid& square, glm::dvec2 eye) {
+  const glm::dvec2 from_corner = eye - square.min_world;
+  GroundLayer layer{make_square_layer(slopes, square.size_m(), from_corner), &albedo};
+  const double texels_per_m = albedo.width / square.size_m();
+  layer.albedo_texels_per_m = static_cast<float>(texels_per_m);
+  // Texel centres lie at +0.5, the terrain's samples on the lattice.
+  layer.albedo_x_eye = static_cast<float>(from_corner.x * texels_per_m + 0.5);
+  layer.albedo_y_eye = static_cast<float>(from_corner.y * texels_per_m + 0.5);
+  return layer;
 }
 
 }  // namespace
@@ -29,17 +44,17 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
   if (!in.world.terrain) return;
   const terrain::HeightGrid& land = *in.world.terrain;
   const TerrainMaps& maps = *in.world.terrain_maps;
-  const glm::dvec2 eye(view.camera.eye_world), from_corner = eye - land.grid.min_world;
-  terrain.slopes = make_square_layer(maps.slopes, land.grid.size_m(), from_corner);
+  const glm::dvec2 eye(view.camera.eye_world);
+  terrain.map = make_ground_layer(maps.slopes, maps.albedo, land.grid, eye);
+  terrain.around = make_ground_layer(maps.slopes_around, maps.albedo_around,
+                                     terrain::square_with_apron(land), eye);
+  terrain.sun.map = nullptr;
+  if (const LandShadow* shadow = in.world.land_shadow.get();
+      shadow && shadow->ground.size > 0 && !in.without.has(Part::kShadows))
+    terrain.sun = make_square_layer(shadow->ground, land.grid.size_m(), eye - land.grid.min_world);
   const float detail_gain =
       0.11f / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
   terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});
-  terrain.albedo = &maps.albedo;
-  const double texels_per_m = maps.albedo.width / land.grid.size_m();
-  terrain.albedo_texels_per_m = static_cast<float>(texels_per_m);
-  // Texel centres lie at +0.5, the terrain's samples on the lattice.
-  terrain.albedo_x_eye = static_cast<float>(from_corner.x * texels_per_m + 0.5);
-  terrain.albedo_y_eye = static_cast<float>(from_corner.y * texels_per_m + 0.5);
 
   terrain.swash = {};
   if (!in.world.coast) return;

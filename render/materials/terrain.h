@@ -15,14 +15,22 @@ struct Swash {
   float cycles = 0.0f;   // time, in turns of the sheets' coming and going
   // Their lag along the shore: cycles by x, by y, under the eye.
   glm::vec3 lag_a{0.0f}, lag_b{0.0f};
+  glm::vec3 lag_c{0.0f};  // of the lobes of their edges, likewise
+};
+
+// Slopes and colours over one square.
+struct GroundLayer {
+  SlopeLayer slopes;
+  const texture::RgbaImage* albedo = nullptr;  // texels of the square's side: per metre, at the eye
+  float albedo_texels_per_m = 0.0f, albedo_x_eye = 0.0f, albedo_y_eye = 0.0f;
 };
 
 struct Terrain {
   static constexpr SurfaceKind kSurface = SurfaceKind::kTerrain;
 
-  SlopeLayer slopes, detail;
-  const texture::RgbaImage* albedo = nullptr;
-  float albedo_texels_per_m = 0.0f, albedo_x_eye = 0.0f, albedo_y_eye = 0.0f;
+  GroundLayer map, around;  // the terrain's square; that with its apron
+  SlopeLayer detail;
+  SlopeLayer sun;  // LandShadow::ground; no map: lit everywhere
   Swash swash;
   Foam foam;
 };

@@ -18,9 +18,13 @@
 #include "render/labels/label_channels.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
+#include "render/materials/hull-inl.h"
 #include "render/materials/water.h"
 #include "render/materials/whitecaps-inl.h"
+#include "render/tile/light_code-inl.h"
+#include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
+#include "render/view/wave_reach.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -125,6 +129,16 @@ HWY_INLINE void BendRipples(const SlopeLayer& noise, V3 p, V level_m, V& du, V& 
     AddSlopes(noise, p, level_m, du, dv, du, dv, unused);
 }
 
+// How high waves are drawn at a packet. Far triangles cut off some of the earth's curve: that is no
+// trough.
+HWY_INLINE V WaveHeight(const Water& water, const ViewRays& rays, const Packet& packet) {
+  const V share =
+      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
+                          Constant(kWaveShareAtEye)),
+            0.0f, 1.0f);
+  return hn::Mul(share, hn::Add(packet.p.z, Constant(rays.eye_z)));
+}
+
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
@@ -142,9 +156,9 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<Surf, kCount> surf = {
       (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
-  const std::array<V, kCount> whitecaps = {
-      WhitecapsAt(water.whitecaps, packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
-                  level_flat_m[k], surf[k].ceded)...};
+  const std::array<V, kCount> whitecaps = {WhitecapsAt(water.whitecaps, packets[k].p,
+                                                       WaveHeight(water, rays, packets[k]),
+                                                       level_flat_m[k], surf[k].ceded)...};
   std::array<WaterSlopes, kCount> s = {WaterSlopes{
       zero, zero, Constant(water.base_variance),
       hn::Max(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]),
@@ -189,15 +203,17 @@ struct Looked {
 HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
   const D d;
   const V one = Constant(1.0f);
-  Looked seen;
-  seen.light = LookUp(*lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
-                      hn::Mul(y_px, Constant(lookup.scale_y)), seen.alpha);
-  const auto is_part = hn::And(hn::Gt(seen.alpha, hn::Zero(d)), hn::Lt(seen.alpha, one));
-  if (hn::AllFalse(d, is_part)) return seen;
-  // The codes that were blended with zeros are square roots of light.
-  const V whole = hn::Div(one, hn::Max(seen.alpha, Constant(1.0f / 512.0f)));
-  seen.light = Scale(seen.light, hn::Mul(whole, whole));
-  return seen;
+  V3 code;
+  V alpha;
+  texture::HWY_NAMESPACE::SampleRgba(d, *lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
+                                     hn::Mul(y_px, Constant(lookup.scale_y)), code.x, code.y,
+                                     code.z, alpha);
+  const auto some = hn::Gt(alpha, hn::Zero(d));
+  if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
+  // Codes that were blended with zeros.
+  if (!hn::AllFalse(d, hn::And(some, hn::Lt(alpha, one))))
+    code = Scale(code, hn::Div(one, hn::Max(alpha, Constant(1.0f / 512.0f))));
+  return {DecodeLight(code), alpha};
 }
 
 // What `front` leaves of a place shows `behind`.
@@ -250,10 +266,10 @@ HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
 }
 
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
-// horizon that waves make, and in front of both whatever the reflection image shows there, whose
-// part is `image_alpha`.
+// horizon that waves make, brighter by what its floor adds here, and in front of both whatever the
+// reflection image shows there, whose part is `image_alpha`.
 HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V3 normal, V cos_eye, V inv_variance,
+                             const WaterSlopes& s, V3 normal, V cos_eye, V inv_variance, V3 floor,
                              bool use_image, V& image_alpha) {
   V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
   const V horizon = Constant(water.wave_horizon);
@@ -263,7 +279,9 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   r.z = hn::MulAdd(s.variance, Constant(0.8f), hn::Max(r.z, Constant(-0.25f)));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
-  mirrored = Lerp(mirrored, Constant(water.mirrored_sea), sea);
+  const V3 mirrored_sea =
+      ScaleAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
+  mirrored = Lerp(mirrored, mirrored_sea, sea);
   image_alpha = hn::Zero(D());
   if (use_image) {
     const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
@@ -273,26 +291,32 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   return mirrored;
 }
 
-// What comes up through the surface: scattered light of the water body, brighter in thin crests
-// against the sun, and the floor where the refraction image shows one, whose part is `image_alpha`.
+// What comes up through the surface: scattered light of the water body, which comes in from around
+// and so is never quite in the shade, brighter in thin crests against the sun, and the floor where
+// the refraction image shows one, whose part is `image_alpha`; `floor_added` is what that changes.
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, bool use_image, V& image_alpha) {
-  const V height = hn::Add(packet.p.z, Constant(shading.rays.eye_z));
+                             const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha,
+                             V3& floor_added) {
+  const V height = WaveHeight(water, shading.rays, packet);
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
   const V towards_sun = hn::Max(
       hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(shading.light.sun_direction.x),
                          hn::Mul(packet.to_eye.y, Constant(shading.light.sun_direction.y)))),
       hn::Zero(D()));
-  const V glow = hn::Mul(hn::Mul(crest, crest), hn::Add(towards_sun, Constant(0.35f)));
-  V3 light = ScaleAdd(Constant(water.crest_glow), glow, Constant(shading.media.body));
+  const V glow =
+      hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
+  const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
+  const V3 deep =
+      ScaleAdd(Constant(water.crest_glow), glow,
+               ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
   image_alpha = hn::Zero(D());
-  if (use_image) {
-    const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
-    image_alpha = floor.alpha;
-    light = Lerp(light, floor.light, image_alpha);
-  }
-  return light;
+  floor_added = Constant(glm::vec3(0.0f));
+  if (!use_image) return deep;
+  const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
+  image_alpha = floor.alpha;
+  floor_added = Scale(Difference(floor.light, deep), image_alpha);
+  return Sum(deep, floor_added);
 }
 
 // The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution.
@@ -319,15 +343,6 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   const V inv_cos2 = hn::Mul(Dot(half, half), hn::Mul(inv_z, inv_z));
   const V scale = hn::Mul(hn::Mul(inv_cos2, inv_cos2), inv_cos4);
   return hn::Mul(hn::Mul(reflectance, density), scale);
-}
-
-// The part of the sun that is hidden by what is mirrored in front of the sky, whose part is
-// `mirrored_alpha`. What level water mirrors at a pixel is as high as the eye looks down; it says
-// less and less of a sun that is higher, over a low shore for one.
-HWY_INLINE V SunHidden(glm::vec3 sun_direction, const Packet& packet, V mirrored_alpha) {
-  const V higher = hn::Sub(Constant(sun_direction.z), packet.to_eye.z);
-  return hn::Mul(mirrored_alpha,
-                 Clamp(hn::NegMulAdd(higher, Constant(5.0f), Constant(2.0f)), 0.0f, 1.0f));
 }
 
 // How the water's surface meets the eye.
@@ -376,22 +391,32 @@ struct WaterShader {
     const Light& light = shading.light;
     const Facing f = FaceEye(shading.media, packet, s);
 
+    const V sun_visible = SunVisible(shading, tile, packet);
     V inv_variance, mirrored_alpha, refracted_alpha;
     const V sun_path =
         SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
+    V3 floor;
+    V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
+                                  refracted_alpha, floor);
     const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye, inv_variance,
-                                       tile.lookups.reflection, mirrored_alpha);
-    const V3 refracted =
-        RefractedLight(shading, water, packet, s, tile.lookups.refraction, refracted_alpha);
+                                       floor, tile.lookups.reflection, mirrored_alpha);
+    V foam_cover = s.foam_cover;
+    if (!tile.casters.empty()) {
+      const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
+                                       Clamp(packet.to_eye.z, kMinCos, 1.0f));
+      const AtHulls hulls = SampleHulls(*shading.sun_shadow.objects, water.hull_foam, tile.casters,
+                                        packet.p, level_m);
+      refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
+      foam_cover = hn::Max(foam_cover, hulls.foam_cover);
+    }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
-    const V glint =
-        hn::NegMulAdd(sun_path, SunHidden(light.sun_direction, packet, mirrored_alpha), sun_path);
-    V3 seen = ScaleAdd(Constant(light.sun_irradiance), glint, arriving);
+    V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
     if constexpr (kCoast)
-      seen = AddFoam(water.foam, s.foam_cover, seen);
+      seen = AddFoam(water.foam, foam_cover, sun_visible, seen);
     else
-      seen = AddWhitecaps(water.whitecaps, s.foam_cover, light.sun_direction, f.normal, seen);
-    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
+      seen = AddWhitecaps(water.whitecaps, foam_cover, light.sun_direction, sun_visible, f.normal,
+                          seen);
+    return {seen, f.normal, foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

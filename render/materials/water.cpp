@@ -106,7 +106,6 @@ void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   const glm::dvec2 from_corner = eye - grid.min_world;
   water.coast_slopes = make_square_layer(in.sea.coast_slopes, size_m, from_corner);
   water.coast_surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);
-  water.foam = make_foam(in, eye);
 }
 
 // The displacement of the lookups turns with the picture. Across the line of sight it is half as
@@ -155,19 +154,21 @@ float wave_horizon(float variance) { return 0.195f * std::sqrt(variance); }
 // Light that leaves the sea towards a wave that mirrors it: the water body's and the mean sky's.
 // The ray goes down by about the slopes' standard deviation, and the facets that it meets are
 // turned to it by as much again. No brighter than the horizon, whose place it takes.
-glm::vec3 mirrored_sea(const MaterialInputs& in, float variance) {
-  const float cosine = std::min(std::sqrt(variance), 1.0f), n = in.media.refraction_index;
-  const float reflectance = fresnel_reflectance(cosine, n);
+glm::vec3 mirrored_sea(const MaterialInputs& in, float reflectance) {
   return glm::min(glm::mix(in.media.body, in.light.ambient, reflectance), in.light.horizon);
 }
 
 void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   const float variance = slope_variance(in, water);
-  water.mirrored_sea = mirrored_sea(in, variance);
+  const float cosine = std::min(std::sqrt(variance), 1.0f);
+  const float reflectance = fresnel_reflectance(cosine, in.media.refraction_index);
+  water.mirrored_sea = mirrored_sea(in, reflectance);
+  water.mirrored_floor_part = 1.0f - reflectance;
   water.wave_horizon = wave_horizon(variance);
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
+  water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
@@ -184,6 +185,8 @@ void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);
+  water.foam = make_foam(in, eye);
+  water.hull_foam = make_foam(in, eye, kHullFoamPeriod_m);
   water.whitecaps = make_whitecaps(in, eye);
   fill_optics(in, view.camera, water);
 }

@@ -38,13 +38,15 @@ struct Water {
   // foam. Not periodic: they hold within their square.
   bool has_coast = false;
   SlopeLayer coast_slopes, coast_surf;
-  Foam foam;
+  Foam foam, hull_foam;
   Whitecaps whitecaps;
 
-  glm::vec3 mirrored_sea{0.0f};  // radiance of the sea where waves mirror it
-  float wave_horizon = 0.0f;     // sine of the elevation at which half of the rays meet a wave
-  glm::vec3 crest_glow{0.0f};    // added where light shines through crests
+  glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
+  float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
+  float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
+  glm::vec3 crest_glow{0.0f};        // added where light shines through crests
   float inv_crest_height = 0.0f;
+  float inv_wave_reach = 0.0f;  // of the vertices, per metre
   LookupImage reflection, refraction;
   float distortion_px = 0.0f;                    // window pixels per unit of slope
   float max_distortion_px = 0.0f;                // bound of the displacement, each way

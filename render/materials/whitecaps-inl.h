@@ -112,13 +112,14 @@ HWY_INLINE V TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
   return hn::IfThenElseZero(some, cover);
 }
 
-// Water of radiance `light` under foam, thin where it covers little.
-HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, V cover, glm::vec3 sun_direction, V3 normal,
-                           V3 light) {
+// Water of radiance `light` under foam, thin where it covers little. sun_visible: the part of the
+// sun that the foam sees.
+HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, V cover, glm::vec3 sun_direction,
+                           V sun_visible, V3 normal, V3 light) {
   const V zero = hn::Zero(D());
   if (hn::AllFalse(D(), hn::Gt(cover, zero))) return light;
-  const V cos_sun = hn::Max(Dot(normal, Constant(sun_direction)), zero);
-  const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light));
+  const V sun = hn::Mul(hn::Max(Dot(normal, Constant(sun_direction)), zero), sun_visible);
+  const V3 white = ScaleAdd(Constant(material.sun_light), sun, Constant(material.sky_light));
   const V opacity = hn::MulAdd(cover, Constant(0.25f), Constant(0.7f));
   return Lerp(light, white, hn::Mul(cover, opacity));
 }

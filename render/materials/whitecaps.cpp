@@ -33,6 +33,8 @@ FoamLace make_lace(const MaterialInputs& in, glm::dvec2 eye, double period_m, do
 
 Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   Whitecaps whitecaps;
+  whitecaps.sky_light = kAlbedo * in.light.ambient;
+  whitecaps.sun_light = (kAlbedo / static_cast<float>(kPi)) * in.light.sun_irradiance;
   const ocean::Whitecaps& sea = *in.world.whitecaps;
   if (in.without.has(Part::kWhitecaps) || sea.patches.empty()) return whitecaps;
   whitecaps.count = static_cast<int>(sea.patches.size());
@@ -50,8 +52,6 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   const double gale = smoothstep(11.0, 20.0, wind_mps);
   whitecaps.tears = make_lace(in, eye, kTears_m, 1.2 + 5.0 * gale);
   whitecaps.lace = make_lace(in, eye, kLace_m, 1.0 + 1.5 * gale);
-  whitecaps.sky_light = kAlbedo * in.light.ambient;
-  whitecaps.sun_light = (kAlbedo / static_cast<float>(kPi)) * in.light.sun_irradiance;
   return whitecaps;
 }
 

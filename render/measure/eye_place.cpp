@@ -8,12 +8,9 @@ EyeReport find_eye(const World& world, const Workspace& workspace, glm::dvec3 ey
   const World::State& w = world.state();
   const glm::dvec2 p(eye_world);
   if (w.terrain) {
-    const glm::dvec2 from_corner = p - w.terrain->grid.min_world;
-    const double side_m = w.terrain->grid.size_m();
     float ground_m = 0.0f;
     terrain::sample_heights(*w.terrain, {&p, 1}, {&ground_m, 1});
-    if (from_corner.x >= 0.0 && from_corner.y >= 0.0 && from_corner.x <= side_m &&
-        from_corner.y <= side_m && eye_world.z < static_cast<double>(ground_m))
+    if (eye_world.z < static_cast<double>(ground_m))
       return {EyePlace::kGround, static_cast<double>(ground_m)};
   }
   const double surface_m =

@@ -147,6 +147,7 @@ SeaReference look_at_sea(const View& view, const ocean::WaterSurface& surface,
   SWELL_CHECK(view.eye_world.z > 0.0 && view.right.z == 0.0f, "eye z={} right z={}",
               view.eye_world.z, view.right.z);
   SWELL_CHECK(pixel_step >= 1, "pixel_step={}", pixel_step);
+  const glm::dvec2 limits_m = area.limits_m();
   SeaReference sea;
   sea.view = view;
   for (int y = pixel_step / 2; y < view.height_px; y += pixel_step) {
@@ -155,7 +156,7 @@ SeaReference look_at_sea(const View& view, const ocean::WaterSurface& surface,
       if (ray.z >= 0.0) continue;
       const glm::dvec2 p(view.eye_world - ray * (view.eye_world.z / ray.z));
       const glm::dvec2 from_centre = glm::abs(p - area.centre_m);
-      if (from_centre.x > 0.5 * area.size_m.x || from_centre.y > 0.5 * area.size_m.y) continue;
+      if (from_centre.x > 0.5 * limits_m.x || from_centre.y > 0.5 * limits_m.y) continue;
       sea.pixel.emplace_back(x, y);
       sea.p_world.push_back(p);
     }

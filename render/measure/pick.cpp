@@ -69,6 +69,53 @@ void ask_land(const terrain::HeightGrid& terrain, Pick& pick) {
   pick.slope = glm::dvec2(z[1] - z[2], z[3] - z[4]) / terrain.grid.spacing_m;
 }
 
+// The nearest thing that was drawn on a ray of the flat world.
+std::optional<Pick> meet_all(const World::State& w, const Workspace::State& ws, const Ray& ray,
+                             PickScratch& scratch) {
+  std::optional<Pick> nearest;
+  const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
+  meet_surface(Shown::kWater, ws.meshes.water, is_bintree, ray, scratch, nearest);
+  if (w.terrain) meet_surface(Shown::kLand, ws.meshes.land, true, ray, scratch, nearest);
+  meet_objects(w.scene.objects, ws.meshes.objects, ray, nearest);
+  return nearest;
+}
+
+// A ray of a picture of the round earth. In the flat world it bends up by
+// drop_per_m2 horizontal2 s^2 at the distance s; the chord to a place on it meets that place too.
+struct BentRay {
+  Ray ray;
+  double horizontal2;  // squared length of the horizontal part of ray.along
+  double drop_per_m2;
+
+  Ray chord_to(double distance_m) const {
+    glm::dvec3 along = ray.along;
+    along.z += drop_per_m2 * horizontal2 * distance_m;
+    return make_ray(ray.origin, along);
+  }
+
+  // Where it meets the mean level, or comes closest to it.
+  double guess_m() const {
+    const double closing = std::max(-ray.along.z, 0.0), bend = drop_per_m2 * horizontal2;
+    const double height_m = std::max(ray.origin.z, 0.0);
+    const double root2 = closing * closing - 4.0 * bend * height_m;
+    if (root2 >= 0.0 && closing > 0.0) return 2.0 * height_m / (closing + std::sqrt(root2));
+    return bend > 0.0 ? closing / (2.0 * bend) : 0.0;
+  }
+};
+
+std::optional<Pick> meet_all(const World::State& w, const Workspace::State& ws, const BentRay& bent,
+                             PickScratch& scratch) {
+  constexpr int kMostChords = 4;
+  std::optional<Pick> met;
+  double guess_m = bent.guess_m();
+  for (int i = 0; i < kMostChords; ++i) {
+    met = meet_all(w, ws, bent.chord_to(guess_m), scratch);
+    if (!met || std::abs(met->distance_m - guess_m) <= 1e-4 * guess_m) break;
+    guess_m = met->distance_m;
+  }
+  return met;
+}
+
 }  // namespace
 
 std::optional<Pick> pick(const World& world, const View& view, const Workspace& workspace,
@@ -81,15 +128,13 @@ std::optional<Pick> pick(const World& world, const View& view, const Workspace& 
   const glm::dvec3 to_near_plane = static_cast<double>(view.near_m) * to_pixel;
   const Ray ray = make_ray(view.eye_world + to_near_plane, glm::normalize(to_pixel));
 
-  std::optional<Pick> nearest;
-  const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
-  meet_surface(Shown::kWater, ws.meshes.water, is_bintree, ray, scratch, nearest);
-  if (w.terrain) meet_surface(Shown::kLand, ws.meshes.land, true, ray, scratch, nearest);
-  meet_objects(w.scene.objects, ws.meshes.objects, ray, nearest);
+  const glm::dvec2 ahead(ray.along);
+  const BentRay bent{ray, glm::dot(ahead, ahead), ws.window.drop_per_m2};
+  std::optional<Pick> nearest = meet_all(w, ws, bent, scratch);
   if (!nearest) return nearest;
 
-  nearest->p_world = ray.origin + nearest->distance_m * ray.along;
-  nearest->distance_m += glm::length(to_near_plane);
+  nearest->p_world = ray.origin + nearest->distance_m * bent.chord_to(nearest->distance_m).along;
+  nearest->distance_m = glm::distance(nearest->p_world, view.eye_world);
   if (nearest->what == Shown::kLand)
     ask_land(*w.terrain, *nearest);
   else

@@ -15,7 +15,7 @@ enum class Shown : std::uint8_t { kWater, kLand, kObject };
 
 struct Pick {
   Shown what = Shown::kWater;
-  glm::dvec3 p_world{0.0};      // on the drawn triangle
+  glm::dvec3 p_world{0.0};      // on the drawn triangle, in the flat world
   double distance_m = 0.0;      // from the eye
   double model_height_m = 0.0;  // of the ground at that x, y if land is shown, else of the water
   glm::dvec2 slope{0.0};        // dz/dx and dz/dy of the same

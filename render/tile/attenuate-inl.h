@@ -6,27 +6,49 @@
 #define SWELL_RENDER_TILE_ATTENUATE_INL_H_
 #endif
 
+#include <algorithm>
+
 #include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
+// The mean density of haze on the way to what a packet shows, against that at sea level. At the
+// height h over the sea it is 1 / (1 + h / H)^2, much like exp(-h / H) and of the same amount in
+// all, because between places of heights a H and b H on a straight line the mean of that is
+// 1 / ((1 + a) (1 + b)): no exponential, and no difference of almost equal ones. The way is taken
+// as two such lines, which meet where its middle lies over a round earth.
+HWY_INLINE V MeanHaze(const Shading& s, const Packet& shown) {
+  const float per_m = s.media.inv_haze_height_m, eye_z = s.rays.eye_z;
+  const V one = Constant(1.0f);
+  const V eye = Constant(1.0f + std::max(eye_z, 0.0f) * per_m);
+  // Mirrored things lie below the level.
+  const V height = hn::Abs(hn::Add(shown.p.z, Constant(eye_z)));
+  const V place = hn::MulAdd(height, Constant(per_m), one);
+  const V both = hn::Add(eye, place);
+  const V r2 = hn::MulAdd(shown.p.x, shown.p.x, hn::Mul(shown.p.y, shown.p.y));
+  const V sagging = hn::Mul(r2, Constant(0.25f * s.rays.drop_per_m2 * per_m));
+  const V middle = hn::Max(hn::MulSub(both, Constant(0.5f), sagging), one);
+  return hn::Div(hn::Mul(both, Constant(0.5f)), hn::Mul(hn::Mul(eye, place), middle));
+}
+
 // Blends towards the horizon's colour with distance, so that no edge of the sea shows. Haze of less
 // than half a step of the picture is left out: near packets then need no lookup. Straight down
-// there is no azimuth to look up: within 45 degrees of it the mean of the horizon takes over.
+// there is no azimuth to look up: the steeper the view, the more the mean of the horizon takes
+// over.
 HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
   const D d;
-  const V clear = Exp(d, hn::Mul(packet.distance, Constant(-s.media.inv_haze_m)));
+  const V depth =
+      hn::Mul(hn::Mul(packet.distance, Constant(-s.media.inv_haze_m)), MeanHaze(s, packet));
+  const V clear = Exp(d, depth);
   const V amount = hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), hn::Zero(d));
   if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;
   const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
   const V horizontal2 = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f));
-  V3 horizon = SoftSkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, hn::Sqrt(horizontal2));
-  const V steep = hn::Max(hn::NegMulAdd(horizontal2, Constant(2.0f), Constant(1.0f)), hn::Zero(d));
-  if (!hn::AllFalse(d, hn::Gt(steep, hn::Zero(d))))
-    horizon = Lerp(horizon, Constant(s.light.horizon), hn::Mul(steep, steep));
-  return Lerp(colour, horizon, amount);
+  const V3 ahead = SoftSkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, hn::Sqrt(horizontal2));
+  const V steep = hn::NegMulAdd(horizontal2, horizontal2, Constant(1.0f));
+  return Lerp(colour, Lerp(ahead, Constant(s.light.horizon), steep), amount);
 }
 
 // Light's way through water to something at a depth.

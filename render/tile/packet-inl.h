@@ -42,6 +42,9 @@ HWY_INLINE V3 Product(V3 a, V3 b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
 }
 HWY_INLINE V3 Sum(V3 a, V3 b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
+HWY_INLINE V3 Difference(V3 a, V3 b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
 // a s + b
 HWY_INLINE V3 ScaleAdd(V3 a, V s, V3 b) {
   return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
@@ -54,15 +57,22 @@ HWY_INLINE V3 Lerp(V3 a, V3 b, V t) {
 HWY_INLINE V Clamp(V v, float low, float high) {
   return hn::Min(hn::Max(v, Constant(low)), Constant(high));
 }
+// 3 t^2 - 2 t^3 of t clamped to [0, 1].
+HWY_INLINE V SmoothBlend(V t) {
+  const V x = Clamp(t, 0.0f, 1.0f);
+  return hn::Mul(hn::Mul(x, x), hn::NegMulAdd(x, Constant(2.0f), Constant(3.0f)));
+}
 HWY_INLINE V InverseSqrt(V x) { return hn::Div(Constant(1.0f), hn::Sqrt(x)); }
 
 // One packet of pixels and the points they show.
 struct Packet {
   V x_px, y_px;  // whole pixel numbers
   V depth;       // along the view axis [m]
-  V3 p;          // position relative to the eye [m]; of the mirrored or squeezed world if any
-  V distance;    // [m]
-  V3 to_eye;     // unit
+  // Position relative to the eye [m], in the flat world: on a round earth raised by what the place
+  // has sunk. Of the mirrored or squeezed world if any.
+  V3 p;
+  V distance;  // [m]
+  V3 to_eye;   // unit, as the level at that place has it
 };
 
 // The ray through the centres of pixels (x_px, y_px), of depth 1.
@@ -83,6 +93,13 @@ HWY_INLINE Packet MakePacket(const ViewRays& rays, V x_px, V y_px, V z) {
   const V inverse_length = InverseSqrt(length2);
   packet.distance = hn::Mul(packet.depth, hn::Mul(length2, inverse_length));
   packet.to_eye = Scale(ray, hn::Neg(inverse_length));
+  // The level there has sunk by c r^2 and leans by 2 c r, with r / distance the ray's horizontal
+  // part: level rays meet it at the horizon. (What to_eye's x and y change by is left out: 0.5 % at
+  // the horizon of an eye 40 km up.)
+  const V horizontal2 = hn::MulAdd(ray.x, ray.x, hn::Mul(ray.y, ray.y));
+  const V sunk = hn::Mul(hn::Mul(horizontal2, packet.depth), Constant(rays.drop_per_m2));
+  packet.p.z = hn::MulAdd(sunk, packet.depth, packet.p.z);
+  packet.to_eye.z = hn::NegMulAdd(hn::Add(sunk, sunk), inverse_length, packet.to_eye.z);
   return packet;
 }
 
@@ -161,15 +178,6 @@ HWY_INLINE void NearestSlopes(const SlopeLayer& layer, V3 p, V level_m, V& a, V&
   const V gain = Constant(layer.gain);
   a = hn::Mul(a, gain);
   b = hn::Mul(b, gain);
-}
-
-// Looks `image` up at texel position (x, y); radiance from the square-root code, alpha as is.
-HWY_INLINE V3 LookUp(const texture::RgbaImage& image, V x, V y, V& alpha) {
-  V r, g, b;
-  texture::HWY_NAMESPACE::SampleRgba(D(), image, x, y, r, g, b, alpha);
-  const V range = Constant(kLookupRange);
-  return {hn::Mul(hn::Mul(r, r), range), hn::Mul(hn::Mul(g, g), range),
-          hn::Mul(hn::Mul(b, b), range)};
 }
 
 // The blurred sky's radiance in direction (x, y, z), z > -0.5, any length of (x, y, z) equal to

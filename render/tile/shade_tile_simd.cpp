@@ -338,8 +338,12 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
 TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scratch) {
   for (std::size_t n = 0; n < input.fragments.size(); ++n)
     scratch.fragment_primitive[n] = input.fragments[n].primitive;
-  return {raster::tile_box(s.viewport, s.grid, input.tile), input.depth.data(),
-          input.primitive.data(), input.fragments, input.lookups};
+  return {raster::tile_box(s.viewport, s.grid, input.tile),
+          input.depth.data(),
+          input.primitive.data(),
+          input.fragments,
+          input.lookups,
+          s.sun_shadow.casters.of_tile(input.tile)};
 }
 
 int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -370,13 +374,6 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
   ResolveTile(s, box, scratch, rgba, linear);
 }
 
-// Radiance as a byte of a lookup image.
-HWY_INLINE VI EncodeRadiance(V radiance) {
-  const V scaled = hn::Mul(hn::Max(radiance, hn::Zero(D())), Constant(1.0f / kLookupRange));
-  const V code = hn::Min(hn::Mul(hn::Sqrt(scaled), Constant(255.0f)), Constant(255.0f));
-  return hn::ConvertTo(DI(), hn::Add(code, Constant(0.5f)));
-}
-
 // Writes a tile's colours to the lookup image, zeros where there is no primitive and so no colour.
 HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
                                  const std::uint32_t* primitive, const ShadeScratch& scratch,
@@ -390,9 +387,9 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
         image.texels.data() + static_cast<std::size_t>(box.y0_px + y) * image.stride + box.x0_px;
     for (std::size_t x = 0; x < width; x += kLanes) {
       const std::size_t i = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-      const VI r = EncodeRadiance(hn::Load(d, scratch.red.data() + i));
-      const VI g = EncodeRadiance(hn::Load(d, scratch.green.data() + i));
-      const VI b = EncodeRadiance(hn::Load(d, scratch.blue.data() + i));
+      const VI r = EncodeLight(hn::Load(d, scratch.red.data() + i));
+      const VI g = EncodeLight(hn::Load(d, scratch.green.data() + i));
+      const VI b = EncodeLight(hn::Load(d, scratch.blue.data() + i));
       const VI rgb = hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)), hn::ShiftLeft<16>(b));
       const auto texel = hn::Or(hn::BitCast(du, rgb), hn::Set(du, 0xff000000u));
       const auto drawn = hn::Ne(hn::LoadU(du, primitive + i), hn::Set(du, raster::kNoPrimitive));
@@ -410,7 +407,8 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
 void ShadeLookupTile(const Shading& s, int tile_index, const float* depth,
                      const std::uint32_t* primitive, ShadeScratch& scratch,
                      texture::RgbaImage& image) {
-  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {}};
+  const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {},
+                        s.sun_shadow.casters.of_tile(tile_index)};
   const PixelLists lists = ListPixels(s, tile, scratch);
   if (s.kind == ViewKind::kRefraction)
     ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch, KeepNothing());

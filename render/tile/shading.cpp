@@ -19,8 +19,10 @@ void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_siz
   shading.viewport = view.viewport();
   shading.grid = raster::tile_grid(shading.viewport, tile_size_px);
   shading.rays = make_rays(view.camera);
+  shading.rays.drop_per_m2 = view.drop_per_m2;
   shading.light = in.light;
   shading.media = in.media;
+  fill_sun_shadow(in, view, shading.grid, shading.sun_shadow);
   shading.exposure = in.world.sky->exposure;
   shading.primitives = view.primitives;
   std::apply([&](auto&... material) { (fill(in, view, material), ...); }, shading.materials);

@@ -7,6 +7,7 @@
 #include "raster/pass.h"
 #include "render/materials/light.h"
 #include "render/materials/list.h"
+#include "render/tile/sun_shadow.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {
@@ -18,6 +19,7 @@ struct ViewRays {
   float near_m = 0.25f;
   float eye_z = 0.0f;
   float pixel_angle = 0.001f;  // size of a pixel at depth 1
+  float drop_per_m2 = 0.0f;    // how far a round earth sinks (math/earth.h)
 };
 
 struct Shading {
@@ -27,6 +29,7 @@ struct Shading {
   ViewRays rays;
   Light light;
   Media media;
+  SunShadow sun_shadow;
   float exposure = 1.0f;
   PrimitiveRanges primitives;
   Materials materials;

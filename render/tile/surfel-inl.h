@@ -19,6 +19,7 @@ struct TilePixels {
   const std::uint32_t* primitive;
   std::span<const EdgeFragment> fragments;
   TileLookups lookups;
+  std::span<const std::uint16_t> casters;  // of Shading::sun_shadow
 };
 
 // Which primitives a packet's lanes show, for materials that fetch what their triangles hold.

@@ -1,10 +1,13 @@
 // Stage 3: heights of the vertices of water and land.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 
 #include "math/check.h"
 #include "render/quality/background.h"
 #include "render/view/render_view.h"
+#include "render/view/wave_reach.h"
 
 namespace swell::render {
 namespace {
@@ -44,6 +47,33 @@ void displace_in_chunks(SurfaceKind kind, Surface& surface, const Meshes& meshes
   });
 }
 
+// Floating things further out than waves reach. There the sea has finer triangles, as if it were
+// focus_nearer times nearer (PriorityFactors), on which waves carry the thing.
+struct FarFocuses {
+  std::array<lod::Focus, lod::kMaxFocuses> focus;
+  std::size_t count = 0;
+
+  FarFocuses(const World::State& world, glm::dvec3 eye, double reach_m) {
+    if (world.focuses.empty()) return;
+    const auto inv_reach = static_cast<float>(1.0 / reach_m);
+    const double widest_m = 0.5 * world.water_bounds().mean_wavelength_m;
+    for (const lod::Focus& f : world.focuses) {
+      const double distance_m = glm::length(glm::dvec3(f.centre_m - glm::dvec2(eye), eye.z));
+      if (wave_share(static_cast<float>(distance_m), inv_reach) == 1.0f) continue;
+      const double width_m = widest_m * distance_m / (reach_m * world.scene.detail.objects);
+      focus[count++] = {f.centre_m, f.radius_m + width_m};
+    }
+  }
+
+  // What of the waves a vertex shows for their sake: all within a radius, none beyond two.
+  float share_at(glm::dvec2 p_world) const {
+    double share = 0.0;
+    for (const lod::Focus& f : std::span(focus).first(count))
+      share = std::max(share, 2.0 - glm::distance(p_world, f.centre_m) / f.radius_m);
+    return static_cast<float>(std::min(share, 1.0));
+  }
+};
+
 }  // namespace
 
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
@@ -51,25 +81,45 @@ glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
 }
 
 // Heights come from where the vertex is in the world, exactly, not from its rounded offset: a query
-// of the surface there gives the same bits.
+// of the surface there gives the same bits, within the waves' reach.
 void water_heights(const WaterHeights& in, const Surface& water, std::size_t begin, std::size_t end,
                    std::span<float> vertex_height_m) {
-  const std::size_t count = end - begin;
-  SWELL_DCHECK(count <= kVertexChunk, "{} vertices", count);
-  std::array<glm::dvec2, kVertexChunk> places;
-  for (std::size_t i = 0; i < count; ++i) places[i] = vertex_world(water, begin + i);
-  const auto p_world = std::span(places).first(count);
-  const auto height_m = vertex_height_m.subspan(begin, count);
+  SWELL_DCHECK(end - begin <= kVertexChunk, "{} vertices", end - begin);
+  const auto height_m = vertex_height_m.subspan(begin, end - begin);
+  std::ranges::fill(height_m, 0.0f);
+  if (in.world.scene.detail.triangulation == scene::Triangulation::kPlane) return;
+
+  // The vertices that waves move.
+  std::array<glm::dvec2, kVertexChunk> place;
+  std::array<glm::vec2, kVertexChunk> offset;
+  std::array<float, kVertexChunk> share;
+  std::array<std::uint16_t, kVertexChunk> vertex;
+  const auto eye_z = static_cast<float>(in.view.eye_world.z);
+  const auto inv_reach = static_cast<float>(1.0 / water.statistics.reach_m);
+  const FarFocuses focuses(in.world, in.view.eye_world, water.statistics.reach_m);
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const glm::vec2 p = water.offset[i];
+    place[count] = vertex_world(water, i);
+    share[count] = wave_share(std::sqrt(p.x * p.x + p.y * p.y + eye_z * eye_z), inv_reach);
+    if (share[count] < 1.0f && focuses.count > 0)
+      share[count] = std::max(share[count], focuses.share_at(place[count]));
+    if (share[count] == 0.0f) continue;
+    offset[count] = p;
+    vertex[count++] = static_cast<std::uint16_t>(i - begin);
+  }
+
+  std::array<float, kVertexChunk> wave_m;
+  const auto p_world = std::span(place).first(count);
+  const auto waves = std::span(wave_m).first(count);
   const ocean::WaterSurface surface = water_surface(in.world, in.sea);
-  if (in.world.scene.detail.triangulation == scene::Triangulation::kPlane)
-    std::ranges::fill(height_m, 0.0f);
-  else if (in.background_error_px > 0.0f)
+  if (in.background_error_px > 0.0f)
     background_heights(Background(in.view, *in.world.sea, in.world.water_bounds().height_m,
                                   in.background_error_px),
-                       surface, p_world,
-                       std::span<const glm::vec2>(water.offset).subspan(begin, count), height_m);
+                       surface, p_world, std::span(offset).first(count), waves);
   else
-    surface.heights(p_world, height_m);
+    surface.heights(p_world, waves);
+  for (std::size_t k = 0; k < count; ++k) height_m[vertex[k]] = wave_m[k] * share[k];
 }
 
 void displace(const World::State& world, const SeaMaps& sea, const View& view,

@@ -9,6 +9,7 @@
 
 #include "lod/roam.h"
 #include "render/profile.h"
+#include "render/view/shadow_casters.h"
 #include "render/view/surfaces.h"
 #include "render/world/sea_maps.h"
 #include "render/world/world_state.h"
@@ -65,6 +66,7 @@ struct ObjectGeometry {
   std::vector<std::uint32_t> indices;            // 3 per triangle
   std::vector<glm::vec3> p_rel;                  // per vertex, relative to the eye
   std::vector<float> waterline_rel_m;            // per vertex: its object's
+  ObjectShadows shadows;                         // of those that the view may show
 };
 
 struct Meshes {

@@ -41,23 +41,17 @@ ObjectInstance instance_of(const scene::FloatingObject& object, const scene::Obj
 }
 
 // Whether the view may show any of the object or of its mirror image.
-bool in_view(const scene::FloatingObject& object, const Placement& placement,
+bool in_view(const scene::FloatingObject& object, const Placement& placement, float drop_per_m2,
              const std::array<glm::vec4, 5>& planes) {
   const glm::vec3 size(object.size_m);
   const float radius = std::sqrt(0.25f * (size.x * size.x + size.y * size.y) + size.z * size.z);
-  const glm::vec3 centre = placement.bottom_rel;
+  glm::vec3 centre = placement.bottom_rel;
+  centre.z -= (centre.x * centre.x + centre.y * centre.y) * drop_per_m2;
   // The bottom lies within a height of the waterline; so does all of both images.
   const float reach = 2.0f * radius;
   return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
     return glm::dot(glm::vec3(plane), centre) + plane.w >= -reach;
   });
-}
-
-float height_px(const scene::FloatingObject& object, const Placement& placement, const View& view) {
-  const glm::vec3 p = placement.bottom_rel;
-  const float distance_m = std::max(std::sqrt(glm::dot(p, p)), view.near_m);
-  return 0.5f * static_cast<float>(view.height_px) * static_cast<float>(object.size_m.z) /
-         (distance_m * view.tan_half_y);
 }
 
 void add_vertices(const scene::ObjectMesh& mesh, const Placement& placement, ObjectGeometry& out) {
@@ -115,6 +109,16 @@ std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> ob
   return focuses;
 }
 
+const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                    const View& view) {
+  const auto height_m = static_cast<float>(world.scene.objects[object].size_m.z);
+  const float distance_m = std::max(std::sqrt(glm::dot(p_rel, p_rel)), view.near_m);
+  const float height_px =
+      0.5f * static_cast<float>(view.height_px) * height_m / (distance_m * view.tan_half_y);
+  const ObjectMeshes::Choice choice = world.objects.of_object[object];
+  return world.objects.meshes[height_px >= kNearHeight_px ? choice.near : choice.far];
+}
+
 void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
                  std::span<scene::ObjectPose> poses) {
   if (poses.empty()) return;
@@ -136,10 +140,8 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Placement placement = placement_of(objects[i], geometry.poses[i], view);
-    if (!in_view(objects[i], placement, planes)) continue;
-    const ObjectMeshes::Choice choice = world.objects.of_object[i];
-    const bool near = height_px(objects[i], placement, view) >= kNearHeight_px;
-    const scene::ObjectMesh& mesh = world.objects.meshes[near ? choice.near : choice.far];
+    if (!in_view(objects[i], placement, views.front()->drop_per_m2, planes)) continue;
+    const scene::ObjectMesh& mesh = drawn_mesh(world, i, placement.bottom_rel, view);
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
     geometry.instances.back().object = static_cast<std::uint32_t>(i);

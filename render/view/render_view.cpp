@@ -57,12 +57,14 @@ void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, RenderV
                 const Point& point) {
   ViewVertices& out = view.vertices_of(surface);
   const glm::mat4 clip_from_rel = view.camera.clip_from_rel;
-  const float n = view.refraction_index;
+  const float n = view.refraction_index, drop_per_m2 = view.drop_per_m2;
   glm::vec4* const p_clip = out.p_clip.data();
   float* const distance = out.clip_distance.data();
   for (std::size_t i = begin; i < end; ++i) {
     const WorldPoint p = point(i);
-    p_clip[i] = clip_from_rel * glm::vec4(map_point(kView, p, n), 1.0f);
+    glm::vec3 shown = map_point(kView, p, n);
+    shown.z -= (shown.x * shown.x + shown.y * shown.y) * drop_per_m2;
+    p_clip[i] = clip_from_rel * glm::vec4(shown, 1.0f);
     if constexpr (kView != ViewKind::kWindow)
       distance[i] = clip_distance(kView, surface, p.above_m);
   }

@@ -40,6 +40,7 @@ struct RenderView {
   ViewKind kind = ViewKind::kWindow;
   View camera;
   float refraction_index = 1.333f;
+  float drop_per_m2 = 0.0f;  // how far a round earth sinks (math/earth.h)
   std::array<ViewVertices, kSurfaceKinds> vertices;
   PrimitiveRanges primitives;  // of the surfaces that it shows
   raster::Pass pass;
@@ -55,14 +56,15 @@ struct RenderView {
 // to the vertical: k = (1/n) cos / sqrt(1 - (sin/n)^2), from 1/n to 0.
 float squeeze(glm::vec3 p_rel, float n);
 
-// A point of the world on its way into a view.
+// A point of the flat world on its way into a view.
 struct WorldPoint {
   glm::vec3 p_rel;    // relative to the eye [m]
   float above_m;      // its height over the water's level
   float level_rel_m;  // that level over the eye
 };
 
-// Where a view shows the point, relative to the eye.
+// Where a view of the flat world shows the point, relative to the eye. On a round earth it then
+// sinks with the level that mirrors it.
 glm::vec3 map_point(ViewKind kind, const WorldPoint& point, float refraction_index);
 
 // All views of a frame.
@@ -97,6 +99,10 @@ void water_heights(const WaterHeights& in, const Surface& water, std::size_t beg
 // Where the sea carries all objects, as they are drawn.
 void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
                  std::span<scene::ObjectPose> poses);
+
+// The mesh that an object is drawn with when it is at p_rel: few triangles where it looks small.
+const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                    const View& view);
 
 // Stage 3: floating objects where the sea carries them, as far as the view may show them, and their
 // vertices in the views.

@@ -7,27 +7,42 @@
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
 #include "render/view/meshes.h"
+#include "terrain/apron.h"
 
 namespace swell::render {
 namespace {
 
-// The endless sea: a square of 64 km around the eye, whose corner moves in whole steps.
-constexpr double kSeaSize_m = 65536.0, kSeaStep_m = 4096.0;
+// The endless sea: a square of 2097 km around the eye, whose corner moves in whole steps. From
+// 40 km up the horizon is 765 km away. A step changes triangles wider than half of it alone, which
+// lie far from any eye and, without waves, miss the earth's curve by less than a picture shows.
+constexpr double kSeaSize_m = 0x1p21, kSeaStep_m = 0x1p16;
 
 // Vertices every 1 m, 0.25 m or 0.125 m at the closest. A small budget is better spent further off,
 // a large one has nothing left to do there: docs/lod.md has the errors of all three.
-int sea_lattice_bits(int budget) { return budget < 4000 ? 16 : budget <= 40000 ? 18 : 19; }
+int sea_lattice_bits(int budget) { return budget < 4000 ? 21 : budget <= 40000 ? 23 : 24; }
+
+lod::Domain domain_around(const View& view, double size_m, double step_m, int lattice_bits) {
+  const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / step_m) * step_m;
+  return {cell - 0.5 * size_m, size_m, lattice_bits};
+}
 
 lod::Domain sea_domain(const View& view, int budget) {
-  const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / kSeaStep_m) * kSeaStep_m;
-  return {cell - 0.5 * kSeaSize_m, kSeaSize_m, sea_lattice_bits(budget)};
+  return domain_around(view, kSeaSize_m, kSeaStep_m, sea_lattice_bits(budget));
 }
 
-lod::Domain land_domain(const terrain::HeightGrid& terrain) {
-  const auto cells = static_cast<unsigned>(std::max(terrain.grid.samples_x - 1, 2));
-  return {terrain.grid.min_world, terrain.grid.size_m(),
-          std::clamp<int>(std::bit_width(cells - 1), 1, 12)};
+// Two triangles: larger ones would take the nearest water's depth from corners too far away.
+lod::Domain plane_domain(const View& view) { return domain_around(view, 0x1p16, 0x1p12, 1); }
+
+// The terrain with its apron. With 2^n + 1 samples a side, vertices on the map are on samples.
+lod::Domain land_domain(const terrain::HeightGrid& terrain, bool has_apron) {
+  const terrain::Grid square = has_apron ? terrain::square_with_apron(terrain) : terrain.grid;
+  const auto cells = static_cast<unsigned>(std::max(square.samples_x - 1, 2));
+  return {square.min_world, square.size_m(), std::clamp<int>(std::bit_width(cells - 1), 1, 13)};
 }
+
+// Maps give the land its look, so triangles are needed for its shape alone: fewer where it is flat,
+// and under water, which blurs what it shows.
+constexpr float kFlatLand = 8.0f, kSunkenLand = 16.0f, kMostTimes = 16.0f;
 
 lod::PriorityFactors priority_factors(const scene::Scene& scene) {
   const scene::Detail& detail = scene.detail;
@@ -68,6 +83,7 @@ lod::AdaptRequest request_for(const Wanted& wanted, int budget, float low_m, flo
                                                       : lod::Priority::kProjectedSize;
   request.min_height_m = low_m;
   request.max_height_m = high_m;
+  request.earth_radius_m = wanted.world.earth_radius_m(wanted.options.without);
   request.factors = priority_factors(wanted.world.scene);
   request.limits = adapt_limits(wanted.options);
   return request;
@@ -108,7 +124,7 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
       water.statistics = lod::write_radial_grid(wanted.view, budget, water.mesh);
       break;
     case scene::Triangulation::kPlane:
-      water.domain = sea_domain(wanted.view, budget);
+      water.domain = plane_domain(wanted.view);
       lod::write_plane(water.domain, water.mesh);
       water.statistics = {.triangles = 2};
       break;
@@ -127,11 +143,17 @@ void clear_surface(Surface& surface) {
 void triangulate_land(const Wanted& wanted, Surface& land) {
   if (!wanted.world.terrain) return clear_surface(land);
   const terrain::HeightGrid& terrain = *wanted.world.terrain;
+  const auto floor_m = std::min(terrain.lowest_m, static_cast<float>(terrain.apron.floor_m));
   lod::AdaptRequest request =
-      request_for(wanted, wanted.options.terrain_triangles, terrain.lowest_m, terrain.highest_m);
-  request.relief = wanted.world.relief_bounds.get();
+      request_for(wanted, wanted.options.terrain_triangles, floor_m, terrain.highest_m);
+  const bool has_apron = !wanted.options.without.has(Part::kApron);
+  if (has_apron) {
+    request.relief = wanted.world.relief_bounds.get();
+    request.factors.flat = std::min(kFlatLand * request.factors.flat, kMostTimes);
+    request.factors.sunken = kSunkenLand;
+  }
   request.frustum_margin = 0.3f;  // the mirrored land lies outside the view at times
-  adapt_surface(land_domain(terrain), request, wanted.options.triangle_capacity, land);
+  adapt_surface(land_domain(terrain, has_apron), request, wanted.options.triangle_capacity, land);
 }
 
 }  // namespace

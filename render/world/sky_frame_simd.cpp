@@ -14,7 +14,7 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 // The angle over which the clear sky is blurred too: no cloud's edge is sharp in the sea.
-constexpr float kSoftAngleLog2 = -3.0f;
+constexpr float kSoftAngleLog2 = -4.5f;
 
 HWY_INLINE VI ByteOf(V radiance) {
   const V part = hn::Mul(hn::Max(radiance, hn::Zero(D())), Constant(1.0f / kSoftSkyRange));

@@ -179,9 +179,9 @@ float choose_exposure(const scene::SkyLight& light, SkyMaps& maps) {
   // What a white level surface shows, and the sky, its brightest parts above all.
   const double white =
       luminance(maps.ambient) + luminance(maps.irradiance) * std::max(maps.to_light.z, 0.0f) / kPi;
-  const double clear = static_cast<double>(1.0f - maps.cloud_light.overcast);
-  return static_cast<float>(
-      scene::automatic_exposure(white + 2.0 * clear * root_mean_square(light)));
+  const double sky_seen =
+      std::lerp(root_mean_square(light), luminance(maps.ambient), maps.cloud_light.overcast);
+  return static_cast<float>(scene::automatic_exposure(white + 2.0 * sky_seen));
 }
 
 }  // namespace

@@ -76,10 +76,18 @@ void add_foam_pattern(const World::State* like, World::State& state) {
 
 void add_terrain(const World::State* like, Workers& workers, World::State& state) {
   if (!state.scene.terrain) return;
-  state.terrain = like ? like->terrain : shared(*scene::build_terrain(state.scene));
+  if (like) {
+    state.terrain = like->terrain;
+    state.terrain_maps = like->terrain_maps;
+    state.relief_bounds = like->relief_bounds;
+    return;
+  }
+  state.terrain = shared(*scene::build_terrain(state.scene));
+  const terrain::HeightGrid around = sample_around(*state.terrain, workers);
   state.terrain_maps =
-      like ? like->terrain_maps
-           : shared(build_terrain_maps(*state.terrain, state.scene.terrain->seed, workers));
+      shared(build_terrain_maps(*state.terrain, around, state.scene.terrain->seed, workers));
+  state.relief_bounds =
+      shared(lod::ReliefBounds(around.height_m, around.grid.samples_x, around.grid.spacing_m));
 }
 
 // like: may have another coast.
@@ -94,13 +102,16 @@ void add_coast(const World::State* like, bool same_coast, Workers& workers, Worl
   }
 }
 
-void add_relief_bounds(const World::State* like, World::State& state) {
-  if (!state.terrain || !state.scene.detail.normals_count()) return;
-  const terrain::HeightGrid& terrain = *state.terrain;
-  state.relief_bounds = like && like->relief_bounds
-                            ? like->relief_bounds
-                            : shared(lod::ReliefBounds(terrain.height_m, terrain.grid.samples_x,
-                                                       terrain.grid.spacing_m));
+// Once there are land and sky. like: with the same land and water.
+void add_land_shadow(const World::State* like, Workers& workers, World::State& state) {
+  if (!state.terrain) return;
+  const glm::vec3 to_light = state.sky->to_light;
+  if (like && like->sky->to_light == to_light) {
+    state.land_shadow = like->land_shadow;
+  } else if (auto shadow = cast_land_shadow(*state.terrain, to_light,
+                                            state.scene.water.refraction_index, workers)) {
+    state.land_shadow = shared(std::move(*shadow));
+  }
 }
 
 // like: may be null.
@@ -118,7 +129,6 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   workers.run_both(
       [&] {
         add_terrain(if_alike(same_terrain), workers, *state);
-        add_relief_bounds(if_alike(same_terrain), *state);
         add_coast(like, same_coast, workers, *state);
       },
       [&] {
@@ -127,6 +137,8 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
         add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
         add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);
       });
+  const bool same_water = like && like->scene.water.refraction_index == now.water.refraction_index;
+  add_land_shadow(if_alike(same_terrain && same_water), workers, *state);
   state->objects = build_object_meshes(now.objects);
   state->object_classes = object_classes(now);
   state->focuses = object_focuses(now.objects);

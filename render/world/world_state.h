@@ -8,12 +8,14 @@
 
 #include "lod/relief_bounds.h"
 #include "lod/request.h"
+#include "math/earth.h"
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
 #include "ocean/whitecaps.h"
 #include "render/frame.h"
+#include "render/world/land_shadow.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
@@ -22,14 +24,11 @@
 
 namespace swell::render {
 
-// Radiance in 8-bit lookup images is stored as sqrt(radiance / kLookupRange) * 255: even steps for
-// the eye, and headroom over white.
-inline constexpr float kLookupRange = 2.0f;
-
 // Cover and light of the clouds, constants of a world.
 struct CloudLight {
   float threshold = 0.0f;  // of the noise over its deviation: what is above is cloud
   float overcast = 0.0f;   // 0 as a rule, 1 where no gap is left
+  float loss = 0.15f;      // 1 / (1 + loss depth) of the light that falls on clouds comes through
   float mean_opacity = 0.0f, direct_part = 1.0f;  // means over the sky
   glm::vec3 to_light{0, 0, 1};
   // Linear RGB radiances.
@@ -62,9 +61,10 @@ struct SkyMaps {
   float exposure = 1.0f;  // that is still to be applied: a gradient's
 };
 
+// Over the terrain's square, and coarser over the square with its apron.
 struct TerrainMaps {
-  texture::PackedMap2 slopes;  // over the terrain's square
-  texture::RgbaImage albedo;   // sqrt-encoded reflectance
+  texture::PackedMap2 slopes, slopes_around;
+  texture::RgbaImage albedo, albedo_around;  // sqrt-encoded reflectance
 };
 
 // Over a coast's square, kCoastMapSize points a side.
@@ -92,7 +92,8 @@ struct World::State {
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
-  std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain, if they count
+  std::shared_ptr<const LandShadow> land_shadow = {};  // none: no land, or no sun
+  std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
   // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. Of any
   // size, it repeats. The same in every world.
@@ -105,6 +106,13 @@ struct World::State {
 
   ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
   ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
+
+  // As pictures have it (math/earth.h): infinity if flat. Two triangles cannot bend.
+  double earth_radius_m(PartSet without) const {
+    const bool bends =
+        scene.detail.triangulation != scene::Triangulation::kPlane && !without.has(Part::kEarth);
+    return scene.round_earth && bends ? kEarthRadius_m : std::numeric_limits<double>::infinity();
+  }
 };
 
 // The water's surface at the time of `sea`, a frame of the world's sea.
@@ -115,11 +123,17 @@ inline ocean::WaterSurface water_surface(const World::State& world, const ocean:
 // Points a side of the maps that lie over a coast's square.
 inline constexpr int kCoastMapSize = 256;
 
+// Cells a side of what is known of the terrain with its apron: relief and slopes.
+inline constexpr int kAroundSize = 512;
+
 // The same bits with any workers.
 SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers);
 ObjectMeshes build_object_meshes(std::span<const scene::FloatingObject> objects);
 std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> objects);
-TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain, std::uint64_t seed,
+// The terrain with its apron, kAroundSize + 1 points a side.
+terrain::HeightGrid sample_around(const terrain::HeightGrid& terrain, Workers& workers);
+TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
+                               const terrain::HeightGrid& around, std::uint64_t seed,
                                Workers& workers);
 
 }  // namespace swell::render

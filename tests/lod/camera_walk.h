@@ -75,6 +75,9 @@ class CameraWalk {
     request.factors = factors_;
     request.relief = uniform() < 0.8 ? relief_ : nullptr;
     request.max_slope = static_cast<float>(2.0 * uniform());
+    if (uniform() < 0.1) earth_radius_m_ = domain_.size_m * std::pow(1000.0, uniform());
+    if (uniform() < 0.1) earth_radius_m_ = std::numeric_limits<double>::infinity();
+    request.earth_radius_m = earth_radius_m_;
     return request;
   }
 
@@ -96,13 +99,14 @@ class CameraWalk {
 
   // None, each alone, or all together.
   void choose_factors() {
-    const int which = static_cast<int>(7.0 * uniform());
-    const auto is_on = [&](int factor) { return which == factor || which == 6; };
+    const int which = static_cast<int>(8.0 * uniform());
+    const auto is_on = [&](int factor) { return which == factor || which == 7; };
     const auto times = [&] { return static_cast<float>(1.0 + 15.0 * uniform() * uniform()); };
     factors_ = {.focus_nearer = is_on(1) ? times() : 1.0f,
                 .back_facing = is_on(2) ? times() : 1.0f,
                 .flat = is_on(3) ? times() : 1.0f,
-                .off_silhouette = is_on(4) ? times() : 1.0f};
+                .off_silhouette = is_on(4) ? times() : 1.0f,
+                .sunken = is_on(6) ? times() : 1.0f};
     if (is_on(5)) factors_.haze_distance_m = static_cast<float>(domain_.size_m * uniform());
   }
 
@@ -136,6 +140,7 @@ class CameraWalk {
   std::vector<Focus> focuses_;
   Priority priority_ = Priority::kProjectedSize;
   double largest_size_m_ = std::numeric_limits<double>::infinity();
+  double earth_radius_m_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace swell::lod

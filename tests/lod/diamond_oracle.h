@@ -141,6 +141,8 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
   const Range z{static_cast<float>(steps(r.min_height_m - eye.z)),
                 static_cast<float>(steps(r.max_height_m - eye.z))};
 
+  const auto drop = static_cast<float>(step_m / (2.0 * r.earth_radius_m));
+  const auto horizon = [&](double above_m) { return std::sqrt(2.0 * r.earth_radius_m * above_m); };
   View wide = r.view;
   wide.tan_half_x += r.frustum_margin;
   wide.tan_half_y += r.frustum_margin;
@@ -148,33 +150,53 @@ inline float badness(const AdaptRequest& r, const Domain& domain, const OracleDi
     // The corner furthest inside.
     const float a = p.x * (p.x > 0.0f ? x.high : x.low);
     const float b = p.y * (p.y > 0.0f ? y.high : y.low);
-    const float c = p.z * (p.z > 0.0f ? z.high : z.low);
+    // A round earth may have sunk as far as at the box's furthest corner.
+    const float far_x = std::max(-x.low, x.high), far_y = std::max(-y.low, y.high);
+    const float sunk = (far_x * far_x + far_y * far_y) * drop;
+    const float c = sunk * std::max(-p.z, 0.0f) + p.z * (p.z > 0.0f ? z.high : z.low);
     if (a + b + c < 0.0f) return HUGE_VALF;
   }
-  const float distance2 =
-      x.distance() * x.distance() + y.distance() * y.distance() + z.distance() * z.distance();
+  const PriorityFactors& f = r.factors;
+  const auto z_unit = static_cast<float>(d.z_unit_m / step_m);
+  const auto eye_z = static_cast<float>(steps(eye.z));
+  const Range height = r.relief ? Range{d.z_least * z_unit - eye_z, d.z_most * z_unit - eye_z} : z;
+  const float distance2 = x.distance() * x.distance() + y.distance() * y.distance() +
+                          height.distance() * height.distance();
+  const bool is_round = std::isfinite(r.earth_radius_m);
+  if (is_round) {
+    const double lowest_m = r.min_height_m, highest_m = r.max_height_m;
+    const double horizon_steps =
+        (horizon(std::max(eye.z - lowest_m, 0.0)) + horizon(highest_m - lowest_m)) / step_m;
+    if (x.distance() * x.distance() + y.distance() * y.distance() >
+        static_cast<float>(horizon_steps * horizon_steps))
+      return HUGE_VALF;
+  }
   float k = distance2;
   if (r.priority == Priority::kProjectedSize) {
     const double largest = domain.size_m / std::max(r.largest_size_m, step_m);
-    k *= std::max(std::ldexp(1.0f, d.level), static_cast<float>(largest * largest));
+    float size2 = std::max(std::ldexp(1.0f, d.level), static_cast<float>(largest * largest));
+    if (is_round) {
+      // The width at which waves are missed by 16 times what a triangle of the domain's size cuts
+      // off the earth, over that size.
+      const double slope = std::max(static_cast<double>(r.max_slope), 0.02);
+      const double width = 16.0 * domain.size_m / (4.0 * r.earth_radius_m * slope);
+      size2 = std::min(size2, std::ldexp(static_cast<float>(1.0 / (width * width)), 2 * d.level));
+    }
+    k *= size2;
   }
-  const PriorityFactors& f = r.factors;
 
   // The normal (-sx, -sy, 1) against the direction to the eye, for all slopes and places.
-  if (std::max({f.back_facing, f.flat, f.off_silhouette}) > 1.0f) {
+  if (std::max({f.back_facing, f.flat, f.off_silhouette, f.sunken}) > 1.0f) {
     const float most = r.max_slope;
     const float x0 = r.relief ? d.x_least : -most, x1 = r.relief ? d.x_most : most;
     const float y0 = r.relief ? d.y_least : -most, y1 = r.relief ? d.y_most : most;
-    const auto z_unit = static_cast<float>(d.z_unit_m / step_m);
-    const auto eye_z = static_cast<float>(steps(eye.z));
-    const Range height =
-        r.relief ? Range{d.z_least * z_unit - eye_z, d.z_most * z_unit - eye_z} : z;
     const bool back = x.most_times(x0, x1) + y.most_times(y0, y1) < height.low;
     const bool front = x.most_times(-x1, -x0) + y.most_times(-y1, -y0) < -height.high;
     const float spread = std::min(1.0f, std::max(x1 - x0, y1 - y0) / 0.5f);
     const float flat = 1.0f + (f.flat - 1.0f) * (1.0f - spread);
     k *= (back ? f.back_facing * f.back_facing : 1.0f) *
-         (back || front ? f.off_silhouette * f.off_silhouette : 1.0f) * (flat * flat);
+         (back || front ? f.off_silhouette * f.off_silhouette : 1.0f) *
+         (height.high < -eye_z ? f.sunken * f.sunken : 1.0f) * (flat * flat);
   }
 
   // Haze: to the 16th power by squaring.

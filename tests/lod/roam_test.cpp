@@ -255,7 +255,7 @@ TEST(Roam, EachTriangleSharesAnEdgeWithTheOneBefore) {
 }
 
 TEST(RoamDeathTest, RefusesWhatItCannotDo) {
-  EXPECT_DEATH(Roam({{0.0, 0.0}, 1.0, 21}, 100), "lattice_bits=21");
+  EXPECT_DEATH(Roam({{0.0, 0.0}, 1.0, 25}, 100), "lattice_bits=25");
   EXPECT_DEATH(Roam({{0.0, 0.0}, 0.0, 5}, 100), "size_m=0");
   EXPECT_DEATH(Roam({{0.0, 0.0}, 1.0, 5}, 1), "max_triangles=1");
   Roam roam({{0.0, 0.0}, 1.0, 3}, 100);

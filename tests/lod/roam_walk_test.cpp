@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(LatticeBits, RoamWalk, testing::Values(1, 2, 3, 4, 5, 6
 
 // LOD-14, at the size of a real terrain and of a real sea.
 TEST(RoamHistory, AdaptMakesTheMeshOfRebuildWhateverCameBefore) {
-  for (const int bits : {10, 17, 20}) {
+  for (const int bits : {10, 17, 20, 24}) {
     const Domain domain{{-32768.0, -32768.0}, 65536.0, bits};
     Roam roam(domain, 8000), fresh(domain, 8000);
     const ReliefBounds relief(make_heights(8, 4), 257, 256.0);

@@ -40,6 +40,12 @@ struct LabelledFrame {
     return position_of(view, p.x, p.y, labels().depth_m[at(p)]);
   }
 
+  // How far the earth has sunk at a place.
+  double sunk_m(glm::dvec3 place) const {
+    const glm::dvec2 rel(place - view.eye_world);
+    return glm::dot(rel, rel) * static_cast<double>(workspace.state().window.drop_per_m2);
+  }
+
   // The primitive that pixel p shows.
   std::uint32_t primitive(glm::ivec2 p) const {
     const VisibilityBuffer& visibility = workspace.state().visibility;

@@ -111,15 +111,17 @@ struct NextPlaces {
   double rise(glm::dvec2 p) const {
     return static_cast<double>(next.height(p)) - static_cast<double>(now.height(p));
   }
-  // The same of the drawn triangle that a ray meets: its vertices rise as the water does.
-  double rise_of_triangle(const LabelledFrame& frame, std::uint32_t i, const Ray& ray) const {
-    const Surface& surface = frame.workspace.state().meshes.water;
+  // The same of the drawn triangle that a ray meets: its vertices rise as the water does, or as
+  // much of it as they show far out.
+  static double rise_of_triangle(const LabelledFrame& frame, std::uint32_t i, const Ray& ray) {
+    const Workspace::State& drawn = frame.workspace.state();
+    const Surface& surface = drawn.meshes.water;
     std::array<glm::dvec3, 3> corner;
     glm::dvec3 rises;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = surface.mesh.indices[3 * i + static_cast<std::uint32_t>(k)];
       corner[static_cast<std::size_t>(k)] = {vertex_world(surface, v), surface.height_m[v]};
-      rises[k] = rise(vertex_world(surface, v));
+      rises[k] = static_cast<double>(drawn.labels.next_height_m[v] - surface.height_m[v]);
     }
     const auto crossing = cross_triangle(ray, corner);
     return crossing ? glm::dot(crossing->weight, rises) : std::nan("");
@@ -150,16 +152,21 @@ TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
     next.eye_world += glm::dvec3(0.3, -0.2, 0.1);
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
     const Workspace::State& drawn = frame.workspace.state();
-    for (std::size_t v = 0; v < drawn.labels.next_height_m.size(); v += 7)
-      ASSERT_EQ(drawn.labels.next_height_m[v],
-                places.next.height(vertex_world(drawn.meshes.water, v)));
+    const Surface& sea = drawn.meshes.water;
+    for (std::size_t v = 0; v < drawn.labels.next_height_m.size(); v += 7) {
+      const glm::dvec3 p(vertex_world(sea, v), 0.0);
+      // Further out waves fade.
+      if (glm::distance(p, view.eye_world) > 0.79 * sea.statistics.reach_m) continue;
+      ASSERT_EQ(drawn.labels.next_height_m[v], places.next.height(glm::dvec2(p)));
+    }
     frame.for_pixels(3, [&](glm::ivec2 p) {
       const std::uint32_t id = frame.labels().id[frame.at(p)];
       if (id == kSkyId) return;
       glm::dvec3 place = frame.position(p);
       if (id == kWaterId) {
-        const Ray ray = make_ray(view.eye_world, place - view.eye_world);
-        place.z += places.rise_of_triangle(frame, frame.primitive(p), ray);
+        const glm::dvec3 flat = place + glm::dvec3(0.0, 0.0, frame.sunk_m(place));
+        const Ray ray = make_ray(view.eye_world, flat - view.eye_world);
+        place.z += NextPlaces::rise_of_triangle(frame, frame.primitive(p), ray);
       }
       if (id >= kFirstObjectId) place = places.of_object(id - kFirstObjectId, place);
       const glm::dvec2 expected = motion_to_point(next, p, place);

@@ -118,9 +118,12 @@ void compare(Drawn& drawn, glm::ivec2 at, const DrawnPixel& pixel, Agreement& ag
     return;
   ++agreement.same;
   const glm::dvec3 rel = found->p_world - drawn.view.eye_world;
-  const double depth_m = glm::dot(rel, glm::dvec3(drawn.view.forward));
+  glm::dvec3 sunk = rel;  // as the picture has it
+  const double drop_per_m2 = drawn.workspace.state().window.drop_per_m2;
+  sunk.z -= glm::dot(glm::dvec2(rel), glm::dvec2(rel)) * drop_per_m2;
+  const double depth_m = glm::dot(sunk, glm::dvec3(drawn.view.forward));
   agreement.as_deep += std::abs(depth_m - pixel.depth_m) < 2e-3 * pixel.depth_m;
-  ASSERT_LT(glm::distance(glm::dvec3(drawn.view.ray(at_px.x, at_px.y)), rel / depth_m), 1e-6);
+  ASSERT_LT(glm::distance(glm::dvec3(drawn.view.ray(at_px.x, at_px.y)), sunk / depth_m), 1e-6);
   ASSERT_NEAR(glm::length(rel), found->distance_m, 1e-9 * found->distance_m);
   if (pixel.what == Shown::kObject) {
     ASSERT_EQ(found->object_kind, drawn.world.scene().objects[pixel.object].kind);

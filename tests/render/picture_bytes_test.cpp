@@ -103,11 +103,11 @@ TEST_P(PictureBytes, ShowNoLightAndLessAsBlack) {
 }
 
 // The tone curve reaches white at infinity only. The code's error of 0.083 at 1 makes that 255
-// comes early, without dither from light 125 on (0.9993 after the curve); the exact curve would
+// comes early, without dither from light 500 on (0.9993 after the curve); the exact curve would
 // never show it.
 TEST_P(PictureBytes, ReachWhiteInVeryBrightLightOnly) {
   EXPECT_NEAR(encoded({1.0f})[0], 255.0826, 1e-3);
-  EXPECT_EQ(bytes({100.0f, 124.0f, 127.0f, 1e6f, 1e30f}, 1.0f, 0.0f),
+  EXPECT_EQ(bytes({400.0f, 494.0f, 508.0f, 1e6f, 1e30f}, 1.0f, 0.0f),
             (std::vector<int>{254, 254, 255, 255, 255}));
   EXPECT_EQ(bytes({1e30f}, 1.0f, 0.999f)[0], 255);  // no overflow
 }
@@ -181,6 +181,31 @@ TEST_P(PictureBytes, KeepTheMeanOfAPlainAreaByTheDither) {
     const double code = encoded({static_cast<float>(tone(light))})[0];
     EXPECT_NEAR(area, code, 5e-3) << light;
     EXPECT_NEAR(area, srgb(tone(light)), kSrgbError + 5e-3) << light;
+  }
+}
+
+// ---- Lookup images
+
+// sqrt(x / (x + 1)) of 255, to the nearest, at most 254: no light but 0 is lost, and none is cut
+// off at white.
+TEST_P(PictureBytes, OfLookupImagesHoldLightFromNightToGlints) {
+  std::vector<float> light = {0.0f, -1.0f, 1e30f};
+  for (int i = 0; i < 4000; ++i) light.push_back(std::exp2(static_cast<float>(i) / 200.0f - 13.0f));
+  std::vector<int> byte(light.size());
+  std::vector<float> decoded(light.size());
+  light_code(light, byte, decoded);
+  EXPECT_EQ(byte[0], 0);
+  EXPECT_EQ(byte[1], 0);
+  EXPECT_EQ(byte[2], 254);
+  for (std::size_t i = 3; i < light.size(); ++i) {
+    const double x = light[i], code = std::sqrt(x / (x + 1.0));
+    ASSERT_NEAR(byte[i], std::min(255.0 * code, 254.0), 0.501) << x;
+    const double c2 = byte[i] / 255.0 * byte[i] / 255.0, exact = c2 / (1.0 - c2);
+    ASSERT_NEAR(decoded[i], exact, 3e-5 * exact) << x;
+    const double step = 2.0 * code / std::pow(1.0 - code * code, 2.0) / 255.0;
+    if (x < 5.0) {
+      ASSERT_NEAR(exact, x, 0.53 * step + 2e-5);
+    }
   }
 }
 

@@ -52,6 +52,7 @@ void path_through_water(const Media& media, std::span<const float> cos_eye,
                         std::span<float> length_m);
 void absorb_in_water(const Media& media, std::span<const float> length_m, glm::vec3 light,
                      std::span<glm::vec3> seen);
+// Along straight ways through the air over a flat or round sea.
 void haze(const Shading& shading, std::span<const float> distance_m, glm::vec3 to_eye,
           glm::vec3 light, std::span<glm::vec3> seen);
 
@@ -65,6 +66,8 @@ void find_seen(ViewKind kind, const Media& media, float level_rel_m,
 void encode_srgb(std::span<const float> linear, std::span<float> code);
 void to_byte(std::span<const float> linear, float exposure, std::span<const float> dither,
              std::span<int> byte);
+// Bytes of lookup images, and the light that they stand for.
+void light_code(std::span<const float> light, std::span<int> byte, std::span<float> decoded);
 void pixel_noise(std::span<const float> x_px, std::span<const float> y_px, std::span<float> noise);
 
 }  // namespace swell::render

@@ -161,6 +161,9 @@ void HazeBetween(const Shading& shading, std::span<const float> distance_m, glm:
     Packet packet;
     packet.distance = LoadSome(distance_m, i);
     packet.to_eye = Constant(to_eye);
+    packet.p = Scale(packet.to_eye, hn::Neg(packet.distance));
+    const V r2 = hn::MulAdd(packet.p.x, packet.p.x, hn::Mul(packet.p.y, packet.p.y));
+    packet.p.z = hn::MulAdd(r2, Constant(shading.rays.drop_per_m2), packet.p.z);
     StoreSome(Haze(shading, packet, Constant(light)), seen, i);
   });
 }
@@ -201,6 +204,18 @@ void Bytes(std::span<const float> linear, float exposure, std::span<const float>
   });
 }
 
+void LightCode(std::span<const float> light, std::span<int> byte, std::span<float> decoded) {
+  ForPackets(light.size(), [&](std::size_t i) {
+    const VI code = EncodeLight(LoadSome(light, i));
+    HWY_ALIGN std::array<std::int32_t, kLanes> lanes;
+    hn::Store(code, DI(), lanes.data());
+    for (std::size_t k = 0; k < kLanes && i + k < byte.size(); ++k) byte[i + k] = lanes[k];
+    // Other channels change nothing.
+    const V part = hn::Mul(hn::ConvertTo(D(), code), Constant(1.0f / 255.0f));
+    StoreSome(DecodeLight({part, hn::Zero(D()), Constant(1.0f)}).x, decoded, i);
+  });
+}
+
 void Noise(std::span<const float> x_px, std::span<const float> y_px, std::span<float> noise) {
   ForPackets(noise.size(), [&](std::size_t i) {
     StoreSome(PixelNoise(LoadSome(x_px, i), LoadSome(y_px, i)), noise, i);
@@ -227,6 +242,7 @@ HWY_EXPORT(HazeBetween);
 HWY_EXPORT(Find);
 HWY_EXPORT(Srgb);
 HWY_EXPORT(Bytes);
+HWY_EXPORT(LightCode);
 HWY_EXPORT(Noise);
 
 void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
@@ -292,6 +308,10 @@ void encode_srgb(std::span<const float> linear, std::span<float> code) {
 void to_byte(std::span<const float> linear, float exposure, std::span<const float> dither,
              std::span<int> byte) {
   HWY_DYNAMIC_DISPATCH(Bytes)(linear, exposure, dither, byte);
+}
+
+void light_code(std::span<const float> light, std::span<int> byte, std::span<float> decoded) {
+  HWY_DYNAMIC_DISPATCH(LightCode)(light, byte, decoded);
 }
 
 void pixel_noise(std::span<const float> x_px, std::span<const float> y_px, std::span<float> noise) {

@@ -115,6 +115,49 @@ TEST(Lookups, ShowTheFloorOfShallowWaterHoweverSteepItsWaves) {
   }
 }
 
+// Shallow water without foam, in the lower half of the picture, that is darker by a ninth than such
+// water around it: means of 9 x 1 pixels against those of 91 x 31, at every third pixel.
+int count_dashes(const LabelledFrame& frame) {
+  const Labels& labels = frame.labels();
+  const glm::ivec2 size(frame.view.width_px, frame.view.height_px);
+  const auto is_bare = [&](std::size_t at) {
+    return labels.id[at] == kWaterId && labels.foam[at] < 0.02f;
+  };
+  const auto mean = [&](glm::ivec2 middle, glm::ivec2 half) {
+    const glm::ivec2 low = glm::max(middle - half, glm::ivec2(0));
+    const glm::ivec2 high = glm::min(middle + half, size - 1);
+    double sum = 0.0, count = 0.0;
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if (const std::size_t at = frame.at({x, y}); is_bare(at)) {
+          sum += luma(frame.target.rgba[at]);
+          ++count;
+        }
+    return sum / count;
+  };
+  int dashes = 0, looked = 0;
+  frame.for_pixels(3, [&](glm::ivec2 p) {
+    if (p.y < size.y / 2 || !is_bare(frame.at(p))) return;
+    dashes += mean(p, {4, 0}) < 0.89 * mean(p, {45, 15});
+    ++looked;
+  });
+  EXPECT_GT(looked, 1000);
+  return dashes;
+}
+
+// Backs of waves mirrored a sea as dark as deep water beside bright sand: dark dashes, 400 in a
+// frame.
+TEST(Shallows, MirrorWaterAsBrightAsTheyAre) {
+  const World& world = shipped_world("beach");
+  FrameOptions options;
+  options.labels = LabelSet::all();
+  options.edge_samples = 0;
+  const View view =
+      view_from(world.scene(), {-150.0, -235.0, 2.5}, scene::radians(20.0), scene::radians(-12.0));
+  for (const double t_s : {3.0, 7.0})
+    EXPECT_EQ(count_dashes({world, view, t_s, options}), 0) << t_s;
+}
+
 // ---- Swash
 
 // How water and the land that comes next to it in a row or a column, at about the same depth,

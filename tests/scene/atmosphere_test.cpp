@@ -230,21 +230,41 @@ class LightPaths {
     return c * d + std::sqrt(1.0 - c * c) * (std::cos(a) * x + std::sin(a) * y);
   }
 
-  // The next collision along `d`, or none.
-  bool fly(glm::dvec3& p, glm::dvec3 d) {
+  enum class End { kCollision, kSea, kSpace };
+
+  // To the next collision along `d`.
+  End fly(glm::dvec3& p, glm::dvec3 d) {
     const double most = rayleigh(0.0) + mie(0.0) + ozone(25000.0);
     for (;;) {
       p += d * (-std::log(1.0 - uniform()) / most);
       const double h = height(p);
-      if (h < 0.0 || h > kAirTop_m) return false;
-      if (uniform() * most < rayleigh(h) + mie(h) + ozone(h)) return true;
+      if (h < 0.0) return End::kSea;
+      if (h > kAirTop_m) return End::kSpace;
+      if (uniform() * most < rayleigh(h) + mie(h) + ozone(h)) return End::kCollision;
     }
+  }
+
+  // The sea is white to 8 % from all sides.
+  double leave_sea(glm::dvec3& p, glm::dvec3& d, double& weight, glm::dvec3 to_sun) {
+    const glm::dvec3 up = glm::normalize(p);
+    p = up * (kEarthRadius_m + 0.1);
+    weight *= 0.08;
+    const double sum = weight / kPi * std::max(glm::dot(up, to_sun), 0.0) * sunlight(p, to_sun);
+    do d = scattered(up, 0.0);
+    while (glm::dot(d, up) <= 0.0);
+    return sum;
   }
 
   double one_path(glm::dvec3 d, glm::dvec3 to_sun) {
     glm::dvec3 p(0.0, 0.0, kEarthRadius_m + 2.0);
     double weight = 1.0, sum = 0.0;
-    for (int order = 0; order < 12 && fly(p, d); ++order) {
+    for (int order = 0; order < 20; ++order) {
+      const End end = fly(p, d);
+      if (end == End::kSpace) break;
+      if (end == End::kSea) {
+        sum += leave_sea(p, d, weight, to_sun);
+        continue;
+      }
       const double h = height(p), lit = rayleigh(h) + kAlbedo * mie(h);
       weight *= lit / (rayleigh(h) + mie(h) + ozone(h));
       const double share_of_mie = kAlbedo * mie(h) / lit;
@@ -258,22 +278,24 @@ class LightPaths {
   std::uint64_t counter_ = 0;
 };
 
-// The sea's own light is left out of the paths, and their number leaves 2 %.
+// The number of paths leaves 1 %. In haze, light scattered again goes forward: it is too dark by up
+// to 14 % near the horizon under the sun, where no case lies.
 TEST(Atmosphere, IsAsBrightAsPathsOfLightSay) {
   Workers workers(2);
-  const Atmosphere air = make_atmosphere(2.2, workers);
-  LightPaths paths(2.2);
   struct Case {
-    double sun_deg, azimuth_deg, elevation_deg;
+    double turbidity, sun_deg, azimuth_deg, elevation_deg, tolerance;
   };
-  for (const Case& c : {Case{50.0, 0.0, 90.0}, Case{50.0, 120.0, 40.0}, Case{20.0, 90.0, 60.0},
-                        Case{10.0, 180.0, 30.0}}) {
+  for (const Case& c : {Case{1.0, 50.0, 0.0, 90.0, 0.03}, Case{1.0, 50.0, 180.0, 5.0, 0.03},
+                        Case{1.0, 10.0, 180.0, 30.0, 0.03}, Case{2.2, 50.0, 0.0, 90.0, 0.03},
+                        Case{2.2, 50.0, 120.0, 40.0, 0.06}, Case{2.2, 20.0, 90.0, 60.0, 0.05},
+                        Case{2.2, 10.0, 180.0, 30.0, 0.07}}) {
+    const Atmosphere air = make_atmosphere(c.turbidity, workers);
     const glm::dvec3 to_sun(sun_direction(0.0, radians(c.sun_deg)));
     const glm::dvec3 d(sun_direction(radians(c.azimuth_deg), radians(c.elevation_deg)));
     const double ours = sky_radiance(make_sky_table(air, to_sun, workers), d).y;
-    const double theirs = paths.radiance(d, to_sun, 40000);
-    EXPECT_NEAR(ours / theirs, 1.0, 0.07)
-        << c.sun_deg << " " << c.azimuth_deg << " " << ours << " " << theirs;
+    const double theirs = LightPaths(c.turbidity).radiance(d, to_sun, 30000);
+    EXPECT_NEAR(ours / theirs, 1.0, c.tolerance)
+        << c.turbidity << " " << c.sun_deg << " " << c.azimuth_deg << " " << c.elevation_deg;
   }
 }
 

@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
             "mount, focal_px, [[camera.path]], eye_m, roll_deg, near_m, size_px, quaternion, "
             "pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, mount_offset_m"},
         Fault{"[sea]\nstate = 3\n",
-              "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] seed, "
+              "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] seed, earth, "
               "[[sea.sines]], spectrum, centre_m, size_m, beaufort, resolution, loop_s, douglas, "
               "whitecaps, gravity_mps2, amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",

@@ -59,6 +59,7 @@ sun_radiance = [3, 2.5, 2]
 zenith = [0.1, 0.2, 0.3]
 horizon = [0.4, 0.5, 0.6]
 haze_distance_m = 9000
+haze_height_m = 800
 cloud_cover = 0.75
 cloud_seed = 123456789012345
 exposure = 1.25
@@ -73,6 +74,7 @@ loop_s = 25
 whitecaps = 0.5
 centre_m = [10, 20]
 size_m = [500, 600]
+earth = "flat"
 [[sea.sines]]
 amplitude_m = 0.5
 wavelength_m = 30
@@ -134,6 +136,7 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.sky.zenith, glm::vec3(0.1f, 0.2f, 0.3f));
   EXPECT_EQ(scene.sky.horizon, glm::vec3(0.4f, 0.5f, 0.6f));
   EXPECT_EQ(scene.sky.haze_distance_m, 9000.0);
+  EXPECT_EQ(scene.sky.haze_height_m, 800.0);
   EXPECT_EQ(scene.sky.cloud_cover, 0.75);
   EXPECT_EQ(scene.sky.cloud_seed, 123456789012345u);
   EXPECT_EQ(scene.sky.exposure, 1.25);
@@ -147,6 +150,7 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.sea.whitecaps, 0.5);
   EXPECT_EQ(scene.area.centre_m, glm::dvec2(10, 20));
   EXPECT_EQ(scene.area.size_m, glm::dvec2(500, 600));
+  EXPECT_FALSE(scene.round_earth);
   ASSERT_EQ(scene.sea.sines.size(), 2u);
   EXPECT_EQ(scene.sea.sines[0].amplitude_m, 0.5);
   EXPECT_EQ(scene.sea.sines[0].wavelength_m, 30.0);

@@ -92,6 +92,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sky.zenith);
   SWELL_COMPARE(sky.horizon);
   SWELL_COMPARE(sky.haze_distance_m);
+  SWELL_COMPARE(sky.haze_height_m);
   SWELL_COMPARE(sky.cloud_cover);
   SWELL_COMPARE(sky.cloud_seed);
   SWELL_COMPARE(sky.exposure);
@@ -109,6 +110,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sea.patch_lengths_m);
   SWELL_COMPARE(area.centre_m);
   SWELL_COMPARE(area.size_m);
+  SWELL_COMPARE(round_earth);
   SWELL_COMPARE(water.refraction_index);
   SWELL_COMPARE(water.body_colour);
   SWELL_COMPARE(water.absorption_per_m);

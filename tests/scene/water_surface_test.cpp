@@ -213,13 +213,13 @@ TEST(WaterSurface, LandAndItsWaterlineDoNotMove) {
 
 TEST(WaterSurface, WaterIsBetweenTheSurfaceAndTheGround) {
   const Snapshot water(island_scene(), 2.0);
-  const glm::dvec2 p(900.0, 600.0);  // floor at -14 m
+  const glm::dvec2 p(900.0, 600.0);  // beyond the island's apron: floor at -60 m
   const double z = water->height(p);
   EXPECT_TRUE(water->in_water({p, z}));
   EXPECT_TRUE(water->in_water({p, z - 1e-6}));
   EXPECT_FALSE(water->in_water({p, z + 1e-6}));
-  EXPECT_TRUE(water->in_water({p, -13.0}));
-  EXPECT_FALSE(water->in_water({p, -15.0}));
+  EXPECT_TRUE(water->in_water({p, -59.0}));
+  EXPECT_FALSE(water->in_water({p, -61.0}));
   EXPECT_TRUE(Snapshot(windy_scene(), 2.0)->in_water({p, -5000.0}));
 }
 
@@ -298,9 +298,27 @@ TEST(WaterSurface, RaysThatLeaveTheSeaBehindHitNothing) {
   ASSERT_TRUE(down);
   EXPECT_NEAR(down->p_world.z, water->height({3, 4}), 1e-6);
   EXPECT_TRUE(down->from_above);
-  const auto far = water->intersect({0, 0, 100}, {1.0, 0, -0.002}, 1e6);  // meets the flat sea
+  // Far out it meets waves, or the flat sea around a limited one.
+  const auto far = water->intersect({0, 0, 100}, {1.0, 0, -0.002}, 1e6);
   ASSERT_TRUE(far);
-  EXPECT_NEAR(far->p_world.x, 50000.0, 1e-3);
+  EXPECT_NEAR(far->p_world.z, water->height(glm::dvec2(far->p_world)), 1e-6);
+  EXPECT_NE(far->p_world.z, 0.0);
+  Scene limited = windy_scene();
+  limited.area.size_m = {3000.0, 2000.0};
+  const Snapshot flat(limited, 0.0);
+  const auto beyond = flat->intersect({0, 0, 100}, {1.0, 0, -0.002}, 1e6);
+  ASSERT_TRUE(beyond);
+  EXPECT_NEAR(beyond->p_world.x, 50000.0, 1e-3);
+}
+
+TEST(WaterSurface, ASideWithoutASizeHasNoEnd) {
+  Scene scene = sine_scene();
+  scene.area.size_m = {0.0, 1000.0};
+  const Snapshot water(scene, 2.0);
+  for (const double x : {0.0, 5e4, -8e5}) {
+    EXPECT_NEAR(water->height({x, 100.0}), sine_height({x, 100.0}, 2.0), 2e-3) << x;
+    EXPECT_EQ(water->height({x, 501.0}), 0.0f) << x;
+  }
 }
 
 // Everything a surface answers.

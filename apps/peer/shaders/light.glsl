@@ -1,15 +1,13 @@
 // What all fragment shaders share: sky, haze, water's absorption, from light to a picture.
 uniform sampler2D sky_soft;
 uniform vec3 sun_direction, sun_irradiance, ambient, horizon;
-uniform float inv_haze_m, exposure, refraction_index;
+uniform float inv_haze_m, inv_haze_height_m, exposure, refraction_index;
+uniform float drop_per_m2;  // of a round earth
 uniform vec3 body, absorption_per_m;
 uniform float pixel_angle_log2;
 uniform float eye_z;
 
-// Radiance from a lookup image's square-root code.
-vec3 decode(vec3 code) { return 2.0 * code * code; }
-
-// The same of the blurred sky.
+// Radiance from the blurred sky's square-root code.
 vec3 decode_sky(vec3 code) { return 4.0 * code * code; }
 
 // The blurred sky in a direction, any length of it equal to `size`.
@@ -30,12 +28,21 @@ float fresnel(float cos_theta, float n) {
   return 0.5 * (minus_t * minus_t + minus_s * minus_s) / (plus_t * plus_t);
 }
 
-vec3 add_haze(vec3 colour, vec3 to_eye, float distance_m) {
-  float amount = max((1.0 - 1.0 / 512.0) - exp(-inv_haze_m * distance_m), 0.0);
+// The mean density of haze on the way to p, as render/tile/attenuate-inl.h has it.
+float mean_haze(vec3 p) {
+  float eye = 1.0 + max(eye_z, 0.0) * inv_haze_height_m;
+  float place = 1.0 + abs(p.z + eye_z) * inv_haze_height_m;
+  float sagging = dot(p.xy, p.xy) * (0.25 * drop_per_m2 * inv_haze_height_m);
+  float middle = max(0.5 * (eye + place) - sagging, 1.0);
+  return 0.5 * (eye + place) / (eye * place * middle);
+}
+
+vec3 add_haze(vec3 colour, vec3 p, vec3 to_eye, float distance_m) {
+  float amount = max((1.0 - 1.0 / 512.0) - exp(-inv_haze_m * mean_haze(p) * distance_m), 0.0);
   vec2 away = -to_eye.xy;
   float horizontal2 = max(dot(away, away), 1e-12);
-  float to_rim = 0.5 * inversesqrt(horizontal2), steep = max(1.0 - 2.0 * horizontal2, 0.0);
-  vec3 sky = mix(decode_sky(texture(sky_soft, away * to_rim + 0.5).rgb), horizon, steep * steep);
+  float to_rim = 0.5 * inversesqrt(horizontal2), steep = 1.0 - horizontal2 * horizontal2;
+  vec3 sky = mix(decode_sky(texture(sky_soft, away * to_rim + 0.5).rgb), horizon, steep);
   return mix(colour, sky, amount);
 }
 
@@ -67,5 +74,12 @@ vec4 to_display(vec3 light) {
   return vec4(code + (dither - 0.5) / 255.0, 1.0);
 }
 
-// A texel of a lookup image.
-vec4 to_lookup(vec3 light) { return vec4(sqrt(0.5 * max(light, vec3(0.0))), 1.0); }
+// A texel of a lookup image, and radiance from it.
+vec4 to_lookup(vec3 light) {
+  vec3 x = max(light, vec3(0.0));
+  return vec4(min(sqrt(x / (x + 1.0)), 254.0 / 255.0), 1.0);
+}
+vec3 from_lookup(vec3 code) {
+  vec3 c2 = min(code * code, vec3(254.0 / 255.0 * 254.0 / 255.0));
+  return c2 / (1.0 - c2);
+}

@@ -15,9 +15,11 @@ vec3 gloss(vec3 normal, vec3 to_eye) {
   float cos_eye = max(dot(normal, to_eye), 0.0);
   float reflectance = 0.5 * fresnel(max(cos_eye, 0.1), 1.5);
   vec3 r = normal * (2.0 * cos_eye) - to_eye;
-  float share = r.z < 0.0 ? 0.3 : 1.0;
-  r.z = abs(r.z) + 1e-3;
-  vec3 sky = sky_radiance(sky_soft, r, sqrt(dot(r, r))) * share;
+  float below = clamp(0.5 - 1.6 * r.z, 0.0, 1.0);
+  float over = r.z - 0.02;
+  r.z = 0.5 * (over + sqrt(over * over + 0.01)) + 0.02;
+  vec3 sky = mix(sky_radiance(sky_soft, r, sqrt(dot(r, r))), sea_light,
+                 below * below * (3.0 - 2.0 * below));
   vec3 half_way = to_eye + sun_direction;
   float cos_half = max(dot(normal, half_way), 0.0) *
                    inversesqrt(max(dot(half_way, half_way), 1e-6));
@@ -43,7 +45,7 @@ void main() {
   vec3 true_to_eye = to_eye;
 #endif
   vec3 light = matt_light(normal) + gloss(normal, true_to_eye);
-  light = add_haze(light, to_eye, length2 * inv_length);
+  light = add_haze(light, v_p, to_eye, length2 * inv_length);
 #ifdef REFLECTION
   colour = to_lookup(light);
 #else

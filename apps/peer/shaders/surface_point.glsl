@@ -14,6 +14,9 @@ SurfacePoint surface_point() {
   float depth = texelFetch(distance_map, ivec2(gl_FragCoord.xy), 0).r;
   vec3 d = ray + gl_FragCoord.x * ray_dx + gl_FragCoord.y * ray_dy;
   float length2 = dot(d, d), inv_length = inversesqrt(length2);
-  return SurfacePoint(d * depth, d * -inv_length, depth * length2 * inv_length,
-                      pixel_angle_log2 + log2(depth));
+  // In the flat world: raised by what the place has sunk, and as the level there has it.
+  float sunk = dot(d.xy, d.xy) * depth * drop_per_m2;
+  vec3 p = d * depth + vec3(0.0, 0.0, sunk * depth);
+  vec3 to_eye = (d + vec3(0.0, 0.0, 2.0 * sunk)) * -inv_length;
+  return SurfacePoint(p, to_eye, depth * length2 * inv_length, pixel_angle_log2 + log2(depth));
 }

@@ -14,6 +14,7 @@ layout(location = 1) in float height_m;
 uniform mat4 clip_from_rel;
 uniform float level_rel_m;  // the mean level over the eye
 uniform float refraction_index;
+uniform float drop_per_m2;  // of a round earth
 out vec3 v_p;
 
 const float clip_margin_m = 0.3;
@@ -48,5 +49,6 @@ void main() {
   p.z = level + (above_m < 0.0 ? above_m * squeeze(p) : above_m);
 #endif
   v_p = p;
+  p.z -= dot(p.xy, p.xy) * drop_per_m2;
   gl_Position = clip_from_rel * vec4(p, 1.0);
 }

@@ -11,7 +11,8 @@ uniform vec4 sine_slope[SINES];  // slopes, variance
 uniform sampler2D noise;
 uniform vec4 noise_place, noise_scale;
 uniform vec3 crest_glow, mirrored_sea;
-uniform float inv_crest_height, wave_horizon;
+uniform float mirrored_floor_part;
+uniform float inv_crest_height, inv_wave_reach, wave_horizon;
 #ifdef COAST
 uniform sampler2D coast_slopes, coast_surf;
 uniform vec4 coast_slopes_place, coast_slopes_scale, coast_surf_place, coast_surf_scale;
@@ -65,7 +66,7 @@ vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
   vec2 moved = vec2(-0.5 * gain * dot(slope, view_right), gain * dot(slope, view_ahead));
   vec2 bounded = clamp(moved, vec2(-max_distortion_px), vec2(max_distortion_px));
   vec4 found = texture(image, (gl_FragCoord.xy + bounded) * inv_window);
-  return vec4(decode(found.rgb), found.a);
+  return vec4(from_lookup(found.rgb), found.a);
 }
 #endif
 
@@ -118,23 +119,26 @@ void main() {
   vec3 r = normal * (2.0 * cos_eye) - to_eye;
   float sea = part_of_sea_mirrored(r.z - wave_horizon, to_eye.z + wave_horizon, s.variance);
   r.z = max(r.z, -0.25) + 0.8 * s.variance;
-  vec3 mirrored = mix(sky_radiance(sky_soft, r, sqrt(dot(r, r))), mirrored_sea, sea);
-  float crest = clamp((p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
+  float share = clamp(2.0 - 1.25 * inv_wave_reach * point.distance_m, 0.0, 1.0);
+  float crest = clamp(share * (p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
   float towards_sun = max(-dot(to_eye.xy, sun_direction.xy), 0.0);
   vec3 refracted = body + crest_glow * (crest * crest * (towards_sun + 0.35));
+  vec3 floor_added = vec3(0.0);
+#ifdef LOOKUPS
+  vec4 floor_seen = look_up(refraction, s.slope, to_eye.z, -0.5);
+  floor_added = floor_seen.a * (floor_seen.rgb - refracted);
+  refracted += floor_added;
+#endif
+  vec3 sea_light = mirrored_sea + mirrored_floor_part * floor_added;
+  vec3 mirrored = mix(sky_radiance(sky_soft, r, sqrt(dot(r, r))), sea_light, sea);
 #ifdef LOOKUPS
   vec4 mirror = look_up(reflection, s.slope, to_eye.z, 1.0);
   mirrored = mix(mirrored, mirror.rgb, mirror.a);
-  vec4 floor_seen = look_up(refraction, s.slope, to_eye.z, -0.5);
-  refracted = mix(refracted, floor_seen.rgb, floor_seen.a);
 #endif
   float glint = sun_glint(to_eye, s, reflectance, cos_rough);
-#ifdef LOOKUPS
-  glint *= 1.0 - mirror.a * clamp(2.0 - 5.0 * (sun_direction.z - to_eye.z), 0.0, 1.0);
-#endif
   vec3 seen = mix(refracted, mirrored, reflectance) + sun_irradiance * glint;
 #ifdef COAST
   seen = add_foam(foam_cover(p.xy, level_flat_m, surf.y), seen);
 #endif
-  colour = to_display(add_haze(seen, to_eye, point.distance_m));
+  colour = to_display(add_haze(seen, p, to_eye, point.distance_m));
 }

@@ -1,0 +1,85 @@
+// What floating hulls do to the water around them.
+#if defined(SWELL_RENDER_MATERIALS_HULL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_HULL_INL_H_
+#undef SWELL_RENDER_MATERIALS_HULL_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_HULL_INL_H_
+#endif
+
+#include "render/materials/foam-inl.h"
+#include "render/tile/surfel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+struct AtHulls {
+  V sky_hidden;  // part of the sky's light that hulls keep off
+  V foam_cover;  // part of the water that the foam at their waterlines hides
+};
+
+// How far q, relative to a waterline's middle, lies outside it [m]: along the line to the middle of
+// a round one; 0 inside.
+HWY_INLINE V OutsideWaterline(const Waterline& line, V x, V y) {
+  const V zero = hn::Zero(D()), one = Constant(1.0f);
+  const auto along = [&](glm::vec2 axis) HWY_ATTR {
+    return hn::Abs(hn::MulAdd(x, Constant(axis.x), hn::Mul(y, Constant(axis.y))));
+  };
+  const V a = along(line.right), b = along(line.ahead);
+  if (line.is_round) {
+    const V radii = hn::Sqrt(hn::MulAdd(a, a, hn::Mul(b, b)));
+    const V length = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+    const V inside = hn::Div(length, hn::Max(radii, Constant(1e-6f)));
+    return hn::Max(hn::Sub(length, inside), zero);
+  }
+  const auto beyond = [&](V part, glm::vec2 axis) HWY_ATTR {
+    return hn::Mul(hn::Max(hn::Sub(part, one), zero), Constant(1.0f / glm::length(axis)));
+  };
+  const V da = beyond(a, line.right), db = beyond(b, line.ahead);
+  return hn::Sqrt(hn::MulAdd(da, da, hn::Mul(db, db)));
+}
+
+// All hulls together at a packet of water.
+inline HWY_NOINLINE AtHulls SampleHulls(const ObjectShadows& objects, const Foam& material,
+                                        std::span<const std::uint16_t> casters, const V3& p,
+                                        const V& level_m) {
+  const D d;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  AtHulls at = {zero, zero};
+  V foam = zero;
+  for (const std::uint16_t number : casters) {
+    const ShadowCaster& caster = objects.casters[number];
+    const Waterline& line = caster.waterline;
+    const V3 q = Sum(p, Constant(-caster.place_rel));
+    const V far = hn::Max(hn::Max(hn::Abs(q.x), hn::Abs(q.y)), hn::Abs(q.z));
+    const auto near = hn::Lt(far, Constant(caster.near_m));
+    if (hn::AllFalse(d, near)) continue;
+    const V away = OutsideWaterline(line, q.x, q.y);
+    // The form factor of a wall of the freeboard's height, as if the hull went on on both sides;
+    // less as it looks narrower.
+    const V fading =
+        Clamp(hn::MulAdd(away, Constant(-1.0f / ShadowCaster::kContact_m), one), 0.0f, 1.0f);
+    const V sine = hn::Div(
+        away,
+        hn::Sqrt(hn::MulAdd(away, away, Constant(line.freeboard_m * line.freeboard_m + 1e-6f))));
+    const V narrow = hn::Div(Constant(line.radius_m), hn::Add(away, Constant(line.radius_m)));
+    const V hidden = hn::Mul(hn::Mul(hn::Sub(one, sine), Constant(0.5f)), hn::Mul(narrow, fading));
+    at.sky_hidden = hn::Max(at.sky_hidden, hn::IfThenElseZero(near, hidden));
+    // The ring is broader where the water flows off.
+    const V towards = hn::MulAdd(q.x, Constant(line.flow.x), hn::Mul(q.y, Constant(line.flow.y)));
+    const V leeward = Clamp(hn::Mul(towards, Constant(1.0f / line.radius_m)), -0.6f, 1.5f);
+    const V width = hn::Mul(hn::Add(leeward, one), Constant(line.foam_m));
+    const V ring = Clamp(hn::Sub(one, hn::Div(away, width)), 0.0f, 1.0f);
+    foam = hn::Max(foam, hn::IfThenElseZero(near, hn::Mul(ring, Constant(line.foam))));
+  }
+  // Thinner towards its rim.
+  const V thick = hn::Min(hn::MulAdd(foam, Constant(1.1f), Constant(0.2f)), one);
+  at.foam_cover = hn::Mul(FoamCover(material, p, level_m, foam), thick);
+  return at;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

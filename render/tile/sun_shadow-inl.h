@@ -1,0 +1,204 @@
+// How much of the sun points see, for the materials.
+#if defined(SWELL_RENDER_TILE_SUN_SHADOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_SUN_SHADOW_INL_H_
+#undef SWELL_RENDER_TILE_SUN_SHADOW_INL_H_
+#else
+#define SWELL_RENDER_TILE_SUN_SHADOW_INL_H_
+#endif
+
+#include "render/tile/surfel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// As disc_part() (render/world/land_shadow.h), and 1 for 1 and more.
+HWY_INLINE V DiscPart(V lit) {
+  const V one = Constant(1.0f);
+  const V x = hn::MulSub(hn::Max(lit, hn::Zero(D())), Constant(2.0f), one);
+  const V part =
+      hn::MulAdd(x, hn::MulAdd(hn::Mul(x, x), Constant(-0.137f), Constant(0.637f)), Constant(0.5f));
+  return hn::IfThenElse(hn::Ge(lit, one), one, part);
+}
+
+// What the land leaves of the sun at p, relative to the eye. A function of its own, and few lanes
+// come far: what it takes would cost the shaders registers.
+inline HWY_NOINLINE V SunOverLand(const SunShadow& shadow, const V3& p, float eye_z) {
+  const D d;
+  const DI di;
+  const LandShadow& land = *shadow.land;
+  const V one = Constant(1.0f);
+  const auto texel = [&](glm::vec3 axis) HWY_ATTR {
+    return hn::MulAdd(p.x, Constant(axis.x), hn::MulAdd(p.y, Constant(axis.y), Constant(axis.z)));
+  };
+  const V along = texel(shadow.along), across = texel(shadow.across);
+  const glm::vec2 low(land.begin), high(land.end - 1);
+  const auto inside =
+      hn::And(hn::And(hn::Ge(along, Constant(low.x)), hn::Ge(across, Constant(low.y))),
+              hn::And(hn::Lt(along, Constant(high.x)), hn::Lt(across, Constant(high.y))));
+  if (hn::AllFalse(d, inside)) return one;
+  const VI i = TruncateToInt(hn::IfThenElseZero(inside, along));
+  const VI j = TruncateToInt(hn::IfThenElseZero(inside, across));
+
+  // Most points stand above all shadows around.
+  constexpr int kBlock = LandShadow::kBlock_log2;
+  const VI block = hn::Add(hn::Mul(hn::ShiftRight<kBlock>(j), hn::Set(di, land.blocks_along)),
+                           hn::ShiftRight<kBlock>(i));
+  const V z = hn::Add(p.z, Constant(eye_z));
+  const auto low_enough =
+      hn::And(inside, hn::Lt(z, hn::GatherIndex(d, land.block_lit_above_m.data(), block)));
+  if (hn::AllFalse(d, low_enough)) return one;
+
+  const V s = hn::Sub(along, hn::ConvertTo(d, i)), t = hn::Sub(across, hn::ConvertTo(d, j));
+  const VI first = hn::Add(hn::Mul(j, hn::Set(di, land.texels_along)), i);
+  const auto* const bounds = reinterpret_cast<const std::int32_t*>(land.bounds.data());
+  const auto gather = [&](int offset) HWY_ATTR {
+    return hn::GatherIndex(di, bounds, hn::Add(first, hn::Set(di, offset)));
+  };
+  const VI at00 = gather(0), at10 = gather(1);
+  const VI at01 = gather(land.texels_along), at11 = gather(land.texels_along + 1);
+  const auto between = [&](auto&& code) HWY_ATTR {
+    const auto of = [&](VI word) HWY_ATTR { return hn::ConvertTo(d, code(word)); };
+    return Lerp(Lerp(of(at00), of(at10), s), Lerp(of(at01), of(at11), s), t);
+  };
+  const V dark_below =
+      between([&](VI word) HWY_ATTR { return hn::And(word, hn::Set(di, 0xffff)); });
+  const V lit_above = between(
+      [&](VI word) HWY_ATTR { return hn::And(hn::ShiftRight<16>(word), hn::Set(di, 0xffff)); });
+  const V height =
+      hn::Mul(hn::Sub(z, Constant(LandShadow::kLowest_m)), Constant(1.0f / land.step_m));
+  const V lit = hn::Div(hn::Sub(height, dark_below), hn::Max(hn::Sub(lit_above, dark_below), one));
+  return hn::IfThenElse(low_enough, DiscPart(lit), one);
+}
+
+// A point relative to an object's place, along the axes of ObjectShadows.
+struct SunPlace {
+  V right, up, depth;
+};
+
+// The part of the sun's disc that an outline covers, seen from a place: the disc has the radius
+// `soft` at the outline's distance. Five strips of it, as broad as it is in their middles.
+HWY_INLINE V DiscCovered(const Outline& outline, const SunPlace& at, V soft) {
+  const D d;
+  constexpr int kStrips = 5;
+  constexpr std::array<float, kStrips> kUp = {-0.8f, -0.4f, 0.0f, 0.4f, 0.8f};
+  constexpr std::array<float, kStrips> kHalf = {0.6f, 0.9165151f, 1.0f, 0.9165151f, 0.6f};
+  constexpr float kWhole = 2.0f * (0.6f + 0.9165151f + 1.0f + 0.9165151f + 0.6f);
+  constexpr float kLast = Outline::kRows - 1;
+  const V zero = hn::Zero(d);
+  V covered = zero;
+  for (int k = 0; k < kStrips; ++k) {
+    const V up = hn::MulAdd(soft, Constant(kUp[k]), at.up);
+    const V row = hn::Mul(hn::Sub(up, Constant(outline.lowest_m)), Constant(outline.rows_per_m));
+    const VI i = TruncateToInt(Clamp(row, 0.0f, kLast - 1.0f));
+    const V t = Clamp(hn::Sub(row, hn::ConvertTo(d, i)), 0.0f, 1.0f);
+    const auto end = [&](const std::array<float, Outline::kRows>& of_row) HWY_ATTR {
+      return Lerp(hn::GatherIndex(d, of_row.data(), i), hn::GatherIndex(d, of_row.data() + 1, i),
+                  t);
+    };
+    const V half = hn::Mul(soft, Constant(kHalf[k]));
+    const V left = hn::Max(end(outline.left_m), hn::Sub(at.right, half));
+    const V right = hn::Min(end(outline.right_m), hn::Add(at.right, half));
+    const auto crosses = hn::And(hn::Ge(row, zero), hn::Le(row, Constant(kLast)));
+    covered = hn::Add(covered, hn::IfThenElseZero(crosses, hn::Max(hn::Sub(right, left), zero)));
+  }
+  return hn::Min(hn::Div(covered, hn::Mul(soft, Constant(kWhole))), Constant(1.0f));
+}
+
+// How much nearer to the sun than the place the outline is there: more than that of whatever lies
+// between its ends, in a body without hollows.
+HWY_INLINE V AheadOf(const Outline& outline, const SunPlace& at) {
+  const D d;
+  constexpr float kLast = Outline::kRows - 1;
+  const V row = hn::Mul(hn::Sub(at.up, Constant(outline.lowest_m)), Constant(outline.rows_per_m));
+  const VI i = TruncateToInt(Clamp(hn::Add(row, Constant(0.5f)), 0.0f, kLast));
+  const auto end = [&](const std::array<float, Outline::kRows>& of_row)
+                       HWY_ATTR { return hn::GatherIndex(d, of_row.data(), i); };
+  const V left = end(outline.left_m), right = end(outline.right_m);
+  const V width = hn::Max(hn::Sub(right, left), Constant(1e-6f));
+  const V t = Clamp(hn::Div(hn::Sub(at.right, left), width), 0.0f, 1.0f);
+  return hn::Sub(Lerp(end(outline.left_depth_m), end(outline.right_depth_m), t), at.depth);
+}
+
+// A point that light may fall on.
+struct LitPoint {
+  V3 p;    // relative to the eye
+  V soft;  // half a pixel's breadth there [m]
+  V own;   // the number of the object that it is on, below 0 if on none
+};
+
+// What the objects leave of the sun.
+inline HWY_NOINLINE V SunOverObjects(const ObjectShadows& shadows,
+                                     std::span<const std::uint16_t> casters,
+                                     const LitPoint& point) {
+  const D d;
+  constexpr auto kRadius = static_cast<float>(kSunRadius_rad);
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  const auto high = hn::Ge(point.p.z, Constant(shadows.lowest_rel_m));
+  V visible = one;
+  for (const std::uint16_t number : casters) {
+    const ShadowCaster& caster = shadows.casters[number];
+    if (caster.reach_m <= 0.0f) continue;
+    const Outline& outline = caster.outline;
+    const V3 p = Sum(point.p, Constant(-caster.place_rel));
+    const SunPlace at = {Dot(p, Constant(shadows.right)), Dot(p, Constant(shadows.up)),
+                         Dot(p, Constant(shadows.sun))};
+    // The outline's box, as soft as anything in it is.
+    const V farthest = hn::Sub(Constant(outline.most_depth_m), at.depth);
+    const V most_soft = hn::MulAdd(farthest, Constant(kRadius), point.soft);
+    const float middle = 0.5f * (outline.left_most_m + outline.right_most_m);
+    const float half_width = 0.5f * (outline.right_most_m - outline.left_most_m);
+    const float half_height = 0.5f * (Outline::kRows - 1) / outline.rows_per_m;
+    const V aside = hn::Abs(hn::Sub(at.right, Constant(middle)));
+    const V above = hn::Abs(hn::Sub(at.up, Constant(outline.lowest_m + half_height)));
+    const auto in_box = hn::And(hn::Lt(aside, hn::Add(most_soft, Constant(half_width))),
+                                hn::Lt(above, hn::Add(most_soft, Constant(half_height))));
+    const auto other = hn::Ne(point.own, Constant(static_cast<float>(caster.object)));
+    const auto near = hn::And(hn::Gt(farthest, zero), hn::Lt(farthest, Constant(caster.reach_m)));
+    const auto some = hn::And(hn::And(in_box, near), hn::And(other, high));
+    if (hn::AllFalse(d, some)) continue;
+
+    const V ahead = AheadOf(outline, at);
+    const V soft = hn::MulAdd(hn::Max(ahead, zero), Constant(kRadius), point.soft);
+    const V fading =
+        Clamp(hn::NegMulAdd(ahead, Constant(2.0f / caster.reach_m), Constant(2.0f)), 0.0f, 1.0f);
+    const V before = hn::Mul(Clamp(hn::Mul(ahead, Constant(20.0f)), 0.0f, 1.0f), fading);
+    const V covered = hn::Mul(DiscCovered(outline, at, soft), before);
+    visible = hn::IfThenElse(some, hn::NegMulAdd(visible, covered, visible), visible);
+  }
+  return visible;
+}
+
+// Where light that falls on points under the sea's level comes in; far below all for very deep
+// ones.
+HWY_INLINE V3 WhereLightEnters(const Shading& s, const V3& p) {
+  const V level = Constant(-s.rays.eye_z), deepest = Constant(kDeepestShadow_m);
+  const V depth = hn::Max(hn::Sub(level, p.z), hn::Zero(D()));
+  const V z = hn::IfThenElse(hn::Lt(depth, deepest), hn::Max(p.z, level), Constant(-1e9f));
+  return {hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x),
+          hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y), z};
+}
+
+HWY_INLINE V PixelSoftness(const Shading& s, V depth) {
+  return hn::MulAdd(depth, Constant(0.5f * s.rays.pixel_angle), Constant(1e-4f));
+}
+
+// The part of the sun that a packet's points see, in [0, 1], of which `own` says which objects they
+// are on. For water and objects; the ground has a map of its own.
+HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& packet, V own) {
+  V visible = Constant(1.0f);
+  if (s.sun_shadow.land) visible = SunOverLand(s.sun_shadow, packet.p, s.rays.eye_z);
+  if (!tile.casters.empty())
+    visible = hn::Mul(visible, SunOverObjects(*s.sun_shadow.objects, tile.casters,
+                                              {packet.p, PixelSoftness(s, packet.depth), own}));
+  return visible;
+}
+HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& packet) {
+  return SunVisible(s, tile, packet, Constant(-1.0f));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,28 @@
+// What stands before the sun, and what floats near by, as the shaders of a view look for it
+// (sun_shadow-inl.h).
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "raster/pass.h"
+#include "render/materials/inputs.h"
+#include "render/view/render_view.h"
+#include "render/world/land_shadow.h"
+
+namespace swell::render {
+
+struct SunShadow {
+  // The land's: texel `along` of a point p relative to the eye is (p.x, p.y, 1) . along.
+  const LandShadow* land = nullptr;  // none: shades nothing
+  glm::vec3 along{0.0f}, across{0.0f};
+  // How far sideways light comes in that falls on a point under water: towards the sun, by depth.
+  glm::vec2 entry{0.0f};
+  // The objects'.
+  const ObjectShadows* objects = nullptr;
+  TileCasters casters;
+};
+
+void fill_sun_shadow(const MaterialInputs& in, const RenderView& view, const raster::TileGrid& grid,
+                     SunShadow& shadow);
+
+}  // namespace swell::render

@@ -1,0 +1,29 @@
+// Stage 3: which floating objects stand in the light, and in which tiles of a view that may show.
+#pragma once
+
+#include "raster/pass.h"
+#include "render/view/render_view.h"
+
+namespace swell::render {
+
+// The mesh where the pose puts it, as the sun sees it along the axes of `shadows`. 20 us for a buoy
+// of many triangles.
+Outline outline_of(const scene::ObjectMesh& mesh, const scene::FloatingObject& object,
+                   const scene::ObjectPose& pose, const ObjectShadows& shadows);
+
+// The light of a frame, and what of its pictures is left out.
+struct ShadowOptions {
+  glm::vec3 sun_direction{0.0f, 0.0f, 1.0f};  // unit; below the horizon it casts no shadows
+  PartSet without;
+};
+
+// Sets objects.shadows: all objects that may tell on what the view shows, in front of it or not, at
+// the poses in `objects`.
+void find_shadow_casters(const World::State& world, const ShadowOptions& options, const View& view,
+                         ObjectGeometry& objects, const StageRun& run);
+
+// The casters of each tile of a view. The same pixels are shaded with tiles of any size.
+void list_casters(const ObjectShadows& shadows, const RenderView& view,
+                  const raster::TileGrid& grid, TileCasters& of_tile);
+
+}  // namespace swell::render
