@@ -91,18 +91,12 @@ class Trials {
   Trials(const Whitecaps& whitecaps, std::span<const PatchWaves> coarse, Workers& workers) {
     const FftPlan plan = make_fft_plan(kGrid);
     std::array<const PatchWaves*, kMostFoamPatches> waves{};
-    for (std::size_t p = 0; p < coarse.size(); ++p) {
-      waves[p] = &coarse[p];
-      fields_[p].resize(kSteps * kPoints);
-    }
+    for (std::size_t p = 0; p < coarse.size(); ++p) waves[p] = &coarse[p];
+    for (std::vector<float>& fields : fields_) fields.resize(kSteps * kPoints);
     std::vector<float> planes;
-    const auto field = [&](std::size_t p, std::size_t step) {
-      return std::span(fields_[p])
-          .subspan(p < coarse.size() ? step * kPoints : 0, p < coarse.size() ? kPoints : 0);
-    };
-    for (std::size_t n = 0; n < kSteps; ++n)
-      break_waves(whitecaps, plan, {waves.data(), coarse.size()}, static_cast<double>(n),
-                  field(0, n), field(1, n), planes, workers);
+    for (int n = 0; n < kSteps; ++n)
+      break_waves(whitecaps, plan, {waves.data(), coarse.size()}, n, field(0, n), field(1, n),
+                  planes, workers);
   }
 
   // The threshold with which the mean of patch p's foam is its cover.
@@ -116,6 +110,13 @@ class Trials {
   }
 
  private:
+  std::span<float> field(std::size_t p, int step) {
+    return std::span(fields_[p]).subspan(static_cast<std::size_t>(step) * kPoints, kPoints);
+  }
+  std::span<const float> field(std::size_t p, int step) const {
+    return std::span(fields_[p]).subspan(static_cast<std::size_t>(step) * kPoints, kPoints);
+  }
+
   static constexpr std::size_t kPoints = static_cast<std::size_t>(kGrid) * kGrid;
 
   // The mean of patch p's foam. A minute knows well how much foam becomes of what is born, but not
@@ -125,12 +126,10 @@ class Trials {
     std::vector<std::uint8_t> codes(kPoints, 0), born(kPoints, 0);
     double foam = 0.0, births = 0.0;
     for (int n = 0; n < kSteps; ++n) {
-      const auto field =
-          std::span(fields_[p]).subspan(static_cast<std::size_t>(n) * kPoints, kPoints);
-      age_foam(field, threshold, patch.decay, codes);
+      age_foam(field(p, n), threshold, patch.decay, codes);
       if (n >= life) foam += mean_of(codes) / (kSteps - life);  // earlier ones know their beginning
       if (n % kBirthsEvery != 0) continue;
-      age_foam(field, threshold, kFullCode, born);
+      age_foam(field(p, n), threshold, kFullCode, born);
       births += mean_of(born) * kBirthsEvery / kSteps;
     }
     return births > 0.0 ? foam / births * mean_births(threshold) : 0.0;
