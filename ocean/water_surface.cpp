@@ -60,6 +60,23 @@ void WaterSurface::velocities(std::span<const glm::dvec2> p_world, const Velocit
   water_.velocities(velocity, p_world, velocity_mps);
 }
 
+void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame& whitecaps,
+                        std::span<float> foam) const {
+  SWELL_CHECK(p_world.size() == foam.size(), "{} points, {} foam", p_world.size(), foam.size());
+  const CoastSea* const coast = water_.parts().coast;
+  constexpr std::size_t kChunk = 256;
+  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
+    const auto p = p_world.subspan(first, std::min(kChunk, p_world.size() - first));
+    const auto some = foam.subspan(first, p.size());
+    std::array<float, kChunk> z, share;
+    heights(p, std::span(z).first(p.size()));
+    sample_whitecaps(whitecaps, p, std::span(z).first(p.size()), some);
+    if (!coast) continue;
+    sample_coast_share(*coast, p, std::span(share).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) some[i] *= spectrum_weight(share[i]);
+  }
+}
+
 bool WaterSurface::in_water(glm::dvec3 p_world) const {
   const glm::dvec2 p(p_world);
   if (!(p_world.z <= height(p))) return false;

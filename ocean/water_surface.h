@@ -12,6 +12,7 @@
 #include <span>
 
 #include "ocean/water.h"
+#include "ocean/whitecaps.h"
 
 namespace swell::ocean {
 
@@ -55,6 +56,13 @@ class WaterSurface {
   // advance_velocity(). 60 ns a point, with the trains of a coast 45 more a train.
   void velocities(std::span<const glm::dvec2> p_world, const VelocityFrame& velocity,
                   std::span<glm::vec3> velocity_mps) const;
+
+  // The part of the surface that the open sea's whitecaps hide, in [0, 1], as pictures have it in
+  // the mean over foam's lace: near a coast less, by what the sea's waves leave to the trains,
+  // whose own foam is not counted. `whitecaps` is of the same sea and time, from
+  // advance_whitecaps().
+  void foam(std::span<const glm::dvec2> p_world, const WhitecapFrame& whitecaps,
+            std::span<float> foam) const;
 
   // Below or on the surface, and above the ground.
   bool in_water(glm::dvec3 p_world) const;

@@ -177,7 +177,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   workers.run_both(
       [&] {
         stage(Stage::kSea, [&](const StageRun& run) {
-          advance_sea(world_state, t_s, ws.sea, run);
+          advance_sea(world_state, t_s, options.without, ws.sea, run);
           advance_sky(world_state, clouds, ws.sky, run);
         });
       },

@@ -142,6 +142,21 @@ struct Row {
     return row;
   }
 
+  // A field that may hold no number.
+  template <class Field>
+  static Parameter<Object> optional_number(std::string_view key, Range range, Field,
+                                           std::string_view meaning) {
+    Parameter<Object> row = ranged(key, ParameterKind::kNumber, range, meaning);
+    row.get = [](const Object& object) -> Value {
+      return std::vector<double>{Field{}(object).value_or(0.0)};
+    };
+    row.set = [](Object& object, const Value& value) {
+      Field{}(object) = std::get<std::vector<double>>(value)[0];
+    };
+    row.is_set = [](const Object& object) { return Field{}(object).has_value(); };
+    return row;
+  }
+
   // A boolean or enumerated field that the file names by one of the words.
   template <class Field>
   static Parameter<Object> choice(std::string_view key, Field, std::string_view meaning) {

@@ -8,6 +8,14 @@
 //   std::vector<float> height_m(buoys.size());
 //   surface.heights(buoys, height_m);  // std::vector<glm::dvec2> buoys: x east, y north
 //   const bool wet = surface.in_water({12.0, 40.0, -0.5});
+//
+// Foam, which knows the waves of some seconds before, is made beside it:
+//
+//   const ocean::Whitecaps whitecaps = ocean::make_whitecaps(water.sea(), workers);
+//   ocean::WhitecapFrame foam;
+//   ocean::advance_whitecaps(whitecaps, t_s, foam, workers);
+//   std::vector<float> white(buoys.size());
+//   surface.foam(buoys, foam, white);
 #pragma once
 
 #include <glm/glm.hpp>

@@ -8,6 +8,7 @@
 
 #include "math/check.h"
 #include "math/random.h"
+#include "texture/perlin.h"
 
 namespace swell::texture {
 namespace {
@@ -15,7 +16,10 @@ namespace {
 // One point in every square of a periodic lattice of `cells` a side; units of a square.
 class CellPoints {
  public:
-  CellPoints(int cells, std::uint64_t seed) : cells_(cells), seed_(seed) {}
+  CellPoints(int cells, std::uint64_t seed) : cells_(cells) {
+    for (std::uint64_t n = 0; n < 2 * static_cast<std::uint64_t>(cells) * cells; ++n)
+      offset_.push_back(random_uniform(seed, n));
+  }
 
   // Distance to the second nearest point less that to the nearest: 0 on the rims between cells.
   double rim_distance(double x, double y) const {
@@ -23,7 +27,8 @@ class CellPoints {
     double nearest2 = 1e9, second2 = 1e9;
     for (int j = j0 - 2; j <= j0 + 2; ++j) {
       for (int i = i0 - 2; i <= i0 + 2; ++i) {
-        const double dx = i + offset(i, j, 0) - x, dy = j + offset(i, j, 1) - y;
+        const double* const offset = offset_of(i, j);
+        const double dx = i + offset[0] - x, dy = j + offset[1] - y;
         const double d2 = dx * dx + dy * dy;
         second2 = std::min(second2, std::max(nearest2, d2));
         nearest2 = std::min(nearest2, d2);
@@ -33,25 +38,41 @@ class CellPoints {
   }
 
  private:
-  double offset(int i, int j, std::uint64_t axis) const {
-    const int x = (i + 2 * cells_) % cells_, y = (j + 2 * cells_) % cells_;
-    const auto point = static_cast<std::uint64_t>(y * cells_ + x);
-    return random_uniform(seed_, 2 * point + axis);
+  const double* offset_of(int i, int j) const {
+    const auto wrap = [&](int n) { return n < 0 ? n + cells_ : n < cells_ ? n : n - cells_; };
+    return offset_.data() + 2 * (wrap(j) * cells_ + wrap(i));
   }
 
   int cells_;
-  std::uint64_t seed_;
+  std::vector<double> offset_;  // two a point
 };
+
+void check_size(int size) {
+  SWELL_CHECK(size >= 32 && size <= 1024 && std::has_single_bit(static_cast<unsigned>(size)),
+              "size={}", size);
+}
+
+// The values' ranks, so that every part of the range is as large as it says.
+std::vector<float> spread_evenly(const std::vector<double>& values) {
+  const std::size_t count = values.size();
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return values[a] != values[b] ? values[a] < values[b] : a < b;
+  });
+  std::vector<float> threshold(count);
+  for (std::size_t k = 0; k < count; ++k)
+    threshold[order[k]] =
+        static_cast<float>((static_cast<double>(k) + 0.5) / static_cast<double>(count));
+  return threshold;
+}
 
 }  // namespace
 
 std::vector<float> make_foam_pattern(int size, std::uint64_t seed) {
-  SWELL_CHECK(size >= 32 && size <= 1024 && std::has_single_bit(static_cast<unsigned>(size)),
-              "size={}", size);
+  check_size(size);
   const CellPoints large(10, seed), small(25, seed + 1);
-  const std::size_t count = static_cast<std::size_t>(size) * size;
   std::vector<double> rim;
-  rim.reserve(count);
   for (int j = 0; j < size; ++j) {
     for (int i = 0; i < size; ++i) {
       const double x = static_cast<double>(i) / size, y = static_cast<double>(j) / size;
@@ -59,17 +80,21 @@ std::vector<float> make_foam_pattern(int size, std::uint64_t seed) {
                     0.6 * small.rim_distance(25.0 * x, 25.0 * y));
     }
   }
-  // Rank them, so that every part of the range is as large as it says.
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    return rim[a] != rim[b] ? rim[a] < rim[b] : a < b;
-  });
-  std::vector<float> threshold(count);
-  for (std::size_t k = 0; k < count; ++k)
-    threshold[order[k]] =
-        static_cast<float>((static_cast<double>(k) + 0.5) / static_cast<double>(count));
-  return threshold;
+  return spread_evenly(rim);
+}
+
+std::vector<float> make_tear_pattern(int size, std::uint64_t seed) {
+  check_size(size);
+  constexpr int kCells = 8, kOctaves = 4;
+  constexpr double kPersistence = 0.6;
+  const PerlinNoise noise(seed);
+  std::vector<double> value;
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < size; ++i)
+      value.push_back(noise.periodic_fractal3(static_cast<double>(kCells * i) / size,
+                                              static_cast<double>(kCells * j) / size, 0.5, kCells,
+                                              kOctaves, kPersistence));
+  return spread_evenly(value);
 }
 
 }  // namespace swell::texture

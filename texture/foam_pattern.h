@@ -13,4 +13,8 @@ namespace swell::texture {
 // in [32, 1024]. About 60 ms for 256 x 256.
 std::vector<float> make_foam_pattern(int size, std::uint64_t seed);
 
+// Thresholds of the same kind for larger shapes: low ones are patches of size / 8 texels with rims
+// torn down to size / 64.
+std::vector<float> make_tear_pattern(int size, std::uint64_t seed);
+
 }  // namespace swell::texture

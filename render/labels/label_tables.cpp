@@ -140,9 +140,9 @@ CameraMotion camera_motion(const View& now, const View& next) {
 void fill_label_tables(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
   tables.set = in.options.labels;
   const auto has = [&](Label label) { return tables.set.has(label); };
-  const bool has_surf = in.world.coast != nullptr;
+  const bool has_foam = in.world.coast || !in.world.whitecaps->patches.empty();
   tables.from_shading = has(Label::kNormal) || has(Label::kFlags) ||
-                        (has_surf && (has(Label::kFoam) || has(Label::kClass)));
+                        (has_foam && (has(Label::kFoam) || has(Label::kClass)));
   if (has(Label::kGeometricNormal)) fill_normals(in, tables, run);
   if (has(Label::kMotion)) fill_motion(in, tables, run);
 }

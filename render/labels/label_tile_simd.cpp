@@ -204,8 +204,8 @@ HWY_INLINE V OfWater(const Plane& plane, const LabelPacket& p) {
   return hn::IfThenElseZero(p.is_water, hn::LoadU(d, plane.data() + p.tile_at));
 }
 
-HWY_INLINE V FoamOf(const LabelSources& in, const LabelTile& tile, const LabelPacket& p) {
-  if (!in.world.coast || !tile.shaded) return hn::Zero(D());
+HWY_INLINE V FoamOf(const LabelTile& tile, const LabelPacket& p) {
+  if (!tile.shaded) return hn::Zero(D());
   return OfWater(tile.shaded->foam_cover, p);
 }
 
@@ -305,7 +305,7 @@ HWY_INLINE void FillPlainLabels(const LabelSources& in, const LabelTile& tile, L
     });
   if (set.has(Label::kClass))
     ForPackets(in, tile, [&](const LabelPacket& p, std::size_t at) HWY_ATTR {
-      StoreLanes(ClassOf(in, p, FoamOf(in, tile, p)), p.count, &labels.klass[at]);
+      StoreLanes(ClassOf(in, p, FoamOf(tile, p)), p.count, &labels.klass[at]);
     });
 }
 
@@ -319,7 +319,7 @@ HWY_INLINE void FillOtherLabels(const LabelSources& in, const LabelTile& tile, L
     if (set.has(Label::kMotion)) StoreMotion(in, p, &labels.motion_px[at]);
     if (set.has(Label::kElevation))
       StoreLanes(ElevationOf(in.shading, p), p.count, &labels.elevation_m[at]);
-    if (set.has(Label::kFoam)) StoreLanes(FoamOf(in, tile, p), p.count, &labels.foam[at]);
+    if (set.has(Label::kFoam)) StoreLanes(FoamOf(tile, p), p.count, &labels.foam[at]);
     if (set.has(Label::kFlags))
       StoreBytes(tile.shaded ? OfWater(tile.shaded->flags, p) : hn::Zero(D()), p.count,
                  &labels.flags[at]);

@@ -8,6 +8,7 @@
 #include "render/materials/foam.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
+#include "render/materials/whitecaps.h"
 
 namespace swell::render {
 
@@ -30,14 +31,17 @@ struct Water {
   int long_layer_count = 0;  // the first so many are of the sea's long waves
   std::array<SineLayer, ocean::kMaxSines> sines;
   int sine_count = 0;
-  int first_ripples = 0;       // the layer from which on noise bends the coordinates
-  SlopeLayer uv_noise;         // values in [-1, 1], not slopes
-  float base_variance = 0.0f;  // slope variance of ripples too fine for any map
+  int first_ripples = 0;        // the layer from which on noise bends the coordinates
+  SlopeLayer uv_noise;          // values in [-1, 1], not slopes
+  float short_variance = 0.0f;  // slope variance of the layers after the long ones
+  float seen_slopes = 1.0f;     // 0: all slopes of rough water are seen, also the hidden ones
+  float base_variance = 0.0f;   // slope variance of ripples too fine for any map
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
   // foam. Not periodic: they hold within their square.
   bool has_coast = false;
   SlopeLayer coast_slopes, coast_surf;
   Foam foam, hull_foam;
+  Whitecaps whitecaps;
 
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
   float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it

@@ -41,10 +41,42 @@ void pack_noise(const ocean::SeaDescription& description, double t_s, SeaMaps& s
   texture::pack_map2(kUvNoiseSize, sea.noise_cos, sea.noise_sin, 1.0f / 127.0f, sea.uv_noise);
 }
 
+// The foam at the steps before and after, stretched to [-1, 1], once for both.
+void pack_foam(SeaMaps& sea) {
+  sea.foam.resize(sea.whitecaps.patches.size());
+  for (std::size_t p = 0; p < sea.foam.size(); ++p) {
+    const ocean::WhitecapFrame::Patch& patch = sea.whitecaps.patches[p];
+    const auto stretch = [](std::span<const std::uint8_t> codes, std::vector<float>& values) {
+      values.resize(codes.size());
+      for (std::size_t i = 0; i < codes.size(); ++i)
+        values[i] = 2.0f * ocean::foam_of_code(codes[i]) - 1.0f;
+    };
+    stretch(patch.before, sea.foam_before);
+    stretch(patch.after, sea.foam_after);
+    texture::pack_map2(ocean::kFoamMapSize, sea.foam_before, sea.foam_after, 1.0f / 127.0f,
+                       sea.foam[p]);
+  }
+}
+
 }  // namespace
 
-void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const StageRun& run) {
+namespace {
+
+void leave_out_tiles(SeaMaps& sea) {
+  for (ocean::PatchFrame& patch : sea.frame.patches) patch.tiling = {};
+  for (ocean::WhitecapFrame::Patch& patch : sea.whitecaps.patches) patch.tiling = {};
+}
+
+}  // namespace
+
+void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
+                 const StageRun& run) {
   ocean::advance(*world.sea, t_s, sea.frame, run.workers);
+  if (!without.has(Part::kWhitecaps)) {
+    ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
+    if (sea.whitecaps.is_new) pack_foam(sea);
+  }
+  if (without.has(Part::kTiling)) leave_out_tiles(sea);
   const bool has_coast = world.coast != nullptr;
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
   // Pack the maps that shading looks into: the waves', the noise's, the coast's.

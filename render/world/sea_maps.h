@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ocean/sea.h"
+#include "render/parts.h"
 #include "render/profile.h"
 #include "render/world/world_state.h"
 #include "texture/packed_map.h"
@@ -14,16 +15,20 @@ namespace swell::render {
 struct SeaMaps {
   ocean::SeaFrame frame;
   std::vector<texture::PackedMap2> patch_slopes;  // one a patch, longest first
-  texture::PackedMap2 uv_noise;                   // bends the coordinates of ripples
-  texture::PackedMap2 coast_slopes, coast_surf;   // slopes of the trains; ceded, foam
+  ocean::WhitecapFrame whitecaps;
+  std::vector<texture::PackedMap2> foam;         // one a patch of whitecaps: before, after
+  texture::PackedMap2 uv_noise;                  // bends the coordinates of ripples
+  texture::PackedMap2 coast_slopes, coast_surf;  // slopes of the trains; ceded, foam
   // Storage.
   texture::UvNoise noise{{}};
   std::vector<float> noise_cos, noise_sin;
   std::vector<float> coast_slope_x, coast_slope_y, coast_foam;
+  std::vector<float> foam_before, foam_after;
 };
 
-// Fills `sea` with the world's sea at time t_s.
-void advance_sea(const World::State& world, double t_s, SeaMaps& sea, const StageRun& run);
+// Fills `sea` with the world's sea at time t_s, as far as pictures without these parts need it.
+void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
+                 const StageRun& run);
 
 // The water's surface at the time of `sea`, of the same world.
 inline ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {

@@ -37,10 +37,12 @@ std::vector<float> build_ceded_map(const ocean::CoastSea& coast) {
 }
 
 texture::PackedMap2 build_foam_pattern() {
-  std::vector<float> threshold = texture::make_foam_pattern(kFoamSize, kFoamSeed);
-  for (float& x : threshold) x = 2.0f * x - 1.0f;
+  std::vector<float> lace = texture::make_foam_pattern(kFoamSize, kFoamSeed);
+  std::vector<float> tears = texture::make_tear_pattern(kFoamSize, kFoamSeed);
+  for (std::vector<float>* const thresholds : {&lace, &tears})
+    for (float& x : *thresholds) x = 2.0f * x - 1.0f;
   texture::PackedMap2 map;
-  texture::pack_map2(kFoamSize, threshold, threshold, 1.0f / 127.0f, map);
+  texture::pack_map2(kFoamSize, lace, tears, 1.0f / 127.0f, map);
   return map;
 }
 
@@ -59,8 +61,9 @@ void add_sky(const World::State* like, Workers& workers, World::State& state) {
   state.sky = like ? like->sky : shared(build_sky_maps(state.scene.sky, workers));
 }
 
-void add_sea(const World::State* like, World::State& state) {
+void add_sea(const World::State* like, Workers& workers, World::State& state) {
   state.sea = like ? like->sea : std::make_shared<const ocean::Sea>(state.scene.sea);
+  state.whitecaps = like ? like->whitecaps : shared(ocean::make_whitecaps(*state.sea, workers));
 }
 
 void add_bump(const World::State* like, World::State& state) {
@@ -129,7 +132,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
         add_coast(like, same_coast, workers, *state);
       },
       [&] {
-        add_sea(if_alike(same_sea), *state);
+        add_sea(if_alike(same_sea), workers, *state);
         add_foam_pattern(like, *state);
         add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
         add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);

@@ -13,6 +13,7 @@
 #include "ocean/coast_map.h"
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
+#include "ocean/whitecaps.h"
 #include "render/frame.h"
 #include "render/world/land_shadow.h"
 #include "scene/object_mesh.h"
@@ -85,15 +86,17 @@ struct ObjectMeshes {
 struct World::State {
   scene::Scene scene;
   std::shared_ptr<const ocean::Sea> sea = {};
-  std::shared_ptr<const ocean::CoastSea> coast = {};  // none: no wave trains
-  std::shared_ptr<const CoastMaps> coast_maps = {};   // there is one if there is a coast
+  std::shared_ptr<const ocean::Whitecaps> whitecaps = {};  // of the sea
+  std::shared_ptr<const ocean::CoastSea> coast = {};       // none: no wave trains
+  std::shared_ptr<const CoastMaps> coast_maps = {};        // there is one if there is a coast
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
   std::shared_ptr<const LandShadow> land_shadow = {};  // none: no land, or no sun
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
-  // Thresholds of foam, stretched to [-1, 1]; of any size, it repeats. The same in every world.
+  // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. Of any
+  // size, it repeats. The same in every world.
   std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
 
   // What floats.

@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[sea]\nstate = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] seed, earth, "
               "[[sea.sines]], spectrum, centre_m, size_m, beaufort, resolution, loop_s, douglas, "
-              "gravity_mps2, amplitude_scale, patch_lengths_m"},
+              "whitecaps, gravity_mps2, amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
               "test.toml:2: column 1: unknown key, got 'camera.eye.m', allowed in [camera] eye_m, "
               "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "

@@ -71,6 +71,7 @@ amplitude_scale = 1.5
 seed = 42
 gravity_mps2 = 3.7
 loop_s = 25
+whitecaps = 0.5
 centre_m = [10, 20]
 size_m = [500, 600]
 earth = "flat"
@@ -146,6 +147,7 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.sea.seed, 42u);
   EXPECT_EQ(scene.sea.gravity_mps2, 3.7);
   EXPECT_EQ(scene.sea.loop_s, 25.0);
+  EXPECT_EQ(scene.sea.whitecaps, 0.5);
   EXPECT_EQ(scene.area.centre_m, glm::dvec2(10, 20));
   EXPECT_EQ(scene.area.size_m, glm::dvec2(500, 600));
   EXPECT_FALSE(scene.round_earth);

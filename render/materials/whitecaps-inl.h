@@ -1,0 +1,167 @@
+// Foam of the open sea's breaking waves.
+#if defined(SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#undef SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#endif
+
+#include "render/materials/tiled_slopes-inl.h"
+#include "render/materials/whitecaps.h"
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE V FoamAtPlace(const SlopeLayer& layer, const LayerPlace& place, V level_m, float past) {
+  V before, after;
+  SampleNearest(layer, place, level_m, before, after);
+  const V code = Lerp(before, after, Constant(past));
+  return hn::MulAdd(code, Constant(0.5f), Constant(0.5f));
+}
+
+// The foam of waves that cover the sea by tiles: in the mean what it is without, since the squares
+// of the tiles' weights add up to 1.
+HWY_INLINE V FoamOfTiles(const FoamMap& map, const LayerPlace& place, V level_m, float past) {
+  const D d;
+  const DI di;
+  const SlopeLayer& layer = map.layer;
+  const auto square = SquareOf(layer, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8));
+  const auto moved = [&](const tiles::TileOffset<VI>& by) HWY_ATTR {
+    const V texels_fx8 = Constant(map.fx8_per_sample);
+    return LayerPlace{hn::MulAdd(hn::ConvertTo(d, by.x), texels_fx8, place.x_fx8),
+                      hn::MulAdd(hn::ConvertTo(d, by.y), texels_fx8, place.y_fx8)};
+  };
+  const auto in_row = tiles::PlaceInRow(d, square, square.row);
+  if (tiles::AllInOneTile(d, in_row, square.y)) {
+    const auto by =
+        tiles::OffsetOfTile(di, layer.tiling.seed, in_row.column, square.row, map.wave_samples);
+    return FoamAtPlace(layer, moved(by), level_m, past);
+  }
+  V foam = hn::Zero(d);
+  tiles::ForEachTile(d, layer.tiling, map.wave_samples, square,
+                     [&](tiles::TileOffset<VI> by, const tiles::TileWeight<V>& tile) HWY_ATTR {
+                       foam = hn::MulAdd(hn::Mul(tile.weight, tile.weight),
+                                         FoamAtPlace(layer, moved(by), level_m, past), foam);
+                     });
+  return foam;
+}
+
+// The foam of one map. What a pixel far away shows of it is the mean: maps of small numbers of
+// eight bits lose it from the fifth level on.
+HWY_INLINE V FoamOfMap(const FoamMap& map, float past, V3 p, V level_m) {
+  const SlopeLayer& layer = map.layer;
+  constexpr float kFirstLost = 3.0f, kAllLost = 5.0f;
+  const V past_first = hn::Add(level_m, Constant(layer.log2_texels_per_m - kFirstLost));
+  const V lost = Clamp(hn::Mul(past_first, Constant(1.0f / (kAllLost - kFirstLost))), 0.0f, 1.0f);
+  if (hn::AllTrue(D(), hn::Ge(lost, Constant(1.0f)))) return Constant(map.mean);
+  const LayerPlace place = PlaceIn(layer, p.x, p.y);
+  const V foam = map.layer.tiling.on ? FoamOfTiles(map, place, level_m, past)
+                                     : FoamAtPlace(map.layer, place, level_m, past);
+  return Lerp(foam, Constant(map.mean), lost);
+}
+
+// Levels of a lace's map at which its cells begin to melt, and are gone.
+constexpr float kCellsMelt = 1.0f, kCellsGone = 3.5f;
+
+// Two thresholds of foam in [0, 1], spread evenly, and how much of their pattern is left in pixels
+// of that size.
+struct Thresholds {
+  V lace, tears, seen;
+};
+
+HWY_INLINE Thresholds SampleLace(const FoamLace& lace, V3 p, V level_m) {
+  const D d;
+  const V half = Constant(0.5f), one = Constant(1.0f);
+  const V level = hn::Add(level_m, Constant(lace.log2_texels_per_m));
+  const V gone =
+      hn::Mul(hn::Sub(level, Constant(kCellsMelt)), Constant(1.0f / (kCellsGone - kCellsMelt)));
+  if (hn::AllTrue(d, hn::Ge(gone, one))) return {half, half, hn::Zero(d)};
+  const V x = hn::MulAdd(p.x, Constant(lace.x_fx8_per_m.x),
+                         hn::MulAdd(p.y, Constant(lace.x_fx8_per_m.y), Constant(lace.x_eye_fx8)));
+  const V y = hn::MulAdd(p.x, Constant(lace.y_fx8_per_m.x),
+                         hn::MulAdd(p.y, Constant(lace.y_fx8_per_m.y), Constant(lace.y_eye_fx8)));
+  V lace_code, tears_code;
+  texture::HWY_NAMESPACE::SampleLevel(d, *lace.map, RoundToInt(x), RoundToInt(y),
+                                      TruncateToInt(Clamp(hn::Add(level, half), 0.0f, kCellsGone)),
+                                      lace_code, tears_code);
+  return {hn::MulAdd(lace_code, half, half), hn::MulAdd(tears_code, half, half),
+          hn::Sub(one, Clamp(gone, 0.0f, 1.0f))};
+}
+
+// The sum of both thresholds, each with its weight, as a threshold that is itself spread evenly:
+// the distribution of the sum of two even ones.
+HWY_INLINE V JoinThresholds(V coarse, V fine, float coarse_width, V fine_width) {
+  const V a = Constant(coarse_width), b = hn::Max(fine_width, Constant(1e-3f));
+  const V z = hn::MulAdd(coarse, a, hn::Mul(fine, b)), rest = hn::Sub(hn::Add(a, b), z);
+  const V half_inverse = hn::Div(Constant(0.5f / coarse_width), b);
+  const V low = hn::Mul(hn::Mul(z, z), half_inverse);
+  const V high = hn::NegMulAdd(hn::Mul(rest, rest), half_inverse, Constant(1.0f));
+  const V middle = hn::Mul(hn::NegMulAdd(b, Constant(0.5f), z), Constant(1.0f / coarse_width));
+  return hn::IfThenElse(hn::Lt(z, b), low, hn::IfThenElse(hn::Lt(rest, b), high, middle));
+}
+
+// The part of a pixel that foam hides: in the mean over thresholds it is `foam`, exactly.
+HWY_INLINE V CoverOf(V foam, V threshold) {
+  constexpr float kRim = 0.3f;  // width of a bubble's rim, as a threshold
+  // Rims are narrow where they would reach beyond 0 or 1.
+  const V room = hn::Min(foam, hn::Sub(Constant(1.0f), foam));
+  const V width = hn::Max(hn::Min(hn::Add(room, room), Constant(kRim)), Constant(1e-3f));
+  return Clamp(hn::Add(hn::Div(hn::Sub(foam, threshold), width), Constant(0.5f)), 0.0f, 1.0f);
+}
+
+// As ocean::foam_on_crest().
+HWY_INLINE V OnCrests(const Whitecaps& material, V height_m) {
+  const V part = hn::MulAdd(height_m, Constant(material.crest_per_m), Constant(1.0f));
+  return Clamp(part, 2.0f - ocean::kMostOnCrest, ocean::kMostOnCrest);
+}
+
+// The part of the surface that is white at p, height_m over the mean level, but for its lace.
+// `ceded` is what the open sea's waves leave to a coast's.
+HWY_INLINE V WhitecapsAt(const Whitecaps& material, V3 p, V height_m, V level_m, V ceded) {
+  if (material.count == 0) return hn::Zero(D());
+  const V one = Constant(1.0f);
+  V free = hn::Sub(one, FoamOfMap(material.foam[0], material.past, p, level_m));
+  if (material.count > 1) {
+    const V foam = FoamOfMap(material.foam[1], material.past, p, level_m);
+    const V on_crest = hn::Min(hn::Mul(foam, OnCrests(material, height_m)), one);
+    free = hn::NegMulAdd(on_crest, free, free);
+  }
+  return hn::Mul(hn::Sub(one, free), hn::Sub(one, ceded));
+}
+
+// The part of a packet's pixels that this foam hides.
+HWY_INLINE V TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const auto some = hn::Gt(foam, Constant(material.least));
+  if (hn::AllFalse(d, some)) return zero;
+  V cover = foam;
+  const Thresholds tears = SampleLace(material.tears, p, level_m);
+  if (!hn::AllTrue(d, hn::Eq(tears.seen, zero))) {
+    const Thresholds lace = SampleLace(material.lace, p, level_m);
+    const V threshold =
+        JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
+    cover = Lerp(foam, CoverOf(foam, threshold), tears.seen);
+  }
+  return hn::IfThenElseZero(some, cover);
+}
+
+// Water of radiance `light` under foam that sees sun_visible of the sun, thin where it covers
+// little.
+HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, V cover, glm::vec3 sun_direction,
+                           V sun_visible, V3 normal, V3 light) {
+  const V zero = hn::Zero(D());
+  if (hn::AllFalse(D(), hn::Gt(cover, zero))) return light;
+  const V cos_sun = hn::Mul(hn::Max(Dot(normal, Constant(sun_direction)), zero), sun_visible);
+  const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light));
+  const V opacity = hn::MulAdd(cover, Constant(0.25f), Constant(0.7f));
+  return Lerp(light, white, hn::Mul(cover, opacity));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,42 @@
+// Whitecaps of the open sea: where its foam lies (ocean/whitecaps.h), how it tears, and its light.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "ocean/whitecaps.h"
+#include "render/materials/inputs.h"
+#include "render/materials/slope_layer.h"
+
+namespace swell::render {
+
+// Thresholds in [-1, 1] laid along the wind and stretched by it.
+struct FoamLace {
+  const texture::PackedMap2* map = nullptr;
+  glm::vec2 x_fx8_per_m{0.0f}, y_fx8_per_m{0.0f};  // 1/256 texels of level 0: across, along
+  float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;        // under the eye
+  float log2_texels_per_m = 0.0f;                  // across
+};
+
+// The foam of one patch's waves.
+struct FoamMap {
+  SlopeLayer layer;   // at the steps before and after, stretched to [-1, 1]
+  float mean = 0.0f;  // over the sea
+  // Tiles move the waves by whole samples of so many a side, which are so large in this map.
+  int wave_samples = 128;
+  float fx8_per_sample = 256.0f;  // 1/256 texels of level 0
+};
+
+struct Whitecaps {
+  int count = 0;  // of maps of foam; 0: none
+  std::array<FoamMap, ocean::kMostFoamPatches> foam;
+  float past = 0.0f;         // of the step
+  float crest_per_m = 0.0f;  // ocean::foam_on_crest()
+  float least = 0.0f;        // less foam is not drawn: less than far water shows
+  FoamLace tears, lace;
+  glm::vec3 sky_light{0.0f}, sun_light{0.0f};  // radiance of snow under the sky, facing the sun
+};
+
+Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye);
+
+}  // namespace swell::render

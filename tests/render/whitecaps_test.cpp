@@ -1,0 +1,178 @@
+// Whitecaps as pictures have them: how much of the sea they hide from near and far, what is asked
+// of them, and that a frame alone is the frame of a sequence.
+#include "ocean/whitecaps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "render/labelled_frame.h"
+
+namespace swell::render {
+namespace {
+
+scene::Scene open_sea(double wind_mps) {
+  scene::Scene scene;
+  scene.sea.wind_speed_mps = wind_mps;
+  scene.sea.resolution = 64;
+  scene.area.size_m = {40000.0, 40000.0};
+  scene.detail.water_triangles = 4000;
+  return scene;
+}
+
+// Straight down from a height, a picture of as much sea as the eye is high.
+View from_above(double height_m, int size_px) {
+  const double fov_rad = 2.0 * std::atan(0.5);
+  return make_view({0.0, 0.0, height_m}, 0.3, -0.5 * std::numbers::pi, fov_rad, 0.25f, size_px,
+                   size_px);
+}
+
+double mean_of(const std::vector<float>& values) {
+  double sum = 0.0;
+  for (const float value : values) sum += static_cast<double>(value);
+  return sum / static_cast<double>(values.size());
+}
+
+FrameOptions with_foam_and_places() {
+  FrameOptions options;
+  options.labels = LabelSet::all();
+  return options;
+}
+
+// Over some seconds, of a view that holds the longest patch.
+double mean_drawn_cover(const World& world, double height_m, int frames) {
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const View view = from_above(height_m, 192);
+  double sum = 0.0;
+  for (int k = 0; k < frames; ++k) {
+    render_frame(world, view, 30.0 + 3.0 * k, with_foam_and_places(), workspace, target, workers);
+    sum += mean_of(target.labels.foam);
+  }
+  return sum / frames;
+}
+
+// OPT-16: within 35 % of the law.
+TEST(DrawnWhitecaps, CoverWhatTheWindSays) {
+  for (const double wind : {6.0, 10.0, 15.0, 20.0}) {
+    const World world(open_sea(wind));
+    EXPECT_NEAR(mean_drawn_cover(world, 640.0, 6) / ocean::whitecap_cover(wind), 1.0, 0.35) << wind;
+  }
+}
+
+// OPT-17.
+TEST(DrawnWhitecaps, AreNoneBelow3Point7MetresASecond) {
+  const World world(open_sea(3.6));
+  EXPECT_EQ(mean_drawn_cover(world, 100.0, 1), 0.0);
+}
+
+// Maps of eight bits, their levels and lace: none loses foam or makes some.
+TEST(DrawnWhitecaps, CoverAsMuchFromFarAsFromNear) {
+  const World world(open_sea(12.0));
+  const double expected = ocean::whitecap_cover(12.0);
+  for (const double height_m : {1300.0, 3000.0, 8000.0})
+    EXPECT_NEAR(mean_drawn_cover(world, height_m, 3) / expected, 1.0, 0.25) << height_m;
+}
+
+// The lace leaves the mean as it is: pictures against the library's answers at the same places.
+TEST(DrawnWhitecaps, AreWhatIsAskedInTheMeanOverTheirLace) {
+  const scene::Scene scene = open_sea(15.0);
+  const World world(scene);
+  const scene::Water water(scene);
+  Workers workers(2);
+  const ocean::Whitecaps whitecaps = ocean::make_whitecaps(water.sea(), workers);
+  ocean::SeaFrame sea;
+  ocean::WhitecapFrame foam;
+  for (const double height_m : {40.0, 120.0, 300.0}) {
+    double drawn = 0.0, asked = 0.0, both = 0.0, drawn2 = 0.0, asked2 = 0.0;
+    int blocks = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double t_s = 60.0 + 7.7 * k;
+      const scene::WaterSurface surface = water.at(t_s, sea, workers);
+      ocean::advance_whitecaps(whitecaps, t_s, foam, workers);
+      const LabelledFrame frame(world, from_above(height_m, 160), t_s);
+      std::vector<glm::dvec2> p;
+      frame.for_pixels(1, [&](glm::ivec2 px) { p.emplace_back(frame.position(px)); });
+      std::vector<float> white(p.size());
+      surface.foam(p, foam, white);
+      // In blocks of 16 x 16 pixels.
+      for (int block = 0; block < 100; ++block, ++blocks) {
+        double a = 0.0, b = 0.0;
+        for (int i = 0; i < 256; ++i) {
+          const int x = block % 10 * 16 + i % 16, y = block / 10 * 16 + i / 16;
+          a += static_cast<double>(frame.labels().foam[frame.at({x, y})]) / 256.0;
+          b += static_cast<double>(white[static_cast<std::size_t>(y * 160 + x)]) / 256.0;
+        }
+        drawn += a, asked += b, both += a * b, drawn2 += a * a, asked2 += b * b;
+      }
+    }
+    ASSERT_GT(asked / blocks, 0.005) << height_m;
+    EXPECT_NEAR(drawn / asked, 1.0, 0.15) << height_m;
+    // Lace as coarse as the blocks is noise to them; foam elsewhere than asked gives 0.
+    EXPECT_GT(both / std::sqrt(drawn2 * asked2), 0.5) << height_m;
+  }
+}
+
+TEST(DrawnWhitecaps, AreTheSameInAFrameAloneAndInASequence) {
+  const World world(open_sea(15.0));
+  const View view = make_view({0.0, 0.0, 12.0}, 0.4, -0.15, 0.9, 0.25f, 96, 64);
+  Workers workers(2);
+  Workspace warm;
+  Target sequence, alone;
+  for (const double t_s : {2.0, 2.1, 2.2, 2.3, 2.4, 9.0, 2.3}) {
+    render_frame(world, view, t_s, {}, warm, sequence, workers);
+    Workspace cold;
+    render_frame(world, view, t_s, {}, cold, alone, workers);
+    EXPECT_EQ(sequence.rgba, alone.rgba) << t_s;
+  }
+}
+
+TEST(DrawnWhitecaps, CanBeLeftOut) {
+  scene::Scene scene = open_sea(15.0);
+  const World with(scene);
+  scene.sea.whitecaps = 0.0;
+  const World without(scene);
+  const View view = make_view({0.0, 0.0, 12.0}, 0.4, -0.15, 0.9, 0.25f, 96, 64);
+  Workers workers(2);
+  Workspace workspace;
+  Target a, b, c;
+  FrameOptions options;
+  render_frame(with, view, 2.0, options, workspace, a, workers);
+  options.without.add(Part::kWhitecaps);
+  render_frame(with, view, 2.0, options, workspace, b, workers);
+  render_frame(without, view, 2.0, {}, workspace, c, workers);
+  EXPECT_NE(a.rgba, b.rgba);
+  EXPECT_EQ(b.rgba, c.rgba);
+}
+
+// White foam in the sun is as bright as snow there, and no brighter.
+TEST(DrawnWhitecaps, AreAsBrightAsSnow) {
+  scene::Scene scene = open_sea(20.0);
+  const World world(scene);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options = with_foam_and_places();
+  options.keep_linear = true;
+  render_frame(world, from_above(60.0, 160), 30.0, options, workspace, target, workers);
+  const Light& light = workspace.state().shading.light;
+  const double snow =
+      0.8 * static_cast<double>(light.ambient.y + light.sun_irradiance.y * light.sun_direction.z /
+                                                      std::numbers::pi_v<float>);
+  int white = 0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < target.labels.foam.size(); ++i) {
+    if (target.labels.foam[i] < 0.99f) continue;
+    sum += static_cast<double>(target.linear[3 * i + 1]);
+    ++white;
+  }
+  ASSERT_GT(white, 50);
+  EXPECT_GT(sum / white, 0.55 * snow);
+  EXPECT_LT(sum / white, 1.1 * snow);
+}
+
+}  // namespace
+}  // namespace swell::render
