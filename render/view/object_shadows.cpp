@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/earth.h"
 #include "math/elementary.h"
 #include "render/world/land_shadow.h"
 
@@ -172,12 +173,26 @@ Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows) {
   return corners;
 }
 
-// Whether any point between the corners may be seen, itself or mirrored in the sea.
-bool in_view(const Corners& corners, float level, const std::array<glm::vec4, 5>& planes) {
+// How far a round earth sinks what lies between the corners at most, and what light reaches from
+// there under water.
+float most_drop_m(const Corners& corners, float drop_per_m2) {
+  float farthest_m = 0.0f;
+  for (int i = 0; i < corners.count; ++i)
+    farthest_m = std::max(farthest_m, glm::length(glm::vec2(corners.p[i])));
+  farthest_m += 2.0f * kDeepestShadow_m;
+  return farthest_m * farthest_m * drop_per_m2;
+}
+
+// Whether any point between the corners may be seen, itself or mirrored in the sea, sunken by up to
+// drop_m.
+bool in_view(const Corners& corners, float level, float drop_m,
+             const std::array<glm::vec4, 5>& planes) {
   return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
     return std::any_of(corners.p.begin(), corners.p.begin() + corners.count, [&](glm::vec3 p) {
       const float mirrored = 2.0f * plane.z * (level - p.z);
-      return glm::dot(glm::vec3(plane), p) + plane.w + std::max(mirrored, 0.0f) >= 0.0f;
+      return glm::dot(glm::vec3(plane), p) + plane.w + std::max(mirrored, 0.0f) +
+                 std::max(-plane.z * drop_m, 0.0f) >=
+             0.0f;
     });
   });
 }
@@ -188,7 +203,7 @@ struct WindowBox {
   bool all = false;  // of the window
 };
 
-void add_point(const View& camera, glm::vec3 p_rel, WindowBox& box) {
+void add_flat_point(const View& camera, glm::vec3 p_rel, WindowBox& box) {
   const glm::vec4 clip = camera.clip_from_rel * glm::vec4(p_rel, 1.0f);
   if (clip.w <= camera.near_m) {
     box.all = true;
@@ -201,20 +216,27 @@ void add_point(const View& camera, glm::vec3 p_rel, WindowBox& box) {
   box.high = glm::max(box.high, at);
 }
 
+// Wherever between p_rel and drop_m below it a point is drawn.
+void add_point(const View& camera, glm::vec3 p_rel, float drop_m, WindowBox& box) {
+  add_flat_point(camera, p_rel, box);
+  add_flat_point(camera, p_rel - glm::vec3(0.0f, 0.0f, drop_m), box);
+}
+
 // Where a view shows what lies between the corners. In a mirror or under water things appear
 // between heights that bound map_point()'s, whose level is that of the sea or of any hull.
 WindowBox window_box(const Corners& corners, const RenderView& view, float lowest_rel_m) {
   WindowBox box;
+  const float drop_m = most_drop_m(corners, view.drop_per_m2);
   const float level = -static_cast<float>(view.camera.eye_world.z), wave_m = level - lowest_rel_m;
   for (int i = 0; i < corners.count; ++i) {
     const glm::vec3 p = corners.p[i];
     switch (view.kind) {
       case ViewKind::kWindow:
-        add_point(view.camera, p, box);
+        add_point(view.camera, p, drop_m, box);
         break;
       case ViewKind::kReflection:
         for (const float by : {-2.0f * wave_m, 2.0f * wave_m})
-          add_point(view.camera, {p.x, p.y, 2.0f * level - p.z + by}, box);
+          add_point(view.camera, {p.x, p.y, 2.0f * level - p.z + by}, drop_m, box);
         break;
       case ViewKind::kRefraction:
         // Light goes on below the water at up to 49 degrees from the vertical.
@@ -224,8 +246,8 @@ WindowBox window_box(const Corners& corners, const RenderView& view, float lowes
               add_point(view.camera,
                         {p.x + aside * std::max(deep, 0.0f), p.y + ahead * std::max(deep, 0.0f),
                          std::min(p.z, level - deep)},
-                        box);
-        add_point(view.camera, p, box);
+                        drop_m, box);
+        add_point(view.camera, p, drop_m, box);
         break;
     }
   }
@@ -294,12 +316,15 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
   shadows.lowest_rel_m = level - world.water_bounds().height_m - kRounding_m;
   const WaterMotion motion = motion_of(world);
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
+  const float sinks_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
   for (std::size_t i = 0; i < all.size(); ++i) {
     ShadowCaster caster = caster_of(all[i], objects.poses[i], options, view);
     caster.object = static_cast<std::uint32_t>(i);
     add_foam(motion, objects.poses[i].position_world.z, caster.waterline);
     const bool tells = caster.near_m > 0.0f || caster.reach_m > 0.0f;
-    if (tells && in_view(corners_of(caster, shadows), level, planes))
+    if (!tells) continue;
+    const Corners corners = corners_of(caster, shadows);
+    if (in_view(corners, level, most_drop_m(corners, sinks_per_m2), planes))
       shadows.casters.push_back(caster);
   }
   run.for_each(shadows.casters.size(), [&](std::size_t i, int) {

@@ -183,13 +183,18 @@ TEST(SunShadow, IsTheSamePictureOnTilesOfAnySize) {
     scene.objects.push_back(white_box({x, -150.0 + x}, {3.0, 2.0, 5.0}));
   scene.objects[1].kind = scene::ObjectKind::kBuoy;
   scene.objects[2].kind = scene::ObjectKind::kSphere;
+  // Far away, where a round earth sinks it by 5 m: 10 pixels.
+  scene.objects.push_back(white_box({900.0, 8800.0}, {90.0, 60.0, 80.0}));
   const World world(scene);
-  const View view = make_view({0.0, -190.0, 9.0}, 0.1, -0.15, 0.9, 0.25f, 160, 90);
-  const std::vector<float> expected = draw(world, view);
-  for (const int tile_size_px : {16, 32}) {
-    FrameOptions options;
-    options.tile_size_px = tile_size_px;
-    EXPECT_EQ(draw(world, view, options), expected) << tile_size_px;
+  const View near = make_view({0.0, -190.0, 9.0}, 0.1, -0.15, 0.9, 0.25f, 160, 90);
+  const View far = make_view({0.0, -190.0, 90.0}, 0.1, -0.01, 0.02, 0.25f, 160, 90);
+  for (const View& view : {near, far}) {
+    const std::vector<float> expected = draw(world, view);
+    for (const int tile_size_px : {16, 32}) {
+      FrameOptions options;
+      options.tile_size_px = tile_size_px;
+      EXPECT_EQ(draw(world, view, options), expected) << tile_size_px;
+    }
   }
 }
 
