@@ -57,17 +57,17 @@ float share_slope_per_m(const CoastSea& coast) {
 
 }  // namespace
 
-CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WindSea& wind, int train_count,
+CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers) {
   return make_coast_sea(floor, wind, make_trains(wind, train_count, seed), method, blend, workers);
 }
 
-CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WindSea& wind,
+CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind,
                         std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
                         Workers& workers) {
   CoastSea coast;
   coast.trains = make_train_sea(floor, trains, method, workers);
-  const double f = wind.wind_speed_mps > 0.0 ? peak_frequency_hz(wind) : 1.0;
+  const double f = wind.peak_hz > 0.0 ? wind.peak_hz : 1.0;
   const double wavelength = wind.gravity_mps2 / (2.0 * kPi * f * f);
   coast.peak_wavelength_m = static_cast<float>(wavelength);
   coast.share.resize(floor.grid.size());

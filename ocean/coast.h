@@ -42,11 +42,11 @@ inline float spectrum_weight(float share) {
 // Makes `train_count` trains of the wind's sea and their phases over the floor. If not `blend`,
 // there are trains in deep water, too. The share falls to 0 over the grid's rim, a tenth to three
 // tenths of its side wide. Errors as make_train_sea.
-CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WindSea& wind, int train_count,
+CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers);
 
 // The same with trains of the caller's own. `wind` says where the spectrum ends.
-CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WindSea& wind,
+CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind,
                         std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
                         Workers& workers);
 

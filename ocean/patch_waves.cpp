@@ -23,7 +23,8 @@ int cell_points(glm::ivec2 count, double k_rad_m, double dk_rad_m, WaveBand band
 }
 
 // Integral of S over the part inside the band of the cell centred on dk (count.x, count.y).
-double cell_variance(const WindSea& sea, WaveBand band, glm::ivec2 count, double dk_rad_m) {
+double cell_variance(std::span<const WaveSystem> systems, WaveBand band, glm::ivec2 count,
+                     double dk_rad_m) {
   const double k_centre = dk_rad_m * std::sqrt(double(count.x * count.x + count.y * count.y));
   if (k_centre > band.high_rad_m + dk_rad_m || k_centre < band.low_rad_m - dk_rad_m) return 0.0;
   const int points = cell_points(count, k_centre, dk_rad_m, band);
@@ -35,7 +36,8 @@ double cell_variance(const WindSea& sea, WaveBand band, glm::ivec2 count, double
       const double k2 = k.x * k.x + k.y * k.y;
       const bool inside =
           k2 >= band.low_rad_m * band.low_rad_m && k2 < band.high_rad_m * band.high_rad_m;
-      if (inside) sum += wave_vector_spectrum(sea, k);
+      if (!inside) continue;
+      for (const WaveSystem& system : systems) sum += wave_vector_spectrum(system, k);
     }
   }
   return sum * dk_rad_m * dk_rad_m / (points * points);
@@ -51,16 +53,17 @@ std::complex<double> unit_gaussian(std::uint64_t seed, int patch, glm::ivec2 cou
 }
 
 // a(k) of every FFT index, row-major.
-std::vector<std::complex<double>> draw_amplitudes(const WindSea& sea, WaveBand band,
-                                                  double length_m, int size, double amplitude_scale,
-                                                  std::uint64_t seed, int patch) {
+std::vector<std::complex<double>> draw_amplitudes(std::span<const WaveSystem> systems,
+                                                  WaveBand band, double length_m, int size,
+                                                  double amplitude_scale, std::uint64_t seed,
+                                                  int patch) {
   const double dk = 2.0 * kPi / length_m;
   std::vector<std::complex<double>> amplitudes(static_cast<std::size_t>(size) * size);
   for (int j = 0; j < size; ++j) {
     for (int i = 0; i < size; ++i) {
       const glm::ivec2 count(wave_count(i, size), wave_count(j, size));
       if (i == size / 2 || j == size / 2 || count == glm::ivec2(0)) continue;
-      const double variance = cell_variance(sea, band, count, dk);
+      const double variance = cell_variance(systems, band, count, dk);
       if (variance == 0.0) continue;
       // Real and imaginary part have variance 1/4 of the wave's: E|a|^2 = 1/2.
       amplitudes[static_cast<std::size_t>(j * size + i)] =
@@ -77,9 +80,11 @@ glm::dvec2 wave_vector(int i, int j, int size, double length_m) {
   return {dk * wave_count(i, size), dk * wave_count(j, size)};
 }
 
-PatchWaves make_patch_waves(const WindSea& sea, WaveBand band, double length_m, int size,
-                            double amplitude_scale, std::uint64_t seed, int patch) {
-  const auto amplitudes = draw_amplitudes(sea, band, length_m, size, amplitude_scale, seed, patch);
+PatchWaves make_patch_waves(std::span<const WaveSystem> systems, WaveBand band, double length_m,
+                            int size, double amplitude_scale, std::uint64_t seed, int patch) {
+  const auto amplitudes =
+      draw_amplitudes(systems, band, length_m, size, amplitude_scale, seed, patch);
+  const double gravity_mps2 = systems.front().gravity_mps2;
   PatchWaves waves;
   waves.length_m = length_m;
   waves.size = size;
@@ -103,7 +108,7 @@ PatchWaves make_patch_waves(const WindSea& sea, WaveBand band, double length_m, 
       waves.sin_re[at] = static_cast<float>(a.imag() + b.imag());
       waves.cos_im[at] = static_cast<float>(a.imag() - b.imag());
       waves.sin_im[at] = static_cast<float>(b.real() - a.real());
-      waves.turns_per_s[at] = deep_water_omega(std::sqrt(k2), sea.gravity_mps2) / (2.0 * kPi);
+      waves.turns_per_s[at] = deep_water_omega(std::sqrt(k2), gravity_mps2) / (2.0 * kPi);
       // The real wave 2 |a| cos(...) has variance 2 |a|^2.
       waves.variance_m2 += 2.0 * std::norm(a);
       waves.variance_k_m += 2.0 * std::norm(a) * std::sqrt(k2);

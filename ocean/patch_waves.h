@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "ocean/fft.h"
@@ -49,10 +50,11 @@ struct PatchWaves {
 };
 
 // Draws the waves of `band` on a patch: complex Gaussian amplitudes, E|a(k)|^2 = 1/2 of the
-// integral of amplitude_scale^2 S over the part of k's grid cell inside the band. The numbers
-// depend on (seed, patch, signed wave counts) alone: a finer grid keeps the long waves.
-PatchWaves make_patch_waves(const WindSea& sea, WaveBand band, double length_m, int size,
-                            double amplitude_scale, std::uint64_t seed, int patch);
+// integral of amplitude_scale^2 S, of all systems, over the part of k's grid cell inside the band.
+// The numbers depend on (seed, patch, signed wave counts) alone: a finer grid keeps the long waves.
+// At least one system, all of the same gravity.
+PatchWaves make_patch_waves(std::span<const WaveSystem> systems, WaveBand band, double length_m,
+                            int size, double amplitude_scale, std::uint64_t seed, int patch);
 
 // Write columns [column0, column0 + 16) of h(k, t) as a batch for inverse_fft_batch; false and
 // nothing written if there are no waves in them.

@@ -36,15 +36,11 @@ std::array<int, kMaxTrains> shuffled(int count, std::uint64_t seed) {
   return order;
 }
 
-// Frequency over the peak's below which `part` in (0, 1) of the energy lies:
-// part = exp(-5/4 r^-4).
-double frequency_of_energy(double part) { return std::sqrt(std::sqrt(1.25 / -log(part))); }
-
 // Angle in [-pi, pi] from the wind below which `part` in [0, 1] of the energy of one frequency
-// lies.
-double angle_of_energy(double f_over_peak, double part) {
+// lies, which directional_weight() spreads with exponent p.
+double angle_of_energy(double p, double part) {
   constexpr int kSteps = 512;
-  const double p = spreading_exponent(f_over_peak), step = kTwoPi / kSteps;
+  const double step = kTwoPi / kSteps;
   double below = 0.0;
   for (int n = 0; n < kSteps; ++n) {
     const double middle = -kPi + (n + 0.5) * step;
@@ -177,30 +173,51 @@ void set_trains(std::span<const WaveTrain> trains, TrainSea& sea) {
 
 }  // namespace
 
-std::vector<WaveTrain> make_trains(const WindSea& wind, int count, std::uint64_t seed) {
+std::vector<WaveTrain> make_trains(const WaveSystem& system, int count, std::uint64_t seed) {
   SWELL_CHECK(count >= 1 && count <= kMaxTrains, "count={}", count);
-  SWELL_CHECK(wind.wind_speed_mps >= 0.0, "wind_speed_mps={}", wind.wind_speed_mps);
   std::vector<WaveTrain> trains(static_cast<std::size_t>(count));
   const std::array<int, kMaxTrains> direction_bin = shuffled(count, seed);
   // A calm has no peak: any will do for waves without height.
-  const bool calm = wind.wind_speed_mps == 0.0;
-  const double peak_hz = calm ? 1.0 : peak_frequency_hz(wind);
-  const double m0 = variance_below(wind, std::numeric_limits<double>::infinity());
+  const double peak_hz = system.peak_hz > 0.0 ? system.peak_hz : 1.0;
+  const double m0 = variance_below(system, std::numeric_limits<double>::infinity());
   for (int n = 0; n < count; ++n) {
     const auto uniform = [&](std::uint64_t k) {
       return random_uniform(seed, 3 * static_cast<std::uint64_t>(n) + k);
     };
     WaveTrain& train = trains[static_cast<std::size_t>(n)];
     const double part = kBandBegin + (kBandEnd - kBandBegin) * (n + uniform(0)) / count;
-    const double f_over_peak = frequency_of_energy(part);
-    const double angle = angle_of_energy(f_over_peak, (direction_bin[n] + uniform(1)) / count);
+    const double f_over_peak = frequency_of_energy(system, part);
+    const double angle =
+        angle_of_energy(spreading_of(system, f_over_peak), (direction_bin[n] + uniform(1)) / count);
     train.amplitude_m = std::sqrt(2.0 * m0 * (kBandEnd - kBandBegin) / count);
     train.period_s = 1.0 / (f_over_peak * peak_hz);
-    train.travel = glm::normalize(turned(wind.travel, angle));
+    train.travel = glm::normalize(turned(system.travel, angle));
     train.phase_cycles = uniform(2);
-    train.gravity_mps2 = wind.gravity_mps2;
+    train.gravity_mps2 = system.gravity_mps2;
   }
   return trains;
+}
+
+std::vector<WaveTrain> make_trains(std::span<const WaveSystem> systems, int count,
+                                   std::uint64_t seed) {
+  const int spare = count - static_cast<int>(systems.size());
+  SWELL_CHECK(!systems.empty() && spare >= 0, "{} trains of {} systems", count, systems.size());
+  std::vector<double> height;
+  for (const WaveSystem& system : systems)
+    height.push_back(std::sqrt(variance_below(system, std::numeric_limits<double>::infinity())));
+  std::vector<int> trains(systems.size(), 1);
+  // The next train goes to the system that has the fewest for its height.
+  for (int n = 0; n < spare; ++n) {
+    std::size_t most = 0;
+    for (std::size_t s = 1; s < systems.size(); ++s)
+      if (height[s] * trains[most] > height[most] * trains[s]) most = s;
+    ++trains[most];
+  }
+  std::vector<WaveTrain> all;
+  for (std::size_t s = 0; s < systems.size(); ++s)
+    for (const WaveTrain& train : make_trains(systems[s], trains[s], seed + s))
+      all.push_back(train);
+  return all;
 }
 
 ProfileDepths profile_depths(double deep_length_m) {

@@ -26,7 +26,12 @@ inline constexpr int kMaxTrains = 16;
 // all have the same amplitude and sum A^2 / 2 is exactly the band's part of m0. The same seed gives
 // the same trains. A wind of 0 gives trains without height.
 inline constexpr double kBandBegin = 0.02, kBandEnd = 0.9;
-std::vector<WaveTrain> make_trains(const WindSea& wind, int count, std::uint64_t seed);
+std::vector<WaveTrain> make_trains(const WaveSystem& system, int count, std::uint64_t seed);
+
+// The same of several systems, at least one: each has a train or more, the more the higher it is.
+// count is at least their number.
+std::vector<WaveTrain> make_trains(std::span<const WaveSystem> systems, int count,
+                                   std::uint64_t seed);
 
 // The depths where a train's profile begins to change from deep water's into the shore's, a quarter
 // of the local wavelength, and has become it, a twentieth. deep_length_m is g T^2 / (2 pi).

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -31,6 +32,15 @@ float sine_amplitude(const SineFrame& sine, Field field) {
   return static_cast<float>(2.0 * kPi * cycles_per_m * sine.amplitude_m);
 }
 
+// Where an origin lies along one axis of a patch: 16.16 samples in [0, resolution], and the period.
+struct OriginPlace {
+  int fx16 = 0, period = 0;
+};
+
+struct OriginPlaces {
+  OriginPlace x, y;
+};
+
 }  // namespace
 }  // namespace swell::ocean
 #endif
@@ -41,6 +51,7 @@ float sine_amplitude(const SineFrame& sine, Field field) {
 #include <hwy/highway.h>
 
 #include "math/elementary-inl.h"
+#include "ocean/patch_tiles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
@@ -61,17 +72,31 @@ struct DoublePacket {
   VDouble low, high;
 };
 
-// x in metres to 16.16 samples modulo the patch.
-HWY_INLINE hn::Vec<DHalfInt> HalfFixedPosition(VDouble x_m, double fixed_per_m, double fixed_size) {
+// Places along one axis: 16.16 samples, and by how many periods they have been moved into the
+// patch.
+struct FixedPlace {
+  VInt fx16, period;
+};
+
+struct HalfFixedPlace {
+  hn::Vec<DHalfInt> fx16, period;
+};
+
+// x in metres to 16.16 samples modulo the patch; periods modulo 2^16.
+HWY_INLINE HalfFixedPlace HalfFixedPosition(VDouble x_m, double fixed_per_m, double fixed_size) {
   const DDouble dd;
   const auto u = hn::Round(hn::Mul(x_m, hn::Set(dd, fixed_per_m)));
   const auto wraps = hn::Floor(hn::Mul(u, hn::Set(dd, 1.0 / fixed_size)));
-  return hn::DemoteTo(DHalfInt(), hn::NegMulAdd(wraps, hn::Set(dd, fixed_size), u));
+  const auto turns = hn::Floor(hn::Mul(wraps, hn::Set(dd, 1.0 / 65536.0)));
+  const auto period = hn::NegMulAdd(turns, hn::Set(dd, 65536.0), wraps);
+  return {hn::DemoteTo(DHalfInt(), hn::NegMulAdd(wraps, hn::Set(dd, fixed_size), u)),
+          hn::DemoteTo(DHalfInt(), period)};
 }
 
-HWY_INLINE VInt FixedPosition(DoublePacket x_m, double fixed_per_m, double fixed_size) {
-  return hn::Combine(DInt(), HalfFixedPosition(x_m.high, fixed_per_m, fixed_size),
-                     HalfFixedPosition(x_m.low, fixed_per_m, fixed_size));
+HWY_INLINE FixedPlace FixedPosition(DoublePacket x_m, double fixed_per_m, double fixed_size) {
+  const HalfFixedPlace low = HalfFixedPosition(x_m.low, fixed_per_m, fixed_size);
+  const HalfFixedPlace high = HalfFixedPosition(x_m.high, fixed_per_m, fixed_size);
+  return {hn::Combine(DInt(), high.fx16, low.fx16), hn::Combine(DInt(), high.period, low.period)};
 }
 
 // Bilinear sample of a field at 16.16 positions (any integers: they wrap).
@@ -99,6 +124,46 @@ HWY_INLINE V PatchSample(const PatchFrame& patch, VInt x_fx16, VInt y_fx16) {
   const V h0 = hn::MulAdd(fx, hn::Sub(h10, h00), h00);
   const V h1 = hn::MulAdd(fx, hn::Sub(h11, h01), h01);
   return hn::MulAdd(fy, hn::Sub(h1, h0), h0);
+}
+
+// The tiles' share in a field: a slope has the slope of their weights times their height as well.
+template <Field kField>
+HWY_INLINE V AddTile(const PatchFrame& patch, const TileWeight<V>& tile, VInt x_fx16, VInt y_fx16,
+                     V sum) {
+  sum = hn::MulAdd(tile.weight, PatchSample<kField>(patch, x_fx16, y_fx16), sum);
+  if constexpr (kField == Field::kHeight) return sum;
+  const V per_m = hn::Set(D(), static_cast<float>(1.0 / patch.length_m));
+  const V slope = hn::Mul(kField == Field::kSlopeX ? tile.slope_x : tile.slope_y, per_m);
+  return hn::MulAdd(slope, PatchSample<Field::kHeight>(patch, x_fx16, y_fx16), sum);
+}
+
+// Sample of a field whose patch is tiled, at places in [0, resolution] of their periods.
+template <Field kField>
+HWY_INLINE V TiledSample(const PatchFrame& patch, FixedPlace x, FixedPlace y) {
+  const D d;
+  const DInt di;
+  const V unit = hn::Set(d, 0x1p-16f / static_cast<float>(patch.resolution));
+  const SquarePlace<D> place = {x.period, y.period, hn::Mul(hn::ConvertTo(d, x.fx16), unit),
+                                hn::Mul(hn::ConvertTo(d, y.fx16), unit)};
+  const RowPlace<D> in_row = PlaceInRow(d, place, place.row);
+  const auto moved = [](VInt at_fx16, VInt samples)
+                         HWY_ATTR { return hn::Add(at_fx16, hn::ShiftLeft<16>(samples)); };
+  if (AllInOneTile(d, in_row, place.y)) {
+    const auto by = OffsetOfTile(di, patch.tiling.seed, in_row.column, place.row, patch.resolution);
+    return PatchSample<kField>(patch, moved(x.fx16, by.x), moved(y.fx16, by.y));
+  }
+  V sum = hn::Zero(d);
+  ForEachTile(d, patch.tiling, patch.resolution, place,
+              [&](TileOffset<VInt> by, const TileWeight<V>& tile) HWY_ATTR {
+                sum = AddTile<kField>(patch, tile, moved(x.fx16, by.x), moved(y.fx16, by.y), sum);
+              });
+  return sum;
+}
+
+template <Field kField>
+HWY_INLINE V FieldSample(const PatchFrame& patch, FixedPlace x, FixedPlace y) {
+  return patch.tiling.on ? TiledSample<kField>(patch, x, y)
+                         : PatchSample<kField>(patch, x.fx16, y.fx16);
 }
 
 HWY_INLINE hn::Vec<DHalf> HalfSineTurns(const SineFrame& sine, VDouble x_m, VDouble y_m) {
@@ -135,18 +200,27 @@ HWY_INLINE V WorldPacket(const SeaFrame& frame, std::size_t patches, const glm::
   for (const PatchFrame& patch : std::span(frame.patches).first(patches)) {
     const double fixed_size = 65536.0 * patch.resolution;
     const double fixed_per_m = fixed_size / patch.length_m;
-    sum = hn::Add(sum, PatchSample<kField>(patch, FixedPosition(x, fixed_per_m, fixed_size),
+    sum = hn::Add(sum, FieldSample<kField>(patch, FixedPosition(x, fixed_per_m, fixed_size),
                                            FixedPosition(y, fixed_per_m, fixed_size)));
   }
   return AddSines<kField>(frame.sines, x, y, sum);
 }
 
-// An offset in metres to 16.16 samples. Wrapped before it is scaled up: it has to fit.
-HWY_INLINE VInt FixedOffset(V offset_m, float patches_per_m, float fixed_size) {
+// origin + an offset in metres as 16.16 samples modulo the patch. Wrapped before it is scaled up:
+// it has to fit.
+HWY_INLINE FixedPlace FixedOffset(V offset_m, const PatchFrame& patch, OriginPlace origin) {
   const D d;
-  const V patches = hn::Mul(offset_m, hn::Set(d, patches_per_m));
-  const V fraction = hn::Sub(patches, hn::Floor(patches));
-  return hn::NearestInt(hn::Mul(fraction, hn::Set(d, fixed_size)));
+  const DInt di;
+  const V patches = hn::Mul(offset_m, hn::Set(d, static_cast<float>(1.0 / patch.length_m)));
+  const V whole = hn::Floor(patches);
+  const float fixed_size = 65536.0f * static_cast<float>(patch.resolution);
+  const VInt fraction = hn::NearestInt(hn::Mul(hn::Sub(patches, whole), hn::Set(d, fixed_size)));
+  const VInt sum = hn::Add(fraction, hn::Set(di, origin.fx16));
+  const VInt wraps = hn::ShiftRight<16>(
+      hn::ShiftRightSame(sum, std::countr_zero(static_cast<unsigned>(patch.resolution))));
+  const VInt period = hn::Add(hn::Add(hn::ConvertTo(di, whole), wraps), hn::Set(di, origin.period));
+  const VInt fx16 = hn::And(sum, hn::Set(di, 65536 * patch.resolution - 1));
+  return {fx16, period};
 }
 
 HWY_INLINE DoublePacket WorldCoordinate(double origin, V offset) {
@@ -157,23 +231,17 @@ HWY_INLINE DoublePacket WorldCoordinate(double origin, V offset) {
           hn::Add(base, hn::PromoteTo(dd, hn::UpperHalf(dh, offset)))};
 }
 
-// One packet of points around an origin, whose 16.16 positions in the patches are origin_fx16.
-HWY_INLINE V OffsetPacket(const SeaFrame& frame, glm::dvec2 origin, const glm::ivec2* origin_fx16,
+// One packet of points around an origin, which lies at these places in the patches.
+HWY_INLINE V OffsetPacket(const SeaFrame& frame, glm::dvec2 origin, const OriginPlaces* places,
                           const glm::vec2* offsets) {
   const D d;
-  const DInt di;
   V x, y;
   hn::LoadInterleaved2(d, &offsets->x, x, y);
   V height = hn::Zero(d);
   for (const PatchFrame& patch : frame.patches) {
-    const float patches_per_m = static_cast<float>(1.0 / patch.length_m);
-    const float fixed_size = 65536.0f * static_cast<float>(patch.resolution);
-    const VInt x_fx16 =
-        hn::Add(FixedOffset(x, patches_per_m, fixed_size), hn::Set(di, origin_fx16->x));
-    const VInt y_fx16 =
-        hn::Add(FixedOffset(y, patches_per_m, fixed_size), hn::Set(di, origin_fx16->y));
-    height = hn::Add(height, PatchSample<Field::kHeight>(patch, x_fx16, y_fx16));
-    ++origin_fx16;
+    height = hn::Add(height, FieldSample<Field::kHeight>(patch, FixedOffset(x, patch, places->x),
+                                                         FixedOffset(y, patch, places->y)));
+    ++places;
   }
   if (frame.sines.empty()) return height;
   return AddSines<Field::kHeight>(frame.sines, WorldCoordinate(origin.x, x),
@@ -215,11 +283,10 @@ void SampleSlopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world, fl
   SampleField<Field::kSlopeY>(frame, frame.patches.size(), p_world, slope_y);
 }
 
-void SampleOffsets(const SeaFrame& frame, glm::dvec2 origin, const glm::ivec2* origin_fx16,
+void SampleOffsets(const SeaFrame& frame, glm::dvec2 origin, const OriginPlaces* places,
                    std::span<const glm::vec2> offsets, float* height_m) {
-  ForPackets(offsets, height_m, [&](const glm::vec2* p) HWY_ATTR {
-    return OffsetPacket(frame, origin, origin_fx16, p);
-  });
+  ForPackets(offsets, height_m,
+             [&](const glm::vec2* p) HWY_ATTR { return OffsetPacket(frame, origin, places, p); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -230,11 +297,10 @@ HWY_AFTER_NAMESPACE();
 namespace swell::ocean {
 namespace {
 
-// x_m to 16.16 samples in [0, resolution].
-int fixed_position(double x_m, const PatchFrame& patch) {
-  const double patches = x_m / patch.length_m;
-  const double fraction = patches - std::floor(patches);
-  return static_cast<int>(std::nearbyint(fraction * 65536.0 * patch.resolution));
+OriginPlace origin_place(double x_m, const PatchFrame& patch) {
+  const double patches = x_m / patch.length_m, whole = std::floor(patches);
+  return {static_cast<int>(std::nearbyint((patches - whole) * 65536.0 * patch.resolution)),
+          tile_number(whole)};
 }
 
 }  // namespace
@@ -265,13 +331,13 @@ void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
   SWELL_CHECK(frame.patches.size() <= kMaxPatches, "patches={}", frame.patches.size());
   SWELL_CHECK(std::isfinite(origin_world.x) && std::isfinite(origin_world.y), "origin={},{}",
               origin_world.x, origin_world.y);
-  std::array<glm::ivec2, kMaxPatches> origin_fx16;
+  std::array<OriginPlaces, kMaxPatches> places;
   for (std::size_t p = 0; p < frame.patches.size(); ++p) {
-    origin_fx16[p] = {fixed_position(origin_world.x, frame.patches[p]),
-                      fixed_position(origin_world.y, frame.patches[p])};
+    places[p] = {origin_place(origin_world.x, frame.patches[p]),
+                 origin_place(origin_world.y, frame.patches[p])};
   }
   HWY_DYNAMIC_DISPATCH(SampleOffsets)
-  (frame, origin_world, origin_fx16.data(), offset_m, height_m.data());
+  (frame, origin_world, places.data(), offset_m, height_m.data());
 }
 
 }  // namespace swell::ocean

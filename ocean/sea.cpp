@@ -10,9 +10,11 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/random.h"
 #include "ocean/dispersion.h"
 #include "ocean/fft.h"
 #include "ocean/patch_transforms.h"
+#include "ocean/sea_scale.h"
 #include "ocean/sea_state.h"
 
 namespace swell::ocean {
@@ -25,8 +27,27 @@ void require(double value, double low, double high, const char* name) {
   throw std::invalid_argument(fmt::format("{}: got {}, allowed [{}, {}]", name, value, low, high));
 }
 
-void check_spectrum(const SeaDescription& sea) {
+void check_systems(const SeaDescription& sea) {
   require(sea.wind_speed_mps, 0.0, 60.0, "wind_speed_mps");
+  if (sea.fetch_km) require(*sea.fetch_km, 0.01, 10000.0, "fetch_km");
+  if (sea.hs_m) require(*sea.hs_m, 0.0, 30.0, "hs_m");
+  if (sea.tp_s) require(*sea.tp_s, 0.5, 40.0, "tp_s");
+  if (sea.gamma) require(*sea.gamma, 1.0, 20.0, "gamma");
+  if (sea.swells.size() > kMaxSwells) {
+    throw std::invalid_argument(
+        fmt::format("swells: got {}, allowed at most {}", sea.swells.size(), kMaxSwells));
+  }
+  for (const Swell& swell : sea.swells) {
+    require(swell.hs_m, 0.0, 30.0, "swells.hs_m");
+    require(swell.tp_s, 1.0, 40.0, "swells.tp_s");
+    require(swell.from_rad, -1e6, 1e6, "swells.from_rad");
+    require(swell.gamma, 1.0, 20.0, "swells.gamma");
+    require(swell.spread_rad, 0.01, 1.05, "swells.spread_rad");
+  }
+}
+
+void check_spectrum(const SeaDescription& sea) {
+  check_systems(sea);
   require(sea.wind_from_rad, -1e6, 1e6, "wind_from_rad");
   require(sea.amplitude_scale, 0.0, 4.0, "amplitude_scale");
   require(sea.gravity_mps2, 0.1, 100.0, "gravity_mps2");
@@ -92,12 +113,35 @@ WaveBand band_of_patch(const SeaDescription& sea, std::size_t patch) {
   return {low, end(patch)};
 }
 
+WaveSystem wind_waves(const SeaDescription& sea) {
+  const double wind = sea.wind_speed_mps, from = sea.wind_from_rad, g = sea.gravity_mps2;
+  if (sea.fetch_km)
+    return make_fetch_sea(wind, from, g, 1e3 * *sea.fetch_km, sea.gamma.value_or(3.3));
+  WaveSystem system = make_wind_sea(wind, from, g);
+  system.gamma = sea.gamma.value_or(1.0);
+  if (sea.tp_s)
+    system.peak_hz = 1.0 / *sea.tp_s;
+  else if (sea.hs_m)
+    system.peak_hz = make_wind_sea(wind_of_developed_height(*sea.hs_m, g), from, g).peak_hz;
+  return sea.hs_m ? with_height(system, *sea.hs_m) : system;
+}
+
+WaveSystem swell_waves(const Swell& swell, double gravity_mps2) {
+  WaveSystem system = make_wind_sea(0.0, swell.from_rad, gravity_mps2);
+  system.peak_hz = 1.0 / swell.tp_s;
+  system.gamma = swell.gamma;
+  // The variance of |cos(theta / 2)|^(2p) is about 2 / (p + 1) where it is narrow.
+  system.spreading = std::max(2.0 / (swell.spread_rad * swell.spread_rad) - 1.0, 0.5);
+  return with_height(system, swell.hs_m);
+}
+
 void make_spectrum_waves(Sea::State& state) {
   const SeaDescription& sea = state.description;
-  const WindSea wind = make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2);
+  const std::vector<WaveSystem> systems = wave_systems(sea);
+  if (systems.empty()) return;
   state.plan = make_fft_plan(sea.resolution);
   for (std::size_t p = 0; p < sea.patch_lengths_m.size(); ++p) {
-    state.patches.push_back(make_patch_waves(wind, band_of_patch(sea, p), sea.patch_lengths_m[p],
+    state.patches.push_back(make_patch_waves(systems, band_of_patch(sea, p), sea.patch_lengths_m[p],
                                              sea.resolution, sea.amplitude_scale, sea.seed,
                                              static_cast<int>(p)));
     PatchWaves& waves = state.patches.back();
@@ -116,6 +160,7 @@ void size_patches(const Sea::State& state, std::vector<PatchFrame>& patches) {
     patches[p].length_m = waves.length_m;
     patches[p].resolution = waves.size;
     patches[p].slope_variance = static_cast<float>(waves.slope_variance);
+    patches[p].tiling = tiling_of_patch(state.description, p);
     for (auto* field : {&patches[p].height_m, &patches[p].slope_x, &patches[p].slope_y}) {
       field->resize(samples);
     }
@@ -134,11 +179,19 @@ void synthesize_patches(const Sea::State& state, double t_s, SeaFrame& frame, Wo
 
 }  // namespace
 
+std::vector<WaveSystem> wave_systems(const SeaDescription& sea) {
+  std::vector<WaveSystem> systems;
+  if (sea.spectrum) systems.push_back(wind_waves(sea));
+  for (const Swell& swell : sea.swells) systems.push_back(swell_waves(swell, sea.gravity_mps2));
+  std::erase_if(systems, [](const WaveSystem& s) { return s.peak_hz == 0.0 || s.alpha == 0.0; });
+  return systems;
+}
+
 Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) {
   check_spectrum(description);
   for (const SineWave& sine : description.sines) check_sine(sine);
   state_->description = description;
-  if (description.spectrum && description.wind_speed_mps > 0.0) make_spectrum_waves(*state_);
+  make_spectrum_waves(*state_);
   for (const SineWave& sine : description.sines) {
     state_->sines.push_back(make_sine_train(sine, description));
   }
@@ -158,7 +211,13 @@ double Sea::height_bound_m() const {
 
 double Sea::slope_bound() const {
   double variance = 0.0;
-  for (const PatchWaves& waves : state_->patches) variance += waves.slope_variance;
+  for (std::size_t p = 0; p < state_->patches.size(); ++p) {
+    const PatchWaves& waves = state_->patches[p];
+    variance += waves.slope_variance;
+    if (!tiling_of_patch(state_->description, p).on) continue;
+    const double blend_per_m = kTileBlendSlope / waves.length_m;
+    variance += waves.variance_m2 * blend_per_m * blend_per_m;
+  }
   double bound = 6.0 * std::sqrt(variance);
   for (const SineWave& sine : state_->description.sines)
     bound += std::abs(sine.amplitude_m) * kTwoPi / sine.wavelength_m;
@@ -192,6 +251,12 @@ double Sea::mean_wavelength_m() const {
     variance_k += square * kTwoPi / sine.wavelength_m;
   }
   return variance > 0.0 ? kTwoPi * variance / variance_k : 0.0;
+}
+
+PatchTiling tiling_of_patch(const SeaDescription& sea, std::size_t patch) {
+  constexpr std::uint64_t kStream = 0x74696c6573;  // apart from the waves' random numbers
+  if (!sea.tiling || patch >= kTiledPatches) return {};
+  return {true, static_cast<std::uint32_t>(random_bits(sea.seed ^ kStream, patch))};
 }
 
 double wave_time_s(const SeaDescription& sea, double t_s) {

@@ -6,15 +6,23 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "math/elementary.h"
 #include "math/parallel.h"
+#include "ocean/patch_tiles.h"
+#include "ocean/spectrum.h"
 
 namespace swell::ocean {
 
 // What a sea is made of at most; everything that is drawn or asked has all of it.
-inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64;
+inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64, kMaxSwells = 4;
+
+// So many of the longest patches are tiled: what the next ones hold is too short to be seen from
+// where they would be seen to repeat themselves.
+inline constexpr std::size_t kTiledPatches = 1;
 
 // One explicit wave: A sin(k . x - 2 pi t / T + phase).
 struct SineWave {
@@ -27,12 +35,31 @@ struct SineWave {
   bool operator==(const SineWave&) const = default;
 };
 
+// Waves that another wind left behind, besides the wind's own: a narrow JONSWAP spectrum.
+struct Swell {
+  double hs_m = 1.0;                       // significant height, [0, 30]
+  double tp_s = 12.0;                      // period of the peak, [1, 40]
+  double from_rad = 0.0;                   // where it comes FROM, clockwise from north
+  double gamma = 3.3;                      // enhancement of the peak, [1, 20]
+  double spread_rad = 15.0 * kPi / 180.0;  // standard deviation of the directions, [1, 60] degrees
+
+  bool operator==(const Swell&) const = default;
+};
+
 struct SeaDescription {
-  // Pierson-Moskowitz x Hasselmann spectrum; no spectrum waves if wind_speed_mps == 0.
+  // The wind's own waves, with Hasselmann's directions: by default Pierson and Moskowitz's spectrum
+  // of a fully developed sea, none if wind_speed_mps == 0.
   bool spectrum = true;
   double wind_speed_mps = 15.0;  // U10, at 10 m height, [0, 60]
   double wind_from_rad = 0.0;    // where the wind comes FROM, clockwise from north
-  double amplitude_scale = 1.0;  // multiplies all spectrum heights, [0, 4]
+  // In place of the fully developed sea: water that the wind has blown over, (0, 10000]; or the
+  // significant height [0, 30] and the peak's period [0.5, 40], each of which follows from the
+  // other if it is left out, and from the wind if both are.
+  std::optional<double> fetch_km = {};
+  std::optional<double> hs_m = {}, tp_s = {};
+  std::optional<double> gamma = {};  // the peak's enhancement, [1, 20]; none: 3.3 with a fetch or 1
+  std::vector<Swell> swells = {};    // at most kMaxSwells
+  double amplitude_scale = 1.0;      // multiplies the heights of wind waves and swells, [0, 4]
   double gravity_mps2 = 9.81;
   // The sea repeats itself after this time, 0: never, else [1, 100000]. Every wave, sines too, has
   // a whole number n >= 1 of periods in it: the number nearest to its own, so that its speed is
@@ -43,20 +70,27 @@ struct SeaDescription {
   // 1 to kMaxPatches lengths, longest first. Each patch holds the waves that the next longer one is
   // too coarse for: bands of wave numbers do not overlap.
   std::vector<double> patch_lengths_m = {640.0, 97.0, 17.0};
+  // The longest patch covers the sea by tiles that differ (ocean/patch_tiles.h); false: it repeats
+  // itself as the others do.
+  bool tiling = true;
   std::vector<SineWave> sines;  // at most kMaxSines
   double whitecaps = 1.0;       // multiplies the part of the sea that foam covers, [0, 10]
 
   bool operator==(const SeaDescription&) const = default;
 };
 
+// The wind's own waves and the swells that a sea has, without those of no height.
+std::vector<WaveSystem> wave_systems(const SeaDescription& sea);
+
 // One patch at one time: resolution x resolution samples, periodic; sample [j * resolution + i] is
-// at world x = i L / n, y = j L / n.
+// at world x = i L / n, y = j L / n, in a tile moved by that tile's offset.
 struct PatchFrame {
   double length_m = 0.0;
   int resolution = 0;
   std::vector<float> height_m, slope_x, slope_y;  // slope = dH/dx, dH/dy from the same spectrum
   // Mean square slope (both axes together) of the waves in the patch: a constant of the sea state.
   float slope_variance = 0.0f;
+  PatchTiling tiling;
 };
 
 // A sine wave at one time, for SIMD evaluation: amplitude sin(2 pi (cycles_per_m . x + cycles)).
@@ -114,9 +148,10 @@ void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers);
 
 // Heights at world points, from the frame's patches (bilinear between samples) and sines.
 // Positions in a patch are rounded to 1/65536 of the sample spacing, so that samples come back
-// exactly and the patches repeat exactly. p_world and height_m have the same length and do not
-// overlap; |p_world| below 1e9 m. May be called from many threads at once. 8 ns a point for three
-// patches. With `longest_patches` only so many patches, longest first, count, and the sines.
+// exactly and patches that are not tiled repeat exactly. p_world and height_m have the same length
+// and do not overlap; |p_world| below 1e9 m. May be called from many threads at once. 8 ns a point
+// for three patches. With `longest_patches` only so many patches, longest first, count, and the
+// sines.
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m, std::size_t longest_patches = SIZE_MAX);
 
@@ -126,8 +161,8 @@ void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
                     std::span<const glm::vec2> offset_m, std::span<float> height_m);
 
 // dH/dx and dH/dy at world points, both spans as long as p_world: of the spectrum waves the
-// slopes in the patches, bilinear between samples, of the sines the derivatives. Otherwise as
-// sample_heights().
+// slopes in the patches, bilinear between samples, with what the blend of tiles adds, of the sines
+// the derivatives. Otherwise as sample_heights().
 void sample_slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                    std::span<float> slope_x, std::span<float> slope_y);
 

@@ -6,7 +6,6 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "ocean/spectrum.h"
 
 namespace swell::ocean {
 namespace {
@@ -57,24 +56,27 @@ int douglas_code(double significant_height_m) {
 }
 
 double developed_height_m(double wind_speed_mps, double gravity_mps2) {
-  return 4.0 * std::sqrt(variance_below({wind_speed_mps, {0.0, 1.0}, gravity_mps2}, kInfinity));
+  return 4.0 *
+         std::sqrt(variance_below(make_wind_sea(wind_speed_mps, 0.0, gravity_mps2), kInfinity));
 }
 
 double wind_of_developed_height(double significant_height_m, double gravity_mps2) {
   return std::sqrt(significant_height_m / developed_height_m(1.0, gravity_mps2));  // Hs ~ U10^2
 }
 
-double peak_wavelength_m(double wind_speed_mps, double gravity_mps2) {
-  if (wind_speed_mps == 0.0) return 0.0;
-  const double f_hz = peak_frequency_hz({wind_speed_mps, {0.0, 1.0}, gravity_mps2});
-  return gravity_mps2 / (2.0 * kPi * f_hz * f_hz);
+double peak_wavelength_m(const WaveSystem& system) {
+  if (system.peak_hz == 0.0) return 0.0;
+  return system.gravity_mps2 / (2.0 * kPi * system.peak_hz * system.peak_hz);
 }
 
-std::vector<double> patch_lengths_for_wind(double wind_speed_mps, double gravity_mps2) {
+double peak_wavelength_m(double wind_speed_mps, double gravity_mps2) {
+  return peak_wavelength_m(make_wind_sea(wind_speed_mps, 0.0, gravity_mps2));
+}
+
+std::vector<double> patch_lengths_for_peak(double peak_wavelength_m) {
   // One sea out of many differs from the spectrum's height by its standard deviation: 7 % for three
   // peak wavelengths, 5 % for four, when the steps of the Douglas scale are 20 % wide each way.
-  const double longest_m =
-      std::clamp(4.0 * peak_wavelength_m(wind_speed_mps, gravity_mps2), 60.0, 12000.0);
+  const double longest_m = std::clamp(4.0 * peak_wavelength_m, 60.0, 12000.0);
   return {longest_m, longest_m / 6.6, longest_m / 38.0};
 }
 

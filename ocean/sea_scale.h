@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ocean/spectrum.h"
+
 namespace swell::ocean {
 
 inline constexpr int kMaxDouglas = 9, kMaxBeaufort = 12;
@@ -37,9 +39,10 @@ double wind_of_developed_height(double significant_height_m, double gravity_mps2
 
 // Wavelength of the spectrum's peak in deep water; 0 without wind.
 double peak_wavelength_m(double wind_speed_mps, double gravity_mps2);
+double peak_wavelength_m(const WaveSystem& system);
 
-// Three patch lengths that hold a wind's sea from waves four times as long as the peak's down to
+// Three patch lengths that hold a sea from waves four times as long as its longest peak's down to
 // ripples; none over 12 km, the longest at least 60 m, so that a calm sea does not repeat visibly.
-std::vector<double> patch_lengths_for_wind(double wind_speed_mps, double gravity_mps2);
+std::vector<double> patch_lengths_for_peak(double peak_wavelength_m);
 
 }  // namespace swell::ocean

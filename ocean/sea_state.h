@@ -23,6 +23,9 @@ struct Sea::State {
   double spectrum_variance_m2 = 0.0;
 };
 
+// How a patch covers the sea.
+PatchTiling tiling_of_patch(const SeaDescription& sea, std::size_t patch);
+
 // The time that the waves are put at instead of t_s (finite): in [0, loop_s] of the loop, or of a
 // size whose products with frequencies stay finite.
 double wave_time_s(const SeaDescription& sea, double t_s);

@@ -20,6 +20,7 @@ void size_component(const SeaFrame& frame, SeaFrame& component) {
   for (std::size_t p = 0; p < frame.patches.size(); ++p) {
     component.patches[p].length_m = frame.patches[p].length_m;
     component.patches[p].resolution = frame.patches[p].resolution;
+    component.patches[p].tiling = frame.patches[p].tiling;
     component.patches[p].height_m.resize(frame.patches[p].height_m.size());
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/check.h"
+#include "ocean/patch_tiles-inl.h"
 #include "ocean/sea_state.h"
 #include "ocean/whitecap_steps.h"
 
@@ -29,6 +30,7 @@ void start(const Whitecaps& whitecaps, WhitecapFrame& frame) {
   frame.patches.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
     frame.patches[p].length_m = whitecaps.patches[p].length_m;
+    frame.patches[p].wave_samples = whitecaps.sea.resolution;
     frame.patches[p].before.resize(kTexels);
     frame.patches[p].after.assign(kTexels, 0);
   }
@@ -45,10 +47,26 @@ void take_step(const Whitecaps& whitecaps, double step, WhitecapFrame& frame, Wo
   make_next(whitecaps, step, frame, workers);
 }
 
+// Fills `frame` with the foam before and after a step.
+void make_step(const Whitecaps& whitecaps, double step, bool is_known, WhitecapFrame& frame,
+               Workers& workers) {
+  if (is_known && step == frame.step + 1.0) {
+    take_step(whitecaps, step + 1.0, frame, workers);
+  } else {
+    // What was white before the first of these steps has gone when the last is made.
+    int life = 0;
+    for (const FoamPatch& patch : whitecaps.patches) life = std::max(life, steps_of_life(patch));
+    start(whitecaps, frame);
+    if (!frame.patches.empty())
+      for (int n = -life; n <= 1; ++n) take_step(whitecaps, step + n, frame, workers);
+  }
+  frame.step = step;
+}
+
 // Bilinear between texels.
-float foam_at(const WhitecapFrame::Patch& patch, float past, glm::dvec2 p_world) {
+float foam_at_texels(const WhitecapFrame::Patch& patch, float past, glm::dvec2 texels) {
   constexpr int n = kFoamMapSize;
-  const glm::dvec2 texels = p_world * (n / patch.length_m), corner = glm::floor(texels);
+  const glm::dvec2 corner = glm::floor(texels);
   const glm::vec2 part(texels - corner);
   const auto index = [](double x) { return static_cast<std::size_t>(x - n * std::floor(x / n)); };
   const std::array<std::size_t, 2> x = {index(corner.x), index(corner.x + 1.0)};
@@ -62,6 +80,40 @@ float foam_at(const WhitecapFrame::Patch& patch, float past, glm::dvec2 p_world)
 }
 
 }  // namespace
+}  // namespace swell::ocean
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::ocean {
+namespace HWY_NAMESPACE {
+
+// Foam of tiles that are blended: in the mean what it is without, since the squares of their
+// weights add up to 1.
+static float foam_at(const WhitecapFrame::Patch& patch, float past, glm::dvec2 p_world) {
+  using D = hn::CappedTag<float, 1>;
+  const hn::RebindToSigned<D> di;
+  const glm::dvec2 periods = p_world / patch.length_m, period = glm::floor(periods);
+  const glm::dvec2 inside = periods - period;
+  if (!patch.tiling.on) return foam_at_texels(patch, past, inside * double{kFoamMapSize});
+  const D d;
+  const SquarePlace<D> place = {
+      hn::Set(di, tile_number(period.x)), hn::Set(di, tile_number(period.y)),
+      hn::Set(d, static_cast<float>(inside.x)), hn::Set(d, static_cast<float>(inside.y))};
+  float foam = 0.0f;
+  ForEachTile(d, patch.tiling, patch.wave_samples, place, [&](auto by, const auto& tile) HWY_ATTR {
+    const glm::dvec2 moved(hn::GetLane(by.x), hn::GetLane(by.y));
+    const float weight = hn::GetLane(tile.weight);
+    foam += weight * weight *
+            foam_at_texels(patch, past,
+                           double{kFoamMapSize} * (inside + moved / double(patch.wave_samples)));
+  });
+  return foam;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::ocean
+HWY_AFTER_NAMESPACE();
+
+namespace swell::ocean {
 
 void break_waves(const Whitecaps& whitecaps, const FftPlan& plan,
                  std::span<const PatchWaves* const> waves, double step, std::span<float> a,
@@ -101,18 +153,9 @@ void advance_whitecaps(const Whitecaps& whitecaps, double t_s, WhitecapFrame& fr
   frame.past = static_cast<float>(steps - step);
   const bool is_known = frame.is_filled && frame.sea == whitecaps.sea;
   frame.is_new = !is_known || frame.step != step;
-  if (!frame.is_new) return;
-  if (is_known && step == frame.step + 1.0) {
-    take_step(whitecaps, step + 1.0, frame, workers);
-  } else {
-    // What was white before the first of these steps has gone when the last is made.
-    int life = 0;
-    for (const FoamPatch& patch : whitecaps.patches) life = std::max(life, steps_of_life(patch));
-    start(whitecaps, frame);
-    if (!frame.patches.empty())
-      for (int n = -life; n <= 1; ++n) take_step(whitecaps, step + n, frame, workers);
-  }
-  frame.step = step;
+  if (frame.is_new) make_step(whitecaps, step, is_known, frame, workers);
+  for (std::size_t p = 0; p < frame.patches.size(); ++p)
+    frame.patches[p].tiling = tiling_of_patch(whitecaps.sea, p);
 }
 
 void sample_whitecaps(const WhitecapFrame& frame, std::span<const glm::dvec2> p_world,
@@ -122,7 +165,7 @@ void sample_whitecaps(const WhitecapFrame& frame, std::span<const glm::dvec2> p_
   for (std::size_t k = 0; k < p_world.size(); ++k) {
     float free = 1.0f;
     for (std::size_t p = 0; p < frame.patches.size(); ++p) {
-      float part = foam_at(frame.patches[p], frame.past, p_world[k]);
+      float part = HWY_NAMESPACE::foam_at(frame.patches[p], frame.past, p_world[k]);
       if (p > 0) part = std::min(part * foam_on_crest(height_m[k], frame.crest_per_m), 1.0f);
       free *= 1.0f - part;
     }

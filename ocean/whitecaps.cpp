@@ -40,7 +40,7 @@ Gain gain_at(glm::dvec2 k_rad_m, glm::dvec2 travel, double peak_rad_m) {
 }
 
 // B's waves on a grid of `size` points a side, not scaled; waves too short for it are left out.
-PatchWaves breaking_waves(const PatchWaves& from, const WindSea& wind, int size) {
+PatchWaves breaking_waves(const PatchWaves& from, const WaveSystem& wind, int size) {
   PatchWaves to;
   to.length_m = from.length_m;
   to.size = size;
@@ -51,7 +51,7 @@ PatchWaves breaking_waves(const PatchWaves& from, const WindSea& wind, int size)
   for (int j = 0; j < size; ++j)
     to.k_rad_m.push_back(static_cast<float>(wave_vector(0, j, size, to.length_m).y));
 
-  const double peak_hz = peak_frequency_hz(wind), omega = 2.0 * kPi * peak_hz;
+  const double omega = 2.0 * kPi * wind.peak_hz;
   const double peak_rad_m = omega * omega / wind.gravity_mps2;
   const auto index = [](int count, int n) { return (count + n) % n; };
   for (int y = -to.reach; y <= to.reach; ++y) {
@@ -168,7 +168,7 @@ void set_steps(double loop_s, Whitecaps& whitecaps) {
 // Which patches have foam. Those whose waves break more have more of it, and lie over each other
 // without regard: what the longer ones leave free times what the shorter ones do is what the wind
 // leaves free.
-void add_patches(const Sea& sea, const WindSea& wind, double cover, Whitecaps& whitecaps,
+void add_patches(const Sea& sea, const WaveSystem& wind, double cover, Whitecaps& whitecaps,
                  std::vector<PatchWaves>& coarse) {
   const std::vector<PatchWaves>& patches = sea.state().patches;
   const std::size_t most = std::clamp<std::size_t>(patches.size() - 1, 1, kMostFoamPatches);
@@ -209,12 +209,11 @@ Whitecaps make_whitecaps(const Sea& sea, Workers& workers) {
   set_steps(description.loop_s, whitecaps);
   const double cover =
       std::min(description.whitecaps * whitecap_cover(description.wind_speed_mps), 0.95);
-  if (cover <= 0.0 || sea.state().patches.empty()) return whitecaps;
+  const std::vector<WaveSystem> systems = wave_systems(description);  // the wind's own first
+  if (cover <= 0.0 || !description.spectrum || systems.empty()) return whitecaps;
   whitecaps.plan = make_fft_plan(kFoamMapSize);
-  const WindSea wind = make_wind_sea(description.wind_speed_mps, description.wind_from_rad,
-                                     description.gravity_mps2);
   std::vector<PatchWaves> coarse;
-  add_patches(sea, wind, cover, whitecaps, coarse);
+  add_patches(sea, systems.front(), cover, whitecaps, coarse);
   if (coarse.empty()) return whitecaps;
   // 0.7 for each standard deviation of the height, Hs / 4.
   whitecaps.crest_per_m = static_cast<float>(2.8 / sea.significant_height_m());

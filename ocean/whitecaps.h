@@ -68,6 +68,8 @@ struct WhitecapFrame {
   // [j * kFoamMapSize + i] is at world x = i L / n, y = j L / n.
   struct Patch {
     double length_m = 0.0;
+    PatchTiling tiling;      // the waves'
+    int wave_samples = 128;  // points a side of the waves' patch, which tiles are moved by
     std::vector<std::uint8_t> before, after;
   };
   std::vector<Patch> patches;

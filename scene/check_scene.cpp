@@ -121,6 +121,13 @@ Fault fault_of_sea(const Scene& scene) {
   if (std::ranges::adjacent_find(lengths, std::less_equal{}) != lengths.end())
     return SceneFault{"sea.patch_lengths_m", fmt::format("[{}]", fmt::join(lengths, ", ")),
                       "lengths that go down"};
+  if (scene.douglas && scene.beaufort)
+    return SceneFault{"sea.beaufort", "it besides sea.douglas", "one of them"};
+  const bool has_waves = scene.sea.hs_m || scene.sea.tp_s;
+  if (scene.douglas && (has_waves || scene.sea.fetch_km))
+    return SceneFault{"sea.douglas", "it besides hs_m, tp_s or fetch_km", "one of them"};
+  if (has_waves && scene.sea.fetch_km)
+    return SceneFault{"sea.fetch_km", "it besides sea.hs_m or sea.tp_s", "one of them"};
   return std::nullopt;
 }
 
@@ -190,6 +197,9 @@ std::optional<SceneFault> find_fault(const Scene& scene) {
   if (Fault fault = fault_of_keys(scene)) return fault;
   if (Fault fault =
           fault_of_tables(kPathKey, scene.camera.path, kMaxWaypoints, waypoint_parameters()))
+    return fault;
+  if (Fault fault =
+          fault_of_tables(kSwellKey, scene.sea.swells, ocean::kMaxSwells, swell_parameters()))
     return fault;
   if (Fault fault =
           fault_of_tables(kSinesKey, scene.sea.sines, ocean::kMaxSines, sine_parameters()))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "terrain/terrain.h"
 
@@ -36,6 +37,10 @@ double least_spacing_m(Coast coast, double terrain_size_m) {
   }
 }
 
+double variance_of(const ocean::WaveSystem& system) {
+  return ocean::variance_below(system, HUGE_VAL);
+}
+
 terrain::HeightGrid sea_floor_of(const terrain::HeightGrid& terrain, int cells) {
   const terrain::Grid& land = terrain.grid;
   return resample(terrain, {land.min_world, land.size_m() / cells, cells + 1, cells + 1});
@@ -58,7 +63,7 @@ std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain
 
 std::string slow_coast_text(const Scene& scene) {
   const Coast& coast = scene.coast;
-  if (coast.model == CoastModel::kNone || !scene.terrain || scene.sea.wind_speed_mps <= 0.0)
+  if (coast.model == CoastModel::kNone || !scene.terrain || ocean::wave_systems(scene.sea).empty())
     return {};
   const std::optional<double> size_m = described_size_m(*scene.terrain);
   const double cells = std::min(
@@ -78,15 +83,17 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
   if (coast.model == CoastModel::kNone || !terrain) return std::nullopt;
   if (const auto fault = fault_of_coast_grid(coast, terrain->grid.size_m()))
     throw SceneError(fault_text(*fault));
-  if (sea.wind_speed_mps <= 0.0) return std::nullopt;
-  const ocean::WindSea wind =
-      ocean::make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2);
-  std::vector<ocean::WaveTrain> trains = ocean::make_trains(wind, coast.trains, coast.seed);
+  std::vector<ocean::WaveSystem> systems = ocean::wave_systems(sea);
+  if (systems.empty()) return std::nullopt;
+  std::ranges::stable_sort(systems, std::greater{}, variance_of);
+  systems.resize(std::min(systems.size(), static_cast<std::size_t>(coast.trains)));
+  std::vector<ocean::WaveTrain> trains = ocean::make_trains(systems, coast.trains, coast.seed);
   for (ocean::WaveTrain& train : trains) train.amplitude_m *= sea.amplitude_scale;
   Workers workers(threads);
   return ocean::make_coast_sea(
-      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->grid.size_m()))), wind,
-      trains, coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
+      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->grid.size_m()))),
+      systems.front(), trains,
+      coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
       coast.model == CoastModel::kBlend, workers);
 }
 

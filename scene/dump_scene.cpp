@@ -59,7 +59,8 @@ std::string dump_scene(const Scene& scene) {
     if (is_replaced(parameter.key, scene, parameters)) text += "# ";
     text += line_of(parameter, scene);
   }
-  return text + tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +
+  return text + tables_text(kSwellKey, swell_parameters(), scene.sea.swells) +
+         tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +
          tables_text(kPathKey, waypoint_parameters(), scene.camera.path) +
          tables_text(kObjectsKey, object_parameters(), scene.objects);
 }

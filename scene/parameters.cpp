@@ -148,15 +148,30 @@ Rows sea_rows() {
       SceneRow::optional_integer(
           "sea.beaufort", {0, ocean::kMaxBeaufort}, SWELL_FIELD(beaufort),
           "wind force: sets the wind and, if they are left out, the patch lengths"),
-      SceneRow::plain<bool>(
-          "sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
-          "the open sea's wind waves; false leaves the sines of [[sea.sines]] and a "
-          "coast's trains"),
+      SceneRow::optional_number(
+          "sea.hs_m", {0, 30, "m"}, SWELL_FIELD(sea.hs_m),
+          "significant height of the wind's waves; that of `tp_s` or of the wind if left out"),
+      SceneRow::optional_number("sea.tp_s", {0.5, 40, "s"}, SWELL_FIELD(sea.tp_s),
+                                "period of their spectrum's peak; that of a fully developed sea of "
+                                "`hs_m` or of the wind if left out"),
+      SceneRow::optional_number(
+          "sea.fetch_km", {0.01, 10000, "km"}, SWELL_FIELD(sea.fetch_km),
+          "water that the wind has blown over (JONSWAP); if left out, enough; excludes `hs_m` and "
+          "`tp_s`"),
+      SceneRow::optional_number(
+          "sea.gamma", {1, 20}, SWELL_FIELD(sea.gamma),
+          "enhancement of the spectrum's peak; 3.3 beside `fetch_km`, else 1, "
+          "if left out"),
+      SceneRow::plain<bool>("sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
+                            "the wind's waves; false leaves [[sea.swell]] and [[sea.sines]]"),
       SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, ocean::kMaxPatches,
                      SWELL_FIELD(sea.patch_lengths_m),
                      "periods of the patches that hold the wind waves, longest first"),
       SceneRow::integer("sea.resolution", Kind::kPowerOfTwo, {16, 512}, SWELL_FIELD(sea.resolution),
                         "samples along each side of a patch"),
+      SceneRow::plain<bool>(
+          "sea.tiling", Kind::kBoolean, SWELL_FIELD(sea.tiling),
+          "the longest patch covers the sea by tiles that differ; false: it repeats itself"),
       SceneRow::number("sea.amplitude_scale", {0, 4}, SWELL_FIELD(sea.amplitude_scale),
                        "multiplies the heights of the wind waves"),
       SceneRow::integer("sea.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(sea.seed),
@@ -323,6 +338,19 @@ std::vector<Parameter<ocean::SineWave>> sine_parameters() {
                      "at the origin at t = 0; 90 is a crest"),
       SineRow::or_zero(SineRow::number("period_s", {0.05, 1000, "s"}, SWELL_FIELD(period_s),
                                        "from crest to crest at one place; 0: that of deep water")),
+  };
+}
+
+std::vector<Parameter<ocean::Swell>> swell_parameters() {
+  using SwellRow = Row<ocean::Swell>;
+  return {
+      SwellRow::number("hs_m", {0, 30, "m"}, SWELL_FIELD(hs_m), "significant height"),
+      SwellRow::number("tp_s", {1, 40, "s"}, SWELL_FIELD(tp_s), "period of the spectrum's peak"),
+      SwellRow::angle("from_deg", {-360, 360, "deg"}, SWELL_FIELD(from_rad),
+                      "where it comes from, clockwise from north"),
+      SwellRow::number("gamma", {1, 20}, SWELL_FIELD(gamma), "enhancement of the peak"),
+      SwellRow::angle("spread_deg", {1, 60, "deg"}, SWELL_FIELD(spread_rad),
+                      "standard deviation of the directions"),
   };
 }
 

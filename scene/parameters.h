@@ -51,6 +51,9 @@ struct Parameter {
 // Keys of the scene, in the order of docs/scene.md. Those of "terrain." need scene.terrain.
 std::vector<Parameter<Scene>> scene_parameters();
 
+// Keys of one table of [[sea.swell]].
+std::vector<Parameter<ocean::Swell>> swell_parameters();
+
 // Keys of one table of [[sea.sines]].
 std::vector<Parameter<ocean::SineWave>> sine_parameters();
 
@@ -63,14 +66,14 @@ std::vector<Parameter<FloatingObject>> object_parameters();
 inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 64;
 inline constexpr int kMaxCoastPoints = 200;
 inline constexpr std::size_t kMaxTextBytes = 200;
-inline constexpr std::string_view kSinesKey = "sea.sines", kPathKey = "camera.path",
-                                  kObjectsKey = "object";
+inline constexpr std::string_view kSwellKey = "sea.swell", kSinesKey = "sea.sines",
+                                  kPathKey = "camera.path", kObjectsKey = "object";
 
 // A key that may be without a value, and one whose place it takes: a file has only one of them.
 struct Replacement {
   std::string_view key, replaced;
 };
-inline constexpr std::array<Replacement, 7> kReplacements = {{
+inline constexpr std::array<Replacement, 9> kReplacements = {{
     {"camera.quaternion", "camera.heading_deg"},
     {"camera.quaternion", "camera.pitch_deg"},
     {"camera.quaternion", "camera.roll_deg"},
@@ -78,6 +81,8 @@ inline constexpr std::array<Replacement, 7> kReplacements = {{
     {"camera.focal_px", "camera.fov_y_deg"},
     {"camera.mount", "camera.eye_m"},
     {"camera.mount", "camera.velocity_mps"},
+    {"sea.fetch_km", "sea.hs_m"},
+    {"sea.fetch_km", "sea.tp_s"},
 }};
 
 // Whether the parameter allows a number, an integer, a choice or text; a list's number of numbers

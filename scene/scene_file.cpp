@@ -75,6 +75,7 @@ class Reader {
   explicit Reader(const fs::path& file)
       : file_(file),
         parameters_(scene_parameters()),
+        swell_parameters_(swell_parameters()),
         sine_parameters_(sine_parameters()),
         waypoint_parameters_(waypoint_parameters()),
         object_parameters_(object_parameters()) {}
@@ -118,6 +119,8 @@ class Reader {
       if (parameter != parameters_.end()) {
         parameter->set(scene_, checked_value(*node, path, *parameter));
         given_.emplace(path, place_of(node->source()));
+      } else if (path == kSwellKey) {
+        read_tables(*node, kSwellKey, ocean::kMaxSwells, swell_parameters_, scene_.sea.swells);
       } else if (path == kSinesKey) {
         read_tables(*node, kSinesKey, ocean::kMaxSines, sine_parameters_, scene_.sea.sines);
       } else if (path == kObjectsKey) {
@@ -135,7 +138,14 @@ class Reader {
   // Wind and patch lengths from sea.douglas or sea.beaufort.
   void apply_sea_state() {
     check_only_one_of({"sea.douglas", "sea.beaufort", "wind.speed_mps"});
-    if (!scene_.douglas && !scene_.beaufort) return;
+    check_only_one_of({"sea.douglas", "sea.hs_m"});
+    check_only_one_of({"sea.douglas", "sea.tp_s"});
+    check_only_one_of({"sea.douglas", "sea.fetch_km"});
+    if (scene_.douglas || scene_.beaufort) set_wind();
+    fit_patches();
+  }
+
+  void set_wind() {
     ocean::SeaDescription& sea = scene_.sea;
     const double gravity = sea.gravity_mps2;
     sea.wind_speed_mps = scene_.douglas ? ocean::wind_of_developed_height(
@@ -146,8 +156,18 @@ class Reader {
            fmt::format("sea.douglas, got {} with a gravity of {} m/s^2, which takes a wind of "
                        "{:.3g} m/s, allowed {} m/s",
                        *scene_.douglas, gravity, sea.wind_speed_mps, kMaxWind_mps));
-    if (!given_.contains("sea.patch_lengths_m"))
-      sea.patch_lengths_m = ocean::patch_lengths_for_wind(sea.wind_speed_mps, gravity);
+  }
+
+  // Patches that hold the sea that was asked for, unless they or no more than a wind are given.
+  void fit_patches() {
+    ocean::SeaDescription& sea = scene_.sea;
+    const bool asked = scene_.douglas || scene_.beaufort || sea.hs_m || sea.tp_s || sea.fetch_km ||
+                       !sea.swells.empty();
+    if (!asked || given_.contains("sea.patch_lengths_m")) return;
+    double longest_m = 0.0;
+    for (const ocean::WaveSystem& system : ocean::wave_systems(sea))
+      longest_m = std::max(longest_m, ocean::peak_wavelength_m(system));
+    sea.patch_lengths_m = ocean::patch_lengths_for_peak(longest_m);
   }
 
   void finish_coast() {
@@ -385,6 +405,7 @@ class Reader {
       for (const auto& p : parameters) known.push_back({std::string(p.key), unlikeness(p.key)});
     };
     for (const auto& parameter : parameters_) add(parameter.key, false);
+    add_tables(kSwellKey, swell_parameters_);
     add_tables(kSinesKey, sine_parameters_);
     add_tables(kPathKey, waypoint_parameters_);
     add_tables(kObjectsKey, object_parameters_);
@@ -396,6 +417,7 @@ class Reader {
 
   fs::path file_;
   std::vector<Parameter<Scene>> parameters_;
+  std::vector<Parameter<ocean::Swell>> swell_parameters_;
   std::vector<Parameter<ocean::SineWave>> sine_parameters_;
   std::vector<Parameter<Waypoint>> waypoint_parameters_;
   std::vector<Parameter<FloatingObject>> object_parameters_;

@@ -24,7 +24,7 @@ struct QueryBench {
 
 std::string model_name(const scene::Scene& scene, const scene::Water& water) {
   if (water.coast()) return scene.coast.model == scene::CoastModel::kBlend ? "blend" : "trains";
-  const bool spectrum = scene.sea.spectrum && scene.sea.wind_speed_mps > 0.0;
+  const bool spectrum = !ocean::wave_systems(scene.sea).empty();
   if (spectrum && !scene.sea.sines.empty()) return "spectrum+sines";
   if (spectrum) return "spectrum";
   return scene.sea.sines.empty() ? "flat" : "sines";

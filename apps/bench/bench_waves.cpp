@@ -52,13 +52,12 @@ void write_image(const texture::Image8& image, const std::filesystem::path& path
 
 void write_filter(const WaveFigures& figures, const scene::Scene& scene) {
   const ocean::SeaDescription& sea = scene.sea;
-  if (!sea.spectrum || sea.wind_speed_mps == 0.0)
+  const std::vector<ocean::WaveSystem> systems = ocean::wave_systems(sea);
+  if (systems.empty())
     throw OptionError(fmt::format("command line: --filter, got it for {}, which has no spectrum",
                                   figures.scene_path));
-  const ocean::WindSea wind =
-      ocean::make_wind_sea(sea.wind_speed_mps, sea.wind_from_rad, sea.gravity_mps2);
-  write_image(draw_filter(wind, figures.pixels), figures.filter);
-  const double length_m = ocean::peak_wavelength_m(sea.wind_speed_mps, sea.gravity_mps2);
+  write_image(draw_filter(systems.front(), figures.pixels), figures.filter);
+  const double length_m = ocean::peak_wavelength_m(systems.front());
   fmt::print("{}: peak at {:.4g} rad/m, a wavelength of {:.4g} m\n", figures.filter,
              2.0 * kPi / length_m, length_m);
 }

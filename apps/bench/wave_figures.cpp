@@ -116,8 +116,8 @@ Rgb map_colour(const MapFields& map, std::size_t at, glm::dvec2 to_light, MapSca
 
 }  // namespace
 
-texture::Image8 draw_filter(const ocean::WindSea& wind, int size_px) {
-  const double k_m = 2.0 * kPi / ocean::peak_wavelength_m(wind.wind_speed_mps, wind.gravity_mps2);
+texture::Image8 draw_filter(const ocean::WaveSystem& wind, int size_px) {
+  const double k_m = 2.0 * kPi / ocean::peak_wavelength_m(wind);
   const double pixel = 6.0 * k_m / size_px, middle = 0.5 * size_px;
   const auto k_at = [&](int x, int y) {
     return pixel * glm::dvec2(x + 0.5 - middle, middle - y - 0.5);

@@ -15,7 +15,7 @@ namespace swell::apps {
 // the square |k_x|, |k_y| <= 3 k_m, north up: a point is the wave that travels from the middle
 // towards it. Rings at k_m, the wave number of the peak frequency, and 2 k_m. A wind of more than
 // 0, size_px of at least 2.
-texture::Image8 draw_filter(const ocean::WindSea& wind, int size_px);
+texture::Image8 draw_filter(const ocean::WaveSystem& wind, int size_px);
 
 struct MapView {
   glm::dvec2 centre_m{0.0};

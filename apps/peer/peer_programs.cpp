@@ -26,7 +26,9 @@ bool has_lookups(const Shading& window) {
 std::string layers_text(const render::Water& water) {
   std::string text;
   const auto next_level = [&] {
-    text += "level_m = level_on_waves(to_eye, point.across, s.slope);\n";
+    text +=
+        "level_m = level_on_waves(to_eye, point.across, s.slope);\n"
+        "fine_variance = s.variance + short_variance;\n";
   };
   const std::string blend =
       water.has_coast ? "blend_coast(p.xy, level_flat_m, surf.x, inside, s);\n" : "";
@@ -40,9 +42,12 @@ std::string layers_text(const render::Water& water) {
       text +=
           "bend = sample_map(noise, noise_place, p.xy, level_m).rg * noise_scale.x + "
           "noise_scale.y;\n";
-    text += fmt::format(
-        "add_slopes(layer_{0}, layer_place[{0}], layer_scale[{0}], p.xy{1}, level_m, s);\n", i,
-        is_bent ? fmt::format(" + bend * layer_scale[{}].w", i) : "");
+    const bool is_tiled = water.layers[static_cast<std::size_t>(i)].tiling.on;
+    text +=
+        fmt::format("{1}(layer_{0}, layer_place[{0}], layer_scale[{0}], {2}p.xy{3}, level_m, s);\n",
+                    i, is_tiled ? "add_tiled_slopes" : "add_slopes",
+                    is_tiled ? fmt::format("layer_tiles[{}], ", i) : "",
+                    is_bent ? fmt::format(" + bend * layer_scale[{}].w", i) : "");
     if (i >= water.long_layer_count) continue;
     if (i == water.long_layer_count - 1) text += blend;
     next_level();
@@ -119,11 +124,13 @@ void set_foam(const render::Foam& foam, const GlProgram& program) {
 }
 
 void set_waves(const render::Water& water, const GlProgram& program) {
-  std::vector<glm::vec4> place, scale, wave, slope;
+  std::vector<glm::vec4> place, scale, tiles, wave, slope;
   for (int i = 0; i < water.layer_count; ++i) {
     const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
     place.push_back(texture_place(layer));
     scale.push_back(texture_scale(layer));
+    tiles.emplace_back(layer.eye_column, layer.eye_row, layer.tiling.seed >> 16,
+                       layer.tiling.seed & 0xffff);
     program.set_sampler(fmt::format("layer_{}", i), kFirstLayerUnit + i);
   }
   for (int i = 0; i < water.sine_count; ++i) {
@@ -134,6 +141,7 @@ void set_waves(const render::Water& water, const GlProgram& program) {
   }
   program.set("layer_place", place);
   program.set("layer_scale", scale);
+  program.set("layer_tiles", tiles);
   program.set("sine_wave", wave);
   program.set("sine_slope", slope);
   set_layer(water.uv_noise, "noise", program);
@@ -142,6 +150,8 @@ void set_waves(const render::Water& water, const GlProgram& program) {
 void set_water(const Shading& s, const GlProgram& program) {
   const auto& water = s.material<render::Water>();
   program.set("base_variance", water.base_variance);
+  program.set("short_variance", water.short_variance);
+  program.set("seen_slopes", water.seen_slopes);
   set_waves(water, program);
   if (water.has_coast) {
     set_layer(water.coast_slopes, "coast_slopes", program);

@@ -32,6 +32,15 @@ SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gai
   return layer;
 }
 
+SlopeLayer make_patch_layer(const texture::PackedMap2& map, double length_m,
+                            const ocean::PatchTiling& tiling, glm::dvec2 eye) {
+  SlopeLayer layer = make_layer(map, length_m, 1.0f, eye, {});
+  layer.tiling = tiling;
+  layer.eye_column = ocean::tile_number(std::floor(eye.x / length_m));
+  layer.eye_row = ocean::tile_number(std::floor(eye.y / length_m));
+  return layer;
+}
+
 SlopeLayer make_square_layer(const texture::PackedMap2& map, double size_m,
                              glm::dvec2 from_corner) {
   SlopeLayer layer = make_layer(map, size_m, 1.0f, from_corner, {});

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
+#include "ocean/patch_tiles.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
@@ -17,6 +18,10 @@ struct SlopeLayer {
   float gain = 1.0f;        // multiplies the slopes
   float uv_noise_m = 0.0f;  // how far the coordinates are perturbed
   float coarsest = 0.0f;    // the level from which on nothing is left, a little less
+  // Whether and how tiles cover the sea with it (not one square), and the eye's period, modulo
+  // 2^16.
+  ocean::PatchTiling tiling;
+  int eye_column = 0, eye_row = 0;
   // Slope variance that each mip level has lost, after gain, and how much more the next one has;
   // repeated for wide vectors.
   static constexpr int kTableLevels = 8;
@@ -29,6 +34,10 @@ float fraction(double x);
 // Lays `map` over the plane with period length_m > 0; `moved_m` is how far it has drifted.
 SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain, glm::dvec2 eye,
                       glm::dvec2 moved_m);
+
+// Lays a patch's map over the sea by the patch's tiles.
+SlopeLayer make_patch_layer(const texture::PackedMap2& map, double length_m,
+                            const ocean::PatchTiling& tiling, glm::dvec2 eye);
 
 // A layer over one square that does not repeat: the eye's place in it, from_corner [m], is not
 // wrapped.

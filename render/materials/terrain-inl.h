@@ -114,11 +114,11 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const V zero = hn::Zero(D());
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
-  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero};
+  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, flat};
   const WaterSlopes sea =
       SampleWater<true>(water, s.rays, std::array{packet}, std::make_index_sequence<1>())[0];
   return {hn::Mul(sea.slope_x, kept), hn::Mul(sea.slope_y, kept), Lerp(flat, sea.variance, kept),
-          hn::Mul(sea.foam_cover, kept)};
+          hn::Mul(sea.foam_cover, kept), Lerp(flat, sea.fine_variance, kept)};
 }
 
 // Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.
@@ -153,13 +153,13 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const V film = hn::Max(sheet, SmoothBlend(hn::NegMulAdd(calm, Constant(1.2f), Constant(1.0f))));
 
   const WaterSlopes waves = SampleRunOut(s, packet, hn::NegMulAdd(calm, film, film));
-  const Facing f = FaceEye(s.media, packet, waves);
+  const Facing f = FaceEye(s.media, s.material<Water>(), packet, waves);
   V inv_variance, unused;
   const V glint =
       SunGlint(s.light.sun_direction, packet, waves, f.reflectance, f.cos_rough, inv_variance);
   const V3 floor = Difference(ground, Constant(s.media.body));
-  const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f.normal,
-                                     f.cos_eye, inv_variance, floor, false, unused);
+  const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f, inv_variance,
+                                     floor, false, unused);
   const V half = Constant(0.5f);
   const V shine = hn::Mul(f.reflectance, hn::MulAdd(film, half, hn::Mul(wet, half)));
   const V bare = hn::NegMulAdd(wet, film, wet);

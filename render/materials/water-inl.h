@@ -19,6 +19,8 @@
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/hull-inl.h"
+#include "render/materials/tiled_slopes-inl.h"
+#include "render/materials/visible_slopes-inl.h"
 #include "render/materials/water.h"
 #include "render/materials/whitecaps-inl.h"
 #include "render/tile/light_code-inl.h"
@@ -34,7 +36,9 @@ namespace HWY_NAMESPACE {
 // together) of the slopes too fine for a pixel.
 struct WaterSlopes {
   V slope_x, slope_y, variance;
-  V foam_cover;  // part hidden by foam, in [0, 1]
+  V foam_cover;     // part hidden by foam, in [0, 1]
+  V fine_variance;  // of all slopes but the drawn ones of the long waves: triangles do not show
+                    // them
 };
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
@@ -129,16 +133,6 @@ HWY_INLINE void BendRipples(const SlopeLayer& noise, V3 p, V level_m, V& du, V& 
     AddSlopes(noise, p, level_m, du, dv, du, dv, unused);
 }
 
-// How high waves are drawn at a packet. Far triangles cut off some of the earth's curve: that is no
-// trough.
-HWY_INLINE V WaveHeight(const Water& water, const ViewRays& rays, const Packet& packet) {
-  const V share =
-      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
-                          Constant(kWaveShareAtEye)),
-            0.0f, 1.0f);
-  return hn::Mul(share, hn::Add(packet.p.z, Constant(rays.eye_z)));
-}
-
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
@@ -156,13 +150,14 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<Surf, kCount> surf = {
       (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
-  const std::array<V, kCount> whitecaps = {WhitecapsAt(water.whitecaps, packets[k].p,
-                                                       WaveHeight(water, rays, packets[k]),
-                                                       level_flat_m[k], surf[k].ceded)...};
+  const std::array<V, kCount> whitecaps = {
+      WhitecapsAt(water.whitecaps, packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
+                  level_flat_m[k], surf[k].ceded)...};
   std::array<WaterSlopes, kCount> s = {WaterSlopes{
       zero, zero, Constant(water.base_variance),
       hn::Max(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]),
-              FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam))}...};
+              FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam)),
+      zero}...};
   std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
   for (int i = 0; i < water.sine_count; ++i)
     (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
@@ -176,8 +171,8 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
       (BendRipples<kCoast>(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k]), ...);
     if (i >= 0 && !(is_long && all_ceded)) {
       const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
-      (AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
-                 s[k].variance),
+      (AddTiledSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
+                      s[k].variance),
        ...);
     }
     if (!is_long) continue;
@@ -188,6 +183,7 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
                                  };
     (blend_coast(packets[k], level_flat_m[k], surf[k], s[k]), ...);
     ((level_m[k] = LevelOnWaves(packets[k], across[k], s[k])), ...);
+    ((s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance))), ...);
   }
   return s;
 }
@@ -265,18 +261,44 @@ HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
   return hn::Mul(down, hn::NegMulAdd(hidden, hidden, one));
 }
 
+// How the water's surface meets the eye.
+struct Facing {
+  V3 normal;
+  V cos_eye;    // of the slopes drawn here; negative on back sides that the mesh does not hide
+  V cos_rough;  // of the facets that are seen
+  V reflectance;
+};
+
+HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& packet,
+                          const WaterSlopes& s) {
+  const D d;
+  Facing f;
+  f.normal = NormalOf(s.slope_x, s.slope_y);
+  f.cos_eye =
+      UnhiddenCosine(Dot(f.normal, packet.to_eye),
+                     hn::Mul(hn::Sub(s.fine_variance, s.variance), Constant(water.seen_slopes)));
+  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
+  // view; a back side counts as the facets in front of it, or crests would be lined with light.
+  f.cos_rough = hn::Sqrt(
+      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(f.cos_eye, f.cos_eye, Constant(0.006f))));
+  f.reflectance = FresnelReflectance(d, f.cos_rough, media.refraction_index);
+  return f;
+}
+
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
 // horizon that waves make, brighter by what its floor adds here, and in front of both whatever the
 // reflection image shows there, whose part is `image_alpha`.
 HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V3 normal, V cos_eye, V inv_variance, V3 floor,
+                             const WaterSlopes& s, const Facing& f, V inv_variance, V3 floor,
                              bool use_image, V& image_alpha) {
-  V3 r = ScaleAdd(normal, hn::Add(cos_eye, cos_eye), Scale(packet.to_eye, Constant(-1.0f)));
   const V horizon = Constant(water.wave_horizon);
+  const V r_z = hn::MulSub(hn::Add(f.cos_eye, f.cos_eye), f.normal.z, packet.to_eye.z);
   const V sea =
-      PartOfSeaMirrored(hn::Sub(r.z, horizon), hn::Add(packet.to_eye.z, horizon), inv_variance);
-  // The spread of rough water looks higher. Outside its circle the map goes on as at the horizon.
-  r.z = hn::MulAdd(s.variance, Constant(0.8f), hn::Max(r.z, Constant(-0.25f)));
+      PartOfSeaMirrored(hn::Sub(r_z, horizon), hn::Add(packet.to_eye.z, horizon), inv_variance);
+  const V cosine = MirroringCosine(f.cos_eye, hn::Mul(s.variance, Constant(water.seen_slopes)));
+  V3 r = ScaleAdd(f.normal, hn::Add(cosine, cosine), Scale(packet.to_eye, Constant(-1.0f)));
+  // Outside its circle the map goes on as at the horizon.
+  r.z = hn::Max(r.z, Constant(-0.25f));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
   const V3 mirrored_sea =
@@ -297,7 +319,12 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
                              const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha,
                              V3& floor_added) {
-  const V height = WaveHeight(water, shading.rays, packet);
+  // Far triangles cut off some of the earth's curve: that is no trough.
+  const V share =
+      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
+                          Constant(kWaveShareAtEye)),
+            0.0f, 1.0f);
+  const V height = hn::Mul(share, hn::Add(packet.p.z, Constant(shading.rays.eye_z)));
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
   const V towards_sun = hn::Max(
@@ -345,27 +372,6 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
-// How the water's surface meets the eye.
-struct Facing {
-  V3 normal;
-  V cos_eye;    // negative on back sides of waves that the mesh does not hide
-  V cos_rough;  // of the facets that are seen
-  V reflectance;
-};
-
-HWY_INLINE Facing FaceEye(const Media& media, const Packet& packet, const WaterSlopes& s) {
-  const D d;
-  Facing f;
-  f.normal = NormalOf(s.slope_x, s.slope_y);
-  f.cos_eye = Dot(f.normal, packet.to_eye);
-  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
-  // view; a back side counts as the facets in front of it, or crests would be lined with light.
-  f.cos_rough = hn::Sqrt(
-      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(f.cos_eye, f.cos_eye, Constant(0.006f))));
-  f.reflectance = FresnelReflectance(d, f.cos_rough, media.refraction_index);
-  return f;
-}
-
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
 HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
@@ -389,7 +395,7 @@ struct WaterShader {
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
                                const Packet& packet, const WaterSlopes& s) const {
     const Light& light = shading.light;
-    const Facing f = FaceEye(shading.media, packet, s);
+    const Facing f = FaceEye(shading.media, water, packet, s);
 
     const V sun_visible = SunVisible(shading, tile, packet);
     V inv_variance, mirrored_alpha, refracted_alpha;
@@ -398,8 +404,8 @@ struct WaterShader {
     V3 floor;
     V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
                                   refracted_alpha, floor);
-    const V3 mirrored = ReflectedLight(light, water, packet, s, f.normal, f.cos_eye, inv_variance,
-                                       floor, tile.lookups.reflection, mirrored_alpha);
+    const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance, floor,
+                                       tile.lookups.reflection, mirrored_alpha);
     V foam_cover = s.foam_cover;
     if (!tile.casters.empty()) {
       const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),

@@ -46,15 +46,25 @@ glm::dvec2 drift_m(const ocean::SeaDescription& sea, glm::dvec2 direction, doubl
   return whole * (length_m * (ocean::wave_time_s(sea, t_s) / sea.loop_s));
 }
 
+// Slope variance of the ripples, both axes together: they are what the patches' waves leave of the
+// sea's whole variance; where those are higher than the wind makes them, a quarter of it.
+// Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
+double ripple_variance(const MaterialInputs& in, const Water& water) {
+  const double wind = ripple_wind_mps(in.world.scene);
+  const double whole = ripple_share(wind) * (0.003 + 0.00512 * wind);
+  if (in.sea.frame.patches.empty()) return 0.25 * whole;
+  double rest = whole - static_cast<double>(water.base_variance);
+  for (const ocean::PatchFrame& patch : in.sea.frame.patches)
+    rest -= static_cast<double>(patch.slope_variance);
+  return std::max(rest, 0.25 * whole);
+}
+
 // Two layers of ripples that drift across each other, downwind.
 void add_ripples(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   const scene::Scene& scene = in.world.scene;
   const texture::PackedMap2& bump = *in.world.bump;
   const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
-  // Ripple slopes grow with the wind as the sea's whole slope variance does.
-  // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
-  const double wind = ripple_wind_mps(scene);
-  const double variance = ripple_share(wind) * 0.25 * (0.003 + 0.00512 * wind);
+  const double variance = ripple_variance(in, water);
   const double travel = scene.sea.wind_from_rad + kPi;
   struct Ripples {
     double length_m, turn_rad, speed_mps, part;
@@ -84,9 +94,10 @@ SineLayer make_sine(const ocean::SineFrame& sine, glm::dvec2 eye) {
 
 void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   water.layer_count = water.sine_count = 0;
-  for (std::size_t i = 0; i < in.sea.patch_slopes.size(); ++i)
-    add_layer(make_layer(in.sea.patch_slopes[i], in.sea.frame.patches[i].length_m, 1.0f, eye, {}),
-              water);
+  for (std::size_t i = 0; i < in.sea.patch_slopes.size(); ++i) {
+    const ocean::PatchFrame& patch = in.sea.frame.patches[i];
+    add_layer(make_patch_layer(in.sea.patch_slopes[i], patch.length_m, patch.tiling, eye), water);
+  }
   water.long_layer_count = std::min(water.layer_count, kMostLongLayers);
   water.first_ripples = water.layer_count;
   water.base_variance =
@@ -131,14 +142,20 @@ float fresnel_reflectance(float c, float n) {
   return 0.5f * s * s * (1.0f + p * p);
 }
 
-// Slope variance of all waves, both axes together.
-float slope_variance(const MaterialInputs& in, const Water& water) {
-  float variance = water.base_variance;
-  for (const ocean::PatchFrame& patch : in.sea.frame.patches) variance += patch.slope_variance;
-  for (int i = water.first_ripples; i < water.layer_count; ++i) {
+// Slope variance that the layers' maps have, from one layer on.
+float layer_variance(const Water& water, int first) {
+  float variance = 0.0f;
+  for (int i = first; i < water.layer_count; ++i) {
     const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
     variance += layer.map->lost_variance.back() * layer.gain * layer.gain;
   }
+  return variance;
+}
+
+// Slope variance of all waves, both axes together.
+float slope_variance(const MaterialInputs& in, const Water& water) {
+  float variance = water.base_variance + layer_variance(water, water.first_ripples);
+  for (const ocean::PatchFrame& patch : in.sea.frame.patches) variance += patch.slope_variance;
   for (int i = 0; i < water.sine_count; ++i) {
     const SineLayer& sine = water.sines[static_cast<std::size_t>(i)];
     variance += 0.5f * (sine.slope_x * sine.slope_x + sine.slope_y * sine.slope_y);
@@ -164,6 +181,8 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   const float reflectance = fresnel_reflectance(cosine, in.media.refraction_index);
   water.mirrored_sea = mirrored_sea(in, reflectance);
   water.mirrored_floor_part = 1.0f - reflectance;
+  water.short_variance = layer_variance(water, water.long_layer_count);
+  water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
   water.wave_horizon = wave_horizon(variance);
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =

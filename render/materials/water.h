@@ -31,9 +31,11 @@ struct Water {
   int long_layer_count = 0;  // the first so many are of the sea's long waves
   std::array<SineLayer, ocean::kMaxSines> sines;
   int sine_count = 0;
-  int first_ripples = 0;       // the layer from which on noise bends the coordinates
-  SlopeLayer uv_noise;         // values in [-1, 1], not slopes
-  float base_variance = 0.0f;  // slope variance of ripples too fine for any map
+  int first_ripples = 0;        // the layer from which on noise bends the coordinates
+  SlopeLayer uv_noise;          // values in [-1, 1], not slopes
+  float short_variance = 0.0f;  // slope variance of the layers after the long ones
+  float seen_slopes = 1.0f;     // 0: all slopes of rough water are seen, also the hidden ones
+  float base_variance = 0.0f;   // slope variance of ripples too fine for any map
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
   // foam. Not periodic: they hold within their square.
   bool has_coast = false;

@@ -40,9 +40,14 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   whitecaps.count = static_cast<int>(sea.patches.size());
   float free = 1.0f;
   for (std::size_t p = 0; p < sea.patches.size(); ++p) {
-    whitecaps.foam[p] = make_layer(in.sea.foam[p], sea.patches[p].length_m, 1.0f, eye, {});
-    whitecaps.mean[p] = static_cast<float>(sea.patches[p].cover);
-    free *= 1.0f - whitecaps.mean[p];
+    FoamMap& map = whitecaps.foam[p];
+    map.layer = make_patch_layer(in.sea.foam[p], sea.patches[p].length_m,
+                                 in.sea.whitecaps.patches[p].tiling, eye);
+    map.mean = static_cast<float>(sea.patches[p].cover);
+    map.wave_samples = in.sea.whitecaps.patches[p].wave_samples;
+    map.fx8_per_sample =
+        256.0f * static_cast<float>(in.sea.foam[p].size) / static_cast<float>(map.wave_samples);
+    free *= 1.0f - map.mean;
   }
   whitecaps.least = std::min(0.01f, 0.5f * (1.0f - free));
   whitecaps.past = in.sea.whitecaps.past;

@@ -18,17 +18,23 @@ struct FoamLace {
   float log2_texels_per_m = 0.0f;                  // across
 };
 
+// The foam of one patch's waves.
+struct FoamMap {
+  SlopeLayer layer;   // at the steps before and after, stretched to [-1, 1]
+  float mean = 0.0f;  // over the sea
+  // Tiles move the waves by whole samples of so many a side, which are so large in this map.
+  int wave_samples = 128;
+  float fx8_per_sample = 256.0f;  // 1/256 texels of level 0
+};
+
 struct Whitecaps {
   int count = 0;  // of maps of foam; 0: none
-  // Foam at the steps before and after, stretched to [-1, 1]; what it is in the mean.
-  std::array<SlopeLayer, ocean::kMostFoamPatches> foam;
-  std::array<float, ocean::kMostFoamPatches> mean{};
+  std::array<FoamMap, ocean::kMostFoamPatches> foam;
   float past = 0.0f;         // of the step
   float crest_per_m = 0.0f;  // ocean::foam_on_crest()
   float least = 0.0f;        // less foam is not drawn: less than far water shows
   FoamLace tears, lace;
-  // Radiance of foam, with no whitecaps of hulls: of the sky, and of a sun that it faces.
-  glm::vec3 sky_light{0.0f}, sun_light{0.0f};
+  glm::vec3 sky_light{0.0f}, sun_light{0.0f};  // radiance of snow under the sky, facing the sun
 };
 
 Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye);

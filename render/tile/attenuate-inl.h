@@ -47,7 +47,8 @@ HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
   const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
   const V horizontal2 = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f));
   const V3 ahead = SoftSkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, hn::Sqrt(horizontal2));
-  const V steep = hn::NegMulAdd(horizontal2, horizontal2, Constant(1.0f));
+  const V level4 = hn::Mul(horizontal2, horizontal2), level8 = hn::Mul(level4, level4);
+  const V steep = hn::NegMulAdd(level8, level8, Constant(1.0f));
   return Lerp(colour, Lerp(ahead, Constant(s.light.horizon), steep), amount);
 }
 

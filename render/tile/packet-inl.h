@@ -141,10 +141,15 @@ HWY_INLINE bool ShowsDetail(const SlopeLayer& layer, V level_m) {
   return !hn::AllFalse(D(), hn::Lt(level_m, Constant(coarsest_m)));
 }
 
-// Adds a layer's slopes at p to (slope_x, slope_y), blended between mip levels, and the variance
-// that they have lost to `variance`. (du, dv) perturb the coordinates, in units of uv_noise_m.
-HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, V& slope_x,
-                          V& slope_y, V& variance) {
+// Between which mip levels of a layer a packet lies.
+struct MapLevel {
+  VI base;
+  V t;            // from level `base` to the next
+  bool all_lost;  // in every lane: nothing is left of the layer
+};
+
+// Adds what a layer has lost at a footprint's level to `variance`.
+HWY_INLINE MapLevel LevelIn(const SlopeLayer& layer, V level_m, V& variance) {
   const D d;
   const V level = Clamp(hn::Add(level_m, Constant(layer.log2_texels_per_m)), 0.0f, layer.coarsest);
   const VI base = TruncateToInt(level);
@@ -153,13 +158,25 @@ HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, 
   const V lost = hn::TableLookupLanes(hn::LoadU(d, layer.lost_variance.data()), lane);
   const V lost_by_next = hn::TableLookupLanes(hn::LoadU(d, layer.lost_by_next.data()), lane);
   variance = hn::MulAdd(lost_by_next, t, hn::Add(variance, lost));
-  if (hn::AllTrue(d, hn::Ge(level, Constant(layer.coarsest)))) return;
+  return {base, t, hn::AllTrue(d, hn::Ge(level, Constant(layer.coarsest)))};
+}
 
+// The place of p in a layer's map; (du, dv) perturb it, in units of uv_noise_m.
+HWY_INLINE LayerPlace PlaceBent(const SlopeLayer& layer, V3 p, V du, V dv) {
   const V noise = Constant(layer.uv_noise_m);
-  const LayerPlace place = PlaceIn(layer, hn::MulAdd(du, noise, p.x), hn::MulAdd(dv, noise, p.y));
-  texture::HWY_NAMESPACE::AddBlended(d, *layer.map, RoundToInt(place.x_fx8),
-                                     RoundToInt(place.y_fx8), base, t, layer.gain, slope_x,
-                                     slope_y);
+  return PlaceIn(layer, hn::MulAdd(du, noise, p.x), hn::MulAdd(dv, noise, p.y));
+}
+
+// Adds a layer's slopes at p to (slope_x, slope_y), blended between mip levels, and the variance
+// that they have lost to `variance`. (du, dv) perturb the coordinates, in units of uv_noise_m.
+HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, V& slope_x,
+                          V& slope_y, V& variance) {
+  const MapLevel level = LevelIn(layer, level_m, variance);
+  if (level.all_lost) return;
+  const LayerPlace place = PlaceBent(layer, p, du, dv);
+  texture::HWY_NAMESPACE::AddBlended(D(), *layer.map, RoundToInt(place.x_fx8),
+                                     RoundToInt(place.y_fx8), level.base, level.t, layer.gain,
+                                     slope_x, slope_y);
 }
 
 // What a layer's map holds at a place on the nearest mip level with detail: one sample, and nothing

@@ -60,6 +60,15 @@ void pack_foam(SeaMaps& sea) {
 
 }  // namespace
 
+namespace {
+
+void leave_out_tiles(SeaMaps& sea) {
+  for (ocean::PatchFrame& patch : sea.frame.patches) patch.tiling = {};
+  for (ocean::WhitecapFrame::Patch& patch : sea.whitecaps.patches) patch.tiling = {};
+}
+
+}  // namespace
+
 void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
                  const StageRun& run) {
   ocean::advance(*world.sea, t_s, sea.frame, run.workers);
@@ -67,6 +76,7 @@ void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps
     ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
     if (sea.whitecaps.is_new) pack_foam(sea);
   }
+  if (without.has(Part::kTiling)) leave_out_tiles(sea);
   const bool has_coast = world.coast != nullptr;
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
   // Pack the maps that shading looks into: the waves', the noise's, the coast's.

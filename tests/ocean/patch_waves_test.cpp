@@ -18,9 +18,9 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kLength = 400.0;
 
 PatchWaves waves_of(int size, std::uint64_t seed = 1, int patch = 0) {
-  const WindSea sea = make_wind_sea(15.0, 1.0, kG);
+  const WaveSystem sea = make_wind_sea(15.0, 1.0, kG);
   const WaveBand band{0.0, kTwoPi / kLength * 15.5};
-  return make_patch_waves(sea, band, kLength, size, 1.0, seed, patch);
+  return make_patch_waves({{sea}}, band, kLength, size, 1.0, seed, patch);
 }
 
 // h(k, t) of every FFT index, row-major: the batches that feed the FFT, put back in order.
@@ -88,8 +88,8 @@ TEST(PatchWaves, MakeARealField) {
 }
 
 TEST(PatchWaves, HaveNoMeanAndNoNyquistWaves) {
-  const WindSea sea = make_wind_sea(15.0, 1.0, kG);
-  const auto h = wave_plane(make_patch_waves(sea, {0.0, 100.0}, kLength, 32, 1.0, 1, 0), 3.0);
+  const WaveSystem sea = make_wind_sea(15.0, 1.0, kG);
+  const auto h = wave_plane(make_patch_waves({{sea}}, {0.0, 100.0}, kLength, 32, 1.0, 1, 0), 3.0);
   EXPECT_EQ(h[0], 0.0f);
   for (int i = 0; i < 32; ++i) {
     EXPECT_EQ(h[16 * 32 + i], 0.0f);
@@ -127,8 +127,8 @@ TEST(PatchWaves, EachObeyTheDeepWaterDispersionAlsoAfterYears) {
 TEST(PatchWaves, TurnTheWayTheyTravel) {
   // No directions but one: waves towards east stand in column 1 .. n/2 with falling phase.
   const PatchWaves waves = [] {
-    const WindSea east = make_wind_sea(15.0, 1.5 * std::numbers::pi, kG);
-    return make_patch_waves(east, {0.0, kTwoPi / kLength * 15.5}, kLength, 32, 1.0, 7, 0);
+    const WaveSystem east = make_wind_sea(15.0, 1.5 * std::numbers::pi, kG);
+    return make_patch_waves({{east}}, {0.0, kTwoPi / kLength * 15.5}, kLength, 32, 1.0, 7, 0);
   }();
   const double dt = 0.05;
   const auto h0 = wave_plane(waves, 10.0), h1 = wave_plane(waves, 10.0 + dt);
@@ -163,9 +163,10 @@ TEST(PatchWaves, DifferBySeedAndPatch) {
 }
 
 TEST(PatchWaves, StayInsideTheirBandToHalfACell) {
-  const WindSea sea = make_wind_sea(15.0, 1.0, kG);
+  const WaveSystem sea = make_wind_sea(15.0, 1.0, kG);
   const double dk = kTwoPi / kLength;
-  const auto h = wave_plane(make_patch_waves(sea, {5.0 * dk, 9.0 * dk}, kLength, 64, 1.0, 1, 0), 0);
+  const auto h =
+      wave_plane(make_patch_waves({{sea}}, {5.0 * dk, 9.0 * dk}, kLength, 64, 1.0, 1, 0), 0);
   int nonzero = 0;
   for (int j = 0; j < 64; ++j) {
     for (int i = 0; i < 64; ++i) {

@@ -432,7 +432,7 @@ TEST(ProfileBlend, GoesFromAQuarterToATwentiethOfTheWavelength) {
 }
 
 TEST(MakeTrains, HoldTheEnergyOfTheirBand) {
-  const WindSea wind = make_wind_sea(12.0, 1.0, kG);
+  const WaveSystem wind = make_wind_sea(12.0, 1.0, kG);
   const double m0 = variance_below(wind, kInfinity);
   const double peak_s = 12.0 / (0.13 * kG);
   for (const int count : {1, 4, 6, 16}) {
@@ -450,7 +450,7 @@ TEST(MakeTrains, HoldTheEnergyOfTheirBand) {
 }
 
 TEST(MakeTrains, SpreadAroundTheWindAsTheSpectrumDoes) {
-  const WindSea wind = make_wind_sea(10.0, 2.0, kG);
+  const WaveSystem wind = make_wind_sea(10.0, 2.0, kG);
   glm::dvec2 sum(0.0);
   double peak_cos = 0.0;
   int near_peak = 0;
@@ -470,7 +470,7 @@ TEST(MakeTrains, SpreadAroundTheWindAsTheSpectrumDoes) {
 }
 
 TEST(MakeTrains, DependOnTheSeedAlone) {
-  const WindSea wind = make_wind_sea(10.0, 2.0, kG);
+  const WaveSystem wind = make_wind_sea(10.0, 2.0, kG);
   const auto periods = [&](std::uint64_t seed) {
     std::vector<double> p;
     for (const WaveTrain& train : make_trains(wind, 5, seed)) p.push_back(train.period_s);

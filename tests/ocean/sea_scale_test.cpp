@@ -54,7 +54,7 @@ TEST(SeaScale, EveryCodeMakesASeaInsideItsStep) {
   for (int code = 0; code <= kMaxDouglas; ++code) {
     SeaDescription sea;
     sea.wind_speed_mps = wind_of_developed_height(douglas_step(code).preset, kG);
-    sea.patch_lengths_m = patch_lengths_for_wind(sea.wind_speed_mps, kG);
+    sea.patch_lengths_m = patch_lengths_for_peak(peak_wavelength_m(sea.wind_speed_mps, kG));
     for (sea.seed = 1; sea.seed <= 3; ++sea.seed)
       EXPECT_EQ(douglas_code(Sea(sea).significant_height_m()), code) << "seed " << sea.seed;
   }

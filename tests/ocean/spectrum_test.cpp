@@ -32,14 +32,14 @@ TEST(Spectrum, HasTheSignificantHeightAndPeakPeriodOfTheTable) {
   };
   for (const Row& row : {Row{5, 0.6150, 3.921}, Row{10, 2.4598, 7.841}, Row{15, 5.5346, 11.762},
                          Row{20, 9.8393, 15.683}}) {
-    const WindSea sea = make_wind_sea(row.wind_mps, 0.0, kG);
+    const WaveSystem sea = make_wind_sea(row.wind_mps, 0.0, kG);
     EXPECT_NEAR(4.0 * std::sqrt(variance_below(sea, kInfinity)), row.height_m, 1e-4);
-    EXPECT_NEAR(1.0 / peak_frequency_hz(sea), row.period_s, 1e-3);
+    EXPECT_NEAR(1.0 / sea.peak_hz, row.period_s, 1e-3);
   }
 }
 
 TEST(Spectrum, IntegratesToItsClosedForm) {
-  const WindSea sea = make_wind_sea(15.0, 0.0, kG);
+  const WaveSystem sea = make_wind_sea(15.0, 0.0, kG);
   for (const double limit_hz : {0.08, 0.1, 0.2, 1.0, 5.0}) {
     const double sum =
         integrate(0.0, limit_hz, 100000, [&](double f) { return frequency_spectrum(sea, f); });
@@ -48,7 +48,7 @@ TEST(Spectrum, IntegratesToItsClosedForm) {
 }
 
 TEST(Spectrum, HoldsTheKnownPartOfTheEnergyBelowMultiplesOfThePeak) {
-  const WindSea sea = make_wind_sea(12.0, 0.0, kG);
+  const WaveSystem sea = make_wind_sea(12.0, 0.0, kG);
   const double peak = 0.13 * kG / 12.0;
   const double m0 = variance_below(sea, kInfinity);
   const std::pair<double, double> parts[] = {
@@ -59,7 +59,7 @@ TEST(Spectrum, HoldsTheKnownPartOfTheEnergyBelowMultiplesOfThePeak) {
 }
 
 TEST(Spectrum, PeaksAtThePeakFrequency) {
-  const WindSea sea = make_wind_sea(15.0, 0.0, kG);
+  const WaveSystem sea = make_wind_sea(15.0, 0.0, kG);
   double best_hz = 0.0, best = 0.0;
   for (double f = 0.05; f < 0.2; f += 1e-6) {
     const double energy = frequency_spectrum(sea, f);
@@ -90,7 +90,7 @@ TEST(Spreading, WeightIntegratesToOneWithTheKnownFirstMoment) {
 }
 
 TEST(WaveVectorSpectrum, IntegratesToTheVariance) {
-  const WindSea sea = make_wind_sea(15.0, 60.0 * kDegree, kG);
+  const WaveSystem sea = make_wind_sea(15.0, 60.0 * kDegree, kG);
   // In k = q^2, which spreads the steep foot, and theta.
   const double k_end = 1.0;
   const double sum = integrate(0.0, std::sqrt(k_end), 2000, [&](double q) {
@@ -106,12 +106,12 @@ TEST(WaveVectorSpectrum, IntegratesToTheVariance) {
 TEST(WaveVectorSpectrum, IsLargestWhereTheWindBlowsTo) {
   const double k = 0.03;
   // From the west: waves travel east.
-  const WindSea west = make_wind_sea(15.0, 270.0 * kDegree, kG);
+  const WaveSystem west = make_wind_sea(15.0, 270.0 * kDegree, kG);
   const double east = wave_vector_spectrum(west, {k, 0.0});
   EXPECT_GT(east, 2.0 * wave_vector_spectrum(west, {0.0, k}));
   EXPECT_GT(east, 100.0 * wave_vector_spectrum(west, {-k, 0.0}));
   // From 60 degrees: towards 240 degrees, south-west by west.
-  const WindSea from_60 = make_wind_sea(15.0, 60.0 * kDegree, kG);
+  const WaveSystem from_60 = make_wind_sea(15.0, 60.0 * kDegree, kG);
   double best = 0.0, best_deg = 0.0;
   for (double to = 0.0; to < 360.0; to += 0.5) {
     const double s =
@@ -129,7 +129,7 @@ TEST(WaveVectorSpectrum, IsZeroWithoutWindAndAtTheMean) {
 
 TEST(WaveVectorSpectrum, StaysFiniteForAnyWind) {
   for (const double wind : {1e-300, 1e-9, 0.1, 60.0}) {
-    const WindSea sea = make_wind_sea(wind, 0.3, kG);
+    const WaveSystem sea = make_wind_sea(wind, 0.3, kG);
     for (const double k : {1e-12, 1e-3, 1.0, 1e6}) {
       const double s = wave_vector_spectrum(sea, {0.6 * k, -0.8 * k});
       EXPECT_TRUE(std::isfinite(s) && s >= 0.0) << wind << ' ' << k;

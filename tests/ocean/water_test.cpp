@@ -36,7 +36,7 @@ struct Beach {
     const terrain::Grid grid{{-400.0, -400.0}, 10.0, 81, 81};
     floor = terrain::make_plane_beach(grid, {{{-1.0, -150.0}, {0.0, -150.0}}, 0.1, 40.0});
     Workers workers(2);
-    const WindSea wind = make_wind_sea(8.0, 0.0, 9.81);
+    const WaveSystem wind = make_wind_sea(8.0, 0.0, 9.81);
     coast = make_coast_sea(floor, wind, 3, 1, PhaseMethod::kEikonal, true, workers);
   }
   WaterParts parts() const { return {&sea, {{0.0, 0.0}, {700.0, 700.0}}, &floor, &coast}; }

@@ -214,7 +214,7 @@ TEST_P(MediaOptics, HazeStraightDownIsTheHorizonsMean) {
     const glm::vec3 to_eye(0.8 * horizontal, -0.6 * horizontal, std::cos(degrees * kDegree));
     std::vector<glm::vec3> seen(1);
     haze(air.shading, std::vector<float>{1e9f}, to_eye, {}, seen);
-    const double steep = 1.0 - std::pow(horizontal, 4.0);
+    const double steep = 1.0 - std::pow(horizontal, 16.0);
     for (int c = 0; c < 3; ++c) {
       const double mean = air.shading.light.horizon[c];
       const double expected = air.horizon()[c] + (mean - air.horizon()[c]) * steep;

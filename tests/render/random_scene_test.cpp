@@ -148,8 +148,10 @@ std::string random_scene(Dice& dice, bool with_terrain) {
     if (!value && dice.below(3) == 0) continue;
     if (!goes_with(key, by_matrix)) continue;
     if (key != wind_key && std::ranges::count(kWindKeys, key)) continue;  // they exclude each other
-    // The winds of sea states suit a gravity near the earth's.
-    if (key == "sea.gravity_mps2" && wind_key == "sea.douglas") continue;
+    // The winds of sea states suit a gravity near the earth's, and their waves are the winds' own.
+    constexpr std::string_view kKept[] = {"sea.gravity_mps2", "sea.hs_m", "sea.tp_s",
+                                          "sea.fetch_km"};
+    if (wind_key == "sea.douglas" && std::ranges::count(kKept, key)) continue;
     const std::size_t dot = key.find('.');
     if (dot == std::string_view::npos) continue;
     const std::string table(key.substr(0, dot));
@@ -159,6 +161,7 @@ std::string random_scene(Dice& dice, bool with_terrain) {
   }
   std::string text;
   for (const auto& [name, lines] : tables) text += fmt::format("[{}]\n{}", name, lines);
+  add_random_tables(scene::kSwellKey, scene::swell_parameters(), dice, text);
   add_random_tables(scene::kSinesKey, scene::sine_parameters(), dice, text);
   add_random_tables(scene::kObjectsKey, scene::object_parameters(), dice, text);
   return text;

@@ -27,6 +27,11 @@ void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,
                  std::span<glm::vec3> light);
 
+// SeenCosine() and MirroringCosine(), and UnhiddenCosine(), of slopes of one variance.
+void seen_cosines(std::span<const float> cosine, float variance, std::span<float> seen,
+                  std::span<float> mirroring);
+void unhidden_cosines(std::span<const float> cosine, float variance, std::span<float> unhidden);
+
 void foam_cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
                 std::span<const float> amount, std::span<float> cover);
 

@@ -54,7 +54,22 @@ void ForPackets(std::size_t count, const Each& each) {
 
 WaterSlopes NoSlopes() {
   const V zero = hn::Zero(D());
-  return {zero, zero, zero, zero};
+  return {zero, zero, zero, zero, zero};
+}
+
+void SeenCosines(std::span<const float> cosine, float variance, std::span<float> seen,
+                 std::span<float> mirroring) {
+  ForPackets(cosine.size(), [&](std::size_t i) {
+    const V c = LoadSome(cosine, i), v = Constant(variance);
+    StoreSome(SeenCosine(c, v), seen, i);
+    StoreSome(MirroringCosine(c, v), mirroring, i);
+  });
+}
+
+void UnhiddenCosines(std::span<const float> cosine, float variance, std::span<float> unhidden) {
+  ForPackets(cosine.size(), [&](std::size_t i) {
+    StoreSome(UnhiddenCosine(LoadSome(cosine, i), Constant(variance)), unhidden, i);
+  });
 }
 
 void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
@@ -230,6 +245,8 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(Glint);
+HWY_EXPORT(SeenCosines);
+HWY_EXPORT(UnhiddenCosines);
 HWY_EXPORT(LightOfWater);
 HWY_EXPORT(Cover);
 HWY_EXPORT(Edge);
@@ -248,6 +265,15 @@ HWY_EXPORT(Noise);
 void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
                std::span<const float> cos_eye, std::span<float> glint) {
   HWY_DYNAMIC_DISPATCH(Glint)(surface, to_eye, cos_eye, glint);
+}
+
+void seen_cosines(std::span<const float> cosine, float variance, std::span<float> seen,
+                  std::span<float> mirroring) {
+  HWY_DYNAMIC_DISPATCH(SeenCosines)(cosine, variance, seen, mirroring);
+}
+
+void unhidden_cosines(std::span<const float> cosine, float variance, std::span<float> unhidden) {
+  HWY_DYNAMIC_DISPATCH(UnhiddenCosines)(cosine, variance, unhidden);
 }
 
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,

@@ -101,6 +101,8 @@ void expect_named(std::string_view table, const std::vector<Parameter<Object>>& 
 }
 
 TEST(CheckScene, NamesEveryKeyOfTablesOutsideItsRange) {
+  expect_named(kSwellKey, swell_parameters(),
+               [](Scene& scene, const auto& swell) { scene.sea.swells.push_back(swell); });
   expect_named(kSinesKey, sine_parameters(),
                [](Scene& scene, const auto& sine) { scene.sea.sines.push_back(sine); });
   expect_named(kObjectsKey, object_parameters(),
@@ -125,6 +127,7 @@ TEST(CheckScene, LimitsTables) {
   Scene scene;
   scene.objects.resize(kMaxObjects);
   scene.sea.sines.resize(ocean::kMaxSines);
+  scene.sea.swells.resize(ocean::kMaxSwells);
   for (std::size_t i = 0; i < kMaxWaypoints; ++i)
     scene.camera.path.push_back({.t_s = static_cast<double>(i)});
   EXPECT_EQ(key_of_fault(scene), "");
@@ -134,6 +137,9 @@ TEST(CheckScene, LimitsTables) {
   one_more = scene;
   one_more.sea.sines.emplace_back();
   EXPECT_EQ(key_of_fault(one_more), "sea.sines");
+  one_more = scene;
+  one_more.sea.swells.emplace_back();
+  EXPECT_EQ(key_of_fault(one_more), "sea.swell");
   one_more = scene;
   one_more.camera.path.push_back({.t_s = 1000.0});
   EXPECT_EQ(key_of_fault(one_more), "camera.path");

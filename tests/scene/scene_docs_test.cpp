@@ -45,6 +45,9 @@ std::string tables() {
     }
     text += row(parameter, top ? parameter.key : parameter.key.substr(dot + 1), defaults);
   }
+  text += head(fmt::format("[[{}]]", kSwellKey));
+  for (const auto& parameter : swell_parameters())
+    text += row(parameter, parameter.key, ocean::Swell{});
   text += head(fmt::format("[[{}]]", kSinesKey));
   for (const auto& parameter : sine_parameters())
     text += row(parameter, parameter.key, ocean::SineWave{});

@@ -150,12 +150,18 @@ bool is_wind_key(std::string_view key) { return std::ranges::count(kWindKeys, ke
 // given by a quaternion and a matrix.
 bool goes_with(std::string_view key, bool by_matrix) {
   if (key == "camera.mount_offset_m") return false;  // wants an object of a name
-  for (const std::string_view other :
-       {"camera.quaternion", "camera.focal_px", "camera.principal_px", "camera.size_px"})
+  for (const std::string_view other : {"camera.quaternion", "camera.focal_px",
+                                       "camera.principal_px", "camera.size_px", "sea.fetch_km"})
     if (key == other) return by_matrix;
   for (const Replacement& r : kReplacements)
     if (key == r.replaced && r.key != "camera.mount") return !by_matrix;
   return true;
+}
+
+// Whether a sea state of its own needs the key's default.
+bool is_kept_by_douglas(std::string_view key) {
+  return key == "sea.gravity_mps2" || key == "sea.hs_m" || key == "sea.tp_s" ||
+         key == "sea.fetch_km";
 }
 
 // A value that agrees with those of other keys; empty: any.
@@ -209,7 +215,7 @@ RandomFile random_file(Dice& dice, int wrong) {
     if (!is_wrong && !needed && dice.below(2)) continue;
     if (!is_wrong && !goes_with(parameter.key, by_matrix)) continue;
     if (!is_wrong && parameter.key != wind_key && is_wind_key(parameter.key)) continue;
-    if (!is_wrong && parameter.key == "sea.gravity_mps2" && wind_key == "sea.douglas") continue;
+    if (!is_wrong && wind_key == "sea.douglas" && is_kept_by_douglas(parameter.key)) continue;
     if (is_wrong) file.wrong_key = parameter.key;
     const std::string key(parameter.key);
     const std::size_t dot = key.find('.');
@@ -223,6 +229,8 @@ RandomFile random_file(Dice& dice, int wrong) {
   }
   for (const auto& [section, lines] : sections)
     file.text += (section.empty() ? "" : "[" + section + "]\n") + lines;
+  add_random_tables(kSwellKey, swell_parameters(), wrong - index, dice, file);
+  index += static_cast<int>(swell_parameters().size());
   add_random_tables(kSinesKey, sine_parameters(), wrong - index, dice, file);
   index += static_cast<int>(sine_parameters().size());
   add_random_tables(kObjectsKey, object_parameters(), wrong - index, dice, file);
@@ -248,8 +256,8 @@ TEST(SceneParameters, RandomScenesComeBackFromTheirDump) {
 }
 
 TEST(SceneParameters, RandomFilesWithOneValueOutsideAreRefusedByItsName) {
-  const int keys = static_cast<int>(scene_parameters().size() + sine_parameters().size() +
-                                    object_parameters().size());
+  const int keys = static_cast<int>(scene_parameters().size() + swell_parameters().size() +
+                                    sine_parameters().size() + object_parameters().size());
   for (int n = 0; n < kFiles; ++n) {
     Dice dice(n);
     const RandomFile file = random_file(dice, n % keys);

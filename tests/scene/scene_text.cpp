@@ -10,6 +10,14 @@ void compare(const char* name, const T& a, const T& b, std::string& list) {
 
 #define SWELL_COMPARE(FIELD) compare(#FIELD, a.FIELD, b.FIELD, list)
 
+void compare_swells(const ocean::Swell& a, const ocean::Swell& b, std::string& list) {
+  SWELL_COMPARE(hs_m);
+  SWELL_COMPARE(tp_s);
+  SWELL_COMPARE(from_rad);
+  SWELL_COMPARE(gamma);
+  SWELL_COMPARE(spread_rad);
+}
+
 void compare_sines(const ocean::SineWave& a, const ocean::SineWave& b, std::string& list) {
   SWELL_COMPARE(amplitude_m);
   SWELL_COMPARE(wavelength_m);
@@ -101,10 +109,15 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sea.spectrum);
   SWELL_COMPARE(sea.wind_speed_mps);
   SWELL_COMPARE(sea.wind_from_rad);
+  SWELL_COMPARE(sea.hs_m);
+  SWELL_COMPARE(sea.tp_s);
+  SWELL_COMPARE(sea.fetch_km);
+  SWELL_COMPARE(sea.gamma);
   SWELL_COMPARE(sea.amplitude_scale);
   SWELL_COMPARE(sea.gravity_mps2);
   SWELL_COMPARE(sea.loop_s);
   SWELL_COMPARE(sea.whitecaps);
+  SWELL_COMPARE(sea.tiling);
   SWELL_COMPARE(sea.seed);
   SWELL_COMPARE(sea.resolution);
   SWELL_COMPARE(sea.patch_lengths_m);
@@ -129,6 +142,9 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(detail.inverse_distance_priority);
   SWELL_COMPARE(terrain.has_value());
   SWELL_COMPARE(sea.sines.size());
+  SWELL_COMPARE(sea.swells.size());
+  for (std::size_t i = 0; i < std::min(a.sea.swells.size(), b.sea.swells.size()); ++i)
+    compare_swells(a.sea.swells[i], b.sea.swells[i], list);
   if (a.terrain && b.terrain) compare_terrains(*a.terrain, *b.terrain, list);
   for (std::size_t i = 0; i < std::min(a.sea.sines.size(), b.sea.sines.size()); ++i)
     compare_sines(a.sea.sines[i], b.sea.sines[i], list);

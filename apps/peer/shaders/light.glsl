@@ -41,8 +41,9 @@ vec3 add_haze(vec3 colour, vec3 p, vec3 to_eye, float distance_m) {
   float amount = max((1.0 - 1.0 / 512.0) - exp(-inv_haze_m * mean_haze(p) * distance_m), 0.0);
   vec2 away = -to_eye.xy;
   float horizontal2 = max(dot(away, away), 1e-12);
-  float to_rim = 0.5 * inversesqrt(horizontal2), steep = 1.0 - horizontal2 * horizontal2;
-  vec3 sky = mix(decode_sky(texture(sky_soft, away * to_rim + 0.5).rgb), horizon, steep);
+  float to_rim = 0.5 * inversesqrt(horizontal2), level4 = horizontal2 * horizontal2;
+  vec3 sky = mix(decode_sky(texture(sky_soft, away * to_rim + 0.5).rgb), horizon,
+                 1.0 - level4 * level4 * level4 * level4);
   return mix(colour, sky, amount);
 }
 

@@ -2,8 +2,8 @@
 // each of the scene's maps.
 out vec4 colour;
 
-uniform float base_variance;
-uniform vec4 layer_place[LAYERS], layer_scale[LAYERS];
+uniform float base_variance, short_variance, seen_slopes;
+uniform vec4 layer_place[LAYERS], layer_scale[LAYERS], layer_tiles[LAYERS];
 #if SINES > 0
 uniform vec4 sine_wave[SINES];  // cycles per metre along x and y, cycles under the eye, level lost
 uniform vec4 sine_slope[SINES];  // slopes, variance
@@ -70,6 +70,9 @@ vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
 }
 #endif
 
+// As render/materials/visible_slopes-inl.h.
+float seen_cosine(float c, float variance) { return 0.5 * (c + sqrt(2.4 * variance + c * c)); }
+
 float part_of_sea_mirrored(float r_z, float to_eye_z, float variance) {
   float scale = 0.125 / variance;
   float r_z2 = r_z * abs(r_z);
@@ -97,7 +100,7 @@ void main() {
   SurfacePoint point = surface_point();
   vec3 p = point.p, to_eye = point.to_eye;
   float level_flat_m = footprint_level(point.across, clamp(to_eye.z, 0.02, 1.0));
-  float level_m = level_flat_m;
+  float level_m = level_flat_m, fine_variance = 0.0;
 
   // Slopes: long waves, then what is finer at the level that their slopes give.
   Slopes s = Slopes(vec2(0.0), base_variance);
@@ -113,12 +116,16 @@ void main() {
 
   // Light from above and from below.
   vec3 normal = normal_of(s.slope);
+  float hides_nothing = max(seen_slopes * (fine_variance - s.variance), 0.0);
   float cos_eye = dot(normal, to_eye);
+  cos_eye = mix(cos_eye, seen_cosine(cos_eye, hides_nothing), min(5000.0 * hides_nothing, 1.0));
   float cos_rough = sqrt(0.5 * s.variance + cos_eye * cos_eye + 0.006);
   float reflectance = fresnel(cos_rough, refraction_index);
-  vec3 r = normal * (2.0 * cos_eye) - to_eye;
-  float sea = part_of_sea_mirrored(r.z - wave_horizon, to_eye.z + wave_horizon, s.variance);
-  r.z = max(r.z, -0.25) + 0.8 * s.variance;
+  float r_z = 2.0 * cos_eye * normal.z - to_eye.z;
+  float sea = part_of_sea_mirrored(r_z - wave_horizon, to_eye.z + wave_horizon, s.variance);
+  float raised = seen_cosine(cos_eye, seen_slopes * s.variance) - cos_eye;
+  vec3 r = normal * (2.0 * (cos_eye + raised * (1.0 - cos_eye))) - to_eye;
+  r.z = max(r.z, -0.25);
   float share = clamp(2.0 - 1.25 * inv_wave_reach * point.distance_m, 0.0, 1.0);
   float crest = clamp(share * (p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
   float towards_sun = max(-dot(to_eye.xy, sun_direction.xy), 0.0);

@@ -20,7 +20,7 @@ int brightness(const texture::Image8& image, int x, int y) {
 
 TEST(WaveFilter, IsBrightestWhereTheWindBlowsToNearThePeak) {
   constexpr int kSize = 151;  // 6 k_m wide
-  const ocean::WindSea wind = ocean::make_wind_sea(15.0, 240.0 * kDeg, 9.81);
+  const ocean::WaveSystem wind = ocean::make_wind_sea(15.0, 240.0 * kDeg, 9.81);
   const texture::Image8 image = draw_filter(wind, kSize);
   int best_x = 0, best_y = 0;
   for (int y = 0; y < kSize; ++y)
