@@ -133,6 +133,16 @@ HWY_INLINE void BendRipples(const SlopeLayer& noise, V3 p, V level_m, V& du, V& 
     AddSlopes(noise, p, level_m, du, dv, du, dv, unused);
 }
 
+// How high waves are drawn at a packet. Far triangles cut off some of the earth's curve: that is no
+// trough.
+HWY_INLINE V WaveHeight(const Water& water, const ViewRays& rays, const Packet& packet) {
+  const V share =
+      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
+                          Constant(kWaveShareAtEye)),
+            0.0f, 1.0f);
+  return hn::Mul(share, hn::Add(packet.p.z, Constant(rays.eye_z)));
+}
+
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
@@ -150,9 +160,9 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<Surf, kCount> surf = {
       (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
-  const std::array<V, kCount> whitecaps = {
-      WhitecapsAt(water.whitecaps, packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
-                  level_flat_m[k], surf[k].ceded)...};
+  const std::array<V, kCount> whitecaps = {WhitecapsAt(water.whitecaps, packets[k].p,
+                                                       WaveHeight(water, rays, packets[k]),
+                                                       level_flat_m[k], surf[k].ceded)...};
   std::array<WaterSlopes, kCount> s = {WaterSlopes{
       zero, zero, Constant(water.base_variance),
       hn::Max(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]),
@@ -319,12 +329,7 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
 HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
                              const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha,
                              V3& floor_added) {
-  // Far triangles cut off some of the earth's curve: that is no trough.
-  const V share =
-      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
-                          Constant(kWaveShareAtEye)),
-            0.0f, 1.0f);
-  const V height = hn::Mul(share, hn::Add(packet.p.z, Constant(shading.rays.eye_z)));
+  const V height = WaveHeight(water, shading.rays, packet);
   const V crest =
       Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
   const V towards_sun = hn::Max(
