@@ -34,8 +34,7 @@ struct Whitecaps {
   float crest_per_m = 0.0f;  // ocean::foam_on_crest()
   float least = 0.0f;        // less foam is not drawn: less than far water shows
   FoamLace tears, lace;
-  // Radiance of foam, with no whitecaps of hulls: of the sky, and of a sun that it faces.
-  glm::vec3 sky_light{0.0f}, sun_light{0.0f};
+  glm::vec3 sky_light{0.0f}, sun_light{0.0f};  // radiance of snow under the sky, facing the sun
 };
 
 Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye);

@@ -17,6 +17,7 @@ scene::Scene open_sea(double wind_mps) {
   scene::Scene scene;
   scene.sea.wind_speed_mps = wind_mps;
   scene.sea.resolution = 64;
+  scene.area.size_m = {40000.0, 40000.0};
   scene.detail.water_triangles = 4000;
   return scene;
 }
