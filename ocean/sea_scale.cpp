@@ -56,6 +56,7 @@ int douglas_code(double significant_height_m) {
 }
 
 double developed_height_m(double wind_speed_mps, double gravity_mps2) {
+  if (std::isinf(wind_speed_mps)) return kInfinity;  // the last step's bound
   return 4.0 *
          std::sqrt(variance_below(make_wind_sea(wind_speed_mps, 0.0, gravity_mps2), kInfinity));
 }

@@ -56,8 +56,9 @@ std::string dump_scene(const Scene& scene) {
       section = its_section;
       text += fmt::format("\n[{}]\n", section);
     }
-    if (is_replaced(parameter.key, scene, parameters)) text += "# ";
-    text += line_of(parameter, scene);
+    const std::string line = line_of(parameter, scene);
+    if (!line.empty() && is_replaced(parameter.key, scene, parameters)) text += "# ";
+    text += line;
   }
   return text + tables_text(kSwellKey, swell_parameters(), scene.sea.swells) +
          tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +

@@ -59,7 +59,9 @@ HWY_INLINE V FoamOfMap(const FoamMap& map, float past, V3 p, V level_m) {
   const LayerPlace place = PlaceIn(layer, p.x, p.y);
   const V foam = map.layer.tiling.on ? FoamOfTiles(map, place, level_m, past)
                                      : FoamAtPlace(map.layer, place, level_m, past);
-  return Lerp(foam, Constant(map.mean), lost);
+  // The mean to the bit, whatever the lanes beside show.
+  return hn::IfThenElse(hn::Ge(lost, Constant(1.0f)), Constant(map.mean),
+                        Lerp(foam, Constant(map.mean), lost));
 }
 
 // Levels of a lace's map at which its cells begin to melt, and are gone.

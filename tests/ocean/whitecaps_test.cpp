@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "allocation_count.h"
+#include "math/random.h"
 #include "ocean/simd_targets.h"
 #include "ocean/water_surface.h"
 
@@ -147,6 +148,7 @@ TEST(Whitecaps, AreMadeOfAnySea) {
 TEST(Whitecaps, AreBornOnTheFrontsOfCrests) {
   SeaDescription description = sea_of_wind(12.0);
   description.patch_lengths_m = {400.0};
+  description.tiling = false;
   WhiteSea white(description);
   WhitecapFrame foam;
   SeaFrame sea;
@@ -263,8 +265,41 @@ TEST(Whitecaps, AllocateNothingOnceTheyAreThere) {
 
 // ---- Asked
 
+// Where tiles move the waves, far from the patch's own place, foam moves with them.
+TEST(Whitecaps, FollowTheTilesOfTheirWaves) {
+  SeaDescription description = sea_of_wind(15.0);
+  description.patch_lengths_m = {400.0};
+  ASSERT_TRUE(description.tiling);
+  WhiteSea white(description);
+  SeaFrame sea;
+  advance(white.sea, 33.0, sea, white.workers);
+  WhitecapFrame frame = white.at(33.0);
+  std::vector<glm::dvec2> p;
+  for (int i = 0; i < 40000; ++i)
+    p.emplace_back(random_uniform(1, 2 * i) * 2e4, random_uniform(1, 2 * i + 1) * 2e4);
+  std::vector<float> foam(p.size()), z(p.size());
+  sample_heights(sea, p, z);
+  // Standard deviations by which the sea is higher under foam.
+  const auto height_under = [&] {
+    sample_whitecaps(frame, p, z, foam);
+    double sum = 0.0, weight = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (foam[i] < 0.5f) continue;
+      sum += static_cast<double>(z[i]);
+      weight += 1.0;
+    }
+    EXPECT_GT(weight, 100.0);
+    return sum / weight / (0.25 * white.sea.significant_height_m());
+  };
+  EXPECT_GT(height_under(), 0.3);
+  for (WhitecapFrame::Patch& patch : frame.patches) patch.tiling = {};
+  EXPECT_LT(std::abs(height_under()), 0.2);
+}
+
 TEST(Whitecaps, AreAskedForAsTheyLie) {
-  WhiteSea white(sea_of_wind(15.0));
+  SeaDescription description = sea_of_wind(15.0);
+  description.tiling = false;
+  WhiteSea white(description);
   const WhitecapFrame frame = white.at(11.1);
   SeaFrame sea;
   advance(white.sea, 11.1, sea, white.workers);

@@ -89,7 +89,7 @@ TEST(DrawnWhitecaps, AreWhatIsAskedInTheMeanOverTheirLace) {
   for (const double height_m : {40.0, 120.0, 300.0}) {
     double drawn = 0.0, asked = 0.0, both = 0.0, drawn2 = 0.0, asked2 = 0.0;
     int blocks = 0;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 16; ++k) {
       const double t_s = 60.0 + 7.7 * k;
       const scene::WaterSurface surface = water.at(t_s, sea, workers);
       ocean::advance_whitecaps(whitecaps, t_s, foam, workers);
@@ -151,6 +151,7 @@ TEST(DrawnWhitecaps, CanBeLeftOut) {
 // White foam in the sun is as bright as snow there, and no brighter.
 TEST(DrawnWhitecaps, AreAsBrightAsSnow) {
   scene::Scene scene = open_sea(20.0);
+  scene.sea.tiling = false;  // there is foam at this place
   const World world(scene);
   Workers workers(2);
   Workspace workspace;

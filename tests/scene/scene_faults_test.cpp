@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
               "[water], [[camera.path]], [sky], [picture], [coast], [wind], [terrain], "
-              "[[sea.sines]], [detail], [[object]]"},
+              "[[sea.swell]], [[sea.sines]], [detail], [[object]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
               "speed_mps, from_deg"},
@@ -190,7 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
               "class, kind, top_mark, name, position_m, size_m, draught, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
-              "[sea], [water], [wind], [picture], [coast], [[sea.sines]], [detail], [[object]], "
+              "[sea], [water], [wind], [picture], [coast], [[sea.swell]], [[sea.sines]], [detail], "
+              "[[object]], "
               "[terrain], [[camera.path]]"},
         Fault{
             "[camera]\nfov = 3\n",
@@ -198,9 +199,11 @@ INSTANTIATE_TEST_SUITE_P(
             "mount, focal_px, [[camera.path]], eye_m, roll_deg, near_m, size_px, quaternion, "
             "pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, mount_offset_m"},
         Fault{"[sea]\nstate = 3\n",
-              "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] seed, earth, "
-              "[[sea.sines]], spectrum, centre_m, size_m, beaufort, resolution, loop_s, douglas, "
-              "whitecaps, gravity_mps2, amplitude_scale, patch_lengths_m"},
+              "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] tp_s, seed, "
+              "earth, "
+              "[[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, size_m, gamma, whitecaps, "
+              "beaufort, fetch_km, resolution, tiling, loop_s, douglas, gravity_mps2, "
+              "amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
               "test.toml:2: column 1: unknown key, got 'camera.eye.m', allowed in [camera] eye_m, "
               "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "
@@ -209,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
               "[coast], [camera], [wind], [detail], [terrain], [[object]], [picture], "
-              "[[sea.sines]], [[camera.path]]"},
+              "[[sea.swell]], [[sea.sines]], [[camera.path]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
