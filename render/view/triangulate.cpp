@@ -3,6 +3,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
@@ -12,22 +13,44 @@
 namespace swell::render {
 namespace {
 
-// The endless sea: a square of 2097 km around the eye, whose corner moves in whole steps. From
-// 40 km up the horizon is 765 km away. A step changes triangles wider than half of it alone, which
-// lie far from any eye and, without waves, miss the earth's curve by less than a picture shows.
-constexpr double kSeaSize_m = 0x1p21, kSeaStep_m = 0x1p16;
+// The endless sea: a square around the eye that reaches beyond its horizon, as small as that
+// allows, since triangles that nobody sees are missed elsewhere: of 131 km up to about 150 m and on
+// a flat earth, which has no horizon, of 2097 km at 40 km, where the horizon is 765 km away. Its
+// corner moves in steps of a 32nd of that; a step changes triangles wider than half of it alone,
+// which lie far from any eye and, without waves, miss the earth's curve by less than a picture
+// shows.
+constexpr int kLeastSeaBits = 17, kMostSeaBits = 21, kSeaSteps = 32;
+
+// The size is a power of two.
+int sea_bits(const lod::AdaptRequest& request) {
+  const auto horizon_m = [&](double height_m) {
+    return std::sqrt(2.0 * request.earth_radius_m * std::max(height_m, 0.0));
+  };
+  if (std::isinf(request.earth_radius_m)) return kLeastSeaBits;
+  const double eye_m = request.view.eye_world.z - static_cast<double>(request.min_height_m);
+  const double waves_m = static_cast<double>(request.max_height_m - request.min_height_m);
+  const double seen_m = horizon_m(eye_m) + horizon_m(waves_m);
+  int bits = kLeastSeaBits;
+  while (bits < kMostSeaBits && seen_m > std::ldexp(0.5 - 1.0 / kSeaSteps, bits)) ++bits;
+  return bits;
+}
 
 // Vertices every 1 m, 0.25 m or 0.125 m at the closest. A small budget is better spent further off,
 // a large one has nothing left to do there: docs/lod.md has the errors of all three.
-int sea_lattice_bits(int budget) { return budget < 4000 ? 21 : budget <= 40000 ? 23 : 24; }
+int splits_of_metre(int budget) { return budget < 4000 ? 0 : budget <= 40000 ? 2 : 3; }
 
 lod::Domain domain_around(const View& view, double size_m, double step_m, int lattice_bits) {
   const glm::dvec2 cell = glm::floor(glm::dvec2(view.eye_world) / step_m) * step_m;
   return {cell - 0.5 * size_m, size_m, lattice_bits};
 }
 
-lod::Domain sea_domain(const View& view, int budget) {
-  return domain_around(view, kSeaSize_m, kSeaStep_m, sea_lattice_bits(budget));
+bool is_limited(const scene::SeaArea& area) { return area.size_m.x > 0.0 && area.size_m.y > 0.0; }
+
+lod::Domain sea_domain(const lod::AdaptRequest& request) {
+  const int bits = sea_bits(request);
+  const double size_m = std::ldexp(1.0, bits);
+  return domain_around(request.view, size_m, size_m / kSeaSteps,
+                       bits + splits_of_metre(request.triangle_budget));
 }
 
 // Two triangles: larger ones would take the nearest water's depth from corners too far away.
@@ -115,8 +138,10 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
       request.max_slope = bounds.slope;
       if (bounds.mean_wavelength_m > 0.0) request.largest_size_m = 0.5 * bounds.mean_wavelength_m;
       request.focuses = wanted.world.focuses;
-      adapt_surface(sea_domain(wanted.view, budget), request, wanted.options.triangle_capacity,
-                    water);
+      adapt_surface(sea_domain(request), request, wanted.options.triangle_capacity, water);
+      // A sea that ends has no waves where triangles are wide.
+      if (is_limited(wanted.world.scene.area))
+        water.statistics.reach_m = std::numeric_limits<double>::infinity();
       break;
     }
     case scene::Triangulation::kRadial:

@@ -187,7 +187,9 @@ TEST(DrawnError, StaysBelowWhatThePriorityClaimsForSines) {
 }
 
 TEST(DrawnError, StaysBelowWhatThePriorityClaimsForTheOpenOcean) {
-  const Found found = check_shots(load_shipped("open_ocean"), 100, 3000);
+  scene::Scene scene = load_shipped("open_ocean");
+  scene.area.size_m = {20000.0, 20000.0};
+  const Found found = check_shots(scene, 100, 3000);
   EXPECT_GT(found.claimed, 150000);
   EXPECT_GT(found.claimed, 0.98 * found.seen);
   EXPECT_GT(found.worst_m, 0.1);  // all waves at their steepest in one place are rare
@@ -216,7 +218,13 @@ TEST_P(DrawnVertices, HaveTheHeightOfAQuery) {
                  places.push_back(place_of(drawn, v));
                heights.resize(places.size());
                surface.heights(places, heights);
-               ASSERT_EQ(heights, drawn.height_m) << shot.t_s << " s";
+               for (std::size_t v = 0; v < heights.size(); ++v) {
+                 if (shows_all_waves(drawn, shot.view, v)) {
+                   ASSERT_EQ(heights[v], drawn.height_m[v]) << shot.t_s << " s";
+                 } else {
+                   ASSERT_LE(std::abs(drawn.height_m[v]), std::abs(heights[v])) << shot.t_s << " s";
+                 }
+               }
              });
 }
 

@@ -44,6 +44,13 @@ inline glm::dvec2 place_of(const Surface& drawn, std::size_t vertex) {
   return {domain.min_world.x + step_m * lattice.x, domain.min_world.y + step_m * lattice.y};
 }
 
+// Whether the vertex lies so near that waves are drawn in full (render/view/wave_reach.h).
+inline bool shows_all_waves(const Surface& drawn, const View& view, std::size_t vertex) {
+  const auto eye_z = static_cast<float>(view.eye_world.z);
+  const float distance_m = std::hypot(glm::length(drawn.offset[vertex]), eye_z);
+  return distance_m < 0.79f * static_cast<float>(drawn.statistics.reach_m);
+}
+
 // Draws random shots and gives each and what it was drawn with to
 // check(shot, surface of the same time, drawn water).
 template <class Check>

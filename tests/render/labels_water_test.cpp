@@ -141,8 +141,11 @@ double share_of(const LabelledFrame& frame, const Holds& holds) {
   return static_cast<double>(count) / all;
 }
 
-TEST(Labels, SurfIsFoamAndFarFromACoastThereIsNone) {
-  const World &beach = shipped_world("beach"), &sea = shipped_world("open_ocean");
+TEST(Labels, SurfIsFoamAndWithoutWhitecapsFarFromACoastThereIsNone) {
+  scene::Scene calm = load_shipped("open_ocean");
+  calm.sea.whitecaps = 0.0;
+  const World& beach = shipped_world("beach");
+  const World sea(calm);
   const auto foam_of = [](const World& world) {
     const LabelledFrame frame(world, random_view(world.scene(), 0, kSize_px), 5.0);
     return share_of(frame, [&](std::size_t i) { return frame.labels().klass[i] == kFoamClass; });
