@@ -88,7 +88,10 @@ HWY_INLINE Thresholds SampleLace(const FoamLace& lace, V3 p, V level_m) {
   texture::HWY_NAMESPACE::SampleLevel(d, *lace.map, RoundToInt(x), RoundToInt(y),
                                       TruncateToInt(Clamp(hn::Add(level, half), 0.0f, kCellsGone)),
                                       lace_code, tears_code);
-  return {hn::MulAdd(lace_code, half, half), hn::MulAdd(tears_code, half, half),
+  // As above to the bit where cells are gone, whatever the lanes beside show.
+  const auto is_gone = hn::Ge(gone, one);
+  return {hn::IfThenElse(is_gone, half, hn::MulAdd(lace_code, half, half)),
+          hn::IfThenElse(is_gone, half, hn::MulAdd(tears_code, half, half)),
           hn::Sub(one, Clamp(gone, 0.0f, 1.0f))};
 }
 
