@@ -140,6 +140,7 @@ TEST(DrawnWaves, ATrainHasThePeriodAndSpeedOfItsDepth) {
   scene.terrain.emplace();
   scene.terrain->coast_m = {{-1000.0, 0.0}, {1000.0, 0.0}};
   scene.terrain->beach_slope = 0.025;
+  scene.terrain->beach_size_m = 2400.0;  // trains end within three tenths of its rim
   scene.terrain->floor_depth_m = 30.0;
   scene.terrain->centre_m = {0.0, 400.0};
   scene.coast.model = scene::CoastModel::kTrains;

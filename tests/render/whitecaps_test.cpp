@@ -158,17 +158,19 @@ TEST(DrawnWhitecaps, AreAsBrightAsSnow) {
   Target target;
   FrameOptions options = with_foam_and_places();
   options.keep_linear = true;
-  render_frame(world, from_above(60.0, 160), 30.0, options, workspace, target, workers);
-  const Light& light = workspace.state().shading.light;
-  const double snow =
-      0.8 * static_cast<double>(light.ambient.y + light.sun_irradiance.y * light.sun_direction.z /
-                                                      std::numbers::pi_v<float>);
   int white = 0;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < target.labels.foam.size(); ++i) {
-    if (target.labels.foam[i] < 0.99f) continue;
-    sum += static_cast<double>(target.linear[3 * i + 1]);
-    ++white;
+  double sum = 0.0, snow = 0.0;
+  for (int n = 0; n < 8; ++n) {
+    render_frame(world, from_above(60.0, 160), 30.0 + 5.0 * n, options, workspace, target, workers);
+    const Light& light = workspace.state().shading.light;
+    snow =
+        0.8 * static_cast<double>(light.ambient.y + light.sun_irradiance.y * light.sun_direction.z /
+                                                        std::numbers::pi_v<float>);
+    for (std::size_t i = 0; i < target.labels.foam.size(); ++i) {
+      if (target.labels.foam[i] < 0.99f) continue;
+      sum += static_cast<double>(target.linear[3 * i + 1]);
+      ++white;
+    }
   }
   ASSERT_GT(white, 50);
   EXPECT_GT(sum / white, 0.55 * snow);

