@@ -40,8 +40,8 @@ class Drawn {
   explicit Drawn(scene::Triangulation triangulation) : world_(scene_with(triangulation)) {}
 
   static scene::Scene scene_with(scene::Triangulation triangulation) {
-    scene::Scene scene = scene::parse_scene("[sea]\nsize_m = [3000.0, 2000.0]\nearth = \"flat\"\n",
-                                            "comparison.toml");
+    scene::Scene scene = scene::parse_scene(
+        "[sea]\nsize_m = [3000.0, 2000.0]\nearth = \"flat\"\ntiling = false\n", "comparison.toml");
     scene.detail.triangulation = triangulation;
     return scene;
   }

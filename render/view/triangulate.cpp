@@ -14,19 +14,19 @@ namespace swell::render {
 namespace {
 
 // The endless sea: a square around the eye that reaches beyond its horizon, as small as that
-// allows, since triangles that nobody sees are missed elsewhere: of 131 km up to about 150 m and on
-// a flat earth, which has no horizon, of 2097 km at 40 km, where the horizon is 765 km away. Its
+// allows, since triangles that nobody sees are missed elsewhere: of 131 km up to about 150 m and
+// around a limited sea on a flat earth, of 2097 km at 40 km, where the horizon is 765 km away. Its
 // corner moves in steps of a 32nd of that; a step changes triangles wider than half of it alone,
 // which lie far from any eye and, without waves, miss the earth's curve by less than a picture
 // shows.
 constexpr int kLeastSeaBits = 17, kMostSeaBits = 21, kSeaSteps = 32;
 
 // The size is a power of two.
-int sea_bits(const lod::AdaptRequest& request) {
+int sea_bits(const lod::AdaptRequest& request, bool limited) {
+  if (limited && std::isinf(request.earth_radius_m)) return kLeastSeaBits;
   const auto horizon_m = [&](double height_m) {
     return std::sqrt(2.0 * request.earth_radius_m * std::max(height_m, 0.0));
   };
-  if (std::isinf(request.earth_radius_m)) return kLeastSeaBits;
   const double eye_m = request.view.eye_world.z - static_cast<double>(request.min_height_m);
   const double waves_m = static_cast<double>(request.max_height_m - request.min_height_m);
   const double seen_m = horizon_m(eye_m) + horizon_m(waves_m);
@@ -46,8 +46,8 @@ lod::Domain domain_around(const View& view, double size_m, double step_m, int la
 
 bool is_limited(const scene::SeaArea& area) { return area.size_m.x > 0.0 && area.size_m.y > 0.0; }
 
-lod::Domain sea_domain(const lod::AdaptRequest& request) {
-  const int bits = sea_bits(request);
+lod::Domain sea_domain(const lod::AdaptRequest& request, bool limited) {
+  const int bits = sea_bits(request, limited);
   const double size_m = std::ldexp(1.0, bits);
   return domain_around(request.view, size_m, size_m / kSeaSteps,
                        bits + splits_of_metre(request.triangle_budget));
@@ -138,10 +138,10 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
       request.max_slope = bounds.slope;
       if (bounds.mean_wavelength_m > 0.0) request.largest_size_m = 0.5 * bounds.mean_wavelength_m;
       request.focuses = wanted.world.focuses;
-      adapt_surface(sea_domain(request), request, wanted.options.triangle_capacity, water);
+      const bool limited = is_limited(wanted.world.scene.area);
+      adapt_surface(sea_domain(request, limited), request, wanted.options.triangle_capacity, water);
       // A sea that ends has no waves where triangles are wide.
-      if (is_limited(wanted.world.scene.area))
-        water.statistics.reach_m = std::numeric_limits<double>::infinity();
+      if (limited) water.statistics.reach_m = std::numeric_limits<double>::infinity();
       break;
     }
     case scene::Triangulation::kRadial:

@@ -141,6 +141,7 @@ TEST(DrawnWaves, ATrainHasThePeriodAndSpeedOfItsDepth) {
   scene.terrain->coast_m = {{-1000.0, 0.0}, {1000.0, 0.0}};
   scene.terrain->beach_slope = 0.025;
   scene.terrain->beach_size_m = 2400.0;  // trains end within three tenths of its rim
+  scene.coast.grid_spacing_m = 4.5;
   scene.terrain->floor_depth_m = 30.0;
   scene.terrain->centre_m = {0.0, 400.0};
   scene.coast.model = scene::CoastModel::kTrains;
