@@ -23,7 +23,7 @@ constexpr int kLeastSeaBits = 17, kMostSeaBits = 21, kSeaSteps = 32;
 
 // The size is a power of two.
 int sea_bits(const lod::AdaptRequest& request, bool limited) {
-  if (limited && std::isinf(request.earth_radius_m)) return kLeastSeaBits;
+  if (std::isinf(request.earth_radius_m)) return limited ? kLeastSeaBits : kMostSeaBits;
   const auto horizon_m = [&](double height_m) {
     return std::sqrt(2.0 * request.earth_radius_m * std::max(height_m, 0.0));
   };
