@@ -92,7 +92,7 @@ struct World::State {
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
-  std::shared_ptr<const LandShadow> land_shadow = {};  // none: no land, or no sun
+  std::shared_ptr<const LandShadow> land_shadow = {};           // none: no land, or no sun
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
   // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. Of any
