@@ -201,7 +201,8 @@ TEST(Horizon, WavesGoOnEverywhere) {
   const World world(load_shipped("open_ocean"));
   for (const glm::dvec2& at : {glm::dvec2(0.0), glm::dvec2(5e4, -3e4), glm::dvec2(-8e5, 9e5)}) {
     const View view = make_view({at, 10.0}, 0.0, -0.2, 0.9, 0.25f, 96, 54);
-    const Surface& water = Picture(world, view).water();
+    const Picture picture(world, view);
+    const Surface& water = picture.water();
     double square = 0.0;
     int near = 0;
     for (std::size_t i = 0; i < water.height_m.size(); ++i) {
