@@ -28,8 +28,9 @@ bool cpu_is_supported() {
 bool simd_target_available(SimdTarget target) {
   if (!cpu_is_supported()) return false;
   return target == SimdTarget::kAvx2 ||
-         (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"));
+         ((HWY_TARGETS & HWY_AVX3) != 0 && __builtin_cpu_supports("avx512f") &&
+          __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+          __builtin_cpu_supports("avx512bw"));
 }
 
 SimdTarget current_simd_target() {
