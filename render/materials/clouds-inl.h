@@ -22,7 +22,7 @@ struct CloudPlace {
 HWY_INLINE CloudPlace PlaceOnClouds(const Clouds& clouds, V3 direction) {
   constexpr float kEarthRadius_m = 6.36e6f;
   const float drop = 2.0f * clouds.height_m / kEarthRadius_m;
-  const V z = hn::Max(direction.z, hn::Zero(D()));
+  const V z = direction.z;
   const V rise = hn::Sqrt(hn::MulAdd(z, z, Constant(drop)));
   const V slant = hn::Div(Constant(2.0f * clouds.height_m), hn::Add(z, rise));
   return {hn::Mul(direction.x, slant), hn::Mul(direction.y, slant), slant, rise};
@@ -68,7 +68,7 @@ HWY_INLINE V3 AddClouds(const Clouds& clouds, V3 direction, V pixel_angle_log2, 
   // Far clouds are lost in haze, but for an overcast sky, which is of one piece.
   const V far = Exp(d, hn::Mul(at.slant, Constant(-1.0f / 70000.0f)));
   const V shown = Lerp(far, one, Constant(clouds.light.overcast));
-  const V opacity = hn::Mul(hn::Sub(one, passes), shown);
+  const V opacity = hn::Mul(hn::Mul(hn::Sub(one, passes), shown), Constant(clouds.shown));
 
   // Light that comes through, less of it where clouds are thick; and at their bright sides.
   const V through = hn::Div(one, hn::MulAdd(cloud.depth, Constant(clouds.light.loss), one));

@@ -17,6 +17,9 @@ constexpr int kMapSize = 256, kCells = 8;
 constexpr double kFirstPeriod_m = 26000.0;
 // Layers of the same map, none a multiple of the next: their sum does not repeat.
 constexpr std::array<double, Clouds::kLayers> kPeriods_m = {kFirstPeriod_m, 6100.0, 1370.0};
+// The layer fades to nothing towards its own height: a picture from next to it would be all cloud
+// or none.
+constexpr double kNearLayer_m = 600.0;
 constexpr std::array<float, Clouds::kLayers> kGains = {1.0f, 0.34f, 0.10f};
 
 // The threshold that so much of a normal distribution lies above, in deviations: the logistic
@@ -65,6 +68,7 @@ CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, flo
   // A low sun shines on the sides of clouds.
   const float incident = 0.85f * std::max(light.to_light.z, 0.0f) + 0.12f;
   clouds.base = light.cloud_irradiance * (incident / static_cast<float>(kPi)) + 0.9f * ambient;
+  clouds.tops = clouds.base;
   clouds.forward = light.cloud_irradiance;
   // A closed layer is thicker, and more even.
   clouds.loss *= 1.0f - 0.7f * clouds.overcast;
@@ -105,12 +109,19 @@ void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
   texture::pack_map2(n, density, side, 0.0f, map);
 }
 
+float part_under_clouds(double height_m) {
+  return static_cast<float>(
+      smoothstep(kNearLayer_m, -kNearLayer_m, height_m - scene::kCloudHeight_m));
+}
+
 Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without) {
   Clouds clouds;
   const scene::Scene& scene = world.scene;
   const double height_m = scene::kCloudHeight_m - eye.z;
-  clouds.any = scene.sky.cloud_cover > 0.0 && height_m > 0.0 && !without.has(Part::kClouds);
+  clouds.shown = static_cast<float>(smoothstep(0.0, kNearLayer_m, std::abs(height_m)));
+  clouds.any = scene.sky.cloud_cover > 0.0 && clouds.shown > 0.0f && !without.has(Part::kClouds);
   if (!clouds.any) return clouds;
+  clouds.is_below = height_m < 0.0;
   const texture::PackedMap2& map = world.sky->clouds;
   float variance = 0.0f;
   for (std::size_t i = 0; i < Clouds::kLayers; ++i) {
