@@ -33,15 +33,20 @@ struct CloudDepth {
   V depth, bright;
 };
 
-HWY_INLINE CloudDepth SampleClouds(const Clouds& clouds, const CloudPlace& at, V pixel_angle_log2) {
+HWY_INLINE V CloudLevel(const CloudPlace& at, V pixel_angle_log2) {
+  return FootprintLevel(hn::Add(Log2Coarse(D(), at.slant), pixel_angle_log2), at.rise);
+}
+
+// threshold: what of the noise over its deviation is cloud.
+HWY_INLINE CloudDepth SampleClouds(const Clouds& clouds, const CloudPlace& at, V level,
+                                   V threshold) {
   const D d;
   const V zero = hn::Zero(d);
-  const V level = FootprintLevel(hn::Add(Log2Coarse(d, at.slant), pixel_angle_log2), at.rise);
   V noise = zero, side = zero, lost = zero;
   for (const SlopeLayer& layer : clouds.layers)
     AddSlopes(layer, {at.x, at.y, zero}, level, zero, zero, noise, side, lost);
   const V scale = Constant(clouds.inv_deviation);
-  const V over = hn::MulSub(noise, scale, Constant(clouds.light.threshold));
+  const V over = hn::MulSub(noise, scale, threshold);
   // The mean over what a pixel cannot resolve of max(over, 0)^2, about.
   const V spread = hn::Mul(hn::Mul(lost, scale), scale);
   const V root = hn::Sqrt(hn::MulAdd(over, over, hn::Add(spread, spread)));
@@ -63,7 +68,8 @@ HWY_INLINE V3 AddClouds(const Clouds& clouds, V3 direction, V pixel_angle_log2, 
   const D d;
   const V one = Constant(1.0f);
   const CloudPlace at = PlaceOnClouds(clouds, direction);
-  const CloudDepth cloud = SampleClouds(clouds, at, pixel_angle_log2);
+  const CloudDepth cloud = SampleClouds(clouds, at, CloudLevel(at, pixel_angle_log2),
+                                        Constant(clouds.light.threshold));
   passes = Exp(d, hn::Neg(cloud.depth));
   // Far clouds are lost in haze, but for an overcast sky, which is of one piece.
   const V far = Exp(d, hn::Mul(at.slant, Constant(-1.0f / 70000.0f)));

@@ -17,6 +17,8 @@ constexpr int kMapSize = 256, kCells = 8;
 constexpr double kFirstPeriod_m = 26000.0;
 // Layers of the same map, none a multiple of the next: their sum does not repeat.
 constexpr std::array<double, Clouds::kLayers> kPeriods_m = {kFirstPeriod_m, 6100.0, 1370.0};
+constexpr double kRegionPeriod_m = 193000.0;
+constexpr float kRegionGain = 0.7f;
 // The layer fades to nothing towards its own height: a picture from next to it would be all cloud
 // or none.
 constexpr double kNearLayer_m = 600.0;
@@ -130,6 +132,9 @@ Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSe
     variance += kGains[i] * kGains[i] * world.sky->cloud_variance;
   }
   clouds.inv_deviation = 1.0f / std::sqrt(std::max(variance, 1e-8f));
+  clouds.regions =
+      make_layer(map, kRegionPeriod_m, kRegionGain / std::sqrt(std::max(world.sky->cloud_variance, 1e-8f)),
+                 glm::dvec2(eye), drift_m(scene.sea, kRegionPeriod_m, t_s));
   clouds.height_m = static_cast<float>(height_m);
   clouds.light = world.sky->cloud_light;
   return clouds;

@@ -30,6 +30,9 @@ struct Clouds {
   bool is_below = false;  // seen from above
   static constexpr std::size_t kLayers = 3;
   std::array<SlopeLayer, kLayers> layers;  // values, not slopes
+  // How much denser they are in some regions, in deviations. From below nobody sees so far; from
+  // above the layers alone would repeat.
+  SlopeLayer regions;
   float inv_deviation = 1.0f;
   float height_m = 1.0f;  // over the eye; negative below it
   float shown = 1.0f;     // less from next to the layer, nothing from within

@@ -192,15 +192,17 @@ void expose(float exposure, SkyMaps& maps) {
     *x *= exposure;
 }
 
-// What an eye adapts to: what a white level surface shows, and the sky, its brightest parts above
-// all. `maps` are exposed already.
+// What an eye adapts to: what a white level surface shows, or over a closed layer of clouds its tops;
+// and the sky, its brightest parts above all. `maps` are exposed already.
 double light_seen(const scene::SkyLight& light, double height_m, float exposure,
                   const SkyMaps& maps) {
+  const CloudLight& clouds = maps.cloud_light;
+  const double under = part_under_clouds(height_m);
   const double white =
       luminance(maps.ambient) + luminance(maps.irradiance) * std::max(maps.to_light.z, 0.0f) / kPi;
+  const double level = std::lerp(white, luminance(clouds.tops), clouds.overcast * (1.0 - under));
   const double clear = exposure * root_mean_square(light, scene::horizon_sine(height_m));
-  const double cloudy = maps.cloud_light.overcast * part_under_clouds(height_m);
-  return white + 2.0 * std::lerp(clear, luminance(maps.ambient), cloudy);
+  return level + 2.0 * std::lerp(clear, luminance(maps.ambient), clouds.overcast * under);
 }
 
 // The factor of what is stored. A gradient is stored as it is.
