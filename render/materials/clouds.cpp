@@ -124,6 +124,7 @@ Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSe
   clouds.any = scene.sky.cloud_cover > 0.0 && clouds.shown > 0.0f && !without.has(Part::kClouds);
   if (!clouds.any) return clouds;
   clouds.is_below = height_m < 0.0;
+  clouds.any = !clouds.is_below;
   const texture::PackedMap2& map = world.sky->clouds;
   float variance = 0.0f;
   for (std::size_t i = 0; i < Clouds::kLayers; ++i) {
@@ -132,9 +133,9 @@ Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSe
     variance += kGains[i] * kGains[i] * world.sky->cloud_variance;
   }
   clouds.inv_deviation = 1.0f / std::sqrt(std::max(variance, 1e-8f));
-  clouds.regions =
-      make_layer(map, kRegionPeriod_m, kRegionGain / std::sqrt(std::max(world.sky->cloud_variance, 1e-8f)),
-                 glm::dvec2(eye), drift_m(scene.sea, kRegionPeriod_m, t_s));
+  const float region_gain = kRegionGain * std::sqrt(variance / world.sky->cloud_variance);
+  clouds.regions = make_layer(map, kRegionPeriod_m, region_gain, glm::dvec2(eye),
+                              drift_m(scene.sea, kRegionPeriod_m, t_s));
   clouds.height_m = static_cast<float>(height_m);
   clouds.light = world.sky->cloud_light;
   return clouds;

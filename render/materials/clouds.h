@@ -26,7 +26,7 @@ void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
 
 // As seen at one time.
 struct Clouds {
-  bool any = false;
+  bool any = false;       // over the eye
   bool is_below = false;  // seen from above
   static constexpr std::size_t kLayers = 3;
   std::array<SlopeLayer, kLayers> layers;  // values, not slopes

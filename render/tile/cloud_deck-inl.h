@@ -47,14 +47,16 @@ HWY_INLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m, V3 ligh
   const auto seen = hn::And(hn::Gt(at.rise, hn::Zero(d)), hn::Lt(at.slant, distance_m));
   if (hn::AllFalse(d, seen)) return light;
   const V pixel_angle_log2 = Log2Coarse(d, Constant(s.rays.pixel_angle));
-  const V level = CloudLevel(at, pixel_angle_log2), zero = hn::Zero(d);
-  V denser = zero, unused = zero, lost = zero;
-  AddSlopes(clouds.regions, {at.x, at.y, zero}, level, zero, zero, denser, unused, lost);
-  const CloudDepth cloud =
-      SampleClouds(clouds, at, level, hn::Sub(Constant(clouds.light.threshold), denser));
-  const V hidden = hn::Mul(hn::Sub(one, Exp(d, hn::Neg(cloud.depth))), Constant(clouds.shown));
+  const V level = FootprintLevel(hn::Add(Log2Coarse(d, at.slant), pixel_angle_log2), at.rise);
+  CloudNoise noise = SampleClouds(clouds, at.x, at.y, level);
+  const V zero = hn::Zero(d);
+  V unused = zero, lost = zero;
+  AddSlopes(clouds.regions, {at.x, at.y, zero}, level, zero, zero, noise.noise, unused, lost);
+  const V passes = Exp(d, hn::Neg(OpticalDepth(clouds, noise)));
+  const V hidden = hn::Mul(hn::Sub(one, passes), Constant(clouds.shown));
   // White from above however thick they are, brighter towards the light.
-  const V bright = Clamp(hn::MulAdd(cloud.bright, Constant(0.5f), one), 0.6f, 1.5f);
+  const V bright =
+      Clamp(hn::MulAdd(noise.side, Constant(0.5f * clouds.inv_deviation), one), 0.6f, 1.5f);
   const V3 own = Scale(Constant(clouds.light.tops), bright);
   const V3 arriving = Haze(s, DeckPacket(s, direction, at), own);
   return Lerp(light, arriving, hn::IfThenElseZero(seen, hidden));
