@@ -39,7 +39,7 @@ struct Clouds {
   CloudLight light;
 };
 
-// How far an eye is under the clouds and not over them, in [0, 1].
+// How much an eye sees of the clouds over it, in [0, 1].
 float part_under_clouds(double height_m);
 
 // What drifts with the wind is a function of t_s.

@@ -20,7 +20,8 @@ HWY_INLINE V SkyColumn(const Light& light, V3 direction) {
                              hn::Mul(direction.y, Constant(light.sky_azimuth.y)));
   const V cosine = hn::Div(along, hn::Sqrt(hn::Max(across2, Constant(1e-12f))));
   const V half_sine2 = hn::NegMulAdd(cosine, Constant(0.5f), Constant(0.5f));
-  return hn::Mul(hn::Sqrt(Clamp(half_sine2, 0.0f, 1.0f)), Constant(kSkyColumns - 1.0f));
+  const V half_sine = hn::Sqrt(Clamp(half_sine2, 0.0f, 1.0f));
+  return hn::Mul(hn::Sqrt(half_sine), Constant(kSkyColumns - 1.0f));
 }
 
 // The root of 1 - r, where r = tan(zenith angle / 2) for the cosine `part` in [0, 1]: 0 at the

@@ -2,11 +2,20 @@
 
 #include <algorithm>
 
+#include "math/elementary.h"
 #include "render/world/for_each_row.h"
 #include "scene/atmosphere.h"
 
 namespace swell::render {
 namespace {
+
+// Roots of light, as maps hold it, that falls with the height as the density of air does lie on
+// straight lines over this.
+float part_between(double low_m, double high_m, double height_m) {
+  constexpr double kHeight_m = 2.0 * 8000.0;
+  const double low = exp(-low_m / kHeight_m), high = exp(-high_m / kHeight_m);
+  return static_cast<float>((low - exp(-height_m / kHeight_m)) / (low - high));
+}
 
 // The map and the discs between the two heights that were worked out next to height_m.
 void set_heights(const SkyMaps& maps, double height_m, SkyFrame& sky, Workers& workers) {
@@ -18,8 +27,7 @@ void set_heights(const SkyMaps& maps, double height_m, SkyFrame& sky, Workers& w
   float exposure = low.exposure;
   glm::vec3 sun_disc = low.sun_disc_radiance;
   if (height_m > low.height_m && high.height_m > low.height_m) {
-    const auto part =
-        static_cast<float>((height_m - low.height_m) / (high.height_m - low.height_m));
+    const float part = part_between(low.height_m, high.height_m, height_m);
     sky.disc_radiance = glm::mix(low.disc_radiance, high.disc_radiance, part);
     sun_disc = glm::mix(low.sun_disc_radiance, high.sun_disc_radiance, part);
     exposure = glm::mix(low.exposure, high.exposure, part);

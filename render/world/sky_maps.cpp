@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kClearSkyRange = 64.0f;
 // Closer near the sea, where haze is.
-constexpr double kHeights_m[] = {300.0,   800.0,   1600.0,  3000.0,  5000.0,  8000.0,
-                                 12000.0, 17000.0, 23000.0, 30000.0, 40000.0, 60000.0};
+constexpr double kHeights_m[] = {300.0,   800.0,   1600.0,  3000.0,  5500.0,
+                                 10000.0, 17000.0, 27000.0, 40000.0, 60000.0};
 // Waves too small to see spread what they mirror: box filters of so many texels to each side.
 constexpr int kSoftSkyBlur = 2, kSoftSkyPasses = 2;
 
@@ -93,7 +93,7 @@ texture::SmoothImage build_clear_sky(const scene::SkyLight& light, glm::dvec2 az
     float* p = rgb.data() + std::ptrdiff_t{3} * row * kSkyColumns;
     const double z = row_sine(row, horizon_sine), across = std::sqrt(std::max(1.0 - z * z, 0.0));
     for (int column = 0; column < kSkyColumns; ++column) {
-      const double half_sine = static_cast<double>(column) / (kSkyColumns - 1);
+      const double root = static_cast<double>(column) / (kSkyColumns - 1), half_sine = root * root;
       const double cosine = 1.0 - 2.0 * half_sine * half_sine;
       const double sine = 2.0 * half_sine * std::sqrt(1.0 - half_sine * half_sine);
       const glm::dvec2 d = across * (cosine * azimuth + sine * glm::dvec2(azimuth.y, -azimuth.x));
@@ -192,8 +192,8 @@ void expose(float exposure, SkyMaps& maps) {
     *x *= exposure;
 }
 
-// What an eye adapts to: what a white level surface shows, or over a closed layer of clouds its tops;
-// and the sky, its brightest parts above all. `maps` are exposed already.
+// What an eye adapts to: what a white level surface shows, or over a closed layer of clouds its
+// tops; and the sky, its brightest parts above all. `maps` are exposed already.
 double light_seen(const scene::SkyLight& light, double height_m, float exposure,
                   const SkyMaps& maps) {
   const CloudLight& clouds = maps.cloud_light;

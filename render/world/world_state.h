@@ -44,10 +44,10 @@ inline constexpr float kSoftSkyRange = 4.0f;
 inline constexpr int kSoftSkySize = 128;
 
 // The map of a clear sky, kSkyColumns x (kSkyRows + kAirRows). It is the same on both sides of the
-// light's azimuth: column 0 has that azimuth, the last one the opposite, and sin(azimuth / 2) grows
-// evenly. Row 0 is the zenith and row kSkyRows - 1 the horizon, where the rows are closest; the
-// rows after that go from the horizon to straight down, and hold the air before the sea
-// (scene::sky_radiance). render/tile/sky_map-inl.h says where a direction lies.
+// light's azimuth: column 0 has that azimuth, the last one the opposite, and the root of
+// sin(azimuth / 2) grows evenly. Row 0 is the zenith and row kSkyRows - 1 the horizon, where the
+// rows are closest; the rows after that go from the horizon to straight down, and hold the air
+// before the sea (scene::sky_radiance). render/tile/sky_map-inl.h says where a direction lies.
 inline constexpr int kSkyColumns = 128, kSkyRows = 192, kAirRows = 64;
 
 // The clear sky as an eye at a height sees it, exposed.

@@ -14,7 +14,7 @@ const float sky_rows = 192.0;
 
 vec3 clear_sky(vec3 d) {
   float cosine = dot(d.xy, sky_azimuth) / max(length(d.xy), 1e-6);
-  float column = sqrt(clamp(0.5 - 0.5 * cosine, 0.0, 1.0)) * (sky_size.x - 1.0);
+  float column = sqrt(sqrt(clamp(0.5 - 0.5 * cosine, 0.0, 1.0))) * (sky_size.x - 1.0);
   float part = clamp((d.z - horizon_sine) / (1.0 - horizon_sine), 0.0, 1.0);
   float from_horizon = sqrt(max(1.0 - sqrt((1.0 - part) / (1.0 + part)), 0.0));
   float row = (1.0 - from_horizon) * (sky_rows - 1.0);
