@@ -112,8 +112,7 @@ void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
 }
 
 float part_under_clouds(double height_m) {
-  return static_cast<float>(
-      smoothstep(0.0, kNearLayer_m, scene::kCloudHeight_m - height_m));
+  return static_cast<float>(smoothstep(0.0, kNearLayer_m, scene::kCloudHeight_m - height_m));
 }
 
 Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without) {

@@ -39,7 +39,7 @@ HWY_INLINE Packet DeckPacket(const Shading& s, V3 direction, const CloudPlace& a
 }
 
 // Lays the clouds before `light`, what is seen after distance_m in a direction of length 1.
-HWY_INLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m, V3 light) {
+static HWY_NOINLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m, V3 light) {
   const D d;
   const Clouds& clouds = s.light.clouds;
   const V one = Constant(1.0f);
