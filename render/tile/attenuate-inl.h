@@ -41,7 +41,8 @@ constexpr float kPerMoleculesHeight_m = 1e-4f;
 // The air below an eye far over the sea: haze, and the molecules beyond those that the haze stands
 // for. Near the horizon both have the sky's colour there; further down the molecules have that of
 // the air below, and haze the mean of the horizon, as under an overcast sky all air has.
-static HWY_NOINLINE V3 AirAloft(const Shading& s, const Packet& packet, V3 colour) {
+// `packet` is a copy: by reference a call would keep all packets in memory.
+static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour) {
   const D d;
   const V zero = hn::Zero(d);
   const V mean_haze = MeanHaze(s, packet, s.media.inv_haze_height_m);
