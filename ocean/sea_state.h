@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ocean/crests.h"
 #include "ocean/fft.h"
 #include "ocean/patch_waves.h"
 #include "ocean/sea.h"
@@ -13,14 +14,20 @@ namespace swell::ocean {
 struct SineTrain {
   SineFrame at_start;
   double turns_per_s = 0.0;
+  // The water's speed along the wave at its crest, in terms of the rate of the heights.
+  double drift = 1.0;
 };
 
 struct Sea::State {
   SeaDescription description;
   FftPlan plan;
   std::vector<PatchWaves> patches;
+  std::vector<Crests> crests;  // one a patch
   std::vector<SineTrain> sines;
   double spectrum_variance_m2 = 0.0;
+
+  // Of the patches from one on, together.
+  double height_bound_m(std::size_t first_patch) const;
 };
 
 // How a patch covers the sea.

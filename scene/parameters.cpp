@@ -172,6 +172,9 @@ Rows sea_rows() {
       SceneRow::plain<bool>(
           "sea.tiling", Kind::kBoolean, SWELL_FIELD(sea.tiling),
           "the longest patch covers the sea by tiles that differ; false: it repeats itself"),
+      SceneRow::number("sea.choppiness", {0, 1}, SWELL_FIELD(sea.choppiness),
+                       "how much crests are sharper than troughs: 0 for linear waves, 1 for waves "
+                       "of second order"),
       SceneRow::number("sea.amplitude_scale", {0, 4}, SWELL_FIELD(sea.amplitude_scale),
                        "multiplies the heights of the wind waves"),
       SceneRow::integer("sea.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(sea.seed),

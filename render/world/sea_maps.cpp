@@ -71,7 +71,7 @@ void leave_out_tiles(SeaMaps& sea) {
 
 void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
                  const StageRun& run) {
-  ocean::advance(*world.sea, t_s, sea.frame, run.workers);
+  ocean::advance(*world.sea, t_s, sea.frame, run.workers, !without.has(Part::kCrests));
   if (!without.has(Part::kWhitecaps)) {
     ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
     if (sea.whitecaps.is_new) pack_foam(sea);

@@ -72,6 +72,7 @@ seed = 42
 gravity_mps2 = 3.7
 loop_s = 25
 whitecaps = 0.5
+choppiness = 0.75
 centre_m = [10, 20]
 size_m = [500, 600]
 earth = "flat"
@@ -148,6 +149,7 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.sea.gravity_mps2, 3.7);
   EXPECT_EQ(scene.sea.loop_s, 25.0);
   EXPECT_EQ(scene.sea.whitecaps, 0.5);
+  EXPECT_EQ(scene.sea.choppiness, 0.75);
   EXPECT_EQ(scene.area.centre_m, glm::dvec2(10, 20));
   EXPECT_EQ(scene.area.size_m, glm::dvec2(500, 600));
   EXPECT_FALSE(scene.round_earth);

@@ -114,6 +114,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sea.fetch_km);
   SWELL_COMPARE(sea.gamma);
   SWELL_COMPARE(sea.amplitude_scale);
+  SWELL_COMPARE(sea.choppiness);
   SWELL_COMPARE(sea.gravity_mps2);
   SWELL_COMPARE(sea.loop_s);
   SWELL_COMPARE(sea.whitecaps);
