@@ -202,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
               "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] tp_s, seed, "
               "earth, "
               "[[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, size_m, gamma, whitecaps, "
-              "beaufort, fetch_km, resolution, tiling, loop_s, douglas, gravity_mps2, "
+              "beaufort, fetch_km, resolution, tiling, loop_s, douglas, choppiness, gravity_mps2, "
               "amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
               "test.toml:2: column 1: unknown key, got 'camera.eye.m', allowed in [camera] eye_m, "

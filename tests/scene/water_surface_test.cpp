@@ -236,8 +236,8 @@ double brute_distance(const WaterSurface& surface, glm::dvec3 origin, glm::dvec3
   return -1.0;
 }
 
-TEST(WaterSurface, RaysHitWhereSmallStepsFirstPassTheSurface) {
-  const Snapshot water(windy_scene(), 11.0);
+void expect_first_hits(const Scene& scene) {
+  const Snapshot water(scene, 11.0);
   int hits = 0;
   for (int i = 0; i < 100; ++i) {
     const auto dice = [&](int n) { return random_uniform(9, 10 * i + n); };
@@ -257,6 +257,13 @@ TEST(WaterSurface, RaysHitWhereSmallStepsFirstPassTheSurface) {
     EXPECT_EQ(hit->from_above, origin.z > water->height(glm::dvec2(origin))) << i;
   }
   EXPECT_GT(hits, 30);
+}
+
+TEST(WaterSurface, RaysHitWhereSmallStepsFirstPassTheSurface) {
+  Scene scene = windy_scene();
+  expect_first_hits(scene);
+  scene.sea.choppiness = 1.0;
+  expect_first_hits(scene);
 }
 
 float ground_at(const Snapshot& water, glm::dvec2 p) {
