@@ -45,7 +45,7 @@ struct LinearWaves {
 };
 
 // Fills a patch's heights, slopes and displaced_x_m, displaced_y_m, all of them sized, with the
-// warped samples. X by a fixed number of steps, between samples bilinear. 0.2 ms for 128 x 128
+// warped samples. X by a fixed number of steps, between samples bilinear. 0.12 ms for 128 x 128
 // samples on one thread.
 void sharpen_crests(const Crests& crests, const LinearWaves& linear, PatchFrame& patch,
                     Workers& workers);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/labelled_frame.h"
+#include "scene/sky.h"
 
 namespace swell::render {
 namespace {
@@ -167,8 +168,8 @@ scene::Scene white_sea() {
 }
 
 // The light of pixels that foam hides all of, over that of level snow.
-Moments light_of_whole_foam() {
-  const World world(white_sea());
+Moments light_of_whole_foam(const scene::Scene& scene) {
+  const World world(scene);
   Workers workers(2);
   Workspace workspace;
   Target target;
@@ -188,13 +189,22 @@ Moments light_of_whole_foam() {
   return light_over_snow;
 }
 
-// White foam in the sun is as bright as snow there, and no brighter; but not one white: lace and
-// tears go on where it hides all.
-TEST(DrawnWhitecaps, AreAsBrightAsSnowWithDepthInside) {
-  const Moments light = light_of_whole_foam();
+// White foam in the sun is as bright as snow there, and no brighter.
+TEST(DrawnWhitecaps, AreAsBrightAsSnow) {
+  const Moments light = light_of_whole_foam(white_sea());
   ASSERT_GT(light.count, 50.0);
   EXPECT_GT(light.mean(), 0.55);
   EXPECT_LT(light.mean(), 1.1);
+}
+
+// Where foam hides all, lace and tears go on in it. After sunset, when slopes make no difference.
+TEST(DrawnWhitecaps, HaveDepthInside) {
+  scene::Scene scene = white_sea();
+  scene.sky.sun_elevation_rad = -0.05;
+  scene.sky.sun_direction =
+      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+  const Moments light = light_of_whole_foam(scene);
+  ASSERT_GT(light.count, 50.0);
   EXPECT_GT(light.deviation() / light.mean(), 0.1);
 }
 
