@@ -271,8 +271,13 @@ HWY_INLINE std::array<V3, sizeof...(k)> ArrivingLights(
     static_assert(kView == ViewKind::kWindow,
                   "elsewhere what is shown is not where it seems to be");
     const auto found = shade.LookUp(s, shown);
-    return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep,
-                                 found[k])...};
+    // A loop, so that the code fits the processor's caches.
+    std::array<V3, sizeof...(k)> lights;
+#pragma GCC unroll 1
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      lights[i] =
+          ArrivingLight<kView>(s, tile, material, listed[i].lanes, shown[i], shade, keep, found[i]);
+    return lights;
   } else {
     return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep)...};
   }
