@@ -46,6 +46,24 @@ TEST(DrawnCrests, HaveTheHeightOfAQueryAtEveryVertex) {
   expect_queried_heights(scene);
 }
 
+TEST(DrawnCrests, CanBeLeftOut) {
+  scene::Scene scene = load_shipped("open_ocean");
+  scene.sea.choppiness = 1.0;
+  const World world(scene);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options;
+  const View view = scene::camera_view(scene.camera, 0.0, 64, 36);
+  const auto is_sharp = [&] {
+    render_frame(world, view, 0.0, options, workspace, target, workers);
+    return !workspace.state().sea.frame.patches[0].displaced_x_m.empty();
+  };
+  EXPECT_TRUE(is_sharp());
+  options.without.add(Part::kCrests);
+  EXPECT_FALSE(is_sharp());
+}
+
 // The plane leaves all waves to the shading.
 TEST(DrawnPlane, IsTwoFlatTriangles) {
   draw_shots(load_shipped("open_ocean_plane"), kFrames, kSize_px, kTriangles,
