@@ -205,7 +205,7 @@ TEST(DrawnWhitecaps, HaveDepthInside) {
       scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
   const Moments light = light_of_whole_foam(scene);
   ASSERT_GT(light.count, 50.0);
-  EXPECT_GT(light.deviation() / light.mean(), 0.1);
+  EXPECT_GT(light.deviation() / light.mean(), 0.05);
 }
 
 // Water between and around foam is full of bubbles: brighter than the same water without.
