@@ -8,8 +8,8 @@
 // draws the water of a group of waves apart and so lowers it. The term in r gives back what a group
 // is too low by: waves of second order, long-crested, have the sums of frequencies that D gives,
 // and less of their differences, by min(k, k') / 2 for each pair of waves. Here r / c is its mean
-// over pairs. With c = 1 one wave alone is Stokes's of second order, and a sea of waves k has the
-// skewness 3 r sigma.
+// over pairs. With c = 1 one wave alone is Stokes's of second order, and a patch of waves of
+// variance sigma^2 has the skewness 3 r sigma.
 //
 // A patch's waves are carried by themselves and not by those of longer patches. The last of several
 // patches stays as it is: its waves are as short as its samples.

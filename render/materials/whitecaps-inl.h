@@ -109,7 +109,8 @@ HWY_INLINE TornFoam TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V 
     cover = Lerp(foam, CoverOf(foam, threshold), tears.seen);
     thickness = Lerp(thickness, hn::Max(hn::Sub(foam, threshold), zero), tears.seen);
   }
-  return {hn::IfThenElseZero(some, cover), thickness, hn::IfThenElseZero(some, foam)};
+  return {hn::IfThenElseZero(some, cover), hn::IfThenElseZero(some, thickness),
+          hn::IfThenElseZero(some, foam)};
 }
 
 // How much of the light that foam of this thickness hides.
