@@ -31,34 +31,229 @@ HWY_INLINE V3 ClearSky(const texture::SmoothImage& map, V3 direction) {
   return light;
 }
 
+constexpr float kDiscRadius = 0.004654f;  // of the sun and the moon
+
 // The part of a pixel that the disc of the sun or the moon fills, by the direction's distance from
 // its middle; half a degree across.
 HWY_INLINE V DiscPart(const Light& light, V3 direction, float pixel_angle) {
-  constexpr float kRadius = 0.004654f;
   const V3 to_light = Constant(light.sun_direction);
   const V3 apart = {hn::Sub(direction.x, to_light.x), hn::Sub(direction.y, to_light.y),
                     hn::Sub(direction.z, to_light.z)};
-  const float rim = std::max(pixel_angle, 0.02f * kRadius);
-  const V inside = hn::Sub(Constant(kRadius), hn::Sqrt(Dot(apart, apart)));
+  const float rim = std::max(pixel_angle, 0.02f * kDiscRadius);
+  const V inside = hn::Sub(Constant(kDiscRadius), hn::Sqrt(Dot(apart, apart)));
   return Clamp(hn::MulAdd(inside, Constant(1.0f / rim), Constant(0.5f)), 0.0f, 1.0f);
 }
 
-HWY_INLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
+// What of the sky changes slowly from pixel to pixel.
+struct SkyView {
+  V3 clear;
+  CloudView clouds;  // if there are any
+};
+
+HWY_INLINE SkyView ViewSky(const Shading& s, V3 ray) {
   const D d;
-  const V3 ray = RayAt(s.rays, x_px, y_px);
-  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
   // Below the horizon (beyond the sea's last triangle) the horizon's colour goes on.
   const V3 level = {ray.x, ray.y, hn::Max(ray.z, hn::Zero(d))};
   const V3 above = Scale(level, InverseSqrt(hn::Max(Dot(level, level), Constant(1e-12f))));
-  V3 light = ClearSky(*s.light.sky_clear, above);
+  SkyView view = {ClearSky(*s.light.sky_clear, above), {}};
+  if (s.light.clouds.any)
+    view.clouds = ViewClouds(s.light.clouds, above, Log2Coarse(d, Constant(s.rays.pixel_angle)));
+  return view;
+}
+
+// The sky's light in a ray's direction; the disc is looked for where `sees_disc`.
+HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& noise, V3 ray,
+                       bool sees_disc) {
+  V3 light = view.clear;
   V passes = Constant(1.0f);
-  if (s.light.clouds.any) {
-    const V pixel_angle_log2 = Log2Coarse(d, Constant(s.rays.pixel_angle));
-    light = AddClouds(s.light.clouds, above, pixel_angle_log2, light, passes);
-  }
+  if (s.light.clouds.any) light = AddClouds(s.light.clouds, view.clouds, noise, light, passes);
+  if (!sees_disc) return light;
+  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
   const V disc = DiscPart(s.light, direction, s.rays.pixel_angle);
-  const V shown = hn::IfThenElseZero(hn::Gt(ray.z, hn::Zero(d)), hn::Mul(disc, passes));
+  const V shown = hn::IfThenElseZero(hn::Gt(ray.z, hn::Zero(D())), hn::Mul(disc, passes));
   return ScaleAdd(Constant(s.light.disc_radiance), shown, light);
+}
+
+HWY_INLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
+  const V3 ray = RayAt(s.rays, x_px, y_px);
+  const SkyView view = ViewSky(s, ray);
+  CloudNoise noise;
+  if (s.light.clouds.any)
+    noise = SampleClouds(s.light.clouds, view.clouds.x, view.clouds.y, view.clouds.level);
+  return SkyLight(s, view, noise, ray, true);
+}
+
+// The sky of a tile lies on straight lines between nodes on every fourth pixel: of every fourth row
+// for what changes slowly, of each row for the noise of clouds, which lie flat.
+constexpr int kStepLog2 = 2, kStep = 1 << kStepLog2;
+
+// Nodes along one side, for so many pixels.
+constexpr int nodes_along(int pixels) { return (pixels - 1) / kStep + 2; }
+
+// Where a row of pixels lies between two rows of nodes; `row` in pixels.
+struct BetweenRows {
+  std::size_t at;  // of the upper row's first node
+  V below;
+
+  HWY_INLINE explicit BetweenRows(int row)
+      : at(static_cast<std::size_t>(row / kStep) * SkyNodes::kStride),
+        below(Constant(static_cast<float>(row % kStep) / static_cast<float>(kStep))) {}
+
+  // The nodes from `column` on of a channel.
+  HWY_INLINE V operator()(const float* HWY_RESTRICT nodes, std::size_t column) const {
+    const D d;
+    const float* const upper = nodes + at + column;
+    return Lerp(hn::LoadU(d, upper), hn::LoadU(d, upper + SkyNodes::kStride), below);
+  }
+};
+
+// Nodes a, b, c ... to pixels: a, a, a, a, b ... and what lies between them and the next nodes.
+HWY_INLINE V ToPixels(V nodes) {
+  const D d;
+  const DI di;
+  const VI lane = hn::Iota(di, 0);
+  const VI left = hn::ShiftRight<kStepLog2>(lane), right = hn::Add(left, hn::Set(di, 1));
+  const V part = hn::Mul(hn::ConvertTo(d, hn::And(lane, hn::Set(di, kStep - 1))),
+                         Constant(1.0f / static_cast<float>(kStep)));
+  return Lerp(hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, left)),
+              hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, right)), part);
+}
+
+HWY_INLINE void StoreView(const SkyView& view, bool clouds, std::size_t at, SkyNodes& nodes) {
+  const D d;
+  std::size_t channel = 0;
+  const auto store = [&](V value) HWY_ATTR { hn::StoreU(value, d, &nodes.view[channel++][at]); };
+  store(view.clear.x), store(view.clear.y), store(view.clear.z);
+  if (!clouds) return;
+  const CloudView& c = view.clouds;
+  store(c.shown), store(c.forward), store(c.overcast), store(c.x), store(c.y), store(c.level);
+}
+
+template <class Read>
+HWY_INLINE SkyView ReadView(const SkyNodes& nodes, bool clouds, const Read& read_channel) {
+  SkyView view;
+  std::size_t channel = 0;
+  const auto read = [&]() HWY_ATTR { return read_channel(nodes.view[channel++].data()); };
+  view.clear.x = read(), view.clear.y = read(), view.clear.z = read();
+  if (!clouds) return view;
+  view.clouds.shown = read(), view.clouds.forward = read(), view.clouds.overcast = read();
+  return view;
+}
+
+// Fills the first `rows` rows of the lattice of what changes slowly, and says whether any pixel
+// there may see the disc.
+inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, SkyNodes& nodes) {
+  const D d;
+  const int columns = nodes_along(box.width_px);
+  const float step = static_cast<float>(kStep);
+  V nearest = Constant(-4.0f);
+  for (int row = 0; row < rows; ++row) {
+    const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
+    for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
+      const V x_px = hn::MulAdd(hn::ConvertTo(d, CountFrom(column)), Constant(step),
+                                Constant(static_cast<float>(box.x0_px)));
+      const V3 ray = RayAt(s.rays, x_px, y_px);
+      const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
+      StoreView(ViewSky(s, ray), s.light.clouds.any, at, nodes);
+      const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+      nearest = hn::Max(nearest, Dot(direction, Constant(s.light.sun_direction)));
+    }
+  }
+  // No pixel is further from a node than a step's diagonal, no direction turns by more than
+  // pixel_angle a pixel, and cos(a) is over 1 - a^2 / 2.
+  const float reach = 1.02f * kDiscRadius + (1.5f * step + 1.0f) * s.rays.pixel_angle;
+  return !hn::AllTrue(d, hn::Lt(nearest, Constant(1.0f - 0.5f * reach * reach - 1e-6f)));
+}
+
+// The clouds' noise at places that `read` finds in the view's channels.
+template <class Read>
+HWY_INLINE CloudNoise NoiseAt(const Clouds& clouds, const SkyNodes& nodes, const Read& read) {
+  constexpr std::size_t kPlace = SkyNodes::kViewChannels - 3;
+  return SampleClouds(clouds, read(nodes.view[kPlace].data()), read(nodes.view[kPlace + 1].data()),
+                      read(nodes.view[kPlace + 2].data()));
+}
+
+// The noise at one column of nodes: as in rows, to the bit.
+inline void FindNoiseDown(const Clouds& clouds, int column, int rows, SkyNodes& nodes) {
+  const D d;
+  const DI di;
+  constexpr int kStride = static_cast<int>(SkyNodes::kStride);
+  for (int first = 0; first < rows; first += static_cast<int>(kLanes)) {
+    const VI row = hn::Min(CountFrom(first), hn::Set(di, rows - 1));
+    const VI at =
+        hn::Add(hn::Mul(hn::ShiftRight<kStepLog2>(row), hn::Set(di, kStride)), hn::Set(di, column));
+    const V below = hn::Mul(hn::ConvertTo(d, hn::And(row, hn::Set(di, kStep - 1))),
+                            Constant(1.0f / static_cast<float>(kStep)));
+    const CloudNoise found = NoiseAt(clouds, nodes, [&](const float* upper) HWY_ATTR {
+      return Lerp(hn::GatherIndex(d, upper, at), hn::GatherIndex(d, upper + kStride, at), below);
+    });
+    HWY_ALIGN std::array<std::array<float, kLanes>, SkyNodes::kNoiseChannels> values;
+    hn::Store(found.noise, d, values[0].data());
+    hn::Store(found.side, d, values[1].data());
+    hn::Store(found.lost, d, values[2].data());
+    const int count = std::min(rows - first, static_cast<int>(kLanes));
+    for (std::size_t channel = 0; channel < values.size(); ++channel)
+      for (int i = 0; i < count; ++i)
+        nodes.noise[channel][static_cast<std::size_t>(first + i) * SkyNodes::kStride +
+                             static_cast<std::size_t>(column)] = values[channel][i];
+  }
+}
+
+// Fills so many rows of the clouds' noise from the view.
+inline void FindNoise(const Clouds& clouds, int columns, int rows, SkyNodes& nodes) {
+  const D d;
+  // A tile has a column more than fills whole packets: that one goes down.
+  const bool one_more = columns % static_cast<int>(kLanes) == 1;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns - (one_more ? 1 : 0);
+         column += static_cast<int>(kLanes)) {
+      const BetweenRows between(row);
+      const auto first = static_cast<std::size_t>(column);
+      const CloudNoise found = NoiseAt(
+          clouds, nodes, [&](const float* channel) HWY_ATTR { return between(channel, first); });
+      const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + first;
+      hn::StoreU(found.noise, d, &nodes.noise[0][at]);
+      hn::StoreU(found.side, d, &nodes.noise[1][at]);
+      hn::StoreU(found.lost, d, &nodes.noise[2][at]);
+    }
+  if (one_more) FindNoiseDown(clouds, columns - 1, rows, nodes);
+}
+
+// The sky in the first rows of a tile.
+struct SkyLattice {
+  const SkyNodes& nodes;
+  bool sees_disc;
+};
+
+inline SkyLattice MakeSkyLattice(const Shading& s, const raster::PixelBox& box, int rows_px,
+                                 SkyNodes& nodes) {
+  const bool sees_disc = FindView(s, box, nodes_along(rows_px), nodes);
+  if (s.light.clouds.any) FindNoise(s.light.clouds, nodes_along(box.width_px), rows_px, nodes);
+  return {nodes, sees_disc};
+}
+
+// The sky's light in the kLanes pixels from (x, y) of a tile on; x a multiple of kLanes.
+HWY_INLINE V3 SkyOnLattice(const Shading& s, const raster::PixelBox& box, const SkyLattice& lattice,
+                           int x, int y) {
+  const D d;
+  const SkyNodes& nodes = lattice.nodes;
+  const auto column = static_cast<std::size_t>(x / kStep);
+  const BetweenRows between(y);
+  const SkyView view = ReadView(nodes, s.light.clouds.any, [&](const float* channel) HWY_ATTR {
+    return ToPixels(between(channel, column));
+  });
+  CloudNoise noise;
+  if (s.light.clouds.any) {
+    const std::size_t at = static_cast<std::size_t>(y) * SkyNodes::kStride + column;
+    const auto read = [&](std::size_t channel)
+                          HWY_ATTR { return ToPixels(hn::LoadU(d, &nodes.noise[channel][at])); };
+    noise = {read(0), read(1), read(2)};
+  }
+  V3 ray;
+  if (lattice.sees_disc)
+    ray = RayAt(s.rays, hn::ConvertTo(d, CountFrom(box.x0_px + x)),
+                Constant(static_cast<float>(box.y0_px + y)));
+  return SkyLight(s, view, noise, ray, lattice.sees_disc);
 }
 
 }  // namespace HWY_NAMESPACE
