@@ -69,8 +69,8 @@ scene::Scene sea_of(double wind_mps) {
   return scene;
 }
 
-// HOR-04. From lower down waves are resolved, but their facets count as if all were turned to the
-// eye as much as the level is: the finer picture is darker there, towards the sun by half.
+// HOR-04. From lower down finer pictures resolve waves, whose facets then count as if all were
+// turned to the eye as much as the level is: they are darker, towards the sun by up to half.
 TEST(Bands, OfFarWaterAreTheMeansOfAFinerPicture) {
   for (const double wind_mps : {5.0, 12.0}) {
     const World world(sea_of(wind_mps));

@@ -14,7 +14,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(320, 12);
+constexpr glm::ivec2 kSize_px(320, 48);
 constexpr double kEye_m = 20.0;
 
 // The sun stands ahead, the wind blows across the line of sight by half a right angle, so that
@@ -41,7 +41,7 @@ scene::Scene sea_behind_wall(double wind_mps, double elevation_deg) {
   return scene;
 }
 
-// Green light of a strip of the sea that is seen `down_rad` below the level.
+// Green light of a strip of the sea.
 std::vector<float> strip(const World& world, const View& view, double t_s, PartSet without) {
   FrameOptions options;
   options.keep_linear = true;
@@ -57,13 +57,14 @@ std::vector<float> strip(const World& world, const View& view, double t_s, PartS
   return green;
 }
 
-// Standard deviation of the azimuth of the sun's path, which is what the wall takes away.
+// Standard deviation of the azimuth of the sun's path, which is what the wall takes away, where it
+// is seen within half a degree of the sun's elevation below the level.
 double path_width_rad(const scene::Scene& scene) {
   const double down_rad = scene.sky.sun_elevation_rad;
   const World world(scene);
   double sum = 0.0, moment = 0.0;
-  for (int n = 0; n < 12; ++n) {
-    const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -down_rad, scene::radians(2.0), 0.25f,
+  for (int n = 0; n < 6; ++n) {
+    const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -down_rad, scene::radians(8.0), 0.25f,
                                 kSize_px.x, kSize_px.y);
     const std::vector<float> lit = strip(world, view, 7.0 * n, {Part::kShadows});
     const std::vector<float> shaded = strip(world, view, 7.0 * n, {});
@@ -71,9 +72,10 @@ double path_width_rad(const scene::Scene& scene) {
       for (int x = 0; x < kSize_px.x; ++x) {
         const glm::dvec3 ray(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
         const auto i = static_cast<std::size_t>(y * kSize_px.x + x);
-        // A pixel's solid angle, and a path of even depression instead of a straight strip.
         const double azimuth = std::atan2(ray.x, ray.y), length = glm::length(ray);
-        const double glint = static_cast<double>(lit[i] - shaded[i]) / (length * length * length);
+        if (std::abs(std::asin(-ray.z / length) - down_rad) > scene::radians(0.5)) continue;
+        const double solid_angle = 1.0 / (length * length * length);  // in proportion to it
+        const double glint = solid_angle * static_cast<double>(lit[i] - shaded[i]);
         sum += glint;
         moment += glint * azimuth * azimuth;
       }

