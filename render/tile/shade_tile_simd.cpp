@@ -340,7 +340,7 @@ void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& 
   const SkyLattice lattice = MakeSkyLattice(s, tile.box, last_row + 1, scratch.sky);
   for (std::size_t n = 0; n < packets.count; ++n) {
     const int i = packets.at[n], y = i / s.grid.tile_size_px, x = i % s.grid.tile_size_px;
-    StoreSky(SkyOnLattice(s, tile.box, lattice, x, y), packets.at[n], scratch);
+    StoreSky(SkyOfPacket(s, tile.box, lattice, x, y), packets.at[n], scratch);
   }
 }
 
@@ -390,7 +390,7 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
   const SkyLattice lattice = MakeSkyLattice(s, box, box.height_px, scratch.sky);
   for (int y = 0; y < box.height_px; ++y)
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
-      StoreSky(SkyOnLattice(s, box, lattice, x, y),
+      StoreSky(SkyOfPacket(s, box, lattice, x, y),
                static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
   ResolveTile(s, box, scratch, rgba, linear);
 }

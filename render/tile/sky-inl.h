@@ -74,7 +74,8 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& 
   return ScaleAdd(Constant(s.light.disc_radiance), shown, light);
 }
 
-HWY_INLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
+// The sky's light at places of the window, found for each alone.
+static HWY_NOINLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
   const V3 ray = RayAt(s.rays, x_px, y_px);
   const SkyView view = ViewSky(s, ray);
   CloudNoise noise;
@@ -86,6 +87,7 @@ HWY_INLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
 // The sky of a tile lies on straight lines between nodes on every fourth pixel: of every fourth row
 // for what changes slowly, of each row for the noise of clouds, which lie flat.
 constexpr int kStepLog2 = 2, kStep = 1 << kStepLog2;
+constexpr float kMostStepAngle = 0.006f;  // more, and too much of the sky lies between two nodes
 
 // Nodes along one side, for so many pixels.
 constexpr int nodes_along(int pixels) { return (pixels - 1) / kStep + 2; }
@@ -219,24 +221,28 @@ inline void FindNoise(const Clouds& clouds, int columns, int rows, SkyNodes& nod
   if (one_more) FindNoiseDown(clouds, columns - 1, rows, nodes);
 }
 
-// The sky in the first rows of a tile.
+// The sky in the first rows of a tile; not `on` in windows of large pixels.
 struct SkyLattice {
   const SkyNodes& nodes;
-  bool sees_disc;
+  bool on, sees_disc;
 };
 
 inline SkyLattice MakeSkyLattice(const Shading& s, const raster::PixelBox& box, int rows_px,
                                  SkyNodes& nodes) {
+  if (s.rays.pixel_angle > kMostStepAngle / kStep) return {nodes, false, true};
   const bool sees_disc = FindView(s, box, nodes_along(rows_px), nodes);
   if (s.light.clouds.any) FindNoise(s.light.clouds, nodes_along(box.width_px), rows_px, nodes);
-  return {nodes, sees_disc};
+  return {nodes, true, sees_disc};
 }
 
 // The sky's light in the kLanes pixels from (x, y) of a tile on; x a multiple of kLanes.
-HWY_INLINE V3 SkyOnLattice(const Shading& s, const raster::PixelBox& box, const SkyLattice& lattice,
-                           int x, int y) {
+HWY_INLINE V3 SkyOfPacket(const Shading& s, const raster::PixelBox& box, const SkyLattice& lattice,
+                          int x, int y) {
   const D d;
   const SkyNodes& nodes = lattice.nodes;
+  const V x_px = hn::ConvertTo(d, CountFrom(box.x0_px + x));
+  const V y_px = Constant(static_cast<float>(box.y0_px + y));
+  if (!lattice.on) return ShadeSky(s, x_px, y_px);
   const auto column = static_cast<std::size_t>(x / kStep);
   const BetweenRows between(y);
   const SkyView view = ReadView(nodes, s.light.clouds.any, [&](const float* channel) HWY_ATTR {
@@ -249,11 +255,7 @@ HWY_INLINE V3 SkyOnLattice(const Shading& s, const raster::PixelBox& box, const 
                           HWY_ATTR { return ToPixels(hn::LoadU(d, &nodes.noise[channel][at])); };
     noise = {read(0), read(1), read(2)};
   }
-  V3 ray;
-  if (lattice.sees_disc)
-    ray = RayAt(s.rays, hn::ConvertTo(d, CountFrom(box.x0_px + x)),
-                Constant(static_cast<float>(box.y0_px + y)));
-  return SkyLight(s, view, noise, ray, lattice.sees_disc);
+  return SkyLight(s, view, noise, RayAt(s.rays, x_px, y_px), lattice.sees_disc);
 }
 
 }  // namespace HWY_NAMESPACE
