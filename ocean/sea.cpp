@@ -82,12 +82,6 @@ void check_sine(const SineWave& sine) {
   if (sine.period_s != 0.0) require(sine.period_s, 1e-3, 1e6, "sines.period_s (or 0)");
 }
 
-// The frequency nearest to turns_per_s > 0 with a whole number of turns, at least 1, in a loop.
-double looping_frequency(double turns_per_s, double loop_s) {
-  if (loop_s == 0.0) return turns_per_s;
-  return std::max(1.0, std::nearbyint(turns_per_s * loop_s)) / loop_s;
-}
-
 SineTrain make_sine_train(const SineWave& sine, const SeaDescription& sea) {
   const SinCos to = sin_cos_turns(sine.to_rad / kTwoPi);
   SineTrain train;
@@ -311,6 +305,11 @@ PatchTiling tiling_of_patch(const SeaDescription& sea, std::size_t patch) {
   constexpr std::uint64_t kStream = 0x74696c6573;  // apart from the waves' random numbers
   if (!sea.tiling || patch >= kTiledPatches) return {};
   return {true, static_cast<std::uint32_t>(random_bits(sea.seed ^ kStream, patch))};
+}
+
+double looping_frequency(double turns_per_s, double loop_s) {
+  if (loop_s == 0.0) return turns_per_s;
+  return std::max(1.0, std::nearbyint(turns_per_s * loop_s)) / loop_s;
 }
 
 double wave_time_s(const SeaDescription& sea, double t_s) {

@@ -37,4 +37,8 @@ PatchTiling tiling_of_patch(const SeaDescription& sea, std::size_t patch);
 // size whose products with frequencies stay finite.
 double wave_time_s(const SeaDescription& sea, double t_s);
 
+// The frequency nearest to turns_per_s > 0 with a whole number of turns, at least 1, in a loop; the
+// same without one (0).
+double looping_frequency(double turns_per_s, double loop_s);
+
 }  // namespace swell::ocean

@@ -188,8 +188,7 @@ Rows sea_rows() {
                        "acceleration of free fall"),
       SceneRow::or_zero(SceneRow::number(
           "sea.loop_s", {1, 100000, "s"}, SWELL_FIELD(sea.loop_s),
-          "after this time the sea's waves and the ripples on them repeat exactly, "
-          "but not a coast's trains; 0: never")),
+          "after this time the sea and all that moves with it repeat exactly; 0: never")),
       SceneRow::number("sea.whitecaps", {0, 10}, SWELL_FIELD(sea.whitecaps),
                        "multiplies the part of the open sea that foam covers; 0: no foam there"),
       SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),

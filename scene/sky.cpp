@@ -74,8 +74,7 @@ void set_direct_light(const Atmosphere& atmosphere, glm::vec3 to_light, glm::vec
   light.disc_radiance = irradiance / kDiscSolidAngle * disc_transmittance(atmosphere, 0.0, whole);
 }
 
-SkyLight make_atmosphere_light(const Sky& sky, Workers& workers) {
-  const Atmosphere atmosphere = make_atmosphere(sky.turbidity, workers);
+SkyLight make_atmosphere_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers) {
   const glm::vec3 to_sun = sky.sun_direction;
   SkyLight light;
   light.sky = sky;
@@ -146,7 +145,13 @@ glm::vec3 gradient_radiance(const Sky& sky, glm::vec3 direction) {
 }
 
 SkyLight make_sky_light(const Sky& sky, Workers& workers) {
-  return is_gradient(sky) ? make_gradient_light(sky) : make_atmosphere_light(sky, workers);
+  if (is_gradient(sky)) return make_gradient_light(sky);
+  return make_atmosphere_light(sky, make_atmosphere(sky.turbidity, workers), workers);
+}
+
+SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers) {
+  return is_gradient(sky) ? make_gradient_light(sky)
+                          : make_atmosphere_light(sky, atmosphere, workers);
 }
 
 glm::vec3 clear_radiance(const SkyLight& light, glm::vec3 direction) {

@@ -59,6 +59,9 @@ inline constexpr double kCloudHeight_m = 4000.0;
 // The same bits with any workers.
 SkyLight make_sky_light(const Sky& sky, Workers& workers);
 
+// The same in air of the sky's turbidity that is there already, for many suns in one air.
+SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers);
+
 // Radiance of the clear sky in `direction` (world, any length but 0), finite and >= 0. Below the
 // horizon: the horizon's. Thread safe.
 glm::vec3 clear_radiance(const SkyLight& light, glm::vec3 direction);
