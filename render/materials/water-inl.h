@@ -356,15 +356,16 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   const V glow =
       hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
   const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
-  const V3 deep =
-      ScaleAdd(Constant(water.crest_glow), glow,
-               ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
+  const V3 crest_light = Scale(Constant(water.crest_glow), glow);
+  const V3 deep = Sum(
+      crest_light, ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
   image_alpha = hn::Zero(D());
   floor_added = Constant(glm::vec3(0.0f));
   if (!use_image) return deep;
   const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
   image_alpha = floor.alpha;
-  floor_added = Scale(Difference(floor.light, deep), image_alpha);
+  // The image's water has no crests: over a floor too deep to be seen it must be as without one.
+  floor_added = Scale(Difference(Sum(floor.light, crest_light), deep), image_alpha);
   return Sum(deep, floor_added);
 }
 
