@@ -101,8 +101,7 @@ void advance_whitecaps(const Whitecaps& whitecaps, double t_s, WhitecapFrame& fr
   const double step = std::floor(steps);
   frame.past = static_cast<float>(steps - step);
   const bool is_known = frame.is_filled && frame.sea == whitecaps.sea;
-  frame.is_new = !is_known || frame.step != step;
-  if (frame.is_new) make_step(whitecaps, step, is_known, frame, workers);
+  if (!is_known || frame.step != step) make_step(whitecaps, step, is_known, frame, workers);
   for (std::size_t p = 0; p < frame.patches.size(); ++p)
     frame.patches[p].tiling = tiling_of_patch(whitecaps.sea, p);
 }

@@ -76,7 +76,6 @@ struct WhitecapFrame {
   float past = 0.0f;         // part of the step that has passed, [0, 1]: foam goes from before to
                              // after along a straight line
   float crest_per_m = 0.0f;  // as Whitecaps has it
-  bool is_new = false;       // the last advance_whitecaps() changed the codes
   // Whose foam it is, if any's, and the number of the step before.
   bool is_filled = false;
   SeaDescription sea;

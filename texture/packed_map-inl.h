@@ -173,18 +173,23 @@ HWY_INLINE VI WeightsAlongY(DI di, VI y_fx8) {
   return hn::Add(hn::Xor(LowByteTwice(di, y_fx8), hn::Set(di, 0x000000ff)), hn::Set(di, 1));
 }
 
-// Where the words of texels (x, y) lie, in bytes; coordinates in 1/256 texels of each lane's level,
+// The numbers of the words of texels (x, y); coordinates in 1/256 texels of each lane's level,
 // which is one of the map's. A level of size s begins at word s * s, so that its rows are rows s to
 // 2 s - 1 of s words.
-template <class DI, class VI = hn::Vec<DI>>
-HWY_INLINE VI WordOffset(DI di, const PackedMap2& map, VI x_fx8, VI y_fx8, VI level) {
+template <class DI, class Map, class VI = hn::Vec<DI>>
+HWY_INLINE VI WordIndex(DI di, const Map& map, VI x_fx8, VI y_fx8, VI level) {
   const VI mask = hn::Shr(hn::Set(di, map.size - 1), level);
   const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
   const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
   const VI row = hn::Or(y, hn::Add(mask, hn::Set(di, 1)));
-  const VI word = hn::Or(hn::Shl(row, hn::Sub(hn::Set(di, map.levels - 1), level)), x);
+  return hn::Or(hn::Shl(row, hn::Sub(hn::Set(di, map.levels - 1), level)), x);
+}
+
+// Where those words of `map` lie, in bytes.
+template <class DI, class VI = hn::Vec<DI>>
+HWY_INLINE VI WordOffset(DI di, const PackedMap2& map, VI x_fx8, VI y_fx8, VI level) {
   static_assert(sizeof(PackedWord) == 16);
-  return hn::ShiftLeft<4>(word);
+  return hn::ShiftLeft<4>(WordIndex(di, map, x_fx8, y_fx8, level));
 }
 
 // The 32 bits of the lane with lane % 4 == kPart, from `fine` in the low and from `coarse` in the
@@ -283,6 +288,21 @@ HWY_INLINE void SampleLevel(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI l
   const V unit = hn::Set(d, map.scale * (1.0f / (255.0f * 256.0f)));
   a = hn::Mul(hn::ConvertTo(d, EvenParts(di, sums0, sums1)), unit);
   b = hn::Mul(hn::ConvertTo(d, OddParts(di, sums0, sums1)), unit);
+}
+
+// What `map` holds at (x_fx8, y_fx8), coordinates as AddBlended's, bilinearly on one of its mip
+// levels a lane; in [-1, 1].
+template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE V SampleLevel(D d, const PackedMap1& map, VI x_fx8, VI y_fx8, VI level) {
+  const hn::RebindToSigned<D> di;
+  const hn::Repartition<std::uint8_t, D> d8;
+  const VI x = hn::Shr(x_fx8, level), y = hn::Shr(y_fx8, level);
+  // Of 32 bits a lane, hardware gathers are as fast as loads.
+  const VI taps = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.words.data()),
+                                  WordIndex(di, map, x, y, level));
+  const auto rows = DotPairs(hn::BitCast(d8, WeightsAlongX(di, x)), hn::BitCast(d8, taps));
+  const VI sum = DotWords(WeightsAlongY(di, y), hn::BitCast(di, rows));
+  return hn::Mul(hn::ConvertTo(d, sum), hn::Set(d, 1.0f / (127.0f * 255.0f * 256.0f)));
 }
 
 // Window coordinate to 1/256 texels from the first texel's centre, clamped to [0, texels - 1];

@@ -55,6 +55,22 @@ inline constexpr int kMostDetailLevels = 7;
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
                PackedMap2& map);
 
+// A periodic map of one channel in [-1, 1] with mip levels, laid out as PackedMap2's, but that a
+// word holds a texel's quad and nothing else: 127 times the values from the low byte up, v(i,j)
+// v(i+1,j) v(i,j+1) v(i+1,j+1). For what changes every frame and is looked up on one level: a
+// quarter of the memory.
+struct PackedMap1 {
+  int size = 0;    // power of two, [1, 4096]
+  int levels = 0;  // log2(size) + 1
+  std::vector<std::uint32_t> words;
+  // What building needs.
+  std::vector<float> scratch;
+  std::vector<std::int8_t> scratch_bytes;
+};
+
+// Builds `map` from size x size values, which are clamped, as pack_map2 builds its maps.
+void pack_map1(int size, std::span<const float> values, PackedMap1& map);
+
 // An RGBA image for lookups at continuous window positions: 8 bits a channel, one texel of
 // padding right and below so that a bilinear sample is two 64-bit loads (texels x, x+1 of rows y,
 // y+1). Texel (x, y)'s centre lies at (x + 0.5, y + 0.5). Lookups clamp to the image.

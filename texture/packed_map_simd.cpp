@@ -1,4 +1,4 @@
-// Building PackedMap2: quantise, filter down, pack the 2 x 2 neighbourhoods.
+// Building PackedMap2 and PackedMap1: quantise, filter down, pack the 2 x 2 neighbourhoods.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "texture/packed_map_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -215,6 +215,52 @@ void join_all_levels(PackedMap2& map) {
   }
 }
 
+// Words of one row from the byte rows j (0) and j + 1 (1).
+void pack_row1(const std::int8_t* HWY_RESTRICT row0, const std::int8_t* HWY_RESTRICT row1, int size,
+               std::uint32_t* HWY_RESTRICT words) {
+  const hn::CappedTag<std::int8_t, 16> d8;
+  const hn::Repartition<std::int16_t, decltype(d8)> d16;
+  const hn::Repartition<std::uint32_t, decltype(d8)> d32;
+  int i = 0;
+  for (; i + kQuadsAtOnce <= size; i += kQuadsAtOnce) {
+    const auto left0 = hn::LoadU(d8, row0 + i), right0 = hn::LoadU(d8, row0 + i + 1);
+    const auto left1 = hn::LoadU(d8, row1 + i), right1 = hn::LoadU(d8, row1 + i + 1);
+    const auto store = [&](auto pairs0, auto pairs1, std::uint32_t* out) HWY_ATTR {
+      const auto p0 = hn::BitCast(d16, pairs0), p1 = hn::BitCast(d16, pairs1);
+      hn::StoreU(hn::BitCast(d32, hn::InterleaveLower(d16, p0, p1)), d32, out);
+      hn::StoreU(hn::BitCast(d32, hn::InterleaveUpper(d16, p0, p1)), d32, out + 4);
+    };
+    store(hn::InterleaveLower(d8, left0, right0), hn::InterleaveLower(d8, left1, right1),
+          words + i);
+    store(hn::InterleaveUpper(d8, left0, right0), hn::InterleaveUpper(d8, left1, right1),
+          words + i + 8);
+  }
+  for (; i < size; ++i) {
+    const std::int8_t taps[4] = {row0[i], row0[i + 1], row1[i], row1[i + 1]};
+    words[i] = 0;
+    for (int n = 4; n-- > 0;) words[i] = words[i] << 8 | static_cast<std::uint8_t>(taps[n]);
+  }
+}
+
+void build_map1(const float* values, PackedMap1& map) {
+  float* const column = map.scratch.data();
+  float* next = column + map.size + 1;
+  for (int size = map.size;; size /= 2) {
+    const std::ptrdiff_t stride = size + 1;
+    std::int8_t* const bytes = map.scratch_bytes.data();
+    for (std::ptrdiff_t j = 0; j < size; ++j)
+      quantize_row(values + j * size, size, 127.0f, bytes + j * stride);
+    std::uint32_t* const words = map.words.data() + static_cast<std::ptrdiff_t>(size) * size;
+    for (std::ptrdiff_t j = 0; j < size; ++j)
+      pack_row1(bytes + j * stride, bytes + ((j + 1) & (size - 1)) * stride, size,
+                words + j * size);
+    if (size == 1) break;
+    filter_down(values, size, column, next);
+    values = next;
+    next += static_cast<std::ptrdiff_t>(size / 2) * (size / 2);
+  }
+}
+
 void build_map(const float* a, const float* b, float fixed_scale, PackedMap2& map) {
   const std::size_t texels = static_cast<std::size_t>(map.size) * map.size;
   map.scale = fixed_scale;
@@ -252,6 +298,20 @@ HWY_AFTER_NAMESPACE();
 namespace swell::texture {
 
 HWY_EXPORT(build_map);
+HWY_EXPORT(build_map1);
+
+void pack_map1(int size, std::span<const float> values, PackedMap1& map) {
+  const std::size_t texels = static_cast<std::size_t>(size) * size;
+  SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)) &&
+                  values.size() == texels,
+              "size={} values={}", size, values.size());
+  map.size = size;
+  map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
+  map.words.resize(2 * texels);
+  map.scratch.resize(size + 1 + texels);  // a row; levels 1, 2, ...: 1/3 texels
+  map.scratch_bytes.resize(static_cast<std::size_t>(size + 1) * size);
+  HWY_DYNAMIC_DISPATCH(build_map1)(values.data(), map);
+}
 
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
                PackedMap2& map) {

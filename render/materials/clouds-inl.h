@@ -33,13 +33,11 @@ struct CloudDepth {
   V depth, bright;
 };
 
-HWY_INLINE CloudDepth SampleClouds(const Clouds& clouds, const CloudPlace& at, V pixel_angle_log2) {
-  const D d;
-  const V zero = hn::Zero(d);
-  const V level = FootprintLevel(hn::Add(Log2Coarse(d, at.slant), pixel_angle_log2), at.rise);
+HWY_INLINE CloudDepth SampleClouds(const Clouds& clouds, V x, V y, V level) {
+  const V zero = hn::Zero(D());
   V noise = zero, side = zero, lost = zero;
   for (const SlopeLayer& layer : clouds.layers)
-    AddSlopes(layer, {at.x, at.y, zero}, level, zero, zero, noise, side, lost);
+    AddSlopes(layer, {x, y, zero}, level, zero, zero, noise, side, lost);
   const V scale = Constant(clouds.inv_deviation);
   const V over = hn::MulSub(noise, scale, Constant(clouds.light.threshold));
   // The mean over what a pixel cannot resolve of max(over, 0)^2, about.
@@ -56,30 +54,46 @@ HWY_INLINE V CloudPhase(V cos_theta) {
   return hn::Div(Constant((1.0f - g * g) * 0.0795774715f), hn::Mul(base, hn::Sqrt(base)));
 }
 
-// Lays the clouds in front of `light`, the clear sky in a direction of length 1. `passes` becomes
-// the part of it that they let through.
-HWY_INLINE V3 AddClouds(const Clouds& clouds, V3 direction, V pixel_angle_log2, V3 light,
-                        V& passes) {
+// What of the clouds' view changes slowly with the direction, which has length 1.
+struct CloudView {
+  V x, y, level;  // the place on the layer, and the footprint there
+  V shown;        // not lost in haze
+  V forward;      // scattered on, of the light
+  V overcast;     // brightness of a closed layer against its mean
+};
+
+HWY_INLINE CloudView ViewClouds(const Clouds& clouds, V3 direction, V pixel_angle_log2) {
   const D d;
   const V one = Constant(1.0f);
   const CloudPlace at = PlaceOnClouds(clouds, direction);
-  const CloudDepth cloud = SampleClouds(clouds, at, pixel_angle_log2);
-  passes = Exp(d, hn::Neg(cloud.depth));
   // Far clouds are lost in haze, but for an overcast sky, which is of one piece.
   const V far = Exp(d, hn::Mul(at.slant, Constant(-1.0f / 70000.0f)));
-  const V shown = Lerp(far, one, Constant(clouds.light.overcast));
-  const V opacity = hn::Mul(hn::Sub(one, passes), shown);
+  // The zenith of an overcast sky is three times as bright as its horizon.
+  // Source: Moon, Spencer, Illumination from a non-uniform sky, 1942.
+  const V zenith = hn::MulAdd(hn::Max(direction.z, hn::Zero(d)), Constant(0.86f), Constant(0.43f));
+  return {at.x,
+          at.y,
+          FootprintLevel(hn::Add(Log2Coarse(d, at.slant), pixel_angle_log2), at.rise),
+          Lerp(far, one, Constant(clouds.light.overcast)),
+          CloudPhase(Dot(direction, Constant(clouds.light.to_light))),
+          Lerp(one, zenith, Constant(clouds.light.overcast))};
+}
+
+// Lays the clouds in front of `light`, the clear sky there. `passes` becomes the part of it that
+// they let through.
+HWY_INLINE V3 AddClouds(const Clouds& clouds, const CloudView& view, V3 light, V& passes) {
+  const D d;
+  const V one = Constant(1.0f);
+  const CloudDepth cloud = SampleClouds(clouds, view.x, view.y, view.level);
+  passes = Exp(d, hn::Neg(cloud.depth));
+  const V opacity = hn::Mul(hn::Sub(one, passes), view.shown);
 
   // Light that comes through, less of it where clouds are thick; and at their bright sides.
   const V through = hn::Div(one, hn::MulAdd(cloud.depth, Constant(clouds.light.loss), one));
   const V bright = Clamp(hn::MulAdd(cloud.bright, Constant(0.5f), one), 0.6f, 1.5f);
-  // The zenith of an overcast sky is three times as bright as its horizon.
-  // Source: Moon, Spencer, Illumination from a non-uniform sky, 1942.
-  const V zenith = hn::MulAdd(hn::Max(direction.z, hn::Zero(d)), Constant(0.86f), Constant(0.43f));
-  const V overcast = Lerp(one, zenith, Constant(clouds.light.overcast));
-  const V3 base = Scale(Constant(clouds.light.base), hn::Mul(hn::Mul(through, bright), overcast));
-  const V forward = hn::Mul(CloudPhase(Dot(direction, Constant(clouds.light.to_light))),
-                            Exp(d, hn::Mul(cloud.depth, Constant(-0.6f))));
+  const V3 base =
+      Scale(Constant(clouds.light.base), hn::Mul(hn::Mul(through, bright), view.overcast));
+  const V forward = hn::Mul(view.forward, Exp(d, hn::Mul(cloud.depth, Constant(-0.6f))));
   const V3 own = ScaleAdd(Constant(clouds.light.forward), forward, base);
   return Lerp(light, own, opacity);
 }

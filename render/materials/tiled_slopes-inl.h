@@ -1,4 +1,4 @@
-// Slopes of the sea's patches, which cover it by tiles (ocean/patch_tiles.h).
+// Slopes and foam of the sea's longest patch, which covers it by tiles (ocean/patch_tiles.h).
 #if defined(SWELL_RENDER_MATERIALS_TILED_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_MATERIALS_TILED_SLOPES_INL_H_
 #undef SWELL_RENDER_MATERIALS_TILED_SLOPES_INL_H_
@@ -9,6 +9,7 @@
 #include <bit>
 
 #include "ocean/patch_tiles-inl.h"
+#include "render/materials/foam_map-inl.h"
 #include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,10 +21,6 @@ namespace tiles = swell::ocean::HWY_NAMESPACE;
 struct MapPlace {
   VI x_fx8, y_fx8;
   MapLevel level;
-};
-
-struct MapSlopes {
-  V x, y;
 };
 
 // Which period of the map a place in it, in 1/256 texels, lies in, and where.
@@ -44,63 +41,99 @@ HWY_INLINE tiles::SquarePlace<D> SquareOf(const SlopeLayer& layer, VI x_fx8, VI 
           inside(y_fx8)};
 }
 
-HWY_INLINE VI MovedBySamples(VI fx8, VI samples) { return hn::Add(fx8, hn::ShiftLeft<8>(samples)); }
+// What the sea's longest patch shows: slopes, and the foam of its waves.
+struct PatchSample {
+  V slope_x, slope_y, foam;
+};
 
-// The blend of tiles for a packet of which some lanes lie near a tile's border; `own` are the
-// slopes in the tiles that the lanes lie in. Not inlined: one packet in four comes here.
-static HWY_NOINLINE MapSlopes BlendTiles(const SlopeLayer& layer, const MapPlace& at,
-                                         const tiles::SquarePlace<D>& place, MapSlopes own) {
+// The patch and its foam at a packet; without foam the map of that is null.
+struct PatchPlace {
+  MapPlace slopes;
+  const FoamMap* foam;
+  VI foam_x_fx8, foam_y_fx8, foam_level;
+};
+
+HWY_INLINE PatchPlace PlaceInPatch(const SlopeLayer& layer, const MapLevel& level,
+                                   const FoamMap* foam, V3 p, V level_m) {
+  const VI zero = hn::Zero(DI());
+  const LayerPlace place = PlaceIn(layer, p.x, p.y);
+  PatchPlace at = {
+      {RoundToInt(place.x_fx8), RoundToInt(place.y_fx8), level}, foam, zero, zero, zero};
+  if (foam) {
+    const LayerPlace foam_place = PlaceIn(*foam, p.x, p.y);
+    at.foam_x_fx8 = RoundToInt(foam_place.x_fx8);
+    at.foam_y_fx8 = RoundToInt(foam_place.y_fx8);
+    at.foam_level = NearestFoamLevel(*foam, level_m);
+  }
+  return at;
+}
+
+// A sample of a tile that reads the patch at an offset.
+HWY_INLINE PatchSample SampleTile(const SlopeLayer& layer, const PatchPlace& at,
+                                  const tiles::TileOffset<VI>& by) {
   const D d;
-  MapSlopes sum = {hn::Zero(d), hn::Zero(d)};
+  const DI di;
+  PatchSample s = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  texture::HWY_NAMESPACE::AddBlended(
+      d, *layer.map, hn::Add(at.slopes.x_fx8, hn::ShiftLeft<8>(by.x)),
+      hn::Add(at.slopes.y_fx8, hn::ShiftLeft<8>(by.y)), at.slopes.level.base, at.slopes.level.t,
+      layer.gain, s.slope_x, s.slope_y);
+  if (at.foam) {
+    const VI per_sample = hn::Set(di, at.foam->fx8_per_sample);
+    s.foam = FoamAt(*at.foam, hn::Add(hn::Mul(by.x, per_sample), at.foam_x_fx8),
+                    hn::Add(hn::Mul(by.y, per_sample), at.foam_y_fx8), at.foam_level);
+  }
+  return s;
+}
+
+// The blend of tiles for a packet of which some lanes lie near a tile's border; `own` is what is in
+// the tiles that the lanes lie in. In the mean foam is what it is without, since the squares of the
+// weights add up to 1. Not inlined: one packet in four comes here.
+static HWY_NOINLINE PatchSample BlendTiles(const SlopeLayer& layer, const PatchPlace& at,
+                                           const tiles::SquarePlace<D>& square,
+                                           const PatchSample& own) {
+  const D d;
+  PatchSample sum = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   bool is_own = true;
-  tiles::ForEachTile(d, layer.tiling, layer.map->size, place,
+  tiles::ForEachTile(d, layer.tiling, layer.map->size, square,
                      [&](tiles::TileOffset<VI> by, const tiles::TileWeight<V>& tile) HWY_ATTR {
-                       MapSlopes found = own;
-                       if (!is_own) {
-                         found = {hn::Zero(d), hn::Zero(d)};
-                         texture::HWY_NAMESPACE::AddBlended(
-                             d, *layer.map, MovedBySamples(at.x_fx8, by.x),
-                             MovedBySamples(at.y_fx8, by.y), at.level.base, at.level.t, layer.gain,
-                             found.x, found.y);
-                       }
+                       const PatchSample found = is_own ? own : SampleTile(layer, at, by);
                        is_own = false;
-                       sum.x = hn::MulAdd(tile.weight, found.x, sum.x);
-                       sum.y = hn::MulAdd(tile.weight, found.y, sum.y);
+                       sum.slope_x = hn::MulAdd(tile.weight, found.slope_x, sum.slope_x);
+                       sum.slope_y = hn::MulAdd(tile.weight, found.slope_y, sum.slope_y);
+                       sum.foam =
+                           hn::MulAdd(hn::Mul(tile.weight, tile.weight), found.foam, sum.foam);
                      });
   return sum;
 }
 
-// AddSlopes() of a layer that may be tiled.
-HWY_INLINE void AddTiledSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, V& slope_x,
-                               V& slope_y, V& variance) {
+// Adds the slopes of the sea's longest patch at p, as AddSlopes(), and says how much of its foam
+// (null: none) is there.
+HWY_INLINE V AddLongestPatch(const SlopeLayer& layer, const FoamMap* foam, V3 p, V level_m,
+                             V& slope_x, V& slope_y, V& variance) {
   const D d;
+  const DI di;
   const MapLevel level = LevelIn(layer, level_m, variance);
-  if (level.all_lost) return;
-  const LayerPlace place = PlaceBent(layer, p, du, dv);
-  const MapPlace at = {RoundToInt(place.x_fx8), RoundToInt(place.y_fx8), level};
-
-  // The tile that each lane lies in; without tiles the map as it is, once for both in the code.
-  VI x_fx8 = at.x_fx8, y_fx8 = at.y_fx8;
-  tiles::SquarePlace<D> square;
-  tiles::RowPlace<D> in_row;
-  MapSlopes found = {slope_x, slope_y};
-  if (layer.tiling.on) {
-    square = SquareOf(layer, at.x_fx8, at.y_fx8);
-    in_row = tiles::PlaceInRow(d, square, square.row);
-    const auto by =
-        tiles::OffsetOfTile(DI(), layer.tiling.seed, in_row.column, square.row, layer.map->size);
-    x_fx8 = MovedBySamples(x_fx8, by.x);
-    y_fx8 = MovedBySamples(y_fx8, by.y);
-    found = {hn::Zero(d), hn::Zero(d)};
+  const V foam_lost = foam ? FoamLost(*foam, level_m) : Constant(1.0f);
+  const bool some_foam = !hn::AllTrue(d, hn::Ge(foam_lost, Constant(1.0f)));
+  PatchSample found = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  if (!level.all_lost || some_foam) {
+    const PatchPlace at = PlaceInPatch(layer, level, some_foam ? foam : nullptr, p, level_m);
+    tiles::SquarePlace<D> square;
+    tiles::RowPlace<D> in_row;
+    tiles::TileOffset<VI> by = {hn::Zero(di), hn::Zero(di)};
+    if (layer.tiling.on) {
+      square = SquareOf(layer, at.slopes.x_fx8, at.slopes.y_fx8);
+      in_row = tiles::PlaceInRow(d, square, square.row);
+      by = tiles::OffsetOfTile(di, layer.tiling.seed, in_row.column, square.row, layer.map->size);
+    }
+    found = SampleTile(layer, at, by);
+    if (layer.tiling.on && !tiles::AllInOneTile(d, in_row, square.y))
+      found = BlendTiles(layer, at, square, found);
+    slope_x = hn::Add(slope_x, found.slope_x);
+    slope_y = hn::Add(slope_y, found.slope_y);
   }
-  texture::HWY_NAMESPACE::AddBlended(d, *layer.map, x_fx8, y_fx8, level.base, level.t, layer.gain,
-                                     found.x, found.y);
-  if (layer.tiling.on) {
-    if (!tiles::AllInOneTile(d, in_row, square.y)) found = BlendTiles(layer, at, square, found);
-    found = {hn::Add(slope_x, found.x), hn::Add(slope_y, found.y)};
-  }
-  slope_x = found.x;
-  slope_y = found.y;
+  return foam ? BlendFoam(*foam, found.foam, foam_lost) : found.foam;
 }
 
 }  // namespace HWY_NAMESPACE

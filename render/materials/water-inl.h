@@ -150,29 +150,40 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<Surf, kCount> surf = {
       (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
-  const std::array<V, kCount> whitecaps = {
-      WhitecapsAt(water.whitecaps, packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
-                  level_flat_m[k], surf[k].ceded)...};
-  std::array<WaterSlopes, kCount> s = {WaterSlopes{
-      zero, zero, Constant(water.base_variance),
-      hn::Max(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]),
-              FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam)),
-      zero}...};
+  std::array<WaterSlopes, kCount> s = {(
+      static_cast<void>(k), WaterSlopes{zero, zero, Constant(water.base_variance), zero, zero})...};
   std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
   for (int i = 0; i < water.sine_count; ++i)
     (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
+  const bool all_ceded = kCoast && (surf[k].all_ceded && ...);
+  const bool has_patch = water.first_ripples > 0;
+  if (has_patch && !all_ceded) {
+    const FoamMap* const long_foam = water.whitecaps.count > 0 ? &water.whitecaps.foam[0] : nullptr;
+    const std::array<V, kCount> foam = {AddLongestPatch(water.layers[0], long_foam, packets[k].p,
+                                                        level_flat_m[k], s[k].slope_x, s[k].slope_y,
+                                                        s[k].variance)...};
+    const std::array<V, kCount> whitecaps = {WhitecapsAt(
+        water.whitecaps, foam[k], packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
+        level_flat_m[k], surf[k].ceded)...};
+    ((s[k].foam_cover =
+          TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k])),
+     ...);
+  }
+  if constexpr (kCoast)
+    ((s[k].foam_cover = hn::Max(
+          s[k].foam_cover, FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam))),
+     ...);
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
   const int last_long = water.long_layer_count - 1;
-  const bool all_ceded = kCoast && (surf[k].all_ceded && ...);
   for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
     const bool is_long = i <= last_long;
     if (i == water.first_ripples && (ShowsDetail(water.layers[i], level_m[k]) || ...))
       (BendRipples<kCoast>(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k]), ...);
-    if (i >= 0 && !(is_long && all_ceded)) {
+    if (i >= (has_patch ? 1 : 0) && !(is_long && all_ceded)) {
       const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
-      (AddTiledSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
-                      s[k].variance),
+      (AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
+                 s[k].variance),
        ...);
     }
     if (!is_long) continue;

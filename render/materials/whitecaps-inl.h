@@ -6,63 +6,13 @@
 #define SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
 #endif
 
-#include "render/materials/tiled_slopes-inl.h"
+#include "render/materials/foam_map-inl.h"
 #include "render/materials/whitecaps.h"
 #include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-
-HWY_INLINE V FoamAtPlace(const SlopeLayer& layer, const LayerPlace& place, V level_m, float past) {
-  V before, after;
-  SampleNearest(layer, place, level_m, before, after);
-  const V code = Lerp(before, after, Constant(past));
-  return hn::MulAdd(code, Constant(0.5f), Constant(0.5f));
-}
-
-// The foam of waves that cover the sea by tiles: in the mean what it is without, since the squares
-// of the tiles' weights add up to 1.
-HWY_INLINE V FoamOfTiles(const FoamMap& map, const LayerPlace& place, V level_m, float past) {
-  const D d;
-  const DI di;
-  const SlopeLayer& layer = map.layer;
-  const auto square = SquareOf(layer, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8));
-  const auto moved = [&](const tiles::TileOffset<VI>& by) HWY_ATTR {
-    const V texels_fx8 = Constant(map.fx8_per_sample);
-    return LayerPlace{hn::MulAdd(hn::ConvertTo(d, by.x), texels_fx8, place.x_fx8),
-                      hn::MulAdd(hn::ConvertTo(d, by.y), texels_fx8, place.y_fx8)};
-  };
-  const auto in_row = tiles::PlaceInRow(d, square, square.row);
-  if (tiles::AllInOneTile(d, in_row, square.y)) {
-    const auto by =
-        tiles::OffsetOfTile(di, layer.tiling.seed, in_row.column, square.row, map.wave_samples);
-    return FoamAtPlace(layer, moved(by), level_m, past);
-  }
-  V foam = hn::Zero(d);
-  tiles::ForEachTile(d, layer.tiling, map.wave_samples, square,
-                     [&](tiles::TileOffset<VI> by, const tiles::TileWeight<V>& tile) HWY_ATTR {
-                       foam = hn::MulAdd(hn::Mul(tile.weight, tile.weight),
-                                         FoamAtPlace(layer, moved(by), level_m, past), foam);
-                     });
-  return foam;
-}
-
-// The foam of one map. What a pixel far away shows of it is the mean: maps of small numbers of
-// eight bits lose it from the fifth level on.
-HWY_INLINE V FoamOfMap(const FoamMap& map, float past, V3 p, V level_m) {
-  const SlopeLayer& layer = map.layer;
-  constexpr float kFirstLost = 3.0f, kAllLost = 5.0f;
-  const V past_first = hn::Add(level_m, Constant(layer.log2_texels_per_m - kFirstLost));
-  const V lost = Clamp(hn::Mul(past_first, Constant(1.0f / (kAllLost - kFirstLost))), 0.0f, 1.0f);
-  if (hn::AllTrue(D(), hn::Ge(lost, Constant(1.0f)))) return Constant(map.mean);
-  const LayerPlace place = PlaceIn(layer, p.x, p.y);
-  const V foam = map.layer.tiling.on ? FoamOfTiles(map, place, level_m, past)
-                                     : FoamAtPlace(map.layer, place, level_m, past);
-  // The mean to the bit, whatever the lanes beside show.
-  return hn::IfThenElse(hn::Ge(lost, Constant(1.0f)), Constant(map.mean),
-                        Lerp(foam, Constant(map.mean), lost));
-}
 
 // Levels of a lace's map at which its cells begin to melt, and are gone.
 constexpr float kCellsMelt = 1.0f, kCellsGone = 3.5f;
@@ -123,13 +73,14 @@ HWY_INLINE V OnCrests(const Whitecaps& material, V height_m) {
 }
 
 // The part of the surface that is white at p, height_m over the mean level, but for its lace.
-// `ceded` is what the open sea's waves leave to a coast's.
-HWY_INLINE V WhitecapsAt(const Whitecaps& material, V3 p, V height_m, V level_m, V ceded) {
+// long_foam: the longest patch's; `ceded` is what the open sea's waves leave to a coast's.
+HWY_INLINE V WhitecapsAt(const Whitecaps& material, V long_foam, V3 p, V height_m, V level_m,
+                         V ceded) {
   if (material.count == 0) return hn::Zero(D());
   const V one = Constant(1.0f);
-  V free = hn::Sub(one, FoamOfMap(material.foam[0], material.past, p, level_m));
+  V free = hn::Sub(one, long_foam);
   if (material.count > 1) {
-    const V foam = FoamOfMap(material.foam[1], material.past, p, level_m);
+    const V foam = FoamOfMap(material.foam[1], p, level_m);
     const V on_crest = hn::Min(hn::Mul(foam, OnCrests(material, height_m)), one);
     free = hn::NegMulAdd(on_crest, free, free);
   }

@@ -41,16 +41,17 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   float free = 1.0f;
   for (std::size_t p = 0; p < sea.patches.size(); ++p) {
     FoamMap& map = whitecaps.foam[p];
-    map.layer = make_patch_layer(in.sea.foam[p], sea.patches[p].length_m,
-                                 in.sea.whitecaps.patches[p].tiling, eye);
+    map.map = &in.sea.foam[p];
+    const double length_m = sea.patches[p].length_m, map_fx8 = 256.0 * map.map->size;
+    map.texels_fx8_per_m = static_cast<float>(map_fx8 / length_m);
+    map.x_eye_fx8 = static_cast<float>(map_fx8) * fraction(eye.x / length_m);
+    map.y_eye_fx8 = static_cast<float>(map_fx8) * fraction(eye.y / length_m);
+    map.log2_texels_per_m = static_cast<float>(log(map.map->size / length_m) * 1.4426950408889634);
     map.mean = static_cast<float>(sea.patches[p].cover);
-    map.wave_samples = in.sea.whitecaps.patches[p].wave_samples;
-    map.fx8_per_sample =
-        256.0f * static_cast<float>(in.sea.foam[p].size) / static_cast<float>(map.wave_samples);
+    map.fx8_per_sample = 256 * map.map->size / in.sea.whitecaps.patches[p].wave_samples;
     free *= 1.0f - map.mean;
   }
   whitecaps.least = std::min(0.01f, 0.5f * (1.0f - free));
-  whitecaps.past = in.sea.whitecaps.past;
   whitecaps.crest_per_m = sea.crest_per_m;
   // Lines of foam along the wind are seen from Beaufort 7 on, 13.9 m/s.
   const double wind_mps = in.world.scene.sea.wind_speed_mps;

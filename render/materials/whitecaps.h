@@ -20,17 +20,18 @@ struct FoamLace {
 
 // The foam of one patch's waves.
 struct FoamMap {
-  SlopeLayer layer;   // at the steps before and after, stretched to [-1, 1]
+  const texture::PackedMap1* map = nullptr;  // 2 foam - 1
+  float texels_fx8_per_m = 1.0f;             // 1/256 texels of level 0
+  float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // under the eye
+  float log2_texels_per_m = 0.0f;
   float mean = 0.0f;  // over the sea
-  // Tiles move the waves by whole samples of so many a side, which are so large in this map.
-  int wave_samples = 128;
-  float fx8_per_sample = 256.0f;  // 1/256 texels of level 0
+  // Tiles are moved by whole samples of the waves' patch, which are so large in this map.
+  int fx8_per_sample = 256;
 };
 
 struct Whitecaps {
   int count = 0;  // of maps of foam; 0: none
   std::array<FoamMap, ocean::kMostFoamPatches> foam;
-  float past = 0.0f;         // of the step
   float crest_per_m = 0.0f;  // ocean::foam_on_crest()
   float least = 0.0f;        // less foam is not drawn: less than far water shows
   FoamLace tears, lace;

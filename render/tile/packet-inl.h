@@ -129,7 +129,8 @@ struct LayerPlace {
   V x_fx8, y_fx8;
 };
 
-HWY_INLINE LayerPlace PlaceIn(const SlopeLayer& layer, V x_m, V y_m) {
+template <class Layer>
+HWY_INLINE LayerPlace PlaceIn(const Layer& layer, V x_m, V y_m) {
   const V per_m = Constant(layer.texels_fx8_per_m);
   return {hn::MulAdd(x_m, per_m, Constant(layer.x_eye_fx8)),
           hn::MulAdd(y_m, per_m, Constant(layer.y_eye_fx8))};

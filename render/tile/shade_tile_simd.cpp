@@ -54,8 +54,8 @@ HWY_INLINE void AppendPacket(PixelList& list, std::size_t first) {
   list.count += kLanes;
 }
 
-// Sorts the tile's pixels into those of the first material, those of the others together, and the
-// sky's; whole packets of one of these at once.
+// Sorts the tile's pixels into those of the first material and those of the others together, whole
+// packets of one of these at once, and lists the first pixels of packets with any sky.
 void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, PixelList& others,
                     PixelList& sky) {
   constexpr SurfaceKind kFirst = std::tuple_element_t<0, Materials>::kSurface;
@@ -73,26 +73,28 @@ void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, 
         const auto p = hn::LoadU(du, tile.primitive + i);
         hwy::Prefetch(tile.depth + i);  // read next
         const auto is_first = hn::Lt(hn::Sub(p, begin), size), is_sky = hn::Eq(p, none);
+        const bool some_sky = !hn::AllFalse(du, is_sky);
+        if (some_sky) sky.Append(static_cast<std::uint16_t>(i));
         PixelList* const list = hn::AllTrue(du, is_first)                    ? &first
-                                : hn::AllTrue(du, is_sky)                    ? &sky
                                 : hn::AllFalse(du, hn::Or(is_first, is_sky)) ? &others
                                                                              : nullptr;
-        if (list) {
-          AppendPacket(*list, i);
+        if (list) AppendPacket(*list, i);
+        if (list || hn::AllTrue(du, is_sky)) {
           x += kLanes;
           continue;
         }
+      } else {
+        sky.Append(static_cast<std::uint16_t>(i));
       }
       const std::size_t end = std::min(x + kLanes, width);
       for (; x < end; ++x) {
-        // Branch-free: write to all three lists, advance one.
+        // Branch-free: write to both lists, advance one or none.
         const std::uint32_t p = tile.primitive[row + x];
         const auto index = static_cast<std::uint16_t>(row + x);
-        first.at[first.count] = others.at[others.count] = sky.at[sky.count] = index;
-        const bool is_first = p - first_begin < first_size, is_sky = p == raster::kNoPrimitive;
+        first.at[first.count] = others.at[others.count] = index;
+        const bool is_first = p - first_begin < first_size;
         first.count += is_first;
-        sky.count += is_sky;
-        others.count += !is_first && !is_sky;
+        others.count += !is_first && p != raster::kNoPrimitive;
       }
     }
   }
@@ -119,7 +121,7 @@ PixelLists ListPixels(const Shading& s, const TilePixels& tile, ShadeScratch& sc
   for (std::size_t i = 0; i < lists.size(); ++i) lists[i].at = scratch.lists[i].data();
   SortByMaterial(s, tile, lists[0], lists[std::min<std::size_t>(1, kSky)], lists[kSky]);
   SplitOff<2>(s, tile, lists);
-  for (PixelList& list : lists) PadToPackets(list);
+  for (std::size_t k = 0; k < kSky; ++k) PadToPackets(lists[k]);
   return lists;
 }
 
@@ -317,17 +319,36 @@ HWY_INLINE std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile,
   return shade_all(std::make_index_sequence<kMaterialCount>());
 }
 
+HWY_INLINE void StoreSky(const V3& colour, std::size_t at, ShadeScratch& scratch) {
+  const D d;
+  hn::Store(colour.x, d, scratch.red.data() + at);
+  hn::Store(colour.y, d, scratch.green.data() + at);
+  hn::Store(colour.z, d, scratch.blue.data() + at);
+}
+
+// Shades the sky's pixels before those of surfaces: whole packets that have any, which writes to
+// all of their pixels.
+void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& packets,
+                     ShadeScratch& scratch) {
+  if (packets.count == 0) return;
+  const SkyLattice lattice = MakeSkyLattice(s, tile.box, scratch);
+  for (std::size_t n = 0; n < packets.count; ++n) {
+    const int i = packets.at[n], y = i / s.grid.tile_size_px, x = i % s.grid.tile_size_px;
+    StoreSky(SkyOnLattice(s, tile.box, lattice, x, y), packets.at[n], scratch);
+  }
+}
+
 template <class Keep>
 HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
                               std::uint32_t* rgba, float* linear, const Keep& keep) {
   const PixelLists lists = ListPixels(s, tile, scratch);
+  ShadeSkyPackets(s, tile, lists[kSky], scratch);
   const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch, keep);
-  const auto shade_sky = [&](const std::array<ListedPacket, 1>& listed) HWY_ATTR {
-    return std::array{ShadeSky(s, listed[0].x_px, listed[0].y_px)};
-  };
-  ShadeList<1>(PixelsInTile{s, tile, lists[kSky], scratch}, shade_sky);
   if (!tile.fragments.empty()) {
     const PixelList parts = ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch);
+    const auto shade_sky = [&](const std::array<ListedPacket, 1>& listed) HWY_ATTR {
+      return std::array{ShadeSky(s, listed[0].x_px, listed[0].y_px)};
+    };
     ShadeList<1>(FragmentsInTile{tile.fragments, parts, scratch}, shade_sky);
   }
   ResolveTile(s, tile.box, scratch, rgba, linear);
@@ -359,18 +380,12 @@ int ShadeLabelledTile(const Shading& s, const TileInput& input, ShadeScratch& sc
 
 void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
                   float* linear) {
-  const D d;
   const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, tile);
-  for (int y = 0; y < box.height_px; ++y) {
-    const V y_px = Constant(static_cast<float>(box.y0_px + y));
-    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
-      const std::size_t i = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-      const V3 colour = ShadeSky(s, hn::ConvertTo(d, CountFrom(box.x0_px + x)), y_px);
-      hn::Store(colour.x, d, scratch.red.data() + i);
-      hn::Store(colour.y, d, scratch.green.data() + i);
-      hn::Store(colour.z, d, scratch.blue.data() + i);
-    }
-  }
+  const SkyLattice lattice = MakeSkyLattice(s, box, scratch);
+  for (int y = 0; y < box.height_px; ++y)
+    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
+      StoreSky(SkyOnLattice(s, box, lattice, x, y),
+               static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
   ResolveTile(s, box, scratch, rgba, linear);
 }
 

@@ -41,26 +41,17 @@ void pack_noise(const ocean::SeaDescription& description, double t_s, SeaMaps& s
   texture::pack_map2(kUvNoiseSize, sea.noise_cos, sea.noise_sin, 1.0f / 127.0f, sea.uv_noise);
 }
 
-// The foam at the steps before and after, stretched to [-1, 1], once for both.
-void pack_foam(SeaMaps& sea) {
-  sea.foam.resize(sea.whitecaps.patches.size());
-  for (std::size_t p = 0; p < sea.foam.size(); ++p) {
-    const ocean::WhitecapFrame::Patch& patch = sea.whitecaps.patches[p];
-    const auto stretch = [](std::span<const std::uint8_t> codes, std::vector<float>& values) {
-      values.resize(codes.size());
-      for (std::size_t i = 0; i < codes.size(); ++i)
-        values[i] = 2.0f * ocean::foam_of_code(codes[i]) - 1.0f;
-    };
-    stretch(patch.before, sea.foam_before);
-    stretch(patch.after, sea.foam_after);
-    texture::pack_map2(ocean::kFoamMapSize, sea.foam_before, sea.foam_after, 1.0f / 127.0f,
-                       sea.foam[p]);
+// The foam at the frame's time, as 2 foam - 1.
+void pack_foam(const ocean::WhitecapFrame::Patch& patch, float past, std::vector<float>& values,
+               texture::PackedMap1& map) {
+  values.resize(patch.before.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const float before = ocean::foam_of_code(patch.before[i]);
+    const float after = ocean::foam_of_code(patch.after[i]);
+    values[i] = 2.0f * (before + past * (after - before)) - 1.0f;
   }
+  texture::pack_map1(ocean::kFoamMapSize, values, map);
 }
-
-}  // namespace
-
-namespace {
 
 void leave_out_tiles(SeaMaps& sea) {
   for (ocean::PatchFrame& patch : sea.frame.patches) patch.tiling = {};
@@ -72,22 +63,25 @@ void leave_out_tiles(SeaMaps& sea) {
 void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
                  const StageRun& run) {
   ocean::advance(*world.sea, t_s, sea.frame, run.workers);
-  if (!without.has(Part::kWhitecaps)) {
-    ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
-    if (sea.whitecaps.is_new) pack_foam(sea);
-  }
+  const bool has_foam = !without.has(Part::kWhitecaps);
+  if (has_foam) ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
   if (without.has(Part::kTiling)) leave_out_tiles(sea);
   const bool has_coast = world.coast != nullptr;
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
-  // Pack the maps that shading looks into: the waves', the noise's, the coast's.
-  const std::size_t patches = sea.frame.patches.size();
+  // Pack the maps that shading looks into: the foam's, the waves', the noise's, the coast's.
+  const std::size_t foams = has_foam ? sea.whitecaps.patches.size() : 0;
+  const std::size_t patches = sea.frame.patches.size(), noise = foams + patches;
+  sea.foam.resize(foams);
+  sea.foam_values.resize(foams);
   sea.patch_slopes.resize(patches);
-  run.for_each(patches + (has_coast ? 3 : 1), [&](std::size_t i, int) {
-    if (i < patches)
-      pack_patch(sea.frame.patches[i], sea.patch_slopes[i]);
-    else if (i == patches)
+  run.for_each(noise + (has_coast ? 3 : 1), [&](std::size_t i, int) {
+    if (i < foams)
+      pack_foam(sea.whitecaps.patches[i], sea.whitecaps.past, sea.foam_values[i], sea.foam[i]);
+    else if (i < noise)
+      pack_patch(sea.frame.patches[i - foams], sea.patch_slopes[i - foams]);
+    else if (i == noise)
       pack_noise(world.scene.sea, t_s, sea);
-    else if (i == patches + 1)
+    else if (i == noise + 1)
       texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
                          sea.coast_slopes);
     else

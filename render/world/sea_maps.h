@@ -16,14 +16,14 @@ struct SeaMaps {
   ocean::SeaFrame frame;
   std::vector<texture::PackedMap2> patch_slopes;  // one a patch, longest first
   ocean::WhitecapFrame whitecaps;
-  std::vector<texture::PackedMap2> foam;         // one a patch of whitecaps: before, after
+  std::vector<texture::PackedMap1> foam;         // one a patch of whitecaps, as 2 foam - 1
   texture::PackedMap2 uv_noise;                  // bends the coordinates of ripples
   texture::PackedMap2 coast_slopes, coast_surf;  // slopes of the trains; ceded, foam
   // Storage.
   texture::UvNoise noise{{}};
   std::vector<float> noise_cos, noise_sin;
   std::vector<float> coast_slope_x, coast_slope_y, coast_foam;
-  std::vector<float> foam_before, foam_after;
+  std::vector<std::vector<float>> foam_values;  // one a patch
 };
 
 // Fills `sea` with the world's sea at time t_s, as far as pictures without these parts need it.

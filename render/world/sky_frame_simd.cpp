@@ -38,8 +38,9 @@ void SoftSkyRow(const SkyMaps& sky, const Clouds& clouds, int y, std::uint32_t* 
     const std::size_t at = static_cast<std::size_t>(y) * kSoftSkySize + static_cast<std::size_t>(x);
     const float* clear = sky.soft_clear.data() + at;
     V passes;
+    const V3 direction = {hn::Mul(u, across), hn::Mul(v, across), z};
     const V3 light = AddClouds(
-        clouds, {hn::Mul(u, across), hn::Mul(v, across), z}, Constant(kSoftAngleLog2),
+        clouds, ViewClouds(clouds, direction, Constant(kSoftAngleLog2)),
         {hn::LoadU(d, clear), hn::LoadU(d, clear + kChannel), hn::LoadU(d, clear + 2 * kChannel)},
         passes);
     const V most = hn::Max(light.x, hn::Max(light.y, light.z));
