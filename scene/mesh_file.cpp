@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "math/elementary.h"
 #include "scene/flat_mesh.h"
 #include "scene/mesh_builder.h"
 #include "scene/run_importer.h"
@@ -92,8 +93,19 @@ ObjectTriangle shading_of(const Triangle& t, const FlatMaterial& material) {
   return result;
 }
 
-TriangleTexture texture_of(const Triangle& t, const FlatMaterial& material) {
+double area_of(glm::dvec2 a, glm::dvec2 b) { return 0.5 * std::abs(a.x * b.y - a.y * b.x); }
+
+// Shares of the picture and of the box are compared by their areas.
+TriangleTexture texture_of(const Triangle& t, const FlatMaterial& material,
+                           const std::vector<FlatTexture>& textures) {
   TriangleTexture result;
+  if (material.texture < 0) return result;
+  const FlatTexture& texture = textures[static_cast<std::size_t>(material.texture)];
+  const double texels =
+      area_of(t.uv[1] - t.uv[0], t.uv[2] - t.uv[0]) * texture.width * texture.height;
+  const double units = 0.5 * glm::length(glm::cross(t.q[1] - t.q[0], t.q[2] - t.q[0]));
+  result.log2_texels_per_unit = static_cast<float>(
+      0.5 * log(std::max(texels, 1e-12) / std::max(units, 1e-12)) / log(2.0));
   result.texture = material.texture;
   result.u = glm::vec4(plane_through(t.q, {t.uv[0].x, t.uv[1].x, t.uv[2].x}));
   result.v = glm::vec4(plane_through(t.q, {t.uv[0].y, t.uv[1].y, t.uv[2].y}));
@@ -121,7 +133,7 @@ ObjectMesh mesh_of_level(const FlatMesh& flat, const MeshOfFile& whole, const Fl
     }
     const FlatMaterial& material = flat.materials[level.material[i]];
     mesh.triangles.push_back(shading_of(t, material));
-    if (is_textured) mesh.textured.push_back(texture_of(t, material));
+    if (is_textured) mesh.textured.push_back(texture_of(t, material, flat.textures));
   }
   return mesh;
 }

@@ -28,6 +28,7 @@ struct ObjectTriangle {
 struct TriangleTexture {
   glm::vec4 u{0.0f}, v{0.0f};
   std::int32_t texture = -1;  // of the mesh; -1: none
+  float log2_texels_per_unit = 0.0f;  // of the box, along the triangle
 };
 
 // Triangles of a mesh whose outline stands before the sun by itself, and where they cut the water.

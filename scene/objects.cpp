@@ -165,6 +165,36 @@ void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSur
   for (std::size_t i = 0; i < objects.size(); ++i) poses[i] = pose_of(objects[i], surface, plan);
 }
 
+void take_given_poses(std::span<const FloatingObject> objects, std::span<const GivenPose> given,
+                      const ocean::WaterSurface& surface, std::span<ObjectPose> poses) {
+  const std::array<glm::dvec2, kProbes> plan = probe_plan();
+  for (const GivenPose& g : given) {
+    const glm::dvec2 level(g.pose.world_from_object[1]);
+    const double length = glm::length(level);
+    const glm::dvec2 ahead = length > 1e-6 ? level / length : glm::dvec2(0.0, 1.0);
+    const Plane water = water_under(objects[g.object], glm::dvec2(g.pose.position_world),
+                                    {ahead.y, -ahead.x}, ahead, surface, plan);
+    poses[g.object] = g.pose;
+    poses[g.object].water_m = water.height_m;
+  }
+}
+
+void check_given_poses(std::span<const GivenPose> given, std::size_t objects) {
+  for (const GivenPose& g : given) {
+    SWELL_CHECK(g.object < objects, "a pose of object {} of {}", g.object, objects);
+    const glm::dvec3 p = g.pose.position_world;
+    SWELL_CHECK(std::abs(p.x) <= 1e7 && std::abs(p.y) <= 1e7 && std::abs(p.z) <= 1e7,
+                "position_world=({}, {}, {})", p.x, p.y, p.z);
+    const glm::dmat3& axes = g.pose.world_from_object;
+    const glm::dmat3 product = glm::transpose(axes) * axes;
+    double off = std::abs(glm::determinant(axes) - 1.0);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(product[i][j] - (i == j ? 1.0 : 0.0)));
+    SWELL_CHECK(off <= 1e-6 && std::isfinite(glm::determinant(axes)),
+                "world_from_object of object {} is no rotation", g.object);
+  }
+}
+
 void lay_flat(std::span<const FloatingObject> objects, std::span<ObjectPose> poses) {
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].motion == Motion::kFloat) poses[i].position_world.z = 0.0;

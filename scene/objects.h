@@ -99,6 +99,21 @@ struct ObjectPose {
 void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,
                   std::span<ObjectPose> poses);
 
+// A pose that a caller gives to one of the objects, for one frame. Its water_m is not read.
+struct GivenPose {
+  std::size_t object = 0;  // its index in the scene
+  ObjectPose pose;
+};
+
+// Puts the given poses, each with the water under it, in place of those of their objects. Of
+// several for one object the last counts. `given` passes check_given_poses().
+void take_given_poses(std::span<const FloatingObject> objects, std::span<const GivenPose> given,
+                      const ocean::WaterSurface& surface, std::span<ObjectPose> poses);
+
+// Aborts with a message unless each is of an object, at most 1e7 m away along each axis, with unit
+// axes at right angles, right-handed, to within 1e-6.
+void check_given_poses(std::span<const GivenPose> given, std::size_t objects);
+
 // The poses on a sea that is drawn flat: what floats lies at its mean level.
 void lay_flat(std::span<const FloatingObject> objects, std::span<ObjectPose> poses);
 

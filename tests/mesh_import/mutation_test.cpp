@@ -1,0 +1,100 @@
+// Broken files: the importer may refuse or fail, the program that asked goes on.
+//
+// SWELL_MESH_MUTATIONS=10000 tries as many as that of each format; 60 unless it is given.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "math/random.h"
+#include "mesh_import/mesh_files.h"
+#include "scene/mesh_file.h"
+
+namespace swell::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+int mutations() {
+  const char* const asked = std::getenv("SWELL_MESH_MUTATIONS");
+  return asked ? std::atoi(asked) : 60;
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Bytes changed, cut out, doubled or cut off.
+std::string mutated(std::string bytes, std::uint64_t number) {
+  std::uint64_t next = 0;
+  const auto below = [&](std::size_t count) {
+    const double part = random_uniform(1000 + number, next++);
+    return static_cast<std::size_t>(part * static_cast<double>(count));
+  };
+  const std::size_t changes = 1 + below(8);
+  for (std::size_t i = 0; i < changes && !bytes.empty(); ++i) {
+    const std::size_t at = below(bytes.size());
+    const std::size_t length = std::min(1 + below(24), bytes.size() - at);
+    switch (below(6)) {
+      case 0:
+        bytes.erase(at, length);
+        break;
+      case 1:
+        bytes.insert(at, bytes.substr(at, length));
+        break;
+      case 2:
+        bytes.resize(at);
+        break;
+      case 3:  // a large number, in text or in bytes
+        bytes.replace(at, length, number % 2 ? "99999999999" : "\xff\xff\xff\x7f");
+        break;
+      default:
+        bytes[at] = static_cast<char>(below(256));
+        break;
+    }
+  }
+  return bytes;
+}
+
+// Either a mesh whose numbers are in their ranges, or one line.
+void expect_sane(const fs::path& file, int& read) {
+  try {
+    const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+    ++read;
+    for (const ObjectMesh& level : mesh.levels) {
+      ASSERT_FALSE(level.triangles.empty());
+      for (const std::uint32_t index : level.indices) ASSERT_LT(index, level.position.size());
+      for (const glm::vec3& q : level.position)
+        ASSERT_TRUE(std::abs(q.x) < 0.51f && std::abs(q.y) < 0.51f && q.z > -0.01f && q.z < 1.01f);
+    }
+  } catch (const std::runtime_error& error) {
+    const std::string fault = error.what();
+    EXPECT_FALSE(fault.empty());
+    EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+  }
+}
+
+TEST(MeshMutation, BrokenFilesAreReadOrRefused) {
+  const fs::path folder = mesh_folder("mutation");
+  const glm::vec3 colour(0.2f, 0.3f, 0.4f);
+  int read = 0, tried = 0;
+  for (const fs::path& file :
+       write_all_formats(folder, box_triangles({-1, -2, -3}, {3, 2, 1}), &colour)) {
+    const std::string whole = bytes_of(file);
+    const fs::path broken = folder / ("broken" + file.extension().string());
+    for (int i = 0; i < mutations(); ++i, ++tried) {
+      SCOPED_TRACE(file.extension().string() + " " + std::to_string(i));
+      write_text(broken, mutated(whole, static_cast<std::uint64_t>(i)));
+      expect_sane(broken, read);
+    }
+  }
+  // Neither all nor none are read: files are broken, and not beyond all use.
+  EXPECT_GT(read, tried / 20);
+  EXPECT_LT(read, tried);
+}
+
+}  // namespace
+}  // namespace swell::scene
