@@ -78,14 +78,17 @@ void keep_readers_of(const std::string& extension, Assimp::Importer& importer) {
 
 // --- Materials
 
+// Whether the library has put it there for meshes without one: of glTF nameless and the last.
+bool is_default(const aiScene& scene, unsigned material) {
+  aiString name;
+  const bool is_named =
+      scene.mMaterials[material]->Get(AI_MATKEY_NAME, name) == AI_SUCCESS && name.length > 0;
+  if (is_named) return name == aiString(AI_DEFAULT_MATERIAL_NAME);
+  return material + 1 == scene.mNumMaterials;
+}
+
 FlatMaterial material_of(const aiMaterial& from) {
   FlatMaterial to;
-  aiString name;
-  const bool is_named = from.Get(AI_MATKEY_NAME, name) == AI_SUCCESS;
-  if (is_named && name == aiString(AI_DEFAULT_MATERIAL_NAME)) {
-    to.painted = 1;
-    return to;
-  }
   aiColor4D colour(1.0f, 1.0f, 1.0f, 1.0f);
   if (from.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS)
     from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
@@ -93,9 +96,13 @@ FlatMaterial material_of(const aiMaterial& from) {
   to.colour = {part(colour.r), part(colour.g), part(colour.b)};
   float number = 0.0f;
   if (from.Get(AI_MATKEY_METALLIC_FACTOR, number) == AI_SUCCESS) to.metalness = part(number);
+  int model = aiShadingMode_Gouraud;
+  from.Get(AI_MATKEY_SHADING_MODEL, model);
+  const bool has_highlight = model == aiShadingMode_Phong || model == aiShadingMode_Blinn;
   if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, number) == AI_SUCCESS) {
     to.roughness = part(number);
-  } else if (from.Get(AI_MATKEY_SHININESS, number) == AI_SUCCESS && number > 0.0f) {
+  } else if (has_highlight && from.Get(AI_MATKEY_SHININESS, number) == AI_SUCCESS &&
+             number > 0.0f) {
     // The exponent of Blinn and Phong's highlight as wide as that of the roughness r: 2 / r^4 - 2.
     to.roughness = part(std::sqrt(std::sqrt(2.0f / (number + 2.0f))));
   }
@@ -156,7 +163,7 @@ void add_materials(const aiScene& scene, const fs::path& folder, bool plain, Loo
     refuse("{} materials, allowed {}", scene.mNumMaterials, scene::kMostMeshMaterials);
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     FlatMaterial material = material_of(*scene.mMaterials[i]);
-    if (plain) material.painted = 1;
+    if (plain || is_default(scene, i)) material.painted = 1;
     if (!material.painted) material.texture = textures.add(*scene.mMaterials[i]);
     mesh.materials.push_back(material);
   }

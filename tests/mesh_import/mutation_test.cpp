@@ -3,10 +3,14 @@
 // SWELL_MESH_MUTATIONS=10000 tries as many as that of each format; 60 unless it is given.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "math/random.h"
 #include "mesh_import/mesh_files.h"
@@ -22,13 +26,16 @@ int mutations() {
   return asked ? std::atoi(asked) : 60;
 }
 
-std::string bytes_of(const fs::path& file) {
+using Bytes = std::vector<char>;
+
+Bytes bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
 // Bytes changed, cut out, doubled or cut off.
-std::string mutated(std::string bytes, std::uint64_t number) {
+Bytes mutated(Bytes bytes, std::uint64_t number) {
+  constexpr std::array<std::string_view, 2> kLarge = {"99999999999", "\xff\xff\xff\x7f"};
   std::uint64_t next = 0;
   const auto below = [&](std::size_t count) {
     const double part = random_uniform(1000 + number, next++);
@@ -38,19 +45,25 @@ std::string mutated(std::string bytes, std::uint64_t number) {
   for (std::size_t i = 0; i < changes && !bytes.empty(); ++i) {
     const std::size_t at = below(bytes.size());
     const std::size_t length = std::min(1 + below(24), bytes.size() - at);
+    const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto to = from + static_cast<std::ptrdiff_t>(length);
     switch (below(6)) {
       case 0:
-        bytes.erase(at, length);
+        bytes.erase(from, to);
         break;
-      case 1:
-        bytes.insert(at, bytes.substr(at, length));
+      case 1: {
+        const Bytes piece(from, to);
+        bytes.insert(from, piece.begin(), piece.end());
         break;
+      }
       case 2:
         bytes.resize(at);
         break;
-      case 3:  // a large number, in text or in bytes
-        bytes.replace(at, length, number % 2 ? "99999999999" : "\xff\xff\xff\x7f");
+      case 3: {
+        const std::string_view large = kLarge[number % 2];
+        bytes.insert(bytes.erase(from, to), large.begin(), large.end());
         break;
+      }
       default:
         bytes[at] = static_cast<char>(below(256));
         break;
@@ -83,11 +96,13 @@ TEST(MeshMutation, BrokenFilesAreReadOrRefused) {
   int read = 0, tried = 0;
   for (const fs::path& file :
        write_all_formats(folder, box_triangles({-1, -2, -3}, {3, 2, 1}), &colour)) {
-    const std::string whole = bytes_of(file);
+    const Bytes whole = bytes_of(file);
     const fs::path broken = folder / ("broken" + file.extension().string());
     for (int i = 0; i < mutations(); ++i, ++tried) {
       SCOPED_TRACE(file.extension().string() + " " + std::to_string(i));
-      write_text(broken, mutated(whole, static_cast<std::uint64_t>(i)));
+      const Bytes bytes = mutated(whole, static_cast<std::uint64_t>(i));
+      std::ofstream(broken, std::ios::binary)
+          .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
       expect_sane(broken, read);
     }
   }
