@@ -147,7 +147,7 @@ void add_rock(MeshBuilder& to) {
   add_sheet(points, columns + 1, {}, to);
   for (std::size_t i = 0; i < to.mesh.triangles.size(); ++i) {
     ObjectTriangle& t = to.mesh.triangles[i];
-    t.tint = weathered({}, 200 + i, 0.12f).tint;
+    t.tint = weathered({}, 200 + i, 0.05f).tint;
     // Weed and wet stone below, dry stone above.
     float z = 0.0f;
     for (std::size_t k = 0; k < 3; ++k) z += to.mesh.position[to.mesh.indices[3 * i + k]].z / 3.0f;
