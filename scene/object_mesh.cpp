@@ -104,21 +104,32 @@ ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
 
 namespace {
 
-// The box around where the mesh passes a height; half is 0 if it does not.
-MeshPart cut_at(const ObjectMesh& mesh, float z) {
-  constexpr float kFar = 1e9f;
-  glm::vec2 low(kFar), high(-kFar);
+// Calls visit(p) where edges of the mesh pass a height.
+template <class Visit>
+void for_cuts(const ObjectMesh& mesh, float z, const Visit& visit) {
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::vec3 a = mesh.position[mesh.indices[i + k]];
       const glm::vec3 b = mesh.position[mesh.indices[i + (k + 1) % 3]];
       if ((a.z < z) == (b.z < z)) continue;
-      const glm::vec2 p = glm::vec2(a) + (z - a.z) / (b.z - a.z) * glm::vec2(b - a);
-      low = glm::min(low, p), high = glm::max(high, p);
+      visit(glm::vec2(a) + (z - a.z) / (b.z - a.z) * glm::vec2(b - a));
     }
   }
+}
+
+// The box around where the mesh passes a height; half is 0 if it does not. It is round unless
+// something lies near a corner, at the root of 2 from the middle.
+MeshPart cut_at(const ObjectMesh& mesh, float z) {
+  constexpr float kFar = 1e9f, kRound = 1.3f;
+  glm::vec2 low(kFar), high(-kFar);
+  for_cuts(mesh, z, [&](glm::vec2 p) { low = glm::min(low, p), high = glm::max(high, p); });
   MeshPart part;
-  if (low.x <= high.x) part.middle = 0.5f * (low + high), part.half = 0.5f * (high - low);
+  if (!(low.x < high.x && low.y < high.y)) return part;
+  part.middle = 0.5f * (low + high), part.half = 0.5f * (high - low);
+  for_cuts(mesh, z, [&](glm::vec2 p) {
+    const glm::vec2 from_middle = (p - part.middle) / part.half;
+    if (glm::dot(from_middle, from_middle) > kRound * kRound) part.is_round = false;
+  });
   return part;
 }
 

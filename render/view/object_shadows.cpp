@@ -356,7 +356,7 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     ShadowCaster& caster = shadows.casters[i];
     if (caster.reach_m <= 0.0f) return;
     const scene::FloatingObject& object = all[caster.object];
-    const scene::ObjectMesh& mesh = drawn_mesh(world, caster.object, caster.place_rel, view);
+    const scene::ObjectMesh& mesh = shadow_mesh(world, caster.object, caster.place_rel, view);
     scene::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (!mesh.parts.empty()) part = mesh.parts[caster.part];
     caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows);

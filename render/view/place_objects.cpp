@@ -10,7 +10,8 @@ namespace {
 
 constexpr float kNearSize_px = 24.0f;  // objects at least this large are drawn with many triangles
 // Of a file's mesh: triangles for each square pixel that an object of its size takes.
-constexpr float kTrianglesPerPx2 = 0.5f;
+constexpr float kTrianglesPerPx2 = 0.15f;
+constexpr float kShadowPart = 0.25f;  // an outline is that of an object so many times smaller
 
 // How an object lies relative to the eye.
 struct Placement {
@@ -63,20 +64,53 @@ bool in_view(const scene::FloatingObject& object, const Placement& placement, fl
   });
 }
 
-// A part's vertices and triangles, into the room that is made for them.
-void write_part(const scene::ObjectMesh& mesh, const Placement& placement,
-                const ObjectInstance& instance, const ObjectPart& part, ObjectGeometry& out) {
-  for (std::size_t i = 0; i < mesh.position.size(); ++i)
-    out.p_rel[part.first_vertex + i] =
-        placement.rel_from_unit * mesh.position[i] + placement.bottom_rel;
-  // Each object is mirrored in, and squeezed towards, the level of its own waterline, so that its
-  // images meet it there on any wave.
-  std::fill_n(out.waterline_rel_m.begin() + part.first_vertex, part.vertices,
-              placement.waterline_rel_m);
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
-    out.indices[3 * part.first_triangle + i] = part.first_vertex + mesh.indices[i];
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    out.primitives[part.first_triangle + i] = {&mesh.triangles[i], &instance};
+// Calls body(i, first, count) for the pieces of parts that numbers [begin, end) are of, counted
+// through all parts: of part i those from its own number `first` on.
+template <class First, class Count, class Body>
+void for_pieces(const std::vector<ObjectPart>& parts, std::size_t begin, std::size_t end,
+                First first_of, Count count_of, const Body& body) {
+  auto part = std::ranges::upper_bound(parts, begin, {}, first_of) - 1;
+  for (; begin < end; ++part) {
+    const std::size_t first = begin - (*part).*first_of;
+    const std::size_t count = std::min((*part).*count_of - first, end - begin);
+    body(static_cast<std::size_t>(part - parts.begin()), first, count);
+    begin += count;
+  }
+}
+
+// Vertices [begin, end), counted through all parts.
+void write_vertices(const World::State& world, const View& view, std::size_t begin, std::size_t end,
+                    ObjectGeometry& out) {
+  for_pieces(out.parts, begin, end, &ObjectPart::first_vertex, &ObjectPart::vertices,
+             [&](std::size_t i, std::size_t first, std::size_t count) {
+               const ObjectInstance& instance = out.instances[i];
+               const Placement placement = placement_of(world.scene.objects[instance.object],
+                                                        out.poses[instance.object], view);
+               const std::size_t at = out.parts[i].first_vertex + first;
+               for (std::size_t k = 0; k < count; ++k)
+                 out.p_rel[at + k] =
+                     placement.rel_from_unit * instance.mesh->position[first + k] +
+                     placement.bottom_rel;
+               // Each object is mirrored in, and squeezed towards, the level of its own waterline,
+               // so that its images meet it there on any wave.
+               std::fill_n(out.waterline_rel_m.begin() + static_cast<std::ptrdiff_t>(at), count,
+                           placement.waterline_rel_m);
+             });
+}
+
+// The same of triangles.
+void write_triangles(std::size_t begin, std::size_t end, ObjectGeometry& out) {
+  for_pieces(out.parts, begin, end, &ObjectPart::first_triangle, &ObjectPart::triangles,
+             [&](std::size_t i, std::size_t first, std::size_t count) {
+               const ObjectInstance& instance = out.instances[i];
+               const ObjectPart& part = out.parts[i];
+               const std::size_t at = part.first_triangle + first;
+               for (std::size_t k = 0; k < 3 * count; ++k)
+                 out.indices[3 * at + k] =
+                     part.first_vertex + instance.mesh->indices[3 * first + k];
+               for (std::size_t k = 0; k < count; ++k)
+                 out.primitives[at + k] = {&instance.mesh->triangles[first + k], &instance};
+             });
 }
 
 // Which objects the view may show, and where what they are drawn with goes.
@@ -123,16 +157,31 @@ float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const 
   return px_at_1_m * size_m / std::max(distance_m - 0.5f * size_m, view.near_m);
 }
 
-const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
-                                    const View& view) {
-  const scene::FloatingObject& what = world.scene.objects[object];
+namespace {
+
+const scene::ObjectMesh& mesh_of_size(const World::State& world, std::size_t object,
+                                      float size_px) {
   const std::vector<scene::ObjectMesh>& levels = world.objects.of_object[object]->levels;
-  const float size_px = drawn_size_px(what, p_rel, view);
-  if (what.kind != scene::ObjectKind::kMesh) return levels[size_px >= kNearSize_px ? 0 : 1];
+  if (world.scene.objects[object].kind != scene::ObjectKind::kMesh)
+    return levels[size_px >= kNearSize_px ? 0 : 1];
   const float wanted = kTrianglesPerPx2 * size_px * size_px;
   std::size_t level = levels.size() - 1;
   while (level > 0 && static_cast<float>(levels[level].triangles.size()) < wanted) --level;
   return levels[level];
+}
+
+}  // namespace
+
+const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                    const View& view) {
+  return mesh_of_size(world, object, drawn_size_px(world.scene.objects[object], p_rel, view));
+}
+
+const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object,
+                                     glm::vec3 p_rel, const View& view) {
+  const scene::FloatingObject& what = world.scene.objects[object];
+  const float part = what.kind < scene::ObjectKind::kBoat ? 1.0f : kShadowPart;
+  return mesh_of_size(world, object, part * drawn_size_px(what, p_rel, view));
 }
 
 void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
@@ -162,15 +211,17 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
   geometry.instances.reserve(geometry.poses.size());  // primitives point into it
   list_instances(world, view, views.front()->drop_per_m2, geometry);
   resize_vertices(SurfaceKind::kObjects, geometry.p_rel.size(), views);
-  run.for_each(geometry.parts.size(), [&](std::size_t i, int) {
-    const ObjectInstance& instance = geometry.instances[i];
-    const ObjectPart& part = geometry.parts[i];
-    const scene::FloatingObject& object = world.scene.objects[instance.object];
-    write_part(*instance.mesh, placement_of(object, geometry.poses[instance.object], view),
-               instance, part, geometry);
-    map_vertices(meshes, SurfaceKind::kObjects, part.first_vertex,
-                 part.first_vertex + part.vertices, views);
+  const auto for_chunks = [&](std::size_t count, auto&& body) {
+    run.for_each((count + kVertexChunk - 1) / kVertexChunk, [&](std::size_t chunk, int) {
+      body(chunk * kVertexChunk, std::min(count, (chunk + 1) * kVertexChunk));
+    });
+  };
+  for_chunks(geometry.p_rel.size(), [&](std::size_t begin, std::size_t end) {
+    write_vertices(world, view, begin, end, geometry);
+    map_vertices(meshes, SurfaceKind::kObjects, begin, end, views);
   });
+  for_chunks(geometry.primitives.size(),
+             [&](std::size_t begin, std::size_t end) { write_triangles(begin, end, geometry); });
 }
 
 }  // namespace swell::render
