@@ -28,23 +28,28 @@ HWY_INLINE CloudPlace PlaceOnClouds(const Clouds& clouds, V3 direction) {
   return {hn::Mul(direction.x, slant), hn::Mul(direction.y, slant), slant, rise};
 }
 
-// Optical depth, and how far the noise falls off towards the light: that side is bright.
-struct CloudDepth {
-  V depth, bright;
+// The clouds' noise, how far it falls off towards the light, and the variance that pixels cannot
+// resolve.
+struct CloudNoise {
+  V noise, side, lost;
 };
 
-HWY_INLINE CloudDepth SampleClouds(const Clouds& clouds, V x, V y, V level) {
+HWY_INLINE CloudNoise SampleClouds(const Clouds& clouds, V x, V y, V level) {
   const V zero = hn::Zero(D());
-  V noise = zero, side = zero, lost = zero;
+  CloudNoise found = {zero, zero, zero};
   for (const SlopeLayer& layer : clouds.layers)
-    AddSlopes(layer, {x, y, zero}, level, zero, zero, noise, side, lost);
+    AddSlopes(layer, {x, y, zero}, level, zero, zero, found.noise, found.side, found.lost);
+  return found;
+}
+
+HWY_INLINE V OpticalDepth(const Clouds& clouds, const CloudNoise& at) {
   const V scale = Constant(clouds.inv_deviation);
-  const V over = hn::MulSub(noise, scale, Constant(clouds.light.threshold));
+  const V over = hn::MulSub(at.noise, scale, Constant(clouds.light.threshold));
   // The mean over what a pixel cannot resolve of max(over, 0)^2, about.
-  const V spread = hn::Mul(hn::Mul(lost, scale), scale);
+  const V spread = hn::Mul(hn::Mul(at.lost, scale), scale);
   const V root = hn::Sqrt(hn::MulAdd(over, over, hn::Add(spread, spread)));
   const V mean = hn::Mul(hn::Add(over, root), Constant(0.5f));
-  return {hn::Mul(hn::Mul(mean, mean), Constant(kCloudDepth)), hn::Mul(side, scale)};
+  return hn::Mul(hn::Mul(mean, mean), Constant(kCloudDepth));
 }
 
 // Henyey and Greenstein's phase function for water droplets.
@@ -81,19 +86,21 @@ HWY_INLINE CloudView ViewClouds(const Clouds& clouds, V3 direction, V pixel_angl
 
 // Lays the clouds in front of `light`, the clear sky there. `passes` becomes the part of it that
 // they let through.
-HWY_INLINE V3 AddClouds(const Clouds& clouds, const CloudView& view, V3 light, V& passes) {
+HWY_INLINE V3 AddClouds(const Clouds& clouds, const CloudView& view, const CloudNoise& at, V3 light,
+                        V& passes) {
   const D d;
   const V one = Constant(1.0f);
-  const CloudDepth cloud = SampleClouds(clouds, view.x, view.y, view.level);
-  passes = Exp(d, hn::Neg(cloud.depth));
+  const V depth = OpticalDepth(clouds, at);
+  passes = Exp(d, hn::Neg(depth));
   const V opacity = hn::Mul(hn::Sub(one, passes), view.shown);
 
   // Light that comes through, less of it where clouds are thick; and at their bright sides.
-  const V through = hn::Div(one, hn::MulAdd(cloud.depth, Constant(clouds.light.loss), one));
-  const V bright = Clamp(hn::MulAdd(cloud.bright, Constant(0.5f), one), 0.6f, 1.5f);
+  const V through = hn::Div(one, hn::MulAdd(depth, Constant(clouds.light.loss), one));
+  const V bright =
+      Clamp(hn::MulAdd(at.side, Constant(0.5f * clouds.inv_deviation), one), 0.6f, 1.5f);
   const V3 base =
       Scale(Constant(clouds.light.base), hn::Mul(hn::Mul(through, bright), view.overcast));
-  const V forward = hn::Mul(view.forward, Exp(d, hn::Mul(cloud.depth, Constant(-0.6f))));
+  const V forward = hn::Mul(view.forward, Exp(d, hn::Mul(depth, Constant(-0.6f))));
   const V3 own = ScaleAdd(Constant(clouds.light.forward), forward, base);
   return Lerp(light, own, opacity);
 }

@@ -25,17 +25,18 @@ struct TileLookups {
 inline constexpr std::size_t kMaxTileFragments = kMaxFragments * kMaxTilePixels;
 inline constexpr std::size_t kListPadding = 64;  // a list's end, up to whole packets
 
-// The sky's lattice over a tile: every kSkyStep-th pixel of every kSkyStep-th row, and one more on
-// each side, in rows that end with what fills whole vectors.
-inline constexpr int kSkyStepLog2 = 2, kSkyStep = 1 << kSkyStepLog2;
-inline constexpr std::size_t kSkyNodeStride = 32, kSkyNodeRows = 64 / kSkyStep + 1;
-inline constexpr std::size_t kSkyChannels = 9;
+// The sky over a tile at every fourth pixel and one more, of every fourth row and one more and of
+// each row, in rows that end with what fills whole vectors.
+struct SkyNodes {
+  static constexpr std::size_t kStride = 32, kViewChannels = 9, kNoiseChannels = 3;
+  alignas(64) std::array<std::array<float, kStride * 17>, kViewChannels> view{};
+  alignas(64) std::array<std::array<float, kStride * 64>, kNoiseChannels> noise{};
+};
 
 // Working memory of one thread.
 struct ShadeScratch {
   alignas(64) std::array<float, kMaxTilePixels> red, green, blue;
-  using SkyNodes = std::array<std::array<float, kSkyNodeStride * kSkyNodeRows>, kSkyChannels>;
-  alignas(64) SkyNodes sky;
+  SkyNodes sky;
   // By material, and the sky last: its pixels, padded to whole packets.
   alignas(64) std::array<std::array<std::uint16_t, kMaxTilePixels + kListPadding>,
                          kMaterialCount + 1> lists;

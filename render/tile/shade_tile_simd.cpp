@@ -271,8 +271,13 @@ HWY_INLINE std::array<V3, sizeof...(k)> ArrivingLights(
     static_assert(kView == ViewKind::kWindow,
                   "elsewhere what is shown is not where it seems to be");
     const auto found = shade.LookUp(s, shown);
-    return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep,
-                                 found[k])...};
+    // A loop, so that the code fits the processor's caches.
+    std::array<V3, sizeof...(k)> lights;
+#pragma GCC unroll 1
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      lights[i] =
+          ArrivingLight<kView>(s, tile, material, listed[i].lanes, shown[i], shade, keep, found[i]);
+    return lights;
   } else {
     return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep)...};
   }
@@ -331,10 +336,11 @@ HWY_INLINE void StoreSky(const V3& colour, std::size_t at, ShadeScratch& scratch
 void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& packets,
                      ShadeScratch& scratch) {
   if (packets.count == 0) return;
-  const SkyLattice lattice = MakeSkyLattice(s, tile.box, scratch);
+  const int last_row = packets.at[packets.count - 1] / s.grid.tile_size_px;
+  const SkyLattice lattice = MakeSkyLattice(s, tile.box, last_row + 1, scratch.sky);
   for (std::size_t n = 0; n < packets.count; ++n) {
     const int i = packets.at[n], y = i / s.grid.tile_size_px, x = i % s.grid.tile_size_px;
-    StoreSky(SkyOnLattice(s, tile.box, lattice, x, y), packets.at[n], scratch);
+    StoreSky(SkyOfPacket(s, tile.box, lattice, x, y), packets.at[n], scratch);
   }
 }
 
@@ -381,10 +387,10 @@ int ShadeLabelledTile(const Shading& s, const TileInput& input, ShadeScratch& sc
 void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
                   float* linear) {
   const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, tile);
-  const SkyLattice lattice = MakeSkyLattice(s, box, scratch);
+  const SkyLattice lattice = MakeSkyLattice(s, box, box.height_px, scratch.sky);
   for (int y = 0; y < box.height_px; ++y)
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
-      StoreSky(SkyOnLattice(s, box, lattice, x, y),
+      StoreSky(SkyOfPacket(s, box, lattice, x, y),
                static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
   ResolveTile(s, box, scratch, rgba, linear);
 }

@@ -62,10 +62,11 @@ HWY_INLINE SkyView ViewSky(const Shading& s, V3 ray) {
 }
 
 // The sky's light in a ray's direction; the disc is looked for where `sees_disc`.
-HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, V3 ray, bool sees_disc) {
+HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& noise, V3 ray,
+                       bool sees_disc) {
   V3 light = view.clear;
   V passes = Constant(1.0f);
-  if (s.light.clouds.any) light = AddClouds(s.light.clouds, view.clouds, light, passes);
+  if (s.light.clouds.any) light = AddClouds(s.light.clouds, view.clouds, noise, light, passes);
   if (!sees_disc) return light;
   const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
   const V disc = DiscPart(s.light, direction, s.rays.pixel_angle);
@@ -73,44 +74,89 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, V3 ray, bool sees_
   return ScaleAdd(Constant(s.light.disc_radiance), shown, light);
 }
 
-HWY_INLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
+// The sky's light at places of the window, found for each alone.
+static HWY_NOINLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
   const V3 ray = RayAt(s.rays, x_px, y_px);
-  return SkyLight(s, ViewSky(s, ray), ray, true);
+  const SkyView view = ViewSky(s, ray);
+  CloudNoise noise;
+  if (s.light.clouds.any)
+    noise = SampleClouds(s.light.clouds, view.clouds.x, view.clouds.y, view.clouds.level);
+  return SkyLight(s, view, noise, ray, true);
 }
 
-// What changes slowly is found on every fourth pixel of every fourth row, and lies on straight
-// lines between them: within 1/255 of what it is.
-struct SkyLattice {
-  ShadeScratch::SkyNodes& nodes;
-  bool sees_disc;
+// The sky of a tile lies on straight lines between nodes on every fourth pixel: of every fourth row
+// for what changes slowly, of each row for the noise of clouds, which lie flat.
+constexpr int kStepLog2 = 2, kStep = 1 << kStepLog2;
+constexpr float kMostStepAngle = 0.006f;  // more, and too much of the sky lies between two nodes
+
+// Nodes along one side, for so many pixels.
+constexpr int nodes_along(int pixels) { return (pixels - 1) / kStep + 2; }
+
+// Where a row of pixels lies between two rows of nodes; `row` in pixels.
+struct BetweenRows {
+  std::size_t at;  // of the upper row's first node
+  V below;
+
+  HWY_INLINE explicit BetweenRows(int row)
+      : at(static_cast<std::size_t>(row / kStep) * SkyNodes::kStride),
+        below(Constant(static_cast<float>(row % kStep) / static_cast<float>(kStep))) {}
+
+  // The nodes from `column` on of a channel.
+  HWY_INLINE V operator()(const float* HWY_RESTRICT nodes, std::size_t column) const {
+    const D d;
+    const float* const upper = nodes + at + column;
+    return Lerp(hn::LoadU(d, upper), hn::LoadU(d, upper + SkyNodes::kStride), below);
+  }
 };
 
-HWY_INLINE void StoreView(const SkyView& view, bool clouds, std::size_t at,
-                          ShadeScratch::SkyNodes& nodes) {
+// Nodes a, b, c ... to pixels: a, a, a, a, b ... and what lies between them and the next nodes.
+HWY_INLINE V ToPixels(V nodes) {
+  const D d;
+  const DI di;
+  const VI lane = hn::Iota(di, 0);
+  const VI left = hn::ShiftRight<kStepLog2>(lane), right = hn::Add(left, hn::Set(di, 1));
+  const V part = hn::Mul(hn::ConvertTo(d, hn::And(lane, hn::Set(di, kStep - 1))),
+                         Constant(1.0f / static_cast<float>(kStep)));
+  return Lerp(hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, left)),
+              hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, right)), part);
+}
+
+HWY_INLINE void StoreView(const SkyView& view, bool clouds, std::size_t at, SkyNodes& nodes) {
   const D d;
   std::size_t channel = 0;
-  const auto store = [&](V value) HWY_ATTR { hn::StoreU(value, d, &nodes[channel++][at]); };
+  const auto store = [&](V value) HWY_ATTR { hn::StoreU(value, d, &nodes.view[channel++][at]); };
   store(view.clear.x), store(view.clear.y), store(view.clear.z);
   if (!clouds) return;
   const CloudView& c = view.clouds;
-  store(c.x), store(c.y), store(c.level), store(c.shown), store(c.forward), store(c.overcast);
+  store(c.shown), store(c.forward), store(c.overcast), store(c.x), store(c.y), store(c.level);
 }
 
-// The lattice over a tile.
-inline SkyLattice MakeSkyLattice(const Shading& s, const raster::PixelBox& box,
-                                 ShadeScratch& scratch) {
+template <class Read>
+HWY_INLINE SkyView ReadView(const SkyNodes& nodes, bool clouds, const Read& read_channel) {
+  SkyView view;
+  std::size_t channel = 0;
+  const auto read = [&]() HWY_ATTR { return read_channel(nodes.view[channel++].data()); };
+  view.clear.x = read(), view.clear.y = read(), view.clear.z = read();
+  if (!clouds) return view;
+  view.clouds.shown = read(), view.clouds.forward = read(), view.clouds.overcast = read();
+  return view;
+}
+
+// Fills the first `rows` rows of the lattice of what changes slowly, and says whether any pixel
+// there may see the disc.
+inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, SkyNodes& nodes) {
   const D d;
-  const int rows = (box.height_px - 1) / kSkyStep + 2, columns = (box.width_px - 1) / kSkyStep + 2;
-  const float step = static_cast<float>(kSkyStep);
+  const int columns = nodes_along(box.width_px);
+  const float step = static_cast<float>(kStep);
   V nearest = Constant(-4.0f);
   for (int row = 0; row < rows; ++row) {
-    const V y_px = Constant(static_cast<float>(box.y0_px + row * kSkyStep));
+    const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
     for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
       const V x_px = hn::MulAdd(hn::ConvertTo(d, CountFrom(column)), Constant(step),
                                 Constant(static_cast<float>(box.x0_px)));
       const V3 ray = RayAt(s.rays, x_px, y_px);
-      const auto at = static_cast<std::size_t>(row) * kSkyNodeStride + column;
-      StoreView(ViewSky(s, ray), s.light.clouds.any, at, scratch.sky);
+      const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
+      StoreView(ViewSky(s, ray), s.light.clouds.any, at, nodes);
       const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
       nearest = hn::Max(nearest, Dot(direction, Constant(s.light.sun_direction)));
     }
@@ -118,43 +164,98 @@ inline SkyLattice MakeSkyLattice(const Shading& s, const raster::PixelBox& box,
   // No pixel is further from a node than a step's diagonal, no direction turns by more than
   // pixel_angle a pixel, and cos(a) is over 1 - a^2 / 2.
   const float reach = 1.02f * kDiscRadius + (1.5f * step + 1.0f) * s.rays.pixel_angle;
-  const bool sees_disc =
-      !hn::AllTrue(d, hn::Lt(nearest, Constant(1.0f - 0.5f * reach * reach - 1e-6f)));
-  return {scratch.sky, sees_disc};
+  return !hn::AllTrue(d, hn::Lt(nearest, Constant(1.0f - 0.5f * reach * reach - 1e-6f)));
+}
+
+// The clouds' noise at places that `read` finds in the view's channels.
+template <class Read>
+HWY_INLINE CloudNoise NoiseAt(const Clouds& clouds, const SkyNodes& nodes, const Read& read) {
+  constexpr std::size_t kPlace = SkyNodes::kViewChannels - 3;
+  return SampleClouds(clouds, read(nodes.view[kPlace].data()), read(nodes.view[kPlace + 1].data()),
+                      read(nodes.view[kPlace + 2].data()));
+}
+
+// The noise at one column of nodes: as in rows, to the bit.
+inline void FindNoiseDown(const Clouds& clouds, int column, int rows, SkyNodes& nodes) {
+  const D d;
+  const DI di;
+  constexpr int kStride = static_cast<int>(SkyNodes::kStride);
+  for (int first = 0; first < rows; first += static_cast<int>(kLanes)) {
+    const VI row = hn::Min(CountFrom(first), hn::Set(di, rows - 1));
+    const VI at =
+        hn::Add(hn::Mul(hn::ShiftRight<kStepLog2>(row), hn::Set(di, kStride)), hn::Set(di, column));
+    const V below = hn::Mul(hn::ConvertTo(d, hn::And(row, hn::Set(di, kStep - 1))),
+                            Constant(1.0f / static_cast<float>(kStep)));
+    const CloudNoise found = NoiseAt(clouds, nodes, [&](const float* upper) HWY_ATTR {
+      return Lerp(hn::GatherIndex(d, upper, at), hn::GatherIndex(d, upper + kStride, at), below);
+    });
+    HWY_ALIGN std::array<std::array<float, kLanes>, SkyNodes::kNoiseChannels> values;
+    hn::Store(found.noise, d, values[0].data());
+    hn::Store(found.side, d, values[1].data());
+    hn::Store(found.lost, d, values[2].data());
+    const int count = std::min(rows - first, static_cast<int>(kLanes));
+    for (std::size_t channel = 0; channel < values.size(); ++channel)
+      for (int i = 0; i < count; ++i)
+        nodes.noise[channel][static_cast<std::size_t>(first + i) * SkyNodes::kStride +
+                             static_cast<std::size_t>(column)] = values[channel][i];
+  }
+}
+
+// Fills so many rows of the clouds' noise from the view.
+inline void FindNoise(const Clouds& clouds, int columns, int rows, SkyNodes& nodes) {
+  const D d;
+  // A tile has a column more than fills whole packets: that one goes down.
+  const bool one_more = columns % static_cast<int>(kLanes) == 1;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns - (one_more ? 1 : 0);
+         column += static_cast<int>(kLanes)) {
+      const BetweenRows between(row);
+      const auto first = static_cast<std::size_t>(column);
+      const CloudNoise found = NoiseAt(
+          clouds, nodes, [&](const float* channel) HWY_ATTR { return between(channel, first); });
+      const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + first;
+      hn::StoreU(found.noise, d, &nodes.noise[0][at]);
+      hn::StoreU(found.side, d, &nodes.noise[1][at]);
+      hn::StoreU(found.lost, d, &nodes.noise[2][at]);
+    }
+  if (one_more) FindNoiseDown(clouds, columns - 1, rows, nodes);
+}
+
+// The sky in the first rows of a tile; not `on` in windows of large pixels.
+struct SkyLattice {
+  const SkyNodes& nodes;
+  bool on, sees_disc;
+};
+
+inline SkyLattice MakeSkyLattice(const Shading& s, const raster::PixelBox& box, int rows_px,
+                                 SkyNodes& nodes) {
+  if (s.rays.pixel_angle > kMostStepAngle / kStep) return {nodes, false, true};
+  const bool sees_disc = FindView(s, box, nodes_along(rows_px), nodes);
+  if (s.light.clouds.any) FindNoise(s.light.clouds, nodes_along(box.width_px), rows_px, nodes);
+  return {nodes, true, sees_disc};
 }
 
 // The sky's light in the kLanes pixels from (x, y) of a tile on; x a multiple of kLanes.
-HWY_INLINE V3 SkyOnLattice(const Shading& s, const raster::PixelBox& box, const SkyLattice& lattice,
-                           int x, int y) {
+HWY_INLINE V3 SkyOfPacket(const Shading& s, const raster::PixelBox& box, const SkyLattice& lattice,
+                          int x, int y) {
   const D d;
-  const DI di;
-  const auto at = static_cast<std::size_t>(y / kSkyStep) * kSkyNodeStride + x / kSkyStep;
-  constexpr float kPerStep = 1.0f / kSkyStep;
-  const V below = Constant(static_cast<float>(y % kSkyStep) * kPerStep);
-  const VI lane = hn::Iota(di, 0);
-  const VI node = hn::ShiftRight<kSkyStepLog2>(lane);
-  const auto left = hn::IndicesFromVec(d, node);
-  const auto next = hn::IndicesFromVec(d, hn::Add(node, hn::Set(di, 1)));
-  const V right =
-      hn::Mul(hn::ConvertTo(d, hn::And(lane, hn::Set(di, kSkyStep - 1))), Constant(kPerStep));
-  std::size_t channel = 0;
-  const auto read = [&]() HWY_ATTR {
-    const float* const upper = &lattice.nodes[channel++][at];
-    const V nodes = Lerp(hn::LoadU(d, upper), hn::LoadU(d, upper + kSkyNodeStride), below);
-    return Lerp(hn::TableLookupLanes(nodes, left), hn::TableLookupLanes(nodes, next), right);
-  };
-  SkyView view;
-  view.clear.x = read(), view.clear.y = read(), view.clear.z = read();
+  const SkyNodes& nodes = lattice.nodes;
+  const V x_px = hn::ConvertTo(d, CountFrom(box.x0_px + x));
+  const V y_px = Constant(static_cast<float>(box.y0_px + y));
+  if (!lattice.on) return ShadeSky(s, x_px, y_px);
+  const auto column = static_cast<std::size_t>(x / kStep);
+  const BetweenRows between(y);
+  const SkyView view = ReadView(nodes, s.light.clouds.any, [&](const float* channel) HWY_ATTR {
+    return ToPixels(between(channel, column));
+  });
+  CloudNoise noise;
   if (s.light.clouds.any) {
-    CloudView& c = view.clouds;
-    c.x = read(), c.y = read(), c.level = read();
-    c.shown = read(), c.forward = read(), c.overcast = read();
+    const std::size_t at = static_cast<std::size_t>(y) * SkyNodes::kStride + column;
+    const auto read = [&](std::size_t channel)
+                          HWY_ATTR { return ToPixels(hn::LoadU(d, &nodes.noise[channel][at])); };
+    noise = {read(0), read(1), read(2)};
   }
-  V3 ray;
-  if (lattice.sees_disc)
-    ray = RayAt(s.rays, hn::ConvertTo(d, CountFrom(box.x0_px + x)),
-                Constant(static_cast<float>(box.y0_px + y)));
-  return SkyLight(s, view, ray, lattice.sees_disc);
+  return SkyLight(s, view, noise, RayAt(s.rays, x_px, y_px), lattice.sees_disc);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -39,8 +39,9 @@ void SoftSkyRow(const SkyMaps& sky, const Clouds& clouds, int y, std::uint32_t* 
     const float* clear = sky.soft_clear.data() + at;
     V passes;
     const V3 direction = {hn::Mul(u, across), hn::Mul(v, across), z};
+    const CloudView view = ViewClouds(clouds, direction, Constant(kSoftAngleLog2));
     const V3 light = AddClouds(
-        clouds, ViewClouds(clouds, direction, Constant(kSoftAngleLog2)),
+        clouds, view, SampleClouds(clouds, view.x, view.y, view.level),
         {hn::LoadU(d, clear), hn::LoadU(d, clear + kChannel), hn::LoadU(d, clear + 2 * kChannel)},
         passes);
     const V most = hn::Max(light.x, hn::Max(light.y, light.z));

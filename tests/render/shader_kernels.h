@@ -66,6 +66,12 @@ void haze(const Shading& shading, std::span<const float> distance_m, glm::vec3 t
 void find_seen(ViewKind kind, const Media& media, float level_rel_m,
                std::span<const glm::vec3> p_shown, std::span<glm::vec3> p_rel);
 
+// ---- The sky
+
+// The sky's light at places of the window, each on its own.
+void sky_light(const Shading& shading, std::span<const float> x_px, std::span<const float> y_px,
+               std::span<glm::vec3> light);
+
 // ---- The picture
 
 void encode_srgb(std::span<const float> linear, std::span<float> code);

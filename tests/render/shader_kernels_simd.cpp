@@ -11,6 +11,7 @@
 #include "render/materials/list-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/resolve-inl.h"
+#include "render/tile/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -50,6 +51,13 @@ void StoreSome(V3 from, std::span<glm::vec3> to, std::size_t first) {
 template <class Each>
 void ForPackets(std::size_t count, const Each& each) {
   for (std::size_t i = 0; i < count; i += kLanes) each(i);
+}
+
+void Sky(const Shading& shading, std::span<const float> x_px, std::span<const float> y_px,
+         std::span<glm::vec3> light) {
+  ForPackets(light.size(), [&](std::size_t i) {
+    StoreSome(ShadeSky(shading, LoadSome(x_px, i), LoadSome(y_px, i)), light, i);
+  });
 }
 
 WaterSlopes NoSlopes() {
@@ -244,6 +252,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swell::render {
 
+HWY_EXPORT(Sky);
 HWY_EXPORT(Glint);
 HWY_EXPORT(SeenCosines);
 HWY_EXPORT(UnhiddenCosines);
@@ -279,6 +288,11 @@ void unhidden_cosines(std::span<const float> cosine, float variance, std::span<f
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,
                  std::span<glm::vec3> light) {
   HWY_DYNAMIC_DISPATCH(LightOfWater)(shading, to_eye, light);
+}
+
+void sky_light(const Shading& shading, std::span<const float> x_px, std::span<const float> y_px,
+               std::span<glm::vec3> light) {
+  HWY_DYNAMIC_DISPATCH(Sky)(shading, x_px, y_px, light);
 }
 
 void foam_cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,

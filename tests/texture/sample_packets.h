@@ -30,6 +30,8 @@ struct MapPlaces {
 
 std::vector<Sample2> sample_level(const PackedMap2& map, const MapPlaces& places);
 
+std::vector<float> sample_level(const PackedMap1& map, const MapPlaces& places);
+
 // Adds to sums[i] `gain` times the blend of places.level[i] and the next level by t[i].
 void add_blended(const PackedMap2& map, const MapPlaces& places, std::span<const float> t,
                  float gain, std::span<Sample2> sums);

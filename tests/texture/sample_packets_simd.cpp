@@ -47,6 +47,17 @@ void one_level(const PackedMap2& map, const MapPlaces& places, std::span<Sample2
   }
 }
 
+void one_channel(const PackedMap1& map, const MapPlaces& places, std::span<float> out) {
+  const D d;
+  HWY_ALIGN float packet[kLanes];
+  for (std::size_t first = 0; first < out.size(); first += kLanes) {
+    hn::Store(SampleLevel(d, map, load_packet(places.x_fx8, first),
+                          load_packet(places.y_fx8, first), load_packet(places.level, first)),
+              d, packet);
+    std::copy_n(packet, std::min(kLanes, out.size() - first), out.data() + first);
+  }
+}
+
 void blended(const PackedMap2& map, const MapPlaces& places, std::span<const float> t, float gain,
              std::span<Sample2> sums) {
   const D d;
@@ -108,6 +119,7 @@ HWY_AFTER_NAMESPACE();
 namespace swell::texture {
 
 HWY_EXPORT(one_level);
+HWY_EXPORT(one_channel);
 HWY_EXPORT(blended);
 HWY_EXPORT(rgba);
 HWY_EXPORT(rgb);
@@ -115,6 +127,12 @@ HWY_EXPORT(rgb);
 std::vector<Sample2> sample_level(const PackedMap2& map, const MapPlaces& places) {
   std::vector<Sample2> out(places.level.size());
   HWY_DYNAMIC_DISPATCH(one_level)(map, places, out);
+  return out;
+}
+
+std::vector<float> sample_level(const PackedMap1& map, const MapPlaces& places) {
+  std::vector<float> out(places.level.size());
+  HWY_DYNAMIC_DISPATCH(one_channel)(map, places, out);
   return out;
 }
 
