@@ -70,7 +70,8 @@ std::string extension_of(const fs::path& file) {
 // So that no other format's reader has a look at the file.
 void keep_readers_of(const std::string& extension, Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    const std::string theirs = std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
+    const std::string theirs =
+        std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
     if (theirs.find(" " + extension + " ") == std::string::npos)
       importer.UnregisterLoader(importer.GetImporter(i));  // left behind: the process ends soon
   }
@@ -280,10 +281,12 @@ LooseMesh read_asset(const fs::path& file, UpAxis up) {
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFolder(folder));  // owns it
   keep_readers_of(extension, importer);
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* const scene =
       importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
-  if (!scene || !scene->mRootNode) refuse("a file that cannot be read ({})", importer.GetErrorString());
+  if (!scene || !scene->mRootNode)
+    refuse("a file that cannot be read ({})", importer.GetErrorString());
   LooseMesh mesh;
   const bool is_stl = extension == "stl";
   add_materials(*scene, folder, is_stl, mesh);

@@ -28,8 +28,8 @@ struct TextureSource {
 // Three vertices a triangle. Axes as of an object: right, ahead, up.
 struct LooseMesh {
   std::vector<scene::FlatVertex> corners;
-  std::vector<bool> has_normals;         // of each triangle
-  std::vector<std::uint32_t> material;   // the same
+  std::vector<bool> has_normals;        // of each triangle
+  std::vector<std::uint32_t> material;  // the same
   std::vector<scene::FlatMaterial> materials;
   std::vector<TextureSource> textures;
 };

@@ -59,13 +59,13 @@ scene::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels
                               info.width, info.height, info.channels, scene::kMostTextureSide_px));
   const std::size_t texels = static_cast<std::size_t>(info.width) * info.height;
   if (texels > most_texels)
-    throw Refused(fmt::format("over {0} texels in its textures, allowed {0}",
-                              scene::kMostMeshTexels));
+    throw Refused(
+        fmt::format("over {0} texels in its textures, allowed {0}", scene::kMostMeshTexels));
   const auto channels = static_cast<std::size_t>(info.channels);
   std::vector<float> pixels(texels * channels);
   check(codec.read(image, pixels, error));
-  scene::FlatTexture texture{static_cast<std::uint32_t>(info.width),
-                             static_cast<std::uint32_t>(info.height), {}};
+  scene::FlatTexture texture{
+      static_cast<std::uint32_t>(info.width), static_cast<std::uint32_t>(info.height), {}};
   texture.texels.reserve(texels);
   for (std::size_t i = 0; i < texels; ++i)
     texture.texels.push_back(texel_of(std::span(pixels).subspan(i * channels, channels)));
@@ -97,8 +97,8 @@ std::vector<scene::FlatTexture> decode_textures(std::span<const TextureSource> s
       textures.push_back(decode(source.bytes, left));
     const std::uint64_t taken = textures.back().texels.size();
     if (taken > left)
-      throw Refused(fmt::format("over {0} texels in its textures, allowed {0}",
-                                scene::kMostMeshTexels));
+      throw Refused(
+          fmt::format("over {0} texels in its textures, allowed {0}", scene::kMostMeshTexels));
     left -= taken;
   }
   return textures;

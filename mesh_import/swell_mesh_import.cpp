@@ -21,8 +21,7 @@ scene::FlatMesh import_mesh(const std::filesystem::path& file, scene::UpAxis up)
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (error) throw Refused(error.message());
-  if (bytes > scene::kMostMeshFileBytes)
-    throw Refused("a file of over 512 MiB, allowed 512 MiB");
+  if (bytes > scene::kMostMeshFileBytes) throw Refused("a file of over 512 MiB, allowed 512 MiB");
   LooseMesh loose = read_asset(file, up);
   add_normals(loose);
   scene::FlatMesh flat;

@@ -32,9 +32,8 @@ inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount)
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples", "whitecaps", "haze",   "earth",
-    "clouds",     "shadows",    "hulls",   "apron",     "tiling", "seen-slopes",
-    "textures"};
+    "reflection", "refraction", "ripples", "whitecaps", "haze",        "earth",   "clouds",
+    "shadows",    "hulls",      "apron",   "tiling",    "seen-slopes", "textures"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

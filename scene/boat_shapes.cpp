@@ -15,15 +15,15 @@ constexpr Paint kTeak{glm::vec3(0.30f, 0.21f, 0.12f), false, 0.7f};
 constexpr Paint kCabin{glm::vec3(0.75f, 0.75f, 0.72f), false, 0.35f};
 constexpr Paint kGlass{glm::vec3(0.012f, 0.014f, 0.016f), false, 0.08f};
 constexpr Paint kAluminium{glm::vec3(0.75f, 0.76f, 0.78f), false, 0.35f, 1.0f};
-constexpr Paint kCloth{glm::vec3(0.80f, 0.79f, 0.75f), false, 1.0f};
+constexpr Paint kCloth{glm::vec3(0.80f, 0.79f, 0.75f), false, 1.0f, 0.0f, 0.5f};
 
 // The form of a hull in metres, stern at -length / 2, bow at length / 2, still water at z = 0.
 struct HullLines {
   float length, half_beam;
-  float keel, stern_keel;        // z of the lowest line amidships, and at the stern
+  float keel, stern_keel;               // z of the lowest line amidships, and at the stern
   float sheer, bow_sheer, stern_sheer;  // z of the upper edge
-  float transom;                 // breadth at the stern over that amidships
-  float widest;                  // where, in [0, 1] from the stern
+  float transom;                        // breadth at the stern over that amidships
+  float widest;                         // where, in [0, 1] from the stern
 
   float y(float t) const { return (t - 0.5f) * length; }
   float half_breadth(float t) const {
@@ -57,7 +57,10 @@ struct Sections {
   std::vector<float> u;
 };
 
-// Between columns of sections, seen from outside; inside out if `inner`, which is drawn in a little.
+constexpr float kFloor_m = 0.13f;
+
+// Between columns of sections, seen from outside; inside out if `inner`, which is drawn in a
+// little.
 void add_skin(const HullLines& lines, const Sections& sections, const Paint& paint, bool inner,
               MeshBuilder& to) {
   std::vector<glm::vec3> points;
@@ -67,7 +70,8 @@ void add_skin(const HullLines& lines, const Sections& sections, const Paint& pai
     for (int j = 0; j < columns; ++j) {
       const float u = sections.u[static_cast<std::size_t>(inner ? columns - 1 - j : j)];
       glm::vec3 p = lines.at(t, u);
-      if (inner) p = {0.93f * p.x, 0.975f * p.y, std::min(p.z + 0.05f, lines.top(t))};
+      // The floor lies over the water, which would else show through it.
+      if (inner) p = {0.93f * p.x, 0.975f * p.y, std::clamp(p.z + 0.05f, kFloor_m, lines.top(t))};
       points.push_back(p);
     }
   }
@@ -153,8 +157,10 @@ void add_cabin(float half_low, float half_high, float stern_y, float bow_y, floa
   const auto ring = [&](float part, float grow) {
     const float z = low + part * (high - low), half = half_low + part * (half_high - half_low);
     const float bow = bow_y - part * 0.9f, x = half + grow, fore = 0.6f * half + grow;
-    return std::array<glm::vec3, 4>{glm::vec3(-x, stern_y - grow, z), {x, stern_y - grow, z},
-                                    {fore, bow + grow, z}, {-fore, bow + grow, z}};
+    return std::array<glm::vec3, 4>{glm::vec3(-x, stern_y - grow, z),
+                                    {x, stern_y - grow, z},
+                                    {fore, bow + grow, z},
+                                    {-fore, bow + grow, z}};
   };
   const auto add_walls = [&](float from, float up_to, float grow, const Paint& paint) {
     const auto a = ring(from, grow), b = ring(up_to, grow);
@@ -171,9 +177,15 @@ void add_cabin(float half_low, float half_high, float stern_y, float bow_y, floa
 }  // namespace
 
 void add_boat(MeshBuilder& to) {
-  constexpr HullLines kLines{.length = 4.6f, .half_beam = 0.85f, .keel = -0.2f,
-                             .stern_keel = -0.1f, .sheer = 0.38f, .bow_sheer = 0.595f,
-                             .stern_sheer = 0.46f, .transom = 0.72f, .widest = 0.42f};
+  constexpr HullLines kLines{.length = 4.6f,
+                             .half_beam = 0.85f,
+                             .keel = -0.2f,
+                             .stern_keel = -0.1f,
+                             .sheer = 0.38f,
+                             .bow_sheer = 0.595f,
+                             .stern_sheer = 0.46f,
+                             .transom = 0.72f,
+                             .widest = 0.42f};
   to.size = {1.7f, 4.6f, 0.8f};
   to.origin = {0.0f, 0.0f, 0.2f};
   add_hull_skin(kLines, to);
@@ -183,14 +195,20 @@ void add_boat(MeshBuilder& to) {
   add_gunwale(kLines, stations_for(to), 0.06f, kWood, to);
   for (const float t : {0.2f, 0.45f, 0.7f}) {
     const float half = 0.9f * kLines.half_breadth(t), y = kLines.y(t);
-    add_box({-half, y - 0.13f, 0.14f}, {half, y + 0.13f, 0.17f}, kTeak, to);
+    add_box({-half, y - 0.13f, 0.27f}, {half, y + 0.13f, 0.3f}, kTeak, to);
   }
 }
 
 void add_sailboat(MeshBuilder& to) {
-  constexpr HullLines kLines{.length = 9.2f, .half_beam = 1.45f, .keel = -0.5f,
-                             .stern_keel = -0.02f, .sheer = 0.95f, .bow_sheer = 1.25f,
-                             .stern_sheer = 1.0f, .transom = 0.7f, .widest = 0.42f};
+  constexpr HullLines kLines{.length = 9.2f,
+                             .half_beam = 1.45f,
+                             .keel = -0.5f,
+                             .stern_keel = -0.02f,
+                             .sheer = 0.95f,
+                             .bow_sheer = 1.25f,
+                             .stern_sheer = 1.0f,
+                             .transom = 0.7f,
+                             .widest = 0.42f};
   to.size = {2.9f, 9.2f, 14.5f};
   to.origin = {0.0f, 0.0f, 1.74f};
   add_hull_skin(kLines, to);

@@ -199,10 +199,10 @@ Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
       return SceneFault{key("file"), "it of another kind than \"mesh\"", "files of meshes"};
     for (std::size_t i = 1; i < object.path_m.size(); ++i)
       if (glm::distance(object.path_m[i - 1], object.path_m[i]) < kShortestStretch_m)
-        return SceneFault{key(fmt::format("path_m[{}]", i)),
-                          fmt::format("[{}, {}]", object.path_m[i].x, object.path_m[i].y),
-                          fmt::format("a point {} m or more from the one before",
-                                      kShortestStretch_m)};
+        return SceneFault{
+            key(fmt::format("path_m[{}]", i)),
+            fmt::format("[{}, {}]", object.path_m[i].x, object.path_m[i].y),
+            fmt::format("a point {} m or more from the one before", kShortestStretch_m)};
     const bool ends_where_it_begins =
         object.path_m.size() >= 2 &&
         glm::distance(object.path_m.front(), object.path_m.back()) < kShortestStretch_m;

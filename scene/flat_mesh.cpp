@@ -104,7 +104,9 @@ FlatMesh read_flat_mesh(std::span<const char> bytes) {
     FlatTexture texture;
     texture.width = from.take<std::uint32_t>();
     texture.height = from.take<std::uint32_t>();
-    const auto is_side = [](std::uint32_t side) { return side >= 1 && side <= kMostTextureSide_px; };
+    const auto is_side = [](std::uint32_t side) {
+      return side >= 1 && side <= kMostTextureSide_px;
+    };
     check(is_side(texture.width) && is_side(texture.height), "a texture of {} x {}", texture.width,
           texture.height);
     texels += std::uint64_t{texture.width} * texture.height;

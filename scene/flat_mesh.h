@@ -27,7 +27,7 @@ inline constexpr std::uint64_t kMostMeshFileBytes = 512ull << 20;
 struct FlatHeader {
   std::uint32_t magic = kFlatMagic;
   std::uint32_t vertices = 0, materials = 0, textures = 0;
-  std::uint32_t levels = 0;  // finest first; at most kMostMeshLevels
+  std::uint32_t levels = 0;                                // finest first; at most kMostMeshLevels
   std::array<std::uint32_t, kMostMeshLevels> triangles{};  // of each level
 };
 

@@ -53,6 +53,7 @@ ObjectTriangle make_triangle(const Corners& q, const Corners& normal, const Pain
   triangle.painted = paint.painted;
   triangle.roughness = paint.roughness;
   triangle.metalness = paint.metalness;
+  triangle.translucency = paint.translucency;
   triangle.flat_normal =
       glm::dot(across, normal[0] + normal[1] + normal[2]) < 0.0f ? -across : across;
   const glm::vec3 dual1 = glm::cross(e2, across) / area2, dual2 = glm::cross(across, e1) / area2;
@@ -114,8 +115,8 @@ void add_ball(float radius, float z_low, float z_high, const Paint& paint, MeshB
     return n / std::sqrt(glm::dot(n, n));
   };
   for (int i = 0; i < rings; ++i)
-    add_strip(
-        {place(point(i)), place(point(i + 1)), normal(point(i)), normal(point(i + 1)), paint}, to);
+    add_strip({place(point(i)), place(point(i + 1)), normal(point(i)), normal(point(i + 1)), paint},
+              to);
 }
 
 void add_box(glm::vec3 low, glm::vec3 high, const Paint& paint, MeshBuilder& to) {
@@ -187,8 +188,7 @@ void add_polygon(std::span<const glm::vec3> corners, const Paint& paint, MeshBui
 void end_part(const MeshPart& waterline, MeshBuilder& to) {
   MeshPart part = waterline;
   if (!to.mesh.parts.empty())
-    part.first_triangle =
-        to.mesh.parts.back().first_triangle + to.mesh.parts.back().triangles;
+    part.first_triangle = to.mesh.parts.back().first_triangle + to.mesh.parts.back().triangles;
   part.triangles = static_cast<std::uint32_t>(to.mesh.triangles.size()) - part.first_triangle;
   to.mesh.parts.push_back(part);
 }

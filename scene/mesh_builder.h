@@ -15,6 +15,7 @@ struct Paint {
   glm::vec3 tint{1.0f};
   bool painted = true;
   float roughness = 0.42f, metalness = 0.0f;
+  float translucency = 0.0f;
 };
 
 using Corners = std::array<glm::vec3, 3>;

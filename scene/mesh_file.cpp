@@ -70,8 +70,7 @@ ObjectTriangle shading_of(const Triangle& t, const FlatMaterial& material) {
   const bool turned = glm::dot(across, t.normal[0] + t.normal[1] + t.normal[2]) < 0.0;
   result.flat_normal = glm::vec3((turned ? -across : across) / std::max(length, 1e-30));
   for (int c = 0; c < 3; ++c) {
-    const glm::dvec4 plane =
-        plane_through(t.q, {t.normal[0][c], t.normal[1][c], t.normal[2][c]});
+    const glm::dvec4 plane = plane_through(t.q, {t.normal[0][c], t.normal[1][c], t.normal[2][c]});
     result.normal_at_origin[c] = static_cast<float>(plane[0]);
     result.normal_along_x[c] = static_cast<float>(plane[1]);
     result.normal_along_y[c] = static_cast<float>(plane[2]);
@@ -104,8 +103,8 @@ TriangleTexture texture_of(const Triangle& t, const FlatMaterial& material,
   const double texels =
       area_of(t.uv[1] - t.uv[0], t.uv[2] - t.uv[0]) * texture.width * texture.height;
   const double units = 0.5 * glm::length(glm::cross(t.q[1] - t.q[0], t.q[2] - t.q[0]));
-  result.log2_texels_per_unit = static_cast<float>(
-      0.5 * log(std::max(texels, 1e-12) / std::max(units, 1e-12)) / log(2.0));
+  result.log2_texels_per_unit =
+      static_cast<float>(0.5 * log(std::max(texels, 1e-12) / std::max(units, 1e-12)) / log(2.0));
   result.texture = material.texture;
   result.u = glm::vec4(plane_through(t.q, {t.uv[0].x, t.uv[1].x, t.uv[2].x}));
   result.v = glm::vec4(plane_through(t.q, {t.uv[0].y, t.uv[1].y, t.uv[2].y}));
@@ -146,8 +145,8 @@ MeshOfFile load_mesh(const std::string& file, UpAxis up) {
   set_box(flat, mesh);
   std::vector<texture::MipImage> textures;
   for (const FlatTexture& t : flat.textures)
-    textures.push_back(texture::make_mip_image(static_cast<int>(t.width),
-                                               static_cast<int>(t.height), t.texels));
+    textures.push_back(
+        texture::make_mip_image(static_cast<int>(t.width), static_cast<int>(t.height), t.texels));
   const auto shared = std::make_shared<const std::vector<texture::MipImage>>(std::move(textures));
   for (const FlatLevel& level : flat.levels) {
     mesh.levels.push_back(mesh_of_level(flat, mesh, level));
@@ -164,6 +163,7 @@ void fit_object(const MeshOfFile& mesh, FloatingObject& object) {
         fmt::format("a mesh of {:.3g} x {:.3g} x {:.3g} m, allowed {} to {} m at the scale {}",
                     size_m.x, size_m.y, size_m.z, kSmallest_m, kLargest_m, object.scale));
   object.size_m = size_m;
+  object.middle_m = glm::dvec2(0.0);
   if (!object.at_file_origin) return;
   object.middle_m = object.scale * 0.5 * glm::dvec2(mesh.low + mesh.high);
   object.draught = -object.scale * mesh.low.z / size_m.z;

@@ -20,6 +20,7 @@ struct ObjectTriangle {
   glm::vec3 flat_normal{0.0f};  // of the triangle itself, on the side that the others point to
   glm::vec3 tint{1.0f};         // linear RGB reflectance, times the object's colour if painted
   float roughness = 0.42f, metalness = 0.0f;  // the object's if painted
+  float translucency = 0.0f;                  // part of the light on its back that it lets through
   bool painted = true;
 };
 
@@ -27,7 +28,7 @@ struct ObjectTriangle {
 // normal is, (at_origin, along_x, along_y, along_z).
 struct TriangleTexture {
   glm::vec4 u{0.0f}, v{0.0f};
-  std::int32_t texture = -1;  // of the mesh; -1: none
+  std::int32_t texture = -1;          // of the mesh; -1: none
   float log2_texels_per_unit = 0.0f;  // of the box, along the triangle
 };
 

@@ -189,7 +189,8 @@ void check_given_poses(std::span<const GivenPose> given, std::size_t objects) {
     const glm::dmat3 product = glm::transpose(axes) * axes;
     double off = std::abs(glm::determinant(axes) - 1.0);
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(product[i][j] - (i == j ? 1.0 : 0.0)));
+      for (int j = 0; j < 3; ++j)
+        off = std::max(off, std::abs(product[i][j] - (i == j ? 1.0 : 0.0)));
     SWELL_CHECK(off <= 1e-6 && std::isfinite(glm::determinant(axes)),
                 "world_from_object of object {} is no rotation", g.object);
   }

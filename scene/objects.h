@@ -69,10 +69,11 @@ struct FloatingObject {
 
   // Of a mesh.
   std::string file{};
-  std::string file_place{};  // where a scene file names it, for messages: "harbour.toml:12: column 8"
+  std::string
+      file_place{};  // where a scene file names it, for messages: "harbour.toml:12: column 8"
   UpAxis up = UpAxis::kByFormat;
-  double scale = 1.0;          // metres for a unit of the file
-  bool at_file_origin = false; // the position is that of the file's origin, at the waterline
+  double scale = 1.0;           // metres for a unit of the file
+  bool at_file_origin = false;  // the position is that of the file's origin, at the waterline
   // Of a mesh that render::World has read, whose size_m and draught are then the file's: how far
   // right and ahead of the origin the middle of its box lies.
   glm::dvec2 middle_m{0.0};
@@ -93,8 +94,8 @@ struct ObjectPose {
 };
 
 // Where all objects are: those that float lie on the surface. Their height is the mean over the
-// hull's plan, so that waves shorter than the hull hardly lift it; the tilt is kTiltShare of that of
-// the plane of least squares there. A pose depends on the object and the surface (with its time)
+// hull's plan, so that waves shorter than the hull hardly lift it; the tilt is kTiltShare of that
+// of the plane of least squares there. A pose depends on the object and the surface (with its time)
 // alone. Spans of one length. Allocates nothing; 0.5 us an object.
 void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,
                   std::span<ObjectPose> poses);

@@ -376,8 +376,19 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       "of a mesh: OBJ, glTF, GLB, STL or COLLADA, relative to the scene file");
   file.path_of = "mesh";
   file.is_set = [](const FloatingObject& object) { return !object.file.empty(); };
+  // A mesh has its file's.
+  auto size = ObjectRow::vector(
+      "size_m", {0.05, 500, "m"}, SWELL_FIELD(size_m),
+      "across, along its heading, and from its lowest point to the top; a mesh has its file's");
+  size.is_set = [](const FloatingObject& object) { return object.kind != ObjectKind::kMesh; };
+  auto draught = ObjectRow::number("draught", {0, 1}, SWELL_FIELD(draught),
+                                   "part of its height that lies below still water");
+  draught.is_set = [](const FloatingObject& object) {
+    return object.kind != ObjectKind::kMesh || !object.at_file_origin;
+  };
   return {
-      ObjectRow::choice("kind", ObjectKindName{}, "what it is; its common size, draught, motion and colour follow"),
+      ObjectRow::choice("kind", ObjectKindName{},
+                        "what it is; its common size, draught, motion and colour follow"),
       ObjectRow::choice("top_mark", TopMarkName{}, "what a buoy carries on top"),
       ObjectRow::vector("position_m", {-1e6, 1e6, "m"}, SWELL_FIELD(position_m),
                         "of its middle: east, north"),
@@ -393,12 +404,10 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::plain<bool>("path_closed", Kind::kBoolean, SWELL_FIELD(path_closed),
                              "path_m goes on from its last point to the first, round and round; "
                              "false: the object stops at the last"),
-      ObjectRow::vector("size_m", {0.05, 500, "m"}, SWELL_FIELD(size_m),
-                        "across, along its heading, and from its lowest point to the top; a mesh has its file's"),
+      size,
       ObjectRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
                        "where it points, clockwise from north"),
-      ObjectRow::number("draught", {0, 1}, SWELL_FIELD(draught),
-                        "part of its height that lies below still water"),
+      draught,
       ObjectRow::vector("colour", {0, 1}, SWELL_FIELD(colour),
                         "linear RGB reflectance of its paint"),
       ObjectRow::number("roughness", {0.05, 1}, SWELL_FIELD(roughness),

@@ -117,7 +117,8 @@ void read_both(const Pipe& out, const Pipe& err, Clock::time_point deadline,
                std::vector<char>& stream, std::vector<char>& message) {
   std::array<pollfd, 2> open = {{{out.to_read(), POLLIN, 0}, {err.to_read(), POLLIN, 0}}};
   while (open[0].fd >= 0 || open[1].fd >= 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0)
       throw std::runtime_error(fmt::format("a file that takes over {} s to read", kMostImport_s));
     if (poll(open.data(), open.size(), static_cast<int>(left.count())) < 0 && errno != EINTR)

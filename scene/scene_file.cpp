@@ -354,14 +354,15 @@ class Reader {
                            const Parameter<Object>& parameter, const std::string& allowed) const {
     const auto* text = node.as_string();
     if (!text) fail_value(node, path, got_text(node), allowed);
-    if (parameter.kind == ParameterKind::kPath) return checked_path(node, path, text->get(), parameter.path_of);
+    if (parameter.kind == ParameterKind::kPath)
+      return checked_path(node, path, text->get(), parameter.path_of);
     if (!allows(parameter, text->get())) fail_value(node, path, got_text(node), allowed);
     return text->get();
   }
 
   // The absolute path of a file that can be opened.
-  std::string checked_path(const toml::node& node, const std::string& key,
-                           const std::string& text, std::string_view path_of) const {
+  std::string checked_path(const toml::node& node, const std::string& key, const std::string& text,
+                           std::string_view path_of) const {
     if (text.empty()) return text;
     const std::string allowed = fmt::format("a readable {} file", path_of);
     if (text.find('\0') != std::string::npos || text.size() > 4000)

@@ -73,8 +73,8 @@ void add_pier(MeshBuilder& to) {
             weathered(kTimber, static_cast<std::uint64_t>(i), 0.25f), to);
   }
   for (const float x : {-1.1f, 1.1f})
-    add_box({x - 0.1f, -kHalf + 0.1f, kTop - 0.42f}, {x + 0.1f, kHalf - 0.1f, kTop - 0.13f}, kTimber,
-            to);
+    add_box({x - 0.1f, -kHalf + 0.1f, kTop - 0.42f}, {x + 0.1f, kHalf - 0.1f, kTop - 0.13f},
+            kTimber, to);
   end_part({}, to);
   constexpr float kRadius = 0.16f;
   for (int i = 0; i < kPairs; ++i) {
@@ -98,7 +98,8 @@ void add_lighthouse(MeshBuilder& to) {
   using V = glm::vec2;
   to.size = {8.0f, 8.0f, 26.0f};
   to.origin = glm::vec3(0.0f);
-  add_turned({V(4.0f, 0.0f), V(3.9f, 1.6f), V(3.2f, 1.6f), V(3.2f, 2.4f), V(2.6f, 2.4f)}, kStone, to);
+  add_turned({V(4.0f, 0.0f), V(3.9f, 1.6f), V(3.2f, 1.6f), V(3.2f, 2.4f), V(2.6f, 2.4f)}, kStone,
+             to);
   const auto radius = [](float z) { return 2.6f - 0.75f * (z - 2.4f) / 16.6f; };
   constexpr int kBands = 5;
   for (int i = 0; i < kBands; ++i) {
@@ -137,8 +138,7 @@ void add_rock(MeshBuilder& to) {
     for (int j = 0; j <= columns; ++j) {
       const SinCos around = sin_cos_turns(static_cast<double>(j % columns) / columns);
       const double r = i == 0 || i == rows ? 0.0 : up.sin;
-      points.push_back(point_of_rock(
-          glm::vec3(r * around.cos, r * around.sin, -up.cos), facets));
+      points.push_back(point_of_rock(glm::vec3(r * around.cos, r * around.sin, -up.cos), facets));
       low = glm::min(low, points.back()), high = glm::max(high, points.back());
     }
   }

@@ -26,8 +26,8 @@ std::uint32_t byte_of(float linear, const std::array<float, 256>& table) {
 }
 
 // The mean of the two by two texels, or two, or one, that become the texel (x, y).
-std::uint32_t shrunk_texel(const MipImage& image, const MipImage::Level& fine, int x, int y,
-                           const std::array<float, 256>& table) {
+std::uint32_t shrunk_texel(const MipImage& image, const MipImage::Level& fine, int x, int y) {
+  const std::array<float, 256>& table = image.linear;
   glm::vec3 sum(0.0f);
   const int x1 = std::min(2 * x + 1, fine.width - 1), y1 = std::min(2 * y + 1, fine.height - 1);
   for (const int j : {std::min(2 * y, y1), y1})
@@ -43,17 +43,12 @@ std::uint32_t shrunk_texel(const MipImage& image, const MipImage::Level& fine, i
 
 }  // namespace
 
-const std::array<float, 256>& linear_of_srgb() {
-  static const std::array<float, 256> table = make_linear_table();
-  return table;
-}
-
 MipImage make_mip_image(int width, int height, std::span<const std::uint32_t> texels) {
   SWELL_CHECK(width >= 1 && width <= 16384 && height >= 1 && height <= 16384 &&
                   texels.size() == static_cast<std::size_t>(width) * height,
               "{}x{}, {} texels", width, height, texels.size());
-  const std::array<float, 256>& table = linear_of_srgb();
   MipImage image;
+  image.linear = make_linear_table();
   image.levels.push_back({width, height, 0});
   image.texels.assign(texels.begin(), texels.end());
   while (image.levels.back().width > 1 || image.levels.back().height > 1) {
@@ -61,8 +56,7 @@ MipImage make_mip_image(int width, int height, std::span<const std::uint32_t> te
     const MipImage::Level next{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1),
                                static_cast<std::uint32_t>(image.texels.size())};
     for (int y = 0; y < next.height; ++y)
-      for (int x = 0; x < next.width; ++x)
-        image.texels.push_back(shrunk_texel(image, fine, x, y, table));
+      for (int x = 0; x < next.width; ++x) image.texels.push_back(shrunk_texel(image, fine, x, y));
     image.levels.push_back(next);
   }
   return image;

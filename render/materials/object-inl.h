@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 struct ObjectSurface {
   V3 normal;  // unit, on the side that is seen
   V3 albedo;  // of metal: what it mirrors
-  V roughness, metalness;
+  V roughness, metalness, translucency;
 };
 
 // A vector a lane, filled one by one: objects cover few pixels, and what their triangles hold is
@@ -43,7 +43,8 @@ HWY_INLINE V WaterlineOf(const ObjectPrimitive* const* primitive) {
   return hn::Load(D(), waterline);
 }
 
-// What lies on a triangle at q of its mesh's box, in a picture `footprint` m of which a pixel shows.
+// What lies on a triangle at q of its mesh's box, in a picture `footprint` m of which a pixel
+// shows.
 inline glm::vec3 TexelAt(const ObjectPrimitive& primitive, glm::vec3 q, float log2_footprint_m,
                          bool has_textures) {
   const scene::ObjectMesh& mesh = *primitive.object->mesh;
@@ -51,13 +52,12 @@ inline glm::vec3 TexelAt(const ObjectPrimitive& primitive, glm::vec3 q, float lo
       mesh.textured[static_cast<std::size_t>(primitive.triangle - mesh.triangles.data())];
   if (t.texture < 0) return glm::vec3(1.0f);
   const texture::MipImage& image = (*mesh.textures)[static_cast<std::size_t>(t.texture)];
-  const float level = log2_footprint_m + primitive.object->log2_units_per_m +
-                      t.log2_texels_per_unit;
+  const float level =
+      log2_footprint_m + primitive.object->log2_units_per_m + t.log2_texels_per_unit;
   const auto at = [&](const glm::vec4& plane) {
     return plane[0] + q.x * plane[1] + q.y * plane[2] + q.z * plane[3];
   };
-  return texture::sample(image, at(t.u), at(t.v), has_textures ? level : 1e9f,
-                         texture::linear_of_srgb());
+  return texture::sample(image, at(t.u), at(t.v), has_textures ? level : 1e9f);
 }
 
 // What the triangles hold at points p relative to the eye.
@@ -65,7 +65,8 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
                                       const ObjectPrimitive* const* primitive,
                                       const Packet& packet) {
   Lanes3 bottom, right, ahead, up, at_origin, along_x, along_y, along_z, albedo, flat;
-  Lanes3 finish;  // roughness, metalness, 1 if there is a picture
+  Lanes3 finish;  // roughness, metalness, translucency
+  bool has_pictures = false;
   for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
     const ObjectInstance& object = *primitive[i]->object;
     const scene::ObjectTriangle& triangle = *primitive[i]->triangle;
@@ -85,7 +86,8 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
                {painted(tint.x, colour.x), painted(tint.y, colour.y), painted(tint.z, colour.z)});
     const glm::vec2 own(triangle.roughness, triangle.metalness);
     const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
-    finish.Set(i, {its.x, its.y, object.mesh->textured.empty() ? 0.0f : 1.0f});
+    finish.Set(i, {its.x, its.y, triangle.translucency});
+    has_pictures |= !object.mesh->textured.empty();
   }
   // To the mesh's coordinates, the normal there, and back.
   const V3 q_rel = Sum(packet.p, Scale(bottom.Load(), Constant(-1.0f)));
@@ -93,20 +95,20 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   const auto to_world = [&](V3 n) HWY_ATTR {
     return ScaleAdd(right.Load(), n.x, ScaleAdd(ahead.Load(), n.y, Scale(up.Load(), n.z)));
   };
-  const V3 n = to_world(ScaleAdd(
-      along_x.Load(), q.x,
-      ScaleAdd(along_y.Load(), q.y, ScaleAdd(along_z.Load(), q.z, at_origin.Load()))));
+  const V3 n = to_world(
+      ScaleAdd(along_x.Load(), q.x,
+               ScaleAdd(along_y.Load(), q.y, ScaleAdd(along_z.Load(), q.z, at_origin.Load()))));
   // Of a surface without a back the side that is seen.
   const V inverse = InverseSqrt(hn::Max(Dot(n, n), Constant(1e-30f)));
   const auto from_behind = hn::Lt(Dot(to_world(flat.Load()), packet.to_eye), hn::Zero(D()));
   const V3 finishes = finish.Load();
   ObjectSurface surface = {Scale(n, hn::IfThenElse(from_behind, hn::Neg(inverse), inverse)),
-                           albedo.Load(), finishes.x, finishes.y};
-  if (hn::AllFalse(D(), hn::Gt(finishes.z, hn::Zero(D())))) return surface;
+                           albedo.Load(), finishes.x, finishes.y, finishes.z};
+  if (!has_pictures) return surface;
 
-  const V footprint = FootprintLevel(
-      FootprintAcross(rays, packet),
-      hn::Max(hn::Abs(Dot(surface.normal, packet.to_eye)), Constant(0.05f)));
+  const V footprint =
+      FootprintLevel(FootprintAcross(rays, packet),
+                     hn::Max(hn::Abs(Dot(surface.normal, packet.to_eye)), Constant(0.05f)));
   HWY_ALIGN float x[Lanes3::kCount], y[Lanes3::kCount], z[Lanes3::kCount], size[Lanes3::kCount];
   hn::Store(q.x, D(), x);
   hn::Store(q.y, D(), y);
@@ -125,8 +127,9 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
 // Light that a matt surface sends back: of the sun, of the sky above, of the sea below.
 HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
                         V sun_visible) {
-  const V cos_sun =
-      hn::Mul(hn::Max(Dot(s.normal, Constant(light.sun_direction)), hn::Zero(D())), sun_visible);
+  const V facing = Dot(s.normal, Constant(light.sun_direction));
+  const V lit = hn::Max(facing, hn::Mul(hn::Neg(facing), s.translucency));
+  const V cos_sun = hn::Mul(hn::Max(lit, hn::Zero(D())), sun_visible);
   const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
   const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen);
   const V matt = hn::Sub(Constant(1.0f), s.metalness);
@@ -134,16 +137,15 @@ HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSur
                                                  hn::Mul(cos_sun, Constant(0.318309886f)), around));
 }
 
-// What varnish or metal mirrors of sky and sun, to the eye in direction to_eye. Rough varnish mirrors
-// less of the sky, as sea air dulls paint: half at the common roughness of 0.42.
+// What varnish or metal mirrors of sky and sun, to the eye in direction to_eye. Rough varnish
+// mirrors less of the sky, as sea air dulls paint: half at the common roughness of 0.42.
 HWY_INLINE V3 Gloss(const Light& light, glm::vec3 sea_light, const ObjectSurface& s, V3 to_eye,
                     V sun_visible) {
   const D d;
   const V zero = hn::Zero(d);
   const V cos_eye = hn::Max(Dot(s.normal, to_eye), zero);
   const V dull = hn::Max(hn::NegMulAdd(s.roughness, Constant(1.0f / 0.84f), Constant(1.0f)), zero);
-  const V varnish =
-      hn::Mul(FresnelReflectance(d, hn::Max(cos_eye, Constant(0.1f)), 1.5f), dull);
+  const V varnish = hn::Mul(FresnelReflectance(d, hn::Max(cos_eye, Constant(0.1f)), 1.5f), dull);
   const auto mirrored = [&](V dielectric) HWY_ATTR {
     return Lerp(V3{dielectric, dielectric, dielectric}, s.albedo, s.metalness);
   };

@@ -45,7 +45,7 @@ struct ObjectInstance {
   float roughness = 0.42f, metalness = 0.0f;  // of its paint
   const scene::ObjectMesh* mesh = nullptr;
   float log2_units_per_m = 0.0f;  // of the mesh's lengths, in the mean over its axes
-  std::uint32_t object = 0;  // its index in the scene
+  std::uint32_t object = 0;       // its index in the scene
 };
 
 // Which triangle of which object a primitive is.

@@ -12,7 +12,7 @@ namespace swell::render {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kRounding_m = 0.5f;  // of the places of pixels far away
+constexpr float kRounding_m = 0.5f;          // of the places of pixels far away
 constexpr std::size_t kMostCasters = 65535;  // lists of tiles hold 16 bits; 2000 piers have fewer
 constexpr double kMostLift_m = 3.0;
 // A smaller one casts no shadow and leaves no trace on the water: the picture would not show them.

@@ -88,9 +88,8 @@ void write_vertices(const World::State& world, const View& view, std::size_t beg
                                                         out.poses[instance.object], view);
                const std::size_t at = out.parts[i].first_vertex + first;
                for (std::size_t k = 0; k < count; ++k)
-                 out.p_rel[at + k] =
-                     placement.rel_from_unit * instance.mesh->position[first + k] +
-                     placement.bottom_rel;
+                 out.p_rel[at + k] = placement.rel_from_unit * instance.mesh->position[first + k] +
+                                     placement.bottom_rel;
                // Each object is mirrored in, and squeezed towards, the level of its own waterline,
                // so that its images meet it there on any wave.
                std::fill_n(out.waterline_rel_m.begin() + static_cast<std::ptrdiff_t>(at), count,
@@ -177,8 +176,8 @@ const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t objec
   return mesh_of_size(world, object, drawn_size_px(world.scene.objects[object], p_rel, view));
 }
 
-const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object,
-                                     glm::vec3 p_rel, const View& view) {
+const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                     const View& view) {
   const scene::FloatingObject& what = world.scene.objects[object];
   const float part = what.kind < scene::ObjectKind::kBoat ? 1.0f : kShadowPart;
   return mesh_of_size(world, object, part * drawn_size_px(what, p_rel, view));

@@ -109,8 +109,8 @@ const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t objec
                                     const View& view);
 
 // The one whose outline throws its shadow: 64 rows need fewer still.
-const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object,
-                                     glm::vec3 p_rel, const View& view);
+const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                     const View& view);
 
 // Stage 3: objects where they are, as far as the view may show them, and their vertices in the
 // views.

@@ -111,8 +111,7 @@ void find_focuses(const Wanted& wanted, std::vector<lod::Focus>& focuses) {
     focuses[given.object].centre_m = glm::dvec2(given.pose.position_world);
   if (focuses.size() <= lod::kMaxFocuses) return;
   const auto looks_m2 = [&](const lod::Focus& f) {
-    const glm::dvec3 away(f.centre_m - glm::dvec2(wanted.view.eye_world),
-                          wanted.view.eye_world.z);
+    const glm::dvec3 away(f.centre_m - glm::dvec2(wanted.view.eye_world), wanted.view.eye_world.z);
     return f.radius_m * f.radius_m / std::max(glm::dot(away, away), 1.0);
   };
   std::ranges::sort(focuses, [&](const lod::Focus& a, const lod::Focus& b) {

@@ -83,8 +83,8 @@ TEST(FlatMesh, ChangedBytesGiveAMeshThatIsWholeOrAreRefused) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
     std::vector<char> bytes = whole;
     for (std::uint64_t k = 0; k < 1 + i % 4; ++k) {
-      const auto at = static_cast<std::size_t>(random_uniform(i, 2 * k) *
-                                               static_cast<double>(bytes.size()));
+      const auto at =
+          static_cast<std::size_t>(random_uniform(i, 2 * k) * static_cast<double>(bytes.size()));
       bytes[at] = static_cast<char>(256.0 * random_uniform(i, 2 * k + 1));
     }
     try {

@@ -55,8 +55,7 @@ std::string refusal(const fs::path& file) {
 }
 
 TEST(MeshFile, ABoxOfEveryFormatHasTheSameTwelveTrianglesAndNormals) {
-  const auto files =
-      write_all_formats(mesh_folder("box"), box_triangles(kLow, kHigh), &kColour);
+  const auto files = write_all_formats(mesh_folder("box"), box_triangles(kLow, kHigh), &kColour);
   const auto expected = triangles_of(load_mesh(files[1].string(), UpAxis::kByFormat));
   ASSERT_EQ(expected.size(), 12u);
   for (const fs::path& file : files) {
@@ -178,7 +177,9 @@ TEST(MeshFile, WhereTheFileHasNoNormalsSmoothPartsGetThem) {
     EXPECT_LT(2 * coarse.triangles.size(), mesh.levels[n - 1].triangles.size() + 1);
     double volume = 0.0;
     for (std::size_t i = 0; i < coarse.indices.size(); i += 3) {
-      const auto p = [&](std::size_t k) { return glm::dvec3(coarse.position[coarse.indices[i + k]]); };
+      const auto p = [&](std::size_t k) {
+        return glm::dvec3(coarse.position[coarse.indices[i + k]]);
+      };
       volume += glm::dot(p(0), glm::cross(p(1), p(2))) / 6.0;
     }
     EXPECT_NEAR(volume / (kPi / 6.0), 1.0, 0.1) << n;
@@ -200,8 +201,7 @@ TEST(MeshFile, APictureLiesWhereItsCoordinatesSay) {
   // Seen upright the picture's first texel, red, is at the top left.
   const auto colour_at = [&](glm::vec3 q, const TriangleTexture& t) {
     const glm::vec4 p(1.0f, q.x, q.y, q.z);
-    return texture::sample((*level.textures)[0], glm::dot(t.u, p), glm::dot(t.v, p), 0.0f,
-                           texture::linear_of_srgb());
+    return texture::sample((*level.textures)[0], glm::dot(t.u, p), glm::dot(t.v, p), 0.0f);
   };
   for (const TriangleTexture& t : level.textured) {
     EXPECT_LT(glm::distance(colour_at({-0.25f, 0.0f, 0.75f}, t), glm::vec3(1, 0, 0)), 1e-4f);

@@ -34,8 +34,8 @@ inline LooseTriangles box_triangles(glm::vec3 low, glm::vec3 high) {
       }
       for (const auto& t : {std::array{0, 1, 2}, std::array{0, 2, 3}})
         for (int k = 0; k < 3; ++k)
-          box.corners.push_back(corner[static_cast<std::size_t>(t[static_cast<std::size_t>(
-              side ? k : 2 - k)])]);
+          box.corners.push_back(
+              corner[static_cast<std::size_t>(t[static_cast<std::size_t>(side ? k : 2 - k)])]);
     }
   }
   return box;
@@ -44,7 +44,7 @@ inline LooseTriangles box_triangles(glm::vec3 low, glm::vec3 high) {
 // `turn` takes the object's axes (right, ahead, up) to the file's.
 using Turn = std::function<glm::vec3(glm::vec3)>;
 inline glm::vec3 z_up(glm::vec3 p) { return p; }
-inline glm::vec3 y_up(glm::vec3 p) { return {p.x, p.z, -p.y}; }      // OBJ, COLLADA
+inline glm::vec3 y_up(glm::vec3 p) { return {p.x, p.z, -p.y}; }  // OBJ, COLLADA
 inline glm::vec3 gltf_up(glm::vec3 p) { return {-p.x, p.z, p.y}; }
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -76,8 +76,8 @@ inline void write_obj(const std::filesystem::path& path, const LooseTriangles& m
     text += "v " + number(p.x) + " " + number(p.y) + " " + number(p.z) + "\n";
   }
   for (std::size_t i = 1; i <= mesh.corners.size(); i += 3)
-    text += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) +
-            "\n";
+    text +=
+        "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
   write_text(path, text);
 }
 
@@ -151,22 +151,23 @@ inline void write_dae(const std::filesystem::path& path, const LooseTriangles& m
             R"( 1</color></diffuse></lambert></technique></profile_COMMON></effect>)"
             R"(</library_effects><library_materials><material id="m" name="paint">)"
             R"(<instance_effect url="#e"/></material></library_materials>)";
-  text += R"(<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count=")" +
-          std::to_string(3 * mesh.corners.size()) + "\">" + places +
-          R"(</float_array><technique_common><accessor source="#a" stride="3" count=")" + count +
-          R"("><param name="X" type="float"/><param name="Y" type="float"/>)"
-          R"(<param name="Z" type="float"/></accessor></technique_common></source>)"
-          R"(<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)"
-          R"(<triangles count=")" +
-          std::to_string(mesh.corners.size() / 3) + "\"" + (colour ? R"( material="m")" : "") +
-          R"(><input semantic="VERTEX" source="#v" offset="0"/><p>)" + indices +
-          R"(</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>)"
-          R"(<visual_scene id="s"><node><instance_geometry url="#g">)" +
-          (colour ? R"(<bind_material><technique_common><instance_material symbol="m" target="#m"/>)"
-                    R"(</technique_common></bind_material>)"
-                  : "") +
-          R"(</instance_geometry></node></visual_scene></library_visual_scenes>)"
-          R"(<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+  text +=
+      R"(<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count=")" +
+      std::to_string(3 * mesh.corners.size()) + "\">" + places +
+      R"(</float_array><technique_common><accessor source="#a" stride="3" count=")" + count +
+      R"("><param name="X" type="float"/><param name="Y" type="float"/>)"
+      R"(<param name="Z" type="float"/></accessor></technique_common></source>)"
+      R"(<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)"
+      R"(<triangles count=")" +
+      std::to_string(mesh.corners.size() / 3) + "\"" + (colour ? R"( material="m")" : "") +
+      R"(><input semantic="VERTEX" source="#v" offset="0"/><p>)" + indices +
+      R"(</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>)"
+      R"(<visual_scene id="s"><node><instance_geometry url="#g">)" +
+      (colour ? R"(<bind_material><technique_common><instance_material symbol="m" target="#m"/>)"
+                R"(</technique_common></bind_material>)"
+              : "") +
+      R"(</instance_geometry></node></visual_scene></library_visual_scenes>)"
+      R"(<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
   write_text(path, text);
 }
 

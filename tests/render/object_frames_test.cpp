@@ -13,6 +13,7 @@
 #include "render/workspace.h"
 #include "scene/object_ray.h"
 #include "scene/scene.h"
+#include "texture/image_io.h"
 
 namespace swell::render {
 namespace {
@@ -136,8 +137,8 @@ scene::Scene crowd(int count) {
   for (int i = 0; i < count; ++i) {
     const auto n = static_cast<std::uint64_t>(i);
     scene.objects.push_back(
-        object_of(kKinds[n % kKinds.size()], {900.0 * (random_uniform(51, n) - 0.5),
-                                              1200.0 * random_uniform(52, n)}));
+        object_of(kKinds[n % kKinds.size()],
+                  {900.0 * (random_uniform(51, n) - 0.5), 1200.0 * random_uniform(52, n)}));
     scene.objects.back().heading_rad = 6.28 * random_uniform(53, n);
   }
   return scene;
@@ -230,6 +231,49 @@ TEST(ObjectFrames, LabelsNameTheObjectOfAFile) {
   EXPECT_LT(glm::distance(drawn.target.labels.normal[middle], glm::vec3(0, -1, 0)), 1e-3f);
 }
 
+// Quarters of a square wall: red and green above, blue and white below.
+TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
+  const std::filesystem::path folder = mesh_folder("wall");
+  const texture::Image8 image{2, 2, 3, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}};
+  texture::write_file(folder / "four.png", texture::encode_image(image, ".png"));
+  write_text(folder / "wall.mtl", "newmtl m\nKd 1 1 1\nillum 1\nmap_Kd four.png\n");
+  write_text(folder / "wall.obj",
+             "mtllib wall.mtl\nv -6 0 0\nv 6 0 0\nv 6 12 0\nv -6 12 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+             "vt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n");
+  scene::Scene scene = calm_scene();
+  scene.camera.pitch_rad = 0.0;
+  scene.sky.sun_azimuth_rad = scene::radians(180.0);
+  scene.sky.sun_direction = {0.0f, -0.8660254f, 0.5f};
+  scene.objects = {mesh_of(folder / "wall.obj")};
+  scene.objects[0].draught = 0.0;
+  const World world(scene);
+  Drawn drawn{world};
+  FrameOptions options;
+  options.keep_linear = true;
+  options.without = {Part::kHaze};
+  // The wall's middle is at the picture's; a quarter is 3 m off, 40 m away.
+  const int off = static_cast<int>(0.5 * kHeight / std::tan(0.5 * scene.camera.fov_y_rad) * 3 / 40);
+  const auto colour_at = [&](int right, int down) {
+    const int x = kWidth / 2 + right * off, y = kHeight / 2 + down * off;
+    const float* const p = &drawn.target.linear[3 * (static_cast<std::size_t>(y) * kWidth + x)];
+    return glm::vec3(p[0], p[1], p[2]);
+  };
+  drawn.draw(0.0, options);
+  const glm::vec3 white = colour_at(1, 1);
+  EXPECT_GT(std::min({white.x, white.y, white.z}), 0.1f);
+  const std::array<std::pair<glm::ivec2, glm::vec3>, 3> expected = {
+      {{{-1, -1}, {1, 0, 0}}, {{1, -1}, {0, 1, 0}}, {{-1, 1}, {0, 0, 1}}}};
+  for (const auto& [at, part] : expected) {
+    const glm::vec3 seen = colour_at(at.x, at.y) / white;
+    EXPECT_LT(glm::distance(seen, part), 0.08f) << seen.x << " " << seen.y << " " << seen.z;
+  }
+  options.without.add(Part::kTextures);
+  drawn.draw(0.0, options);
+  for (const int right : {-1, 1})
+    for (const int down : {-1, 1})
+      EXPECT_LT(glm::distance(colour_at(right, down) / white, glm::vec3(0.5f)), 0.08f);
+}
+
 // A flat square seen from its back is as bright as from its front.
 TEST(ObjectFrames, ASurfaceWithoutABackIsSeenFromBothSides) {
   std::array<glm::vec3, 2> seen;
@@ -294,6 +338,12 @@ TEST(ObjectFrames, AnotherWorldLikeItReadsNoFileAgain) {
   scene.objects[0].scale = 3.0;
   const World other(scene, world, 2);
   EXPECT_NEAR(other.scene().objects[0].size_m.x, 6.0, 1e-6);
+  // A world's own scene makes a world too, whatever its meshes' sizes are.
+  scene::Scene resolved = other.scene();
+  resolved.objects[0].scale = 600.0;
+  resolved.objects[0].at_file_origin = true;
+  const World large(resolved, other, 2);
+  EXPECT_NO_THROW(World(large.scene(), large, 2));
   EXPECT_THROW(World{scene}, scene::SceneError);
 }
 

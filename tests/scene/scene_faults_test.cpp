@@ -113,10 +113,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[sea.sines]\namplitude_m = 1\n",
               "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
               "[[sea.sines]]"},
-        Fault{
-            "[[object]]\n[[object]]\nkind = \"ship\"\n",
-            "test.toml:3: column 8: object[1].kind, got \"ship\", allowed \"buoy\", \"sphere\", "
-            "\"box\", \"boat\", \"sailboat\", \"pier\", \"lighthouse\", \"rock\" or \"mesh\""},
+        Fault{"[[object]]\n[[object]]\nkind = \"ship\"\n",
+              "test.toml:3: column 8: object[1].kind, got \"ship\", allowed \"buoy\", \"sphere\", "
+              "\"box\", \"boat\", \"sailboat\", \"pier\", \"lighthouse\", \"rock\" or \"mesh\""},
         Fault{"[[object]]\nkind = \"mesh\"\n",
               "test.toml:2: column 8: object[0].kind, got \"mesh\" without a file, allowed a mesh "
               "with its file"},
@@ -194,10 +193,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[[sea.sines]]\namplitud_m = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m', allowed in "
               "[sea.sines] amplitude_m, period_s, wavelength_m, to_deg, phase_deg"},
-        Fault{"[[object]]\ncolor = [1, 0, 0]\n",
-              "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
-              "motion, file, up, scale, class, kind, top_mark, name, position_m, path_m, size_m, "
-              "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
+        Fault{
+            "[[object]]\ncolor = [1, 0, 0]\n",
+            "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
+            "motion, file, up, scale, class, kind, top_mark, name, position_m, path_m, size_m, "
+            "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
               "[sea], [water], [wind], [picture], [coast], [[sea.swell]], [[sea.sines]], [detail], "

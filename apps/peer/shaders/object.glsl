@@ -1,13 +1,14 @@
 // Objects, as render/materials/object-inl.h.
 in vec3 v_p, v_normal, v_albedo;
-in vec2 v_finish;  // roughness, metalness
+in vec3 v_finish;  // roughness, metalness, translucency
 in float v_level;
 out vec4 colour;
 
 uniform vec3 sea_light;
 
 vec3 matt_light(vec3 normal) {
-  float cos_sun = max(dot(normal, sun_direction), 0.0);
+  float facing = dot(normal, sun_direction);
+  float cos_sun = max(max(facing, -facing * v_finish.z), 0.0);
   vec3 around = mix(sea_light, ambient, 0.5 * normal.z + 0.5);
   return v_albedo * (1.0 - v_finish.y) * (sun_irradiance * (cos_sun * 0.318309886) + around);
 }
@@ -46,6 +47,13 @@ void main() {
 #else
   vec3 true_to_eye = to_eye;
 #endif
+  // The side that is seen, of a surface without a back.
+  vec3 along = dFdx(v_p), aside = dFdy(v_p);
+#ifdef REFLECTION
+  along.z = -along.z, aside.z = -aside.z;
+#endif
+  vec3 flat_normal = cross(along, aside);
+  if (dot(flat_normal, true_to_eye) * dot(flat_normal, normal) < 0.0) normal = -normal;
   vec3 light = matt_light(normal) + gloss(normal, true_to_eye);
   light = add_haze(light, v_p, to_eye, length2 * inv_length);
 #ifdef REFLECTION
