@@ -30,6 +30,11 @@ struct SkyModelName {
   auto& operator()(auto& scene) const { return scene.sky.model; }
 };
 
+struct WaterTypeName {
+  static constexpr auto words = kWaterTypeNames;
+  auto& operator()(auto& scene) const { return scene.water.type; }
+};
+
 struct CoastModelName {
   static constexpr std::array<std::string_view, 3> words = {"none", "trains", "blend"};
   auto& operator()(auto& scene) const { return scene.coast.model; }
@@ -218,6 +223,8 @@ Rows water_rows() {
   return {
       SceneRow::number("water.refraction_index", {1, 3}, SWELL_FIELD(water.refraction_index),
                        "of water against air"),
+      SceneRow::choice("water.type", WaterTypeName{},
+                       "Jerlov's kind of sea water: sets the next two where they are left out"),
       SceneRow::vector("water.body_colour", {0, 1}, SWELL_FIELD(water.body_colour),
                        "linear RGB that deep water sends back, as a part of the light"),
       SceneRow::vector("water.absorption_per_m", {0, 100, "1/m"},

@@ -88,6 +88,7 @@ class Reader {
     read_table(root, "");
     check_replacements();
     apply_sea_state();
+    apply_water_type();
     finish_coast();
     if (is_gradient(scene_.sky)) scene_.sky.model = SkyModel::kGradient;
     scene_.sky.sun_direction =
@@ -146,6 +147,16 @@ class Reader {
     check_only_one_of({"sea.douglas", "sea.fetch_km"});
     if (scene_.douglas || scene_.beaufort) set_wind();
     fit_patches();
+  }
+
+  void apply_water_type() {
+    WaterOptics& water = scene_.water;
+    if (water.type == WaterType::kNone) return;
+    const InherentOptics optics = optics_of(water.type);
+    if (!given_.contains("water.body_colour"))
+      water.body_colour = glm::vec3(colour_of_deep_water(optics));
+    if (!given_.contains("water.absorption_per_m"))
+      water.absorption_per_m = glm::vec3(picture_attenuation(optics));
   }
 
   void set_wind() {

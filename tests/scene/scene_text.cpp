@@ -136,6 +136,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(area.size_m);
   SWELL_COMPARE(round_earth);
   SWELL_COMPARE(water.refraction_index);
+  SWELL_COMPARE(water.type);
   SWELL_COMPARE(water.body_colour);
   SWELL_COMPARE(water.absorption_per_m);
   SWELL_COMPARE(water.distortion);
