@@ -234,7 +234,13 @@ TEST(ObjectFrames, LabelsNameTheObjectOfAFile) {
 // Quarters of a square wall: red and green above, blue and white below.
 TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
   const std::filesystem::path folder = mesh_folder("wall");
-  const texture::Image8 image{2, 2, 3, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}};
+  constexpr int kSide = 16;
+  texture::Image8 image{kSide, kSide, 3, {}};
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const bool right = x >= kSide / 2, below = y >= kSide / 2;
+      for (const bool on : {right == below, right, below}) image.pixels.push_back(on ? 255 : 0);
+    }
   texture::write_file(folder / "four.png", texture::encode_image(image, ".png"));
   write_text(folder / "wall.mtl", "newmtl m\nKd 1 1 1\nillum 1\nmap_Kd four.png\n");
   write_text(folder / "wall.obj",
