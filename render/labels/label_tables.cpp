@@ -124,7 +124,7 @@ void fill_motion(const LabelInputs& in, LabelTables& tables, const StageRun& run
   const std::vector<scene::ObjectPose>& poses = in.meshes.objects.poses;
   tables.next_poses.resize(poses.size());
   tables.object_motion.resize(poses.size());
-  drawn_poses(in.world, tables.next_sea, tables.next_poses);
+  drawn_poses(in.world, tables.next_sea, in.options.next_poses, tables.next_poses, run);
   for (std::size_t i = 0; i < poses.size(); ++i)
     tables.object_motion[i] = motion_of(poses[i], tables.next_poses[i], now.eye_world);
 }

@@ -11,7 +11,8 @@ namespace {
 
 class SameBits : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
-                         testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys"),
+                         testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys",
+                                         "harbour"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(SameBits, ThreadCountChangesNoPixel) {

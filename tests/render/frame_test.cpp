@@ -16,7 +16,8 @@ namespace {
 
 class EachScene : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, EachScene,
-                         testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys"),
+                         testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys",
+                                         "harbour"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(Detail, EveryPriorityOfASceneMovesTriangles) {

@@ -36,6 +36,17 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(colour);
   SWELL_COMPARE(name);
   SWELL_COMPARE(label);
+  SWELL_COMPARE(motion);
+  SWELL_COMPARE(height_m);
+  SWELL_COMPARE(path_m);
+  SWELL_COMPARE(speed_mps);
+  SWELL_COMPARE(path_closed);
+  SWELL_COMPARE(roughness);
+  SWELL_COMPARE(metalness);
+  SWELL_COMPARE(file);
+  SWELL_COMPARE(up);
+  SWELL_COMPARE(scale);
+  SWELL_COMPARE(at_file_origin);
 }
 
 void compare_waypoints(const Waypoint& a, const Waypoint& b, std::string& list) {
