@@ -157,6 +157,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& asked, Workspace& workspace, Target& target,
                              Workers& workers) {
   check_arguments(view, t_s, asked);
+  for (const auto& poses : {asked.poses, asked.next_poses})
+    scene::check_given_poses(poses, world.scene().objects.size());
   const ScopedFloatEnvironment ieee;
   const World::State& world_state = world.state();
   Workspace::State& ws = workspace.state();
@@ -186,13 +188,13 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
       },
       [&] {
         stage(Stage::kTriangulate, [&](const StageRun& run) {
-          triangulate(world_state, drawn, options, ws.meshes, run);
+          triangulate(world_state, drawn, t_s, options, ws.meshes, run);
         });
       });
   const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
-    place_objects(world_state, ws.sea, drawn, ws.meshes, views);
+    place_objects(world_state, ws.sea, drawn, options.poses, ws.meshes, views, run);
     find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
                         ws.meshes.objects, run);
   });

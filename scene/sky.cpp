@@ -84,11 +84,11 @@ void set_discs(double height_m, SkyLight& light) {
   light.sun_disc_radiance = disc_radiance(light, light.sources.front(), height_m);
 }
 
-SkyLight make_atmosphere_light(const Sky& sky, Workers& workers) {
+SkyLight make_atmosphere_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers) {
   const glm::vec3 to_sun = sky.sun_direction;
   SkyLight light;
   light.sky = sky;
-  light.atmosphere = make_atmosphere(sky.turbidity, workers);
+  light.atmosphere = atmosphere;
   add_source(to_sun, glm::vec3(kSunIrradiance), workers, light);
   if (to_sun.z <= -static_cast<float>(kSunRadius_rad) && sky.moon_phase != 0.0)
     add_source(-to_sun, moon_brightness(sky.moon_phase) * kFullMoon, workers, light);
@@ -152,7 +152,13 @@ glm::vec3 gradient_radiance(const Sky& sky, glm::vec3 direction) {
 }
 
 SkyLight make_sky_light(const Sky& sky, Workers& workers) {
-  return is_gradient(sky) ? make_gradient_light(sky) : make_atmosphere_light(sky, workers);
+  if (is_gradient(sky)) return make_gradient_light(sky);
+  return make_atmosphere_light(sky, make_atmosphere(sky.turbidity, workers), workers);
+}
+
+SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers) {
+  return is_gradient(sky) ? make_gradient_light(sky)
+                          : make_atmosphere_light(sky, atmosphere, workers);
 }
 
 SkyLight sky_light_aloft(const SkyLight& light, double height_m, Workers& workers) {

@@ -61,6 +61,9 @@ inline constexpr double kCloudHeight_m = 4000.0;
 // At sea level. The same bits with any workers.
 SkyLight make_sky_light(const Sky& sky, Workers& workers);
 
+// The same in air of the sky's turbidity that is there already, for many suns in one air.
+SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers);
+
 // What an eye at height_m in (0, kAirTop_m) sees of `light`, that of sea level: its sky, and discs.
 // A gradient is the same at all heights. The same bits with any workers. About 5 ms on two threads.
 SkyLight sky_light_aloft(const SkyLight& light, double height_m, Workers& workers);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lod/relief_bounds.h"
-#include "lod/request.h"
 #include "math/earth.h"
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
@@ -16,6 +15,7 @@
 #include "ocean/whitecaps.h"
 #include "render/frame.h"
 #include "render/world/land_shadow.h"
+#include "scene/mesh_file.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
@@ -93,13 +93,13 @@ struct CoastMaps {
   std::vector<float> ceded;  // what the sea's own waves give up to the trains, in [0, 1]
 };
 
-// The shapes that a scene's objects need, and which of them each object has.
+// A shape with its levels of detail, finest first. Worlds share those of files.
+using ObjectShape = std::shared_ptr<const scene::MeshOfFile>;
+
+// The shapes of a scene's objects.
 struct ObjectMeshes {
-  struct Choice {
-    std::size_t near = 0, far = 0;  // indices into meshes: many triangles, few
-  };
-  std::vector<scene::ObjectMesh> meshes;
-  std::vector<Choice> of_object;
+  std::vector<ObjectShape> of_object;
+  std::vector<std::vector<scene::MeshPart>> parts;  // of each object's finest level, at its draught
 };
 
 // Parts are shared by worlds whose scenes describe them alike.
@@ -119,10 +119,9 @@ struct World::State {
   // size, it repeats. The same in every world.
   std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
 
-  // What floats.
+  // What is on the sea.
   ObjectMeshes objects = {};
   std::vector<std::uint32_t> object_classes = {};  // of labelled pictures
-  std::vector<lod::Focus> focuses = {};            // where it does
 
   ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
   ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
@@ -148,8 +147,9 @@ inline constexpr int kAroundSize = 512;
 
 // The same bits with any workers.
 SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers);
-ObjectMeshes build_object_meshes(std::span<const scene::FloatingObject> objects);
-std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> objects);
+// Gives objects of files their sizes. like: may be null; a world whose files are not read again.
+// Throws SceneError for a file that cannot be drawn.
+ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like);
 // The terrain with its apron, kAroundSize + 1 points a side.
 terrain::HeightGrid sample_around(const terrain::HeightGrid& terrain, Workers& workers);
 TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
