@@ -186,6 +186,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
           triangulate(world_state, drawn, options, ws.meshes, run);
         });
       });
+  const EyeInWater eye = find_eye_in_water(world_state, ws.sea, drawn, options);
+  for (RenderView* const shown : views) shown->eye = eye;
   const Light light = make_light(world_state, clouds, ws.sky.soft);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
@@ -198,7 +200,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                  run);
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
-  const Media media = make_media(world_state, light, options.without);
+  Media media = make_media(world_state, light, options.without);
+  if (eye.submerged) media = submerge(media, drawn.eye_world.z);
   MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
   inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   stage(Stage::kLookups, [&](const StageRun& run) {

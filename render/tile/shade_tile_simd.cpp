@@ -236,13 +236,15 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   if constexpr (kView == ViewKind::kWindow) {
     const auto surfel = shade(s, tile, lanes, shown, found...);
     keep(lanes.at, surfel);
+    if (s.media.submerged)
+      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light);
     return Haze(s, shown, surfel.light);
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
     const auto surfel = shade(s, tile, lanes, seen.packet, found...);
     const V3 light = Attenuate<kView>(s, shown, seen, surfel.light);
     if constexpr (requires { surfel.cover; })
-      return Lerp(Constant(s.media.body), light, surfel.cover);
+      return s.media.submerged ? light : Lerp(Constant(s.media.body), light, surfel.cover);
     else
       return light;
   }

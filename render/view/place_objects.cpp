@@ -140,7 +140,10 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Placement placement = placement_of(objects[i], geometry.poses[i], view);
-    if (!in_view(objects[i], placement, views.front()->drop_per_m2, planes)) continue;
+    // Through the surface an eye under water sees them far from where they are.
+    if (!views.front()->eye.submerged &&
+        !in_view(objects[i], placement, views.front()->drop_per_m2, planes))
+      continue;
     const scene::ObjectMesh& mesh = drawn_mesh(world, i, placement.bottom_rel, view);
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
