@@ -138,12 +138,12 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
 
   geometry.instances.reserve(objects.size());  // primitives point into it
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
+  const bool submerged =
+      std::ranges::any_of(views, [](const RenderView* view) { return view->eye.submerged; });
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Placement placement = placement_of(objects[i], geometry.poses[i], view);
     // Through the surface an eye under water sees them far from where they are.
-    if (!views.front()->eye.submerged &&
-        !in_view(objects[i], placement, views.front()->drop_per_m2, planes))
-      continue;
+    if (!submerged && !in_view(objects[i], placement, views.front()->drop_per_m2, planes)) continue;
     const scene::ObjectMesh& mesh = drawn_mesh(world, i, placement.bottom_rel, view);
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
