@@ -120,10 +120,10 @@ void set_eye(const EyeInWater& eye, FrameViews views) {
   for (RenderView* const view : views) view->eye = eye;
 }
 
-// Stage 3: the places of all vertices in the views of a frame, which it returns. Where the
-// waterline crosses the picture, the first three are of an eye in air and two more of one in water.
-FrameViews place_vertices(const World::State& world, const View& view, const FrameOptions& options,
-                          FrameViews all_views, Workspace::State& ws, const StageRun& run) {
+// Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the picture,
+// the first three are of an eye in air and two more of one in water.
+void place_vertices(const World::State& world, const View& view, const FrameOptions& options,
+                    FrameViews all_views, Workspace::State& ws, const StageRun& run) {
   EyeInWater eye = find_eye_in_water(world, ws.sea, view, options);
   FrameViews views = all_views.first(3);
   set_eye(eye, views);
@@ -141,7 +141,7 @@ FrameViews place_vertices(const World::State& world, const View& view, const Fra
     set_eye({true, eye.to_surface_m}, views.subspan(3));
     map_land(ws.meshes, views.subspan(3), run);
   }
-  place_objects(world, ws.sea, view, ws.meshes, views);
+  place_objects(world, ws.sea, view, options.poses, ws.meshes, views, run);
 }
 
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
@@ -189,6 +189,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& asked, Workspace& workspace, Target& target,
                              Workers& workers) {
   check_arguments(view, t_s, asked);
+  for (const auto& poses : {asked.poses, asked.next_poses})
+    scene::check_given_poses(poses, world.scene().objects.size());
   const ScopedFloatEnvironment ieee;
   const World::State& world_state = world.state();
   Workspace::State& ws = workspace.state();
@@ -205,20 +207,23 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     work(StageRun{workers, ws.profile, name});
   };
 
-  const Clouds clouds = make_clouds(world_state, t_s, view.eye_world, options.without);
+  const glm::dvec3 eye = view.eye_world;
+  const double sky_m = sky_height_m(view, options.without);
+  const Clouds clouds = make_clouds(world_state, t_s, {eye.x, eye.y, sky_m}, options.without);
+  const Clouds mirrored = make_clouds(world_state, t_s, {eye.x, eye.y, 0.0}, options.without);
   workers.run_both(
       [&] {
         stage(Stage::kSea, [&](const StageRun& run) {
           advance_sea(world_state, t_s, options.without, ws.sea, run);
-          advance_sky(world_state, clouds, ws.sky, run);
+          advance_sky(world_state, mirrored, sky_m, options.without, ws.sky, run);
         });
       },
       [&] {
         stage(Stage::kTriangulate, [&](const StageRun& run) {
-          triangulate(world_state, drawn, options, ws.meshes, run);
+          triangulate(world_state, drawn, t_s, options, ws.meshes, run);
         });
       });
-  const Light light = make_light(world_state, clouds, ws.sky.soft);
+  const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     place_vertices(world_state, drawn, options, views, ws, run);
     find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
@@ -229,9 +234,9 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                  run);
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
-  const Media air = make_media(world_state, light, options.without);
+  const Media air = make_media(world_state, light, sky_m, options.without);
   const Media water = submerge(air, drawn.eye_world.z);
-  const EyeInWater eye = ws.window.eye;
+  const EyeInWater first_side = ws.window.eye;
   const bool crosses = ws.crossing.picture == Begins::kInBoth;
   const auto draw_side = [&](const EyeInWater& side, LookupImages& lookups, Shading& shading,
                              const StageRun& run) {
@@ -244,8 +249,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     fill_shading(inputs, ws.window, options.tile_size_px, shading);
   };
   stage(Stage::kLookups, [&](const StageRun& run) {
-    if (crosses) draw_side({true, eye.to_surface_m}, ws.wet_lookups, ws.wet_shading, run);
-    draw_side(eye, ws.lookups, ws.shading, run);
+    if (crosses) draw_side({true, first_side.to_surface_m}, ws.wet_lookups, ws.wet_shading, run);
+    draw_side(first_side, ws.lookups, ws.shading, run);
   });
   stage(Stage::kShade, [&](const StageRun& run) {
     if (!options.labels.empty())

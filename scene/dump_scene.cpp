@@ -59,6 +59,9 @@ std::string dump_scene(const Scene& scene) {
     const std::string line = line_of(parameter, scene);
     if (!line.empty() && is_replaced(parameter.key, scene, parameters)) text += "# ";
     text += line;
+    if (parameter.key == "water.type" && scene.water.type != WaterType::kNone)
+      text += fmt::format("# A white disc is lost to sight at {:.3g} m (Secchi depth).\n",
+                          secchi_depth_m(optics_of(scene.water.type)));
   }
   return text + tables_text(kSwellKey, swell_parameters(), scene.sea.swells) +
          tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +

@@ -17,6 +17,7 @@
 #include "scene/camera.h"
 #include "scene/objects.h"
 #include "scene/scene_error.h"
+#include "scene/water_types.h"
 #include "terrain/terrain.h"
 
 namespace swell::scene {
@@ -47,6 +48,8 @@ struct Sky {
 
 struct WaterOptics {
   double refraction_index = 1.333;
+  WaterType type = WaterType::kNone;
+  // A type's, where a file leaves them out.
   glm::vec3 body_colour{0.004f, 0.030f, 0.045f};    // linear radiance factor of deep water
   glm::vec3 absorption_per_m{0.35f, 0.07f, 0.05f};  // Beer-Lambert, linear RGB
   double distortion = 0.06;          // C0 of the lookups' displacement, in picture heights
@@ -119,7 +122,7 @@ struct Scene {
   Detail detail;
   Picture picture;
   std::optional<TerrainDescription> terrain;
-  std::vector<FloatingObject> objects;  // at most 64
+  std::vector<FloatingObject> objects;  // at most 2000
 };
 
 // Reads and checks a scene file. Relative image paths are relative to the scene file's folder.

@@ -15,6 +15,7 @@
 #include "render/labels/keep_labels-inl.h"
 #include "render/materials/list-inl.h"
 #include "render/tile/attenuate-inl.h"
+#include "render/tile/cloud_deck-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/sky-inl.h"
@@ -238,7 +239,8 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
     keep(lanes.at, surfel);
     if (s.media.submerged)
       return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light);
-    return Haze(s, shown, surfel.light);
+    const V3 light = Haze(s, shown, surfel.light);
+    return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
     const auto surfel = shade(s, tile, lanes, seen.packet, found...);
