@@ -98,18 +98,50 @@ void prepare_scratch(int threads, Workspace::State& ws) {
     ws.scratch.push_back(std::make_unique<ThreadScratch>());
 }
 
-// The cameras of the window and of what its water looks into.
-std::array<RenderView*, 3> prepare_views(const World::State& world, const View& view,
+// The cameras of the window and of what its water looks into, from the air and from below.
+std::array<RenderView*, 5> prepare_views(const World::State& world, const View& view,
                                          const FrameOptions& options, Workspace::State& ws) {
-  RenderView &reflection = ws.lookups.reflection.view, &refraction = ws.lookups.refraction.view;
-  reflection.kind = ViewKind::kReflection;
-  refraction.kind = ViewKind::kRefraction;
-  refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
   ws.window.camera = view;
-  reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
-  for (RenderView* const shown : {&ws.window, &reflection, &refraction})
+  for (LookupImages* const images : {&ws.lookups, &ws.wet_lookups}) {
+    RenderView &reflection = images->reflection.view, &refraction = images->refraction.view;
+    reflection.kind = ViewKind::kReflection;
+    refraction.kind = ViewKind::kRefraction;
+    refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
+    reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
+  }
+  const std::array views = {&ws.window, &ws.lookups.reflection.view, &ws.lookups.refraction.view,
+                            &ws.wet_lookups.reflection.view, &ws.wet_lookups.refraction.view};
+  for (RenderView* const shown : views)
     shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
-  return {&ws.window, &reflection, &refraction};
+  return views;
+}
+
+void set_eye(const EyeInWater& eye, FrameViews views) {
+  for (RenderView* const view : views) view->eye = eye;
+}
+
+// Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the picture,
+// the first three are of an eye in air and two more of one in water.
+void place_vertices(const World::State& world, const View& view, const FrameOptions& options,
+                    FrameViews all_views, Workspace::State& ws, const StageRun& run) {
+  EyeInWater eye = find_eye_in_water(world, ws.sea, view, options);
+  FrameViews views = all_views.first(3);
+  set_eye(eye, views);
+  displace(world, ws.sea, view, options, ws.meshes, views, run);
+  ws.crossing.picture = Begins::kInAir;
+  if (!options.without.has(Part::kUnderwater))
+    find_crossing(ws.meshes.water, view, eye, world.water_bounds().height_m, ws.crossing);
+  if (eye.submerged != (ws.crossing.picture == Begins::kInWater)) {
+    eye.submerged = !eye.submerged;
+    set_eye(eye, views);
+    map_land(ws.meshes, views.subspan(1), run);
+  }
+  if (ws.crossing.picture == Begins::kInBoth) {
+    views = all_views;
+    set_eye({true, eye.to_surface_m}, views.subspan(3));
+    map_land(ws.meshes, views.subspan(3), run);
+  }
+  place_objects(world, ws.sea, view, options.poses, ws.meshes, views, run);
 }
 
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
@@ -169,7 +201,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   ws.profile.begin_frame(workspace.trace_enabled);
   prepare_target(drawn, options, drawn_target);
   prepare_scratch(workers.thread_count(), ws);
-  const std::array<RenderView*, 3> views = prepare_views(world_state, drawn, options, ws);
+  const std::array<RenderView*, 5> views = prepare_views(world_state, drawn, options, ws);
   const auto stage = [&](Stage name, auto&& work) {
     const StageScope scope(ws.profile, name);
     work(StageRun{workers, ws.profile, name});
@@ -193,8 +225,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
       });
   const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
-    displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
-    place_objects(world_state, ws.sea, drawn, options.poses, ws.meshes, views, run);
+    place_vertices(world_state, drawn, options, views, ws, run);
     find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
                         ws.meshes.objects, run);
   });
@@ -203,20 +234,34 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                  run);
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
-  const Media media = make_media(world_state, light, sky_m, options.without);
-  MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
-  inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
+  const Media air = make_media(world_state, light, sky_m, options.without);
+  const Media water = submerge(air, drawn.eye_world.z);
+  const EyeInWater first_side = ws.window.eye;
+  const bool crosses = ws.crossing.picture == Begins::kInBoth;
+  const auto draw_side = [&](const EyeInWater& side, LookupImages& lookups, Shading& shading,
+                             const StageRun& run) {
+    MaterialInputs inputs{world_state,       t_s,   ws.sea,
+                          ws.meshes.objects, light, side.submerged ? water : air,
+                          options.without};
+    inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
+    ws.window.eye = side;
+    draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, lookups, run);
+    fill_shading(inputs, ws.window, options.tile_size_px, shading);
+  };
   stage(Stage::kLookups, [&](const StageRun& run) {
-    draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.lookups, run);
-    fill_shading(inputs, ws.window, options.tile_size_px, ws.shading);
+    if (crosses) draw_side({true, first_side.to_surface_m}, ws.wet_lookups, ws.wet_shading, run);
+    draw_side(first_side, ws.lookups, ws.shading, run);
   });
   stage(Stage::kShade, [&](const StageRun& run) {
     if (!options.labels.empty())
       fill_label_tables({world_state, ws.meshes, ws.window, options, t_s}, ws.labels, run);
+    const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_lookups.of_tile,
+                      !options.without.has(Part::kMeniscus)};
     const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects, world_state};
-    shade_picture({ws.meshes, ws.window, ws.visibility, ws.edges, ws.lookups.of_tile, ws.shading,
-                   options.wireframe, options.labels.empty() ? nullptr : &labels},
-                  ws.scratch, ws.shaded, drawn_target, run);
+    shade_picture(
+        {ws.meshes, ws.window, ws.visibility, ws.edges, ws.lookups.of_tile, ws.shading,
+         options.wireframe, options.labels.empty() ? nullptr : &labels, crosses ? &wet : nullptr},
+        ws.scratch, ws.shaded, drawn_target, run);
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
   });
   workspace.trace = ws.profile.trace();

@@ -28,15 +28,17 @@ enum class Part : std::uint8_t {
   kCrests,      // what makes the open sea's crests sharper than troughs; queries keep it
   kAltitude,    // what the eye's height changes in the sky and in the air below it
   kTextures,    // pictures on meshes: each is its mean colour
+  kUnderwater,  // what an eye below the surface sees; without it, it sees through air
+  kMeniscus,    // the dark line where the surface cuts the picture
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction",  "ripples", "whitecaps", "haze",
-    "earth",      "clouds",      "shadows", "hulls",     "apron",
-    "tiling",     "seen-slopes", "crests",  "altitude",  "textures"};
+    "reflection", "refraction", "ripples",  "whitecaps",  "haze",    "earth",
+    "clouds",     "shadows",    "hulls",    "apron",      "tiling",  "seen-slopes",
+    "crests",     "altitude",   "textures", "underwater", "meniscus"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

@@ -14,6 +14,7 @@
 #include "render/view/meshes.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
+#include "render/view/crossing.h"
 #include "render/world/sea_maps.h"
 #include "render/world/sky_frame.h"
 
@@ -27,9 +28,10 @@ struct Workspace::State {
   RenderView window;
   VisibilityBuffer visibility;
   EdgeBuffer edges;
-  LookupImages lookups;
-  Shading shading;          // of the window
-  std::vector<int> shaded;  // per tile
+  Crossing crossing;
+  LookupImages lookups, wet_lookups;  // where the waterline crosses the picture, both
+  Shading shading, wet_shading;       // of the window
+  std::vector<int> shaded;            // per tile
   LabelTables labels;
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
   Target small;  // the picture before it is enlarged

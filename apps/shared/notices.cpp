@@ -20,14 +20,13 @@ void EyeWarning::look(int frame, const render::World& world, const View& view,
                       const render::Workspace& workspace) {
   if (was_given_) return;
   const render::EyeReport eye = find_eye(world, workspace, view.eye_world);
-  if (eye.place == render::EyePlace::kAir) return;
+  if (eye.place != render::EyePlace::kGround) return;
   was_given_ = true;
-  const bool is_water = eye.place == render::EyePlace::kWater;
-  fmt::print(stderr,
-             "warning: frame {}: the camera is {}, at {:.2f} m where {} is at {:.2f} m; "
-             "what it sees from there is not drawn right\n",
-             frame, is_water ? "under water" : "inside the ground", view.eye_world.z,
-             is_water ? "the water" : "the ground", eye.surface_m);
+  fmt::print(
+      stderr,
+      "warning: frame {}: the camera is inside the ground, at {:.2f} m where the ground is at "
+      "{:.2f} m; what it sees from there is not drawn right\n",
+      frame, view.eye_world.z, eye.surface_m);
 }
 
 }  // namespace swell::apps

@@ -13,7 +13,7 @@ namespace swell::apps {
 scene::Scene load_scene(const std::filesystem::path& path);
 
 // Prints one line 'warning: ...' on standard error for the first frame whose eye is below the
-// water or the ground, which are drawn from above alone.
+// ground, which is drawn from above alone.
 class EyeWarning {
  public:
   // After a frame: `frame` is its number, world, view and workspace are the frame's.

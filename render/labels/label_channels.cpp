@@ -91,7 +91,7 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "",
      "What the water shows besides the sky and its own colour: 1 where land or an object is more "
      "than half of what it mirrors, 2 where the ground or an object is more than half of what is "
-     "seen through it, 3 both.",
+     "seen through it, 3 both; 4 more at every pixel that an eye sees through water.",
      "0",
      "0"},
 }};

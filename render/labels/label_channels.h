@@ -69,7 +69,8 @@ inline constexpr std::uint32_t kSkyId = 0, kWaterId = 1, kLandId = 2, kFirstObje
 inline constexpr std::uint32_t kSkyClass = 0, kWaterClass = 1, kTerrainClass = 2, kObjectClass = 3,
                                kFoamClass = 4, kFirstOwnClass = 5;
 
-// Bits of kFlags, at water pixels: what the picture shows there besides the water itself.
-inline constexpr std::uint32_t kShowsMirrored = 1, kShowsRefracted = 2;
+// Bits of kFlags: what the picture shows besides the water itself, at water pixels; that the eye
+// looks through water, at all.
+inline constexpr std::uint32_t kShowsMirrored = 1, kShowsRefracted = 2, kSeenInWater = 4;
 
 }  // namespace swell::render

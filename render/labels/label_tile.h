@@ -26,6 +26,7 @@ struct LabelTile {
   std::span<const float> depth = {};
   std::span<const std::uint32_t> primitive = {};
   const ShadedLabels* shaded = nullptr;
+  std::span<const std::uint8_t> in_water = {};  // 1 where the eye looks through water; or none
 };
 
 // What is not stored follows from the depth.

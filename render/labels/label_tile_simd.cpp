@@ -291,6 +291,16 @@ HWY_INLINE void ForPackets(const LabelSources& in, const LabelTile& tile, const 
           static_cast<std::size_t>(box.y0_px + y) * width_px + box.x0_px + x);
 }
 
+HWY_INLINE V FlagsOf(const LabelTile& tile, const LabelPacket& p) {
+  const D d;
+  const V of_water = tile.shaded ? OfWater(tile.shaded->flags, p) : hn::Zero(d);
+  if (tile.in_water.empty()) return of_water;
+  const hn::Rebind<std::uint8_t, D> d8;
+  const V in_water =
+      hn::ConvertTo(d, hn::PromoteTo(DI(), hn::LoadU(d8, tile.in_water.data() + p.tile_at)));
+  return hn::MulAdd(in_water, Constant(static_cast<float>(kSeenInWater)), of_water);
+}
+
 // What needs no more of a packet than its depth or its primitives: a loop each, which leaves out
 // the rest of the packet, takes half the instructions that one loop takes.
 HWY_INLINE void FillPlainLabels(const LabelSources& in, const LabelTile& tile, Labels& labels) {
@@ -320,9 +330,7 @@ HWY_INLINE void FillOtherLabels(const LabelSources& in, const LabelTile& tile, L
     if (set.has(Label::kElevation))
       StoreLanes(ElevationOf(in.shading, p), p.count, &labels.elevation_m[at]);
     if (set.has(Label::kFoam)) StoreLanes(FoamOf(tile, p), p.count, &labels.foam[at]);
-    if (set.has(Label::kFlags))
-      StoreBytes(tile.shaded ? OfWater(tile.shaded->flags, p) : hn::Zero(D()), p.count,
-                 &labels.flags[at]);
+    if (set.has(Label::kFlags)) StoreBytes(FlagsOf(tile, p), p.count, &labels.flags[at]);
   });
 }
 

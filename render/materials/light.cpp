@@ -50,4 +50,20 @@ Media make_media(const World::State& world, const Light& light, double height_m,
   return media;
 }
 
+// What scatters to the eye on a way through water that ends nowhere is
+// scattered exp(-K z) c / (c + K w), c lost a metre, K of daylight, w down a metre: from above,
+// straight down, the radiance of deep water.
+Media submerge(const Media& above, double eye_z) {
+  Media media = above;
+  media.submerged = true;
+  media.eye_depth_m = std::max(-static_cast<float>(eye_z), 0.0f);
+  media.daylight_lost_per_m = kDaylightSlant * media.absorption_per_m;
+  media.scattered = (1.0f + kDaylightSlant) * media.body;
+  for (int c = 0; c < 3; ++c) {
+    const float lost = std::min(media.daylight_lost_per_m[c] * media.eye_depth_m, 80.0f);
+    media.daylight_at_eye[c] = static_cast<float>(exp(-static_cast<double>(lost)));
+  }
+  return media;
+}
+
 }  // namespace swell::render

@@ -43,11 +43,22 @@ struct Media {
   glm::vec3 body{0.0f};      // radiance of deep water
   glm::vec3 body_sun{0.0f};  // the part of it that is the sun's
   glm::vec3 absorption_per_m{0.0f};
+  // For an eye under water.
+  bool submerged = false;
+  float eye_depth_m = 0.0f;             // under the mean level, at least 0
+  glm::vec3 daylight_at_eye{1.0f};      // what is left there of the light that enters
+  glm::vec3 scattered{0.0f};            // radiance of a long level way just under the surface
+  glm::vec3 daylight_lost_per_m{0.0f};  // of light on its way down
 };
+
+// The light that enters comes down at a slant, on so many metres a metre of depth.
+inline constexpr float kDaylightSlant = 1.2f;
 
 // clouds, sky: of the frame; the sky to be kept as long as the light.
 Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky);
 // height_m: sky_height_m().
 Media make_media(const World::State& world, const Light& light, double height_m, PartSet without);
+// The same where an eye at the height eye_z over the mean level is under water.
+Media submerge(const Media& media, double eye_z);
 
 }  // namespace swell::render

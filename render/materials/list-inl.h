@@ -9,6 +9,6 @@
 
 #include "render/materials/object-inl.h"
 #include "render/materials/terrain-inl.h"
-#include "render/materials/water-inl.h"
+#include "render/materials/underside-inl.h"
 
 #endif  // per-target include guard

@@ -8,6 +8,7 @@
 
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
+#include "render/tile/attenuate-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
 #include "texture/mip_image.h"
@@ -211,7 +212,7 @@ struct Shader<Object, kView> {
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
     const V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
     const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);
-    if constexpr (kView == ViewKind::kRefraction) return {matt, surface.normal};
+    if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};
     return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),
             surface.normal};
   }

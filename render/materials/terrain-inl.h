@@ -11,6 +11,7 @@
 #include "render/materials/ground-inl.h"
 #include "render/materials/terrain.h"
 #include "render/materials/water-inl.h"
+#include "render/tile/attenuate-inl.h"
 #include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,7 +42,7 @@ template <ViewKind kView>
 HWY_INLINE V SunOnGround(const Shading& s, const Terrain& terrain, const TilePixels& tile,
                          const Packet& packet, V level_m) {
   LitPoint point = {packet.p, PixelSoftness(s, packet.depth), Constant(-1.0f)};
-  if constexpr (kView == ViewKind::kRefraction) point.p = WhereLightEnters(s, packet.p);
+  if (ShowsWaterSide<kView>(s.media)) point.p = WhereLightEnters(s, packet.p);
   V visible = Constant(1.0f);
   if (terrain.sun.map) visible = SunFromMap(s, terrain.sun, packet.p, level_m, point.p);
   if (tile.casters.empty()) return visible;
@@ -187,6 +188,7 @@ struct Shader<Terrain, kView> {
     const V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
     const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
+      if (s.media.submerged) return Surfel{ground.light, ground.normal};
       const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
       return Surfel{AddSwash(s, terrain, packet, level_m, height_m, sun_visible, ground.light),
                     ground.normal};

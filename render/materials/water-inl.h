@@ -449,17 +449,6 @@ struct WaterShader {
   }
 };
 
-// Water far from any coast is spared the coast's code.
-template <ViewKind kView, class Use>
-HWY_INLINE void WithShader(const Water& water, const Use& use) {
-  if constexpr (shows(kView, Water::kSurface)) {
-    if (water.has_coast)
-      use(WaterShader<true>{water});
-    else
-      use(WaterShader<false>{water});
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render
 HWY_AFTER_NAMESPACE();

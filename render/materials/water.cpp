@@ -188,6 +188,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.inv_crest_height =
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
   water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
+  water.submerged = in.media.submerged;
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);

@@ -39,6 +39,7 @@ struct Water {
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
   // foam. Not periodic: they hold within their square.
   bool has_coast = false;
+  bool submerged = false;  // the eye sees the surface from below
   SlopeLayer coast_slopes, coast_surf;
   Foam foam, hull_foam;
   Whitecaps whitecaps;

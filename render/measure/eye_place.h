@@ -17,7 +17,7 @@ struct EyeReport {
 };
 
 // Looks at the water and the ground of the last frame that was drawn in `workspace`, of `world`.
-// What lies below either is not drawn yet: a picture from there shows surfaces from behind. 1 us.
+// What lies below the ground is not drawn: a picture from there shows it from behind. 1 us.
 EyeReport find_eye(const World& world, const Workspace& workspace, glm::dvec3 eye_world);
 
 }  // namespace swell::render

@@ -111,7 +111,8 @@ HWY_INLINE WaterPath PathThroughWater(const Media& media, const Packet& packet, 
   const V depth =
       hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(media.refraction_index)), cos_eye));
   const V path_up = hn::Min(hn::Div(depth, cos_t), Constant(200.0f));
-  return {depth, hn::MulAdd(depth, Constant(1.2f), path_up)};  // sunlight comes down at a slant
+  return {depth,
+          hn::MulAdd(depth, Constant(kDaylightSlant), path_up)};  // sunlight comes down at a slant
 }
 
 // Light is lost on its way, and the water body's takes its place (Beer-Lambert).
@@ -127,15 +128,115 @@ HWY_INLINE V3 AbsorbInWater(const Media& media, const WaterPath& path, V3 light)
           lost(absorption.z, Constant(media.body.z), light.z)};
 }
 
+// Whether what a view shows lies in water.
+template <ViewKind kView>
+HWY_INLINE bool ShowsWaterSide(const Media& media) {
+  return (kView == ViewKind::kRefraction) != media.submerged;
+}
+
+// (1 - e^-x) / x, given e^-x.
+HWY_INLINE V LossOver(V x, V e) {
+  const V one = Constant(1.0f);
+  const V exact = hn::Div(hn::Sub(one, e), x);
+  // Near 0 the difference has no digits left.
+  V series = hn::NegMulAdd(x, Constant(1.0f / 24.0f), Constant(1.0f / 6.0f));
+  series = hn::NegMulAdd(hn::NegMulAdd(x, series, Constant(0.5f)), x, one);
+  return hn::IfThenElse(hn::Lt(hn::Abs(x), Constant(0.03f)), series, exact);
+}
+
+// A straight way through water, from a depth at which the part `daylight` is left of the light that
+// enters.
+struct WaterWay {
+  V length;  // [m], over 0
+  V deeper;  // by how much it ends deeper than it begins [m]
+};
+
+// Light at the end of a way, where it is lit by what of `light` comes down so far, as it arrives at
+// the way's beginning; in between water takes some away and scatters daylight to the eye. A light
+// that depth has not dimmed (the surface's) is that of a way that ends at depth 0.
+// With z the depth, s the length, c lost a metre and K of daylight: light e^(-c s - K z_end) +
+// scattered c Int_0^s e^(-c t - K z(t)) dt.
+HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWay& way, V3 light) {
+  const D d;
+  const auto along = [&](int channel, V seen) HWY_ATTR {
+    const float c = media.absorption_per_m[channel];
+    const V lost = hn::Mul(way.length, Constant(c));
+    const V x = hn::MulAdd(way.deeper, Constant(media.daylight_lost_per_m[channel]), lost);
+    const V passes = Exp(d, Clamp(hn::Neg(x), -80.0f, 80.0f));
+    const V scattered =
+        hn::Mul(hn::Mul(lost, LossOver(x, passes)), Constant(media.scattered[channel]));
+    return hn::Mul(hn::MulAdd(seen, passes, scattered), Constant(daylight[channel]));
+  };
+  return {along(0, light.x), along(1, light.y), along(2, light.z)};
+}
+
+// What a way without end shows, from a depth on, that goes down by w >= 0 a metre.
+HWY_INLINE V3 EndlessWater(const Media& media, glm::vec3 daylight, V w) {
+  const auto along = [&](int channel) HWY_ATTR {
+    const float c = media.absorption_per_m[channel];
+    const V lost =
+        hn::MulAdd(w, Constant(media.daylight_lost_per_m[channel]), Constant(std::max(c, 1e-9f)));
+    return hn::Div(Constant(c * media.scattered[channel] * daylight[channel]), lost);
+  };
+  return {along(0), along(1), along(2)};
+}
+
+// Water as far as the eye sees, where it sees nothing else.
+HWY_INLINE V3 OpenWater(const Media& media, V3 ray) {
+  const V down = hn::Mul(hn::Neg(ray.z), InverseSqrt(Dot(ray, ray)));
+  return EndlessWater(media, media.daylight_at_eye, hn::Max(down, hn::Zero(D())));
+}
+
+// Light as it arrives at an eye under water from what a packet of the window shows: the surface
+// itself, or what lies in the water.
+template <SurfaceKind kSurface>
+HWY_INLINE V3 SeenInWater(const Media& media, V level, const Packet& shown, V3 light) {
+  const V zero = hn::Zero(D());
+  V depth = zero;
+  if constexpr (kSurface != SurfaceKind::kWater) depth = hn::Max(hn::Sub(level, shown.p.z), zero);
+  const V deeper = hn::Sub(depth, Constant(media.eye_depth_m));
+  return ThroughWater(media, media.daylight_at_eye, {shown.distance, deeper}, light);
+}
+
 // A packet as a view shows it, and what it shows: the true places in the world.
 struct Seen {
-  Packet packet;   // where a mirrored or squeezed point really is
-  WaterPath path;  // through water; of the refraction image only
+  Packet packet;   // where a mirrored or moved point really is
+  WaterPath path;  // through water, of an eye in air; of the refraction image only
+  WaterWay way;    // of an eye under water: from the surface; of the reflection image only
 };
+
+// Undoes what map_point() does for an eye under water. The way through air to what it sees through
+// the surface has its own direction and length.
+template <ViewKind kView>
+HWY_INLINE Seen FindSeenFromBelow(const Media& media, const Packet& shown, V level) {
+  const V zero = hn::Zero(D()), one = Constant(1.0f), n = Constant(media.refraction_index);
+  const V beyond = hn::Sub(shown.p.z, level), image = hn::Max(beyond, zero);
+  Seen seen;
+  seen.packet = shown;
+  if constexpr (kView == ViewKind::kReflection) {
+    seen.packet.p.z = hn::Sub(level, beyond);
+    seen.packet.to_eye.z = hn::Neg(shown.to_eye.z);
+    const V part = Clamp(hn::Div(image, hn::Max(shown.p.z, Constant(1e-3f))), 0.0f, 1.0f);
+    seen.way = {hn::Mul(shown.distance, part), image};
+  } else {
+    const V cos_water = hn::Max(hn::Neg(shown.to_eye.z), Constant(0.02f));
+    const V sin_water = hn::Sqrt(hn::Max(hn::NegMulAdd(cos_water, cos_water, one), zero));
+    const V sin_air = hn::Min(hn::Mul(sin_water, n), one);
+    const V cos_air = hn::Sqrt(hn::NegMulAdd(sin_air, sin_air, one));
+    const V height = hn::Div(hn::Mul(image, cos_air), hn::Mul(n, cos_water));
+    const V across = hn::Div(hn::Mul(image, sin_water), cos_water);
+    seen.packet.p.z = hn::Add(level, hn::Add(height, hn::Min(beyond, zero)));
+    seen.packet.distance = hn::Sqrt(hn::MulAdd(height, height, hn::Mul(across, across)));
+    const V3 to_eye = {hn::Mul(shown.to_eye.x, n), hn::Mul(shown.to_eye.y, n), hn::Neg(cos_air)};
+    seen.packet.to_eye = Scale(to_eye, InverseSqrt(Dot(to_eye, to_eye)));
+  }
+  return seen;
+}
 
 // Undoes what map_point() does; `level` is the height of the water's level over the eye.
 template <ViewKind kView>
 HWY_INLINE Seen FindSeen(const Shading& s, const Packet& shown, V level) {
+  if (s.media.submerged) return FindSeenFromBelow<kView>(s.media, shown, level);
   Seen seen;
   seen.packet = shown;
   if constexpr (kView == ViewKind::kReflection) {
@@ -151,11 +252,15 @@ HWY_INLINE Seen FindSeen(const Shading& s, const Packet& shown, V level) {
   return seen;
 }
 
-// Light that leaves a surface, as it arrives: through air, or through water up to the surface.
+// Light that leaves a surface, as it arrives: through air, or through water up to the surface. To
+// an eye under water it arrives at the surface.
 template <ViewKind kView>
 HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen, V3 light) {
   if constexpr (kView == ViewKind::kRefraction)
-    return AbsorbInWater(s.media, seen.path, light);
+    return s.media.submerged ? Haze(s, seen.packet, light)
+                             : AbsorbInWater(s.media, seen.path, light);
+  else if (s.media.submerged)
+    return ThroughWater(s.media, glm::vec3(1.0f), seen.way, light);
   else
     return Haze(s, shown, light);
 }

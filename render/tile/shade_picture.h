@@ -7,8 +7,17 @@
 #include "render/frame.h"
 #include "render/labels/label_tile.h"
 #include "render/view/lookup_images.h"
+#include "render/view/crossing.h"
 
 namespace swell::render {
+
+// Of a picture that begins partly in water, as that part sees it.
+struct WetSide {
+  const Crossing& line;
+  const Shading& shading;
+  const std::vector<TileLookups>& lookups;
+  bool meniscus;
+};
 
 // What the finished picture is made from.
 struct PictureInputs {
@@ -20,6 +29,7 @@ struct PictureInputs {
   const Shading& shading;
   bool wireframe;
   const LabelSources* labels = nullptr;  // none: no labels
+  const WetSide* wet = nullptr;          // none: all of it is as `shading` says
 };
 
 // Finds the edges of each tile, shades every visible pixel once and resolves it, and fills the

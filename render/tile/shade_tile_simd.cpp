@@ -237,6 +237,8 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   if constexpr (kView == ViewKind::kWindow) {
     const auto surfel = shade(s, tile, lanes, shown, found...);
     keep(lanes.at, surfel);
+    if (s.media.submerged)
+      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light);
     const V3 light = Haze(s, shown, surfel.light);
     return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
   } else {
@@ -244,7 +246,7 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
     const auto surfel = shade(s, tile, lanes, seen.packet, found...);
     const V3 light = Attenuate<kView>(s, shown, seen, surfel.light);
     if constexpr (requires { surfel.cover; })
-      return Lerp(Constant(s.media.body), light, surfel.cover);
+      return s.media.submerged ? light : Lerp(Constant(s.media.body), light, surfel.cover);
     else
       return light;
   }

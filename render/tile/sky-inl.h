@@ -7,8 +7,10 @@
 #endif
 
 #include "render/materials/clouds-inl.h"
+#include "render/tile/attenuate-inl.h"
 #include "render/tile/cloud_deck-inl.h"
 #include "render/tile/packet-inl.h"
+#include "render/tile/resolve-inl.h"
 #include "render/tile/sky_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,6 +66,7 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& 
 // The sky's light at places of the window, found for each alone.
 static HWY_NOINLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
   const V3 ray = RayAt(s.rays, x_px, y_px);
+  if (s.media.submerged) return OpenWater(s.media, ray);
   const SkyView view = ViewSky(s, ray);
   CloudNoise noise;
   if (s.light.clouds.any)
@@ -208,7 +211,7 @@ inline void FindNoise(const Clouds& clouds, int columns, int rows, SkyNodes& nod
   if (one_more) FindNoiseDown(clouds, columns - 1, rows, nodes);
 }
 
-// The sky in the first rows of a tile; not `on` in windows of large pixels.
+// The sky in the first rows of a tile; not `on` in windows of large pixels and under water.
 struct SkyLattice {
   const SkyNodes& nodes;
   bool on, sees_disc;
@@ -216,7 +219,7 @@ struct SkyLattice {
 
 inline SkyLattice MakeSkyLattice(const Shading& s, const raster::PixelBox& box, int rows_px,
                                  SkyNodes& nodes) {
-  if (s.rays.pixel_angle > kMostStepAngle / kStep) return {nodes, false, true};
+  if (s.media.submerged || s.rays.pixel_angle > kMostStepAngle / kStep) return {nodes, false, true};
   const bool sees_disc = FindView(s, box, nodes_along(rows_px), nodes);
   if (s.light.clouds.any) FindNoise(s.light.clouds, nodes_along(box.width_px), rows_px, nodes);
   return {nodes, true, sees_disc};

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "render/tile/crossed_tile.h"
 #include "render/tile/shade_tile.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
@@ -17,6 +18,8 @@ struct ThreadScratch {
   ShadeScratch shade;
   ShadedLabels labels;
   EdgeScratch edges;
+  std::unique_ptr<CrossedScratch> crossed;  // once a frame has needed it
+  std::array<std::uint8_t, kMaxTilePixels> in_water;
   alignas(64) std::array<float, kMaxTilePixels> depth;
   alignas(64) std::array<std::uint32_t, kMaxTilePixels> primitive;
 };

@@ -239,6 +239,7 @@ void add_point(const View& camera, glm::vec3 p_rel, float drop_m, WindowBox& box
 // between heights that bound map_point()'s, whose level is that of the sea or of any hull.
 WindowBox window_box(const Corners& corners, const RenderView& view, float lowest_rel_m) {
   WindowBox box;
+  box.all = view.eye.submerged;
   const float drop_m = most_drop_m(corners, view.drop_per_m2);
   const float level = -static_cast<float>(view.camera.eye_world.z), wave_m = level - lowest_rel_m;
   for (int i = 0; i < corners.count; ++i) {

@@ -113,8 +113,11 @@ void write_triangles(std::size_t begin, std::size_t end, ObjectGeometry& out) {
 }
 
 // Which objects the view may show, and where what they are drawn with goes.
-void list_instances(const World::State& world, const View& view, float drop_per_m2,
+void list_instances(const World::State& world, const View& view, FrameViews views,
                     ObjectGeometry& geometry) {
+  const float drop_per_m2 = views.front()->drop_per_m2;
+  const bool submerged =
+      std::ranges::any_of(views, [](const RenderView* shown) { return shown->eye.submerged; });
   const std::vector<scene::FloatingObject>& objects = world.scene.objects;
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   geometry.instances.clear();
@@ -123,7 +126,8 @@ void list_instances(const World::State& world, const View& view, float drop_per_
   ObjectPart part;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Placement placement = placement_of(objects[i], geometry.poses[i], view);
-    if (!in_view(objects[i], placement, drop_per_m2, planes)) continue;
+    // Through the surface an eye under water sees them far from where they are.
+    if (!submerged && !in_view(objects[i], placement, drop_per_m2, planes)) continue;
     const scene::ObjectMesh& mesh = drawn_mesh(world, i, placement.bottom_rel, view);
     geometry.meshes[i] = &mesh;
     geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
@@ -208,7 +212,7 @@ void place_objects(const World::State& world, const SeaMaps& sea, const View& vi
   geometry.poses.resize(world.scene.objects.size());
   drawn_poses(world, sea.frame, given, geometry.poses, run);
   geometry.instances.reserve(geometry.poses.size());  // primitives point into it
-  list_instances(world, view, views.front()->drop_per_m2, geometry);
+  list_instances(world, view, views, geometry);
   resize_vertices(SurfaceKind::kObjects, geometry.p_rel.size(), views);
   const auto for_chunks = [&](std::size_t count, auto&& body) {
     run.for_each((count + kVertexChunk - 1) / kVertexChunk, [&](std::size_t chunk, int) {

@@ -5,27 +5,27 @@
 
 #include "math/check.h"
 #include "render/materials/list.h"
+#include "render/view/refracted_image.h"
 
 namespace swell::render {
-float squeeze(glm::vec3 p_rel, float n) {
-  const float horizontal2 = p_rel.x * p_rel.x + p_rel.y * p_rel.y;
-  const float sin2 = horizontal2 / (horizontal2 + p_rel.z * p_rel.z + 1e-6f);
-  return std::sqrt((1.0f - sin2) / (n * n - sin2));
-}
 
-glm::vec3 map_point(ViewKind kind, const WorldPoint& point, float refraction_index) {
+glm::vec3 map_point(const PointMap& map, const WorldPoint& point) {
   const glm::vec3 p = point.p_rel;
-  switch (kind) {
+  const float above = point.above_m, level = point.level_rel_m, n = map.refraction_index;
+  switch (map.kind) {
     case ViewKind::kWindow:
       return p;
     case ViewKind::kReflection:
-      return {p.x, p.y, point.level_rel_m - point.above_m};
+      return {p.x, p.y, level - above};
     case ViewKind::kRefraction:
       break;
   }
-  const float above = point.above_m;
-  const float apparent = above < 0.0f ? above * squeeze(p, refraction_index) : above;
-  return {p.x, p.y, point.level_rel_m + apparent};
+  const bool beyond = map.eye.submerged ? above >= 0.0f : above < 0.0f;
+  if (!beyond) return {p.x, p.y, level + above};
+  const float horizontal_m = std::sqrt(p.x * p.x + p.y * p.y), eye_m = map.eye.to_surface_m;
+  if (map.eye.submerged)
+    return {p.x, p.y, level + apparent_height_m({above, eye_m, horizontal_m}, n)};
+  return {p.x, p.y, level - apparent_depth_m({eye_m, -above, horizontal_m}, n)};
 }
 
 namespace {
@@ -35,9 +35,10 @@ namespace {
 // a band of sand instead of sky.
 constexpr float kClipMargin_m = 0.3f;
 
-float clip_distance(ViewKind kind, SurfaceKind surface, float above_m) {
-  if (kind == ViewKind::kRefraction) return kClipMargin_m - above_m;
-  return surface == SurfaceKind::kTerrain ? above_m : kClipMargin_m + above_m;
+float clip_distance(const PointMap& map, SurfaceKind surface, float above_m) {
+  const float on_eyes_side_m = map.eye.submerged ? -above_m : above_m;
+  if (map.kind == ViewKind::kRefraction) return kClipMargin_m - on_eyes_side_m;
+  return surface == SurfaceKind::kTerrain ? on_eyes_side_m : kClipMargin_m + on_eyes_side_m;
 }
 
 // A vertex of a height field: over the mean level, which is level_rel_m over the eye.
@@ -57,16 +58,16 @@ void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, RenderV
                 const Point& point) {
   ViewVertices& out = view.vertices_of(surface);
   const glm::mat4 clip_from_rel = view.camera.clip_from_rel;
-  const float n = view.refraction_index, drop_per_m2 = view.drop_per_m2;
+  const PointMap map{kView, view.eye, view.refraction_index};
+  const float drop_per_m2 = view.drop_per_m2;
   glm::vec4* const p_clip = out.p_clip.data();
   float* const distance = out.clip_distance.data();
   for (std::size_t i = begin; i < end; ++i) {
     const WorldPoint p = point(i);
-    glm::vec3 shown = map_point(kView, p, n);
+    glm::vec3 shown = map_point(map, p);
     shown.z -= (shown.x * shown.x + shown.y * shown.y) * drop_per_m2;
     p_clip[i] = clip_from_rel * glm::vec4(shown, 1.0f);
-    if constexpr (kView != ViewKind::kWindow)
-      distance[i] = clip_distance(kView, surface, p.above_m);
+    if constexpr (kView != ViewKind::kWindow) distance[i] = clip_distance(map, surface, p.above_m);
   }
 }
 

@@ -1,8 +1,9 @@
 // A picture of the frame's surfaces: the window, or one of the pictures that water looks into.
 //
 // What a view shows is the world itself, the world mirrored in the water's level, or the world
-// below that level squeezed towards it, as it appears through the surface. One function maps the
-// vertices of every surface; the rest of the frame treats all views alike.
+// beyond that level moved to where it appears through the surface. One function maps the vertices
+// of every surface; the rest of the frame treats all views alike. For an eye under water the two
+// sides of the surface change places.
 #pragma once
 
 #include <array>
@@ -20,9 +21,9 @@
 namespace swell::render {
 
 enum class ViewKind : std::uint8_t {
-  kWindow,      // as seen, through air
-  kReflection,  // mirrored in the water's level, through air
-  kRefraction,  // below the water's level squeezed towards it, through water
+  kWindow,      // as seen
+  kReflection,  // the eye's side of the water's level, mirrored in it
+  kRefraction,  // the other side, as it appears through the surface
 };
 
 // Water shows in the window only: it looks into the other pictures.
@@ -36,9 +37,16 @@ struct ViewVertices {
   std::vector<float> clip_distance;  // none in the window
 };
 
+// Where a view's eye is.
+struct EyeInWater {
+  bool submerged = false;     // under the drawn surface
+  float to_surface_m = 1.0f;  // over 0: to the level, or half of that to the surface if it is more
+};
+
 struct RenderView {
   ViewKind kind = ViewKind::kWindow;
   View camera;
+  EyeInWater eye;
   float refraction_index = 1.333f;
   float drop_per_m2 = 0.0f;  // how far a round earth sinks (math/earth.h)
   std::array<ViewVertices, kSurfaceKinds> vertices;
@@ -52,10 +60,6 @@ struct RenderView {
   raster::Viewport viewport() const { return {camera.width_px, camera.height_px}; }
 };
 
-// Apparent depth over true depth of a point below the water seen from the eye, at an angle theta
-// to the vertical: k = (1/n) cos / sqrt(1 - (sin/n)^2), from 1/n to 0.
-float squeeze(glm::vec3 p_rel, float n);
-
 // A point of the flat world on its way into a view.
 struct WorldPoint {
   glm::vec3 p_rel;    // relative to the eye [m]
@@ -63,9 +67,21 @@ struct WorldPoint {
   float level_rel_m;  // that level over the eye
 };
 
+// What a view does to points, besides its camera's doing.
+struct PointMap {
+  ViewKind kind;
+  EyeInWater eye;
+  float refraction_index;
+};
+
 // Where a view of the flat world shows the point, relative to the eye. On a round earth it then
 // sinks with the level that mirrors it.
-glm::vec3 map_point(ViewKind kind, const WorldPoint& point, float refraction_index);
+glm::vec3 map_point(const PointMap& map, const WorldPoint& point);
+
+// Where the eye is in the water at the time of `sea`: a function of world, view and time. A surface
+// that reaches into the near plane may lie on both sides of the eye; the point of the eye decides.
+EyeInWater find_eye_in_water(const World::State& world, const SeaMaps& sea, const View& view,
+                             const FrameOptions& options);
 
 // All views of a frame.
 using FrameViews = std::span<RenderView* const>;

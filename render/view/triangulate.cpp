@@ -204,7 +204,9 @@ void triangulate_land(const Wanted& wanted, Surface& land) {
     request.factors.flat = std::min(kFlatLand * request.factors.flat, kMostTimes);
     request.factors.sunken = kSunkenLand;
   }
-  request.frustum_margin = 0.3f;  // the mirrored land lies outside the view at times
+  // The mirrored land lies outside the view at times, what an eye under water sees through the
+  // surface nearly always.
+  request.frustum_margin = wanted.view.eye_world.z < 0.0 ? 3.0f : 0.3f;
   adapt_surface(land_domain(terrain, has_apron), request, wanted.options.triangle_capacity, land);
 }
 

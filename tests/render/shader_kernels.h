@@ -57,6 +57,11 @@ void path_through_water(const Media& media, std::span<const float> cos_eye,
                         std::span<float> length_m);
 void absorb_in_water(const Media& media, std::span<const float> length_m, glm::vec3 light,
                      std::span<glm::vec3> seen);
+// Straight ways under water, and ways without end that go down by w a metre.
+void through_water(const Media& media, glm::vec3 daylight, std::span<const float> length_m,
+                   std::span<const float> deeper_m, glm::vec3 light, std::span<glm::vec3> seen);
+void endless_water(const Media& media, glm::vec3 daylight, std::span<const float> w,
+                   std::span<glm::vec3> seen);
 // Along straight ways through the air over a flat or round sea.
 void haze(const Shading& shading, std::span<const float> distance_m, glm::vec3 to_eye,
           glm::vec3 light, std::span<glm::vec3> seen);

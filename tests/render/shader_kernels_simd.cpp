@@ -178,6 +178,21 @@ void Absorb(const Media& media, std::span<const float> length_m, glm::vec3 light
   });
 }
 
+void UnderWater(const Media& media, glm::vec3 daylight, std::span<const float> length_m,
+                std::span<const float> deeper_m, glm::vec3 light, std::span<glm::vec3> seen) {
+  ForPackets(seen.size(), [&](std::size_t i) {
+    const WaterWay way = {LoadSome(length_m, i), LoadSome(deeper_m, i)};
+    StoreSome(ThroughWater(media, daylight, way, Constant(light)), seen, i);
+  });
+}
+
+void Endless(const Media& media, glm::vec3 daylight, std::span<const float> w,
+             std::span<glm::vec3> seen) {
+  ForPackets(seen.size(), [&](std::size_t i) {
+    StoreSome(EndlessWater(media, daylight, LoadSome(w, i)), seen, i);
+  });
+}
+
 void HazeBetween(const Shading& shading, std::span<const float> distance_m, glm::vec3 to_eye,
                  glm::vec3 light, std::span<glm::vec3> seen) {
   ForPackets(seen.size(), [&](std::size_t i) {
@@ -199,7 +214,8 @@ void FindPoints(const Media& media, float level_rel_m, std::span<const glm::vec3
   ForPackets(p_rel.size(), [&](std::size_t i) {
     Packet packet;
     packet.p = LoadSome(p_shown, i);
-    packet.to_eye = Scale(packet.p, hn::Neg(InverseSqrt(Dot(packet.p, packet.p))));
+    packet.distance = hn::Sqrt(Dot(packet.p, packet.p));
+    packet.to_eye = Scale(packet.p, hn::Div(Constant(-1.0f), packet.distance));
     StoreSome(FindSeen<kView>(shading, packet, Constant(level_rel_m)).packet.p, p_rel, i);
   });
 }
@@ -264,6 +280,8 @@ HWY_EXPORT(LayerSlopes);
 HWY_EXPORT(SineSlopes);
 HWY_EXPORT(Path);
 HWY_EXPORT(Absorb);
+HWY_EXPORT(Endless);
+HWY_EXPORT(UnderWater);
 HWY_EXPORT(HazeBetween);
 HWY_EXPORT(Find);
 HWY_EXPORT(Srgb);
@@ -329,6 +347,16 @@ void path_through_water(const Media& media, std::span<const float> cos_eye,
 void absorb_in_water(const Media& media, std::span<const float> length_m, glm::vec3 light,
                      std::span<glm::vec3> seen) {
   HWY_DYNAMIC_DISPATCH(Absorb)(media, length_m, light, seen);
+}
+
+void through_water(const Media& media, glm::vec3 daylight, std::span<const float> length_m,
+                   std::span<const float> deeper_m, glm::vec3 light, std::span<glm::vec3> seen) {
+  HWY_DYNAMIC_DISPATCH(UnderWater)(media, daylight, length_m, deeper_m, light, seen);
+}
+
+void endless_water(const Media& media, glm::vec3 daylight, std::span<const float> w,
+                   std::span<glm::vec3> seen) {
+  HWY_DYNAMIC_DISPATCH(Endless)(media, daylight, w, seen);
 }
 
 void haze(const Shading& shading, std::span<const float> distance_m, glm::vec3 to_eye,

@@ -1,5 +1,6 @@
 // Vertices of all surfaces, as render/view/render_view.cpp maps them: the world itself, mirrored in
-// the water's level (REFLECTION), or squeezed towards it (REFRACTION).
+// the water's level (REFLECTION), or moved to where it appears through the surface (REFRACTION).
+// The eye is in air.
 #ifdef OBJECT
 layout(location = 0) in vec3 p_rel;  // relative to the eye [m]
 layout(location = 1) in float waterline_rel_m;
@@ -21,10 +22,17 @@ out vec3 v_p;
 
 const float clip_margin_m = 0.3;
 
-float squeeze(vec3 p) {
-  float horizontal2 = dot(p.xy, p.xy);
-  float sin2 = horizontal2 / (horizontal2 + p.z * p.z + 1e-6);
-  return sqrt((1.0 - sin2) / (refraction_index * refraction_index - sin2));
+// As render/view/refracted_image.h.
+float apparent_depth(float air, float water, float horizontal) {
+  float n2 = refraction_index * refraction_index, m2 = n2 - 1.0;
+  float x = max((horizontal - water / sqrt(m2)) / air, horizontal / (air + water / refraction_index));
+  for (int i = 0; i < 3; ++i) {
+    float inv_g = 1.0 / (n2 + m2 * x * x), run = water * sqrt(inv_g);
+    float miss = (air + run) * x - horizontal;
+    float bent = run * n2 * inv_g, slope = air + bent, curve = 3.0 * bent * m2 * x * inv_g;
+    x -= miss * slope / (slope * slope + 0.5 * miss * curve);
+  }
+  return water / sqrt(n2 + m2 * x * x);
 }
 
 void main() {
@@ -49,7 +57,8 @@ void main() {
 #endif
 #ifdef REFRACTION
   gl_ClipDistance[0] = clip_margin_m - above_m;
-  p.z = level + (above_m < 0.0 ? above_m * squeeze(p) : above_m);
+  p.z = level + (above_m < 0.0 ? -apparent_depth(max(-level_rel_m, 0.05), -above_m, length(p.xy))
+                               : above_m);
 #endif
   v_p = p;
   p.z -= dot(p.xy, p.xy) * drop_per_m2;

@@ -1,0 +1,227 @@
+// The water's surface from below: Snell's window with the world above bent into it, and the mirror
+// of total reflection around it.
+#if defined(SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_
+#undef SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_
+#endif
+
+#include "render/materials/water-inl.h"
+#include "render/tile/attenuate-inl.h"
+#include "render/tile/sky-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// The surface's slopes. It is sampled as from above, along the same line: `turned` is the packet
+// with the way to the eye turned round.
+HWY_NOINLINE static WaterSlopes SampleUnderside(const Water& water, const ViewRays& rays,
+                                                const Packet& turned) {
+  const std::array packets = {turned};
+  const std::make_index_sequence<1> one;
+  return water.has_coast ? SampleWater<true>(water, rays, packets, one)[0]
+                         : SampleWater<false>(water, rays, packets, one)[0];
+}
+
+// How a ray in water, which goes up along -to_eye, leaves the surface.
+struct FromBelow {
+  V3 normal;    // up
+  V cos_water;  // of the ray to the normal
+  V cos_air;    // of the bent ray, and of its spread; 0 where all of it is mirrored
+  V3 bent;      // direction in air, of length 1
+  V3 mirrored;  // direction in water
+  V reflectance;
+  V spread;  // of the bent ray, by the slopes that a pixel does not show: as a sine
+};
+
+// Slopes that a pixel does not show spread the square of cos_air: its mean, as if it were spread
+// evenly and nothing below 0 counted.
+HWY_INLINE V MeanOverZero(V middle, V half_width) {
+  const V zero = hn::Zero(D());
+  const V inside = hn::Max(hn::Add(hn::Min(middle, half_width), half_width), zero);
+  return hn::MulAdd(hn::Mul(inside, inside), hn::Div(Constant(0.25f), half_width),
+                    hn::Max(hn::Sub(middle, half_width), zero));
+}
+
+HWY_INLINE FromBelow LeaveWater(const Media& media, V3 ray, const WaterSlopes& s) {
+  const V zero = hn::Zero(D()), one = Constant(1.0f);
+  const float n = media.refraction_index;
+  FromBelow f;
+  f.normal = NormalOf(s.slope_x, s.slope_y);
+  f.cos_water = hn::Min(hn::Max(Dot(f.normal, ray), Constant(kMinCos)), one);
+  const V sin2_water = hn::NegMulAdd(f.cos_water, f.cos_water, one);
+  const V cos2_air = hn::NegMulAdd(sin2_water, Constant(n * n), one);
+  // The slopes' standard deviation along the ray turns cos_water by sigma sin_water.
+  const V sigma = hn::Sqrt(hn::Mul(s.variance, Constant(0.5f)));
+  const V turn = hn::Mul(sigma, hn::Sqrt(sin2_water));
+  const V width =
+      hn::MulAdd(hn::Mul(f.cos_water, turn), Constant(2.0f * 1.732f * n * n), Constant(1e-6f));
+  const V mean = MeanOverZero(cos2_air, width);
+  f.cos_air = hn::Sqrt(mean);
+  f.reflectance = hn::IfThenElse(hn::Gt(mean, zero), FresnelReflectance(D(), f.cos_air, n), one);
+  const V along = hn::NegMulAdd(f.cos_water, Constant(n), f.cos_air);
+  const V3 bent = ScaleAdd(f.normal, along, Scale(ray, Constant(n)));
+  f.bent = Scale(bent, InverseSqrt(Dot(bent, bent)));
+  f.mirrored = ScaleAdd(f.normal, hn::Mul(f.cos_water, Constant(-2.0f)), ray);
+  f.spread = hn::Mul(sigma, Constant(n - 1.0f));
+  return f;
+}
+
+// Where the window shows a direction, in pixels.
+struct WindowPlace {
+  V x_px, y_px;
+};
+
+HWY_INLINE WindowPlace PlaceInWindow(const ViewRays& rays, V3 direction) {
+  const glm::vec3 right = rays.ray_dx / glm::dot(rays.ray_dx, rays.ray_dx);
+  const glm::vec3 down = rays.ray_dy / glm::dot(rays.ray_dy, rays.ray_dy);
+  const float x = glm::dot(rays.ray, right), y = glm::dot(rays.ray, down);
+  const glm::vec3 ahead = rays.ray - x * rays.ray_dx - y * rays.ray_dy;
+  const V inverse =
+      hn::Div(Constant(1.0f), hn::Max(Dot(direction, Constant(ahead)), Constant(0.05f)));
+  return {hn::MulSub(Dot(direction, Constant(right)), inverse, Constant(x)),
+          hn::MulSub(Dot(direction, Constant(down)), inverse, Constant(y))};
+}
+
+// Looks a lookup image up in a direction of the eye: where a flat surface would bend or mirror the
+// ray as the waves do, for things far beyond it. Nearer ones move by less.
+HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const LookupImage& lookup,
+                                const Packet& packet, V3 direction) {
+  constexpr float kShare = 0.6f;
+  const float bound = water.max_distortion_px;
+  const WindowPlace at = PlaceInWindow(s.rays, direction);
+  const auto moved = [&](V from, V to) HWY_ATTR {
+    const V by = Clamp(hn::Mul(hn::Sub(to, from), Constant(kShare)), -bound, bound);
+    return hn::Add(from, hn::Add(by, Constant(0.5f)));
+  };
+  return LookUpAt(lookup, moved(packet.x_px, at.x_px), moved(packet.y_px, at.y_px));
+}
+
+// The sky in a bent ray's direction, the sea where waves turn the ray down, and in front of both
+// what the refraction image shows.
+HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& packet,
+                           const FromBelow& f, bool use_image, V& image_alpha) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const V3 level = {f.bent.x, f.bent.y, hn::Max(f.bent.z, zero)};
+  const V3 up = Scale(level, InverseSqrt(hn::Max(Dot(level, level), Constant(1e-12f))));
+  V3 light = ClearSky(s.light, up);
+  if (s.light.clouds.any) {
+    const V angle = hn::Max(f.spread, Constant(s.rays.pixel_angle));
+    const CloudView clouds = ViewClouds(s.light.clouds, up, Log2Coarse(d, angle));
+    const CloudNoise noise = SampleClouds(s.light.clouds, clouds.x, clouds.y, clouds.level);
+    V passes;
+    light = AddClouds(s.light.clouds, clouds, noise, light, passes);
+  }
+  const V softness = hn::MulAdd(f.spread, Constant(2.0f), Constant(0.02f));
+  const V sea = SmoothBlend(hn::Div(hn::Neg(f.bent.z), softness));
+  light = Lerp(light, Constant(water.mirrored_sea), sea);
+  image_alpha = zero;
+  if (!use_image) return light;
+  const float inv_n = 1.0f / s.media.refraction_index;
+  const V x = hn::Mul(f.bent.x, Constant(inv_n)), y = hn::Mul(f.bent.y, Constant(inv_n));
+  const V z =
+      hn::Sqrt(hn::Max(hn::NegMulAdd(x, x, hn::NegMulAdd(y, y, Constant(1.0f))), Constant(1e-6f)));
+  const Looked image = LookUpTowards(s, water, water.refraction, packet, {x, y, z});
+  image_alpha = image.alpha;
+  return Lerp(light, image.light, image_alpha);
+}
+
+// Light that the surface mirrors down: the water's, and in front of it what the reflection image
+// shows.
+HWY_INLINE V3 LightFromWater(const Shading& s, const Water& water, const Packet& packet,
+                             const FromBelow& f, bool use_image, V& image_alpha) {
+  const V down = hn::Neg(f.mirrored.z);
+  const V3 deep = EndlessWater(s.media, glm::vec3(1.0f), hn::Max(down, hn::Zero(D())));
+  image_alpha = hn::Zero(D());
+  if (!use_image) return deep;
+  const V3 image_of = {f.mirrored.x, f.mirrored.y, down};
+  const Looked image = LookUpTowards(s, water, water.reflection, packet, image_of);
+  image_alpha = image.alpha;
+  return Lerp(deep, image.light, image_alpha);
+}
+
+// The sun through the slopes that a pixel does not show, as radiance per irradiance, in basic
+// radiance (over n^2): both the sun's disc and a Gaussian distribution of slopes spread it.
+// Source: Walter, Marschner, Li, Torrance, Microfacet Models for Refraction through Rough Surfaces,
+// 2007, equation 21, without its shadowing term.
+HWY_INLINE V SunThrough(glm::vec3 sun_direction, float n, V3 ray, const WaterSlopes& s,
+                        const FromBelow& f) {
+  // The disc covers as much as slopes of this variance, both axes together: the bent ray turns by
+  // about n - 1 of a slope.
+  const float disc = kDiscRadius / (n - 1.0f), disc_variance = 0.5f * disc * disc;
+  const V3 sun = Constant(sun_direction);
+  const V3 half = Difference(Scale(ray, Constant(n)), sun);  // along the normal that bends so
+  const V length2 = hn::Max(Dot(half, half), Constant(1e-6f));
+  const V inv_length = InverseSqrt(length2);
+  const V3 h = Scale(half, inv_length);
+  const V z = hn::Max(h.z, Constant(0.05f));
+  const V inv_z = hn::Div(Constant(1.0f), z);
+  const V dx = hn::MulAdd(h.x, inv_z, s.slope_x), dy = hn::MulAdd(h.y, inv_z, s.slope_y);
+  const V inv_variance =
+      hn::Div(Constant(1.0f), hn::Add(s.variance, Constant(disc_variance)));  // 1 / (2 sigma^2)
+  const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
+  const V density = hn::Mul(Exp(D(), hn::Max(exponent, Constant(-80.0f))),
+                            hn::Mul(inv_variance, Constant(0.318309886f)));
+  const V cos_air = hn::Max(Dot(sun, h), hn::Zero(D())), cos_water = Dot(ray, h);
+  const V passes = hn::Sub(Constant(1.0f), FresnelReflectance(D(), cos_air, n));
+  const V inv_z2 = hn::Mul(inv_z, inv_z);
+  const V bends = hn::Mul(hn::Mul(cos_air, cos_water), hn::Mul(inv_z2, inv_z2));
+  const V spread = hn::Mul(hn::Max(f.cos_water, Constant(0.08f)), length2);
+  return hn::Mul(hn::Mul(passes, density), hn::Div(bends, spread));
+}
+
+// Foam lets light through from all sides: a dim white.
+HWY_INLINE V3 AddFoamFromBelow(const Shading& s, V cover, V sun_visible, V3 light) {
+  if (hn::AllFalse(D(), hn::Gt(cover, hn::Zero(D())))) return light;
+  constexpr float kPasses = 0.35f;
+  const float cos_sun = std::max(s.light.sun_direction.z, 0.0f);
+  const V3 white = ScaleAdd(Constant(s.light.sun_irradiance * (kPasses * cos_sun * 0.318309886f)),
+                            sun_visible, Constant(s.light.ambient * kPasses));
+  return Lerp(light, white, hn::Mul(cover, Constant(0.85f)));
+}
+
+struct UndersideShader {
+  const Water& water;
+
+  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes&,
+                               const Packet& packet) const {
+    const V3 ray = Scale(packet.to_eye, Constant(-1.0f));
+    Packet turned = packet;
+    turned.to_eye = ray;
+    const WaterSlopes slopes = SampleUnderside(water, s.rays, turned);
+    const FromBelow f = LeaveWater(s.media, ray, slopes);
+
+    const V sun_visible = SunVisible(s, tile, packet);
+    V mirrored_alpha, bent_alpha;
+    const V3 mirrored =
+        LightFromWater(s, water, packet, f, tile.lookups.reflection, mirrored_alpha);
+    const V3 bent = LightFromAir(s, water, packet, f, tile.lookups.refraction, bent_alpha);
+    const V sun = SunThrough(s.light.sun_direction, s.media.refraction_index, ray, slopes, f);
+    V3 seen = Lerp(bent, mirrored, f.reflectance);
+    seen = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(sun, sun_visible), seen);
+    seen = AddFoamFromBelow(s, slopes.foam_cover, sun_visible, seen);
+    return {seen, f.normal, slopes.foam_cover, FlagsOf(mirrored_alpha, bent_alpha)};
+  }
+};
+
+// Water far from any coast is spared the coast's code.
+template <ViewKind kView, class Use>
+HWY_INLINE void WithShader(const Water& water, const Use& use) {
+  if constexpr (shows(kView, Water::kSurface)) {
+    if (water.submerged)
+      use(UndersideShader{water});
+    else if (water.has_coast)
+      use(WaterShader<true>{water});
+    else
+      use(WaterShader<false>{water});
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

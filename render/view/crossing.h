@@ -1,0 +1,43 @@
+// Where the drawn water cuts the near plane: the pixels' rays begin there, in air or in water.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "raster/pass.h"
+#include "render/view/meshes.h"
+#include "render/view/render_view.h"
+
+namespace swell::render {
+
+// What a part of the picture looks through first.
+enum class Begins : std::uint8_t { kInAir, kInWater, kInBoth };
+
+// The height of the near plane over the drawn water, at nodes kStep_px apart from the picture's
+// upper left corner on; on straight lines between them.
+struct Crossing {
+  static constexpr int kStep_px = 16;
+
+  Begins picture = Begins::kInAir;
+  int columns = 0;              // of nodes, which go a step beyond the picture
+  std::vector<float> above_m;   // if the picture begins in both
+  std::vector<int> near_water;  // working memory: triangles
+
+  // Of pixels of the box, where the picture begins in both.
+  Begins begins(const raster::PixelBox& box) const;
+  // At a pixel's centre: below 0 where it begins in water.
+  float above(int x_px, int y_px) const;
+  // Rows of pixels from a pixel to the line, about.
+  float rows_away(int x_px, int y_px) const;
+};
+
+// Of the water's triangles at their heights of this frame. The picture begins as the eye does
+// where no wave can reach the near plane. 0.1 to 1 ms where one can.
+void find_crossing(const Surface& water, const View& view, const EyeInWater& eye,
+                    float most_height_m, Crossing& line);
+
+// Maps the land into the views anew, as an eye on the other side of the surface needs it.
+void map_land(const Meshes& meshes, FrameViews views, const StageRun& run);
+
+}  // namespace swell::render

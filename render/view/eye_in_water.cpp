@@ -1,0 +1,27 @@
+// Whether a frame's eye is under water.
+#include <algorithm>
+#include <cmath>
+
+#include "render/view/render_view.h"
+#include "render/view/wave_reach.h"
+
+namespace swell::render {
+
+EyeInWater find_eye_in_water(const World::State& world, const SeaMaps& sea, const View& view,
+                             const FrameOptions& options) {
+  constexpr float kLeastToSurface_m = 0.05f;
+  const double eye_z = view.eye_world.z;
+  double surface_m = 0.0;
+  if (world.scene.detail.triangulation != scene::Triangulation::kPlane &&
+      std::abs(eye_z) < static_cast<double>(world.water_bounds().height_m))
+    surface_m = static_cast<double>(water_surface(world, sea).height(glm::dvec2(view.eye_world)));
+  EyeInWater eye;
+  eye.submerged = !options.without.has(Part::kUnderwater) && eye_z < surface_m;
+  const double to_level_m = eye.submerged ? -eye_z : eye_z;
+  // In a crest or a trough the level is on the other side of the eye.
+  const double away_m = std::max(to_level_m, 0.5 * std::abs(eye_z - surface_m));
+  eye.to_surface_m = std::max(static_cast<float>(away_m), kLeastToSurface_m);
+  return eye;
+}
+
+}  // namespace swell::render
