@@ -25,6 +25,9 @@ if(swell_is_building)
   # For the module that reads images and writes EXR and TIFF; what embeds the library does not link it. OpenImageIO's own
   # CMake files name folders of packages that Debian does not make it depend on.
   pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET GLOBAL OpenImageIO)
+  # For the program that reads mesh files.
+  pkg_check_modules(Assimp REQUIRED IMPORTED_TARGET GLOBAL assimp)
+  find_package(meshoptimizer REQUIRED)
   unset(CMAKE_FIND_PACKAGE_NAME)
   unset(swell_FIND_REQUIRED)
   unset(swell_is_building)

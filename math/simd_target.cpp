@@ -34,7 +34,7 @@ bool simd_target_available(SimdTarget target) {
 }
 
 SimdTarget current_simd_target() {
-  const bool avx512 = (hwy::SupportedTargets() & highway_bit(SimdTarget::kAvx512)) != 0;
+  const bool avx512 = (hwy::SupportedTargets() & HWY_TARGETS & HWY_AVX3) != 0;
   return avx512 ? SimdTarget::kAvx512 : SimdTarget::kAvx2;
 }
 

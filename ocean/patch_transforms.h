@@ -1,5 +1,5 @@
 // The inverse transforms that make fields of samples from a sea's waves: one for two fields of a
-// patch, one for a third field of two patches.
+// patch, one for a third field of two patches, one for two more fields of a patch that has them.
 #pragma once
 
 #include <span>
@@ -19,9 +19,11 @@ struct PatchFills {
                 int column0, float* re, float* im);
 };
 
-// Where a patch's fields go, resolution x resolution samples each.
+// Where a patch's fields go, resolution x resolution samples each. Displacements are null where
+// they are not wanted.
 struct PatchFields {
-  float *first, *second, *third;
+  float *first = nullptr, *second = nullptr, *third = nullptr;
+  float *displacement_x = nullptr, *displacement_y = nullptr;
 };
 
 // Transforms all of the sea's patches at time t_s (wave_time_s()); fields has one element a patch,

@@ -66,6 +66,11 @@ bool fill_heights(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan,
 bool fill_slopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
                  float* im);
 
+// Displacements i (k_x + i k_y) / |k| h: how far, along x and y, linear waves of deep water move
+// the water of the surface away from where it rests.
+bool fill_displacements(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0,
+                        float* re, float* im);
+
 // The same of the water's velocity at the surface, by linear theory of deep water. With the rate
 // h' = dh/dt: rising h'_a + i h'_b, as for heights; drift i (k_x + i k_y) / |k| h', the horizontal
 // velocities along x and y.

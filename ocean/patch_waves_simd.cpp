@@ -150,13 +150,23 @@ void FillSlopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int co
                [&](std::size_t at, V, V) HWY_ATTR { return WavesAt(D(), waves, at, t_s); });
 }
 
+HWY_INLINE ComplexV OverWaveNumber(ComplexV f, V kx, V ky) {
+  const V k2 = hn::MulAdd(kx, kx, hn::Mul(ky, ky));
+  const V k = hn::Sqrt(hn::Max(k2, hn::Set(D(), 1e-30f)));  // no waves at k = 0
+  return {hn::Div(f.re, k), hn::Div(f.im, k)};
+}
+
+void FillDisplacements(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0,
+                       float* re, float* im) {
+  FillGradient(waves, plan, column0, re, im, [&](std::size_t at, V kx, V ky) HWY_ATTR {
+    return OverWaveNumber(WavesAt(D(), waves, at, t_s), kx, ky);
+  });
+}
+
 void FillDrift(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0, float* re,
                float* im) {
   FillGradient(waves, plan, column0, re, im, [&](std::size_t at, V kx, V ky) HWY_ATTR {
-    const ComplexV rate = RatesAt(D(), waves, at, t_s);
-    const V k2 = hn::MulAdd(kx, kx, hn::Mul(ky, ky));
-    const V k = hn::Sqrt(hn::Max(k2, hn::Set(D(), 1e-30f)));  // no waves at k = 0
-    return ComplexV{hn::Div(rate.re, k), hn::Div(rate.im, k)};
+    return OverWaveNumber(RatesAt(D(), waves, at, t_s), kx, ky);
   });
 }
 
@@ -180,6 +190,7 @@ bool columns_hold_waves(int column0, int size, int reach) {
 
 HWY_EXPORT(FillHeights);
 HWY_EXPORT(FillSlopes);
+HWY_EXPORT(FillDisplacements);
 HWY_EXPORT(FillRising);
 HWY_EXPORT(FillDrift);
 
@@ -195,6 +206,13 @@ bool fill_slopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int c
                  float* im) {
   if (!columns_hold_waves(column0, waves.size, waves.reach)) return false;
   HWY_DYNAMIC_DISPATCH(FillSlopes)(waves, plan, t_s, column0, re, im);
+  return true;
+}
+
+bool fill_displacements(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0,
+                        float* re, float* im) {
+  if (!columns_hold_waves(column0, waves.size, waves.reach)) return false;
+  HWY_DYNAMIC_DISPATCH(FillDisplacements)(waves, plan, t_s, column0, re, im);
   return true;
 }
 

@@ -52,6 +52,7 @@ void check_spectrum(const SeaDescription& sea) {
   require(sea.amplitude_scale, 0.0, 4.0, "amplitude_scale");
   require(sea.gravity_mps2, 0.1, 100.0, "gravity_mps2");
   require(sea.whitecaps, 0.0, 10.0, "whitecaps");
+  require(sea.choppiness, 0.0, 1.0, "choppiness");
   if (sea.loop_s != 0.0) require(sea.loop_s, 1.0, 1e5, "loop_s (or 0)");
   if (sea.resolution < kMinFftSize || sea.resolution > kMaxFftSize ||
       !std::has_single_bit(static_cast<unsigned>(sea.resolution))) {
@@ -81,12 +82,6 @@ void check_sine(const SineWave& sine) {
   if (sine.period_s != 0.0) require(sine.period_s, 1e-3, 1e6, "sines.period_s (or 0)");
 }
 
-// The frequency nearest to turns_per_s > 0 with a whole number of turns, at least 1, in a loop.
-double looping_frequency(double turns_per_s, double loop_s) {
-  if (loop_s == 0.0) return turns_per_s;
-  return std::max(1.0, std::nearbyint(turns_per_s * loop_s)) / loop_s;
-}
-
 SineTrain make_sine_train(const SineWave& sine, const SeaDescription& sea) {
   const SinCos to = sin_cos_turns(sine.to_rad / kTwoPi);
   SineTrain train;
@@ -98,6 +93,23 @@ SineTrain make_sine_train(const SineWave& sine, const SeaDescription& sea) {
                           : deep_water_omega(kTwoPi / sine.wavelength_m, sea.gravity_mps2) / kTwoPi;
   train.turns_per_s = looping_frequency(turns_per_s, sea.loop_s);
   return train;
+}
+
+// Stokes's wave of second order has beside A sin(theta) another, -k A^2 / 2 cos(2 theta): so much
+// of A. No more than keeps troughs round.
+double second_order_part(const SineWave& sine, double choppiness) {
+  const double k_rad_m = kTwoPi / sine.wavelength_m;
+  return choppiness * std::min(0.5 * k_rad_m * std::abs(sine.amplitude_m), 0.25);
+}
+
+SineTrain sharpen_sine(const SineTrain& train, double part) {
+  SineTrain twice;
+  twice.at_start.cycles_per_m = 2.0 * train.at_start.cycles_per_m;
+  twice.at_start.cycles = 2.0 * train.at_start.cycles - 0.25;
+  twice.at_start.amplitude_m = part * std::abs(train.at_start.amplitude_m);
+  twice.turns_per_s = 2.0 * train.turns_per_s;
+  twice.drift = 0.5;  // k A^2 omega cos^2(theta) less its mean
+  return twice;
 }
 
 // Patch p's waves start where those of the next longer one end. All but the last end half a wave
@@ -146,13 +158,15 @@ void make_spectrum_waves(Sea::State& state) {
                                              static_cast<int>(p)));
     PatchWaves& waves = state.patches.back();
     state.spectrum_variance_m2 += waves.variance_m2;
+    const bool is_last_of_several = p > 0 && p + 1 == sea.patch_lengths_m.size();
+    state.crests.push_back(make_crests(waves, is_last_of_several ? 0.0 : sea.choppiness));
     for (double& turns_per_s : waves.turns_per_s) {
       if (turns_per_s > 0.0) turns_per_s = looping_frequency(turns_per_s, sea.loop_s);
     }
   }
 }
 
-void size_patches(const Sea::State& state, std::vector<PatchFrame>& patches) {
+void size_patches(const Sea::State& state, bool sharp_crests, std::vector<PatchFrame>& patches) {
   patches.resize(state.patches.size());
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const PatchWaves& waves = state.patches[p];
@@ -164,17 +178,33 @@ void size_patches(const Sea::State& state, std::vector<PatchFrame>& patches) {
     for (auto* field : {&patches[p].height_m, &patches[p].slope_x, &patches[p].slope_y}) {
       field->resize(samples);
     }
+    const bool is_sharp = sharp_crests && state.crests[p].choppiness > 0.0f;
+    for (auto* field : {&patches[p].displaced_x_m, &patches[p].displaced_y_m})
+      field->resize(is_sharp ? samples : 0);
   }
 }
 
 void synthesize_patches(const Sea::State& state, double t_s, SeaFrame& frame, Workers& workers) {
+  constexpr std::size_t kLinearFields = 5;
+  const std::size_t count = frame.patches.size();
+  const auto samples = static_cast<std::size_t>(state.plan.size) * state.plan.size;
+  const auto is_sharp = [&](std::size_t p) { return !frame.patches[p].displaced_x_m.empty(); };
   std::array<PatchFields, kMaxPatches> fields;
-  for (std::size_t p = 0; p < frame.patches.size(); ++p) {
+  std::array<LinearWaves, kMaxPatches> linear;
+  if (is_sharp(0)) frame.linear.resize(kLinearFields * count * samples);
+  for (std::size_t p = 0; p < count; ++p) {
     PatchFrame& patch = frame.patches[p];
     fields[p] = {patch.slope_x.data(), patch.slope_y.data(), patch.height_m.data()};
+    if (!is_sharp(p)) continue;
+    float* const at = frame.linear.data() + kLinearFields * p * samples;
+    fields[p] = {at, at + samples, at + 2 * samples, at + 3 * samples, at + 4 * samples};
+    linear[p] = {fields[p].third, fields[p].first, fields[p].second, fields[p].displacement_x,
+                 fields[p].displacement_y};
   }
-  transform_patches(state, t_s, {fill_slopes, fill_heights}, {fields.data(), frame.patches.size()},
+  transform_patches(state, t_s, {fill_slopes, fill_heights}, {fields.data(), count},
                     frame.fft_planes, workers);
+  for (std::size_t p = 0; p < count; ++p)
+    if (is_sharp(p)) sharpen_crests(state.crests[p], linear[p], frame.patches[p], workers);
 }
 
 }  // namespace
@@ -187,6 +217,18 @@ std::vector<WaveSystem> wave_systems(const SeaDescription& sea) {
   return systems;
 }
 
+double Sea::State::height_bound_m(std::size_t first_patch) const {
+  constexpr double kDeviations = 6.0;
+  double variance_m2 = 0.0, crests_m = 0.0;
+  for (std::size_t p = first_patch; p < patches.size(); ++p) {
+    variance_m2 += patches[p].variance_m2;
+    const double squares_m2 = kDeviations * kDeviations * patches[p].variance_m2;
+    crests_m += 0.5 * static_cast<double>(crests[p].rise_per_m) * squares_m2 +
+                std::abs(static_cast<double>(crests[p].mean_m));
+  }
+  return kDeviations * std::sqrt(variance_m2) + crests_m;
+}
+
 Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) {
   check_spectrum(description);
   for (const SineWave& sine : description.sines) check_sine(sine);
@@ -194,6 +236,12 @@ Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) 
   make_spectrum_waves(*state_);
   for (const SineWave& sine : description.sines) {
     state_->sines.push_back(make_sine_train(sine, description));
+  }
+  if (description.choppiness > 0.0) {
+    for (std::size_t i = 0; i < description.sines.size(); ++i) {
+      const double part = second_order_part(description.sines[i], description.choppiness);
+      state_->sines.push_back(sharpen_sine(state_->sines[i], part));
+    }
   }
 }
 
@@ -204,8 +252,10 @@ Sea& Sea::operator=(Sea&&) noexcept = default;
 const SeaDescription& Sea::description() const { return state_->description; }
 
 double Sea::height_bound_m() const {
-  double bound = 6.0 * std::sqrt(state_->spectrum_variance_m2);
-  for (const SineWave& sine : state_->description.sines) bound += std::abs(sine.amplitude_m);
+  double bound = state_->height_bound_m(0);
+  for (const SineWave& sine : state_->description.sines)
+    bound += std::abs(sine.amplitude_m) *
+             (1.0 + second_order_part(sine, state_->description.choppiness));
   return bound;
 }
 
@@ -220,15 +270,13 @@ double Sea::slope_bound() const {
   }
   double bound = 6.0 * std::sqrt(variance);
   for (const SineWave& sine : state_->description.sines)
-    bound += std::abs(sine.amplitude_m) * kTwoPi / sine.wavelength_m;
+    bound += std::abs(sine.amplitude_m) * kTwoPi / sine.wavelength_m *
+             (1.0 + 2.0 * second_order_part(sine, state_->description.choppiness));
   return bound;
 }
 
 double Sea::short_wave_bound_m(std::size_t longest_patches) const {
-  double variance_m2 = 0.0;
-  for (std::size_t p = longest_patches; p < state_->patches.size(); ++p)
-    variance_m2 += state_->patches[p].variance_m2;
-  return 6.0 * std::sqrt(variance_m2);
+  return state_->height_bound_m(longest_patches);
 }
 
 double Sea::significant_height_m() const {
@@ -259,6 +307,11 @@ PatchTiling tiling_of_patch(const SeaDescription& sea, std::size_t patch) {
   return {true, static_cast<std::uint32_t>(random_bits(sea.seed ^ kStream, patch))};
 }
 
+double looping_frequency(double turns_per_s, double loop_s) {
+  if (loop_s == 0.0) return turns_per_s;
+  return std::max(1.0, std::nearbyint(turns_per_s * loop_s)) / loop_s;
+}
+
 double wave_time_s(const SeaDescription& sea, double t_s) {
   // Beyond 2^53 s the fractions of a turn are arbitrary, but products must stay finite.
   if (sea.loop_s == 0.0) return std::fmod(t_s, 0x1p100);
@@ -268,12 +321,12 @@ double wave_time_s(const SeaDescription& sea, double t_s) {
   return rest_s < 0.0 ? rest_s + sea.loop_s : rest_s;
 }
 
-void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers) {
+void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers, bool sharp_crests) {
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   const Sea::State& state = sea.state();
   frame.t_s = t_s;
   const double t_wave_s = wave_time_s(state.description, t_s);
-  size_patches(state, frame.patches);
+  size_patches(state, sharp_crests, frame.patches);
   if (!frame.patches.empty()) synthesize_patches(state, t_wave_s, frame, workers);
 
   frame.sines.resize(state.sines.size());

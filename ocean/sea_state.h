@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ocean/crests.h"
 #include "ocean/fft.h"
 #include "ocean/patch_waves.h"
 #include "ocean/sea.h"
@@ -13,14 +14,20 @@ namespace swell::ocean {
 struct SineTrain {
   SineFrame at_start;
   double turns_per_s = 0.0;
+  // The water's speed along the wave at its crest, in terms of the rate of the heights.
+  double drift = 1.0;
 };
 
 struct Sea::State {
   SeaDescription description;
   FftPlan plan;
   std::vector<PatchWaves> patches;
+  std::vector<Crests> crests;  // one a patch
   std::vector<SineTrain> sines;
   double spectrum_variance_m2 = 0.0;
+
+  // Of the patches from one on, together.
+  double height_bound_m(std::size_t first_patch) const;
 };
 
 // How a patch covers the sea.
@@ -29,5 +36,9 @@ PatchTiling tiling_of_patch(const SeaDescription& sea, std::size_t patch);
 // The time that the waves are put at instead of t_s (finite): in [0, loop_s] of the loop, or of a
 // size whose products with frequencies stay finite.
 double wave_time_s(const SeaDescription& sea, double t_s);
+
+// The frequency nearest to turns_per_s > 0 with a whole number of turns, at least 1, in a loop; the
+// same without one (0).
+double looping_frequency(double turns_per_s, double loop_s);
 
 }  // namespace swell::ocean

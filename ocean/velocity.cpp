@@ -25,7 +25,8 @@ void size_component(const SeaFrame& frame, SeaFrame& component) {
   }
 }
 
-void synthesize(const Sea::State& state, double t_s, VelocityFrame& velocity, Workers& workers) {
+void synthesize(const Sea::State& state, double t_s, const SeaFrame& frame, VelocityFrame& velocity,
+                Workers& workers) {
   const std::size_t patches = state.patches.size();
   std::array<PatchFields, kMaxPatches> fields;
   for (std::size_t p = 0; p < patches; ++p)
@@ -33,6 +34,13 @@ void synthesize(const Sea::State& state, double t_s, VelocityFrame& velocity, Wo
                  velocity.z.patches[p].height_m.data()};
   transform_patches(state, t_s, {fill_drift, fill_rising}, {fields.data(), patches},
                     velocity.z.fft_planes, workers);
+  for (std::size_t p = 0; p < patches; ++p) {
+    if (frame.patches[p].displaced_x_m.empty()) continue;
+    sharpen_velocities(state.crests[p], frame.patches[p],
+                       {velocity.x.patches[p].height_m, velocity.y.patches[p].height_m,
+                        velocity.z.patches[p].height_m},
+                       velocity.z.linear, workers);
+  }
 }
 
 // A sin(theta), theta falling at omega, moves the water by A omega (to sin(theta), -cos(theta)).
@@ -42,8 +50,9 @@ void add_sines(const Sea::State& state, const SeaFrame& frame, VelocityFrame& ve
     const SineFrame& sine = frame.sines[i];
     const double speed_mps = sine.amplitude_m * 2.0 * kPi * state.sines[i].turns_per_s;
     const glm::dvec2 to = sine.cycles_per_m / glm::length(sine.cycles_per_m);
-    velocity.x.sines[i].amplitude_m = speed_mps * to.x;
-    velocity.y.sines[i].amplitude_m = speed_mps * to.y;
+    const double drift_mps = state.sines[i].drift * speed_mps;
+    velocity.x.sines[i].amplitude_m = drift_mps * to.x;
+    velocity.y.sines[i].amplitude_m = drift_mps * to.y;
     velocity.z.sines[i].amplitude_m = speed_mps;
     velocity.z.sines[i].cycles += sine.cycles < 0.25 ? 0.75 : -0.25;
   }
@@ -59,7 +68,7 @@ void advance_velocity(const Sea& sea, const SeaFrame& frame, VelocityFrame& velo
   for (SeaFrame* component : {&velocity.x, &velocity.y, &velocity.z})
     size_component(frame, *component);
   const double t_wave_s = wave_time_s(state.description, frame.t_s);
-  if (!frame.patches.empty()) synthesize(state, t_wave_s, velocity, workers);
+  if (!frame.patches.empty()) synthesize(state, t_wave_s, frame, velocity, workers);
   add_sines(state, frame, velocity);
 }
 

@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "ocean/coast_velocity.h"
+#include "ocean/sea_state.h"
 
 namespace swell::ocean {
 namespace {
@@ -33,6 +34,8 @@ float edge(const SeaArea& area, glm::dvec2 p_world) {
 struct TrainWaves {
   const WaterParts& water;
 
+  double time_s(double t_s) const { return wave_time_s(water.sea->description(), t_s); }
+
   void take_room(Points p, Room room) const {
     std::array<float, kChunk> share;
     sample_coast_share(*water.coast, p, std::span(share).first(p.size()));
@@ -41,7 +44,7 @@ struct TrainWaves {
 
   void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
     std::array<float, kChunk> z, share;
-    sample_coast(*water.coast, frame.t_s, p, std::span(z).first(p.size()),
+    sample_coast(*water.coast, time_s(frame.t_s), p, std::span(z).first(p.size()),
                  std::span(share).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
       height_m[i] += z[i] * edge(water.area, p[i]);
@@ -65,7 +68,7 @@ struct TrainWaves {
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const {
     std::array<glm::vec3, kChunk> v;
-    sample_coast_velocities(*water.coast, velocity.z.t_s, p, std::span(v).first(p.size()));
+    sample_coast_velocities(*water.coast, time_s(velocity.z.t_s), p, std::span(v).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) velocity_mps[i] += edge(water.area, p[i]) * v[i];
     take_room(p, room);
   }

@@ -51,8 +51,9 @@ class WaterSurface {
   void normals(std::span<const glm::dvec2> p_world, std::span<glm::vec3> normal) const;
 
   // Velocity of the water at the surface in m/s: east, north, up; up is the rate of height().
-  // Linear theory: of deep water for the sea's waves, of water of the local depth for the trains of
-  // a coast, blended as the heights are. `velocity` is of the same time, from
+  // Linear theory: of deep water for the sea's waves (where crests are sharp, of the water that
+  // they have brought there), of water of the local depth for the trains of a coast, blended as the
+  // heights are. `velocity` is of the same time, from
   // advance_velocity(). 60 ns a point, with the trains of a coast 45 more a train.
   void velocities(std::span<const glm::dvec2> p_world, const VelocityFrame& velocity,
                   std::span<glm::vec3> velocity_mps) const;

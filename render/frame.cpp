@@ -157,6 +157,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& asked, Workspace& workspace, Target& target,
                              Workers& workers) {
   check_arguments(view, t_s, asked);
+  for (const auto& poses : {asked.poses, asked.next_poses})
+    scene::check_given_poses(poses, world.scene().objects.size());
   const ScopedFloatEnvironment ieee;
   const World::State& world_state = world.state();
   Workspace::State& ws = workspace.state();
@@ -173,23 +175,26 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     work(StageRun{workers, ws.profile, name});
   };
 
-  const Clouds clouds = make_clouds(world_state, t_s, view.eye_world, options.without);
+  const glm::dvec3 eye = view.eye_world;
+  const double sky_m = sky_height_m(view, options.without);
+  const Clouds clouds = make_clouds(world_state, t_s, {eye.x, eye.y, sky_m}, options.without);
+  const Clouds mirrored = make_clouds(world_state, t_s, {eye.x, eye.y, 0.0}, options.without);
   workers.run_both(
       [&] {
         stage(Stage::kSea, [&](const StageRun& run) {
           advance_sea(world_state, t_s, options.without, ws.sea, run);
-          advance_sky(world_state, clouds, ws.sky, run);
+          advance_sky(world_state, mirrored, sky_m, options.without, ws.sky, run);
         });
       },
       [&] {
         stage(Stage::kTriangulate, [&](const StageRun& run) {
-          triangulate(world_state, drawn, options, ws.meshes, run);
+          triangulate(world_state, drawn, t_s, options, ws.meshes, run);
         });
       });
-  const Light light = make_light(world_state, clouds, ws.sky.soft);
+  const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     displace(world_state, ws.sea, drawn, options, ws.meshes, views, run);
-    place_objects(world_state, ws.sea, drawn, ws.meshes, views);
+    place_objects(world_state, ws.sea, drawn, options.poses, ws.meshes, views, run);
     find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
                         ws.meshes.objects, run);
   });
@@ -198,7 +203,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                  run);
     prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
-  const Media media = make_media(world_state, light, options.without);
+  const Media media = make_media(world_state, light, sky_m, options.without);
   MaterialInputs inputs{world_state, t_s, ws.sea, ws.meshes.objects, light, media, options.without};
   inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   stage(Stage::kLookups, [&](const StageRun& run) {

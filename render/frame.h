@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -96,6 +97,10 @@ struct FrameOptions {
   // is, over 0.
   std::optional<View> next_view = {};  // none: as this frame's
   double next_frame_s = 1.0 / 60.0;
+  // Objects that the caller puts where he likes in this frame (at most one pose an object; aborts
+  // unless scene::check_given_poses() passes them), and for the label of motion in the next one.
+  // Read during the call only.
+  std::span<const scene::GivenPose> poses = {}, next_poses = {};
 };
 
 // The options with the scene's own numbers in place of zeros.

@@ -25,6 +25,9 @@ enum class Part : std::uint8_t {
   kApron,       // the ground beyond the terrain's square
   kTiling,      // what tells the places of a wave patch apart; queries of the sea keep it
   kSeenSlopes,  // that of rough water slopes turned to the eye are seen, and others are not
+  kCrests,      // what makes the open sea's crests sharper than troughs; queries keep it
+  kAltitude,    // what the eye's height changes in the sky and in the air below it
+  kTextures,    // pictures on meshes: each is its mean colour
   kCaustics,    // the sun's light under water, gathered by the waves
   kCount
 };
@@ -32,8 +35,9 @@ inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount)
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples", "whitecaps", "haze",        "earth",   "clouds",
-    "shadows",    "hulls",      "apron",   "tiling",    "seen-slopes", "caustics"};
+    "reflection", "refraction", "ripples",  "whitecaps", "haze",   "earth",
+    "clouds",     "shadows",    "hulls",    "apron",     "tiling", "seen-slopes",
+    "crests",     "altitude",   "textures", "caustics"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "math/earth.h"
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 
@@ -154,7 +155,8 @@ struct Step {
 struct Path {
   std::vector<Step> steps;
   bool meets_sea = false;
-  glm::vec3 sea{0.0f};  // what of the sea's light arrives
+  glm::dvec3 left{1.0};  // what of light from its end arrives
+  glm::vec3 sea{0.0f};   // the same of light that falls on the sea
   double sea_up = 1.0, sea_ahead = 0.0;
 };
 
@@ -181,6 +183,7 @@ Path trace(const Air& air, double height_m, double sine, int step_count) {
                           weight * here.mie_per_m});
     left *= passes;
   }
+  path.left = left;
   path.sea = left * kSeaAlbedo;
   path.sea_up = (radius_m + length_m * sine) / kEarthRadius_m;
   path.sea_ahead = length_m * cosine / kEarthRadius_m;
@@ -329,8 +332,44 @@ void fill_multiple(Atmosphere& atmosphere, Workers& workers) {
 
 // ---- The sky that an eye sees
 
-constexpr int kRows = 64, kColumns = 49, kViewSteps = 32;
-constexpr double kEye_m = 2.0;
+constexpr int kRows = 64, kRowsBelow = 24, kColumns = 49, kViewSteps = 32;
+constexpr double kSeaLevelEye_m = 2.0;
+constexpr double kOffHorizon = 1e-6;  // where a ray surely meets the sea, or misses it
+
+// The sine at which the straight rays of the tables meet the horizon.
+double straight_horizon_sine(double height_m) {
+  return height_m > 0.0 ? height_row_of(height_m).horizon_sine : 0.0;
+}
+
+// `part` of the way from the horizon to the zenith.
+double straight_sine(double horizon_sine, double part) {
+  return std::max(horizon_sine + (1.0 - horizon_sine) * part, horizon_sine + kOffHorizon);
+}
+
+// The rows of a table: paths at path_of(part), whose light is divided by divisor_of(path).
+template <class PathOf, class DivisorOf>
+ScatteredLight scatter_rows(const Atmosphere& atmosphere, glm::dvec3 to_light, int rows,
+                            Workers& workers, const PathOf& path_of, const DivisorOf& divisor_of) {
+  ScatteredLight light;
+  const double cosine = std::sqrt(std::max(1.0 - to_light.z * to_light.z, 0.0));
+  for (std::vector<glm::vec3>* part : {&light.rayleigh, &light.mie, &light.multiple})
+    part->resize(static_cast<std::size_t>(rows) * kColumns);
+  workers.for_each(static_cast<std::size_t>(rows), [&](std::size_t row, int) {
+    const double x = static_cast<double>(row) / (rows - 1);
+    const Path path = path_of(x * x);
+    const glm::vec3 divisor = divisor_of(path);
+    for (int column = 0; column < kColumns; ++column) {
+      const double half_sine = static_cast<double>(column) / (kColumns - 1);
+      const LightAngles angles{to_light.z, cosine * (1.0 - 2.0 * half_sine * half_sine)};
+      const std::size_t i = row * kColumns + static_cast<std::size_t>(column);
+      const Scattered once = scatter_once(atmosphere, path, angles);
+      light.rayleigh[i] = once.rayleigh / divisor;
+      light.mie[i] = once.mie / divisor;
+      light.multiple[i] = scatter_evenly(atmosphere.multiple, path, angles) / divisor;
+    }
+  });
+  return light;
+}
 
 }  // namespace
 
@@ -352,25 +391,37 @@ glm::vec3 disc_transmittance(const Atmosphere& atmosphere, double height_m, doub
   return disc_transmittance(atmosphere, height_row_of(height_m), sin_elevation);
 }
 
-SkyTable make_sky_table(const Atmosphere& atmosphere, glm::dvec3 to_light, Workers& workers) {
-  SkyTable table;
-  table.to_light = to_light;
-  const double cosine = std::sqrt(std::max(1.0 - to_light.z * to_light.z, 0.0));
-  for (std::vector<glm::vec3>* part : {&table.rayleigh, &table.mie, &table.multiple})
-    part->resize(static_cast<std::size_t>(kRows) * kColumns);
-  workers.for_each(kRows, [&](std::size_t row, int) {
-    const double x = static_cast<double>(row) / (kRows - 1);
-    const Path path = trace(atmosphere.air, kEye_m, x * x, kViewSteps);
-    for (int column = 0; column < kColumns; ++column) {
-      const double half_sine = static_cast<double>(column) / (kColumns - 1);
-      const LightAngles light{to_light.z, cosine * (1.0 - 2.0 * half_sine * half_sine)};
-      const std::size_t i = row * kColumns + static_cast<std::size_t>(column);
-      const Scattered once = scatter_once(atmosphere, path, light);
-      table.rayleigh[i] = once.rayleigh;
-      table.mie[i] = once.mie;
-      table.multiple[i] = scatter_evenly(atmosphere.multiple, path, light);
-    }
-  });
+glm::vec3 whole_disc_transmittance(const Atmosphere& atmosphere, double height_m, double sine) {
+  const double seen = horizon_sine(height_m), straight = straight_horizon_sine(height_m);
+  const double part = std::max((sine - seen) / (1.0 - seen), 0.0);
+  return disc_transmittance(atmosphere, height_m,
+                            std::max(straight_sine(straight, part), straight + kSunRadius_rad));
+}
+
+double horizon_sine(double height_m) {
+  const double tangent = std::sqrt(2.0 * height_m / swell::kEarthRadius_m);
+  return -tangent / std::sqrt(1.0 + tangent * tangent);
+}
+
+SkyTable make_sky_table(const Atmosphere& atmosphere, glm::dvec3 to_light, double height_m,
+                        Workers& workers) {
+  const double eye_m = height_m > 0.0 ? height_m : kSeaLevelEye_m;
+  const double straight = straight_horizon_sine(height_m);
+  SkyTable table{to_light, horizon_sine(height_m), {}, {}};
+  table.sky = scatter_rows(
+      atmosphere, to_light, kRows, workers,
+      [&](double part) {
+        return trace(atmosphere.air, eye_m, straight_sine(straight, part), kViewSteps);
+      },
+      [](const Path&) { return glm::vec3(1.0f); });
+  if (height_m > 0.0)
+    table.below = scatter_rows(
+        atmosphere, to_light, kRowsBelow, workers,
+        [&](double part) {
+          const double sine = straight - kOffHorizon - (1.0 + straight - kOffHorizon) * part;
+          return trace(atmosphere.air, eye_m, sine, kViewSteps);
+        },
+        [](const Path& path) { return glm::vec3(1.0 - path.left); });
   return table;
 }
 
@@ -382,13 +433,19 @@ glm::vec3 sky_radiance(const SkyTable& table, glm::dvec3 direction) {
       across > 1e-12
           ? std::clamp((direction.x * light.x + direction.y * light.y) / across, -1.0, 1.0)
           : 1.0;
-  const Between row = between(std::sqrt(std::max(direction.z, 0.0)) * (kRows - 1), kRows);
+  const double horizon = table.horizon_sine, over = direction.z - horizon;
+  const bool is_below = over < 0.0 && !table.below.rayleigh.empty();
+  const ScatteredLight& scattered = is_below ? table.below : table.sky;
+  const int rows = is_below ? kRowsBelow : kRows;
+  const double part = is_below ? -over / (1.0 + horizon) : std::max(over, 0.0) / (1.0 - horizon);
+  const Between row = between(std::sqrt(part) * (rows - 1), rows);
   const Between column = between(std::sqrt(0.5 * (1.0 - cos_azimuth)) * (kColumns - 1), kColumns);
   const double cos_theta = glm::dot(direction, light);
   return static_cast<float>(rayleigh_phase(cos_theta)) *
-             interpolate(table.rayleigh, kColumns, row, column) +
-         static_cast<float>(mie_phase(cos_theta)) * interpolate(table.mie, kColumns, row, column) +
-         interpolate(table.multiple, kColumns, row, column);
+             interpolate(scattered.rayleigh, kColumns, row, column) +
+         static_cast<float>(mie_phase(cos_theta)) *
+             interpolate(scattered.mie, kColumns, row, column) +
+         interpolate(scattered.multiple, kColumns, row, column);
 }
 
 }  // namespace swell::scene

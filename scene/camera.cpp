@@ -132,7 +132,7 @@ View camera_view(const Scene& scene, const ocean::WaterSurface& surface, double 
   if (!object) return camera_view(scene.camera, t_s, width_px, height_px);
   ObjectPose pose;
   object_poses({object, 1}, surface, {&pose, 1});
-  if (scene.detail.triangulation == Triangulation::kPlane) pose.position_world.z = 0.0;
+  if (scene.detail.triangulation == Triangulation::kPlane) lay_flat({object, 1}, {&pose, 1});
   return mounted_view(scene.camera, pose, t_s, width_px, height_px);
 }
 

@@ -15,6 +15,8 @@ namespace {
 
 using Fault = std::optional<SceneFault>;
 
+constexpr double kShortestStretch_m = 0.5;  // of an object's path
+
 // ---- One value
 
 // `element`: the name of the n-th number.
@@ -183,6 +185,34 @@ Fault fault_of_names(const Scene& scene) {
                         : fmt::format("the name of an object: \"{}\"", fmt::join(names, "\", \""))};
 }
 
+// Only a mesh has a file, and a path leads somewhere.
+Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const FloatingObject& object = objects[n];
+    const auto key = [&](std::string_view name) {
+      return fmt::format("{}[{}].{}", kObjectsKey, n, name);
+    };
+    const bool is_mesh = object.kind == ObjectKind::kMesh;
+    if (is_mesh && object.file.empty())
+      return SceneFault{key("kind"), "\"mesh\" without a file", "a mesh with its file"};
+    if (!is_mesh && !object.file.empty())
+      return SceneFault{key("file"), "it of another kind than \"mesh\"", "files of meshes"};
+    for (std::size_t i = 1; i < object.path_m.size(); ++i)
+      if (glm::distance(object.path_m[i - 1], object.path_m[i]) < kShortestStretch_m)
+        return SceneFault{
+            key(fmt::format("path_m[{}]", i)),
+            fmt::format("[{}, {}]", object.path_m[i].x, object.path_m[i].y),
+            fmt::format("a point {} m or more from the one before", kShortestStretch_m)};
+    const bool ends_where_it_begins =
+        object.path_m.size() >= 2 &&
+        glm::distance(object.path_m.front(), object.path_m.back()) < kShortestStretch_m;
+    if (object.path_closed && ends_where_it_begins)
+      return SceneFault{key(fmt::format("path_m[{}]", object.path_m.size() - 1)),
+                        "a last point at the first", "a closed path that does not repeat it"};
+  }
+  return std::nullopt;
+}
+
 Fault fault_of_path(const std::vector<Waypoint>& path) {
   const auto late = std::ranges::adjacent_find(path, std::greater_equal{}, &Waypoint::t_s);
   if (late == path.end()) return std::nullopt;
@@ -213,6 +243,7 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_camera(scene.camera)) return fault;
   if (Fault fault = fault_of_path(scene.camera.path)) return fault;
   if (Fault fault = fault_of_names(scene)) return fault;
+  if (Fault fault = fault_of_objects(scene.objects)) return fault;
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
   if (!scene.terrain) return std::nullopt;

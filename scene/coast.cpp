@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "ocean/sea_state.h"
 #include "terrain/terrain.h"
 
 namespace swell::scene {
@@ -90,11 +91,16 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
   std::vector<ocean::WaveTrain> trains = ocean::make_trains(systems, coast.trains, coast.seed);
   for (ocean::WaveTrain& train : trains) train.amplitude_m *= sea.amplitude_scale;
   Workers workers(threads);
-  return ocean::make_coast_sea(
+  ocean::CoastSea made = ocean::make_coast_sea(
       sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->grid.size_m()))),
       systems.front(), trains,
       coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
       coast.model == CoastModel::kBlend, workers);
+  // In a sea that loops trains keep their form and change their speed, as all waves do.
+  if (sea.loop_s != 0.0)
+    for (double& period_s : made.trains.period_s)
+      period_s = 1.0 / ocean::looping_frequency(1.0 / period_s, sea.loop_s);
+  return made;
 }
 
 }  // namespace swell::scene

@@ -1,11 +1,13 @@
-// The shapes of floating objects as triangles.
+// The shapes of objects as triangles.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "scene/objects.h"
+#include "texture/mip_image.h"
 
 namespace swell::scene {
 
@@ -15,8 +17,28 @@ namespace swell::scene {
 struct ObjectTriangle {
   glm::vec3 normal_at_origin{0.0f};
   glm::vec3 normal_along_x{0.0f}, normal_along_y{0.0f}, normal_along_z{0.0f};
-  glm::vec3 tint{1.0f};  // linear RGB reflectance, times the object's colour if painted
+  glm::vec3 flat_normal{0.0f};  // of the triangle itself, on the side that the others point to
+  glm::vec3 tint{1.0f};         // linear RGB reflectance, times the object's colour if painted
+  float roughness = 0.42f, metalness = 0.0f;  // the object's if painted
+  float translucency = 0.0f;                  // part of the light on its back that it lets through
   bool painted = true;
+};
+
+// What lies on a textured triangle: its coordinates are affine functions of the position as the
+// normal is, (at_origin, along_x, along_y, along_z).
+struct TriangleTexture {
+  glm::vec4 u{0.0f}, v{0.0f};
+  std::int32_t texture = -1;          // of the mesh; -1: none
+  float log2_texels_per_unit = 0.0f;  // of the box, along the triangle
+};
+
+// Triangles of a mesh whose outline stands before the sun by itself, and where they cut the water.
+struct MeshPart {
+  std::uint32_t first_triangle = 0, triangles = 0;
+  // The plan at the waterline: its middle and half its sizes, right and ahead; 0: it has none.
+  glm::vec2 middle{0.0f}, half{0.0f};
+  bool is_round = true;
+  float top = 1.0f;  // of what hides the sky from the water around
 };
 
 // In a box of size 1: x (right) and y (ahead) in [-1/2, 1/2], z (up) in [0, 1].
@@ -24,11 +46,16 @@ struct ObjectMesh {
   std::vector<glm::vec3> position;
   std::vector<std::uint32_t> indices;     // 3 per triangle
   std::vector<ObjectTriangle> triangles;  // one per triangle
+  std::vector<TriangleTexture> textured;  // the same, or empty
+  std::shared_ptr<const std::vector<texture::MipImage>> textures;
+  std::vector<MeshPart> parts;  // empty: it is one part
 };
 
-inline constexpr int kMaxObjectTriangles = 2048;
-
-// Surfaces without a hole to see, outside out. Round parts have `segments` sides, in [4, 32].
+// Surfaces without a hole to see, outside out; sails are seen from both sides. Round parts have
+// `segments` sides, in [4, 32]. At most 2048 triangles. Not of kMesh (scene/mesh_file.h).
 ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments);
+
+// The parts of the mesh that the object has, with their waterlines at its draught.
+std::vector<MeshPart> mesh_parts(const FloatingObject& object, const ObjectMesh& mesh);
 
 }  // namespace swell::scene

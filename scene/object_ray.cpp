@@ -11,8 +11,8 @@ Ray ray_in_mesh(const FloatingObject& object, const ObjectPose& pose, glm::dvec3
                 glm::dvec3 along_world) {
   const glm::dmat3 object_from_world = glm::transpose(pose.world_from_object);
   const glm::dvec3 origin = object_from_world * (origin_world - pose.position_world);
-  const glm::dvec3 waterline(0.0, 0.0, object.draught);
-  return make_ray(origin / object.size_m + waterline,
+  const glm::dvec3 waterline(0.0, 0.0, object.draught), middle(object.middle_m, 0.0);
+  return make_ray((origin - middle) / object.size_m + waterline,
                   (object_from_world * along_world) / object.size_m);
 }
 

@@ -1,4 +1,4 @@
-// Things that float on the sea: what a scene file says of them, and how the sea carries them.
+// Things on the sea and by it: what a scene file says of them, and where they are at a time.
 //
 //   std::vector<scene::ObjectPose> poses(scene.objects.size());
 //   scene::object_poses(scene.objects, water.at(t_s, frame, workers), poses);
@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace swell::ocean {
 class WaterSurface;
@@ -21,8 +22,24 @@ enum class ObjectKind : std::uint8_t {
   kBuoy,    // a navigation buoy: hull, tower, lantern, top mark
   kSphere,  // an ellipsoid, if its sizes differ
   kBox,
+  kBoat,        // an open rowing boat with thwarts
+  kSailboat,    // hull, keel, rudder, mast, boom and two sails
+  kPier,        // a deck on posts, along the heading
+  kLighthouse,  // a tower with bands, a gallery and a lantern
+  kRock,        // a boulder
+  kMesh,        // of a file
 };
-inline constexpr std::array<std::string_view, 3> kObjectKindNames = {"buoy", "sphere", "box"};
+inline constexpr std::array<std::string_view, 9> kObjectKindNames = {
+    "buoy", "sphere", "box", "boat", "sailboat", "pier", "lighthouse", "rock", "mesh"};
+
+// What sets an object's height and tilt.
+enum class Motion : std::uint8_t {
+  kFloat,  // the water under it
+  kFixed,  // nothing: it stands upright at a height
+};
+
+// Which axis of a mesh's file points up.
+enum class UpAxis : std::uint8_t { kByFormat, kY, kZ };
 
 // What a buoy carries on top.
 enum class TopMark : std::uint8_t { kCan, kCone, kSphere };
@@ -30,14 +47,40 @@ enum class TopMark : std::uint8_t { kCan, kCone, kSphere };
 struct FloatingObject {
   ObjectKind kind = ObjectKind::kBuoy;
   TopMark top_mark = TopMark::kCan;
-  glm::dvec2 position_m{0.0};             // east, north; moored there
+  glm::dvec2 position_m{0.0};             // east, north; moored there, unless it has a path
   glm::dvec3 size_m{2.6, 2.6, 6.0};       // across, along the heading, up
   double heading_rad = 0.0;               // clockwise from north
   double draught = 0.2;                   // part of the height below still water
   glm::vec3 colour{0.60f, 0.03f, 0.02f};  // linear RGB reflectance of the paint
   std::string name{};                     // no other object's, or empty
   std::string label{};                    // its class in labelled pictures; empty: "object"
+
+  Motion motion = Motion::kFloat;
+  double height_m = 0.0;  // fixed: of its waterline over the mean sea level
+  // East, north: it goes along this line, turned as its ends on the line are, in place of the
+  // position and the heading. It begins at the first point at t = 0.
+  std::vector<glm::dvec2> path_m{};
+  double speed_mps = 3.0;
+  bool path_closed = true;  // from the last point on to the first; false: it stops at the last
+
+  // Of what is painted.
+  double roughness = 0.42;  // 0: mirrors, 1: matt
+  double metalness = 0.0;
+
+  // Of a mesh.
+  std::string file{};
+  std::string
+      file_place{};  // where a scene file names it, for messages: "harbour.toml:12: column 8"
+  UpAxis up = UpAxis::kByFormat;
+  double scale = 1.0;           // metres for a unit of the file
+  bool at_file_origin = false;  // the position is that of the file's origin, at the waterline
+  // Of a mesh that render::World has read, whose size_m and draught are then the file's: how far
+  // right and ahead of the origin the middle of its box lies.
+  glm::dvec2 middle_m{0.0};
 };
+
+// An object of the kind as it is commonly built: size, draught, colour, and whether it floats.
+FloatingObject common_object(ObjectKind kind);
 
 // The name of the object's class in labelled pictures.
 std::string_view object_class(const FloatingObject& object);
@@ -47,14 +90,40 @@ std::string_view object_class(const FloatingObject& object);
 struct ObjectPose {
   glm::dvec3 position_world{0.0};
   glm::dmat3 world_from_object{1.0};  // columns: unit right, ahead, up; right-handed
+  double water_m = 0.0;               // height of the water that mirrors it
 };
 
-// Lays objects on the surface: the height is the mean over the hull's plan, so that waves shorter
-// than the hull hardly lift it; the tilt is kTiltShare of that of the plane of least squares there.
-// A pose depends on the object and the surface alone. Spans of one length. Allocates nothing;
-// 0.5 us an object.
+// Where all objects are: those that float lie on the surface. Their height is the mean over the
+// hull's plan, so that waves shorter than the hull hardly lift it; the tilt is kTiltShare of that
+// of the plane of least squares there. A pose depends on the object and the surface (with its time)
+// alone. Spans of one length. Allocates nothing; 0.5 us an object.
 void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,
                   std::span<ObjectPose> poses);
+
+// A pose that a caller gives to one of the objects, for one frame. Its water_m is not read.
+struct GivenPose {
+  std::size_t object = 0;  // its index in the scene
+  ObjectPose pose;
+};
+
+// Puts the given poses, each with the water under it, in place of those of their objects. Of
+// several for one object the last counts. `given` passes check_given_poses().
+void take_given_poses(std::span<const FloatingObject> objects, std::span<const GivenPose> given,
+                      const ocean::WaterSurface& surface, std::span<ObjectPose> poses);
+
+// Aborts with a message unless each is of an object, at most 1e7 m away along each axis, with unit
+// axes at right angles, right-handed, to within 1e-6.
+void check_given_poses(std::span<const GivenPose> given, std::size_t objects);
+
+// The poses on a sea that is drawn flat: what floats lies at its mean level.
+void lay_flat(std::span<const FloatingObject> objects, std::span<ObjectPose> poses);
+
+// Where an object is seen from above at t_s, wherever the sea takes it: its place and its heading.
+struct PlanPose {
+  glm::dvec2 position_m;
+  double heading_rad;
+};
+PlanPose plan_pose(const FloatingObject& object, double t_s);
 
 // A hull's weight and mooring keep it more upright than the water is.
 inline constexpr double kTiltShare = 0.7;

@@ -91,7 +91,7 @@ std::string allowed_text(const Parameter<Object>& parameter) {
     case Kind::kText:
       return fmt::format("text of at most {} bytes", kMaxTextBytes);
     case Kind::kPath:
-      return "the path of a readable picture file";
+      return fmt::format("the path of a readable {} file", parameter.path_of);
   }
   return {};
 }

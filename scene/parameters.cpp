@@ -45,16 +45,6 @@ struct CoastMethod {
   auto& operator()(auto& scene) const { return scene.coast.eikonal; }
 };
 
-struct ObjectKindName {
-  static constexpr auto words = kObjectKindNames;
-  auto& operator()(auto& object) const { return object.kind; }
-};
-
-struct TopMarkName {
-  static constexpr std::array<std::string_view, 3> words = {"can", "cone", "sphere"};
-  auto& operator()(auto& object) const { return object.top_mark; }
-};
-
 #define SWELL_FIELD(PATH) \
   [](auto& object) -> auto& { return object.PATH; }
 
@@ -177,6 +167,9 @@ Rows sea_rows() {
       SceneRow::plain<bool>(
           "sea.tiling", Kind::kBoolean, SWELL_FIELD(sea.tiling),
           "the longest patch covers the sea by tiles that differ; false: it repeats itself"),
+      SceneRow::number("sea.choppiness", {0, 1}, SWELL_FIELD(sea.choppiness),
+                       "how much crests are sharper than troughs: 0 for linear waves, 1 for waves "
+                       "of second order"),
       SceneRow::number("sea.amplitude_scale", {0, 4}, SWELL_FIELD(sea.amplitude_scale),
                        "multiplies the heights of the wind waves"),
       SceneRow::integer("sea.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(sea.seed),
@@ -185,8 +178,7 @@ Rows sea_rows() {
                        "acceleration of free fall"),
       SceneRow::or_zero(SceneRow::number(
           "sea.loop_s", {1, 100000, "s"}, SWELL_FIELD(sea.loop_s),
-          "after this time the sea's waves and the ripples on them repeat exactly, "
-          "but not a coast's trains; 0: never")),
+          "after this time the sea and all that moves with it repeat exactly; 0: never")),
       SceneRow::number("sea.whitecaps", {0, 10}, SWELL_FIELD(sea.whitecaps),
                        "multiplies the part of the open sea that foam covers; 0: no foam there"),
       SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),
@@ -360,28 +352,6 @@ std::vector<Parameter<ocean::Swell>> swell_parameters() {
       SwellRow::number("gamma", {1, 20}, SWELL_FIELD(gamma), "enhancement of the peak"),
       SwellRow::angle("spread_deg", {1, 60, "deg"}, SWELL_FIELD(spread_rad),
                       "standard deviation of the directions"),
-  };
-}
-
-std::vector<Parameter<FloatingObject>> object_parameters() {
-  using ObjectRow = Row<FloatingObject>;
-  return {
-      ObjectRow::choice("kind", ObjectKindName{}, "what floats there, moored"),
-      ObjectRow::choice("top_mark", TopMarkName{}, "what a buoy carries on top"),
-      ObjectRow::vector("position_m", {-1e6, 1e6, "m"}, SWELL_FIELD(position_m),
-                        "of its middle: east, north"),
-      ObjectRow::vector("size_m", {0.05, 500, "m"}, SWELL_FIELD(size_m),
-                        "across, along its heading, and from the bottom of the hull to the top"),
-      ObjectRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
-                       "where it points, clockwise from north"),
-      ObjectRow::number("draught", {0, 1}, SWELL_FIELD(draught),
-                        "part of its height that lies below still water"),
-      ObjectRow::vector("colour", {0, 1}, SWELL_FIELD(colour),
-                        "linear RGB reflectance of its paint"),
-      ObjectRow::optional_text("name", SWELL_FIELD(name),
-                               "by which camera.mount may call it; no two alike"),
-      ObjectRow::optional_text("class", SWELL_FIELD(label),
-                               "what it is in labelled pictures; \"object\" if left out"),
   };
 }
 

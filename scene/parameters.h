@@ -40,6 +40,7 @@ struct Parameter {
   bool zero_too = false;              // 0 is allowed although low > 0
   int count_low = 1, count_high = 1;  // of kNumbers and kPoints
   std::span<const std::string_view> choices;
+  std::string_view path_of = "picture";  // what a path is the name of
   std::string_view meaning;
   // get() gives a value that set() turns back into the same bits, with as few digits as possible.
   ParameterValue (*get)(const Object&);
@@ -63,8 +64,8 @@ std::vector<Parameter<Waypoint>> waypoint_parameters();
 // Keys of one table of [[object]].
 std::vector<Parameter<FloatingObject>> object_parameters();
 
-inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 64;
-inline constexpr int kMaxCoastPoints = 200;
+inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 2000;
+inline constexpr int kMaxCoastPoints = 200, kMaxPathPoints = 100;
 inline constexpr std::size_t kMaxTextBytes = 200;
 inline constexpr std::string_view kSwellKey = "sea.swell", kSinesKey = "sea.sines",
                                   kPathKey = "camera.path", kObjectsKey = "object";

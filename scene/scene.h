@@ -123,7 +123,7 @@ struct Scene {
   Detail detail;
   Picture picture;
   std::optional<TerrainDescription> terrain;
-  std::vector<FloatingObject> objects;  // at most 64
+  std::vector<FloatingObject> objects;  // at most 2000
 };
 
 // Reads and checks a scene file. Relative image paths are relative to the scene file's folder.

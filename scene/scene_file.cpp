@@ -32,9 +32,12 @@ Place place_of(const toml::source_region& region) {
   return {region.begin.line, region.begin.column};
 }
 
+std::string place_text(const fs::path& file, Place place) {
+  return fmt::format("{}:{}: column {}", file.string(), place.line, place.column);
+}
+
 [[noreturn]] void fail(const fs::path& file, Place place, const std::string& text) {
-  throw SceneError(
-      one_line(fmt::format("{}:{}: column {}: {}", file.string(), place.line, place.column, text)));
+  throw SceneError(one_line(fmt::format("{}: {}", place_text(file, place), text)));
 }
 
 [[noreturn]] void fail(const fs::path& file, const std::string& text) {
@@ -248,15 +251,30 @@ class Reader {
   template <class Object>
   Object read_object(const toml::table& table, std::string_view table_key, int index,
                      const std::vector<Parameter<Object>>& parameters) {
-    Object object;
+    Object object = object_for<Object>(table);
     for (const auto& [key, node, key_place] : in_file_order(table)) {
       const auto parameter = std::ranges::find(parameters, key, &Parameter<Object>::key);
       if (parameter == parameters.end()) fail_unknown(key_place, table_key, key);
       const std::string path = fmt::format("{}[{}].{}", table_key, index, key);
       parameter->set(object, checked_value(*node, path, *parameter));
       given_.emplace(path, place_of(node->source()));
+      if constexpr (std::is_same_v<Object, FloatingObject>)
+        if (parameter->kind == ParameterKind::kPath)
+          object.file_place = place_text(file_, place_of(node->source()));
     }
     return object;
+  }
+
+  // Of the defaults that the other keys change.
+  template <class Object>
+  static Object object_for(const toml::table& table) {
+    if constexpr (std::is_same_v<Object, FloatingObject>) {
+      const auto name = table["kind"].value<std::string_view>();
+      const auto kind = std::ranges::find(kObjectKindNames, name.value_or(""));
+      if (kind != kObjectKindNames.end())
+        return common_object(static_cast<ObjectKind>(kind - kObjectKindNames.begin()));
+    }
+    return Object();
   }
 
   template <class Object>
@@ -347,16 +365,17 @@ class Reader {
                            const Parameter<Object>& parameter, const std::string& allowed) const {
     const auto* text = node.as_string();
     if (!text) fail_value(node, path, got_text(node), allowed);
-    if (parameter.kind == ParameterKind::kPath) return checked_path(node, path, text->get());
+    if (parameter.kind == ParameterKind::kPath)
+      return checked_path(node, path, text->get(), parameter.path_of);
     if (!allows(parameter, text->get())) fail_value(node, path, got_text(node), allowed);
     return text->get();
   }
 
   // The absolute path of a file that can be opened.
-  std::string checked_path(const toml::node& node, const std::string& key,
-                           const std::string& text) const {
+  std::string checked_path(const toml::node& node, const std::string& key, const std::string& text,
+                           std::string_view path_of) const {
     if (text.empty()) return text;
-    const std::string allowed = "a readable picture file";
+    const std::string allowed = fmt::format("a readable {} file", path_of);
     if (text.find('\0') != std::string::npos || text.size() > 4000)
       fail_value(node, key, "a path with a zero byte or over 4000 bytes", allowed);
     std::error_code error;

@@ -59,35 +59,41 @@ float twilight_part(double sine) {
   return static_cast<float>(1.0 - 0.38 * smoothstep(0.02, -0.07, sine));
 }
 
-void add_source(const Atmosphere& atmosphere, glm::vec3 to_light, glm::vec3 irradiance,
-                Workers& workers, SkyLight& light) {
-  light.sources.push_back({make_sky_table(atmosphere, glm::dvec3(to_light), workers),
-                           irradiance * twilight_part(to_light.z)});
+void add_source(glm::vec3 to_light, glm::vec3 irradiance, Workers& workers, SkyLight& light) {
+  light.sources.push_back(
+      {make_sky_table(light.atmosphere, glm::dvec3(to_light), 0.0, workers), irradiance});
 }
 
-void set_direct_light(const Atmosphere& atmosphere, glm::vec3 to_light, glm::vec3 irradiance,
-                      SkyLight& light) {
-  light.to_light = to_light;
-  light.irradiance = irradiance * disc_transmittance(atmosphere, 0.0, to_light.z);
-  light.cloud_irradiance = irradiance * disc_transmittance(atmosphere, kCloudHeight_m, to_light.z);
-  const double whole = std::max(static_cast<double>(to_light.z), kSunRadius_rad);
-  light.disc_radiance = irradiance / kDiscSolidAngle * disc_transmittance(atmosphere, 0.0, whole);
+glm::vec3 disc_radiance(const SkyLight& light, const SkyLight::Source& source, double height_m) {
+  return source.irradiance / kDiscSolidAngle *
+         whole_disc_transmittance(light.atmosphere, height_m, source.table.to_light.z);
 }
 
-SkyLight make_atmosphere_light(const Sky& sky, Workers& workers) {
-  const Atmosphere atmosphere = make_atmosphere(sky.turbidity, workers);
+// The last source throws the shadows.
+void set_direct_light(SkyLight& light) {
+  const SkyLight::Source& source = light.sources.back();
+  const double sine = source.table.to_light.z;
+  light.to_light = source.table.to_light;
+  light.irradiance = source.irradiance * disc_transmittance(light.atmosphere, 0.0, sine);
+  light.cloud_irradiance =
+      source.irradiance * disc_transmittance(light.atmosphere, kCloudHeight_m, sine);
+}
+
+void set_discs(double height_m, SkyLight& light) {
+  light.disc_radiance = disc_radiance(light, light.sources.back(), height_m);
+  light.sun_disc_radiance = disc_radiance(light, light.sources.front(), height_m);
+}
+
+SkyLight make_atmosphere_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers) {
   const glm::vec3 to_sun = sky.sun_direction;
   SkyLight light;
   light.sky = sky;
-  const glm::vec3 sun(kSunIrradiance);
-  add_source(atmosphere, to_sun, sun, workers, light);
-  if (to_sun.z > -static_cast<float>(kSunRadius_rad) || sky.moon_phase == 0.0) {
-    set_direct_light(atmosphere, to_sun, sun, light);
-  } else {
-    const glm::vec3 moon = moon_brightness(sky.moon_phase) * kFullMoon;
-    add_source(atmosphere, -to_sun, moon, workers, light);
-    set_direct_light(atmosphere, -to_sun, moon, light);
-  }
+  light.atmosphere = atmosphere;
+  add_source(to_sun, glm::vec3(kSunIrradiance), workers, light);
+  if (to_sun.z <= -static_cast<float>(kSunRadius_rad) && sky.moon_phase != 0.0)
+    add_source(-to_sun, moon_brightness(sky.moon_phase) * kFullMoon, workers, light);
+  set_direct_light(light);
+  set_discs(0.0, light);
   return light;
 }
 
@@ -97,7 +103,7 @@ SkyLight make_gradient_light(const Sky& sky) {
   light.to_light = sky.sun_direction;
   light.irradiance = sky.sun_direction.z > 0.0f ? gradient_of(sky).sun_radiance : glm::vec3(0.0f);
   light.cloud_irradiance = light.irradiance;
-  light.disc_radiance = 8.0f * light.irradiance;
+  light.disc_radiance = light.sun_disc_radiance = 8.0f * light.irradiance;
   return light;
 }
 
@@ -146,15 +152,32 @@ glm::vec3 gradient_radiance(const Sky& sky, glm::vec3 direction) {
 }
 
 SkyLight make_sky_light(const Sky& sky, Workers& workers) {
-  return is_gradient(sky) ? make_gradient_light(sky) : make_atmosphere_light(sky, workers);
+  if (is_gradient(sky)) return make_gradient_light(sky);
+  return make_atmosphere_light(sky, make_atmosphere(sky.turbidity, workers), workers);
+}
+
+SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers) {
+  return is_gradient(sky) ? make_gradient_light(sky)
+                          : make_atmosphere_light(sky, atmosphere, workers);
+}
+
+SkyLight sky_light_aloft(const SkyLight& light, double height_m, Workers& workers) {
+  SkyLight aloft = light;
+  if (is_gradient(light.sky)) return aloft;
+  for (SkyLight::Source& source : aloft.sources)
+    source.table = make_sky_table(light.atmosphere, source.table.to_light, height_m, workers);
+  set_discs(height_m, aloft);
+  return aloft;
 }
 
 glm::vec3 clear_radiance(const SkyLight& light, glm::vec3 direction) {
   if (light.sources.empty()) return gradient_radiance(light.sky, direction);
-  const glm::dvec3 d = above_horizon(direction);
+  const bool is_aloft = light.sources.front().table.horizon_sine < 0.0;
+  const glm::dvec3 d = is_aloft ? glm::normalize(glm::dvec3(direction)) : above_horizon(direction);
   glm::vec3 radiance = kNight;
   for (const SkyLight::Source& source : light.sources)
-    radiance += source.irradiance * sky_radiance(source.table, d);
+    radiance +=
+        twilight_part(source.table.to_light.z) * source.irradiance * sky_radiance(source.table, d);
   return radiance;
 }
 

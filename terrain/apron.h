@@ -4,8 +4,13 @@
 // With m the height on the map, b the border's point nearest to p, d the distance from b to p, and
 // p' the mirror image of p in the border,
 //   goes on   e = m(b) + soft(m(b) - m(p'))    the map turned about its border: no step, no crease;
-//                                              beyond a corner along x, then along y
-//   sinks     h = e + (floor - e) s((d / r)^2)  s a smoothstep, r a reach with bays
+//                                              beyond a corner along x, then along y; further out
+//                                              e passes into m(b), so that a hole or a hill on the
+//                                              map does not come again as a hill or a hole
+//   sinks     h = e + (floor - e) s(x^2)       s a smoothstep, x the part of a slope with bays that
+//                                              begins at once beyond corners and later before the
+//                                              sides: from above the ground ends about round, not in
+//                                              a square
 // soft() keeps e between the floor and the map's highest point: x room / (x + room).
 #pragma once
 

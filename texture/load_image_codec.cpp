@@ -1,5 +1,4 @@
 #include <dlfcn.h>
-#include <link.h>
 #include <sys/mman.h>
 
 #include <array>
@@ -7,21 +6,10 @@
 #include "math/parallel.h"
 #include "texture/file_bytes.h"
 #include "texture/image_codec.h"
+#include "texture/program_folder.h"
 
 namespace swell::texture {
 namespace {
-
-// The folder of the program, or of the shared library that this code is part of.
-std::filesystem::path folder_of_this_code() {
-  static const char here = 0;
-  Dl_info info{};
-  link_map* object = nullptr;
-  const int found = dladdr1(&here, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP);
-  if (found != 0 && object->l_name[0] != '\0')
-    return std::filesystem::path(object->l_name).parent_path();
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-}
 
 // Initialisers among the libraries abort the program where they get no memory or no thread.
 void check_room() {

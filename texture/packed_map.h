@@ -34,8 +34,8 @@ struct PackedMap2 {
   float scale = 1.0f;
   std::vector<PackedWord> words;
   std::vector<std::uint32_t> level_offset;  // first word of each level
-  // Variance of a and b together that each level has lost against level 0, >= 0: feeds the
-  // roughness of far water.
+  // Variance of a and b together that bilinear samples of each level lack of level 0's texels, >=
+  // 0: feeds the roughness of water.
   std::vector<float> lost_variance;
   // What building needs; kept so that a frame allocates nothing.
   std::vector<float> scratch;

@@ -21,15 +21,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void SampleSmooth(D d, const SmoothImage& image, V x, V y, V& r, V& g, V& b) {
   const hn::RebindToSigned<D> di;
-  const V zero = hn::Zero(d), last = hn::Set(d, static_cast<float>(image.size - 1));
-  x = hn::Min(hn::Max(x, zero), last);
-  y = hn::Min(hn::Max(y, zero), last);
-  const auto before_last = hn::Set(di, image.size - 2);
-  const auto column = hn::Min(swell::HWY_NAMESPACE::TruncateToInt(x), before_last);
-  const auto row = hn::Min(swell::HWY_NAMESPACE::TruncateToInt(y), before_last);
+  const V zero = hn::Zero(d);
+  x = hn::Min(hn::Max(x, zero), hn::Set(d, static_cast<float>(image.width - 1)));
+  y = hn::Min(hn::Max(y, zero), hn::Set(d, static_cast<float>(image.height - 1)));
+  const auto column = hn::Min(swell::HWY_NAMESPACE::TruncateToInt(x), hn::Set(di, image.width - 2));
+  const auto row = hn::Min(swell::HWY_NAMESPACE::TruncateToInt(y), hn::Set(di, image.height - 2));
   const V right = hn::Sub(x, hn::ConvertTo(d, column)), below = hn::Sub(y, hn::ConvertTo(d, row));
-  const auto upper = hn::Add(hn::Mul(row, hn::Set(di, image.size)), column);
-  const auto lower = hn::Add(upper, hn::Set(di, image.size));
+  const auto upper = hn::Add(hn::Mul(row, hn::Set(di, image.width)), column);
+  const auto lower = hn::Add(upper, hn::Set(di, image.width));
   const V scale = hn::Set(d, image.range / (65535.0f * 65535.0f));
 
   const auto along_row = [&](const std::int32_t* words, auto index) HWY_ATTR {

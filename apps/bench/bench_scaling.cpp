@@ -6,32 +6,22 @@
 #include <memory>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/frame_run.h"
 #include "apps/bench/scaling_report.h"
 #include "apps/bench/work_record.h"
-#include "apps/shared/cpu_name.h"
-#include "apps/shared/notices.h"
-#include "apps/shared/options.h"
 #include "apps/shared/report.h"
-#include "math/simd_target.h"
 #include "render/world/world_view.h"
 
 namespace swell::apps {
 namespace {
 
-constexpr double kFramesPerSecond = 60.0;
 constexpr int kWarmUp = 5;
-
-struct ScalingBench {
-  FrameSetup setup;
-  int frames = 60;
-  std::string json;
-};
 
 // Draws frames with a number of threads, one at a time.
 class Drawing {
  public:
-  Drawing(const ScalingBench& bench, const render::World& world, int threads)
-      : bench_(bench), world_(world), workers_(threads) {}
+  Drawing(const FrameRun& run, const render::World& world, int threads)
+      : run_(run), world_(world), workers_(threads) {}
 
   Workers& workers() { return workers_; }
   render::Workspace& workspace() { return workspace_; }
@@ -39,15 +29,15 @@ class Drawing {
   // Calls before_stages between finding the camera and the frame's stages.
   void draw(int frame, FunctionRef<void()> before_stages) {
     const double t_s = frame / kFramesPerSecond;
-    const PictureSize size = bench_.setup.size;
+    const PictureSize size = run_.setup.size;
     const View view =
         render::world_view(world_, t_s, size.width_px, size.height_px, sea_, workers_);
     before_stages();
-    render::render_frame(world_, view, t_s, bench_.setup.frame, workspace_, target_, workers_);
+    render::render_frame(world_, view, t_s, run_.setup.frame, workspace_, target_, workers_);
   }
 
  private:
-  const ScalingBench& bench_;
+  const FrameRun& run_;
   const render::World& world_;
   Workers workers_;
   render::Workspace workspace_;
@@ -68,8 +58,8 @@ std::int64_t interruptions() {
   return usage.ru_nivcsw;
 }
 
-std::vector<DrawnTwice> draw_frames(const ScalingBench& bench, const render::World& world) {
-  Drawing one(bench, world, 1), several(bench, world, bench.setup.threads);
+std::vector<DrawnTwice> draw_frames(const FrameRun& run, const render::World& world) {
+  Drawing one(run, world, 1), several(run, world, run.setup.threads);
   const Stopwatch clock;
   const auto now_us = [&] { return clock.elapsed_ms() * 1e3; };
   WorkRecorder recorder;
@@ -78,7 +68,7 @@ std::vector<DrawnTwice> draw_frames(const ScalingBench& bench, const render::Wor
     recorder.add(step, caller.function_name(), now_us());
   });
   std::vector<DrawnTwice> frames;
-  for (int k = -kWarmUp; k < bench.frames; ++k) {
+  for (int k = -kWarmUp; k < run.frames; ++k) {
     const std::int64_t interruptions_before = interruptions();
     const double start_us = now_us();
     double stages_us = 0.0;
@@ -104,8 +94,8 @@ struct Measurement {
 };
 
 // Of the frames that were interrupted least: as a rule, not at all.
-Measurement measure(const ScalingBench& bench, const render::World& world) {
-  std::vector<DrawnTwice> frames = draw_frames(bench, world);
+Measurement measure(const FrameRun& run, const render::World& world) {
+  std::vector<DrawnTwice> frames = draw_frames(run, world);
   const std::int64_t least = std::ranges::min(frames, {}, &DrawnTwice::interruptions).interruptions;
   std::erase_if(frames, [&](const DrawnTwice& frame) { return frame.interruptions > least; });
   Measurement measurement;
@@ -116,49 +106,37 @@ Measurement measure(const ScalingBench& bench, const render::World& world) {
     one_ms.push_back(frame.one_ms);
     several_ms.push_back(frame.several_ms);
   }
-  measurement.times = {bench.setup.threads, spread(one_ms).median, spread(several_ms).median};
+  measurement.times = {run.setup.threads, spread(one_ms).median, spread(several_ms).median};
   return measurement;
 }
 
-void run_scaling_bench(const ScalingBench& bench) {
-  select_simd(bench.setup.simd);
-  check_text_place(bench.json);
-  const render::World world(load_scene(bench.setup.scene_path), bench.setup.threads);
-  const Measurement measurement = measure(bench, world);
-  const ScalingReport report = predict_scaling(measurement.frames, bench.setup.threads);
-  const PictureSize size = bench.setup.size;
-  const std::string_view simd = simd_target_name(current_simd_target());
-  if (bench.json != "-")
-    fmt::print("{} {}x{}, {}, {} of {} frames of one thread (interrupted {} times each) on {}\n{}",
-               world.scene().name, size.width_px, size.height_px, simd, measurement.frames.size(),
-               bench.frames, measurement.interruptions, cpu_name(),
-               scaling_text(report, measurement.times));
-  if (bench.json.empty()) return;
-  Json json = {{"scene", world.scene().name}, {"size", {size.width_px, size.height_px}}};
-  json["frames"] = measurement.frames.size();
-  json["interruptions"] = measurement.interruptions;
-  json["simd"] = simd;
-  json["cpu"] = cpu_name();
-  json.update(scaling_json(report, measurement.times));
-  write_text(bench.json, json.dump(2) + "\n");
+void run_scaling_bench(const FrameRun& run) {
+  const render::World world = begin_run(run);
+  const Measurement measurement = measure(run, world);
+  const ScalingReport report = predict_scaling(measurement.frames, run.setup.threads);
+  const std::string how =
+      fmt::format("{} of {} frames of one thread (interrupted {} times each)",
+                  measurement.frames.size(), run.frames, measurement.interruptions);
+  Json figures = {{"frames", measurement.frames.size()},
+                  {"interruptions", measurement.interruptions}};
+  figures.update(scaling_json(report, measurement.times));
+  report_run(run, world, how, scaling_text(report, measurement.times), figures);
 }
 
 }  // namespace
 
 BenchMode add_bench_scaling(CommandLine& program) {
-  const auto bench = std::make_shared<ScalingBench>();
+  const auto run = std::make_shared<FrameRun>();
   CommandLine line = program.add_mode(
       "scaling",
       "What more threads would give: frames of one thread are recorded piece by piece, and the "
       "pieces scheduled on 1 to 32 threads; also which parts no second thread can share. Frames of "
       "--threads are measured beside, to check the prediction");
-  add_frame_setup(line, bench->setup);
-  add_quality_options(line, bench->setup.frame);
-  add_integer(line, "--frames", bench->frames, 1, 10000,
-              "Frames to record; frame k is at k / 60 s. Only those that "
-              "other programs interrupted least count");
-  add_json_option(line, bench->json);
-  return {line, [bench] { run_scaling_bench(*bench); }};
+  add_frame_run(line,
+                "Frames to record; frame k is at k / 60 s. Only those that other programs "
+                "interrupted least count",
+                *run);
+  return {line, [run] { run_scaling_bench(*run); }};
 }
 
 }  // namespace swell::apps

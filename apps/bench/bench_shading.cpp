@@ -1,33 +1,20 @@
 // swell-bench shading: CPU cycles that a pixel of water or sky takes, on one thread.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "apps/bench/bench.h"
 #include "apps/bench/cpu_clock.h"
+#include "apps/bench/frame_run.h"
 #include "apps/bench/shading_report.h"
-#include "apps/shared/cpu_name.h"
-#include "apps/shared/notices.h"
-#include "apps/shared/options.h"
-#include "apps/shared/report.h"
 #include "math/check.h"
-#include "math/simd_target.h"
 #include "render/workspace.h"
 #include "render/world/world_view.h"
 
 namespace swell::apps {
 namespace {
 
-constexpr double kFramesPerSecond = 60.0;
 constexpr int kWarmUp = 5;
 constexpr int kClocksAFrame = 4;
-
-struct ShadingBench {
-  FrameSetup setup;
-  int frames = 60;
-  std::string json;
-};
 
 // What the tiles of the last frame show, and how long shading each took. One thread takes them in
 // their order, so that its pieces of the stage in the trace are the tiles.
@@ -51,7 +38,7 @@ ShadedFrame shaded_tiles(const render::Workspace& workspace) {
   return tiles;
 }
 
-ShadingReport measure(const ShadingBench& bench, const render::World& world) {
+ShadingReport measure(const FrameRun& run, const render::World& world) {
   Workers one_thread(1);
   render::Workspace workspace;
   workspace.trace_enabled = true;
@@ -59,53 +46,37 @@ ShadingReport measure(const ShadingBench& bench, const render::World& world) {
   ocean::SeaFrame camera_sea;
   std::vector<ShadedFrame> frames;
   double clock_ghz = 0.0;
-  for (int k = -kWarmUp; k < bench.frames; ++k) {
+  for (int k = -kWarmUp; k < run.frames; ++k) {
     const double t_s = k / kFramesPerSecond;
-    const PictureSize size = bench.setup.size;
+    const PictureSize size = run.setup.size;
     const View view =
         render::world_view(world, t_s, size.width_px, size.height_px, camera_sea, one_thread);
-    render::render_frame(world, view, t_s, bench.setup.frame, workspace, target, one_thread);
+    render::render_frame(world, view, t_s, run.setup.frame, workspace, target, one_thread);
     for (int n = 0; n < kClocksAFrame; ++n) clock_ghz = std::max(clock_ghz, measure_clock_ghz());
     if (k >= 0) frames.push_back(shaded_tiles(workspace));
   }
   return report_shading(frames, clock_ghz);
 }
 
-void run_shading_bench(const ShadingBench& bench) {
-  select_simd(bench.setup.simd);
-  check_text_place(bench.json);
-  const render::World world(load_scene(bench.setup.scene_path), bench.setup.threads);
+void run_shading_bench(const FrameRun& run) {
+  const render::World world = begin_run(run);
   stay_on_this_cpu();
-  const ShadingReport report = measure(bench, world);
-  const PictureSize size = bench.setup.size;
-  const std::string_view simd = simd_target_name(current_simd_target());
-  if (bench.json != "-")
-    fmt::print("{} {}x{}, {}, one thread on {}\n{}", world.scene().name, size.width_px,
-               size.height_px, simd, cpu_name(), shading_text(report));
-  if (bench.json.empty()) return;
-  Json json = {{"scene", world.scene().name}, {"size", {size.width_px, size.height_px}}};
-  json["simd"] = simd;
-  json["cpu"] = cpu_name();
-  json.update(shading_json(report));
-  write_text(bench.json, json.dump(2) + "\n");
+  const ShadingReport report = measure(run, world);
+  report_run(run, world, "one thread", shading_text(report), shading_json(report));
 }
 
 }  // namespace
 
 BenchMode add_bench_shading(CommandLine& program) {
-  const auto bench = std::make_shared<ShadingBench>();
-  bench->setup.frame.edge_samples = 0;
+  const auto run = std::make_shared<FrameRun>();
+  run->setup.frame.edge_samples = 0;
   CommandLine line = program.add_mode(
       "shading",
       "CPU cycles a pixel that one thread takes to shade tiles that show water or sky alone. Its "
       "time counts in cycles of the clock that was measured between the frames. --threads is for "
       "what is made before the first frame; edge samples are off");
-  add_frame_setup(line, bench->setup);
-  add_quality_options(line, bench->setup.frame);
-  add_integer(line, "--frames", bench->frames, 1, 10000,
-              "Frames to measure; frame k is at k / 60 s");
-  add_json_option(line, bench->json);
-  return {line, [bench] { run_shading_bench(*bench); }};
+  add_frame_run(line, "Frames to measure; frame k is at k / 60 s", *run);
+  return {line, [run] { run_shading_bench(*run); }};
 }
 
 }  // namespace swell::apps

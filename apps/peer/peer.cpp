@@ -72,7 +72,8 @@ void Peer::State::take_maps(const Workspace::State& frame) {
   const render::Shading& s = frame.shading;
   const auto& sea = s.material<render::Water>();
   bind_texture(kSkySoftUnit, maps.image(*s.light.sky_soft));
-  bind_texture(kSkyClearUnit, maps.image(*s.light.sky_clear));
+  gl.ActiveTexture(GL_TEXTURE0 + kSkyMapUnit);  // which an upload binds to as well
+  bind_texture(kSkyMapUnit, maps.changing_image(*s.light.sky_map));
   // Where there is surf nobody sees the step between two levels of the noise.
   bind_layer(kNoiseUnit, sea.uv_noise, sea.has_coast ? Levels::kNearest : Levels::kBlended, true);
   for (int i = 0; i < sea.layer_count; ++i) {

@@ -146,15 +146,15 @@ GLuint PeerMaps::image(const texture::RgbaImage& image) {
   return texture;
 }
 
-GLuint PeerMaps::image(const texture::SmoothImage& image) {
-  const auto [texture, is_new] = still(&image);
-  if (!is_new) return texture;
+GLuint PeerMaps::changing_image(const texture::SmoothImage& image) {
+  const GLuint texture = still(&image).first;
+  gl_.BindTexture(GL_TEXTURE_2D, texture);
   std::vector<std::uint16_t> codes;
   for (std::size_t i = 0; i < image.channels[0].size(); ++i)
     for (const std::vector<std::uint32_t>& words : image.channels)
       codes.push_back(static_cast<std::uint16_t>(words[i]));
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB16, image.size, image.size, 0, GL_RGB, GL_UNSIGNED_SHORT,
-                 codes.data());
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB16, image.width, image.height, 0, GL_RGB,
+                 GL_UNSIGNED_SHORT, codes.data());
   return texture;
 }
 

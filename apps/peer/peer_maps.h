@@ -34,8 +34,8 @@ class PeerMaps {
   // The texture of an image that does not change; it is clamped at its edges.
   GLuint image(const texture::RgbaImage& image);
   GLuint image(const texture::RgbMap& map);
-  // The roots of the values over the image's range, 16 bits a channel.
-  GLuint image(const texture::SmoothImage& image);
+  // The roots of the values over the image's range, 16 bits a channel; made anew each time.
+  GLuint changing_image(const texture::SmoothImage& image);
 
  private:
   std::pair<GLuint, bool> still(const void* map);

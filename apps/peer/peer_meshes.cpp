@@ -42,6 +42,7 @@ void PeerMesh::take(const render::Surface& surface) {
 void PeerMesh::take(const render::ObjectGeometry& objects) {
   const std::size_t corners = objects.indices.size();
   std::vector<glm::vec3> place, normal, albedo;
+  std::vector<glm::vec3> finish;
   std::vector<float> waterline_rel_m;
   for (std::size_t i = 0; i < corners; ++i) {
     const std::uint32_t vertex = objects.indices[i];
@@ -56,6 +57,9 @@ void PeerMesh::take(const render::ObjectGeometry& objects) {
     place.push_back(p);
     normal.push_back(n.x * object.right + n.y * object.ahead + n.z * object.up);
     albedo.push_back(triangle.painted ? triangle.tint * object.colour : triangle.tint);
+    const glm::vec2 own(triangle.roughness, triangle.metalness);
+    const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
+    finish.emplace_back(its, triangle.translucency);
     waterline_rel_m.push_back(objects.waterline_rel_m[vertex]);
   }
   std::vector<std::uint32_t> indices(corners);
@@ -65,6 +69,7 @@ void PeerMesh::take(const render::ObjectGeometry& objects) {
   add_attribute(1, waterline_rel_m.data(), corners);
   add_attribute(3, normal.data(), corners);
   add_attribute(3, albedo.data(), corners);
+  add_attribute(3, finish.data(), corners);
   set_indices(indices.data(), corners);
 }
 

@@ -29,7 +29,7 @@ class PeerMesh {
 
   const Gl& gl_;
   GLuint array_ = 0, indices_ = 0;
-  std::array<GLuint, 4> attributes_{};
+  std::array<GLuint, 5> attributes_{};
   std::size_t attribute_count_ = 0;
   GLsizei index_count_ = 0;
 };

@@ -92,8 +92,11 @@ void set_view(const Shading& s, const View& camera, const GlProgram& program) {
   program.set("pixel_angle_log2", std::log2(s.rays.pixel_angle));
   program.set("sun_direction", s.light.sun_direction);
   program.set("sun_irradiance", s.light.sun_irradiance);
+  program.set("to_disc", s.light.to_disc);
   program.set("disc_radiance", s.light.disc_radiance);
-  program.set("sky_clear_range", s.light.sky_clear->range);
+  program.set("sky_range", s.light.sky_map->range);
+  program.set("sky_azimuth", s.light.sky_azimuth);
+  program.set("horizon_sine", s.light.horizon_sine);
   program.set("pixel_angle", s.rays.pixel_angle);
   program.set("ambient", s.light.ambient);
   program.set("horizon", s.light.horizon);

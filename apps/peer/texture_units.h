@@ -7,7 +7,7 @@ namespace swell::apps {
 
 enum TextureUnit : int {
   kSkySoftUnit,
-  kSkyClearUnit,
+  kSkyMapUnit,
   kNoiseUnit,
   kFoamUnit,
   kCoastSlopesUnit,
@@ -27,7 +27,7 @@ enum TextureUnit : int {
 
 // The shaders' names of the units before the distances', which are "distance_map" of their view.
 inline constexpr std::array<const char*, kWindowDistanceUnit> kSamplerNames = {
-    "sky_soft",   "sky_clear",     "noise",        "foam_pattern",   "coast_slopes",
+    "sky_soft",   "sky_map",       "noise",        "foam_pattern",   "coast_slopes",
     "coast_surf", "reflection",    "refraction",   "terrain_slopes", "detail",
     "albedo_map", "around_slopes", "around_albedo"};
 

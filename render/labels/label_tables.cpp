@@ -117,13 +117,14 @@ ObjectMotion motion_of(const scene::ObjectPose& now, const scene::ObjectPose& ne
 void fill_motion(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
   const View& now = in.window.camera;
   tables.camera = camera_motion(now, in.options.next_view.value_or(now));
-  ocean::advance(*in.world.sea, in.t_s + in.options.next_frame_s, tables.next_sea, run.workers);
+  ocean::advance(*in.world.sea, in.t_s + in.options.next_frame_s, tables.next_sea, run.workers,
+                 !in.options.without.has(Part::kCrests));
   fill_rise(in, tables, run);
 
   const std::vector<scene::ObjectPose>& poses = in.meshes.objects.poses;
   tables.next_poses.resize(poses.size());
   tables.object_motion.resize(poses.size());
-  drawn_poses(in.world, tables.next_sea, tables.next_poses);
+  drawn_poses(in.world, tables.next_sea, in.options.next_poses, tables.next_poses, run);
   for (std::size_t i = 0; i < poses.size(); ++i)
     tables.object_motion[i] = motion_of(poses[i], tables.next_poses[i], now.eye_world);
 }

@@ -22,7 +22,7 @@ struct CloudPlace {
 HWY_INLINE CloudPlace PlaceOnClouds(const Clouds& clouds, V3 direction) {
   constexpr float kEarthRadius_m = 6.36e6f;
   const float drop = 2.0f * clouds.height_m / kEarthRadius_m;
-  const V z = hn::Max(direction.z, hn::Zero(D()));
+  const V z = direction.z;
   const V rise = hn::Sqrt(hn::MulAdd(z, z, Constant(drop)));
   const V slant = hn::Div(Constant(2.0f * clouds.height_m), hn::Add(z, rise));
   return {hn::Mul(direction.x, slant), hn::Mul(direction.y, slant), slant, rise};
@@ -79,7 +79,7 @@ HWY_INLINE CloudView ViewClouds(const Clouds& clouds, V3 direction, V pixel_angl
   return {at.x,
           at.y,
           FootprintLevel(hn::Add(Log2Coarse(d, at.slant), pixel_angle_log2), at.rise),
-          Lerp(far, one, Constant(clouds.light.overcast)),
+          hn::Mul(Lerp(far, one, Constant(clouds.light.overcast)), Constant(clouds.shown)),
           CloudPhase(Dot(direction, Constant(clouds.light.to_light))),
           Lerp(one, zenith, Constant(clouds.light.overcast))};
 }

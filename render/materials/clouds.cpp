@@ -17,6 +17,11 @@ constexpr int kMapSize = 256, kCells = 8;
 constexpr double kFirstPeriod_m = 26000.0;
 // Layers of the same map, none a multiple of the next: their sum does not repeat.
 constexpr std::array<double, Clouds::kLayers> kPeriods_m = {kFirstPeriod_m, 6100.0, 1370.0};
+constexpr double kRegionPeriod_m = 193000.0;
+constexpr float kRegionGain = 0.7f;
+// The layer fades to nothing towards its own height: a picture from next to it would be all cloud
+// or none.
+constexpr double kNearLayer_m = 600.0;
 constexpr std::array<float, Clouds::kLayers> kGains = {1.0f, 0.34f, 0.10f};
 
 // The threshold that so much of a normal distribution lies above, in deviations: the logistic
@@ -65,6 +70,7 @@ CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, flo
   // A low sun shines on the sides of clouds.
   const float incident = 0.85f * std::max(light.to_light.z, 0.0f) + 0.12f;
   clouds.base = light.cloud_irradiance * (incident / static_cast<float>(kPi)) + 0.9f * ambient;
+  clouds.tops = clouds.base;
   clouds.forward = light.cloud_irradiance;
   // A closed layer is thicker, and more even.
   clouds.loss *= 1.0f - 0.7f * clouds.overcast;
@@ -105,12 +111,19 @@ void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
   texture::pack_map2(n, density, side, 0.0f, map);
 }
 
+float part_under_clouds(double height_m) {
+  return static_cast<float>(smoothstep(0.0, kNearLayer_m, scene::kCloudHeight_m - height_m));
+}
+
 Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without) {
   Clouds clouds;
   const scene::Scene& scene = world.scene;
   const double height_m = scene::kCloudHeight_m - eye.z;
-  clouds.any = scene.sky.cloud_cover > 0.0 && height_m > 0.0 && !without.has(Part::kClouds);
+  clouds.shown = static_cast<float>(smoothstep(0.0, kNearLayer_m, std::abs(height_m)));
+  clouds.any = scene.sky.cloud_cover > 0.0 && clouds.shown > 0.0f && !without.has(Part::kClouds);
   if (!clouds.any) return clouds;
+  clouds.is_below = height_m < 0.0;
+  clouds.any = !clouds.is_below;
   const texture::PackedMap2& map = world.sky->clouds;
   float variance = 0.0f;
   for (std::size_t i = 0; i < Clouds::kLayers; ++i) {
@@ -119,6 +132,9 @@ Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSe
     variance += kGains[i] * kGains[i] * world.sky->cloud_variance;
   }
   clouds.inv_deviation = 1.0f / std::sqrt(std::max(variance, 1e-8f));
+  const float region_gain = kRegionGain * std::sqrt(variance / world.sky->cloud_variance);
+  clouds.regions = make_layer(map, kRegionPeriod_m, region_gain, glm::dvec2(eye),
+                              drift_m(scene.sea, kRegionPeriod_m, t_s));
   clouds.height_m = static_cast<float>(height_m);
   clouds.light = world.sky->cloud_light;
   return clouds;

@@ -26,15 +26,23 @@ void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
 
 // As seen at one time.
 struct Clouds {
-  bool any = false;
+  bool any = false;       // over the eye
+  bool is_below = false;  // seen from above
   static constexpr std::size_t kLayers = 3;
   std::array<SlopeLayer, kLayers> layers;  // values, not slopes
+  // How much denser they are in some regions, in deviations. From below nobody sees so far; from
+  // above the layers alone would repeat.
+  SlopeLayer regions;
   float inv_deviation = 1.0f;
-  float height_m = 1.0f;  // over the eye
+  float height_m = 1.0f;  // over the eye; negative below it
+  float shown = 1.0f;     // less from next to the layer, nothing from within
   CloudLight light;
 };
 
-// What drifts with the wind is a function of t_s; none for an eye above the clouds.
+// How much an eye sees of the clouds over it, in [0, 1].
+float part_under_clouds(double height_m);
+
+// What drifts with the wind is a function of t_s.
 Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without);
 
 }  // namespace swell::render

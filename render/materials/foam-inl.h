@@ -13,19 +13,28 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// The part of a packet's pixels that foam hides, for foam in [0, 1]: 0 for less than a fiftieth,
-// 1 for 1.
-HWY_INLINE V FoamCover(const Foam& material, V3 p, V level_m, V foam) {
+constexpr float kFoamRim = 0.3f;  // width of a bubble's rim, as a threshold
+
+// How far foam in [0, 1] is over the threshold of its lace: hidden is what is kFoamRim over it. 0
+// for less foam than a fiftieth, at least kFoamRim for 1.
+HWY_INLINE V FoamOver(const Foam& material, V3 p, V level_m, V foam) {
   const D d;
-  constexpr float kSoft = 0.3f;  // width of a bubble's rim, as a threshold
   const auto some = hn::Gt(foam, Constant(0.02f));
   if (hn::AllFalse(d, some)) return hn::Zero(d);
   // A step between two mip levels is no wider than the lace's own irregularity.
   V code, unused;
   NearestSlopes(material.pattern, p, level_m, code, unused);
   const V threshold = hn::MulAdd(code, Constant(0.5f), Constant(0.5f));
-  const V over = hn::MulSub(foam, Constant(1.0f + kSoft), threshold);
-  return hn::IfThenElseZero(some, Clamp(hn::Mul(over, Constant(1.0f / kSoft)), 0.0f, 1.0f));
+  return hn::IfThenElseZero(some, hn::MulSub(foam, Constant(1.0f + kFoamRim), threshold));
+}
+
+HWY_INLINE V CoverOfOver(V over) {
+  return Clamp(hn::Mul(over, Constant(1.0f / kFoamRim)), 0.0f, 1.0f);
+}
+
+// The part of a packet's pixels that foam hides.
+HWY_INLINE V FoamCover(const Foam& material, V3 p, V level_m, V foam) {
+  return CoverOfOver(FoamOver(material, p, level_m, foam));
 }
 
 // sun_visible: the part of the sun that the foam sees.

@@ -50,7 +50,7 @@ inline HWY_NOINLINE AtHulls SampleHulls(const ObjectShadows& objects, const Foam
   for (const std::uint16_t number : casters) {
     const ShadowCaster& caster = objects.casters[number];
     const Waterline& line = caster.waterline;
-    const V3 q = Sum(p, Constant(-caster.place_rel));
+    const V3 q = Sum(p, Constant(-line.middle_rel));
     const V far = hn::Max(hn::Max(hn::Abs(q.x), hn::Abs(q.y)), hn::Abs(q.z));
     const auto near = hn::Lt(far, Constant(caster.near_m));
     if (hn::AllFalse(d, near)) continue;

@@ -6,25 +6,39 @@
 
 namespace swell::render {
 
-Light make_light(const World::State& world, const Clouds& clouds, const texture::RgbMap& soft) {
-  const SkyMaps& sky = *world.sky;
+namespace {
+
+// Below this the haze of sea level stands for all air.
+constexpr double kAloft_m = 20.0;
+
+}  // namespace
+
+Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky) {
+  const SkyMaps& maps = *world.sky;
   Light light;
-  light.sun_direction = sky.to_light;
-  light.sun_irradiance = sky.irradiance;
+  light.sun_direction = maps.to_light;
+  light.sun_irradiance = maps.irradiance;
+  light.ambient = maps.ambient;
+  light.horizon = maps.horizon;
+  light.sky_soft = sky.mirrored;
+  light.sky_map = sky.map;
+  light.sky_azimuth = maps.azimuth;
+  light.horizon_sine = sky.horizon_sine;
+  light.to_disc = sky.to_disc;
   light.disc_radiance = sky.disc_radiance;
-  light.ambient = sky.ambient;
-  light.horizon = sky.horizon;
-  light.sky_clear = &sky.clear;
-  light.sky_soft = clouds.any ? &soft : &sky.soft;
+  light.exposure = sky.exposure;
   light.clouds = clouds;
   return light;
 }
 
-Media make_media(const World::State& world, const Light& light, PartSet without) {
+Media make_media(const World::State& world, const Light& light, double height_m, PartSet without) {
   const scene::WaterOptics& water = world.scene.water;
   Media media;
-  if (!without.has(Part::kHaze))
+  if (!without.has(Part::kHaze)) {
     media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
+    if (height_m > kAloft_m) media.molecules_per_m = world.sky->molecules_per_m;
+  }
+  media.cloudy = world.sky->cloud_light.overcast * part_under_clouds(height_m);
   media.inv_haze_height_m = static_cast<float>(1.0 / world.scene.sky.haze_height_m);
   media.refraction_index = static_cast<float>(water.refraction_index);
   media.absorption_per_m = water.absorption_per_m;

@@ -5,6 +5,7 @@
 
 #include "render/materials/clouds.h"
 #include "render/parts.h"
+#include "render/world/sky_frame.h"
 #include "render/world/world_state.h"
 #include "texture/packed_map.h"
 
@@ -15,11 +16,16 @@ struct Light {
   // Of the sun, or of the moon when the sun is down.
   glm::vec3 sun_direction{0, 0, 1};
   glm::vec3 sun_irradiance{1.0f};  // what clouds leave of it on average
-  glm::vec3 disc_radiance{0.0f};
-  glm::vec3 ambient{0.3f};  // the sky's mean radiance
-  glm::vec3 horizon{0.3f};  // its mean round the horizon
-  const texture::SmoothImage* sky_clear = nullptr;
+  glm::vec3 ambient{0.3f};         // the sky's mean radiance
+  glm::vec3 horizon{0.3f};         // its mean round the horizon
   const texture::RgbMap* sky_soft = nullptr;
+
+  // As the eye sees it from its height.
+  const texture::SmoothImage* sky_map = nullptr;
+  glm::vec2 sky_azimuth{0, 1};
+  float horizon_sine = 0.0f;
+  glm::vec3 to_disc{0, 0, 1}, disc_radiance{0.0f};
+  float exposure = 1.0f;  // of the picture, still to be applied
   Clouds clouds;
 };
 
@@ -28,6 +34,10 @@ struct Media {
   // Air: haze takes the horizon's colour, and thins with height.
   float inv_haze_m = 0.0f;  // at sea level
   float inv_haze_height_m = 0.0f;
+  // The air's molecules, which the haze of sea level stands for, too; 0: the eye is not high enough
+  // to see more of them than that.
+  glm::vec3 molecules_per_m{0.0f};
+  float cloudy = 0.0f;  // how far the air is lit by an overcast sky, [0, 1]
   // Water.
   float refraction_index = 1.333f;
   glm::vec3 body{0.0f};      // radiance of deep water
@@ -35,8 +45,9 @@ struct Media {
   glm::vec3 absorption_per_m{0.0f};
 };
 
-// clouds: of the frame. soft: the blurred sky with them, to be kept as long as the light.
-Light make_light(const World::State& world, const Clouds& clouds, const texture::RgbMap& soft);
-Media make_media(const World::State& world, const Light& light, PartSet without);
+// clouds, sky: of the frame; the sky to be kept as long as the light.
+Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky);
+// height_m: sky_height_m().
+Media make_media(const World::State& world, const Light& light, double height_m, PartSet without);
 
 }  // namespace swell::render

@@ -1,4 +1,4 @@
-// Floating objects: painted steel above the water, seen through it below.
+// Objects: paint, metal or a picture above the water, seen through it below.
 #if defined(SWELL_RENDER_MATERIALS_OBJECT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_MATERIALS_OBJECT_INL_H_
 #undef SWELL_RENDER_MATERIALS_OBJECT_INL_H_
@@ -11,6 +11,7 @@
 #include "render/materials/object.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
+#include "texture/mip_image.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -18,8 +19,9 @@ namespace HWY_NAMESPACE {
 
 // What a packet's pixels show of their objects.
 struct ObjectSurface {
-  V3 normal;  // unit
-  V3 albedo;
+  V3 normal;  // unit, on the side that is seen
+  V3 albedo;  // of metal: what it mirrors
+  V roughness, metalness, translucency;
 };
 
 // A vector a lane, filled one by one: objects cover few pixels, and what their triangles hold is
@@ -42,9 +44,30 @@ HWY_INLINE V WaterlineOf(const ObjectPrimitive* const* primitive) {
   return hn::Load(D(), waterline);
 }
 
+// What lies on a triangle at q of its mesh's box, in a picture `footprint` m of which a pixel
+// shows.
+inline glm::vec3 TexelAt(const ObjectPrimitive& primitive, glm::vec3 q, float log2_footprint_m,
+                         bool has_textures) {
+  const scene::ObjectMesh& mesh = *primitive.object->mesh;
+  const scene::TriangleTexture& t =
+      mesh.textured[static_cast<std::size_t>(primitive.triangle - mesh.triangles.data())];
+  if (t.texture < 0) return glm::vec3(1.0f);
+  const texture::MipImage& image = (*mesh.textures)[static_cast<std::size_t>(t.texture)];
+  const float level =
+      log2_footprint_m + primitive.object->log2_units_per_m + t.log2_texels_per_unit;
+  const auto at = [&](const glm::vec4& plane) {
+    return plane[0] + q.x * plane[1] + q.y * plane[2] + q.z * plane[3];
+  };
+  return texture::sample(image, at(t.u), at(t.v), has_textures ? level : 1e9f);
+}
+
 // What the triangles hold at points p relative to the eye.
-HWY_INLINE ObjectSurface SampleObject(const ObjectPrimitive* const* primitive, V3 p) {
-  Lanes3 bottom, right, ahead, up, at_origin, along_x, along_y, along_z, albedo;
+HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& rays,
+                                      const ObjectPrimitive* const* primitive,
+                                      const Packet& packet) {
+  Lanes3 bottom, right, ahead, up, at_origin, along_x, along_y, along_z, albedo, flat;
+  Lanes3 finish;  // roughness, metalness, translucency
+  bool has_pictures = false;
   for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
     const ObjectInstance& object = *primitive[i]->object;
     const scene::ObjectTriangle& triangle = *primitive[i]->triangle;
@@ -56,43 +79,77 @@ HWY_INLINE ObjectSurface SampleObject(const ObjectPrimitive* const* primitive, V
     along_x.Set(i, triangle.normal_along_x);
     along_y.Set(i, triangle.normal_along_y);
     along_z.Set(i, triangle.normal_along_z);
+    flat.Set(i, triangle.flat_normal);
     const float paint = triangle.painted ? 1.0f : 0.0f;
     const glm::vec3 tint = triangle.tint, colour = object.colour;
     const auto painted = [&](float t, float c) { return t * (paint * c + (1.0f - paint)); };
     albedo.Set(i,
                {painted(tint.x, colour.x), painted(tint.y, colour.y), painted(tint.z, colour.z)});
+    const glm::vec2 own(triangle.roughness, triangle.metalness);
+    const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
+    finish.Set(i, {its.x, its.y, triangle.translucency});
+    has_pictures |= !object.mesh->textured.empty();
   }
   // To the mesh's coordinates, the normal there, and back.
-  const V3 q = Sum(p, Scale(bottom.Load(), Constant(-1.0f)));
-  const V3 normal =
-      ScaleAdd(along_x.Load(), Dot(q, right.Load()),
-               ScaleAdd(along_y.Load(), Dot(q, ahead.Load()),
-                        ScaleAdd(along_z.Load(), Dot(q, up.Load()), at_origin.Load())));
-  const V3 n = ScaleAdd(right.Load(), normal.x,
-                        ScaleAdd(ahead.Load(), normal.y, Scale(up.Load(), normal.z)));
-  return {Scale(n, InverseSqrt(hn::Max(Dot(n, n), Constant(1e-30f)))), albedo.Load()};
+  const V3 q_rel = Sum(packet.p, Scale(bottom.Load(), Constant(-1.0f)));
+  const V3 q = {Dot(q_rel, right.Load()), Dot(q_rel, ahead.Load()), Dot(q_rel, up.Load())};
+  const auto to_world = [&](V3 n) HWY_ATTR {
+    return ScaleAdd(right.Load(), n.x, ScaleAdd(ahead.Load(), n.y, Scale(up.Load(), n.z)));
+  };
+  const V3 n = to_world(
+      ScaleAdd(along_x.Load(), q.x,
+               ScaleAdd(along_y.Load(), q.y, ScaleAdd(along_z.Load(), q.z, at_origin.Load()))));
+  // Of a surface without a back the side that is seen.
+  const V inverse = InverseSqrt(hn::Max(Dot(n, n), Constant(1e-30f)));
+  const auto from_behind = hn::Lt(Dot(to_world(flat.Load()), packet.to_eye), hn::Zero(D()));
+  const V3 finishes = finish.Load();
+  ObjectSurface surface = {Scale(n, hn::IfThenElse(from_behind, hn::Neg(inverse), inverse)),
+                           albedo.Load(), finishes.x, finishes.y, finishes.z};
+  if (!has_pictures) return surface;
+
+  const V footprint =
+      FootprintLevel(FootprintAcross(rays, packet),
+                     hn::Max(hn::Abs(Dot(surface.normal, packet.to_eye)), Constant(0.05f)));
+  HWY_ALIGN float x[Lanes3::kCount], y[Lanes3::kCount], z[Lanes3::kCount], size[Lanes3::kCount];
+  hn::Store(q.x, D(), x);
+  hn::Store(q.y, D(), y);
+  hn::Store(q.z, D(), z);
+  hn::Store(footprint, D(), size);
+  for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
+    if (primitive[i]->object->mesh->textured.empty()) continue;
+    const glm::vec3 texel =
+        TexelAt(*primitive[i], {x[i], y[i], z[i]}, size[i], material.has_textures);
+    albedo.Set(i, {albedo.x[i] * texel.x, albedo.y[i] * texel.y, albedo.z[i] * texel.z});
+  }
+  surface.albedo = albedo.Load();
+  return surface;
 }
 
 // Light that a matt surface sends back: of the sun, of the sky above, of the sea below.
 HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
                         V sun_visible) {
-  const V cos_sun =
-      hn::Mul(hn::Max(Dot(s.normal, Constant(light.sun_direction)), hn::Zero(D())), sun_visible);
+  const V facing = Dot(s.normal, Constant(light.sun_direction));
+  const V lit = hn::Max(facing, hn::Mul(hn::Neg(facing), s.translucency));
+  const V cos_sun = hn::Mul(hn::Max(lit, hn::Zero(D())), sun_visible);
   const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
   const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen);
-  return Product(s.albedo, ScaleAdd(Constant(light.sun_irradiance),
-                                    hn::Mul(cos_sun, Constant(0.318309886f)), around));
+  const V matt = hn::Sub(Constant(1.0f), s.metalness);
+  return Product(Scale(s.albedo, matt), ScaleAdd(Constant(light.sun_irradiance),
+                                                 hn::Mul(cos_sun, Constant(0.318309886f)), around));
 }
 
-// What varnish mirrors of sky and sun, to the eye in direction to_eye.
+// What varnish or metal mirrors of sky and sun, to the eye in direction to_eye. Rough varnish
+// mirrors less of the sky, as sea air dulls paint: half at the common roughness of 0.42.
 HWY_INLINE V3 Gloss(const Light& light, glm::vec3 sea_light, const ObjectSurface& s, V3 to_eye,
                     V sun_visible) {
   const D d;
   const V zero = hn::Zero(d);
   const V cos_eye = hn::Max(Dot(s.normal, to_eye), zero);
-  // Half of a polished surface's: sea air dulls paint.
-  const V reflectance =
-      hn::Mul(FresnelReflectance(d, hn::Max(cos_eye, Constant(0.1f)), 1.5f), Constant(0.5f));
+  const V dull = hn::Max(hn::NegMulAdd(s.roughness, Constant(1.0f / 0.84f), Constant(1.0f)), zero);
+  const V varnish = hn::Mul(FresnelReflectance(d, hn::Max(cos_eye, Constant(0.1f)), 1.5f), dull);
+  const auto mirrored = [&](V dielectric) HWY_ATTR {
+    return Lerp(V3{dielectric, dielectric, dielectric}, s.albedo, s.metalness);
+  };
   V3 r = ScaleAdd(s.normal, hn::Add(cos_eye, cos_eye), Scale(to_eye, Constant(-1.0f)));
   // Rays that go down meet the sea, which is darker. Dull paint spreads what it mirrors: a line
   // between the two would be drawn on everything round.
@@ -105,17 +162,20 @@ HWY_INLINE V3 Gloss(const Light& light, glm::vec3 sea_light, const ObjectSurface
   const V3 sky =
       Lerp(SoftSkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), Constant(sea_light), sea);
 
-  // Blinn and Phong's highlight with exponent 64, normalised.
+  // Blinn and Phong's highlight, normalised, with the exponent n = 2 / roughness^4 - 2.
   const V3 half = Sum(to_eye, Constant(light.sun_direction));
   const V cos_half = hn::Mul(hn::Max(Dot(s.normal, half), zero),
                              InverseSqrt(hn::Max(Dot(half, half), Constant(1e-6f))));
-  V highlight = hn::Min(cos_half, Constant(1.0f));
-  for (int i = 0; i < 6; ++i) highlight = hn::Mul(highlight, highlight);
+  const V alpha = hn::Max(hn::Mul(s.roughness, s.roughness), Constant(0.0025f));
+  const V exponent = hn::Sub(hn::Div(Constant(2.0f), hn::Mul(alpha, alpha)), Constant(2.0f));
+  const V log2 = Log2(d, Clamp(cos_half, 1e-6f, 1.0f));
+  const V highlight = Exp2(d, hn::Mul(log2, exponent));
+  const V gain = hn::Mul(hn::Add(exponent, Constant(8.0f)), Constant(1.0f / (8.0f * 3.14159265f)));
   const V cos_sun =
       hn::Mul(hn::Max(Dot(s.normal, Constant(light.sun_direction)), zero), sun_visible);
-  const V sun =
-      hn::Mul(hn::Mul(highlight, cos_sun), Constant(0.04f * 72.0f / (8.0f * 3.14159265f)));
-  return ScaleAdd(Constant(light.sun_irradiance), sun, Scale(sky, reflectance));
+  const V sun = hn::Mul(hn::Mul(highlight, cos_sun), gain);
+  const V3 of_sun = Product(mirrored(Constant(0.04f)), Constant(light.sun_irradiance));
+  return ScaleAdd(of_sun, sun, Product(sky, mirrored(varnish)));
 }
 
 // What the lanes show.
@@ -149,7 +209,7 @@ struct Shader<Object, kView> {
   HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes& lanes,
                                const Packet& packet) const {
     const ObjectPacket objects = ObjectsAt(s, lanes);
-    const ObjectSurface surface = SampleObject(objects.data(), packet.p);
+    const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
     V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
     if constexpr (kView == ViewKind::kRefraction)
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, FootprintAcross(s.rays, packet)));

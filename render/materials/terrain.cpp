@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/sea_state.h"
 #include "terrain/apron.h"
 
 namespace swell::render {
@@ -58,7 +59,8 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
 
   terrain.swash = {};
   if (!in.world.coast) return;
-  terrain.swash = make_swash(in.world.coast->trains, in.t_s, eye);
+  terrain.swash =
+      make_swash(in.world.coast->trains, ocean::wave_time_s(in.world.scene.sea, in.t_s), eye);
   terrain.foam = make_foam(in, eye);
 }
 

@@ -39,7 +39,21 @@ struct WaterSlopes {
   V foam_cover;     // part hidden by foam, in [0, 1]
   V fine_variance;  // of all slopes but the drawn ones of the long waves: triangles do not show
                     // them
+  // Of foam: TornFoam.
+  V foam_thickness = hn::Zero(D()), foam_bubbles = hn::Zero(D());
 };
+
+HWY_INLINE void SetFoam(const TornFoam& foam, WaterSlopes& s) {
+  s.foam_cover = foam.cover;
+  s.foam_thickness = foam.thickness;
+  s.foam_bubbles = foam.bubbles;
+}
+
+// Foam of another origin, so far over its threshold.
+HWY_INLINE void AddFoamOver(V over, WaterSlopes& s) {
+  s.foam_cover = hn::Max(s.foam_cover, CoverOfOver(over));
+  s.foam_thickness = hn::Max(s.foam_thickness, Clamp(over, 0.0f, 1.0f));
+}
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
   const V cycles =
@@ -165,14 +179,11 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
     const std::array<V, kCount> whitecaps = {WhitecapsAt(
         water.whitecaps, foam[k], packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
         level_flat_m[k], surf[k].ceded)...};
-    ((s[k].foam_cover =
-          TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k])),
+    (SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]), s[k]),
      ...);
   }
   if constexpr (kCoast)
-    ((s[k].foam_cover = hn::Max(
-          s[k].foam_cover, FoamCover(water.foam, packets[k].p, level_flat_m[k], surf[k].foam))),
-     ...);
+    (AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]), ...);
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
   const int last_long = water.long_layer_count - 1;
@@ -345,15 +356,16 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   const V glow =
       hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
   const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
-  const V3 deep =
-      ScaleAdd(Constant(water.crest_glow), glow,
-               ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
+  const V3 crest_light = Scale(Constant(water.crest_glow), glow);
+  const V3 deep = Sum(
+      crest_light, ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
   image_alpha = hn::Zero(D());
   floor_added = Constant(glm::vec3(0.0f));
   if (!use_image) return deep;
   const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
   image_alpha = floor.alpha;
-  floor_added = Scale(Difference(floor.light, deep), image_alpha);
+  // The image's water has no crests: over a floor too deep to be seen it must be as without one.
+  floor_added = Scale(Difference(Sum(floor.light, crest_light), deep), image_alpha);
   return Sum(deep, floor_added);
 }
 
@@ -417,20 +429,20 @@ struct WaterShader {
                                   refracted_alpha, floor);
     const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance, floor,
                                        tile.lookups.reflection, mirrored_alpha);
-    V foam_cover = s.foam_cover;
+    TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
     if (!tile.casters.empty()) {
       const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
                                        Clamp(packet.to_eye.z, kMinCos, 1.0f));
       const AtHulls hulls = SampleHulls(*shading.sun_shadow.objects, water.hull_foam, tile.casters,
                                         packet.p, level_m);
       refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
-      foam_cover = hn::Max(foam_cover, hulls.foam_cover);
+      foam.cover = hn::Max(foam.cover, hulls.foam_cover);
+      foam.thickness = hn::Max(foam.thickness, hulls.foam_cover);
     }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
-    seen =
-        AddWhitecaps(water.whitecaps, foam_cover, light.sun_direction, sun_visible, f.normal, seen);
-    return {seen, f.normal, foam_cover, FlagsOf(mirrored_alpha, refracted_alpha)};
+    seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction, sun_visible, f.normal, seen);
+    return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }
 };
 

@@ -29,7 +29,7 @@ struct Water {
   std::array<SlopeLayer, kMaxSlopeLayers> layers;  // patches, longest first, then ripples
   int layer_count = 0;
   int long_layer_count = 0;  // the first so many are of the sea's long waves
-  std::array<SineLayer, ocean::kMaxSines> sines;
+  std::array<SineLayer, ocean::kMaxSineTrains> sines;
   int sine_count = 0;
   int first_ripples = 0;        // the layer from which on noise bends the coordinates
   SlopeLayer uv_noise;          // values in [-1, 1], not slopes

@@ -87,33 +87,49 @@ HWY_INLINE V WhitecapsAt(const Whitecaps& material, V long_foam, V3 p, V height_
   return hn::Mul(hn::Sub(one, free), hn::Sub(one, ceded));
 }
 
-// The part of a packet's pixels that this foam hides.
-HWY_INLINE V TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
+// Foam at a packet's pixels: the part of them that it hides, how thick it is there, and how many
+// bubbles the water has between and around it; all in [0, 1].
+struct TornFoam {
+  V cover, thickness, bubbles;
+};
+
+// Foam is as thick as it is over its threshold, so that lace and tears go on inside what is white
+// all over; from far it has the mean of that.
+HWY_INLINE TornFoam TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
   const D d;
   const V zero = hn::Zero(d);
   const auto some = hn::Gt(foam, Constant(material.least));
-  if (hn::AllFalse(d, some)) return zero;
-  V cover = foam;
+  if (hn::AllFalse(d, some)) return {zero, zero, zero};
+  V cover = foam, thickness = hn::Mul(foam, Constant(0.5f));
   const Thresholds tears = SampleLace(material.tears, p, level_m);
   if (!hn::AllTrue(d, hn::Eq(tears.seen, zero))) {
     const Thresholds lace = SampleLace(material.lace, p, level_m);
     const V threshold =
         JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
     cover = Lerp(foam, CoverOf(foam, threshold), tears.seen);
+    thickness = Lerp(thickness, hn::Max(hn::Sub(foam, threshold), zero), tears.seen);
   }
-  return hn::IfThenElseZero(some, cover);
+  return {hn::IfThenElseZero(some, cover), hn::IfThenElseZero(some, thickness),
+          hn::IfThenElseZero(some, foam)};
 }
 
-// Water of radiance `light` under foam that sees sun_visible of the sun, thin where it covers
-// little.
-HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, V cover, glm::vec3 sun_direction,
+// How much of the light that foam of this thickness hides.
+HWY_INLINE V OpacityOf(V thickness) {
+  return hn::MulAdd(thickness, Constant(0.42f), Constant(0.55f));
+}
+
+// Water of radiance `light` under foam that sees sun_visible of the sun.
+HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, const TornFoam& foam, glm::vec3 sun_direction,
                            V sun_visible, V3 normal, V3 light) {
   const V zero = hn::Zero(D());
-  if (hn::AllFalse(D(), hn::Gt(cover, zero))) return light;
+  if (hn::AllFalse(D(), hn::Gt(hn::Max(foam.cover, foam.bubbles), zero))) return light;
   const V cos_sun = hn::Mul(hn::Max(Dot(normal, Constant(sun_direction)), zero), sun_visible);
   const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light));
-  const V opacity = hn::MulAdd(cover, Constant(0.25f), Constant(0.7f));
-  return Lerp(light, white, hn::Mul(cover, opacity));
+  const V3 bubbly = {hn::Mul(white.x, Constant(material.bubbles.x)),
+                     hn::Mul(white.y, Constant(material.bubbles.y)),
+                     hn::Mul(white.z, Constant(material.bubbles.z))};
+  const V3 between = Lerp(light, bubbly, hn::Mul(foam.bubbles, Constant(0.4f)));
+  return Lerp(between, white, hn::Mul(foam.cover, OpacityOf(foam.thickness)));
 }
 
 }  // namespace HWY_NAMESPACE

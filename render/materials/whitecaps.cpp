@@ -9,6 +9,8 @@ namespace swell::render {
 namespace {
 
 constexpr float kAlbedo = 0.8f;
+// Light that bubbles send back has come through so much water, and loses half besides.
+constexpr float kBubblesDeep_m = 2.0f, kBubblesAlbedo = 0.5f;
 // Periods across the wind of the pattern, which has cells of 1/10 and 1/25 of that.
 constexpr double kTears_m = 41.0, kLace_m = 9.7;
 
@@ -35,6 +37,9 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   Whitecaps whitecaps;
   whitecaps.sky_light = kAlbedo * in.light.ambient;
   whitecaps.sun_light = (kAlbedo / static_cast<float>(kPi)) * in.light.sun_irradiance;
+  for (int c = 0; c < 3; ++c)
+    whitecaps.bubbles[c] = kBubblesAlbedo * static_cast<float>(exp(static_cast<double>(
+                                                -kBubblesDeep_m * in.media.absorption_per_m[c])));
   const ocean::Whitecaps& sea = *in.world.whitecaps;
   if (in.without.has(Part::kWhitecaps) || sea.patches.empty()) return whitecaps;
   whitecaps.count = static_cast<int>(sea.patches.size());

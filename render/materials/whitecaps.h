@@ -36,6 +36,7 @@ struct Whitecaps {
   float least = 0.0f;        // less foam is not drawn: less than far water shows
   FoamLace tears, lace;
   glm::vec3 sky_light{0.0f}, sun_light{0.0f};  // radiance of snow under the sky, facing the sun
+  glm::vec3 bubbles{0.0f};                     // of that, what water full of bubbles sends back
 };
 
 Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye);

@@ -9,18 +9,19 @@
 #include <algorithm>
 
 #include "render/tile/packet-inl.h"
+#include "render/tile/sky_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// The mean density of haze on the way to what a packet shows, against that at sea level. At the
-// height h over the sea it is 1 / (1 + h / H)^2, much like exp(-h / H) and of the same amount in
-// all, because between places of heights a H and b H on a straight line the mean of that is
-// 1 / ((1 + a) (1 + b)): no exponential, and no difference of almost equal ones. The way is taken
-// as two such lines, which meet where its middle lies over a round earth.
-HWY_INLINE V MeanHaze(const Shading& s, const Packet& shown) {
-  const float per_m = s.media.inv_haze_height_m, eye_z = s.rays.eye_z;
+// The mean density of haze on the way to what a packet shows, against that at sea level, for one
+// over the height H. At the height h over the sea it is 1 / (1 + h / H)^2, much like exp(-h / H)
+// and of the same amount in all, because between places of heights a H and b H on a straight line
+// the mean of that is 1 / ((1 + a) (1 + b)): no exponential, and no difference of almost equal
+// ones. The way is taken as two such lines, which meet where its middle lies over a round earth.
+HWY_INLINE V MeanHaze(const Shading& s, const Packet& shown, float per_m) {
+  const float eye_z = s.rays.eye_z;
   const V one = Constant(1.0f);
   const V eye = Constant(1.0f + std::max(eye_z, 0.0f) * per_m);
   // Mirrored things lie below the level.
@@ -33,14 +34,54 @@ HWY_INLINE V MeanHaze(const Shading& s, const Packet& shown) {
   return hn::Div(hn::Mul(both, Constant(0.5f)), hn::Mul(hn::Mul(eye, place), middle));
 }
 
+// Molecules thin with height as exp(-h / 8 km) does, which 10 km in MeanHaze()'s law are closest
+// to.
+constexpr float kPerMoleculesHeight_m = 1e-4f;
+
+// The air below an eye far over the sea: haze, and the molecules beyond those that the haze stands
+// for. Near the horizon both have the sky's colour there; further down the molecules have that of
+// the air below, and haze the mean of the horizon, as under an overcast sky all air has.
+// `packet` is a copy: by reference a call would keep all packets in memory.
+static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const V mean_haze = MeanHaze(s, packet, s.media.inv_haze_height_m);
+  const V mean_air = MeanHaze(s, packet, kPerMoleculesHeight_m);
+  const V haze = hn::Mul(hn::Mul(packet.distance, mean_haze), Constant(s.media.inv_haze_m));
+  const V air = hn::Mul(packet.distance, hn::Max(hn::Sub(mean_air, mean_haze), zero));
+  const glm::vec3 molecules = s.media.molecules_per_m;
+  const auto amount = [&](float per_m) HWY_ATTR {
+    const V clear = Exp(d, hn::Neg(hn::MulAdd(air, Constant(per_m), haze)));
+    return hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), zero);
+  };
+  const V blue = amount(molecules.z);
+  if (hn::AllFalse(d, hn::Gt(blue, zero))) return colour;
+
+  // The direction as the eye has it; to_eye is the place's.
+  const V3 p = packet.p;
+  const V r2 = hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y));
+  const V z = hn::Div(hn::NegMulAdd(r2, Constant(s.rays.drop_per_m2), p.z), packet.distance);
+  const V down = PartDown(s.light, z);
+  const V3 below = AirBelow(s.light, {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), z}, down);
+  const V level2 = hn::NegMulAdd(down, down, Constant(1.0f)), level4 = hn::Mul(level2, level2);
+  const V level8 = hn::Mul(level4, level4);
+  const V steep = hn::NegMulAdd(level8, level8, Constant(1.0f));
+  const V all = hn::MulAdd(air, Constant(molecules.y), hn::Max(haze, Constant(1e-6f)));
+  const V white = hn::Max(hn::Mul(steep, hn::Div(haze, all)), Constant(s.media.cloudy));
+  const V3 light = Lerp(below, Constant(s.light.horizon), white);
+  return {Lerp(colour.x, light.x, amount(molecules.x)),
+          Lerp(colour.y, light.y, amount(molecules.y)), Lerp(colour.z, light.z, blue)};
+}
+
 // Blends towards the horizon's colour with distance, so that no edge of the sea shows. Haze of less
 // than half a step of the picture is left out: near packets then need no lookup. Straight down
 // there is no azimuth to look up: the steeper the view, the more the mean of the horizon takes
 // over.
 HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
   const D d;
-  const V depth =
-      hn::Mul(hn::Mul(packet.distance, Constant(-s.media.inv_haze_m)), MeanHaze(s, packet));
+  if (s.media.molecules_per_m.z > 0.0f) return AirAloft(s, packet, colour);
+  const V depth = hn::Mul(hn::Mul(packet.distance, Constant(-s.media.inv_haze_m)),
+                          MeanHaze(s, packet, s.media.inv_haze_height_m));
   const V clear = Exp(d, depth);
   const V amount = hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), hn::Zero(d));
   if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;

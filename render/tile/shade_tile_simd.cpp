@@ -15,6 +15,7 @@
 #include "render/labels/keep_labels-inl.h"
 #include "render/materials/list-inl.h"
 #include "render/tile/attenuate-inl.h"
+#include "render/tile/cloud_deck-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/sky-inl.h"
@@ -236,7 +237,8 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   if constexpr (kView == ViewKind::kWindow) {
     const auto surfel = shade(s, tile, lanes, shown, found...);
     keep(lanes.at, surfel);
-    return Haze(s, shown, surfel.light);
+    const V3 light = Haze(s, shown, surfel.light);
+    return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
     const auto surfel = shade(s, tile, lanes, seen.packet, found...);

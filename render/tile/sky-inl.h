@@ -7,38 +7,20 @@
 #endif
 
 #include "render/materials/clouds-inl.h"
+#include "render/tile/cloud_deck-inl.h"
 #include "render/tile/packet-inl.h"
-#include "texture/smooth_image-inl.h"
+#include "render/tile/sky_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-
-// The clear sky's radiance in a direction of length 1 that does not point down.
-HWY_INLINE V3 ClearSky(const texture::SmoothImage& map, V3 direction) {
-  const V one = Constant(1.0f);
-  const V across =
-      hn::Sqrt(hn::MulAdd(direction.x, direction.x, hn::Mul(direction.y, direction.y)));
-  const V r = hn::Min(hn::Div(across, hn::Add(one, direction.z)), one);
-  const V warped = hn::Sub(one, hn::Sqrt(hn::Sub(one, r)));
-  const float half = 0.5f * static_cast<float>(map.size);
-  const V scale = hn::Div(hn::Mul(warped, Constant(half)), hn::Max(across, Constant(1e-6f)));
-  const V middle = Constant(half - 0.5f);
-  V3 light;
-  texture::HWY_NAMESPACE::SampleSmooth(D(), map, hn::MulAdd(direction.x, scale, middle),
-                                       hn::MulAdd(direction.y, scale, middle), light.x, light.y,
-                                       light.z);
-  return light;
-}
 
 constexpr float kDiscRadius = 0.004654f;  // of the sun and the moon
 
 // The part of a pixel that the disc of the sun or the moon fills, by the direction's distance from
 // its middle; half a degree across.
 HWY_INLINE V DiscPart(const Light& light, V3 direction, float pixel_angle) {
-  const V3 to_light = Constant(light.sun_direction);
-  const V3 apart = {hn::Sub(direction.x, to_light.x), hn::Sub(direction.y, to_light.y),
-                    hn::Sub(direction.z, to_light.z)};
+  const V3 apart = Difference(direction, Constant(light.to_disc));
   const float rim = std::max(pixel_angle, 0.02f * kDiscRadius);
   const V inside = hn::Sub(Constant(kDiscRadius), hn::Sqrt(Dot(apart, apart)));
   return Clamp(hn::MulAdd(inside, Constant(1.0f / rim), Constant(0.5f)), 0.0f, 1.0f);
@@ -51,13 +33,13 @@ struct SkyView {
 };
 
 HWY_INLINE SkyView ViewSky(const Shading& s, V3 ray) {
-  const D d;
+  V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
   // Below the horizon (beyond the sea's last triangle) the horizon's colour goes on.
-  const V3 level = {ray.x, ray.y, hn::Max(ray.z, hn::Zero(d))};
-  const V3 above = Scale(level, InverseSqrt(hn::Max(Dot(level, level), Constant(1e-12f))));
-  SkyView view = {ClearSky(*s.light.sky_clear, above), {}};
+  direction.z = hn::Max(direction.z, Constant(s.light.horizon_sine));
+  SkyView view = {ClearSky(s.light, direction), {}};
   if (s.light.clouds.any)
-    view.clouds = ViewClouds(s.light.clouds, above, Log2Coarse(d, Constant(s.rays.pixel_angle)));
+    view.clouds =
+        ViewClouds(s.light.clouds, direction, Log2Coarse(D(), Constant(s.rays.pixel_angle)));
   return view;
 }
 
@@ -67,11 +49,16 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& 
   V3 light = view.clear;
   V passes = Constant(1.0f);
   if (s.light.clouds.any) light = AddClouds(s.light.clouds, view.clouds, noise, light, passes);
-  if (!sees_disc) return light;
+  if (!sees_disc && !s.light.clouds.is_below) return light;
   const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
-  const V disc = DiscPart(s.light, direction, s.rays.pixel_angle);
-  const V shown = hn::IfThenElseZero(hn::Gt(ray.z, hn::Zero(D())), hn::Mul(disc, passes));
-  return ScaleAdd(Constant(s.light.disc_radiance), shown, light);
+  if (sees_disc) {
+    const V disc = DiscPart(s.light, direction, s.rays.pixel_angle);
+    const auto is_sky = hn::Gt(direction.z, Constant(s.light.horizon_sine));
+    const V shown = hn::IfThenElseZero(is_sky, hn::Mul(disc, passes));
+    light = ScaleAdd(Constant(s.light.disc_radiance), shown, light);
+  }
+  if (!s.light.clouds.is_below) return light;
+  return AddCloudDeck(s, direction, Constant(kNothingNear_m), light);
 }
 
 // The sky's light at places of the window, found for each alone.
@@ -158,7 +145,7 @@ inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, Sk
       const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
       StoreView(ViewSky(s, ray), s.light.clouds.any, at, nodes);
       const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
-      nearest = hn::Max(nearest, Dot(direction, Constant(s.light.sun_direction)));
+      nearest = hn::Max(nearest, Dot(direction, Constant(s.light.to_disc)));
     }
   }
   // No pixel is further from a node than a step's diagonal, no direction turns by more than

@@ -53,11 +53,12 @@ struct FarFocuses {
   std::array<lod::Focus, lod::kMaxFocuses> focus;
   std::size_t count = 0;
 
-  FarFocuses(const World::State& world, glm::dvec3 eye, double reach_m) {
-    if (world.focuses.empty()) return;
+  FarFocuses(const World::State& world, std::span<const lod::Focus> focuses, glm::dvec3 eye,
+             double reach_m) {
+    if (focuses.empty()) return;
     const auto inv_reach = static_cast<float>(1.0 / reach_m);
     const double widest_m = 0.5 * world.water_bounds().mean_wavelength_m;
-    for (const lod::Focus& f : world.focuses) {
+    for (const lod::Focus& f : focuses) {
       const double distance_m = glm::length(glm::dvec3(f.centre_m - glm::dvec2(eye), eye.z));
       if (wave_share(static_cast<float>(distance_m), inv_reach) == 1.0f) continue;
       const double width_m = widest_m * distance_m / (reach_m * world.scene.detail.objects);
@@ -96,7 +97,7 @@ void water_heights(const WaterHeights& in, const Surface& water, std::size_t beg
   std::array<std::uint16_t, kVertexChunk> vertex;
   const auto eye_z = static_cast<float>(in.view.eye_world.z);
   const auto inv_reach = static_cast<float>(1.0 / water.statistics.reach_m);
-  const FarFocuses focuses(in.world, in.view.eye_world, water.statistics.reach_m);
+  const FarFocuses focuses(in.world, water.focuses, in.view.eye_world, water.statistics.reach_m);
   std::size_t count = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const glm::vec2 p = water.offset[i];

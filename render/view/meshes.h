@@ -1,4 +1,4 @@
-// The triangles of a frame: the water's, the land's, the floating objects'. They know no view; a
+// The triangles of a frame: the water's, the land's, the objects'. They know no view; a
 // RenderView holds what becomes of their vertices in a picture.
 #pragma once
 
@@ -28,6 +28,7 @@ struct Surface {
   std::uint64_t mesh_revision = 0;  // as of Roam::update_mesh
   std::vector<glm::vec2> offset;    // per vertex: x, y relative to the eye [m]
   std::vector<float> height_m;      // per vertex
+  std::vector<lod::Focus> focuses;  // where something floats
 };
 
 // Where a vertex is in the world: exact, for spacings of a power of two.
@@ -41,7 +42,10 @@ struct ObjectInstance {
   glm::vec3 bottom_rel{0.0f};
   float waterline_rel_m = 0.0f;  // height of its waterline above the eye
   glm::vec3 colour{0.0f};
-  std::uint32_t object = 0;  // its index in the scene
+  float roughness = 0.42f, metalness = 0.0f;  // of its paint
+  const scene::ObjectMesh* mesh = nullptr;
+  float log2_units_per_m = 0.0f;  // of the mesh's lengths, in the mean over its axes
+  std::uint32_t object = 0;       // its index in the scene
 };
 
 // Which triangle of which object a primitive is.
@@ -86,8 +90,8 @@ struct Meshes {
   }
 };
 
-// Stage 2: triangulates water and land for the view.
-void triangulate(const World::State& world, const View& view, const FrameOptions& options,
-                 Meshes& meshes, const StageRun& run);
+// Stage 2: triangulates water and land for the view at t_s.
+void triangulate(const World::State& world, const View& view, double t_s,
+                 const FrameOptions& options, Meshes& meshes, const StageRun& run);
 
 }  // namespace swell::render

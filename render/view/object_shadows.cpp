@@ -12,7 +12,11 @@ namespace swell::render {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kRounding_m = 0.5f;  // of the places of pixels far away
+constexpr float kRounding_m = 0.5f;          // of the places of pixels far away
+constexpr std::size_t kMostCasters = 65535;  // lists of tiles hold 16 bits; 2000 piers have fewer
+constexpr double kMostLift_m = 3.0;
+// A smaller one casts no shadow and leaves no trace on the water: the picture would not show them.
+constexpr float kSmallestCaster_px = 0.5f;
 constexpr auto kSunRadius = static_cast<float>(kSunRadius_rad);
 
 // In metres along right, up and towards the sun, from the object's place.
@@ -33,7 +37,8 @@ SunFrame sun_frame(const scene::FloatingObject& object, const scene::ObjectPose&
   glm::mat3 world_from_mesh(pose.world_from_object);
   for (int i = 0; i < 3; ++i) world_from_mesh[i] *= static_cast<float>(object.size_m[i]);
   const glm::mat3 axes = sun_from_world * world_from_mesh;
-  return {axes, axes * glm::vec3(0.0f, 0.0f, -static_cast<float>(object.draught))};
+  const glm::vec2 middle = glm::vec2(object.middle_m / glm::dvec2(object.size_m));
+  return {axes, axes * glm::vec3(middle, -static_cast<float>(object.draught))};
 }
 
 // Widens the rows that an edge crosses.
@@ -60,21 +65,24 @@ void set_axes(glm::vec3 sun, ObjectShadows& shadows) {
   shadows.up = glm::cross(shadows.right, sun);
 }
 
-// The plan of a hull at still water.
-Waterline waterline_of(const scene::FloatingObject& object, const scene::ObjectPose& pose) {
-  const auto below = static_cast<float>(object.draught);
-  Waterline w;
-  w.is_round = object.kind != scene::ObjectKind::kBox;
-  const float part =
-      object.kind == scene::ObjectKind::kSphere ? 2.0f * std::sqrt(below * (1.0f - below)) : 1.0f;
-  const glm::vec2 half = 0.5f * std::max(part, 1e-3f) * glm::vec2(object.size_m);
+// The plan of a part of a hull at still water.
+Waterline waterline_of(const scene::FloatingObject& object, const scene::MeshPart& part,
+                       const scene::ObjectPose& pose, const View& view) {
+  const glm::vec2 size(object.size_m);
+  const glm::vec2 half = part.half * size;
   const auto plan = [](glm::dvec3 axis) { return glm::normalize(glm::vec2(axis)); };
+  Waterline w;
+  w.is_round = part.is_round;
   w.right = plan(pose.world_from_object[0]) / half.x;
   w.ahead = plan(pose.world_from_object[1]) / half.y;
   w.radius_m = 0.5f * (half.x + half.y);
+  const glm::dvec2 middle_m = object.middle_m + glm::dvec2(part.middle * size);
+  glm::dvec3 middle = pose.position_world;
+  if (middle_m != glm::dvec2(0.0)) middle += pose.world_from_object * glm::dvec3(middle_m, 0.0);
+  w.middle_rel = glm::vec3(middle - view.eye_world);
   // The hull proper: what stands on it hides little of the sky.
-  const float share = object.kind == scene::ObjectKind::kBuoy ? 0.28f : 1.0f;
-  w.freeboard_m = std::max(share - below, 0.0f) * static_cast<float>(object.size_m.z);
+  w.freeboard_m = std::max(part.top - static_cast<float>(object.draught), 0.0f) *
+                  static_cast<float>(object.size_m.z);
   return w;
 }
 
@@ -115,7 +123,8 @@ float reach_of(const scene::FloatingObject& object) {
 // Whatever way the sun stands, no outline is larger.
 Outline largest_outline(const scene::FloatingObject& object) {
   const double above = std::max(object.draught, 1.0 - object.draught);
-  const auto radius = static_cast<float>(glm::length(object.size_m * glm::dvec3(0.5, 0.5, above)));
+  const auto radius = static_cast<float>(glm::length(object.size_m * glm::dvec3(0.5, 0.5, above)) +
+                                         glm::length(object.middle_m));
   Outline outline;
   outline.left_most_m = outline.least_depth_m = outline.lowest_m = -radius;
   outline.right_most_m = outline.most_depth_m = radius;
@@ -124,14 +133,18 @@ Outline largest_outline(const scene::FloatingObject& object) {
 }
 
 // All but its outline.
-ShadowCaster caster_of(const scene::FloatingObject& object, const scene::ObjectPose& pose,
-                       const ShadowOptions& options, const View& view) {
+ShadowCaster caster_of(const scene::FloatingObject& object, const scene::MeshPart& part,
+                       const scene::ObjectPose& pose, const ShadowOptions& options,
+                       const View& view) {
   ShadowCaster caster;
   caster.place_rel = glm::vec3(pose.position_world - view.eye_world);
-  if (!options.without.has(Part::kHulls)) {
-    const glm::vec2 size(object.size_m);
-    caster.near_m = 0.5f * glm::length(size) + ShadowCaster::kContact_m;
-    caster.waterline = waterline_of(object, pose);
+  if (!options.without.has(Part::kHulls) && part.half.x > 0.0f && part.half.y > 0.0f) {
+    const glm::vec2 size = 2.0f * part.half * glm::vec2(object.size_m);
+    caster.waterline = waterline_of(object, part, pose, view);
+    // What stands far over the water or under it does not tell on it.
+    const double over_m = pose.position_world.z - pose.water_m;
+    if (std::abs(over_m) < kMostLift_m)
+      caster.near_m = 0.5f * glm::length(size) + ShadowCaster::kContact_m;
   }
   if (options.sun_direction.z > 0.0f && !options.without.has(Part::kShadows))
     caster.reach_m = reach_of(object);
@@ -150,8 +163,8 @@ struct Corners {
 Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows) {
   Corners corners;
   const float near_m = caster.near_m;
-  for (int i = 0; i < 8; ++i)
-    corners.add(caster.place_rel +
+  for (int i = 0; near_m > 0.0f && i < 8; ++i)
+    corners.add(caster.waterline.middle_rel +
                 near_m * glm::vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
   if (caster.reach_m <= 0.0f) return corners;
   const Outline& o = caster.outline;
@@ -273,12 +286,15 @@ TileBox tiles_of(const WindowBox& box, const raster::TileGrid& grid) {
 
 }  // namespace
 
-Outline outline_of(const scene::ObjectMesh& mesh, const scene::FloatingObject& object,
-                   const scene::ObjectPose& pose, const ObjectShadows& shadows) {
+Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
+                   const scene::FloatingObject& object, const scene::ObjectPose& pose,
+                   const ObjectShadows& shadows) {
   const SunFrame frame = sun_frame(object, pose, shadows);
+  const auto indices =
+      std::span(mesh.indices).subspan(3u * part.first_triangle, 3u * part.triangles);
   glm::vec3 low(kInfinity), high(-kInfinity);
-  for (const glm::vec3& q : mesh.position) {
-    const SunPoint p = frame(q);
+  for (const std::uint32_t index : indices) {
+    const SunPoint p = frame(mesh.position[index]);
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
@@ -289,15 +305,17 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::FloatingObject& o
   const float inside = 1e-3f * (high.y - low.y);
   outline.lowest_m = low.y + inside;
   outline.rows_per_m = (Outline::kRows - 1) / std::max(high.y - low.y - 2.0f * inside, 1e-6f);
+  // The triangles of files look anywhere, and sails have one for two sides.
+  const bool is_closed = object.kind < scene::ObjectKind::kBoat;
   outline.left_m.fill(kInfinity);
   outline.right_m.fill(-kInfinity);
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const std::array<SunPoint, 3> p = {frame(mesh.position[mesh.indices[i]]),
-                                       frame(mesh.position[mesh.indices[i + 1]]),
-                                       frame(mesh.position[mesh.indices[i + 2]])};
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    const std::array<SunPoint, 3> p = {frame(mesh.position[indices[i]]),
+                                       frame(mesh.position[indices[i + 1]]),
+                                       frame(mesh.position[indices[i + 2]])};
     // What is turned to the sun has the outline of the whole.
     const glm::vec2 along = p[1] - p[0], aside = p[2] - p[0];
-    if (along.x * aside.y - along.y * aside.x >= 0.0f) continue;
+    if (is_closed && along.x * aside.y - along.y * aside.x >= 0.0f) continue;
     for (int k = 0; k < 3; ++k) add_edge(p[k], p[(k + 1) % 3], outline);
   }
   for (int i = 0; i < Outline::kRows; ++i)
@@ -318,21 +336,30 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   const float sinks_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    ShadowCaster caster = caster_of(all[i], objects.poses[i], options, view);
-    caster.object = static_cast<std::uint32_t>(i);
-    add_foam(motion, objects.poses[i].position_world.z, caster.waterline);
-    const bool tells = caster.near_m > 0.0f || caster.reach_m > 0.0f;
-    if (!tells) continue;
-    const Corners corners = corners_of(caster, shadows);
-    if (in_view(corners, level, most_drop_m(corners, sinks_per_m2), planes))
-      shadows.casters.push_back(caster);
+    const glm::vec3 place_rel(objects.poses[i].position_world - view.eye_world);
+    if (drawn_size_px(all[i], place_rel, view) < kSmallestCaster_px) continue;
+    const std::vector<scene::MeshPart>& parts = world.objects.parts[i];
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      ShadowCaster caster = caster_of(all[i], parts[k], objects.poses[i], options, view);
+      caster.object = static_cast<std::uint32_t>(i);
+      caster.part = static_cast<std::uint32_t>(k);
+      add_foam(motion, objects.poses[i].water_m, caster.waterline);
+      const bool tells = caster.near_m > 0.0f || caster.reach_m > 0.0f;
+      if (!tells) continue;
+      const Corners corners = corners_of(caster, shadows);
+      if (in_view(corners, level, most_drop_m(corners, sinks_per_m2), planes) &&
+          shadows.casters.size() < kMostCasters)
+        shadows.casters.push_back(caster);
+    }
   }
   run.for_each(shadows.casters.size(), [&](std::size_t i, int) {
     ShadowCaster& caster = shadows.casters[i];
     if (caster.reach_m <= 0.0f) return;
-    const std::size_t object = caster.object;
-    caster.outline = outline_of(drawn_mesh(world, object, caster.place_rel, view), all[object],
-                                objects.poses[object], shadows);
+    const scene::FloatingObject& object = all[caster.object];
+    const scene::ObjectMesh& mesh = shadow_mesh(world, caster.object, caster.place_rel, view);
+    scene::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
+    if (!mesh.parts.empty()) part = mesh.parts[caster.part];
+    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows);
   });
 }
 

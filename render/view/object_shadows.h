@@ -6,10 +6,11 @@
 
 namespace swell::render {
 
-// The mesh where the pose puts it, as the sun sees it along the axes of `shadows`. 20 us for a buoy
-// of many triangles.
-Outline outline_of(const scene::ObjectMesh& mesh, const scene::FloatingObject& object,
-                   const scene::ObjectPose& pose, const ObjectShadows& shadows);
+// The triangles of a part of the mesh where the pose puts them, as the sun sees them along the axes
+// of `shadows`; from the object's place. 20 us for a buoy of many triangles.
+Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
+                   const scene::FloatingObject& object, const scene::ObjectPose& pose,
+                   const ObjectShadows& shadows);
 
 // The light of a frame, and what of its pictures is left out.
 struct ShadowOptions {

@@ -96,18 +96,27 @@ inline constexpr std::size_t kVertexChunk = 2048;
 void water_heights(const WaterHeights& in, const Surface& water, std::size_t begin, std::size_t end,
                    std::span<float> vertex_height_m);
 
-// Where the sea carries all objects, as they are drawn.
+// Where all objects are, as they are drawn: where the caller puts them, or the scene.
 void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
-                 std::span<scene::ObjectPose> poses);
+                 std::span<const scene::GivenPose> given, std::span<scene::ObjectPose> poses,
+                 const StageRun& run);
+
+// How high or wide an object at p_rel looks, whichever is more.
+float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const View& view);
 
 // The mesh that an object is drawn with when it is at p_rel: few triangles where it looks small.
 const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
                                     const View& view);
 
-// Stage 3: floating objects where the sea carries them, as far as the view may show them, and their
-// vertices in the views.
-void place_objects(const World::State& world, const SeaMaps& sea, const View& view, Meshes& meshes,
-                   FrameViews views);
+// The one whose outline throws its shadow: 64 rows need fewer still.
+const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
+                                     const View& view);
+
+// Stage 3: objects where they are, as far as the view may show them, and their vertices in the
+// views.
+void place_objects(const World::State& world, const SeaMaps& sea, const View& view,
+                   std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
+                   const StageRun& run);
 
 // Numbers the triangles of what the view shows, clips, sets up and bins them; with edge_samples
 // (0, 4 or 8) also for samples.

@@ -1,4 +1,4 @@
-// Floating objects as what stands in the light of others: what the sun sees of them, and where
+// Objects as what stands in the light of others: what the sun sees of them, and where
 // their hulls meet the water.
 #pragma once
 
@@ -24,6 +24,7 @@ struct Outline {
 // Where a hull cuts the water: a point (x, y) of the plan, relative to its middle, lies at
 // (x, y) . (right, ahead) in a circle or a square of radius 1.
 struct Waterline {
+  glm::vec3 middle_rel{0.0f};  // relative to the eye
   glm::vec2 right{1.0f, 0.0f}, ahead{0.0f, 1.0f};
   bool is_round = true;
   float radius_m = 1.0f;     // mean
@@ -40,10 +41,11 @@ inline constexpr float kDeepestShadow_m = 20.0f;
 struct ShadowCaster {
   static constexpr float kContact_m = 3.0f;  // how far a hull tells on the water around
 
-  glm::vec3 place_rel{0.0f};  // on its axis at the waterline, relative to the eye
+  glm::vec3 place_rel{0.0f};  // its origin at the waterline, relative to the eye
   float reach_m = 0.0f;       // at this distance the sun is far broader than the object; 0: no sun
   float near_m = 0.0f;        // half the side of a cube that the hull tells on
   std::uint32_t object = 0;   // its index in the scene
+  std::uint32_t part = 0;     // of its mesh
   Waterline waterline;
   Outline outline;
 };

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
@@ -94,8 +95,33 @@ lod::AdaptLimits adapt_limits(const FrameOptions& options) {
 struct Wanted {
   const World::State& world;
   const View& view;
+  double t_s;
   const FrameOptions& options;
 };
+
+// The hulls, and as much of the water around as their waterlines and their mirror images take. If
+// there are more than a triangulation may know: those that look largest.
+void find_focuses(const Wanted& wanted, std::vector<lod::Focus>& focuses) {
+  focuses.clear();
+  const std::vector<scene::FloatingObject>& objects = wanted.world.scene.objects;
+  for (const scene::FloatingObject& object : objects)
+    focuses.push_back({scene::plan_pose(object, wanted.t_s).position_m + object.middle_m,
+                       std::max(object.size_m.x, object.size_m.y)});
+  for (const scene::GivenPose& given : wanted.options.poses)
+    focuses[given.object].centre_m = glm::dvec2(given.pose.position_world);
+  if (focuses.size() <= lod::kMaxFocuses) return;
+  const auto looks_m2 = [&](const lod::Focus& f) {
+    const glm::dvec3 away(f.centre_m - glm::dvec2(wanted.view.eye_world), wanted.view.eye_world.z);
+    return f.radius_m * f.radius_m / std::max(glm::dot(away, away), 1.0);
+  };
+  std::ranges::sort(focuses, [&](const lod::Focus& a, const lod::Focus& b) {
+    const auto rank = [&](const lod::Focus& f) {
+      return std::tuple(-looks_m2(f), f.centre_m.x, f.centre_m.y, f.radius_m);
+    };
+    return rank(a) < rank(b);
+  });
+  focuses.resize(lod::kMaxFocuses);
+}
 
 lod::AdaptRequest request_for(const Wanted& wanted, int budget, float low_m, float high_m) {
   const scene::Detail& detail = wanted.world.scene.detail;
@@ -131,13 +157,14 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
   const scene::Detail& detail = wanted.world.scene.detail;
   const int budget = wanted.options.water_triangles;
   if (detail.triangulation != scene::Triangulation::kRoam) water.mesh_revision = 0;
+  find_focuses(wanted, water.focuses);
   switch (detail.triangulation) {
     case scene::Triangulation::kRoam: {
       const ocean::WaterBounds bounds = wanted.world.water_bounds();
       lod::AdaptRequest request = request_for(wanted, budget, -bounds.height_m, bounds.height_m);
       request.max_slope = bounds.slope;
       if (bounds.mean_wavelength_m > 0.0) request.largest_size_m = 0.5 * bounds.mean_wavelength_m;
-      request.focuses = wanted.world.focuses;
+      request.focuses = water.focuses;
       const bool limited = is_limited(wanted.world.scene.area);
       adapt_surface(sea_domain(request, limited), request, wanted.options.triangle_capacity, water);
       // A sea that ends has no waves where triangles are wide.
@@ -183,9 +210,9 @@ void triangulate_land(const Wanted& wanted, Surface& land) {
 
 }  // namespace
 
-void triangulate(const World::State& world, const View& view, const FrameOptions& options,
-                 Meshes& meshes, const StageRun& run) {
-  const Wanted wanted{world, view, options};
+void triangulate(const World::State& world, const View& view, double t_s,
+                 const FrameOptions& options, Meshes& meshes, const StageRun& run) {
+  const Wanted wanted{world, view, t_s, options};
   run.workers.run_both([&] { triangulate_water(wanted, meshes.water); },
                        [&] { triangulate_land(wanted, meshes.land); });
 }

@@ -15,7 +15,7 @@ constexpr float kLowestLight = 0.02f;   // z of the direction to a light that te
 
 // How far down there is something to be lit, 0: nothing.
 double lit_depth_m(const World::State& world) {
-  double depth_m = world.objects.meshes.empty() ? 0.0 : kObjectDepth_m;
+  double depth_m = world.scene.objects.empty() ? 0.0 : kObjectDepth_m;
   if (world.terrain) {
     depth_m = std::max(depth_m, -static_cast<double>(world.terrain->lowest_m));
     if (world.terrain->apron.width_m > 0.0)

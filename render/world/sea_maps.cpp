@@ -16,7 +16,8 @@ void bake_coast(const World::State& world, double t_s, SeaMaps& sea, Workers& wo
   constexpr std::size_t kPoints = static_cast<std::size_t>(kCoastMapSize) * kCoastMapSize;
   for (std::vector<float>* map : {&sea.coast_slope_x, &sea.coast_slope_y, &sea.coast_foam})
     map->resize(kPoints);
-  ocean::bake_coast(world.coast_maps->waves, t_s, sea.coast_slope_x, sea.coast_slope_y,
+  const double t_wave_s = ocean::wave_time_s(world.scene.sea, t_s);
+  ocean::bake_coast(world.coast_maps->waves, t_wave_s, sea.coast_slope_x, sea.coast_slope_y,
                     sea.coast_foam, workers);
 }
 
@@ -62,7 +63,7 @@ void leave_out_tiles(SeaMaps& sea) {
 
 void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
                  const StageRun& run) {
-  ocean::advance(*world.sea, t_s, sea.frame, run.workers);
+  ocean::advance(*world.sea, t_s, sea.frame, run.workers, !without.has(Part::kCrests));
   const bool has_foam = !without.has(Part::kWhitecaps);
   if (has_foam) ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
   if (without.has(Part::kTiling)) leave_out_tiles(sea);

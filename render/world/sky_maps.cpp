@@ -1,4 +1,4 @@
-// The sky as maps of its upper hemisphere, exposed.
+// The sky as maps, exposed.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -13,8 +13,10 @@
 namespace swell::render {
 namespace {
 
-constexpr int kClearSkySize = 384;
 constexpr float kClearSkyRange = 64.0f;
+// Closer near the sea, where haze is.
+constexpr double kHeights_m[] = {300.0,   800.0,   1600.0,  3000.0,  5500.0,
+                                 10000.0, 17000.0, 27000.0, 40000.0, 60000.0};
 // Waves too small to see spread what they mirror: box filters of so many texels to each side.
 constexpr int kSoftSkyBlur = 2, kSoftSkyPasses = 2;
 
@@ -24,11 +26,10 @@ glm::vec2 texel_place(int x, int y, int size) {
   return step * (glm::vec2(x, y) + 0.5f) - 1.0f;
 }
 
-// The direction at r = |place| of the blurred map, or at r of the clear one.
-glm::vec3 sky_direction(glm::vec2 place, float r) {
-  const float radius = glm::length(place), r2 = r * r;
-  const glm::vec2 azimuth = radius > 0.0f ? place / radius : glm::vec2(0.0f, 1.0f);
-  return glm::vec3(2.0f * r * azimuth, 1.0f - r2) / (1.0f + r2);
+// The direction at a place of the blurred map.
+glm::vec3 sky_direction(glm::vec2 place) {
+  const float r2 = glm::dot(place, place);
+  return glm::vec3(2.0f * place, 1.0f - r2) / (1.0f + r2);
 }
 
 // Calls radiance_at(place) for the texels of a map: three floats each.
@@ -65,7 +66,7 @@ void blur(std::vector<float>& rgb, int size, int radius, bool along_rows, Worker
 
 std::vector<float> sample_soft_sky(const scene::SkyLight& light, float exposure, Workers& workers) {
   std::vector<float> rgb = sample_map(kSoftSkySize, workers, [&](glm::vec2 place) {
-    return exposure * clear_radiance(light, sky_direction(place, glm::length(place)));
+    return exposure * clear_radiance(light, sky_direction(place));
   });
   for (int pass = 0; pass < kSoftSkyPasses; ++pass)
     for (const bool along_rows : {true, false})
@@ -73,13 +74,34 @@ std::vector<float> sample_soft_sky(const scene::SkyLight& light, float exposure,
   return rgb;
 }
 
-texture::SmoothImage build_clear_sky(const scene::SkyLight& light, float exposure,
-                                     Workers& workers) {
-  const std::vector<float> rgb = sample_map(kClearSkySize, workers, [&](glm::vec2 place) {
-    const float left = 1.0f - std::min(glm::length(place), 1.0f);
-    return exposure * clear_radiance(light, sky_direction(place, 1.0f - left * left));
+// Sine of the elevation of a row of the clear sky's map, over that of the horizon.
+double row_sine(int row, double horizon_sine) {
+  const bool is_sky = row < kSkyRows;
+  const double from_horizon = is_sky ? 1.0 - static_cast<double>(row) / (kSkyRows - 1)
+                                     : static_cast<double>(row - kSkyRows) / (kAirRows - 1);
+  const double r = 1.0 - from_horizon * from_horizon, part = (1.0 - r * r) / (1.0 + r * r);
+  return is_sky ? horizon_sine + part * (1.0 - horizon_sine)
+                : horizon_sine - part * (1.0 + horizon_sine);
+}
+
+texture::SmoothImage build_clear_sky(const scene::SkyLight& light, glm::dvec2 azimuth,
+                                     double height_m, float exposure, Workers& workers) {
+  constexpr int kAllRows = kSkyRows + kAirRows;
+  const double horizon_sine = scene::horizon_sine(height_m);
+  std::vector<float> rgb(std::size_t{3} * kSkyColumns * kAllRows);
+  for_each_row(kAllRows, workers, [&](int row) {
+    float* p = rgb.data() + std::ptrdiff_t{3} * row * kSkyColumns;
+    const double z = row_sine(row, horizon_sine), across = std::sqrt(std::max(1.0 - z * z, 0.0));
+    for (int column = 0; column < kSkyColumns; ++column) {
+      const double root = static_cast<double>(column) / (kSkyColumns - 1), half_sine = root * root;
+      const double cosine = 1.0 - 2.0 * half_sine * half_sine;
+      const double sine = 2.0 * half_sine * std::sqrt(1.0 - half_sine * half_sine);
+      const glm::dvec2 d = across * (cosine * azimuth + sine * glm::dvec2(azimuth.y, -azimuth.x));
+      const glm::vec3 radiance = exposure * clear_radiance(light, glm::vec3(d.x, d.y, z));
+      for (int c = 0; c < 3; ++c) *p++ = radiance[c];
+    }
   });
-  return texture::make_smooth_image(rgb, kClearSkySize, kClearSkyRange);
+  return texture::make_smooth_image(rgb, kSkyColumns, kAllRows, kClearSkyRange);
 }
 
 texture::RgbMap pack_soft_sky(const std::vector<float>& rgb) {
@@ -135,12 +157,13 @@ double luminance(glm::vec3 rgb) {
   return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// Of the clear sky's luminance, over the hemisphere.
-double root_mean_square(const scene::SkyLight& light) {
+// Of the clear sky's luminance, from the horizon up.
+double root_mean_square(const scene::SkyLight& light, double horizon_sine) {
   constexpr int kRings = 24, kSectors = 48;
   double sum = 0.0;
   for (int i = 0; i < kRings; ++i) {
-    const double z = (i + 0.5) / kRings, across = std::sqrt(1.0 - z * z);
+    const double z = std::lerp(horizon_sine, 1.0, (i + 0.5) / kRings);
+    const double across = std::sqrt(1.0 - z * z);
     for (int j = 0; j < kSectors; ++j) {
       const SinCos a = sin_cos_turns((j + 0.5) / kSectors);
       const double here =
@@ -157,15 +180,29 @@ void set_lights(const scene::SkyLight& light, SkyMaps& maps) {
   maps.ambient = glm::mix(clear_ambient(light), clouds.mean_radiance, clouds.mean_opacity);
   maps.horizon = glm::mix(clear_horizon(light), 0.5f * clouds.mean_radiance, clouds.overcast);
   maps.to_light = light.to_light;
+  maps.to_sun = light.sky.sun_direction;
+  if (!is_gradient(light.sky)) maps.molecules_per_m = light.atmosphere.air.rayleigh_per_m;
   maps.irradiance = clouds.direct_part * light.irradiance;
-  maps.disc_radiance = light.disc_radiance;
 }
 
 void expose(float exposure, SkyMaps& maps) {
   for (glm::vec3* x :
-       {&maps.ambient, &maps.horizon, &maps.irradiance, &maps.disc_radiance, &maps.cloud_light.base,
-        &maps.cloud_light.forward, &maps.cloud_light.mean_radiance})
+       {&maps.ambient, &maps.horizon, &maps.irradiance, &maps.cloud_light.base,
+        &maps.cloud_light.tops, &maps.cloud_light.forward, &maps.cloud_light.mean_radiance})
     *x *= exposure;
+}
+
+// What an eye adapts to: what a white level surface shows, or over a closed layer of clouds its
+// tops; and the sky, its brightest parts above all. `maps` are exposed already.
+double light_seen(const scene::SkyLight& light, double height_m, float exposure,
+                  const SkyMaps& maps) {
+  const CloudLight& clouds = maps.cloud_light;
+  const double under = part_under_clouds(height_m);
+  const double white =
+      luminance(maps.ambient) + luminance(maps.irradiance) * std::max(maps.to_light.z, 0.0f) / kPi;
+  const double level = std::lerp(white, luminance(clouds.tops), clouds.overcast * (1.0 - under));
+  const double clear = exposure * root_mean_square(light, scene::horizon_sine(height_m));
+  return level + 2.0 * std::lerp(clear, luminance(maps.ambient), clouds.overcast * under);
 }
 
 // The factor of what is stored. A gradient is stored as it is.
@@ -176,12 +213,35 @@ float choose_exposure(const scene::SkyLight& light, SkyMaps& maps) {
     return 1.0f;
   }
   if (sky.exposure) return static_cast<float>(*sky.exposure);
-  // What a white level surface shows, and the sky, its brightest parts above all.
-  const double white =
-      luminance(maps.ambient) + luminance(maps.irradiance) * std::max(maps.to_light.z, 0.0f) / kPi;
-  const double sky_seen =
-      std::lerp(root_mean_square(light), luminance(maps.ambient), maps.cloud_light.overcast);
-  return static_cast<float>(scene::automatic_exposure(white + 2.0 * sky_seen));
+  return static_cast<float>(scene::automatic_exposure(light_seen(light, 0.0, 1.0f, maps)));
+}
+
+// The exposure where an eye sees so many times the light of sea level. From high up the sun may
+// still shine, or the sky glow, when it is night below.
+float exposure_aloft(const scene::Sky& sky, double light_ratio) {
+  if (sky.exposure || light_ratio <= 1.0) return 1.0f;
+  return static_cast<float>(scene::automatic_exposure(light_ratio) /
+                            scene::automatic_exposure(1.0));
+}
+
+// `maps`: exposed.
+void build_heights(const scene::SkyLight& sea_level, float exposure, Workers& workers,
+                   SkyMaps& maps) {
+  const glm::vec2 level(sea_level.to_light);
+  const float length = glm::length(level);
+  if (length > 0.0f) maps.azimuth = level / length;
+  const double light_below = light_seen(sea_level, 0.0, exposure, maps);
+  const auto add_height = [&](const scene::SkyLight& light, double height_m) {
+    const double light_here = light_seen(light, height_m, exposure, maps);
+    maps.heights.push_back(
+        {height_m, build_clear_sky(light, glm::dvec2(maps.azimuth), height_m, exposure, workers),
+         exposure * light.disc_radiance, exposure * light.sun_disc_radiance,
+         exposure_aloft(light.sky, light_here / light_below)});
+  };
+  add_height(sea_level, 0.0);
+  if (is_gradient(sea_level.sky)) return;
+  for (const double height_m : kHeights_m)
+    add_height(sky_light_aloft(sea_level, height_m, workers), height_m);
 }
 
 }  // namespace
@@ -194,7 +254,7 @@ SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers) {
   set_lights(light, maps);
   const float exposure = choose_exposure(light, maps);
   expose(exposure, maps);
-  maps.clear = build_clear_sky(light, exposure, workers);
+  build_heights(light, exposure, workers, maps);
   const std::vector<float> soft = sample_soft_sky(light, exposure, workers);
   maps.soft_clear = by_channel(soft);
   maps.soft = pack_soft_sky(soft);

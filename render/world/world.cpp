@@ -139,9 +139,8 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
       });
   const bool same_water = like && like->scene.water.refraction_index == now.water.refraction_index;
   add_land_shadow(if_alike(same_terrain && same_water), workers, *state);
-  state->objects = build_object_meshes(now.objects);
+  state->objects = build_object_meshes(state->scene, like);
   state->object_classes = object_classes(now);
-  state->focuses = object_focuses(now.objects);
   return state;
 }
 

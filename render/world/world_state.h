@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lod/relief_bounds.h"
-#include "lod/request.h"
 #include "math/earth.h"
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
@@ -16,6 +15,7 @@
 #include "ocean/whitecaps.h"
 #include "render/frame.h"
 #include "render/world/land_shadow.h"
+#include "scene/mesh_file.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
@@ -33,6 +33,7 @@ struct CloudLight {
   glm::vec3 to_light{0, 0, 1};
   // Linear RGB radiances.
   glm::vec3 base{0.0f};     // of a bright side, where light comes through
+  glm::vec3 tops{0.0f};     // of the same, seen from above
   glm::vec3 forward{0.0f};  // times the phase function: light that goes straight on
   glm::vec3 mean_radiance{0.0f};
 };
@@ -42,23 +43,42 @@ struct CloudLight {
 inline constexpr float kSoftSkyRange = 4.0f;
 inline constexpr int kSoftSkySize = 128;
 
-// The sky, exposed. Its maps show the upper hemisphere. Direction d of length 1 lies at
-// r = |d.xy| / (1 + d.z) from the middle of the blurred one, whose horizon is the circle of radius
-// size / 2, and at 1 - sqrt(1 - r) from that of the clear one, which so has more room near the
-// horizon.
+// The map of a clear sky, kSkyColumns x (kSkyRows + kAirRows). It is the same on both sides of the
+// light's azimuth: column 0 has that azimuth, the last one the opposite, and the root of
+// sin(azimuth / 2) grows evenly. Row 0 is the zenith and row kSkyRows - 1 the horizon, where the
+// rows are closest; the rows after that go from the horizon to straight down, and hold the air
+// before the sea (scene::sky_radiance). render/tile/sky_map-inl.h says where a direction lies.
+inline constexpr int kSkyColumns = 128, kSkyRows = 192, kAirRows = 64;
+
+// The clear sky as an eye at a height sees it, exposed.
+struct SkyAloft {
+  double height_m = 0.0;
+  texture::SmoothImage map;
+  glm::vec3 disc_radiance{0.0f};      // of the light
+  glm::vec3 sun_disc_radiance{0.0f};  // of the sun
+  // What the eye adapts to over what it does at sea level, at least 1: from high up the sun may
+  // still shine, or the sky glow, when it is night below.
+  float exposure = 1.0f;
+};
+
+// The sky, exposed. The blurred map shows the upper hemisphere: direction d of length 1 lies at
+// r = |d.xy| / (1 + d.z) from its middle, and the horizon is the circle of radius size / 2.
 struct SkyMaps {
-  texture::SmoothImage clear;     // what the eye sees behind the clouds
-  std::vector<float> soft_clear;  // the same blurred, kSoftSkySize^2 reds, greens, blues
+  std::vector<SkyAloft> heights;  // what the eye sees behind the clouds, sea level first
+  glm::vec2 azimuth{0, 1};        // the light's, of length 1
+  std::vector<float> soft_clear;  // blurred at sea level, kSoftSkySize^2 reds, greens, blues
   texture::RgbMap soft;           // the same as a map, for a sky without clouds
   texture::PackedMap2 clouds;     // noise
   float cloud_variance = 0.0f;
   CloudLight cloud_light;
   glm::vec3 ambient{0.0f};  // mean radiance of the upper hemisphere, cosine-weighted
   glm::vec3 horizon{0.0f};  // mean radiance round the horizon
-  // Of the sun or the moon: irradiance under the clouds, and radiance of the disc.
+  // Of the sun or the moon.
   glm::vec3 to_light{0, 0, 1};
-  glm::vec3 irradiance{0.0f}, disc_radiance{0.0f};
-  float exposure = 1.0f;  // that is still to be applied: a gradient's
+  glm::vec3 irradiance{0.0f};       // under the clouds
+  glm::vec3 to_sun{0, 0, 1};        // also when it is down
+  glm::vec3 molecules_per_m{0.0f};  // what air alone scatters at sea level
+  float exposure = 1.0f;            // that is still to be applied: a gradient's
 };
 
 // Over the terrain's square, and coarser over the square with its apron.
@@ -73,13 +93,13 @@ struct CoastMaps {
   std::vector<float> ceded;  // what the sea's own waves give up to the trains, in [0, 1]
 };
 
-// The shapes that a scene's objects need, and which of them each object has.
+// A shape with its levels of detail, finest first. Worlds share those of files.
+using ObjectShape = std::shared_ptr<const scene::MeshOfFile>;
+
+// The shapes of a scene's objects.
 struct ObjectMeshes {
-  struct Choice {
-    std::size_t near = 0, far = 0;  // indices into meshes: many triangles, few
-  };
-  std::vector<scene::ObjectMesh> meshes;
-  std::vector<Choice> of_object;
+  std::vector<ObjectShape> of_object;
+  std::vector<std::vector<scene::MeshPart>> parts;  // of each object's finest level, at its draught
 };
 
 // Parts are shared by worlds whose scenes describe them alike.
@@ -99,10 +119,9 @@ struct World::State {
   // size, it repeats. The same in every world.
   std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
 
-  // What floats.
+  // What is on the sea.
   ObjectMeshes objects = {};
   std::vector<std::uint32_t> object_classes = {};  // of labelled pictures
-  std::vector<lod::Focus> focuses = {};            // where it does
 
   ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
   ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
@@ -128,8 +147,9 @@ inline constexpr int kAroundSize = 512;
 
 // The same bits with any workers.
 SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers);
-ObjectMeshes build_object_meshes(std::span<const scene::FloatingObject> objects);
-std::vector<lod::Focus> object_focuses(std::span<const scene::FloatingObject> objects);
+// Gives objects of files their sizes. like: may be null; a world whose files are not read again.
+// Throws SceneError for a file that cannot be drawn.
+ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like);
 // The terrain with its apron, kAroundSize + 1 points a side.
 terrain::HeightGrid sample_around(const terrain::HeightGrid& terrain, Workers& workers);
 TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,

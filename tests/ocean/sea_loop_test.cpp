@@ -76,6 +76,13 @@ TEST(SeaLoop, RepeatsExactlyForLoopsOfAnyLength) {
   }
 }
 
+TEST(SeaLoop, RepeatsExactlyWithSharpCrests) {
+  SeaDescription description = looping_sea(20.0);
+  description.choppiness = 1.0;
+  const Sea sea(description);
+  EXPECT_TRUE(same_bits(moment_at(sea, 23.25), moment_at(sea, 3.25)));
+}
+
 TEST(SeaLoop, DoesNotRepeatWithoutALoop) {
   const Sea sea(looping_sea(0.0));
   EXPECT_FALSE(same_bits(moment_at(sea, 0.0), moment_at(sea, 20.0)));

@@ -302,6 +302,7 @@ TEST(Sea, NamesTheValueAndRangeOfABadDescription) {
       {[](auto& d) { d.gravity_mps2 = 0; }, "gravity_mps2", "0", "[0.1, 100]"},
       {[](auto& d) { d.loop_s = 0.5; }, "loop_s", "0.5", "[1, 100000]"},
       {[](auto& d) { d.whitecaps = 10.5; }, "whitecaps", "10.5", "[0, 10]"},
+      {[](auto& d) { d.choppiness = 1.5; }, "choppiness", "1.5", "[0, 1]"},
       {[&](auto& d) { d.loop_s = nan; }, "loop_s", "nan", "[1, 100000]"},
       {[](auto& d) { d.resolution = 100; }, "resolution", "100", "[16, 512]"},
       {[](auto& d) { d.resolution = 1024; }, "resolution", "1024", "[16, 512]"},

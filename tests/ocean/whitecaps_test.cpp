@@ -145,10 +145,11 @@ TEST(Whitecaps, AreMadeOfAnySea) {
 // ---- Where
 
 // Against the sea itself: heights and slopes of the same patch at the same time.
-TEST(Whitecaps, AreBornOnTheFrontsOfCrests) {
+void expect_births_on_fronts(double choppiness) {
   SeaDescription description = sea_of_wind(12.0);
   description.patch_lengths_m = {400.0};
   description.tiling = false;
+  description.choppiness = choppiness;
   WhiteSea white(description);
   WhitecapFrame foam;
   SeaFrame sea;
@@ -175,6 +176,11 @@ TEST(Whitecaps, AreBornOnTheFrontsOfCrests) {
   ASSERT_GT(born, 100);
   EXPECT_GT(height / born, 0.5);
   EXPECT_LT(downwind_slope / born, -0.03);
+}
+
+TEST(Whitecaps, AreBornOnTheFrontsOfCrests) {
+  expect_births_on_fronts(0.0);
+  expect_births_on_fronts(1.0);
 }
 
 TEST(Whitecaps, GoByTheirDecayAndNoFaster) {

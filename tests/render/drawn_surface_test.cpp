@@ -19,9 +19,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface,
                                          "open_ocean_radial"),
                          [](const auto& test) { return std::string(test.param); });
 
-TEST_P(DrawnSurface, HasTheHeightOfAQueryAtEveryVertex) {
+void expect_queried_heights(const scene::Scene& scene) {
   int moved = 0;
-  draw_shots(load_shipped(GetParam()), kFrames, kSize_px, kTriangles,
+  draw_shots(scene, kFrames, kSize_px, kTriangles,
              [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
                ASSERT_GT(drawn.height_m.size(), 1000u);
                for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
@@ -33,6 +33,35 @@ TEST_P(DrawnSurface, HasTheHeightOfAQueryAtEveryVertex) {
                }
              });
   EXPECT_GT(moved, 1000);
+}
+
+TEST_P(DrawnSurface, HasTheHeightOfAQueryAtEveryVertex) {
+  expect_queried_heights(load_shipped(GetParam()));
+}
+
+// HFC-01.
+TEST(DrawnCrests, HaveTheHeightOfAQueryAtEveryVertex) {
+  scene::Scene scene = load_shipped("open_ocean");
+  scene.sea.choppiness = 1.0;
+  expect_queried_heights(scene);
+}
+
+TEST(DrawnCrests, CanBeLeftOut) {
+  scene::Scene scene = load_shipped("open_ocean");
+  scene.sea.choppiness = 1.0;
+  const World world(scene);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options;
+  const View view = scene::camera_view(scene.camera, 0.0, 64, 36);
+  const auto is_sharp = [&] {
+    render_frame(world, view, 0.0, options, workspace, target, workers);
+    return !workspace.state().sea.frame.patches[0].displaced_x_m.empty();
+  };
+  EXPECT_TRUE(is_sharp());
+  options.without.add(Part::kCrests);
+  EXPECT_FALSE(is_sharp());
 }
 
 // The plane leaves all waves to the shading.

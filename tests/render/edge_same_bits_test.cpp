@@ -18,7 +18,7 @@ class SmoothEdgesOf : public testing::TestWithParam<const char*> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, SmoothEdgesOf,
-                         testing::Values("lagoon", "buoys", "beach", "open_ocean"),
+                         testing::Values("lagoon", "buoys", "beach", "harbour", "open_ocean"),
                          [](const auto& test) { return std::string(test.param); });
 
 // The picture's colours before and after the tone curve.

@@ -98,7 +98,7 @@ class LabelsOfScene : public testing::TestWithParam<const char*> {
   const World& world = shipped_world(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, LabelsOfScene,
-                         testing::Values("lagoon", "beach", "buoys", "open_ocean"),
+                         testing::Values("lagoon", "beach", "buoys", "harbour", "open_ocean"),
                          [](const auto& test) { return std::string(test.param); });
 
 // What a ray through the picture meets, as labels name it.

@@ -79,13 +79,12 @@ struct WaveLayer {
     texture::pack_map2(kSize, a, b, 0.0f, map);
     layer = make_layer(map, kLength_m, static_cast<float>(kGain), {0.0, 0.0}, {});
   }
-  // The mean square of the slopes at the texels of the coarser of both levels next to `level`
-  // (phases all around the wave), and the variance said to be lost.
+  // The mean square of the slopes at places on and between the map's texels, and the variance said
+  // to be lost.
   std::pair<double, double> shown_and_lost(double level) const {
-    const int side = std::max(kSize >> std::max(static_cast<int>(std::ceil(level)), 0), 1);
     std::vector<glm::vec3> p, slopes;
-    for (int i = 0; i < side; ++i)
-      p.emplace_back(kLength_m * static_cast<float>(i) / static_cast<float>(side), 0.0f, -1.0f);
+    for (const double x : places_of_texels())
+      p.emplace_back(static_cast<float>(kLength_m * x / kSize), 0.0f, -1.0f);
     slopes.resize(p.size());
     add_slopes(layer, p, std::vector<float>(p.size(), static_cast<float>(level) - 2.0f), slopes);
     double shown = 0.0, lost = 0.0;
@@ -93,51 +92,82 @@ struct WaveLayer {
       shown += s.x * s.x + s.y * s.y;
       lost += s.z;
     }
-    return {shown / side, lost / side};
+    return {shown / static_cast<double>(p.size()), lost / static_cast<double>(p.size())};
+  }
+  // Two Gauss points between texels and the next: means of squares of straight lines are exact.
+  static std::vector<double> places_of_texels() {
+    std::vector<double> places;
+    for (int i = 0; i < kSize; ++i)
+      for (const double side : {-0.5, 0.5}) places.push_back(i + 0.5 + side / std::sqrt(3.0));
+    return places;
   }
   texture::PackedMap2 map;
   SlopeLayer layer;
 };
 
-// The part of the amplitude that filtering down once more leaves at a level.
-double left_by_filter(int cycles, int level) {
-  const double half_step = 0.5 * kTurn * cycles * std::exp2(level) / kSize;
-  return std::cos(half_step) * std::cos(half_step);
+// The wave at a place [texels of level 0], as straight lines between the texels of a level show it;
+// filtering down takes the square of the cosine of half the phase step from level to level.
+double drawn_wave(int cycles, int level, double x) {
+  const double spacing = std::exp2(level), first = std::floor(x / spacing) * spacing;
+  double left = 1.0;
+  for (int l = 0; l < level; ++l) {
+    const double half_step = 0.5 * kTurn * cycles * std::exp2(l) / kSize;
+    left *= std::cos(half_step) * std::cos(half_step);
+  }
+  const auto at = [&](double place) { return std::cos(kTurn * (0.125 + cycles * place / kSize)); };
+  const double t = (x - first) / spacing;
+  return left * ((1.0 - t) * at(first) + t * at(first + spacing));
 }
 
-// On whole levels nothing is shown twice and nothing is forgotten.
+// Twice the mean of value(x), so that a whole cosine's square has 1.
+template <class Value>
+double twice_mean(const Value& value) {
+  const std::vector<double> places = WaveLayer::places_of_texels();
+  double sum = 0.0;
+  for (const double x : places) sum += value(x);
+  return 2.0 * sum / static_cast<double>(places.size());
+}
+
+double part_shown(int cycles, int level) {
+  return twice_mean([&](double x) {
+    const double wave = drawn_wave(cycles, level, x);
+    return wave * wave;
+  });
+}
+
+// On whole levels nothing is shown twice and nothing is forgotten, also not what lies between the
+// texels.
 TEST_P(MapLayers, SlopesAndLostVarianceAddUpToTheWavesOnEveryLevel) {
-  for (const int cycles : {1, 3, 5, 8}) {
+  for (const int cycles : {1, 3, 5, 8, 14}) {
     const WaveLayer wave(cycles);
-    double left = 1.0;
     for (int level = 0; (cycles << level) < kSize && level < wave.map.detail_levels; ++level) {
       const auto [shown, lost] = wave.shown_and_lost(level);
-      EXPECT_NEAR(shown, left * left * kVariance, 0.006 * kVariance) << cycles << " " << level;
-      EXPECT_NEAR(lost, (1.0 - left * left) * kVariance, 1e-5 * kVariance);
-      left *= left_by_filter(cycles, level);
+      const double part = part_shown(cycles, level);
+      EXPECT_NEAR(shown, part * kVariance, 0.006 * kVariance) << cycles << " " << level;
+      EXPECT_NEAR(lost, (1.0 - part) * kVariance, 1e-5 * kVariance) << cycles << " " << level;
     }
   }
 }
 
-// The two levels' slopes are blended, and so are their lost variances. Amplitudes 1 and r make
-// (1 - t) + t r, whose square is less than the blend of the squares: t (1 - t) (1 - r)^2 of the
-// finer level's variance is missing, at most a quarter for waves that the coarser level lacks.
+// The two levels' slopes are blended, and so are their lost variances. The square of a blend of a
+// and b is less than the blend of their squares, by t (1 - t) (a - b)^2: at most a quarter, for
+// waves that the coarser level lacks.
 TEST_P(MapLayers, BetweenLevelsTheSumLacksTheSquareOfTheDifference) {
   for (const int cycles : {1, 5, 8}) {
     const WaveLayer wave(cycles);
-    double left = 1.0;
     for (int level = 0; (cycles << level) < kSize / 2 && level + 1 < wave.map.detail_levels;
          ++level) {
-      const double r = left_by_filter(cycles, level);
+      const double difference = twice_mean([&](double x) {
+        const double d = drawn_wave(cycles, level, x) - drawn_wave(cycles, level + 1, x);
+        return d * d;
+      });
+      const double finer = part_shown(cycles, level), coarser = part_shown(cycles, level + 1);
       for (const double t : {0.25, 0.5, 0.75}) {
         const auto [shown, lost] = wave.shown_and_lost(level + t);
-        const double finer = left * left * kVariance, blend = 1.0 - t + t * r;
-        EXPECT_NEAR(shown, blend * blend * finer, 0.008 * kVariance) << cycles << " " << level;
-        EXPECT_NEAR(lost, kVariance - finer + t * (1.0 - r * r) * finer, 1e-5 * kVariance);
-        EXPECT_NEAR(shown + lost, kVariance - t * (1.0 - t) * (1.0 - r) * (1.0 - r) * finer,
-                    0.008 * kVariance);
+        EXPECT_NEAR(lost, (1.0 - finer + t * (finer - coarser)) * kVariance, 1e-5 * kVariance);
+        EXPECT_NEAR(shown + lost, (1.0 - t * (1.0 - t) * difference) * kVariance, 0.008 * kVariance)
+            << cycles << " " << level;
       }
-      left *= r;
     }
   }
 }

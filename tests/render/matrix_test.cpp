@@ -1,5 +1,6 @@
-// The matrix of the determinism contract: every scene file, five times each, on several thread
-// counts, SIMD targets and tile sizes, each picture against one made in another way.
+// The matrix of the determinism contract: every scene file, and a view from high up, five times
+// each, on several thread counts, SIMD targets and tile sizes, each picture against one made in
+// another way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,6 +33,7 @@ std::vector<fs::path> scene_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(fs::path(SWELL_SOURCE_DIR) / "scenes"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  files.push_back(fs::path(SWELL_SOURCE_DIR) / "tests/scenes/from_10km.toml");
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -23,7 +23,7 @@ scene::Scene sea_with_sun_ahead(bool box) {
   scene.sky.sun_elevation_rad = kPi / 12.0;
   scene.sky.sun_direction = {0.0f, 0.9659258f, 0.2588190f};
   if (box) {
-    scene.objects = {white_box({0.0, 30.0}, {8.0, 2.0, 6.5})};
+    scene.objects = {white_box({0.0, 30.0}, {8.0, 2.0, 5.5})};
     scene.objects[0].colour = glm::vec3(0.02f);
   }
   return scene;
@@ -57,11 +57,16 @@ float brightest(const std::vector<float>& linear, double far_m) {
 TEST(MirroredSun, IsHiddenByWhatStandsBeforeIt) {
   const std::vector<float> open = draw(sea_with_sun_ahead(false));
   const std::vector<float> hidden = draw(sea_with_sun_ahead(true));
-  // A ray from the water at far_m meets the box, which is 29 m away and 5.2 m high above the water,
+  // A ray from the water at far_m meets the box, which is 29 m away and 4.4 m high above the water,
   // kEye_m (29 - far_m) / far_m up.
   for (const double far_m : {16.0, 18.0, 21.0, 24.0}) {
     EXPECT_GT(brightest(open, far_m), 0.5f) << far_m;
     EXPECT_LT(brightest(hidden, far_m), 0.1f) << far_m;  // the sky is 0.08 bright
+  }
+  // Nearer water looks over the box, whose shadow ends at 12.6 m, and mirrors the whole sun.
+  for (const double far_m : {10.0, 11.0}) {
+    EXPECT_GT(brightest(hidden, far_m), 0.5f) << far_m;
+    EXPECT_EQ(brightest(hidden, far_m), brightest(open, far_m)) << far_m;
   }
 }
 

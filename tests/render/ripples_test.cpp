@@ -6,48 +6,26 @@
 #include <cmath>
 #include <vector>
 
-#include "render/frame.h"
-#include "render/workspace.h"
-#include "scene/scene.h"
+#include "render/drawn_water.h"
 
 namespace swell::render {
 namespace {
 
-// A flat mesh, so that waves show in the shading only.
-scene::Scene ripple_scene() {
-  scene::Scene scene;
-  scene.camera.eye_m = {0.0, 0.0, 4.0};
-  scene.camera.pitch_rad = scene::radians(-40.0);
-  scene.detail.triangulation = scene::Triangulation::kPlane;
-  scene.sea.resolution = 16;
-  return scene;
-}
-
-struct Drawn {
-  Workspace workspace;
-  Target target;
-  const Water& water() const { return workspace.state().shading.material<Water>(); }
-};
-
-void draw(const World& world, double t_s, Drawn& drawn) {
-  Workers workers(1);
-  const View view = scene::camera_view(world.scene().camera, t_s, 64, 48);
-  render_frame(world, view, t_s, {}, drawn.workspace, drawn.target, workers);
-}
+constexpr double kEye_m = 4.0;
 
 // ---- In a sea that loops
 
 scene::Scene looping_scene(double loop_s) {
-  scene::Scene scene = ripple_scene();
+  scene::Scene scene = shading_scene(kEye_m);
   scene.sea.loop_s = loop_s;
   return scene;
 }
 
 TEST(Ripples, LoopWithTheSea) {
-  const World like(ripple_scene());
+  const World like(shading_scene(kEye_m));
   for (const double loop_s : {1.0, 10.0, 7.25, 1200.0}) {
     const World world(looping_scene(loop_s), like, 1);
-    Drawn first, again;
+    DrawnWater first, again;
     draw(world, 0.125, first);
     for (const double loops : {1.0, 2.0, -1.0, 1e6}) {
       draw(world, 0.125 + loops * loop_s, again);
@@ -60,7 +38,7 @@ TEST(Ripples, LoopWithTheSea) {
 
 // How far a layer's map has drifted from the time 0 to t_s, in periods: the shorter way round.
 std::vector<glm::dvec2> drift_periods(const World& world, double t_s) {
-  Drawn before, after;
+  DrawnWater before, after;
   draw(world, 0.0, before);
   draw(world, t_s, after);
   std::vector<glm::dvec2> drift;
@@ -76,7 +54,7 @@ std::vector<glm::dvec2> drift_periods(const World& world, double t_s) {
 // Whole periods a loop, within half a period of what they would be; but a layer that would move by
 // less than that has one period.
 TEST(Ripples, DriftByTheNearestWholePeriodsOfALoop) {
-  const World free(ripple_scene());
+  const World free(shading_scene(kEye_m));
   for (const double loop_s : {1.0, 7.25, 20.0, 100.0}) {
     const World looping(looping_scene(loop_s), free, 1);
     const double part = 1.0 / 256.0;  // of a loop
@@ -109,10 +87,10 @@ double ripple_variance(const Water& water) {
 }
 
 double ripple_variance(double wind_mps) {
-  scene::Scene scene = ripple_scene();
+  scene::Scene scene = shading_scene(kEye_m);
   scene.sea.wind_speed_mps = wind_mps;
   const World world(scene);  // whose maps the drawn water refers to
-  Drawn drawn;
+  DrawnWater drawn;
   draw(world, 0.0, drawn);
   return ripple_variance(drawn.water());
 }
@@ -137,11 +115,11 @@ TEST(Ripples, GrowWithTheWind) {
 // Slopes of all sizes together have Cox and Munk's variance, within the scatter of their values.
 TEST(Ripples, MakeUpWhatTheWavesLeaveOfTheSeasSlopes) {
   for (const double wind : {1.0, 2.0, 5.0, 8.0, 11.0, 14.0}) {
-    scene::Scene scene = ripple_scene();
+    scene::Scene scene = shading_scene(kEye_m);
     scene.sea.wind_speed_mps = wind;
     scene.sea.resolution = 128;
     const World world(scene);
-    Drawn drawn;
+    DrawnWater drawn;
     draw(world, 0.0, drawn);
     double variance = ripple_variance(drawn.water());
     for (const ocean::PatchFrame& patch : drawn.workspace.state().sea.frame.patches)

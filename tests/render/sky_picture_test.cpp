@@ -15,6 +15,7 @@ namespace {
 using scene::radians;
 
 constexpr int kSize_px = 96;
+constexpr double kEye_m = 10.0;
 
 scene::Scene sky_scene(double elevation_deg, double cloud_cover) {
   scene::Scene scene;
@@ -31,7 +32,7 @@ struct SkyRenderer {
   explicit SkyRenderer(const scene::Scene& scene) : world(scene, 2) { options.keep_linear = true; }
 
   void draw(double pitch_deg, double fov_deg, double t_s = 0.0) {
-    view = make_view({0.0, 0.0, 10.0}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f, kSize_px,
+    view = make_view({0.0, 0.0, kEye_m}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f, kSize_px,
                      kSize_px);
     render_frame(world, view, t_s, options, workspace, target, workers);
   }
@@ -64,7 +65,8 @@ TEST(SkyPicture, ShowsTheModelsLight) {
     const scene::Scene scene = sky_scene(elevation_deg, 0.0);
     SkyRenderer sky(scene);
     Workers workers(1);
-    const scene::SkyLight light = scene::make_sky_light(scene.sky, workers);
+    const scene::SkyLight light =
+        sky_light_aloft(scene::make_sky_light(scene.sky, workers), kEye_m, workers);
     sky.draw(50.0, 80.0);
     const float exposure = sky.at(5, 60).y / clear_radiance(light, sky.direction(5, 60)).y;
     for_each_pixel([&](int x, int y) {

@@ -10,34 +10,19 @@
 
 #include "math/random.h"
 #include "math/simd_target.h"
+#include "render/drawn_water.h"
 #include "render/optics_kernels.h"
-#include "render/workspace.h"
 
 namespace swell::render {
 namespace {
 
 constexpr double kTime_s = 3.0;
 
-// A flat mesh, so that waves show in the shading only.
-scene::Scene shading_scene() {
-  scene::Scene scene;
-  scene.camera.eye_m = {0.0, 0.0, 12.0};
-  scene.camera.pitch_rad = scene::radians(-40.0);
-  scene.detail.triangulation = scene::Triangulation::kPlane;
-  scene.sea.resolution = 16;
-  return scene;
-}
+constexpr double kEye_m = 12.0;
 
-struct Drawn {
-  Workspace workspace;
-  Target target;
-};
-
-void draw(const scene::Scene& scene, const World& like, Drawn& drawn) {
-  const World world(scene, like, 1);
-  Workers workers(1);
-  const View view = scene::camera_view(scene.camera, kTime_s, 64, 48);
-  render_frame(world, view, kTime_s, {}, drawn.workspace, drawn.target, workers);
+// The scene's sea alone is made anew.
+void draw_like(const scene::Scene& scene, const World& like, DrawnWater& drawn) {
+  draw(World(scene, like, 1), kTime_s, drawn);
 }
 
 int different_pixels(const Target& a, const Target& b) {
@@ -47,48 +32,48 @@ int different_pixels(const Target& a, const Target& b) {
 }
 
 TEST(WaterLayers, EverySineIsShaded) {
-  scene::Scene scene = shading_scene();
+  scene::Scene scene = shading_scene(kEye_m);
   scene.sea.spectrum = false;
   for (std::size_t i = 0; i < ocean::kMaxSines; ++i)
     scene.sea.sines.push_back({.amplitude_m = 0.02,
                                .wavelength_m = 2.0 + 0.1 * static_cast<double>(i),
                                .to_rad = 0.09 * static_cast<double>(i)});
   const World like(scene);
-  Drawn whole, part;
-  draw(scene, like, whole);
+  DrawnWater whole, part;
+  draw_like(scene, like, whole);
   for (std::size_t i = 0; i < ocean::kMaxSines; ++i) {
     scene::Scene without = scene;
     without.sea.sines[i].amplitude_m = 0.0;
-    draw(without, like, part);
+    draw_like(without, like, part);
     EXPECT_GT(different_pixels(whole.target, part.target), 300) << "sine " << i;
   }
 }
 
 TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
-  scene::Scene scene = shading_scene();
+  scene::Scene scene = shading_scene(kEye_m);
   scene.sea.patch_lengths_m.clear();
-  const World like(shading_scene());
+  const World like(shading_scene(kEye_m));
   double length_m = 4000.0;
   for (std::size_t patches = 1; patches <= ocean::kMaxPatches; ++patches) {
     scene.sea.patch_lengths_m.push_back(length_m *= 0.4);
-    Drawn drawn;
-    draw(scene, like, drawn);
-    const Water& water = drawn.workspace.state().shading.material<Water>();
+    DrawnWater drawn;
+    draw_like(scene, like, drawn);
+    const Water& water = drawn.water();
     ASSERT_EQ(water.layer_count, static_cast<int>(patches) + 2);
     for (std::size_t i = 0; i < patches; ++i)
       EXPECT_EQ(water.layers[i].map, &drawn.workspace.state().sea.patch_slopes[i]);
 
     scene::Scene smooth = scene;
     smooth.water.bump_strength = 0.0;
-    Drawn without_ripples;
-    draw(smooth, like, without_ripples);
+    DrawnWater without_ripples;
+    draw_like(smooth, like, without_ripples);
     EXPECT_GT(different_pixels(drawn.target, without_ripples.target), 300) << patches;
   }
 }
 
 // Trains alone: nothing of the open sea's long waves is left.
 TEST(WaterLayers, RipplesStayNearTheShoreHoweverManyPatchesTheSeaHas) {
-  scene::Scene scene = shading_scene();
+  scene::Scene scene = shading_scene(kEye_m);
   scene.terrain.emplace();
   scene.terrain->coast_m = {{-400.0, -40.0}, {400.0, -40.0}};
   scene.terrain->beach_size_m = 800.0;
@@ -103,9 +88,9 @@ TEST(WaterLayers, RipplesStayNearTheShoreHoweverManyPatchesTheSeaHas) {
     if (patches > 0) with_ripples.sea.patch_lengths_m.resize(patches);
     scene::Scene without = with_ripples;
     without.water.bump_strength = 0.0;
-    Drawn a, b;
-    draw(with_ripples, like, a);
-    draw(without, like, b);
+    DrawnWater a, b;
+    draw_like(with_ripples, like, a);
+    draw_like(without, like, b);
     EXPECT_GT(different_pixels(a.target, b.target), 1000) << patches << " patches";
   }
 }
@@ -187,7 +172,7 @@ TEST_P(WaterShader, TrainsTakeTheSquareOfTheirShareOfTheVariance) {
 // Near a shore some packets lie among the trains, some across their edge and some at sea, each of
 // which takes its own way through the shader.
 scene::Scene shore_scene() {
-  scene::Scene scene = shading_scene();
+  scene::Scene scene = shading_scene(kEye_m);
   scene.sea.patch_lengths_m = {640.0, 97.0, 17.0};
   scene.terrain.emplace();
   scene.terrain->coast_m = {{-400.0, 0.0}, {400.0, 0.0}};
@@ -223,10 +208,10 @@ TEST_P(WaterShader, ShowsTheSameHoweverManyPacketsAreSideBySide) {
   for (const bool has_coast : {true, false}) {
     scene::Scene scene = shore_scene();
     if (!has_coast) scene.coast = {};
-    Drawn drawn;
+    DrawnWater drawn;
     const World like(scene);  // whose maps the drawn water refers to
-    draw(scene, like, drawn);
-    const Shading& shading = drawn.workspace.state().shading;
+    draw_like(scene, like, drawn);
+    const Shading& shading = drawn.shading();
     const Water& water = shading.material<Water>();
     ASSERT_EQ(water.has_coast, has_coast);
     std::vector<glm::vec3> p = scattered_runs(300);

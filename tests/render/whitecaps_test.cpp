@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/labelled_frame.h"
+#include "scene/sky.h"
 
 namespace swell::render {
 namespace {
@@ -54,6 +55,17 @@ double mean_drawn_cover(const World& world, double height_m, int frames) {
   }
   return sum / frames;
 }
+
+struct Moments {
+  double count = 0.0, sum = 0.0, squares = 0.0;
+  void add(double value) {
+    count += 1.0;
+    sum += value;
+    squares += value * value;
+  }
+  double mean() const { return sum / count; }
+  double deviation() const { return std::sqrt(squares / count - mean() * mean()); }
+};
 
 // OPT-16: within 35 % of the law.
 TEST(DrawnWhitecaps, CoverWhatTheWindSays) {
@@ -148,33 +160,78 @@ TEST(DrawnWhitecaps, CanBeLeftOut) {
   EXPECT_EQ(b.rgba, c.rgba);
 }
 
-// White foam in the sun is as bright as snow there, and no brighter.
-TEST(DrawnWhitecaps, AreAsBrightAsSnow) {
+// A gale with foam at this place.
+scene::Scene white_sea() {
   scene::Scene scene = open_sea(20.0);
-  scene.sea.tiling = false;  // there is foam at this place
+  scene.sea.tiling = false;
+  return scene;
+}
+
+// The light of pixels that foam hides all of, over that of level snow.
+Moments light_of_whole_foam(const scene::Scene& scene) {
   const World world(scene);
   Workers workers(2);
   Workspace workspace;
   Target target;
   FrameOptions options = with_foam_and_places();
   options.keep_linear = true;
-  int white = 0;
-  double sum = 0.0, snow = 0.0;
+  Moments light_over_snow;
   for (int n = 0; n < 8; ++n) {
     render_frame(world, from_above(60.0, 160), 30.0 + 5.0 * n, options, workspace, target, workers);
     const Light& light = workspace.state().shading.light;
-    snow =
+    const double snow =
         0.8 * static_cast<double>(light.ambient.y + light.sun_irradiance.y * light.sun_direction.z /
                                                         std::numbers::pi_v<float>);
-    for (std::size_t i = 0; i < target.labels.foam.size(); ++i) {
-      if (target.labels.foam[i] < 0.99f) continue;
-      sum += static_cast<double>(target.linear[3 * i + 1]);
-      ++white;
+    for (std::size_t i = 0; i < target.labels.foam.size(); ++i)
+      if (target.labels.foam[i] >= 0.99f)
+        light_over_snow.add(static_cast<double>(target.linear[3 * i + 1]) / snow);
+  }
+  return light_over_snow;
+}
+
+// White foam in the sun is as bright as snow there, and no brighter.
+TEST(DrawnWhitecaps, AreAsBrightAsSnow) {
+  const Moments light = light_of_whole_foam(white_sea());
+  ASSERT_GT(light.count, 50.0);
+  EXPECT_GT(light.mean(), 0.55);
+  EXPECT_LT(light.mean(), 1.1);
+}
+
+// Where foam hides all, lace and tears go on in it. After sunset, when slopes make no difference.
+TEST(DrawnWhitecaps, HaveDepthInside) {
+  scene::Scene scene = white_sea();
+  scene.sky.sun_elevation_rad = -0.05;
+  scene.sky.sun_direction =
+      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+  const Moments light = light_of_whole_foam(scene);
+  ASSERT_GT(light.count, 50.0);
+  EXPECT_GT(light.deviation() / light.mean(), 0.05);
+}
+
+// Water between and around foam is full of bubbles: brighter than the same water without.
+TEST(DrawnWhitecaps, LieInWaterThatIsBrighterForTheirBubbles) {
+  const World world(white_sea());
+  Workers workers(2);
+  Workspace workspace;
+  Target with, without;
+  FrameOptions options = with_foam_and_places();
+  options.keep_linear = true;
+  FrameOptions bare = options;
+  bare.without.add(Part::kWhitecaps);
+  int brighter = 0, darker = 0;
+  for (int n = 0; n < 8; ++n) {
+    const double t_s = 30.0 + 5.0 * n;
+    render_frame(world, from_above(20.0, 160), t_s, options, workspace, with, workers);
+    render_frame(world, from_above(20.0, 160), t_s, bare, workspace, without, workers);
+    for (std::size_t i = 0; i < with.labels.foam.size(); ++i) {
+      if (with.labels.foam[i] > 0.0f) continue;
+      const float change = with.linear[3 * i + 1] / without.linear[3 * i + 1];
+      brighter += change > 1.05f;
+      darker += change < 0.95f;
     }
   }
-  ASSERT_GT(white, 50);
-  EXPECT_GT(sum / white, 0.55 * snow);
-  EXPECT_LT(sum / white, 1.1 * snow);
+  EXPECT_GT(brighter, 100);
+  EXPECT_LT(darker, 0.02 * brighter);  // glints
 }
 
 }  // namespace

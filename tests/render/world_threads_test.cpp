@@ -15,7 +15,9 @@ TEST(World, HasTheSameMapsOnAnyNumberOfThreads) {
   for (const int threads : {2, 7}) {
     const World shared(scene, threads);
     const World::State& b = shared.state();
-    EXPECT_EQ(a.sky->clear.channels, b.sky->clear.channels);
+    ASSERT_EQ(a.sky->heights.size(), b.sky->heights.size());
+    for (std::size_t i = 0; i < a.sky->heights.size(); ++i)
+      EXPECT_EQ(a.sky->heights[i].map.channels, b.sky->heights[i].map.channels);
     EXPECT_EQ(a.sky->soft_clear, b.sky->soft_clear);
     EXPECT_EQ(a.sky->clouds.words, b.sky->clouds.words);
     EXPECT_EQ(a.sky->soft.words, b.sky->soft.words);

@@ -119,7 +119,7 @@ TEST(CheckScene, NamesWordsThatDoNotExist) {
   scene.coast.model = static_cast<CoastModel>(200);
   EXPECT_EQ(key_of_fault(scene), "coast.model");
   scene = {};
-  scene.objects.push_back({.kind = static_cast<ObjectKind>(7)});
+  scene.objects.push_back({.kind = static_cast<ObjectKind>(9)});
   EXPECT_EQ(key_of_fault(scene), "object[0].kind");
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "math/random.h"
 #include "scene/scene.h"
@@ -191,6 +192,42 @@ TEST(SceneTerrain, IsRefusedWithTheTextOfTheTerrainsFault) {
   EXPECT_FALSE(build_terrain(scene));
   scene.terrain = flat;
   EXPECT_EQ(scene_error_of([&] { build_terrain(scene); }), text);
+}
+
+// ---- In a sea that loops
+
+TEST(CoastLoop, TrainsAreAsTheyWereALoopAgo) {
+  Scene scene = beach_scene(3, 10.0);
+  scene.sea.loop_s = 31.5;
+  const Water water(scene);
+  Workers workers(1);
+  const auto heights_at = [&](double t_s) {
+    ocean::SeaFrame frame;
+    const WaterSurface surface = water.at(t_s, frame, workers);
+    std::vector<float> heights;
+    for (int i = 0; i < 200; ++i)
+      heights.push_back(surface.height(
+          {500.0 * random_uniform(3, 2 * i) - 250.0, 10.0 + 200.0 * random_uniform(3, 2 * i + 1)}));
+    return heights;
+  };
+  const std::vector<float> first = heights_at(4.125);
+  EXPECT_EQ(heights_at(4.125 + 31.5), first);
+  EXPECT_EQ(heights_at(4.125 - 315.0), first);
+  EXPECT_NE(heights_at(4.125 + 10.0), first);
+}
+
+// By whole periods: each within half of one of what it would be.
+TEST(CoastLoop, TrainsKeepTheirPeriodsAsNearlyAsTheLoopAllows) {
+  Scene scene = beach_scene(4, 10.0);
+  const std::vector<double> free_s = Water(scene).coast()->trains.period_s;
+  scene.sea.loop_s = 60.0;
+  const std::vector<double> looping_s = Water(scene).coast()->trains.period_s;
+  ASSERT_EQ(looping_s.size(), free_s.size());
+  for (std::size_t i = 0; i < free_s.size(); ++i) {
+    const double turns = 60.0 / looping_s[i];
+    EXPECT_NEAR(turns, std::round(turns), 1e-9) << i;
+    EXPECT_LE(std::abs(turns - 60.0 / free_s[i]), 0.5) << i;
+  }
 }
 
 }  // namespace

@@ -142,6 +142,109 @@ TEST(ObjectMesh, BoxAndSphereHaveTheirVolumes) {
   EXPECT_NEAR(ball / (kPi / 6.0), 0.984, 0.004);
 }
 
+TEST(ObjectPoses, AFixedObjectStandsUprightAtItsHeightWhateverTheWavesAre) {
+  FloatingObject pier = common_object(ObjectKind::kPier);
+  EXPECT_EQ(pier.motion, Motion::kFixed);
+  pier.position_m = {3.0, 4.0};
+  pier.height_m = 0.25;
+  pier.size_m = {0.5, 0.5, 7.0};
+  const Scene scene = one_sine(1.0, 60.0);
+  for (const double t_s : {0.0, 1.3, 2.9}) {
+    const ObjectPose pose = poses_at(scene, {&pier, 1}, t_s)[0];
+    EXPECT_EQ(pose.position_world, glm::dvec3(3.0, 4.0, 0.25));
+    EXPECT_EQ(pose.world_from_object[2], glm::dvec3(0.0, 0.0, 1.0));
+    // What mirrors it is the water, all the same.
+    EXPECT_NEAR(pose.water_m, std::sin(2.0 * kPi * (3.0 / 60.0 - t_s / 5.0)), 2e-3);
+  }
+}
+
+// A square of 40 m, gone round at 2 m/s by a boat of 4 m.
+TEST(ObjectPoses, OnAPathAnObjectGoesAtItsSpeedAndTurnsAsLongAsItIs) {
+  FloatingObject boat = box_at({1e5, 1e5}, 4.0);
+  boat.path_m = {{0, 0}, {0, 40}, {40, 40}, {40, 0}};
+  boat.speed_mps = 2.0;
+  const PlanPose start = plan_pose(boat, 10.0);
+  EXPECT_NEAR(glm::distance(start.position_m, glm::dvec2(0, 20)), 0.0, 1e-12);
+  EXPECT_NEAR(start.heading_rad, 0.0, 1e-12);
+  const PlanPose east = plan_pose(boat, 30.0);
+  EXPECT_NEAR(glm::distance(east.position_m, glm::dvec2(20, 40)), 0.0, 1e-12);
+  EXPECT_NEAR(east.heading_rad, 0.5 * kPi, 1e-12);
+  // At the corner bow and stern are each 2 m from it.
+  const PlanPose corner = plan_pose(boat, 20.0);
+  EXPECT_NEAR(glm::distance(corner.position_m, glm::dvec2(1, 39)), 0.0, 1e-12);
+  EXPECT_NEAR(corner.heading_rad, 0.25 * kPi, 1e-12);
+  // Round and round, backwards in time too.
+  for (const double t_s : {10.0, 33.0, 71.5}) {
+    for (const double rounds : {-3.0, 1.0, 250.0}) {
+      const PlanPose once = plan_pose(boat, t_s), again = plan_pose(boat, t_s + 80.0 * rounds);
+      EXPECT_NEAR(glm::distance(once.position_m, again.position_m), 0.0, 1e-9);
+      EXPECT_NEAR(std::remainder(once.heading_rad - again.heading_rad, 2.0 * kPi), 0.0, 1e-9);
+    }
+  }
+  double last_rad = plan_pose(boat, 0.0).heading_rad;
+  for (int i = 1; i <= 8000; ++i) {
+    const PlanPose now = plan_pose(boat, 0.01 * i), before = plan_pose(boat, 0.01 * (i - 1));
+    EXPECT_LT(glm::distance(now.position_m, before.position_m), 0.0201);
+    EXPECT_LT(std::abs(std::remainder(now.heading_rad - last_rad, 2.0 * kPi)), 0.02);
+    last_rad = now.heading_rad;
+  }
+  boat.path_closed = false;
+  EXPECT_EQ(plan_pose(boat, 61.0).position_m, plan_pose(boat, 1e6).position_m);
+  EXPECT_NEAR(glm::distance(plan_pose(boat, 1e6).position_m, glm::dvec2(40, 0)), 0.0, 1e-12);
+  EXPECT_NEAR(glm::distance(plan_pose(boat, -1e6).position_m, glm::dvec2(0, 0)), 0.0, 1e-12);
+}
+
+TEST(ObjectMesh, BoatsPiersLighthousesAndRocksFillTheirBoxes) {
+  for (const ObjectKind kind : {ObjectKind::kBoat, ObjectKind::kSailboat, ObjectKind::kPier,
+                                ObjectKind::kLighthouse, ObjectKind::kRock}) {
+    for (const int segments : {8, 24}) {
+      SCOPED_TRACE(kObjectKindNames[static_cast<std::size_t>(kind)]);
+      const ObjectMesh mesh = make_object_mesh(kind, TopMark::kCan, segments);
+      ASSERT_EQ(mesh.indices.size(), 3 * mesh.triangles.size());
+      EXPECT_LE(mesh.triangles.size(), 2048u);
+      glm::vec3 low(9.0f), high(-9.0f);
+      for (const glm::vec3& q : mesh.position) low = glm::min(low, q), high = glm::max(high, q);
+      const glm::vec3 wanted_low(-0.5f, -0.5f, 0.0f), wanted_high(0.5f, 0.5f, 1.0f);
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_GE(low[c], wanted_low[c] - 1e-5f);
+        EXPECT_LE(low[c], wanted_low[c] + 0.03f);
+        EXPECT_LE(high[c], wanted_high[c] + 1e-5f);
+        EXPECT_GE(high[c], wanted_high[c] - 0.03f);
+      }
+      for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+        const glm::vec3 a = corner(mesh, n, 0), b = corner(mesh, n, 1), c = corner(mesh, n, 2);
+        const glm::vec3 smooth = normal_at(mesh.triangles[n], (a + b + c) / 3.0f);
+        ASSERT_TRUE(std::isfinite(glm::dot(smooth, smooth)));
+        ASSERT_GT(glm::dot(mesh.triangles[n].flat_normal, smooth), 0.0f) << "triangle " << n;
+      }
+      // Each triangle is in one part.
+      std::uint32_t next = 0;
+      for (const MeshPart& part : mesh_parts(common_object(kind), mesh)) {
+        EXPECT_EQ(part.first_triangle, next);
+        next += part.triangles;
+      }
+      EXPECT_EQ(next, mesh.triangles.size());
+    }
+  }
+}
+
+// A boat's waterline is as long and as broad as its hull is there; a pier's are its posts'.
+TEST(ObjectMesh, PartsKnowWhereTheyCutTheWater) {
+  const auto parts_of = [](ObjectKind kind) {
+    return mesh_parts(common_object(kind), make_object_mesh(kind, TopMark::kCan, 24));
+  };
+  const auto boat = parts_of(ObjectKind::kBoat);
+  ASSERT_EQ(boat.size(), 1u);
+  EXPECT_GT(boat[0].half.x, 0.25f);
+  EXPECT_LT(boat[0].half.x, 0.48f);
+  EXPECT_NEAR(boat[0].middle.x, 0.0f, 1e-3f);
+  const auto pier = parts_of(ObjectKind::kPier);
+  ASSERT_EQ(pier.size(), 19u);
+  EXPECT_EQ(pier[0].half, glm::vec2(0.0f)) << "the deck";
+  for (std::size_t i = 1; i < pier.size(); ++i)
+    EXPECT_NEAR(pier[i].half.x * common_object(ObjectKind::kPier).size_m.x, 0.16, 1e-4);
+}
+
 TEST(ObjectMesh, EveryShapeFitsItsBoxAndItsNormalsPointOut) {
   for (const ObjectKind kind : {ObjectKind::kBuoy, ObjectKind::kSphere, ObjectKind::kBox}) {
     for (const TopMark mark : {TopMark::kCan, TopMark::kCone, TopMark::kSphere}) {

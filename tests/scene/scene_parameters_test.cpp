@@ -128,11 +128,12 @@ std::string value_text(const Parameter<Object>& parameter, Dice& dice, bool insi
       return integer_text(parameter, dice, inside);
     case ParameterKind::kBoolean:
       return inside ? (dice.below(2) ? "true" : "false") : (dice.below(2) ? "1" : "\"true\"");
-    case ParameterKind::kChoice:
-      return inside ? fmt::format(
-                          "\"{}\"",
-                          parameter.choices[dice.below(static_cast<int>(parameter.choices.size()))])
-                    : "\"other\"";
+    case ParameterKind::kChoice: {
+      if (!inside) return "\"other\"";
+      auto choices = parameter.choices;
+      if (choices.back() == "mesh") choices = choices.first(choices.size() - 1);  // takes a file
+      return fmt::format("\"{}\"", choices[dice.below(static_cast<int>(choices.size()))]);
+    }
     case ParameterKind::kText:
       return inside ? fmt::format("\"{}\"", std::string(dice.below(201), 'x'))
                     : fmt::format("\"{}\"", std::string(201, 'x'));

@@ -36,6 +36,17 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(colour);
   SWELL_COMPARE(name);
   SWELL_COMPARE(label);
+  SWELL_COMPARE(motion);
+  SWELL_COMPARE(height_m);
+  SWELL_COMPARE(path_m);
+  SWELL_COMPARE(speed_mps);
+  SWELL_COMPARE(path_closed);
+  SWELL_COMPARE(roughness);
+  SWELL_COMPARE(metalness);
+  SWELL_COMPARE(file);
+  SWELL_COMPARE(up);
+  SWELL_COMPARE(scale);
+  SWELL_COMPARE(at_file_origin);
 }
 
 void compare_waypoints(const Waypoint& a, const Waypoint& b, std::string& list) {
@@ -114,6 +125,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sea.fetch_km);
   SWELL_COMPARE(sea.gamma);
   SWELL_COMPARE(sea.amplitude_scale);
+  SWELL_COMPARE(sea.choppiness);
   SWELL_COMPARE(sea.gravity_mps2);
   SWELL_COMPARE(sea.loop_s);
   SWELL_COMPARE(sea.whitecaps);

@@ -1,4 +1,4 @@
-// The variance that mip levels lose, where it is known.
+// The variance that bilinear samples of mip levels lack, where it is known.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,13 @@ double amplitude_left(int cycles, int level) {
   return left;
 }
 
-TEST_P(LostVariance, OfASineIsWhatTheFilterTakesOfItsAmplitude) {
+// The part of a wave's mean square that straight lines between the texels of a level leave: (2 +
+// cos) / 3 of its phase step.
+double variance_left_between(int cycles, int level) {
+  return (2.0 + std::cos(2.0 * std::numbers::pi * cycles * std::exp2(level) / kSize)) / 3.0;
+}
+
+TEST_P(LostVariance, OfASineIsWhatTheFilterAndStraightLinesTakeOfIt) {
   for (const auto& [x, y] : {std::pair{1, 0}, {0, 3}, {5, 2}, {16, 0}, {21, 21}, {0, 50}}) {
     const PackedMap2 map = sine_map(x, y, 0.3, -0.2);
     const double whole = 0.5 * (0.3 * 0.3 + 0.2 * 0.2);
@@ -55,17 +61,20 @@ TEST_P(LostVariance, OfASineIsWhatTheFilterTakesOfItsAmplitude) {
     // the same phase.
     for (int level = 0; (std::max(x, y) << level) < kSize; ++level) {
       const double left = amplitude_left(x, level) * amplitude_left(y, level);
-      EXPECT_NEAR(map.lost_variance[level], whole * (1.0 - left * left), 2e-6 * whole + 1e-8)
+      const double between = variance_left_between(x, level) * variance_left_between(y, level);
+      EXPECT_NEAR(map.lost_variance[level], whole * (1.0 - left * left * between),
+                  2e-6 * whole + 1e-8)
           << x << " " << y << " level " << level;
     }
   }
 }
 
-// Four texels a wave: level 1 keeps half of the amplitude, level 2 nothing.
-TEST_P(LostVariance, OfAWaveOfFourTexelsIsThreeQuartersThenAll) {
+// Four texels a wave: level 1 keeps half of the amplitude, level 2 nothing; between texels two
+// thirds of the square are left, then a third.
+TEST_P(LostVariance, OfAWaveOfFourTexelsIsAThirdThenNearlyAll) {
   const PackedMap2 map = sine_map(kSize / 4, 0, 1.0, 0.0);
-  EXPECT_EQ(map.lost_variance[0], 0.0f);
-  EXPECT_NEAR(map.lost_variance[1], 0.5 * 0.75, 1e-6);
+  EXPECT_NEAR(map.lost_variance[0], 0.5 / 3.0, 1e-6);
+  EXPECT_NEAR(map.lost_variance[1], 0.5 * (1.0 - 0.25 / 3.0), 1e-6);
   for (int level = 2; level < map.levels; ++level)
     EXPECT_NEAR(map.lost_variance[level], 0.5, 1e-6) << level;
 }
@@ -91,14 +100,16 @@ TEST_P(LostVariance, OfASumOfWavesIsTheSumOfWhatTheyLose) {
         << level;
 }
 
-// White noise: a 3 x 3 tent keeps (1 + 4 + 1)^2 / 16^2 of the variance, and all but the mean is
-// lost in the end.
+// White noise: between texels 2/3 of the variance are left along each axis. A tent keeps 6/16, of
+// which neighbours two texels apart share a sixth: 4 1/3 of 16 are left between them. All but the
+// mean is lost in the end.
 TEST_P(LostVariance, OfWhiteNoiseIsThatOfTheFiltersWeights) {
   const auto a = random_floats(1 << 20, -1.0, 1.0, 31), b = random_floats(1 << 20, -1.0, 1.0, 32);
   PackedMap2 map;
   pack_map2(1 << 10, a, b, 0.0f, map);
   constexpr double kWhole = 2.0 / 3.0;  // two channels of 2^2 / 12
-  EXPECT_NEAR(map.lost_variance[1], kWhole * (1.0 - 36.0 / 256.0), 2e-3 * kWhole);
+  EXPECT_NEAR(map.lost_variance[0], kWhole * (1.0 - 4.0 / 9.0), 2e-3 * kWhole);
+  EXPECT_NEAR(map.lost_variance[1], kWhole * (1.0 - std::pow(13.0 / 48.0, 2.0)), 2e-3 * kWhole);
   EXPECT_NEAR(map.lost_variance.back(), kWhole, 2e-3 * kWhole);
   for (int level = 1; level < map.levels; ++level)
     EXPECT_GE(map.lost_variance[level], map.lost_variance[level - 1]);

@@ -1,5 +1,4 @@
 // What write_file() replaces, keeps and leaves behind.
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -7,19 +6,13 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
 #include <functional>
 
 #include "refused_calls.h"
-#include "texture/image_io.h"
+#include "texture/image_files.h"
 
 namespace swell::texture {
 namespace {
-
-namespace fs = std::filesystem;
-using Bytes = std::vector<std::uint8_t>;
-
-Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
 std::string content(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -47,6 +40,83 @@ int in_child(const std::function<void()>& work) {
   EXPECT_EQ(waitpid(child, &status, 0), child);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
+
+// ---- In one way
+
+using WriteFile = Files;
+
+TEST_F(WriteFile, WritesAndReplaces) {
+  const fs::path path = folder / "a.bin";
+  write_file(path, bytes_of("first"));
+  EXPECT_EQ(content(path), "first");
+  write_file(path, bytes_of("second, longer"));
+  EXPECT_EQ(content(path), "second, longer");
+  write_file(path, {});
+  EXPECT_EQ(content(path), "");
+  EXPECT_EQ(file_count(), 1u);
+  write_file(folder / std::string(250, 'n'), bytes_of("a long name"));
+  EXPECT_EQ(file_count(), 2u);
+}
+
+TEST_F(WriteFile, FollowsALinkToItsFile) {
+  const fs::path file = put("file", bytes_of("old"));
+  fs::create_symlink(file, folder / "link");
+  write_file(folder / "link", bytes_of("new"));
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(content(file), "new");
+}
+
+void expect_write_fails(const fs::path& path) {
+  try {
+    write_file(path, bytes_of("content"));
+    ADD_FAILURE() << path << " was written";
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(path.string(), 0), 0u) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+}
+
+TEST_F(WriteFile, PlacesThatCannotBeWrittenAreRefused) {
+  put("file", bytes_of("old"));
+  fs::create_directory(folder / "folder");
+  fs::create_symlink(folder / "loop", folder / "loop");
+  const std::size_t before = file_count();
+  expect_write_fails(folder / "missing" / "a.png");
+  expect_write_fails(folder / "file" / "a.png");  // below a file
+  expect_write_fails(folder / "folder");
+  expect_write_fails(folder / std::string(300, 'x'));
+  expect_write_fails(folder / "loop");
+  expect_write_fails("/proc/swell.png");
+  expect_write_fails("/dev/null");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(file_count(), before);
+  EXPECT_TRUE(fs::is_empty(folder / "folder"));
+  EXPECT_EQ(content(folder / "file"), "old");
+}
+
+TEST_F(WriteFile, FullDiskLeavesTheOldFileAndNoOther) {
+  const fs::path path = put("a.bin", bytes_of("old"));
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(3);
+    try {
+      write_file(path, Bytes(5000, 'x'));
+    } catch (const FileError&) {
+      _exit(7);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_EQ(content(path), "old");
+  EXPECT_EQ(file_count(), 1u);
+}
+
+// ---- In all ways
 
 // The ways to a whole file: without a name until it is done, as far as the system lets us.
 struct Way {

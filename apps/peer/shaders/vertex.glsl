@@ -5,7 +5,9 @@ layout(location = 0) in vec3 p_rel;  // relative to the eye [m]
 layout(location = 1) in float waterline_rel_m;
 layout(location = 2) in vec3 normal;
 layout(location = 3) in vec3 albedo;
+layout(location = 4) in vec3 finish;  // roughness, metalness, translucency
 out vec3 v_normal, v_albedo;
+out vec3 v_finish;
 out float v_level;
 #else
 layout(location = 0) in vec2 offset;  // relative to the eye [m]
@@ -31,6 +33,7 @@ void main() {
   float level = waterline_rel_m, above_m = p.z - level;
   v_normal = normal;
   v_albedo = albedo;
+  v_finish = finish;
   v_level = level;
 #else
   vec3 p = vec3(offset, height_m + level_rel_m);

@@ -129,11 +129,12 @@ void main() {
   float share = clamp(2.0 - 1.25 * inv_wave_reach * point.distance_m, 0.0, 1.0);
   float crest = clamp(share * (p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
   float towards_sun = max(-dot(to_eye.xy, sun_direction.xy), 0.0);
-  vec3 refracted = body + crest_glow * (crest * crest * (towards_sun + 0.35));
+  vec3 crest_light = crest_glow * (crest * crest * (towards_sun + 0.35));
+  vec3 refracted = body + crest_light;
   vec3 floor_added = vec3(0.0);
 #ifdef LOOKUPS
   vec4 floor_seen = look_up(refraction, s.slope, to_eye.z, -0.5);
-  floor_added = floor_seen.a * (floor_seen.rgb - refracted);
+  floor_added = floor_seen.a * (floor_seen.rgb + crest_light - refracted);
   refracted += floor_added;
 #endif
   vec3 sea_light = mirrored_sea + mirrored_floor_part * floor_added;

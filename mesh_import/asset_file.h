@@ -1,0 +1,41 @@
+// The one door to the Open Asset Import Library: a mesh file as loose triangles.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scene/flat_mesh.h"
+#include "scene/objects.h"
+
+namespace swell::mesh_import {
+
+// Why a file is refused; one line.
+class Refused : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// A picture on triangles: a file's path, or what the mesh file holds of it.
+struct TextureSource {
+  std::filesystem::path path;
+  std::vector<char> bytes;              // of an image file, if there is no path
+  std::uint32_t width = 0, height = 0;  // of raw texels, if there is neither
+  std::vector<std::uint32_t> texels;
+};
+
+// Three vertices a triangle. Axes as of an object: right, ahead, up.
+struct LooseMesh {
+  std::vector<scene::FlatVertex> corners;
+  std::vector<bool> has_normals;        // of each triangle
+  std::vector<std::uint32_t> material;  // the same
+  std::vector<scene::FlatMaterial> materials;
+  std::vector<TextureSource> textures;
+};
+
+// Reads an OBJ, glTF, GLB, STL or COLLADA file with the files that it names in its folder or below.
+// Throws Refused.
+LooseMesh read_asset(const std::filesystem::path& file, scene::UpAxis up);
+
+}  // namespace swell::mesh_import

@@ -1,0 +1,69 @@
+// The map of the clear sky and of the air below the eye (SkyAloft).
+#if defined(SWELL_RENDER_TILE_SKY_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_SKY_MAP_INL_H_
+#undef SWELL_RENDER_TILE_SKY_MAP_INL_H_
+#else
+#define SWELL_RENDER_TILE_SKY_MAP_INL_H_
+#endif
+
+#include "render/tile/packet-inl.h"
+#include "texture/smooth_image-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// The column of a direction of length 1.
+HWY_INLINE V SkyColumn(const Light& light, V3 direction) {
+  const V across2 = hn::MulAdd(direction.x, direction.x, hn::Mul(direction.y, direction.y));
+  const V along = hn::MulAdd(direction.x, Constant(light.sky_azimuth.x),
+                             hn::Mul(direction.y, Constant(light.sky_azimuth.y)));
+  const V cosine = hn::Div(along, hn::Sqrt(hn::Max(across2, Constant(1e-12f))));
+  const V half_sine2 = hn::NegMulAdd(cosine, Constant(0.5f), Constant(0.5f));
+  const V half_sine = hn::Sqrt(Clamp(half_sine2, 0.0f, 1.0f));
+  return hn::Mul(hn::Sqrt(half_sine), Constant(kSkyColumns - 1.0f));
+}
+
+// The root of 1 - r, where r = tan(zenith angle / 2) for the cosine `part` in [0, 1]: 0 at the
+// horizon, 1 at the end.
+HWY_INLINE V FromHorizon(V part) {
+  const V one = Constant(1.0f), zero = hn::Zero(D());
+  const V r = hn::Sqrt(hn::Div(hn::Sub(one, part), hn::Add(one, part)));
+  return hn::Sqrt(hn::Max(hn::Sub(one, r), zero));
+}
+
+HWY_INLINE V3 SampleSky(const Light& light, V column, V row) {
+  V3 radiance;
+  texture::HWY_NAMESPACE::SampleSmooth(D(), *light.sky_map, column, row, radiance.x, radiance.y,
+                                       radiance.z);
+  return radiance;
+}
+
+// The clear sky's radiance in a direction of length 1; below the horizon, that of the horizon.
+HWY_INLINE V3 ClearSky(const Light& light, V3 direction) {
+  const float scale = 1.0f / (1.0f - light.horizon_sine);
+  const V part = Clamp(hn::Mul(hn::Sub(direction.z, Constant(light.horizon_sine)), Constant(scale)),
+                       0.0f, 1.0f);
+  const V row =
+      hn::NegMulAdd(FromHorizon(part), Constant(kSkyRows - 1.0f), Constant(kSkyRows - 1.0f));
+  return SampleSky(light, SkyColumn(light, direction), row);
+}
+
+// `part` of the way from the horizon to straight down, of a direction of length 1.
+HWY_INLINE V PartDown(const Light& light, V z) {
+  const float scale = 1.0f / (1.0f + light.horizon_sine);
+  return Clamp(hn::Mul(hn::Sub(Constant(light.horizon_sine), z), Constant(scale)), 0.0f, 1.0f);
+}
+
+// What air below the eye shows where nothing is seen through it.
+HWY_INLINE V3 AirBelow(const Light& light, V3 direction, V part_down) {
+  const V row =
+      hn::MulAdd(FromHorizon(part_down), Constant(kAirRows - 1.0f), Constant(1.0f * kSkyRows));
+  return SampleSky(light, SkyColumn(light, direction), row);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

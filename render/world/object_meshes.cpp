@@ -1,0 +1,77 @@
+// The shapes of a world's objects.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "render/world/world_state.h"
+#include "scene/parameters.h"
+#include "scene/scene_error.h"
+
+namespace swell::render {
+namespace {
+
+constexpr int kNearSegments = 24, kFarSegments = 8;
+
+ObjectShape built_in(const scene::FloatingObject& object) {
+  scene::MeshOfFile shape;
+  for (const int segments : {kNearSegments, kFarSegments})
+    shape.levels.push_back(scene::make_object_mesh(object.kind, object.top_mark, segments));
+  return std::make_shared<const scene::MeshOfFile>(std::move(shape));
+}
+
+bool same_shape(const scene::FloatingObject& a, const scene::FloatingObject& b) {
+  return a.kind == b.kind && a.top_mark == b.top_mark && a.file == b.file && a.up == b.up;
+}
+
+// Of the first of these objects that has the same shape; null: of none.
+ObjectShape find_shape(const scene::FloatingObject& object,
+                       std::span<const scene::FloatingObject> others,
+                       const std::vector<ObjectShape>& shapes) {
+  for (std::size_t i = 0; i < std::min(others.size(), shapes.size()); ++i)
+    if (same_shape(object, others[i])) return shapes[i];
+  return nullptr;
+}
+
+[[noreturn]] void fail(const scene::Scene& scene, std::size_t n, const std::string& fault) {
+  const scene::FloatingObject& object = scene.objects[n];
+  const std::string& place = object.file_place.empty() ? scene.name : object.file_place;
+  const bool says_what_is_allowed = fault.find("allowed") != std::string::npos;
+  throw scene::SceneError(scene::one_line(
+      fmt::format("{}: object[{}].file, got {}{}", place.empty() ? "scene" : place, n, fault,
+                  says_what_is_allowed ? "" : ", allowed a readable mesh file")));
+}
+
+ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {
+  const scene::FloatingObject& object = scene.objects[n];
+  if (object.kind != scene::ObjectKind::kMesh) return built_in(object);
+  try {
+    return std::make_shared<const scene::MeshOfFile>(scene::load_mesh(object.file, object.up));
+  } catch (const std::runtime_error& error) {
+    fail(scene, n, error.what());
+  }
+}
+
+}  // namespace
+
+ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like) {
+  ObjectMeshes result;
+  for (std::size_t n = 0; n < scene.objects.size(); ++n) {
+    scene::FloatingObject& object = scene.objects[n];
+    ObjectShape shape = find_shape(object, scene.objects, result.of_object);
+    if (!shape && like) shape = find_shape(object, like->scene.objects, like->objects.of_object);
+    if (!shape) shape = shape_of(scene, n);
+    if (object.kind == scene::ObjectKind::kMesh) {
+      try {
+        scene::fit_object(*shape, object);
+      } catch (const std::runtime_error& error) {
+        fail(scene, n, error.what());
+      }
+    }
+    result.parts.push_back(scene::mesh_parts(object, shape->levels.front()));
+    result.of_object.push_back(std::move(shape));
+  }
+  return result;
+}
+
+}  // namespace swell::render

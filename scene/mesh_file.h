@@ -1,0 +1,26 @@
+// The mesh of a file, ready to be drawn.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/object_mesh.h"
+
+namespace swell::scene {
+
+struct MeshOfFile {
+  std::vector<ObjectMesh> levels;  // finest first
+  // The corners of its box in units of the file: right, ahead, up.
+  glm::dvec3 low{0.0}, high{0.0};
+};
+
+// Reads the file in another process (scene/run_importer.h). Throws std::runtime_error in one line
+// that begins with what was found. A million triangles take 3 s.
+MeshOfFile load_mesh(const std::string& file, UpAxis up);
+
+// Gives an object of kind kMesh its file's size, draught and middle. Throws std::runtime_error if
+// it is larger or smaller than objects may be.
+void fit_object(const MeshOfFile& mesh, FloatingObject& object);
+
+}  // namespace swell::scene

@@ -1,0 +1,115 @@
+// Broken files: the importer may refuse or fail, the program that asked goes on.
+//
+// SWELL_MESH_MUTATIONS=10000 tries as many as that of each format; 60 unless it is given.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "math/random.h"
+#include "mesh_import/mesh_files.h"
+#include "scene/mesh_file.h"
+
+namespace swell::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+int mutations() {
+  const char* const asked = std::getenv("SWELL_MESH_MUTATIONS");
+  return asked ? std::atoi(asked) : 60;
+}
+
+using Bytes = std::vector<char>;
+
+Bytes bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Bytes changed, cut out, doubled or cut off.
+Bytes mutated(Bytes bytes, std::uint64_t number) {
+  constexpr std::array<std::string_view, 2> kLarge = {"99999999999", "\xff\xff\xff\x7f"};
+  std::uint64_t next = 0;
+  const auto below = [&](std::size_t count) {
+    const double part = random_uniform(1000 + number, next++);
+    return static_cast<std::size_t>(part * static_cast<double>(count));
+  };
+  const std::size_t changes = 1 + below(8);
+  for (std::size_t i = 0; i < changes && !bytes.empty(); ++i) {
+    const std::size_t at = below(bytes.size());
+    const std::size_t length = std::min(1 + below(24), bytes.size() - at);
+    const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto to = from + static_cast<std::ptrdiff_t>(length);
+    switch (below(6)) {
+      case 0:
+        bytes.erase(from, to);
+        break;
+      case 1: {
+        const Bytes piece(from, to);
+        bytes.insert(from, piece.begin(), piece.end());
+        break;
+      }
+      case 2:
+        bytes.resize(at);
+        break;
+      case 3: {
+        const std::string_view large = kLarge[number % 2];
+        bytes.insert(bytes.erase(from, to), large.begin(), large.end());
+        break;
+      }
+      default:
+        bytes[at] = static_cast<char>(below(256));
+        break;
+    }
+  }
+  return bytes;
+}
+
+// Either a mesh whose numbers are in their ranges, or one line.
+void expect_sane(const fs::path& file, int& read) {
+  try {
+    const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+    ++read;
+    for (const ObjectMesh& level : mesh.levels) {
+      ASSERT_FALSE(level.triangles.empty());
+      for (const std::uint32_t index : level.indices) ASSERT_LT(index, level.position.size());
+      for (const glm::vec3& q : level.position)
+        ASSERT_TRUE(std::abs(q.x) < 0.51f && std::abs(q.y) < 0.51f && q.z > -0.01f && q.z < 1.01f);
+    }
+  } catch (const std::runtime_error& error) {
+    const std::string fault = error.what();
+    EXPECT_FALSE(fault.empty());
+    EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+  }
+}
+
+TEST(MeshMutation, BrokenFilesAreReadOrRefused) {
+  const fs::path folder = mesh_folder("mutation");
+  const glm::vec3 colour(0.2f, 0.3f, 0.4f);
+  int read = 0, tried = 0;
+  for (const fs::path& file :
+       write_all_formats(folder, box_triangles({-1, -2, -3}, {3, 2, 1}), &colour)) {
+    const Bytes whole = bytes_of(file);
+    const fs::path broken = folder / ("broken" + file.extension().string());
+    for (int i = 0; i < mutations(); ++i, ++tried) {
+      SCOPED_TRACE(file.extension().string() + " " + std::to_string(i));
+      const Bytes bytes = mutated(whole, static_cast<std::uint64_t>(i));
+      std::ofstream(broken, std::ios::binary)
+          .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      expect_sane(broken, read);
+    }
+  }
+  // Neither all nor none are read: files are broken, and not beyond all use.
+  EXPECT_GT(read, tried / 20);
+  EXPECT_LT(read, tried);
+}
+
+}  // namespace
+}  // namespace swell::scene

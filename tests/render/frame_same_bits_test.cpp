@@ -1,0 +1,195 @@
+// Frames have the same bits however they are made: by any threads, SIMD target and tiles, alone or
+// in a sequence, and a loop apart.
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include "math/simd_target.h"
+#include "render/drawn_frames.h"
+
+namespace swell::render {
+namespace {
+
+class SameBits : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
+                         testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys",
+                                         "harbour"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(SameBits, ThreadCountChangesNoPixel) {
+  const World& world = world_of(GetParam());
+  const Picture reference = draw(world, 2.0, 1);
+  for (const int threads : {2, 3, 7})
+    EXPECT_EQ(difference(draw(world, 2.0, threads).target, reference.target), "") << threads;
+}
+
+TEST_P(SameBits, SimdTargetChangesNoPixel) {
+  if (!simd_target_available(SimdTarget::kAvx512)) GTEST_SKIP() << "this CPU has no AVX-512";
+  const World& world = world_of(GetParam());
+  select_simd_target(SimdTarget::kAvx512);
+  const Picture wide = draw(world, 2.0);
+  select_simd_target(SimdTarget::kAvx2);
+  const Picture narrow = draw(world, 2.0);
+  EXPECT_EQ(difference(wide.target, narrow.target), "");
+  const World narrow_world = load_world(GetParam());  // its maps made on AVX2, too
+  EXPECT_EQ(difference(draw(narrow_world, 2.0).target, wide.target), "");
+  select_simd_target(SimdTarget::kAvx512);
+}
+
+TEST_P(SameBits, TileSizeChangesNoPixel) {
+  const World& world = world_of(GetParam());
+  FrameOptions options = few_triangles();
+  const Picture reference = draw(world, 2.0, 2, options);
+  for (const int tile : {16, 32}) {
+    options.tile_size_px = tile;
+    EXPECT_EQ(difference(draw(world, 2.0, 2, options).target, reference.target), "") << tile;
+  }
+}
+
+// Where the maps of a coast end, what a packet skips depends on its other pixels.
+TEST(FrameBits, PacketsOfAnyPixelsShowTheSameRimOfACoast) {
+  const World& world = world_of("beach");
+  const View view = make_view({590.0, 250.0, 8.0}, 0.2, -0.12, 0.9, 0.25f, kWidth, kHeight);
+  const auto draw_in = [&](int tile) {
+    FrameOptions options = few_triangles();
+    options.tile_size_px = tile;
+    Workers workers(2);
+    Workspace workspace;
+    Target target;
+    render_frame(world, view, 3.0, options, workspace, target, workers);
+    return target;
+  };
+  const Target reference = draw_in(64);
+  EXPECT_EQ(difference(draw_in(16), reference), "");
+  select_simd_target(SimdTarget::kAvx2);
+  EXPECT_EQ(difference(draw_in(32), reference), "");
+  if (simd_target_available(SimdTarget::kAvx512)) select_simd_target(SimdTarget::kAvx512);
+}
+
+TEST_P(SameBits, FrameAloneEqualsFrameInSequence) {
+  const World& world = world_of(GetParam());
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  for (const int k : {0, 1, 2, 3, 4, 5, 40, 7, 50}) {
+    const double t_s = k / 25.0;
+    render_frame(world, view_of(world, t_s), t_s, few_triangles(), workspace, target, workers);
+  }
+  EXPECT_EQ(difference(draw(world, 2.0).target, target), "");
+}
+
+TEST_P(SameBits, WorkspaceOfAnotherSizeAndSceneLeavesNoTrace) {
+  const World &world = world_of(GetParam()), &other = world_of("lagoon");
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options = few_triangles();
+  options.tile_size_px = 32;
+  options.lookup_scale = 1.0;
+  render_frame(other, view_of(other, 1.0, 333, 77), 1.0, options, workspace, target, workers);
+  render_frame(world, view_of(world, 2.0), 2.0, few_triangles(), workspace, target, workers);
+  EXPECT_EQ(difference(draw(world, 2.0).target, target), "");
+}
+
+// A still camera, whose mesh is not written anew: but for another triangulation or more storage.
+TEST(FrameBits, OtherTriangulationsInBetweenLeaveNoTrace) {
+  scene::Scene radial_scene = load_world("open_ocean").scene();
+  radial_scene.detail.triangulation = scene::Triangulation::kRadial;
+  const World &roam = world_of("open_ocean"), radial(radial_scene);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const auto frame = [&](const World& world, int capacity) {
+    FrameOptions options = few_triangles();
+    options.triangle_capacity = capacity;
+    render_frame(world, view_of(world, 2.0), 2.0, options, workspace, target, workers);
+  };
+  const Target alone = draw(roam, 2.0).target;
+  for (const int capacity : {0, 0, 9000}) {
+    frame(roam, capacity);
+    EXPECT_EQ(difference(alone, target), "") << capacity;
+  }
+  frame(radial, 9000);
+  EXPECT_NE(difference(alone, target), "");
+  frame(roam, 9000);
+  EXPECT_EQ(difference(alone, target), "");
+}
+
+TEST(FrameBits, StorageForMoreTrianglesChangesNoPixel) {
+  const World world = load_world("lagoon");
+  FrameOptions roomy = few_triangles();
+  roomy.triangle_capacity = 50000;
+  EXPECT_EQ(difference(draw(world, 2.0, 2, roomy).target, draw(world, 2.0).target), "");
+}
+
+// Constant frame time: a cut to another place is worked off over some frames.
+TEST(FrameBits, BoundedTriangulationReachesThePictureOfOneWithoutBounds) {
+  const World& world = world_of("lagoon");
+  FrameOptions unbounded = few_triangles();
+  unbounded.terrain_triangles = 3000;
+  const Target alone = draw(world, 2.0, 2, unbounded).target;
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const auto frame = [&](const FrameOptions& options, glm::dvec3 moved_m) {
+    View view = view_of(world, 2.0);
+    view.eye_world += moved_m;
+    return render_frame(world, view, 2.0, options, workspace, target, workers);
+  };
+  // The number of frames until nothing is left to do, whatever the group of priorities.
+  const auto frames_to_settle = [&](const FrameOptions& options) {
+    int frames = 0;
+    for (int settled = 0; settled < options.lod_groups && frames < 1000; ++frames)
+      settled = frame(options, {}).lod_stopped ? 0 : settled + 1;
+    return frames;
+  };
+
+  FrameOptions by_work = unbounded, by_time = unbounded;
+  by_work.lod_operations = 1000;
+  const FrameStatistics first = frame(by_work, {});
+  EXPECT_TRUE(first.lod_stopped);
+  EXPECT_EQ(first.splits, 2 * 1000) << "sea and land";
+  EXPECT_NE(difference(alone, target), "");
+  EXPECT_GT(frames_to_settle(by_work), 1);
+  EXPECT_EQ(difference(alone, target), "");
+
+  by_time.lod_ms = 1e-3;  // over before it begins
+  by_time.lod_groups = 3;
+  frame(unbounded, {4.0, -3.0, 0.5});
+  EXPECT_GT(frames_to_settle(by_time), 5);
+  EXPECT_EQ(difference(alone, target), "");
+}
+
+TEST(FrameBits, CallersFloatEnvironmentChangesNoPixel) {
+  const World& world = world_of("lagoon");
+  const Picture reference = draw(world, 2.0);
+  const unsigned saved = _mm_getcsr();
+  _mm_setcsr(saved | 0x8040u);  // flush to zero, denormals are zero
+  const Picture flushed = draw(world, 2.0);
+  _mm_setcsr(saved);
+  EXPECT_EQ(difference(flushed.target, reference.target), "");
+}
+
+TEST(FrameBits, AWorldMadeLikeAnotherDrawsTheSamePicture) {
+  const World beach = load_world("beach");
+  scene::Scene other_wind = beach.scene(), other_all = load_world("open_ocean").scene();
+  other_wind.sea.wind_speed_mps = 6.0;
+  other_all.sea.seed += 1;
+  for (const scene::Scene& scene : {other_wind, other_all}) {
+    const World like(scene, beach, 1);
+    EXPECT_EQ(difference(draw(like, 2.0).target, draw(World(scene), 2.0).target), "");
+  }
+}
+
+// All that moves: waves, ripples, foam, surf, clouds, and what floats.
+TEST_P(SameBits, ALoopEndsAsItBegan) {
+  scene::Scene scene = world_of(GetParam()).scene();
+  scene.sea.loop_s = 12.5;
+  const World world(scene, world_of(GetParam()), 2);
+  const Target first = draw(world, 1.75).target;
+  EXPECT_EQ(difference(draw(world, 1.75 + 12.5).target, first), "");
+  EXPECT_EQ(difference(draw(world, 1.75 - 25.0).target, first), "");
+  EXPECT_NE(difference(draw(world, 1.75 + 6.0).target, first), "");
+}
+
+}  // namespace
+}  // namespace swell::render
