@@ -11,9 +11,13 @@ namespace {
 
 constexpr glm::dvec3 kWavelength_nm{650.0, 550.0, 450.0};
 
+glm::dvec3 each(glm::dvec3 x, double (*function)(double)) {
+  return {function(x.x), function(x.y), function(x.z)};
+}
+
 glm::dvec3 scattering_of_pure_water() {
   glm::dvec3 b;
-  for (int c = 0; c < 3; ++c) b[c] = 0.005826 * std::pow(400.0 / kWavelength_nm[c], 4.322);
+  for (int c = 0; c < 3; ++c) b[c] = 0.005826 * pow(400.0 / kWavelength_nm[c], 4.322);
   return b;
 }
 
@@ -64,7 +68,7 @@ glm::dvec3 colour_of_deep_water(const InherentOptics& water) {
 glm::dvec3 diffuse_attenuation(const InherentOptics& water, double sun_zenith_rad) {
   const glm::dvec3 a = water.absorption;
   const double sun = 1.0 + 0.005 * sun_zenith_rad * (180.0 / kPi);
-  return sun * a + 4.18 * (1.0 - 0.52 * glm::exp(-10.8 * a)) * backscattering(water);
+  return sun * a + 4.18 * (1.0 - 0.52 * each(-10.8 * a, exp)) * backscattering(water);
 }
 
 glm::dvec3 picture_attenuation(const InherentOptics& water) {
@@ -75,10 +79,10 @@ double secchi_depth_m(const InherentOptics& water) {
   const glm::dvec3 attenuation = diffuse_attenuation(water, kPi / 6.0);
   const glm::dvec3 reflectance = remote_sensing_reflectance(water);
   // The clearest wavelength lies between the three: a parabola through their logarithms.
-  const glm::dvec3 logs = glm::log(attenuation);
+  const glm::dvec3 logs = each(attenuation, log);
   const double least = std::clamp(vertex(logs), -1.0, 1.0);
-  return std::log(std::abs(0.14 - parabola(reflectance, least)) / 0.013) /
-         (2.5 * std::exp(parabola(logs, least)));
+  return log(std::abs(0.14 - parabola(reflectance, least)) / 0.013) /
+         (2.5 * exp(parabola(logs, least)));
 }
 
 }  // namespace swell::scene

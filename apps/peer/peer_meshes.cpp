@@ -39,6 +39,16 @@ void PeerMesh::take(const render::Surface& surface) {
   set_indices(surface.mesh.indices.data(), surface.mesh.indices.size());
 }
 
+// The peer draws no pictures on meshes: each is its mean colour.
+static glm::vec3 mean_of_texture(const scene::ObjectTriangle& triangle,
+                                 const scene::ObjectMesh& mesh) {
+  if (mesh.textured.empty()) return glm::vec3(1.0f);
+  const auto number = static_cast<std::size_t>(&triangle - mesh.triangles.data());
+  const std::int32_t texture = mesh.textured[number].texture;
+  if (texture < 0) return glm::vec3(1.0f);
+  return texture::sample((*mesh.textures)[static_cast<std::size_t>(texture)], 0.5f, 0.5f, 1e9f);
+}
+
 void PeerMesh::take(const render::ObjectGeometry& objects) {
   const std::size_t corners = objects.indices.size();
   std::vector<glm::vec3> place, normal, albedo;
@@ -56,7 +66,8 @@ void PeerMesh::take(const render::ObjectGeometry& objects) {
                         triangle.normal_along_z * glm::dot(q, object.up);
     place.push_back(p);
     normal.push_back(n.x * object.right + n.y * object.ahead + n.z * object.up);
-    albedo.push_back(triangle.painted ? triangle.tint * object.colour : triangle.tint);
+    albedo.push_back((triangle.painted ? triangle.tint * object.colour : triangle.tint) *
+                     mean_of_texture(triangle, *object.mesh));
     const glm::vec2 own(triangle.roughness, triangle.metalness);
     const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
     finish.emplace_back(its, triangle.translucency);

@@ -60,6 +60,15 @@ glm::dvec2 drift_m(const ocean::SeaDescription& sea, double period_m, double t_s
          (period_m * (ocean::wave_time_s(sea, t_s) / sea.loop_s));
 }
 
+// Clouds are as smooth as straight lines between texels: what these lack is not lost.
+SlopeLayer make_cloud_layer(const texture::PackedMap2& map, double period_m, float gain,
+                            glm::dvec2 eye, glm::dvec2 moved_m) {
+  SlopeLayer layer = make_layer(map, period_m, gain, eye, moved_m);
+  const float between_texels = layer.lost_variance[0];
+  for (float& lost : layer.lost_variance) lost -= between_texels;
+  return layer;
+}
+
 }  // namespace
 
 CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, float cover) {
@@ -127,8 +136,8 @@ Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSe
   const texture::PackedMap2& map = world.sky->clouds;
   float variance = 0.0f;
   for (std::size_t i = 0; i < Clouds::kLayers; ++i) {
-    clouds.layers[i] = make_layer(map, kPeriods_m[i], kGains[i], glm::dvec2(eye),
-                                  drift_m(scene.sea, kPeriods_m[i], t_s));
+    clouds.layers[i] = make_cloud_layer(map, kPeriods_m[i], kGains[i], glm::dvec2(eye),
+                                        drift_m(scene.sea, kPeriods_m[i], t_s));
     variance += kGains[i] * kGains[i] * world.sky->cloud_variance;
   }
   clouds.inv_deviation = 1.0f / std::sqrt(std::max(variance, 1e-8f));

@@ -23,7 +23,12 @@ namespace fs = std::filesystem;
 
 int mutations() {
   const char* const asked = std::getenv("SWELL_MESH_MUTATIONS");
-  return asked ? std::atoi(asked) : 60;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr int kFew = 15;  // checked builds are slow
+#else
+  constexpr int kFew = 60;
+#endif
+  return asked ? std::atoi(asked) : kFew;
 }
 
 using Bytes = std::vector<char>;

@@ -137,7 +137,7 @@ struct NextPlaces {
 
 class MotionOfScene : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, MotionOfScene,
-                         testing::Values("lagoon", "beach", "buoys", "harbour", "open_ocean"),
+                         testing::Values("lagoon", "beach", "buoys", "open_ocean"),
                          [](const auto& test) { return std::string(test.param); });
 
 // Places of depth from the picture itself: it is the move that is judged here.

@@ -100,6 +100,12 @@ std::optional<std::string> tame_value(std::string_view key, Dice& dice) {
   // On the largest island 16 trains need 100 m.
   if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
   if (key.ends_with("_triangles")) return fmt::format("{}", 2 + dice.below(4000));
+  if (key == "kind") {  // meshes need a file
+    const auto kinds = scene::kObjectKindNames;
+    const std::string_view kind =
+        kinds[static_cast<std::size_t>(dice.below(static_cast<int>(kinds.size())))];
+    return fmt::format("\"{}\"", kind == "mesh" ? "box" : kind);
+  }
   if (key == "camera.mount") return "\"\"";  // the test of mounted cameras has some
   if (key == "camera.mount_offset_m") return "[0, 0, 0]";
   if (key == "camera.quaternion") {
