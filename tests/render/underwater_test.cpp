@@ -45,7 +45,7 @@ struct Drawing {
                      double t_s = 3.0, int threads = 2) {
     Workers workers(threads);
     options.keep_linear = true;
-    if (options.water_triangles == 0) options.water_triangles = 3000;
+    if (options.water_triangles == 0) options.water_triangles = options.terrain_triangles = 1500;
     render_frame(world, view, t_s, options, workspace, target, workers);
     return target;
   }
@@ -137,7 +137,7 @@ TEST(UnderWater, AnEyeThatDivesSeesSomethingAllTheWay) {
     for (int i = 0; i < 60; ++i) {
       const double z = 2.0 - 6.0 * i / 59.0;
       const Target& target =
-          drawing.draw(world, view_from({0.0, -600.0, z}, 0.1, 1.0, 64, 36), {}, 10.0 + 0.02 * i);
+          drawing.draw(world, view_from({0.0, -600.0, z}, 0.1, 1.0, 48, 27), {}, 10.0 + 0.02 * i);
       double sum = 0.0;
       float least = 1e9f;
       for (const float light : target.linear) {
