@@ -216,6 +216,8 @@ Rows water_rows() {
       SceneRow::number("water.uv_noise_amplitude_m", {0, 10, "m"},
                        SWELL_FIELD(water.uv_noise_amplitude),
                        "how far noise moves the layers' coordinates"),
+      SceneRow::number("water.caustics", {0, 1}, SWELL_FIELD(water.caustics),
+                       "contrast of the light that waves gather under water"),
       SceneRow::integer("detail.water_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},

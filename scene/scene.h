@@ -56,6 +56,7 @@ struct WaterOptics {
   double lookup_scale = 0.5;         // size of reflection and refraction images against the window
   double bump_strength = 1.0;        // of the two scrolling layers
   double uv_noise_amplitude = 0.35;  // of the Perlin perturbation of their coordinates, in metres
+  double caustics = 1.0;             // contrast of the sun's light under water, [0, 1]
 };
 
 // How waves near a coast know the floor and the shore. Needs a terrain.

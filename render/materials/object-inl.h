@@ -6,6 +6,7 @@
 #define SWELL_RENDER_MATERIALS_OBJECT_INL_H_
 #endif
 
+#include "render/materials/caustics-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
 #include "render/tile/attenuate-inl.h"
@@ -210,7 +211,9 @@ struct Shader<Object, kView> {
                                const Packet& packet) const {
     const ObjectPacket objects = ObjectsAt(s, lanes);
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
-    const V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
+    V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
+    if constexpr (kView == ViewKind::kRefraction)
+      sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, FootprintAcross(s.rays, packet)));
     const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};
     return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),

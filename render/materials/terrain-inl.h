@@ -6,6 +6,7 @@
 #define SWELL_RENDER_MATERIALS_TERRAIN_INL_H_
 #endif
 
+#include "render/materials/caustics-inl.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/ground-inl.h"
@@ -185,7 +186,9 @@ struct Shader<Terrain, kView> {
                              const Packet& packet) const {
     const V level_m = GroundLevel(s.rays, packet);
     constexpr bool kDetail = kView == ViewKind::kWindow;
-    const V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
+    V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
+    if constexpr (kView == ViewKind::kRefraction)
+      sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, level_m));
     const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
       if (s.media.submerged) return Surfel{ground.light, ground.normal};

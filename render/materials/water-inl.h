@@ -439,8 +439,7 @@ struct WaterShader {
       foam.cover = hn::Max(foam.cover, hulls.foam_cover);
       // Fresh, and so thick.
       const auto splashed = hn::Gt(hulls.foam_cover, hn::Zero(D()));
-      const V thick = hn::MulAdd(hulls.foam_cover, Constant(0.6f), Constant(0.4f));
-      foam.thickness = hn::Max(foam.thickness, hn::IfThenElseZero(splashed, thick));
+      foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
     }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
     V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "raster/pass.h"
+#include "render/materials/caustics.h"
 #include "render/materials/light.h"
 #include "render/materials/list.h"
 #include "render/tile/sun_shadow.h"
@@ -30,6 +31,7 @@ struct Shading {
   Light light;
   Media media;
   SunShadow sun_shadow;
+  Caustics caustics;
   float exposure = 1.0f;
   PrimitiveRanges primitives;
   Materials materials;

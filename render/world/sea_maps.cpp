@@ -69,13 +69,17 @@ void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps
   if (without.has(Part::kTiling)) leave_out_tiles(sea);
   const bool has_coast = world.coast != nullptr;
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
-  // Pack the maps that shading looks into: the foam's, the waves', the noise's, the coast's.
+  const std::size_t caustics = trace_caustics(world, sea.frame, without, sea.caustics, run);
+  // Make the maps that shading looks into: the caustics, the foam's, the waves', the noise's, the
+  // coast's.
   const std::size_t foams = has_foam ? sea.whitecaps.patches.size() : 0;
   const std::size_t patches = sea.frame.patches.size(), noise = foams + patches;
   sea.foam.resize(foams);
   sea.foam_values.resize(foams);
   sea.patch_slopes.resize(patches);
-  run.for_each(noise + (has_coast ? 3 : 1), [&](std::size_t i, int) {
+  run.for_each(caustics + noise + (has_coast ? 3 : 1), [&](std::size_t job, int) {
+    if (job < caustics) return make_caustic_map(sea.caustics, job);
+    const std::size_t i = job - caustics;
     if (i < foams)
       pack_foam(sea.whitecaps.patches[i], sea.whitecaps.past, sea.foam_values[i], sea.foam[i]);
     else if (i < noise)

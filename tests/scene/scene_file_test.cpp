@@ -95,6 +95,7 @@ distortion = 0.1
 lookup_scale = 1
 bump_strength = 2
 uv_noise_amplitude_m = 0.5
+caustics = 0.75
 [coast]
 model = "trains"
 trains = 7
@@ -170,6 +171,7 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.water.lookup_scale, 1.0);
   EXPECT_EQ(scene.water.bump_strength, 2.0);
   EXPECT_EQ(scene.water.uv_noise_amplitude, 0.5);
+  EXPECT_EQ(scene.water.caustics, 0.75);
   EXPECT_EQ(scene.coast.model, CoastModel::kTrains);
   EXPECT_EQ(scene.coast.trains, 7);
   EXPECT_FALSE(scene.coast.eikonal);

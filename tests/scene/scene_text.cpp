@@ -144,6 +144,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(water.lookup_scale);
   SWELL_COMPARE(water.bump_strength);
   SWELL_COMPARE(water.uv_noise_amplitude);
+  SWELL_COMPARE(water.caustics);
   SWELL_COMPARE(coast.model);
   SWELL_COMPARE(coast.trains);
   SWELL_COMPARE(coast.eikonal);

@@ -1,0 +1,100 @@
+// The light that waves gather on what lies under water.
+#if defined(SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_
+#undef SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "render/materials/caustics.h"
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Levels of the maps at which the pattern begins to fade to its mean, and is gone.
+constexpr float kFirstCausticLost = 2.0f, kAllCausticLost = 4.0f;
+
+// How much a depth has of the k-th map: from one depth to the next the weights go over to the next
+// map. Above the first depth the contrast rises as that of a weak lens does, below the last one it
+// falls.
+HWY_INLINE V CausticWeight(const Caustics& caustics, std::size_t k, V depth) {
+  const auto& at = caustics.depth_m;
+  const float before = k > 0 ? at[k - 1] : 0.0f;
+  const V rising = hn::Mul(hn::Sub(depth, Constant(before)), Constant(1.0f / (at[k] - before)));
+  const V falling = k + 1 < at.size() ? hn::Mul(hn::Sub(Constant(at[k + 1]), depth),
+                                                Constant(1.0f / (at[k + 1] - at[k])))
+                                      : hn::Div(Constant(at[k]), hn::Max(depth, Constant(at[k])));
+  return Clamp(hn::Min(rising, falling), 0.0f, 1.0f);
+}
+
+// Where a packet lies in a patch's maps.
+struct CausticPlace {
+  VI x_fx8, y_fx8, base;
+  V to_next;  // from level `base`
+  V shown;    // of the pattern, in [0, 1]
+  bool fine;  // level 0 alone, in all lanes
+};
+
+HWY_INLINE CausticPlace PlaceInCaustics(const CausticPatch& patch, V x, V y, V level_m) {
+  const LayerPlace place = PlaceIn(patch, x, y);
+  const V level = Clamp(hn::Add(level_m, Constant(patch.log2_texels_per_m)), 0.0f, kAllCausticLost);
+  const VI base = TruncateToInt(level);
+  const V shown = hn::Mul(hn::Sub(Constant(kAllCausticLost), level),
+                          Constant(1.0f / (kAllCausticLost - kFirstCausticLost)));
+  return {RoundToInt(place.x_fx8),
+          RoundToInt(place.y_fx8),
+          base,
+          hn::Sub(level, hn::ConvertTo(D(), base)),
+          hn::Min(shown, Constant(1.0f)),
+          hn::AllFalse(D(), hn::Gt(level, hn::Zero(D())))};
+}
+
+// Intensity by one map.
+HWY_INLINE V SampleCaustic(const texture::PackedMap1& map, const CausticPlace& at) {
+  namespace maps = texture::HWY_NAMESPACE;
+  V code = maps::SampleLevel(D(), map, at.x_fx8, at.y_fx8, at.base);
+  if (!at.fine) {
+    const VI last = hn::Set(DI(), map.levels - 1);
+    const VI next = hn::Min(hn::Add(at.base, hn::Set(DI(), 1)), last);
+    code = Lerp(code, maps::SampleLevel(D(), map, at.x_fx8, at.y_fx8, next), at.to_next);
+  }
+  const V more = hn::MulAdd(code, Constant(0.5f * CausticMaps::kRange),
+                            Constant(0.5f * CausticMaps::kRange - 1.0f));
+  return hn::MulAdd(more, at.shown, Constant(1.0f));
+}
+
+// The sun's light on points p under the water's level, relative to the eye, against what flat water
+// would let through: 1 above the level, and where it is too deep or too far away to see a pattern.
+inline HWY_NOINLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
+  const D d;
+  const Caustics& caustics = s.caustics;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  const V depth = hn::Max(hn::Sub(Constant(-s.rays.eye_z), p.z), zero);
+  if (caustics.patches == 0 || hn::AllFalse(d, hn::Gt(depth, zero))) return one;
+  const V x = hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x);
+  const V y = hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y);
+  std::array<CausticPlace, CausticMaps::kMostPatches> places;
+  for (std::size_t i = 0; i < caustics.patches; ++i)
+    places[i] = PlaceInCaustics(caustics.patch[i], x, y, level_m);
+  V more = zero;
+  for (std::size_t k = 0; k < CausticMaps::kDepths; ++k) {
+    const V weight = CausticWeight(caustics, k, depth);
+    if (hn::AllFalse(d, hn::Gt(weight, zero))) continue;
+    V intensity = one;
+    for (std::size_t i = 0; i < caustics.patches; ++i)
+      if (!hn::AllFalse(d, hn::Gt(places[i].shown, zero)))
+        intensity = hn::Mul(intensity, SampleCaustic(*caustics.patch[i].map[k], places[i]));
+    more = hn::MulAdd(hn::Sub(intensity, one), weight, more);
+  }
+  return hn::MulAdd(more, Constant(caustics.strength), one);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

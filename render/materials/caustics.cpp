@@ -1,0 +1,28 @@
+#include "render/materials/caustics.h"
+
+#include "math/elementary.h"
+#include "render/materials/slope_layer.h"
+
+namespace swell::render {
+
+Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
+  const CausticMaps& maps = in.sea.caustics;
+  Caustics caustics;
+  caustics.patches = maps.patches;
+  caustics.depth_m = maps.depth_m;
+  caustics.strength = static_cast<float>(in.world.scene.water.caustics);
+  for (std::size_t p = 0; p < maps.patches; ++p) {
+    CausticPatch& patch = caustics.patch[p];
+    for (std::size_t k = 0; k < CausticMaps::kDepths; ++k)
+      patch.map[k] = &maps.map[p * CausticMaps::kDepths + k];
+    const double size = patch.map[0]->size, length_m = maps.length_m[p];
+    patch.texels_fx8_per_m = static_cast<float>(256.0 * size / length_m);
+    // The values lie half a texel before the points of the waves.
+    patch.x_eye_fx8 = static_cast<float>(256.0 * size) * fraction(eye.x / length_m) + 128.0f;
+    patch.y_eye_fx8 = static_cast<float>(256.0 * size) * fraction(eye.y / length_m) + 128.0f;
+    patch.log2_texels_per_m = static_cast<float>(log(size / length_m) * 1.4426950408889634);
+  }
+  return caustics;
+}
+
+}  // namespace swell::render

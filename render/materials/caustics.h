@@ -1,0 +1,28 @@
+// Caustics, as shaders look them up (caustics-inl.h): the frame's maps laid under the sea.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "render/materials/inputs.h"
+
+namespace swell::render {
+
+// The maps of one wave patch.
+struct CausticPatch {
+  std::array<const texture::PackedMap1*, CausticMaps::kDepths> map{};
+  float texels_fx8_per_m = 1.0f;             // 1/256 texels of level 0
+  float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // under the eye
+  float log2_texels_per_m = 0.0f;
+};
+
+struct Caustics {
+  std::size_t patches = 0;  // 0: none
+  std::array<CausticPatch, CausticMaps::kMostPatches> patch;
+  std::array<float, CausticMaps::kDepths> depth_m{};
+  float strength = 1.0f;  // of the contrast
+};
+
+Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye);
+
+}  // namespace swell::render
