@@ -212,7 +212,7 @@ struct Shader<Object, kView> {
     const ObjectPacket objects = ObjectsAt(s, lanes);
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
     V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
-    if constexpr (kView == ViewKind::kRefraction)
+    if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, FootprintAcross(s.rays, packet)));
     const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};

@@ -187,7 +187,7 @@ struct Shader<Terrain, kView> {
     const V level_m = GroundLevel(s.rays, packet);
     constexpr bool kDetail = kView == ViewKind::kWindow;
     V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
-    if constexpr (kView == ViewKind::kRefraction)
+    if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, level_m));
     const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
