@@ -137,8 +137,10 @@ void add_random_tables(std::string_view table_key, const std::vector<Parameter<O
                        Dice& dice, std::string& text) {
   for (int n = dice.below(3); n > 0; --n) {
     text += fmt::format("[[{}]]\n", table_key);
-    for (const auto& parameter : parameters)
-      text += fmt::format("{} = {}\n", parameter.key, random_value(parameter, dice));
+    for (const auto& parameter : parameters) {
+      const std::optional<std::string> tame = tame_value(parameter.key, dice);
+      text += fmt::format("{} = {}\n", parameter.key, tame ? *tame : random_value(parameter, dice));
+    }
   }
 }
 
