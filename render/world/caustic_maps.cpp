@@ -25,9 +25,8 @@ double lit_depth_m(const World::State& world) {
 }
 
 bool shows_caustics(const World::State& world, PartSet without) {
-  return !without.has(Part::kCaustics) && !without.has(Part::kRefraction) &&
-         world.scene.water.caustics > 0.0 && world.sky->to_light.z > kLowestLight &&
-         world.sky->irradiance != glm::vec3(0.0f);
+  return !without.has(Part::kCaustics) && world.scene.water.caustics > 0.0 &&
+         world.sky->to_light.z > kLowestLight && world.sky->irradiance != glm::vec3(0.0f);
 }
 
 // The disc of sun or moon, and the ripples: waves too short for patches focus close under the
