@@ -25,6 +25,11 @@ HWY_NOINLINE static WaterSlopes SampleUnderside(const Water& water, const ViewRa
                          : SampleWater<false>(water, rays, packets, one)[0];
 }
 
+HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+
 // How a ray in water, which goes up along -to_eye, leaves the surface.
 struct FromBelow {
   V3 normal;    // up
@@ -183,27 +188,48 @@ HWY_INLINE V3 AddFoamFromBelow(const Shading& s, V cover, V sun_visible, V3 ligh
   return Lerp(light, white, hn::Mul(cover, Constant(0.85f)));
 }
 
+// Behind so much water the surface is not seen: what is left of its light is less than a step of
+// the picture.
+HWY_INLINE hn::Mask<D> LostInWater(const Media& media, const Packet& packet) {
+  const glm::vec3 c = media.absorption_per_m;
+  const float least = std::min({c.x, c.y, c.z});
+  return hn::Gt(hn::Mul(packet.distance, Constant(least)), Constant(9.0f));
+}
+
 struct UndersideShader {
   const Water& water;
 
   HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes&,
                                const Packet& packet) const {
+    const D d;
+    const V zero = hn::Zero(d), one = Constant(1.0f);
+    const auto lost = LostInWater(s.media, packet);
+    const Surfel nothing = {{zero, zero, zero}, {zero, zero, one}};
+    if (hn::AllTrue(d, lost)) return nothing;
     const V3 ray = Scale(packet.to_eye, Constant(-1.0f));
     Packet turned = packet;
     turned.to_eye = ray;
     const WaterSlopes slopes = SampleUnderside(water, s.rays, turned);
     const FromBelow f = LeaveWater(s.media, ray, slopes);
 
-    const V sun_visible = SunVisible(s, tile, packet);
-    V mirrored_alpha, bent_alpha;
+    // Most of the surface mirrors all light: the air is looked for where some comes through.
+    const auto mirrors = hn::Ge(f.reflectance, one);
+    V mirrored_alpha, bent_alpha = zero;
     const V3 mirrored =
         LightFromWater(s, water, packet, f, tile.lookups.reflection, mirrored_alpha);
-    const V3 bent = LightFromAir(s, water, packet, f, tile.lookups.refraction, bent_alpha);
+    V3 seen = mirrored;
+    if (!hn::AllTrue(d, mirrors)) {
+      const V3 bent = LightFromAir(s, water, packet, f, tile.lookups.refraction, bent_alpha);
+      seen = Where(mirrors, mirrored, Lerp(bent, mirrored, f.reflectance));
+      bent_alpha = hn::IfThenZeroElse(mirrors, bent_alpha);
+    }
+    const V sun_visible = SunVisible(s, tile, packet);
     const V sun = SunThrough(s.light.sun_direction, s.media.refraction_index, ray, slopes, f);
-    V3 seen = Lerp(bent, mirrored, f.reflectance);
     seen = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(sun, sun_visible), seen);
     seen = AddFoamFromBelow(s, slopes.foam_cover, sun_visible, seen);
-    return {seen, f.normal, slopes.foam_cover, FlagsOf(mirrored_alpha, bent_alpha)};
+    return {Where(lost, nothing.light, seen), Where(lost, nothing.normal, f.normal),
+            hn::IfThenZeroElse(lost, slopes.foam_cover),
+            hn::IfThenZeroElse(lost, FlagsOf(mirrored_alpha, bent_alpha))};
   }
 };
 
