@@ -361,10 +361,10 @@ View Viewer::next_view(double dt_s) {
   report_.camera = pose_.value_or(pose_of_scene(camera, on_path));
   if (!pose_ && is_idle(input)) return on_path;
 
-  // Moved by hand, the eye stays above the waves and the land.
+  // Moved by hand, the eye stays above the ground.
   pose_ = fly(report_.camera, input, dt_s);
   glm::dvec3& eye_m = pose_->eye_m;
-  eye_m.z = std::max(eye_m.z, eye_floor_m(*world_, eye_m, clock_.t_s, sea_, workers_));
+  eye_m.z = std::max(eye_m.z, eye_floor_m(*world_, eye_m));
   report_.camera = *pose_;
   return scene::camera_view(camera_at(*pose_, camera), clock_.t_s, size.width_px, size.height_px);
 }

@@ -116,7 +116,7 @@ class Viewer {
   glm::dvec2 look_px_{0.0};           // mouse motion not yet used
   std::optional<glm::vec2> pointer_;  // over the window, in its own units
   std::optional<CameraPose> pose_;    // none: the scene's camera
-  ocean::SeaFrame sea_;               // of the waves that carry the eye, or that it stays above
+  ocean::SeaFrame sea_;               // of the waves that carry the eye
   PanelSettings panel_;
   PanelReport report_;
   std::optional<render::Label> named_label_;  // in the title

@@ -16,9 +16,11 @@ void for_pixels(const raster::PixelBox& box, int width_px, const Visit& visit) {
     }
 }
 
-// Half as bright in the middle of the line, as before from two pixels on.
+constexpr float kMeniscus_px = 2.0f;
+
+// Half as bright in the middle of the line, as before from kMeniscus_px on.
 float light_left(float rows_away) {
-  const float t = std::clamp(0.5f * rows_away, 0.0f, 1.0f);
+  const float t = std::clamp(rows_away / kMeniscus_px, 0.0f, 1.0f);
   return 0.45f + 0.55f * t * t * (3.0f - 2.0f * t);
 }
 
@@ -60,14 +62,22 @@ void put_back_dry(const Crossing& line, const raster::PixelBox& box, int tile_si
   });
 }
 
+// By the line's cells, whatever tiles they lie in.
 void draw_meniscus(const Crossing& line, const raster::PixelBox& box, Target& target) {
-  for_pixels(box, target.width_px, [&](std::size_t at, std::size_t, int x_px, int y_px) {
-    const float left = light_left(line.rows_away(x_px, y_px));
-    if (left >= 1.0f) return;
-    target.rgba[at] = dimmed(target.rgba[at], left);
-    if (!target.linear.empty())
-      for (std::size_t c = 0; c < 3; ++c) target.linear[3 * at + c] *= left;
-  });
+  constexpr int kCell = Crossing::kStep_px;
+  for (int y0 = box.y0_px; y0 < box.y0_px + box.height_px; y0 += kCell)
+    for (int x0 = box.x0_px; x0 < box.x0_px + box.width_px; x0 += kCell) {
+      if (line.least_rows_away(x0, y0) >= kMeniscus_px) continue;
+      const raster::PixelBox cell{x0, y0, std::min(kCell, box.x0_px + box.width_px - x0),
+                                  std::min(kCell, box.y0_px + box.height_px - y0)};
+      for_pixels(cell, target.width_px, [&](std::size_t at, std::size_t, int x_px, int y_px) {
+        const float left = light_left(line.rows_away(x_px, y_px));
+        if (left >= 1.0f) return;
+        target.rgba[at] = dimmed(target.rgba[at], left);
+        if (!target.linear.empty())
+          for (std::size_t c = 0; c < 3; ++c) target.linear[3 * at + c] *= left;
+      });
+    }
 }
 
 }  // namespace swell::render

@@ -29,7 +29,8 @@ void keep_tile(const raster::PixelBox& box, const Target& target, CrossedScratch
 void put_back_dry(const Crossing& line, const raster::PixelBox& box, int tile_size_px,
                   const CrossedScratch& scratch, Target& target, ShadedLabels* labels);
 
-// Darkens a band of two pixels along the line: water that creeps up the glass before the eye.
+// Darkens two pixels on either side of the line: water that creeps up the glass before the eye. For
+// all tiles, whether the line crosses them or not.
 void draw_meniscus(const Crossing& line, const raster::PixelBox& box, Target& target);
 
 }  // namespace swell::render

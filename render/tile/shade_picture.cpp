@@ -66,7 +66,6 @@ int shade_sides(const PictureInputs& in, int tile, Begins begins, ThreadScratch&
   const int shaded = shade_wet();
   put_back_dry(in.wet->line, box, in.visibility.grid.tile_size_px, *scratch.crossed, target,
                labels_shading ? &scratch.labels : nullptr);
-  if (in.wet->meniscus) draw_meniscus(in.wet->line, box, target);
   return shaded;
 }
 
@@ -83,6 +82,9 @@ void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int
     find_edges(in.meshes.objects, in.window, visibility, tile, memory.edges, in.edges);
     const Begins begins = begins_in(in, tile);
     shaded[index] = shade_sides(in, tile, begins, memory, target);
+    if (in.wet && in.wet->meniscus)
+      draw_meniscus(in.wet->line, raster::tile_box(in.window.viewport(), visibility.grid, tile),
+                    target);
     if (in.labels) label_tile(in, tile, begins, memory, target.labels);
     if (in.wireframe && visibility.covered[tile] > 0) draw_wireframe(in, tile, target);
   });

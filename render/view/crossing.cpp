@@ -130,18 +130,28 @@ float Crossing::above(int x_px, int y_px) const {
   return top + down * (bottom - top);
 }
 
-float Crossing::rows_away(int x_px, int y_px) const {
-  const int column = x_px / kStep, row = y_px / kStep;
-  const float* const upper = above_m.data() + static_cast<std::size_t>(row) * columns + column;
+// How much the height changes from pixel to pixel in the cell under and right of a node.
+float Crossing::per_px(const float* upper) const {
   const float* const lower = upper + columns;
   const glm::vec2 gradient(upper[1] - upper[0] + lower[1] - lower[0],
                            lower[0] - upper[0] + lower[1] - upper[1]);
-  const float per_px = glm::length(gradient) * (0.5f / kStep);
-  return std::abs(above(x_px, y_px)) / std::max(per_px, 1e-9f);
+  return std::max(glm::length(gradient) * (0.5f / kStep), 1e-9f);
+}
+
+float Crossing::rows_away(int x_px, int y_px) const {
+  const std::size_t node = static_cast<std::size_t>(y_px / kStep) * columns + x_px / kStep;
+  return std::abs(above(x_px, y_px)) / per_px(above_m.data() + node);
+}
+
+float Crossing::least_rows_away(int x_px, int y_px) const {
+  const std::size_t node = static_cast<std::size_t>(y_px / kStep) * columns + x_px / kStep;
+  const float *const upper = above_m.data() + node, *const lower = upper + columns;
+  const auto [least, most] = std::minmax({upper[0], upper[1], lower[0], lower[1]});
+  return std::max({least, -most, 0.0f}) / per_px(upper);
 }
 
 void find_crossing(const Surface& water, const View& view, const EyeInWater& eye,
-                    float most_height_m, Crossing& line) {
+                   float most_height_m, Crossing& line) {
   line.picture = eye.submerged ? Begins::kInWater : Begins::kInAir;
   const auto eye_z = static_cast<float>(view.eye_world.z);
   if (std::abs(eye_z) > most_height_m + reach_of_near_plane(view)) return;

@@ -28,14 +28,19 @@ struct Crossing {
   Begins begins(const raster::PixelBox& box) const;
   // At a pixel's centre: below 0 where it begins in water.
   float above(int x_px, int y_px) const;
-  // Rows of pixels from a pixel to the line, about.
+  // Pixels from a pixel to the line, about: as its cell between four nodes has it.
   float rows_away(int x_px, int y_px) const;
+  // No pixel of the pixel's cell is nearer than this.
+  float least_rows_away(int x_px, int y_px) const;
+
+ private:
+  float per_px(const float* upper) const;
 };
 
 // Of the water's triangles at their heights of this frame. The picture begins as the eye does
 // where no wave can reach the near plane. 0.1 to 1 ms where one can.
 void find_crossing(const Surface& water, const View& view, const EyeInWater& eye,
-                    float most_height_m, Crossing& line);
+                   float most_height_m, Crossing& line);
 
 // Maps the land into the views anew, as an eye on the other side of the surface needs it.
 void map_land(const Meshes& meshes, FrameViews views, const StageRun& run);

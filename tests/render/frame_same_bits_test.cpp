@@ -183,7 +183,8 @@ TEST(FrameBits, AWorldMadeLikeAnotherDrawsTheSamePicture) {
 // All that moves: waves, ripples, foam, surf, clouds, and what floats; paths are their own.
 TEST_P(SameBits, ALoopEndsAsItBegan) {
   scene::Scene scene = world_of(GetParam()).scene();
-  std::erase_if(scene.objects, [](const scene::Object& object) { return !object.path_m.empty(); });
+  std::erase_if(scene.objects,
+                [](const scene::FloatingObject& object) { return !object.path_m.empty(); });
   scene.sea.loop_s = 12.5;
   const World world(scene, world_of(GetParam()), 2);
   const Target first = draw(world, 1.75).target;

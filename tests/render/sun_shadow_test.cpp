@@ -221,12 +221,12 @@ TEST(Hull, DarkensAndFoamsTheWaterAtItsWaterline) {
     return sum / n;
   };
   const World windy(scene);
-  EXPECT_GT(mean_at(windy, 0.0, 0.5), 0.02);
   EXPECT_EQ(mean_at(windy, 3.5, 12.0), 0.0);
   // A calm has no foam, and darker water.
   scene.sea.wind_speed_mps = 0.0;
   const World calm(scene);
   EXPECT_LT(mean_at(calm, 0.0, 0.6), 0.0);
+  EXPECT_GT(mean_at(windy, 0.0, 0.5), mean_at(calm, 0.0, 0.5) + 0.02);
 }
 
 // What a ball mirrors passes from the sky to the sea without a line.
