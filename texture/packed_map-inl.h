@@ -290,19 +290,36 @@ HWY_INLINE void SampleLevel(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI l
   b = hn::Mul(hn::ConvertTo(d, OddParts(di, sums0, sums1)), unit);
 }
 
-// What `map` holds at (x_fx8, y_fx8), coordinates as AddBlended's, bilinearly on one of its mip
-// levels a lane; in [-1, 1].
-template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
-HWY_INLINE V SampleLevel(D d, const PackedMap1& map, VI x_fx8, VI y_fx8, VI level) {
+// Where a sample lies in the maps of one size: which words it takes, and how much of their taps.
+template <class VI>
+struct WordPlace {
+  VI index, weights_x, weights_y;
+};
+
+// The place of (x_fx8, y_fx8), coordinates as AddBlended's, on one mip level a lane.
+template <class DI, class VI = hn::Vec<DI>>
+HWY_INLINE WordPlace<VI> PlaceOnLevel(DI di, const PackedMap1& map, VI x_fx8, VI y_fx8, VI level) {
+  const VI x = hn::Shr(x_fx8, level), y = hn::Shr(y_fx8, level);
+  return {WordIndex(di, map, x, y, level), WeightsAlongX(di, x), WeightsAlongY(di, y)};
+}
+
+// What a map holds at a place of maps of its size, bilinearly; in [-1, 1].
+template <class D, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE hn::Vec<D> SampleAt(D d, const PackedMap1& map, const WordPlace<VI>& at) {
   const hn::RebindToSigned<D> di;
   const hn::Repartition<std::uint8_t, D> d8;
-  const VI x = hn::Shr(x_fx8, level), y = hn::Shr(y_fx8, level);
   // Of 32 bits a lane, hardware gathers are as fast as loads.
-  const VI taps = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.words.data()),
-                                  WordIndex(di, map, x, y, level));
-  const auto rows = DotPairs(hn::BitCast(d8, WeightsAlongX(di, x)), hn::BitCast(d8, taps));
-  const VI sum = DotWords(WeightsAlongY(di, y), hn::BitCast(di, rows));
+  const VI taps =
+      hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.words.data()), at.index);
+  const auto rows = DotPairs(hn::BitCast(d8, at.weights_x), hn::BitCast(d8, taps));
+  const VI sum = DotWords(at.weights_y, hn::BitCast(di, rows));
   return hn::Mul(hn::ConvertTo(d, sum), hn::Set(d, 1.0f / (127.0f * 255.0f * 256.0f)));
+}
+
+// What `map` holds at (x_fx8, y_fx8), on one of its mip levels a lane.
+template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE V SampleLevel(D d, const PackedMap1& map, VI x_fx8, VI y_fx8, VI level) {
+  return SampleAt(d, map, PlaceOnLevel(hn::RebindToSigned<D>(), map, x_fx8, y_fx8, level));
 }
 
 // Window coordinate to 1/256 texels from the first texel's centre, clamped to [0, texels - 1];

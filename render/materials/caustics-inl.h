@@ -16,7 +16,7 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 // Levels of the maps at which the pattern begins to fade to its mean, and is gone.
-constexpr float kFirstCausticLost = 2.0f, kAllCausticLost = 4.0f;
+constexpr float kFirstCausticLost = 1.0f, kAllCausticLost = 3.0f;
 
 // How much a depth has of the k-th map: from one depth to the next the weights go over to the next
 // map. Above the first depth the contrast rises as that of a weak lens does, below the last one it
@@ -31,37 +31,26 @@ HWY_INLINE V CausticWeight(const Caustics& caustics, std::size_t k, V depth) {
   return Clamp(hn::Min(rising, falling), 0.0f, 1.0f);
 }
 
-// Where a packet lies in a patch's maps.
+// Where a packet lies in a patch's maps, on the nearest level.
 struct CausticPlace {
-  VI x_fx8, y_fx8, base;
-  V to_next;  // from level `base`
-  V shown;    // of the pattern, in [0, 1]
-  bool fine;  // level 0 alone, in all lanes
+  texture::HWY_NAMESPACE::WordPlace<VI> words;
+  V shown;  // of the pattern, in [0, 1]
 };
 
 HWY_INLINE CausticPlace PlaceInCaustics(const CausticPatch& patch, V x, V y, V level_m) {
   const LayerPlace place = PlaceIn(patch, x, y);
   const V level = Clamp(hn::Add(level_m, Constant(patch.log2_texels_per_m)), 0.0f, kAllCausticLost);
-  const VI base = TruncateToInt(level);
   const V shown = hn::Mul(hn::Sub(Constant(kAllCausticLost), level),
                           Constant(1.0f / (kAllCausticLost - kFirstCausticLost)));
-  return {RoundToInt(place.x_fx8),
-          RoundToInt(place.y_fx8),
-          base,
-          hn::Sub(level, hn::ConvertTo(D(), base)),
-          hn::Min(shown, Constant(1.0f)),
-          hn::AllFalse(D(), hn::Gt(level, hn::Zero(D())))};
+  return {texture::HWY_NAMESPACE::PlaceOnLevel(DI(), *patch.map[0], RoundToInt(place.x_fx8),
+                                               RoundToInt(place.y_fx8),
+                                               TruncateToInt(hn::Add(level, Constant(0.5f)))),
+          hn::Min(shown, Constant(1.0f))};
 }
 
 // Intensity by one map.
 HWY_INLINE V SampleCaustic(const texture::PackedMap1& map, const CausticPlace& at) {
-  namespace maps = texture::HWY_NAMESPACE;
-  V code = maps::SampleLevel(D(), map, at.x_fx8, at.y_fx8, at.base);
-  if (!at.fine) {
-    const VI last = hn::Set(DI(), map.levels - 1);
-    const VI next = hn::Min(hn::Add(at.base, hn::Set(DI(), 1)), last);
-    code = Lerp(code, maps::SampleLevel(D(), map, at.x_fx8, at.y_fx8, next), at.to_next);
-  }
+  const V code = texture::HWY_NAMESPACE::SampleAt(D(), map, at.words);
   const V more = hn::MulAdd(code, Constant(0.5f * CausticMaps::kRange),
                             Constant(0.5f * CausticMaps::kRange - 1.0f));
   return hn::MulAdd(more, at.shown, Constant(1.0f));
