@@ -162,7 +162,8 @@ HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWa
     const float c = media.absorption_per_m[channel];
     const V lost = hn::Mul(way.length, Constant(c));
     const V x = hn::MulAdd(way.deeper, Constant(media.daylight_lost_per_m[channel]), lost);
-    const V passes = Exp(d, Clamp(hn::Neg(x), -80.0f, 80.0f));
+    // Daylight makes up for e^60: from where it cannot, nothing is seen.
+    const V passes = Exp(d, Clamp(hn::Neg(x), -80.0f, 60.0f));
     const V scattered =
         hn::Mul(hn::Mul(lost, LossOver(x, passes)), Constant(media.scattered[channel]));
     return hn::Mul(hn::MulAdd(seen, passes, scattered), Constant(daylight[channel]));
