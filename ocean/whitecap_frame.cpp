@@ -49,14 +49,15 @@ void take_step(const Whitecaps& whitecaps, double step, WhitecapFrame& frame, Wo
 // Fills `frame` with the foam before and after a step.
 void make_step(const Whitecaps& whitecaps, double step, bool is_known, WhitecapFrame& frame,
                Workers& workers) {
-  if (is_known && step == frame.step + 1.0) {
+  const bool has_foam = !whitecaps.patches.empty();
+  if (has_foam && is_known && step == frame.step + 1.0) {
     take_step(whitecaps, step + 1.0, frame, workers);
   } else {
     // What was white before the first of these steps has gone when the last is made.
     int life = 0;
     for (const FoamPatch& patch : whitecaps.patches) life = std::max(life, steps_of_life(patch));
     start(whitecaps, frame);
-    if (!frame.patches.empty())
+    if (has_foam)
       for (int n = -life; n <= 1; ++n) take_step(whitecaps, step + n, frame, workers);
   }
   frame.step = step;

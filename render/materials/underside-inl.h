@@ -156,7 +156,7 @@ HWY_INLINE V SunThrough(glm::vec3 sun_direction, float n, V3 ray, const WaterSlo
                         const FromBelow& f) {
   // The disc covers as much as slopes of this variance, both axes together: the bent ray turns by
   // about n - 1 of a slope.
-  const float disc = kDiscRadius / (n - 1.0f), disc_variance = 0.5f * disc * disc;
+  const float disc = kDiscRadius / std::max(n - 1.0f, 1e-3f), disc_variance = 0.5f * disc * disc;
   const V3 sun = Constant(sun_direction);
   const V3 half = Difference(Scale(ray, Constant(n)), sun);  // along the normal that bends so
   const V length2 = hn::Max(Dot(half, half), Constant(1e-6f));
@@ -170,7 +170,7 @@ HWY_INLINE V SunThrough(glm::vec3 sun_direction, float n, V3 ray, const WaterSlo
   const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
   const V density = hn::Mul(Exp(D(), hn::Max(exponent, Constant(-80.0f))),
                             hn::Mul(inv_variance, Constant(0.318309886f)));
-  const V cos_air = hn::Max(Dot(sun, h), hn::Zero(D())), cos_water = Dot(ray, h);
+  const V cos_air = hn::Max(Dot(sun, h), Constant(1e-4f)), cos_water = Dot(ray, h);
   const V passes = hn::Sub(Constant(1.0f), FresnelReflectance(D(), cos_air, n));
   const V inv_z2 = hn::Mul(inv_z, inv_z);
   const V bends = hn::Mul(hn::Mul(cos_air, cos_water), hn::Mul(inv_z2, inv_z2));

@@ -27,7 +27,7 @@ inline constexpr float kLeastAirHeight_m = 1e-3f;
 // one in water to 4e-5 rad.
 inline float tan_in_air(const BentWay& way, float n) {
   const float n2 = n * n, m2 = n2 - 1.0f, air = std::max(way.air_m, kLeastAirHeight_m);
-  float x = std::max((way.horizontal_m - way.water_m / std::sqrt(m2)) / air,
+  float x = std::max((way.horizontal_m - way.water_m / std::sqrt(std::max(m2, 1e-6f))) / air,
                      way.horizontal_m / (air + way.water_m / n));
   for (int step = 0; step < 3; ++step) {
     const float g = n2 + m2 * x * x, inv_g = 1.0f / g, inv_s = std::sqrt(inv_g);
