@@ -120,8 +120,8 @@ void set_eye(const EyeInWater& eye, FrameViews views) {
   for (RenderView* const view : views) view->eye = eye;
 }
 
-// Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the picture,
-// the first three are of an eye in air and two more of one in water.
+// Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the
+// picture, the first three are of an eye in air and two more of one in water.
 void place_vertices(const World::State& world, const View& view, const FrameOptions& options,
                     FrameViews all_views, Workspace::State& ws, const StageRun& run) {
   EyeInWater eye = find_eye_in_water(world, ws.sea, view, options);

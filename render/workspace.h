@@ -10,11 +10,11 @@
 #include "render/profile.h"
 #include "render/quality/enlarge.h"
 #include "render/tile/shade_picture.h"
+#include "render/view/crossing.h"
 #include "render/view/lookup_images.h"
 #include "render/view/meshes.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
-#include "render/view/crossing.h"
 #include "render/world/sea_maps.h"
 #include "render/world/sky_frame.h"
 

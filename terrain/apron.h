@@ -9,8 +9,8 @@
 //                                              map does not come again as a hill or a hole
 //   sinks     h = e + (floor - e) s(x^2)       s a smoothstep, x the part of a slope with bays that
 //                                              begins at once beyond corners and later before the
-//                                              sides: from above the ground ends about round, not in
-//                                              a square
+//                                              sides: from above the ground ends about round, not
+//                                              in a square
 // soft() keeps e between the floor and the map's highest point: x room / (x + room).
 #pragma once
 

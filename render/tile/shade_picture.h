@@ -6,8 +6,8 @@
 
 #include "render/frame.h"
 #include "render/labels/label_tile.h"
-#include "render/view/lookup_images.h"
 #include "render/view/crossing.h"
+#include "render/view/lookup_images.h"
 
 namespace swell::render {
 
