@@ -85,7 +85,7 @@ TEST(FlatMesh, ChangedBytesGiveAMeshThatIsWholeOrAreRefused) {
     for (std::uint64_t k = 0; k < 1 + i % 4; ++k) {
       const auto at =
           static_cast<std::size_t>(random_uniform(i, 2 * k) * static_cast<double>(bytes.size()));
-      bytes[at] = static_cast<char>(256.0 * random_uniform(i, 2 * k + 1));
+      bytes[at] = static_cast<char>(static_cast<int>(256.0 * random_uniform(i, 2 * k + 1)));
     }
     try {
       const FlatMesh mesh = read_flat_mesh(bytes);
