@@ -48,9 +48,9 @@ std::size_t trace_caustics(const World::State& world, const ocean::SeaFrame& sea
   maps.patches = 0;
   const double depth_m = lit_depth_m(world);
   if (depth_m <= 0.0 || !shows_caustics(world, without)) return 0;
-  for (std::size_t k = CausticMaps::kDepths; k-- > 0;)
-    maps.depth_m[k] = static_cast<float>(
-        depth_m / std::pow(kDepthStep, static_cast<double>(CausticMaps::kDepths - 1 - k)));
+  double parts = 1.0;
+  for (std::size_t k = CausticMaps::kDepths; k-- > 0; parts *= kDepthStep)
+    maps.depth_m[k] = static_cast<float>(depth_m / parts);
   maps.spread_per_m = spread_per_m(world);
   // The shortest patch first.
   std::array<const ocean::PatchFrame*, CausticMaps::kMostPatches> patches{};
