@@ -10,6 +10,8 @@
 namespace swell::render {
 namespace {
 
+constexpr double kBumpSlope = double{texture::kBumpSlope};
+
 // Slope variance of what is too fine for any map: in a breeze, and of glass, which spreads the
 // sun's disc to about twice its width.
 constexpr float kBaseVariance = 0.0012f, kGlassVariance = 2e-5f;
@@ -71,14 +73,16 @@ void add_layers(const MaterialInputs& in, glm::dvec2 eye, Ripples& ripples) {
   }
 }
 
-// The frame of a sequence, which moves by itself.
+// The frame of a sequence, which moves by itself, laid over the sea at two scales: one alone shows
+// its period from a mast's height.
 void add_sequence(const MaterialInputs& in, glm::dvec2 eye, Ripples& ripples) {
   const scene::Scene& scene = in.world.scene;
   const RippleMaps& maps = in.sea.ripples;
   const double length_m = scene.ripples.length_m;
-  const auto gain = static_cast<float>(scene.water.bump_strength * std::sqrt(ripple_variance(in)) /
-                                       double{texture::kBumpSlope});
-  ripples.layers[ripples.count++] = make_layer(maps.slopes, length_m, gain, eye, {});
+  const auto gain = static_cast<float>(scene.water.bump_strength *
+                                       std::sqrt(0.5 * ripple_variance(in)) / kBumpSlope);
+  for (const double scale : {1.0, 0.397})
+    ripples.layers[ripples.count++] = make_layer(maps.slopes, scale * length_m, gain, eye, {});
   if (scene.ripples.lighting == scene::RippleLighting::kPaper)
     ripples.detail = make_layer(maps.detail, length_m, 1.0f, eye, {});
 }
