@@ -16,7 +16,7 @@ constexpr double kTension = 0.0728 / 1000.0;  // of water over its density [m^3/
 int cycles_of(const SmallSea& sea, double k_rad_m) {
   const double omega2 = k_rad_m * (sea.gravity_mps2 + kTension * k_rad_m * k_rad_m);
   const double cycles = std::sqrt(omega2) * sea.loop_s / (2.0 * kPi);
-  const double most = std::max(1, sea.frames / 8);
+  const double most = std::max(1, sea.frames / 10);
   return static_cast<int>(std::clamp(std::nearbyint(cycles), 1.0, most));
 }
 

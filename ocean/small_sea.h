@@ -13,7 +13,7 @@ struct SmallSea {
   int size = 256;              // samples a side, a power of two in [128, 512]
   double length_m = 6.0;       // period along both axes
   double loop_s = 4.0;         // after which the waves are the same
-  int frames = 96;             // in a loop, at least 2
+  int frames = 128;            // in a loop, at least 2
   double wind_from_rad = 0.0;  // clockwise from north
   double gravity_mps2 = 9.81;
   std::uint64_t seed = 1;
@@ -31,7 +31,7 @@ struct SmallWave {
 
 // Of the same steepness at all lengths, most of them with the wind and none against it. A wave
 // takes the whole number of cycles a loop that is nearest to its own, of gravity and surface
-// tension (0.0728 N/m over 1000 kg/m^3), but at least 1 and at most an eighth of the frames, so
+// tension (0.0728 N/m over 1000 kg/m^3), but at least 1 and at most a tenth of the frames, so
 // that frames can be blended.
 std::vector<SmallWave> small_sea_waves(const SmallSea& sea);
 

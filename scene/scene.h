@@ -91,7 +91,7 @@ struct Ripples {
   RippleKind kind = RippleKind::kLayers;
   RippleLighting lighting = RippleLighting::kOptics;
   std::string sequence;   // files of heights, as "waves_%04d.png"; empty: waves of our own
-  int frames = 96;        // of the sequence, [2, 256]
+  int frames = 128;       // of the sequence, [2, 256]
   double loop_s = 4.0;    // after which it begins anew, [0.1, 1000]
   double length_m = 6.0;  // of the sea that a frame covers, [0.1, 1000]
 

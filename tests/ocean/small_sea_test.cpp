@@ -37,7 +37,7 @@ TEST(SmallSea, WavesKeepTheirPaceInWholeCycles) {
     const double cycles = 4.0 / kTurn * std::sqrt(k * (9.81 + 7.28e-5 * k * k));
     EXPECT_NEAR(wave.cycles, cycles, 0.5) << wave.i << " " << wave.j;
   }
-  for (const SmallWave& wave : small_sea_waves({.loop_s = 4.0, .frames = 16})) {
+  for (const SmallWave& wave : small_sea_waves({.loop_s = 4.0, .frames = 20})) {
     EXPECT_GE(wave.cycles, 1);
     EXPECT_LE(wave.cycles, 2);
   }
