@@ -13,6 +13,7 @@
 namespace swell::render {
 
 enum class Part : std::uint8_t {
+  kWater,       // the sea: without it the land goes on dry, and things lie where they did
   kReflection,  // what the water mirrors besides the sky
   kRefraction,  // what lies under the water's surface
   kRipples,     // the water's waves too short for the wave patches
@@ -37,9 +38,9 @@ inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount)
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples",  "whitecaps",  "haze",     "earth",
-    "clouds",     "shadows",    "hulls",    "apron",      "tiling",   "seen-slopes",
-    "crests",     "altitude",   "textures", "underwater", "meniscus", "caustics"};
+    "water",    "reflection", "refraction", "ripples",  "whitecaps", "haze",        "earth",
+    "clouds",   "shadows",    "hulls",      "apron",    "tiling",    "seen-slopes", "crests",
+    "altitude", "textures",   "underwater", "meniscus", "caustics"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

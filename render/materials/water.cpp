@@ -201,7 +201,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
 float max_distortion_px(const View& window) { return 0.1f * static_cast<float>(window.height_px); }
 
 void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
-  if (!shows(view.kind, Water::kSurface)) return;
+  if (!shows(view.kind, Water::kSurface) || in.without.has(Part::kWater)) return;
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);

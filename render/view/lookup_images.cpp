@@ -99,7 +99,7 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
   const bool any = std::ranges::any_of(kAllSurfaces, [&](SurfaceKind s) {
     return shows(ViewKind::kReflection, s) && !meshes.indices(s).empty();
   });
-  if (!any) return;
+  if (!any || inputs.without.has(Part::kWater)) return;
 
   // Which tiles of the images water can look into.
   LookupTarget &reflection = images.reflection, &refraction = images.refraction;
