@@ -17,6 +17,7 @@ enum class Part : std::uint8_t {
   kReflection,  // what the water mirrors besides the sky
   kRefraction,  // what lies under the water's surface
   kRipples,     // the water's waves too short for the wave patches
+  kGlitter,     // the sun's image in the water seen from above
   kWhitecaps,   // foam of the open sea
   kHaze,        // between the eye and what it sees
   kEarth,       // its curve: without it the sea is flat
@@ -38,9 +39,9 @@ inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount)
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "water",    "reflection", "refraction", "ripples",  "whitecaps", "haze",        "earth",
-    "clouds",   "shadows",    "hulls",      "apron",    "tiling",    "seen-slopes", "crests",
-    "altitude", "textures",   "underwater", "meniscus", "caustics"};
+    "water",  "reflection", "refraction", "ripples",    "glitter",  "whitecaps", "haze",
+    "earth",  "clouds",     "shadows",    "hulls",      "apron",    "tiling",    "seen-slopes",
+    "crests", "altitude",   "textures",   "underwater", "meniscus", "caustics"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

@@ -442,7 +442,7 @@ struct WaterShader {
       foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
     }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
-    V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
+    V3 seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction, sun_visible, f.normal, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }

@@ -1,6 +1,7 @@
 // What a picture is without one of its parts, of those whose own tests do not say it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -154,6 +155,22 @@ TEST(WithoutRefraction, ShallowWaterLooksDeep) {
     return light_at(floor, p).y > 1.5f * expected.y;
   });
   EXPECT_GT(brighter, kWidth * kHeight / 3);
+}
+
+// In the sun's mirror image, which is many times as bright as the sky's.
+TEST(WithoutGlitter, WaterMirrorsNoSun) {
+  scene::Scene scene = glass();
+  scene.sky.sun_azimuth_rad = 0.0;
+  scene.sky.sun_elevation_rad = scene::radians(30.0);
+  scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
+  const World world(scene);
+  const View view = make_view({0.0, 0.0, 10.0}, 0.0, -scene.sky.sun_elevation_rad, 0.2, 0.25f,
+                              kWidth, kHeight);
+  const auto brightest = [&](PartSet without) {
+    const LabelledFrame frame = frame_of(world, view, without);
+    return *std::ranges::max_element(frame.target.linear);
+  };
+  EXPECT_GT(brightest({}), 30.0f * brightest({Part::kGlitter}));
 }
 
 // Ripples are all the waves of a sea without patches.
