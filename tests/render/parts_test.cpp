@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "render/labelled_frame.h"
+#include "scene/sky.h"
 
 namespace swell::render {
 namespace {
