@@ -58,8 +58,14 @@ struct ObjectShadows {
   std::vector<ShadowCaster> casters;
 };
 
+// Tiles [x0, x1) x [y0, y1).
+struct TileSpan {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 // By tile: the casters that may tell on what it shows.
 struct TileCasters {
+  std::vector<TileSpan> box;           // of each caster
   std::vector<std::uint32_t> first;   // of each tile, and the end
   std::vector<std::uint16_t> caster;  // indices into ObjectShadows::casters
 
