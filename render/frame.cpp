@@ -9,7 +9,7 @@
 
 #include "math/check.h"
 #include "raster/sample_pattern.h"
-#include "render/view/object_shadows.h"
+#include "render/view/own_shadows.h"
 #include "render/workspace.h"
 
 namespace swell::render {
@@ -226,8 +226,9 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     place_vertices(world_state, drawn, options, views, ws, run);
-    find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
-                        ws.meshes.objects, run);
+    const ShadowOptions shadows{light.sun_direction, options.without};
+    find_shadow_casters(world_state, shadows, drawn, ws.meshes.objects, run);
+    find_own_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
   });
   stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,

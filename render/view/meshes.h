@@ -45,8 +45,9 @@ struct ObjectInstance {
   glm::vec3 colour{0.0f};
   float roughness = 0.42f, metalness = 0.0f;  // of its paint
   const scene::ObjectMesh* mesh = nullptr;
-  float log2_units_per_m = 0.0f;  // of the mesh's lengths, in the mean over its axes
-  std::uint32_t object = 0;       // its index in the scene
+  const SunDepth* own_shadow = nullptr;  // none: it does not shade itself
+  float log2_units_per_m = 0.0f;         // of the mesh's lengths, in the mean over its axes
+  std::uint32_t object = 0;              // its index in the scene
 };
 
 // Which triangle of which object a primitive is.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/check.h"
 #include "math/earth.h"
 #include "math/elementary.h"
 #include "render/view/object_levels.h"
@@ -19,6 +20,10 @@ constexpr std::size_t kMostCasters = 65535;  // lists of tiles hold 16 bits; 200
 constexpr double kMostLift_m = 3.0;
 // A smaller one casts no shadow and leaves no trace on the water: the picture would not show them.
 constexpr float kSmallestCaster_px = 0.5f;
+// Below this size every seventh row is found, which are 2 pixels apart, and the others between
+// them.
+constexpr float kSmallOutline_px = 16.0f;
+constexpr int kSmallOutlineStep = 7;
 // How far the mesh of an outline may lie off the finest one: what is soft, or less than a row, does
 // not show.
 constexpr float kMostOutlineError_px = 1.0f, kMostOutlineError = 0.01f;  // or of the largest side
@@ -46,18 +51,30 @@ SunFrame sun_frame(const scene::FloatingObject& object, const scene::ObjectPose&
   return {axes, axes * glm::vec3(middle, -static_cast<float>(object.draught))};
 }
 
-// Widens the rows that an edge crosses.
-void add_edge(const SunPoint& a, const SunPoint& b, Outline& outline) {
+// Widens those of every `step` rows that an edge crosses.
+void add_edge(const SunPoint& a, const SunPoint& b, int step, Outline& outline) {
   const float row_a = (a.y - outline.lowest_m) * outline.rows_per_m;
   const float row_b = (b.y - outline.lowest_m) * outline.rows_per_m;
   const float low = std::min(row_a, row_b), high = std::max(row_a, row_b);
   const int last = std::min(static_cast<int>(std::floor(high)), Outline::kRows - 1);
   const float inverse = row_a == row_b ? 0.0f : 1.0f / (row_b - row_a);
-  for (int i = std::max(static_cast<int>(std::ceil(low)), 0); i <= last; ++i) {
+  const int first = std::max(static_cast<int>(std::ceil(low)), 0);
+  for (int i = (first + step - 1) / step * step; i <= last; i += step) {
     const float s = (static_cast<float>(i) - row_a) * inverse;
     const float x = a.x + s * (b.x - a.x), z = a.z + s * (b.z - a.z);
     if (x < outline.left_m[i]) outline.left_m[i] = x, outline.left_depth_m[i] = z;
     if (x > outline.right_m[i]) outline.right_m[i] = x, outline.right_depth_m[i] = z;
+  }
+}
+
+// The rows between those of every `step`.
+void fill_rows(int step, Outline& outline) {
+  for (int i = 0; i < Outline::kRows; ++i) {
+    const int below = i / step * step, above = std::min(below + step, Outline::kRows - 1);
+    const float t = static_cast<float>(i - below) / static_cast<float>(step);
+    for (auto* const ends :
+         {&outline.left_m, &outline.right_m, &outline.left_depth_m, &outline.right_depth_m})
+      (*ends)[i] = (*ends)[below] + t * ((*ends)[above] - (*ends)[below]);
   }
 }
 
@@ -186,7 +203,8 @@ const scene::ObjectMesh& outline_mesh(const World::State& world, const ShadowCas
 
 Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
                    const scene::FloatingObject& object, const scene::ObjectPose& pose,
-                   const ObjectShadows& shadows) {
+                   const ObjectShadows& shadows, int step) {
+  SWELL_DCHECK((Outline::kRows - 1) % step == 0, "step={}", step);
   const SunFrame frame = sun_frame(object, pose, shadows);
   const auto indices =
       std::span(mesh.indices).subspan(3u * part.first_triangle, 3u * part.triangles);
@@ -214,10 +232,11 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
     // What is turned to the sun has the outline of the whole.
     const glm::vec2 along = p[1] - p[0], aside = p[2] - p[0];
     if (is_closed && along.x * aside.y - along.y * aside.x >= 0.0f) continue;
-    for (int k = 0; k < 3; ++k) add_edge(p[k], p[(k + 1) % 3], outline);
+    for (int k = 0; k < 3; ++k) add_edge(p[k], p[(k + 1) % 3], step, outline);
   }
   for (int i = 0; i < Outline::kRows; ++i)
     if (outline.left_m[i] > outline.right_m[i]) outline.left_m[i] = outline.right_m[i] = 0.0f;
+  if (step > 1) fill_rows(step, outline);
   return outline;
 }
 
@@ -257,7 +276,9 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     const scene::ObjectMesh& mesh = outline_mesh(world, caster, view);
     scene::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (!mesh.parts.empty()) part = mesh.parts[caster.part];
-    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows);
+    const bool is_small = drawn_size_px(object, caster.place_rel, view) < kSmallOutline_px;
+    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows,
+                                is_small ? kSmallOutlineStep : 1);
   });
 }
 

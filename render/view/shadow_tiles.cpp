@@ -76,16 +76,19 @@ WindowBox window_box(const Corners& corners, const RenderView& view, float lowes
 }
 
 // A pixel or two wider: shadows are as soft as a pixel at least.
-TileSpan tiles_of(const WindowBox& box, const raster::TileGrid& grid) {
-  if (box.all) return {0, 0, grid.tiles_x, grid.tiles_y};
+PixelSpan pixels_of(const WindowBox& box) {
+  if (box.all) return {-kInfinity, -kInfinity, kInfinity, kInfinity};
+  return {box.low.x - 2.0f, box.low.y - 2.0f, box.high.x + 2.0f, box.high.y + 2.0f};
+}
+
+TileSpan tiles_of(const PixelSpan& pixels, const raster::TileGrid& grid) {
   const auto tile = [&](float px, int tiles) {
     const float at = px / static_cast<float>(grid.tile_size_px);
     return static_cast<int>(std::clamp(std::floor(at), -1.0f, static_cast<float>(tiles)));
   };
-  const glm::vec2 low = box.low - 2.0f, high = box.high + 2.0f;
-  return {std::max(tile(low.x, grid.tiles_x), 0), std::max(tile(low.y, grid.tiles_y), 0),
-          std::min(tile(high.x, grid.tiles_x) + 1, grid.tiles_x),
-          std::min(tile(high.y, grid.tiles_y) + 1, grid.tiles_y)};
+  return {std::max(tile(pixels.x0, grid.tiles_x), 0), std::max(tile(pixels.y0, grid.tiles_y), 0),
+          std::min(tile(pixels.x1, grid.tiles_x) + 1, grid.tiles_x),
+          std::min(tile(pixels.y1, grid.tiles_y) + 1, grid.tiles_y)};
 }
 
 }  // namespace
@@ -96,21 +99,24 @@ void list_casters(const ObjectShadows& shadows, const RenderView& view,
   of_tile.caster.clear();
   if (shadows.casters.empty() || view.primitives.count() == 0) return;
   of_tile.first.assign(static_cast<std::size_t>(grid.count()) + 1, 0);
-  of_tile.box.clear();
-  for (const ShadowCaster& caster : shadows.casters)
-    of_tile.box.push_back(
-        tiles_of(window_box(corners_of(caster, shadows), view, shadows.lowest_rel_m), grid));
+  of_tile.pixels.clear();
+  of_tile.tiles.clear();
+  for (const ShadowCaster& caster : shadows.casters) {
+    of_tile.pixels.push_back(
+        pixels_of(window_box(corners_of(caster, shadows), view, shadows.lowest_rel_m)));
+    of_tile.tiles.push_back(tiles_of(of_tile.pixels.back(), grid));
+  }
   const auto for_tiles = [&](const TileSpan& box, auto&& visit) {
     for (int y = box.y0; y < box.y1; ++y)
       for (int x = box.x0; x < box.x1; ++x) visit(static_cast<std::size_t>(y) * grid.tiles_x + x);
   };
   // Counts, then places: in order of the casters' numbers.
-  for (const TileSpan& box : of_tile.box)
+  for (const TileSpan& box : of_tile.tiles)
     for_tiles(box, [&](std::size_t tile) { ++of_tile.first[tile + 1]; });
   for (std::size_t i = 1; i < of_tile.first.size(); ++i) of_tile.first[i] += of_tile.first[i - 1];
   of_tile.caster.resize(of_tile.first.back());
   for (std::size_t i = 0; i < shadows.casters.size(); ++i)
-    for_tiles(of_tile.box[i], [&](std::size_t tile) {
+    for_tiles(of_tile.tiles[i], [&](std::size_t tile) {
       of_tile.caster[of_tile.first[tile]++] = static_cast<std::uint16_t>(i);
     });
   for (std::size_t i = of_tile.first.size() - 1; i > 0; --i)
