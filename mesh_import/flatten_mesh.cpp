@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "mesh_import/surface_distance.h"
+
 namespace swell::mesh_import {
 namespace {
 
@@ -137,10 +139,25 @@ std::vector<unsigned> simplified(const std::vector<unsigned>& indices,
   return result;
 }
 
+// How far the coarse level lies from vertices of the fine one, in units of the file. Of very fine
+// ones some stand for all: what they lose is small.
+float distance_between(const FlatLevel& fine, const FlatLevel& coarse,
+                       const std::vector<FlatVertex>& vertices) {
+  constexpr std::size_t kMostPlaces = 40'000;
+  std::vector<std::uint32_t> numbers = fine.indices;
+  std::ranges::sort(numbers);
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  const std::size_t step = numbers.size() / kMostPlaces + 1;
+  std::vector<std::uint32_t> some;
+  for (std::size_t i = 0; i < numbers.size(); i += step) some.push_back(numbers[i]);
+  return farthest_from(vertices, some, coarse.indices);
+}
+
 }  // namespace
 
 void add_levels(scene::FlatMesh& flat) {
   constexpr std::size_t kFewTriangles = 400;
+  const float* const positions = flat.vertices[0].position.data();
   while (flat.levels.size() < scene::kMostMeshLevels &&
          flat.levels.back().material.size() > kFewTriangles) {
     const auto parts = by_material(flat.levels.back(), flat.materials.size());
@@ -154,6 +171,10 @@ void add_levels(scene::FlatMesh& flat) {
     }
     const std::size_t before = flat.levels.back().material.size();
     if (next.material.empty() || 4 * next.material.size() > 3 * before) return;
+    // The library's error is a mean, which a thin part hardly tells on.
+    const float scale = meshopt_simplifyScale(positions, flat.vertices.size(), sizeof(FlatVertex));
+    const float apart = distance_between(flat.levels.back(), next, flat.vertices);
+    moved = std::max(moved, apart / std::max(scale, 1e-20f));
     next.error = flat.levels.back().error + moved;
     flat.levels.push_back(std::move(next));
   }

@@ -21,7 +21,8 @@ TEST(MeshLevels, BuiltInShapesKeepTheirOutlines) {
     const auto kind = static_cast<ObjectKind>(k);
     SCOPED_TRACE(kObjectKindNames[k]);
     const bool is_round = kind == ObjectKind::kSphere || kind == ObjectKind::kBox;
-    const Outlines outlines{200, is_round ? glm::dvec3(1.0) : common_object(kind).size_m};
+    const Outlines outlines{kind == ObjectKind::kPier ? 800 : 200,
+                            is_round ? glm::dvec3(1.0) : common_object(kind).size_m};
     const ObjectMesh finest = make_object_mesh(kind, TopMark::kSphere, kLevelSegments[0]);
     EXPECT_EQ(finest.error, 0.0f);
     float before = 0.0f;

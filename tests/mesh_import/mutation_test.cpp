@@ -100,7 +100,9 @@ void expect_sane(const fs::path& file, Outcomes& outcomes) {
     const std::string fault = error.what();
     EXPECT_FALSE(fault.empty());
     EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
-    ++(fault.find("the importer fails") == std::string::npos ? outcomes.refused : outcomes.failed);
+    const bool failed = fault.find("the importer fails") != std::string::npos;
+    ++(failed ? outcomes.failed : outcomes.refused);
+    if (failed) std::printf("%s: %s\n", file.c_str(), fault.c_str());
   }
 }
 
