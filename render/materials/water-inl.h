@@ -438,8 +438,8 @@ struct WaterShader {
     if (!tile.casters.empty()) {
       const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
                                        Clamp(packet.to_eye.z, kMinCos, 1.0f));
-      const AtHulls hulls = SampleHulls(*shading.sun_shadow.objects, water.hull_foam, tile.casters,
-                                        packet.p, level_m);
+      const AtHulls hulls = SampleHulls(shading.sun_shadow, water.hull_foam, tile.casters,
+                                        SpanOf(packet), packet.p, level_m);
       refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
       foam.cover = hn::Max(foam.cover, hulls.foam_cover);
       // Fresh, and so thick.
