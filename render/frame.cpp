@@ -158,7 +158,7 @@ FrameStatistics statistics_of(const Workspace::State& ws) {
   s.frame_ms = ws.profile.now_us() * 1e-3;
   s.water_triangles = ws.meshes.water.statistics.triangles;
   s.terrain_triangles = ws.meshes.land.statistics.triangles;
-  s.object_triangles = static_cast<int>(ws.meshes.objects.primitives.size());
+  s.object_triangles = static_cast<int>(ws.meshes.objects.in_window().primitives.size());
   s.splits = ws.meshes.water.statistics.splits + ws.meshes.land.statistics.splits;
   s.merges = ws.meshes.water.statistics.merges + ws.meshes.land.statistics.merges;
   s.lod_stopped = ws.meshes.water.statistics.stopped || ws.meshes.land.statistics.stopped;
