@@ -13,9 +13,11 @@
 namespace swell::render {
 
 enum class Part : std::uint8_t {
+  kWater,        // the sea: without it the land goes on dry, and things lie where they did
   kReflection,   // what the water mirrors besides the sky
   kRefraction,   // what lies under the water's surface
   kRipples,      // the water's waves too short for the wave patches
+  kGlitter,      // the sun's image in the water seen from above
   kWhitecaps,    // foam of the open sea
   kHaze,         // between the eye and what it sees
   kEarth,        // its curve: without it the sea is flat
@@ -34,16 +36,17 @@ enum class Part : std::uint8_t {
   kSequence,     // a scene's sequence of bump images; without it, layers that drift
   kSunSlide,     // a scene's projected glitter; without it, that of slopes
   kCausticBend,  // how ripples move a scene's caustics
+  kOwnShadows,   // of objects on themselves
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples",     "whitecaps",  "haze",     "earth",
-    "clouds",     "shadows",    "hulls",       "apron",      "tiling",   "seen-slopes",
-    "crests",     "altitude",   "textures",    "underwater", "meniscus", "caustics",
-    "sequence",   "sun-slide",  "caustic-bend"};
+    "water",    "reflection",  "refraction", "ripples",   "glitter",      "whitecaps",
+    "haze",     "earth",       "clouds",     "shadows",   "hulls",        "apron",
+    "tiling",   "seen-slopes", "crests",     "altitude",  "textures",     "underwater",
+    "meniscus", "caustics",    "sequence",   "sun-slide", "caustic-bend", "own-shadows"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

@@ -438,8 +438,8 @@ struct WaterShader {
     if (!tile.casters.empty()) {
       const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
                                        Clamp(packet.to_eye.z, kMinCos, 1.0f));
-      const AtHulls hulls = SampleHulls(*shading.sun_shadow.objects, water.hull_foam, tile.casters,
-                                        packet.p, level_m);
+      const AtHulls hulls = SampleHulls(shading.sun_shadow, water.hull_foam, tile.casters,
+                                        SpanOf(packet), packet.p, level_m);
       refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
       foam.cover = hn::Max(foam.cover, hulls.foam_cover);
       // Fresh, and so thick.
@@ -450,7 +450,7 @@ struct WaterShader {
     if (water.glitter.slide)
       sun_path =
           hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));
-    V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
+    V3 seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction, sun_visible, f.normal, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }

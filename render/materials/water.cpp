@@ -122,6 +122,8 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.short_variance = layer_variance(water, water.long_layer_count);
   water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
   water.wave_horizon = wave_horizon(variance);
+  water.glitter_light =
+      in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
@@ -143,7 +145,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
 float max_distortion_px(const View& window) { return 0.1f * static_cast<float>(window.height_px); }
 
 void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
-  if (!shows(view.kind, Water::kSurface)) return;
+  if (!shows(view.kind, Water::kSurface) || in.without.has(Part::kWater)) return;
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);

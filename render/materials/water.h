@@ -50,6 +50,7 @@ struct Water {
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
   float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
   float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
+  glm::vec3 glitter_light{0.0f};     // of the sun, in its image
   glm::vec3 crest_glow{0.0f};        // added where light shines through crests
   float inv_crest_height = 0.0f;
   float inv_wave_reach = 0.0f;  // of the vertices, per metre

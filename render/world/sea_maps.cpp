@@ -64,6 +64,10 @@ void leave_out_tiles(SeaMaps& sea) {
 void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
                  const StageRun& run) {
   ocean::advance(*world.sea, t_s, sea.frame, run.workers, !without.has(Part::kCrests));
+  if (without.has(Part::kWater)) {  // things lie on the waves all the same
+    sea.caustics.patches = 0;
+    return;
+  }
   const bool has_foam = !without.has(Part::kWhitecaps);
   if (has_foam) ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
   if (without.has(Part::kTiling)) leave_out_tiles(sea);
