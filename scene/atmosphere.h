@@ -23,8 +23,9 @@ inline constexpr double kSunRadius_rad = 0.004654;
 struct Atmosphere {
   Air air;
   std::vector<glm::vec3> transmittance;  // by height and distance to the air's top
-  std::vector<glm::vec3> multiple;       // by height and sine of the light's elevation:
-                                         // mean radiance of what was scattered once or more
+  // Mean radiance of what was scattered once or more, by height and sine of the light's elevation:
+  // over all directions; and of each direction, as haze scatters it there.
+  std::vector<glm::vec3> multiple, haze;
 };
 
 // The same bits with any workers. About 40 ms on two threads.
