@@ -24,10 +24,13 @@ HWY_INLINE V SeenCosine(V c, V variance) {
 }
 
 // The area that such facets turn to the eye, over the level's: the mean of the positive part of a
-// normal distribution. To sigma 0.2 within 0.016.
+// normal distribution. Within 0.01 sigma.
 HWY_INLINE V SeenArea(V c, V variance) {
-  const V root = hn::Sqrt(hn::MulAdd(variance, Constant(0.318309886f), hn::Mul(c, c)));
-  return hn::Mul(hn::Add(c, root), Constant(0.5f));
+  const V inv_root = InverseSqrt(variance);
+  const V far = hn::Mul(hn::Mul(hn::Abs(c), inv_root), Constant(1.41421356f / 2.4f));
+  const V near = hn::Max(hn::Sub(Constant(1.0f), far), hn::Zero(D()));
+  const V edge_on = hn::Mul(hn::Mul(variance, inv_root), Constant(0.282094792f));
+  return hn::MulAdd(hn::Mul(hn::Mul(near, near), near), edge_on, hn::Max(c, hn::Zero(D())));
 }
 
 // The cosine of a slope that is drawn but hides nothing, as it is finer than triangles: it is drawn

@@ -194,7 +194,9 @@ double fresnel(double cos_i, double n) {
 // The area that facets turn to the eye over the level's, and the cosine that they reflect under: as
 // the shader has them (SeenSlopes.HaveTheMeansOfTheFacetsThatAreSeen).
 double area(double cosine, double variance) {
-  return 0.5 * (cosine + std::sqrt(cosine * cosine + variance / kPi));
+  const double sigma = std::sqrt(0.5 * variance);
+  const double near = std::max(1.0 - std::abs(cosine) / (2.4 * sigma), 0.0);
+  return std::max(cosine, 0.0) + sigma / std::sqrt(2.0 * kPi) * near * near * near;
 }
 double reflecting(double cosine, double variance) {
   const double raised = 0.5 * (std::sqrt(cosine * cosine + 2.4 * variance) - cosine);

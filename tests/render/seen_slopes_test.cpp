@@ -67,7 +67,7 @@ TEST_P(SeenSlopes, HaveTheMeansOfTheFacetsThatAreSeen) {
       EXPECT_NEAR(2.0f * seen.mirroring - c, expected.mirrored_z, 0.05) << sigma << " " << c;
       EXPECT_NEAR(fresnel(static_cast<double>(seen.reflecting)), expected.reflectance, 0.05)
           << sigma << " " << c;
-      EXPECT_NEAR(seen.area, expected.area, 0.016) << sigma << " " << c;
+      EXPECT_NEAR(seen.area, expected.area, 0.004) << sigma << " " << c;
     }
   }
 }

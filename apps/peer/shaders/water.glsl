@@ -70,7 +70,10 @@ vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
 
 // As render/materials/visible_slopes-inl.h.
 float seen_cosine(float c, float variance) { return 0.5 * (c + sqrt(2.4 * variance + c * c)); }
-float seen_area(float c, float variance) { return 0.5 * (c + sqrt(0.318309886 * variance + c * c)); }
+float seen_area(float c, float variance) {
+  float near = max(1.0 - abs(c) * inversesqrt(0.5 * variance) / 2.4, 0.0);
+  return near * near * near * sqrt(0.0795774715 * variance) + max(c, 0.0);
+}
 float unhidden_cosine(float c, float level_cosine, float variance_all, float drawn) {
   float raised = drawn * (seen_cosine(level_cosine, variance_all) - level_cosine);
   float lost = 0.276 * raised * inversesqrt(0.5 * variance_all);
