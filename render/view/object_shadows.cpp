@@ -40,6 +40,23 @@ struct SunFrame {
   SunPoint operator()(glm::vec3 q) const { return axes * q + origin; }
 };
 
+// A mesh's vertices as the sun sees them: those of a small one are worked out once, of which each
+// has six triangles.
+struct SunVertices {
+  const scene::ObjectMesh& mesh;
+  SunFrame frame;
+  std::array<SunPoint, 512> found;
+  bool is_small;
+
+  SunVertices(const scene::ObjectMesh& of, const SunFrame& sun)
+      : mesh(of), frame(sun), is_small(of.position.size() <= found.size()) {
+    if (is_small) std::ranges::transform(of.position, found.begin(), sun);
+  }
+  SunPoint operator[](std::uint32_t i) const {
+    return is_small ? found[i] : frame(mesh.position[i]);
+  }
+};
+
 SunFrame sun_frame(const scene::FloatingObject& object, const scene::ObjectPose& pose,
                    const ObjectShadows& shadows) {
   const glm::mat3 sun_from_world =
@@ -205,12 +222,12 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
                    const scene::FloatingObject& object, const scene::ObjectPose& pose,
                    const ObjectShadows& shadows, int step) {
   SWELL_DCHECK((Outline::kRows - 1) % step == 0, "step={}", step);
-  const SunFrame frame = sun_frame(object, pose, shadows);
+  const SunVertices vertices(mesh, sun_frame(object, pose, shadows));
   const auto indices =
       std::span(mesh.indices).subspan(3u * part.first_triangle, 3u * part.triangles);
   glm::vec3 low(kInfinity), high(-kInfinity);
   for (const std::uint32_t index : indices) {
-    const SunPoint p = frame(mesh.position[index]);
+    const SunPoint p = vertices[index];
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
@@ -226,9 +243,8 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
   outline.left_m.fill(kInfinity);
   outline.right_m.fill(-kInfinity);
   for (std::size_t i = 0; i < indices.size(); i += 3) {
-    const std::array<SunPoint, 3> p = {frame(mesh.position[indices[i]]),
-                                       frame(mesh.position[indices[i + 1]]),
-                                       frame(mesh.position[indices[i + 2]])};
+    const std::array<SunPoint, 3> p = {vertices[indices[i]], vertices[indices[i + 1]],
+                                       vertices[indices[i + 2]]};
     // What is turned to the sun has the outline of the whole.
     const glm::vec2 along = p[1] - p[0], aside = p[2] - p[0];
     if (is_closed && along.x * aside.y - along.y * aside.x >= 0.0f) continue;
