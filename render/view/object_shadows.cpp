@@ -20,10 +20,6 @@ constexpr std::size_t kMostCasters = 65535;  // lists of tiles hold 16 bits; 200
 constexpr double kMostLift_m = 3.0;
 // A smaller one casts no shadow and leaves no trace on the water: the picture would not show them.
 constexpr float kSmallestCaster_px = 0.5f;
-// Below this size every seventh row is found, which are 2 pixels apart, and the others between
-// them.
-constexpr float kSmallOutline_px = 16.0f;
-constexpr int kSmallOutlineStep = 7;
 // How far the mesh of an outline may lie off the finest one: what is soft, or less than a row, does
 // not show.
 constexpr float kMostOutlineError_px = 1.0f, kMostOutlineError = 0.01f;  // or of the largest side
@@ -83,6 +79,9 @@ void add_edge(const SunPoint& a, const SunPoint& b, int step, Outline& outline) 
     if (x > outline.right_m[i]) outline.right_m[i] = x, outline.right_depth_m[i] = z;
   }
 }
+
+// Of small objects some rows stand for all: every seventh, about a pixel apart, or every third.
+int row_step(float size_px) { return size_px < 8.0f ? 7 : size_px < 20.0f ? 3 : 1; }
 
 // The rows between those of every `step`.
 void fill_rows(int step, Outline& outline) {
@@ -292,9 +291,8 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     const scene::ObjectMesh& mesh = outline_mesh(world, caster, view);
     scene::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (!mesh.parts.empty()) part = mesh.parts[caster.part];
-    const bool is_small = drawn_size_px(object, caster.place_rel, view) < kSmallOutline_px;
-    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows,
-                                is_small ? kSmallOutlineStep : 1);
+    const int step = row_step(drawn_size_px(object, caster.place_rel, view));
+    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows, step);
   });
 }
 
