@@ -121,11 +121,12 @@ void set_eye(const EyeInWater& eye, FrameViews views) {
 }
 
 // Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the
-// picture, the first three are of an eye in air and two more of one in water.
+// picture, the first three are of an eye in air and two more of one in water. Without water there
+// is the window alone.
 void place_vertices(const World::State& world, const View& view, const FrameOptions& options,
                     FrameViews all_views, Workspace::State& ws, const StageRun& run) {
   EyeInWater eye = find_eye_in_water(world, ws.sea, view, options);
-  FrameViews views = all_views.first(3);
+  FrameViews views = all_views.first(options.without.has(Part::kWater) ? 1 : 3);
   set_eye(eye, views);
   displace(world, ws.sea, view, options, ws.meshes, views, run);
   ws.crossing.picture = Begins::kInAir;
@@ -157,6 +158,7 @@ FrameStatistics statistics_of(const Workspace::State& ws) {
   s.frame_ms = ws.profile.now_us() * 1e-3;
   s.water_triangles = ws.meshes.water.statistics.triangles;
   s.terrain_triangles = ws.meshes.land.statistics.triangles;
+  s.object_triangles = static_cast<int>(ws.meshes.objects.in_window().primitives.size());
   s.splits = ws.meshes.water.statistics.splits + ws.meshes.land.statistics.splits;
   s.merges = ws.meshes.water.statistics.merges + ws.meshes.land.statistics.merges;
   s.lod_stopped = ws.meshes.water.statistics.stopped || ws.meshes.land.statistics.stopped;

@@ -100,7 +100,7 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
     return shows(ViewKind::kReflection, s) && !(meshes.indices(s, ViewKind::kReflection).empty() &&
                                                 meshes.indices(s, ViewKind::kRefraction).empty());
   });
-  if (!any) return;
+  if (!any || inputs.without.has(Part::kWater)) return;
 
   // Which tiles of the images water can look into.
   LookupTarget &reflection = images.reflection, &refraction = images.refraction;
