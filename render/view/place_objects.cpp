@@ -263,7 +263,11 @@ void place_objects(const World::State& world, const SeaMaps& sea,
     std::size_t count = 0;
     for (RenderView* const view : views)
       if (view->kind == kind) of_kind[count++] = view;
-    place_in_views(world, meshes, std::span(of_kind).first(count), run);
+    // Without water there are no images.
+    if (count == 0)
+      geometry.drawn_in(kind) = {};
+    else
+      place_in_views(world, meshes, std::span(of_kind).first(count), run);
   }
   geometry.meshes.assign(geometry.poses.size(), nullptr);
   for (const ObjectInstance& instance : geometry.in_window().instances)
