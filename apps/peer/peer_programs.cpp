@@ -27,7 +27,8 @@ std::string layers_text(const render::Water& water) {
   std::string text;
   const auto next_level = [&] {
     text +=
-        "level_m = level_on_waves(to_eye, point.across, s.slope);\n"
+        "long_cosine = cosine_of_slopes(to_eye, s.slope);\n"
+        "level_m = footprint_level(point.across, clamp(long_cosine, 0.02, 1.0));\n"
         "fine_variance = s.variance + short_variance;\n";
   };
   const std::string blend =

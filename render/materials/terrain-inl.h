@@ -116,11 +116,12 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const V zero = hn::Zero(D());
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
-  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, flat};
+  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, flat, packet.to_eye.z};
   const WaterSlopes sea =
       SampleWater<true>(water, s.rays, std::array{packet}, std::make_index_sequence<1>())[0];
-  return {hn::Mul(sea.slope_x, kept), hn::Mul(sea.slope_y, kept), Lerp(flat, sea.variance, kept),
-          hn::Mul(sea.foam_cover, kept), Lerp(flat, sea.fine_variance, kept)};
+  return {hn::Mul(sea.slope_x, kept),          hn::Mul(sea.slope_y, kept),
+          Lerp(flat, sea.variance, kept),      hn::Mul(sea.foam_cover, kept),
+          Lerp(flat, sea.fine_variance, kept), Lerp(packet.to_eye.z, sea.long_cosine, kept)};
 }
 
 // Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.
@@ -157,8 +158,8 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const WaterSlopes waves = SampleRunOut(s, packet, hn::NegMulAdd(calm, film, film));
   const Facing f = FaceEye(s.media, s.material<Water>(), packet, waves);
   V inv_variance, unused;
-  const V glint =
-      SunGlint(s.light.sun_direction, packet, waves, f.reflectance, f.cos_rough, inv_variance);
+  const V reflectance = GlintReflectance(s.media, s.light.sun_direction, packet);
+  const V glint = SunGlint(s.light.sun_direction, packet, waves, reflectance, f.area, inv_variance);
   const V3 floor = Difference(ground, Constant(s.media.body));
   const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f, inv_variance,
                                      floor, false, unused);

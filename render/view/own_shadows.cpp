@@ -90,7 +90,7 @@ void raise(int x, int y, float z, int side, std::span<float> depth_m) {
   at = std::max(at, z);
 }
 
-// The points nearest to an edge: masts are thinner than the space between points.
+// The points nearest to an edge.
 void add_edge(const glm::vec3& a, const glm::vec3& b, int side, std::span<float> depth_m) {
   const glm::vec3 along = b - a;
   const int steps = static_cast<int>(std::ceil(std::max(std::abs(along.x), std::abs(along.y)))) + 1;
@@ -122,6 +122,12 @@ void add_triangle(const std::array<glm::vec3, 3>& corner, int side, std::span<fl
       raise(x, y, a.z - glm::dot(glm::vec2(across), from_a) / across.z, side, depth_m);
     }
   }
+  // Masts and rails are thinner than the space between points.
+  float longest = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, glm::length(glm::vec2(corner[(k + 1) % 3] - corner[k])));
+  constexpr float kThin = 1.5f;
+  if (std::abs(across.z) >= kThin * longest) return;
   for (std::size_t k = 0; k < 3; ++k) add_edge(corner[k], corner[(k + 1) % 3], side, depth_m);
 }
 

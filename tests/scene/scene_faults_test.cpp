@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
               "principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
-              "[water], [[camera.path]], [sky], [picture], [coast], [wind], [terrain], "
+              "[water], [[camera.path]], [sky], [picture], [coast], [wind], [ripples], [terrain], "
               "[[sea.swell]], [[sea.sines]], [detail], [[object]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
@@ -200,7 +200,8 @@ INSTANTIATE_TEST_SUITE_P(
             "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
-              "[sea], [water], [wind], [picture], [coast], [[sea.swell]], [[sea.sines]], [detail], "
+              "[sea], [water], [wind], [picture], [ripples], [coast], [[sea.swell]], "
+              "[[sea.sines]], [detail], "
               "[[object]], "
               "[terrain], [[camera.path]]"},
         Fault{
@@ -222,7 +223,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
               "[coast], [camera], [wind], [detail], [terrain], [[object]], [picture], "
-              "[[sea.swell]], [[sea.sines]], [[camera.path]]"},
+              "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},

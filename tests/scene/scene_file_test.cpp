@@ -399,7 +399,7 @@ TEST(SceneFile, FramesOfASequenceHaveTheirNumberInTheName) {
 
   const std::string where =
       (folder.path() / "a.toml").string() + ":2: column 12: ripples.sequence, ";
-  for (const std::string& name : {"wave_0000.png", "wave_%d.png", "%04d_%04d.png", "%s%04d.png"})
+  for (const std::string name : {"wave_0000.png", "wave_%d.png", "%04d_%04d.png", "%s%04d.png"})
     EXPECT_EQ(
         load_error(scene_of(name)),
         where + "got \"" + name + "\", allowed the path of readable picture files, with one %04d");
