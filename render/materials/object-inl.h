@@ -9,6 +9,7 @@
 #include "render/materials/caustics-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
+#include "render/materials/thrown_light-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/own_shadow-inl.h"
 #include "render/tile/sun_shadow-inl.h"
@@ -127,12 +128,13 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   return surface;
 }
 
-// Light that a matt surface sends back: of the sun, of the sky above, of the sea below.
+// Light that a matt surface sends back: of the sun, straight and thrown up by waves, of the sky
+// above, of the sea below.
 HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
-                        V sun_visible) {
+                        V sun_visible, V thrown) {
   const V facing = Dot(s.normal, Constant(light.sun_direction));
   const V lit = hn::Max(facing, hn::Mul(hn::Neg(facing), s.translucency));
-  const V cos_sun = hn::Mul(hn::Max(lit, hn::Zero(D())), sun_visible);
+  const V cos_sun = hn::MulAdd(hn::Max(lit, hn::Zero(D())), sun_visible, thrown);
   const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
   const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen);
   const V matt = hn::Sub(Constant(1.0f), s.metalness);
@@ -224,11 +226,16 @@ struct Shader<Object, kView> {
                                const Packet& packet) const {
     const ObjectPacket objects = ObjectsAt(s, lanes);
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
-    V sun_visible = hn::Mul(SunVisible(s, tile, packet, NumbersOf(objects)),
-                            SunOverOwn(s, objects, packet, surface.normal));
+    // What the object itself is before does not tell on the light from the water.
+    const V over_others = SunVisible(s, tile, packet, NumbersOf(objects));
+    V sun_visible = hn::Mul(over_others, SunOverOwn(s, objects, packet, surface.normal));
+    V thrown = hn::Zero(D());
     if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, FootprintAcross(s.rays, packet)));
-    const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);
+    else
+      thrown = hn::Mul(over_others,
+                       ThrownLight(s, packet.p, surface.normal, FootprintAcross(s.rays, packet)));
+    const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible, thrown);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};
     return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),
             surface.normal};

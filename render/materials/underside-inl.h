@@ -15,14 +15,16 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// The surface's slopes. It is sampled as from above, along the same line: `turned` is the packet
-// with the way to the eye turned round.
-HWY_NOINLINE static WaterSlopes SampleUnderside(const Water& water, const ViewRays& rays,
-                                                const Packet& turned) {
-  const std::array packets = {turned};
-  const std::make_index_sequence<1> one;
-  return water.has_coast ? SampleWater<true>(water, rays, packets, one)[0]
-                         : SampleWater<false>(water, rays, packets, one)[0];
+// The surface's slopes. It is sampled as from above, along the same lines: with the way to the eye
+// turned round.
+template <std::size_t kCount>
+HWY_NOINLINE static std::array<WaterSlopes, kCount> SampleUnderside(
+    const Water& water, const ViewRays& rays, const std::array<Packet, kCount>& shown) {
+  std::array<Packet, kCount> turned = shown;
+  for (Packet& packet : turned) packet.to_eye = Scale(packet.to_eye, Constant(-1.0f));
+  const std::make_index_sequence<kCount> all;
+  return water.has_coast ? SampleWater<true>(water, rays, turned, all)
+                         : SampleWater<false>(water, rays, turned, all);
 }
 
 HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
@@ -197,19 +199,30 @@ HWY_INLINE hn::Mask<D> LostInWater(const Media& media, const Packet& packet) {
 }
 
 struct UndersideShader {
+  static constexpr std::size_t kPacketsAtOnce = WaterShader<false>::kPacketsAtOnce;
   const Water& water;
 
+  template <std::size_t kCount>
+  HWY_INLINE std::array<WaterSlopes, kCount> LookUp(
+      const Shading& s, const std::array<Packet, kCount>& packets) const {
+    bool lost = true;
+    for (const Packet& packet : packets)
+      lost = lost && hn::AllTrue(D(), LostInWater(s.media, packet));
+    if (!lost) return SampleUnderside(water, s.rays, packets);
+    const V zero = hn::Zero(D());
+    return [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
+      return std::array{(static_cast<void>(k), WaterSlopes{zero, zero, zero, zero, zero})...};
+    }(std::make_index_sequence<kCount>());
+  }
+
   HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes&,
-                               const Packet& packet) const {
+                               const Packet& packet, const WaterSlopes& slopes) const {
     const D d;
     const V zero = hn::Zero(d), one = Constant(1.0f);
     const auto lost = LostInWater(s.media, packet);
     const Surfel nothing = {{zero, zero, zero}, {zero, zero, one}};
     if (hn::AllTrue(d, lost)) return nothing;
     const V3 ray = Scale(packet.to_eye, Constant(-1.0f));
-    Packet turned = packet;
-    turned.to_eye = ray;
-    const WaterSlopes slopes = SampleUnderside(water, s.rays, turned);
     const FromBelow f = LeaveWater(s.media, ray, slopes);
 
     // Most of the surface mirrors all light: the air is looked for where some comes through.

@@ -156,7 +156,9 @@ struct WaterWay {
 // that depth has not dimmed (the surface's) is that of a way that ends at depth 0.
 // With z the depth, s the length, c lost a metre and K of daylight: light e^(-c s - K z_end) +
 // scattered c Int_0^s e^(-c t - K z(t)) dt.
-HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWay& way, V3 light) {
+// `shafts` is how much of that is scattered against the mean.
+HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWay& way, V3 light,
+                           V shafts = Constant(1.0f)) {
   const D d;
   const auto along = [&](int channel, V seen) HWY_ATTR {
     const float c = media.absorption_per_m[channel];
@@ -164,8 +166,8 @@ HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWa
     const V x = hn::MulAdd(way.deeper, Constant(media.daylight_lost_per_m[channel]), lost);
     // Daylight makes up for e^60: from where it cannot, nothing is seen.
     const V passes = Exp(d, Clamp(hn::Neg(x), -80.0f, 60.0f));
-    const V scattered =
-        hn::Mul(hn::Mul(lost, LossOver(x, passes)), Constant(media.scattered[channel]));
+    const V scattered = hn::Mul(hn::Mul(lost, LossOver(x, passes)),
+                                hn::Mul(shafts, Constant(media.scattered[channel])));
     return hn::Mul(hn::MulAdd(seen, passes, scattered), Constant(daylight[channel]));
   };
   return {along(0, light.x), along(1, light.y), along(2, light.z)};
@@ -182,21 +184,15 @@ HWY_INLINE V3 EndlessWater(const Media& media, glm::vec3 daylight, V w) {
   return {along(0), along(1), along(2)};
 }
 
-// Water as far as the eye sees, where it sees nothing else.
-HWY_INLINE V3 OpenWater(const Media& media, V3 ray) {
-  const V down = hn::Mul(hn::Neg(ray.z), InverseSqrt(Dot(ray, ray)));
-  return EndlessWater(media, media.daylight_at_eye, hn::Max(down, hn::Zero(D())));
-}
-
 // Light as it arrives at an eye under water from what a packet of the window shows: the surface
 // itself, or what lies in the water.
 template <SurfaceKind kSurface>
-HWY_INLINE V3 SeenInWater(const Media& media, V level, const Packet& shown, V3 light) {
+HWY_INLINE V3 SeenInWater(const Media& media, V level, const Packet& shown, V3 light, V shafts) {
   const V zero = hn::Zero(D());
   V depth = zero;
   if constexpr (kSurface != SurfaceKind::kWater) depth = hn::Max(hn::Sub(level, shown.p.z), zero);
   const V deeper = hn::Sub(depth, Constant(media.eye_depth_m));
-  return ThroughWater(media, media.daylight_at_eye, {shown.distance, deeper}, light);
+  return ThroughWater(media, media.daylight_at_eye, {shown.distance, deeper}, light, shafts);
 }
 
 // A packet as a view shows it, and what it shows: the true places in the world.

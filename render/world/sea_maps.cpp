@@ -66,6 +66,7 @@ void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps
   ocean::advance(*world.sea, t_s, sea.frame, run.workers, !without.has(Part::kCrests));
   if (without.has(Part::kWater)) {  // things lie on the waves all the same
     sea.caustics.patches = 0;
+    sea.caustics.throws_up = false;
     return;
   }
   const bool has_foam = !without.has(Part::kWhitecaps);

@@ -56,7 +56,7 @@ void ForPackets(std::size_t count, const Each& each) {
 void Sky(const Shading& shading, std::span<const float> x_px, std::span<const float> y_px,
          std::span<glm::vec3> light) {
   ForPackets(light.size(), [&](std::size_t i) {
-    StoreSome(ShadeSky(shading, LoadSome(x_px, i), LoadSome(y_px, i)), light, i);
+    StoreSome(ShadeSky(shading, {}, nullptr, LoadSome(x_px, i), LoadSome(y_px, i)), light, i);
   });
 }
 
