@@ -35,6 +35,11 @@ struct WaterTypeName {
   auto& operator()(auto& scene) const { return scene.water.type; }
 };
 
+struct RefractionName {
+  static constexpr std::array<std::string_view, 2> words = {"exact", "paper"};
+  auto& operator()(auto& scene) const { return scene.water.refraction; }
+};
+
 struct CoastModelName {
   static constexpr std::array<std::string_view, 3> words = {"none", "trains", "blend"};
   auto& operator()(auto& scene) const { return scene.coast.model; }
@@ -210,7 +215,8 @@ Rows water_rows() {
       SceneRow::number("water.distortion", {0, 1, "picture heights"}, SWELL_FIELD(water.distortion),
                        "how far a wave's slope moves mirrored and sunken things"),
       SceneRow::number("water.lookup_scale", {0.1, 1}, SWELL_FIELD(water.lookup_scale),
-                       "size of the mirror and underwater pictures against the window"),
+                       "size of the mirror and underwater pictures against the window: 1 is full, "
+                       "0.5 half, 0.25 a quarter"),
       SceneRow::number("water.bump_strength", {0, 10}, SWELL_FIELD(water.bump_strength),
                        "of the two scrolling layers of ripples"),
       SceneRow::number("water.uv_noise_amplitude_m", {0, 10, "m"},
@@ -218,6 +224,14 @@ Rows water_rows() {
                        "how far noise moves the layers' coordinates"),
       SceneRow::number("water.caustics", {0, 1}, SWELL_FIELD(water.caustics),
                        "contrast of the light that waves gather under water"),
+      SceneRow::choice("water.refraction", RefractionName{},
+                       "where things under water appear from above: by Snell's law, or by two "
+                       "straight lines for apparent over true depth, 0.75 - 0.16 theta up to 0.8 "
+                       "rad of the ray in air, 1.26 - 0.8 theta from there"),
+      SceneRow::optional_number("water.reflection_weight", {0, 1},
+                                SWELL_FIELD(water.reflection_weight),
+                                "of mirrored against sunken things, seen from above: one number "
+                                "for all angles in place of Fresnel's reflectance"),
       SceneRow::integer("detail.water_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
@@ -311,6 +325,10 @@ Rows terrain_rows() {
                        "side of the terrain along coast_m"),
       SceneRow::integer("terrain.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(terrain->seed),
                         "another number, another island or other dunes"),
+      SceneRow::or_zero(SceneRow::number("terrain.checker_m", {0.01, 1000, "m"},
+                                         SWELL_FIELD(terrain->checker_m),
+                                         "side of white and black squares in place of the "
+                                         "ground's colours; 0: none")),
   };
 }
 

@@ -46,6 +46,12 @@ struct Sky {
   bool operator==(const Sky&) const = default;
 };
 
+// Where what lies under water appears to an eye above it.
+enum class RefractionModel : std::uint8_t {
+  kExact,  // by Snell's law
+  kPaper,  // by two straight lines (render/view/refracted_image.h)
+};
+
 struct WaterOptics {
   double refraction_index = 1.333;
   WaterType type = WaterType::kNone;
@@ -57,6 +63,8 @@ struct WaterOptics {
   double bump_strength = 1.0;        // of the two scrolling layers
   double uv_noise_amplitude = 0.35;  // of the Perlin perturbation of their coordinates, in metres
   double caustics = 1.0;             // contrast of the sun's light under water, [0, 1]
+  RefractionModel refraction = RefractionModel::kExact;
+  std::optional<double> reflection_weight;  // of what it mirrors, [0, 1]; none: Fresnel's
 };
 
 // How waves near a coast know the floor and the shore. Needs a terrain.

@@ -96,6 +96,8 @@ lookup_scale = 1
 bump_strength = 2
 uv_noise_amplitude_m = 0.5
 caustics = 0.75
+refraction = "paper"
+reflection_weight = 0.5
 [coast]
 model = "trains"
 trains = 7
@@ -119,6 +121,7 @@ coast_m = [[-1, 2.5], [3, 4], [30, -4]]
 beach_slope = 0.05
 beach_size_m = 700
 seed = 99
+checker_m = 0.25
 )";
 
 TEST(SceneFile, EveryKeyReachesItsField) {
@@ -172,6 +175,8 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.water.bump_strength, 2.0);
   EXPECT_EQ(scene.water.uv_noise_amplitude, 0.5);
   EXPECT_EQ(scene.water.caustics, 0.75);
+  EXPECT_EQ(scene.water.refraction, RefractionModel::kPaper);
+  EXPECT_EQ(scene.water.reflection_weight, 0.5);
   EXPECT_EQ(scene.coast.model, CoastModel::kTrains);
   EXPECT_EQ(scene.coast.trains, 7);
   EXPECT_FALSE(scene.coast.eikonal);
