@@ -14,9 +14,8 @@ namespace {
 constexpr double kUvNoisePeriod_m = 23.0;
 constexpr int kMostLongLayers = 2;
 
-// Slope variance of what is too fine for any map: in a breeze, and of glass, which spreads the
-// sun's disc to about twice its width.
-constexpr float kBaseVariance = 0.0012f, kGlassVariance = 2e-5f;
+// Slope variance of what is too fine for any map, in a breeze.
+constexpr float kBaseVariance = 0.0012f;
 
 // The wind that makes ripples; sines have a breeze of their own.
 double ripple_wind_mps(const scene::Scene& scene) {
@@ -189,6 +188,8 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
   water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
   water.submerged = in.media.submerged;
+  water.reflection_weight =
+      static_cast<float>(in.world.scene.water.reflection_weight.value_or(-1.0));
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
