@@ -10,7 +10,7 @@
 namespace swell::ocean {
 
 // Foam is whole where B is this many standard deviations over its threshold.
-inline constexpr double kFullExcess = 1.6;
+inline constexpr double kFullExcess = 2.0;
 inline constexpr int kFullCode = 255;
 
 // After so many steps nothing is left of foam.

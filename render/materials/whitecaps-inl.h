@@ -17,44 +17,56 @@ namespace HWY_NAMESPACE {
 // Levels of a lace's map at which its cells begin to melt, and are gone.
 constexpr float kCellsMelt = 1.0f, kCellsGone = 3.5f;
 
-// Two thresholds of foam in [0, 1], spread evenly, and how much of their pattern is left in pixels
-// of that size.
+// How much of a lace is seen in pixels of that size, in [0, 1].
+HWY_INLINE V LaceSeen(const FoamLace& lace, V level_m) {
+  const V left = hn::Sub(Constant(kCellsGone - lace.log2_texels_per_m), level_m);
+  return Clamp(hn::Mul(left, Constant(1.0f / (kCellsGone - kCellsMelt))), 0.0f, 1.0f);
+}
+
+// Two thresholds of foam in [0, 1], spread evenly.
 struct Thresholds {
-  V lace, tears, seen;
+  V lace, tears;
 };
 
 HWY_INLINE Thresholds SampleLace(const FoamLace& lace, V3 p, V level_m) {
   const D d;
-  const V half = Constant(0.5f), one = Constant(1.0f);
-  const V level = hn::Add(level_m, Constant(lace.log2_texels_per_m));
-  const V gone =
-      hn::Mul(hn::Sub(level, Constant(kCellsMelt)), Constant(1.0f / (kCellsGone - kCellsMelt)));
-  if (hn::AllTrue(d, hn::Ge(gone, one))) return {half, half, hn::Zero(d)};
+  const V half = Constant(0.5f);
+  const V level = hn::Add(level_m, Constant(lace.log2_texels_per_m + 0.5f));
   const V x = hn::MulAdd(p.x, Constant(lace.x_fx8_per_m.x),
                          hn::MulAdd(p.y, Constant(lace.x_fx8_per_m.y), Constant(lace.x_eye_fx8)));
   const V y = hn::MulAdd(p.x, Constant(lace.y_fx8_per_m.x),
                          hn::MulAdd(p.y, Constant(lace.y_fx8_per_m.y), Constant(lace.y_eye_fx8)));
   V lace_code, tears_code;
   texture::HWY_NAMESPACE::SampleLevel(d, *lace.map, RoundToInt(x), RoundToInt(y),
-                                      TruncateToInt(Clamp(hn::Add(level, half), 0.0f, kCellsGone)),
-                                      lace_code, tears_code);
-  // As above to the bit where cells are gone, whatever the lanes beside show.
-  const auto is_gone = hn::Ge(gone, one);
-  return {hn::IfThenElse(is_gone, half, hn::MulAdd(lace_code, half, half)),
-          hn::IfThenElse(is_gone, half, hn::MulAdd(tears_code, half, half)),
-          hn::Sub(one, Clamp(gone, 0.0f, 1.0f))};
+                                      TruncateToInt(Clamp(level, 0.0f, kCellsGone)), lace_code,
+                                      tears_code);
+  return {hn::MulAdd(lace_code, half, half), hn::MulAdd(tears_code, half, half)};
 }
 
-// The sum of both thresholds, each with its weight, as a threshold that is itself spread evenly:
-// the distribution of the sum of two even ones.
-HWY_INLINE V JoinThresholds(V coarse, V fine, float coarse_width, V fine_width) {
-  const V a = Constant(coarse_width), b = hn::Max(fine_width, Constant(1e-3f));
-  const V z = hn::MulAdd(coarse, a, hn::Mul(fine, b)), rest = hn::Sub(hn::Add(a, b), z);
-  const V half_inverse = hn::Div(Constant(0.5f / coarse_width), b);
-  const V low = hn::Mul(hn::Mul(z, z), half_inverse);
-  const V high = hn::NegMulAdd(hn::Mul(rest, rest), half_inverse, Constant(1.0f));
-  const V middle = hn::Mul(hn::NegMulAdd(b, Constant(0.5f), z), Constant(1.0f / coarse_width));
-  return hn::IfThenElse(hn::Lt(z, b), low, hn::IfThenElse(hn::Lt(rest, b), high, middle));
+// Where the laces' place p was before eddies bent them, or they would lie in straight lines.
+HWY_INLINE V3 BendLace(const Whitecaps& material, V3 p, V level_m) {
+  constexpr float kMostBend_m = 1.4f;
+  const V half = Constant(0.5f), scale = Constant(2.0f * kMostBend_m);
+  const Thresholds eddies = SampleLace(material.eddies, p, level_m);
+  p.x = hn::MulAdd(hn::Sub(eddies.lace, half), scale, p.x);
+  p.y = hn::MulAdd(hn::Sub(eddies.tears, half), scale, p.y);
+  return p;
+}
+
+// The sum of two thresholds as one that is itself spread evenly: the distribution of the sum.
+HWY_INLINE V JoinThresholds(V a, V b) {
+  const V sum = hn::Add(a, b), rest = hn::Sub(Constant(2.0f), sum);
+  const V half = Constant(0.5f), one = Constant(1.0f);
+  return hn::IfThenElse(hn::Lt(sum, one), hn::Mul(hn::Mul(sum, sum), half),
+                        hn::NegMulAdd(hn::Mul(rest, rest), half, one));
+}
+
+// The part of thresholds b, spread evenly, with which foam is over the sum of both.
+HWY_INLINE V CoverOfJoined(V foam, V a) {
+  const V two = Constant(2.0f), less = hn::Add(foam, foam), more = hn::Sub(two, less);
+  const V root = hn::Sqrt(hn::Max(hn::Min(less, more), hn::Zero(D())));
+  const V sum = hn::IfThenElse(hn::Lt(less, more), root, hn::Sub(two, root));
+  return Clamp(hn::Sub(sum, a), 0.0f, 1.0f);
 }
 
 // The part of a pixel that foam hides: in the mean over thresholds it is `foam`, exactly.
@@ -101,13 +113,20 @@ HWY_INLINE TornFoam TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V 
   const auto some = hn::Gt(foam, Constant(material.least));
   if (hn::AllFalse(d, some)) return {zero, zero, zero};
   V cover = foam, thickness = hn::Mul(foam, Constant(0.5f));
-  const Thresholds tears = SampleLace(material.tears, p, level_m);
-  if (!hn::AllTrue(d, hn::Eq(tears.seen, zero))) {
-    const Thresholds lace = SampleLace(material.lace, p, level_m);
-    const V threshold =
-        JoinThresholds(tears.tears, lace.lace, 0.5f, hn::Mul(Constant(0.5f), lace.seen));
-    cover = Lerp(foam, CoverOf(foam, threshold), tears.seen);
-    thickness = Lerp(thickness, hn::Max(hn::Sub(foam, threshold), zero), tears.seen);
+  // Where it is 0 the blends below change no bit, whatever the lanes beside show.
+  const V seen = hn::IfThenElseZero(some, LaceSeen(material.tears, level_m));
+  if (!hn::AllTrue(d, hn::Eq(seen, zero))) {
+    const V3 at = BendLace(material, p, level_m);
+    const V tears = SampleLace(material.tears, at, level_m).tears;
+    // Lace too fine to be seen leaves tears soft.
+    V torn = CoverOfJoined(foam, tears), lace = Constant(0.5f);
+    const V lace_seen = LaceSeen(material.lace, level_m);
+    if (!hn::AllTrue(d, hn::Eq(lace_seen, zero))) {
+      lace = Lerp(lace, SampleLace(material.lace, at, level_m).lace, lace_seen);
+      torn = Lerp(torn, CoverOf(foam, JoinThresholds(tears, lace)), lace_seen);
+    }
+    cover = Lerp(foam, torn, seen);
+    thickness = Lerp(thickness, hn::Max(hn::Sub(foam, JoinThresholds(tears, lace)), zero), seen);
   }
   return {hn::IfThenElseZero(some, cover), hn::IfThenElseZero(some, thickness),
           hn::IfThenElseZero(some, foam)};

@@ -12,7 +12,7 @@ constexpr float kAlbedo = 0.8f;
 // Light that bubbles send back has come through so much water, and loses half besides.
 constexpr float kBubblesDeep_m = 2.0f, kBubblesAlbedo = 0.5f;
 // Periods across the wind of the pattern, which has cells of 1/10 and 1/25 of that.
-constexpr double kTears_m = 41.0, kLace_m = 9.7;
+constexpr double kEddies_m = 173.0, kTears_m = 41.0, kLace_m = 9.7;
 
 // stretch: how many times as long cells are along the wind as across it.
 FoamLace make_lace(const MaterialInputs& in, glm::dvec2 eye, double period_m, double stretch) {
@@ -61,6 +61,7 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   // Lines of foam along the wind are seen from Beaufort 7 on, 13.9 m/s.
   const double wind_mps = in.world.scene.sea.wind_speed_mps;
   const double gale = smoothstep(11.0, 20.0, wind_mps);
+  whitecaps.eddies = make_lace(in, eye, kEddies_m, 1.0);
   whitecaps.tears = make_lace(in, eye, kTears_m, 1.2 + 5.0 * gale);
   whitecaps.lace = make_lace(in, eye, kLace_m, 1.0 + 1.5 * gale);
   return whitecaps;

@@ -34,7 +34,7 @@ struct Whitecaps {
   std::array<FoamMap, ocean::kMostFoamPatches> foam;
   float crest_per_m = 0.0f;  // ocean::foam_on_crest()
   float least = 0.0f;        // less foam is not drawn: less than far water shows
-  FoamLace tears, lace;
+  FoamLace eddies, tears, lace;
   glm::vec3 sky_light{0.0f}, sun_light{0.0f};  // radiance of snow under the sky, facing the sun
   glm::vec3 bubbles{0.0f};                     // of that, what water full of bubbles sends back
 };
