@@ -39,16 +39,18 @@ enum class Part : std::uint8_t {
   kSunSlide,     // a scene's projected glitter; without it, that of slopes
   kCausticBend,  // how ripples move a scene's caustics
   kOwnShadows,   // of objects on themselves
+  kImageBlur,    // what slopes finer than a pixel spread in the lookup images
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "water",   "reflection", "refraction", "ripples",      "glitter",    "whitecaps", "haze",
-    "earth",   "clouds",     "shadows",    "hulls",        "apron",      "tiling",    "seen-slopes",
-    "crests",  "altitude",   "textures",   "underwater",   "meniscus",   "caustics",  "shafts",
-    "uplight", "sequence",   "sun-slide",  "caustic-bend", "own-shadows"};
+    "water",        "reflection",  "refraction", "ripples",  "glitter",  "whitecaps",
+    "haze",         "earth",       "clouds",     "shadows",  "hulls",    "apron",
+    "tiling",       "seen-slopes", "crests",     "altitude", "textures", "underwater",
+    "meniscus",     "caustics",    "shafts",     "uplight",  "sequence", "sun-slide",
+    "caustic-bend", "own-shadows", "image-blur"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

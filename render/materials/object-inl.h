@@ -7,6 +7,7 @@
 #endif
 
 #include "render/materials/caustics-inl.h"
+#include "render/materials/checker-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
 #include "render/materials/thrown_light-inl.h"
@@ -64,13 +65,24 @@ inline glm::vec3 TexelAt(const ObjectPrimitive& primitive, glm::vec3 q, float lo
   return texture::sample(image, at(t.u), at(t.v), has_textures ? level : 1e9f);
 }
 
+// Of an object's squares those along a triangle: not across it, where one would end just there.
+inline glm::vec3 SquaresAlong(const ObjectPrimitive& primitive) {
+  glm::vec3 squares = primitive.object->squares_per_unit;
+  if (squares.x <= 0.0f) return squares;
+  const glm::vec3 n = glm::abs(primitive.triangle->flat_normal / squares);
+  squares[n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2)] = 0.0f;
+  return squares;
+}
+
 // What the triangles hold at points p relative to the eye.
 HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& rays,
                                       const ObjectPrimitive* const* primitive,
                                       const Packet& packet) {
   Lanes3 bottom, right, ahead, up, at_origin, along_x, along_y, along_z, albedo, flat;
   Lanes3 finish;  // roughness, metalness, translucency
-  bool has_pictures = false;
+  Lanes3 squares;
+  HWY_ALIGN float squares_per_m[Lanes3::kCount];
+  bool has_pictures = false, has_squares = false;
   for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
     const ObjectInstance& object = *primitive[i]->object;
     const scene::ObjectTriangle& triangle = *primitive[i]->triangle;
@@ -92,6 +104,9 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
     const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
     finish.Set(i, {its.x, its.y, triangle.translucency});
     has_pictures |= !object.mesh->textured.empty();
+    has_squares |= object.squares_per_m > 0.0f;
+    squares_per_m[i] = object.squares_per_m;
+    squares.Set(i, SquaresAlong(*primitive[i]));
   }
   // To the mesh's coordinates, the normal there, and back.
   const V3 q_rel = Sum(packet.p, Scale(bottom.Load(), Constant(-1.0f)));
@@ -108,6 +123,11 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   const V3 finishes = finish.Load();
   ObjectSurface surface = {Scale(n, hn::IfThenElse(from_behind, hn::Neg(inverse), inverse)),
                            albedo.Load(), finishes.x, finishes.y, finishes.z};
+  if (has_squares) {
+    const V half_m = HalfFootprint(rays, packet, Dot(surface.normal, packet.to_eye));
+    const V half_px = hn::Mul(half_m, hn::Load(D(), squares_per_m));
+    surface.albedo = Scale(surface.albedo, CheckeredPaint(squares.Load(), q, half_px));
+  }
   if (!has_pictures) return surface;
 
   const V footprint =

@@ -21,6 +21,7 @@
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
+#include "render/materials/image_blur-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/visible_slopes-inl.h"
 #include "render/materials/water.h"
@@ -220,16 +221,15 @@ struct Looked {
   V alpha;
 };
 
-// Looks a lookup image up at a window position. Samples beside nothing are no darker: only their
-// alpha is less.
-HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
+// Looks a lookup image up at a window position, on a level of it. Samples beside nothing are no
+// darker: only their alpha is less.
+HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px, const BlurLevel& level) {
   const D d;
   const V one = Constant(1.0f);
+  const V x = hn::Mul(x_px, Constant(lookup.scale_x)), y = hn::Mul(y_px, Constant(lookup.scale_y));
   V3 code;
   V alpha;
-  texture::HWY_NAMESPACE::SampleRgba(d, *lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
-                                     hn::Mul(y_px, Constant(lookup.scale_y)), code.x, code.y,
-                                     code.z, alpha);
+  SampleBlurred(*lookup.image, x, y, level, code, alpha);
   const auto some = hn::Gt(alpha, hn::Zero(d));
   if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
   // Codes that were blended with zeros.
@@ -260,14 +260,17 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
   const V gain = hn::Mul(Constant(sign * water.distortion_px),
                          Clamp(hn::Mul(packet.to_eye.z, Constant(water.distortion_by_sine)),
                                water.least_distortion, 1.0f));
+  // What lies under water is near the surface: slopes too fine to see move it by less than they
+  // spread it.
+  const BlurLevel level = kBacked ? Sharp() : FindBlur(lookup, s.variance, hn::Mul(gain, gain));
   const float bound = water.max_distortion_px;
   const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
   const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
   const V half = Constant(0.5f);
   const V x = hn::Add(packet.x_px, half), y = hn::Add(packet.y_px, half);
-  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy));
+  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy), level);
   const bool found = hn::AllTrue(d, hn::Ge(moved.alpha, Constant(1.0f)));
-  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y));
+  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y, level));
 }
 
 // The part of the facets seen that mirror the sea again, not the sky. The mean slopes send the ray
@@ -458,7 +461,9 @@ struct WaterShader {
       const auto splashed = hn::Gt(hulls.foam_cover, hn::Zero(D()));
       foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
     }
-    const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
+    const V weight =
+        water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
+    const V3 arriving = Lerp(refracted, mirrored, weight);
     if (water.glitter.slide)
       sun_path =
           hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));

@@ -122,13 +122,14 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.short_variance = layer_variance(water, water.long_layer_count);
   water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
   water.wave_horizon = wave_horizon(variance);
-  water.glitter_light =
-      in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
+  water.glitter_light = in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
   water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
   water.submerged = in.media.submerged;
+  water.reflection_weight =
+      static_cast<float>(in.world.scene.water.reflection_weight.value_or(-1.0));
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);

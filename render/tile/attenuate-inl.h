@@ -93,6 +93,19 @@ HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
   return Lerp(colour, Lerp(ahead, Constant(s.light.horizon), steep), amount);
 }
 
+// paper_depth_ratio() of the angle whose cosine in air this is, at least 0.02; the angle is right
+// to 7e-5. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, 1964, 4.4.45.
+HWY_INLINE V PaperDepthRatio(V cosine) {
+  V acos = hn::MulAdd(cosine, Constant(-0.0187293f), Constant(0.0742610f));
+  acos = hn::MulAdd(cosine, acos, Constant(-0.2121144f));
+  acos = hn::MulAdd(cosine, acos, Constant(1.5707288f));
+  const V rest = hn::Max(hn::Sub(Constant(1.0f), cosine), hn::Zero(D()));
+  const V angle = hn::Mul(acos, hn::Sqrt(rest));
+  const V steep = hn::NegMulAdd(angle, Constant(0.16f), Constant(0.75f));
+  const V flat = hn::NegMulAdd(angle, Constant(0.8f), Constant(1.26f));
+  return hn::IfThenElse(hn::Le(angle, Constant(0.8f)), steep, flat);
+}
+
 // Light's way through water to something at a depth.
 struct WaterPath {
   V depth;   // true, of a thing that is seen at the apparent one [m]
@@ -109,7 +122,9 @@ HWY_INLINE WaterPath PathThroughWater(const Media& media, const Packet& packet, 
               Constant(inv_n));
   const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, Constant(1.0f)));
   const V depth =
-      hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(media.refraction_index)), cos_eye));
+      media.paper_refraction
+          ? hn::Div(apparent, PaperDepthRatio(cos_eye))
+          : hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(media.refraction_index)), cos_eye));
   const V path_up = hn::Min(hn::Div(depth, cos_t), Constant(200.0f));
   return {depth,
           hn::MulAdd(depth, Constant(kDaylightSlant), path_up)};  // sunlight comes down at a slant
@@ -242,9 +257,10 @@ HWY_INLINE Seen FindSeen(const Shading& s, const Packet& shown, V level) {
   }
   if constexpr (kView == ViewKind::kRefraction) {
     const V zero = hn::Zero(D());
-    seen.path = PathThroughWater(s.media, shown, hn::Max(hn::Sub(level, shown.p.z), zero));
-    const V above = hn::Max(hn::Sub(shown.p.z, level), zero);
-    seen.packet.p.z = hn::Add(hn::Sub(level, seen.path.depth), above);
+    const V below = hn::Sub(level, shown.p.z);
+    seen.path = PathThroughWater(s.media, shown, hn::Abs(below));
+    seen.packet.p.z = hn::Sub(level, hn::CopySign(seen.path.depth, below));
+    seen.path.length = hn::IfThenElseZero(hn::Gt(below, zero), seen.path.length);
   }
   return seen;
 }

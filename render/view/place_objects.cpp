@@ -44,6 +44,10 @@ ObjectInstance instance_of(const scene::FloatingObject& object, const scene::Obj
   instance.colour = object.colour;
   instance.roughness = static_cast<float>(object.roughness);
   instance.metalness = static_cast<float>(object.metalness);
+  if (object.checker_m > 0.0) {
+    instance.squares_per_m = static_cast<float>(1.0 / object.checker_m);
+    instance.squares_per_unit = glm::vec3(object.size_m / object.checker_m);
+  }
   const double volume = object.size_m.x * object.size_m.y * object.size_m.z;
   instance.log2_units_per_m = static_cast<float>(-log(volume) / (3.0 * log(2.0)));
   return instance;

@@ -43,6 +43,7 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(path_closed);
   SWELL_COMPARE(roughness);
   SWELL_COMPARE(metalness);
+  SWELL_COMPARE(checker_m);
   SWELL_COMPARE(file);
   SWELL_COMPARE(up);
   SWELL_COMPARE(scale);
@@ -71,6 +72,7 @@ void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, 
   SWELL_COMPARE(beach_slope);
   SWELL_COMPARE(beach_size_m);
   SWELL_COMPARE(seed);
+  SWELL_COMPARE(checker_m);
 }
 
 }  // namespace
@@ -150,6 +152,8 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(water.glitter);
   SWELL_COMPARE(water.glitter_distortion);
   SWELL_COMPARE(ripples);
+  SWELL_COMPARE(water.refraction);
+  SWELL_COMPARE(water.reflection_weight);
   SWELL_COMPARE(coast.model);
   SWELL_COMPARE(coast.trains);
   SWELL_COMPARE(coast.eikonal);
