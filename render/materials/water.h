@@ -8,6 +8,7 @@
 #include "render/materials/foam.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
+#include "render/materials/wakes.h"
 #include "render/materials/whitecaps.h"
 
 namespace swell::render {
@@ -43,6 +44,7 @@ struct Water {
   SlopeLayer coast_slopes, coast_surf;
   Foam foam, hull_foam;
   Whitecaps whitecaps;
+  Wakes wakes;
 
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
   float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
