@@ -108,7 +108,7 @@ void add_strip(const WakeWindow& window, const WakeStretch& s, bool is_latest, s
 // Steep water breaks: at the bow, and where waves of a wake cross.
 float breaking(float slope_x, float slope_y, float height_m) {
   const float steep = std::sqrt(slope_x * slope_x + slope_y * slope_y);
-  return height_m > 0.0f ? 0.8f * smoothstep(0.22f, 0.5f, steep) : 0.0f;
+  return height_m > 0.0f ? 0.8f * smoothstep(0.14f, 0.35f, steep) : 0.0f;
 }
 
 void foam_row(std::size_t j, WakeWindow& window) {

@@ -92,14 +92,14 @@ TEST(Wakes, DropRunsApartAsTheIntegralSays) {
 
 TEST(Wakes, RingsLieWhereTheirGroupVelocityTakesThem) {
   // At r after t are the waves with omega / 2 k = r / t, whose phase there is g t^2 / 4 r.
-  const Disturbance d = drop({0.0, 0.0}, 0.0, 0.5, 0.3);
+  const Disturbance d = drop({0.0, 0.0}, 0.0, 0.3, 0.3);
   const double t_s = 6.0;
   const WakeFrame frame = frame_at({&d, 1}, t_s);
   std::vector<double> phase;  // where the surface passes its level
-  for (double r = 3.0; r < 9.0; r += 0.005)
+  for (double r = 4.0; r < 10.0; r += 0.005)
     if ((height(frame, {r, 0.0}) < 0.0f) != (height(frame, {r + 0.005, 0.0}) < 0.0f))
       phase.push_back(kGravity * t_s * t_s / (4.0 * (r + 0.0025)));
-  ASSERT_GE(phase.size(), 5u);
+  ASSERT_GE(phase.size(), 4u);
   for (std::size_t i = 1; i < phase.size(); ++i)
     EXPECT_NEAR((phase[i - 1] - phase[i]) / kPi, 1.0, 0.06) << phase[i];
 }
