@@ -70,16 +70,17 @@ HWY_INLINE Modes ModesAt(const WakeWindow& window, V count_x, V count_y) {
   return m;
 }
 
-// Where waves that were made in the window leave it.
+// Where waves that were made in a window end, along one axis.
 struct Limits {
   float low_m, high_m;
 };
-HWY_INLINE Limits LimitsOf(const WakeWindow& window) {
-  const auto length_m = static_cast<float>(window.length_m);
-  return {0.5f * kWakeRim * length_m, (1.0f - 0.5f * kWakeRim) * length_m};
+
+HWY_INLINE Limits LimitsOf(const WakeWindow& window, int axis) {
+  const float length_m = static_cast<float>(window.length_m), inside = 0.5f * kWakeRim;
+  return {window.end_m[axis] + inside * length_m, window.end_m[axis] + (1.0f - inside) * length_m};
 }
 
-// When something at x for s = 0 that goes on by v passes a limit.
+// When something at x for s = 0 that goes on by v comes to a limit.
 HWY_INLINE V LeavesAt(Limits limits, V x, V v) {
   const M stands = hn::Lt(hn::Abs(v), Set(1e-6f));
   v = hn::IfThenElse(stands, Set(1e-6f), v);
@@ -87,15 +88,20 @@ HWY_INLINE V LeavesAt(Limits limits, V x, V v) {
   return hn::Div(hn::Sub(end, x), v);
 }
 
+// How far x lies inside, 0 outside.
+HWY_INLINE V Inside(Limits limits, V x) {
+  const V inside = hn::Min(hn::Sub(x, Set(limits.low_m)), hn::Sub(Set(limits.high_m), x));
+  return hn::Max(inside, hn::Zero(D()));
+}
+
 // ---- A hump at one moment
 
 HWY_INLINE void AddRing(const WakeWindow& window, const WakeRing& ring, const Modes& m,
                         ComplexV& sum) {
   const D d;
-  const Limits limits = LimitsOf(window);
   const auto length_m = static_cast<float>(window.length_m);
-  const V leaves = hn::Min(LeavesAt(limits, Set(ring.x_m), m.going_x),
-                           LeavesAt(limits, Set(ring.y_m), m.going_y));
+  const V leaves = hn::Min(LeavesAt(LimitsOf(window, 0), Set(ring.x_m), m.going_x),
+                           LeavesAt(LimitsOf(window, 1), Set(ring.y_m), m.going_y));
   // 1 up to two thirds of that age, then down to 0 with no slope.
   const V part = hn::Div(Set(3.0f * ring.age_s), hn::Max(leaves, Set(1e-6f)));
   const V late = hn::Min(hn::Max(hn::Sub(part, Set(2.0f)), hn::Zero(d)), Set(1.0f));
@@ -132,18 +138,25 @@ HWY_INLINE void AddIntegral(V phase, V rate, V from, V to, float weight, Complex
   sum.im = hn::MulAdd(size, e.im, sum.im);
 }
 
-// The age from which on a mode's waves are outside, or the hull was not there yet.
+// The age from which on a mode's waves are outside, or the hull was not there yet. Waves from
+// before a turn may come in again: so that none are there all at once, waves that are near the
+// window's end at a turn count as if they left soon after it.
 HWY_INLINE V OldestInside(const WakeWindow& window, const Modes& m) {
-  const Limits limits = LimitsOf(window);
+  const Limits x_limits = LimitsOf(window, 0), y_limits = LimitsOf(window, 1);
+  const float stays_s_m = 11.0f / window.hull.speed_mps;
   V oldest = Set(window.stretches.back().to_s);
   M left = hn::MaskFromVec(hn::Zero(D()));
   for (const WakeStretch& s : window.stretches) {
-    const V out = hn::Min(LeavesAt(limits, Set(s.x_m), hn::Sub(m.going_x, Set(s.u_mps))),
-                          LeavesAt(limits, Set(s.y_m), hn::Sub(m.going_y, Set(s.v_mps))));
+    const V x = Set(s.x_m), v_x = hn::Sub(m.going_x, Set(s.u_mps)), turn = Set(s.to_s);
+    const V y = Set(s.y_m), v_y = hn::Sub(m.going_y, Set(s.v_mps));
+    const V out = hn::Min(LeavesAt(x_limits, x, v_x), LeavesAt(y_limits, y, v_y));
     const V at = hn::Max(out, Set(s.from_s));
-    const M leaves = hn::AndNot(left, hn::Lt(at, Set(s.to_s)));
-    oldest = hn::IfThenElse(leaves, at, oldest);
+    const M leaves = hn::AndNot(left, hn::Lt(at, turn));
+    oldest = hn::IfThenElse(leaves, hn::Min(at, oldest), oldest);
     left = hn::Or(left, leaves);
+    const V inside_m = hn::Min(Inside(x_limits, hn::MulAdd(v_x, turn, x)),
+                               Inside(y_limits, hn::MulAdd(v_y, turn, y)));
+    oldest = hn::Min(oldest, hn::MulAdd(inside_m, Set(stays_s_m), turn));
   }
   return oldest;
 }

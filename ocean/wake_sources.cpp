@@ -153,6 +153,7 @@ WakeWindow* ring_window(const TimedRing& ring, double gravity_mps2, WakeFrame& f
   if (frame.count == kMostWakeWindows) return nullptr;
   WakeWindow& window = next_window(frame);
   window.corner_m = square.corner_m;
+  window.end_m = glm::vec2(0.0f);
   window.length_m = square.length_m;
   window.depth_m = 0.0f;
   window.gravity_mps2 = static_cast<float>(gravity_mps2);
@@ -245,7 +246,9 @@ void place_hull(const Disturbance& d, double gravity_mps2, double t_s, WakeFrame
   const double crosses_s = length_m / d.speed_mps;
   WakeWindow& window = next_window(frame);
   const glm::dvec2 middle = way.place_at(t_s - kBehind * crosses_s);
-  window.corner_m = glm::floor((middle - 0.5 * length_m) / sample_m) * sample_m;
+  const glm::dvec2 end = middle - 0.5 * length_m;
+  window.corner_m = glm::floor(end / sample_m) * sample_m;
+  window.end_m = glm::vec2(end - window.corner_m);
   window.length_m = length_m;
   window.depth_m = static_cast<float>(d.depth_m);
   window.gravity_mps2 = static_cast<float>(gravity_mps2);

@@ -38,6 +38,9 @@ struct WakeHull {
 struct WakeWindow {
   glm::dvec2 corner_m{0.0};  // on a lattice of samples, so that they do not move with a hull
   double length_m = 1.0;
+  // Where waves end: in a square of the same size that moves with a hull and not in steps; its
+  // corner in the window.
+  glm::vec2 end_m{0.0f};
   float depth_m = 0.0f;  // of the water; 0: deep
   float gravity_mps2 = 9.81f;
   float bound_m = 0.0f;                // |z| is kept below

@@ -240,6 +240,32 @@ TEST(Wakes, VelocityIsTheRateOfTheHeight) {
   EXPECT_LT(std::sqrt(off / squares), 0.05);
 }
 
+// Not where the window moves on, nor where waves from before a turn leave it.
+TEST(Wakes, NothingJumpsAsAHullGoesOn) {
+  Disturbance d = hull(0.30);
+  d.path_m = {{60.0, -110.0}, {160.0, 20.0}, {60.0, 30.0}, {40.0, -60.0}};
+  d.path_closed = true;
+  constexpr int kFrames = 150;
+  std::vector<glm::dvec2> points;
+  for (double x = 100.0; x < 160.0; x += 3.0)
+    for (double y = -60.0; y < 20.0; y += 3.0) points.push_back({x, y});
+  std::vector<std::vector<float>> z(kFrames, std::vector<float>(points.size()));
+  Workers workers(2);
+  WakeFrame frame;
+  for (int n = 0; n < kFrames; ++n) {
+    advance_wakes({&d, 1}, {}, kGravity, 45.0 + n / 60.0, frame, workers);
+    add_wake_heights(frame, points, z[n]);
+  }
+  float most = 0.0f, jump = 0.0f;
+  for (std::size_t n = 3; n < kFrames; ++n)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      most = std::max(most, std::abs(z[n][i]));
+      jump = std::max(jump, std::abs(z[n][i] - 3.0f * (z[n - 1][i] - z[n - 2][i]) - z[n - 3][i]));
+    }
+  EXPECT_GT(most, 0.1f);
+  EXPECT_LT(jump, 0.008f * most);
+}
+
 TEST(Wakes, OrderOfTheListDoesNotMatter) {
   std::vector<Disturbance> list = mixture();
   const WakeFrame frame = frame_at(list, 9.0);
