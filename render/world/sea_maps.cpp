@@ -82,6 +82,10 @@ void advance_waves(const World::State& world, double t_s, std::span<const ocean:
 void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
                  PartSet without, SeaMaps& sea, const StageRun& run) {
   advance_waves(world, t_s, more, without, sea.frame, run.workers);
+  if (without.has(Part::kWater)) {  // things lie on the waves all the same
+    sea.caustics.patches = 0;
+    return;
+  }
   const bool has_foam = !without.has(Part::kWhitecaps);
   if (has_foam) ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
   if (without.has(Part::kTiling)) leave_out_tiles(sea);
@@ -89,7 +93,7 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
   const std::size_t caustics = trace_caustics(world, sea.frame, without, sea.caustics, run);
   // Make the maps that shading looks into: the caustics, the wakes', the foam's, the waves', the
-  // noise's, the coast's.
+  // noise's, the coast's, the ripples'.
   const std::size_t foams = has_foam ? sea.whitecaps.patches.size() : 0;
   const std::size_t patches = sea.frame.patches.size(), noise = foams + patches;
   sea.foam.resize(foams);
@@ -99,7 +103,9 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
   sea.wake_slopes.resize(std::max(sea.wake_slopes.size(), wakes));
   sea.wake_foam.resize(sea.wake_slopes.size());
   sea.wake_values.resize(sea.wake_slopes.size());
-  run.for_each(caustics + wakes + noise + (has_coast ? 3 : 1), [&](std::size_t job, int) {
+  const bool has_sequence = world.ripple_sequence && !without.has(Part::kSequence);
+  const std::size_t ripples = noise + (has_coast ? 3 : 1);
+  run.for_each(caustics + wakes + ripples + (has_sequence ? 1 : 0), [&](std::size_t job, int) {
     if (job < caustics) return make_caustic_map(sea.caustics, job);
     if (job < caustics + wakes) {
       const std::size_t w = job - caustics;
@@ -113,6 +119,8 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
       pack_patch(sea.frame.patches[i - foams], sea.patch_slopes[i - foams]);
     else if (i == noise)
       pack_noise(world.scene.sea, t_s, sea);
+    else if (i == ripples)
+      pack_ripples(world.scene, *world.ripple_sequence, t_s, sea.ripples);
     else if (i == noise + 1)
       texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
                          sea.coast_slopes);
