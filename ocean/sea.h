@@ -14,6 +14,7 @@
 #include "math/parallel.h"
 #include "ocean/patch_tiles.h"
 #include "ocean/spectrum.h"
+#include "ocean/wake_sources.h"
 
 namespace swell::ocean {
 
@@ -111,6 +112,7 @@ struct SeaFrame {
   double t_s = 0.0;
   std::vector<PatchFrame> patches;  // none if there are no spectrum waves
   std::vector<SineFrame> sines;
+  WakeFrame wakes;                        // advance_wakes() fills it, not advance()
   std::vector<float> linear, fft_planes;  // working storage of advance()
 };
 

@@ -140,7 +140,8 @@ void place_vertices(const World::State& world, const View& view, const FrameOpti
   displace(world, ws.sea, view, options, ws.meshes, views, run);
   ws.crossing.picture = Begins::kInAir;
   if (!options.without.has(Part::kUnderwater))
-    find_crossing(ws.meshes.water, view, eye, world.water_bounds().height_m, ws.crossing);
+    find_crossing(ws.meshes.water, view, eye, world.water_bounds(options.disturbances).height_m,
+                  ws.crossing);
   if (eye.submerged != (ws.crossing.picture == Begins::kInWater)) {
     eye.submerged = !eye.submerged;
     set_eye(eye, views);
@@ -225,7 +226,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   workers.run_both(
       [&] {
         stage(Stage::kSea, [&](const StageRun& run) {
-          advance_sea(world_state, t_s, options.without, ws.sea, run);
+          advance_sea(world_state, t_s, options.disturbances, options.without, ws.sea, run);
           advance_sky(world_state, mirrored, sky_m, options.without, ws.sky, run);
         });
       },
@@ -237,7 +238,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     place_vertices(world_state, drawn, options, views, ws, run);
-    const ShadowOptions shadows{light.sun_direction, options.without};
+    const ShadowOptions shadows{light.sun_direction, options.without, options.disturbances};
     find_shadow_casters(world_state, shadows, drawn, ws.meshes.objects, run);
     find_own_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
   });

@@ -105,6 +105,9 @@ struct FrameOptions {
   // unless scene::check_given_poses() passes them), and for the label of motion in the next one.
   // Read during the call only.
   std::span<const scene::GivenPose> poses = {}, next_poses = {};
+  // What disturbs the water besides the scene's own list: of its values (ocean/disturbance.h), with
+  // two points or more in a hull's path. Read during the call only.
+  std::span<const ocean::Disturbance> disturbances = {};
 };
 
 // The options with the scene's own numbers in place of zeros.

@@ -72,6 +72,8 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::plain<bool>("path_closed", ParameterKind::kBoolean, SWELL_FIELD(path_closed),
                              "path_m goes on from its last point to the first, round and round; "
                              "false: the object stops at the last"),
+      ObjectRow::plain<bool>("wake", ParameterKind::kBoolean, SWELL_FIELD(wake),
+                             "a boat or sailboat that floats along path_m makes waves and foam"),
       size,
       ObjectRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
                        "where it points, clockwise from north"),

@@ -62,6 +62,7 @@ struct FloatingObject {
   std::vector<glm::dvec2> path_m{};
   double speed_mps = 3.0;
   bool path_closed = true;  // from the last point on to the first; false: it stops at the last
+  bool wake = true;         // what floats along a path and is a boat makes one
 
   // Of what is painted.
   double roughness = 0.42;  // 0: mirrors, 1: matt

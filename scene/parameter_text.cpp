@@ -102,6 +102,7 @@ template std::string allowed_text(const Parameter<Scene>&);
 template std::string allowed_text(const Parameter<ocean::Swell>&);
 template std::string allowed_text(const Parameter<ocean::SineWave>&);
 template std::string allowed_text(const Parameter<FloatingObject>&);
+template std::string allowed_text(const Parameter<ocean::Disturbance>&);
 template std::string allowed_text(const Parameter<Waypoint>&);
 
 template <class Object>
@@ -132,6 +133,7 @@ template std::string toml_text(const Parameter<Scene>&, const Scene&);
 template std::string toml_text(const Parameter<ocean::Swell>&, const ocean::Swell&);
 template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::SineWave&);
 template std::string toml_text(const Parameter<FloatingObject>&, const FloatingObject&);
+template std::string toml_text(const Parameter<ocean::Disturbance>&, const ocean::Disturbance&);
 template std::string toml_text(const Parameter<Waypoint>&, const Waypoint&);
 
 }  // namespace swell::scene

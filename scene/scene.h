@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ocean/disturbance.h"
 #include "ocean/sea.h"
 #include "ocean/sea_area.h"
 #include "scene/camera.h"
@@ -171,8 +172,12 @@ struct Scene {
   Detail detail;
   Picture picture;
   std::optional<TerrainDescription> terrain;
-  std::vector<FloatingObject> objects;  // at most 2000
+  std::vector<FloatingObject> objects;           // at most 2000
+  std::vector<ocean::Disturbance> disturbances;  // at most 256, besides the wakes of objects
 };
+
+// The scene's disturbances, then the hulls of its objects that make wakes.
+std::vector<ocean::Disturbance> all_disturbances(const Scene& scene);
 
 // Reads and checks a scene file. Relative image paths are relative to the scene file's folder.
 // Throws SceneError for: missing file, TOML syntax, unknown key (with those of its table),

@@ -82,7 +82,8 @@ class Reader {
         swell_parameters_(swell_parameters()),
         sine_parameters_(sine_parameters()),
         waypoint_parameters_(waypoint_parameters()),
-        object_parameters_(object_parameters()) {}
+        object_parameters_(object_parameters()),
+        disturbance_parameters_(disturbance_parameters()) {}
 
   Scene read(const toml::table& root) {
     scene_.name = file_.stem().string();
@@ -130,6 +131,9 @@ class Reader {
         read_tables(*node, kSinesKey, ocean::kMaxSines, sine_parameters_, scene_.sea.sines);
       } else if (path == kObjectsKey) {
         read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
+      } else if (path == kDisturbancesKey) {
+        read_tables(*node, kDisturbancesKey, kMaxDisturbances, disturbance_parameters_,
+                    scene_.disturbances);
       } else if (path == kPathKey) {
         read_tables(*node, kPathKey, kMaxWaypoints, waypoint_parameters_, scene_.camera.path);
       } else if (is_section(path)) {
@@ -455,6 +459,7 @@ class Reader {
     add_tables(kSinesKey, sine_parameters_);
     add_tables(kPathKey, waypoint_parameters_);
     add_tables(kObjectsKey, object_parameters_);
+    add_tables(kDisturbancesKey, disturbance_parameters_);
     std::ranges::stable_sort(known, {}, &Known::unlikeness);
     std::vector<std::string> texts;
     for (Known& one : known) texts.push_back(std::move(one.text));
@@ -467,6 +472,7 @@ class Reader {
   std::vector<Parameter<ocean::SineWave>> sine_parameters_;
   std::vector<Parameter<Waypoint>> waypoint_parameters_;
   std::vector<Parameter<FloatingObject>> object_parameters_;
+  std::vector<Parameter<ocean::Disturbance>> disturbance_parameters_;
   Scene scene_;
   std::map<std::string, Place> given_;  // where the file has the keys that it has
 };

@@ -24,6 +24,7 @@
 #include "render/materials/image_blur-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/visible_slopes-inl.h"
+#include "render/materials/wakes-inl.h"
 #include "render/materials/water.h"
 #include "render/materials/whitecaps-inl.h"
 #include "render/tile/light_code-inl.h"
@@ -149,6 +150,20 @@ HWY_INLINE void BendRipples(const SlopeLayer& noise, V3 p, V level_m, V& du, V& 
     AddSlopes(noise, p, level_m, du, dv, du, dv, unused);
 }
 
+// What disturbs the water: slopes on those that there are, and foam, torn as whitecaps are.
+HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
+  const WakesAt at = SampleWakes(water.wakes, p, level_m);
+  if (!at.is_near) return;
+  s.slope_x = hn::Add(s.slope_x, at.slope_x);
+  s.slope_y = hn::Add(s.slope_y, at.slope_y);
+  s.variance = hn::Add(s.variance, at.variance);
+  s.fine_variance = hn::Add(s.fine_variance, at.variance);
+  const TornFoam foam = TearWhitecaps(water.wakes.foam, p, level_m, at.foam);
+  s.foam_cover = hn::Max(s.foam_cover, foam.cover);
+  s.foam_thickness = hn::Max(s.foam_thickness, foam.thickness);
+  s.foam_bubbles = hn::Max(s.foam_bubbles, foam.bubbles);
+}
+
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
@@ -212,6 +227,7 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
     ((level_m[k] = FootprintLevel(across[k], Clamp(s[k].long_cosine, kMinCos, 1.0f))), ...);
     ((s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance))), ...);
   }
+  if (water.wakes.count > 0) (AddWakes(water, packets[k].p, level_flat_m[k], s[k]), ...);
   return s;
 }
 

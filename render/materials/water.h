@@ -9,6 +9,7 @@
 #include "render/materials/glitter.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
+#include "render/materials/wakes.h"
 #include "render/materials/whitecaps.h"
 
 namespace swell::render {
@@ -48,6 +49,7 @@ struct Water {
   SlopeLayer coast_slopes, coast_surf;
   Foam foam, hull_foam;
   Whitecaps whitecaps;
+  Wakes wakes;
   Glitter glitter;
 
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it

@@ -170,6 +170,18 @@ INSTANTIATE_TEST_SUITE_P(
             "[coast]\nmodel = \"peachey\"\n",
             "test.toml:2: column 9: coast.model, got \"peachey\", allowed \"none\", \"trains\" or "
             "\"blend\""},
+        Fault{
+            "[[disturbance]]\nkind = \"hull\"\n",
+            "test.toml:2: column 8: disturbance[0].kind, got \"hull\" without a path_m, allowed a "
+            "hull with its path"},
+        Fault{"[[disturbance]]\nkind = \"splash\"\n",
+              "test.toml:2: column 8: disturbance[0].kind, got \"splash\", allowed \"drop\", "
+              "\"footstep\", \"hull\" or \"rotor\""},
+        Fault{"[[disturbance]]\nradius_m = 0\n",
+              "test.toml:2: column 12: disturbance[0].radius_m, got 0, allowed 0.02 to 50 m"},
+        Fault{"[[disturbance]]\nkind = \"hull\"\npath_m = [[0, 0], [9, 0],\n  [9, 0]]\n",
+              "test.toml:4: column 3: disturbance[0].path_m[2], got [9, 0], allowed a point 0.5 m "
+              "or more from the one before"},
         Fault{"[coast]\ntrains = 17\n",
               "test.toml:2: column 10: coast.trains, got 17, allowed an integer, 1 to 16"},
         Fault{"[coast]\ngrid_spacing_m = 0.4\n",

@@ -41,6 +41,7 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(path_m);
   SWELL_COMPARE(speed_mps);
   SWELL_COMPARE(path_closed);
+  SWELL_COMPARE(wake);
   SWELL_COMPARE(roughness);
   SWELL_COMPARE(metalness);
   SWELL_COMPARE(checker_m);
@@ -174,6 +175,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(objects.size());
   for (std::size_t i = 0; i < std::min(a.objects.size(), b.objects.size()); ++i)
     compare_objects(a.objects[i], b.objects[i], list);
+  SWELL_COMPARE(disturbances);
   SWELL_COMPARE(camera.path.size());
   for (std::size_t i = 0; i < std::min(a.camera.path.size(), b.camera.path.size()); ++i)
     compare_waypoints(a.camera.path[i], b.camera.path[i], list);
