@@ -31,15 +31,16 @@ enum class Part : std::uint8_t {
   kUnderwater,  // what an eye below the surface sees; without it, it sees through air
   kMeniscus,    // the dark line where the surface cuts the picture
   kCaustics,    // the sun's light under water, gathered by the waves
+  kMaps,        // waves of periodic maps; queries keep them
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples",  "whitecaps",  "haze",     "earth",
-    "clouds",     "shadows",    "hulls",    "apron",      "tiling",   "seen-slopes",
-    "crests",     "altitude",   "textures", "underwater", "meniscus", "caustics"};
+    "reflection", "refraction", "ripples",  "whitecaps", "haze",        "earth",  "clouds",
+    "shadows",    "hulls",      "apron",    "tiling",    "seen-slopes", "crests", "altitude",
+    "textures",   "underwater", "meniscus", "caustics",  "maps"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

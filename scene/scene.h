@@ -57,6 +57,9 @@ struct WaterOptics {
   double bump_strength = 1.0;        // of the two scrolling layers
   double uv_noise_amplitude = 0.35;  // of the Perlin perturbation of their coordinates, in metres
   double caustics = 1.0;             // contrast of the sun's light under water, [0, 1]
+  // Back sides of waves that nothing hides: drawn as those of the slopes that are seen there, or
+  // with normals tilted to the eye.
+  bool tilted_backs = false;
 };
 
 // How waves near a coast know the floor and the shore. Needs a terrain.

@@ -296,9 +296,13 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
   const D d;
   Facing f;
   f.normal = NormalOf(s.slope_x, s.slope_y);
-  f.cos_eye =
-      UnhiddenCosine(Dot(f.normal, packet.to_eye),
-                     hn::Mul(hn::Sub(s.fine_variance, s.variance), Constant(water.seen_slopes)));
+  if (water.least_cos > 0.0f) {
+    f.cos_eye = TiltToEye(packet.to_eye, water.least_cos, f.normal);
+  } else {
+    f.cos_eye =
+        UnhiddenCosine(Dot(f.normal, packet.to_eye),
+                       hn::Mul(hn::Sub(s.fine_variance, s.variance), Constant(water.seen_slopes)));
+  }
   // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
   // view; a back side counts as the facets in front of it, or crests would be lined with light.
   f.cos_rough = hn::Sqrt(

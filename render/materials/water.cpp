@@ -18,9 +18,12 @@ constexpr int kMostLongLayers = 2;
 // sun's disc to about twice its width.
 constexpr float kBaseVariance = 0.0012f, kGlassVariance = 2e-5f;
 
+// Of tilted normals to the eye, at least.
+constexpr float kLeastCos = 0.08f;
+
 // The wind that makes ripples; sines have a breeze of their own.
 double ripple_wind_mps(const scene::Scene& scene) {
-  return scene.sea.spectrum ? scene.sea.wind_speed_mps : 3.0;
+  return scene.sea.has_wind_waves() ? scene.sea.wind_speed_mps : 3.0;
 }
 
 // How much of the ripples there is: below 1 m/s the wind raises fewer and fewer, until the sea is
@@ -183,6 +186,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.mirrored_floor_part = 1.0f - reflectance;
   water.short_variance = layer_variance(water, water.long_layer_count);
   water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
+  water.least_cos = in.world.scene.water.tilted_backs ? kLeastCos : 0.0f;
   water.wave_horizon = wave_horizon(variance);
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =

@@ -35,7 +35,7 @@ bool shows_caustics(const World::State& world, PartSet without) {
 float spread_per_m(const World::State& world) {
   const double n = world.scene.water.refraction_index;
   const double disc = 0.5 * kSunRadius_rad / n;
-  const double wind_mps = world.scene.sea.spectrum ? world.scene.sea.wind_speed_mps : 0.0;
+  const double wind_mps = world.scene.sea.has_wind_waves() ? world.scene.sea.wind_speed_mps : 0.0;
   const double slope2 = 0.2 * 0.5 * (0.003 + 0.00512 * wind_mps);  // along one axis
   const double bent = 1.0 - 1.0 / n;
   return static_cast<float>(std::sqrt(disc * disc + bent * bent * slope2));

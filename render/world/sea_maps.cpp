@@ -54,6 +54,10 @@ void pack_foam(const ocean::WhitecapFrame::Patch& patch, float past, std::vector
   texture::pack_map1(ocean::kFoamMapSize, values, map);
 }
 
+void leave_out_maps(const ocean::Sea& waves, ocean::SeaFrame& frame) {
+  frame.patches.resize(waves.state().patches.size());
+}
+
 void leave_out_tiles(SeaMaps& sea) {
   for (ocean::PatchFrame& patch : sea.frame.patches) patch.tiling = {};
   for (ocean::WhitecapFrame::Patch& patch : sea.whitecaps.patches) patch.tiling = {};
@@ -64,6 +68,7 @@ void leave_out_tiles(SeaMaps& sea) {
 void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
                  const StageRun& run) {
   ocean::advance(*world.sea, t_s, sea.frame, run.workers, !without.has(Part::kCrests));
+  if (without.has(Part::kMaps)) leave_out_maps(*world.sea, sea.frame);
   const bool has_foam = !without.has(Part::kWhitecaps);
   if (has_foam) ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
   if (without.has(Part::kTiling)) leave_out_tiles(sea);
