@@ -24,7 +24,7 @@ SetFigures figures_of(MapSet set) {
     case MapSet::kRiver:
       return {17.0, 0.05, 1.0, 3.0};
     case MapSet::kLake:
-      return {44.0, 0.22, 2.0, 4.5};
+      return {44.0, 0.17, 2.0, 4.5};
     case MapSet::kCoast:
       return {240.0, 0.9, 4.0, 6.5};
     case MapSet::kOcean:

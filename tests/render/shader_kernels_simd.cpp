@@ -80,6 +80,15 @@ void UnhiddenCosines(std::span<const float> cosine, float variance, std::span<fl
   });
 }
 
+void TiltedNormals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                   std::span<float> cosine) {
+  ForPackets(cosine.size(), [&](std::size_t i) {
+    V3 n = LoadSome(std::span<const glm::vec3>(normal), i);
+    StoreSome(TiltToEye(LoadSome(to_eye, i), least_cos, n), cosine, i);
+    StoreSome(n, normal, i);
+  });
+}
+
 void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
            std::span<const float> cos_eye, std::span<float> glint) {
   WaterSlopes s = NoSlopes();
@@ -272,6 +281,7 @@ HWY_EXPORT(Sky);
 HWY_EXPORT(Glint);
 HWY_EXPORT(SeenCosines);
 HWY_EXPORT(UnhiddenCosines);
+HWY_EXPORT(TiltedNormals);
 HWY_EXPORT(LightOfWater);
 HWY_EXPORT(Cover);
 HWY_EXPORT(Edge);
@@ -301,6 +311,11 @@ void seen_cosines(std::span<const float> cosine, float variance, std::span<float
 
 void unhidden_cosines(std::span<const float> cosine, float variance, std::span<float> unhidden) {
   HWY_DYNAMIC_DISPATCH(UnhiddenCosines)(cosine, variance, unhidden);
+}
+
+void tilted_normals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                    std::span<float> cosine) {
+  HWY_DYNAMIC_DISPATCH(TiltedNormals)(to_eye, least_cos, normal, cosine);
 }
 
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,
