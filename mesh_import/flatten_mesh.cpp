@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "mesh_import/surface_distance.h"
+
 namespace swell::mesh_import {
 namespace {
 
@@ -115,39 +117,65 @@ std::vector<std::vector<unsigned>> by_material(const FlatLevel& level, std::size
 }
 
 // About a quarter of the triangles. Where edges of the surface are in the way, by vertices that
-// move together.
+// move together. `error` becomes at least how far that moves the surface, in parts of the mesh's
+// largest side.
 std::vector<unsigned> simplified(const std::vector<unsigned>& indices,
-                                 const std::vector<FlatVertex>& vertices) {
+                                 const std::vector<FlatVertex>& vertices, float& error) {
   constexpr float kMostError = 0.05f;  // of the mesh's size
-  const std::size_t wanted = std::max<std::size_t>(indices.size() / 12, 2) * 3;
+  constexpr std::size_t kFewest = 6;   // indices of two triangles
+  if (indices.size() <= kFewest) return indices;
+  const std::size_t wanted = std::max(indices.size() / 12 * 3, kFewest);
   const float* const positions = vertices[0].position.data();
   std::vector<unsigned> result(indices.size());
+  float moved = 0.0f;
   std::size_t left =
       meshopt_simplify(result.data(), indices.data(), indices.size(), positions, vertices.size(),
-                       sizeof(FlatVertex), wanted, kMostError, 0, nullptr);
+                       sizeof(FlatVertex), wanted, kMostError, 0, &moved);
   if (left > 2 * wanted)
     left = meshopt_simplifySloppy(result.data(), indices.data(), indices.size(), positions,
-                                  vertices.size(), sizeof(FlatVertex), wanted, kMostError, nullptr);
+                                  vertices.size(), sizeof(FlatVertex), wanted, kMostError, &moved);
   result.resize(left);
+  error = std::max(error, moved);
   return result;
+}
+
+// How far the coarse level lies from vertices of the fine one, in units of the file. Of very fine
+// ones some stand for all: what they lose is small.
+float distance_between(const FlatLevel& fine, const FlatLevel& coarse,
+                       const std::vector<FlatVertex>& vertices) {
+  constexpr std::size_t kMostPlaces = 40'000;
+  std::vector<std::uint32_t> numbers = fine.indices;
+  std::ranges::sort(numbers);
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  const std::size_t step = numbers.size() / kMostPlaces + 1;
+  std::vector<std::uint32_t> some;
+  for (std::size_t i = 0; i < numbers.size(); i += step) some.push_back(numbers[i]);
+  return farthest_from(vertices, some, coarse.indices);
 }
 
 }  // namespace
 
 void add_levels(scene::FlatMesh& flat) {
   constexpr std::size_t kFewTriangles = 400;
+  const float* const positions = flat.vertices[0].position.data();
   while (flat.levels.size() < scene::kMostMeshLevels &&
          flat.levels.back().material.size() > kFewTriangles) {
     const auto parts = by_material(flat.levels.back(), flat.materials.size());
     FlatLevel next;
+    float moved = 0.0f;
     for (std::uint32_t m = 0; m < parts.size(); ++m) {
       if (parts[m].empty()) continue;
-      const std::vector<unsigned> indices = simplified(parts[m], flat.vertices);
+      const std::vector<unsigned> indices = simplified(parts[m], flat.vertices, moved);
       next.indices.insert(next.indices.end(), indices.begin(), indices.end());
       next.material.resize(next.indices.size() / 3, m);
     }
     const std::size_t before = flat.levels.back().material.size();
     if (next.material.empty() || 4 * next.material.size() > 3 * before) return;
+    // The library's error is a mean, which a thin part hardly tells on.
+    const float scale = meshopt_simplifyScale(positions, flat.vertices.size(), sizeof(FlatVertex));
+    const float apart = distance_between(flat.levels.back(), next, flat.vertices);
+    moved = std::max(moved, apart / std::max(scale, 1e-20f));
+    next.error = flat.levels.back().error + moved;
     flat.levels.push_back(std::move(next));
   }
 }

@@ -10,15 +10,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "ocean/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using DInt = hn::RebindToSigned<D>;
-using V = hn::Vec<D>;
-using VInt = hn::Vec<DInt>;
 
 struct Pair {
   V x, y;

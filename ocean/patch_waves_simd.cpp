@@ -11,16 +11,11 @@
 #include <hwy/highway.h>
 
 #include "math/elementary-inl.h"
+#include "ocean/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using DHalf = hn::Half<D>;
-using DDouble = hn::Rebind<double, DHalf>;
-using V = hn::Vec<D>;
 
 struct ComplexV {
   V re, im;

@@ -13,20 +13,11 @@
 #include <hwy/highway.h>
 
 #include "math/elementary-inl.h"
+#include "ocean/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using DInt = hn::RebindToSigned<D>;
-using DHalf = hn::Half<D>;
-using DHalfInt = hn::RebindToSigned<DHalf>;
-using DDouble = hn::Rebind<double, DHalf>;
-using V = hn::Vec<D>;
-using VInt = hn::Vec<DInt>;
-using VDouble = hn::Vec<DDouble>;
 
 // A place along one axis of the grid: the cell, and the samples from its lower border. Beyond the
 // grid `free` leaves [0, 1]; `held` stays, and then does not change with the place: rate 0.

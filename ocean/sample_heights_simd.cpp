@@ -52,20 +52,11 @@ struct OriginPlaces {
 
 #include "math/elementary-inl.h"
 #include "ocean/patch_tiles-inl.h"
+#include "ocean/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using DInt = hn::RebindToSigned<D>;
-using DHalf = hn::Half<D>;
-using DHalfInt = hn::RebindToSigned<DHalf>;
-using DDouble = hn::Rebind<double, DHalf>;
-using V = hn::Vec<D>;
-using VInt = hn::Vec<DInt>;
-using VDouble = hn::Vec<DDouble>;
 
 // As many doubles as V has floats.
 struct DoublePacket {

@@ -9,7 +9,7 @@
 
 #include "math/check.h"
 #include "raster/sample_pattern.h"
-#include "render/view/object_shadows.h"
+#include "render/view/own_shadows.h"
 #include "render/workspace.h"
 
 namespace swell::render {
@@ -121,11 +121,12 @@ void set_eye(const EyeInWater& eye, FrameViews views) {
 }
 
 // Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the
-// picture, the first three are of an eye in air and two more of one in water.
+// picture, the first three are of an eye in air and two more of one in water. Without water there
+// is the window alone.
 void place_vertices(const World::State& world, const View& view, const FrameOptions& options,
                     FrameViews all_views, Workspace::State& ws, const StageRun& run) {
   EyeInWater eye = find_eye_in_water(world, ws.sea, view, options);
-  FrameViews views = all_views.first(3);
+  FrameViews views = all_views.first(options.without.has(Part::kWater) ? 1 : 3);
   set_eye(eye, views);
   displace(world, ws.sea, view, options, ws.meshes, views, run);
   ws.crossing.picture = Begins::kInAir;
@@ -141,7 +142,7 @@ void place_vertices(const World::State& world, const View& view, const FrameOpti
     set_eye({true, eye.to_surface_m}, views.subspan(3));
     map_land(ws.meshes, views.subspan(3), run);
   }
-  place_objects(world, ws.sea, view, options.poses, ws.meshes, views, run);
+  place_objects(world, ws.sea, options.poses, ws.meshes, views, run);
 }
 
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
@@ -157,6 +158,7 @@ FrameStatistics statistics_of(const Workspace::State& ws) {
   s.frame_ms = ws.profile.now_us() * 1e-3;
   s.water_triangles = ws.meshes.water.statistics.triangles;
   s.terrain_triangles = ws.meshes.land.statistics.triangles;
+  s.object_triangles = static_cast<int>(ws.meshes.objects.in_window().primitives.size());
   s.splits = ws.meshes.water.statistics.splits + ws.meshes.land.statistics.splits;
   s.merges = ws.meshes.water.statistics.merges + ws.meshes.land.statistics.merges;
   s.lod_stopped = ws.meshes.water.statistics.stopped || ws.meshes.land.statistics.stopped;
@@ -226,13 +228,15 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     place_vertices(world_state, drawn, options, views, ws, run);
-    find_shadow_casters(world_state, {light.sun_direction, options.without}, drawn,
-                        ws.meshes.objects, run);
+    const ShadowOptions shadows{light.sun_direction, options.without};
+    find_shadow_casters(world_state, shadows, drawn, ws.meshes.objects, run);
+    find_own_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
   });
   stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,
                  run);
-    prepare_edges(ws.meshes.objects, ws.window, ws.visibility, options.edge_samples, ws.edges);
+    prepare_edges(ws.meshes.objects.in_window(), ws.window, ws.visibility, options.edge_samples,
+                  ws.edges);
   });
   const Media air = make_media(world_state, light, sky_m, options.without);
   const Media water = submerge(air, drawn.eye_world.z);
@@ -257,7 +261,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
       fill_label_tables({world_state, ws.meshes, ws.window, options, t_s}, ws.labels, run);
     const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_lookups.of_tile,
                       !options.without.has(Part::kMeniscus)};
-    const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects, world_state};
+    const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects.in_window(), world_state};
     shade_picture(
         {ws.meshes, ws.window, ws.visibility, ws.edges, ws.lookups.of_tile, ws.shading,
          options.wireframe, options.labels.empty() ? nullptr : &labels, crosses ? &wet : nullptr},

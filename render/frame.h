@@ -118,6 +118,7 @@ struct FrameStatistics {
   std::array<double, static_cast<std::size_t>(Stage::kCount)> stage_ms{};
   double frame_ms = 0.0;
   int water_triangles = 0, terrain_triangles = 0;
+  int object_triangles = 0;  // of those that the view may show
   int splits = 0, merges = 0;
   bool lod_stopped = false;          // at one of the bounds, with work left
   std::uint64_t visible_pixels = 0;  // pixels that show water, terrain or an object

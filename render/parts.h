@@ -13,34 +13,42 @@
 namespace swell::render {
 
 enum class Part : std::uint8_t {
-  kReflection,  // what the water mirrors besides the sky
-  kRefraction,  // what lies under the water's surface
-  kRipples,     // the water's waves too short for the wave patches
-  kWhitecaps,   // foam of the open sea
-  kHaze,        // between the eye and what it sees
-  kEarth,       // its curve: without it the sea is flat
-  kClouds,      // in the sky, and in what the water mirrors of it
-  kShadows,     // of land and objects before sun or moon
-  kHulls,       // foam and dark water where floating things meet it
-  kApron,       // the ground beyond the terrain's square
-  kTiling,      // what tells the places of a wave patch apart; queries of the sea keep it
-  kSeenSlopes,  // that of rough water slopes turned to the eye are seen, and others are not
-  kCrests,      // what makes the open sea's crests sharper than troughs; queries keep it
-  kAltitude,    // what the eye's height changes in the sky and in the air below it
-  kTextures,    // pictures on meshes: each is its mean colour
-  kUnderwater,  // what an eye below the surface sees; without it, it sees through air
-  kMeniscus,    // the dark line where the surface cuts the picture
-  kCaustics,    // the sun's light under water, gathered by the waves
-  kMaps,        // waves of periodic maps; queries keep them
+  kWater,        // the sea: without it the land goes on dry, and things lie where they did
+  kReflection,   // what the water mirrors besides the sky
+  kRefraction,   // what lies under the water's surface
+  kRipples,      // the water's waves too short for the wave patches
+  kGlitter,      // the sun's image in the water seen from above
+  kWhitecaps,    // foam of the open sea
+  kHaze,         // between the eye and what it sees
+  kEarth,        // its curve: without it the sea is flat
+  kClouds,       // in the sky, and in what the water mirrors of it
+  kShadows,      // of land and objects before sun or moon
+  kHulls,        // foam and dark water where floating things meet it
+  kApron,        // the ground beyond the terrain's square
+  kTiling,       // what tells the places of a wave patch apart; queries of the sea keep it
+  kSeenSlopes,   // that of rough water slopes turned to the eye are seen, and others are not
+  kCrests,       // what makes the open sea's crests sharper than troughs; queries keep it
+  kAltitude,     // what the eye's height changes in the sky and in the air below it
+  kTextures,     // pictures on meshes: each is its mean colour
+  kUnderwater,   // what an eye below the surface sees; without it, it sees through air
+  kMeniscus,     // the dark line where the surface cuts the picture
+  kCaustics,     // the sun's light under water, gathered by the waves
+  kSequence,     // a scene's sequence of bump images; without it, layers that drift
+  kSunSlide,     // a scene's projected glitter; without it, that of slopes
+  kCausticBend,  // how ripples move a scene's caustics
+  kOwnShadows,   // of objects on themselves
+  kMaps,         // waves of periodic maps; queries keep them
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "reflection", "refraction", "ripples",  "whitecaps", "haze",        "earth",  "clouds",
-    "shadows",    "hulls",      "apron",    "tiling",    "seen-slopes", "crests", "altitude",
-    "textures",   "underwater", "meniscus", "caustics",  "maps"};
+    "water",    "reflection",  "refraction", "ripples",   "glitter",      "whitecaps",
+    "haze",     "earth",       "clouds",     "shadows",   "hulls",        "apron",
+    "tiling",   "seen-slopes", "crests",     "altitude",  "textures",     "underwater",
+    "meniscus", "caustics",    "sequence",   "sun-slide", "caustic-bend", "own-shadows",
+    "maps"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

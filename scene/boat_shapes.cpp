@@ -52,6 +52,10 @@ struct HullLines {
   }
 };
 
+// In the order of the members.
+constexpr HullLines kRowingLines{4.6f, 0.85f, -0.2f, -0.1f, 0.38f, 0.595f, 0.46f, 0.72f, 0.42f};
+constexpr HullLines kSailingLines{9.2f, 1.45f, -0.5f, -0.02f, 0.95f, 1.25f, 1.0f, 0.7f, 0.42f};
+
 struct Sections {
   int stations;
   std::vector<float> u;
@@ -103,30 +107,39 @@ void add_gunwale(const HullLines& lines, int stations, float width_m, const Pain
   }
 }
 
-// As fine as asked for.
-int stations_for(const MeshBuilder& to) { return to.segments >= 12 ? 12 : 5; }
+// As fine as asked for: near by, further off, where a boat is a few pixels long.
+bool is_near(const MeshBuilder& to) { return to.segments >= 12; }
+bool is_afar(const MeshBuilder& to) { return to.segments < 6; }
+int stations_for(const MeshBuilder& to) { return is_near(to) ? 12 : is_afar(to) ? 3 : 5; }
 Sections sections_for(const MeshBuilder& to, std::initializer_list<float> fine) {
   Sections sections{stations_for(to), fine};
-  if (to.segments < 12)
+  if (!is_near(to))
     sections.u = {sections.u.front(), 0.5f * (sections.u.front() + sections.u.back()),
                   sections.u.back()};
   return sections;
 }
 
 void add_hull_skin(const HullLines& lines, MeshBuilder& to) {
-  add_skin(lines, sections_for(to, {-1.0f, -0.92f, -0.82f}), kHull, false, to);
-  add_skin(lines, sections_for(to, {0.82f, 0.92f, 1.0f}), kHull, false, to);
+  Sections left = sections_for(to, {-1.0f, -0.92f, -0.82f});
+  Sections right = sections_for(to, {0.82f, 0.92f, 1.0f});
   Sections bottom{stations_for(to), {-0.82f, -0.6f, -0.3f, 0.0f, 0.3f, 0.6f, 0.82f}};
-  if (to.segments < 12) bottom.u = {-0.82f, -0.3f, 0.3f, 0.82f};
+  Sections stern{0, {-1.0f, -0.82f, -0.5f, 0.0f, 0.5f, 0.82f, 1.0f}};
+  if (!is_near(to)) bottom.u = {-0.82f, -0.3f, 0.3f, 0.82f};
+  if (is_afar(to)) {
+    left.u = {-1.0f, -0.82f}, right.u = {0.82f, 1.0f};
+    bottom.u = {-0.82f, 0.0f, 0.82f}, stern.u = {-1.0f, -0.82f, 0.0f, 0.82f, 1.0f};
+  }
+  add_skin(lines, left, kHull, false, to);
+  add_skin(lines, right, kHull, false, to);
   add_skin(lines, bottom, kAntifouling, false, to);
-  add_transom(lines, {0, {-1.0f, -0.82f, -0.5f, 0.0f, 0.5f, 0.82f, 1.0f}}, kHull, to);
+  add_transom(lines, stern, kHull, to);
 }
 
 // --- Of the sailing boat
 
 // A sail between its foot and its head, bellied to one side.
 void add_sail(glm::vec3 tack, glm::vec3 clew, glm::vec3 head, float belly_m, MeshBuilder& to) {
-  const int n = to.segments >= 12 ? 6 : 2;
+  const int n = is_near(to) ? 6 : 2;
   std::vector<glm::vec3> points;
   for (int i = 0; i <= n; ++i) {
     const float v = static_cast<float>(i) / static_cast<float>(n);
@@ -170,54 +183,36 @@ void add_cabin(float half_low, float half_high, float stern_y, float bow_y, floa
     }
   };
   add_walls(0.0f, 1.0f, 0.0f, kCabin);
-  add_walls(0.4f, 0.8f, 0.012f, kGlass);
+  if (!is_afar(to)) add_walls(0.4f, 0.8f, 0.012f, kGlass);
   add_polygon(ring(1.0f, 0.0f), kCabin, to);
 }
 
 }  // namespace
 
 void add_boat(MeshBuilder& to) {
-  constexpr HullLines kLines{.length = 4.6f,
-                             .half_beam = 0.85f,
-                             .keel = -0.2f,
-                             .stern_keel = -0.1f,
-                             .sheer = 0.38f,
-                             .bow_sheer = 0.595f,
-                             .stern_sheer = 0.46f,
-                             .transom = 0.72f,
-                             .widest = 0.42f};
   to.size = {1.7f, 4.6f, 0.8f};
   to.origin = {0.0f, 0.0f, 0.2f};
-  add_hull_skin(kLines, to);
-  add_skin(kLines, sections_for(to, {-1.0f, -0.75f, -0.45f, 0.0f, 0.45f, 0.75f, 1.0f}), kWood, true,
-           to);
-  if (to.segments < 12) return;
-  add_gunwale(kLines, stations_for(to), 0.06f, kWood, to);
+  add_hull_skin(kRowingLines, to);
+  add_skin(kRowingLines, sections_for(to, {-1.0f, -0.75f, -0.45f, 0.0f, 0.45f, 0.75f, 1.0f}), kWood,
+           true, to);
+  if (!is_near(to)) return;
+  add_gunwale(kRowingLines, stations_for(to), 0.06f, kWood, to);
   for (const float t : {0.2f, 0.45f, 0.7f}) {
-    const float half = 0.9f * kLines.half_breadth(t), y = kLines.y(t);
+    const float half = 0.9f * kRowingLines.half_breadth(t), y = kRowingLines.y(t);
     add_box({-half, y - 0.13f, 0.27f}, {half, y + 0.13f, 0.3f}, kTeak, to);
   }
 }
 
 void add_sailboat(MeshBuilder& to) {
-  constexpr HullLines kLines{.length = 9.2f,
-                             .half_beam = 1.45f,
-                             .keel = -0.5f,
-                             .stern_keel = -0.02f,
-                             .sheer = 0.95f,
-                             .bow_sheer = 1.25f,
-                             .stern_sheer = 1.0f,
-                             .transom = 0.7f,
-                             .widest = 0.42f};
   to.size = {2.9f, 9.2f, 14.5f};
   to.origin = {0.0f, 0.0f, 1.74f};
-  add_hull_skin(kLines, to);
+  add_hull_skin(kSailingLines, to);
   // The deck, a little higher in the middle.
   std::vector<glm::vec3> deck;
   const int stations = stations_for(to);
   for (int i = 0; i <= stations; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(stations);
-    const glm::vec3 edge = kLines.at(t, 1.0f);
+    const glm::vec3 edge = kSailingLines.at(t, 1.0f);
     for (const float side : {-1.0f, 0.0f, 1.0f})
       deck.emplace_back(side * edge.x, edge.y,
                         edge.z + 0.05f * (1.0f - side * side) * edge.x - 0.01f);

@@ -146,6 +146,11 @@ Fault fault_of_maps(const ocean::SeaDescription& sea) {
                     fmt::format("at most {} of both", ocean::kMaxPatches)};
 }
 
+Fault fault_of_ripples(const Ripples& ripples) {
+  if (ripples.sequence.empty() || ripples.kind == RippleKind::kSequence) return std::nullopt;
+  return SceneFault{"ripples.sequence", "it with kind = \"layers\"", "it with kind = \"sequence\""};
+}
+
 Fault fault_of_coast_line(const TerrainDescription& terrain) {
   const auto& coast = terrain.coast_m;
   for (std::size_t n = 1; n < coast.size(); ++n)
@@ -262,6 +267,7 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
   if (Fault fault = fault_of_maps(scene.sea)) return fault;
+  if (Fault fault = fault_of_ripples(scene.ripples)) return fault;
   if (!scene.terrain) return std::nullopt;
   if (Fault fault = fault_of_coast_line(*scene.terrain)) return fault;
   // Over an image, whose size is not known yet, build_coast() checks this.

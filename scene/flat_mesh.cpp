@@ -62,6 +62,7 @@ void check_header(const FlatHeader& header) {
   for (std::uint32_t i = 0; i < header.levels; ++i)
     check(header.triangles[i] >= 1 && header.triangles[i] <= kMostMeshTriangles, "{} triangles",
           header.triangles[i]);
+  check(all_within(header.error, 0.0f, 1e3f), "levels that lie nowhere");
 }
 
 void check_content(const FlatMesh& mesh) {
@@ -97,6 +98,7 @@ FlatMesh read_flat_mesh(std::span<const char> bytes) {
     mesh.levels.emplace_back();
     mesh.levels.back().indices = from.take_all<std::uint32_t>(3 * triangles);
     mesh.levels.back().material = from.take_all<std::uint32_t>(triangles);
+    mesh.levels.back().error = header.error[i];
   }
   mesh.materials = from.take_all<FlatMaterial>(header.materials);
   std::uint64_t texels = 0;

@@ -13,7 +13,7 @@
 
 namespace swell::scene {
 
-inline constexpr std::uint32_t kFlatMagic = 0x314d5753;  // "SWM1"
+inline constexpr std::uint32_t kFlatMagic = 0x324d5753;  // "SWM2"
 
 // Most of what a file may hold.
 inline constexpr std::uint32_t kMostMeshTriangles = 2'000'000;
@@ -29,6 +29,7 @@ struct FlatHeader {
   std::uint32_t vertices = 0, materials = 0, textures = 0;
   std::uint32_t levels = 0;                                // finest first; at most kMostMeshLevels
   std::array<std::uint32_t, kMostMeshLevels> triangles{};  // of each level
+  std::array<float, kMostMeshLevels> error{};              // the same
 };
 
 // Axes right, ahead, up, in units of the file.
@@ -53,6 +54,8 @@ struct FlatTexture {
 struct FlatLevel {
   std::vector<std::uint32_t> indices;   // 3 a triangle
   std::vector<std::uint32_t> material;  // of each triangle
+  // How far it lies from the first level, in parts of the mesh's largest side; in [0, 1e3].
+  float error = 0.0f;
 };
 
 struct FlatMesh {
@@ -73,8 +76,10 @@ void write_flat_mesh(const FlatMesh& mesh, const Write& write) {
   header.materials = static_cast<std::uint32_t>(mesh.materials.size());
   header.textures = static_cast<std::uint32_t>(mesh.textures.size());
   header.levels = static_cast<std::uint32_t>(mesh.levels.size());
-  for (std::size_t i = 0; i < mesh.levels.size(); ++i)
+  for (std::size_t i = 0; i < mesh.levels.size(); ++i) {
     header.triangles[i] = static_cast<std::uint32_t>(mesh.levels[i].material.size());
+    header.error[i] = mesh.levels[i].error;
+  }
   write(&header, sizeof header);
   write_all(mesh.vertices);
   for (const FlatLevel& level : mesh.levels) write_all(level.indices), write_all(level.material);

@@ -116,6 +116,7 @@ TriangleTexture texture_of(const Triangle& t, const FlatMaterial& material,
 ObjectMesh mesh_of_level(const FlatMesh& flat, const MeshOfFile& whole, const FlatLevel& level) {
   constexpr std::uint32_t kNone = ~0u;
   ObjectMesh mesh;
+  mesh.error = level.error;
   std::vector<std::uint32_t> number(flat.vertices.size(), kNone);
   const bool is_textured = !flat.textures.empty();
   mesh.triangles.reserve(level.material.size());

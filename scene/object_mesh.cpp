@@ -65,6 +65,24 @@ void add_buoy(TopMark mark, MeshBuilder& to) {
   add_top_mark(mark, to);
 }
 
+// Of 8 segments and of 4, from any side, at common sizes.
+struct LevelErrors {
+  float eight, four;
+};
+constexpr std::array<LevelErrors, 8> kLevelErrors = {{{0.020f, 0.066f},
+                                                      {0.064f, 0.200f},
+                                                      {0.0f, 0.0f},
+                                                      {0.021f, 0.060f},
+                                                      {0.015f, 0.041f},
+                                                      {0.006f, 0.006f},
+                                                      {0.034f, 0.047f},
+                                                      {0.120f, 0.190f}}};
+
+float level_error(ObjectKind kind, int segments) {
+  const LevelErrors& errors = kLevelErrors[static_cast<std::size_t>(kind)];
+  return segments >= kLevelSegments[0] ? 0.0f : segments >= 8 ? errors.eight : errors.four;
+}
+
 }  // namespace
 
 ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
@@ -99,6 +117,7 @@ ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
       SWELL_CHECK(false, "kind={}", "mesh");
       break;
   }
+  builder.mesh.error = level_error(kind, segments);
   return std::move(builder.mesh);
 }
 

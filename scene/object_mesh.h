@@ -1,6 +1,7 @@
 // The shapes of objects as triangles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -49,10 +50,16 @@ struct ObjectMesh {
   std::vector<TriangleTexture> textured;  // the same, or empty
   std::shared_ptr<const std::vector<texture::MipImage>> textures;
   std::vector<MeshPart> parts;  // empty: it is one part
+  // How far its outline lies from that of the finest level at most, in parts of the largest side.
+  float error = 0.0f;
 };
 
+// The segments of the levels of what is built in, finest first.
+inline constexpr std::array<int, 3> kLevelSegments = {24, 8, 4};
+
 // Surfaces without a hole to see, outside out; sails are seen from both sides. Round parts have
-// `segments` sides, in [4, 32]. At most 2048 triangles. Not of kMesh (scene/mesh_file.h).
+// `segments` sides, in [4, 32]; the error is that against 24 of them. At most 2048 triangles. Not
+// of kMesh (scene/mesh_file.h).
 ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments);
 
 // The parts of the mesh that the object has, with their waterlines at its draught.

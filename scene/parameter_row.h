@@ -202,6 +202,14 @@ struct Row {
     return row;
   }
 
+  // The path of files that a number in the name tells apart.
+  template <class Field>
+  static Parameter<Object> frame_paths(std::string_view key, Field, std::string_view meaning) {
+    Parameter<Object> row = plain<std::string>(key, ParameterKind::kPath, Field{}, meaning);
+    row.is_of_frames = true;
+    return row;
+  }
+
  private:
   template <class Vector>
   static std::vector<double> numbers_of(const Vector& v) {

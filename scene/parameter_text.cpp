@@ -91,6 +91,8 @@ std::string allowed_text(const Parameter<Object>& parameter) {
     case Kind::kText:
       return fmt::format("text of at most {} bytes", kMaxTextBytes);
     case Kind::kPath:
+      if (parameter.is_of_frames)
+        return fmt::format("the path of readable {} files, with one %04d", parameter.path_of);
       return fmt::format("the path of a readable {} file", parameter.path_of);
   }
   return {};

@@ -30,6 +30,26 @@ struct SkyModelName {
   auto& operator()(auto& scene) const { return scene.sky.model; }
 };
 
+struct DistortionFactorName {
+  static constexpr std::array<std::string_view, 2> words = {"bounded", "paper"};
+  auto& operator()(auto& scene) const { return scene.water.distortion_factor; }
+};
+
+struct GlitterName {
+  static constexpr std::array<std::string_view, 2> words = {"slopes", "projective"};
+  auto& operator()(auto& scene) const { return scene.water.glitter; }
+};
+
+struct RippleKindName {
+  static constexpr std::array<std::string_view, 2> words = {"layers", "sequence"};
+  auto& operator()(auto& scene) const { return scene.ripples.kind; }
+};
+
+struct RippleLightingName {
+  static constexpr std::array<std::string_view, 2> words = {"optics", "paper"};
+  auto& operator()(auto& scene) const { return scene.ripples.lighting; }
+};
+
 struct WaterTypeName {
   static constexpr auto words = kWaterTypeNames;
   auto& operator()(auto& scene) const { return scene.water.type; }
@@ -224,11 +244,15 @@ Rows water_rows() {
                        SWELL_FIELD(water.absorption_per_m),
                        "linear RGB; after 1/absorption metres 1/e of the light is left"),
       SceneRow::number("water.distortion", {0, 1, "picture heights"}, SWELL_FIELD(water.distortion),
-                       "how far a wave's slope moves mirrored and sunken things"),
+                       "C0: how far a wave's slope moves mirrored and sunken things"),
+      SceneRow::choice("water.distortion_factor", DistortionFactorName{},
+                       "what that is multiplied by, so that far things hold together: six times "
+                       "the sine of the angle at which the eye meets the water, 0.1 to 1; or the "
+                       "place in the picture, in picture heights below the horizon"),
       SceneRow::number("water.lookup_scale", {0.1, 1}, SWELL_FIELD(water.lookup_scale),
                        "size of the mirror and underwater pictures against the window"),
       SceneRow::number("water.bump_strength", {0, 10}, SWELL_FIELD(water.bump_strength),
-                       "of the two scrolling layers of ripples"),
+                       "of the ripples"),
       SceneRow::number("water.uv_noise_amplitude_m", {0, 10, "m"},
                        SWELL_FIELD(water.uv_noise_amplitude),
                        "how far noise moves the layers' coordinates"),
@@ -237,6 +261,15 @@ Rows water_rows() {
       SceneRow::choice("water.back_sides", BackSidesName{},
                        "of waves, where nothing hides them: drawn as the slopes that are seen "
                        "there, or with normals tilted to the eye"),
+      SceneRow::number("water.caustic_distortion", {0, 10, "m"},
+                       SWELL_FIELD(water.caustic_distortion),
+                       "Cc: how far a ripple's slope moves that light"),
+      SceneRow::choice("water.glitter", GlitterName{},
+                       "how the sun glitters on the water: by the statistics of its slopes, or by "
+                       "a picture that the mirrored sun throws on it"),
+      SceneRow::number("water.glitter_distortion", {0, 10, "rad"},
+                       SWELL_FIELD(water.glitter_distortion),
+                       "Cp: how far a slope moves that picture"),
       SceneRow::integer("detail.water_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
@@ -272,6 +305,28 @@ Rows water_rows() {
       SceneRow::or_zero(SceneRow::integer(
           "picture.edge_samples", Kind::kPowerOfTwo, {4, 8}, SWELL_FIELD(picture.edge_samples),
           "samples of a pixel where surfaces meet, for smooth edges; 0: its centre alone")),
+  };
+}
+
+Rows ripple_rows() {
+  return {
+      SceneRow::choice("ripples.kind", RippleKindName{},
+                       "how waves too short for the wave patches are made: two layers of a still "
+                       "map that drift across each other, or a looping sequence of bump images"),
+      SceneRow::choice("ripples.lighting", RippleLightingName{},
+                       "how a sequence is lit: as all slopes, or besides the water's own colour by "
+                       "dot(normal, light) times a picture of details"),
+      SceneRow::frame_paths(
+          "ripples.sequence", SWELL_FIELD(ripples.sequence),
+          "pictures of heights, square and of one size, with their number from 0 in place of "
+          "`%04d`, relative to the scene file; empty: waves of our own that the wind drives"),
+      SceneRow::integer("ripples.frames", Kind::kInteger, {2, 256}, SWELL_FIELD(ripples.frames),
+                        "pictures of the sequence"),
+      SceneRow::number("ripples.loop_s", {0.1, 1000, "s"}, SWELL_FIELD(ripples.loop_s),
+                       "after which the sequence begins anew; of a sea that loops, the nearest "
+                       "whole part of its loop"),
+      SceneRow::number("ripples.length_m", {0.1, 1000, "m"}, SWELL_FIELD(ripples.length_m),
+                       "side of the square that a picture of the sequence covers"),
   };
 }
 
@@ -339,8 +394,8 @@ Rows scene_parameters() {
   Rows rows = {
       SceneRow::plain<std::string>("name", Kind::kText, SWELL_FIELD(name),
                                    "of the scene in reports; the file's stem if left out")};
-  for (const Rows& part :
-       {camera_rows(), sky_rows(), sea_rows(), water_rows(), coast_rows(), terrain_rows()})
+  for (const Rows& part : {camera_rows(), sky_rows(), sea_rows(), water_rows(), ripple_rows(),
+                           coast_rows(), terrain_rows()})
     rows.insert(rows.end(), part.begin(), part.end());
   return rows;
 }

@@ -41,6 +41,7 @@ struct Parameter {
   int count_low = 1, count_high = 1;  // of kNumbers and kPoints
   std::span<const std::string_view> choices;
   std::string_view path_of = "picture";  // what a path is the name of
+  bool is_of_frames = false;             // a path with one %04d, the number of the frame from 0
   std::string_view meaning;
   // get() gives a value that set() turns back into the same bits, with as few digits as possible.
   ParameterValue (*get)(const Object&);

@@ -46,13 +46,26 @@ struct Sky {
   bool operator==(const Sky&) const = default;
 };
 
+// What the displacement of lookups is multiplied by, so that far, small things hold together.
+enum class DistortionFactor : std::uint8_t {
+  kBounded,  // grows as the elevation of the eye over the water up to 10 degrees
+  kPaper,    // the place in the picture, from the horizon down, in picture heights
+};
+
+// How the sun glitters on the water.
+enum class Glitter : std::uint8_t {
+  kSlopes,      // by the statistics of the slopes that a pixel does not show
+  kProjective,  // by a picture that the mirrored sun throws on the water
+};
+
 struct WaterOptics {
   double refraction_index = 1.333;
   WaterType type = WaterType::kNone;
   // A type's, where a file leaves them out.
   glm::vec3 body_colour{0.004f, 0.030f, 0.045f};    // linear radiance factor of deep water
   glm::vec3 absorption_per_m{0.35f, 0.07f, 0.05f};  // Beer-Lambert, linear RGB
-  double distortion = 0.06;          // C0 of the lookups' displacement, in picture heights
+  double distortion = 0.06;  // C0 of the lookups' displacement, in picture heights
+  DistortionFactor distortion_factor = DistortionFactor::kBounded;
   double lookup_scale = 0.5;         // size of reflection and refraction images against the window
   double bump_strength = 1.0;        // of the two scrolling layers
   double uv_noise_amplitude = 0.35;  // of the Perlin perturbation of their coordinates, in metres
@@ -60,6 +73,32 @@ struct WaterOptics {
   // Back sides of waves that nothing hides: drawn as those of the slopes that are seen there, or
   // with normals tilted to the eye.
   bool tilted_backs = false;
+  double caustic_distortion = 0.0;   // Cc: by how much ripples move it, in metres
+  Glitter glitter = Glitter::kSlopes;
+  double glitter_distortion = 2.0;  // Cp of the projected glitter, in radians
+};
+
+// How waves too short for the wave patches are made.
+enum class RippleKind : std::uint8_t {
+  kLayers,    // two layers of a still map that drift across each other
+  kSequence,  // a looping sequence of bump images
+};
+
+// How those of a sequence are lit.
+enum class RippleLighting : std::uint8_t {
+  kOptics,  // as all slopes
+  kPaper,   // and the water's own colour by dot(normal, light) times a picture of details
+};
+
+struct Ripples {
+  RippleKind kind = RippleKind::kLayers;
+  RippleLighting lighting = RippleLighting::kOptics;
+  std::string sequence;   // files of heights, as "waves_%04d.png"; empty: waves of our own
+  int frames = 128;       // of the sequence, [2, 256]
+  double loop_s = 4.0;    // after which it begins anew, [0.1, 1000]
+  double length_m = 6.0;  // of the sea that a frame covers, [0.1, 1000]
+
+  bool operator==(const Ripples&) const = default;
 };
 
 // How waves near a coast know the floor and the shore. Needs a terrain.
@@ -122,6 +161,7 @@ struct Scene {
   SeaArea area;
   bool round_earth = true;  // false: flat, with the horizon at infinity
   WaterOptics water;
+  Ripples ripples;
   Coast coast;
   Detail detail;
   Picture picture;

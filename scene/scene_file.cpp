@@ -16,6 +16,7 @@
 #include "scene/scene.h"
 #include "scene/sky.h"
 #include "scene/toml_limits.h"
+#include "texture/bump_sequence.h"
 
 namespace swell::scene {
 namespace {
@@ -379,6 +380,7 @@ class Reader {
                            const Parameter<Object>& parameter, const std::string& allowed) const {
     const auto* text = node.as_string();
     if (!text) fail_value(node, path, got_text(node), allowed);
+    if (parameter.is_of_frames) return checked_frame_paths(node, path, text->get(), parameter);
     if (parameter.kind == ParameterKind::kPath)
       return checked_path(node, path, text->get(), parameter.path_of);
     if (!allows(parameter, text->get())) fail_value(node, path, got_text(node), allowed);
@@ -404,6 +406,20 @@ class Reader {
       fault = "cannot be opened";
     if (fault.empty()) return path.string();
     fail_value(node, key, fmt::format("\"{}\" ({})", path.string(), fault), allowed);
+  }
+
+  // The same of files that a number tells apart, the first of which can be opened.
+  template <class Object>
+  std::string checked_frame_paths(const toml::node& node, const std::string& key,
+                                  const std::string& text,
+                                  const Parameter<Object>& parameter) const {
+    if (text.empty()) return text;
+    const bool has_number = text.find(texture::kFrameNumber) != std::string::npos;
+    if (!has_number || std::ranges::count(text, '%') != 1)
+      fail_value(node, key, got_text(node), allowed_text(parameter));
+    checked_path(node, key, texture::path_of_frame(text, 0), parameter.path_of);
+    std::error_code error;
+    return fs::absolute(file_.parent_path() / text, error).lexically_normal().string();
   }
 
   [[noreturn]] void fail_value(const toml::node& node, const std::string& path,

@@ -116,7 +116,7 @@ void Peer::take(const Workspace& workspace) {
   peer.refraction.resize(lookup.width_px, lookup.height_px);
   peer.water.take(frame.meshes.water);
   peer.land.take(frame.meshes.land);
-  peer.objects.take(frame.meshes.objects);
+  peer.objects.take(frame.meshes.objects.in_window());
   peer.take_maps(frame);
   set_constants(frame, *peer.programs);
   peer.gl.Finish();

@@ -49,7 +49,7 @@ static glm::vec3 mean_of_texture(const scene::ObjectTriangle& triangle,
   return texture::sample((*mesh.textures)[static_cast<std::size_t>(texture)], 0.5f, 0.5f, 1e9f);
 }
 
-void PeerMesh::take(const render::ObjectGeometry& objects) {
+void PeerMesh::take(const render::ObjectDraws& objects) {
   const std::size_t corners = objects.indices.size();
   std::vector<glm::vec3> place, normal, albedo;
   std::vector<glm::vec3> finish;

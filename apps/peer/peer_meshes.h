@@ -16,7 +16,7 @@ class PeerMesh {
   // Water or land: places relative to the eye and heights.
   void take(const render::Surface& surface);
   // Objects: their corners triangle by triangle, each with its normal and colour.
-  void take(const render::ObjectGeometry& objects);
+  void take(const render::ObjectDraws& objects);
 
   bool empty() const { return index_count_ == 0; }
   void draw() const;

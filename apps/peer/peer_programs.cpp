@@ -170,6 +170,8 @@ void set_water(const Shading& s, const GlProgram& program) {
   program.set("inv_window", 1.0f / glm::vec2(s.viewport.width_px, s.viewport.height_px));
   program.set("distortion_px", water.distortion_px);
   program.set("max_distortion_px", water.max_distortion_px);
+  program.set("distortion_by_sine", water.distortion_by_sine);
+  program.set("least_distortion", water.least_distortion);
   program.set("view_right", water.view_right);
   program.set("view_ahead", water.view_ahead);
 }

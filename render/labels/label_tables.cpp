@@ -52,7 +52,7 @@ void fill_normals(const LabelInputs& in, LabelTables& tables, const StageRun& ru
     const auto indices = in.meshes.indices(kind);
     if (kind == SurfaceKind::kObjects) {
       fill_normals(indices, normal, run,
-                   [&](std::uint32_t i) { return in.meshes.objects.p_rel[i]; });
+                   [&](std::uint32_t i) { return in.meshes.objects.in_window().p_rel[i]; });
     } else {
       const Surface& surface = kind == SurfaceKind::kWater ? in.meshes.water : in.meshes.land;
       fill_normals(indices, normal, run,

@@ -14,8 +14,8 @@ namespace swell::render {
 // What the labels of all tiles of a picture are made from.
 struct LabelSources {
   const LabelTables& tables;
-  const Shading& shading;         // of the window
-  const ObjectGeometry& objects;  // that are drawn
+  const Shading& shading;      // of the window
+  const ObjectDraws& objects;  // that are drawn
   const World::State& world;
 };
 

@@ -56,6 +56,18 @@ HWY_INLINE V SampleCaustic(const texture::PackedMap1& map, const CausticPlace& a
   return hn::MulAdd(more, at.shown, Constant(1.0f));
 }
 
+// T' = T + Cc N, N of the ripples at T. Source: Ma, Zhu, Gong, 2006.
+HWY_NOINLINE static void BendLookup(const Caustics& caustics, V level_m, V& x, V& y) {
+  const V zero = hn::Zero(D());
+  V slope_x = zero, slope_y = zero, unused = zero;
+  for (int i = 0; i < caustics.ripples.count; ++i)
+    AddSlopes(caustics.ripples.layers[static_cast<std::size_t>(i)], {x, y, zero}, level_m, zero,
+              zero, slope_x, slope_y, unused);
+  const V by = Constant(caustics.bend_m);
+  x = hn::NegMulAdd(slope_x, by, x);
+  y = hn::NegMulAdd(slope_y, by, y);
+}
+
 // The sun's light on points p under the water's level, relative to the eye, against what flat water
 // would let through: 1 above the level, and where it is too deep or too far away to see a pattern.
 inline HWY_NOINLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
@@ -64,8 +76,9 @@ inline HWY_NOINLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
   const V zero = hn::Zero(d), one = Constant(1.0f);
   const V depth = hn::Max(hn::Sub(Constant(-s.rays.eye_z), p.z), zero);
   if (caustics.patches == 0 || hn::AllFalse(d, hn::Gt(depth, zero))) return one;
-  const V x = hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x);
-  const V y = hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y);
+  V x = hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x);
+  V y = hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y);
+  if (caustics.bend_m > 0.0f) BendLookup(caustics, level_m, x, y);
   std::array<CausticPlace, CausticMaps::kMostPatches> places;
   for (std::size_t i = 0; i < caustics.patches; ++i)
     places[i] = PlaceInCaustics(caustics.patch[i], x, y, level_m);

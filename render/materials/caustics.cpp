@@ -11,6 +11,10 @@ Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
   caustics.patches = maps.patches;
   caustics.depth_m = maps.depth_m;
   caustics.strength = static_cast<float>(in.world.scene.water.caustics);
+  if (maps.patches > 0 && !in.without.has(Part::kCausticBend)) {
+    caustics.bend_m = static_cast<float>(in.world.scene.water.caustic_distortion);
+    caustics.ripples = make_ripples(in, eye);
+  }
   for (std::size_t p = 0; p < maps.patches; ++p) {
     CausticPatch& patch = caustics.patch[p];
     for (std::size_t k = 0; k < CausticMaps::kDepths; ++k)

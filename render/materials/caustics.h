@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "render/materials/inputs.h"
+#include "render/materials/ripples.h"
 
 namespace swell::render {
 
@@ -21,6 +22,9 @@ struct Caustics {
   std::array<CausticPatch, CausticMaps::kMostPatches> patch;
   std::array<float, CausticMaps::kDepths> depth_m{};
   float strength = 1.0f;  // of the contrast
+  // How ripples move the lookup.
+  float bend_m = 0.0f;  // Cc, 0: not at all
+  Ripples ripples;
 };
 
 Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye);

@@ -39,16 +39,17 @@ HWY_INLINE V OutsideWaterline(const Waterline& line, V x, V y) {
   return hn::Sqrt(hn::MulAdd(da, da, hn::Mul(db, db)));
 }
 
-// All hulls together at a packet of water.
-inline HWY_NOINLINE AtHulls SampleHulls(const ObjectShadows& objects, const Foam& material,
-                                        std::span<const std::uint16_t> casters, const V3& p,
-                                        const V& level_m) {
+// All hulls together at points of the water in a span of pixels.
+inline HWY_NOINLINE AtHulls SampleHulls(const SunShadow& shadow, const Foam& material,
+                                        std::span<const std::uint16_t> casters,
+                                        const PixelSpan& span, const V3& p, const V& level_m) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
   AtHulls at = {zero, zero};
   V foam = zero;
   for (const std::uint16_t number : casters) {
-    const ShadowCaster& caster = objects.casters[number];
+    if (!shadow.casters.pixels[number].meets(span)) continue;
+    const ShadowCaster& caster = shadow.objects->casters[number];
     const Waterline& line = caster.waterline;
     const V3 q = Sum(p, Constant(-line.middle_rel));
     const V far = hn::Max(hn::Max(hn::Abs(q.x), hn::Abs(q.y)), hn::Abs(q.z));
@@ -72,6 +73,7 @@ inline HWY_NOINLINE AtHulls SampleHulls(const ObjectShadows& objects, const Foam
     const V ring = Clamp(hn::Sub(one, hn::Div(away, width)), 0.0f, 1.0f);
     foam = hn::Max(foam, hn::IfThenElseZero(near, hn::Mul(ring, Constant(line.foam))));
   }
+  if (hn::AllTrue(d, hn::Eq(foam, zero))) return at;
   // Thinner towards its rim.
   const V thick = hn::Min(hn::MulAdd(foam, Constant(1.1f), Constant(0.2f)), one);
   at.foam_cover = hn::Mul(FoamCover(material, p, level_m, foam), thick);

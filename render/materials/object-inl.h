@@ -10,6 +10,7 @@
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
 #include "render/tile/attenuate-inl.h"
+#include "render/tile/own_shadow-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
 #include "texture/mip_image.h"
@@ -202,6 +203,18 @@ HWY_INLINE V WaterLevel(const Object&, const Shading& s, const Lanes& lanes) {
   return WaterlineOf(ObjectsAt(s, lanes).data());
 }
 
+// What the lanes' objects leave of the sun on themselves.
+HWY_INLINE V SunOverOwn(const Shading& s, const ObjectPacket& objects, const Packet& packet,
+                        const V3& normal) {
+  std::array<const SunDepth*, Lanes3::kCount> maps;
+  const SunDepth* any = nullptr;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    maps[i] = objects[i]->object->own_shadow;
+    if (maps[i]) any = maps[i];
+  }
+  return any ? SunOverOwn(*s.sun_shadow.objects, maps, packet.p, normal) : Constant(1.0f);
+}
+
 // A hull in the water shows no gloss.
 template <ViewKind kView>
 struct Shader<Object, kView> {
@@ -211,7 +224,8 @@ struct Shader<Object, kView> {
                                const Packet& packet) const {
     const ObjectPacket objects = ObjectsAt(s, lanes);
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
-    V sun_visible = SunVisible(s, tile, packet, NumbersOf(objects));
+    V sun_visible = hn::Mul(SunVisible(s, tile, packet, NumbersOf(objects)),
+                            SunOverOwn(s, objects, packet, surface.normal));
     if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, FootprintAcross(s.rays, packet)));
     const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);

@@ -47,7 +47,7 @@ HWY_INLINE V SunOnGround(const Shading& s, const Terrain& terrain, const TilePix
   V visible = Constant(1.0f);
   if (terrain.sun.map) visible = SunFromMap(s, terrain.sun, packet.p, level_m, point.p);
   if (tile.casters.empty()) return visible;
-  return hn::Mul(visible, SunOverObjects(*s.sun_shadow.objects, tile.casters, point));
+  return hn::Mul(visible, SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet), point));
 }
 
 // Ground, diffuse and lit by sun and sky.

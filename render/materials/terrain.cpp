@@ -58,7 +58,7 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
   terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});
 
   terrain.swash = {};
-  if (!in.world.coast) return;
+  if (!in.world.coast || in.without.has(Part::kWater)) return;
   terrain.swash =
       make_swash(in.world.coast->trains, ocean::wave_time_s(in.world.scene.sea, in.t_s), eye);
   terrain.foam = make_foam(in, eye);

@@ -16,8 +16,10 @@
 #include <utility>
 
 #include "render/labels/label_channels.h"
+#include "render/materials/bump_light-inl.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
+#include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/visible_slopes-inl.h"
@@ -254,7 +256,8 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
   const V ahead = hn::MulAdd(s.slope_x, Constant(water.view_ahead.x),
                              hn::Mul(s.slope_y, Constant(water.view_ahead.y)));
   const V gain = hn::Mul(Constant(sign * water.distortion_px),
-                         Clamp(hn::Mul(packet.to_eye.z, Constant(6.0f)), 0.1f, 1.0f));
+                         Clamp(hn::Mul(packet.to_eye.z, Constant(water.distortion_by_sine)),
+                               water.least_distortion, 1.0f));
   const float bound = water.max_distortion_px;
   const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
   const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
@@ -361,8 +364,11 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
       hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
   const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
   const V3 crest_light = Scale(Constant(water.crest_glow), glow);
-  const V3 deep = Sum(
-      crest_light, ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
+  V3 deep = Sum(crest_light,
+                ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
+  if (water.bump_detail.map)
+    deep = Scale(deep, BumpLight(shading, water.bump_detail, packet, NormalOf(s.slope_x, s.slope_y),
+                                 sun_visible));
   image_alpha = hn::Zero(D());
   floor_added = Constant(glm::vec3(0.0f));
   if (!use_image) return deep;
@@ -426,8 +432,7 @@ struct WaterShader {
 
     const V sun_visible = SunVisible(shading, tile, packet);
     V inv_variance, mirrored_alpha, refracted_alpha;
-    const V sun_path =
-        SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
+    V sun_path = SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
     V3 floor;
     V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
                                   refracted_alpha, floor);
@@ -437,8 +442,8 @@ struct WaterShader {
     if (!tile.casters.empty()) {
       const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
                                        Clamp(packet.to_eye.z, kMinCos, 1.0f));
-      const AtHulls hulls = SampleHulls(*shading.sun_shadow.objects, water.hull_foam, tile.casters,
-                                        packet.p, level_m);
+      const AtHulls hulls = SampleHulls(shading.sun_shadow, water.hull_foam, tile.casters,
+                                        SpanOf(packet), packet.p, level_m);
       refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
       foam.cover = hn::Max(foam.cover, hulls.foam_cover);
       // Fresh, and so thick.
@@ -446,7 +451,10 @@ struct WaterShader {
       foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
     }
     const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
-    V3 seen = ScaleAdd(Constant(light.sun_irradiance), hn::Mul(sun_path, sun_visible), arriving);
+    if (water.glitter.slide)
+      sun_path =
+          hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));
+    V3 seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction, sun_visible, f.normal, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha)};
   }

@@ -5,8 +5,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "math/smoothstep.h"
-#include "ocean/sea_state.h"
+#include "render/materials/ripples.h"
 
 namespace swell::render {
 namespace {
@@ -14,73 +13,12 @@ namespace {
 constexpr double kUvNoisePeriod_m = 23.0;
 constexpr int kMostLongLayers = 2;
 
-// Slope variance of what is too fine for any map: in a breeze, and of glass, which spreads the
-// sun's disc to about twice its width.
-constexpr float kBaseVariance = 0.0012f, kGlassVariance = 2e-5f;
-
 // Of tilted normals to the eye, at least.
 constexpr float kLeastCos = 0.08f;
-
-// The wind that makes ripples; sines have a breeze of their own.
-double ripple_wind_mps(const scene::Scene& scene) {
-  return scene.sea.has_wind_waves() ? scene.sea.wind_speed_mps : 3.0;
-}
-
-// How much of the ripples there is: below 1 m/s the wind raises fewer and fewer, until the sea is
-// glass. Cox and Munk's line, which ends at 0.003, was fitted to winds of 0.7 to 14 m/s.
-double ripple_share(double wind_mps) { return smoothstep(0.0, 1.0, wind_mps); }
 
 void add_layer(const SlopeLayer& layer, Water& water) {
   SWELL_DCHECK(water.layer_count < kMaxSlopeLayers, "layers={}", water.layer_count);
   water.layers[water.layer_count++] = layer;
-}
-
-// How far a map of period length_m has drifted at t_s. In a sea that loops it drifts by whole
-// periods a loop along both axes: the nearest ones, but not by none.
-glm::dvec2 drift_m(const ocean::SeaDescription& sea, glm::dvec2 direction, double speed_mps,
-                   double length_m, double t_s) {
-  if (sea.loop_s == 0.0) return direction * (speed_mps * t_s);
-  const glm::dvec2 periods = direction * (speed_mps * sea.loop_s / length_m);
-  glm::dvec2 whole(std::nearbyint(periods.x), std::nearbyint(periods.y));
-  if (whole == glm::dvec2(0.0) && speed_mps != 0.0) {
-    const int axis = std::abs(periods.x) > std::abs(periods.y) ? 0 : 1;
-    whole[axis] = std::copysign(1.0, periods[axis]);
-  }
-  return whole * (length_m * (ocean::wave_time_s(sea, t_s) / sea.loop_s));
-}
-
-// Slope variance of the ripples, both axes together: they are what the patches' waves leave of the
-// sea's whole variance; where those are higher than the wind makes them, a quarter of it.
-// Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
-double ripple_variance(const MaterialInputs& in, const Water& water) {
-  const double wind = ripple_wind_mps(in.world.scene);
-  const double whole = ripple_share(wind) * (0.003 + 0.00512 * wind);
-  if (in.sea.frame.patches.empty()) return 0.25 * whole;
-  double rest = whole - static_cast<double>(water.base_variance);
-  for (const ocean::PatchFrame& patch : in.sea.frame.patches)
-    rest -= static_cast<double>(patch.slope_variance);
-  return std::max(rest, 0.25 * whole);
-}
-
-// Two layers of ripples that drift across each other, downwind.
-void add_ripples(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
-  const scene::Scene& scene = in.world.scene;
-  const texture::PackedMap2& bump = *in.world.bump;
-  const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
-  const double variance = ripple_variance(in, water);
-  const double travel = scene.sea.wind_from_rad + kPi;
-  struct Ripples {
-    double length_m, turn_rad, speed_mps, part;
-  };
-  for (const Ripples& r : {Ripples{5.3, 0.35, 0.55, 0.5}, Ripples{2.1, -0.5, 0.35, 0.5}}) {
-    const glm::dvec2 direction(sin(travel + r.turn_rad), cos(travel + r.turn_rad));
-    const auto gain =
-        static_cast<float>(scene.water.bump_strength * std::sqrt(r.part * variance / map_variance));
-    const glm::dvec2 moved_m = drift_m(scene.sea, direction, r.speed_mps, r.length_m, in.t_s);
-    SlopeLayer layer = make_layer(bump, r.length_m, gain, eye, moved_m);
-    layer.uv_noise_m = static_cast<float>(scene.water.uv_noise_amplitude);
-    add_layer(layer, water);
-  }
 }
 
 SineLayer make_sine(const ocean::SineFrame& sine, glm::dvec2 eye) {
@@ -103,10 +41,10 @@ void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   }
   water.long_layer_count = std::min(water.layer_count, kMostLongLayers);
   water.first_ripples = water.layer_count;
-  water.base_variance =
-      std::lerp(kGlassVariance, kBaseVariance,
-                static_cast<float>(ripple_share(ripple_wind_mps(in.world.scene))));
-  if (!in.without.has(Part::kRipples)) add_ripples(in, eye, water);
+  water.base_variance = base_variance(in.world.scene);
+  const Ripples ripples = make_ripples(in, eye);
+  for (int i = 0; i < ripples.count; ++i) add_layer(ripples.layers[i], water);
+  water.bump_detail = ripples.detail;
   for (const ocean::SineFrame& sine : in.sea.frame.sines)
     water.sines[water.sine_count++] = make_sine(sine, eye);
   water.uv_noise = make_layer(in.sea.uv_noise, kUvNoisePeriod_m, 1.0f, eye, {});
@@ -188,6 +126,8 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
   water.least_cos = in.world.scene.water.tilted_backs ? kLeastCos : 0.0f;
   water.wave_horizon = wave_horizon(variance);
+  water.glitter_light =
+      in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height =
       1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
@@ -196,6 +136,10 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
+  if (in.world.scene.water.distortion_factor == scene::DistortionFactor::kPaper) {
+    water.distortion_by_sine = 0.5f / camera.tan_half_y;
+    water.least_distortion = 0.0f;
+  }
   water.max_distortion_px = max_distortion_px(camera);
   fill_slope_axes(camera, water);
 }
@@ -205,13 +149,14 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
 float max_distortion_px(const View& window) { return 0.1f * static_cast<float>(window.height_px); }
 
 void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
-  if (!shows(view.kind, Water::kSurface)) return;
+  if (!shows(view.kind, Water::kSurface) || in.without.has(Part::kWater)) return;
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);
   water.foam = make_foam(in, eye);
   water.hull_foam = make_foam(in, eye, kHullFoamPeriod_m);
   water.whitecaps = make_whitecaps(in, eye);
+  water.glitter = make_glitter(in);
   fill_optics(in, view.camera, water);
 }
 

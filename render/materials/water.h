@@ -6,6 +6,7 @@
 
 #include "ocean/sea.h"
 #include "render/materials/foam.h"
+#include "render/materials/glitter.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
 #include "render/materials/whitecaps.h"
@@ -32,6 +33,7 @@ struct Water {
   std::array<SineLayer, ocean::kMaxSineTrains> sines;
   int sine_count = 0;
   int first_ripples = 0;        // the layer from which on noise bends the coordinates
+  SlopeLayer bump_detail;       // of the paper's lighting, without a map: none
   SlopeLayer uv_noise;          // values in [-1, 1], not slopes
   float short_variance = 0.0f;  // slope variance of the layers after the long ones
   float seen_slopes = 1.0f;     // 0: all slopes of rough water are seen, also the hidden ones
@@ -44,16 +46,20 @@ struct Water {
   SlopeLayer coast_slopes, coast_surf;
   Foam foam, hull_foam;
   Whitecaps whitecaps;
+  Glitter glitter;
 
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
   float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
   float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
+  glm::vec3 glitter_light{0.0f};     // of the sun, in its image
   glm::vec3 crest_glow{0.0f};        // added where light shines through crests
   float inv_crest_height = 0.0f;
   float inv_wave_reach = 0.0f;  // of the vertices, per metre
   LookupImage reflection, refraction;
-  float distortion_px = 0.0f;                    // window pixels per unit of slope
-  float max_distortion_px = 0.0f;                // bound of the displacement, each way
+  float distortion_px = 0.0f;      // window pixels per unit of slope
+  float max_distortion_px = 0.0f;  // bound of the displacement, each way
+  // What it is multiplied by: the sine of the eye's elevation over the water, times this, bounded.
+  float distortion_by_sine = 6.0f, least_distortion = 0.1f;
   glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
 };
 

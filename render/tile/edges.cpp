@@ -17,7 +17,7 @@ struct SurfaceRange {
 
 class SurfaceRanges {
  public:
-  SurfaceRanges(const PrimitiveRanges& ranges, const ObjectGeometry& objects)
+  SurfaceRanges(const PrimitiveRanges& ranges, const ObjectDraws& objects)
       : ranges_(ranges), objects_(objects) {}
 
   SurfaceRange of(std::uint32_t primitive) const {
@@ -41,7 +41,7 @@ class SurfaceRanges {
   }
 
   const PrimitiveRanges& ranges_;
-  const ObjectGeometry& objects_;
+  const ObjectDraws& objects_;
 };
 
 // The samples of one pixel that show one surface.
@@ -244,7 +244,7 @@ void sort_samples(const TileEdges& in, int tile, const raster::PixelMask& mask,
 
 }  // namespace
 
-void prepare_edges(const ObjectGeometry& objects, const RenderView& window,
+void prepare_edges(const ObjectDraws& objects, const RenderView& window,
                    const VisibilityBuffer& visibility, int samples, EdgeBuffer& edges) {
   edges.samples = samples;
   edges.of_tile.resize(static_cast<std::size_t>(visibility.grid.count()));
@@ -257,7 +257,7 @@ void prepare_edges(const ObjectGeometry& objects, const RenderView& window,
                                       window.viewport(), visibility.grid));
 }
 
-void find_edges(const ObjectGeometry& objects, const RenderView& window,
+void find_edges(const ObjectDraws& objects, const RenderView& window,
                 const VisibilityBuffer& visibility, int tile, EdgeScratch& scratch,
                 EdgeBuffer& edges) {
   if (edges.samples == 0 || visibility.covered[static_cast<std::size_t>(tile)] < 0) return;

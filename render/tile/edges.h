@@ -52,7 +52,7 @@ struct EdgeBuffer {
   int samples = 0;  // a pixel: 0, 4 or 8
   // By tile; a pixel's fragments lie side by side and have all of its samples together.
   std::vector<std::vector<EdgeFragment>> of_tile;
-  std::vector<ObjectExtent> objects;  // by ObjectGeometry::parts
+  std::vector<ObjectExtent> objects;  // by ObjectDraws::parts
 };
 
 // Working memory of one thread.
@@ -64,12 +64,12 @@ struct EdgeScratch {
 
 // Stage 4, after the visibility of all tiles: makes room for the edges' fragments, and says where
 // objects lie. The window's pass was prepared with `samples`, 4 or 8; with 0 there are none.
-void prepare_edges(const ObjectGeometry& objects, const RenderView& window,
+void prepare_edges(const ObjectDraws& objects, const RenderView& window,
                    const VisibilityBuffer& visibility, int samples, EdgeBuffer& edges);
 
 // Stage 6, before the tile is shaded and while its visibility comes into cache anyway: finds the
 // fragments of its edges. Different tiles may be searched by different threads at one time.
-void find_edges(const ObjectGeometry& objects, const RenderView& window,
+void find_edges(const ObjectDraws& objects, const RenderView& window,
                 const VisibilityBuffer& visibility, int tile, EdgeScratch& scratch,
                 EdgeBuffer& edges);
 

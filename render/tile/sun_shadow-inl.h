@@ -120,6 +120,13 @@ HWY_INLINE V AheadOf(const Outline& outline, const SunPlace& at) {
   return hn::Sub(Lerp(end(outline.left_depth_m), end(outline.right_depth_m), t), at.depth);
 }
 
+// The pixels that a packet lies between.
+HWY_INLINE PixelSpan SpanOf(const Packet& packet) {
+  const D d;
+  return {hn::GetLane(hn::MinOfLanes(d, packet.x_px)), hn::GetLane(hn::MinOfLanes(d, packet.y_px)),
+          hn::GetLane(hn::MaxOfLanes(d, packet.x_px)), hn::GetLane(hn::MaxOfLanes(d, packet.y_px))};
+}
+
 // A point that light may fall on.
 struct LitPoint {
   V3 p;    // relative to the eye
@@ -127,16 +134,18 @@ struct LitPoint {
   V own;   // the number of the object that it is on, below 0 if on none
 };
 
-// What the objects leave of the sun.
-inline HWY_NOINLINE V SunOverObjects(const ObjectShadows& shadows,
-                                     std::span<const std::uint16_t> casters,
+// What the objects leave of the sun at points in a span of pixels.
+inline HWY_NOINLINE V SunOverObjects(const SunShadow& shadow,
+                                     std::span<const std::uint16_t> casters, const PixelSpan& span,
                                      const LitPoint& point) {
+  const ObjectShadows& shadows = *shadow.objects;
   const D d;
   constexpr auto kRadius = static_cast<float>(kSunRadius_rad);
   const V zero = hn::Zero(d), one = Constant(1.0f);
   const auto high = hn::Ge(point.p.z, Constant(shadows.lowest_rel_m));
   V visible = one;
   for (const std::uint16_t number : casters) {
+    if (!shadow.casters.pixels[number].meets(span)) continue;
     const ShadowCaster& caster = shadows.casters[number];
     if (caster.reach_m <= 0.0f) continue;
     const Outline& outline = caster.outline;
@@ -189,7 +198,7 @@ HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& 
   V visible = Constant(1.0f);
   if (s.sun_shadow.land) visible = SunOverLand(s.sun_shadow, packet.p, s.rays.eye_z);
   if (!tile.casters.empty())
-    visible = hn::Mul(visible, SunOverObjects(*s.sun_shadow.objects, tile.casters,
+    visible = hn::Mul(visible, SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet),
                                               {packet.p, PixelSoftness(s, packet.depth), own}));
   return visible;
 }

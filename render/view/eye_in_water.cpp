@@ -16,7 +16,8 @@ EyeInWater find_eye_in_water(const World::State& world, const SeaMaps& sea, cons
       std::abs(eye_z) < static_cast<double>(world.water_bounds().height_m))
     surface_m = static_cast<double>(water_surface(world, sea).height(glm::dvec2(view.eye_world)));
   EyeInWater eye;
-  eye.submerged = !options.without.has(Part::kUnderwater) && eye_z < surface_m;
+  const bool in_air = options.without.has(Part::kUnderwater) || options.without.has(Part::kWater);
+  eye.submerged = !in_air && eye_z < surface_m;
   const double to_level_m = eye.submerged ? -eye_z : eye_z;
   // In a crest or a trough the level is on the other side of the eye.
   const double away_m = std::max(to_level_m, 0.5 * std::abs(eye_z - surface_m));

@@ -97,9 +97,10 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
   const auto tiles = static_cast<std::size_t>(visibility.grid.count());
   images.of_tile.assign(tiles, {});
   const bool any = std::ranges::any_of(kAllSurfaces, [&](SurfaceKind s) {
-    return shows(ViewKind::kReflection, s) && !meshes.indices(s).empty();
+    return shows(ViewKind::kReflection, s) && !(meshes.indices(s, ViewKind::kReflection).empty() &&
+                                                meshes.indices(s, ViewKind::kRefraction).empty());
   });
-  if (!any) return;
+  if (!any || inputs.without.has(Part::kWater)) return;
 
   // Which tiles of the images water can look into.
   LookupTarget &reflection = images.reflection, &refraction = images.refraction;

@@ -2,6 +2,7 @@
 // RenderView holds what becomes of their vertices in a picture.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -44,8 +45,9 @@ struct ObjectInstance {
   glm::vec3 colour{0.0f};
   float roughness = 0.42f, metalness = 0.0f;  // of its paint
   const scene::ObjectMesh* mesh = nullptr;
-  float log2_units_per_m = 0.0f;  // of the mesh's lengths, in the mean over its axes
-  std::uint32_t object = 0;       // its index in the scene
+  const SunDepth* own_shadow = nullptr;  // none: it does not shade itself
+  float log2_units_per_m = 0.0f;         // of the mesh's lengths, in the mean over its axes
+  std::uint32_t object = 0;              // its index in the scene
 };
 
 // Which triangle of which object a primitive is.
@@ -54,37 +56,47 @@ struct ObjectPrimitive {
   const ObjectInstance* object = nullptr;
 };
 
-// Which triangles and vertices of ObjectGeometry are one object's.
+// Which triangles and vertices of ObjectDraws are one object's.
 struct ObjectPart {
   std::uint32_t first_triangle = 0, triangles = 0;
   std::uint32_t first_vertex = 0, vertices = 0;
 };
 
-// The floating objects that a frame may show.
+// The objects that views of one kind may show, each of as many triangles as the view needs.
+struct ObjectDraws {
+  std::vector<ObjectInstance> instances;
+  std::vector<ObjectPart> parts;            // of the same
+  std::vector<ObjectPrimitive> primitives;  // per triangle
+  std::vector<std::uint32_t> indices;       // 3 per triangle
+  std::vector<glm::vec3> p_rel;             // per vertex, relative to the eye
+  std::vector<float> waterline_rel_m;       // per vertex: its object's
+};
+
+// The objects of a frame.
 struct ObjectGeometry {
   std::vector<scene::ObjectPose> poses;          // of all objects of the scene
-  std::vector<const scene::ObjectMesh*> meshes;  // of the same; null: not in view
-  std::vector<ObjectInstance> instances;         // of those in view
-  std::vector<ObjectPart> parts;                 // of the same
-  std::vector<ObjectPrimitive> primitives;       // per triangle
-  std::vector<std::uint32_t> indices;            // 3 per triangle
-  std::vector<glm::vec3> p_rel;                  // per vertex, relative to the eye
-  std::vector<float> waterline_rel_m;            // per vertex: its object's
-  ObjectShadows shadows;                         // of those that the view may show
+  std::vector<const scene::ObjectMesh*> meshes;  // of the same, in the window; null: not in view
+  std::array<ObjectDraws, kViewKinds> draws;
+  ObjectShadows shadows;  // of those that the view may show
+
+  ObjectDraws& drawn_in(ViewKind kind) { return draws[static_cast<std::size_t>(kind)]; }
+  const ObjectDraws& drawn_in(ViewKind kind) const { return draws[static_cast<std::size_t>(kind)]; }
+  const ObjectDraws& in_window() const { return drawn_in(ViewKind::kWindow); }
 };
 
 struct Meshes {
   Surface water, land;  // land: empty without terrain
   ObjectGeometry objects;
 
-  std::span<const std::uint32_t> indices(SurfaceKind kind) const {
-    switch (kind) {
+  std::span<const std::uint32_t> indices(SurfaceKind surface,
+                                         ViewKind view = ViewKind::kWindow) const {
+    switch (surface) {
       case SurfaceKind::kWater:
         return water.mesh.indices;
       case SurfaceKind::kTerrain:
         return land.mesh.indices;
       case SurfaceKind::kObjects:
-        return objects.indices;
+        return objects.drawn_in(view).indices;
     }
     return {};
   }

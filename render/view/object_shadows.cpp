@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "math/check.h"
 #include "math/earth.h"
 #include "math/elementary.h"
+#include "render/view/object_levels.h"
+#include "render/view/shadow_reach.h"
 #include "render/world/land_shadow.h"
 
 namespace swell::render {
@@ -17,6 +20,13 @@ constexpr std::size_t kMostCasters = 65535;  // lists of tiles hold 16 bits; 200
 constexpr double kMostLift_m = 3.0;
 // A smaller one casts no shadow and leaves no trace on the water: the picture would not show them.
 constexpr float kSmallestCaster_px = 0.5f;
+// Below this size every seventh row is found, which are 2 pixels apart, and the others between
+// them.
+constexpr float kSmallOutline_px = 16.0f;
+constexpr int kSmallOutlineStep = 7;
+// How far the mesh of an outline may lie off the finest one: what is soft, or less than a row, does
+// not show.
+constexpr float kMostOutlineError_px = 1.0f, kMostOutlineError = 0.01f;  // or of the largest side
 constexpr auto kSunRadius = static_cast<float>(kSunRadius_rad);
 
 // In metres along right, up and towards the sun, from the object's place.
@@ -41,17 +51,30 @@ SunFrame sun_frame(const scene::FloatingObject& object, const scene::ObjectPose&
   return {axes, axes * glm::vec3(middle, -static_cast<float>(object.draught))};
 }
 
-// Widens the rows that an edge crosses.
-void add_edge(const SunPoint& a, const SunPoint& b, Outline& outline) {
+// Widens those of every `step` rows that an edge crosses.
+void add_edge(const SunPoint& a, const SunPoint& b, int step, Outline& outline) {
   const float row_a = (a.y - outline.lowest_m) * outline.rows_per_m;
   const float row_b = (b.y - outline.lowest_m) * outline.rows_per_m;
   const float low = std::min(row_a, row_b), high = std::max(row_a, row_b);
   const int last = std::min(static_cast<int>(std::floor(high)), Outline::kRows - 1);
-  for (int i = std::max(static_cast<int>(std::ceil(low)), 0); i <= last; ++i) {
-    const float s = row_a == row_b ? 0.0f : (static_cast<float>(i) - row_a) / (row_b - row_a);
-    const SunPoint p = a + s * (b - a);
-    if (p.x < outline.left_m[i]) outline.left_m[i] = p.x, outline.left_depth_m[i] = p.z;
-    if (p.x > outline.right_m[i]) outline.right_m[i] = p.x, outline.right_depth_m[i] = p.z;
+  const float inverse = row_a == row_b ? 0.0f : 1.0f / (row_b - row_a);
+  const int first = std::max(static_cast<int>(std::ceil(low)), 0);
+  for (int i = (first + step - 1) / step * step; i <= last; i += step) {
+    const float s = (static_cast<float>(i) - row_a) * inverse;
+    const float x = a.x + s * (b.x - a.x), z = a.z + s * (b.z - a.z);
+    if (x < outline.left_m[i]) outline.left_m[i] = x, outline.left_depth_m[i] = z;
+    if (x > outline.right_m[i]) outline.right_m[i] = x, outline.right_depth_m[i] = z;
+  }
+}
+
+// The rows between those of every `step`.
+void fill_rows(int step, Outline& outline) {
+  for (int i = 0; i < Outline::kRows; ++i) {
+    const int below = i / step * step, above = std::min(below + step, Outline::kRows - 1);
+    const float t = static_cast<float>(i - below) / static_cast<float>(step);
+    for (auto* const ends :
+         {&outline.left_m, &outline.right_m, &outline.left_depth_m, &outline.right_depth_m})
+      (*ends)[i] = (*ends)[below] + t * ((*ends)[above] - (*ends)[below]);
   }
 }
 
@@ -152,50 +175,6 @@ ShadowCaster caster_of(const scene::FloatingObject& object, const scene::MeshPar
   return caster;
 }
 
-// Places relative to the eye between which lies all that a caster may tell on: its hull's
-// surroundings, and its outline's way down the sun's direction.
-struct Corners {
-  std::array<glm::vec3, 24> p;
-  int count = 0;
-  void add(glm::vec3 corner) { p[count++] = corner; }
-};
-
-Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows) {
-  Corners corners;
-  const float near_m = caster.near_m;
-  for (int i = 0; near_m > 0.0f && i < 8; ++i)
-    corners.add(caster.waterline.middle_rel +
-                near_m * glm::vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
-  if (caster.reach_m <= 0.0f) return corners;
-  const Outline& o = caster.outline;
-  const float highest_m = o.lowest_m + (Outline::kRows - 1) / o.rows_per_m;
-  // Down to the lowest that is shaded, from the place's height and from the outline's highest one.
-  const float height_m = caster.place_rel.z + highest_m * shadows.up.z +
-                         std::max(o.most_depth_m, 0.0f) * shadows.sun.z - shadows.lowest_rel_m;
-  // A little further for what is soft there.
-  const float sine = std::max(shadows.sun.z, 1e-4f);
-  const float way_m =
-      std::min(caster.reach_m, std::max(height_m, 0.0f) / sine * (1.0f + 2.0f * kSunRadius / sine));
-  for (int i = 0; i < 16; ++i) {
-    const float way = i & 8 ? way_m : 0.0f, soft = way * kSunRadius;
-    const float x = i & 1 ? o.right_most_m + soft : o.left_most_m - soft;
-    const float y = i & 2 ? highest_m + soft : o.lowest_m - soft;
-    const float z = (i & 4 ? o.most_depth_m : o.least_depth_m) - way;
-    corners.add(caster.place_rel + x * shadows.right + y * shadows.up + z * shadows.sun);
-  }
-  return corners;
-}
-
-// How far a round earth sinks what lies between the corners at most, and what light reaches from
-// there under water.
-float most_drop_m(const Corners& corners, float drop_per_m2) {
-  float farthest_m = 0.0f;
-  for (int i = 0; i < corners.count; ++i)
-    farthest_m = std::max(farthest_m, glm::length(glm::vec2(corners.p[i])));
-  farthest_m += 2.0f * kDeepestShadow_m;
-  return farthest_m * farthest_m * drop_per_m2;
-}
-
 // Whether any point between the corners may be seen, itself or mirrored in the sea, sunken by up to
 // drop_m.
 bool in_view(const Corners& corners, float level, float drop_m,
@@ -210,86 +189,22 @@ bool in_view(const Corners& corners, float level, float drop_m,
   });
 }
 
-// A part of the window, in pixels.
-struct WindowBox {
-  glm::vec2 low{kInfinity}, high{-kInfinity};
-  bool all = false;  // of the window
-};
-
-void add_flat_point(const View& camera, glm::vec3 p_rel, WindowBox& box) {
-  const glm::vec4 clip = camera.clip_from_rel * glm::vec4(p_rel, 1.0f);
-  if (clip.w <= camera.near_m) {
-    box.all = true;
-    return;
-  }
-  const glm::vec2 ndc(clip.x / clip.w, -clip.y / clip.w);
-  const glm::vec2 size(camera.width_px, camera.height_px);
-  const glm::vec2 at = (0.5f * ndc + 0.5f) * size;
-  box.low = glm::min(box.low, at);
-  box.high = glm::max(box.high, at);
-}
-
-// Wherever between p_rel and drop_m below it a point is drawn.
-void add_point(const View& camera, glm::vec3 p_rel, float drop_m, WindowBox& box) {
-  add_flat_point(camera, p_rel, box);
-  add_flat_point(camera, p_rel - glm::vec3(0.0f, 0.0f, drop_m), box);
-}
-
-// Where a view shows what lies between the corners. In a mirror or under water things appear
-// between heights that bound map_point()'s, whose level is that of the sea or of any hull.
-WindowBox window_box(const Corners& corners, const RenderView& view, float lowest_rel_m) {
-  WindowBox box;
-  box.all = view.eye.submerged;
-  const float drop_m = most_drop_m(corners, view.drop_per_m2);
-  const float level = -static_cast<float>(view.camera.eye_world.z), wave_m = level - lowest_rel_m;
-  for (int i = 0; i < corners.count; ++i) {
-    const glm::vec3 p = corners.p[i];
-    switch (view.kind) {
-      case ViewKind::kWindow:
-        add_point(view.camera, p, drop_m, box);
-        break;
-      case ViewKind::kReflection:
-        for (const float by : {-2.0f * wave_m, 2.0f * wave_m})
-          add_point(view.camera, {p.x, p.y, 2.0f * level - p.z + by}, drop_m, box);
-        break;
-      case ViewKind::kRefraction:
-        // Light goes on below the water at up to 49 degrees from the vertical.
-        for (const float aside : {-1.15f, 1.15f})
-          for (const float ahead : {-1.15f, 1.15f})
-            for (const float deep : {-wave_m, kDeepestShadow_m})
-              add_point(view.camera,
-                        {p.x + aside * std::max(deep, 0.0f), p.y + ahead * std::max(deep, 0.0f),
-                         std::min(p.z, level - deep)},
-                        drop_m, box);
-        add_point(view.camera, p, drop_m, box);
-        break;
-    }
-  }
-  return box;
-}
-
-struct TileBox {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // half open
-};
-
-// A pixel or two wider: shadows are as soft as a pixel at least.
-TileBox tiles_of(const WindowBox& box, const raster::TileGrid& grid) {
-  if (box.all) return {0, 0, grid.tiles_x, grid.tiles_y};
-  const auto tile = [&](float px, int tiles) {
-    const float at = px / static_cast<float>(grid.tile_size_px);
-    return static_cast<int>(std::clamp(std::floor(at), -1.0f, static_cast<float>(tiles)));
-  };
-  const glm::vec2 low = box.low - 2.0f, high = box.high + 2.0f;
-  return {std::max(tile(low.x, grid.tiles_x), 0), std::max(tile(low.y, grid.tiles_y), 0),
-          std::min(tile(high.x, grid.tiles_x) + 1, grid.tiles_x),
-          std::min(tile(high.y, grid.tiles_y) + 1, grid.tiles_y)};
+// What throws a caster's shadow.
+const scene::ObjectMesh& outline_mesh(const World::State& world, const ShadowCaster& caster,
+                                      const View& view) {
+  const glm::vec3 size_m(world.scene.objects[caster.object].size_m);
+  const float largest_m = std::max({size_m.x, size_m.y, size_m.z});
+  const float radius_m = caster.outline.right_most_m;
+  const float error_m = kMostOutlineError_px / most_px_per_m(caster.place_rel, radius_m, view);
+  return coarsest_mesh(world, caster.object, std::max(error_m, kMostOutlineError * largest_m));
 }
 
 }  // namespace
 
 Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
                    const scene::FloatingObject& object, const scene::ObjectPose& pose,
-                   const ObjectShadows& shadows) {
+                   const ObjectShadows& shadows, int step) {
+  SWELL_DCHECK((Outline::kRows - 1) % step == 0, "step={}", step);
   const SunFrame frame = sun_frame(object, pose, shadows);
   const auto indices =
       std::span(mesh.indices).subspan(3u * part.first_triangle, 3u * part.triangles);
@@ -317,10 +232,11 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
     // What is turned to the sun has the outline of the whole.
     const glm::vec2 along = p[1] - p[0], aside = p[2] - p[0];
     if (is_closed && along.x * aside.y - along.y * aside.x >= 0.0f) continue;
-    for (int k = 0; k < 3; ++k) add_edge(p[k], p[(k + 1) % 3], outline);
+    for (int k = 0; k < 3; ++k) add_edge(p[k], p[(k + 1) % 3], step, outline);
   }
   for (int i = 0; i < Outline::kRows; ++i)
     if (outline.left_m[i] > outline.right_m[i]) outline.left_m[i] = outline.right_m[i] = 0.0f;
+  if (step > 1) fill_rows(step, outline);
   return outline;
 }
 
@@ -357,37 +273,13 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     ShadowCaster& caster = shadows.casters[i];
     if (caster.reach_m <= 0.0f) return;
     const scene::FloatingObject& object = all[caster.object];
-    const scene::ObjectMesh& mesh = shadow_mesh(world, caster.object, caster.place_rel, view);
+    const scene::ObjectMesh& mesh = outline_mesh(world, caster, view);
     scene::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (!mesh.parts.empty()) part = mesh.parts[caster.part];
-    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows);
+    const bool is_small = drawn_size_px(object, caster.place_rel, view) < kSmallOutline_px;
+    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows,
+                                is_small ? kSmallOutlineStep : 1);
   });
-}
-
-void list_casters(const ObjectShadows& shadows, const RenderView& view,
-                  const raster::TileGrid& grid, TileCasters& of_tile) {
-  of_tile.first.clear();
-  of_tile.caster.clear();
-  if (shadows.casters.empty()) return;
-  of_tile.first.assign(static_cast<std::size_t>(grid.count()) + 1, 0);
-  const auto for_tiles = [&](const ShadowCaster& caster, auto&& visit) {
-    const TileBox box =
-        tiles_of(window_box(corners_of(caster, shadows), view, shadows.lowest_rel_m), grid);
-    for (int y = box.y0; y < box.y1; ++y)
-      for (int x = box.x0; x < box.x1; ++x) visit(static_cast<std::size_t>(y) * grid.tiles_x + x);
-  };
-  // Counts, then places: in order of the casters' numbers.
-  for (const ShadowCaster& caster : shadows.casters)
-    for_tiles(caster, [&](std::size_t tile) { ++of_tile.first[tile + 1]; });
-  for (std::size_t i = 1; i < of_tile.first.size(); ++i) of_tile.first[i] += of_tile.first[i - 1];
-  of_tile.caster.resize(of_tile.first.back());
-  for (std::size_t i = 0; i < shadows.casters.size(); ++i)
-    for_tiles(shadows.casters[i], [&](std::size_t tile) {
-      of_tile.caster[of_tile.first[tile]++] = static_cast<std::uint16_t>(i);
-    });
-  for (std::size_t i = of_tile.first.size() - 1; i > 0; --i)
-    of_tile.first[i] = of_tile.first[i - 1];
-  of_tile.first[0] = 0;
 }
 
 }  // namespace swell::render

@@ -7,10 +7,11 @@
 namespace swell::render {
 
 // The triangles of a part of the mesh where the pose puts them, as the sun sees them along the axes
-// of `shadows`; from the object's place. 20 us for a buoy of many triangles.
+// of `shadows`; from the object's place. Every `step`-th row is found, which divides kRows - 1, and
+// the others lie between them. 20 us for a buoy of many triangles and all rows.
 Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
                    const scene::FloatingObject& object, const scene::ObjectPose& pose,
-                   const ObjectShadows& shadows);
+                   const ObjectShadows& shadows, int step);
 
 // The light of a frame, and what of its pictures is left out.
 struct ShadowOptions {

@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "math/elementary.h"
-#include "render/view/render_view.h"
+#include "render/view/object_levels.h"
+#include "render/view/refracted_image.h"
 
 namespace swell::render {
 namespace {
 
-constexpr float kNearSize_px = 24.0f;  // objects at least this large are drawn with many triangles
-// Of a file's mesh: triangles for each square pixel that an object of its size takes.
-constexpr float kTrianglesPerPx2 = 0.15f;
-constexpr float kShadowPart = 0.25f;  // an outline is that of an object so many times smaller
+// Less than this of an object in the mirror, or under water, is not drawn there.
+constexpr float kSmallestImage_px = 0.5f;
+constexpr float kWaveMargin_m = 0.3f;  // of what crosses the level, as in clip_distance()
 
 // How an object lies relative to the eye.
 struct Placement {
@@ -49,19 +49,88 @@ ObjectInstance instance_of(const scene::FloatingObject& object, const scene::Obj
   return instance;
 }
 
-// Whether the view may show any of the object or of its mirror image.
-bool in_view(const scene::FloatingObject& object, const Placement& placement, float drop_per_m2,
-             const std::array<glm::vec4, 5>& planes) {
+// A ball around an object in the flat world, and between which heights it lies.
+struct Bounds {
+  glm::vec3 middle_rel;
+  float radius_m;
+  float lowest_rel_m, highest_rel_m;
+};
+
+Bounds bounds_of(const scene::FloatingObject& object, const Placement& placement) {
   const glm::vec3 size(object.size_m);
-  const float radius = std::sqrt(0.25f * (size.x * size.x + size.y * size.y) + size.z * size.z);
-  glm::vec3 centre = placement.bottom_rel;
-  centre.z -= (centre.x * centre.x + centre.y * centre.y) * drop_per_m2;
-  // The image of what stands over the water lies as far below it.
-  const float away = std::abs(placement.bottom_rel.z - placement.waterline_rel_m);
-  const float reach = std::max(2.0f * radius, radius + 2.0f * away);
-  return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
-    return glm::dot(glm::vec3(plane), centre) + plane.w >= -reach;
+  const glm::mat3& axes = placement.rel_from_unit;
+  const glm::vec3 middle = placement.bottom_rel + 0.5f * axes[2];
+  const float half_m = 0.5f * (std::abs(axes[0].z) + std::abs(axes[1].z) + std::abs(axes[2].z));
+  return {middle, 0.5f * std::sqrt(glm::dot(size, size)), middle.z - half_m, middle.z + half_m};
+}
+
+// What views of one kind are drawn from.
+struct DrawnKind {
+  ViewKind kind;
+  const View& camera;
+  std::array<glm::vec4, 5> planes;
+  float drop_per_m2, refraction_index;
+  bool any_submerged;
+};
+
+DrawnKind drawn_kind(FrameViews views) {
+  const RenderView& first = *views.front();
+  return {first.kind,
+          first.camera,
+          frustum_planes(first.camera),
+          first.drop_per_m2,
+          first.refraction_index,
+          std::ranges::any_of(views, [](const RenderView* view) { return view->eye.submerged; })};
+}
+
+// Whether any of a ball lies between the planes, where a round earth puts it.
+bool in_view(const DrawnKind& drawn, glm::vec3 p, float radius_m) {
+  p.z -= (p.x * p.x + p.y * p.y) * drawn.drop_per_m2;
+  // What is near its middle sinks a little more or less.
+  const float reach_m = 1.02f * radius_m;
+  return std::ranges::all_of(drawn.planes, [&](const glm::vec4& plane) {
+    return glm::dot(glm::vec3(plane), p) + plane.w >= -reach_m;
   });
+}
+
+// Whether a view from the air may show any of the object in its mirror.
+bool in_mirror(const DrawnKind& drawn, Bounds ball, float waterline_rel_m) {
+  if (ball.highest_rel_m < waterline_rel_m - kWaveMargin_m) return false;
+  ball.middle_rel.z = 2.0f * waterline_rel_m - ball.middle_rel.z;
+  const float px_per_m = most_px_per_m(ball.middle_rel, ball.radius_m, drawn.camera);
+  return 2.0f * ball.radius_m * px_per_m >= kSmallestImage_px &&
+         in_view(drawn, ball.middle_rel, ball.radius_m);
+}
+
+// The same of what lies under water.
+bool under_water(const DrawnKind& drawn, const Bounds& ball, float waterline_rel_m) {
+  const float deepest_m = waterline_rel_m - ball.lowest_rel_m;
+  if (deepest_m < -kWaveMargin_m) return false;
+  // Things appear between where they are and the level above, seen at a slant just below it.
+  const glm::vec3 p = ball.middle_rel;
+  const float nearest_m = std::max(glm::length(glm::vec2(p)) - ball.radius_m, 0.0f);
+  const float eye_m = std::max(-waterline_rel_m, kLeastAirHeight_m);
+  const float apparent_m =
+      apparent_depth_m({eye_m, std::max(deepest_m, 0.0f), nearest_m}, drawn.refraction_index);
+  const float reach_m = ball.radius_m + std::abs(p.z - waterline_rel_m);
+  if (apparent_m * most_px_per_m(p, reach_m, drawn.camera) < kSmallestImage_px) return false;
+  return in_view(drawn, p, reach_m);
+}
+
+bool may_show(const DrawnKind& drawn, const scene::FloatingObject& object,
+              const Placement& placement) {
+  // Through the surface an eye under water sees them far from where they are.
+  if (drawn.any_submerged) return true;
+  const Bounds ball = bounds_of(object, placement);
+  switch (drawn.kind) {
+    case ViewKind::kWindow:
+      return in_view(drawn, ball.middle_rel, ball.radius_m);
+    case ViewKind::kReflection:
+      return in_mirror(drawn, ball, placement.waterline_rel_m);
+    case ViewKind::kRefraction:
+      return under_water(drawn, ball, placement.waterline_rel_m);
+  }
+  return true;
 }
 
 // Calls body(i, first, count) for the pieces of parts that numbers [begin, end) are of, counted
@@ -79,13 +148,13 @@ void for_pieces(const std::vector<ObjectPart>& parts, std::size_t begin, std::si
 }
 
 // Vertices [begin, end), counted through all parts.
-void write_vertices(const World::State& world, const View& view, std::size_t begin, std::size_t end,
-                    ObjectGeometry& out) {
+void write_vertices(const World::State& world, std::span<const scene::ObjectPose> poses,
+                    const View& view, std::size_t begin, std::size_t end, ObjectDraws& out) {
   for_pieces(out.parts, begin, end, &ObjectPart::first_vertex, &ObjectPart::vertices,
              [&](std::size_t i, std::size_t first, std::size_t count) {
                const ObjectInstance& instance = out.instances[i];
-               const Placement placement = placement_of(world.scene.objects[instance.object],
-                                                        out.poses[instance.object], view);
+               const Placement placement =
+                   placement_of(world.scene.objects[instance.object], poses[instance.object], view);
                const std::size_t at = out.parts[i].first_vertex + first;
                for (std::size_t k = 0; k < count; ++k)
                  out.p_rel[at + k] = placement.rel_from_unit * instance.mesh->position[first + k] +
@@ -98,7 +167,7 @@ void write_vertices(const World::State& world, const View& view, std::size_t beg
 }
 
 // The same of triangles.
-void write_triangles(std::size_t begin, std::size_t end, ObjectGeometry& out) {
+void write_triangles(std::size_t begin, std::size_t end, ObjectDraws& out) {
   for_pieces(out.parts, begin, end, &ObjectPart::first_triangle, &ObjectPart::triangles,
              [&](std::size_t i, std::size_t first, std::size_t count) {
                const ObjectInstance& instance = out.instances[i];
@@ -112,80 +181,58 @@ void write_triangles(std::size_t begin, std::size_t end, ObjectGeometry& out) {
              });
 }
 
-// Which objects the view may show, and where what they are drawn with goes.
-void list_instances(const World::State& world, const View& view, FrameViews views,
-                    ObjectGeometry& geometry) {
-  const float drop_per_m2 = views.front()->drop_per_m2;
-  const bool submerged =
-      std::ranges::any_of(views, [](const RenderView* shown) { return shown->eye.submerged; });
+// Which objects the views may show, and where what they are drawn with goes.
+void list_instances(const World::State& world, const DrawnKind& drawn,
+                    const ObjectGeometry& geometry, ObjectDraws& draws) {
   const std::vector<scene::FloatingObject>& objects = world.scene.objects;
-  const std::array<glm::vec4, 5> planes = frustum_planes(view);
-  geometry.instances.clear();
-  geometry.parts.clear();
-  geometry.meshes.assign(objects.size(), nullptr);
+  draws.instances.clear();
+  draws.instances.reserve(objects.size());  // primitives point into it
+  draws.parts.clear();
   ObjectPart part;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const Placement placement = placement_of(objects[i], geometry.poses[i], view);
-    // Through the surface an eye under water sees them far from where they are.
-    if (!submerged && !in_view(objects[i], placement, drop_per_m2, planes)) continue;
-    const scene::ObjectMesh& mesh = drawn_mesh(world, i, placement.bottom_rel, view);
-    geometry.meshes[i] = &mesh;
-    geometry.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
-    geometry.instances.back().object = static_cast<std::uint32_t>(i);
-    geometry.instances.back().mesh = &mesh;
+    const Placement placement = placement_of(objects[i], geometry.poses[i], drawn.camera);
+    if (!may_show(drawn, objects[i], placement)) continue;
+    const Bounds ball = bounds_of(objects[i], placement);
+    const float px_per_m = most_px_per_m(ball.middle_rel, ball.radius_m, drawn.camera);
+    const scene::ObjectMesh& mesh = coarsest_mesh(world, i, kMostLevelError_px / px_per_m);
+    draws.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
+    draws.instances.back().object = static_cast<std::uint32_t>(i);
+    draws.instances.back().mesh = &mesh;
     part.first_triangle += part.triangles;
     part.first_vertex += part.vertices;
     part.triangles = static_cast<std::uint32_t>(mesh.triangles.size());
     part.vertices = static_cast<std::uint32_t>(mesh.position.size());
-    geometry.parts.push_back(part);
+    draws.parts.push_back(part);
   }
   const std::size_t triangles = part.first_triangle + part.triangles;
   const std::size_t vertices = part.first_vertex + part.vertices;
-  geometry.primitives.resize(triangles);
-  geometry.indices.resize(3 * triangles);
-  geometry.p_rel.resize(vertices);
-  geometry.waterline_rel_m.resize(vertices);
+  draws.primitives.resize(triangles);
+  draws.indices.resize(3 * triangles);
+  draws.p_rel.resize(vertices);
+  draws.waterline_rel_m.resize(vertices);
+}
+
+// The objects of views of one kind.
+void place_in_views(const World::State& world, Meshes& meshes, FrameViews views,
+                    const StageRun& run) {
+  const DrawnKind drawn = drawn_kind(views);
+  ObjectDraws& draws = meshes.objects.drawn_in(drawn.kind);
+  list_instances(world, drawn, meshes.objects, draws);
+  resize_vertices(SurfaceKind::kObjects, draws.p_rel.size(), views);
+  const auto for_chunks = [&](std::size_t count, auto&& body) {
+    run.for_each((count + kVertexChunk - 1) / kVertexChunk, [&](std::size_t chunk, int) {
+      body(chunk * kVertexChunk, std::min(count, (chunk + 1) * kVertexChunk));
+    });
+  };
+  for_chunks(draws.p_rel.size(), [&](std::size_t begin, std::size_t end) {
+    write_vertices(world, meshes.objects.poses, drawn.camera, begin, end, draws);
+    map_vertices(meshes, SurfaceKind::kObjects, begin, end, views);
+  });
+  for_chunks(draws.primitives.size(),
+             [&](std::size_t begin, std::size_t end) { write_triangles(begin, end, draws); });
 }
 
 }  // namespace
-
-float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const View& view) {
-  const float distance_m = std::sqrt(glm::dot(p_rel, p_rel));
-  const float px_at_1_m = 0.5f * static_cast<float>(view.height_px) / view.tan_half_y;
-  if (object.kind < scene::ObjectKind::kBoat)
-    return px_at_1_m * static_cast<float>(object.size_m.z) / std::max(distance_m, view.near_m);
-  // Its nearest point.
-  const auto size_m =
-      static_cast<float>(std::max({object.size_m.x, object.size_m.y, object.size_m.z}));
-  return px_at_1_m * size_m / std::max(distance_m - 0.5f * size_m, view.near_m);
-}
-
-namespace {
-
-const scene::ObjectMesh& mesh_of_size(const World::State& world, std::size_t object,
-                                      float size_px) {
-  const std::vector<scene::ObjectMesh>& levels = world.objects.of_object[object]->levels;
-  if (world.scene.objects[object].kind != scene::ObjectKind::kMesh)
-    return levels[size_px >= kNearSize_px ? 0 : 1];
-  const float wanted = kTrianglesPerPx2 * size_px * size_px;
-  std::size_t level = levels.size() - 1;
-  while (level > 0 && static_cast<float>(levels[level].triangles.size()) < wanted) --level;
-  return levels[level];
-}
-
-}  // namespace
-
-const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
-                                    const View& view) {
-  return mesh_of_size(world, object, drawn_size_px(world.scene.objects[object], p_rel, view));
-}
-
-const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
-                                     const View& view) {
-  const scene::FloatingObject& what = world.scene.objects[object];
-  const float part = what.kind < scene::ObjectKind::kBoat ? 1.0f : kShadowPart;
-  return mesh_of_size(world, object, part * drawn_size_px(what, p_rel, view));
-}
 
 void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
                  std::span<const scene::GivenPose> given, std::span<scene::ObjectPose> poses,
@@ -205,26 +252,22 @@ void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
     for (const scene::GivenPose& g : given) poses[g.object].water_m = 0.0;
 }
 
-void place_objects(const World::State& world, const SeaMaps& sea, const View& view,
+void place_objects(const World::State& world, const SeaMaps& sea,
                    std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
                    const StageRun& run) {
   ObjectGeometry& geometry = meshes.objects;
   geometry.poses.resize(world.scene.objects.size());
   drawn_poses(world, sea.frame, given, geometry.poses, run);
-  geometry.instances.reserve(geometry.poses.size());  // primitives point into it
-  list_instances(world, view, views, geometry);
-  resize_vertices(SurfaceKind::kObjects, geometry.p_rel.size(), views);
-  const auto for_chunks = [&](std::size_t count, auto&& body) {
-    run.for_each((count + kVertexChunk - 1) / kVertexChunk, [&](std::size_t chunk, int) {
-      body(chunk * kVertexChunk, std::min(count, (chunk + 1) * kVertexChunk));
-    });
-  };
-  for_chunks(geometry.p_rel.size(), [&](std::size_t begin, std::size_t end) {
-    write_vertices(world, view, begin, end, geometry);
-    map_vertices(meshes, SurfaceKind::kObjects, begin, end, views);
-  });
-  for_chunks(geometry.primitives.size(),
-             [&](std::size_t begin, std::size_t end) { write_triangles(begin, end, geometry); });
+  for (const ViewKind kind : kAllViewKinds) {
+    std::array<RenderView*, 2> of_kind{};  // from the air, from below
+    std::size_t count = 0;
+    for (RenderView* const view : views)
+      if (view->kind == kind) of_kind[count++] = view;
+    place_in_views(world, meshes, std::span(of_kind).first(count), run);
+  }
+  geometry.meshes.assign(geometry.poses.size(), nullptr);
+  for (const ObjectInstance& instance : geometry.in_window().instances)
+    geometry.meshes[instance.object] = instance.mesh;
 }
 
 }  // namespace swell::render

@@ -47,7 +47,7 @@ WorldPoint point_of(const Surface& surface, std::size_t i, float level_rel_m) {
   return {{surface.offset[i], height_m + level_rel_m}, height_m, level_rel_m};
 }
 
-WorldPoint point_of(const ObjectGeometry& objects, std::size_t i) {
+WorldPoint point_of(const ObjectDraws& objects, std::size_t i) {
   const glm::vec3 p = objects.p_rel[i];
   return {p, p.z - objects.waterline_rel_m[i], objects.waterline_rel_m[i]};
 }
@@ -95,8 +95,9 @@ void map_range(const Meshes& meshes, SurfaceKind surface, std::size_t begin, std
       return map_range(surface, begin, end, view,
                        [&](std::size_t i) { return point_of(meshes.land, i, level_rel_m); });
     case SurfaceKind::kObjects:
-      return map_range(surface, begin, end, view,
-                       [&](std::size_t i) { return point_of(meshes.objects, i); });
+      return map_range(surface, begin, end, view, [&](std::size_t i) {
+        return point_of(meshes.objects.drawn_in(view.kind), i);
+      });
   }
 }
 
@@ -124,7 +125,7 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples,
   for (const SurfaceKind s : kAllSurfaces)
     if (is_drawn(s))
       triangles[static_cast<std::size_t>(s)] =
-          static_cast<std::uint32_t>(meshes.indices(s).size() / 3);
+          static_cast<std::uint32_t>(meshes.indices(s, view.kind).size() / 3);
   view.primitives = PrimitiveRanges(triangles);
 
   std::array<raster::Draw, kSurfaceKinds> draws;
@@ -134,7 +135,7 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples,
     const ViewVertices& vertices = view.vertices_of(s);
     draws[count].p_clip = vertices.p_clip;
     draws[count].clip_distance = vertices.clip_distance;
-    draws[count].indices = meshes.indices(s);
+    draws[count].indices = meshes.indices(s, view.kind);
     draws[count++].first_primitive = view.primitives.begin(s);
   }
   raster::prepare_pass(std::span(draws).first(count), view.viewport(), tile_size_px, view.pass,

@@ -20,17 +20,6 @@
 
 namespace swell::render {
 
-enum class ViewKind : std::uint8_t {
-  kWindow,      // as seen
-  kReflection,  // the eye's side of the water's level, mirrored in it
-  kRefraction,  // the other side, as it appears through the surface
-};
-
-// Water shows in the window only: it looks into the other pictures.
-constexpr bool shows(ViewKind view, SurfaceKind surface) {
-  return view == ViewKind::kWindow || surface != SurfaceKind::kWater;
-}
-
 // A surface's vertices in a view.
 struct ViewVertices {
   std::vector<glm::vec4> p_clip;
@@ -117,20 +106,9 @@ void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
                  std::span<const scene::GivenPose> given, std::span<scene::ObjectPose> poses,
                  const StageRun& run);
 
-// How high or wide an object at p_rel looks, whichever is more.
-float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const View& view);
-
-// The mesh that an object is drawn with when it is at p_rel: few triangles where it looks small.
-const scene::ObjectMesh& drawn_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
-                                    const View& view);
-
-// The one whose outline throws its shadow: 64 rows need fewer still.
-const scene::ObjectMesh& shadow_mesh(const World::State& world, std::size_t object, glm::vec3 p_rel,
-                                     const View& view);
-
 // Stage 3: objects where they are, as far as the view may show them, and their vertices in the
 // views.
-void place_objects(const World::State& world, const SeaMaps& sea, const View& view,
+void place_objects(const World::State& world, const SeaMaps& sea,
                    std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
                    const StageRun& run);
 

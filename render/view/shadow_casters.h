@@ -50,16 +50,48 @@ struct ShadowCaster {
   Outline outline;
 };
 
+// What the sun sees of one object: how far towards the sun the nearest of its surface is, on a
+// square of points across the sun's direction. From the object's middle, along the axes of
+// ObjectShadows.
+struct SunDepth {
+  static constexpr float kNothing_m = -1e9f;
+
+  glm::vec3 middle_rel{0.0f};  // relative to the eye
+  float first_m = 0.0f;        // right and up of the first point
+  float points_per_m = 1.0f;
+  int side = 0;           // points
+  float strength = 1.0f;  // of the shadow, in [0, 1]
+  std::uint32_t object = 0;
+  std::span<const float> depth_m;  // side rows of points, upwards; kNothing_m: none
+};
+
 // Those of a frame.
 struct ObjectShadows {
   // Unit: towards the sun; level, to the right of who looks towards it; up, at right angles.
   glm::vec3 sun{0.0f, 0.0f, 1.0f}, right{1.0f, 0.0f, 0.0f}, up{0.0f, -1.0f, 0.0f};
   float lowest_rel_m = 0.0f;  // nothing below this is shaded, relative to the eye
   std::vector<ShadowCaster> casters;
+  std::vector<SunDepth> own;  // of those large enough to be seen shading themselves
+  std::vector<float> own_depth_m;
+};
+
+// Tiles [x0, x1) x [y0, y1).
+struct TileSpan {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+// A part of a view, in pixels.
+struct PixelSpan {
+  float x0, y0, x1, y1;
+  bool meets(const PixelSpan& other) const {
+    return x0 <= other.x1 && other.x0 <= x1 && y0 <= other.y1 && other.y0 <= y1;
+  }
 };
 
 // By tile: the casters that may tell on what it shows.
 struct TileCasters {
+  std::vector<PixelSpan> pixels;      // of each caster: those that it may tell on
+  std::vector<TileSpan> tiles;        // the same
   std::vector<std::uint32_t> first;   // of each tile, and the end
   std::vector<std::uint16_t> caster;  // indices into ObjectShadows::casters
 

@@ -13,6 +13,21 @@ inline constexpr std::size_t kSurfaceKinds = 3;
 inline constexpr std::array<SurfaceKind, kSurfaceKinds> kAllSurfaces = {
     SurfaceKind::kWater, SurfaceKind::kTerrain, SurfaceKind::kObjects};
 
+// Which picture of them a view is.
+enum class ViewKind : std::uint8_t {
+  kWindow,      // as seen
+  kReflection,  // the eye's side of the water's level, mirrored in it
+  kRefraction,  // the other side, as it appears through the surface
+};
+inline constexpr std::size_t kViewKinds = 3;
+inline constexpr std::array<ViewKind, kViewKinds> kAllViewKinds = {
+    ViewKind::kWindow, ViewKind::kReflection, ViewKind::kRefraction};
+
+// Water shows in the window only: it looks into the other pictures.
+constexpr bool shows(ViewKind view, SurfaceKind surface) {
+  return view == ViewKind::kWindow || surface != SurfaceKind::kWater;
+}
+
 // The one table of primitive numbers: the triangles of each surface have consecutive ones, surface
 // after surface. raster::kNoPrimitive lies in no range.
 class PrimitiveRanges {

@@ -153,7 +153,17 @@ void adapt_surface(const lod::Domain& domain, const lod::AdaptRequest& request, 
   surface.roam->update_mesh(surface.mesh, surface.mesh_revision);
 }
 
+// Of an earlier frame.
+void clear_surface(Surface& surface) {
+  surface.statistics = {};
+  surface.mesh_revision = 0;
+  surface.mesh.lattice.clear();
+  surface.mesh.indices.clear();
+  surface.mesh.level.clear();
+}
+
 void triangulate_water(const Wanted& wanted, Surface& water) {
+  if (wanted.options.without.has(Part::kWater)) return clear_surface(water);
   const scene::Detail& detail = wanted.world.scene.detail;
   const int budget = wanted.options.water_triangles;
   if (detail.triangulation != scene::Triangulation::kRoam) water.mesh_revision = 0;
@@ -181,15 +191,6 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
       water.statistics = {.triangles = 2};
       break;
   }
-}
-
-// Of an earlier world.
-void clear_surface(Surface& surface) {
-  surface.statistics = {};
-  surface.mesh_revision = 0;
-  surface.mesh.lattice.clear();
-  surface.mesh.indices.clear();
-  surface.mesh.level.clear();
 }
 
 void triangulate_land(const Wanted& wanted, Surface& land) {

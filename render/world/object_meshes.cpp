@@ -11,11 +11,9 @@
 namespace swell::render {
 namespace {
 
-constexpr int kNearSegments = 24, kFarSegments = 8;
-
 ObjectShape built_in(const scene::FloatingObject& object) {
   scene::MeshOfFile shape;
-  for (const int segments : {kNearSegments, kFarSegments})
+  for (const int segments : scene::kLevelSegments)
     shape.levels.push_back(scene::make_object_mesh(object.kind, object.top_mark, segments));
   return std::make_shared<const scene::MeshOfFile>(std::move(shape));
 }

@@ -69,6 +69,10 @@ void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps
                  const StageRun& run) {
   ocean::advance(*world.sea, t_s, sea.frame, run.workers, !without.has(Part::kCrests));
   if (without.has(Part::kMaps)) leave_out_maps(*world.sea, sea.frame);
+  if (without.has(Part::kWater)) {  // things lie on the waves all the same
+    sea.caustics.patches = 0;
+    return;
+  }
   const bool has_foam = !without.has(Part::kWhitecaps);
   if (has_foam) ocean::advance_whitecaps(*world.whitecaps, t_s, sea.whitecaps, run.workers);
   if (without.has(Part::kTiling)) leave_out_tiles(sea);
@@ -76,13 +80,15 @@ void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
   const std::size_t caustics = trace_caustics(world, sea.frame, without, sea.caustics, run);
   // Make the maps that shading looks into: the caustics, the foam's, the waves', the noise's, the
-  // coast's.
+  // coast's, the ripples'.
   const std::size_t foams = has_foam ? sea.whitecaps.patches.size() : 0;
   const std::size_t patches = sea.frame.patches.size(), noise = foams + patches;
   sea.foam.resize(foams);
   sea.foam_values.resize(foams);
   sea.patch_slopes.resize(patches);
-  run.for_each(caustics + noise + (has_coast ? 3 : 1), [&](std::size_t job, int) {
+  const bool has_sequence = world.ripple_sequence && !without.has(Part::kSequence);
+  const std::size_t ripples = noise + (has_coast ? 3 : 1);
+  run.for_each(caustics + ripples + (has_sequence ? 1 : 0), [&](std::size_t job, int) {
     if (job < caustics) return make_caustic_map(sea.caustics, job);
     const std::size_t i = job - caustics;
     if (i < foams)
@@ -91,6 +97,8 @@ void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps
       pack_patch(sea.frame.patches[i - foams], sea.patch_slopes[i - foams]);
     else if (i == noise)
       pack_noise(world.scene.sea, t_s, sea);
+    else if (i == ripples)
+      pack_ripples(world.scene, *world.ripple_sequence, t_s, sea.ripples);
     else if (i == noise + 1)
       texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
                          sea.coast_slopes);

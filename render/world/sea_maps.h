@@ -7,6 +7,7 @@
 #include "render/parts.h"
 #include "render/profile.h"
 #include "render/world/caustic_maps.h"
+#include "render/world/ripple_sequence.h"
 #include "render/world/world_state.h"
 #include "texture/packed_map.h"
 #include "texture/uv_noise.h"
@@ -20,6 +21,7 @@ struct SeaMaps {
   std::vector<texture::PackedMap1> foam;         // one a patch of whitecaps, as 2 foam - 1
   texture::PackedMap2 uv_noise;                  // bends the coordinates of ripples
   texture::PackedMap2 coast_slopes, coast_surf;  // slopes of the trains; ceded, foam
+  RippleMaps ripples;                            // of a sequence
   CausticMaps caustics;                          // the sun under water
   // Storage.
   texture::UvNoise noise{{}};

@@ -1,6 +1,7 @@
 // Making a scene ready to draw: everything that does not change with time.
 #include "math/check.h"
 #include "render/labels/classes.h"
+#include "render/world/ripple_sequence.h"
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
@@ -70,6 +71,17 @@ void add_bump(const World::State* like, World::State& state) {
   state.bump = like ? like->bump : shared(build_bump_map(state.scene.sea.seed));
 }
 
+// like: may be null.
+void add_paper_look(const World::State* like, Workers& workers, World::State& state) {
+  const scene::Scene& now = state.scene;
+  if (now.ripples.kind == scene::RippleKind::kSequence)
+    state.ripple_sequence = like && same_ripple_sequence(like->scene, now)
+                                ? like->ripple_sequence
+                                : shared(build_ripple_sequence(now, workers));
+  if (now.water.glitter == scene::Glitter::kProjective)
+    state.sun_slide = like && like->sun_slide ? like->sun_slide : shared(make_sun_slide());
+}
+
 void add_foam_pattern(const World::State* like, World::State& state) {
   state.foam_pattern = like ? like->foam_pattern : shared(build_foam_pattern());
 }
@@ -134,6 +146,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
       [&] {
         add_sea(if_alike(same_sea), workers, *state);
         add_foam_pattern(like, *state);
+        add_paper_look(like, workers, *state);
         add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
         add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);
       });

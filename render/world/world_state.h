@@ -15,10 +15,12 @@
 #include "ocean/whitecaps.h"
 #include "render/frame.h"
 #include "render/world/land_shadow.h"
+#include "render/world/sun_slide.h"
 #include "scene/mesh_file.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
+#include "texture/bump_sequence.h"
 #include "texture/packed_map.h"
 #include "texture/smooth_image.h"
 
@@ -115,6 +117,8 @@ struct World::State {
   std::shared_ptr<const LandShadow> land_shadow = {};           // none: no land, or no sun
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
+  std::shared_ptr<const texture::BumpSequence> ripple_sequence = {};  // none: the bump map
+  std::shared_ptr<const SunSlide> sun_slide = {};                     // none: glitter by slopes
   // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. Of any
   // size, it repeats. The same in every world.
   std::shared_ptr<const texture::PackedMap2> foam_pattern = {};

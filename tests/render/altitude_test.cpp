@@ -8,7 +8,7 @@
 
 #include "math/elementary.h"
 #include "render/drawn_shots.h"
-#include "render/frame.h"
+#include "render/linear_renderer.h"
 #include "render/world/world_state.h"
 #include "scene/sky.h"
 
@@ -44,17 +44,13 @@ struct Eye {
   double height_m, pitch_rad, fov_rad;
 };
 
-struct Renderer {
-  explicit Renderer(const scene::Scene& scene) : world(scene, 2) { options.keep_linear = true; }
+struct Renderer : LinearRenderer {
+  using LinearRenderer::LinearRenderer;
 
   void draw(const Eye& eye) {
-    view = make_view({0.0, 0.0, eye.height_m}, 0.0, eye.pitch_rad, eye.fov_rad, 0.25f, kWidth_px,
-                     kHeight_px);
-    render_frame(world, view, 5.0, options, workspace, target, workers);
-  }
-  glm::vec3 at(int x, int y) const {
-    const float* p = target.linear.data() + 3 * (y * kWidth_px + x);
-    return {p[0], p[1], p[2]};
+    draw_view(make_view({0.0, 0.0, eye.height_m}, 0.0, eye.pitch_rad, eye.fov_rad, 0.25f, kWidth_px,
+                        kHeight_px),
+              5.0);
   }
   // The mean over a row.
   glm::vec3 row(int y) const {
@@ -75,13 +71,6 @@ struct Renderer {
       }
     return sum / static_cast<float>((end - begin) * kWidth_px);
   }
-
-  World world;
-  Workers workers{2};
-  FrameOptions options;
-  Workspace workspace;
-  Target target;
-  View view;
 };
 
 // At heights between those that were worked out, too.
@@ -239,10 +228,9 @@ TEST(Altitude, NoSquareOfGroundShowsInDeepWater) {
   for (const glm::dvec2& side : {glm::dvec2(-1, 0), {1, 0}, {0, 1}, {0, -1}}) {
     const auto draw_at = [&](glm::dvec2 at, PartSet without) {
       renderer.options.without = without;
-      renderer.view = make_view({middle + half_m * at, 1500.0}, std::atan2(side.x, side.y),
-                                radians(-89.99), radians(8.0), 0.25f, kWidth_px, kHeight_px);
-      render_frame(renderer.world, renderer.view, 5.0, renderer.options, renderer.workspace,
-                   renderer.target, renderer.workers);
+      renderer.draw_view(make_view({middle + half_m * at, 1500.0}, std::atan2(side.x, side.y),
+                                   radians(-89.99), radians(8.0), 0.25f, kWidth_px, kHeight_px),
+                         5.0);
     };
     const auto expect_alike = [&](glm::vec3 a, glm::vec3 b, float codes) {
       const glm::vec3 step = glm::abs(a - b);

@@ -81,7 +81,7 @@ class EdgeRenderer {
 
   // The same, but for every object its own.
   std::ptrdiff_t surface_of(std::uint32_t primitive) const {
-    const ObjectGeometry& objects = state().meshes.objects;
+    const ObjectDraws& objects = state().meshes.objects.in_window();
     if (kind_of(primitive) < 3) return kind_of(primitive);
     const std::uint32_t n = primitive - state().window.primitives.begin(SurfaceKind::kObjects);
     return 3 + (objects.primitives[n].object - objects.instances.data());

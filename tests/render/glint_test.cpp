@@ -199,8 +199,7 @@ double cos_rough(double cosine, double variance) {
 TEST_P(Glint, IsAddedToTheMirroredSkyAndTheWatersOwnLight) {
   constexpr float kVariance = 0.03f;
   PlainSea sea(128.0, kVariance);
-  sea.shading.light.sun_direction = sun_at(50.0);
-  sea.shading.light.sun_irradiance = {3.0f, 2.0f, 1.0f};
+  sea.set_sun(sun_at(50.0), {3.0f, 2.0f, 1.0f});
   sea.shading.media.body = {0.01f, 0.05f, 0.08f};
   std::vector<glm::vec3> to_eye;
   for (const double degrees : {0.0, 20.0, 50.0, 65.0, 80.0, 88.0})
@@ -237,8 +236,7 @@ TEST_P(Glint, LosesLittleOfTheSunsLightToTheRoughCosine) {
   for (const Case& c : {Case{0.0, 10.0, 0.98}, {60.0, 5.0, 0.932}, {60.0, 10.0, 0.879}}) {
     PlainSea sea(0.0, static_cast<float>(cox_munk(c.wind)));
     sea.shading.media.refraction_index = 1e5f;  // mirrors 1 - 4e-5 at the zenith
-    sea.shading.light.sun_direction = sun_at(c.degrees);
-    sea.shading.light.sun_irradiance = glm::vec3(1.0f);
+    sea.set_sun(sun_at(c.degrees), glm::vec3(1.0f));
     std::vector<glm::vec3> light(sphere.directions.size());
     water_light(sea.shading, sphere.directions, light);
     double sum = 0.0;

@@ -150,8 +150,8 @@ TEST(ObjectFrames, AThousandObjectsAreDrawnTheSameInEveryWay) {
   const std::uint64_t hash = drawn.draw(4.0);
   const auto& geometry = drawn.workspace.state().meshes.objects;
   EXPECT_EQ(geometry.poses.size(), 1000u);
-  EXPECT_GT(geometry.instances.size(), 300u);
-  EXPECT_LT(geometry.instances.size(), 1000u) << "those beside the view are left out";
+  EXPECT_GT(geometry.in_window().instances.size(), 300u);
+  EXPECT_LT(geometry.in_window().instances.size(), 1000u) << "those beside the view are left out";
   for (const int threads : {1, 3}) {
     for (const int tile_size_px : {16, 64}) {
       Drawn other{world};
@@ -179,7 +179,7 @@ TEST(ObjectFrames, PicksAreTheNearestOfAllTriangles) {
   const World world(scene);
   Drawn drawn{world};
   drawn.draw(3.0);
-  const auto& geometry = drawn.workspace.state().meshes.objects;
+  const auto& geometry = drawn.workspace.state().meshes.objects.in_window();
   PickScratch scratch;
   int met = 0;
   for (int n = 0; n < 900; ++n) {

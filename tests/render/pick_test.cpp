@@ -77,7 +77,8 @@ std::optional<DrawnPixel> pixel_at(Drawn& drawn, int x, int y) {
     return DrawnPixel{Shown::kLand, number_in(SurfaceKind::kTerrain), depth_m};
   const ObjectGeometry& drawn_objects = ws.meshes.objects;
   const ObjectPrimitive& primitive =
-      drawn_objects.primitives[static_cast<std::size_t>(number_in(SurfaceKind::kObjects))];
+      drawn_objects.in_window()
+          .primitives[static_cast<std::size_t>(number_in(SurfaceKind::kObjects))];
   const std::size_t object = object_of(drawn, primitive);
   const scene::ObjectTriangle* first = drawn_objects.meshes[object]->triangles.data();
   return DrawnPixel{Shown::kObject, static_cast<int>(primitive.triangle - first), depth_m, object};

@@ -27,6 +27,12 @@ struct PlainSea {
     water.base_variance = variance;
     water.inv_crest_height = 1.0f;
   }
+  void set_sun(glm::vec3 direction, glm::vec3 irradiance) {
+    shading.light.sun_direction = direction;
+    shading.light.sun_irradiance = irradiance;
+    std::get<Water>(shading.materials).glitter_light = irradiance;
+  }
+
   texture::RgbMap sky;
   texture::PackedMap2 still;
   Shading shading;

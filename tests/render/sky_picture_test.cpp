@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
-#include "render/frame.h"
+#include "render/linear_renderer.h"
 #include "render/workspace.h"
 #include "scene/sky.h"
 
@@ -28,29 +28,15 @@ scene::Scene sky_scene(double elevation_deg, double cloud_cover) {
 }
 
 // Square pictures from the height of the sea, northwards.
-struct SkyRenderer {
-  explicit SkyRenderer(const scene::Scene& scene) : world(scene, 2) { options.keep_linear = true; }
+struct SkyRenderer : LinearRenderer {
+  using LinearRenderer::LinearRenderer;
 
   void draw(double pitch_deg, double fov_deg, double t_s = 0.0) {
-    view = make_view({0.0, 0.0, kEye_m}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f, kSize_px,
-                     kSize_px);
-    render_frame(world, view, t_s, options, workspace, target, workers);
-  }
-  glm::vec3 at(int x, int y) const {
-    const float* p = target.linear.data() + 3 * (y * kSize_px + x);
-    return {p[0], p[1], p[2]};
-  }
-  glm::vec3 direction(int x, int y) const {
-    return glm::normalize(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+    draw_view(make_view({0.0, 0.0, kEye_m}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f,
+                        kSize_px, kSize_px),
+              t_s);
   }
   float brightest() const { return *std::ranges::max_element(target.linear); }
-
-  World world;
-  Workers workers{2};
-  FrameOptions options;
-  Workspace workspace;
-  Target target;
-  View view;
 };
 
 template <class Visit>

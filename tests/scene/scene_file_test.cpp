@@ -98,6 +98,16 @@ bump_strength = 2
 uv_noise_amplitude_m = 0.5
 caustics = 0.75
 back_sides = "tilted"
+distortion_factor = "paper"
+caustic_distortion = 0.25
+glitter = "projective"
+glitter_distortion = 1.5
+[ripples]
+kind = "sequence"
+lighting = "paper"
+frames = 32
+loop_s = 2.5
+length_m = 3
 [coast]
 model = "trains"
 trains = 7
@@ -176,6 +186,15 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.water.caustics, 0.75);
   EXPECT_TRUE(scene.water.tilted_backs);
   EXPECT_EQ(scene.sea.map_set, ocean::MapSet::kLake);
+  EXPECT_EQ(scene.water.distortion_factor, DistortionFactor::kPaper);
+  EXPECT_EQ(scene.water.caustic_distortion, 0.25);
+  EXPECT_EQ(scene.water.glitter, Glitter::kProjective);
+  EXPECT_EQ(scene.water.glitter_distortion, 1.5);
+  EXPECT_EQ(scene.ripples.kind, RippleKind::kSequence);
+  EXPECT_EQ(scene.ripples.lighting, RippleLighting::kPaper);
+  EXPECT_EQ(scene.ripples.frames, 32);
+  EXPECT_EQ(scene.ripples.loop_s, 2.5);
+  EXPECT_EQ(scene.ripples.length_m, 3.0);
   EXPECT_EQ(scene.coast.model, CoastModel::kTrains);
   EXPECT_EQ(scene.coast.trains, 7);
   EXPECT_FALSE(scene.coast.eikonal);
@@ -393,6 +412,31 @@ TEST(SceneFile, PicturesThatAreNotThereAreNamedWithTheLineThatNamesThem) {
                                "\" (No such file or directory)" + allowed);
   const fs::path b = folder.write("b.toml", "[terrain]\nheight_image = \"..\"\n");
   EXPECT_NE(load_error(b).find("(not a file)" + allowed), std::string::npos) << load_error(b);
+}
+
+TEST(SceneFile, FramesOfASequenceHaveTheirNumberInTheName) {
+  const TemporaryFolder folder;
+  folder.write("wave_0000.png", "any");
+  const auto scene_of = [&](const std::string& name) {
+    return folder.write("a.toml", "[ripples]\nsequence = \"" + name + "\"\nkind = \"sequence\"\n");
+  };
+  const Scene scene = load_scene(scene_of("./wave_%04d.png"));
+  EXPECT_EQ(scene.ripples.sequence, (folder.path() / "wave_%04d.png").string());
+  EXPECT_EQ(differences(parse_scene(dump_scene(scene), "elsewhere/b.toml"), scene), "");
+
+  const std::string where =
+      (folder.path() / "a.toml").string() + ":2: column 12: ripples.sequence, ";
+  for (const std::string name : {"wave_0000.png", "wave_%d.png", "%04d_%04d.png", "%s%04d.png"})
+    EXPECT_EQ(
+        load_error(scene_of(name)),
+        where + "got \"" + name + "\", allowed the path of readable picture files, with one %04d");
+  EXPECT_EQ(load_error(scene_of("none_%04d.png")),
+            where + "got \"" + (folder.path() / "none_0000.png").string() +
+                "\" (No such file or directory), allowed a readable picture file");
+  const fs::path layers =
+      folder.write("a.toml", "[ripples]\nsequence = \"wave_%04d.png\"\nkind = \"layers\"\n");
+  EXPECT_EQ(load_error(layers),
+            where + "got it with kind = \"layers\", allowed it with kind = \"sequence\"");
 }
 
 TEST(SceneFile, NumbersDoNotDependOnTheLocale) {

@@ -156,6 +156,11 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(water.uv_noise_amplitude);
   SWELL_COMPARE(water.caustics);
   SWELL_COMPARE(water.tilted_backs);
+  SWELL_COMPARE(water.distortion_factor);
+  SWELL_COMPARE(water.caustic_distortion);
+  SWELL_COMPARE(water.glitter);
+  SWELL_COMPARE(water.glitter_distortion);
+  SWELL_COMPARE(ripples);
   SWELL_COMPARE(coast.model);
   SWELL_COMPARE(coast.trains);
   SWELL_COMPARE(coast.eikonal);

@@ -20,7 +20,7 @@ uniform vec4 coast_slopes_place, coast_slopes_scale, coast_surf_place, coast_sur
 #ifdef LOOKUPS
 uniform sampler2D reflection, refraction;
 uniform vec2 inv_window;
-uniform float distortion_px, max_distortion_px;
+uniform float distortion_px, max_distortion_px, distortion_by_sine, least_distortion;
 uniform vec2 view_right, view_ahead;
 #endif
 
@@ -62,7 +62,7 @@ float level_on_waves(vec3 to_eye, float across, vec2 slope) {
 
 #ifdef LOOKUPS
 vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
-  float gain = sign * distortion_px * clamp(6.0 * to_eye_z, 0.1, 1.0);
+  float gain = sign * distortion_px * clamp(distortion_by_sine * to_eye_z, least_distortion, 1.0);
   vec2 moved = vec2(-0.5 * gain * dot(slope, view_right), gain * dot(slope, view_ahead));
   vec2 bounded = clamp(moved, vec2(-max_distortion_px), vec2(max_distortion_px));
   vec4 found = texture(image, (gl_FragCoord.xy + bounded) * inv_window);

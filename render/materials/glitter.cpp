@@ -1,0 +1,27 @@
+#include "render/materials/glitter.h"
+
+#include <cmath>
+
+#include "render/world/land_shadow.h"
+
+namespace swell::render {
+
+Glitter make_glitter(const MaterialInputs& in) {
+  Glitter glitter;
+  const SunSlide* const slide = in.world.sun_slide.get();
+  if (!slide || in.without.has(Part::kSunSlide)) return glitter;
+  const glm::vec3 sun = in.light.sun_direction;
+  const float level = std::sqrt(sun.x * sun.x + sun.y * sun.y);
+  // Of a sun straight above any direction will do.
+  const glm::vec2 towards = level > 1e-6f ? glm::vec2(sun) / level : glm::vec2(0.0f, 1.0f);
+  glitter.slide = &slide->image;
+  glitter.ahead = {sun.x, sun.y, -sun.z};
+  glitter.right = {towards.y, -towards.x, 0.0f};
+  glitter.up = {sun.z * towards.x, sun.z * towards.y, level};
+  glitter.per_slope = static_cast<float>(in.world.scene.water.glitter_distortion);
+  glitter.disc_variance = static_cast<float>(0.25 * kSunRadius_rad * kSunRadius_rad);
+  glitter.brightness = 1.0f / slide->whole;
+  return glitter;
+}
+
+}  // namespace swell::render

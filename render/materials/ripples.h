@@ -1,0 +1,24 @@
+// Waves too short for the wave patches, as layers of slopes: two of a still map that drift across
+// each other, or the frame of a sequence of bump images.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "render/materials/inputs.h"
+#include "render/materials/slope_layer.h"
+
+namespace swell::render {
+
+struct Ripples {
+  std::array<SlopeLayer, 2> layers;
+  int count = 0;
+  SlopeLayer detail;  // of a sequence in the paper's lighting, else without a map
+};
+
+Ripples make_ripples(const MaterialInputs& in, glm::dvec2 eye);
+
+// Slope variance, both axes together, of what is too fine for any map.
+float base_variance(const scene::Scene& scene);
+
+}  // namespace swell::render

@@ -1,0 +1,63 @@
+// How much of the sun points of objects see past the objects that they are on.
+#if defined(SWELL_RENDER_TILE_OWN_SHADOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_OWN_SHADOW_INL_H_
+#undef SWELL_RENDER_TILE_OWN_SHADOW_INL_H_
+#else
+#define SWELL_RENDER_TILE_OWN_SHADOW_INL_H_
+#endif
+
+#include "render/tile/surfel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// What one object leaves of the sun at points p, relative to the eye, of its surface with these
+// normals. Points are taken off the surface towards the sun: by two spaces between points of the
+// map a plane clears what the map's four points around hold of it, however it leans.
+HWY_INLINE V SunOverOne(const ObjectShadows& shadows, const SunDepth& map, const V3& p,
+                        const V3& normal) {
+  const D d;
+  constexpr float kOff = 2.0f;
+  const V off = Constant(kOff / map.points_per_m);
+  const V facing = Dot(normal, Constant(shadows.sun));
+  const V3 q = ScaleAdd(normal, hn::CopySign(off, facing), Sum(p, Constant(-map.middle_rel)));
+  const auto place = [&](glm::vec3 axis) HWY_ATTR {
+    const V at = hn::Sub(Dot(q, Constant(axis)), Constant(map.first_m));
+    return Clamp(hn::Mul(at, Constant(map.points_per_m)), 0.0f,
+                 static_cast<float>(map.side) - 1.001f);
+  };
+  const V x = place(shadows.right), y = place(shadows.up), depth = Dot(q, Constant(shadows.sun));
+  const VI i = TruncateToInt(x), j = TruncateToInt(y);
+  const VI first = hn::Add(hn::Mul(j, hn::Set(DI(), map.side)), i);
+  const auto lit = [&](int offset) HWY_ATTR {
+    const V nearest = hn::GatherIndex(d, map.depth_m.data() + offset, first);
+    return hn::IfThenElseZero(hn::Le(nearest, depth), Constant(1.0f));
+  };
+  const V s = hn::Sub(x, hn::ConvertTo(d, i)), t = hn::Sub(y, hn::ConvertTo(d, j));
+  const V part = Lerp(Lerp(lit(0), lit(1), s), Lerp(lit(map.side), lit(map.side + 1), s), t);
+  return hn::NegMulAdd(hn::Sub(Constant(1.0f), part), Constant(map.strength), Constant(1.0f));
+}
+
+// The same of each lane's object; null: it does not shade itself.
+template <std::size_t kCount>
+HWY_NOINLINE V SunOverOwn(const ObjectShadows& shadows,
+                          const std::array<const SunDepth*, kCount>& maps, const V3& p,
+                          const V3& normal) {
+  const D d;
+  V visible = Constant(1.0f);
+  HWY_ALIGN std::array<float, kCount> is_its;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (!maps[i] || (i > 0 && maps[i] == maps[i - 1])) continue;
+    for (std::size_t k = 0; k < kCount; ++k) is_its[k] = maps[k] == maps[i] ? 1.0f : 0.0f;
+    const auto its = hn::Gt(hn::Load(d, is_its.data()), hn::Zero(d));
+    visible = hn::IfThenElse(its, SunOverOne(shadows, *maps[i], p, normal), visible);
+  }
+  return visible;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

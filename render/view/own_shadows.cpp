@@ -1,0 +1,172 @@
+#include "render/view/own_shadows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/view/object_levels.h"
+
+namespace swell::render {
+namespace {
+
+// Objects that look smaller do not shade themselves; the shadow comes in up to twice the size.
+constexpr float kLeastSize_px = 32.0f;
+constexpr std::size_t kMostObjects = 16;  // the largest ones
+constexpr int kLeastSide = 32, kMostSide = 256;
+constexpr float kPointsPerPixel = 0.7f;
+constexpr float kMostError = 0.75f;  // of the mesh, in spaces between points
+
+struct Candidate {
+  std::uint32_t object;
+  float size_px;
+};
+
+float radius_of(const scene::FloatingObject& object) {
+  return 0.5f * static_cast<float>(glm::length(object.size_m));
+}
+
+glm::vec3 middle_of(const scene::FloatingObject& object, const scene::ObjectPose& pose,
+                    const View& view) {
+  const glm::dvec3 middle(object.middle_m, (0.5 - object.draught) * object.size_m.z);
+  return glm::vec3(pose.position_world + pose.world_from_object * middle - view.eye_world);
+}
+
+// Nothing stands before a part of a ball or a box that faces the sun.
+bool may_shade_itself(scene::ObjectKind kind) {
+  return kind != scene::ObjectKind::kSphere && kind != scene::ObjectKind::kBox;
+}
+
+// The largest objects of the window, largest first.
+std::vector<Candidate> list_candidates(const World::State& world, const View& view,
+                                       const ObjectGeometry& objects) {
+  std::vector<Candidate> list;
+  for (const ObjectInstance& instance : objects.in_window().instances) {
+    const scene::FloatingObject& object = world.scene.objects[instance.object];
+    if (!may_shade_itself(object.kind)) continue;
+    const float radius_m = radius_of(object);
+    const glm::vec3 middle = middle_of(object, objects.poses[instance.object], view);
+    const float size_px = 2.0f * radius_m * most_px_per_m(middle, radius_m, view);
+    if (size_px > kLeastSize_px) list.push_back({instance.object, size_px});
+  }
+  const auto larger = [](const Candidate& a, const Candidate& b) {
+    return a.size_px != b.size_px ? a.size_px > b.size_px : a.object < b.object;
+  };
+  const std::size_t count = std::min(list.size(), kMostObjects);
+  std::partial_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count), list.end(),
+                    larger);
+  list.resize(count);
+  return list;
+}
+
+// A power of two, so that it changes seldom as an object comes near.
+int side_of(float size_px) {
+  int side = kLeastSide;
+  while (side < kMostSide && static_cast<float>(side) < kPointsPerPixel * size_px) side *= 2;
+  return side;
+}
+
+void fill_depth(const World::State& world, const scene::ObjectPose& pose,
+                const ObjectShadows& shadows, const SunDepth& map, std::span<float> depth_m) {
+  std::ranges::fill(depth_m, SunDepth::kNothing_m);
+  const scene::FloatingObject& object = world.scene.objects[map.object];
+  const scene::ObjectMesh& mesh = coarsest_mesh(world, map.object, kMostError / map.points_per_m);
+  const glm::mat3 sun_from_world =
+      glm::transpose(glm::mat3(shadows.right, shadows.up, shadows.sun));
+  const glm::mat3 axes = sun_from_world * glm::mat3(pose.world_from_object);
+  const auto corner = [&](std::uint32_t index) {
+    const glm::vec3 q = mesh.position[index] - glm::vec3(0.0f, 0.0f, 0.5f);
+    const glm::vec3 p = axes * (q * glm::vec3(object.size_m));
+    return glm::vec3((glm::vec2(p) - map.first_m) * map.points_per_m, p.z);
+  };
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+    add_triangle(
+        {corner(mesh.indices[i]), corner(mesh.indices[i + 1]), corner(mesh.indices[i + 2])},
+        map.side, depth_m);
+}
+
+void raise(int x, int y, float z, int side, std::span<float> depth_m) {
+  if (x < 0 || y < 0 || x >= side || y >= side) return;
+  float& at = depth_m[static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+                      static_cast<std::size_t>(x)];
+  at = std::max(at, z);
+}
+
+// The points nearest to an edge: masts are thinner than the space between points.
+void add_edge(const glm::vec3& a, const glm::vec3& b, int side, std::span<float> depth_m) {
+  const glm::vec3 along = b - a;
+  const int steps = static_cast<int>(std::ceil(std::max(std::abs(along.x), std::abs(along.y)))) + 1;
+  for (int k = 0; k <= steps; ++k) {
+    const glm::vec3 p = a + static_cast<float>(k) / static_cast<float>(steps) * along;
+    raise(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)), p.z, side,
+          depth_m);
+  }
+}
+
+}  // namespace
+
+void add_triangle(const std::array<glm::vec3, 3>& corner, int side, std::span<float> depth_m) {
+  const auto& [a, b, c] = corner;
+  const glm::vec3 across = glm::cross(b - a, c - a);
+  const float low = std::min({a.y, b.y, c.y}), high = std::max({a.y, b.y, c.y});
+  const int last = std::min(static_cast<int>(std::floor(high)), side - 1);
+  for (int y = std::max(static_cast<int>(std::ceil(low)), 0); y <= last && across.z != 0.0f; ++y) {
+    const auto row = static_cast<float>(y);
+    float left = static_cast<float>(side), right = -1.0f;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec3 &p = corner[k], &q = corner[(k + 1) % 3];
+      if ((p.y <= row) == (q.y <= row)) continue;
+      const float x = p.x + (row - p.y) / (q.y - p.y) * (q.x - p.x);
+      left = std::min(left, x), right = std::max(right, x);
+    }
+    for (int x = static_cast<int>(std::ceil(left)); static_cast<float>(x) <= right; ++x) {
+      const glm::vec2 from_a = glm::vec2(static_cast<float>(x), row) - glm::vec2(a);
+      raise(x, y, a.z - glm::dot(glm::vec2(across), from_a) / across.z, side, depth_m);
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) add_edge(corner[k], corner[(k + 1) % 3], side, depth_m);
+}
+
+void find_own_shadows(const World::State& world, const ShadowOptions& options, const View& view,
+                      ObjectGeometry& objects, const StageRun& run) {
+  ObjectShadows& shadows = objects.shadows;
+  shadows.own.clear();
+  if (options.sun_direction.z <= 0.0f || options.without.has(Part::kShadows) ||
+      options.without.has(Part::kOwnShadows))
+    return;
+  std::size_t points = 0;
+  for (const Candidate& candidate : list_candidates(world, view, objects)) {
+    const scene::FloatingObject& object = world.scene.objects[candidate.object];
+    SunDepth map;
+    map.object = candidate.object;
+    map.middle_rel = middle_of(object, objects.poses[candidate.object], view);
+    map.side = side_of(candidate.size_px);
+    map.strength = std::min(candidate.size_px / kLeastSize_px - 1.0f, 1.0f);
+    // Two rows around hold nothing.
+    const float radius_m = radius_of(object), inside = 0.5f * static_cast<float>(map.side) - 2.5f;
+    map.points_per_m = inside / radius_m;
+    map.first_m = -0.5f * static_cast<float>(map.side - 1) / map.points_per_m;
+    points += static_cast<std::size_t>(map.side) * static_cast<std::size_t>(map.side);
+    shadows.own.push_back(map);
+  }
+  shadows.own_depth_m.resize(std::max(shadows.own_depth_m.size(), points));
+  std::span<float> left = shadows.own_depth_m;
+  for (SunDepth& map : shadows.own) {
+    const std::size_t count =
+        static_cast<std::size_t>(map.side) * static_cast<std::size_t>(map.side);
+    map.depth_m = left.first(count);
+    left = left.subspan(count);
+  }
+  run.for_each(shadows.own.size(), [&](std::size_t i, int) {
+    const SunDepth& map = shadows.own[i];
+    const std::size_t begin =
+        static_cast<std::size_t>(map.depth_m.data() - shadows.own_depth_m.data());
+    fill_depth(world, objects.poses[map.object], shadows, map,
+               std::span(shadows.own_depth_m).subspan(begin, map.depth_m.size()));
+  });
+  for (ObjectDraws& draws : objects.draws)
+    for (ObjectInstance& instance : draws.instances) {
+      const auto own = std::ranges::find(shadows.own, instance.object, &SunDepth::object);
+      if (own != shadows.own.end()) instance.own_shadow = &*own;
+    }
+}
+
+}  // namespace swell::render

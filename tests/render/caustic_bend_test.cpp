@@ -1,0 +1,136 @@
+// The base paper's distorted lookup of caustics: T' = T + Cc N.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "render/workspace.h"
+#include "scene/scene.h"
+#include "texture/bump_sequence.h"
+#include "texture/image_io.h"
+
+namespace swell::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kEye_m = 4.0, kDepth_m = 0.5, kHalfFov_rad = 0.25;
+constexpr int kSize = 128;
+
+// Half a metre of water over a flat floor under a sun straight above. Its ripples are waves of a
+// kilometre along x, so that their slope is the same all over the picture.
+class CausticBend : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "swell_bend_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    write("floor.png", {2, 2, 1, std::vector<std::uint8_t>(4, 0)});
+    texture::Image8 wave{32, 32, 1, {}};
+    for (int i = 0; i < 32 * 32; ++i) {
+      const double sine = std::sin(2.0 * std::numbers::pi * (i % 32) / 32.0);
+      wave.pixels.push_back(static_cast<std::uint8_t>(std::lround(127.5 + 127.0 * sine)));
+    }
+    write("wave_0000.png", wave);
+    write("wave_0001.png", wave);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const texture::Image8& image) const {
+    texture::write_file(folder_ / name, texture::encode_image(image, ".png"));
+  }
+
+  scene::Scene shallow_water() const {
+    scene::Scene scene;
+    scene.terrain = scene::TerrainDescription{};
+    scene.terrain->height_image = folder_ / "floor.png";
+    scene.terrain->metres_per_pixel = 500.0;
+    scene.terrain->low_m = -kDepth_m;
+    scene.terrain->high_m = -0.5 * kDepth_m;
+    scene.sky.sun_elevation_rad = scene::radians(90.0);
+    scene.sky.sun_direction = {0.0f, 0.0f, 1.0f};
+    scene.sky.cloud_cover = 0.0;
+    scene.sea.wind_speed_mps = 4.0;
+    scene.sea.patch_lengths_m = {97.0, 23.0, 5.3};
+    scene.sea.resolution = 128;
+    scene.sea.amplitude_scale = 0.3;
+    scene.water.distortion = 0.0;
+    scene.water.lookup_scale = 1.0;
+    scene.detail.triangulation = scene::Triangulation::kPlane;
+    scene.ripples.kind = scene::RippleKind::kSequence;
+    scene.ripples.sequence = (folder_ / "wave_%04d.png").string();
+    scene.ripples.frames = 2;
+    scene.ripples.length_m = 1000.0;
+    return scene;
+  }
+
+  fs::path folder_;
+};
+
+// What caustics add to the green light of each pixel, seen from straight above, north on top.
+std::vector<double> added_light(const World& world) {
+  const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -0.5 * std::numbers::pi, 2.0 * kHalfFov_rad,
+                              0.25f, kSize, kSize);
+  std::vector<double> added(kSize * kSize);
+  for (const double sign : {1.0, -1.0}) {
+    FrameOptions options;
+    options.keep_linear = true;
+    if (sign < 0.0) options.without = {Part::kCaustics};
+    Workers workers(2);
+    Workspace workspace;
+    Target target;
+    render_frame(world, view, 7.0, options, workspace, target, workers);
+    for (std::size_t i = 0; i < added.size(); ++i)
+      added[i] += sign * static_cast<double>(target.linear[3 * i + 1]);
+  }
+  return added;
+}
+
+// The ripples' slope at the eye, each layer's largest: root 2 times its deviation.
+double ripple_slope(const World& world) {
+  Workers workers(1);
+  Workspace workspace;
+  Target target;
+  const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -1.0, 1.0, 0.25f, 16, 16);
+  render_frame(world, view, 7.0, {}, workspace, target, workers);
+  const Water& water = workspace.state().shading.material<Water>();
+  double slope = 0.0;
+  for (int i = water.first_ripples; i < water.layer_count; ++i)
+    slope += std::sqrt(2.0) * static_cast<double>(texture::kBumpSlope) *
+             static_cast<double>(water.layers[static_cast<std::size_t>(i)].gain);
+  return slope;
+}
+
+// Of `a` and, so many pixels further right, `b`.
+double correlation(const std::vector<double>& a, const std::vector<double>& b, int right_px) {
+  double n = 0.0, sum_a = 0.0, sum_b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x + right_px < kSize; ++x) {
+      const double p = a[static_cast<std::size_t>(y * kSize + x)];
+      const double q = b[static_cast<std::size_t>(y * kSize + x + right_px)];
+      n += 1.0, sum_a += p, sum_b += q, aa += p * p, bb += q * q, ab += p * q;
+    }
+  return (n * ab - sum_a * sum_b) / std::sqrt((n * aa - sum_a * sum_a) * (n * bb - sum_b * sum_b));
+}
+
+// N is minus the slope: what the light of the place x falls on lies at x + Cc slope.
+TEST_F(CausticBend, MovesTheLightByTheSlopeOfTheRipples) {
+  constexpr int kMoved_px = 10;
+  scene::Scene scene = shallow_water();
+  const World straight(scene);
+  const double pixel_m =
+      2.0 * std::tan(kHalfFov_rad) * (kEye_m + kDepth_m / scene.water.refraction_index) / kSize;
+  scene.water.caustic_distortion = kMoved_px * pixel_m / ripple_slope(straight);
+  ASSERT_LT(scene.water.caustic_distortion, 10.0);
+  const World bent(scene, straight, 1);
+  const std::vector<double> before = added_light(straight), after = added_light(bent);
+  const double moved = correlation(before, after, kMoved_px);
+  EXPECT_GT(moved, 0.95);
+  EXPECT_LT(correlation(before, after, kMoved_px - 2), moved - 0.05);
+  EXPECT_LT(correlation(before, after, kMoved_px + 2), moved - 0.05);
+}
+
+}  // namespace
+}  // namespace swell::render
