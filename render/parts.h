@@ -41,6 +41,7 @@ enum class Part : std::uint8_t {
   kOwnShadows,   // of objects on themselves
   kImageBlur,    // what slopes finer than a pixel spread in the lookup images
   kWakes,        // waves and foam of what disturbs the water
+  kMaps,         // waves of periodic maps; queries keep them
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
@@ -51,7 +52,7 @@ inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
     "haze",         "earth",       "clouds",     "shadows",  "hulls",    "apron",
     "tiling",       "seen-slopes", "crests",     "altitude", "textures", "underwater",
     "meniscus",     "caustics",    "shafts",     "uplight",  "sequence", "sun-slide",
-    "caustic-bend", "own-shadows", "image-blur", "wakes"};
+    "caustic-bend", "own-shadows", "image-blur", "wakes",    "maps"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

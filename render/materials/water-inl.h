@@ -321,13 +321,17 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
   const D d;
   Facing f;
   f.normal = NormalOf(s.slope_x, s.slope_y);
-  const V drawn =
-      hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
-  f.cos_eye = UnhiddenCosine(Dot(f.normal, packet.to_eye), s.long_cosine, s.fine_variance,
-                             hn::Mul(drawn, Constant(water.seen_slopes)));
+  if (water.least_cos > 0.0f) {
+    f.cos_eye = f.cos_mirror = TiltToEye(packet.to_eye, water.least_cos, f.normal);
+  } else {
+    const V drawn =
+        hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
+    f.cos_eye = UnhiddenCosine(Dot(f.normal, packet.to_eye), s.long_cosine, s.fine_variance,
+                               hn::Mul(drawn, Constant(water.seen_slopes)));
+    f.cos_mirror =
+        Lerp(f.cos_eye, MirroringCosine(f.cos_eye, s.variance), Constant(water.seen_slopes));
+  }
   f.area = SeenArea(s.long_cosine, s.fine_variance);
-  f.cos_mirror =
-      Lerp(f.cos_eye, MirroringCosine(f.cos_eye, s.variance), Constant(water.seen_slopes));
   f.reflectance =
       FresnelReflectance(d, ReflectingCosine(f.cos_eye, s.variance), media.refraction_index);
   return f;

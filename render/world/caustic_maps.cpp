@@ -34,7 +34,7 @@ bool shows_caustics(const World::State& world, PartSet without) {
 // further off. They are taken to have a fifth of the mean square slope that the wind raises.
 // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
 float spread_per_m(const World::State& world, double disc, double bent) {
-  const double wind_mps = world.scene.sea.spectrum ? world.scene.sea.wind_speed_mps : 0.0;
+  const double wind_mps = world.scene.sea.has_wind_waves() ? world.scene.sea.wind_speed_mps : 0.0;
   const double slope2 = 0.2 * 0.5 * (0.003 + 0.00512 * wind_mps);  // along one axis
   const double radius = 0.5 * disc * kSunRadius_rad;
   return static_cast<float>(std::sqrt(radius * radius + bent * bent * slope2));
