@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/map_waves.h"
 #include "scene/coast.h"
 #include "scene/parameters.h"
 #include "scene/sky.h"
@@ -133,6 +134,18 @@ Fault fault_of_sea(const Scene& scene) {
   return std::nullopt;
 }
 
+Fault fault_of_maps(const ocean::SeaDescription& sea) {
+  for (std::size_t n = 0; n < sea.maps.size(); ++n)
+    if (sea.maps[n].file.empty())
+      return SceneFault{fmt::format("{}[{}].file", kMapsKey, n), "none", "a readable map file"};
+  const std::size_t layers = ocean::count_map_layers(sea);
+  const std::size_t patches = ocean::wave_systems(sea).empty() ? 0 : sea.patch_lengths_m.size();
+  if (layers == 0 || layers + patches <= ocean::kMaxPatches) return std::nullopt;
+  return SceneFault{std::string(sea.maps.empty() ? "sea.map_set" : kMapsKey),
+                    fmt::format("{} layers beside {} patches of the spectrum", layers, patches),
+                    fmt::format("at most {} of both", ocean::kMaxPatches)};
+}
+
 Fault fault_of_ripples(const Ripples& ripples) {
   if (ripples.sequence.empty() || ripples.kind == RippleKind::kSequence) return std::nullopt;
   return SceneFault{"ripples.sequence", "it with kind = \"layers\"", "it with kind = \"sequence\""};
@@ -190,6 +203,21 @@ Fault fault_of_names(const Scene& scene) {
                         : fmt::format("the name of an object: \"{}\"", fmt::join(names, "\", \""))};
 }
 
+// What is wrong with a path of `key`.
+Fault fault_of_way(const std::vector<glm::dvec2>& path_m, bool closed, const std::string& key) {
+  const auto point = [&](std::size_t i) { return fmt::format("{}[{}]", key, i); };
+  for (std::size_t i = 1; i < path_m.size(); ++i)
+    if (glm::distance(path_m[i - 1], path_m[i]) < kShortestStretch_m)
+      return SceneFault{
+          point(i), fmt::format("[{}, {}]", path_m[i].x, path_m[i].y),
+          fmt::format("a point {} m or more from the one before", kShortestStretch_m)};
+  if (closed && path_m.size() >= 2 &&
+      glm::distance(path_m.front(), path_m.back()) < kShortestStretch_m)
+    return SceneFault{point(path_m.size() - 1), "a last point at the first",
+                      "a closed path that does not repeat it"};
+  return std::nullopt;
+}
+
 // Only a mesh has a file, and a path leads somewhere.
 Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
   for (std::size_t n = 0; n < objects.size(); ++n) {
@@ -202,18 +230,19 @@ Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
       return SceneFault{key("kind"), "\"mesh\" without a file", "a mesh with its file"};
     if (!is_mesh && !object.file.empty())
       return SceneFault{key("file"), "it of another kind than \"mesh\"", "files of meshes"};
-    for (std::size_t i = 1; i < object.path_m.size(); ++i)
-      if (glm::distance(object.path_m[i - 1], object.path_m[i]) < kShortestStretch_m)
-        return SceneFault{
-            key(fmt::format("path_m[{}]", i)),
-            fmt::format("[{}, {}]", object.path_m[i].x, object.path_m[i].y),
-            fmt::format("a point {} m or more from the one before", kShortestStretch_m)};
-    const bool ends_where_it_begins =
-        object.path_m.size() >= 2 &&
-        glm::distance(object.path_m.front(), object.path_m.back()) < kShortestStretch_m;
-    if (object.path_closed && ends_where_it_begins)
-      return SceneFault{key(fmt::format("path_m[{}]", object.path_m.size() - 1)),
-                        "a last point at the first", "a closed path that does not repeat it"};
+    if (Fault fault = fault_of_way(object.path_m, object.path_closed, key("path_m"))) return fault;
+  }
+  return std::nullopt;
+}
+
+// A hull has a path.
+Fault fault_of_disturbances(const std::vector<ocean::Disturbance>& disturbances) {
+  for (std::size_t n = 0; n < disturbances.size(); ++n) {
+    const ocean::Disturbance& d = disturbances[n];
+    const std::string key = fmt::format("{}[{}].", kDisturbancesKey, n);
+    if (d.kind == ocean::DisturbanceKind::kHull && d.path_m.size() < 2)
+      return SceneFault{key + "kind", "\"hull\" without a path_m", "a hull with its path"};
+    if (Fault fault = fault_of_way(d.path_m, d.path_closed, key + "path_m")) return fault;
   }
   return std::nullopt;
 }
@@ -239,7 +268,12 @@ std::optional<SceneFault> find_fault(const Scene& scene) {
   if (Fault fault =
           fault_of_tables(kSinesKey, scene.sea.sines, ocean::kMaxSines, sine_parameters()))
     return fault;
+  if (Fault fault = fault_of_tables(kMapsKey, scene.sea.maps, ocean::kMaxPatches, map_parameters()))
+    return fault;
   if (Fault fault = fault_of_tables(kObjectsKey, scene.objects, kMaxObjects, object_parameters()))
+    return fault;
+  if (Fault fault = fault_of_tables(kDisturbancesKey, scene.disturbances, kMaxDisturbances,
+                                    disturbance_parameters()))
     return fault;
   return find_disagreement(scene);
 }
@@ -249,8 +283,10 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_path(scene.camera.path)) return fault;
   if (Fault fault = fault_of_names(scene)) return fault;
   if (Fault fault = fault_of_objects(scene.objects)) return fault;
+  if (Fault fault = fault_of_disturbances(scene.disturbances)) return fault;
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
+  if (Fault fault = fault_of_maps(scene.sea)) return fault;
   if (Fault fault = fault_of_ripples(scene.ripples)) return fault;
   if (!scene.terrain) return std::nullopt;
   if (Fault fault = fault_of_coast_line(*scene.terrain)) return fault;

@@ -202,8 +202,10 @@ void set_terrain(const Shading& s, const GlProgram& program) {
 
 void set_view_programs(const Shading& s, const render::RenderView& view,
                        const ViewPrograms& programs) {
-  for (const GlProgram* program : {&programs.object, &programs.distance, &programs.terrain})
+  for (const GlProgram* program : {&programs.object, &programs.distance, &programs.terrain}) {
     set_view(s, view.camera, *program);
+    program->set("clip_margin_m", view.clip_margin_m);
+  }
   set_terrain(s, programs.terrain);
   programs.object.set("sea_light", s.material<render::Object>().sea_light);
 }

@@ -7,6 +7,7 @@
 #endif
 
 #include "render/materials/caustics-inl.h"
+#include "render/materials/checker-inl.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/ground-inl.h"
@@ -55,13 +56,18 @@ struct Ground {
   V3 light, normal;
 };
 template <bool kDetail>
-HWY_INLINE Ground LightGround(const Terrain& terrain, const Light& light, const Packet& packet,
+HWY_INLINE Ground LightGround(const Terrain& terrain, const Shading& s, const Packet& packet,
                               V level_m, V sun_visible) {
+  const Light& light = s.light;
   const V zero = hn::Zero(D());
   GroundLook look = FindGround<kDetail>(terrain, packet.p, level_m);
   if constexpr (kDetail) {
     V unused = zero;
     AddSlopes(terrain.detail, packet.p, level_m, zero, zero, look.slope_x, look.slope_y, unused);
+  }
+  if (terrain.checker.per_m > 0.0f) {
+    const V grey = CheckeredGround(terrain.checker, s.rays, packet);
+    look.albedo = {grey, grey, grey};
   }
   const V3 normal = NormalOf(look.slope_x, look.slope_y);
 
@@ -190,7 +196,7 @@ struct Shader<Terrain, kView> {
     V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
     if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, level_m));
-    const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m, sun_visible);
+    const Ground ground = LightGround<kDetail>(terrain, s, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
       if (s.media.submerged) return Surfel{ground.light, ground.normal};
       const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));

@@ -7,6 +7,8 @@
 #define SWELL_RENDER_MATERIALS_VISIBLE_SLOPES_INL_H_
 #endif
 
+#include <cmath>
+
 #include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -59,6 +61,24 @@ HWY_INLINE V ReflectingCosine(V c, V variance) {
   const V raised = hn::Sub(SeenCosine(c, variance), c);
   const V away = hn::Sub(Constant(1.0f), c);
   return hn::MulAdd(hn::Mul(raised, away), away, c);
+}
+
+// Tilts a unit normal n whose cosine to the eye v is below e' to n + (e' - n.v) v, scaled to
+// length 1, and returns its cosine. e' = e / sqrt(1 - e^2) makes the cosine e at least; normals
+// over e' stay as they are. 0 < e < 1. Source: Gabdrakhmanov, Modelling of Interactive Water
+// Surfaces (back sides of waves).
+HWY_INLINE V TiltToEye(const V3& to_eye, float least_cos, V3& normal) {
+  const V least = Constant(least_cos / std::sqrt(1.0f - least_cos * least_cos));
+  const V cosine = Dot(normal, to_eye);
+  const V raise = hn::Max(hn::Sub(least, cosine), hn::Zero(D()));
+  const V3 tilted = ScaleAdd(to_eye, raise, normal);
+  const V length = hn::Sqrt(Dot(tilted, tilted));
+  const V inv_length = hn::Div(Constant(1.0f), length);
+  const auto is_tilted = hn::Gt(raise, hn::Zero(D()));
+  normal = {hn::IfThenElse(is_tilted, hn::Mul(tilted.x, inv_length), normal.x),
+            hn::IfThenElse(is_tilted, hn::Mul(tilted.y, inv_length), normal.y),
+            hn::IfThenElse(is_tilted, hn::Mul(tilted.z, inv_length), normal.z)};
+  return hn::IfThenElse(is_tilted, hn::Mul(hn::Add(cosine, raise), inv_length), cosine);
 }
 
 }  // namespace HWY_NAMESPACE

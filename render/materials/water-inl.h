@@ -21,8 +21,10 @@
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
+#include "render/materials/image_blur-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/visible_slopes-inl.h"
+#include "render/materials/wakes-inl.h"
 #include "render/materials/water.h"
 #include "render/materials/whitecaps-inl.h"
 #include "render/tile/light_code-inl.h"
@@ -148,6 +150,20 @@ HWY_INLINE void BendRipples(const SlopeLayer& noise, V3 p, V level_m, V& du, V& 
     AddSlopes(noise, p, level_m, du, dv, du, dv, unused);
 }
 
+// What disturbs the water: slopes on those that there are, and foam, torn as whitecaps are.
+HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
+  const WakesAt at = SampleWakes(water.wakes, p, level_m);
+  if (!at.is_near) return;
+  s.slope_x = hn::Add(s.slope_x, at.slope_x);
+  s.slope_y = hn::Add(s.slope_y, at.slope_y);
+  s.variance = hn::Add(s.variance, at.variance);
+  s.fine_variance = hn::Add(s.fine_variance, at.variance);
+  const TornFoam foam = TearWhitecaps(water.wakes.foam, p, level_m, at.foam);
+  s.foam_cover = hn::Max(s.foam_cover, foam.cover);
+  s.foam_thickness = hn::Max(s.foam_thickness, foam.thickness);
+  s.foam_bubbles = hn::Max(s.foam_bubbles, foam.bubbles);
+}
+
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
@@ -211,6 +227,7 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
     ((level_m[k] = FootprintLevel(across[k], Clamp(s[k].long_cosine, kMinCos, 1.0f))), ...);
     ((s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance))), ...);
   }
+  if (water.wakes.count > 0) (AddWakes(water, packets[k].p, level_flat_m[k], s[k]), ...);
   return s;
 }
 
@@ -220,16 +237,15 @@ struct Looked {
   V alpha;
 };
 
-// Looks a lookup image up at a window position. Samples beside nothing are no darker: only their
-// alpha is less.
-HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
+// Looks a lookup image up at a window position, on a level of it. Samples beside nothing are no
+// darker: only their alpha is less.
+HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px, const BlurLevel& level) {
   const D d;
   const V one = Constant(1.0f);
+  const V x = hn::Mul(x_px, Constant(lookup.scale_x)), y = hn::Mul(y_px, Constant(lookup.scale_y));
   V3 code;
   V alpha;
-  texture::HWY_NAMESPACE::SampleRgba(d, *lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
-                                     hn::Mul(y_px, Constant(lookup.scale_y)), code.x, code.y,
-                                     code.z, alpha);
+  SampleBlurred(*lookup.image, x, y, level, code, alpha);
   const auto some = hn::Gt(alpha, hn::Zero(d));
   if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
   // Codes that were blended with zeros.
@@ -260,14 +276,17 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
   const V gain = hn::Mul(Constant(sign * water.distortion_px),
                          Clamp(hn::Mul(packet.to_eye.z, Constant(water.distortion_by_sine)),
                                water.least_distortion, 1.0f));
+  // What lies under water is near the surface: slopes too fine to see move it by less than they
+  // spread it.
+  const BlurLevel level = kBacked ? Sharp() : FindBlur(lookup, s.variance, hn::Mul(gain, gain));
   const float bound = water.max_distortion_px;
   const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
   const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
   const V half = Constant(0.5f);
   const V x = hn::Add(packet.x_px, half), y = hn::Add(packet.y_px, half);
-  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy));
+  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy), level);
   const bool found = hn::AllTrue(d, hn::Ge(moved.alpha, Constant(1.0f)));
-  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y));
+  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y, level));
 }
 
 // The part of the facets seen that mirror the sea again, not the sky. The mean slopes send the ray
@@ -302,13 +321,17 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
   const D d;
   Facing f;
   f.normal = NormalOf(s.slope_x, s.slope_y);
-  const V drawn =
-      hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
-  f.cos_eye = UnhiddenCosine(Dot(f.normal, packet.to_eye), s.long_cosine, s.fine_variance,
-                             hn::Mul(drawn, Constant(water.seen_slopes)));
+  if (water.least_cos > 0.0f) {
+    f.cos_eye = f.cos_mirror = TiltToEye(packet.to_eye, water.least_cos, f.normal);
+  } else {
+    const V drawn =
+        hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
+    f.cos_eye = UnhiddenCosine(Dot(f.normal, packet.to_eye), s.long_cosine, s.fine_variance,
+                               hn::Mul(drawn, Constant(water.seen_slopes)));
+    f.cos_mirror =
+        Lerp(f.cos_eye, MirroringCosine(f.cos_eye, s.variance), Constant(water.seen_slopes));
+  }
   f.area = SeenArea(s.long_cosine, s.fine_variance);
-  f.cos_mirror =
-      Lerp(f.cos_eye, MirroringCosine(f.cos_eye, s.variance), Constant(water.seen_slopes));
   f.reflectance =
       FresnelReflectance(d, ReflectingCosine(f.cos_eye, s.variance), media.refraction_index);
   return f;
@@ -458,7 +481,9 @@ struct WaterShader {
       const auto splashed = hn::Gt(hulls.foam_cover, hn::Zero(D()));
       foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
     }
-    const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
+    const V weight =
+        water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
+    const V3 arriving = Lerp(refracted, mirrored, weight);
     if (water.glitter.slide)
       sun_path =
           hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));

@@ -263,7 +263,7 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
   if (all.empty()) return;
   set_axes(options.sun_direction, shadows);
   const auto level = -static_cast<float>(view.eye_world.z);
-  shadows.lowest_rel_m = level - world.water_bounds().height_m - kRounding_m;
+  shadows.lowest_rel_m = level - world.water_bounds(options.disturbances).height_m - kRounding_m;
   const WaterMotion motion = motion_of(world);
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   const float sinks_per_m2 = drop_per_m2(world.earth_radius_m(options.without));

@@ -121,5 +121,41 @@ TEST_P(SeenSlopes, AreAllSlopesWhereNoneIsDrawn) {
   EXPECT_EQ(unhidden, cosine);
 }
 
+// PER-06: tilted normals have length 1 and at least the cosine asked for; those over it keep their
+// bits; nothing jumps where tilting begins.
+TEST_P(SeenSlopes, BackSidesCanBeTiltedToTheEye) {
+  constexpr float kLeast = 0.08f;
+  constexpr int kCount = 2001;
+  std::vector<glm::vec3> to_eye, normal;
+  for (int i = 0; i < kCount; ++i) {
+    const double cosine = 0.000999 * (i - 1000), turn = 0.37 * i;
+    const glm::dvec3 v(std::cos(turn), 0.6 * std::sin(turn), 0.8 * std::sin(turn));
+    const glm::dvec3 aside = glm::normalize(glm::cross(v, glm::dvec3(0.3, -0.5, 0.81)));
+    to_eye.emplace_back(v);
+    normal.emplace_back(cosine * v + std::sqrt(1.0 - cosine * cosine) * aside);
+  }
+  std::vector<glm::vec3> tilted = normal;
+  std::vector<float> cosine(kCount);
+  tilted_normals(to_eye, kLeast, tilted, cosine);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const glm::dvec3 n(tilted[i]), v(to_eye[i]), from(normal[i]);
+    EXPECT_NEAR(glm::length(n), 1.0, 1e-6);
+    EXPECT_NEAR(glm::dot(n, v), cosine[i], 1e-6);
+    EXPECT_GE(cosine[i], kLeast - 1e-6f);
+    const double before = glm::dot(from, v);
+    if (before > 0.0804) {
+      EXPECT_EQ(tilted[i], normal[i]);
+    } else if (before > -0.99) {  // at -1 all directions are as near
+      // In the plane of both, by what the formula says: n + (e' - n.v) v.
+      const double least = 0.08 / std::sqrt(1.0 - 0.08 * 0.08);
+      const glm::dvec3 expected = glm::normalize(from + (least - before) * v);
+      EXPECT_LT(glm::distance(n, expected), 1e-5);
+    }
+    if (i > 0 && before > -0.9 && before < 0.9) {
+      EXPECT_LT(std::abs(cosine[i] - cosine[i - 1]), 0.0025f);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace swell::render

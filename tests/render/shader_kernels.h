@@ -36,6 +36,10 @@ SeenFacets seen_facets(float cosine, float variance);
 void unhidden_cosines(std::span<const float> cosine, float level_cosine, float variance_all,
                       float drawn, std::span<float> unhidden);
 
+// TiltToEye() of unit normals seen from unit vectors to the eye: the tilted normals and cosines.
+void tilted_normals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                    std::span<float> cosine);
+
 void foam_cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
                 std::span<const float> amount, std::span<float> cover);
 

@@ -56,7 +56,7 @@ void ForPackets(std::size_t count, const Each& each) {
 void Sky(const Shading& shading, std::span<const float> x_px, std::span<const float> y_px,
          std::span<glm::vec3> light) {
   ForPackets(light.size(), [&](std::size_t i) {
-    StoreSome(ShadeSky(shading, LoadSome(x_px, i), LoadSome(y_px, i)), light, i);
+    StoreSome(ShadeSky(shading, {}, nullptr, LoadSome(x_px, i), LoadSome(y_px, i)), light, i);
   });
 }
 
@@ -77,6 +77,15 @@ void UnhiddenCosines(std::span<const float> cosine, float level_cosine, float va
     StoreSome(UnhiddenCosine(LoadSome(cosine, i), Constant(level_cosine), Constant(variance_all),
                              Constant(drawn)),
               unhidden, i);
+  });
+}
+
+void TiltedNormals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                   std::span<float> cosine) {
+  ForPackets(cosine.size(), [&](std::size_t i) {
+    V3 n = LoadSome(std::span<const glm::vec3>(normal), i);
+    StoreSome(TiltToEye(LoadSome(to_eye, i), least_cos, n), cosine, i);
+    StoreSome(n, normal, i);
   });
 }
 
@@ -272,6 +281,7 @@ HWY_EXPORT(Sky);
 HWY_EXPORT(Glint);
 HWY_EXPORT(FacetsSeen);
 HWY_EXPORT(UnhiddenCosines);
+HWY_EXPORT(TiltedNormals);
 HWY_EXPORT(LightOfWater);
 HWY_EXPORT(Cover);
 HWY_EXPORT(Edge);
@@ -303,6 +313,11 @@ SeenFacets seen_facets(float cosine, float variance) {
 void unhidden_cosines(std::span<const float> cosine, float level_cosine, float variance_all,
                       float drawn, std::span<float> unhidden) {
   HWY_DYNAMIC_DISPATCH(UnhiddenCosines)(cosine, level_cosine, variance_all, drawn, unhidden);
+}
+
+void tilted_normals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                    std::span<float> cosine) {
+  HWY_DYNAMIC_DISPATCH(TiltedNormals)(to_eye, least_cos, normal, cosine);
 }
 
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,

@@ -56,6 +56,17 @@ INSTANTIATE_TEST_SUITE_P(
               "or \"inverse_distance\""},
         Fault{"[sea]\nresolution = 100\n",
               "test.toml:2: column 14: sea.resolution, got 100, allowed a power of two, 16 to 512"},
+        Fault{"[sea]\nmap_set = \"pond\"\n",
+              "test.toml:2: column 11: sea.map_set, got \"pond\", allowed \"none\", \"river\", "
+              "\"lake\", \"coast\" or \"ocean\""},
+        Fault{"[sea]\nmap_set = \"lake\"\nspectrum = true\n",
+              "test.toml:2: column 11: sea.map_set, got 7 layers beside 3 patches of the spectrum, "
+              "allowed at most 8 of both"},
+        Fault{"[[sea.maps]]\nlength_m = 20\n",
+              "test.toml:1: column 1: sea.maps[0].file, got none, allowed a readable map file"},
+        Fault{"[[sea.maps]]\nfile = \"none.map\"\nperiod_s = 0.01\n",
+              "test.toml:2: column 8: sea.maps[0].file, got \"" SWELL_SOURCE_DIR
+              "/none.map\" (No such file or directory), allowed a readable map file"},
         Fault{"[sea]\nspectrum = 1\n",
               "test.toml:2: column 12: sea.spectrum, got 1, allowed true or false"},
         Fault{"[sea]\npatch_lengths_m = [10, 20]\n",
@@ -170,6 +181,18 @@ INSTANTIATE_TEST_SUITE_P(
             "[coast]\nmodel = \"peachey\"\n",
             "test.toml:2: column 9: coast.model, got \"peachey\", allowed \"none\", \"trains\" or "
             "\"blend\""},
+        Fault{
+            "[[disturbance]]\nkind = \"hull\"\n",
+            "test.toml:2: column 8: disturbance[0].kind, got \"hull\" without a path_m, allowed a "
+            "hull with its path"},
+        Fault{"[[disturbance]]\nkind = \"splash\"\n",
+              "test.toml:2: column 8: disturbance[0].kind, got \"splash\", allowed \"drop\", "
+              "\"footstep\", \"hull\" or \"rotor\""},
+        Fault{"[[disturbance]]\nradius_m = 0\n",
+              "test.toml:2: column 12: disturbance[0].radius_m, got 0, allowed 0.02 to 50 m"},
+        Fault{"[[disturbance]]\nkind = \"hull\"\npath_m = [[0, 0], [9, 0],\n  [9, 0]]\n",
+              "test.toml:4: column 3: disturbance[0].path_m[2], got [9, 0], allowed a point 0.5 m "
+              "or more from the one before"},
         Fault{"[coast]\ntrains = 17\n",
               "test.toml:2: column 10: coast.trains, got 17, allowed an integer, 1 to 16"},
         Fault{"[coast]\ngrid_spacing_m = 0.4\n",
@@ -211,8 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
             "pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, mount_offset_m"},
         Fault{"[sea]\nstate = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] tp_s, seed, "
-              "earth, "
-              "[[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, size_m, gamma, whitecaps, "
+              "[[sea.maps]], earth, [[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, "
+              "size_m, gamma, map_set, whitecaps, "
               "beaufort, fetch_km, resolution, tiling, loop_s, douglas, choppiness, gravity_mps2, "
               "amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
