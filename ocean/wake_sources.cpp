@@ -17,7 +17,8 @@ constexpr double kTwoPi = 2.0 * kPi;
 // left after so many times sqrt(radius / g) are small.
 constexpr double kRingFades = 50.0, kRingEnds = 90.0;
 constexpr double kRingWindow = 64.0;  // in radii, up to the next power of two
-constexpr double kGust_s = 0.4;       // between a rotor's
+constexpr double kGust_s = 0.4;       // between a rotor's, at least
+constexpr double kMostGusts = 48.0;   // of a rotor that are seen at a time
 
 double ring_time_s(double radius_m, double gravity_mps2) {
   return std::sqrt(radius_m / gravity_mps2);
@@ -61,24 +62,25 @@ void add_ring(const TimedRing& ring, double gravity_mps2, double t_s, WakeFrame&
 void add_gusts(const Disturbance& rotor, double gravity_mps2, double t_s, WakeFrame& frame) {
   const double radius_m = 0.4 * rotor.radius_m;
   const double seen_s = kRingEnds * ring_time_s(radius_m, gravity_mps2);
+  const double gust_s = std::max(kGust_s, seen_s / kMostGusts);
   const double last_s = std::min(t_s - rotor.t_s, rotor.duration_s);
   const double first_s = std::max(t_s - rotor.t_s - seen_s, 0.0);
   const auto seed = static_cast<std::uint64_t>(std::llround(64.0 * rotor.position_m.x)) ^
                     static_cast<std::uint64_t>(std::llround(64.0 * rotor.position_m.y)) << 32;
-  for (double n = std::ceil(first_s / kGust_s); n * kGust_s <= last_s; n += 1.0) {
+  for (double n = std::ceil(first_s / gust_s); n * gust_s <= last_s; n += 1.0) {
     const auto counter = 3 * static_cast<std::uint64_t>(n);
     const double out_m = rotor.radius_m * std::sqrt(random_uniform(seed, counter));
     const SinCos turn = sin_cos_turns(random_uniform(seed, counter + 1));
     const double height = 2.0 * random_uniform(seed, counter + 2) - 1.0;
-    add_ring({rotor.t_s + n * kGust_s, rotor.position_m + out_m * glm::dvec2(turn.sin, turn.cos),
-              radius_m, height * rotor.height_m},
+    add_ring({rotor.t_s + n * gust_s, rotor.position_m + out_m * glm::dvec2(turn.sin, turn.cos),
+              rotor.position_m, radius_m, height * rotor.height_m},
              gravity_mps2, t_s, frame);
   }
 }
 
 void add_rings(const Disturbance& d, double gravity_mps2, double t_s, WakeFrame& frame) {
   const auto ring = [&](double radius_m, double height_m) {
-    add_ring({d.t_s, d.position_m, radius_m, height_m}, gravity_mps2, t_s, frame);
+    add_ring({d.t_s, d.position_m, d.position_m, radius_m, height_m}, gravity_mps2, t_s, frame);
   };
   switch (d.kind) {
     case DisturbanceKind::kDrop:
@@ -139,7 +141,7 @@ RingSquare square_of(const TimedRing& ring) {
   double length_m = 1.0;
   while (length_m < kRingWindow * ring.radius_m) length_m *= 2.0;
   const double cell_m = 0.25 * length_m;
-  return {length_m, glm::floor(ring.p_world / cell_m) * cell_m + 0.5 * (cell_m - length_m)};
+  return {length_m, glm::floor(ring.home_m / cell_m) * cell_m + 0.5 * (cell_m - length_m)};
 }
 
 WakeWindow* ring_window(const TimedRing& ring, double gravity_mps2, WakeFrame& frame) {
