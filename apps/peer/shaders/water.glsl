@@ -2,7 +2,7 @@
 // each of the scene's maps.
 out vec4 colour;
 
-uniform float base_variance, short_variance, seen_slopes;
+uniform float base_variance, short_variance, seen_slopes, least_cos;
 uniform vec4 layer_place[LAYERS], layer_scale[LAYERS], layer_tiles[LAYERS];
 #if SINES > 0
 uniform vec4 sine_wave[SINES];  // cycles per metre along x and y, cycles under the eye, level lost
@@ -118,7 +118,13 @@ void main() {
   vec3 normal = normal_of(s.slope);
   float hides_nothing = max(seen_slopes * (fine_variance - s.variance), 0.0);
   float cos_eye = dot(normal, to_eye);
-  cos_eye = mix(cos_eye, seen_cosine(cos_eye, hides_nothing), min(5000.0 * hides_nothing, 1.0));
+  if (least_cos > 0.0) {
+    float least = least_cos / sqrt(1.0 - least_cos * least_cos);
+    normal = normalize(normal + max(least - cos_eye, 0.0) * to_eye);
+    cos_eye = dot(normal, to_eye);
+  } else {
+    cos_eye = mix(cos_eye, seen_cosine(cos_eye, hides_nothing), min(5000.0 * hides_nothing, 1.0));
+  }
   float cos_rough = sqrt(0.5 * s.variance + cos_eye * cos_eye + 0.006);
   float reflectance = fresnel(cos_rough, refraction_index);
   float r_z = 2.0 * cos_eye * normal.z - to_eye.z;
