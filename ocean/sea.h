@@ -15,6 +15,7 @@
 #include "ocean/map_layer.h"
 #include "ocean/patch_tiles.h"
 #include "ocean/spectrum.h"
+#include "ocean/wake_sources.h"
 
 namespace swell::ocean {
 
@@ -121,6 +122,7 @@ struct SeaFrame {
   // Of the spectrum, if it has waves, then of the maps; of either the longest first.
   std::vector<PatchFrame> patches;
   std::vector<SineFrame> sines;
+  WakeFrame wakes;                        // advance_wakes() fills it, not advance()
   std::vector<float> linear, fft_planes;  // working storage of advance()
 };
 

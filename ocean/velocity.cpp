@@ -8,6 +8,7 @@
 #include "ocean/patch_transforms.h"
 #include "ocean/patch_waves.h"
 #include "ocean/sea_state.h"
+#include "ocean/wakes.h"
 
 namespace swell::ocean {
 namespace {
@@ -76,6 +77,9 @@ void advance_velocity(const Sea& sea, const SeaFrame& frame, VelocityFrame& velo
                           velocity.z.patches[p], velocity.z.fft_planes, workers);
   }
   add_sines(state, frame, velocity);
+  advance_wake_velocity(frame.wakes, WakeField::kDriftX, velocity.x.wakes, workers);
+  advance_wake_velocity(frame.wakes, WakeField::kDriftY, velocity.y.wakes, workers);
+  advance_wake_velocity(frame.wakes, WakeField::kRise, velocity.z.wakes, workers);
 }
 
 void sample_velocities(const VelocityFrame& velocity, std::span<const glm::dvec2> p_world,

@@ -7,6 +7,7 @@
 #include "math/check.h"
 #include "ocean/coast_velocity.h"
 #include "ocean/sea_state.h"
+#include "ocean/wakes.h"
 
 namespace swell::ocean {
 namespace {
@@ -148,6 +149,51 @@ struct SeaWaves {
   }
 };
 
+// ---- Wakes
+
+// They fade with the sea's edge and, like its waves, in shallow water: of half a metre.
+struct WakeWaves {
+  const WaterParts& water;
+
+  void weigh(Points p, Room weight) const {
+    std::ranges::fill(weight, 1.0f);
+    SeaWaves{water, 0.3f}.weigh(p, weight);
+  }
+
+  void take_room(Points, Room) const {}
+
+  void add_heights(const SeaFrame& frame, Points p, Room, std::span<float> height_m) const {
+    if (frame.wakes.count == 0) return;
+    std::array<float, kChunk> z{}, weight;
+    add_wake_heights(frame.wakes, p, std::span(z).first(p.size()));
+    if (std::all_of(z.begin(), z.begin() + p.size(), [](float x) { return x == 0.0f; })) return;
+    weigh(p, std::span(weight).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) height_m[i] += z[i] * weight[i];
+  }
+
+  // The weight's own slope is left out.
+  void add_slopes(const SeaFrame& frame, Points p, Room, std::span<glm::vec2> slope) const {
+    if (frame.wakes.count == 0) return;
+    std::array<glm::vec2, kChunk> own{};
+    std::array<float, kChunk> weight;
+    add_wake_slopes(frame.wakes, p, std::span(own).first(p.size()));
+    weigh(p, std::span(weight).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i) slope[i] += own[i] * weight[i];
+  }
+
+  void add_velocities(const VelocityFrame& velocity, Points p, Room,
+                      std::span<glm::vec3> velocity_mps) const {
+    if (velocity.z.wakes.count == 0) return;
+    std::array<float, kChunk> x{}, y{}, z{}, weight;
+    add_wake_heights(velocity.x.wakes, p, std::span(x).first(p.size()));
+    add_wake_heights(velocity.y.wakes, p, std::span(y).first(p.size()));
+    add_wake_heights(velocity.z.wakes, p, std::span(z).first(p.size()));
+    weigh(p, std::span(weight).first(p.size()));
+    for (std::size_t i = 0; i < p.size(); ++i)
+      velocity_mps[i] += weight[i] * glm::vec3(x[i], y[i], z[i]);
+  }
+};
+
 // ---- All of them
 
 // Calls body(source) for each source, in the order in which they take their room.
@@ -155,6 +201,7 @@ template <class Body>
 void for_each_source(const WaterParts& water, const SeaWaves& sea, Body body) {
   if (water.coast) body(TrainWaves{water});
   body(sea);
+  body(WakeWaves{water});
 }
 
 // steepest: the sea's and the trains' own, and what the fading adds: the edge rises by 1.5 over a
@@ -167,13 +214,14 @@ WaterBounds bounds_of(const WaterParts& water) {
   const float trains_m = coast ? coast->trains.height_bound_m : 0.0f;
   const float trains_slope = coast ? coast->slope_bound() : 0.0f;
   WaterBounds bounds;
-  bounds.height_m = static_cast<float>(sea_m) + trains_m;
-  bounds.slope = static_cast<float>(sea_slope) + trains_slope;
+  bounds.height_m = static_cast<float>(sea_m) + trains_m + water.wakes.height_m;
+  bounds.slope = static_cast<float>(sea_slope) + trains_slope + water.wakes.slope;
   const double all_m = sea_m + static_cast<double>(trains_m);
   const glm::dvec2 limits_m = water.area.limits_m();
   const double rim_m = kEdgePart * std::min(limits_m.x, limits_m.y);
   const double shallow = water.land ? sea_m / (0.2 + sea.significant_height_m()) : 0.0;
   bounds.steepest = sea_slope + 2.0 * all_m * 1.5 / rim_m + shallow;
+  bounds.steepest += 2.0 * static_cast<double>(water.wakes.slope);
   bounds.mean_wavelength_m = sea.mean_wavelength_m();
   if (!coast) return bounds;
   bounds.steepest += static_cast<double>(trains_slope);

@@ -5,8 +5,8 @@
 // The sources, in the order in which they take their room:
 //   trains  the coast's, which know the sea floor; they leave the rest of their share
 //   sea     spectrum waves on patches and sines: in the room that is left, fading where the water
-//   is
-//           shallower than they are high
+//           is shallower than they are high
+//   wakes   of what disturbs the water (ocean/wakes.h), which are in the frame: they take no room
 // All fade to the mean level over the last tenth of an area that has an end.
 //
 // A source is a struct in water.cpp with these members, for up to kChunk points at a time:
@@ -24,6 +24,7 @@
 #include <span>
 
 #include "ocean/coast.h"
+#include "ocean/disturbance.h"
 #include "ocean/sea.h"
 #include "ocean/sea_area.h"
 #include "ocean/velocity.h"
@@ -37,6 +38,7 @@ struct WaterParts {
   SeaArea area = {};
   const terrain::HeightGrid* land = nullptr;  // and the sea floor; null: deep everywhere
   const CoastSea* coast = nullptr;            // null: no trains
+  WakeBounds wakes = {};                      // of all wakes that frames may have
 };
 
 // What the surface stays within, always and everywhere in practice (Sea::height_bound_m()).

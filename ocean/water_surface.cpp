@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/check.h"
+#include "ocean/wakes.h"
 
 namespace swell::ocean {
 namespace {
@@ -71,9 +72,11 @@ void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame
     std::array<float, kChunk> z, share;
     heights(p, std::span(z).first(p.size()));
     sample_whitecaps(whitecaps, p, std::span(z).first(p.size()), some);
-    if (!coast) continue;
-    sample_coast_share(*coast, p, std::span(share).first(p.size()));
-    for (std::size_t i = 0; i < p.size(); ++i) some[i] *= spectrum_weight(share[i]);
+    if (coast) {
+      sample_coast_share(*coast, p, std::span(share).first(p.size()));
+      for (std::size_t i = 0; i < p.size(); ++i) some[i] *= spectrum_weight(share[i]);
+    }
+    add_wake_foam(frame_->wakes, p, some);
   }
 }
 

@@ -60,8 +60,8 @@ class WaterSurface {
 
   // The part of the surface that the open sea's whitecaps hide, in [0, 1], as pictures have it in
   // the mean over foam's lace: near a coast less, by what the sea's waves leave to the trains,
-  // whose own foam is not counted. `whitecaps` is of the same sea and time, from
-  // advance_whitecaps().
+  // whose own foam is not counted. The foam of wakes is, where there is more of it. `whitecaps` is
+  // of the same sea and time, from advance_whitecaps().
   void foam(std::span<const glm::dvec2> p_world, const WhitecapFrame& whitecaps,
             std::span<float> foam) const;
 

@@ -50,6 +50,11 @@ void check_options(const FrameOptions& o) {
   SWELL_CHECK(o.lod_operations >= 0 && o.lod_ms >= 0.0 && o.lod_groups >= 1,
               "lod_operations={} lod_ms={} lod_groups={}", o.lod_operations, o.lod_ms,
               o.lod_groups);
+  if (!o.clip_plane) return;
+  const glm::dvec4& plane = *o.clip_plane;
+  const double length2 = glm::dot(glm::dvec3(plane), glm::dvec3(plane));
+  SWELL_CHECK(length2 > 0.0 && std::isfinite(length2) && std::isfinite(plane.w),
+              "clip_plane=({}, {}, {}, {})", plane.x, plane.y, plane.z, plane.w);
 }
 
 void check_labels(const FrameOptions& o, const View& view) {
@@ -107,12 +112,16 @@ std::array<RenderView*, 5> prepare_views(const World::State& world, const View& 
     reflection.kind = ViewKind::kReflection;
     refraction.kind = ViewKind::kRefraction;
     refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
+    refraction.paper_refraction = world.scene.water.refraction == scene::RefractionModel::kPaper;
     reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
   }
   const std::array views = {&ws.window, &ws.lookups.reflection.view, &ws.lookups.refraction.view,
                             &ws.wet_lookups.reflection.view, &ws.wet_lookups.refraction.view};
-  for (RenderView* const shown : views)
+  for (RenderView* const shown : views) {
     shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
+    shown->clip_plane = options.clip_plane;
+    shown->clip_margin_m = clip_margin_m(world.water_bounds().height_m);
+  }
   return views;
 }
 
@@ -131,7 +140,8 @@ void place_vertices(const World::State& world, const View& view, const FrameOpti
   displace(world, ws.sea, view, options, ws.meshes, views, run);
   ws.crossing.picture = Begins::kInAir;
   if (!options.without.has(Part::kUnderwater))
-    find_crossing(ws.meshes.water, view, eye, world.water_bounds().height_m, ws.crossing);
+    find_crossing(ws.meshes.water, view, eye, world.water_bounds(options.disturbances).height_m,
+                  ws.crossing);
   if (eye.submerged != (ws.crossing.picture == Begins::kInWater)) {
     eye.submerged = !eye.submerged;
     set_eye(eye, views);
@@ -216,7 +226,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   workers.run_both(
       [&] {
         stage(Stage::kSea, [&](const StageRun& run) {
-          advance_sea(world_state, t_s, options.without, ws.sea, run);
+          advance_sea(world_state, t_s, options.disturbances, options.without, ws.sea, run);
           advance_sky(world_state, mirrored, sky_m, options.without, ws.sky, run);
         });
       },
@@ -228,7 +238,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   const Light light = make_light(world_state, clouds, ws.sky);
   stage(Stage::kDisplace, [&](const StageRun& run) {
     place_vertices(world_state, drawn, options, views, ws, run);
-    const ShadowOptions shadows{light.sun_direction, options.without};
+    const ShadowOptions shadows{light.sun_direction, options.without, options.disturbances};
     find_shadow_casters(world_state, shadows, drawn, ws.meshes.objects, run);
     find_own_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
   });

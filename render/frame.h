@@ -91,6 +91,10 @@ struct FrameOptions {
   bool keep_linear = false;  // fill Target::linear
   // Samples a pixel where surfaces meet, 0, 4 or 8; below 0: the scene's. Labels do not change.
   int edge_samples = -1;
+  // (A, B, C, D) of a plane in the world: of all surfaces, in the window, the mirror and under
+  // water, only what lies where A x + B y + C z + D >= 0 is drawn. Finite, (A, B, C) not 0.
+  // Shadows, queries, and whether the eye is in water stay those of the whole world.
+  std::optional<glm::dvec4> clip_plane = {};
   PartSet without;  // leave these parts of the picture out
   LabelSet labels;  // fill these of Target::labels; not with picture_scale below 1
   // For the label of motion: the camera of the next frame, of the same size, and how much later it
@@ -101,6 +105,9 @@ struct FrameOptions {
   // unless scene::check_given_poses() passes them), and for the label of motion in the next one.
   // Read during the call only.
   std::span<const scene::GivenPose> poses = {}, next_poses = {};
+  // What disturbs the water besides the scene's own list: of its values (ocean/disturbance.h), with
+  // two points or more in a hull's path. Read during the call only.
+  std::span<const ocean::Disturbance> disturbances = {};
 };
 
 // The options with the scene's own numbers in place of zeros.

@@ -203,6 +203,21 @@ Fault fault_of_names(const Scene& scene) {
                         : fmt::format("the name of an object: \"{}\"", fmt::join(names, "\", \""))};
 }
 
+// What is wrong with a path of `key`.
+Fault fault_of_way(const std::vector<glm::dvec2>& path_m, bool closed, const std::string& key) {
+  const auto point = [&](std::size_t i) { return fmt::format("{}[{}]", key, i); };
+  for (std::size_t i = 1; i < path_m.size(); ++i)
+    if (glm::distance(path_m[i - 1], path_m[i]) < kShortestStretch_m)
+      return SceneFault{
+          point(i), fmt::format("[{}, {}]", path_m[i].x, path_m[i].y),
+          fmt::format("a point {} m or more from the one before", kShortestStretch_m)};
+  if (closed && path_m.size() >= 2 &&
+      glm::distance(path_m.front(), path_m.back()) < kShortestStretch_m)
+    return SceneFault{point(path_m.size() - 1), "a last point at the first",
+                      "a closed path that does not repeat it"};
+  return std::nullopt;
+}
+
 // Only a mesh has a file, and a path leads somewhere.
 Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
   for (std::size_t n = 0; n < objects.size(); ++n) {
@@ -215,18 +230,19 @@ Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
       return SceneFault{key("kind"), "\"mesh\" without a file", "a mesh with its file"};
     if (!is_mesh && !object.file.empty())
       return SceneFault{key("file"), "it of another kind than \"mesh\"", "files of meshes"};
-    for (std::size_t i = 1; i < object.path_m.size(); ++i)
-      if (glm::distance(object.path_m[i - 1], object.path_m[i]) < kShortestStretch_m)
-        return SceneFault{
-            key(fmt::format("path_m[{}]", i)),
-            fmt::format("[{}, {}]", object.path_m[i].x, object.path_m[i].y),
-            fmt::format("a point {} m or more from the one before", kShortestStretch_m)};
-    const bool ends_where_it_begins =
-        object.path_m.size() >= 2 &&
-        glm::distance(object.path_m.front(), object.path_m.back()) < kShortestStretch_m;
-    if (object.path_closed && ends_where_it_begins)
-      return SceneFault{key(fmt::format("path_m[{}]", object.path_m.size() - 1)),
-                        "a last point at the first", "a closed path that does not repeat it"};
+    if (Fault fault = fault_of_way(object.path_m, object.path_closed, key("path_m"))) return fault;
+  }
+  return std::nullopt;
+}
+
+// A hull has a path.
+Fault fault_of_disturbances(const std::vector<ocean::Disturbance>& disturbances) {
+  for (std::size_t n = 0; n < disturbances.size(); ++n) {
+    const ocean::Disturbance& d = disturbances[n];
+    const std::string key = fmt::format("{}[{}].", kDisturbancesKey, n);
+    if (d.kind == ocean::DisturbanceKind::kHull && d.path_m.size() < 2)
+      return SceneFault{key + "kind", "\"hull\" without a path_m", "a hull with its path"};
+    if (Fault fault = fault_of_way(d.path_m, d.path_closed, key + "path_m")) return fault;
   }
   return std::nullopt;
 }
@@ -256,6 +272,9 @@ std::optional<SceneFault> find_fault(const Scene& scene) {
     return fault;
   if (Fault fault = fault_of_tables(kObjectsKey, scene.objects, kMaxObjects, object_parameters()))
     return fault;
+  if (Fault fault = fault_of_tables(kDisturbancesKey, scene.disturbances, kMaxDisturbances,
+                                    disturbance_parameters()))
+    return fault;
   return find_disagreement(scene);
 }
 
@@ -264,6 +283,7 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_path(scene.camera.path)) return fault;
   if (Fault fault = fault_of_names(scene)) return fault;
   if (Fault fault = fault_of_objects(scene.objects)) return fault;
+  if (Fault fault = fault_of_disturbances(scene.disturbances)) return fault;
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
   if (Fault fault = fault_of_maps(scene.sea)) return fault;

@@ -72,6 +72,8 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::plain<bool>("path_closed", ParameterKind::kBoolean, SWELL_FIELD(path_closed),
                              "path_m goes on from its last point to the first, round and round; "
                              "false: the object stops at the last"),
+      ObjectRow::plain<bool>("wake", ParameterKind::kBoolean, SWELL_FIELD(wake),
+                             "a boat or sailboat that floats along path_m makes waves and foam"),
       size,
       ObjectRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
                        "where it points, clockwise from north"),
@@ -82,6 +84,9 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
                         "of its paint: 0.05 is polished, 1 matt"),
       ObjectRow::number("metalness", {0, 1}, SWELL_FIELD(metalness),
                         "of its paint: 1 mirrors in its colour and scatters nothing"),
+      ObjectRow::or_zero(ObjectRow::number("checker_m", {0.01, 100, "m"}, SWELL_FIELD(checker_m),
+                                           "side of squares on it, every second one nearly black; "
+                                           "0: none")),
       file,
       ObjectRow::choice("up", UpAxisName{},
                         "axis of the file that points up; auto: z of STL, else y"),

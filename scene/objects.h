@@ -62,10 +62,12 @@ struct FloatingObject {
   std::vector<glm::dvec2> path_m{};
   double speed_mps = 3.0;
   bool path_closed = true;  // from the last point on to the first; false: it stops at the last
+  bool wake = true;         // what floats along a path and is a boat makes one
 
   // Of what is painted.
   double roughness = 0.42;  // 0: mirrors, 1: matt
   double metalness = 0.0;
+  double checker_m = 0.0;  // side of its squares, every second one nearly black; 0: none
 
   // Of a mesh.
   std::string file{};

@@ -103,6 +103,7 @@ template std::string allowed_text(const Parameter<ocean::Swell>&);
 template std::string allowed_text(const Parameter<ocean::SineWave>&);
 template std::string allowed_text(const Parameter<ocean::MapLayer>&);
 template std::string allowed_text(const Parameter<FloatingObject>&);
+template std::string allowed_text(const Parameter<ocean::Disturbance>&);
 template std::string allowed_text(const Parameter<Waypoint>&);
 
 template <class Object>
@@ -134,6 +135,7 @@ template std::string toml_text(const Parameter<ocean::Swell>&, const ocean::Swel
 template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::SineWave&);
 template std::string toml_text(const Parameter<ocean::MapLayer>&, const ocean::MapLayer&);
 template std::string toml_text(const Parameter<FloatingObject>&, const FloatingObject&);
+template std::string toml_text(const Parameter<ocean::Disturbance>&, const ocean::Disturbance&);
 template std::string toml_text(const Parameter<Waypoint>&, const Waypoint&);
 
 }  // namespace swell::scene

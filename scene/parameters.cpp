@@ -55,6 +55,11 @@ struct WaterTypeName {
   auto& operator()(auto& scene) const { return scene.water.type; }
 };
 
+struct RefractionName {
+  static constexpr std::array<std::string_view, 2> words = {"exact", "paper"};
+  auto& operator()(auto& scene) const { return scene.water.refraction; }
+};
+
 struct BackSidesName {
   static constexpr std::array<std::string_view, 2> words = {"seen", "tilted"};
   auto& operator()(auto& scene) const { return scene.water.tilted_backs; }
@@ -250,7 +255,8 @@ Rows water_rows() {
                        "the sine of the angle at which the eye meets the water, 0.1 to 1; or the "
                        "place in the picture, in picture heights below the horizon"),
       SceneRow::number("water.lookup_scale", {0.1, 1}, SWELL_FIELD(water.lookup_scale),
-                       "size of the mirror and underwater pictures against the window"),
+                       "size of the mirror and underwater pictures against the window: 1 is full, "
+                       "0.5 half, 0.25 a quarter"),
       SceneRow::number("water.bump_strength", {0, 10}, SWELL_FIELD(water.bump_strength),
                        "of the ripples"),
       SceneRow::number("water.uv_noise_amplitude_m", {0, 10, "m"},
@@ -270,6 +276,14 @@ Rows water_rows() {
       SceneRow::number("water.glitter_distortion", {0, 10, "rad"},
                        SWELL_FIELD(water.glitter_distortion),
                        "Cp: how far a slope moves that picture"),
+      SceneRow::choice("water.refraction", RefractionName{},
+                       "where things under water appear from above: by Snell's law, or by two "
+                       "straight lines for apparent over true depth, 0.75 - 0.16 theta up to 0.8 "
+                       "rad of the ray in air, 1.26 - 0.8 theta from there"),
+      SceneRow::optional_number("water.reflection_weight", {0, 1},
+                                SWELL_FIELD(water.reflection_weight),
+                                "of mirrored against sunken things, seen from above: one number "
+                                "for all angles in place of Fresnel's reflectance"),
       SceneRow::integer("detail.water_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
@@ -385,6 +399,10 @@ Rows terrain_rows() {
                        "side of the terrain along coast_m"),
       SceneRow::integer("terrain.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(terrain->seed),
                         "another number, another island or other dunes"),
+      SceneRow::or_zero(SceneRow::number("terrain.checker_m", {0.01, 1000, "m"},
+                                         SWELL_FIELD(terrain->checker_m),
+                                         "side of white and black squares in place of the "
+                                         "ground's colours; 0: none")),
   };
 }
 

@@ -68,12 +68,15 @@ std::vector<Parameter<Waypoint>> waypoint_parameters();
 // Keys of one table of [[object]].
 std::vector<Parameter<FloatingObject>> object_parameters();
 
-inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 2000;
+// Keys of one table of [[disturbance]].
+std::vector<Parameter<ocean::Disturbance>> disturbance_parameters();
+
+inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 2000, kMaxDisturbances = 256;
 inline constexpr int kMaxCoastPoints = 200, kMaxPathPoints = 100;
 inline constexpr std::size_t kMaxTextBytes = 200;
 inline constexpr std::string_view kSwellKey = "sea.swell", kSinesKey = "sea.sines",
                                   kMapsKey = "sea.maps", kPathKey = "camera.path",
-                                  kObjectsKey = "object";
+                                  kObjectsKey = "object", kDisturbancesKey = "disturbance";
 
 // A key that may be without a value, and one whose place it takes: a file has only one of them.
 struct Replacement {

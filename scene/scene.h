@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ocean/disturbance.h"
 #include "ocean/sea.h"
 #include "ocean/sea_area.h"
 #include "scene/camera.h"
@@ -58,6 +59,12 @@ enum class Glitter : std::uint8_t {
   kProjective,  // by a picture that the mirrored sun throws on the water
 };
 
+// Where what lies under water appears to an eye above it.
+enum class RefractionModel : std::uint8_t {
+  kExact,  // by Snell's law
+  kPaper,  // by two straight lines (render/view/refracted_image.h)
+};
+
 struct WaterOptics {
   double refraction_index = 1.333;
   WaterType type = WaterType::kNone;
@@ -73,9 +80,11 @@ struct WaterOptics {
   // Back sides of waves that nothing hides: drawn as those of the slopes that are seen there, or
   // with normals tilted to the eye.
   bool tilted_backs = false;
-  double caustic_distortion = 0.0;   // Cc: by how much ripples move it, in metres
+  double caustic_distortion = 0.0;  // Cc: by how much ripples move it, in metres
   Glitter glitter = Glitter::kSlopes;
   double glitter_distortion = 2.0;  // Cp of the projected glitter, in radians
+  RefractionModel refraction = RefractionModel::kExact;
+  std::optional<double> reflection_weight;  // of what it mirrors, [0, 1]; none: Fresnel's
 };
 
 // How waves too short for the wave patches are made.
@@ -166,8 +175,12 @@ struct Scene {
   Detail detail;
   Picture picture;
   std::optional<TerrainDescription> terrain;
-  std::vector<FloatingObject> objects;  // at most 2000
+  std::vector<FloatingObject> objects;           // at most 2000
+  std::vector<ocean::Disturbance> disturbances;  // at most 256, besides the wakes of objects
 };
+
+// The scene's disturbances, then the hulls of its objects that make wakes.
+std::vector<ocean::Disturbance> all_disturbances(const Scene& scene);
 
 // Reads and checks a scene file. Relative image paths are relative to the scene file's folder.
 // Throws SceneError for: missing file, TOML syntax, unknown key (with those of its table),

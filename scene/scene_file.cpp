@@ -84,7 +84,8 @@ class Reader {
         sine_parameters_(sine_parameters()),
         map_parameters_(map_parameters()),
         waypoint_parameters_(waypoint_parameters()),
-        object_parameters_(object_parameters()) {}
+        object_parameters_(object_parameters()),
+        disturbance_parameters_(disturbance_parameters()) {}
 
   Scene read(const toml::table& root) {
     scene_.name = file_.stem().string();
@@ -135,6 +136,9 @@ class Reader {
         read_tables(*node, kMapsKey, ocean::kMaxPatches, map_parameters_, scene_.sea.maps);
       } else if (path == kObjectsKey) {
         read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
+      } else if (path == kDisturbancesKey) {
+        read_tables(*node, kDisturbancesKey, kMaxDisturbances, disturbance_parameters_,
+                    scene_.disturbances);
       } else if (path == kPathKey) {
         read_tables(*node, kPathKey, kMaxWaypoints, waypoint_parameters_, scene_.camera.path);
       } else if (is_section(path)) {
@@ -470,6 +474,7 @@ class Reader {
     add_tables(kMapsKey, map_parameters_);
     add_tables(kPathKey, waypoint_parameters_);
     add_tables(kObjectsKey, object_parameters_);
+    add_tables(kDisturbancesKey, disturbance_parameters_);
     std::ranges::stable_sort(known, {}, &Known::unlikeness);
     std::vector<std::string> texts;
     for (Known& one : known) texts.push_back(std::move(one.text));
@@ -483,6 +488,7 @@ class Reader {
   std::vector<Parameter<ocean::MapLayer>> map_parameters_;
   std::vector<Parameter<Waypoint>> waypoint_parameters_;
   std::vector<Parameter<FloatingObject>> object_parameters_;
+  std::vector<Parameter<ocean::Disturbance>> disturbance_parameters_;
   Scene scene_;
   std::map<std::string, Place> given_;  // where the file has the keys that it has
 };

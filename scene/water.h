@@ -23,6 +23,7 @@
 
 #include "math/parallel.h"
 #include "ocean/coast.h"
+#include "ocean/disturbance.h"
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
 #include "scene/scene.h"
@@ -39,8 +40,10 @@ class Water {
   // Throws SceneError (a value out of its range) or texture::FileError (a height image).
   explicit Water(const Scene& scene);
 
-  // Fills `frame` with the sea at any finite time, past or to come, and looks at it.
-  WaterSurface at(double t_s, ocean::SeaFrame& frame, Workers& workers) const;
+  // Fills `frame` with the sea at any finite time, past or to come, and looks at it. `more`
+  // disturbs the water besides what the scene has, in this frame.
+  WaterSurface at(double t_s, ocean::SeaFrame& frame, Workers& workers,
+                  std::span<const ocean::Disturbance> more = {}) const;
 
   const ocean::Sea& sea() const { return sea_; }
   const terrain::HeightGrid* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
@@ -51,6 +54,7 @@ class Water {
   SeaArea area_;
   std::optional<terrain::HeightGrid> terrain_;
   std::optional<ocean::CoastSea> coast_;
+  std::vector<ocean::Disturbance> disturbances_;
 };
 
 }  // namespace swell::scene

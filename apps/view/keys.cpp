@@ -42,6 +42,7 @@ std::span<const KeyHelp> key_help() {
       KeyHelp{"Shift", "fast"},
       KeyHelp{"right button held", "look around"},
       KeyHelp{"left click", "look around until Esc"},
+      KeyHelp{"middle button", "drop a stone into the water"},
       KeyHelp{"R", "back to the scene's camera"},
       KeyHelp{"C", "copy the camera as TOML"},
       KeyHelp{"P", "pause"},

@@ -122,6 +122,8 @@ void Viewer::handle_mouse(const SDL_Event& event) {
   const bool is_left = event.button.button == SDL_BUTTON_LEFT;
   if (event.type == SDL_MOUSEBUTTONUP) {
     if (is_right && capture_ends_with_button_) capture_mouse(false);
+  } else if (event.button.button == SDL_BUTTON_MIDDLE) {
+    drop_stone();
   } else if ((is_right || is_left) && !mouse_captured_ && !gui_.wants_mouse()) {
     capture_mouse(true);
     capture_ends_with_button_ = is_right;
@@ -288,6 +290,7 @@ const render::FrameOptions& Viewer::next_options() {
   governor_.set_budget_ms(panel_.budget_ms);
   governor_.set_full_quality(panel_.frame);
   options_ = panel_.governed ? governor_.options() : panel_.frame;
+  options_.disturbances = stones_;
   ask_for_label(options_);
   report_.governor = governor_.report();
   report_.picture_scale = options_.picture_scale;
@@ -325,6 +328,7 @@ void Viewer::name_label() {
 render::Target Viewer::full_picture() {
   render::FrameOptions options = panel_.frame;
   options.lod_ms = 0.0;  // of refining
+  options.disturbances = stones_;
   ask_for_label(options);
   render::Workspace workspace;
   render::Target picture;
@@ -339,6 +343,19 @@ void Viewer::pick_under_pointer() {
   if (!pointer_ || mouse_captured_ || gui_.wants_mouse()) return;
   const glm::vec2 pixel = *pointer_ * window_.pixels_per_unit() + 0.5f;
   report_.pick = render::pick(*world_, picture_view_, workspace_, pixel, pick_scratch_);
+}
+
+// Where the pointer is on the water, now; the first of too many is forgotten.
+void Viewer::drop_stone() {
+  constexpr std::size_t kMostStones = 32;
+  if (!report_.pick || report_.pick->what != render::Shown::kWater) return;
+  if (stones_.size() == kMostStones) stones_.erase(stones_.begin());
+  ocean::Disturbance stone;
+  stone.position_m = glm::dvec2(report_.pick->p_world);
+  stone.t_s = clock_.t_s;
+  stone.radius_m = 0.3;
+  stone.height_m = -0.15;
+  stones_.push_back(stone);
 }
 
 double Viewer::time_since_last_frame_s() {

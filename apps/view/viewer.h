@@ -57,6 +57,7 @@ class Viewer {
   const SimClock& clock() const { return clock_; }
   const PanelSettings& panel() const { return panel_; }
   const PanelReport& report() const { return report_; }
+  std::size_t stones() const { return stones_.size(); }
   double picture_time_s() const { return picture_time_s_; }
   int frames_drawn() const { return frames_drawn_; }
   bool has_own_camera() const { return pose_.has_value(); }
@@ -94,6 +95,7 @@ class Viewer {
   void ask_for_label(render::FrameOptions& options);
   void name_label();
   void pick_under_pointer();
+  void drop_stone();
   void wait_for_refresh() const;
 
   scene::Scene scene_;  // as loaded
@@ -110,6 +112,7 @@ class Viewer {
   bool shows_label_ = false;  // of the last frame
   render::Governor governor_;
   render::PickScratch pick_scratch_;
+  std::vector<ocean::Disturbance> stones_;  // thrown into the water
 
   SimClock clock_;
   HeldKeys held_;

@@ -117,8 +117,8 @@ ObjectMotion motion_of(const scene::ObjectPose& now, const scene::ObjectPose& ne
 void fill_motion(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
   const View& now = in.window.camera;
   tables.camera = camera_motion(now, in.options.next_view.value_or(now));
-  ocean::advance(*in.world.sea, in.t_s + in.options.next_frame_s, tables.next_sea, run.workers,
-                 !in.options.without.has(Part::kCrests));
+  advance_waves(in.world, in.t_s + in.options.next_frame_s, in.options.disturbances,
+                in.options.without, tables.next_sea, run.workers);
   fill_rise(in, tables, run);
 
   const std::vector<scene::ObjectPose>& poses = in.meshes.objects.poses;

@@ -116,6 +116,12 @@ glm::vec3 mirrored_sea(const MaterialInputs& in, float reflectance) {
   return glm::min(glm::mix(in.media.body, in.light.ambient, reflectance), in.light.horizon);
 }
 
+// How high crests are that light shines through.
+float crest_height_m(const World::State& world) {
+  const auto sea_m = static_cast<float>(world.sea->significant_height_m());
+  return std::max({sea_m, world.water().wakes.height_m, 0.1f});
+}
+
 void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   const float variance = slope_variance(in, water);
   const float cosine = std::min(std::sqrt(variance), 1.0f);
@@ -126,13 +132,13 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
   water.least_cos = in.world.scene.water.tilted_backs ? kLeastCos : 0.0f;
   water.wave_horizon = wave_horizon(variance);
-  water.glitter_light =
-      in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
+  water.glitter_light = in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
-  water.inv_crest_height =
-      1.0f / std::max(static_cast<float>(in.world.sea->significant_height_m()), 0.1f);
+  water.inv_crest_height = 1.0f / crest_height_m(in.world);
   water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
   water.submerged = in.media.submerged;
+  water.reflection_weight =
+      static_cast<float>(in.world.scene.water.reflection_weight.value_or(-1.0));
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
@@ -156,6 +162,7 @@ void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
   water.foam = make_foam(in, eye);
   water.hull_foam = make_foam(in, eye, kHullFoamPeriod_m);
   water.whitecaps = make_whitecaps(in, eye);
+  water.wakes = make_wakes(in, water.whitecaps, eye);
   water.glitter = make_glitter(in);
   fill_optics(in, view.camera, water);
 }

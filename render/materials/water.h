@@ -9,12 +9,16 @@
 #include "render/materials/glitter.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
+#include "render/materials/wakes.h"
 #include "render/materials/whitecaps.h"
 
 namespace swell::render {
 
 // The sea's patches and two layers of ripples.
 inline constexpr int kMaxSlopeLayers = static_cast<int>(ocean::kMaxPatches) + 2;
+
+// Slope variance of glass, which spreads the sun's disc to about twice its width, and no image.
+inline constexpr float kGlassVariance = 2e-5f;
 
 // A sine wave's slopes: amplitude_slope * cos(2 pi (cycles_per_m . p_rel + cycles)).
 struct SineLayer {
@@ -46,10 +50,12 @@ struct Water {
   SlopeLayer coast_slopes, coast_surf;
   Foam foam, hull_foam;
   Whitecaps whitecaps;
+  Wakes wakes;
   Glitter glitter;
 
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
   float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
+  float reflection_weight = -1.0f;   // of what it mirrors; below 0: Fresnel's
   float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
   glm::vec3 glitter_light{0.0f};     // of the sun, in its image
   glm::vec3 crest_glow{0.0f};        // added where light shines through crests

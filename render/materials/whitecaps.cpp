@@ -40,6 +40,12 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   for (int c = 0; c < 3; ++c)
     whitecaps.bubbles[c] = kBubblesAlbedo * static_cast<float>(exp(static_cast<double>(
                                                 -kBubblesDeep_m * in.media.absorption_per_m[c])));
+  // Lines of foam along the wind are seen from Beaufort 7 on, 13.9 m/s.
+  const double wind_mps = in.world.scene.sea.wind_speed_mps;
+  const double gale = smoothstep(11.0, 20.0, wind_mps);
+  whitecaps.eddies = make_lace(in, eye, kEddies_m, 1.0);
+  whitecaps.tears = make_lace(in, eye, kTears_m, 1.2 + 5.0 * gale);
+  whitecaps.lace = make_lace(in, eye, kLace_m, 1.0 + 1.5 * gale);
   const ocean::Whitecaps& sea = *in.world.whitecaps;
   if (in.without.has(Part::kWhitecaps) || sea.patches.empty()) return whitecaps;
   whitecaps.count = static_cast<int>(sea.patches.size());
@@ -58,12 +64,6 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   }
   whitecaps.least = std::min(0.01f, 0.5f * (1.0f - free));
   whitecaps.crest_per_m = sea.crest_per_m;
-  // Lines of foam along the wind are seen from Beaufort 7 on, 13.9 m/s.
-  const double wind_mps = in.world.scene.sea.wind_speed_mps;
-  const double gale = smoothstep(11.0, 20.0, wind_mps);
-  whitecaps.eddies = make_lace(in, eye, kEddies_m, 1.0);
-  whitecaps.tears = make_lace(in, eye, kTears_m, 1.2 + 5.0 * gale);
-  whitecaps.lace = make_lace(in, eye, kLace_m, 1.0 + 1.5 * gale);
   return whitecaps;
 }
 

@@ -136,8 +136,12 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   if constexpr (kView == ViewKind::kWindow) {
     const auto surfel = shade(s, tile, lanes, shown, found...);
     keep(lanes.at, surfel);
-    if (s.media.submerged)
-      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light);
+    if (s.media.submerged) {
+      const V shafts = ShaftsBefore(s, tile.box, tile.shafts, shown.x_px, shown.y_px,
+                                    hn::Neg(shown.to_eye.z), shown.distance);
+      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light,
+                                      shafts);
+    }
     const V3 light = Haze(s, shown, surfel.light);
     return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
   } else {
@@ -229,7 +233,7 @@ void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& 
                      ShadeScratch& scratch) {
   if (packets.count == 0) return;
   const int last_row = packets.at[packets.count - 1] / s.grid.tile_size_px;
-  const SkyLattice lattice = MakeSkyLattice(s, tile.box, last_row + 1, scratch.sky);
+  const SkyLattice lattice = MakeSkyLattice(s, tile.box, last_row + 1, tile.shafts, scratch.sky);
   for (std::size_t n = 0; n < packets.count; ++n) {
     const int i = packets.at[n], y = i / s.grid.tile_size_px, x = i % s.grid.tile_size_px;
     StoreSky(SkyOfPacket(s, tile.box, lattice, x, y), packets.at[n], scratch);
@@ -245,7 +249,7 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
   if (!tile.fragments.empty()) {
     const PixelList parts = ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch);
     const auto shade_sky = [&](const std::array<ListedPacket, 1>& listed) HWY_ATTR {
-      return std::array{ShadeSky(s, listed[0].x_px, listed[0].y_px)};
+      return std::array{ShadeSky(s, tile.box, tile.shafts, listed[0].x_px, listed[0].y_px)};
     };
     ShadeList<1>(FragmentsInTile{tile.fragments, parts, scratch}, shade_sky);
   }
@@ -257,12 +261,15 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
 TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scratch) {
   for (std::size_t n = 0; n < input.fragments.size(); ++n)
     scratch.fragment_primitive[n] = input.fragments[n].primitive;
-  return {raster::tile_box(s.viewport, s.grid, input.tile),
+  const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, input.tile);
+  const auto casters = s.sun_shadow.casters.of_tile(input.tile);
+  return {box,
           input.depth.data(),
           input.primitive.data(),
           input.fragments,
           input.lookups,
-          s.sun_shadow.casters.of_tile(input.tile)};
+          casters,
+          FindShafts(s, box, casters, scratch.shafts)};
 }
 
 int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -279,7 +286,9 @@ int ShadeLabelledTile(const Shading& s, const TileInput& input, ShadeScratch& sc
 void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
                   float* linear) {
   const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, tile);
-  const SkyLattice lattice = MakeSkyLattice(s, box, box.height_px, scratch.sky);
+  const std::int32_t* const shafts =
+      FindShafts(s, box, s.sun_shadow.casters.of_tile(tile), scratch.shafts);
+  const SkyLattice lattice = MakeSkyLattice(s, box, box.height_px, shafts, scratch.sky);
   for (int y = 0; y < box.height_px; ++y)
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
       StoreSky(SkyOfPacket(s, box, lattice, x, y),

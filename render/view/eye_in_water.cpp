@@ -13,7 +13,7 @@ EyeInWater find_eye_in_water(const World::State& world, const SeaMaps& sea, cons
   const double eye_z = view.eye_world.z;
   double surface_m = 0.0;
   if (world.scene.detail.triangulation != scene::Triangulation::kPlane &&
-      std::abs(eye_z) < static_cast<double>(world.water_bounds().height_m))
+      std::abs(eye_z) < static_cast<double>(world.water_bounds(options.disturbances).height_m))
     surface_m = static_cast<double>(water_surface(world, sea).height(glm::dvec2(view.eye_world)));
   EyeInWater eye;
   const bool in_air = options.without.has(Part::kUnderwater) || options.without.has(Part::kWater);

@@ -17,6 +17,7 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
 struct ShadowOptions {
   glm::vec3 sun_direction{0.0f, 0.0f, 1.0f};  // unit; below the horizon it casts no shadows
   PartSet without;
+  std::span<const ocean::Disturbance> disturbances = {};  // besides the world's
 };
 
 // Sets objects.shadows: all objects that may tell on what the view shows, in front of it or not, at

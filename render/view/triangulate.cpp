@@ -170,7 +170,7 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
   find_focuses(wanted, water.focuses);
   switch (detail.triangulation) {
     case scene::Triangulation::kRoam: {
-      const ocean::WaterBounds bounds = wanted.world.water_bounds();
+      const ocean::WaterBounds bounds = wanted.world.water_bounds(wanted.options.disturbances);
       lod::AdaptRequest request = request_for(wanted, budget, -bounds.height_m, bounds.height_m);
       request.max_slope = bounds.slope;
       if (bounds.mean_wavelength_m > 0.0) request.largest_size_m = 0.5 * bounds.mean_wavelength_m;

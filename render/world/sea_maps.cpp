@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ocean/sea_state.h"
+#include "ocean/wakes.h"
 
 namespace swell::render {
 namespace {
@@ -54,6 +55,14 @@ void pack_foam(const ocean::WhitecapFrame::Patch& patch, float past, std::vector
   texture::pack_map1(ocean::kFoamMapSize, values, map);
 }
 
+void pack_wake(const ocean::WakeWindow& window, std::vector<float>& values,
+               texture::PackedMap2& slopes, texture::PackedMap1& foam) {
+  texture::pack_map2(ocean::kWakeSamples, window.slope_x, window.slope_y, 0.0f, slopes);
+  values.resize(window.foam.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 2.0f * window.foam[i] - 1.0f;
+  texture::pack_map1(ocean::kWakeSamples, values, foam);
+}
+
 void leave_out_maps(const ocean::Sea& waves, ocean::SeaFrame& frame) {
   frame.patches.resize(waves.state().patches.size());
 }
@@ -65,12 +74,22 @@ void leave_out_tiles(SeaMaps& sea) {
 
 }  // namespace
 
-void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
-                 const StageRun& run) {
-  ocean::advance(*world.sea, t_s, sea.frame, run.workers, !without.has(Part::kCrests));
+void advance_waves(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+                   PartSet without, ocean::SeaFrame& frame, Workers& workers) {
+  ocean::advance(*world.sea, t_s, frame, workers, !without.has(Part::kCrests));
+  frame.wakes.count = 0;
+  if (!without.has(Part::kWakes))
+    ocean::advance_wakes(world.disturbances, more, world.scene.sea.gravity_mps2, t_s, frame.wakes,
+                         workers);
+}
+
+void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+                 PartSet without, SeaMaps& sea, const StageRun& run) {
+  advance_waves(world, t_s, more, without, sea.frame, run.workers);
   if (without.has(Part::kMaps)) leave_out_maps(*world.sea, sea.frame);
   if (without.has(Part::kWater)) {  // things lie on the waves all the same
     sea.caustics.patches = 0;
+    sea.caustics.throws_up = false;
     return;
   }
   const bool has_foam = !without.has(Part::kWhitecaps);
@@ -79,18 +98,27 @@ void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps
   const bool has_coast = world.coast != nullptr;
   if (has_coast) bake_coast(world, t_s, sea, run.workers);
   const std::size_t caustics = trace_caustics(world, sea.frame, without, sea.caustics, run);
-  // Make the maps that shading looks into: the caustics, the foam's, the waves', the noise's, the
-  // coast's, the ripples'.
+  // Make the maps that shading looks into: the caustics, the wakes', the foam's, the waves', the
+  // noise's, the coast's, the ripples'.
   const std::size_t foams = has_foam ? sea.whitecaps.patches.size() : 0;
   const std::size_t patches = sea.frame.patches.size(), noise = foams + patches;
   sea.foam.resize(foams);
   sea.foam_values.resize(foams);
   sea.patch_slopes.resize(patches);
+  const std::size_t wakes = sea.frame.wakes.count;
+  sea.wake_slopes.resize(std::max(sea.wake_slopes.size(), wakes));
+  sea.wake_foam.resize(sea.wake_slopes.size());
+  sea.wake_values.resize(sea.wake_slopes.size());
   const bool has_sequence = world.ripple_sequence && !without.has(Part::kSequence);
   const std::size_t ripples = noise + (has_coast ? 3 : 1);
-  run.for_each(caustics + ripples + (has_sequence ? 1 : 0), [&](std::size_t job, int) {
+  run.for_each(caustics + wakes + ripples + (has_sequence ? 1 : 0), [&](std::size_t job, int) {
     if (job < caustics) return make_caustic_map(sea.caustics, job);
-    const std::size_t i = job - caustics;
+    if (job < caustics + wakes) {
+      const std::size_t w = job - caustics;
+      return pack_wake(sea.frame.wakes.windows[w], sea.wake_values[w], sea.wake_slopes[w],
+                       sea.wake_foam[w]);
+    }
+    const std::size_t i = job - caustics - wakes;
     if (i < foams)
       pack_foam(sea.whitecaps.patches[i], sea.whitecaps.past, sea.foam_values[i], sea.foam[i]);
     else if (i < noise)

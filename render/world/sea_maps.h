@@ -23,16 +23,24 @@ struct SeaMaps {
   texture::PackedMap2 coast_slopes, coast_surf;  // slopes of the trains; ceded, foam
   RippleMaps ripples;                            // of a sequence
   CausticMaps caustics;                          // the sun under water
+  std::vector<texture::PackedMap2> wake_slopes;  // one a window of wakes
+  std::vector<texture::PackedMap1> wake_foam;    // the same, as 2 foam - 1
   // Storage.
   texture::UvNoise noise{{}};
   std::vector<float> noise_cos, noise_sin;
   std::vector<float> coast_slope_x, coast_slope_y, coast_foam;
   std::vector<std::vector<float>> foam_values;  // one a patch
+  std::vector<std::vector<float>> wake_values;  // one a window
 };
 
+// Fills `frame` with the world's waves at t_s and those of what disturbs the water besides, as
+// pictures without these parts have them.
+void advance_waves(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+                   PartSet without, ocean::SeaFrame& frame, Workers& workers);
+
 // Fills `sea` with the world's sea at time t_s, as far as pictures without these parts need it.
-void advance_sea(const World::State& world, double t_s, PartSet without, SeaMaps& sea,
-                 const StageRun& run);
+void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+                 PartSet without, SeaMaps& sea, const StageRun& run);
 
 // The water's surface at the time of `sea`, of the same world.
 inline ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {

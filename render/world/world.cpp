@@ -154,6 +154,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   add_land_shadow(if_alike(same_terrain && same_water), workers, *state);
   state->objects = build_object_meshes(state->scene, like);
   state->object_classes = object_classes(now);
+  state->disturbances = scene::all_disturbances(now);
   return state;
 }
 

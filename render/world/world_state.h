@@ -126,9 +126,18 @@ struct World::State {
   // What is on the sea.
   ObjectMeshes objects = {};
   std::vector<std::uint32_t> object_classes = {};  // of labelled pictures
+  // What disturbs the water: the scene's list and its objects' hulls.
+  std::vector<ocean::Disturbance> disturbances = {};
 
-  ocean::WaterParts water() const { return {sea.get(), scene.area, terrain.get(), coast.get()}; }
-  ocean::WaterBounds water_bounds() const { return ocean::WaterBody(water()).bounds(); }
+  // more: what disturbs the water besides.
+  ocean::WaterParts water(std::span<const ocean::Disturbance> more = {}) const {
+    ocean::WakeBounds wakes = ocean::wake_bounds(disturbances, scene.sea.gravity_mps2);
+    wakes.include(ocean::wake_bounds(more, scene.sea.gravity_mps2));
+    return {sea.get(), scene.area, terrain.get(), coast.get(), wakes};
+  }
+  ocean::WaterBounds water_bounds(std::span<const ocean::Disturbance> more = {}) const {
+    return ocean::WaterBody(water(more)).bounds();
+  }
 
   // As pictures have it (math/earth.h): infinity if flat. Two triangles cannot bend.
   double earth_radius_m(PartSet without) const {

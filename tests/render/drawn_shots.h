@@ -15,8 +15,9 @@ namespace swell::render {
 // The scene of that name; "_radial" after it: with the radial grid, "_plane": with the plane.
 inline scene::Scene load_shipped(const std::string& name) {
   const std::size_t end = std::min(name.find("_radial"), name.find("_plane"));
-  scene::Scene scene =
-      scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/scenes/" + name.substr(0, end) + ".toml");
+  std::string file = SWELL_SOURCE_DIR "/scenes/";
+  file.append(name, 0, end).append(".toml");
+  scene::Scene scene = scene::load_scene(file);
   if (name.ends_with("_radial")) scene.detail.triangulation = scene::Triangulation::kRadial;
   if (name.ends_with("_plane")) scene.detail.triangulation = scene::Triangulation::kPlane;
   return scene;

@@ -109,6 +109,8 @@ TEST(CheckScene, NamesEveryKeyOfTablesOutsideItsRange) {
                [](Scene& scene, const auto& map) { scene.sea.maps.push_back(map); });
   expect_named(kObjectsKey, object_parameters(),
                [](Scene& scene, const auto& object) { scene.objects.push_back(object); });
+  expect_named(kDisturbancesKey, disturbance_parameters(),
+               [](Scene& scene, const auto& d) { scene.disturbances.push_back(d); });
   expect_named(kPathKey, waypoint_parameters(),
                [](Scene& scene, const auto& waypoint) { scene.camera.path.push_back(waypoint); });
 }

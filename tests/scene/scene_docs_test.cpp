@@ -57,6 +57,9 @@ std::string tables() {
   text += head(fmt::format("[[{}]]", kObjectsKey));
   for (const auto& parameter : object_parameters())
     text += row(parameter, parameter.key, FloatingObject{});
+  text += head(fmt::format("[[{}]]", kDisturbancesKey));
+  for (const auto& parameter : disturbance_parameters())
+    text += row(parameter, parameter.key, ocean::Disturbance{});
   text += head(fmt::format("[[{}]]", kPathKey));
   for (const auto& parameter : waypoint_parameters())
     text += row(parameter, parameter.key, Waypoint{});

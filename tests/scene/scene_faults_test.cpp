@@ -181,6 +181,18 @@ INSTANTIATE_TEST_SUITE_P(
             "[coast]\nmodel = \"peachey\"\n",
             "test.toml:2: column 9: coast.model, got \"peachey\", allowed \"none\", \"trains\" or "
             "\"blend\""},
+        Fault{
+            "[[disturbance]]\nkind = \"hull\"\n",
+            "test.toml:2: column 8: disturbance[0].kind, got \"hull\" without a path_m, allowed a "
+            "hull with its path"},
+        Fault{"[[disturbance]]\nkind = \"splash\"\n",
+              "test.toml:2: column 8: disturbance[0].kind, got \"splash\", allowed \"drop\", "
+              "\"footstep\", \"hull\" or \"rotor\""},
+        Fault{"[[disturbance]]\nradius_m = 0\n",
+              "test.toml:2: column 12: disturbance[0].radius_m, got 0, allowed 0.02 to 50 m"},
+        Fault{"[[disturbance]]\nkind = \"hull\"\npath_m = [[0, 0], [9, 0],\n  [9, 0]]\n",
+              "test.toml:4: column 3: disturbance[0].path_m[2], got [9, 0], allowed a point 0.5 m "
+              "or more from the one before"},
         Fault{"[coast]\ntrains = 17\n",
               "test.toml:2: column 10: coast.trains, got 17, allowed an integer, 1 to 16"},
         Fault{"[coast]\ngrid_spacing_m = 0.4\n",
@@ -194,12 +206,10 @@ INSTANTIATE_TEST_SUITE_P(
               "fov_y_deg, roll_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, mount, focal_px, "
               "[[camera.path]], near_m, size_px, velocity_mps, mount_offset_m, quaternion, "
               "principal_px"},
-        Fault{
-            "[camrea]\nnear_m = 1\n",
-            "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
-            "[water], [[camera.path]], [sky], [picture], [coast], [wind], [[sea.maps]], [ripples], "
-            "[terrain], "
-            "[[sea.swell]], [[sea.sines]], [detail], [[object]]"},
+        Fault{"[camrea]\nnear_m = 1\n",
+              "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
+              "[water], [[camera.path]], [sky], [picture], [coast], [wind], [ripples], [terrain], "
+              "[[sea.swell]], [[sea.sines]], [detail], [[object]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
               "speed_mps, from_deg"},
@@ -209,11 +219,12 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "[[object]]\ncolor = [1, 0, 0]\n",
             "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
-            "motion, file, up, scale, class, kind, top_mark, name, position_m, path_m, size_m, "
+            "motion, file, up, scale, class, kind, top_mark, name, checker_m, position_m, path_m, "
+            "size_m, "
             "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
-              "[sea], [water], [wind], [[sea.maps]], [picture], [ripples], [coast], [[sea.swell]], "
+              "[sea], [water], [wind], [picture], [ripples], [coast], [[sea.swell]], "
               "[[sea.sines]], [detail], "
               "[[object]], "
               "[terrain], [[camera.path]]"},
@@ -233,19 +244,18 @@ INSTANTIATE_TEST_SUITE_P(
               "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "
               "turn_deg_s, "
               "quaternion, focal_px, heading_deg, pitch_deg, mount_offset_m, principal_px"},
-        Fault{
-            "a.b = 3\n",
-            "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
-            "[coast], [camera], [wind], [detail], [terrain], [[sea.maps]], [[object]], [picture], "
-            "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]]"},
+        Fault{"a.b = 3\n",
+              "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
+              "[coast], [camera], [wind], [detail], [terrain], [[object]], [picture], "
+              "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
-        Fault{
-            "[terrain]\nheigth = 3\n",
-            "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
-            "height_image, high_m, seed, low_m, island_height_m, coast_m, centre_m, beach_size_m, "
-            "sea_level_m, floor_depth_m, beach_slope, metres_per_pixel, island_radius_m"}));
+        Fault{"[terrain]\nheigth = 3\n",
+              "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
+              "height_image, high_m, seed, low_m, island_height_m, coast_m, checker_m, centre_m, "
+              "beach_size_m, "
+              "sea_level_m, floor_depth_m, beach_slope, metres_per_pixel, island_radius_m"}));
 
 TEST(SceneFileFaults, AnUnknownKeyListsTheKeysOfItsTable) {
   std::set<std::string> tables;

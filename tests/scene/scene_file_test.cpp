@@ -108,6 +108,8 @@ lighting = "paper"
 frames = 32
 loop_s = 2.5
 length_m = 3
+refraction = "paper"
+reflection_weight = 0.5
 [coast]
 model = "trains"
 trains = 7
@@ -131,6 +133,7 @@ coast_m = [[-1, 2.5], [3, 4], [30, -4]]
 beach_slope = 0.05
 beach_size_m = 700
 seed = 99
+checker_m = 0.25
 )";
 
 TEST(SceneFile, EveryKeyReachesItsField) {
@@ -195,6 +198,8 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.ripples.frames, 32);
   EXPECT_EQ(scene.ripples.loop_s, 2.5);
   EXPECT_EQ(scene.ripples.length_m, 3.0);
+  EXPECT_EQ(scene.water.refraction, RefractionModel::kPaper);
+  EXPECT_EQ(scene.water.reflection_weight, 0.5);
   EXPECT_EQ(scene.coast.model, CoastModel::kTrains);
   EXPECT_EQ(scene.coast.trains, 7);
   EXPECT_FALSE(scene.coast.eikonal);

@@ -50,8 +50,10 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(path_m);
   SWELL_COMPARE(speed_mps);
   SWELL_COMPARE(path_closed);
+  SWELL_COMPARE(wake);
   SWELL_COMPARE(roughness);
   SWELL_COMPARE(metalness);
+  SWELL_COMPARE(checker_m);
   SWELL_COMPARE(file);
   SWELL_COMPARE(up);
   SWELL_COMPARE(scale);
@@ -80,6 +82,7 @@ void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, 
   SWELL_COMPARE(beach_slope);
   SWELL_COMPARE(beach_size_m);
   SWELL_COMPARE(seed);
+  SWELL_COMPARE(checker_m);
 }
 
 }  // namespace
@@ -161,6 +164,8 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(water.glitter);
   SWELL_COMPARE(water.glitter_distortion);
   SWELL_COMPARE(ripples);
+  SWELL_COMPARE(water.refraction);
+  SWELL_COMPARE(water.reflection_weight);
   SWELL_COMPARE(coast.model);
   SWELL_COMPARE(coast.trains);
   SWELL_COMPARE(coast.eikonal);
@@ -184,6 +189,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(objects.size());
   for (std::size_t i = 0; i < std::min(a.objects.size(), b.objects.size()); ++i)
     compare_objects(a.objects[i], b.objects[i], list);
+  SWELL_COMPARE(disturbances);
   SWELL_COMPARE(camera.path.size());
   for (std::size_t i = 0; i < std::min(a.camera.path.size(), b.camera.path.size()); ++i)
     compare_waypoints(a.camera.path[i], b.camera.path[i], list);

@@ -106,13 +106,29 @@ TEST_F(ViewerTest, ThePointerPicksTheWaterThatIsDrawnThere) {
   EXPECT_FALSE(viewer.report().pick);
 }
 
-void push_button_at(Uint32 type, int x, int y) {
+void push_button_at(Uint32 type, int x, int y, Uint8 button = SDL_BUTTON_LEFT) {
   SDL_Event event{};
   event.button.type = type;
-  event.button.button = SDL_BUTTON_LEFT;
+  event.button.button = button;
   event.button.x = x;
   event.button.y = y;
   SDL_PushEvent(&event);
+}
+
+TEST_F(ViewerTest, TheMiddleButtonDropsAStoneWhereThereIsWater) {
+  Viewer viewer(small_scene(), settings_of(1000000, {640, 400}));
+  viewer.turn();
+  for (const int y : {10, 390}) {  // the sky, the sea
+    push_pointer(600, y);
+    viewer.turn();
+    push_button_at(SDL_MOUSEBUTTONDOWN, 600, y, SDL_BUTTON_MIDDLE);
+    viewer.turn();
+  }
+  EXPECT_EQ(viewer.stones(), 1u);
+  viewer.turn();
+  const render::Target without =
+      headless_picture(small_scene(), viewer.picture_time_s(), 640, 400, {});
+  EXPECT_NE(viewer.picture().rgba, without.rgba);
 }
 
 // As remote desktops and tests do it: with no motion of a device before, so that SDL_GetMouseState

@@ -1,0 +1,221 @@
+#include "ocean/wakes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/check.h"
+#include "math/smoothstep.h"
+
+namespace swell::ocean {
+namespace {
+
+constexpr std::size_t kSide = kWakeSamples, kAll = kSide * kSide;
+
+// All windows' fields, as heights.
+void transform_windows(WakeField field, std::span<const WakeWindow> sources, WakeFrame& frame,
+                       Workers& workers) {
+  if (frame.plan.size == 0) frame.plan = make_fft_plan(kWakeSamples);
+  std::array<FftOutput, kMostWakeWindows> outputs;
+  for (std::size_t w = 0; w < frame.count; ++w) {
+    frame.windows[w].height_m.resize(kAll);
+    outputs[w] = {frame.windows[w].height_m.data(), nullptr};
+  }
+  inverse_fft_2d(
+      frame.plan,
+      [&](int transform, int column0, float* re, float* im) {
+        return fill_wake(sources[static_cast<std::size_t>(transform)], field, frame.plan, column0,
+                         re, im);
+      },
+      {outputs.data(), frame.count}, frame.fft_planes, workers);
+}
+
+// 1 in the middle, 0 at the first and the last sample.
+float rim(std::size_t i) {
+  constexpr float kWidth = kWakeRim * kWakeSamples;
+  const auto inside = static_cast<float>(std::min(i, kSide - 1 - i));
+  return smooth_blend(std::min(inside / kWidth, 1.0f));
+}
+
+void fade_row(std::size_t j, WakeWindow& window) {
+  const float row = rim(j), bound_m = window.bound_m;
+  for (std::size_t i = 0; i < kSide; ++i) {
+    float& z = window.height_m[j * kSide + i];
+    z = std::clamp(z * row * rim(i), -bound_m, bound_m);
+  }
+}
+
+// Differences over five samples: exact to 2 % for waves of eight samples. None at the border, where
+// there are no waves.
+void slope_row(std::size_t j, WakeWindow& window) {
+  const std::vector<float>& z = window.height_m;
+  const float near = static_cast<float>(2.0 / 3.0 * kWakeSamples / window.length_m);
+  const float far = -0.125f * near;
+  for (std::size_t i = 0; i < kSide; ++i) {
+    const std::size_t at = j * kSide + i;
+    float x = 0.0f, y = 0.0f;
+    if (i >= 2 && j >= 2 && i + 2 < kSide && j + 2 < kSide) {
+      x = near * (z[at + 1] - z[at - 1]) + far * (z[at + 2] - z[at - 2]);
+      y = near * (z[at + kSide] - z[at - kSide]) + far * (z[at + 2 * kSide] - z[at - 2 * kSide]);
+    }
+    window.slope_x[at] = std::clamp(x, -kMostWakeSlope, kMostWakeSlope);
+    window.slope_y[at] = std::clamp(y, -kMostWakeSlope, kMostWakeSlope);
+  }
+}
+
+// ---- Foam
+
+// Froude number of the hull.
+float froude(const WakeWindow& window) {
+  return window.hull.speed_mps / std::sqrt(window.gravity_mps2 * window.hull.length_m);
+}
+
+// The strip of turbulent water that a hull leaves: as wide as half the beam, wider with the fourth
+// root of the distance, less with its age.
+void add_strip(const WakeWindow& window, const WakeStretch& s, bool is_latest, std::size_t j,
+               float strength, std::span<float> foam) {
+  const WakeHull& hull = window.hull;
+  const float sample_m = static_cast<float>(window.length_m) / kWakeSamples;
+  const float inv_speed = 1.0f / hull.speed_mps;
+  const float stern_s = 0.42f * hull.length_m * inv_speed;
+  const float life_s = 0.8f * static_cast<float>(window.length_m) * inv_speed;
+  const float from_s = is_latest ? std::max(s.from_s, stern_s) : s.from_s;
+  const float to_s = std::min(s.to_s, life_s);
+  if (from_s >= to_s) return;
+  const float ahead_x = s.u_mps * inv_speed, ahead_y = s.v_mps * inv_speed;
+  const float widest_m = 1.2f * hull.beam_m;
+  const float y = static_cast<float>(j) * sample_m;
+  const float y0 = s.y_m - from_s * s.v_mps, y1 = s.y_m - to_s * s.v_mps;
+  if (y < std::min(y0, y1) - widest_m || y > std::max(y0, y1) + widest_m) return;
+  const float x0 = s.x_m - from_s * s.u_mps, x1 = s.x_m - to_s * s.u_mps;
+  const auto column = [&](float x_m) {
+    return static_cast<std::size_t>(std::clamp(x_m / sample_m, 0.0f, kWakeSamples - 1.0f));
+  };
+  const std::size_t end = column(std::max(x0, x1) + widest_m) + 1;
+  for (std::size_t i = column(std::min(x0, x1) - widest_m); i < end; ++i) {
+    const float dx = s.x_m - static_cast<float>(i) * sample_m, dy = s.y_m - y;
+    const float age_s = std::clamp((dx * ahead_x + dy * ahead_y) * inv_speed, from_s, to_s);
+    const float qx = dx - age_s * s.u_mps, qy = dy - age_s * s.v_mps;
+    const float behind = std::max(age_s - stern_s, 0.0f) * hull.speed_mps / hull.length_m;
+    const float half_m = hull.beam_m * (0.22f + 0.3f * std::sqrt(std::sqrt(behind)));
+    const float aside = (qx * qx + qy * qy) / (half_m * half_m);
+    if (aside >= 1.0f) continue;
+    const float left = 1.0f - age_s / life_s;
+    foam[i] = std::max(foam[i], strength * left * left * (1.0f - aside * aside));
+  }
+}
+
+// Steep water breaks: at the bow, and where waves of a wake cross.
+float breaking(float slope_x, float slope_y, float height_m) {
+  const float steep = std::sqrt(slope_x * slope_x + slope_y * slope_y);
+  return height_m > 0.0f ? 0.8f * smoothstep(0.14f, 0.35f, steep) : 0.0f;
+}
+
+void foam_row(std::size_t j, WakeWindow& window) {
+  const auto row = std::span(window.foam).subspan(j * kSide, kSide);
+  std::ranges::fill(row, 0.0f);
+  if (window.stretches.empty()) return;
+  for (std::size_t i = 0; i < kSide; ++i) {
+    const std::size_t at = j * kSide + i;
+    row[i] = breaking(window.slope_x[at], window.slope_y[at], window.height_m[at]);
+  }
+  const float strength = 0.75f * smoothstep(0.08f, 0.35f, froude(window));
+  for (std::size_t k = 0; k < window.stretches.size(); ++k)
+    add_strip(window, window.stretches[k], k == 0, j, strength, row);
+  const float at_row = rim(j);
+  for (std::size_t i = 0; i < kSide; ++i) row[i] *= at_row * rim(i);
+}
+
+void for_all_rows(WakeFrame& frame, Workers& workers,
+                  FunctionRef<void(std::size_t, WakeWindow&)> body) {
+  constexpr std::size_t kRows = 32;  // a task
+  workers.for_each(frame.count * (kSide / kRows), [&](std::size_t task, int) {
+    WakeWindow& window = frame.windows[task / (kSide / kRows)];
+    const std::size_t first = task % (kSide / kRows) * kRows;
+    for (std::size_t j = first; j < first + kRows; ++j) body(j, window);
+  });
+}
+
+// ---- Sampling
+
+// Calls visit(window, point, texel, fractions) where a point lies in a window.
+template <class Visit>
+void for_points_inside(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
+                       const Visit& visit) {
+  for (const WakeWindow& window : frame.shown()) {
+    const double per_m = kWakeSamples / window.length_m;
+    for (std::size_t n = 0; n < p_world.size(); ++n) {
+      const glm::dvec2 q = (p_world[n] - window.corner_m) * per_m;
+      if (!(q.x >= 0.0 && q.y >= 0.0 && q.x < kWakeSamples - 1.0 && q.y < kWakeSamples - 1.0))
+        continue;
+      const auto i = static_cast<std::size_t>(q.x), j = static_cast<std::size_t>(q.y);
+      const glm::vec2 t(q - glm::dvec2(static_cast<double>(i), static_cast<double>(j)));
+      visit(window, n, j * kSide + i, t);
+    }
+  }
+}
+
+float bilinear(const std::vector<float>& field, std::size_t at, glm::vec2 t) {
+  const float low = field[at] + t.x * (field[at + 1] - field[at]);
+  const float high = field[at + kSide] + t.x * (field[at + kSide + 1] - field[at + kSide]);
+  return low + t.y * (high - low);
+}
+
+}  // namespace
+
+void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbance> others,
+                   double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers) {
+  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
+  find_wake_sources(some, others, gravity_mps2, t_s, frame);
+  if (frame.count == 0) return;
+  for (std::size_t w = 0; w < frame.count; ++w)
+    for (auto* field :
+         {&frame.windows[w].slope_x, &frame.windows[w].slope_y, &frame.windows[w].foam})
+      field->resize(kAll);
+  transform_windows(WakeField::kHeight, frame.shown(), frame, workers);
+  for_all_rows(frame, workers, [](std::size_t j, WakeWindow& window) { fade_row(j, window); });
+  for_all_rows(frame, workers, [](std::size_t j, WakeWindow& window) {
+    slope_row(j, window);
+    foam_row(j, window);
+  });
+}
+
+void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& velocity,
+                           Workers& workers) {
+  velocity.count = wakes.count;
+  if (wakes.count == 0) return;
+  if (velocity.windows.size() < wakes.count) velocity.windows.resize(wakes.count);
+  for (std::size_t w = 0; w < wakes.count; ++w) {
+    velocity.windows[w].corner_m = wakes.windows[w].corner_m;
+    velocity.windows[w].length_m = wakes.windows[w].length_m;
+    velocity.windows[w].bound_m = HUGE_VALF;
+  }
+  transform_windows(field, wakes.shown(), velocity, workers);
+  for_all_rows(velocity, workers, [](std::size_t j, WakeWindow& window) { fade_row(j, window); });
+}
+
+void add_wake_heights(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
+                      std::span<float> height_m) {
+  for_points_inside(frame, p_world,
+                    [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
+                      height_m[n] += bilinear(window.height_m, at, t);
+                    });
+}
+
+void add_wake_slopes(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
+                     std::span<glm::vec2> slope) {
+  for_points_inside(
+      frame, p_world, [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
+        slope[n] += glm::vec2(bilinear(window.slope_x, at, t), bilinear(window.slope_y, at, t));
+      });
+}
+
+void add_wake_foam(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
+                   std::span<float> foam) {
+  for_points_inside(frame, p_world,
+                    [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
+                      foam[n] = std::max(foam[n], bilinear(window.foam, at, t));
+                    });
+}
+
+}  // namespace swell::ocean
