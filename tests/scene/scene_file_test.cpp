@@ -102,14 +102,14 @@ distortion_factor = "paper"
 caustic_distortion = 0.25
 glitter = "projective"
 glitter_distortion = 1.5
+refraction = "paper"
+reflection_weight = 0.5
 [ripples]
 kind = "sequence"
 lighting = "paper"
 frames = 32
 loop_s = 2.5
 length_m = 3
-refraction = "paper"
-reflection_weight = 0.5
 [coast]
 model = "trains"
 trains = 7
