@@ -156,6 +156,7 @@ void set_water(const Shading& s, const GlProgram& program) {
   program.set("base_variance", water.base_variance);
   program.set("short_variance", water.short_variance);
   program.set("seen_slopes", water.seen_slopes);
+  program.set("least_cos", water.least_cos);
   set_waves(water, program);
   if (water.has_coast) {
     set_layer(water.coast_slopes, "coast_slopes", program);
