@@ -6,18 +6,33 @@
 
 #include "lod/plane.h"
 #include "math/check.h"
+#include "math/earth.h"
 #include "math/elementary.h"
 
 namespace swell::lod {
 namespace {
 
-constexpr double kDomainSize_m = 131072.0;
+constexpr double kLeastDomain_m = 131072.0, kMostDomain_m = 16.0 * kLeastDomain_m;
 constexpr int kDomainBits = 30;
+constexpr double kBeyondHorizon = 1.1;    // for waves that stand behind it
 constexpr double kSquareCells_m = 100.0;  // where cells are as wide as they are deep
 // More would bring vertices near the middle within a few lattice steps of each other.
 constexpr int kMostColumns = 2048, kMostRings = 16384;
 
 double root4(double x) { return std::sqrt(std::sqrt(x)); }
+
+// Where the last ring lies.
+double last_ring_m(const View& view) {
+  const double eye_m = std::max(view.eye_world.z, 0.0);
+  const double horizon_m = kBeyondHorizon * std::sqrt(2.0 * kEarthRadius_m * eye_m);
+  return std::clamp(horizon_m, kRadialLast_m, 0.49 * kMostDomain_m);
+}
+
+double domain_size_m(const View& view) {
+  double size_m = kLeastDomain_m;
+  while (0.49 * size_m < last_ring_m(view)) size_m *= 2.0;
+  return size_m;
+}
 
 // The directions around the vertical that a view can see, in turns counter-clockwise from east.
 struct Sector {
@@ -54,9 +69,9 @@ Sector sector_in_view(const View& view) {
 }
 
 // The number of the first ring outside 2 r_0.
-int first_ring_kept(int rings) {
-  const double share = kRadialFirst_m / (kRadialLast_m - kRadialFirst_m);
-  return std::max(1, static_cast<int>(std::ceil(root4(share) * (rings - 1))));
+int first_ring_kept(const RadialLayout& layout) {
+  const double share = layout.first_m / (layout.last_m - layout.first_m);
+  return std::max(1, static_cast<int>(std::ceil(root4(share) * (layout.rings - 1))));
 }
 
 struct GridWriter {
@@ -68,7 +83,7 @@ struct GridWriter {
   double radius_m(int ring) const {
     const double share = static_cast<double>(ring) / (layout.rings - 1);
     const double square = share * share;
-    return kRadialFirst_m + (kRadialLast_m - kRadialFirst_m) * (square * square);
+    return layout.first_m + (layout.last_m - layout.first_m) * (square * square);
   }
   int ring_number(int kept) const { return kept == 0 ? 0 : layout.first_ring + kept - 1; }
 
@@ -99,9 +114,9 @@ struct GridWriter {
   // The same for all columns.
   void write_column_levels(std::uint8_t* out) const {
     const auto halvings = [&](double r_m) {
-      return std::bit_width(static_cast<unsigned>(kRadialLast_m / r_m)) - 1;
+      return std::bit_width(static_cast<unsigned>(layout.last_m / r_m)) - 1;
     };
-    *out++ = static_cast<std::uint8_t>(2 * halvings(kRadialFirst_m));
+    *out++ = static_cast<std::uint8_t>(2 * halvings(layout.first_m));
     for (int k = 1; k < layout.rings_kept(); ++k, out += 2)
       out[0] = out[1] = static_cast<std::uint8_t>(2 * halvings(radius_m(ring_number(k))));
   }
@@ -110,24 +125,27 @@ struct GridWriter {
 }  // namespace
 
 Domain radial_domain(const View& view) {
-  return {glm::floor(glm::dvec2(view.eye_world)) - 0.5 * kDomainSize_m, kDomainSize_m, kDomainBits};
+  const double size_m = domain_size_m(view);
+  return {glm::floor(glm::dvec2(view.eye_world)) - 0.5 * size_m, size_m, kDomainBits};
 }
 
 // Cells are dr = 4 r / i deep and 2 pi r / M wide: equal where i = 2 M / pi.
 RadialLayout radial_layout(const View& view, int triangle_budget) {
   SWELL_CHECK(triangle_budget >= kRadialLeastBudget, "triangle_budget={}", triangle_budget);
   const Sector sector = sector_in_view(view);
-  const double columns_per_ring = 0.5 * kPi * root4(kSquareCells_m / kRadialLast_m);
+  RadialLayout layout;
+  layout.last_m = last_ring_m(view);
+  layout.first_m = kRadialFirst_m * domain_size_m(view) / kLeastDomain_m;
+  const double columns_per_ring = 0.5 * kPi * root4(kSquareCells_m / layout.last_m);
   const double rings = std::sqrt(triangle_budget / (2.0 * sector.size * columns_per_ring));
 
-  RadialLayout layout;
   layout.columns = std::clamp(static_cast<int>(rings * columns_per_ring), 4, kMostColumns);
   // One column more than the sector's share may be cut at both of its sides.
   const int most_seen =
       std::min(layout.columns, static_cast<int>(sector.size * layout.columns) + 2);
   const int most_kept = (triangle_budget / most_seen + 1) / 2;
   layout.rings = std::min(most_kept, kMostRings);
-  do layout.first_ring = first_ring_kept(layout.rings);
+  do layout.first_ring = first_ring_kept(layout);
   while (layout.rings_kept() < most_kept && layout.rings++ < kMostRings);
 
   const double first = std::floor(sector.first * layout.columns);

@@ -166,9 +166,33 @@ void make_spectrum_waves(Sea::State& state) {
   }
 }
 
+void make_maps(Sea::State& state) {
+  const std::size_t layers = count_map_layers(state.description);
+  const std::size_t most = kMaxPatches - state.patches.size();
+  if (layers > most)
+    throw std::invalid_argument(
+        fmt::format("maps: got {} layers beside {} patches of the spectrum, allowed at most {}",
+                    layers, state.patches.size(), most));
+  state.maps = make_map_waves(state.description);
+}
+
+void size_map_patches(const Sea::State& state, std::vector<PatchFrame>& patches) {
+  for (std::size_t m = 0; m < state.maps.size(); ++m) {
+    const MapWaves& waves = state.maps[m];
+    PatchFrame& patch = patches[state.patches.size() + m];
+    patch.length_m = waves.length_m;
+    patch.resolution = waves.map->size;
+    patch.slope_variance = static_cast<float>(waves.slope_variance);
+    patch.tiling = tiling_of_patch(state.description, state.patches.size() + m);
+    for (auto* field : {&patch.height_m, &patch.slope_x, &patch.slope_y})
+      field->resize(waves.map->frame_samples());
+  }
+}
+
 void size_patches(const Sea::State& state, bool sharp_crests, std::vector<PatchFrame>& patches) {
-  patches.resize(state.patches.size());
-  for (std::size_t p = 0; p < patches.size(); ++p) {
+  patches.resize(state.patches.size() + state.maps.size());
+  size_map_patches(state, patches);
+  for (std::size_t p = 0; p < state.patches.size(); ++p) {
     const PatchWaves& waves = state.patches[p];
     const std::size_t samples = static_cast<std::size_t>(waves.size) * waves.size;
     patches[p].length_m = waves.length_m;
@@ -186,7 +210,7 @@ void size_patches(const Sea::State& state, bool sharp_crests, std::vector<PatchF
 
 void synthesize_patches(const Sea::State& state, double t_s, SeaFrame& frame, Workers& workers) {
   constexpr std::size_t kLinearFields = 5;
-  const std::size_t count = frame.patches.size();
+  const std::size_t count = state.patches.size();
   const auto samples = static_cast<std::size_t>(state.plan.size) * state.plan.size;
   const auto is_sharp = [&](std::size_t p) { return !frame.patches[p].displaced_x_m.empty(); };
   std::array<PatchFields, kMaxPatches> fields;
@@ -226,7 +250,10 @@ double Sea::State::height_bound_m(std::size_t first_patch) const {
     crests_m += 0.5 * static_cast<double>(crests[p].rise_per_m) * squares_m2 +
                 std::abs(static_cast<double>(crests[p].mean_m));
   }
-  return kDeviations * std::sqrt(variance_m2) + crests_m;
+  double maps_m = 0.0;
+  const std::size_t first_map = std::max(first_patch, patches.size()) - patches.size();
+  for (std::size_t m = first_map; m < maps.size(); ++m) maps_m += maps[m].peak_m();
+  return kDeviations * std::sqrt(variance_m2) + crests_m + maps_m;
 }
 
 Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) {
@@ -234,6 +261,7 @@ Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) 
   for (const SineWave& sine : description.sines) check_sine(sine);
   state_->description = description;
   make_spectrum_waves(*state_);
+  make_maps(*state_);
   for (const SineWave& sine : description.sines) {
     state_->sines.push_back(make_sine_train(sine, description));
   }
@@ -261,13 +289,15 @@ double Sea::height_bound_m() const {
 
 double Sea::slope_bound() const {
   double variance = 0.0;
-  for (std::size_t p = 0; p < state_->patches.size(); ++p) {
-    const PatchWaves& waves = state_->patches[p];
+  std::size_t patch = 0;
+  const auto add = [&](const auto& waves) {
     variance += waves.slope_variance;
-    if (!tiling_of_patch(state_->description, p).on) continue;
+    if (!tiling_of_patch(state_->description, patch++).on) return;
     const double blend_per_m = kTileBlendSlope / waves.length_m;
     variance += waves.variance_m2 * blend_per_m * blend_per_m;
-  }
+  };
+  std::ranges::for_each(state_->patches, add);
+  std::ranges::for_each(state_->maps, add);
   double bound = 6.0 * std::sqrt(variance);
   for (const SineWave& sine : state_->description.sines)
     bound += std::abs(sine.amplitude_m) * kTwoPi / sine.wavelength_m *
@@ -281,6 +311,7 @@ double Sea::short_wave_bound_m(std::size_t longest_patches) const {
 
 double Sea::significant_height_m() const {
   double variance = state_->spectrum_variance_m2;
+  for (const MapWaves& waves : state_->maps) variance += waves.variance_m2;
   for (const SineWave& sine : state_->description.sines) {
     variance += 0.5 * sine.amplitude_m * sine.amplitude_m;
   }
@@ -292,6 +323,10 @@ double Sea::mean_wavelength_m() const {
   for (const PatchWaves& waves : state_->patches) {
     variance += waves.variance_m2;
     variance_k += waves.variance_k_m;
+  }
+  for (const MapWaves& waves : state_->maps) {
+    variance += waves.variance_m2;
+    variance_k += waves.variance_m2 * waves.wave_number_rad_m();
   }
   for (const SineWave& sine : state_->description.sines) {
     const double square = 0.5 * sine.amplitude_m * sine.amplitude_m;
@@ -327,7 +362,9 @@ void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers, bool
   frame.t_s = t_s;
   const double t_wave_s = wave_time_s(state.description, t_s);
   size_patches(state, sharp_crests, frame.patches);
-  if (!frame.patches.empty()) synthesize_patches(state, t_wave_s, frame, workers);
+  if (!state.patches.empty()) synthesize_patches(state, t_wave_s, frame, workers);
+  sample_maps(state.maps, t_wave_s, std::span(frame.patches).subspan(state.patches.size()),
+              workers);
 
   frame.sines.resize(state.sines.size());
   for (std::size_t i = 0; i < frame.sines.size(); ++i) {

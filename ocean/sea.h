@@ -12,6 +12,7 @@
 
 #include "math/elementary.h"
 #include "math/parallel.h"
+#include "ocean/map_layer.h"
 #include "ocean/patch_tiles.h"
 #include "ocean/spectrum.h"
 #include "ocean/wake_sources.h"
@@ -61,7 +62,7 @@ struct SeaDescription {
   std::optional<double> hs_m = {}, tp_s = {};
   std::optional<double> gamma = {};  // the peak's enhancement, [1, 20]; none: 3.3 with a fetch or 1
   std::vector<Swell> swells = {};    // at most kMaxSwells
-  double amplitude_scale = 1.0;      // multiplies the heights of wind waves and swells, [0, 4]
+  double amplitude_scale = 1.0;  // multiplies the heights of wind waves, swells and maps, [0, 4]
   double gravity_mps2 = 9.81;
   // The sea repeats itself after this time, 0: never, else [1, 100000]. Every wave, sines too, has
   // a whole number n >= 1 of periods in it: the number nearest to its own, so that its speed is
@@ -76,10 +77,18 @@ struct SeaDescription {
   // itself as the others do.
   bool tiling = true;
   std::vector<SineWave> sines;  // at most kMaxSines
+  // Waves from maps, without sharp crests and foam: those of a set, and others. The patches of the
+  // spectrum and the layers of both together are at most kMaxPatches.
+  MapSet map_set = MapSet::kNone;
+  std::vector<MapLayer> maps;
   // Crests sharper than troughs: 0 for linear waves to 1 for waves of second order in their
   // steepness (ocean/crests.h), [0, 1].
   double choppiness = 0.0;
   double whitecaps = 1.0;  // multiplies the part of the sea that foam covers, [0, 10]
+
+  bool has_maps() const { return map_set != MapSet::kNone || !maps.empty(); }
+  // Whether it has a wind that raises waves, and so ripples.
+  bool has_wind_waves() const { return spectrum || has_maps(); }
 
   bool operator==(const SeaDescription&) const = default;
 };
@@ -110,7 +119,8 @@ struct SineFrame {
 
 struct SeaFrame {
   double t_s = 0.0;
-  std::vector<PatchFrame> patches;  // none if there are no spectrum waves
+  // Of the spectrum, if it has waves, then of the maps; of either the longest first.
+  std::vector<PatchFrame> patches;
   std::vector<SineFrame> sines;
   WakeFrame wakes;                        // advance_wakes() fills it, not advance()
   std::vector<float> linear, fft_planes;  // working storage of advance()

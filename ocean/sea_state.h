@@ -5,6 +5,7 @@
 
 #include "ocean/crests.h"
 #include "ocean/fft.h"
+#include "ocean/map_waves.h"
 #include "ocean/patch_waves.h"
 #include "ocean/sea.h"
 
@@ -23,10 +24,11 @@ struct Sea::State {
   FftPlan plan;
   std::vector<PatchWaves> patches;
   std::vector<Crests> crests;  // one a patch
+  std::vector<MapWaves> maps;
   std::vector<SineTrain> sines;
   double spectrum_variance_m2 = 0.0;
 
-  // Of the patches from one on, together.
+  // Of the patches and maps from one patch on, together.
   double height_bound_m(std::size_t first_patch) const;
 };
 

@@ -64,12 +64,18 @@ void add_sines(const Sea::State& state, const SeaFrame& frame, VelocityFrame& ve
 void advance_velocity(const Sea& sea, const SeaFrame& frame, VelocityFrame& velocity,
                       Workers& workers) {
   const Sea::State& state = sea.state();
-  SWELL_CHECK(frame.patches.size() == state.patches.size(), "patches={}", frame.patches.size());
+  SWELL_CHECK(frame.patches.size() == state.patches.size() + state.maps.size(), "patches={}",
+              frame.patches.size());
   SWELL_CHECK(frame.sines.size() == state.sines.size(), "sines={}", frame.sines.size());
   for (SeaFrame* component : {&velocity.x, &velocity.y, &velocity.z})
     size_component(frame, *component);
   const double t_wave_s = wave_time_s(state.description, frame.t_s);
-  if (!frame.patches.empty()) synthesize(state, t_wave_s, frame, velocity, workers);
+  if (!state.patches.empty()) synthesize(state, t_wave_s, frame, velocity, workers);
+  for (std::size_t m = 0; m < state.maps.size(); ++m) {
+    const std::size_t p = state.patches.size() + m;
+    sample_map_velocities(state.maps[m], t_wave_s, velocity.x.patches[p], velocity.y.patches[p],
+                          velocity.z.patches[p], velocity.z.fft_planes, workers);
+  }
   add_sines(state, frame, velocity);
   advance_wake_velocity(frame.wakes, WakeField::kDriftX, velocity.x.wakes, workers);
   advance_wake_velocity(frame.wakes, WakeField::kDriftY, velocity.y.wakes, workers);

@@ -45,7 +45,10 @@ void clip_by_plane(ClipPolygon& polygon, Distance distance, PutOnPlane put_on_pl
 // alone; a + t (b - a) would not, and would depend on the order of a and b.
 ClipVertex cut_edge(const ClipVertex& a, double da, const ClipVertex& b, double db) {
   const double weight_a = db / (db - da), weight_b = da / (da - db);
-  return {a.p_clip * weight_a + b.p_clip * weight_b, a.user * weight_a + b.user * weight_b, -1};
+  ClipVertex cut{a.p_clip * weight_a + b.p_clip * weight_b, {}};
+  for (std::size_t k = 0; k < kClipDistances; ++k)
+    cut.user[k] = a.user[k] * weight_a + b.user[k] * weight_b;
+  return cut;
 }
 
 ClipPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, Viewport viewport) {
@@ -65,8 +68,9 @@ ClipPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, Viewport vi
       [](Vertex& v) { v.p_clip.z = v.p_clip.w; });
   clip_by_plane(
       polygon, [](const Vertex& v) { return v.p_clip.z; }, [](Vertex& v) { v.p_clip.z = 0.0; });
-  clip_by_plane(
-      polygon, [](const Vertex& v) { return v.user; }, [](Vertex& v) { v.user = 0.0; });
+  for (std::size_t k = 0; k < kClipDistances; ++k)
+    clip_by_plane(
+        polygon, [=](const Vertex& v) { return v.user[k]; }, [=](Vertex& v) { v.user[k] = 0.0; });
 
   // Guard band: both sides of x, then of y. The limits are the floats that project_vertices uses.
   const double limits[] = {2.0f * kGuardPx / static_cast<float>(viewport.width_px) - 1.0f,

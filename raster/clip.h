@@ -14,7 +14,7 @@ namespace swell::raster {
 
 struct ClipVertex {
   glm::dvec4 p_clip;
-  double user;      // clip distance
+  std::array<double, kClipDistances> user;
   int source = -1;  // which of the triangle's vertices this is; -1: made by a cut
 };
 
@@ -24,7 +24,8 @@ struct ClipVertex {
 ClipVertex cut_edge(const ClipVertex& a, double da, const ClipVertex& b, double db);
 
 struct ClipPolygon {
-  static constexpr int kMaxVertices = 3 + 8;  // a convex polygon gains at most one a plane
+  static constexpr int kMaxVertices =
+      3 + 7 + static_cast<int>(kClipDistances);  // a convex polygon gains at most one a plane
   std::array<ClipVertex, kMaxVertices> vertices;
   int count = 0;
 };

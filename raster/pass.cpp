@@ -20,8 +20,9 @@ constexpr std::size_t kTilesPerJob = 4096;
 
 void check_draw(const Draw& draw) {
   SWELL_CHECK(draw.indices.size() % 3 == 0, "indices={}", draw.indices.size());
-  SWELL_CHECK(draw.clip_distance.empty() || draw.clip_distance.size() == draw.p_clip.size(),
-              "clip_distance={} p_clip={}", draw.clip_distance.size(), draw.p_clip.size());
+  for (const std::span<const float> distance : draw.clip_distance)
+    SWELL_CHECK(distance.empty() || distance.size() == draw.p_clip.size(),
+                "clip_distance={} p_clip={}", distance.size(), draw.p_clip.size());
   SWELL_CHECK(draw.indices.size() / 3 <= kNoPrimitive - draw.first_primitive,
               "first_primitive={} triangles={}", draw.first_primitive, draw.indices.size() / 3);
 }
@@ -57,10 +58,12 @@ void project_draws(std::span<const Draw> draws, Pass::State& state, Workers& wor
     workers.for_each((count + kVerticesPerJob - 1) / kVerticesPerJob, [&](std::size_t job, int) {
       const std::size_t begin = job * kVerticesPerJob;
       const std::size_t size = std::min(kVerticesPerJob, count - begin);
-      project_vertices(
-          draw.p_clip.subspan(begin, size),
-          draw.clip_distance.empty() ? draw.clip_distance : draw.clip_distance.subspan(begin, size),
-          state.viewport, out.subspan(begin, size));
+      ClipDistances distances;
+      for (std::size_t k = 0; k < kClipDistances; ++k)
+        if (!draw.clip_distance[k].empty())
+          distances[k] = draw.clip_distance[k].subspan(begin, size);
+      project_vertices(draw.p_clip.subspan(begin, size), distances, state.viewport,
+                       out.subspan(begin, size));
     });
     first += count;
   }
@@ -121,8 +124,9 @@ void clip_and_set_up(const SourceTriangle& source, const Draw& draw, const Setup
   std::array<ClipVertex, 3> triangle;
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t v = source.index[i];
-    triangle[i] = {glm::dvec4(draw.p_clip[v]),
-                   draw.clip_distance.empty() ? 0.0 : double{draw.clip_distance[v]}, i};
+    triangle[i] = {glm::dvec4(draw.p_clip[v]), {}, i};
+    for (std::size_t k = 0; k < kClipDistances; ++k)
+      if (!draw.clip_distance[k].empty()) triangle[i].user[k] = draw.clip_distance[k][v];
   }
   const ClipPolygon polygon = clip_triangle(triangle, rules.viewport);
   ++chunk.statistics.clipped;

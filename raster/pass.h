@@ -6,6 +6,7 @@
 // of equal depths the first submitted triangle wins.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -21,12 +22,17 @@ inline constexpr int kMaxViewport = 8192;
 // Which triangles to leave out, by their winding in the window (y down).
 enum class Cull : std::uint8_t { kNone, kClockwise, kCounterClockwise };
 
+// By so many planes a draw may be cut, besides the view's own.
+inline constexpr std::size_t kClipDistances = 2;
+using ClipDistances = std::array<std::span<const float>, kClipDistances>;
+
 // Triangles that share vertices by index. Spans are borrowed during prepare_pass only.
 struct Draw {
-  std::span<const glm::vec4> p_clip;          // x, y in [-w, w] visible, 0 <= z <= w, reversed-Z
-  std::span<const std::uint32_t> indices;     // 3 per triangle, each < p_clip.size()
-  std::span<const float> clip_distance = {};  // empty, or one per vertex: the part >= 0 is kept
-  std::uint32_t first_primitive = 0;          // triangle n is primitive first_primitive + n
+  std::span<const glm::vec4> p_clip;       // x, y in [-w, w] visible, 0 <= z <= w, reversed-Z
+  std::span<const std::uint32_t> indices;  // 3 per triangle, each < p_clip.size()
+  // Each empty, or one per vertex: the part where all are >= 0 is kept. Linear over a triangle.
+  ClipDistances clip_distance = {};
+  std::uint32_t first_primitive = 0;  // triangle n is primitive first_primitive + n
   Cull cull = Cull::kNone;
 };
 

@@ -30,13 +30,14 @@ enum VertexFlag : std::uint32_t {
   kOutsideW = 1u << 6,      // w < kMinW
   kOutsideUser = 1u << 7,   // clip distance < 0
   kOutsideGuard = 1u << 8,  // outside any plane of the guard band
-  kNotFinite = 1u << 9,     // a NaN or an infinity among the inputs; no other flag is set
+  kOutsideUser2 = 1u << 9,  // second clip distance < 0
+  kNotFinite = 1u << 10,    // a NaN or an infinity among the inputs; no other flag is set
 };
 // A triangle is out if all its vertices share one of these.
-inline constexpr std::uint32_t kRejectFlags = 0xFFu;
+inline constexpr std::uint32_t kRejectFlags = 0xFFu | kOutsideUser2;
 // A triangle with one of these at any vertex has to be clipped.
 inline constexpr std::uint32_t kClipFlags =
-    kOutsideNear | kOutsideFar | kOutsideW | kOutsideUser | kOutsideGuard;
+    kOutsideNear | kOutsideFar | kOutsideW | kOutsideUser | kOutsideUser2 | kOutsideGuard;
 
 // x_fx8, y_fx8 and depth hold values only without kClipFlags and kNotFinite; otherwise 0.
 struct WindowVertex {
@@ -46,8 +47,8 @@ struct WindowVertex {
 };
 
 // Divides, maps to the window and snaps (round to nearest even) every vertex of p_clip, which may
-// hold any bits. clip_distance is empty or as long as p_clip; so is out as long as p_clip.
-void project_vertices(std::span<const glm::vec4> p_clip, std::span<const float> clip_distance,
+// hold any bits. Clip distances are empty or as long as p_clip, as `out` is.
+void project_vertices(std::span<const glm::vec4> p_clip, const ClipDistances& clip_distance,
                       Viewport viewport, std::span<WindowVertex> out);
 
 }  // namespace swell::raster

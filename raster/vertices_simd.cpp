@@ -37,8 +37,13 @@ HWY_INLINE auto IsFinite(V v) {
   return hn::Le(hn::Abs(v), hn::Set(d, 3.402823466e38f));
 }
 
+// Clip distances of one packet.
+struct User {
+  FloatVec first, second;
+};
+
 // The flags of one packet, before kNotFinite.
-HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, FloatVec user,
+HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, const User& user,
                                FloatVec guard_x, FloatVec guard_y) {
   const FloatTag d;
   const FloatVec zero = hn::Zero(d);
@@ -51,7 +56,8 @@ HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, F
   flags = hn::Or(flags, FlagIf(hn::Gt(z, w), kOutsideNear));
   flags = hn::Or(flags, FlagIf(hn::Lt(z, zero), kOutsideFar));
   flags = hn::Or(flags, FlagIf(hn::Lt(w, hn::Set(d, kMinW)), kOutsideW));
-  flags = hn::Or(flags, FlagIf(hn::Lt(user, zero), kOutsideUser));
+  flags = hn::Or(flags, FlagIf(hn::Lt(user.first, zero), kOutsideUser));
+  flags = hn::Or(flags, FlagIf(hn::Lt(user.second, zero), kOutsideUser2));
   // The fused k w - |x| has the sign of the exact value, as the clipper's double has.
   const auto out_x = hn::Lt(hn::MulSub(guard_x, w, hn::Abs(x)), zero);
   const auto out_y = hn::Lt(hn::MulSub(guard_y, w, hn::Abs(y)), zero);
@@ -59,7 +65,7 @@ HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, F
 }
 
 // One packet: lanes from p_clip (4 floats a vertex) and user to out.
-HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, FloatVec user, Viewport viewport,
+HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, const User& user, Viewport viewport,
                               std::int32_t* HWY_RESTRICT out) {
   const FloatTag d;
   const IntTag di;
@@ -71,8 +77,9 @@ HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, FloatVec user, V
   // Flags.
   const FloatVec guard_x = hn::Set(d, 2.0f * kGuardPx / width - 1.0f);
   const FloatVec guard_y = hn::Set(d, 2.0f * kGuardPx / height - 1.0f);
-  const auto finite = hn::And(hn::And(hn::And(IsFinite(x), IsFinite(y)), IsFinite(user)),
-                              hn::And(IsFinite(z), IsFinite(w)));
+  const auto finite =
+      hn::And(hn::And(hn::And(IsFinite(x), IsFinite(y)), hn::And(IsFinite(z), IsFinite(w))),
+              hn::And(IsFinite(user.first), IsFinite(user.second)));
   const IntVec outside = OutsideFlags(x, y, z, w, user, guard_x, guard_y);
   const IntVec flags = hn::IfThenElse(hn::RebindMask(di, finite), outside,
                                       hn::Set(di, static_cast<int>(kNotFinite)));
@@ -93,26 +100,31 @@ HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, FloatVec user, V
   hn::StoreInterleaved4(x_fx8, y_fx8, hn::BitCast(di, depth), flags, di, out);
 }
 
-void ProjectVertices(std::span<const glm::vec4> p_clip, std::span<const float> clip_distance,
+void ProjectVertices(std::span<const glm::vec4> p_clip, const ClipDistances& clip_distance,
                      Viewport viewport, std::span<WindowVertex> out) {
   const FloatTag d;
   constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
-  const bool has_user = !clip_distance.empty();
+  const auto user_at = [&](std::span<const float> distance, std::size_t at) HWY_ATTR {
+    return distance.empty() ? hn::Zero(d) : hn::LoadU(d, &distance[at]);
+  };
   std::size_t i = 0;
   for (; i + kLanes <= p_clip.size(); i += kLanes) {
-    const FloatVec user = has_user ? hn::LoadU(d, &clip_distance[i]) : hn::Zero(d);
+    const User user = {user_at(clip_distance[0], i), user_at(clip_distance[1], i)};
     ProjectPacket(&p_clip[i].x, user, viewport, &out[i].x_fx8);
   }
   if (i == p_clip.size()) return;
 
   // The tail goes through padded copies.
   std::array<float, 4 * kLanes> tail_in{};
-  std::array<float, kLanes> tail_user{};
+  std::array<std::array<float, kLanes>, kClipDistances> tail_user{};
   std::array<std::int32_t, 4 * kLanes> tail_out;
   const std::size_t count = p_clip.size() - i;
   std::copy_n(&p_clip[i].x, 4 * count, tail_in.data());
-  if (has_user) std::memcpy(tail_user.data(), &clip_distance[i], count * sizeof(float));
-  ProjectPacket(tail_in.data(), hn::LoadU(d, tail_user.data()), viewport, tail_out.data());
+  for (std::size_t k = 0; k < kClipDistances; ++k)
+    if (!clip_distance[k].empty())
+      std::memcpy(tail_user[k].data(), &clip_distance[k][i], count * sizeof(float));
+  const User user = {hn::LoadU(d, tail_user[0].data()), hn::LoadU(d, tail_user[1].data())};
+  ProjectPacket(tail_in.data(), user, viewport, tail_out.data());
   std::memcpy(&out[i], tail_out.data(), count * sizeof(WindowVertex));
 }
 
@@ -125,12 +137,13 @@ namespace swell::raster {
 
 HWY_EXPORT(ProjectVertices);
 
-void project_vertices(std::span<const glm::vec4> p_clip, std::span<const float> clip_distance,
+void project_vertices(std::span<const glm::vec4> p_clip, const ClipDistances& clip_distance,
                       Viewport viewport, std::span<WindowVertex> out) {
   static_assert(sizeof(glm::vec4) == 4 * sizeof(float) && sizeof(WindowVertex) == 16);
   SWELL_CHECK(out.size() == p_clip.size(), "out={} p_clip={}", out.size(), p_clip.size());
-  SWELL_CHECK(clip_distance.empty() || clip_distance.size() == p_clip.size(),
-              "clip_distance={} p_clip={}", clip_distance.size(), p_clip.size());
+  for (const std::span<const float> distance : clip_distance)
+    SWELL_CHECK(distance.empty() || distance.size() == p_clip.size(), "clip_distance={} p_clip={}",
+                distance.size(), p_clip.size());
   HWY_DYNAMIC_DISPATCH(ProjectVertices)(p_clip, clip_distance, viewport, out);
 }
 

@@ -50,6 +50,11 @@ void check_options(const FrameOptions& o) {
   SWELL_CHECK(o.lod_operations >= 0 && o.lod_ms >= 0.0 && o.lod_groups >= 1,
               "lod_operations={} lod_ms={} lod_groups={}", o.lod_operations, o.lod_ms,
               o.lod_groups);
+  if (!o.clip_plane) return;
+  const glm::dvec4& plane = *o.clip_plane;
+  const double length2 = glm::dot(glm::dvec3(plane), glm::dvec3(plane));
+  SWELL_CHECK(length2 > 0.0 && std::isfinite(length2) && std::isfinite(plane.w),
+              "clip_plane=({}, {}, {}, {})", plane.x, plane.y, plane.z, plane.w);
 }
 
 void check_labels(const FrameOptions& o, const View& view) {
@@ -107,12 +112,16 @@ std::array<RenderView*, 5> prepare_views(const World::State& world, const View& 
     reflection.kind = ViewKind::kReflection;
     refraction.kind = ViewKind::kRefraction;
     refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
+    refraction.paper_refraction = world.scene.water.refraction == scene::RefractionModel::kPaper;
     reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
   }
   const std::array views = {&ws.window, &ws.lookups.reflection.view, &ws.lookups.refraction.view,
                             &ws.wet_lookups.reflection.view, &ws.wet_lookups.refraction.view};
-  for (RenderView* const shown : views)
+  for (RenderView* const shown : views) {
     shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
+    shown->clip_plane = options.clip_plane;
+    shown->clip_margin_m = clip_margin_m(world.water_bounds().height_m);
+  }
   return views;
 }
 

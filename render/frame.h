@@ -91,6 +91,10 @@ struct FrameOptions {
   bool keep_linear = false;  // fill Target::linear
   // Samples a pixel where surfaces meet, 0, 4 or 8; below 0: the scene's. Labels do not change.
   int edge_samples = -1;
+  // (A, B, C, D) of a plane in the world: of all surfaces, in the window, the mirror and under
+  // water, only what lies where A x + B y + C z + D >= 0 is drawn. Finite, (A, B, C) not 0.
+  // Shadows, queries, and whether the eye is in water stay those of the whole world.
+  std::optional<glm::dvec4> clip_plane = {};
   PartSet without;  // leave these parts of the picture out
   LabelSet labels;  // fill these of Target::labels; not with picture_scale below 1
   // For the label of motion: the camera of the next frame, of the same size, and how much later it

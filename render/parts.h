@@ -32,23 +32,27 @@ enum class Part : std::uint8_t {
   kTextures,     // pictures on meshes: each is its mean colour
   kUnderwater,   // what an eye below the surface sees; without it, it sees through air
   kMeniscus,     // the dark line where the surface cuts the picture
-  kCaustics,     // the sun's light under water, gathered by the waves
+  kCaustics,     // the sun's light, gathered by the waves: shafts and uplight as well
+  kShafts,       // it in the water between the eye and what it sees
+  kUplight,      // it on objects above the water, from below
   kSequence,     // a scene's sequence of bump images; without it, layers that drift
   kSunSlide,     // a scene's projected glitter; without it, that of slopes
   kCausticBend,  // how ripples move a scene's caustics
   kOwnShadows,   // of objects on themselves
+  kImageBlur,    // what slopes finer than a pixel spread in the lookup images
   kWakes,        // waves and foam of what disturbs the water
+  kMaps,         // waves of periodic maps; queries keep them
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "water",     "reflection", "refraction",   "ripples",     "glitter",
-    "whitecaps", "haze",       "earth",        "clouds",      "shadows",
-    "hulls",     "apron",      "tiling",       "seen-slopes", "crests",
-    "altitude",  "textures",   "underwater",   "meniscus",    "caustics",
-    "sequence",  "sun-slide",  "caustic-bend", "own-shadows", "wakes"};
+    "water",        "reflection",  "refraction", "ripples",  "glitter",  "whitecaps",
+    "haze",         "earth",       "clouds",     "shadows",  "hulls",    "apron",
+    "tiling",       "seen-slopes", "crests",     "altitude", "textures", "underwater",
+    "meniscus",     "caustics",    "shafts",     "uplight",  "sequence", "sun-slide",
+    "caustic-bend", "own-shadows", "image-blur", "wakes",    "maps"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }

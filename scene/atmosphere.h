@@ -3,9 +3,9 @@
 //
 // Source: E. Bruneton, F. Neyret, Precomputed Atmospheric Scattering, 2008 (the air, the
 // transmittance table, orders of scattering); S. Hillaire, A Scalable and Production Ready Sky and
-// Atmosphere Rendering Technique, 2020 (light scattered more than once as if from all sides alike;
-// ozone). Unlike Hillaire's each order is gathered along whole rays, not from the place itself,
-// for in twilight all light comes from far away.
+// Atmosphere Rendering Technique, 2020 (what molecules scatter more than once, as if from all sides
+// alike; ozone). Each order is gathered along whole rays, for in twilight all light comes from far
+// away, and haze throws it forward again.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,11 +23,12 @@ inline constexpr double kSunRadius_rad = 0.004654;
 struct Atmosphere {
   Air air;
   std::vector<glm::vec3> transmittance;  // by height and distance to the air's top
-  std::vector<glm::vec3> multiple;       // by height and sine of the light's elevation:
-                                         // mean radiance of what was scattered once or more
+  // Mean radiance of what was scattered once or more, by height and sine of the light's elevation:
+  // over all directions; and of each direction, as haze scatters it there.
+  std::vector<glm::vec3> multiple, haze;
 };
 
-// The same bits with any workers. About 40 ms on two threads.
+// The same bits with any workers. About 45 ms on two threads.
 Atmosphere make_atmosphere(double turbidity, Workers& workers);
 
 // The part of a light's rays that reach a height [0, kAirTop_m] from the sine of an elevation; 0

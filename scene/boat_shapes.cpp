@@ -97,7 +97,7 @@ void add_gunwale(const HullLines& lines, int stations, float width_m, const Pain
     std::vector<glm::vec3> points;
     for (int i = 0; i <= stations; ++i) {
       const float t = static_cast<float>(i) / static_cast<float>(stations);
-      const glm::vec3 edge = lines.at(t, side) + glm::vec3(0.0f, 0.0f, 0.005f);
+      const glm::vec3 edge = lines.at(t, side);
       const float in = std::min(width_m, std::abs(edge.x));
       const glm::vec3 inner(edge.x - side * in, edge.y, edge.z);
       points.push_back(side < 0.0f ? edge : inner);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/map_waves.h"
 #include "scene/coast.h"
 #include "scene/parameters.h"
 #include "scene/sky.h"
@@ -133,6 +134,18 @@ Fault fault_of_sea(const Scene& scene) {
   return std::nullopt;
 }
 
+Fault fault_of_maps(const ocean::SeaDescription& sea) {
+  for (std::size_t n = 0; n < sea.maps.size(); ++n)
+    if (sea.maps[n].file.empty())
+      return SceneFault{fmt::format("{}[{}].file", kMapsKey, n), "none", "a readable map file"};
+  const std::size_t layers = ocean::count_map_layers(sea);
+  const std::size_t patches = ocean::wave_systems(sea).empty() ? 0 : sea.patch_lengths_m.size();
+  if (layers == 0 || layers + patches <= ocean::kMaxPatches) return std::nullopt;
+  return SceneFault{std::string(sea.maps.empty() ? "sea.map_set" : kMapsKey),
+                    fmt::format("{} layers beside {} patches of the spectrum", layers, patches),
+                    fmt::format("at most {} of both", ocean::kMaxPatches)};
+}
+
 Fault fault_of_ripples(const Ripples& ripples) {
   if (ripples.sequence.empty() || ripples.kind == RippleKind::kSequence) return std::nullopt;
   return SceneFault{"ripples.sequence", "it with kind = \"layers\"", "it with kind = \"sequence\""};
@@ -255,6 +268,8 @@ std::optional<SceneFault> find_fault(const Scene& scene) {
   if (Fault fault =
           fault_of_tables(kSinesKey, scene.sea.sines, ocean::kMaxSines, sine_parameters()))
     return fault;
+  if (Fault fault = fault_of_tables(kMapsKey, scene.sea.maps, ocean::kMaxPatches, map_parameters()))
+    return fault;
   if (Fault fault = fault_of_tables(kObjectsKey, scene.objects, kMaxObjects, object_parameters()))
     return fault;
   if (Fault fault = fault_of_tables(kDisturbancesKey, scene.disturbances, kMaxDisturbances,
@@ -271,6 +286,7 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_disturbances(scene.disturbances)) return fault;
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
+  if (Fault fault = fault_of_maps(scene.sea)) return fault;
   if (Fault fault = fault_of_ripples(scene.ripples)) return fault;
   if (!scene.terrain) return std::nullopt;
   if (Fault fault = fault_of_coast_line(*scene.terrain)) return fault;

@@ -65,6 +65,7 @@ std::string dump_scene(const Scene& scene) {
   }
   return text + tables_text(kSwellKey, swell_parameters(), scene.sea.swells) +
          tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +
+         tables_text(kMapsKey, map_parameters(), scene.sea.maps) +
          tables_text(kPathKey, waypoint_parameters(), scene.camera.path) +
          tables_text(kObjectsKey, object_parameters(), scene.objects) +
          tables_text(kDisturbancesKey, disturbance_parameters(), scene.disturbances);

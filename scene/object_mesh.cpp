@@ -1,6 +1,7 @@
 #include "scene/object_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -65,13 +66,14 @@ void add_buoy(TopMark mark, MeshBuilder& to) {
   add_top_mark(mark, to);
 }
 
-// Of 8 segments and of 4, from any side, at common sizes.
+// Of 8 segments and of 4, from any side, at common sizes. A box's is of how far refraction bends
+// its sides between their ends.
 struct LevelErrors {
   float eight, four;
 };
 constexpr std::array<LevelErrors, 8> kLevelErrors = {{{0.020f, 0.066f},
                                                       {0.064f, 0.200f},
-                                                      {0.0f, 0.0f},
+                                                      {0.020f, 0.020f},
                                                       {0.021f, 0.060f},
                                                       {0.015f, 0.041f},
                                                       {0.006f, 0.006f},
@@ -81,6 +83,24 @@ constexpr std::array<LevelErrors, 8> kLevelErrors = {{{0.020f, 0.066f},
 float level_error(ObjectKind kind, int segments) {
   const LevelErrors& errors = kLevelErrors[static_cast<std::size_t>(kind)];
   return segments >= kLevelSegments[0] ? 0.0f : segments >= 8 ? errors.eight : errors.four;
+}
+
+// A box whose sides are cut into slices: what stands in water is seen bent, the further down the
+// more.
+void add_sliced_box(int slices, MeshBuilder& to) {
+  constexpr std::array<glm::vec2, 4> kPlan = {
+      {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}};
+  const auto height = [&](int slice) {
+    return static_cast<float>(slice) / static_cast<float>(slices);
+  };
+  const auto at = [&](std::size_t corner, float z) { return glm::vec3(kPlan[corner % 4], z); };
+  add_polygon(std::array{at(3, 0.0f), at(2, 0.0f), at(1, 0.0f), at(0, 0.0f)}, kPaint, to);
+  add_polygon(std::array{at(0, 1.0f), at(1, 1.0f), at(2, 1.0f), at(3, 1.0f)}, kPaint, to);
+  for (int k = 0; k < slices; ++k)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float low = height(k), high = height(k + 1);
+      add_polygon(std::array{at(i, low), at(i + 1, low), at(i + 1, high), at(i, high)}, kPaint, to);
+    }
 }
 
 }  // namespace
@@ -96,7 +116,7 @@ ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
       add_ball(0.5f, 0.0f, 1.0f, kPaint, builder);
       break;
     case ObjectKind::kBox:
-      add_box({-0.5f, -0.5f, 0.0f}, {0.5f, 0.5f, 1.0f}, kPaint, builder);
+      add_sliced_box(segments < kSlimSegments ? 1 : 8, builder);
       break;
     case ObjectKind::kBoat:
       add_boat(builder);

@@ -84,6 +84,9 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
                         "of its paint: 0.05 is polished, 1 matt"),
       ObjectRow::number("metalness", {0, 1}, SWELL_FIELD(metalness),
                         "of its paint: 1 mirrors in its colour and scatters nothing"),
+      ObjectRow::or_zero(ObjectRow::number("checker_m", {0.01, 100, "m"}, SWELL_FIELD(checker_m),
+                                           "side of squares on it, every second one nearly black; "
+                                           "0: none")),
       file,
       ObjectRow::choice("up", UpAxisName{},
                         "axis of the file that points up; auto: z of STL, else y"),

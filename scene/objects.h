@@ -67,6 +67,7 @@ struct FloatingObject {
   // Of what is painted.
   double roughness = 0.42;  // 0: mirrors, 1: matt
   double metalness = 0.0;
+  double checker_m = 0.0;  // side of its squares, every second one nearly black; 0: none
 
   // Of a mesh.
   std::string file{};

@@ -101,6 +101,7 @@ std::string allowed_text(const Parameter<Object>& parameter) {
 template std::string allowed_text(const Parameter<Scene>&);
 template std::string allowed_text(const Parameter<ocean::Swell>&);
 template std::string allowed_text(const Parameter<ocean::SineWave>&);
+template std::string allowed_text(const Parameter<ocean::MapLayer>&);
 template std::string allowed_text(const Parameter<FloatingObject>&);
 template std::string allowed_text(const Parameter<ocean::Disturbance>&);
 template std::string allowed_text(const Parameter<Waypoint>&);
@@ -132,6 +133,7 @@ std::string toml_text(const Parameter<Object>& parameter, const Object& object) 
 template std::string toml_text(const Parameter<Scene>&, const Scene&);
 template std::string toml_text(const Parameter<ocean::Swell>&, const ocean::Swell&);
 template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::SineWave&);
+template std::string toml_text(const Parameter<ocean::MapLayer>&, const ocean::MapLayer&);
 template std::string toml_text(const Parameter<FloatingObject>&, const FloatingObject&);
 template std::string toml_text(const Parameter<ocean::Disturbance>&, const ocean::Disturbance&);
 template std::string toml_text(const Parameter<Waypoint>&, const Waypoint&);

@@ -55,6 +55,22 @@ struct WaterTypeName {
   auto& operator()(auto& scene) const { return scene.water.type; }
 };
 
+struct RefractionName {
+  static constexpr std::array<std::string_view, 2> words = {"exact", "paper"};
+  auto& operator()(auto& scene) const { return scene.water.refraction; }
+};
+
+struct BackSidesName {
+  static constexpr std::array<std::string_view, 2> words = {"seen", "tilted"};
+  auto& operator()(auto& scene) const { return scene.water.tilted_backs; }
+};
+
+struct MapSetName {
+  static constexpr std::array<std::string_view, 5> words = {"none", "river", "lake", "coast",
+                                                            "ocean"};
+  auto& operator()(auto& scene) const { return scene.sea.map_set; }
+};
+
 struct CoastModelName {
   static constexpr std::array<std::string_view, 3> words = {"none", "trains", "blend"};
   auto& operator()(auto& scene) const { return scene.coast.model; }
@@ -177,8 +193,13 @@ Rows sea_rows() {
           "sea.gamma", {1, 20}, SWELL_FIELD(sea.gamma),
           "enhancement of the spectrum's peak; 3.3 beside `fetch_km`, else 1, "
           "if left out"),
-      SceneRow::plain<bool>("sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
-                            "the wind's waves; false leaves [[sea.swell]] and [[sea.sines]]"),
+      SceneRow::plain<bool>(
+          "sea.spectrum", Kind::kBoolean, SWELL_FIELD(sea.spectrum),
+          "the wind's waves; false leaves [[sea.swell]], [[sea.sines]] and [[sea.maps]], "
+          "and is the default beside `map_set` or [[sea.maps]]"),
+      SceneRow::choice("sea.map_set", MapSetName{},
+                       "seven layers of a periodic map that look like this water; sets the wind "
+                       "if that is left out"),
       SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, ocean::kMaxPatches,
                      SWELL_FIELD(sea.patch_lengths_m),
                      "periods of the patches that hold the wind waves, longest first"),
@@ -191,7 +212,7 @@ Rows sea_rows() {
                        "how much crests are sharper than troughs: 0 for linear waves, 1 for waves "
                        "of second order"),
       SceneRow::number("sea.amplitude_scale", {0, 4}, SWELL_FIELD(sea.amplitude_scale),
-                       "multiplies the heights of the wind waves"),
+                       "multiplies the heights of the wind waves, of swells and maps"),
       SceneRow::integer("sea.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(sea.seed),
                         "another number, another sea of the same state"),
       SceneRow::number("sea.gravity_mps2", {0.1, 100, "m/s^2"}, SWELL_FIELD(sea.gravity_mps2),
@@ -234,7 +255,8 @@ Rows water_rows() {
                        "the sine of the angle at which the eye meets the water, 0.1 to 1; or the "
                        "place in the picture, in picture heights below the horizon"),
       SceneRow::number("water.lookup_scale", {0.1, 1}, SWELL_FIELD(water.lookup_scale),
-                       "size of the mirror and underwater pictures against the window"),
+                       "size of the mirror and underwater pictures against the window: 1 is full, "
+                       "0.5 half, 0.25 a quarter"),
       SceneRow::number("water.bump_strength", {0, 10}, SWELL_FIELD(water.bump_strength),
                        "of the ripples"),
       SceneRow::number("water.uv_noise_amplitude_m", {0, 10, "m"},
@@ -242,6 +264,9 @@ Rows water_rows() {
                        "how far noise moves the layers' coordinates"),
       SceneRow::number("water.caustics", {0, 1}, SWELL_FIELD(water.caustics),
                        "contrast of the light that waves gather under water"),
+      SceneRow::choice("water.back_sides", BackSidesName{},
+                       "of waves, where nothing hides them: drawn as the slopes that are seen "
+                       "there, or with normals tilted to the eye"),
       SceneRow::number("water.caustic_distortion", {0, 10, "m"},
                        SWELL_FIELD(water.caustic_distortion),
                        "Cc: how far a ripple's slope moves that light"),
@@ -251,6 +276,14 @@ Rows water_rows() {
       SceneRow::number("water.glitter_distortion", {0, 10, "rad"},
                        SWELL_FIELD(water.glitter_distortion),
                        "Cp: how far a slope moves that picture"),
+      SceneRow::choice("water.refraction", RefractionName{},
+                       "where things under water appear from above: by Snell's law, or by two "
+                       "straight lines for apparent over true depth, 0.75 - 0.16 theta up to 0.8 "
+                       "rad of the ray in air, 1.26 - 0.8 theta from there"),
+      SceneRow::optional_number("water.reflection_weight", {0, 1},
+                                SWELL_FIELD(water.reflection_weight),
+                                "of mirrored against sunken things, seen from above: one number "
+                                "for all angles in place of Fresnel's reflectance"),
       SceneRow::integer("detail.water_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
@@ -366,6 +399,10 @@ Rows terrain_rows() {
                        "side of the terrain along coast_m"),
       SceneRow::integer("terrain.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(terrain->seed),
                         "another number, another island or other dunes"),
+      SceneRow::or_zero(SceneRow::number("terrain.checker_m", {0.01, 1000, "m"},
+                                         SWELL_FIELD(terrain->checker_m),
+                                         "side of white and black squares in place of the "
+                                         "ground's colours; 0: none")),
   };
 }
 
@@ -394,6 +431,27 @@ std::vector<Parameter<ocean::SineWave>> sine_parameters() {
                      "at the origin at t = 0; 90 is a crest"),
       SineRow::or_zero(SineRow::number("period_s", {0.05, 1000, "s"}, SWELL_FIELD(period_s),
                                        "from crest to crest at one place; 0: that of deep water")),
+  };
+}
+
+std::vector<Parameter<ocean::MapLayer>> map_parameters() {
+  using MapRow = Row<ocean::MapLayer>;
+  auto file =
+      MapRow::plain<std::string>("file", Kind::kPath, SWELL_FIELD(file),
+                                 "of swell-bench waves --make-map, relative to the scene file");
+  file.path_of = "map";
+  return {
+      file,
+      MapRow::number("length_m", {0.5, 50000, "m"}, SWELL_FIELD(length_m),
+                     "after which it repeats itself, along x and y"),
+      MapRow::or_zero(MapRow::number("period_s", {0.1, 100000, "s"}, SWELL_FIELD(period_s),
+                                     "after which it repeats itself in time; 0: so that its mean "
+                                     "wave is as fast as in deep water")),
+      MapRow::number("hs_m", {0, 30, "m"}, SWELL_FIELD(hs_m), "significant height"),
+      MapRow::vector("offset_m", {-1e6, 1e6, "m"}, SWELL_FIELD(offset_m),
+                     "place of the map that lies at the world's origin, to whole samples"),
+      MapRow::number("offset_s", {-1e6, 1e6, "s"}, SWELL_FIELD(offset_s),
+                     "time of the map at t = 0"),
   };
 }
 

@@ -59,6 +59,9 @@ std::vector<Parameter<ocean::Swell>> swell_parameters();
 // Keys of one table of [[sea.sines]].
 std::vector<Parameter<ocean::SineWave>> sine_parameters();
 
+// Keys of one table of [[sea.maps]].
+std::vector<Parameter<ocean::MapLayer>> map_parameters();
+
 // Keys of one table of [[camera.path]].
 std::vector<Parameter<Waypoint>> waypoint_parameters();
 
@@ -72,8 +75,8 @@ inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 2000, kMaxDistur
 inline constexpr int kMaxCoastPoints = 200, kMaxPathPoints = 100;
 inline constexpr std::size_t kMaxTextBytes = 200;
 inline constexpr std::string_view kSwellKey = "sea.swell", kSinesKey = "sea.sines",
-                                  kPathKey = "camera.path", kObjectsKey = "object",
-                                  kDisturbancesKey = "disturbance";
+                                  kMapsKey = "sea.maps", kPathKey = "camera.path",
+                                  kObjectsKey = "object", kDisturbancesKey = "disturbance";
 
 // A key that may be without a value, and one whose place it takes: a file has only one of them.
 struct Replacement {

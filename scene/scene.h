@@ -59,6 +59,12 @@ enum class Glitter : std::uint8_t {
   kProjective,  // by a picture that the mirrored sun throws on the water
 };
 
+// Where what lies under water appears to an eye above it.
+enum class RefractionModel : std::uint8_t {
+  kExact,  // by Snell's law
+  kPaper,  // by two straight lines (render/view/refracted_image.h)
+};
+
 struct WaterOptics {
   double refraction_index = 1.333;
   WaterType type = WaterType::kNone;
@@ -71,9 +77,14 @@ struct WaterOptics {
   double bump_strength = 1.0;        // of the two scrolling layers
   double uv_noise_amplitude = 0.35;  // of the Perlin perturbation of their coordinates, in metres
   double caustics = 1.0;             // contrast of the sun's light under water, [0, 1]
-  double caustic_distortion = 0.0;   // Cc: by how much ripples move it, in metres
+  // Back sides of waves that nothing hides: drawn as those of the slopes that are seen there, or
+  // with normals tilted to the eye.
+  bool tilted_backs = false;
+  double caustic_distortion = 0.0;  // Cc: by how much ripples move it, in metres
   Glitter glitter = Glitter::kSlopes;
   double glitter_distortion = 2.0;  // Cp of the projected glitter, in radians
+  RefractionModel refraction = RefractionModel::kExact;
+  std::optional<double> reflection_weight;  // of what it mirrors, [0, 1]; none: Fresnel's
 };
 
 // How waves too short for the wave patches are made.

@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 
+#include "ocean/map_sets.h"
 #include "ocean/sea_scale.h"
 #include "scene/check_scene.h"
 #include "scene/parameters.h"
@@ -81,6 +82,7 @@ class Reader {
         parameters_(scene_parameters()),
         swell_parameters_(swell_parameters()),
         sine_parameters_(sine_parameters()),
+        map_parameters_(map_parameters()),
         waypoint_parameters_(waypoint_parameters()),
         object_parameters_(object_parameters()),
         disturbance_parameters_(disturbance_parameters()) {}
@@ -89,6 +91,7 @@ class Reader {
     scene_.name = file_.stem().string();
     read_table(root, "");
     check_replacements();
+    apply_maps();
     apply_sea_state();
     apply_water_type();
     finish_coast();
@@ -129,6 +132,8 @@ class Reader {
         read_tables(*node, kSwellKey, ocean::kMaxSwells, swell_parameters_, scene_.sea.swells);
       } else if (path == kSinesKey) {
         read_tables(*node, kSinesKey, ocean::kMaxSines, sine_parameters_, scene_.sea.sines);
+      } else if (path == kMapsKey) {
+        read_tables(*node, kMapsKey, ocean::kMaxPatches, map_parameters_, scene_.sea.maps);
       } else if (path == kObjectsKey) {
         read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
       } else if (path == kDisturbancesKey) {
@@ -142,6 +147,15 @@ class Reader {
         fail_unknown(key_place, std::string_view(prefix).substr(0, prefix.find_last_of('.')), key);
       }
     }
+  }
+
+  // Maps take the spectrum's place, and a set has a wind.
+  void apply_maps() {
+    ocean::SeaDescription& sea = scene_.sea;
+    if (!sea.has_maps()) return;
+    if (!given_.contains("sea.spectrum")) sea.spectrum = false;
+    if (sea.map_set != ocean::MapSet::kNone && !given_.contains("wind.speed_mps"))
+      sea.wind_speed_mps = ocean::wind_of_set_mps(sea.map_set);
   }
 
   // Wind and patch lengths from sea.douglas or sea.beaufort.
@@ -457,6 +471,7 @@ class Reader {
     for (const auto& parameter : parameters_) add(parameter.key, false);
     add_tables(kSwellKey, swell_parameters_);
     add_tables(kSinesKey, sine_parameters_);
+    add_tables(kMapsKey, map_parameters_);
     add_tables(kPathKey, waypoint_parameters_);
     add_tables(kObjectsKey, object_parameters_);
     add_tables(kDisturbancesKey, disturbance_parameters_);
@@ -470,6 +485,7 @@ class Reader {
   std::vector<Parameter<Scene>> parameters_;
   std::vector<Parameter<ocean::Swell>> swell_parameters_;
   std::vector<Parameter<ocean::SineWave>> sine_parameters_;
+  std::vector<Parameter<ocean::MapLayer>> map_parameters_;
   std::vector<Parameter<Waypoint>> waypoint_parameters_;
   std::vector<Parameter<FloatingObject>> object_parameters_;
   std::vector<Parameter<ocean::Disturbance>> disturbance_parameters_;

@@ -40,6 +40,7 @@ struct TerrainDescription {
   double beach_slope = 0.02;
   double beach_size_m = 1200.0;  // the square's side
   std::uint64_t seed = 3;        // of the island or of the dunes
+  double checker_m = 0.0;        // side of white and black squares laid over the ground; 0: none
 
   bool operator==(const TerrainDescription&) const = default;
 };

@@ -322,12 +322,11 @@ HWY_INLINE V SampleLevel(D d, const PackedMap1& map, VI x_fx8, VI y_fx8, VI leve
   return SampleAt(d, map, PlaceOnLevel(hn::RebindToSigned<D>(), map, x_fx8, y_fx8, level));
 }
 
-// Window coordinate to 1/256 texels from the first texel's centre, clamped to [0, texels - 1];
-// NaN counts as 0. At most 2^14 texels: 22 bits.
+// Window coordinate to 1/256 texels from the first texel's centre, clamped to [0, last]; NaN counts
+// as 0. At most 2^14 texels: 22 bits.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Vec<hn::RebindToSigned<D>> WindowCoordinateFx8(D d, V x_px, int texels) {
+HWY_INLINE hn::Vec<hn::RebindToSigned<D>> WindowCoordinateFx8(D d, V x_px, V last) {
   const hn::RebindToSigned<D> di;
-  const V last = hn::Set(d, static_cast<float>(texels - 1));
   V x = hn::Sub(x_px, hn::Set(d, 0.5f));
   x = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);  // false for NaN
   x = hn::IfThenElse(hn::Lt(x, last), x, last);
@@ -352,25 +351,22 @@ HWY_INLINE VB BlendRows(D8 d8, VB row0, VB row1, VB weights0, VB weights1) {
   return hn::BitCast(d8, hn::Add(sum, hn::Set(d16, 255 * 128)));
 }
 
-// Samples `image` bilinearly at the window position (x_px, y_px) [texels of that image; texel
-// (x, y)'s centre is (x + 0.5, y + 0.5)], clamped to the image; NaN counts as the first texel's
-// centre. Results in [0, 1]. fill_padding() must have been called.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V& g, V& b, V& a) {
+// The texels of an image from `begin` on, in rows of `stride`, blended at a place a lane.
+template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, VI x_fx8, VI y_fx8,
+                             V& r, V& g, V& b, V& a) {
   const hn::RebindToSigned<D> di;
   const hn::RebindToUnsigned<D> du;
   const hn::Repartition<std::uint8_t, D> d8;
-  const auto x_fx8 = WindowCoordinateFx8(d, x_px, image.width);
-  const auto y_fx8 = WindowCoordinateFx8(d, y_px, image.height);
   const auto weights = BilinearWeights(di, x_fx8, y_fx8);
 
   // Two texels of each of two rows.
-  HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
-  const auto row = hn::Mul(hn::ShiftRight<8>(y_fx8), hn::Set(di, image.stride));
-  const auto index = hn::Add(row, hn::ShiftRight<8>(x_fx8));
-  StoreIndex(index, lane_index);
-  const std::uint32_t* const upper = image.texels.data();
-  const std::uint32_t* const lower = upper + image.stride;
+  HWY_ALIGN std::uint32_t upper_index[hn::MaxLanes(d)], lower_index[hn::MaxLanes(d)];
+  const VI row = hn::Add(begin, hn::Mul(hn::ShiftRight<8>(y_fx8), stride));
+  const VI index = hn::Add(row, hn::ShiftRight<8>(x_fx8));
+  StoreIndex(index, upper_index);
+  StoreIndex(hn::Add(index, stride), lower_index);
+  const std::uint32_t* const texels = image.texels.data();
 
   // The weights of row 0 (low 16 bits) and row 1 (high 16 bits), each over a whole lane, then
   // widened to words: left, right for each of the four channels.
@@ -378,14 +374,14 @@ HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V&
   const auto row0 = hn::Or(low, hn::ShiftLeft<16>(low));
   const auto high = hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, weights)));
   const auto row1 = hn::Or(high, hn::ShiftLeft<16>(high));
-  const auto sums0 =
-      BlendRows(d8, LoadWords<4, 0>(d8, upper, lane_index), LoadWords<4, 0>(d8, lower, lane_index),
-                hn::BitCast(d8, hn::InterleaveLower(di, row0, row0)),
-                hn::BitCast(d8, hn::InterleaveLower(di, row1, row1)));
-  const auto sums1 =
-      BlendRows(d8, LoadWords<4, 1>(d8, upper, lane_index), LoadWords<4, 1>(d8, lower, lane_index),
-                hn::BitCast(d8, hn::InterleaveUpper(di, row0, row0)),
-                hn::BitCast(d8, hn::InterleaveUpper(di, row1, row1)));
+  const auto sums0 = BlendRows(d8, LoadWords<4, 0>(d8, texels, upper_index),
+                               LoadWords<4, 0>(d8, texels, lower_index),
+                               hn::BitCast(d8, hn::InterleaveLower(di, row0, row0)),
+                               hn::BitCast(d8, hn::InterleaveLower(di, row1, row1)));
+  const auto sums1 = BlendRows(d8, LoadWords<4, 1>(d8, texels, upper_index),
+                               LoadWords<4, 1>(d8, texels, lower_index),
+                               hn::BitCast(d8, hn::InterleaveUpper(di, row0, row0)),
+                               hn::BitCast(d8, hn::InterleaveUpper(di, row1, row1)));
 
   const auto rg = EvenParts(di, sums0, sums1);
   const auto ba = OddParts(di, sums0, sums1);
@@ -401,6 +397,37 @@ HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V&
   g = high_channel(rg);
   b = low_channel(ba);
   a = high_channel(ba);
+}
+
+// Samples `image` bilinearly at the window position (x_px, y_px) [texels of that image; texel
+// (x, y)'s centre is (x + 0.5, y + 0.5)], clamped to the image; NaN counts as the first texel's
+// centre. Results in [0, 1]. fill_padding() must have been called.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V& g, V& b, V& a) {
+  const hn::RebindToSigned<D> di;
+  const V last_x = hn::Set(d, static_cast<float>(image.width - 1));
+  const V last_y = hn::Set(d, static_cast<float>(image.height - 1));
+  SampleTexels(d, image, hn::Zero(di), hn::Set(di, image.stride),
+               WindowCoordinateFx8(d, x_px, last_x), WindowCoordinateFx8(d, y_px, last_y), r, g, b,
+               a);
+}
+
+// The same on one of the image's softer levels a lane; positions are of texels of level 0.
+template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE void SampleRgbaLevel(D d, const RgbaImage& image, V x_px, V y_px, VI level, V& r, V& g,
+                                V& b, V& a) {
+  const hn::RebindToSigned<D> di;
+  const auto lane = hn::IndicesFromVec(d, level);
+  const auto number = [&](const std::array<float, 16>& of_level) HWY_ATTR {
+    return hn::TableLookupLanes(hn::Load(d, of_level.data()), lane);
+  };
+  const auto integer = [&](const std::array<std::int32_t, 16>& of_level) HWY_ATTR {
+    return hn::TableLookupLanes(hn::Load(di, of_level.data()), hn::IndicesFromVec(di, level));
+  };
+  const V x = hn::Mul(x_px, number(image.scale_x)), y = hn::Mul(y_px, number(image.scale_y));
+  SampleTexels(d, image, integer(image.level_begin), integer(image.level_stride),
+               WindowCoordinateFx8(d, x, number(image.last_x)),
+               WindowCoordinateFx8(d, y, number(image.last_y)), r, g, b, a);
 }
 
 // Samples `map` bilinearly at (x_fx8, y_fx8) [1/256 texels from the first texel's centre], clamped

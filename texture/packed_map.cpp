@@ -7,24 +7,88 @@
 
 namespace swell::texture {
 
-void resize_image(int width, int height, RgbaImage& image) {
+namespace {
+
+// Texels of a level's block along each axis, as powers of two.
+int log2_block_x(int level) { return std::max(level - 1, 0); }
+int log2_block_y(int level) { return level; }
+
+int blocks(int texels, int log2_block) { return (texels + (1 << log2_block) - 1) >> log2_block; }
+
+// The mean of four colours, channel by channel, to the nearest.
+std::uint32_t mean_of(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  constexpr std::uint32_t kEven = 0x00ff00ffu, kHalf = 0x00020002u;
+  const std::uint32_t low = (a & kEven) + (b & kEven) + (c & kEven) + (d & kEven) + kHalf;
+  const std::uint32_t high =
+      (a >> 8 & kEven) + (b >> 8 & kEven) + (c >> 8 & kEven) + (d >> 8 & kEven) + kHalf;
+  return (low >> 2 & kEven) | (high >> 2 & kEven) << 8;
+}
+
+}  // namespace
+
+void resize_image(int width, int height, RgbaImage& image, int levels) {
   SWELL_CHECK(width >= 1 && width <= 16384 && height >= 1 && height <= 16384, "size={}x{}", width,
               height);
+  SWELL_CHECK(levels >= 1 && levels <= kMostRgbaLevels, "levels={}", levels);
   image.width = width;
   image.height = height;
-  image.stride = (width + 16) / 16 * 16;  // rows of whole cache lines
-  image.texels.assign(static_cast<std::size_t>(image.stride) * (height + 1), 0);
+  image.levels = levels;
+  std::int32_t begin = 0;
+  for (int level = 0; level < levels; ++level) {
+    const int w = blocks(width, log2_block_x(level)), h = blocks(height, log2_block_y(level));
+    const int stride = (w + 16) / 16 * 16;  // rows of whole cache lines
+    const auto at = static_cast<std::size_t>(level);
+    image.level_begin[at] = begin, image.level_stride[at] = stride;
+    image.last_x[at] = static_cast<float>(w - 1), image.last_y[at] = static_cast<float>(h - 1);
+    image.scale_x[at] = 1.0f / static_cast<float>(1 << log2_block_x(level));
+    image.scale_y[at] = 1.0f / static_cast<float>(1 << log2_block_y(level));
+    begin += stride * (h + 1);
+  }
+  image.stride = image.level_stride[0];
+  image.texels.assign(static_cast<std::size_t>(begin), 0);
 }
 
 void fill_padding(RgbaImage& image) {
-  const std::size_t stride = static_cast<std::size_t>(image.stride);
-  for (int y = 0; y < image.height; ++y) {
-    std::uint32_t* const row = image.texels.data() + y * stride;
-    row[image.width] = row[image.width - 1];
+  for (int level = 0; level < image.levels; ++level) {
+    const auto at = static_cast<std::size_t>(level);
+    const std::ptrdiff_t stride = image.level_stride[at];
+    const int width = static_cast<int>(image.last_x[at]) + 1;
+    const int height = static_cast<int>(image.last_y[at]) + 1;
+    std::uint32_t* const texels = image.texels.data() + image.level_begin[at];
+    for (int y = 0; y < height; ++y) texels[y * stride + width] = texels[y * stride + width - 1];
+    std::uint32_t* const last_row = texels + (height - 1) * stride;
+    std::copy_n(last_row, width + 1, last_row + stride);
   }
-  const auto last_row =
-      image.texels.begin() + static_cast<std::ptrdiff_t>(stride) * (image.height - 1);
-  std::copy_n(last_row, image.width + 1, last_row + image.stride);
+}
+
+void soften_block(int x0, int y0, int x1, int y1, RgbaImage& image) {
+  for (int level = 1; level < image.levels; ++level) {
+    const auto at = static_cast<std::size_t>(level);
+    const bool halves_x = log2_block_x(level) > log2_block_x(level - 1);
+    const std::ptrdiff_t fine_stride = image.level_stride[at - 1];
+    const auto last_x = static_cast<int>(image.last_x[at - 1]);
+    const auto last_y = static_cast<int>(image.last_y[at - 1]);
+    const std::uint32_t* const fine = image.texels.data() + image.level_begin[at - 1];
+    std::uint32_t* const coarse = image.texels.data() + image.level_begin[at];
+    const int begin_x = x0 >> log2_block_x(level), end_x = blocks(x1, log2_block_x(level));
+    const int begin_y = y0 >> log2_block_y(level), end_y = blocks(y1, log2_block_y(level));
+    // Columns that have both of their halves.
+    const int whole_x = halves_x ? std::min(end_x, (last_x + 1) / 2) : end_x;
+    for (int y = begin_y; y < end_y; ++y) {
+      const std::uint32_t* const upper = fine + 2 * y * fine_stride;
+      const std::uint32_t* const lower = fine + std::min(2 * y + 1, last_y) * fine_stride;
+      std::uint32_t* const row = coarse + y * static_cast<std::ptrdiff_t>(image.level_stride[at]);
+      if (halves_x) {
+        for (int x = begin_x; x < whole_x; ++x)
+          row[x] = mean_of(upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]);
+        if (whole_x < end_x)
+          row[whole_x] = mean_of(upper[last_x], upper[last_x], lower[last_x], lower[last_x]);
+      } else {
+        for (int x = begin_x; x < end_x; ++x)
+          row[x] = mean_of(upper[x], upper[x], lower[x], lower[x]);
+      }
+    }
+  }
 }
 
 void pack_rgb(const RgbaImage& image, RgbMap& map) {

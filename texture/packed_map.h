@@ -74,17 +74,30 @@ void pack_map1(int size, std::span<const float> values, PackedMap1& map);
 // An RGBA image for lookups at continuous window positions: 8 bits a channel, one texel of
 // padding right and below so that a bilinear sample is two 64-bit loads (texels x, x+1 of rows y,
 // y+1). Texel (x, y)'s centre lies at (x + 0.5, y + 0.5). Lookups clamp to the image.
+//
+// It may have softer levels besides: each texel of level l is the mean of a block of
+// 2^max(l - 1, 0) x 2^l texels, so that levels blur twice as far up and down as to the sides.
+inline constexpr int kMostRgbaLevels = 5;
 struct RgbaImage {
   int width = 0, height = 0;
   int stride = 0;                     // in texels, >= width + 1; rows 0 .. height
-  std::vector<std::uint32_t> texels;  // R in the low byte
+  std::vector<std::uint32_t> texels;  // R in the low byte; level after level
+  int levels = 1;
+  // By level; as long as a vector.
+  alignas(64) std::array<std::int32_t, 16> level_begin{}, level_stride{};
+  alignas(64) std::array<float, 16> last_x{}, last_y{}, scale_x{}, scale_y{};
 };
 
-// Sizes the image [1, 16384] squared and zeroes it.
-void resize_image(int width, int height, RgbaImage& image);
+// Sizes the image [1, 16384] squared and zeroes it. levels: [1, kMostRgbaLevels].
+void resize_image(int width, int height, RgbaImage& image, int levels = 1);
 
-// Copies the last column and row into the padding; call after texels have been written.
+// Copies the last column and row of all levels into the padding; call after texels have been
+// written.
 void fill_padding(RgbaImage& image);
+
+// Makes the softer levels of the texels in [x0, x1) x [y0, y1), which are whole blocks of the
+// softest level or end with the image. Different blocks may be made by different threads.
+void soften_block(int x0, int y0, int x1, int y1, RgbaImage& image);
 
 // A square image of three channels, for lookups at continuous positions that cost one load: a word
 // holds the 2 x 2 neighbourhood of a texel, as PackedQuad does, of red, green and blue, each byte

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/make_map.h"
 #include "apps/bench/wave_figures.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/options.h"
@@ -26,6 +27,7 @@ struct WaveFigures {
   double t_s = 0.0, side_m = 0.0;  // side 0: that of the terrain, or the sea's shorter one
   int pixels = 480;
   Pair centre_m, from_m, to_m;  // empty if not given
+  MapOptions made;
 };
 
 // As a point; `otherwise` if it was not given.
@@ -40,7 +42,10 @@ glm::dvec2 point(const char* name, const Pair& value, glm::dvec2 otherwise) {
 
 void check_figure_files(const WaveFigures& figures) {
   if (figures.filter.empty() && figures.map.empty() && figures.section.empty())
-    throw OptionError("command line: got no figure to draw, allowed --filter, --map, --section");
+    throw OptionError(
+        "command line: got no figure to draw, allowed --filter, --map, --section, --make-map");
+  if (figures.scene_path.empty())
+    throw OptionError("command line: --scene, got none, allowed a scene file");
   if (!figures.filter.empty()) check_picture_file(figures.filter);
   if (!figures.map.empty()) check_picture_file(figures.map);
   check_text_place(figures.section);
@@ -94,6 +99,7 @@ void write_section(const WaveFigures& figures, const scene::Scene& scene, const 
 }
 
 void run_waves(const WaveFigures& figures) {
+  if (!figures.made.file.empty()) return make_map(figures.made);
   check_figure_files(figures);
   const scene::Scene scene = load_scene(figures.scene_path);
   if (!figures.filter.empty()) write_filter(figures, scene);
@@ -110,8 +116,8 @@ void run_waves(const WaveFigures& figures) {
 
 BenchMode add_bench_waves(CommandLine& program) {
   const auto figures = std::make_shared<WaveFigures>();
-  CommandLine line = program.add_mode("waves", "Figures of a scene's waves");
-  add_scene_option(line, figures->scene_path);
+  CommandLine line = program.add_mode("waves", "Figures of a scene's waves, and maps of waves");
+  line.add_text("--scene", "FILE", figures->scene_path, "Scene file (TOML)");
   add_number(line, "--time", figures->t_s, -1e9, 1e9, "Seconds since the scene's start");
   line.add_text("--filter", "F.png", figures->filter,
                 "Write the spectrum as a filter of wave vectors");
@@ -122,6 +128,9 @@ BenchMode add_bench_waves(CommandLine& program) {
   line.add_text("--section", "F.svg", figures->section, "Write surface and floor along a line");
   line.add_pair("--from", figures->from_m, "Where the section begins");
   line.add_pair("--to", figures->to_m, "Where it ends");
+  add_map_options(line, figures->made);
+  for (const char* figure : {"--scene", "--filter", "--map", "--section"})
+    line.exclude("--make-map", figure);
   return {line, [figures] { run_waves(*figures); }};
 }
 

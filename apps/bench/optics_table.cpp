@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "apps/bench/frame_run.h"
 #include "apps/shared/report.h"
 #include "math/check.h"
@@ -29,6 +31,7 @@ StillScene fill_with_land(render::World world, const FrameSetup& setup, int tria
   const View view = render::world_view(world, 0.0, setup.size.width_px, setup.size.height_px,
                                        camera_sea, workers);
   StillScene still{std::move(world), view, setup.frame};
+  still.frame.without.add(render::Part::kUnderwater);  // an eye below shows other objects
   render::Workspace workspace;
   render::Target target;
   const auto draw = [&](int land_triangles) {

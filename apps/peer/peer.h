@@ -27,8 +27,8 @@ inline constexpr auto kPeerPasses = static_cast<std::size_t>(PeerPass::kCount);
 std::string_view peer_pass_name(PeerPass pass);  // "reflection", "refraction", ...
 
 // Parts of the picture that the peer does not draw.
-inline constexpr render::PartSet kPeerLacks =
-    *render::parse_parts("whitecaps,clouds,shadows,hulls,textures,caustics,sequence,sun-slide,wakes");
+inline constexpr render::PartSet kPeerLacks = *render::parse_parts(
+    "whitecaps,clouds,shadows,hulls,textures,caustics,sequence,sun-slide,image-blur,wakes");
 
 // On one thread, one at a time: OpenGL has one current context.
 class Peer {

@@ -27,7 +27,8 @@ std::string layers_text(const render::Water& water) {
   std::string text;
   const auto next_level = [&] {
     text +=
-        "level_m = level_on_waves(to_eye, point.across, s.slope);\n"
+        "long_cosine = cosine_of_slopes(to_eye, s.slope);\n"
+        "level_m = footprint_level(point.across, clamp(long_cosine, 0.02, 1.0));\n"
         "fine_variance = s.variance + short_variance;\n";
   };
   const std::string blend =
@@ -201,8 +202,10 @@ void set_terrain(const Shading& s, const GlProgram& program) {
 
 void set_view_programs(const Shading& s, const render::RenderView& view,
                        const ViewPrograms& programs) {
-  for (const GlProgram* program : {&programs.object, &programs.distance, &programs.terrain})
+  for (const GlProgram* program : {&programs.object, &programs.distance, &programs.terrain}) {
     set_view(s, view.camera, *program);
+    program->set("clip_margin_m", view.clip_margin_m);
+  }
   set_terrain(s, programs.terrain);
   programs.object.set("sea_light", s.material<render::Object>().sea_light);
 }

@@ -17,9 +17,9 @@ std::vector<ocean::SineWave> waves_with_wind(double wind_from_rad) {
 
 WaveChoice wave_choice(const scene::Scene& scene) {
   const ocean::SeaDescription& sea = scene.sea;
-  const WaveModel model = sea.sines.empty() ? WaveModel::kSpectrum
-                          : sea.spectrum    ? WaveModel::kBoth
-                                            : WaveModel::kSines;
+  const WaveModel model = sea.sines.empty()      ? WaveModel::kSpectrum
+                          : sea.has_wind_waves() ? WaveModel::kBoth
+                                                 : WaveModel::kSines;
   return {model, sea.wind_speed_mps, sea.wind_from_rad};
 }
 
@@ -32,11 +32,16 @@ std::array<const char*, 3> wave_names(const scene::Scene& scene) {
     case scene::CoastModel::kBlend:
       return {"spectrum and trains", "sines and trains", "spectrum, sines, trains"};
   }
+  if (scene.sea.has_maps()) return {"maps", "sines", "maps and sines"};
   return {"spectrum", "sines", "spectrum and sines"};
 }
 
 scene::Scene with_waves(scene::Scene scene, const WaveChoice& choice) {
-  scene.sea.spectrum = choice.model != WaveModel::kSines;
+  scene.sea.spectrum = choice.model != WaveModel::kSines && !scene.sea.has_maps();
+  if (choice.model == WaveModel::kSines) {
+    scene.sea.map_set = ocean::MapSet::kNone;
+    scene.sea.maps.clear();
+  }
   scene.sea.wind_speed_mps = choice.wind_speed_mps;
   scene.sea.wind_from_rad = choice.wind_from_rad;
   if (choice.model == WaveModel::kSpectrum)

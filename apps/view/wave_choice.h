@@ -19,8 +19,8 @@ struct WaveChoice {
 // What the scene itself says.
 WaveChoice wave_choice(const scene::Scene& scene);
 
-// The scene's waves with each model, in the order of WaveModel. With a coast they have its trains,
-// too, which no choice takes away.
+// The scene's waves with each model, in the order of WaveModel; maps stand in the spectrum's place.
+// With a coast they have its trains, too, which no choice takes away.
 std::array<const char*, 3> wave_names(const scene::Scene& scene);
 
 // `scene` with other waves, its coast as it is. Explicit waves are kept as the scene has them; a

@@ -18,11 +18,20 @@ namespace HWY_NAMESPACE {
 // Levels of the maps at which the pattern begins to fade to its mean, and is gone.
 constexpr float kFirstCausticLost = 1.0f, kAllCausticLost = 3.0f;
 
-// How much a depth has of the k-th map: from one depth to the next the weights go over to the next
-// map. Above the first depth the contrast rises as that of a weak lens does, below the last one it
-// falls.
+// How much a depth has of the k-th map. Above the first depth the contrast rises as that of a weak
+// lens does, below the last one it falls. From one depth to the next the weights go over to the
+// next map, or where kNearest change at once.
+template <bool kNearest>
 HWY_INLINE V CausticWeight(const Caustics& caustics, std::size_t k, V depth) {
   const auto& at = caustics.depth_m;
+  if constexpr (kNearest) {
+    const V contrast = k == 0 ? hn::Mul(depth, Constant(1.0f / at[k]))
+                              : hn::Div(Constant(at.back()), hn::Max(depth, Constant(at.back())));
+    const float first = k > 0 ? 0.5f * (at[k - 1] + at[k]) : 0.0f;
+    const float end = k + 1 < at.size() ? 0.5f * (at[k] + at[k + 1]) : 1e30f;
+    const auto here = hn::And(hn::Ge(depth, Constant(first)), hn::Lt(depth, Constant(end)));
+    return hn::IfThenElseZero(here, hn::Min(contrast, Constant(1.0f)));
+  }
   const float before = k > 0 ? at[k - 1] : 0.0f;
   const V rising = hn::Mul(hn::Sub(depth, Constant(before)), Constant(1.0f / (at[k] - before)));
   const V falling = k + 1 < at.size() ? hn::Mul(hn::Sub(Constant(at[k + 1]), depth),
@@ -70,7 +79,9 @@ HWY_NOINLINE static void BendLookup(const Caustics& caustics, V level_m, V& x, V
 
 // The sun's light on points p under the water's level, relative to the eye, against what flat water
 // would let through: 1 above the level, and where it is too deep or too far away to see a pattern.
-inline HWY_NOINLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
+// By kNearest maps a lookup costs half as much: for means along ways.
+template <bool kNearest = false>
+HWY_NOINLINE static V GatheredSun(const Shading& s, const V3& p, V level_m) {
   const D d;
   const Caustics& caustics = s.caustics;
   const V zero = hn::Zero(d), one = Constant(1.0f);
@@ -78,13 +89,13 @@ inline HWY_NOINLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
   if (caustics.patches == 0 || hn::AllFalse(d, hn::Gt(depth, zero))) return one;
   V x = hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x);
   V y = hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y);
-  if (caustics.bend_m > 0.0f) BendLookup(caustics, level_m, x, y);
+  if (!kNearest && caustics.bend_m > 0.0f) BendLookup(caustics, level_m, x, y);
   std::array<CausticPlace, CausticMaps::kMostPatches> places;
   for (std::size_t i = 0; i < caustics.patches; ++i)
     places[i] = PlaceInCaustics(caustics.patch[i], x, y, level_m);
   V more = zero;
   for (std::size_t k = 0; k < CausticMaps::kDepths; ++k) {
-    const V weight = CausticWeight(caustics, k, depth);
+    const V weight = CausticWeight<kNearest>(caustics, k, depth);
     if (hn::AllFalse(d, hn::Gt(weight, zero))) continue;
     V intensity = one;
     for (std::size_t i = 0; i < caustics.patches; ++i)

@@ -11,6 +11,8 @@ Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
   caustics.patches = maps.patches;
   caustics.depth_m = maps.depth_m;
   caustics.strength = static_cast<float>(in.world.scene.water.caustics);
+  caustics.throws_up = maps.throws_up;
+  caustics.thrown_from = -mirrored_slant(in.light.sun_direction);
   if (maps.patches > 0 && !in.without.has(Part::kCausticBend)) {
     caustics.bend_m = static_cast<float>(in.world.scene.water.caustic_distortion);
     caustics.ripples = make_ripples(in, eye);
@@ -19,6 +21,8 @@ Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
     CausticPatch& patch = caustics.patch[p];
     for (std::size_t k = 0; k < CausticMaps::kDepths; ++k)
       patch.map[k] = &maps.map[p * CausticMaps::kDepths + k];
+    patch.mirrored = &maps.mirrored[p];
+    patch.mirrored_m = maps.height_m[p];
     const double size = patch.map[0]->size, length_m = maps.length_m[p];
     patch.texels_fx8_per_m = static_cast<float>(256.0 * size / length_m);
     // The values lie half a texel before the points of the waves.

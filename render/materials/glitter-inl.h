@@ -32,6 +32,10 @@ HWY_NOINLINE static V ThrownGlitter(const Glitter& glitter, V3 to_eye, V3 normal
   const float spread = 0.5f * glitter.per_slope * glitter.per_slope;
   const V radius2 = hn::MulAdd(variance, Constant(spread), Constant(glitter.disc_variance));
   const V inv_radius = InverseSqrt(radius2);
+  // Most packets look past the slide.
+  const V away = hn::Mul(hn::Max(hn::Abs(x), hn::Abs(y)), inv_radius);
+  const auto shown = hn::And(hn::Gt(ahead, zero), hn::Lt(away, Constant(SunSlide::kReach)));
+  if (hn::AllFalse(D(), shown)) return zero;
   const V per_radius = Constant(0.5f * static_cast<float>(SunSlide::kSize) / SunSlide::kReach);
   const V middle = Constant(0.5f * static_cast<float>(SunSlide::kSize));
   const V scale = hn::Mul(inv_radius, per_radius);
@@ -41,7 +45,7 @@ HWY_NOINLINE static V ThrownGlitter(const Glitter& glitter, V3 to_eye, V3 normal
                                      unused_a);
   const V light = hn::Mul(hn::Mul(root, root), Constant(glitter.brightness));
   const V dimmed = hn::Mul(light, hn::Mul(inv_radius, inv_radius));
-  return hn::IfThenElseZero(hn::Gt(ahead, zero), dimmed);
+  return hn::IfThenElseZero(shown, dimmed);
 }
 
 }  // namespace HWY_NAMESPACE

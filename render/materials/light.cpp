@@ -41,6 +41,7 @@ Media make_media(const World::State& world, const Light& light, double height_m,
   media.cloudy = world.sky->cloud_light.overcast * part_under_clouds(height_m);
   media.inv_haze_height_m = static_cast<float>(1.0 / world.scene.sky.haze_height_m);
   media.refraction_index = static_cast<float>(water.refraction_index);
+  media.paper_refraction = water.refraction == scene::RefractionModel::kPaper;
   media.absorption_per_m = water.absorption_per_m;
   // Light that enters the water: the sky's and the sun's, as radiance of a white surface.
   const glm::vec3 entering_sun =

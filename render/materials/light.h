@@ -40,8 +40,9 @@ struct Media {
   float cloudy = 0.0f;  // how far the air is lit by an overcast sky, [0, 1]
   // Water.
   float refraction_index = 1.333f;
-  glm::vec3 body{0.0f};      // radiance of deep water
-  glm::vec3 body_sun{0.0f};  // the part of it that is the sun's
+  bool paper_refraction = false;  // scene::RefractionModel::kPaper
+  glm::vec3 body{0.0f};           // radiance of deep water
+  glm::vec3 body_sun{0.0f};       // the part of it that is the sun's
   glm::vec3 absorption_per_m{0.0f};
   // For an eye under water.
   bool submerged = false;

@@ -7,8 +7,10 @@
 #endif
 
 #include "render/materials/caustics-inl.h"
+#include "render/materials/checker-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
+#include "render/materials/thrown_light-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/own_shadow-inl.h"
 #include "render/tile/sun_shadow-inl.h"
@@ -63,13 +65,24 @@ inline glm::vec3 TexelAt(const ObjectPrimitive& primitive, glm::vec3 q, float lo
   return texture::sample(image, at(t.u), at(t.v), has_textures ? level : 1e9f);
 }
 
+// Of an object's squares those along a triangle: not across it, where one would end just there.
+inline glm::vec3 SquaresAlong(const ObjectPrimitive& primitive) {
+  glm::vec3 squares = primitive.object->squares_per_unit;
+  if (squares.x <= 0.0f) return squares;
+  const glm::vec3 n = glm::abs(primitive.triangle->flat_normal / squares);
+  squares[n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2)] = 0.0f;
+  return squares;
+}
+
 // What the triangles hold at points p relative to the eye.
 HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& rays,
                                       const ObjectPrimitive* const* primitive,
                                       const Packet& packet) {
   Lanes3 bottom, right, ahead, up, at_origin, along_x, along_y, along_z, albedo, flat;
   Lanes3 finish;  // roughness, metalness, translucency
-  bool has_pictures = false;
+  Lanes3 squares;
+  HWY_ALIGN float squares_per_m[Lanes3::kCount];
+  bool has_pictures = false, has_squares = false;
   for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
     const ObjectInstance& object = *primitive[i]->object;
     const scene::ObjectTriangle& triangle = *primitive[i]->triangle;
@@ -91,6 +104,9 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
     const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
     finish.Set(i, {its.x, its.y, triangle.translucency});
     has_pictures |= !object.mesh->textured.empty();
+    has_squares |= object.squares_per_m > 0.0f;
+    squares_per_m[i] = object.squares_per_m;
+    squares.Set(i, SquaresAlong(*primitive[i]));
   }
   // To the mesh's coordinates, the normal there, and back.
   const V3 q_rel = Sum(packet.p, Scale(bottom.Load(), Constant(-1.0f)));
@@ -107,6 +123,11 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   const V3 finishes = finish.Load();
   ObjectSurface surface = {Scale(n, hn::IfThenElse(from_behind, hn::Neg(inverse), inverse)),
                            albedo.Load(), finishes.x, finishes.y, finishes.z};
+  if (has_squares) {
+    const V half_m = HalfFootprint(rays, packet, Dot(surface.normal, packet.to_eye));
+    const V half_px = hn::Mul(half_m, hn::Load(D(), squares_per_m));
+    surface.albedo = Scale(surface.albedo, CheckeredPaint(squares.Load(), q, half_px));
+  }
   if (!has_pictures) return surface;
 
   const V footprint =
@@ -127,12 +148,13 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   return surface;
 }
 
-// Light that a matt surface sends back: of the sun, of the sky above, of the sea below.
+// Light that a matt surface sends back: of the sun, straight and thrown up by waves, of the sky
+// above, of the sea below.
 HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
-                        V sun_visible) {
+                        V sun_visible, V thrown) {
   const V facing = Dot(s.normal, Constant(light.sun_direction));
   const V lit = hn::Max(facing, hn::Mul(hn::Neg(facing), s.translucency));
-  const V cos_sun = hn::Mul(hn::Max(lit, hn::Zero(D())), sun_visible);
+  const V cos_sun = hn::MulAdd(hn::Max(lit, hn::Zero(D())), sun_visible, thrown);
   const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
   const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen);
   const V matt = hn::Sub(Constant(1.0f), s.metalness);
@@ -224,11 +246,16 @@ struct Shader<Object, kView> {
                                const Packet& packet) const {
     const ObjectPacket objects = ObjectsAt(s, lanes);
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
-    V sun_visible = hn::Mul(SunVisible(s, tile, packet, NumbersOf(objects)),
-                            SunOverOwn(s, objects, packet, surface.normal));
+    // What the object itself is before does not tell on the light from the water.
+    const V over_others = SunVisible(s, tile, packet, NumbersOf(objects));
+    V sun_visible = hn::Mul(over_others, SunOverOwn(s, objects, packet, surface.normal));
+    V thrown = hn::Zero(D());
     if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, FootprintAcross(s.rays, packet)));
-    const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible);
+    else
+      thrown = hn::Mul(over_others,
+                       ThrownLight(s, packet.p, surface.normal, FootprintAcross(s.rays, packet)));
+    const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible, thrown);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};
     return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),
             surface.normal};

@@ -18,7 +18,7 @@ constexpr float kBaseVariance = 0.0012f, kGlassVariance = 2e-5f;
 
 // The wind that makes ripples; sines have a breeze of their own.
 double ripple_wind_mps(const scene::Scene& scene) {
-  return scene.sea.spectrum ? scene.sea.wind_speed_mps : 3.0;
+  return scene.sea.has_wind_waves() ? scene.sea.wind_speed_mps : 3.0;
 }
 
 // How much of the ripples there is: below 1 m/s the wind raises fewer and fewer, until the sea is

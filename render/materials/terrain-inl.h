@@ -7,6 +7,7 @@
 #endif
 
 #include "render/materials/caustics-inl.h"
+#include "render/materials/checker-inl.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/ground-inl.h"
@@ -55,13 +56,18 @@ struct Ground {
   V3 light, normal;
 };
 template <bool kDetail>
-HWY_INLINE Ground LightGround(const Terrain& terrain, const Light& light, const Packet& packet,
+HWY_INLINE Ground LightGround(const Terrain& terrain, const Shading& s, const Packet& packet,
                               V level_m, V sun_visible) {
+  const Light& light = s.light;
   const V zero = hn::Zero(D());
   GroundLook look = FindGround<kDetail>(terrain, packet.p, level_m);
   if constexpr (kDetail) {
     V unused = zero;
     AddSlopes(terrain.detail, packet.p, level_m, zero, zero, look.slope_x, look.slope_y, unused);
+  }
+  if (terrain.checker.per_m > 0.0f) {
+    const V grey = CheckeredGround(terrain.checker, s.rays, packet);
+    look.albedo = {grey, grey, grey};
   }
   const V3 normal = NormalOf(look.slope_x, look.slope_y);
 
@@ -116,11 +122,12 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const V zero = hn::Zero(D());
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
-  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, flat};
+  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, flat, packet.to_eye.z};
   const WaterSlopes sea =
       SampleWater<true>(water, s.rays, std::array{packet}, std::make_index_sequence<1>())[0];
-  return {hn::Mul(sea.slope_x, kept), hn::Mul(sea.slope_y, kept), Lerp(flat, sea.variance, kept),
-          hn::Mul(sea.foam_cover, kept), Lerp(flat, sea.fine_variance, kept)};
+  return {hn::Mul(sea.slope_x, kept),          hn::Mul(sea.slope_y, kept),
+          Lerp(flat, sea.variance, kept),      hn::Mul(sea.foam_cover, kept),
+          Lerp(flat, sea.fine_variance, kept), Lerp(packet.to_eye.z, sea.long_cosine, kept)};
 }
 
 // Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.
@@ -157,8 +164,8 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const WaterSlopes waves = SampleRunOut(s, packet, hn::NegMulAdd(calm, film, film));
   const Facing f = FaceEye(s.media, s.material<Water>(), packet, waves);
   V inv_variance, unused;
-  const V glint =
-      SunGlint(s.light.sun_direction, packet, waves, f.reflectance, f.cos_rough, inv_variance);
+  const V reflectance = GlintReflectance(s.media, s.light.sun_direction, packet);
+  const V glint = SunGlint(s.light.sun_direction, packet, waves, reflectance, f.area, inv_variance);
   const V3 floor = Difference(ground, Constant(s.media.body));
   const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f, inv_variance,
                                      floor, false, unused);
@@ -189,7 +196,7 @@ struct Shader<Terrain, kView> {
     V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
     if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, level_m));
-    const Ground ground = LightGround<kDetail>(terrain, s.light, packet, level_m, sun_visible);
+    const Ground ground = LightGround<kDetail>(terrain, s, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
       if (s.media.submerged) return Surfel{ground.light, ground.normal};
       const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));

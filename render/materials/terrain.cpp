@@ -57,6 +57,7 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
       0.11f / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
   terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});
 
+  terrain.checker = make_checker(in.world.scene.terrain->checker_m, eye);
   terrain.swash = {};
   if (!in.world.coast || in.without.has(Part::kWater)) return;
   terrain.swash =

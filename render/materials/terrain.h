@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include "render/materials/checker.h"
 #include "render/materials/foam.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
@@ -31,6 +32,7 @@ struct Terrain {
   GroundLayer map, around;  // the terrain's square; that with its apron
   SlopeLayer detail;
   SlopeLayer sun;  // LandShadow::ground; no map: lit everywhere
+  Checker checker;
   Swash swash;
   Foam foam;
 };

@@ -15,14 +15,16 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// The surface's slopes. It is sampled as from above, along the same line: `turned` is the packet
-// with the way to the eye turned round.
-HWY_NOINLINE static WaterSlopes SampleUnderside(const Water& water, const ViewRays& rays,
-                                                const Packet& turned) {
-  const std::array packets = {turned};
-  const std::make_index_sequence<1> one;
-  return water.has_coast ? SampleWater<true>(water, rays, packets, one)[0]
-                         : SampleWater<false>(water, rays, packets, one)[0];
+// The surface's slopes. It is sampled as from above, along the same lines: with the way to the eye
+// turned round.
+template <std::size_t kCount>
+HWY_NOINLINE static std::array<WaterSlopes, kCount> SampleUnderside(
+    const Water& water, const ViewRays& rays, const std::array<Packet, kCount>& shown) {
+  std::array<Packet, kCount> turned = shown;
+  for (Packet& packet : turned) packet.to_eye = Scale(packet.to_eye, Constant(-1.0f));
+  const std::make_index_sequence<kCount> all;
+  return water.has_coast ? SampleWater<true>(water, rays, turned, all)
+                         : SampleWater<false>(water, rays, turned, all);
 }
 
 HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
@@ -91,9 +93,10 @@ HWY_INLINE WindowPlace PlaceInWindow(const ViewRays& rays, V3 direction) {
 }
 
 // Looks a lookup image up in a direction of the eye: where a flat surface would bend or mirror the
-// ray as the waves do, for things far beyond it. Nearer ones move by less.
+// ray as the waves do, for things far beyond it. Nearer ones move by less. Slopes of this variance,
+// which turn the direction by `turn` times as much, spread what is seen.
 HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const LookupImage& lookup,
-                                const Packet& packet, V3 direction) {
+                                const Packet& packet, V3 direction, V variance, float turn) {
   constexpr float kShare = 0.6f;
   const float bound = water.max_distortion_px;
   const WindowPlace at = PlaceInWindow(s.rays, direction);
@@ -101,13 +104,15 @@ HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const Look
     const V by = Clamp(hn::Mul(hn::Sub(to, from), Constant(kShare)), -bound, bound);
     return hn::Add(from, hn::Add(by, Constant(0.5f)));
   };
-  return LookUpAt(lookup, moved(packet.x_px, at.x_px), moved(packet.y_px, at.y_px));
+  const float px = kShare * turn / s.rays.pixel_angle;
+  const BlurLevel level = FindBlur(lookup, variance, Constant(px * px));
+  return LookUpAt(lookup, moved(packet.x_px, at.x_px), moved(packet.y_px, at.y_px), level);
 }
 
 // The sky in a bent ray's direction, the sea where waves turn the ray down, and in front of both
 // what the refraction image shows.
 HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& packet,
-                           const FromBelow& f, bool use_image, V& image_alpha) {
+                           const FromBelow& f, V variance, bool use_image, V& image_alpha) {
   const D d;
   const V zero = hn::Zero(d);
   const V3 level = {f.bent.x, f.bent.y, hn::Max(f.bent.z, zero)};
@@ -129,7 +134,8 @@ HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& p
   const V x = hn::Mul(f.bent.x, Constant(inv_n)), y = hn::Mul(f.bent.y, Constant(inv_n));
   const V z =
       hn::Sqrt(hn::Max(hn::NegMulAdd(x, x, hn::NegMulAdd(y, y, Constant(1.0f))), Constant(1e-6f)));
-  const Looked image = LookUpTowards(s, water, water.refraction, packet, {x, y, z});
+  const Looked image =
+      LookUpTowards(s, water, water.refraction, packet, {x, y, z}, variance, 1.0f - inv_n);
   image_alpha = image.alpha;
   return Lerp(light, image.light, image_alpha);
 }
@@ -137,13 +143,13 @@ HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& p
 // Light that the surface mirrors down: the water's, and in front of it what the reflection image
 // shows.
 HWY_INLINE V3 LightFromWater(const Shading& s, const Water& water, const Packet& packet,
-                             const FromBelow& f, bool use_image, V& image_alpha) {
+                             const FromBelow& f, V variance, bool use_image, V& image_alpha) {
   const V down = hn::Neg(f.mirrored.z);
   const V3 deep = EndlessWater(s.media, glm::vec3(1.0f), hn::Max(down, hn::Zero(D())));
   image_alpha = hn::Zero(D());
   if (!use_image) return deep;
   const V3 image_of = {f.mirrored.x, f.mirrored.y, down};
-  const Looked image = LookUpTowards(s, water, water.reflection, packet, image_of);
+  const Looked image = LookUpTowards(s, water, water.reflection, packet, image_of, variance, 2.0f);
   image_alpha = image.alpha;
   return Lerp(deep, image.light, image_alpha);
 }
@@ -197,29 +203,42 @@ HWY_INLINE hn::Mask<D> LostInWater(const Media& media, const Packet& packet) {
 }
 
 struct UndersideShader {
+  static constexpr std::size_t kPacketsAtOnce = WaterShader<false>::kPacketsAtOnce;
   const Water& water;
 
+  template <std::size_t kCount>
+  HWY_INLINE std::array<WaterSlopes, kCount> LookUp(
+      const Shading& s, const std::array<Packet, kCount>& packets) const {
+    bool lost = true;
+    for (const Packet& packet : packets)
+      lost = lost && hn::AllTrue(D(), LostInWater(s.media, packet));
+    if (!lost) return SampleUnderside(water, s.rays, packets);
+    const V zero = hn::Zero(D());
+    return [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
+      return std::array{(static_cast<void>(k), WaterSlopes{zero, zero, zero, zero, zero, zero})...};
+    }
+    (std::make_index_sequence<kCount>());
+  }
+
   HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes&,
-                               const Packet& packet) const {
+                               const Packet& packet, const WaterSlopes& slopes) const {
     const D d;
     const V zero = hn::Zero(d), one = Constant(1.0f);
     const auto lost = LostInWater(s.media, packet);
     const Surfel nothing = {{zero, zero, zero}, {zero, zero, one}};
     if (hn::AllTrue(d, lost)) return nothing;
     const V3 ray = Scale(packet.to_eye, Constant(-1.0f));
-    Packet turned = packet;
-    turned.to_eye = ray;
-    const WaterSlopes slopes = SampleUnderside(water, s.rays, turned);
     const FromBelow f = LeaveWater(s.media, ray, slopes);
 
     // Most of the surface mirrors all light: the air is looked for where some comes through.
     const auto mirrors = hn::Ge(f.reflectance, one);
     V mirrored_alpha, bent_alpha = zero;
-    const V3 mirrored =
-        LightFromWater(s, water, packet, f, tile.lookups.reflection, mirrored_alpha);
+    const V3 mirrored = LightFromWater(s, water, packet, f, slopes.variance,
+                                       tile.lookups.reflection, mirrored_alpha);
     V3 seen = mirrored;
     if (!hn::AllTrue(d, mirrors)) {
-      const V3 bent = LightFromAir(s, water, packet, f, tile.lookups.refraction, bent_alpha);
+      const V3 bent =
+          LightFromAir(s, water, packet, f, slopes.variance, tile.lookups.refraction, bent_alpha);
       seen = Where(mirrors, mirrored, Lerp(bent, mirrored, f.reflectance));
       bent_alpha = hn::IfThenZeroElse(mirrors, bent_alpha);
     }

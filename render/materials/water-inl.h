@@ -21,6 +21,7 @@
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
+#include "render/materials/image_blur-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/visible_slopes-inl.h"
 #include "render/materials/wakes-inl.h"
@@ -42,6 +43,7 @@ struct WaterSlopes {
   V foam_cover;     // part hidden by foam, in [0, 1]
   V fine_variance;  // of all slopes but the drawn ones of the long waves: triangles do not show
                     // them
+  V long_cosine;    // to the eye, of those
   // Of foam: TornFoam.
   V foam_thickness = hn::Zero(D()), foam_bubbles = hn::Zero(D());
 };
@@ -131,12 +133,10 @@ HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf
 
 constexpr float kMinCos = 0.02f;
 
-// log2 of the footprint [m] on waves of these slopes.
-HWY_INLINE V LevelOnWaves(const Packet& packet, V across, const WaterSlopes& s) {
-  // The normal's length is left out: it is near 1, and a level needs no better.
-  const V cos_wave = hn::NegMulAdd(s.slope_x, packet.to_eye.x,
-                                   hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
-  return FootprintLevel(across, Clamp(cos_wave, kMinCos, 1.0f));
+// The area that waves of these slopes turn to the eye, over the level's.
+HWY_INLINE V CosineOfSlopes(const Packet& packet, const WaterSlopes& s) {
+  return hn::NegMulAdd(s.slope_x, packet.to_eye.x,
+                       hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
 }
 
 // How Perlin noise bends the coordinates of the ripples.
@@ -181,8 +181,9 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   std::array<Surf, kCount> surf = {
       (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
   if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
-  std::array<WaterSlopes, kCount> s = {(
-      static_cast<void>(k), WaterSlopes{zero, zero, Constant(water.base_variance), zero, zero})...};
+  std::array<WaterSlopes, kCount> s = {
+      (static_cast<void>(k),
+       WaterSlopes{zero, zero, Constant(water.base_variance), zero, zero, packets[k].to_eye.z})...};
   std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
   for (int i = 0; i < water.sine_count; ++i)
     (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
@@ -221,7 +222,9 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
                                      BlendCoast(water, packet.p, level, at, slopes);
                                  };
     (blend_coast(packets[k], level_flat_m[k], surf[k], s[k]), ...);
-    ((level_m[k] = LevelOnWaves(packets[k], across[k], s[k])), ...);
+    ((s[k].long_cosine = CosineOfSlopes(packets[k], s[k])), ...);
+    // The normal's length is left out: it is near 1, and a level needs no better.
+    ((level_m[k] = FootprintLevel(across[k], Clamp(s[k].long_cosine, kMinCos, 1.0f))), ...);
     ((s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance))), ...);
   }
   if (water.wakes.count > 0) (AddWakes(water, packets[k].p, level_flat_m[k], s[k]), ...);
@@ -234,16 +237,15 @@ struct Looked {
   V alpha;
 };
 
-// Looks a lookup image up at a window position. Samples beside nothing are no darker: only their
-// alpha is less.
-HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px) {
+// Looks a lookup image up at a window position, on a level of it. Samples beside nothing are no
+// darker: only their alpha is less.
+HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px, const BlurLevel& level) {
   const D d;
   const V one = Constant(1.0f);
+  const V x = hn::Mul(x_px, Constant(lookup.scale_x)), y = hn::Mul(y_px, Constant(lookup.scale_y));
   V3 code;
   V alpha;
-  texture::HWY_NAMESPACE::SampleRgba(d, *lookup.image, hn::Mul(x_px, Constant(lookup.scale_x)),
-                                     hn::Mul(y_px, Constant(lookup.scale_y)), code.x, code.y,
-                                     code.z, alpha);
+  SampleBlurred(*lookup.image, x, y, level, code, alpha);
   const auto some = hn::Gt(alpha, hn::Zero(d));
   if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
   // Codes that were blended with zeros.
@@ -274,14 +276,17 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
   const V gain = hn::Mul(Constant(sign * water.distortion_px),
                          Clamp(hn::Mul(packet.to_eye.z, Constant(water.distortion_by_sine)),
                                water.least_distortion, 1.0f));
+  // What lies under water is near the surface: slopes too fine to see move it by less than they
+  // spread it.
+  const BlurLevel level = kBacked ? Sharp() : FindBlur(lookup, s.variance, hn::Mul(gain, gain));
   const float bound = water.max_distortion_px;
   const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
   const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
   const V half = Constant(0.5f);
   const V x = hn::Add(packet.x_px, half), y = hn::Add(packet.y_px, half);
-  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy));
+  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy), level);
   const bool found = hn::AllTrue(d, hn::Ge(moved.alpha, Constant(1.0f)));
-  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y));
+  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y, level));
 }
 
 // The part of the facets seen that mirror the sea again, not the sky. The mean slopes send the ray
@@ -305,8 +310,9 @@ HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
 // How the water's surface meets the eye.
 struct Facing {
   V3 normal;
-  V cos_eye;    // of the slopes drawn here; negative on back sides that the mesh does not hide
-  V cos_rough;  // of the facets that are seen
+  V cos_eye;     // of the slopes drawn here; negative on back sides that the mesh does not hide
+  V cos_mirror;  // of facets that mirror the mean of what those seen do
+  V area;        // that all facets turn to the eye, over the level's
   V reflectance;
 };
 
@@ -315,14 +321,19 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
   const D d;
   Facing f;
   f.normal = NormalOf(s.slope_x, s.slope_y);
-  f.cos_eye =
-      UnhiddenCosine(Dot(f.normal, packet.to_eye),
-                     hn::Mul(hn::Sub(s.fine_variance, s.variance), Constant(water.seen_slopes)));
-  // Only facets turned to the eye are seen, so that the mean reflectance is that of a steeper
-  // view; a back side counts as the facets in front of it, or crests would be lined with light.
-  f.cos_rough = hn::Sqrt(
-      hn::MulAdd(s.variance, Constant(0.5f), hn::MulAdd(f.cos_eye, f.cos_eye, Constant(0.006f))));
-  f.reflectance = FresnelReflectance(d, f.cos_rough, media.refraction_index);
+  if (water.least_cos > 0.0f) {
+    f.cos_eye = f.cos_mirror = TiltToEye(packet.to_eye, water.least_cos, f.normal);
+  } else {
+    const V drawn =
+        hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
+    f.cos_eye = UnhiddenCosine(Dot(f.normal, packet.to_eye), s.long_cosine, s.fine_variance,
+                               hn::Mul(drawn, Constant(water.seen_slopes)));
+    f.cos_mirror =
+        Lerp(f.cos_eye, MirroringCosine(f.cos_eye, s.variance), Constant(water.seen_slopes));
+  }
+  f.area = SeenArea(s.long_cosine, s.fine_variance);
+  f.reflectance =
+      FresnelReflectance(d, ReflectingCosine(f.cos_eye, s.variance), media.refraction_index);
   return f;
 }
 
@@ -336,8 +347,8 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   const V r_z = hn::MulSub(hn::Add(f.cos_eye, f.cos_eye), f.normal.z, packet.to_eye.z);
   const V sea =
       PartOfSeaMirrored(hn::Sub(r_z, horizon), hn::Add(packet.to_eye.z, horizon), inv_variance);
-  const V cosine = MirroringCosine(f.cos_eye, hn::Mul(s.variance, Constant(water.seen_slopes)));
-  V3 r = ScaleAdd(f.normal, hn::Add(cosine, cosine), Scale(packet.to_eye, Constant(-1.0f)));
+  V3 r = ScaleAdd(f.normal, hn::Add(f.cos_mirror, f.cos_mirror),
+                  Scale(packet.to_eye, Constant(-1.0f)));
   // Outside its circle the map goes on as at the horizon.
   r.z = hn::Max(r.z, Constant(-0.25f));
   const V length = hn::Sqrt(Dot(r, r));
@@ -391,16 +402,23 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   return Sum(deep, floor_added);
 }
 
-// The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution.
-// `inv_variance` becomes 1 / s.variance.
+// What a facet that mirrors the sun to the eye reflects.
+HWY_INLINE V GlintReflectance(const Media& media, glm::vec3 sun_direction, const Packet& packet) {
+  const V3 half = Sum(packet.to_eye, Constant(sun_direction));
+  return FresnelReflectance(D(), hn::Mul(hn::Sqrt(Dot(half, half)), Constant(0.5f)),
+                            media.refraction_index);
+}
+
+// The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution
+// of facets of an area that is seen, over the level's. `inv_variance` becomes 1 / s.variance.
 // Source: Ross, Dion, Potvin, Detailed analytical approach to the Gaussian surface bidirectional
-// reflectance distribution function, 2005, without its shadowing terms.
+// reflectance distribution function, 2005, without what waves hide of the sun.
 HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const WaterSlopes& s,
-                      V reflectance, V cos_eye, V& inv_variance) {
+                      V reflectance, V area, V& inv_variance) {
   const V3 half = Sum(packet.to_eye, Constant(sun_direction));
   // The three quotients' denominators share one division.
   const V z = hn::Max(half.z, Constant(1e-3f));
-  const V cos4 = hn::Mul(Constant(4.0f), hn::Max(cos_eye, Constant(0.08f)));
+  const V cos4 = hn::Mul(Constant(4.0f), hn::Max(area, Constant(kMinCos)));
   const V z_cos4 = hn::Mul(z, cos4);
   const V inverse = hn::Div(Constant(1.0f), hn::Mul(z_cos4, s.variance));
   inv_variance = hn::Mul(inverse, z_cos4);  // = 1 / (2 sigma^2) per axis
@@ -444,7 +462,8 @@ struct WaterShader {
 
     const V sun_visible = SunVisible(shading, tile, packet);
     V inv_variance, mirrored_alpha, refracted_alpha;
-    V sun_path = SunGlint(light.sun_direction, packet, s, f.reflectance, f.cos_rough, inv_variance);
+    const V reflectance = GlintReflectance(shading.media, light.sun_direction, packet);
+    V sun_path = SunGlint(light.sun_direction, packet, s, reflectance, f.area, inv_variance);
     V3 floor;
     V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
                                   refracted_alpha, floor);
@@ -462,7 +481,9 @@ struct WaterShader {
       const auto splashed = hn::Gt(hulls.foam_cover, hn::Zero(D()));
       foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
     }
-    const V3 arriving = Lerp(refracted, mirrored, f.reflectance);
+    const V weight =
+        water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
+    const V3 arriving = Lerp(refracted, mirrored, weight);
     if (water.glitter.slide)
       sun_path =
           hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));

@@ -13,6 +13,9 @@ namespace {
 constexpr double kUvNoisePeriod_m = 23.0;
 constexpr int kMostLongLayers = 2;
 
+// Of tilted normals to the eye, at least.
+constexpr float kLeastCos = 0.08f;
+
 void add_layer(const SlopeLayer& layer, Water& water) {
   SWELL_DCHECK(water.layer_count < kMaxSlopeLayers, "layers={}", water.layer_count);
   water.layers[water.layer_count++] = layer;
@@ -127,13 +130,15 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.mirrored_floor_part = 1.0f - reflectance;
   water.short_variance = layer_variance(water, water.long_layer_count);
   water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
+  water.least_cos = in.world.scene.water.tilted_backs ? kLeastCos : 0.0f;
   water.wave_horizon = wave_horizon(variance);
-  water.glitter_light =
-      in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
+  water.glitter_light = in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
   water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
   water.inv_crest_height = 1.0f / crest_height_m(in.world);
   water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
   water.submerged = in.media.submerged;
+  water.reflection_weight =
+      static_cast<float>(in.world.scene.water.reflection_weight.value_or(-1.0));
   water.reflection = in.reflection;
   water.refraction = in.refraction;
   water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);

@@ -17,6 +17,9 @@ namespace swell::render {
 // The sea's patches and two layers of ripples.
 inline constexpr int kMaxSlopeLayers = static_cast<int>(ocean::kMaxPatches) + 2;
 
+// Slope variance of glass, which spreads the sun's disc to about twice its width, and no image.
+inline constexpr float kGlassVariance = 2e-5f;
+
 // A sine wave's slopes: amplitude_slope * cos(2 pi (cycles_per_m . p_rel + cycles)).
 struct SineLayer {
   float kx = 0.0f, ky = 0.0f;  // cycles per metre
@@ -38,7 +41,8 @@ struct Water {
   SlopeLayer uv_noise;          // values in [-1, 1], not slopes
   float short_variance = 0.0f;  // slope variance of the layers after the long ones
   float seen_slopes = 1.0f;     // 0: all slopes of rough water are seen, also the hidden ones
-  float base_variance = 0.0f;   // slope variance of ripples too fine for any map
+  float least_cos = 0.0f;  // of normals to the eye, which are tilted to have it; 0: they are not
+  float base_variance = 0.0f;  // slope variance of ripples too fine for any map
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
   // foam. Not periodic: they hold within their square.
   bool has_coast = false;
@@ -51,6 +55,7 @@ struct Water {
 
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
   float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
+  float reflection_weight = -1.0f;   // of what it mirrors; below 0: Fresnel's
   float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
   glm::vec3 glitter_light{0.0f};     // of the sun, in its image
   glm::vec3 crest_glow{0.0f};        // added where light shines through crests

@@ -93,6 +93,19 @@ HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
   return Lerp(colour, Lerp(ahead, Constant(s.light.horizon), steep), amount);
 }
 
+// paper_depth_ratio() of the angle whose cosine in air this is, at least 0.02; the angle is right
+// to 7e-5. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, 1964, 4.4.45.
+HWY_INLINE V PaperDepthRatio(V cosine) {
+  V acos = hn::MulAdd(cosine, Constant(-0.0187293f), Constant(0.0742610f));
+  acos = hn::MulAdd(cosine, acos, Constant(-0.2121144f));
+  acos = hn::MulAdd(cosine, acos, Constant(1.5707288f));
+  const V rest = hn::Max(hn::Sub(Constant(1.0f), cosine), hn::Zero(D()));
+  const V angle = hn::Mul(acos, hn::Sqrt(rest));
+  const V steep = hn::NegMulAdd(angle, Constant(0.16f), Constant(0.75f));
+  const V flat = hn::NegMulAdd(angle, Constant(0.8f), Constant(1.26f));
+  return hn::IfThenElse(hn::Le(angle, Constant(0.8f)), steep, flat);
+}
+
 // Light's way through water to something at a depth.
 struct WaterPath {
   V depth;   // true, of a thing that is seen at the apparent one [m]
@@ -109,7 +122,9 @@ HWY_INLINE WaterPath PathThroughWater(const Media& media, const Packet& packet, 
               Constant(inv_n));
   const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, Constant(1.0f)));
   const V depth =
-      hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(media.refraction_index)), cos_eye));
+      media.paper_refraction
+          ? hn::Div(apparent, PaperDepthRatio(cos_eye))
+          : hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(media.refraction_index)), cos_eye));
   const V path_up = hn::Min(hn::Div(depth, cos_t), Constant(200.0f));
   return {depth,
           hn::MulAdd(depth, Constant(kDaylightSlant), path_up)};  // sunlight comes down at a slant
@@ -156,7 +171,9 @@ struct WaterWay {
 // that depth has not dimmed (the surface's) is that of a way that ends at depth 0.
 // With z the depth, s the length, c lost a metre and K of daylight: light e^(-c s - K z_end) +
 // scattered c Int_0^s e^(-c t - K z(t)) dt.
-HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWay& way, V3 light) {
+// `shafts` is how much of that is scattered against the mean.
+HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWay& way, V3 light,
+                           V shafts = Constant(1.0f)) {
   const D d;
   const auto along = [&](int channel, V seen) HWY_ATTR {
     const float c = media.absorption_per_m[channel];
@@ -164,8 +181,8 @@ HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWa
     const V x = hn::MulAdd(way.deeper, Constant(media.daylight_lost_per_m[channel]), lost);
     // Daylight makes up for e^60: from where it cannot, nothing is seen.
     const V passes = Exp(d, Clamp(hn::Neg(x), -80.0f, 60.0f));
-    const V scattered =
-        hn::Mul(hn::Mul(lost, LossOver(x, passes)), Constant(media.scattered[channel]));
+    const V scattered = hn::Mul(hn::Mul(lost, LossOver(x, passes)),
+                                hn::Mul(shafts, Constant(media.scattered[channel])));
     return hn::Mul(hn::MulAdd(seen, passes, scattered), Constant(daylight[channel]));
   };
   return {along(0, light.x), along(1, light.y), along(2, light.z)};
@@ -182,21 +199,15 @@ HWY_INLINE V3 EndlessWater(const Media& media, glm::vec3 daylight, V w) {
   return {along(0), along(1), along(2)};
 }
 
-// Water as far as the eye sees, where it sees nothing else.
-HWY_INLINE V3 OpenWater(const Media& media, V3 ray) {
-  const V down = hn::Mul(hn::Neg(ray.z), InverseSqrt(Dot(ray, ray)));
-  return EndlessWater(media, media.daylight_at_eye, hn::Max(down, hn::Zero(D())));
-}
-
 // Light as it arrives at an eye under water from what a packet of the window shows: the surface
 // itself, or what lies in the water.
 template <SurfaceKind kSurface>
-HWY_INLINE V3 SeenInWater(const Media& media, V level, const Packet& shown, V3 light) {
+HWY_INLINE V3 SeenInWater(const Media& media, V level, const Packet& shown, V3 light, V shafts) {
   const V zero = hn::Zero(D());
   V depth = zero;
   if constexpr (kSurface != SurfaceKind::kWater) depth = hn::Max(hn::Sub(level, shown.p.z), zero);
   const V deeper = hn::Sub(depth, Constant(media.eye_depth_m));
-  return ThroughWater(media, media.daylight_at_eye, {shown.distance, deeper}, light);
+  return ThroughWater(media, media.daylight_at_eye, {shown.distance, deeper}, light, shafts);
 }
 
 // A packet as a view shows it, and what it shows: the true places in the world.
@@ -246,9 +257,10 @@ HWY_INLINE Seen FindSeen(const Shading& s, const Packet& shown, V level) {
   }
   if constexpr (kView == ViewKind::kRefraction) {
     const V zero = hn::Zero(D());
-    seen.path = PathThroughWater(s.media, shown, hn::Max(hn::Sub(level, shown.p.z), zero));
-    const V above = hn::Max(hn::Sub(shown.p.z, level), zero);
-    seen.packet.p.z = hn::Add(hn::Sub(level, seen.path.depth), above);
+    const V below = hn::Sub(level, shown.p.z);
+    seen.path = PathThroughWater(s.media, shown, hn::Abs(below));
+    seen.packet.p.z = hn::Sub(level, hn::CopySign(seen.path.depth, below));
+    seen.path.length = hn::IfThenElseZero(hn::Gt(below, zero), seen.path.length);
   }
   return seen;
 }

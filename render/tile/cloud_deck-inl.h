@@ -13,6 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
+// Less of a cloud is none.
+constexpr float kLeastHidden = 1.0f / 512.0f;
 // Further than all that hides clouds.
 constexpr float kNothingNear_m = 1e9f;
 
@@ -54,12 +56,14 @@ static HWY_NOINLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m
   AddSlopes(clouds.regions, {at.x, at.y, zero}, level, zero, zero, noise.noise, unused, lost);
   const V passes = Exp(d, hn::Neg(OpticalDepth(clouds, noise)));
   const V hidden = hn::Mul(hn::Sub(one, passes), Constant(clouds.shown));
+  const auto some = hn::And(seen, hn::Gt(hidden, Constant(kLeastHidden)));
+  if (hn::AllFalse(d, some)) return light;
   // White from above however thick they are, brighter towards the light.
   const V bright =
       Clamp(hn::MulAdd(noise.side, Constant(0.5f * clouds.inv_deviation), one), 0.6f, 1.5f);
   const V3 own = Scale(Constant(clouds.light.tops), bright);
   const V3 arriving = Haze(s, DeckPacket(s, direction, at), own);
-  return Lerp(light, arriving, hn::IfThenElseZero(seen, hidden));
+  return Lerp(light, arriving, hn::IfThenElseZero(some, hidden));
 }
 
 // The same before what a packet shows.

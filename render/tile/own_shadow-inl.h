@@ -13,12 +13,12 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 // What one object leaves of the sun at points p, relative to the eye, of its surface with these
-// normals. Points are taken off the surface towards the sun: by two spaces between points of the
-// map a plane clears what the map's four points around hold of it, however it leans.
+// normals. Points are taken off the surface towards the sun: the map's four points around hold what
+// lies up to 2.1 spaces between points away, and by so much a plane clears it, however it leans.
 HWY_INLINE V SunOverOne(const ObjectShadows& shadows, const SunDepth& map, const V3& p,
                         const V3& normal) {
   const D d;
-  constexpr float kOff = 2.0f;
+  constexpr float kOff = 2.6f;
   const V off = Constant(kOff / map.points_per_m);
   const V facing = Dot(normal, Constant(shadows.sun));
   const V3 q = ScaleAdd(normal, hn::CopySign(off, facing), Sum(p, Constant(-map.middle_rel)));

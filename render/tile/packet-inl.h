@@ -117,11 +117,11 @@ HWY_INLINE V FootprintAcross(const ViewRays& rays, const Packet& packet) {
   return Log2Coarse(D(), hn::Mul(packet.depth, Constant(rays.pixel_angle)));
 }
 
-// log2 of the footprint on a surface that the eye meets at cos_view: lengthened by three quarters
+// log2 of the footprint on a surface that the eye meets at cos_view: lengthened by four fifths
 // (in log) of the stretch along the view. Less would leave grazing views aliased, more would blur
 // them across the view.
 HWY_INLINE V FootprintLevel(V across_log2, V cos_view) {
-  return hn::NegMulAdd(Log2Coarse(D(), cos_view), Constant(0.75f), across_log2);
+  return hn::NegMulAdd(Log2Coarse(D(), cos_view), Constant(0.8f), across_log2);
 }
 
 // The place of p [m] in a layer's map, in 1/256 texels of level 0.

@@ -37,6 +37,7 @@ struct SkyNodes {
 struct ShadeScratch {
   alignas(64) std::array<float, kMaxTilePixels> red, green, blue;
   SkyNodes sky;
+  ShaftNodes shafts;
   // By material, and the sky last: its pixels, padded to whole packets.
   alignas(64) std::array<std::array<std::uint16_t, kMaxTilePixels + kListPadding>,
                          kMaterialCount + 1> lists;

@@ -8,7 +8,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/tile/shade_tile_simd.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -17,6 +16,7 @@
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/cloud_deck-inl.h"
 #include "render/tile/packet-inl.h"
+#include "render/tile/pixel_lists-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/sky-inl.h"
 #include "render/tile/surfel-inl.h"
@@ -24,107 +24,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-
-// The pixels of one material in a tile, as positions y * tile_size + x in its buffers.
-struct PixelList {
-  std::uint16_t* at = nullptr;
-  std::size_t count = 0;
-
-  void Append(std::uint16_t pixel) { at[count++] = pixel; }
-};
-
-// By material, and the sky last.
-using PixelLists = std::array<PixelList, kMaterialCount + 1>;
-constexpr std::size_t kSky = kMaterialCount;
-
-constexpr std::size_t kMostPacketsAtOnce = 3;
-static_assert(kMostPacketsAtOnce * kLanes <= kListPadding);
-
-// Repeats the last pixel up to full packets, so that every packet is shaded whole.
-void PadToPackets(PixelList& list) {
-  if (list.count == 0) return;
-  const std::uint16_t last = list.at[list.count - 1];
-  std::fill_n(list.at + list.count, kMostPacketsAtOnce * kLanes, last);
-}
-
-// Appends pixels `first` and the kLanes - 1 after it.
-HWY_INLINE void AppendPacket(PixelList& list, std::size_t first) {
-  const hn::Rebind<std::uint16_t, D> d16;
-  hn::StoreU(hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::uint16_t>(first))), d16,
-             list.at + list.count);
-  list.count += kLanes;
-}
-
-// Sorts the tile's pixels into those of the first material and those of the others together, whole
-// packets of one of these at once, and lists the first pixels of packets with any sky.
-void SortByMaterial(const Shading& s, const TilePixels& tile, PixelList& first, PixelList& others,
-                    PixelList& sky) {
-  constexpr SurfaceKind kFirst = std::tuple_element_t<0, Materials>::kSurface;
-  const hn::RebindToUnsigned<D> du;
-  const std::uint32_t first_begin = s.primitives.begin(kFirst);
-  const std::uint32_t first_size = s.primitives.end(kFirst) - first_begin;
-  const auto begin = hn::Set(du, first_begin), size = hn::Set(du, first_size);
-  const auto none = hn::Set(du, raster::kNoPrimitive);
-  for (int y = 0; y < tile.box.height_px; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * s.grid.tile_size_px;
-    const auto width = static_cast<std::size_t>(tile.box.width_px);
-    for (std::size_t x = 0; x < width;) {
-      const std::size_t i = row + x;
-      if (x + kLanes <= width) {
-        const auto p = hn::LoadU(du, tile.primitive + i);
-        hwy::Prefetch(tile.depth + i);  // read next
-        const auto is_first = hn::Lt(hn::Sub(p, begin), size), is_sky = hn::Eq(p, none);
-        const bool some_sky = !hn::AllFalse(du, is_sky);
-        if (some_sky) sky.Append(static_cast<std::uint16_t>(i));
-        PixelList* const list = hn::AllTrue(du, is_first)                    ? &first
-                                : hn::AllFalse(du, hn::Or(is_first, is_sky)) ? &others
-                                                                             : nullptr;
-        if (list) AppendPacket(*list, i);
-        if (list || hn::AllTrue(du, is_sky)) {
-          x += kLanes;
-          continue;
-        }
-      } else {
-        sky.Append(static_cast<std::uint16_t>(i));
-      }
-      const std::size_t end = std::min(x + kLanes, width);
-      for (; x < end; ++x) {
-        // Branch-free: write to both lists, advance one or none.
-        const std::uint32_t p = tile.primitive[row + x];
-        const auto index = static_cast<std::uint16_t>(row + x);
-        first.at[first.count] = others.at[others.count] = index;
-        const bool is_first = p - first_begin < first_size;
-        first.count += is_first;
-        others.count += !is_first && p != raster::kNoPrimitive;
-      }
-    }
-  }
-}
-
-// Moves the pixels of material kMaterial and those after it out of the list before, which keeps its
-// order.
-template <std::size_t kMaterial>
-void SplitOff(const Shading& s, const TilePixels& tile, PixelLists& lists) {
-  if constexpr (kMaterial < kMaterialCount) {
-    constexpr SurfaceKind kBefore = std::tuple_element_t<kMaterial - 1, Materials>::kSurface;
-    PixelList &list = lists[kMaterial - 1], &rest = lists[kMaterial];
-    const std::size_t count = std::exchange(list.count, 0);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint16_t at = list.at[i];
-      (s.primitives.holds(kBefore, tile.primitive[at]) ? list : rest).Append(at);
-    }
-    SplitOff<kMaterial + 1>(s, tile, lists);
-  }
-}
-
-PixelLists ListPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch) {
-  PixelLists lists;
-  for (std::size_t i = 0; i < lists.size(); ++i) lists[i].at = scratch.lists[i].data();
-  SortByMaterial(s, tile, lists[0], lists[std::min<std::size_t>(1, kSky)], lists[kSky]);
-  SplitOff<2>(s, tile, lists);
-  for (std::size_t k = 0; k < kSky; ++k) PadToPackets(lists[k]);
-  return lists;
-}
 
 // Where a packet's pixels, or parts of pixels, lie in the window, and what they show.
 struct ListedPacket {
@@ -237,8 +136,12 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   if constexpr (kView == ViewKind::kWindow) {
     const auto surfel = shade(s, tile, lanes, shown, found...);
     keep(lanes.at, surfel);
-    if (s.media.submerged)
-      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light);
+    if (s.media.submerged) {
+      const V shafts = ShaftsBefore(s, tile.box, tile.shafts, shown.x_px, shown.y_px,
+                                    hn::Neg(shown.to_eye.z), shown.distance);
+      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light,
+                                      shafts);
+    }
     const V3 light = Haze(s, shown, surfel.light);
     return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
   } else {
@@ -250,17 +153,6 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
     else
       return light;
   }
-}
-
-// The fragments to shade that have primitives in [begin, end).
-PixelList ListFragments(std::span<const EdgeFragment> fragments, std::uint32_t begin,
-                        std::uint32_t end, ShadeScratch& scratch) {
-  PixelList list{scratch.fragment_list.data()};
-  for (std::size_t n = 0; n < fragments.size(); ++n)
-    if (!fragments[n].is_centre && fragments[n].primitive - begin < end - begin)
-      list.Append(static_cast<std::uint16_t>(n));
-  PadToPackets(list);
-  return list;
 }
 
 // The light of packets side by side as it arrives.
@@ -341,7 +233,7 @@ void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& 
                      ShadeScratch& scratch) {
   if (packets.count == 0) return;
   const int last_row = packets.at[packets.count - 1] / s.grid.tile_size_px;
-  const SkyLattice lattice = MakeSkyLattice(s, tile.box, last_row + 1, scratch.sky);
+  const SkyLattice lattice = MakeSkyLattice(s, tile.box, last_row + 1, tile.shafts, scratch.sky);
   for (std::size_t n = 0; n < packets.count; ++n) {
     const int i = packets.at[n], y = i / s.grid.tile_size_px, x = i % s.grid.tile_size_px;
     StoreSky(SkyOfPacket(s, tile.box, lattice, x, y), packets.at[n], scratch);
@@ -357,7 +249,7 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
   if (!tile.fragments.empty()) {
     const PixelList parts = ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch);
     const auto shade_sky = [&](const std::array<ListedPacket, 1>& listed) HWY_ATTR {
-      return std::array{ShadeSky(s, listed[0].x_px, listed[0].y_px)};
+      return std::array{ShadeSky(s, tile.box, tile.shafts, listed[0].x_px, listed[0].y_px)};
     };
     ShadeList<1>(FragmentsInTile{tile.fragments, parts, scratch}, shade_sky);
   }
@@ -369,12 +261,15 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
 TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scratch) {
   for (std::size_t n = 0; n < input.fragments.size(); ++n)
     scratch.fragment_primitive[n] = input.fragments[n].primitive;
-  return {raster::tile_box(s.viewport, s.grid, input.tile),
+  const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, input.tile);
+  const auto casters = s.sun_shadow.casters.of_tile(input.tile);
+  return {box,
           input.depth.data(),
           input.primitive.data(),
           input.fragments,
           input.lookups,
-          s.sun_shadow.casters.of_tile(input.tile)};
+          casters,
+          FindShafts(s, box, casters, scratch.shafts)};
 }
 
 int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -391,7 +286,9 @@ int ShadeLabelledTile(const Shading& s, const TileInput& input, ShadeScratch& sc
 void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
                   float* linear) {
   const raster::PixelBox box = raster::tile_box(s.viewport, s.grid, tile);
-  const SkyLattice lattice = MakeSkyLattice(s, box, box.height_px, scratch.sky);
+  const std::int32_t* const shafts =
+      FindShafts(s, box, s.sun_shadow.casters.of_tile(tile), scratch.shafts);
+  const SkyLattice lattice = MakeSkyLattice(s, box, box.height_px, shafts, scratch.sky);
   for (int y = 0; y < box.height_px; ++y)
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
       StoreSky(SkyOfPacket(s, box, lattice, x, y),

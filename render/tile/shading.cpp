@@ -24,6 +24,7 @@ void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_siz
   shading.media = in.media;
   fill_sun_shadow(in, view, shading.grid, shading.sun_shadow);
   shading.caustics = make_caustics(in, glm::dvec2(view.camera.eye_world));
+  shading.shafts = make_shafts(in, view, shading.rays, shading.sun_shadow.entry);
   shading.exposure = in.light.exposure;
   shading.primitives = view.primitives;
   std::apply([&](auto&... material) { (fill(in, view, material), ...); }, shading.materials);

@@ -8,6 +8,7 @@
 #include "render/materials/caustics.h"
 #include "render/materials/light.h"
 #include "render/materials/list.h"
+#include "render/tile/shafts.h"
 #include "render/tile/sun_shadow.h"
 #include "render/view/render_view.h"
 
@@ -32,6 +33,7 @@ struct Shading {
   Media media;
   SunShadow sun_shadow;
   Caustics caustics;
+  Shafts shafts;
   float exposure = 1.0f;
   PrimitiveRanges primitives;
   Materials materials;

@@ -11,6 +11,7 @@
 #include "render/tile/cloud_deck-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/resolve-inl.h"
+#include "render/tile/shafts-inl.h"
 #include "render/tile/sky_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,9 +65,10 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& 
 }
 
 // The sky's light at places of the window, found for each alone.
-static HWY_NOINLINE V3 ShadeSky(const Shading& s, V x_px, V y_px) {
+static HWY_NOINLINE V3 ShadeSky(const Shading& s, const raster::PixelBox& box,
+                                const std::int32_t* shafts, V x_px, V y_px) {
+  if (s.media.submerged) return OpenWater(s, box, shafts, x_px, y_px);
   const V3 ray = RayAt(s.rays, x_px, y_px);
-  if (s.media.submerged) return OpenWater(s.media, ray);
   const SkyView view = ViewSky(s, ray);
   CloudNoise noise;
   if (s.light.clouds.any)
@@ -215,14 +217,16 @@ inline void FindNoise(const Clouds& clouds, int columns, int rows, SkyNodes& nod
 struct SkyLattice {
   const SkyNodes& nodes;
   bool on, sees_disc;
+  const std::int32_t* shafts;  // of nodes under water
 };
 
 inline SkyLattice MakeSkyLattice(const Shading& s, const raster::PixelBox& box, int rows_px,
-                                 SkyNodes& nodes) {
-  if (s.media.submerged || s.rays.pixel_angle > kMostStepAngle / kStep) return {nodes, false, true};
+                                 const std::int32_t* shafts, SkyNodes& nodes) {
+  if (s.media.submerged || s.rays.pixel_angle > kMostStepAngle / kStep)
+    return {nodes, false, true, shafts};
   const bool sees_disc = FindView(s, box, nodes_along(rows_px), nodes);
   if (s.light.clouds.any) FindNoise(s.light.clouds, nodes_along(box.width_px), rows_px, nodes);
-  return {nodes, true, sees_disc};
+  return {nodes, true, sees_disc, shafts};
 }
 
 // The sky's light in the kLanes pixels from (x, y) of a tile on; x a multiple of kLanes.
@@ -232,7 +236,7 @@ HWY_INLINE V3 SkyOfPacket(const Shading& s, const raster::PixelBox& box, const S
   const SkyNodes& nodes = lattice.nodes;
   const V x_px = hn::ConvertTo(d, CountFrom(box.x0_px + x));
   const V y_px = Constant(static_cast<float>(box.y0_px + y));
-  if (!lattice.on) return ShadeSky(s, x_px, y_px);
+  if (!lattice.on) return ShadeSky(s, box, lattice.shafts, x_px, y_px);
   const auto column = static_cast<std::size_t>(x / kStep);
   const BetweenRows between(y);
   const SkyView view = ReadView(nodes, s.light.clouds.any, [&](const float* channel) HWY_ATTR {

@@ -20,6 +20,7 @@ struct TilePixels {
   std::span<const EdgeFragment> fragments;
   TileLookups lookups;
   std::span<const std::uint16_t> casters;  // of Shading::sun_shadow
+  const std::int32_t* shafts = nullptr;    // of ShaftNodes
 };
 
 // Which primitives a packet's lanes show, for materials that fetch what their triangles hold.

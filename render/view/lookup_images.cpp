@@ -20,27 +20,28 @@ glm::vec2 scale_of(const View& lookup, const View& window) {
 TileRange reachable_tiles(const View& window, const raster::TileGrid& grid, int tile,
                           glm::vec2 lookup_scale, const raster::TileGrid& lookup_grid) {
   const float bound = max_distortion_px(window);
-  // A bilinear sample reads one texel further each way.
+  // A sample of the softest level reads one and a half of its blocks further each way.
+  constexpr float kReach = 2.0f + 1.5f * (1 << (texture::kMostRgbaLevels - 1));
   const auto range = [&](int index, float scale, int tiles) {
     const auto low = static_cast<float>(index * grid.tile_size_px) - bound;
     const float high = static_cast<float>((index + 1) * grid.tile_size_px) + bound;
     const auto size = static_cast<float>(lookup_grid.tile_size_px);
     return std::pair{
-        std::clamp(static_cast<int>(std::floor((low * scale - 2.0f) / size)), 0, tiles - 1),
-        std::clamp(static_cast<int>(std::floor((high * scale + 2.0f) / size)), 0, tiles - 1) + 1};
+        std::clamp(static_cast<int>(std::floor((low * scale - kReach) / size)), 0, tiles - 1),
+        std::clamp(static_cast<int>(std::floor((high * scale + kReach) / size)), 0, tiles - 1) + 1};
   };
   const auto [x0, x1] = range(tile % grid.tiles_x, lookup_scale.x, lookup_grid.tiles_x);
   const auto [y0, y1] = range(tile / grid.tiles_x, lookup_scale.y, lookup_grid.tiles_y);
   return {x0, y0, x1, y1};
 }
 
-void size_target(const raster::TileGrid& grid, LookupTarget& target) {
+void size_target(const raster::TileGrid& grid, int levels, LookupTarget& target) {
   const View& view = target.view.camera;
   const auto tiles = static_cast<std::size_t>(grid.count());
   const bool same = target.image.width == view.width_px && target.image.height == view.height_px &&
-                    target.written.size() == tiles;
+                    target.written.size() == tiles && target.image.levels == levels;
   if (!same) {
-    texture::resize_image(view.width_px, view.height_px, target.image);
+    texture::resize_image(view.width_px, view.height_px, target.image, levels);
     target.written.assign(tiles, 0);
   }
   target.wanted.assign(tiles, 0);
@@ -65,6 +66,12 @@ void draw_lookup_tile(int tile, ThreadScratch& scratch, LookupTarget& target) {
     shade_lookup_tile(target.shading, tile, depth, primitive, scratch.shade, target.image);
   } else if (target.written[tile]) {
     clear_tile(target.shading, tile, target.image);
+  }
+  if (drawn || target.written[tile]) {
+    const raster::PixelBox box =
+        raster::tile_box(target.shading.viewport, target.shading.grid, tile);
+    texture::soften_block(box.x0_px, box.y0_px, box.x0_px + box.width_px, box.y0_px + box.height_px,
+                          target.image);
   }
   target.written[tile] = drawn;
 }
@@ -108,8 +115,9 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
   const View& camera = reflection.view.camera;
   const raster::TileGrid grid = raster::tile_grid(reflection.view.viewport(), tile_size_px);
   const glm::vec2 scale = scale_of(camera, window.camera);
-  size_target(grid, reflection);
-  size_target(grid, refraction);
+  const int softer = inputs.without.has(Part::kImageBlur) ? 1 : texture::kMostRgbaLevels;
+  size_target(grid, softer, reflection);
+  size_target(grid, inputs.media.submerged ? softer : 1, refraction);  // from above it is sharp
   const auto for_reachable = [&](std::size_t tile, auto&& visit) {
     if (!visibility.may_show_water[tile]) return;
     const TileRange r =

@@ -44,6 +44,8 @@ struct ObjectInstance {
   float waterline_rel_m = 0.0f;  // height of its waterline above the eye
   glm::vec3 colour{0.0f};
   float roughness = 0.42f, metalness = 0.0f;  // of its paint
+  float squares_per_m = 0.0f;                 // of its checkers; 0: it has none
+  glm::vec3 squares_per_unit{0.0f};           // the same along the mesh's axes
   const scene::ObjectMesh* mesh = nullptr;
   const SunDepth* own_shadow = nullptr;  // none: it does not shade itself
   float log2_units_per_m = 0.0f;         // of the mesh's lengths, in the mean over its axes

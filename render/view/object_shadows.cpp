@@ -20,10 +20,6 @@ constexpr std::size_t kMostCasters = 65535;  // lists of tiles hold 16 bits; 200
 constexpr double kMostLift_m = 3.0;
 // A smaller one casts no shadow and leaves no trace on the water: the picture would not show them.
 constexpr float kSmallestCaster_px = 0.5f;
-// Below this size every seventh row is found, which are 2 pixels apart, and the others between
-// them.
-constexpr float kSmallOutline_px = 16.0f;
-constexpr int kSmallOutlineStep = 7;
 // How far the mesh of an outline may lie off the finest one: what is soft, or less than a row, does
 // not show.
 constexpr float kMostOutlineError_px = 1.0f, kMostOutlineError = 0.01f;  // or of the largest side
@@ -38,6 +34,23 @@ struct SunFrame {
   glm::vec3 origin;
 
   SunPoint operator()(glm::vec3 q) const { return axes * q + origin; }
+};
+
+// A mesh's vertices as the sun sees them: those of a small one are worked out once, of which each
+// has six triangles.
+struct SunVertices {
+  const scene::ObjectMesh& mesh;
+  SunFrame frame;
+  std::array<SunPoint, 512> found;
+  bool is_small;
+
+  SunVertices(const scene::ObjectMesh& of, const SunFrame& sun)
+      : mesh(of), frame(sun), is_small(of.position.size() <= found.size()) {
+    if (is_small) std::ranges::transform(of.position, found.begin(), sun);
+  }
+  SunPoint operator[](std::uint32_t i) const {
+    return is_small ? found[i] : frame(mesh.position[i]);
+  }
 };
 
 SunFrame sun_frame(const scene::FloatingObject& object, const scene::ObjectPose& pose,
@@ -66,6 +79,9 @@ void add_edge(const SunPoint& a, const SunPoint& b, int step, Outline& outline) 
     if (x > outline.right_m[i]) outline.right_m[i] = x, outline.right_depth_m[i] = z;
   }
 }
+
+// Of small objects some rows stand for all: every seventh, about a pixel apart, or every third.
+int row_step(float size_px) { return size_px < 8.0f ? 7 : size_px < 20.0f ? 3 : 1; }
 
 // The rows between those of every `step`.
 void fill_rows(int step, Outline& outline) {
@@ -205,12 +221,12 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
                    const scene::FloatingObject& object, const scene::ObjectPose& pose,
                    const ObjectShadows& shadows, int step) {
   SWELL_DCHECK((Outline::kRows - 1) % step == 0, "step={}", step);
-  const SunFrame frame = sun_frame(object, pose, shadows);
+  const SunVertices vertices(mesh, sun_frame(object, pose, shadows));
   const auto indices =
       std::span(mesh.indices).subspan(3u * part.first_triangle, 3u * part.triangles);
   glm::vec3 low(kInfinity), high(-kInfinity);
   for (const std::uint32_t index : indices) {
-    const SunPoint p = frame(mesh.position[index]);
+    const SunPoint p = vertices[index];
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
@@ -226,9 +242,8 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
   outline.left_m.fill(kInfinity);
   outline.right_m.fill(-kInfinity);
   for (std::size_t i = 0; i < indices.size(); i += 3) {
-    const std::array<SunPoint, 3> p = {frame(mesh.position[indices[i]]),
-                                       frame(mesh.position[indices[i + 1]]),
-                                       frame(mesh.position[indices[i + 2]])};
+    const std::array<SunPoint, 3> p = {vertices[indices[i]], vertices[indices[i + 1]],
+                                       vertices[indices[i + 2]]};
     // What is turned to the sun has the outline of the whole.
     const glm::vec2 along = p[1] - p[0], aside = p[2] - p[0];
     if (is_closed && along.x * aside.y - along.y * aside.x >= 0.0f) continue;
@@ -276,9 +291,8 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     const scene::ObjectMesh& mesh = outline_mesh(world, caster, view);
     scene::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (!mesh.parts.empty()) part = mesh.parts[caster.part];
-    const bool is_small = drawn_size_px(object, caster.place_rel, view) < kSmallOutline_px;
-    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows,
-                                is_small ? kSmallOutlineStep : 1);
+    const int step = row_step(drawn_size_px(object, caster.place_rel, view));
+    caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows, step);
   });
 }
 

@@ -15,11 +15,6 @@ constexpr int kLeastSide = 32, kMostSide = 256;
 constexpr float kPointsPerPixel = 0.7f;
 constexpr float kMostError = 0.75f;  // of the mesh, in spaces between points
 
-struct Candidate {
-  std::uint32_t object;
-  float size_px;
-};
-
 float radius_of(const scene::FloatingObject& object) {
   return 0.5f * static_cast<float>(glm::length(object.size_m));
 }
@@ -35,26 +30,30 @@ bool may_shade_itself(scene::ObjectKind kind) {
   return kind != scene::ObjectKind::kSphere && kind != scene::ObjectKind::kBox;
 }
 
-// The largest objects of the window, largest first.
-std::vector<Candidate> list_candidates(const World::State& world, const View& view,
-                                       const ObjectGeometry& objects) {
-  std::vector<Candidate> list;
+// The largest objects of the window, largest first: their numbers and sizes.
+void list_largest(const World::State& world, const View& view, const ObjectGeometry& objects,
+                  std::vector<SunDepth>& list) {
+  list.clear();
   for (const ObjectInstance& instance : objects.in_window().instances) {
     const scene::FloatingObject& object = world.scene.objects[instance.object];
     if (!may_shade_itself(object.kind)) continue;
     const float radius_m = radius_of(object);
     const glm::vec3 middle = middle_of(object, objects.poses[instance.object], view);
     const float size_px = 2.0f * radius_m * most_px_per_m(middle, radius_m, view);
-    if (size_px > kLeastSize_px) list.push_back({instance.object, size_px});
+    if (size_px <= kLeastSize_px) continue;
+    SunDepth map;
+    map.object = instance.object;
+    map.size_px = size_px;
+    map.middle_rel = middle;
+    list.push_back(map);
   }
-  const auto larger = [](const Candidate& a, const Candidate& b) {
+  const auto larger = [](const SunDepth& a, const SunDepth& b) {
     return a.size_px != b.size_px ? a.size_px > b.size_px : a.object < b.object;
   };
   const std::size_t count = std::min(list.size(), kMostObjects);
   std::partial_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count), list.end(),
                     larger);
   list.resize(count);
-  return list;
 }
 
 // A power of two, so that it changes seldom as an object comes near.
@@ -90,7 +89,7 @@ void raise(int x, int y, float z, int side, std::span<float> depth_m) {
   at = std::max(at, z);
 }
 
-// The points nearest to an edge: masts are thinner than the space between points.
+// The points nearest to an edge.
 void add_edge(const glm::vec3& a, const glm::vec3& b, int side, std::span<float> depth_m) {
   const glm::vec3 along = b - a;
   const int steps = static_cast<int>(std::ceil(std::max(std::abs(along.x), std::abs(along.y)))) + 1;
@@ -122,6 +121,12 @@ void add_triangle(const std::array<glm::vec3, 3>& corner, int side, std::span<fl
       raise(x, y, a.z - glm::dot(glm::vec2(across), from_a) / across.z, side, depth_m);
     }
   }
+  // Masts and rails are thinner than the space between points.
+  float longest = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, glm::length(glm::vec2(corner[(k + 1) % 3] - corner[k])));
+  constexpr float kThin = 1.5f;
+  if (std::abs(across.z) >= kThin * longest) return;
   for (std::size_t k = 0; k < 3; ++k) add_edge(corner[k], corner[(k + 1) % 3], side, depth_m);
 }
 
@@ -132,20 +137,17 @@ void find_own_shadows(const World::State& world, const ShadowOptions& options, c
   if (options.sun_direction.z <= 0.0f || options.without.has(Part::kShadows) ||
       options.without.has(Part::kOwnShadows))
     return;
+  list_largest(world, view, objects, shadows.own);
   std::size_t points = 0;
-  for (const Candidate& candidate : list_candidates(world, view, objects)) {
-    const scene::FloatingObject& object = world.scene.objects[candidate.object];
-    SunDepth map;
-    map.object = candidate.object;
-    map.middle_rel = middle_of(object, objects.poses[candidate.object], view);
-    map.side = side_of(candidate.size_px);
-    map.strength = std::min(candidate.size_px / kLeastSize_px - 1.0f, 1.0f);
+  for (SunDepth& map : shadows.own) {
+    map.side = side_of(map.size_px);
+    map.strength = std::min(map.size_px / kLeastSize_px - 1.0f, 1.0f);
     // Two rows around hold nothing.
-    const float radius_m = radius_of(object), inside = 0.5f * static_cast<float>(map.side) - 2.5f;
+    const float radius_m = radius_of(world.scene.objects[map.object]);
+    const float inside = 0.5f * static_cast<float>(map.side) - 2.5f;
     map.points_per_m = inside / radius_m;
     map.first_m = -0.5f * static_cast<float>(map.side - 1) / map.points_per_m;
     points += static_cast<std::size_t>(map.side) * static_cast<std::size_t>(map.side);
-    shadows.own.push_back(map);
   }
   shadows.own_depth_m.resize(std::max(shadows.own_depth_m.size(), points));
   std::span<float> left = shadows.own_depth_m;

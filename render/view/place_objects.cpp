@@ -44,6 +44,10 @@ ObjectInstance instance_of(const scene::FloatingObject& object, const scene::Obj
   instance.colour = object.colour;
   instance.roughness = static_cast<float>(object.roughness);
   instance.metalness = static_cast<float>(object.metalness);
+  if (object.checker_m > 0.0) {
+    instance.squares_per_m = static_cast<float>(1.0 / object.checker_m);
+    instance.squares_per_unit = glm::vec3(object.size_m / object.checker_m);
+  }
   const double volume = object.size_m.x * object.size_m.y * object.size_m.z;
   instance.log2_units_per_m = static_cast<float>(-log(volume) / (3.0 * log(2.0)));
   return instance;
@@ -263,7 +267,11 @@ void place_objects(const World::State& world, const SeaMaps& sea,
     std::size_t count = 0;
     for (RenderView* const view : views)
       if (view->kind == kind) of_kind[count++] = view;
-    place_in_views(world, meshes, std::span(of_kind).first(count), run);
+    // Without water there are no images.
+    if (count == 0)
+      geometry.drawn_in(kind) = {};
+    else
+      place_in_views(world, meshes, std::span(of_kind).first(count), run);
   }
   geometry.meshes.assign(geometry.poses.size(), nullptr);
   for (const ObjectInstance& instance : geometry.in_window().instances)

@@ -20,25 +20,36 @@ glm::vec3 map_point(const PointMap& map, const WorldPoint& point) {
     case ViewKind::kRefraction:
       break;
   }
-  const bool beyond = map.eye.submerged ? above >= 0.0f : above < 0.0f;
-  if (!beyond) return {p.x, p.y, level + above};
   const float horizontal_m = std::sqrt(p.x * p.x + p.y * p.y), eye_m = map.eye.to_surface_m;
-  if (map.eye.submerged)
+  if (map.eye.submerged) {
+    if (above < 0.0f) return {p.x, p.y, level + above};
     return {p.x, p.y, level + apparent_height_m({above, eye_m, horizontal_m}, n)};
-  return {p.x, p.y, level - apparent_depth_m({eye_m, -above, horizontal_m}, n)};
+  }
+  // What is cut off above the level goes on as below it, so that triangles that pass the level are
+  // moved right up to where they do; they do not reach high.
+  constexpr float kHigh_m = 10.0f;
+  if (above > kHigh_m) return {p.x, p.y, level + above};
+  const BentWay way{eye_m, std::abs(above), horizontal_m};
+  const float apparent_m = map.paper_refraction ? paper_depth_m(way, n) : apparent_depth_m(way, n);
+  return {p.x, p.y, level + std::copysign(apparent_m, above)};
+}
+
+glm::vec4 image_clip_plane(ViewKind kind, const EyeInWater& eye, SurfaceKind surface,
+                           float margin_m) {
+  const float to_eyes_side = eye.submerged ? -1.0f : 1.0f;
+  if (kind == ViewKind::kRefraction) return {0.0f, 0.0f, -to_eyes_side, margin_m};
+  return {0.0f, 0.0f, to_eyes_side, surface == SurfaceKind::kTerrain ? 0.0f : margin_m};
 }
 
 namespace {
 
-// Waves lift and lower the water's edge: the pictures that water looks into keep a little of the
-// other side. But not of the land in the mirror: the floor mirrored in flat shallow water would be
-// a band of sand instead of sky.
-constexpr float kClipMargin_m = 0.3f;
+// The same plane of points relative to the eye.
+glm::vec4 relative_plane(const glm::dvec4& world, glm::dvec3 eye_world) {
+  return glm::vec4(glm::dvec4(glm::dvec3(world), world.w + glm::dot(glm::dvec3(world), eye_world)));
+}
 
-float clip_distance(const PointMap& map, SurfaceKind surface, float above_m) {
-  const float on_eyes_side_m = map.eye.submerged ? -above_m : above_m;
-  if (map.kind == ViewKind::kRefraction) return kClipMargin_m - on_eyes_side_m;
-  return surface == SurfaceKind::kTerrain ? on_eyes_side_m : kClipMargin_m + on_eyes_side_m;
+float distance_to(const glm::vec4& plane, glm::vec3 p) {
+  return plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w;
 }
 
 // A vertex of a height field: over the mean level, which is level_rel_m over the eye.
@@ -58,16 +69,23 @@ void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, RenderV
                 const Point& point) {
   ViewVertices& out = view.vertices_of(surface);
   const glm::mat4 clip_from_rel = view.camera.clip_from_rel;
-  const PointMap map{kView, view.eye, view.refraction_index};
+  const PointMap map{kView, view.eye, view.refraction_index, view.paper_refraction};
   const float drop_per_m2 = view.drop_per_m2;
+  const glm::vec4 image_plane = image_clip_plane(kView, view.eye, surface, view.clip_margin_m);
+  const bool is_cut = view.clip_plane.has_value();
+  const glm::vec4 plane =
+      relative_plane(view.clip_plane.value_or(glm::dvec4(0.0)), view.camera.eye_world);
   glm::vec4* const p_clip = out.p_clip.data();
   float* const distance = out.clip_distance.data();
+  float* const second_distance = out.second_clip_distance.data();
   for (std::size_t i = begin; i < end; ++i) {
     const WorldPoint p = point(i);
     glm::vec3 shown = map_point(map, p);
     shown.z -= (shown.x * shown.x + shown.y * shown.y) * drop_per_m2;
     p_clip[i] = clip_from_rel * glm::vec4(shown, 1.0f);
-    if constexpr (kView != ViewKind::kWindow) distance[i] = clip_distance(map, surface, p.above_m);
+    if constexpr (kView != ViewKind::kWindow)
+      distance[i] = distance_to(image_plane, {p.p_rel.x, p.p_rel.y, p.above_m});
+    if (is_cut) second_distance[i] = distance_to(plane, p.p_rel);
   }
 }
 
@@ -109,6 +127,7 @@ void resize_vertices(SurfaceKind surface, std::size_t count, FrameViews views) {
     ViewVertices& out = view->vertices_of(surface);
     out.p_clip.resize(count);
     if (view->kind != ViewKind::kWindow) out.clip_distance.resize(count);
+    out.second_clip_distance.resize(view->clip_plane ? count : 0);
   }
 }
 
@@ -134,7 +153,7 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples,
     if (!is_drawn(s)) continue;
     const ViewVertices& vertices = view.vertices_of(s);
     draws[count].p_clip = vertices.p_clip;
-    draws[count].clip_distance = vertices.clip_distance;
+    draws[count].clip_distance = {vertices.clip_distance, vertices.second_clip_distance};
     draws[count].indices = meshes.indices(s, view.kind);
     draws[count++].first_primitive = view.primitives.begin(s);
   }

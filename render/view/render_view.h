@@ -6,9 +6,11 @@
 // sides of the surface change places.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,7 +25,8 @@ namespace swell::render {
 // A surface's vertices in a view.
 struct ViewVertices {
   std::vector<glm::vec4> p_clip;
-  std::vector<float> clip_distance;  // none in the window
+  std::vector<float> clip_distance;         // of image_clip_plane(); none in the window
+  std::vector<float> second_clip_distance;  // of RenderView::clip_plane, if there is one
 };
 
 // Where a view's eye is.
@@ -37,7 +40,10 @@ struct RenderView {
   View camera;
   EyeInWater eye;
   float refraction_index = 1.333f;
-  float drop_per_m2 = 0.0f;  // how far a round earth sinks (math/earth.h)
+  bool paper_refraction = false;         // scene::RefractionModel::kPaper
+  float clip_margin_m = 0.3f;            // of image_clip_plane()
+  float drop_per_m2 = 0.0f;              // how far a round earth sinks (math/earth.h)
+  std::optional<glm::dvec4> clip_plane;  // FrameOptions::clip_plane
   std::array<ViewVertices, kSurfaceKinds> vertices;
   PrimitiveRanges primitives;  // of the surfaces that it shows
   raster::Pass pass;
@@ -61,11 +67,21 @@ struct PointMap {
   ViewKind kind;
   EyeInWater eye;
   float refraction_index;
+  bool paper_refraction = false;
 };
 
 // Where a view of the flat world shows the point, relative to the eye. On a round earth it then
 // sinks with the level that mirrors it.
 glm::vec3 map_point(const PointMap& map, const WorldPoint& point);
+
+// The plane that an image cuts off a surface at, (A, B, C, D) of points (x, y) relative to the eye
+// and z over the water's level: what lies where A x + B y + C z + D >= 0 is kept. Waves lift and
+// lower the water's edge, so the images keep margin_m of the other side; but not of the land in the
+// mirror: the floor mirrored in flat shallow water would be a band of sand instead of sky.
+glm::vec4 image_clip_plane(ViewKind kind, const EyeInWater& eye, SurfaceKind surface,
+                           float margin_m);
+// For a sea of waves up to this height.
+inline float clip_margin_m(float highest_wave_m) { return std::clamp(highest_wave_m, 0.02f, 0.3f); }
 
 // Where the eye is in the water at the time of `sea`: a function of world, view and time. A surface
 // that reaches into the near plane may lie on both sides of the eye; the point of the eye decides.

@@ -62,6 +62,7 @@ struct SunDepth {
   int side = 0;           // points
   float strength = 1.0f;  // of the shadow, in [0, 1]
   std::uint32_t object = 0;
+  float size_px = 0.0f;            // how large the object looks
   std::span<const float> depth_m;  // side rows of points, upwards; kNothing_m: none
 };
 

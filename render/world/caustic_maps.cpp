@@ -29,16 +29,26 @@ bool shows_caustics(const World::State& world, PartSet without) {
          world.sky->to_light.z > kLowestLight && world.sky->irradiance != glm::vec3(0.0f);
 }
 
-// The disc of sun or moon, and the ripples: waves too short for patches focus close under the
-// surface, and only scatter below. They are taken to have a fifth of the mean square slope that the
-// wind raises. Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
-float spread_per_m(const World::State& world) {
-  const double n = world.scene.water.refraction_index;
-  const double disc = 0.5 * kSunRadius_rad / n;
-  const double wind_mps = world.scene.sea.spectrum ? world.scene.sea.wind_speed_mps : 0.0;
+// The disc of sun or moon, as wide as `disc` times in air, and the ripples, each slope of which
+// bends light by `bent`: waves too short for patches focus close to the surface, and only scatter
+// further off. They are taken to have a fifth of the mean square slope that the wind raises.
+// Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
+float spread_per_m(const World::State& world, double disc, double bent) {
+  const double wind_mps = world.scene.sea.has_wind_waves() ? world.scene.sea.wind_speed_mps : 0.0;
   const double slope2 = 0.2 * 0.5 * (0.003 + 0.00512 * wind_mps);  // along one axis
-  const double bent = 1.0 - 1.0 / n;
-  return static_cast<float>(std::sqrt(disc * disc + bent * bent * slope2));
+  const double radius = 0.5 * disc * kSunRadius_rad;
+  return static_cast<float>(std::sqrt(radius * radius + bent * bent * slope2));
+}
+
+// The shortest waves meet next to the surface, longer ones higher up.
+constexpr std::array<float, CausticMaps::kMostPatches> kHeights_m = {0.3f, 1.5f};
+
+// Returns how many maps of the light that is thrown up there are to make.
+std::size_t begin_mirrored(const World::State& world, PartSet without, CausticMaps& maps) {
+  maps.throws_up = !world.scene.objects.empty() && !without.has(Part::kUplight);
+  maps.height_m = kHeights_m;
+  maps.mirrored_spread_per_m = spread_per_m(world, 1.0, 2.0);
+  return maps.throws_up ? maps.patches : 0;
 }
 
 }  // namespace
@@ -46,12 +56,14 @@ float spread_per_m(const World::State& world) {
 std::size_t trace_caustics(const World::State& world, const ocean::SeaFrame& sea, PartSet without,
                            CausticMaps& maps, const StageRun& run) {
   maps.patches = 0;
+  maps.throws_up = false;
   const double depth_m = lit_depth_m(world);
   if (depth_m <= 0.0 || !shows_caustics(world, without)) return 0;
   double parts = 1.0;
   for (std::size_t k = CausticMaps::kDepths; k-- > 0; parts *= kDepthStep)
     maps.depth_m[k] = static_cast<float>(depth_m / parts);
-  maps.spread_per_m = spread_per_m(world);
+  const double inv_n = 1.0 / world.scene.water.refraction_index;
+  maps.spread_per_m = spread_per_m(world, inv_n, 1.0 - inv_n);
   // The shortest patch first.
   std::array<const ocean::PatchFrame*, CausticMaps::kMostPatches> patches{};
   for (std::size_t p = sea.patches.size(); p-- > 0 && maps.patches < patches.size();) {
@@ -61,19 +73,33 @@ std::size_t trace_caustics(const World::State& world, const ocean::SeaFrame& sea
     patches[maps.patches++] = &patch;
   }
   const auto n = static_cast<float>(world.scene.water.refraction_index);
-  run.for_each(maps.patches, [&](std::size_t p, int) {
-    trace_rays(*patches[p], world.sky->to_light, n, maps.rays[p]);
+  const std::size_t thrown_up = begin_mirrored(world, without, maps);
+  run.for_each(maps.patches + thrown_up, [&](std::size_t i, int) {
+    if (i < maps.patches)
+      trace_rays(*patches[i], world.sky->to_light, n, maps.rays[i]);
+    else
+      trace_mirrored_rays(*patches[i - maps.patches], world.sky->to_light,
+                          maps.mirrored_rays[i - maps.patches]);
   });
-  return maps.patches * CausticMaps::kDepths;
+  return maps.patches * CausticMaps::kDepths + thrown_up;
 }
 
 void make_caustic_map(CausticMaps& maps, std::size_t number) {
-  const CausticRays& rays = maps.rays[number / CausticMaps::kDepths];
   CausticScratch& scratch = maps.scratch[number];
-  gather_rays(rays, maps.depth_m[number % CausticMaps::kDepths], maps.spread_per_m, scratch);
-  for (float& intensity : scratch.intensity)
-    intensity = intensity * (2.0f / CausticMaps::kRange) - 1.0f;
-  texture::pack_map1(rays.size, scratch.intensity, maps.map[number]);
+  const auto make = [&](const CausticRays& rays, float way_m, float spread,
+                        texture::PackedMap1& map) {
+    gather_rays(rays, way_m, spread, scratch);
+    for (float& intensity : scratch.intensity)
+      intensity = intensity * (2.0f / CausticMaps::kRange) - 1.0f;
+    texture::pack_map1(rays.size, scratch.intensity, map);
+  };
+  const std::size_t under_water = maps.patches * CausticMaps::kDepths;
+  if (number < under_water)
+    return make(maps.rays[number / CausticMaps::kDepths],
+                maps.depth_m[number % CausticMaps::kDepths], maps.spread_per_m, maps.map[number]);
+  const std::size_t patch = number - under_water;
+  make(maps.mirrored_rays[patch], maps.height_m[patch], maps.mirrored_spread_per_m,
+       maps.mirrored[patch]);
 }
 
 }  // namespace swell::render

@@ -1,10 +1,13 @@
-// Caustics: how the waves gather the light of the sun under water. Rays go down from the points of
-// a wave patch, each bent by the slope there, and light the points of the same grid at a depth: a
-// periodic map of intensity over that under flat water, whose mean is 1.
+// Caustics: how the waves gather the light of the sun, under water and, thrown up, above it. Rays
+// go down from the points of a wave patch, each bent by the slope there, and light the points of
+// the same grid at a depth: a periodic map of intensity over that under flat water, whose mean
+// is 1.
 //
 // A place is not where a ray ends but where it would have entered flat water, so that a shader
 // looks up a point by the slant of the sun's light alone. Without heights and with a sun straight
 // above, a ray comes from x to x + d (1 - 1/n) grad h, the textbook's map of small slopes.
+// Light that the surface mirrors goes up to x - 2 d grad h: eight times as fast apart, and gathered
+// above the troughs.
 #pragma once
 
 #include <array>
@@ -39,6 +42,13 @@ inline constexpr int kMostCausticSize = 128;
 // asin(1/5) moves by their heights as one that high.
 void trace_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, float n, CausticRays& rays);
 
+// The same for the light that the waves mirror, at heights in place of depths. A light lower than
+// asin(1/10) goes as far sideways as one that high.
+void trace_mirrored_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, CausticRays& rays);
+
+// How far a light's rays go sideways, away from it, in each metre up from flat water.
+glm::vec2 mirrored_slant(glm::vec3 to_light);
+
 struct CausticScratch {
   std::vector<std::uint32_t> quads;  // a texel: what the corners of its square get, in 1/2^16
   std::vector<float> intensity, softened, row;
@@ -61,9 +71,14 @@ struct CausticMaps {
   std::array<double, kMostPatches> length_m{};
   float spread_per_m = 0.0f;  // of rays: by the light's disc, and by waves too short for patches
   std::array<texture::PackedMap1, kDepths * kMostPatches> map;  // patch by patch, by depth
+  // Thrown up, a map a patch at a height of its own; none where nothing stands in the water.
+  bool throws_up = false;
+  std::array<float, kMostPatches> height_m{};
+  float mirrored_spread_per_m = 0.0f;
+  std::array<texture::PackedMap1, kMostPatches> mirrored;
   // Storage.
-  std::array<CausticRays, kMostPatches> rays;
-  std::array<CausticScratch, kDepths * kMostPatches> scratch;
+  std::array<CausticRays, kMostPatches> rays, mirrored_rays;
+  std::array<CausticScratch, (kDepths + 1) * kMostPatches> scratch;
 };
 
 // Begins the maps of a frame of the world's sea: of its shortest two patches, but for one whose

@@ -23,9 +23,17 @@ namespace swell::render {
 struct RayConstants {
   glm::vec3 to_light;
   glm::vec2 from_height;  // what a height moves a ray by on its way to the level
-  glm::vec2 flat;         // slant under flat water
-  float inv_n, texels_per_m;
+  glm::vec2 flat;         // slant under flat water, or above it of mirrored light
+  float inv_n = 1.0f, texels_per_m = 1.0f;
 };
+
+// The points of a patch that rays come from.
+struct WaveFields {
+  const float* height_m = nullptr;
+  const float *slope_x = nullptr, *slope_y = nullptr;
+};
+
+inline constexpr float kLeastRise = 0.1f;  // of mirrored light, in a metre of its way
 
 // Of variance 2 part stride^2 [texels^2] along each axis; part in [0, 1/4].
 struct SoftPass {
@@ -45,39 +53,72 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using DU = hn::RebindToUnsigned<D>;
 
-// Refraction of the ray -l by the surface with normal N = (-grad h, 1) / |.|:
-//   t = -l / n + (cos_i / n - cos_t) N, cos_t^2 = 1 - (1 - cos_i^2) / n^2.
-void bend_rays(const RayConstants& c, const float* HWY_RESTRICT height_m,
-               const float* HWY_RESTRICT slope_x, const float* HWY_RESTRICT slope_y,
-               CausticRays& rays) {
+// How a ray -l leaves a surface with normal N = (-grad h, 1) / |.|: as
+// share (-l) + along N, up or down.
+struct Leaving {
+  V along;       // over |(-grad h, 1)|
+  V away;        // from the surface in height
+  float share;   // of the ray
+  float higher;  // by how much a higher surface lengthens the way
+};
+
+// t = -l / n + (cos_i / n - cos_t) N, cos_t^2 = 1 - (1 - cos_i^2) / n^2.
+struct Refract {
+  HWY_INLINE Leaving operator()(const RayConstants& c, V cos_i, V inv_length) const {
+    const D d;
+    const V inv_n = hn::Set(d, c.inv_n), one = hn::Set(d, 1.0f);
+    const V sin2_t = hn::Mul(hn::NegMulAdd(cos_i, cos_i, one), hn::Mul(inv_n, inv_n));
+    const V along = hn::Mul(hn::MulSub(cos_i, inv_n, hn::Sqrt(hn::Sub(one, sin2_t))), inv_length);
+    return {along, hn::MulSub(hn::Set(d, c.to_light.z), inv_n, along), c.inv_n, 1.0f};
+  }
+};
+
+// r = -l + 2 cos_i N. Waves that mirror light down are taken to mirror it far sideways.
+struct Mirror {
+  HWY_INLINE Leaving operator()(const RayConstants& c, V cos_i, V inv_length) const {
+    const D d;
+    const V along = hn::Mul(hn::Add(cos_i, cos_i), inv_length);
+    const V up = hn::Sub(along, hn::Set(d, c.to_light.z));
+    return {along, hn::Max(up, hn::Set(d, kLeastRise)), 1.0f, -1.0f};
+  }
+};
+
+template <class Leave>
+HWY_INLINE void TurnRays(const RayConstants& c, const WaveFields& waves, const Leave& leave,
+                         CausticRays& rays) {
   const D d;
   const auto set = [&](float x) HWY_ATTR { return hn::Set(d, x); };
   const V one = set(1.0f), lx = set(c.to_light.x), ly = set(c.to_light.y), lz = set(c.to_light.z);
   const std::size_t count = rays.per_depth_x.size();
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const V sx = hn::LoadU(d, slope_x + i), sy = hn::LoadU(d, slope_y + i);
+    const V sx = hn::LoadU(d, waves.slope_x + i), sy = hn::LoadU(d, waves.slope_y + i);
     const V inv_length = hn::Div(one, hn::Sqrt(hn::MulAdd(sx, sx, hn::MulAdd(sy, sy, one))));
     const V facing = hn::NegMulAdd(sx, lx, hn::NegMulAdd(sy, ly, lz));
     const V cos_i = hn::Max(hn::Mul(facing, inv_length), set(0.02f));
-    const V sin2_t = hn::Mul(hn::NegMulAdd(cos_i, cos_i, one), set(c.inv_n * c.inv_n));
-    const V along_normal =
-        hn::Mul(hn::MulSub(cos_i, set(c.inv_n), hn::Sqrt(hn::Sub(one, sin2_t))), inv_length);
-    const V down = hn::MulSub(lz, set(c.inv_n), along_normal);
+    const Leaving ray = leave(c, cos_i, inv_length);
     const auto slant = [&](V l, V slope) HWY_ATTR {
-      const V sideways = hn::MulAdd(l, set(c.inv_n), hn::Mul(slope, along_normal));
-      return hn::Div(hn::Neg(sideways), down);
+      const V sideways = hn::MulAdd(l, set(ray.share), hn::Mul(slope, ray.along));
+      return hn::Div(hn::Neg(sideways), ray.away);
     };
-    const V slant_x = slant(lx, sx), slant_y = slant(ly, sy);
-    const V height = hn::Mul(hn::LoadU(d, height_m + i), set(c.texels_per_m));
-    hn::StoreU(hn::Mul(height, hn::Add(slant_x, set(c.from_height.x))), d,
+    const V slant_x = slant(lx, sx), slant_y = slant(ly, sy), higher = set(ray.higher);
+    const V height = hn::Mul(hn::LoadU(d, waves.height_m + i), set(c.texels_per_m));
+    hn::StoreU(hn::Mul(height, hn::MulAdd(slant_x, higher, set(c.from_height.x))), d,
                rays.from_height_x.data() + i);
-    hn::StoreU(hn::Mul(height, hn::Add(slant_y, set(c.from_height.y))), d,
+    hn::StoreU(hn::Mul(height, hn::MulAdd(slant_y, higher, set(c.from_height.y))), d,
                rays.from_height_y.data() + i);
     hn::StoreU(hn::Mul(hn::Sub(slant_x, set(c.flat.x)), set(c.texels_per_m)), d,
                rays.per_depth_x.data() + i);
     hn::StoreU(hn::Mul(hn::Sub(slant_y, set(c.flat.y)), set(c.texels_per_m)), d,
                rays.per_depth_y.data() + i);
   }
+}
+
+void refract_rays(const RayConstants& c, const WaveFields& waves, CausticRays& rays) {
+  TurnRays(c, waves, Refract(), rays);
+}
+
+void mirror_rays(const RayConstants& c, const WaveFields& waves, CausticRays& rays) {
+  TurnRays(c, waves, Mirror(), rays);
 }
 
 // Adds each ray's 2^16 parts to the corners of the square it falls into: quad (i, j) holds what
@@ -192,7 +233,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swell::render {
 
-HWY_EXPORT(bend_rays);
+HWY_EXPORT(refract_rays);
+HWY_EXPORT(mirror_rays);
 HWY_EXPORT(add_rays);
 HWY_EXPORT(sum_quads);
 HWY_EXPORT(soften);
@@ -218,39 +260,54 @@ void coarsen(std::span<const float> field, int size, CausticRays& rays,
   }
 }
 
-RayConstants ray_constants(glm::vec3 to_light, float n, const CausticRays& rays) {
+RayConstants ray_constants(glm::vec3 to_light, glm::vec2 flat, const CausticRays& rays) {
   RayConstants c;
   c.to_light = to_light;
   c.from_height = glm::vec2(to_light) / std::max(to_light.z, 0.2f);
-  c.flat = -glm::vec2(underwater_slant(to_light, static_cast<double>(n)));
-  c.inv_n = 1.0f / n;
+  c.flat = flat;
   c.texels_per_m = static_cast<float>(rays.size / rays.length_m);
   return c;
 }
 
-}  // namespace
-
-void trace_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, float n, CausticRays& rays) {
+// Sizes the rays of a patch.
+WaveFields begin_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, CausticRays& rays) {
   SWELL_CHECK(
       patch.resolution >= 16 && std::has_single_bit(static_cast<unsigned>(patch.resolution)),
       "resolution={}", patch.resolution);
-  SWELL_CHECK(to_light.z > 0.0f && n >= 1.0f, "to_light.z={} n={}", to_light.z, n);
+  SWELL_CHECK(to_light.z > 0.0f, "to_light.z={}", to_light.z);
   rays.size = std::min(patch.resolution, kMostCausticSize);
   rays.length_m = patch.length_m;
   const std::size_t count = static_cast<std::size_t>(rays.size) * rays.size;
   for (auto* const field :
        {&rays.from_height_x, &rays.from_height_y, &rays.per_depth_x, &rays.per_depth_y})
     field->resize(count);
-  const float *height_m = patch.height_m.data(), *slope_x = patch.slope_x.data(),
-              *slope_y = patch.slope_y.data();
-  if (patch.resolution > rays.size) {
-    coarsen(patch.height_m, patch.resolution, rays, rays.height_m);
-    coarsen(patch.slope_x, patch.resolution, rays, rays.slope_x);
-    coarsen(patch.slope_y, patch.resolution, rays, rays.slope_y);
-    height_m = rays.height_m.data(), slope_x = rays.slope_x.data(), slope_y = rays.slope_y.data();
-  }
-  HWY_DYNAMIC_DISPATCH(bend_rays)
-  (ray_constants(to_light, n, rays), height_m, slope_x, slope_y, rays);
+  if (patch.resolution == rays.size)
+    return {patch.height_m.data(), patch.slope_x.data(), patch.slope_y.data()};
+  coarsen(patch.height_m, patch.resolution, rays, rays.height_m);
+  coarsen(patch.slope_x, patch.resolution, rays, rays.slope_x);
+  coarsen(patch.slope_y, patch.resolution, rays, rays.slope_y);
+  return {rays.height_m.data(), rays.slope_x.data(), rays.slope_y.data()};
+}
+
+}  // namespace
+
+glm::vec2 mirrored_slant(glm::vec3 to_light) {
+  return -glm::vec2(to_light) / std::max(to_light.z, kLeastRise);
+}
+
+void trace_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, float n, CausticRays& rays) {
+  SWELL_CHECK(n >= 1.0f, "n={}", n);
+  const WaveFields waves = begin_rays(patch, to_light, rays);
+  const glm::vec2 flat(-underwater_slant(to_light, static_cast<double>(n)));
+  RayConstants constants = ray_constants(to_light, flat, rays);
+  constants.inv_n = 1.0f / n;
+  HWY_DYNAMIC_DISPATCH(refract_rays)(constants, waves, rays);
+}
+
+void trace_mirrored_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, CausticRays& rays) {
+  const WaveFields waves = begin_rays(patch, to_light, rays);
+  HWY_DYNAMIC_DISPATCH(mirror_rays)
+  (ray_constants(to_light, mirrored_slant(to_light), rays), waves, rays);
 }
 
 std::span<const float> gather_rays(const CausticRays& rays, float depth_m, float spread_per_m,

@@ -63,6 +63,10 @@ void pack_wake(const ocean::WakeWindow& window, std::vector<float>& values,
   texture::pack_map1(ocean::kWakeSamples, values, foam);
 }
 
+void leave_out_maps(const ocean::Sea& waves, ocean::SeaFrame& frame) {
+  frame.patches.resize(waves.state().patches.size());
+}
+
 void leave_out_tiles(SeaMaps& sea) {
   for (ocean::PatchFrame& patch : sea.frame.patches) patch.tiling = {};
   for (ocean::WhitecapFrame::Patch& patch : sea.whitecaps.patches) patch.tiling = {};
@@ -82,8 +86,10 @@ void advance_waves(const World::State& world, double t_s, std::span<const ocean:
 void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
                  PartSet without, SeaMaps& sea, const StageRun& run) {
   advance_waves(world, t_s, more, without, sea.frame, run.workers);
+  if (without.has(Part::kMaps)) leave_out_maps(*world.sea, sea.frame);
   if (without.has(Part::kWater)) {  // things lie on the waves all the same
     sea.caustics.patches = 0;
+    sea.caustics.throws_up = false;
     return;
   }
   const bool has_foam = !without.has(Part::kWhitecaps);

@@ -118,6 +118,23 @@ TEST(RadialGrid, HasItsRingsWhereTheFormulaPutsThem) {
   EXPECT_GE(0.1 + a1 * std::pow(layout.first_ring, 4.0), 0.2 - 1e-9);
 }
 
+// From higher up than 90 m the rings go on to the horizon, and no triangle is lost to the lattice.
+TEST(RadialGrid, ReachesBeyondTheHorizon) {
+  for (const double eye_m : {0.3, 80.0, 120.0, 3000.0, 12000.0, 40000.0}) {
+    const View view = make_view({123.4, -56.7, eye_m}, 0.7, -0.4, 0.9, 0.1f, 160, 90);
+    const Mesh mesh = grid_of(view, 60000);
+    double furthest_m = 0.0, nearest_m = 1e9;
+    for (std::size_t v = 1; v < mesh.lattice.size(); ++v) {
+      const double r_m = glm::length(offset_m(view, mesh.lattice[v]));
+      furthest_m = std::max(furthest_m, r_m), nearest_m = std::min(nearest_m, r_m);
+    }
+    const double horizon_m = 3827.0 * std::sqrt(eye_m);
+    EXPECT_NEAR(furthest_m, std::max(1.1 * horizon_m, 40000.0), 1e-3 * furthest_m) << eye_m;
+    EXPECT_LE(nearest_m, std::max(0.21, eye_m / 5000.0)) << eye_m;
+    for (std::size_t t = 0; t < mesh.level.size(); ++t) ASSERT_GT(doubled_area(mesh, t), 0);
+  }
+}
+
 // Points on the pixels' rays between 1 m and 30 km from the eye lie in a column that is made.
 void expect_columns_seen(const View& view, int budget) {
   const RadialLayout layout = radial_layout(view, budget);

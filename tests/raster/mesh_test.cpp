@@ -57,7 +57,7 @@ std::vector<int> coverage_counts(const std::vector<Mesh>& meshes, Viewport viewp
         }
         draws.push_back({.p_clip = meshes[m].p_clip,
                          .indices = indices[m],
-                         .clip_distance = meshes[m].clip_distance});
+                         .clip_distance = {meshes[m].clip_distance}});
       }
       const Picture picture = draw_picture(draws, viewport, 64, workers);
       for (std::size_t p = 0; p < times.size(); ++p) {
@@ -219,7 +219,7 @@ TEST(Clipping, ACutIsTheSameBitsFromBothTrianglesAndBothSides) {
       const double size = std::exp2(random.between(-20, 20));
       return ClipVertex{{random.between(-size, size), random.between(-size, size),
                          random.between(-size, size), random.between(-size, size)},
-                        random.between(-1, 1)};
+                        {random.between(-1, 1), random.between(-1, 1)}};
     };
     const ClipVertex a = vertex(), b = vertex();
     const double da = random.between(0, 1), db = -random.between(0, 1);
@@ -232,10 +232,10 @@ TEST(Clipping, ACutIsTheSameBitsFromBothTrianglesAndBothSides) {
 }
 
 TEST(Clipping, ACutLiesWhereTheDistancesMeet) {
-  const ClipVertex a{{0, 0, 0, 4}, 3.0}, b{{8, -4, 4, 0}, -1.0};
+  const ClipVertex a{{0, 0, 0, 4}, {3.0, 5.0}}, b{{8, -4, 4, 0}, {-1.0, 1.0}};
   const ClipVertex cut = cut_edge(a, 3.0, b, -1.0);
   EXPECT_EQ(cut.p_clip, glm::dvec4(6, -3, 3, 1));
-  EXPECT_EQ(cut.user, 0.0);
+  EXPECT_EQ(cut.user, (std::array{0.0, 2.0}));
 }
 
 // The part with clip distance >= 0 of a triangle that covers the screen is a half-plane.
@@ -246,7 +246,8 @@ TEST(Clipping, TheUserPlaneKeepsItsPositiveSide) {
   mesh.indices = {0, 1, 2};
   for (const glm::vec4& p : mesh.p_clip) mesh.clip_distance.push_back(p.x);  // x_ndc >= 0
   const Picture picture = draw_picture(
-      {.p_clip = mesh.p_clip, .indices = mesh.indices, .clip_distance = mesh.clip_distance}, kView);
+      {.p_clip = mesh.p_clip, .indices = mesh.indices, .clip_distance = {mesh.clip_distance}},
+      kView);
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 32; ++x) EXPECT_EQ(picture.primitive_at(x, y) == 0u, x >= 16);
   }

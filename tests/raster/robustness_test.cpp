@@ -18,7 +18,7 @@ constexpr float kDenormal = 1e-42f;
 PassStatistics draw_one(const std::array<glm::vec4, 3>& p, std::span<const float> distance = {}) {
   constexpr std::uint32_t kIndices[] = {0, 1, 2};
   const Picture picture =
-      draw_picture({.p_clip = p, .indices = kIndices, .clip_distance = distance}, {37, 23});
+      draw_picture({.p_clip = p, .indices = kIndices, .clip_distance = {distance}}, {37, 23});
   EXPECT_EQ(picture.covered, 0);
   EXPECT_EQ(picture.statistics.submitted, 1u);
   return picture.statistics;
@@ -128,7 +128,7 @@ TEST(Fuzz, RawBitsGiveTheSamePictureOnEveryConfiguration) {
     const Viewport viewport{1 + n % 70, static_cast<int>(random.integer(1, 70))};
     const Soup soup = random_soup(random);
     Draw draw{.p_clip = soup.p_clip, .indices = soup.indices};
-    if (n % 3 == 0) draw.clip_distance = soup.clip_distance;
+    if (n % 3 == 0) draw.clip_distance[0] = soup.clip_distance;
     draw.cull = static_cast<Cull>(n % 5 % 3);
     const Picture first = draw_picture(std::span(&draw, 1), viewport, 64, one);
     covered += first.covered;

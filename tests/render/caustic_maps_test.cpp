@@ -225,5 +225,62 @@ TEST_P(CausticRaysOnTarget, OfAFinerPatchAreThoseOfACoarserOne) {
   EXPECT_NEAR(m.deviation_a / m.deviation_b, 1.0, 0.01);
 }
 
+// ---- Thrown up
+
+// A sun straight above over a sine: a wave's trough mirrors as a hollow mirror does, of half its
+// radius of curvature 1 / (A k^2), from the trough up.
+TEST_P(CausticRaysOnTarget, MirroredByASineMeetOverItsTrough) {
+  constexpr int kSize = 128;
+  constexpr double kLength_m = 3.0, kWaveNumber = kTwoPi / kLength_m;
+  for (const double steepness : {0.05, 0.1, 0.2, 0.3}) {
+    const double amplitude_m = steepness / kWaveNumber;
+    const ocean::PatchFrame patch = patch_of({{1, 0, amplitude_m, 0.0}}, kLength_m, kSize);
+    CausticRays rays;
+    trace_mirrored_rays(patch, {0.0f, 0.0f, 1.0f}, rays);
+    constexpr std::size_t kTrough = kSize / 2;
+    const double rise = static_cast<double>(rays.from_height_x[kTrough + 1]) -
+                        static_cast<double>(rays.from_height_x[kTrough - 1]);
+    const double closing = static_cast<double>(rays.per_depth_x[kTrough - 1]) -
+                           static_cast<double>(rays.per_depth_x[kTrough + 1]);
+    const double expected_m = 0.5 / (amplitude_m * kWaveNumber * kWaveNumber) - amplitude_m;
+    EXPECT_NEAR((2.0 + rise) / closing / expected_m, 1.0, 0.01) << steepness;
+    EXPECT_NEAR(rays.per_depth_y[kTrough + 10], 0.0f, 1e-6f);
+  }
+}
+
+// A slope turns a mirrored ray by twice its own angle.
+TEST_P(CausticRaysOnTarget, AreMirroredBySlopesUnderASlantingSun) {
+  for (const double slope : {-0.2, -0.1, 0.0, 0.15}) {
+    ocean::PatchFrame patch = patch_of({}, 3.2, 16);
+    std::ranges::fill(patch.slope_x, static_cast<float>(slope));
+    CausticRays rays;
+    const double from_zenith = 0.6;  // the sun stands over +x
+    const glm::vec3 to_sun(std::sin(from_zenith), 0.0f, std::cos(from_zenith));
+    trace_mirrored_rays(patch, to_sun, rays);
+    const double expected = std::tan(from_zenith) - std::tan(from_zenith + 2.0 * std::atan(slope));
+    EXPECT_NEAR(static_cast<double>(rays.per_depth_x[5]) / (16 / 3.2), expected, 1e-5) << slope;
+    EXPECT_NEAR(mirrored_slant(to_sun).x, -std::tan(from_zenith), 1e-6);
+  }
+}
+
+// Weak ones are 2 h times the Laplacian of the sea: bright over troughs.
+TEST_P(CausticRaysOnTarget, ThrownUpAreTheLaplacianWhereTheyAreWeak) {
+  const ocean::PatchFrame patch = long_waves(0.03);
+  std::vector<double> bends_per_m = between_points(minus_laplacian(patch), patch.resolution);
+  for (double& bend : bends_per_m) bend = -bend;
+  const double bend = moments(bends_per_m, bends_per_m).deviation_a;
+  for (const double contrast : {0.05, 0.1, 0.15}) {
+    CausticRays rays;
+    CausticScratch scratch;
+    trace_mirrored_rays(patch, {0.0f, 0.0f, 1.0f}, rays);
+    const auto height_m = static_cast<float>(contrast / bend / 2.0);
+    const std::span<const float> light = gather_rays(rays, height_m, kDisc_per_m, scratch);
+    EXPECT_NEAR(std::accumulate(light.begin(), light.end(), 0.0) / (128.0 * 128.0), 1.0, 1e-6);
+    const Moments m = moments(light, bends_per_m);
+    EXPECT_NEAR(m.deviation_a / contrast, 1.02, 0.05) << contrast;
+    EXPECT_GT(m.correlation, 0.96) << contrast;
+  }
+}
+
 }  // namespace
 }  // namespace swell::render

@@ -16,7 +16,7 @@ constexpr glm::ivec2 kSize_px(96, 54);
 class DrawnSurface : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface,
                          testing::Values("open_ocean", "lagoon", "sines", "beach",
-                                         "open_ocean_radial"),
+                                         "open_ocean_radial", "waves_maps"),
                          [](const auto& test) { return std::string(test.param); });
 
 void expect_queried_heights(const scene::Scene& scene) {

@@ -12,7 +12,7 @@ namespace {
 class SameBits : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
                          testing::Values("open_ocean", "lagoon", "sines", "beach", "buoys",
-                                         "harbour"),
+                                         "harbour", "waves_maps"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(SameBits, ThreadCountChangesNoPixel) {

@@ -276,12 +276,22 @@ TEST_P(MediaOptics, RefractionShowsPointsThatAreFoundAgain) {
   }
 }
 
-// Seen through water and standing out of it.
-TEST_P(MediaOptics, RefractionLeavesPointsAboveTheWaterWhereTheyAre) {
-  const auto points = random_points(0.0f, 10.0f, 60.0f);
+// Standing out of the water and seen through a wave.
+TEST_P(MediaOptics, RefractionShowsPointsAboveTheWaterThatAreFoundAgain) {
+  const auto points = random_points(0.0f, 0.3f, 60.0f);
   const auto seen = there_and_back(ViewKind::kRefraction, points);
   for (std::size_t i = 0; i < points.size(); ++i)
-    ASSERT_LE(glm::distance(seen[i], points[i].p_rel), 1e-5f) << i;
+    ASSERT_NEAR(seen[i].z, points[i].p_rel.z, 0.1f * points[i].above_m + 1e-4f) << i;
+}
+
+// A straight line through the level is bent there, on both sides alike.
+TEST_P(MediaOptics, RefractionMovesPointsOnBothSidesOfTheLevelAlike) {
+  for (const WorldPoint& p : random_points(0.01f, 8.0f, 60.0f)) {
+    WorldPoint below = p;
+    below.above_m = -p.above_m, below.p_rel.z = p.level_rel_m - p.above_m;
+    const PointMap map = map_of(ViewKind::kRefraction);
+    EXPECT_NEAR(map_point(map, p).z + map_point(map, below).z, 2.0f * p.level_rel_m, 1e-4f);
+  }
 }
 
 // ---- Under water

@@ -256,7 +256,7 @@ TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
   Drawn drawn{world};
   FrameOptions options;
   options.keep_linear = true;
-  options.without = {Part::kHaze};
+  options.without = {Part::kHaze, Part::kUplight};
   // The wall's middle is at the picture's; a quarter is 3 m off, 40 m away.
   const int off = static_cast<int>(0.5 * kHeight / std::tan(0.5 * scene.camera.fov_y_rad) * 3 / 40);
   const auto colour_at = [&](int right, int down) {

@@ -17,20 +17,28 @@ struct GlintSurface {
   float variance = 0.01f;  // of both axes together
   float reflectance = 1.0f;
 };
-// Radiance of the sun's mirror image per irradiance, by direction to the eye and the cosine that
-// the shader takes for it.
+// Radiance of the sun's mirror image per irradiance, by direction to the eye and the area that is
+// seen over the level's.
 void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
-               std::span<const float> cos_eye, std::span<float> glint);
+               std::span<const float> area, std::span<float> glint);
 
 // Light that leaves open water at its mean level towards the eye: shading's Water as its shader
 // shows it, without lookup images.
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,
                  std::span<glm::vec3> light);
 
-// SeenCosine() and MirroringCosine(), and UnhiddenCosine(), of slopes of one variance.
-void seen_cosines(std::span<const float> cosine, float variance, std::span<float> seen,
-                  std::span<float> mirroring);
-void unhidden_cosines(std::span<const float> cosine, float variance, std::span<float> unhidden);
+// Of slopes of one variance.
+struct SeenFacets {
+  float cosine, mirroring, reflecting, area;  // SeenCosine() and the like
+};
+SeenFacets seen_facets(float cosine, float variance);
+// UnhiddenCosine()
+void unhidden_cosines(std::span<const float> cosine, float level_cosine, float variance_all,
+                      float drawn, std::span<float> unhidden);
+
+// TiltToEye() of unit normals seen from unit vectors to the eye: the tilted normals and cosines.
+void tilted_normals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                    std::span<float> cosine);
 
 void foam_cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
                 std::span<const float> amount, std::span<float> cover);

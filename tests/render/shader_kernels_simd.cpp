@@ -56,32 +56,41 @@ void ForPackets(std::size_t count, const Each& each) {
 void Sky(const Shading& shading, std::span<const float> x_px, std::span<const float> y_px,
          std::span<glm::vec3> light) {
   ForPackets(light.size(), [&](std::size_t i) {
-    StoreSome(ShadeSky(shading, LoadSome(x_px, i), LoadSome(y_px, i)), light, i);
+    StoreSome(ShadeSky(shading, {}, nullptr, LoadSome(x_px, i), LoadSome(y_px, i)), light, i);
   });
 }
 
 WaterSlopes NoSlopes() {
   const V zero = hn::Zero(D());
-  return {zero, zero, zero, zero, zero};
+  return {zero, zero, zero, zero, zero, zero};
 }
 
-void SeenCosines(std::span<const float> cosine, float variance, std::span<float> seen,
-                 std::span<float> mirroring) {
+void FacetsSeen(float cosine, float variance, SeenFacets& facets) {
+  const V c = Constant(cosine), v = Constant(variance);
+  facets = {hn::GetLane(SeenCosine(c, v)), hn::GetLane(MirroringCosine(c, v)),
+            hn::GetLane(ReflectingCosine(c, v)), hn::GetLane(SeenArea(c, v))};
+}
+
+void UnhiddenCosines(std::span<const float> cosine, float level_cosine, float variance_all,
+                     float drawn, std::span<float> unhidden) {
   ForPackets(cosine.size(), [&](std::size_t i) {
-    const V c = LoadSome(cosine, i), v = Constant(variance);
-    StoreSome(SeenCosine(c, v), seen, i);
-    StoreSome(MirroringCosine(c, v), mirroring, i);
+    StoreSome(UnhiddenCosine(LoadSome(cosine, i), Constant(level_cosine), Constant(variance_all),
+                             Constant(drawn)),
+              unhidden, i);
   });
 }
 
-void UnhiddenCosines(std::span<const float> cosine, float variance, std::span<float> unhidden) {
+void TiltedNormals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                   std::span<float> cosine) {
   ForPackets(cosine.size(), [&](std::size_t i) {
-    StoreSome(UnhiddenCosine(LoadSome(cosine, i), Constant(variance)), unhidden, i);
+    V3 n = LoadSome(std::span<const glm::vec3>(normal), i);
+    StoreSome(TiltToEye(LoadSome(to_eye, i), least_cos, n), cosine, i);
+    StoreSome(n, normal, i);
   });
 }
 
 void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
-           std::span<const float> cos_eye, std::span<float> glint) {
+           std::span<const float> area, std::span<float> glint) {
   WaterSlopes s = NoSlopes();
   s.slope_x = Constant(surface.slope.x);
   s.slope_y = Constant(surface.slope.y);
@@ -91,7 +100,7 @@ void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
     packet.to_eye = LoadSome(to_eye, i);
     V inv_variance;
     StoreSome(SunGlint(surface.sun_direction, packet, s, Constant(surface.reflectance),
-                       LoadSome(cos_eye, i), inv_variance),
+                       LoadSome(area, i), inv_variance),
               glint, i);
   });
 }
@@ -270,8 +279,9 @@ namespace swell::render {
 
 HWY_EXPORT(Sky);
 HWY_EXPORT(Glint);
-HWY_EXPORT(SeenCosines);
+HWY_EXPORT(FacetsSeen);
 HWY_EXPORT(UnhiddenCosines);
+HWY_EXPORT(TiltedNormals);
 HWY_EXPORT(LightOfWater);
 HWY_EXPORT(Cover);
 HWY_EXPORT(Edge);
@@ -290,17 +300,24 @@ HWY_EXPORT(LightCode);
 HWY_EXPORT(Noise);
 
 void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
-               std::span<const float> cos_eye, std::span<float> glint) {
-  HWY_DYNAMIC_DISPATCH(Glint)(surface, to_eye, cos_eye, glint);
+               std::span<const float> area, std::span<float> glint) {
+  HWY_DYNAMIC_DISPATCH(Glint)(surface, to_eye, area, glint);
 }
 
-void seen_cosines(std::span<const float> cosine, float variance, std::span<float> seen,
-                  std::span<float> mirroring) {
-  HWY_DYNAMIC_DISPATCH(SeenCosines)(cosine, variance, seen, mirroring);
+SeenFacets seen_facets(float cosine, float variance) {
+  SeenFacets facets;
+  HWY_DYNAMIC_DISPATCH(FacetsSeen)(cosine, variance, facets);
+  return facets;
 }
 
-void unhidden_cosines(std::span<const float> cosine, float variance, std::span<float> unhidden) {
-  HWY_DYNAMIC_DISPATCH(UnhiddenCosines)(cosine, variance, unhidden);
+void unhidden_cosines(std::span<const float> cosine, float level_cosine, float variance_all,
+                      float drawn, std::span<float> unhidden) {
+  HWY_DYNAMIC_DISPATCH(UnhiddenCosines)(cosine, level_cosine, variance_all, drawn, unhidden);
+}
+
+void tilted_normals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
+                    std::span<float> cosine) {
+  HWY_DYNAMIC_DISPATCH(TiltedNormals)(to_eye, least_cos, normal, cosine);
 }
 
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,

@@ -194,10 +194,10 @@ TEST_F(SpanDeathTest, RasterChecksEveryPair) {
   Lengths<glm::vec4> p_clip;
   Lengths<raster::WindowVertex> window;
   EXPECT_REFUSED(raster::project_vertices(p_clip.right, {}, {8, 8}, window.shorter));
-  EXPECT_REFUSED(raster::project_vertices(p_clip.right, a.longer, {8, 8}, window.right));
+  EXPECT_REFUSED(raster::project_vertices(p_clip.right, {a.longer}, {8, 8}, window.right));
   raster::Pass pass;
   const std::vector<std::uint32_t> indices = {0, 1, 2};
-  const raster::Draw draw{.p_clip = p_clip.right, .indices = indices, .clip_distance = a.shorter};
+  const raster::Draw draw{.p_clip = p_clip.right, .indices = indices, .clip_distance = {a.shorter}};
   EXPECT_REFUSED(raster::prepare_pass(std::span(&draw, 1), {8, 8}, 16, pass, workers));
   raster::prepare_pass({}, {8, 8}, 16, pass, workers);
   std::vector<float> depth(256), shallow(255);

@@ -51,7 +51,7 @@ struct OneObject {
     object.kind = kind;
     object.heading_rad = 0.5;
     scene.objects = {object};
-    mesh = scene::make_object_mesh(kind, object.top_mark, 8);  // as of things 15 pixels high
+    mesh = scene::make_object_mesh(kind, object.top_mark, scene::kLevelSegments[0]);
   }
 
   // The part of nine rays that meet the object: from `p` to points of the sun's rim, and to its

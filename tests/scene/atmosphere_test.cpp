@@ -101,14 +101,16 @@ TEST(Atmosphere, LightsTheGroundAsTheStandardTable) {
   }
 }
 
-// Source: Illuminating Engineering Society, Recommended Practice for the Calculation of Daylight
-// Availability, 1984: of a clear sky, in klx, by the sun's altitude. Skies of the same clarity
+// Of a clear sky, by the sun's altitude h: the sun on a plane turned to it, 127.5 klx exp(-0.21 m),
+// m = 1 / sin h; the sky on a level plane, 0.8 + 15.5 sqrt(sin h) klx. Skies of the same clarity
 // scatter by more than the fifth that is allowed here.
+// Source: Illuminating Engineering Society, Recommended Practice for the Calculation of Daylight
+// Availability, Journal of the Illuminating Engineering Society 13(4), 1984, pages 381 to 392.
 TEST(Atmosphere, SunAndSkyHaveTheirPartsOfDaylight) {
   Days days(2.2);
   for (const double altitude_deg : {85.0, 60.0, 45.0, 30.0, 20.0, 15.0, 10.0}) {
     const double sine = std::sin(radians(altitude_deg));
-    const double sun_klx = 128.0 * std::exp(-0.21 / sine) * sine;
+    const double sun_klx = 127.5 * std::exp(-0.21 / sine) * sine;
     const double sky_klx = 0.8 + 15.5 * std::sqrt(sine);
     const SkyLight light = days.at(altitude_deg);
     EXPECT_NEAR(10.0 * direct_irradiance(light) / sun_klx, 1.0, 0.2) << altitude_deg;
@@ -336,26 +338,25 @@ class LightPaths {
   std::uint64_t counter_ = 0;
 };
 
-// The number of paths leaves 1 %. In haze, light scattered again goes forward: it is too dark by up
-// to 14 % near the horizon under the sun, where no case lies, and its red and blue are off by up to
-// 9 %.
+// The number of paths leaves 1 %. Near the horizon, and on it under the sun, where haze throws
+// most light forward, as well as elsewhere.
 TEST(Atmosphere, IsAsBrightAsPathsOfLightSay) {
   Workers workers(2);
   struct Case {
-    double turbidity, sun_deg, azimuth_deg, elevation_deg, tolerance;
+    double turbidity, sun_deg, azimuth_deg, elevation_deg;
   };
-  for (const Case& c : {Case{1.0, 50.0, 0.0, 90.0, 0.03}, Case{1.0, 50.0, 180.0, 5.0, 0.03},
-                        Case{1.0, 10.0, 180.0, 30.0, 0.03}, Case{2.2, 50.0, 0.0, 90.0, 0.03},
-                        Case{2.2, 50.0, 120.0, 40.0, 0.06}, Case{2.2, 20.0, 90.0, 60.0, 0.05},
-                        Case{2.2, 10.0, 180.0, 30.0, 0.07}}) {
+  for (const Case& c :
+       {Case{1.0, 50.0, 0.0, 90.0}, Case{1.0, 50.0, 180.0, 5.0}, Case{1.0, 10.0, 180.0, 30.0},
+        Case{2.2, 50.0, 0.0, 90.0}, Case{2.2, 50.0, 120.0, 40.0}, Case{2.2, 50.0, 0.0, 3.0},
+        Case{2.2, 20.0, 90.0, 60.0}, Case{2.2, 20.0, 180.0, 5.0}, Case{2.2, 20.0, 0.0, 20.0},
+        Case{2.2, 10.0, 180.0, 30.0}, Case{2.2, 5.0, 90.0, 5.0}}) {
     const Atmosphere air = make_atmosphere(c.turbidity, workers);
     const glm::dvec3 to_sun(sun_direction(0.0, radians(c.sun_deg)));
     const glm::dvec3 d(sun_direction(radians(c.azimuth_deg), radians(c.elevation_deg)));
     const glm::vec3 ours = sky_radiance(make_sky_table(air, to_sun, 0.0, workers), d);
     for (const int channel : {0, 1, 2}) {
-      if (channel != 1 && c.turbidity > 1.0) continue;
       const double theirs = LightPaths(c.turbidity).radiance(channel, d, to_sun, 30000);
-      EXPECT_NEAR(ours[channel] / theirs, 1.0, c.tolerance)
+      EXPECT_NEAR(ours[channel] / theirs, 1.0, 0.05)
           << c.turbidity << " " << c.sun_deg << " " << c.azimuth_deg << " " << c.elevation_deg
           << " channel " << channel;
     }
@@ -380,9 +381,8 @@ TEST(Atmosphere, IsAsBrightAloftAsPathsOfLightSay) {
         return glm::dvec3(std::sqrt(std::max(1.0 - z * z, 0.0)), 0.0, z);
       };
       const double ours = sky_radiance(table, at(sine)).y;
-      const double theirs = paths.radiance_aloft(height_m, at(true_sine), to_sun, 4000);
-      // In haze near the horizon light scattered again goes forward (above).
-      EXPECT_NEAR(ours / theirs, 1.0, sine < 0.1 ? 0.2 : 0.15) << height_m << " m, " << sine;
+      const double theirs = paths.radiance_aloft(height_m, at(true_sine), to_sun, 20000);
+      EXPECT_NEAR(ours / theirs, 1.0, 0.05) << height_m << " m, " << sine;
     }
   }
 }

@@ -105,6 +105,8 @@ TEST(CheckScene, NamesEveryKeyOfTablesOutsideItsRange) {
                [](Scene& scene, const auto& swell) { scene.sea.swells.push_back(swell); });
   expect_named(kSinesKey, sine_parameters(),
                [](Scene& scene, const auto& sine) { scene.sea.sines.push_back(sine); });
+  expect_named(kMapsKey, map_parameters(),
+               [](Scene& scene, const auto& map) { scene.sea.maps.push_back(map); });
   expect_named(kObjectsKey, object_parameters(),
                [](Scene& scene, const auto& object) { scene.objects.push_back(object); });
   expect_named(kDisturbancesKey, disturbance_parameters(),

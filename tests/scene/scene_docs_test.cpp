@@ -51,6 +51,9 @@ std::string tables() {
   text += head(fmt::format("[[{}]]", kSinesKey));
   for (const auto& parameter : sine_parameters())
     text += row(parameter, parameter.key, ocean::SineWave{});
+  text += head(fmt::format("[[{}]]", kMapsKey));
+  for (const auto& parameter : map_parameters())
+    text += row(parameter, parameter.key, ocean::MapLayer{});
   text += head(fmt::format("[[{}]]", kObjectsKey));
   for (const auto& parameter : object_parameters())
     text += row(parameter, parameter.key, FloatingObject{});

@@ -56,6 +56,17 @@ INSTANTIATE_TEST_SUITE_P(
               "or \"inverse_distance\""},
         Fault{"[sea]\nresolution = 100\n",
               "test.toml:2: column 14: sea.resolution, got 100, allowed a power of two, 16 to 512"},
+        Fault{"[sea]\nmap_set = \"pond\"\n",
+              "test.toml:2: column 11: sea.map_set, got \"pond\", allowed \"none\", \"river\", "
+              "\"lake\", \"coast\" or \"ocean\""},
+        Fault{"[sea]\nmap_set = \"lake\"\nspectrum = true\n",
+              "test.toml:2: column 11: sea.map_set, got 7 layers beside 3 patches of the spectrum, "
+              "allowed at most 8 of both"},
+        Fault{"[[sea.maps]]\nlength_m = 20\n",
+              "test.toml:1: column 1: sea.maps[0].file, got none, allowed a readable map file"},
+        Fault{"[[sea.maps]]\nfile = \"none.map\"\nperiod_s = 0.01\n",
+              "test.toml:2: column 8: sea.maps[0].file, got \"" SWELL_SOURCE_DIR
+              "/none.map\" (No such file or directory), allowed a readable map file"},
         Fault{"[sea]\nspectrum = 1\n",
               "test.toml:2: column 12: sea.spectrum, got 1, allowed true or false"},
         Fault{"[sea]\npatch_lengths_m = [10, 20]\n",
@@ -197,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(
               "principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
-              "[water], [[camera.path]], [sky], [picture], [coast], [wind], [terrain], "
+              "[water], [[camera.path]], [sky], [picture], [coast], [wind], [ripples], [terrain], "
               "[[sea.swell]], [[sea.sines]], [detail], [[object]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
@@ -212,7 +223,8 @@ INSTANTIATE_TEST_SUITE_P(
             "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
-              "[sea], [water], [wind], [picture], [coast], [[sea.swell]], [[sea.sines]], [detail], "
+              "[sea], [water], [wind], [picture], [ripples], [coast], [[sea.swell]], "
+              "[[sea.sines]], [detail], "
               "[[object]], "
               "[terrain], [[camera.path]]"},
         Fault{
@@ -222,8 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
             "pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, mount_offset_m"},
         Fault{"[sea]\nstate = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] tp_s, seed, "
-              "earth, "
-              "[[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, size_m, gamma, whitecaps, "
+              "[[sea.maps]], earth, [[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, "
+              "size_m, gamma, map_set, whitecaps, "
               "beaufort, fetch_km, resolution, tiling, loop_s, douglas, choppiness, gravity_mps2, "
               "amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
@@ -234,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
               "[coast], [camera], [wind], [detail], [terrain], [[object]], [picture], "
-              "[[sea.swell]], [[sea.sines]], [[camera.path]]"},
+              "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},

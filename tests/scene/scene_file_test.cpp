@@ -73,6 +73,7 @@ gravity_mps2 = 3.7
 loop_s = 25
 whitecaps = 0.5
 choppiness = 0.75
+map_set = "lake"
 centre_m = [10, 20]
 size_m = [500, 600]
 earth = "flat"
@@ -96,6 +97,7 @@ lookup_scale = 1
 bump_strength = 2
 uv_noise_amplitude_m = 0.5
 caustics = 0.75
+back_sides = "tilted"
 distortion_factor = "paper"
 caustic_distortion = 0.25
 glitter = "projective"
@@ -106,6 +108,8 @@ lighting = "paper"
 frames = 32
 loop_s = 2.5
 length_m = 3
+refraction = "paper"
+reflection_weight = 0.5
 [coast]
 model = "trains"
 trains = 7
@@ -129,6 +133,7 @@ coast_m = [[-1, 2.5], [3, 4], [30, -4]]
 beach_slope = 0.05
 beach_size_m = 700
 seed = 99
+checker_m = 0.25
 )";
 
 TEST(SceneFile, EveryKeyReachesItsField) {
@@ -182,6 +187,8 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.water.bump_strength, 2.0);
   EXPECT_EQ(scene.water.uv_noise_amplitude, 0.5);
   EXPECT_EQ(scene.water.caustics, 0.75);
+  EXPECT_TRUE(scene.water.tilted_backs);
+  EXPECT_EQ(scene.sea.map_set, ocean::MapSet::kLake);
   EXPECT_EQ(scene.water.distortion_factor, DistortionFactor::kPaper);
   EXPECT_EQ(scene.water.caustic_distortion, 0.25);
   EXPECT_EQ(scene.water.glitter, Glitter::kProjective);
@@ -191,6 +198,8 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.ripples.frames, 32);
   EXPECT_EQ(scene.ripples.loop_s, 2.5);
   EXPECT_EQ(scene.ripples.length_m, 3.0);
+  EXPECT_EQ(scene.water.refraction, RefractionModel::kPaper);
+  EXPECT_EQ(scene.water.reflection_weight, 0.5);
   EXPECT_EQ(scene.coast.model, CoastModel::kTrains);
   EXPECT_EQ(scene.coast.trains, 7);
   EXPECT_FALSE(scene.coast.eikonal);
@@ -301,6 +310,29 @@ TEST(SceneFile, ACameraOnAnObjectIsReadAndDumped) {
   EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
 }
 
+TEST(SceneFile, MapsAreReadAndDumpedAndTakeTheSpectrumsPlace) {
+  const std::string file = SWELL_SOURCE_DIR "/README.md";  // only the sea looks into it
+  const std::string text =
+      "[[sea.maps]]\nfile = \"" + file + "\"\nlength_m = 40.5\nperiod_s = 12.5\nhs_m = 0.25\n" +
+      "offset_m = [3, -4]\noffset_s = -7\n[[sea.maps]]\nfile = \"" + file + "\"\n";
+  const Scene scene = parse_scene(text, "test.toml");
+  ASSERT_EQ(scene.sea.maps.size(), 2u);
+  const ocean::MapLayer expected{file, 40.5, 12.5, 0.25, {3.0, -4.0}, -7.0};
+  EXPECT_EQ(scene.sea.maps[0], expected);
+  EXPECT_FALSE(scene.sea.spectrum);
+  EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
+  const Scene both = parse_scene("[sea]\nspectrum = true\n" + text, "test.toml");
+  EXPECT_TRUE(both.sea.spectrum);
+}
+
+TEST(SceneFile, ASetOfMapsHasAWindOfItsOwn) {
+  const auto wind_mps = [](const char* text) {
+    return parse_scene(text, "test.toml").sea.wind_speed_mps;
+  };
+  EXPECT_EQ(wind_mps("[sea]\nmap_set = \"lake\"\n"), 4.5);
+  EXPECT_EQ(wind_mps("[sea]\nmap_set = \"lake\"\n[wind]\nspeed_mps = 2\n"), 2.0);
+}
+
 TEST(SceneFile, AnIslandsDumpHasNoCoastLine) {
   const std::string dump = dump_scene(parse_scene("[terrain]\n", "test.toml"));
   EXPECT_EQ(dump.find("coast_m"), std::string::npos) << dump;
@@ -399,7 +431,7 @@ TEST(SceneFile, FramesOfASequenceHaveTheirNumberInTheName) {
 
   const std::string where =
       (folder.path() / "a.toml").string() + ":2: column 12: ripples.sequence, ";
-  for (const std::string& name : {"wave_0000.png", "wave_%d.png", "%04d_%04d.png", "%s%04d.png"})
+  for (const std::string name : {"wave_0000.png", "wave_%d.png", "%04d_%04d.png", "%s%04d.png"})
     EXPECT_EQ(
         load_error(scene_of(name)),
         where + "got \"" + name + "\", allowed the path of readable picture files, with one %04d");

@@ -26,6 +26,15 @@ void compare_sines(const ocean::SineWave& a, const ocean::SineWave& b, std::stri
   SWELL_COMPARE(period_s);
 }
 
+void compare_maps(const ocean::MapLayer& a, const ocean::MapLayer& b, std::string& list) {
+  SWELL_COMPARE(file);
+  SWELL_COMPARE(length_m);
+  SWELL_COMPARE(period_s);
+  SWELL_COMPARE(hs_m);
+  SWELL_COMPARE(offset_m);
+  SWELL_COMPARE(offset_s);
+}
+
 void compare_objects(const FloatingObject& a, const FloatingObject& b, std::string& list) {
   SWELL_COMPARE(kind);
   SWELL_COMPARE(top_mark);
@@ -44,6 +53,7 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(wake);
   SWELL_COMPARE(roughness);
   SWELL_COMPARE(metalness);
+  SWELL_COMPARE(checker_m);
   SWELL_COMPARE(file);
   SWELL_COMPARE(up);
   SWELL_COMPARE(scale);
@@ -72,6 +82,7 @@ void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, 
   SWELL_COMPARE(beach_slope);
   SWELL_COMPARE(beach_size_m);
   SWELL_COMPARE(seed);
+  SWELL_COMPARE(checker_m);
 }
 
 }  // namespace
@@ -131,6 +142,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sea.loop_s);
   SWELL_COMPARE(sea.whitecaps);
   SWELL_COMPARE(sea.tiling);
+  SWELL_COMPARE(sea.map_set);
   SWELL_COMPARE(sea.seed);
   SWELL_COMPARE(sea.resolution);
   SWELL_COMPARE(sea.patch_lengths_m);
@@ -146,11 +158,14 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(water.bump_strength);
   SWELL_COMPARE(water.uv_noise_amplitude);
   SWELL_COMPARE(water.caustics);
+  SWELL_COMPARE(water.tilted_backs);
   SWELL_COMPARE(water.distortion_factor);
   SWELL_COMPARE(water.caustic_distortion);
   SWELL_COMPARE(water.glitter);
   SWELL_COMPARE(water.glitter_distortion);
   SWELL_COMPARE(ripples);
+  SWELL_COMPARE(water.refraction);
+  SWELL_COMPARE(water.reflection_weight);
   SWELL_COMPARE(coast.model);
   SWELL_COMPARE(coast.trains);
   SWELL_COMPARE(coast.eikonal);
@@ -161,6 +176,9 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(detail.background_error_px);
   SWELL_COMPARE(detail.inverse_distance_priority);
   SWELL_COMPARE(terrain.has_value());
+  SWELL_COMPARE(sea.maps.size());
+  for (std::size_t i = 0; i < std::min(a.sea.maps.size(), b.sea.maps.size()); ++i)
+    compare_maps(a.sea.maps[i], b.sea.maps[i], list);
   SWELL_COMPARE(sea.sines.size());
   SWELL_COMPARE(sea.swells.size());
   for (std::size_t i = 0; i < std::min(a.sea.swells.size(), b.sea.swells.size()); ++i)

@@ -184,5 +184,83 @@ TEST(RgbaTargets, GiveTheSameBits) {
   }
 }
 
+// ---- Softer levels
+
+RgbaImage random_soft_image(int width, int height) {
+  RgbaImage image;
+  resize_image(width, height, image, kMostRgbaLevels);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      image.texels[static_cast<std::size_t>(y) * image.stride + x] =
+          static_cast<std::uint32_t>(random_bits(8, y * width + x));
+  soften_block(0, 0, width, height, image);
+  fill_padding(image);
+  return image;
+}
+
+// A level as an image of its own.
+RgbaImage level_of(const RgbaImage& image, std::size_t level) {
+  RgbaImage alone;
+  resize_image(static_cast<int>(image.last_x[level]) + 1, static_cast<int>(image.last_y[level]) + 1,
+               alone);
+  for (int y = 0; y < alone.height; ++y)
+    for (int x = 0; x < alone.width; ++x)
+      alone.texels[static_cast<std::size_t>(y) * alone.stride + x] =
+          image.texels[static_cast<std::size_t>(image.level_begin[level] +
+                                                y * image.level_stride[level] + x)];
+  fill_padding(alone);
+  return alone;
+}
+
+TEST(RgbaLevels, TexelsAreTheMeansOfTheirBlocks) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {16, 32}, {97, 31}}) {
+    const RgbaImage image = random_soft_image(width, height);
+    for (std::size_t level = 1; level < kMostRgbaLevels; ++level) {
+      const RgbaImage soft = level_of(image, level), finer = level_of(image, level - 1);
+      const int step_x = level == 1 ? 1 : 2;
+      ASSERT_EQ(soft.width, (finer.width + step_x - 1) / step_x);
+      ASSERT_EQ(soft.height, (finer.height + 1) / 2);
+      for (int y = 0; y < soft.height; ++y)
+        for (int x = 0; x < soft.width; ++x)
+          for (int c = 0; c < 4; ++c) {
+            const int x2 = x * step_x + step_x - 1;
+            const int sum = channel(finer, x * step_x, 2 * y, c) + channel(finer, x2, 2 * y, c) +
+                            channel(finer, x * step_x, 2 * y + 1, c) +
+                            channel(finer, x2, 2 * y + 1, c);
+            ASSERT_EQ(channel(soft, x, y, c), (sum + 2) / 4) << level << ' ' << x << ' ' << y;
+          }
+    }
+  }
+}
+
+TEST(RgbaLevels, AreTheSameBlockByBlock) {
+  const RgbaImage whole = random_soft_image(97, 45);
+  RgbaImage parts = whole;
+  for (int level = 1; level < kMostRgbaLevels; ++level)
+    std::fill(parts.texels.begin() + parts.level_begin[static_cast<std::size_t>(level)],
+              parts.texels.end(), 0u);
+  for (int y = 0; y < 45; y += 16)
+    for (int x = 0; x < 97; x += 16)
+      soften_block(x, y, std::min(x + 16, 97), std::min(y + 16, 45), parts);
+  fill_padding(parts);
+  EXPECT_EQ(parts.texels, whole.texels);
+}
+
+// Neighbours in a packet lie on different levels.
+TEST_P(Rgba, ALevelIsSampledAsAnImageOfItsOwn) {
+  const RgbaImage image = random_soft_image(97, 45);
+  const auto x = random_floats(3000, -5.0, 102.0, 41), y = random_floats(3000, -5.0, 50.0, 42);
+  std::vector<int> levels;
+  for (std::size_t i = 0; i < x.size(); ++i) levels.push_back(static_cast<int>(i) % 5);
+  const auto got = sample_rgba_level(image, x, y, levels);
+  for (std::size_t level = 0; level < kMostRgbaLevels; ++level) {
+    std::vector<float> x_level(x), y_level(y);
+    for (float& v : x_level) v *= level == 0 ? 1.0f : std::ldexp(2.0f, -static_cast<int>(level));
+    for (float& v : y_level) v *= std::ldexp(1.0f, -static_cast<int>(level));
+    const auto expected = sample_rgba(level_of(image, level), x_level, y_level);
+    for (std::size_t i = level; i < x.size(); i += 5) ASSERT_EQ(got[i], expected[i]) << i;
+  }
+}
+
 }  // namespace
 }  // namespace swell::texture

@@ -39,6 +39,10 @@ void add_blended(const PackedMap2& map, const MapPlaces& places, std::span<const
 std::vector<Sample4> sample_rgba(const RgbaImage& image, std::span<const float> x_px,
                                  std::span<const float> y_px);
 
+// On one of its levels a place.
+std::vector<Sample4> sample_rgba_level(const RgbaImage& image, std::span<const float> x_px,
+                                       std::span<const float> y_px, std::span<const int> level);
+
 std::vector<Sample3> sample_rgb(const RgbMap& map, std::span<const float> x_fx8,
                                 std::span<const float> y_fx8);
 

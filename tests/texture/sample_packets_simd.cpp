@@ -94,6 +94,28 @@ void rgba(const RgbaImage& image, std::span<const float> x_px, std::span<const f
   }
 }
 
+void rgba_level(const RgbaImage& image, std::span<const float> x_px, std::span<const float> y_px,
+                std::span<const int> level, std::span<Sample4> out) {
+  const D d;
+  HWY_ALIGN int level_packet[kLanes];
+  HWY_ALIGN float x_packet[kLanes], y_packet[kLanes], channels[4][kLanes];
+  for (std::size_t first = 0; first < x_px.size(); first += kLanes) {
+    copy_packet(x_px, first, x_packet);
+    copy_packet(y_px, first, y_packet);
+    copy_packet(level, first, level_packet);
+    hn::Vec<D> r, g, b, a;
+    SampleRgbaLevel(d, image, hn::Load(d, x_packet), hn::Load(d, y_packet),
+                    hn::Load(hn::RebindToSigned<D>(), level_packet), r, g, b, a);
+    hn::Store(r, d, channels[0]);
+    hn::Store(g, d, channels[1]);
+    hn::Store(b, d, channels[2]);
+    hn::Store(a, d, channels[3]);
+    for (std::size_t i = 0; i < kLanes && first + i < x_px.size(); ++i) {
+      out[first + i] = {channels[0][i], channels[1][i], channels[2][i], channels[3][i]};
+    }
+  }
+}
+
 void rgb(const RgbMap& map, std::span<const float> x_fx8, std::span<const float> y_fx8,
          std::span<Sample3> out) {
   const D d;
@@ -122,6 +144,7 @@ HWY_EXPORT(one_level);
 HWY_EXPORT(one_channel);
 HWY_EXPORT(blended);
 HWY_EXPORT(rgba);
+HWY_EXPORT(rgba_level);
 HWY_EXPORT(rgb);
 
 std::vector<Sample2> sample_level(const PackedMap2& map, const MapPlaces& places) {
@@ -145,6 +168,13 @@ std::vector<Sample4> sample_rgba(const RgbaImage& image, std::span<const float> 
                                  std::span<const float> y_px) {
   std::vector<Sample4> out(x_px.size());
   HWY_DYNAMIC_DISPATCH(rgba)(image, x_px, y_px, out);
+  return out;
+}
+
+std::vector<Sample4> sample_rgba_level(const RgbaImage& image, std::span<const float> x_px,
+                                       std::span<const float> y_px, std::span<const int> level) {
+  std::vector<Sample4> out(x_px.size());
+  HWY_DYNAMIC_DISPATCH(rgba_level)(image, x_px, y_px, level, out);
   return out;
 }
 

@@ -17,7 +17,7 @@ vec3 sky_radiance(sampler2D map, vec3 direction, float size) {
 
 // log2 of a pixel's footprint [m], `across` of it across the view, on a surface that the eye meets at
 // cos_view.
-float footprint_level(float across, float cos_view) { return across - 0.75 * log2(cos_view); }
+float footprint_level(float across, float cos_view) { return across - 0.8 * log2(cos_view); }
 
 float fresnel(float cos_theta, float n) {
   float c = clamp(cos_theta, 0.0, 1.0);

@@ -18,9 +18,9 @@ uniform mat4 clip_from_rel;
 uniform float level_rel_m;  // the mean level over the eye
 uniform float refraction_index;
 uniform float drop_per_m2;  // of a round earth
+uniform float clip_margin_m;  // what the images keep beyond the level
 out vec3 v_p;
 
-const float clip_margin_m = 0.3;
 
 // As render/view/refracted_image.h.
 float apparent_depth(float air, float water, float horizontal) {
@@ -57,8 +57,10 @@ void main() {
 #endif
 #ifdef REFRACTION
   gl_ClipDistance[0] = clip_margin_m - above_m;
-  p.z = level + (above_m < 0.0 ? -apparent_depth(max(-level_rel_m, 0.05), -above_m, length(p.xy))
-                               : above_m);
+  // What is cut off above the level goes on as below it, but not high.
+  if (above_m <= 10.0)
+    p.z = level +
+          sign(above_m) * apparent_depth(max(-level_rel_m, 0.05), abs(above_m), length(p.xy));
 #endif
   v_p = p;
   p.z -= dot(p.xy, p.xy) * drop_per_m2;

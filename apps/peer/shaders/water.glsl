@@ -56,9 +56,7 @@ void blend_coast(vec2 p, float level_m, float ceded, float inside, inout Slopes 
 }
 #endif
 
-float level_on_waves(vec3 to_eye, float across, vec2 slope) {
-  return footprint_level(across, clamp(to_eye.z - dot(slope, to_eye.xy), 0.02, 1.0));
-}
+float cosine_of_slopes(vec3 to_eye, vec2 slope) { return to_eye.z - dot(slope, to_eye.xy); }
 
 #ifdef LOOKUPS
 vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
@@ -72,6 +70,15 @@ vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
 
 // As render/materials/visible_slopes-inl.h.
 float seen_cosine(float c, float variance) { return 0.5 * (c + sqrt(2.4 * variance + c * c)); }
+float seen_area(float c, float variance) {
+  float near = max(1.0 - abs(c) * inversesqrt(0.5 * variance) / 2.4, 0.0);
+  return near * near * near * sqrt(0.0795774715 * variance) + max(c, 0.0);
+}
+float unhidden_cosine(float c, float level_cosine, float variance_all, float drawn) {
+  float raised = drawn * (seen_cosine(level_cosine, variance_all) - level_cosine);
+  float lost = 0.276 * raised * inversesqrt(0.5 * variance_all);
+  return c + raised - (c - level_cosine) * min(lost, 1.0);
+}
 
 float part_of_sea_mirrored(float r_z, float to_eye_z, float variance) {
   float scale = 0.125 / variance;
@@ -81,10 +88,10 @@ float part_of_sea_mirrored(float r_z, float to_eye_z, float variance) {
   return (0.5 - 0.5 * turn * (2.0 - abs(turn))) * (1.0 - hidden * hidden);
 }
 
-float sun_glint(vec3 to_eye, Slopes s, float reflectance, float cos_eye) {
+float sun_glint(vec3 to_eye, Slopes s, float area) {
   vec3 half_way = to_eye + sun_direction;
   float z = max(half_way.z, 1e-3);
-  float cos4 = 4.0 * max(cos_eye, 0.08);
+  float cos4 = 4.0 * max(area, 0.02);
   // One division for three quotients.
   float z_cos4 = z * cos4;
   float inverse = 1.0 / (z_cos4 * s.variance);
@@ -93,6 +100,7 @@ float sun_glint(vec3 to_eye, Slopes s, float reflectance, float cos_eye) {
   vec2 d = half_way.xy * inv_z + s.slope;
   float density = exp(max(-dot(d, d) * inv_variance, -80.0)) * (inv_variance * 0.318309886);
   float inv_cos2 = dot(half_way, half_way) * (inv_z * inv_z);
+  float reflectance = fresnel(0.5 * sqrt(dot(half_way, half_way)), refraction_index);
   return reflectance * density * (inv_cos2 * inv_cos2 * inv_cos4);
 }
 
@@ -100,7 +108,7 @@ void main() {
   SurfacePoint point = surface_point();
   vec3 p = point.p, to_eye = point.to_eye;
   float level_flat_m = footprint_level(point.across, clamp(to_eye.z, 0.02, 1.0));
-  float level_m = level_flat_m, fine_variance = 0.0;
+  float level_m = level_flat_m, fine_variance = 0.0, long_cosine = to_eye.z;
 
   // Slopes: long waves, then what is finer at the level that their slopes give.
   Slopes s = Slopes(vec2(0.0), base_variance);
@@ -116,15 +124,14 @@ void main() {
 
   // Light from above and from below.
   vec3 normal = normal_of(s.slope);
-  float hides_nothing = max(seen_slopes * (fine_variance - s.variance), 0.0);
-  float cos_eye = dot(normal, to_eye);
-  cos_eye = mix(cos_eye, seen_cosine(cos_eye, hides_nothing), min(5000.0 * hides_nothing, 1.0));
-  float cos_rough = sqrt(0.5 * s.variance + cos_eye * cos_eye + 0.006);
-  float reflectance = fresnel(cos_rough, refraction_index);
+  float drawn = seen_slopes * max(1.0 - s.variance / fine_variance, 0.0);
+  float cos_eye = unhidden_cosine(dot(normal, to_eye), long_cosine, fine_variance, drawn);
+  float raised = seen_cosine(cos_eye, s.variance) - cos_eye;
+  float away = 1.0 - cos_eye;
+  float reflectance = fresnel(cos_eye + raised * away * away, refraction_index);
   float r_z = 2.0 * cos_eye * normal.z - to_eye.z;
   float sea = part_of_sea_mirrored(r_z - wave_horizon, to_eye.z + wave_horizon, s.variance);
-  float raised = seen_cosine(cos_eye, seen_slopes * s.variance) - cos_eye;
-  vec3 r = normal * (2.0 * (cos_eye + raised * (1.0 - cos_eye))) - to_eye;
+  vec3 r = normal * (2.0 * (cos_eye + seen_slopes * raised * away)) - to_eye;
   r.z = max(r.z, -0.25);
   float share = clamp(2.0 - 1.25 * inv_wave_reach * point.distance_m, 0.0, 1.0);
   float crest = clamp(share * (p.z + eye_z) * inv_crest_height + 0.4, 0.0, 1.5);
@@ -143,7 +150,7 @@ void main() {
   vec4 mirror = look_up(reflection, s.slope, to_eye.z, 1.0);
   mirrored = mix(mirrored, mirror.rgb, mirror.a);
 #endif
-  float glint = sun_glint(to_eye, s, reflectance, cos_rough);
+  float glint = sun_glint(to_eye, s, seen_area(long_cosine, fine_variance));
   vec3 seen = mix(refracted, mirrored, reflectance) + sun_irradiance * glint;
 #ifdef COAST
   seen = add_foam(foam_cover(p.xy, level_flat_m, surf.y), seen);

@@ -1,0 +1,65 @@
+// How soft water shows its lookup images: slopes finer than a pixel spread what it looks up.
+#if defined(SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
+#undef SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
+#endif
+
+#include "render/materials/water.h"
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Between which levels of an image lookups lie.
+struct BlurLevel {
+  VI base;
+  V t;            // from level `base` to the next
+  bool is_sharp;  // level 0 in every lane
+};
+
+HWY_INLINE BlurLevel Sharp() { return {hn::Zero(DI()), hn::Zero(D()), true}; }
+
+// For lookups that slopes of this variance (of both axes together) spread: each moves them up or
+// down by the root of px2_per_slope2 [px of the window] times itself. A sample of level l is spread
+// by 2^l / 2 texels (its block, and the blend between blocks).
+HWY_INLINE BlurLevel FindBlur(const LookupImage& lookup, V variance, V px2_per_slope2) {
+  const int last = lookup.image->levels - 1;
+  if (last == 0) return Sharp();
+  const V unseen = hn::Sub(variance, Constant(kGlassVariance));
+  const V spread2 =
+      hn::Mul(hn::Mul(unseen, px2_per_slope2), Constant(2.0f * lookup.scale_y * lookup.scale_y));
+  // No less than on level 0, which is 1 here.
+  const auto blurred = hn::Gt(spread2, Constant(1.0f));
+  if (hn::AllFalse(D(), blurred)) return Sharp();
+  const V level =
+      hn::Min(hn::Mul(Log2Coarse(D(), hn::Max(spread2, Constant(1.0f))), Constant(0.5f)),
+              Constant(static_cast<float>(last)));
+  const VI base = TruncateToInt(hn::Max(level, hn::Zero(D())));
+  return {base, hn::Sub(level, hn::ConvertTo(D(), base)), false};
+}
+
+// An image's codes and alpha at a place in its texels.
+HWY_INLINE void SampleBlurred(const texture::RgbaImage& image, V x, V y, const BlurLevel& level,
+                              V3& code, V& alpha) {
+  const D d;
+  if (level.is_sharp)
+    return texture::HWY_NAMESPACE::SampleRgba(d, image, x, y, code.x, code.y, code.z, alpha);
+  texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, level.base, code.x, code.y, code.z,
+                                          alpha);
+  const VI next = hn::Min(hn::Add(level.base, hn::Set(DI(), 1)), hn::Set(DI(), image.levels - 1));
+  V3 softer;
+  V softer_alpha;
+  texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, next, softer.x, softer.y, softer.z,
+                                          softer_alpha);
+  code = Lerp(code, softer, level.t);
+  alpha = Lerp(alpha, softer_alpha, level.t);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

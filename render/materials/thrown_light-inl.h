@@ -1,0 +1,51 @@
+// The sun's light that waves throw up on what stands in the water.
+#if defined(SWELL_RENDER_MATERIALS_THROWN_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_THROWN_LIGHT_INL_H_
+#undef SWELL_RENDER_MATERIALS_THROWN_LIGHT_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_THROWN_LIGHT_INL_H_
+#endif
+
+#include "render/materials/caustics-inl.h"
+#include "render/materials/fresnel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// From the first height on the light fades; from the second on there is none. (Higher up it would
+// be as much but for what stands in its way, without a pattern.)
+constexpr float kThrownFades_m = 3.0f, kThrownEnds_m = 7.0f;
+
+// The light that arrives at points p relative to the eye with normals, as a part of the sun's
+// irradiance. Where the light comes from is not looked for: it is as sunny there as at the point.
+inline HWY_NOINLINE V ThrownLight(const Shading& s, const V3& p, const V3& normal, V level_m) {
+  const D d;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  const glm::vec3 sun = s.light.sun_direction;
+  const V height = hn::Max(hn::Add(p.z, Constant(s.rays.eye_z)), zero);
+  const V facing = hn::Max(Dot(normal, Constant({sun.x, sun.y, -sun.z})), zero);
+  const V low = Clamp(hn::Mul(hn::Sub(Constant(kThrownEnds_m), height),
+                              Constant(1.0f / (kThrownEnds_m - kThrownFades_m))),
+                      0.0f, 1.0f);
+  V light = hn::Mul(facing, low);
+  if (!s.caustics.throws_up || hn::AllFalse(d, hn::Gt(light, zero))) return zero;
+  const V x = hn::MulAdd(height, Constant(s.caustics.thrown_from.x), p.x);
+  const V y = hn::MulAdd(height, Constant(s.caustics.thrown_from.y), p.y);
+  for (std::size_t i = 0; i < s.caustics.patches; ++i) {
+    const CausticPatch& patch = s.caustics.patch[i];
+    const CausticPlace at = PlaceInCaustics(patch, x, y, level_m);
+    // Contrast rises as that of a weak lens does, and falls above the focus.
+    const V to_map = hn::Mul(height, Constant(1.0f / patch.mirrored_m));
+    const V weight = hn::Min(to_map, hn::Div(one, hn::Max(to_map, Constant(1e-6f))));
+    const V more = hn::Sub(SampleCaustic(*patch.mirrored, at), one);
+    light = hn::Mul(light, hn::MulAdd(more, hn::Mul(weight, Constant(s.caustics.strength)), one));
+  }
+  return hn::Mul(light, FresnelReflectance(d, Constant(sun.z), s.media.refraction_index));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
