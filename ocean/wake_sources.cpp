@@ -73,14 +73,14 @@ void add_gusts(const Disturbance& rotor, double gravity_mps2, double t_s, WakeFr
     const SinCos turn = sin_cos_turns(random_uniform(seed, counter + 1));
     const double height = 2.0 * random_uniform(seed, counter + 2) - 1.0;
     add_ring({rotor.t_s + n * gust_s, rotor.position_m + out_m * glm::dvec2(turn.sin, turn.cos),
-              radius_m, height * rotor.height_m},
+              rotor.position_m, radius_m, height * rotor.height_m},
              gravity_mps2, t_s, frame);
   }
 }
 
 void add_rings(const Disturbance& d, double gravity_mps2, double t_s, WakeFrame& frame) {
   const auto ring = [&](double radius_m, double height_m) {
-    add_ring({d.t_s, d.position_m, radius_m, height_m}, gravity_mps2, t_s, frame);
+    add_ring({d.t_s, d.position_m, d.position_m, radius_m, height_m}, gravity_mps2, t_s, frame);
   };
   switch (d.kind) {
     case DisturbanceKind::kDrop:
@@ -141,7 +141,7 @@ RingSquare square_of(const TimedRing& ring) {
   double length_m = 1.0;
   while (length_m < kRingWindow * ring.radius_m) length_m *= 2.0;
   const double cell_m = 0.25 * length_m;
-  return {length_m, glm::floor(ring.p_world / cell_m) * cell_m + 0.5 * (cell_m - length_m)};
+  return {length_m, glm::floor(ring.home_m / cell_m) * cell_m + 0.5 * (cell_m - length_m)};
 }
 
 WakeWindow* ring_window(const TimedRing& ring, double gravity_mps2, WakeFrame& frame) {

@@ -56,6 +56,7 @@ struct WakeWindow {
 struct TimedRing {
   double t_s = 0.0;
   glm::dvec2 p_world{0.0};
+  glm::dvec2 home_m{0.0};  // of its window: a disturbance's rings share it
   double radius_m = 1.0, height_m = 0.0;
   auto key() const { return std::array{t_s, p_world.x, p_world.y, radius_m, height_m}; }
 };

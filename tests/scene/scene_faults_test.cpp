@@ -219,7 +219,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "[[object]]\ncolor = [1, 0, 0]\n",
             "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
-            "motion, file, up, scale, class, kind, top_mark, name, position_m, path_m, size_m, "
+            "motion, file, up, scale, class, kind, top_mark, name, checker_m, position_m, path_m, "
+            "size_m, "
             "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
@@ -250,11 +251,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
-        Fault{
-            "[terrain]\nheigth = 3\n",
-            "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
-            "height_image, high_m, seed, low_m, island_height_m, coast_m, centre_m, beach_size_m, "
-            "sea_level_m, floor_depth_m, beach_slope, metres_per_pixel, island_radius_m"}));
+        Fault{"[terrain]\nheigth = 3\n",
+              "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
+              "height_image, high_m, seed, low_m, island_height_m, coast_m, checker_m, centre_m, "
+              "beach_size_m, "
+              "sea_level_m, floor_depth_m, beach_slope, metres_per_pixel, island_radius_m"}));
 
 TEST(SceneFileFaults, AnUnknownKeyListsTheKeysOfItsTable) {
   std::set<std::string> tables;
