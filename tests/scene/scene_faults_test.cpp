@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
               "[water], [[camera.path]], [sky], [picture], [coast], [wind], [ripples], [terrain], "
-              "[[sea.swell]], [[sea.sines]], [detail], [[object]]"},
+              "[[sea.swell]], [[sea.sines]], [detail], [[object]], [[disturbance]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
               "speed_mps, from_deg"},
@@ -219,15 +219,15 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "[[object]]\ncolor = [1, 0, 0]\n",
             "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
-            "motion, file, up, scale, class, kind, top_mark, name, checker_m, position_m, path_m, "
-            "size_m, "
+            "motion, file, up, scale, class, kind, top_mark, wake, name, checker_m, position_m, "
+            "path_m, size_m, "
             "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
               "[sea], [water], [wind], [picture], [ripples], [coast], [[sea.swell]], "
               "[[sea.sines]], [detail], "
               "[[object]], "
-              "[terrain], [[camera.path]]"},
+              "[terrain], [[camera.path]], [[disturbance]]"},
         Fault{
             "[camera]\nfov = 3\n",
             "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
               "[coast], [camera], [wind], [detail], [terrain], [[object]], [picture], "
-              "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]]"},
+              "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]], [[disturbance]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
