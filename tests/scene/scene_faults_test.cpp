@@ -206,10 +206,11 @@ INSTANTIATE_TEST_SUITE_P(
               "fov_y_deg, roll_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, mount, focal_px, "
               "[[camera.path]], near_m, size_px, velocity_mps, mount_offset_m, quaternion, "
               "principal_px"},
-        Fault{"[camrea]\nnear_m = 1\n",
-              "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
-              "[water], [[camera.path]], [sky], [picture], [coast], [wind], [ripples], [terrain], "
-              "[[sea.swell]], [[sea.sines]], [detail], [[object]], [[disturbance]]"},
+        Fault{
+            "[camrea]\nnear_m = 1\n",
+            "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
+            "[water], [[camera.path]], [sky], [picture], [coast], [wind], [[sea.maps]], [ripples], "
+            "[terrain], [[sea.swell]], [[sea.sines]], [detail], [[object]], [[disturbance]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
               "speed_mps, from_deg"},
@@ -224,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(
             "origin, path_closed, draught, roughness, metalness, height_m, speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
               "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
-              "[sea], [water], [wind], [picture], [ripples], [coast], [[sea.swell]], "
+              "[sea], [water], [wind], [[sea.maps]], [picture], [ripples], [coast], [[sea.swell]], "
               "[[sea.sines]], [detail], "
               "[[object]], "
               "[terrain], [[camera.path]], [[disturbance]]"},
@@ -244,10 +245,11 @@ INSTANTIATE_TEST_SUITE_P(
               "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "
               "turn_deg_s, "
               "quaternion, focal_px, heading_deg, pitch_deg, mount_offset_m, principal_px"},
-        Fault{"a.b = 3\n",
-              "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
-              "[coast], [camera], [wind], [detail], [terrain], [[object]], [picture], "
-              "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]], [[disturbance]]"},
+        Fault{
+            "a.b = 3\n",
+            "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
+            "[coast], [camera], [wind], [detail], [terrain], [[sea.maps]], [[object]], [picture], "
+            "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]], [[disturbance]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
