@@ -293,6 +293,36 @@ TEST(Pool, AConstantWeightBlendsTheTwoImages) {
     ASSERT_NEAR(both[i], 0.25f * mirror[i] + 0.75f * water[i], 1e-4f) << i;
 }
 
+// Slopes that a pixel does not show spread what it mirrors: the same light with less contrast.
+// Still water has none.
+TEST(Pool, ImagesAreSofterInRoughWater) {
+  const View view = view_from({0.4, -9.0, 2.5}, 0.0, -0.2, 0.5, 96, 72);
+  FrameOptions sharp;
+  sharp.without.add(Part::kImageBlur);
+  struct Picture {
+    double mean = 0.0, steps = 0.0;  // between neighbours of a row
+    std::vector<float> linear;
+  };
+  const auto draw = [&](double wind_mps, const FrameOptions& options) {
+    scene::Scene scene = pool_scene(1.0);
+    scene.sea.wind_speed_mps = wind_mps;
+    scene.water.distortion = 0.0;
+    Pool pool(scene);
+    Picture picture;
+    picture.linear = pool.draw(view, options).linear;
+    for (std::size_t i = 1; i < picture.linear.size() / 3; ++i) {
+      picture.mean += static_cast<double>(picture.linear[3 * i]);
+      picture.steps += std::abs(static_cast<double>(picture.linear[3 * i]) -
+                                static_cast<double>(picture.linear[3 * i - 3]));
+    }
+    return picture;
+  };
+  const Picture soft = draw(8.0, {}), hard = draw(8.0, sharp);
+  EXPECT_NEAR(soft.mean / hard.mean, 1.0, 0.02);
+  EXPECT_LT(soft.steps, 0.9 * hard.steps);
+  EXPECT_EQ(draw(0.0, {}).linear, draw(0.0, sharp).linear);
+}
+
 // ---- A plane of the caller's
 
 TEST(Pool, AClipPlaneCutsTheWorldAndItsImages) {
