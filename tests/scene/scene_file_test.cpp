@@ -101,6 +101,8 @@ back_sides = "tilted"
 distortion_factor = "paper"
 caustic_distortion = 0.25
 glitter = "projective"
+refraction = "paper"
+reflection_weight = 0.5
 glitter_distortion = 1.5
 [ripples]
 kind = "sequence"
@@ -108,8 +110,6 @@ lighting = "paper"
 frames = 32
 loop_s = 2.5
 length_m = 3
-refraction = "paper"
-reflection_weight = 0.5
 [coast]
 model = "trains"
 trains = 7
