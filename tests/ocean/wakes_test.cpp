@@ -245,7 +245,7 @@ TEST(Wakes, NothingJumpsAsAHullGoesOn) {
   Disturbance d = hull(0.30);
   d.path_m = {{60.0, -110.0}, {160.0, 20.0}, {60.0, 30.0}, {40.0, -60.0}};
   d.path_closed = true;
-  constexpr int kFrames = 150;
+  constexpr int kFrames = 60;
   std::vector<glm::dvec2> points;
   for (double x = 100.0; x < 160.0; x += 3.0)
     for (double y = -60.0; y < 20.0; y += 3.0) points.push_back({x, y});
