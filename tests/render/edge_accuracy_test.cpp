@@ -142,8 +142,10 @@ TEST(EdgeAccuracy, OfABoxAgainstTheSkyAndTheSea) {
   scene.objects = {white_box({0.0, 30.0}, {6.0, 6.0, 6.0})};
   const World world(scene);
   const View view = north_view(3.0, 0.23, 0.5, kSize_px.x, kSize_px.y);
-  for (const unsigned kinds : {kSky | kObject, kWater | kObject, kWater | kSky})
+  for (const unsigned kinds : {kSky | kObject, kWater | kObject, kWater | kSky}) {
+    SCOPED_TRACE(kinds);
     expect_smooth(measure(world, view, 0.0, {kinds}));
+  }
   expect_smooth(measure(world, view, 0.0, {kSky | kObject, Paint::kLit}));
   expect_smooth(measure(world, view, 0.0, {kSky | kWater, Paint::kLit}));
 }
