@@ -10,8 +10,12 @@ namespace swell::texture {
 namespace {
 
 // Texels of a level's block along each axis, as powers of two.
-int log2_block_x(int level) { return std::max(level - 1, 0); }
-int log2_block_y(int level) { return level; }
+int log2_block_x(int level, BlurAxis axis) {
+  return axis == BlurAxis::kX ? level : std::max(level - 1, 0);
+}
+int log2_block_y(int level, BlurAxis axis) {
+  return axis == BlurAxis::kY ? level : std::max(level - 1, 0);
+}
 
 int blocks(int texels, int log2_block) { return (texels + (1 << log2_block) - 1) >> log2_block; }
 
@@ -26,22 +30,24 @@ std::uint32_t mean_of(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::ui
 
 }  // namespace
 
-void resize_image(int width, int height, RgbaImage& image, int levels) {
+void resize_image(int width, int height, RgbaImage& image, int levels, BlurAxis blur_axis) {
   SWELL_CHECK(width >= 1 && width <= 16384 && height >= 1 && height <= 16384, "size={}x{}", width,
               height);
   SWELL_CHECK(levels >= 1 && levels <= kMostRgbaLevels, "levels={}", levels);
   image.width = width;
   image.height = height;
   image.levels = levels;
+  image.blur_axis = blur_axis;
   std::int32_t begin = 0;
   for (int level = 0; level < levels; ++level) {
-    const int w = blocks(width, log2_block_x(level)), h = blocks(height, log2_block_y(level));
+    const int block_x = log2_block_x(level, blur_axis), block_y = log2_block_y(level, blur_axis);
+    const int w = blocks(width, block_x), h = blocks(height, block_y);
     const int stride = (w + 16) / 16 * 16;  // rows of whole cache lines
     const auto at = static_cast<std::size_t>(level);
     image.level_begin[at] = begin, image.level_stride[at] = stride;
     image.last_x[at] = static_cast<float>(w - 1), image.last_y[at] = static_cast<float>(h - 1);
-    image.scale_x[at] = 1.0f / static_cast<float>(1 << log2_block_x(level));
-    image.scale_y[at] = 1.0f / static_cast<float>(1 << log2_block_y(level));
+    image.scale_x[at] = 1.0f / static_cast<float>(1 << block_x);
+    image.scale_y[at] = 1.0f / static_cast<float>(1 << block_y);
     begin += stride * (h + 1);
   }
   image.stride = image.level_stride[0];
@@ -64,19 +70,23 @@ void fill_padding(RgbaImage& image) {
 void soften_block(int x0, int y0, int x1, int y1, RgbaImage& image) {
   for (int level = 1; level < image.levels; ++level) {
     const auto at = static_cast<std::size_t>(level);
-    const bool halves_x = log2_block_x(level) > log2_block_x(level - 1);
+    const int block_x = log2_block_x(level, image.blur_axis);
+    const int block_y = log2_block_y(level, image.blur_axis);
+    const bool halves_x = block_x > log2_block_x(level - 1, image.blur_axis);
+    const bool halves_y = block_y > log2_block_y(level - 1, image.blur_axis);
     const std::ptrdiff_t fine_stride = image.level_stride[at - 1];
     const auto last_x = static_cast<int>(image.last_x[at - 1]);
     const auto last_y = static_cast<int>(image.last_y[at - 1]);
     const std::uint32_t* const fine = image.texels.data() + image.level_begin[at - 1];
     std::uint32_t* const coarse = image.texels.data() + image.level_begin[at];
-    const int begin_x = x0 >> log2_block_x(level), end_x = blocks(x1, log2_block_x(level));
-    const int begin_y = y0 >> log2_block_y(level), end_y = blocks(y1, log2_block_y(level));
+    const int begin_x = x0 >> block_x, end_x = blocks(x1, block_x);
+    const int begin_y = y0 >> block_y, end_y = blocks(y1, block_y);
     // Columns that have both of their halves.
     const int whole_x = halves_x ? std::min(end_x, (last_x + 1) / 2) : end_x;
     for (int y = begin_y; y < end_y; ++y) {
-      const std::uint32_t* const upper = fine + 2 * y * fine_stride;
-      const std::uint32_t* const lower = fine + std::min(2 * y + 1, last_y) * fine_stride;
+      const int first = halves_y ? 2 * y : y, second = halves_y ? std::min(2 * y + 1, last_y) : y;
+      const std::uint32_t* const upper = fine + first * fine_stride;
+      const std::uint32_t* const lower = fine + second * fine_stride;
       std::uint32_t* const row = coarse + y * static_cast<std::ptrdiff_t>(image.level_stride[at]);
       if (halves_x) {
         for (int x = begin_x; x < whole_x; ++x)

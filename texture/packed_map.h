@@ -76,20 +76,24 @@ void pack_map1(int size, std::span<const float> values, PackedMap1& map);
 // y+1). Texel (x, y)'s centre lies at (x + 0.5, y + 0.5). Lookups clamp to the image.
 //
 // It may have softer levels besides: each texel of level l is the mean of a block of
-// 2^max(l - 1, 0) x 2^l texels, so that levels blur twice as far up and down as to the sides.
+// 2^max(l - 1, 0) x 2^l texels, so that levels blur twice as far up and down as to the sides, or
+// the other way round.
 inline constexpr int kMostRgbaLevels = 5;
+enum class BlurAxis : std::uint8_t { kX, kY };  // along which levels blur twice as far
 struct RgbaImage {
   int width = 0, height = 0;
   int stride = 0;                     // in texels, >= width + 1; rows 0 .. height
   std::vector<std::uint32_t> texels;  // R in the low byte; level after level
   int levels = 1;
+  BlurAxis blur_axis = BlurAxis::kY;
   // By level; as long as a vector.
   alignas(64) std::array<std::int32_t, 16> level_begin{}, level_stride{};
   alignas(64) std::array<float, 16> last_x{}, last_y{}, scale_x{}, scale_y{};
 };
 
 // Sizes the image [1, 16384] squared and zeroes it. levels: [1, kMostRgbaLevels].
-void resize_image(int width, int height, RgbaImage& image, int levels = 1);
+void resize_image(int width, int height, RgbaImage& image, int levels = 1,
+                  BlurAxis blur_axis = BlurAxis::kY);
 
 // Copies the last column and row of all levels into the padding; call after texels have been
 // written.

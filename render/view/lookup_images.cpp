@@ -38,10 +38,14 @@ TileRange reachable_tiles(const View& window, const raster::TileGrid& grid, int 
 void size_target(const raster::TileGrid& grid, int levels, LookupTarget& target) {
   const View& view = target.view.camera;
   const auto tiles = static_cast<std::size_t>(grid.count());
+  // Of a camera that lies on its side up and down are to the sides.
+  const bool is_upright = std::abs(view.up.z) >= std::abs(view.right.z);
+  const auto axis = is_upright ? texture::BlurAxis::kY : texture::BlurAxis::kX;
   const bool same = target.image.width == view.width_px && target.image.height == view.height_px &&
-                    target.written.size() == tiles && target.image.levels == levels;
+                    target.written.size() == tiles && target.image.levels == levels &&
+                    target.image.blur_axis == axis;
   if (!same) {
-    texture::resize_image(view.width_px, view.height_px, target.image, levels);
+    texture::resize_image(view.width_px, view.height_px, target.image, levels, axis);
     target.written.assign(tiles, 0);
   }
   target.wanted.assign(tiles, 0);

@@ -306,6 +306,7 @@ TEST(Pool, ImagesAreSofterInRoughWater) {
   const auto draw = [&](double wind_mps, const FrameOptions& options) {
     scene::Scene scene = pool_scene(1.0);
     scene.sea.wind_speed_mps = wind_mps;
+    scene.water.distortion = 0.3;
     Pool pool(scene);
     Picture picture;
     picture.linear = pool.draw(view, options).linear;

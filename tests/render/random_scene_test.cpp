@@ -148,13 +148,16 @@ void add_random_tables(std::string_view table_key, const std::vector<Parameter<O
 std::string random_scene(Dice& dice, bool with_terrain) {
   constexpr std::string_view kWindKeys[] = {"wind.speed_mps", "sea.douglas", "sea.beaufort"};
   const std::string_view wind_key = kWindKeys[dice.below(3)];
-  const bool by_matrix = dice.below(3) == 0;
+  const bool by_matrix = dice.below(3) == 0, has_maps = dice.below(3) == 0;
   std::map<std::string, std::string> tables;
   for (const auto& parameter : scene::scene_parameters()) {
     const std::string_view key = parameter.key;
     std::optional<std::string> value = tame_value(key, dice);
     if (!value && dice.below(3) == 0) continue;
     if (!goes_with(key, by_matrix)) continue;
+    // A set of maps has its own wind, and leaves no room for many patches.
+    const bool is_wave_patches = key == "sea.spectrum" || key == "sea.patch_lengths_m";
+    if (has_maps ? is_wave_patches : key == "sea.map_set") continue;
     if (key != wind_key && std::ranges::count(kWindKeys, key)) continue;  // they exclude each other
     // The winds of sea states suit a gravity near the earth's, and their waves are the winds' own.
     constexpr std::string_view kKept[] = {"sea.gravity_mps2", "sea.hs_m", "sea.tp_s",

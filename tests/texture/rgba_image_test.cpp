@@ -186,9 +186,9 @@ TEST(RgbaTargets, GiveTheSameBits) {
 
 // ---- Softer levels
 
-RgbaImage random_soft_image(int width, int height) {
+RgbaImage random_soft_image(int width, int height, BlurAxis axis = BlurAxis::kY) {
   RgbaImage image;
-  resize_image(width, height, image, kMostRgbaLevels);
+  resize_image(width, height, image, kMostRgbaLevels, axis);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       image.texels[static_cast<std::size_t>(y) * image.stride + x] =
@@ -229,6 +229,28 @@ TEST(RgbaLevels, TexelsAreTheMeansOfTheirBlocks) {
                             channel(finer, x2, 2 * y + 1, c);
             ASSERT_EQ(channel(soft, x, y, c), (sum + 2) / 4) << level << ' ' << x << ' ' << y;
           }
+    }
+  }
+}
+
+// An image on its side has the levels on their side.
+TEST(RgbaLevels, BlurAlongTheAxisTheyAreMadeFor) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {16, 32}, {97, 31}}) {
+    const RgbaImage upright = random_soft_image(width, height);
+    RgbaImage side;
+    resize_image(height, width, side, kMostRgbaLevels, BlurAxis::kX);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        side.texels[static_cast<std::size_t>(x) * side.stride + y] =
+            upright.texels[static_cast<std::size_t>(y) * upright.stride + x];
+    soften_block(0, 0, height, width, side);
+    for (std::size_t level = 0; level < kMostRgbaLevels; ++level) {
+      const RgbaImage a = level_of(upright, level), b = level_of(side, level);
+      ASSERT_EQ(a.width, b.height);
+      ASSERT_EQ(a.height, b.width);
+      for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x)
+          for (int c = 0; c < 4; ++c) ASSERT_EQ(channel(a, x, y, c), channel(b, y, x, c));
     }
   }
 }
