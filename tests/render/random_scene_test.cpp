@@ -155,7 +155,7 @@ std::string random_scene(Dice& dice, bool with_terrain) {
     std::optional<std::string> value = tame_value(key, dice);
     if (!value && dice.below(3) == 0) continue;
     if (!goes_with(key, by_matrix)) continue;
-    // A set of maps has its own wind, and leaves no room for many patches.
+    // A set of maps has its own wind, and leaves no room for a spectrum's patches.
     const bool is_wave_patches = key == "sea.spectrum" || key == "sea.patch_lengths_m";
     if (has_maps ? is_wave_patches : key == "sea.map_set") continue;
     if (key != wind_key && std::ranges::count(kWindKeys, key)) continue;  // they exclude each other
@@ -172,7 +172,7 @@ std::string random_scene(Dice& dice, bool with_terrain) {
   }
   std::string text;
   for (const auto& [name, lines] : tables) text += fmt::format("[{}]\n{}", name, lines);
-  add_random_tables(scene::kSwellKey, scene::swell_parameters(), dice, text);
+  if (!has_maps) add_random_tables(scene::kSwellKey, scene::swell_parameters(), dice, text);
   add_random_tables(scene::kSinesKey, scene::sine_parameters(), dice, text);
   add_random_tables(scene::kObjectsKey, scene::object_parameters(), dice, text);
   return text;

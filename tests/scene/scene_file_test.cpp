@@ -104,8 +104,6 @@ glitter = "projective"
 refraction = "paper"
 reflection_weight = 0.5
 glitter_distortion = 1.5
-refraction = "paper"
-reflection_weight = 0.5
 [ripples]
 kind = "sequence"
 lighting = "paper"
