@@ -164,8 +164,8 @@ TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
   };
   EXPECT_GT(share(frame, kShowsMirrored), 0.01);
   EXPECT_GT(share(frame, kShowsRefracted), 0.01);
-  // The floor shows where the water is shallow, not over the deep. The image's texels are two pixels
-  // large; near the horizon there are hundreds of metres between two of them.
+  // The floor shows where the water is shallow, not over the deep. The image's texels are two
+  // pixels large; near the horizon there are hundreds of metres between two of them.
   int shown = 0, deep = 0;
   const terrain::HeightGrid& land = *world.state().terrain;
   frame.for_pixels(1, [&](glm::ivec2 p) {

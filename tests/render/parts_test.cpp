@@ -165,8 +165,8 @@ TEST(WithoutGlitter, WaterMirrorsNoSun) {
   scene.sky.sun_elevation_rad = scene::radians(30.0);
   scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
   const World world(scene);
-  const View view = make_view({0.0, 0.0, 10.0}, 0.0, -scene.sky.sun_elevation_rad, 0.2, 0.25f,
-                              kWidth, kHeight);
+  const View view =
+      make_view({0.0, 0.0, 10.0}, 0.0, -scene.sky.sun_elevation_rad, 0.2, 0.25f, kWidth, kHeight);
   const auto brightest = [&](PartSet without) {
     const LabelledFrame frame = frame_of(world, view, without);
     return *std::ranges::max_element(frame.target.linear);

@@ -1,9 +1,10 @@
 // swell-bench optics: scenes of the paper's sizes, its own figures beside, and what it refuses.
+#include "apps/bench/optics_table.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/bench/optics_table.h"
 #include "apps/shared/program_runner.h"
 
 namespace swell::apps {

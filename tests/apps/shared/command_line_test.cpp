@@ -177,7 +177,8 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
   }
   const Case bench[] = {
       {{"bogus"},
-       {"unknown mode", "'bogus'", "frame, lod, optics, peer, query, scaling, sea-state, shading, waves"}},
+       {"unknown mode", "'bogus'",
+        "frame, lod, optics, peer, query, scaling, sea-state, shading, waves"}},
       {{"frme", "--scene", scene_}, {"unknown mode", "'frme'", "frame"}},
       {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
       {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},
