@@ -10,14 +10,12 @@
 #include <hwy/highway.h>
 
 #include "math/elementary-inl.h"
+#include "ocean/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
 struct ComplexV {
