@@ -2,32 +2,26 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "flat_floor.h"
 #include "render/workspace.h"
-#include "scene/scene.h"
 #include "texture/bump_sequence.h"
-#include "texture/image_io.h"
 
 namespace swell::render {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kEye_m = 4.0, kDepth_m = 0.5, kHalfFov_rad = 0.25;
 constexpr int kSize = 128;
 
 // Half a metre of water over a flat floor under a sun straight above. Its ripples are waves of a
 // kilometre along x, so that their slope is the same all over the picture.
-class CausticBend : public testing::Test {
+class CausticBend : public FlatFloor {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "swell_bend_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    write("floor.png", {2, 2, 1, std::vector<std::uint8_t>(4, 0)});
+    FlatFloor::SetUp();
     texture::Image8 wave{32, 32, 1, {}};
     for (int i = 0; i < 32 * 32; ++i) {
       const double sine = std::sin(2.0 * std::numbers::pi * (i % 32) / 32.0);
@@ -36,28 +30,9 @@ class CausticBend : public testing::Test {
     write("wave_0000.png", wave);
     write("wave_0001.png", wave);
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const texture::Image8& image) const {
-    texture::write_file(folder_ / name, texture::encode_image(image, ".png"));
-  }
 
   scene::Scene shallow_water() const {
-    scene::Scene scene;
-    scene.terrain = scene::TerrainDescription{};
-    scene.terrain->height_image = folder_ / "floor.png";
-    scene.terrain->metres_per_pixel = 500.0;
-    scene.terrain->low_m = -kDepth_m;
-    scene.terrain->high_m = -0.5 * kDepth_m;
-    scene.sky.sun_elevation_rad = scene::radians(90.0);
-    scene.sky.sun_direction = {0.0f, 0.0f, 1.0f};
-    scene.sky.cloud_cover = 0.0;
-    scene.sea.wind_speed_mps = 4.0;
-    scene.sea.patch_lengths_m = {97.0, 23.0, 5.3};
-    scene.sea.resolution = 128;
-    scene.sea.amplitude_scale = 0.3;
-    scene.water.distortion = 0.0;
-    scene.water.lookup_scale = 1.0;
+    scene::Scene scene = flat_floor(kDepth_m, 0.3);
     scene.detail.triangulation = scene::Triangulation::kPlane;
     scene.ripples.kind = scene::RippleKind::kSequence;
     scene.ripples.sequence = (folder_ / "wave_%04d.png").string();
@@ -65,8 +40,6 @@ class CausticBend : public testing::Test {
     scene.ripples.length_m = 1000.0;
     return scene;
   }
-
-  fs::path folder_;
 };
 
 // What caustics add to the green light of each pixel, seen from straight above, north on top.

@@ -4,62 +4,33 @@
 
 #include <cmath>
 #include <deque>
-#include <filesystem>
 #include <numbers>
-#include <string>
 #include <vector>
 
+#include "flat_floor.h"
 #include "render/frame.h"
-#include "scene/scene.h"
 #include "scene/water.h"
-#include "texture/image_io.h"
 
 namespace swell::render {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kEye_m = 4.0;
 constexpr int kSize = 128;
 
-class DrawnCaustics : public testing::Test {
+class DrawnCaustics : public FlatFloor {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "swell_caustics_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    texture::write_file(folder_ / "floor.png",
-                        texture::encode_image({2, 2, 1, std::vector<std::uint8_t>(4, 0)}, ".png"));
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // Shares its sky with the first one that a test makes.
   const World& world_of(const scene::Scene& scene) {
     return worlds_.empty() ? worlds_.emplace_back(scene, 2)
                            : worlds_.emplace_back(scene, worlds_.front(), 2);
   }
 
-  // A flat floor under a breeze and a sun straight above.
-  scene::Scene flat_floor(double depth_m, double waves) const {
-    scene::Scene scene;
-    scene.terrain = scene::TerrainDescription{};
-    scene.terrain->height_image = folder_ / "floor.png";
-    scene.terrain->metres_per_pixel = 500.0;
-    scene.terrain->low_m = -depth_m;
-    scene.terrain->high_m = -0.5 * depth_m;
-    scene.sky.sun_elevation_rad = scene::radians(90.0);
-    scene.sky.sun_direction = {0.0f, 0.0f, 1.0f};
-    scene.sky.cloud_cover = 0.0;
-    scene.sea.wind_speed_mps = 4.0;
-    scene.sea.patch_lengths_m = {97.0, 23.0, 5.3};
-    scene.sea.resolution = 128;
-    scene.sea.amplitude_scale = waves;
-    scene.water.distortion = 0.0;
-    scene.water.lookup_scale = 1.0;
+  scene::Scene shallow_water(double depth_m, double waves) const {
+    scene::Scene scene = flat_floor(depth_m, waves);
     scene.detail.water_triangles = scene.detail.terrain_triangles = 2000;
     return scene;
   }
 
-  fs::path folder_;
   std::deque<World> worlds_;
 };
 
@@ -146,7 +117,7 @@ std::vector<double> minus_laplacian(const scene::Scene& scene, double t_s,
 
 TEST_F(DrawnCaustics, LieUnderTheBendsOfTheDrawnSea) {
   const double depth_m = 0.5, t_s = 7.0;
-  const scene::Scene scene = flat_floor(depth_m, 0.3);
+  const scene::Scene scene = shallow_water(depth_m, 0.3);
   const World& world = world_of(scene);
   const std::vector<double> added = added_light(world, t_s);
   EXPECT_GT(deviation(added), 0.01);
@@ -157,7 +128,7 @@ TEST_F(DrawnCaustics, LieUnderTheBendsOfTheDrawnSea) {
 }
 
 TEST_F(DrawnCaustics, OfAnotherSeedAreOthers) {
-  scene::Scene scene = flat_floor(2.0, 0.6);
+  scene::Scene scene = shallow_water(2.0, 0.6);
   const World& world = world_of(scene);
   scene.sea.seed = 77;
   const World& other = world_of(scene);
@@ -171,7 +142,7 @@ TEST_F(DrawnCaustics, OfAnotherSeedAreOthers) {
 TEST_F(DrawnCaustics, HaveMostContrastAtSomeDepth) {
   std::vector<double> contrast;
   for (const double depth_m : {0.05, 1.5, 12.0}) {
-    scene::Scene scene = flat_floor(depth_m, 0.6);
+    scene::Scene scene = shallow_water(depth_m, 0.6);
     scene.sea.patch_lengths_m = {23.0, 5.3};  // the longer one's tiles differ: it has no maps
     const World& world = world_of(scene);
     contrast.push_back(deviation(added_light(world, 3.0)));
@@ -182,7 +153,7 @@ TEST_F(DrawnCaustics, HaveMostContrastAtSomeDepth) {
 }
 
 TEST_F(DrawnCaustics, AreThoseOfAWholeLoopBefore) {
-  scene::Scene scene = flat_floor(2.0, 0.6);
+  scene::Scene scene = shallow_water(2.0, 0.6);
   scene.sea.loop_s = 20.0;
   const World& world = world_of(scene);
   const std::uint64_t first = picture_hash(draw(world, 3.0));
@@ -191,7 +162,7 @@ TEST_F(DrawnCaustics, AreThoseOfAWholeLoopBefore) {
 }
 
 TEST_F(DrawnCaustics, OfNoContrastAreNone) {
-  scene::Scene scene = flat_floor(2.0, 0.6);
+  scene::Scene scene = shallow_water(2.0, 0.6);
   const World& world = world_of(scene);
   scene.water.caustics = 0.0;
   const World& without = world_of(scene);
