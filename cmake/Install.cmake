@@ -11,3 +11,24 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/swellConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/swellConfig.cmake ${CMAKE_BINARY_DIR}/swellConfigVersion.cmake
   cmake/Dependencies.cmake DESTINATION lib/cmake/swell)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes DESTINATION share/swell)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/scripts/cluster ${CMAKE_SOURCE_DIR}/scripts/slurm
+  DESTINATION share/swell USE_SOURCE_PERMISSIONS)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/python ${CMAKE_SOURCE_DIR}/examples/wave_provider
+  DESTINATION share/swell/examples)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/swell
+  FILES_MATCHING PATTERN "*.md" PATTERN images EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/swell)
+
+# cpack makes a .deb for the Debian it runs on: programs, libraries, headers, scenes, the Python package.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_CONTACT "The Swell authors <swell@localhost>")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # of what is linked, by dpkg-shlibdeps
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_VERBATIM_VARIABLES ON)
+include(CPack)

@@ -64,9 +64,9 @@ CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind
 
 CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind,
                         std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
-                        Workers& workers) {
+                        Workers& workers, std::span<const std::vector<float>> kept) {
   CoastSea coast;
-  coast.trains = make_train_sea(floor, trains, method, workers);
+  coast.trains = make_train_sea(floor, trains, method, workers, kept);
   const double f = wind.peak_hz > 0.0 ? wind.peak_hz : 1.0;
   const double wavelength = wind.gravity_mps2 / (2.0 * kPi * f * f);
   coast.peak_wavelength_m = static_cast<float>(wavelength);

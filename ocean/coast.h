@@ -45,10 +45,11 @@ inline float spectrum_weight(float share) {
 CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers);
 
-// The same with trains of the caller's own. `wind` says where the spectrum ends.
+// The same with trains of the caller's own. `wind` says where the spectrum ends; kept: as of
+// make_train_sea().
 CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind,
                         std::span<const WaveTrain> trains, PhaseMethod method, bool blend,
-                        Workers& workers);
+                        Workers& workers, std::span<const std::vector<float>> kept = {});
 
 // The trains' share at world points, bilinear.
 void sample_coast_share(const CoastSea& coast, std::span<const glm::dvec2> p_world,

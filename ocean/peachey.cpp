@@ -36,21 +36,6 @@ std::array<int, kMaxTrains> shuffled(int count, std::uint64_t seed) {
   return order;
 }
 
-// Angle in [-pi, pi] from the wind below which `part` in [0, 1] of the energy of one frequency
-// lies, which directional_weight() spreads with exponent p.
-double angle_of_energy(double p, double part) {
-  constexpr int kSteps = 512;
-  const double step = kTwoPi / kSteps;
-  double below = 0.0;
-  for (int n = 0; n < kSteps; ++n) {
-    const double middle = -kPi + (n + 0.5) * step;
-    const double energy = directional_weight(p, cos(middle)) * step;
-    if (below + energy >= part) return middle + ((part - below) / energy - 0.5) * step;
-    below += energy;
-  }
-  return kPi;
-}
-
 // The wind's direction turned by an angle, counter-clockwise.
 glm::dvec2 turned(glm::dvec2 travel, double angle_rad) {
   const double c = cos(angle_rad), s = sin(angle_rad);
@@ -226,7 +211,8 @@ ProfileDepths profile_depths(double deep_length_m) {
 }
 
 TrainSea make_train_sea(const terrain::HeightGrid& floor, std::span<const WaveTrain> trains,
-                        PhaseMethod method, Workers& workers) {
+                        PhaseMethod method, Workers& workers,
+                        std::span<const std::vector<float>> kept) {
   check_sea_floor(floor);
   if (trains.size() > static_cast<std::size_t>(kMaxTrains)) {
     throw std::invalid_argument(
@@ -247,6 +233,8 @@ TrainSea make_train_sea(const terrain::HeightGrid& floor, std::span<const WaveTr
   std::vector<WavePhase> phases(trains.size());
   workers.for_each(trains.size(), [&](std::size_t i, int) {
     phases[i] = make_wave_phase(floor, trains[i], method);
+    if (kept.empty()) return;
+    for (std::size_t k = 0; k < kept[i].size(); ++k) phases[i].amplitude[k] *= kept[i][k];
   });
   std::vector<double> largest(static_cast<std::size_t>(floor.grid.samples_y));
   workers.for_each(largest.size(), [&](std::size_t j, int) {

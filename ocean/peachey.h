@@ -66,9 +66,11 @@ struct TrainSea {
 // Waves of all trains together are at most 0.78 of the depth high (see breaking_factor); on land
 // there are none. Throws std::invalid_argument for a bad floor or train, or more than kMaxTrains.
 // Each train's phase is worked out by one worker; about 0.2 microseconds a sample and train, and 45
-// bytes while it is made.
+// bytes while it is made. kept: by train, for the floor's samples, what land leaves of its height
+// before it breaks (shelter_train()); empty: all of it.
 TrainSea make_train_sea(const terrain::HeightGrid& floor, std::span<const WaveTrain> trains,
-                        PhaseMethod method, Workers& workers);
+                        PhaseMethod method, Workers& workers,
+                        std::span<const std::vector<float>> kept = {});
 
 // Heights above mean sea level at time t_s (finite), and slopes dz/dx and dz/dy, at world points.
 // All spans have the same length and do not overlap. The slopes are the heights' own derivative

@@ -215,7 +215,9 @@ void synthesize_patches(const Sea::State& state, double t_s, SeaFrame& frame, Wo
   const auto is_sharp = [&](std::size_t p) { return !frame.patches[p].displaced_x_m.empty(); };
   std::array<PatchFields, kMaxPatches> fields;
   std::array<LinearWaves, kMaxPatches> linear;
-  if (is_sharp(0)) frame.linear.resize(kLinearFields * count * samples);
+  bool any_sharp = false;
+  for (std::size_t p = 0; p < count; ++p) any_sharp = any_sharp || is_sharp(p);
+  if (any_sharp) frame.linear.resize(kLinearFields * count * samples);
   for (std::size_t p = 0; p < count; ++p) {
     PatchFrame& patch = frame.patches[p];
     fields[p] = {patch.slope_x.data(), patch.slope_y.data(), patch.height_m.data()};

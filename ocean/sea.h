@@ -123,6 +123,7 @@ struct SeaFrame {
   std::vector<PatchFrame> patches;
   std::vector<SineFrame> sines;
   WakeFrame wakes;                        // advance_wakes() fills it, not advance()
+  bool sheltered = true;                  // by land (ocean/shelter.h); advance() leaves it
   std::vector<float> linear, fft_planes;  // working storage of advance()
 };
 

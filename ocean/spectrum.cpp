@@ -107,6 +107,19 @@ double directional_weight(double p, double cos_theta) {
   return cos2_half > 0.0 ? exp(p * log(cos2_half) - ln_n) : 0.0;
 }
 
+double angle_of_energy(double p, double part) {
+  constexpr int kSteps = 512;
+  const double step = kTwoPi / kSteps;
+  double below = 0.0;
+  for (int n = 0; n < kSteps; ++n) {
+    const double middle = -kPi + (n + 0.5) * step;
+    const double energy = directional_weight(p, cos(middle)) * step;
+    if (below + energy >= part) return middle + ((part - below) / energy - 0.5) * step;
+    below += energy;
+  }
+  return kPi;
+}
+
 double spreading_of(const WaveSystem& sea, double f_over_peak) {
   return sea.spreading > 0.0 ? sea.spreading : spreading_exponent(f_over_peak);
 }

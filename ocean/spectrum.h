@@ -55,6 +55,10 @@ double spreading_exponent(double f_over_peak);
 // D = |cos(theta / 2)|^(2p) / N_p per radian, theta from the direction of travel, p >= 0.
 double directional_weight(double p, double cos_theta);
 
+// Angle in [-pi, pi] from the direction of travel below which `part` in [0, 1] of the energy of one
+// frequency lies, which directional_weight() spreads with exponent p. 5 us.
+double angle_of_energy(double p, double part);
+
 // p at f / f_m > 0, with the system's own where it has one.
 double spreading_of(const WaveSystem& sea, double f_over_peak);
 

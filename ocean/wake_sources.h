@@ -50,6 +50,7 @@ struct WakeWindow {
   std::vector<WakeRing> rings;         // oldest first
   // What advance_wakes() makes of them.
   std::vector<float> height_m, slope_x, slope_y, foam;
+  std::vector<float> lee;  // what land leaves of them (wake_lee.h); empty: all
 };
 
 // A ring in the world.

@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "math/smoothstep.h"
+#include "ocean/wake_lee.h"
 
 namespace swell::ocean {
 namespace {
@@ -30,36 +31,43 @@ void transform_windows(WakeField field, std::span<const WakeWindow> sources, Wak
       {outputs.data(), frame.count}, frame.fft_planes, workers);
 }
 
-// 1 in the middle, 0 at the first and the last sample.
-float rim(std::size_t i) {
+// By row or column: 1 in the middle, 0 at the first and the last sample.
+constexpr std::array<float, kSide> kRim = [] {
   constexpr float kWidth = kWakeRim * kWakeSamples;
-  const auto inside = static_cast<float>(std::min(i, kSide - 1 - i));
-  return smooth_blend(std::min(inside / kWidth, 1.0f));
-}
+  std::array<float, kSide> rim{};
+  for (std::size_t i = 0; i < kSide; ++i) {
+    const auto inside = static_cast<float>(std::min(i, kSide - 1 - i));
+    rim[i] = smooth_blend(std::min(inside / kWidth, 1.0f));
+  }
+  return rim;
+}();
 
 void fade_row(std::size_t j, WakeWindow& window) {
-  const float row = rim(j), bound_m = window.bound_m;
-  for (std::size_t i = 0; i < kSide; ++i) {
-    float& z = window.height_m[j * kSide + i];
-    z = std::clamp(z * row * rim(i), -bound_m, bound_m);
-  }
+  const float row = kRim[j], bound_m = window.bound_m;
+  const auto z = std::span(window.height_m).subspan(j * kSide, kSide);
+  put_in_lee(window, j, z);
+  for (std::size_t i = 0; i < kSide; ++i)
+    z[i] = std::clamp(z[i] * row * kRim[i], -bound_m, bound_m);
 }
 
 // Differences over five samples: exact to 2 % for waves of eight samples. None at the border, where
 // there are no waves.
 void slope_row(std::size_t j, WakeWindow& window) {
-  const std::vector<float>& z = window.height_m;
   const float near = static_cast<float>(2.0 / 3.0 * kWakeSamples / window.length_m);
   const float far = -0.125f * near;
-  for (std::size_t i = 0; i < kSide; ++i) {
-    const std::size_t at = j * kSide + i;
-    float x = 0.0f, y = 0.0f;
-    if (i >= 2 && j >= 2 && i + 2 < kSide && j + 2 < kSide) {
-      x = near * (z[at + 1] - z[at - 1]) + far * (z[at + 2] - z[at - 2]);
-      y = near * (z[at + kSide] - z[at - kSide]) + far * (z[at + 2 * kSide] - z[at - 2 * kSide]);
-    }
-    window.slope_x[at] = std::clamp(x, -kMostWakeSlope, kMostWakeSlope);
-    window.slope_y[at] = std::clamp(y, -kMostWakeSlope, kMostWakeSlope);
+  float* const slope_x = window.slope_x.data() + j * kSide;
+  float* const slope_y = window.slope_y.data() + j * kSide;
+  std::fill_n(slope_x, kSide, 0.0f);
+  std::fill_n(slope_y, kSide, 0.0f);
+  if (j < 2 || j + 2 >= kSide) return;
+  const float* const z = window.height_m.data() + j * kSide;
+  const float *const z1 = z + kSide, *const z2 = z1 + kSide;
+  const float *const z_1 = z - kSide, *const z_2 = z_1 - kSide;
+  for (std::size_t i = 2; i + 2 < kSide; ++i) {
+    const float x = near * (z[i + 1] - z[i - 1]) + far * (z[i + 2] - z[i - 2]);
+    const float y = near * (z1[i] - z_1[i]) + far * (z2[i] - z_2[i]);
+    slope_x[i] = std::clamp(x, -kMostWakeSlope, kMostWakeSlope);
+    slope_y[i] = std::clamp(y, -kMostWakeSlope, kMostWakeSlope);
   }
 }
 
@@ -71,8 +79,8 @@ float froude(const WakeWindow& window) {
 }
 
 // The strip of turbulent water that a hull leaves: as wide as half the beam, wider with the fourth
-// root of the distance, less with its age.
-void add_strip(const WakeWindow& window, const WakeStretch& s, bool is_latest, std::size_t j,
+// root of the distance, less with its age. Returns whether it may reach the row.
+bool add_strip(const WakeWindow& window, const WakeStretch& s, bool is_latest, std::size_t j,
                float strength, std::span<float> foam) {
   const WakeHull& hull = window.hull;
   const float sample_m = static_cast<float>(window.length_m) / kWakeSamples;
@@ -81,12 +89,12 @@ void add_strip(const WakeWindow& window, const WakeStretch& s, bool is_latest, s
   const float life_s = 0.8f * static_cast<float>(window.length_m) * inv_speed;
   const float from_s = is_latest ? std::max(s.from_s, stern_s) : s.from_s;
   const float to_s = std::min(s.to_s, life_s);
-  if (from_s >= to_s) return;
+  if (from_s >= to_s) return false;
   const float ahead_x = s.u_mps * inv_speed, ahead_y = s.v_mps * inv_speed;
   const float widest_m = 1.2f * hull.beam_m;
   const float y = static_cast<float>(j) * sample_m;
   const float y0 = s.y_m - from_s * s.v_mps, y1 = s.y_m - to_s * s.v_mps;
-  if (y < std::min(y0, y1) - widest_m || y > std::max(y0, y1) + widest_m) return;
+  if (y < std::min(y0, y1) - widest_m || y > std::max(y0, y1) + widest_m) return false;
   const float x0 = s.x_m - from_s * s.u_mps, x1 = s.x_m - to_s * s.u_mps;
   const auto column = [&](float x_m) {
     return static_cast<std::size_t>(std::clamp(x_m / sample_m, 0.0f, kWakeSamples - 1.0f));
@@ -103,27 +111,45 @@ void add_strip(const WakeWindow& window, const WakeStretch& s, bool is_latest, s
     const float left = 1.0f - age_s / life_s;
     foam[i] = std::max(foam[i], strength * left * left * (1.0f - aside * aside));
   }
+  return true;
 }
 
 // Steep water breaks: at the bow, and where waves of a wake cross.
+constexpr float kLeastSteep = 0.14f, kMostSteep = 0.35f;  // slopes
+
 float breaking(float slope_x, float slope_y, float height_m) {
-  const float steep = std::sqrt(slope_x * slope_x + slope_y * slope_y);
-  return height_m > 0.0f ? 0.8f * smoothstep(0.14f, 0.35f, steep) : 0.0f;
+  const float steep2 = slope_x * slope_x + slope_y * slope_y;
+  if (height_m <= 0.0f || steep2 <= kLeastSteep * kLeastSteep) return 0.0f;
+  return 0.8f * smoothstep(kLeastSteep, kMostSteep, std::sqrt(steep2));
+}
+
+// Returns whether there is any in the row.
+bool add_breaking(std::size_t j, const WakeWindow& window, std::span<float> foam) {
+  const float* const slope_x = window.slope_x.data() + j * kSide;
+  const float* const slope_y = window.slope_y.data() + j * kSide;
+  int steep = 0;  // without branches: few rows have any
+  for (std::size_t i = 0; i < kSide; ++i) {
+    const float steep2 = slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i];
+    steep |= static_cast<int>(steep2 > kLeastSteep * kLeastSteep);
+  }
+  if (steep == 0) return false;
+  for (std::size_t i = 0; i < kSide; ++i)
+    foam[i] = breaking(slope_x[i], slope_y[i], window.height_m[j * kSide + i]);
+  return true;
 }
 
 void foam_row(std::size_t j, WakeWindow& window) {
   const auto row = std::span(window.foam).subspan(j * kSide, kSide);
   std::ranges::fill(row, 0.0f);
   if (window.stretches.empty()) return;
-  for (std::size_t i = 0; i < kSide; ++i) {
-    const std::size_t at = j * kSide + i;
-    row[i] = breaking(window.slope_x[at], window.slope_y[at], window.height_m[at]);
-  }
+  bool has_foam = add_breaking(j, window, row);
   const float strength = 0.75f * smoothstep(0.08f, 0.35f, froude(window));
   for (std::size_t k = 0; k < window.stretches.size(); ++k)
-    add_strip(window, window.stretches[k], k == 0, j, strength, row);
-  const float at_row = rim(j);
-  for (std::size_t i = 0; i < kSide; ++i) row[i] *= at_row * rim(i);
+    has_foam |= add_strip(window, window.stretches[k], k == 0, j, strength, row);
+  if (!has_foam) return;
+  const float at_row = kRim[j];
+  for (std::size_t i = 0; i < kSide; ++i) row[i] *= at_row * kRim[i];
+  put_in_lee(window, j, row);
 }
 
 void for_all_rows(WakeFrame& frame, Workers& workers,
@@ -164,7 +190,8 @@ float bilinear(const std::vector<float>& field, std::size_t at, glm::vec2 t) {
 }  // namespace
 
 void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbance> others,
-                   double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers) {
+                   double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers,
+                   const terrain::ShoreMap* shore) {
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   find_wake_sources(some, others, gravity_mps2, t_s, frame);
   if (frame.count == 0) return;
@@ -172,6 +199,11 @@ void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbanc
     for (auto* field :
          {&frame.windows[w].slope_x, &frame.windows[w].slope_y, &frame.windows[w].foam})
       field->resize(kAll);
+  for (std::size_t w = 0; w < frame.count; ++w) size_lee(shore, frame.windows[w]);
+  workers.for_each(frame.count * kLeePoints, [&](std::size_t row, int) {
+    WakeWindow& window = frame.windows[row / kLeePoints];
+    if (!window.lee.empty()) find_lee(*shore, row % kLeePoints, window);
+  });
   transform_windows(WakeField::kHeight, frame.shown(), frame, workers);
   for_all_rows(frame, workers, [](std::size_t j, WakeWindow& window) { fade_row(j, window); });
   for_all_rows(frame, workers, [](std::size_t j, WakeWindow& window) {
@@ -189,6 +221,7 @@ void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& v
     velocity.windows[w].corner_m = wakes.windows[w].corner_m;
     velocity.windows[w].length_m = wakes.windows[w].length_m;
     velocity.windows[w].bound_m = HUGE_VALF;
+    velocity.windows[w].lee = wakes.windows[w].lee;
   }
   transform_windows(field, wakes.shown(), velocity, workers);
   for_all_rows(velocity, workers, [](std::size_t j, WakeWindow& window) { fade_row(j, window); });

@@ -3,8 +3,9 @@
 // so that any frame alone is the frame in a sequence. Costs by what is there now, at most by
 // kMostWakeWindows.
 //
-// Not counted: the sea's own waves and currents, which would bend and carry wakes; land, which
-// would stop them; surface tension, which holds ripples shorter than 2 cm together.
+// Land stops them: there are none where it lies between the water and what disturbs it
+// (wake_lee.h). Not counted: the sea's own waves and currents, which would bend and carry wakes;
+// surface tension, which holds ripples shorter than 2 cm together; what land throws back.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,15 +15,17 @@
 #include "ocean/fft.h"
 #include "ocean/wake_modes.h"
 #include "ocean/wake_sources.h"
+#include "terrain/shore_map.h"
 
 namespace swell::ocean {
 
 // Fills `frame` with both lists' waves at t_s, finite. Allocates nothing once it has been filled
 // with as much. A hull's window takes 0.6 to 0.8 ms on one thread, that of a ring 0.3 ms and 0.02
 // ms for each ring more; without disturbances nothing. Waves steeper than kMostWakeSlope are laid
-// down.
+// down. shore: of the land; null: there is none.
 void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbance> others,
-                   double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers);
+                   double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers,
+                   const terrain::ShoreMap* shore = nullptr);
 
 // The same windows with one component of the water's velocity in place of the heights.
 void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& velocity,

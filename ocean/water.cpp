@@ -30,6 +30,11 @@ float edge(const SeaArea& area, glm::dvec2 p_world) {
   return static_cast<float>(t.x * t.x * (3.0 - 2.0 * t.x) * t.y * t.y * (3.0 - 2.0 * t.y));
 }
 
+// The sea's part in the surface: 0 in rivers and lakes.
+float sea_share(const WaterParts& water, glm::dvec2 p_world) {
+  return water.inland ? water.inland->sea_share(p_world) : 1.0f;
+}
+
 // ---- The trains of a coast
 
 struct TrainWaves {
@@ -48,7 +53,7 @@ struct TrainWaves {
     sample_coast(*water.coast, time_s(frame.t_s), p, std::span(z).first(p.size()),
                  std::span(share).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
-      height_m[i] += z[i] * edge(water.area, p[i]);
+      height_m[i] += z[i] * edge(water.area, p[i]) * sea_share(water, p[i]);
       room[i] *= spectrum_weight(share[i]);
     }
   }
@@ -70,7 +75,8 @@ struct TrainWaves {
                       std::span<glm::vec3> velocity_mps) const {
     std::array<glm::vec3, kChunk> v;
     sample_coast_velocities(*water.coast, time_s(velocity.z.t_s), p, std::span(v).first(p.size()));
-    for (std::size_t i = 0; i < p.size(); ++i) velocity_mps[i] += edge(water.area, p[i]) * v[i];
+    for (std::size_t i = 0; i < p.size(); ++i)
+      velocity_mps[i] += edge(water.area, p[i]) * sea_share(water, p[i]) * v[i];
     take_room(p, room);
   }
 };
@@ -81,9 +87,17 @@ struct SeaWaves {
   const WaterParts& water;
   float wave_height_m;                     // significant
   std::size_t longest_patches = SIZE_MAX;  // that heights have
+  bool inland_too = false;                 // waves that rivers and lakes have, too
 
-  // room times how much of the waves the edge and the depth let through: the weight of the waves.
-  void weigh(Points p, Room room) const {
+  // room times how much of the waves the land, the edge and the depth let through: the weight of
+  // the waves.
+  void weigh(Points p, Room room, bool sheltered) const {
+    if (water.shelter && sheltered) apply_shelter(*water.shelter, p, room);
+    fade(p, room);
+  }
+
+  // room times what the edge and the depth let through.
+  void fade(Points p, Room room) const {
     if (!water.land) {
       for (std::size_t i = 0; i < p.size(); ++i) room[i] *= edge(water.area, p[i]);
       return;
@@ -91,29 +105,31 @@ struct SeaWaves {
     std::array<float, kChunk> ground;
     terrain::sample_heights(*water.land, p, std::span(ground).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
-      const float depth = std::max(-ground[i], 0.0f);
+      const auto inland = water.inland ? water.inland->at(p[i]) : std::nullopt;
+      const float depth = std::max(inland ? inland->depth_m : -ground[i], 0.0f);
       room[i] *= edge(water.area, p[i]) * std::min(1.0f, depth / (0.2f + wave_height_m));
+      if (inland && !inland_too) room[i] *= inland->sea_share;
     }
   }
 
-  float weight_at(glm::dvec2 p_world) const {
+  float weight_at(glm::dvec2 p_world, bool sheltered) const {
     float weight = 1.0f;
     if (water.coast) TrainWaves{water}.take_room({&p_world, 1}, {&weight, 1});
-    weigh({&p_world, 1}, {&weight, 1});
+    weigh({&p_world, 1}, {&weight, 1}, sheltered);
     return weight;
   }
 
-  glm::vec2 weight_slope(glm::dvec2 p) const {
+  glm::vec2 weight_slope(glm::dvec2 p, bool sheltered) const {
     constexpr double kStep_m = 0.25;
     const glm::dvec2 dx(0.5 * kStep_m, 0.0), dy(0.0, 0.5 * kStep_m);
-    const glm::vec2 difference(weight_at(p + dx) - weight_at(p - dx),
-                               weight_at(p + dy) - weight_at(p - dy));
+    const glm::vec2 difference(weight_at(p + dx, sheltered) - weight_at(p - dx, sheltered),
+                               weight_at(p + dy, sheltered) - weight_at(p - dy, sheltered));
     return difference / static_cast<float>(kStep_m);
   }
 
   // Places where the weight is 0 cost nothing.
   void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
-    weigh(p, room);
+    weigh(p, room, frame.sheltered);
     std::array<glm::dvec2, kChunk> wavy;
     std::array<std::size_t, kChunk> place;
     std::size_t count = 0;
@@ -129,20 +145,20 @@ struct SeaWaves {
 
   // The waves' own slopes by their weight, and their height by the weight's slope.
   void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const {
-    weigh(p, room);
+    weigh(p, room, frame.sheltered);
     std::array<float, kChunk> x, y, z;
     sample_slopes(frame, p, std::span(x).first(p.size()), std::span(y).first(p.size()));
     sample_heights(frame, p, std::span(z).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
       glm::vec2 own = room[i] * glm::vec2(x[i], y[i]);
-      if (room[i] != 1.0f) own += z[i] * weight_slope(p[i]);
+      if (room[i] != 1.0f) own += z[i] * weight_slope(p[i], frame.sheltered);
       slope[i] += own;
     }
   }
 
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const {
-    weigh(p, room);
+    weigh(p, room, velocity.z.sheltered);
     std::array<glm::vec3, kChunk> v;
     sample_velocities(velocity, p, std::span(v).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) velocity_mps[i] += v[i] * room[i];
@@ -157,7 +173,7 @@ struct WakeWaves {
 
   void weigh(Points p, Room weight) const {
     std::ranges::fill(weight, 1.0f);
-    SeaWaves{water, 0.3f}.weigh(p, weight);
+    SeaWaves{water, 0.3f, SIZE_MAX, true}.fade(p, weight);
   }
 
   void take_room(Points, Room) const {}
@@ -194,6 +210,54 @@ struct WakeWaves {
   }
 };
 
+// ---- Rivers and lakes
+
+// The levels under the waves.
+struct InlandLevels {
+  const WaterParts& water;
+
+  // Nothing on dry land.
+  std::optional<InlandSample> at(glm::dvec2 p) const {
+    if (!water.inland) return std::nullopt;
+    std::optional<InlandSample> sample = water.inland->at(p);
+    if (sample && static_cast<double>(sample->level_m) <= terrain::height_at(*water.land, p))
+      sample.reset();
+    return sample;
+  }
+
+  void add_heights(Points p, std::span<float> height_m) const {
+    constexpr float kUnderRivers_m = 0.5f;
+    if (!water.inland) return;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (!water.sea_alone) {
+        if (const auto sample = at(p[i])) height_m[i] += sample->level_m;
+      } else {
+        height_m[i] -= kUnderRivers_m * (1.0f - water.inland->sea_share(p[i]));
+      }
+    }
+  }
+
+  void add_slopes(Points p, std::span<glm::vec2> slope) const {
+    constexpr double kStep_m = 0.25;
+    if (!water.inland) return;
+    const glm::dvec2 dx(0.5 * kStep_m, 0.0), dy(0.0, 0.5 * kStep_m);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const auto east = at(p[i] + dx), west = at(p[i] - dx), north = at(p[i] + dy),
+                 south = at(p[i] - dy);
+      if (east && west && north && south)
+        slope[i] += glm::vec2(east->level_m - west->level_m, north->level_m - south->level_m) /
+                    static_cast<float>(kStep_m);
+    }
+  }
+
+  void add_velocities(Points p, std::span<glm::vec3> velocity_mps) const {
+    if (!water.inland) return;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (const auto sample = at(p[i]))
+        velocity_mps[i] += glm::vec3(sample->east_mps, sample->north_mps, 0.0f);
+  }
+};
+
 // ---- All of them
 
 // Calls body(source) for each source, in the order in which they take their room.
@@ -206,7 +270,7 @@ void for_each_source(const WaterParts& water, const SeaWaves& sea, Body body) {
 
 // steepest: the sea's and the trains' own, and what the fading adds: the edge rises by 1.5 over a
 // tenth of the area, shallow water (on sand of slope 1) by 1 over the height of the waves, the sea
-// makes room for the trains.
+// makes room for the trains and runs into the lee of land.
 WaterBounds bounds_of(const WaterParts& water) {
   const Sea& sea = *water.sea;
   const CoastSea* coast = water.coast;
@@ -222,7 +286,13 @@ WaterBounds bounds_of(const WaterParts& water) {
   const double shallow = water.land ? sea_m / (0.2 + sea.significant_height_m()) : 0.0;
   bounds.steepest = sea_slope + 2.0 * all_m * 1.5 / rim_m + shallow;
   bounds.steepest += 2.0 * static_cast<double>(water.wakes.slope);
+  if (water.shelter) bounds.steepest += static_cast<double>(water.shelter->slope_per_m) * sea_m;
   bounds.mean_wavelength_m = sea.mean_wavelength_m();
+  bounds.highest_m = bounds.height_m;
+  if (water.inland) {
+    bounds.highest_m += std::max(water.inland->highest_m(), 0.0f);
+    bounds.steepest += 0.2;
+  }
   if (!coast) return bounds;
   bounds.steepest += static_cast<double>(trains_slope);
   bounds.steepest += static_cast<double>(coast->share_slope_per_m) * sea_m;
@@ -263,6 +333,7 @@ void WaterBody::heights(const SeaFrame& frame, std::span<const glm::dvec2> p_wor
          [&](const auto& source, Points p, Room room, std::span<float> z) {
            source.add_heights(frame, p, room, z);
          });
+  InlandLevels{parts_}.add_heights(p_world, height_m);
 }
 
 void WaterBody::slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
@@ -272,6 +343,7 @@ void WaterBody::slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_worl
          [&](const auto& source, Points p, Room room, std::span<glm::vec2> some) {
            source.add_slopes(frame, p, room, some);
          });
+  InlandLevels{parts_}.add_slopes(p_world, slope);
 }
 
 void WaterBody::velocities(const VelocityFrame& velocity, std::span<const glm::dvec2> p_world,
@@ -282,6 +354,18 @@ void WaterBody::velocities(const VelocityFrame& velocity, std::span<const glm::d
          [&](const auto& source, Points p, Room room, std::span<glm::vec3> v) {
            source.add_velocities(velocity, p, room, v);
          });
+  InlandLevels{parts_}.add_velocities(p_world, velocity_mps);
+}
+
+void WaterBody::currents(std::span<const glm::dvec2> p_world,
+                         std::span<glm::vec2> current_mps) const {
+  SWELL_CHECK(p_world.size() == current_mps.size(), "{} points, {} currents", p_world.size(),
+              current_mps.size());
+  const InlandLevels inland{parts_};
+  for (std::size_t i = 0; i < p_world.size(); ++i) {
+    const auto sample = inland.at(p_world[i]);
+    current_mps[i] = sample ? glm::vec2(sample->east_mps, sample->north_mps) : glm::vec2(0.0f);
+  }
 }
 
 }  // namespace swell::ocean

@@ -4,10 +4,12 @@
 //
 // The sources, in the order in which they take their room:
 //   trains  the coast's, which know the sea floor; they leave the rest of their share
-//   sea     spectrum waves on patches and sines: in the room that is left, fading where the water
-//           is shallower than they are high
+//   sea     spectrum waves on patches and sines: in the room that is left, lower in the lee of land
+//           (ocean/shelter.h), fading where the water is shallower than they are high
 //   wakes   of what disturbs the water (ocean/wakes.h), which are in the frame: they take no room
-// All fade to the mean level over the last tenth of an area that has an end.
+// All fade to the mean level over the last tenth of an area that has an end. Rivers and lakes have
+// levels of their own (ocean/inland_water.h): of the waves they have the wakes, and where a river
+// ends the sea's as well, by its share.
 //
 // A source is a struct in water.cpp with these members, for up to kChunk points at a time:
 //   take_room(p, room)                       room[i] *= what it leaves to the sources after it
@@ -25,8 +27,10 @@
 
 #include "ocean/coast.h"
 #include "ocean/disturbance.h"
+#include "ocean/inland_water.h"
 #include "ocean/sea.h"
 #include "ocean/sea_area.h"
+#include "ocean/shelter.h"
 #include "ocean/velocity.h"
 #include "terrain/height_grid.h"
 
@@ -39,13 +43,18 @@ struct WaterParts {
   const terrain::HeightGrid* land = nullptr;  // and the sea floor; null: deep everywhere
   const CoastSea* coast = nullptr;            // null: no trains
   WakeBounds wakes = {};                      // of all wakes that frames may have
+  const Shelter* shelter = nullptr;           // of the sea's waves; null: open everywhere
+  const InlandWater* inland = nullptr;        // null: no rivers, no lakes; has the same land
+  // The sea's surface alone, under that of rivers where they end: what its triangles are moved by.
+  bool sea_alone = false;
 };
 
 // What the surface stays within, always and everywhere in practice (Sea::height_bound_m()).
 struct WaterBounds {
-  float height_m = 0.0f;  // |z|
-  float slope = 0.0f;     // |dz/dx| and |dz/dy| of the waves, without what their fading adds
-  double steepest = 0.0;  // the slope in any direction, fading and all
+  float height_m = 0.0f;   // |z|
+  float slope = 0.0f;      // |dz/dx| and |dz/dy| of the waves, without what their fading adds
+  double steepest = 0.0;   // the slope in any direction, fading and all
+  float highest_m = 0.0f;  // z, of rivers and lakes as well
   // 0 without waves. The trains of a coast are of the spectrum's length, if there is one.
   double mean_wavelength_m = 0.0;
 };
@@ -68,9 +77,12 @@ class WaterBody {
   void slopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
               std::span<glm::vec2> slope) const;
 
-  // m/s: east, north, up.
+  // m/s: east, north, up; with the current of rivers.
   void velocities(const VelocityFrame& velocity, std::span<const glm::dvec2> p_world,
                   std::span<glm::vec3> velocity_mps) const;
+
+  // m/s, east and north, of rivers: where water goes in the mean. 0 on the sea and on land.
+  void currents(std::span<const glm::dvec2> p_world, std::span<glm::vec2> current_mps) const;
 
  private:
   WaterParts parts_;

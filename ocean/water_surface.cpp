@@ -10,13 +10,13 @@
 namespace swell::ocean {
 namespace {
 
-// The part of the ray between the planes z = -bound and z = bound, empty if first > last.
+// The part of the ray between the planes z = low and z = high, empty if first > last.
 struct Range {
   double first_m, last_m;
 };
-Range clip_to_slab(double z, double dz, double bound_m, double max_distance_m) {
-  if (dz == 0.0) return {0.0, std::abs(z) <= bound_m ? max_distance_m : -1.0};
-  const double a = (-bound_m - z) / dz, b = (bound_m - z) / dz;
+Range clip_to_slab(double z, double dz, double low_m, double high_m, double max_distance_m) {
+  if (dz == 0.0) return {0.0, z >= low_m && z <= high_m ? max_distance_m : -1.0};
+  const double a = (low_m - z) / dz, b = (high_m - z) / dz;
   return {std::max(0.0, std::min(a, b)), std::min(max_distance_m, std::max(a, b))};
 }
 
@@ -61,6 +61,11 @@ void WaterSurface::velocities(std::span<const glm::dvec2> p_world, const Velocit
   water_.velocities(velocity, p_world, velocity_mps);
 }
 
+void WaterSurface::currents(std::span<const glm::dvec2> p_world,
+                            std::span<glm::vec2> current_mps) const {
+  water_.currents(p_world, current_mps);
+}
+
 void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame& whitecaps,
                         std::span<float> foam) const {
   SWELL_CHECK(p_world.size() == foam.size(), "{} points, {} foam", p_world.size(), foam.size());
@@ -76,6 +81,12 @@ void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame
       sample_coast_share(*coast, p, std::span(share).first(p.size()));
       for (std::size_t i = 0; i < p.size(); ++i) some[i] *= spectrum_weight(share[i]);
     }
+    if (const Shelter* shelter = water_.parts().shelter; shelter && frame_->sheltered)
+      apply_shelter(*shelter, p, some);
+    if (const InlandWater* const inland = water_.parts().inland)
+      for (std::size_t i = 0; i < p.size(); ++i)
+        if (const auto at = inland->at(p[i]))
+          some[i] = std::max(some[i] * at->sea_share, at->white);
     add_wake_foam(frame_->wakes, p, some);
   }
 }
@@ -101,8 +112,9 @@ std::optional<WaterHit> WaterSurface::intersect(glm::dvec3 origin_world, glm::dv
     return p.z - static_cast<double>(height(glm::dvec2(p)));
   };
   // Outside the slab that holds the surface nothing can be hit.
-  const double slab_m = static_cast<double>(bound_m()) + 1e-3;
-  const Range range = clip_to_slab(origin_world.z, along.z, slab_m, max_distance_m);
+  const double low_m = -static_cast<double>(bounds().height_m) - 1e-3;
+  const double high_m = static_cast<double>(bounds().highest_m) + 1e-3;
+  const Range range = clip_to_slab(origin_world.z, along.z, low_m, high_m, max_distance_m);
   if (!(range.first_m <= range.last_m)) return std::nullopt;
 
   // March: the gap closes by at most `closing` a metre.

@@ -32,13 +32,13 @@ class WaterSurface {
 
   // z of the surface: the sea's waves, of a limited area inside it, fading to the mean level over
   // its last tenth, and lower where the water is shallower than the waves are high, so that they do
-  // not dig into the sand. Near a coast the sea's waves make room for the trains that know its
-  // floor, by their share. Over land 0. A picture has these heights, bit for bit, at the vertices
-  // of its mesh, out to where its triangles become wider than the waves (docs/lod.md); inside a
-  // triangle with the longest edge s it is at most L s / 2 off, L the waves' steepest slope. Spans
-  // of one length that do not overlap. Allocates nothing. 25 ns a point for three patches, 45 with
-  // terrain; alone, without a batch, 200. With `longest_patches` the shorter waves of the open sea
-  // are left out, by patches.
+  // not dig into the sand. On rivers and lakes their levels, with the waves of wakes. Near a coast
+  // the sea's waves make room for the trains that know its floor, by their share. Over land 0. A
+  // picture has these heights, bit for bit, at the vertices of its mesh, out to where its triangles
+  // become wider than the waves (docs/lod.md); inside a triangle with the longest edge s it is at
+  // most L s / 2 off, L the waves' steepest slope. Spans of one length that do not overlap.
+  // Allocates nothing. 25 ns a point for three patches, 45 with terrain; alone, without a batch,
+  // 200. With `longest_patches` the shorter waves of the open sea are left out, by patches.
   void heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
                std::size_t longest_patches = SIZE_MAX) const;
   float height(glm::dvec2 p_world) const;
@@ -53,10 +53,13 @@ class WaterSurface {
   // Velocity of the water at the surface in m/s: east, north, up; up is the rate of height().
   // Linear theory: of deep water for the sea's waves (where crests are sharp, of the water that
   // they have brought there), of water of the local depth for the trains of a coast, blended as the
-  // heights are. `velocity` is of the same time, from
+  // heights are, and the current of rivers. `velocity` is of the same time, from
   // advance_velocity(). 60 ns a point, with the trains of a coast 45 more a train.
   void velocities(std::span<const glm::dvec2> p_world, const VelocityFrame& velocity,
                   std::span<glm::vec3> velocity_mps) const;
+
+  // The current at the surface in m/s, east and north: that of rivers, 0 elsewhere.
+  void currents(std::span<const glm::dvec2> p_world, std::span<glm::vec2> current_mps) const;
 
   // The part of the surface that the open sea's whitecaps hide, in [0, 1], as pictures have it in
   // the mean over foam's lace: near a coast less, by what the sea's waves leave to the trains,

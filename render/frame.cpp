@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "math/check.h"
+#include "math/large_array.h"
 #include "raster/sample_pattern.h"
 #include "render/view/own_shadows.h"
 #include "render/workspace.h"
@@ -93,7 +94,7 @@ void prepare_target(const View& view, const FrameOptions& options, Target& targe
   const std::size_t pixels = static_cast<std::size_t>(view.width_px) * view.height_px;
   target.width_px = view.width_px;
   target.height_px = view.height_px;
-  target.rgba.resize(pixels);
+  resize_large(target.rgba, pixels);
   target.linear.resize(options.keep_linear ? 3 * pixels : 0);
   resize_labels(options.labels, {view.width_px, view.height_px}, target.labels);
 }
@@ -117,9 +118,17 @@ std::array<RenderView*, 5> prepare_views(const World::State& world, const View& 
   }
   const std::array views = {&ws.window, &ws.lookups.reflection.view, &ws.lookups.refraction.view,
                             &ws.wet_lookups.reflection.view, &ws.wet_lookups.refraction.view};
+  RenderView& mirror = ws.river_mirror.view;
+  mirror.kind = ViewKind::kReflection;
+  mirror.camera = lookup_camera(view, options.lookup_scale);
+  mirror.drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
+  mirror.clip_plane = options.clip_plane;
+  mirror.clip_margin_m = 0.05f;
   for (RenderView* const shown : views) {
     shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
     shown->clip_plane = options.clip_plane;
+    shown->land = world.land_rays.get();
+    shown->land_has_apron = !options.without.has(Part::kApron);
     shown->clip_margin_m = clip_margin_m(world.water_bounds().height_m);
   }
   return views;
@@ -132,8 +141,9 @@ void set_eye(const EyeInWater& eye, FrameViews views) {
 // Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the
 // picture, the first three are of an eye in air and two more of one in water. Without water there
 // is the window alone.
-void place_vertices(const World::State& world, const View& view, const FrameOptions& options,
-                    FrameViews all_views, Workspace::State& ws, const StageRun& run) {
+void place_vertices(const World::State& world, const View& view, double t_s,
+                    const FrameOptions& options, FrameViews all_views, Workspace::State& ws,
+                    const StageRun& run) {
   EyeInWater eye = find_eye_in_water(world, ws.sea, view, options);
   FrameViews views = all_views.first(options.without.has(Part::kWater) ? 1 : 3);
   set_eye(eye, views);
@@ -152,7 +162,22 @@ void place_vertices(const World::State& world, const View& view, const FrameOpti
     set_eye({true, eye.to_surface_m}, views.subspan(3));
     map_land(ws.meshes, views.subspan(3), run);
   }
-  place_objects(world, ws.sea, options.poses, ws.meshes, views, run);
+  std::array<RenderView*, 6> shown{};
+  std::size_t count = 0;
+  for (RenderView* const one : views) shown[count++] = one;
+  if (ws.meshes.rivers.mirror_level_m && !eye.submerged) {
+    RenderView& mirror = ws.river_mirror.view;
+    mirror.level_m = *ws.meshes.rivers.mirror_level_m;
+    mirror.eye = {false, std::max(static_cast<float>(view.eye_world.z) - mirror.level_m, 0.05f)};
+    map_land(ws.meshes, {&(shown[count++] = &mirror), 1}, run);
+  }
+  ws.meshes.objects.draws_forms = !options.without.has(Part::kForms);
+  const FrameViews all = FrameViews(shown).first(count);
+  place_objects(world, ws.sea, options.poses, ws.meshes, all, run);
+  const double before_us = run.profile.now_us();
+  place_trees(world, t_s, options.without, ws.meshes, all,
+              {run.workers, run.profile, Stage::kTrees});
+  run.profile.move(run.stage, Stage::kTrees, 1e-3 * (run.profile.now_us() - before_us));
 }
 
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
@@ -181,8 +206,8 @@ FrameStatistics statistics_of(const Workspace::State& ws) {
 }  // namespace
 
 std::string_view stage_name(Stage stage) {
-  constexpr std::string_view kNames[] = {"sea",        "triangulate", "displace",
-                                         "visibility", "lookups",     "shade"};
+  constexpr std::string_view kNames[] = {"sea",  "triangulate", "displace", "trees", "visibility",
+                                         "rays", "lookups",     "clouds",   "shade"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 
@@ -222,12 +247,14 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   const glm::dvec3 eye = view.eye_world;
   const double sky_m = sky_height_m(view, options.without);
   const Clouds clouds = make_clouds(world_state, t_s, {eye.x, eye.y, sky_m}, options.without);
+  const Fog fog = make_fog(world_state, t_s, eye, options.without);
   const Clouds mirrored = make_clouds(world_state, t_s, {eye.x, eye.y, 0.0}, options.without);
   workers.run_both(
       [&] {
         stage(Stage::kSea, [&](const StageRun& run) {
           advance_sea(world_state, t_s, options.disturbances, options.without, ws.sea, run);
-          advance_sky(world_state, mirrored, sky_m, options.without, ws.sky, run);
+          advance_clouds(world_state, mirrored, t_s, glm::dvec2(eye), options.without, ws.sky, run);
+          advance_sky(world_state, mirrored, fog, sky_m, options.without, ws.sky, run);
         });
       },
       [&] {
@@ -235,9 +262,10 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
           triangulate(world_state, drawn, t_s, options, ws.meshes, run);
         });
       });
-  const Light light = make_light(world_state, clouds, ws.sky);
+  Light light = make_light(world_state, clouds, ws.sky, fog);
+  light.stars = make_stars(world_state, t_s, options.without);
   stage(Stage::kDisplace, [&](const StageRun& run) {
-    place_vertices(world_state, drawn, options, views, ws, run);
+    place_vertices(world_state, drawn, t_s, options, views, ws, run);
     const ShadowOptions shadows{light.sun_direction, options.without, options.disturbances};
     find_shadow_casters(world_state, shadows, drawn, ws.meshes.objects, run);
     find_own_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
@@ -248,7 +276,9 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     prepare_edges(ws.meshes.objects.in_window(), ws.window, ws.visibility, options.edge_samples,
                   ws.edges);
   });
-  const Media air = make_media(world_state, light, sky_m, options.without);
+  const VolumeClouds volume_clouds =
+      make_volume_clouds(world_state, t_s, eye, make_rays(drawn).pixel_angle, options.without);
+  const Media air = make_media(world_state, light, fog, sky_m, options.without);
   const Media water = submerge(air, drawn.eye_world.z);
   const EyeInWater first_side = ws.window.eye;
   const bool crosses = ws.crossing.picture == Begins::kInBoth;
@@ -258,20 +288,29 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                           ws.meshes.objects, light, side.submerged ? water : air,
                           options.without};
     inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
+    inputs.trees = &ws.meshes.trees;
     ws.window.eye = side;
     draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, lookups, run);
+    if (ws.meshes.rivers.mirror_level_m && !side.submerged)
+      draw_river_mirror(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirror,
+                        run);
     fill_shading(inputs, ws.window, options.tile_size_px, shading);
   };
   stage(Stage::kLookups, [&](const StageRun& run) {
     if (crosses) draw_side({true, first_side.to_surface_m}, ws.wet_lookups, ws.wet_shading, run);
     draw_side(first_side, ws.lookups, ws.shading, run);
   });
+  stage(Stage::kClouds, [&](const StageRun& run) {
+    draw_clouds(ws.shading, volume_clouds, ws.clouds, run);
+    ws.shading.clouds = &ws.clouds;
+  });
   stage(Stage::kShade, [&](const StageRun& run) {
     if (!options.labels.empty())
       fill_label_tables({world_state, ws.meshes, ws.window, options, t_s}, ws.labels, run);
     const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_lookups.of_tile,
                       !options.without.has(Part::kMeniscus)};
-    const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects.in_window(), world_state};
+    const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects.in_window(),
+                              ws.meshes.trees.drawn_in(ViewKind::kWindow), world_state};
     shade_picture(
         {ws.meshes, ws.window, ws.visibility, ws.edges, ws.lookups.of_tile, ws.shading,
          options.wireframe, options.labels.empty() ? nullptr : &labels, crosses ? &wet : nullptr},

@@ -31,8 +31,11 @@ enum class Stage : std::uint8_t {
   kSea,          // advance the waves, make their maps
   kTriangulate,  // adapt the triangulations
   kDisplace,     // displace vertices, transform them
+  kTrees,        // choose which trees are drawn, and place them
   kVisibility,   // clip, set up, bin, find what is visible
+  kRays,         // of that, rays to forms and to land without triangles
   kLookups,      // reflection and refraction images
+  kClouds,       // rays through volumetric clouds
   kShade,        // shade and resolve every visible pixel once; labels
   kCount
 };

@@ -13,46 +13,58 @@
 namespace swell::render {
 
 enum class Part : std::uint8_t {
-  kWater,        // the sea: without it the land goes on dry, and things lie where they did
-  kReflection,   // what the water mirrors besides the sky
-  kRefraction,   // what lies under the water's surface
-  kRipples,      // the water's waves too short for the wave patches
-  kGlitter,      // the sun's image in the water seen from above
-  kWhitecaps,    // foam of the open sea
-  kHaze,         // between the eye and what it sees
-  kEarth,        // its curve: without it the sea is flat
-  kClouds,       // in the sky, and in what the water mirrors of it
-  kShadows,      // of land and objects before sun or moon
-  kHulls,        // foam and dark water where floating things meet it
-  kApron,        // the ground beyond the terrain's square
-  kTiling,       // what tells the places of a wave patch apart; queries of the sea keep it
-  kSeenSlopes,   // that of rough water slopes turned to the eye are seen, and others are not
-  kCrests,       // what makes the open sea's crests sharper than troughs; queries keep it
-  kAltitude,     // what the eye's height changes in the sky and in the air below it
-  kTextures,     // pictures on meshes: each is its mean colour
-  kUnderwater,   // what an eye below the surface sees; without it, it sees through air
-  kMeniscus,     // the dark line where the surface cuts the picture
-  kCaustics,     // the sun's light, gathered by the waves: shafts and uplight as well
-  kShafts,       // it in the water between the eye and what it sees
-  kUplight,      // it on objects above the water, from below
-  kSequence,     // a scene's sequence of bump images; without it, layers that drift
-  kSunSlide,     // a scene's projected glitter; without it, that of slopes
-  kCausticBend,  // how ripples move a scene's caustics
-  kOwnShadows,   // of objects on themselves
-  kImageBlur,    // what slopes finer than a pixel spread in the lookup images
-  kWakes,        // waves and foam of what disturbs the water
-  kMaps,         // waves of periodic maps; queries keep them
+  kWater,         // the sea: without it the land goes on dry, and things lie where they did
+  kReflection,    // what the water mirrors besides the sky
+  kRefraction,    // what lies under the water's surface
+  kRipples,       // the water's waves too short for the wave patches
+  kGlitter,       // the sun's image in the water seen from above
+  kWhitecaps,     // foam of the open sea
+  kHaze,          // between the eye and what it sees
+  kEarth,         // its curve: without it the sea is flat
+  kClouds,        // in the sky, and in what the water mirrors of it
+  kShadows,       // of land and objects before sun or moon
+  kHulls,         // foam and dark water where floating things meet it
+  kApron,         // the ground beyond the terrain's square
+  kTiling,        // what tells the places of a wave patch apart; queries of the sea keep it
+  kSeenSlopes,    // that of rough water slopes turned to the eye are seen, and others are not
+  kCrests,        // what makes the open sea's crests sharper than troughs; queries keep it
+  kAltitude,      // what the eye's height changes in the sky and in the air below it
+  kTextures,      // pictures on meshes: each is its mean colour
+  kUnderwater,    // what an eye below the surface sees; without it, it sees through air
+  kMeniscus,      // the dark line where the surface cuts the picture
+  kCaustics,      // the sun's light, gathered by the waves: shafts and uplight as well
+  kShafts,        // it in the water between the eye and what it sees
+  kUplight,       // it on objects above the water, from below
+  kSequence,      // a scene's sequence of bump images; without it, layers that drift
+  kSunSlide,      // a scene's projected glitter; without it, that of slopes
+  kCausticBend,   // how ripples move a scene's caustics
+  kOwnShadows,    // of objects on themselves
+  kImageBlur,     // what slopes finer than a pixel spread in the lookup images
+  kWakes,         // waves and foam of what disturbs the water
+  kMaps,          // waves of periodic maps; queries keep them
+  kLandDetail,    // what the ground is made of, finer than its maps; how much sky valleys see
+  kTrees,         // and reeds, with what they are of the land's colour and shade
+  kFog,           // over the sea
+  kStars,         // of the night sky
+  kVolumeClouds,  // of [clouds], before and behind things, and mirrored
+  kCloudShadows,  // of all clouds on sea and land
+  kForms,         // objects made of functions
+  kShelter,       // what land takes of the open sea's waves; queries and trains keep it
+  kSurfFronts,    // foam that runs to shores without wave trains
+  kRivers,        // rivers and lakes: their beds lie dry; queries keep them
   kCount
 };
 inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
 
 // In the order of Part; words of lower-case letters and '-'.
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "water",        "reflection",  "refraction", "ripples",  "glitter",  "whitecaps",
-    "haze",         "earth",       "clouds",     "shadows",  "hulls",    "apron",
-    "tiling",       "seen-slopes", "crests",     "altitude", "textures", "underwater",
-    "meniscus",     "caustics",    "shafts",     "uplight",  "sequence", "sun-slide",
-    "caustic-bend", "own-shadows", "image-blur", "wakes",    "maps"};
+    "water",        "reflection",  "refraction", "ripples",       "glitter",       "whitecaps",
+    "haze",         "earth",       "clouds",     "shadows",       "hulls",         "apron",
+    "tiling",       "seen-slopes", "crests",     "altitude",      "textures",      "underwater",
+    "meniscus",     "caustics",    "shafts",     "uplight",       "sequence",      "sun-slide",
+    "caustic-bend", "own-shadows", "image-blur", "wakes",         "maps",          "land-detail",
+    "trees",        "fog",         "stars",      "volume-clouds", "cloud-shadows", "forms",
+    "shelter",      "surf-fronts", "rivers"};
 constexpr std::string_view part_name(Part part) {
   return kPartNames[static_cast<std::size_t>(part)];
 }
@@ -64,13 +76,13 @@ class PartSet {
     for (const Part part : parts) add(part);
   }
   constexpr bool has(Part part) const { return (bits_ >> static_cast<unsigned>(part) & 1) != 0; }
-  constexpr void add(Part part) { bits_ |= 1u << static_cast<unsigned>(part); }
+  constexpr void add(Part part) { bits_ |= std::uint64_t{1} << static_cast<unsigned>(part); }
   constexpr void add(PartSet parts) { bits_ |= parts.bits_; }
   constexpr bool empty() const { return bits_ == 0; }
   bool operator==(const PartSet&) const = default;
 
  private:
-  std::uint32_t bits_ = 0;
+  std::uint64_t bits_ = 0;
 };
 
 // "ripples,haze"; nothing for a name that is not in the table, or none.

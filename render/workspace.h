@@ -29,6 +29,8 @@ struct Workspace::State {
   VisibilityBuffer visibility;
   EdgeBuffer edges;
   Crossing crossing;
+  LookupTarget river_mirror;
+  CloudPicture clouds;                // volumetric ones, in the window
   LookupImages lookups, wet_lookups;  // where the waterline crosses the picture, both
   Shading shading, wet_shading;       // of the window
   std::vector<int> shaded;            // per tile

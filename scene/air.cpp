@@ -12,6 +12,7 @@ constexpr double kRayleighHeight_m = 8000.0, kMieHeight_m = 1200.0;
 constexpr double kOzoneMiddle_m = 25000.0, kOzoneHalfWidth_m = 15000.0;
 constexpr double kMieAlbedo = 0.92, kAngstrom = 0.7;
 constexpr double kNarrow = 0.88, kWide = 0.45, kNarrowPart = 0.53;
+constexpr double kRepeatedNarrow = 0.73, kRepeatedWide = 0.29, kRepeatedPart = 0.2;
 constexpr double kTop_m = kEarthRadius_m + kAirTop_m;
 
 // Source: L. G. Henyey, J. L. Greenstein, Diffuse radiation in the galaxy, 1941, eq. 2.
@@ -50,6 +51,13 @@ double rayleigh_phase(double cos_theta) {
 double mie_phase(double cos_theta) {
   return kNarrowPart * henyey_greenstein(cos_theta, kNarrow) +
          (1.0 - kNarrowPart) * henyey_greenstein(cos_theta, kWide);
+}
+
+// One Henyey-Greenstein function after another is that of the product of their mean cosines, so
+// that terms and cosines are here about the powers 2.5 of the above.
+double repeated_mie_phase(double cos_theta) {
+  return kRepeatedPart * henyey_greenstein(cos_theta, kRepeatedNarrow) +
+         (1.0 - kRepeatedPart) * henyey_greenstein(cos_theta, kRepeatedWide);
 }
 
 double height_along(double radius_m, double sine, double t_m) {

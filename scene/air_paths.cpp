@@ -14,11 +14,13 @@ namespace {
 constexpr double kSeaAlbedo = 0.08;
 constexpr double kTop_m = kEarthRadius_m + kAirTop_m;
 
+double cube(double x) { return x * x * x; }
+
 glm::dvec3 exp_each(glm::dvec3 x) { return {exp(x.x), exp(x.y), exp(x.z)}; }
 
 // The transmittance: rows by height, columns by the distance to the air's top.
 // Source: Bruneton, Neyret 2008, section 4.
-constexpr int kHeights = 40, kDistances = 128;
+constexpr int kHeights = 80, kDistances = 128;
 const double kHorizonAtTop_m = std::sqrt(kTop_m * kTop_m - kEarthRadius_m * kEarthRadius_m);
 
 double horizon_distance_m(double radius_m) {
@@ -43,12 +45,6 @@ glm::dvec3 transmittance_to_top(const Air& air, double radius_m, double sine) {
 }  // namespace
 
 // ---- Tables
-
-Between between(double place, int count) {
-  const double x = std::clamp(place, 0.0, count - 1.000001);
-  const int first = static_cast<int>(x);
-  return {first, static_cast<float>(x - first)};
-}
 
 void fill_transmittance(Atmosphere& atmosphere, Workers& workers) {
   atmosphere.transmittance.resize(static_cast<std::size_t>(kHeights) * kDistances);
@@ -90,24 +86,17 @@ glm::vec3 disc_transmittance(const Atmosphere& atmosphere, const HeightRow& at, 
 
 double source_height_m(int row) {
   const double x = static_cast<double>(row) / (kSourceHeights - 1);
-  return kAirTop_m * x * x;
+  return kAirTop_m * cube(x);
 }
 
 Between source_row(double height_m) {
-  return between(std::sqrt(std::max(height_m, 0.0) / kAirTop_m) * (kSourceHeights - 1),
-                 kSourceHeights);
+  const double x = height_m > 0.0 ? pow(height_m / kAirTop_m, 1.0 / 3.0) : 0.0;
+  return between(x * (kSourceHeights - 1), kSourceHeights);
 }
 
 double source_sine(int column) {
   if (column < kLowSines) return kLowestSine + (kMiddleSine - kLowestSine) * column / kLowSines;
   return kMiddleSine + (1.0 - kMiddleSine) * (column - kLowSines) / kHighSines;
-}
-
-Between source_column(double sine) {
-  return between(sine < kMiddleSine
-                     ? (sine - kLowestSine) * (kLowSines / (kMiddleSine - kLowestSine))
-                     : kLowSines + (sine - kMiddleSine) * (kHighSines / (1.0 - kMiddleSine)),
-                 kSourceSines);
 }
 
 // ---- Rays
@@ -123,8 +112,9 @@ Path trace(const Air& air, double height_m, double sine, int step_count) {
   glm::dvec3 left(1.0);
   for (int i = 0; i < step_count; ++i) {
     const double begin = double(i) / step_count, end = double(i + 1) / step_count;
-    const double t_m = 0.5 * (begin * begin + end * end) * length_m;
-    const double dt_m = (end * end - begin * begin) * length_m;
+    const double from = cube(begin), to = cube(end);
+    const double t_m = 0.5 * (from + to) * length_m;
+    const double dt_m = (to - from) * length_m;
     const double h_m = std::max(height_along(radius_m, sine, t_m), 0.0);
     const AirLight here = air_light(air, h_m);
     const glm::dvec3 lost = glm::max(here.lost_per_m, 1e-12);

@@ -2,6 +2,7 @@
 // scattered_light.cpp and atmosphere.cpp.
 #pragma once
 
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -19,7 +20,11 @@ struct Between {
 };
 
 // `place` is held to [0, count - 1].
-Between between(double place, int count);
+inline Between between(double place, int count) {
+  const double x = std::clamp(place, 0.0, count - 1.000001);
+  const int first = static_cast<int>(x);
+  return {first, static_cast<float>(x - first)};
+}
 
 inline glm::vec3 interpolate(const glm::vec3* table, int columns, Between row, Between column) {
   const glm::vec3* p = table + row.first * columns + column.first;
@@ -45,15 +50,20 @@ glm::vec3 transmittance_over_horizon(const Atmosphere& atmosphere, const HeightR
 glm::vec3 disc_transmittance(const Atmosphere& atmosphere, const HeightRow& at, double sine);
 
 // Light that was scattered before: rows by height, columns by the sine of the light's elevation,
-// finer about the horizon. Haze is low: its tables have the first rows, up to 15 km.
-inline constexpr int kSourceHeights = 24, kHazeHeights = 10, kLowSines = 30, kHighSines = 12;
+// finer about the horizon. Haze is low: its tables have the first rows, up to 8 km.
+inline constexpr int kSourceHeights = 24, kHazeHeights = 11, kLowSines = 30, kHighSines = 12;
 inline constexpr int kSourceSines = kLowSines + kHighSines + 1;
 inline constexpr double kLowestSine = -0.34, kMiddleSine = 0.17;
 
 double source_height_m(int row);
 double source_sine(int column);
 Between source_row(double height_m);
-Between source_column(double sine);
+inline Between source_column(double sine) {
+  return between(sine < kMiddleSine
+                     ? (sine - kLowestSine) * (kLowSines / (kMiddleSine - kLowestSine))
+                     : kLowSines + (sine - kMiddleSine) * (kHighSines / (1.0 - kMiddleSine)),
+                 kSourceSines);
+}
 
 // ---- Rays
 

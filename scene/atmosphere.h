@@ -24,11 +24,12 @@ struct Atmosphere {
   Air air;
   std::vector<glm::vec3> transmittance;  // by height and distance to the air's top
   // Mean radiance of what was scattered once or more, by height and sine of the light's elevation:
-  // over all directions; and of each direction, as haze scatters it there.
+  // over all directions; and of each direction, as haze scatters it there, over
+  // repeated_mie_phase() of its angle from the light.
   std::vector<glm::vec3> multiple, haze;
 };
 
-// The same bits with any workers. About 45 ms on two threads.
+// The same bits with any workers. About 60 ms on two threads.
 Atmosphere make_atmosphere(double turbidity, Workers& workers);
 
 // The part of a light's rays that reach a height [0, kAirTop_m] from the sine of an elevation; 0

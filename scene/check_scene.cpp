@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "ocean/map_waves.h"
+#include "ocean/river_flow.h"
+#include "scene/celestial.h"
 #include "scene/coast.h"
 #include "scene/parameters.h"
 #include "scene/sky.h"
@@ -110,6 +112,9 @@ Fault fault_of_sky(const Sky& sky) {
         fmt::format("[{}, {}, {}]", sky.sun_direction.x, sky.sun_direction.y, sky.sun_direction.z),
         fmt::format("the direction of the azimuth and the elevation, [{}, {}, {}]", direction.x,
                     direction.y, direction.z)};
+  if (!sky.time_utc.empty() && !parse_time_utc(sky.time_utc))
+    return SceneFault{"sky.time_utc", fmt::format("\"{}\"", sky.time_utc),
+                      "a time as \"2026-06-21T12:00:00Z\", from 1900 to 2100"};
   const GradientSky gradient = gradient_of(sky);
   for (int c = 0; c < 3; ++c)
     if (kBeyondHorizon * gradient.zenith[c] > (1.0f + kBeyondHorizon) * gradient.horizon[c])
@@ -117,6 +122,30 @@ Fault fault_of_sky(const Sky& sky) {
           fmt::format("sky.zenith[{}]", c), fmt::format("{}", gradient.zenith[c]),
           fmt::format("at most 7.66 times sky.horizon[{}], which is {}", c, gradient.horizon[c])};
   return std::nullopt;
+}
+
+// Half the way across a placed cloud from its middle, with its lobes.
+double reach_of(const Cumulus& cloud) { return 0.75 * cloud.width_m; }
+
+Fault fault_of_clouds(const CloudField& clouds) {
+  if (clouds.kind == CloudKind::kNone) return std::nullopt;
+  const double thickness_m = clouds.top_m - clouds.base_m;
+  if (clouds.kind == CloudKind::kLayer && !(thickness_m >= 100.0 && thickness_m <= 8000.0))
+    return SceneFault{"clouds.top_m", fmt::format("{}", clouds.top_m),
+                      "100 to 8000 m over clouds.base_m"};
+  if (clouds.kind != CloudKind::kPlaced) return std::nullopt;
+  if (clouds.cumulus.empty())
+    return SceneFault{"clouds.kind", fmt::format("\"placed\" without [[{}]]", kCumulusKey),
+                      "at least one of these tables beside it"};
+  glm::dvec2 low(1e9), high(-1e9);
+  for (const Cumulus& cloud : clouds.cumulus) {
+    low = glm::min(low, cloud.position_m - reach_of(cloud));
+    high = glm::max(high, cloud.position_m + reach_of(cloud));
+  }
+  const double side_m = std::max(high.x - low.x, high.y - low.y);
+  if (side_m <= kMostCloudSquare_m) return std::nullopt;
+  return SceneFault{std::string(kCumulusKey), fmt::format("clouds over {:.0f} m", side_m),
+                    fmt::format("clouds in a square of {:.0f} m", kMostCloudSquare_m)};
 }
 
 Fault fault_of_sea(const Scene& scene) {
@@ -218,21 +247,29 @@ Fault fault_of_way(const std::vector<glm::dvec2>& path_m, bool closed, const std
   return std::nullopt;
 }
 
-// Only a mesh has a file, and a path leads somewhere.
+// Only a mesh or a form has a file, and a path leads somewhere.
 Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
   for (std::size_t n = 0; n < objects.size(); ++n) {
     const FloatingObject& object = objects[n];
     const auto key = [&](std::string_view name) {
       return fmt::format("{}[{}].{}", kObjectsKey, n, name);
     };
-    const bool is_mesh = object.kind == ObjectKind::kMesh;
-    if (is_mesh && object.file.empty())
-      return SceneFault{key("kind"), "\"mesh\" without a file", "a mesh with its file"};
-    if (!is_mesh && !object.file.empty())
-      return SceneFault{key("file"), "it of another kind than \"mesh\"", "files of meshes"};
+    const bool has_file = is_of_file(object.kind);
+    const std::string kind(kObjectKindNames[static_cast<std::size_t>(object.kind)]);
+    if (has_file && object.file.empty())
+      return SceneFault{key("kind"), fmt::format("\"{}\" without a file", kind),
+                        fmt::format("a {} with its file", kind)};
+    if (!has_file && !object.file.empty())
+      return SceneFault{key("file"), "it of another kind than \"mesh\" or \"form\"",
+                        "files of meshes and forms"};
     if (Fault fault = fault_of_way(object.path_m, object.path_closed, key("path_m"))) return fault;
   }
   return std::nullopt;
+}
+
+Fault fault_of_disturbance_values(const std::vector<ocean::Disturbance>& disturbances) {
+  return fault_of_tables(kDisturbancesKey, disturbances, kMaxDisturbances,
+                         disturbance_parameters());
 }
 
 // A hull has a path.
@@ -243,6 +280,36 @@ Fault fault_of_disturbances(const std::vector<ocean::Disturbance>& disturbances)
     if (d.kind == ocean::DisturbanceKind::kHull && d.path_m.size() < 2)
       return SceneFault{key + "kind", "\"hull\" without a path_m", "a hull with its path"};
     if (Fault fault = fault_of_way(d.path_m, d.path_closed, key + "path_m")) return fault;
+  }
+  return std::nullopt;
+}
+
+// What their network says.
+Fault fault_of_rivers(const Scene& scene) {
+  if (scene.rivers.empty() && scene.lakes.empty()) return std::nullopt;
+  if (!scene.terrain)
+    return SceneFault{std::string(scene.rivers.empty() ? kLakesKey : kRiversKey),
+                      "it without a terrain", "rivers and lakes on a terrain"};
+  try {
+    const ocean::RiverNetwork network(scene.rivers, scene.lakes);
+    const ocean::RiverFlow flow(network);
+  } catch (const ocean::RiverError& error) {
+    return SceneFault{error.key, error.got, error.allowed};
+  }
+  return std::nullopt;
+}
+
+Fault fault_of_trees(const Scene& scene) {
+  if (!scene.trees.empty() && !scene.terrain)
+    return SceneFault{std::string(kTreesKey), "it without [terrain]", "both or neither"};
+  for (std::size_t n = 0; n < scene.trees.size(); ++n) {
+    const auto fault = [&](std::string_view key, glm::dvec2 range) {
+      return SceneFault{fmt::format("{}[{}].{}", kTreesKey, n, key),
+                        fmt::format("[{}, {}]", range.x, range.y), "the lower one first"};
+    };
+    const terrain::TreeStand& stand = scene.trees[n];
+    if (stand.height_m.x > stand.height_m.y) return fault("height_m", stand.height_m);
+    if (stand.ground_m.x > stand.ground_m.y) return fault("ground_m", stand.ground_m);
   }
   return std::nullopt;
 }
@@ -270,10 +337,17 @@ std::optional<SceneFault> find_fault(const Scene& scene) {
     return fault;
   if (Fault fault = fault_of_tables(kMapsKey, scene.sea.maps, ocean::kMaxPatches, map_parameters()))
     return fault;
+  if (Fault fault =
+          fault_of_tables(kCumulusKey, scene.clouds.cumulus, kMaxCumulus, cumulus_parameters()))
+    return fault;
   if (Fault fault = fault_of_tables(kObjectsKey, scene.objects, kMaxObjects, object_parameters()))
     return fault;
-  if (Fault fault = fault_of_tables(kDisturbancesKey, scene.disturbances, kMaxDisturbances,
-                                    disturbance_parameters()))
+  if (Fault fault = fault_of_disturbance_values(scene.disturbances)) return fault;
+  if (Fault fault = fault_of_tables(kRiversKey, scene.rivers, kMaxRivers, river_parameters()))
+    return fault;
+  if (Fault fault = fault_of_tables(kLakesKey, scene.lakes, kMaxLakes, lake_parameters()))
+    return fault;
+  if (Fault fault = fault_of_tables(kTreesKey, scene.trees, kMaxTreeStands, tree_parameters()))
     return fault;
   return find_disagreement(scene);
 }
@@ -284,7 +358,10 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_names(scene)) return fault;
   if (Fault fault = fault_of_objects(scene.objects)) return fault;
   if (Fault fault = fault_of_disturbances(scene.disturbances)) return fault;
+  if (Fault fault = fault_of_rivers(scene)) return fault;
+  if (Fault fault = fault_of_trees(scene)) return fault;
   if (Fault fault = fault_of_sky(scene.sky)) return fault;
+  if (Fault fault = fault_of_clouds(scene.clouds)) return fault;
   if (Fault fault = fault_of_sea(scene)) return fault;
   if (Fault fault = fault_of_maps(scene.sea)) return fault;
   if (Fault fault = fault_of_ripples(scene.ripples)) return fault;
@@ -293,6 +370,11 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   // Over an image, whose size is not known yet, build_coast() checks this.
   const std::optional<double> size_m = described_size_m(*scene.terrain);
   return size_m ? fault_of_coast_grid(scene.coast, *size_m) : std::nullopt;
+}
+
+std::optional<SceneFault> find_fault(const std::vector<ocean::Disturbance>& disturbances) {
+  if (Fault fault = fault_of_disturbance_values(disturbances)) return fault;
+  return fault_of_disturbances(disturbances);
 }
 
 std::string fault_text(const SceneFault& fault) {

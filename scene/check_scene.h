@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -26,6 +27,9 @@ std::optional<SceneFault> find_fault(const Scene& scene);
 // The part of it that is left to check when every value is in its range: those that do not go
 // together.
 std::optional<SceneFault> find_disagreement(const Scene& scene);
+
+// The first fault of a list of disturbances, the scene's own or a frame's.
+std::optional<SceneFault> find_fault(const std::vector<ocean::Disturbance>& disturbances);
 
 // Throws SceneError 'NAME: KEY, got GOT, allowed ALLOWED' for the first fault.
 void check_scene(const Scene& scene);

@@ -47,6 +47,19 @@ terrain::HeightGrid sea_floor_of(const terrain::HeightGrid& terrain, int cells) 
   return resample(terrain, {land.min_world, land.size_m() / cells, cells + 1, cells + 1});
 }
 
+// By train, at the floor's samples; empty without a shore.
+std::vector<std::vector<float>> shelter_trains(const terrain::ShoreMap* shore,
+                                               std::span<const ocean::WaveTrain> trains,
+                                               const terrain::HeightGrid& floor, Workers& workers) {
+  if (!shore || !shore->has_line()) return {};
+  const ocean::LandMask mask = ocean::make_land_mask(*shore);
+  std::vector<std::vector<float>> kept(trains.size());
+  workers.for_each(trains.size(), [&](std::size_t i, int) {
+    kept[i] = ocean::shelter_train(mask, trains[i], floor.grid);
+  });
+  return kept;
+}
+
 }  // namespace
 
 std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain_size_m) {
@@ -78,7 +91,7 @@ std::string slow_coast_text(const Scene& scene) {
 }
 
 std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::HeightGrid* terrain,
-                                           int threads) {
+                                           const terrain::ShoreMap* shore, int threads) {
   const Coast& coast = scene.coast;
   const ocean::SeaDescription& sea = scene.sea;
   if (coast.model == CoastModel::kNone || !terrain) return std::nullopt;
@@ -91,16 +104,32 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
   std::vector<ocean::WaveTrain> trains = ocean::make_trains(systems, coast.trains, coast.seed);
   for (ocean::WaveTrain& train : trains) train.amplitude_m *= sea.amplitude_scale;
   Workers workers(threads);
+  const terrain::HeightGrid floor =
+      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->grid.size_m())));
   ocean::CoastSea made = ocean::make_coast_sea(
-      sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->grid.size_m()))),
-      systems.front(), trains,
+      floor, systems.front(), trains,
       coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
-      coast.model == CoastModel::kBlend, workers);
+      coast.model == CoastModel::kBlend, workers, shelter_trains(shore, trains, floor, workers));
   // In a sea that loops trains keep their form and change their speed, as all waves do.
   if (sea.loop_s != 0.0)
     for (double& period_s : made.trains.period_s)
       period_s = 1.0 / ocean::looping_frequency(1.0 / period_s, sea.loop_s);
   return made;
+}
+
+std::optional<terrain::ShoreMap> build_shore(const terrain::HeightGrid* terrain, int threads) {
+  if (!terrain) return std::nullopt;
+  Workers workers(threads);
+  return terrain::ShoreMap(*terrain, workers);
+}
+
+std::optional<ocean::Shelter> build_shelter(const Scene& scene, const terrain::ShoreMap* shore,
+                                            int threads) {
+  if (!shore || !shore->has_line()) return std::nullopt;
+  const std::vector<ocean::Beam> beams = ocean::make_beams(scene.sea);
+  if (beams.empty()) return std::nullopt;
+  Workers workers(threads);
+  return ocean::make_shelter(*shore, beams, workers);
 }
 
 }  // namespace swell::scene

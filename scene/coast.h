@@ -7,9 +7,11 @@
 
 #include "math/parallel.h"
 #include "ocean/coast.h"
+#include "ocean/shelter.h"
 #include "scene/check_scene.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
+#include "terrain/shore_map.h"
 
 namespace swell::scene {
 
@@ -30,7 +32,18 @@ std::string slow_coast_text(const Scene& scene);
 // bits with any: 0.2 microseconds of one core a train and cell, 50 ms to 3 s in all. Nothing for
 // scenes without terrain, without wind or with coast.model = "none". Throws SceneError for a grid
 // beyond the bounds.
+// shore: of the terrain; null: land does not shelter the trains.
 std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::HeightGrid* terrain,
+                                           const terrain::ShoreMap* shore,
                                            int threads = available_cpus());
+
+// Where a scene's terrain meets the sea; nothing without terrain.
+std::optional<terrain::ShoreMap> build_shore(const terrain::HeightGrid* terrain,
+                                             int threads = available_cpus());
+
+// What land leaves of the waves of the scene's open sea, with 1 to 256 threads, the same bits with
+// any. Nothing without a shore line or without waves. 0.1 s of one core.
+std::optional<ocean::Shelter> build_shelter(const Scene& scene, const terrain::ShoreMap* shore,
+                                            int threads = available_cpus());
 
 }  // namespace swell::scene

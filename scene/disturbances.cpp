@@ -21,7 +21,8 @@ struct KindName {
 constexpr double kDraughtOfBeam = 0.17;
 
 bool makes_wake(const FloatingObject& object) {
-  const bool is_boat = object.kind == ObjectKind::kBoat || object.kind == ObjectKind::kSailboat;
+  const bool is_boat = object.kind == ObjectKind::kBoat || object.kind == ObjectKind::kSailboat ||
+                       object.kind == ObjectKind::kForm;
   return is_boat && object.wake && object.motion == Motion::kFloat && object.path_m.size() >= 2;
 }
 

@@ -66,9 +66,13 @@ std::string dump_scene(const Scene& scene) {
   return text + tables_text(kSwellKey, swell_parameters(), scene.sea.swells) +
          tables_text(kSinesKey, sine_parameters(), scene.sea.sines) +
          tables_text(kMapsKey, map_parameters(), scene.sea.maps) +
+         tables_text(kCumulusKey, cumulus_parameters(), scene.clouds.cumulus) +
          tables_text(kPathKey, waypoint_parameters(), scene.camera.path) +
          tables_text(kObjectsKey, object_parameters(), scene.objects) +
-         tables_text(kDisturbancesKey, disturbance_parameters(), scene.disturbances);
+         tables_text(kDisturbancesKey, disturbance_parameters(), scene.disturbances) +
+         tables_text(kRiversKey, river_parameters(), scene.rivers) +
+         tables_text(kLakesKey, lake_parameters(), scene.lakes) +
+         tables_text(kTreesKey, tree_parameters(), scene.trees);
 }
 
 }  // namespace swell::scene

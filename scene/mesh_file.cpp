@@ -161,7 +161,7 @@ void fit_object(const MeshOfFile& mesh, FloatingObject& object) {
   const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
   if (!(largest_m >= kSmallest_m && largest_m <= kLargest_m))
     throw std::runtime_error(
-        fmt::format("a mesh of {:.3g} x {:.3g} x {:.3g} m, allowed {} to {} m at the scale {}",
+        fmt::format("a shape of {:.3g} x {:.3g} x {:.3g} m, allowed {} to {} m at the scale {}",
                     size_m.x, size_m.y, size_m.z, kSmallest_m, kLargest_m, object.scale));
   object.size_m = size_m;
   object.middle_m = glm::dvec2(0.0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,18 +10,22 @@
 
 namespace swell::scene {
 
+struct DrawnForm;
+
 struct MeshOfFile {
   std::vector<ObjectMesh> levels;  // finest first
   // The corners of its box in units of the file: right, ahead, up.
   glm::dvec3 low{0.0}, high{0.0};
+  // What is drawn, if the file has a form; the levels stand for it where that does not show.
+  std::shared_ptr<const DrawnForm> form;
 };
 
 // Reads the file in another process (scene/run_importer.h). Throws std::runtime_error in one line
 // that begins with what was found. A million triangles take 3 s.
 MeshOfFile load_mesh(const std::string& file, UpAxis up);
 
-// Gives an object of kind kMesh its file's size, draught and middle. Throws std::runtime_error if
-// it is larger or smaller than objects may be.
+// Gives an object of kind kMesh or kForm its file's size, draught and middle. Throws
+// std::runtime_error if it is larger or smaller than objects may be.
 void fit_object(const MeshOfFile& mesh, FloatingObject& object);
 
 }  // namespace swell::scene

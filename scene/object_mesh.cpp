@@ -134,7 +134,8 @@ ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
       add_rock(builder);
       break;
     case ObjectKind::kMesh:
-      SWELL_CHECK(false, "kind={}", "mesh");
+    case ObjectKind::kForm:
+      SWELL_CHECK(false, "kind={}", "of a file");
       break;
   }
   builder.mesh.error = level_error(kind, segments);
@@ -143,10 +144,11 @@ ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
 
 namespace {
 
-// Calls visit(p) where edges of the mesh pass a height.
+// Calls visit(p) where edges of the part's triangles pass a height.
 template <class Visit>
-void for_cuts(const ObjectMesh& mesh, float z, const Visit& visit) {
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+void for_cuts(const ObjectMesh& mesh, const MeshPart& part, float z, const Visit& visit) {
+  const std::size_t first = 3u * part.first_triangle;
+  for (std::size_t i = first; i < first + 3u * part.triangles; i += 3) {
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::vec3 a = mesh.position[mesh.indices[i + k]];
       const glm::vec3 b = mesh.position[mesh.indices[i + (k + 1) % 3]];
@@ -154,22 +156,6 @@ void for_cuts(const ObjectMesh& mesh, float z, const Visit& visit) {
       visit(glm::vec2(a) + (z - a.z) / (b.z - a.z) * glm::vec2(b - a));
     }
   }
-}
-
-// The box around where the mesh passes a height; half is 0 if it does not. It is round unless
-// something lies near a corner, at the root of 2 from the middle.
-MeshPart cut_at(const ObjectMesh& mesh, float z) {
-  constexpr float kFar = 1e9f, kRound = 1.3f;
-  glm::vec2 low(kFar), high(-kFar);
-  for_cuts(mesh, z, [&](glm::vec2 p) { low = glm::min(low, p), high = glm::max(high, p); });
-  MeshPart part;
-  if (!(low.x < high.x && low.y < high.y)) return part;
-  part.middle = 0.5f * (low + high), part.half = 0.5f * (high - low);
-  for_cuts(mesh, z, [&](glm::vec2 p) {
-    const glm::vec2 from_middle = (p - part.middle) / part.half;
-    if (glm::dot(from_middle, from_middle) > kRound * kRound) part.is_round = false;
-  });
-  return part;
 }
 
 // What stands on a hull hides little of the sky: its sides are as high as they commonly are.
@@ -182,7 +168,7 @@ float hull_top(const FloatingObject& object) {
 
 MeshPart whole_part(const FloatingObject& object, const ObjectMesh& mesh) {
   const auto below = static_cast<float>(object.draught);
-  MeshPart part;
+  MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
   switch (object.kind) {
     case ObjectKind::kBuoy:
       part.half = glm::vec2(0.5f), part.top = 0.28f;
@@ -194,7 +180,8 @@ MeshPart whole_part(const FloatingObject& object, const ObjectMesh& mesh) {
       part.half = glm::vec2(0.5f), part.is_round = false;
       break;
     default:
-      part = cut_at(mesh, below), part.top = hull_top(object);
+      set_waterline(mesh, below, part);
+      part.top = hull_top(object);
       break;
   }
   return part;
@@ -202,11 +189,23 @@ MeshPart whole_part(const FloatingObject& object, const ObjectMesh& mesh) {
 
 }  // namespace
 
+// The box around where the triangles pass the height. It is round unless something lies near a
+// corner, at the root of 2 from the middle.
+void set_waterline(const ObjectMesh& mesh, float z, MeshPart& part) {
+  constexpr float kFar = 1e9f, kRound = 1.3f;
+  glm::vec2 low(kFar), high(-kFar);
+  for_cuts(mesh, part, z, [&](glm::vec2 p) { low = glm::min(low, p), high = glm::max(high, p); });
+  if (!(low.x < high.x && low.y < high.y)) return;
+  part.middle = 0.5f * (low + high), part.half = 0.5f * (high - low);
+  for_cuts(mesh, part, z, [&](glm::vec2 p) {
+    const glm::vec2 from_middle = (p - part.middle) / part.half;
+    if (glm::dot(from_middle, from_middle) > kRound * kRound) part.is_round = false;
+  });
+}
+
 std::vector<MeshPart> mesh_parts(const FloatingObject& object, const ObjectMesh& mesh) {
   if (!mesh.parts.empty()) return mesh.parts;
-  MeshPart part = whole_part(object, mesh);
-  part.triangles = static_cast<std::uint32_t>(mesh.triangles.size());
-  return {part};
+  return {whole_part(object, mesh)};
 }
 
 }  // namespace swell::scene

@@ -59,8 +59,11 @@ inline constexpr std::array<int, 3> kLevelSegments = {24, 8, 4};
 
 // Surfaces without a hole to see, outside out; sails are seen from both sides. Round parts have
 // `segments` sides, in [4, 32]; the error is that against 24 of them. At most 2048 triangles. Not
-// of kMesh (scene/mesh_file.h).
+// of kMesh or kForm (scene/mesh_file.h).
 ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments);
+
+// Gives a part whose triangles are known the plan that they have at a height, if they pass it.
+void set_waterline(const ObjectMesh& mesh, float z, MeshPart& part);
 
 // The parts of the mesh that the object has, with their waterlines at its draught.
 std::vector<MeshPart> mesh_parts(const FloatingObject& object, const ObjectMesh& mesh);

@@ -41,18 +41,18 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
   using ObjectRow = Row<FloatingObject>;
   auto file = ObjectRow::plain<std::string>(
       "file", ParameterKind::kPath, SWELL_FIELD(file),
-      "of a mesh: OBJ, glTF, GLB, STL or COLLADA, relative to the scene file");
+      "of a mesh: OBJ, glTF, GLB, STL or COLLADA; of a form: TOML; relative to the scene file");
   file.path_of = "mesh";
   file.is_set = [](const FloatingObject& object) { return !object.file.empty(); };
-  // A mesh has its file's.
-  auto size = ObjectRow::vector(
-      "size_m", {0.05, 500, "m"}, SWELL_FIELD(size_m),
-      "across, along its heading, and from its lowest point to the top; a mesh has its file's");
-  size.is_set = [](const FloatingObject& object) { return object.kind != ObjectKind::kMesh; };
+  // A mesh and a form have their file's.
+  auto size = ObjectRow::vector("size_m", {0.05, 500, "m"}, SWELL_FIELD(size_m),
+                                "across, along its heading, and from its lowest point to the top; "
+                                "a mesh or form has its file's");
+  size.is_set = [](const FloatingObject& object) { return !is_of_file(object.kind); };
   auto draught = ObjectRow::number("draught", {0, 1}, SWELL_FIELD(draught),
                                    "part of its height that lies below still water");
   draught.is_set = [](const FloatingObject& object) {
-    return object.kind != ObjectKind::kMesh || !object.at_file_origin;
+    return !is_of_file(object.kind) || !object.at_file_origin;
   };
   return {
       ObjectRow::choice("kind", ObjectKindName{},
@@ -61,10 +61,13 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::vector("position_m", {-1e6, 1e6, "m"}, SWELL_FIELD(position_m),
                         "of its middle: east, north"),
       ObjectRow::choice("motion", MotionName{},
-                        "whether the water sets its height and tilt, or it stands upright at "
-                        "height_m; fixed for a pier, a lighthouse and a rock"),
+                        "whether the water sets its height and tilt, or it stands at height_m, "
+                        "upright but for roll_deg; fixed for a pier, a lighthouse and a rock"),
       ObjectRow::number("height_m", {-12000, 12000, "m"}, SWELL_FIELD(height_m),
                         "of a fixed object's waterline over the mean sea level"),
+      ObjectRow::angle("roll_deg", {-180, 180, "deg"}, SWELL_FIELD(roll_rad),
+                       "of a fixed object, about the line along its heading: an aircraft in a "
+                       "turn; positive lowers its right side"),
       ObjectRow::points("path_m", {-1e6, 1e6, "m"}, 2, kMaxPathPoints, SWELL_FIELD(path_m),
                         "it goes along the line through these points [east, north], from the "
                         "first at t = 0, in place of position_m and heading_deg"),
@@ -72,8 +75,9 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::plain<bool>("path_closed", ParameterKind::kBoolean, SWELL_FIELD(path_closed),
                              "path_m goes on from its last point to the first, round and round; "
                              "false: the object stops at the last"),
-      ObjectRow::plain<bool>("wake", ParameterKind::kBoolean, SWELL_FIELD(wake),
-                             "a boat or sailboat that floats along path_m makes waves and foam"),
+      ObjectRow::plain<bool>(
+          "wake", ParameterKind::kBoolean, SWELL_FIELD(wake),
+          "a boat, sailboat or form that floats along path_m makes waves and foam"),
       size,
       ObjectRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
                        "where it points, clockwise from north"),
@@ -91,9 +95,10 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::choice("up", UpAxisName{},
                         "axis of the file that points up; auto: z of STL, else y"),
       ObjectRow::number("scale", {1e-4, 1e4, "m"}, SWELL_FIELD(scale), "of a unit of the file"),
-      ObjectRow::choice("origin", OriginName{},
-                        "what of a mesh is at position_m, at its waterline: the middle of its box, "
-                        "sunk by draught, or the file's origin"),
+      ObjectRow::choice(
+          "origin", OriginName{},
+          "what of a mesh or form is at position_m, at its waterline: the middle of its box, "
+          "sunk by draught, or the file's origin"),
       ObjectRow::optional_text("name", SWELL_FIELD(name),
                                "by which camera.mount may call it; no two alike"),
       ObjectRow::optional_text("class", SWELL_FIELD(label),

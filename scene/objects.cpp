@@ -54,6 +54,12 @@ glm::dmat3 upright_frame(glm::dvec2 right, glm::dvec2 ahead, glm::dvec2 slope) {
   return {side, glm::cross(up, side), up};
 }
 
+// The frame turned about `ahead`, so that its right side goes down.
+glm::dmat3 rolled(const glm::dmat3& frame, double roll_rad) {
+  const double s = sin(roll_rad), c = cos(roll_rad);
+  return {c * frame[0] - s * frame[2], frame[1], c * frame[2] + s * frame[0]};
+}
+
 // --- Along a path
 
 double length_of(std::span<const glm::dvec2> path, bool closed) {
@@ -113,9 +119,11 @@ ObjectPose pose_of(const FloatingObject& object, const ocean::WaterSurface& surf
   const glm::dvec2 ahead(sin(at.heading_rad), cos(at.heading_rad));
   const glm::dvec2 right(ahead.y, -ahead.x);
   const Plane water = water_under(object, at.position_m, right, ahead, surface, plan);
-  const bool floats = object.motion == Motion::kFloat;
-  return {glm::dvec3(at.position_m, floats ? water.height_m : object.height_m),
-          upright_frame(right, ahead, (floats ? kTiltShare : 0.0) * water.slope), water.height_m};
+  if (object.motion == Motion::kFloat)
+    return {glm::dvec3(at.position_m, water.height_m),
+            upright_frame(right, ahead, kTiltShare * water.slope), water.height_m};
+  return {glm::dvec3(at.position_m, object.height_m),
+          rolled(upright_frame(right, ahead, glm::dvec2(0.0)), object.roll_rad), water.height_m};
 }
 
 struct Commonly {
@@ -139,7 +147,8 @@ constexpr std::array<Commonly, 5> kCommonly = {{
 FloatingObject common_object(ObjectKind kind) {
   FloatingObject object;
   object.kind = kind;
-  if (kind < ObjectKind::kBoat || kind == ObjectKind::kMesh) return object;
+  object.at_file_origin = kind == ObjectKind::kForm;  // its waterline is its z = 0
+  if (kind < ObjectKind::kBoat || is_of_file(kind)) return object;
   const Commonly& commonly =
       kCommonly[static_cast<std::size_t>(kind) - static_cast<std::size_t>(ObjectKind::kBoat)];
   object.size_m = commonly.size_m;

@@ -28,9 +28,10 @@ enum class ObjectKind : std::uint8_t {
   kLighthouse,  // a tower with bands, a gallery and a lantern
   kRock,        // a boulder
   kMesh,        // of a file
+  kForm,        // of functions (scene/form.h), of a file
 };
-inline constexpr std::array<std::string_view, 9> kObjectKindNames = {
-    "buoy", "sphere", "box", "boat", "sailboat", "pier", "lighthouse", "rock", "mesh"};
+inline constexpr std::array<std::string_view, 10> kObjectKindNames = {
+    "buoy", "sphere", "box", "boat", "sailboat", "pier", "lighthouse", "rock", "mesh", "form"};
 
 // What sets an object's height and tilt.
 enum class Motion : std::uint8_t {
@@ -57,6 +58,7 @@ struct FloatingObject {
 
   Motion motion = Motion::kFloat;
   double height_m = 0.0;  // fixed: of its waterline over the mean sea level
+  double roll_rad = 0.0;  // fixed: about where it points; positive lowers its right side
   // East, north: it goes along this line, turned as its ends on the line are, in place of the
   // position and the heading. It begins at the first point at t = 0.
   std::vector<glm::dvec2> path_m{};
@@ -69,17 +71,21 @@ struct FloatingObject {
   double metalness = 0.0;
   double checker_m = 0.0;  // side of its squares, every second one nearly black; 0: none
 
-  // Of a mesh.
+  // Of a mesh or a form.
   std::string file{};
   std::string
       file_place{};  // where a scene file names it, for messages: "harbour.toml:12: column 8"
   UpAxis up = UpAxis::kByFormat;
   double scale = 1.0;           // metres for a unit of the file
   bool at_file_origin = false;  // the position is that of the file's origin, at the waterline
-  // Of a mesh that render::World has read, whose size_m and draught are then the file's: how far
+  // Of one that render::World has read, whose size_m and draught are then the file's: how far
   // right and ahead of the origin the middle of its box lies.
   glm::dvec2 middle_m{0.0};
 };
+
+inline bool is_of_file(ObjectKind kind) {
+  return kind == ObjectKind::kMesh || kind == ObjectKind::kForm;
+}
 
 // An object of the kind as it is commonly built: size, draught, colour, and whether it floats.
 FloatingObject common_object(ObjectKind kind);

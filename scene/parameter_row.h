@@ -65,6 +65,22 @@ struct Row {
     return row;
   }
 
+  // A field in radians that may hold none.
+  template <class Field>
+  static Parameter<Object> optional_angle(std::string_view key, Range range, Field,
+                                          std::string_view meaning) {
+    Parameter<Object> row = ranged(key, ParameterKind::kNumber, range, meaning);
+    row.get = [](const Object& object) -> Value {
+      const double rad = Field{}(object).value_or(0.0);
+      return std::vector<double>{shortest_preimage(rad, rad / kRadPerDeg, radians)};
+    };
+    row.set = [](Object& object, const Value& value) {
+      Field{}(object) = radians(std::get<std::vector<double>>(value)[0]);
+    };
+    row.is_set = [](const Object& object) { return Field{}(object).has_value(); };
+    return row;
+  }
+
   // A number or angle that may be 0 although its range begins above.
   static Parameter<Object> or_zero(Parameter<Object> row) {
     row.zero_too = true;

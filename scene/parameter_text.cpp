@@ -104,7 +104,11 @@ template std::string allowed_text(const Parameter<ocean::SineWave>&);
 template std::string allowed_text(const Parameter<ocean::MapLayer>&);
 template std::string allowed_text(const Parameter<FloatingObject>&);
 template std::string allowed_text(const Parameter<ocean::Disturbance>&);
+template std::string allowed_text(const Parameter<ocean::River>&);
+template std::string allowed_text(const Parameter<ocean::Lake>&);
+template std::string allowed_text(const Parameter<terrain::TreeStand>&);
 template std::string allowed_text(const Parameter<Waypoint>&);
+template std::string allowed_text(const Parameter<Cumulus>&);
 
 template <class Object>
 std::string toml_text(const Parameter<Object>& parameter, const Object& object) {
@@ -136,6 +140,10 @@ template std::string toml_text(const Parameter<ocean::SineWave>&, const ocean::S
 template std::string toml_text(const Parameter<ocean::MapLayer>&, const ocean::MapLayer&);
 template std::string toml_text(const Parameter<FloatingObject>&, const FloatingObject&);
 template std::string toml_text(const Parameter<ocean::Disturbance>&, const ocean::Disturbance&);
+template std::string toml_text(const Parameter<ocean::River>&, const ocean::River&);
+template std::string toml_text(const Parameter<ocean::Lake>&, const ocean::Lake&);
+template std::string toml_text(const Parameter<terrain::TreeStand>&, const terrain::TreeStand&);
 template std::string toml_text(const Parameter<Waypoint>&, const Waypoint&);
+template std::string toml_text(const Parameter<Cumulus>&, const Cumulus&);
 
 }  // namespace swell::scene

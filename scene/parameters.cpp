@@ -20,6 +20,16 @@ struct TriangulationName {
   auto& operator()(auto& scene) const { return scene.detail.triangulation; }
 };
 
+struct TerrainMethodName {
+  static constexpr std::array<std::string_view, 2> words = {"roam", "rays"};
+  auto& operator()(auto& scene) const { return scene.detail.terrain_method; }
+};
+
+struct InterpolationName {
+  static constexpr std::array<std::string_view, 2> words = {"bilinear", "bicubic"};
+  auto& operator()(auto& scene) const { return scene.terrain->bicubic; }
+};
+
 struct EarthName {
   static constexpr std::array<std::string_view, 2> words = {"flat", "round"};
   auto& operator()(auto& scene) const { return scene.round_earth; }
@@ -79,6 +89,16 @@ struct CoastModelName {
 struct CoastMethod {
   static constexpr std::array<std::string_view, 2> words = {"straight", "eikonal"};
   auto& operator()(auto& scene) const { return scene.coast.eikonal; }
+};
+
+struct CloudKindName {
+  static constexpr std::array<std::string_view, 3> words = {"none", "layer", "placed"};
+  auto& operator()(auto& scene) const { return scene.clouds.kind; }
+};
+
+struct CloudRaysName {
+  static constexpr std::array<std::string_view, 2> words = {"volume", "rays"};
+  auto& operator()(auto& scene) const { return scene.clouds.rays; }
 };
 
 #define SWELL_FIELD(PATH) \
@@ -143,7 +163,22 @@ Rows sky_rows() {
       SceneRow::number("sky.turbidity", {1, 10}, SWELL_FIELD(sky.turbidity),
                        "haze of the atmosphere: optical depth over that of pure air"),
       SceneRow::number("sky.moon_phase", {0, 1}, SWELL_FIELD(sky.moon_phase),
-                       "lit part of the moon's disc; the moon stands opposite the sun"),
+                       "lit part of the moon's disc"),
+      SceneRow::optional_angle("sky.moon_azimuth_deg", {-360, 360, "deg"},
+                               SWELL_FIELD(sky.moon_azimuth_rad),
+                               "where the moon stands, clockwise from north; opposite the sun if "
+                               "left out"),
+      SceneRow::optional_angle("sky.moon_elevation_deg", {-90, 90, "deg"},
+                               SWELL_FIELD(sky.moon_elevation_rad),
+                               "above the horizon; as far as the sun is below it if left out"),
+      SceneRow::optional_text(
+          "sky.time_utc", SWELL_FIELD(sky.time_utc),
+          "\"2026-06-21T12:00:00Z\", 1900 to 2100: when sun and moon stand, "
+          "and the moon is lit, as they are at t = 0; excludes their five keys"),
+      SceneRow::angle("sky.latitude_deg", {-90, 90, "deg"}, SWELL_FIELD(sky.latitude_rad),
+                      "of the place, north positive; of `time_utc` and the stars"),
+      SceneRow::angle("sky.longitude_deg", {-180, 180, "deg"}, SWELL_FIELD(sky.longitude_rad),
+                      "of the place, east positive"),
       SceneRow::optional_vector("sky.sun_radiance", {0, 1000}, SWELL_FIELD(sky.sun_radiance),
                                 "of a gradient: linear RGB, strength of direct sunlight, 1 if "
                                 "left out"),
@@ -168,6 +203,43 @@ Rows sky_rows() {
           "sky.exposure", {1e-6, 1e9}, SWELL_FIELD(sky.exposure),
           "multiplies radiance, in 10 000 cd/m^2, or in its own unit for a gradient; if left out "
           "it follows from the sky's light, and is 1 for a gradient"),
+  };
+}
+
+Rows cloud_rows() {
+  return {
+      SceneRow::choice("clouds.kind", CloudKindName{},
+                       "volumetric clouds: none, a layer to the horizon, or those of "
+                       "[[clouds.cumulus]]; `sky.cloud_cover` is of another, thin layer above"),
+      SceneRow::number("clouds.base_m", {50, 12000, "m"}, SWELL_FIELD(clouds.base_m),
+                       "height of their flat lower side"),
+      SceneRow::number("clouds.top_m", {100, 20000, "m"}, SWELL_FIELD(clouds.top_m),
+                       "height that the tallest of a layer reach, 100 m to 8000 m over the base"),
+      SceneRow::number("clouds.cover", {0, 1}, SWELL_FIELD(clouds.cover),
+                       "of a layer: part of the plane that lies under clouds"),
+      SceneRow::number("clouds.size_m", {300, 20000, "m"}, SWELL_FIELD(clouds.size_m),
+                       "of a layer: length of its largest forms, about from cloud to cloud; it "
+                       "repeats itself after 8 of them"),
+      SceneRow::number("clouds.extinction_per_m", {0.001, 1, "1/m"},
+                       SWELL_FIELD(clouds.extinction_per_m),
+                       "light lost a metre inside clouds; cumulus have 0.02 to 0.1"),
+      SceneRow::number("clouds.towers", {0, 1}, SWELL_FIELD(clouds.towers),
+                       "of a layer: 0 makes tops of much the same height, 1 a few that tower"),
+      SceneRow::number("clouds.raggedness", {0, 1}, SWELL_FIELD(clouds.raggedness),
+                       "how deep small forms cut into the edges"),
+      SceneRow::number("clouds.threshold", {0, 0.9}, SWELL_FIELD(clouds.threshold),
+                       "cuts off what is thinner than this part of the full density"),
+      SceneRow::number("clouds.wind_factor", {0, 5}, SWELL_FIELD(clouds.wind_factor),
+                       "how much faster they drift than the wind at 10 m"),
+      SceneRow::number("clouds.change_mps", {0, 20, "m/s"}, SWELL_FIELD(clouds.change_mps),
+                       "how fast small forms rise through their edges"),
+      SceneRow::choice("clouds.rays", CloudRaysName{},
+                       "how sunlight is found in them: in a volume of depths towards the sun, or "
+                       "along a second ray from each sample, which takes several times as long"),
+      SceneRow::plain<bool>("clouds.powder", Kind::kBoolean, SWELL_FIELD(clouds.powder),
+                            "darkens edges on the sun's side, for the look; it loses light"),
+      SceneRow::integer("clouds.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(clouds.seed),
+                        "another number, other clouds"),
   };
 }
 
@@ -388,6 +460,12 @@ Rows terrain_rows() {
                        SWELL_FIELD(terrain->island_height_m), "of the hills above the beach"),
       SceneRow::number("terrain.floor_depth_m", {0.5, 10000, "m"},
                        SWELL_FIELD(terrain->floor_depth_m), "of the sea around"),
+      SceneRow::integer("terrain.islands", Kind::kInteger, {1, 200}, SWELL_FIELD(terrain->islands),
+                        "how many, of which the first has the measures above and the others are "
+                        "0.2 to 0.8 times as large; those that find no room are left out"),
+      SceneRow::number("terrain.archipelago_size_m", {100, 100000, "m"},
+                       SWELL_FIELD(terrain->archipelago_size_m),
+                       "side of the square on which several islands lie"),
       SceneRow::points("terrain.coast_m", {-1e6, 1e6, "m"}, 2, kMaxCoastPoints,
                        SWELL_FIELD(terrain->coast_m),
                        "a beach along this line instead of an island: [east, north] of its points, "
@@ -403,6 +481,28 @@ Rows terrain_rows() {
                                          SWELL_FIELD(terrain->checker_m),
                                          "side of white and black squares in place of the "
                                          "ground's colours; 0: none")),
+      SceneRow::vector("terrain.sand_colour", {0, 1}, SWELL_FIELD(terrain->ground.sand),
+                       "reflectance of dry sand, linear RGB"),
+      SceneRow::vector("terrain.grass_colour", {0, 1}, SWELL_FIELD(terrain->ground.grass),
+                       "of what grows where it is wet"),
+      SceneRow::vector("terrain.dry_colour", {0, 1}, SWELL_FIELD(terrain->ground.dry),
+                       "of reeds and dry grass"),
+      SceneRow::vector("terrain.soil_colour", {0, 1}, SWELL_FIELD(terrain->ground.soil),
+                       "of bare ground above the beach"),
+      SceneRow::vector("terrain.rock_colour", {0, 1}, SWELL_FIELD(terrain->ground.rock), "of rock"),
+      SceneRow::number("terrain.grass_from_m", {0, 10000, "m"},
+                       SWELL_FIELD(terrain->ground.grass_from_m),
+                       "height above the sea from which things grow"),
+      SceneRow::number("terrain.rock_slope", {0.05, 100}, SWELL_FIELD(terrain->ground.rock_slope),
+                       "rise over way from which the ground is rock"),
+      SceneRow::choice("terrain.method", TerrainMethodName{},
+                       "how the land is drawn: triangles, or a ray for every pixel"),
+      SceneRow::choice("terrain.interpolation", InterpolationName{},
+                       "of the heights between samples; bicubic: with method = \"rays\""),
+      SceneRow::optional_number("terrain.outline_m", {-11000, 9000, "m"},
+                                SWELL_FIELD(terrain->outline_m),
+                                "land and floor lower than this are not drawn, so that heights cut "
+                                "an outline; with method = \"rays\""),
   };
 }
 
@@ -412,8 +512,8 @@ Rows scene_parameters() {
   Rows rows = {
       SceneRow::plain<std::string>("name", Kind::kText, SWELL_FIELD(name),
                                    "of the scene in reports; the file's stem if left out")};
-  for (const Rows& part : {camera_rows(), sky_rows(), sea_rows(), water_rows(), ripple_rows(),
-                           coast_rows(), terrain_rows()})
+  for (const Rows& part : {camera_rows(), sky_rows(), air_parameters(), cloud_rows(), sea_rows(),
+                           water_rows(), ripple_rows(), coast_rows(), terrain_rows()})
     rows.insert(rows.end(), part.begin(), part.end());
   return rows;
 }
@@ -465,6 +565,21 @@ std::vector<Parameter<ocean::Swell>> swell_parameters() {
       SwellRow::number("gamma", {1, 20}, SWELL_FIELD(gamma), "enhancement of the peak"),
       SwellRow::angle("spread_deg", {1, 60, "deg"}, SWELL_FIELD(spread_rad),
                       "standard deviation of the directions"),
+  };
+}
+
+std::vector<Parameter<Cumulus>> cumulus_parameters() {
+  using CumulusRow = Row<Cumulus>;
+  return {
+      CumulusRow::vector("position_m", {-20000, 20000, "m"}, SWELL_FIELD(position_m),
+                         "of its middle at t = 0: east, north"),
+      CumulusRow::number("width_m", {200, 10000, "m"}, SWELL_FIELD(width_m), "across"),
+      CumulusRow::number("height_m", {100, 8000, "m"}, SWELL_FIELD(height_m),
+                         "of its top over `base_m`"),
+      CumulusRow::integer("lobes", Kind::kInteger, {0, 64}, SWELL_FIELD(lobes),
+                          "perturbations of its form; 0: an ellipsoid"),
+      CumulusRow::integer("seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(seed),
+                          "another number, other lobes"),
   };
 }
 

@@ -53,6 +53,9 @@ struct Parameter {
 // Keys of the scene, in the order of docs/scene.md. Those of "terrain." need scene.terrain.
 std::vector<Parameter<Scene>> scene_parameters();
 
+// Those of them that stand under [air].
+std::vector<Parameter<Scene>> air_parameters();
+
 // Keys of one table of [[sea.swell]].
 std::vector<Parameter<ocean::Swell>> swell_parameters();
 
@@ -61,6 +64,9 @@ std::vector<Parameter<ocean::SineWave>> sine_parameters();
 
 // Keys of one table of [[sea.maps]].
 std::vector<Parameter<ocean::MapLayer>> map_parameters();
+
+// Keys of one table of [[clouds.cumulus]].
+std::vector<Parameter<Cumulus>> cumulus_parameters();
 
 // Keys of one table of [[camera.path]].
 std::vector<Parameter<Waypoint>> waypoint_parameters();
@@ -71,18 +77,36 @@ std::vector<Parameter<FloatingObject>> object_parameters();
 // Keys of one table of [[disturbance]].
 std::vector<Parameter<ocean::Disturbance>> disturbance_parameters();
 
-inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 2000, kMaxDisturbances = 256;
+// Keys of one table of [[river]], and of [[lake]].
+std::vector<Parameter<ocean::River>> river_parameters();
+std::vector<Parameter<ocean::Lake>> lake_parameters();
+
+// Keys of one table of [[trees]].
+std::vector<Parameter<terrain::TreeStand>> tree_parameters();
+
+inline constexpr std::size_t kMaxWaypoints = 200, kMaxObjects = 2000, kMaxDisturbances = 256,
+                             kMaxTreeStands = 16;
+inline constexpr std::size_t kMaxRivers = 64, kMaxLakes = 64;
+inline constexpr int kMaxRiverPoints = 200;
 inline constexpr int kMaxCoastPoints = 200, kMaxPathPoints = 100;
 inline constexpr std::size_t kMaxTextBytes = 200;
 inline constexpr std::string_view kSwellKey = "sea.swell", kSinesKey = "sea.sines",
                                   kMapsKey = "sea.maps", kPathKey = "camera.path",
-                                  kObjectsKey = "object", kDisturbancesKey = "disturbance";
+                                  kCumulusKey = "clouds.cumulus", kObjectsKey = "object",
+                                  kDisturbancesKey = "disturbance", kTreesKey = "trees",
+                                  kRiversKey = "river", kLakesKey = "lake";
 
 // A key that may be without a value, and one whose place it takes: a file has only one of them.
 struct Replacement {
   std::string_view key, replaced;
 };
-inline constexpr std::array<Replacement, 9> kReplacements = {{
+inline constexpr std::array<Replacement, 15> kReplacements = {{
+    {"air.attenuation_per_m", "air.visibility_m"},
+    {"sky.time_utc", "sky.sun_azimuth_deg"},
+    {"sky.time_utc", "sky.sun_elevation_deg"},
+    {"sky.time_utc", "sky.moon_azimuth_deg"},
+    {"sky.time_utc", "sky.moon_elevation_deg"},
+    {"sky.time_utc", "sky.moon_phase"},
     {"camera.quaternion", "camera.heading_deg"},
     {"camera.quaternion", "camera.pitch_deg"},
     {"camera.quaternion", "camera.roll_deg"},

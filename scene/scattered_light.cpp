@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "math/elementary.h"
 
@@ -12,6 +13,9 @@ namespace {
 constexpr int kDirections = kElevations * kAzimuths, kCircle = 2 * kAzimuths, kGatherSteps = 14;
 constexpr int kPoints = kSourceHeights * kSourceSines, kHazePoints = kHazeHeights * kSourceSines;
 constexpr int kSamples = 4;  // of a cell, along each of its sides
+
+constexpr int kOrders = 5;  // that are gathered; 14 differ by less than 1 %
+constexpr float kMostRatio = 0.7f;
 
 // ---- Directions
 
@@ -28,7 +32,8 @@ using Cells = std::array<float, static_cast<std::size_t>(kElevations* kCircle)>;
 
 // The part of light from a direction that haze scatters into each cell; their sum is 1. The peak
 // of the phase function is narrower than a cell, which is why it is integrated.
-Cells scatter_into_cells(double sine, double azimuth_turns) {
+template <class Phase>
+Cells scatter_into_cells(double sine, double azimuth_turns, const Phase& phase) {
   Cells cells;
   double sum = 0.0;
   for (int i = 0; i < kElevations; ++i)
@@ -42,7 +47,7 @@ Cells scatter_into_cells(double sine, double azimuth_turns) {
           const double turns = (k + (b + 0.5) / kSamples) / kCircle - azimuth_turns;
           const double cos_theta =
               sine * z + cosine_of(sine) * cosine_of(z) * sin_cos_turns(turns).cos;
-          part += (high - low) * mie_phase(std::min(cos_theta, 1.0));
+          part += (high - low) * phase(std::min(cos_theta, 1.0));
         }
       }
       cells[static_cast<std::size_t>(i * kCircle + k)] = static_cast<float>(part);
@@ -58,22 +63,28 @@ struct Directions {
   std::array<float, kElevations> part;   // of the sphere, that one azimuth and its mirror have
   std::array<double, kAzimuths> cos_azimuth;
   std::vector<float> sun_phase;  // mean of a cell: by direction and sine of the light's elevation
-  std::vector<float> haze_part;  // of light from a direction (columns) into another (rows)
+  std::vector<float> repeated_sun_phase;  // the same of repeated_mie_phase()
+  std::vector<float> haze_part;           // of light from a direction (columns) into another (rows)
 };
 
 void fill_phases(Workers& workers, Directions& all) {
   all.sun_phase.resize(std::size_t{kDirections} * kSourceSines);
+  all.repeated_sun_phase.resize(std::size_t{kDirections} * kSourceSines);
   workers.for_each(kSourceSines, [&](std::size_t column, int) {
-    const Cells cells = scatter_into_cells(source_sine(static_cast<int>(column)), 0.0);
-    for (int i = 0; i < kElevations; ++i)
-      for (int k = 0; k < kAzimuths; ++k)
-        all.sun_phase[static_cast<std::size_t>(i * kAzimuths + k) * kSourceSines + column] =
-            cells[static_cast<std::size_t>(i * kCircle + k)] /
-            (static_cast<float>(2.0 * kPi) * all.part[static_cast<std::size_t>(i)]);
+    const double sine = source_sine(static_cast<int>(column));
+    const Cells once = scatter_into_cells(sine, 0.0, mie_phase);
+    const Cells repeated = scatter_into_cells(sine, 0.0, repeated_mie_phase);
+    for (std::size_t i = 0; i < kElevations; ++i)
+      for (std::size_t k = 0; k < kAzimuths; ++k) {
+        const std::size_t at = (i * kAzimuths + k) * kSourceSines + column;
+        const float solid_angle = static_cast<float>(2.0 * kPi) * all.part[i];
+        all.sun_phase[at] = once[i * kCircle + k] / solid_angle;
+        all.repeated_sun_phase[at] = repeated[i * kCircle + k] / solid_angle;
+      }
   });
   all.haze_part.resize(std::size_t{kDirections} * kDirections);
   workers.for_each(kElevations, [&](std::size_t to, int) {
-    const Cells cells = scatter_into_cells(all.sine[to], 0.5 / kCircle);
+    const Cells cells = scatter_into_cells(all.sine[to], 0.5 / kCircle, mie_phase);
     for (int to_azimuth = 0; to_azimuth < kAzimuths; ++to_azimuth)
       for (int i = 0; i < kElevations; ++i)
         for (int k = 0; k < kAzimuths; ++k) {
@@ -192,18 +203,19 @@ Means gather_again(const Means& source, const Directions& directions, Workers& w
       workers);
 }
 
-// Orders after the third shrink as the third did against the second.
-std::vector<glm::vec3> add_orders(const std::vector<glm::vec3>& first,
-                                  const std::vector<glm::vec3>& second,
-                                  const std::vector<glm::vec3>& third) {
-  std::vector<glm::vec3> sum;
-  sum.reserve(first.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
+void add(const std::vector<glm::vec3>& more, std::vector<glm::vec3>& sum) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
+}
+
+// Orders after the last shrink as it did. In thick haze the first few may grow, which says nothing
+// of those that follow.
+void add_later_orders(const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& last,
+                      std::vector<glm::vec3>& sum) {
+  for (std::size_t i = 0; i < sum.size(); ++i) {
     const glm::vec3 ratio =
-        glm::clamp(third[i] / glm::max(second[i], glm::vec3(1e-30f)), 0.0f, 0.9f);
-    sum.push_back(first[i] + second[i] + third[i] / (1.0f - ratio));
+        glm::clamp(last[i] / glm::max(before[i], glm::vec3(1e-30f)), 0.0f, kMostRatio);
+    sum[i] += last[i] * ratio / (1.0f - ratio);
   }
-  return sum;
 }
 
 // Catmull and Rom's weights of the entries -1, 0, 1 and 2 at t in [0, 1].
@@ -217,11 +229,23 @@ std::array<float, 4> cubic_weights(float t) {
 
 void fill_scattered_light(Atmosphere& atmosphere, Workers& workers) {
   const Directions directions = make_directions(atmosphere.air, workers);
-  const Means first = gather_first(atmosphere, directions, workers);
-  const Means second = gather_again(first, directions, workers);
-  const Means third = gather_again(second, directions, workers);
-  atmosphere.multiple = add_orders(first.all, second.all, third.all);
-  atmosphere.haze = add_orders(first.haze, second.haze, third.haze);
+  Means sum = gather_first(atmosphere, directions, workers), before, last = sum;
+  for (int order = 2; order <= kOrders; ++order) {
+    before = std::move(last);
+    last = gather_again(before, directions, workers);
+    add(last.all, sum.all);
+    add(last.haze, sum.haze);
+  }
+  add_later_orders(before.all, last.all, sum.all);
+  add_later_orders(before.haze, last.haze, sum.haze);
+
+  // Over the phase function of a few orders, which is narrower than a cell.
+  for (std::size_t i = 0; i < sum.haze.size(); ++i) {
+    const std::size_t direction = i / kHazePoints, column = i % kSourceSines;
+    sum.haze[i] /= directions.repeated_sun_phase[direction * kSourceSines + column];
+  }
+  atmosphere.multiple = std::move(sum.all);
+  atmosphere.haze = std::move(sum.haze);
 }
 
 HazeRow haze_row(const Atmosphere& atmosphere, double sine) {
@@ -267,6 +291,8 @@ AzimuthBlend blend_azimuths(double turns) {
 
 glm::vec3 scatter_light_again(const Atmosphere& atmosphere, const HazeRow& haze,
                               const AzimuthBlend& blend, const Path& path, LightAngles light) {
+  const double cos_theta = light.up * path.sine + light.ahead * cosine_of(path.sine);
+  const auto phase = static_cast<float>(repeated_mie_phase(cos_theta));
   return scatter_again(
       atmosphere.multiple,
       [&](Between row, Between column) {
@@ -275,7 +301,7 @@ glm::vec3 scatter_light_again(const Atmosphere& atmosphere, const HazeRow& haze,
           sum += blend.weight[j] *
                  interpolate(haze.at[static_cast<std::size_t>(blend.azimuth[j])].data(),
                              kSourceSines, row, column);
-        return sum;
+        return phase * sum;
       },
       path, light);
 }

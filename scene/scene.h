@@ -13,13 +13,16 @@
 #include <vector>
 
 #include "ocean/disturbance.h"
+#include "ocean/river.h"
 #include "ocean/sea.h"
 #include "ocean/sea_area.h"
 #include "scene/camera.h"
+#include "scene/clouds.h"
 #include "scene/objects.h"
 #include "scene/scene_error.h"
 #include "scene/water_types.h"
 #include "terrain/terrain.h"
+#include "terrain/trees.h"
 
 namespace swell::scene {
 
@@ -36,6 +39,12 @@ struct Sky {
   SkyModel model = SkyModel::kAtmosphere;
   double turbidity = 2.2;   // of the atmosphere, [1, 10]
   double moon_phase = 1.0;  // lit part of the moon's disc, [0, 1]
+  // Where the moon stands; none: opposite the sun.
+  std::optional<double> moon_azimuth_rad, moon_elevation_rad;
+  // "2026-06-21T12:00:00Z", when sun and moon stand where they do in the file; empty: as given.
+  std::string time_utc;
+  double latitude_rad = radians(45.0);  // north positive
+  double longitude_rad = 0.0;           // east positive
   // The gradient's (scene::gradient_of). A sky that has one of them is a gradient.
   std::optional<glm::vec3> sun_radiance, zenith, horizon;
   double haze_distance_m = 15000.0;  // at sea level 1/e of the contrast is left at this range
@@ -45,6 +54,32 @@ struct Sky {
   std::optional<double> exposure;  // none: that of the sky's light, 1 for a gradient
 
   bool operator==(const Sky&) const = default;
+};
+
+// How fog thins with height.
+enum class FogProfile : std::uint8_t {
+  kSlab,         // evenly thick up to its top, nothing above
+  kExponential,  // 1/e of it is left at its top
+};
+
+// How fog scatters the sun's light to the eye.
+enum class FogScattering : std::uint8_t {
+  kExact,  // once, each point lit through the fog above it
+  kPaper,  // each point lit as the ground is (Klassen, 1987)
+};
+
+// Fog over the sea (scene/fog.h). None without one of the first two.
+struct FoggyAir {
+  std::optional<double> visibility_m;          // where 2 % of the contrast are left at sea level
+  std::optional<glm::vec3> attenuation_per_m;  // B, at sea level
+  double fog_top_m = 100.0;                    // H over mean sea level, [0, 1e5]
+  FogProfile profile = FogProfile::kSlab;
+  FogScattering scattering = FogScattering::kExact;
+  double forward = 0.75;  // l of Blinn's phase function, (-1, 1)
+  double banks = 0.0;     // how much thicker and thinner fog is in places, [0, 1]
+  double bank_length_m = 500.0;
+
+  bool operator==(const FoggyAir&) const = default;
 };
 
 // What the displacement of lookups is multiplied by, so that far, small things hold together.
@@ -134,7 +169,14 @@ enum class Triangulation : std::uint8_t {
   kPlane,   // two triangles, flat: waves in the shading only (lod/plane.h)
 };
 
+// How the land is found in a picture.
+enum class TerrainMethod : std::uint8_t {
+  kRoam,  // triangles that follow the view, as the sea's
+  kRays,  // a ray a pixel over the map of heights (render/rays/terrain_rays.h)
+};
+
 struct Detail {
+  TerrainMethod terrain_method = TerrainMethod::kRoam;
   Triangulation triangulation = Triangulation::kRoam;  // of the sea
   int water_triangles = 30000;
   int terrain_triangles = 30000;
@@ -163,6 +205,8 @@ struct Scene {
   std::string name;  // the file's stem
   Camera camera;
   Sky sky;
+  FoggyAir air;
+  CloudField clouds;
   ocean::SeaDescription sea;
   // The sea state that the file asked for, at most one of them (ocean/sea_scale.h). The wind, and
   // the patch lengths if the file has none, follow from it and stand in `sea`.
@@ -175,8 +219,11 @@ struct Scene {
   Detail detail;
   Picture picture;
   std::optional<TerrainDescription> terrain;
+  std::vector<terrain::TreeStand> trees;         // at most 16; need a terrain
   std::vector<FloatingObject> objects;           // at most 2000
   std::vector<ocean::Disturbance> disturbances;  // at most 256, besides the wakes of objects
+  std::vector<ocean::River> rivers;              // at most 64; they and lakes need a terrain
+  std::vector<ocean::Lake> lakes;                // at most 64
 };
 
 // The scene's disturbances, then the hulls of its objects that make wakes.

@@ -1,4 +1,4 @@
-// Reads scene files: TOML text -> values checked against the table of parameters -> Scene.
+// Reads scene files: tables of the text -> values checked against the table of parameters -> Scene.
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -11,11 +11,15 @@
 
 #include "ocean/map_sets.h"
 #include "ocean/sea_scale.h"
+#include "scene/celestial.h"
 #include "scene/check_scene.h"
+#include "scene/form_file.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
+#include "scene/scene_tables.h"
+#include "scene/sea_state.h"
+#include "scene/settings.h"
 #include "scene/sky.h"
-#include "scene/toml_limits.h"
 #include "texture/bump_sequence.h"
 
 namespace swell::scene {
@@ -23,24 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFileBytes = 1 << 20;
 constexpr double kMaxWind_mps = 60.0;
-
-struct Place {
-  std::uint32_t line = 1, column = 1;
-};
-
-Place place_of(const toml::source_region& region) {
-  return {region.begin.line, region.begin.column};
-}
-
-std::string place_text(const fs::path& file, Place place) {
-  return fmt::format("{}:{}: column {}", file.string(), place.line, place.column);
-}
-
-[[noreturn]] void fail(const fs::path& file, Place place, const std::string& text) {
-  throw SceneError(one_line(fmt::format("{}: {}", place_text(file, place), text)));
-}
 
 [[noreturn]] void fail(const fs::path& file, const std::string& text) {
   throw SceneError(one_line(fmt::format("{}: {}", file.string(), text)));
@@ -59,6 +46,12 @@ int edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
+}
+
+// Where else a file has something, for messages.
+std::string line_text(const Place& place) {
+  if (!place.setting.empty()) return " in a " + place.setting;
+  return place.line > 0 ? fmt::format(" in line {}", place.line) : "";
 }
 
 // What a TOML value is, for messages: its text if it is a number or boolean, else its type.
@@ -83,9 +76,13 @@ class Reader {
         swell_parameters_(swell_parameters()),
         sine_parameters_(sine_parameters()),
         map_parameters_(map_parameters()),
+        cumulus_parameters_(cumulus_parameters()),
         waypoint_parameters_(waypoint_parameters()),
         object_parameters_(object_parameters()),
-        disturbance_parameters_(disturbance_parameters()) {}
+        disturbance_parameters_(disturbance_parameters()),
+        river_parameters_(river_parameters()),
+        lake_parameters_(lake_parameters()),
+        tree_parameters_(tree_parameters()) {}
 
   Scene read(const toml::table& root) {
     scene_.name = file_.stem().string();
@@ -96,6 +93,7 @@ class Reader {
     apply_water_type();
     finish_coast();
     if (is_gradient(scene_.sky)) scene_.sky.model = SkyModel::kGradient;
+    apply_time();
     scene_.sky.sun_direction =
         sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
     if (const auto fault = find_disagreement(scene_))
@@ -125,7 +123,9 @@ class Reader {
     for (const auto& [key, node, key_place] : in_file_order(table)) {
       const std::string path = prefix + std::string(key);
       const auto parameter = std::ranges::find(parameters_, path, &Parameter<Scene>::key);
-      if (parameter != parameters_.end()) {
+      if (key.find('.') != std::string_view::npos) {  // in quotes: no table was begun for it
+        fail_unknown(key_place, std::string_view(prefix).substr(0, prefix.find_last_of('.')), key);
+      } else if (parameter != parameters_.end()) {
         parameter->set(scene_, checked_value(*node, path, *parameter));
         given_.emplace(path, place_of(node->source()));
       } else if (path == kSwellKey) {
@@ -134,19 +134,36 @@ class Reader {
         read_tables(*node, kSinesKey, ocean::kMaxSines, sine_parameters_, scene_.sea.sines);
       } else if (path == kMapsKey) {
         read_tables(*node, kMapsKey, ocean::kMaxPatches, map_parameters_, scene_.sea.maps);
+      } else if (path == kCumulusKey) {
+        read_tables(*node, kCumulusKey, kMaxCumulus, cumulus_parameters_, scene_.clouds.cumulus);
       } else if (path == kObjectsKey) {
         read_tables(*node, kObjectsKey, kMaxObjects, object_parameters_, scene_.objects);
       } else if (path == kDisturbancesKey) {
         read_tables(*node, kDisturbancesKey, kMaxDisturbances, disturbance_parameters_,
                     scene_.disturbances);
+      } else if (path == kRiversKey) {
+        read_tables(*node, kRiversKey, kMaxRivers, river_parameters_, scene_.rivers);
+      } else if (path == kLakesKey) {
+        read_tables(*node, kLakesKey, kMaxLakes, lake_parameters_, scene_.lakes);
+      } else if (path == kTreesKey) {
+        read_tables(*node, kTreesKey, kMaxTreeStands, tree_parameters_, scene_.trees);
       } else if (path == kPathKey) {
         read_tables(*node, kPathKey, kMaxWaypoints, waypoint_parameters_, scene_.camera.path);
+      } else if (path == kFormsKey) {
+        continue;  // what objects of kind form that name this file read in it
       } else if (is_section(path)) {
         read_section(*node, path);
       } else {
         fail_unknown(key_place, std::string_view(prefix).substr(0, prefix.find_last_of('.')), key);
       }
     }
+  }
+
+  // Sun and moon as they stand at sky.time_utc.
+  void apply_time() {
+    if (scene_.sky.time_utc.empty()) return;
+    const std::optional<double> days = parse_time_utc(scene_.sky.time_utc);
+    if (days) place_sun_and_moon(*days, scene_.sky);
   }
 
   // Maps take the spectrum's place, and a set has a wind.
@@ -181,8 +198,7 @@ class Reader {
   void set_wind() {
     ocean::SeaDescription& sea = scene_.sea;
     const double gravity = sea.gravity_mps2;
-    sea.wind_speed_mps = scene_.douglas ? ocean::wind_of_developed_height(
-                                              ocean::douglas_step(*scene_.douglas).preset, gravity)
+    sea.wind_speed_mps = scene_.douglas ? wind_of_sea_state_mps(*scene_.douglas, gravity)
                                         : ocean::beaufort_step(*scene_.beaufort).preset;
     if (sea.wind_speed_mps > kMaxWind_mps)
       fail(file_, given_.at("sea.douglas"),
@@ -197,10 +213,7 @@ class Reader {
     const bool asked = scene_.douglas || scene_.beaufort || sea.hs_m || sea.tp_s || sea.fetch_km ||
                        !sea.swells.empty();
     if (!asked || given_.contains("sea.patch_lengths_m")) return;
-    double longest_m = 0.0;
-    for (const ocean::WaveSystem& system : ocean::wave_systems(sea))
-      longest_m = std::max(longest_m, ocean::peak_wavelength_m(system));
-    sea.patch_lengths_m = ocean::patch_lengths_for_peak(longest_m);
+    sea.patch_lengths_m = fitting_patch_lengths(sea);
   }
 
   void finish_coast() {
@@ -223,8 +236,8 @@ class Reader {
       if (!given_.contains(key)) continue;
       if (first)
         fail(file_, given_.at(key),
-             fmt::format("{}, got it besides {} in line {}, allowed one of {}", key, *first,
-                         given_.at(*first).line, fmt::join(keys, ", ")));
+             fmt::format("{}, got it besides {}{}, allowed one of {}", key, *first,
+                         line_text(given_.at(*first)), fmt::join(keys, ", ")));
       first = &key;
     }
   }
@@ -472,9 +485,13 @@ class Reader {
     add_tables(kSwellKey, swell_parameters_);
     add_tables(kSinesKey, sine_parameters_);
     add_tables(kMapsKey, map_parameters_);
+    add_tables(kCumulusKey, cumulus_parameters_);
     add_tables(kPathKey, waypoint_parameters_);
     add_tables(kObjectsKey, object_parameters_);
     add_tables(kDisturbancesKey, disturbance_parameters_);
+    add_tables(kRiversKey, river_parameters_);
+    add_tables(kLakesKey, lake_parameters_);
+    add_tables(kTreesKey, tree_parameters_);
     std::ranges::stable_sort(known, {}, &Known::unlikeness);
     std::vector<std::string> texts;
     for (Known& one : known) texts.push_back(std::move(one.text));
@@ -486,9 +503,13 @@ class Reader {
   std::vector<Parameter<ocean::Swell>> swell_parameters_;
   std::vector<Parameter<ocean::SineWave>> sine_parameters_;
   std::vector<Parameter<ocean::MapLayer>> map_parameters_;
+  std::vector<Parameter<Cumulus>> cumulus_parameters_;
   std::vector<Parameter<Waypoint>> waypoint_parameters_;
   std::vector<Parameter<FloatingObject>> object_parameters_;
   std::vector<Parameter<ocean::Disturbance>> disturbance_parameters_;
+  std::vector<Parameter<ocean::River>> river_parameters_;
+  std::vector<Parameter<ocean::Lake>> lake_parameters_;
+  std::vector<Parameter<terrain::TreeStand>> tree_parameters_;
   Scene scene_;
   std::map<std::string, Place> given_;  // where the file has the keys that it has
 };
@@ -513,24 +534,19 @@ std::string read_text(const fs::path& path) {
 
 }  // namespace
 
-Scene load_scene(const fs::path& path) { return parse_scene(read_text(path), path); }
+Scene load_scene(const fs::path& path) { return load_scene(path, {}); }
+
+Scene load_scene(const fs::path& path, std::span<const std::string> settings) {
+  return parse_scene(read_text(path), path, settings);
+}
 
 Scene parse_scene(std::string_view text, const fs::path& file_name) {
-  if (text.size() > kMaxFileBytes)
-    fail(file_name, {},
-         fmt::format("scene file, got more than {0} bytes, allowed {0}", kMaxFileBytes));
-  if (const std::uint32_t line = find_deep_nesting(text))
-    fail(file_name, {line, 1},
-         fmt::format("syntax error, got nesting too deep to be a scene, allowed {} levels",
-                     kMaxNesting));
-  toml::table root;
-  try {
-    root = toml::parse(text, file_name.string());
-  } catch (const toml::parse_error& error) {
-    fail(file_name, place_of(error.source()),
-         fmt::format("syntax error, got '{}', allowed TOML 1.0", error.description()));
-  }
-  return Reader(file_name).read(root);
+  return parse_scene(text, file_name, {});
+}
+
+Scene parse_scene(std::string_view text, const fs::path& file_name,
+                  std::span<const std::string> settings) {
+  return Reader(file_name).read(parse_tables(text, file_name, settings));
 }
 
 }  // namespace swell::scene

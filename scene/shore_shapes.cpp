@@ -56,7 +56,8 @@ glm::vec3 point_of_rock(glm::vec3 direction, std::span<const Facet> facets) {
 
 }  // namespace
 
-// Posts stand in pairs; the deck is of planks across.
+// Posts stand in pairs; the deck is of planks across, side by side: gaps would be less than a pixel
+// wide from most places, and dotted.
 void add_pier(MeshBuilder& to) {
   const bool fine = to.segments >= 12;
   constexpr float kHalf = 18.0f, kTop = 2.1f, kLow = -4.9f;
@@ -65,11 +66,10 @@ void add_pier(MeshBuilder& to) {
   to.origin = {0.0f, 0.0f, -kLow};
   to.segments = fine ? 8 : 4;
   const int planks = fine ? 45 : 1;
-  const float step = 2.0f * kHalf / static_cast<float>(planks), gap = fine ? 0.04f : 0.0f;
+  const float step = 2.0f * kHalf / static_cast<float>(planks);
   for (int i = 0; i < planks; ++i) {
     const float y = -kHalf + static_cast<float>(i) * step;
-    const float end = i + 1 < planks ? y + step - gap : kHalf;
-    add_box({-1.5f, y, kTop - 0.12f}, {1.5f, end, kTop},
+    add_box({-1.5f, y, kTop - 0.12f}, {1.5f, y + step, kTop},
             weathered(kTimber, static_cast<std::uint64_t>(i), 0.25f), to);
   }
   for (const float x : {-1.1f, 1.1f})

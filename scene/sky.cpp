@@ -90,8 +90,10 @@ SkyLight make_atmosphere_light(const Sky& sky, const Atmosphere& atmosphere, Wor
   light.sky = sky;
   light.atmosphere = atmosphere;
   add_source(to_sun, glm::vec3(kSunIrradiance), workers, light);
-  if (to_sun.z <= -static_cast<float>(kSunRadius_rad) && sky.moon_phase != 0.0)
-    add_source(-to_sun, moon_brightness(sky.moon_phase) * kFullMoon, workers, light);
+  const glm::vec3 to_moon = moon_direction(sky);
+  constexpr auto kRadius = static_cast<float>(kSunRadius_rad);
+  if (to_sun.z <= -kRadius && to_moon.z > -kRadius && sky.moon_phase != 0.0)
+    add_source(to_moon, moon_brightness(sky.moon_phase) * kFullMoon, workers, light);
   set_direct_light(light);
   set_discs(0.0, light);
   return light;
@@ -113,6 +115,12 @@ glm::vec3 sun_direction(double azimuth_rad, double elevation_rad) {
   const double cos_elevation = cos(elevation_rad);
   return glm::vec3(sin(azimuth_rad) * cos_elevation, cos(azimuth_rad) * cos_elevation,
                    sin(elevation_rad));
+}
+
+glm::vec3 moon_direction(const Sky& sky) {
+  if (!sky.moon_azimuth_rad && !sky.moon_elevation_rad) return -sky.sun_direction;
+  return sun_direction(sky.moon_azimuth_rad.value_or(sky.sun_azimuth_rad + kPi),
+                       sky.moon_elevation_rad.value_or(-sky.sun_elevation_rad));
 }
 
 bool is_gradient(const Sky& sky) {

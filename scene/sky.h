@@ -13,6 +13,9 @@ namespace swell::scene {
 // The unit vector towards azimuth_rad (clockwise from north) and elevation_rad (up positive).
 glm::vec3 sun_direction(double azimuth_rad, double elevation_rad);
 
+// Towards the moon.
+glm::vec3 moon_direction(const Sky& sky);
+
 // ---- A painted sky
 
 // How far the gradient goes on beyond sky.horizon: at the horizon itself the sky's radiance is

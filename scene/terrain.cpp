@@ -1,16 +1,55 @@
 #include "scene/terrain.h"
 
+#include "ocean/river_bed.h"
+#include "terrain/apron.h"
 #include "terrain/terrain.h"
 
 namespace swell::scene {
+namespace {
+
+bool has_inland_water(const Scene& scene) { return !scene.rivers.empty() || !scene.lakes.empty(); }
+
+// What is wrong with terrain or rivers, as a SceneError.
+template <class Build>
+auto built(const Build& build) {
+  try {
+    return build();
+  } catch (const terrain::TerrainError& error) {
+    throw SceneError(error.what());
+  } catch (const ocean::RiverError& error) {
+    throw SceneError(error.what());
+  }
+}
+
+void dig(const ocean::RiverNetwork& network, terrain::HeightGrid& land) {
+  ocean::dig_beds(network, land);
+  land.apron = terrain::make_apron(land);
+}
+
+}  // namespace
 
 std::optional<terrain::HeightGrid> build_terrain(const Scene& scene) {
   if (!scene.terrain) return std::nullopt;
-  try {
-    return terrain::build_terrain(*scene.terrain);
-  } catch (const terrain::TerrainError& error) {
-    throw SceneError(error.what());
-  }
+  return built([&] {
+    terrain::HeightGrid land = terrain::build_terrain(*scene.terrain);
+    if (has_inland_water(scene)) dig({scene.rivers, scene.lakes}, land);
+    return std::optional(std::move(land));
+  });
+}
+
+std::optional<Land> build_land(const Scene& scene, Workers& workers) {
+  if (!scene.terrain) return std::nullopt;
+  return built([&] {
+    Land land{terrain::build_terrain(*scene.terrain), nullptr};
+    if (has_inland_water(scene)) {
+      const ocean::RiverNetwork network(scene.rivers, scene.lakes);
+      const ocean::LakeFill lakes = ocean::fill_lakes(scene.lakes, land.terrain);
+      dig(network, land.terrain);
+      land.water =
+          std::make_unique<const ocean::InlandWater>(network, lakes, land.terrain, workers);
+    }
+    return std::optional(std::move(land));
+  });
 }
 
 }  // namespace swell::scene

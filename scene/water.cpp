@@ -1,5 +1,7 @@
 #include "scene/water.h"
 
+#include "ocean/sea_state.h"
+#include "ocean/swash.h"
 #include "ocean/wakes.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
@@ -15,21 +17,35 @@ const Scene& checked(const Scene& scene) {
 
 }  // namespace
 
-Water::Water(const Scene& scene)
-    : sea_(checked(scene).sea),
-      area_(scene.area),
-      terrain_(build_terrain(scene)),
-      coast_(build_coast(scene, terrain())),
-      disturbances_(all_disturbances(scene)) {}
+Water::Water(const Scene& scene, int threads)
+    : sea_(checked(scene).sea), area_(scene.area), disturbances_(all_disturbances(scene)) {
+  Workers workers(threads);
+  if (std::optional<Land> land = build_land(scene, workers)) {
+    terrain_ = std::move(land->terrain);
+    inland_ = std::move(land->water);
+  }
+  shore_ = build_shore(terrain());
+  coast_ = build_coast(scene, terrain(), shore());
+  shelter_ = build_shelter(scene, shore());
+}
 
 WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,
                        std::span<const ocean::Disturbance> more) const {
   const double gravity = sea_.description().gravity_mps2;
   ocean::advance(sea_, t_s, frame, workers);
-  ocean::advance_wakes(disturbances_, more, gravity, t_s, frame.wakes, workers);
+  ocean::advance_wakes(disturbances_, more, gravity, t_s, frame.wakes, workers, shore());
   ocean::WakeBounds wakes = ocean::wake_bounds(disturbances_, gravity);
   wakes.include(ocean::wake_bounds(more, gravity));
-  return WaterSurface({&sea_, area_, terrain(), coast(), wakes}, frame);
+  return WaterSurface({&sea_, area_, terrain(), coast(), wakes, shelter(), inland()}, frame);
+}
+
+bool Water::wets(const WaterSurface& surface, glm::dvec2 p_world) const {
+  if (!terrain()) return true;
+  const double ground_m = terrain::height_at(*terrain(), p_world);
+  if (ground_m < static_cast<double>(surface.height(p_world))) return true;
+  const ocean::Swash swash = ocean::make_swash(sea_, coast(), shelter());
+  const double t_s = ocean::wave_time_s(sea_.description(), surface.t_s());
+  return swash.reach_m > 0.0 && ground_m < ocean::swash_edge_m(swash, t_s, p_world);
 }
 
 }  // namespace swell::scene

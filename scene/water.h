@@ -19,15 +19,18 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 
 #include "math/parallel.h"
 #include "ocean/coast.h"
 #include "ocean/disturbance.h"
 #include "ocean/sea.h"
+#include "ocean/shelter.h"
 #include "ocean/water_surface.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
+#include "terrain/shore_map.h"
 
 namespace swell::scene {
 
@@ -37,23 +40,34 @@ using WaterSurface = ocean::WaterSurface;
 // What of a scene's water does not change with time, for programs that ask and do not draw.
 class Water {
  public:
-  // Throws SceneError (a value out of its range) or texture::FileError (a height image).
-  explicit Water(const Scene& scene);
+  // Throws SceneError (a value out of its range) or texture::FileError (a height image). Rivers and
+  // lakes are made with this many threads, 1 to 256, the same with any.
+  explicit Water(const Scene& scene, int threads = 1);
 
   // Fills `frame` with the sea at any finite time, past or to come, and looks at it. `more`
   // disturbs the water besides what the scene has, in this frame.
   WaterSurface at(double t_s, ocean::SeaFrame& frame, Workers& workers,
                   std::span<const ocean::Disturbance> more = {}) const;
 
+  // Whether the sea or a sheet of its swash covers the ground at p_world, as pictures show it, at
+  // the surface's time.
+  bool wets(const WaterSurface& surface, glm::dvec2 p_world) const;
+
   const ocean::Sea& sea() const { return sea_; }
   const terrain::HeightGrid* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
+  const terrain::ShoreMap* shore() const { return shore_ ? &*shore_ : nullptr; }
+  const ocean::InlandWater* inland() const { return inland_.get(); }
   const ocean::CoastSea* coast() const { return coast_ ? &*coast_ : nullptr; }
+  const ocean::Shelter* shelter() const { return shelter_ ? &*shelter_ : nullptr; }
 
  private:
   ocean::Sea sea_;
   SeaArea area_;
   std::optional<terrain::HeightGrid> terrain_;
+  std::optional<terrain::ShoreMap> shore_;
+  std::unique_ptr<const ocean::InlandWater> inland_;
   std::optional<ocean::CoastSea> coast_;
+  std::optional<ocean::Shelter> shelter_;
   std::vector<ocean::Disturbance> disturbances_;
 };
 

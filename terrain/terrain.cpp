@@ -131,6 +131,8 @@ void check_description(const TerrainDescription& description) {
   check_value("beach_size_m", description.beach_size_m, 0.0);
   check_value("island_radius_m", description.island_radius_m, 0.0);
   check_value("floor_depth_m", description.floor_depth_m, 0.0);
+  check_value("islands", description.islands, 0.0);
+  check_value("archipelago_size_m", description.archipelago_size_m, 0.0);
   check_value("metres_per_pixel", description.metres_per_pixel, 0.0);
   check_value("island_height_m", description.island_height_m);
   check_value("low_m", description.low_m);
@@ -145,14 +147,15 @@ void check_description(const TerrainDescription& description) {
 std::optional<double> described_size_m(const TerrainDescription& description) {
   if (!description.coast_m.empty()) return description.beach_size_m;
   if (!description.height_image.empty()) return std::nullopt;
-  return island_size_m(description);
+  return description.islands > 1 ? description.archipelago_size_m : island_size_m(description);
 }
 
 HeightGrid build_terrain(const TerrainDescription& description) {
   check_description(description);
-  HeightGrid terrain = !description.coast_m.empty()       ? terrain_from_coast(description)
-                       : description.height_image.empty() ? build_island(description)
-                                                          : terrain_from_image(description);
+  HeightGrid terrain = !description.coast_m.empty()        ? terrain_from_coast(description)
+                       : !description.height_image.empty() ? terrain_from_image(description)
+                       : description.islands > 1           ? build_archipelago(description)
+                                                           : build_island(description);
   const auto [lowest, highest] = std::ranges::minmax_element(terrain.height_m);
   terrain.lowest_m = *lowest;
   terrain.highest_m = *highest;

@@ -25,7 +25,7 @@ void check_channels(std::size_t pixels, std::span<const ExrChannel> channels) {
 }  // namespace
 
 std::vector<std::uint8_t> encode_exr(int width, int height, std::span<const ExrChannel> channels,
-                                     std::span<const ExrAttribute> attributes) {
+                                     const ImageExtras& extras) {
   SWELL_CHECK(width >= 1 && height >= 1, "size={}x{}", width, height);
   const std::size_t pixels = std::size_t{1} * width * height;
   check_channels(pixels, channels);
@@ -48,7 +48,8 @@ std::vector<std::uint8_t> encode_exr(int width, int height, std::span<const ExrC
     request.names.push_back(channels[c].name);
   }
   request.bits = bits.data();
-  for (const auto& [name, text] : attributes) request.notes.emplace_back(name, text);
+  request.notes = extras.notes;
+  request.exr_compression = extras.exr_compression;
   return encode(request);
 }
 

@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "texture/image_note.h"
+
 namespace swell::texture {
 
 // One channel: a name ("R", "Z", "N.X", "id"), and width * height samples row by row, the first row
@@ -22,16 +24,10 @@ struct ExrChannel {
   std::variant<std::span<const float>, std::span<const std::uint32_t>> samples;
 };
 
-// A note in the file's header, such as "swell:scene_hash".
-struct ExrAttribute {
-  std::string name, text;
-};
-
-// Encodes the channels, at least one, as one part of scan lines with ZIP compression, which loses
-// nothing. Names are unique and not empty. In the file channels stand in the order of their names;
-// readers may show them in another one: look them up by name. The same input gives the same bytes.
-// Throws FileError.
+// Encodes the channels, at least one, as one part of scan lines. Names are unique and not empty. In
+// the file channels stand in the order of their names; readers may show them in another one: look
+// them up by name. The same input gives the same bytes. Throws FileError.
 std::vector<std::uint8_t> encode_exr(int width, int height, std::span<const ExrChannel> channels,
-                                     std::span<const ExrAttribute> attributes = {});
+                                     const ImageExtras& extras = {});
 
 }  // namespace swell::texture

@@ -167,8 +167,9 @@ OIIO::ImageSpec spec_of(const EncodeRequest& request, OIIO::TypeDesc type) {
     spec.channelformats.push_back(kind == SampleKind::kFloat ? OIIO::TypeFloat : OIIO::TypeUInt32);
   spec.attribute("oiio:UnassociatedAlpha", 1);  // channels as they are
   spec.attribute("DateTime", "1970:01:01 00:00:00");
-  if (is_mixed || type == OIIO::TypeFloat) spec.attribute("compression", "zip");
-  for (const auto& [name, text] : request.notes) spec.attribute(name, text);
+  if (is_mixed || type == OIIO::TypeFloat)
+    spec.attribute("compression", std::string(request.exr_compression));
+  for (const ImageNote& note : request.notes) spec.attribute(note.name, note.text);
   return spec;
 }
 

@@ -8,8 +8,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "texture/image_note.h"
 
 namespace swell::texture {
 
@@ -48,7 +49,8 @@ struct EncodeRequest {
   const std::uint32_t* bits = nullptr;
   std::vector<SampleKind> kinds = {};   // of `bits`: kUnsigned32 or kFloat for each channel
   std::vector<std::string> names = {};  // of the channels; empty: the format's own
-  std::vector<std::pair<std::string, std::string>> notes = {};  // further attributes: name, text
+  std::span<const ImageNote> notes = {};
+  std::string_view exr_compression = "zip";  // of floats and bits
 };
 
 // Formats go by OpenImageIO's names: "png", "openexr", "hdr", "tiff", "pnm". Where the result is
@@ -66,7 +68,7 @@ struct ImageCodec {
                         std::string& error);
 };
 
-inline constexpr std::uint32_t kImageCodecVersion = 2;  // another after each change above
+inline constexpr std::uint32_t kImageCodecVersion = 3;  // another after each change above
 inline constexpr char kImageCodecFile[] = "libswell_image_codec.so";
 inline constexpr char kImageCodecSymbol[] = "swell_image_codec";  // an ImageCodec
 

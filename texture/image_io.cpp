@@ -215,8 +215,10 @@ ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits) {
   return decode(path, format, bytes, limits);
 }
 
-std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension) {
+std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension,
+                                       const ImageExtras& extras) {
   EncodeRequest request = whole_number_request(image, extension, "8-bit pixels");
+  request.notes = extras.notes;
   request.bytes = image.pixels.data();
   return encode(request);
 }
@@ -228,7 +230,8 @@ std::vector<std::uint8_t> encode_image(const Image16& image, const std::string& 
 }
 
 std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,
-                                       std::span<const std::string> channel_names) {
+                                       std::span<const std::string> channel_names,
+                                       const ImageExtras& extras) {
   check_pixels(image.width, image.height, image.channels, image.pixels.size());
   const std::string_view format = format_of_extension(lower_case(extension));
   if (format != "openexr" && format != "tiff") {
@@ -240,6 +243,9 @@ std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& e
                         .height = image.height,
                         .channels = image.channels,
                         .floats = image.pixels.data()};
+  request.notes = extras.notes;
+  // OpenImageIO's TIFF knows other names.
+  if (format == "openexr") request.exr_compression = extras.exr_compression;
   request.names.assign(channel_names.begin(), channel_names.end());
   if (channel_names.empty()) request.names = default_channel_names(image.channels);
   SWELL_CHECK(std::ssize(request.names) == image.channels, "names={} channels={}",

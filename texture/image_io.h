@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "texture/image.h"
+#include "texture/image_note.h"
 
 namespace swell::texture {
 
@@ -39,10 +40,12 @@ ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = 
 // divided out. EXR channels are named Y, YA, RGB or RGBA unless names are given (then any number
 // of channels is allowed). The same image gives the same bytes: no dates. Throws FileError for
 // other extensions.
-std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension);
+std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension,
+                                       const ImageExtras& extras = {});
 std::vector<std::uint8_t> encode_image(const Image16& image, const std::string& extension);
 std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& extension,
-                                       std::span<const std::string> channel_names = {});
+                                       std::span<const std::string> channel_names = {},
+                                       const ImageExtras& extras = {});
 
 // Writes bytes to a new file in the folder of `path`, syncs it and gives it the name. On any
 // failure throws FileError and leaves the old file and no other one. A symbolic link keeps standing

@@ -41,13 +41,14 @@ ImprovedNoise::ImprovedNoise() {
 
 ImprovedNoise::ImprovedNoise(std::uint64_t seed) : p_(make_permutation(seed)) {}
 
-double ImprovedNoise::noise3(double x, double y, double z) const {
-  const LatticePosition px = lattice_position(x, 256), py = lattice_position(y, 256);
-  const LatticePosition pz = lattice_position(z, 256);
+double ImprovedNoise::noise3(double x, double y, double z, int period) const {
+  const LatticePosition px = lattice_position(x, period), py = lattice_position(y, period);
+  const LatticePosition pz = lattice_position(z, period);
   const double u = fade(px.fraction), v = fade(py.fraction), w = fade(pz.fraction);
+  const int wrap = period - 1;
   const auto corner = [&](int di, int dj, int dk) {
     const int hash =
-        p_[p_[p_[(px.cell + di) & 255] + ((py.cell + dj) & 255)] + ((pz.cell + dk) & 255)];
+        p_[p_[p_[(px.cell + di) & wrap] + ((py.cell + dj) & wrap)] + ((pz.cell + dk) & wrap)];
     return gradient_dot(hash, px.fraction - di, py.fraction - dj, pz.fraction - dk);
   };
   const auto edge = [&](int dj, int dk) { return mix(corner(0, dj, dk), corner(1, dj, dk), u); };

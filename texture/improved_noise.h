@@ -14,7 +14,9 @@ class ImprovedNoise {
 
   // In [-1.04, 1.04] (seen: +-0.92), 0 at lattice points, first and second derivative continuous,
   // period 256 along each axis. NaN or infinity gives NaN.
-  double noise3(double x, double y, double z) const;
+  double noise3(double x, double y, double z) const { return noise3(x, y, z, 256); }
+  // The same with the lattice wrapped at `period`, a power of two in [1, 256].
+  double noise3(double x, double y, double z, int period) const;
 
  private:
   std::array<std::uint8_t, 512> p_;

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "math/check.h"
+#include "math/large_array.h"
 
 namespace swell::texture {
 
@@ -51,6 +52,7 @@ void resize_image(int width, int height, RgbaImage& image, int levels, BlurAxis 
     begin += stride * (h + 1);
   }
   image.stride = image.level_stride[0];
+  reserve_large(image.texels, static_cast<std::size_t>(begin));
   image.texels.assign(static_cast<std::size_t>(begin), 0);
 }
 
@@ -107,7 +109,7 @@ void pack_rgb(const RgbaImage& image, RgbMap& map) {
               "size={}x{}", image.width, image.height);
   const int size = image.width;
   map.size = size;
-  map.words.resize(static_cast<std::size_t>(size) * size);
+  resize_large(map.words, static_cast<std::size_t>(size) * size);
   for (int y = 0; y < size; ++y) {
     const std::uint32_t* upper =
         image.texels.data() + static_cast<std::ptrdiff_t>(y) * image.stride;

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "math/check.h"
+#include "math/large_array.h"
 #include "texture/packed_map.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -348,7 +349,7 @@ void pack_map1(int size, std::span<const float> values, PackedMap1& map) {
               "size={} values={}", size, values.size());
   map.size = size;
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
-  map.words.resize(2 * texels);
+  resize_large(map.words, 2 * texels);
   map.scratch.resize(size + 1 + texels);  // a row; levels 1, 2, ...: 1/3 texels
   map.scratch_bytes.resize(static_cast<std::size_t>(size + 1) * size);
   HWY_DYNAMIC_DISPATCH(build_map1)(values.data(), map);
@@ -364,7 +365,7 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
   map.size = size;
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
   map.detail_levels = std::clamp(map.levels - 2, 1, kMostDetailLevels);
-  map.words.resize(2 * texels);
+  resize_large(map.words, 2 * texels);
   map.scratch_quads.resize(2 * texels);
   map.level_offset.resize(map.levels);
   map.lost_variance.resize(map.levels);

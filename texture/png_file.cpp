@@ -56,9 +56,23 @@ struct Writer {
   png_infop info;
 };
 
+// As libpng takes them; the notes have the texts.
+std::vector<png_text> texts_of(const EncodeRequest& request) {
+  std::vector<png_text> texts;
+  for (const ImageNote& note : request.notes) {
+    png_text text{};
+    text.compression = PNG_ITXT_COMPRESSION_NONE;
+    text.key = const_cast<char*>(note.name.c_str());  // libpng only reads them
+    text.text = const_cast<char*>(note.text.c_str());
+    text.itxt_length = note.text.size();
+    texts.push_back(text);
+  }
+  return texts;
+}
+
 // False after an error. libpng jumps out of its calls then: nothing here has a destructor.
 bool write(png_structp png, png_infop info, const EncodeRequest& request, Output* output,
-           png_bytepp rows) {
+           png_bytepp rows, std::span<const png_text> texts) {
   constexpr std::array kColourTypes = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                        PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
   if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -71,6 +85,7 @@ bool write(png_structp png, png_infop info, const EncodeRequest& request, Output
   // a 1280 x 720 picture, and 6 % more bytes.
   png_set_compression_level(png, 1);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(png, info);
   if (request.words && std::endian::native == std::endian::little) png_set_swap(png);
   png_write_image(png, rows);
@@ -93,7 +108,9 @@ std::vector<std::uint8_t> encode_png(const EncodeRequest& request) {
     rows[j] = const_cast<png_bytep>(samples + j * row_bytes);  // libpng only reads it
   Output output;
   const Writer writer(output);
-  if (write(writer.png, writer.info, request, &output, rows.data())) return std::move(output.bytes);
+  const std::vector<png_text> texts = texts_of(request);
+  if (write(writer.png, writer.info, request, &output, rows.data(), texts))
+    return std::move(output.bytes);
   if (output.no_room) throw std::bad_alloc();
   throw FileError(fmt::format("cannot encode png: {}", one_line(output.fault.data())));
 }

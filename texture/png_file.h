@@ -9,7 +9,7 @@
 namespace swell::texture {
 
 // The file of 8-bit or 16-bit samples, 1 to 4 channels: Y, YA, RGB or RGBA. It holds the picture
-// and nothing else, so the same picture gives the same bytes. Throws FileError, std::bad_alloc.
+// and the notes alone, so the same ones give the same bytes. Throws FileError, std::bad_alloc.
 std::vector<std::uint8_t> encode_png(const EncodeRequest& request);
 
 }  // namespace swell::texture

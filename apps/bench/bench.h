@@ -21,6 +21,7 @@ BenchMode add_bench_query(CommandLine& program);
 BenchMode add_bench_scaling(CommandLine& program);
 BenchMode add_bench_sea_state(CommandLine& program);
 BenchMode add_bench_shading(CommandLine& program);
+BenchMode add_bench_terrain(CommandLine& program);
 BenchMode add_bench_waves(CommandLine& program);
 
 class Stopwatch {

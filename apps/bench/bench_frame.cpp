@@ -163,7 +163,7 @@ void run_frame_bench(const FrameBench& bench) {
   check_labels_scale(bench.setup.frame.labels, bench.setup.frame);
   if (bench.govern && !bench.setup.frame.labels.empty())
     throw OptionError("command line: --govern, got it with labels, allowed without them");
-  scene::Scene scene = load_scene(bench.setup.scene_path);
+  scene::Scene scene = load_scene(bench.setup.scene);
   const Stopwatch making;
   const render::World world(std::move(scene), bench.setup.threads);
   const double world_ms = making.elapsed_ms();
@@ -182,7 +182,7 @@ void run_frame_bench(const FrameBench& bench) {
 void run_parts(const FrameBench& bench) {
   select_simd(bench.setup.simd);
   check_text_place(bench.json);
-  const render::World world(load_scene(bench.setup.scene_path), bench.setup.threads);
+  const render::World world(load_scene(bench.setup.scene), bench.setup.threads);
   const PartReport report = measure_parts(bench.setup, world, bench.warm_up, bench.frames);
   if (bench.json != "-") fmt::print("{}", parts_text(report));
   if (!bench.json.empty()) write_text(bench.json, parts_json(report).dump(2) + "\n");

@@ -18,7 +18,7 @@ OpticsRow measure_row(const FrameRun& run, const render::World& world, int trian
     throw OptionError(
         fmt::format("command line: --scene, got '{}', allowed a scene whose land and objects can "
                     "have {} triangles",
-                    run.setup.scene_path, triangles));
+                    run.setup.scene.path, triangles));
   return measure_water(*still, run.frames, workers);
 }
 

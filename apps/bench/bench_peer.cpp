@@ -201,7 +201,7 @@ void run_peer_bench(const PeerBench& bench) {
   check_text_place(bench.json);
   for (const std::string* path : {&bench.picture, &bench.peer_picture, &bench.difference_picture})
     check_peer_picture(*path);
-  scene::Scene scene = load_scene(bench.setup.scene_path);
+  scene::Scene scene = load_scene(bench.setup.scene);
   Peer peer(bench.setup.threads);  // before any thread starts
   const render::World world(std::move(scene));
   const PeerSamples samples = measure(bench, world, peer);

@@ -17,7 +17,8 @@ namespace swell::apps {
 namespace {
 
 struct QueryBench {
-  std::string scene_path, simd, json;
+  SceneChoice scene;
+  std::string simd, json;
   int threads = available_cpus();
   int points = 65536;
 };
@@ -81,7 +82,7 @@ Json layer_rates(const scene::Water& water, const ocean::SeaFrame& frame,
 void run_query_bench(const QueryBench& bench) {
   select_simd(bench.simd);
   check_text_place(bench.json);
-  const scene::Scene scene = load_scene(bench.scene_path);
+  const scene::Scene scene = load_scene(bench.scene);
   const Stopwatch building;
   const scene::Water water(scene);
   const double setup_ms = building.elapsed_ms();
@@ -123,7 +124,8 @@ void run_query_bench(const QueryBench& bench) {
 BenchMode add_bench_query(CommandLine& program) {
   const auto bench = std::make_shared<QueryBench>();
   CommandLine line = program.add_mode("query", "Heights of a scene's sea at scattered points");
-  add_scene_option(line, bench->scene_path);
+  add_scene_options(line, bench->scene);
+  line.require("--scene");
   add_machine_options(line, bench->threads, bench->simd);
   add_integer(line, "--points", bench->points, 1, 16777216, "Points of one query");
   add_json_option(line, bench->json);

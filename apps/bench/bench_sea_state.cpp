@@ -23,7 +23,8 @@ constexpr int kTimes = 64, kPoints = 1024;
 constexpr double kTimeStep_s = 61.7;  // no multiple of a wave's period, over an hour
 
 struct SeaStateBench {
-  std::string scene_path, json;
+  SceneChoice scene;
+  std::string json;
   bool table = false;
 };
 
@@ -107,7 +108,7 @@ std::string band_text(const Expected& expected) {
 }
 
 void run_scene(const SeaStateBench& bench) {
-  const scene::Scene scene = load_scene(bench.scene_path);
+  const scene::Scene scene = load_scene(bench.scene);
   const double height_m = measured_height_m(scene);
   const std::optional<Expected> expected = expected_state(scene);
   const Json json = sea_state_json(scene, expected, height_m);
@@ -120,7 +121,7 @@ void run_scene(const SeaStateBench& bench) {
     throw std::runtime_error(
         fmt::format("{}: sea state, got a significant height of {:.3g} m, "
                     "allowed {}",
-                    bench.scene_path, height_m, band_text(*expected)));
+                    bench.scene.path, height_m, band_text(*expected)));
 }
 
 // A scene with nothing but a code, on an area larger than the longest waves.
@@ -171,7 +172,7 @@ void run_table(const SeaStateBench& bench) {
 }
 
 void run_sea_state(const SeaStateBench& bench) {
-  if (bench.table == !bench.scene_path.empty())
+  if (bench.table == !bench.scene.path.empty())
     throw OptionError("command line: sea-state, allowed either --scene or --table");
   check_text_place(bench.json);
   bench.table ? run_table(bench) : run_scene(bench);
@@ -183,7 +184,7 @@ BenchMode add_bench_sea_state(CommandLine& program) {
   const auto bench = std::make_shared<SeaStateBench>();
   CommandLine line = program.add_mode(
       "sea-state", "Wave height of a scene's sea; fails if it is not the sea state asked for");
-  line.add_text("--scene", "FILE", bench->scene_path, "Scene file (TOML)");
+  add_scene_options(line, bench->scene);
   line.add_flag("--table", bench->table, "Measure every code of both scales instead");
   add_json_option(line, bench->json);
   return {line, [bench] { run_sea_state(*bench); }};

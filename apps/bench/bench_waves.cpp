@@ -23,7 +23,8 @@ namespace {
 using Pair = std::vector<double>;
 
 struct WaveFigures {
-  std::string scene_path, filter, map, section;
+  SceneChoice scene;
+  std::string filter, map, section;
   double t_s = 0.0, side_m = 0.0;  // side 0: that of the terrain, or the sea's shorter one
   int pixels = 480;
   Pair centre_m, from_m, to_m;  // empty if not given
@@ -44,7 +45,7 @@ void check_figure_files(const WaveFigures& figures) {
   if (figures.filter.empty() && figures.map.empty() && figures.section.empty())
     throw OptionError(
         "command line: got no figure to draw, allowed --filter, --map, --section, --make-map");
-  if (figures.scene_path.empty())
+  if (figures.scene.path.empty())
     throw OptionError("command line: --scene, got none, allowed a scene file");
   if (!figures.filter.empty()) check_picture_file(figures.filter);
   if (!figures.map.empty()) check_picture_file(figures.map);
@@ -60,7 +61,7 @@ void write_filter(const WaveFigures& figures, const scene::Scene& scene) {
   const std::vector<ocean::WaveSystem> systems = ocean::wave_systems(sea);
   if (systems.empty())
     throw OptionError(fmt::format("command line: --filter, got it for {}, which has no spectrum",
-                                  figures.scene_path));
+                                  figures.scene.path));
   write_image(draw_filter(systems.front(), figures.pixels), figures.filter);
   const double length_m = ocean::peak_wavelength_m(systems.front());
   fmt::print("{}: peak at {:.4g} rad/m, a wavelength of {:.4g} m\n", figures.filter,
@@ -101,7 +102,7 @@ void write_section(const WaveFigures& figures, const scene::Scene& scene, const 
 void run_waves(const WaveFigures& figures) {
   if (!figures.made.file.empty()) return make_map(figures.made);
   check_figure_files(figures);
-  const scene::Scene scene = load_scene(figures.scene_path);
+  const scene::Scene scene = load_scene(figures.scene);
   if (!figures.filter.empty()) write_filter(figures, scene);
   if (figures.map.empty() && figures.section.empty()) return;
   const scene::Water water(scene);
@@ -117,7 +118,7 @@ void run_waves(const WaveFigures& figures) {
 BenchMode add_bench_waves(CommandLine& program) {
   const auto figures = std::make_shared<WaveFigures>();
   CommandLine line = program.add_mode("waves", "Figures of a scene's waves, and maps of waves");
-  line.add_text("--scene", "FILE", figures->scene_path, "Scene file (TOML)");
+  add_scene_options(line, figures->scene);
   add_number(line, "--time", figures->t_s, -1e9, 1e9, "Seconds since the scene's start");
   line.add_text("--filter", "F.png", figures->filter,
                 "Write the spectrum as a filter of wave vectors");

@@ -19,7 +19,7 @@ void add_frame_run(CommandLine& line, const std::string& frames_help, FrameRun& 
 render::World begin_run(const FrameRun& run) {
   select_simd(run.setup.simd);
   check_text_place(run.json);
-  return render::World(load_scene(run.setup.scene_path), run.setup.threads);
+  return render::World(load_scene(run.setup.scene), run.setup.threads);
 }
 
 void report_run(const FrameRun& run, const render::World& world, const std::string& how,

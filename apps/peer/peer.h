@@ -28,7 +28,8 @@ std::string_view peer_pass_name(PeerPass pass);  // "reflection", "refraction", 
 
 // Parts of the picture that the peer does not draw.
 inline constexpr render::PartSet kPeerLacks = *render::parse_parts(
-    "whitecaps,clouds,shadows,hulls,textures,caustics,sequence,sun-slide,image-blur,wakes");
+    "whitecaps,clouds,shadows,hulls,textures,caustics,sequence,sun-slide,image-blur,"
+    "wakes,land-detail,fog,stars,volume-clouds,cloud-shadows,shelter,surf-fronts");
 
 // On one thread, one at a time: OpenGL has one current context.
 class Peer {

@@ -1,33 +1,62 @@
 #include "apps/render/frame_files.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
-#include <span>
+#include <vector>
 
 #include "apps/render/label_sidecar.h"
 #include "apps/shared/label_file.h"
 #include "apps/shared/picture_file.h"
 #include "apps/shared/program.h"
 #include "apps/shared/report.h"
+#include "apps/shared/version.h"
 
 namespace swell::apps {
 namespace {
 
 std::string file_name(const std::filesystem::path& path) { return path.filename().string(); }
 
-void write_label_file(const RenderOptions& options, const DrawnFrame& frame) {
+// As a shell takes it.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string result(1, '\'');
+  for (const char c : text) {
+    if (c == '\'') result += "'\\'";
+    result += c;
+  }
+  result += '\'';
+  return result;
+}
+
+// The same for a frame alone, in a sequence and in a part of one; so are its notes and its sidecar.
+std::vector<std::string> command_of(const RenderOptions& options, const DrawnFrame& frame) {
+  std::vector<std::string> command = options.frame_command;
+  command.insert(command.end(), {"--time", fmt::format("{}", frame.t_s)});
+  return command;
+}
+
+std::vector<texture::ImageNote> notes_of(const RenderOptions& options, const DrawnFrame& frame) {
+  std::vector<std::string> command = command_of(options, frame);
+  for (std::string& word : command) word = shell_word(word);
+  return {{"swell:version", version()},
+          {"swell:scene_xxh3", frame.scene_hash},
+          {"swell:picture_xxh3", fmt::format("{:016x}", frame.hash)},
+          {"swell:t_s", fmt::format("{}", frame.t_s)},
+          {"swell:command", fmt::format("{}", fmt::join(command, " "))}};
+}
+
+void write_label_file(const RenderOptions& options, const DrawnFrame& frame,
+                      std::vector<texture::ImageNote> notes) {
   const std::filesystem::path path = label_path(options, frame.frame);
   std::vector<LabelPlane> planes;
   if (path == picture_path(options, frame.frame)) planes = colour_planes(frame.target);
   for (LabelPlane& plane : label_planes(frame.target.labels, options.labels, frame.view))
     planes.push_back(std::move(plane));
-  const texture::ExrAttribute attributes[] = {
-      {"swell:version", version()},
-      {"swell:scene_xxh3", scene_hash_text(frame.scene)},
-      {"swell:picture_xxh3", fmt::format("{:016x}", frame.hash)},
-      {"swell:frame", std::to_string(frame.frame)},
-      {"swell:t_s", fmt::format("{}", frame.t_s)}};
-  write_planes(path, frame.target.width_px, frame.target.height_px, planes, attributes);
+  notes.push_back({"swell:frame", std::to_string(frame.frame)});
+  write_planes(path, frame.target.width_px, frame.target.height_px, planes,
+               {notes, options.exr_compression});
 }
 
 void write_sidecar(const RenderOptions& options, const DrawnFrame& frame) {
@@ -36,8 +65,8 @@ void write_sidecar(const RenderOptions& options, const DrawnFrame& frame) {
                               options.fps,     frame.hash,
                               file_name(path), file_name(picture_path(options, frame.frame))};
   write_text(sidecar_path(path).string(),
-             label_sidecar(facts, frame.view, frame.scene, options.setup.scene_path, options.labels,
-                           options.command_line));
+             label_sidecar(facts, frame.view, frame.scene, options.setup.scene.path, options.labels,
+                           command_of(options, frame)));
 }
 
 }  // namespace
@@ -46,11 +75,12 @@ void write_frame_files(const RenderOptions& options, const DrawnFrame& frame) {
   const render::Target& target = frame.target;
   const int k = frame.frame;
   const bool has_labels = !options.labels.empty();
+  const std::vector<texture::ImageNote> notes = notes_of(options, frame);
   const std::filesystem::path picture = picture_path(options, k);
   if (!picture.empty() && !(has_labels && picture == label_path(options, k)))
-    write_picture(target, picture);
+    write_picture(target, picture, {notes, options.exr_compression});
   if (has_labels) {
-    write_label_file(options, frame);
+    write_label_file(options, frame, notes);
     write_sidecar(options, frame);
   }
   if (!options.depth.empty())

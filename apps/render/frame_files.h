@@ -12,6 +12,7 @@ struct DrawnFrame {
   int frame = 0;
   double t_s = 0.0;
   std::uint64_t hash = 0;
+  const std::string& scene_hash;  // scene_hash_text()
   const scene::Scene& scene;
   const View& view;
   const render::Target& target;

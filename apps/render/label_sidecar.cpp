@@ -10,6 +10,7 @@
 
 #include "apps/shared/json.h"
 #include "apps/shared/program.h"
+#include "apps/shared/version.h"
 #include "render/labels/classes.h"
 
 namespace swell::apps {

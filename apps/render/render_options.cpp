@@ -1,13 +1,16 @@
 #include "apps/render/render_options.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "apps/shared/label_file.h"
 #include "apps/shared/output_file.h"
 #include "apps/shared/picture_file.h"
 #include "apps/shared/report.h"
+#include "texture/image_note.h"
 
 namespace swell::apps {
 namespace {
@@ -19,6 +22,11 @@ void add_time_options(CommandLine& line, RenderOptions& options) {
   line.exclude("--frames", "--time");
   add_number(line, "--fps", options.fps, 1e-3, 1e6, "Frames a second of a sequence");
   line.need("--fps", "--frames");
+  add_integer(line, "--every", options.every, 1, 10'000'000, "Draw every N-th of the frames");
+  line.need("--every", "--frames");
+  line.add_flag("--skip-existing", options.skip_existing,
+                "Do not draw frames whose files are all there");
+  line.add_flag("--quiet", options.quiet, "No progress bar, which sequences have on a terminal");
 }
 
 void add_output_options(CommandLine& line, RenderOptions& options) {
@@ -29,6 +37,22 @@ void add_output_options(CommandLine& line, RenderOptions& options) {
                 "Write a line of JSON a frame; - is standard output, without what --hash prints");
   line.add_text("--expect", "FILE", options.expect,
                 "Fail unless each frame has the hash that FILE, from --hash or --json, has for it");
+  const auto take_stream = [&options](const std::string& text) {
+    if (text != "y4m" && text != "ppm")
+      throw OptionError(fmt::format("command line: --stream: got '{}', allowed y4m or ppm", text));
+    options.stream = text;
+  };
+  line.add_value({"--stream", "FORMAT", "",
+                  "Write the pictures to standard output, for ffmpeg: y4m or ppm", take_stream});
+  const auto take_compression = [&options](const std::string& text) {
+    if (std::ranges::count(texture::kExrCompressions, text) == 0)
+      throw OptionError(fmt::format("command line: --exr-compression: got '{}', allowed {}", text,
+                                    fmt::join(texture::kExrCompressions, ", ")));
+    options.exr_compression = text;
+  };
+  line.add_value({"--exr-compression", "NAME", "zip",
+                  "Of .exr files: none, rle, zips, zip or piz, which lose nothing",
+                  take_compression});
   line.add_flag("--dump-scene", options.dump_scene,
                 "Print the scene with every value that the file leaves out");
 }
@@ -85,6 +109,35 @@ void check_label_output(const RenderOptions& options) {
   }
 }
 
+// The options that change a frame's pixels: the same ones for a frame alone, and on any machine.
+std::vector<std::string> frame_command(const CommandLine& line, const RenderOptions& options) {
+  const std::filesystem::path scene = options.setup.scene.path;
+  std::vector<std::string> command = {"swell-render", "--scene", scene.filename().string()};
+  for (const std::string& argument : line.arguments_without({"--scene",
+                                                             "--threads",
+                                                             "--simd",
+                                                             "--tile",
+                                                             "--time",
+                                                             "--frames",
+                                                             "--fps",
+                                                             "--every",
+                                                             "--skip-existing",
+                                                             "--quiet",
+                                                             "--out",
+                                                             "--hash",
+                                                             "--json",
+                                                             "--expect",
+                                                             "--stream",
+                                                             "--exr-compression",
+                                                             "--dump-scene",
+                                                             "--labels",
+                                                             "--labels-out",
+                                                             "--depth",
+                                                             "--ids"}))
+    command.push_back(argument);
+  return command;
+}
+
 // Two options that name one file would leave what is written last.
 void check_distinct(const RenderOptions& options) {
   std::vector<std::pair<std::string_view, std::string>> files = {
@@ -114,13 +167,14 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   add_time_options(line, options);
   add_output_options(line, options);
   add_label_options(line, options);
-  options.command_line = {argv, argv + argc};
   if (!line.parse(argc, argv)) return std::nullopt;
+  options.frame_command = frame_command(line, options);
   return options;
 }
 
 bool draws_pictures(const RenderOptions& options) {
-  return options.hash || !options.json.empty() || !options.expect.empty() || writes_files(options);
+  return options.hash || !options.json.empty() || !options.expect.empty() ||
+         !options.stream.empty() || writes_files(options);
 }
 
 FrameRange frame_range(const RenderOptions& options) {
@@ -170,11 +224,36 @@ bool writes_files(const RenderOptions& options) {
          !options.ids.empty();
 }
 
+bool files_exist(const RenderOptions& options, int frame) {
+  std::vector<std::filesystem::path> files;
+  if (!options.out.empty()) files.push_back(picture_path(options, frame));
+  if (!options.labels.empty()) {
+    files.push_back(label_path(options, frame));
+    files.push_back(sidecar_path(files.back()));
+  }
+  for (const std::string& pattern : {options.depth, options.ids})
+    if (!pattern.empty()) files.push_back(numbered_path(options, pattern, frame));
+  return std::ranges::all_of(files, [](const std::filesystem::path& file) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored);
+  });
+}
+
 void check_output(const RenderOptions& options) {
   if (!draws_pictures(options) && !options.dump_scene)
     throw OptionError(
-        "command line: --out, --labels-out, --depth, --ids, --hash, --json, --expect or "
+        "command line: --out, --labels-out, --depth, --ids, --hash, --json, --expect, --stream or "
         "--dump-scene is required");
+  if (!options.stream.empty() && (options.hash || options.json == "-" || options.dump_scene))
+    throw OptionError(
+        "command line: --stream, got it with --hash, --json '-' or --dump-scene, allowed without "
+        "them: all would write to standard output");
+  if (options.skip_existing && (!writes_files(options) || !options.stream.empty() || options.hash ||
+                                !options.json.empty() || !options.expect.empty()))
+    throw OptionError(
+        "command line: --skip-existing, got it with --hash, --json, --expect or --stream or "
+        "without "
+        "files of frames, allowed with --out, --labels-out, --depth and --ids");
   if (options.dump_scene && options.json == "-")
     throw OptionError(
         "command line: --dump-scene, got it with --json '-', allowed --json FILE: both would "

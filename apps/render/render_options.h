@@ -15,10 +15,15 @@ struct RenderOptions {
   double time_s = 0.0;
   std::optional<FrameRange> frames;  // none: one picture at time_s
   double fps = 60.0;
-  std::string out, json, expect;       // files; empty: not asked for
-  render::LabelSet labels;             // of the file of labels
-  std::string labels_out, depth, ids;  // files; empty: not asked for
-  std::vector<std::string> command_line;
+  std::string out, json, expect;           // files; empty: not asked for
+  render::LabelSet labels;                 // of the file of labels
+  std::string labels_out, depth, ids;      // files; empty: not asked for
+  std::vector<std::string> frame_command;  // draws a frame again, but for its time
+  int every = 1;                           // of the frames, [1, 10000000]
+  bool skip_existing = false;
+  bool quiet = false;
+  std::string stream;  // "y4m" or "ppm"; empty: not asked for
+  std::string exr_compression = "zip";
   bool hash = false;
   bool dump_scene = false;
 };
@@ -29,7 +34,7 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv);
 // False if there is only a scene to dump.
 bool draws_pictures(const RenderOptions& options);
 
-// The frames to draw; a single picture is frame 0.
+// The frames to draw, each options.every-th from the first on; a single picture is frame 0.
 FrameRange frame_range(const RenderOptions& options);
 
 double frame_time_s(const RenderOptions& options, int frame);
@@ -53,6 +58,9 @@ std::filesystem::path sidecar_path(const std::filesystem::path& labels);
 render::LabelSet drawn_labels(const RenderOptions& options);
 
 bool writes_files(const RenderOptions& options);  // of frames
+
+// Whether every file of the frame is there.
+bool files_exist(const RenderOptions& options, int frame);
 
 // Refuses, before any work is done, what could not be written after it: throws OptionError or
 // texture::FileError.

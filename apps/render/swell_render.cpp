@@ -5,12 +5,16 @@
 
 #include "apps/render/frame_files.h"
 #include "apps/render/frame_log.h"
+#include "apps/render/label_sidecar.h"
+#include "apps/render/picture_stream.h"
 #include "apps/render/render_options.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/picture_file.h"
 #include "apps/shared/program.h"
+#include "apps/shared/progress.h"
 #include "render/frame.h"
 #include "render/world/world_view.h"
+#include "scene/settings.h"
 
 namespace swell::apps {
 namespace {
@@ -52,15 +56,24 @@ void draw_frames(const RenderOptions& options, const render::World& world, Frame
   };
   EyeWarning warning;
   const FrameRange range = frame_range(options);
-  for (int k = range.first; k <= range.last; ++k) {
+  PictureStream stream(options.stream, options.fps);
+  Progress progress((range.last - range.first) / options.every + 1, options.quiet, "frames");
+  const std::string scene_hash = scene_hash_text(world.scene());
+  for (int k = range.first; k <= range.last; k += options.every) {
+    if (options.skip_existing && files_exist(options, k)) {
+      progress.skip();
+      continue;
+    }
     const double t_s = frame_time_s(options, k);
     const View view = view_at(t_s);
     if (frame.labels.has(render::Label::kMotion))
       frame.next_view = view_at(next_time_s(options, k));
     render::render_frame(world, view, t_s, frame, workspace, target, workers);
     warning.look(k, world, view, workspace);
-    log.add(
-        finish_frame(options, {k, t_s, render::picture_hash(target), world.scene(), view, target}));
+    stream.add(target);
+    const std::uint64_t hash = render::picture_hash(target);
+    log.add(finish_frame(options, {k, t_s, hash, scene_hash, world.scene(), view, target}));
+    progress.step();
   }
 }
 
@@ -69,8 +82,8 @@ void run(const RenderOptions& options) {
   check_output(options);
   FrameLog log(options);
   const bool draws = draws_pictures(options);
-  const std::string& path = options.setup.scene_path;
-  scene::Scene scene = draws ? load_scene(path) : scene::load_scene(path);
+  const SceneChoice& choice = options.setup.scene;
+  scene::Scene scene = draws ? load_scene(choice) : scene::load_scene(choice.path, choice.settings);
   if (options.dump_scene) fmt::print("{}", scene::dump_scene(scene));
   if (!draws) return;
   draw_frames(options, render::World(std::move(scene), options.setup.threads), log);

@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/shared/manual.h"
 #include "apps/shared/program.h"
+#include "apps/shared/version.h"
 
 namespace swell::apps {
 namespace {
@@ -39,7 +41,7 @@ void check_no_extras(const CLI::App& app) {
 
 CommandLine::CommandLine(const std::string& program, const std::string& purpose)
     : app_(std::make_shared<CLI::App>(purpose, program)) {
-  app_->set_version_flag("--version", program + " " + version());
+  app_->set_version_flag("--version", program + " " + full_version());
 }
 
 CommandLine::CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
@@ -52,6 +54,11 @@ CommandLine CommandLine::add_mode(const std::string& name, const std::string& pu
 void CommandLine::add_text(const std::string& name, const std::string& kind, std::string& value,
                            const std::string& help) {
   app_->add_option(name, value, help)->type_name(kind);
+}
+
+void CommandLine::add_texts(const std::string& name, const std::string& kind, Texts& values,
+                            const std::string& help) {
+  app_->add_option(name, values, help)->type_name(kind)->allow_extra_args(false);
 }
 
 void CommandLine::add_pair(const std::string& name, std::vector<double>& value,
@@ -80,6 +87,9 @@ void CommandLine::need(const std::string& name, const std::string& other) {
 }
 
 bool CommandLine::parse(int argc, char** argv) {
+  const std::string_view only = argc == 2 ? argv[1] : "";
+  if (only == "--man") return fmt::print("{}", manual_page(*app_, version())), false;
+  if (only == "--bash-completion") return fmt::print("{}", bash_completion(*app_)), false;
   try {
     app_->parse(argc, argv);
     return true;
@@ -103,6 +113,11 @@ Texts CommandLine::arguments_without(const Texts& left_out) const {
   for (const CLI::Option* option : app_->get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || std::ranges::count(left_out, name) > 0) continue;
+    if (!option->get_allow_extra_args() && option->get_items_expected_max() > 1) {  // add_texts
+      for (const std::string& text : option->results())
+        arguments.insert(arguments.end(), {name, text});
+      continue;
+    }
     arguments.push_back(name);
     const bool is_flag = option->get_items_expected_max() == 0;
     if (!is_flag)

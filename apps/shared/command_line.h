@@ -15,7 +15,7 @@ namespace swell::apps {
 
 // A handle: copies stand for the same command line. The variables that options are stored in
 // must outlive parse(); they keep their defaults where an option is not given. Each option but a
-// flag takes a value and may be given once.
+// flag takes a value and may be given once, but for add_texts.
 class CommandLine {
  public:
   // A program with --help and --version.
@@ -28,6 +28,10 @@ class CommandLine {
   // A text; `kind` stands for it in the help text ("FILE").
   void add_text(const std::string& name, const std::string& kind, std::string& value,
                 const std::string& help);
+
+  // A text that may be given any number of times.
+  void add_texts(const std::string& name, const std::string& kind, std::vector<std::string>& values,
+                 const std::string& help);
 
   // Two numbers, "X Y"; empty if not given.
   void add_pair(const std::string& name, std::vector<double>& value, const std::string& help);
@@ -46,8 +50,8 @@ class CommandLine {
   void exclude(const std::string& name, const std::string& other);
   void need(const std::string& name, const std::string& other);
 
-  // Reads main's arguments. False: --help or --version was asked for and has been printed.
-  // Throws OptionError.
+  // Reads main's arguments. False: --help or --version was asked for and has been printed; or
+  // alone, for packages, --man or --bash-completion. Throws OptionError.
   bool parse(int argc, char** argv);
 
   // Whether this mode was given; after the program's parse().

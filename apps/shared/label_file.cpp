@@ -121,9 +121,9 @@ std::vector<LabelPlane> colour_planes(const render::Target& target) {
   return planes;
 }
 
-void write_planes(const fs::path& path, int width_px, int height_px,
-                  std::span<const LabelPlane> planes,
-                  std::span<const texture::ExrAttribute> attributes) {
+std::vector<std::uint8_t> encode_planes(int width_px, int height_px,
+                                        std::span<const LabelPlane> planes,
+                                        const texture::ImageExtras& extras) {
   std::vector<texture::ExrChannel> channels;
   for (const LabelPlane& plane : planes)
     std::visit(
@@ -131,7 +131,12 @@ void write_planes(const fs::path& path, int width_px, int height_px,
           channels.push_back({plane.name, samples});
         },
         plane.samples);
-  write_output(path, texture::encode_exr(width_px, height_px, channels, attributes));
+  return texture::encode_exr(width_px, height_px, channels, extras);
+}
+
+void write_planes(const fs::path& path, int width_px, int height_px,
+                  std::span<const LabelPlane> planes, const texture::ImageExtras& extras) {
+  write_output(path, encode_planes(width_px, height_px, planes, extras));
 }
 
 void check_plane_file(const fs::path& path) {

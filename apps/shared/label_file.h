@@ -36,10 +36,14 @@ std::vector<LabelPlane> label_planes(const render::Labels& labels, render::Label
 // Linear light as R, G and B.
 std::vector<LabelPlane> colour_planes(const render::Target& target);
 
-// Writes planes of the size as one EXR file. Throws texture::FileError, and leaves no half file.
+// Planes of the size as one EXR file. Throws texture::FileError.
+std::vector<std::uint8_t> encode_planes(int width_px, int height_px,
+                                        std::span<const LabelPlane> planes,
+                                        const texture::ImageExtras& extras);
+
+// Writes it. Throws texture::FileError, and leaves no half file.
 void write_planes(const std::filesystem::path& path, int width_px, int height_px,
-                  std::span<const LabelPlane> planes,
-                  std::span<const texture::ExrAttribute> attributes);
+                  std::span<const LabelPlane> planes, const texture::ImageExtras& extras);
 
 // check_output_place() for write_depth() and write_ids(): .png or .npy.
 void check_plane_file(const std::filesystem::path& path);

@@ -6,11 +6,12 @@
 
 #include "render/measure/eye_place.h"
 #include "scene/coast.h"
+#include "scene/settings.h"
 
 namespace swell::apps {
 
-scene::Scene load_scene(const std::filesystem::path& path) {
-  scene::Scene scene = scene::load_scene(path);
+scene::Scene load_scene(const SceneChoice& choice) {
+  scene::Scene scene = scene::load_scene(choice.path, choice.settings);
   if (const std::string work = scene::slow_coast_text(scene); !work.empty())
     fmt::print(stderr, "note: {}; that takes a while\n", work);
   return scene;

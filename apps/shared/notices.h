@@ -2,15 +2,22 @@
 // cannot be what was meant.
 #pragma once
 
-#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "render/frame.h"
 
 namespace swell::apps {
 
-// Reads a scene file; prints one line 'note: ...' if making the scene ready will take a second or
-// more. Throws as scene::load_scene does.
-scene::Scene load_scene(const std::filesystem::path& path);
+// Which scene a program is to take: a file, and settings that change it (scene/settings.h).
+struct SceneChoice {
+  std::string path;
+  std::vector<std::string> settings;
+};
+
+// Reads a scene; prints one line 'note: ...' if making it ready will take a second or more. Throws
+// as scene::load_scene does.
+scene::Scene load_scene(const SceneChoice& choice);
 
 // Prints one line 'warning: ...' on standard error for the first frame whose eye is below the
 // ground, which is drawn from above alone.

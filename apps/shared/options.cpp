@@ -40,13 +40,16 @@ std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separa
 
 }  // namespace
 
-void add_scene_option(CommandLine& line, std::string& path) {
-  line.add_text("--scene", "FILE", path, "Scene file (TOML)");
-  line.require("--scene");
+void add_scene_options(CommandLine& line, SceneChoice& scene) {
+  line.add_text("--scene", "FILE", scene.path, "Scene file (TOML or JSON)");
+  line.add_texts("--set", "KEY=VALUE", scene.settings,
+                 "Give a key of the scene another value, as wind.speed_mps=12 or "
+                 "object[0].heading_deg=90; any number of times");
 }
 
 void add_frame_setup(CommandLine& line, FrameSetup& setup) {
-  add_scene_option(line, setup.scene_path);
+  add_scene_options(line, setup.scene);
+  line.require("--scene");
   line.add_value({"--size", "WxH", "1280x720", "Picture size in pixels",
                   [&setup](const std::string& text) { setup.size = parse_size(text); }});
   add_machine_options(line, setup.threads, setup.simd);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "apps/shared/command_line.h"
+#include "apps/shared/notices.h"
 #include "apps/shared/program.h"
 #include "render/frame.h"
 
@@ -17,17 +18,17 @@ struct PictureSize {
 
 // What decides a frame and how it is computed.
 struct FrameSetup {
-  std::string scene_path;
+  SceneChoice scene;
   PictureSize size;
   int threads = available_cpus();
   std::string simd;  // "avx2", "avx512" or empty: the best there is
   render::FrameOptions frame;
 };
 
-// --scene, which must be given.
-void add_scene_option(CommandLine& line, std::string& path);
+// --scene and --set.
+void add_scene_options(CommandLine& line, SceneChoice& scene);
 
-// --scene, --size, --threads, --simd
+// --scene, which must be given, --set, --size, --threads, --simd
 void add_frame_setup(CommandLine& line, FrameSetup& setup);
 
 // --tile, --triangles, --terrain-triangles, --lookup-scale, --background-error,

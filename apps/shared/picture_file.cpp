@@ -20,15 +20,6 @@ namespace fs = std::filesystem;
   throw texture::FileError(fmt::format("{}: {}", path.string(), what));
 }
 
-texture::Image8 rgb_image(const render::Target& target) {
-  texture::Image8 image{target.width_px, target.height_px, 3, {}};
-  image.pixels.resize(target.rgba.size() * 3);
-  for (std::size_t i = 0; i < target.rgba.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      image.pixels[3 * i + c] = static_cast<std::uint8_t>(target.rgba[i] >> (8 * c));
-  return image;
-}
-
 }  // namespace
 
 FrameFilePattern parse_file_pattern(const fs::path& path) {
@@ -65,15 +56,25 @@ void check_picture_file(const fs::path& path) {
 
 bool stores_linear_light(const fs::path& path) { return lower_extension(path) == ".exr"; }
 
-void write_picture(const render::Target& target, const fs::path& path) {
+texture::Image8 rgb_image(const render::Target& target) {
+  texture::Image8 image{target.width_px, target.height_px, 3, {}};
+  image.pixels.resize(target.rgba.size() * 3);
+  for (std::size_t i = 0; i < target.rgba.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      image.pixels[3 * i + c] = static_cast<std::uint8_t>(target.rgba[i] >> (8 * c));
+  return image;
+}
+
+void write_picture(const render::Target& target, const fs::path& path,
+                   const texture::ImageExtras& extras) {
   const std::string extension = lower_extension(path);
   if (!stores_linear_light(path)) {
-    write_output(path, texture::encode_image(rgb_image(target), extension));
+    write_output(path, texture::encode_image(rgb_image(target), extension, extras));
     return;
   }
   const texture::ImageF image{target.width_px, target.height_px, 3, target.linear};
   const std::array<std::string, 3> names = {"R", "G", "B"};
-  write_output(path, texture::encode_image(image, extension, names));
+  write_output(path, texture::encode_image(image, extension, names, extras));
 }
 
 }  // namespace swell::apps

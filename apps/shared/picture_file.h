@@ -5,6 +5,8 @@
 #include <string>
 
 #include "render/frame.h"
+#include "texture/image.h"
+#include "texture/image_note.h"
 
 namespace swell::apps {
 
@@ -30,8 +32,12 @@ void check_picture_file(const std::filesystem::path& path);
 // True if the file stores linear light (.exr): render_frame must fill Target::linear.
 bool stores_linear_light(const std::filesystem::path& path);
 
+// The picture without its alpha.
+texture::Image8 rgb_image(const render::Target& target);
+
 // Writes the picture: 8-bit sRGB, or linear float RGB for .exr. The file is whole or not there.
 // Throws texture::FileError.
-void write_picture(const render::Target& target, const std::filesystem::path& path);
+void write_picture(const render::Target& target, const std::filesystem::path& path,
+                   const texture::ImageExtras& extras = {});
 
 }  // namespace swell::apps

@@ -75,6 +75,4 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string version() { return SWELL_VERSION; }
-
 }  // namespace swell::apps

@@ -25,7 +25,4 @@ int run_program(FunctionRef<void()> work);
 // `text` without line breaks and other control characters.
 std::string one_line(std::string text);
 
-// "0.1.0".
-std::string version();
-
 }  // namespace swell::apps

@@ -15,11 +15,17 @@ std::optional<Command> command_for(SDL_Keycode key) {
       Binding{SDLK_F4, Command::kLabel},       Binding{SDLK_F11, Command::kFullScreen},
       Binding{SDLK_F12, Command::kScreenshot}, Binding{SDLK_p, Command::kPause},
       Binding{SDLK_PERIOD, Command::kStep},    Binding{SDLK_r, Command::kResetCamera},
-      Binding{SDLK_c, Command::kCopyCamera},   Binding{SDLK_ESCAPE, Command::kEscape},
+      Binding{SDLK_c, Command::kCopyCamera},   Binding{SDLK_F5, Command::kSaveScene},
+      Binding{SDLK_ESCAPE, Command::kEscape},
   };
   for (const Binding& binding : kBindings)
     if (binding.key == key) return binding.command;
   return std::nullopt;
+}
+
+std::optional<int> sea_state_for(SDL_Keycode key) {
+  if (key < SDLK_0 || key > SDLK_9) return std::nullopt;
+  return key - SDLK_0;
 }
 
 CameraInput motion_of(const HeldKeys& held) {
@@ -45,12 +51,14 @@ std::span<const KeyHelp> key_help() {
       KeyHelp{"middle button", "drop a stone into the water"},
       KeyHelp{"R", "back to the scene's camera"},
       KeyHelp{"C", "copy the camera as TOML"},
+      KeyHelp{"0 ... 9", "the sea state of this number (WMO): calm to phenomenal"},
       KeyHelp{"P", "pause"},
       KeyHelp{".", "pause and step by 1/60 s"},
       KeyHelp{"F1", "this help"},
       KeyHelp{"F2, H", "panel"},
       KeyHelp{"F3", "triangles, tinted by level of detail"},
       KeyHelp{"F4", "the next label as a picture: depth ... flags, then colour"},
+      KeyHelp{"F5", "save the scene as it is now, as TOML"},
       KeyHelp{"F11", "full screen"},
       KeyHelp{"F12", "screenshot, at full quality"},
       KeyHelp{"Esc", "release the mouse, then quit"},

@@ -22,11 +22,15 @@ enum class Command {
   kStep,
   kResetCamera,
   kCopyCamera,
+  kSaveScene,
   kEscape
 };
 
 // The command of a key that acts once when it goes down.
 std::optional<Command> command_for(SDL_Keycode key);
+
+// The sea state, [0, 9], that a key chooses.
+std::optional<int> sea_state_for(SDL_Keycode key);
 
 // Keys held down, by place on the keyboard.
 using HeldKeys = std::bitset<SDL_NUM_SCANCODES>;

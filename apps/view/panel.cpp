@@ -8,6 +8,8 @@
 #include <span>
 
 #include "apps/view/keys.h"
+#include "apps/view/scene_controls.h"
+#include "apps/view/widgets.h"
 #include "math/elementary.h"
 
 namespace swell::view {
@@ -16,19 +18,6 @@ namespace {
 constexpr float kPanelWidth_px = 330.0f;
 constexpr float kGraphHeight_px = 56.0f;
 constexpr double kRadPerDeg = kPi / 180.0;
-
-void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
-
-// A row of two columns: a name, a number to the right of it.
-void row(std::string_view name, const std::string& value) {
-  text(fmt::format("{:<14}{:>16}", name, value));
-}
-
-// A slider over a value kept in double, shown with one decimal.
-bool slide(const char* label, double& value, double low, double high, const char* format) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
-                             ImGuiSliderFlags_AlwaysClamp);
-}
 
 // Where the camera is. True if it is to be copied.
 bool draw_camera(const CameraPose& pose, double fov_y_rad) {
@@ -54,49 +43,27 @@ void draw_label_choice(std::optional<render::Label>& label) {
   if (choice > 0) label = static_cast<render::Label>(choice - 1);
 }
 
-bool draw_waves(std::span<const char* const> names, WaveChoice& waves) {
-  bool changed = false;
-  int model = static_cast<int>(waves.model);
-  if (ImGui::Combo("waves", &model, names.data(), static_cast<int>(names.size()))) {
-    waves.model = static_cast<WaveModel>(model);
-    changed = true;
-  }
-  changed |= slide("wind speed", waves.wind_speed_mps, 0.0, 40.0, "%.1f m/s");
-  double from_deg = waves.wind_from_rad / kRadPerDeg;
-  if (slide("wind from", from_deg, 0.0, 360.0, "%.0f deg")) {
-    waves.wind_from_rad = from_deg * kRadPerDeg;
-    changed = true;
-  }
-  return changed;
+void draw_triangles(const char* label, int& triangles) {
+  ImGui::SliderInt(label, &triangles, 200, 200000, "%d",
+                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
 }
 
-// How the sea is cut into triangles, and which of them count more.
-bool draw_detail(scene::Detail& detail) {
-  bool changed = false;
-  int kind = static_cast<int>(detail.triangulation);
-  if (ImGui::Combo("mesh", &kind, "ROAM\0radial grid\0plane\0")) {
-    detail.triangulation = static_cast<scene::Triangulation>(kind);
-    changed = true;
+// What of the picture is drawn: to see what each part costs.
+void draw_parts(render::PartSet& without) {
+  if (!ImGui::TreeNode("parts of the picture")) return;
+  render::PartSet next;
+  for (std::size_t i = 0; i < render::kPartCount; ++i) {
+    const auto part = static_cast<render::Part>(i);
+    bool is_drawn = !without.has(part);
+    if (i % 2 == 1) ImGui::SameLine(0.5f * kPanelWidth_px);
+    ImGui::Checkbox(render::part_name(part).data(), &is_drawn);
+    if (!is_drawn) next.add(part);
   }
-  if (detail.triangulation != scene::Triangulation::kRoam) return changed;
-  int priority = detail.inverse_distance_priority;
-  if (ImGui::Combo("priority", &priority, "size over distance\0nearest\0")) {
-    detail.inverse_distance_priority = priority != 0;
-    changed = true;
-  }
-  if (!ImGui::TreeNode("what counts as nearer or further")) return changed;
-  changed |= slide("objects", detail.objects, 1.0, 64.0, "%.1f x nearer");
-  changed |= slide("backs", detail.back_facing, 1.0, 16.0, "%.1f x further");
-  changed |= slide("smooth", detail.normal_spread, 1.0, 16.0, "%.1f x further");
-  changed |= slide("not outline", detail.silhouette, 1.0, 16.0, "%.1f x further");
-  changed |= slide("haze", detail.visibility, 0.0, 4.0, "counts %.1f x");
+  without = next;
   ImGui::TreePop();
-  return changed;
 }
 
 void draw_quality(render::FrameOptions& frame) {
-  ImGui::SliderInt("triangles", &frame.water_triangles, 200, 200000, "%d",
-                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   slide("refining", frame.lod_ms, 0.0, 10.0,
         frame.lod_ms > 0.0 ? "at most %.1f ms" : "takes its time");
   slide("far waves", frame.background_error_px, 0.0, 8.0, "may be %.1f px off");
@@ -105,7 +72,6 @@ void draw_quality(render::FrameOptions& frame) {
 }
 
 void draw_governor(const PanelReport& report, PanelSettings& settings) {
-  ImGui::SameLine();
   ImGui::Checkbox("keep to the budget", &settings.governed);
   if (!settings.governed) return;
   slide("budget", settings.budget_ms, 5.0, 100.0, "%.0f ms");
@@ -158,6 +124,7 @@ void draw_graph(const FrameHistory& history, double budget_ms) {
   ImGui::Dummy(size);
 }
 
+// The time of each stage: clouds, rays to forms and land, and trees are stages of their own.
 void draw_times(const PanelReport& report, double budget_ms) {
   const render::FrameStatistics& s = report.statistics;
   text(fmt::format("frame {:5.1f} ms   median {:5.1f}   p95 {:5.1f}", s.frame_ms,
@@ -194,9 +161,41 @@ std::string heights_of(const render::Pick& pick) {
   return fmt::format("z {:.2f} m, model {:.2f} m", pick.p_world.z, pick.model_height_m);
 }
 
+// True if the scene is to be saved.
+bool draw_save() {
+  constexpr const char* kSave = "save scene";
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(kSave).x - 8.0f);
+  return ImGui::SmallButton(kSave);
+}
+
+// The sections about the scene. True if one has changed it.
+bool draw_scene(const PanelReport& report, const scene::Scene& scene, PanelSettings& settings) {
+  bool changed = false;
+  if (ImGui::CollapsingHeader("sea", ImGuiTreeNodeFlags_DefaultOpen)) {
+    changed |= draw_sea(scene, report.wave_names, settings.scene);
+    draw_triangles("triangles", settings.frame.water_triangles);
+  }
+  if (ImGui::CollapsingHeader("light and air", ImGuiTreeNodeFlags_DefaultOpen))
+    changed |= draw_light_and_air(scene, settings.scene);
+  if (ImGui::CollapsingHeader("land")) {
+    changed |= draw_land(scene, settings.scene);
+    draw_triangles("triangles on land", settings.frame.terrain_triangles);
+  }
+  return changed;
+}
+
+void draw_cost(const PanelReport& report, PanelSettings& settings) {
+  draw_times(report, settings.governed ? settings.budget_ms : kBudget_ms);
+  draw_governor(report, settings);
+  draw_quality(settings.frame);
+  draw_parts(settings.frame.without);
+  draw_counts(report);
+}
+
 }  // namespace
 
-PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
+PanelChanges draw_panel(const PanelReport& report, const scene::Scene& scene,
+                        PanelSettings& settings) {
   PanelChanges changes;
   ImGui::SetNextWindowPos({10.0f, 10.0f}, ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize({kPanelWidth_px, 0.0f});
@@ -208,19 +207,15 @@ PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings) {
     text(fmt::format("{}   t = {:.2f} s", report.scene_name, report.t_s));
     ImGui::Checkbox("pause", &settings.paused);
     ImGui::SameLine();
-    ImGui::TextDisabled(report.rebuilding ? "making waves ..." : "F1: keys");
+    ImGui::TextDisabled(report.rebuilding ? "rebuilding ..." : "F1: keys");
+    changes.save_scene = draw_save();
     ImGui::Separator();
     changes.copy_camera = draw_camera(report.camera, report.fov_y_rad);
     ImGui::Separator();
     draw_label_choice(settings.label);
-    changes.waves = draw_waves(report.wave_names, settings.waves);
-    changes.detail = draw_detail(settings.detail);
-    draw_quality(settings.frame);
-    draw_governor(report, settings);
-    ImGui::Separator();
-    draw_times(report, settings.governed ? settings.budget_ms : kBudget_ms);
-    ImGui::Separator();
-    draw_counts(report);
+    changes.scene = draw_scene(report, scene, settings);
+    if (ImGui::CollapsingHeader("cost", ImGuiTreeNodeFlags_DefaultOpen))
+      draw_cost(report, settings);
     text(report.pick ? "pointer: " + heights_of(*report.pick) : "pointer: on no surface");
     ImGui::PopItemWidth();
   }

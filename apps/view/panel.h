@@ -8,7 +8,7 @@
 
 #include "apps/view/camera_controls.h"
 #include "apps/view/frame_history.h"
-#include "apps/view/wave_choice.h"
+#include "apps/view/scene_choice.h"
 #include "render/frame.h"
 #include "render/measure/pick.h"
 #include "render/quality/governor.h"
@@ -17,8 +17,7 @@ namespace swell::view {
 
 // What the panel changes.
 struct PanelSettings {
-  WaveChoice waves;
-  scene::Detail detail;        // but for the numbers of triangles, which `frame` has
+  SceneChoice scene;
   render::FrameOptions frame;  // full quality
   bool governed = false;       // less of it where frames would take longer than the budget
   double budget_ms = kBudget_ms;
@@ -45,14 +44,15 @@ struct PanelReport {
   std::optional<render::Pick> pick;  // what the last picture shows under the pointer
 };
 
-// What draw_panel has changed of the scene, and what was asked for.
+// What draw_panel has changed, and what was asked for.
 struct PanelChanges {
-  bool waves = false, detail = false;
-  bool copy_camera = false;
+  bool scene = false;
+  bool copy_camera = false, save_scene = false;
 };
 
-// These between Gui::begin_frame and end_frame.
-PanelChanges draw_panel(const PanelReport& report, PanelSettings& settings);
+// These between Gui::begin_frame and end_frame. `scene` is the one that was loaded.
+PanelChanges draw_panel(const PanelReport& report, const scene::Scene& scene,
+                        PanelSettings& settings);
 
 // Beside the pointer: what the picture shows there.
 void draw_pick(const render::Pick& pick, glm::vec2 pointer_px);

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "apps/shared/label_picture.h"
-#include "apps/shared/picture_file.h"
 #include "apps/view/camera_text.h"
 #include "apps/view/eye_floor.h"
 #include "math/elementary.h"
 #include "math/simd_target.h"
+#include "ocean/sea_scale.h"
 #include "render/world/world_view.h"
 
 namespace swell::view {
@@ -21,15 +21,6 @@ constexpr int kSleepWhileHidden_ms = 200;
 constexpr std::chrono::seconds kMessageStays{5};
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
-
-// The first of swell_0001.png, swell_0002.png ... that does not exist in the current folder.
-std::filesystem::path free_screenshot_name() {
-  std::filesystem::path path;
-  int number = 1;
-  do path = fmt::format("swell_{:04d}.png", number++);
-  while (std::filesystem::exists(path));
-  return path;
-}
 
 // Colour, then the labels in the table's order, then colour again.
 std::optional<render::Label> next_label(std::optional<render::Label> label) {
@@ -56,8 +47,7 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
       governor_({}, render::with_scene_defaults(settings.frame, scene)),
       last_frame_start_(Clock::now()) {
   clock_.by_steps = settings.frames > 0;
-  panel_.waves = wave_choice(scene);
-  panel_.detail = scene.detail;
+  panel_.scene = scene_choice(scene);
   panel_.frame = render::with_scene_defaults(settings.frame, scene);  // where sliders start
   panel_.governed = settings.frames == 0;  // counted frames are to be the same each time
   report_.threads = settings.threads;
@@ -110,6 +100,7 @@ void Viewer::handle_key(const SDL_KeyboardEvent& key) {
   if (place >= 0 && place < SDL_NUM_SCANCODES) held_[place] = is_down;
   if (!is_down || key.repeat != 0) return;
   if (const auto command = command_for(key.keysym.sym)) run_command(*command);
+  if (const auto code = sea_state_for(key.keysym.sym)) choose_sea_state(*code);
 }
 
 void Viewer::handle_mouse(const SDL_Event& event) {
@@ -121,12 +112,12 @@ void Viewer::handle_mouse(const SDL_Event& event) {
   const bool is_right = event.button.button == SDL_BUTTON_RIGHT;
   const bool is_left = event.button.button == SDL_BUTTON_LEFT;
   if (event.type == SDL_MOUSEBUTTONUP) {
-    if (is_right && capture_ends_with_button_) capture_mouse(false);
+    if (capture_ends_with_button_) capture_mouse(false);
   } else if (event.button.button == SDL_BUTTON_MIDDLE) {
     drop_stone();
   } else if ((is_right || is_left) && !mouse_captured_ && !gui_.wants_mouse()) {
     capture_mouse(true);
-    capture_ends_with_button_ = is_right;
+    capture_ends_with_button_ = is_right || settings_.audience;  // a browser keeps Esc
   }
 }
 
@@ -134,7 +125,8 @@ void Viewer::capture_mouse(bool capture) {
   if (capture == mouse_captured_) return;
   mouse_captured_ = capture;
   capture_ends_with_button_ = false;
-  SDL_SetRelativeMouseMode(capture ? SDL_TRUE : SDL_FALSE);
+  if (!settings_.audience)  // whose pointer is not ours to hide
+    SDL_SetRelativeMouseMode(capture ? SDL_TRUE : SDL_FALSE);
 }
 
 void Viewer::run_command(Command command) {
@@ -170,6 +162,9 @@ void Viewer::run_command(Command command) {
     case Command::kCopyCamera:
       copy_camera();
       break;
+    case Command::kSaveScene:
+      save_scene();
+      break;
     case Command::kEscape:
       if (mouse_captured_)
         capture_mouse(false);
@@ -179,37 +174,22 @@ void Viewer::run_command(Command command) {
   }
 }
 
-void Viewer::save_screenshot() {
-  if (frames_drawn_ == 0) return;
-  try {
-    const std::filesystem::path path = free_screenshot_name();
-    apps::write_picture(full_picture(), path);
-    say("wrote " + path.string());
-  } catch (const std::exception& e) {  // a full disk must not end the flight
-    say(e.what());
-  }
-}
-
-void Viewer::copy_camera() {
-  if (frames_drawn_ == 0) return;
-  const std::string toml = camera_toml(report_.camera, scene_.camera);
-  const bool is_copied = SDL_SetClipboardText(toml.c_str()) == 0;
-  say(is_copied ? "copied the camera as TOML" : std::string("nothing copied: ") + SDL_GetError());
-}
-
 void Viewer::say(std::string message) {
   report_.message = std::move(message);
   said_ = Clock::now();
 }
 
-void Viewer::choose_waves(const WaveChoice& waves) {
-  panel_.waves = waves;
+void Viewer::choose_scene(const SceneChoice& choice) {
+  panel_.scene = choice;
   request_world();
 }
 
-void Viewer::choose_detail(const scene::Detail& detail) {
-  panel_.detail = detail;
+void Viewer::choose_sea_state(int code) {
+  panel_.scene.waves.sea_state = code;
+  if (panel_.scene.waves.model == WaveModel::kSines)
+    panel_.scene.waves.model = WaveModel::kSpectrum;
   request_world();
+  say(fmt::format("sea state {}: {}", code, ocean::douglas_step(code).name));
 }
 
 void Viewer::choose_budget(bool governed, double budget_ms) {
@@ -224,8 +204,8 @@ void Viewer::choose_quality(const render::FrameOptions& full_quality) {
 void Viewer::choose_label(std::optional<render::Label> label) { panel_.label = label; }
 
 void Viewer::request_world() {
-  scene::Scene scene = with_waves(scene_, panel_.waves);
-  scene.detail = panel_.detail;
+  scene::Scene scene = with_choice(scene_, panel_.scene);
+  report_.wave_names = wave_names(scene);
   rebuilder_.request(std::move(scene), world_);
 }
 
@@ -236,13 +216,17 @@ void Viewer::run() {
   }
 }
 
+bool Viewer::is_seen() const {
+  return settings_.audience ? settings_.audience->is_watching() : window_.is_visible();
+}
+
 bool Viewer::turn() {
   SDL_Event event;
   while (SDL_PollEvent(&event)) handle(event);
   if (quit_) return false;
 
   // A run of counted frames draws them all, seen or not.
-  if (settings_.frames == 0 && !window_.is_visible()) {
+  if (settings_.frames == 0 && !is_seen()) {
     if (SDL_WaitEventTimeout(&event, kSleepWhileHidden_ms)) handle(event);
     return !quit_;
   }
@@ -278,6 +262,7 @@ void Viewer::draw_frame() {
   const Clock::time_point drawn = Clock::now();
   window_.draw_picture(shown());
   gui_.draw();
+  if (settings_.audience) settings_.audience->show(*this);
   window_.present();
   const Clock::time_point shown = Clock::now();
   report_.present_ms = Milliseconds(shown - drawn).count();
@@ -323,19 +308,6 @@ void Viewer::name_label() {
     say("colour");
   }
   SDL_SetWindowTitle(window_.handle(), title.c_str());
-}
-
-render::Target Viewer::full_picture() {
-  render::FrameOptions options = panel_.frame;
-  options.lod_ms = 0.0;  // of refining
-  options.disturbances = stones_;
-  ask_for_label(options);
-  render::Workspace workspace;
-  render::Target picture;
-  render::render_frame(*world_, picture_view_, picture_time_s_, options, workspace, picture,
-                       workers_);
-  if (panel_.label) apps::paint_label(*panel_.label, picture.labels, picture_view_, picture.rgba);
-  return picture;
 }
 
 void Viewer::pick_under_pointer() {
@@ -396,9 +368,10 @@ void Viewer::build_panels() {
 
   gui_.begin_frame();
   if (show_panel_) {
-    const PanelChanges changes = draw_panel(report_, panel_);
-    if (changes.waves || changes.detail) request_world();
+    const PanelChanges changes = draw_panel(report_, scene_, panel_);
+    if (changes.scene) request_world();
     if (changes.copy_camera) copy_camera();
+    if (changes.save_scene) save_scene();
   }
   name_label();
   if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,11 +22,20 @@
 
 namespace swell::view {
 
+class Viewer;
+
+// Who looks at the window's pictures where the window itself shows them to nobody.
+struct Audience {
+  std::function<bool()> is_watching;  // else nothing is drawn
+  std::function<void(Viewer&)> show;  // each frame, when the window holds it with its panels
+};
+
 struct ViewerSettings {
   WindowSize size{1280, 720};
   int threads = 1;
   int frames = 0;  // 0: until the window is closed; else frame k is at k/60 s exactly
   render::FrameOptions frame;
+  std::optional<Audience> audience = {};
 };
 
 class Viewer {
@@ -66,10 +76,12 @@ class Viewer {
   bool shows_help() const { return show_help_; }
   const render::World& world() const { return *world_; }
   Window& window() { return window_; }
+  std::string camera_text() const;  // of the last frame, as a table of a scene file
+  // The scene as the panel has it, with the camera of the last frame if that was flown by hand.
+  std::string scene_text() const;
 
   // What the panel's sliders do.
-  void choose_waves(const WaveChoice& waves);
-  void choose_detail(const scene::Detail& detail);
+  void choose_scene(const SceneChoice& choice);
   void choose_budget(bool governed, double budget_ms);
   void choose_quality(const render::FrameOptions& full_quality);
   void choose_label(std::optional<render::Label> label);  // none: colour
@@ -77,6 +89,7 @@ class Viewer {
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool is_seen() const;
   void handle_key(const SDL_KeyboardEvent& key);
   void handle_mouse(const SDL_Event& event);
   void handle_window(const SDL_WindowEvent& event);
@@ -84,6 +97,8 @@ class Viewer {
   void capture_mouse(bool capture);
   void save_screenshot();
   void copy_camera();
+  void save_scene();
+  void choose_sea_state(int code);
   void say(std::string message);
 
   double time_since_last_frame_s();

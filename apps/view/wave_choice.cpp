@@ -1,6 +1,9 @@
 #include "apps/view/wave_choice.h"
 
+#include <utility>
+
 #include "math/elementary.h"
+#include "scene/sea_state.h"
 
 namespace swell::view {
 namespace {
@@ -20,7 +23,12 @@ WaveChoice wave_choice(const scene::Scene& scene) {
   const WaveModel model = sea.sines.empty()      ? WaveModel::kSpectrum
                           : sea.has_wind_waves() ? WaveModel::kBoth
                                                  : WaveModel::kSines;
-  return {model, sea.wind_speed_mps, sea.wind_from_rad};
+  return {model, sea.wind_speed_mps, sea.wind_from_rad, scene.douglas};
+}
+
+double wind_speed_mps(const scene::Scene& scene, const WaveChoice& choice) {
+  return choice.sea_state ? scene::wind_of_sea_state_mps(*choice.sea_state, scene.sea.gravity_mps2)
+                          : choice.wind_speed_mps;
 }
 
 std::array<const char*, 3> wave_names(const scene::Scene& scene) {
@@ -37,12 +45,21 @@ std::array<const char*, 3> wave_names(const scene::Scene& scene) {
 }
 
 scene::Scene with_waves(scene::Scene scene, const WaveChoice& choice) {
+  const WaveChoice own = wave_choice(scene);
+  if (choice == own) return scene;
+  if (choice.sea_state != own.sea_state) {
+    scene.douglas.reset();
+    if (choice.sea_state) scene = scene::with_sea_state(std::move(scene), *choice.sea_state);
+  }
   scene.sea.spectrum = choice.model != WaveModel::kSines && !scene.sea.has_maps();
   if (choice.model == WaveModel::kSines) {
     scene.sea.map_set = ocean::MapSet::kNone;
     scene.sea.maps.clear();
   }
-  scene.sea.wind_speed_mps = choice.wind_speed_mps;
+  if (!choice.sea_state && choice.wind_speed_mps != own.wind_speed_mps) {
+    scene.beaufort.reset();
+    scene.sea.wind_speed_mps = choice.wind_speed_mps;
+  }
   scene.sea.wind_from_rad = choice.wind_from_rad;
   if (choice.model == WaveModel::kSpectrum)
     scene.sea.sines.clear();

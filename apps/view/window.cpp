@@ -103,6 +103,15 @@ bool Window::draw_picture(const render::Target& picture) {
   return true;
 }
 
+void Window::read_pixels(std::vector<std::uint8_t>& rgba) const {
+  const WindowSize size = size_px();
+  rgba.resize(4u * static_cast<std::size_t>(size.width_px) *
+              static_cast<std::size_t>(size.height_px));
+  if (SDL_RenderReadPixels(renderer_.get(), nullptr, SDL_PIXELFORMAT_ABGR8888, rgba.data(),
+                           4 * size.width_px) != 0)
+    std::ranges::fill(rgba, std::uint8_t{0});
+}
+
 void Window::present() { SDL_RenderPresent(renderer_.get()); }
 
 }  // namespace swell::view

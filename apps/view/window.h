@@ -4,9 +4,11 @@
 
 #include <SDL.h>
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "render/frame.h"
 
@@ -50,6 +52,10 @@ class Window {
   // Copies the picture into the window's next frame, stretched if the window has another size by
   // now. False if the device refuses; the next call tries again with a new texture.
   bool draw_picture(const render::Target& picture);
+
+  // What was drawn since the last present(): size_px() of red, green, blue and 255, row by row.
+  // Black if the device refuses.
+  void read_pixels(std::vector<std::uint8_t>& rgba) const;
 
   // Shows what was drawn since the last call.
   void present();

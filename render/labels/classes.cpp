@@ -17,6 +17,7 @@ std::vector<std::string> class_names(const scene::Scene& scene) {
     const std::string_view name = scene::object_class(object);
     if (!class_of(names, name)) names.emplace_back(name);
   }
+  if (!scene.trees.empty() && !class_of(names, kTreeClassName)) names.emplace_back(kTreeClassName);
   return names;
 }
 

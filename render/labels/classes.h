@@ -12,8 +12,11 @@
 
 namespace swell::render {
 
+inline constexpr std::string_view kTreeClassName = "tree";
+
 // The name of every class of the scene, in the order of their numbers: those that each scene has
-// (sky, water, terrain, object, foam), then those that its objects name, as they first come.
+// (sky, water, terrain, object, foam), then those that its objects name, as they first come, then
+// that of trees if it has some.
 std::vector<std::string> class_names(const scene::Scene& scene);
 
 // The number of a class among such names; nothing for a name that is none.

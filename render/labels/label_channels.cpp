@@ -45,7 +45,7 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"id"},
      true,
      "",
-     "Which thing is seen: 1 the sea, 2 the land, 16 + n object n of the scene.",
+     "Which thing is seen: 1 the sea, 2 the land, 16 + n object n of the scene, 4096 + n tree n.",
      "0",
      ""},
     {Label::kClass,
@@ -55,7 +55,7 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "",
      "What kind of thing is seen: 1 water, 2 terrain, 3 an object that names no class, 4 water "
      "that "
-     "foam hides more than half of, from 5 on classes that objects name.",
+     "foam hides more than half of, from 5 on classes that objects name, and that of trees.",
      "0",
      ""},
     {Label::kMotion,
@@ -91,7 +91,9 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "",
      "What the water shows besides the sky and its own colour: 1 where land or an object is more "
      "than half of what it mirrors, 2 where the ground or an object is more than half of what is "
-     "seen through it, 3 both; 4 more at every pixel that an eye sees through water.",
+     "seen through it, 3 both; 4 more at every pixel that an eye sees through water; 8 more where "
+     "a "
+     "wake tilts the water by more than 0.02 or has left foam on it.",
      "0",
      "0"},
 }};

@@ -61,8 +61,10 @@ std::span<const LabelInfo, kLabelCount> label_table();
 // The label of a name of the table; nullptr for others.
 const LabelInfo* find_label(std::string_view name);
 
-// Values of kId: the sky's, the water's, the land's; object n of the scene has kFirstObjectId + n.
-inline constexpr std::uint32_t kSkyId = 0, kWaterId = 1, kLandId = 2, kFirstObjectId = 16;
+// Values of kId: the sky's, the water's, the land's; object n of the scene has kFirstObjectId + n,
+// tree n of the world kFirstTreeId + n.
+inline constexpr std::uint32_t kSkyId = 0, kWaterId = 1, kLandId = 2, kFirstObjectId = 16,
+                               kFirstTreeId = 4096;
 
 // Values of kClass. Classes that objects name are numbered on from kFirstOwnClass, in the order in
 // which the scene first names them; objects that name none are of kObjectClass.
@@ -71,6 +73,7 @@ inline constexpr std::uint32_t kSkyClass = 0, kWaterClass = 1, kTerrainClass = 2
 
 // Bits of kFlags: what the picture shows besides the water itself, at water pixels; that the eye
 // looks through water, at all.
-inline constexpr std::uint32_t kShowsMirrored = 1, kShowsRefracted = 2, kSeenInWater = 4;
+inline constexpr std::uint32_t kShowsMirrored = 1, kShowsRefracted = 2, kSeenInWater = 4,
+                               kShowsWake = 8;
 
 }  // namespace swell::render

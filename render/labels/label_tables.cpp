@@ -18,11 +18,12 @@ void for_chunks(std::size_t count, const StageRun& run, const Body& body) {
 
 // --- Normals
 
-// Turned to the side of the triangle that the eye is on. A triangle without an area shows nowhere.
+// Turned to the side of the triangle that the eye is on. A triangle without an area stands for a
+// form, whose normal the shader knows.
 glm::vec3 seen_normal(const std::array<glm::vec3, 3>& p_rel) {
   const glm::vec3 n = glm::cross(p_rel[1] - p_rel[0], p_rel[2] - p_rel[0]);
   const float length = std::sqrt(glm::dot(n, n));
-  if (!(length > 0.0f)) return {0.0f, 0.0f, 1.0f};
+  if (!(length > 0.0f)) return {0.0f, 0.0f, 0.0f};
   return n * ((glm::dot(n, p_rel[0]) > 0.0f ? -1.0f : 1.0f) / length);
 }
 
@@ -50,9 +51,19 @@ void fill_normals(const LabelInputs& in, LabelTables& tables, const StageRun& ru
         std::span(tables.normal)
             .subspan(primitives.begin(kind), primitives.end(kind) - primitives.begin(kind));
     const auto indices = in.meshes.indices(kind);
-    if (kind == SurfaceKind::kObjects) {
+    if (indices.empty()) {
+      std::ranges::fill(normal, glm::vec3(0.0f));
+      continue;
+    }
+    if (kind == SurfaceKind::kTrees) {
+      const TreeDraws& trees = in.meshes.trees.drawn_in(ViewKind::kWindow);
+      fill_normals(indices, normal, run, [&](std::uint32_t i) { return trees.p_rel[i]; });
+    } else if (kind == SurfaceKind::kObjects) {
       fill_normals(indices, normal, run,
                    [&](std::uint32_t i) { return in.meshes.objects.in_window().p_rel[i]; });
+    } else if (kind == SurfaceKind::kRivers) {
+      fill_normals(indices, normal, run,
+                   [&](std::uint32_t i) { return in.meshes.rivers.p_rel[i]; });
     } else {
       const Surface& surface = kind == SurfaceKind::kWater ? in.meshes.water : in.meshes.land;
       fill_normals(indices, normal, run,
@@ -116,6 +127,7 @@ ObjectMotion motion_of(const scene::ObjectPose& now, const scene::ObjectPose& ne
 
 void fill_motion(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
   const View& now = in.window.camera;
+  tables.step_s = in.options.next_frame_s;
   tables.camera = camera_motion(now, in.options.next_view.value_or(now));
   advance_waves(in.world, in.t_s + in.options.next_frame_s, in.options.disturbances,
                 in.options.without, tables.next_sea, run.workers);
@@ -140,9 +152,12 @@ CameraMotion camera_motion(const View& now, const View& next) {
 
 void fill_label_tables(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
   tables.set = in.options.labels;
+  tables.eye_world = in.window.camera.eye_world;
   const auto has = [&](Label label) { return tables.set.has(label); };
   const bool has_foam = in.world.coast || !in.world.whitecaps->patches.empty();
+  const bool has_forms = !in.window.forms.forms.empty();
   tables.from_shading = has(Label::kNormal) || has(Label::kFlags) ||
+                        (has_forms && has(Label::kGeometricNormal)) ||
                         (has_foam && (has(Label::kFoam) || has(Label::kClass)));
   if (has(Label::kGeometricNormal)) fill_normals(in, tables, run);
   if (has(Label::kMotion)) fill_motion(in, tables, run);

@@ -33,10 +33,13 @@ struct ObjectMotion {
 
 struct LabelTables {
   LabelSet set;
-  bool from_shading = false;      // some labels come from the shader
-  std::vector<glm::vec3> normal;  // by primitive of the window; for kGeometricNormal
+  bool from_shading = false;  // some labels come from the shader
+  glm::dvec3 eye_world{0.0};
+  // By primitive of the window; for kGeometricNormal. Of land that rays find: none.
+  std::vector<glm::vec3> normal;
   // For kMotion.
   CameraMotion camera;
+  double step_s = 0.0;                      // to the next frame
   std::vector<ObjectMotion> object_motion;  // by object of the scene
   // By triangle of the water: it rises by rise.x + rise.y x + rise.z y at a place (x, y) relative
   // to the eye.

@@ -16,6 +16,7 @@ struct LabelSources {
   const LabelTables& tables;
   const Shading& shading;      // of the window
   const ObjectDraws& objects;  // that are drawn
+  const TreeDraws& trees;      // likewise
   const World::State& world;
 };
 

@@ -4,6 +4,8 @@
 
 #include "math/check.h"
 #include "render/labels/label_tile.h"
+#include "render/view/forms.h"
+#include "render/world/land_rays.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/labels/label_tile_simd.cpp"
@@ -69,7 +71,8 @@ struct LabelPacket {
   V depth;       // [m]; +inf where the sky is seen
   V3 ray;        // of depth 1
   VU primitive;
-  Mask is_sky, is_water, is_object;
+  Mask is_sky, is_water, is_object, is_tree;
+  Mask is_sea;          // of water, the sea
   std::size_t tile_at;  // of the first pixel in the tile's buffers
   std::size_t count;    // of pixels in the picture
 };
@@ -103,8 +106,10 @@ HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   p.primitive =
       open_sky ? hn::Set(du, raster::kNoPrimitive) : hn::LoadU(du, s.primitive + p.tile_at);
   p.is_sky = hn::RebindMask(d, hn::Eq(p.primitive, hn::Set(du, raster::kNoPrimitive)));
-  p.is_water = InRange(s.primitives, SurfaceKind::kWater, p.primitive);
+  p.is_sea = InRange(s.primitives, SurfaceKind::kWater, p.primitive);
+  p.is_water = hn::Or(p.is_sea, InRange(s.primitives, SurfaceKind::kRivers, p.primitive));
   p.is_object = InRange(s.primitives, SurfaceKind::kObjects, p.primitive);
+  p.is_tree = InRange(s.primitives, SurfaceKind::kTrees, p.primitive);
   // So far that floats have no depth for it, a surface is not at infinity all the same.
   const V z = open_sky ? hn::Zero(d) : hn::LoadU(d, s.depth + p.tile_at);
   p.z = hn::IfThenZeroElse(p.is_sky, hn::Max(z, Constant(1e-30f)));
@@ -135,7 +140,7 @@ HWY_INLINE V3 OnlyWhere(const Mask& where, V3 v) {
           hn::IfThenElseZero(where, v.z)};
 }
 
-// Calls visit(lane, object) with the number in the scene of each lane's object, where there is one.
+// Calls visit(lane, primitive) where a lane shows an object.
 template <class Visit>
 HWY_INLINE void VisitObjects(const LabelSources& in, const LabelPacket& p, const Visit& visit) {
   if (hn::AllFalse(D(), p.is_object)) return;
@@ -144,40 +149,57 @@ HWY_INLINE void VisitObjects(const LabelSources& in, const LabelPacket& p, const
   const PrimitiveRanges& ranges = in.shading.primitives;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
     if (ranges.holds(SurfaceKind::kObjects, primitive[lane]))
-      visit(lane, in.objects.primitives[primitive[lane] - ranges.begin(SurfaceKind::kObjects)]
-                      .object->object);
+      visit(lane, in.objects.primitives[primitive[lane] - ranges.begin(SurfaceKind::kObjects)]);
+}
+
+// The same of trees.
+template <class Visit>
+HWY_INLINE void VisitTrees(const LabelSources& in, const LabelPacket& p, const Visit& visit) {
+  if (hn::AllFalse(D(), p.is_tree)) return;
+  HWY_ALIGN std::array<std::uint32_t, kLanes> primitive;
+  hn::Store(p.primitive, DU(), primitive.data());
+  const PrimitiveRanges& ranges = in.shading.primitives;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if (ranges.holds(SurfaceKind::kTrees, primitive[lane]))
+      visit(lane, in.trees.tree_of(primitive[lane] - ranges.begin(SurfaceKind::kTrees)).tree);
 }
 
 // --- Labels
 
 // What is seen, as numbers: of the sky, of the water, of the land; of object n what of_object(n)
-// is.
-template <class OfObject>
+// is, of tree n what of_tree(n) is.
+template <class OfObject, class OfTree>
 HWY_INLINE VU NumberOf(const LabelSources& in, const LabelPacket& p, VU sky, VU water, VU land,
-                       const OfObject& of_object) {
+                       const OfObject& of_object, const OfTree& of_tree) {
   const DU du;
   const VU number = hn::IfThenElse(hn::RebindMask(du, p.is_sky), sky,
                                    hn::IfThenElse(hn::RebindMask(du, p.is_water), water, land));
-  if (hn::AllFalse(D(), p.is_object)) return number;
+  if (hn::AllFalse(D(), hn::Or(p.is_object, p.is_tree))) return number;
   HWY_ALIGN std::array<std::uint32_t, kLanes> lanes;
   hn::Store(number, du, lanes.data());
-  VisitObjects(in, p,
-               [&](std::size_t lane, std::uint32_t object) { lanes[lane] = of_object(object); });
+  VisitObjects(in, p, [&](std::size_t lane, const ObjectPrimitive& shown) {
+    lanes[lane] = of_object(shown.object->object);
+  });
+  VisitTrees(in, p, [&](std::size_t lane, std::uint32_t tree) { lanes[lane] = of_tree(tree); });
   return hn::Load(du, lanes.data());
 }
 
 HWY_INLINE VU IdOf(const LabelSources& in, const LabelPacket& p) {
   const DU du;
-  return NumberOf(in, p, hn::Set(du, kSkyId), hn::Set(du, kWaterId), hn::Set(du, kLandId),
-                  [](std::uint32_t object) { return kFirstObjectId + object; });
+  return NumberOf(
+      in, p, hn::Set(du, kSkyId), hn::Set(du, kWaterId), hn::Set(du, kLandId),
+      [](std::uint32_t object) { return kFirstObjectId + object; },
+      [](std::uint32_t tree) { return kFirstTreeId + tree; });
 }
 
 HWY_INLINE VU ClassOf(const LabelSources& in, const LabelPacket& p, V foam) {
   const DU du;
   const auto is_foam = hn::RebindMask(du, hn::Gt(foam, Constant(0.5f)));
   const VU water = hn::IfThenElse(is_foam, hn::Set(du, kFoamClass), hn::Set(du, kWaterClass));
-  return NumberOf(in, p, hn::Set(du, kSkyClass), water, hn::Set(du, kTerrainClass),
-                  [&](std::uint32_t object) { return in.world.object_classes[object]; });
+  return NumberOf(
+      in, p, hn::Set(du, kSkyClass), water, hn::Set(du, kTerrainClass),
+      [&](std::uint32_t object) { return in.world.object_classes[object]; },
+      [&](std::uint32_t) { return in.world.tree_class; });
 }
 
 HWY_INLINE V3 ShadedNormal(const LabelTile& tile, const LabelPacket& p) {
@@ -189,11 +211,38 @@ HWY_INLINE V3 ShadedNormal(const LabelTile& tile, const LabelPacket& p) {
                                        hn::LoadU(d, s.normal_z.data() + p.tile_at)});
 }
 
-HWY_INLINE V3 GeometricNormal(const LabelSources& in, const LabelPacket& p) {
+// Sets the normals of land that rays find.
+HWY_INLINE void TakeCastLand(const LabelSources& in, const LabelPacket& p, V3& normal) {
+  const D d;
+  HWY_ALIGN std::array<std::uint32_t, kLanes> primitive;
+  HWY_ALIGN std::array<float, kLanes> rel_x, rel_y, x, y, z;
+  hn::Store(p.primitive, DU(), primitive.data());
+  hn::Store(hn::Mul(p.depth, p.ray.x), d, rel_x.data());
+  hn::Store(hn::Mul(p.depth, p.ray.y), d, rel_y.data());
+  hn::Store(normal.x, d, x.data());
+  hn::Store(normal.y, d, y.data());
+  hn::Store(normal.z, d, z.data());
+  for (std::size_t lane = 0; lane < p.count; ++lane) {
+    if (!in.shading.primitives.holds(SurfaceKind::kTerrain, primitive[lane])) continue;
+    const glm::dvec2 at = glm::dvec2(in.tables.eye_world) + glm::dvec2(rel_x[lane], rel_y[lane]);
+    const glm::vec3 n = terrain::normal_at(in.world.land_rays->at(at), at);
+    x[lane] = n.x, y[lane] = n.y, z[lane] = n.z;
+  }
+  normal = {hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data())};
+}
+
+HWY_INLINE V3 GeometricNormal(const LabelSources& in, const LabelTile& tile, const LabelPacket& p) {
   const D d;
   if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const Mask is_surface = hn::Not(p.is_sky);
-  return OnlyWhere(is_surface, GatherAt(in.tables.normal, 0, is_surface, p));
+  V3 normal = OnlyWhere(is_surface, GatherAt(in.tables.normal, 0, is_surface, p));
+  if (in.world.land_rays) TakeCastLand(in, p, normal);
+  if (!tile.shaded) return normal;
+  const Mask is_form = hn::And(p.is_object, hn::Eq(Dot(normal, normal), hn::Zero(d)));
+  if (hn::AllFalse(d, is_form)) return normal;
+  const V3 shaded = ShadedNormal(tile, p);
+  return {hn::IfThenElse(is_form, shaded.x, normal.x), hn::IfThenElse(is_form, shaded.y, normal.y),
+          hn::IfThenElse(is_form, shaded.z, normal.z)};
 }
 
 // What the shader has left of the water; 0 elsewhere.
@@ -224,11 +273,11 @@ HWY_INLINE V ElevationOf(const Shading& s, const LabelPacket& p) {
 HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
   const D d;
   V3 move = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  if (!hn::AllFalse(d, p.is_water)) {
+  if (!hn::AllFalse(d, p.is_sea)) {
     const V3 rise =
-        GatherAt(in.tables.rise, in.shading.primitives.begin(SurfaceKind::kWater), p.is_water, p);
+        GatherAt(in.tables.rise, in.shading.primitives.begin(SurfaceKind::kWater), p.is_sea, p);
     const V x = hn::Mul(p.depth, p.ray.x), y = hn::Mul(p.depth, p.ray.y);
-    move.z = hn::IfThenElseZero(p.is_water, hn::MulAdd(rise.z, y, hn::MulAdd(rise.y, x, rise.x)));
+    move.z = hn::IfThenElseZero(p.is_sea, hn::MulAdd(rise.z, y, hn::MulAdd(rise.y, x, rise.x)));
   }
   if (hn::AllFalse(d, p.is_object)) return move;
   HWY_ALIGN std::array<float, kLanes> depth, ray_x, ray_y, ray_z, x, y, z;
@@ -239,10 +288,12 @@ HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
   hn::Store(move.x, d, x.data());
   hn::Store(move.y, d, y.data());
   hn::Store(move.z, d, z.data());
-  VisitObjects(in, p, [&](std::size_t lane, std::uint32_t object) {
-    const ObjectMotion& motion = in.tables.object_motion[object];
+  VisitObjects(in, p, [&](std::size_t lane, const ObjectPrimitive& shown) {
+    const ObjectMotion& motion = in.tables.object_motion[shown.object->object];
     const glm::vec3 p_rel = depth[lane] * glm::vec3(ray_x[lane], ray_y[lane], ray_z[lane]);
-    const glm::vec3 moved = motion.turn * (p_rel - motion.origin_rel) + motion.shift;
+    const glm::vec3 turned = part_move(shown, p_rel, in.tables.step_s);
+    const glm::vec3 moved =
+        motion.turn * (p_rel + turned - motion.origin_rel) + motion.shift + turned;
     x[lane] = moved.x, y[lane] = moved.y, z[lane] = moved.z;
   });
   return {hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data())};
@@ -325,7 +376,7 @@ HWY_INLINE void FillOtherLabels(const LabelSources& in, const LabelTile& tile, L
   ForPackets(in, tile, [&](const LabelPacket& p, std::size_t at) HWY_ATTR {
     if (set.has(Label::kNormal)) StoreLanes(ShadedNormal(tile, p), p.count, &labels.normal[at]);
     if (set.has(Label::kGeometricNormal))
-      StoreLanes(GeometricNormal(in, p), p.count, &labels.geometric_normal[at]);
+      StoreLanes(GeometricNormal(in, tile, p), p.count, &labels.geometric_normal[at]);
     if (set.has(Label::kMotion)) StoreMotion(in, p, &labels.motion_px[at]);
     if (set.has(Label::kElevation))
       StoreLanes(ElevationOf(in.shading, p), p.count, &labels.elevation_m[at]);

@@ -27,9 +27,33 @@ HWY_INLINE VI NearestFoamLevel(const FoamMap& foam, V level_m) {
       Clamp(hn::Add(level_m, Constant(foam.log2_texels_per_m + 0.5f)), 0.0f, kAllFoamLost));
 }
 
+// Whether the blocks around places on these levels have foam, in any lane.
+HWY_INLINE bool AnyFoamNear(const FoamBlocks& blocks, VI x_fx8, VI y_fx8, VI level) {
+  const DI di;
+  constexpr int kAtOnce = static_cast<int>(hn::MaxLanes(DI()));  // rows of a table in a vector
+  const VI row = hn::And(hn::ShiftRight<12>(y_fx8), hn::Set(di, FoamBlocks::kRows - 1));
+  const auto in_table = hn::IndicesFromVec(di, hn::And(row, hn::Set(di, kAtOnce - 1)));
+  const auto bits_of = [&](int first) HWY_ATTR {
+    const auto* const rows = reinterpret_cast<const std::int32_t*>(blocks.row.data());
+    return hn::TableLookupLanes(hn::LoadU(di, rows + first), in_table);
+  };
+  VI bits = bits_of(0);
+  if constexpr (kAtOnce < FoamBlocks::kRows)
+    bits = hn::IfThenElse(hn::Gt(row, hn::Set(di, kAtOnce - 1)), bits_of(kAtOnce), bits);
+  const VI column = hn::And(hn::ShiftRight<11>(x_fx8), hn::Set(di, FoamBlocks::kColumns - 1));
+  const VI bit = hn::And(hn::Shr(bits, column), hn::Set(di, 1));
+  const VI coarse = hn::Max(hn::Sub(level, hn::Set(di, FoamBlocks::kFinest)), hn::Zero(di));
+  return !hn::AllTrue(di, hn::Eq(hn::Or(bit, coarse), hn::Zero(di)));
+}
+
 HWY_INLINE V FoamAt(const FoamMap& foam, VI x_fx8, VI y_fx8, VI level) {
-  const V code = texture::HWY_NAMESPACE::SampleLevel(D(), *foam.map, x_fx8, y_fx8, level);
-  return hn::MulAdd(code, Constant(0.5f), Constant(0.5f));
+  const V half = Constant(0.5f);
+  // What a sample finds where there is none.
+  V code =
+      hn::Mul(Constant(-127.0f * 255.0f * 256.0f), Constant(1.0f / (127.0f * 255.0f * 256.0f)));
+  if (!foam.blocks || AnyFoamNear(*foam.blocks, x_fx8, y_fx8, level))
+    code = texture::HWY_NAMESPACE::SampleLevel(D(), *foam.map, x_fx8, y_fx8, level);
+  return hn::MulAdd(code, half, half);
 }
 
 // The mean to the bit where all is lost, whatever the lanes beside show.

@@ -13,11 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-struct GroundLook {
-  V slope_x, slope_y;
-  V3 albedo;
-};
-
 // How far p is from the nearest side of a layer's square, inside, as part of the side.
 HWY_INLINE V PartFromRim(const SlopeLayer& square, V3 p) {
   const LayerPlace place = PlaceIn(square, p.x, p.y);
@@ -26,47 +21,67 @@ HWY_INLINE V PartFromRim(const SlopeLayer& square, V3 p) {
   return hn::Mul(hn::Min(from_rim(place.x_fx8), from_rim(place.y_fx8)), Constant(1.0f / side_fx8));
 }
 
-// kBlended: between mip levels; else the nearest.
-template <bool kBlended>
-HWY_INLINE GroundLook SampleGround(const GroundLayer& layer, V3 p, V level_m) {
-  const D d;
-  const V zero = hn::Zero(d);
-  GroundLook look{zero, zero, {zero, zero, zero}};
-  if constexpr (kBlended) {
-    V unused = zero;
-    AddSlopes(layer.slopes, p, level_m, zero, zero, look.slope_x, look.slope_y, unused);
-  } else {
-    NearestSlopes(layer.slopes, p, level_m, look.slope_x, look.slope_y);
-  }
-  const V per_m = Constant(layer.albedo_texels_per_m);
-  const V x = hn::MulAdd(p.x, per_m, Constant(layer.albedo_x_eye));
-  const V y = hn::MulAdd(p.y, per_m, Constant(layer.albedo_y_eye));
-  V r, g, b, alpha;
-  texture::HWY_NAMESPACE::SampleRgba(d, *layer.albedo, x, y, r, g, b, alpha);
-  look.albedo = {hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)};
-  return look;
+// 1 on the map, falling to 0 over its last texels.
+HWY_INLINE V OnMap(const Terrain& terrain, V3 p) {
+  constexpr float kInverseRim = 40.0f;  // 1 / part of the side
+  return Clamp(hn::Mul(PartFromRim(terrain.map.slopes, p), Constant(kInverseRim)), 0.0f, 1.0f);
 }
 
-// The map's look, over its last texels that of its surroundings.
-template <bool kBlended>
-HWY_INLINE GroundLook FindGround(const Terrain& terrain, V3 p, V level_m) {
+// What map() says, over the map's last texels that of its surroundings. join(map, around, blend)
+// joins the two by blend(inner, outer).
+template <class Map, class Around, class Join>
+HWY_INLINE auto BlendOnMap(V on_map, const Map& map, const Around& around, const Join& join) {
   const D d;
-  constexpr float kInverseRim = 40.0f;  // 1 / part of the side
-  const V on_map =
-      Clamp(hn::Mul(PartFromRim(terrain.map.slopes, p), Constant(kInverseRim)), 0.0f, 1.0f);
-  if (hn::AllTrue(d, hn::Ge(on_map, Constant(1.0f))))
-    return SampleGround<kBlended>(terrain.map, p, level_m);
-  const GroundLook around = SampleGround<kBlended>(terrain.around, p, level_m);
-  if (hn::AllFalse(d, hn::Gt(on_map, hn::Zero(d)))) return around;
-  const GroundLook map = SampleGround<kBlended>(terrain.map, p, level_m);
+  if (hn::AllTrue(d, hn::Ge(on_map, Constant(1.0f)))) return map();
+  if (hn::AllFalse(d, hn::Gt(on_map, hn::Zero(d)))) return around();
   // Whole weights keep the bits of packets that are all on the map or all around it.
   const V left = hn::Sub(Constant(1.0f), on_map);
-  const auto blend = [&](V inner, V outer)
-                         HWY_ATTR { return hn::MulAdd(inner, on_map, hn::Mul(outer, left)); };
-  return {blend(map.slope_x, around.slope_x),
-          blend(map.slope_y, around.slope_y),
-          {blend(map.albedo.x, around.albedo.x), blend(map.albedo.y, around.albedo.y),
-           blend(map.albedo.z, around.albedo.z)}};
+  return join(map(), around(), [&](V inner, V outer) HWY_ATTR {
+    return hn::MulAdd(inner, on_map, hn::Mul(outer, left));
+  });
+}
+
+struct GroundSlopes {
+  V x, y;
+};
+
+// kBlended: between mip levels; else the nearest.
+template <bool kBlended>
+HWY_INLINE GroundSlopes FindSlopes(const Terrain& terrain, V on_map, V3 p, V level_m) {
+  const auto sample = [&](const SlopeLayer& layer) HWY_ATTR {
+    const V zero = hn::Zero(D());
+    GroundSlopes slopes{zero, zero};
+    V unused = zero;
+    if constexpr (kBlended) {
+      AddSlopes(layer, p, level_m, zero, zero, slopes.x, slopes.y, unused);
+    } else {
+      NearestSlopes(layer, p, level_m, slopes.x, slopes.y);
+    }
+    return slopes;
+  };
+  return BlendOnMap(
+      on_map, [&]() HWY_ATTR { return sample(terrain.map.slopes); },
+      [&]() HWY_ATTR { return sample(terrain.around.slopes); },
+      [&](const GroundSlopes& map, const GroundSlopes& around, auto blend) HWY_ATTR {
+        return GroundSlopes{blend(map.x, around.x), blend(map.y, around.y)};
+      });
+}
+
+HWY_INLINE V3 FindAlbedo(const Terrain& terrain, V on_map, V3 p) {
+  const auto sample = [&](const GroundLayer& layer) HWY_ATTR {
+    const V per_m = Constant(layer.albedo_texels_per_m);
+    const V x = hn::MulAdd(p.x, per_m, Constant(layer.albedo_x_eye));
+    const V y = hn::MulAdd(p.y, per_m, Constant(layer.albedo_y_eye));
+    V r, g, b, alpha;
+    texture::HWY_NAMESPACE::SampleRgba(D(), *layer.albedo, x, y, r, g, b, alpha);
+    return V3{hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)};
+  };
+  return BlendOnMap(
+      on_map, [&]() HWY_ATTR { return sample(terrain.map); },
+      [&]() HWY_ATTR { return sample(terrain.around); },
+      [&](V3 map, V3 around, auto blend) HWY_ATTR {
+        return V3{blend(map.x, around.x), blend(map.y, around.y), blend(map.z, around.z)};
+      });
 }
 
 // 1 over the map, falling to 0 where its apron ends, beyond which there is deep water.

@@ -48,7 +48,7 @@ inline HWY_NOINLINE AtHulls SampleHulls(const SunShadow& shadow, const Foam& mat
   AtHulls at = {zero, zero};
   V foam = zero;
   for (const std::uint16_t number : casters) {
-    if (!shadow.casters.pixels[number].meets(span)) continue;
+    if (!shadow.casters.sea_pixels[number].meets(span)) continue;
     const ShadowCaster& caster = shadow.objects->casters[number];
     const Waterline& line = caster.waterline;
     const V3 q = Sum(p, Constant(-line.middle_rel));

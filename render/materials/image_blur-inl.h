@@ -49,6 +49,8 @@ HWY_INLINE void SampleBlurred(const texture::RgbaImage& image, V x, V y, const B
     return texture::HWY_NAMESPACE::SampleRgba(d, image, x, y, code.x, code.y, code.z, alpha);
   texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, level.base, code.x, code.y, code.z,
                                           alpha);
+  // On the softest level, as a rule.
+  if (hn::AllTrue(d, hn::Eq(level.t, hn::Zero(d)))) return;
   const VI next = hn::Min(hn::Add(level.base, hn::Set(DI(), 1)), hn::Set(DI(), image.levels - 1));
   V3 softer;
   V softer_alpha;

@@ -25,8 +25,11 @@ struct MaterialInputs {
   const Media& media;
   PartSet without;
   LookupImage reflection = {}, refraction = {};  // once they are drawn
+  LookupImage river_reflection = {};             // what rivers at about this level mirror
+  float river_level_m = 0.0f, river_mirror_share = 0.0f;
   // How far out the water's vertices show waves.
   double wave_reach_m = std::numeric_limits<double>::infinity();
+  const TreeGeometry* trees = nullptr;  // none: no trees are drawn
 };
 
 }  // namespace swell::render

@@ -1,8 +1,10 @@
 #include "render/materials/light.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/elementary.h"
+#include "scene/sky.h"
 
 namespace swell::render {
 
@@ -11,9 +13,25 @@ namespace {
 // Below this the haze of sea level stands for all air.
 constexpr double kAloft_m = 20.0;
 
+bool shows_phase(const scene::Sky& sky, glm::vec3 to_disc) {
+  return !scene::is_gradient(sky) && to_disc != sky.sun_direction && sky.moon_phase < 1.0;
+}
+
+// The moon's lit side is turned to where the sun has set, and shows as much as its phase says.
+glm::vec3 moon_lit_from(const scene::Sky& sky, glm::vec3 to_disc) {
+  const auto cosine = static_cast<float>(2.0 * sky.moon_phase - 1.0);  // of the phase angle
+  const glm::vec3 aside = sky.sun_direction - glm::dot(sky.sun_direction, to_disc) * to_disc;
+  const float length = glm::length(aside);
+  const glm::vec3 any = glm::normalize(glm::vec3(to_disc.y, -to_disc.x, 1e-3f));
+  return std::sqrt(std::max(1.0f - cosine * cosine, 0.0f)) *
+             (length > 1e-3f ? aside / length : any) -
+         cosine * to_disc;
+}
+
 }  // namespace
 
-Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky) {
+Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky,
+                 const Fog& fog) {
   const SkyMaps& maps = *world.sky;
   Light light;
   light.sun_direction = maps.to_light;
@@ -21,19 +39,29 @@ Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame
   light.ambient = maps.ambient;
   light.horizon = maps.horizon;
   light.sky_soft = sky.mirrored;
+  light.haze_sky = sky.mirrored_clear;
+  if (fog.on) {
+    light.sun_irradiance *= fog.at_sea.sun_passes;
+    light.ambient = fog.ambient;
+  }
   light.sky_map = sky.map;
   light.sky_azimuth = maps.azimuth;
   light.horizon_sine = sky.horizon_sine;
   light.to_disc = sky.to_disc;
   light.disc_radiance = sky.disc_radiance;
+  light.moon_has_phase = shows_phase(world.scene.sky, sky.to_disc);
+  if (light.moon_has_phase) light.disc_lit_from = moon_lit_from(world.scene.sky, sky.to_disc);
   light.exposure = sky.exposure;
   light.clouds = clouds;
+  if (sky.shadow.any) light.cloud_shadow = &sky.shadow;
   return light;
 }
 
-Media make_media(const World::State& world, const Light& light, double height_m, PartSet without) {
+Media make_media(const World::State& world, const Light& light, const Fog& fog, double height_m,
+                 PartSet without) {
   const scene::WaterOptics& water = world.scene.water;
   Media media;
+  media.fog = fog;
   if (!without.has(Part::kHaze)) {
     media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
     if (height_m > kAloft_m) media.molecules_per_m = world.sky->molecules_per_m;

@@ -4,6 +4,8 @@
 #include <glm/glm.hpp>
 
 #include "render/materials/clouds.h"
+#include "render/materials/fog.h"
+#include "render/materials/stars.h"
 #include "render/parts.h"
 #include "render/world/sky_frame.h"
 #include "render/world/world_state.h"
@@ -15,18 +17,24 @@ namespace swell::render {
 struct Light {
   // Of the sun, or of the moon when the sun is down.
   glm::vec3 sun_direction{0, 0, 1};
-  glm::vec3 sun_irradiance{1.0f};  // what clouds leave of it on average
-  glm::vec3 ambient{0.3f};         // the sky's mean radiance
-  glm::vec3 horizon{0.3f};         // its mean round the horizon
-  const texture::RgbMap* sky_soft = nullptr;
+  glm::vec3 sun_irradiance{1.0f};             // what clouds leave of it on average
+  glm::vec3 ambient{0.3f};                    // the sky's mean radiance
+  glm::vec3 horizon{0.3f};                    // its mean round the horizon
+  const texture::RgbMap* sky_soft = nullptr;  // blurred, through fog
+  const texture::RgbMap* haze_sky = nullptr;  // the same without fog: what haze fades to
 
   // As the eye sees it from its height.
   const texture::SmoothImage* sky_map = nullptr;
   glm::vec2 sky_azimuth{0, 1};
   float horizon_sine = 0.0f;
   glm::vec3 to_disc{0, 0, 1}, disc_radiance{0.0f};
+  // From the moon to the sun, where the disc is that of a moon which is not full.
+  glm::vec3 disc_lit_from{0, 0, -1};
+  bool moon_has_phase = false;
   float exposure = 1.0f;  // of the picture, still to be applied
   Clouds clouds;
+  Stars stars;
+  const CloudShadow* cloud_shadow = nullptr;  // none: clouds dim all alike
 };
 
 // What light passes on its way.
@@ -38,6 +46,7 @@ struct Media {
   // to see more of them than that.
   glm::vec3 molecules_per_m{0.0f};
   float cloudy = 0.0f;  // how far the air is lit by an overcast sky, [0, 1]
+  Fog fog;
   // Water.
   float refraction_index = 1.333f;
   bool paper_refraction = false;  // scene::RefractionModel::kPaper
@@ -56,9 +65,11 @@ struct Media {
 inline constexpr float kDaylightSlant = 1.2f;
 
 // clouds, sky: of the frame; the sky to be kept as long as the light.
-Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky);
+Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky,
+                 const Fog& fog);
 // height_m: sky_height_m().
-Media make_media(const World::State& world, const Light& light, double height_m, PartSet without);
+Media make_media(const World::State& world, const Light& light, const Fog& fog, double height_m,
+                 PartSet without);
 // The same where an eye at the height eye_z over the mean level is under water.
 Media submerge(const Media& media, double eye_z);
 

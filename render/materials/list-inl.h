@@ -8,7 +8,9 @@
 #endif
 
 #include "render/materials/object-inl.h"
+#include "render/materials/river-inl.h"
 #include "render/materials/terrain-inl.h"
+#include "render/materials/tree-inl.h"
 #include "render/materials/underside-inl.h"
 
 #endif  // per-target include guard

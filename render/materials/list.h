@@ -11,7 +11,9 @@
 #include <tuple>
 
 #include "render/materials/object.h"
+#include "render/materials/river.h"
 #include "render/materials/terrain.h"
+#include "render/materials/tree.h"
 #include "render/materials/water.h"
 
 namespace swell::render {
@@ -20,7 +22,9 @@ namespace swell::render {
 using Materials = std::tuple<  //
     Water,                     //
     Terrain,                   //
-    Object                     //
+    Object,                    //
+    Tree,                      //
+    River                      //
     >;
 
 inline constexpr std::size_t kMaterialCount = std::tuple_size_v<Materials>;

@@ -8,10 +8,12 @@
 
 #include "render/materials/caustics-inl.h"
 #include "render/materials/checker-inl.h"
+#include "render/materials/form-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/object.h"
 #include "render/materials/thrown_light-inl.h"
 #include "render/tile/attenuate-inl.h"
+#include "render/tile/lanes3-inl.h"
 #include "render/tile/own_shadow-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
@@ -26,18 +28,6 @@ struct ObjectSurface {
   V3 normal;  // unit, on the side that is seen
   V3 albedo;  // of metal: what it mirrors
   V roughness, metalness, translucency;
-};
-
-// A vector a lane, filled one by one: objects cover few pixels, and what their triangles hold is
-// too much for gathers to be quick.
-struct Lanes3 {
-  static constexpr std::size_t kCount = hn::MaxLanes(D());
-  HWY_ALIGN float x[kCount];
-  HWY_ALIGN float y[kCount];
-  HWY_ALIGN float z[kCount];
-
-  void Set(std::size_t lane, glm::vec3 v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
-  V3 Load() const { return {hn::Load(D(), x), hn::Load(D(), y), hn::Load(D(), z)}; }
 };
 
 // The height of each pixel's waterline relative to the eye.
@@ -114,12 +104,15 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   const auto to_world = [&](V3 n) HWY_ATTR {
     return ScaleAdd(right.Load(), n.x, ScaleAdd(ahead.Load(), n.y, Scale(up.Load(), n.z)));
   };
-  const V3 n = to_world(
+  V3 n_mesh =
       ScaleAdd(along_x.Load(), q.x,
-               ScaleAdd(along_y.Load(), q.y, ScaleAdd(along_z.Load(), q.z, at_origin.Load()))));
+               ScaleAdd(along_y.Load(), q.y, ScaleAdd(along_z.Load(), q.z, at_origin.Load())));
+  const auto of_forms = TakeFormNormals(primitive, q, n_mesh);
+  const V3 n = to_world(n_mesh);
   // Of a surface without a back the side that is seen.
   const V inverse = InverseSqrt(hn::Max(Dot(n, n), Constant(1e-30f)));
-  const auto from_behind = hn::Lt(Dot(to_world(flat.Load()), packet.to_eye), hn::Zero(D()));
+  const auto from_behind =
+      hn::AndNot(of_forms, hn::Lt(Dot(to_world(flat.Load()), packet.to_eye), hn::Zero(D())));
   const V3 finishes = finish.Load();
   ObjectSurface surface = {Scale(n, hn::IfThenElse(from_behind, hn::Neg(inverse), inverse)),
                            albedo.Load(), finishes.x, finishes.y, finishes.z};
@@ -247,7 +240,12 @@ struct Shader<Object, kView> {
     const ObjectPacket objects = ObjectsAt(s, lanes);
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
     // What the object itself is before does not tell on the light from the water.
-    const V over_others = SunVisible(s, tile, packet, NumbersOf(objects));
+    V over_others = SunVisible(s, tile, packet, NumbersOf(objects));
+    if (s.sun_shadow.under_trees.map) {
+      const V above_m = hn::Sub(packet.p.z, WaterlineOf(objects.data()));
+      over_others = hn::Mul(over_others, SunUnderTrees(s, packet, hn::Max(above_m, hn::Zero(D()))));
+    }
+    if (s.media.fog.on) over_others = hn::Mul(over_others, SunOverFog(s.media.fog, packet.p.z));
     V sun_visible = hn::Mul(over_others, SunOverOwn(s, objects, packet, surface.normal));
     V thrown = hn::Zero(D());
     if (ShowsWaterSide<kView>(s.media))

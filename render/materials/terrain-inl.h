@@ -6,11 +6,13 @@
 #define SWELL_RENDER_MATERIALS_TERRAIN_INL_H_
 #endif
 
+#include "render/materials/canopy-inl.h"
 #include "render/materials/caustics-inl.h"
 #include "render/materials/checker-inl.h"
 #include "render/materials/foam-inl.h"
 #include "render/materials/fresnel-inl.h"
 #include "render/materials/ground-inl.h"
+#include "render/materials/land-inl.h"
 #include "render/materials/terrain.h"
 #include "render/materials/water-inl.h"
 #include "render/tile/attenuate-inl.h"
@@ -19,10 +21,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-
-HWY_INLINE V GroundLevel(const ViewRays& rays, const Packet& packet) {
-  return FootprintLevel(FootprintAcross(rays, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
-}
 
 // The sun on the ground by its map, and outside that by the light's own way.
 HWY_INLINE V SunFromMap(const Shading& s, const SlopeLayer& map, V3 p, V level_m, const V3& p_lit) {
@@ -47,8 +45,65 @@ HWY_INLINE V SunOnGround(const Shading& s, const Terrain& terrain, const TilePix
   if (ShowsWaterSide<kView>(s.media)) point.p = WhereLightEnters(s, packet.p);
   V visible = Constant(1.0f);
   if (terrain.sun.map) visible = SunFromMap(s, terrain.sun, packet.p, level_m, point.p);
+  if (s.sun_shadow.clouds)
+    visible = hn::Mul(visible, SunUnderClouds(*s.sun_shadow.clouds, point.p, s.rays.eye_z));
   if (tile.casters.empty()) return visible;
   return hn::Mul(visible, SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet), point));
+}
+
+// What ground is like for light. normal: as seen; inverse_length: that of a normal (-slope_x,
+// -slope_y, 1), with the slopes that a pixel does not show.
+struct GroundLook {
+  V3 albedo, normal;
+  V inverse_length, sky_seen;
+};
+
+// Seen in or through water, and the floor of the sea.
+template <bool kDetail>
+HWY_INLINE GroundLook FindPlainGround(const Terrain& terrain, const Packet& packet, V on_map,
+                                      V level_m, GroundSlopes slopes) {
+  if constexpr (kDetail) {
+    const V zero = hn::Zero(D());
+    V unused = zero;
+    AddSlopes(terrain.detail, packet.p, level_m, zero, zero, slopes.x, slopes.y, unused);
+  }
+  const V3 normal = NormalOf(slopes.x, slopes.y);
+  return {FindAlbedo(terrain, on_map, packet.p), normal, normal.z, Constant(1.0f)};
+}
+
+HWY_INLINE GroundLook FindDryGround(const Terrain& terrain, const ViewRays& rays,
+                                    const Packet& packet, V on_map, GroundSlopes slopes) {
+  const V cos_view = Clamp(hn::Abs(Dot(NormalOf(slopes.x, slopes.y), packet.to_eye)), 0.3f, 1.0f);
+  const V level_m = FootprintLevel(FootprintAcross(rays, packet), cos_view);
+  const LandLook land = FindLand(terrain, rays, packet, on_map, level_m, slopes.x, slopes.y);
+  const V slope2 = hn::MulAdd(land.slope_x, land.slope_x, hn::Mul(land.slope_y, land.slope_y));
+  const V inverse_length = InverseSqrt(hn::Add(Constant(1.0f), hn::Add(slope2, land.variance)));
+  return {land.albedo, NormalOf(land.slope_x, land.slope_y), inverse_length, land.sky_seen};
+}
+
+template <bool kDetail>
+HWY_INLINE GroundLook FindGround(const Terrain& terrain, const ViewRays& rays, const Packet& packet,
+                                 V level_m) {
+  const D d;
+  const V on_map = OnMap(terrain, packet.p);
+  const GroundSlopes slopes = FindSlopes<kDetail>(terrain, on_map, packet.p, level_m);
+  if constexpr (kDetail) {
+    if (terrain.land.on) {
+      const auto dry = hn::Gt(packet.p.z, Constant(-rays.eye_z));
+      if (hn::AllTrue(d, dry)) return FindDryGround(terrain, rays, packet, on_map, slopes);
+      const GroundLook floor = FindPlainGround<kDetail>(terrain, packet, on_map, level_m, slopes);
+      if (hn::AllFalse(d, dry)) return floor;
+      const GroundLook land = FindDryGround(terrain, rays, packet, on_map, slopes);
+      const auto select = [&](V3 a, V3 b) HWY_ATTR {
+        return V3{hn::IfThenElse(dry, a.x, b.x), hn::IfThenElse(dry, a.y, b.y),
+                  hn::IfThenElse(dry, a.z, b.z)};
+      };
+      return {select(land.albedo, floor.albedo), select(land.normal, floor.normal),
+              hn::IfThenElse(dry, land.inverse_length, floor.inverse_length),
+              hn::IfThenElse(dry, land.sky_seen, floor.sky_seen)};
+    }
+  }
+  return FindPlainGround<kDetail>(terrain, packet, on_map, level_m, slopes);
 }
 
 // Ground, diffuse and lit by sun and sky.
@@ -60,23 +115,26 @@ HWY_INLINE Ground LightGround(const Terrain& terrain, const Shading& s, const Pa
                               V level_m, V sun_visible) {
   const Light& light = s.light;
   const V zero = hn::Zero(D());
-  GroundLook look = FindGround<kDetail>(terrain, packet.p, level_m);
-  if constexpr (kDetail) {
-    V unused = zero;
-    AddSlopes(terrain.detail, packet.p, level_m, zero, zero, look.slope_x, look.slope_y, unused);
-  }
+  GroundLook look = FindGround<kDetail>(terrain, s.rays, packet, level_m);
   if (terrain.checker.per_m > 0.0f) {
     const V grey = CheckeredGround(terrain.checker, s.rays, packet);
     look.albedo = {grey, grey, grey};
   }
-  const V3 normal = NormalOf(look.slope_x, look.slope_y);
+  const UnderTrees under =
+      FindUnderTrees(terrain.canopy, s.sun_shadow.under_trees, s.rays, packet, level_m);
+  look.albedo = ColourUnderTrees(terrain.canopy, under, look.albedo);
+  sun_visible = hn::Mul(sun_visible, under.sun);
 
-  const V cos_sun = hn::Mul(hn::Max(Dot(normal, Constant(light.sun_direction)), zero), sun_visible);
-  const V sky_seen = hn::MulAdd(normal.z, Constant(0.5f), Constant(0.5f));
+  // Slopes that are not shown make the mean cosine less.
+  const V rough = hn::Div(look.inverse_length, look.normal.z);
+  const V cos_mean = hn::Mul(Dot(look.normal, Constant(light.sun_direction)), rough);
+  const V cos_sun = hn::Mul(hn::Max(cos_mean, zero), sun_visible);
+  const V open = hn::Mul(look.sky_seen, under.sky);
+  const V sky_seen = hn::Mul(hn::MulAdd(look.inverse_length, Constant(0.5f), Constant(0.5f)), open);
   const V3 arriving =
       ScaleAdd(Constant(light.sun_irradiance), hn::Mul(cos_sun, Constant(0.318309886f)),
                Scale(Constant(light.ambient), sky_seen));
-  return {Product(arriving, look.albedo), normal};
+  return {Product(arriving, look.albedo), look.normal};
 }
 
 // Where the sea's edge is now, as a height on the beach from 0 to reach_m: it stays low
@@ -123,8 +181,7 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
   if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, flat, packet.to_eye.z};
-  const WaterSlopes sea =
-      SampleWater<true>(water, s.rays, std::array{packet}, std::make_index_sequence<1>())[0];
+  const WaterSlopes sea = SampleWater<true>(water, s.rays, std::array{packet})[0];
   return {hn::Mul(sea.slope_x, kept),          hn::Mul(sea.slope_y, kept),
           Lerp(flat, sea.variance, kept),      hn::Mul(sea.foam_cover, kept),
           Lerp(flat, sea.fine_variance, kept), Lerp(packet.to_eye.z, sea.long_cosine, kept)};
@@ -149,8 +206,11 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
                        V height_m, V sun_visible, V3 ground) {
   const D d;
   const float reach_m = terrain.swash.reach_m;
+  if (reach_m <= 0.0f || hn::AllFalse(d, hn::Lt(height_m, Constant(1.6f * reach_m)))) return ground;
+  // In a lee sheets run less high: the beach is as if it were higher.
+  height_m = hn::Div(height_m, KeptBeside(s.material<Water>().near_shore, packet.p, level_m));
   const auto reached = hn::Lt(height_m, Constant(1.6f * reach_m));
-  if (reach_m <= 0.0f || hn::AllFalse(d, reached)) return ground;
+  if (hn::AllFalse(d, reached)) return ground;
   const SwashEdge swash = FindSwashEdge(terrain.swash, packet.p);
   // Sand stays wet for a while up to where the sheets come.
   const V height = hn::Mul(height_m, Constant(1.0f / reach_m));
@@ -194,6 +254,7 @@ struct Shader<Terrain, kView> {
     const V level_m = GroundLevel(s.rays, packet);
     constexpr bool kDetail = kView == ViewKind::kWindow;
     V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
+    if (s.media.fog.on) sun_visible = hn::Mul(sun_visible, SunOverFog(s.media.fog, packet.p.z));
     if (ShowsWaterSide<kView>(s.media))
       sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, level_m));
     const Ground ground = LightGround<kDetail>(terrain, s, packet, level_m, sun_visible);

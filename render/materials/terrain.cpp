@@ -4,26 +4,24 @@
 #include <cmath>
 
 #include "ocean/sea_state.h"
+#include "ocean/swash.h"
 #include "terrain/apron.h"
 
 namespace swell::render {
 namespace {
 
 constexpr double kDetailPeriod_m = 7.0;
-constexpr float kSwashPart = 0.1f;  // how high sheets of water run, of the highest waves
 
-// The sheets of water come and go with the slowest of the trains.
-Swash make_swash(const ocean::TrainSea& trains, double t_s, glm::dvec2 eye) {
-  const double period_s = *std::ranges::max_element(trains.period_s);
+Swash make_swash(const ocean::Swash& sheets, double t_s, glm::dvec2 eye) {
   Swash swash;
-  swash.reach_m = kSwashPart * trains.height_bound_m;
-  swash.cycles = fraction(t_s / period_s);
-  const auto along = [&](double x_m, double y_m) {
-    return glm::vec3(1.0 / x_m, 1.0 / y_m, fraction(eye.x / x_m + eye.y / y_m));
+  swash.reach_m = static_cast<float>(sheets.reach_m);
+  swash.cycles = fraction(t_s / sheets.period_s);
+  const auto along = [&](glm::dvec2 lag_m) {
+    return glm::vec3(1.0 / lag_m.x, 1.0 / lag_m.y, fraction(eye.x / lag_m.x + eye.y / lag_m.y));
   };
-  swash.lag_a = along(310.0, 230.0);
-  swash.lag_b = along(-97.0, 71.0);
-  swash.lag_c = along(17.0, 23.0);
+  swash.lag_a = along(ocean::kSwashLags_m[0]);
+  swash.lag_b = along(ocean::kSwashLags_m[1]);
+  swash.lag_c = along(ocean::kSwashLags_m[2]);
   return swash;
 }
 
@@ -57,11 +55,15 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
       0.11f / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
   terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});
 
+  fill(in, eye, land.grid.size_m() / maps.ground.size, terrain.land);
+  terrain.canopy = make_canopy(in, land.grid, eye);
   terrain.checker = make_checker(in.world.scene.terrain->checker_m, eye);
   terrain.swash = {};
-  if (!in.world.coast || in.without.has(Part::kWater)) return;
-  terrain.swash =
-      make_swash(in.world.coast->trains, ocean::wave_time_s(in.world.scene.sea, in.t_s), eye);
+  if (in.without.has(Part::kWater)) return;
+  if (!in.world.coast && in.without.has(Part::kSurfFronts)) return;
+  const ocean::Swash sheets =
+      ocean::make_swash(*in.world.sea, in.world.coast.get(), in.world.shelter.get());
+  terrain.swash = make_swash(sheets, ocean::wave_time_s(in.world.scene.sea, in.t_s), eye);
   terrain.foam = make_foam(in, eye);
 }
 

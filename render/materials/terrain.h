@@ -3,9 +3,11 @@
 
 #include <glm/glm.hpp>
 
+#include "render/materials/canopy.h"
 #include "render/materials/checker.h"
 #include "render/materials/foam.h"
 #include "render/materials/inputs.h"
+#include "render/materials/land.h"
 #include "render/materials/slope_layer.h"
 
 namespace swell::render {
@@ -31,8 +33,10 @@ struct Terrain {
 
   GroundLayer map, around;  // the terrain's square; that with its apron
   SlopeLayer detail;
+  Land land;
   SlopeLayer sun;  // LandShadow::ground; no map: lit everywhere
   Checker checker;
+  Canopy canopy;
   Swash swash;
   Foam foam;
 };

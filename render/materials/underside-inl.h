@@ -22,14 +22,8 @@ HWY_NOINLINE static std::array<WaterSlopes, kCount> SampleUnderside(
     const Water& water, const ViewRays& rays, const std::array<Packet, kCount>& shown) {
   std::array<Packet, kCount> turned = shown;
   for (Packet& packet : turned) packet.to_eye = Scale(packet.to_eye, Constant(-1.0f));
-  const std::make_index_sequence<kCount> all;
-  return water.has_coast ? SampleWater<true>(water, rays, turned, all)
-                         : SampleWater<false>(water, rays, turned, all);
-}
-
-HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
+  return water.knows_land() ? SampleWater<true>(water, rays, turned)
+                            : SampleWater<false>(water, rays, turned);
 }
 
 // How a ray in water, which goes up along -to_eye, leaves the surface.
@@ -125,6 +119,7 @@ HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& p
     V passes;
     light = AddClouds(s.light.clouds, clouds, noise, light, passes);
   }
+  if (s.media.fog.on) light = SkyThroughFog(s.media.fog, s.media.fog.at_sea, up, light);
   const V softness = hn::MulAdd(f.spread, Constant(2.0f), Constant(0.02f));
   const V sea = SmoothBlend(hn::Div(hn::Neg(f.bent.z), softness));
   light = Lerp(light, Constant(water.mirrored_sea), sea);
@@ -155,7 +150,8 @@ HWY_INLINE V3 LightFromWater(const Shading& s, const Water& water, const Packet&
 }
 
 // The sun through the slopes that a pixel does not show, as radiance per irradiance, in basic
-// radiance (over n^2): both the sun's disc and a Gaussian distribution of slopes spread it.
+// radiance (over n^2): both the sun's disc and a Gaussian distribution of slopes spread it. 0 where
+// that leaves less than any picture shows.
 // Source: Walter, Marschner, Li, Torrance, Microfacet Models for Refraction through Rough Surfaces,
 // 2007, equation 21, without its shadowing term.
 HWY_INLINE V SunThrough(glm::vec3 sun_direction, float n, V3 ray, const WaterSlopes& s,
@@ -174,7 +170,9 @@ HWY_INLINE V SunThrough(glm::vec3 sun_direction, float n, V3 ray, const WaterSlo
   const V inv_variance =
       hn::Div(Constant(1.0f), hn::Add(s.variance, Constant(disc_variance)));  // 1 / (2 sigma^2)
   const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
-  const V density = hn::Mul(Exp(D(), hn::Max(exponent, Constant(-80.0f))),
+  const auto some = hn::Gt(exponent, Constant(-40.0f));
+  if (hn::AllFalse(D(), some)) return hn::Zero(D());
+  const V density = hn::Mul(hn::IfThenElseZero(some, Exp(D(), hn::Max(exponent, Constant(-40.0f)))),
                             hn::Mul(inv_variance, Constant(0.318309886f)));
   const V cos_air = hn::Max(Dot(sun, h), Constant(1e-4f)), cos_water = Dot(ray, h);
   const V passes = hn::Sub(Constant(1.0f), FresnelReflectance(D(), cos_air, n));
@@ -242,13 +240,16 @@ struct UndersideShader {
       seen = Where(mirrors, mirrored, Lerp(bent, mirrored, f.reflectance));
       bent_alpha = hn::IfThenZeroElse(mirrors, bent_alpha);
     }
-    const V sun_visible = SunVisible(s, tile, packet);
+    // Shadows are looked for where there is sun to hide.
     const V sun = SunThrough(s.light.sun_direction, s.media.refraction_index, ray, slopes, f);
-    seen = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(sun, sun_visible), seen);
-    seen = AddFoamFromBelow(s, slopes.foam_cover, sun_visible, seen);
+    if (!hn::AllFalse(d, hn::Gt(hn::Max(sun, slopes.foam_cover), zero))) {
+      const V sun_visible = SunOnSea(s, tile, packet);
+      seen = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(sun, sun_visible), seen);
+      seen = AddFoamFromBelow(s, slopes.foam_cover, sun_visible, seen);
+    }
     return {Where(lost, nothing.light, seen), Where(lost, nothing.normal, f.normal),
             hn::IfThenZeroElse(lost, slopes.foam_cover),
-            hn::IfThenZeroElse(lost, FlagsOf(mirrored_alpha, bent_alpha))};
+            hn::IfThenZeroElse(lost, FlagsOf(mirrored_alpha, bent_alpha, slopes.wake))};
   }
 };
 
@@ -258,7 +259,7 @@ HWY_INLINE void WithShader(const Water& water, const Use& use) {
   if constexpr (shows(kView, Water::kSurface)) {
     if (water.submerged)
       use(UndersideShader{water});
-    else if (water.has_coast)
+    else if (water.knows_land())
       use(WaterShader<true>{water});
     else
       use(WaterShader<false>{water});

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "render/labels/label_channels.h"
 #include "render/materials/bump_light-inl.h"
@@ -22,12 +21,14 @@
 #include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
 #include "render/materials/image_blur-inl.h"
+#include "render/materials/near_shore-inl.h"
 #include "render/materials/tiled_slopes-inl.h"
 #include "render/materials/visible_slopes-inl.h"
 #include "render/materials/wakes-inl.h"
 #include "render/materials/water.h"
 #include "render/materials/whitecaps-inl.h"
 #include "render/tile/light_code-inl.h"
+#include "render/tile/stars-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
 #include "render/view/wave_reach.h"
@@ -45,7 +46,8 @@ struct WaterSlopes {
                     // them
   V long_cosine;    // to the eye, of those
   // Of foam: TornFoam.
-  V foam_thickness = hn::Zero(D()), foam_bubbles = hn::Zero(D());
+  V foam_thickness = {}, foam_bubbles = {};
+  V wake = {};  // over 1 where one is seen
 };
 
 HWY_INLINE void SetFoam(const TornFoam& foam, WaterSlopes& s) {
@@ -84,32 +86,43 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
 }
 
 // What a coast's maps say of a packet: what the sea's own waves cede to the trains that know its
-// floor, and the foam where they break, both 0 outside the maps.
+// floor and what land takes of them, and the foam where waves break, both 0 outside the maps.
 struct Surf {
   V ceded, foam;
-  hn::Mask<D> inside;
-  bool is_near;    // any lane inside
-  bool all_ceded;  // no lane has anything of the sea's long waves
+  hn::Mask<D> has_trains;  // in the trains' map
+  hn::Mask<D> inside;      // in any
+  bool is_near;            // any lane inside
+  bool all_ceded;          // no lane has anything of the sea's long waves
 };
 
-HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
-  const D d;
+HWY_INLINE void SampleTrains(const Water& water, V3 p, V level_m, Surf& surf) {
   const SlopeLayer& layer = water.coast_surf;
   const LayerPlace place = PlaceIn(layer, p.x, p.y);
-  const V low = hn::Zero(d), high = Constant(0.999f * 256.0f * static_cast<float>(layer.map->size));
-  Surf surf;
-  surf.inside = hn::And(hn::And(hn::Gt(place.x_fx8, low), hn::Gt(place.y_fx8, low)),
-                        hn::And(hn::Lt(place.x_fx8, high), hn::Lt(place.y_fx8, high)));
-  surf.ceded = surf.foam = hn::Zero(d);
-  surf.is_near = !hn::AllFalse(d, surf.inside);
-  surf.all_ceded = false;
-  if (!surf.is_near) return surf;
+  surf.has_trains = surf.inside = IsInside(layer, place);
+  if (hn::AllFalse(D(), surf.inside)) return;
   SampleNearest(layer, place, hn::Sub(level_m, Constant(0.5f)), surf.ceded, surf.foam);
   // All but half a step is all.
   surf.ceded = hn::IfThenElse(hn::Gt(surf.ceded, Constant(0.996f)), Constant(1.0f), surf.ceded);
   surf.ceded = hn::IfThenElseZero(surf.inside, surf.ceded);
   surf.foam = hn::IfThenElseZero(surf.inside, surf.foam);
-  surf.all_ceded = hn::AllTrue(d, hn::Ge(surf.ceded, Constant(1.0f)));
+}
+
+HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
+  const D d;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  const auto none = hn::MaskFromVec(zero);
+  Surf surf = {zero, zero, none, none, false, false};
+  if (water.has_coast) SampleTrains(water, p, level_m, surf);
+  if (water.near_shore.map.map) {
+    const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m);
+    // What trains leave: they are the waves, where there are some.
+    const V left = hn::Sub(one, surf.ceded);
+    surf.foam = hn::MulAdd(shore.foam, left, surf.foam);
+    surf.ceded = hn::MulAdd(shore.taken, left, surf.ceded);
+    surf.inside = hn::Or(surf.inside, shore.inside);
+  }
+  surf.is_near = !hn::AllFalse(d, surf.inside);
+  surf.all_ceded = surf.is_near && hn::AllTrue(d, hn::Ge(surf.ceded, one));
   return surf;
 }
 
@@ -124,11 +137,12 @@ HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf
   const V blended = hn::MulAdd(long_variance, hn::Mul(kept, kept), Constant(water.base_variance));
   // Not rounded outside: a packet with no lane inside does not come by here.
   s.variance = hn::IfThenElse(surf.inside, blended, s.variance);
+  if (hn::AllFalse(d, surf.has_trains)) return;
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
   AddSlopes(water.coast_slopes, p, level_m, x, y, x, y, lost);
-  s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(surf.inside, x));
-  s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(surf.inside, y));
-  s.variance = hn::Add(s.variance, hn::IfThenElseZero(surf.inside, lost));
+  s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(surf.has_trains, x));
+  s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(surf.has_trains, y));
+  s.variance = hn::Add(s.variance, hn::IfThenElseZero(surf.has_trains, lost));
 }
 
 constexpr float kMinCos = 0.02f;
@@ -141,13 +155,13 @@ HWY_INLINE V CosineOfSlopes(const Packet& packet, const WaterSlopes& s) {
 
 // How Perlin noise bends the coordinates of the ripples.
 template <bool kCoast>
-HWY_INLINE void BendRipples(const SlopeLayer& noise, V3 p, V level_m, V& du, V& dv) {
+HWY_INLINE void BendRipples(const Water& water, V3 p, V level_m, V& du, V& dv) {
   V unused = hn::Zero(D());
   // In scenes with surf nobody sees the step between two levels of the noise.
-  if constexpr (kCoast)
-    NearestSlopes(noise, p, level_m, du, dv);
+  if (kCoast && water.has_coast)
+    NearestSlopes(water.uv_noise, p, level_m, du, dv);
   else
-    AddSlopes(noise, p, level_m, du, dv, du, dv, unused);
+    AddSlopes(water.uv_noise, p, level_m, du, dv, du, dv, unused);
 }
 
 // What disturbs the water: slopes on those that there are, and foam, torn as whitecaps are.
@@ -158,6 +172,9 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
   s.slope_y = hn::Add(s.slope_y, at.slope_y);
   s.variance = hn::Add(s.variance, at.variance);
   s.fine_variance = hn::Add(s.fine_variance, at.variance);
+  const V slope2 = hn::MulAdd(at.slope_x, at.slope_x, hn::Mul(at.slope_y, at.slope_y));
+  s.wake =
+      hn::Max(hn::Mul(slope2, Constant(1.0f / (0.02f * 0.02f))), hn::Mul(at.foam, Constant(10.0f)));
   const TornFoam foam = TearWhitecaps(water.wakes.foam, p, level_m, at.foam);
   s.foam_cover = hn::Max(s.foam_cover, foam.cover);
   s.foam_thickness = hn::Max(s.foam_thickness, foam.thickness);
@@ -168,66 +185,77 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
 // by side hide that.
-template <bool kCoast, std::size_t kCount, std::size_t... k>
+template <bool kCoast, std::size_t kCount>
 HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const ViewRays& rays,
-                                                       const std::array<Packet, kCount>& packets,
-                                                       std::index_sequence<k...>) {
+                                                       const std::array<Packet, kCount>& packets) {
   const D d;
   const V zero = hn::Zero(d);
-  const std::array<V, kCount> across = {FootprintAcross(rays, packets[k])...};
-  const std::array<V, kCount> level_flat_m = {
-      FootprintLevel(across[k], Clamp(packets[k].to_eye.z, kMinCos, 1.0f))...};
-  std::array<V, kCount> level_m = level_flat_m;
-  std::array<Surf, kCount> surf = {
-      (static_cast<void>(k), Surf{zero, zero, hn::MaskFromVec(zero), false, false})...};
-  if constexpr (kCoast) ((surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k])), ...);
-  std::array<WaterSlopes, kCount> s = {
-      (static_cast<void>(k),
-       WaterSlopes{zero, zero, Constant(water.base_variance), zero, zero, packets[k].to_eye.z})...};
-  std::array<V, kCount> du = {(static_cast<void>(k), zero)...}, dv = du;
+  std::array<V, kCount> across, level_flat_m, level_m, du, dv;
+  std::array<Surf, kCount> surf;
+  std::array<WaterSlopes, kCount> s;
+  for (std::size_t k = 0; k < kCount; ++k) {
+    across[k] = FootprintAcross(rays, packets[k]);
+    level_flat_m[k] = FootprintLevel(across[k], Clamp(packets[k].to_eye.z, kMinCos, 1.0f));
+    level_m[k] = level_flat_m[k];
+    surf[k] = {zero, zero, hn::MaskFromVec(zero), hn::MaskFromVec(zero), false, false};
+    if constexpr (kCoast) surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k]);
+    s[k] = {zero, zero, Constant(water.base_variance), zero, zero, packets[k].to_eye.z};
+    du[k] = dv[k] = zero;
+  }
   for (int i = 0; i < water.sine_count; ++i)
-    (AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]), ...);
-  const bool all_ceded = kCoast && (surf[k].all_ceded && ...);
+    for (std::size_t k = 0; k < kCount; ++k)
+      AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]);
+  bool all_ceded = kCoast;
+  if constexpr (kCoast)
+    for (std::size_t k = 0; k < kCount; ++k) all_ceded = all_ceded && surf[k].all_ceded;
   const bool has_patch = water.first_ripples > 0;
   if (has_patch && !all_ceded) {
     const FoamMap* const long_foam = water.whitecaps.count > 0 ? &water.whitecaps.foam[0] : nullptr;
-    const std::array<V, kCount> foam = {AddLongestPatch(water.layers[0], long_foam, packets[k].p,
-                                                        level_flat_m[k], s[k].slope_x, s[k].slope_y,
-                                                        s[k].variance)...};
-    const std::array<V, kCount> whitecaps = {WhitecapsAt(
-        water.whitecaps, foam[k], packets[k].p, hn::Add(packets[k].p.z, Constant(rays.eye_z)),
-        level_flat_m[k], surf[k].ceded)...};
-    (SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], whitecaps[k]), s[k]),
-     ...);
+    std::array<V, kCount> foam;
+    for (std::size_t k = 0; k < kCount; ++k)
+      foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
+                                s[k].slope_x, s[k].slope_y, s[k].variance);
+    for (std::size_t k = 0; k < kCount; ++k)
+      foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p,
+                            hn::Add(packets[k].p.z, Constant(rays.eye_z)), level_flat_m[k],
+                            surf[k].ceded);
+    for (std::size_t k = 0; k < kCount; ++k)
+      SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
   }
   if constexpr (kCoast)
-    (AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]), ...);
+    for (std::size_t k = 0; k < kCount; ++k)
+      AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]);
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
   const int last_long = water.long_layer_count - 1;
   for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
     const bool is_long = i <= last_long;
-    if (i == water.first_ripples && (ShowsDetail(water.layers[i], level_m[k]) || ...))
-      (BendRipples<kCoast>(water.uv_noise, packets[k].p, level_m[k], du[k], dv[k]), ...);
+    if (i == water.first_ripples) {
+      bool shows = false;
+      for (std::size_t k = 0; k < kCount; ++k)
+        shows = shows || ShowsDetail(water.layers[i], level_m[k]);
+      if (shows)
+        for (std::size_t k = 0; k < kCount; ++k)
+          BendRipples<kCoast>(water, packets[k].p, level_m[k], du[k], dv[k]);
+    }
     if (i >= (has_patch ? 1 : 0) && !(is_long && all_ceded)) {
       const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
-      (AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
-                 s[k].variance),
-       ...);
+      for (std::size_t k = 0; k < kCount; ++k)
+        AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
+                  s[k].variance);
     }
     if (!is_long) continue;
-    const auto blend_coast = [&](const Packet& packet, V level, const Surf& at, WaterSlopes& slopes)
-                                 HWY_ATTR {
-                                   if (kCoast && at.is_near && i == last_long)
-                                     BlendCoast(water, packet.p, level, at, slopes);
-                                 };
-    (blend_coast(packets[k], level_flat_m[k], surf[k], s[k]), ...);
-    ((s[k].long_cosine = CosineOfSlopes(packets[k], s[k])), ...);
-    // The normal's length is left out: it is near 1, and a level needs no better.
-    ((level_m[k] = FootprintLevel(across[k], Clamp(s[k].long_cosine, kMinCos, 1.0f))), ...);
-    ((s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance))), ...);
+    for (std::size_t k = 0; k < kCount; ++k) {
+      if (kCoast && surf[k].is_near && i == last_long)
+        BlendCoast(water, packets[k].p, level_flat_m[k], surf[k], s[k]);
+      s[k].long_cosine = CosineOfSlopes(packets[k], s[k]);
+      // The normal's length is left out: it is near 1, and a level needs no better.
+      level_m[k] = FootprintLevel(across[k], Clamp(s[k].long_cosine, kMinCos, 1.0f));
+      s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance));
+    }
   }
-  if (water.wakes.count > 0) (AddWakes(water, packets[k].p, level_flat_m[k], s[k]), ...);
+  if (water.wakes.count > 0)
+    for (std::size_t k = 0; k < kCount; ++k) AddWakes(water, packets[k].p, level_flat_m[k], s[k]);
   return s;
 }
 
@@ -337,6 +365,15 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
   return f;
 }
 
+// Slopes that a pixel does not show turn a mirrored ray by twice as much, and draw its spot wider:
+// by the root of 8 variances of one axis.
+HWY_INLINE V3 MirroredStars(const Stars& stars, V3 r, V length, V variance) {
+  const float least = std::min(1.5f * stars.pixel_angle, 0.9f * kWidestStar);
+  const V radius = hn::Sqrt(
+      hn::MulAdd(hn::Max(variance, hn::Zero(D())), Constant(16.0f), Constant(least * least)));
+  return StarLight(stars, Scale(r, hn::Div(Constant(1.0f), length)), radius);
+}
+
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
 // horizon that waves make, brighter by what its floor adds here, and in front of both whatever the
 // reflection image shows there, whose part is `image_alpha`.
@@ -353,6 +390,9 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   r.z = hn::Max(r.z, Constant(-0.25f));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
+  if (light.stars.on)
+    mirrored = Sum(mirrored, MirroredStars(light.stars, r, length,
+                                           hn::Sub(s.variance, Constant(water.base_variance))));
   const V3 mirrored_sea =
       ScaleAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
   mirrored = Lerp(mirrored, mirrored_sea, sea);
@@ -435,15 +475,17 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   return hn::Mul(hn::Mul(reflectance, density), scale);
 }
 
-// Bits of Label::kFlags, as a number: images that hide more than half of what else is seen.
-HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha) {
+// Bits of Label::kFlags, as a number: images that hide more than half of what else is seen, wakes.
+HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha, V wake) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
     return hn::IfThenElseZero(hn::Gt(alpha, Constant(0.5f)), Constant(static_cast<float>(value)));
   };
-  return hn::Add(bit(mirrored_alpha, kShowsMirrored), bit(refracted_alpha, kShowsRefracted));
+  return hn::Add(
+      hn::Add(bit(mirrored_alpha, kShowsMirrored), bit(refracted_alpha, kShowsRefracted)),
+      bit(hn::Mul(wake, Constant(0.5f)), kShowsWake));
 }
 
-// kCoast: water.has_coast.
+// kCoast: water.knows_land().
 template <bool kCoast>
 struct WaterShader {
   static constexpr std::size_t kPacketsAtOnce = SWELL_WATER_PACKETS_AT_ONCE;
@@ -452,7 +494,7 @@ struct WaterShader {
   template <std::size_t kCount>
   HWY_INLINE std::array<WaterSlopes, kCount> LookUp(
       const Shading& shading, const std::array<Packet, kCount>& packets) const {
-    return SampleWater<kCoast>(water, shading.rays, packets, std::make_index_sequence<kCount>());
+    return SampleWater<kCoast>(water, shading.rays, packets);
   }
 
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
@@ -460,7 +502,7 @@ struct WaterShader {
     const Light& light = shading.light;
     const Facing f = FaceEye(shading.media, water, packet, s);
 
-    const V sun_visible = SunVisible(shading, tile, packet);
+    const V sun_visible = SunOnSea(shading, tile, packet);
     V inv_variance, mirrored_alpha, refracted_alpha;
     const V reflectance = GlintReflectance(shading.media, light.sun_direction, packet);
     V sun_path = SunGlint(light.sun_direction, packet, s, reflectance, f.area, inv_variance);
@@ -489,7 +531,7 @@ struct WaterShader {
           hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));
     V3 seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction, sun_visible, f.normal, seen);
-    return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha)};
+    return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
   }
 };
 

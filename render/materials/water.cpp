@@ -159,6 +159,7 @@ void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);
+  water.near_shore = make_near_shore(in, eye);
   water.foam = make_foam(in, eye);
   water.hull_foam = make_foam(in, eye, kHullFoamPeriod_m);
   water.whitecaps = make_whitecaps(in, eye);

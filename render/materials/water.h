@@ -8,6 +8,7 @@
 #include "render/materials/foam.h"
 #include "render/materials/glitter.h"
 #include "render/materials/inputs.h"
+#include "render/materials/near_shore.h"
 #include "render/materials/slope_layer.h"
 #include "render/materials/wakes.h"
 #include "render/materials/whitecaps.h"
@@ -46,8 +47,10 @@ struct Water {
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
   // foam. Not periodic: they hold within their square.
   bool has_coast = false;
+  bool knows_land() const { return has_coast || near_shore.map.map != nullptr; }
   bool submerged = false;  // the eye sees the surface from below
   SlopeLayer coast_slopes, coast_surf;
+  NearShore near_shore;
   Foam foam, hull_foam;
   Whitecaps whitecaps;
   Wakes wakes;

@@ -53,6 +53,7 @@ Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   for (std::size_t p = 0; p < sea.patches.size(); ++p) {
     FoamMap& map = whitecaps.foam[p];
     map.map = &in.sea.foam[p];
+    if (in.sea.foam_blocks[p].are_few) map.blocks = &in.sea.foam_blocks[p];
     const double length_m = sea.patches[p].length_m, map_fx8 = 256.0 * map.map->size;
     map.texels_fx8_per_m = static_cast<float>(map_fx8 / length_m);
     map.x_eye_fx8 = static_cast<float>(map_fx8) * fraction(eye.x / length_m);

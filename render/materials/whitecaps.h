@@ -24,7 +24,8 @@ struct FoamMap {
   float texels_fx8_per_m = 1.0f;             // 1/256 texels of level 0
   float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // under the eye
   float log2_texels_per_m = 0.0f;
-  float mean = 0.0f;  // over the sea
+  float mean = 0.0f;                   // over the sea
+  const FoamBlocks* blocks = nullptr;  // where there is any, if that is worth looking
   // Tiles are moved by whole samples of the waves' patch, which are so large in this map.
   int fx8_per_sample = 256;
 };

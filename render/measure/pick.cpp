@@ -9,6 +9,7 @@
 #include "ocean/water_surface.h"
 #include "render/workspace.h"
 #include "scene/object_ray.h"
+#include "terrain/height_rays.h"
 
 namespace swell::render {
 namespace {
@@ -32,6 +33,21 @@ void meet_surface(Shown what, const Surface& surface, bool is_bintree, const Ray
   keep_nearer(
       {.what = what, .distance_m = hit.distance_m, .triangle = hit.triangle, .level = level},
       nearest);
+}
+
+// Land that rays find, with its apron.
+void meet_land(const LandRays& land, const Ray& ray, std::optional<Pick>& nearest) {
+  const auto x = static_cast<float>(ray.along.x), y = static_cast<float>(ray.along.y);
+  const auto z = static_cast<float>(ray.origin.z), z_t = static_cast<float>(ray.along.z);
+  const float z_tt = 0.0f, begin = 0.0f, end = static_cast<float>(kFarthest_m);
+  for (const terrain::HeightPyramid* const heights : {&land.map, &land.around}) {
+    float t = 0.0f;
+    terrain::cast_rays(*heights, glm::dvec2(ray.origin), 0.0f,
+                       {{&x, 1}, {&y, 1}, {&z, 1}, {&z_t, 1}, {&z_tt, 1}, {&begin, 1}, {&end, 1}},
+                       {&t, 1});
+    if (std::isfinite(t))
+      keep_nearer({.what = Shown::kLand, .distance_m = static_cast<double>(t)}, nearest);
+  }
 }
 
 void meet_objects(std::span<const scene::FloatingObject> objects, const ObjectGeometry& drawn,
@@ -75,7 +91,10 @@ std::optional<Pick> meet_all(const World::State& w, const Workspace::State& ws, 
   std::optional<Pick> nearest;
   const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
   meet_surface(Shown::kWater, ws.meshes.water, is_bintree, ray, scratch, nearest);
-  if (w.terrain) meet_surface(Shown::kLand, ws.meshes.land, true, ray, scratch, nearest);
+  if (w.land_rays)
+    meet_land(*w.land_rays, ray, nearest);
+  else if (w.terrain)
+    meet_surface(Shown::kLand, ws.meshes.land, true, ray, scratch, nearest);
   meet_objects(w.scene.objects, ws.meshes.objects, ray, nearest);
   return nearest;
 }

@@ -24,7 +24,8 @@ constexpr double kDetailToRaise = 0.55;
 constexpr double kDown = 0.905, kUp = 1.04;  // of triangles a frame
 
 // Shares of the budget.
-constexpr double kHighestAim = 0.9, kLowestAim = 0.8;
+constexpr double kBar = 1.08;  // a frame that takes longer is late
+constexpr double kHighestAim = 0.9, kLowestAim = 0.7;
 constexpr double kSlackAbove = 0.03, kSlackBelow = 0.04;  // around the aim nothing is changed
 constexpr double kSlackToRaise = 0.05;
 constexpr double kBroken = 1.05;
@@ -120,17 +121,19 @@ const FrameOptions& Governor::next(const FrameStatistics& last, double outside_m
 
 void Governor::learn(const FrameStatistics& last, double outside_ms) {
   const auto stage = [&](Stage s) { return last.stage_ms[static_cast<std::size_t>(s)]; };
-  const double visibility = stage(Stage::kVisibility);
+  const double visibility = stage(Stage::kVisibility), rays = stage(Stage::kRays);
   const double triangles =
       stage(Stage::kTriangulate) + stage(Stage::kDisplace) + kVisibilityOfTriangles * visibility;
-  const double pixels = stage(Stage::kShade) + (1.0 - kVisibilityOfTriangles) * visibility;
+  const double pixels = stage(Stage::kShade) + stage(Stage::kClouds) + rays +
+                        (1.0 - kVisibilityOfTriangles) * visibility;
   const double lookups = stage(Stage::kLookups);
   const double frame_ms = last.frame_ms + outside_ms;
 
   const std::size_t place = frames_++ % kRemembered;
   costs_[place] = {triangles / report_.detail, lookups / lookup_sides(report_.step),
                    pixels / picture_pixels(report_.step), frame_ms - triangles - pixels - lookups};
-  strays_[place] = report_.predicted_ms > 0.0 ? frame_ms / report_.predicted_ms : 1.0;
+  strays_[(frames_ - 1) % kStraysRemembered] =
+      report_.predicted_ms > 0.0 ? frame_ms / report_.predicted_ms : 1.0;
   frames_kept_since_raise_ += frame_ms <= settings_.budget_ms;
 }
 
@@ -150,13 +153,17 @@ Governor::Cost Governor::median_cost(std::size_t frames) const {
 }
 
 // Lower, the further single frames stray: all but the worst two of those remembered should stay
-// below 1.1 budgets. In small moves, so that triangles do not follow every disturbance.
+// below the bar. Frames that the lowest aim would not have saved do not count, for they would
+// cost size and be late nonetheless. In small moves, so that triangles do not follow every
+// disturbance.
 void Governor::choose_aim() {
-  std::array<double, kRemembered> strays = strays_;
-  const auto count = static_cast<std::ptrdiff_t>(std::min(frames_, kRemembered));
+  std::array<double, kStraysRemembered> strays{};
+  const auto last =
+      std::copy_if(strays_.begin(), strays_.begin() + std::min(frames_, kStraysRemembered),
+                   strays.begin(), [](double stray) { return stray <= kBar / kLowestAim; });
   const auto third = strays.begin() + 2;
-  std::nth_element(strays.begin(), third, strays.begin() + count, std::greater{});
-  const double wanted = std::clamp(1.08 / std::max(*third, 1.0), kLowestAim, kHighestAim);
+  if (third < last) std::nth_element(strays.begin(), third, last, std::greater{});
+  const double wanted = std::clamp(kBar / std::max(*third, 1.0), kLowestAim, kHighestAim);
   aim_share_ += std::clamp(wanted - aim_share_, -0.004, 0.001);
   report_.aim_ms = aim_share_ * settings_.budget_ms;
 }

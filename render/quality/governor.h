@@ -87,7 +87,7 @@ class Governor {
   struct Model {
     Cost fast, firm, slow;
   };
-  static constexpr std::size_t kRemembered = 32;
+  static constexpr std::size_t kRemembered = 32, kStraysRemembered = 240;
 
   void learn(const FrameStatistics& last, double outside_ms);
   Cost median_cost(std::size_t frames) const;
@@ -103,8 +103,8 @@ class Governor {
   GovernorSettings settings_;
   FrameOptions full_, options_;
   GovernorReport report_;
-  std::array<Cost, kRemembered> costs_{};     // of the last frames, a ring
-  std::array<double, kRemembered> strays_{};  // their times over the model's
+  std::array<Cost, kRemembered> costs_{};           // of the last frames, a ring
+  std::array<double, kStraysRemembered> strays_{};  // their times over the model's
   std::size_t frames_ = 0;
   double aim_share_;                           // of the budget
   int better_step_ = 0;                        // the one to go up to

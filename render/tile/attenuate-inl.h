@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "render/tile/fog-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/sky_map-inl.h"
 
@@ -38,17 +39,33 @@ HWY_INLINE V MeanHaze(const Shading& s, const Packet& shown, float per_m) {
 // to.
 constexpr float kPerMoleculesHeight_m = 1e-4f;
 
+// What of the air below an eye far over the sea depends on the direction alone.
+struct AirAhead {
+  V3 below;  // AirBelow()
+  V steep;   // how much of haze's colour is the horizon's mean
+};
+
+// In a direction of length 1 as the eye has it.
+HWY_INLINE AirAhead FindAirAhead(const Light& light, V3 direction) {
+  const V down = PartDown(light, direction.z);
+  const V level2 = hn::NegMulAdd(down, down, Constant(1.0f)), level4 = hn::Mul(level2, level2);
+  const V level8 = hn::Mul(level4, level4);
+  return {AirBelow(light, direction, down), hn::NegMulAdd(level8, level8, Constant(1.0f))};
+}
+
 // The air below an eye far over the sea: haze, and the molecules beyond those that the haze stands
 // for. Near the horizon both have the sky's colour there; further down the molecules have that of
-// the air below, and haze the mean of the horizon, as under an overcast sky all air has.
-// `packet` is a copy: by reference a call would keep all packets in memory.
-static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour) {
+// the air below, and haze the mean of the horizon, as under an overcast sky all air has. Of the
+// packet, place and distance count. ahead(): asked for where there is any.
+template <class Ahead>
+HWY_INLINE V3 ThroughAirAloft(const Shading& s, const Packet& packet, V3 colour, V length,
+                              const Ahead& ahead) {
   const D d;
   const V zero = hn::Zero(d);
   const V mean_haze = MeanHaze(s, packet, s.media.inv_haze_height_m);
   const V mean_air = MeanHaze(s, packet, kPerMoleculesHeight_m);
-  const V haze = hn::Mul(hn::Mul(packet.distance, mean_haze), Constant(s.media.inv_haze_m));
-  const V air = hn::Mul(packet.distance, hn::Max(hn::Sub(mean_air, mean_haze), zero));
+  const V haze = hn::Mul(hn::Mul(length, mean_haze), Constant(s.media.inv_haze_m));
+  const V air = hn::Mul(length, hn::Max(hn::Sub(mean_air, mean_haze), zero));
   const glm::vec3 molecules = s.media.molecules_per_m;
   const auto amount = [&](float per_m) HWY_ATTR {
     const V clear = Exp(d, hn::Neg(hn::MulAdd(air, Constant(per_m), haze)));
@@ -57,40 +74,122 @@ static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour) {
   const V blue = amount(molecules.z);
   if (hn::AllFalse(d, hn::Gt(blue, zero))) return colour;
 
+  const AirAhead seen = ahead();
+  const V all = hn::MulAdd(air, Constant(molecules.y), hn::Max(haze, Constant(1e-6f)));
+  const V white = hn::Max(hn::Mul(seen.steep, hn::Div(haze, all)), Constant(s.media.cloudy));
+  const V3 light = Lerp(seen.below, Constant(s.light.horizon), white);
+  return {Lerp(colour.x, light.x, amount(molecules.x)),
+          Lerp(colour.y, light.y, amount(molecules.y)), Lerp(colour.z, light.z, blue)};
+}
+
+// `packet` is a copy: by reference a call would keep all packets in memory.
+static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour, V length) {
   // The direction as the eye has it; to_eye is the place's.
   const V3 p = packet.p;
   const V r2 = hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y));
   const V z = hn::Div(hn::NegMulAdd(r2, Constant(s.rays.drop_per_m2), p.z), packet.distance);
-  const V down = PartDown(s.light, z);
-  const V3 below = AirBelow(s.light, {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), z}, down);
-  const V level2 = hn::NegMulAdd(down, down, Constant(1.0f)), level4 = hn::Mul(level2, level2);
-  const V level8 = hn::Mul(level4, level4);
-  const V steep = hn::NegMulAdd(level8, level8, Constant(1.0f));
-  const V all = hn::MulAdd(air, Constant(molecules.y), hn::Max(haze, Constant(1e-6f)));
-  const V white = hn::Max(hn::Mul(steep, hn::Div(haze, all)), Constant(s.media.cloudy));
-  const V3 light = Lerp(below, Constant(s.light.horizon), white);
-  return {Lerp(colour.x, light.x, amount(molecules.x)),
-          Lerp(colour.y, light.y, amount(molecules.y)), Lerp(colour.z, light.z, blue)};
+  const V3 direction = {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), z};
+  return ThroughAirAloft(s, packet, colour, length,
+                         [&]() HWY_ATTR { return FindAirAhead(s.light, direction); });
 }
 
 // Blends towards the horizon's colour with distance, so that no edge of the sea shows. Haze of less
 // than half a step of the picture is left out: near packets then need no lookup. Straight down
 // there is no azimuth to look up: the steeper the view, the more the mean of the horizon takes
-// over.
-HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
+// over. The haze is that of `length` of the way.
+HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour, V length) {
   const D d;
-  if (s.media.molecules_per_m.z > 0.0f) return AirAloft(s, packet, colour);
-  const V depth = hn::Mul(hn::Mul(packet.distance, Constant(-s.media.inv_haze_m)),
+  if (s.media.molecules_per_m.z > 0.0f) return AirAloft(s, packet, colour, length);
+  const V depth = hn::Mul(hn::Mul(length, Constant(-s.media.inv_haze_m)),
                           MeanHaze(s, packet, s.media.inv_haze_height_m));
   const V clear = Exp(d, depth);
   const V amount = hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), hn::Zero(d));
   if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;
   const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
   const V horizontal2 = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f));
-  const V3 ahead = SoftSkyRadiance(*s.light.sky_soft, {x, y, hn::Zero(d)}, hn::Sqrt(horizontal2));
+  const V3 ahead = SoftSkyRadiance(*s.light.haze_sky, {x, y, hn::Zero(d)}, hn::Sqrt(horizontal2));
   const V level4 = hn::Mul(horizontal2, horizontal2), level8 = hn::Mul(level4, level4);
   const V steep = hn::NegMulAdd(level8, level8, Constant(1.0f));
   return Lerp(colour, Lerp(ahead, Constant(s.light.horizon), steep), amount);
+}
+
+HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
+  return Haze(s, packet, colour, packet.distance);
+}
+
+// Haze, and fog in front of it, where an eye over the fog has more haze before both. In a slab fog
+// takes haze's place. packet_of(): what the ray ends at, asked for where there is haze.
+template <class PacketOf>
+HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour,
+                         const PacketOf& packet_of) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const Fog& fog = s.media.fog;
+  const FogPath path = PathTo(fog, ray);
+  const FogView view = SeeFog(fog, ray, path, phase);
+  V behind = hn::Sub(ray.distance, path.before);
+  if (!fog.is_exponential) behind = hn::NegMulAdd(path.amount, Constant(fog.takes_haze), behind);
+  // What fog hides has no haze.
+  const V seen = hn::Max(view.passes.x, hn::Max(view.passes.y, view.passes.z));
+  behind = hn::IfThenElseZero(hn::Ge(seen, Constant(1.0f / 512.0f)), behind);
+  if (!hn::AllFalse(d, hn::Gt(behind, zero))) colour = Haze(s, packet_of(), colour, behind);
+  colour = ThroughFog(view, colour);
+  return hn::AllTrue(d, hn::Eq(path.before, zero)) ? colour
+                                                   : Haze(s, packet_of(), colour, path.before);
+}
+
+// All of the air between the eye and what a packet shows. A function of its own: few call it.
+static HWY_NOINLINE V3 ThroughAirAndFog(const Shading& s, Packet packet, V3 colour) {
+  const Fog& fog = s.media.fog;
+  const V3 p = packet.p;
+  const V r2 = hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y));
+  const V length = hn::Max(packet.distance, Constant(1e-3f));
+  const V rise = hn::Div(hn::NegMulAdd(r2, Constant(s.rays.drop_per_m2), p.z), length);
+  const FogRay ray = {fog.at_eye,
+                      {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), rise},
+                      packet.distance,
+                      hn::Add(p.z, Constant(s.rays.eye_z))};
+  return HazeAndFog(s, ray, FogPhase(fog, ray.direction), colour,
+                    [&]() HWY_ATTR -> const Packet& { return packet; });
+}
+
+HWY_INLINE V3 ThroughAir(const Shading& s, const Packet& packet, V3 colour) {
+  return s.media.fog.on ? ThroughAirAndFog(s, packet, colour) : Haze(s, packet, colour);
+}
+
+HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+// The sky through fog. An eye over the fog sees it under the sky through as much haze as the sea
+// there.
+[[maybe_unused]] static HWY_NOINLINE V3 SkyThroughAir(const Shading& s, V3 direction, V3 light) {
+  const Fog& fog = s.media.fog;
+  if (fog.is_exponential || fog.at_eye.above_m > 0.0f)
+    return SkyThroughFog(fog, fog.at_eye, direction, light);
+  const FogRay ray = {fog.at_eye, direction, Constant(kEndless_m), Constant(kEndless_m)};
+  const FogPath path = PathInSlab(fog, ray);
+  const auto meets = hn::Gt(path.amount, hn::Zero(D()));
+  if (hn::AllFalse(D(), meets)) return light;
+  const V3 p = Scale(direction, path.before);
+  const V r2 = hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y));
+  Packet top;
+  top.x_px = top.y_px = top.depth = hn::Zero(D());
+  top.p = {p.x, p.y, hn::MulAdd(r2, Constant(s.rays.drop_per_m2), p.z)};
+  top.distance = path.before;
+  top.to_eye = Scale(direction, Constant(-1.0f));
+  const V3 foggy = ThroughFog(SeeFog(fog, ray, path), light);
+  return Where(meets, Haze(s, top, foggy), light);
+}
+
+// Fog on a way that begins at the sea, up to a height.
+static HWY_NOINLINE V3 FogFromSea(const Shading& s, V3 direction, V distance, V height, V3 colour) {
+  const Fog& fog = s.media.fog;
+  const V length = hn::Max(distance, Constant(1e-3f)), up = hn::Max(height, hn::Zero(D()));
+  direction.z = hn::Min(hn::Div(up, length), Constant(1.0f));
+  const FogRay ray = {fog.at_sea, direction, distance, up};
+  return ThroughFog(SeeFog(fog, ray, PathTo(fog, ray)), colour);
 }
 
 // paper_depth_ratio() of the angle whose cosine in air this is, at least 0.02; the angle is right
@@ -269,13 +368,24 @@ HWY_INLINE Seen FindSeen(const Shading& s, const Packet& shown, V level) {
 // an eye under water it arrives at the surface.
 template <ViewKind kView>
 HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen, V3 light) {
-  if constexpr (kView == ViewKind::kRefraction)
-    return s.media.submerged ? Haze(s, seen.packet, light)
-                             : AbsorbInWater(s.media, seen.path, light);
-  else if (s.media.submerged)
+  if constexpr (kView == ViewKind::kRefraction) {
+    if (!s.media.submerged) return AbsorbInWater(s.media, seen.path, light);
+    const V3 hazy = Haze(s, seen.packet, light);
+    if (!s.media.fog.on) return hazy;
+    const V height = hn::Sub(seen.packet.p.z, Constant(s.media.eye_depth_m));
+    return FogFromSea(s, Scale(seen.packet.to_eye, Constant(-1.0f)), seen.packet.distance, height,
+                      hazy);
+  } else if (s.media.submerged) {
     return ThroughWater(s.media, glm::vec3(1.0f), seen.way, light);
-  else
-    return Haze(s, shown, light);
+  } else {
+    const V3 hazy = Haze(s, shown, light);
+    if (!s.media.fog.on) return hazy;
+    // Beyond the water, which is in fog of its own.
+    const V height = hn::Mul(hn::Sub(seen.packet.p.z, shown.p.z), Constant(0.5f));
+    const V part = Clamp(hn::Div(height, hn::Max(hn::Neg(shown.p.z), Constant(1e-3f))), 0.0f, 1.0f);
+    return FogFromSea(s, Scale(shown.to_eye, Constant(-1.0f)), hn::Mul(shown.distance, part),
+                      height, hazy);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,10 +5,13 @@
 #include <bit>
 #include <cmath>
 
+#include "render/view/cast_land.h"
+
 namespace swell::render {
 namespace {
 
-// The primitives of what samples are told apart by: the water, the land, an object, or the sky,
+// The primitives of what samples are told apart by: the water, the land, the trees, an object, or
+// the sky,
 // which has kNoPrimitive alone. No two begin alike.
 struct SurfaceRange {
   std::uint32_t begin = raster::kNoPrimitive, size = 1;
@@ -17,11 +20,12 @@ struct SurfaceRange {
 
 class SurfaceRanges {
  public:
-  SurfaceRanges(const PrimitiveRanges& ranges, const ObjectDraws& objects)
-      : ranges_(ranges), objects_(objects) {}
+  SurfaceRanges(const RenderView& window, const ObjectDraws& objects)
+      : ranges_(window.primitives), objects_(objects), land_is_cast_(window.land != nullptr) {}
 
   SurfaceRange of(std::uint32_t primitive) const {
-    for (const SurfaceKind kind : {SurfaceKind::kWater, SurfaceKind::kTerrain})
+    for (const SurfaceKind kind :
+         {SurfaceKind::kWater, SurfaceKind::kTerrain, SurfaceKind::kTrees, SurfaceKind::kRivers})
       if (ranges_.holds(kind, primitive))
         return {ranges_.begin(kind), ranges_.end(kind) - ranges_.begin(kind)};
     if (is_object(primitive)) return object_of(primitive);
@@ -30,6 +34,12 @@ class SurfaceRanges {
 
   bool is_object(std::uint32_t primitive) const {
     return ranges_.holds(SurfaceKind::kObjects, primitive);
+  }
+
+  // A triangle is one place however deep it is: towards the horizon it may be kilometres in one
+  // pixel. All land that rays find is one primitive.
+  bool is_one_place(std::uint32_t primitive) const {
+    return !(land_is_cast_ && ranges_.holds(SurfaceKind::kTerrain, primitive));
   }
 
  private:
@@ -42,6 +52,7 @@ class SurfaceRanges {
 
   const PrimitiveRanges& ranges_;
   const ObjectDraws& objects_;
+  bool land_is_cast_;
 };
 
 // The samples of one pixel that show one surface.
@@ -59,14 +70,14 @@ struct Sample {
   std::uint32_t primitive;
   std::uint32_t surface;  // its first primitive
   float z;
+  bool one_place;  // SurfaceRanges::is_one_place()
 };
 
-// Into which of the groups a sample goes; a new one while there is room. A triangle is one place
-// however deep it is: towards the horizon it may be kilometres in one pixel.
+// Into which of the groups a sample goes; a new one while there is room.
 Group& group_of(const Sample& sample, std::span<Group, kMaxFragments> groups, std::size_t& count) {
   for (Group& g : groups.first(count))
     if (g.surface == sample.surface &&
-        (g.primitive == sample.primitive || same_place(g.nearest, sample.z)))
+        ((g.primitive == sample.primitive && sample.one_place) || same_place(g.nearest, sample.z)))
       return g;
   if (count < kMaxFragments) {
     groups[count] = {.surface = sample.surface, .nearest = sample.z, .primitive = sample.primitive};
@@ -85,6 +96,7 @@ struct Pixel {
   float z;
   std::uint32_t primitive;
   SurfaceRange surface;
+  bool one_place;  // SurfaceRanges::is_one_place()
 };
 
 // The triangle that most of the group's samples show, the first of equals: an object is shaded as
@@ -108,7 +120,7 @@ bool shows_one_place(const Pixel& pixel, std::span<const float, kSamples> depth,
                      std::span<const std::uint32_t, kSamples> primitive) {
   std::uint32_t other_triangle = 0, other_place = !same_place(depth[0], pixel.z);
   for (std::size_t s = 0; s < kSamples; ++s) other_triangle |= primitive[s] ^ pixel.primitive;
-  if (other_triangle == 0) return true;
+  if (other_triangle == 0 && pixel.one_place) return true;
   for (std::size_t s = 0; s < kSamples; ++s)
     other_place |= int{!pixel.surface.holds(primitive[s])} | int{!same_place(depth[0], depth[s])};
   return other_place == 0;
@@ -126,7 +138,9 @@ void add_fragments(const Pixel& pixel, std::span<const float> depth,
   for (std::size_t s = 0; s < depth.size(); ++s) {
     const bool like_centre = pixel.surface.holds(primitive[s]);
     const SurfaceRange surface = like_centre ? pixel.surface : surfaces.of(primitive[s]);
-    Group& g = group_of({primitive[s], surface.begin, depth[s]}, groups, count);
+    Group& g =
+        group_of({primitive[s], surface.begin, depth[s], surfaces.is_one_place(primitive[s])},
+                 groups, count);
     ++g.count;
     group_of_sample[s] = &g;
     g.x_px += static_cast<float>(positions[s].x_fx8) * (1.0f / 256.0f) - 0.5f;
@@ -136,7 +150,7 @@ void add_fragments(const Pixel& pixel, std::span<const float> depth,
   bool centre_found = false;
   const auto is_centre = [&](const Group& g) {
     return !centre_found && g.surface == pixel.surface.begin &&
-           (g.primitive == pixel.primitive || same_place(g.nearest, pixel.z));
+           ((g.primitive == pixel.primitive && pixel.one_place) || same_place(g.nearest, pixel.z));
   };
   if (count == 1 && is_centre(groups[0])) return;
   for (const Group& g : std::span(groups).first(count)) {
@@ -210,6 +224,8 @@ raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratc
     if (in.extents[i].tiles.holds(tile % tiles_x, tile / tiles_x))
       mark_object(in.window, in.visibility, tile, in.objects[i], in.extents[i].nearest_z, scratch,
                   mask);
+  mark_forms(in.window.forms, raster::tile_box(in.window.viewport(), in.visibility.grid, tile),
+             in.visibility.grid.tile_size_px, in.visibility.primitive_of(tile), mask);
   return mask;
 }
 
@@ -232,7 +248,8 @@ void sort_samples(const TileEdges& in, int tile, const raster::PixelMask& mask,
                         .y_px = box.y0_px + y,
                         .z = depth[at],
                         .primitive = primitive[at],
-                        .surface = in.surfaces.of(primitive[at])};
+                        .surface = in.surfaces.of(primitive[at]),
+                        .one_place = in.surfaces.is_one_place(primitive[at])};
       const std::span<const float, kSamples> depths(sample_depth, kSamples);
       const std::span<const std::uint32_t, kSamples> primitives(sample_primitive, kSamples);
       if (!shows_one_place(pixel, depths, primitives))
@@ -261,7 +278,7 @@ void find_edges(const ObjectDraws& objects, const RenderView& window,
                 const VisibilityBuffer& visibility, int tile, EdgeScratch& scratch,
                 EdgeBuffer& edges) {
   if (edges.samples == 0 || visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
-  const TileEdges in{window, visibility, SurfaceRanges(window.primitives, objects), objects.parts,
+  const TileEdges in{window, visibility, SurfaceRanges(window, objects), objects.parts,
                      edges.objects};
   const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
   const auto samples =
@@ -270,6 +287,11 @@ void find_edges(const ObjectDraws& objects, const RenderView& window,
   scratch.depth.resize(samples);
   scratch.primitive.resize(samples);
   raster::draw_samples(window.pass, tile, mask, scratch.depth, scratch.primitive);
+  if (window.land)
+    cast_land_samples(window, raster::tile_box(window.viewport(), visibility.grid, tile),
+                      edges.samples, mask, scratch.depth, scratch.primitive);
+  draw_form_samples(window.forms, raster::tile_box(window.viewport(), visibility.grid, tile),
+                    edges.samples, mask, scratch.depth, scratch.primitive);
   std::vector<EdgeFragment>& fragments = edges.of_tile[static_cast<std::size_t>(tile)];
   if (edges.samples == 8)
     sort_samples<8>(in, tile, mask, scratch, fragments);

@@ -124,6 +124,11 @@ HWY_INLINE V FootprintLevel(V across_log2, V cos_view) {
   return hn::NegMulAdd(Log2Coarse(D(), cos_view), Constant(0.8f), across_log2);
 }
 
+// log2 of what a pixel shows of level ground, in metres.
+HWY_INLINE V GroundLevel(const ViewRays& rays, const Packet& packet) {
+  return FootprintLevel(FootprintAcross(rays, packet), Clamp(hn::Abs(packet.to_eye.z), 0.3f, 1.0f));
+}
+
 // The place of p [m] in a layer's map, in 1/256 texels of level 0.
 struct LayerPlace {
   V x_fx8, y_fx8;

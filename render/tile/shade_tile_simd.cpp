@@ -13,8 +13,10 @@
 
 #include "render/labels/keep_labels-inl.h"
 #include "render/materials/list-inl.h"
+#include "render/tile/air_tile-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/cloud_deck-inl.h"
+#include "render/tile/cloud_picture-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/pixel_lists-inl.h"
 #include "render/tile/resolve-inl.h"
@@ -128,7 +130,8 @@ HWY_INLINE void ShadeList(const Listed& listed, const Shade& shade) {
     shade_at(i, std::make_index_sequence<kPacketsAtOnce>());
 }
 
-// The light of a packet's pixels as it arrives. What labels want of the window's goes to `keep`.
+// The light of a packet's pixels as it arrives, but for air that is laid last. What labels want of
+// the window's goes to `keep`.
 template <ViewKind kView, class M, class Shade, class Keep, class... Found>
 HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& material,
                             const Lanes& lanes, const Packet& shown, const Shade& shade,
@@ -142,7 +145,8 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
       return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light,
                                       shafts);
     }
-    const V3 light = Haze(s, shown, surfel.light);
+    if (IsAirLaidLast(s)) return surfel.light;
+    const V3 light = ThroughAir(s, shown, surfel.light);
     return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
@@ -253,6 +257,10 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
     };
     ShadeList<1>(FragmentsInTile{tile.fragments, parts, scratch}, shade_sky);
   }
+  LayAirOverTile(s, tile.box, tile.depth, scratch);
+  LayAirOverFragments(s, tile.fragments, scratch);
+  LayCloudsOverFragments(s, tile.fragments, scratch);
+  LayCloudsOverTile(s, tile.box, tile.depth, scratch);
   ResolveTile(s, tile.box, scratch, rgba, linear);
   if (!tile.fragments.empty()) ResolveFragments(s, tile, scratch, rgba, linear);
   return static_cast<int>(shaded);
@@ -293,6 +301,7 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
       StoreSky(SkyOfPacket(s, box, lattice, x, y),
                static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
+  LayCloudsOverTile(s, box, nullptr, scratch);
   ResolveTile(s, box, scratch, rgba, linear);
 }
 

@@ -8,6 +8,7 @@
 #include "render/materials/caustics.h"
 #include "render/materials/light.h"
 #include "render/materials/list.h"
+#include "render/tile/cloud_picture.h"
 #include "render/tile/shafts.h"
 #include "render/tile/sun_shadow.h"
 #include "render/view/render_view.h"
@@ -29,11 +30,13 @@ struct Shading {
   raster::Viewport viewport;
   raster::TileGrid grid;
   ViewRays rays;
+  float level_rel_m = 0.0f;  // of the water that mirrors or refracts, over the eye
   Light light;
   Media media;
   SunShadow sun_shadow;
   Caustics caustics;
   Shafts shafts;
+  const CloudPicture* clouds = nullptr;  // volumetric ones, before all pixels; none: no such
   float exposure = 1.0f;
   PrimitiveRanges primitives;
   Materials materials;

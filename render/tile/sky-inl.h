@@ -13,6 +13,7 @@
 #include "render/tile/resolve-inl.h"
 #include "render/tile/shafts-inl.h"
 #include "render/tile/sky_map-inl.h"
+#include "render/tile/stars-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -25,8 +26,16 @@ constexpr float kDiscRadius = 0.004654f;  // of the sun and the moon
 HWY_INLINE V DiscPart(const Light& light, V3 direction, float pixel_angle) {
   const V3 apart = Difference(direction, Constant(light.to_disc));
   const float rim = std::max(pixel_angle, 0.02f * kDiscRadius);
-  const V inside = hn::Sub(Constant(kDiscRadius), hn::Sqrt(Dot(apart, apart)));
-  return Clamp(hn::MulAdd(inside, Constant(1.0f / rim), Constant(0.5f)), 0.0f, 1.0f);
+  const V away2 = Dot(apart, apart);
+  const V inside = hn::Sub(Constant(kDiscRadius), hn::Sqrt(away2));
+  const V disc = Clamp(hn::MulAdd(inside, Constant(1.0f / rim), Constant(0.5f)), 0.0f, 1.0f);
+  if (!light.moon_has_phase) return disc;
+  // The side of a sphere that the sun shines on.
+  const V depth =
+      hn::Sqrt(hn::Max(hn::Sub(Constant(kDiscRadius * kDiscRadius), away2), hn::Zero(D())));
+  const V lit = hn::NegMulAdd(depth, Constant(glm::dot(light.disc_lit_from, light.to_disc)),
+                              Dot(apart, Constant(light.disc_lit_from)));
+  return hn::Mul(disc, Clamp(hn::MulAdd(lit, Constant(1.0f / rim), Constant(0.5f)), 0.0f, 1.0f));
 }
 
 // What of the sky changes slowly from pixel to pixel.
@@ -46,11 +55,18 @@ HWY_INLINE SkyView ViewSky(const Shading& s, V3 ray) {
   return view;
 }
 
-// The sky's light in a ray's direction; the disc is looked for where `sees_disc`.
+HWY_INLINE V3 AddStars(const Shading& s, V3 ray, V3 light) {
+  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  const V spot = Constant(std::clamp(1.5f * s.rays.pixel_angle, 1e-6f, 0.99f * kWidestStar));
+  return Sum(light, StarLight(s.light.stars, direction, spot));
+}
+
+// The sky's light in a ray's direction before fog; the disc is looked for where `sees_disc`.
 HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& noise, V3 ray,
                        bool sees_disc) {
   V3 light = view.clear;
   V passes = Constant(1.0f);
+  if (s.light.stars.on) light = AddStars(s, ray, light);
   if (s.light.clouds.any) light = AddClouds(s.light.clouds, view.clouds, noise, light, passes);
   if (!sees_disc && !s.light.clouds.is_below) return light;
   const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
@@ -64,6 +80,12 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& 
   return AddCloudDeck(s, direction, Constant(kNothingNear_m), light);
 }
 
+HWY_INLINE V3 BehindFog(const Shading& s, V3 ray, V3 light) {
+  if (!s.media.fog.on) return light;
+  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  return SkyThroughAir(s, direction, light);
+}
+
 // The sky's light at places of the window, found for each alone.
 static HWY_NOINLINE V3 ShadeSky(const Shading& s, const raster::PixelBox& box,
                                 const std::int32_t* shafts, V x_px, V y_px) {
@@ -73,7 +95,7 @@ static HWY_NOINLINE V3 ShadeSky(const Shading& s, const raster::PixelBox& box,
   CloudNoise noise;
   if (s.light.clouds.any)
     noise = SampleClouds(s.light.clouds, view.clouds.x, view.clouds.y, view.clouds.level);
-  return SkyLight(s, view, noise, ray, true);
+  return BehindFog(s, ray, SkyLight(s, view, noise, ray, true));
 }
 
 // The sky of a tile lies on straight lines between nodes on every fourth pixel: of every fourth row
@@ -134,6 +156,41 @@ HWY_INLINE SkyView ReadView(const SkyNodes& nodes, bool clouds, const Read& read
   return view;
 }
 
+// Whether Blinn's lobe, which is 1 - l wide, lies on straight lines between nodes.
+inline bool IsPhaseOnLattice(const Shading& s) {
+  const float step = kStep * s.rays.pixel_angle;
+  return step <= kMostStepAngle && 1.0f - std::abs(s.media.fog.forward) > 10.0f * step;
+}
+
+// Whether fog before the sky does. exp(-t / sin) bends most where it is between 0 and 1, which for
+// a layer of depth t is over an angle of about t.
+inline bool IsFogOnLattice(const Shading& s) {
+  const Fog& fog = s.media.fog;
+  const float thinnest = std::min({fog.per_m.x, fog.per_m.y, fog.per_m.z});
+  return fog.on && IsPhaseOnLattice(s) &&
+         fog.at_eye.above_m * thinnest > 10.0f * kStep * s.rays.pixel_angle;
+}
+
+HWY_INLINE void StoreFog(const FogView& view, std::size_t at, SkyNodes& nodes) {
+  const D d;
+  hn::StoreU(view.added.x, d, &nodes.fog[0][at]);
+  hn::StoreU(view.added.y, d, &nodes.fog[1][at]);
+  hn::StoreU(view.added.z, d, &nodes.fog[2][at]);
+  hn::StoreU(view.passes.x, d, &nodes.fog[3][at]);
+  hn::StoreU(view.passes.y, d, &nodes.fog[4][at]);
+  hn::StoreU(view.passes.z, d, &nodes.fog[5][at]);
+}
+
+template <class Read>
+HWY_INLINE FogView ReadFog(const SkyNodes& nodes, bool is_grey, const Read& read) {
+  FogView view;
+  view.added = {read(nodes.fog[0].data()), read(nodes.fog[1].data()), read(nodes.fog[2].data())};
+  view.passes.x = view.passes.y = view.passes.z = read(nodes.fog[3].data());
+  if (is_grey) return view;
+  view.passes.y = read(nodes.fog[4].data()), view.passes.z = read(nodes.fog[5].data());
+  return view;
+}
+
 // Fills the first `rows` rows of the lattice of what changes slowly, and says whether any pixel
 // there may see the disc.
 inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, SkyNodes& nodes) {
@@ -141,6 +198,7 @@ inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, Sk
   const int columns = nodes_along(box.width_px);
   const float step = static_cast<float>(kStep);
   V nearest = Constant(-4.0f);
+  const bool has_fog = IsFogOnLattice(s);
   for (int row = 0; row < rows; ++row) {
     const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
     for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
@@ -151,6 +209,7 @@ inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, Sk
       StoreView(ViewSky(s, ray), s.light.clouds.any, at, nodes);
       const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
       nearest = hn::Max(nearest, Dot(direction, Constant(s.light.to_disc)));
+      if (has_fog) StoreFog(SkyFog(s.media.fog, s.media.fog.at_eye, direction), at, nodes);
     }
   }
   // No pixel is further from a node than a step's diagonal, no direction turns by more than
@@ -249,7 +308,12 @@ HWY_INLINE V3 SkyOfPacket(const Shading& s, const raster::PixelBox& box, const S
                           HWY_ATTR { return ToPixels(hn::LoadU(d, &nodes.noise[channel][at])); };
     noise = {read(0), read(1), read(2)};
   }
-  return SkyLight(s, view, noise, RayAt(s.rays, x_px, y_px), lattice.sees_disc);
+  const V3 ray = RayAt(s.rays, x_px, y_px);
+  const V3 light = SkyLight(s, view, noise, ray, lattice.sees_disc);
+  if (!IsFogOnLattice(s)) return BehindFog(s, ray, light);
+  const auto read = [&](const float* channel)
+                        HWY_ATTR { return ToPixels(between(channel, column)); };
+  return ThroughFog(ReadFog(nodes, s.media.fog.is_grey, read), light);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,6 +6,8 @@
 #define SWELL_RENDER_TILE_SUN_SHADOW_INL_H_
 #endif
 
+#include "render/materials/square_map-inl.h"
+#include "render/tile/cloud_shadow-inl.h"
 #include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -132,6 +134,7 @@ struct LitPoint {
   V3 p;    // relative to the eye
   V soft;  // half a pixel's breadth there [m]
   V own;   // the number of the object that it is on, below 0 if on none
+  bool is_sea = false;
 };
 
 // What the objects leave of the sun at points in a span of pixels.
@@ -143,34 +146,33 @@ inline HWY_NOINLINE V SunOverObjects(const SunShadow& shadow,
   constexpr auto kRadius = static_cast<float>(kSunRadius_rad);
   const V zero = hn::Zero(d), one = Constant(1.0f);
   const auto high = hn::Ge(point.p.z, Constant(shadows.lowest_rel_m));
+  const std::span pixels = point.is_sea ? shadow.casters.sea_pixels : shadow.casters.pixels;
+  const V3 of_eye = {Dot(point.p, Constant(shadows.right)), Dot(point.p, Constant(shadows.up)),
+                     Dot(point.p, Constant(shadows.sun))};
   V visible = one;
   for (const std::uint16_t number : casters) {
-    if (!shadow.casters.pixels[number].meets(span)) continue;
-    const ShadowCaster& caster = shadows.casters[number];
-    if (caster.reach_m <= 0.0f) continue;
-    const Outline& outline = caster.outline;
-    const V3 p = Sum(point.p, Constant(-caster.place_rel));
-    const SunPlace at = {Dot(p, Constant(shadows.right)), Dot(p, Constant(shadows.up)),
-                         Dot(p, Constant(shadows.sun))};
-    // The outline's box, as soft as anything in it is.
-    const V farthest = hn::Sub(Constant(outline.most_depth_m), at.depth);
+    if (!pixels[number].meets(span)) continue;
+    const SunBox& box = shadows.boxes[number];
+    if (box.reach_m <= 0.0f) continue;
+    const V3 p = Difference(of_eye, Constant(box.place));
+    const SunPlace at = {p.x, p.y, p.z};
+    // The box, as soft as anything in it is.
+    const V farthest = hn::Sub(Constant(box.most_depth_m), at.depth);
     const V most_soft = hn::MulAdd(farthest, Constant(kRadius), point.soft);
-    const float middle = 0.5f * (outline.left_most_m + outline.right_most_m);
-    const float half_width = 0.5f * (outline.right_most_m - outline.left_most_m);
-    const float half_height = 0.5f * (Outline::kRows - 1) / outline.rows_per_m;
-    const V aside = hn::Abs(hn::Sub(at.right, Constant(middle)));
-    const V above = hn::Abs(hn::Sub(at.up, Constant(outline.lowest_m + half_height)));
-    const auto in_box = hn::And(hn::Lt(aside, hn::Add(most_soft, Constant(half_width))),
-                                hn::Lt(above, hn::Add(most_soft, Constant(half_height))));
-    const auto other = hn::Ne(point.own, Constant(static_cast<float>(caster.object)));
-    const auto near = hn::And(hn::Gt(farthest, zero), hn::Lt(farthest, Constant(caster.reach_m)));
+    const V aside = hn::Abs(hn::Sub(at.right, Constant(box.middle_m)));
+    const V above = hn::Abs(hn::Sub(at.up, Constant(box.middle_up_m)));
+    const auto in_box = hn::And(hn::Lt(aside, hn::Add(most_soft, Constant(box.half_width_m))),
+                                hn::Lt(above, hn::Add(most_soft, Constant(box.half_height_m))));
+    const auto other = hn::Ne(point.own, Constant(box.object));
+    const auto near = hn::And(hn::Gt(farthest, zero), hn::Lt(farthest, Constant(box.reach_m)));
     const auto some = hn::And(hn::And(in_box, near), hn::And(other, high));
     if (hn::AllFalse(d, some)) continue;
 
+    const Outline& outline = shadows.casters[number].outline;
     const V ahead = AheadOf(outline, at);
     const V soft = hn::MulAdd(hn::Max(ahead, zero), Constant(kRadius), point.soft);
     const V fading =
-        Clamp(hn::NegMulAdd(ahead, Constant(2.0f / caster.reach_m), Constant(2.0f)), 0.0f, 1.0f);
+        Clamp(hn::NegMulAdd(ahead, Constant(2.0f / box.reach_m), Constant(2.0f)), 0.0f, 1.0f);
     const V before = hn::Mul(Clamp(hn::Mul(ahead, Constant(20.0f)), 0.0f, 1.0f), fading);
     const V covered = hn::Mul(DiscCovered(outline, at, soft), before);
     visible = hn::IfThenElse(some, hn::NegMulAdd(visible, covered, visible), visible);
@@ -192,18 +194,51 @@ HWY_INLINE V PixelSoftness(const Shading& s, V depth) {
   return hn::MulAdd(depth, Constant(0.5f * s.rays.pixel_angle), Constant(1e-4f));
 }
 
-// The part of the sun that a packet's points see, in [0, 1], of which `own` says which objects they
-// are on. For water and objects; the ground has a map of its own.
-HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& packet, V own) {
+// The part of the sun's light that trees leave at points so high above the ground or the water. As
+// if on the ground where the light comes down that passes there. A function of its own, as those
+// above.
+inline HWY_NOINLINE V SunUnderTrees(const Shading& s, const Packet& packet, V above_m) {
+  const SunShadow& shadow = s.sun_shadow;
+  if (!shadow.under_trees.map) return Constant(1.0f);
+  const V3 p = {hn::NegMulAdd(above_m, Constant(shadow.tree_slide.x), packet.p.x),
+                hn::NegMulAdd(above_m, Constant(shadow.tree_slide.y), packet.p.y), packet.p.z};
+  return SampleSquare(shadow.under_trees, p, GroundLevel(s.rays, packet), Constant(1.0f));
+}
+
+// The part of the sun that a packet's points see, in [0, 1], but for trees; `own` says which
+// objects they are on. The ground has a map of its own.
+HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& packet, V own,
+                        bool is_sea = false) {
   V visible = Constant(1.0f);
   if (s.sun_shadow.land) visible = SunOverLand(s.sun_shadow, packet.p, s.rays.eye_z);
+  if (s.sun_shadow.clouds)
+    visible = hn::Mul(visible, SunUnderClouds(*s.sun_shadow.clouds, packet.p, s.rays.eye_z));
   if (!tile.casters.empty())
-    visible = hn::Mul(visible, SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet),
-                                              {packet.p, PixelSoftness(s, packet.depth), own}));
+    visible =
+        hn::Mul(visible, SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet),
+                                        {packet.p, PixelSoftness(s, packet.depth), own, is_sea}));
   return visible;
 }
-HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& packet) {
-  return SunVisible(s, tile, packet, Constant(-1.0f));
+
+// The part of the sun's light that trees leave on the sea.
+inline HWY_NOINLINE V SunUnderTreesOnSea(const Shading& s, const Packet& packet) {
+  const D d;
+  const V one = Constant(1.0f);
+  const glm::vec2 low = s.sun_shadow.sea_shade_low, high = s.sun_shadow.sea_shade_high;
+  const auto in_x =
+      hn::And(hn::Gt(packet.p.x, Constant(low.x)), hn::Lt(packet.p.x, Constant(high.x)));
+  const auto in_y =
+      hn::And(hn::Gt(packet.p.y, Constant(low.y)), hn::Lt(packet.p.y, Constant(high.y)));
+  const auto in_box = hn::And(in_x, in_y);
+  if (hn::AllFalse(d, in_box)) return one;
+  return hn::IfThenElse(in_box, SunUnderTrees(s, packet, hn::Zero(d)), one);
+}
+
+// The part of the sun that the sea sees.
+HWY_INLINE V SunOnSea(const Shading& s, const TilePixels& tile, const Packet& packet) {
+  const V visible = SunVisible(s, tile, packet, Constant(-1.0f), true);
+  if (!s.sun_shadow.under_trees.map) return visible;
+  return hn::Mul(visible, SunUnderTreesOnSea(s, packet));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,15 +1,36 @@
 #include "render/tile/sun_shadow.h"
 
+#include <algorithm>
+
 #include "render/view/object_shadows.h"
 
 namespace swell::render {
+namespace {
+
+void fill_tree_shadow(const MaterialInputs& in, glm::dvec2 eye, SunShadow& shadow) {
+  shadow.under_trees = {};
+  const bool has_trees = in.world.forest && !in.without.has(Part::kTrees);
+  if (!has_trees || in.without.has(Part::kShadows)) return;
+  const terrain::Grid& square = in.world.terrain->grid;
+  shadow.under_trees =
+      make_square_map(in.world.forest->sun_left, square.size_m(), eye - square.min_world);
+  const glm::vec2 corner_rel(square.min_world - eye);
+  shadow.sea_shade_low = corner_rel + in.world.forest->sea_shade_low;
+  shadow.sea_shade_high = corner_rel + in.world.forest->sea_shade_high;
+  const glm::vec3 to_light = in.light.sun_direction;
+  shadow.tree_slide = glm::vec2(to_light) / std::max(to_light.z, 0.2f);
+}
+
+}  // namespace
 
 void fill_sun_shadow(const MaterialInputs& in, const RenderView& view, const raster::TileGrid& grid,
                      SunShadow& shadow) {
   shadow.land = nullptr;
+  shadow.clouds = in.light.cloud_shadow;
   shadow.objects = &in.objects.shadows;
+  fill_tree_shadow(in, glm::dvec2(view.camera.eye_world), shadow);
   shadow.entry = underwater_slant(in.light.sun_direction, in.media.refraction_index);
-  list_casters(in.objects.shadows, view, grid, shadow.casters);
+  list_casters(in.objects.shadows, shadow.entry, view, grid, shadow.casters);
   if (in.without.has(Part::kShadows) || !in.world.land_shadow || in.world.land_shadow->is_empty())
     return;
   const LandShadow& land = *in.world.land_shadow;

@@ -6,6 +6,7 @@
 
 #include "raster/pass.h"
 #include "render/materials/inputs.h"
+#include "render/materials/square_map.h"
 #include "render/view/render_view.h"
 #include "render/world/land_shadow.h"
 
@@ -17,6 +18,13 @@ struct SunShadow {
   glm::vec3 along{0.0f}, across{0.0f};
   // How far sideways light comes in that falls on a point under water: towards the sun, by depth.
   glm::vec2 entry{0.0f};
+  // That of clouds; none: shades nothing.
+  const CloudShadow* clouds = nullptr;
+  // The part of the sun's light that trees leave to the ground and the water under them; and how
+  // far their shadow slides away from the sun on what stands higher, by metre.
+  SquareMap under_trees;
+  glm::vec2 tree_slide{0.0f};
+  glm::vec2 sea_shade_low{0.0f}, sea_shade_high{0.0f};  // from the eye: what holds all on the sea
   // The objects'.
   const ObjectShadows* objects = nullptr;
   TileCasters casters;

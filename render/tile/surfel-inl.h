@@ -62,11 +62,11 @@ HWY_INLINE void WithShader(const M& material, const Use& use) {
   use(Shader<M, kView>{material});
 }
 
-// Height of the level that mirrors the pixels' surface, relative to the eye: the mean level, or
+// Height of the level that mirrors the pixels' surface, relative to the eye: the view's, or
 // what a material's overload says.
 template <class M>
 HWY_INLINE V WaterLevel(const M&, const Shading& s, const Lanes&) {
-  return Constant(-s.rays.eye_z);
+  return Constant(s.level_rel_m);
 }
 
 }  // namespace HWY_NAMESPACE

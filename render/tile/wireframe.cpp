@@ -53,6 +53,15 @@ Triangle triangle_of(const PictureInputs& in, std::uint32_t primitive) {
   return triangle_at(in.window.vertices_of(kind).p_clip, meshes.indices(kind), n, level);
 }
 
+// A form has none, nor has land that is found by rays.
+bool has_triangle(const PictureInputs& in, std::uint32_t primitive) {
+  const PrimitiveRanges& ranges = in.window.primitives;
+  if (ranges.holds(SurfaceKind::kTerrain, primitive)) return !in.window.land;
+  if (!ranges.holds(SurfaceKind::kObjects, primitive)) return true;
+  const std::uint32_t n = primitive - ranges.begin(SurfaceKind::kObjects);
+  return !in.meshes.objects.in_window().primitives[n].object->form;
+}
+
 }  // namespace
 
 void draw_wireframe(const PictureInputs& in, int tile, Target& target) {
@@ -67,7 +76,7 @@ void draw_wireframe(const PictureInputs& in, int tile, Target& target) {
     for (int x = 0; x < box.width_px; ++x) {
       const std::uint32_t p =
           primitive[static_cast<std::size_t>(y) * visibility.grid.tile_size_px + x];
-      if (p == raster::kNoPrimitive) continue;
+      if (p == raster::kNoPrimitive || !has_triangle(in, p)) continue;
       if (p != current) {
         const Triangle triangle = triangle_of(in, p);
         interpolator.emplace(triangle.p_clip, viewport);

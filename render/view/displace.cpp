@@ -75,6 +75,28 @@ struct FarFocuses {
   }
 };
 
+// The sea's waves come some way into rivers.
+void displace_rivers(const World::State& world, const SeaMaps& sea, const View& view,
+                     std::size_t begin, std::size_t end, RiverMesh& rivers) {
+  std::array<glm::dvec2, kChunk> place;
+  std::array<std::size_t, kChunk> vertex;
+  std::array<float, kChunk> height_m;
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (rivers.sea_share[i] <= 0.0f) continue;
+    place[count] = glm::dvec2(view.eye_world) + glm::dvec2(rivers.p_rel[i]);
+    vertex[count++] = i;
+  }
+  const auto heights = std::span(height_m).first(count);
+  water_surface(world, sea).heights(std::span(place).first(count), heights);
+  const auto eye_z = static_cast<float>(view.eye_world.z);
+  for (std::size_t k = 0; k < count; ++k) {
+    // On a bank that is no longer the river's there is none.
+    float& z = rivers.p_rel[vertex[k]].z;
+    z += std::max(heights[k] - (z + eye_z), -1.0f);
+  }
+}
+
 }  // namespace
 
 glm::dvec2 vertex_world(const Surface& surface, std::size_t vertex) {
@@ -113,7 +135,9 @@ void water_heights(const WaterHeights& in, const Surface& water, std::size_t beg
   std::array<float, kVertexChunk> wave_m;
   const auto p_world = std::span(place).first(count);
   const auto waves = std::span(wave_m).first(count);
-  const ocean::WaterSurface surface = water_surface(in.world, in.sea);
+  ocean::WaterParts sea_alone = in.world.water();
+  sea_alone.sea_alone = true;
+  const ocean::WaterSurface surface(sea_alone, in.sea);
   if (in.background_error_px > 0.0f)
     background_heights(Background(in.view, *in.world.sea, in.world.water_bounds().height_m,
                                   in.background_error_px),
@@ -137,6 +161,13 @@ void displace(const World::State& world, const SeaMaps& sea, const View& view,
                      [&](std::size_t begin, std::size_t end) {
                        displace_land(*world.terrain, eye, begin, end, meshes.land);
                      });
+  const std::size_t count = meshes.rivers.p_rel.size();
+  resize_vertices(SurfaceKind::kRivers, count, views);
+  run.for_each((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
+    const std::size_t begin = chunk * kChunk, end = std::min(count, begin + kChunk);
+    displace_rivers(world, sea, view, begin, end, meshes.rivers);
+    map_vertices(meshes, SurfaceKind::kRivers, begin, end, views);
+  });
 }
 
 }  // namespace swell::render

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/view/cast_land.h"
+
 namespace swell::render {
 namespace {
 
@@ -64,8 +66,17 @@ void draw_lookup_tile(int tile, ThreadScratch& scratch, LookupTarget& target) {
   const auto depth = std::span(scratch.depth).first(side * side);
   const auto primitive = std::span(scratch.primitive).first(side * side);
   const raster::Pass& pass = target.view.pass;
-  const bool drawn = target.wanted[tile] && raster::tile_has_triangles(pass, tile) &&
-                     raster::draw_tile(pass, tile, depth, primitive) > 0;
+  int covered = -1;
+  if (target.wanted[tile]) {
+    if (raster::tile_has_triangles(pass, tile))
+      covered = raster::draw_tile(pass, tile, depth, primitive);
+    if (target.view.land)
+      covered = cast_land(target.view, target.shading.grid, tile, covered < 0, depth, primitive);
+    covered = draw_forms(target.view.forms,
+                         raster::tile_box(target.shading.viewport, target.shading.grid, tile),
+                         target.shading.grid.tile_size_px, covered, depth, primitive);
+  }
+  const bool drawn = covered > 0;
   if (drawn) {
     shade_lookup_tile(target.shading, tile, depth, primitive, scratch.shade, target.image);
   } else if (target.written[tile]) {
@@ -102,15 +113,40 @@ View lookup_camera(const View& window, double scale) {
   return view;
 }
 
+void draw_river_mirror(const Meshes& meshes, const RenderView& window,
+                       const VisibilityBuffer& visibility, ScratchList scratch,
+                       MaterialInputs& inputs, LookupTarget& mirror, const StageRun& run) {
+  if (inputs.without.has(Part::kReflection)) return;
+  const int tile_size_px = visibility.grid.tile_size_px;
+  const raster::TileGrid grid = raster::tile_grid(mirror.view.viewport(), tile_size_px);
+  const glm::vec2 scale = scale_of(mirror.view.camera, window.camera);
+  size_target(grid, inputs.without.has(Part::kImageBlur) ? 1 : texture::kMostRgbaLevels, mirror);
+  bool any = false;
+  for (int tile = 0; tile < visibility.grid.count(); ++tile) {
+    if (!(visibility.looks_into[tile] & kRiverMirror)) continue;
+    const TileRange r = reachable_tiles(window.camera, visibility.grid, tile, scale, grid);
+    for (int y = r.y0; y < r.y1; ++y)
+      for (int x = r.x0; x < r.x1; ++x)
+        mirror.wanted[static_cast<std::size_t>(y) * grid.tiles_x + x] = 1;
+    any = true;
+  }
+  if (!any) return;
+  draw_lookup_image(meshes, inputs, tile_size_px, scratch, mirror, run);
+  inputs.river_reflection = {&mirror.image, scale.x, scale.y};
+  inputs.river_level_m = *meshes.rivers.mirror_level_m;
+  inputs.river_mirror_share = meshes.rivers.mirror_share;
+}
+
 void draw_lookup_images(const Meshes& meshes, const RenderView& window,
                         const VisibilityBuffer& visibility, ScratchList scratch,
                         MaterialInputs& inputs, LookupImages& images, const StageRun& run) {
   const auto tiles = static_cast<std::size_t>(visibility.grid.count());
   images.of_tile.assign(tiles, {});
-  const bool any = std::ranges::any_of(kAllSurfaces, [&](SurfaceKind s) {
-    return shows(ViewKind::kReflection, s) && !(meshes.indices(s, ViewKind::kReflection).empty() &&
-                                                meshes.indices(s, ViewKind::kRefraction).empty());
-  });
+  const bool any = window.land || std::ranges::any_of(kAllSurfaces, [&](SurfaceKind s) {
+                     return shows(ViewKind::kReflection, s) &&
+                            !(meshes.indices(s, ViewKind::kReflection).empty() &&
+                              meshes.indices(s, ViewKind::kRefraction).empty());
+                   });
   if (!any || inputs.without.has(Part::kWater)) return;
 
   // Which tiles of the images water can look into.
@@ -123,7 +159,7 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
   size_target(grid, softer, reflection);
   size_target(grid, inputs.media.submerged ? softer : 1, refraction);  // from above it is sharp
   const auto for_reachable = [&](std::size_t tile, auto&& visit) {
-    if (!visibility.may_show_water[tile]) return;
+    if (!(visibility.looks_into[tile] & (kSeaFloor | kSeaMirror))) return;
     const TileRange r =
         reachable_tiles(window.camera, visibility.grid, static_cast<int>(tile), scale, grid);
     for (int y = r.y0; y < r.y1; ++y)
@@ -133,8 +169,9 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
   const std::uint8_t refracts = !inputs.without.has(Part::kRefraction);
   for (std::size_t tile = 0; tile < tiles; ++tile)
     for_reachable(tile, [&](std::size_t t) {
-      reflection.wanted[t] = mirrors;
-      refraction.wanted[t] = refracts;
+      const std::uint8_t into = visibility.looks_into[tile];
+      reflection.wanted[t] |= mirrors && into & kSeaMirror;
+      refraction.wanted[t] |= refracts && into & kSeaFloor;
     });
 
   draw_lookup_image(meshes, inputs, tile_size_px, scratch, reflection, run);

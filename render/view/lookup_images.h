@@ -47,4 +47,10 @@ void draw_lookup_images(const Meshes& meshes, const RenderView& window,
                         const VisibilityBuffer& visibility, ScratchList scratch,
                         MaterialInputs& inputs, LookupImages& images, const StageRun& run);
 
+// Draws what the window's rivers and lakes mirror at meshes.rivers.mirror_level_m, where they show;
+// the vertices are mapped. inputs.river_reflection is set where there is anything to see.
+void draw_river_mirror(const Meshes& meshes, const RenderView& window,
+                       const VisibilityBuffer& visibility, ScratchList scratch,
+                       MaterialInputs& inputs, LookupTarget& mirror, const StageRun& run);
+
 }  // namespace swell::render

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -10,8 +11,10 @@
 
 #include "lod/roam.h"
 #include "render/profile.h"
+#include "render/view/form_rays.h"
 #include "render/view/shadow_casters.h"
 #include "render/view/surfaces.h"
+#include "render/view/trees_drawn.h"
 #include "render/world/sea_maps.h"
 #include "render/world/world_state.h"
 #include "scene/object_mesh.h"
@@ -47,9 +50,11 @@ struct ObjectInstance {
   float squares_per_m = 0.0f;                 // of its checkers; 0: it has none
   glm::vec3 squares_per_unit{0.0f};           // the same along the mesh's axes
   const scene::ObjectMesh* mesh = nullptr;
-  const SunDepth* own_shadow = nullptr;  // none: it does not shade itself
-  float log2_units_per_m = 0.0f;         // of the mesh's lengths, in the mean over its axes
-  std::uint32_t object = 0;              // its index in the scene
+  const SunDepth* own_shadow = nullptr;        // none: it does not shade itself
+  float log2_units_per_m = 0.0f;               // of the mesh's lengths, in the mean over its axes
+  std::uint32_t object = 0;                    // its index in the scene
+  const PosedForm* form = nullptr;             // none: it is drawn as its triangles
+  glm::vec3 form_size{1.0f}, form_base{0.0f};  // a form's point is base + size (mesh coordinates)
 };
 
 // Which triangle of which object a primitive is.
@@ -79,16 +84,36 @@ struct ObjectGeometry {
   std::vector<scene::ObjectPose> poses;          // of all objects of the scene
   std::vector<const scene::ObjectMesh*> meshes;  // of the same, in the window; null: not in view
   std::array<ObjectDraws, kViewKinds> draws;
-  ObjectShadows shadows;  // of those that the view may show
+  ObjectShadows shadows;                    // of those that the view may show
+  bool draws_forms = true;                  // Part::kForms
+  std::vector<PosedForm> forms;             // at the frame's time
+  std::vector<const scene::Form*> form_of;  // what they are of; of each shape one
 
   ObjectDraws& drawn_in(ViewKind kind) { return draws[static_cast<std::size_t>(kind)]; }
   const ObjectDraws& drawn_in(ViewKind kind) const { return draws[static_cast<std::size_t>(kind)]; }
   const ObjectDraws& in_window() const { return drawn_in(ViewKind::kWindow); }
 };
 
+// The rivers and lakes that a window may show.
+struct RiverMesh {
+  std::vector<std::uint32_t> indices;    // 3 per triangle
+  std::vector<glm::vec3> p_rel;          // per vertex, relative to the eye
+  std::vector<float> sea_share;          // per vertex: of the sea's waves, which displace() adds
+  std::vector<std::uint8_t> looks_into;  // per triangle: bits of LooksInto
+  // The level of what lies nearest to the eye but for water that the sea's mirror serves; an image
+  // mirrored in it is drawn. None: too little of it is in view.
+  std::optional<float> mirror_level_m;
+  float mirror_share = 0.0f;  // how much of that image shows: less where little is in view
+};
+
+// The images that water may look into.
+enum LooksInto : std::uint8_t { kSeaFloor = 1, kSeaMirror = 2, kRiverMirror = 4 };
+
 struct Meshes {
   Surface water, land;  // land: empty without terrain
   ObjectGeometry objects;
+  RiverMesh rivers;
+  TreeGeometry trees;
 
   std::span<const std::uint32_t> indices(SurfaceKind surface,
                                          ViewKind view = ViewKind::kWindow) const {
@@ -99,10 +124,18 @@ struct Meshes {
         return land.mesh.indices;
       case SurfaceKind::kObjects:
         return objects.drawn_in(view).indices;
+      case SurfaceKind::kRivers:
+        return rivers.indices;
+      case SurfaceKind::kTrees:
+        return trees.drawn_in(view).indices;
     }
     return {};
   }
 };
+
+// Stage 2: the cells of rivers and lakes that the view may show, joined where they are small in it.
+void choose_rivers(const World::State& world, const View& view, const FrameOptions& options,
+                   RiverMesh& rivers);
 
 // Stage 2: triangulates water and land for the view at t_s.
 void triangulate(const World::State& world, const View& view, double t_s,

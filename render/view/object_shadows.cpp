@@ -215,6 +215,22 @@ const scene::ObjectMesh& outline_mesh(const World::State& world, const ShadowCas
   return coarsest_mesh(world, caster.object, std::max(error_m, kMostOutlineError * largest_m));
 }
 
+SunBox sun_box(const ShadowCaster& caster, const ObjectShadows& shadows) {
+  const Outline& outline = caster.outline;
+  SunBox box;
+  const glm::vec3 place = caster.place_rel;
+  box.place = {glm::dot(place, shadows.right), glm::dot(place, shadows.up),
+               glm::dot(place, shadows.sun)};
+  box.reach_m = caster.reach_m;
+  box.middle_m = 0.5f * (outline.left_most_m + outline.right_most_m);
+  box.half_width_m = 0.5f * (outline.right_most_m - outline.left_most_m);
+  box.half_height_m = 0.5f * (Outline::kRows - 1) / outline.rows_per_m;
+  box.middle_up_m = outline.lowest_m + box.half_height_m;
+  box.most_depth_m = outline.most_depth_m;
+  box.object = static_cast<float>(caster.object);
+  return box;
+}
+
 }  // namespace
 
 Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
@@ -263,13 +279,16 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
   if (all.empty()) return;
   set_axes(options.sun_direction, shadows);
   const auto level = -static_cast<float>(view.eye_world.z);
-  shadows.lowest_rel_m = level - world.water_bounds(options.disturbances).height_m - kRounding_m;
+  const float wave_m = world.water_bounds(options.disturbances).height_m + kRounding_m;
+  shadows.lowest_rel_m = level - wave_m;
+  shadows.sea_below_rel_m = level + wave_m;
   const WaterMotion motion = motion_of(world);
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   const float sinks_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const glm::vec3 place_rel(objects.poses[i].position_world - view.eye_world);
     if (drawn_size_px(all[i], place_rel, view) < kSmallestCaster_px) continue;
+    if (world.objects.of_object[i]->form && !objects.draws_forms) continue;
     const std::vector<scene::MeshPart>& parts = world.objects.parts[i];
     for (std::size_t k = 0; k < parts.size(); ++k) {
       ShadowCaster caster = caster_of(all[i], parts[k], objects.poses[i], options, view);
@@ -294,6 +313,9 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     const int step = row_step(drawn_size_px(object, caster.place_rel, view));
     caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows, step);
   });
+  shadows.boxes.clear();
+  for (const ShadowCaster& caster : shadows.casters)
+    shadows.boxes.push_back(sun_box(caster, shadows));
 }
 
 }  // namespace swell::render

@@ -71,10 +71,17 @@ void fill_depth(const World::State& world, const scene::ObjectPose& pose,
   const glm::mat3 sun_from_world =
       glm::transpose(glm::mat3(shadows.right, shadows.up, shadows.sun));
   const glm::mat3 axes = sun_from_world * glm::mat3(pose.world_from_object);
-  const auto corner = [&](std::uint32_t index) {
-    const glm::vec3 q = mesh.position[index] - glm::vec3(0.0f, 0.0f, 0.5f);
+  const auto placed = [&](const glm::vec3& position) {
+    const glm::vec3 q = position - glm::vec3(0.0f, 0.0f, 0.5f);
     const glm::vec3 p = axes * (q * glm::vec3(object.size_m));
     return glm::vec3((glm::vec2(p) - map.first_m) * map.points_per_m, p.z);
+  };
+  // A vertex has six triangles: those of a small mesh are placed once.
+  std::array<glm::vec3, 1024> found;
+  const bool is_small = mesh.position.size() <= found.size();
+  if (is_small) std::ranges::transform(mesh.position, found.begin(), placed);
+  const auto corner = [&](std::uint32_t index) {
+    return is_small ? found[index] : placed(mesh.position[index]);
   };
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
     add_triangle(
@@ -93,8 +100,9 @@ void raise(int x, int y, float z, int side, std::span<float> depth_m) {
 void add_edge(const glm::vec3& a, const glm::vec3& b, int side, std::span<float> depth_m) {
   const glm::vec3 along = b - a;
   const int steps = static_cast<int>(std::ceil(std::max(std::abs(along.x), std::abs(along.y)))) + 1;
+  const glm::vec3 step = along / static_cast<float>(steps);
   for (int k = 0; k <= steps; ++k) {
-    const glm::vec3 p = a + static_cast<float>(k) / static_cast<float>(steps) * along;
+    const glm::vec3 p = a + static_cast<float>(k) * step;
     raise(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)), p.z, side,
           depth_m);
   }
@@ -105,28 +113,37 @@ void add_edge(const glm::vec3& a, const glm::vec3& b, int side, std::span<float>
 void add_triangle(const std::array<glm::vec3, 3>& corner, int side, std::span<float> depth_m) {
   const auto& [a, b, c] = corner;
   const glm::vec3 across = glm::cross(b - a, c - a);
+  const glm::vec2 rise = -glm::vec2(across) / across.z;  // of z along x and y
   const float low = std::min({a.y, b.y, c.y}), high = std::max({a.y, b.y, c.y});
   const int last = std::min(static_cast<int>(std::floor(high)), side - 1);
+  std::array<float, 3> along_y;  // of each edge's x
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::vec3 edge = corner[(k + 1) % 3] - corner[k];
+    along_y[k] = edge.y == 0.0f ? 0.0f : edge.x / edge.y;
+  }
   for (int y = std::max(static_cast<int>(std::ceil(low)), 0); y <= last && across.z != 0.0f; ++y) {
     const auto row = static_cast<float>(y);
     float left = static_cast<float>(side), right = -1.0f;
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::vec3 &p = corner[k], &q = corner[(k + 1) % 3];
-      if ((p.y <= row) == (q.y <= row)) continue;
-      const float x = p.x + (row - p.y) / (q.y - p.y) * (q.x - p.x);
-      left = std::min(left, x), right = std::max(right, x);
+      const bool crosses = (p.y <= row) != (q.y <= row);
+      const float x = p.x + (row - p.y) * along_y[k];
+      left = std::min(left, crosses ? x : left), right = std::max(right, crosses ? x : right);
     }
-    for (int x = static_cast<int>(std::ceil(left)); static_cast<float>(x) <= right; ++x) {
-      const glm::vec2 from_a = glm::vec2(static_cast<float>(x), row) - glm::vec2(a);
-      raise(x, y, a.z - glm::dot(glm::vec2(across), from_a) / across.z, side, depth_m);
-    }
+    const int x0 = std::max(static_cast<int>(std::ceil(left)), 0);
+    const int x1 = std::min(static_cast<int>(std::floor(right)), side - 1);
+    const float z = a.z + (row - a.y) * rise.y - a.x * rise.x;
+    float* const at = depth_m.data() + static_cast<std::ptrdiff_t>(y) * side;
+    for (int x = x0; x <= x1; ++x) at[x] = std::max(at[x], z + static_cast<float>(x) * rise.x);
   }
   // Masts and rails are thinner than the space between points.
-  float longest = 0.0f;
-  for (std::size_t k = 0; k < 3; ++k)
-    longest = std::max(longest, glm::length(glm::vec2(corner[(k + 1) % 3] - corner[k])));
+  float longest2 = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::vec2 edge(corner[(k + 1) % 3] - corner[k]);
+    longest2 = std::max(longest2, glm::dot(edge, edge));
+  }
   constexpr float kThin = 1.5f;
-  if (std::abs(across.z) >= kThin * longest) return;
+  if (across.z * across.z >= kThin * kThin * longest2) return;
   for (std::size_t k = 0; k < 3; ++k) add_edge(corner[k], corner[(k + 1) % 3], side, depth_m);
 }
 

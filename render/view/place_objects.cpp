@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "render/view/object_levels.h"
 #include "render/view/refracted_image.h"
+#include "scene/form_mesh.h"
 
 namespace swell::render {
 namespace {
@@ -185,6 +186,30 @@ void write_triangles(std::size_t begin, std::size_t end, ObjectDraws& out) {
              });
 }
 
+// A form's shape, in place of triangles.
+void take_form(const ObjectGeometry& geometry, const scene::MeshOfFile& shape,
+               ObjectInstance& instance) {
+  const scene::Form& form = shape.form->form;
+  const auto at = std::ranges::find(geometry.form_of, &form);
+  instance.form = &geometry.forms[static_cast<std::size_t>(at - geometry.form_of.begin())];
+  instance.form_size = glm::vec3(form.high - form.low);
+  instance.form_base = {0.5 * (form.low.x + form.high.x), 0.5 * (form.low.y + form.high.y),
+                        form.low.z};
+}
+
+// The scene's forms at t_s, one for all objects of a shape.
+void pose_forms(const World::State& world, double t_s, ObjectGeometry& geometry) {
+  geometry.form_of.clear();
+  for (const ObjectShape& shape : world.objects.of_object)
+    if (shape->form &&
+        std::ranges::find(geometry.form_of, &shape->form->form) == geometry.form_of.end())
+      geometry.form_of.push_back(&shape->form->form);
+  if (geometry.forms.size() < geometry.form_of.size())
+    geometry.forms.resize(geometry.form_of.size());
+  for (std::size_t i = 0; i < geometry.form_of.size(); ++i)
+    pose_form(*geometry.form_of[i], t_s, geometry.forms[i]);
+}
+
 // Which objects the views may show, and where what they are drawn with goes.
 void list_instances(const World::State& world, const DrawnKind& drawn,
                     const ObjectGeometry& geometry, ObjectDraws& draws) {
@@ -198,8 +223,12 @@ void list_instances(const World::State& world, const DrawnKind& drawn,
     if (!may_show(drawn, objects[i], placement)) continue;
     const Bounds ball = bounds_of(objects[i], placement);
     const float px_per_m = most_px_per_m(ball.middle_rel, ball.radius_m, drawn.camera);
-    const scene::ObjectMesh& mesh = coarsest_mesh(world, i, kMostLevelError_px / px_per_m);
+    const scene::MeshOfFile& shape = *world.objects.of_object[i];
+    if (shape.form && !geometry.draws_forms) continue;
+    const scene::ObjectMesh& mesh =
+        shape.form ? shape.form->mesh : coarsest_mesh(world, i, kMostLevelError_px / px_per_m);
     draws.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
+    if (shape.form) take_form(geometry, shape, draws.instances.back());
     draws.instances.back().object = static_cast<std::uint32_t>(i);
     draws.instances.back().mesh = &mesh;
     part.first_triangle += part.triangles;
@@ -262,6 +291,7 @@ void place_objects(const World::State& world, const SeaMaps& sea,
   ObjectGeometry& geometry = meshes.objects;
   geometry.poses.resize(world.scene.objects.size());
   drawn_poses(world, sea.frame, given, geometry.poses, run);
+  pose_forms(world, sea.frame.t_s, geometry);
   for (const ViewKind kind : kAllViewKinds) {
     std::array<RenderView*, 2> of_kind{};  // from the air, from below
     std::size_t count = 0;
@@ -275,7 +305,8 @@ void place_objects(const World::State& world, const SeaMaps& sea,
   }
   geometry.meshes.assign(geometry.poses.size(), nullptr);
   for (const ObjectInstance& instance : geometry.in_window().instances)
-    geometry.meshes[instance.object] = instance.mesh;
+    geometry.meshes[instance.object] =
+        instance.form ? &world.objects.of_object[instance.object]->levels.front() : instance.mesh;
 }
 
 }  // namespace swell::render

@@ -52,10 +52,11 @@ float distance_to(const glm::vec4& plane, glm::vec3 p) {
   return plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w;
 }
 
-// A vertex of a height field: over the mean level, which is level_rel_m over the eye.
-WorldPoint point_of(const Surface& surface, std::size_t i, float level_rel_m) {
+// A vertex of a height field in a view of the water at level_m; the mean level is mean_rel_m over
+// the eye.
+WorldPoint point_of(const Surface& surface, std::size_t i, float mean_rel_m, float level_m) {
   const float height_m = surface.height_m[i];
-  return {{surface.offset[i], height_m + level_rel_m}, height_m, level_rel_m};
+  return {{surface.offset[i], height_m + mean_rel_m}, height_m - level_m, mean_rel_m + level_m};
 }
 
 WorldPoint point_of(const ObjectDraws& objects, std::size_t i) {
@@ -104,17 +105,29 @@ void map_range(SurfaceKind surface, std::size_t begin, std::size_t end, RenderVi
 
 void map_range(const Meshes& meshes, SurfaceKind surface, std::size_t begin, std::size_t end,
                RenderView& view) {
-  const auto level_rel_m = -static_cast<float>(view.camera.eye_world.z);
+  const auto mean_rel_m = -static_cast<float>(view.camera.eye_world.z);
+  const float level_m = view.level_m;
   switch (surface) {
     case SurfaceKind::kWater:
-      return map_range(surface, begin, end, view,
-                       [&](std::size_t i) { return point_of(meshes.water, i, level_rel_m); });
+      return map_range(surface, begin, end, view, [&](std::size_t i) {
+        return point_of(meshes.water, i, mean_rel_m, level_m);
+      });
     case SurfaceKind::kTerrain:
-      return map_range(surface, begin, end, view,
-                       [&](std::size_t i) { return point_of(meshes.land, i, level_rel_m); });
+      return map_range(surface, begin, end, view, [&](std::size_t i) {
+        return point_of(meshes.land, i, mean_rel_m, level_m);
+      });
     case SurfaceKind::kObjects:
       return map_range(surface, begin, end, view, [&](std::size_t i) {
         return point_of(meshes.objects.drawn_in(view.kind), i);
+      });
+    case SurfaceKind::kRivers:
+      return map_range(surface, begin, end, view, [&](std::size_t i) {
+        return WorldPoint{meshes.rivers.p_rel[i], 0.0f, meshes.rivers.p_rel[i].z};
+      });
+    case SurfaceKind::kTrees:
+      return map_range(surface, begin, end, view, [&](std::size_t i) {
+        const glm::vec3 p = meshes.trees.drawn_in(view.kind).p_rel[i];
+        return WorldPoint{p, p.z - (mean_rel_m + level_m), mean_rel_m + level_m};
       });
   }
 }
@@ -145,6 +158,8 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples,
     if (is_drawn(s))
       triangles[static_cast<std::size_t>(s)] =
           static_cast<std::uint32_t>(meshes.indices(s, view.kind).size() / 3);
+  if (view.land && is_drawn(SurfaceKind::kTerrain))
+    triangles[static_cast<std::size_t>(SurfaceKind::kTerrain)] = 1;  // for all of it
   view.primitives = PrimitiveRanges(triangles);
 
   std::array<raster::Draw, kSurfaceKinds> draws;
@@ -159,6 +174,7 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples,
   }
   raster::prepare_pass(std::span(draws).first(count), view.viewport(), tile_size_px, view.pass,
                        workers, edge_samples);
+  find_forms(meshes.objects.drawn_in(view.kind), view);
 }
 
 }  // namespace swell::render

@@ -17,10 +17,13 @@
 #include "math/parallel.h"
 #include "math/view.h"
 #include "raster/pass.h"
+#include "render/view/forms.h"
 #include "render/view/meshes.h"
 #include "render/view/surfaces.h"
 
 namespace swell::render {
+
+struct LandRays;
 
 // A surface's vertices in a view.
 struct ViewVertices {
@@ -42,11 +45,15 @@ struct RenderView {
   float refraction_index = 1.333f;
   bool paper_refraction = false;         // scene::RefractionModel::kPaper
   float clip_margin_m = 0.3f;            // of image_clip_plane()
+  float level_m = 0.0f;                  // of the water that mirrors or refracts: the sea's is 0
   float drop_per_m2 = 0.0f;              // how far a round earth sinks (math/earth.h)
   std::optional<glm::dvec4> clip_plane;  // FrameOptions::clip_plane
+  const LandRays* land = nullptr;        // none: the land is triangles
+  bool land_has_apron = true;
   std::array<ViewVertices, kSurfaceKinds> vertices;
   PrimitiveRanges primitives;  // of the surfaces that it shows
   raster::Pass pass;
+  FormsInView forms;
 
   ViewVertices& vertices_of(SurfaceKind k) { return vertices[static_cast<std::size_t>(k)]; }
   const ViewVertices& vertices_of(SurfaceKind k) const {
@@ -127,6 +134,10 @@ void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
 void place_objects(const World::State& world, const SeaMaps& sea,
                    std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
                    const StageRun& run);
+
+// Stage 3: the trees that views may show, as they sway at t_s, and their vertices in the views.
+void place_trees(const World::State& world, double t_s, PartSet without, Meshes& meshes,
+                 FrameViews views, const StageRun& run);
 
 // Numbers the triangles of what the view shows, clips, sets up and bins them; with edge_samples
 // (0, 4 or 8) also for samples.

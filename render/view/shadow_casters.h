@@ -50,6 +50,17 @@ struct ShadowCaster {
   Outline outline;
 };
 
+// A box around a caster's outline, across the sun's direction and from the object's place: what
+// each point is held against first.
+struct SunBox {
+  glm::vec3 place{0.0f};  // relative to the eye: right, up, towards the sun
+  float reach_m = 0.0f;
+  float middle_m = 0.0f, half_width_m = 0.0f;      // to the right
+  float middle_up_m = 0.0f, half_height_m = 0.0f;  // upwards
+  float most_depth_m = 0.0f;
+  float object = 0.0f;  // its index in the scene
+};
+
 // What the sun sees of one object: how far towards the sun the nearest of its surface is, on a
 // square of points across the sun's direction. From the object's middle, along the axes of
 // ObjectShadows.
@@ -70,8 +81,10 @@ struct SunDepth {
 struct ObjectShadows {
   // Unit: towards the sun; level, to the right of who looks towards it; up, at right angles.
   glm::vec3 sun{0.0f, 0.0f, 1.0f}, right{1.0f, 0.0f, 0.0f}, up{0.0f, -1.0f, 0.0f};
-  float lowest_rel_m = 0.0f;  // nothing below this is shaded, relative to the eye
+  float lowest_rel_m = 0.0f;     // nothing below this is shaded, relative to the eye
+  float sea_below_rel_m = 0.0f;  // no wave of the sea is higher, relative to the eye
   std::vector<ShadowCaster> casters;
+  std::vector<SunBox> boxes;  // of the casters
   std::vector<SunDepth> own;  // of those large enough to be seen shading themselves
   std::vector<float> own_depth_m;
 };
@@ -92,6 +105,7 @@ struct PixelSpan {
 // By tile: the casters that may tell on what it shows.
 struct TileCasters {
   std::vector<PixelSpan> pixels;      // of each caster: those that it may tell on
+  std::vector<PixelSpan> sea_pixels;  // those where it may tell on the sea
   std::vector<TileSpan> tiles;        // the same
   std::vector<std::uint32_t> first;   // of each tile, and the end
   std::vector<std::uint16_t> caster;  // indices into ObjectShadows::casters

@@ -7,7 +7,7 @@
 
 namespace swell::render {
 
-Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows) {
+Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows, float highest_rel_m) {
   constexpr auto kRadius = static_cast<float>(kSunRadius_rad);
   Corners corners;
   const float near_m = caster.near_m;
@@ -24,8 +24,12 @@ Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows) {
   const float sine = std::max(shadows.sun.z, 1e-4f);
   const float way_m =
       std::min(caster.reach_m, std::max(height_m, 0.0f) / sine * (1.0f + 2.0f * kRadius / sine));
+  // Nothing nearer to the sun than `begin` is as low as highest_rel_m.
+  const float lowest_m = o.lowest_m - way_m * kRadius;
+  const float begin = std::min(
+      (highest_rel_m - caster.place_rel.z - lowest_m * shadows.up.z) / sine, o.most_depth_m);
   for (int i = 0; i < 16; ++i) {
-    const float way = i & 8 ? way_m : 0.0f, soft = way * kRadius;
+    const float way = i & 8 ? way_m : o.most_depth_m - begin, soft = way * kRadius;
     const float x = i & 1 ? o.right_most_m + soft : o.left_most_m - soft;
     const float y = i & 2 ? highest_m + soft : o.lowest_m - soft;
     const float z = (i & 4 ? o.most_depth_m : o.least_depth_m) - way;

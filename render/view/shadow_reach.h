@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <limits>
 
 #include "render/view/shadow_casters.h"
 
@@ -17,7 +18,9 @@ struct Corners {
   void add(glm::vec3 corner) { p[count++] = corner; }
 };
 
-Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows);
+// Of what lies no higher than highest_rel_m over the eye.
+Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows,
+                   float highest_rel_m = std::numeric_limits<float>::infinity());
 
 // How far a round earth sinks what lies between the corners at most, and what light reaches from
 // there under water.

@@ -36,15 +36,17 @@ void add_point(const View& camera, glm::vec3 p_rel, float drop_m, WindowBox& box
   add_flat_point(camera, p_rel - glm::vec3(0.0f, 0.0f, drop_m), box);
 }
 
-// The corners of a box around all that light may reach below the water: there it goes on at up to
-// 49 degrees from the vertical.
-std::array<glm::vec3, 8> reached_below(const Corners& corners, float level, float wave_m) {
+// The corners of a box around all that light may reach below the water, where it goes on aside by
+// `slant` a metre of depth.
+std::array<glm::vec3, 8> reached_below(const Corners& corners, glm::vec2 slant, float level,
+                                       float wave_m) {
   glm::vec3 low(kInfinity), high(-kInfinity);
   for (int i = 0; i < corners.count; ++i)
     low = glm::min(low, corners.p[i]), high = glm::max(high, corners.p[i]);
-  const glm::vec3 aside(1.15f * kDeepestShadow_m, 1.15f * kDeepestShadow_m, 0.0f);
-  low = glm::min(low, glm::vec3(low.x, low.y, level - kDeepestShadow_m)) - aside;
-  high = glm::max(high, glm::vec3(high.x, high.y, level + wave_m)) + aside;
+  const glm::vec3 way(-(kDeepestShadow_m + wave_m) * slant, 0.0f);
+  const glm::vec3 deepest(low.x, low.y, std::min(low.z, level - kDeepestShadow_m));
+  low = glm::min(deepest, deepest + way);
+  high = glm::max(glm::vec3(high.x, high.y, std::max(high.z, level + wave_m)), high + way);
   std::array<glm::vec3, 8> box;
   for (int i = 0; i < 8; ++i)
     box[i] = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
@@ -53,13 +55,14 @@ std::array<glm::vec3, 8> reached_below(const Corners& corners, float level, floa
 
 // Where a view shows what lies between the corners. In a mirror or under water things appear
 // between heights that bound map_point()'s, whose level is that of the sea or of any hull.
-WindowBox window_box(const Corners& corners, const RenderView& view, float lowest_rel_m) {
+WindowBox window_box(const Corners& corners, glm::vec2 slant, const RenderView& view,
+                     float lowest_rel_m) {
   WindowBox box;
   box.all = view.eye.submerged;
   const float drop_m = most_drop_m(corners, view.drop_per_m2);
   const float level = -static_cast<float>(view.camera.eye_world.z), wave_m = level - lowest_rel_m;
   if (view.kind == ViewKind::kRefraction) {
-    for (const glm::vec3& p : reached_below(corners, level, wave_m))
+    for (const glm::vec3& p : reached_below(corners, slant, level, wave_m))
       add_point(view.camera, p, drop_m, box);
     return box;
   }
@@ -93,17 +96,21 @@ TileSpan tiles_of(const PixelSpan& pixels, const raster::TileGrid& grid) {
 
 }  // namespace
 
-void list_casters(const ObjectShadows& shadows, const RenderView& view,
+void list_casters(const ObjectShadows& shadows, glm::vec2 slant, const RenderView& view,
                   const raster::TileGrid& grid, TileCasters& of_tile) {
   of_tile.first.clear();
   of_tile.caster.clear();
   if (shadows.casters.empty() || view.primitives.count() == 0) return;
   of_tile.first.assign(static_cast<std::size_t>(grid.count()) + 1, 0);
   of_tile.pixels.clear();
+  of_tile.sea_pixels.clear();
   of_tile.tiles.clear();
   for (const ShadowCaster& caster : shadows.casters) {
-    of_tile.pixels.push_back(
-        pixels_of(window_box(corners_of(caster, shadows), view, shadows.lowest_rel_m)));
+    const auto shown = [&](const Corners& corners) {
+      return pixels_of(window_box(corners, slant, view, shadows.lowest_rel_m));
+    };
+    of_tile.pixels.push_back(shown(corners_of(caster, shadows)));
+    of_tile.sea_pixels.push_back(shown(corners_of(caster, shadows, shadows.sea_below_rel_m)));
     of_tile.tiles.push_back(tiles_of(of_tile.pixels.back(), grid));
   }
   const auto for_tiles = [&](const TileSpan& box, auto&& visit) {

@@ -8,10 +8,12 @@
 namespace swell::render {
 
 // In the order of their primitive numbers.
-enum class SurfaceKind : std::uint8_t { kWater, kTerrain, kObjects };
-inline constexpr std::size_t kSurfaceKinds = 3;
+// kWater: the sea; kRivers: rivers and lakes.
+enum class SurfaceKind : std::uint8_t { kWater, kTerrain, kObjects, kTrees, kRivers };
+inline constexpr std::size_t kSurfaceKinds = 5;
 inline constexpr std::array<SurfaceKind, kSurfaceKinds> kAllSurfaces = {
-    SurfaceKind::kWater, SurfaceKind::kTerrain, SurfaceKind::kObjects};
+    SurfaceKind::kWater, SurfaceKind::kTerrain, SurfaceKind::kObjects, SurfaceKind::kTrees,
+    SurfaceKind::kRivers};
 
 // Which picture of them a view is.
 enum class ViewKind : std::uint8_t {
@@ -25,7 +27,8 @@ inline constexpr std::array<ViewKind, kViewKinds> kAllViewKinds = {
 
 // Water shows in the window only: it looks into the other pictures.
 constexpr bool shows(ViewKind view, SurfaceKind surface) {
-  return view == ViewKind::kWindow || surface != SurfaceKind::kWater;
+  return view == ViewKind::kWindow ||
+         (surface != SurfaceKind::kWater && surface != SurfaceKind::kRivers);
 }
 
 // The one table of primitive numbers: the triangles of each surface have consecutive ones, surface

@@ -9,6 +9,7 @@
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
 #include "render/view/meshes.h"
+#include "scene/fog.h"
 #include "terrain/apron.h"
 
 namespace swell::render {
@@ -68,7 +69,15 @@ lod::Domain land_domain(const terrain::HeightGrid& terrain, bool has_apron) {
 // and under water, which blurs what it shows.
 constexpr float kFlatLand = 8.0f, kSunkenLand = 16.0f, kMostTimes = 16.0f;
 
-lod::PriorityFactors priority_factors(const scene::Scene& scene) {
+// Where 1/e of the contrast is left, of things seen level through haze and the fog at the eye.
+double seen_distance_m(const scene::Scene& scene, double eye_height_m) {
+  const double fog_m = scene::fog_above_m(scene.air, eye_height_m), top_m = scene.air.fog_top_m;
+  const bool is_slab = scene.air.profile == scene::FogProfile::kSlab;
+  const double density = fog_m <= 0.0 ? 0.0 : is_slab ? 1.0 : fog_m / top_m;
+  return 1.0 / (1.0 / scene.sky.haze_distance_m + density * scene::fog_per_m(scene.air).y);
+}
+
+lod::PriorityFactors priority_factors(const scene::Scene& scene, const View& view) {
   const scene::Detail& detail = scene.detail;
   lod::PriorityFactors factors;
   factors.focus_nearer = static_cast<float>(detail.objects);
@@ -76,7 +85,8 @@ lod::PriorityFactors priority_factors(const scene::Scene& scene) {
   factors.flat = static_cast<float>(detail.normal_spread);
   factors.off_silhouette = static_cast<float>(detail.silhouette);
   if (detail.visibility > 0.0)
-    factors.haze_distance_m = static_cast<float>(scene.sky.haze_distance_m / detail.visibility);
+    factors.haze_distance_m =
+        static_cast<float>(seen_distance_m(scene, view.eye_world.z) / detail.visibility);
   return factors;
 }
 
@@ -133,7 +143,7 @@ lod::AdaptRequest request_for(const Wanted& wanted, int budget, float low_m, flo
   request.min_height_m = low_m;
   request.max_height_m = high_m;
   request.earth_radius_m = wanted.world.earth_radius_m(wanted.options.without);
-  request.factors = priority_factors(wanted.world.scene);
+  request.factors = priority_factors(wanted.world.scene, wanted.view);
   request.limits = adapt_limits(wanted.options);
   return request;
 }
@@ -194,7 +204,7 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
 }
 
 void triangulate_land(const Wanted& wanted, Surface& land) {
-  if (!wanted.world.terrain) return clear_surface(land);
+  if (!wanted.world.terrain || wanted.world.land_rays) return clear_surface(land);
   const terrain::HeightGrid& terrain = *wanted.world.terrain;
   const auto floor_m = std::min(terrain.lowest_m, static_cast<float>(terrain.apron.floor_m));
   lod::AdaptRequest request =
@@ -217,7 +227,10 @@ void triangulate(const World::State& world, const View& view, double t_s,
                  const FrameOptions& options, Meshes& meshes, const StageRun& run) {
   const Wanted wanted{world, view, t_s, options};
   run.workers.run_both([&] { triangulate_water(wanted, meshes.water); },
-                       [&] { triangulate_land(wanted, meshes.land); });
+                       [&] {
+                         triangulate_land(wanted, meshes.land);
+                         choose_rivers(world, view, options, meshes.rivers);
+                       });
 }
 
 }  // namespace swell::render

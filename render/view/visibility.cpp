@@ -1,6 +1,10 @@
 #include "render/view/visibility.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "math/large_array.h"
+#include "render/view/cast_land.h"
 
 namespace swell::render {
 namespace {
@@ -13,21 +17,47 @@ int count_of(const PrimitiveRanges& ranges, SurfaceKind kind,
   return static_cast<int>(count);
 }
 
-void find_visible_in_tile(const RenderView& window, int tile, bool samples,
-                          VisibilityBuffer& visibility) {
+// The images that water in a tile may look into. `samples`: water in parts of pixels counts, too.
+std::uint8_t images_of(const Meshes& meshes, const RenderView& window, int tile, bool samples,
+                       int water_pixels, std::span<const std::uint32_t> primitives) {
+  const auto may_show = [&](SurfaceKind kind) {
+    const std::uint32_t begin = window.primitives.begin(kind), end = window.primitives.end(kind);
+    return begin < end && raster::tile_has_triangles(window.pass, tile, begin, end);
+  };
+  std::uint32_t images = 0;
+  if (water_pixels > 0 || (samples && may_show(SurfaceKind::kWater)))
+    images = kSeaFloor | kSeaMirror;
+  if (!may_show(SurfaceKind::kRivers)) return static_cast<std::uint8_t>(images);
+  if (samples) return kSeaFloor | kSeaMirror | kRiverMirror;
+  const std::uint32_t first = window.primitives.begin(SurfaceKind::kRivers);
+  const std::span<const std::uint8_t> looks_into = meshes.rivers.looks_into;
+  for (const std::uint32_t p : primitives)
+    if (p - first < looks_into.size()) images |= looks_into[p - first];
+  return static_cast<std::uint8_t>(images);
+}
+
+void find_visible_in_tile(const Meshes& meshes, const RenderView& window, int tile, bool samples,
+                          const Profile& profile, VisibilityBuffer& visibility) {
   visibility.covered[tile] = -1;
   visibility.water_pixels[tile] = 0;
-  visibility.may_show_water[tile] = 0;
-  if (!raster::tile_has_triangles(window.pass, tile)) return;
+  visibility.looks_into[tile] = 0;
+  const std::span<float> depth = visibility.depth_of(tile);
   const std::span<std::uint32_t> primitive = visibility.primitive_of(tile);
-  visibility.covered[tile] =
-      raster::draw_tile(window.pass, tile, visibility.depth_of(tile), primitive);
+  int& covered = visibility.covered[tile];
+  if (raster::tile_has_triangles(window.pass, tile))
+    covered = raster::draw_tile(window.pass, tile, depth, primitive);
+  if (!visibility.rays_us.empty()) {
+    const double before_us = profile.now_us();
+    if (window.land)
+      covered = cast_land(window, visibility.grid, tile, covered < 0, depth, primitive);
+    covered = draw_forms(window.forms, raster::tile_box(window.viewport(), visibility.grid, tile),
+                         visibility.grid.tile_size_px, covered, depth, primitive);
+    visibility.rays_us[tile] = profile.now_us() - before_us;
+  }
+  if (covered < 0) return;
   visibility.water_pixels[tile] = count_of(window.primitives, SurfaceKind::kWater, primitive);
-  visibility.may_show_water[tile] =
-      visibility.water_pixels[tile] > 0 ||
-      (samples &&
-       raster::tile_has_triangles(window.pass, tile, window.primitives.begin(SurfaceKind::kWater),
-                                  window.primitives.end(SurfaceKind::kWater)));
+  visibility.looks_into[tile] =
+      images_of(meshes, window, tile, samples, visibility.water_pixels[tile], primitive);
 }
 
 }  // namespace
@@ -37,14 +67,19 @@ void find_visible(const Meshes& meshes, int tile_size_px, int edge_samples, Rend
   prepare_view_pass(meshes, tile_size_px, edge_samples, window, run.workers);
   visibility.grid = raster::tile_grid(window.viewport(), tile_size_px);
   const auto tiles = static_cast<std::size_t>(visibility.grid.count());
-  visibility.depth.resize(tiles * visibility.tile_pixels());
-  visibility.primitive.resize(tiles * visibility.tile_pixels());
+  resize_large(visibility.depth, tiles * visibility.tile_pixels());
+  resize_large(visibility.primitive, tiles * visibility.tile_pixels());
   visibility.covered.resize(tiles);
   visibility.water_pixels.resize(tiles);
-  visibility.may_show_water.resize(tiles);
+  visibility.looks_into.resize(tiles);
+  visibility.rays_us.resize(window.land || !window.forms.forms.empty() ? tiles : 0);
   run.for_each(tiles, [&](std::size_t tile, int) {
-    find_visible_in_tile(window, static_cast<int>(tile), edge_samples != 0, visibility);
+    find_visible_in_tile(meshes, window, static_cast<int>(tile), edge_samples != 0, run.profile,
+                         visibility);
   });
+  // Of the threads' time, as if all of them had shared the rays evenly.
+  const double rays_us = std::accumulate(visibility.rays_us.begin(), visibility.rays_us.end(), 0.0);
+  run.profile.move(run.stage, Stage::kRays, 1e-3 * rays_us / run.workers.thread_count());
 }
 
 }  // namespace swell::render

@@ -18,7 +18,8 @@ struct VisibilityBuffer {
   std::vector<std::uint32_t> primitive;
   std::vector<int> covered;  // pixels with a surface; -1: no triangle, buffers unset
   std::vector<int> water_pixels;
-  std::vector<std::uint8_t> may_show_water;  // 0 or 1: in a pixel's centre, or in a part of one
+  std::vector<std::uint8_t> looks_into;  // LooksInto, of water in pixels' centres or parts of them
+  std::vector<double> rays_us;           // time that its rays took; empty if the window has none
 
   std::size_t tile_pixels() const {
     return static_cast<std::size_t>(grid.tile_size_px) * grid.tile_size_px;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "math/check.h"
+#include "math/large_array.h"
 #include "render/world/for_each_row.h"
 
 namespace swell::render {
@@ -105,7 +106,7 @@ float lit_above_m(const LandShadow& s, int along, int across) {
 // Sweeps all rows, and finds in which texels anything on the ground or above it is shaded.
 void sweep(const terrain::HeightGrid& land, SunDrop drop, LandShadow& s, Workers& workers) {
   const int n = s.texels_along;
-  s.bounds.resize(static_cast<std::size_t>(n) * s.texels_across);
+  resize_large(s.bounds, static_cast<std::size_t>(n) * s.texels_across);
   std::vector<glm::ivec2> shaded(s.texels_across, glm::ivec2(n, 0));  // texels of each row
   for_each_row(s.texels_across, workers, [&](int across) {
     std::vector<glm::dvec2> p(n);

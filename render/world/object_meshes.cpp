@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "render/world/world_state.h"
+#include "scene/form_file.h"
+#include "scene/form_mesh.h"
 #include "scene/parameters.h"
 #include "scene/scene_error.h"
 
@@ -42,9 +44,14 @@ ObjectShape find_shape(const scene::FloatingObject& object,
 
 ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {
   const scene::FloatingObject& object = scene.objects[n];
-  if (object.kind != scene::ObjectKind::kMesh) return built_in(object);
+  if (!scene::is_of_file(object.kind)) return built_in(object);
   try {
+    if (object.kind == scene::ObjectKind::kForm)
+      return std::make_shared<const scene::MeshOfFile>(
+          scene::with_meshes(scene::load_form(object.file)));
     return std::make_shared<const scene::MeshOfFile>(scene::load_mesh(object.file, object.up));
+  } catch (const scene::SceneError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     fail(scene, n, error.what());
   }
@@ -59,7 +66,7 @@ ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like) 
     ObjectShape shape = find_shape(object, scene.objects, result.of_object);
     if (!shape && like) shape = find_shape(object, like->scene.objects, like->objects.of_object);
     if (!shape) shape = shape_of(scene, n);
-    if (object.kind == scene::ObjectKind::kMesh) {
+    if (scene::is_of_file(object.kind)) {
       try {
         scene::fit_object(*shape, object);
       } catch (const std::runtime_error& error) {

@@ -1,7 +1,9 @@
 #include "render/world/sea_maps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "ocean/sea_state.h"
 #include "ocean/wakes.h"
@@ -55,6 +57,15 @@ void pack_foam(const ocean::WhitecapFrame::Patch& patch, float past, std::vector
   texture::pack_map1(ocean::kFoamMapSize, values, map);
 }
 
+// Whether any of eight codes is foam that a map's byte shows: of those up to 11 it is 0.
+bool shows_foam(const std::uint8_t* codes) {
+  constexpr std::uint64_t kEach = 0x0101010101010101u;
+  std::uint64_t code;
+  std::memcpy(&code, codes, sizeof(code));
+  const std::uint64_t over = (code & (0x7f * kEach)) + (0x7f - 11) * kEach;
+  return ((over | code) & (0x80 * kEach)) != 0;
+}
+
 void pack_wake(const ocean::WakeWindow& window, std::vector<float>& values,
                texture::PackedMap2& slopes, texture::PackedMap1& foam) {
   texture::pack_map2(ocean::kWakeSamples, window.slope_x, window.slope_y, 0.0f, slopes);
@@ -74,13 +85,39 @@ void leave_out_tiles(SeaMaps& sea) {
 
 }  // namespace
 
+FoamBlocks find_foam_blocks(const ocean::WhitecapFrame::Patch& patch) {
+  constexpr int kSize = ocean::kFoamMapSize, kSide = kSize / FoamBlocks::kColumns;
+  static_assert(kSide == 8 && FoamBlocks::kRows * 2 == FoamBlocks::kColumns);
+  constexpr int kCells = kSize / kSide;
+  std::array<std::uint32_t, kCells> cells{};  // of kSide x kSide texels
+  for (std::size_t j = 0; j < kSize; ++j)
+    for (std::size_t i = 0; i < kCells; ++i) {
+      const std::size_t at = j * kSize + i * kSide;
+      const bool some = shows_foam(&patch.before[at]) || shows_foam(&patch.after[at]);
+      cells[j / kSide] |= static_cast<std::uint32_t>(some) << i;
+    }
+  // A texel of level 2 is of those up to 3 around it, and a sample takes two: nothing further than
+  // 7 away.
+  FoamBlocks blocks;
+  int count = 0;
+  for (int j = 0; j < FoamBlocks::kRows; ++j) {
+    std::uint32_t row = 0;
+    for (int k = -1; k <= 2; ++k) row |= cells[static_cast<unsigned>(2 * j + k) % kCells];
+    blocks.row[j] = row | std::rotl(row, 1) | std::rotr(row, 1);
+    count += std::popcount(blocks.row[j]);
+  }
+  blocks.are_few = count <= FoamBlocks::kRows * FoamBlocks::kColumns / 2;
+  return blocks;
+}
+
 void advance_waves(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
                    PartSet without, ocean::SeaFrame& frame, Workers& workers) {
   ocean::advance(*world.sea, t_s, frame, workers, !without.has(Part::kCrests));
+  frame.sheltered = !without.has(Part::kShelter);
   frame.wakes.count = 0;
   if (!without.has(Part::kWakes))
     ocean::advance_wakes(world.disturbances, more, world.scene.sea.gravity_mps2, t_s, frame.wakes,
-                         workers);
+                         workers, world.shore.get());
 }
 
 void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
@@ -103,6 +140,7 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
   const std::size_t foams = has_foam ? sea.whitecaps.patches.size() : 0;
   const std::size_t patches = sea.frame.patches.size(), noise = foams + patches;
   sea.foam.resize(foams);
+  sea.foam_blocks.resize(foams);
   sea.foam_values.resize(foams);
   sea.patch_slopes.resize(patches);
   const std::size_t wakes = sea.frame.wakes.count;
@@ -119,9 +157,10 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
                        sea.wake_foam[w]);
     }
     const std::size_t i = job - caustics - wakes;
-    if (i < foams)
+    if (i < foams) {
       pack_foam(sea.whitecaps.patches[i], sea.whitecaps.past, sea.foam_values[i], sea.foam[i]);
-    else if (i < noise)
+      sea.foam_blocks[i] = find_foam_blocks(sea.whitecaps.patches[i]);
+    } else if (i < noise)
       pack_patch(sea.frame.patches[i - foams], sea.patch_slopes[i - foams]);
     else if (i == noise)
       pack_noise(world.scene.sea, t_s, sea);

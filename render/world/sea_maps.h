@@ -1,6 +1,8 @@
 // Stage 1: the sea at one time, and the maps that shading looks into.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "ocean/sea.h"
@@ -14,11 +16,20 @@
 
 namespace swell::render {
 
+// Where a map of foam has any: bit i of row j is of the texels from (8 i, 16 j) on, and is set
+// where a sample there, bilinear on a level up to kFinest, may find some.
+struct FoamBlocks {
+  static constexpr int kColumns = 32, kRows = 16, kFinest = 2;
+  alignas(64) std::array<std::uint32_t, kRows> row{};
+  bool are_few = false;  // so that looking spares samples
+};
+
 struct SeaMaps {
   ocean::SeaFrame frame;
   std::vector<texture::PackedMap2> patch_slopes;  // one a patch, longest first
   ocean::WhitecapFrame whitecaps;
   std::vector<texture::PackedMap1> foam;         // one a patch of whitecaps, as 2 foam - 1
+  std::vector<FoamBlocks> foam_blocks;           // the same
   texture::PackedMap2 uv_noise;                  // bends the coordinates of ripples
   texture::PackedMap2 coast_slopes, coast_surf;  // slopes of the trains; ceded, foam
   RippleMaps ripples;                            // of a sequence
@@ -41,6 +52,9 @@ void advance_waves(const World::State& world, double t_s, std::span<const ocean:
 // Fills `sea` with the world's sea at time t_s, as far as pictures without these parts need it.
 void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
                  PartSet without, SeaMaps& sea, const StageRun& run);
+
+// Where foam of a patch is, at any time between its steps.
+FoamBlocks find_foam_blocks(const ocean::WhitecapFrame::Patch& patch);
 
 // The water's surface at the time of `sea`, of the same world.
 inline ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {

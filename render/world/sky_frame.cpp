@@ -53,17 +53,36 @@ double sky_height_m(const View& view, PartSet without) {
   return without.has(Part::kAltitude) ? 0.0 : std::max(view.eye_world.z, 0.0);
 }
 
-void advance_sky(const World::State& world, const Clouds& mirrored, double height_m,
+void advance_clouds(const World::State& world, const Clouds& mirrored, double t_s, glm::dvec2 eye,
+                    PartSet without, SkyFrame& sky, const StageRun& run) {
+  constexpr float kTexel = 2.0f / CloudSky::kSide;
+  VolumeClouds volume = make_volume_clouds(world, t_s, {eye, 0.0}, kTexel, without);
+  // Blurred clouds take no more than long steps.
+  volume.steps = {128.0f, 2048.0f};
+  const scene::Sky& air = world.scene.sky;
+  draw_cloud_sky(volume,
+                 {world.sky->horizon, static_cast<float>(1.0 / air.haze_distance_m),
+                  static_cast<float>(1.0 / air.haze_height_m)},
+                 sky.clouds, run);
+  advance_cloud_shadow(world, mirrored, volume, {eye, 0.0}, without, sky.shadow, run);
+}
+
+void advance_sky(const World::State& world, const Clouds& mirrored, const Fog& fog, double height_m,
                  PartSet without, SkyFrame& sky, const StageRun& run) {
   const SkyMaps& maps = *world.sky;
   const bool is_flat = drop_per_m2(world.earth_radius_m(without)) == 0.0f;
   sky.horizon_sine = is_flat ? 0.0f : static_cast<float>(scene::horizon_sine(height_m));
   set_heights(maps, height_m, sky, run.workers);
-  sky.mirrored = &maps.soft;
-  if (!mirrored.any) return;
-  if (sky.codes.width != kSoftSkySize) texture::resize_image(kSoftSkySize, kSoftSkySize, sky.codes);
-  for_each_row(kSoftSkySize, run.workers,
-               [&](int y) { write_soft_sky_row(maps, mirrored, y, sky.codes); });
+  sky.mirrored = sky.mirrored_clear = &maps.soft;
+  if (!mirrored.any && !sky.clouds.any && !fog.on) return;
+  for (texture::RgbaImage* const codes : {&sky.codes_clear, &sky.codes})
+    if (codes->width != kSoftSkySize) texture::resize_image(kSoftSkySize, kSoftSkySize, *codes);
+  for_each_row(kSoftSkySize, run.workers, [&](int y) {
+    write_soft_sky_row(maps, mirrored, sky.clouds, fog, y, sky.codes_clear, sky.codes);
+  });
+  texture::pack_rgb(sky.codes_clear, sky.soft_clear);
+  sky.mirrored = sky.mirrored_clear = &sky.soft_clear;
+  if (!fog.on) return;
   texture::pack_rgb(sky.codes, sky.soft);
   sky.mirrored = &sky.soft;
 }

@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 //
 #include "render/materials/clouds-inl.h"
+#include "render/tile/fog-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -22,12 +23,44 @@ HWY_INLINE VI ByteOf(V radiance) {
   return hn::ConvertTo(DI(), hn::Add(code, Constant(0.5f)));
 }
 
-void SoftSkyRow(const SkyMaps& sky, const Clouds& clouds, int y, std::uint32_t* codes) {
+HWY_INLINE VI CodeOf(V3 light) {
+  const V range = Constant(kSoftSkyRange);
+  const V most = hn::Max(light.x, hn::Max(light.y, light.z));
+  const V fits = hn::Div(range, hn::Max(most, range));
+  return hn::Or(ByteOf(hn::Mul(light.x, fits)),
+                hn::Or(hn::ShiftLeft<8>(ByteOf(hn::Mul(light.y, fits))),
+                       hn::ShiftLeft<16>(ByteOf(hn::Mul(light.z, fits)))));
+}
+
+// Lays what `volume` has at places of the map before `light`; texels: half of the map's.
+HWY_INLINE V3 AddVolume(const CloudSky& volume, V column, V row, V3 light) {
+  const DI di;
+  constexpr float kPart = static_cast<float>(CloudSky::kSide) / kSoftSkySize;
+  const auto place = [](V at) HWY_ATTR {
+    return Clamp(hn::MulAdd(at, Constant(kPart), Constant(-0.5f)), 0.0f, CloudSky::kSide - 1.001f);
+  };
+  const V x = place(column), y = place(row);
+  const VI i = TruncateToInt(x), j = TruncateToInt(y);
+  const V s = hn::Sub(x, hn::ConvertTo(D(), i)), t = hn::Sub(y, hn::ConvertTo(D(), j));
+  const VI upper = hn::Add(hn::Mul(j, hn::Set(di, CloudSky::kSide)), i);
+  const auto read = [&](std::size_t channel) HWY_ATTR {
+    const float* const texels = volume.texels[channel].data();
+    const auto at = [&](int offset) HWY_ATTR {
+      return hn::GatherIndex(D(), texels, hn::Add(upper, hn::Set(di, offset)));
+    };
+    return Lerp(Lerp(at(0), at(1), s), Lerp(at(CloudSky::kSide), at(CloudSky::kSide + 1), s), t);
+  };
+  const V passes = hn::Sub(Constant(1.0f), read(CloudSky::kOpacity));
+  return ScaleAdd(light, passes, {read(0), read(1), read(2)});
+}
+
+void SoftSkyRow(const SkyMaps& sky, const Clouds& clouds, const CloudSky& volume, const Fog& fog,
+                int y, std::uint32_t* codes, std::uint32_t* foggy_codes) {
   const D d;
   constexpr float kStep = 2.0f / kSoftSkySize;
   constexpr std::size_t kChannel = static_cast<std::size_t>(kSoftSkySize) * kSoftSkySize;
   const V v = Constant(kStep * (static_cast<float>(y) + 0.5f) - 1.0f);
-  const V one = Constant(1.0f), range = Constant(kSoftSkyRange);
+  const V one = Constant(1.0f);
   for (int x = 0; x < kSoftSkySize; x += static_cast<int>(hn::Lanes(d))) {
     const V column = hn::Add(hn::ConvertTo(d, CountFrom(x)), Constant(0.5f));
     const V u = hn::MulSub(column, Constant(kStep), one);
@@ -37,19 +70,21 @@ void SoftSkyRow(const SkyMaps& sky, const Clouds& clouds, int y, std::uint32_t* 
     const V across = hn::Sqrt(hn::Div(hn::NegMulAdd(z, z, one), hn::Max(r2, Constant(1e-12f))));
     const std::size_t at = static_cast<std::size_t>(y) * kSoftSkySize + static_cast<std::size_t>(x);
     const float* clear = sky.soft_clear.data() + at;
-    V passes;
     const V3 direction = {hn::Mul(u, across), hn::Mul(v, across), z};
-    const CloudView view = ViewClouds(clouds, direction, Constant(kSoftAngleLog2));
-    const V3 light = AddClouds(
-        clouds, view, SampleClouds(clouds, view.x, view.y, view.level),
-        {hn::LoadU(d, clear), hn::LoadU(d, clear + kChannel), hn::LoadU(d, clear + 2 * kChannel)},
-        passes);
-    const V most = hn::Max(light.x, hn::Max(light.y, light.z));
-    const V fits = hn::Div(range, hn::Max(most, range));
-    const VI code = hn::Or(ByteOf(hn::Mul(light.x, fits)),
-                           hn::Or(hn::ShiftLeft<8>(ByteOf(hn::Mul(light.y, fits))),
-                                  hn::ShiftLeft<16>(ByteOf(hn::Mul(light.z, fits)))));
-    hn::StoreU(code, DI(), reinterpret_cast<std::int32_t*>(codes + x));
+    V3 light = {hn::LoadU(d, clear), hn::LoadU(d, clear + kChannel),
+                hn::LoadU(d, clear + 2 * kChannel)};
+    if (clouds.any) {
+      V passes;
+      const CloudView view = ViewClouds(clouds, direction, Constant(kSoftAngleLog2));
+      light =
+          AddClouds(clouds, view, SampleClouds(clouds, view.x, view.y, view.level), light, passes);
+    }
+    if (volume.any)
+      light = AddVolume(volume, column, Constant(static_cast<float>(y) + 0.5f), light);
+    hn::StoreU(CodeOf(light), DI(), reinterpret_cast<std::int32_t*>(codes + x));
+    if (!fog.on) continue;
+    const V3 foggy = SkyThroughFog(fog, fog.at_sea, direction, light);
+    hn::StoreU(CodeOf(foggy), DI(), reinterpret_cast<std::int32_t*>(foggy_codes + x));
   }
 }
 
@@ -62,12 +97,16 @@ namespace swell::render {
 
 HWY_EXPORT(SoftSkyRow);
 
-void write_soft_sky_row(const SkyMaps& sky, const Clouds& clouds, int y,
-                        texture::RgbaImage& codes) {
-  SWELL_CHECK(codes.width == kSoftSkySize && y >= 0 && y < codes.height && clouds.any,
-              "width={} y={}", codes.width, y);
-  HWY_DYNAMIC_DISPATCH(SoftSkyRow)
-  (sky, clouds, y, codes.texels.data() + static_cast<std::ptrdiff_t>(y) * codes.stride);
+void write_soft_sky_row(const SkyMaps& sky, const Clouds& clouds, const CloudSky& volume,
+                        const Fog& fog, int y, texture::RgbaImage& clear,
+                        texture::RgbaImage& foggy) {
+  for (const texture::RgbaImage* const codes : {&clear, &foggy})
+    SWELL_CHECK(codes->width == kSoftSkySize && y >= 0 && y < codes->height, "width={} y={}",
+                codes->width, y);
+  const auto row_of = [&](texture::RgbaImage& codes) {
+    return codes.texels.data() + static_cast<std::ptrdiff_t>(y) * codes.stride;
+  };
+  HWY_DYNAMIC_DISPATCH(SoftSkyRow)(sky, clouds, volume, fog, y, row_of(clear), row_of(foggy));
 }
 
 }  // namespace swell::render

@@ -224,10 +224,19 @@ float exposure_aloft(const scene::Sky& sky, double light_ratio) {
                             scene::automatic_exposure(1.0));
 }
 
+// The sky is drawn alike on both sides of its brighter light: in twilight that is the sun, wherever
+// the moon stands.
+glm::vec3 brighter_side(const scene::SkyLight& light) {
+  constexpr float kTwilight = -0.2f;
+  const glm::vec3 to_sun = light.sky.sun_direction;
+  const bool is_opposite = scene::moon_direction(light.sky) == -to_sun;
+  return !is_opposite && to_sun.z > kTwilight ? to_sun : light.to_light;
+}
+
 // `maps`: exposed.
 void build_heights(const scene::SkyLight& sea_level, float exposure, Workers& workers,
                    SkyMaps& maps) {
-  const glm::vec2 level(sea_level.to_light);
+  const glm::vec2 level(brighter_side(sea_level));
   const float length = glm::length(level);
   if (length > 0.0f) maps.azimuth = level / length;
   const double light_below = light_seen(sea_level, 0.0, exposure, maps);
@@ -254,6 +263,7 @@ SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers) {
   set_lights(light, maps);
   const float exposure = choose_exposure(light, maps);
   expose(exposure, maps);
+  maps.stored_exposure = exposure;
   build_heights(light, exposure, workers, maps);
   const std::vector<float> soft = sample_soft_sky(light, exposure, workers);
   maps.soft_clear = by_channel(soft);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "math/smoothstep.h"
 #include "render/world/for_each_row.h"
+#include "render/world/ground_cover.h"
 #include "render/world/rgb_code.h"
 #include "render/world/world_state.h"
 #include "terrain/apron.h"
@@ -14,26 +14,6 @@ namespace swell::render {
 namespace {
 
 constexpr int kTerrainMapSize = 1024;
-
-// Reflectance of the ground by height, steepness and noise: sand, then scrub and forest, rock
-// where it is steep, grey-green growth in deeper water. Wet sand passes into the floor's colours
-// within two metres of depth.
-glm::vec3 ground_albedo(float height_m, float steepness, float noise, float clumps) {
-  const glm::vec3 sand =
-      glm::mix(glm::vec3(0.58f, 0.50f, 0.36f), glm::vec3(0.68f, 0.61f, 0.47f), 0.5f + 0.5f * noise);
-  const glm::vec3 wet_sand = sand * 0.62f;
-  const glm::vec3 green =
-      glm::mix(glm::vec3(0.035f, 0.075f, 0.020f), glm::vec3(0.14f, 0.18f, 0.05f),
-               smoothstep(-0.35f, 0.45f, clumps + 0.3f * noise));
-  const glm::vec3 rock =
-      glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.34f, 0.31f, 0.27f), 0.5f + 0.5f * noise);
-  const glm::vec3 reef(0.16f, 0.19f, 0.13f);
-  glm::vec3 c = glm::mix(wet_sand, sand, smoothstep(0.1f, 0.7f, height_m));
-  c = glm::mix(c, green, smoothstep(1.8f, 4.0f, height_m + 1.5f * noise));
-  c = glm::mix(c, rock, smoothstep(0.55f, 0.9f, steepness + 0.15f * noise));
-  const glm::vec3 floor = glm::mix(sand, reef, 0.75f * smoothstep(0.15f, 0.5f, noise));
-  return glm::mix(c, floor, smoothstep(0.1f, 2.0f, -height_m));
-}
 
 // Noise that colours the ground, over the terrain's square: sand and scrub, clumps of trees.
 struct GroundNoise {
@@ -101,34 +81,70 @@ texture::RgbaImage paint(int size, Workers& workers, const AlbedoAt& albedo_at) 
   return image;
 }
 
-texture::RgbaImage paint_map(const Relief& relief, const GroundNoise& noise, Workers& workers) {
+// The parts of grass, dry growth and rock in the ground, and of the sky that it sees.
+texture::CoverMap pack_ground(const Relief& relief, double step_m,
+                              const std::vector<GroundPlace>& places,
+                              const terrain::GroundMaterials& materials, Workers& workers) {
+  const std::vector<float> sky_seen = find_sky_seen(relief.size, relief.height_m, step_m, workers);
+  std::vector<glm::vec4> values(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const GroundCover cover = cover_of(places[k], materials);
+    values[k] = {cover.grass, cover.dry, cover.rock, sky_seen[k]};
+  }
+  return texture::pack_cover(relief.size, std::move(values));
+}
+
+// What the places of a relief are like: noise_at(i, j) numbers the texel of the noise.
+template <class NoiseAt>
+std::vector<GroundPlace> find_places(const Relief& relief, double step_m, const GroundNoise& noise,
+                                     Workers& workers, const NoiseAt& noise_at) {
+  const std::vector<float> hollow = find_hollows(relief.size, relief.height_m, step_m, workers);
+  std::vector<GroundPlace> places(hollow.size());
+  for_each_row(relief.size, workers, [&](int j) {
+    for (int i = 0; i < relief.size; ++i) {
+      const std::size_t k = static_cast<std::size_t>(j) * relief.size + i, n = noise_at(i, j);
+      places[k] = {relief.height_m[k], relief.steepness(k), hollow[k], noise.patchiness[n],
+                   noise.clumps[n]};
+    }
+  });
+  return places;
+}
+
+texture::RgbaImage paint_map(const Relief& relief, const std::vector<GroundPlace>& places,
+                             const terrain::GroundMaterials& materials, Workers& workers) {
   return paint(relief.size, workers, [&](int i, int j) {
-    const std::size_t k = static_cast<std::size_t>(j) * relief.size + i;
-    return ground_albedo(relief.height_m[k], relief.steepness(k), noise.patchiness[k],
-                         noise.clumps[k]);
+    return ground_albedo(places[static_cast<std::size_t>(j) * relief.size + i], materials);
   });
 }
 
-// Two texels to each of the relief's and half as many as the map's on the same way; the map's noise
-// goes on mirrored.
-texture::RgbaImage paint_around(const Relief& relief, const GroundNoise& noise, Workers& workers) {
+// Where the map's noise goes on mirrored, half as many texels on the same way.
+std::size_t mirrored_noise(int i, int j) {
   constexpr int n = kTerrainMapSize;
-  const int size = 2 * relief.size;
-  const auto mirrored = [&](int texel) {
+  const auto mirrored = [](int texel) {
     const int k = std::abs(2 * texel - n / 2);
     return static_cast<std::size_t>(k < n ? k : 2 * n - 1 - k);
   };
-  return paint(size, workers, [&](int i, int j) {
+  return mirrored(j) * n + mirrored(i);
+}
+
+// Two texels to each of the relief's; heights and noise of their own.
+texture::RgbaImage paint_around(const Relief& relief, const std::vector<GroundPlace>& places,
+                                const GroundNoise& noise, const terrain::GroundMaterials& materials,
+                                Workers& workers) {
+  return paint(2 * relief.size, workers, [&](int i, int j) {
     const auto at = [&](int x, int y) {
       return static_cast<std::size_t>(std::min(y, relief.size - 1)) * relief.size +
              std::min(x, relief.size - 1);
     };
     const int x = i / 2, y = j / 2;
-    const float height =
+    GroundPlace place = places[at(x, y)];
+    place.height_m =
         0.25f * (relief.height_m[at(x, y)] + relief.height_m[at(x + i % 2, y)] +
                  relief.height_m[at(x, y + j % 2)] + relief.height_m[at(x + i % 2, y + j % 2)]);
-    const std::size_t k = mirrored(j) * n + mirrored(i);
-    return ground_albedo(height, relief.steepness(at(x, y)), noise.patchiness[k], noise.clumps[k]);
+    const std::size_t k = mirrored_noise(i, j);
+    place.patchiness = noise.patchiness[k];
+    place.clumps = noise.clumps[k];
+    return ground_albedo(place, materials);
   });
 }
 
@@ -160,11 +176,11 @@ terrain::HeightGrid sample_around(const terrain::HeightGrid& terrain, Workers& w
 }
 
 TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
-                               const terrain::HeightGrid& around, std::uint64_t seed,
-                               Workers& workers) {
+                               const terrain::HeightGrid& around,
+                               const terrain::TerrainDescription& description, Workers& workers) {
   constexpr int n = kTerrainMapSize;
   const double step_m = terrain.grid.size_m() / n;
-  const GroundNoise noise = make_ground_noise(step_m, seed, workers);
+  const GroundNoise noise = make_ground_noise(step_m, description.seed, workers);
   const Relief relief = make_relief(
       n, step_m, sample_square(terrain, {terrain.grid.min_world, step_m, n, n}, workers), workers);
   // The map that repeats leaves the last row and column out.
@@ -172,12 +188,24 @@ TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
   coarse.samples_x = coarse.samples_y = kAroundSize;
   const Relief relief_around = make_relief(kAroundSize, coarse.spacing_m,
                                            terrain::resample(around, coarse).height_m, workers);
+  const terrain::GroundMaterials& materials = description.ground;
+  const std::vector<GroundPlace> places =
+      find_places(relief, step_m, noise, workers,
+                  [](int i, int j) { return static_cast<std::size_t>(j) * n + i; });
+  const std::vector<GroundPlace> places_around =
+      find_places(relief_around, coarse.spacing_m, noise, workers,
+                  [](int i, int j) { return mirrored_noise(2 * i, 2 * j); });
 
   TerrainMaps maps;
-  maps.albedo = paint_map(relief, noise, workers);
-  maps.albedo_around = paint_around(relief_around, noise, workers);
+  maps.albedo = paint_map(relief, places, materials, workers);
+  maps.albedo_around = paint_around(relief_around, places_around, noise, materials, workers);
   workers.run_both([&] { maps.slopes = pack_slopes(relief); },
                    [&] { maps.slopes_around = pack_slopes(relief_around); });
+  workers.run_both([&] { maps.ground = pack_ground(relief, step_m, places, materials, workers); },
+                   [&] {
+                     maps.ground_around = pack_ground(relief_around, coarse.spacing_m,
+                                                      places_around, materials, workers);
+                   });
   return maps;
 }
 

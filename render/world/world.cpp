@@ -1,11 +1,13 @@
 // Making a scene ready to draw: everything that does not change with time.
 #include "math/check.h"
 #include "render/labels/classes.h"
+#include "render/labels/label_channels.h"
 #include "render/world/ripple_sequence.h"
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
 #include "scene/terrain.h"
+#include "terrain/bicubic.h"
 #include "texture/foam_pattern.h"
 #include "texture/normal_map.h"
 
@@ -13,7 +15,7 @@ namespace swell::render {
 namespace {
 
 constexpr int kBumpSize = 256, kFoamSize = 256;
-constexpr std::uint64_t kFoamSeed = 4;
+constexpr std::uint64_t kFoamSeed = 4, kGroundSeed = 11;
 
 texture::PackedMap2 build_bump_map(std::uint64_t seed) {
   const texture::SlopeMap slopes = texture::make_bump_slopes(kBumpSize, seed);
@@ -47,6 +49,16 @@ texture::PackedMap2 build_foam_pattern() {
   return map;
 }
 
+texture::PackedMap2 build_ground_pattern() {
+  std::vector<float> thresholds = texture::make_tear_pattern(kFoamSize, kGroundSeed);
+  std::vector<float> shades = texture::make_tear_pattern(kFoamSize, kGroundSeed + 1);
+  for (std::vector<float>* const values : {&thresholds, &shades})
+    for (float& x : *values) x = 2.0f * x - 1.0f;
+  texture::PackedMap2 map;
+  texture::pack_map2(kFoamSize, thresholds, shades, 1.0f / 127.0f, map);
+  return map;
+}
+
 template <class T>
 std::shared_ptr<const T> shared(T value) {
   return std::make_shared<const T>(std::move(value));
@@ -60,6 +72,16 @@ CoastMaps build_coast_maps(const ocean::CoastSea& coast, Workers& workers) {
 
 void add_sky(const World::State* like, Workers& workers, World::State& state) {
   state.sky = like ? like->sky : shared(build_sky_maps(state.scene.sky, workers));
+}
+
+// Once there is a sky. like: with the same clouds.
+void add_clouds(const World::State* like, Workers& workers, World::State& state) {
+  const scene::CloudField& field = state.scene.clouds;
+  if (field.kind == scene::CloudKind::kNone) return;
+  const glm::vec3 to_light = state.sky->to_light;
+  state.cloud_volume = like && like->sky->to_light == to_light
+                           ? like->cloud_volume
+                           : shared(build_cloud_volume(field, to_light, workers));
 }
 
 void add_sea(const World::State* like, Workers& workers, World::State& state) {
@@ -86,20 +108,35 @@ void add_foam_pattern(const World::State* like, World::State& state) {
   state.foam_pattern = like ? like->foam_pattern : shared(build_foam_pattern());
 }
 
+void add_ground_pattern(const World::State* like, World::State& state) {
+  state.ground_pattern = like ? like->ground_pattern : shared(build_ground_pattern());
+}
+
 void add_terrain(const World::State* like, Workers& workers, World::State& state) {
   if (!state.scene.terrain) return;
   if (like) {
     state.terrain = like->terrain;
     state.terrain_maps = like->terrain_maps;
+    state.shore = like->shore;
     state.relief_bounds = like->relief_bounds;
+    state.inland = like->inland;
+    state.land_rays = like->land_rays;
     return;
   }
-  state.terrain = shared(*scene::build_terrain(state.scene));
+  std::optional<scene::Land> land = scene::build_land(state.scene, workers);
+  state.terrain = shared(std::move(land->terrain));
+  state.inland = std::move(land->water);
+  state.shore = shared(terrain::ShoreMap(*state.terrain, workers));
   const terrain::HeightGrid around = sample_around(*state.terrain, workers);
-  state.terrain_maps =
-      shared(build_terrain_maps(*state.terrain, around, state.scene.terrain->seed, workers));
+  const terrain::TerrainDescription& description = *state.scene.terrain;
+  terrain::HeightGrid smooth;
+  if (description.bicubic) smooth = terrain::refine_bicubic(*state.terrain, workers);
+  const terrain::HeightGrid& drawn = description.bicubic ? smooth : *state.terrain;
+  state.terrain_maps = shared(build_terrain_maps(drawn, around, description, workers));
   state.relief_bounds =
       shared(lod::ReliefBounds(around.height_m, around.grid.samples_x, around.grid.spacing_m));
+  if (state.scene.detail.terrain_method == scene::TerrainMethod::kRays)
+    state.land_rays = shared(build_land_rays(drawn, around, description, workers));
 }
 
 // like: may have another coast.
@@ -107,10 +144,29 @@ void add_coast(const World::State* like, bool same_coast, Workers& workers, Worl
   if (same_coast) {
     state.coast = like->coast;
     state.coast_maps = like->coast_maps;
-  } else if (auto coast =
-                 scene::build_coast(state.scene, state.terrain.get(), workers.thread_count())) {
+  } else if (auto coast = scene::build_coast(state.scene, state.terrain.get(), state.shore.get(),
+                                             workers.thread_count())) {
     state.coast = shared(std::move(*coast));
     state.coast_maps = shared(build_coast_maps(*state.coast, workers));
+  }
+}
+
+// like: one with the same terrain and sea, or null.
+void add_shelter(const World::State* like, Workers& workers, World::State& state) {
+  if (like) {
+    state.shelter = like->shelter;
+  } else if (auto shelter =
+                 scene::build_shelter(state.scene, state.shore.get(), workers.thread_count())) {
+    state.shelter = shared(std::move(*shelter));
+  }
+}
+
+// Once there are sea, coast and shelter. like: with the same of them all, or null.
+void add_near_shore(const World::State* like, Workers& workers, World::State& state) {
+  if (like) {
+    state.near_shore = like->near_shore;
+  } else if (state.shelter) {
+    state.near_shore = shared(build_near_shore(state, workers));
   }
 }
 
@@ -126,6 +182,18 @@ void add_land_shadow(const World::State* like, Workers& workers, World::State& s
   }
 }
 
+// Once there are land and sky. like: with the same land and trees.
+void add_forest(const World::State* like, Workers& workers, World::State& state) {
+  if (state.scene.trees.empty()) return;
+  if (like && like->sky->to_light == state.sky->to_light) {
+    state.forest = like->forest;
+    return;
+  }
+  Forest forest =
+      grow_forest(state.scene, *state.terrain, state.inland.get(), state.sky->to_light, workers);
+  if (!forest.trees.empty()) state.forest = shared(std::move(forest));
+}
+
 // like: may be null.
 std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
                                          int threads) {
@@ -135,25 +203,34 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   const scene::Scene& now = state->scene;
   const auto if_alike = [&](bool is_alike) { return is_alike ? like : nullptr; };
   const bool same_sea = like && like->scene.sea == now.sea;
-  const bool same_terrain = like && like->scene.terrain == now.terrain;
+  const bool same_terrain = like && like->scene.terrain == now.terrain &&
+                            like->scene.rivers == now.rivers && like->scene.lakes == now.lakes &&
+                            like->scene.detail.terrain_method == now.detail.terrain_method;
   const bool same_coast = same_sea && same_terrain && like->scene.coast == now.coast;
   Workers workers(threads);
   workers.run_both(
       [&] {
         add_terrain(if_alike(same_terrain), workers, *state);
         add_coast(like, same_coast, workers, *state);
+        add_shelter(if_alike(same_sea && same_terrain), workers, *state);
       },
       [&] {
         add_sea(if_alike(same_sea), workers, *state);
         add_foam_pattern(like, *state);
+        add_ground_pattern(like, *state);
         add_paper_look(like, workers, *state);
         add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
         add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);
+        add_clouds(if_alike(like && like->scene.clouds == now.clouds), workers, *state);
       });
+  state->fog_light = light_fog(now.air, *state->sky);
   const bool same_water = like && like->scene.water.refraction_index == now.water.refraction_index;
+  add_near_shore(if_alike(same_coast), workers, *state);
   add_land_shadow(if_alike(same_terrain && same_water), workers, *state);
+  add_forest(if_alike(same_terrain && like->scene.trees == now.trees), workers, *state);
   state->objects = build_object_meshes(state->scene, like);
   state->object_classes = object_classes(now);
+  state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);
   return state;
 }

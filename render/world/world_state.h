@@ -10,17 +10,23 @@
 #include "math/earth.h"
 #include "ocean/coast.h"
 #include "ocean/coast_map.h"
+#include "ocean/inland_water.h"
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
 #include "ocean/whitecaps.h"
 #include "render/frame.h"
+#include "render/world/cloud_volume.h"
+#include "render/world/forest.h"
+#include "render/world/land_rays.h"
 #include "render/world/land_shadow.h"
 #include "render/world/sun_slide.h"
 #include "scene/mesh_file.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
+#include "terrain/shore_map.h"
 #include "texture/bump_sequence.h"
+#include "texture/cover_map.h"
 #include "texture/packed_map.h"
 #include "texture/smooth_image.h"
 
@@ -81,18 +87,37 @@ struct SkyMaps {
   glm::vec3 to_sun{0, 0, 1};        // also when it is down
   glm::vec3 molecules_per_m{0.0f};  // what air alone scatters at sea level
   float exposure = 1.0f;            // that is still to be applied: a gradient's
+  float stored_exposure = 1.0f;     // that has been applied
+};
+
+// What fog makes of the light over it: scene::FogLight of each channel, exposed.
+struct FogLights {
+  glm::vec3 even{0.0f}, ambient{0.0f};
 };
 
 // Over the terrain's square, and coarser over the square with its apron.
 struct TerrainMaps {
   texture::PackedMap2 slopes, slopes_around;
   texture::RgbaImage albedo, albedo_around;  // sqrt-encoded reflectance
+  // Parts of grass, dry growth and rock, and of the sky that the ground sees (ground_cover.h).
+  texture::CoverMap ground, ground_around;
 };
 
 // Over a coast's square, kCoastMapSize points a side.
 struct CoastMaps {
   ocean::CoastMap waves;
   std::vector<float> ceded;  // what the sea's own waves give up to the trains, in [0, 1]
+};
+
+// What a shore does to the sea before it, of a world with shelter: over the terrain's square with
+// its apron, kNearShoreSize points a side: the part of the open sea's waves that land takes away,
+// in [0, 1], and the distance to the shore over the surf's reach, [-1, 1].
+struct NearShoreMap {
+  texture::PackedMap2 map;
+  glm::dvec2 min_world{0.0};
+  double size_m = 0.0;
+  double reach_m = 0.0, reach_s = 0.0;  // waves need so long from there to the shore
+  double period_s = 1.0;                // of waves that break
 };
 
 // A shape with its levels of detail, finest first. Worlds share those of files.
@@ -112,9 +137,17 @@ struct World::State {
   std::shared_ptr<const ocean::CoastSea> coast = {};       // none: no wave trains
   std::shared_ptr<const CoastMaps> coast_maps = {};        // there is one if there is a coast
   std::shared_ptr<const SkyMaps> sky = {};
+  FogLights fog_light = {};
+  std::shared_ptr<const CloudVolume> cloud_volume = {};     // none: no volumetric clouds
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
+  std::shared_ptr<const ocean::InlandWater> inland = {};    // none: no rivers, no lakes
   std::shared_ptr<const TerrainMaps> terrain_maps = {};
-  std::shared_ptr<const LandShadow> land_shadow = {};           // none: no land, or no sun
+  std::shared_ptr<const LandShadow> land_shadow = {};   // none: no land, or no sun
+  std::shared_ptr<const LandRays> land_rays = {};       // none: the land is drawn as triangles
+  std::shared_ptr<const Forest> forest = {};            // none: no trees
+  std::shared_ptr<const terrain::ShoreMap> shore = {};  // of the terrain
+  std::shared_ptr<const ocean::Shelter> shelter = {};   // none: the sea is open everywhere
+  std::shared_ptr<const NearShoreMap> near_shore = {};  // there is one if there is shelter
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
   std::shared_ptr<const texture::BumpSequence> ripple_sequence = {};  // none: the bump map
@@ -122,10 +155,14 @@ struct World::State {
   // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. Of any
   // size, it repeats. The same in every world.
   std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
+  // Of the ground: thresholds of what covers it, and how its shade varies, both evenly spread over
+  // [-1, 1]. Of any size, it repeats. The same in every world.
+  std::shared_ptr<const texture::PackedMap2> ground_pattern = {};
 
   // What is on the sea.
   ObjectMeshes objects = {};
   std::vector<std::uint32_t> object_classes = {};  // of labelled pictures
+  std::uint32_t tree_class = 0;                    // likewise
   // What disturbs the water: the scene's list and its objects' hulls.
   std::vector<ocean::Disturbance> disturbances = {};
 
@@ -133,7 +170,7 @@ struct World::State {
   ocean::WaterParts water(std::span<const ocean::Disturbance> more = {}) const {
     ocean::WakeBounds wakes = ocean::wake_bounds(disturbances, scene.sea.gravity_mps2);
     wakes.include(ocean::wake_bounds(more, scene.sea.gravity_mps2));
-    return {sea.get(), scene.area, terrain.get(), coast.get(), wakes};
+    return {sea.get(), scene.area, terrain.get(), coast.get(), wakes, shelter.get(), inland.get()};
   }
   ocean::WaterBounds water_bounds(std::span<const ocean::Disturbance> more = {}) const {
     return ocean::WaterBody(water(more)).bounds();
@@ -155,18 +192,23 @@ inline ocean::WaterSurface water_surface(const World::State& world, const ocean:
 // Points a side of the maps that lie over a coast's square.
 inline constexpr int kCoastMapSize = 256;
 
+// The same of NearShoreMap.
+inline constexpr int kNearShoreSize = 512;
+
 // Cells a side of what is known of the terrain with its apron: relief and slopes.
 inline constexpr int kAroundSize = 512;
 
-// The same bits with any workers.
+// These give the same bits with any workers.
+NearShoreMap build_near_shore(const World::State& world, Workers& workers);
 SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers);
+FogLights light_fog(const scene::FoggyAir& air, const SkyMaps& sky);
 // Gives objects of files their sizes. like: may be null; a world whose files are not read again.
 // Throws SceneError for a file that cannot be drawn.
 ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like);
 // The terrain with its apron, kAroundSize + 1 points a side.
 terrain::HeightGrid sample_around(const terrain::HeightGrid& terrain, Workers& workers);
 TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
-                               const terrain::HeightGrid& around, std::uint64_t seed,
-                               Workers& workers);
+                               const terrain::HeightGrid& around,
+                               const terrain::TerrainDescription& description, Workers& workers);
 
 }  // namespace swell::render

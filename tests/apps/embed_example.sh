@@ -19,4 +19,21 @@ cp -r "$source/examples/embed" "$scratch/embed"
 # The same picture as the program's.
 "$scratch/prefix/bin/swell-render" --scene "$source/scenes/open_ocean.toml" --size 640x360 \
   --out "$scratch/render.png"
-cmp "$scratch/embed.png" "$scratch/render.png"
+# But for notes, which come before it.
+tail -c +34 "$scratch/embed.png" >"$scratch/rest"
+tail -c "$(stat -c %s "$scratch/rest")" "$scratch/render.png" | cmp - "$scratch/rest"
+
+# The C interface, by CMake and by pkg-config.
+cp -r "$source/examples/wave_provider" "$scratch/wave_provider"
+"$cmake" -G Ninja -S "$scratch/wave_provider" -B "$scratch/loop" -DCMAKE_PREFIX_PATH="$scratch/prefix"
+"$cmake" --build "$scratch/loop"
+"$scratch/loop/wave_provider_loop" "$source/scenes/sea_state_2.toml" 1
+cat >"$scratch/version.c" <<'END'
+#include <stdio.h>
+#include <swell.h>
+int main(void) { return puts(swell_version()) < 0; }
+END
+# shellcheck disable=SC2046 # a list of words
+cc "$scratch/version.c" -o "$scratch/version" \
+  $(PKG_CONFIG_PATH="$scratch/prefix/lib/pkgconfig" pkg-config --cflags --libs swell)
+LD_LIBRARY_PATH="$scratch/prefix/lib" "$scratch/version"

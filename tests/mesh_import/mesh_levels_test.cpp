@@ -17,7 +17,7 @@ double least_seen(const Outlines& outlines) {
 }
 
 TEST(MeshLevels, BuiltInShapesKeepTheirOutlines) {
-  for (std::size_t k = 0; k < kObjectKindNames.size() - 1; ++k) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(ObjectKind::kMesh); ++k) {
     const auto kind = static_cast<ObjectKind>(k);
     SCOPED_TRACE(kObjectKindNames[k]);
     const bool is_round = kind == ObjectKind::kSphere || kind == ObjectKind::kBox;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/frame.h"
+#include "render/labels/label_channels.h"
 #include "render/view/meshes.h"
 #include "render/workspace.h"
 #include "render/world/world_state.h"
@@ -98,6 +99,22 @@ TEST(DrawnWakes, AreLeftOutWithTheirPart) {
   EXPECT_TRUE(std::ranges::all_of(mesh.height_m, [](float z) { return z == 0.0f; }));
   EXPECT_EQ(without.workspace.state().shading.material<Water>().wakes.count, 0);
   EXPECT_EQ(calm_drawn.workspace.state().shading.material<Water>().wakes.count, 0);
+}
+
+TEST(DrawnWakes, AreFlaggedInLabels) {
+  const World world = make_world();
+  const auto flagged = [&](FrameOptions options) {
+    options.labels.add(Label::kFlags);
+    Drawn drawn;
+    draw(world, kTime_s, options, drawn);
+    return std::ranges::count_if(drawn.target.labels.flags,
+                                 [](std::uint8_t flags) { return (flags & kShowsWake) != 0; });
+  };
+  FrameOptions without;
+  without.without.add(Part::kWakes);
+  EXPECT_GT(flagged({}), 160 * 96 / 50);
+  EXPECT_LT(flagged({}), 160 * 96 * 3 / 4);
+  EXPECT_EQ(flagged(without), 0);
 }
 
 TEST(DrawnWakes, AListForAFrameIsAsOneInTheScene) {

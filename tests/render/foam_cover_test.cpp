@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "ocean/swash.h"
 #include "render/shader_kernels.h"
 #include "texture/foam_pattern.h"
 #include "texture/on_every_target.h"
@@ -152,6 +153,29 @@ TEST_P(SwashEdges, RunFromTheWatersLevelTo85PercentOfTheirReach) {
 }
 
 // Not at all while it comes in fastest, wholly while it goes out fastest, half at both turns.
+// What is drawn wet at a place is wet when it is asked.
+TEST_P(SwashEdges, AreThoseOfQueries) {
+  const ocean::Swash asked{.reach_m = 1.5, .period_s = 6.0};
+  const double t_s = 1234.5;
+  const glm::dvec2 eye(4321.0, -987.0);
+  const auto along = [&](glm::dvec2 lag_m) {
+    return glm::vec3(1.0 / lag_m.x, 1.0 / lag_m.y, fraction(eye.x / lag_m.x + eye.y / lag_m.y));
+  };
+  Swash swash;
+  swash.reach_m = 1.5f;
+  swash.cycles = fraction(t_s / 6.0);
+  swash.lag_a = along(ocean::kSwashLags_m[0]);
+  swash.lag_b = along(ocean::kSwashLags_m[1]);
+  swash.lag_c = along(ocean::kSwashLags_m[2]);
+  std::vector<glm::vec3> p;
+  for (int i = 0; i < 1000; ++i)
+    p.emplace_back(0.37f * static_cast<float>(i), -0.21f * static_cast<float>(i), 0.0f);
+  std::vector<float> edge_m(p.size()), retreat(p.size());
+  swash_edge(swash, p, edge_m, retreat);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    EXPECT_NEAR(edge_m[i], ocean::swash_edge_m(asked, t_s, eye + glm::dvec2(p[i])), 3e-4);
+}
+
 TEST_P(SwashEdges, RetreatAfterTheyHaveComeIn) {
   const Edges edges = over_a_period(1.0f);
   for (int i = 0; i < kTimes; ++i) {

@@ -45,6 +45,28 @@ TEST_P(SameBits, TileSizeChangesNoPixel) {
   }
 }
 
+// From aloft, of pixels so small that the air below lies between nodes.
+TEST(FrameBits, TilesAndTargetsShowTheSameAir) {
+  const World& world = world_of("lagoon");
+  const View view =
+      make_view({0.0, -900.0, 300.0}, 0.1, -0.3, 0.0014 * kHeight, 0.25f, kWidth, kHeight);
+  const auto draw_in = [&](int tile) {
+    FrameOptions options = few_triangles();
+    options.tile_size_px = tile;
+    Workers workers(2);
+    Workspace workspace;
+    Target target;
+    render_frame(world, view, 3.0, options, workspace, target, workers);
+    return target;
+  };
+  const Target reference = draw_in(64);
+  for (const int tile : {16, 32}) EXPECT_EQ(difference(draw_in(tile), reference), "") << tile;
+  if (!simd_target_available(SimdTarget::kAvx512)) return;
+  select_simd_target(SimdTarget::kAvx2);
+  EXPECT_EQ(difference(draw_in(64), reference), "");
+  select_simd_target(SimdTarget::kAvx512);
+}
+
 // Where the maps of a coast end, what a packet skips depends on its other pixels.
 TEST(FrameBits, PacketsOfAnyPixelsShowTheSameRimOfACoast) {
   const World& world = world_of("beach");

@@ -94,5 +94,20 @@ TEST(GlitterPicture, OfTheSunsPathIsAsWideAsTheSlopesSay) {
   }
 }
 
+// The same at 20 degrees, by Cox and Munk's mean square slope, whose scatter is 0.004.
+TEST(GlitterPicture, OfTheSunsPathIsAsWideAsTheWindSays) {
+  constexpr double kElevation_deg = 20.0;
+  const auto width_rad = [&](double slope_variance) {
+    const double deviation = std::sqrt(0.5 * slope_variance);
+    return std::asin(2.0 * deviation * std::tan(scene::radians(kElevation_deg)));
+  };
+  for (const double wind_mps : {3.0, 6.0, 14.0}) {
+    const double variance = 0.003 + 0.00512 * wind_mps;
+    const double drawn_rad = path_width_rad(sea_behind_wall(wind_mps, kElevation_deg));
+    EXPECT_GE(drawn_rad, width_rad(variance - 0.004)) << wind_mps;
+    EXPECT_LE(drawn_rad, width_rad(variance + 0.004)) << wind_mps;
+  }
+}
+
 }  // namespace
 }  // namespace swell::render

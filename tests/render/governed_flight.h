@@ -64,8 +64,9 @@ inline FrameStatistics simulate(const Load& load, const FrameOptions& options, c
   stage(Stage::kLookups) = load.lookups_ms * (0.3 * triangles + 0.7 * lookups) * factor(3);
   stage(Stage::kShade) = load.shade_ms * (0.05 + 0.95 * pixels) * factor(4);
   if (dice(5) < noise.spike_share) {
-    const int hit = static_cast<int>(dice(6) * 5.0);
-    s.stage_ms[static_cast<std::size_t>(std::array{0, 1, 3, 4, 5}[hit])] += noise.spike_ms;
+    const auto hit = static_cast<std::size_t>(dice(6) * 5.0);
+    stage(std::array{Stage::kSea, Stage::kTriangulate, Stage::kVisibility, Stage::kLookups,
+                     Stage::kShade}[hit]) += noise.spike_ms;
   }
   for (const double ms : s.stage_ms) s.frame_ms += ms;
   s.frame_ms += load.rest_ms;

@@ -181,6 +181,15 @@ TEST(Governor, FullSizeStaysWhileSingleFramesAreLateEverySecondOrTwo) {
     }
 }
 
+TEST(Governor, LeavesRoomForFramesThatOtherWorkDelaysALittle) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const std::vector<double> late = other_work(3600, 1, 20, 1.3, seed);
+    const auto load = [&](int k) { return kCoast.times(late[static_cast<std::size_t>(k)]); };
+    const Flight r = run(3600, load, {.sigma = 0.03}, kPresent_ms);
+    EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99) << seed;
+  }
+}
+
 TEST(Governor, FullSizeIsBackTwoSecondsAfterABurstOfLateFrames) {
   for (const double factor : {1.6, 3.0, 10.0})
     for (const int length : {5, 10, 20, 60, 300})

@@ -25,7 +25,7 @@ struct Air {
     texture::resize_image(16, 16, image);
     std::ranges::fill(image.texels, 0xffb4b4b4u);
     sky = texture::pack_rgb(image);
-    shading.light.sky_soft = &sky;
+    shading.light.haze_sky = &sky;
     shading.light.horizon = glm::vec3(kSoftSkyRange * 180.0f * 180.0f / (255.0f * 255.0f));
     shading.media.inv_haze_m = static_cast<float>(1.0 / kHaze_m);
     shading.media.inv_haze_height_m = static_cast<float>(1.0 / kHeight_m);

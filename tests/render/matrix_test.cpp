@@ -1,6 +1,7 @@
 // The matrix of the determinism contract: every scene file, and a view from high up, five times
 // each, on several thread counts, SIMD targets and tile sizes, each picture against one made in
 // another way.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "math/simd_target.h"
 #include "render/frame.h"
+#include "render/world/world_view.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -33,7 +35,8 @@ std::vector<fs::path> scene_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(fs::path(SWELL_SOURCE_DIR) / "scenes"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  files.push_back(fs::path(SWELL_SOURCE_DIR) / "tests/scenes/from_10km.toml");
+  for (const char* const name : {"cumulus", "fog", "from_10km", "stars"})
+    files.push_back(fs::path(SWELL_SOURCE_DIR) / fmt::format("tests/scenes/{}.toml", name));
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -57,7 +60,8 @@ std::uint64_t hash_of(const World& world, double t_s, const Way& way, Workspace&
   FrameOptions options;
   options.water_triangles = 6000;
   options.tile_size_px = way.tile_size_px;
-  const View view = scene::camera_view(world.scene().camera, t_s, 160, 90);
+  ocean::SeaFrame sea;
+  const View view = world_view(world, t_s, 160, 90, sea, workers);
   render_frame(world, view, t_s, options, workspace, target, workers);
   return picture_hash(target);
 }

@@ -149,7 +149,7 @@ struct HazyAir {
     texture::resize_image(16, 16, image);
     std::ranges::fill(image.texels, 0xff204080u);  // R 128, G 64, B 32
     sky = texture::pack_rgb(image);
-    shading.light.sky_soft = &sky;
+    shading.light.sky_soft = shading.light.haze_sky = &sky;
     shading.light.horizon = glm::vec3(horizon());
     shading.media.inv_haze_m = static_cast<float>(1.0 / kHaze_m);
   }

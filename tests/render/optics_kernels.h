@@ -11,8 +11,8 @@ namespace swell::render {
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance);
 
 // The water's slopes at p_rel (relative to the eye), the variance of those too fine to see and the
-// part that foam hides, as the shader finds them with 1 or 3 packets side by side. water.has_coast
-// chooses its form.
+// part that foam hides, as the shader finds them with 1 or 3 packets side by side.
+// water.knows_land() chooses its form.
 struct SeenWater {
   glm::vec2 slope{0.0f};
   float variance = 0.0f, foam_cover = 0.0f;

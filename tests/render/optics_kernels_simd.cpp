@@ -53,10 +53,10 @@ void StoreSeen(const WaterSlopes& s, std::span<SeenWater> seen, std::size_t firs
 
 template <bool kCoast, std::size_t... k>
 void SampleAll(const Water& water, const ViewRays& rays, std::span<const glm::vec3> p_rel,
-               std::span<SeenWater> seen, std::index_sequence<k...> side_by_side) {
+               std::span<SeenWater> seen, std::index_sequence<k...>) {
   for (std::size_t i = 0; i < seen.size(); i += sizeof...(k) * kLanes) {
-    const auto found = SampleWater<kCoast>(
-        water, rays, std::array{PacketAt(p_rel, i + k * kLanes)...}, side_by_side);
+    const auto found =
+        SampleWater<kCoast>(water, rays, std::array{PacketAt(p_rel, i + k * kLanes)...});
     (StoreSeen(found[k], seen, i + k * kLanes), ...);
   }
 }
@@ -64,7 +64,7 @@ void SampleAll(const Water& water, const ViewRays& rays, std::span<const glm::ve
 void SampleInPackets(const Water& water, const ViewRays& rays, int packets_at_once,
                      std::span<const glm::vec3> p_rel, std::span<SeenWater> seen) {
   const auto sample = [&](auto side_by_side) {
-    if (water.has_coast)
+    if (water.knows_land())
       SampleAll<true>(water, rays, p_rel, seen, side_by_side);
     else
       SampleAll<false>(water, rays, p_rel, seen, side_by_side);

@@ -100,12 +100,16 @@ std::optional<std::string> tame_value(std::string_view key, Dice& dice) {
   // On the largest island 16 trains need 100 m.
   if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
   if (key.ends_with("_triangles")) return fmt::format("{}", 2 + dice.below(4000));
-  if (key == "kind") {  // meshes need a file
+  if (key == "kind") {  // meshes and forms need a file
     const auto kinds = scene::kObjectKindNames;
     const std::string_view kind =
         kinds[static_cast<std::size_t>(dice.below(static_cast<int>(kinds.size())))];
-    return fmt::format("\"{}\"", kind == "mesh" ? "box" : kind);
+    return fmt::format("\"{}\"", kind == "mesh" || kind == "form" ? "box" : kind);
   }
+  if (key == "clouds.kind") return dice.below(2) ? "\"none\"" : "\"layer\"";
+  if (key == "clouds.base_m") return "1000";  // the top lies between 100 and 8000 m above it
+  if (key == "clouds.top_m") return "4000";
+  if (key == "sky.time_utc") return "\"2031-08-02T04:05:06.5Z\"";
   if (key == "camera.mount") return "\"\"";  // the test of mounted cameras has some
   if (key == "camera.mount_offset_m") return "[0, 0, 0]";
   if (key == "camera.quaternion") {

@@ -60,6 +60,16 @@ void add_sine(const SineLayer& sine, std::span<const glm::vec3> p_rel,
 
 // ---- Media
 
+// What fog leaves of light, and adds, on ways of a direction and a length; those of 1e7 m and more
+// end in the sky.
+void see_fog(const Fog& fog, const FogStart& start, std::span<const glm::vec3> direction,
+             std::span<const float> distance_m, std::span<glm::vec3> passes,
+             std::span<glm::vec3> added);
+
+// Radiance of stars in directions of length 1.
+void star_light(const Stars& stars, std::span<const glm::vec3> direction, float radius,
+                std::span<glm::vec3> light);
+
 void path_through_water(const Media& media, std::span<const float> cos_eye,
                         std::span<const float> apparent_m, std::span<float> depth_m,
                         std::span<float> length_m);

@@ -60,11 +60,6 @@ void Sky(const Shading& shading, std::span<const float> x_px, std::span<const fl
   });
 }
 
-WaterSlopes NoSlopes() {
-  const V zero = hn::Zero(D());
-  return {zero, zero, zero, zero, zero, zero};
-}
-
 void FacetsSeen(float cosine, float variance, SeenFacets& facets) {
   const V c = Constant(cosine), v = Constant(variance);
   facets = {hn::GetLane(SeenCosine(c, v)), hn::GetLane(MirroringCosine(c, v)),
@@ -215,6 +210,29 @@ void HazeBetween(const Shading& shading, std::span<const float> distance_m, glm:
   });
 }
 
+void SeeFogAlong(const Fog& fog, const FogStart& start, std::span<const glm::vec3> direction,
+                 std::span<const float> distance_m, std::span<glm::vec3> passes,
+                 std::span<glm::vec3> added) {
+  ForPackets(direction.size(), [&](std::size_t i) {
+    const V3 d = LoadSome(direction, i);
+    const V distance = LoadSome(distance_m, i);
+    const V height = hn::MulAdd(d.z, distance, Constant(start.height_m));
+    const FogRay ray = {start, d, distance, height};
+    const FogView to_place = SeeFog(fog, ray, PathTo(fog, ray));
+    const FogView to_sky = SeeFog(fog, ray, PathToSky(fog, ray));
+    const auto is_sky = hn::Ge(distance, Constant(kEndless_m));
+    StoreSome(Where(is_sky, to_sky.passes, to_place.passes), passes, i);
+    StoreSome(Where(is_sky, to_sky.added, to_place.added), added, i);
+  });
+}
+
+void StarsIn(const Stars& stars, std::span<const glm::vec3> direction, float radius,
+             std::span<glm::vec3> light) {
+  ForPackets(direction.size(), [&](std::size_t i) {
+    StoreSome(StarLight(stars, LoadSome(direction, i), Constant(radius)), light, i);
+  });
+}
+
 template <ViewKind kView>
 void FindPoints(const Media& media, float level_rel_m, std::span<const glm::vec3> p_shown,
                 std::span<glm::vec3> p_rel) {
@@ -293,6 +311,8 @@ HWY_EXPORT(Absorb);
 HWY_EXPORT(Endless);
 HWY_EXPORT(UnderWater);
 HWY_EXPORT(HazeBetween);
+HWY_EXPORT(SeeFogAlong);
+HWY_EXPORT(StarsIn);
 HWY_EXPORT(Find);
 HWY_EXPORT(Srgb);
 HWY_EXPORT(Bytes);
@@ -374,6 +394,17 @@ void through_water(const Media& media, glm::vec3 daylight, std::span<const float
 void endless_water(const Media& media, glm::vec3 daylight, std::span<const float> w,
                    std::span<glm::vec3> seen) {
   HWY_DYNAMIC_DISPATCH(Endless)(media, daylight, w, seen);
+}
+
+void see_fog(const Fog& fog, const FogStart& start, std::span<const glm::vec3> direction,
+             std::span<const float> distance_m, std::span<glm::vec3> passes,
+             std::span<glm::vec3> added) {
+  HWY_DYNAMIC_DISPATCH(SeeFogAlong)(fog, start, direction, distance_m, passes, added);
+}
+
+void star_light(const Stars& stars, std::span<const glm::vec3> direction, float radius,
+                std::span<glm::vec3> light) {
+  HWY_DYNAMIC_DISPATCH(StarsIn)(stars, direction, radius, light);
 }
 
 void haze(const Shading& shading, std::span<const float> distance_m, glm::vec3 to_eye,

@@ -36,6 +36,12 @@ scene::Scene deep_sea() {
   return scene;
 }
 
+// Made once, as it takes longer than the pictures of it; what differs in a little is made like it.
+const World& deep_world() {
+  static const World world(deep_sea());
+  return world;
+}
+
 struct Look {
   double depth_m = 5.0, heading_rad = std::numbers::pi, pitch_rad = 0.0;
 };
@@ -83,7 +89,7 @@ Change shafts(const World& world, const Look& look, double t_s = 3.0) {
 }
 
 TEST(Shafts, OnlyShareLightOut) {
-  const World world(deep_sea());
+  const World& world = deep_world();
   double mean = 0.0;
   const int pictures = trials(40);
   for (int i = 0; i < pictures; ++i) {
@@ -96,15 +102,15 @@ TEST(Shafts, OnlyShareLightOut) {
 }
 
 TEST(Shafts, ShowMostTowardsTheSun) {
-  const World world(deep_sea());
+  const World& world = deep_world();
   const double towards = shafts(world, {.pitch_rad = 0.3}).deviation;
   EXPECT_GT(towards, 0.02);
   EXPECT_LT(shafts(world, {.heading_rad = 0.0, .pitch_rad = 0.3}).deviation, 0.7 * towards);
 }
 
 TEST(Shafts, AreWeakerInTheDeepAndInTurbidWater) {
+  const World& world = deep_world();
   scene::Scene scene = deep_sea();
-  const World world(scene);
   scene.water.absorption_per_m *= 12.0f;
   const World turbid(scene, world, 2);
   const double clear = shafts(world, {}).deviation;
@@ -113,13 +119,13 @@ TEST(Shafts, AreWeakerInTheDeepAndInTurbidWater) {
 }
 
 TEST(Shafts, AreNoneUnderCloudsOrWithoutCaustics) {
+  const World& world = deep_world();
   scene::Scene scene = deep_sea();
-  const World world(scene);
   scene.water.caustics = 0.0;
   const World even(scene, world, 2);
   scene.sky.cloud_cover = 1.0;
   scene.water.caustics = 1.0;
-  const World overcast(scene);
+  const World overcast(scene, world, 2);
   EXPECT_EQ(shafts(even, {}).deviation, 0.0);
   EXPECT_LT(shafts(overcast, {}).deviation, 0.3 * shafts(world, {}).deviation);
 }
@@ -140,14 +146,14 @@ scene::FloatingObject slab(glm::dvec2 place_m, glm::dvec3 size_m, double height_
 TEST(Shafts, AreDarkInShadow) {
   scene::Scene scene = deep_sea();
   scene.objects.push_back(slab({0.0, -3003.0}, {60.0, 60.0, 1.0}, 1.0));
-  const World world(scene);
+  const World world(scene, deep_world(), 2);
   EXPECT_LT(shafts(world, {.depth_m = 3.0, .pitch_rad = -0.3}).mean, -0.1);
 }
 
 TEST(Shafts, AreTheSameBitsInTilesOfAnySize) {
   scene::Scene scene = deep_sea();
   scene.objects.push_back(slab({2.0, -3009.0}, {3.0, 3.0, 2.0}, -0.5));
-  const World world(scene);
+  const World world(scene, deep_world(), 2);
   const View view = view_of({.pitch_rad = 0.3});
   std::vector<std::uint64_t> hashes;
   for (const int tile : {64, 32, 16}) {

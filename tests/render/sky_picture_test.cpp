@@ -29,7 +29,9 @@ scene::Scene sky_scene(double elevation_deg, double cloud_cover) {
 
 // Square pictures from the height of the sea, northwards.
 struct SkyRenderer : LinearRenderer {
-  using LinearRenderer::LinearRenderer;
+  explicit SkyRenderer(const scene::Scene& scene) : LinearRenderer(scene) {
+    options.without.add(Part::kStars);
+  }
 
   void draw(double pitch_deg, double fov_deg, double t_s = 0.0) {
     draw_view(make_view({0.0, 0.0, kEye_m}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f,

@@ -124,6 +124,38 @@ TEST_P(ObjectShadow, LiesWhereRaysToTheSunMeetTheObject) {
   }
 }
 
+// As the camera moves by parts of a pixel, the middle of what a shadow takes, and how much that is,
+// stay where they are.
+TEST_P(ObjectShadow, DoesNotCrawlWithTheCamera) {
+  constexpr double kSide_m = 26.0, kPixel_m = kSide_m / kSize_px;
+  const OneObject one(GetParam(), 25.0);
+  const World world(one.scene);
+  const auto hulls = without({Part::kHulls}), unshaded = without({Part::kHulls, Part::kShadows});
+  const auto shadow_from = [&](glm::dvec2 middle) {
+    const View view = from_above(middle, kSide_m);
+    const std::vector<float> shaded = draw(world, view, hulls), lit = draw(world, view, unshaded);
+    glm::dvec3 sum(0.0);  // middle times weight, weight
+    for (int y = 0; y < kSize_px; ++y)
+      for (int x = 0; x < kSize_px; ++x) {
+        const glm::dvec3 ray(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const glm::dvec2 p(view.eye_world - ray * (view.eye_world.z / ray.z));
+        // Not the object itself, nor what is seen through it; without an edge.
+        const double beside = std::clamp(glm::length(p) - 3.4, 0.0, 1.0);
+        sum += beside * static_cast<double>(green(lit, x, y) - green(shaded, x, y)) *
+               glm::dvec3(p, 1.0);
+      }
+    return glm::dvec3(glm::dvec2(sum) / sum.z, sum.z);
+  };
+  const glm::dvec3 first = shadow_from({6.0, 4.5});
+  EXPECT_GT(first.z, 0.0);
+  for (int step = 1; step <= 5; ++step) {
+    const glm::dvec3 now =
+        shadow_from(glm::dvec2(6.0, 4.5) + double(step) * glm::dvec2(0.041, 0.027));
+    EXPECT_LT(glm::length(glm::dvec2(now - first)), 0.1 * kPixel_m) << step;
+    EXPECT_NEAR(now.z / first.z, 1.0, 0.02) << step;
+  }
+}
+
 // A box south of the picture, which looks north over its shadow.
 TEST(SunShadow, FallsIntoThePictureFromOutside) {
   scene::Scene scene = plain_scene();

@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "render/labelled_frame.h"
+#include "render/world/sea_maps.h"
 #include "scene/sky.h"
 
 namespace swell::render {
@@ -126,6 +129,52 @@ TEST(DrawnWhitecaps, AreWhatIsAskedInTheMeanOverTheirLace) {
     // Lace as coarse as the blocks is noise to them; foam elsewhere than asked gives 0.
     EXPECT_GT(both / std::sqrt(drawn2 * asked2), 0.5) << height_m;
   }
+}
+
+// Two spots of foam, of which one lies on the map's corner.
+ocean::WhitecapFrame::Patch spots() {
+  constexpr std::size_t kSize = ocean::kFoamMapSize;
+  ocean::WhitecapFrame::Patch patch;
+  patch.before.assign(kSize * kSize, 3);  // too little to be seen
+  patch.after = patch.before;
+  patch.before[0] = 255;
+  patch.after[100 * kSize + 77] = 12;
+  return patch;
+}
+
+TEST(FoamBlocks, HoldAllThatSamplesOfTheirLevelsFind) {
+  constexpr int kSize = ocean::kFoamMapSize;
+  const ocean::WhitecapFrame::Patch patch = spots();
+  std::vector<float> values(patch.before.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] =
+        2.0f * std::max(ocean::foam_of_code(patch.before[i]), ocean::foam_of_code(patch.after[i])) -
+        1.0f;
+  texture::PackedMap1 map;
+  texture::pack_map1(kSize, values, map);
+  const FoamBlocks blocks = find_foam_blocks(patch);
+  EXPECT_TRUE(blocks.are_few);
+  int finding = 0;
+  for (int level = 0; level <= FoamBlocks::kFinest; ++level)
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        const int side = kSize >> level;
+        const std::uint32_t none = 0x81818181u;  // four times -127
+        if (map.words[side * side + (y >> level) * side + (x >> level)] == none) continue;
+        ++finding;
+        EXPECT_EQ(blocks.row[y / 16] >> (x / 8) & 1, 1u) << x << " " << y << " " << level;
+      }
+  EXPECT_GE(finding, 2 * (4 + 16));
+}
+
+TEST(FoamBlocks, AreSetAroundFoamAlone) {
+  const FoamBlocks blocks = find_foam_blocks(spots());
+  int count = 0;
+  for (const std::uint32_t row : blocks.row) count += std::popcount(row);
+  EXPECT_LE(count, 2 * 3 * 2);
+  ocean::WhitecapFrame::Patch full = spots();
+  full.after.assign(full.after.size(), 200);
+  EXPECT_FALSE(find_foam_blocks(full).are_few);
 }
 
 TEST(DrawnWhitecaps, AreTheSameInAFrameAloneAndInASequence) {

@@ -224,6 +224,27 @@ TEST(Atmosphere, IsAsBrightAsPathsOfLightSay) {
   }
 }
 
+// In thick haze under a low sun most light was scattered many times. The number of paths leaves 3
+// %.
+TEST(Atmosphere, IsAsBrightInThickHazeAsPathsOfLightSay) {
+  Workers workers(2);
+  const Atmosphere air = make_atmosphere(5.0, workers);
+  const glm::dvec3 to_sun(sun_direction(0.0, radians(5.0)));
+  const SkyTable table = make_sky_table(air, to_sun, 0.0, workers);
+  struct Place {
+    double azimuth_deg, elevation_deg;
+  };
+  for (const Place& p : {Place{0.0, 5.0}, Place{0.0, 12.0}, Place{30.0, 3.0}, Place{90.0, 1.0},
+                         Place{90.0, 10.0}, Place{180.0, 3.0}}) {
+    const glm::dvec3 d(sun_direction(radians(p.azimuth_deg), radians(p.elevation_deg)));
+    for (const int channel : {1, 2}) {
+      const double theirs = LightPaths(5.0).radiance(channel, d, to_sun, 12000);
+      EXPECT_NEAR(sky_radiance(table, d)[channel] / theirs, 1.0, 0.1)
+          << p.azimuth_deg << " " << p.elevation_deg << " channel " << channel;
+    }
+  }
+}
+
 // From high up, against the same paths: overhead, at 10 degrees, at eye height and next to the
 // dipped horizon, where the air's bending moves what is seen (horizon_sine).
 TEST(Atmosphere, IsAsBrightAloftAsPathsOfLightSay) {

@@ -65,13 +65,14 @@ class LightPaths {
     if (b < 0.0 && glm::dot(p, p) - b * b < kEarthRadius_m * kEarthRadius_m) return 0.0;
     const double top = kEarthRadius_m + kAirTop_m;
     const double length = -b + std::sqrt(b * b + top * top - glm::dot(p, p));
-    constexpr int kSteps = 100;
+    // Simpson's rule, of steps that grow from p: even ones lost a twentieth of a low sun in haze.
+    constexpr int kSteps = 48;
     double depth = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-      const double h = height(p + to_sun * (length * (i + 0.5) / kSteps));
-      depth += all_density(h);
+    for (int i = 1; i < kSteps; ++i) {
+      const double x = static_cast<double>(i) / kSteps;
+      depth += (i % 2 == 0 ? 2.0 : 4.0) * x * all_density(height(p + to_sun * (length * x * x)));
     }
-    return std::exp(-depth * length / kSteps);
+    return std::exp(-depth * length * 2.0 / (3.0 * kSteps));
   }
 
   static double phase(double c, double share_of_mie) {

@@ -158,6 +158,22 @@ TEST(ObjectPoses, AFixedObjectStandsUprightAtItsHeightWhateverTheWavesAre) {
   }
 }
 
+TEST(ObjectPoses, AFixedObjectThatRollsLowersItsRightSide) {
+  FloatingObject aircraft = box_at({5.0, 6.0}, 4.0);
+  aircraft.motion = Motion::kFixed;
+  aircraft.heading_rad = 0.5 * kPi;  // east: its right is south
+  aircraft.roll_rad = radians(30.0);
+  const Scene scene = one_sine(1.0, 60.0);
+  const glm::dmat3 axes = poses_at(scene, {&aircraft, 1}, 1.3)[0].world_from_object;
+  const double c = std::sqrt(0.75);
+  EXPECT_NEAR(glm::distance(axes[0], glm::dvec3(0.0, -c, -0.5)), 0.0, 1e-12);
+  EXPECT_NEAR(glm::distance(axes[1], glm::dvec3(1.0, 0.0, 0.0)), 0.0, 1e-12);
+  EXPECT_NEAR(glm::distance(axes[2], glm::dvec3(0.0, -0.5, c)), 0.0, 1e-12);
+  aircraft.motion = Motion::kFloat;
+  const glm::dmat3 afloat = poses_at(scene, {&aircraft, 1}, 1.3)[0].world_from_object;
+  EXPECT_GT(afloat[2].z, 0.99) << "the water alone tilts it";
+}
+
 // A square of 40 m, gone round at 2 m/s by a boat of 4 m.
 TEST(ObjectPoses, OnAPathAnObjectGoesAtItsSpeedAndTurnsAsLongAsItIs) {
   FloatingObject boat = box_at({1e5, 1e5}, 4.0);

@@ -54,12 +54,24 @@ std::string tables() {
   text += head(fmt::format("[[{}]]", kMapsKey));
   for (const auto& parameter : map_parameters())
     text += row(parameter, parameter.key, ocean::MapLayer{});
+  text += head(fmt::format("[[{}]]", kCumulusKey));
+  for (const auto& parameter : cumulus_parameters())
+    text += row(parameter, parameter.key, Cumulus{});
   text += head(fmt::format("[[{}]]", kObjectsKey));
   for (const auto& parameter : object_parameters())
     text += row(parameter, parameter.key, FloatingObject{});
   text += head(fmt::format("[[{}]]", kDisturbancesKey));
   for (const auto& parameter : disturbance_parameters())
     text += row(parameter, parameter.key, ocean::Disturbance{});
+  text += head(fmt::format("[[{}]]", kRiversKey));
+  for (const auto& parameter : river_parameters())
+    text += row(parameter, parameter.key, ocean::River{});
+  text += head(fmt::format("[[{}]]", kLakesKey));
+  for (const auto& parameter : lake_parameters())
+    text += row(parameter, parameter.key, ocean::Lake{});
+  text += head(fmt::format("[[{}]]", kTreesKey));
+  for (const auto& parameter : tree_parameters())
+    text += row(parameter, parameter.key, terrain::TreeStand{});
   text += head(fmt::format("[[{}]]", kPathKey));
   for (const auto& parameter : waypoint_parameters())
     text += row(parameter, parameter.key, Waypoint{});

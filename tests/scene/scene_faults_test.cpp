@@ -124,9 +124,18 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[sea.sines]\namplitude_m = 1\n",
               "test.toml:1: column 1: sea.sines, got a table, allowed at most 64 tables "
               "[[sea.sines]]"},
+        Fault{"[sky]\nturbidity = 0\n",
+              "test.toml:2: column 13: sky.turbidity, got 0, allowed 1 to 10"},
+        Fault{"[air]\nattenuation_per_m = [1e-4, -1e-4, 1e-4]\n",
+              "test.toml:2: column 28: air.attenuation_per_m[1], got -0.0001, allowed 3 numbers, "
+              "each 0 to 1 1/m"},
+        Fault{"[[object]]\nkind = \"form\"\n",
+              "test.toml:2: column 8: object[0].kind, got \"form\" without a file, allowed a form "
+              "with its file"},
         Fault{"[[object]]\n[[object]]\nkind = \"ship\"\n",
               "test.toml:3: column 8: object[1].kind, got \"ship\", allowed \"buoy\", \"sphere\", "
-              "\"box\", \"boat\", \"sailboat\", \"pier\", \"lighthouse\", \"rock\" or \"mesh\""},
+              "\"box\", \"boat\", \"sailboat\", \"pier\", \"lighthouse\", \"rock\", \"mesh\" or "
+              "\"form\""},
         Fault{"[[object]]\nkind = \"mesh\"\n",
               "test.toml:2: column 8: object[0].kind, got \"mesh\" without a file, allowed a mesh "
               "with its file"},
@@ -193,6 +202,25 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[[disturbance]]\nkind = \"hull\"\npath_m = [[0, 0], [9, 0],\n  [9, 0]]\n",
               "test.toml:4: column 3: disturbance[0].path_m[2], got [9, 0], allowed a point 0.5 m "
               "or more from the one before"},
+        Fault{"[terrain]\n[[river]]\npath_m = [[0, 0], [90, 0], [180, 9]]\nsurface_m = [3, 4, 0]\n",
+              "test.toml:4: column 13: river[0].surface_m[1], got 4, allowed at most 3, where the "
+              "water comes from"},
+        Fault{"[terrain]\n[[river]]\npath_m = [[0, 0], [90, 0], [90, 90], [45, -60]]\n"
+              "surface_m = [3, 2, 1, 0]\n",
+              "test.toml:3: column 38: river[0].path_m[3], got a line that crosses itself, allowed "
+              "one that does not"},
+        Fault{"[terrain]\n[[river]]\nwidth_m = [nan]\n",
+              "test.toml:3: column 12: river[0].width_m[0], got nan, allowed 1 to 200 "
+              "numbers, each 1 to 2000 m"},
+        Fault{
+            "[terrain]\n[[river]]\ninto = \"sea\"\npath_m = [[0, 0], [90, 0]]\n"
+            "surface_m = [3, 0]\n",
+            "test.toml:3: column 8: river[0].into, got \"sea\", allowed the name of another river "
+            "or of a lake"},
+        Fault{
+            "[[lake]]\nlevel_m = 3\n",
+            "test.toml:1: column 1: lake, got it without a terrain, allowed rivers and lakes on a "
+            "terrain"},
         Fault{"[coast]\ntrains = 17\n",
               "test.toml:2: column 10: coast.trains, got 17, allowed an integer, 1 to 16"},
         Fault{"[coast]\ngrid_spacing_m = 0.4\n",
@@ -206,11 +234,11 @@ INSTANTIATE_TEST_SUITE_P(
               "fov_y_deg, roll_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, mount, focal_px, "
               "[[camera.path]], near_m, size_px, velocity_mps, mount_offset_m, quaternion, "
               "principal_px"},
-        Fault{
-            "[camrea]\nnear_m = 1\n",
-            "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [sea], "
-            "[water], [[camera.path]], [sky], [picture], [coast], [wind], [[sea.maps]], [ripples], "
-            "[terrain], [[sea.swell]], [[sea.sines]], [detail], [[object]], [[disturbance]]"},
+        Fault{"[camrea]\nnear_m = 1\n",
+              "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [air], "
+              "[sea], [[lake]], [water], [[camera.path]], [sky], [picture], [coast], [[river]], "
+              "[[trees]], [clouds], [wind], [[sea.maps]], [ripples], [terrain], [[sea.swell]], "
+              "[[sea.sines]], [detail], [[object]], [[disturbance]], [[clouds.cumulus]]"},
         Fault{"[wind]\nspeed_kn = 3\n",
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
               "speed_mps, from_deg"},
@@ -219,13 +247,15 @@ INSTANTIATE_TEST_SUITE_P(
               "[sea.sines] amplitude_m, period_s, wavelength_m, to_deg, phase_deg"},
         Fault{"[[object]]\ncolor = [1, 0, 0]\n",
               "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
-              "motion, file, up, scale, class, kind, top_mark, wake, name, checker_m, position_m, "
-              "path_m, size_m, origin, path_closed, draught, roughness, metalness, height_m, "
+              "motion, file, up, scale, class, kind, top_mark, roll_deg, wake, name, checker_m, "
+              "position_m, path_m, size_m, origin, path_closed, draught, roughness, metalness, "
+              "height_m, "
               "speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
-              "test.toml:1: column 1: unknown key, got 'na me', allowed name, [camera], [sky], "
-              "[sea], [water], [wind], [[sea.maps]], [picture], [ripples], [coast], [[sea.swell]], "
-              "[[sea.sines]], [detail], [[object]], [terrain], [[camera.path]], [[disturbance]]"},
+              "test.toml:1: column 1: unknown key, got 'na me', allowed name, [[lake]], [air], "
+              "[camera], [sky], [sea], [water], [wind], [[sea.maps]], [picture], [ripples], "
+              "[coast], [[sea.swell]], [[sea.sines]], [[river]], [[trees]], [clouds], [detail], "
+              "[[object]], [terrain], [[camera.path]], [[disturbance]], [[clouds.cumulus]]"},
         Fault{
             "[camera]\nfov = 3\n",
             "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
@@ -242,19 +272,21 @@ INSTANTIATE_TEST_SUITE_P(
               "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "
               "turn_deg_s, "
               "quaternion, focal_px, heading_deg, pitch_deg, mount_offset_m, principal_px"},
-        Fault{
-            "a.b = 3\n",
-            "test.toml:1: column 1: unknown key, got 'a', allowed [sea], name, [sky], [water], "
-            "[coast], [camera], [wind], [detail], [terrain], [[sea.maps]], [[object]], [picture], "
-            "[ripples], [[sea.swell]], [[sea.sines]], [[camera.path]], [[disturbance]]"},
+        Fault{"a.b = 3\n",
+              "test.toml:1: column 1: unknown key, got 'a', allowed [air], [sea], name, [[lake]], "
+              "[sky], [water], [coast], [camera], [wind], [detail], [terrain], [[river]], "
+              "[[trees]], [clouds], [[sea.maps]], [[object]], [picture], [ripples], [[sea.swell]], "
+              "[[sea.sines]], [[camera.path]], [[disturbance]], [[clouds.cumulus]]"},
         Fault{"[[camera.path]]\nt = 0\n",
               "test.toml:2: column 1: unknown key, got 'camera.path.t', allowed in [camera.path] "
               "t_s, eye_m, pitch_deg, roll_deg, heading_deg"},
         Fault{"[terrain]\nheigth = 3\n",
               "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
-              "height_image, high_m, seed, low_m, island_height_m, coast_m, checker_m, centre_m, "
-              "beach_size_m, "
-              "sea_level_m, floor_depth_m, beach_slope, metres_per_pixel, island_radius_m"}));
+              "height_image, high_m, seed, method, low_m, island_height_m, coast_m, checker_m, "
+              "centre_m, islands, outline_m, beach_size_m, sea_level_m, floor_depth_m, "
+              "beach_slope, soil_colour, interpolation, dry_colour, rock_slope, sand_colour, "
+              "rock_colour, metres_per_pixel, archipelago_size_m, grass_colour, grass_from_m, "
+              "island_radiu..."}));
 
 TEST(SceneFileFaults, AnUnknownKeyListsTheKeysOfItsTable) {
   std::set<std::string> tables;

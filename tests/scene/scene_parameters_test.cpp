@@ -131,7 +131,8 @@ std::string value_text(const Parameter<Object>& parameter, Dice& dice, bool insi
     case ParameterKind::kChoice: {
       if (!inside) return "\"other\"";
       auto choices = parameter.choices;
-      if (choices.back() == "mesh") choices = choices.first(choices.size() - 1);  // takes a file
+      while (choices.back() == "mesh" || choices.back() == "form")  // take a file
+        choices = choices.first(choices.size() - 1);
       return fmt::format("\"{}\"", choices[dice.below(static_cast<int>(choices.size()))]);
     }
     case ParameterKind::kText:
@@ -151,8 +152,9 @@ bool is_wind_key(std::string_view key) { return std::ranges::count(kWindKeys, ke
 // given by a quaternion and a matrix.
 bool goes_with(std::string_view key, bool by_matrix) {
   if (key == "camera.mount_offset_m") return false;  // wants an object of a name
-  for (const std::string_view other : {"camera.quaternion", "camera.focal_px",
-                                       "camera.principal_px", "camera.size_px", "sea.fetch_km"})
+  for (const std::string_view other :
+       {"camera.quaternion", "camera.focal_px", "camera.principal_px", "camera.size_px",
+        "sea.fetch_km", "air.attenuation_per_m", "sky.time_utc"})
     if (key == other) return by_matrix;
   for (const Replacement& r : kReplacements)
     if (key == r.replaced && r.key != "camera.mount") return !by_matrix;
@@ -171,7 +173,11 @@ std::string agreeing_value(std::string_view key, Dice& dice) {
   if (key == "sky.horizon") return "[0.3, 1.0, 1.7]";
   if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
   if (key == "camera.quaternion") return "[0.1, -0.7, 0.5, 0.5]";
+  if (key == "sky.time_utc") return "\"2031-08-02T04:05:06.5Z\"";
   if (key == "camera.mount") return "\"\"";
+  if (key == "clouds.kind") return dice.below(2) ? "\"none\"" : "\"layer\"";
+  if (key == "clouds.base_m") return "1000";
+  if (key == "clouds.top_m") return "4000";
   if (key == "sea.map_set") return "\"none\"";  // a set leaves the spectrum one patch
   return "";
 }
@@ -235,6 +241,8 @@ RandomFile random_file(Dice& dice, int wrong) {
   index += static_cast<int>(swell_parameters().size());
   add_random_tables(kSinesKey, sine_parameters(), wrong - index, dice, file);
   index += static_cast<int>(sine_parameters().size());
+  add_random_tables(kCumulusKey, cumulus_parameters(), wrong - index, dice, file);
+  index += static_cast<int>(cumulus_parameters().size());
   add_random_tables(kObjectsKey, object_parameters(), wrong - index, dice, file);
   return file;
 }
@@ -259,7 +267,8 @@ TEST(SceneParameters, RandomScenesComeBackFromTheirDump) {
 
 TEST(SceneParameters, RandomFilesWithOneValueOutsideAreRefusedByItsName) {
   const int keys = static_cast<int>(scene_parameters().size() + swell_parameters().size() +
-                                    sine_parameters().size() + object_parameters().size());
+                                    sine_parameters().size() + cumulus_parameters().size() +
+                                    object_parameters().size());
   for (int n = 0; n < kFiles; ++n) {
     Dice dice(n);
     const RandomFile file = random_file(dice, n % keys);

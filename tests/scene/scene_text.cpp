@@ -47,6 +47,7 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(label);
   SWELL_COMPARE(motion);
   SWELL_COMPARE(height_m);
+  SWELL_COMPARE(roll_rad);
   SWELL_COMPARE(path_m);
   SWELL_COMPARE(speed_mps);
   SWELL_COMPARE(path_closed);
@@ -76,6 +77,8 @@ void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, 
   SWELL_COMPARE(sea_level_m);
   SWELL_COMPARE(centre_m);
   SWELL_COMPARE(island_radius_m);
+  SWELL_COMPARE(islands);
+  SWELL_COMPARE(archipelago_size_m);
   SWELL_COMPARE(island_height_m);
   SWELL_COMPARE(floor_depth_m);
   SWELL_COMPARE(coast_m);
@@ -119,6 +122,11 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sky.model);
   SWELL_COMPARE(sky.turbidity);
   SWELL_COMPARE(sky.moon_phase);
+  SWELL_COMPARE(sky.moon_azimuth_rad);
+  SWELL_COMPARE(sky.moon_elevation_rad);
+  SWELL_COMPARE(sky.time_utc);
+  SWELL_COMPARE(sky.latitude_rad);
+  SWELL_COMPARE(sky.longitude_rad);
   SWELL_COMPARE(sky.sun_radiance);
   SWELL_COMPARE(sky.zenith);
   SWELL_COMPARE(sky.horizon);
@@ -127,6 +135,14 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sky.cloud_cover);
   SWELL_COMPARE(sky.cloud_seed);
   SWELL_COMPARE(sky.exposure);
+  SWELL_COMPARE(air.visibility_m);
+  SWELL_COMPARE(air.attenuation_per_m);
+  SWELL_COMPARE(air.fog_top_m);
+  SWELL_COMPARE(air.profile);
+  SWELL_COMPARE(air.scattering);
+  SWELL_COMPARE(air.forward);
+  SWELL_COMPARE(air.banks);
+  SWELL_COMPARE(air.bank_length_m);
   SWELL_COMPARE(douglas);
   SWELL_COMPARE(beaufort);
   SWELL_COMPARE(sea.spectrum);
@@ -163,6 +179,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(water.caustic_distortion);
   SWELL_COMPARE(water.glitter);
   SWELL_COMPARE(water.glitter_distortion);
+  SWELL_COMPARE(clouds);
   SWELL_COMPARE(ripples);
   SWELL_COMPARE(water.refraction);
   SWELL_COMPARE(water.reflection_weight);
@@ -190,6 +207,8 @@ std::string differences(const Scene& a, const Scene& b) {
   for (std::size_t i = 0; i < std::min(a.objects.size(), b.objects.size()); ++i)
     compare_objects(a.objects[i], b.objects[i], list);
   SWELL_COMPARE(disturbances);
+  SWELL_COMPARE(rivers);
+  SWELL_COMPARE(lakes);
   SWELL_COMPARE(camera.path.size());
   for (std::size_t i = 0; i < std::min(a.camera.path.size(), b.camera.path.size()); ++i)
     compare_waypoints(a.camera.path[i], b.camera.path[i], list);

@@ -83,6 +83,17 @@ TEST_F(HeightImage, ImagesThatAreNotSquareAreRefused) {
       path.string() + ": height image, got 3 x 2 pixels, allowed a square of 1 to 4096 a side");
 }
 
+TEST_F(HeightImage, ImagesOf20000ASideAreRefused) {
+  // The header of a PNG, of which nothing else is read.
+  constexpr std::array<unsigned char, 33> kPng = {
+      0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00,
+      0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x4e, 0x20, 0x00, 0x00,
+      0x4e, 0x20, 0x08, 0x00, 0x00, 0x00, 0x00, 0xc6, 0x1b, 0x19, 0xe5};
+  const fs::path path = write("a.png", std::string(kPng.begin(), kPng.end()));
+  EXPECT_EQ(error_of({.height_image = path}),
+            path.string() + ": the size is 20000x20000, allowed: 1x1 to 4096x4096");
+}
+
 TEST_F(HeightImage, HeightsOutOfRangeAreRefusedWithTheirPixel) {
   const fs::path path = write_exr("a.exr", 2, 2, {0.0f, 0.0f, 0.0f, 12001.0f});
   EXPECT_EQ(error_of({.height_image = path}),

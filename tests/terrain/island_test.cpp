@@ -110,5 +110,62 @@ TEST(IslandShape, HasItsSizeBeforeItIsMade) {
   EXPECT_EQ(described_size_m(description), build_terrain(description).grid.size_m());
 }
 
+// Land that hangs together, counted on every 8th sample.
+int pieces_of_land(const HeightGrid& terrain) {
+  constexpr int kStep = 8;
+  const int side = (terrain.grid.samples_x - 1) / kStep;
+  std::vector<bool> land(static_cast<std::size_t>(side) * side);
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i)
+      land[j * side + i] =
+          terrain.height_m[static_cast<std::size_t>(j) * kStep * terrain.grid.samples_x +
+                           static_cast<std::size_t>(i) * kStep] > 0.0f;
+  int pieces = 0;
+  std::vector<int> open;
+  for (int start = 0; start < side * side; ++start) {
+    if (!land[start]) continue;
+    ++pieces;
+    open.push_back(start);
+    while (!open.empty()) {
+      const int at = open.back();
+      open.pop_back();
+      if (!land[at]) continue;
+      land[at] = false;
+      const int i = at % side, j = at / side;
+      if (i > 0) open.push_back(at - 1);
+      if (i + 1 < side) open.push_back(at + 1);
+      if (j > 0) open.push_back(at - side);
+      if (j + 1 < side) open.push_back(at + side);
+    }
+  }
+  return pieces;
+}
+
+TEST(Archipelago, HasItsIslandsApartOnItsSquare) {
+  const TerrainDescription description{.island_radius_m = 900.0,
+                                       .island_height_m = 120.0,
+                                       .floor_depth_m = 30.0,
+                                       .islands = 12,
+                                       .archipelago_size_m = 20000.0};
+  const HeightGrid terrain = build_terrain(description);
+  EXPECT_EQ(described_size_m(description), 20000.0);
+  EXPECT_EQ(terrain.grid.size_m(), 20000.0);
+  // Rocks before a coast count, too.
+  EXPECT_GE(pieces_of_land(terrain), 12);
+  EXPECT_LE(pieces_of_land(terrain), 24);
+  EXPECT_EQ(terrain.lowest_m, -30.0f);
+  const int n = terrain.grid.samples_x;
+  for (int k = 0; k < n; ++k)
+    for (const std::size_t border : {k, (n - 1) * n + k, k * n, k * n + n - 1})
+      ASSERT_EQ(terrain.height_m[border], -30.0f);
+}
+
+// An island that has no room is left out.
+TEST(Archipelago, LeavesOutWhatFindsNoRoom) {
+  const HeightGrid terrain = build_terrain(
+      {.island_radius_m = 900.0, .floor_depth_m = 30.0, .islands = 2, .archipelago_size_m = 100.0});
+  EXPECT_EQ(terrain.highest_m, -30.0f);
+}
+
 }  // namespace
 }  // namespace swell::terrain

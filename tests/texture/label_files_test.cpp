@@ -146,13 +146,13 @@ TEST_F(ExrChannels, StandInTheFileInTheOrderOfTheirNames) {
 TEST_F(ExrChannels, HoldNotes) {
   const std::vector<float> z = {1.0f};
   const ExrChannel channel{"Z", z};
-  const ExrAttribute notes[] = {{"swell:scene_hash", "0123456789abcdef"},
-                                {"swell:version", "1.2 \"beta\", \xc3\xa9"}};
-  const Bytes bytes = encode_exr(1, 1, {&channel, 1}, notes);
+  const ImageNote notes[] = {{"swell:scene_xxh3", "0123456789abcdef"},
+                             {"swell:version", "1.2 \"beta\", \xc3\xa9"}};
+  const Bytes bytes = encode_exr(1, 1, {&channel, 1}, {.notes = notes});
   write_file(folder / "a.exr", bytes);
   const OIIO::ImageSpec spec = read_exr(folder / "a.exr").spec;
   for (const auto& [name, text] : notes) EXPECT_EQ(spec.get_string_attribute(name), text) << name;
-  EXPECT_EQ(encode_exr(1, 1, {&channel, 1}, notes), bytes);
+  EXPECT_EQ(encode_exr(1, 1, {&channel, 1}, {.notes = notes}), bytes);
 }
 
 TEST_F(ExrChannels, OurOwnReaderTakesThem) {

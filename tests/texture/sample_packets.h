@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "texture/cover_map.h"
 #include "texture/packed_map.h"
 
 namespace swell::texture {
@@ -45,5 +46,8 @@ std::vector<Sample4> sample_rgba_level(const RgbaImage& image, std::span<const f
 
 std::vector<Sample3> sample_rgb(const RgbMap& map, std::span<const float> x_fx8,
                                 std::span<const float> y_fx8);
+
+// The four channels in their order.
+std::vector<Sample4> sample_cover(const CoverMap& map, const MapPlaces& places);
 
 }  // namespace swell::texture

@@ -8,6 +8,7 @@
 #include "texture/packed_map.h"
 #include "texture/sample_packets.h"
 //
+#include "texture/cover_map-inl.h"
 #include "texture/packed_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -133,6 +134,27 @@ void rgb(const RgbMap& map, std::span<const float> x_fx8, std::span<const float>
   }
 }
 
+void cover(const CoverMap& map, const MapPlaces& places, std::span<Sample4> out) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  HWY_ALIGN int x_packet[kLanes], y_packet[kLanes], level_packet[kLanes];
+  HWY_ALIGN float channels[4][kLanes];
+  for (std::size_t first = 0; first < out.size(); first += kLanes) {
+    copy_packet(places.x_fx8, first, x_packet);
+    copy_packet(places.y_fx8, first, y_packet);
+    copy_packet(places.level, first, level_packet);
+    hn::Vec<D> a, b, c, e;
+    SampleCover(d, map, hn::Load(di, x_packet), hn::Load(di, y_packet), hn::Load(di, level_packet),
+                a, b, c, e);
+    hn::Store(a, d, channels[0]);
+    hn::Store(b, d, channels[1]);
+    hn::Store(c, d, channels[2]);
+    hn::Store(e, d, channels[3]);
+    for (std::size_t i = 0; i < kLanes && first + i < out.size(); ++i)
+      out[first + i] = {channels[0][i], channels[1][i], channels[2][i], channels[3][i]};
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::texture
 HWY_AFTER_NAMESPACE();
@@ -145,6 +167,7 @@ HWY_EXPORT(one_channel);
 HWY_EXPORT(blended);
 HWY_EXPORT(rgba);
 HWY_EXPORT(rgba_level);
+HWY_EXPORT(cover);
 HWY_EXPORT(rgb);
 
 std::vector<Sample2> sample_level(const PackedMap2& map, const MapPlaces& places) {
@@ -182,6 +205,12 @@ std::vector<Sample3> sample_rgb(const RgbMap& map, std::span<const float> x_fx8,
                                 std::span<const float> y_fx8) {
   std::vector<Sample3> out(x_fx8.size());
   HWY_DYNAMIC_DISPATCH(rgb)(map, x_fx8, y_fx8, out);
+  return out;
+}
+
+std::vector<Sample4> sample_cover(const CoverMap& map, const MapPlaces& places) {
+  std::vector<Sample4> out(places.x_fx8.size());
+  HWY_DYNAMIC_DISPATCH(cover)(map, places, out);
   return out;
 }
 

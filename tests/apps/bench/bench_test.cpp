@@ -56,7 +56,8 @@ TEST_F(Bench, TheFrameReportHasEveryKey) {
   EXPECT_EQ(report.at("hash").get<std::string>().size(), 16u);
   const std::string cpu = report.at("cpu").get<std::string>();
   EXPECT_TRUE(cpu == "unknown" || read_text("/proc/cpuinfo").find(cpu) != std::string::npos) << cpu;
-  for (const char* stage : {"sea", "triangulate", "displace", "visibility", "lookups", "shade"})
+  for (const char* stage : {"sea", "triangulate", "displace", "trees", "visibility", "rays",
+                            "lookups", "clouds", "shade"})
     EXPECT_GE(report.at("stages_ms").at(stage).get<double>(), 0.0) << stage;
 }
 
@@ -110,7 +111,7 @@ TEST_F(Bench, TheTraceIsAChromeTrace) {
     EXPECT_EQ(event.at("ph"), "X");
     const double start_us = event.at("ts"), end_us = start_us + event.at("dur").get<double>();
     const int track = event.at("tid");
-    EXPECT_TRUE((track >= 0 && track <= 2) || (track >= 1000 && track < 1006)) << track;
+    EXPECT_TRUE((track >= 0 && track <= 2) || (track >= 1000 && track < 1009)) << track;
     if (event.at("name") == "frame") {
       EXPECT_GE(start_us, frame_end_us) << "frames overlap";
       frame_start_us = start_us, frame_end_us = end_us;

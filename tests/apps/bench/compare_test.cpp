@@ -154,7 +154,7 @@ TEST_F(Compare, ItDrawsTheSamePictureAsItself) {
   EXPECT_NE(outcome.exit_code, 2) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out, nullptr, false);
   EXPECT_EQ(json.value("pictures", ""), "same");
-  EXPECT_EQ(json.at("stages").size(), 7u);
+  EXPECT_EQ(json.at("stages").size(), 10u);
 }
 
 TEST_F(Compare, RunsAlternateWithTheOptionsAsGiven) {

@@ -220,6 +220,14 @@ TEST_F(LabelOutput, BesideOtherPicturesStandsAFileOfLabelsAFrame) {
   EXPECT_EQ(sidecar["frame"], 3);
   EXPECT_EQ(sidecar["t_s"], 0.3);
   EXPECT_EQ(sidecar["fps"], 10.0);
+  // Another part of the sequence has the same files.
+  std::vector<std::string> texts;
+  for (const char* name : {"f_0003.labels.json", "f_0003.labels.exr"})
+    texts.push_back(read_text(folder_.file(name)));
+  render({"--frames", "1-3", "--every", "2", "--fps", "10", "--threads", "2", "--out",
+          folder_.file("f_%04d.png"), "--labels", "motion"});
+  EXPECT_EQ(read_text(folder_.file("f_0003.labels.json")), texts[0]);
+  EXPECT_TRUE(read_text(folder_.file("f_0003.labels.exr")) == texts[1]);
 }
 
 TEST_F(LabelOutput, LabelsChangeNoPictureAndThreadsNoLabel) {
@@ -302,7 +310,7 @@ TEST_F(LabelOutput, TheSidecarHasTheseKeysInThisOrder) {
                          "near_m", "pose", "channels", "classes", "objects"}));
   EXPECT_EQ(json["program"], "swell-render");
   EXPECT_EQ(json["version"], "0.1.0");
-  EXPECT_EQ(json["command_line"].back(), "id,depth");
+  EXPECT_EQ(json["command_line"].back(), "2.5") << "what draws the picture again";
   EXPECT_EQ(json["scene"]["file"], "bay.toml");
   EXPECT_EQ(json["scene"]["name"], "bay");
   EXPECT_EQ(json["scene"]["xxh3"].get<std::string>().size(), 16u);

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <sstream>
+#include <string>
 
 #include "apps/shared/program_runner.h"
 
@@ -55,8 +57,30 @@ TEST_F(CommandLine, BenchHelpNamesEverySubcommand) {
 }
 
 TEST_F(CommandLine, VersionIsOneLine) {
-  EXPECT_EQ(run_render({"--version"}).out, "swell-render 0.1.0\n");
-  EXPECT_EQ(run_bench({"--version"}).out, "swell-bench 0.1.0\n");
+  EXPECT_TRUE(run_render({"--version"}).out.starts_with("swell-render 0.1.0 (commit "));
+  EXPECT_TRUE(run_bench({"--version"}).out.starts_with("swell-bench 0.1.0 (commit "));
+}
+
+// What the help lists is in the manual page and is completed.
+TEST_F(CommandLine, ManualPageAndCompletionHaveAllOptions) {
+  const std::string help = run_render({"--help"}).out;
+  std::string page = run_render({"--man"}).out;
+  for (std::size_t at = 0; (at = page.find("\\-")) != std::string::npos;) page.erase(at, 1);
+  const std::string completion = run_render({"--bash-completion"}).out;
+  std::istringstream words(help);
+  int options = 0;
+  for (std::string word; words >> word;) {
+    if (!word.starts_with("--") ||
+        word.find_first_not_of("-abcdefghijklmnopqrstuvwxyz") != word.npos)
+      continue;
+    ++options;
+    EXPECT_NE(page.find(word), std::string::npos) << word;
+    EXPECT_NE(completion.find(word), std::string::npos) << word;
+  }
+  EXPECT_GT(options, 20);
+  EXPECT_EQ(page.find(".TH SWELL-RENDER 1"), 0u);
+  const std::string modes = run_bench({"--man"}).out;
+  EXPECT_NE(modes.find(".SS frame"), std::string::npos);
 }
 
 TEST_F(CommandLine, RenderRefusesBadOptions) {
@@ -178,7 +202,7 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
   const Case bench[] = {
       {{"bogus"},
        {"unknown mode", "'bogus'",
-        "frame, lod, optics, peer, query, scaling, sea-state, shading, waves"}},
+        "frame, lod, optics, peer, query, scaling, sea-state, shading, terrain, waves"}},
       {{"frme", "--scene", scene_}, {"unknown mode", "'frme'", "frame"}},
       {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
       {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},

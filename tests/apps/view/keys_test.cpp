@@ -10,6 +10,7 @@ TEST(Keys, TheKeysOfTheHelpScreenDoWhatItSays) {
   EXPECT_EQ(command_for(SDLK_F2), Command::kPanel);
   EXPECT_EQ(command_for(SDLK_F3), Command::kWireframe);
   EXPECT_EQ(command_for(SDLK_F4), Command::kLabel);
+  EXPECT_EQ(command_for(SDLK_F5), Command::kSaveScene);
   EXPECT_EQ(command_for(SDLK_F11), Command::kFullScreen);
   EXPECT_EQ(command_for(SDLK_F12), Command::kScreenshot);
   EXPECT_EQ(command_for(SDLK_p), Command::kPause);
@@ -17,6 +18,15 @@ TEST(Keys, TheKeysOfTheHelpScreenDoWhatItSays) {
   EXPECT_EQ(command_for(SDLK_c), Command::kCopyCamera);
   EXPECT_EQ(command_for(SDLK_ESCAPE), Command::kEscape);
   EXPECT_EQ(command_for(SDLK_w), std::nullopt);
+}
+
+TEST(Keys, DigitsChooseSeaStatesAndNothingElseDoes) {
+  EXPECT_EQ(sea_state_for(SDLK_0), 0);
+  EXPECT_EQ(sea_state_for(SDLK_5), 5);
+  EXPECT_EQ(sea_state_for(SDLK_9), 9);
+  EXPECT_EQ(sea_state_for(SDLK_9 + 1), std::nullopt);
+  EXPECT_EQ(sea_state_for(SDLK_F5), std::nullopt);
+  EXPECT_EQ(command_for(SDLK_5), std::nullopt);
 }
 
 TEST(Keys, NoKeysAskForNoMotion) { EXPECT_TRUE(is_idle(motion_of({}))); }

@@ -20,17 +20,17 @@ namespace {
 TEST_F(ViewerTest, NewWavesAppearWhileFramesGoOn) {
   Viewer viewer(small_scene(), settings_of(1000000));
   viewer.turn();
-  WaveChoice choice = wave_choice(small_scene());
+  SceneChoice choice = scene_choice(small_scene());
   for (int i = 0; i < 10; ++i) {  // a slider being dragged
-    choice.wind_speed_mps = 5.0 + i;
-    viewer.choose_waves(choice);
+    choice.waves.wind_speed_mps = 5.0 + i;
+    viewer.choose_scene(choice);
     viewer.turn();
   }
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (viewer.is_rebuilding() && std::chrono::steady_clock::now() < end) viewer.turn();
   viewer.turn();
   EXPECT_EQ(viewer.world().scene().sea.wind_speed_mps, 14.0);
-  expect_headless_picture(viewer, with_waves(small_scene(), choice));
+  expect_headless_picture(viewer, with_choice(small_scene(), choice));
 }
 
 // The trains of a coast take a hundred frames' time to work out.
@@ -43,10 +43,10 @@ TEST_F(ViewerTest, NoFrameWaitsForNewWaves) {
   for (int i = 0; i < 3; ++i) viewer.turn();
 
   using Clock = std::chrono::steady_clock;
-  WaveChoice choice = wave_choice(coast);
-  choice.wind_speed_mps = 11.0;
+  SceneChoice choice = scene_choice(coast);
+  choice.waves.wind_speed_mps = 11.0;
   const Clock::time_point asked = Clock::now();
-  viewer.choose_waves(choice);
+  viewer.choose_scene(choice);
   Clock::duration longest{0};
   int frames = 0;
   for (; viewer.world().scene().sea.wind_speed_mps != 11.0; ++frames) {
@@ -64,11 +64,42 @@ TEST_F(ViewerTest, AnotherTriangulationAppearsLikeNewWaves) {
   viewer.turn();
   scene::Scene other = small_scene();
   other.detail.triangulation = scene::Triangulation::kRadial;
-  viewer.choose_detail(other.detail);
+  viewer.choose_scene(scene_choice(other));
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (viewer.is_rebuilding() && std::chrono::steady_clock::now() < end) viewer.turn();
   viewer.turn();
   expect_headless_picture(viewer, other);
+}
+
+void turn_until_built(Viewer& viewer) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (viewer.is_rebuilding() && std::chrono::steady_clock::now() < end) viewer.turn();
+  viewer.turn();
+}
+
+TEST_F(ViewerTest, ADigitChoosesTheSeaState) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  push_key(SDL_KEYDOWN, SDLK_6);
+  viewer.turn();
+  EXPECT_EQ(viewer.report().message, "sea state 6: very rough");
+  turn_until_built(viewer);
+  EXPECT_EQ(viewer.world().scene().douglas, 6);
+  SceneChoice choice = scene_choice(small_scene());
+  choice.waves.sea_state = 6;
+  expect_headless_picture(viewer, with_choice(small_scene(), choice));
+}
+
+TEST_F(ViewerTest, AnotherSunAndFogAppear) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  SceneChoice choice = scene_choice(small_scene());
+  choice.air.sun_elevation_rad = 0.1;
+  choice.air.fog = true;
+  choice.air.visibility_m = 400.0;
+  viewer.choose_scene(choice);
+  turn_until_built(viewer);
+  expect_headless_picture(viewer, with_choice(small_scene(), choice));
 }
 
 void push_pointer(int x, int y) {
@@ -257,6 +288,25 @@ TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
   EXPECT_TRUE(fs::exists("swell_0001.png"));
   EXPECT_TRUE(fs::exists("swell_0002.png"));
   EXPECT_FALSE(fs::exists("swell_0003.png"));
+}
+
+TEST_F(ViewerTest, ASavedSceneDrawsThePictureThatIsShown) {
+  const ScreenshotFolder folder;
+  Viewer viewer(small_scene(), settings_of(1000000));
+  viewer.turn();
+  push_key(SDL_KEYDOWN, SDLK_3);
+  push_key(SDL_KEYDOWN, SDLK_w, SDL_SCANCODE_W);  // flies: the scene's camera moves on its own
+  viewer.turn();
+  push_key(SDL_KEYUP, SDLK_w, SDL_SCANCODE_W);
+  viewer.turn();
+  turn_until_built(viewer);
+  push_key(SDL_KEYDOWN, SDLK_F5);
+  viewer.turn();
+  EXPECT_EQ(viewer.report().message, "wrote swell_0001.toml");
+  const scene::Scene saved = scene::load_scene("swell_0001.toml");
+  EXPECT_EQ(saved.douglas, 3);
+  EXPECT_EQ(saved.camera.velocity_mps, glm::dvec3(0.0));
+  expect_headless_picture(viewer, saved);
 }
 
 // Of the window's top right of the panel, in the middle of which messages stand.

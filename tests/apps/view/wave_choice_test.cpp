@@ -43,6 +43,32 @@ TEST(WaveChoice, EachModelHasExactlyItsWaves) {
   EXPECT_FALSE(sea_of(WaveModel::kBoth).sines.empty());
 }
 
+TEST(WaveChoice, ASeaStateMakesTheSeaOfItsSceneFile) {
+  for (int code = 0; code <= 9; ++code) {
+    const scene::Scene file =
+        scene::parse_scene("sea.douglas = " + std::to_string(code) + "\n", "state.toml");
+    WaveChoice choice = wave_choice(scene::Scene());
+    choice.sea_state = code;
+    const scene::Scene chosen = with_waves(scene::Scene(), choice);
+    EXPECT_EQ(chosen.sea, file.sea) << code;
+    EXPECT_EQ(chosen.douglas, code);
+    EXPECT_EQ(wind_speed_mps(scene::Scene(), choice), file.sea.wind_speed_mps);
+  }
+}
+
+TEST(WaveChoice, AWindTakesThePlaceOfASeaState) {
+  const scene::Scene rough = scene::parse_scene("sea.douglas = 5\n", "state.toml");
+  WaveChoice choice = wave_choice(rough);
+  EXPECT_EQ(choice.sea_state, 5);
+  EXPECT_EQ(with_waves(rough, choice).sea, rough.sea);
+  choice.sea_state.reset();
+  choice.wind_speed_mps = 3.0;
+  const scene::Scene calm = with_waves(rough, choice);
+  EXPECT_EQ(calm.douglas, std::nullopt);
+  EXPECT_EQ(calm.sea.wind_speed_mps, 3.0);
+  EXPECT_EQ(scene::parse_scene(scene::dump_scene(calm), "calm.toml").sea, calm.sea);
+}
+
 TEST(WaveChoice, NamesSayWhatTheSceneHas) {
   scene::Scene scene = windy();
   EXPECT_STREQ(wave_names(scene)[0], "spectrum");

@@ -1,7 +1,8 @@
-// swell-view: flies over a scene in a window.
+// swell-view: flies over a scene in a window, or in a browser.
 #include <optional>
 #include <string>
 
+#include "apps/serve/serve.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/options.h"
 #include "apps/shared/picture_file.h"
@@ -9,7 +10,7 @@
 #include "apps/view/viewer.h"
 #include "render/world/world_view.h"
 
-namespace swell::view {
+namespace swell::serve {
 namespace {
 
 constexpr int kMostFrames = 10'000'000;
@@ -18,17 +19,33 @@ struct Options {
   apps::FrameSetup setup;
   int frames = 0;
   std::string screenshot;
+  std::optional<Address> address;  // to serve a browser at
 };
+
+Address address_of(const std::string& text) {
+  try {
+    return parse_address(text);
+  } catch (const std::invalid_argument& error) {
+    throw apps::OptionError(std::string("command line: --serve: ") + error.what());
+  }
+}
 
 std::optional<Options> parse_options(int argc, char** argv) {
   Options options;
-  apps::CommandLine line("swell-view", "Flies over a scene in a window; F1 shows the keys.");
+  apps::CommandLine line("swell-view",
+                         "Flies over a scene in a window or a browser; F1 shows the keys.");
   apps::add_frame_setup(line, options.setup);
   apps::add_quality_options(line, options.setup.frame);
   apps::add_integer(line, "--frames", options.frames, 0, kMostFrames,
                     "Quit after N frames, the k-th (from 0) at k/60 seconds; 0: when closed");
   line.add_text("--screenshot", "FILE", options.screenshot,
                 "Write the last frame before quitting: .png .exr .tif .tiff");
+  line.add_value({"--serve", "[ADDRESS:]PORT", "",
+                  "Show it in a browser, at the URL that is printed: on this machine alone, or at "
+                  "ADDRESS to all who know the URL. PORT 0: any",
+                  [&](const std::string& text) { options.address = address_of(text); }});
+  line.exclude("--serve", "--frames");
+  line.exclude("--serve", "--screenshot");
   if (!line.parse(argc, argv)) return std::nullopt;
   return options;
 }
@@ -46,19 +63,22 @@ void warn_of_eye(const render::World& world) {
   apps::EyeWarning().look(0, world, view, workspace);
 }
 
-void view(const Options& options) {
+void run(const Options& options) {
   apps::select_simd(options.setup.simd);
   apps::check_linear_light(options.setup.frame, "--screenshot", options.screenshot);
   if (!options.screenshot.empty()) apps::check_picture_file(options.screenshot);
 
-  ViewerSettings settings;
+  view::ViewerSettings settings;
   settings.size = {options.setup.size.width_px, options.setup.size.height_px};
   settings.threads = options.setup.threads;
   settings.frames = options.frames;
   settings.frame = options.setup.frame;
   settings.frame.keep_linear = apps::stores_linear_light(options.screenshot);
 
-  Viewer viewer(apps::load_scene(options.setup.scene_path), settings);
+  const scene::Scene scene = apps::load_scene(options.setup.scene);
+  if (options.address) return serve(scene, settings, *options.address);
+
+  view::Viewer viewer(scene, settings);
   warn_of_eye(viewer.world());
   viewer.run();
   if (options.screenshot.empty()) return;
@@ -68,10 +88,10 @@ void view(const Options& options) {
 }
 
 }  // namespace
-}  // namespace swell::view
+}  // namespace swell::serve
 
 int main(int argc, char** argv) {
   return swell::apps::run_program([&] {
-    if (const auto options = swell::view::parse_options(argc, argv)) swell::view::view(*options);
+    if (const auto options = swell::serve::parse_options(argc, argv)) swell::serve::run(*options);
   });
 }

@@ -1,0 +1,15 @@
+// Which Swell this is.
+#pragma once
+
+#include <string>
+
+namespace swell::apps {
+
+// "0.1.0".
+std::string version();
+
+// "0.1.0 (commit 0123456789ab, avx512)": with the commit that was built, "unknown" outside a
+// repository and with a "+" for changes since, and the SIMD target that this CPU gets.
+std::string full_version();
+
+}  // namespace swell::apps

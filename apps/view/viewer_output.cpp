@@ -1,0 +1,75 @@
+// What the viewer gives away: pictures, the scene, the camera.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <string_view>
+
+#include "apps/shared/label_picture.h"
+#include "apps/shared/picture_file.h"
+#include "apps/shared/report.h"
+#include "apps/view/camera_text.h"
+#include "apps/view/viewer.h"
+
+namespace swell::view {
+namespace {
+
+// The first of swell_0001.png, swell_0002.png ... that does not exist in the current folder.
+std::filesystem::path free_name(std::string_view extension) {
+  std::filesystem::path path;
+  int number = 1;
+  do path = fmt::format("swell_{:04d}{}", number++, extension);
+  while (std::filesystem::exists(path));
+  return path;
+}
+
+}  // namespace
+
+render::Target Viewer::full_picture() {
+  render::FrameOptions options = panel_.frame;
+  options.lod_ms = 0.0;  // of refining
+  options.disturbances = stones_;
+  ask_for_label(options);
+  render::Workspace workspace;
+  render::Target picture;
+  render::render_frame(*world_, picture_view_, picture_time_s_, options, workspace, picture,
+                       workers_);
+  if (panel_.label) apps::paint_label(*panel_.label, picture.labels, picture_view_, picture.rgba);
+  return picture;
+}
+
+void Viewer::save_screenshot() {
+  if (frames_drawn_ == 0) return;
+  try {
+    const std::filesystem::path path = free_name(".png");
+    apps::write_picture(full_picture(), path);
+    say("wrote " + path.string());
+  } catch (const std::exception& e) {  // a full disk must not end the flight
+    say(e.what());
+  }
+}
+
+void Viewer::copy_camera() {
+  if (frames_drawn_ == 0) return;
+  const bool is_copied = SDL_SetClipboardText(camera_text().c_str()) == 0;
+  say(is_copied ? "copied the camera as TOML" : std::string("nothing copied: ") + SDL_GetError());
+}
+
+std::string Viewer::camera_text() const { return camera_toml(report_.camera, scene_.camera); }
+
+std::string Viewer::scene_text() const {
+  scene::Scene now = with_choice(scene_, panel_.scene);
+  if (pose_) now.camera = camera_at(*pose_, scene_.camera);
+  return scene::dump_scene(now);
+}
+
+void Viewer::save_scene() {
+  try {
+    const std::filesystem::path path = free_name(".toml");
+    apps::write_text(path.string(), scene_text());
+    say("wrote " + path.string());
+  } catch (const std::exception& e) {
+    say(e.what());
+  }
+}
+
+}  // namespace swell::view

@@ -1,0 +1,291 @@
+// Pictures: drawing them, and their planes.
+#include <algorithm>
+
+#include "capi/call.h"
+#include "capi/camera.h"
+#include "capi/disturbances.h"
+#include "capi/handles.h"
+#include "render/labels/label_channels.h"
+#include "render/labels/labels.h"
+#include "render/world/world_view.h"
+
+namespace swell::capi {
+namespace {
+
+using render::Label;
+
+render::LabelSet label_set(const char* names) {
+  if (!names || *names == '\0') return {};
+  if (std::string_view(names) == "all") return render::LabelSet::all();
+  render::LabelSet set;
+  std::string_view rest = names;
+  for (;;) {
+    const std::string_view name = rest.substr(0, rest.find(','));
+    const render::LabelInfo* info = render::find_label(name);
+    if (!info) {
+      std::string known;
+      for (const render::LabelInfo& row : render::label_table())
+        known += fmt::format("{}, ", row.name);
+      refuse("frame.labels, got '{}', allowed {}all", name.substr(0, 100), known);
+    }
+    set.add(info->label);
+    if (name.size() == rest.size()) return set;
+    rest.remove_prefix(name.size() + 1);
+  }
+}
+
+render::PartSet part_set(const char* names) {
+  if (!names || *names == '\0') return {};
+  const auto parts = render::parse_parts(names);
+  if (parts) return *parts;
+  std::string known;
+  for (const std::string_view name : render::kPartNames) known += fmt::format(" {}", name);
+  refuse("frame.without, got '{}', allowed with commas{}", std::string_view(names).substr(0, 100),
+         known);
+}
+
+int triangle_count(const char* name, int32_t given) {
+  if (given != 0) check_range(name, given, 2, render::kMostTriangles);
+  return given;
+}
+
+double next_frame_s(const swell_frame& given) {
+  if (given.next_frame_s == 0.0) return 1.0 / 60.0;
+  check_range("frame.next_frame_s", given.next_frame_s, 1e-9, 1e9);
+  return given.next_frame_s;
+}
+
+render::FrameOptions options_of(const swell_frame& given) {
+  render::FrameOptions options;
+  options.labels = label_set(given.labels);
+  options.keep_linear = given.linear != 0;
+  options.next_frame_s = next_frame_s(given);
+  options.without = part_set(given.without);
+  options.water_triangles = triangle_count("frame.water_triangles", given.water_triangles);
+  options.terrain_triangles = triangle_count("frame.terrain_triangles", given.terrain_triangles);
+  if (given.lookup_scale != 0.0) check_range("frame.lookup_scale", given.lookup_scale, 0.01, 1.0);
+  options.lookup_scale = given.lookup_scale;
+  const int32_t samples = given.edge_samples;
+  if (samples != 0 && samples != 1 && samples != 4 && samples != 8)
+    refuse("frame.edge_samples, got {}, allowed 0, 1, 4 or 8", samples);
+  options.edge_samples = samples == 0 ? -1 : samples == 1 ? 0 : samples;
+  return options;
+}
+
+// The camera of the frame, and in the options that of the next one where a label needs it.
+View views_of(const swell_frame& given, PictureSize size, swell_session& session,
+              render::FrameOptions& options) {
+  const auto scene_view = [&](double t_s) {
+    return render::world_view(session.named->world, t_s, size.width_px, size.height_px,
+                              session.camera_sea, session.workers);
+  };
+  if (given.next_camera) options.next_view = view_of(given.next_camera, "next_camera", size);
+  if (given.camera) return view_of(given.camera, "camera", size);
+  if (!given.next_camera && options.labels.has(Label::kMotion))
+    options.next_view = scene_view(given.t_s + options.next_frame_s);
+  return scene_view(given.t_s);
+}
+
+void draw(swell_session& session, const swell_frame& given, swell_picture& picture) {
+  check_time(given.t_s);
+  const PictureSize size = checked_size(given.width_px, given.height_px);
+  render::FrameOptions options = options_of(given);
+  const render::World& world = session.named->world;
+  const std::size_t objects = world.scene().objects.size();
+  const auto poses = given_poses(given.poses, given.pose_count, objects, "frame.poses");
+  const auto next =
+      given_poses(given.next_poses, given.next_pose_count, objects, "frame.next_poses");
+  options.poses = poses;
+  options.next_poses = next;
+  const auto disturbances = given_disturbances(given.disturbances, given.disturbance_count);
+  options.disturbances = disturbances;
+  const View view = views_of(given, size, session, options);
+  picture.view.reset();
+  session.drawn_view.reset();
+  picture.distance_m.clear();
+  picture.position.clear();
+  render::render_frame(world, view, given.t_s, options, session.workspace, picture.target,
+                       session.workers);
+  session.drawn_view = picture.view = view;
+}
+
+// ---- Planes
+
+template <class Element>
+constexpr swell_type type_of() {
+  if constexpr (std::is_same_v<Element, float>) return SWELL_FLOAT32;
+  if constexpr (std::is_same_v<Element, double>) return SWELL_FLOAT64;
+  if constexpr (std::is_same_v<Element, std::uint8_t>) return SWELL_UINT8;
+  return SWELL_UINT32;
+}
+
+template <class Element, class Stored>
+swell_plane plane_of(const std::vector<Stored>& values, const View& view) {
+  return {sizeof(swell_plane),
+          values.data(),
+          values.size() * sizeof(Stored),
+          type_of<Element>(),
+          view.width_px,
+          view.height_px,
+          static_cast<int32_t>(values.size() * sizeof(Stored) / sizeof(Element) /
+                               (static_cast<std::size_t>(view.width_px) * view.height_px))};
+}
+
+// Fills what follows from the depth, if it is not there yet.
+template <class Stored, class OfDepth>
+const std::vector<Stored>& from_depth(const swell_picture& picture, const OfDepth& of_depth,
+                                      std::vector<Stored>& values) {
+  const View& view = *picture.view;
+  const std::vector<float>& depth_m = picture.target.labels.depth_m;
+  if (values.size() == depth_m.size()) return values;
+  values.resize(depth_m.size());
+  std::size_t i = 0;
+  for (int y = 0; y < view.height_px; ++y)
+    for (int x = 0; x < view.width_px; ++x, ++i)
+      values[i] = static_cast<Stored>(of_depth(view, x, y, depth_m[i]));
+  return values;
+}
+
+swell_plane label_plane(swell_picture& picture, Label label) {
+  const View& view = *picture.view;
+  const render::Labels& labels = picture.target.labels;
+  switch (label) {
+    case Label::kDepth:
+      return plane_of<float>(labels.depth_m, view);
+    case Label::kDistance:
+      return plane_of<float>(from_depth(picture, render::distance_of, picture.distance_m), view);
+    case Label::kPosition:
+      return plane_of<double>(from_depth(picture, render::position_of, picture.position), view);
+    case Label::kNormal:
+      return plane_of<float>(labels.normal, view);
+    case Label::kGeometricNormal:
+      return plane_of<float>(labels.geometric_normal, view);
+    case Label::kId:
+      return plane_of<std::uint32_t>(labels.id, view);
+    case Label::kClass:
+      return plane_of<std::uint32_t>(labels.klass, view);
+    case Label::kMotion:
+      return plane_of<float>(labels.motion_px, view);
+    case Label::kElevation:
+      return plane_of<float>(labels.elevation_m, view);
+    case Label::kFoam:
+      return plane_of<float>(labels.foam, view);
+    case Label::kFlags:
+      return plane_of<std::uint8_t>(labels.flags, view);
+  }
+  refuse("label {}", static_cast<int>(label));
+}
+
+const View& drawn_view(const swell_picture& picture) {
+  if (!picture.view)
+    refuse("picture, got one that nothing was drawn into, allowed one of swell_render");
+  return *picture.view;
+}
+
+swell_plane find_plane(swell_picture& picture, const char* name) {
+  check_not_null(name, "name");
+  const View& view = drawn_view(picture);
+  const render::Target& target = picture.target;
+  if (std::string_view(name) == "rgba") return plane_of<std::uint8_t>(target.rgba, view);
+  if (std::string_view(name) == "linear" && !target.linear.empty())
+    return plane_of<float>(target.linear, view);
+  const render::LabelInfo* info = render::find_label(name);
+  if (info && target.labels.set.has(info->label)) return label_plane(picture, info->label);
+  refuse("plane, got '{}', allowed rgba, linear and labels that the frame was asked for",
+         std::string_view(name).substr(0, 100));
+}
+
+}  // namespace
+}  // namespace swell::capi
+
+using namespace swell;
+using namespace swell::capi;
+
+swell_status swell_picture_create(swell_picture** picture) {
+  return guarded([&] {
+    check_not_null(picture, "picture");
+    *picture = new swell_picture;
+  });
+}
+
+void swell_picture_destroy(swell_picture* picture) { delete picture; }
+
+swell_status swell_render(swell_session* session, const swell_frame* frame,
+                          swell_picture* picture) {
+  return guarded([&] {
+    const Held held(session, "session");
+    const Held into(picture, "picture");
+    draw(*held, taken(frame, "frame"), *into);
+  });
+}
+
+swell_status swell_picture_plane(swell_picture* picture, const char* name, swell_plane* plane) {
+  return guarded([&] {
+    const Held held(picture, "picture");
+    give(find_plane(*held, name), plane, "plane");
+  });
+}
+
+swell_status swell_picture_copy(swell_picture* picture, const char* name, void* buffer,
+                                size_t bytes) {
+  return guarded([&] {
+    const Held held(picture, "picture");
+    check_not_null(buffer, "buffer");
+    const swell_plane plane = find_plane(*held, name);
+    if (bytes != plane.bytes)
+      refuse("bytes, got {}, allowed {}: {} x {} pixels of {}", bytes, plane.bytes, plane.width_px,
+             plane.height_px, name);
+    std::memcpy(buffer, plane.data, bytes);
+  });
+}
+
+swell_status swell_picture_hash(const swell_picture* picture, uint64_t* hash) {
+  return guarded([&] {
+    const Held held(const_cast<swell_picture*>(picture), "picture");
+    check_not_null(hash, "hash");
+    drawn_view(*held);
+    *hash = render::picture_hash(held->target);
+  });
+}
+
+swell_status swell_picture_camera(const swell_picture* picture, swell_camera* camera) {
+  return guarded([&] {
+    const Held held(const_cast<swell_picture*>(picture), "picture");
+    give(camera_of(drawn_view(*held)), camera, "camera");
+  });
+}
+
+swell_status swell_pick_at(swell_session* session, double x_px, double y_px, swell_pick* pick) {
+  return guarded([&] {
+    const Held held(session, "session");
+    check_range("x_px", x_px, -1e6, 1e6);
+    check_range("y_px", y_px, -1e6, 1e6);
+    if (!held->drawn_view) refuse("session, got one that has drawn no frame, allowed one that has");
+    const auto met = render::pick(held->named->world, *held->drawn_view, held->workspace,
+                                  glm::vec2(x_px, y_px), held->pick_scratch);
+    swell_pick found{};
+    if (met) {
+      const bool is_object = met->what == render::Shown::kObject;
+      found.what = met->what == render::Shown::kWater  ? SWELL_SHOWS_WATER
+                   : met->what == render::Shown::kLand ? SWELL_SHOWS_LAND
+                                                       : SWELL_SHOWS_OBJECT;
+      for (int i = 0; i < 3; ++i) found.position_m[i] = met->p_world[i];
+      found.distance_m = met->distance_m;
+      found.object = is_object ? met->object : 0;
+      found.id = is_object ? render::kFirstObjectId + static_cast<std::uint32_t>(met->object)
+                 : met->what == render::Shown::kLand ? render::kLandId
+                                                     : render::kWaterId;
+      found.height_m = met->model_height_m;
+    }
+    give(found, pick, "pick");
+  });
+}
+
+const char* swell_label_name(size_t label) {
+  const auto table = render::label_table();
+  return label < table.size() ? table[label].name.data() : nullptr;
+}
+
+const char* swell_part_name(size_t part) {
+  return part < render::kPartNames.size() ? render::kPartNames[part].data() : nullptr;
+}

@@ -1,0 +1,338 @@
+"""Swell draws the sea on CPUs, with labels, and answers what it is like at any place and time.
+
+    import swell
+    world = swell.World("scenes/buoys.toml", set={"sea.douglas": 4})
+    picture = world.render(t=5.0, size=(1280, 720), labels=["depth", "id"])
+    picture.rgb                         # (720, 1280, 3) uint8
+    picture["depth"]                    # (720, 1280) float32, metres
+    world.height([[0.0, 50.0]], t=5.0)  # [metres over the mean sea level]
+
+World x is east, y north, z up; metres and seconds; docs/conventions.md has the rest. The same scene, time and camera
+give the same bits with any number of threads, on any machine. A fault raises SceneError (the scene), or ValueError (an
+argument), with one line that says what was given and what is allowed.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _swell
+from ._swell import SceneError
+from .camera import Camera, Size, quaternion_of, rotation_of
+from .disturbance import Disturbance
+from .distortion import DistortedPicture, Lookup
+
+__all__ = ["Camera", "DistortedPicture", "Disturbance", "Hit", "Key", "Object", "Pick", "Picture", "Pose", "SceneError",
+           "Size", "World", "keys", "labels", "parts", "quaternion_of", "rotation_of", "__version__"]
+__version__ = _swell.version()
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key of scene files (docs/scene.md)."""
+
+    table: str
+    """Empty, or the tables [[...]] that have it."""
+    name: str
+    unit: str
+    allowed: str
+    meaning: str
+
+
+def keys() -> List[Key]:
+    """Every key of scene files."""
+    return [Key(*key) for key in _swell.keys()]
+
+
+def labels() -> List[str]:
+    """The names of the labels (docs/labels.md)."""
+    return _swell.labels()
+
+
+def parts() -> List[str]:
+    """The names of the parts that a picture can be drawn without."""
+    return _swell.parts()
+
+
+@dataclass(frozen=True)
+class Object:
+    """An object of a scene."""
+
+    id: int
+    """In the label "id"."""
+    klass: int
+    """In the label "class"."""
+    name: str
+    class_name: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where an object is. Its axes are right, ahead and up; its origin lies on its vertical axis at the waterline."""
+
+    position: Tuple[float, ...]
+    """Metres: east, north, up."""
+    quaternion: Tuple[float, ...] = (1.0, 0.0, 0.0, 0.0)
+    """(w, x, y, z): turns its axes into the world."""
+
+    @staticmethod
+    def of(position: Sequence[float], rotation: npt.ArrayLike) -> Pose:
+        """A pose of a rotation matrix (3, 3), whose columns are right, ahead and up."""
+        return Pose(tuple(position), quaternion_of(rotation))
+
+    @property
+    def rotation(self) -> np.ndarray:
+        """The rotation matrix (3, 3)."""
+        return rotation_of(self.quaternion)
+
+
+@dataclass(frozen=True)
+class Hit:
+    """Where a ray passes the water."""
+
+    position: Tuple[float, ...]
+    distance: float
+    from_above: bool
+
+
+@dataclass(frozen=True)
+class Pick:
+    """What a point of a picture shows."""
+
+    what: str
+    """"sky", "water", "land" or "object"; the rest is 0 or None for the sky."""
+    position: Tuple[float, ...]
+    """Metres, on the drawn triangle."""
+    distance: float
+    """From the eye, metres."""
+    id: int
+    """In the label "id"."""
+    object: Optional[int]
+    """The index of an object in World.objects."""
+    kind: Optional[str]
+    """Of an object: "buoy", "boat", ..."""
+    height: float
+    """There, metres: of the ground if land is shown, else of the water."""
+
+
+Poses = Mapping[Union[int, str], Pose]
+"""Poses by the index or the name of their objects."""
+
+
+class Picture:
+    """A drawn picture. Its arrays share its memory, which lives as long as one of them does."""
+
+    def __init__(self, drawn: _swell.Picture, t: float, picks: Sequence[Pick] = ()):
+        self._drawn = drawn
+        self.t = t
+        """Its time in seconds."""
+        self.picks = list(picks)
+        """What the points of render(picks=...) show, in their order."""
+
+    @property
+    def rgba(self) -> npt.NDArray[np.uint8]:
+        """(height, width, 4) uint8: sRGB, rows from the top; alpha is 255."""
+        return self._drawn.plane("rgba")
+
+    @property
+    def rgb(self) -> npt.NDArray[np.uint8]:
+        """(height, width, 3) uint8: sRGB; a view of rgba."""
+        return self.rgba[..., :3]
+
+    @property
+    def linear(self) -> npt.NDArray[np.float32]:
+        """(height, width, 3) float32: linear light before the tone curve, of render(linear=True)."""
+        return self._drawn.plane("linear")
+
+    def __getitem__(self, label: str) -> np.ndarray:
+        """A label that was asked for (docs/labels.md has their meaning): an array (height, width, ...).
+
+        depth, distance, elevation: float32, metres; foam: float32 in [0, 1]; normal, geometric_normal: (..., 3) float32;
+        motion: (..., 2) float32, pixels; position: (..., 3) float64, metres; id, class: uint32; flags: uint8.
+        """
+        return self._drawn.plane(label)
+
+    @property
+    def hash(self) -> str:
+        """16 hex digits: what swell-render --hash prints of the same picture."""
+        return f"{self._drawn.hash():016x}"
+
+    @property
+    def camera(self) -> Camera:
+        """The camera that it was drawn with."""
+        return Camera(*self._drawn.camera())
+
+
+class World:
+    """A scene made ready to draw and to ask. Any number of threads may use one; none waits for another."""
+
+    def __init__(self, scene: Union[str, os.PathLike, Mapping[str, Any]] = "", *,
+                 set: Union[Mapping[str, Any], Iterable[str]] = (),
+                 folder: Union[str, os.PathLike, None] = None, threads: int = 0):
+        """Makes a world, in 0.1 s to some seconds.
+
+        scene: the path of a scene file; its text, TOML or JSON, which is known by a line break, an '=' or a '{'; or the
+        same as a dict: {"wind": {"speed_mps": 12}}, or {"wind.speed_mps": 12}.
+        set: values for other keys, {"wind.speed_mps": 12, "object[0].name": "red"} or ["wind.speed_mps=12"], as
+        swell-render --set has them; None leaves a key out.
+        folder: relative paths of a text or a dict are relative to it.
+        threads: that a picture is drawn with, 0: all that the process may use. They change no bit.
+        """
+        path = text = None
+        if isinstance(scene, Mapping):
+            text = json.dumps(scene, default=_plain)
+        elif isinstance(scene, str) and (scene == "" or any(mark in scene for mark in "\n={")):
+            text = scene
+        else:
+            path = os.fspath(scene)
+        settings = [_setting(*item) for item in set.items()] if isinstance(set, Mapping) else list(set)
+        self._world = _swell.World(path, text, None if folder is None else os.fspath(folder), settings, threads)
+
+    @property
+    def text(self) -> str:
+        """The scene as TOML with every value written out."""
+        return self._world.text()
+
+    @property
+    def hash(self) -> str:
+        """16 hex digits: XXH3-64 of `text`."""
+        return f"{self._world.hash():016x}"
+
+    @property
+    def objects(self) -> List[Object]:
+        """The objects of the scene, in its order."""
+        return [Object(*o) for o in self._world.objects()]
+
+    @property
+    def classes(self) -> List[str]:
+        """The name of each class of the label "class"."""
+        return self._world.classes()
+
+    def camera(self, t: float = 0.0, size: Size = (1280, 720)) -> Camera:
+        """The scene's own camera at a time."""
+        return Camera(*self._world.camera(t, *size))
+
+    def render(self, t: float = 0.0, size: Size = (1280, 720), *, camera: Optional[Camera] = None,
+               labels: Union[str, Iterable[str]] = (), linear: bool = False, poses: Poses = {},
+               next_frame: float = 1.0 / 60.0, next_camera: Optional[Camera] = None, next_poses: Poses = {},
+               without: Union[str, Iterable[str]] = (), water_triangles: int = 0, terrain_triangles: int = 0,
+               lookup_scale: float = 0.0, edge_samples: Optional[int] = None,
+               disturbances: Iterable[Disturbance] = (), picks: npt.ArrayLike = ()) -> Union[Picture, DistortedPicture]:
+        """Draws the world at time t (seconds).
+
+        size: (width, height) in pixels, each in 1 to 8192.
+        camera: instead of the scene's own. Of one with a distortion the picture is a DistortedPicture: a larger one is
+        drawn and looked up anew, which takes some 0.1 s at 1280 x 720.
+        labels: names of docs/labels.md, such as ["depth", "id"], or "all".
+        linear: keeps linear light as well.
+        poses: objects that are elsewhere in this picture, by index or name.
+        next_frame, next_camera, next_poses: of the next picture, for the label of motion; next_frame in seconds.
+        without: parts to leave out, as swell-render --without has them.
+        water_triangles, terrain_triangles, lookup_scale, edge_samples (0, 4, 8): instead of the scene's.
+        disturbances: what disturbs the water besides the scene's own.
+        picks: points of the picture [n, 2] in pixels, whose Picture.picks say what is there; pixel (i, j) has its middle
+        at (i + 0.5, j + 0.5). Not with a distortion.
+        """
+        disturbances = list(disturbances)
+        places = np.asarray(picks, dtype=float).reshape(-1, 2)
+        if camera is not None and any(camera.distortion):
+            if len(places):
+                raise ValueError("picks, got points of a camera with a distortion, allowed without")
+            lookup = Lookup(camera, size)
+            wide = self.render(t, lookup.size, camera=lookup.camera, labels=labels, linear=linear, poses=poses,
+                               without=without, water_triangles=water_triangles, terrain_triangles=terrain_triangles,
+                               lookup_scale=lookup_scale, edge_samples=edge_samples, disturbances=disturbances)
+            return DistortedPicture(wide, lookup, camera)
+        drawn = self._world.render(
+            t=t, width=size[0], height=size[1], labels=_names(labels), without=_names(without), linear=linear,
+            camera=camera._tuple() if camera else None,
+            next_camera=next_camera._tuple() if next_camera else None, next_frame_s=next_frame,
+            poses=self._poses(poses), next_poses=self._poses(next_poses), water_triangles=water_triangles,
+            terrain_triangles=terrain_triangles, lookup_scale=lookup_scale,
+            edge_samples=0 if edge_samples is None else edge_samples or 1,
+            disturbances=[d._tuple() for d in disturbances], picks=places)
+        return Picture(drawn, t, self._picks(drawn.picks()) if len(places) else ())
+
+    def height(self, xy: npt.ArrayLike, t: float,
+               disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
+        """Height of the drawn water over the mean sea level in metres at points xy [..., 2] (east, north): [...]."""
+        return self._world.ask(xy, t, "height", [d._tuple() for d in disturbances])
+
+    def slope(self, xy: npt.ArrayLike, t: float,
+              disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
+        """dz/dx and dz/dy of the water: [..., 2]."""
+        return self._world.ask(xy, t, "slope", [d._tuple() for d in disturbances])
+
+    def normal(self, xy: npt.ArrayLike, t: float,
+               disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
+        """Unit normals of the water: [..., 3]."""
+        return self._world.ask(xy, t, "normal", [d._tuple() for d in disturbances])
+
+    def velocity(self, xy: npt.ArrayLike, t: float,
+                 disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
+        """Velocity of the water at the surface in m/s, east, north, up: [..., 3]."""
+        return self._world.ask(xy, t, "velocity", [d._tuple() for d in disturbances])
+
+    def foam(self, xy: npt.ArrayLike, t: float) -> npt.NDArray[np.float32]:
+        """The part of the surface that whitecaps hide, in [0, 1]: [...]."""
+        return self._world.ask(xy, t, "foam", [])
+
+    def still_depth(self, xy: npt.ArrayLike) -> npt.NDArray[np.float32]:
+        """Depth of the ground under the mean sea level in metres: [...]; below 0 on land, infinite without terrain."""
+        return self._world.ask(xy, 0.0, "still_depth", [])
+
+    def poses(self, t: float) -> List[Pose]:
+        """Where the scene and the water have its objects at a time, in its order."""
+        return [Pose(tuple(position), tuple(quaternion)) for _, position, quaternion in self._world.poses(t)]
+
+    def ray(self, origin: Sequence[float], direction: Sequence[float], t: float,
+            max_distance: float = 1e5) -> Optional[Hit]:
+        """The first place where a ray passes the water at most max_distance metres away; None: it does not."""
+        hit = self._world.ray(t, tuple(origin), tuple(direction), max_distance)
+        return None if hit is None else Hit(tuple(hit[0]), hit[1], hit[2])
+
+    def _picks(self, found) -> List[Pick]:
+        objects = self.objects
+        picks = []
+        for what, position, distance, index, id, height in found:
+            shown = objects[index] if what == 3 else None
+            picks.append(Pick(("sky", "water", "land", "object")[what], tuple(position), distance, id,
+                              index if shown else None, shown.kind if shown else None, height))
+        return picks
+
+    def _poses(self, poses: Poses):
+        if not poses:
+            return []
+        names = {o.name: n for n, o in enumerate(self.objects) if o.name}
+        indices = []
+        for key in poses:
+            if isinstance(key, str) and key not in names:
+                raise ValueError(f"poses, got '{key}', allowed {', '.join(names) or 'indices: no object has a name'}")
+            indices.append(names[key] if isinstance(key, str) else int(key))
+        if any(index < 0 for index in indices):
+            raise ValueError(f"poses, got object {min(indices)}, allowed 0 to {len(self.objects) - 1}")
+        return [(n, tuple(p.position), tuple(p.quaternion)) for n, p in zip(indices, poses.values())]
+
+
+def _names(names: Union[str, Iterable[str]]) -> str:
+    return names if isinstance(names, str) else ",".join(names)
+
+
+def _plain(value: Any) -> Any:
+    """What JSON knows of a NumPy value."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise TypeError(f"a scene's value, got {type(value).__name__}, allowed numbers, text, booleans, lists, dicts")
+
+
+def _setting(key: str, value: Any) -> str:
+    return f"{key}=" if value is None else f"{key}={json.dumps(value, default=_plain)}"

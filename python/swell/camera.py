@@ -1,0 +1,152 @@
+"""Cameras: where they are, where they look, what they see."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Sequence, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _swell
+
+Size = Tuple[int, int]
+"""Width and height of a picture in pixels."""
+
+
+def _vector(values: npt.ArrayLike, length: int, name: str) -> Tuple[float, ...]:
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != (length,):
+        raise ValueError(f"{name}, got an array of shape {array.shape}, allowed ({length},)")
+    return tuple(array.tolist())
+
+
+def _matrix(values: npt.ArrayLike, shape: Tuple[int, int], name: str) -> np.ndarray:
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != shape:
+        raise ValueError(f"{name}, got an array of shape {array.shape}, allowed {shape}")
+    return array
+
+
+def quaternion_of(rotation: npt.ArrayLike) -> Tuple[float, ...]:
+    """The quaternion (w, x, y, z), w >= 0, of a rotation matrix (3, 3)."""
+    r = _matrix(rotation, (3, 3), "rotation")
+    if not (np.allclose(r @ r.T, np.eye(3), atol=1e-6) and np.linalg.det(r) > 0.0):
+        raise ValueError("rotation, got a matrix that is none, allowed unit axes at right angles, "
+                         "right-handed, to within 1e-6")
+    # Bar-Itzhack: the eigenvector of the largest eigenvalue, which no rotation makes ill-conditioned.
+    k = np.array([
+        [r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[2, 1] - r[1, 2]],
+        [r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1], r[0, 2] - r[2, 0]],
+        [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
+        [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], np.trace(r)],
+    ])
+    x, y, z, w = np.linalg.eigh(k)[1][:, -1].tolist()
+    sign = -1.0 if w < 0.0 else 1.0
+    return (sign * w, sign * x, sign * y, sign * z)
+
+
+def rotation_of(quaternion: npt.ArrayLike) -> np.ndarray:
+    """The rotation matrix (3, 3) of a quaternion (w, x, y, z) of any length over 0."""
+    q = np.array(_vector(quaternion, 4, "quaternion"))
+    w, x, y, z = q / np.linalg.norm(q)
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ])
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole camera.
+
+    Its frame is the optical one of robotics: x to the right of the picture, y down, z ahead. The world has x east,
+    y north, z up. Pixels count from the picture's upper left corner: the first one's centre is (0.5, 0.5).
+    """
+
+    eye: Tuple[float, ...]
+    """Where it is in metres: east, north, up."""
+    quaternion: Tuple[float, ...]
+    """(w, x, y, z): turns the optical frame into the world."""
+    focal: Tuple[float, ...]
+    """fx and fy in pixels."""
+    principal: Tuple[float, ...]
+    """cx and cy in pixels: 0.5 more than OpenCV's, which count from the first pixel's centre."""
+    near: float = 0.25
+    """Nearer things are cut off; metres along the view axis."""
+    distortion: Tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
+    """(k1, k2, p1, p2, k3) of Brown and Conrady's lens, as OpenCV has them."""
+
+    @staticmethod
+    def look(eye: Sequence[float], heading: float = 0.0, pitch: float = 0.0, roll: float = 0.0,
+             fov_y: float = 50.0, size: Size = (1280, 720)) -> Camera:
+        """A camera that looks along a heading (degrees clockwise from north) and a pitch (degrees up).
+
+        roll (degrees) lowers its right side; fov_y (degrees) spans a picture of `size` from top to bottom.
+        """
+        return Camera(*_swell.look(_vector(eye, 3, "eye"), heading, pitch, roll, fov_y, *size))
+
+    @staticmethod
+    def from_pose(world_from_optical: npt.ArrayLike, K: npt.ArrayLike, near: float = 0.25) -> Camera:
+        """A camera from its pose, a matrix (4, 4) that takes optical points to the world, and its matrix K (3, 3)."""
+        pose = _matrix(world_from_optical, (4, 4), "world_from_optical")
+        k = _matrix(K, (3, 3), "K")
+        if k[0, 1] != 0.0 or k[1, 0] != 0.0 or tuple(k[2]) != (0.0, 0.0, 1.0):
+            raise ValueError("K, got one with skew or another last row, allowed [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]")
+        return Camera(tuple(pose[:3, 3].tolist()), quaternion_of(pose[:3, :3]),
+                      (float(k[0, 0]), float(k[1, 1])), (float(k[0, 2]), float(k[1, 2])), near)
+
+    @staticmethod
+    def from_opencv(K: npt.ArrayLike, R: npt.ArrayLike, t: npt.ArrayLike, near: float = 0.25,
+                    distortion: npt.ArrayLike = (0.0,) * 5) -> Camera:
+        """A camera from OpenCV's K (3, 3), whose cx and cy count from the first pixel's centre, and extrinsics.
+
+        A world point X has the optical coordinates R X + t; R is (3, 3), t is (3,); distortion is (k1, k2, p1, p2, k3).
+        """
+        rotation = _matrix(R, (3, 3), "R")
+        pose = np.eye(4)
+        pose[:3, :3] = rotation.T
+        pose[:3, 3] = -rotation.T @ np.array(_vector(t, 3, "t"))
+        camera = Camera.from_pose(pose, K, near)
+        return replace(camera, principal=(camera.principal[0] + 0.5, camera.principal[1] + 0.5),
+                       distortion=_vector(distortion, 5, "distortion"))
+
+    @property
+    def K(self) -> np.ndarray:
+        """The camera matrix (3, 3) in pixels from the picture's upper left corner."""
+        return np.array([[self.focal[0], 0.0, self.principal[0]], [0.0, self.focal[1], self.principal[1]],
+                         [0.0, 0.0, 1.0]])
+
+    @property
+    def world_from_optical(self) -> np.ndarray:
+        """The pose (4, 4)."""
+        pose = np.eye(4)
+        pose[:3, :3] = rotation_of(self.quaternion)
+        pose[:3, 3] = self.eye
+        return pose
+
+    def project(self, points: npt.ArrayLike) -> np.ndarray:
+        """Where points [..., 3] of the world are in the picture: [..., 3] of x, y in pixels and the depth in metres.
+
+        Of a flat world: on a round earth far points are drawn lower (docs/conventions.md).
+        """
+        relative = np.asarray(points, dtype=np.float64) - np.array(self.eye)
+        optical = relative @ rotation_of(self.quaternion)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            seen = np.stack(self.distort(*np.moveaxis(optical[..., :2] / optical[..., 2:], -1, 0)), axis=-1)
+            xy = seen * np.array(self.focal) + np.array(self.principal)
+        return np.concatenate([xy, optical[..., 2:]], axis=-1)
+
+    def distort(self, x: np.ndarray, y: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+        """Where the lens shows the directions (x, y, 1) of the optical frame, as directions of a camera without one."""
+        k1, k2, p1, p2, k3 = self.distortion
+        r2 = x * x + y * y
+        radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
+        return (x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
+                y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y)
+
+    def _tuple(self):
+        return (_vector(self.eye, 3, "camera.eye"), _vector(self.quaternion, 4, "camera.quaternion"),
+                _vector(self.focal, 2, "camera.focal"), _vector(self.principal, 2, "camera.principal"),
+                float(self.near))

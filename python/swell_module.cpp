@@ -1,0 +1,522 @@
+// The part of the Python package swell that is not written in Python: over the C interface, whose
+// handles it keeps and whose results it gives as NumPy arrays. python/swell/__init__.py is what
+// programs see.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <swell.h>
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace {
+
+// A scene that cannot be made; swell.SceneError in Python.
+class SceneError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+void check(swell_status status) {
+  const char* const message = swell_last_error();
+  switch (status) {
+    case SWELL_OK:
+      return;
+    case SWELL_BAD_ARGUMENT:
+      throw py::value_error(message);
+    case SWELL_BAD_SCENE:
+      throw SceneError(message);
+    case SWELL_NO_MEMORY:
+      throw std::bad_alloc();
+    default:
+      throw std::runtime_error(message);
+  }
+}
+
+// Runs without the lock of the interpreter.
+template <class Call>
+void call(const Call& c_function) {
+  const py::gil_scoped_release others_may_run;
+  check(c_function());  // on the thread that has the message
+}
+
+struct Deleter {
+  void operator()(swell_world* world) const { swell_world_destroy(world); }
+  void operator()(swell_session* session) const { swell_session_destroy(session); }
+  void operator()(swell_picture* picture) const { swell_picture_destroy(picture); }
+};
+template <class Handle>
+using Owned = std::unique_ptr<Handle, Deleter>;
+
+// Sessions and pictures of a world that are not in use.
+class Pool {
+ public:
+  Pool(Owned<swell_world> world, int threads) : world_(std::move(world)), threads_(threads) {}
+
+  const swell_world* world() const { return world_.get(); }
+
+  Owned<swell_session> take_session() {
+    if (auto session = take(sessions_)) return session;
+    swell_session* made = nullptr;
+    check(swell_session_create(world_.get(), threads_, &made));
+    return Owned<swell_session>(made);
+  }
+
+  Owned<swell_picture> take_picture() {
+    if (auto picture = take(pictures_)) return picture;
+    swell_picture* made = nullptr;
+    check(swell_picture_create(&made));
+    return Owned<swell_picture>(made);
+  }
+
+  void give_back(Owned<swell_session> session) { give_back(std::move(session), sessions_); }
+  void give_back(Owned<swell_picture> picture) { give_back(std::move(picture), pictures_); }
+
+ private:
+  static constexpr std::size_t kMost = 4;  // that are kept of each
+
+  template <class Handle>
+  Owned<Handle> take(std::vector<Owned<Handle>>& from) {
+    const std::lock_guard lock(mutex_);
+    if (from.empty()) return {};
+    Owned<Handle> handle = std::move(from.back());
+    from.pop_back();
+    return handle;
+  }
+
+  template <class Handle>
+  void give_back(Owned<Handle> handle, std::vector<Owned<Handle>>& to) {
+    const std::lock_guard lock(mutex_);
+    if (handle && to.size() < kMost) to.push_back(std::move(handle));
+  }
+
+  Owned<swell_world> world_;
+  int threads_;
+  std::mutex mutex_;
+  std::vector<Owned<swell_session>> sessions_;
+  std::vector<Owned<swell_picture>> pictures_;
+};
+
+// A session for one call; every thread has its own.
+class Session {
+ public:
+  explicit Session(Pool& pool) : pool_(pool), handle_(pool.take_session()) {}
+  ~Session() { pool_.give_back(std::move(handle_)); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  swell_session* get() const { return handle_.get(); }
+
+ private:
+  Pool& pool_;
+  Owned<swell_session> handle_;
+};
+
+// Eye, quaternion, focal lengths, principal point, near plane.
+using CameraTuple = std::tuple<std::array<double, 3>, std::array<double, 4>, std::array<double, 2>,
+                               std::array<double, 2>, double>;
+
+swell_camera camera_of(const CameraTuple& tuple) {
+  swell_camera camera{};
+  camera.size = sizeof(camera);
+  const auto& [eye, quaternion, focal, principal, near] = tuple;
+  std::copy(eye.begin(), eye.end(), camera.eye_m);
+  std::copy(quaternion.begin(), quaternion.end(), camera.quaternion_wxyz);
+  std::copy(focal.begin(), focal.end(), camera.focal_px);
+  std::copy(principal.begin(), principal.end(), camera.principal_px);
+  camera.near_m = near;
+  return camera;
+}
+
+CameraTuple tuple_of(const swell_camera& c) {
+  return {{c.eye_m[0], c.eye_m[1], c.eye_m[2]},
+          {c.quaternion_wxyz[0], c.quaternion_wxyz[1], c.quaternion_wxyz[2], c.quaternion_wxyz[3]},
+          {c.focal_px[0], c.focal_px[1]},
+          {c.principal_px[0], c.principal_px[1]},
+          c.near_m};
+}
+
+CameraTuple look(std::array<double, 3> eye, double heading_deg, double pitch_deg, double roll_deg,
+                 double fov_y_deg, int width_px, int height_px) {
+  swell_camera camera{};
+  camera.size = sizeof(camera);
+  check(swell_camera_look(eye.data(), heading_deg, pitch_deg, roll_deg, fov_y_deg, width_px,
+                          height_px, &camera));
+  return tuple_of(camera);
+}
+
+// Index, position, quaternion.
+using PoseTuple = std::tuple<std::size_t, std::array<double, 3>, std::array<double, 4>>;
+
+std::vector<swell_pose> poses_of(const std::vector<PoseTuple>& tuples) {
+  std::vector<swell_pose> poses;
+  for (const auto& [object, position, quaternion] : tuples) {
+    swell_pose pose{};
+    pose.size = sizeof(pose);
+    pose.object = object;
+    std::copy(position.begin(), position.end(), pose.position_m);
+    std::copy(quaternion.begin(), quaternion.end(), pose.quaternion_wxyz);
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+// Kind, position, time, duration, radius, height, path, speed, whether it is open, hull, depth.
+using DisturbanceTuple =
+    std::tuple<int, std::array<double, 2>, double, double, double, double,
+               std::vector<std::array<double, 2>>, double, bool, std::array<double, 3>, double>;
+
+// They point into the tuples.
+std::vector<swell_disturbance> disturbances_of(const std::vector<DisturbanceTuple>& tuples) {
+  std::vector<swell_disturbance> all;
+  for (const auto& [kind, position, t, duration, radius, height, path, speed, open, hull, depth] :
+       tuples) {
+    swell_disturbance d{};
+    d.size = sizeof(d);
+    d.kind = kind;
+    std::copy(position.begin(), position.end(), d.position_m);
+    d.t_s = t;
+    d.duration_s = duration;
+    d.radius_m = radius;
+    d.height_m = height;
+    d.path_m = path.empty() ? nullptr : path.front().data();
+    d.path_count = path.size();
+    d.speed_mps = speed;
+    d.path_open = open;
+    std::copy(hull.begin(), hull.end(), d.hull_m);
+    d.depth_m = depth;
+    all.push_back(d);
+  }
+  return all;
+}
+
+py::dtype dtype_of(swell_type type) {
+  switch (type) {
+    case SWELL_UINT8:
+      return py::dtype::of<std::uint8_t>();
+    case SWELL_UINT32:
+      return py::dtype::of<std::uint32_t>();
+    case SWELL_FLOAT32:
+      return py::dtype::of<float>();
+    case SWELL_FLOAT64:
+      return py::dtype::of<double>();
+  }
+  throw std::logic_error("a plane of an unknown type");
+}
+
+// What is shown, position, distance, index of the object, id, height.
+using PickTuple =
+    std::tuple<int, std::array<double, 3>, double, std::size_t, std::uint32_t, double>;
+
+// A drawn picture; its arrays keep it alive.
+class Picture {
+ public:
+  Picture(std::shared_ptr<Pool> pool, Owned<swell_picture> handle, std::vector<PickTuple> picks)
+      : pool_(std::move(pool)), handle_(std::move(handle)), picks_(std::move(picks)) {}
+  Picture(Picture&&) = default;
+  ~Picture() {
+    if (pool_) pool_->give_back(std::move(handle_));
+  }
+
+  static py::array plane(const py::object& self, const std::string& name) {
+    const auto& picture = self.cast<const Picture&>();
+    swell_plane plane{};
+    plane.size = sizeof(plane);
+    call([&] { return swell_picture_plane(picture.handle_.get(), name.c_str(), &plane); });
+    std::vector<py::ssize_t> shape = {plane.height_px, plane.width_px};
+    if (plane.components > 1) shape.push_back(plane.components);
+    return py::array(dtype_of(plane.type), shape, plane.data, self);
+  }
+
+  std::uint64_t hash() const {
+    std::uint64_t hash = 0;
+    call([&] { return swell_picture_hash(handle_.get(), &hash); });
+    return hash;
+  }
+
+  std::vector<PickTuple> picks() const { return picks_; }
+
+  CameraTuple camera() const {
+    swell_camera camera{};
+    camera.size = sizeof(camera);
+    check(swell_picture_camera(handle_.get(), &camera));
+    return tuple_of(camera);
+  }
+
+ private:
+  std::shared_ptr<Pool> pool_;
+  Owned<swell_picture> handle_;
+  std::vector<PickTuple> picks_;
+};
+
+struct FrameArguments {
+  double t_s = 0.0;
+  int width_px = 0, height_px = 0;
+  std::string labels, without;
+  bool linear = false;
+  std::optional<CameraTuple> camera, next_camera;
+  double next_frame_s = 0.0;
+  std::vector<PoseTuple> poses, next_poses;
+  int water_triangles = 0, terrain_triangles = 0;
+  double lookup_scale = 0.0;
+  int edge_samples = 0;
+  std::vector<DisturbanceTuple> disturbances;
+  std::vector<std::array<double, 2>> picks;  // in pixels
+};
+
+class World {
+ public:
+  World(const std::optional<std::string>& path, const std::optional<std::string>& text,
+        const std::optional<std::string>& folder, const std::vector<std::string>& settings,
+        int threads) {
+    std::vector<const char*> setting_texts;
+    for (const std::string& setting : settings) setting_texts.push_back(setting.c_str());
+    swell_scene scene{};
+    scene.size = sizeof(scene);
+    scene.path = path ? path->c_str() : nullptr;
+    scene.text = text ? text->c_str() : nullptr;
+    scene.folder = folder ? folder->c_str() : nullptr;
+    scene.settings = setting_texts.data();
+    scene.setting_count = setting_texts.size();
+    scene.threads = threads;
+    swell_world* world = nullptr;
+    call([&] { return swell_world_create(&scene, &world); });
+    pool_ = std::make_shared<Pool>(Owned<swell_world>(world), threads);
+  }
+
+  std::string text() const { return swell_world_text(pool_->world()); }
+
+  std::uint64_t hash() const {
+    std::uint64_t hash = 0;
+    check(swell_world_hash(pool_->world(), &hash));
+    return hash;
+  }
+
+  // Id, class, name, name of the class, kind.
+  using ObjectTuple =
+      std::tuple<std::uint32_t, std::uint32_t, std::string, std::string, std::string>;
+  std::vector<ObjectTuple> objects() const {
+    std::vector<ObjectTuple> all;
+    for (std::size_t n = 0; n < swell_object_count(pool_->world()); ++n) {
+      swell_object o{};
+      o.size = sizeof(o);
+      check(swell_object_info(pool_->world(), n, &o));
+      all.emplace_back(o.id, o.klass, o.name, o.class_name, o.kind);
+    }
+    return all;
+  }
+
+  std::vector<std::string> classes() const {
+    std::vector<std::string> names;
+    while (const char* name = swell_class_name(pool_->world(), std::uint32_t(names.size())))
+      names.emplace_back(name);
+    return names;
+  }
+
+  CameraTuple camera(double t_s, int width_px, int height_px) const {
+    swell_camera camera{};
+    camera.size = sizeof(camera);
+    call([&] {
+      const Session session(*pool_);
+      return swell_scene_camera(session.get(), t_s, width_px, height_px, &camera);
+    });
+    return tuple_of(camera);
+  }
+
+  Picture render(const FrameArguments& in) const {
+    swell_frame frame{};
+    frame.size = sizeof(frame);
+    frame.t_s = in.t_s;
+    frame.width_px = in.width_px;
+    frame.height_px = in.height_px;
+    frame.labels = in.labels.c_str();
+    frame.without = in.without.c_str();
+    frame.linear = in.linear;
+    const swell_camera camera = in.camera ? camera_of(*in.camera) : swell_camera{};
+    const swell_camera next_camera = in.next_camera ? camera_of(*in.next_camera) : swell_camera{};
+    frame.camera = in.camera ? &camera : nullptr;
+    frame.next_camera = in.next_camera ? &next_camera : nullptr;
+    frame.next_frame_s = in.next_frame_s;
+    const std::vector<swell_pose> poses = poses_of(in.poses), next = poses_of(in.next_poses);
+    frame.poses = poses.data();
+    frame.pose_count = poses.size();
+    frame.next_poses = next.data();
+    frame.next_pose_count = next.size();
+    frame.water_triangles = in.water_triangles;
+    frame.terrain_triangles = in.terrain_triangles;
+    frame.lookup_scale = in.lookup_scale;
+    frame.edge_samples = in.edge_samples;
+    const std::vector<swell_disturbance> disturbances = disturbances_of(in.disturbances);
+    frame.disturbances = disturbances.data();
+    frame.disturbance_count = disturbances.size();
+    Owned<swell_picture> picture = pool_->take_picture();
+    std::vector<PickTuple> picks;
+    call([&] {
+      const Session session(*pool_);
+      swell_status status = swell_render(session.get(), &frame, picture.get());
+      for (std::size_t i = 0; i < in.picks.size() && status == SWELL_OK; ++i) {
+        swell_pick pick{};
+        pick.size = sizeof(pick);
+        status = swell_pick_at(session.get(), in.picks[i][0], in.picks[i][1], &pick);
+        picks.emplace_back(
+            pick.what,
+            std::array<double, 3>{pick.position_m[0], pick.position_m[1], pick.position_m[2]},
+            pick.distance_m, pick.object, pick.id, pick.height_m);
+      }
+      return status;
+    });
+    return {pool_, std::move(picture), std::move(picks)};
+  }
+
+  // One result at points [..., 2]: an array of their shape, and of a vector's length if it has more
+  // than one component.
+  py::array_t<float> ask(const py::array_t<double, py::array::c_style | py::array::forcecast>& xy_m,
+                         double t_s, const std::string& what,
+                         const std::vector<DisturbanceTuple>& given) const {
+    if (xy_m.ndim() < 1 || xy_m.shape(xy_m.ndim() - 1) != 2)
+      throw py::value_error(
+          "xy, got an array whose last axis is not of length 2, allowed [..., 2]");
+    std::vector<py::ssize_t> shape(xy_m.shape(), xy_m.shape() + xy_m.ndim() - 1);
+    const std::size_t components = what == "slope"                          ? 2
+                                   : what == "normal" || what == "velocity" ? 3
+                                                                            : 1;
+    if (components > 1) shape.push_back(py::ssize_t(components));
+    py::array_t<float> result(shape);
+    swell_query query{};
+    query.size = sizeof(query);
+    query.t_s = t_s;
+    query.count = std::size_t(xy_m.size() / 2);
+    query.xy_m = xy_m.data();
+    *output_of(query, what) = result.mutable_data();
+    const std::vector<swell_disturbance> disturbances = disturbances_of(given);
+    query.disturbances = disturbances.data();
+    query.disturbance_count = disturbances.size();
+    call([&] {
+      const Session session(*pool_);
+      return swell_ask(session.get(), &query);
+    });
+    return result;
+  }
+
+  std::vector<PoseTuple> poses(double t_s) const {
+    std::vector<swell_pose> found(swell_object_count(pool_->world()));
+    for (swell_pose& pose : found) pose.size = sizeof(pose);
+    call([&] {
+      const Session session(*pool_);
+      return swell_object_poses(session.get(), t_s, found.data(), found.size());
+    });
+    std::vector<PoseTuple> tuples;
+    for (const swell_pose& p : found)
+      tuples.push_back({p.object,
+                        {p.position_m[0], p.position_m[1], p.position_m[2]},
+                        {p.quaternion_wxyz[0], p.quaternion_wxyz[1], p.quaternion_wxyz[2],
+                         p.quaternion_wxyz[3]}});
+    return tuples;
+  }
+
+  // Position, distance, whether out of the air; nothing: no hit.
+  using HitTuple = std::tuple<std::array<double, 3>, double, bool>;
+  std::optional<HitTuple> ray(double t_s, std::array<double, 3> origin_m,
+                              std::array<double, 3> direction, double max_distance_m) const {
+    swell_hit hit{};
+    hit.size = sizeof(hit);
+    call([&] {
+      const Session session(*pool_);
+      return swell_ray(session.get(), t_s, origin_m.data(), direction.data(), max_distance_m, &hit);
+    });
+    if (!hit.hits) return std::nullopt;
+    return HitTuple{{hit.position_m[0], hit.position_m[1], hit.position_m[2]},
+                    hit.distance_m,
+                    hit.from_above != 0};
+  }
+
+ private:
+  static float** output_of(swell_query& query, const std::string& what) {
+    if (what == "height") return &query.height_m;
+    if (what == "slope") return &query.slope;
+    if (what == "normal") return &query.normal;
+    if (what == "velocity") return &query.velocity_mps;
+    if (what == "foam") return &query.foam;
+    if (what == "still_depth") return &query.still_depth_m;
+    throw std::logic_error("no such result: " + what);
+  }
+
+  std::shared_ptr<Pool> pool_;
+};
+
+// Table, name, unit, allowed values, meaning.
+using KeyTuple = std::tuple<std::string, std::string, std::string, std::string, std::string>;
+
+std::vector<KeyTuple> keys() {
+  std::vector<KeyTuple> all;
+  for (std::size_t n = 0; n < swell_key_count(); ++n) {
+    swell_key key{};
+    key.size = sizeof(key);
+    check(swell_key_info(n, &key));
+    all.emplace_back(key.table, key.name, key.unit, key.allowed, key.meaning);
+  }
+  return all;
+}
+
+// Those of a function of numbers from 0 on that gives null after the last.
+std::vector<std::string> names(const char* (*name_of)(std::size_t)) {
+  std::vector<std::string> all;
+  while (const char* name = name_of(all.size())) all.emplace_back(name);
+  return all;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_swell, module) {
+  module.doc() = "What swell is written on: the C interface of the library.";
+  py::register_exception<SceneError>(module, "SceneError", PyExc_ValueError);
+  module.def("version", &swell_version);
+  module.def("keys", &keys);
+  module.def("labels", [] { return names(&swell_label_name); });
+  module.def("parts", [] { return names(&swell_part_name); });
+  module.def("look", &look);
+
+  py::class_<Picture>(module, "Picture")
+      .def("plane", &Picture::plane)
+      .def("hash", &Picture::hash)
+      .def("picks", &Picture::picks)
+      .def("camera", &Picture::camera);
+
+  py::class_<World>(module, "World")
+      .def(py::init<const std::optional<std::string>&, const std::optional<std::string>&,
+                    const std::optional<std::string>&, const std::vector<std::string>&, int>(),
+           py::arg("path"), py::arg("text"), py::arg("folder"), py::arg("settings"),
+           py::arg("threads"))
+      .def("text", &World::text)
+      .def("hash", &World::hash)
+      .def("objects", &World::objects)
+      .def("classes", &World::classes)
+      .def("camera", &World::camera)
+      .def("ask", &World::ask)
+      .def("poses", &World::poses)
+      .def("ray", &World::ray)
+      .def(
+          "render",
+          [](const World& world, double t_s, int width_px, int height_px, std::string labels,
+             std::string without, bool linear, std::optional<CameraTuple> camera,
+             std::optional<CameraTuple> next_camera, double next_frame_s,
+             std::vector<PoseTuple> poses, std::vector<PoseTuple> next_poses, int water_triangles,
+             int terrain_triangles, double lookup_scale, int edge_samples,
+             std::vector<DisturbanceTuple> disturbances, std::vector<std::array<double, 2>> picks) {
+            return world.render({t_s, width_px, height_px, std::move(labels), std::move(without),
+                                 linear, camera, next_camera, next_frame_s, std::move(poses),
+                                 std::move(next_poses), water_triangles, terrain_triangles,
+                                 lookup_scale, edge_samples, std::move(disturbances),
+                                 std::move(picks)});
+          },
+          py::arg("t"), py::arg("width"), py::arg("height"), py::arg("labels"), py::arg("without"),
+          py::arg("linear"), py::arg("camera"), py::arg("next_camera"), py::arg("next_frame_s"),
+          py::arg("poses"), py::arg("next_poses"), py::arg("water_triangles"),
+          py::arg("terrain_triangles"), py::arg("lookup_scale"), py::arg("edge_samples"),
+          py::arg("disturbances"), py::arg("picks"));
+}

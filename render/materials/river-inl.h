@@ -1,0 +1,389 @@
+// The water of rivers and lakes. Its optics are the sea's (water-inl.h); its ripples and its foam
+// are carried by the flow.
+#if defined(SWELL_RENDER_MATERIALS_RIVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_RIVER_INL_H_
+#undef SWELL_RENDER_MATERIALS_RIVER_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_RIVER_INL_H_
+#endif
+
+#include "render/materials/river.h"
+#include "render/materials/water-inl.h"
+#include "render/tile/attenuate-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// What the lattice holds at a packet (ocean::InlandSample).
+struct RiverAt {
+  V level, depth, east, north, white, sea_share, phase;
+};
+
+using D8 = hn::FixedTag<float, 8>;
+using V8 = hn::Vec<D8>;
+
+// The columns of eight rows.
+HWY_INLINE void Transpose(std::array<V8, 8>& rows) {
+  const D8 d8;
+  const hn::Repartition<double, D8> d64;
+  const auto pair = [&](V8 a, V8 b, std::array<V8, 2>& out) HWY_ATTR {
+    const auto x = hn::BitCast(d64, a), y = hn::BitCast(d64, b);
+    out = {hn::BitCast(d8, hn::InterleaveLower(d64, x, y)),
+           hn::BitCast(d8, hn::InterleaveUpper(d64, x, y))};
+  };
+  // Columns 0 and 4, 1 and 5, 2 and 6, 3 and 7, of four rows each.
+  std::array<std::array<V8, 2>, 4> half;
+  for (std::size_t k = 0; k < 2; ++k) {
+    V8* const r = &rows[4 * k];
+    pair(hn::InterleaveLower(d8, r[0], r[1]), hn::InterleaveLower(d8, r[2], r[3]), half[2 * k]);
+    pair(hn::InterleaveUpper(d8, r[0], r[1]), hn::InterleaveUpper(d8, r[2], r[3]), half[2 * k + 1]);
+  }
+  for (std::size_t c = 0; c < 4; ++c) {
+    const V8 low = half[c / 2][c % 2], high = half[2 + c / 2][c % 2];
+    rows[c] = hn::ConcatLowerLower(d8, high, low);
+    rows[c + 4] = hn::ConcatUpperUpper(d8, high, low);
+  }
+}
+
+// The members of the samples from number `at` on, blended by (s, t). A lane's samples are one
+// vector each: gathers of single members take ten times as long.
+HWY_INLINE void BlendSamples(const ocean::InlandSample* samples, VI at, V s, V t,
+                             std::array<V, 8>& members) {
+  const D d;
+  const D8 d8;
+  static_assert(sizeof(ocean::InlandSample) == 8 * sizeof(float));
+  constexpr std::size_t kLanes = hn::MaxLanes(d), kRow = 8 * ocean::kInlandSide;
+  alignas(64) std::int32_t number[kLanes];
+  alignas(64) float east[kLanes], north[kLanes];
+  hn::Store(at, DI(), number);
+  hn::Store(s, d, east);
+  hn::Store(t, d, north);
+  const auto lerp = [](V8 a, V8 b, V8 by) HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), by, a); };
+  std::array<std::array<V8, 8>, kLanes / 8> columns;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const float* const p = &samples[number[lane]].level_m;
+    const V8 x = hn::Set(d8, east[lane]);
+    columns[lane / 8][lane % 8] = lerp(
+        lerp(hn::LoadU(d8, p), hn::LoadU(d8, p + 8), x),
+        lerp(hn::LoadU(d8, p + kRow), hn::LoadU(d8, p + kRow + 8), x), hn::Set(d8, north[lane]));
+  }
+  for (auto& eight : columns) Transpose(eight);
+#if HWY_TARGET == HWY_AVX2
+  members = columns[0];
+#else
+  for (std::size_t m = 0; m < members.size(); ++m)
+    members[m] = hn::Combine(d, columns[1][m], columns[0][m]);
+#endif
+}
+
+HWY_INLINE RiverAt SampleRiver(const River& river, const Packet& packet) {
+  const D d;
+  const DI di;
+  const V per_m = Constant(river.cells_per_m);
+  const V x = hn::Mul(hn::Sub(packet.p.x, Constant(river.corner_rel.x)), per_m);
+  const V y = hn::Mul(hn::Sub(packet.p.y, Constant(river.corner_rel.y)), per_m);
+  constexpr float kCells = ocean::kInlandBlock;
+  const auto block_of = [&](V cells, int blocks) HWY_ATTR {
+    return TruncateToInt(
+        Clamp(hn::Mul(cells, Constant(1.0f / kCells)), 0.0f, static_cast<float>(blocks) - 0.5f));
+  };
+  const VI bx = block_of(x, river.blocks_x), by = block_of(y, river.blocks_y);
+  const VI block =
+      hn::GatherIndex(di, river.block_index, hn::Add(hn::Mul(by, hn::Set(di, river.blocks_x)), bx));
+  const auto in_block = [&](V cells, VI b) HWY_ATTR {
+    return Clamp(hn::NegMulAdd(hn::ConvertTo(d, b), Constant(kCells), cells), 0.0f,
+                 kCells - 1.0f / 1024.0f);
+  };
+  const V u = in_block(x, bx), v = in_block(y, by);
+  const VI i = TruncateToInt(u), j = TruncateToInt(v);
+  const V s = hn::Sub(u, hn::ConvertTo(d, i)), t = hn::Sub(v, hn::ConvertTo(d, j));
+  // Beside the lattice any block will do: nothing of the river is drawn there.
+  const VI first =
+      hn::Mul(hn::Max(block, hn::Zero(di)), hn::Set(di, static_cast<int>(ocean::kInlandSamples)));
+  const VI at = hn::Add(hn::Add(first, hn::Mul(j, hn::Set(di, ocean::kInlandSide))), i);
+  std::array<V, 8> value;
+  BlendSamples(river.samples, at, s, t, value);
+  return {value[0], value[1], value[2], value[3], value[4], value[5], value[6]};
+}
+
+// Two copies of a pattern are carried by the flow, each from where it was half a cycle before to
+// where it is half a cycle after, and fade in and out half a cycle apart: the squares of their
+// weights, a sine and a cosine, add up to 1 at all times, so that a pattern of mean 0 neither
+// pulses nor stretches. A copy begins each cycle with another piece of the pattern.
+struct CarriedCopy {
+  V3 p;  // where the pattern's point is
+  V weight;
+};
+
+HWY_INLINE std::array<CarriedCopy, 2> CarriedAt(const River& river, const RiverAt& at, V3 p) {
+  const D d;
+  const V turns = hn::Add(at.phase, Constant(river.cycles));
+  V sine, cosine;
+  SinCosTurns(d, hn::Mul(hn::Sub(turns, hn::Floor(turns)), Constant(0.5f)), sine, cosine);
+  const auto copy = [&](V copy_turns, V weight) HWY_ATTR {
+    const V whole = hn::Floor(copy_turns), phase = hn::Sub(copy_turns, whole);
+    const V carried_s =
+        hn::Mul(hn::Sub(phase, Constant(0.5f)), Constant(static_cast<float>(kCarried_s)));
+    const V number = hn::Add(whole, Constant(river.cycle_number));
+    const auto jump = [&](float step) HWY_ATTR {
+      const V steps = hn::Mul(number, Constant(step));
+      return hn::Mul(hn::Sub(steps, hn::Floor(steps)), Constant(7.0f));
+    };
+    return CarriedCopy{{hn::Add(hn::NegMulAdd(at.east, carried_s, p.x), jump(0.754877666f)),
+                        hn::Add(hn::NegMulAdd(at.north, carried_s, p.y), jump(0.569840291f)), p.z},
+                       weight};
+  };
+  return {copy(turns, sine), copy(hn::Add(turns, Constant(0.5f)), hn::Abs(cosine))};
+}
+
+// The slopes of the sea where a river ends.
+template <std::size_t kCount>
+static HWY_NOINLINE std::array<WaterSlopes, kCount> SeaSlopes(
+    const Shading& s, const std::array<Packet, kCount>& packets) {
+  const Water& water = s.material<Water>();
+  return water.has_coast ? SampleWater<true>(water, s.rays, packets)
+                         : SampleWater<false>(water, s.rays, packets);
+}
+
+HWY_INLINE WaterSlopes NoSlopes() {
+  const V zero = hn::Zero(D());
+  return {zero, zero, zero, zero, zero, zero};
+}
+
+// What is the sea's alone has its very bits: the river's is left out where all lanes are.
+HWY_INLINE V PassIntoSea(V river, V sea, V share) {
+  return hn::IfThenElse(hn::Ge(share, Constant(1.0f)), sea, Lerp(river, sea, share));
+}
+HWY_INLINE V3 PassIntoSea(V3 river, V3 sea, V share) {
+  return {PassIntoSea(river.x, sea.x, share), PassIntoSea(river.y, sea.y, share),
+          PassIntoSea(river.z, sea.z, share)};
+}
+HWY_INLINE WaterSlopes PassIntoSea(const WaterSlopes& a, const WaterSlopes& b, V share) {
+  return {PassIntoSea(a.slope_x, b.slope_x, share),
+          PassIntoSea(a.slope_y, b.slope_y, share),
+          PassIntoSea(a.variance, b.variance, share),
+          PassIntoSea(a.foam_cover, b.foam_cover, share),
+          PassIntoSea(a.fine_variance, b.fine_variance, share),
+          PassIntoSea(a.long_cosine, b.long_cosine, share),
+          PassIntoSea(a.foam_thickness, b.foam_thickness, share),
+          PassIntoSea(a.foam_bubbles, b.foam_bubbles, share),
+          PassIntoSea(a.wake, b.wake, share)};
+}
+
+// Ripples of the flow, of the wind, and of wakes; foam where it is white.
+HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, const RiverAt& at,
+                                   const Packet& packet) {
+  const D d;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  const Water& water = shading.material<Water>();
+  const V level_m =
+      FootprintLevel(FootprintAcross(shading.rays, packet), Clamp(packet.to_eye.z, kMinCos, 1.0f));
+  const V speed = hn::Sqrt(hn::MulAdd(at.east, at.east, hn::Mul(at.north, at.north)));
+  // How rough the flow is: root mean square slopes; none where they would not be seen, whatever
+  // the lanes beside show.
+  const V all_rough = hn::MulAdd(at.white, Constant(0.12f),
+                                 hn::Mul(hn::Min(speed, Constant(2.0f)), Constant(0.045f)));
+  const V rough = hn::IfThenElseZero(hn::Gt(all_rough, Constant(1e-3f)), all_rough);
+  WaterSlopes s = {zero, zero, Constant(river.base_variance), zero, zero, packet.to_eye.z};
+  const bool flows = !hn::AllFalse(d, hn::Gt(rough, zero));
+  const bool foams = !hn::AllFalse(d, hn::Gt(at.white, Constant(0.02f)));
+  if (flows) {
+    V x = zero, y = zero, lost = zero, code = zero;
+    for (const CarriedCopy& copy : CarriedAt(river, at, packet.p)) {
+      V copy_x = zero, copy_y = zero, lost_long = zero, lost_short = zero;
+      AddSlopes(river.long_ripples, copy.p, level_m, zero, zero, copy_x, copy_y, lost_long);
+      AddSlopes(river.short_ripples, copy.p, level_m, zero, zero, copy_x, copy_y, lost_short);
+      x = hn::MulAdd(copy.weight, copy_x, x);
+      y = hn::MulAdd(copy.weight, copy_y, y);
+      lost = hn::Add(lost_long, lost_short);
+      if (!foams) continue;
+      V threshold, unused;
+      NearestSlopes(river.foam.pattern, copy.p, level_m, threshold, unused);
+      code = hn::MulAdd(copy.weight, threshold, code);
+    }
+    s.slope_x = hn::Mul(x, rough);
+    s.slope_y = hn::Mul(y, rough);
+    s.variance = hn::MulAdd(hn::Mul(rough, rough), lost, s.variance);
+    if (foams) {
+      // Never white all over: the lace moves.
+      const V over = hn::MulSub(at.white, Constant(0.5f * (1.0f + kFoamRim)),
+                                hn::MulAdd(code, Constant(0.5f), Constant(0.5f)));
+      AddFoamOver(hn::IfThenElse(hn::Gt(at.white, Constant(0.02f)), over, Constant(-1.0f)), s);
+    }
+  }
+  // The wind's, and where the water is too shallow for them none.
+  const V share =
+      hn::Mul(Clamp(hn::Mul(at.depth, Constant(4.0f)), 0.0f, 1.0f), Constant(river.wind_share));
+  V x = zero, y = zero, lost = zero;
+  for (int i = water.first_ripples; i < water.layer_count; ++i)
+    AddSlopes(water.layers[static_cast<std::size_t>(i)], packet.p, level_m, zero, zero, x, y, lost);
+  s.slope_x = hn::MulAdd(share, x, s.slope_x);
+  s.slope_y = hn::MulAdd(share, y, s.slope_y);
+  s.variance = hn::MulAdd(hn::Mul(share, share), lost, s.variance);
+  s.fine_variance = hn::Add(
+      s.variance, hn::MulAdd(hn::Mul(rough, rough), one,
+                             hn::Mul(hn::Mul(share, share), Constant(water.short_variance))));
+  if (water.wakes.count > 0) AddWakes(water, packet.p, level_m, s);
+  return s;
+}
+
+// Of the bed: how bright wet sand is against gravel, and the level over the sea's up to which there
+// is some sand [m].
+constexpr float kSandOverGravel = 2.5f, kGravelBegin_m = 1.2f;
+
+// What comes up: the water's own light, and the bed's through it, at the place that the bent ray
+// meets.
+HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
+                       const Packet& packet, const WaterSlopes& slopes, V sun_visible) {
+  const D d;
+  const V one = Constant(1.0f), depth = hn::Max(at.depth, hn::Zero(d));
+  const float inv_n = 1.0f / s.media.refraction_index;
+  const V cos_eye = Clamp(packet.to_eye.z, 0.0f, 1.0f);
+  const V sin_t = hn::Mul(hn::Sqrt(hn::NegMulAdd(cos_eye, cos_eye, one)), Constant(inv_n));
+  const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, one));
+  const V path = hn::Div(depth, cos_t);
+  // Where the ray ends, moved by the slopes that it goes through.
+  const V away = hn::Mul(path, Constant(-inv_n)), bend = hn::Mul(depth, Constant(1.0f - inv_n));
+  const V3 p = {hn::MulAdd(slopes.slope_x, bend, hn::MulAdd(packet.to_eye.x, away, packet.p.x)),
+                hn::MulAdd(slopes.slope_y, bend, hn::MulAdd(packet.to_eye.y, away, packet.p.y)),
+                hn::Sub(packet.p.z, depth)};
+  const V level_m = FootprintLevel(FootprintAcross(s.rays, packet), Clamp(cos_eye, 0.1f, 1.0f));
+  V x = hn::Zero(d), y = hn::Zero(d), unused = hn::Zero(d);
+  AddSlopes(river.stones, p, level_m, x, y, x, y, unused);
+  // Gravel further up, sand of the sea's where a river comes down to it.
+  const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
+  const V sandy = SmoothBlend(
+      hn::Mul(hn::Sub(Constant(kGravelBegin_m), height_m), Constant(1.0f / kGravelBegin_m)));
+  const V bright = hn::MulAdd(sandy, Constant(kSandOverGravel - 1.0f), one);
+  const V relief = hn::NegMulAdd(sandy, Constant(0.31f * 0.7f), Constant(0.31f));
+  const V stones = hn::Mul(Clamp(hn::MulAdd(x, relief, one), 0.45f, 1.6f), bright);
+  const V3 lit = Scale(ScaleAdd(Constant(river.bed_sun), sun_visible, Constant(river.bed)), stones);
+  const V length = hn::MulAdd(depth, Constant(kDaylightSlant), hn::Min(path, Constant(200.0f)));
+  const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
+  const V3 seen = AbsorbInWater(s.media, {depth, length}, lit);
+  return ScaleAdd(Constant(s.media.body_sun), shade, seen);
+}
+
+// What a packet shows of rivers, with the sea's part where they end.
+struct RiverSeen {
+  RiverAt at;
+  WaterSlopes slopes;
+  bool meets_sea, is_river;  // in any lane
+};
+
+// A function of its own, so that the code of packets side by side fits the processor's caches.
+[[maybe_unused]] static HWY_NOINLINE RiverSeen SeeRiver(const Shading& shading, const River& river,
+                                                        Packet packet) {
+  const D d;
+  RiverSeen seen = {SampleRiver(river, packet), NoSlopes(), false, false};
+  // Looks pass into the sea's before the surface has.
+  seen.at.sea_share = SmoothBlend(hn::MulAdd(seen.at.sea_share, Constant(2.0f), Constant(-0.2f)));
+  seen.meets_sea = !hn::AllFalse(d, hn::Gt(seen.at.sea_share, hn::Zero(d)));
+  seen.is_river = !hn::AllTrue(d, hn::Ge(seen.at.sea_share, Constant(1.0f)));
+  if (seen.is_river) seen.slopes = RiverSlopes(shading, river, seen.at, packet);
+  return seen;
+}
+
+template <std::size_t kCount, std::size_t... k>
+HWY_INLINE std::array<RiverSeen, kCount> SeeRivers(const Shading& shading, const River& river,
+                                                   const std::array<Packet, kCount>& packets,
+                                                   std::index_sequence<k...>) {
+  return {SeeRiver(shading, river, packets[k])...};
+}
+
+// Not shown in lookup images.
+template <ViewKind kView>
+struct Shader<River, kView> {
+  const River& river;
+
+  HWY_INLINE Surfel operator()(const Shading&, const TilePixels&, const Lanes&,
+                               const Packet& packet) const {
+    return {packet.p, packet.p};
+  }
+};
+
+template <>
+struct Shader<River, ViewKind::kWindow> {
+  static constexpr std::size_t kPacketsAtOnce = SWELL_WATER_PACKETS_AT_ONCE;
+  const River& river;
+
+  template <std::size_t kCount>
+  HWY_INLINE std::array<RiverSeen, kCount> LookUp(const Shading& shading,
+                                                  const std::array<Packet, kCount>& packets) const {
+    std::array<RiverSeen, kCount> seen =
+        SeeRivers(shading, river, packets, std::make_index_sequence<kCount>());
+    bool meets_sea = false;
+    for (const RiverSeen& one : seen) meets_sea |= one.meets_sea;
+    if (!meets_sea) return seen;
+    const std::array<WaterSlopes, kCount> sea = SeaSlopes(shading, packets);
+    for (std::size_t k = 0; k < kCount; ++k)
+      if (seen[k].meets_sea)
+        seen[k].slopes = PassIntoSea(seen[k].slopes, sea[k], seen[k].at.sea_share);
+    return seen;
+  }
+
+  HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
+                               const Packet& packet, const RiverSeen& river_seen) const {
+    const D d;
+    const V zero = hn::Zero(d);
+    const Light& light = shading.light;
+    const Water& water = shading.material<Water>();
+    const RiverAt& at = river_seen.at;
+    const WaterSlopes& s = river_seen.slopes;
+    const Facing f = FaceEye(shading.media, water, packet, s);
+    const V sun_visible = hn::Mul(SunVisible(shading, tile, packet, Constant(-1.0f)),
+                                  SunUnderTrees(shading, packet, hn::Zero(d)));
+    V inv_variance, mirrored_alpha, refracted_alpha = hn::Zero(d);
+    const V glint = GlintReflectance(shading.media, light.sun_direction, packet);
+    const V sun_path = SunGlint(light.sun_direction, packet, s, glint, f.area, inv_variance);
+    V3 refracted = Constant(shading.media.body);
+    if (river_seen.is_river) refracted = BedLight(shading, river, at, packet, s, sun_visible);
+    V3 floor = Difference(refracted, Constant(shading.media.body));
+    if (river_seen.meets_sea) {
+      V3 sea_floor;
+      const V3 of_sea = RefractedLight(shading, water, packet, s, sun_visible,
+                                       tile.lookups.refraction, refracted_alpha, sea_floor);
+      refracted = PassIntoSea(refracted, of_sea, at.sea_share);
+      floor = PassIntoSea(floor, sea_floor, at.sea_share);
+    }
+    V3 mirrored =
+        ReflectedLight(light, water, packet, s, f, inv_variance, floor, false, mirrored_alpha);
+    const auto lay_over = [&](const LookupImage& lookup, V share) HWY_ATTR {
+      const Looked image = LookUpDistorted<false>(water, lookup, packet, s, 1.0f);
+      const V part = hn::Mul(image.alpha, share);
+      mirrored = Lerp(mirrored, image.light, part);
+      mirrored_alpha = hn::Max(mirrored_alpha, part);
+    };
+    // Of a level that is not the place's an image is not what is mirrored there.
+    const auto share_of = [&](float level_m) HWY_ATTR {
+      const V off = hn::Abs(hn::Sub(packet.p.z, Constant(level_m - shading.rays.eye_z)));
+      return Clamp(hn::NegMulAdd(off, Constant(kMirrorFall_per_m),
+                                 Constant(kMirrorFall_per_m * kMirrorGone_m)),
+                   0.0f, 1.0f);
+    };
+    const V by_sea = river.mirrors_sea ? hn::Max(at.sea_share, share_of(0.0f)) : at.sea_share;
+    if (tile.lookups.reflection && !hn::AllFalse(d, hn::Gt(by_sea, zero)))
+      lay_over(water.reflection, by_sea);
+    if (river.reflection.image) {
+      const V share = hn::Mul(
+          hn::Mul(share_of(river.mirror_level_m), Constant(river.mirror_share)),
+          hn::Mul(hn::Sub(Constant(1.0f), by_sea),
+                  Clamp(hn::NegMulAdd(at.sea_share, Constant(4.0f), Constant(1.0f)), 0.0f, 1.0f)));
+      if (!hn::AllFalse(d, hn::Gt(share, zero))) lay_over(river.reflection, share);
+    }
+    refracted_alpha = hn::IfThenElseZero(hn::Gt(at.sea_share, zero), refracted_alpha);
+    V3 seen = Lerp(refracted, mirrored, f.reflectance);
+    seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), seen);
+    const V foam =
+        hn::Mul(s.foam_cover, hn::MulAdd(s.foam_thickness, Constant(0.5f), Constant(0.4f)));
+    seen = AddFoam(river.foam, foam, sun_visible, seen);
+    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

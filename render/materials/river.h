@@ -1,0 +1,57 @@
+// Rivers and lakes: what their per-pixel code (river-inl.h) reads.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "ocean/inland_water.h"
+#include "render/materials/foam.h"
+#include "render/materials/inputs.h"
+#include "render/materials/slope_layer.h"
+
+namespace swell::render {
+
+// Ripples are carried by the flow for this long, then begin anew where they began.
+inline constexpr double kCarried_s = 1.5;
+
+// Water of rivers and lakes shows an image that is mirrored in another level all the same: all of
+// it up to half a metre off, nothing from two metres on.
+inline constexpr float kMirrorFull_m = 0.5f, kMirrorGone_m = 2.0f;
+inline constexpr float kMirrorFall_per_m = 1.0f / (kMirrorGone_m - kMirrorFull_m);
+
+// How much, of a level so far off.
+inline float mirror_share(float off_m) {
+  return std::clamp((kMirrorGone_m - std::abs(off_m)) * kMirrorFall_per_m, 0.0f, 1.0f);
+}
+
+struct River {
+  static constexpr SurfaceKind kSurface = SurfaceKind::kRivers;
+
+  // The lattice of ocean::InlandWater.
+  const ocean::InlandSample* samples = nullptr;
+  const std::int32_t* block_index = nullptr;
+  int blocks_x = 0, blocks_y = 0;
+  glm::vec2 corner_rel{0.0f};  // [m]
+  float cells_per_m = 1.0f;
+
+  SlopeLayer long_ripples, short_ripples;  // carried; of slope variance 1 together
+  SlopeLayer stones;                       // of the bed
+  Foam foam;                               // likewise carried
+  float cycles = 0.0f;                     // of kCarried_s that have passed, without whole ones
+  float cycle_number = 0.0f;               // whole ones, modulo 4096
+  float base_variance = 0.0f;              // slope variance of ripples too fine for any map
+  float wind_share = 1.0f;                 // of the sea's ripples
+  glm::vec3 bed{0.0f};                     // light that leaves it under no water, of the sky
+  glm::vec3 bed_sun{0.0f};                 // and of a sun that nothing hides
+
+  LookupImage reflection;
+  float mirror_level_m = 0.0f;  // that the image is of
+  float mirror_share = 0.0f;    // how much of it shows
+  bool mirrors_sea = true;      // water at about the sea's level looks into the sea's image
+};
+
+void fill(const MaterialInputs& in, const RenderView& view, River& river);
+
+}  // namespace swell::render

@@ -1,0 +1,40 @@
+// Maps of one channel over a square of the land.
+#if defined(SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_
+#undef SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_
+#endif
+
+#include "render/materials/square_map.h"
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// What the map holds at p, in [0, 1]; `outside` beyond its square and where there is no map.
+// level_m: log2 of what a pixel shows of the ground.
+HWY_INLINE V SampleSquare(const SquareMap& square, const V3& p, V level_m, V outside) {
+  const D d;
+  if (!square.map) return outside;
+  const V zero = hn::Zero(d), half = Constant(0.5f);
+  const LayerPlace place = PlaceIn(square, p.x, p.y);
+  const V side = Constant(256.0f * static_cast<float>(square.map->size - 1));
+  const auto inside = hn::And(hn::And(hn::Ge(place.x_fx8, zero), hn::Ge(place.y_fx8, zero)),
+                              hn::And(hn::Lt(place.x_fx8, side), hn::Lt(place.y_fx8, side)));
+  if (hn::AllFalse(d, inside)) return outside;
+  const float coarsest = static_cast<float>(square.map->levels - 1);
+  const V level =
+      Clamp(hn::Add(level_m, Constant(square.log2_texels_per_m + 0.5f)), 0.0f, coarsest);
+  const V code = texture::HWY_NAMESPACE::SampleLevel(
+      d, *square.map, RoundToInt(hn::IfThenElseZero(inside, place.x_fx8)),
+      RoundToInt(hn::IfThenElseZero(inside, place.y_fx8)), TruncateToInt(level));
+  return hn::IfThenElse(inside, hn::MulAdd(code, half, half), outside);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,196 @@
+// Lays the air before a tile's surfaces, once all are shaded: fog, and the air below an eye far
+// over the sea. A row of pixels at a time, so that no packet waits for the one before; what depends
+// on the direction alone lies on straight lines between nodes, as the sky does.
+#if defined(SWELL_RENDER_TILE_AIR_TILE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_AIR_TILE_INL_H_
+#undef SWELL_RENDER_TILE_AIR_TILE_INL_H_
+#else
+#define SWELL_RENDER_TILE_AIR_TILE_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "render/tile/attenuate-inl.h"
+#include "render/tile/packet-inl.h"
+#include "render/tile/resolve-inl.h"
+#include "render/tile/sky-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Whether the air before surfaces is laid here. Clouds below the eye lie before it: where there are
+// any, each surface has both. Haze alone is little, and left to surfaces too.
+HWY_INLINE bool IsAirLaidLast(const Shading& s) {
+  return (s.media.fog.on || s.media.molecules_per_m.z > 0.0f) && !s.media.submerged &&
+         !s.light.clouds.is_below;
+}
+
+// Pixels, or parts of pixels, and where what they show is; of the sky, something near.
+struct PlaceShown {
+  V x_px, y_px, z;
+  hn::Mask<D> is_surface;
+  V3 way;  // the ray of depth 1
+  V depth;
+  V height;  // over the eye; on a round earth as MakePacket() has it
+};
+
+HWY_INLINE PlaceShown FindPlace(const Shading& s, V x_px, V y_px, V z) {
+  PlaceShown at;
+  at.x_px = x_px, at.y_px = y_px;
+  at.is_surface = hn::Gt(z, hn::Zero(D()));
+  at.z = hn::IfThenElse(at.is_surface, z, Constant(1.0f));
+  at.way = RayAt(s.rays, x_px, y_px);
+  at.depth = hn::Div(Constant(s.rays.near_m), at.z);
+  const V horizontal2 = hn::MulAdd(at.way.x, at.way.x, hn::Mul(at.way.y, at.way.y));
+  const V sunk = hn::Mul(hn::Mul(horizontal2, at.depth), Constant(s.rays.drop_per_m2));
+  at.height = hn::Mul(hn::Add(sunk, at.way.z), at.depth);
+  return at;
+}
+
+// What depends on a pixel's direction alone, each in as many channels of the lattice: of fog ...
+struct FogAhead {
+  static constexpr std::size_t kChannels = 3;
+  V length, inverse_length;  // of the ray of depth 1
+  V phase;
+
+  static HWY_INLINE FogAhead Find(const Shading& s, V3 way) {
+    const V length2 = Dot(way, way), inverse = InverseSqrt(length2);
+    return {hn::Mul(length2, inverse), inverse, FogPhase(s.media.fog, Scale(way, inverse))};
+  }
+  template <class Store>
+  HWY_INLINE void StoreTo(const Store& store) const {
+    store(0, length), store(1, inverse_length), store(2, phase);
+  }
+  template <class Read>
+  static HWY_INLINE FogAhead ReadFrom(const Read& read) {
+    return {read(0), read(1), read(2)};
+  }
+
+  HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
+    const FogRay ray = {s.media.fog.at_eye, Scale(at.way, inverse_length),
+                        hn::Mul(at.depth, length), hn::Add(at.height, Constant(s.rays.eye_z))};
+    return HazeAndFog(s, ray, phase, light,
+                      [&]() HWY_ATTR { return MakePacket(s.rays, at.x_px, at.y_px, at.z); });
+  }
+};
+
+// ... and of the air below.
+struct AloftAhead {
+  static constexpr std::size_t kChannels = 5;
+  V length;
+  AirAhead air;
+
+  static HWY_INLINE AloftAhead Find(const Shading& s, V3 way) {
+    const V length2 = Dot(way, way), inverse = InverseSqrt(length2);
+    return {hn::Mul(length2, inverse), FindAirAhead(s.light, Scale(way, inverse))};
+  }
+  template <class Store>
+  HWY_INLINE void StoreTo(const Store& store) const {
+    store(0, length), store(1, air.below.x), store(2, air.below.y), store(3, air.below.z);
+    store(4, air.steep);
+  }
+  template <class Read>
+  static HWY_INLINE AloftAhead ReadFrom(const Read& read) {
+    return {read(0), {{read(1), read(2), read(3)}, read(4)}};
+  }
+
+  HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
+    const V zero = hn::Zero(D());
+    const V distance = hn::Mul(at.depth, length);
+    const V3 p = {hn::Mul(at.way.x, at.depth), hn::Mul(at.way.y, at.depth), at.height};
+    const Packet packet = {zero, zero, at.depth, p, distance, {zero, zero, zero}};
+    return ThroughAirAloft(s, packet, light, distance, [&]() HWY_ATTR { return air; });
+  }
+};
+
+template <class Ahead>
+HWY_INLINE void FindNodes(const Shading& s, const raster::PixelBox& box, SkyNodes& nodes) {
+  const D d;
+  static_assert(Ahead::kChannels <= SkyNodes::kFogChannels);
+  const int columns = nodes_along(box.width_px), rows = nodes_along(box.height_px);
+  for (int row = 0; row < rows; ++row) {
+    const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
+    for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
+      const V x_px =
+          hn::MulAdd(hn::ConvertTo(d, CountFrom(column)), Constant(static_cast<float>(kStep)),
+                     Constant(static_cast<float>(box.x0_px)));
+      const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
+      Ahead::Find(s, RayAt(s.rays, x_px, y_px)).StoreTo([&](std::size_t channel, V value) HWY_ATTR {
+        hn::StoreU(value, d, &nodes.fog[channel][at]);
+      });
+    }
+  }
+}
+
+template <class Ahead>
+HWY_INLINE void LayOverTile(const Shading& s, const raster::PixelBox& box, const float* depth,
+                            ShadeScratch& scratch) {
+  const D d;
+  SkyNodes& nodes = scratch.sky;
+  const bool by_nodes = IsPhaseOnLattice(s);
+  if (by_nodes) FindNodes<Ahead>(s, box, nodes);
+  for (int y = 0; y < box.height_px; ++y) {
+    const V y_px = Constant(static_cast<float>(box.y0_px + y));
+    const BetweenRows between(y);
+    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
+      const std::size_t at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
+      const V z = hn::LoadU(d, depth + at);
+      if (hn::AllFalse(d, hn::Gt(z, hn::Zero(d)))) continue;
+      const PlaceShown place = FindPlace(s, hn::ConvertTo(d, CountFrom(box.x0_px + x)), y_px, z);
+      const auto read = [&](std::size_t channel) HWY_ATTR {
+        return ToPixels(between(nodes.fog[channel].data(), static_cast<std::size_t>(x / kStep)));
+      };
+      const Ahead ahead = by_nodes ? Ahead::ReadFrom(read) : Ahead::Find(s, place.way);
+      const V3 light = {hn::Load(d, scratch.red.data() + at),
+                        hn::Load(d, scratch.green.data() + at),
+                        hn::Load(d, scratch.blue.data() + at)};
+      const V3 laid = Where(place.is_surface, ahead.Lay(s, place, light), light);
+      hn::Store(laid.x, d, scratch.red.data() + at);
+      hn::Store(laid.y, d, scratch.green.data() + at);
+      hn::Store(laid.z, d, scratch.blue.data() + at);
+    }
+  }
+}
+
+// Lays air before all surfaces of a tile, whose light stands in the scratch.
+inline HWY_NOINLINE void LayAirOverTile(const Shading& s, const raster::PixelBox& box,
+                                        const float* depth, ShadeScratch& scratch) {
+  if (!IsAirLaidLast(s)) return;
+  if (s.media.fog.on)
+    LayOverTile<FogAhead>(s, box, depth, scratch);
+  else
+    LayOverTile<AloftAhead>(s, box, depth, scratch);
+}
+
+// The same before the fragments.
+inline HWY_NOINLINE void LayAirOverFragments(const Shading& s,
+                                             std::span<const EdgeFragment> fragments,
+                                             ShadeScratch& scratch) {
+  if (!IsAirLaidLast(s)) return;
+  const D d;
+  for (std::size_t n = 0; n < fragments.size(); n += kLanes) {
+    HWY_ALIGN std::array<float, kLanes> x{}, y{}, z{};
+    for (std::size_t i = 0; i < std::min(kLanes, fragments.size() - n); ++i)
+      x[i] = fragments[n + i].x_px, y[i] = fragments[n + i].y_px, z[i] = fragments[n + i].z;
+    const PlaceShown place =
+        FindPlace(s, hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data()));
+    const V3 light = {hn::Load(d, scratch.fragment_red.data() + n),
+                      hn::Load(d, scratch.fragment_green.data() + n),
+                      hn::Load(d, scratch.fragment_blue.data() + n)};
+    const V3 seen = s.media.fog.on ? FogAhead::Find(s, place.way).Lay(s, place, light)
+                                   : AloftAhead::Find(s, place.way).Lay(s, place, light);
+    const V3 laid = Where(place.is_surface, seen, light);
+    hn::Store(laid.x, d, scratch.fragment_red.data() + n);
+    hn::Store(laid.y, d, scratch.fragment_green.data() + n);
+    hn::Store(laid.z, d, scratch.fragment_blue.data() + n);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,155 @@
+// Lays volumetric clouds before a tile's pixels.
+#if defined(SWELL_RENDER_TILE_CLOUD_PICTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_CLOUD_PICTURE_INL_H_
+#undef SWELL_RENDER_TILE_CLOUD_PICTURE_INL_H_
+#else
+#define SWELL_RENDER_TILE_CLOUD_PICTURE_INL_H_
+#endif
+
+#include "render/tile/cloud_picture.h"
+#include "render/tile/packet-inl.h"
+#include "render/tile/resolve-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// The channels of CloudPicture at pixels.
+struct CloudsSeen {
+  V3 light;
+  V opacity, front, back;
+};
+
+// Farther than all clouds.
+constexpr float kBeyondClouds_m = 1e9f;
+
+// The clouds before `light`, what is seen after distance_m. A pixel that ends among them sees as
+// much of them as an even cloud between the two ends would show.
+HWY_INLINE V3 LayClouds(const CloudsSeen& seen, V distance_m, V3 light) {
+  const D d;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  const V way = hn::Max(hn::Sub(seen.back, seen.front), Constant(1e-4f));
+  const V part = hn::Div(hn::MulSub(distance_m, seen.opacity, seen.front), way);
+  const auto whole = hn::Ge(part, one);
+  V hidden = hn::IfThenElseZero(whole, seen.opacity), shown = hn::IfThenElseZero(whole, one);
+  const auto among = hn::AndNot(whole, hn::Gt(part, zero));
+  if (!hn::AllFalse(d, among)) {
+    const V passes = hn::Max(hn::Sub(one, seen.opacity), Constant(1.0f / 256.0f));
+    const V some = hn::Sub(one, Exp2(d, hn::Mul(part, Log2(d, passes))));
+    hidden = hn::IfThenElse(among, some, hidden);
+    shown = hn::IfThenElse(among, hn::Div(some, hn::Max(seen.opacity, Constant(1e-6f))), shown);
+  }
+  return ScaleAdd(seen.light, shown, Scale(light, hn::Sub(one, hidden)));
+}
+
+// The clouds in the kLanes pixels from (x, y) of the window on; x a multiple of kLanes.
+HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) {
+  const D d;
+  const DI di;
+  const int step = picture.step();
+  const float per_step = 1.0f / static_cast<float>(step);
+  const VI lane = hn::Iota(di, 0);
+  const VI left = hn::ShiftRightSame(lane, picture.step_log2),
+           right = hn::Add(left, hn::Set(di, 1));
+  const V across =
+      hn::Mul(hn::ConvertTo(d, hn::And(lane, hn::Set(di, step - 1))), Constant(per_step));
+  const V below = Constant(static_cast<float>(y % step) * per_step);
+  const std::size_t at =
+      static_cast<std::size_t>(y / step) * picture.stride + static_cast<std::size_t>(x / step);
+  const auto read = [&](std::size_t channel) HWY_ATTR {
+    const float* const upper = picture.nodes[channel].data() + at;
+    const V nodes = Lerp(hn::LoadU(d, upper), hn::LoadU(d, upper + picture.stride), below);
+    return Lerp(hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, left)),
+                hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, right)), across);
+  };
+  return {{read(0), read(1), read(2)},
+          read(CloudPicture::kOpacity),
+          read(CloudPicture::kFront),
+          read(CloudPicture::kBack)};
+}
+
+// The same at any places in the window.
+HWY_INLINE CloudsSeen CloudsAt(const CloudPicture& picture, V x_px, V y_px) {
+  const DI di;
+  const float per_step = 1.0f / static_cast<float>(picture.step());
+  const V x = hn::Max(hn::Mul(x_px, Constant(per_step)), hn::Zero(D()));
+  const V y = hn::Max(hn::Mul(y_px, Constant(per_step)), hn::Zero(D()));
+  const VI column = hn::Min(TruncateToInt(x), hn::Set(di, picture.columns - 2));
+  const VI row = hn::Min(TruncateToInt(y), hn::Set(di, picture.rows - 2));
+  const V across = hn::Sub(x, hn::ConvertTo(D(), column));
+  const V below = hn::Sub(y, hn::ConvertTo(D(), row));
+  const VI stride = hn::Set(di, static_cast<int>(picture.stride));
+  const VI upper = hn::Add(hn::Mul(row, stride), column), lower = hn::Add(upper, stride);
+  const VI one = hn::Set(di, 1);
+  const auto read = [&](std::size_t channel) HWY_ATTR {
+    const float* const nodes = picture.nodes[channel].data();
+    const auto node = [&](VI at) HWY_ATTR { return hn::GatherIndex(D(), nodes, at); };
+    return Lerp(Lerp(node(upper), node(lower), below),
+                Lerp(node(hn::Add(upper, one)), node(hn::Add(lower, one)), below), across);
+  };
+  return {{read(0), read(1), read(2)},
+          read(CloudPicture::kOpacity),
+          read(CloudPicture::kFront),
+          read(CloudPicture::kBack)};
+}
+
+// How far what a depth buffer's z shows is away, or the sky.
+HWY_INLINE V DistanceShown(const ViewRays& rays, V x_px, V y_px, V z) {
+  const V3 ray = RayAt(rays, x_px, y_px);
+  const V depth = hn::Div(Constant(rays.near_m), hn::Max(z, Constant(1e-12f)));
+  const V distance = hn::Mul(depth, hn::Sqrt(Dot(ray, ray)));
+  return hn::IfThenElse(hn::Gt(z, hn::Zero(D())), distance, Constant(kBeyondClouds_m));
+}
+
+// Lays clouds before all pixels of a tile, whose light stands in the scratch. depth: the tile's, or
+// null for open sky.
+inline HWY_NOINLINE void LayCloudsOverTile(const Shading& s, const raster::PixelBox& box,
+                                           const float* depth, ShadeScratch& scratch) {
+  if (!s.clouds || !s.clouds->any || s.media.submerged) return;
+  const D d;
+  for (int y = 0; y < box.height_px; ++y)
+    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
+      const CloudsSeen seen = CloudsOfPacket(*s.clouds, box.x0_px + x, box.y0_px + y);
+      if (hn::AllFalse(d, hn::Gt(seen.opacity, hn::Zero(d)))) continue;
+      const std::size_t at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
+      const V x_px = hn::ConvertTo(d, CountFrom(box.x0_px + x));
+      const V y_px = Constant(static_cast<float>(box.y0_px + y));
+      V distance = Constant(kBeyondClouds_m);
+      if (depth) distance = DistanceShown(s.rays, x_px, y_px, hn::LoadU(d, depth + at));
+      const V3 light = {hn::Load(d, scratch.red.data() + at),
+                        hn::Load(d, scratch.green.data() + at),
+                        hn::Load(d, scratch.blue.data() + at)};
+      const V3 laid = LayClouds(seen, distance, light);
+      hn::Store(laid.x, d, scratch.red.data() + at);
+      hn::Store(laid.y, d, scratch.green.data() + at);
+      hn::Store(laid.z, d, scratch.blue.data() + at);
+    }
+}
+
+// The same before the fragments, but for those of pixels' centres.
+inline HWY_NOINLINE void LayCloudsOverFragments(const Shading& s,
+                                                std::span<const EdgeFragment> fragments,
+                                                ShadeScratch& scratch) {
+  if (!s.clouds || !s.clouds->any || s.media.submerged) return;
+  const D d;
+  for (std::size_t n = 0; n < fragments.size(); n += kLanes) {
+    HWY_ALIGN std::array<float, kLanes> x{}, y{}, z{};
+    for (std::size_t i = 0; i < std::min(kLanes, fragments.size() - n); ++i)
+      x[i] = fragments[n + i].x_px, y[i] = fragments[n + i].y_px, z[i] = fragments[n + i].z;
+    const V x_px = hn::Load(d, x.data()), y_px = hn::Load(d, y.data());
+    const V3 light = {hn::Load(d, scratch.fragment_red.data() + n),
+                      hn::Load(d, scratch.fragment_green.data() + n),
+                      hn::Load(d, scratch.fragment_blue.data() + n)};
+    const V3 laid = LayClouds(CloudsAt(*s.clouds, x_px, y_px),
+                              DistanceShown(s.rays, x_px, y_px, hn::Load(d, z.data())), light);
+    hn::Store(laid.x, d, scratch.fragment_red.data() + n);
+    hn::Store(laid.y, d, scratch.fragment_green.data() + n);
+    hn::Store(laid.z, d, scratch.fragment_blue.data() + n);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,57 @@
+// The volumetric clouds of a window: rays for every eighth pixel of every eighth row, for every
+// fourth where those differ (from high up for half of these), and what a pixel sees up to its own
+// depth from the four nodes around it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/materials/volume_clouds.h"
+#include "render/profile.h"
+
+namespace swell::render {
+
+struct Shading;
+
+struct CloudPicture {
+  static constexpr int kStepLog2 = 2, kLeastStepLog2 = 1;
+  static constexpr std::size_t kPadding = 32;  // nodes after a row's last, for whole vectors
+
+  bool any = false;
+  std::uint8_t step_log2 = kStepLog2;  // less from high up, where clouds are small
+  int columns = 0, rows = 0;
+  std::size_t stride = 0;
+  // Nodes at pixels (s i, s j), s = 2^step_log2: the light of clouds as it arrives (red, green,
+  // blue), the part of what lies behind that they hide, and this times the distances where they
+  // begin and end.
+  static constexpr std::size_t kChannels = 6, kOpacity = 3, kFront = 4, kBack = 5;
+  std::array<std::vector<float>, kChannels> nodes;
+
+  int step() const { return 1 << step_log2; }
+};
+
+// Draws the clouds that the window of `shading` sees.
+void draw_clouds(const Shading& shading, const VolumeClouds& clouds, CloudPicture& picture,
+                 const StageRun& run);
+
+// The clouds over the sea as the blurred sky shows them (SkyMaps::soft): texels of kSide^2, of
+// light and of the part that passes.
+struct CloudSky {
+  static constexpr int kSide = 64;
+  bool any = false;
+  static constexpr std::size_t kChannels = 4, kOpacity = 3;
+  std::array<std::vector<float>, kChannels> texels;
+};
+
+// clouds: as seen from the sea's level under the eye. horizon, inv_haze_m, inv_haze_height_m:
+// colour and density of the haze that far clouds are lost in.
+struct CloudAir {
+  glm::vec3 horizon{0.0f};
+  float inv_haze_m = 0.0f, inv_haze_height_m = 0.0f;
+};
+void draw_cloud_sky(const VolumeClouds& clouds, const CloudAir& air, CloudSky& sky,
+                    const StageRun& run);
+void write_cloud_sky_row(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSky& sky);
+
+}  // namespace swell::render

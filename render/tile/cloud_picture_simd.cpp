@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "math/check.h"
+#include "render/tile/cloud_rows.h"
+#include "render/tile/shading.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/tile/cloud_picture_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+//
+#include "render/materials/cloud_volume-inl.h"
+#include "render/tile/attenuate-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// What a cloud shows at a distance along a ray of length 1, as a packet, for the air before it.
+HWY_INLINE Packet CloudPacket(const Shading& s, V3 direction, V distance) {
+  Packet packet;
+  packet.x_px = packet.y_px = packet.depth = hn::Zero(D());
+  packet.distance = distance;
+  packet.p = Scale(direction, distance);
+  packet.to_eye = Scale(direction, Constant(-1.0f));
+  const V horizontal2 = hn::MulAdd(direction.x, direction.x, hn::Mul(direction.y, direction.y));
+  const V sunk = hn::Mul(hn::Mul(horizontal2, distance), Constant(s.rays.drop_per_m2));
+  packet.p.z = hn::MulAdd(sunk, distance, packet.p.z);
+  packet.to_eye.z = hn::Sub(packet.to_eye.z, hn::Add(sunk, sunk));
+  return packet;
+}
+
+// What nodes show, in the channels of CloudPicture.
+using NodeChannels = std::array<V, CloudPicture::kChannels>;
+
+NodeChannels SeeNodes(const Shading& s, const VolumeClouds& clouds, V x_px, V y_px) {
+  const D d;
+  const V3 ray = RayAt(s.rays, x_px, y_px);
+  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  const CloudLightSeen seen = SeeClouds(clouds, direction, Constant(kFarthestCloud_m));
+  V3 light = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  if (!hn::AllFalse(d, hn::Gt(seen.opacity, hn::Zero(d)))) {
+    // The air before what is hidden shows as much of the cloud as is seen.
+    const V inverse = hn::Div(Constant(1.0f), hn::Max(seen.opacity, Constant(1e-6f)));
+    const V3 own = Scale(RadianceOf(clouds, seen), inverse);
+    light = Scale(ThroughAir(s, CloudPacket(s, direction, seen.distance), own), seen.opacity);
+  }
+  return {light.x,
+          light.y,
+          light.z,
+          seen.opacity,
+          hn::Mul(seen.opacity, seen.front),
+          hn::Mul(seen.opacity, seen.back)};
+}
+
+// Nodes of two rows to follow rays of, column by column, so that those of a packet lie together.
+struct NodeList {
+  struct Node {
+    int i, j;
+  };
+  std::array<Node, 2 * ((raster::kMaxViewport >> CloudPicture::kLeastStepLog2) + 3)> at;
+  std::size_t count = 0;
+
+  void add(int i, int j) { at[count++] = {i, j}; }
+};
+
+void DrawNodes(const Shading& s, const VolumeClouds& clouds, const NodeList& list,
+               CloudPicture& picture) {
+  const D d;
+  const auto step = static_cast<float>(picture.step());
+  constexpr std::size_t kWidth = hn::MaxLanes(D());
+  for (std::size_t n = 0; n < list.count; n += kWidth) {
+    HWY_ALIGN std::array<float, kWidth> x_px, y_px, values;
+    const std::size_t used = std::min(list.count - n, kWidth);
+    for (std::size_t i = 0; i < kWidth; ++i) {
+      const NodeList::Node node = list.at[n + std::min(i, used - 1)];
+      x_px[i] = step * static_cast<float>(node.i), y_px[i] = step * static_cast<float>(node.j);
+    }
+    const NodeChannels seen =
+        SeeNodes(s, clouds, hn::Load(d, x_px.data()), hn::Load(d, y_px.data()));
+    for (std::size_t channel = 0; channel < seen.size(); ++channel) {
+      hn::Store(seen[channel], d, values.data());
+      for (std::size_t i = 0; i < used; ++i) {
+        const NodeList::Node node = list.at[n + i];
+        picture.nodes[channel][static_cast<std::size_t>(node.j) * picture.stride + node.i] =
+            values[i];
+      }
+    }
+  }
+}
+
+void CoarseCloudRows(const Shading& s, const VolumeClouds& clouds, int j, CloudPicture& picture) {
+  NodeList list;
+  for (int i = 0; i < picture.columns; i += 2)
+    for (int row = j; row < std::min(j + 4, picture.rows); row += 2) list.add(i, row);
+  DrawNodes(s, clouds, list, picture);
+}
+
+// Whether the coarse nodes around (i, j), both odd, show about the same.
+bool IsEven(const CloudPicture& picture, int i, int j) {
+  constexpr float kLeast = 0.02f, kLight = 0.12f, kDistance = 0.2f;
+  const std::size_t above = static_cast<std::size_t>(j - 1) * picture.stride;
+  const std::size_t below = above + 2 * picture.stride;
+  for (std::size_t channel = 0; channel < CloudPicture::kChannels; ++channel) {
+    const float* const left = picture.nodes[channel].data() + i - 1;
+    const auto [low, high] =
+        std::minmax({left[above], left[above + 2], left[below], left[below + 2]});
+    const float part = channel > CloudPicture::kOpacity ? kDistance : kLight;
+    if (high - low > kLeast + part * high) return false;
+  }
+  return true;
+}
+
+// Puts nodes that are not coarse between coarse ones, or on the list if a cell beside them is not
+// even.
+void FineCloudNode(CloudPicture& picture, int i, int j, NodeList& list) {
+  const auto even_at = [&](int column, int row) {
+    return column < 0 || row < 0 || column >= picture.columns || row >= picture.rows ||
+           IsEven(picture, column, row);
+  };
+  const int across = i % 2, down = j % 2;
+  if (!even_at(i - 1 + across, j - 1 + down) || !even_at(i + 1 - across, j + 1 - down)) {
+    list.add(i, j);
+    return;
+  }
+  const std::size_t here = static_cast<std::size_t>(j) * picture.stride + i;
+  const auto x = static_cast<std::size_t>(across);
+  const std::size_t y = static_cast<std::size_t>(down) * picture.stride;
+  for (std::vector<float>& nodes : picture.nodes)
+    nodes[here] = 0.25f * ((nodes[here - x - y] + nodes[here + x - y]) +
+                           (nodes[here - x + y] + nodes[here + x + y]));
+}
+
+void FineCloudRows(const Shading& s, const VolumeClouds& clouds, int j, CloudPicture& picture) {
+  NodeList list;
+  for (int i = 0; i < picture.columns; ++i)
+    for (int row = j; row < std::min(j + 2, picture.rows); ++row)
+      if (i % 2 != 0 || row % 2 != 0) FineCloudNode(picture, i, row, list);
+  DrawNodes(s, clouds, list, picture);
+}
+
+void CloudSkyRow(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSky& sky) {
+  const D d;
+  const V one = Constant(1.0f);
+  constexpr float kTexel = 2.0f / CloudSky::kSide;
+  const V v = Constant(kTexel * (static_cast<float>(y) + 0.5f) - 1.0f);
+  for (int x = 0; x < CloudSky::kSide; x += static_cast<int>(hn::Lanes(d))) {
+    const V column = hn::Add(hn::ConvertTo(d, CountFrom(x)), Constant(0.5f));
+    const V u = hn::MulSub(column, Constant(kTexel), one);
+    const V r2 = hn::MulAdd(u, u, hn::Mul(v, v));
+    const V z = hn::Max(hn::Div(hn::Sub(one, r2), hn::Add(one, r2)), Constant(0.004f));
+    const V across = hn::Sqrt(hn::Div(hn::NegMulAdd(z, z, one), hn::Max(r2, Constant(1e-12f))));
+    const CloudLightSeen seen =
+        SeeClouds(clouds, {hn::Mul(u, across), hn::Mul(v, across), z}, Constant(kFarthestCloud_m));
+    const V height = hn::Mul(seen.distance, z);
+    const V density =
+        hn::Div(Constant(air.inv_haze_m), hn::MulAdd(height, Constant(air.inv_haze_height_m), one));
+    const V clear = Exp(d, hn::Neg(hn::Mul(seen.distance, density)));
+    const V3 light =
+        Lerp(Scale(Constant(air.horizon), seen.opacity), RadianceOf(clouds, seen), clear);
+    const std::size_t at =
+        static_cast<std::size_t>(y) * CloudSky::kSide + static_cast<std::size_t>(x);
+    hn::StoreU(light.x, d, &sky.texels[0][at]);
+    hn::StoreU(light.y, d, &sky.texels[1][at]);
+    hn::StoreU(light.z, d, &sky.texels[2][at]);
+    hn::StoreU(seen.opacity, d, &sky.texels[CloudSky::kOpacity][at]);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::render {
+
+HWY_EXPORT(CoarseCloudRows);
+HWY_EXPORT(FineCloudRows);
+HWY_EXPORT(CloudSkyRow);
+
+void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int j,
+                         CloudPicture& picture) {
+  SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && j % 4 == 0, "row={} of {}", j,
+              picture.rows);
+  HWY_DYNAMIC_DISPATCH(CoarseCloudRows)(shading, clouds, j, picture);
+}
+
+void write_fine_clouds(const Shading& shading, const VolumeClouds& clouds, int j,
+                       CloudPicture& picture) {
+  SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && j % 2 == 0, "row={} of {}", j,
+              picture.rows);
+  HWY_DYNAMIC_DISPATCH(FineCloudRows)(shading, clouds, j, picture);
+}
+
+void write_cloud_sky_row(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSky& sky) {
+  SWELL_CHECK(clouds.any() && y >= 0 && y < CloudSky::kSide, "row={}", y);
+  HWY_DYNAMIC_DISPATCH(CloudSkyRow)(clouds, air, y, sky);
+}
+
+}  // namespace swell::render
+#endif  // HWY_ONCE

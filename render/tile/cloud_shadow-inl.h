@@ -1,0 +1,72 @@
+// What clouds leave of the sun, for the materials.
+#if defined(SWELL_RENDER_TILE_CLOUD_SHADOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_CLOUD_SHADOW_INL_H_
+#undef SWELL_RENDER_TILE_CLOUD_SHADOW_INL_H_
+#else
+#define SWELL_RENDER_TILE_CLOUD_SHADOW_INL_H_
+#endif
+
+#include "render/tile/packet-inl.h"
+#include "render/world/cloud_shadow.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// The shadow at (u, v) in texels of a level, as bytes.
+HWY_INLINE V CloudShadowTexel(const std::vector<std::uint32_t>& words, V u, V v) {
+  const D d;
+  const DI di;
+  constexpr float kLast = CloudShadow::kSide - 1;
+  const V x = Clamp(u, 0.0f, kLast), y = Clamp(v, 0.0f, kLast);
+  const VI i = TruncateToInt(x), j = TruncateToInt(y);
+  const V s = hn::Sub(x, hn::ConvertTo(d, i)), t = hn::Sub(y, hn::ConvertTo(d, j));
+  static_assert(CloudShadow::kSide == 128);
+  const VI word = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(words.data()),
+                                  hn::Add(hn::ShiftLeft<7>(j), i));
+  const VI byte = hn::Set(di, 0xff);
+  const auto value = [&](VI bits) HWY_ATTR { return hn::ConvertTo(d, hn::And(bits, byte)); };
+  return Lerp(Lerp(value(word), value(hn::ShiftRight<8>(word)), s),
+              Lerp(value(hn::ShiftRight<16>(word)), value(hn::ShiftRight<24>(word)), s), t);
+}
+
+// The sun that clouds leave at p, relative to the eye, over what they leave of it on average. A
+// function of its own: what it takes would cost the shaders registers.
+inline HWY_NOINLINE V SunUnderClouds(const CloudShadow& shadow, const V3& p, float eye_z) {
+  const D d;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  constexpr float kMiddle = 0.5f * CloudShadow::kSide, kWhole = 0.42f * CloudShadow::kSide;
+  const V z = hn::Add(p.z, Constant(eye_z));
+  const V x = hn::NegMulAdd(z, Constant(shadow.slant.x), p.x);
+  const V y = hn::NegMulAdd(z, Constant(shadow.slant.y), p.y);
+  V sum = zero, left = one;
+  for (std::size_t level = 0; level < CloudShadow::kLevels; ++level) {
+    const V per_m = Constant(1.0f / CloudShadow::kTexels_m[level]);
+    const V u = hn::MulAdd(x, per_m, Constant(shadow.eye[level].x));
+    const V v = hn::MulAdd(y, per_m, Constant(shadow.eye[level].y));
+    // Towards its edge a level gives way to the next.
+    const V aside =
+        hn::Max(hn::Abs(hn::Sub(u, Constant(kMiddle))), hn::Abs(hn::Sub(v, Constant(kMiddle))));
+    const V inside = Clamp(hn::Mul(hn::Sub(Constant(kMiddle - 1.0f), aside),
+                                   Constant(1.0f / (kMiddle - 1.0f - kWhole))),
+                           0.0f, 1.0f);
+    const V part = hn::Mul(inside, left);
+    if (!hn::AllFalse(d, hn::Gt(part, zero)))
+      sum = hn::MulAdd(part, CloudShadowTexel(shadow.words[level], u, v), sum);
+    left = hn::Sub(left, part);
+    if (hn::AllFalse(d, hn::Gt(left, zero))) break;
+  }
+  const V visible =
+      hn::MulAdd(sum, Constant(shadow.most / 255.0f), hn::Mul(left, Constant(shadow.mean)));
+  const V above = hn::Sub(z, Constant(shadow.lit_from_m));
+  if (hn::AllFalse(d, hn::Gt(above, zero))) return visible;
+  const V over =
+      Clamp(hn::Mul(above, Constant(1.0f / (shadow.lit_all_m - shadow.lit_from_m))), 0.0f, 1.0f);
+  return Lerp(visible, one, over);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,270 @@
+// Fog on the way to the eye: what a way loses, and what it scatters to the eye. scene/fog.h has the
+// forms and names their papers.
+#if defined(SWELL_RENDER_TILE_FOG_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_FOG_INL_H_
+#undef SWELL_RENDER_TILE_FOG_INL_H_
+#else
+#define SWELL_RENDER_TILE_FOG_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "render/materials/fog.h"
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Further than all that fog lies before.
+constexpr float kEndless_m = 1e7f;
+
+// A way away from the eye: where it begins, its direction of length 1, its length, and how far it
+// ends over the sea.
+struct FogRay {
+  const FogStart& start;
+  V3 direction;
+  V distance;
+  V end_height;
+};
+
+// What of it lies in fog.
+struct FogPath {
+  V before;   // of the way, not in fog yet [m]
+  V amount;   // as metres of fog of sea level
+  V leaning;  // amount (1 - w / s), w the mean sine of its elevation, s that of the sun's
+};
+
+HWY_INLINE V Leaning(const Fog& fog, V amount, V rise) {
+  return hn::NegMulAdd(hn::Mul(amount, rise), Constant(1.0f / fog.sun_sine), amount);
+}
+
+// Of a straight line over a round earth, whose height is that of a parabola, what lies under the
+// top: begin to end.
+HWY_INLINE FogPath PathInSlab(const Fog& fog, const FogRay& ray) {
+  const D d;
+  const V zero = hn::Zero(d), least = Constant(1e-9f);
+  const V rise = ray.direction.z;
+  const float c = fog.drop_per_m2, under_top_m = fog.top_m - ray.start.height_m;
+  const V under_root = hn::MulAdd(rise, rise, Constant(4.0f * c * under_top_m));
+  const V root = hn::Sqrt(hn::Max(under_root, zero));
+  V begin = zero, end;
+  if (under_top_m >= 0.0f) {
+    end = hn::Div(Constant(2.0f * under_top_m), hn::Max(hn::Add(rise, root), least));
+  } else {
+    const V down = hn::Sub(root, rise);
+    const auto meets = hn::And(hn::Lt(rise, zero), hn::Gt(under_root, zero));
+    const V comes = hn::Div(Constant(-2.0f * under_top_m), hn::Max(down, least));
+    begin = hn::Min(hn::IfThenElse(meets, comes, ray.distance), ray.distance);
+    end = hn::Mul(down, Constant(0.5f / std::max(c, 1e-12f)));
+  }
+  end = hn::Max(hn::Min(end, ray.distance), begin);
+  const V amount = hn::Sub(end, begin);
+  const V mean_rise = hn::MulAdd(hn::Add(begin, end), Constant(c), rise);
+  return {begin, amount, Leaning(fog, amount, mean_rise)};
+}
+
+// (1 - e^-x) / x of x >= 0.
+HWY_INLINE V MeanPassing(V x) {
+  const V one = Constant(1.0f);
+  const V e = Exp(D(), hn::Neg(hn::Min(x, Constant(80.0f))));
+  const V series = hn::NegMulAdd(hn::NegMulAdd(x, Constant(1.0f / 6.0f), Constant(0.5f)), x, one);
+  return hn::IfThenElse(hn::Lt(x, Constant(0.02f)), series, hn::Div(hn::Sub(one, e), x));
+}
+
+// Of fog that thins as e^(-z / H) the mean along a straight line between two heights.
+HWY_INLINE FogPath PathInThinningFog(const Fog& fog, const FogRay& ray) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const float inv_top = 1.0f / fog.top_m, start_m = std::max(ray.start.height_m, 0.0f);
+  const V end_m = hn::Max(ray.end_height, zero);
+  const V low = hn::Min(end_m, Constant(start_m));
+  const V apart = hn::Mul(hn::Abs(hn::Sub(end_m, Constant(start_m))), Constant(inv_top));
+  const V density = Exp(d, hn::Neg(hn::Min(hn::Mul(low, Constant(inv_top)), Constant(80.0f))));
+  const V amount = hn::Mul(hn::Mul(density, ray.distance), MeanPassing(apart));
+  const V rise = hn::Div(hn::Sub(end_m, Constant(start_m)), hn::Max(ray.distance, Constant(1e-3f)));
+  // From twice its height up fog lies at the end of the way.
+  const V fall = hn::Max(hn::Sub(Constant(start_m), end_m), Constant(1e-3f));
+  const V before = Clamp(hn::Div(Constant(start_m - 2.0f * fog.top_m), fall), 0.0f, 1.0f);
+  return {hn::Mul(before, ray.distance), amount, Leaning(fog, amount, rise)};
+}
+
+// Of fog that thins, all that a ray into the sky meets.
+HWY_INLINE FogPath PathToSky(const Fog& fog, const FogRay& ray) {
+  if (!fog.is_exponential) return PathInSlab(fog, ray);
+  // Chapman's path of level rays, sqrt(pi R H / 2): as over a flat earth with the sine
+  // sqrt(4 c H / pi).
+  const V rise = ray.direction.z;
+  const V bent = Constant(5.0929582f * fog.drop_per_m2 * fog.top_m);
+  const V sine = hn::Mul(hn::Add(rise, hn::Sqrt(hn::MulAdd(rise, rise, bent))), Constant(0.5f));
+  const V amount = hn::Div(Constant(ray.start.above_m), hn::Max(sine, Constant(1e-6f)));
+  return {hn::Zero(D()), amount, Leaning(fog, amount, sine)};
+}
+
+// cos(2 pi x) of |x| below 2^22. Absolute error 5e-7.
+HWY_INLINE V CosTurns(V x) {
+  const V r = hn::Sub(x, hn::Round(x));
+  const V r2 = hn::Mul(r, r);
+  // (cos(2 pi r) - 1) / r^2 in r^2, at Chebyshev nodes.
+  V p = hn::MulAdd(Constant(6.71221733f), r2, Constant(-26.0995922f));
+  p = hn::MulAdd(p, r2, Constant(60.2028008f));
+  p = hn::MulAdd(p, r2, Constant(-85.4543839f));
+  p = hn::MulAdd(p, r2, Constant(64.9393387f));
+  p = hn::MulAdd(p, r2, Constant(-19.7392082f));
+  return hn::MulAdd(p, r2, Constant(1.0f));
+}
+
+// The mean density between two places on a ray, against that of fog without banks. That of a wave
+// is the difference of the ends' cosines over the angle between them; over short ways its value in
+// the middle.
+HWY_INLINE V MeanOfBanks(const Fog& fog, const FogRay& ray, const FogPath& path) {
+  constexpr float kTurn = 6.2831853f, kShortTurns = 4e-3f;
+  const D d;
+  const V zero = hn::Zero(d);
+  const V end = hn::Min(hn::Add(path.before, path.amount), hn::Min(ray.distance, Constant(1e5f)));
+  const V begin = hn::Min(path.before, end);
+  const V length = hn::Sub(end, begin);
+  const auto from_start = hn::Eq(begin, zero);
+  const bool all_from_start = hn::AllTrue(d, from_start);
+  V density = Constant(1.0f);
+  for (int i = 0; i < fog.bank_count; ++i) {
+    const FogBank& bank = fog.banks[static_cast<std::size_t>(i)];
+    const V at_eye = Constant(bank.turns);
+    const V per_m = hn::MulAdd(ray.direction.x, Constant(bank.turns_per_m.x),
+                               hn::Mul(ray.direction.y, Constant(bank.turns_per_m.y)));
+    const V turns = hn::Mul(per_m, length);
+    V near = Constant(bank.cosine);
+    if (!all_from_start)
+      near = hn::IfThenElse(from_start, near, CosTurns(hn::MulAdd(per_m, begin, at_eye)));
+    const V apart = hn::Sub(near, CosTurns(hn::MulAdd(per_m, end, at_eye)));
+    const auto is_short = hn::Lt(hn::Abs(turns), Constant(kShortTurns));
+    V wave = hn::Div(hn::Mul(apart, Constant(1.0f / kTurn)), turns);
+    if (!hn::AllFalse(d, is_short)) {
+      const V middle = hn::Mul(hn::Add(begin, end), Constant(0.5f));
+      const V sine = CosTurns(hn::MulAdd(per_m, middle, hn::Sub(at_eye, Constant(0.25f))));
+      wave = hn::IfThenElse(is_short, sine, wave);
+    }
+    density = hn::MulAdd(wave, Constant(bank.amount), density);
+  }
+  return hn::Max(density, zero);
+}
+
+// What a way does to light of one channel: the part of it that passes, and what is scattered once
+// of a sun whose irradiance and phase function are 1.
+struct FogEffect {
+  V passes, once;
+};
+
+// upright: amount over leaning.
+HWY_INLINE FogEffect EffectOf(const Fog& fog, const FogStart& start, const FogPath& path, V upright,
+                              int channel) {
+  const D d;
+  const V per_m = Constant(fog.per_m[channel]);
+  const V depth = hn::Min(hn::Mul(path.amount, per_m), Constant(80.0f));
+  const V passes = Exp(d, hn::Neg(depth));
+  if (fog.is_paper) {
+    const V lost = hn::Sub(Constant(1.0f), passes);
+    return {passes, hn::Mul(lost, Constant(fog.at_sea.sun_passes[channel]))};
+  }
+  // e^-b (1 - e^-x) / x, b that of the sun's way to where this one begins.
+  const float b = std::min(fog.per_m[channel] * start.above_m / fog.sun_sine, 80.0f);
+  const V begin = Constant(start.sun_passes[channel]);
+  const V x = hn::Mul(path.leaning, per_m);
+  const V end = Exp(d, hn::Neg(Clamp(hn::Add(x, Constant(b)), 0.0f, 80.0f)));
+  const auto is_small = hn::Lt(hn::Abs(x), Constant(0.03f));
+  const V series =
+      hn::NegMulAdd(hn::NegMulAdd(x, Constant(1.0f / 6.0f), Constant(0.5f)), x, Constant(1.0f));
+  return {passes, hn::IfThenElse(is_small, hn::Mul(hn::Mul(depth, begin), series),
+                                 hn::Mul(hn::Sub(begin, end), upright))};
+}
+
+// The light that fog leaves of what is seen through it, and adds.
+struct FogView {
+  V3 passes, added;
+};
+
+// Of the sun's light in a direction of length 1, Blinn's lobe without its factors.
+HWY_INLINE V FogPhase(const Fog& fog, V3 direction) {
+  const V cosine = Dot(direction, Constant(fog.to_sun));
+  const V under = hn::NegMulAdd(cosine, Constant(2.0f * fog.forward),
+                                Constant(1.0f + fog.forward * fog.forward));
+  return hn::Div(Constant(1.0f), hn::Mul(under, hn::Sqrt(under)));
+}
+
+HWY_INLINE FogView SeeFog(const Fog& fog, const FogRay& ray, FogPath path, V phase) {
+  const V one = Constant(1.0f);
+  const V upright = hn::Div(path.amount, path.leaning);
+  if (fog.bank_count > 0) {
+    const V density = MeanOfBanks(fog, ray, path);
+    path.amount = hn::Mul(path.amount, density);
+    path.leaning = hn::Mul(path.leaning, density);
+  }
+  const auto added = [&](const FogEffect& effect, int channel) HWY_ATTR {
+    return hn::MulAdd(hn::Mul(phase, effect.once), Constant(fog.scattered[channel]),
+                      hn::Mul(hn::Sub(one, effect.passes), Constant(fog.even[channel])));
+  };
+  const FogEffect red = EffectOf(fog, ray.start, path, upright, 0);
+  if (fog.is_grey)
+    return {{red.passes, red.passes, red.passes}, {added(red, 0), added(red, 1), added(red, 2)}};
+  const FogEffect green = EffectOf(fog, ray.start, path, upright, 1);
+  const FogEffect blue = EffectOf(fog, ray.start, path, upright, 2);
+  return {{red.passes, green.passes, blue.passes},
+          {added(red, 0), added(green, 1), added(blue, 2)}};
+}
+
+HWY_INLINE FogView SeeFog(const Fog& fog, const FogRay& ray, const FogPath& path) {
+  return SeeFog(fog, ray, path, FogPhase(fog, ray.direction));
+}
+
+HWY_INLINE V3 ThroughFog(const FogView& view, V3 light) {
+  return {hn::MulAdd(light.x, view.passes.x, view.added.x),
+          hn::MulAdd(light.y, view.passes.y, view.added.y),
+          hn::MulAdd(light.z, view.passes.z, view.added.z)};
+}
+
+// To a place. A way with both ends in a slab lies in it whole: from an eye in the fog the sea does.
+HWY_INLINE FogPath PathTo(const Fog& fog, const FogRay& ray) {
+  if (fog.is_exponential) return PathInThinningFog(fog, ray);
+  if (ray.start.height_m > fog.top_m) return PathInSlab(fog, ray);
+  const V up = hn::Sub(ray.end_height, Constant(ray.start.height_m));
+  const FogPath whole = {hn::Zero(D()), ray.distance,
+                         hn::NegMulAdd(up, Constant(1.0f / fog.sun_sine), ray.distance)};
+  const auto is_whole = hn::Le(ray.end_height, Constant(fog.top_m));
+  if (hn::AllTrue(D(), is_whole)) return whole;
+  const FogPath part = PathInSlab(fog, ray);
+  return {hn::IfThenZeroElse(is_whole, part.before),
+          hn::IfThenElse(is_whole, whole.amount, part.amount),
+          hn::IfThenElse(is_whole, whole.leaning, part.leaning)};
+}
+
+// The fog before the sky, in a direction of length 1.
+static HWY_NOINLINE FogView SkyFog(const Fog& fog, const FogStart& start, V3 direction) {
+  const FogRay ray = {start, direction, Constant(kEndless_m), Constant(kEndless_m)};
+  return SeeFog(fog, ray, PathToSky(fog, ray));
+}
+
+HWY_INLINE V3 SkyThroughFog(const Fog& fog, const FogStart& start, V3 direction, V3 light) {
+  return ThroughFog(SkyFog(fog, start, direction), light);
+}
+
+// How much more of the sun there is at a height over the eye than at the sea, as the mean of the
+// channels has it: what stands out of fog is bright.
+HWY_INLINE V SunOverFog(const Fog& fog, V height) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const V z = hn::Max(hn::Add(height, Constant(fog.at_eye.height_m)), zero);
+  const V thinner =
+      fog.is_exponential
+          ? hn::Sub(
+                Constant(1.0f),
+                Exp(d, hn::Neg(hn::Min(hn::Mul(z, Constant(1.0f / fog.top_m)), Constant(80.0f)))))
+          : hn::Min(hn::Mul(z, Constant(1.0f / fog.top_m)), Constant(1.0f));
+  const float depth = fog.at_sea.above_m * fog.per_m.y / fog.sun_sine;
+  return Exp(d, hn::Mul(thinner, Constant(std::min(depth, 80.0f))));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,356 @@
+// Stage 3: trees, of as many triangles as each takes where it is seen.
+//
+// How many follows from the size that a tree has in the picture, without steps: the last triangle
+// of a crown grows from nothing, and all the others shrink meanwhile (scene/tree_shape.h). Trees
+// that are only a few pixels high get fewer and broader, by their ranks, and sink into the land at
+// last, which by then has their colour (render/materials/canopy-inl.h).
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/elementary.h"
+#include "math/smoothstep.h"
+#include "ocean/sea_state.h"
+#include "render/view/choose_trees.h"
+#include "render/view/render_view.h"
+#include "render/world/forest.h"
+
+namespace swell::render {
+namespace {
+
+// Of a crown's box, for each triangle: of leaves, of blades.
+constexpr float kLeaf_px2 = 75.0f, kBlade_px2 = 16.0f;
+// Trees of these heights have as few triangles as one, and as few as their shape needs.
+constexpr float kOneLeaf_px = 5.0f, kFewLeaves_px = 8.0f;
+constexpr float kGrown_px = 4.0f;   // trees of this height have all of it
+constexpr float kSways_px = 16.0f;  // trees of less height do not sway, of twice that do
+constexpr std::size_t kCellsAtOnce = 8, kTreesAhead = 4;
+
+// What trees of a kind of view are drawn from.
+struct TreeView {
+  const Forest& forest;
+  TreeSight sight;
+  glm::vec2 wind;   // where it goes to, times how far a tree of height 1 bends
+  glm::vec2 turns;  // of two swings, in time
+};
+
+TreeView tree_view(const World::State& world, const RenderView& view, bool shows_all, double t_s) {
+  const ocean::SeaDescription& sea = world.scene.sea;
+  const View& camera = view.camera;
+  const double blows = std::min(sea.wind_speed_mps / 20.0, 1.0);
+  const SinCos from = {sin(sea.wind_from_rad), cos(sea.wind_from_rad)};
+  const auto turns = [&](double per_s) {
+    const double t = t_s * (sea.loop_s > 0.0 ? ocean::looping_frequency(per_s, sea.loop_s) : per_s);
+    return static_cast<float>(t - std::floor(t));
+  };
+  return {*world.forest,
+          {.planes = frustum_planes(camera),
+           .origin_rel = glm::vec3(world.forest->trees.origin - camera.eye_world),
+           .px = static_cast<float>(camera.width_px) / (2.0f * camera.tan_half_x),
+           .drop_per_m2 = view.drop_per_m2,
+           .mirror_rel_m = -static_cast<float>(camera.eye_world.z),
+           .is_mirrored = view.kind == ViewKind::kReflection,
+           .shows_all = shows_all},
+          glm::vec2(-from.sin, -from.cos) * static_cast<float>(0.035 * blows),
+          {turns(0.31), turns(0.47)}};
+}
+
+// Whether the view shows any of a ball where a round earth puts it.
+bool in_view(const TreeSight& sight, glm::vec3 p_rel, float radius_m) {
+  if (sight.is_mirrored) p_rel.z = 2.0f * sight.mirror_rel_m - p_rel.z;
+  p_rel.z -= (p_rel.x * p_rel.x + p_rel.y * p_rel.y) * sight.drop_per_m2;
+  return std::ranges::all_of(sight.planes, [&](const glm::vec4& plane) {
+    return glm::dot(glm::vec3(plane), p_rel) + plane.w >= -1.02f * radius_m;
+  });
+}
+
+// Cells that the views may show, nearest first.
+void list_cells(const TreeView& view, TreeDraws& draws) {
+  draws.cells.clear();
+  const std::vector<terrain::TreeCell>& cells = view.forest.trees.cells;
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    const glm::vec3 middle = view.sight.origin_rel + cells[i].middle;
+    const float distance_m =
+        std::max(std::sqrt(glm::dot(middle, middle)) - cells[i].radius_m, 0.1f);
+    if (cells[i].tallest_m * view.sight.px < kLastTree_px * distance_m) continue;
+    if (view.sight.shows_all || in_view(view.sight, middle, cells[i].radius_m))
+      draws.cells.push_back({.cell = i, .distance_m = distance_m});
+  }
+  std::ranges::sort(draws.cells, {},
+                    [](const DrawnCell& cell) { return std::pair(cell.distance_m, cell.cell); });
+}
+
+const scene::TreeShape& shape_of(const TreeView& view, const DrawnTree& drawn) {
+  return view.forest.shapes[drawn.species];
+}
+
+// Trees of one species differ in colour.
+glm::vec3 leaves_of(const DrawnTree& drawn) {
+  const auto part = [](std::uint32_t bits) {
+    return static_cast<float>(bits & 0xff) * (1.0f / 255.0f) - 0.5f;
+  };
+  const float yellow = part(drawn.looks >> 8), bright = part(drawn.looks >> 16);
+  return tree_look(static_cast<terrain::TreeSpecies>(drawn.species)).albedo *
+         glm::vec3(1.0f + 0.4f * yellow, 1.0f + 0.1f * yellow, 1.0f) * (1.0f + 0.45f * bright);
+}
+
+// What a tree's pixels need, once its sizes are set.
+void prepare_shading(const TreeView& view, DrawnTree& drawn) {
+  drawn.crown_begin_m = shape_of(view, drawn).crown_begin * drawn.height_m;
+  drawn.inverse_crown_m = 1.0f / (drawn.height_m - drawn.crown_begin_m);
+  drawn.inverse_radius_m = 1.0f / drawn.radius_m;
+  drawn.crowding = view.forest.crowding[drawn.tree];
+  drawn.leaves_albedo = leaves_of(drawn);
+  const glm::vec2 away(drawn.foot_rel);
+  const float level = std::sqrt(std::max(glm::dot(away, away), 1e-6f));
+  drawn.aside = {away.y / level, -away.x / level};
+}
+
+// Triangles of a crown whose box is so large in the picture.
+float leaves_in(const scene::TreeShape& shape, float box_px2, float height_px) {
+  const float small = smoothstep(kOneLeaf_px, kFewLeaves_px, height_px);
+  const float least = 1.0f + small * (shape.fewest_leaves - 1.0f);
+  return std::clamp(box_px2 / (shape.is_blades ? kBlade_px2 : kLeaf_px2), least,
+                    static_cast<float>(shape.leaves.size()));
+}
+
+// How a tree that is drawn is.
+DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
+  const TreeColumns& trees = view.forest.columns;
+  const glm::vec3 foot(trees.x_m[number], trees.y_m[number], trees.z_m[number]);
+  const float full_height_m = trees.height_m[number], full_radius_m = trees.radius_m[number];
+  DrawnTree drawn{.foot_rel = view.sight.origin_rel + foot,
+                  .tree = number,
+                  .looks = trees.looks[number],
+                  .species = trees.looks[number] >> 24};
+  const glm::vec3 middle = drawn.foot_rel + glm::vec3(0.0f, 0.0f, 0.5f * full_height_m);
+  const float px_per_m = view.sight.px / std::max(std::sqrt(glm::dot(middle, middle)), 0.1f);
+  const float height_px = full_height_m * px_per_m;
+  const float thinned_px = trees.thinned_px[number];
+  const float kept = part_of_trees(height_px, thinned_px);
+
+  // Those that go next shrink first, unless none go yet.
+  const float going =
+      kept < 1.0f ? std::clamp((kept - trees.rank[number]) / (0.25f * kept), 0.0f, 1.0f) : 1.0f;
+  const float grown = going * smoothstep(kLastTree_px, kGrown_px, height_px);
+  // By the power 5/8 of their number.
+  const float less = height_px / thinned_px;
+  const float broader = less < 1.0f ? 1.0f / (less * std::sqrt(std::sqrt(less))) : 1.0f;
+  const scene::TreeShape& shape = shape_of(view, drawn);
+  drawn.height_m = full_height_m * grown;
+  drawn.radius_m = full_radius_m * grown * broader;
+  const float box_px2 = 2.0f * full_radius_m * full_height_m * px_per_m * px_per_m;
+  drawn.leaves = leaves_in(shape, box_px2, height_px);
+  drawn.sways = smoothstep(kSways_px, 2.0f * kSways_px, height_px);
+  drawn.leaf_size = scene::leaf_size(shape, drawn.leaves);
+  drawn.triangles = static_cast<std::uint32_t>(std::ceil(drawn.leaves));
+  const float trunk_m = shape.trunk * drawn.height_m;
+  const float seen = std::clamp(4.0f * trunk_m * px_per_m - 1.0f, 0.0f, 1.0f);
+  drawn.trunk_m = trunk_m * seen;
+  if (seen > 0.0f) drawn.triangles += 2;
+  prepare_shading(view, drawn);
+  return drawn;
+}
+
+// Those of a cell's trees whose ranks are below what any of them may need, which come first.
+std::uint32_t trees_to_look_at(const TreeView& view, const DrawnCell& drawn) {
+  const terrain::TreeCell& cell = view.forest.trees.cells[drawn.cell];
+  const float most_kept =
+      part_of_trees(cell.tallest_m * view.sight.px / drawn.distance_m, kThinnedTree_px);
+  if (most_kept >= 1.0f) return cell.count;
+  const auto ranks = std::span(view.forest.columns.rank).subspan(cell.first, cell.count);
+  return static_cast<std::uint32_t>(std::ranges::lower_bound(ranks, most_kept) - ranks.begin());
+}
+
+// Draws a cell's trees: which, and of how many triangles.
+void choose_trees(const TreeView& view, DrawnCell& drawn, TreeDraws& draws) {
+  const std::uint32_t first = view.forest.trees.cells[drawn.cell].first;
+  std::uint32_t* const chosen = draws.chosen.data() + first;
+  drawn.trees =
+      choose_trees(view.forest.columns, first, trees_to_look_at(view, drawn), view.sight, chosen);
+  drawn.triangles = 0;
+  for (std::uint32_t i = 0; i < drawn.trees; ++i) {
+    draws.trees[first + i] = drawn_tree(view, chosen[i]);
+    drawn.triangles += draws.trees[first + i].triangles;
+  }
+}
+
+// How a tree faces the eye and sways.
+struct TreePose {
+  glm::vec3 right, up;  // across the view
+  glm::vec2 sway{0.0f},
+      flutter{0.0f};  // of the top [m]; sine and cosine of the leaves' swing, in metres
+  float crown_m, leaf_height_m;
+};
+
+TreePose pose_of(const TreeView& view, const DrawnTree& drawn) {
+  TreePose pose;
+  pose.crown_m = drawn.height_m - drawn.crown_begin_m;
+  const glm::vec3 from_eye = drawn.foot_rel + glm::vec3(0.0f, 0.0f, 0.5f * drawn.height_m);
+  const float level2 = from_eye.x * from_eye.x + from_eye.y * from_eye.y;
+  const float level = std::sqrt(std::max(level2, 1e-6f));
+  const float distance = std::sqrt(level2 + from_eye.z * from_eye.z + 1e-6f);
+  const glm::vec2 ahead = glm::vec2(from_eye) / level;
+  const float rise = from_eye.z / distance, along = level / distance;
+  pose.right = {ahead.y, -ahead.x, 0.0f};
+  pose.up = {-rise * ahead.x, -rise * ahead.y, along};
+  // From above a crown is as high in the picture as it is broad.
+  const float tall = along * pose.crown_m, flat = rise * 2.0f * drawn.radius_m;
+  pose.leaf_height_m = std::sqrt(tall * tall + flat * flat);
+  if (drawn.sways == 0.0f) return pose;
+  const float phase = static_cast<float>(drawn.looks & 0xffff) * (1.0f / 65536.0f);
+  const SinCos slow = sin_cos_turns(static_cast<double>(view.turns.x + phase));
+  const SinCos quick = sin_cos_turns(static_cast<double>(view.turns.y + 7.0f * phase));
+  const float bends = 0.6f + 0.4f * static_cast<float>(0.6 * slow.sin + 0.4 * quick.sin);
+  const float far_m = drawn.sways * drawn.height_m;
+  pose.sway = view.wind * (far_m * bends);
+  pose.flutter =
+      glm::vec2(quick.cos, quick.sin) * (0.25f * far_m * std::sqrt(glm::dot(view.wind, view.wind)));
+  return pose;
+}
+
+// The corners of a tree's triangles.
+void write_crown(const scene::TreeShape& shape, const DrawnTree& drawn, const TreePose& pose,
+                 glm::vec3* p) {
+  const float size = drawn.leaf_size;
+  const auto count = static_cast<std::size_t>(std::ceil(drawn.leaves));
+  for (std::size_t n = 0; n < count; ++n) {
+    const scene::TreeLeaf& leaf = shape.leaves[n];
+    const float grown = std::min(drawn.leaves - static_cast<float>(n), 1.0f);
+    const glm::vec3 at = scene::leaf_middle(shape, leaf, size);
+    const float flutter =
+        at.z * (pose.flutter.x * leaf.flutter.x + pose.flutter.y * leaf.flutter.y) * (1.0f - size);
+    const glm::vec3 middle = drawn.foot_rel +
+                             glm::vec3(glm::vec2(at) * drawn.radius_m + pose.sway * (at.z * at.z),
+                                       drawn.crown_begin_m + at.z * pose.crown_m) +
+                             pose.right * flutter;
+    const glm::vec3 bent = shape.is_blades ? glm::vec3(pose.sway, 0.0f) : glm::vec3(0.0f);
+    for (const glm::vec2& corner : leaf.corner) {
+      const glm::vec2 c = scene::leaf_corner(shape, corner, size, grown);
+      *p++ = middle + pose.right * (c.x * drawn.radius_m) + pose.up * (c.y * pose.leaf_height_m) +
+             bent * (c.y * c.y);
+    }
+  }
+}
+
+// A strip from under the ground into the crown, narrower above.
+void write_trunk(const DrawnTree& drawn, const TreePose& pose, glm::vec3* p) {
+  const glm::vec3 foot = drawn.foot_rel - glm::vec3(0.0f, 0.0f, 0.1f * drawn.height_m);
+  const glm::vec3 top = drawn.foot_rel + glm::vec3(pose.sway * 0.36f, 0.7f * drawn.height_m);
+  const glm::vec3 wide = pose.right * (1.15f * drawn.trunk_m);
+  const glm::vec3 narrow = pose.right * (0.35f * drawn.trunk_m);
+  const std::array<glm::vec3, 6> corners = {foot - wide, foot + wide,  top + narrow,
+                                            foot - wide, top + narrow, top - narrow};
+  std::ranges::copy(corners, p);
+}
+
+// `at`: of the tree in draws.trees.
+void write_tree(const TreeView& view, std::uint32_t at, std::size_t first, TreeDraws& draws) {
+  const DrawnTree& drawn = draws.trees[at];
+  const scene::TreeShape& shape = shape_of(view, drawn);
+  const TreePose pose = pose_of(view, drawn);
+  glm::vec3* const p = draws.p_rel.data() + 3 * first;
+  write_crown(shape, drawn, pose, p);
+  const auto crown = static_cast<std::uint32_t>(std::ceil(drawn.leaves));
+  if (drawn.triangles > crown) write_trunk(drawn, pose, p + std::size_t{3} * crown);
+  for (std::uint32_t n = 0; n < drawn.triangles; ++n)
+    draws.primitives[first + n] = {at, n < crown ? n : kTrunkLeaf};
+}
+
+// A tree that is written soon: it lies in one or two lines of the cache.
+void prefetch_tree(const DrawnTree& drawn) {
+  hwy::Prefetch(&drawn);
+  hwy::Prefetch(&drawn.leaves_albedo);
+}
+
+void write_cell(const TreeView& view, const DrawnCell& drawn, TreeDraws& draws) {
+  const std::uint32_t first = view.forest.trees.cells[drawn.cell].first;
+  std::size_t triangle = drawn.first_triangle;
+  for (std::uint32_t at = first; at < first + drawn.trees; ++at) {
+    prefetch_tree(draws.trees[std::min<std::size_t>(at + kTreesAhead, draws.trees.size() - 1)]);
+    write_tree(view, at, triangle, draws);
+    triangle += draws.trees[at].triangles;
+  }
+}
+
+// Makes room for the triangles of all cells.
+void size_draws(TreeDraws& draws) {
+  std::uint32_t triangles = 0;
+  for (DrawnCell& cell : draws.cells) {
+    cell.first_triangle = triangles;
+    triangles += cell.triangles;
+  }
+  draws.primitives.resize(triangles);
+  draws.p_rel.resize(std::size_t{3} * triangles);
+  const std::size_t before = draws.indices.size();
+  draws.indices.resize(draws.p_rel.size());
+  for (std::size_t i = before; i < draws.indices.size(); ++i)
+    draws.indices[i] = static_cast<std::uint32_t>(i);
+}
+
+void place_in_views(const World::State& world, double t_s, Meshes& meshes, FrameViews views,
+                    const StageRun& run) {
+  // Through the surface an eye under water sees them far from where they are.
+  const bool shows_all =
+      std::ranges::any_of(views, [](const RenderView* v) { return v->eye.submerged; });
+  const TreeView view = tree_view(world, *views.front(), shows_all, t_s);
+  TreeDraws& draws = meshes.trees.drawn_in(views.front()->kind);
+  draws.trees.resize(view.forest.trees.trees.size());
+  draws.chosen.resize(view.forest.trees.trees.size());
+  list_cells(view, draws);
+  const auto for_cells = [&](auto&& body) {
+    run.for_each((draws.cells.size() + kCellsAtOnce - 1) / kCellsAtOnce,
+                 [&](std::size_t chunk, int) {
+                   const std::size_t begin = chunk * kCellsAtOnce;
+                   const std::size_t end = std::min(draws.cells.size(), begin + kCellsAtOnce);
+                   for (std::size_t i = begin; i < end; ++i) body(draws.cells[i]);
+                 });
+  };
+  for_cells([&](DrawnCell& cell) { choose_trees(view, cell, draws); });
+  size_draws(draws);
+  resize_vertices(SurfaceKind::kTrees, draws.p_rel.size(), views);
+  for_cells([&](const DrawnCell& cell) {
+    write_cell(view, cell, draws);
+    const std::size_t begin = std::size_t{3} * cell.first_triangle;
+    map_vertices(meshes, SurfaceKind::kTrees, begin, begin + std::size_t{3} * cell.triangles,
+                 views);
+  });
+}
+
+// Trees stand above the water: its mirror shows them to an eye in air, the images of what lies
+// beyond it to an eye under water.
+bool shows_trees(const RenderView& view) {
+  switch (view.kind) {
+    case ViewKind::kWindow:
+      return true;
+    case ViewKind::kReflection:
+      return !view.eye.submerged;
+    case ViewKind::kRefraction:
+      return view.eye.submerged;
+  }
+  return false;
+}
+
+}  // namespace
+
+void place_trees(const World::State& world, double t_s, PartSet without, Meshes& meshes,
+                 FrameViews views, const StageRun& run) {
+  for (const ViewKind kind : kAllViewKinds) {
+    std::array<RenderView*, 3> of_kind{};  // from the air, from below, of a river
+    std::size_t count = 0;
+    bool shown = world.forest && !without.has(Part::kTrees);
+    for (RenderView* const view : views)
+      if (view->kind == kind) of_kind[count++] = view;
+    const FrameViews its = std::span(of_kind).first(count);
+    shown = shown && std::ranges::any_of(its, [](const RenderView* v) { return shows_trees(*v); });
+    if (shown) {
+      place_in_views(world, t_s, meshes, its, run);
+    } else {
+      meshes.trees.drawn_in(kind).clear();
+      resize_vertices(SurfaceKind::kTrees, 0, its);
+    }
+  }
+}
+
+}  // namespace swell::render

@@ -1,0 +1,187 @@
+// Stage 2: the triangles of rivers and lakes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/materials/river.h"
+#include "render/view/meshes.h"
+
+namespace swell::render {
+namespace {
+
+using ocean::kInlandBlock;
+using ocean::kInlandSide;
+
+// Cells as wide as this part of their distance are drawn whole where some of them are dry.
+constexpr double kFarCell = 0.01;
+
+// Water that the eye is not above mirrors the sky alone, and so does water that takes up less than
+// this part of the picture; from the second part on the image is all there.
+constexpr double kLeastOver_m = 0.05, kLeastPart = 0.005, kFullPart = 0.015;
+
+bool may_be_seen(const std::array<glm::vec4, 5>& planes, glm::vec3 middle_rel, float radius_m) {
+  return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
+    return glm::dot(glm::vec3(plane), middle_rel) + plane.w > -radius_m;
+  });
+}
+
+// Triangulates one block's cells.
+class BlockCells {
+ public:
+  BlockCells(const ocean::InlandBlock& block, std::span<const ocean::InlandSample> samples,
+             double spacing_m, double distance_m, std::uint32_t first_vertex, RiverMesh& mesh)
+      : block_(block), samples_(samples), first_vertex_(first_vertex), mesh_(mesh) {
+    const double far_cells = kFarCell * distance_m / spacing_m;
+    while (far_ * 2 <= kInlandBlock && far_ * 2 <= far_cells) far_ *= 2;
+    // Where the sea's waves come in, cells follow them.
+    widest_ = block.sea ? std::max(far_, 2) : kInlandBlock;
+  }
+
+  void add() { add_square(0, 0, kInlandBlock); }
+
+ private:
+  bool is_wet(int i, int j) const {
+    return block_.wet[static_cast<std::size_t>(j) * kInlandBlock + static_cast<std::size_t>(i)];
+  }
+
+  // A square of `size` cells in one piece, if it is wet all over or small in the view, else in
+  // quarters.
+  void add_square(int i0, int j0, int size) {
+    int wet = 0;
+    for (int j = j0; j < j0 + size; ++j)
+      for (int i = i0; i < i0 + size; ++i) wet += is_wet(i, j);
+    if (wet == 0) return;
+    if (size > 1 &&
+        (size > widest_ || (wet < size * size && (size > far_ || !is_known(i0, j0, size))))) {
+      const int half = size / 2;
+      for (const int j : {j0, j0 + half})
+        for (const int i : {i0, i0 + half}) add_square(i, j, half);
+      return;
+    }
+    if (size == 1) {
+      const std::uint32_t a = vertex(i0, j0), d = vertex(i0 + 1, j0 + 1);
+      mesh_.indices.insert(mesh_.indices.end(),
+                           {a, vertex(i0 + 1, j0), d, a, d, vertex(i0, j0 + 1)});
+      return;
+    }
+    // A fan around the middle that has the vertices of its neighbours on its border: no cracks.
+    add_side({i0, j0}, {1, 0}, size, j0 == 0);
+    add_side({i0 + size, j0}, {0, 1}, size, i0 + size == kInlandBlock);
+    add_side({i0 + size, j0 + size}, {-1, 0}, size, j0 + size == kInlandBlock);
+    add_side({i0, j0 + size}, {0, -1}, size, i0 == 0);
+  }
+
+  // The triangles between a side of a square, which has it on the left, and the middle.
+  void add_side(glm::ivec2 from, glm::ivec2 along, int size, bool on_border) {
+    const int half = size / 2, step = on_border ? 1 : std::min(far_, size);
+    const glm::ivec2 middle = from + half * along + half * glm::ivec2(-along.y, along.x);
+    const std::uint32_t m = vertex(middle.x, middle.y);
+    for (int k = 0; k < size; k += step) {
+      const glm::ivec2 a = from + k * along, b = from + (k + step) * along;
+      mesh_.indices.insert(mesh_.indices.end(), {vertex(a.x, a.y), vertex(b.x, b.y), m});
+    }
+  }
+
+  // Whether the corners lie near water.
+  bool is_known(int i, int j, int size) const {
+    const auto known = [&](int x, int y) {
+      return samples_[static_cast<std::size_t>(y) * kInlandSide + static_cast<std::size_t>(x)].near;
+    };
+    return known(i, j) && known(i + size, j) && known(i, j + size) && known(i + size, j + size);
+  }
+
+  std::uint32_t vertex(int i, int j) const {
+    return first_vertex_ + static_cast<std::uint32_t>(j * kInlandSide + i);
+  }
+
+  const ocean::InlandBlock& block_;
+  std::span<const ocean::InlandSample> samples_;
+  std::uint32_t first_vertex_;
+  RiverMesh& mesh_;
+  int far_ = 1, widest_ = kInlandBlock;
+};
+
+// Where rivers look, once their levels and the mirror's are known.
+void find_images(double eye_z, RiverMesh& rivers) {
+  rivers.looks_into.resize(rivers.indices.size() / 3);
+  for (std::size_t n = 0; n < rivers.looks_into.size(); ++n) {
+    float low_m = HUGE_VALF, high_m = -HUGE_VALF, sea = 0.0f;
+    for (const std::uint32_t v : std::span(rivers.indices).subspan(3 * n, 3)) {
+      const float level_m = rivers.p_rel[v].z + static_cast<float>(eye_z);
+      low_m = std::min(low_m, level_m);
+      high_m = std::max(high_m, level_m);
+      sea = std::max(sea, rivers.sea_share[v]);
+    }
+    // Places are rounded, and waves lift those that the sea has a share of.
+    const float reach_m = kMirrorGone_m + (sea > 0.0f ? 2.0f : 0.05f);
+    const auto mirrored_in = [&](float level_m) {
+      return low_m < level_m + reach_m && high_m > level_m - reach_m;
+    };
+    rivers.looks_into[n] = static_cast<std::uint8_t>(
+        (sea > 0.0f ? kSeaFloor | kSeaMirror : 0) | (mirrored_in(0.0f) ? kSeaMirror : 0) |
+        (rivers.mirror_level_m && mirrored_in(*rivers.mirror_level_m) ? kRiverMirror : 0));
+  }
+}
+
+}  // namespace
+
+void choose_rivers(const World::State& world, const View& view, const FrameOptions& options,
+                   RiverMesh& rivers) {
+  rivers.indices.clear();
+  rivers.p_rel.clear();
+  rivers.sea_share.clear();
+  rivers.looks_into.clear();
+  rivers.mirror_level_m.reset();
+  const ocean::InlandWater* const inland = world.inland.get();
+  if (!inland || options.without.has(Part::kRivers) || options.without.has(Part::kWater)) return;
+  const std::array<glm::vec4, 5> planes = frustum_planes(view);
+  const double spacing_m = inland->spacing_m(), block_m = spacing_m * kInlandBlock;
+  const auto drop = static_cast<float>(drop_per_m2(world.earth_radius_m(options.without)));
+  double weights = 0.0, levels = 0.0, solid_angle = 0.0;
+  for (std::size_t b = 0; b < inland->blocks().size(); ++b) {
+    const ocean::InlandBlock& block = inland->blocks()[b];
+    if (!(block.low_m <= block.high_m)) continue;
+    const glm::dvec3 middle(
+        inland->point(block.first_cell) + 0.5 * block_m,
+        0.5 * (static_cast<double>(block.low_m) + static_cast<double>(block.high_m)));
+    glm::vec3 middle_rel(middle - view.eye_world);
+    const float around2 = middle_rel.x * middle_rel.x + middle_rel.y * middle_rel.y;
+    middle_rel.z -= around2 * drop;
+    const float radius_m = static_cast<float>(0.75 * block_m) + (block.high_m - block.low_m) + 2.0f;
+    if (!may_be_seen(planes, middle_rel, radius_m)) continue;
+    const double distance_m =
+        std::max(0.0, static_cast<double>(glm::length(middle_rel) - radius_m));
+    // Blocks count by their nearness, so that the level moves smoothly as the eye does.
+    const double near_m = distance_m + 0.25 * block_m;
+    const double weight = (1.0 - static_cast<double>(mirror_share(static_cast<float>(middle.z)))) /
+                          (near_m * near_m * near_m);
+    weights += weight;
+    levels += weight * middle.z;
+    solid_angle += weight * block.wet_cells * spacing_m * spacing_m *
+                   std::max(view.eye_world.z - middle.z, 0.0);
+    const auto samples =
+        inland->samples().subspan(b * ocean::kInlandSamples, ocean::kInlandSamples);
+    const auto first = static_cast<std::uint32_t>(rivers.p_rel.size());
+    const std::size_t before = rivers.indices.size();
+    BlockCells(block, samples, spacing_m, distance_m, first, rivers).add();
+    if (rivers.indices.size() == before) continue;
+    for (int j = 0; j < kInlandSide; ++j)
+      for (int i = 0; i < kInlandSide; ++i) {
+        const ocean::InlandSample& s =
+            samples[static_cast<std::size_t>(j) * kInlandSide + static_cast<std::size_t>(i)];
+        const glm::dvec2 p = inland->point(block.first_cell + glm::ivec2(i, j));
+        rivers.p_rel.emplace_back(glm::dvec3(p, static_cast<double>(s.level_m)) - view.eye_world);
+        rivers.sea_share.push_back(s.sea_share);
+      }
+  }
+  const double level_m = levels / weights;
+  const double part = solid_angle / static_cast<double>(4.0f * view.tan_half_x * view.tan_half_y);
+  if (part > kLeastPart && view.eye_world.z > level_m + kLeastOver_m) {
+    rivers.mirror_level_m = static_cast<float>(level_m);
+    rivers.mirror_share =
+        static_cast<float>(std::min((part - kLeastPart) / (kFullPart - kLeastPart), 1.0));
+  }
+  find_images(view.eye_world.z, rivers);
+}
+
+}  // namespace swell::render

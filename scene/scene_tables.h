@@ -1,0 +1,39 @@
+// The text of a scene as tables, whichever language it is in: the one form that scene_file.cpp
+// reads. For scene/ alone.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace swell::scene {
+
+inline constexpr std::size_t kMaxFileBytes = 1 << 20;
+
+// Where something stands: in a file, by line and column, which are 0 where they are not known
+// (JSON); or in a setting.
+struct Place {
+  std::uint32_t line = 1, column = 1;
+  std::string setting{};  // "setting KEY=VALUE"; empty: in the file
+};
+
+Place place_of(const toml::source_region& region);
+
+// 'FILE:LINE: column COLUMN', 'FILE' or 'setting KEY=VALUE'
+std::string place_text(const std::filesystem::path& file, const Place& place);
+
+// Throws SceneError 'PLACE: TEXT'.
+[[noreturn]] void fail(const std::filesystem::path& file, const Place& place,
+                       const std::string& text);
+
+// The tables of a text (TOML, or JSON as settings.h says), changed by the settings. Throws
+// SceneError for what is not of the language, too large or too deeply nested, and for a setting
+// that cannot be made.
+toml::table parse_tables(std::string_view text, const std::filesystem::path& file,
+                         std::span<const std::string> settings);
+
+}  // namespace swell::scene

@@ -1,0 +1,100 @@
+#include "terrain/height_pyramid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+#include "math/check.h"
+
+namespace swell::terrain {
+namespace {
+
+constexpr int kMostPosts = 16385;
+
+std::size_t block(int blocks, int i, int j) {
+  return (static_cast<std::size_t>(blocks) + static_cast<std::size_t>(j)) *
+             static_cast<std::size_t>(blocks) +
+         static_cast<std::size_t>(i);
+}
+
+void for_rows(int rows, Workers& workers, const std::function<void(int)>& body) {
+  workers.for_each(static_cast<std::size_t>(rows), [&](std::size_t j, int) { body(int(j)); });
+}
+
+// Blocks of two by two cells: nine posts.
+void fill_first_level(HeightPyramid& p, Workers& workers) {
+  const int blocks = p.side / 2, last = p.grid.samples_x - 1;
+  for_rows(blocks, workers, [&](int j) {
+    for (int i = 0; i < blocks; ++i) {
+      if (2 * i >= last || 2 * j >= last) continue;  // 0: beyond the posts
+      const auto in_hole = [&](int cell) { return cell >= p.hole_begin && cell + 2 <= p.hole_end; };
+      if (in_hole(2 * i) && in_hole(2 * j)) continue;
+      std::uint16_t highest = 0;
+      for (int y = 2 * j; y <= std::min(2 * j + 2, last); ++y)
+        for (int x = 2 * i; x <= std::min(2 * i + 2, last); ++x)
+          highest = std::max(highest, p.posts[p.grid.index(x, y)]);
+      p.maxima[block(blocks, i, j)] = highest;
+    }
+  });
+}
+
+void fill_level(int blocks, HeightPyramid& p, Workers& workers) {
+  const int fine = 2 * blocks;
+  for_rows(blocks, workers, [&](int j) {
+    for (int i = 0; i < blocks; ++i)
+      p.maxima[block(blocks, i, j)] = std::max(
+          std::max(p.maxima[block(fine, 2 * i, 2 * j)], p.maxima[block(fine, 2 * i + 1, 2 * j)]),
+          std::max(p.maxima[block(fine, 2 * i, 2 * j + 1)],
+                   p.maxima[block(fine, 2 * i + 1, 2 * j + 1)]));
+  });
+}
+
+}  // namespace
+
+HeightPyramid make_height_pyramid(const Grid& grid, float base_m, float step_m,
+                                  std::vector<std::uint16_t> posts, CellSquare hole,
+                                  Workers& workers) {
+  SWELL_CHECK(grid.samples_x == grid.samples_y && grid.samples_x >= 2 &&
+                  grid.samples_x <= kMostPosts && posts.size() == grid.size(),
+              "samples={}x{} posts={}", grid.samples_x, grid.samples_y, posts.size());
+  HeightPyramid p{grid, base_m, step_m};
+  p.side = std::max(2, static_cast<int>(std::bit_ceil(static_cast<unsigned>(grid.samples_x - 1))));
+  p.levels = std::countr_zero(static_cast<unsigned>(p.side));
+  p.hole_begin = hole.begin;
+  p.hole_end = hole.end;
+  p.posts = std::move(posts);
+  p.posts.push_back(0);
+  const auto half = static_cast<std::size_t>(p.side / 2);
+  p.maxima.resize(2 * half * half + 1);
+  fill_first_level(p, workers);
+  for (int blocks = p.side / 4; blocks >= 1; blocks /= 2) fill_level(blocks, p, workers);
+  return p;
+}
+
+HeightPyramid make_height_pyramid(const HeightGrid& heights, CellSquare hole, Workers& workers) {
+  const auto [lowest, highest] = std::ranges::minmax(heights.height_m);
+  const float step_m = std::max((highest - lowest) / 65535.0f, 1e-6f);
+  std::vector<std::uint16_t> posts(heights.height_m.size());
+  for (std::size_t k = 0; k < posts.size(); ++k)
+    posts[k] = static_cast<std::uint16_t>(
+        std::clamp((heights.height_m[k] - lowest) / step_m + 0.5f, 0.0f, 65535.0f));
+  return make_height_pyramid(heights.grid, lowest, step_m, std::move(posts), hole, workers);
+}
+
+glm::vec3 normal_at(const HeightPyramid& p, glm::dvec2 p_world) {
+  const glm::dvec2 at = glm::clamp((p_world - p.grid.min_world) / p.grid.spacing_m, 0.0,
+                                   static_cast<double>(p.grid.samples_x - 1));
+  const glm::ivec2 cell = glm::min(glm::ivec2(at), p.grid.samples_x - 2);
+  const glm::vec2 part(at - glm::dvec2(cell));
+  const auto code = [&](int i, int j) {
+    return static_cast<float>(p.posts[p.grid.index(cell.x + i, cell.y + j)]);
+  };
+  const float x0 = code(1, 0) - code(0, 0), x1 = code(1, 1) - code(0, 1);
+  const float y0 = code(0, 1) - code(0, 0), y1 = code(1, 1) - code(1, 0);
+  const float scale = p.step_m / static_cast<float>(p.grid.spacing_m);
+  const glm::vec2 slope = scale * glm::vec2(x0 + part.y * (x1 - x0), y0 + part.x * (y1 - y0));
+  return glm::vec3(-slope, 1.0f) / std::sqrt(1.0f + slope.x * slope.x + slope.y * slope.y);
+}
+
+}  // namespace swell::terrain

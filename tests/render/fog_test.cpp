@@ -1,0 +1,163 @@
+// Fog in pictures.
+#include "scene/fog.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "render/linear_renderer.h"
+
+namespace swell::render {
+namespace {
+
+scene::Scene foggy_sea(double visibility_m, double top_m) {
+  scene::Scene scene;
+  scene.air.visibility_m = visibility_m;
+  scene.air.fog_top_m = top_m;
+  scene.sky.sun_azimuth_rad = scene::radians(90.0);
+  scene.sky.sun_direction = {0.8660254f, 0.0f, 0.5f};
+  scene.sky.cloud_cover = 0.0;
+  return scene;
+}
+
+View level_view(glm::dvec3 eye, double pitch_deg) {
+  scene::Camera camera;
+  camera.eye_m = eye;
+  camera.pitch_rad = scene::radians(pitch_deg);
+  return scene::camera_view(camera, 0.0, 96, 64);
+}
+
+float luminance(glm::vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// In thick fog the sea goes over into the sky without a line.
+TEST(FogInPictures, HidesTheHorizon) {
+  scene::Scene scene = foggy_sea(200.0, 100.0);
+  scene.sea.wind_speed_mps = 2.0;
+  LinearRenderer foggy(scene);
+  foggy.draw_view(level_view({0, 0, 5}, 0.0), 3.0);
+  float steepest = 0.0f;
+  for (int x = 0; x < 96; x += 7)
+    for (int y = 26; y < 33; ++y) {
+      const float a = luminance(foggy.at(x, y)), b = luminance(foggy.at(x, y + 1));
+      steepest = std::max(steepest, std::abs(a - b) / std::max(a, b));
+    }
+  EXPECT_LT(steepest, 0.01f);
+}
+
+// Light over the fog is taken from it, not added: no picture in the fog is brighter than a white
+// surface under the same sky, away from the sun.
+TEST(FogInPictures, IsNoBrighterThanWhite) {
+  const scene::Scene scene = foggy_sea(300.0, 80.0);
+  LinearRenderer foggy(scene);
+  foggy.draw_view(level_view({0, 0, 3}, 0.0), 0.0);
+  scene::Scene clear = scene;
+  clear.air = {};
+  LinearRenderer bare(clear);
+  bare.draw_view(level_view({0, 0, 3}, 0.0), 0.0);
+  // The sky's mean and the sun on a level surface, by the sea's own exposure.
+  glm::vec3 brightest(0.0f);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) brightest = glm::max(brightest, foggy.at(x, y));
+  // A clear sky at 30 degrees of sun: white is about 1.2 in exposed units.
+  EXPECT_LT(luminance(brightest), 1.2f);
+  EXPECT_GT(luminance(brightest), 0.1f);
+}
+
+TEST(FogInPictures, WithoutItTheSceneIsTheClearOne) {
+  const scene::Scene scene = foggy_sea(500.0, 60.0);
+  scene::Scene clear = scene;
+  clear.air = {};
+  LinearRenderer foggy(scene), bare(clear);
+  foggy.options.without = {Part::kFog};
+  const View view = level_view({0, 0, 5}, -4.0);
+  foggy.draw_view(view, 2.0);
+  bare.draw_view(view, 2.0);
+  EXPECT_EQ(foggy.target.rgba, bare.target.rgba);
+}
+
+// In a slab the thicker of fog and haze counts: visibility is that of all the air.
+TEST(FogInPictures, TakesThePlaceOfHaze) {
+  const scene::Scene scene = foggy_sea(400.0, 60.0);
+  scene::Scene hazy = scene;
+  hazy.sky.haze_distance_m = 3000.0;
+  LinearRenderer foggy(scene), both(hazy);
+  const View view = level_view({0, 0, 5}, -4.0);
+  foggy.draw_view(view, 2.0);
+  both.draw_view(view, 2.0);
+  for (int y = 40; y < 64; ++y) EXPECT_EQ(foggy.at(48, y), both.at(48, y)) << y;
+}
+
+// Fog that thins out to nothing leaves the clear picture.
+TEST(FogInPictures, LimitsAreTheClearPicture) {
+  const View view = level_view({0, 0, 30}, -4.0);
+  scene::Scene clear = foggy_sea(500.0, 60.0);
+  clear.air = {};
+  LinearRenderer bare(clear);
+  bare.draw_view(view, 2.0);
+  scene::Scene thin = clear, flat = foggy_sea(500.0, 0.0);
+  thin.air.attenuation_per_m = glm::vec3(1e-12f);
+  for (const scene::Scene& scene : {thin, flat}) {
+    LinearRenderer drawn(scene);
+    drawn.draw_view(view, 2.0);
+    float most = 0.0f;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 96; ++x)
+        most = std::max(most, glm::distance(drawn.at(x, y), bare.at(x, y)));
+    EXPECT_LT(most, 2e-3f);
+  }
+}
+
+// From over the fog the horizon is as it was; what lies under it is white.
+TEST(FogInPictures, LiesUnderAnEyeAboveIt) {
+  const scene::Scene scene = foggy_sea(100.0, 40.0);
+  scene::Scene clear = scene;
+  clear.air = {};
+  LinearRenderer foggy(scene), bare(clear);
+  const View view = level_view({0, 0, 300}, -10.0);
+  foggy.draw_view(view, 2.0);
+  bare.draw_view(view, 2.0);
+  EXPECT_EQ(foggy.at(48, 2), bare.at(48, 2));
+  EXPECT_GT(luminance(foggy.at(48, 60)), 2.0f * luminance(bare.at(48, 60)));
+}
+
+// Clouds are seen through the fog, not before it.
+TEST(FogInPictures, HidesVolumetricClouds) {
+  scene::Scene scene = foggy_sea(60.0, 100.0);
+  scene.clouds.kind = scene::CloudKind::kLayer;
+  LinearRenderer cloudy(scene);
+  const View view = level_view({0, 0, 3}, 10.0);
+  cloudy.draw_view(view, 0.0);
+  const glm::vec3 with = cloudy.at(48, 10);
+  cloudy.options.without = {Part::kClouds};
+  cloudy.draw_view(view, 0.0);
+  EXPECT_LT(glm::distance(with, cloudy.at(48, 10)), 0.01f * glm::length(with));
+}
+
+// Diving from over the fog into it, a pixel changes little by little.
+TEST(FogInPictures, NoJumpWhereTheEyeEntersIt) {
+  LinearRenderer foggy(foggy_sea(400.0, 40.0));
+  glm::vec3 last(-1.0f);
+  for (const double z : {40.02, 40.01, 40.0, 39.99, 39.98}) {
+    foggy.draw_view(level_view({0, 0, z}, -6.0), 2.0);
+    const glm::vec3 now = foggy.at(48, 20);
+    if (last.x >= 0.0f) {
+      EXPECT_LT(glm::distance(now, last), 0.01f * glm::length(now)) << z;
+    }
+    last = now;
+  }
+}
+
+// A frame alone is the frame of a sequence, also where banks drift.
+TEST(FogInPictures, FrameAloneIsThatOfASequence) {
+  scene::Scene scene = foggy_sea(400.0, 40.0);
+  scene.air.banks = 1.0;
+  LinearRenderer alone(scene), sequence(scene);
+  const View view = level_view({0, 0, 60}, -20.0);
+  for (const double t_s : {0.0, 1.0, 25.0}) sequence.draw_view(view, t_s);
+  alone.draw_view(view, 25.0);
+  EXPECT_EQ(alone.target.rgba, sequence.target.rgba);
+}
+
+}  // namespace
+}  // namespace swell::render

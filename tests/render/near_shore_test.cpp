@@ -1,0 +1,191 @@
+// What land does to the sea before it, as it is drawn: calm lees, and fronts of foam along shores.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "render/labelled_frame.h"
+#include "render/world/world_state.h"
+
+namespace swell::render {
+namespace {
+
+View view_down(glm::dvec2 middle, double height_m, int width_px, int height_px) {
+  return make_view({middle, height_m}, camera_axes(0.0, -0.5 * kPi, 0.0),
+                   lens_of_fov(50.0 * kPi / 180.0, width_px, height_px), 0.25f, width_px,
+                   height_px);
+}
+
+FrameOptions without(PartSet parts) {
+  FrameOptions options;
+  options.without = parts;
+  return options;
+}
+
+scene::Scene windy_lagoon() {
+  scene::Scene scene = load_shipped("lagoon");
+  scene.sea.wind_speed_mps = 12.0;
+  scene.sea.amplitude_scale = 1.0;
+  return scene;
+}
+
+int count_differences(const LabelledFrame& a, const LabelledFrame& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.target.rgba.size(); ++i)
+    count += a.target.rgba[i] != b.target.rgba[i];
+  return count;
+}
+
+TEST(NearShore, ShelterCanBeLeftOut) {
+  const World world(windy_lagoon());
+  const View view = view_down({-300.0, 0.0}, 150.0, 160, 90);  // the lee: the wind is from the east
+  const LabelledFrame all(world, view, 5.0), bare(world, view, 5.0, without({Part::kShelter}));
+  EXPECT_GT(count_differences(all, bare), 10000);
+}
+
+TEST(NearShore, FrontsCanBeLeftOut) {
+  const World world(windy_lagoon());
+  const View view = view_down({190.0, 0.0}, 150.0, 160, 90);
+  const LabelledFrame all(world, view, 5.0), bare(world, view, 5.0, without({Part::kSurfFronts}));
+  const int different = count_differences(all, bare);
+  EXPECT_GT(different, 300);
+  EXPECT_LT(different, 14000);
+}
+
+TEST(NearShore, TheOpenSeaKnowsNothingOfIt) {
+  const World& world = shipped_world("open_ocean");
+  const View view = view_down({0.0, 0.0}, 30.0, 160, 90);
+  const LabelledFrame all(world, view, 5.0),
+      bare(world, view, 5.0, without({Part::kShelter, Part::kSurfFronts}));
+  EXPECT_EQ(count_differences(all, bare), 0);
+}
+
+// The drawn slopes of the long waves are as much lower in a lee as the heights that are asked.
+TEST(NearShore, TheMapHasWhatQueriesHave) {
+  const World world(windy_lagoon());
+  const World::State& state = world.state();
+  ASSERT_TRUE(state.near_shore);
+  const NearShoreMap& near = *state.near_shore;
+  for (int n = 0; n < 200; ++n) {
+    const glm::dvec2 place(random_uniform(3, 2 * n), random_uniform(3, 2 * n + 1));
+    const glm::dvec2 texel = glm::floor(place * static_cast<double>(kNearShoreSize));
+    const glm::dvec2 p = near.min_world + texel * (near.size_m / kNearShoreSize);
+    float kept = 1.0f;
+    ocean::apply_shelter(*state.shelter, {&p, 1}, {&kept, 1});
+    constexpr auto kSide = static_cast<std::size_t>(kNearShoreSize);
+    const std::size_t word =
+        (kSide + static_cast<std::size_t>(texel.y)) * kSide + static_cast<std::size_t>(texel.x);
+    const auto code = static_cast<std::int8_t>(near.map.words[word].fine & 0xFF);
+    EXPECT_NEAR(code / 127.0, 1.0 - static_cast<double>(kept), 0.5 / 127.0 + 1e-6);
+  }
+}
+
+// Foam in a picture from straight above, smoothed over some pixels.
+struct FoamField {
+  int width, height;
+  std::vector<double> value;
+
+  FoamField(const LabelledFrame& frame, int radius)
+      : width(frame.view.width_px), height(frame.view.height_px) {
+    const std::vector<float>& foam = frame.labels().foam;
+    value.resize(foam.size());
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        double sum = 0.0;
+        for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
+          for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width - 1); ++u)
+            sum += static_cast<double>(foam[frame.at({u, v})]);
+        value[frame.at({x, y})] = sum;
+      }
+  }
+  double at(int x, int y) const { return value[static_cast<std::size_t>(y * width + x)]; }
+  // Its rise eastwards and northwards.
+  glm::dvec2 rise(int x, int y) const {
+    return {at(x + 1, y) - at(x - 1, y), at(x, y - 1) - at(x, y + 1)};
+  }
+};
+
+// A beach without trains, its shore due east and west, the sea in the north.
+scene::Scene straight_shore(double wind_from_rad) {
+  scene::Scene scene;
+  scene.terrain.emplace();
+  scene.terrain->coast_m = {{-500.0, 0.0}, {500.0, 0.0}};
+  scene.terrain->beach_slope = 0.03;
+  scene.terrain->beach_size_m = 1000.0;
+  scene.sea.wind_speed_mps = 8.0;
+  scene.sea.wind_from_rad = wind_from_rad;
+  return scene;
+}
+
+// The mean direction in which foam changes, by its squared gradients.
+TEST(NearShore, FrontsLieAlongTheShoreWithin10Degrees) {
+  const World world(straight_shore(0.4));
+  for (const double east_m : {-60.0, 0.0, 80.0})
+    for (const double t_s : {3.0, 7.3}) {
+      const LabelledFrame frame(world, view_down({east_m, 30.0}, 70.0, 320, 240), t_s,
+                                without({Part::kWhitecaps}));
+      const FoamField foam(frame, 4);
+      double across = 0.0, twist = 0.0, all = 0.0;
+      for (int y = 6; y < foam.height - 6; ++y)
+        for (int x = 6; x < foam.width - 6; ++x) {
+          if (frame.position({x, y}).y < 2.0) continue;  // sheets on the sand
+          const glm::dvec2 g = foam.rise(x, y);
+          across += g.y * g.y - g.x * g.x;
+          twist += 2.0 * g.x * g.y;
+          all += glm::dot(g, g);
+        }
+      ASSERT_GT(all, 100.0) << east_m << ' ' << t_s;
+      const double angle = 0.5 * std::atan2(twist, across);
+      EXPECT_LT(std::abs(angle), 10.0 * kPi / 180.0) << east_m << ' ' << t_s;
+      // And it does change across the shore, not along it.
+      EXPECT_GT(std::hypot(across, twist), 0.25 * all) << east_m << ' ' << t_s;
+    }
+}
+
+// Fronts run to the shore: what is seen a little later was further out before.
+TEST(NearShore, FrontsRunToTheShore) {
+  const World world(straight_shore(0.0));
+  const auto profile = [&](double t_s) {
+    const LabelledFrame frame(world, view_down({0.0, 30.0}, 70.0, 320, 240), t_s,
+                              without({Part::kWhitecaps}));
+    std::vector<double> mean(240);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x)
+        mean[static_cast<std::size_t>(y)] +=
+            static_cast<double>(frame.labels().foam[frame.at({x, y})]);
+    return mean;
+  };
+  const std::vector<double> before = profile(4.0), after = profile(4.4);
+  // How well they agree if the first is moved by so many rows; rows go southwards, to the shore.
+  const auto product = [&](int moved) {
+    double sum = 0.0;
+    for (int y = 20; y < 200; ++y)
+      sum += before[static_cast<std::size_t>(y - moved)] * after[static_cast<std::size_t>(y)];
+    return sum;
+  };
+  double towards = 0.0, away = 0.0;
+  for (int moved = 1; moved <= 8; ++moved) {
+    towards += product(moved);
+    away += product(-moved);
+  }
+  EXPECT_GT(towards, away);
+}
+
+TEST(NearShore, LeesHaveLessSurf) {
+  // The wind from the sea, and from land.
+  const auto foam_of = [](double wind_from_rad) {
+    const World world(straight_shore(wind_from_rad));
+    const LabelledFrame frame(world, view_down({0.0, 30.0}, 70.0, 160, 120), 5.0,
+                              without({Part::kWhitecaps}));
+    double sum = 0.0;
+    for (const float foam : frame.labels().foam) sum += static_cast<double>(foam);
+    return sum / static_cast<double>(frame.labels().foam.size());
+  };
+  EXPECT_GT(foam_of(0.0), 0.02);
+  EXPECT_LT(foam_of(kPi), 0.25 * foam_of(0.0));
+}
+
+}  // namespace
+}  // namespace swell::render

@@ -1,0 +1,426 @@
+// Trees in pictures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <string>
+
+#include "math/simd_target.h"
+#include "raster/pass.h"
+#include "render/drawn_frames.h"
+#include "render/labels/classes.h"
+#include "render/labels/label_channels.h"
+#include "render/view/choose_trees.h"
+#include "render/workspace.h"
+#include "scene/sky.h"
+#include "scene/terrain.h"
+
+namespace swell::render {
+namespace {
+
+constexpr double kTime_s = 3.0;
+constexpr int kTreesWide = 192, kTreesHigh = 112;
+
+// A small wooded island in a calm sea, without haze to hide anything.
+scene::Scene wooded_island(const std::string& more = "") {
+  return scene::parse_scene(R"(
+    [camera]
+    eye_m = [0.0, -210.0, 5.0]
+    heading_deg = 0.0
+    pitch_deg = -4.0
+    fov_y_deg = 40.0
+    [sky]
+    cloud_cover = 0.0
+    haze_distance_m = 1e6
+    [wind]
+    speed_mps = 2.0
+    [sea]
+    patch_lengths_m = [60.0, 13.0]
+    resolution = 64
+    amplitude_scale = 0.3
+    [detail]
+    water_triangles = 3000
+    terrain_triangles = 3000
+    [terrain]
+    island_radius_m = 130.0
+    island_height_m = 30.0
+    [[trees]]
+    density_per_m2 = 0.02
+    height_m = [6.0, 14.0]
+    clumping = 0.2
+)" + more,
+                            "wooded_island.toml");
+}
+
+const World& island_world() {
+  static const World world(wooded_island());
+  return world;
+}
+
+// A frame and what it was drawn with.
+struct TreeFrame {
+  explicit TreeFrame(const World& world, FrameOptions options = {}, int threads = 2)
+      : TreeFrame(world, scene::camera_view(world.scene().camera, kTime_s, kTreesWide, kTreesHigh),
+                  options, threads) {}
+  TreeFrame(const World& world, const View& view, FrameOptions options = {}, int threads = 2) {
+    Workers workers(threads);
+    render_frame(world, view, kTime_s, options, workspace, target, workers);
+  }
+  const Workspace::State& state() const { return workspace.state(); }
+
+  Workspace workspace;
+  Target target;
+};
+
+int luma(std::uint32_t rgba) {
+  return static_cast<int>((rgba & 255) * 2 + (rgba >> 8 & 255) * 5 + (rgba >> 16 & 255)) / 8;
+}
+
+double mean_difference(const Target& a, const Target& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i)
+    sum += std::abs(luma(a.rgba[i]) - luma(b.rgba[i]));
+  return sum / static_cast<double>(a.rgba.size());
+}
+
+TEST(DrawnTrees, HaveTheSameBitsOnAnyThreadsTilesAndTargets) {
+  FrameOptions options;
+  options.edge_samples = 4;
+  const TreeFrame reference(island_world(), options, 1);
+  EXPECT_EQ(difference(TreeFrame(island_world(), options, 3).target, reference.target), "");
+  for (const int tile : {16, 32}) {
+    options.tile_size_px = tile;
+    EXPECT_EQ(difference(TreeFrame(island_world(), options).target, reference.target), "") << tile;
+  }
+  options.tile_size_px = 64;
+  const World made_alone(wooded_island(), 1);
+  EXPECT_EQ(difference(TreeFrame(made_alone, options).target, reference.target), "");
+  if (!simd_target_available(SimdTarget::kAvx512)) return;
+  select_simd_target(SimdTarget::kAvx2);
+  EXPECT_EQ(difference(TreeFrame(island_world(), options).target, reference.target), "");
+  select_simd_target(SimdTarget::kAvx512);
+}
+
+TEST(DrawnTrees, LeaveNoTraceOfFramesBefore) {
+  const World& world = island_world();
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  const auto draw_from = [&](glm::dvec3 eye, double heading) {
+    const View view = make_view(eye, heading, -0.07, 0.7, 0.25f, kTreesWide, kTreesHigh);
+    render_frame(world, view, kTime_s, {}, workspace, target, workers);
+    return view;
+  };
+  draw_from({20.0, -60.0, 30.0}, 0.3);
+  draw_from({500.0, -60.0, 300.0}, -1.5);
+  const View view = draw_from({0.0, -210.0, 5.0}, 0.0);
+  EXPECT_EQ(difference(TreeFrame(world, view).target, target), "");
+}
+
+// Triangles in another order leave each pixel with the same depth and the same triangle.
+TEST(DrawnTrees, OrderOfTrianglesChangesNoPixel) {
+  const scene::Camera& camera = island_world().scene().camera;
+  const TreeFrame frame(island_world(), scene::camera_view(camera, kTime_s, 640, 360));
+  const auto indices = frame.state().meshes.indices(SurfaceKind::kTrees);
+  ASSERT_GT(indices.size(), 2000u);
+  std::vector<std::uint32_t> order(indices.size() / 3), shuffled;
+  std::iota(order.begin(), order.end(), 0u);
+  std::shuffle(order.begin(), order.end(), std::mt19937(7));  // NOLINT: any order will do
+  for (const std::uint32_t t : order)
+    shuffled.insert(shuffled.end(), {indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]});
+  Workers workers(2);
+  const auto drawn = [&](std::span<const std::uint32_t> triangles, raster::Pass& pass) {
+    raster::Draw draw;
+    draw.p_clip = frame.state().window.vertices_of(SurfaceKind::kTrees).p_clip;
+    draw.indices = triangles;
+    raster::prepare_pass(std::span(&draw, 1), frame.state().window.viewport(), 64, pass, workers);
+  };
+  raster::Pass plain_pass, shuffled_pass;
+  drawn(indices, plain_pass);
+  drawn(shuffled, shuffled_pass);
+  std::vector<float> depth(64 * 64), other_depth(depth.size());
+  std::vector<std::uint32_t> primitive(depth.size()), other(depth.size());
+  int seen = 0;
+  const raster::TileGrid grid = raster::tile_grid(frame.state().window.viewport(), 64);
+  for (int tile = 0; tile < grid.count(); ++tile) {
+    if (!raster::tile_has_triangles(plain_pass, tile)) continue;
+    raster::draw_tile(plain_pass, tile, depth, primitive);
+    raster::draw_tile(shuffled_pass, tile, other_depth, other);
+    EXPECT_EQ(depth, other_depth);
+    for (std::size_t i = 0; i < primitive.size(); ++i) {
+      if (primitive[i] == raster::kNoPrimitive) {
+        EXPECT_EQ(other[i], raster::kNoPrimitive);
+        continue;
+      }
+      EXPECT_EQ(primitive[i], order[other[i]]);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 5000);
+}
+
+TEST(DrawnTrees, AreLabelledByClassAndNumber) {
+  FrameOptions options;
+  options.labels.add(Label::kClass);
+  options.labels.add(Label::kId);
+  const World& world = island_world();
+  const TreeFrame frame(world, options);
+  const std::vector<std::string> names = class_names(world.scene());
+  const auto tree_class = class_of(names, "tree");
+  ASSERT_TRUE(tree_class);
+  const Labels& labels = frame.target.labels;
+  const std::size_t trees = world.state().forest->trees.trees.size();
+  int pixels = 0;
+  for (std::size_t i = 0; i < labels.klass.size(); ++i) {
+    const bool is_tree = labels.klass[i] == *tree_class;
+    EXPECT_EQ(is_tree, labels.id[i] >= kFirstTreeId);
+    if (!is_tree) continue;
+    EXPECT_LT(labels.id[i] - kFirstTreeId, trees);
+    ++pixels;
+  }
+  EXPECT_GT(pixels, 500);
+}
+
+// Every label is a whole number that single precision holds.
+static_assert(kFirstTreeId + terrain::kMostTrees < 1u << 24);
+
+// TRE-03: from the same places, through lenses that make crowns 50 pixels wide or three, trees
+// cover as much of the ground.
+TEST(DrawnTrees, CoverAsMuchHoweverSmallTheyAreDrawn) {
+  const World& world = island_world();
+  const auto tree_class = class_of(class_names(world.scene()), "tree");
+  ASSERT_TRUE(tree_class);
+  const auto covered_m2 = [&](double distance_m, double pixel_m) {
+    // A square of 30 m on the island's middle, seen at 45 degrees.
+    const int side_px = static_cast<int>(std::round(30.0 / pixel_m));
+    const double away_m = distance_m * std::sqrt(0.5);
+    const View view = make_view({0.0, -away_m, away_m + 15.0}, 0.0, -0.25 * kPi,
+                                2.0 * std::atan(15.0 / distance_m), 0.25f, side_px, side_px);
+    FrameOptions options;
+    options.labels.add(Label::kClass);
+    options.without = {Part::kWater};
+    const TreeFrame frame(world, view, options);
+    return static_cast<double>(std::ranges::count(frame.target.labels.klass, *tree_class)) *
+           pixel_m * pixel_m;
+  };
+  for (const double distance_m : {200.0, 2000.0}) {
+    const double whole_m2 = covered_m2(distance_m, 0.1);
+    EXPECT_GT(whole_m2, 90.0);
+    for (const double pixel_m : {0.2, 0.3})
+      EXPECT_NEAR(covered_m2(distance_m, pixel_m) / whole_m2, 1.0, 0.05)
+          << distance_m << " " << pixel_m;
+  }
+}
+
+TEST(DrawnTrees, AreMirroredInTheWater) {
+  FrameOptions bare;
+  bare.without.add(Part::kTrees);
+  const TreeFrame with(island_world()), without(island_world(), bare);
+  const VisibilityBuffer& visibility = with.state().visibility;
+  int darker = 0, water = 0;
+  for (int y = 0; y < kTreesHigh; ++y)
+    for (int x = 0; x < kTreesWide; ++x) {
+      const int side = visibility.grid.tile_size_px;
+      const int tile = y / side * visibility.grid.tiles_x + x / side;
+      if (visibility.covered[static_cast<std::size_t>(tile)] < 0) continue;
+      const std::uint32_t p =
+          visibility.primitive_of(tile)[static_cast<std::size_t>(y % side * side + x % side)];
+      if (!with.state().window.primitives.holds(SurfaceKind::kWater, p)) continue;
+      const auto at = static_cast<std::size_t>(y) * kTreesWide + x;
+      ++water;
+      darker += luma(with.target.rgba[at]) < luma(without.target.rgba[at]) - 4;
+    }
+  EXPECT_GT(darker, water / 20);
+  EXPECT_GT(with.state().lookups.reflection.view.primitives.end(SurfaceKind::kTrees),
+            with.state().lookups.reflection.view.primitives.begin(SurfaceKind::kTrees));
+}
+
+// A sunny wood down to the shore, from above.
+TEST(DrawnTrees, CastShadowsOnLandAndSeaAwayFromTheSun) {
+  scene::Scene scene = wooded_island();
+  scene.trees[0].ground_m.x = 0.1;
+  scene.sky.sun_azimuth_rad = 0.0;  // in the north: shadows fall to the south
+  scene.sky.sun_elevation_rad = 0.35;
+  scene.sky.sun_direction = scene::sun_direction(0.0, 0.35);
+  const World world(scene);
+  FrameOptions options, unshaded;
+  options.labels.add(Label::kClass);
+  unshaded.without.add(Part::kShadows);
+  const View view = make_view({0.0, -1.0, 420.0}, 0.0, -1.57, 0.7, 0.25f, kTreesWide, kTreesHigh);
+  const TreeFrame with(world, view, options), without(world, view, unshaded);
+  int on_land = 0, on_sea_south = 0, on_sea_north = 0;
+  for (int y = 0; y < kTreesHigh; ++y)
+    for (int x = 0; x < kTreesWide; ++x) {
+      const auto at = static_cast<std::size_t>(y) * kTreesWide + x;
+      const bool darker = luma(with.target.rgba[at]) < luma(without.target.rgba[at]) - 4;
+      if (with.target.labels.klass[at] == kTerrainClass) on_land += darker;
+      if (with.target.labels.klass[at] != kWaterClass) continue;
+      (y > kTreesHigh / 2 ? on_sea_south : on_sea_north) += darker;
+    }
+  EXPECT_GT(on_land, 100);
+  EXPECT_GT(on_sea_south, 20);
+  EXPECT_LT(on_sea_north, on_sea_south / 4);
+}
+
+// Trees of a ring of places and sizes, each chosen or not as plain arithmetic says.
+TEST(ChosenTrees, AreThoseThatThePictureShowsOnAnyTarget) {
+  constexpr std::uint32_t kCount = 5000;
+  std::mt19937 random(5);  // NOLINT: any numbers will do
+  std::uniform_real_distribution<float> part(0.0f, 1.0f);
+  TreeColumns trees;
+  for (std::uint32_t i = 0; i < kCount + kTreeLanes; ++i) {
+    trees.x_m.push_back(3000.0f * part(random) - 1500.0f);
+    trees.y_m.push_back(3000.0f * part(random) - 1500.0f);
+    trees.z_m.push_back(60.0f * part(random));
+    trees.height_m.push_back(2.0f + 14.0f * part(random));
+    trees.radius_m.push_back(3.0f * part(random));
+    trees.rank.push_back(part(random));
+    trees.thinned_px.push_back(9.0f + 7.0f * part(random));
+  }
+  const View view = make_view({0.0, 0.0, 40.0}, 0.4, -0.1, 0.7, 0.25f, 640, 360);
+  TreeSight sight{.planes = frustum_planes(view), .origin_rel = {0.0f, 0.0f, -40.0f}, .px = 500.0f};
+  std::vector<std::uint32_t> chosen(kCount + kTreeLanes);
+  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+    if (!simd_target_available(target)) continue;
+    select_simd_target(target);
+    const std::uint32_t first = 3, count = kCount - first;
+    const std::uint32_t found = choose_trees(trees, first, count, sight, chosen.data());
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = first; i < kCount; ++i) {
+      const glm::vec3 middle =
+          glm::vec3(trees.x_m[i], trees.y_m[i], trees.z_m[i] + 0.5f * trees.height_m[i]) +
+          sight.origin_rel;
+      const float height_px = trees.height_m[i] * sight.px / glm::length(middle);
+      bool shown =
+          height_px > kLastTree_px && trees.rank[i] < part_of_trees(height_px, trees.thinned_px[i]);
+      for (const glm::vec4& plane : sight.planes)
+        shown = shown && glm::dot(glm::vec3(plane), middle) + plane.w >=
+                             -1.02f * (0.5f * trees.height_m[i] + trees.radius_m[i]);
+      if (shown) expected.push_back(i);
+    }
+    EXPECT_GT(found, 100u);
+    EXPECT_EQ(std::vector(chosen.begin(), chosen.begin() + found), expected);
+  }
+}
+
+TEST(DrawnTrees, LeftOutLeaveTheLandAsItIsWithoutAny) {
+  scene::Scene bare = wooded_island();
+  bare.trees.clear();
+  const World bare_world(bare);
+  FrameOptions options;
+  options.without.add(Part::kTrees);
+  EXPECT_EQ(difference(TreeFrame(island_world(), options).target, TreeFrame(bare_world).target),
+            "");
+}
+
+TEST(DrawnTrees, SwayWithTheWindAndRepeatThemselves) {
+  const World& world = island_world();
+  const auto at = [&](double t_s) {
+    const View view = scene::camera_view(world.scene().camera, 0.0, 640, 360);
+    Workers workers(2);
+    Workspace workspace;
+    Target target;
+    render_frame(world, view, t_s, {}, workspace, target, workers);
+    return workspace.state().meshes.trees.drawn_in(ViewKind::kWindow).p_rel;
+  };
+  const auto a = at(1.0), b = at(1.0), c = at(2.0);
+  EXPECT_EQ(a, b);
+  ASSERT_EQ(a.size(), c.size());
+  float most = 0.0f;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], c[i]));
+  EXPECT_GT(most, 0.01f);
+  EXPECT_LT(most, 0.5f);
+}
+
+// Seen from the side and from above, what covers the picture does not change as trees get fewer
+// triangles, thin out and pass into the colour of the land: in steps of 1 % of the distance no
+// picture differs from the mean of its neighbours by much more than it does as a rule.
+TEST(DrawnTrees, PassIntoTheLandWithoutAPop) {
+  const World& world = island_world();
+  Workers workers(2);
+  Workspace workspace;
+  std::vector<Target> frames;
+  FrameOptions options;
+  options.without.add(Part::kWater);
+  options.edge_samples = 4;
+  // The picture narrows as the eye goes, so that the island stays as large and its trees do not.
+  for (int k = 0; k < 60; ++k) {
+    const double away = 1.0 + 0.01 * k;
+    const View view = make_view({0.0, -900.0 * away, 400.0 * away}, 0.0, -0.42, 0.5, 0.25f,
+                                static_cast<int>(220 / away), static_cast<int>(130 / away));
+    frames.emplace_back();
+    render_frame(world, view, kTime_s, options, workspace, frames.back(), workers);
+  }
+  std::vector<double> mean;
+  for (const Target& frame : frames) {
+    double sum = 0.0;
+    for (const std::uint32_t pixel : frame.rgba) sum += luma(pixel);
+    mean.push_back(sum / static_cast<double>(frame.rgba.size()));
+  }
+  double most = 0.0;
+  for (std::size_t k = 1; k + 1 < mean.size(); ++k)
+    most = std::max(most, std::abs(mean[k] - 0.5 * (mean[k - 1] + mean[k + 1])));
+  EXPECT_LT(most, 0.5) << "of 255";
+}
+
+// A step of a thousandth of the distance changes a picture by no more where trees are drawn with
+// other triangles than it does without them by motion alone, many times over.
+TEST(DrawnTrees, SmallStepsMakeSmallDifferences) {
+  const World& world = island_world();
+  Workers workers(2);
+  Workspace workspace;
+  FrameOptions options;
+  options.edge_samples = 4;
+  Target before, now;
+  std::vector<double> steps;
+  for (int k = 0; k < 40; ++k) {
+    const double away = 1.0 + 0.001 * k;
+    const View view = make_view({0.0, -400.0 * away, 30.0 * away}, 0.0, -0.05, 0.5, 0.25f,
+                                kTreesWide, kTreesHigh);
+    render_frame(world, view, kTime_s, options, workspace, now, workers);
+    if (k > 0) steps.push_back(mean_difference(before, now));
+    before = now;
+  }
+  std::vector<double> sorted = steps;
+  std::ranges::sort(sorted);
+  EXPECT_LT(sorted.back(), 2.0 * sorted[sorted.size() / 2] + 0.05);
+}
+
+TEST(TreesOfScenes, TheSceneOfTreesHasAHundredThousand) {
+  const scene::Scene scene =
+      scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/tests/scenes/trees.toml");
+  const terrain::HeightGrid land = *scene::build_terrain(scene);
+  const terrain::HeightGrid sea = terrain::distance_from_sea(land);
+  Workers workers(2);
+  const terrain::Trees trees = terrain::plant_trees(scene.trees, land, {.still = &sea}, workers);
+  const auto reeds =
+      std::ranges::count(trees.trees, terrain::TreeSpecies::kReed, &terrain::Tree::species);
+  EXPECT_NEAR(static_cast<double>(std::ssize(trees.trees) - reeds), 100000.0, 5000.0);
+  EXPECT_GT(reeds, 1000);
+}
+
+TEST(TreesOfScenes, BadInputIsNamedInOneLine) {
+  const auto fault_of = [](const std::string& more) -> std::string {
+    try {
+      const World world(wooded_island(more));
+    } catch (const scene::SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(fault_of("[[trees]]\ndensity_per_m2 = 1e9\n")
+                .find("trees[1].density_per_m2, got 1000000000, allowed"),
+            std::string::npos);
+  EXPECT_NE(fault_of("[[trees]]\nspecies = \"palm\"\n").find("trees[1].species"),
+            std::string::npos);
+  EXPECT_NE(fault_of("[[trees]]\nheight_m = [9.0, 3.0]\n").find("the lower one first"),
+            std::string::npos);
+  EXPECT_NE(fault_of("[[trees]]\ndensity_map = \"none.png\"\n").find("No such file"),
+            std::string::npos);
+  EXPECT_THROW(scene::parse_scene("[[trees]]\n", "bare.toml"), scene::SceneError);
+}
+
+}  // namespace
+}  // namespace swell::render
