@@ -302,7 +302,6 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
 HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
                                  const std::uint32_t* primitive, const ShadeScratch& scratch,
                                  texture::RgbaImage& image) {
-  const D d;
   const hn::RebindToUnsigned<D> du;
   HWY_ALIGN std::array<std::uint32_t, kLanes> tail;
   const auto width = static_cast<std::size_t>(box.width_px);
