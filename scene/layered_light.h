@@ -3,8 +3,7 @@
 // that comes across is from where the sun stands higher or lower, each order has a first power of
 // that change.
 //
-// Over haze, under a sun below 10 degrees, the means are too large: at 6 km by 9 % in red, where
-// they count least.
+// High up, under a sun below 10 degrees, means are too large: at 6 km by up to 9 % in red.
 //
 // Source: S. Chandrasekhar, Radiative Transfer, 1950, section 48 (modes of azimuth); K. Stamnes et
 // al., Numerically stable algorithm for discrete-ordinate-method radiative transfer in multiple

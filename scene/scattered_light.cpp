@@ -79,11 +79,22 @@ PathSources sources_along(const Atmosphere& atmosphere, const Path& path, double
 
 glm::vec3 scatter_light_again(const PathSources& sources, double cos_azimuth, const Path& path,
                               LightAngles light) {
-  std::vector<glm::vec3> haze = sources.haze[0];
-  double before = 1.0, here = cos_azimuth;  // cos((m - 1) phi), cos(m phi)
-  for (int m = 1; m < kModes; ++m) {
-    const std::vector<glm::vec3>& in = sources.haze[m];
-    for (std::size_t i = 0; i < haze.size(); ++i) haze[i] += static_cast<float>(here) * in[i];
+  // The columns that this azimuth reads.
+  int first = sources.columns, last = 0;
+  for (const Step& step : path.steps) {
+    if (step.source.first >= kHazeHeights - 1) continue;
+    const double sine = light.up * step.up + light.ahead * step.ahead;
+    const int column = source_column(sine).first - sources.first_column;
+    first = std::min(first, column);
+    last = std::max(last, column + 1);
+  }
+  std::vector<glm::vec3> haze(sources.haze[0].size());
+  double before = cos_azimuth, here = 1.0;  // cos((m - 1) phi), cos(m phi)
+  for (const std::vector<glm::vec3>& in : sources.haze) {
+    const auto part = static_cast<float>(here);
+    for (std::size_t row = 0; row < haze.size(); row += static_cast<std::size_t>(sources.columns))
+      for (int column = first; column <= last; ++column)
+        haze[row + column] += part * in[row + column];
     before = std::exchange(here, 2.0 * cos_azimuth * here - before);
   }
   return scatter_again(
