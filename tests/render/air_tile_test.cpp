@@ -19,7 +19,9 @@ struct Looking {
 };
 
 TEST(AirOverATile, IsThatOfItsPixels) {
-  LinearRenderer renderer(calm_scene(35.0, 0.0, 200.0));
+  scene::Scene scene = calm_scene(35.0, 0.0, 200.0);
+  scene.detail.water_triangles = 500;
+  LinearRenderer renderer(scene);
   for (const auto [height_m, pitch_deg] : {Looking{60.0, -6.0}, Looking{1500.0, -7.0},
                                            Looking{1500.0, -50.0}, Looking{9000.0, -9.0}}) {
     const auto draw = [&](double pixel_rad) {
