@@ -50,9 +50,8 @@ double mean_place(double depth) {
 }
 
 // Rows of sources lie at kEven_m times the hyperbolic sine of even steps up to kEvenHeights.
-constexpr double kEven_m = 1500.0;
-const double kEvenHeights =
-    log(kAirTop_m / kEven_m + std::sqrt(std::pow(kAirTop_m / kEven_m, 2.0) + 1.0));
+constexpr double kEven_m = 1500.0, kTopOfEven = kAirTop_m / kEven_m;
+const double kEvenHeights = log(kTopOfEven + std::sqrt(kTopOfEven * kTopOfEven + 1.0));
 
 }  // namespace
 
