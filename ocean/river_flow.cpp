@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace swell::ocean {
 namespace {
@@ -24,11 +25,16 @@ struct Cut {
   Meeting low, high;  // of a bank that has an opening
 };
 
-// psi along the two banks of each river, and which rivers are connected.
+// psi along the two banks of each river, and which rivers are connected. opening_m: where on the
+// other's course the middle of each joint's opening lies. A bank has one psi up to it, and another
+// beyond; the middle lines may meet a width away.
 class BankValues {
  public:
-  explicit BankValues(const RiverNetwork& network)
-      : network_(network), right_(network.courses().size(), 0.0), part_(right_.size(), -1) {
+  BankValues(const RiverNetwork& network, std::span<const double> opening_m)
+      : network_(network),
+        opening_m_(opening_m),
+        right_(network.courses().size(), 0.0),
+        part_(right_.size(), -1) {
     for (std::size_t r = 0; r < right_.size(); ++r) {
       if (part_[r] >= 0) continue;
       part_[r] = static_cast<int>(r);
@@ -47,9 +53,11 @@ class BankValues {
   // What joints on a side have added to psi there, upstream of s_m.
   double change(std::size_t river, bool left, double s_m) const {
     double sum = 0.0;
-    for (const Joint& j : network_.joints())
-      if (j.on == river && j.on_left == left && j.s_m < s_m)
+    for (std::size_t n = 0; n < opening_m_.size(); ++n) {
+      const Joint& j = network_.joints()[n];
+      if (j.on == river && j.on_left == left && opening_m_[n] < s_m)
         sum += (j.joins == left ? 1.0 : -1.0) * j.discharge_m2_s;
+    }
     return sum;
   }
 
@@ -63,7 +71,8 @@ class BankValues {
 
   // The same bank of the river that it meets.
   double other_value(const Joint& j) const {
-    return (j.on_left ? network_.discharge_m2_s(j.on, 0.0) : 0.0) + change(j.on, j.on_left, j.s_m);
+    const double s_m = opening_m_[static_cast<std::size_t>(&j - network_.joints().data())];
+    return (j.on_left ? network_.discharge_m2_s(j.on, 0.0) : 0.0) + change(j.on, j.on_left, s_m);
   }
 
   void spread() {
@@ -91,6 +100,7 @@ class BankValues {
   }
 
   const RiverNetwork& network_;
+  std::span<const double> opening_m_;
   std::vector<double> right_;
   std::vector<int> part_;
 };
@@ -132,19 +142,21 @@ Meeting trim(const Course& other, bool at_end, const std::string& key,
 }  // namespace
 
 RiverFlow::RiverFlow(const RiverNetwork& network) {
-  const BankValues values(network);
   const std::vector<Course>& courses = network.courses();
   std::vector<std::array<std::vector<BankPoint>, 2>> banks(courses.size());  // right, left
   for (std::size_t r = 0; r < courses.size(); ++r)
     banks[r] = {bank_of(courses[r], false), bank_of(courses[r], true)};
   std::vector<std::array<std::vector<Cut>, 2>> cuts(courses.size());
+  std::vector<double> opening_m;
   for (const Joint& j : network.joints()) {
     const std::string key = fmt::format("{}[{}].{}", kRiverKey, j.river, j.joins ? "into" : "from");
     Meeting a = trim(courses[j.on], j.joins, key, banks[j.river][0]);
     Meeting b = trim(courses[j.on], j.joins, key, banks[j.river][1]);
     if (b.s_m < a.s_m) std::swap(a, b);
     cuts[j.on][j.on_left].push_back({a, b});
+    opening_m.push_back(0.5 * (a.s_m + b.s_m));
   }
+  const BankValues values(network, opening_m);
 
   std::vector<std::pair<int, double>> numbers;  // of banks: their part and psi
   const auto add = [&](std::size_t river, bool left, const BankPoint& a, const BankPoint& b) {

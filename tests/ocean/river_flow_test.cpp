@@ -7,55 +7,11 @@
 #include <numeric>
 #include <vector>
 
+#include "ocean/example_rivers.h"
 #include "ocean/river_network.h"
 
 namespace swell::ocean {
 namespace {
-
-River straight(double width_m, double speed_mps) {
-  River river;
-  river.name = "main";
-  river.path_m = {{-600.0, 0.0}, {600.0, 0.0}};
-  river.width_m = {width_m};
-  river.surface_m = {1.0, 0.0};
-  river.speed_mps = speed_mps;
-  return river;
-}
-
-// A river with bends and of several widths.
-River winding() {
-  River river;
-  river.name = "main";
-  river.path_m = {{-500, 0}, {-300, 60}, {-100, -40}, {100, 50}, {300, -30}, {500, 0}};
-  river.width_m = {24, 30, 20, 26, 34, 30};
-  river.surface_m = {5, 4, 3, 2, 1, 0};
-  river.speed_mps = 1.2;
-  return river;
-}
-
-// One that joins it from the left, or from the right.
-River tributary(bool left) {
-  River river;
-  river.name = "tributary";
-  river.into = "main";
-  river.path_m = left ? std::vector<glm::dvec2>{{-220, 300}, {-180, 150}, {-100, -40}}
-                      : std::vector<glm::dvec2>{{-220, -300}, {-180, -180}, {-100, -40}};
-  river.width_m = {12};
-  river.surface_m = {9, 6, 3};
-  river.speed_mps = 1.5;
-  return river;
-}
-
-// An arm that leaves the river and comes back to it, around an island.
-River arm() {
-  River river;
-  river.name = "arm";
-  river.from = river.into = "main";
-  river.path_m = {{75, 45}, {130, 120}, {220, 100}, {290, -25}};
-  river.width_m = {14};
-  river.surface_m = {2.2, 2, 1.6, 1};
-  return river;
-}
 
 std::vector<std::vector<River>> networks() {
   return {{straight(20.0, 0.7)},         {winding()},        {winding(), tributary(true)},
@@ -199,6 +155,22 @@ TEST(RiverFlow, JointsConserveWater) {
     const CourseNode& mouth = network.courses()[0].nodes[network.courses()[0].nodes.size() - 2];
     EXPECT_NEAR(*flow.psi(mouth.bank(true)) - *flow.psi(mouth.bank(false)),
                 network.discharge_m2_s(0, end_m), 1e-3);
+  }
+}
+
+// Or water would flow through the bank, fast, between the two.
+TEST(RiverFlow, BanksThatTouchHaveOnePsi) {
+  for (const std::vector<River>& rivers : networks()) {
+    const RiverFlow flow(RiverNetwork(rivers, {}));
+    int touching = 0;
+    for (const BankPiece& a : flow.banks())
+      for (const BankPiece& b : flow.banks())
+        for (const glm::dvec2& end : {b.segment.a, b.segment.b}) {
+          if (&a == &b || glm::distance(a.segment.b, end) > 1e-6) continue;
+          EXPECT_NEAR(a.psi, b.psi, 1e-9) << end.x << " " << end.y;
+          ++touching;
+        }
+    EXPECT_GT(touching, 100);
   }
 }
 
