@@ -154,11 +154,10 @@ void fill_label_tables(const LabelInputs& in, LabelTables& tables, const StageRu
   tables.set = in.options.labels;
   tables.eye_world = in.window.camera.eye_world;
   const auto has = [&](Label label) { return tables.set.has(label); };
-  const bool has_foam = in.world.coast || !in.world.whitecaps->patches.empty();
   const bool has_forms = !in.window.forms.forms.empty();
   tables.from_shading = has(Label::kNormal) || has(Label::kFlags) ||
-                        (has_forms && has(Label::kGeometricNormal)) ||
-                        (has_foam && (has(Label::kFoam) || has(Label::kClass)));
+                        (has_forms && has(Label::kGeometricNormal)) || has(Label::kFoam) ||
+                        has(Label::kClass);
   if (has(Label::kGeometricNormal)) fill_normals(in, tables, run);
   if (has(Label::kMotion)) fill_motion(in, tables, run);
 }
