@@ -1,0 +1,249 @@
+// The water's surface at a packet: slopes and foam of all waves.
+#if defined(SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_
+#undef SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_
+#else
+#define SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+
+#include "render/materials/foam-inl.h"
+#include "render/materials/near_shore-inl.h"
+#include "render/materials/tiled_slopes-inl.h"
+#include "render/materials/wakes-inl.h"
+#include "render/materials/water.h"
+#include "render/materials/whitecaps-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// The water's surface at a packet: mean slopes that the maps show, and the variance (of both axes
+// together) of the slopes too fine for a pixel.
+struct WaterSlopes {
+  V slope_x, slope_y, variance;
+  V foam_cover;     // part hidden by foam, in [0, 1]
+  V fine_variance;  // of all slopes but the drawn ones of the long waves: triangles do not show
+                    // them
+  V long_cosine;    // to the eye, of those
+  // Of foam: TornFoam.
+  V foam_thickness = {}, foam_bubbles = {};
+  V wake = {};  // over 1 where one is seen
+};
+
+HWY_INLINE void SetFoam(const TornFoam& foam, WaterSlopes& s) {
+  s.foam_cover = foam.cover;
+  s.foam_thickness = foam.thickness;
+  s.foam_bubbles = foam.bubbles;
+}
+
+// Foam of another origin, so far over its threshold.
+HWY_INLINE void AddFoamOver(V over, WaterSlopes& s) {
+  s.foam_cover = hn::Max(s.foam_cover, CoverOfOver(over));
+  s.foam_thickness = hn::Max(s.foam_thickness, Clamp(over, 0.0f, 1.0f));
+}
+
+HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
+  const V cycles =
+      hn::MulAdd(p.x, Constant(sine.kx), hn::MulAdd(p.y, Constant(sine.ky), Constant(sine.cycles)));
+  V sin_unused, cosine;
+  SinCosTurns(D(), cycles, sin_unused, cosine);
+  // A wave shorter than two footprints turns into roughness.
+  const float level_lost = sine.wavelength_log2 - 1.0f;
+  const V seen = Clamp(hn::Sub(Constant(level_lost), level_m), 0.0f, 1.0f);
+  const V amount = hn::Mul(cosine, seen);
+  s.slope_x = hn::MulAdd(amount, Constant(sine.slope_x), s.slope_x);
+  s.slope_y = hn::MulAdd(amount, Constant(sine.slope_y), s.slope_y);
+  const float variance = 0.5f * (sine.slope_x * sine.slope_x + sine.slope_y * sine.slope_y);
+  s.variance =
+      hn::MulAdd(hn::NegMulAdd(seen, seen, Constant(1.0f)), Constant(variance), s.variance);
+}
+
+// The unit normal of slopes.
+HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
+  const V inv_length =
+      InverseSqrt(hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
+  return {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
+}
+
+// What a coast's maps say of a packet: what the sea's own waves cede to the trains that know its
+// floor and what land takes of them, and the foam where waves break, both 0 outside the maps.
+struct Surf {
+  V ceded, foam;
+  hn::Mask<D> has_trains;  // in the trains' map
+  hn::Mask<D> inside;      // in any
+  bool is_near;            // any lane inside
+  bool all_ceded;          // no lane has anything of the sea's long waves
+};
+
+HWY_INLINE void SampleTrains(const Water& water, V3 p, V level_m, Surf& surf) {
+  const SlopeLayer& layer = water.coast_surf;
+  const LayerPlace place = PlaceIn(layer, p.x, p.y);
+  surf.has_trains = surf.inside = IsInside(layer, place);
+  if (hn::AllFalse(D(), surf.inside)) return;
+  SampleNearest(layer, place, hn::Sub(level_m, Constant(0.5f)), surf.ceded, surf.foam);
+  // All but half a step is all.
+  surf.ceded = hn::IfThenElse(hn::Gt(surf.ceded, Constant(0.996f)), Constant(1.0f), surf.ceded);
+  surf.ceded = hn::IfThenElseZero(surf.inside, surf.ceded);
+  surf.foam = hn::IfThenElseZero(surf.inside, surf.foam);
+}
+
+HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
+  const D d;
+  const V zero = hn::Zero(d), one = Constant(1.0f);
+  const auto none = hn::MaskFromVec(zero);
+  Surf surf = {zero, zero, none, none, false, false};
+  if (water.has_coast) SampleTrains(water, p, level_m, surf);
+  if (water.near_shore.map.map) {
+    const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m);
+    // What trains leave: they are the waves, where there are some.
+    const V left = hn::Sub(one, surf.ceded);
+    surf.foam = hn::MulAdd(shore.foam, left, surf.foam);
+    surf.ceded = hn::MulAdd(shore.taken, left, surf.ceded);
+    surf.inside = hn::Or(surf.inside, shore.inside);
+  }
+  surf.is_near = !hn::AllFalse(d, surf.inside);
+  surf.all_ceded = surf.is_near && hn::AllTrue(d, hn::Ge(surf.ceded, one));
+  return surf;
+}
+
+// Near a coast the longest waves make room for the trains that know its floor: their slopes keep
+// 1 - ceded, their variance its square.
+HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf, WaterSlopes& s) {
+  const D d;
+  const V kept = hn::Sub(Constant(1.0f), surf.ceded);
+  const V long_variance = hn::Sub(s.variance, Constant(water.base_variance));
+  s.slope_x = hn::NegMulAdd(s.slope_x, surf.ceded, s.slope_x);
+  s.slope_y = hn::NegMulAdd(s.slope_y, surf.ceded, s.slope_y);
+  const V blended = hn::MulAdd(long_variance, hn::Mul(kept, kept), Constant(water.base_variance));
+  // Not rounded outside: a packet with no lane inside does not come by here.
+  s.variance = hn::IfThenElse(surf.inside, blended, s.variance);
+  if (hn::AllFalse(d, surf.has_trains)) return;
+  V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
+  AddSlopes(water.coast_slopes, p, level_m, x, y, x, y, lost);
+  s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(surf.has_trains, x));
+  s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(surf.has_trains, y));
+  s.variance = hn::Add(s.variance, hn::IfThenElseZero(surf.has_trains, lost));
+}
+
+constexpr float kMinCos = 0.02f;
+
+// The area that waves of these slopes turn to the eye, over the level's.
+HWY_INLINE V CosineOfSlopes(const Packet& packet, const WaterSlopes& s) {
+  return hn::NegMulAdd(s.slope_x, packet.to_eye.x,
+                       hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
+}
+
+// How Perlin noise bends the coordinates of the ripples.
+template <bool kCoast>
+HWY_INLINE void BendRipples(const Water& water, V3 p, V level_m, V& du, V& dv) {
+  V unused = hn::Zero(D());
+  // In scenes with surf nobody sees the step between two levels of the noise.
+  if (kCoast && water.has_coast)
+    NearestSlopes(water.uv_noise, p, level_m, du, dv);
+  else
+    AddSlopes(water.uv_noise, p, level_m, du, dv, du, dv, unused);
+}
+
+// What disturbs the water: slopes on those that there are, and foam, torn as whitecaps are.
+HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
+  const WakesAt at = SampleWakes(water.wakes, p, level_m);
+  if (!at.is_near) return;
+  s.slope_x = hn::Add(s.slope_x, at.slope_x);
+  s.slope_y = hn::Add(s.slope_y, at.slope_y);
+  s.variance = hn::Add(s.variance, at.variance);
+  s.fine_variance = hn::Add(s.fine_variance, at.variance);
+  const V slope2 = hn::MulAdd(at.slope_x, at.slope_x, hn::Mul(at.slope_y, at.slope_y));
+  s.wake =
+      hn::Max(hn::Mul(slope2, Constant(1.0f / (0.02f * 0.02f))), hn::Mul(at.foam, Constant(10.0f)));
+  const TornFoam foam = TearWhitecaps(water.wakes.foam, p, level_m, at.foam);
+  s.foam_cover = hn::Max(s.foam_cover, foam.cover);
+  s.foam_thickness = hn::Max(s.foam_thickness, foam.thickness);
+  s.foam_bubbles = hn::Max(s.foam_bubbles, foam.bubbles);
+}
+
+// Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
+// bends where the longest of them are seen. How steeply the eye meets the long waves decides how
+// long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
+// by side hide that.
+template <bool kCoast, std::size_t kCount>
+HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const ViewRays& rays,
+                                                       const std::array<Packet, kCount>& packets) {
+  const D d;
+  const V zero = hn::Zero(d);
+  std::array<V, kCount> across, level_flat_m, level_m, du, dv;
+  std::array<Surf, kCount> surf;
+  std::array<WaterSlopes, kCount> s;
+  for (std::size_t k = 0; k < kCount; ++k) {
+    across[k] = FootprintAcross(rays, packets[k]);
+    level_flat_m[k] = FootprintLevel(across[k], Clamp(packets[k].to_eye.z, kMinCos, 1.0f));
+    level_m[k] = level_flat_m[k];
+    surf[k] = {zero, zero, hn::MaskFromVec(zero), hn::MaskFromVec(zero), false, false};
+    if constexpr (kCoast) surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k]);
+    s[k] = {zero, zero, Constant(water.base_variance), zero, zero, packets[k].to_eye.z};
+    du[k] = dv[k] = zero;
+  }
+  for (int i = 0; i < water.sine_count; ++i)
+    for (std::size_t k = 0; k < kCount; ++k)
+      AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]);
+  bool all_ceded = kCoast;
+  if constexpr (kCoast)
+    for (std::size_t k = 0; k < kCount; ++k) all_ceded = all_ceded && surf[k].all_ceded;
+  const bool has_patch = water.first_ripples > 0;
+  if (has_patch && !all_ceded) {
+    const FoamMap* const long_foam = water.whitecaps.count > 0 ? &water.whitecaps.foam[0] : nullptr;
+    std::array<V, kCount> foam;
+    for (std::size_t k = 0; k < kCount; ++k)
+      foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
+                                s[k].slope_x, s[k].slope_y, s[k].variance);
+    for (std::size_t k = 0; k < kCount; ++k)
+      foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p,
+                            hn::Add(packets[k].p.z, Constant(rays.eye_z)), level_flat_m[k],
+                            surf[k].ceded);
+    for (std::size_t k = 0; k < kCount; ++k)
+      SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
+  }
+  if constexpr (kCoast)
+    for (std::size_t k = 0; k < kCount; ++k)
+      AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]);
+  // Without patches the sines alone are the long waves: the loop then begins before the first
+  // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
+  const int last_long = water.long_layer_count - 1;
+  for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
+    const bool is_long = i <= last_long;
+    if (i == water.first_ripples) {
+      bool shows = false;
+      for (std::size_t k = 0; k < kCount; ++k)
+        shows = shows || ShowsDetail(water.layers[i], level_m[k]);
+      if (shows)
+        for (std::size_t k = 0; k < kCount; ++k)
+          BendRipples<kCoast>(water, packets[k].p, level_m[k], du[k], dv[k]);
+    }
+    if (i >= (has_patch ? 1 : 0) && !(is_long && all_ceded)) {
+      const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
+      for (std::size_t k = 0; k < kCount; ++k)
+        AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
+                  s[k].variance);
+    }
+    if (!is_long) continue;
+    for (std::size_t k = 0; k < kCount; ++k) {
+      if (kCoast && surf[k].is_near && i == last_long)
+        BlendCoast(water, packets[k].p, level_flat_m[k], surf[k], s[k]);
+      s[k].long_cosine = CosineOfSlopes(packets[k], s[k]);
+      // The normal's length is left out: it is near 1, and a level needs no better.
+      level_m[k] = FootprintLevel(across[k], Clamp(s[k].long_cosine, kMinCos, 1.0f));
+      s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance));
+    }
+  }
+  if (water.wakes.count > 0)
+    for (std::size_t k = 0; k < kCount; ++k) AddWakes(water, packets[k].p, level_flat_m[k], s[k]);
+  return s;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
