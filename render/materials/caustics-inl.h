@@ -77,33 +77,47 @@ HWY_NOINLINE static void BendLookup(const Caustics& caustics, V level_m, V& x, V
   y = hn::NegMulAdd(slope_y, by, y);
 }
 
-// The sun's light on points p under the water's level, relative to the eye, against what flat water
-// would let through: 1 above the level, and where it is too deep or too far away to see a pattern.
-// By kNearest maps a lookup costs half as much: for means along ways.
+// The sun's light on points p, `depth` under the water (0 or more), relative to the eye, against
+// what flat water would let through: 1 at no depth, and where it is too deep or too far away to see
+// a pattern. patches: of the caustics', the shortest ones. By kNearest maps a lookup costs half as
+// much: for means along ways.
 template <bool kNearest = false>
-HWY_NOINLINE static V GatheredSun(const Shading& s, const V3& p, V level_m) {
+HWY_NOINLINE static V GatheredSunAt(const Shading& s, std::size_t patches, const V3& p,
+                                    const V& depth, V level_m) {
   const D d;
   const Caustics& caustics = s.caustics;
   const V zero = hn::Zero(d), one = Constant(1.0f);
-  const V depth = hn::Max(hn::Sub(Constant(-s.rays.eye_z), p.z), zero);
-  if (caustics.patches == 0 || hn::AllFalse(d, hn::Gt(depth, zero))) return one;
+  if (patches == 0 || hn::AllFalse(d, hn::Gt(depth, zero))) return one;
   V x = hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x);
   V y = hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y);
   if (!kNearest && caustics.bend_m > 0.0f) BendLookup(caustics, level_m, x, y);
   std::array<CausticPlace, CausticMaps::kMostPatches> places;
-  for (std::size_t i = 0; i < caustics.patches; ++i)
+  for (std::size_t i = 0; i < patches; ++i)
     places[i] = PlaceInCaustics(caustics.patch[i], x, y, level_m);
   V more = zero;
   for (std::size_t k = 0; k < CausticMaps::kDepths; ++k) {
     const V weight = CausticWeight<kNearest>(caustics, k, depth);
     if (hn::AllFalse(d, hn::Gt(weight, zero))) continue;
     V intensity = one;
-    for (std::size_t i = 0; i < caustics.patches; ++i)
+    for (std::size_t i = 0; i < patches; ++i)
       if (!hn::AllFalse(d, hn::Gt(places[i].shown, zero)))
         intensity = hn::Mul(intensity, SampleCaustic(*caustics.patch[i].map[k], places[i]));
     more = hn::MulAdd(hn::Sub(intensity, one), weight, more);
   }
   return hn::MulAdd(more, Constant(caustics.strength), one);
+}
+
+// The same under the sea's level.
+template <bool kNearest = false>
+HWY_INLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
+  const V depth = hn::Max(hn::Sub(Constant(-s.rays.eye_z), p.z), hn::Zero(D()));
+  return GatheredSunAt<kNearest>(s, s.caustics.patches, p, depth, level_m);
+}
+
+// Whether pixels of this footprint show any pattern of the shortest patch.
+HWY_INLINE hn::Mask<D> ShowsShortCaustics(const Caustics& caustics, V level_m) {
+  if (caustics.patches == 0) return hn::MaskFromVec(hn::Zero(D()));
+  return hn::Lt(level_m, Constant(kAllCausticLost - caustics.patch[0].log2_texels_per_m));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,7 +7,10 @@
 #define SWELL_RENDER_MATERIALS_RIVER_INL_H_
 #endif
 
+#include "render/materials/caustics-inl.h"
+#include "render/materials/ground-inl.h"
 #include "render/materials/river.h"
+#include "render/materials/terrain.h"
 #include "render/materials/water-inl.h"
 #include "render/tile/attenuate-inl.h"
 
@@ -228,12 +231,33 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
   return s;
 }
 
-// Of the bed: how bright wet sand is against gravel, and the level over the sea's up to which there
-// is some sand [m].
-constexpr float kSandOverGravel = 2.5f, kGravelBegin_m = 1.2f;
+// The level over the sea's up to which there is some of the sea floor's sand in a bed [m].
+constexpr float kGravelBegin_m = 1.2f;
+
+// The bed's reflectance: wet gravel further up, the sea's floor where a river comes down to it.
+HWY_INLINE V3 FindBed(const Shading& s, const River& river, V3 p, V height_m, V level_m) {
+  const D d;
+  V x = hn::Zero(d), y = hn::Zero(d), unused = hn::Zero(d);
+  AddSlopes(river.stones, p, level_m, x, y, x, y, unused);
+  const V sandy = SmoothBlend(
+      hn::Mul(hn::Sub(Constant(kGravelBegin_m), height_m), Constant(1.0f / kGravelBegin_m)));
+  const V relief = hn::NegMulAdd(sandy, Constant(0.31f * 0.7f), Constant(0.31f));
+  const V stones = Clamp(hn::MulAdd(x, relief, Constant(1.0f)), 0.45f, 1.6f);
+  V3 bed = Constant(river.gravel);
+  const Terrain& terrain = s.material<Terrain>();
+  const auto some = hn::Gt(sandy, hn::Zero(d));
+  if (terrain.map.albedo && !hn::AllFalse(d, some)) {
+    const V3 floor = FindAlbedo(terrain, OnMap(terrain, p), p);
+    const auto join = [&](V gravel, V sand) HWY_ATTR {
+      return hn::IfThenElse(some, Lerp(gravel, sand, sandy), gravel);
+    };
+    bed = {join(bed.x, floor.x), join(bed.y, floor.y), join(bed.z, floor.z)};
+  }
+  return Scale(bed, stones);
+}
 
 // What comes up: the water's own light, and the bed's through it, at the place that the bent ray
-// meets.
+// meets, under the net of light that the sea's short waves make.
 HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
                        const Packet& packet, const WaterSlopes& slopes, V sun_visible) {
   const D d;
@@ -249,16 +273,16 @@ HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
                 hn::MulAdd(slopes.slope_y, bend, hn::MulAdd(packet.to_eye.y, away, packet.p.y)),
                 hn::Sub(packet.p.z, depth)};
   const V level_m = FootprintLevel(FootprintAcross(s.rays, packet), Clamp(cos_eye, 0.1f, 1.0f));
-  V x = hn::Zero(d), y = hn::Zero(d), unused = hn::Zero(d);
-  AddSlopes(river.stones, p, level_m, x, y, x, y, unused);
-  // Gravel further up, sand of the sea's where a river comes down to it.
   const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
-  const V sandy = SmoothBlend(
-      hn::Mul(hn::Sub(Constant(kGravelBegin_m), height_m), Constant(1.0f / kGravelBegin_m)));
-  const V bright = hn::MulAdd(sandy, Constant(kSandOverGravel - 1.0f), one);
-  const V relief = hn::NegMulAdd(sandy, Constant(0.31f * 0.7f), Constant(0.31f));
-  const V stones = hn::Mul(Clamp(hn::MulAdd(x, relief, one), 0.45f, 1.6f), bright);
-  const V3 lit = Scale(ScaleAdd(Constant(river.bed_sun), sun_visible, Constant(river.bed)), stones);
+  const V3 bed = FindBed(s, river, p, height_m, level_m);
+  V gathered = sun_visible;
+  const auto shows = hn::And(ShowsShortCaustics(s.caustics, level_m), hn::Gt(depth, hn::Zero(d)));
+  if (!hn::AllFalse(d, shows)) {
+    const V net = GatheredSunAt(s, 1, p, depth, level_m);
+    gathered = hn::IfThenElse(shows, hn::Mul(sun_visible, net), sun_visible);
+  }
+  const V3 lit =
+      Product(ScaleAdd(Constant(river.sun_light), gathered, Constant(river.sky_light)), bed);
   const V length = hn::MulAdd(depth, Constant(kDaylightSlant), hn::Min(path, Constant(200.0f)));
   const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
   const V3 seen = AbsorbInWater(s.media, {depth, length}, lit);
@@ -347,6 +371,8 @@ struct Shader<River, ViewKind::kWindow> {
       refracted = PassIntoSea(refracted, of_sea, at.sea_share);
       floor = PassIntoSea(floor, sea_floor, at.sea_share);
     }
+    TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
+    AddHulls(shading, tile, packet, refracted, foam);
     V3 mirrored =
         ReflectedLight(light, water, packet, s, f, inv_variance, floor, false, mirrored_alpha);
     const auto lay_over = [&](const LookupImage& lookup, V share) HWY_ATTR {
@@ -375,10 +401,9 @@ struct Shader<River, ViewKind::kWindow> {
     refracted_alpha = hn::IfThenElseZero(hn::Gt(at.sea_share, zero), refracted_alpha);
     V3 seen = Lerp(refracted, mirrored, f.reflectance);
     seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), seen);
-    const V foam =
-        hn::Mul(s.foam_cover, hn::MulAdd(s.foam_thickness, Constant(0.5f), Constant(0.4f)));
-    seen = AddFoam(river.foam, foam, sun_visible, seen);
-    return {seen, f.normal, s.foam_cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
+    const V white = hn::Mul(foam.cover, hn::MulAdd(foam.thickness, Constant(0.5f), Constant(0.4f)));
+    seen = AddFoam(river.foam, white, sun_visible, seen);
+    return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
   }
 };
 

@@ -48,8 +48,9 @@ void fill(const MaterialInputs& in, const RenderView& view, River& river) {
   river.base_variance = base_variance(in.world.scene);
   river.wind_share = in.without.has(Part::kRipples) ? 0.0f : kWindShare;
   const float sun = std::max(in.light.sun_direction.z, 0.0f) / static_cast<float>(kPi);
-  river.bed = kBedAlbedo * in.light.ambient;
-  river.bed_sun = kBedAlbedo * sun * in.light.sun_irradiance;
+  river.gravel = kBedAlbedo;
+  river.sky_light = in.light.ambient;
+  river.sun_light = sun * in.light.sun_irradiance;
 }
 
 }  // namespace swell::render

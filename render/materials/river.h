@@ -43,8 +43,9 @@ struct River {
   float cycle_number = 0.0f;               // whole ones, modulo 4096
   float base_variance = 0.0f;              // slope variance of ripples too fine for any map
   float wind_share = 1.0f;                 // of the sea's ripples
-  glm::vec3 bed{0.0f};                     // light that leaves it under no water, of the sky
-  glm::vec3 bed_sun{0.0f};                 // and of a sun that nothing hides
+  glm::vec3 gravel{0.0f};                  // reflectance of a bed above the sea's sand
+  glm::vec3 sky_light{0.0f};               // what a white bed under no water sends back, of the sky
+  glm::vec3 sun_light{0.0f};               // and of a sun that nothing hides
 
   LookupImage reflection;
   float mirror_level_m = 0.0f;  // that the image is of

@@ -260,6 +260,21 @@ HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha, V wake) {
       bit(hn::Mul(wake, Constant(0.5f)), kShowsWake));
 }
 
+// What hulls do to the water around them: they keep the sky's light off it and whiten it, afresh
+// and so thickly.
+HWY_INLINE void AddHulls(const Shading& shading, const TilePixels& tile, const Packet& packet,
+                         V3& refracted, TornFoam& foam) {
+  if (tile.casters.empty()) return;
+  const V level_m =
+      FootprintLevel(FootprintAcross(shading.rays, packet), Clamp(packet.to_eye.z, kMinCos, 1.0f));
+  const AtHulls hulls = SampleHulls(shading.sun_shadow, shading.material<Water>().hull_foam,
+                                    tile.casters, SpanOf(packet), packet.p, level_m);
+  refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
+  foam.cover = hn::Max(foam.cover, hulls.foam_cover);
+  const auto splashed = hn::Gt(hulls.foam_cover, hn::Zero(D()));
+  foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
+}
+
 // kCoast: water.knows_land().
 template <bool kCoast>
 struct WaterShader {
@@ -287,17 +302,7 @@ struct WaterShader {
     const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance, floor,
                                        tile.lookups.reflection, mirrored_alpha);
     TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
-    if (!tile.casters.empty()) {
-      const V level_m = FootprintLevel(FootprintAcross(shading.rays, packet),
-                                       Clamp(packet.to_eye.z, kMinCos, 1.0f));
-      const AtHulls hulls = SampleHulls(shading.sun_shadow, water.hull_foam, tile.casters,
-                                        SpanOf(packet), packet.p, level_m);
-      refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
-      foam.cover = hn::Max(foam.cover, hulls.foam_cover);
-      // Fresh, and so thick.
-      const auto splashed = hn::Gt(hulls.foam_cover, hn::Zero(D()));
-      foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
-    }
+    AddHulls(shading, tile, packet, refracted, foam);
     const V weight =
         water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
     const V3 arriving = Lerp(refracted, mirrored, weight);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "math/check.h"
 #include "math/earth.h"
 #include "math/elementary.h"
+#include "math/smoothstep.h"
 #include "render/view/object_levels.h"
 #include "render/view/shadow_reach.h"
 #include "render/world/land_shadow.h"
@@ -153,6 +155,25 @@ void add_foam(const WaterMotion& motion, double height_m, Waterline& line) {
                           std::clamp(0.5 * motion.omega_rad_s * height_m / speed, -1.0, 1.0));
 }
 
+// The current that runs past a part of an object in a river, none past one that makes a wake;
+// nothing beside rivers.
+std::optional<glm::vec2> river_past(const World::State& world, const scene::FloatingObject& object,
+                                    glm::dvec2 part_world) {
+  if (!world.inland) return std::nullopt;
+  const auto at = world.inland->at(part_world);
+  if (!at || at->sea_share >= 1.0f) return std::nullopt;
+  const bool stands = object.path_m.empty();
+  return stands ? glm::vec2(at->east_mps, at->north_mps) : glm::vec2(0.0f);
+}
+
+// White water at what a current runs against, more of it in its lee.
+void add_river_foam(glm::vec2 current_mps, Waterline& line) {
+  const float speed = glm::length(current_mps);
+  line.foam = 0.9f * smoothstep(0.3f, 1.6f, speed);
+  line.foam_m = 0.2f + 0.7f * std::min(speed, 2.0f);
+  line.flow = speed > 0.0f ? current_mps / speed : glm::vec2(0.0f);
+}
+
 // Where the sun's disc is four times as broad as the object, which hides a tenth of it.
 float reach_of(const scene::FloatingObject& object) {
   const glm::dvec3 size = object.size_m;
@@ -294,7 +315,11 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
       ShadowCaster caster = caster_of(all[i], parts[k], objects.poses[i], options, view);
       caster.object = static_cast<std::uint32_t>(i);
       caster.part = static_cast<std::uint32_t>(k);
-      add_foam(motion, objects.poses[i].water_m, caster.waterline);
+      const glm::dvec3 part_world = view.eye_world + glm::dvec3(caster.waterline.middle_rel);
+      if (const auto current_mps = river_past(world, all[i], glm::dvec2(part_world)))
+        add_river_foam(*current_mps, caster.waterline);
+      else
+        add_foam(motion, objects.poses[i].water_m, caster.waterline);
       const bool tells = caster.near_m > 0.0f || caster.reach_m > 0.0f;
       if (!tells) continue;
       const Corners corners = corners_of(caster, shadows);

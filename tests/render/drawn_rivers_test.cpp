@@ -1,5 +1,6 @@
 // Rivers and lakes in pictures: they are drawn where queries say, flow without pulsing, and follow
 // from the scene and the time alone.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,11 +36,13 @@ speed_mps = 0
 model = "none"
 )";
 
+scene::Scene river_scene(const std::string& more = "") {
+  return scene::parse_scene(std::string(kCameraAndLight) + kLakeAndRiver + "speed_mps = 1\n" + more,
+                            "river.toml");
+}
+
 const World& river_world() {
-  static const World world(
-      scene::parse_scene(std::string(kCameraAndLight) + kLakeAndRiver + "speed_mps = 1\n",
-                         "river.toml"),
-      1);
+  static const World world(river_scene(), 1);
   return world;
 }
 
@@ -69,6 +72,13 @@ struct Frame {
     const float depth_m = view.near_m / buffer.depth_of(tile(x, y))[at(x, y)];
     const glm::vec3 ray = view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     return view.eye_world + glm::dvec3(depth_m * ray);
+  }
+  glm::vec3 light(int x, int y) const {  // with keep_linear
+    const float* const rgb = &target.linear[3 * static_cast<std::size_t>(y * view.width_px + x)];
+    return {rgb[0], rgb[1], rgb[2]};
+  }
+  float foam(int x, int y) const {
+    return target.labels.foam[static_cast<std::size_t>(y * view.width_px + x)];
   }
   std::vector<double> river_brightness() const {
     std::vector<double> values;
@@ -179,6 +189,110 @@ TEST(DrawnRivers, MirrorInTheSeasLevelAndInOneMore) {
       changed += frame.shows_river(x, y) && frame.target.rgba[i] != bare.target.rgba[i];
     }
   EXPECT_GT(changed, 100);
+}
+
+// Nearly straight down, north on top.
+scene::Scene seen_from_above(glm::dvec3 eye_m, const std::string& more = "") {
+  scene::Scene scene = river_scene(more);
+  scene.camera.eye_m = eye_m;
+  scene.camera.heading_rad = 0.0;
+  scene.camera.pitch_rad = scene::radians(-89.0);
+  return scene;
+}
+
+FrameOptions linear_without(Part part) {
+  FrameOptions options;
+  options.keep_linear = true;
+  options.without = {part};
+  return options;
+}
+
+// As at the sea's floor, into which a mouth passes. From 1.2 m up they are gravel, whatever the
+// land is.
+TEST(DrawnRivers, BedsAreOfTheLandsSandNearTheSea) {
+  scene::Scene scene = seen_from_above({0.0, -80.0, 90.0});
+  const World sand(scene, 1);
+  scene.terrain->ground.sand = {0.6f, 0.05f, 0.05f};
+  const World red_sand(scene, 1);
+  const Frame a(sand, 2.0, linear_without(Part::kReflection)),
+      b(red_sand, 2.0, linear_without(Part::kReflection));
+  int high = 0, low = 0;
+  float green = 0.0f, green_of_red = 0.0f;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      if (!a.shows_river(x, y)) continue;
+      const double level_m = a.point(x, y).z;
+      if (level_m > 1.25) {
+        EXPECT_EQ(a.light(x, y), b.light(x, y));
+        ++high;
+      } else if (level_m < 0.6) {
+        green += a.light(x, y).g;
+        green_of_red += b.light(x, y).g;
+        ++low;
+      }
+    }
+  EXPECT_GT(std::min(high, low), 100);
+  EXPECT_LT(green_of_red, 0.8f * green);
+}
+
+TEST(DrawnRivers, HaveCausticsOnTheirBeds) {
+  scene::Scene scene = seen_from_above({-6.0, -100.0, 7.0});
+  scene.sea.wind_speed_mps = 5.0;
+  const World world(scene, 1);
+  FrameOptions with = linear_without(Part::kReflection), small_tiles = with;
+  const Frame a(world, 2.0, with);
+  with.without.add(Part::kCaustics);
+  const Frame b(world, 2.0, with);
+  int river = 0, changed = 0;
+  float light = 0.0f, light_without = 0.0f;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      if (!a.shows_river(x, y)) continue;
+      const float green = a.light(x, y).g, green_without = b.light(x, y).g;
+      light += green;
+      light_without += green_without;
+      changed += std::abs(green - green_without) > 0.02f * green_without;
+      ++river;
+    }
+  EXPECT_GT(river, 5000);
+  EXPECT_GT(changed, river / 3);
+  // The waves only move the light about.
+  EXPECT_NEAR(light / light_without, 1.0f, 0.05f);
+  small_tiles.tile_size_px = 32;
+  EXPECT_EQ(Frame(world, 2.0, small_tiles, 2).target.linear, a.target.linear);
+}
+
+// The foam that a sphere at `position` adds to the river's, south of it, from where the water
+// comes, and north.
+glm::vec2 foam_at_sphere(glm::dvec2 position, const std::string& more) {
+  const World world(
+      seen_from_above({position, 25.0},
+                      fmt::format("[[object]]\nkind = \"sphere\"\nsize_m = [2, 2, 2]\ndraught = "
+                                  "0.5\nposition_m = [{}, {}]\n{}",
+                                  position.x, position.y, more)),
+      1);
+  FrameOptions options;
+  options.labels.add(Label::kFoam);
+  const Frame with(world, 0.0, options);
+  options.without = {Part::kHulls};
+  const Frame without(world, 0.0, options);
+  glm::vec2 added(0.0f);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x)
+      if (with.shows_river(x, y))
+        added[with.point(x, y).y > position.y] += with.foam(x, y) - without.foam(x, y);
+  return added;
+}
+
+TEST(DrawnRivers, AreWhiteInTheLeeOfWhatStandsInThem) {
+  const glm::vec2 moored = foam_at_sphere({-8.0, -100.0}, "");
+  EXPECT_GT(moored.y, 20.0f);
+  EXPECT_GT(moored.y, 2.0f * moored.x);
+  EXPECT_GT(moored.x, 2.0f);
+  // What goes its own way makes a wake, and still water runs against nothing.
+  EXPECT_EQ(foam_at_sphere({-8.0, -100.0}, "wake = false\npath_m = [[-8, -100], [-8, -90]]\n"),
+            glm::vec2(0.0f));
+  EXPECT_EQ(foam_at_sphere({0.0, -202.0}, ""), glm::vec2(0.0f));
 }
 
 // RIV-05: the contrast of the carried ripples over their period, where every phase passes.
