@@ -1,0 +1,67 @@
+// HFR-04. What rays over heights take grows with the pixels, and hardly with the map.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <vector>
+
+#include "apps/bench/ray_picture.h"
+
+namespace swell::apps {
+namespace {
+
+// A picture of a map, and the least time that it has taken one core.
+struct Timed {
+  const terrain::HeightPyramid& map;
+  RayPicture picture;
+  double least_ms = 1e9;
+};
+
+double cpu_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+// By turns, so that a slow moment of the machine slows all of them.
+void time_all(std::vector<Timed>& all) {
+  Workers workers(1);
+  for (int n = 0; n < 15; ++n)
+    for (Timed& timed : all) {
+      const double before = cpu_ms();
+      cast_picture(timed.map, timed.picture, workers);
+      timed.least_ms = std::min(timed.least_ms, cpu_ms() - before);
+    }
+}
+
+TEST(RayTime, IsLinearInThePixels) {
+  Workers workers(2);
+  const terrain::HeightPyramid map = make_hills(1024, workers);
+  for (const double pitch_deg : {45.0, 10.0, 2.0}) {
+    std::vector<Timed> all;
+    for (const int height_px : {180, 270, 360, 540})
+      all.push_back({map, {height_px * 16 / 9, height_px, pitch_deg, true}});
+    time_all(all);
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      const auto pixels = [](const RayPicture& p) { return double(p.width_px) * p.height_px; };
+      const double more = pixels(all[k].picture) / pixels(all[k - 1].picture);
+      EXPECT_NEAR(all[k].least_ms / all[k - 1].least_ms / more, 1.0, 0.15)
+          << pitch_deg << " degrees, " << all[k].picture.height_px << " rows";
+    }
+  }
+}
+
+TEST(RayTime, IsAtMostHalfAsMuchAgainOverAMapOfFourTimesTheSide) {
+  Workers workers(2);
+  const terrain::HeightPyramid small = make_hills(1024, workers), large = make_hills(4096, workers);
+  for (const double pitch_deg : {45.0, 10.0, 2.0}) {
+    const RayPicture picture{640, 360, pitch_deg, true};
+    std::vector<Timed> both = {{small, picture}, {large, picture}};
+    time_all(both);
+    EXPECT_LE(both[1].least_ms, 1.5 * both[0].least_ms) << pitch_deg << " degrees";
+  }
+}
+
+}  // namespace
+}  // namespace swell::apps
