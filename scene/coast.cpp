@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "ocean/sea_state.h"
+#include "terrain/boundary.h"
 #include "terrain/terrain.h"
 
 namespace swell::scene {
@@ -117,8 +118,14 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
   return made;
 }
 
-std::optional<terrain::ShoreMap> build_shore(const terrain::HeightGrid* terrain, int threads) {
+std::optional<terrain::ShoreMap> build_shore(const Scene& scene, const terrain::HeightGrid* terrain,
+                                             int threads) {
   if (!terrain) return std::nullopt;
+  if (const std::filesystem::path& file = scene.terrain->boundary; !file.empty()) try {
+      return terrain::read_boundary(file, *terrain);
+    } catch (const terrain::TerrainError& error) {
+      throw SceneError(error.what());
+    }
   Workers workers(threads);
   return terrain::ShoreMap(*terrain, workers);
 }

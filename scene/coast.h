@@ -37,8 +37,9 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
                                            const terrain::ShoreMap* shore,
                                            int threads = available_cpus());
 
-// Where a scene's terrain meets the sea; nothing without terrain.
-std::optional<terrain::ShoreMap> build_shore(const terrain::HeightGrid* terrain,
+// Where a scene's terrain meets the sea, by its heights or by the file that it names; nothing
+// without terrain. Throws SceneError or texture::FileError for such a file.
+std::optional<terrain::ShoreMap> build_shore(const Scene& scene, const terrain::HeightGrid* terrain,
                                              int threads = available_cpus());
 
 // What land leaves of the waves of the scene's open sea, with 1 to 256 threads, the same bits with

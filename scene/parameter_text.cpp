@@ -56,7 +56,7 @@ std::string choices_text(std::span<const std::string_view> choices) {
 std::string one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  constexpr std::size_t kMaxBytes = 400;
+  constexpr std::size_t kMaxBytes = 600;
   if (text.size() <= kMaxBytes) return text;
   std::size_t end = kMaxBytes;
   while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;

@@ -333,6 +333,12 @@ Rows terrain_rows() {
           "square picture of heights, north on top, relative to the scene file; empty: an island "
           "from noise. EXR and HDR hold metres; of PNG, PNM and TIFF black is low_m and "
           "white is high_m"),
+      SceneRow::plain<std::string>(
+          "terrain.boundary", Kind::kPath, SWELL_FIELD(terrain->boundary),
+          "EXR file of the water boundary, relative to the scene file, as swell-bench terrain "
+          "--make-boundary writes it: distance to the shore, depth, height of the bank, part of "
+          "surf; empty: made from the heights. Shelter, surf and wakes follow it, the ground does "
+          "not"),
       SceneRow::number("terrain.metres_per_pixel", {0.01, 1000, "m"},
                        SWELL_FIELD(terrain->metres_per_pixel), "of the picture"),
       SceneRow::number("terrain.low_m", {-12000, 12000, "m"}, SWELL_FIELD(terrain->low_m),

@@ -146,7 +146,7 @@ bool allows_count(const Parameter<Object>& parameter, std::size_t count) {
          count <= static_cast<std::size_t>(parameter.count_high);
 }
 
-// One line without control characters, at most 400 bytes, cut between UTF-8 characters.
+// One line without control characters, at most 600 bytes, cut between UTF-8 characters.
 std::string one_line(std::string text);
 
 // "1 to 170 deg", "true or false", ...

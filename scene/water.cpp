@@ -24,7 +24,7 @@ Water::Water(const Scene& scene, int threads)
     terrain_ = std::move(land->terrain);
     inland_ = std::move(land->water);
   }
-  shore_ = build_shore(terrain());
+  shore_ = build_shore(scene, terrain());
   coast_ = build_coast(scene, terrain(), shore());
   shelter_ = build_shelter(scene, shore());
 }

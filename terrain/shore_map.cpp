@@ -113,6 +113,29 @@ std::vector<float> squared_distances(std::span<const float> height, std::size_t 
   return squared;
 }
 
+float lerp(float a, float b, float t) { return a + t * (b - a); }
+
+// Where a place is: the number of a cell's first point, and parts of the cell.
+struct Cell {
+  std::size_t corner;
+  float x, y;
+};
+
+Cell cell_at(const Grid& grid, double x, double y) {
+  const double last = grid.samples_x - 1;
+  const glm::dvec2 at = (glm::dvec2(x, y) - grid.min_world) / grid.spacing_m;
+  const double i = std::clamp(at.x, 0.0, last), j = std::clamp(at.y, 0.0, last);
+  const int column = std::min(static_cast<int>(i), grid.samples_x - 2);
+  const int row = std::min(static_cast<int>(j), grid.samples_y - 2);
+  return {grid.index(column, row), static_cast<float>(i - column), static_cast<float>(j - row)};
+}
+
+float blend(const Grid& grid, const Cell& cell, const std::vector<float>& values) {
+  const float* const low = values.data() + cell.corner;
+  const float* const high = low + grid.samples_x;
+  return lerp(lerp(low[0], low[1], cell.x), lerp(high[0], high[1], cell.x), cell.y);
+}
+
 }  // namespace
 
 ShoreMap::ShoreMap(const HeightGrid& land, Workers& workers) : grid_(map_grid(land)) {
@@ -136,27 +159,29 @@ ShoreMap::ShoreMap(const HeightGrid& land, Workers& workers) : grid_(map_grid(la
   }
 }
 
+ShoreMap::ShoreMap(const Grid& grid, std::vector<float> signed_distance_m,
+                   std::vector<float> height_m, std::vector<float> surf)
+    : grid_(grid),
+      distance_m_(std::move(signed_distance_m)),
+      height_m_(std::move(height_m)),
+      surf_(std::move(surf)) {
+  const auto [least, most] = std::ranges::minmax(distance_m_);
+  has_line_ = least < 0.0f && most > 0.0f;
+}
+
 ShorePoint ShoreMap::sample(double x, double y) const {
-  const double last = grid_.samples_x - 1;
-  const glm::dvec2 at = (glm::dvec2(x, y) - grid_.min_world) / grid_.spacing_m;
-  const double i = std::clamp(at.x, 0.0, last), j = std::clamp(at.y, 0.0, last);
-  const int column = std::min(static_cast<int>(i), grid_.samples_x - 2);
-  const int row = std::min(static_cast<int>(j), grid_.samples_y - 2);
-  const auto fx = static_cast<float>(i - column), fy = static_cast<float>(j - row);
-  const std::size_t corner = grid_.index(column, row);
-  const auto lerp = [](float a, float b, float t) { return a + t * (b - a); };
-  const auto at_corners = [&](const std::vector<float>& v) {
-    const float* const low = v.data() + corner;
-    const float* const high = low + grid_.samples_x;
-    return lerp(lerp(low[0], low[1], fx), lerp(high[0], high[1], fx), fy);
-  };
-  const float* const low = distance_m_.data() + corner;
+  const Cell cell = cell_at(grid_, x, y);
+  const float* const low = distance_m_.data() + cell.corner;
   const float* const high = low + grid_.samples_x;
-  const glm::vec2 rise(lerp(low[1] - low[0], high[1] - high[0], fy),
-                       lerp(high[0] - low[0], high[1] - low[1], fx));
+  const glm::vec2 rise(lerp(low[1] - low[0], high[1] - high[0], cell.y),
+                       lerp(high[0] - low[0], high[1] - low[1], cell.x));
   const float length = std::sqrt(rise.x * rise.x + rise.y * rise.y);
-  return {at_corners(distance_m_), at_corners(height_m_),
+  return {blend(grid_, cell, distance_m_), blend(grid_, cell, height_m_),
           length > 0.0f ? -rise / length : glm::vec2(0.0f)};
+}
+
+float ShoreMap::surf_at(double x, double y) const {
+  return surf_.empty() ? 1.0f : blend(grid_, cell_at(grid_, x, y), surf_);
 }
 
 }  // namespace swell::terrain

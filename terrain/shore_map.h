@@ -34,20 +34,26 @@ class ShoreMap {
   // the square's diagonal, positive if it is sea. 0.1 s of one core; the same bits with any
   // workers.
   ShoreMap(const HeightGrid& land, Workers& workers);
+  // Of values that are known, of the points of a square: surf in [0, 1], or none.
+  ShoreMap(const Grid& grid, std::vector<float> signed_distance_m, std::vector<float> height_m,
+           std::vector<float> surf);
 
   // Bilinear; beyond the map that of its border.
   ShorePoint sample(double x, double y) const;
+  float surf_at(double x, double y) const;  // likewise
 
   const Grid& grid() const { return grid_; }
   // Of the points, at grid().index(i, j).
   const std::vector<float>& signed_distance_m() const { return distance_m_; }
   const std::vector<float>& height_m() const { return height_m_; }
+  // Of the surf fronts that would run in there; empty: all of them everywhere.
+  const std::vector<float>& surf() const { return surf_; }
   // Whether there are both land and sea.
   bool has_line() const { return has_line_; }
 
  private:
   Grid grid_;
-  std::vector<float> distance_m_, height_m_;
+  std::vector<float> distance_m_, height_m_, surf_;
   bool has_line_ = false;
 };
 

@@ -60,6 +60,8 @@ struct TerrainDescription {
   // Of land that rays find:
   bool bicubic = false;                  // between samples; false: bilinear
   std::optional<double> outline_m = {};  // what is lower is not there
+  // The water boundary, read from a file (terrain/boundary.h); empty: made from the heights.
+  std::filesystem::path boundary = {};
   GroundMaterials ground = {};
 
   bool operator==(const TerrainDescription&) const = default;

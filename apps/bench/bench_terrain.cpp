@@ -1,4 +1,5 @@
-// swell-bench terrain: what rays over heights cost, by the size of the map and of the picture.
+// swell-bench terrain: what rays over heights cost, by the size of the map and of the picture; and
+// the water boundary of a scene.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/make_boundary.h"
 #include "apps/bench/ray_picture.h"
 #include "apps/bench/terrain_comparison.h"
 #include "apps/shared/cpu_name.h"
@@ -23,6 +25,7 @@ struct TerrainBench {
   bool against_triangles = false;
   int threads = available_cpus();
   std::string simd;
+  BoundaryOptions boundary;
 };
 
 // [ms]
@@ -73,6 +76,7 @@ void print_pictures(const TerrainBench& bench, Workers& workers) {
 }
 
 void run_terrain_bench(const TerrainBench& bench) {
+  if (!bench.boundary.file.empty()) return make_boundary(bench.boundary, bench.threads);
   select_simd(bench.simd);
   Workers workers(bench.threads);
   print_maps(bench, workers);
@@ -105,6 +109,8 @@ BenchMode add_bench_terrain(CommandLine& program) {
       "Draw whole frames, too, by rays and with triangles, over maps of up to 4096 cells");
   add_integer(line, "--runs", bench->runs, 1, 1000, "Pictures to time");
   add_machine_options(line, bench->threads, bench->simd);
+  add_boundary_options(line, bench->boundary);
+  line.need("--scene", "--make-boundary");
   return {line, [bench] { run_terrain_bench(*bench); }};
 }
 

@@ -30,6 +30,13 @@ double beach_slope(const terrain::ShoreMap& shore, const terrain::Grid& map, dou
   return distances_m > 0.0 ? std::clamp(depths_m / distances_m, 0.01, 0.5) : 0.1;
 }
 
+// Of the surf's reach to the shore: shorter where only a part of the surf is to run in.
+float part_of_reach(const terrain::ShoreMap& shore, glm::dvec2 p, float reach_m) {
+  const float distance_m = shore.sample(p.x, p.y).signed_distance_m;
+  const float surf = shore.surf_at(p.x, p.y);
+  return surf > 0.0f ? distance_m / (surf * reach_m) : 1.0f;
+}
+
 }  // namespace
 
 NearShoreMap build_near_shore(const World::State& world, Workers& workers) {
@@ -56,7 +63,7 @@ NearShoreMap build_near_shore(const World::State& world, Workers& workers) {
       ocean::apply_shelter(*world.shelter, {&p, 1}, {&kept, 1});
       const std::size_t k = static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i);
       taken[k] = 1.0f - kept;
-      part[k] = shore.sample(p.x, p.y).signed_distance_m / static_cast<float>(near.reach_m);
+      part[k] = part_of_reach(shore, p, static_cast<float>(near.reach_m));
     }
   });
   texture::pack_map2(n, taken, part, 1.0f / 127.0f, near.map);

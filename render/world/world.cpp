@@ -126,7 +126,8 @@ void add_terrain(const World::State* like, Workers& workers, World::State& state
   std::optional<scene::Land> land = scene::build_land(state.scene, workers);
   state.terrain = shared(std::move(land->terrain));
   state.inland = std::move(land->water);
-  state.shore = shared(terrain::ShoreMap(*state.terrain, workers));
+  state.shore =
+      shared(*scene::build_shore(state.scene, state.terrain.get(), workers.thread_count()));
   const terrain::HeightGrid around = sample_around(*state.terrain, workers);
   const terrain::TerrainDescription& description = *state.scene.terrain;
   terrain::HeightGrid smooth;

@@ -283,10 +283,10 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[terrain]\nheigth = 3\n",
               "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
               "height_image, high_m, seed, method, low_m, island_height_m, coast_m, checker_m, "
-              "centre_m, islands, outline_m, beach_size_m, sea_level_m, floor_depth_m, "
+              "centre_m, islands, outline_m, boundary, beach_size_m, sea_level_m, floor_depth_m, "
               "beach_slope, soil_colour, interpolation, dry_colour, rock_slope, sand_colour, "
               "rock_colour, metres_per_pixel, archipelago_size_m, grass_colour, grass_from_m, "
-              "island_radiu..."}));
+              "island_radius_m"}));
 
 TEST(SceneFileFaults, AnUnknownKeyListsTheKeysOfItsTable) {
   std::set<std::string> tables;

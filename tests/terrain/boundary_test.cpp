@@ -1,0 +1,114 @@
+// The water boundary as a picture: written, read again, painted over.
+#include "terrain/boundary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "terrain/height_image.h"
+
+namespace swell::terrain {
+namespace {
+
+// A round island of 60 m radius on 65 x 65 points, 4 m apart.
+HeightGrid island() {
+  HeightGrid land{
+      {.min_world = {-128.0, -128.0}, .spacing_m = 4.0, .samples_x = 65, .samples_y = 65}};
+  for (int j = 0; j < 65; ++j)
+    for (int i = 0; i < 65; ++i)
+      land.height_m.push_back(
+          static_cast<float>(0.1 * (60.0 - glm::length(land.grid.point(i, j)))));
+  return land;
+}
+
+class Boundary : public HeightImage {
+ protected:
+  std::filesystem::path write_image(const std::string& name, const texture::ImageF& image) const {
+    texture::write_file(folder_ / name, texture::encode_image(image, ".exr"));
+    return folder_ / name;
+  }
+  // A small picture of one pixel's value.
+  std::filesystem::path write_flat(int side, const std::vector<float>& pixel) const {
+    texture::ImageF image{side, side, static_cast<int>(pixel.size()), {}};
+    for (int k = 0; k < side * side; ++k)
+      image.pixels.insert(image.pixels.end(), pixel.begin(), pixel.end());
+    return write_image("flat.exr", image);
+  }
+  static std::string error_of(const std::filesystem::path& path) {
+    try {
+      read_boundary(path, island());
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return {};
+  }
+};
+
+TEST_F(Boundary, HoldsDistanceDepthAndBankWithNorthOnTop) {
+  Workers workers(1);
+  HeightGrid land = island();
+  for (int j = 0; j < 65; ++j)  // land all over the north
+    for (int i = 0; i < 65; ++i)
+      if (land.grid.point(i, j).y > 100.0) land.height_m[land.grid.index(i, j)] = 3.0f;
+  const texture::ImageF image = boundary_image(ShoreMap(land, workers));
+  ASSERT_EQ(image.width, image.height);
+  ASSERT_EQ(image.channels, 4);
+  const int middle = image.width / 2;
+  // The island's middle: 60 m from the line, 6 m high; the floor south of it.
+  EXPECT_NEAR(image.at(middle, middle, 0), -60.0f, 2.0f);
+  EXPECT_EQ(image.at(middle, middle, 1), 0.0f);
+  EXPECT_NEAR(image.at(middle, middle, 2), 6.0f, 1e-4f);
+  EXPECT_EQ(image.at(middle, middle, 3), 1.0f);
+  const int low = middle + 25, high = middle - 29;  // 100 m south, 116 m north
+  EXPECT_NEAR(image.at(middle, low, 0), 40.0f, 2.0f);
+  EXPECT_NEAR(image.at(middle, low, 1), 4.0f, 0.1f);
+  EXPECT_EQ(image.at(middle, low, 2), 0.0f);
+  EXPECT_NEAR(image.at(middle, high, 2), 3.0f, 1e-4f);
+}
+
+TEST_F(Boundary, IsTheSameMapToTheBitWhenReadAgain) {
+  Workers workers(2);
+  const HeightGrid land = island();
+  const ShoreMap made(land, workers);
+  const ShoreMap read = read_boundary(write_image("a.exr", boundary_image(made)), land);
+  EXPECT_EQ(read.grid().samples_x, made.grid().samples_x);
+  EXPECT_EQ(read.grid().min_world, made.grid().min_world);
+  EXPECT_EQ(read.grid().spacing_m, made.grid().spacing_m);
+  EXPECT_EQ(read.signed_distance_m(), made.signed_distance_m());
+  EXPECT_EQ(read.height_m(), made.height_m());
+  EXPECT_EQ(read.has_line(), made.has_line());
+  EXPECT_EQ(read.surf_at(10.0, 90.0), made.surf_at(10.0, 90.0));
+}
+
+TEST_F(Boundary, MayBeOfAnotherSizeAndPaintedOver) {
+  const ShoreMap read = read_boundary(write_flat(3, {12.0f, 2.0f, 0.0f, 0.25f}), island());
+  EXPECT_EQ(read.grid().samples_x, 3);
+  EXPECT_NEAR(read.grid().size_m(),
+              ShoreMap(island(), *std::make_unique<Workers>(1)).grid().size_m(), 1e-9);
+  EXPECT_EQ(read.sample(17.0, -60.0).signed_distance_m, 12.0f);
+  EXPECT_EQ(read.sample(17.0, -60.0).height_m, -2.0f);
+  EXPECT_EQ(read.surf_at(17.0, -60.0), 0.25f);
+  EXPECT_FALSE(read.has_line());
+}
+
+TEST_F(Boundary, RefusesWhatIsNone) {
+  const auto is_line = [](const std::string& error, const std::string& end) {
+    return error.ends_with(end) && error.find('\n') == std::string::npos;
+  };
+  EXPECT_PRED2(is_line, error_of(write_flat(4, {1.0f, 1.0f, 0.0f})),
+               "flat.exr: water boundary, got 3 channels, allowed 4: distance to the water line, "
+               "depth, height of the bank, part of surf");
+  EXPECT_PRED2(is_line, error_of(write_image("b.exr", {3, 2, 4, std::vector<float>(24, 0.0f)})),
+               "b.exr: water boundary, got 3 x 2 pixels, allowed a square of 2 to 1025 a side");
+  EXPECT_PRED2(is_line, error_of(write_flat(2, {1.0f, -1.0f, 0.0f, 1.0f})),
+               "flat.exr: depth at pixel (0, 0), got -1, allowed 0 to 12000 m");
+  EXPECT_PRED2(is_line, error_of(write_flat(2, {1.0f, 1.0f, 0.0f, 1.5f})),
+               "flat.exr: part of surf at pixel (0, 0), got 1.5, allowed 0 to 1");
+  EXPECT_PRED2(is_line, error_of(folder_ / "a.png"),
+               "a.png: water boundary, got no EXR file, allowed files whose names end in .exr");
+  EXPECT_NE(error_of(folder_ / "none.exr").find("none.exr"), std::string::npos);
+  EXPECT_NE(error_of(write_flat(1026, {1.0f, 1.0f, 0.0f, 1.0f})).find("1025"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace swell::terrain
