@@ -23,13 +23,6 @@ float whiteness(const WaterPlace& place, double speed_mps) {
   return static_cast<float>(std::max(fast, steep) * (1.0 - place.sea_share));
 }
 
-// Speed of the water, also of places beside it: as at its edge.
-glm::dvec2 velocity_at(const RiverFlow& flow, const WaterPlace& place, glm::dvec2 p) {
-  if (place.width_m == 0.0 || place.speed_share <= 0.0 || place.outside_m > 0.0)
-    return glm::dvec2(0.0);
-  return place.speed_share * flow.velocity(p);
-}
-
 }  // namespace
 
 InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
@@ -98,7 +91,7 @@ InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
         const std::optional<WaterPlace> place = water_at(p);
         if (!place) continue;
         near[n] = place->outside_m < margin_m;
-        const glm::dvec2 v = velocity_at(flow, *place, p);
+        const glm::dvec2 v = river_current(flow, *place, p);
         sample.level_m = static_cast<float>(place->level_m);
         sample.depth_m = static_cast<float>(place->level_m - terrain::height_at(land, p));
         sample.east_mps = static_cast<float>(v.x);

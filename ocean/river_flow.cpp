@@ -236,4 +236,10 @@ glm::dvec2 RiverFlow::velocity(glm::dvec2 p) const {
   return glm::dvec2(*north - *south, *west - *east) / (2.0 * kStep_m);
 }
 
+glm::dvec2 river_current(const RiverFlow& flow, const WaterPlace& place, glm::dvec2 p) {
+  if (place.width_m == 0.0 || place.speed_share <= 0.0 || place.outside_m > 0.0)
+    return glm::dvec2(0.0);
+  return place.speed_share * flow.velocity(p);
+}
+
 }  // namespace swell::ocean

@@ -49,4 +49,8 @@ class RiverFlow {
   SegmentIndex index_;
 };
 
+// [m/s] at a place of the network's water: `flow`, slowed where lakes and the sea slow it; 0 beside
+// the water and in lakes. place: network.water_near(p).
+glm::dvec2 river_current(const RiverFlow& flow, const WaterPlace& place, glm::dvec2 p);
+
 }  // namespace swell::ocean

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/drift.h"
 #include "ocean/map_waves.h"
-#include "ocean/river_flow.h"
 #include "scene/celestial.h"
 #include "scene/coast.h"
 #include "scene/parameters.h"
@@ -248,7 +248,7 @@ Fault fault_of_way(const std::vector<glm::dvec2>& path_m, bool closed, const std
 }
 
 // Only a mesh or a form has a file, and a path leads somewhere.
-Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
+Fault fault_of_objects(const std::vector<FloatingObject>& objects, bool has_rivers) {
   for (std::size_t n = 0; n < objects.size(); ++n) {
     const FloatingObject& object = objects[n];
     const auto key = [&](std::string_view name) {
@@ -263,6 +263,12 @@ Fault fault_of_objects(const std::vector<FloatingObject>& objects) {
       return SceneFault{key("file"), "it of another kind than \"mesh\" or \"form\"",
                         "files of meshes and forms"};
     if (Fault fault = fault_of_way(object.path_m, object.path_closed, key("path_m"))) return fault;
+    if (object.drift && !object.path_m.empty())
+      return SceneFault{key("drift"), "it besides path_m", "one of them"};
+    if (object.drift && object.motion != Motion::kFloat)
+      return SceneFault{key("drift"), "it of what does not float", "it with motion = \"float\""};
+    if (object.drift && !has_rivers)
+      return SceneFault{key("drift"), "it in a scene without rivers", "it on a river"};
   }
   return std::nullopt;
 }
@@ -284,6 +290,20 @@ Fault fault_of_disturbances(const std::vector<ocean::Disturbance>& disturbances)
   return std::nullopt;
 }
 
+// What drifts floats on a river's water, which alone says where it goes.
+Fault fault_of_drifters(const std::vector<FloatingObject>& objects,
+                        const ocean::RiverNetwork& network, const ocean::RiverFlow& flow) {
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const FloatingObject& object = objects[n];
+    const glm::dvec2 p = object.position_m;
+    if (object.drift && !ocean::drifts_at(network, flow, p))
+      return SceneFault{fmt::format("{}[{}].position_m", kObjectsKey, n),
+                        fmt::format("[{}, {}], where no river flows", p.x, p.y),
+                        "a place in a river for what drifts"};
+  }
+  return std::nullopt;
+}
+
 // What their network says.
 Fault fault_of_rivers(const Scene& scene) {
   if (scene.rivers.empty() && scene.lakes.empty()) return std::nullopt;
@@ -293,6 +313,7 @@ Fault fault_of_rivers(const Scene& scene) {
   try {
     const ocean::RiverNetwork network(scene.rivers, scene.lakes);
     const ocean::RiverFlow flow(network);
+    return fault_of_drifters(scene.objects, network, flow);
   } catch (const ocean::RiverError& error) {
     return SceneFault{error.key, error.got, error.allowed};
   }
@@ -356,7 +377,7 @@ std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_camera(scene.camera)) return fault;
   if (Fault fault = fault_of_path(scene.camera.path)) return fault;
   if (Fault fault = fault_of_names(scene)) return fault;
-  if (Fault fault = fault_of_objects(scene.objects)) return fault;
+  if (Fault fault = fault_of_objects(scene.objects, !scene.rivers.empty())) return fault;
   if (Fault fault = fault_of_disturbances(scene.disturbances)) return fault;
   if (Fault fault = fault_of_rivers(scene)) return fault;
   if (Fault fault = fault_of_trees(scene)) return fault;

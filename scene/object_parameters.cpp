@@ -78,6 +78,9 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
       ObjectRow::plain<bool>(
           "wake", ParameterKind::kBoolean, SWELL_FIELD(wake),
           "a boat, sailboat or form that floats along path_m makes waves and foam"),
+      ObjectRow::plain<bool>("drift", ParameterKind::kBoolean, SWELL_FIELD(drift),
+                             "the river at position_m takes what floats along and turns it, from "
+                             "t = 0 on; it stops where a lake or the sea does"),
       size,
       ObjectRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
                        "where it points, clockwise from north"),

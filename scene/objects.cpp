@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "ocean/drift.h"
 #include "ocean/water_surface.h"
 
 namespace swell::scene {
@@ -160,6 +161,11 @@ FloatingObject common_object(ObjectKind kind) {
 
 PlanPose plan_pose(const FloatingObject& object, double t_s) {
   if (object.path_m.size() >= 2) return pose_on_path(object, t_s);
+  if (object.drift) {
+    SWELL_CHECK(object.drift_track != nullptr, "an object that drifts without its way");
+    const ocean::DriftPlace at = object.drift_track->at(t_s);
+    return {at.p, object.heading_rad - at.turned_rad};
+  }
   return {object.position_m, object.heading_rad};
 }
 

@@ -7,14 +7,16 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace swell::ocean {
+class DriftTrack;
 class WaterSurface;
-}
+}  // namespace swell::ocean
 
 namespace swell::scene {
 
@@ -48,10 +50,10 @@ enum class TopMark : std::uint8_t { kCan, kCone, kSphere };
 struct FloatingObject {
   ObjectKind kind = ObjectKind::kBuoy;
   TopMark top_mark = TopMark::kCan;
-  glm::dvec2 position_m{0.0};             // east, north; moored there, unless it has a path
-  glm::dvec3 size_m{2.6, 2.6, 6.0};       // across, along the heading, up
-  double heading_rad = 0.0;               // clockwise from north
-  double draught = 0.2;                   // part of the height below still water
+  glm::dvec2 position_m{0.0};        // east, north; moored there, unless it has a path or drifts
+  glm::dvec3 size_m{2.6, 2.6, 6.0};  // across, along the heading, up
+  double heading_rad = 0.0;          // clockwise from north
+  double draught = 0.2;              // part of the height below still water
   glm::vec3 colour{0.60f, 0.03f, 0.02f};  // linear RGB reflectance of the paint
   std::string name{};                     // no other object's, or empty
   std::string label{};                    // its class in labelled pictures; empty: "object"
@@ -65,6 +67,9 @@ struct FloatingObject {
   double speed_mps = 3.0;
   bool path_closed = true;  // from the last point on to the first; false: it stops at the last
   bool wake = true;         // what floats along a path and is a boat makes one
+  bool drift = false;       // the river at its position takes it along from t = 0 on
+  // Its way, in a scene that a render::World holds (scene/drift.h).
+  std::shared_ptr<const ocean::DriftTrack> drift_track{};
 
   // Of what is painted.
   double roughness = 0.42;  // 0: mirrors, 1: matt

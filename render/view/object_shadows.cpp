@@ -162,7 +162,7 @@ std::optional<glm::vec2> river_past(const World::State& world, const scene::Floa
   if (!world.inland) return std::nullopt;
   const auto at = world.inland->at(part_world);
   if (!at || at->sea_share >= 1.0f) return std::nullopt;
-  const bool stands = object.path_m.empty();
+  const bool stands = object.path_m.empty() && !object.drift_track;
   return stands ? glm::vec2(at->east_mps, at->north_mps) : glm::vec2(0.0f);
 }
 

@@ -6,6 +6,7 @@
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
+#include "scene/drift.h"
 #include "scene/terrain.h"
 #include "terrain/bicubic.h"
 #include "texture/foam_pattern.h"
@@ -230,6 +231,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
   add_land_shadow(if_alike(same_terrain && same_water), workers, *state);
   add_forest(if_alike(same_terrain && like->scene.trees == now.trees), workers, *state);
   state->objects = build_object_meshes(state->scene, like);
+  scene::find_drift_tracks(state->scene, same_terrain ? &like->scene : nullptr, workers);
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);

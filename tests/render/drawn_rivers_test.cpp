@@ -289,7 +289,9 @@ TEST(DrawnRivers, AreWhiteInTheLeeOfWhatStandsInThem) {
   EXPECT_GT(moored.y, 20.0f);
   EXPECT_GT(moored.y, 2.0f * moored.x);
   EXPECT_GT(moored.x, 2.0f);
-  // What goes its own way makes a wake, and still water runs against nothing.
+  // What goes its own way makes a wake, what drifts goes with the water, and still water runs
+  // against nothing.
+  EXPECT_EQ(foam_at_sphere({-8.0, -100.0}, "drift = true\n"), glm::vec2(0.0f));
   EXPECT_EQ(foam_at_sphere({-8.0, -100.0}, "wake = false\npath_m = [[-8, -100], [-8, -90]]\n"),
             glm::vec2(0.0f));
   EXPECT_EQ(foam_at_sphere({0.0, -202.0}, ""), glm::vec2(0.0f));

@@ -212,6 +212,18 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[terrain]\n[[river]]\nwidth_m = [nan]\n",
               "test.toml:3: column 12: river[0].width_m[0], got nan, allowed 1 to 200 "
               "numbers, each 1 to 2000 m"},
+        Fault{"[[object]]\ndrift = true\n",
+              "test.toml:2: column 9: object[0].drift, got it in a scene without rivers, allowed "
+              "it on a river"},
+        Fault{"[[object]]\nkind = \"rock\"\ndrift = true\n",
+              "test.toml:3: column 9: object[0].drift, got it of what does not float, allowed it "
+              "with motion = \"float\""},
+        Fault{"[[object]]\ndrift = true\npath_m = [[0, 0], [9, 0]]\n",
+              "test.toml:2: column 9: object[0].drift, got it besides path_m, allowed one of them"},
+        Fault{"[terrain]\n[[river]]\npath_m = [[0, 0], [90, 0]]\nsurface_m = [1, 0]\n[[object]]\n"
+              "position_m = [30, 40]\ndrift = true\n",
+              "test.toml:6: column 14: object[0].position_m, got [30, 40], where no river flows, "
+              "allowed a place in a river for what drifts"},
         Fault{
             "[terrain]\n[[river]]\ninto = \"sea\"\npath_m = [[0, 0], [90, 0]]\n"
             "surface_m = [3, 0]\n",
@@ -247,7 +259,8 @@ INSTANTIATE_TEST_SUITE_P(
               "[sea.sines] amplitude_m, period_s, wavelength_m, to_deg, phase_deg"},
         Fault{"[[object]]\ncolor = [1, 0, 0]\n",
               "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
-              "motion, file, up, scale, class, kind, top_mark, roll_deg, wake, name, checker_m, "
+              "motion, file, up, scale, class, kind, top_mark, roll_deg, wake, name, drift, "
+              "checker_m, "
               "position_m, path_m, size_m, origin, path_closed, draught, roughness, metalness, "
               "height_m, "
               "speed_mps, heading_deg"},

@@ -310,6 +310,17 @@ TEST(SceneFile, ACameraOnAnObjectIsReadAndDumped) {
   EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
 }
 
+TEST(SceneFile, ADrifterAndAWaterBoundaryAreReadAndDumped) {
+  const std::string file = SWELL_SOURCE_DIR "/README.md";  // only the land looks into it
+  const Scene scene = parse_scene("[terrain]\nboundary = \"" + file +
+                                      "\"\n[[river]]\npath_m = [[0, 0], [90, 0]]\nsurface_m = [1, "
+                                      "0]\n[[object]]\nposition_m = [30, 1]\ndrift = true\n",
+                                  "test.toml");
+  EXPECT_EQ(scene.terrain->boundary, file);
+  EXPECT_TRUE(scene.objects[0].drift);
+  EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
+}
+
 TEST(SceneFile, MapsAreReadAndDumpedAndTakeTheSpectrumsPlace) {
   const std::string file = SWELL_SOURCE_DIR "/README.md";  // only the sea looks into it
   const std::string text =

@@ -202,6 +202,7 @@ void add_random_tables(std::string_view table_key, const std::vector<Parameter<O
       if (is_wrong) file.wrong_key = fmt::format("{}[{}].{}", table_key, n, key);
       std::string value = value_text(parameters[i], dice, !is_wrong);
       if (key == "name" && !is_wrong) value = fmt::format("\"number {}\"", n);  // its own
+      if (key == "drift" && !is_wrong) value = "false";                         // wants a river
       file.text += fmt::format("{} = {}\n", key, value);
     }
   }

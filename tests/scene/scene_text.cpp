@@ -52,6 +52,7 @@ void compare_objects(const FloatingObject& a, const FloatingObject& b, std::stri
   SWELL_COMPARE(speed_mps);
   SWELL_COMPARE(path_closed);
   SWELL_COMPARE(wake);
+  SWELL_COMPARE(drift);
   SWELL_COMPARE(roughness);
   SWELL_COMPARE(metalness);
   SWELL_COMPARE(checker_m);

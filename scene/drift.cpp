@@ -1,0 +1,43 @@
+#include "scene/drift.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "math/elementary.h"
+#include "ocean/drift.h"
+
+namespace swell::scene {
+namespace {
+
+// The object as the water sees it at t = 0.
+ocean::Drifter drifter_of(const FloatingObject& object) {
+  return {object.position_m, {sin(object.heading_rad), cos(object.heading_rad)}, object.size_m.y};
+}
+
+std::shared_ptr<const ocean::DriftTrack> track_of(const ocean::Drifter& drifter,
+                                                  std::span<const FloatingObject> objects) {
+  const auto same = std::ranges::find_if(objects, [&](const FloatingObject& other) {
+    return other.drift_track && other.drift_track->drifter() == drifter;
+  });
+  return same == objects.end() ? nullptr : same->drift_track;
+}
+
+}  // namespace
+
+void find_drift_tracks(Scene& scene, const Scene* like, Workers& workers) {
+  if (std::ranges::none_of(scene.objects, &FloatingObject::drift)) return;
+  const ocean::RiverNetwork network(scene.rivers, scene.lakes);
+  const ocean::RiverFlow flow(network);
+  workers.for_each(scene.objects.size(), [&](std::size_t n, int) {
+    FloatingObject& object = scene.objects[n];
+    object.drift_track = nullptr;
+    if (!object.drift) return;
+    const ocean::Drifter drifter = drifter_of(object);
+    if (like) object.drift_track = track_of(drifter, like->objects);
+    if (!object.drift_track)
+      object.drift_track = std::make_shared<const ocean::DriftTrack>(network, flow, drifter);
+  });
+}
+
+}  // namespace swell::scene

@@ -1,0 +1,144 @@
+// What drifts on a river: pictures, labels, picks and queries agree on where it is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "render/frame.h"
+#include "render/labels/classes.h"
+#include "render/labels/label_channels.h"
+#include "render/measure/pick.h"
+#include "render/workspace.h"
+#include "render/world/world_state.h"
+#include "scene/objects.h"
+#include "scene/scene.h"
+#include "scene/water.h"
+
+namespace swell::render {
+namespace {
+
+// A river that comes down a beach, from above; two spheres in it, one of which drifts.
+const std::string kScene = R"(
+[camera]
+eye_m = [0, -190, 60]
+heading_deg = 0
+pitch_deg = -55
+fov_y_deg = 50
+[sky]
+cloud_cover = 0
+[wind]
+speed_mps = 0
+[coast]
+model = "none"
+[terrain]
+coast_m = [[-100, 0], [100, 0]]
+beach_slope = 0.03
+beach_size_m = 520
+floor_depth_m = 5
+[[river]]
+path_m = [[0, -195], [8, -150], [-8, -100], [0, -40], [0, 40]]
+width_m = [16]
+depth_m = [1.5]
+surface_m = [4, 2.6, 1.4, 0.3, 0]
+speed_mps = 1
+[[object]]
+kind = "sphere"
+size_m = [4, 4, 4]
+draught = 0.2
+position_m = [1, -100]
+[[object]]
+kind = "sphere"
+size_m = [4, 4, 4]
+draught = 0.2
+position_m = [6, -145]
+drift = true
+)";
+
+const World& drift_world() {
+  static const World world(scene::parse_scene(kScene, "drift.toml"), 1);
+  return world;
+}
+
+struct Frame {
+  Workspace workspace;
+  Target target;
+  View view;
+
+  Frame(const World& world, double t_s)
+      : view(scene::camera_view(world.scene().camera, t_s, 200, 150)) {
+    draw(world, t_s);
+  }
+  void draw(const World& world, double t_s) {
+    FrameOptions options;
+    options.labels.add(Label::kId);
+    Workers workers(2);
+    render_frame(world, view, t_s, options, workspace, target, workers);
+  }
+};
+
+std::vector<scene::ObjectPose> poses_at(const World& world, double t_s, glm::vec2* current) {
+  const scene::Water water(world.scene());
+  ocean::SeaFrame sea;
+  Workers workers(1);
+  const scene::WaterSurface surface = water.at(t_s, sea, workers);
+  std::vector<scene::ObjectPose> poses(world.scene().objects.size());
+  scene::object_poses(world.scene().objects, surface, poses);
+  const glm::dvec2 p(poses[1].position_world);
+  surface.currents({&p, 1}, {current, 1});
+  return poses;
+}
+
+TEST(DrawnDrift, MovesWithTheCurrentThatQueriesTell) {
+  const World& world = drift_world();
+  glm::vec2 current, unused;
+  double way_m = 0.0;
+  for (double t_s = 5.0; t_s < 60.0; t_s += 5.0) {
+    const auto before = poses_at(world, t_s - 0.5, &unused), now = poses_at(world, t_s, &current),
+               after = poses_at(world, t_s + 0.5, &unused);
+    const glm::dvec2 moved(after[1].position_world - before[1].position_world);
+    // The lattice of currents is bilinear between points a few metres apart.
+    EXPECT_LT(glm::distance(moved, glm::dvec2(current)), 0.08 * glm::length(current)) << t_s;
+    EXPECT_NEAR(now[1].position_world.z, now[1].water_m, 1e-9);
+    way_m += 5.0 * glm::length(moved);
+    EXPECT_EQ(now[0].position_world.x, 1.0);
+    EXPECT_EQ(now[0].position_world.y, -100.0);
+  }
+  EXPECT_GT(way_m, 40.0);
+}
+
+TEST(DrawnDrift, IsDrawnLabelledAndPickedWhereItsPoseIs) {
+  const World& world = drift_world();
+  for (const double t_s : {0.0, 25.0, 50.0}) {
+    const Frame frame(world, t_s);
+    glm::vec2 unused;
+    const scene::ObjectPose pose = poses_at(world, t_s, &unused)[1];
+    const glm::dvec3 top = pose.position_world + glm::dvec3(0.0, 0.0, 2.0);
+    const glm::vec4 clip =
+        frame.view.clip_from_rel * glm::vec4(glm::vec3(top - frame.view.eye_world), 1.0f);
+    const glm::vec2 at_px((0.5f + 0.5f * clip.x / clip.w) * 200.0f,
+                          (0.5f - 0.5f * clip.y / clip.w) * 150.0f);
+    const auto pixel = static_cast<std::size_t>(at_px.y) * 200 + static_cast<std::size_t>(at_px.x);
+    EXPECT_EQ(frame.target.labels.id[pixel], kFirstObjectId + 1) << t_s;
+    PickScratch scratch;
+    const auto picked = pick(world, frame.view, frame.workspace, at_px, scratch);
+    ASSERT_TRUE(picked && picked->what == Shown::kObject) << t_s;
+    EXPECT_EQ(picked->object, 1u);
+    EXPECT_LT(glm::distance(picked->p_world, pose.position_world), 4.0);
+  }
+}
+
+TEST(DrawnDrift, IsTheSameAloneAndAfterOtherFrames) {
+  const World& world = drift_world();
+  const Frame alone(world, 40.0);
+  Frame history(world, 3.0);
+  EXPECT_NE(history.target.rgba, alone.target.rgba);
+  history.draw(world, 40.0);
+  EXPECT_EQ(history.target.rgba, alone.target.rgba);
+  // And in a world made from another one, whose way it takes.
+  const World again(world.scene(), world, 2);
+  EXPECT_EQ(again.scene().objects[1].drift_track, world.scene().objects[1].drift_track);
+  EXPECT_EQ(Frame(again, 40.0).target.rgba, alone.target.rgba);
+}
+
+}  // namespace
+}  // namespace swell::render
