@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "render/labelled_frame.h"
 #include "render/world/world_state.h"
+#include "terrain/boundary.h"
+#include "texture/image_io.h"
 
 namespace swell::render {
 namespace {
@@ -173,18 +176,40 @@ TEST(NearShore, FrontsRunToTheShore) {
   EXPECT_GT(towards, away);
 }
 
+// Part of the sea before a straight shore that foam hides, without whitecaps.
+double foam_before(const World& world) {
+  const LabelledFrame frame(world, view_down({0.0, 30.0}, 70.0, 160, 120), 5.0,
+                            without({Part::kWhitecaps}));
+  double sum = 0.0;
+  for (const float foam : frame.labels().foam) sum += static_cast<double>(foam);
+  return sum / static_cast<double>(frame.labels().foam.size());
+}
+
 TEST(NearShore, LeesHaveLessSurf) {
   // The wind from the sea, and from land.
-  const auto foam_of = [](double wind_from_rad) {
-    const World world(straight_shore(wind_from_rad));
-    const LabelledFrame frame(world, view_down({0.0, 30.0}, 70.0, 160, 120), 5.0,
-                              without({Part::kWhitecaps}));
-    double sum = 0.0;
-    for (const float foam : frame.labels().foam) sum += static_cast<double>(foam);
-    return sum / static_cast<double>(frame.labels().foam.size());
-  };
-  EXPECT_GT(foam_of(0.0), 0.02);
-  EXPECT_LT(foam_of(kPi), 0.25 * foam_of(0.0));
+  const double from_sea = foam_before(World(straight_shore(0.0)));
+  EXPECT_GT(from_sea, 0.02);
+  EXPECT_LT(foam_before(World(straight_shore(kPi))), 0.25 * from_sea);
+}
+
+// What is painted in the water boundary (terrain/boundary.h) is what runs in.
+TEST(NearShore, FrontsAreThePartThatIsPainted) {
+  scene::Scene scene = straight_shore(0.0);
+  const World made(scene);
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "swell_near_shore_boundary.exr";
+  scene.terrain->boundary = file;
+  std::vector<double> foam;
+  for (const float part : {1.0f, 0.4f, 0.0f}) {
+    texture::ImageF image = terrain::boundary_image(*made.state().shore);
+    for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = part;
+    texture::write_file(file, texture::encode_image(image, ".exr"));
+    foam.push_back(foam_before(World(scene)));
+  }
+  std::filesystem::remove(file);
+  EXPECT_EQ(foam[0], foam_before(made));
+  EXPECT_LT(foam[1], 0.8 * foam[0]);
+  EXPECT_GT(foam[1], 1.5 * foam[2]);
 }
 
 }  // namespace
