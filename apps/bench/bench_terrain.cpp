@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,44 +54,95 @@ terrain::HeightPyramid make_map(int cells, Workers& workers) {
   return terrain::make_height_pyramid(grid, 0.0f, 600.0f / 65535.0f, std::move(posts), {}, workers);
 }
 
-// A ray through each pixel of a row.
-struct Row {
-  explicit Row(int width_px)
-      : x(static_cast<std::size_t>(width_px)),
+constexpr int kBeam_px = 8;  // a side of a beam's square of rays, as in a frame
+
+// A ray through each pixel of kBeam_px rows, square after square, and a beam around each square.
+struct Band {
+  explicit Band(int width_px)
+      : beams(static_cast<std::size_t>((width_px + kBeam_px - 1) / kBeam_px)),
+        x(beams * kBeam_px * kBeam_px),
         y(x),
         z(x),
         z_t(x),
         z_tt(x),
-        begin(x.size(), 0.25f),
+        begin(x),
         end(x.size(), 1e9f),
-        t(x) {}
-  std::vector<float> x, y, z, z_t, z_tt, begin, end, t;
+        t(x),
+        x_low(beams),
+        x_high(beams),
+        y_low(beams),
+        y_high(beams),
+        beam_z(beams),
+        beam_z_t(beams),
+        beam_z_tt(beams),
+        floor(beams, -1e9f),
+        beam_begin(beams, kBegin),
+        t_free(beams) {}
+
+  // Rays begin where their beam may meet something.
+  void begin_behind_beams(const terrain::HeightPyramid& map, glm::dvec2 from_world) {
+    constexpr std::size_t kRays = kBeam_px * kBeam_px;
+    for (std::size_t n = 0; n < beams; ++n) {
+      const auto low_and_high = [&](const std::vector<float>& values, float& low, float& high) {
+        const auto [first, last] = std::ranges::minmax(std::span(values).subspan(n * kRays, kRays));
+        low = first, high = last;
+      };
+      float z_t_high;
+      low_and_high(x, x_low[n], x_high[n]);
+      low_and_high(y, y_low[n], y_high[n]);
+      low_and_high(z_t, beam_z_t[n], z_t_high);
+      beam_z[n] = z[n * kRays];
+    }
+    terrain::cast_beams(
+        map, from_world,
+        {x_low, x_high, y_low, y_high, beam_z, beam_z_t, beam_z_tt, floor, beam_begin}, t_free);
+    for (std::size_t k = 0; k < begin.size(); ++k) begin[k] = t_free[k / kRays];
+  }
 
   terrain::HeightRays rays() const { return {x, y, z, z_t, z_tt, begin, end}; }
+
+  static constexpr float kBegin = 0.25f;
+  std::size_t beams;
+  std::vector<float> x, y, z, z_t, z_tt, begin, end, t;
+  std::vector<float> x_low, x_high, y_low, y_high, beam_z, beam_z_t, beam_z_tt, floor, beam_begin,
+      t_free;
+};
+
+// How rays find their way.
+struct Search {
+  bool beams;  // begin behind beams; else at the eye
+  bool stops;  // at blocks as small as pixels; else go down to the posts
 };
 
 // Of a picture from 700 m up, looking east, down by pitch_deg. [ms]
 double time_picture(const terrain::HeightPyramid& map, const TerrainBench& bench, double pitch_deg,
-                    bool stops, Workers& workers) {
+                    Search search, Workers& workers) {
+  const glm::dvec2 from_world(-6000.0, 120.0);
   const double pitch = pitch_deg * 3.14159265358979 / 180.0;
   const double pixel = 2.0 * 0.466 / bench.height_px;  // 50 degrees high
-  const auto detail = stops ? static_cast<float>(pixel) : 0.0f;
-  std::vector<std::unique_ptr<Row>> rows;
+  const auto detail = search.stops ? static_cast<float>(pixel) : 0.0f;
+  std::vector<std::unique_ptr<Band>> bands;
   for (int n = 0; n < workers.thread_count(); ++n)
-    rows.push_back(std::make_unique<Row>(bench.width_px));
+    bands.push_back(std::make_unique<Band>(bench.width_px));
+  const auto draw_band = [&](std::size_t number, int thread) {
+    Band& band = *bands[static_cast<std::size_t>(thread)];
+    for (std::size_t k = 0; k < band.x.size(); ++k) {
+      const int in_square = static_cast<int>(k) % (kBeam_px * kBeam_px);
+      const int i = static_cast<int>(k) / (kBeam_px * kBeam_px) * kBeam_px + in_square % kBeam_px;
+      const int j = static_cast<int>(number) * kBeam_px + in_square / kBeam_px;
+      const double up = (0.5 * bench.height_px - j) * pixel;
+      band.x[k] = static_cast<float>(std::cos(pitch) + up * std::sin(pitch));
+      band.y[k] = static_cast<float>((0.5 * bench.width_px - i) * pixel);
+      band.z[k] = 700.0f;
+      band.z_t[k] = static_cast<float>(up * std::cos(pitch) - std::sin(pitch));
+      band.begin[k] = Band::kBegin;
+    }
+    if (search.beams) band.begin_behind_beams(map, from_world);
+    terrain::cast_rays(map, from_world, detail, band.rays(), band.t);
+  };
   const auto draw = [&] {
-    workers.for_each(static_cast<std::size_t>(bench.height_px), [&](std::size_t j, int thread) {
-      Row& row = *rows[static_cast<std::size_t>(thread)];
-      const double up = (0.5 * bench.height_px - double(j)) * pixel;
-      for (int i = 0; i < bench.width_px; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        row.x[k] = static_cast<float>(std::cos(pitch) + up * std::sin(pitch));
-        row.y[k] = static_cast<float>((0.5 * bench.width_px - i) * pixel);
-        row.z[k] = 700.0f;
-        row.z_t[k] = static_cast<float>(up * std::cos(pitch) - std::sin(pitch));
-      }
-      terrain::cast_rays(map, {-6000.0, 120.0}, detail, row.rays(), row.t);
-    });
+    workers.for_each(static_cast<std::size_t>((bench.height_px + kBeam_px - 1) / kBeam_px),
+                     draw_band);
   };
   draw();
   std::vector<double> ms;
@@ -106,15 +158,17 @@ double time_picture(const terrain::HeightPyramid& map, const TerrainBench& bench
 void print_maps(const TerrainBench& bench, Workers& workers) {
   fmt::print("{} x {} rays from 700 m over {} km of hills, {} threads; median of {} [ms]\n",
              bench.width_px, bench.height_px, kSide_m * 1e-3, bench.threads, bench.runs);
-  fmt::print("{:>8}{:>10}{:>24}{:>24}\n", "", "", "blocks as small as pixels", "down to the posts");
-  fmt::print("{:>8}{:>10}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "cells", "MB", "45 deg", "10 deg",
-             "2 deg", "45 deg", "10 deg", "2 deg");
+  fmt::print("{:>8}{:>10}{:>24}{:>24}{:>24}\n", "", "", "behind beams", "from the eye",
+             "down to the posts");
+  fmt::print("{:>8}{:>10}", "cells", "MB");
+  for (int n = 0; n < 3; ++n) fmt::print("{:>8}{:>8}{:>8}", "45 deg", "10 deg", "2 deg");
+  fmt::print("\n");
   for (int cells = 512; cells <= bench.largest; cells *= 2) {
     const terrain::HeightPyramid map = make_map(cells, workers);
     fmt::print("{:>8}{:>10.1f}", cells, 2e-6 * double(map.posts.size() + map.maxima.size()));
-    for (const bool stops : {true, false})
+    for (const Search search : {Search{true, true}, Search{false, true}, Search{false, false}})
       for (const double pitch_deg : {45.0, 10.0, 2.0})
-        fmt::print("{:>8.2f}", time_picture(map, bench, pitch_deg, stops, workers));
+        fmt::print("{:>8.2f}", time_picture(map, bench, pitch_deg, search, workers));
     fmt::print("\n");
   }
 }
@@ -129,7 +183,7 @@ void print_pictures(const TerrainBench& bench, Workers& workers) {
     TerrainBench other = bench;
     other.width_px = static_cast<int>(scale * bench.width_px);
     other.height_px = static_cast<int>(scale * bench.height_px);
-    const double ms = time_picture(map, other, 10.0, true, workers);
+    const double ms = time_picture(map, other, 10.0, {true, true}, workers);
     fmt::print("{:>16}{:>8.2f}{:>14.2f}\n", fmt::format("{} x {}", other.width_px, other.height_px),
                ms, 1e6 * ms / (double(other.width_px) * other.height_px));
   }
