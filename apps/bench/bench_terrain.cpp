@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/bench/bench.h"
@@ -29,12 +29,11 @@ struct TerrainBench {
 };
 
 // [ms]
-double time_picture(const terrain::HeightPyramid& map, const TerrainBench& bench, double pitch_deg,
-                    bool stops, Workers& workers) {
-  const RayPicture picture{bench.width_px, bench.height_px, pitch_deg, stops};
+double time_picture(const terrain::HeightPyramid& map, const RayPicture& picture, int runs,
+                    Workers& workers) {
   cast_picture(map, picture, workers);
   std::vector<double> ms;
-  for (int n = 0; n < bench.runs; ++n) {
+  for (int n = 0; n < runs; ++n) {
     const Stopwatch clock;
     cast_picture(map, picture, workers);
     ms.push_back(clock.elapsed_ms());
@@ -46,15 +45,20 @@ double time_picture(const terrain::HeightPyramid& map, const TerrainBench& bench
 void print_maps(const TerrainBench& bench, Workers& workers) {
   fmt::print("{} x {} rays from 700 m over {} km of hills, {} threads; median of {} [ms]\n",
              bench.width_px, bench.height_px, kHillsSide_m * 1e-3, bench.threads, bench.runs);
-  fmt::print("{:>8}{:>10}{:>24}{:>24}\n", "", "", "blocks as small as pixels", "down to the posts");
-  fmt::print("{:>8}{:>10}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "cells", "MB", "45 deg", "10 deg",
-             "2 deg", "45 deg", "10 deg", "2 deg");
+  fmt::print("{:>8}{:>10}{:>24}{:>24}{:>24}\n", "", "", "behind beams", "from the eye",
+             "down to the posts");
+  fmt::print("{:>8}{:>10}", "cells", "MB");
+  for (int n = 0; n < 3; ++n) fmt::print("{:>8}{:>8}{:>8}", "45 deg", "10 deg", "2 deg");
+  fmt::print("\n");
   for (int cells = 512; cells <= bench.largest; cells *= 2) {
     const terrain::HeightPyramid map = make_hills(cells, workers);
     fmt::print("{:>8}{:>10.1f}", cells, 2e-6 * double(map.posts.size() + map.maxima.size()));
-    for (const bool stops : {true, false})
+    for (const auto& [beams, stops] :
+         {std::pair(true, true), std::pair(false, true), std::pair(false, false)})
       for (const double pitch_deg : {45.0, 10.0, 2.0})
-        fmt::print("{:>8.2f}", time_picture(map, bench, pitch_deg, stops, workers));
+        fmt::print("{:>8.2f}",
+                   time_picture(map, {bench.width_px, bench.height_px, pitch_deg, beams, stops},
+                                bench.runs, workers));
     fmt::print("\n");
   }
 }
@@ -64,14 +68,20 @@ void print_pictures(const TerrainBench& bench, Workers& workers) {
   constexpr int kCells = 2048;
   const terrain::HeightPyramid map = make_hills(kCells, workers);
   fmt::print("\nPictures of other sizes, {} cells a side, down by 10 degrees\n", kCells);
-  fmt::print("{:>16}{:>8}{:>14}\n", "pixels", "ms", "ns a pixel");
+  fmt::print("{:>16}{:>24}{:>24}\n", "", "behind beams", "from the eye");
+  fmt::print("{:>16}{:>10}{:>14}{:>10}{:>14}\n", "pixels", "ms", "ns a pixel", "ms", "ns a pixel");
   for (const double scale : {0.5, 0.75, 1.0, 1.5, 2.0}) {
-    TerrainBench other = bench;
-    other.width_px = static_cast<int>(scale * bench.width_px);
-    other.height_px = static_cast<int>(scale * bench.height_px);
-    const double ms = time_picture(map, other, 10.0, true, workers);
-    fmt::print("{:>16}{:>8.2f}{:>14.2f}\n", fmt::format("{} x {}", other.width_px, other.height_px),
-               ms, 1e6 * ms / (double(other.width_px) * other.height_px));
+    RayPicture picture;
+    picture.width_px = static_cast<int>(scale * bench.width_px);
+    picture.height_px = static_cast<int>(scale * bench.height_px);
+    fmt::print("{:>16}", fmt::format("{} x {}", picture.width_px, picture.height_px));
+    for (const bool beams : {true, false}) {
+      picture.beams = beams;
+      const double ms = time_picture(map, picture, bench.runs, workers);
+      fmt::print("{:>10.2f}{:>14.2f}", ms,
+                 1e6 * ms / (double(picture.width_px) * picture.height_px));
+    }
+    fmt::print("\n");
   }
 }
 

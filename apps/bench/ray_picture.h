@@ -16,10 +16,11 @@ terrain::HeightPyramid make_hills(int cells, Workers& workers);
 struct RayPicture {
   int width_px = 1280, height_px = 720;
   double pitch_deg = 10.0;  // down
+  bool beams = true;        // rays begin behind beams, as in frames; false: at the eye
   bool stops = true;        // at blocks as small as a pixel; false: down to the posts
 };
 
-// A ray through each pixel, once.
+// A ray through each pixel, once, and those that fill squares of 8 x 8.
 void cast_picture(const terrain::HeightPyramid& map, const RayPicture& picture, Workers& workers);
 
 }  // namespace swell::apps

@@ -136,9 +136,11 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
   const float going =
       kept < 1.0f ? std::clamp((kept - trees.rank[number]) / (0.25f * kept), 0.0f, 1.0f) : 1.0f;
   const float grown = going * smoothstep(kLastTree_px, kGrown_px, height_px);
-  // By the power 5/8 of their number.
+  // By the power 5/8 of their number, but not so flat that a crown shows as a shard before the sky.
+  constexpr float kBroadest = 2.0f;
   const float less = height_px / thinned_px;
-  const float broader = less < 1.0f ? 1.0f / (less * std::sqrt(std::sqrt(less))) : 1.0f;
+  const float broader =
+      less < 1.0f ? std::min(1.0f / (less * std::sqrt(std::sqrt(less))), kBroadest) : 1.0f;
   const scene::TreeShape& shape = shape_of(view, drawn);
   drawn.height_m = full_height_m * grown;
   drawn.radius_m = full_radius_m * grown * broader;
