@@ -213,12 +213,14 @@ struct TileEdges {
   const VisibilityBuffer& visibility;
   SurfaceRanges surfaces;
   std::span<const ObjectPart> objects;
-  std::span<const ObjectExtent> extents;  // of the objects
+  std::span<const ObjectExtent> extents;    // of the objects
+  std::span<const std::uint8_t> like_land;  // TreeDraws
 };
 
 raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratch) {
   raster::PixelMask mask;
-  mark_jumps(in.visibility, in.window.primitives, in.window.viewport(), tile, scratch, mask);
+  mark_jumps(in.visibility, in.window.primitives, in.window.viewport(), in.like_land, tile, scratch,
+             mask);
   const int tiles_x = in.visibility.grid.tiles_x;
   for (std::size_t i = 0; i < in.objects.size(); ++i)
     if (in.extents[i].tiles.holds(tile % tiles_x, tile / tiles_x))
@@ -274,12 +276,13 @@ void prepare_edges(const ObjectDraws& objects, const RenderView& window,
                                       window.viewport(), visibility.grid));
 }
 
-void find_edges(const ObjectDraws& objects, const RenderView& window,
-                const VisibilityBuffer& visibility, int tile, EdgeScratch& scratch,
-                EdgeBuffer& edges) {
+void find_edges(const Meshes& meshes, const RenderView& window, const VisibilityBuffer& visibility,
+                int tile, EdgeScratch& scratch, EdgeBuffer& edges) {
   if (edges.samples == 0 || visibility.covered[static_cast<std::size_t>(tile)] < 0) return;
-  const TileEdges in{window, visibility, SurfaceRanges(window, objects), objects.parts,
-                     edges.objects};
+  const ObjectDraws& objects = meshes.objects.in_window();
+  const TileEdges in{
+      window,        visibility,    SurfaceRanges(window, objects),
+      objects.parts, edges.objects, meshes.trees.drawn_in(ViewKind::kWindow).like_land};
   const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
   const auto samples =
       static_cast<std::size_t>(mask.count()) * static_cast<std::size_t>(edges.samples);

@@ -5,7 +5,8 @@
 // each, and the colours are mixed by their numbers of samples. Nothing else is mixed: depth, labels
 // and the count of visible pixels stay those of the centres.
 //
-// A pixel is looked at if a neighbour shows another kind of surface (tile/jumps.h), if the depth
+// A pixel is looked at if a neighbour shows another kind of surface (tile/jumps.h; small trees of a
+// wood and the land between them are one kind), if the depth
 // jumps to a neighbour by more than the surfaces' own slope explains, or if a triangle of an object
 // touches it that the centres around neither all show nor all hide, so that a mast thinner than a
 // pixel is found.
@@ -69,8 +70,7 @@ void prepare_edges(const ObjectDraws& objects, const RenderView& window,
 
 // Stage 6, before the tile is shaded and while its visibility comes into cache anyway: finds the
 // fragments of its edges. Different tiles may be searched by different threads at one time.
-void find_edges(const ObjectDraws& objects, const RenderView& window,
-                const VisibilityBuffer& visibility, int tile, EdgeScratch& scratch,
-                EdgeBuffer& edges);
+void find_edges(const Meshes& meshes, const RenderView& window, const VisibilityBuffer& visibility,
+                int tile, EdgeScratch& scratch, EdgeBuffer& edges);
 
 }  // namespace swell::render

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "raster/samples.h"
 #include "render/view/surfaces.h"
@@ -22,10 +23,12 @@ struct JumpScratch {
 // depths differ by more are of two places of it: a crest and farther water.
 inline constexpr float kPartOfJump = 0.3f;
 
-// Marks both pixels of each such pair, so far as they lie in the tile. `visibility` is that of the
-// whole window, so that the result does not depend on the size of tiles.
+// Marks both pixels of each such pair, so far as they lie in the tile. like_land: TreeDraws'; those
+// trees count as land. `visibility` is that of the whole window, so that the result does not depend
+// on the size of tiles.
 void mark_jumps(const VisibilityBuffer& visibility, const PrimitiveRanges& primitives,
-                raster::Viewport viewport, int tile, JumpScratch& scratch, raster::PixelMask& mask);
+                raster::Viewport viewport, std::span<const std::uint8_t> like_land, int tile,
+                JumpScratch& scratch, raster::PixelMask& mask);
 
 // The tile's pixels that show, or one of whose four neighbours shows, nothing nearer than depth z
 // (of the visibility buffer): where something at z may be seen. `scratch` is as mark_jumps left it.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -181,43 +182,112 @@ void copy_depth(const TileAround& t, JumpScratch& scratch) {
   }
 }
 
-// The tile's rows with the one above and the one below: which pixels show primitives in
-// [begin, end). Row y of the tile is bits[y + 1].
-using RowBits = std::array<std::uint64_t, JumpScratch::kSide + 2>;
+// Primitives in [begin, end), but for those that have a 1 in `except`, unless that is empty.
+struct PrimitiveSet {
+  std::uint32_t begin, end;
+  std::span<const std::uint8_t> except = {};
 
-RowBits rows_of(const TileAround& t, std::uint32_t begin, std::uint32_t end) {
-  RowBits bits{};
-  const int height = t.box.height_px;
-  const auto fill = [&](const TileAround::Buffers& tile, int row, int rows, int to) {
-    if (tile.primitive) HWY_DYNAMIC_DISPATCH(PixelsOf)
-    (tile.primitive + row * t.side, t.side, rows, begin, end, bits.data() + to);
+  bool holds(std::uint32_t primitive) const {
+    const std::uint32_t n = primitive - begin;
+    return n < end - begin && (except.empty() || except[n] == 0);
+  }
+};
+
+// Which pixels of `rows` rows of a tile show the set, one bit a pixel.
+void pixels_of(const std::uint32_t* primitive, int side, int rows, const PrimitiveSet& set,
+               std::uint64_t* bits) {
+  HWY_DYNAMIC_DISPATCH(PixelsOf)(primitive, side, rows, set.begin, set.end, bits);
+  if (set.except.empty()) return;
+  for (int y = 0; y < rows; ++y) {
+    std::uint64_t excepted = 0;
+    for (std::uint64_t left = bits[y]; left != 0; left &= left - 1) {
+      const int x = std::countr_zero(left);
+      excepted |= std::uint64_t{set.except[primitive[y * side + x] - set.begin]} << x;
+    }
+    bits[y] ^= excepted;
+  }
+}
+
+// Which pixels of a tile and around it show a set, one bit each: the tile's rows with the one above
+// and the one below, row y of the tile in rows[y + 1], and the pixels beside them, bit y.
+using RowBits = std::array<std::uint64_t, JumpScratch::kSide + 2>;
+struct PixelBits {
+  RowBits rows{};
+  std::uint64_t left = 0, right = 0;
+
+  PixelBits operator|(PixelBits other) const {
+    other.left |= left, other.right |= right;
+    for (std::size_t y = 0; y < rows.size(); ++y) other.rows[y] |= rows[y];
+    return other;
+  }
+};
+
+PixelBits bits_of(const TileAround& t, const PrimitiveSet& set) {
+  PixelBits bits;
+  RowBits& rows = bits.rows;
+  const int height = t.box.height_px, width = t.box.width_px;
+  const auto fill = [&](const TileAround::Buffers& tile, int row, int count, int to) {
+    if (tile.primitive)
+      pixels_of(tile.primitive + row * t.side, t.side, count, set, rows.data() + to);
   };
   fill(t.here, 0, height, 1);
-  bits[0] = bits[1];
-  bits[height + 1] = bits[height];
-  if (t.above.exists) bits[0] = 0, fill(t.above, t.side - 1, 1, 0);
-  if (t.below.exists) bits[height + 1] = 0, fill(t.below, 0, 1, height + 1);
+  rows[0] = rows[1];
+  rows[height + 1] = rows[height];
+  if (t.above.exists) rows[0] = 0, fill(t.above, t.side - 1, 1, 0);
+  if (t.below.exists) rows[height + 1] = 0, fill(t.below, 0, 1, height + 1);
+  const auto has = [&](const TileAround::Buffers& tile, int at, std::uint64_t else_bit) {
+    if (!tile.exists) return else_bit & 1;
+    return std::uint64_t{tile.primitive && set.holds(tile.primitive[at])};
+  };
+  for (int y = 0; y < height; ++y) {
+    bits.left |= has(t.left, y * t.side + t.side - 1, rows[y + 1]) << y;
+    bits.right |= has(t.right, y * t.side, rows[y + 1] >> (width - 1)) << y;
+  }
   return bits;
 }
 
-// Calls visit(y, row, differs) for the tile's rows: which pixels show primitives in [begin, end),
-// and for which a neighbour does not what they do.
+// Pixels of row y of the tile whose left neighbours have a bit, and whose right ones.
+struct Beside {
+  std::uint64_t left, right;
+};
+
+Beside pixels_beside(const PixelBits& bits, int y, int width) {
+  const std::uint64_t row = bits.rows[y + 1] & lowest_bits(width);
+  const std::uint64_t left = bits.left >> y & 1, right = bits.right >> y & 1;
+  return {row << 1 | left, row >> 1 | right << (width - 1)};
+}
+
+// Calls visit(y, row, differs) for the tile's rows: which pixels have a bit, and for which a
+// neighbour has not what they have.
 template <class Visit>
-void for_each_row(const TileAround& t, std::uint32_t begin, std::uint32_t end, const Visit& visit) {
+void for_each_row(const TileAround& t, const PixelBits& bits, const Visit& visit) {
   const int width = t.box.width_px;
-  const RowBits bits = rows_of(t, begin, end);
-  const auto pixel_of = [&](const TileAround::Buffers& tile, int i) {
-    return std::uint64_t{tile.primitive && tile.primitive[i] - begin < end - begin};
+  for (int y = 0; y < t.box.height_px; ++y) {
+    const std::uint64_t row = bits.rows[y + 1] & lowest_bits(width);
+    const Beside beside = pixels_beside(bits, y, width);
+    const std::uint64_t differs = (row ^ bits.rows[y]) | (row ^ bits.rows[y + 2]) |
+                                  (row ^ beside.left) | (row ^ beside.right);
+    visit(y, row, differs & lowest_bits(width));
+  }
+}
+
+void mark_borders(const TileAround& t, const PixelBits& bits, raster::PixelMask& mask) {
+  for_each_row(t, bits,
+               [&](int y, std::uint64_t, std::uint64_t differs) { mask.add_to_row(y, differs); });
+}
+
+// Marks the pixels of each set that have a neighbour of the other.
+void mark_contacts(const TileAround& t, const PixelBits& a, const PixelBits& b,
+                   raster::PixelMask& mask) {
+  const int width = t.box.width_px;
+  const auto neighbours = [&](const PixelBits& bits, int y) {
+    const Beside beside = pixels_beside(bits, y, width);
+    return bits.rows[y] | bits.rows[y + 2] | beside.left | beside.right;
   };
   for (int y = 0; y < t.box.height_px; ++y) {
-    const std::uint64_t row = bits[y + 1] & lowest_bits(width);
-    const std::uint64_t left = t.left.exists ? pixel_of(t.left, y * t.side + t.side - 1) : row & 1;
-    const std::uint64_t right =
-        t.right.exists ? pixel_of(t.right, y * t.side) : row >> (width - 1) & 1;
-    const std::uint64_t differs = (row ^ bits[y]) | (row ^ bits[y + 2]) |
-                                  (row ^ (row << 1 | left)) |
-                                  (row ^ (row >> 1 | right << (width - 1)));
-    visit(y, row, differs & lowest_bits(width));
+    const std::uint64_t of_a = a.rows[y + 1] & neighbours(b, y);
+    const std::uint64_t of_b = b.rows[y + 1] & neighbours(a, y);
+    mask.add_to_row(y, (of_a | of_b) & lowest_bits(width));
   }
 }
 
@@ -235,8 +305,8 @@ bool is_open_water(const VisibilityBuffer& visibility, const TileAround& t, int 
 }  // namespace
 
 void mark_jumps(const VisibilityBuffer& visibility, const PrimitiveRanges& primitives,
-                raster::Viewport viewport, int tile, JumpScratch& scratch,
-                raster::PixelMask& mask) {
+                raster::Viewport viewport, std::span<const std::uint8_t> like_land, int tile,
+                JumpScratch& scratch, raster::PixelMask& mask) {
   const TileAround around = look_around(visibility, viewport, tile);
   copy_depth(around, scratch);
   raster::PixelMask jumps;
@@ -244,11 +314,21 @@ void mark_jumps(const VisibilityBuffer& visibility, const PrimitiveRanges& primi
   for (int y = 0; y < around.box.height_px; ++y)
     mask.add_to_row(y, jumps.row(y) & lowest_bits(around.box.width_px));
   if (is_open_water(visibility, around, tile)) return;
+  const auto bits = [&](SurfaceKind kind) {
+    return bits_of(around, {primitives.begin(kind), primitives.end(kind)});
+  };
+  const bool has_trees = !primitives.empty(SurfaceKind::kTrees);
   for (const SurfaceKind kind : kAllSurfaces)
-    if (!primitives.empty(kind))
-      for_each_row(
-          around, primitives.begin(kind), primitives.end(kind),
-          [&](int y, std::uint64_t, std::uint64_t differs) { mask.add_to_row(y, differs); });
+    if (!primitives.empty(kind) && kind != SurfaceKind::kTrees &&
+        !(has_trees && kind == SurfaceKind::kTerrain))
+      mark_borders(around, bits(kind), mask);
+  if (!has_trees) return;
+  // Trees and land together, and between them where the trees stand out against it.
+  const std::uint32_t begin = primitives.begin(SurfaceKind::kTrees);
+  const std::uint32_t end = primitives.end(SurfaceKind::kTrees);
+  const PixelBits land = bits(SurfaceKind::kTerrain);
+  mark_borders(around, land | bits(SurfaceKind::kTrees), mask);
+  mark_contacts(around, land, bits_of(around, {begin, end, like_land}), mask);
 }
 
 raster::PixelMask find_behind(const JumpScratch& scratch, int side, float z) {
@@ -268,7 +348,8 @@ raster::PixelMask find_behind(const JumpScratch& scratch, int side, float z) {
 raster::PixelMask find_interior(const VisibilityBuffer& visibility, raster::Viewport viewport,
                                 int tile, std::uint32_t begin, std::uint32_t end) {
   raster::PixelMask interior;
-  for_each_row(look_around(visibility, viewport, tile), begin, end,
+  const TileAround around = look_around(visibility, viewport, tile);
+  for_each_row(around, bits_of(around, {begin, end}),
                [&](int y, std::uint64_t row, std::uint64_t differs) {
                  interior.set_row(y, row & ~differs);
                });

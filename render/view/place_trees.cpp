@@ -24,7 +24,11 @@ constexpr float kLeaf_px2 = 75.0f, kTallLeaf_px2 = 45.0f, kBlade_px2 = 16.0f;
 constexpr float kLow_px = 16.0f, kTall_px = 48.0f;  // trees with crowns of either
 // Trees of these heights have as few triangles as one, and as few as their shape needs.
 constexpr float kOneLeaf_px = 5.0f, kFewLeaves_px = 8.0f;
-constexpr float kGrown_px = 4.0f;   // trees of this height have all of it
+constexpr float kGrown_px = 4.0f;  // trees of this height have all of it
+// Of trees of less height in a wood nobody sees whether their edges to the land between them are
+// smooth: from the one to the other, by their ranks. A wood: so much of the ground is under crowns,
+// and such a part of them is drawn; fewer are broad ones that stand out.
+constexpr float kLikeLand_px = 32.0f, kUnlikeLand_px = 44.0f, kWood = 0.15f, kWoodKept = 0.25f;
 constexpr float kSways_px = 16.0f;  // trees of less height do not sway, of twice that do
 constexpr std::size_t kCellsAtOnce = 8, kTreesAhead = 4;
 
@@ -147,6 +151,8 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
   const float box_px2 = 2.0f * full_radius_m * full_height_m * px_per_m * px_per_m;
   drawn.leaves = leaves_in(shape, box_px2, height_px);
   drawn.crowding = view.forest.crowding[number];
+  drawn.like_land = drawn.crowding > kWood && kept > kWoodKept &&
+                    height_px < kLikeLand_px + trees.rank[number] * (kUnlikeLand_px - kLikeLand_px);
   drawn.sways = smoothstep(kSways_px, 2.0f * kSways_px, height_px);
   drawn.leaf_size = scene::leaf_size(shape, drawn.leaves);
   drawn.triangles = static_cast<std::uint32_t>(std::ceil(drawn.leaves));
@@ -278,6 +284,8 @@ void write_tree(const TreeView& view, std::uint32_t at, std::size_t first, TreeD
   if (drawn.triangles > crown) write_trunk(drawn, pose, p + std::size_t{3} * crown);
   for (std::uint32_t n = 0; n < drawn.triangles; ++n)
     draws.primitives[first + n] = {at, n < crown ? n : kTrunkLeaf};
+  std::fill_n(draws.like_land.begin() + static_cast<std::ptrdiff_t>(first), drawn.triangles,
+              std::uint8_t{drawn.like_land});
 }
 
 // A tree that is written soon: it lies in one or two lines of the cache.
@@ -304,6 +312,7 @@ void size_draws(TreeDraws& draws) {
     triangles += cell.triangles;
   }
   draws.primitives.resize(triangles);
+  draws.like_land.resize(triangles);
   draws.p_rel.resize(std::size_t{3} * triangles);
   const std::size_t before = draws.indices.size();
   draws.indices.resize(draws.p_rel.size());

@@ -25,8 +25,9 @@ struct DrawnTree {
   std::uint32_t species = 0;
   // For its pixels.
   float crown_begin_m = 0.0f, inverse_crown_m = 1.0f, inverse_radius_m = 1.0f;
-  float crowding = 0.0f;  // Forest::crowding
-  glm::vec2 aside{1, 0};  // across the view of it, of length 1
+  float crowding = 0.0f;   // Forest::crowding
+  bool like_land = false;  // small in the picture, and in a wood
+  glm::vec2 aside{1, 0};   // across the view of it, of length 1
   glm::vec3 leaves_albedo{0.0f};
 };
 
@@ -52,11 +53,14 @@ struct TreeDraws {
   std::vector<DrawnTree> trees;
   std::vector<std::uint32_t> chosen;      // storage, likewise
   std::vector<TreePrimitive> primitives;  // per triangle
+  std::vector<std::uint8_t> like_land;    // per triangle: 1 if its tree is a small one of a wood
   std::vector<std::uint32_t> indices;     // 3 per triangle
   std::vector<glm::vec3> p_rel;           // per vertex, relative to the eye
 
   const DrawnTree& tree_of(std::size_t triangle) const { return trees[primitives[triangle].tree]; }
-  void clear() { cells.clear(), primitives.clear(), indices.clear(), p_rel.clear(); }
+  void clear() {
+    cells.clear(), primitives.clear(), like_land.clear(), indices.clear(), p_rel.clear();
+  }
 };
 
 struct TreeGeometry {
