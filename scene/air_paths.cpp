@@ -49,6 +49,23 @@ double mean_place(double depth) {
   return 1.0 / depth - passes / (1.0 - passes);
 }
 
+// Where step i of so many begins, as a part of a ray: steps grow from where air is densest. Towards
+// the sea that is the far end for an eye high up, and even steps serve both ends.
+class Steps {
+ public:
+  Steps(double height_m, bool meets_sea, int count)
+      : even_(meets_sea ? smoothstep(0.0, kEvenFrom_m, height_m) : 0.0), count_(count) {}
+  double begin(int i) const {
+    const double x = static_cast<double>(i) / count_;
+    return cube(x) + even_ * (x - cube(x));
+  }
+
+ private:
+  static constexpr double kEvenFrom_m = 10000.0;
+  double even_;
+  int count_;
+};
+
 // Rows of sources lie at kEven_m times the hyperbolic sine of even steps up to kEvenHeights.
 constexpr double kEven_m = 1500.0, kTopOfEven = kAirTop_m / kEven_m;
 const double kEvenHeights = log(kTopOfEven + std::sqrt(kTopOfEven * kTopOfEven + 1.0));
@@ -108,7 +125,8 @@ Between source_row(double height_m) {
 
 double source_sine(int column) {
   if (column < kLowSines) return kLowestSine + (kMiddleSine - kLowestSine) * column / kLowSines;
-  return kMiddleSine + (1.0 - kMiddleSine) * (column - kLowSines) / kHighSines;
+  const double from_zenith = static_cast<double>(kSourceSines - 1 - column) / kHighSines;
+  return 1.0 - (1.0 - kMiddleSine) * from_zenith * from_zenith;
 }
 
 // ---- Rays
@@ -121,10 +139,10 @@ Path trace(const Air& air, double height_m, double sine, int step_count) {
   path.sine = sine;
   path.meets_sea = sea_m.has_value();
   const double length_m = sea_m ? *sea_m : distance_to_air_top_m(radius_m, sine);
+  const Steps steps(height_m, path.meets_sea, step_count);
   glm::dvec3 left(1.0);
   for (int i = 0; i < step_count; ++i) {
-    const double begin = double(i) / step_count, end = double(i + 1) / step_count;
-    const double from = cube(begin), to = cube(end);
+    const double from = steps.begin(i), to = steps.begin(i + 1);
     const double t_m = 0.5 * (from + to) * length_m;
     const double dt_m = (to - from) * length_m;
     const double h_m = std::max(height_along(radius_m, sine, t_m), 0.0);

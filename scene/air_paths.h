@@ -51,7 +51,8 @@ glm::vec3 transmittance_over_horizon(const Atmosphere& atmosphere, const HeightR
 glm::vec3 disc_transmittance(const Atmosphere& atmosphere, const HeightRow& at, double sine);
 
 // Light that was scattered before: rows by height, closest at the sea, columns by the sine of the
-// light's elevation, finer about the horizon. Haze is low: its tables have the first rows, up to
+// light's elevation, finer about the horizon; at the zenith even in its cosine, as modes of azimuth
+// are. Haze is low: its tables have the first rows, up to
 // 9 km.
 inline constexpr int kSourceHeights = 47, kHazeHeights = 25, kLowSines = 30, kHighSines = 12;
 inline constexpr int kSourceSines = kLowSines + kHighSines + 1;
@@ -63,10 +64,10 @@ double source_height_m(int row);
 double source_sine(int column);
 Between source_row(double height_m);
 inline Between source_column(double sine) {
-  return between(sine < kMiddleSine
-                     ? (sine - kLowestSine) * (kLowSines / (kMiddleSine - kLowestSine))
-                     : kLowSines + (sine - kMiddleSine) * (kHighSines / (1.0 - kMiddleSine)),
-                 kSourceSines);
+  if (sine < kMiddleSine)
+    return between((sine - kLowestSine) * (kLowSines / (kMiddleSine - kLowestSine)), kSourceSines);
+  const double from_zenith = std::sqrt(std::max(1.0 - sine, 0.0) / (1.0 - kMiddleSine));
+  return between(kSourceSines - 1 - kHighSines * from_zenith, kSourceSines);
 }
 
 // What orders of scattering after the last add, over it: they shrink as it did. In thick haze the

@@ -24,9 +24,9 @@ struct Atmosphere {
   Air air;
   std::vector<glm::vec3> transmittance;  // by height and distance to the air's top
   // Of the light that was scattered once or more, by height and sine of the light's elevation: its
-  // mean radiance over all directions; what molecules add to it of moment (2, 0); and all moments
-  // of what haze makes of it (scene/light_moments.h).
-  std::vector<glm::vec3> multiple, zonal, haze;
+  // mean radiance over all directions; the moments (2, m) of what molecules make of it; and all
+  // moments of what haze does (scene/light_moments.h).
+  std::vector<glm::vec3> multiple, uneven, haze;
 };
 
 // The same bits with any workers. About 60 ms on two threads.

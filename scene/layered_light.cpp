@@ -45,10 +45,26 @@ void place_streams(Layers& all) {
   }
 }
 
-// Along a ray through the layer over a height, on the round earth.
-double way_through_m(double radius_m, double thick_m, double sine) {
-  const double up = radius_m * sine;
-  return std::sqrt(up * up + thick_m * (2.0 * radius_m + thick_m)) - up;
+// The light's way through a layer from its far side to its near one.
+struct Way {
+  double length_m;
+  double far_sine;    // of the ray, on the far side
+  bool dips = false;  // it enters on the near side as well
+};
+
+// Down to the layer's lower side, which it meets at a sine.
+Way way_down(double radius_m, double thick_m, double sine) {
+  const double up_m = radius_m * sine;
+  const double far_m = std::sqrt(up_m * up_m + thick_m * (2.0 * radius_m + thick_m));
+  return {far_m - up_m, far_m / (radius_m + thick_m)};
+}
+
+// Up to the layer's upper side; radius_m: of the lower one.
+Way way_up(double radius_m, double thick_m, double sine) {
+  const double up_m = (radius_m + thick_m) * sine;
+  const double far2 = up_m * up_m - thick_m * (2.0 * radius_m + thick_m);
+  if (far2 < 0.0) return {2.0 * up_m, -sine, true};
+  return {up_m - std::sqrt(far2), std::sqrt(far2) / radius_m};
 }
 
 // The parts of even light, and of light that grows from 0, that reach the end of a depth d at
@@ -61,20 +77,45 @@ Arrives arrives(double d, double passes) {
   return {(1.0 - passes) / d, (1.0 - passes * (1.0 + d)) / (d * d)};
 }
 
-Layer make_layer(double depth, double radius_m, double thick_m,
-                 const std::array<double, kHalf>& sines) {
+// Between sines, light that comes down through thin air goes about as 1 over the sine and a little,
+// as its way does.
+double turned_part(double sine, double far_sine, double next) {
+  constexpr double kLevel = 0.06;
+  if (next < sine) return (sine - far_sine) / (sine - next);
+  return (sine - far_sine) / (sine - next) * (next + kLevel) / (far_sine + kLevel);
+}
+
+// Between two heights.
+struct Slab {
+  double low_m, thick_m;
+  glm::dvec3 lost_per_m;  // in the mean
+};
+
+// Of channel c. Even light that dips is scattered at two thirds of its depth, in the mean.
+Layer make_layer(const Air& air, const Slab& slab, int c, const std::array<double, kHalf>& sines,
+                 bool up) {
   Layer layer;
+  const double radius_m = kEarthRadius_m + slab.low_m;
   for (std::size_t j = 0; j < kHalf; ++j) {
-    const double way_m = way_through_m(radius_m, thick_m, sines[j]);
-    const double across_m = way_m * std::sqrt(1.0 - sines[j] * sines[j]);
-    const double d = depth * way_m / thick_m, passes = exp(-d);
-    const Arrives part = arrives(d, passes);
+    const double sine = sines[j];
+    const Way way = (up ? way_up : way_down)(radius_m, slab.thick_m, sine);
+    const double next = up ? (j + 1 < kHalf ? sines[j + 1] : -sine) : (j > 0 ? sines[j - 1] : 1.0);
+    const double dip_m = way.dips ? way.length_m * sine / 6.0 : 0.0;
+    const double lost_per_m = way.dips
+                                  ? air_light(air, slab.low_m + slab.thick_m - dip_m).lost_per_m[c]
+                                  : slab.lost_per_m[c];
+    const double across_m = way.length_m * std::sqrt(1.0 - sine * sine);
+    const double d = lost_per_m * way.length_m, passes = exp(-d);
+    Arrives part = arrives(d, passes);
+    if (way.dips) part.growing = part.even * dip_m / slab.thick_m;
+    layer.turned[j] = static_cast<float>(turned_part(sine, way.far_sine, next));
     layer.depth[j] = static_cast<float>(d);
     layer.passes[j] = static_cast<float>(passes);
     layer.near[j] = static_cast<float>(d * (part.even - part.growing));
     layer.far[j] = static_cast<float>(d * part.growing);
     layer.across_m[j] = static_cast<float>(across_m);
-    layer.reach_m[j] = static_cast<float>(across_m * part.growing / part.even);
+    layer.reach_m[j] = static_cast<float>(across_m * (way.dips ? 0.5 : part.growing / part.even));
+    layer.dips = way.dips;
   }
   return layer;
 }
@@ -98,7 +139,12 @@ struct SunLight {
 Layer fade(const Layer& layer, double here, double there) {
   Layer out = layer;
   const double a = log(there / here);
-  for (std::size_t j = 0; j < kHalf; ++j) {
+  const std::size_t through = layer.dips ? kHalf - 1 : kHalf;
+  if (layer.dips) {
+    out.near[through] *= static_cast<float>(here);
+    out.far[through] *= static_cast<float>(there);
+  }
+  for (std::size_t j = 0; j < through; ++j) {
     const double x = layer.depth[j], d = x - a;
     const Arrives part = arrives(d, layer.passes[j] * there / here);
     out.near[j] = static_cast<float>(here * x * (part.even - part.growing));
@@ -124,8 +170,8 @@ SunLight sun_light(const Atmosphere& atmosphere, const Layers& layers, double si
   for (int i = 0; i < kLayers; ++i)
     for (int c = 0; c < 3; ++c) {
       const double low = sun.arrives[i][c], high = sun.arrives[i + 1][c];
-      sun.down[i][c] = fade(layers.layers[i][c], low, high);
-      sun.up[i][c] = fade(layers.layers[i][c], high, low);
+      sun.down[i][c] = fade(layers.down[i][c], low, high);
+      sun.up[i][c] = fade(layers.up[i][c], high, low);
     }
   return sun;
 }
@@ -144,6 +190,10 @@ struct Mode {
 // across that it has come.
 struct StreamLight {
   StreamRow light{}, growth{}, drift_m{};
+};
+// The same of one stream.
+struct Ray {
+  float light = 0.0f, growth = 0.0f, drift_m = 0.0f;
 };
 
 class LayeredSky {
@@ -171,13 +221,15 @@ class LayeredSky {
   }
 
   LayeredLight light() const {
-    LayeredLight out{std::vector<glm::vec3>(kSourceHeights), std::vector<glm::vec3>(kSourceHeights),
+    LayeredLight out{std::vector<glm::vec3>(kSourceHeights),
+                     std::vector<glm::vec3>(std::size_t{kRayleighModes} * kSourceHeights),
                      std::vector<glm::vec3>(std::size_t{kMoments} * kHazeHeights)};
     for (int c = 0; c < 3; ++c) {
       for (int i = 0; i < kSourceHeights; ++i) {
         // The mean is half of the integral over the sine, and K_00 the root of a half.
         out.mean[i][c] = modes_[0].sum[i][c][0] * static_cast<float>(std::sqrt(0.5));
-        out.zonal[i][c] = modes_[0].sum[i][c][2] * rayleigh_moment_[2];
+        for (int m = 0; m < kRayleighModes; ++m)
+          out.uneven[m * kSourceHeights + i][c] = modes_[m].sum[i][c][2] * rayleigh_moment_[2];
       }
       for (int m = 0; m < kModes; ++m)
         for (int l = m; l < kDegrees; ++l)
@@ -242,27 +294,33 @@ class LayeredSky {
         sum += layers_.weight[j] * layers_.sine[j] * double{mode.light[0][c][j]};
       sea[c] = static_cast<float>(2.0 * kSeaAlbedo * sum);
     }
-    sweep(layers_.layers, layers_.layers, sea, m);
+    sweep(layers_.down, layers_.up, sea, m);
   }
 
-  // Light along the streams, down from no light and up from the sea's.
+  // Light along the streams, down from no light and up from the sea's. What goes up along the
+  // lowest one came down further off.
   void sweep(std::span<const Channels<Layer>> down, std::span<const Channels<Layer>> up,
              const Channels<float>& sea, int m) {
     for (int c = 0; c < 3; ++c) {
       StreamLight streams;
+      std::array<Ray, kSourceHeights> lowest{};  // that goes down
       keep(streams, kLayers, c, 0, m);
       for (int i = kLayers - 1; i >= 0; --i) {
+        turn_down(down[i][c].turned, streams);
         cross(down[i][c],
               {modes_[m].source[i][c].data(), modes_[m].source[i + 1][c].data(), growth_[i][c],
                growth_[i + 1][c]},
               streams);
         keep(streams, i, c, 0, m);
+        lowest[i] = lowest_of(streams);
       }
       streams = {};
       streams.light.fill(sea[c]);
       streams.growth.fill(sea[c] * growth_[0][c]);
       keep(streams, 0, c, kHalf, m);
+      lowest[0] = lowest_of(streams);
       for (int i = 1; i < kSourceHeights; ++i) {
+        turn_up(up[i - 1][c].turned, lowest[up[i - 1][c].dips ? i : i - 1], streams);
         cross(up[i - 1][c],
               {modes_[m].source[i][c].data() + kHalf, modes_[m].source[i - 1][c].data() + kHalf,
                growth_[i][c], growth_[i - 1][c]},
@@ -277,6 +335,27 @@ class LayeredSky {
     const float *near, *far;
     float near_growth, far_growth;
   };
+
+  static Ray lowest_of(const StreamLight& streams) {
+    return {streams.light.back(), streams.growth.back(), streams.drift_m.back()};
+  }
+
+  // Streams come from steeper ones above.
+  static void turn_down(const StreamRow& turned, StreamLight& streams) {
+    for (StreamRow* row : {&streams.light, &streams.growth, &streams.drift_m})
+      for (int j = kHalf - 1; j > 0; --j) (*row)[j] += turned[j] * ((*row)[j - 1] - (*row)[j]);
+  }
+
+  // And from flatter ones below, the lowest from what comes down at `level`.
+  static void turn_up(const StreamRow& turned, const Ray& level, StreamLight& streams) {
+    const auto turn = [&](StreamRow& row, float last) {
+      for (int j = 0; j < kHalf; ++j)
+        row[j] += turned[j] * ((j + 1 < kHalf ? row[j + 1] : last) - row[j]);
+    };
+    turn(streams.light, level.light);
+    turn(streams.growth, level.growth);
+    turn(streams.drift_m, level.drift_m);
+  }
 
   static void cross(const Layer& layer, const Sides& source, StreamLight& streams) {
     auto& [light, growth, drift_m] = streams;
@@ -371,13 +450,17 @@ Layers make_layers(const Air& air) {
     all.heights.push_back(scatters);
     if (i == kLayers) break;
     const double low_m = source_height_m(i), thick_m = source_height_m(i + 1) - low_m;
-    glm::dvec3 depth(0.0);
+    Slab slab{low_m, thick_m, glm::dvec3(0.0)};
     for (int n = 0; n < kParts; ++n)
-      depth += air_light(air, low_m + thick_m * (n + 0.5) / kParts).lost_per_m * (thick_m / kParts);
-    Channels<Layer> layer;
-    for (int c = 0; c < 3; ++c)
-      layer[c] = make_layer(depth[c], kEarthRadius_m + low_m, thick_m, all.sine);
-    all.layers.push_back(layer);
+      slab.lost_per_m +=
+          air_light(air, low_m + thick_m * (n + 0.5) / kParts).lost_per_m / double{kParts};
+    Channels<Layer> down, up;
+    for (int c = 0; c < 3; ++c) {
+      down[c] = make_layer(air, slab, c, all.sine, false);
+      up[c] = make_layer(air, slab, c, all.sine, true);
+    }
+    all.down.push_back(down);
+    all.up.push_back(up);
   }
   return all;
 }

@@ -1,9 +1,8 @@
 // Light that air in level layers scatters once or more: for a sun that has not set, whose light
-// changes much more upwards than across. The sun's own rays cross a round earth's air; and as light
-// that comes across is from where the sun stands higher or lower, each order has a first power of
-// that change.
-//
-// High up, under a sun below 10 degrees, means are too large: at 6 km by up to 9 % in red.
+// changes much more upwards than across. Rays cross a round earth's layers, to which they lie
+// flatter the lower they are, so that those near eye height turn from one stream to the next; and
+// as light that comes across is from where the sun stands higher or lower, each order has a first
+// power of that change.
 //
 // Source: S. Chandrasekhar, Radiative Transfer, 1950, section 48 (modes of azimuth); K. Stamnes et
 // al., Numerically stable algorithm for discrete-ordinate-method radiative transfer in multiple
@@ -24,14 +23,18 @@ namespace swell::scene {
 // Directions of light: as many above eye height as below.
 inline constexpr int kStreams = kDegrees, kHalf = kStreams / 2;
 
-// What a layer between two heights does to light of a channel, by stream.
+// What a layer between two heights does to light of a channel, by stream: these are named by their
+// sines where they leave the layer.
 using StreamRow = std::array<float, kHalf>;
 struct Layer {
+  StreamRow turned;     // the part of light that enters along the next stream
   StreamRow depth;      // along the stream
   StreamRow passes;     // the part of light that does
   StreamRow near, far;  // what arrives at its one side of light from there, and from the other's
   StreamRow reach_m;    // how far off in the plane that light is from, in the mean
   StreamRow across_m;   // from one side to the other
+  // The lowest stream of a thick layer leaves it upwards where it came in, downwards.
+  bool dips = false;
 };
 
 // At a height, of a channel: the parts of light lost there that are scattered.
@@ -40,21 +43,23 @@ struct Scatters {
 };
 
 struct Layers {
-  std::array<double, kHalf> sine, weight;  // Gauss' nodes in [0, 1]
+  std::array<double, kHalf> sine, weight;  // Gauss' nodes in [0, 1], from the highest
   // K_lm at the streams, those above and then those below: by moment; and by mode, times the
   // weight.
   std::array<std::array<float, kStreams>, kMoments> of_degree{};
   std::array<std::array<std::array<float, kDegrees>, kStreams>, kModes> of_stream{};
-  std::vector<std::array<Layer, 3>> layers;      // between neighbours of the rows of air_paths.h
+  // Between neighbours of the rows of air_paths.h, for light that goes down and up.
+  std::vector<std::array<Layer, 3>> down, up;
   std::vector<std::array<Scatters, 3>> heights;  // kSourceHeights
 };
 Layers make_layers(const Air& air);  // once for all elevations of the sun
 
 // In light of irradiance 1, by height.
 struct LayeredLight {
-  std::vector<glm::vec3> mean;   // radiance over all directions
-  std::vector<glm::vec3> zonal;  // moment (2, 0) of what molecules make of it
-  std::vector<glm::vec3> haze;   // moments of what haze makes of it: kHazeHeights for each
+  std::vector<glm::vec3> mean;  // radiance over all directions
+  std::vector<glm::vec3>
+      uneven;                   // moments (2, m) of what molecules make of it: kSourceHeights each
+  std::vector<glm::vec3> haze;  // moments of what haze makes of it: kHazeHeights each
 };
 // sine: of the sun's elevation, > 0. The same bits on any thread; about 1 ms.
 LayeredLight scatter_in_layers(const Atmosphere& atmosphere, const Layers& layers, double sine);

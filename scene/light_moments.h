@@ -19,12 +19,15 @@ namespace swell::scene {
 
 // Haze throws light of moment 18 on by less than a twentieth; what it scattered twice has none.
 inline constexpr int kDegrees = 20;
-// cos(m phi) for m below this.
-inline constexpr int kModes = 12;
+// cos(m phi) for m below this: with 12, light beside a low sun in haze was 10 % too weak.
+inline constexpr int kModes = 16;
 
 // Of degree l >= m, in [0, kMoments): all degrees of a mode are neighbours.
 constexpr int moment_index(int l, int m) { return m * kDegrees - m * (m - 1) / 2 + l - m; }
 inline constexpr int kMoments = moment_index(kModes, kModes);
+
+// Molecules: what they make of moments (2, m) is not even, for m below this.
+inline constexpr int kRayleighModes = 3;
 
 // K_lm(sine), by moment_index().
 using Harmonics = std::array<float, kMoments>;

@@ -274,16 +274,21 @@ std::vector<Harmonics> cell_moments() {
   return all;
 }
 
-// Of moment (2, 0), what molecules make of it.
-std::vector<glm::vec3> zonal_moment(const std::vector<Harmonics>& cells, const Radiance& radiance) {
-  std::vector<glm::vec3> zonal(kPoints);
+// Of moments (2, m), what molecules make of them.
+std::vector<glm::vec3> uneven_moments(const std::vector<Harmonics>& cells,
+                                      const Radiance& radiance) {
+  std::vector<glm::vec3> all(std::size_t{kRayleighModes} * kPoints);
   const auto phase = static_cast<float>(rayleigh_moment(2));
-  for (std::size_t d = 0; d < kDirections; ++d)
-    for (std::size_t row = 0; row < kGathered; ++row)
-      add_row(phase * cells[d][moment_index(2, 0)],
-              radiance.data() + d * kGatheredPoints + row * kRoundSines, gathered_row(zonal, row));
-  fill_rest(zonal.data(), kSourceHeights);
-  return zonal;
+  for (int m = 0; m < kRayleighModes; ++m) {
+    glm::vec3* const uneven = all.data() + std::size_t{kPoints} * m;
+    for (std::size_t d = 0; d < kDirections; ++d)
+      for (std::size_t row = 0; row < kGathered; ++row)
+        add_row(phase * cells[d][moment_index(2, m)],
+                radiance.data() + d * kGatheredPoints + row * kRoundSines,
+                uneven + 2 * row * kSourceSines);
+    fill_rest(uneven, kSourceHeights);
+  }
+  return all;
 }
 
 std::vector<glm::vec3> haze_moments(const std::vector<Harmonics>& cells, const Radiance& radiance,
@@ -316,7 +321,7 @@ RoundLight scatter_on_round_earth(const Atmosphere& atmosphere, Workers& workers
   }
   add_later_orders(before, last, sum);
   const std::vector<Harmonics> cells = cell_moments();
-  return {mean_of(directions, sum), zonal_moment(cells, sum), haze_moments(cells, sum, workers)};
+  return {mean_of(directions, sum), uneven_moments(cells, sum), haze_moments(cells, sum, workers)};
 }
 
 }  // namespace swell::scene

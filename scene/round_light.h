@@ -16,7 +16,7 @@ inline constexpr int kRoundSines = 32;
 
 // As the tables of Atmosphere.
 struct RoundLight {
-  std::vector<glm::vec3> multiple, zonal, haze;
+  std::vector<glm::vec3> multiple, uneven, haze;
 };
 RoundLight scatter_on_round_earth(const Atmosphere& atmosphere, Workers& workers);
 

@@ -11,16 +11,20 @@
 
 namespace swell::scene {
 
-// Of Atmosphere::multiple, zonal and haze: of a round earth while the light is down, of level
+// Of Atmosphere::multiple, uneven and haze: of a round earth while the light is down, of level
 // layers when it is up.
 void fill_scattered_light(Atmosphere& atmosphere, Workers& workers);
 
 // What air makes, in a path's direction, of the light at its steps; for light of the elevations
 // that the path meets.
 struct PathSources {
-  std::vector<glm::vec3> air;  // molecules: by height and sine of the light's elevation
-  // Haze, by mode of the azimuth: by height, and so many of the sines.
-  int first_column = 0, columns = 0;
+  // By sine of the light's elevation, of which there are so many.
+  struct Columns {
+    int first = 0, count = 0;
+  };
+  // Molecules and haze, by mode of the azimuth: by step of the path, and by height.
+  Columns air_columns, haze_columns;
+  std::array<std::vector<glm::vec3>, kRayleighModes> air;
   std::array<std::vector<glm::vec3>, kModes> haze;
 };
 PathSources sources_along(const Atmosphere& atmosphere, const Path& path, double light_sine);

@@ -13,6 +13,17 @@
 
 namespace swell::render {
 
+// Clouds that water mirrors in their shapes, where it is calm: those of a layer, without volumetric
+// ones or fog before them, and in a wind that leaves water so calm.
+struct CalmMirror {
+  const Clouds* clouds = nullptr;              // as seen from the sea under the eye; none: off
+  const texture::RgbMap* cloudless = nullptr;  // the blurred sky without them
+  float pixel_angle = 1e-3f;
+};
+// Slope variance, of both axes together, from which on water mirrors the blurred sky alone: less
+// than that of a breeze. Rays up and down are spread over 5 degrees then, two deviations.
+inline constexpr float kCalmVariance = 1.0f / 1024.0f;
+
 // Linear RGB, exposed (but for a gradient's: SkyMaps).
 struct Light {
   // Of the sun, or of the moon when the sun is down.
@@ -34,6 +45,7 @@ struct Light {
   float exposure = 1.0f;  // of the picture, still to be applied
   Clouds clouds;
   Stars stars;
+  CalmMirror calm;
   const CloudShadow* cloud_shadow = nullptr;  // none: clouds dim all alike
 };
 

@@ -22,7 +22,7 @@ void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_siz
   shading.rays.drop_per_m2 = view.drop_per_m2;
   shading.level_rel_m = view.level_m - shading.rays.eye_z;
   shading.light = in.light;
-  shading.light.stars.pixel_angle = shading.rays.pixel_angle;
+  shading.light.stars.pixel_angle = shading.light.calm.pixel_angle = shading.rays.pixel_angle;
   shading.media = in.media;
   fill_sun_shadow(in, view, shading.grid, shading.sun_shadow);
   shading.caustics = make_caustics(in, glm::dvec2(view.camera.eye_world));

@@ -74,6 +74,7 @@ void advance_sky(const World::State& world, const Clouds& mirrored, const Fog& f
   sky.horizon_sine = is_flat ? 0.0f : static_cast<float>(scene::horizon_sine(height_m));
   set_heights(maps, height_m, sky, run.workers);
   sky.mirrored = sky.mirrored_clear = &maps.soft;
+  sky.layer = mirrored;
   if (!mirrored.any && !sky.clouds.any && !fog.on) return;
   for (texture::RgbaImage* const codes : {&sky.codes_clear, &sky.codes})
     if (codes->width != kSoftSkySize) texture::resize_image(kSoftSkySize, kSoftSkySize, *codes);

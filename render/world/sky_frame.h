@@ -21,6 +21,7 @@ struct SkyFrame {
 
   const texture::RgbMap* mirrored = nullptr;        // through fog
   const texture::RgbMap* mirrored_clear = nullptr;  // without it
+  Clouds layer;                                     // a layer's, as seen from the sea
   CloudSky clouds;                                  // volumetric ones, in what waves mirror
   CloudShadow shadow;                               // of all clouds
 

@@ -30,12 +30,16 @@ class LightPaths {
     return sum / paths;
   }
 
-  // The same at a height, in a direction that misses the sea: thin air scatters few paths, so that
-  // each is made to scatter first at a place of its own, as if it had.
-  double radiance_aloft(double height_m, glm::dvec3 direction, glm::dvec3 to_sun, int paths) {
+  // The same at a height, of the air before the sea or space: thin air scatters few paths, so that
+  // each is made to scatter first at a place of its own, as if it had. `lost` becomes the part of
+  // light from behind it that the air takes.
+  double radiance_aloft(int channel, double height_m, glm::dvec3 direction, glm::dvec3 to_sun,
+                        int paths, double& lost) {
+    channel_ = channel;
     const glm::dvec3 eye(0.0, 0.0, kEarthRadius_m + height_m);
-    const double b = glm::dot(eye, direction), top = kEarthRadius_m + kAirTop_m;
-    const double length = -b + std::sqrt(b * b + top * top - glm::dot(eye, eye));
+    const double radius_m = kEarthRadius_m + height_m;
+    const double length = distance_to_sea_m(radius_m, direction.z)
+                              .value_or(distance_to_air_top_m(radius_m, direction.z));
     double depth = 0.0, sum = 0.0;
     for (int n = 0; n < paths; ++n) {
       const glm::dvec3 p = eye + direction * (length * (n + 0.5) / paths);
@@ -43,6 +47,7 @@ class LightPaths {
       sum += follow(p, direction, std::exp(-depth - 0.5 * piece) * piece, End::kCollision, to_sun);
       depth += piece;
     }
+    lost = 1.0 - std::exp(-depth);
     return sum;
   }
 

@@ -96,13 +96,18 @@ TEST(LayeredLight, StreamsIntegrateOverHalfASphere) {
 
 // Where all places send out light 1, light 1 arrives.
 TEST(LayeredLight, EvenLightStaysEven) {
-  for (const double turbidity : {1.0, 10.0})
-    for (const auto& layer : make_layers(make_air(turbidity)).layers)
-      for (const Layer& channel : layer)
-        for (int j = 0; j < kHalf; ++j) {
-          EXPECT_NEAR(channel.passes[j] + channel.near[j] + channel.far[j], 1.0f, 1e-5f);
-          EXPECT_LE(channel.reach_m[j], 0.5001f * channel.across_m[j]);
-        }
+  for (const double turbidity : {1.0, 10.0}) {
+    const Layers layers = make_layers(make_air(turbidity));
+    for (const auto* way : {&layers.down, &layers.up})
+      for (const auto& layer : *way)
+        for (const Layer& channel : layer)
+          for (int j = 0; j < kHalf; ++j) {
+            EXPECT_NEAR(channel.passes[j] + channel.near[j] + channel.far[j], 1.0f, 1e-5f);
+            EXPECT_LE(channel.reach_m[j], 0.5001f * channel.across_m[j]);
+            EXPECT_GE(channel.turned[j], 0.0f);
+            EXPECT_LE(channel.turned[j], 1.0f);
+          }
+  }
 }
 
 TEST(LayeredLight, ThePathOverheadHasTheKnownDepth) {
@@ -111,11 +116,58 @@ TEST(LayeredLight, ThePathOverheadHasTheKnownDepth) {
   const Layers layers = make_layers(air);
   const auto steepest = static_cast<std::size_t>(
       std::max_element(layers.sine.begin(), layers.sine.end()) - layers.sine.begin());
-  for (const auto& layer : layers.layers) depth += double{layer[1].depth[steepest]};
+  for (const auto& layer : layers.down) depth += double{layer[1].depth[steepest]};
   sine = layers.sine[steepest];
   const double known =
       air.rayleigh_per_m.y * 8000.0 + air.mie_per_m.y * 1200.0 + air.ozone_per_m.y * 15000.0;
   EXPECT_NEAR(depth * sine, known, 2e-3 * known);
+}
+
+// Mean radiance about a height of light that was scattered once or thrown back by the sea, from
+// rays in many directions.
+glm::dvec3 mean_from_rays(const Atmosphere& atmosphere, double height_m, double sun_sine) {
+  constexpr int kRings = 240, kAzimuths = 12, kSteps = 100;
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < kRings; ++i) {
+    const double x = -1.0 + (2.0 * i + 1.0) / kRings;  // rings crowd at eye height
+    const double weight = 3.0 * x * x / (kRings * kAzimuths);
+    const Path path = trace(atmosphere.air, height_m, x * x * x, kSteps);
+    for (int k = 0; k < kAzimuths; ++k) {
+      const double ahead = cosine_of(sun_sine) * std::cos(kPi * (k + 0.5) / kAzimuths);
+      const LightAngles light{sun_sine, ahead};
+      const double cos_theta = sun_sine * path.sine + ahead * cosine_of(path.sine);
+      const Scattered once = scatter_once(atmosphere, path, light);
+      sum += weight * (rayleigh_phase(cos_theta) * glm::dvec3(once.rayleigh) +
+                       mie_phase(cos_theta) * glm::dvec3(once.mie));
+      const double sine = light.up * path.sea_up + light.ahead * path.sea_ahead;
+      if (path.meets_sea && sine > 0.0)
+        sum += weight * sine / kPi * glm::dvec3(path.sea) *
+               glm::dvec3(disc_transmittance(atmosphere, 0.0, sine));
+    }
+  }
+  return sum;
+}
+
+// In thin air light is scattered once: what the streams carry is what straight rays do, at the
+// horizon, too, where light comes from furthest.
+TEST(LayeredLight, OfThinAirIsWhatRaysBring) {
+  Workers workers(2);
+  Atmosphere thin;
+  thin.air = make_air(1.5);
+  for (glm::dvec3* part : {&thin.air.rayleigh_per_m, &thin.air.mie_per_m, &thin.air.ozone_per_m})
+    *part *= 0.02;
+  fill_transmittance(thin, workers);
+  const Layers layers = make_layers(thin.air);
+  for (const double sun_deg : {2.0, 5.0, 20.0}) {
+    const double sine = std::sin(sun_deg * kPi / 180.0);
+    const LayeredLight level = scatter_in_layers(thin, layers, sine);
+    for (const int row : {0, 6, 12, 19, 25, 33, 40}) {
+      const glm::dvec3 known = mean_from_rays(thin, source_height_m(row), sine);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(level.mean[row][c] / known[c], 1.0, 0.09)
+            << sun_deg << " " << source_height_m(row) << " " << c;
+    }
+  }
 }
 
 TEST(LayeredLight, TheSunOverheadLightsAllAzimuthsAlike) {
@@ -129,7 +181,7 @@ TEST(LayeredLight, TheSunOverheadLightsAllAzimuthsAlike) {
       EXPECT_NEAR(light.haze[moment_index(l, m) * kHazeHeights].y, 0.0f, 1e-5f * mean);
 }
 
-// Two ways to the same light, where both hold: clear air, a sun at 7 to 10 degrees, up to 2 km.
+// Two ways to the same light, where both hold: clear air, a sun at 7 to 10 degrees, up to 6 km.
 TEST(LayeredLight, IsThatOfARoundEarthWhereTheSunIsUp) {
   Workers workers(2);
   const Atmosphere air = make_atmosphere(1.5, workers);
@@ -137,7 +189,7 @@ TEST(LayeredLight, IsThatOfARoundEarthWhereTheSunIsUp) {
   const Layers layers = make_layers(air.air);
   for (const int column : {27, 30}) {
     const LayeredLight level = scatter_in_layers(air, layers, source_sine(column));
-    for (const int row : {0, 5, 10})
+    for (const int row : {0, 5, 10, 15, 20})
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(level.mean[row][c] / round.multiple[row * kSourceSines + column][c], 1.0f,
                     0.05f)
