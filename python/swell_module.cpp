@@ -8,192 +8,16 @@
 
 #include <array>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
-namespace py = pybind11;
+#include "handles.h"
+#include "tuples.h"
 
+namespace swell_python {
 namespace {
-
-// A scene that cannot be made; swell.SceneError in Python.
-class SceneError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-void check(swell_status status) {
-  const char* const message = swell_last_error();
-  switch (status) {
-    case SWELL_OK:
-      return;
-    case SWELL_BAD_ARGUMENT:
-      throw py::value_error(message);
-    case SWELL_BAD_SCENE:
-      throw SceneError(message);
-    case SWELL_NO_MEMORY:
-      throw std::bad_alloc();
-    default:
-      throw std::runtime_error(message);
-  }
-}
-
-// Runs without the lock of the interpreter.
-template <class Call>
-void call(const Call& c_function) {
-  const py::gil_scoped_release others_may_run;
-  check(c_function());  // on the thread that has the message
-}
-
-struct Deleter {
-  void operator()(swell_world* world) const { swell_world_destroy(world); }
-  void operator()(swell_session* session) const { swell_session_destroy(session); }
-  void operator()(swell_picture* picture) const { swell_picture_destroy(picture); }
-};
-template <class Handle>
-using Owned = std::unique_ptr<Handle, Deleter>;
-
-// Sessions and pictures of a world that are not in use.
-class Pool {
- public:
-  Pool(Owned<swell_world> world, int threads) : world_(std::move(world)), threads_(threads) {}
-
-  const swell_world* world() const { return world_.get(); }
-
-  Owned<swell_session> take_session() {
-    if (auto session = take(sessions_)) return session;
-    swell_session* made = nullptr;
-    check(swell_session_create(world_.get(), threads_, &made));
-    return Owned<swell_session>(made);
-  }
-
-  Owned<swell_picture> take_picture() {
-    if (auto picture = take(pictures_)) return picture;
-    swell_picture* made = nullptr;
-    check(swell_picture_create(&made));
-    return Owned<swell_picture>(made);
-  }
-
-  void give_back(Owned<swell_session> session) { give_back(std::move(session), sessions_); }
-  void give_back(Owned<swell_picture> picture) { give_back(std::move(picture), pictures_); }
-
- private:
-  static constexpr std::size_t kMost = 4;  // that are kept of each
-
-  template <class Handle>
-  Owned<Handle> take(std::vector<Owned<Handle>>& from) {
-    const std::lock_guard lock(mutex_);
-    if (from.empty()) return {};
-    Owned<Handle> handle = std::move(from.back());
-    from.pop_back();
-    return handle;
-  }
-
-  template <class Handle>
-  void give_back(Owned<Handle> handle, std::vector<Owned<Handle>>& to) {
-    const std::lock_guard lock(mutex_);
-    if (handle && to.size() < kMost) to.push_back(std::move(handle));
-  }
-
-  Owned<swell_world> world_;
-  int threads_;
-  std::mutex mutex_;
-  std::vector<Owned<swell_session>> sessions_;
-  std::vector<Owned<swell_picture>> pictures_;
-};
-
-// A session for one call; every thread has its own.
-class Session {
- public:
-  explicit Session(Pool& pool) : pool_(pool), handle_(pool.take_session()) {}
-  ~Session() { pool_.give_back(std::move(handle_)); }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-  swell_session* get() const { return handle_.get(); }
-
- private:
-  Pool& pool_;
-  Owned<swell_session> handle_;
-};
-
-// Eye, quaternion, focal lengths, principal point, near plane.
-using CameraTuple = std::tuple<std::array<double, 3>, std::array<double, 4>, std::array<double, 2>,
-                               std::array<double, 2>, double>;
-
-swell_camera camera_of(const CameraTuple& tuple) {
-  swell_camera camera{};
-  camera.size = sizeof(camera);
-  const auto& [eye, quaternion, focal, principal, near] = tuple;
-  std::copy(eye.begin(), eye.end(), camera.eye_m);
-  std::copy(quaternion.begin(), quaternion.end(), camera.quaternion_wxyz);
-  std::copy(focal.begin(), focal.end(), camera.focal_px);
-  std::copy(principal.begin(), principal.end(), camera.principal_px);
-  camera.near_m = near;
-  return camera;
-}
-
-CameraTuple tuple_of(const swell_camera& c) {
-  return {{c.eye_m[0], c.eye_m[1], c.eye_m[2]},
-          {c.quaternion_wxyz[0], c.quaternion_wxyz[1], c.quaternion_wxyz[2], c.quaternion_wxyz[3]},
-          {c.focal_px[0], c.focal_px[1]},
-          {c.principal_px[0], c.principal_px[1]},
-          c.near_m};
-}
-
-CameraTuple look(std::array<double, 3> eye, double heading_deg, double pitch_deg, double roll_deg,
-                 double fov_y_deg, int width_px, int height_px) {
-  swell_camera camera{};
-  camera.size = sizeof(camera);
-  check(swell_camera_look(eye.data(), heading_deg, pitch_deg, roll_deg, fov_y_deg, width_px,
-                          height_px, &camera));
-  return tuple_of(camera);
-}
-
-// Index, position, quaternion.
-using PoseTuple = std::tuple<std::size_t, std::array<double, 3>, std::array<double, 4>>;
-
-std::vector<swell_pose> poses_of(const std::vector<PoseTuple>& tuples) {
-  std::vector<swell_pose> poses;
-  for (const auto& [object, position, quaternion] : tuples) {
-    swell_pose pose{};
-    pose.size = sizeof(pose);
-    pose.object = object;
-    std::copy(position.begin(), position.end(), pose.position_m);
-    std::copy(quaternion.begin(), quaternion.end(), pose.quaternion_wxyz);
-    poses.push_back(pose);
-  }
-  return poses;
-}
-
-// Kind, position, time, duration, radius, height, path, speed, whether it is open, hull, depth.
-using DisturbanceTuple =
-    std::tuple<int, std::array<double, 2>, double, double, double, double,
-               std::vector<std::array<double, 2>>, double, bool, std::array<double, 3>, double>;
-
-// They point into the tuples.
-std::vector<swell_disturbance> disturbances_of(const std::vector<DisturbanceTuple>& tuples) {
-  std::vector<swell_disturbance> all;
-  for (const auto& [kind, position, t, duration, radius, height, path, speed, open, hull, depth] :
-       tuples) {
-    swell_disturbance d{};
-    d.size = sizeof(d);
-    d.kind = kind;
-    std::copy(position.begin(), position.end(), d.position_m);
-    d.t_s = t;
-    d.duration_s = duration;
-    d.radius_m = radius;
-    d.height_m = height;
-    d.path_m = path.empty() ? nullptr : path.front().data();
-    d.path_count = path.size();
-    d.speed_mps = speed;
-    d.path_open = open;
-    std::copy(hull.begin(), hull.end(), d.hull_m);
-    d.depth_m = depth;
-    all.push_back(d);
-  }
-  return all;
-}
 
 py::dtype dtype_of(swell_type type) {
   switch (type) {
@@ -208,10 +32,6 @@ py::dtype dtype_of(swell_type type) {
   }
   throw std::logic_error("a plane of an unknown type");
 }
-
-// What is shown, position, distance, index of the object, id, height.
-using PickTuple =
-    std::tuple<int, std::array<double, 3>, double, std::size_t, std::uint32_t, double>;
 
 // A drawn picture; its arrays keep it alive.
 class Picture {
@@ -471,8 +291,10 @@ std::vector<std::string> names(const char* (*name_of)(std::size_t)) {
 }
 
 }  // namespace
+}  // namespace swell_python
 
 PYBIND11_MODULE(_swell, module) {
+  using namespace swell_python;
   module.doc() = "What swell is written on: the C interface of the library.";
   py::register_exception<SceneError>(module, "SceneError", PyExc_ValueError);
   module.def("version", &swell_version);

@@ -9,6 +9,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/draw_tile_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -209,7 +210,9 @@ int DrawTile(const Pass::State& state, int tile_index, float* depth, std::uint32
   for (std::size_t c = 0; c < state.chunk_count; ++c) {
     const Chunk& chunk = state.chunks[c];
     const std::uint32_t end = chunk.tile_begin[tile_index + 1];
+    constexpr std::uint32_t kAhead = 4;  // triangles fetched before their turn
     for (std::uint32_t m = chunk.tile_begin[tile_index]; m < end; ++m) {
+      hwy::Prefetch(&chunk.triangles[chunk.members[std::min(m + kAhead, end - 1)]]);
       DrawTriangle(chunk.triangles[chunk.members[m]], tile);
     }
   }

@@ -12,7 +12,6 @@ constexpr double kRayleighHeight_m = 8000.0, kMieHeight_m = 1200.0;
 constexpr double kOzoneMiddle_m = 25000.0, kOzoneHalfWidth_m = 15000.0;
 constexpr double kMieAlbedo = 0.92, kAngstrom = 0.7;
 constexpr double kNarrow = 0.88, kWide = 0.45, kNarrowPart = 0.53;
-constexpr double kRepeatedNarrow = 0.73, kRepeatedWide = 0.29, kRepeatedPart = 0.2;
 constexpr double kTop_m = kEarthRadius_m + kAirTop_m;
 
 // Source: L. G. Henyey, J. L. Greenstein, Diffuse radiation in the galaxy, 1941, eq. 2.
@@ -53,11 +52,11 @@ double mie_phase(double cos_theta) {
          (1.0 - kNarrowPart) * henyey_greenstein(cos_theta, kWide);
 }
 
-// One Henyey-Greenstein function after another is that of the product of their mean cosines, so
-// that terms and cosines are here about the powers 2.5 of the above.
-double repeated_mie_phase(double cos_theta) {
-  return kRepeatedPart * henyey_greenstein(cos_theta, kRepeatedNarrow) +
-         (1.0 - kRepeatedPart) * henyey_greenstein(cos_theta, kRepeatedWide);
+double rayleigh_moment(int degree) { return degree == 0 ? 1.0 : degree == 2 ? 0.1 : 0.0; }
+
+// Source: H. C. van de Hulst, Multiple Light Scattering, 1980, section 10.1.
+double mie_moment(int degree) {
+  return kNarrowPart * pow(kNarrow, degree) + (1.0 - kNarrowPart) * pow(kWide, degree);
 }
 
 double height_along(double radius_m, double sine, double t_m) {

@@ -35,8 +35,9 @@ AirLight air_light(const Air& air, double height_m);
 double rayleigh_phase(double cos_theta);
 double mie_phase(double cos_theta);
 
-// About the same of light that haze scatters two or three times.
-double repeated_mie_phase(double cos_theta);
+// The means over them of the Legendre polynomial of a degree.
+double rayleigh_moment(int degree);
+double mie_moment(int degree);
 
 // Rays from radius_m about the earth's middle, towards the sine of an elevation.
 double height_along(double radius_m, double sine, double t_m);

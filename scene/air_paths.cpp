@@ -11,7 +11,6 @@
 namespace swell::scene {
 namespace {
 
-constexpr double kSeaAlbedo = 0.08;
 constexpr double kTop_m = kEarthRadius_m + kAirTop_m;
 
 double cube(double x) { return x * x * x; }
@@ -41,6 +40,18 @@ glm::dvec3 transmittance_to_top(const Air& air, double radius_m, double sine) {
   }
   return exp_each(-depth);
 }
+
+// Where on a step of an optical depth the light that arrives from it is scattered, in the mean:
+// [0, 0.5] of the way.
+double mean_place(double depth) {
+  if (depth < 1e-3) return 0.5 - depth / 12.0;
+  const double passes = exp(-depth);
+  return 1.0 / depth - passes / (1.0 - passes);
+}
+
+// Rows of sources lie at kEven_m times the hyperbolic sine of even steps up to kEvenHeights.
+constexpr double kEven_m = 1500.0, kTopOfEven = kAirTop_m / kEven_m;
+const double kEvenHeights = log(kTopOfEven + std::sqrt(kTopOfEven * kTopOfEven + 1.0));
 
 }  // namespace
 
@@ -85,13 +96,14 @@ glm::vec3 disc_transmittance(const Atmosphere& atmosphere, const HeightRow& at, 
 }
 
 double source_height_m(int row) {
-  const double x = static_cast<double>(row) / (kSourceHeights - 1);
-  return kAirTop_m * cube(x);
+  const double x = exp(kEvenHeights * row / (kSourceHeights - 1));
+  return row == kSourceHeights - 1 ? kAirTop_m : 0.5 * kEven_m * (x - 1.0 / x);
 }
 
 Between source_row(double height_m) {
-  const double x = height_m > 0.0 ? pow(height_m / kAirTop_m, 1.0 / 3.0) : 0.0;
-  return between(x * (kSourceHeights - 1), kSourceHeights);
+  const double x = std::max(height_m, 0.0) / kEven_m;
+  return between(log(x + std::sqrt(x * x + 1.0)) * ((kSourceHeights - 1) / kEvenHeights),
+                 kSourceHeights);
 }
 
 double source_sine(int column) {
@@ -119,11 +131,15 @@ Path trace(const Air& air, double height_m, double sine, int step_count) {
     const AirLight here = air_light(air, h_m);
     const glm::dvec3 lost = glm::max(here.lost_per_m, 1e-12);
     const glm::dvec3 passes = exp_each(-lost * dt_m);
-    const glm::dvec3 weight = left * (1.0 - passes) / lost;
-    const double r_m = kEarthRadius_m + h_m;
-    path.steps.push_back({height_row_of(h_m), source_row(h_m), (radius_m + t_m * sine) / r_m,
-                          t_m * cosine / r_m, weight * here.rayleigh_per_m,
-                          weight * here.mie_per_m});
+    const glm::dvec3 weight = left * (1.0 - passes);
+    const double mean_m = from * length_m + dt_m * mean_place(lost.y * dt_m);
+    const double mean_h_m = std::max(height_along(radius_m, sine, mean_m), 0.0);
+    const AirLight there = air_light(air, mean_h_m);
+    const glm::dvec3 scattered = weight / glm::max(there.lost_per_m, 1e-12);
+    const double r_m = kEarthRadius_m + mean_h_m;
+    path.steps.push_back({height_row_of(mean_h_m), source_row(mean_h_m),
+                          (radius_m + mean_m * sine) / r_m, mean_m * cosine / r_m,
+                          scattered * there.rayleigh_per_m, scattered * there.mie_per_m});
     left *= passes;
   }
   path.left = left;

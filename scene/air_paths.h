@@ -1,8 +1,9 @@
 // Rays through the air: what of the light that is scattered on them arrives at their start. Used by
-// scattered_light.cpp and atmosphere.cpp.
+// scattered_light.cpp, what that is made of, and atmosphere.cpp.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -49,10 +50,13 @@ glm::vec3 transmittance_over_horizon(const Atmosphere& atmosphere, const HeightR
                                      double sine);
 glm::vec3 disc_transmittance(const Atmosphere& atmosphere, const HeightRow& at, double sine);
 
-// Light that was scattered before: rows by height, columns by the sine of the light's elevation,
-// finer about the horizon. Haze is low: its tables have the first rows, up to 8 km.
-inline constexpr int kSourceHeights = 24, kHazeHeights = 11, kLowSines = 30, kHighSines = 12;
+// Light that was scattered before: rows by height, closest at the sea, columns by the sine of the
+// light's elevation, finer about the horizon. Haze is low: its tables have the first rows, up to
+// 9 km.
+inline constexpr int kSourceHeights = 47, kHazeHeights = 25, kLowSines = 30, kHighSines = 12;
 inline constexpr int kSourceSines = kLowSines + kHighSines + 1;
+inline constexpr int kPoints = kSourceHeights * kSourceSines,
+                     kHazePoints = kHazeHeights * kSourceSines;
 inline constexpr double kLowestSine = -0.34, kMiddleSine = 0.17;
 
 double source_height_m(int row);
@@ -65,7 +69,18 @@ inline Between source_column(double sine) {
                  kSourceSines);
 }
 
+// What orders of scattering after the last add, over it: they shrink as it did. In thick haze the
+// first few may grow, which says nothing of those that follow.
+inline float later_orders(float before, float last) {
+  const float ratio = std::clamp(last / std::max(before, 1e-30f), 0.0f, 0.7f);
+  return ratio / (1.0f - ratio);
+}
+
 // ---- Rays
+
+inline constexpr double kSeaAlbedo = 0.08;
+
+inline double cosine_of(double sine) { return std::sqrt(std::max(1.0 - sine * sine, 0.0)); }
 
 // A piece of a ray: what of the light that is scattered on it arrives at the ray's start.
 struct Step {
@@ -96,7 +111,8 @@ struct Scattered {
 };
 Scattered scatter_once(const Atmosphere& atmosphere, const Path& path, LightAngles light);
 
-// `mean`: radiance of the light to be scattered again by molecules, the mean over all directions.
+// `mean`: radiance of the light to be scattered again by molecules, the mean that they make of it
+// in the ray's direction.
 // haze_at(row, column): the mean that haze makes of it in the ray's direction.
 template <class HazeAt>
 glm::vec3 scatter_again(const std::vector<glm::vec3>& mean, const HazeAt& haze_at, const Path& path,

@@ -39,17 +39,17 @@ ScatteredLight scatter_rows(const Atmosphere& atmosphere, glm::dvec3 to_light, i
   workers.for_each(static_cast<std::size_t>(rows), [&](std::size_t row, int) {
     const double x = static_cast<double>(row) / (rows - 1);
     const Path path = path_of(x * x);
-    const HazeRow haze = haze_row(atmosphere, path.sine);
+    const PathSources sources = sources_along(atmosphere, path, to_light.z);
     const glm::vec3 divisor = divisor_of(path);
     for (int column = 0; column < kColumns; ++column) {
       const double half_sine = static_cast<double>(column) / (kColumns - 1);
-      const LightAngles angles{to_light.z, cosine * (1.0 - 2.0 * half_sine * half_sine)};
+      const double cos_azimuth = 1.0 - 2.0 * half_sine * half_sine;
+      const LightAngles angles{to_light.z, cosine * cos_azimuth};
       const std::size_t i = row * kColumns + static_cast<std::size_t>(column);
       const Scattered once = scatter_once(atmosphere, path, angles);
       light.rayleigh[i] = once.rayleigh / divisor;
       light.mie[i] = once.mie / divisor;
-      const AzimuthBlend blend = blend_azimuths(0.5 - acos(half_sine) / kPi);
-      light.multiple[i] = scatter_light_again(atmosphere, haze, blend, path, angles) / divisor;
+      light.multiple[i] = scatter_light_again(sources, cos_azimuth, path, angles) / divisor;
     }
   });
   return light;

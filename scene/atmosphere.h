@@ -23,10 +23,10 @@ inline constexpr double kSunRadius_rad = 0.004654;
 struct Atmosphere {
   Air air;
   std::vector<glm::vec3> transmittance;  // by height and distance to the air's top
-  // Mean radiance of what was scattered once or more, by height and sine of the light's elevation:
-  // over all directions; and of each direction, as haze scatters it there, over
-  // repeated_mie_phase() of its angle from the light.
-  std::vector<glm::vec3> multiple, haze;
+  // Of the light that was scattered once or more, by height and sine of the light's elevation: its
+  // mean radiance over all directions; what molecules add to it of moment (2, 0); and all moments
+  // of what haze makes of it (scene/light_moments.h).
+  std::vector<glm::vec3> multiple, zonal, haze;
 };
 
 // The same bits with any workers. About 60 ms on two threads.

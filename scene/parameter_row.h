@@ -12,6 +12,8 @@
 
 namespace swell::scene {
 
+inline constexpr double kMaxSeed = 9007199254740992.0;  // 2^53
+
 // Makes rows of the table. `Field` is the type of a captureless lambda from the object to a
 // reference to the field.
 template <class Object>

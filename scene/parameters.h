@@ -53,8 +53,10 @@ struct Parameter {
 // Keys of the scene, in the order of docs/scene.md. Those of "terrain." need scene.terrain.
 std::vector<Parameter<Scene>> scene_parameters();
 
-// Those of them that stand under [air].
+// Those of them that stand under [sky], [air] and [clouds].
+std::vector<Parameter<Scene>> sky_parameters();
 std::vector<Parameter<Scene>> air_parameters();
+std::vector<Parameter<Scene>> cloud_parameters();
 
 // Keys of one table of [[sea.swell]].
 std::vector<Parameter<ocean::Swell>> swell_parameters();

@@ -7,31 +7,26 @@
 
 #include "math/parallel.h"
 #include "scene/air_paths.h"
+#include "scene/light_moments.h"
 
 namespace swell::scene {
 
-// Directions about a place: elevations crowd about the horizon, where haze and twilight are;
-// azimuths of half a circle, from the light's.
-inline constexpr int kElevations = 12, kAzimuths = 8;
-
-// Of Atmosphere::multiple and Atmosphere::haze.
+// Of Atmosphere::multiple, zonal and haze: of a round earth while the light is down, of level
+// layers when it is up.
 void fill_scattered_light(Atmosphere& atmosphere, Workers& workers);
 
-// Atmosphere::haze for rays of one elevation.
-struct HazeRow {
-  std::array<std::vector<glm::vec3>, kAzimuths> at;  // by height and sine of the light's elevation
+// What air makes, in a path's direction, of the light at its steps; for light of the elevations
+// that the path meets.
+struct PathSources {
+  std::vector<glm::vec3> air;  // molecules: by height and sine of the light's elevation
+  // Haze, by mode of the azimuth: by height, and so many of the sines.
+  int first_column = 0, columns = 0;
+  std::array<std::vector<glm::vec3>, kModes> haze;
 };
-HazeRow haze_row(const Atmosphere& atmosphere, double sine);
+PathSources sources_along(const Atmosphere& atmosphere, const Path& path, double light_sine);
 
-// How to blend a row's azimuths, those at its ends mirrored.
-struct AzimuthBlend {
-  std::array<int, 4> azimuth;
-  std::array<float, 4> weight;
-};
-AzimuthBlend blend_azimuths(double turns);  // from the light's, [0, 0.5]
-
-// As scatter_again() of all light, at an azimuth.
-glm::vec3 scatter_light_again(const Atmosphere& atmosphere, const HazeRow& haze,
-                              const AzimuthBlend& blend, const Path& path, LightAngles light);
+// As scatter_again() of all light, at the azimuth of `light`, whose cosine is given.
+glm::vec3 scatter_light_again(const PathSources& sources, double cos_azimuth, const Path& path,
+                              LightAngles light);
 
 }  // namespace swell::scene

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <numeric>
 
 #include "ocean/map_sets.h"
 #include "ocean/sea_scale.h"
 #include "scene/celestial.h"
 #include "scene/check_scene.h"
+#include "scene/checked_values.h"
 #include "scene/form_file.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
@@ -20,7 +20,6 @@
 #include "scene/sea_state.h"
 #include "scene/settings.h"
 #include "scene/sky.h"
-#include "texture/bump_sequence.h"
 
 namespace swell::scene {
 namespace {
@@ -52,19 +51,6 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string line_text(const Place& place) {
   if (!place.setting.empty()) return " in a " + place.setting;
   return place.line > 0 ? fmt::format(" in line {}", place.line) : "";
-}
-
-// What a TOML value is, for messages: its text if it is a number or boolean, else its type.
-std::string got_text(const toml::node& node) {
-  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-  if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
-  if (const auto* text = node.as_string())
-    return fmt::format("\"{}\"", std::string_view(text->get()).substr(0, 100));
-  if (const auto* array = node.as_array())
-    return fmt::format("an array of {} values", array->size());
-  if (node.is_table()) return "a table";
-  return "a date or time";
 }
 
 // Reads one file's tables into a scene.
@@ -126,7 +112,7 @@ class Reader {
       if (key.find('.') != std::string_view::npos) {  // in quotes: no table was begun for it
         fail_unknown(key_place, std::string_view(prefix).substr(0, prefix.find_last_of('.')), key);
       } else if (parameter != parameters_.end()) {
-        parameter->set(scene_, checked_value(*node, path, *parameter));
+        parameter->set(scene_, values_.value(*node, path, *parameter));
         given_.emplace(path, place_of(node->source()));
       } else if (path == kSwellKey) {
         read_tables(*node, kSwellKey, ocean::kMaxSwells, swell_parameters_, scene_.sea.swells);
@@ -259,7 +245,7 @@ class Reader {
   }
 
   void read_section(const toml::node& node, const std::string& path) {
-    if (!node.is_table()) fail_value(node, path, got_text(node), "a table");
+    if (!node.is_table()) values_.fail_value(node, path, got_text(node), "a table");
     if (path == "terrain") scene_.terrain.emplace();
     read_table(*node.as_table(), path + ".");
   }
@@ -271,9 +257,10 @@ class Reader {
     const std::string allowed = fmt::format("at most {} tables [[{}]]", count_high, key);
     const toml::array* tables = node.as_array();
     if (!tables || tables->size() > count_high)
-      fail_value(node, std::string(key), got_text(node), allowed);
+      values_.fail_value(node, std::string(key), got_text(node), allowed);
     for (const toml::node& element : *tables) {
-      if (!element.is_table()) fail_value(element, std::string(key), got_text(element), allowed);
+      if (!element.is_table())
+        values_.fail_value(element, std::string(key), got_text(element), allowed);
       objects.push_back(
           read_object(*element.as_table(), key, static_cast<int>(objects.size()), parameters));
     }
@@ -288,7 +275,7 @@ class Reader {
       const auto parameter = std::ranges::find(parameters, key, &Parameter<Object>::key);
       if (parameter == parameters.end()) fail_unknown(key_place, table_key, key);
       const std::string path = fmt::format("{}[{}].{}", table_key, index, key);
-      parameter->set(object, checked_value(*node, path, *parameter));
+      parameter->set(object, values_.value(*node, path, *parameter));
       given_.emplace(path, place_of(node->source()));
       if constexpr (std::is_same_v<Object, FloatingObject>)
         if (parameter->kind == ParameterKind::kPath)
@@ -307,141 +294,6 @@ class Reader {
         return common_object(static_cast<ObjectKind>(kind - kObjectKindNames.begin()));
     }
     return Object();
-  }
-
-  template <class Object>
-  ParameterValue checked_value(const toml::node& node, const std::string& path,
-                               const Parameter<Object>& parameter) {
-    const std::string allowed = allowed_text(parameter);
-    switch (parameter.kind) {
-      case ParameterKind::kNumber:
-        return std::vector<double>{checked_number(node, path, parameter, allowed)};
-      case ParameterKind::kNumbers:
-        return checked_numbers(node, path, parameter, allowed);
-      case ParameterKind::kPoints:
-        return checked_points(node, path, parameter, allowed);
-      case ParameterKind::kInteger:
-      case ParameterKind::kPowerOfTwo:
-        return checked_integer(node, path, parameter, allowed);
-      case ParameterKind::kBoolean:
-        if (const auto* boolean = node.as_boolean()) return boolean->get();
-        break;
-      case ParameterKind::kChoice:
-      case ParameterKind::kText:
-      case ParameterKind::kPath:
-        return checked_text(node, path, parameter, allowed);
-    }
-    fail_value(node, path, got_text(node), allowed);
-  }
-
-  template <class Object>
-  double checked_number(const toml::node& node, const std::string& path,
-                        const Parameter<Object>& parameter, const std::string& allowed) const {
-    const std::optional<double> number =
-        node.is_number() ? node.value<double>() : std::optional<double>();
-    if (number && allows(parameter, *number)) return *number;
-    fail_value(node, path, got_text(node), allowed);
-  }
-
-  // An array of as many elements as the parameter takes.
-  template <class Object>
-  const toml::array& checked_array(const toml::node& node, const std::string& path,
-                                   const Parameter<Object>& parameter,
-                                   const std::string& allowed) const {
-    const toml::array* array = node.as_array();
-    if (!array || !allows_count(parameter, array->size()))
-      fail_value(node, path, got_text(node), allowed);
-    return *array;
-  }
-
-  template <class Object>
-  std::vector<double> checked_numbers(const toml::node& node, const std::string& path,
-                                      const Parameter<Object>& parameter,
-                                      const std::string& allowed) const {
-    std::vector<double> numbers;
-    for (const toml::node& element : checked_array(node, path, parameter, allowed))
-      numbers.push_back(
-          checked_number(element, fmt::format("{}[{}]", path, numbers.size()), parameter, allowed));
-    return numbers;
-  }
-
-  // x and y of each point in turn.
-  template <class Object>
-  std::vector<double> checked_points(const toml::node& node, const std::string& path,
-                                     const Parameter<Object>& parameter,
-                                     const std::string& allowed) {
-    std::vector<double> numbers;
-    for (const toml::node& element : checked_array(node, path, parameter, allowed)) {
-      const std::string its_path = fmt::format("{}[{}]", path, numbers.size() / 2);
-      given_.emplace(its_path, place_of(element.source()));
-      const toml::array* pair = element.as_array();
-      if (!pair || pair->size() != 2) fail_value(element, its_path, got_text(element), allowed);
-      for (const toml::node& number : *pair)
-        numbers.push_back(checked_number(number, its_path, parameter, allowed));
-    }
-    return numbers;
-  }
-
-  template <class Object>
-  std::int64_t checked_integer(const toml::node& node, const std::string& path,
-                               const Parameter<Object>& parameter,
-                               const std::string& allowed) const {
-    if (const auto* integer = node.as_integer()) {
-      if (allows(parameter, integer->get())) return integer->get();
-    }
-    fail_value(node, path, got_text(node), allowed);
-  }
-
-  template <class Object>
-  std::string checked_text(const toml::node& node, const std::string& path,
-                           const Parameter<Object>& parameter, const std::string& allowed) const {
-    const auto* text = node.as_string();
-    if (!text) fail_value(node, path, got_text(node), allowed);
-    if (parameter.is_of_frames) return checked_frame_paths(node, path, text->get(), parameter);
-    if (parameter.kind == ParameterKind::kPath)
-      return checked_path(node, path, text->get(), parameter.path_of);
-    if (!allows(parameter, text->get())) fail_value(node, path, got_text(node), allowed);
-    return text->get();
-  }
-
-  // The absolute path of a file that can be opened.
-  std::string checked_path(const toml::node& node, const std::string& key, const std::string& text,
-                           std::string_view path_of) const {
-    if (text.empty()) return text;
-    const std::string allowed = fmt::format("a readable {} file", path_of);
-    if (text.find('\0') != std::string::npos || text.size() > 4000)
-      fail_value(node, key, "a path with a zero byte or over 4000 bytes", allowed);
-    std::error_code error;
-    const fs::path path = fs::absolute(file_.parent_path() / text, error).lexically_normal();
-    const fs::file_status status = fs::status(path, error);
-    std::string fault;
-    if (!fs::exists(status))
-      fault = error ? error.message() : "no such file";
-    else if (!fs::is_regular_file(status))
-      fault = "not a file";
-    else if (!std::ifstream(path, std::ios::binary))
-      fault = "cannot be opened";
-    if (fault.empty()) return path.string();
-    fail_value(node, key, fmt::format("\"{}\" ({})", path.string(), fault), allowed);
-  }
-
-  // The same of files that a number tells apart, the first of which can be opened.
-  template <class Object>
-  std::string checked_frame_paths(const toml::node& node, const std::string& key,
-                                  const std::string& text,
-                                  const Parameter<Object>& parameter) const {
-    if (text.empty()) return text;
-    const bool has_number = text.find(texture::kFrameNumber) != std::string::npos;
-    if (!has_number || std::ranges::count(text, '%') != 1)
-      fail_value(node, key, got_text(node), allowed_text(parameter));
-    checked_path(node, key, texture::path_of_frame(text, 0), parameter.path_of);
-    std::error_code error;
-    return fs::absolute(file_.parent_path() / text, error).lexically_normal().string();
-  }
-
-  [[noreturn]] void fail_value(const toml::node& node, const std::string& path,
-                               const std::string& got, const std::string& allowed) const {
-    fail(file_, place_of(node.source()), fmt::format("{}, got {}, allowed {}", path, got, allowed));
   }
 
   // `table` is the path of the key's table, or empty.
@@ -511,7 +363,8 @@ class Reader {
   std::vector<Parameter<ocean::Lake>> lake_parameters_;
   std::vector<Parameter<terrain::TreeStand>> tree_parameters_;
   Scene scene_;
-  std::map<std::string, Place> given_;  // where the file has the keys that it has
+  Places given_;
+  CheckedValues values_{file_, given_};
 };
 
 std::string read_text(const fs::path& path) {

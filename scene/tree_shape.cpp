@@ -12,7 +12,8 @@ namespace {
 
 using terrain::TreeSpecies;
 
-constexpr double kWhorls = 9.0;   // of a conifer's boughs
+constexpr double kWhorls = 9.0;  // of a conifer's boughs
+constexpr std::size_t kSizesPerLeaf = 4;
 constexpr float kGather = 0.85f;  // how much of their size large leaves move inwards by
 
 // Source: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018 (R3): each
@@ -40,16 +41,25 @@ TreeLeaf broad_leaf(std::size_t n) {
   const glm::dvec3 u = spread_point(n);
   const double up = 1.0 - 2.0 * u.x, around = std::sqrt(1.0 - up * up);
   const double lumps =
-      0.86 + 0.14 * sin_cos_turns(3.0 * u.y + 0.5 * up).sin * sin_cos_turns(1.4 * up + u.y).cos;
+      0.82 + 0.18 * sin_cos_turns(3.0 * u.y + 0.5 * up).sin * sin_cos_turns(1.4 * up + u.y).cos;
   const double r = lumps * (0.5 + 0.5 * std::sqrt(u.z));
   const glm::vec2 side = direction(u.y) * static_cast<float>(r * around);
   TreeLeaf leaf;
   leaf.middle = {side, 0.5 + 0.5 * r * (up < 0.0 ? 0.8 * up : up)};
-  // The first two stand on a side and on a corner, and together fill the crown.
-  const double turn = n < 2 ? 0.25 + 0.5 * static_cast<double>(n) : chance(n, 0);
-  const float size = n < 2 ? 1.0f : static_cast<float>(0.8 + 0.4 * chance(n, 1));
+  // The first two together fill the crown: one with a side on top, the other, lower, under a hump.
+  if (n == 0)
+    leaf.corner = {glm::vec2(-0.9f, 0.34f), glm::vec2(0.9f, 0.34f), glm::vec2(0.0f, -0.66f)};
+  if (n == 1)
+    leaf.corner = {glm::vec2(-0.85f, -0.36f), glm::vec2(0.85f, -0.36f), glm::vec2(0.1f, 0.66f)};
+  if (n < 2) return leaf;
+  // A few large ones inside, and many small ones around them. On top a side is up: corners would be
+  // thorns.
+  const double high = std::clamp(3.0 * up, 0.0, 1.0);
+  const double turn = 0.75 + (chance(n, 0) - 0.5) * (1.0 - 0.72 * high);
+  const double large = chance(n, 1);
+  leaf.size = static_cast<float>(0.55 + 0.95 * large * large * large);
   for (int k = 0; k < 3; ++k)
-    leaf.corner[k] = size * glm::vec2(1.2f, 0.6f) * direction(turn + k / 3.0);
+    leaf.corner[k] = leaf.size * glm::vec2(1.2f, 0.6f) * direction(turn + k / 3.0);
   return leaf;
 }
 
@@ -153,29 +163,57 @@ class CoverGrid {
   std::bitset<std::size_t{kSide} * kSide> covered_;
 };
 
-// The size at which n leaves cover `cover`.
-float size_for_cover(const TreeShape& shape, int n, float cover) {
+// The part of the crown's box that leaves cover, seen from the side; the last one grows.
+float cover_of(const TreeShape& shape, float leaves, float size) {
+  float sum = 0.0f;
+  for (const glm::vec2& right : {glm::vec2(1, 0), glm::vec2(0.6f, 0.8f), glm::vec2(-0.28f, 0.96f),
+                                 glm::vec2(-0.936f, 0.352f)}) {
+    CoverGrid grid;
+    for (std::size_t n = 0; static_cast<float>(n) < leaves; ++n) {
+      const TreeLeaf& leaf = shape.leaves[n];
+      const float grown = std::sqrt(std::min(leaves - static_cast<float>(n), 1.0f));
+      const glm::vec3 middle = leaf_middle(shape, leaf, size);
+      const glm::vec2 seen(glm::dot(glm::vec2(middle), right), middle.z);
+      std::array<glm::vec2, 3> p;
+      for (int k = 0; k < 3; ++k) p[k] = seen + leaf_corner(shape, leaf.corner[k], size, grown);
+      grid.add(p);
+    }
+    sum += 0.25f * grid.of_box();
+  }
+  return sum;
+}
+
+// The size at which leaves cover `cover`.
+float size_for_cover(const TreeShape& shape, float leaves, float cover) {
   float low = 0.02f, high = shape.is_blades ? 3.0f : 1.3f;
   for (int i = 0; i < 11; ++i) {
     const float middle = 0.5f * (low + high);
-    (crown_cover(shape, n, middle) < cover ? low : high) = middle;
+    (cover_of(shape, leaves, middle) < cover ? low : high) = middle;
   }
   return 0.5f * (low + high);
 }
 
-// Between numbers that are half as large again each, sizes go evenly.
+// Between numbers that are half as large again each, sizes go evenly; a single leaf that grows
+// among few is followed in steps.
 void fit_sizes(float finest, TreeShape& shape) {
-  const auto all = static_cast<int>(shape.leaves.size());
-  const float cover = crown_cover(shape, all, finest);
-  shape.size.assign(shape.leaves.size() + 1, finest);
-  shape.size[0] = shape.size[1] = size_for_cover(shape, 1, cover);
-  for (int n = 1; n < all;) {
-    const int next = std::min(all, std::max(n + 1, n + n / 2));
-    const float size = next == all ? finest : size_for_cover(shape, next, cover);
-    for (int k = n + 1; k <= next; ++k) {
+  constexpr std::size_t kFew = 4 * kSizesPerLeaf;
+  const std::size_t all = shape.leaves.size() * kSizesPerLeaf;
+  const auto leaves_of = [](std::size_t n) { return static_cast<float>(n) / kSizesPerLeaf; };
+  const float cover = cover_of(shape, leaves_of(all), finest);
+  shape.size.assign(all + 1, finest);
+  // Trees of few leaves are drawn without the trunk that shows below the crown.
+  constexpr float kRadiusOverHeight = 0.3f;
+  const float with_trunk =
+      cover + shape.trunk * shape.crown_begin / (kRadiusOverHeight * (1.0f - shape.crown_begin));
+  const float one = size_for_cover(shape, 1.0f, with_trunk);
+  std::fill_n(shape.size.begin(), kSizesPerLeaf + 1, one);
+  for (std::size_t n = kSizesPerLeaf; n < all;) {
+    const std::size_t next = std::min(all, n < kFew ? n + 1 : n + n / 2);
+    const float target = n < kFew ? with_trunk : cover;
+    const float size = next == all ? finest : size_for_cover(shape, leaves_of(next), target);
+    for (std::size_t k = n + 1; k <= next; ++k) {
       const float t = static_cast<float>(k - n) / static_cast<float>(next - n);
-      shape.size[static_cast<std::size_t>(k)] =
-          shape.size[static_cast<std::size_t>(n)] * (1.0f - t) + size * t;
+      shape.size[k] = shape.size[n] * (1.0f - t) + size * t;
     }
     n = next;
   }
@@ -190,15 +228,16 @@ TreeShape make_tree_shape(TreeSpecies species) {
 }
 
 float leaf_size(const TreeShape& shape, float leaves) {
-  const auto n = static_cast<std::size_t>(leaves);
+  const float at = leaves * static_cast<float>(kSizesPerLeaf);
+  const auto n = static_cast<std::size_t>(at);
   if (n + 1 >= shape.size.size()) return shape.size.back();
-  const float t = leaves - static_cast<float>(n);
+  const float t = at - static_cast<float>(n);
   return shape.size[n] + t * (shape.size[n + 1] - shape.size[n]);
 }
 
 glm::vec3 leaf_middle(const TreeShape& shape, const TreeLeaf& leaf, float size) {
   const glm::vec3 gathers(0.0f, 0.0f, shape.gathers_up);
-  return gathers + (leaf.middle - gathers) * (1.0f - std::min(kGather * size, 1.0f));
+  return gathers + (leaf.middle - gathers) * (1.0f - std::min(kGather * size * leaf.size, 1.0f));
 }
 
 glm::vec2 leaf_corner(const TreeShape& shape, glm::vec2 corner, float size, float grown) {
@@ -209,20 +248,7 @@ glm::vec2 leaf_corner(const TreeShape& shape, glm::vec2 corner, float size, floa
 }
 
 float crown_cover(const TreeShape& shape, int leaves, float size) {
-  float sum = 0.0f;
-  for (const glm::vec2& right : {glm::vec2(1, 0), glm::vec2(0.6f, 0.8f), glm::vec2(-0.28f, 0.96f),
-                                 glm::vec2(-0.936f, 0.352f)}) {
-    CoverGrid grid;
-    for (const TreeLeaf& leaf : std::span(shape.leaves).first(static_cast<std::size_t>(leaves))) {
-      const glm::vec3 middle = leaf_middle(shape, leaf, size);
-      const glm::vec2 seen(glm::dot(glm::vec2(middle), right), middle.z);
-      std::array<glm::vec2, 3> p;
-      for (int k = 0; k < 3; ++k) p[k] = seen + leaf_corner(shape, leaf.corner[k], size, 1.0f);
-      grid.add(p);
-    }
-    sum += 0.25f * grid.of_box();
-  }
-  return sum;
+  return cover_of(shape, static_cast<float>(leaves), size);
 }
 
 }  // namespace swell::scene

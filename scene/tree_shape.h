@@ -18,6 +18,7 @@ namespace swell::scene {
 // trunk, up in parts of the crown's height from where it begins.
 struct TreeLeaf {
   glm::vec3 middle{0.0f};
+  float size = 1.0f;                // over that of the others; large ones lie deeper inside
   std::array<glm::vec2, 3> corner;  // across the view, of size 1, in radii and crown heights
   glm::vec2 flutter{0.0f, 1.0f};    // sine and cosine of when it moves in the wind
 };
@@ -30,7 +31,7 @@ struct TreeShape {
   float fewest_leaves = 1;   // that look like its crown
   float trunk = 0.0f;        // half its width over the height; 0: none
   std::vector<TreeLeaf> leaves = {};
-  std::vector<float> size = {};  // [n]: of leaves when n are drawn, n in [0, leaves]
+  std::vector<float> size = {};  // of leaves when 0, 1/4, 1/2, ... are drawn
 };
 
 // The shape of a species, kMixed excepted. A constant; 30 ms.
@@ -40,7 +41,7 @@ TreeShape make_tree_shape(terrain::TreeSpecies species);
 float leaf_size(const TreeShape& shape, float leaves);
 
 // Where a leaf's middle lies in the crown's box, and its corners from there across the view, when
-// leaves have this size; `grown` in [0, 1] of the last one.
+// leaves have this size; `grown` in [0, 1]: the root of the part of the last one.
 glm::vec3 leaf_middle(const TreeShape& shape, const TreeLeaf& leaf, float size);
 glm::vec2 leaf_corner(const TreeShape& shape, glm::vec2 corner, float size, float grown);
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "math/check.h"
+#include "math/large_array.h"
 
 namespace swell::terrain {
 namespace {
@@ -50,6 +51,29 @@ void fill_level(int blocks, HeightPyramid& p, Workers& workers) {
   });
 }
 
+// The posts of blocks of level 1 and up, behind the given ones.
+void add_coarse_posts(HeightPyramid& p, Workers& workers) {
+  const auto squared = [](int n) { return static_cast<std::size_t>(n) * n; };
+  std::size_t count = p.grid.size();
+  for (int blocks = 1; blocks < p.side; blocks *= 2) count += squared(blocks + 1);
+  std::vector<std::uint16_t> posts;
+  resize_large(posts, count + 1);
+  std::ranges::copy(p.posts, posts.begin());
+  p.posts = std::move(posts);
+  std::size_t level_begin = p.grid.size();
+  const int last = p.grid.samples_x - 1;
+  for (int blocks = 1; blocks < p.side; blocks *= 2) {
+    const int step = p.side / blocks;
+    for_rows(blocks + 1, workers, [&](int j) {
+      std::uint16_t* const row =
+          p.posts.data() + level_begin + static_cast<std::size_t>(j) * (blocks + 1);
+      for (int i = 0; i <= blocks; ++i)
+        row[i] = p.posts[p.grid.index(std::min(i * step, last), std::min(j * step, last))];
+    });
+    level_begin += squared(blocks + 1);
+  }
+}
+
 }  // namespace
 
 HeightPyramid make_height_pyramid(const Grid& grid, float base_m, float step_m,
@@ -64,9 +88,9 @@ HeightPyramid make_height_pyramid(const Grid& grid, float base_m, float step_m,
   p.hole_begin = hole.begin;
   p.hole_end = hole.end;
   p.posts = std::move(posts);
-  p.posts.push_back(0);
+  add_coarse_posts(p, workers);
   const auto half = static_cast<std::size_t>(p.side / 2);
-  p.maxima.resize(2 * half * half + 1);
+  resize_large(p.maxima, 2 * half * half + 1);
   fill_first_level(p, workers);
   for (int blocks = p.side / 4; blocks >= 1; blocks /= 2) fill_level(blocks, p, workers);
   return p;

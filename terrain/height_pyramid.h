@@ -14,6 +14,11 @@ namespace swell::terrain {
 // Posts (i, j) at grid.point(i, j), code after code: base_m + step_m * code. The surface between
 // four posts is bilinear, and never above the highest of them.
 //
+// The posts at the corners of larger blocks follow, every 2^l-th along each axis for level l, and
+// the last in place of those beyond it: neighbours lie side by side on any level. Level l has
+// s = side >> l blocks and s + 1 posts a side; they are numbered from grid.size() on, coarser
+// levels first.
+//
 // A block of level l covers 2^l x 2^l cells; level l has s = side >> l of them a side and block
 // (i, j) is number s * s + j * s + i. Blocks begin with level 1: a cell's posts are read anyway.
 struct HeightPyramid {
@@ -32,8 +37,8 @@ struct CellSquare {
   int begin = 0, end = 0;
 };
 
-// From the codes of the posts of a square grid of 2 to 16385 posts a side; row by row. Two bytes a
-// post and up to one more; 20 ns a post on one thread.
+// From the codes of the posts of a square grid of 2 to 16385 posts a side; row by row. 3.7 bytes a
+// post if there are 2^n + 1 a side, and up to 8.7 if there are a few more.
 HeightPyramid make_height_pyramid(const Grid& grid, float base_m, float step_m,
                                   std::vector<std::uint16_t> posts, CellSquare hole,
                                   Workers& workers);

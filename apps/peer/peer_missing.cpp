@@ -9,7 +9,7 @@ struct Peer::State {};
 
 Peer::Peer(int) {
   throw std::runtime_error(
-      "peer: this program was built without OpenGL; install libegl-dev, libgl-dev and "
+      "peer: this program was built without OpenGL; install libegl-dev, libopengl-dev and "
       "libgl1-mesa-dri, and build it again");
 }
 Peer::~Peer() = default;

@@ -175,6 +175,21 @@ HWY_INLINE SwashEdge FindSwashEdge(const Swash& swash, V3 p) {
   return {edge, hn::MulAdd(cosine, hn::Neg(half), half)};
 }
 
+// How much higher or lower the ground is one pixel farther up [m]: seen from near the ground by
+// decimetres. `normal`: the ground's.
+HWY_INLINE V RiseOverPixel(const ViewRays& rays, const Packet& packet, V3 normal) {
+  const V along =
+      hn::Abs(hn::MulAdd(packet.to_eye.x, normal.x, hn::Mul(packet.to_eye.y, normal.y)));
+  const V facing = hn::Max(Dot(packet.to_eye, normal), Constant(0.004f));
+  return hn::Mul(hn::Mul(packet.depth, Constant(rays.pixel_angle)), hn::Div(along, facing));
+}
+
+// From 0 to 1 while x goes from 0 to `ramp`, as pixels show it that span so much of x.
+HWY_INLINE V RampOverPixel(V x, float ramp, V span) {
+  const V width = hn::Sqrt(hn::MulAdd(hn::Mul(span, span), Constant(2.25f), Constant(ramp * ramp)));
+  return hn::Add(hn::Div(hn::Sub(x, Constant(0.5f * ramp)), width), Constant(0.5f));
+}
+
 // The sea's waves where they run out over the sand: `kept` of them is left, in [0, 1].
 HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V kept) {
   const V zero = hn::Zero(D());
@@ -188,12 +203,16 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
 }
 
 // Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.
-// None where the sea begins, which brings its own.
-HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V calm) {
+// None where the sea begins, which brings its own. Pixels span so much height.
+HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V span_m, V calm) {
   const V from_rim = hn::Mul(below, Constant(1.0f / reach_m));
-  const V rim = Clamp(hn::NegMulAdd(from_rim, Constant(9.0f), Constant(1.0f)), 0.0f, 1.0f);
+  const V span = hn::Mul(span_m, Constant(1.0f / reach_m));
+  // Of a rim narrower than a pixel there is a part.
+  const V shown = InverseSqrt(hn::MulAdd(hn::Mul(span, span), Constant(81.0f), Constant(1.0f)));
+  const V rim =
+      hn::Mul(shown, Clamp(hn::NegMulAdd(from_rim, Constant(9.0f), Constant(1.0f)), 0.0f, 1.0f));
   const V lace = Clamp(hn::NegMulAdd(from_rim, Constant(0.9f), Constant(0.6f)), 0.0f, 1.0f);
-  const V front = Clamp(hn::Mul(from_rim, Constant(40.0f)), 0.0f, 1.0f);
+  const V front = Clamp(RampOverPixel(from_rim, 0.025f, span), 0.0f, 1.0f);
   const V fresh = hn::NegMulAdd(swash.retreat, Constant(0.6f), Constant(1.0f));
   const V begun = hn::Min(hn::Mul(calm, Constant(2.0f)), Constant(1.0f));
   return hn::Mul(hn::Mul(hn::Max(rim, lace), front), hn::Mul(fresh, begun));
@@ -203,12 +222,14 @@ HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V calm) {
 // level both are what the sea is where it has no depth. `ground` is the ground's light at p, whose
 // height is height_m and which sees the part sun_visible of the sun.
 HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& packet, V level_m,
-                       V height_m, V sun_visible, V3 ground) {
+                       V height_m, V sun_visible, const Ground& dry) {
   const D d;
   const float reach_m = terrain.swash.reach_m;
+  const V3 ground = dry.light;
   if (reach_m <= 0.0f || hn::AllFalse(d, hn::Lt(height_m, Constant(1.6f * reach_m)))) return ground;
   // In a lee sheets run less high: the beach is as if it were higher.
-  height_m = hn::Div(height_m, KeptBeside(s.material<Water>().near_shore, packet.p, level_m));
+  const V kept = KeptBeside(s.material<Water>().near_shore, packet.p, level_m);
+  height_m = hn::Div(height_m, kept);
   const auto reached = hn::Lt(height_m, Constant(1.6f * reach_m));
   if (hn::AllFalse(d, reached)) return ground;
   const SwashEdge swash = FindSwashEdge(terrain.swash, packet.p);
@@ -217,7 +238,9 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const V wet = SmoothBlend(hn::MulAdd(height, Constant(-1.0f / 1.1f), Constant(1.6f / 1.1f)));
   const V calm = Clamp(hn::Mul(height, Constant(4.0f)), 0.0f, 1.0f);
   const V below = hn::Sub(swash.edge_m, height_m);  // of the sheet's rim [m of height]
-  const V sheet = SmoothBlend(hn::Mul(below, Constant(8.0f / reach_m)));
+  const V span_m = hn::Min(hn::Div(RiseOverPixel(s.rays, packet, dry.normal), kept),
+                           Constant(0.6f * reach_m));  // so that sheets end before `reached` does
+  const V sheet = SmoothBlend(RampOverPixel(below, 0.125f * reach_m, span_m));
   // The sea thins out over a little of the sand, also where no sheet comes in.
   const V film = hn::Max(sheet, SmoothBlend(hn::NegMulAdd(calm, Constant(1.2f), Constant(1.0f))));
 
@@ -236,7 +259,7 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   V3 light = Lerp(Scale(ground, darkened), mirrored, shine);
   light =
       ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, hn::Mul(film, sun_visible)), light);
-  const V foam = SheetFoam(reach_m, swash, below, calm);
+  const V foam = SheetFoam(reach_m, swash, below, span_m, calm);
   const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
   light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover), sun_visible, light);
   return {hn::IfThenElse(reached, light.x, ground.x), hn::IfThenElse(reached, light.y, ground.y),
@@ -261,7 +284,7 @@ struct Shader<Terrain, kView> {
     if constexpr (kView == ViewKind::kWindow) {
       if (s.media.submerged) return Surfel{ground.light, ground.normal};
       const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
-      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, sun_visible, ground.light),
+      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, sun_visible, ground),
                     ground.normal};
     } else if constexpr (kView == ViewKind::kRefraction) {
       return FadingSurfel{{ground.light, ground.normal}, FloorShown(terrain, packet.p)};

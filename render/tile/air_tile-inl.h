@@ -8,8 +8,6 @@
 #define SWELL_RENDER_TILE_AIR_TILE_INL_H_
 #endif
 
-#include <algorithm>
-#include <array>
 #include <span>
 
 #include "render/tile/attenuate-inl.h"
@@ -109,7 +107,7 @@ struct AloftAhead {
 template <class Ahead>
 HWY_INLINE void FindNodes(const Shading& s, const raster::PixelBox& box, SkyNodes& nodes) {
   const D d;
-  static_assert(Ahead::kChannels <= SkyNodes::kFogChannels);
+  static_assert(Ahead::kChannels <= SkyNodes::kAirChannels);
   const int columns = nodes_along(box.width_px), rows = nodes_along(box.height_px);
   for (int row = 0; row < rows; ++row) {
     const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
@@ -119,7 +117,7 @@ HWY_INLINE void FindNodes(const Shading& s, const raster::PixelBox& box, SkyNode
                      Constant(static_cast<float>(box.x0_px)));
       const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
       Ahead::Find(s, RayAt(s.rays, x_px, y_px)).StoreTo([&](std::size_t channel, V value) HWY_ATTR {
-        hn::StoreU(value, d, &nodes.fog[channel][at]);
+        hn::StoreU(value, d, &nodes.air[channel][at]);
       });
     }
   }
@@ -130,7 +128,7 @@ HWY_INLINE void LayOverTile(const Shading& s, const raster::PixelBox& box, const
                             ShadeScratch& scratch) {
   const D d;
   SkyNodes& nodes = scratch.sky;
-  const bool by_nodes = IsPhaseOnLattice(s);
+  const bool by_nodes = IsAirOnLattice(s);
   if (by_nodes) FindNodes<Ahead>(s, box, nodes);
   for (int y = 0; y < box.height_px; ++y) {
     const V y_px = Constant(static_cast<float>(box.y0_px + y));
@@ -141,16 +139,11 @@ HWY_INLINE void LayOverTile(const Shading& s, const raster::PixelBox& box, const
       if (hn::AllFalse(d, hn::Gt(z, hn::Zero(d)))) continue;
       const PlaceShown place = FindPlace(s, hn::ConvertTo(d, CountFrom(box.x0_px + x)), y_px, z);
       const auto read = [&](std::size_t channel) HWY_ATTR {
-        return ToPixels(between(nodes.fog[channel].data(), static_cast<std::size_t>(x / kStep)));
+        return ToPixels(between(nodes.air[channel].data(), static_cast<std::size_t>(x / kStep)));
       };
       const Ahead ahead = by_nodes ? Ahead::ReadFrom(read) : Ahead::Find(s, place.way);
-      const V3 light = {hn::Load(d, scratch.red.data() + at),
-                        hn::Load(d, scratch.green.data() + at),
-                        hn::Load(d, scratch.blue.data() + at)};
-      const V3 laid = Where(place.is_surface, ahead.Lay(s, place, light), light);
-      hn::Store(laid.x, d, scratch.red.data() + at);
-      hn::Store(laid.y, d, scratch.green.data() + at);
-      hn::Store(laid.z, d, scratch.blue.data() + at);
+      const V3 light = ReadLight(scratch, at);
+      WriteLight(Where(place.is_surface, ahead.Lay(s, place, light), light), at, scratch);
     }
   }
 }
@@ -170,23 +163,12 @@ inline HWY_NOINLINE void LayAirOverFragments(const Shading& s,
                                              std::span<const EdgeFragment> fragments,
                                              ShadeScratch& scratch) {
   if (!IsAirLaidLast(s)) return;
-  const D d;
-  for (std::size_t n = 0; n < fragments.size(); n += kLanes) {
-    HWY_ALIGN std::array<float, kLanes> x{}, y{}, z{};
-    for (std::size_t i = 0; i < std::min(kLanes, fragments.size() - n); ++i)
-      x[i] = fragments[n + i].x_px, y[i] = fragments[n + i].y_px, z[i] = fragments[n + i].z;
-    const PlaceShown place =
-        FindPlace(s, hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data()));
-    const V3 light = {hn::Load(d, scratch.fragment_red.data() + n),
-                      hn::Load(d, scratch.fragment_green.data() + n),
-                      hn::Load(d, scratch.fragment_blue.data() + n)};
+  LayOverFragments(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
+    const PlaceShown place = FindPlace(s, x_px, y_px, z);
     const V3 seen = s.media.fog.on ? FogAhead::Find(s, place.way).Lay(s, place, light)
                                    : AloftAhead::Find(s, place.way).Lay(s, place, light);
-    const V3 laid = Where(place.is_surface, seen, light);
-    hn::Store(laid.x, d, scratch.fragment_red.data() + n);
-    hn::Store(laid.y, d, scratch.fragment_green.data() + n);
-    hn::Store(laid.z, d, scratch.fragment_blue.data() + n);
-  }
+    return Where(place.is_surface, seen, light);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

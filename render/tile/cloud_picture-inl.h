@@ -119,13 +119,7 @@ inline HWY_NOINLINE void LayCloudsOverTile(const Shading& s, const raster::Pixel
       const V y_px = Constant(static_cast<float>(box.y0_px + y));
       V distance = Constant(kBeyondClouds_m);
       if (depth) distance = DistanceShown(s.rays, x_px, y_px, hn::LoadU(d, depth + at));
-      const V3 light = {hn::Load(d, scratch.red.data() + at),
-                        hn::Load(d, scratch.green.data() + at),
-                        hn::Load(d, scratch.blue.data() + at)};
-      const V3 laid = LayClouds(seen, distance, light);
-      hn::Store(laid.x, d, scratch.red.data() + at);
-      hn::Store(laid.y, d, scratch.green.data() + at);
-      hn::Store(laid.z, d, scratch.blue.data() + at);
+      WriteLight(LayClouds(seen, distance, ReadLight(scratch, at)), at, scratch);
     }
 }
 
@@ -134,21 +128,9 @@ inline HWY_NOINLINE void LayCloudsOverFragments(const Shading& s,
                                                 std::span<const EdgeFragment> fragments,
                                                 ShadeScratch& scratch) {
   if (!s.clouds || !s.clouds->any || s.media.submerged) return;
-  const D d;
-  for (std::size_t n = 0; n < fragments.size(); n += kLanes) {
-    HWY_ALIGN std::array<float, kLanes> x{}, y{}, z{};
-    for (std::size_t i = 0; i < std::min(kLanes, fragments.size() - n); ++i)
-      x[i] = fragments[n + i].x_px, y[i] = fragments[n + i].y_px, z[i] = fragments[n + i].z;
-    const V x_px = hn::Load(d, x.data()), y_px = hn::Load(d, y.data());
-    const V3 light = {hn::Load(d, scratch.fragment_red.data() + n),
-                      hn::Load(d, scratch.fragment_green.data() + n),
-                      hn::Load(d, scratch.fragment_blue.data() + n)};
-    const V3 laid = LayClouds(CloudsAt(*s.clouds, x_px, y_px),
-                              DistanceShown(s.rays, x_px, y_px, hn::Load(d, z.data())), light);
-    hn::Store(laid.x, d, scratch.fragment_red.data() + n);
-    hn::Store(laid.y, d, scratch.fragment_green.data() + n);
-    hn::Store(laid.z, d, scratch.fragment_blue.data() + n);
-  }
+  LayOverFragments(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
+    return LayClouds(CloudsAt(*s.clouds, x_px, y_px), DistanceShown(s.rays, x_px, y_px, z), light);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -18,6 +18,20 @@ namespace HWY_NAMESPACE {
 
 constexpr std::size_t kLanes = hn::MaxLanes(D());
 
+// The light of a packet of pixels from `at` on, which is a multiple of kLanes.
+HWY_INLINE V3 ReadLight(const ShadeScratch& scratch, std::size_t at) {
+  const D d;
+  return {hn::Load(d, scratch.red.data() + at), hn::Load(d, scratch.green.data() + at),
+          hn::Load(d, scratch.blue.data() + at)};
+}
+
+HWY_INLINE void WriteLight(V3 light, std::size_t at, ShadeScratch& scratch) {
+  const D d;
+  hn::Store(light.x, d, scratch.red.data() + at);
+  hn::Store(light.y, d, scratch.green.data() + at);
+  hn::Store(light.z, d, scratch.blue.data() + at);
+}
+
 // The sRGB curve times 255, for linear x in [0, 1]. Error 0.09. Above the linear part a polynomial
 // in sqrt(x), fitted by weighted least squares to 1.055 x^(1/2.4) - 0.055.
 HWY_INLINE V EncodeSrgb(V x) {
@@ -90,9 +104,9 @@ HWY_INLINE void ResolveTile(const Shading& s, const raster::PixelBox& box,
         rgba + static_cast<std::size_t>(box.y0_px + y) * s.viewport.width_px + box.x0_px;
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
       const std::size_t i = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-      const V3 display = {ToneCurve(hn::Load(d, scratch.red.data() + i), exposure),
-                          ToneCurve(hn::Load(d, scratch.green.data() + i), exposure),
-                          ToneCurve(hn::Load(d, scratch.blue.data() + i), exposure)};
+      const V3 light = ReadLight(scratch, i);
+      const V3 display = {ToneCurve(light.x, exposure), ToneCurve(light.y, exposure),
+                          ToneCurve(light.z, exposure)};
       const VI pixel = ToPixel(display, hn::ConvertTo(d, CountFrom(box.x0_px + x)),
                                Constant(static_cast<float>(box.y0_px + y)));
       if (x + static_cast<int>(kLanes) <= box.width_px) {
@@ -114,6 +128,25 @@ inline void GatherCentres(const TilePixels& tile, ShadeScratch& scratch) {
     scratch.fragment_red[n] = scratch.red[at];
     scratch.fragment_green[n] = scratch.green[at];
     scratch.fragment_blue[n] = scratch.blue[at];
+  }
+}
+
+// The light of all fragments becomes lay(x_px, y_px, z, light).
+template <class Lay>
+HWY_INLINE void LayOverFragments(std::span<const EdgeFragment> fragments, ShadeScratch& scratch,
+                                 const Lay& lay) {
+  const D d;
+  for (std::size_t n = 0; n < fragments.size(); n += kLanes) {
+    HWY_ALIGN std::array<float, kLanes> x{}, y{}, z{};
+    for (std::size_t i = 0; i < std::min(kLanes, fragments.size() - n); ++i)
+      x[i] = fragments[n + i].x_px, y[i] = fragments[n + i].y_px, z[i] = fragments[n + i].z;
+    const V3 light = {hn::Load(d, scratch.fragment_red.data() + n),
+                      hn::Load(d, scratch.fragment_green.data() + n),
+                      hn::Load(d, scratch.fragment_blue.data() + n)};
+    const V3 laid = lay(hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data()), light);
+    hn::Store(laid.x, d, scratch.fragment_red.data() + n);
+    hn::Store(laid.y, d, scratch.fragment_green.data() + n);
+    hn::Store(laid.z, d, scratch.fragment_blue.data() + n);
   }
 }
 

@@ -26,14 +26,14 @@ inline constexpr std::size_t kMaxTileFragments = kMaxFragments * kMaxTilePixels;
 inline constexpr std::size_t kListPadding = 64;  // a list's end, up to whole packets
 
 // The sky over a tile at every fourth pixel and one more, of every fourth row and one more and of
-// each row, in rows that end with what fills whole vectors. `fog` holds what is before the sky, and
+// each row, in rows that end with what fills whole vectors. `air` holds fog before the sky, and
 // once that is drawn, the same of the air before surfaces.
 struct SkyNodes {
   static constexpr std::size_t kStride = 32, kViewChannels = 9, kNoiseChannels = 3,
-                               kFogChannels = 6;
+                               kAirChannels = 6;
   alignas(64) std::array<std::array<float, kStride * 17>, kViewChannels> view{};
   alignas(64) std::array<std::array<float, kStride * 64>, kNoiseChannels> noise{};
-  alignas(64) std::array<std::array<float, kStride * 17>, kFogChannels> fog{};
+  alignas(64) std::array<std::array<float, kStride * 17>, kAirChannels> air{};
 };
 
 // Working memory of one thread.

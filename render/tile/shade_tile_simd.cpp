@@ -224,13 +224,6 @@ HWY_INLINE std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile,
   return shade_all(std::make_index_sequence<kMaterialCount>());
 }
 
-HWY_INLINE void StoreSky(const V3& colour, std::size_t at, ShadeScratch& scratch) {
-  const D d;
-  hn::Store(colour.x, d, scratch.red.data() + at);
-  hn::Store(colour.y, d, scratch.green.data() + at);
-  hn::Store(colour.z, d, scratch.blue.data() + at);
-}
-
 // Shades the sky's pixels before those of surfaces: whole packets that have any, which writes to
 // all of their pixels.
 void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& packets,
@@ -240,7 +233,7 @@ void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& 
   const SkyLattice lattice = MakeSkyLattice(s, tile.box, last_row + 1, tile.shafts, scratch.sky);
   for (std::size_t n = 0; n < packets.count; ++n) {
     const int i = packets.at[n], y = i / s.grid.tile_size_px, x = i % s.grid.tile_size_px;
-    StoreSky(SkyOfPacket(s, tile.box, lattice, x, y), packets.at[n], scratch);
+    WriteLight(SkyOfPacket(s, tile.box, lattice, x, y), packets.at[n], scratch);
   }
 }
 
@@ -299,8 +292,8 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
   const SkyLattice lattice = MakeSkyLattice(s, box, box.height_px, shafts, scratch.sky);
   for (int y = 0; y < box.height_px; ++y)
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
-      StoreSky(SkyOfPacket(s, box, lattice, x, y),
-               static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
+      WriteLight(SkyOfPacket(s, box, lattice, x, y),
+                 static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
   LayCloudsOverTile(s, box, nullptr, scratch);
   ResolveTile(s, box, scratch, rgba, linear);
 }
@@ -309,7 +302,6 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
 HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
                                  const std::uint32_t* primitive, const ShadeScratch& scratch,
                                  texture::RgbaImage& image) {
-  const D d;
   const hn::RebindToUnsigned<D> du;
   HWY_ALIGN std::array<std::uint32_t, kLanes> tail;
   const auto width = static_cast<std::size_t>(box.width_px);
@@ -318,9 +310,8 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
         image.texels.data() + static_cast<std::size_t>(box.y0_px + y) * image.stride + box.x0_px;
     for (std::size_t x = 0; x < width; x += kLanes) {
       const std::size_t i = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-      const VI r = EncodeLight(hn::Load(d, scratch.red.data() + i));
-      const VI g = EncodeLight(hn::Load(d, scratch.green.data() + i));
-      const VI b = EncodeLight(hn::Load(d, scratch.blue.data() + i));
+      const V3 light = ReadLight(scratch, i);
+      const VI r = EncodeLight(light.x), g = EncodeLight(light.y), b = EncodeLight(light.z);
       const VI rgb = hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)), hn::ShiftLeft<16>(b));
       const auto texel = hn::Or(hn::BitCast(du, rgb), hn::Set(du, 0xff000000u));
       const auto drawn = hn::Ne(hn::LoadU(du, primitive + i), hn::Set(du, raster::kNoPrimitive));

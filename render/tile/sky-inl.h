@@ -156,8 +156,9 @@ HWY_INLINE SkyView ReadView(const SkyNodes& nodes, bool clouds, const Read& read
   return view;
 }
 
-// Whether Blinn's lobe, which is 1 - l wide, lies on straight lines between nodes.
-inline bool IsPhaseOnLattice(const Shading& s) {
+// Whether what the air does in a direction lies on straight lines between nodes: of fog Blinn's
+// lobe, which is 1 - l wide.
+inline bool IsAirOnLattice(const Shading& s) {
   const float step = kStep * s.rays.pixel_angle;
   return step <= kMostStepAngle && 1.0f - std::abs(s.media.fog.forward) > 10.0f * step;
 }
@@ -167,27 +168,27 @@ inline bool IsPhaseOnLattice(const Shading& s) {
 inline bool IsFogOnLattice(const Shading& s) {
   const Fog& fog = s.media.fog;
   const float thinnest = std::min({fog.per_m.x, fog.per_m.y, fog.per_m.z});
-  return fog.on && IsPhaseOnLattice(s) &&
+  return fog.on && IsAirOnLattice(s) &&
          fog.at_eye.above_m * thinnest > 10.0f * kStep * s.rays.pixel_angle;
 }
 
 HWY_INLINE void StoreFog(const FogView& view, std::size_t at, SkyNodes& nodes) {
   const D d;
-  hn::StoreU(view.added.x, d, &nodes.fog[0][at]);
-  hn::StoreU(view.added.y, d, &nodes.fog[1][at]);
-  hn::StoreU(view.added.z, d, &nodes.fog[2][at]);
-  hn::StoreU(view.passes.x, d, &nodes.fog[3][at]);
-  hn::StoreU(view.passes.y, d, &nodes.fog[4][at]);
-  hn::StoreU(view.passes.z, d, &nodes.fog[5][at]);
+  hn::StoreU(view.added.x, d, &nodes.air[0][at]);
+  hn::StoreU(view.added.y, d, &nodes.air[1][at]);
+  hn::StoreU(view.added.z, d, &nodes.air[2][at]);
+  hn::StoreU(view.passes.x, d, &nodes.air[3][at]);
+  hn::StoreU(view.passes.y, d, &nodes.air[4][at]);
+  hn::StoreU(view.passes.z, d, &nodes.air[5][at]);
 }
 
 template <class Read>
 HWY_INLINE FogView ReadFog(const SkyNodes& nodes, bool is_grey, const Read& read) {
   FogView view;
-  view.added = {read(nodes.fog[0].data()), read(nodes.fog[1].data()), read(nodes.fog[2].data())};
-  view.passes.x = view.passes.y = view.passes.z = read(nodes.fog[3].data());
+  view.added = {read(nodes.air[0].data()), read(nodes.air[1].data()), read(nodes.air[2].data())};
+  view.passes.x = view.passes.y = view.passes.z = read(nodes.air[3].data());
   if (is_grey) return view;
-  view.passes.y = read(nodes.fog[4].data()), view.passes.z = read(nodes.fog[5].data());
+  view.passes.y = read(nodes.air[4].data()), view.passes.z = read(nodes.air[5].data());
   return view;
 }
 

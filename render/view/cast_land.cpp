@@ -8,13 +8,14 @@
 #include <optional>
 
 #include "render/tile/shading.h"
+#include "render/view/land_paths.h"
 #include "render/world/land_rays.h"
 #include "terrain/height_rays.h"
 
 namespace swell::render {
 namespace {
 
-constexpr float kFarthest = 1e9f;
+constexpr float kFarthest = kFarthestLand;
 
 // Where z + z_t t + z_tt t^2 is 0 for the first time after t = 0.
 std::optional<float> first_crossing(float z, float z_t, float z_tt) {
@@ -125,38 +126,38 @@ class FreeWays {
   Values x_low_, x_high_, y_low_, y_high_, z_, z_t_, z_tt_, floor_, begin_, free_, free_around_;
 };
 
-// The part of a path that lies above a height: where it comes down to it, or from where it rises.
-void clip_to_outline(float outline_m, LandPath& path) {
-  const float above = path.z + path.begin * (path.z_t + path.begin * path.z_tt) - outline_m;
-  const float rise = path.z_t + 2.0f * path.z_tt * path.begin;
-  const std::optional<float> way = first_crossing(above, rise, path.z_tt);
-  if (above >= 0.0f) {
-    if (way) path.end = std::min(path.end, path.begin + *way);
-  } else {
-    path.begin = way ? path.begin + *way : path.end;
-  }
-}
+float lower(float a, float b) { return a < b ? a : b; }
 
 // Rays of one tile of a view, any number of them, as many at once as there is room for.
 class LandRayBatch {
  public:
-  LandRayBatch(const RenderView& view, const raster::PixelBox& box)
-      : view_(view), rays_(make_rays(view.camera)), ways_(view, rays_, box), box_(box) {}
+  // depth, primitive: what is there; changes where the land is nearer, by flush() at the latest.
+  LandRayBatch(const RenderView& view, const raster::PixelBox& box, std::span<float> depth,
+               std::span<std::uint32_t> primitive)
+      : view_(view),
+        rays_(make_rays(view.camera)),
+        ways_(view, rays_, box),
+        depth_(depth),
+        primitive_(primitive) {}
 
-  // A ray at a place of the picture, in the pixel (x, y) of the tile, and what is there: both
-  // change where the land is nearer, by flush() at the latest.
-  void add(int x, int y, glm::vec2 at_px, float& depth, std::uint32_t& primitive) {
-    if (count_ == kBatch) flush();
-    const std::size_t n = count_++;
-    const glm::vec3 direction = rays_.ray + at_px.y * rays_.ray_dy + at_px.x * rays_.ray_dx;
-    LandPath path = land_path(view_, direction);
-    if (view_.land->outline_m) clip_to_outline(*view_.land->outline_m, path);
-    x_[n] = direction.x, y_[n] = direction.y;
-    z_[n] = path.z, z_t_[n] = path.z_t, z_tt_[n] = path.z_tt;
-    begin_[n] = std::min(std::max(path.begin, ways_.of_map(x, y)), kFarthest);
-    begin_around_[n] = std::min(std::max(path.begin, ways_.around(x, y)), kFarthest);
-    end_[n] = depth > 0.0f ? std::min(path.end, rays_.near_m / depth) : path.end;
-    depth_[n] = &depth, primitive_[n] = &primitive;
+  // Makes room for so many rays, no more than kBatch.
+  void reserve(std::size_t rays) {
+    if (count_ + rays > kBatch) flush();
+  }
+
+  // Rays of a square, (x, y) being one of its pixels in the tile: through places of the picture,
+  // a pixel apart in a row, for so many elements of the buffers.
+  void add(int x, int y, glm::vec2 first_px, std::size_t first_element, std::size_t count) {
+    const float free = ways_.of_map(x, y), free_around = ways_.around(x, y);
+    for (std::size_t k = 0; k < count; ++k) {
+      x_px_[count_ + k] = first_px.x + static_cast<float>(k);
+      y_px_[count_ + k] = first_px.y;
+      there_[count_ + k] = depth_[first_element + k];
+      element_[count_ + k] = static_cast<std::uint32_t>(first_element + k);
+      free_[count_ + k] = free;
+      free_around_[count_ + k] = free_around;
+    }
+    count_ += count;
   }
 
   // Depth as in the buffer before which no ray of the square at (x, y) of the tile meets land, but
@@ -166,70 +167,59 @@ class LandRayBatch {
   }
 
   void flush() {
-    cast(view_.land->map, begin_, end_, met_);
+    set_land_rays(view_, rays_,
+                  {first(x_px_), first(y_px_), first(there_), first(free_), first(free_around_),
+                   first(x_), first(y_), first(z_), first(z_t_), first(z_tt_), first(begin_),
+                   first(begin_around_), first(end_)});
+    cast(view_.land->map, begin_, met_);
     if (view_.land_has_apron) {
-      for (std::size_t n = 0; n < count_; ++n) end_[n] = std::min(end_[n], met_[n]);
-      cast(view_.land->around, begin_around_, end_, met_around_);
-      for (std::size_t n = 0; n < count_; ++n) met_[n] = std::min(met_[n], met_around_[n]);
+      bool any = false;
+      for (std::size_t n = 0; n < count_; ++n) {
+        end_[n] = lower(met_[n], end_[n]);
+        any |= begin_around_[n] < end_[n];
+      }
+      if (any) {
+        cast(view_.land->around, begin_around_, met_around_);
+        for (std::size_t n = 0; n < count_; ++n) met_[n] = lower(met_around_[n], met_[n]);
+      }
     }
-    const std::uint32_t land = view_.primitives.begin(SurfaceKind::kTerrain);
-    for (std::size_t n = 0; n < count_; ++n) {
-      const float z = rays_.near_m / met_[n];  // 0 at infinity
-      if (z > *depth_[n]) *depth_[n] = std::min(z, 1.0f), *primitive_[n] = land;
-    }
+    take_nearer();
     count_ = 0;
   }
 
  private:
-  static constexpr std::size_t kBatch = 64;
+  static constexpr std::size_t kBatch = 256;
   using Values = std::array<float, kBatch>;
 
-  void cast(const terrain::HeightPyramid& heights, const Values& begin, const Values& end,
-            Values& t) const {
-    const auto first = [&](const Values& values) { return std::span(values).first(count_); };
+  std::span<float> first(Values& values) const { return std::span(values).first(count_); }
+
+  void cast(const terrain::HeightPyramid& heights, Values& begin, Values& t) {
     terrain::cast_rays(
         heights, glm::dvec2(view_.camera.eye_world), rays_.pixel_angle,
-        {first(x_), first(y_), first(z_), first(z_t_), first(z_tt_), first(begin), first(end)},
-        std::span(t).first(count_));
+        {first(x_), first(y_), first(z_), first(z_t_), first(z_tt_), first(begin), first(end_)},
+        first(t));
+  }
+
+  void take_nearer() {
+    const std::uint32_t land = view_.primitives.begin(SurfaceKind::kTerrain);
+    for (std::size_t n = 0; n < count_; ++n) {
+      const float z = rays_.near_m / met_[n];  // 0 at infinity
+      if (z > there_[n]) depth_[element_[n]] = lower(z, 1.0f), primitive_[element_[n]] = land;
+    }
   }
 
   const RenderView& view_;
   ViewRays rays_;
   FreeWays ways_;
-  raster::PixelBox box_;
+  std::span<float> depth_;
+  std::span<std::uint32_t> primitive_;
   std::size_t count_ = 0;
+  std::array<std::uint32_t, kBatch> element_;
+  Values x_px_, y_px_, there_, free_, free_around_;
   Values x_, y_, z_, z_t_, z_tt_, begin_, begin_around_, end_, met_, met_around_;
-  std::array<float*, kBatch> depth_;
-  std::array<std::uint32_t*, kBatch> primitive_;
 };
 
 }  // namespace
-
-LandPath land_path(const RenderView& view, glm::vec3 direction) {
-  const float h2 = direction.x * direction.x + direction.y * direction.y;
-  const float sag = view.drop_per_m2 * h2, near_m = view.camera.near_m;
-  const auto eye_z = static_cast<float>(view.camera.eye_world.z);
-  const LandPath straight{eye_z, direction.z, sag, near_m, kFarthest};
-  if (view.kind == ViewKind::kWindow) return straight;
-
-  const float level_m = view.level_m, above_m = eye_z - level_m;
-  const std::optional<float> level_t = first_crossing(above_m, direction.z, sag);
-  // The eye may be on the other side already.
-  const bool beyond = view.eye.submerged == (above_m > 0.0f);
-  if (!level_t && !beyond) return {};
-  if (view.kind == ViewKind::kReflection)
-    return {level_m - above_m, -direction.z, -sag, beyond ? near_m : std::max(*level_t, near_m),
-            kFarthest};
-
-  if (beyond) return straight;
-  const float t = *level_t, z_t = direction.z + 2.0f * sag * t;
-  const float n = view.eye.submerged ? 1.0f / view.refraction_index : view.refraction_index;
-  const float down2 = n * n * (h2 + z_t * z_t) - h2;
-  if (down2 <= 0.0f) return {};  // mirrored wholly
-  const float down = view.eye.submerged ? std::sqrt(down2) : -std::sqrt(down2);
-  const float before = view.clip_margin_m / std::abs(down);
-  return {level_m - t * down, down, 0.0f, std::max(t - before, near_m), kFarthest};
-}
 
 int cast_land(const RenderView& view, const raster::TileGrid& grid, int tile, bool fresh,
               std::span<float> depth, std::span<std::uint32_t> primitive) {
@@ -238,18 +228,20 @@ int cast_land(const RenderView& view, const raster::TileGrid& grid, int tile, bo
     std::ranges::fill(primitive, raster::kNoPrimitive);
   }
   const raster::PixelBox box = raster::tile_box(view.viewport(), grid, tile);
-  LandRayBatch batch(view, box);
+  LandRayBatch batch(view, box, depth, primitive);
   // Square by square: their rays go much the same way.
   for (int y0 = 0; y0 < box.height_px; y0 += kSquare_px)
     for (int x0 = 0; x0 < box.width_px; x0 += kSquare_px) {
       const float farthest_z = batch.farthest_z(x0, y0);
       if (farthest_z == 0.0f) continue;
-      for (int y = y0; y < std::min(y0 + kSquare_px, box.height_px); ++y)
-        for (int x = x0; x < std::min(x0 + kSquare_px, box.width_px); ++x) {
-          const auto at = static_cast<std::size_t>(y * grid.tile_size_px + x);
-          if (depth[at] < farthest_z)
-            batch.add(x, y, glm::vec2(box.x0_px + x, box.y0_px + y), depth[at], primitive[at]);
-        }
+      batch.reserve(kSquare_px * kSquare_px);
+      const int width = std::min(kSquare_px, box.width_px - x0);
+      for (int y = y0; y < std::min(y0 + kSquare_px, box.height_px); ++y) {
+        const auto at = static_cast<std::size_t>(y * grid.tile_size_px + x0);
+        const auto there = depth.subspan(at, static_cast<std::size_t>(width));
+        if (std::ranges::any_of(there, [&](float z) { return z < farthest_z; }))
+          batch.add(x0, y, glm::vec2(box.x0_px + x0, box.y0_px + y), at, there.size());
+      }
     }
   batch.flush();
   // Beyond the viewport nothing is covered.
@@ -261,15 +253,15 @@ void cast_land_samples(const RenderView& view, const raster::PixelBox& box, int 
                        const raster::PixelMask& mask, std::span<float> depth,
                        std::span<std::uint32_t> primitive) {
   const auto positions = raster::sample_positions(samples);
-  LandRayBatch batch(view, box);
+  LandRayBatch batch(view, box, depth, primitive);
   std::size_t n = 0;
   for (int y = 0; y < box.height_px; ++y)
     for (std::uint64_t left = mask.row(y); left != 0; left &= left - 1) {
       const int x = std::countr_zero(left);
+      batch.reserve(positions.size());
       for (const raster::SamplePosition& sample : positions) {
         const glm::vec2 from_corner = glm::vec2(sample.x_fx8, sample.y_fx8) * (1.0f / 256.0f);
-        batch.add(x, y, glm::vec2(box.x0_px + x, box.y0_px + y) + from_corner - 0.5f, depth[n],
-                  primitive[n]);
+        batch.add(x, y, glm::vec2(box.x0_px + x, box.y0_px + y) + from_corner - 0.5f, n, 1);
         ++n;
       }
     }

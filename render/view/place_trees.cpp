@@ -19,8 +19,9 @@
 namespace swell::render {
 namespace {
 
-// Of a crown's box, for each triangle: of leaves, of blades.
-constexpr float kLeaf_px2 = 75.0f, kBlade_px2 = 16.0f;
+// Of a crown's box, for each triangle: of leaves, of those of tall crowns, of blades.
+constexpr float kLeaf_px2 = 75.0f, kTallLeaf_px2 = 45.0f, kBlade_px2 = 16.0f;
+constexpr float kLow_px = 16.0f, kTall_px = 48.0f;  // trees with crowns of either
 // Trees of these heights have as few triangles as one, and as few as their shape needs.
 constexpr float kOneLeaf_px = 5.0f, kFewLeaves_px = 8.0f;
 constexpr float kGrown_px = 4.0f;   // trees of this height have all of it
@@ -100,7 +101,6 @@ void prepare_shading(const TreeView& view, DrawnTree& drawn) {
   drawn.crown_begin_m = shape_of(view, drawn).crown_begin * drawn.height_m;
   drawn.inverse_crown_m = 1.0f / (drawn.height_m - drawn.crown_begin_m);
   drawn.inverse_radius_m = 1.0f / drawn.radius_m;
-  drawn.crowding = view.forest.crowding[drawn.tree];
   drawn.leaves_albedo = leaves_of(drawn);
   const glm::vec2 away(drawn.foot_rel);
   const float level = std::sqrt(std::max(glm::dot(away, away), 1e-6f));
@@ -111,7 +111,9 @@ void prepare_shading(const TreeView& view, DrawnTree& drawn) {
 float leaves_in(const scene::TreeShape& shape, float box_px2, float height_px) {
   const float small = smoothstep(kOneLeaf_px, kFewLeaves_px, height_px);
   const float least = 1.0f + small * (shape.fewest_leaves - 1.0f);
-  return std::clamp(box_px2 / (shape.is_blades ? kBlade_px2 : kLeaf_px2), least,
+  const float tall = smoothstep(kLow_px, kTall_px, height_px);
+  const float leaf_px2 = kLeaf_px2 + tall * (kTallLeaf_px2 - kLeaf_px2);
+  return std::clamp(box_px2 / (shape.is_blades ? kBlade_px2 : leaf_px2), least,
                     static_cast<float>(shape.leaves.size()));
 }
 
@@ -142,11 +144,14 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
   drawn.radius_m = full_radius_m * grown * broader;
   const float box_px2 = 2.0f * full_radius_m * full_height_m * px_per_m * px_per_m;
   drawn.leaves = leaves_in(shape, box_px2, height_px);
+  drawn.crowding = view.forest.crowding[number];
   drawn.sways = smoothstep(kSways_px, 2.0f * kSways_px, height_px);
   drawn.leaf_size = scene::leaf_size(shape, drawn.leaves);
   drawn.triangles = static_cast<std::uint32_t>(std::ceil(drawn.leaves));
   const float trunk_m = shape.trunk * drawn.height_m;
-  const float seen = std::clamp(4.0f * trunk_m * px_per_m - 1.0f, 0.0f, 1.0f);
+  // From half a pixel's width on; among others not until it is four times as wide.
+  const float seen =
+      std::clamp(4.0f * trunk_m * px_per_m - 1.0f - 3.0f * drawn.crowding, 0.0f, 1.0f);
   drawn.trunk_m = trunk_m * seen;
   if (seen > 0.0f) drawn.triangles += 2;
   prepare_shading(view, drawn);
@@ -210,20 +215,35 @@ TreePose pose_of(const TreeView& view, const DrawnTree& drawn) {
   return pose;
 }
 
+// Which of eight sides a tree shows of its species' shape: what is right of the trunk and ahead of
+// it, from the shape to the world.
+struct ShapeSide {
+  glm::vec2 right, ahead;
+};
+
+ShapeSide side_of(const DrawnTree& drawn) {
+  const auto sign = [&](std::uint32_t bit) { return (drawn.looks & bit) != 0 ? -1.0f : 1.0f; };
+  const bool across = (drawn.looks & 4) != 0;
+  return {across ? glm::vec2(0.0f, sign(1)) : glm::vec2(sign(1), 0.0f),
+          across ? glm::vec2(sign(2), 0.0f) : glm::vec2(0.0f, sign(2))};
+}
+
 // The corners of a tree's triangles.
 void write_crown(const scene::TreeShape& shape, const DrawnTree& drawn, const TreePose& pose,
                  glm::vec3* p) {
   const float size = drawn.leaf_size;
+  const ShapeSide side = side_of(drawn);
   const auto count = static_cast<std::size_t>(std::ceil(drawn.leaves));
   for (std::size_t n = 0; n < count; ++n) {
     const scene::TreeLeaf& leaf = shape.leaves[n];
-    const float grown = std::min(drawn.leaves - static_cast<float>(n), 1.0f);
+    const float grown = std::sqrt(std::min(drawn.leaves - static_cast<float>(n), 1.0f));
     const glm::vec3 at = scene::leaf_middle(shape, leaf, size);
     const float flutter =
         at.z * (pose.flutter.x * leaf.flutter.x + pose.flutter.y * leaf.flutter.y) * (1.0f - size);
+    const glm::vec2 from_trunk =
+        (side.right * at.x + side.ahead * at.y) * drawn.radius_m + pose.sway * (at.z * at.z);
     const glm::vec3 middle = drawn.foot_rel +
-                             glm::vec3(glm::vec2(at) * drawn.radius_m + pose.sway * (at.z * at.z),
-                                       drawn.crown_begin_m + at.z * pose.crown_m) +
+                             glm::vec3(from_trunk, drawn.crown_begin_m + at.z * pose.crown_m) +
                              pose.right * flutter;
     const glm::vec3 bent = shape.is_blades ? glm::vec3(pose.sway, 0.0f) : glm::vec3(0.0f);
     for (const glm::vec2& corner : leaf.corner) {

@@ -14,26 +14,14 @@ using scene::radians;
 
 constexpr int kWidth_px = 70, kHeight_px = 90;  // tiles that are cut, too
 
-scene::Scene calm_scene() {
-  scene::Scene scene;
-  scene.sky.sun_elevation_rad = radians(35.0);
-  scene.sky.sun_azimuth_rad = radians(200.0);
-  scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
-  scene.sky.cloud_cover = 0.0;
-  scene.sky.exposure = 1.0;
-  scene.sea.spectrum = false;
-  scene.detail.water_triangles = 500;
-  scene.picture.edge_samples = 0;
-  return scene;
-}
-
 struct Looking {
   double height_m, pitch_deg;
 };
 
 TEST(AirOverATile, IsThatOfItsPixels) {
-  LinearRenderer renderer(calm_scene());
+  scene::Scene scene = calm_scene(35.0, 0.0, 200.0);
+  scene.detail.water_triangles = 500;
+  LinearRenderer renderer(scene);
   for (const auto [height_m, pitch_deg] : {Looking{60.0, -6.0}, Looking{1500.0, -7.0},
                                            Looking{1500.0, -50.0}, Looking{9000.0, -9.0}}) {
     const auto draw = [&](double pixel_rad) {

@@ -25,20 +25,6 @@ double dip(double height_m) { return std::sqrt(2.0 * height_m / kRadius_m); }  /
 
 float luminance(glm::vec3 rgb) { return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
-scene::Scene calm_scene(double sun_deg, double cloud_cover, double azimuth_deg = 70.0) {
-  scene::Scene scene;
-  scene.sky.sun_elevation_rad = radians(sun_deg);
-  scene.sky.sun_azimuth_rad = radians(azimuth_deg);
-  scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
-  scene.sky.cloud_cover = cloud_cover;
-  scene.sky.exposure = 1.0;
-  scene.sea.spectrum = false;
-  scene.detail.water_triangles = 3000;
-  scene.picture.edge_samples = 0;
-  return scene;
-}
-
 // Northwards.
 struct Eye {
   double height_m, pitch_rad, fov_rad;

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "render/frame.h"
 #include "render/labels/classes.h"
 #include "render/labels/label_channels.h"
+#include "render/lake_and_river.h"
 #include "render/view/meshes.h"
 #include "render/workspace.h"
 #include "render/world/world_state.h"
@@ -17,8 +19,7 @@
 namespace swell::render {
 namespace {
 
-// A beach with the sea in the north, and a river that comes down to it from a small lake.
-constexpr const char* kScene = R"(
+constexpr const char* kCameraAndLight = R"(
 [camera]
 eye_m = [25, -190, 14]
 heading_deg = 335
@@ -32,27 +33,13 @@ sun_azimuth_deg = 120
 speed_mps = 0
 [coast]
 model = "none"
-[terrain]
-coast_m = [[-100, 0], [100, 0]]
-beach_slope = 0.03
-beach_size_m = 520
-floor_depth_m = 5
-[[lake]]
-name = "lake"
-level_m = 4.0
-outline_m = [[-25, -215], [25, -215], [20, -185], [-20, -185]]
-depth_m = 2
-[[river]]
-from = "lake"
-path_m = [[0, -195], [8, -150], [-8, -100], [0, -40], [0, 40]]
-width_m = [9]
-depth_m = [1]
-surface_m = [4, 2.6, 1.4, 0.3, 0]
-speed_mps = 1
 )";
 
 const World& river_world() {
-  static const World world(scene::parse_scene(kScene, "river.toml"), 1);
+  static const World world(
+      scene::parse_scene(std::string(kCameraAndLight) + kLakeAndRiver + "speed_mps = 1\n",
+                         "river.toml"),
+      1);
   return world;
 }
 

@@ -45,20 +45,22 @@ TEST_P(SameBits, TileSizeChangesNoPixel) {
   }
 }
 
+Target draw_in_tiles(const World& world, const View& view, int tile_size_px) {
+  FrameOptions options = few_triangles();
+  options.tile_size_px = tile_size_px;
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  render_frame(world, view, 3.0, options, workspace, target, workers);
+  return target;
+}
+
 // From aloft, of pixels so small that the air below lies between nodes.
 TEST(FrameBits, TilesAndTargetsShowTheSameAir) {
   const World& world = world_of("lagoon");
   const View view =
       make_view({0.0, -900.0, 300.0}, 0.1, -0.3, 0.0014 * kHeight, 0.25f, kWidth, kHeight);
-  const auto draw_in = [&](int tile) {
-    FrameOptions options = few_triangles();
-    options.tile_size_px = tile;
-    Workers workers(2);
-    Workspace workspace;
-    Target target;
-    render_frame(world, view, 3.0, options, workspace, target, workers);
-    return target;
-  };
+  const auto draw_in = [&](int tile) { return draw_in_tiles(world, view, tile); };
   const Target reference = draw_in(64);
   for (const int tile : {16, 32}) EXPECT_EQ(difference(draw_in(tile), reference), "") << tile;
   if (!simd_target_available(SimdTarget::kAvx512)) return;
@@ -71,15 +73,7 @@ TEST(FrameBits, TilesAndTargetsShowTheSameAir) {
 TEST(FrameBits, PacketsOfAnyPixelsShowTheSameRimOfACoast) {
   const World& world = world_of("beach");
   const View view = make_view({590.0, 250.0, 8.0}, 0.2, -0.12, 0.9, 0.25f, kWidth, kHeight);
-  const auto draw_in = [&](int tile) {
-    FrameOptions options = few_triangles();
-    options.tile_size_px = tile;
-    Workers workers(2);
-    Workspace workspace;
-    Target target;
-    render_frame(world, view, 3.0, options, workspace, target, workers);
-    return target;
-  };
+  const auto draw_in = [&](int tile) { return draw_in_tiles(world, view, tile); };
   const Target reference = draw_in(64);
   EXPECT_EQ(difference(draw_in(16), reference), "");
   select_simd_target(SimdTarget::kAvx2);

@@ -8,6 +8,7 @@
 #include "math/simd_target.h"
 #include "render/tile/shading.h"
 #include "render/view/cast_land.h"
+#include "render/view/land_paths.h"
 #include "render/view/refracted_image.h"
 #include "render/workspace.h"
 #include "render/world/world_state.h"

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "render/lake_and_river.h"
 #include "render/world/forest.h"
 #include "render/world/world_state.h"
 #include "scene/scene.h"
@@ -16,25 +18,8 @@ namespace {
 // TRE-02, by queries: no tree stands in a river or lake, of either way to say what a lake is, and
 // none of the banks' at a lake.
 TEST(TreesOfScenes, StandBesideRiversAndNeitherInNorByLakes) {
-  const scene::Scene scene = scene::parse_scene(R"(
-    [wind]
-    speed_mps = 0.0
-    [terrain]
-    coast_m = [[-100, 0], [100, 0]]
-    beach_slope = 0.03
-    beach_size_m = 520
-    floor_depth_m = 5
-    [[lake]]
-    name = "lake"
-    level_m = 4.0
-    outline_m = [[-25, -215], [25, -215], [20, -185], [-20, -185]]
-    depth_m = 2
-    [[river]]
-    from = "lake"
-    path_m = [[0, -195], [8, -150], [-8, -100], [0, -40], [0, 40]]
-    width_m = [9]
-    depth_m = [1]
-    surface_m = [4, 2.6, 1.4, 0.3, 0]
+  const scene::Scene scene =
+      scene::parse_scene(std::string("[wind]\nspeed_mps = 0.0\n") + kLakeAndRiver + R"(
     [[trees]]
     density_per_m2 = 0.05
     ground_m = [0.0, 100.0]
@@ -45,7 +30,7 @@ TEST(TreesOfScenes, StandBesideRiversAndNeitherInNorByLakes) {
     bank_width_m = 8.0
     ground_m = [0.0, 100.0]
 )",
-                                                "banks.toml");
+                         "banks.toml");
   const World world(scene);
   const scene::Water water(scene);
   const terrain::Trees& trees = world.state().forest->trees;

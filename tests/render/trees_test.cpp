@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "math/random.h"
 #include "math/simd_target.h"
 #include "raster/pass.h"
 #include "render/drawn_frames.h"
@@ -211,6 +212,64 @@ TEST(DrawnTrees, CoverAsMuchHoweverSmallTheyAreDrawn) {
     for (const double pixel_m : {0.2, 0.3})
       EXPECT_NEAR(covered_m2(distance_m, pixel_m) / whole_m2, 1.0, 0.05)
           << distance_m << " " << pixel_m;
+  }
+}
+
+// Trees that stand alone, all as high, of both kinds.
+const World& sparse_world() {
+  static const World world([] {
+    scene::Scene scene = wooded_island();
+    scene.trees[0].density_per_m2 = 0.001;
+    scene.trees[0].clumping = 0.0;
+    scene.trees[0].height_m = {11.9, 12.0};
+    return scene;
+  }());
+  return world;
+}
+
+// What a picture shows of a tree of the world, from 8 degrees above and another side of each:
+// pixel_m at its middle; `shift` moves the picture by parts of a pixel.
+double covered_m2(const World& world, std::uint32_t number, double distance_m, double pixel_m,
+                  glm::dvec2 shift) {
+  const terrain::Trees& trees = world.state().forest->trees;
+  const terrain::Tree& tree = trees.trees[number];
+  const double height_m = static_cast<double>(tree.height_m);
+  const double heading = 0.7 * number, down = 8.0 * kPi / 180.0;
+  const auto side_px = static_cast<int>(std::ceil(2.0 * height_m / pixel_m));
+  const glm::dvec2 ahead(std::sin(heading), std::cos(heading));
+  const glm::dvec3 middle = trees.origin + glm::dvec3(tree.foot) +
+                            glm::dvec3(0.0, 0.0, 0.5 * height_m) +
+                            pixel_m * glm::dvec3(shift.x * ahead.y, -shift.x * ahead.x, shift.y);
+  const glm::dvec3 eye = middle + distance_m * glm::dvec3(-std::cos(down) * ahead, std::sin(down));
+  const View view =
+      make_view(eye, heading, -down, 2.0 * std::atan(0.5 * side_px * pixel_m / distance_m), 0.25f,
+                side_px, side_px);
+  FrameOptions options;
+  options.labels.add(Label::kId);
+  options.without = {Part::kWater};
+  options.terrain_triangles = 30000;  // so that the ground hides no more of a foot from afar
+  const TreeFrame frame(world, view, options);
+  return static_cast<double>(std::ranges::count(frame.target.labels.id, kFirstTreeId + number)) *
+         pixel_m * pixel_m;
+}
+
+// TRE-03: a tree covers as much of pictures of 935 pixels a radian, from 20 m to 2 km, as all of
+// its triangles do.
+TEST(DrawnTrees, AloneCoverAsMuchFrom20MetresTo2Kilometres) {
+  const World& world = sparse_world();
+  ASSERT_GT(world.state().forest->trees.trees.size(), 24u);
+  for (const double distance_m : {20.0, 60.0, 200.0, 400.0, 600.0, 1000.0, 2000.0}) {
+    const int shifts = distance_m < 300.0 ? 1 : 8;
+    double drawn_m2 = 0.0, whole_m2 = 0.0;
+    for (std::uint32_t number = 0; number < 24; ++number) {
+      whole_m2 += covered_m2(world, number, distance_m, 0.03, glm::dvec2(0.0));
+      for (int k = 0; k < shifts; ++k)
+        drawn_m2 += covered_m2(world, number, distance_m, distance_m / 935.0,
+                               {random_uniform(5, 2 * k), random_uniform(5, 2 * k + 1)}) /
+                    shifts;
+    }
+    EXPECT_GT(whole_m2, 200.0);
+    EXPECT_NEAR(drawn_m2 / whole_m2, 1.0, 0.05) << distance_m << " m";
   }
 }
 

@@ -35,7 +35,7 @@ double cover_from(const TreeShape& shape, float leaves, double turns) {
   for (int n = 0; n < static_cast<int>(std::ceil(leaves)); ++n) {
     const TreeLeaf& leaf = shape.leaves[static_cast<std::size_t>(n)];
     const glm::vec3 middle = leaf_middle(shape, leaf, size);
-    const float grown = std::min(leaves - static_cast<float>(n), 1.0f);
+    const float grown = std::sqrt(std::min(leaves - static_cast<float>(n), 1.0f));
     std::array<glm::dvec2, 3> p;
     for (int k = 0; k < 3; ++k)
       p[k] = glm::dvec2(glm::dot(glm::vec2(middle), right), middle.z) +

@@ -1,0 +1,177 @@
+#include <algorithm>
+
+#include "math/check.h"
+#include "render/view/land_paths.h"
+#include "render/world/land_rays.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/view/land_paths_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "render/tile/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+using M = hn::Mask<D>;
+constexpr std::size_t kLanes = hn::MaxLanes(D());
+
+struct Paths {
+  V z, z_t, z_tt, begin, end;
+};
+
+struct Crossings {
+  V t;
+  M any;
+};
+
+// Where z + z_t t + z_tt t^2 is 0 for the first time after t = 0.
+HWY_INLINE Crossings FirstCrossings(V z, V z_t, V z_tt) {
+  const V zero = hn::Zero(D());
+  const V root2 = hn::Sub(hn::Mul(z_t, z_t), hn::Mul(hn::Mul(Constant(4.0f), z_tt), z));
+  const V root = hn::Sqrt(hn::Max(root2, zero));
+  const V under = hn::IfThenElse(hn::Gt(z, zero), hn::Sub(z_t, root), hn::Add(z_t, root));
+  const V t = hn::Div(hn::Mul(Constant(-2.0f), z), under);
+  const M crosses = hn::And(hn::Ge(root2, zero), hn::Ne(z, zero));
+  return {t, hn::And(crosses, hn::And(hn::Ne(under, zero), hn::Gt(t, zero)))};
+}
+
+HWY_INLINE Paths Straight(const RenderView& view, V3 direction, V sag) {
+  return {Constant(static_cast<float>(view.camera.eye_world.z)), direction.z, sag,
+          Constant(view.camera.near_m), Constant(kFarthestLand)};
+}
+
+// No way at all where a mask is false.
+HWY_INLINE Paths Where(M mask, const Paths& p) {
+  return {hn::IfThenElseZero(mask, p.z), hn::IfThenElseZero(mask, p.z_t),
+          hn::IfThenElseZero(mask, p.z_tt), hn::IfThenElse(mask, p.begin, Constant(1.0f)),
+          hn::IfThenElseZero(mask, p.end)};
+}
+
+HWY_INLINE Paths Mirrored(const RenderView& view, float above_m, V3 direction, V sag, V begin) {
+  return {Constant(view.level_m - above_m), hn::Neg(direction.z), hn::Neg(sag),
+          hn::Max(begin, Constant(view.camera.near_m)), Constant(kFarthestLand)};
+}
+
+// On from where they meet the level at t.
+HWY_INLINE Paths Refracted(const RenderView& view, V3 direction, V h2, V sag, const Crossings& at) {
+  const V zero = hn::Zero(D());
+  const V z_t = hn::Add(direction.z, hn::Mul(hn::Add(sag, sag), at.t));
+  const float n = view.eye.submerged ? 1.0f / view.refraction_index : view.refraction_index;
+  const V down2 = hn::Sub(hn::Mul(Constant(n * n), hn::Add(h2, hn::Mul(z_t, z_t))), h2);
+  const V down = hn::Sqrt(hn::Max(down2, zero));
+  const V before = hn::Div(Constant(view.clip_margin_m), down);
+  const V slope = view.eye.submerged ? down : hn::Neg(down);
+  const Paths paths = {hn::Sub(Constant(view.level_m), hn::Mul(at.t, slope)), slope, zero,
+                       hn::Max(hn::Sub(at.t, before), Constant(view.camera.near_m)),
+                       Constant(kFarthestLand)};
+  return Where(hn::And(at.any, hn::Gt(down2, zero)), paths);  // or mirrored wholly
+}
+
+HWY_INLINE Paths PathsOf(const RenderView& view, V3 direction) {
+  const V h2 = hn::Add(hn::Mul(direction.x, direction.x), hn::Mul(direction.y, direction.y));
+  const V sag = hn::Mul(Constant(view.drop_per_m2), h2);
+  const Paths straight = Straight(view, direction, sag);
+  if (view.kind == ViewKind::kWindow) return straight;
+
+  const float above_m = static_cast<float>(view.camera.eye_world.z) - view.level_m;
+  // The eye may be on the other side already.
+  const bool beyond = view.eye.submerged == (above_m > 0.0f);
+  const bool mirrors = view.kind == ViewKind::kReflection;
+  if (beyond) return mirrors ? Mirrored(view, above_m, direction, sag, straight.begin) : straight;
+  const Crossings level = FirstCrossings(Constant(above_m), direction.z, sag);
+  return mirrors ? Where(level.any, Mirrored(view, above_m, direction, sag, level.t))
+                 : Refracted(view, direction, h2, sag, level);
+}
+
+// The part of paths that lies above a height: where they come down to it, or from where they rise.
+HWY_INLINE void ClipToOutline(float outline_m, Paths& p) {
+  const V slope = hn::Add(p.z_t, hn::Mul(p.begin, p.z_tt));
+  const V above = hn::Sub(hn::Add(p.z, hn::Mul(p.begin, slope)), Constant(outline_m));
+  const V rise = hn::Add(p.z_t, hn::Mul(hn::Mul(Constant(2.0f), p.z_tt), p.begin));
+  const Crossings way = FirstCrossings(above, rise, p.z_tt);
+  const V there = hn::Add(p.begin, way.t);
+  const M is_above = hn::Ge(above, hn::Zero(D()));
+  p.begin = hn::IfThenElse(is_above, p.begin, hn::IfThenElse(way.any, there, p.end));
+  p.end = hn::IfThenElse(hn::And(is_above, way.any), hn::Min(p.end, there), p.end);
+}
+
+// ray + y ray_dy + x ray_dx.
+HWY_INLINE V DirectionOf(float ray, float ray_dx, float ray_dy, V x_px, V y_px) {
+  return hn::Add(hn::Add(Constant(ray), hn::Mul(y_px, Constant(ray_dy))),
+                 hn::Mul(x_px, Constant(ray_dx)));
+}
+
+void SetLandRays(const RenderView& view, const ViewRays& rays, const LandRaysThrough& through) {
+  const D d;
+  const std::size_t count = through.x.size();
+  for (std::size_t n = 0; n < count; n += kLanes) {
+    const std::size_t some = std::min(kLanes, count - n);
+    const auto load = [&](std::span<const float> values) HWY_ATTR {
+      if (some == kLanes) return hn::LoadU(d, values.data() + n);
+      HWY_ALIGN float lane[kLanes] = {};
+      std::copy_n(values.data() + n, some, lane);
+      return hn::Load(d, lane);
+    };
+    const auto store = [&](V values, std::span<float> to) HWY_ATTR {
+      if (some == kLanes) return hn::StoreU(values, d, to.data() + n);
+      HWY_ALIGN float lane[kLanes];
+      hn::Store(values, d, lane);
+      std::copy_n(lane, some, to.data() + n);
+    };
+    const V x_px = load(through.x_px), y_px = load(through.y_px), depth = load(through.depth);
+    const V3 direction = {DirectionOf(rays.ray.x, rays.ray_dx.x, rays.ray_dy.x, x_px, y_px),
+                          DirectionOf(rays.ray.y, rays.ray_dx.y, rays.ray_dy.y, x_px, y_px),
+                          DirectionOf(rays.ray.z, rays.ray_dx.z, rays.ray_dy.z, x_px, y_px)};
+    Paths paths = PathsOf(view, direction);
+    if (view.land->outline_m) ClipToOutline(*view.land->outline_m, paths);
+    const V there = hn::Min(paths.end, hn::Div(Constant(rays.near_m), depth));
+    paths.end = hn::IfThenElse(hn::Gt(depth, hn::Zero(d)), there, paths.end);
+    store(direction.x, through.x), store(direction.y, through.y);
+    store(paths.z, through.z), store(paths.z_t, through.z_t), store(paths.z_tt, through.z_tt);
+    const auto begin = [&](std::span<const float> free) HWY_ATTR {
+      return hn::Min(hn::Max(paths.begin, load(free)), Constant(kFarthestLand));
+    };
+    store(begin(through.free), through.begin);
+    store(begin(through.free_around), through.begin_around);
+    store(paths.end, through.end);
+  }
+}
+
+void OneLandPath(const RenderView& view, glm::vec3 direction, LandPath* path) {
+  const Paths p = PathsOf(view, Constant(direction));
+  *path = {hn::GetLane(p.z), hn::GetLane(p.z_t), hn::GetLane(p.z_tt), hn::GetLane(p.begin),
+           hn::GetLane(p.end)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swell::render {
+
+HWY_EXPORT(SetLandRays);
+HWY_EXPORT(OneLandPath);
+
+LandPath land_path(const RenderView& view, glm::vec3 direction) {
+  LandPath path;
+  HWY_DYNAMIC_DISPATCH(OneLandPath)(view, direction, &path);
+  return path;
+}
+
+void set_land_rays(const RenderView& view, const ViewRays& rays, const LandRaysThrough& through) {
+  const std::size_t count = through.x.size();
+  for (const std::span<const float> values :
+       {through.x_px, through.y_px, through.depth, through.free, through.free_around})
+    SWELL_CHECK(values.size() == count, "rays={} values={}", count, values.size());
+  for (const std::span<float> values : {through.y, through.z, through.z_t, through.z_tt,
+                                        through.begin, through.begin_around, through.end})
+    SWELL_CHECK(values.size() == count, "rays={} values={}", count, values.size());
+  HWY_DYNAMIC_DISPATCH(SetLandRays)(view, rays, through);
+}
+
+}  // namespace swell::render
+#endif
