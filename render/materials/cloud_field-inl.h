@@ -78,8 +78,8 @@ struct FrameCloudField {
                            hn::And(hn::ConvertTo(di, y), wrap));
     const VI at =
         hn::Add(hn::ShiftLeft<CloudVolume::kCellsLog2>(row), hn::And(hn::ConvertTo(di, x), wrap));
-    const auto* const bytes = reinterpret_cast<const std::int32_t*>(volume.empty.data());
-    const V cells = hn::ConvertTo(D(), hn::And(hn::GatherOffset(di, bytes, at), hn::Set(di, 0xff)));
+    const VI bytes = LoadWords(volume.empty, at).lower;
+    const V cells = hn::ConvertTo(D(), hn::And(bytes, hn::Set(di, 0xff)));
     // The faces of the box of empty cells that the ray leaves by.
     const V reach = hn::Sub(cells, Constant(1.0f));
     const auto leave = [&](V p, V cell, V m_per_voxel) HWY_ATTR {
@@ -138,12 +138,14 @@ struct FrameCloudField {
     const LatticePlace py = PlaceOnLattice(hn::Mul(place.y, Constant(0.5f)));
     const LatticePlace pz =
         PlaceOnLattice(Clamp(place.z, 0.0f, static_cast<float>(volume.form.levels) - 1.001f));
-    const VI at = WordAt(px, py, pz, n);
-    const WordHalves here = LoadWords(volume.light, at);
-    const WordHalves above = LoadWords(volume.light, hn::Add(at, hn::Set(di, 1 << (2 * n))));
-    const HalfWeights weights = WeightsOf(py.part, pz.part);
-    V x1 = hn::Mul(BetweenCorners(here.lower, above.lower, px.part, weights), Constant(kPerCorner));
-    sky = hn::Mul(BetweenCorners(here.upper, above.upper, px.part, weights), Constant(kPerCorner));
+    const VI next_row = hn::Add(py.cell, hn::Set(di, 1));
+    const WordHalves row0 = LoadWords(volume.light, EntryAt(px.cell, py.cell, pz.cell, n));
+    const WordHalves row1 = LoadWords(volume.light, EntryAt(px.cell, next_row, pz.cell, n));
+    const HalfWeights weights = WeightsOf(px.part, pz.part);
+    const BytesBetween light0 = BetweenEntries(row0, weights);
+    const BytesBetween light1 = BetweenEntries(row1, weights);
+    V x1 = hn::Mul(Lerp(light0.even, light1.even, py.part), Constant(kPerCorner));
+    sky = hn::Mul(Lerp(light0.odd, light1.odd, py.part), Constant(kPerCorner));
     if (clouds.rays)
       x1 = Exp(d, hn::Mul(DepthTowards(volume, place, clouds.to_light, 8, 20.0f, 1.6f),
                           Constant(-1.0f / CloudVolume::kLightDepth)));

@@ -24,68 +24,76 @@ HWY_INLINE LatticePlace PlaceOnLattice(V x) {
   return {hn::ConvertTo(DI(), whole), hn::Sub(x, whole)};
 }
 
-// Weights of an interpolation along y and z, as multiples of 1 / 128 in both halves of a lane.
-using Halves = hn::Repartition<std::int16_t, D>;
-struct HalfWeights {
-  hn::Vec<Halves> y, z;  // y: 1 - part in the lower half, part in the upper
-};
-
-HWY_INLINE HalfWeights WeightsOf(V part_y, V part_z) {
-  const DI di;
-  const VI y = hn::ConvertTo(di, hn::Mul(part_y, Constant(128.0f)));
-  const VI z = hn::ConvertTo(di, hn::Mul(part_z, Constant(128.0f)));
-  const VI both = hn::Sub(hn::Add(hn::ShiftLeft<16>(y), hn::Set(di, 128)), y);
-  return {hn::BitCast(Halves(), both), hn::BitCast(Halves(), hn::Or(hn::ShiftLeft<16>(z), z))};
-}
-
-// Between four bytes of a level and four of the next, each the values at (x, y), (x + 1, y),
-// (x, y + 1) and (x + 1, y + 1) from the low byte up; [0, 255 * 128^2].
-HWY_INLINE V BetweenCorners(VI level, VI next, V part_x, const HalfWeights& weights) {
-  const DI di;
-  const Halves dh;
-  const VI low = hn::Set(di, 0x00ff00ff);
-  const auto at_x = [&](VI a, VI b) HWY_ATTR {
-    const auto below = hn::BitCast(dh, hn::And(a, low)), above = hn::BitCast(dh, hn::And(b, low));
-    const auto between =
-        hn::Add(hn::ShiftLeft<7>(below), hn::Mul(hn::Sub(above, below), weights.z));
-    VI rest = hn::Zero(di);
-    const VI sum = hn::ReorderWidenMulAccumulate(di, between, weights.y, hn::Zero(di), rest);
-    return hn::ConvertTo(D(), hn::RearrangeToOddPlusEven(sum, rest));
-  };
-  return Lerp(at_x(level, next), at_x(hn::ShiftRight<8>(level), hn::ShiftRight<8>(next)), part_x);
-}
-constexpr float kPerCorner = 1.0f / (255.0f * 128.0f * 128.0f);
-
-// Words of 64 bits: their lower and upper halves.
+// The 64 bits that begin at an entry of a table: their lower and upper halves.
 struct WordHalves {
   VI lower, upper;
 };
 
-HWY_INLINE WordHalves LoadWords(const std::vector<std::uint64_t>& words, VI at) {
+template <class Entry>
+HWY_INLINE WordHalves LoadWords(const std::vector<Entry>& entries, VI at) {
   namespace packed = texture::HWY_NAMESPACE;
   const hn::Repartition<std::int8_t, D> bytes;
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(D())];
   packed::StoreIndex(at, lane_index);
-  const auto half0 = packed::LoadWords<8, 0>(bytes, words.data(), lane_index);
-  const auto half1 = packed::LoadWords<8, 1>(bytes, words.data(), lane_index);
+  const auto half0 = packed::LoadWords<sizeof(Entry), 0>(bytes, entries.data(), lane_index);
+  const auto half1 = packed::LoadWords<sizeof(Entry), 1>(bytes, entries.data(), lane_index);
   return {packed::EvenParts(DI(), half0, half1), packed::OddParts(DI(), half0, half1)};
 }
 
-// Where the word of a place stands that is made of cells of 2^n x 2^n to a level.
-HWY_INLINE VI WordAt(const LatticePlace& x, const LatticePlace& y, const LatticePlace& z, int n) {
+// Where the entry of a place stands in a table of 2^n x (2^n + 1) to a level.
+HWY_INLINE VI EntryAt(VI x, VI y, VI z, int n) {
   const VI wrap = hn::Set(DI(), (1 << n) - 1);
-  const VI row = hn::Add(hn::ShiftLeftSame(z.cell, n), hn::And(y.cell, wrap));
-  return hn::Add(hn::ShiftLeftSame(row, n), hn::And(x.cell, wrap));
+  const VI row = hn::Add(hn::ShiftLeftSame(z, n), hn::And(y, wrap));
+  return hn::Add(hn::Add(hn::ShiftLeftSame(row, n), row), hn::And(x, wrap));
 }
+
+// Weights of an interpolation between entries and between the halves of each, as multiples of
+// 1 / 128 in both halves of a lane.
+using Halves = hn::Repartition<std::int16_t, D>;
+struct HalfWeights {
+  hn::Vec<Halves> entries, halves;  // halves: 1 - part in the lower half, part in the upper
+};
+
+HWY_INLINE HalfWeights WeightsOf(V part_of_entries, V part_of_halves) {
+  const DI di;
+  const VI x = hn::ConvertTo(di, hn::Mul(part_of_entries, Constant(128.0f)));
+  const VI y = hn::ConvertTo(di, hn::Mul(part_of_halves, Constant(128.0f)));
+  const VI both = hn::Sub(hn::Add(hn::ShiftLeft<16>(y), hn::Set(di, 128)), y);
+  return {hn::BitCast(Halves(), hn::Or(hn::ShiftLeft<16>(x), x)), hn::BitCast(Halves(), both)};
+}
+
+// Between two entries of four bytes, and between the halves of each: what that is of the even and
+// of the odd bytes, [0, 255 * 128^2].
+struct BytesBetween {
+  V even, odd;
+};
+
+HWY_INLINE BytesBetween BetweenEntries(const WordHalves& word, const HalfWeights& weights) {
+  const DI di;
+  const Halves dh;
+  const VI low = hn::Set(di, 0x00ff00ff);
+  const auto between = [&](VI a, VI b) HWY_ATTR {
+    const auto first = hn::BitCast(dh, hn::And(a, low)), next = hn::BitCast(dh, hn::And(b, low));
+    const auto mixed =
+        hn::Add(hn::ShiftLeft<7>(first), hn::Mul(hn::Sub(next, first), weights.entries));
+    VI rest = hn::Zero(di);
+    const VI sum = hn::ReorderWidenMulAccumulate(di, mixed, weights.halves, hn::Zero(di), rest);
+    return hn::ConvertTo(D(), hn::RearrangeToOddPlusEven(sum, rest));
+  };
+  return {between(word.lower, word.upper),
+          between(hn::ShiftRight<8>(word.lower), hn::ShiftRight<8>(word.upper))};
+}
+constexpr float kPerCorner = 1.0f / (255.0f * 128.0f * 128.0f);
 
 // A volume at (x, y, z), in points, as a part of 255; above and below as at its ends.
 HWY_INLINE V SampleCorners(const CornerVolume& volume, V x, V y, V z) {
   const LatticePlace px = PlaceOnLattice(x), py = PlaceOnLattice(y);
   const LatticePlace pz =
       PlaceOnLattice(Clamp(z, 0.0f, static_cast<float>(volume.levels) - 1.001f));
-  const WordHalves word = LoadWords(volume.words, WordAt(px, py, pz, volume.side_log2));
-  return hn::Mul(BetweenCorners(word.lower, word.upper, px.part, WeightsOf(py.part, pz.part)),
-                 Constant(kPerCorner));
+  const WordHalves word =
+      LoadWords(volume.entries, EntryAt(px.cell, py.cell, pz.cell, volume.side_log2));
+  const BytesBetween levels = BetweenEntries(word, WeightsOf(px.part, py.part));
+  return hn::Mul(Lerp(levels.even, levels.odd, pz.part), Constant(kPerCorner));
 }
 
 // Small forms at a place in their points, which repeat along all axes.
@@ -98,13 +106,13 @@ HWY_INLINE V SampleDetail(const CornerVolume& detail, V x, V y, V z) {
 HWY_INLINE V ColumnsAt(const CloudVolume& volume, V x, V y) {
   const D d;
   const LatticePlace px = PlaceOnLattice(x), py = PlaceOnLattice(y);
-  const LatticePlace level = {hn::Zero(DI()), hn::Zero(d)};
-  const WordHalves word = LoadWords(volume.columns, WordAt(px, py, level, CloudVolume::kSideLog2));
-  const auto along_x = [&](VI pair) HWY_ATTR {
-    const V left = hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)));
-    return Lerp(left, hn::ConvertTo(d, hn::ShiftRight<16>(pair)), px.part);
+  const WordHalves word =
+      LoadWords(volume.columns, EntryAt(px.cell, py.cell, hn::Zero(DI()), CloudVolume::kSideLog2));
+  const auto along_y = [&](VI pair) HWY_ATTR {
+    const V low = hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)));
+    return Lerp(low, hn::ConvertTo(d, hn::ShiftRight<16>(pair)), py.part);
   };
-  return hn::Mul(Lerp(along_x(word.lower), along_x(word.upper), py.part),
+  return hn::Mul(Lerp(along_y(word.lower), along_y(word.upper), px.part),
                  Constant(volume.column_step));
 }
 
