@@ -123,34 +123,64 @@ void CoarseCloudRows(const Shading& s, const VolumeClouds& clouds, int j, int sp
   DrawNodes(s, clouds, list, picture);
 }
 
-// Whether the coarse nodes around (i, j), both odd, show about the same.
-bool IsEven(const CloudPicture& picture, int i, int j) {
-  constexpr float kLeast = 0.02f, kLight = 0.12f, kDistance = 0.2f;
-  const std::size_t above = static_cast<std::size_t>(j - 1) * picture.stride;
-  const std::size_t below = above + 2 * picture.stride;
-  for (std::size_t channel = 0; channel < CloudPicture::kChannels; ++channel) {
-    const float* const left = picture.nodes[channel].data() + i - 1;
-    const auto [low, high] =
-        std::minmax({left[above], left[above + 2], left[below], left[below + 2]});
-    const float part = channel > CloudPicture::kOpacity ? kDistance : kLight;
-    if (high - low > kLeast + part * high) return false;
+// Cells between coarse nodes whose corners show about the same, by a cell's middle (i, j), both
+// odd: those of three rows, from j on.
+struct EvenCells {
+  static constexpr std::size_t kRows = 3;
+  static constexpr std::size_t kColumns = raster::kMaxViewport + 8 + CloudPicture::kPadding;
+  std::array<std::array<std::int32_t, kColumns>, kRows> is_even;
+  int first_row = 0;
+
+  bool at(int i, int j, const CloudPicture& picture) const {
+    if (i < 0 || j < 0 || i >= picture.columns || j >= picture.rows) return true;
+    return is_even[static_cast<std::size_t>((j - first_row) / 2)][static_cast<std::size_t>(i)] != 0;
   }
-  return true;
+};
+
+// Of each other lane from i on.
+HWY_INLINE hn::Mask<D> AreEven(const CloudPicture& picture, int i, int j) {
+  constexpr float kLeast = 0.02f, kLight = 0.12f, kDistance = 0.2f;
+  const D d;
+  const std::size_t above = picture.index(i - 1, j - 1), below = picture.index(i - 1, j + 1);
+  auto is_even = hn::Eq(hn::Zero(d), hn::Zero(d));
+  for (std::size_t channel = 0; channel < CloudPicture::kChannels; ++channel) {
+    const float* const nodes = picture.nodes[channel].data();
+    const V a = hn::LoadU(d, nodes + above), b = hn::LoadU(d, nodes + above + 2);
+    const V c = hn::LoadU(d, nodes + below), e = hn::LoadU(d, nodes + below + 2);
+    const V low = hn::Min(hn::Min(a, b), hn::Min(c, e)),
+            high = hn::Max(hn::Max(a, b), hn::Max(c, e));
+    const float part = channel > CloudPicture::kOpacity ? kDistance : kLight;
+    const V most = hn::MulAdd(high, Constant(part), Constant(kLeast));
+    is_even = hn::And(is_even, hn::Le(hn::Sub(high, low), most));
+  }
+  return is_even;
 }
 
-// Puts nodes that are not coarse between coarse ones, or on the list if a cell beside them is not
+void FindEvenCells(const CloudPicture& picture, int first_row, EvenCells& cells) {
+  const DI di;
+  cells.first_row = first_row;
+  for (int row = 0; row < static_cast<int>(EvenCells::kRows); ++row) {
+    const int j = first_row + 2 * row;
+    if (j < 0 || j >= picture.rows) continue;
+    auto& is_even = cells.is_even[static_cast<std::size_t>(row)];
+    for (int i = 1; i < picture.columns; i += static_cast<int>(hn::Lanes(di))) {
+      const auto even = hn::RebindMask(di, AreEven(picture, i, j));
+      hn::StoreU(hn::IfThenElseZero(even, hn::Set(di, 1)), di,
+                 &is_even[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+// Puts a node that is not coarse between coarse ones, or on the list if a cell beside it is not
 // even.
-void FineCloudNode(CloudPicture& picture, int i, int j, NodeList& list) {
-  const auto even_at = [&](int column, int row) {
-    return column < 0 || row < 0 || column >= picture.columns || row >= picture.rows ||
-           IsEven(picture, column, row);
-  };
+void FineCloudNode(const EvenCells& cells, int i, int j, CloudPicture& picture, NodeList& list) {
   const int across = i % 2, down = j % 2;
-  if (!even_at(i - 1 + across, j - 1 + down) || !even_at(i + 1 - across, j + 1 - down)) {
+  if (!cells.at(i - 1 + across, j - 1 + down, picture) ||
+      !cells.at(i + 1 - across, j + 1 - down, picture)) {
     list.add(i, j, NearestAround(picture, i, j, 2));
     return;
   }
-  const std::size_t here = static_cast<std::size_t>(j) * picture.stride + i;
+  const std::size_t here = picture.index(i, j);
   const auto x = static_cast<std::size_t>(across);
   const std::size_t y = static_cast<std::size_t>(down) * picture.stride;
   for (std::vector<float>& nodes : picture.nodes)
@@ -159,10 +189,12 @@ void FineCloudNode(CloudPicture& picture, int i, int j, NodeList& list) {
 }
 
 void FineCloudRows(const Shading& s, const VolumeClouds& clouds, int j, CloudPicture& picture) {
+  EvenCells cells;
+  FindEvenCells(picture, j - 1, cells);
   NodeList list;
   for (int i = 0; i < picture.columns; ++i)
     for (int row = j; row < std::min(j + static_cast<int>(NodeList::kRows), picture.rows); ++row)
-      if (i % 2 != 0 || row % 2 != 0) FineCloudNode(picture, i, row, list);
+      if (i % 2 != 0 || row % 2 != 0) FineCloudNode(cells, i, row, picture, list);
   DrawNodes(s, clouds, list, picture);
 }
 
