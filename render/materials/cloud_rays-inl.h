@@ -22,8 +22,9 @@ struct CloudLightSeen {
   V clear;        // up to here there is surely nothing
 };
 
-// Less than this is let through nothing.
-constexpr float kLeastPassing = 1.0f / 256.0f;
+// A ray that lets through less than this is followed no further and lets through nothing. From
+// kLittlePassing on what is let through goes there evenly, so that nothing jumps.
+constexpr float kLeastPassing = 1.0f / 100.0f, kLittlePassing = 1.0f / 40.0f;
 
 // The length of steps at a distance: step_m up to far_m, twice as long from there on, and so on.
 HWY_INLINE V StepAt(V t, const CloudSteps& steps) {
@@ -161,8 +162,10 @@ HWY_INLINE CloudLightSeen FollowRays(const Field& field, V begin, V end, const C
   }
   // What is almost opaque is opaque.
   const V found = hn::Sub(one, rays.passes);
-  const auto opaque = hn::Le(rays.passes, Constant(kLeastPassing));
-  seen.opacity = hn::IfThenElse(opaque, one, found);
+  constexpr float kSlope = kLittlePassing / (kLittlePassing - kLeastPassing);
+  const V less = hn::Mul(hn::Sub(rays.passes, Constant(kLeastPassing)), Constant(kSlope));
+  const V passes = hn::Max(hn::Min(rays.passes, less), zero);
+  seen.opacity = hn::Sub(one, passes);
   const V scale = hn::Div(seen.opacity, hn::Max(found, Constant(1e-20f)));
   seen.sun = hn::Mul(seen.sun, scale);
   seen.sky = hn::Mul(seen.sky, scale);
