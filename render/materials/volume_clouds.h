@@ -27,6 +27,7 @@ struct VolumeClouds {
   float drop_per_m2 = 0.0f;
   CloudSteps steps;
   bool rays = false, powder = false, skips_empty = true;
+  bool small_forms = true;  // else they count by their mean
   glm::vec3 to_light{0, 0, 1};
   // Linear RGB, exposed.
   glm::vec3 sun{0.0f};     // irradiance over the clouds

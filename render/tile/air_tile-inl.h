@@ -67,15 +67,26 @@ struct FogAhead {
     return {read(0), read(1), read(2)};
   }
 
+  HWY_INLINE FogRay RayTo(const Shading& s, const PlaceShown& at) const {
+    return {s.media.fog.at_eye, Scale(at.way, inverse_length), hn::Mul(at.depth, length),
+            hn::Add(at.height, Constant(s.rays.eye_z))};
+  }
   HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
-    const FogRay ray = {s.media.fog.at_eye, Scale(at.way, inverse_length),
-                        hn::Mul(at.depth, length), hn::Add(at.height, Constant(s.rays.eye_z))};
-    return HazeAndFog(s, ray, phase, light,
+    return HazeAndFog(s, RayTo(s, at), phase, light,
                       [&]() HWY_ATTR { return MakePacket(s.rays, at.x_px, at.y_px, at.z); });
   }
 };
 
-// ... and of the air below.
+// The air below before the first `length` of the way, whose whole is `distance`.
+HWY_INLINE V3 LayAloft(const Shading& s, const PlaceShown& at, const AirAhead& air, V distance,
+                       V length, V3 light) {
+  const V zero = hn::Zero(D());
+  const V3 p = {hn::Mul(at.way.x, at.depth), hn::Mul(at.way.y, at.depth), at.height};
+  const Packet packet = {zero, zero, at.depth, p, distance, {zero, zero, zero}};
+  return ThroughAirAloft(s, packet, light, length, [&]() HWY_ATTR { return air; });
+}
+
+// ... of the air below ...
 struct AloftAhead {
   static constexpr std::size_t kChannels = 5;
   V length;
@@ -96,11 +107,38 @@ struct AloftAhead {
   }
 
   HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
-    const V zero = hn::Zero(D());
     const V distance = hn::Mul(at.depth, length);
-    const V3 p = {hn::Mul(at.way.x, at.depth), hn::Mul(at.way.y, at.depth), at.height};
-    const Packet packet = {zero, zero, at.depth, p, distance, {zero, zero, zero}};
-    return ThroughAirAloft(s, packet, light, distance, [&]() HWY_ATTR { return air; });
+    return LayAloft(s, at, air, distance, distance, light);
+  }
+};
+
+// ... and of both.
+struct FogBelowAhead {
+  static constexpr std::size_t kChannels = FogAhead::kChannels + 4;
+  FogAhead fog;
+  AirAhead air;
+
+  static HWY_INLINE FogBelowAhead Find(const Shading& s, V3 way) {
+    const FogAhead fog = FogAhead::Find(s, way);
+    return {fog, FindAirAhead(s.light, Scale(way, fog.inverse_length))};
+  }
+  template <class Store>
+  HWY_INLINE void StoreTo(const Store& store) const {
+    fog.StoreTo(store);
+    store(3, air.below.x), store(4, air.below.y), store(5, air.below.z), store(6, air.steep);
+  }
+  template <class Read>
+  static HWY_INLINE FogBelowAhead ReadFrom(const Read& read) {
+    return {FogAhead::ReadFrom(read), {{read(3), read(4), read(5)}, read(6)}};
+  }
+
+  HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
+    const FogRay ray = fog.RayTo(s, at);
+    return HazeAndFog(
+        s, ray, fog.phase, light,
+        [&]() HWY_ATTR { return MakePacket(s.rays, at.x_px, at.y_px, at.z); },
+        [&](V3 seen, V length)
+            HWY_ATTR { return LayAloft(s, at, air, ray.distance, length, seen); });
   }
 };
 
@@ -152,7 +190,9 @@ HWY_INLINE void LayOverTile(const Shading& s, const raster::PixelBox& box, const
 inline HWY_NOINLINE void LayAirOverTile(const Shading& s, const raster::PixelBox& box,
                                         const float* depth, ShadeScratch& scratch) {
   if (!IsAirLaidLast(s)) return;
-  if (s.media.fog.on)
+  if (IsFogSeenFromAloft(s))
+    LayOverTile<FogBelowAhead>(s, box, depth, scratch);
+  else if (s.media.fog.on)
     LayOverTile<FogAhead>(s, box, depth, scratch);
   else
     LayOverTile<AloftAhead>(s, box, depth, scratch);

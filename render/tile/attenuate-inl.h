@@ -119,9 +119,10 @@ HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
 
 // Haze, and fog in front of it, where an eye over the fog has more haze before both. In a slab fog
 // takes haze's place. packet_of(): what the ray ends at, asked for where there is haze.
-template <class PacketOf>
+// haze_before(colour, length): lays the haze before the fog.
+template <class PacketOf, class HazeBefore>
 HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour,
-                         const PacketOf& packet_of) {
+                         const PacketOf& packet_of, const HazeBefore& haze_before) {
   const D d;
   const V zero = hn::Zero(d);
   const Fog& fog = s.media.fog;
@@ -134,8 +135,23 @@ HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour
   behind = hn::IfThenElseZero(hn::Ge(seen, Constant(1.0f / 512.0f)), behind);
   if (!hn::AllFalse(d, hn::Gt(behind, zero))) colour = Haze(s, packet_of(), colour, behind);
   colour = ThroughFog(view, colour);
-  return hn::AllTrue(d, hn::Eq(path.before, zero)) ? colour
-                                                   : Haze(s, packet_of(), colour, path.before);
+  return hn::AllTrue(d, hn::Eq(path.before, zero)) ? colour : haze_before(colour, path.before);
+}
+
+template <class PacketOf>
+HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour,
+                         const PacketOf& packet_of) {
+  return HazeAndFog(s, ray, phase, colour, packet_of, [&](V3 light, V length) HWY_ATTR {
+    return Haze(s, packet_of(), light, length);
+  });
+}
+
+// Whether rays of this view may meet air before they meet fog, and what this air shows depends on
+// the direction alone.
+HWY_INLINE bool IsFogSeenFromAloft(const Shading& s) {
+  const Fog& fog = s.media.fog;
+  const float reaches_m = fog.is_exponential ? 2.0f * fog.top_m : fog.top_m;
+  return fog.on && s.media.molecules_per_m.z > 0.0f && fog.at_eye.height_m > reaches_m;
 }
 
 // All of the air between the eye and what a packet shows. A function of its own: few call it.

@@ -42,7 +42,8 @@ HWY_INLINE V3 LayClouds(const CloudsSeen& seen, V distance_m, V3 light) {
   return ScaleAdd(seen.light, shown, Scale(light, hn::Sub(one, hidden)));
 }
 
-// The clouds in the kLanes pixels from (x, y) of the window on; x a multiple of kLanes.
+// The clouds in the kLanes pixels from (x, y) of the window on; x a multiple of kLanes. Where they
+// hide nothing the rest is 0.
 HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) {
   const D d;
   const DI di;
@@ -62,10 +63,12 @@ HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) 
     return Lerp(hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, left)),
                 hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, right)), across);
   };
-  return {{read(0), read(1), read(2)},
-          read(CloudPicture::kOpacity),
-          read(CloudPicture::kFront),
-          read(CloudPicture::kBack)};
+  const V zero = hn::Zero(d);
+  CloudsSeen seen = {{zero, zero, zero}, read(CloudPicture::kOpacity), zero, zero};
+  if (hn::AllFalse(d, hn::Gt(seen.opacity, zero))) return seen;
+  seen.light = {read(0), read(1), read(2)};
+  seen.front = read(CloudPicture::kFront), seen.back = read(CloudPicture::kBack);
+  return seen;
 }
 
 // The same at any places in the window.

@@ -1,6 +1,6 @@
 // The volumetric clouds of a window: rays for every eighth pixel of every eighth row, for every
-// fourth where those differ (from high up for half of these), and what a pixel sees up to its own
-// depth from the four nodes around it.
+// fourth where those differ (in small pictures and from high up for half of these), and what a
+// pixel sees up to its own depth from the four nodes around it.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ namespace swell::render {
 struct Shading;
 
 struct CloudPicture {
-  static constexpr int kStepLog2 = 2, kLeastStepLog2 = 1;
+  static constexpr int kMostStepLog2 = 2, kLeastStepLog2 = 1;
   static constexpr std::size_t kPadding = 32;  // nodes after a row's last, for whole vectors
 
   bool any = false;
-  std::uint8_t step_log2 = kStepLog2;  // less from high up, where clouds are small
+  std::uint8_t step_log2 = kMostStepLog2;  // less in small pictures and from high up
   int columns = 0, rows = 0;
   std::size_t stride = 0;
   // Nodes at pixels (s i, s j), s = 2^step_log2: the light of clouds as it arrives (red, green,
@@ -28,7 +28,11 @@ struct CloudPicture {
   static constexpr std::size_t kChannels = 6, kOpacity = 3, kFront = 4, kBack = 5;
   std::array<std::vector<float>, kChannels> nodes;
 
+  // Of nodes whose rays were followed: up to where the ray met nothing [m].
+  std::vector<float> clear;
+
   int step() const { return 1 << step_log2; }
+  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * stride + i; }
 };
 
 // Draws the clouds that the window of `shading` sees.

@@ -11,7 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 //
-#include "render/materials/cloud_volume-inl.h"
+#include "render/materials/cloud_field-inl.h"
 #include "render/tile/attenuate-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,14 +32,17 @@ HWY_INLINE Packet CloudPacket(const Shading& s, V3 direction, V distance) {
   return packet;
 }
 
-// What nodes show, in the channels of CloudPicture.
-using NodeChannels = std::array<V, CloudPicture::kChannels>;
+// What nodes show, in the channels of CloudPicture, and how far there is nothing.
+struct NodesSeen {
+  std::array<V, CloudPicture::kChannels> channels;
+  V clear;
+};
 
-NodeChannels SeeNodes(const Shading& s, const VolumeClouds& clouds, V x_px, V y_px) {
+NodesSeen SeeNodes(const Shading& s, const VolumeClouds& clouds, V x_px, V y_px, V nearest) {
   const D d;
   const V3 ray = RayAt(s.rays, x_px, y_px);
   const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
-  const CloudLightSeen seen = SeeClouds(clouds, direction, Constant(kFarthestCloud_m));
+  const CloudLightSeen seen = SeeClouds(clouds, direction, nearest, Constant(kFarthestCloud_m));
   V3 light = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   if (!hn::AllFalse(d, hn::Gt(seen.opacity, hn::Zero(d)))) {
     // The air before what is hidden shows as much of the cloud as is seen.
@@ -47,23 +50,22 @@ NodeChannels SeeNodes(const Shading& s, const VolumeClouds& clouds, V x_px, V y_
     const V3 own = Scale(RadianceOf(clouds, seen), inverse);
     light = Scale(ThroughAir(s, CloudPacket(s, direction, seen.distance), own), seen.opacity);
   }
-  return {light.x,
-          light.y,
-          light.z,
-          seen.opacity,
-          hn::Mul(seen.opacity, seen.front),
-          hn::Mul(seen.opacity, seen.back)};
+  return {{light.x, light.y, light.z, seen.opacity, hn::Mul(seen.opacity, seen.front),
+           hn::Mul(seen.opacity, seen.back)},
+          seen.clear};
 }
 
-// Nodes of two rows to follow rays of, column by column, so that those of a packet lie together.
+// Nodes of some rows to follow rays of, column by column, so that those of a packet lie together.
 struct NodeList {
   struct Node {
     int i, j;
+    float nearest_m;  // there is nothing before
   };
-  std::array<Node, 2 * ((raster::kMaxViewport >> CloudPicture::kLeastStepLog2) + 3)> at;
+  static constexpr std::size_t kRows = 4;
+  std::array<Node, kRows*(static_cast<std::size_t>(raster::kMaxViewport) + 8)> at;
   std::size_t count = 0;
 
-  void add(int i, int j) { at[count++] = {i, j}; }
+  void add(int i, int j, float nearest_m) { at[count++] = {i, j, nearest_m}; }
 };
 
 void DrawNodes(const Shading& s, const VolumeClouds& clouds, const NodeList& list,
@@ -72,60 +74,113 @@ void DrawNodes(const Shading& s, const VolumeClouds& clouds, const NodeList& lis
   const auto step = static_cast<float>(picture.step());
   constexpr std::size_t kWidth = hn::MaxLanes(D());
   for (std::size_t n = 0; n < list.count; n += kWidth) {
-    HWY_ALIGN std::array<float, kWidth> x_px, y_px, values;
+    HWY_ALIGN std::array<float, kWidth> x_px, y_px, nearest_m;
     const std::size_t used = std::min(list.count - n, kWidth);
     for (std::size_t i = 0; i < kWidth; ++i) {
       const NodeList::Node node = list.at[n + std::min(i, used - 1)];
       x_px[i] = step * static_cast<float>(node.i), y_px[i] = step * static_cast<float>(node.j);
+      nearest_m[i] = node.nearest_m;
     }
-    const NodeChannels seen =
-        SeeNodes(s, clouds, hn::Load(d, x_px.data()), hn::Load(d, y_px.data()));
-    for (std::size_t channel = 0; channel < seen.size(); ++channel) {
-      hn::Store(seen[channel], d, values.data());
-      for (std::size_t i = 0; i < used; ++i) {
-        const NodeList::Node node = list.at[n + i];
-        picture.nodes[channel][static_cast<std::size_t>(node.j) * picture.stride + node.i] =
-            values[i];
-      }
-    }
+    const NodesSeen seen = SeeNodes(s, clouds, hn::Load(d, x_px.data()), hn::Load(d, y_px.data()),
+                                    hn::Load(d, nearest_m.data()));
+    const auto put = [&](V values, std::vector<float>& nodes) HWY_ATTR {
+      HWY_ALIGN std::array<float, kWidth> lanes;
+      hn::Store(values, d, lanes.data());
+      for (std::size_t i = 0; i < used; ++i)
+        nodes[picture.index(list.at[n + i].i, list.at[n + i].j)] = lanes[i];
+    };
+    for (std::size_t c = 0; c < seen.channels.size(); ++c) put(seen.channels[c], picture.nodes[c]);
+    put(seen.clear, picture.clear);
   }
 }
 
-void CoarseCloudRows(const Shading& s, const VolumeClouds& clouds, int j, CloudPicture& picture) {
+// How far there is nothing around (i, j), by the nodes of multiples of `spacing`.
+float NearestAround(const CloudPicture& picture, int i, int j, int spacing) {
+  const int left = std::max((i - 1) / spacing * spacing, 0);
+  const int right = std::min((i + spacing) / spacing * spacing, picture.columns - 1);
+  const int above = std::max((j - 1) / spacing * spacing, 0);
+  const int below = std::min((j + spacing) / spacing * spacing, picture.rows - 1);
+  float nearest_m = kFarthestCloud_m;
+  for (int row = above; row <= below; row += spacing)
+    for (int column = left; column <= right; column += spacing)
+      nearest_m = std::min(nearest_m, picture.clear[picture.index(column, row)]);
+  return nearest_m;
+}
+
+// Nodes of multiples of `spacing` in rows j to j + 3 spacing, but for those of multiples of
+// 2 spacing if those are `known`.
+void CoarseCloudRows(const Shading& s, const VolumeClouds& clouds, int j, int spacing, bool known,
+                     CloudPicture& picture) {
   NodeList list;
-  for (int i = 0; i < picture.columns; i += 2)
-    for (int row = j; row < std::min(j + 4, picture.rows); row += 2) list.add(i, row);
+  const int end = std::min(j + static_cast<int>(NodeList::kRows) * spacing, picture.rows);
+  for (int i = 0; i < picture.columns; i += spacing)
+    for (int row = j; row < end; row += spacing) {
+      if (!known)
+        list.add(i, row, 0.0f);
+      else if (i % (2 * spacing) != 0 || row % (2 * spacing) != 0)
+        list.add(i, row, NearestAround(picture, i, row, 2 * spacing));
+    }
   DrawNodes(s, clouds, list, picture);
 }
 
-// Whether the coarse nodes around (i, j), both odd, show about the same.
-bool IsEven(const CloudPicture& picture, int i, int j) {
-  constexpr float kLeast = 0.02f, kLight = 0.12f, kDistance = 0.2f;
-  const std::size_t above = static_cast<std::size_t>(j - 1) * picture.stride;
-  const std::size_t below = above + 2 * picture.stride;
-  for (std::size_t channel = 0; channel < CloudPicture::kChannels; ++channel) {
-    const float* const left = picture.nodes[channel].data() + i - 1;
-    const auto [low, high] =
-        std::minmax({left[above], left[above + 2], left[below], left[below + 2]});
-    const float part = channel > CloudPicture::kOpacity ? kDistance : kLight;
-    if (high - low > kLeast + part * high) return false;
+// Cells between coarse nodes whose corners show about the same, by a cell's middle (i, j), both
+// odd: those of three rows, from j on.
+struct EvenCells {
+  static constexpr std::size_t kRows = 3;
+  static constexpr std::size_t kColumns = raster::kMaxViewport + 8 + CloudPicture::kPadding;
+  std::array<std::array<std::int32_t, kColumns>, kRows> is_even;
+  int first_row = 0;
+
+  bool at(int i, int j, const CloudPicture& picture) const {
+    if (i < 0 || j < 0 || i >= picture.columns || j >= picture.rows) return true;
+    return is_even[static_cast<std::size_t>((j - first_row) / 2)][static_cast<std::size_t>(i)] != 0;
   }
-  return true;
+};
+
+// Of each other lane from i on.
+HWY_INLINE hn::Mask<D> AreEven(const CloudPicture& picture, int i, int j) {
+  constexpr float kLeast = 0.02f, kLight = 0.12f, kDistance = 0.2f;
+  const D d;
+  const std::size_t above = picture.index(i - 1, j - 1), below = picture.index(i - 1, j + 1);
+  auto is_even = hn::Eq(hn::Zero(d), hn::Zero(d));
+  for (std::size_t channel = 0; channel < CloudPicture::kChannels; ++channel) {
+    const float* const nodes = picture.nodes[channel].data();
+    const V a = hn::LoadU(d, nodes + above), b = hn::LoadU(d, nodes + above + 2);
+    const V c = hn::LoadU(d, nodes + below), e = hn::LoadU(d, nodes + below + 2);
+    const V low = hn::Min(hn::Min(a, b), hn::Min(c, e)),
+            high = hn::Max(hn::Max(a, b), hn::Max(c, e));
+    const float part = channel > CloudPicture::kOpacity ? kDistance : kLight;
+    const V most = hn::MulAdd(high, Constant(part), Constant(kLeast));
+    is_even = hn::And(is_even, hn::Le(hn::Sub(high, low), most));
+  }
+  return is_even;
 }
 
-// Puts nodes that are not coarse between coarse ones, or on the list if a cell beside them is not
+void FindEvenCells(const CloudPicture& picture, int first_row, EvenCells& cells) {
+  const DI di;
+  cells.first_row = first_row;
+  for (int row = 0; row < static_cast<int>(EvenCells::kRows); ++row) {
+    const int j = first_row + 2 * row;
+    if (j < 0 || j >= picture.rows) continue;
+    auto& is_even = cells.is_even[static_cast<std::size_t>(row)];
+    for (int i = 1; i < picture.columns; i += static_cast<int>(hn::Lanes(di))) {
+      const auto even = hn::RebindMask(di, AreEven(picture, i, j));
+      hn::StoreU(hn::IfThenElseZero(even, hn::Set(di, 1)), di,
+                 &is_even[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+// Puts a node that is not coarse between coarse ones, or on the list if a cell beside it is not
 // even.
-void FineCloudNode(CloudPicture& picture, int i, int j, NodeList& list) {
-  const auto even_at = [&](int column, int row) {
-    return column < 0 || row < 0 || column >= picture.columns || row >= picture.rows ||
-           IsEven(picture, column, row);
-  };
+void FineCloudNode(const EvenCells& cells, int i, int j, CloudPicture& picture, NodeList& list) {
   const int across = i % 2, down = j % 2;
-  if (!even_at(i - 1 + across, j - 1 + down) || !even_at(i + 1 - across, j + 1 - down)) {
-    list.add(i, j);
+  if (!cells.at(i - 1 + across, j - 1 + down, picture) ||
+      !cells.at(i + 1 - across, j + 1 - down, picture)) {
+    list.add(i, j, NearestAround(picture, i, j, 2));
     return;
   }
-  const std::size_t here = static_cast<std::size_t>(j) * picture.stride + i;
+  const std::size_t here = picture.index(i, j);
   const auto x = static_cast<std::size_t>(across);
   const std::size_t y = static_cast<std::size_t>(down) * picture.stride;
   for (std::vector<float>& nodes : picture.nodes)
@@ -134,10 +189,12 @@ void FineCloudNode(CloudPicture& picture, int i, int j, NodeList& list) {
 }
 
 void FineCloudRows(const Shading& s, const VolumeClouds& clouds, int j, CloudPicture& picture) {
+  EvenCells cells;
+  FindEvenCells(picture, j - 1, cells);
   NodeList list;
   for (int i = 0; i < picture.columns; ++i)
-    for (int row = j; row < std::min(j + 2, picture.rows); ++row)
-      if (i % 2 != 0 || row % 2 != 0) FineCloudNode(picture, i, row, list);
+    for (int row = j; row < std::min(j + static_cast<int>(NodeList::kRows), picture.rows); ++row)
+      if (i % 2 != 0 || row % 2 != 0) FineCloudNode(cells, i, row, picture, list);
   DrawNodes(s, clouds, list, picture);
 }
 
@@ -152,8 +209,8 @@ void CloudSkyRow(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSk
     const V r2 = hn::MulAdd(u, u, hn::Mul(v, v));
     const V z = hn::Max(hn::Div(hn::Sub(one, r2), hn::Add(one, r2)), Constant(0.004f));
     const V across = hn::Sqrt(hn::Div(hn::NegMulAdd(z, z, one), hn::Max(r2, Constant(1e-12f))));
-    const CloudLightSeen seen =
-        SeeClouds(clouds, {hn::Mul(u, across), hn::Mul(v, across), z}, Constant(kFarthestCloud_m));
+    const CloudLightSeen seen = SeeClouds(clouds, {hn::Mul(u, across), hn::Mul(v, across), z},
+                                          hn::Zero(d), Constant(kFarthestCloud_m));
     const V height = hn::Mul(seen.distance, z);
     const V density =
         hn::Div(Constant(air.inv_haze_m), hn::MulAdd(height, Constant(air.inv_haze_height_m), one));
@@ -180,16 +237,16 @@ HWY_EXPORT(CoarseCloudRows);
 HWY_EXPORT(FineCloudRows);
 HWY_EXPORT(CloudSkyRow);
 
-void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int j,
-                         CloudPicture& picture) {
-  SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && j % 4 == 0, "row={} of {}", j,
-              picture.rows);
-  HWY_DYNAMIC_DISPATCH(CoarseCloudRows)(shading, clouds, j, picture);
+void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int j, int spacing,
+                         bool known, CloudPicture& picture) {
+  SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && spacing > 0 && j % (4 * spacing) == 0,
+              "row={} of {}, spacing={}", j, picture.rows, spacing);
+  HWY_DYNAMIC_DISPATCH(CoarseCloudRows)(shading, clouds, j, spacing, known, picture);
 }
 
 void write_fine_clouds(const Shading& shading, const VolumeClouds& clouds, int j,
                        CloudPicture& picture) {
-  SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && j % 2 == 0, "row={} of {}", j,
+  SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && j % 4 == 0, "row={} of {}", j,
               picture.rows);
   HWY_DYNAMIC_DISPATCH(FineCloudRows)(shading, clouds, j, picture);
 }

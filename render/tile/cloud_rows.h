@@ -5,12 +5,15 @@
 
 namespace swell::render {
 
-// Every second node of rows j and j + 2, j a multiple of 4.
-void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int j,
-                         CloudPicture& picture);
+// Nodes of multiples of `spacing` in rows j to j + 3 spacing, j a multiple of 4 spacing; if those
+// of multiples of 2 spacing are `known`, the others, whose rays begin where those met the first
+// forms.
+void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int j, int spacing,
+                         bool known, CloudPicture& picture);
 
-// The nodes of rows j and j + 1, j even, that are not coarse: between coarse nodes that show about
-// the same they are interpolated, elsewhere they have rays of their own.
+// The nodes of rows j to j + 3, j a multiple of 4, that are not coarse: between coarse nodes (of
+// multiples of 2) that show about the same they are interpolated, elsewhere they have rays of their
+// own.
 void write_fine_clouds(const Shading& shading, const VolumeClouds& clouds, int j,
                        CloudPicture& picture);
 

@@ -30,7 +30,7 @@ inline constexpr std::size_t kListPadding = 64;  // a list's end, up to whole pa
 // once that is drawn, the same of the air before surfaces.
 struct SkyNodes {
   static constexpr std::size_t kStride = 32, kViewChannels = 9, kNoiseChannels = 3,
-                               kAirChannels = 6;
+                               kAirChannels = 7;
   alignas(64) std::array<std::array<float, kStride * 17>, kViewChannels> view{};
   alignas(64) std::array<std::array<float, kStride * 64>, kNoiseChannels> noise{};
   alignas(64) std::array<std::array<float, kStride * 17>, kAirChannels> air{};

@@ -152,13 +152,11 @@ void pack_columns(const std::vector<double>& columns, CloudVolume& volume) {
     const std::size_t column =
         static_cast<std::size_t>(y & (kSide - 1)) * kSide + (x & (kSide - 1));
     const double steps = std::nearbyint(columns[column] / most * 32767.0);
-    return static_cast<std::uint64_t>(static_cast<std::uint16_t>(static_cast<std::int16_t>(steps)));
+    return std::uint32_t{static_cast<std::uint16_t>(static_cast<std::int16_t>(steps))};
   };
-  volume.columns.resize(columns.size());
+  volume.columns.reserve(static_cast<std::size_t>(kSide) * (kSide + 1));
   for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
-      volume.columns[static_cast<std::size_t>(y) * kSide + x] =
-          at(x, y) | at(x + 1, y) << 16 | at(x, y + 1) << 32 | at(x + 1, y + 1) << 48;
+    for (int x = 0; x <= kSide; ++x) volume.columns.push_back(at(x, y) | at(x, y + 1) << 16);
 }
 
 // Noise over the plane says where clouds stand, how high they tower follows from it, and round
@@ -346,7 +344,7 @@ void find_empty(const std::vector<std::uint8_t>& most, CloudVolume& volume) {
     widen(near, n, n, true);
     widen(near, static_cast<std::size_t>(n) * n, static_cast<std::size_t>(cell_levels), false);
   }
-  distance.resize(distance.size() + 3, 0);
+  distance.resize(distance.size() + 7, 0);
   volume.empty = std::move(distance);
 }
 
@@ -358,15 +356,14 @@ void find_light(glm::vec3 to_light, Workers& workers, CloudVolume& volume) {
     write_cloud_light_row(volume, to_light, row / n, row % n,
                           light.data() + static_cast<std::ptrdiff_t>(row) * n);
   });
-  const auto pack = [&](auto byte_of) {
-    std::vector<std::uint8_t> bytes(light.size());
-    std::ranges::transform(light, bytes.begin(), byte_of);
-    return pack_corners(CloudVolume::kLightSideLog2, levels, bytes).words;
+  const auto at = [&](int x, int y, int z) {
+    const int level = std::min(z, levels - 1);
+    return std::uint32_t{light[static_cast<std::size_t>((level * n + y) * n + (x & (n - 1)))]};
   };
-  volume.light = pack([](std::uint16_t both) { return static_cast<std::uint8_t>(both); });
-  const auto sky = pack([](std::uint16_t both) { return static_cast<std::uint8_t>(both >> 8); });
-  for (std::size_t i = 0; i < sky.size(); ++i)
-    volume.light[i] = (volume.light[i] & 0xffffffffu) | sky[i] << 32;
+  volume.light.reserve(static_cast<std::size_t>(n + 1) * n * levels);
+  for (int z = 0; z < levels; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x <= n; ++x) volume.light.push_back(at(x, y, z) | at(x, y, z + 1) << 16);
   volume.sunlight.resize(static_cast<std::size_t>(kSide) * kSide);
   for_each_row(kSide, workers, [&](int y) {
     write_cloud_sunlight_row(volume, to_light, y,
@@ -383,21 +380,17 @@ void find_light(glm::vec3 to_light, Workers& workers, CloudVolume& volume) {
 CornerVolume pack_corners(int side_log2, int levels, const std::vector<std::uint8_t>& bytes) {
   CornerVolume volume{side_log2, levels, {}};
   const int n = volume.side(), wrap = n - 1;
-  volume.words.resize(static_cast<std::size_t>(n) * n * levels);
-  for (int z = levels - 1; z >= 0; --z)
+  const auto at = [&](int x, int y, int z) {
+    const int level = std::min(z, levels - 1);
+    return std::uint32_t{
+        bytes[(static_cast<std::size_t>(level) * n + (y & wrap)) * n + (x & wrap)]};
+  };
+  volume.entries.reserve(static_cast<std::size_t>(n + 1) * n * levels);
+  for (int z = 0; z < levels; ++z)
     for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n; ++x) {
-        const auto at = [&](int i, int j) {
-          return static_cast<std::uint64_t>(
-              bytes[(static_cast<std::size_t>(z) * n + (j & wrap)) * n + (i & wrap)]);
-        };
-        const std::size_t word = (static_cast<std::size_t>(z) * n + y) * n + x;
-        const std::uint64_t here =
-            at(x, y) | at(x + 1, y) << 8 | at(x, y + 1) << 16 | at(x + 1, y + 1) << 24;
-        const std::uint64_t above =
-            z + 1 < levels ? volume.words[word + static_cast<std::size_t>(n) * n] : here;
-        volume.words[word] = here | above << 32;
-      }
+      for (int x = 0; x <= n; ++x)
+        volume.entries.push_back(at(x, y, z) | at(x, y, z + 1) << 8 | at(x, y + 1, z) << 16 |
+                                 at(x, y + 1, z + 1) << 24);
   return volume;
 }
 

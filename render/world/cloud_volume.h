@@ -16,11 +16,12 @@
 namespace swell::render {
 
 // A table of bytes at the points of a lattice, side x side x levels, which repeats along x and y.
-// The word of a point holds, from the low byte up, the values at (x, y), (x + 1, y), (x, y + 1) and
-// (x + 1, y + 1) of its level, and those of the next level.
+// The entry of a point holds, from the low byte up, the values at (x, y, z), (x, y, z + 1),
+// (x, y + 1, z) and (x, y + 1, z + 1). A row ends with its first entry again, so that 64 bits from
+// an entry on hold the eight corners of its cell.
 struct CornerVolume {
   int side_log2 = 0, levels = 0;
-  std::vector<std::uint64_t> words;
+  std::vector<std::uint32_t> entries;
 
   int side() const { return 1 << side_log2; }
 };
@@ -49,12 +50,11 @@ struct CloudVolume {
   double detail_period_m = 800.0;
   float cut = 0.0f, extinction_per_m = 0.03f, threshold = 0.0f;
   float least_form = 0.0f;  // of which small forms may leave something
-  // A word a point of a lattice half as fine along x and y: in its lower half the sunlight that
-  // reaches it as a byte, and that of (x + 1, y), (x, y + 1) and (x + 1, y + 1); in its upper half
-  // the skylight.
-  std::vector<std::uint64_t> light;
+  // An entry a point of a lattice half as fine along x and y: from the low byte up the sunlight and
+  // the skylight that reach it, and those of the next level. Rows are those of a CornerVolume.
+  std::vector<std::uint32_t> light;
   // By cell of kCell^3 voxels: how many cells one may go along each axis before a cell with a
-  // cloud; 0 in such a cell. Three more bytes follow.
+  // cloud; 0 in such a cell. Seven more bytes follow.
   std::vector<std::uint8_t> empty;
   int cell_levels = 1;
   // What the clouds leave of the sun under each column at the height of the base.
@@ -63,17 +63,17 @@ struct CloudVolume {
 
   // A layer's form where it reaches `height` of its thickness: columns + bulge d - rise p(height),
   // d of the small forms, one of their points to a voxel, and p(h) = h (towers + (1 - towers) h)^2;
-  // at most limit_per_m times the way to its base and its top. A word of `columns` holds, from the
-  // low half up, four values of 16 bits, times column_step: at (x, y), (x + 1, y), (x, y + 1) and
-  // (x + 1, y + 1). So few bytes that they stay in the caches, where a table of the form does not.
-  std::vector<std::uint64_t> columns;
+  // at most limit_per_m times the way to its base and its top. An entry of `columns` holds two
+  // values of 16 bits, times column_step: at (x, y), in the low half, and (x, y + 1). So few bytes
+  // that they stay in the caches, where a table of the form does not.
+  std::vector<std::uint32_t> columns;
   float column_step = 1.0f, bulge = 0.0f, rise = 0.0f, towers = 0.0f, limit_per_m = 0.0f;
 
   bool is_layer() const { return !columns.empty(); }
   double side_m() const { return voxel_m * form.side(); }
 };
 
-// to_light: unit. Takes 0.2 s on two threads and 6 to 40 MB. The same bits with any workers.
+// to_light: unit. Takes 0.2 s on two threads and 4 to 21 MB. The same bits with any workers.
 CloudVolume build_cloud_volume(const scene::CloudField& field, glm::vec3 to_light,
                                Workers& workers);
 

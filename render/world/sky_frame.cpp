@@ -57,8 +57,9 @@ void advance_clouds(const World::State& world, const Clouds& mirrored, double t_
                     PartSet without, SkyFrame& sky, const StageRun& run) {
   constexpr float kTexel = 2.0f / CloudSky::kSide;
   VolumeClouds volume = make_volume_clouds(world, t_s, {eye, 0.0}, kTexel, without);
-  // Blurred clouds take no more than long steps.
+  // Blurred clouds take no more than long steps and large forms.
   volume.steps = {128.0f, 2048.0f};
+  volume.small_forms = false;
   const scene::Sky& air = world.scene.sky;
   draw_cloud_sky(volume,
                  {world.sky->horizon, static_cast<float>(1.0 / air.haze_distance_m),

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-#include "render/materials/cloud_volume-inl.h"
+#include "render/materials/cloud_field-inl.h"
 #include "render/tile/cloud_picture-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,10 +20,10 @@ struct EvenField {
   V density;
 
   HWY_INLINE V EmptyUntil(V) const { return hn::Zero(D()); }
-  template <class M>
-  HWY_INLINE V Density(V, M) const {
-    return density;
-  }
+  HWY_INLINE V Body(V) const { return density; }
+  HWY_INLINE V Form(V, V body) const { return body; }
+  HWY_INLINE hn::Mask<D> MayHold(V form) const { return hn::Gt(form, hn::Zero(D())); }
+  HWY_INLINE V Density(V, V form) const { return form; }
   HWY_INLINE void Light(V, V& sun, V& sky) const { sun = sky = Constant(1.0f); }
 };
 
@@ -69,7 +69,8 @@ void See(const VolumeClouds& clouds, std::span<const glm::vec3> directions, floa
     const auto axis = [&](int c) {
       return LoadSome(n, i, [&](std::size_t k) { return directions[k][c]; });
     };
-    StoreSeen(SeeClouds(clouds, {axis(0), axis(1), axis(2)}, Constant(farthest_m)), i, seen);
+    StoreSeen(SeeClouds(clouds, {axis(0), axis(1), axis(2)}, hn::Zero(D()), Constant(farthest_m)),
+              i, seen);
   }
 }
 
