@@ -30,4 +30,12 @@ void resize_large(std::vector<T>& array, std::size_t count) {
   array.resize(count);
 }
 
+// An array of so many elements, each T().
+template <class T>
+std::vector<T> make_large(std::size_t count) {
+  std::vector<T> array;
+  resize_large(array, count);
+  return array;
+}
+
 }  // namespace swell

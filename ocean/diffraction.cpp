@@ -54,8 +54,24 @@ struct MarchGrid {
   }
 };
 
+// What lies within LandMask::kSquare points of a place.
+LandMask::Around around_place(const LandMask& mask, glm::dvec2 p_world) {
+  const glm::dvec2 at =
+      (p_world - mask.grid.min_world) / (LandMask::kSquare * mask.grid.spacing_m) + 1.0;
+  if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < mask.squares_across && at.y < mask.squares_along))
+    return LandMask::Around::kWater;
+  const auto row = static_cast<std::size_t>(at.y);
+  return mask
+      .around[row * static_cast<std::size_t>(mask.squares_across) + static_cast<std::size_t>(at.x)];
+}
+
 // The part of a cell's width that land does not close.
 double open_part(const LandMask& mask, const MarchGrid& march, int row, int i) {
+  // No place asked below is half a cell away.
+  if (march.spacing_m < LandMask::kSquare * mask.grid.spacing_m) {
+    const LandMask::Around around = around_place(mask, march.point(row, i));
+    if (around != LandMask::Around::kBoth) return around == LandMask::Around::kWater ? 1.0 : 0.0;
+  }
   const auto is_closed = [&](double side) {
     const glm::dvec2 begin = march.point(row, i + side);
     for (int n = 0; n < kAlong; ++n) {
@@ -149,6 +165,39 @@ Marched march(const LandMask& mask, const PlaneWave& wave, const MarchGrid& grid
   return marched;
 }
 
+// How many points of a square are land; 0 for squares beyond the grid.
+int land_in_square(const LandMask& mask, int column, int row) {
+  constexpr int kSide = LandMask::kSquare;
+  const int first_x = std::max(column * kSide, 0), first_y = std::max(row * kSide, 0);
+  const int end_x = std::min((column + 1) * kSide, mask.grid.samples_x);
+  const int end_y = std::min((row + 1) * kSide, mask.grid.samples_y);
+  int count = 0;
+  for (int j = first_y; j < end_y; ++j)
+    for (int i = first_x; i < end_x; ++i) count += mask.land[mask.grid.index(i, j)];
+  return count;
+}
+
+void fill_around(LandMask& mask) {
+  constexpr int kSide = LandMask::kSquare;
+  mask.squares_across = (mask.grid.samples_x + kSide - 1) / kSide + 2;
+  mask.squares_along = (mask.grid.samples_y + kSide - 1) / kSide + 2;
+  const terrain::Grid squares{{}, 1.0, mask.squares_across, mask.squares_along};
+  std::vector<int> land(squares.size());
+  for (int j = 0; j < squares.samples_y; ++j)
+    for (int i = 0; i < squares.samples_x; ++i)
+      land[squares.index(i, j)] = land_in_square(mask, i - 1, j - 1);
+  mask.around.assign(squares.size(), LandMask::Around::kBoth);
+  for (int j = 0; j < squares.samples_y; ++j)
+    for (int i = 0; i < squares.samples_x; ++i) {
+      int sum = 0;
+      for (int y = std::max(j - 1, 0); y <= std::min(j + 1, squares.samples_y - 1); ++y)
+        for (int x = std::max(i - 1, 0); x <= std::min(i + 1, squares.samples_x - 1); ++x)
+          sum += land[squares.index(x, y)];
+      if (sum == 0) mask.around[squares.index(i, j)] = LandMask::Around::kWater;
+      if (sum == 9 * kSide * kSide) mask.around[squares.index(i, j)] = LandMask::Around::kLand;
+    }
+}
+
 }  // namespace
 
 bool is_land(const LandMask& mask, glm::dvec2 p_world) {
@@ -159,8 +208,10 @@ bool is_land(const LandMask& mask, glm::dvec2 p_world) {
 }
 
 LandMask make_land_mask(const terrain::ShoreMap& shore) {
-  LandMask mask{shore.grid(), {}};
+  LandMask mask{shore.grid(), {}, 0, 0, {}};
+  mask.land.reserve(mask.grid.size());
   for (const float height_m : shore.height_m()) mask.land.push_back(height_m > 0.0f ? 1 : 0);
+  fill_around(mask);
   return mask;
 }
 

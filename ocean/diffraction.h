@@ -25,10 +25,17 @@ struct PlaneWave {
   double wavelength_m = 100.0;  // > 0
 };
 
-// Where land stands, on the points of a shore map.
+// Where land stands, on the points of a shore map, and on squares of kSquare of its points a side,
+// so that most places are told by one look.
 struct LandMask {
+  static constexpr int kSquare = 16;
+  enum class Around : std::uint8_t { kWater, kLand, kBoth };
+
   terrain::Grid grid;
   std::vector<std::uint8_t> land;  // 1: above the sea
+  // Of a square and its eight neighbours, row after row, and one square beyond each side.
+  int squares_across = 0, squares_along = 0;
+  std::vector<Around> around;
 };
 LandMask make_land_mask(const terrain::ShoreMap& shore);
 bool is_land(const LandMask& mask, glm::dvec2 p_world);  // of the nearest point; false beyond all

@@ -92,7 +92,7 @@ std::string slow_coast_text(const Scene& scene) {
 }
 
 std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::HeightGrid* terrain,
-                                           const terrain::ShoreMap* shore, int threads) {
+                                           const terrain::ShoreMap* shore, Workers& workers) {
   const Coast& coast = scene.coast;
   const ocean::SeaDescription& sea = scene.sea;
   if (coast.model == CoastModel::kNone || !terrain) return std::nullopt;
@@ -104,7 +104,6 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
   systems.resize(std::min(systems.size(), static_cast<std::size_t>(coast.trains)));
   std::vector<ocean::WaveTrain> trains = ocean::make_trains(systems, coast.trains, coast.seed);
   for (ocean::WaveTrain& train : trains) train.amplitude_m *= sea.amplitude_scale;
-  Workers workers(threads);
   const terrain::HeightGrid floor =
       sea_floor_of(*terrain, static_cast<int>(cells_a_side(coast, terrain->grid.size_m())));
   ocean::CoastSea made = ocean::make_coast_sea(
@@ -131,11 +130,10 @@ std::optional<terrain::ShoreMap> build_shore(const Scene& scene, const terrain::
 }
 
 std::optional<ocean::Shelter> build_shelter(const Scene& scene, const terrain::ShoreMap* shore,
-                                            int threads) {
+                                            Workers& workers) {
   if (!shore || !shore->has_line()) return std::nullopt;
   const std::vector<ocean::Beam> beams = ocean::make_beams(scene.sea);
   if (beams.empty()) return std::nullopt;
-  Workers workers(threads);
   return ocean::make_shelter(*shore, beams, workers);
 }
 

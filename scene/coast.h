@@ -28,23 +28,22 @@ std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain
 // may be up to the largest.
 std::string slow_coast_text(const Scene& scene);
 
-// Works out the phases of the scene's wave trains over its terrain, with 1 to 256 threads, the same
-// bits with any: 0.2 microseconds of one core a train and cell, 50 ms to 3 s in all. Nothing for
+// Works out the phases of the scene's wave trains over its terrain, the same bits with any workers:
+// 0.2 microseconds of one core a train and cell, 50 ms to 3 s in all. Nothing for
 // scenes without terrain, without wind or with coast.model = "none". Throws SceneError for a grid
 // beyond the bounds.
 // shore: of the terrain; null: land does not shelter the trains.
 std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::HeightGrid* terrain,
-                                           const terrain::ShoreMap* shore,
-                                           int threads = available_cpus());
+                                           const terrain::ShoreMap* shore, Workers& workers);
 
 // Where a scene's terrain meets the sea, by its heights or by the file that it names; nothing
 // without terrain. Throws SceneError or texture::FileError for such a file.
 std::optional<terrain::ShoreMap> build_shore(const Scene& scene, const terrain::HeightGrid* terrain,
                                              int threads = available_cpus());
 
-// What land leaves of the waves of the scene's open sea, with 1 to 256 threads, the same bits with
-// any. Nothing without a shore line or without waves. 0.1 s of one core.
+// What land leaves of the waves of the scene's open sea, the same bits with any workers. Nothing
+// without a shore line or without waves. 0.1 s of one core.
 std::optional<ocean::Shelter> build_shelter(const Scene& scene, const terrain::ShoreMap* shore,
-                                            int threads = available_cpus());
+                                            Workers& workers);
 
 }  // namespace swell::scene

@@ -25,8 +25,8 @@ Water::Water(const Scene& scene, int threads)
     inland_ = std::move(land->water);
   }
   shore_ = build_shore(scene, terrain());
-  coast_ = build_coast(scene, terrain(), shore());
-  shelter_ = build_shelter(scene, shore());
+  coast_ = build_coast(scene, terrain(), shore(), workers);
+  shelter_ = build_shelter(scene, shore(), workers);
 }
 
 WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,

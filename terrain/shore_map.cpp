@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "math/large_array.h"
 #include "terrain/apron.h"
 
 namespace swell::terrain {
@@ -100,7 +101,7 @@ void lower_envelope(const Line<float>& line, Envelope& store) {
 // Squared distances, in cells, to where rows cross the line, or columns.
 std::vector<float> squared_distances(std::span<const float> height, std::size_t side, bool rows,
                                      Workers& workers) {
-  std::vector<float> squared(height.size());
+  auto squared = make_large<float>(height.size());
   const std::size_t along = rows ? 1 : side, across = rows ? side : 1;
   for_each_line(side, workers, [&](std::size_t n) {
     distances_on_line({height.data() + n * across, along, side},
@@ -140,7 +141,7 @@ float blend(const Grid& grid, const Cell& cell, const std::vector<float>& values
 
 ShoreMap::ShoreMap(const HeightGrid& land, Workers& workers) : grid_(map_grid(land)) {
   const auto side = static_cast<std::size_t>(grid_.samples_x);
-  height_m_.resize(grid_.size());
+  resize_large(height_m_, grid_.size());
   for_each_line(side, workers, [&](std::size_t j) {
     std::vector<glm::dvec2> p(side);
     for (std::size_t i = 0; i < side; ++i)

@@ -18,7 +18,8 @@ std::size_t texel(int size, int i, int j) {
 // Half as many texels a side.
 std::vector<glm::vec4> filter_down(int size, const std::vector<glm::vec4>& fine) {
   const int half = size / 2;
-  std::vector<glm::vec4> rows(fine.size() / 2), coarse(fine.size() / 4);
+  auto rows = make_large<glm::vec4>(fine.size() / 2),
+       coarse = make_large<glm::vec4>(fine.size() / 4);
   for (int j = 0; j < half; ++j)
     for (int i = 0; i < size; ++i)
       rows[texel(size, i, 0) + static_cast<std::size_t>(j) * size] =
@@ -34,11 +35,11 @@ std::vector<glm::vec4> filter_down(int size, const std::vector<glm::vec4>& fine)
 }
 
 void pack_level(int size, const std::vector<glm::vec4>& values, CoverWord* words) {
-  std::vector<std::array<std::int8_t, 4>> code(values.size());
+  auto code = make_large<std::array<std::int8_t, 4>>(values.size());
   for (std::size_t k = 0; k < values.size(); ++k)
     for (int channel = 0; channel < 4; ++channel)
       code[k][static_cast<std::size_t>(channel)] = static_cast<std::int8_t>(
-          std::nearbyint(254.0f * std::clamp(values[k][channel], 0.0f, 1.0f)) - 127.0f);
+          std::lrint(254.0f * std::clamp(values[k][channel], 0.0f, 1.0f)) - 127);
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; ++i) {
       const std::array<std::size_t, 4> taps = {texel(size, i, j), texel(size, i + 1, j),

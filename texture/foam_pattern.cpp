@@ -4,7 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "math/check.h"
 #include "math/random.h"
@@ -55,14 +56,12 @@ void check_size(int size) {
 // The values' ranks, so that every part of the range is as large as it says.
 std::vector<float> spread_evenly(const std::vector<double>& values) {
   const std::size_t count = values.size();
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    return values[a] != values[b] ? values[a] < values[b] : a < b;
-  });
+  std::vector<std::pair<double, std::uint32_t>> in_order(count);
+  for (std::size_t k = 0; k < count; ++k) in_order[k] = {values[k], static_cast<std::uint32_t>(k)};
+  std::ranges::sort(in_order);
   std::vector<float> threshold(count);
   for (std::size_t k = 0; k < count; ++k)
-    threshold[order[k]] =
+    threshold[in_order[k].second] =
         static_cast<float>((static_cast<double>(k) + 0.5) / static_cast<double>(count));
   return threshold;
 }

@@ -104,6 +104,34 @@ double PerlinNoise::fractal2(double x, double y, int octaves, double persistence
                      [&](int, double frequency) { return noise2(frequency * x, frequency * y); });
 }
 
+void PerlinNoise::fractal2_row(std::span<const double> x, double y, int octaves, double persistence,
+                               std::span<double> sums) const {
+  check_fractal(octaves, persistence);
+  SWELL_CHECK(x.size() == sums.size(), "{} places, {} sums", x.size(), sums.size());
+  std::ranges::fill(sums, 0.0);
+  double amplitude = 1.0, frequency = 1.0;
+  for (int octave = 0; octave < octaves; ++octave) {
+    const auto [j, t] = lattice_position(frequency * y, kPeriod);
+    const double t_weight = weight_at(interpolation_, t);
+    const int next_j = (j + 1) & 255;
+    int known = -1;  // the cell whose corners these are
+    std::array<double, 4> corner{};
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      const auto [i, s] = lattice_position(frequency * x[n], kPeriod);
+      if (i != known) {
+        const int low = p_[i], high = p_[i + 1];
+        corner = {g_[p_[low + j]], g_[p_[high + j]], g_[p_[low + next_j]], g_[p_[high + next_j]]};
+        known = i;
+      }
+      const double s_weight = weight_at(interpolation_, s);
+      sums[n] += amplitude * mix(mix(corner[0], corner[1], s_weight),
+                                 mix(corner[2], corner[3], s_weight), t_weight);
+    }
+    amplitude *= persistence;
+    frequency *= 2.0;
+  }
+}
+
 double PerlinNoise::fractal3(double x, double y, double z, int octaves, double persistence) const {
   return sum_octaves(octaves, persistence, [&](int, double frequency) {
     return noise3(frequency * x, frequency * y, frequency * z);

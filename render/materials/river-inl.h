@@ -149,11 +149,6 @@ static HWY_NOINLINE std::array<WaterSlopes, kCount> SeaSlopes(
                          : SampleWater<false>(water, s.rays, packets);
 }
 
-HWY_INLINE WaterSlopes NoSlopes() {
-  const V zero = hn::Zero(D());
-  return {zero, zero, zero, zero, zero, zero};
-}
-
 // What is the sea's alone has its very bits: the river's is left out where all lanes are.
 HWY_INLINE V PassIntoSea(V river, V sea, V share) {
   return hn::IfThenElse(hn::Ge(share, Constant(1.0f)), sea, Lerp(river, sea, share));
@@ -188,7 +183,7 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
   const V all_rough = hn::MulAdd(at.white, Constant(0.12f),
                                  hn::Mul(hn::Min(speed, Constant(2.0f)), Constant(0.045f)));
   const V rough = hn::IfThenElseZero(hn::Gt(all_rough, Constant(1e-3f)), all_rough);
-  WaterSlopes s = {zero, zero, Constant(river.base_variance), zero, zero, packet.to_eye.z};
+  WaterSlopes s = NoSlopes(Constant(river.base_variance), zero, packet.to_eye.z);
   const bool flows = !hn::AllFalse(d, hn::Gt(rough, zero));
   const bool foams = !hn::AllFalse(d, hn::Gt(at.white, Constant(0.02f)));
   if (flows) {
@@ -300,7 +295,8 @@ struct RiverSeen {
 [[maybe_unused]] static HWY_NOINLINE RiverSeen SeeRiver(const Shading& shading, const River& river,
                                                         Packet packet) {
   const D d;
-  RiverSeen seen = {SampleRiver(river, packet), NoSlopes(), false, false};
+  const V zero = hn::Zero(d);
+  RiverSeen seen = {SampleRiver(river, packet), NoSlopes(zero, zero, zero), false, false};
   // Looks pass into the sea's before the surface has.
   seen.at.sea_share = SmoothBlend(hn::MulAdd(seen.at.sea_share, Constant(2.0f), Constant(-0.2f)));
   seen.meets_sea = !hn::AllFalse(d, hn::Gt(seen.at.sea_share, hn::Zero(d)));
@@ -359,8 +355,8 @@ struct Shader<River, ViewKind::kWindow> {
     const V sun_visible = hn::Mul(SunVisible(shading, tile, packet, Constant(-1.0f)),
                                   SunUnderTrees(shading, packet, hn::Zero(d)));
     V inv_variance, mirrored_alpha, refracted_alpha = hn::Zero(d);
-    const V glint = GlintReflectance(shading.media, light.sun_direction, packet);
-    const V sun_path = SunGlint(light.sun_direction, packet, s, glint, f.area, inv_variance);
+    const V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media},
+                                f.area, inv_variance);
     V3 refracted = Constant(shading.media.body);
     if (river_seen.is_river) refracted = BedLight(shading, river, at, packet, s, sun_visible);
     V3 floor = Difference(refracted, Constant(shading.media.body));

@@ -195,11 +195,14 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const V zero = hn::Zero(D());
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
-  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return {zero, zero, flat, zero, flat, packet.to_eye.z};
+  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return NoSlopes(flat, flat, packet.to_eye.z);
   const WaterSlopes sea = SampleWater<true>(water, s.rays, std::array{packet})[0];
-  return {hn::Mul(sea.slope_x, kept),          hn::Mul(sea.slope_y, kept),
-          Lerp(flat, sea.variance, kept),      hn::Mul(sea.foam_cover, kept),
-          Lerp(flat, sea.fine_variance, kept), Lerp(packet.to_eye.z, sea.long_cosine, kept)};
+  WaterSlopes left = NoSlopes(Lerp(flat, sea.variance, kept), Lerp(flat, sea.fine_variance, kept),
+                              Lerp(packet.to_eye.z, sea.long_cosine, kept));
+  left.slope_x = hn::Mul(sea.slope_x, kept);
+  left.slope_y = hn::Mul(sea.slope_y, kept);
+  left.foam_cover = hn::Mul(sea.foam_cover, kept);
+  return left;
 }
 
 // Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.
@@ -247,8 +250,8 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const WaterSlopes waves = SampleRunOut(s, packet, hn::NegMulAdd(calm, film, film));
   const Facing f = FaceEye(s.media, s.material<Water>(), packet, waves);
   V inv_variance, unused;
-  const V reflectance = GlintReflectance(s.media, s.light.sun_direction, packet);
-  const V glint = SunGlint(s.light.sun_direction, packet, waves, reflectance, f.area, inv_variance);
+  const V glint = SunGlint(s.light.sun_direction, packet, waves, GlintReflectance{s.media}, f.area,
+                           inv_variance);
   const V3 floor = Difference(ground, Constant(s.media.body));
   const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f, inv_variance,
                                      floor, false, unused);

@@ -213,7 +213,7 @@ struct UndersideShader {
     if (!lost) return SampleUnderside(water, s.rays, packets);
     const V zero = hn::Zero(D());
     return [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
-      return std::array{(static_cast<void>(k), WaterSlopes{zero, zero, zero, zero, zero, zero})...};
+      return std::array{(static_cast<void>(k), NoSlopes(zero, zero, zero))...};
     }
     (std::make_index_sequence<kCount>());
   }

@@ -128,12 +128,13 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
   if (water.least_cos > 0.0f) {
     f.cos_eye = f.cos_mirror = TiltToEye(packet.to_eye, water.least_cos, f.normal);
   } else {
-    const V drawn =
-        hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
-    f.cos_eye = UnhiddenCosine(Dot(f.normal, packet.to_eye), s.long_cosine, s.fine_variance,
-                               hn::Mul(drawn, Constant(water.seen_slopes)));
-    f.cos_mirror =
-        Lerp(f.cos_eye, MirroringCosine(f.cos_eye, s.variance), Constant(water.seen_slopes));
+    f.cos_eye = f.cos_mirror = Dot(f.normal, packet.to_eye);
+    if (water.seen_slopes > 0.0f) {
+      const V drawn =
+          hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
+      f.cos_eye = UnhiddenCosine(f.cos_eye, s.long_cosine, s.fine_variance, drawn);
+      f.cos_mirror = MirroringCosine(f.cos_eye, s.variance);
+    }
   }
   f.area = SeenArea(s.long_cosine, s.fine_variance);
   f.reflectance =
@@ -220,19 +221,23 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   return Sum(deep, floor_added);
 }
 
-// What a facet that mirrors the sun to the eye reflects.
-HWY_INLINE V GlintReflectance(const Media& media, glm::vec3 sun_direction, const Packet& packet) {
-  const V3 half = Sum(packet.to_eye, Constant(sun_direction));
-  return FresnelReflectance(D(), hn::Mul(hn::Sqrt(Dot(half, half)), Constant(0.5f)),
-                            media.refraction_index);
-}
+// What a facet that mirrors the sun to the eye reflects; `half` is the sum of their directions.
+struct GlintReflectance {
+  const Media& media;
+  HWY_INLINE V operator()(V3 half) const {
+    return FresnelReflectance(D(), hn::Mul(hn::Sqrt(Dot(half, half)), Constant(0.5f)),
+                              media.refraction_index);
+  }
+};
 
 // The sun's mirror image in the slopes that a pixel cannot resolve: a Gaussian slope distribution
 // of facets of an area that is seen, over the level's. `inv_variance` becomes 1 / s.variance.
 // Source: Ross, Dion, Potvin, Detailed analytical approach to the Gaussian surface bidirectional
-// reflectance distribution function, 2005, without what waves hide of the sun.
+// reflectance distribution function, 2005, without what waves hide of the sun. Beside the sun's
+// path its light is far below what a float beside the water's own light holds, and 0 here.
+template <class Reflectance>
 HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const WaterSlopes& s,
-                      V reflectance, V area, V& inv_variance) {
+                      const Reflectance& reflectance, V area, V& inv_variance) {
   const V3 half = Sum(packet.to_eye, Constant(sun_direction));
   // The three quotients' denominators share one division.
   const V z = hn::Max(half.z, Constant(1e-3f));
@@ -246,11 +251,13 @@ HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const Water
   const V dx = hn::MulAdd(half.x, inv_z, s.slope_x);  // half-way slope is -half.xy / half.z
   const V dy = hn::MulAdd(half.y, inv_z, s.slope_y);
   const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
-  const V density = hn::Mul(Exp(D(), hn::Max(exponent, Constant(-80.0f))),
-                            hn::Mul(inv_variance, Constant(0.318309886f)));
+  const auto on_path = hn::Gt(exponent, Constant(-50.0f));
+  if (hn::AllFalse(D(), on_path)) return hn::Zero(D());
+  const V density = hn::IfThenElseZero(
+      on_path, hn::Mul(Exp(D(), exponent), hn::Mul(inv_variance, Constant(0.318309886f))));
   const V inv_cos2 = hn::Mul(Dot(half, half), hn::Mul(inv_z, inv_z));
   const V scale = hn::Mul(hn::Mul(inv_cos2, inv_cos2), inv_cos4);
-  return hn::Mul(hn::Mul(reflectance, density), scale);
+  return hn::Mul(hn::Mul(reflectance(half), density), scale);
 }
 
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen, wakes.
@@ -297,8 +304,8 @@ struct WaterShader {
 
     const V sun_visible = SunOnSea(shading, tile, packet);
     V inv_variance, mirrored_alpha, refracted_alpha;
-    const V reflectance = GlintReflectance(shading.media, light.sun_direction, packet);
-    V sun_path = SunGlint(light.sun_direction, packet, s, reflectance, f.area, inv_variance);
+    V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media}, f.area,
+                          inv_variance);
     V3 floor;
     V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
                                   refracted_alpha, floor);

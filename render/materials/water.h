@@ -41,7 +41,7 @@ struct Water {
   SlopeLayer bump_detail;       // of the paper's lighting, without a map: none
   SlopeLayer uv_noise;          // values in [-1, 1], not slopes
   float short_variance = 0.0f;  // slope variance of the layers after the long ones
-  float seen_slopes = 1.0f;     // 0: all slopes of rough water are seen, also the hidden ones
+  float seen_slopes = 1.0f;     // 1, or 0: all slopes of rough water are seen, also the hidden ones
   float least_cos = 0.0f;  // of normals to the eye, which are tilted to have it; 0: they are not
   float base_variance = 0.0f;  // slope variance of ripples too fine for any map
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their

@@ -29,9 +29,15 @@ struct WaterSlopes {
                     // them
   V long_cosine;    // to the eye, of those
   // Of foam: TornFoam.
-  V foam_thickness = {}, foam_bubbles = {};
-  V wake = {};  // over 1 where one is seen
+  V foam_thickness, foam_bubbles;
+  V wake;  // over 1 where one is seen
 };
+
+// Level water without foam or wakes.
+HWY_INLINE WaterSlopes NoSlopes(V variance, V fine_variance, V long_cosine) {
+  const V zero = hn::Zero(D());
+  return {zero, zero, variance, zero, fine_variance, long_cosine, zero, zero, zero};
+}
 
 HWY_INLINE void SetFoam(const TornFoam& foam, WaterSlopes& s) {
   s.foam_cover = foam.cover;
@@ -182,7 +188,7 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
     level_m[k] = level_flat_m[k];
     surf[k] = {zero, zero, hn::MaskFromVec(zero), hn::MaskFromVec(zero), false, false};
     if constexpr (kCoast) surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k]);
-    s[k] = {zero, zero, Constant(water.base_variance), zero, zero, packets[k].to_eye.z};
+    s[k] = NoSlopes(Constant(water.base_variance), zero, packets[k].to_eye.z);
     du[k] = dv[k] = zero;
   }
   for (int i = 0; i < water.sine_count; ++i)

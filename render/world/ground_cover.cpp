@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/large_array.h"
 #include "math/smoothstep.h"
 #include "render/world/for_each_row.h"
 
@@ -57,13 +58,35 @@ float sky_seen_at(const Heights& heights, int i, int j, float step_m) {
 }
 
 // Means over 2 radius + 1 samples of a row, whose first and last one go on.
-void blur_row(int size, int radius, const float* from, std::ptrdiff_t stride, float* to) {
-  const auto at = [&](int i) { return from[std::clamp(i, 0, size - 1) * stride]; };
+void blur_row(int size, int radius, const float* from, float* to) {
+  const auto at = [&](int i) { return from[std::clamp(i, 0, size - 1)]; };
   double sum = 0.0;
   for (int i = -radius; i <= radius; ++i) sum += at(i);
   for (int i = 0; i < size; ++i) {
-    to[i * stride] = static_cast<float>(sum / (2 * radius + 1));
+    to[i] = static_cast<float>(sum / (2 * radius + 1));
     sum += at(i + radius + 1) - at(i - radius);
+  }
+}
+
+constexpr int kColumnsATask = 64;
+
+// The same of columns [first, first + kColumnsATask), side by side: samples of one column alone lie
+// in few sets of the processor's caches.
+void blur_columns(int size, int radius, int first, const float* from, float* to) {
+  const int count = std::min(kColumnsATask, size - first);
+  const auto row = [&](int j) {
+    return from + static_cast<std::size_t>(std::clamp(j, 0, size - 1)) * size + first;
+  };
+  std::array<double, kColumnsATask> sum{};
+  for (int j = -radius; j <= radius; ++j)
+    for (int i = 0; i < count; ++i) sum[i] += row(j)[i];
+  for (int j = 0; j < size; ++j) {
+    float* const means = to + static_cast<std::size_t>(j) * size + first;
+    const float *const next = row(j + radius + 1), *const last = row(j - radius);
+    for (int i = 0; i < count; ++i) {
+      means[i] = static_cast<float>(sum[i] / (2 * radius + 1));
+      sum[i] += next[i] - last[i];
+    }
   }
 }
 
@@ -109,13 +132,14 @@ glm::vec3 ground_albedo(const GroundPlace& place, const terrain::GroundMaterials
 std::vector<float> find_hollows(int size, const std::vector<float>& height_m, double step_m,
                                 Workers& workers) {
   const int radius = std::max(size / 32, 1);
-  std::vector<float> along_x(height_m.size()), mean(height_m.size());
+  auto along_x = make_large<float>(height_m.size()), mean = make_large<float>(height_m.size());
   for_each_row(size, workers, [&](int j) {
     const std::size_t row = static_cast<std::size_t>(j) * size;
-    blur_row(size, radius, height_m.data() + row, 1, along_x.data() + row);
+    blur_row(size, radius, height_m.data() + row, along_x.data() + row);
   });
-  for_each_row(size, workers,
-               [&](int i) { blur_row(size, radius, along_x.data() + i, size, mean.data() + i); });
+  workers.for_each((size + kColumnsATask - 1) / kColumnsATask, [&](std::size_t task, int) {
+    blur_columns(size, radius, static_cast<int>(task) * kColumnsATask, along_x.data(), mean.data());
+  });
   // A hollow a tenth as deep as its surroundings are wide is as wet as can be.
   const float per_m = 10.0f / static_cast<float>(radius * step_m);
   for (std::size_t k = 0; k < mean.size(); ++k)
@@ -128,7 +152,8 @@ std::vector<float> find_sky_seen(int size, const std::vector<float>& height_m, d
   constexpr int kStride = 4;
   const Heights heights{size, height_m};
   const int coarse = std::max(size / kStride, 1) + 1;
-  std::vector<float> open(static_cast<std::size_t>(coarse) * coarse), seen(height_m.size());
+  std::vector<float> open(static_cast<std::size_t>(coarse) * coarse);
+  auto seen = make_large<float>(height_m.size());
   for_each_row(coarse, workers, [&](int j) {
     for (int i = 0; i < coarse; ++i)
       open[static_cast<std::size_t>(j) * coarse + i] =

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "math/large_array.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
 
@@ -55,7 +56,8 @@ NearShoreMap build_near_shore(const World::State& world, Workers& workers) {
   near.reach_s = 2.0 * std::sqrt(near.reach_m / (gravity * slope));
   // Of the mean wave, in deep water.
   near.period_s = std::sqrt(2.0 * kPi * std::max(world.sea->mean_wavelength_m(), 1.0) / gravity);
-  std::vector<float> taken(static_cast<std::size_t>(n) * n), part(taken.size());
+  auto taken = make_large<float>(static_cast<std::size_t>(n) * n);
+  auto part = make_large<float>(taken.size());
   for_each_row(n, workers, [&](int j) {
     for (int i = 0; i < n; ++i) {
       const glm::dvec2 p = lattice_point(square.min_world, texel_m, glm::dvec2(i, j));

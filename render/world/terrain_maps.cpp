@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "math/large_array.h"
 #include "render/world/for_each_row.h"
 #include "render/world/ground_cover.h"
 #include "render/world/rgb_code.h"
@@ -23,16 +24,20 @@ struct GroundNoise {
 GroundNoise make_ground_noise(double step_m, std::uint64_t seed, Workers& workers) {
   constexpr int n = kTerrainMapSize;
   const texture::PerlinNoise noise(seed);
-  GroundNoise ground{std::vector<float>(std::size_t{n} * n),
-                     std::vector<float>(std::size_t{n} * n)};
+  GroundNoise ground{make_large<float>(std::size_t{n} * n), make_large<float>(std::size_t{n} * n)};
+  std::vector<double> patch_x(n), clump_x(n);
+  for (int i = 0; i < n; ++i) {
+    patch_x[i] = i * step_m / 14.0;
+    clump_x[i] = i * step_m / 5.0 + 31.7;
+  }
   for_each_row(n, workers, [&](int j) {
+    std::vector<double> patchiness(n), clumps(n);
+    noise.fractal2_row(patch_x, j * step_m / 14.0, 5, 0.6, patchiness);
+    noise.fractal2_row(clump_x, j * step_m / 5.0, 3, 0.7, clumps);
     for (int i = 0; i < n; ++i) {
       const std::size_t k = static_cast<std::size_t>(j) * n + i;
-      const auto patchiness =
-          static_cast<float>(noise.fractal2(i * step_m / 14.0, j * step_m / 14.0, 5, 0.6));
-      ground.patchiness[k] = std::clamp(patchiness, -1.0f, 1.0f);
-      ground.clumps[k] =
-          static_cast<float>(noise.fractal2(i * step_m / 5.0 + 31.7, j * step_m / 5.0, 3, 0.7));
+      ground.patchiness[k] = std::clamp(static_cast<float>(patchiness[i]), -1.0f, 1.0f);
+      ground.clumps[k] = static_cast<float>(clumps[i]);
     }
   });
   return ground;
@@ -50,8 +55,8 @@ struct Relief {
 
 Relief make_relief(int size, double step_m, std::vector<float> height_m, Workers& workers) {
   Relief relief{size, std::move(height_m), {}, {}};
-  relief.slope_x.resize(relief.height_m.size());
-  relief.slope_y.resize(relief.height_m.size());
+  resize_large(relief.slope_x, relief.height_m.size());
+  resize_large(relief.slope_y, relief.height_m.size());
   const auto at = [&](int i, int j) {
     return relief.height_m[static_cast<std::size_t>(std::clamp(j, 0, size - 1)) * size +
                            std::clamp(i, 0, size - 1)];
@@ -86,7 +91,7 @@ texture::CoverMap pack_ground(const Relief& relief, double step_m,
                               const std::vector<GroundPlace>& places,
                               const terrain::GroundMaterials& materials, Workers& workers) {
   const std::vector<float> sky_seen = find_sky_seen(relief.size, relief.height_m, step_m, workers);
-  std::vector<glm::vec4> values(places.size());
+  auto values = make_large<glm::vec4>(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
     const GroundCover cover = cover_of(places[k], materials);
     values[k] = {cover.grass, cover.dry, cover.rock, sky_seen[k]};
@@ -99,7 +104,7 @@ template <class NoiseAt>
 std::vector<GroundPlace> find_places(const Relief& relief, double step_m, const GroundNoise& noise,
                                      Workers& workers, const NoiseAt& noise_at) {
   const std::vector<float> hollow = find_hollows(relief.size, relief.height_m, step_m, workers);
-  std::vector<GroundPlace> places(hollow.size());
+  auto places = make_large<GroundPlace>(hollow.size());
   for_each_row(relief.size, workers, [&](int j) {
     for (int i = 0; i < relief.size; ++i) {
       const std::size_t k = static_cast<std::size_t>(j) * relief.size + i, n = noise_at(i, j);
@@ -157,7 +162,7 @@ texture::PackedMap2 pack_slopes(const Relief& relief) {
 // The surface at `size` x `size` points from the grid's corner.
 std::vector<float> sample_square(const terrain::HeightGrid& terrain, const terrain::Grid& grid,
                                  Workers& workers) {
-  std::vector<float> height_m(grid.size());
+  auto height_m = make_large<float>(grid.size());
   for_each_row(grid.samples_y, workers, [&](int j) {
     for (int i = 0; i < grid.samples_x; ++i)
       height_m[grid.index(i, j)] =
@@ -197,15 +202,19 @@ TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
                   [](int i, int j) { return mirrored_noise(2 * i, 2 * j); });
 
   TerrainMaps maps;
-  maps.albedo = paint_map(relief, places, materials, workers);
-  maps.albedo_around = paint_around(relief_around, places_around, noise, materials, workers);
-  workers.run_both([&] { maps.slopes = pack_slopes(relief); },
-                   [&] { maps.slopes_around = pack_slopes(relief_around); });
-  workers.run_both([&] { maps.ground = pack_ground(relief, step_m, places, materials, workers); },
-                   [&] {
-                     maps.ground_around = pack_ground(relief_around, coarse.spacing_m,
-                                                      places_around, materials, workers);
-                   });
+  // Packing takes one thread each, painting all.
+  workers.run_both(
+      [&] {
+        maps.ground = pack_ground(relief, step_m, places, materials, workers);
+        maps.slopes = pack_slopes(relief);
+      },
+      [&] {
+        maps.ground_around =
+            pack_ground(relief_around, coarse.spacing_m, places_around, materials, workers);
+        maps.slopes_around = pack_slopes(relief_around);
+        maps.albedo = paint_map(relief, places, materials, workers);
+        maps.albedo_around = paint_around(relief_around, places_around, noise, materials, workers);
+      });
   return maps;
 }
 

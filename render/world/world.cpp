@@ -146,8 +146,8 @@ void add_coast(const World::State* like, bool same_coast, Workers& workers, Worl
   if (same_coast) {
     state.coast = like->coast;
     state.coast_maps = like->coast_maps;
-  } else if (auto coast = scene::build_coast(state.scene, state.terrain.get(), state.shore.get(),
-                                             workers.thread_count())) {
+  } else if (auto coast =
+                 scene::build_coast(state.scene, state.terrain.get(), state.shore.get(), workers)) {
     state.coast = shared(std::move(*coast));
     state.coast_maps = shared(build_coast_maps(*state.coast, workers));
   }
@@ -157,8 +157,7 @@ void add_coast(const World::State* like, bool same_coast, Workers& workers, Worl
 void add_shelter(const World::State* like, Workers& workers, World::State& state) {
   if (like) {
     state.shelter = like->shelter;
-  } else if (auto shelter =
-                 scene::build_shelter(state.scene, state.shore.get(), workers.thread_count())) {
+  } else if (auto shelter = scene::build_shelter(state.scene, state.shore.get(), workers)) {
     state.shelter = shared(std::move(*shelter));
   }
 }

@@ -100,6 +100,37 @@ TEST(Shelter, OneWaveSpreadsAsSommerfeldsDoes) {
     }
 }
 
+// Land on a part of the square, up to its border, with an islet of one point.
+terrain::HeightGrid ragged_land() {
+  return make_land(600, 5.0, [](glm::dvec2 p) {
+    return (std::sin(0.004 * p.x) * std::cos(0.003 * p.y) > 0.2 && p.x < 900.0) ||
+           glm::length(p - glm::dvec2(1200.0, -450.0)) < 4.0;
+  });
+}
+
+// What squares of the mask say only saves looks at its points.
+TEST(Shelter, SquaresOfAMaskTellTheLandThatItsPointsDo) {
+  Workers workers(1);
+  using Around = LandMask::Around;
+  const LandMask mask = make_land_mask(terrain::ShoreMap(ragged_land(), workers));
+  for (const Around some : {Around::kWater, Around::kLand, Around::kBoth})
+    ASSERT_GT(std::ranges::count(mask.around, some), 20) << static_cast<int>(some);
+  LandMask points_alone = mask;
+  std::ranges::fill(points_alone.around, Around::kBoth);
+  const glm::dvec2 corner = mask.grid.min_world;
+  const double size_m = mask.grid.size_m();
+  for (const int cells : {mask.grid.samples_x - 1, 128, 40, 15})
+    for (const glm::dvec2& travel : {glm::dvec2(0.0, 1.0), glm::dvec2(-0.6, 0.8)}) {
+      const terrain::Grid grid{corner, size_m / cells, cells + 1, cells + 1};
+      std::vector<float> energy(grid.size()), fetch_m(grid.size());
+      std::vector<float> exact_energy(grid.size()), exact_fetch_m(grid.size());
+      march_wave(mask, {travel, 60.0}, grid, energy, fetch_m);
+      march_wave(points_alone, {travel, 60.0}, grid, exact_energy, exact_fetch_m);
+      EXPECT_EQ(energy, exact_energy) << cells;
+      EXPECT_EQ(fetch_m, exact_fetch_m) << cells;
+    }
+}
+
 // The height that is left at (r, azimuth) from the wall's end, by Sommerfeld's answer for each of
 // the sea's frequencies and directions.
 double height_of_diagram(const WaveSystem& system, double r_m, double azimuth) {

@@ -86,17 +86,17 @@ void TiltedNormals(std::span<const glm::vec3> to_eye, float least_cos, std::span
 
 void Glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
            std::span<const float> area, std::span<float> glint) {
-  WaterSlopes s = NoSlopes();
+  WaterSlopes s = NoSlopes(Constant(surface.variance), hn::Zero(D()), hn::Zero(D()));
   s.slope_x = Constant(surface.slope.x);
   s.slope_y = Constant(surface.slope.y);
-  s.variance = Constant(surface.variance);
+  const auto reflectance = [&](V3) HWY_ATTR { return Constant(surface.reflectance); };
   ForPackets(glint.size(), [&](std::size_t i) {
     Packet packet;
     packet.to_eye = LoadSome(to_eye, i);
     V inv_variance;
-    StoreSome(SunGlint(surface.sun_direction, packet, s, Constant(surface.reflectance),
-                       LoadSome(area, i), inv_variance),
-              glint, i);
+    StoreSome(
+        SunGlint(surface.sun_direction, packet, s, reflectance, LoadSome(area, i), inv_variance),
+        glint, i);
   });
 }
 
@@ -147,7 +147,7 @@ void LayerSlopes(const SlopeLayer& layer, std::span<const glm::vec3> p_rel,
                  std::span<const float> level_m, std::span<glm::vec3> slopes) {
   const V zero = hn::Zero(D());
   ForPackets(slopes.size(), [&](std::size_t i) {
-    WaterSlopes s = NoSlopes();
+    WaterSlopes s = NoSlopes(zero, zero, zero);
     AddSlopes(layer, LoadSome(p_rel, i), LoadSome(level_m, i), zero, zero, s.slope_x, s.slope_y,
               s.variance);
     StoreSome(V3{s.slope_x, s.slope_y, s.variance}, slopes, i);
@@ -156,8 +156,9 @@ void LayerSlopes(const SlopeLayer& layer, std::span<const glm::vec3> p_rel,
 
 void SineSlopes(const SineLayer& sine, std::span<const glm::vec3> p_rel,
                 std::span<const float> level_m, std::span<glm::vec3> slopes) {
+  const V zero = hn::Zero(D());
   ForPackets(slopes.size(), [&](std::size_t i) {
-    WaterSlopes s = NoSlopes();
+    WaterSlopes s = NoSlopes(zero, zero, zero);
     AddSine(sine, LoadSome(p_rel, i), LoadSome(level_m, i), s);
     StoreSome(V3{s.slope_x, s.slope_y, s.variance}, slopes, i);
   });

@@ -176,6 +176,31 @@ TEST(PerlinNoise, FractalsAreSumsOfOctaves) {
   }
 }
 
+// Of places that share a cell, that jump between cells, that go back, and that are no numbers.
+TEST(PerlinNoise, FractalOfARowIsThatOfEachPlace) {
+  std::vector<double> x;
+  for (int n = 0; n < 300; ++n) x.push_back(0.07 * n - 9.0);
+  for (int n = 0; n < 100; ++n) x.push_back(random_in(-400, 400, 7 * n));
+  for (const double far : {-0.0, 256.0, -256.0, 6e15, -6e15, 1e300}) x.push_back(far);
+  x.push_back(std::numeric_limits<double>::infinity());
+  x.push_back(0.5);
+  x.push_back(std::numeric_limits<double>::quiet_NaN());
+  x.push_back(0.5);
+  std::vector<double> sums(x.size());
+  for (const Interpolation interpolation : kAll)
+    for (const double y : {0.3, -17.9, 255.5, 6e15}) {
+      const PerlinNoise noise(13, interpolation);
+      noise.fractal2_row(x, y, 5, 0.6, sums);
+      for (std::size_t n = 0; n < x.size(); ++n) {
+        const double alone = noise.fractal2(x[n], y, 5, 0.6);
+        if (std::isnan(alone))
+          EXPECT_TRUE(std::isnan(sums[n])) << x[n];
+        else
+          EXPECT_EQ(sums[n], alone) << x[n] << ' ' << y;
+      }
+    }
+}
+
 TEST(PerlinNoise, PeriodicFractalTilesAlongEachAxis) {
   const PerlinNoise noise(14);
   for (const int period : {1, 2, 8, 256}) {
