@@ -141,7 +141,7 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
       kept < 1.0f ? std::clamp((kept - trees.rank[number]) / (0.25f * kept), 0.0f, 1.0f) : 1.0f;
   const float grown = going * smoothstep(kLastTree_px, kGrown_px, height_px);
   // By the power 5/8 of their number, but not so flat that a crown shows as a shard before the sky.
-  constexpr float kBroadest = 2.0f;
+  constexpr float kBroadest = 2.5f;
   const float less = height_px / thinned_px;
   const float broader =
       less < 1.0f ? std::min(1.0f / (less * std::sqrt(std::sqrt(less))), kBroadest) : 1.0f;

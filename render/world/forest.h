@@ -30,7 +30,7 @@ TreeLook tree_look(terrain::TreeSpecies species);
 
 // Trees of less height in the picture are thinned out [px]: those that stand alone, and those of a
 // closed wood, of which nobody sees single ones.
-inline constexpr float kThinnedTree_px = 5.0f, kThinnedWood_px = 24.0f;
+inline constexpr float kThinnedTree_px = 5.0f, kThinnedWood_px = 18.0f;
 
 // Of each tree what says whether it is drawn, side by side; kTreeLanes more than there are trees.
 inline constexpr std::size_t kTreeLanes = 16;
