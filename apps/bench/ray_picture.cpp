@@ -96,7 +96,7 @@ void cast_picture(const terrain::HeightPyramid& map, const RayPicture& picture, 
   const glm::dvec2 from_world(-6000.0, 120.0);
   const double pitch = picture.pitch_deg * 3.14159265358979 / 180.0;
   const double pixel = 2.0 * 0.466 / picture.height_px;  // 50 degrees high
-  const auto detail = picture.stops ? static_cast<float>(pixel) : 0.0f;
+  const auto detail = picture.stops ? terrain::kBlock_px * static_cast<float>(pixel) : 0.0f;
   std::vector<Band> bands(static_cast<std::size_t>(workers.thread_count()), Band(picture.width_px));
   const auto draw_band = [&](std::size_t number, int thread) {
     Band& band = bands[static_cast<std::size_t>(thread)];

@@ -17,7 +17,7 @@ struct RayPicture {
   int width_px = 1280, height_px = 720;
   double pitch_deg = 10.0;  // down
   bool beams = true;        // rays begin behind beams, as in frames; false: at the eye
-  bool stops = true;        // at blocks as small as a pixel; false: down to the posts
+  bool stops = true;        // at blocks of terrain::kBlock_px; false: down to the posts
 };
 
 // A ray through each pixel, once, and those that fill squares of 8 x 8.

@@ -195,7 +195,7 @@ class LandRayBatch {
 
   void cast(const terrain::HeightPyramid& heights, Values& begin, Values& t) {
     terrain::cast_rays(
-        heights, glm::dvec2(view_.camera.eye_world), rays_.pixel_angle,
+        heights, glm::dvec2(view_.camera.eye_world), terrain::kBlock_px * rays_.pixel_angle,
         {first(x_), first(y_), first(z_), first(z_t_), first(z_tt_), first(begin), first(end_)},
         first(t));
   }

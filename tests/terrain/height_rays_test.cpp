@@ -192,6 +192,50 @@ TEST(HeightRays, MeetNothingWhereTheirBeamIsFree) {
   EXPECT_GT(free_share, 0.5 * hits);  // and most of the way is
 }
 
+// HFR-02: where blocks of kBlock_px pass for cells, the land ends within a pixel of where it ends
+// with all posts.
+TEST(HeightRays, StopAtBlocksWithoutMovingSilhouettesByMoreThanAPixel) {
+  constexpr int kColumns = 200, kRows = 120;
+  Workers workers(2);
+  HeightGrid steep = rough_map(1025, 1.0, 5);
+  for (float& height_m : steep.height_m) height_m *= 6.0f;
+  const HeightPyramid pyramid = make_height_pyramid(steep, {}, workers);
+  const HeightGrid map = decoded(pyramid);
+  int silhouettes = 0, moved = 0, moved_by_large_blocks = 0, differ = 0;
+  for (const double pitch_deg : {2.0, 10.0}) {
+    const glm::dvec2 from = map.grid.min_world + map.grid.size_m() * glm::dvec2(0.05, 0.5);
+    const double pixel = 0.005, pitch = pitch_deg * kPi / 180.0;
+    Rays rays;
+    for (int j = 0; j < kRows; ++j)
+      for (int i = 0; i < kColumns; ++i) {
+        const double up = (0.5 * kRows - j) * pixel;
+        rays.add({std::cos(pitch) + up * std::sin(pitch), (i - 0.5 * kColumns) * pixel,
+                  up * std::cos(pitch) - std::sin(pitch)},
+                 height_at(map, from) + 20.0, 0.0, 1.0);
+      }
+    const auto hits = [&](float block_px) {
+      return cast(pyramid, from, rays, block_px * static_cast<float>(pixel));
+    };
+    const std::vector<float> exact = hits(0.0f), coarse = hits(kBlock_px), large = hits(32.0f);
+    const auto first_row = [&](const std::vector<float>& t, int i) {
+      int j = 0;
+      while (j < kRows && std::isinf(t[static_cast<std::size_t>(j * kColumns + i)])) ++j;
+      return j;
+    };
+    for (int i = 0; i < kColumns; ++i) {
+      const int row = first_row(exact, i);
+      silhouettes += row > 0 && row < kRows;
+      moved += std::abs(first_row(coarse, i) - row) > 1;
+      moved_by_large_blocks += std::abs(first_row(large, i) - row) > 1;
+    }
+    for (std::size_t k = 0; k < exact.size(); ++k) differ += exact[k] != coarse[k];
+  }
+  EXPECT_GT(silhouettes, 300);
+  EXPECT_GT(differ, 5000);  // blocks there were
+  EXPECT_EQ(moved, 0);
+  EXPECT_GT(moved_by_large_blocks, 50);
+}
+
 // HFR-03: against two triangles in each cell, cut along either diagonal. They differ by a quarter
 // of the cell's twist at most, and by just that in its middle.
 TEST(HeightRays, LieWithinAQuarterOfTheTwistOfTriangles) {
