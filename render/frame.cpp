@@ -301,7 +301,8 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     draw_side(first_side, ws.lookups, ws.shading, run);
   });
   stage(Stage::kClouds, [&](const StageRun& run) {
-    draw_clouds(ws.shading, volume_clouds, ws.clouds, run);
+    draw_clouds(ws.shading, volume_clouds, float(drawn.width_px) / float(view.width_px), ws.clouds,
+                run);
     ws.shading.clouds = &ws.clouds;
   });
   stage(Stage::kShade, [&](const StageRun& run) {

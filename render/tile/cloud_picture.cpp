@@ -23,11 +23,12 @@ std::uint8_t find_step_log2(float pixel_angle, float above_m) {
 
 }  // namespace
 
-void draw_clouds(const Shading& shading, const VolumeClouds& clouds, CloudPicture& picture,
-                 const StageRun& run) {
+void draw_clouds(const Shading& shading, const VolumeClouds& clouds, float picture_scale,
+                 CloudPicture& picture, const StageRun& run) {
   picture.any = clouds.any();
   if (!picture.any) return;
-  picture.step_log2 = find_step_log2(shading.rays.pixel_angle, clouds.eye_z - clouds.volume->top_m);
+  picture.step_log2 =
+      find_step_log2(picture_scale * shading.rays.pixel_angle, clouds.eye_z - clouds.volume->top_m);
   const int step = picture.step();
   // 4 n + 1, so that coarse nodes lie all around.
   picture.columns = ((shading.viewport.width_px - 1) / step + 4) / 4 * 4 + 1;

@@ -35,9 +35,10 @@ struct CloudPicture {
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * stride + i; }
 };
 
-// Draws the clouds that the window of `shading` sees.
-void draw_clouds(const Shading& shading, const VolumeClouds& clouds, CloudPicture& picture,
-                 const StageRun& run);
+// Draws the clouds that the window of `shading` sees. picture_scale: how small the picture is
+// drawn; where it will be enlarged, nodes lie as many of its pixels apart as in one of full size.
+void draw_clouds(const Shading& shading, const VolumeClouds& clouds, float picture_scale,
+                 CloudPicture& picture, const StageRun& run);
 
 // The clouds over the sea as the blurred sky shows them (SkyMaps::soft): texels of kSide^2, of
 // light and of the part that passes.
