@@ -1,5 +1,5 @@
 // Where rays meet a surface of heights, without triangles: a pyramid of maxima leaves out what a
-// ray passes above, nearest part first, down to cells, or to blocks as small as two pixels.
+// ray passes above, nearest part first, down to cells, or to blocks as small as a pixel.
 //
 // Source: Vyatkin and Dolgovesov, Recursive search of ray intersections with shape textures
 // (functionally defined terrain), 2019; the step through a pyramid by Tevs, Ihrke and Seidel,
@@ -21,9 +21,8 @@ struct HeightRays {
   std::span<const float> begin, end;    // begin >= 0
 };
 
-// Blocks of no more pixels in width are cells in pictures: silhouettes stay within a pixel of those
-// of all posts, and a map of 32 times the side takes twice the time.
-inline constexpr float kBlock_px = 2.0f;
+// Blocks of no more pixels in width are cells in pictures.
+inline constexpr float kBlock_px = 1.0f;
 
 // The nearest t at which each ray meets the surface between posts, from above or from the side;
 // infinity where it meets nothing. from_world: the place, at most 2^24 posts from the grid. Blocks

@@ -1,4 +1,5 @@
-// HFR-04. What rays over heights take grows with the pixels, and hardly with the map.
+// HFR-04. What rays over heights take grows with the pixels, and hardly with the map. Of rays that
+// begin at the eye: beams before them save the more, the fewer posts and the more pixels there are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +36,6 @@ void time_all(std::vector<Timed>& all) {
     }
 }
 
-// Of rays that begin at the eye: beams before them save the more, the more pixels there are.
 TEST(RayTime, IsLinearInThePixels) {
   Workers workers(2);
   const terrain::HeightPyramid map = make_hills(1024, workers);
@@ -53,12 +53,11 @@ TEST(RayTime, IsLinearInThePixels) {
   }
 }
 
-// Behind beams, as in frames.
 TEST(RayTime, IsAtMostHalfAsMuchAgainOverAMapOfFourTimesTheSide) {
   Workers workers(2);
   const terrain::HeightPyramid small = make_hills(1024, workers), large = make_hills(4096, workers);
   for (const double pitch_deg : {45.0, 10.0, 2.0}) {
-    const RayPicture picture{640, 360, pitch_deg};
+    const RayPicture picture{640, 360, pitch_deg, false};
     std::vector<Timed> both = {{small, picture}, {large, picture}};
     time_all(both);
     EXPECT_LE(both[1].least_ms, 1.5 * both[0].least_ms) << pitch_deg << " degrees";
