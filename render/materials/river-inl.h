@@ -230,7 +230,7 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
 constexpr float kGravelBegin_m = 1.2f;
 
 // The bed's reflectance: wet gravel further up, the sea's floor where a river comes down to it.
-HWY_INLINE V3 FindBed(const Shading& s, const River& river, V3 p, V height_m, V level_m) {
+HWY_INLINE V3 FindBed(const River& river, V3 p, V height_m, V level_m) {
   const D d;
   V x = hn::Zero(d), y = hn::Zero(d), unused = hn::Zero(d);
   AddSlopes(river.stones, p, level_m, x, y, x, y, unused);
@@ -239,7 +239,7 @@ HWY_INLINE V3 FindBed(const Shading& s, const River& river, V3 p, V height_m, V 
   const V relief = hn::NegMulAdd(sandy, Constant(0.31f * 0.7f), Constant(0.31f));
   const V stones = Clamp(hn::MulAdd(x, relief, Constant(1.0f)), 0.45f, 1.6f);
   V3 bed = Constant(river.gravel);
-  const Terrain& terrain = s.material<Terrain>();
+  const Terrain& terrain = river.ground;
   const auto some = hn::Gt(sandy, hn::Zero(d));
   if (terrain.map.albedo && !hn::AllFalse(d, some)) {
     const V3 floor = FindAlbedo(terrain, OnMap(terrain, p), p);
@@ -269,7 +269,7 @@ HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
                 hn::Sub(packet.p.z, depth)};
   const V level_m = FootprintLevel(FootprintAcross(s.rays, packet), Clamp(cos_eye, 0.1f, 1.0f));
   const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
-  const V3 bed = FindBed(s, river, p, height_m, level_m);
+  const V3 bed = FindBed(river, p, height_m, level_m);
   V gathered = sun_visible;
   const auto shows = hn::And(ShowsShortCaustics(s.caustics, level_m), hn::Gt(depth, hn::Zero(d)));
   if (!hn::AllFalse(d, shows)) {

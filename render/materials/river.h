@@ -10,6 +10,7 @@
 #include "render/materials/foam.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
+#include "render/materials/terrain.h"
 
 namespace swell::render {
 
@@ -43,7 +44,8 @@ struct River {
   float cycle_number = 0.0f;               // whole ones, modulo 4096
   float base_variance = 0.0f;              // slope variance of ripples too fine for any map
   float wind_share = 1.0f;                 // of the sea's ripples
-  glm::vec3 gravel{0.0f};                  // reflectance of a bed above the sea's sand
+  Terrain ground;                          // whose sand beds at the sea's level have
+  glm::vec3 gravel{0.0f};                  // reflectance of a bed above it
   glm::vec3 sky_light{0.0f};               // what a white bed under no water sends back, of the sky
   glm::vec3 sun_light{0.0f};               // and of a sun that nothing hides
 
