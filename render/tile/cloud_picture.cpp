@@ -37,6 +37,7 @@ void draw_clouds(const Shading& shading, const VolumeClouds& clouds, float pictu
   const std::size_t size = picture.stride * static_cast<std::size_t>(picture.rows);
   for (std::vector<float>& channel : picture.nodes) channel.resize(size);
   picture.clear.resize(size);
+  picture.even.resize(size);
   const auto in_rows = [&](int at_once, auto&& write) {
     run.for_each(static_cast<std::size_t>((picture.rows + at_once - 1) / at_once),
                  [&](std::size_t n, int) { write(at_once * static_cast<int>(n)); });
@@ -44,6 +45,8 @@ void draw_clouds(const Shading& shading, const VolumeClouds& clouds, float pictu
   for (const int spacing : {4, 2})
     in_rows(4 * spacing,
             [&](int j) { write_coarse_clouds(shading, clouds, j, spacing, spacing < 4, picture); });
+  run.for_each(static_cast<std::size_t>(picture.rows / 2),
+               [&](std::size_t n, int) { find_even_cells(2 * static_cast<int>(n) + 1, picture); });
   in_rows(4, [&](int j) { write_fine_clouds(shading, clouds, j, picture); });
 }
 

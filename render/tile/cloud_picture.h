@@ -30,6 +30,8 @@ struct CloudPicture {
 
   // Of nodes whose rays were followed: up to where the ray met nothing [m].
   std::vector<float> clear;
+  // At (i, j), both odd: not 0 if the four coarse nodes around show about the same.
+  std::vector<std::int32_t> even;
 
   int step() const { return 1 << step_log2; }
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * stride + i; }

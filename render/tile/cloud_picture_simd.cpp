@@ -123,19 +123,11 @@ void CoarseCloudRows(const Shading& s, const VolumeClouds& clouds, int j, int sp
   DrawNodes(s, clouds, list, picture);
 }
 
-// Cells between coarse nodes whose corners show about the same, by a cell's middle (i, j), both
-// odd: those of three rows, from j on.
-struct EvenCells {
-  static constexpr std::size_t kRows = 3;
-  static constexpr std::size_t kColumns = raster::kMaxViewport + 8 + CloudPicture::kPadding;
-  std::array<std::array<std::int32_t, kColumns>, kRows> is_even;
-  int first_row = 0;
-
-  bool at(int i, int j, const CloudPicture& picture) const {
-    if (i < 0 || j < 0 || i >= picture.columns || j >= picture.rows) return true;
-    return is_even[static_cast<std::size_t>((j - first_row) / 2)][static_cast<std::size_t>(i)] != 0;
-  }
-};
+// Whether the corners of the cell around (i, j), both odd, show about the same.
+bool is_even(const CloudPicture& picture, int i, int j) {
+  if (i < 0 || j < 0 || i >= picture.columns || j >= picture.rows) return true;
+  return picture.even[picture.index(i, j)] != 0;
+}
 
 // Of each other lane from i on.
 HWY_INLINE hn::Mask<D> AreEven(const CloudPicture& picture, int i, int j) {
@@ -156,27 +148,20 @@ HWY_INLINE hn::Mask<D> AreEven(const CloudPicture& picture, int i, int j) {
   return is_even;
 }
 
-void FindEvenCells(const CloudPicture& picture, int first_row, EvenCells& cells) {
+void EvenCloudCells(int j, CloudPicture& picture) {
   const DI di;
-  cells.first_row = first_row;
-  for (int row = 0; row < static_cast<int>(EvenCells::kRows); ++row) {
-    const int j = first_row + 2 * row;
-    if (j < 0 || j >= picture.rows) continue;
-    auto& is_even = cells.is_even[static_cast<std::size_t>(row)];
-    for (int i = 1; i < picture.columns; i += static_cast<int>(hn::Lanes(di))) {
-      const auto even = hn::RebindMask(di, AreEven(picture, i, j));
-      hn::StoreU(hn::IfThenElseZero(even, hn::Set(di, 1)), di,
-                 &is_even[static_cast<std::size_t>(i)]);
-    }
+  for (int i = 1; i < picture.columns; i += static_cast<int>(hn::Lanes(di))) {
+    const auto even = hn::RebindMask(di, AreEven(picture, i, j));
+    hn::StoreU(hn::IfThenElseZero(even, hn::Set(di, 1)), di, &picture.even[picture.index(i, j)]);
   }
 }
 
 // Puts a node that is not coarse between coarse ones, or on the list if a cell beside it is not
 // even.
-void FineCloudNode(const EvenCells& cells, int i, int j, CloudPicture& picture, NodeList& list) {
+void FineCloudNode(int i, int j, CloudPicture& picture, NodeList& list) {
   const int across = i % 2, down = j % 2;
-  if (!cells.at(i - 1 + across, j - 1 + down, picture) ||
-      !cells.at(i + 1 - across, j + 1 - down, picture)) {
+  if (!is_even(picture, i - 1 + across, j - 1 + down) ||
+      !is_even(picture, i + 1 - across, j + 1 - down)) {
     list.add(i, j, NearestAround(picture, i, j, 2));
     return;
   }
@@ -189,12 +174,10 @@ void FineCloudNode(const EvenCells& cells, int i, int j, CloudPicture& picture, 
 }
 
 void FineCloudRows(const Shading& s, const VolumeClouds& clouds, int j, CloudPicture& picture) {
-  EvenCells cells;
-  FindEvenCells(picture, j - 1, cells);
   NodeList list;
   for (int i = 0; i < picture.columns; ++i)
     for (int row = j; row < std::min(j + static_cast<int>(NodeList::kRows), picture.rows); ++row)
-      if (i % 2 != 0 || row % 2 != 0) FineCloudNode(cells, i, row, picture, list);
+      if (i % 2 != 0 || row % 2 != 0) FineCloudNode(i, row, picture, list);
   DrawNodes(s, clouds, list, picture);
 }
 
@@ -234,6 +217,7 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(CoarseCloudRows);
+HWY_EXPORT(EvenCloudCells);
 HWY_EXPORT(FineCloudRows);
 HWY_EXPORT(CloudSkyRow);
 
@@ -242,6 +226,11 @@ void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int
   SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && spacing > 0 && j % (4 * spacing) == 0,
               "row={} of {}, spacing={}", j, picture.rows, spacing);
   HWY_DYNAMIC_DISPATCH(CoarseCloudRows)(shading, clouds, j, spacing, known, picture);
+}
+
+void find_even_cells(int j, CloudPicture& picture) {
+  SWELL_CHECK(j > 0 && j < picture.rows - 1 && j % 2 == 1, "row={} of {}", j, picture.rows);
+  HWY_DYNAMIC_DISPATCH(EvenCloudCells)(j, picture);
 }
 
 void write_fine_clouds(const Shading& shading, const VolumeClouds& clouds, int j,

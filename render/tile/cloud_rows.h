@@ -11,6 +11,9 @@ namespace swell::render {
 void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int j, int spacing,
                          bool known, CloudPicture& picture);
 
+// Which cells of row j, odd, are even: for write_fine_clouds, which interpolates only in those.
+void find_even_cells(int j, CloudPicture& picture);
+
 // The nodes of rows j to j + 3, j a multiple of 4, that are not coarse: between coarse nodes (of
 // multiples of 2) that show about the same they are interpolated, elsewhere they have rays of their
 // own.
