@@ -23,32 +23,93 @@ void for_rows(int rows, Workers& workers, const std::function<void(int)>& body) 
   workers.for_each(static_cast<std::size_t>(rows), [&](std::size_t j, int) { body(int(j)); });
 }
 
+// How far the posts between the corners of a block of `step` cells lie off a cell between these
+// [codes].
+float off_cell(const HeightPyramid& p, int i, int j, int step) {
+  const int half = step / 2;
+  const auto post = [&](int x, int y) {
+    return static_cast<float>(p.posts[p.grid.index(i * step + x * half, j * step + y * half)]);
+  };
+  const float a = post(0, 0), b = post(2, 0), c = post(0, 2), d = post(2, 2);
+  float off = std::abs(post(1, 1) - 0.25f * (a + b + c + d));
+  off = std::max(off, std::abs(post(1, 0) - 0.5f * (a + b)));
+  off = std::max(off, std::abs(post(1, 2) - 0.5f * (c + d)));
+  off = std::max(off, std::abs(post(0, 1) - 0.5f * (a + c)));
+  return std::max(off, std::abs(post(2, 1) - 0.5f * (b + d)));
+}
+
+// Of the blocks of one level: how far the surface is off a cell, at most [codes].
+class Roughness {
+ public:
+  explicit Roughness(int blocks) : blocks_(blocks) {
+    resize_large(codes_, static_cast<std::size_t>(blocks) * blocks);
+  }
+  std::uint16_t& at(int i, int j) {
+    return codes_[static_cast<std::size_t>(j) * blocks_ + static_cast<std::size_t>(i)];
+  }
+  // Of a block of the next level.
+  float of_parts(int i, int j) {
+    const auto below = [&](int y) { return std::max(at(2 * i, y), at(2 * i + 1, y)); };
+    return std::max(below(2 * j), below(2 * j + 1));
+  }
+
+ private:
+  int blocks_;
+  std::vector<std::uint16_t> codes_;
+};
+
+constexpr float kRough = 65535.0f;
+
+// Notes a block whose posts are no higher than `highest`, and whose surface is off a cell by `off`.
+void set_block(int blocks, int i, int j, std::uint16_t highest, float off, HeightPyramid& p,
+               Roughness& roughness) {
+  roughness.at(i, j) = static_cast<std::uint16_t>(std::min(std::ceil(off), kRough));
+  const double width_m = p.side / blocks * p.grid.spacing_m;
+  const bool smooth = off < kRough && highest < 0xffff &&
+                      double(off) * p.step_m <= HeightPyramid::kSmooth * width_m;
+  p.maxima[block(blocks, i, j)] =
+      smooth ? static_cast<std::uint16_t>((highest + 1) & ~1) : std::uint16_t(highest | 1);
+}
+
 // Blocks of two by two cells: nine posts.
-void fill_first_level(HeightPyramid& p, Workers& workers) {
+void fill_first_level(HeightPyramid& p, Roughness& roughness, Workers& workers) {
   const int blocks = p.side / 2, last = p.grid.samples_x - 1;
   for_rows(blocks, workers, [&](int j) {
     for (int i = 0; i < blocks; ++i) {
+      roughness.at(i, j) = static_cast<std::uint16_t>(kRough);
       if (2 * i >= last || 2 * j >= last) continue;  // 0: beyond the posts
       const auto in_hole = [&](int cell) { return cell >= p.hole_begin && cell + 2 <= p.hole_end; };
       if (in_hole(2 * i) && in_hole(2 * j)) continue;
+      const auto by_hole = [&](int cell) { return cell + 2 > p.hole_begin && cell < p.hole_end; };
       std::uint16_t highest = 0;
       for (int y = 2 * j; y <= std::min(2 * j + 2, last); ++y)
         for (int x = 2 * i; x <= std::min(2 * i + 2, last); ++x)
           highest = std::max(highest, p.posts[p.grid.index(x, y)]);
-      p.maxima[block(blocks, i, j)] = highest;
+      const bool whole =
+          2 * i + 2 <= last && 2 * j + 2 <= last && !(by_hole(2 * i) && by_hole(2 * j));
+      set_block(blocks, i, j, highest, whole ? off_cell(p, i, j, 2) : kRough, p, roughness);
     }
   });
 }
 
-void fill_level(int blocks, HeightPyramid& p, Workers& workers) {
-  const int fine = 2 * blocks;
+// What a block is off a cell: its parts off theirs, and these off it.
+Roughness fill_level(int blocks, HeightPyramid& p, Roughness parts, Workers& workers) {
+  Roughness roughness(blocks);
+  const int fine = 2 * blocks, step = p.side / blocks;
   for_rows(blocks, workers, [&](int j) {
-    for (int i = 0; i < blocks; ++i)
-      p.maxima[block(blocks, i, j)] = std::max(
-          std::max(p.maxima[block(fine, 2 * i, 2 * j)], p.maxima[block(fine, 2 * i + 1, 2 * j)]),
-          std::max(p.maxima[block(fine, 2 * i, 2 * j + 1)],
-                   p.maxima[block(fine, 2 * i + 1, 2 * j + 1)]));
+    for (int i = 0; i < blocks; ++i) {
+      const auto part = [&](int x, int y) { return p.maxima[block(fine, 2 * i + x, 2 * j + y)]; };
+      const std::uint16_t highest =
+          std::max(std::max(part(0, 0), part(1, 0)), std::max(part(0, 1), part(1, 1)));
+      float off = parts.of_parts(i, j);
+      if (off < kRough) off += off_cell(p, i, j, step);
+      if (highest > 0)
+        set_block(blocks, i, j, highest, off, p, roughness);
+      else
+        roughness.at(i, j) = static_cast<std::uint16_t>(kRough);
+    }
   });
+  return roughness;
 }
 
 // The posts of blocks of level 1 and up, behind the given ones.
@@ -91,8 +152,10 @@ HeightPyramid make_height_pyramid(const Grid& grid, float base_m, float step_m,
   add_coarse_posts(p, workers);
   const auto half = static_cast<std::size_t>(p.side / 2);
   resize_large(p.maxima, 2 * half * half + 1);
-  fill_first_level(p, workers);
-  for (int blocks = p.side / 4; blocks >= 1; blocks /= 2) fill_level(blocks, p, workers);
+  Roughness roughness(p.side / 2);
+  fill_first_level(p, roughness, workers);
+  for (int blocks = p.side / 4; blocks >= 1; blocks /= 2)
+    roughness = fill_level(blocks, p, std::move(roughness), workers);
   return p;
 }
 

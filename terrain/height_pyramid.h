@@ -20,8 +20,12 @@ namespace swell::terrain {
 // levels first.
 //
 // A block of level l covers 2^l x 2^l cells; level l has s = side >> l of them a side and block
-// (i, j) is number s * s + j * s + i. Blocks begin with level 1: a cell's posts are read anyway.
+// (i, j) is number s * s + j * s + i. Blocks begin with level 1: a cell's posts are read anyway. A
+// maximum is that of the block's posts, or one more: it is even in smooth blocks, whose surface is
+// off a cell between their corners by no more than kSmooth of their width.
 struct HeightPyramid {
+  static constexpr double kSmooth = 0.0625;
+
   Grid grid;
   float base_m = 0.0f, step_m = 1.0f;
   int side = 1;                            // cells a side, up to a power of two

@@ -21,14 +21,15 @@ struct HeightRays {
   std::span<const float> begin, end;    // begin >= 0
 };
 
-// Blocks of no more pixels in width are cells in pictures.
-inline constexpr float kBlock_px = 1.0f;
+// Blocks of no more pixels in width are cells in pictures, and smooth ones of so many times more:
+// these are a quarter of a pixel off at most (HeightPyramid::kSmooth).
+inline constexpr float kBlock_px = 1.0f, kSmoothBlocks = 3.0f;
 
 // The nearest t at which each ray meets the surface between posts, from above or from the side;
 // infinity where it meets nothing. from_world: the place, at most 2^24 posts from the grid. Blocks
-// no wider than detail_m_per_t * t are taken for one cell between their corners; 0: down to the
-// posts. Right to 1e-6 of t and 1e-3 of a cell. The same bits on every SIMD target. No steps:
-// counts no more than 8 side + 64 cells a ray.
+// no wider than detail_m_per_t * t, smooth ones than kSmoothBlocks times this, are taken for one
+// cell between their corners; 0: down to the posts. Right to 1e-6 of t and 1e-3 of a cell. The same
+// bits on every SIMD target. No steps: counts no more than 8 side + 64 cells a ray.
 void cast_rays(const HeightPyramid& pyramid, glm::dvec2 from_world, float detail_m_per_t,
                const HeightRays& rays, std::span<float> t_hit);
 

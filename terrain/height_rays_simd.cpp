@@ -93,7 +93,7 @@ class Traveller {
     ClipToGrid(axis_y_, w.inverse_y, w);
     // Blocks of some pixels: from there a ray climbs where it is high, in fewer steps than it would
     // come down in from the top.
-    w.level = LevelOf(hn::Mul(Constant(detail_), w.t), 1, pyramid_.levels);
+    w.level = LevelOf(hn::Mul(Constant(kSmoothBlocks * detail_), w.t), 1, pyramid_.levels);
     w.corner_x = FirstCorner(axis_x_, w.x_t, w);
     w.corner_y = FirstCorner(axis_y_, w.y_t, w);
     w.ray = hn::Iota(DI(), static_cast<int>(first));
@@ -107,9 +107,12 @@ class Traveller {
     const VI block = w.Block();
     const Exit exit = ExitOf(block, w);
     const M is_cell = hn::RebindMask(d, hn::Eq(w.level, Whole(0)));
-    const M is_leaf = hn::Or(is_cell, hn::Le(ToFloat(block), hn::Mul(Constant(detail_), w.t)));
-    const M is_low =
-        hn::Le(w.Heights().LowestIn(w.t, exit.t), HighestIn(hn::AndNot(is_cell, goes), w));
+    const VI highest = HighestIn(hn::AndNot(is_cell, goes), w);
+    const V width = ToFloat(block), detail = hn::Mul(Constant(detail_), w.t);
+    const M is_smooth = hn::RebindMask(d, hn::Eq(hn::And(highest, Whole(1)), Whole(0)));
+    const V widest = hn::IfThenElse(is_smooth, hn::Mul(detail, Constant(kSmoothBlocks)), detail);
+    const M is_leaf = hn::Or(is_cell, hn::Le(width, widest));
+    const M is_low = hn::Le(w.Heights().LowestIn(w.t, exit.t), HeightOf(ToFloat(highest)));
     const M meets = hn::And(goes, hn::Or(is_cell, is_low));
     const M tests = hn::And(meets, is_leaf), descends = hn::AndNot(is_leaf, meets);
     waits = hn::Or(waits, tests);
@@ -178,13 +181,16 @@ class Traveller {
   // Of the number of blocks of a level a side.
   HWY_INLINE VI BlocksLog2(const Walk& w) const { return hn::Sub(Whole(pyramid_.levels), w.level); }
 
+  HWY_INLINE V HeightOf(V code) const {
+    return hn::MulAdd(code, Constant(pyramid_.step_m), Constant(pyramid_.base_m));
+  }
+
   // The maxima of blocks that are larger than cells.
-  HWY_INLINE V HighestIn(M lanes, const Walk& w) const {
+  HWY_INLINE VI HighestIn(M lanes, const Walk& w) const {
     const VI blocks = hn::Shr(Whole(pyramid_.side), w.level);
     const VI i = hn::Shr(w.corner_x, w.level), j = hn::Shr(w.corner_y, w.level);
     const VI number = hn::Add(hn::Shl(hn::Add(blocks, j), BlocksLog2(w)), i);
-    const V code = GatherCodes(pyramid_.maxima.data(), MaskedI(lanes, number));
-    return hn::MulAdd(code, Constant(pyramid_.step_m), Constant(pyramid_.base_m));
+    return hn::And(GatherTwoCodes(pyramid_.maxima.data(), MaskedI(lanes, number)), Whole(0xffff));
   }
 
   // To the quarter of the block that a ray is in.
@@ -246,11 +252,8 @@ class Traveller {
     const VI low = GatherTwoCodes(pyramid_.posts.data(), MaskedI(lanes, at.number));
     const VI high =
         GatherTwoCodes(pyramid_.posts.data(), MaskedI(lanes, hn::Add(at.number, at.stride)));
-    const auto height = [&](V code) HWY_ATTR {
-      return hn::MulAdd(code, Constant(pyramid_.step_m), Constant(pyramid_.base_m));
-    };
-    const V h00 = height(LowCode(low)), h10 = height(HighCode(low));
-    const V h01 = height(LowCode(high)), h11 = height(HighCode(high));
+    const V h00 = HeightOf(LowCode(low)), h10 = HeightOf(HighCode(low));
+    const V h01 = HeightOf(LowCode(high)), h11 = HeightOf(HighCode(high));
     Patch p;
     p.h00 = h00, p.along_x = hn::Sub(h10, h00), p.along_y = hn::Sub(h01, h00);
     p.twist = hn::Sub(hn::Sub(h11, h10), p.along_y);

@@ -131,11 +131,13 @@ float lower(float a, float b) { return a < b ? a : b; }
 // Rays of one tile of a view, any number of them, as many at once as there is room for.
 class LandRayBatch {
  public:
-  // depth, primitive: what is there; changes where the land is nearer, by flush() at the latest.
-  LandRayBatch(const RenderView& view, const raster::PixelBox& box, std::span<float> depth,
-               std::span<std::uint32_t> primitive)
+  // block_px: as terrain::kBlock_px. depth, primitive: what is there; changes where the land is
+  // nearer, by flush() at the latest.
+  LandRayBatch(const RenderView& view, const raster::PixelBox& box, float block_px,
+               std::span<float> depth, std::span<std::uint32_t> primitive)
       : view_(view),
         rays_(make_rays(view.camera)),
+        detail_m_per_t_(block_px * rays_.pixel_angle),
         ways_(view, rays_, box),
         depth_(depth),
         primitive_(primitive) {}
@@ -195,7 +197,7 @@ class LandRayBatch {
 
   void cast(const terrain::HeightPyramid& heights, Values& begin, Values& t) {
     terrain::cast_rays(
-        heights, glm::dvec2(view_.camera.eye_world), terrain::kBlock_px * rays_.pixel_angle,
+        heights, glm::dvec2(view_.camera.eye_world), detail_m_per_t_,
         {first(x_), first(y_), first(z_), first(z_t_), first(z_tt_), first(begin), first(end_)},
         first(t));
   }
@@ -210,6 +212,7 @@ class LandRayBatch {
 
   const RenderView& view_;
   ViewRays rays_;
+  float detail_m_per_t_;
   FreeWays ways_;
   std::span<float> depth_;
   std::span<std::uint32_t> primitive_;
@@ -218,6 +221,9 @@ class LandRayBatch {
   Values x_px_, y_px_, there_, free_, free_around_;
   Values x_, y_, z_, z_t_, z_tt_, begin_, begin_around_, end_, met_, met_around_;
 };
+
+// Samples lie nearer to each other than pixels do, and an outline follows the surface's height.
+constexpr float kFineBlock_px = 0.25f * terrain::kBlock_px;
 
 }  // namespace
 
@@ -228,7 +234,8 @@ int cast_land(const RenderView& view, const raster::TileGrid& grid, int tile, bo
     std::ranges::fill(primitive, raster::kNoPrimitive);
   }
   const raster::PixelBox box = raster::tile_box(view.viewport(), grid, tile);
-  LandRayBatch batch(view, box, depth, primitive);
+  LandRayBatch batch(view, box, view.land->outline_m ? kFineBlock_px : terrain::kBlock_px, depth,
+                     primitive);
   // Square by square: their rays go much the same way.
   for (int y0 = 0; y0 < box.height_px; y0 += kSquare_px)
     for (int x0 = 0; x0 < box.width_px; x0 += kSquare_px) {
@@ -253,7 +260,7 @@ void cast_land_samples(const RenderView& view, const raster::PixelBox& box, int 
                        const raster::PixelMask& mask, std::span<float> depth,
                        std::span<std::uint32_t> primitive) {
   const auto positions = raster::sample_positions(samples);
-  LandRayBatch batch(view, box, depth, primitive);
+  LandRayBatch batch(view, box, kFineBlock_px, depth, primitive);
   std::size_t n = 0;
   for (int y = 0; y < box.height_px; ++y)
     for (std::uint64_t left = mask.row(y); left != 0; left &= left - 1) {
