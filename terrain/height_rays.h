@@ -22,7 +22,7 @@ struct HeightRays {
 };
 
 // Blocks of no more pixels in width are cells in pictures, and smooth ones of so many times more:
-// these are a quarter of a pixel off at most (HeightPyramid::kSmooth).
+// these are 3/16 of a pixel off at most (HeightPyramid::kSmooth).
 inline constexpr float kBlock_px = 1.0f, kSmoothBlocks = 3.0f;
 
 // The nearest t at which each ray meets the surface between posts, from above or from the side;

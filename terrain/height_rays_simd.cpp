@@ -185,7 +185,7 @@ class Traveller {
     return hn::MulAdd(code, Constant(pyramid_.step_m), Constant(pyramid_.base_m));
   }
 
-  // The maxima of blocks that are larger than cells.
+  // The maxima of blocks that are larger than cells, as codes.
   HWY_INLINE VI HighestIn(M lanes, const Walk& w) const {
     const VI blocks = hn::Shr(Whole(pyramid_.side), w.level);
     const VI i = hn::Shr(w.corner_x, w.level), j = hn::Shr(w.corner_y, w.level);
