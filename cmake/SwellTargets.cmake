@@ -8,7 +8,6 @@ if(SWELL_SANITIZE)
   target_compile_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE}
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
-  target_compile_definitions(swell_options INTERFACE SWELL_WATER_PACKETS_AT_ONCE=1)
   # Sanitized code makes GCC's flow warnings see paths that do not exist.
   set(flow_warnings -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
     -Wno-stringop-overflow)

@@ -141,12 +141,13 @@ HWY_INLINE std::array<CarriedCopy, 2> CarriedAt(const River& river, const RiverA
 }
 
 // The slopes of the sea where a river ends.
-template <std::size_t kCount>
-static HWY_NOINLINE std::array<WaterSlopes, kCount> SeaSlopes(
-    const Shading& s, const std::array<Packet, kCount>& packets) {
+static HWY_NOINLINE void SeaSlopes(const Shading& s, std::span<const Packet> packets,
+                                   WaterSlopes* found) {
   const Water& water = s.material<Water>();
-  return water.has_coast ? SampleWater<true>(water, s.rays, packets)
-                         : SampleWater<false>(water, s.rays, packets);
+  if (water.has_coast)
+    SampleWater<true>(water, s.rays, packets, found);
+  else
+    SampleWater<false>(water, s.rays, packets, found);
 }
 
 // What is the sea's alone has its very bits: the river's is left out where all lanes are.
@@ -305,13 +306,6 @@ struct RiverSeen {
   return seen;
 }
 
-template <std::size_t kCount, std::size_t... k>
-HWY_INLINE std::array<RiverSeen, kCount> SeeRivers(const Shading& shading, const River& river,
-                                                   const std::array<Packet, kCount>& packets,
-                                                   std::index_sequence<k...>) {
-  return {SeeRiver(shading, river, packets[k])...};
-}
-
 // Not shown in lookup images.
 template <ViewKind kView>
 struct Shader<River, kView> {
@@ -325,22 +319,22 @@ struct Shader<River, kView> {
 
 template <>
 struct Shader<River, ViewKind::kWindow> {
-  static constexpr std::size_t kPacketsAtOnce = SWELL_WATER_PACKETS_AT_ONCE;
+  using Found = RiverSeen;
   const River& river;
 
-  template <std::size_t kCount>
-  HWY_INLINE std::array<RiverSeen, kCount> LookUp(const Shading& shading,
-                                                  const std::array<Packet, kCount>& packets) const {
-    std::array<RiverSeen, kCount> seen =
-        SeeRivers(shading, river, packets, std::make_index_sequence<kCount>());
+  HWY_INLINE void LookUp(const Shading& shading, std::span<const Packet> packets,
+                         RiverSeen* seen) const {
     bool meets_sea = false;
-    for (const RiverSeen& one : seen) meets_sea |= one.meets_sea;
-    if (!meets_sea) return seen;
-    const std::array<WaterSlopes, kCount> sea = SeaSlopes(shading, packets);
-    for (std::size_t k = 0; k < kCount; ++k)
+    for (std::size_t k = 0; k < packets.size(); ++k) {
+      seen[k] = SeeRiver(shading, river, packets[k]);
+      meets_sea |= seen[k].meets_sea;
+    }
+    if (!meets_sea) return;
+    PerPacket<WaterSlopes> sea;
+    SeaSlopes(shading, packets, sea.data());
+    for (std::size_t k = 0; k < packets.size(); ++k)
       if (seen[k].meets_sea)
         seen[k].slopes = PassIntoSea(seen[k].slopes, sea[k], seen[k].at.sea_share);
-    return seen;
   }
 
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,

@@ -196,7 +196,7 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
   if (hn::AllFalse(D(), hn::Gt(kept, zero))) return NoSlopes(flat, flat, packet.to_eye.z);
-  const WaterSlopes sea = SampleWater<true>(water, s.rays, std::array{packet})[0];
+  const WaterSlopes sea = SampleWater<true>(water, s.rays, packet);
   WaterSlopes left = NoSlopes(Lerp(flat, sea.variance, kept), Lerp(flat, sea.fine_variance, kept),
                               Lerp(packet.to_eye.z, sea.long_cosine, kept));
   left.slope_x = hn::Mul(sea.slope_x, kept);

@@ -17,13 +17,18 @@ namespace HWY_NAMESPACE {
 
 // The surface's slopes. It is sampled as from above, along the same lines: with the way to the eye
 // turned round.
-template <std::size_t kCount>
-HWY_NOINLINE static std::array<WaterSlopes, kCount> SampleUnderside(
-    const Water& water, const ViewRays& rays, const std::array<Packet, kCount>& shown) {
-  std::array<Packet, kCount> turned = shown;
-  for (Packet& packet : turned) packet.to_eye = Scale(packet.to_eye, Constant(-1.0f));
-  return water.knows_land() ? SampleWater<true>(water, rays, turned)
-                            : SampleWater<false>(water, rays, turned);
+HWY_NOINLINE static void SampleUnderside(const Water& water, const ViewRays& rays,
+                                         std::span<const Packet> shown, WaterSlopes* found) {
+  PerPacket<Packet> turned;
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    turned[k] = shown[k];
+    turned[k].to_eye = Scale(shown[k].to_eye, Constant(-1.0f));
+  }
+  const std::span<const Packet> packets(turned.data(), shown.size());
+  if (water.knows_land())
+    SampleWater<true>(water, rays, packets, found);
+  else
+    SampleWater<false>(water, rays, packets, found);
 }
 
 // How a ray in water, which goes up along -to_eye, leaves the surface.
@@ -201,21 +206,17 @@ HWY_INLINE hn::Mask<D> LostInWater(const Media& media, const Packet& packet) {
 }
 
 struct UndersideShader {
-  static constexpr std::size_t kPacketsAtOnce = WaterShader<false>::kPacketsAtOnce;
+  using Found = WaterSlopes;
   const Water& water;
 
-  template <std::size_t kCount>
-  HWY_INLINE std::array<WaterSlopes, kCount> LookUp(
-      const Shading& s, const std::array<Packet, kCount>& packets) const {
+  HWY_INLINE void LookUp(const Shading& s, std::span<const Packet> packets,
+                         WaterSlopes* found) const {
     bool lost = true;
     for (const Packet& packet : packets)
       lost = lost && hn::AllTrue(D(), LostInWater(s.media, packet));
-    if (!lost) return SampleUnderside(water, s.rays, packets);
+    if (!lost) return SampleUnderside(water, s.rays, packets, found);
     const V zero = hn::Zero(D());
-    return [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
-      return std::array{(static_cast<void>(k), NoSlopes(zero, zero, zero))...};
-    }
-    (std::make_index_sequence<kCount>());
+    for (std::size_t k = 0; k < packets.size(); ++k) found[k] = NoSlopes(zero, zero, zero);
   }
 
   HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes&,

@@ -6,11 +6,6 @@
 #define SWELL_RENDER_MATERIALS_WATER_INL_H_
 #endif
 
-// 1 in sanitizer builds: with their checks GCC takes ten minutes for three.
-#ifndef SWELL_WATER_PACKETS_AT_ONCE
-#define SWELL_WATER_PACKETS_AT_ONCE 3
-#endif
-
 #include <algorithm>
 #include <array>
 
@@ -288,13 +283,12 @@ HWY_INLINE void AddHulls(const Shading& shading, const TilePixels& tile, const P
 // kCoast: water.knows_land().
 template <bool kCoast>
 struct WaterShader {
-  static constexpr std::size_t kPacketsAtOnce = SWELL_WATER_PACKETS_AT_ONCE;
+  using Found = WaterSlopes;
   const Water& water;
 
-  template <std::size_t kCount>
-  HWY_INLINE std::array<WaterSlopes, kCount> LookUp(
-      const Shading& shading, const std::array<Packet, kCount>& packets) const {
-    return SampleWater<kCoast>(water, shading.rays, packets);
+  HWY_INLINE void LookUp(const Shading& shading, std::span<const Packet> packets,
+                         WaterSlopes* found) const {
+    SampleWater<kCoast>(water, shading.rays, packets, found);
   }
 
   HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "render/materials/foam-inl.h"
 #include "render/materials/near_shore-inl.h"
@@ -174,15 +175,15 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
 // by side hide that.
-template <bool kCoast, std::size_t kCount>
-HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const ViewRays& rays,
-                                                       const std::array<Packet, kCount>& packets) {
+template <bool kCoast>
+HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
+                            std::span<const Packet> packets, WaterSlopes* s) {
   const D d;
   const V zero = hn::Zero(d);
-  std::array<V, kCount> across, level_flat_m, level_m, du, dv;
-  std::array<Surf, kCount> surf;
-  std::array<WaterSlopes, kCount> s;
-  for (std::size_t k = 0; k < kCount; ++k) {
+  const std::size_t count = packets.size();
+  PerPacket<V> across, level_flat_m, level_m, du, dv;
+  PerPacket<Surf> surf;
+  for (std::size_t k = 0; k < count; ++k) {
     across[k] = FootprintAcross(rays, packets[k]);
     level_flat_m[k] = FootprintLevel(across[k], Clamp(packets[k].to_eye.z, kMinCos, 1.0f));
     level_m[k] = level_flat_m[k];
@@ -192,27 +193,27 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
     du[k] = dv[k] = zero;
   }
   for (int i = 0; i < water.sine_count; ++i)
-    for (std::size_t k = 0; k < kCount; ++k)
+    for (std::size_t k = 0; k < count; ++k)
       AddSine(water.sines[static_cast<std::size_t>(i)], packets[k].p, level_m[k], s[k]);
   bool all_ceded = kCoast;
   if constexpr (kCoast)
-    for (std::size_t k = 0; k < kCount; ++k) all_ceded = all_ceded && surf[k].all_ceded;
+    for (std::size_t k = 0; k < count; ++k) all_ceded = all_ceded && surf[k].all_ceded;
   const bool has_patch = water.first_ripples > 0;
   if (has_patch && !all_ceded) {
     const FoamMap* const long_foam = water.whitecaps.count > 0 ? &water.whitecaps.foam[0] : nullptr;
-    std::array<V, kCount> foam;
-    for (std::size_t k = 0; k < kCount; ++k)
+    PerPacket<V> foam;
+    for (std::size_t k = 0; k < count; ++k)
       foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
                                 s[k].slope_x, s[k].slope_y, s[k].variance);
-    for (std::size_t k = 0; k < kCount; ++k)
+    for (std::size_t k = 0; k < count; ++k)
       foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p,
                             hn::Add(packets[k].p.z, Constant(rays.eye_z)), level_flat_m[k],
                             surf[k].ceded);
-    for (std::size_t k = 0; k < kCount; ++k)
+    for (std::size_t k = 0; k < count; ++k)
       SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
   }
   if constexpr (kCoast)
-    for (std::size_t k = 0; k < kCount; ++k)
+    for (std::size_t k = 0; k < count; ++k)
       AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]);
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
@@ -220,21 +221,18 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
   for (int i = std::min(last_long, 0); i < water.layer_count; ++i) {
     const bool is_long = i <= last_long;
     if (i == water.first_ripples) {
-      bool shows = false;
-      for (std::size_t k = 0; k < kCount; ++k)
-        shows = shows || ShowsDetail(water.layers[i], level_m[k]);
-      if (shows)
-        for (std::size_t k = 0; k < kCount; ++k)
+      for (std::size_t k = 0; k < count; ++k)
+        if (ShowsDetail(water.layers[i], level_m[k]))
           BendRipples<kCoast>(water, packets[k].p, level_m[k], du[k], dv[k]);
     }
     if (i >= (has_patch ? 1 : 0) && !(is_long && all_ceded)) {
       const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
-      for (std::size_t k = 0; k < kCount; ++k)
+      for (std::size_t k = 0; k < count; ++k)
         AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
                   s[k].variance);
     }
     if (!is_long) continue;
-    for (std::size_t k = 0; k < kCount; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       if (kCoast && surf[k].is_near && i == last_long)
         BlendCoast(water, packets[k].p, level_flat_m[k], surf[k], s[k]);
       s[k].long_cosine = CosineOfSlopes(packets[k], s[k]);
@@ -244,7 +242,13 @@ HWY_INLINE std::array<WaterSlopes, kCount> SampleWater(const Water& water, const
     }
   }
   if (water.wakes.count > 0)
-    for (std::size_t k = 0; k < kCount; ++k) AddWakes(water, packets[k].p, level_flat_m[k], s[k]);
+    for (std::size_t k = 0; k < count; ++k) AddWakes(water, packets[k].p, level_flat_m[k], s[k]);
+}
+
+template <bool kCoast>
+HWY_INLINE WaterSlopes SampleWater(const Water& water, const ViewRays& rays, const Packet& packet) {
+  WaterSlopes s;
+  SampleWater<kCoast>(water, rays, std::span(&packet, 1), &s);
   return s;
 }
 

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <array>
+
 #include "math/elementary-inl.h"
 #include "render/tile/shade_tile.h"
 #include "texture/packed_map-inl.h"
@@ -102,6 +104,12 @@ HWY_INLINE Packet MakePacket(const ViewRays& rays, V x_px, V y_px, V z) {
   packet.to_eye.z = hn::NegMulAdd(hn::Add(sunk, sunk), inverse_length, packet.to_eye.z);
   return packet;
 }
+
+// As many packets as a shader may look up side by side. While one waits for what it looks up, the
+// others go on: a processor sees that in loops over packets whose bodies are short.
+constexpr std::size_t kMostPacketsAtOnce = 8;
+template <class T>
+using PerPacket = std::array<T, kMostPacketsAtOnce>;
 
 // A value in [0, 1) that differs from pixel to pixel without visible pattern, the same in every
 // frame. Source: Jimenez, Next Generation Post Processing in Call of Duty, 2014 (interleaved

@@ -34,14 +34,13 @@ struct PixelList {
 using PixelLists = std::array<PixelList, kMaterialCount + 1>;
 constexpr std::size_t kSky = kMaterialCount;
 
-constexpr std::size_t kMostPacketsAtOnce = 3;
-static_assert(kMostPacketsAtOnce * kLanes <= kListPadding);
+static_assert(kLanes <= kListPadding);
 
-// Repeats the last pixel up to full packets, so that every packet is shaded whole.
+// Repeats the last pixel up to a full packet, so that every packet is shaded whole.
 inline void PadToPackets(PixelList& list) {
   if (list.count == 0) return;
   const std::uint16_t last = list.at[list.count - 1];
-  std::fill_n(list.at + list.count, kMostPacketsAtOnce * kLanes, last);
+  std::fill_n(list.at + list.count, kLanes, last);
 }
 
 // Appends pixels `first` and the kLanes - 1 after it.

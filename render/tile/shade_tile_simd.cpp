@@ -118,16 +118,25 @@ struct FragmentsInTile {
   }
 };
 
-// Calls shade(packets) for what is listed, some packets at a time, and stores the colours.
-template <std::size_t kPacketsAtOnce, class Listed, class Shade>
+// Calls shade(packet) for what is listed and stores the colours.
+template <class Listed, class Shade>
 HWY_INLINE void ShadeList(const Listed& listed, const Shade& shade) {
-  static_assert(kPacketsAtOnce <= kMostPacketsAtOnce);
-  const auto shade_at = [&]<std::size_t... k>(std::size_t i, std::index_sequence<k...>) HWY_ATTR {
-    const auto colours = shade(std::array{listed.Load(i + k * kLanes)...});
-    (listed.Store(i + k * kLanes, colours[k]), ...);
-  };
-  for (std::size_t i = 0; i < listed.list.count; i += kPacketsAtOnce * kLanes)
-    shade_at(i, std::make_index_sequence<kPacketsAtOnce>());
+  for (std::size_t i = 0; i < listed.list.count; i += kLanes)
+    listed.Store(i, shade(listed.Load(i)));
+}
+
+// The same for packets side by side: shade(packets, colours).
+template <class Listed, class Shade>
+HWY_INLINE void ShadeSideBySide(const Listed& listed, const Shade& shade) {
+  PerPacket<ListedPacket> packets;
+  PerPacket<V3> colours;
+  for (std::size_t i = 0; i < listed.list.count; i += kMostPacketsAtOnce * kLanes) {
+    const std::size_t pixels = std::min(listed.list.count - i, kMostPacketsAtOnce * kLanes);
+    const std::size_t count = (pixels + kLanes - 1) / kLanes;
+    for (std::size_t k = 0; k < count; ++k) packets[k] = listed.Load(i + k * kLanes);
+    shade(std::span<const ListedPacket>(packets.data(), count), colours.data());
+    for (std::size_t k = 0; k < count; ++k) listed.Store(i + k * kLanes, colours[k]);
+  }
 }
 
 // The light of a packet's pixels as it arrives, but for air that is laid last. What labels want of
@@ -159,35 +168,19 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
   }
 }
 
-// The light of packets side by side as it arrives.
-template <ViewKind kView, class M, class Shade, class Keep, std::size_t... k>
-HWY_INLINE std::array<V3, sizeof...(k)> ArrivingLights(
-    const Shading& s, const TilePixels& tile, const M& material,
-    const std::array<ListedPacket, sizeof...(k)>& listed, const Shade& shade, const Keep& keep,
-    std::index_sequence<k...>) {
-  const std::array<Packet, sizeof...(k)> shown = {
-      MakePacket(s.rays, listed[k].x_px, listed[k].y_px, listed[k].z)...};
-  if constexpr (requires { shade.LookUp(s, shown); }) {
-    static_assert(kView == ViewKind::kWindow,
-                  "elsewhere what is shown is not where it seems to be");
-    const auto found = shade.LookUp(s, shown);
-    // A loop, so that the code fits the processor's caches.
-    std::array<V3, sizeof...(k)> lights;
-#pragma GCC unroll 1
-    for (std::size_t i = 0; i < lights.size(); ++i)
-      lights[i] =
-          ArrivingLight<kView>(s, tile, material, listed[i].lanes, shown[i], shade, keep, found[i]);
-    return lights;
-  } else {
-    return {ArrivingLight<kView>(s, tile, material, listed[k].lanes, shown[k], shade, keep)...};
-  }
-}
-
-// How many packets a shader wants at a time.
-template <class Shade>
-constexpr std::size_t PacketsAtOnce() {
-  if constexpr (requires { Shade::kPacketsAtOnce; }) return Shade::kPacketsAtOnce;
-  return 1;
+// The light of packets side by side. A function of its own: pixels and fragments share it.
+template <class M, class Shade, class Keep>
+HWY_NOINLINE void ArrivingLights(const Shading& s, const TilePixels& tile, const M& material,
+                                 const Shade& shade, const Keep& keep,
+                                 std::span<const ListedPacket> packets, V3* lights) {
+  PerPacket<Packet> shown;
+  PerPacket<typename Shade::Found> found;
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    shown[k] = MakePacket(s.rays, packets[k].x_px, packets[k].y_px, packets[k].z);
+  shade.LookUp(s, std::span<const Packet>(shown.data(), packets.size()), found.data());
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    lights[k] = ArrivingLight<ViewKind::kWindow>(s, tile, material, packets[k].lanes, shown[k],
+                                                 shade, keep, found[k]);
 }
 
 // Labels are of the pixels' centres alone: fragments keep nothing.
@@ -196,18 +189,24 @@ HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const Pi
                               ShadeScratch& scratch, const Keep& keep) {
   const M& material = s.material<M>();
   WithShader<kView>(material, [&]<class Shade>(const Shade& shade) HWY_ATTR {
-    const auto shading_with = [&](const auto& kept) HWY_ATTR {
-      return [&]<std::size_t kCount>(const std::array<ListedPacket, kCount>& listed) HWY_ATTR {
-        return ArrivingLights<kView>(s, tile, material, listed, shade, kept,
-                                     std::make_index_sequence<kCount>());
-      };
+    const auto shade_list = [&](const auto& listed, const auto& kept) HWY_ATTR {
+      // Elsewhere what is shown is not where it seems to be.
+      if constexpr (kView == ViewKind::kWindow && LooksUpSideBySide<Shade>) {
+        ShadeSideBySide(listed, [&](std::span<const ListedPacket> packets, V3* lights) HWY_ATTR {
+          ArrivingLights(s, tile, material, shade, kept, packets, lights);
+        });
+      } else {
+        ShadeList(listed, [&](const ListedPacket& packet) HWY_ATTR {
+          const Packet shown = MakePacket(s.rays, packet.x_px, packet.y_px, packet.z);
+          return ArrivingLight<kView>(s, tile, material, packet.lanes, shown, shade, kept);
+        });
+      }
     };
-    ShadeList<PacketsAtOnce<Shade>()>(PixelsInTile{s, tile, list, scratch}, shading_with(keep));
+    shade_list(PixelsInTile{s, tile, list, scratch}, keep);
     if (kView != ViewKind::kWindow || tile.fragments.empty()) return;
     const PixelList parts = ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
                                           s.primitives.end(M::kSurface), scratch);
-    ShadeList<PacketsAtOnce<Shade>()>(FragmentsInTile{tile.fragments, parts, scratch},
-                                      shading_with(KeepNothing()));
+    shade_list(FragmentsInTile{tile.fragments, parts, scratch}, KeepNothing());
   });
 }
 
@@ -245,10 +244,10 @@ HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScr
   const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch, keep);
   if (!tile.fragments.empty()) {
     const PixelList parts = ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch);
-    const auto shade_sky = [&](const std::array<ListedPacket, 1>& listed) HWY_ATTR {
-      return std::array{ShadeSky(s, tile.box, tile.shafts, listed[0].x_px, listed[0].y_px)};
-    };
-    ShadeList<1>(FragmentsInTile{tile.fragments, parts, scratch}, shade_sky);
+    ShadeList(FragmentsInTile{tile.fragments, parts, scratch},
+              [&](const ListedPacket& packet) HWY_ATTR {
+                return ShadeSky(s, tile.box, tile.shafts, packet.x_px, packet.y_px);
+              });
   }
   LayAirOverTile(s, tile.box, tile.depth, scratch);
   LayAirOverFragments(s, tile.fragments, scratch);

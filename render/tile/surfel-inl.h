@@ -48,13 +48,18 @@ struct FadingSurfel : Surfel {
 //   const M& material;  (its only member)
 //   Surfel operator()(const Shading&, const TilePixels&, const Lanes&, const Packet&)
 // The packet holds true places in the world, also in views that mirror or squeeze them; the medium
-// is not its business. A shader that waits for what it looks up may do so for several packets side
-// by side, so that they wait together:
-//   static constexpr std::size_t kPacketsAtOnce = n;
-//   std::array<Found, n> LookUp(const Shading&, const std::array<Packet, n>&)
-// for n packets and for single ones; Found is then the last argument of the call.
+// is not its business. A shader that waits for what it looks up may do so for packets side by side,
+// kMostPacketsAtOnce at most, so that they wait together:
+//   using Found = ...;
+//   void LookUp(const Shading&, std::span<const Packet>, Found* found)
+// with a Found for each packet, which is then the last argument of the call. The window's alone.
 template <class M, ViewKind kView>
 struct Shader;
+
+template <class Shader>
+concept LooksUpSideBySide = requires {
+  typename Shader::Found;
+};
 
 // Calls use(shader) with the shader for this view; a material with variants overloads it.
 template <ViewKind kView, class M, class Use>

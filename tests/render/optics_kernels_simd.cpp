@@ -51,28 +51,25 @@ void StoreSeen(const WaterSlopes& s, std::span<SeenWater> seen, std::size_t firs
     seen[first + lane] = {{lanes[0][lane], lanes[1][lane]}, lanes[2][lane], lanes[3][lane]};
 }
 
-template <bool kCoast, std::size_t... k>
-void SampleAll(const Water& water, const ViewRays& rays, std::span<const glm::vec3> p_rel,
-               std::span<SeenWater> seen, std::index_sequence<k...>) {
-  for (std::size_t i = 0; i < seen.size(); i += sizeof...(k) * kLanes) {
-    const auto found =
-        SampleWater<kCoast>(water, rays, std::array{PacketAt(p_rel, i + k * kLanes)...});
-    (StoreSeen(found[k], seen, i + k * kLanes), ...);
+template <bool kCoast>
+void SampleAll(const Water& water, const ViewRays& rays, std::size_t packets_at_once,
+               std::span<const glm::vec3> p_rel, std::span<SeenWater> seen) {
+  PerPacket<Packet> packets;
+  PerPacket<WaterSlopes> found;
+  for (std::size_t i = 0; i < seen.size(); i += packets_at_once * kLanes) {
+    for (std::size_t k = 0; k < packets_at_once; ++k) packets[k] = PacketAt(p_rel, i + k * kLanes);
+    SampleWater<kCoast>(water, rays, std::span(packets.data(), packets_at_once), found.data());
+    for (std::size_t k = 0; k < packets_at_once; ++k) StoreSeen(found[k], seen, i + k * kLanes);
   }
 }
 
 void SampleInPackets(const Water& water, const ViewRays& rays, int packets_at_once,
                      std::span<const glm::vec3> p_rel, std::span<SeenWater> seen) {
-  const auto sample = [&](auto side_by_side) {
-    if (water.knows_land())
-      SampleAll<true>(water, rays, p_rel, seen, side_by_side);
-    else
-      SampleAll<false>(water, rays, p_rel, seen, side_by_side);
-  };
-  if (packets_at_once == 1)
-    sample(std::make_index_sequence<1>());
+  const auto at_once = static_cast<std::size_t>(packets_at_once);
+  if (water.knows_land())
+    SampleAll<true>(water, rays, at_once, p_rel, seen);
   else
-    sample(std::make_index_sequence<3>());
+    SampleAll<false>(water, rays, at_once, p_rel, seen);
 }
 
 }  // namespace HWY_NAMESPACE

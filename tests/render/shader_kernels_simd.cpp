@@ -110,7 +110,8 @@ void LightOfWater(const Shading& shading, std::span<const glm::vec3> to_eye,
     packet.distance = hn::Div(Constant(shading.rays.eye_z), packet.to_eye.z);
     packet.depth = packet.distance;
     packet.p = Scale(packet.to_eye, hn::Neg(packet.distance));
-    const auto [slopes] = shader.LookUp(shading, std::array{packet});
+    WaterSlopes slopes;
+    shader.LookUp(shading, std::span(&packet, 1), &slopes);
     StoreSome(shader(shading, TilePixels{}, Lanes{}, packet, slopes).light, light, i);
   });
 }
