@@ -3,7 +3,9 @@ add_library(swell_options INTERFACE)
 target_compile_options(swell_options INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-Werror>
   # Highway's headers compare and convert freely inside its own namespaces.
-  $<BUILD_INTERFACE:-Wno-psabi>)
+  $<BUILD_INTERFACE:-Wno-psabi>
+  # Per-target headers hold functions and settings that not every file includes them for.
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:Clang>:-Wno-unneeded-internal-declaration;-Wno-unused-function;-Wno-pragma-clang-attribute>>)
 if(SWELL_SANITIZE)
   target_compile_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE}
     -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -17,7 +17,6 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * kPi;
 constexpr std::size_t kBands = 4;  // pieces of work that a map's rows make
 
 void require(double value, double low, double high, const char* name) {

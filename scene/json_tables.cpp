@@ -24,7 +24,7 @@ class Converter {
   }
 
  private:
-  static constexpr Place kNowhere{0, 0, {}};
+  static inline const Place kNowhere{0, 0, {}};
 
   void insert(toml::table& table, std::string_view key, const Json& value,
               const std::string& prefix) const {

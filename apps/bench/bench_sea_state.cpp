@@ -157,7 +157,7 @@ void run_table(const SeaStateBench& bench) {
   std::string scale;
   for (const Json& row : rows) {
     if (bench.json == "-") break;
-    if (scale != row["scale"])
+    if (scale != row["scale"].get<std::string>())
       fmt::print(
           "{}| {} | name | Hs of the code, m | Hs drawn, m | wind U10, m/s | peak, s | "
           "peak, m |\n|---|---|---|---|---|---|---|\n",

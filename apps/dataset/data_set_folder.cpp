@@ -105,7 +105,8 @@ std::string DataSetFolder::check_record(int sample, bool with_files) const {
     return name + ": no record of this recipe's";
   if (!with_files) return "";
   for (const auto& [file, hash] : record["files"].items())
-    if (hash_of(folder_ / file) != hash) return file + ": not what its record says";
+    if (hash_of(folder_ / file) != hash.get<std::string>())
+      return file + ": not what its record says";
   return "";
 }
 

@@ -85,7 +85,8 @@ class BlockCells {
   // Whether the corners lie near water.
   bool is_known(int i, int j, int size) const {
     const auto known = [&](int x, int y) {
-      return samples_[static_cast<std::size_t>(y) * kInlandSide + static_cast<std::size_t>(x)].near;
+      return samples_[static_cast<std::size_t>(y) * kInlandSide + static_cast<std::size_t>(x)]
+                 .near != 0.0f;
     };
     return known(i, j) && known(i + size, j) && known(i, j + size) && known(i + size, j + size);
   }
