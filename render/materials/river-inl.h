@@ -292,9 +292,7 @@ struct RiverSeen {
   bool meets_sea, is_river;  // in any lane
 };
 
-// A function of its own, so that the code of packets side by side fits the processor's caches.
-[[maybe_unused]] static HWY_NOINLINE RiverSeen SeeRiver(const Shading& shading, const River& river,
-                                                        Packet packet) {
+HWY_INLINE RiverSeen SeeRiver(const Shading& shading, const River& river, const Packet& packet) {
   const D d;
   const V zero = hn::Zero(d);
   RiverSeen seen = {SampleRiver(river, packet), NoSlopes(zero, zero, zero), false, false};
