@@ -18,6 +18,7 @@ struct SeenWater {
   float variance = 0.0f, foam_cover = 0.0f;
   bool operator==(const SeenWater&) const = default;
 };
+// packets_at_once: 1 to 8.
 void sample_water(const Water& water, const ViewRays& rays, int packets_at_once,
                   std::span<const glm::vec3> p_rel, std::span<SeenWater> seen);
 
