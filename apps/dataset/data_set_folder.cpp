@@ -105,8 +105,7 @@ std::string DataSetFolder::check_record(int sample, bool with_files) const {
     return name + ": no record of this recipe's";
   if (!with_files) return "";
   for (const auto& [file, hash] : record["files"].items())
-    if (hash_of(folder_ / file) != hash.get<std::string>())
-      return file + ": not what its record says";
+    if (hash != Json(hash_of(folder_ / file))) return file + ": not what its record says";
   return "";
 }
 

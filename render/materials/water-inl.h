@@ -7,7 +7,7 @@
 #endif
 
 #include <algorithm>
-#include <array>
+#include <span>
 
 #include "render/labels/label_channels.h"
 #include "render/materials/bump_light-inl.h"

@@ -160,6 +160,23 @@ TEST_F(DataSet, SamplesThatAreThereAreNotDrawnAgain) {
   EXPECT_NE(time_of("records/000002.json"), record);
 }
 
+TEST_F(DataSet, ARecordOfSomethingElseThanHashesIsDamaged) {
+  make("a");
+  const auto before = files("a");
+  const fs::path path = folder_.path() / "a/records/000002.json";
+  const std::string text = read_text(path);
+  const std::size_t key = text.find("\"classes/000002.png\"");
+  ASSERT_NE(key, std::string::npos);
+  const std::size_t begin = text.find('"', text.find(':', key));
+  const std::size_t end = text.find('"', begin + 1) + 1;
+  write_text(path, fmt::format("{}7{}", text.substr(0, begin), text.substr(end)));
+  const Outcome damaged = run("a", {"--check"});
+  EXPECT_EQ(damaged.exit_code, 1);
+  EXPECT_TRUE(is_one_error_line(damaged.err, {"classes/000002.png"})) << damaged.err;
+  make("a");
+  EXPECT_EQ(files("a"), before);
+}
+
 // A mask that is right by itself, from the PNG of ids.
 struct Mask {
   int x0 = kWidth, y0 = kHeight, x1 = -1, y1 = -1, area = 0;
