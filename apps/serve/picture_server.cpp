@@ -34,14 +34,6 @@ std::string new_token() {
   return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
-// Of equal length: as long for a wrong token as for a right one.
-bool equals_secret(const std::string& given, const std::string& secret) {
-  unsigned differs = given.size() != secret.size();
-  for (std::size_t i = 0; i < std::min(given.size(), secret.size()); ++i)
-    differs |= static_cast<unsigned char>(given[i] ^ secret[i]);
-  return differs == 0;
-}
-
 void refuse(httplib::Response& response, int status, const std::string& line) {
   response.status = status;
   response.set_content(line + "\n", kText);
@@ -138,19 +130,20 @@ void PictureServer::send_scene(httplib::Response& response) {
   response.set_content(scene_, kText);
 }
 
-// With the token where there is one, and not from a page of another site.
-bool PictureServer::allows(const httplib::Request& request) const {
-  const std::string origin = request.get_header_value("Origin");
-  if (!origin.empty() && origin != "http://" + request.get_header_value("Host")) return false;
-  return address_.token.empty() || equals_secret(request.get_param_value("token"), address_.token);
+Verdict PictureServer::judge_request(const httplib::Request& request) const {
+  Request head{request.method, request.target, {}, {}};
+  for (const auto& field : request.headers) head.fields.push_back(field);
+  std::vector<std::string> hosts = {"localhost", "127.0.0.1", "::1", address_.host};
+  return judge(head, {std::move(hosts), address_.hosts, address_.token, port_});
 }
 
 void PictureServer::add_pages() {
   using httplib::Request;
   using httplib::Response;
   http_->set_pre_routing_handler([this](const Request& request, Response& response) {
-    if (allows(request)) return httplib::Server::HandlerResponse::Unhandled;
-    refuse(response, 403, "wrong token");
+    const Verdict verdict = judge_request(request);
+    if (verdict.status == 200) return httplib::Server::HandlerResponse::Unhandled;
+    refuse(response, verdict.status, verdict.line);
     return httplib::Server::HandlerResponse::Handled;
   });
   http_->set_error_handler([](const Request&, Response& response) {

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "apps/serve/access_rules.h"
 #include "apps/serve/picture_stream.h"
 
 namespace httplib {
@@ -32,6 +33,7 @@ struct Address {
   std::string host = "127.0.0.1";  // a name or an address, of IPv6 without brackets
   int port = 0;                    // 0: any that is free
   std::string token;               // empty: none needed
+  std::vector<std::string> hosts;  // names of proxies that pass requests on
 };
 
 // "[ADDRESS:]PORT", an IPv6 address in brackets; with a new token where one is needed. Throws
@@ -67,7 +69,7 @@ class PictureServer {
   void answer_scene(const std::function<std::string()>& write);
 
  private:
-  bool allows(const httplib::Request& request) const;
+  Verdict judge_request(const httplib::Request& request) const;
   void add_pages();
   void answer_stream(httplib::Response& response);
   void send_scene(httplib::Response& response);

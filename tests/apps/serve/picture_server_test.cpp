@@ -28,7 +28,8 @@ TEST(ServeAddress, IsAPortOrAnAddressAndAPort) {
 class Served : public testing::Test {
  protected:
   explicit Served(const std::string& token = {})
-      : server_({.port = 0, .token = token}, {[this](const SDL_Event&) { ++events_; }, {}}),
+      : server_({.port = 0, .token = token, .hosts = {}},
+                {[this](const SDL_Event&) { ++events_; }, {}}),
         client_("127.0.0.1", server_.port()) {}
 
   void publish(std::uint8_t grey) {
@@ -112,7 +113,7 @@ TEST_F(ServedWithToken, RefusesWhoDoesNotKnowIt) {
 
 TEST_F(Served, ABusyPortIsOneLine) {
   try {
-    const PictureServer second({.port = server_.port(), .token = {}}, {});
+    const PictureServer second({.port = server_.port(), .token = {}, .hosts = {}}, {});
     FAIL() << "two servers on a port";
   } catch (const ServerError& error) {
     EXPECT_EQ(std::string(error.what()).find("cannot listen on 127.0.0.1:"), 0u);
