@@ -82,7 +82,7 @@ void add_key(const Json& json, std::vector<SDL_Event>& events) {
   const bool is_down = value_of<bool>(json, "down");
   event.key.type = is_down ? SDL_KEYDOWN : SDL_KEYUP;
   event.key.state = is_down ? SDL_PRESSED : SDL_RELEASED;
-  event.key.repeat = json.value("repeat", false);
+  event.key.repeat = json.contains("repeat") && value_of<bool>(json, "repeat");
   event.key.keysym.scancode = known->place;
   event.key.keysym.sym = known->key;
   events.push_back(event);

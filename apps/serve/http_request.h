@@ -19,6 +19,15 @@ struct Request {
   std::vector<std::string_view> values(std::string_view field) const;  // of any letter case
 };
 
+inline constexpr std::size_t kMostBytes = 65536;  // of a request's head, and of its body
+
+// The first request of these bytes, as a connection reads it.
+struct ParsedRequest {
+  int status = 200;  // 200: whole; else why it is refused; 0: more bytes are needed
+  Request request;
+};
+ParsedRequest parse_request(std::string_view bytes);
+
 bool equals_ignoring_case(std::string_view a, std::string_view b);
 
 }  // namespace swell::serve

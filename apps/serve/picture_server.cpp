@@ -1,202 +1,172 @@
 #include "apps/serve/picture_server.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
-#include <sys/socket.h>
 
-#include <array>
+#include <algorithm>
 #include <atomic>
-#include <cerrno>
-#include <cstring>
-#include <random>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <mutex>
+#include <thread>
 
-#include "apps/serve/browser_events.h"
-#include "apps/serve/page.h"
-#include "apps/shared/parse_number.h"
+#include "apps/serve/connection.h"
 
 namespace swell::serve {
+
+using boost::asio::ip::tcp;
+using Error = boost::system::error_code;
+
+struct PictureServer::Machinery {
+  Machinery(const Address& where, Hooks given)
+      : address(where),
+        hooks(std::move(given)),
+        pictures(kMostSeats, hooks.on_change, [this] { tell_of_picture(); }) {}
+
+  void listen();
+  void accept();
+  void take(tcp::socket socket);
+  void make_room();
+  void tell_of_picture();
+  void run();
+  template <class Tell>
+  void for_each_connection(Tell tell);
+
+  // In this order: connections, which handlers of `io` own, need all that stands before it.
+  const Address address;
+  const Hooks hooks;
+  PictureStream pictures;
+  Lobby lobby;
+  std::mutex camera_mutex;
+  std::string camera;
+  std::atomic<bool> is_scene_wanted = false;  // since the last was written
+  std::atomic<bool> is_panel_open = false;
+  std::vector<std::weak_ptr<Connection>> connections;  // the oldest first
+  boost::asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  boost::asio::steady_timer pause{io};
+  std::thread thread;
+};
+
 namespace {
 
-constexpr const char* kText = "text/plain; charset=utf-8";
-constexpr const char* kBoundary = "picture";
 constexpr int kSendBuffer_bytes = 262144;  // a slow browser is seconds behind with more
-constexpr int kWriteTimeout_s = 10;        // who takes nothing for so long is left
-constexpr std::chrono::seconds kLongestSceneWait{5};
-constexpr int kOtherThreads = 12;  // for events and pages
 
-bool is_this_machine(const std::string& host) {
-  return host == "127.0.0.1" || host == "localhost" || host == "::1";
-}
-
-// 128 bits of the system's.
-std::string new_token() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
-}
-
-void refuse(httplib::Response& response, int status, const std::string& line) {
-  response.status = status;
-  response.set_content(line + "\n", kText);
-}
-
-std::string bracketed(const std::string& host) {
-  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+[[noreturn]] void fail(const Address& address, const Error& error) {
+  throw ServerError(fmt::format("cannot listen on {}:{}: {}", bracketed(address.host), address.port,
+                                error.message()));
 }
 
 }  // namespace
 
-Address parse_address(const std::string& text) {
-  Address address;
-  const std::size_t colon = text.rfind(':');
-  if (colon != std::string::npos) {
-    address.host = text.substr(0, colon);
-    if (address.host.size() > 2 && address.host.front() == '[' && address.host.back() == ']')
-      address.host = address.host.substr(1, address.host.size() - 2);
-    else if (address.host.find(':') != std::string::npos)
-      address.host.clear();
-  }
-  const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
-  const bool digits = !port.empty() && port.size() <= 5 &&
-                      port.find_first_not_of("0123456789") == std::string::npos;
-  address.port = digits ? std::stoi(port) : -1;
-  if (address.host.empty() || address.port < 0 || address.port > 65535)
-    throw std::invalid_argument("got '" + text + "', allowed [ADDRESS:]PORT, PORT 0 to 65535");
-  if (!is_this_machine(address.host)) address.token = new_token();
-  return address;
+void PictureServer::Machinery::listen() {
+  Error error;
+  const auto found = tcp::resolver(io).resolve(address.host, std::to_string(address.port),
+                                               tcp::resolver::passive, error);
+  if (error || found.empty()) fail(address, error);
+  const tcp::endpoint endpoint = found.begin()->endpoint();
+  // Without SO_REUSEPORT, by which two servers would share a port.
+  if (acceptor.open(endpoint.protocol(), error) ||
+      acceptor.set_option(tcp::acceptor::reuse_address(true), error) ||
+      acceptor.bind(endpoint, error) ||
+      acceptor.listen(boost::asio::socket_base::max_listen_connections, error))
+    fail(address, error);
+}
+
+void PictureServer::Machinery::accept() {
+  acceptor.async_accept([this](Error error, tcp::socket socket) {
+    if (!error) {
+      take(std::move(socket));
+      return accept();
+    }
+    if (error == boost::asio::error::operation_aborted) return;
+    pause.expires_after(std::chrono::milliseconds(100));  // no file descriptor is free
+    pause.async_wait([this](Error) { accept(); });
+  });
+}
+
+void PictureServer::Machinery::take(tcp::socket socket) {
+  make_room();
+  if (connections.size() >= kMostConnections) return;
+  Error ignored;
+  socket.set_option(tcp::no_delay(true), ignored);
+  socket.set_option(tcp::socket::send_buffer_size(kSendBuffer_bytes), ignored);
+  const auto connection = std::make_shared<Connection>(std::move(socket), lobby);
+  connections.push_back(connection);
+  connection->start();
+}
+
+void PictureServer::Machinery::make_room() {
+  std::erase_if(connections, [](const auto& one) {
+    const auto connection = one.lock();
+    return !connection || connection->is_closed();
+  });
+  if (connections.size() < kMostConnections) return;
+  const auto oldest =
+      std::ranges::find_if(connections, [](const auto& one) { return !one.lock()->is_trusted(); });
+  if (oldest == connections.end()) return;
+  oldest->lock()->close();
+  connections.erase(oldest);
+}
+
+template <class Tell>
+void PictureServer::Machinery::for_each_connection(Tell tell) {
+  for (const auto& one : connections)
+    if (const auto connection = one.lock()) tell(*connection);
+}
+
+void PictureServer::Machinery::tell_of_picture() {
+  boost::asio::post(io, [this] { for_each_connection([](Connection& c) { c.picture_came(); }); });
+}
+
+// A fault in a handler, such as no memory, ends that handler's connection alone.
+void PictureServer::Machinery::run() {
+  for (;;) try {
+      io.run();
+      return;
+    } catch (const std::exception&) {
+    }
 }
 
 PictureServer::PictureServer(const Address& address, Hooks hooks)
-    : address_(address),
-      hooks_(std::move(hooks)),
-      stream_(kMostSeats, hooks_.on_change),
-      http_(std::make_unique<httplib::Server>()) {
-  http_->new_task_queue = [] { return new httplib::ThreadPool(kMostSeats + kOtherThreads); };
-  http_->set_payload_max_length(kMostBytes);
-  http_->set_write_timeout(kWriteTimeout_s, 0);
-  http_->set_keep_alive_max_count(100000);
-  http_->set_tcp_nodelay(true);
-  // Without SO_REUSEPORT, by which two servers would share a port.
-  http_->set_socket_options([](socket_t socket) {
-    const int yes = 1;
-    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &kSendBuffer_bytes, sizeof kSendBuffer_bytes);
-  });
-  add_pages();
-  errno = 0;
-  port_ = address.port > 0 ? (http_->bind_to_port(address.host, address.port) ? address.port : -1)
-                           : http_->bind_to_any_port(address.host);
-  if (port_ <= 0)
-    throw ServerError(fmt::format("cannot listen on {}:{}: {}", bracketed(address.host),
-                                  address.port, errno ? std::strerror(errno) : "no such address"));
-  thread_ = std::thread([this] { http_->listen_after_bind(); });
+    : machinery_(std::make_unique<Machinery>(address, std::move(hooks))) {
+  Machinery& all = *machinery_;
+  all.listen();
+  all.lobby.site = {rules_of(address, port()), all.hooks.take, [&all] {
+                      const std::scoped_lock lock(all.camera_mutex);
+                      return all.camera;
+                    }};
+  all.lobby.pictures = &all.pictures;
+  all.lobby.want_scene = [&all] { all.is_scene_wanted = true; };
+  all.lobby.is_panel_open = [&all] { return all.is_panel_open.load(); };
+  all.accept();
+  all.thread = std::thread([&all] { all.run(); });
 }
 
 PictureServer::~PictureServer() {
-  while (!http_->is_running()) std::this_thread::yield();  // stop() before would not be heard
-  http_->stop();
-  thread_.join();
+  machinery_->io.stop();
+  machinery_->thread.join();
 }
 
-std::string PictureServer::url() const {
-  const std::string url = fmt::format("http://{}:{}/", bracketed(address_.host), port_);
-  return address_.token.empty() ? url : url + "?token=" + address_.token;
+int PictureServer::port() const { return machinery_->acceptor.local_endpoint().port(); }
+
+std::vector<std::string> PictureServer::urls() const {
+  return urls_of(machinery_->address, port());
 }
+
+PictureStream& PictureServer::stream() { return machinery_->pictures; }
 
 void PictureServer::set_camera(std::string toml) {
-  const std::scoped_lock lock(mutex_);
-  camera_ = std::move(toml);
+  const std::scoped_lock lock(machinery_->camera_mutex);
+  machinery_->camera = std::move(toml);
 }
+
+void PictureServer::set_panel_open(bool is_open) { machinery_->is_panel_open = is_open; }
 
 void PictureServer::answer_scene(const std::function<std::string()>& write) {
-  {
-    const std::scoped_lock lock(mutex_);
-    if (!scene_wanted_) return;
-    scene_wanted_ = false;
-    scene_ = write();
-    ++scenes_;
-  }
-  scene_came_.notify_all();
-}
-
-void PictureServer::send_scene(httplib::Response& response) {
-  const auto seat = stream_.take_seat();  // so that a frame is drawn, after which it is written
-  if (!seat) return refuse(response, 503, "too many look already");
-  std::unique_lock lock(mutex_);
-  const std::uint64_t before = scenes_;
-  scene_wanted_ = true;
-  const bool came = scene_came_.wait_for(lock, kLongestSceneWait, [&] { return scenes_ > before; });
-  if (!came) return refuse(response, 503, "no picture yet");
-  response.set_header("Content-Disposition", "attachment; filename=\"swell.toml\"");
-  response.set_content(scene_, kText);
-}
-
-Verdict PictureServer::judge_request(const httplib::Request& request) const {
-  Request head{request.method, request.target, {}, {}};
-  for (const auto& field : request.headers) head.fields.push_back(field);
-  std::vector<std::string> hosts = {"localhost", "127.0.0.1", "::1", address_.host};
-  return judge(head, {std::move(hosts), address_.hosts, address_.token, port_});
-}
-
-void PictureServer::add_pages() {
-  using httplib::Request;
-  using httplib::Response;
-  http_->set_pre_routing_handler([this](const Request& request, Response& response) {
-    const Verdict verdict = judge_request(request);
-    if (verdict.status == 200) return httplib::Server::HandlerResponse::Unhandled;
-    refuse(response, verdict.status, verdict.line);
-    return httplib::Server::HandlerResponse::Handled;
+  if (!machinery_->is_scene_wanted.exchange(false)) return;
+  boost::asio::post(machinery_->io, [all = machinery_.get(), toml = write()] {
+    all->for_each_connection([&](Connection& c) { c.scene_came(toml); });
   });
-  http_->set_error_handler([](const Request&, Response& response) {
-    if (response.body.empty())
-      response.set_content(fmt::format("status {}\n", response.status), kText);
-  });
-  http_->Get("/", [](const Request&, Response& response) {
-    response.set_content(std::string(page_html()), "text/html; charset=utf-8");
-  });
-  http_->Get("/stream", [this](const Request&, Response& response) { answer_stream(response); });
-  http_->Get("/stream/state", [](const Request&, Response& response) {
-    response.set_content(fmt::format("no more than {} may look at once", kMostSeats), kText);
-  });
-  http_->Get("/picture.jpg", [this](const Request&, Response& response) {
-    const auto seat = stream_.take_seat();  // so that one is drawn
-    if (!seat) return refuse(response, 503, "too many look already");
-    const PictureStream::Jpeg jpeg = stream_.next(0);
-    if (jpeg.number == 0) return refuse(response, 503, "no picture yet");
-    response.set_content(*jpeg.bytes, "image/jpeg");
-  });
-  http_->Get("/camera", [this](const Request&, Response& response) {
-    const std::scoped_lock lock(mutex_);
-    response.set_content(camera_, kText);
-  });
-  http_->Get("/scene", [this](const Request&, Response& response) { send_scene(response); });
-  http_->Post("/input", [this](const Request& request, Response& response) {
-    try {
-      for (const SDL_Event& event : parse_events(request.body)) hooks_.take(event);
-      response.status = 204;
-    } catch (const EventError& error) {
-      refuse(response, 400, error.what());
-    }
-  });
-}
-
-void PictureServer::answer_stream(httplib::Response& response) {
-  auto seat = stream_.take_seat();
-  if (!seat)
-    return refuse(response, 503, fmt::format("no more than {} may look at once", kMostSeats));
-  response.set_header("Cache-Control", "no-store");
-  auto last = std::make_shared<std::uint64_t>(0);
-  response.set_content_provider(
-      fmt::format("multipart/x-mixed-replace; boundary={}", kBoundary),
-      [this, seat = std::move(seat), last](std::size_t, httplib::DataSink& sink) {
-        const PictureStream::Jpeg jpeg = stream_.next(*last);
-        if (jpeg.number == 0) return sink.is_writable();
-        *last = jpeg.number;
-        const std::string head =
-            fmt::format("--{}\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\n\r\n", kBoundary,
-                        jpeg.bytes->size());
-        return sink.write(head.data(), head.size()) &&
-               sink.write(jpeg.bytes->data(), jpeg.bytes->size()) && sink.write("\r\n", 2);
-      });
 }
 
 }  // namespace swell::serve

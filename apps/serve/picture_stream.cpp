@@ -3,14 +3,12 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 namespace swell::serve {
 namespace {
 
 constexpr int kQuality = 85;
-constexpr std::chrono::seconds kLongestWait{1};
 
 std::string jpeg_of(const std::vector<std::uint8_t>& rgba, int width_px, int height_px) {
   const std::unique_ptr<void, int (*)(tjhandle)> handle(tjInitCompress(), &tjDestroy);
@@ -75,16 +73,15 @@ void PictureStream::publish(int width_px, int height_px,
     picture->number = ++count_;
     newest_ = std::move(picture);
   }
-  came_.notify_all();
+  if (on_picture_) on_picture_();
 }
 
-PictureStream::Jpeg PictureStream::next(std::uint64_t after) {
+PictureStream::Jpeg PictureStream::newest(std::uint64_t after) {
   std::shared_ptr<Picture> picture;
   std::uint64_t number = 0;
   {
-    std::unique_lock lock(mutex_);
-    if (!came_.wait_for(lock, kLongestWait, [&] { return newest_ && newest_->number > after; }))
-      return {};
+    const std::scoped_lock lock(mutex_);
+    if (!newest_ || newest_->number <= after) return {};
     picture = newest_;
     number = picture->number;
   }

@@ -2,7 +2,6 @@
 // came in between is dropped. Who draws never waits for who looks.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -26,13 +25,18 @@ class PictureStream {
     PictureStream& stream_;
   };
 
-  // `on_change` is called when somebody comes or goes, from any thread.
-  explicit PictureStream(int most_seats, std::function<void()> on_change = {})
-      : most_seats_(most_seats), on_change_(std::move(on_change)) {}
+  // `on_change` is called when somebody comes or goes, from any thread; `on_picture` when a picture
+  // was published.
+  explicit PictureStream(int most_seats, std::function<void()> on_change = {},
+                         std::function<void()> on_picture = {})
+      : most_seats_(most_seats),
+        on_change_(std::move(on_change)),
+        on_picture_(std::move(on_picture)) {}
 
   // None if all places are taken.
   std::shared_ptr<Seat> take_seat();
   bool is_watched() const;
+  int most_seats() const { return most_seats_; }
 
   // Calls fill(rgba), which sets 4 x width_px x height_px bytes, and makes that the newest picture.
   void publish(int width_px, int height_px,
@@ -42,9 +46,9 @@ class PictureStream {
     std::uint64_t number = 0;  // of the picture, counted from 1; 0: none
     std::shared_ptr<const std::string> bytes;
   };
-  // Waits, for a second at most, for a picture after that of this number. Each is compressed once,
-  // by the first who asks.
-  Jpeg next(std::uint64_t after);
+  // The newest picture if it came after that of this number. Each is compressed once, by the first
+  // who asks.
+  Jpeg newest(std::uint64_t after);
 
  private:
   struct Picture {
@@ -59,9 +63,8 @@ class PictureStream {
   std::shared_ptr<Picture> unused_picture();
 
   const int most_seats_;
-  const std::function<void()> on_change_;
+  const std::function<void()> on_change_, on_picture_;
   mutable std::mutex mutex_;
-  std::condition_variable came_;
   int seats_ = 0;
   std::uint64_t count_ = 0;
   std::shared_ptr<Picture> newest_;

@@ -1,6 +1,7 @@
 // swell-view: flies over a scene in a window, or in a browser.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/serve/serve.h"
 #include "apps/shared/notices.h"
@@ -20,6 +21,9 @@ struct Options {
   int frames = 0;
   std::string screenshot;
   std::optional<Address> address;  // to serve a browser at
+  std::vector<std::string> proxies;
+  bool is_open = false;
+  std::string files = "swell-view-files";
 };
 
 Address address_of(const std::string& text) {
@@ -28,6 +32,41 @@ Address address_of(const std::string& text) {
   } catch (const std::invalid_argument& error) {
     throw apps::OptionError(std::string("command line: --serve: ") + error.what());
   }
+}
+
+void add_serve_options(apps::CommandLine& line, Options& options) {
+  line.add_value({"--serve", "[ADDRESS:]PORT", "",
+                  "Show it in a browser, at the URL that is printed, for all who know that URL: on "
+                  "this machine alone, or at ADDRESS. PORT 0: any",
+                  [&](const std::string& text) { options.address = address_of(text); }});
+  line.add_texts("--serve-host", "NAME", options.proxies,
+                 "With --serve: a name by which browsers reach it, such as a proxy's");
+  line.add_flag("--serve-open", options.is_open,
+                "With --serve on 127.0.0.1, ::1 or localhost: need no token. All users of this "
+                "machine are let in");
+  line.add_text("--serve-files", "FOLDER", options.files,
+                "With --serve: where files go that are saved from the panel");
+  line.need("--serve-host", "--serve");
+  line.need("--serve-open", "--serve");
+  line.need("--serve-files", "--serve");
+  line.exclude("--serve", "--frames");
+  line.exclude("--serve", "--screenshot");
+}
+
+void complete_address(Options& options) {
+  if (!options.address) return;
+  options.address->proxies = options.proxies;
+  for (const std::string& name : options.proxies)
+    if (name.empty() || name.find_first_of(":/@ ") != std::string::npos)
+      throw apps::OptionError("command line: --serve-host: got '" + name +
+                              "', allowed a name or an IPv4 address, without scheme and port");
+  if (options.files.empty())
+    throw apps::OptionError("command line: --serve-files: got '', allowed a folder's name");
+  if (!options.is_open) return;
+  if (!is_loopback(options.address->host))
+    throw apps::OptionError("command line: --serve-open: got ADDRESS '" + options.address->host +
+                            "', allowed 127.0.0.1, [::1] or localhost");
+  options.address->token.clear();
 }
 
 std::optional<Options> parse_options(int argc, char** argv) {
@@ -40,13 +79,9 @@ std::optional<Options> parse_options(int argc, char** argv) {
                     "Quit after N frames, the k-th (from 0) at k/60 seconds; 0: when closed");
   line.add_text("--screenshot", "FILE", options.screenshot,
                 "Write the last frame before quitting: .png .exr .tif .tiff");
-  line.add_value({"--serve", "[ADDRESS:]PORT", "",
-                  "Show it in a browser, at the URL that is printed: on this machine alone, or at "
-                  "ADDRESS to all who know the URL. PORT 0: any",
-                  [&](const std::string& text) { options.address = address_of(text); }});
-  line.exclude("--serve", "--frames");
-  line.exclude("--serve", "--screenshot");
+  add_serve_options(line, options);
   if (!line.parse(argc, argv)) return std::nullopt;
+  complete_address(options);
   return options;
 }
 
@@ -76,6 +111,7 @@ void run(const Options& options) {
   settings.frame.keep_linear = apps::stores_linear_light(options.screenshot);
 
   const scene::Scene scene = apps::load_scene(options.setup.scene);
+  settings.output_folder = options.address ? options.files : "";
   if (options.address) return serve(scene, settings, *options.address);
 
   view::Viewer viewer(scene, settings);

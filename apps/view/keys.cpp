@@ -40,8 +40,25 @@ CameraInput motion_of(const HeldKeys& held) {
   return input;
 }
 
-std::span<const KeyHelp> key_help() {
-  static constexpr std::array kRows = {
+std::span<const KeyHelp> key_help(bool in_browser) {
+  static constexpr std::array kInBrowser = {
+      KeyHelp{"W A S D", "fly"},
+      KeyHelp{"E, Space", "up"},
+      KeyHelp{"Q", "down"},
+      KeyHelp{"Shift", "fast"},
+      KeyHelp{"drag", "look around"},
+      KeyHelp{"middle button", "drop a stone into the water"},
+      KeyHelp{"R", "back to the scene's camera"},
+      KeyHelp{"C", "copy the camera as TOML"},
+      KeyHelp{"0 ... 9", "the sea state of this number (WMO): calm to phenomenal"},
+      KeyHelp{"P", "pause"},
+      KeyHelp{".", "pause and step by 1/60 s"},
+      KeyHelp{"F1", "this help"},
+      KeyHelp{"F2, H", "panel"},
+      KeyHelp{"F3", "triangles, tinted by level of detail"},
+      KeyHelp{"F4", "the next label as a picture: depth ... flags, then colour"},
+  };
+  static constexpr std::array kInWindow = {
       KeyHelp{"W A S D", "fly"},
       KeyHelp{"E, Space", "up"},
       KeyHelp{"Q, Ctrl", "down"},
@@ -63,7 +80,8 @@ std::span<const KeyHelp> key_help() {
       KeyHelp{"F12", "screenshot, at full quality"},
       KeyHelp{"Esc", "release the mouse, then quit"},
   };
-  return kRows;
+  if (in_browser) return kInBrowser;
+  return kInWindow;
 }
 
 }  // namespace swell::view

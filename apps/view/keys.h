@@ -38,11 +38,11 @@ using HeldKeys = std::bitset<SDL_NUM_SCANCODES>;
 // The motion that the held keys ask for; no mouse motion.
 CameraInput motion_of(const HeldKeys& held);
 
-// The help screen's rows.
+// The help screen's rows: of a window, or of a browser, which gives the viewer fewer keys.
 struct KeyHelp {
   const char* keys;
   const char* what;
 };
-std::span<const KeyHelp> key_help();
+std::span<const KeyHelp> key_help(bool in_browser = false);
 
 }  // namespace swell::view

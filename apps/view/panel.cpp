@@ -257,13 +257,14 @@ void draw_message(const std::string& message) {
                 nullptr, wrap_px);
 }
 
-void draw_help() {
+void draw_help(bool in_browser) {
   const ImVec2 centre = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(centre, ImGuiCond_Always, {0.5f, 0.5f});
   constexpr ImGuiWindowFlags kFlags =
       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoInputs;
   if (ImGui::Begin("keys", nullptr, kFlags))
-    for (const KeyHelp& key : key_help()) text(fmt::format("{:<18}  {}", key.keys, key.what));
+    for (const KeyHelp& key : key_help(in_browser))
+      text(fmt::format("{:<18}  {}", key.keys, key.what));
   ImGui::End();
 }
 

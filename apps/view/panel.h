@@ -61,6 +61,6 @@ void draw_pick(const render::Pick& pick, glm::vec2 pointer_px);
 void draw_message(const std::string& message);
 
 // The list of keys, in the middle of the window.
-void draw_help();
+void draw_help(bool in_browser);
 
 }  // namespace swell::view

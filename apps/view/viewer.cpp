@@ -45,6 +45,7 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
       world_(std::make_shared<render::World>(scene, settings.threads)),
       workers_(settings.threads),
       governor_({}, render::with_scene_defaults(settings.frame, scene)),
+      show_panel_(settings.panel_is_open),
       last_frame_start_(Clock::now()) {
   clock_.by_steps = settings.frames > 0;
   panel_.scene = scene_choice(scene);
@@ -375,7 +376,7 @@ void Viewer::build_panels() {
   }
   name_label();
   if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
-  if (show_help_) draw_help();
+  if (show_help_) draw_help(settings_.audience.has_value());
   if (!report_.message.empty()) draw_message(report_.message);
   gui_.end_frame();
 }

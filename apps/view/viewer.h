@@ -36,6 +36,11 @@ struct ViewerSettings {
   int frames = 0;  // 0: until the window is closed; else frame k is at k/60 s exactly
   render::FrameOptions frame;
   std::optional<Audience> audience = {};
+  bool panel_is_open = true;  // at the start
+  // Where screenshots and scenes that the user saves go: a folder, made when the first is saved,
+  // and at most so many files of it.
+  std::filesystem::path output_folder = {};  // empty: the current one
+  int most_files = 0;                        // 0: any number
 };
 
 class Viewer {
@@ -138,7 +143,7 @@ class Viewer {
   PanelSettings panel_;
   PanelReport report_;
   std::optional<render::Label> named_label_;  // in the title
-  bool show_panel_ = true, show_help_ = false;
+  bool show_panel_, show_help_ = false;
   bool mouse_captured_ = false, capture_ends_with_button_ = false;
   bool quit_ = false;
   int frames_drawn_ = 0;

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string_view>
 
 #include "apps/shared/label_picture.h"
@@ -13,12 +14,27 @@
 namespace swell::view {
 namespace {
 
-// The first of swell_0001.png, swell_0002.png ... that does not exist in the current folder.
-std::filesystem::path free_name(std::string_view extension) {
-  std::filesystem::path path;
+namespace fs = std::filesystem;
+
+void check_count(const fs::path& folder, int most) {
+  int files = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    files += entry.path().filename().string().starts_with("swell_");
+  if (files >= most)
+    throw std::runtime_error(
+        fmt::format("not saved: {} holds {} files, allowed {}", folder.string(), files, most));
+}
+
+// The first of swell_0001.png, swell_0002.png ... that does not exist, not even as a link that
+// leads nowhere.
+fs::path free_name(const ViewerSettings& settings, std::string_view extension) {
+  const fs::path& folder = settings.output_folder;
+  if (!folder.empty()) fs::create_directories(folder);
+  if (settings.most_files > 0) check_count(folder.empty() ? "." : folder, settings.most_files);
+  fs::path path;
   int number = 1;
-  do path = fmt::format("swell_{:04d}{}", number++, extension);
-  while (std::filesystem::exists(path));
+  do path = folder / fmt::format("swell_{:04d}{}", number++, extension);
+  while (fs::symlink_status(path).type() != fs::file_type::not_found);
   return path;
 }
 
@@ -40,7 +56,7 @@ render::Target Viewer::full_picture() {
 void Viewer::save_screenshot() {
   if (frames_drawn_ == 0) return;
   try {
-    const std::filesystem::path path = free_name(".png");
+    const fs::path path = free_name(settings_, ".png");
     apps::write_picture(full_picture(), path);
     say("wrote " + path.string());
   } catch (const std::exception& e) {  // a full disk must not end the flight
@@ -64,7 +80,7 @@ std::string Viewer::scene_text() const {
 
 void Viewer::save_scene() {
   try {
-    const std::filesystem::path path = free_name(".toml");
+    const fs::path path = free_name(settings_, ".toml");
     apps::write_text(path.string(), scene_text());
     say("wrote " + path.string());
   } catch (const std::exception& e) {

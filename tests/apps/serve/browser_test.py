@@ -1,6 +1,7 @@
 """browser_test.py URL PID FOLDER: looks at a served viewer in headless Chromium."""
 import os
 import re
+import signal
 import sys
 import time
 import urllib.request
@@ -11,19 +12,26 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
 url, pid, folder = sys.argv[1].strip(), int(sys.argv[2]), sys.argv[3]
+site, token = url.split("?token=")
+port = int(re.search(r":(\d+)/", site).group(1))
 
 
-def browser():
+def browser(*more):
     options = webdriver.ChromeOptions()
     for argument in ("headless=new", "no-sandbox", "disable-gpu", "disable-dev-shm-usage",
-                     "window-size=1300,800", "user-data-dir=" + folder):
+                     "window-size=1300,800", "user-data-dir=" + folder,
+                     "host-resolver-rules=MAP evil.example 127.0.0.1") + more:
         options.add_argument("--" + argument)
     return webdriver.Chrome(service=Service(), options=options)
 
 
+def ask(path):
+    return urllib.request.urlopen(urllib.request.Request(
+        site + path, headers={"Authorization": "Bearer " + token}))
+
+
 def heading():
-    text = urllib.request.urlopen(url + "camera").read().decode()
-    return float(re.search(r"heading_deg = (\S+)", text).group(1))
+    return float(re.search(r"heading_deg = (\S+)", ask("camera").read().decode()).group(1))
 
 
 def cpu_s():
@@ -35,7 +43,7 @@ def cpu_s():
 def frames_a_second(seconds):
     """As another client sees them."""
     pictures, begin = 0, time.time()
-    with urllib.request.urlopen(url + "stream") as stream:
+    with ask("stream") as stream:
         rest = b""
         while time.time() - begin < seconds:
             rest += stream.read1(65536)
@@ -44,21 +52,37 @@ def frames_a_second(seconds):
     return pictures / (time.time() - begin)
 
 
+def wait_until(script, what, seconds=30):
+    deadline = time.time() + seconds
+    while not chromium.execute_script("return " + script):
+        assert time.time() < deadline, (what, chromium.execute_script("return document.body.innerText"))
+        time.sleep(0.1)
+
+
+def changed(before):
+    """Whether the page looks otherwise; a sea moves, so sizes of PNG files tell."""
+    return len(chromium.get_screenshot_as_png()) != len(before)
+
+
 chromium = browser()
 try:
+    # The token leaves the URL, stays in a cookie that no script reads, and is enough for a reload.
     chromium.get(url)
-    deadline = time.time() + 30
-    size = [0, 0]
-    while size != [1280, 720] and time.time() < deadline:
-        time.sleep(0.2)
-        size = chromium.execute_script("return [picture.naturalWidth, picture.naturalHeight]")
-    assert size == [1280, 720], size
+    wait_until("picture.width === 1280 && picture.height === 720", "no picture")
+    assert chromium.current_url == site, chromium.current_url
+    assert chromium.execute_script("return document.cookie") == ""
+    assert chromium.get_cookie(f"swell_token_{port}")["httpOnly"]
+    chromium.refresh()
+    wait_until("picture.width === 1280 && picture.height === 720", "no picture after a reload")
 
-    # A key changes the picture: the panel goes.
-    with_panel = chromium.get_screenshot_as_png()
+    # A key changes the picture: the panel comes.
+    without_panel = chromium.get_screenshot_as_png()
+    wait_until("!panelIsOpen", "the panel is open at the start")
     ActionChains(chromium).send_keys(Keys.F2).perform()
-    time.sleep(1.0)
-    assert len(chromium.get_screenshot_as_png()) != len(with_panel)
+    wait_until("panelIsOpen", "no panel")
+    assert changed(without_panel)
+    ActionChains(chromium).send_keys(Keys.F2).perform()
+    wait_until("!panelIsOpen", "the panel stays")
 
     # Dragging turns the camera.
     before = heading()
@@ -69,6 +93,57 @@ try:
     assert abs(heading() - before) > 1.0, (before, heading())
 
     print(f"{frames_a_second(4.0):.0f} frames/s for a second client at 1280x720")
+
+    # A server that is silent is noticed within 3 s, and the page comes back by itself.
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        begin = time.time()
+        wait_until("lost.textContent", "no word of the lost connection", 5)
+        print(f"the page noticed after {time.time() - begin:.1f} s")
+        assert time.time() - begin < 3.5  # 3, and what a busy machine adds
+        assert "connection lost" in chromium.find_element(By.ID, "lost").text
+    finally:
+        os.kill(pid, signal.SIGCONT)
+    wait_until("!lost.textContent", "it does not come back")
+
+    # A name that was pointed to this machine gets nothing, whatever it knows.
+    chromium.get(f"http://evil.example:{port}/?token={token}")
+    text = chromium.find_element(By.TAG_NAME, "body").text
+    assert "--serve-host" in text and "evil.example" in text, text
+    # A page there reaches neither the scene nor a seat, though the browser has the cookie.
+    fetched = chromium.execute_async_script("""
+        const done = arguments[arguments.length - 1];
+        Promise.allSettled([fetch("/scene"), fetch("/input", {method: "POST", body: "[]"}),
+                            fetch(arguments[0] + "scene", {credentials: "include"})])
+            .then(all => done(all.map(one => one.value ? one.value.status : 0)));""", site)
+    assert not {200, 204} & set(fetched), fetched
+    # Such a page's policy forbids images; one from elsewhere asks as any page does.
+    chromium.get("data:text/html,<title>elsewhere</title>" + "".join(
+        f"<img src='{site}stream?{i}'><img src='{site}stream?token={token}'>" for i in range(4)))
+    time.sleep(1.0)
+    sizes = chromium.execute_script("return [...document.images].map(one => one.naturalWidth)")
+    assert sizes == [0] * 8, sizes
+    with ask("stream") as stream:  # a seat is free
+        assert stream.status == 200
+
+    # On a phone the page fits, with the panel at a size that can be read.
+    chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+        "width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+    chromium.get(site)
+    wait_until("picture.width === 1280", "no picture on a phone")
+    fits = "document.documentElement.scrollWidth <= 390 && innerWidth === 390"
+    wait_until(fits + " && picture.getBoundingClientRect().width <= 390", "it does not fit")
+    chromium.find_element(By.ID, "panel").click()
+    wait_until("panelIsOpen && picture.getBoundingClientRect().width === 1280", "a tiny panel")
+    wait_until(fits, "it does not fit with the panel")
+    if len(sys.argv) > 4:
+        time.sleep(1.0)
+        chromium.save_screenshot(sys.argv[4] + "/phone_panel.png")
+    chromium.find_element(By.ID, "panel").click()
+    wait_until("!panelIsOpen && picture.getBoundingClientRect().width <= 390", "the panel stays")
+    if len(sys.argv) > 4:
+        time.sleep(1.0)
+        chromium.save_screenshot(sys.argv[4] + "/phone.png")
 finally:
     chromium.quit()
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# browser_test.sh PROGRAM SCENE: the viewer in headless Chromium. 77: there is none, or no driver.
+# browser_test.sh PROGRAM SCENE [PICTURES]: the viewer in headless Chromium. 77: there is none, or no driver.
 set -eu
 program=$1 scene=$2 here=$(dirname "$0")
 python=/usr/bin/python3
@@ -15,7 +15,7 @@ for _ in $(seq 100); do
   [ -s "$work/url" ] && break
   sleep 0.1
 done
-"$python" "$here/browser_test.py" "$(cat "$work/url")" "$viewer" "$work"
+"$python" "$here/browser_test.py" "$(head -n 1 "$work/url")" "$viewer" "$work" ${3:+"$3"}
 kill -TERM $viewer
 wait $viewer
 [ ! -s "$work/errors" ] || { cat "$work/errors"; exit 1; }
