@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <boost/asio/write.hpp>
+#include <sstream>
 
 namespace swell::serve {
 namespace {

@@ -28,12 +28,14 @@ constexpr std::string_view kPage = R"html(<!DOCTYPE html>
   #line { display: flex; flex-wrap: wrap; gap: 4px 12px; align-items: center; justify-content: center;
           padding: 4px 8px; }
   #line a, #line button { color: #8fc7ff; }
+  @media (pointer: coarse) { #keys, .typed { display: none; } }
+  .near #view { overflow: auto; }
   #line button { font: inherit; background: #1c242c; border: 1px solid #405060; padding: 2px 8px; }
 </style>
 </head>
 <body>
 <div id="view"><canvas id="picture" tabindex="0" width="16" height="9" role="img" aria-label="the sea"></canvas><div id="lost" role="alert"></div></div>
-<div id="line"><span id="says">W A S D fly, drag to look</span>
+<div id="line"><span id="says"><span class="typed">W A S D fly, </span>drag to look</span>
 <button id="panel">panel</button><button id="keys">keys</button>
 <a id="camera" href="#">camera as TOML</a><a href="scene" download="swell.toml">scene</a><a href="picture.jpg" download="swell.jpg">picture</a></div>
 <script nonce="NONCE">
@@ -48,7 +50,7 @@ if (location.search) history.replaceState(null, "", location.pathname);
 // A phone shows the panel at its own size, and of the picture what is behind it.
 let panelIsOpen = false;
 function fit() {
-  document.body.classList.toggle("near", panelIsOpen && innerWidth < 0.6 * picture.width);
+  document.body.classList.toggle("near", panelIsOpen && innerWidth < 0.8 * picture.width);
 }
 window.addEventListener("resize", fit);
 
@@ -102,7 +104,7 @@ function cutter() {
 }
 
 // The server sends something every second.
-const silence_ms = 2500, again_ms = 1000;
+const silence_ms = 2200, again_ms = 1000;
 async function look() {
   const broken = new AbortController();
   let heard = performance.now();

@@ -51,25 +51,22 @@ namespace {
 
 constexpr int kSendBuffer_bytes = 262144;  // a slow browser is seconds behind with more
 
-[[noreturn]] void fail(const Address& address, const Error& error) {
-  throw ServerError(fmt::format("cannot listen on {}:{}: {}", bracketed(address.host), address.port,
-                                error.message()));
-}
-
 }  // namespace
 
-void PictureServer::Machinery::listen() {
-  Error error;
-  const auto found = tcp::resolver(io).resolve(address.host, std::to_string(address.port),
-                                               tcp::resolver::passive, error);
-  if (error || found.empty()) fail(address, error);
-  const tcp::endpoint endpoint = found.begin()->endpoint();
+void PictureServer::Machinery::listen() try {
+  const tcp::endpoint endpoint =
+      tcp::resolver(io)
+          .resolve(address.host, std::to_string(address.port), tcp::resolver::passive)
+          .begin()
+          ->endpoint();
+  acceptor.open(endpoint.protocol());
   // Without SO_REUSEPORT, by which two servers would share a port.
-  if (acceptor.open(endpoint.protocol(), error) ||
-      acceptor.set_option(tcp::acceptor::reuse_address(true), error) ||
-      acceptor.bind(endpoint, error) ||
-      acceptor.listen(boost::asio::socket_base::max_listen_connections, error))
-    fail(address, error);
+  acceptor.set_option(tcp::acceptor::reuse_address(true));
+  acceptor.bind(endpoint);
+  acceptor.listen();
+} catch (const boost::system::system_error& error) {
+  throw ServerError(fmt::format("cannot listen on {}:{}: {}", bracketed(address.host), address.port,
+                                error.code().message()));
 }
 
 void PictureServer::Machinery::accept() {

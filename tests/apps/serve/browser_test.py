@@ -59,6 +59,18 @@ def wait_until(script, what, seconds=30):
         time.sleep(0.1)
 
 
+def silence_server():
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        begin = time.time()
+        wait_until("lost.textContent", "no word of the lost connection", 5)
+        print(f"the page noticed after {time.time() - begin:.1f} s")
+        assert time.time() - begin < 3.5  # 3, and what a busy machine adds
+        assert "connection lost" in chromium.find_element(By.ID, "lost").text
+    finally:
+        os.kill(pid, signal.SIGCONT)
+
+
 def changed(before):
     """Whether the page looks otherwise; a sea moves, so sizes of PNG files tell."""
     return len(chromium.get_screenshot_as_png()) != len(before)
@@ -95,15 +107,7 @@ try:
     print(f"{frames_a_second(4.0):.0f} frames/s for a second client at 1280x720")
 
     # A server that is silent is noticed within 3 s, and the page comes back by itself.
-    os.kill(pid, signal.SIGSTOP)
-    try:
-        begin = time.time()
-        wait_until("lost.textContent", "no word of the lost connection", 5)
-        print(f"the page noticed after {time.time() - begin:.1f} s")
-        assert time.time() - begin < 3.5  # 3, and what a busy machine adds
-        assert "connection lost" in chromium.find_element(By.ID, "lost").text
-    finally:
-        os.kill(pid, signal.SIGCONT)
+    silence_server()
     wait_until("!lost.textContent", "it does not come back")
 
     # A name that was pointed to this machine gets nothing, whatever it knows.
@@ -144,6 +148,11 @@ try:
     if len(sys.argv) > 4:
         time.sleep(1.0)
         chromium.save_screenshot(sys.argv[4] + "/phone.png")
+
+    # Started anew, a server has another token: as if the cookie were gone.
+    chromium.delete_all_cookies()
+    silence_server()
+    wait_until("lost.textContent.includes('another token')", "no word of the other token")
 finally:
     chromium.quit()
 
