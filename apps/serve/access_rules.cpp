@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "apps/shared/program.h"
-
 namespace swell::serve {
 namespace {
 
@@ -37,10 +35,13 @@ bool holds(const std::vector<std::string>& names, std::string_view name) {
                              [&](const auto& one) { return equals_ignoring_case(one, name); });
 }
 
-// Short, and in one line, for the text of a refusal.
+// Short, in one line of ASCII, for the text of a refusal.
 std::string shown(std::string_view text) {
   constexpr std::size_t kMost = 80;
-  return apps::one_line(std::string(text.substr(0, kMost)) + (text.size() > kMost ? "..." : ""));
+  std::string line(text.substr(0, kMost));
+  for (char& c : line)
+    if (c < 0x20 || c > 0x7e) c = '?';
+  return line + (text.size() > kMost ? "..." : "");
 }
 
 // Also of a proxy that gives the server a Host of its own choice: then the Origin has the name that
