@@ -1,6 +1,6 @@
 #include "apps/view/panel.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -76,8 +76,7 @@ void draw_governor(const PanelReport& report, PanelSettings& settings) {
   if (!settings.governed) return;
   slide("budget", settings.budget_ms, 5.0, 100.0, "%.0f ms");
   const render::GovernorReport& g = report.governor;
-  text(fmt::format("{:3.0f} % of the triangles, {:3.0f} % of the size", 100.0 * g.detail,
-                   100.0 * report.picture_scale));
+  text(quality_line(g, report.picture_scale, settings.budget_ms));
   text(fmt::format("aims at {:.1f} ms, expects {:.1f} ms", g.aim_ms, g.predicted_ms));
 }
 
@@ -127,7 +126,7 @@ void draw_graph(const FrameHistory& history, double budget_ms) {
 // The time of each stage: clouds, rays to forms and land, and trees are stages of their own.
 void draw_times(const PanelReport& report, double budget_ms) {
   const render::FrameStatistics& s = report.statistics;
-  text(fmt::format("frame {:5.1f} ms   median {:5.1f}   p95 {:5.1f}", s.frame_ms,
+  text(fmt::format("frame {:5.1f} ms   median {:5.1f}   p95 {:5.1f}", report.frame_ms,
                    percentile_ms(report.history, 0.5), percentile_ms(report.history, 0.95)));
   draw_graph(report.history, budget_ms);
   text(fmt::format("{:.0f} % of frames over {:.0f} ms",
@@ -193,6 +192,21 @@ void draw_cost(const PanelReport& report, PanelSettings& settings) {
 }
 
 }  // namespace
+
+std::string quality_line(const render::GovernorReport& governor, double picture_scale,
+                         double budget_ms) {
+  std::vector<std::string> shares;
+  if (picture_scale < 0.995)
+    shares.push_back(fmt::format("{:.0f} % of the size", 100.0 * picture_scale));
+  if (governor.detail < 0.995)
+    shares.push_back(fmt::format("{:.0f} % of the triangles", 100.0 * governor.detail));
+  if (shares.empty() && governor.step > 0) shares.emplace_back("smaller lookup images");
+  if (shares.empty()) return "whole: it fits";
+  const double over_ms = governor.whole_ms - budget_ms;
+  const std::string why =
+      over_ms >= 0.5 ? fmt::format("{:.0f} ms over", over_ms) : std::string("near the budget");
+  return fmt::format("{}: {}", why, fmt::join(shares, ", "));
+}
 
 PanelChanges draw_panel(const PanelReport& report, const scene::Scene& scene,
                         PanelSettings& settings) {

@@ -31,6 +31,7 @@ struct PanelReport {
   FrameHistory history;                // of render_frame
   render::GovernorReport governor;     // if it is on
   double picture_scale = 1.0;          // of the last frame
+  double frame_ms = 0.0;               // of the last frame, from its events to its presentation
   double present_ms = 0.0;             // upload, panel and presentation of the last frame
   double t_s = 0.0;
   int width_px = 0, height_px = 0;
@@ -53,6 +54,11 @@ struct PanelChanges {
 // These between Gui::begin_frame and end_frame. `scene` is the one that was loaded.
 PanelChanges draw_panel(const PanelReport& report, const scene::Scene& scene,
                         PanelSettings& settings);
+
+// Why the picture is not whole, if it is not, and what of it is drawn; one line, such as
+// "6 ms over: 85 % of the size, 40 % of the triangles".
+std::string quality_line(const render::GovernorReport& governor, double picture_scale,
+                         double budget_ms);
 
 // Beside the pointer: what the picture shows there.
 void draw_pick(const render::Pick& pick, glm::vec2 pointer_px);

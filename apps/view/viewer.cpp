@@ -256,7 +256,6 @@ void Viewer::draw_frame() {
     label_picture_.height_px = target_.height_px;
     apps::paint_label(*panel_.label, target_.labels, picture_view_, label_picture_.rgba);
   }
-  add_frame(report_.history, report_.statistics.frame_ms);
   pick_under_pointer();
 
   // Show.
@@ -267,9 +266,10 @@ void Viewer::draw_frame() {
   window_.present();
   const Clock::time_point shown = Clock::now();
   report_.present_ms = Milliseconds(shown - drawn).count();
-  const double whole_ms = Milliseconds(shown - last_frame_start_).count();
+  report_.frame_ms = Milliseconds(shown - last_frame_start_).count();
+  add_frame(report_.history, report_.frame_ms);
   if (panel_.governed && !shows_label_)  // whose frames are not drawn as it said
-    governor_.next(report_.statistics, whole_ms - report_.statistics.frame_ms);
+    governor_.next(report_.statistics, report_.frame_ms - report_.statistics.frame_ms);
 }
 
 const render::FrameOptions& Viewer::next_options() {

@@ -13,8 +13,24 @@ namespace {
 struct Sizes {
   double lookups, picture;
 };
-constexpr std::array<Sizes, Governor::kSteps> kSizes = {
-    {{1.0, 1.0}, {0.7, 1.0}, {0.5, 1.0}, {0.5, 0.85}, {0.5, 0.7}, {0.5, 0.6}, {0.5, 0.5}}};
+constexpr double kLeastPicture = 0.5;
+// A step of the picture's side changes its pixels by 6 %: so little that a picture which just does
+// not fit leaves no more of the budget unused than a tenth.
+constexpr double kPictureStep = 0.97;
+
+constexpr std::array<Sizes, Governor::kSteps> all_sizes() {
+  std::array<Sizes, Governor::kSteps> sizes = {{{1.0, 1.0}, {0.7, 1.0}, {0.5, 1.0}}};
+  double picture = 1.0;
+  for (std::size_t i = 3; i < sizes.size(); ++i) {
+    picture *= kPictureStep;
+    const int percent = static_cast<int>(100.0 * picture + 0.5);
+    sizes[i] = {0.5, percent / 100.0};
+  }
+  sizes.back().picture = kLeastPicture;
+  return sizes;
+}
+constexpr std::array<Sizes, Governor::kSteps> kSizes = all_sizes();
+static_assert(kSizes[Governor::kSteps - 2].picture > kLeastPicture);
 
 // Fewer triangles than this only when there is no smaller picture.
 constexpr double kLeastDetail = 0.4;
@@ -25,16 +41,20 @@ constexpr double kDown = 0.905, kUp = 1.04;  // of triangles a frame
 
 // Shares of the budget.
 constexpr double kBar = 1.08;  // a frame that takes longer is late
-constexpr double kHighestAim = 0.9, kLowestAim = 0.7;
-constexpr double kSlackAbove = 0.03, kSlackBelow = 0.04;  // around the aim nothing is changed
-constexpr double kSlackToRaise = 0.05;
-constexpr double kBroken = 1.05;
-constexpr double kMostLod = 0.15;  // of triangulating
+constexpr double kHighestAim = 0.95, kLowestAim = 0.8;
+constexpr double kSlackAbove = 0.03, kSlackBelow = 0.02;  // around the aim nothing is changed
+constexpr double kSlackToRaise = 0.015;
+constexpr double kBroken = 1.05, kFarOver = 1.15;
+constexpr double kWhole = 1.02,
+                 kWholeAgain = 0.985;  // full quality stays to here, and is back from here
+constexpr double kMostLod = 0.15;      // of triangulating
 
 // Frames.
 constexpr std::size_t kFast = 3, kFirm = 9, kSlow = 31;
-constexpr int kPatience = 60, kMostPatience = 16 * kPatience;
+constexpr int kPatience = 36, kMostPatience = 960;
 constexpr int kFramesToLower = 15;
+constexpr std::size_t kFramesAStray = 20;
+constexpr int kFramesLost = 6;    // of the wait for a step up, by one that does not allow it
 constexpr int kRaiseProven = 60;  // within the budget since a step up, so that it has not failed
 
 // Half of finding what is visible goes over triangles, half over pixels.
@@ -114,6 +134,7 @@ const FrameOptions& Governor::next(const FrameStatistics& last, double outside_m
     if (frames_ >= kFirm) choose_step(model);
     choose_detail(model);
     report_.predicted_ms = predicted_ms(model.fast, report_.step, report_.detail);
+    report_.whole_ms = predicted_ms(model.slow, 0, 1.0);
   }
   write_options();
   return options_;
@@ -152,18 +173,20 @@ Governor::Cost Governor::median_cost(std::size_t frames) const {
           median(&Cost::rest)};
 }
 
-// Lower, the further single frames stray: all but the worst two of those remembered should stay
-// below the bar. Frames that the lowest aim would not have saved do not count, for they would
-// cost size and be late nonetheless. In small moves, so that triangles do not follow every
-// disturbance.
+// Lower, the further frames stray: all but one in twenty of those remembered should stay below the
+// bar. Fewer disturbed frames than that are late whatever is drawn, and would blur all others (by
+// the worst three of 240 a machine that was idle aimed at 0.7 of the budget). Frames that the
+// lowest aim would not have saved do not count. In small moves, so that triangles do not follow
+// every disturbance.
 void Governor::choose_aim() {
   std::array<double, kStraysRemembered> strays{};
+  const std::size_t count = std::min(frames_, kStraysRemembered);
   const auto last =
-      std::copy_if(strays_.begin(), strays_.begin() + std::min(frames_, kStraysRemembered),
+      std::copy_if(strays_.begin(), strays_.begin() + static_cast<std::ptrdiff_t>(count),
                    strays.begin(), [](double stray) { return stray <= kBar / kLowestAim; });
-  const auto third = strays.begin() + 2;
-  if (third < last) std::nth_element(strays.begin(), third, last, std::greater{});
-  const double wanted = std::clamp(kBar / std::max(*third, 1.0), kLowestAim, kHighestAim);
+  const auto far = strays.begin() + static_cast<std::ptrdiff_t>(count / kFramesAStray);
+  if (far < last) std::nth_element(strays.begin(), far, last, std::greater{});
+  const double wanted = std::clamp(kBar / std::max(*far, 1.0), kLowestAim, kHighestAim);
   aim_share_ += std::clamp(wanted - aim_share_, -0.004, 0.001);
   report_.aim_ms = aim_share_ * settings_.budget_ms;
 }
@@ -173,9 +196,11 @@ double Governor::least_detail(int step) const {
                            : settings_.least_detail;
 }
 
-// The first step that fits into `ms` with few triangles, but `detail` at least, else the last.
-int Governor::best_step(const Cost& cost, double detail, double ms) const {
+// The first step that fits into `ms` with few triangles, but `detail` at least, else the last. Full
+// quality may take `whole_ms`.
+int Governor::best_step(const Cost& cost, double detail, double ms, double whole_ms) const {
   int step = 0;
+  if (predicted_ms(cost, 0, 1.0) <= whole_ms) return step;
   while (step < kSteps - 1 && predicted_ms(cost, step, std::max(detail, least_detail(step))) > ms)
     ++step;
   return step;
@@ -190,7 +215,8 @@ void Governor::choose_step(const Model& model) {
   }
 
   // Down: to what fits once triangles have followed; at once if the budget is broken.
-  const int fitting = best_step(model.firm, kLeastDetail, aim_ms + kSlackAbove * budget_ms);
+  const int fitting =
+      best_step(model.firm, kLeastDetail, aim_ms + kSlackAbove * budget_ms, kWhole * budget_ms);
   const double now_ms = predicted_ms(model.firm, report_.step, report_.detail);
   frames_wanting_less_ = fitting > report_.step ? frames_wanting_less_ + 1 : 0;
   if (frames_wanting_less_ > (now_ms > kBroken * budget_ms ? 0 : kFramesToLower)) {
@@ -213,11 +239,13 @@ void Governor::choose_step(const Model& model) {
 // The best step that all of the last frames allowed, for long enough, else the present one.
 int Governor::step_wanted(const Model& model) {
   const double ms = report_.aim_ms - kSlackToRaise * settings_.budget_ms;
-  const int allowed = std::max(best_step(model.firm, kDetailToRaise, ms),
-                               best_step(model.slow, kDetailToRaise, ms));
+  const double whole_ms = kWholeAgain * settings_.budget_ms;
+  const int allowed = std::max(best_step(model.firm, kDetailToRaise, ms, whole_ms),
+                               best_step(model.slow, kDetailToRaise, ms, whole_ms));
   for (int step = 0; step < kSteps; ++step) {
     int& frames = frames_allowing_[static_cast<std::size_t>(step)];
-    frames = step >= allowed ? frames + 1 : 0;
+    // A disturbed frame or two do not start the wait anew.
+    frames = step >= allowed ? frames + 1 : std::max(0, frames - kFramesLost);
   }
   const auto enough = [&](int frames) {
     return std::ranges::lower_bound(frames_allowing_, frames) - frames_allowing_.begin();
@@ -229,10 +257,22 @@ int Governor::step_wanted(const Model& model) {
 }
 
 void Governor::move_to_step(int step) {
+  if (step > report_.step) frames_allowing_.fill(0);
   report_.step = step;
   ++report_.step_changes;
   frames_wanting_less_ = 0;
   going_up_ = false;
+}
+
+// Whether frames at full quality, as they are drawn now, may go on: with a long look at what is
+// near the budget and a short one at what is far above it.
+bool Governor::fits_whole(const Model& model) const {
+  const auto share = [&](const Cost& cost) {
+    return predicted_ms(cost, 0, 1.0) / settings_.budget_ms;
+  };
+  const bool seen_long = frames_ >= kSlow;
+  return (!seen_long || share(model.slow) <= kWhole) && share(model.firm) <= kBroken &&
+         share(model.fast) <= kFarOver;
 }
 
 void Governor::choose_detail(const Model& model) {
@@ -240,13 +280,19 @@ void Governor::choose_detail(const Model& model) {
   const int step = going_up_ ? better_step_ : report_.step;
   const double fast_ms = predicted_ms(model.fast, step, report_.detail);
   const double slow_ms = predicted_ms(model.slow, step, report_.detail);
-  const double fast = detail_for(model.fast, step, aim_ms);
-  const double slow = detail_for(model.slow, step, aim_ms);
+  const bool is_whole = report_.step == 0 && report_.detail == 1.0;
+  const double whole_ms = predicted_ms(model.slow, 0, 1.0);
   double detail = report_.detail;
-  if (fast_ms > aim_ms + (going_up_ ? 0.0 : kSlackAbove * budget_ms))
-    detail = std::max(fast, kDown * detail);
-  else if (!going_up_ && std::max(fast_ms, slow_ms) < aim_ms - kSlackBelow * budget_ms)
-    detail = std::min({fast, slow, kUp * detail});
+  if (is_whole && fits_whole(model)) {
+    // Stays.
+  } else if (fast_ms > aim_ms + (going_up_ ? 0.0 : kSlackAbove * budget_ms)) {
+    detail = std::max(detail_for(model.fast, step, aim_ms), kDown * detail);
+  } else if (report_.step == 0 && whole_ms <= kWholeAgain * budget_ms) {
+    detail = kUp * detail;
+  } else if (!going_up_ && std::max(fast_ms, slow_ms) < aim_ms - kSlackBelow * budget_ms) {
+    detail = std::min(
+        {detail_for(model.fast, step, aim_ms), detail_for(model.slow, step, aim_ms), kUp * detail});
+  }
   report_.detail = std::clamp(detail, std::min(report_.detail, least_detail(step)), 1.0);
 }
 

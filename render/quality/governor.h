@@ -12,7 +12,7 @@
 // What gives, in this order:
 //   1. triangles of water and land together, down to 0.4 of full quality;
 //   2. size of the lookup images, in two steps: mirrored land gets softer;
-//   3. size of the picture, in four steps down to half, enlarged to the full size. On two cores
+//   3. size of the picture, by 3 % a step down to half, enlarged to the full size. On two cores
 //      shading is three quarters of a frame at 1280x720, so nothing else can halve a frame; a step
 //      costs sharpness everywhere alike. (Fewer layers of ripples far away would leave a line on
 //      the sea where they end, and save less.);
@@ -24,14 +24,16 @@
 // Triangles change by at most 10 % from frame to frame, which no eye sees (a triangle that goes
 // covered a few pixels), so they follow two late frames in three. Steps of size are seen: five late
 // frames in nine bring the first step that fits once triangles have followed; a step up waits until
-// the model has said for a second that it fits, and twice as long each time that it turned out not
+// the model has said for 0.6 s that it fits, and twice as long each time that it turned out not
 // to. Frames that other work makes late, up to four in a row, cost no size; after more of them it
 // is back in two seconds.
 //
 // The model of a frame's cost: ms a triangle, a row of the lookup images, a picture pixel and what
 // is left, each the median over the last frames of what the stages took by what they had to do; so
 // what a change will cost is known before it is made, and a single frame that the machine disturbed
-// changes nothing. How far frames stray from the model sets how far below the budget to aim.
+// changes nothing. How far most frames stray from the model sets how far below the budget to aim:
+// 5 % where they stray little. A picture that is whole stays so while it takes no more than the
+// budget, by a median over half a second.
 #pragma once
 
 #include <array>
@@ -52,6 +54,7 @@ struct GovernorReport {
   int step = 0;               // of the sizes: 0 is full quality
   double aim_ms = 0.0;        // what it steers for, below the budget
   double predicted_ms = 0.0;  // of the next frame
+  double whole_ms = 0.0;      // a frame at full quality is expected to take
   int step_changes = 0;       // since the start
 };
 
@@ -75,7 +78,7 @@ class Governor {
   const GovernorSettings& settings() const { return settings_; }
   const GovernorReport& report() const { return report_; }
 
-  static constexpr int kSteps = 7;
+  static constexpr int kSteps = 26;
   static constexpr double kMostChange = 0.1;  // of triangles, from frame to frame
 
  private:
@@ -94,11 +97,12 @@ class Governor {
   void choose_aim();
   void choose_step(const Model& model);
   void choose_detail(const Model& model);
+  bool fits_whole(const Model& model) const;
   int step_wanted(const Model& model);
   void move_to_step(int step);
   void write_options();
   double least_detail(int step) const;
-  int best_step(const Cost& cost, double detail, double ms) const;
+  int best_step(const Cost& cost, double detail, double ms, double whole_ms) const;
 
   GovernorSettings settings_;
   FrameOptions full_, options_;

@@ -18,6 +18,15 @@ double share_within(const Flight& run, double ms) {
          static_cast<double>(run.frame_ms.end() - begin);
 }
 
+// Of the frames from `first` on.
+double median_ms(const Flight& run, std::size_t first) {
+  std::vector<double> frame_ms(run.frame_ms.begin() + static_cast<std::ptrdiff_t>(first),
+                               run.frame_ms.end());
+  const auto middle = frame_ms.begin() + static_cast<std::ptrdiff_t>(frame_ms.size() / 2);
+  std::nth_element(frame_ms.begin(), middle, frame_ms.end());
+  return *middle;
+}
+
 double largest_change(const Flight& run) {
   double largest = 0.0;
   for (std::size_t i = 1; i < run.options.size(); ++i)
@@ -53,6 +62,13 @@ double share_at_full_size(const Flight& run) {
          static_cast<double>(run.options.size());
 }
 
+// The first frame of those from `first` on that all have full quality.
+std::size_t whole_since(const Flight& run, std::size_t first) {
+  std::size_t since = run.options.size();
+  while (since > first && is_full(run.options[since - 1])) --since;
+  return since;
+}
+
 // The first frame of those from `first` on that all have full size.
 std::size_t full_size_since(const Flight& run, std::size_t first) {
   std::size_t since = run.options.size();
@@ -63,6 +79,86 @@ std::size_t full_size_since(const Flight& run, std::size_t first) {
 TEST(Governor, LeavesAFrameThatFitsAtFullQuality) {
   const Flight r = run(600, always(kOpenSea), {.sigma = 0.03});
   for (const FrameOptions& options : r.options) ASSERT_TRUE(is_full(options));
+}
+
+// ---- a scene that fits is whole, one that does not uses what there is ----
+
+// The load whose frames take `share` of the budget with presentation.
+Load of_budget(const Load& load, double share) {
+  const double full_ms = simulate(load, full_quality(), {}, 0).frame_ms;
+  return load.times((share * kBudget_ms - kPresent_ms) / full_ms);
+}
+
+// As frames of a viewer that starts: the first makes storage and reads its pages for the first
+// time, the next half second competes with what else starts, and then one frame in forty is
+// disturbed.
+std::vector<double> slow_start(int frames, std::uint64_t seed) {
+  std::vector<double> factors = other_work(frames, 1, 27, 1.4, seed);
+  for (int k = 0; k < std::min(frames, kSecond / 2); ++k)
+    factors[static_cast<std::size_t>(k)] = k == 0 ? 4.0 : 2.0 - k / 30.0;
+  return factors;
+}
+
+TEST(Governor, ASceneThatFitsIsWholeThreeSecondsAfterASlowStartAndStaysSo) {
+  for (const Load& load : {kLagoon, kOpenSea, kCoast})
+    for (const double share : {0.6, 0.9, 0.95})
+      for (const double sigma : {0.0, 0.03, 0.08})
+        for (const std::uint64_t seed : {1, 2, 3}) {
+          const std::vector<double> slow = slow_start(2400, seed);
+          const Load fits = of_budget(load, share);
+          const Flight r = run(
+              2400, [&](int k) { return fits.times(slow[static_cast<std::size_t>(k)]); },
+              {.sigma = sigma}, kPresent_ms);
+          EXPECT_LE(whole_since(r, 0), 3 * kSecond) << share << ' ' << sigma << ' ' << seed;
+        }
+}
+
+TEST(Governor, ASceneThatTakesNearlyAllOfTheBudgetStaysWhole) {
+  for (const Load& load : {kLagoon, kOpenSea, kCoast})
+    for (const double sigma : {0.0, 0.03}) {
+      const Flight r = run(2400, always(of_budget(load, 0.99)), {.sigma = sigma}, kPresent_ms);
+      EXPECT_EQ(whole_since(r, 0), 0) << sigma;
+    }
+}
+
+TEST(Governor, ASceneThatDoesNotFitUsesWhatThereIsOfTheBudget) {
+  for (const Load& load : {kLagoon, kOpenSea, kCoast})
+    for (const double share : {1.05, 1.2, 1.5, 2.0, 2.5})
+      for (const std::uint64_t seed : {1, 2, 3}) {
+        const std::vector<double> slow = slow_start(2400, seed);
+        const Load over = of_budget(load, share);
+        const Flight r = run(
+            2400, [&](int k) { return over.times(slow[static_cast<std::size_t>(k)]); },
+            {.sigma = 0.03}, kPresent_ms);
+        for (const std::size_t first : {3 * kSecond, 10 * kSecond, 35 * kSecond})
+          EXPECT_GE(median_ms(r, first), 0.88 * kBudget_ms) << share << ' ' << first;
+        EXPECT_LE(median_ms(r, 3 * kSecond), kBudget_ms) << share;
+        EXPECT_LE(size_changes(r, 5 * kSecond), 4) << share;
+      }
+}
+
+TEST(Governor, ADisturbanceOfASecondCostsThreeSecondsOfASmallerPictureAtMost) {
+  for (const double share : {0.6, 0.9, 0.95})
+    for (const double factor : {1.3, 2.0, 4.0}) {
+      const Load fits = of_budget(kLagoon, share);
+      const auto load = [&](int k) {
+        const int at =
+            k % (15 * kSecond);  // again and again: the fourth costs no more than the first
+        return fits.times(at >= 10 * kSecond && at < 11 * kSecond ? factor : 1.0);
+      };
+      const Flight r = run(60 * kSecond, load, {.sigma = 0.03}, kPresent_ms);
+      for (std::size_t begin = 0; begin < r.options.size(); begin += 15 * kSecond) {
+        const auto first = r.options.begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto smaller = std::count_if(first, first + 15 * kSecond,
+                                           [](const FrameOptions& o) { return !is_full_size(o); });
+        EXPECT_LE(smaller, 3 * kSecond) << share << ' ' << factor << ' ' << begin;
+      }
+    }
+}
+
+TEST(Governor, SaysWhatFullQualityWouldTake) {
+  const Flight r = run(600, always(of_budget(kLagoon, 1.5)), {}, kPresent_ms);
+  EXPECT_NEAR(r.last.whole_ms, 1.5 * kBudget_ms, 0.1 * kBudget_ms);
 }
 
 TEST(Governor, PassesOtherOptionsThrough) {
@@ -181,12 +277,16 @@ TEST(Governor, FullSizeStaysWhileSingleFramesAreLateEverySecondOrTwo) {
     }
 }
 
-TEST(Governor, LeavesRoomForFramesThatOtherWorkDelaysALittle) {
+// One frame in thirty takes 1.3 times as long, as on an idle virtual machine: making room for it
+// would blur the other 29.
+TEST(Governor, FramesThatOtherWorkDelaysALittleCostNoQuality) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const std::vector<double> late = other_work(3600, 1, 20, 1.3, seed);
     const auto load = [&](int k) { return kCoast.times(late[static_cast<std::size_t>(k)]); };
     const Flight r = run(3600, load, {.sigma = 0.03}, kPresent_ms);
-    EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99) << seed;
+    const auto delayed = static_cast<double>(std::ranges::count(late, 1.3)) / 3600.0;
+    EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.998 - delayed) << seed;
+    EXPECT_GE(median_ms(r, 5 * kSecond), 0.88 * kBudget_ms) << seed;
   }
 }
 
@@ -282,11 +382,12 @@ TEST(Governor, AFailedRaiseDoublesTheWait) {
     EXPECT_GE(raises[i] - raises[i - 1], std::min(3 * (raises[i - 1] - raises[i - 2]) / 2, 960));
 }
 
-TEST(Governor, HoldsTheBudgetOnADisturbedMachine) {
+TEST(Governor, OnlyDisturbedFramesAreLateOnADisturbedMachine) {
   // One frame in fifty takes 3 ms more than it should.
   const Flight r =
       run(3600, always(kOpenSea.times(1.6)), {.sigma = 0.04, .spike_share = 0.02, .spike_ms = 3.0});
-  EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99);
+  EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.98);
+  EXPECT_GE(median_ms(r, 5 * kSecond), 0.88 * kBudget_ms);
   EXPECT_LE(size_changes(r, 5 * kSecond), 4);
 }
 

@@ -254,6 +254,27 @@ TEST_F(ViewerTest, FramesDrawLessToKeepASmallBudgetAndAllWithoutOne) {
   expect_headless_picture(viewer, small_scene());
 }
 
+TEST_F(ViewerTest, TheFrameTimeAndItsGraphCountPresentingToo) {
+  Viewer viewer(small_scene(), settings_of(1000000));
+  for (int i = 0; i < 3; ++i) viewer.turn();
+  const PanelReport& report = viewer.report();
+  EXPECT_GE(report.frame_ms, report.statistics.frame_ms + report.present_ms);
+  const std::size_t last =
+      (report.history.next + FrameHistory::kLength - 1) % FrameHistory::kLength;
+  EXPECT_EQ(report.history.frame_ms[last], static_cast<float>(report.frame_ms));
+}
+
+TEST(QualityLine, SaysWhyThePictureIsSmaller) {
+  EXPECT_EQ(quality_line({.whole_ms = 16.0}, 1.0, 17.0), "whole: it fits");
+  EXPECT_EQ(quality_line({.step = 8, .whole_ms = 23.1}, 0.85, 17.0), "6 ms over: 85 % of the size");
+  EXPECT_EQ(quality_line({.detail = 0.4, .step = 8, .whole_ms = 40.0}, 0.7, 17.0),
+            "23 ms over: 70 % of the size, 40 % of the triangles");
+  EXPECT_EQ(quality_line({.detail = 0.8, .whole_ms = 17.2}, 1.0, 17.0),
+            "near the budget: 80 % of the triangles");
+  EXPECT_EQ(quality_line({.step = 2, .whole_ms = 18.4}, 1.0, 17.0),
+            "1 ms over: smaller lookup images");
+}
+
 namespace fs = std::filesystem;
 
 // A working folder of this process alone, for as long as it lives.
