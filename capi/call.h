@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "math/parallel.h"
+#include "math/with_ieee.h"
 #include "swell.h"
 
 namespace swell::capi {
@@ -43,8 +43,7 @@ swell_status status_of_exception() noexcept;
 template <class Work>
 swell_status guarded(const Work& work) noexcept {
   try {
-    const ScopedFloatEnvironment ieee;
-    work();
+    with_ieee(work);
     return SWELL_OK;
   } catch (...) {
     return status_of_exception();

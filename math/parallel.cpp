@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <sched.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,10 +16,39 @@
 
 #include "math/check.h"
 
+#if defined(__x86_64__) || defined(__i386__)
+#include <xmmintrin.h>
+#else
+#include <cfenv>
+#endif
+
 namespace swell {
 namespace {
 
-constexpr unsigned kMxcsrDefault = 0x1f80;  // all exceptions masked, to nearest, no FTZ, no DAZ
+#if defined(__x86_64__) || defined(__i386__)
+// Two words of control, each of 16 bits: that of SSE, whose upper half stays as it is, and that of
+// x87, by which the C library rounds the numbers that it reads and writes.
+using ControlWord = std::uint16_t;
+constexpr ControlWord kSseDefault = 0x1f80;  // all exceptions masked, to nearest, no FTZ, no DAZ
+constexpr ControlWord kX87Default = 0x037f;  // the same, 64 bits of mantissa
+constexpr ControlWord kX87Masks = 0x003f;
+
+ControlWord sse_control() { return static_cast<ControlWord>(_mm_getcsr()); }
+
+void set_sse_control(ControlWord word) { _mm_setcsr((_mm_getcsr() & ~0xffffu) | word); }
+
+ControlWord x87_control() {
+  ControlWord word;
+  __asm__ volatile("fnstcw %0" : "=m"(word));
+  return word;
+}
+
+void set_x87_control(ControlWord word) {
+  // What was raised while it was masked would trap now.
+  if ((word & kX87Masks) != kX87Masks) __asm__ volatile("fnclex");
+  __asm__ volatile("fldcw %0" : : "m"(word));
+}
+#endif
 
 // CPUs granted by a cgroup v2 quota ("max 100000" or "QUOTA PERIOD"), or 0 if there is none.
 int cgroup_cpus() {
@@ -85,12 +113,25 @@ void Workers::run_both_in_turn(FunctionRef<void()> a, FunctionRef<void()> b,
   if (observer_) observer_(WorkStep::kBothEnd, caller);
 }
 
-ScopedFloatEnvironment::ScopedFloatEnvironment() : saved_(_mm_getcsr()) {
-  if (saved_ != kMxcsrDefault) _mm_setcsr(kMxcsrDefault);
+#if defined(__x86_64__) || defined(__i386__)
+ScopedFloatEnvironment::ScopedFloatEnvironment()
+    : saved_(static_cast<unsigned>(x87_control()) << 16 | sse_control()) {
+  if (sse_control() != kSseDefault) set_sse_control(kSseDefault);
+  if (x87_control() != kX87Default) set_x87_control(kX87Default);
 }
 
 ScopedFloatEnvironment::~ScopedFloatEnvironment() {
-  if (saved_ != _mm_getcsr()) _mm_setcsr(saved_);
+  const auto sse = static_cast<ControlWord>(saved_), x87 = static_cast<ControlWord>(saved_ >> 16);
+  if (sse != sse_control()) set_sse_control(sse);
+  if (x87 != x87_control()) set_x87_control(x87);
 }
+#else
+ScopedFloatEnvironment::ScopedFloatEnvironment()
+    : saved_(static_cast<unsigned>(std::fegetround())) {
+  std::fesetround(FE_TONEAREST);
+}
+
+ScopedFloatEnvironment::~ScopedFloatEnvironment() { std::fesetround(static_cast<int>(saved_)); }
+#endif
 
 }  // namespace swell

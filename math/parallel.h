@@ -99,7 +99,7 @@ int available_cpus();
 // Starts so many threads at once, which end again. Throws std::runtime_error if there are fewer.
 void check_threads(int count);
 
-// Sets IEEE defaults for the calling thread (MXCSR) and restores the old state at scope exit.
+// Sets IEEE defaults for the calling thread (SSE and x87); restores the old state at scope exit.
 class ScopedFloatEnvironment {
  public:
   ScopedFloatEnvironment();

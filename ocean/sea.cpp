@@ -259,6 +259,7 @@ double Sea::State::height_bound_m(std::size_t first_patch) const {
 }
 
 Sea::Sea(const SeaDescription& description) : state_(std::make_unique<State>()) {
+  const ScopedFloatEnvironment ieee;
   check_spectrum(description);
   for (const SineWave& sine : description.sines) check_sine(sine);
   state_->description = description;
@@ -359,6 +360,7 @@ double wave_time_s(const SeaDescription& sea, double t_s) {
 }
 
 void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers, bool sharp_crests) {
+  const ScopedFloatEnvironment ieee;
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   const Sea::State& state = sea.state();
   frame.t_s = t_s;

@@ -63,6 +63,7 @@ void add_sines(const Sea::State& state, const SeaFrame& frame, VelocityFrame& ve
 
 void advance_velocity(const Sea& sea, const SeaFrame& frame, VelocityFrame& velocity,
                       Workers& workers) {
+  const ScopedFloatEnvironment ieee;
   const Sea::State& state = sea.state();
   SWELL_CHECK(frame.patches.size() == state.patches.size() + state.maps.size(), "patches={}",
               frame.patches.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/check.h"
+#include "math/with_ieee.h"
 #include "ocean/wakes.h"
 
 namespace swell::ocean {
@@ -20,6 +21,49 @@ Range clip_to_slab(double z, double dz, double low_m, double high_m, double max_
   return {std::max(0.0, std::min(a, b)), std::min(max_distance_m, std::max(a, b))};
 }
 
+std::optional<WaterHit> find_hit(const WaterSurface& surface, glm::dvec3 origin_world,
+                                 glm::dvec3 direction, double max_distance_m) {
+  const double length = glm::length(direction);
+  SWELL_CHECK(std::isfinite(origin_world.x + origin_world.y + origin_world.z), "origin={},{},{}",
+              origin_world.x, origin_world.y, origin_world.z);
+  SWELL_CHECK(std::isfinite(length) && length > 0.0, "direction={},{},{}", direction.x, direction.y,
+              direction.z);
+  const glm::dvec3 along = direction / length;
+  const auto height_above = [&](double s) {
+    const glm::dvec3 p = origin_world + s * along;
+    return p.z - static_cast<double>(surface.height(glm::dvec2(p)));
+  };
+  // Outside the slab that holds the surface nothing can be hit.
+  const double low_m = -static_cast<double>(surface.bounds().height_m) - 1e-3;
+  const double high_m = static_cast<double>(surface.bounds().highest_m) + 1e-3;
+  const Range range = clip_to_slab(origin_world.z, along.z, low_m, high_m, max_distance_m);
+  if (!(range.first_m <= range.last_m)) return std::nullopt;
+
+  // March: the gap closes by at most `closing` a metre.
+  const double closing =
+      std::abs(along.z) + surface.bounds().steepest * glm::length(glm::dvec2(along));
+  double near_m = range.first_m;
+  const double gap0 = height_above(near_m);
+  const bool from_above = gap0 > 0.0;
+  double gap = gap0, far_m = near_m;
+  while ((gap > 0.0) == from_above) {
+    if (far_m >= range.last_m) return std::nullopt;
+    near_m = far_m;
+    far_m =
+        std::min(range.last_m, near_m + std::max(std::abs(gap) / closing, 0.02 + 2e-4 * near_m));
+    gap = height_above(far_m);
+  }
+
+  // Bisect: the start is on one side, the end on the other.
+  while (far_m - near_m > 1e-7) {
+    const double middle = 0.5 * (near_m + far_m);
+    if (middle <= near_m || middle >= far_m) break;  // no number between them
+    ((height_above(middle) > 0.0) == from_above ? near_m : far_m) = middle;
+  }
+  const glm::dvec3 p = origin_world + far_m * along;
+  return WaterHit{far_m, p, from_above};
+}
+
 }  // namespace
 
 WaterSurface::WaterSurface(const WaterParts& parts, const SeaFrame& frame)
@@ -27,6 +71,7 @@ WaterSurface::WaterSurface(const WaterParts& parts, const SeaFrame& frame)
 
 void WaterSurface::heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
                            std::size_t longest_patches) const {
+  const ScopedFloatEnvironment ieee;
   water_.heights(*frame_, p_world, height_m, longest_patches);
 }
 
@@ -37,10 +82,12 @@ float WaterSurface::height(glm::dvec2 p_world) const {
 }
 
 void WaterSurface::slopes(std::span<const glm::dvec2> p_world, std::span<glm::vec2> slope) const {
+  const ScopedFloatEnvironment ieee;
   water_.slopes(*frame_, p_world, slope);
 }
 
 void WaterSurface::normals(std::span<const glm::dvec2> p_world, std::span<glm::vec3> normal) const {
+  const ScopedFloatEnvironment ieee;
   SWELL_CHECK(p_world.size() == normal.size(), "{} points, {} normals", p_world.size(),
               normal.size());
   constexpr std::size_t kChunk = 256;
@@ -57,17 +104,20 @@ void WaterSurface::normals(std::span<const glm::dvec2> p_world, std::span<glm::v
 
 void WaterSurface::velocities(std::span<const glm::dvec2> p_world, const VelocityFrame& velocity,
                               std::span<glm::vec3> velocity_mps) const {
+  const ScopedFloatEnvironment ieee;
   SWELL_CHECK(velocity.z.t_s == frame_->t_s, "t_s={}, velocity of {}", frame_->t_s, velocity.z.t_s);
   water_.velocities(velocity, p_world, velocity_mps);
 }
 
 void WaterSurface::currents(std::span<const glm::dvec2> p_world,
                             std::span<glm::vec2> current_mps) const {
+  const ScopedFloatEnvironment ieee;
   water_.currents(p_world, current_mps);
 }
 
 void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame& whitecaps,
                         std::span<float> foam) const {
+  const ScopedFloatEnvironment ieee;
   SWELL_CHECK(p_world.size() == foam.size(), "{} points, {} foam", p_world.size(), foam.size());
   const CoastSea* const coast = water_.parts().coast;
   constexpr std::size_t kChunk = 256;
@@ -92,6 +142,7 @@ void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame
 }
 
 bool WaterSurface::in_water(glm::dvec3 p_world) const {
+  const ScopedFloatEnvironment ieee;
   const glm::dvec2 p(p_world);
   if (!(p_world.z <= height(p))) return false;
   float ground_m = -HUGE_VALF;
@@ -101,45 +152,7 @@ bool WaterSurface::in_water(glm::dvec3 p_world) const {
 
 std::optional<WaterHit> WaterSurface::intersect(glm::dvec3 origin_world, glm::dvec3 direction,
                                                 double max_distance_m) const {
-  const double length = glm::length(direction);
-  SWELL_CHECK(std::isfinite(origin_world.x + origin_world.y + origin_world.z), "origin={},{},{}",
-              origin_world.x, origin_world.y, origin_world.z);
-  SWELL_CHECK(std::isfinite(length) && length > 0.0, "direction={},{},{}", direction.x, direction.y,
-              direction.z);
-  const glm::dvec3 along = direction / length;
-  const auto height_above = [&](double s) {
-    const glm::dvec3 p = origin_world + s * along;
-    return p.z - static_cast<double>(height(glm::dvec2(p)));
-  };
-  // Outside the slab that holds the surface nothing can be hit.
-  const double low_m = -static_cast<double>(bounds().height_m) - 1e-3;
-  const double high_m = static_cast<double>(bounds().highest_m) + 1e-3;
-  const Range range = clip_to_slab(origin_world.z, along.z, low_m, high_m, max_distance_m);
-  if (!(range.first_m <= range.last_m)) return std::nullopt;
-
-  // March: the gap closes by at most `closing` a metre.
-  const double closing =
-      std::abs(along.z) + water_.bounds().steepest * glm::length(glm::dvec2(along));
-  double near_m = range.first_m;
-  const double gap0 = height_above(near_m);
-  const bool from_above = gap0 > 0.0;
-  double gap = gap0, far_m = near_m;
-  while ((gap > 0.0) == from_above) {
-    if (far_m >= range.last_m) return std::nullopt;
-    near_m = far_m;
-    far_m =
-        std::min(range.last_m, near_m + std::max(std::abs(gap) / closing, 0.02 + 2e-4 * near_m));
-    gap = height_above(far_m);
-  }
-
-  // Bisect: the start is on one side, the end on the other.
-  while (far_m - near_m > 1e-7) {
-    const double middle = 0.5 * (near_m + far_m);
-    if (middle <= near_m || middle >= far_m) break;  // no number between them
-    ((height_above(middle) > 0.0) == from_above ? near_m : far_m) = middle;
-  }
-  const glm::dvec3 p = origin_world + far_m * along;
-  return WaterHit{far_m, p, from_above};
+  return with_ieee([&] { return find_hit(*this, origin_world, direction, max_distance_m); });
 }
 
 }  // namespace swell::ocean

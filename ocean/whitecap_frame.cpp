@@ -97,6 +97,7 @@ void age_foam(std::span<const float> breaking, float threshold, int decay,
 
 void advance_whitecaps(const Whitecaps& whitecaps, double t_s, WhitecapFrame& frame,
                        Workers& workers) {
+  const ScopedFloatEnvironment ieee;
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   const double steps = wave_time_s(whitecaps.sea, t_s) / whitecaps.step_s;
   const double step = std::floor(steps);

@@ -203,6 +203,7 @@ double whitecap_cover(double wind_speed_mps) {
 }
 
 Whitecaps make_whitecaps(const Sea& sea, Workers& workers) {
+  const ScopedFloatEnvironment ieee;
   Whitecaps whitecaps;
   const SeaDescription& description = sea.description();
   whitecaps.sea = description;

@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/with_ieee.h"
 #include "scene/scene.h"
 
 namespace swell::scene {
@@ -109,15 +110,20 @@ Lens camera_lens(const Camera& camera, int width_px, int height_px) {
 
 View camera_view(const Camera& camera, double t_s, int width_px, int height_px) {
   SWELL_CHECK(camera.mount.empty(), "mount={}", camera.mount);
-  const Pose pose = pose_at(camera, t_s);
-  return view_from(camera, pose.eye_m, axes_of(camera, pose), width_px, height_px);
+  return with_ieee([&] {
+    const Pose pose = pose_at(camera, t_s);
+    return view_from(camera, pose.eye_m, axes_of(camera, pose), width_px, height_px);
+  });
 }
 
 View mounted_view(const Camera& camera, const ObjectPose& object, double t_s, int width_px,
                   int height_px) {
-  const glm::dmat3& world_from_object = object.world_from_object;
-  return view_from(camera, object.position_world + world_from_object * camera.mount_offset_m,
-                   world_from_object * axes_of(camera, pose_at(camera, t_s)), width_px, height_px);
+  return with_ieee([&] {
+    const glm::dmat3& world_from_object = object.world_from_object;
+    return view_from(camera, object.position_world + world_from_object * camera.mount_offset_m,
+                     world_from_object * axes_of(camera, pose_at(camera, t_s)), width_px,
+                     height_px);
+  });
 }
 
 const FloatingObject* camera_mount(const Scene& scene) {

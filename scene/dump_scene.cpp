@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/parallel.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
@@ -46,6 +47,7 @@ bool is_replaced(std::string_view key, const Scene& scene,
 }  // namespace
 
 std::string dump_scene(const Scene& scene) {
+  const ScopedFloatEnvironment ieee;
   std::string text;
   std::string_view section;
   const std::vector<Parameter<Scene>> parameters = scene_parameters();

@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/parallel.h"
 #include "ocean/drift.h"
 #include "ocean/water_surface.h"
 
@@ -175,6 +176,7 @@ std::string_view object_class(const FloatingObject& object) {
 
 void object_poses(std::span<const FloatingObject> objects, const ocean::WaterSurface& surface,
                   std::span<ObjectPose> poses) {
+  const ScopedFloatEnvironment ieee;
   SWELL_CHECK(objects.size() == poses.size(), "{} objects, {} poses", objects.size(), poses.size());
   const std::array<glm::dvec2, kProbes> plan = probe_plan();
   for (std::size_t i = 0; i < objects.size(); ++i) poses[i] = pose_of(objects[i], surface, plan);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "math/parallel.h"
 #include "ocean/map_sets.h"
 #include "ocean/sea_scale.h"
 #include "scene/celestial.h"
@@ -399,6 +400,7 @@ Scene parse_scene(std::string_view text, const fs::path& file_name) {
 
 Scene parse_scene(std::string_view text, const fs::path& file_name,
                   std::span<const std::string> settings) {
+  const ScopedFloatEnvironment ieee;
   return Reader(file_name).read(parse_tables(text, file_name, settings));
 }
 

@@ -10,15 +10,17 @@
 namespace swell::scene {
 namespace {
 
-const Scene& checked(const Scene& scene) {
+ocean::Sea sea_of(const Scene& scene) {
+  const ScopedFloatEnvironment ieee;
   check_scene(scene);
-  return scene;
+  return ocean::Sea(scene.sea);
 }
 
 }  // namespace
 
-Water::Water(const Scene& scene, int threads)
-    : sea_(checked(scene).sea), area_(scene.area), disturbances_(all_disturbances(scene)) {
+Water::Water(const Scene& scene, int threads) : sea_(sea_of(scene)), area_(scene.area) {
+  const ScopedFloatEnvironment ieee;
+  disturbances_ = all_disturbances(scene);
   Workers workers(threads);
   if (std::optional<Land> land = build_land(scene, workers)) {
     terrain_ = std::move(land->terrain);
@@ -31,6 +33,7 @@ Water::Water(const Scene& scene, int threads)
 
 WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,
                        std::span<const ocean::Disturbance> more) const {
+  const ScopedFloatEnvironment ieee;
   const double gravity = sea_.description().gravity_mps2;
   ocean::advance(sea_, t_s, frame, workers);
   ocean::advance_wakes(disturbances_, more, gravity, t_s, frame.wakes, workers, shore());
@@ -40,6 +43,7 @@ WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,
 }
 
 bool Water::wets(const WaterSurface& surface, glm::dvec2 p_world) const {
+  const ScopedFloatEnvironment ieee;
   if (!terrain()) return true;
   const double ground_m = terrain::height_at(*terrain(), p_world);
   if (ground_m < static_cast<double>(surface.height(p_world))) return true;

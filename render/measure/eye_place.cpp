@@ -5,6 +5,7 @@
 namespace swell::render {
 
 EyeReport find_eye(const World& world, const Workspace& workspace, glm::dvec3 eye_world) {
+  const ScopedFloatEnvironment ieee;
   const World::State& w = world.state();
   const glm::dvec2 p(eye_world);
   if (w.terrain) {

@@ -6,6 +6,7 @@
 #include "lod/mesh_query.h"
 #include "math/check.h"
 #include "math/ray_triangle.h"
+#include "math/with_ieee.h"
 #include "ocean/water_surface.h"
 #include "render/workspace.h"
 #include "scene/object_ray.h"
@@ -135,10 +136,8 @@ std::optional<Pick> meet_all(const World::State& w, const Workspace::State& ws, 
   return met;
 }
 
-}  // namespace
-
-std::optional<Pick> pick(const World& world, const View& view, const Workspace& workspace,
-                         glm::vec2 at_px, PickScratch& scratch) {
+std::optional<Pick> find_pick(const World& world, const View& view, const Workspace& workspace,
+                              glm::vec2 at_px, PickScratch& scratch) {
   SWELL_CHECK(std::isfinite(at_px.x) && std::isfinite(at_px.y), "at_px=({}, {})", at_px.x, at_px.y);
   const World::State& w = world.state();
   const Workspace::State& ws = workspace.state();
@@ -159,6 +158,13 @@ std::optional<Pick> pick(const World& world, const View& view, const Workspace& 
   else
     ask_water(w, ws.sea.frame, *nearest);
   return nearest;
+}
+
+}  // namespace
+
+std::optional<Pick> pick(const World& world, const View& view, const Workspace& workspace,
+                         glm::vec2 at_px, PickScratch& scratch) {
+  return with_ieee([&] { return find_pick(world, view, workspace, at_px, scratch); });
 }
 
 }  // namespace swell::render

@@ -198,6 +198,7 @@ void add_forest(const World::State* like, Workers& workers, World::State& state)
 // like: may be null.
 std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
                                          int threads) {
+  const ScopedFloatEnvironment ieee;
   scene::check_scene(scene);
   SWELL_CHECK(threads >= 1 && threads <= 256, "threads={}", threads);
   auto state = std::make_unique<World::State>(World::State{.scene = std::move(scene)});
