@@ -72,39 +72,62 @@ render::FrameOptions options_of(const swell_frame& given) {
   return options;
 }
 
-// The camera of the frame, and in the options that of the next one where a label needs it.
-View views_of(const swell_frame& given, PictureSize size, swell_session& session,
-              render::FrameOptions& options) {
-  const auto scene_view = [&](double t_s) {
-    return render::world_view(session.named->world, t_s, size.width_px, size.height_px,
-                              session.camera_sea, session.workers);
-  };
-  if (given.next_camera) options.next_view = view_of(given.next_camera, "next_camera", size);
-  if (given.camera) return view_of(given.camera, "camera", size);
-  if (!given.next_camera && options.labels.has(Label::kMotion))
-    options.next_view = scene_view(given.t_s + options.next_frame_s);
-  return scene_view(given.t_s);
+// A frame as the library has it. The options point into the lists: not to be copied.
+struct Asked {
+  Asked(const swell_frame& frame, const render::World& world) : given(frame) {
+    check_time(given.t_s);
+    const PictureSize size = checked_size(given.width_px, given.height_px);
+    size_px = {size.width_px, size.height_px};
+    options = options_of(given);
+    const std::size_t objects = world.scene().objects.size();
+    poses = given_poses(given.poses, given.pose_count, objects, "frame.poses");
+    next_poses = given_poses(given.next_poses, given.next_pose_count, objects, "frame.next_poses");
+    disturbances = given_disturbances(given.disturbances, given.disturbance_count);
+    options.poses = poses;
+    options.next_poses = next_poses;
+    options.disturbances = disturbances;
+  }
+  Asked(const Asked&) = delete;
+  Asked& operator=(const Asked&) = delete;
+
+  const swell_frame& given;
+  glm::ivec2 size_px;
+  render::FrameOptions options;
+  std::vector<scene::GivenPose> poses, next_poses;
+  std::vector<ocean::Disturbance> disturbances;
+};
+
+View given_view(const swell_camera* camera, const char* name, glm::ivec2 size_px) {
+  return view_of(camera, name, {size_px.x, size_px.y});
+}
+
+// The camera of the frame: the caller's, or the scene's, which goes with the object that it is
+// mounted on.
+View frame_view(const Asked& asked, swell_session& session) {
+  if (asked.given.camera) return given_view(asked.given.camera, "camera", asked.size_px);
+  return render::world_view(session.named->world, asked.given.t_s, asked.options, asked.size_px,
+                            session.camera_sea, session.workers);
+}
+
+// The camera of the next frame, where a label needs one; none: as this frame's.
+std::optional<View> next_view(const Asked& asked, swell_session& session) {
+  const swell_frame& given = asked.given;
+  if (given.next_camera) return given_view(given.next_camera, "next_camera", asked.size_px);
+  if (given.camera || !asked.options.labels.has(Label::kMotion)) return std::nullopt;
+  return render::next_world_view(session.named->world, given.t_s, asked.options, asked.size_px,
+                                 session.camera_sea, session.workers);
 }
 
 void draw(swell_session& session, const swell_frame& given, swell_picture& picture) {
-  check_time(given.t_s);
-  const PictureSize size = checked_size(given.width_px, given.height_px);
-  render::FrameOptions options = options_of(given);
   const render::World& world = session.named->world;
-  const std::size_t objects = world.scene().objects.size();
-  const auto poses = given_poses(given.poses, given.pose_count, objects, "frame.poses");
-  const auto next =
-      given_poses(given.next_poses, given.next_pose_count, objects, "frame.next_poses");
-  options.poses = poses;
-  options.next_poses = next;
-  const auto disturbances = given_disturbances(given.disturbances, given.disturbance_count);
-  options.disturbances = disturbances;
-  const View view = views_of(given, size, session, options);
+  Asked asked(given, world);
+  const View view = frame_view(asked, session);
+  asked.options.next_view = next_view(asked, session);
   picture.view.reset();
   session.drawn_view.reset();
   picture.distance_m.clear();
   picture.position.clear();
-  render::render_frame(world, view, given.t_s, options, session.workspace, picture.target,
+  render::render_frame(world, view, given.t_s, asked.options, session.workspace, picture.target,
                        session.workers);
   session.drawn_view = picture.view = view;
 }
@@ -219,6 +242,15 @@ swell_status swell_render(swell_session* session, const swell_frame* frame,
   });
 }
 
+swell_status swell_frame_camera(swell_session* session, const swell_frame* frame,
+                                swell_camera* camera) {
+  return guarded([&] {
+    const Held held(session, "session");
+    const swell_frame given = taken(frame, "frame");
+    give(camera_of(frame_view(Asked(given, held->named->world), *held)), camera, "camera");
+  });
+}
+
 swell_status swell_picture_plane(swell_picture* picture, const char* name, swell_plane* plane) {
   return guarded([&] {
     const Held held(picture, "picture");
@@ -258,9 +290,9 @@ swell_status swell_picture_camera(const swell_picture* picture, swell_camera* ca
 swell_status swell_pick_at(swell_session* session, double x_px, double y_px, swell_pick* pick) {
   return guarded([&] {
     const Held held(session, "session");
-    check_range("x_px", x_px, -1e6, 1e6);
-    check_range("y_px", y_px, -1e6, 1e6);
     if (!held->drawn_view) refuse("session, got one that has drawn no frame, allowed one that has");
+    check_range("x_px", x_px, 0.0, held->drawn_view->width_px);
+    check_range("y_px", y_px, 0.0, held->drawn_view->height_px);
     const auto met = render::pick(held->named->world, *held->drawn_view, held->workspace,
                                   glm::vec2(x_px, y_px), held->pick_scratch);
     swell_pick found{};

@@ -129,7 +129,8 @@ SWELL_API swell_status swell_camera_look(const double eye_m[3], double heading_d
                                          double pitch_deg, double roll_deg, double fov_y_deg,
                                          int32_t width_px, int32_t height_px, swell_camera* camera);
 
-/* The scene's own camera at a time. */
+/* The scene's own camera at a time, where the scene and the water have the object that it may be
+ * mounted on; swell_frame_camera() knows where the caller puts that object. */
 SWELL_API swell_status swell_scene_camera(swell_session* session, double t_s, int32_t width_px,
                                           int32_t height_px, swell_camera* camera);
 
@@ -181,12 +182,14 @@ typedef struct swell_frame {
   size_t size;
   double t_s;                  /* within 1e12 */
   int32_t width_px, height_px; /* each in [1, 8192] */
-  const swell_camera* camera;  /* null: the scene's */
+  const swell_camera* camera;  /* null: the scene's, which goes with the object that it is mounted
+                                  on, also where `poses` or `disturbances` put that */
   const char* labels; /* "depth,id", "all" or null: which labels are drawn; docs/labels.md has their
                          names */
   int32_t linear;     /* not 0: the plane "linear" is drawn as well */
   /* For the label of motion: the next frame's time after this one, over 0 (0: 1/60 s), camera
-   * (null: the scene's at that time if `camera` is null, else the same) and poses. */
+   * (null: the scene's at that time, with next_poses, if `camera` is null, else the same) and
+   * poses. */
   double next_frame_s;
   const swell_camera* next_camera;
   /* Objects that are elsewhere in this frame, at most one pose for each. */
@@ -214,6 +217,10 @@ SWELL_API void swell_picture_destroy(swell_picture* picture);
  * same bits. */
 SWELL_API swell_status swell_render(swell_session* session, const swell_frame* frame,
                                     swell_picture* picture);
+
+/* The camera that swell_render() would draw this frame with. */
+SWELL_API swell_status swell_frame_camera(swell_session* session, const swell_frame* frame,
+                                          swell_camera* camera);
 
 typedef enum swell_type {
   SWELL_UINT8 = 0,
@@ -266,8 +273,8 @@ typedef struct swell_pick {
   double height_m;      /* there: of the ground if land is shown, else of the water */
 } swell_pick;
 
-/* What the last frame of the session shows at a point of its window; pixel (i, j) has its centre at
- * (i + 0.5, j + 0.5). */
+/* What the last frame of the session shows at a point of its window, x_px in [0, width_px] and y_px
+ * in [0, height_px]; pixel (i, j) has its centre at (i + 0.5, j + 0.5). */
 SWELL_API swell_status swell_pick_at(swell_session* session, double x_px, double y_px,
                                      swell_pick* pick);
 

@@ -2,6 +2,13 @@
 //
 //   ocean::SeaFrame sea;  // reused from frame to frame
 //   const View view = render::world_view(world, t_s, 1280, 720, sea, workers);
+//
+// Where the caller puts the object that carries the camera:
+//
+//   options.poses = poses;
+//   options.next_poses = next_poses;  // for the label of motion
+//   const View view = render::world_view(world, t_s, options, {1280, 720}, sea, workers);
+//   options.next_view = render::next_world_view(world, t_s, options, {1280, 720}, sea, workers);
 #pragma once
 
 #include "math/parallel.h"
@@ -16,5 +23,16 @@ namespace swell::render {
 // stage "sea" takes; else `sea` stays as it is.
 View world_view(const World& world, double t_s, int width_px, int height_px, ocean::SeaFrame& sea,
                 Workers& workers);
+
+// The same in a frame that is drawn with these options: the camera goes with the object that
+// carries it where the frame's poses put that, which needs no waves, or where its disturbances move
+// it. Aborts unless scene::check_given_poses() passes the poses.
+View world_view(const World& world, double t_s, const FrameOptions& options, glm::ivec2 size_px,
+                ocean::SeaFrame& sea, Workers& workers);
+
+// That of the frame after it, for FrameOptions::next_view: options.next_frame_s later, with
+// options.next_poses.
+View next_world_view(const World& world, double t_s, const FrameOptions& options,
+                     glm::ivec2 size_px, ocean::SeaFrame& sea, Workers& workers);
 
 }  // namespace swell::render
