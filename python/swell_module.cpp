@@ -7,7 +7,9 @@
 #include <swell.h>
 
 #include <array>
+#include <cstring>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -33,9 +35,46 @@ py::dtype dtype_of(swell_type type) {
   throw std::logic_error("a plane of an unknown type");
 }
 
+// As C has it, which would end the text at a NUL.
+const char* c_text(const std::string& text, const char* name) {
+  if (text.find('\0') != std::string::npos)
+    throw py::value_error(std::string(name) + ", got a text with a NUL, allowed others");
+  return text.c_str();
+}
+
+const char* c_text(const std::optional<std::string>& text, const char* name) {
+  return text ? c_text(*text, name) : nullptr;
+}
+
+// What Python's __new__ gives without __init__ is storage alone, which pybind11 takes from the
+// class's own operator new: all zero, so that is_made() can tell.
+struct ZeroedStorage {
+  static void* operator new(std::size_t bytes) {
+    return std::memset(::operator new(bytes), 0, bytes);
+  }
+  static void* operator new(std::size_t, void* place) { return place; }
+  static void operator delete(void* storage) { ::operator delete(storage); }
+};
+
+// The object, unless it had no __init__.
+template <class Class>
+const Class& made(const Class& object) {
+  if (!object.is_made()) throw py::type_error("got an object without __init__, allowed one with");
+  return object;
+}
+
+// A member as a function that refuses an object without __init__.
+template <class Class, class Result, class... Arguments>
+auto of_made(Result (Class::*member)(Arguments...) const) {
+  return [member](const Class& object, Arguments... arguments) -> Result {
+    return (made(object).*member)(std::forward<Arguments>(arguments)...);
+  };
+}
+
 // A drawn picture; its arrays keep it alive.
-class Picture {
+class Picture : public ZeroedStorage {
  public:
+  bool is_made() const { return pool_ != nullptr; }
   Picture(std::shared_ptr<Pool> pool, Owned<swell_picture> handle, std::vector<PickTuple> picks)
       : pool_(std::move(pool)), handle_(std::move(handle)), picks_(std::move(picks)) {}
   Picture(Picture&&) = default;
@@ -44,10 +83,11 @@ class Picture {
   }
 
   static py::array plane(const py::object& self, const std::string& name) {
-    const auto& picture = self.cast<const Picture&>();
+    const auto& picture = made(self.cast<const Picture&>());
+    const char* const c_name = c_text(name, "plane");
     swell_plane plane{};
     plane.size = sizeof(plane);
-    call([&] { return swell_picture_plane(picture.handle_.get(), name.c_str(), &plane); });
+    call([&] { return swell_picture_plane(picture.handle_.get(), c_name, &plane); });
     std::vector<py::ssize_t> shape = {plane.height_px, plane.width_px};
     if (plane.components > 1) shape.push_back(plane.components);
     return py::array(dtype_of(plane.type), shape, plane.data, self);
@@ -89,18 +129,19 @@ struct FrameArguments {
   std::vector<std::array<double, 2>> picks;  // in pixels
 };
 
-class World {
+class World : public ZeroedStorage {
  public:
+  bool is_made() const { return pool_ != nullptr; }
   World(const std::optional<std::string>& path, const std::optional<std::string>& text,
         const std::optional<std::string>& folder, const std::vector<std::string>& settings,
         int threads) {
     std::vector<const char*> setting_texts;
-    for (const std::string& setting : settings) setting_texts.push_back(setting.c_str());
+    for (const std::string& setting : settings) setting_texts.push_back(c_text(setting, "set"));
     swell_scene scene{};
     scene.size = sizeof(scene);
-    scene.path = path ? path->c_str() : nullptr;
-    scene.text = text ? text->c_str() : nullptr;
-    scene.folder = folder ? folder->c_str() : nullptr;
+    scene.path = c_text(path, "scene's path");
+    scene.text = c_text(text, "scene");
+    scene.folder = c_text(folder, "folder");
     scene.settings = setting_texts.data();
     scene.setting_count = setting_texts.size();
     scene.threads = threads;
@@ -138,12 +179,25 @@ class World {
     return names;
   }
 
-  CameraTuple camera(double t_s, int width_px, int height_px) const {
+  CameraTuple camera(double t_s, int width_px, int height_px,
+                     const std::vector<PoseTuple>& pose_tuples,
+                     const std::vector<DisturbanceTuple>& disturbance_tuples) const {
+    swell_frame frame{};
+    frame.size = sizeof(frame);
+    frame.t_s = t_s;
+    frame.width_px = width_px;
+    frame.height_px = height_px;
+    const std::vector<swell_pose> poses = poses_of(pose_tuples);
+    frame.poses = poses.data();
+    frame.pose_count = poses.size();
+    const std::vector<swell_disturbance> disturbances = disturbances_of(disturbance_tuples);
+    frame.disturbances = disturbances.data();
+    frame.disturbance_count = disturbances.size();
     swell_camera camera{};
     camera.size = sizeof(camera);
     call([&] {
       const Session session(*pool_);
-      return swell_scene_camera(session.get(), t_s, width_px, height_px, &camera);
+      return swell_frame_camera(session.get(), &frame, &camera);
     });
     return tuple_of(camera);
   }
@@ -154,8 +208,8 @@ class World {
     frame.t_s = in.t_s;
     frame.width_px = in.width_px;
     frame.height_px = in.height_px;
-    frame.labels = in.labels.c_str();
-    frame.without = in.without.c_str();
+    frame.labels = c_text(in.labels, "labels");
+    frame.without = c_text(in.without, "without");
     frame.linear = in.linear;
     const swell_camera camera = in.camera ? camera_of(*in.camera) : swell_camera{};
     const swell_camera next_camera = in.next_camera ? camera_of(*in.next_camera) : swell_camera{};
@@ -305,23 +359,23 @@ PYBIND11_MODULE(_swell, module) {
 
   py::class_<Picture>(module, "Picture")
       .def("plane", &Picture::plane)
-      .def("hash", &Picture::hash)
-      .def("picks", &Picture::picks)
-      .def("camera", &Picture::camera);
+      .def("hash", of_made(&Picture::hash))
+      .def("picks", of_made(&Picture::picks))
+      .def("camera", of_made(&Picture::camera));
 
   py::class_<World>(module, "World")
       .def(py::init<const std::optional<std::string>&, const std::optional<std::string>&,
                     const std::optional<std::string>&, const std::vector<std::string>&, int>(),
            py::arg("path"), py::arg("text"), py::arg("folder"), py::arg("settings"),
            py::arg("threads"))
-      .def("text", &World::text)
-      .def("hash", &World::hash)
-      .def("objects", &World::objects)
-      .def("classes", &World::classes)
-      .def("camera", &World::camera)
-      .def("ask", &World::ask)
-      .def("poses", &World::poses)
-      .def("ray", &World::ray)
+      .def("text", of_made(&World::text))
+      .def("hash", of_made(&World::hash))
+      .def("objects", of_made(&World::objects))
+      .def("classes", of_made(&World::classes))
+      .def("camera", of_made(&World::camera))
+      .def("ask", of_made(&World::ask))
+      .def("poses", of_made(&World::poses))
+      .def("ray", of_made(&World::ray))
       .def(
           "render",
           [](const World& world, double t_s, int width_px, int height_px, std::string labels,
@@ -330,11 +384,11 @@ PYBIND11_MODULE(_swell, module) {
              std::vector<PoseTuple> poses, std::vector<PoseTuple> next_poses, int water_triangles,
              int terrain_triangles, double lookup_scale, int edge_samples,
              std::vector<DisturbanceTuple> disturbances, std::vector<std::array<double, 2>> picks) {
-            return world.render({t_s, width_px, height_px, std::move(labels), std::move(without),
-                                 linear, camera, next_camera, next_frame_s, std::move(poses),
-                                 std::move(next_poses), water_triangles, terrain_triangles,
-                                 lookup_scale, edge_samples, std::move(disturbances),
-                                 std::move(picks)});
+            return made(world).render({t_s, width_px, height_px, std::move(labels),
+                                       std::move(without), linear, camera, next_camera,
+                                       next_frame_s, std::move(poses), std::move(next_poses),
+                                       water_triangles, terrain_triangles, lookup_scale,
+                                       edge_samples, std::move(disturbances), std::move(picks)});
           },
           py::arg("t"), py::arg("width"), py::arg("height"), py::arg("labels"), py::arg("without"),
           py::arg("linear"), py::arg("camera"), py::arg("next_camera"), py::arg("next_frame_s"),

@@ -24,7 +24,8 @@ import numpy.typing as npt
 
 from . import _swell
 from ._swell import SceneError
-from .camera import Camera, Size, quaternion_of, rotation_of
+from .camera import Camera, quaternion_of, rotation_of
+from .checks import Size, instance, number, numbers, size_of, vector
 from .disturbance import Disturbance
 from .distortion import DistortedPicture, Lookup
 
@@ -215,9 +216,13 @@ class World:
         """The name of each class of the label "class"."""
         return self._world.classes()
 
-    def camera(self, t: float = 0.0, size: Size = (1280, 720)) -> Camera:
-        """The scene's own camera at a time."""
-        return Camera(*self._world.camera(t, *size))
+    def camera(self, t: float = 0.0, size: Size = (1280, 720), *, poses: Poses = {},
+               disturbances: Iterable[Disturbance] = ()) -> Camera:
+        """The scene's own camera at a time, as render() has it with these poses and disturbances.
+
+        A camera that is mounted on an object goes with it where the poses put that.
+        """
+        return Camera(*self._world.camera(number(t, "t"), *size_of(size), self._poses(poses), _tuples(disturbances)))
 
     def render(self, t: float = 0.0, size: Size = (1280, 720), *, camera: Optional[Camera] = None,
                labels: Union[str, Iterable[str]] = (), linear: bool = False, poses: Poses = {},
@@ -228,8 +233,9 @@ class World:
         """Draws the world at time t (seconds).
 
         size: (width, height) in pixels, each in 1 to 8192.
-        camera: instead of the scene's own. Of one with a distortion the picture is a DistortedPicture: a larger one is
-        drawn and looked up anew, which takes some 0.1 s at 1280 x 720.
+        camera: instead of the scene's own, which goes with the object that it is mounted on, also where `poses` put
+        that. Of one with a distortion the picture is a DistortedPicture: a larger one is drawn and looked up anew, which
+        takes some 0.1 s at 1280 x 720.
         labels: names of docs/labels.md, such as ["depth", "id"], or "all".
         linear: keeps linear light as well.
         poses: objects that are elsewhere in this picture, by index or name.
@@ -240,8 +246,12 @@ class World:
         picks: points of the picture [n, 2] in pixels, whose Picture.picks say what is there; pixel (i, j) has its middle
         at (i + 0.5, j + 0.5). Not with a distortion.
         """
+        size = size_of(size)
         disturbances = list(disturbances)
-        places = np.asarray(picks, dtype=float).reshape(-1, 2)
+        places = numbers(picks, "picks").reshape(-1, 2)
+        for name, given in [("camera", camera), ("next_camera", next_camera)]:
+            if given is not None:
+                instance(given, Camera, name)
         if camera is not None and any(camera.distortion):
             if len(places):
                 raise ValueError("picks, got points of a camera with a distortion, allowed without")
@@ -251,52 +261,57 @@ class World:
                                lookup_scale=lookup_scale, edge_samples=edge_samples, disturbances=disturbances)
             return DistortedPicture(wide, lookup, camera)
         drawn = self._world.render(
-            t=t, width=size[0], height=size[1], labels=_names(labels), without=_names(without), linear=linear,
+            t=number(t, "t"), width=size[0], height=size[1], labels=_names(labels), without=_names(without), linear=linear,
             camera=camera._tuple() if camera else None,
-            next_camera=next_camera._tuple() if next_camera else None, next_frame_s=next_frame,
+            next_camera=next_camera._tuple() if next_camera else None, next_frame_s=number(next_frame, "next_frame"),
             poses=self._poses(poses), next_poses=self._poses(next_poses), water_triangles=water_triangles,
-            terrain_triangles=terrain_triangles, lookup_scale=lookup_scale,
+            terrain_triangles=terrain_triangles, lookup_scale=number(lookup_scale, "lookup_scale"),
             edge_samples=0 if edge_samples is None else edge_samples or 1,
-            disturbances=[d._tuple() for d in disturbances], picks=places)
+            disturbances=_tuples(disturbances), picks=places)
         return Picture(drawn, t, self._picks(drawn.picks()) if len(places) else ())
 
     def height(self, xy: npt.ArrayLike, t: float,
                disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
         """Height of the drawn water over the mean sea level in metres at points xy [..., 2] (east, north): [...]."""
-        return self._world.ask(xy, t, "height", [d._tuple() for d in disturbances])
+        return self._ask("height", xy, t, disturbances)
 
     def slope(self, xy: npt.ArrayLike, t: float,
               disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
         """dz/dx and dz/dy of the water: [..., 2]."""
-        return self._world.ask(xy, t, "slope", [d._tuple() for d in disturbances])
+        return self._ask("slope", xy, t, disturbances)
 
     def normal(self, xy: npt.ArrayLike, t: float,
                disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
         """Unit normals of the water: [..., 3]."""
-        return self._world.ask(xy, t, "normal", [d._tuple() for d in disturbances])
+        return self._ask("normal", xy, t, disturbances)
 
     def velocity(self, xy: npt.ArrayLike, t: float,
                  disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
         """Velocity of the water at the surface in m/s, east, north, up: [..., 3]."""
-        return self._world.ask(xy, t, "velocity", [d._tuple() for d in disturbances])
+        return self._ask("velocity", xy, t, disturbances)
 
     def foam(self, xy: npt.ArrayLike, t: float) -> npt.NDArray[np.float32]:
         """The part of the surface that whitecaps hide, in [0, 1]: [...]."""
-        return self._world.ask(xy, t, "foam", [])
+        return self._ask("foam", xy, t)
 
     def still_depth(self, xy: npt.ArrayLike) -> npt.NDArray[np.float32]:
         """Depth of the ground under the mean sea level in metres: [...]; below 0 on land, infinite without terrain."""
-        return self._world.ask(xy, 0.0, "still_depth", [])
+        return self._ask("still_depth", xy, 0.0)
 
     def poses(self, t: float) -> List[Pose]:
         """Where the scene and the water have its objects at a time, in its order."""
-        return [Pose(tuple(position), tuple(quaternion)) for _, position, quaternion in self._world.poses(t)]
+        return [Pose(tuple(position), tuple(quaternion)) for _, position, quaternion in self._world.poses(number(t, "t"))]
 
     def ray(self, origin: Sequence[float], direction: Sequence[float], t: float,
             max_distance: float = 1e5) -> Optional[Hit]:
         """The first place where a ray passes the water at most max_distance metres away; None: it does not."""
-        hit = self._world.ray(t, tuple(origin), tuple(direction), max_distance)
+        hit = self._world.ray(number(t, "t"), vector(origin, 3, "origin"), vector(direction, 3, "direction"),
+                              number(max_distance, "max_distance"))
         return None if hit is None else Hit(tuple(hit[0]), hit[1], hit[2])
+
+    def _ask(self, what: str, xy: npt.ArrayLike, t: float,
+             disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:
+        return self._world.ask(numbers(xy, "xy"), number(t, "t"), what, _tuples(disturbances))
 
     def _picks(self, found) -> List[Pick]:
         objects = self.objects
@@ -308,6 +323,8 @@ class World:
         return picks
 
     def _poses(self, poses: Poses):
+        if not isinstance(poses, Mapping):
+            raise TypeError(f"poses, got {type(poses).__name__}, allowed a dict of swell.Pose")
         if not poses:
             return []
         names = {o.name: n for n, o in enumerate(self.objects) if o.name}
@@ -318,7 +335,13 @@ class World:
             indices.append(names[key] if isinstance(key, str) else int(key))
         if any(index < 0 for index in indices):
             raise ValueError(f"poses, got object {min(indices)}, allowed 0 to {len(self.objects) - 1}")
-        return [(n, tuple(p.position), tuple(p.quaternion)) for n, p in zip(indices, poses.values())]
+        given = [instance(pose, Pose, "poses") for pose in poses.values()]
+        return [(n, vector(p.position, 3, "pose's position"), vector(p.quaternion, 4, "pose's quaternion"))
+                for n, p in zip(indices, given)]
+
+
+def _tuples(disturbances: Iterable[Disturbance]):
+    return [instance(d, Disturbance, "disturbances")._tuple() for d in disturbances]
 
 
 def _names(names: Union[str, Iterable[str]]) -> str:
@@ -327,6 +350,8 @@ def _names(names: Union[str, Iterable[str]]) -> str:
 
 def _plain(value: Any) -> Any:
     """What JSON knows of a NumPy value."""
+    if isinstance(value, (np.ndarray, np.generic)) and value.dtype.kind in "Mm":
+        raise TypeError(f"a scene's value, got {value.dtype}, allowed numbers, text, booleans, lists, dicts")
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, os.PathLike):

@@ -9,28 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _swell
-
-Size = Tuple[int, int]
-"""Width and height of a picture in pixels."""
-
-
-def _vector(values: npt.ArrayLike, length: int, name: str) -> Tuple[float, ...]:
-    array = np.asarray(values, dtype=np.float64)
-    if array.shape != (length,):
-        raise ValueError(f"{name}, got an array of shape {array.shape}, allowed ({length},)")
-    return tuple(array.tolist())
-
-
-def _matrix(values: npt.ArrayLike, shape: Tuple[int, int], name: str) -> np.ndarray:
-    array = np.asarray(values, dtype=np.float64)
-    if array.shape != shape:
-        raise ValueError(f"{name}, got an array of shape {array.shape}, allowed {shape}")
-    return array
+from .checks import Size, matrix, number, numbers, size_of, vector
 
 
 def quaternion_of(rotation: npt.ArrayLike) -> Tuple[float, ...]:
     """The quaternion (w, x, y, z), w >= 0, of a rotation matrix (3, 3)."""
-    r = _matrix(rotation, (3, 3), "rotation")
+    r = matrix(rotation, (3, 3), "rotation")
     if not (np.allclose(r @ r.T, np.eye(3), atol=1e-6) and np.linalg.det(r) > 0.0):
         raise ValueError("rotation, got a matrix that is none, allowed unit axes at right angles, "
                          "right-handed, to within 1e-6")
@@ -48,7 +32,7 @@ def quaternion_of(rotation: npt.ArrayLike) -> Tuple[float, ...]:
 
 def rotation_of(quaternion: npt.ArrayLike) -> np.ndarray:
     """The rotation matrix (3, 3) of a quaternion (w, x, y, z) of any length over 0."""
-    q = np.array(_vector(quaternion, 4, "quaternion"))
+    q = np.array(vector(quaternion, 4, "quaternion"))
     w, x, y, z = q / np.linalg.norm(q)
     return np.array([
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -85,13 +69,15 @@ class Camera:
 
         roll (degrees) lowers its right side; fov_y (degrees) spans a picture of `size` from top to bottom.
         """
-        return Camera(*_swell.look(_vector(eye, 3, "eye"), heading, pitch, roll, fov_y, *size))
+        angles = [number(angle, name) for name, angle in
+                  [("heading", heading), ("pitch", pitch), ("roll", roll), ("fov_y", fov_y)]]
+        return Camera(*_swell.look(vector(eye, 3, "eye"), *angles, *size_of(size)))
 
     @staticmethod
     def from_pose(world_from_optical: npt.ArrayLike, K: npt.ArrayLike, near: float = 0.25) -> Camera:
         """A camera from its pose, a matrix (4, 4) that takes optical points to the world, and its matrix K (3, 3)."""
-        pose = _matrix(world_from_optical, (4, 4), "world_from_optical")
-        k = _matrix(K, (3, 3), "K")
+        pose = matrix(world_from_optical, (4, 4), "world_from_optical")
+        k = matrix(K, (3, 3), "K")
         if k[0, 1] != 0.0 or k[1, 0] != 0.0 or tuple(k[2]) != (0.0, 0.0, 1.0):
             raise ValueError("K, got one with skew or another last row, allowed [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]")
         return Camera(tuple(pose[:3, 3].tolist()), quaternion_of(pose[:3, :3]),
@@ -104,13 +90,13 @@ class Camera:
 
         A world point X has the optical coordinates R X + t; R is (3, 3), t is (3,); distortion is (k1, k2, p1, p2, k3).
         """
-        rotation = _matrix(R, (3, 3), "R")
+        rotation = matrix(R, (3, 3), "R")
         pose = np.eye(4)
         pose[:3, :3] = rotation.T
-        pose[:3, 3] = -rotation.T @ np.array(_vector(t, 3, "t"))
+        pose[:3, 3] = -rotation.T @ np.array(vector(t, 3, "t"))
         camera = Camera.from_pose(pose, K, near)
         return replace(camera, principal=(camera.principal[0] + 0.5, camera.principal[1] + 0.5),
-                       distortion=_vector(distortion, 5, "distortion"))
+                       distortion=vector(distortion, 5, "distortion"))
 
     @property
     def K(self) -> np.ndarray:
@@ -131,7 +117,7 @@ class Camera:
 
         Of a flat world: on a round earth far points are drawn lower (docs/conventions.md).
         """
-        relative = np.asarray(points, dtype=np.float64) - np.array(self.eye)
+        relative = numbers(points, "points") - np.array(self.eye)
         optical = relative @ rotation_of(self.quaternion)
         with np.errstate(divide="ignore", invalid="ignore"):
             seen = np.stack(self.distort(*np.moveaxis(optical[..., :2] / optical[..., 2:], -1, 0)), axis=-1)
@@ -147,6 +133,6 @@ class Camera:
                 y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y)
 
     def _tuple(self):
-        return (_vector(self.eye, 3, "camera.eye"), _vector(self.quaternion, 4, "camera.quaternion"),
-                _vector(self.focal, 2, "camera.focal"), _vector(self.principal, 2, "camera.principal"),
-                float(self.near))
+        return (vector(self.eye, 3, "camera.eye"), vector(self.quaternion, 4, "camera.quaternion"),
+                vector(self.focal, 2, "camera.focal"), vector(self.principal, 2, "camera.principal"),
+                number(self.near, "camera.near"))

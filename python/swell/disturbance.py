@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Sequence, Tuple
 
+from .checks import number, points, vector
+
 _KINDS = ("drop", "footstep", "hull", "rotor")
 
 
@@ -41,8 +43,12 @@ class Disturbance:
     def _tuple(self) -> Tuple:
         if self.kind not in _KINDS:
             raise ValueError(f"disturbance's kind, got '{self.kind}', allowed {', '.join(_KINDS)}")
+        values = {name: number(getattr(self, name), f"disturbance's {name}")
+                  for name in ("t", "duration", "radius", "height", "speed", "depth")}
         for name in ("duration", "radius", "height", "speed"):  # 0 stands for the default in the C interface
-            if getattr(self, name) == 0.0:
+            if values[name] == 0.0:
                 raise ValueError(f"disturbance's {name}, got 0, allowed other numbers")
-        return (_KINDS.index(self.kind), tuple(self.position), self.t, self.duration, self.radius, self.height,
-                [tuple(point) for point in self.path], self.speed, not self.path_closed, tuple(self.hull), self.depth)
+        return (_KINDS.index(self.kind), vector(self.position, 2, "disturbance's position"), values["t"],
+                values["duration"], values["radius"], values["height"],
+                points(self.path, "disturbance's path").tolist(), values["speed"], not self.path_closed,
+                vector(self.hull, 3, "disturbance's hull"), values["depth"])

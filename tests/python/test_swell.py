@@ -330,3 +330,72 @@ def test_boxes_of_the_data_set_are_those_of_the_ids():
         mask = ids == box["id"]
         assert mask[y:y + height, x:x + width].sum() == mask.sum() == box["pixels"]
         assert mask[y].any() and mask[y + height - 1].any() and mask[:, x].any() and mask[:, x + width - 1].any()
+
+
+# ---- a camera on an object that the caller moves ----
+
+MOUNTED = {**STILL, "object": [{**BUOY, "position_m": [5, 30]}],
+           "camera": {"mount": "red", "mount_offset_m": [1, 2, 3]}}
+
+
+def test_a_mounted_camera_goes_where_the_caller_puts_its_object():
+    world = swell.World(MOUNTED)
+    at = swell.Pose((0, 10, 3))
+    assert world.camera(0.0, SIZE, poses={"red": at}).eye == pytest.approx((1, 12, 6))
+    assert world.render(0.0, SIZE, poses={"red": at}).camera.eye == pytest.approx((1, 12, 6))
+    # Turned by 90 degrees to the left: its right is north, ahead is west.
+    turned = swell.Pose((0, 10, 3), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    assert world.camera(0.0, SIZE, poses={"red": turned}).eye == pytest.approx((-2, 11, 6))
+
+
+def test_the_hull_of_a_mounted_camera_stays_where_it_is_in_the_picture():
+    world = swell.World({**MOUNTED, "camera": {"mount": "red", "mount_offset_m": [0, -6, 2]}})
+    here = world.render(0.0, SIZE, labels="id")
+    there = world.render(0.0, SIZE, labels="id", poses={"red": swell.Pose((40, -25, 0))})
+    assert (here["id"] == 16).any() and np.array_equal(here["id"] == 16, there["id"] == 16)
+
+
+def test_the_motion_label_counts_a_mounted_camera_s_own_motion():
+    # Both move alike, so that the hull stays where it is, and the water does not.
+    world = swell.World({**MOUNTED, "camera": {"mount": "red", "mount_offset_m": [0, -6, 2]}})
+    picture = world.render(0.0, SIZE, labels=["motion", "id"], poses={"red": swell.Pose((0, 0, 0))},
+                           next_poses={"red": swell.Pose((1, 0, 0))})
+    hull = picture["id"] == 16
+    assert hull.any() and np.abs(picture["motion"][hull]).max() < 1e-2
+    assert np.abs(picture["motion"][-1][~hull[-1]]).max() > 1.0
+
+
+# ---- arguments that are none ----
+
+def test_a_size_is_two_whole_numbers(still):
+    for size in [(1, 2, 3), (1,), (), (1.5, 2), 7]:
+        with pytest.raises(ValueError, match="size, got"):
+            still.render(0.0, size)
+
+
+def test_texts_with_a_nul_are_refused(still):
+    with pytest.raises(ValueError, match="NUL"):
+        swell.World("scenes/buoys.toml\0.txt")
+    with pytest.raises(ValueError, match="NUL"):
+        still.render(0.0, SIZE, labels="depth\0,nonsense")
+    with pytest.raises(ValueError, match="NUL"):
+        swell.World(STILL, set={"sea.douglas\0x": 4})
+
+
+@pytest.mark.parametrize("xy", [["1", "2"], np.array([["2020-01-01", "2020-01-02"]], dtype="datetime64[D]"),
+                                np.array([[1j, 2.0]]), [None, 1.0]])
+def test_what_is_no_number_is_no_place(still, xy):
+    with pytest.raises(TypeError, match="xy, got"):
+        still.height(xy, 0.0)
+
+
+def test_a_pose_is_a_pose(still):
+    with pytest.raises(TypeError, match="poses, got tuple, allowed swell.Pose"):
+        still.render(0.0, SIZE, poses={"red": ((0, 0, 0), (1, 0, 0, 0))})
+
+
+@pytest.mark.parametrize("kind", ["World", "Picture"])
+def test_an_object_without_init_is_no_object(kind):
+    made = getattr(swell._swell, kind)
+    with pytest.raises(TypeError, match="__init__"):
+        made.__new__(made).hash()
