@@ -14,6 +14,7 @@
 #include "ocean/sea_state.h"
 #include "render/view/choose_trees.h"
 #include "render/view/render_view.h"
+#include "render/view/tree_ground.h"
 #include "render/world/forest.h"
 
 namespace swell::render {
@@ -38,9 +39,11 @@ struct TreeView {
   TreeSight sight;
   glm::vec2 wind;   // where it goes to, times how far a tree of height 1 bends
   glm::vec2 turns;  // of two swings, in time
+  const Meshes& meshes;
 };
 
-TreeView tree_view(const World::State& world, const RenderView& view, bool shows_all, double t_s) {
+TreeView tree_view(const World::State& world, const RenderView& view, const Meshes& meshes,
+                   bool shows_all, double t_s) {
   const ocean::SeaDescription& sea = world.scene.sea;
   const View& camera = view.camera;
   const double blows = std::min(sea.wind_speed_mps / 20.0, 1.0);
@@ -58,7 +61,8 @@ TreeView tree_view(const World::State& world, const RenderView& view, bool shows
            .is_mirrored = view.kind == ViewKind::kReflection,
            .shows_all = shows_all},
           glm::vec2(-from.sin, -from.cos) * static_cast<float>(0.035 * blows),
-          {turns(0.31), turns(0.47)}};
+          {turns(0.31), turns(0.47)},
+          meshes};
 }
 
 // Whether the view shows any of a ball where a round earth puts it.
@@ -124,7 +128,8 @@ float leaves_in(const scene::TreeShape& shape, float box_px2, float height_px) {
 // How a tree that is drawn is.
 DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
   const TreeColumns& trees = view.forest.columns;
-  const glm::vec3 foot(trees.x_m[number], trees.y_m[number], trees.z_m[number]);
+  glm::vec3 foot(trees.x_m[number], trees.y_m[number], trees.z_m[number]);
+  foot.z += drawn_ground_over(view.meshes, view.forest.trees.origin + glm::dvec3(foot));
   const float full_height_m = trees.height_m[number], full_radius_m = trees.radius_m[number];
   DrawnTree drawn{.foot_rel = view.sight.origin_rel + foot,
                   .tree = number,
@@ -325,7 +330,7 @@ void place_in_views(const World::State& world, double t_s, Meshes& meshes, Frame
   // Through the surface an eye under water sees them far from where they are.
   const bool shows_all =
       std::ranges::any_of(views, [](const RenderView* v) { return v->eye.submerged; });
-  const TreeView view = tree_view(world, *views.front(), shows_all, t_s);
+  const TreeView view = tree_view(world, *views.front(), meshes, shows_all, t_s);
   TreeDraws& draws = meshes.trees.drawn_in(views.front()->kind);
   draws.trees.resize(view.forest.trees.trees.size());
   draws.chosen.resize(view.forest.trees.trees.size());
@@ -365,12 +370,14 @@ bool shows_trees(const RenderView& view) {
 
 }  // namespace
 
-void place_trees(const World::State& world, double t_s, PartSet without, Meshes& meshes,
+void place_trees(const World::State& world, double t_s, const FrameOptions& options, Meshes& meshes,
                  FrameViews views, const StageRun& run) {
+  const bool has_trees = world.forest && !options.without.has(Part::kTrees);
+  if (has_trees) prepare_tree_ground(world, options, meshes.land, meshes.trees);
   for (const ViewKind kind : kAllViewKinds) {
     std::array<RenderView*, 3> of_kind{};  // from the air, from below, of a river
     std::size_t count = 0;
-    bool shown = world.forest && !without.has(Part::kTrees);
+    bool shown = has_trees;
     for (RenderView* const view : views)
       if (view->kind == kind) of_kind[count++] = view;
     const FrameViews its = std::span(of_kind).first(count);

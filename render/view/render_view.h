@@ -135,8 +135,9 @@ void place_objects(const World::State& world, const SeaMaps& sea,
                    std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
                    const StageRun& run);
 
-// Stage 3: the trees that views may show, as they sway at t_s, and their vertices in the views.
-void place_trees(const World::State& world, double t_s, PartSet without, Meshes& meshes,
+// Stage 3: the trees that views may show, as they sway at t_s, and their vertices in the views. On
+// the ground that is drawn where that has fewer triangles than the scene asks for.
+void place_trees(const World::State& world, double t_s, const FrameOptions& options, Meshes& meshes,
                  FrameViews views, const StageRun& run);
 
 // Numbers the triangles of what the view shows, clips, sets up and bins them; with edge_samples

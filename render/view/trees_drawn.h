@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "lod/envelope.h"
 #include "render/view/surfaces.h"
 
 namespace swell::render {
@@ -65,6 +66,10 @@ struct TreeDraws {
 
 struct TreeGeometry {
   std::array<TreeDraws, kViewKinds> draws;
+  // How far trees stand on the ground that is drawn in place of the true one: from 0 to 1; and the
+  // former's envelopes, if that is over 0.
+  float on_drawn_ground = 0.0f;
+  lod::Envelopes ground;
 
   TreeDraws& drawn_in(ViewKind kind) { return draws[static_cast<std::size_t>(kind)]; }
   const TreeDraws& drawn_in(ViewKind kind) const { return draws[static_cast<std::size_t>(kind)]; }
