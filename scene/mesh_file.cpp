@@ -141,7 +141,10 @@ ObjectMesh mesh_of_level(const FlatMesh& flat, const MeshOfFile& whole, const Fl
 }  // namespace
 
 MeshOfFile load_mesh(const std::string& file, UpAxis up) {
-  const FlatMesh flat = read_flat_mesh(run_importer(file, up));
+  return mesh_of(read_flat_mesh(run_importer(file, up)));
+}
+
+MeshOfFile mesh_of(const FlatMesh& flat) {
   MeshOfFile mesh;
   set_box(flat, mesh);
   std::vector<texture::MipImage> textures;

@@ -11,6 +11,7 @@
 namespace swell::scene {
 
 struct DrawnForm;
+struct FlatMesh;
 
 struct MeshOfFile {
   std::vector<ObjectMesh> levels;  // finest first
@@ -23,6 +24,9 @@ struct MeshOfFile {
 // Reads the file in another process (scene/run_importer.h). Throws std::runtime_error in one line
 // that begins with what was found. A million triangles take 3 s.
 MeshOfFile load_mesh(const std::string& file, UpAxis up);
+
+// The same from what the importer has written (scene/flat_mesh.h).
+MeshOfFile mesh_of(const FlatMesh& flat);
 
 // Gives an object of kind kMesh or kForm its file's size, draught and middle. Throws
 // std::runtime_error if it is larger or smaller than objects may be.
