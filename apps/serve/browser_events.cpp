@@ -61,6 +61,10 @@ T value_of(const Json& event, const char* key) {
   const auto found = event.find(key);
   if (found == event.end()) throw EventError(fmt::format("no \"{}\" in an event", key));
   try {
+    // The library would cast -1 and 1e300 too.
+    if constexpr (std::is_same_v<T, std::size_t>)
+      if (!found->is_number_unsigned())
+        throw EventError(fmt::format("\"{}\" of an event is no whole number from 0 on", key));
     return found->get<T>();
   } catch (const Json::exception&) {
     throw EventError(fmt::format("\"{}\" of an event is of the wrong kind", key));
