@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "math/elementary.h"
+#include "scene/parameters.h"
 #include "scene/scene_error.h"
 #include "scene/toml_limits.h"
 
@@ -357,7 +358,7 @@ Form parse_form(std::string_view text, const std::string& file_name) {
   } catch (const toml::parse_error& error) {
     throw SceneError(fmt::format("{}:{}: column {}: syntax error, got '{}', allowed TOML 1.0",
                                  file_name, error.source().begin.line, error.source().begin.column,
-                                 error.description()));
+                                 one_line(std::string(error.description()))));
   }
   return FormReader(file_name).read(root);
 }
