@@ -48,13 +48,13 @@ std::vector<std::uint8_t> encode_image(const ImageF& image, const std::string& e
                                        const ImageExtras& extras = {});
 
 // Writes bytes to a new file in the folder of `path`, syncs it and gives it the name. On any
-// failure throws FileError and leaves the old file and no other one. A symbolic link keeps standing
-// and its file is replaced; devices, pipes and folders are refused. The new file has the mode of
-// the one that it replaces, and its owner and group where the system allows it (else its group may
-// do no more than others might); access lists are not kept. Other hard links to the old file keep
-// the old content: only so is the file whole at any time. Until it is whole the file has no name
-// (O_TMPFILE), where the file system has such files; else, and for the moment of replacing, it is
-// .swell-HOST-BOOT-PID-N.tmp. Several threads may write.
+// failure throws FileError and leaves the old file and no other one. A symbolic link of this name
+// is replaced, not followed; devices, pipes, folders and links to them are refused. It has the mode
+// of the one that it replaces, and its owner and group where the system allows it (else its group
+// may do no more than others might); access lists are not kept. Other hard links to the old file
+// keep the old content: only so is the file whole at any time. Until it is whole the file has no
+// name (O_TMPFILE), where the file system has such files; else, and for the moment of replacing, it
+// is .swell-HOST-BOOT-PID-N.tmp. Several threads may write.
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
 // For the signal handler of a program that is to end: removes what write_file() has under temporary

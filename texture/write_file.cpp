@@ -13,6 +13,7 @@
 
 #include "math/parallel.h"
 #include "texture/file_bytes.h"
+#include "texture/output_folder.h"
 #include "texture/signal_lock.h"
 
 namespace swell::texture {
@@ -29,32 +30,50 @@ int write_all(int descriptor, std::span<const std::uint8_t> bytes) {
   return 0;
 }
 
-// What is to be written.
+// What is to be written: a name in an open folder.
 struct Target {
-  std::filesystem::path path, folder;
+  const std::filesystem::path& path;  // for messages
+  int folder;
+  std::string name;
   std::optional<struct stat> replaced;  // the file that is there
   // Until the old file's access is known to be kept, nobody else may look into the new one.
   mode_t first_mode() const { return replaced ? 0600 : 0666; }
 };
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : ".";
+void check_kind(const std::filesystem::path& path, mode_t mode) {
+  if (S_ISDIR(mode)) fail(path, "cannot write: it is a directory");
+  if (!S_ISREG(mode)) fail(path, "cannot write: it is not a regular file");
 }
 
-// The file that `path` stands for, through symbolic links. Refuses what is not a file: renaming
-// over a device or a pipe would replace it.
-Target checked_target(const std::filesystem::path& path) {
-  struct stat status;
-  if (::stat(path.c_str(), &status) != 0) {
-    if (errno == ENOENT) return {path, folder_of(path), std::nullopt};
+// A link is replaced, and what it names stays as it is. One to a folder, a device or a pipe is
+// refused all the same, and so is one to an open file (/dev/stdout): a system's, and no output's.
+void check_link(const std::filesystem::path& path, int folder, const std::string& name) {
+  struct stat behind;
+  if (::fstatat(folder, name.c_str(), &behind, 0) != 0) {
+    if (errno == ENOENT) return;
     fail(path, "cannot write: {}", reason(errno));
   }
-  if (S_ISDIR(status.st_mode)) fail(path, "cannot write: it is a directory");
-  if (!S_ISREG(status.st_mode)) fail(path, "cannot write: it is not a regular file");
-  std::error_code error;
-  std::filesystem::path file = std::filesystem::canonical(path, error);
-  if (error) file = path;
-  return {file, folder_of(file), status};
+  check_kind(path, behind.st_mode);
+  constexpr std::string_view kProcesses = "/proc/";
+  std::array<char, kProcesses.size()> text{};
+  const ssize_t got = ::readlinkat(folder, name.c_str(), text.data(), text.size());
+  if (got == std::ssize(kProcesses) && std::string_view(text.data(), text.size()) == kProcesses)
+    fail(path, "cannot write: it stands for an open file");
+}
+
+// Refuses what is not a file: renaming over a device or a pipe would replace it.
+Target checked_target(const std::filesystem::path& path, int folder, const std::string& name) {
+  struct stat status;
+  if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) {
+    if (errno == ENOENT) return {path, folder, name, std::nullopt};
+    fail(path, "cannot write: {}", reason(errno));
+  }
+  if (S_ISLNK(status.st_mode)) {
+    check_link(path, folder, name);
+    return {path, folder, name, std::nullopt};
+  }
+  check_kind(path, status.st_mode);
+  return {path, folder, name, status};
 }
 
 // Owner, group and mode of the file that is replaced, as far as the system allows; never access
@@ -79,7 +98,8 @@ int fill_file(int file, const Target& target, std::span<const std::uint8_t> byte
 
 // The names that are in use now, for abandon_writes(). Each stands on its writer's stack.
 struct NameInUse {
-  const char* path = nullptr;
+  int folder = -1;
+  const char* name = nullptr;
   NameInUse* next = nullptr;
 };
 constinit NameInUse* names_in_use = nullptr;
@@ -115,9 +135,8 @@ Host this_host() {
           !error && !boot.empty()};
 }
 
-std::filesystem::path temporary_name(const Target& target, const Host& host, int attempt) {
-  return target.folder /
-         fmt::format(".swell-{:016x}-{:016x}-{}-{}.tmp", host.id, host.boot, ::getpid(), attempt);
+std::string temporary_name(const Host& host, int attempt) {
+  return fmt::format(".swell-{:016x}-{:016x}-{}-{}.tmp", host.id, host.boot, ::getpid(), attempt);
 }
 
 constexpr int kMostAttempts = 1000;
@@ -125,24 +144,25 @@ constexpr int kMostAttempts = 1000;
 // A new file beside the target, under a temporary name.
 class NamedFile {
  public:
-  explicit NamedFile(const Target& target) {
+  explicit NamedFile(const Target& target) : folder_(target.folder) {
     const Host host = this_host();
     const SignalLockGuard change(names_lock);
     int number = -1;
     for (int attempt = 0; attempt < kMostAttempts && number < 0; ++attempt) {
-      path_ = temporary_name(target, host, attempt);
-      number = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, target.first_mode());
+      temporary_ = temporary_name(host, attempt);
+      number = ::openat(folder_, temporary_.c_str(),
+                        O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, target.first_mode());
       if (number < 0 && errno != EEXIST) break;
     }
     error_ = number < 0 ? errno : 0;
     file_.emplace(number);
     if (error_ != 0) return;
     has_name_ = true;
-    name_ = {path_.c_str(), names_in_use};
+    name_ = {folder_, temporary_.c_str(), names_in_use};
     names_in_use = &name_;
   }
   ~NamedFile() {
-    if (has_name_) give_up_name([&] { ::unlink(path_.c_str()); });
+    if (has_name_) give_up_name([&] { ::unlinkat(folder_, temporary_.c_str(), 0); });
   }
   NamedFile(const NamedFile&) = delete;
   NamedFile& operator=(const NamedFile&) = delete;
@@ -154,9 +174,9 @@ class NamedFile {
     if (const int error = file_->close()) return error;
     int error = 0;
     give_up_name([&] {
-      if (::rename(path_.c_str(), target.path.c_str()) == 0) return;
+      if (::renameat(folder_, temporary_.c_str(), folder_, target.name.c_str()) == 0) return;
       error = errno;
-      ::unlink(path_.c_str());
+      ::unlinkat(folder_, temporary_.c_str(), 0);
     });
     return error;
   }
@@ -172,7 +192,8 @@ class NamedFile {
     *link = name_.next;
   }
 
-  std::filesystem::path path_;
+  int folder_;
+  std::string temporary_;
   std::optional<Descriptor> file_;
   NameInUse name_;
   bool has_name_ = false;
@@ -187,19 +208,20 @@ constexpr int kNoUnnamedFiles = -1;
 // given to it here.
 int name_file(int file, const Target& target) {
   const std::string self = fmt::format("/proc/self/fd/{}", file);
-  const auto link = [&](const std::filesystem::path& name) {
-    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  const auto link = [&](const std::string& name) {
+    return ::linkat(AT_FDCWD, self.c_str(), target.folder, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };
-  if (!target.replaced && link(target.path)) return 0;
+  if (!target.replaced && link(target.name)) return 0;
   // A link does not replace a file; a rename does.
   const Host host = this_host();
   const SignalLockGuard change(names_lock);
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    const std::filesystem::path temporary = temporary_name(target, host, attempt);
+    const std::string temporary = temporary_name(host, attempt);
     if (link(temporary)) {
-      if (::rename(temporary.c_str(), target.path.c_str()) == 0) return 0;
+      if (::renameat(target.folder, temporary.c_str(), target.folder, target.name.c_str()) == 0)
+        return 0;
       const int error = errno;
-      ::unlink(temporary.c_str());
+      ::unlinkat(target.folder, temporary.c_str(), 0);
       return error;
     }
     if (errno != EEXIST) break;
@@ -209,7 +231,7 @@ int name_file(int file, const Target& target) {
 
 int write_unnamed(const Target& target, std::span<const std::uint8_t> bytes) {
   const Descriptor file(
-      ::open(target.folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, target.first_mode()));
+      ::openat(target.folder, ".", O_WRONLY | O_TMPFILE | O_CLOEXEC, target.first_mode()));
   if (file.get() < 0) return kNoUnnamedFiles;
   if (const int error = fill_file(file.get(), target, bytes)) return error;
   return name_file(file.get(), target);
@@ -237,20 +259,29 @@ bool is_abandoned(const std::filesystem::directory_entry& entry, const Host& hos
 
 }  // namespace
 
-void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  const Target target = checked_target(path);
+void write_file_in(int folder, const std::string& name, const std::filesystem::path& path,
+                   std::span<const std::uint8_t> bytes) {
+  const Target target = checked_target(path, folder, name);
   int error = write_unnamed(target, bytes);
   if (error == kNoUnnamedFiles) error = NamedFile(target).become(target, bytes);
   if (error != 0) fail(path, "cannot write: {}", reason(error));
   // The name itself reaches the disk with its folder; the file is whole either way.
-  const Descriptor folder(::open(target.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() >= 0) ::fsync(folder.get());
+  const Descriptor readable(::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (readable.get() >= 0) ::fsync(readable.get());
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const Descriptor open(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (open.get() < 0) fail(path, "cannot write: {}", reason(errno));
+  const std::string name = path.has_filename() ? path.filename().string() : ".";
+  write_file_in(open.get(), name, path, bytes);
 }
 
 void abandon_writes() noexcept {
   names_lock.take();
   for (const NameInUse* name = names_in_use; name != nullptr; name = name->next)
-    ::unlink(name->path);
+    ::unlinkat(name->folder, name->name, 0);
 }
 
 void remove_abandoned_files(const std::filesystem::path& folder) {

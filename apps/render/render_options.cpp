@@ -235,7 +235,7 @@ bool files_exist(const RenderOptions& options, int frame) {
     if (!pattern.empty()) files.push_back(numbered_path(options, pattern, frame));
   return std::ranges::all_of(files, [](const std::filesystem::path& file) {
     std::error_code ignored;
-    return std::filesystem::is_regular_file(file, ignored);
+    return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored));
   });
 }
 

@@ -84,4 +84,10 @@ void write_output(const fs::path& path, std::span<const std::uint8_t> bytes) {
   texture::write_file(path, bytes);
 }
 
+void write_output(const texture::OutputFolder& folder, const std::string& name,
+                  std::span<const std::uint8_t> bytes) {
+  const AbandonOnSignals while_writing;
+  folder.write(name, bytes);
+}
+
 }  // namespace swell::apps

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+
+#include "texture/output_folder.h"
 
 namespace swell::apps {
 
@@ -15,5 +18,9 @@ void check_output_place(const std::filesystem::path& path);
 // not one that the program ignores or handles) still ends it, with no temporary file left. One
 // call at a time.
 void write_output(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+// The same in a folder below which no link is followed.
+void write_output(const texture::OutputFolder& folder, const std::string& name,
+                  std::span<const std::uint8_t> bytes);
 
 }  // namespace swell::apps

@@ -58,12 +58,25 @@ TEST_F(WriteFile, WritesAndReplaces) {
   EXPECT_EQ(file_count(), 2u);
 }
 
-TEST_F(WriteFile, FollowsALinkToItsFile) {
+TEST_F(WriteFile, ReplacesALinkAndLeavesWhatItNames) {
   const fs::path file = put("file", bytes_of("old"));
   fs::create_symlink(file, folder / "link");
-  write_file(folder / "link", bytes_of("new"));
-  EXPECT_TRUE(fs::is_symlink(folder / "link"));
-  EXPECT_EQ(content(file), "new");
+  fs::create_symlink("nothing", folder / "dangling");
+  for (const char* name : {"link", "dangling"}) {
+    write_file(folder / name, bytes_of("new"));
+    EXPECT_FALSE(fs::is_symlink(folder / name)) << name;
+    EXPECT_EQ(content(folder / name), "new") << name;
+  }
+  EXPECT_EQ(content(file), "old");
+  EXPECT_FALSE(fs::exists(folder / "nothing"));
+}
+
+TEST_F(WriteFile, FollowsLinksOnTheWay) {
+  fs::create_directory(folder / "inner");
+  fs::create_symlink("inner", folder / "way");
+  write_file(folder / "way" / "file", bytes_of("new"));
+  EXPECT_TRUE(fs::is_symlink(folder / "way"));
+  EXPECT_EQ(content(folder / "inner" / "file"), "new");
 }
 
 void expect_write_fails(const fs::path& path) {
@@ -88,6 +101,13 @@ TEST_F(WriteFile, PlacesThatCannotBeWrittenAreRefused) {
   expect_write_fails(folder / "loop");
   expect_write_fails("/proc/swell.png");
   expect_write_fails("/dev/null");
+  fs::create_symlink("/dev/null", folder / "device");
+  fs::create_symlink("/proc/self/exe", folder / "open_file");
+  fs::create_symlink("folder", folder / "link_to_folder");
+  for (const char* name : {"device", "open_file", "link_to_folder"}) {
+    expect_write_fails(folder / name);
+    EXPECT_TRUE(fs::remove(folder / name));
+  }
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   EXPECT_EQ(file_count(), before);
   EXPECT_TRUE(fs::is_empty(folder / "folder"));
@@ -224,13 +244,30 @@ TEST_P(ReplacedFile, ItsOtherHardLinksKeepTheOldContent) {
   EXPECT_EQ(names().size(), 2u);
 }
 
-TEST_P(ReplacedFile, ItsSymbolicLinkStays) {
+TEST_P(ReplacedFile, ALinkOfItsNameIsReplaced) {
   fs::create_directory(folder / "inner");
   std::ofstream(folder / "inner" / "file") << "old";
+  ASSERT_EQ(chmod((folder / "inner" / "file").c_str(), 0606), 0);
   fs::create_symlink("inner/file", folder / "link");
   write(folder / "link", "new");
-  EXPECT_TRUE(fs::is_symlink(folder / "link"));
-  EXPECT_EQ(content(folder / "inner" / "file"), "new");
+  EXPECT_FALSE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(content(folder / "link"), "new");
+  EXPECT_EQ(status_of(folder / "link").st_mode & 07777, 0644u);  // not that of the link's file
+  EXPECT_EQ(content(folder / "inner" / "file"), "old");
+}
+
+TEST_P(ReplacedFile, ALinkInAFolderOfEverybodysIsNotFollowed) {
+  std::ofstream(folder / "victim") << "old";
+  fs::create_directory(folder / "sticky");
+  ASSERT_EQ(chmod((folder / "sticky").c_str(), 01777), 0);
+  fs::create_symlink("../victim", folder / "sticky" / "a.png");
+  if (geteuid() == 0) {
+    ASSERT_EQ(lchown((folder / "sticky" / "a.png").c_str(), 1234, 1234), 0);
+  }
+  write(folder / "sticky" / "a.png", "new");
+  EXPECT_EQ(content(folder / "victim"), "old");
+  EXPECT_FALSE(fs::is_symlink(folder / "sticky" / "a.png"));
+  EXPECT_EQ(content(folder / "sticky" / "a.png"), "new");
 }
 
 TEST_P(ReplacedFile, IsWholeOrOldWhenTheDiskFillsUp) {
