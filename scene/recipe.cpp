@@ -269,17 +269,13 @@ std::vector<std::string> first_values(const std::vector<Trial>& trials) {
   return settings;
 }
 
-// Each value with the first of all other keys.
-void try_values(const Recipe& recipe) {
-  const std::vector<Trial> trials = trials_of(recipe);
-  const std::vector<std::string> first = first_values(trials);
-  load_scene(recipe.scene, first);
-  for (std::size_t k = 0; k < trials.size(); ++k)
-    for (const std::string& value : trials[k].values) {
-      std::vector<std::string> settings = first;
-      settings[k] = setting(trials[k].key, value);
-      load_scene(recipe.scene, settings);
-    }
+Scene scene_with_objects(const Recipe& recipe) {
+  const std::size_t own = load_scene(recipe.scene).objects.size();
+  std::vector<std::string> settings;
+  for (std::size_t k = 0; k < recipe.objects.size(); ++k)
+    for (std::string& one : object_settings(recipe.objects[k], own + k, {}))
+      settings.push_back(std::move(one));
+  return load_scene(recipe.scene, settings);
 }
 
 // Whether the scene takes whole numbers alone for a range whose ends it takes.
@@ -301,11 +297,24 @@ bool takes_whole_numbers(const Recipe& recipe, const RecipeRange& range) {
 
 Recipe load_recipe(const fs::path& path) {
   Recipe recipe = RecipeReader(path).read(read_file(path));
-  load_scene(recipe.scene);
-  try_values(recipe);
+  for_each_trial(recipe, [](const Scene&) {});
   for (RecipeRange& range : recipe.ranges) range.is_whole = takes_whole_numbers(recipe, range);
   scene_of_all(recipe);
   return recipe;
+}
+
+void for_each_trial(const Recipe& recipe, FunctionRef<void(const Scene&)> visit) {
+  visit(load_scene(recipe.scene));
+  const std::vector<Trial> trials = trials_of(recipe);
+  const std::vector<std::string> first = first_values(trials);
+  visit(load_scene(recipe.scene, first));
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    for (const std::string& value : trials[k].values) {
+      std::vector<std::string> settings = first;
+      settings[k] = setting(trials[k].key, value);
+      visit(load_scene(recipe.scene, settings));
+    }
+  visit(scene_with_objects(recipe));
 }
 
 double draw_number(std::uint64_t seed, std::string_view name, std::uint64_t sample) {
@@ -349,13 +358,7 @@ std::vector<std::string> object_settings(const RecipeObjects& objects, std::size
 }
 
 Scene scene_of_all(const Recipe& recipe) {
-  Scene scene = load_scene(recipe.scene);
-  const std::size_t own = scene.objects.size();
-  std::vector<std::string> settings;
-  for (std::size_t k = 0; k < recipe.objects.size(); ++k)
-    for (std::string& one : object_settings(recipe.objects[k], own + k, {}))
-      settings.push_back(std::move(one));
-  scene = load_scene(recipe.scene, settings);
+  Scene scene = scene_with_objects(recipe);
   for (const RecipeChoice& choice : recipe.choices) {
     if (!choice.key.starts_with("object[") || !choice.key.ends_with("].class")) continue;
     for (const std::string& value : choice.values) {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "math/parallel.h"
 #include "scene/scene.h"
 
 namespace swell::scene {
@@ -57,6 +58,10 @@ inline constexpr std::string_view kTimeKey = "t_s";
 // Reads a recipe. Every end of its ranges, each of its choices and one of each of its objects is
 // tried on the scene. Throws SceneError of what is wrong with it, or with its scene.
 Recipe load_recipe(const std::filesystem::path& path);
+
+// The scene; with the first value of each key of the recipe; with each value and the first of all
+// other keys; with one of each of its objects. They name every file that a sample can have.
+void for_each_trial(const Recipe& recipe, FunctionRef<void(const Scene&)> visit);
 
 // A number in [0, 1), a multiple of 2^-53: a pure function of the seed, a name and the sample.
 double draw_number(std::uint64_t seed, std::string_view name, std::uint64_t sample);

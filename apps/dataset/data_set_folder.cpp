@@ -1,56 +1,48 @@
 #include "apps/dataset/data_set_folder.h"
 
 #include <fmt/core.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
+#include <string_view>
 
 #include "apps/dataset/contact_sheet.h"
-#include "apps/shared/json.h"
+#include "apps/dataset/recipe_files.h"
+#include "apps/dataset/sample_record.h"
 #include "apps/shared/output_file.h"
 #include "apps/shared/version.h"
-#include "texture/image_io.h"
 
 namespace swell::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
-using Bytes = std::vector<std::uint8_t>;
+constexpr const char *kAnnotations = "annotations.json", *kContactSheet = "contact.png",
+                     *kManifest = "manifest.txt";
 
-std::optional<Bytes> read_bytes(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  Bytes bytes((std::istreambuf_iterator<char>(file)), {});
-  if (!file.good() && !file.eof()) return std::nullopt;
-  return bytes;
+[[noreturn]] void refuse(const fs::path& folder, const std::string& got, std::string_view allowed) {
+  throw texture::FileError(
+      fmt::format("{}: folder of a data set, got {}, allowed {}", folder.string(), got, allowed));
 }
 
-Json read_json(const fs::path& path) {
-  const std::optional<Bytes> bytes = read_bytes(path);
-  return bytes ? Json::parse(*bytes, nullptr, false) : Json();
+const fs::path& made(const fs::path& folder, DataSetFolder::Use use) {
+  std::error_code error;
+  if (use == DataSetFolder::Use::kFill) fs::create_directories(folder, error);
+  if (error) refuse(folder, fmt::format("'{}'", error.message()), "one that can be written to");
+  return folder;
 }
 
-void write_text_file(const fs::path& path, const std::string& text) {
-  write_output(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+std::string record_name(int sample) { return sample_file("records", sample, "json"); }
+
+void write_text_file(const texture::OutputFolder& folder, const std::string& name,
+                     const std::string& text) {
+  write_output(folder, name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-std::string hash_of(const fs::path& path) {
-  const std::optional<Bytes> bytes = read_bytes(path);
-  return bytes ? file_hash(*bytes) : "none";
-}
-
-// Of what decides a sample: the recipe but for its count, and its scene.
-std::string recipe_hash(const scene::Recipe& recipe) {
-  Bytes bytes(recipe.text.begin(), recipe.text.end());
-  bytes.push_back(0);
-  const Bytes scene = read_bytes(recipe.scene).value_or(Bytes());
-  bytes.insert(bytes.end(), scene.begin(), scene.end());
-  return file_hash(bytes);
+std::optional<SampleRecord> read_record(const texture::OutputFolder& folder,
+                                        const std::string& name) {
+  const auto bytes = folder.read(name);
+  return bytes ? parse_record(*bytes) : std::nullopt;
 }
 
 Json categories_json(const std::vector<Category>& categories) {
@@ -60,96 +52,144 @@ Json categories_json(const std::vector<Category>& categories) {
   return json;
 }
 
+std::vector<SheetBox> boxes_of(const Json& annotations) {
+  std::vector<SheetBox> boxes;
+  for (const Json& annotation : annotations) {
+    const Json& b = annotation["bbox"];
+    boxes.push_back({b[0], b[1], b[2], b[3], annotation["category_id"]});
+  }
+  return boxes;
+}
+
 }  // namespace
 
-std::string file_hash(std::span<const std::uint8_t> bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+DataSetFolder::DataSetFolder(const fs::path& folder, const scene::Recipe& recipe, bool has_labels,
+                             Use use)
+    : recipe_(recipe),
+      recipe_hash_(recipe_hash(recipe)),
+      has_labels_(has_labels),
+      folder_(made(folder, use)),
+      is_whole_(static_cast<std::size_t>(recipe.count)) {
+  if (use == Use::kFill) make_folders();
+  check_recipe();
+  read_manifest();
 }
 
-DataSetFolder::DataSetFolder(fs::path folder, const scene::Recipe& recipe, bool has_labels)
-    : folder_(std::move(folder)), recipe_(recipe), recipe_hash_(recipe_hash(recipe)) {
-  for (const char* const name : {"images", "labels", "classes", "instances", "camera", "records"}) {
-    if (!has_labels && name == std::string_view("labels")) continue;
-    std::error_code error;
-    fs::create_directories(folder_ / name, error);
-    if (error)
-      throw texture::FileError(
-          fmt::format("{}: folder of a data set, got '{}', allowed one that can be written to",
-                      (folder_ / name).string(), error.message()));
-    check_output_place(folder_ / name / "file");
+void DataSetFolder::make_folders() const {
+  folder_.make("");
+  for (const char* const name : {"images", "labels", "classes", "instances", "camera", "records"})
+    if (has_labels_ || name != std::string_view("labels")) folder_.make(name);
+}
+
+// One whole record shows which recipe's samples these are.
+void DataSetFolder::check_recipe() {
+  for (const std::string& name : folder_.names("records")) {
+    const auto record = read_record(folder_, "records/" + name);
+    if (!record || (record->has_hash && !record->is_whole)) continue;
+    has_older_records_ = !record->has_hash;
+    if (record->recipe == recipe_hash_) return;
+    if (has_older_records_ && record->recipe == recipe_hash_without_files(recipe_)) return;
+    refuse(folder_.path(), "samples of another recipe, scene, or state of its scene's files",
+           "a new folder or what they were drawn from");
   }
-  check_output_place(folder_ / "manifest.txt");
-  for (const auto& entry : fs::directory_iterator(folder_ / "records")) {
-    const Json record = read_json(entry.path());
-    if (record.is_object() && record.value("recipe", "") != recipe_hash_)
-      throw texture::FileError(
-          fmt::format("{}: folder of a data set, got samples of another recipe or scene, allowed a "
-                      "new folder or this recipe's own",
-                      folder_.string()));
-    break;  // one shows it
+}
+
+// Lines that are none are left out: their files are looked at without them.
+void DataSetFolder::read_manifest() {
+  const auto bytes = folder_.read(kManifest);
+  if (!bytes) return;
+  const std::string text(bytes->begin(), bytes->end());
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    const std::size_t middle = line.find("  ");
+    if (middle != std::string::npos) manifest_[line.substr(middle + 2)] = line.substr(0, middle);
+    begin = end + 1;
   }
 }
 
-fs::path DataSetFolder::record_path(int sample) const {
-  return folder_ / sample_file("records", sample, "json");
+std::vector<std::string> DataSetFolder::files_of(int sample) const {
+  std::vector<std::string> files = {
+      sample_file("images", sample, "png"), sample_file("classes", sample, "png"),
+      sample_file("instances", sample, "png"), sample_file("camera", sample, "json")};
+  if (has_labels_) files.push_back(sample_file("labels", sample, "exr"));
+  return files;
 }
 
-std::string DataSetFolder::check_record(int sample, bool with_files) const {
-  const std::string name = sample_file("records", sample, "json");
-  const Json record = read_json(folder_ / name);
-  const bool is_record = record.is_object() && record.contains("files") &&
-                         record["files"].is_object() && record.contains("facts") &&
-                         record["facts"].is_object();
-  if (!is_record || record.value("recipe", "") != recipe_hash_)
+std::string DataSetFolder::hash_of(const std::string& name) const {
+  const auto bytes = folder_.read(name);
+  return bytes ? file_hash(*bytes) : "none";
+}
+
+std::string DataSetFolder::check_record(int sample) const {
+  const std::string name = record_name(sample);
+  const auto record = read_record(folder_, name);
+  const std::vector<std::string> files = files_of(sample);
+  const bool is_older = record && !record->has_hash;
+  if (!record || (record->recipe != recipe_hash_ && !is_older) || record->sample != sample)
     return name + ": no record of this recipe's";
-  if (!with_files) return "";
-  for (const auto& [file, hash] : record["files"].items())
-    if (hash != Json(hash_of(folder_ / file))) return file + ": not what its record says";
+  for (const std::string& file : files)
+    if (!record->files.contains(file) || record->files[file] != Json(hash_of(file)))
+      return file + ": not what its record says";
+  if (is_older) return name + ": without a hash over itself, as earlier versions wrote it";
+  if (!record->is_whole || record->files.size() != files.size())
+    return name + ": not what its own hash says";
   return "";
 }
 
-bool DataSetFolder::has(int sample) const { return check_record(sample, true).empty(); }
+bool DataSetFolder::is_as_manifest_says(int sample) const {
+  std::vector<std::string> files = files_of(sample);
+  files.push_back(record_name(sample));
+  return std::ranges::all_of(files, [&](const std::string& file) {
+    const auto line = manifest_.find(file);
+    return line == manifest_.end() || line->second == hash_of(file);
+  });
+}
 
-void DataSetFolder::write(int sample, const Sample& files) const {
+bool DataSetFolder::has(int sample) {
+  const bool is_whole = check_record(sample).empty() && is_as_manifest_says(sample);
+  is_whole_[static_cast<std::size_t>(sample)] = is_whole;
+  return is_whole;
+}
+
+void DataSetFolder::write(int sample, const Sample& files) {
   Json hashes = Json::object();
   for (const SampleFile& file : files.files) {
-    write_output(folder_ / file.name, file.bytes);
+    write_output(folder_, file.name, file.bytes);
     hashes[file.name] = file_hash(file.bytes);
   }
   const Json record = {{"recipe", recipe_hash_},
                        {"sample", sample},
                        {"files", hashes},
                        {"facts", Json::parse(files.facts)}};
-  write_text_file(record_path(sample), record.dump() + "\n");
+  write_text_file(folder_, record_name(sample), record_text(record));
+  is_whole_[static_cast<std::size_t>(sample)] = true;
 }
 
-bool DataSetFolder::is_complete() const {
-  for (int n = 0; n < recipe_.count; ++n)
-    if (!check_record(n, false).empty()) return false;
-  return true;
+std::string DataSetFolder::missing() const {
+  for (int n = 0; n < recipe_.count; ++n) {
+    if (is_whole_[static_cast<std::size_t>(n)]) continue;
+    if (std::string fault = check_record(n); !fault.empty()) return fault;
+  }
+  return "";
 }
 
 void DataSetFolder::finish(const ClassSet& classes) const {
   Json images = Json::array(), annotations = Json::array();
-  std::vector<std::string> lines;
-  const auto add_line = [&](const std::string& hash, const std::string& name) {
-    lines.push_back(name + "\n" + hash);
-  };
+  std::map<std::string, std::string> manifest;
   ContactSheet sheet(recipe_.count, recipe_.width_px, recipe_.height_px);
   for (int n = 0; n < recipe_.count; ++n) {
-    const Json record = read_json(record_path(n));
-    const Json& facts = record["facts"];
-    images.push_back(facts["image"]);
-    std::vector<SheetBox> boxes;
-    for (const Json& annotation : facts["annotations"]) {
-      annotations.push_back(annotation);
-      const Json& b = annotation["bbox"];
-      boxes.push_back({b[0], b[1], b[2], b[3], annotation["category_id"]});
-    }
-    for (const auto& [file, hash] : record["files"].items()) add_line(hash, file);
-    add_line(hash_of(record_path(n)), sample_file("records", n, "json"));
-    if (sheet.shows(n)) sheet.add(n, folder_ / sample_file("images", n, "png"), boxes);
+    const auto record = read_record(folder_, record_name(n));
+    if (!record || !record->is_whole)
+      throw texture::FileError((folder_.path() / record_name(n)).string() +
+                               ": changed by another program while the data set was drawn");
+    images.push_back(record->facts["image"]);
+    const Json& own = record->facts["annotations"];
+    annotations.insert(annotations.end(), own.begin(), own.end());
+    for (const auto& [file, hash] : record->files.items()) manifest[file] = hash;
+    manifest[record_name(n)] = hash_of(record_name(n));
+    if (sheet.shows(n))
+      sheet.add(n, folder_.path() / sample_file("images", n, "png"), boxes_of(own));
   }
   const Json coco = {{"info",
                       {{"description", recipe_.file.stem().string()},
@@ -161,33 +201,28 @@ void DataSetFolder::finish(const ClassSet& classes) const {
                      {"images", images},
                      {"annotations", annotations},
                      {"categories", categories_json(classes.categories())}};
-  write_text_file(folder_ / "annotations.json",
+  write_text_file(folder_, kAnnotations,
                   coco.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-  write_output(folder_ / "contact.png", sheet.encode());
-  for (const char* const name : {"annotations.json", "contact.png"})
-    add_line(hash_of(folder_ / name), name);
-  std::ranges::sort(lines);
-  std::string manifest;
-  for (const std::string& line : lines) {
-    const std::size_t middle = line.find('\n');
-    manifest += fmt::format("{}  {}\n", line.substr(middle + 1), line.substr(0, middle));
-  }
-  write_text_file(folder_ / "manifest.txt", manifest);
+  write_output(folder_, kContactSheet, sheet.encode());
+  for (const char* const name : {kAnnotations, kContactSheet}) manifest[name] = hash_of(name);
+  std::string text;
+  for (const auto& [name, hash] : manifest) text += fmt::format("{}  {}\n", hash, name);
+  write_text_file(folder_, kManifest, text);
 }
 
 std::string DataSetFolder::fault() const {
   for (int n = 0; n < recipe_.count; ++n)
-    if (const std::string fault = check_record(n, true); !fault.empty()) return fault;
-  std::ifstream manifest(folder_ / "manifest.txt");
-  if (!manifest) return "manifest.txt: not there";
-  int files = 0;
-  for (std::string line; std::getline(manifest, line); ++files) {
-    const std::size_t middle = std::min(line.find("  "), line.size());
-    const std::string name = line.substr(std::min(middle + 2, line.size()));
-    if (hash_of(folder_ / name) != line.substr(0, middle))
-      return name + ": not what manifest.txt says";
+    if (std::string fault = check_record(n); !fault.empty()) return fault;
+  if (!folder_.read(kManifest)) return std::string(kManifest) + ": not there";
+  for (const auto& [name, hash] : manifest_)
+    if (hash_of(name) != hash) return name + ": not what manifest.txt says";
+  std::vector<std::string> wanted = {kAnnotations, kContactSheet};
+  for (int n = 0; n < recipe_.count; ++n) {
+    wanted.push_back(record_name(n));
+    std::ranges::copy(files_of(n), std::back_inserter(wanted));
   }
-  if (files < recipe_.count) return "manifest.txt: not of all samples";
+  for (const std::string& name : wanted)
+    if (!manifest_.contains(name)) return fmt::format("{}: lacks {}", kManifest, name);
   return "";
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -72,7 +73,9 @@ class DataSet : public testing::Test {
     const Outcome outcome = run(out, more);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(outcome.err, "");
+    // One line at the end, where no terminal shows the progress.
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("samples drawn"), std::string::npos) << outcome.err;
   }
 
   // The bytes of all files by their names in the folder.
@@ -175,6 +178,230 @@ TEST_F(DataSet, ARecordOfSomethingElseThanHashesIsDamaged) {
   EXPECT_TRUE(is_one_error_line(damaged.err, {"classes/000002.png"})) << damaged.err;
   make("a");
   EXPECT_EQ(files("a"), before);
+}
+
+class DamagedRecord : public DataSet {
+ protected:
+  DamagedRecord() {
+    make("a");
+    before_ = files("a");
+    EXPECT_EQ(run("a", {"--check"}).exit_code, 0);
+  }
+  std::string text() const { return before_.at(kRecord); }
+  void put(const std::string& text) { write_text(folder_.path() / "a" / kRecord, text); }
+
+  // --check tells of it in one line, and the same command makes the data set as it was.
+  void expect_mended(const std::string& piece = kRecord) {
+    const Outcome damaged = run("a", {"--check"});
+    EXPECT_EQ(damaged.exit_code, 1);
+    EXPECT_TRUE(is_one_error_line(damaged.err, {piece})) << damaged.err;
+    const Outcome again = run("a");
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_NE(again.err.find("1 of 5 samples drawn"), std::string::npos) << again.err;
+    EXPECT_EQ(files("a"), before_);
+    EXPECT_EQ(run("a", {"--check"}).exit_code, 0);
+  }
+
+  static constexpr const char* kRecord = "records/000002.json";
+  std::map<std::string, std::string> before_;
+};
+
+TEST_F(DamagedRecord, OfAnyByteIsDrawnAgain) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 2; ++trial) {
+    std::string bytes = text();
+    bytes[random() % bytes.size()] ^= static_cast<char>(1 << random() % 8);
+    put(bytes);
+    expect_mended("000002");
+  }
+}
+
+TEST_F(DamagedRecord, OfAlteredFactsIsDrawnAgain) {
+  Json record = Json::parse(text());
+  record["facts"]["image"]["width"] = 97;
+  put(record.dump() + "\n");
+  expect_mended();
+  record = Json::parse(text());
+  record["facts"]["annotations"].push_back(record["facts"]["annotations"][0]);
+  put(record.dump() + "\n");
+  expect_mended();
+}
+
+TEST_F(DamagedRecord, OfAnotherShapeIsOneClearLine) {
+  for (const char* other : {"[1, 2]", "{\"recipe\": 7}", ""}) {
+    put(other);
+    expect_mended();
+  }
+  // The first record, which is looked at for the recipe.
+  const std::string first = before_.at("records/000000.json");
+  write_text(folder_.path() / "a/records/000000.json", "{\"recipe\": [\"text\"]}");
+  expect_mended("records/000000.json");
+}
+
+TEST_F(DamagedRecord, OfAnEarlierVersionIsSaidAndDrawnAgain) {
+  for (int n = 0; n < kSamples; ++n) {
+    const fs::path path = folder_.path() / "a" / fmt::format("records/{:06}.json", n);
+    Json record = Json::parse(read_text(path));
+    record.erase("hash");
+    write_text(path, record.dump() + "\n");
+  }
+  const Outcome again = run("a");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.err.find("note: "), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("earlier version"), std::string::npos) << again.err;
+  EXPECT_EQ(files("a"), before_);
+}
+
+TEST_F(DamagedRecord, OfAShardIsNamedByTheOthers) {
+  put("[]");
+  const Outcome other = run("a", {"--shard", "0/5"});
+  EXPECT_NE(other.err.find(std::string("not complete: ") + kRecord), std::string::npos)
+      << other.err;
+}
+
+class LinkedFolder : public DataSet {
+ protected:
+  LinkedFolder() { write_text(victim_, "not Swell's"); }
+  ~LinkedFolder() override { EXPECT_EQ(read_text(victim_), "not Swell's"); }
+  std::string victim_ = folder_.file("victim.txt");
+};
+
+TEST_F(LinkedFolder, WritesToNoFileOutside) {
+  make("clean");
+  fs::create_directories(folder_.file("a/images"));
+  fs::create_directories(folder_.file("a/records"));
+  for (const char* name : {"images/000001.png", "records/000003.json"})
+    fs::create_symlink("../../victim.txt", folder_.path() / "a" / name);
+  for (const char* name : {"manifest.txt", "contact.png"})
+    fs::create_symlink("../victim.txt", folder_.path() / "a" / name);
+  make("a");
+  EXPECT_FALSE(fs::is_symlink(folder_.path() / "a/images/000001.png"));
+  EXPECT_FALSE(fs::is_symlink(folder_.path() / "a/manifest.txt"));
+  expect_same("a", "clean");
+  EXPECT_EQ(run("a", {"--check"}).exit_code, 0);
+}
+
+TEST_F(LinkedFolder, IsRefusedByCheckEvenWithTheRightBytes) {
+  make("a");
+  const auto before = files("a");
+  for (const char* name : {"images/000001.png", "records/000003.json", "manifest.txt"}) {
+    const fs::path path = folder_.path() / "a" / name, moved = folder_.path() / "moved";
+    fs::rename(path, moved);
+    fs::create_symlink(moved, path);
+    const Outcome damaged = run("a", {"--check"});
+    EXPECT_EQ(damaged.exit_code, 1) << name;
+    EXPECT_TRUE(is_one_error_line(damaged.err, {name})) << damaged.err;
+    make("a");
+    EXPECT_FALSE(fs::is_symlink(path)) << name;
+    EXPECT_EQ(files("a"), before) << name;
+  }
+}
+
+TEST_F(LinkedFolder, MayBeALinkItselfButHoldsNoneInPlaceOfAFolder) {
+  fs::create_directories(folder_.file("far/away"));
+  fs::create_directory_symlink("far/away", folder_.file("a"));
+  make("a");
+  EXPECT_TRUE(fs::exists(folder_.file("far/away/manifest.txt")));
+  fs::create_directory(folder_.file("b"));
+  fs::create_directory(folder_.file("outside"));
+  fs::create_directory_symlink("../outside", folder_.file("b/images"));
+  const Outcome refused = run("b");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(is_one_error_line(refused.err, {"b/images", "link"})) << refused.err;
+  EXPECT_TRUE(fs::is_empty(folder_.file("outside")));
+}
+
+// Scenes of further files.
+class SceneWithFiles : public DataSet {
+ protected:
+  void add_to_scene(const std::string& text) {
+    write_text(folder_.file("sea.toml"), sea_scene_text() + text);
+  }
+  void add_to_recipe(const std::string& text) { write_text(recipe_, recipe_text() + text); }
+  void put_mesh(const std::string& colour, const std::string& name = "m") {
+    write_text(folder_.file(name + ".mtl"), "newmtl paint\nKd " + colour + "\n");
+    write_text(folder_.file(name + ".obj"),
+               "mtllib " + name +
+                   ".mtl\nusemtl paint\nv 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n"
+                   "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  }
+  void put_form(double size_m) {
+    write_text(folder_.file("f.toml"),
+               fmt::format("[[form]]\nsize = [{0}, {0}, {0}]\n", size_m));
+  }
+  void put_heights(float height_m) {
+    texture::ImageF heights{64, 64, 1, std::vector<float>(64 * 64, -20.0f)};
+    heights.pixels[64 * 32 + 32] = height_m;
+    texture::write_file(folder_.file("heights.exr"), texture::encode_image(heights, ".exr"));
+  }
+
+  // The same command after `change` names the folder and what differs; a new folder is fine.
+  void expect_other_state(const std::function<void()>& change) {
+    make("a", {"--shard", "0/5"});
+    change();
+    for (const Arguments& more : {Arguments{}, Arguments{"--check"}}) {
+      const Outcome other = run("a", more);
+      EXPECT_EQ(other.exit_code, 2);
+      EXPECT_TRUE(is_one_error_line(other.err, {"folder of a data set", "scene's files"}))
+          << other.err;
+    }
+    make("b", {"--shard", "0/5"});
+  }
+};
+
+TEST_F(SceneWithFiles, DoesNotMixStatesOfAMeshsMaterial) {
+  put_mesh("1 0 0");
+  add_to_recipe(
+      "[[objects]]\nkind = \"mesh\"\nfile = \"m.obj\"\nnumber = [1, 1]\n"
+      "distance_m = [10, 20]\n");
+  expect_other_state([&] { put_mesh("0 1 0"); });
+}
+
+TEST_F(SceneWithFiles, DoesNotMixStatesOfAForm) {
+  put_form(1.0);
+  add_to_scene("[[object]]\nkind = \"form\"\nfile = \"f.toml\"\n");
+  expect_other_state([&] { put_form(1.5); });
+}
+
+TEST_F(SceneWithFiles, DoesNotMixStatesOfAHeightImage) {
+  put_heights(5.0f);
+  add_to_scene("[terrain]\nheight_image = \"heights.exr\"\n");
+  expect_other_state([&] { put_heights(6.0f); });
+}
+
+TEST_F(SceneWithFiles, DoesNotMixStatesOfAChoice) {
+  put_mesh("1 0 0");
+  put_mesh("0 0 1", "n");
+  add_to_scene("[[object]]\nkind = \"mesh\"\nfile = \"m.obj\"\n");
+  std::string text = recipe_text();
+  text.insert(text.find("sky.cloud_seed"), "\"object[0].file\" = [\"m.obj\", \"n.obj\"]\n");
+  write_text(recipe_, text);
+  expect_other_state([&] { put_mesh("0 1 1", "n"); });
+}
+
+TEST_F(SceneWithFiles, TriesThemBeforeTheFolderIsMade) {
+  write_text(folder_.file("bad.obj"), "no mesh\n");
+  write_text(folder_.file("bad.toml"), "[[form]]\nshape = \"cloud\"\n");
+  put_mesh("1 0 0");
+  const auto expect_refused = [&](const std::string& piece) {
+    const Outcome refused = run("bad");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_TRUE(is_one_error_line(refused.err, {piece})) << refused.err;
+    EXPECT_FALSE(fs::exists(folder_.file("bad")));
+  };
+  add_to_recipe(
+      "[[objects]]\nkind = \"mesh\"\nfile = \"bad.obj\"\nnumber = [0, 1]\n"
+      "distance_m = [10, 20]\n");
+  expect_refused("object[");
+  add_to_recipe(
+      "[[objects]]\nkind = \"form\"\nfile = \"bad.toml\"\nnumber = [0, 1]\n"
+      "distance_m = [10, 20]\n");
+  expect_refused("bad.toml");
+  add_to_scene("[[object]]\nkind = \"mesh\"\nfile = \"m.obj\"\n");
+  std::string text = recipe_text();
+  text.insert(text.find("sky.cloud_seed"), "\"object[0].file\" = [\"m.obj\", \"bad.obj\"]\n");
+  write_text(recipe_, text);
+  expect_refused("object[0].file");
 }
 
 // A mask that is right by itself, from the PNG of ids.

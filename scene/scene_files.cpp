@@ -1,0 +1,29 @@
+#include "scene/scene_files.h"
+
+#include "texture/bump_sequence.h"
+
+namespace swell::scene {
+
+std::vector<SceneFile> files_of(const Scene& scene) {
+  std::vector<SceneFile> files;
+  const auto add = [&](const std::string& path) {
+    if (!path.empty()) files.push_back({path});
+  };
+  if (scene.terrain) {
+    add(scene.terrain->height_image.string());
+    add(scene.terrain->boundary.string());
+  }
+  for (const terrain::TreeStand& stand : scene.trees) add(stand.density_map.string());
+  for (const auto& layer : scene.sea.maps) add(layer.file);
+  if (!scene.ripples.sequence.empty())
+    for (int frame = 0; frame < scene.ripples.frames; ++frame)
+      add(texture::path_of_frame(scene.ripples.sequence, frame));
+  for (const FloatingObject& object : scene.objects)
+    if (object.kind == ObjectKind::kMesh && !object.file.empty())
+      files.push_back({object.file, true, object.up});
+    else
+      add(object.file);
+  return files;
+}
+
+}  // namespace swell::scene
