@@ -34,7 +34,10 @@ std::optional<DatasetOptions> parse_dataset_options(int argc, char** argv) {
   line.add_flag("--quiet", options.quiet, "No progress bar, which a terminal shows");
   line.add_flag("--check", options.check,
                 "Draw nothing; fail unless all files are there and as the manifest says");
+  line.add_flag("--try", options.try_only,
+                "Draw and write nothing; fail if the recipe or a file that it names is wrong");
   line.exclude("--check", "--shard");
+  line.exclude("--try", "--check");
   if (!line.parse(argc, argv)) return std::nullopt;
   return options;
 }

@@ -24,6 +24,7 @@ struct DatasetOptions {
   std::string simd;
   bool quiet = false;
   bool check = false;
+  bool try_only = false;
 };
 
 // Nothing if --help or --version was asked for. Throws OptionError.

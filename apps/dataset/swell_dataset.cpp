@@ -96,7 +96,9 @@ void run(const DatasetOptions& options) {
   const scene::Recipe recipe = scene::load_recipe(options.recipe);
   const render::LabelSet labels = labels_of(recipe);
   const ClassSet classes = classes_of(recipe);
-  if (options.check)
+  if (options.try_only)
+    try_files(recipe, options.threads);
+  else if (options.check)
     check(options, recipe, !labels.empty());
   else
     fill(options, recipe, classes, labels);

@@ -42,6 +42,22 @@ check_arguments() {
   esac
 }
 
+# check_recipe STATE TASKS PROGRAM ARGUMENTS: ends where the recipe of a data set cannot be drawn, with swell-dataset's line.
+# Where the program cannot run at all, as on some login nodes, the tasks will tell.
+check_recipe() {
+  shift 2
+  [ "$(basename "$1")" = swell-dataset ] || return 0
+  code=0
+  "$@" --quiet --try || code=$?
+  [ "$code" -ne 2 ] || exit 2
+}
+
+# logs_of STATE MISSING: the logs of tasks with commas, or of the collecting where none is missing.
+logs_of() {
+  [ -n "$2" ] || { printf '%s\n' "$1/log/collect.txt" && return; }
+  printf '%s\n' "$2" | tr ',' '\n' | sed "s|.*|$1/log/task_&.txt|" | head -n 5
+}
+
 # missing_tasks STATE TASKS: those that are not done, with commas.
 missing_tasks() {
   missing="" task=0

@@ -14,6 +14,6 @@ if [ -n "$missing" ] && [ "$try" -lt "$tries" ]; then
 elif reason=$("$scripts/cluster/collect.sh" "$@" 2>&1); then
   echo "complete" | tee "$1/complete"
 else
-  echo "$reason" | tee "$1/failed"
+  { echo "$reason" && logs_of "$1" "$missing" | sed 's/^/log: /'; } | tee "$1/failed"
   exit 1
 fi

@@ -13,6 +13,7 @@ check_arguments "$@"
 state=$1 tasks=$2
 try=${SWELL_TRY:-1}  # of after.sh
 
+[ "$try" -gt 1 ] || check_recipe "$@"
 mkdir -p "$state/done" "$state/log"
 shift
 printf '%s\n' "$@" >"$state/command.$$"

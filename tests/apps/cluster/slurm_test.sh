@@ -97,6 +97,7 @@ SWELL_TRIES=2 "$submit" bad 2 "$bin/swell-render" $(sequence b) --set wind.speed
 wait_for ended bad
 grep -q "not done: 0,1" bad/failed || wrong "tasks that fail are not named: $(cat bad/failed)"
 grep -q "allowed 0 to" bad/log/task_0.txt || wrong "the reason is not in the log"
+grep -q "^log: bad/log/task_0.txt" bad/failed || wrong "the log is not named: $(cat bad/failed)"
 ! "$submit" bad 2 "$bin/swell-render" $(sequence b) 2>line || wrong "a folder of another command is taken"
 [ "$(wc -l <line)" -eq 1 ] || wrong "not one line: $(cat line)"
 echo "Slurm: the same bytes as one machine"

@@ -326,8 +326,7 @@ class SceneWithFiles : public DataSet {
                    "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   }
   void put_form(double size_m) {
-    write_text(folder_.file("f.toml"),
-               fmt::format("[[form]]\nsize = [{0}, {0}, {0}]\n", size_m));
+    write_text(folder_.file("f.toml"), fmt::format("[[form]]\nsize = [{0}, {0}, {0}]\n", size_m));
   }
   void put_heights(float height_m) {
     texture::ImageF heights{64, 64, 1, std::vector<float>(64 * 64, -20.0f)};
@@ -526,7 +525,12 @@ TEST_F(DataSet, BadRecipesAreOneLineEach) {
     EXPECT_TRUE(is_one_error_line(outcome.err, pieces)) << outcome.err << text;
     EXPECT_FALSE(fs::exists(folder_.file("bad")));
   }
+  // --try says the same.
+  EXPECT_EQ(run("bad", {"--try"}).exit_code, 2);
   write_text(recipe_, recipe_text());
+  const Outcome tried = run("bad", {"--try"});
+  EXPECT_EQ(tried.exit_code, 0) << tried.err;
+  EXPECT_FALSE(fs::exists(folder_.file("bad")));
   for (const Arguments& wrong : {Arguments{"--shard", "3/3"}, Arguments{"--threads", "0"}})
     EXPECT_EQ(run("bad", wrong).exit_code, 2);
 }
