@@ -156,7 +156,9 @@ ImageF decode(const std::filesystem::path& path, std::string_view format,
   check_kinds(path, format, info);
   ImageF image{info.width, info.height, info.channels, {}};
   image.pixels.resize(std::size_t{1} * info.width * info.height * info.channels);
-  check_result(path, "cannot decode the pixels", codec.read(opened, image.pixels, error), error);
+  const CodecResult result = codec.read(opened, image.pixels, error);
+  if (error.empty()) error = "they are not as the file's header says";
+  check_result(path, "cannot decode the pixels", result, error);
   check_finite(path, image);
   return image;
 }

@@ -233,6 +233,11 @@ TEST_F(BadImages, ImpossibleSizesAreRefusedBeforeAllocating) {
   EXPECT_LT(peak_memory_kb() - peak_before_kb, 100 * 1024);
 }
 
+TEST_F(BadImages, TextInPlaceOfNumbersIsSaid) {
+  const std::string line = refusal(put("a.pgm", bytes_of("P2\n3 2\n255\n1 2 3\n4 text 6\n")));
+  expect_in(line, "cannot decode the pixels: they are not as the file's header says");
+}
+
 TEST_F(BadImages, LimitsAreKept) {
   const fs::path path = put("a.png", encode_image(random_image8(40, 30, 3), ".png"));
   EXPECT_NO_THROW(read_image(path, {.max_side_px = 40, .max_bytes = 40 * 30 * 3 * 4}));
