@@ -37,6 +37,14 @@ void check_no_extras(const CLI::App& app) {
   refuse("unknown option", *option, options, modes.empty() ? "" : "; a mode's own come after it");
 }
 
+// Throws for an option that was given more often than once.
+void check_once(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_items_expected_max() == 1 && option->count() > 1)
+      throw OptionError(fmt::format("command line: {}, got it {} times, allowed once",
+                                    option->get_name(), option->count()));
+}
+
 }  // namespace
 
 CommandLine::CommandLine(const std::string& program, const std::string& purpose)
@@ -100,6 +108,8 @@ bool CommandLine::parse(int argc, char** argv) {
     // An unknown option before what may be missing only because of it.
     check_no_extras(*app_);
     for (const CLI::App* mode : app_->get_subcommands()) check_no_extras(*mode);
+    check_once(*app_);
+    for (const CLI::App* mode : app_->get_subcommands()) check_once(*mode);
     if (argc < 2 && app_->get_require_subcommand_min() > 0)
       throw OptionError("command line: got no mode, allowed those that --help lists");
     throw OptionError(std::string("command line: ") + e.what());

@@ -93,6 +93,7 @@ TEST_F(CommandLine, RenderRefusesBadOptions) {
       {{size, "99999999x1"}, {"'99999999x1'", allowed}},
       {{size, "abc"}, {"'abc'", allowed}},
       {{"--threads", "0"}, {"--threads", "'0'", "1 to 256"}},
+      {{"--threads", "1", "--threads", "2"}, {"--threads, got it 2 times, allowed once"}},
       {{"--threads", "two"}, {"'two'", "1 to 256"}},
       {{"--simd", "sse4"}, {"--simd", "'sse4'", "avx2"}},
       {{"--time", "nan"}, {"--time", "'nan'"}},
