@@ -175,8 +175,7 @@ void place_vertices(const World::State& world, const View& view, double t_s,
   const FrameViews all = FrameViews(shown).first(count);
   place_objects(world, ws.sea, options.poses, ws.meshes, all, run);
   const double before_us = run.profile.now_us();
-  place_trees(world, t_s, options, ws.meshes, all,
-              {run.workers, run.profile, Stage::kTrees});
+  place_trees(world, t_s, options, ws.meshes, all, {run.workers, run.profile, Stage::kTrees});
   run.profile.move(run.stage, Stage::kTrees, 1e-3 * (run.profile.now_us() - before_us));
 }
 
