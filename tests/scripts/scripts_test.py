@@ -1,13 +1,123 @@
 """scripts/: known answers of what they compute, and runs with stubs in place of programs that take time."""
 
+import contextlib
+import io
+import json
 import pathlib
+import random
 import sys
+import tempfile
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(SOURCE / "scripts"))
 
 import build_times  # noqa: E402 the path comes first
+import compare      # noqa: E402
+
+
+class Temporary(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+
+class CompareTimes(unittest.TestCase):
+    def verdict(self, ratios):
+        return compare.compare_times([10.0] * len(ratios), [10.0 * ratio for ratio in ratios])["verdict"]
+
+    def test_ranks_are_those_of_tables_of_the_sign_test(self):
+        ranks = {5: 0, 6: 1, 7: 1, 8: 1, 9: 2, 12: 3, 15: 4, 20: 6, 25: 8}
+        self.assertEqual({pairs: compare.interval_rank(pairs) for pairs in ranks}, ranks)
+
+    def test_the_interval_holds_the_true_ratio_in_95_of_100_experiments(self):
+        dice = random.Random(1)
+        held = 0
+        for _ in range(1000):
+            row = compare.compare_times([1.0] * 9, [1.1 * dice.lognormvariate(0.0, 0.05) for _ in range(9)])
+            held += row["low"] <= 1.1 <= row["high"]
+        self.assertGreaterEqual(held, 940)  # of nine pairs 96.1 %, less three standard deviations
+        self.assertLessEqual(held, 980)
+
+    def test_medians_and_ratio_are_of_pairs(self):
+        # The machine grows slower; each pair has the same ratio.
+        before = [10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 22.0]
+        row = compare.compare_times(before, [1.5 * ms for ms in before])
+        self.assertEqual((row["before_ms"], row["after_ms"]), (16.0, 24.0))
+        self.assertEqual((row["low"], row["ratio"], row["high"]), (1.5, 1.5, 1.5))
+
+    def test_one_disturbed_pair_of_nine_changes_nothing(self):
+        self.assertEqual(self.verdict([1.0] * 8 + [3.0]), "same speed")
+        self.assertEqual(self.verdict([1.05] * 8 + [0.3]), "SLOWER")
+
+    def test_same_speed_holds_1_or_ends_under_1_02(self):
+        for ratios, verdict in [([0.97, 1.03], "same speed"), ([1.005, 1.019], "same speed"),
+                                ([1.005, 1.02], "SLOWER"), ([1.0, 1.5], "same speed"), ([0.9, 0.99], "faster")]:
+            with self.subTest(ratios):
+                self.assertEqual(self.verdict([ratios[0]] * 4 + [ratios[1]] * 5), verdict)
+
+
+class CompareSh(Temporary):
+    def program(self, name, median_ms, hash="aa"):
+        """A swell-bench that has always drawn already, and notes that it was called."""
+        report = json.dumps({"frame_ms": {"median": median_ms}, "hash": hash, "cpu": "a stub"})
+        path = self.folder / name
+        path.write_text(f"#!/bin/sh\necho {name} \"$*\" >>{self.folder}/calls\necho '{report}'\n")
+        path.chmod(0o700)
+        return path
+
+    def run_compare(self, *words, programs):
+        scene = self.folder / "calm.toml"
+        scene.write_text("")
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                status = compare.main(["--turns", "6", "HEAD", "--", str(scene), *words], programs)
+            except SystemExit as left:
+                status = left.code
+        return status, out.getvalue(), err.getvalue()
+
+    def setUp(self):
+        super().setUp()
+        if compare.git("rev-parse", "HEAD") is None:
+            self.skipTest("not a repository of git")
+        self.old, self.copy = self.program("old", 10.0), self.program("copy", 10.0)
+
+    def test_programs_take_turns_after_the_commit_has_met_itself(self):
+        status, out, _ = self.run_compare("64x36", programs=[self.old, self.copy, self.program("new", 10.0)])
+        self.assertEqual(status, 0)
+        calls = [line.split() for line in (self.folder / "calls").read_text().splitlines()]
+        self.assertEqual([call[0] for call in calls], ["old", "copy", "copy", "old"] * 3 + ["old", "new", "new", "old"] * 3)
+        self.assertIn("--size 64x36 --frames 40 --threads 2 --json -", " ".join(calls[0]))
+        self.assertEqual([line.split()[2] for line in out.splitlines() if line.startswith("calm")], ["itself", "now"])
+
+    def test_a_slower_program_ends_it_with_1(self):
+        status, out, _ = self.run_compare("64x36", "128x72", programs=[self.old, self.copy, self.program("new", 10.5)])
+        self.assertEqual(status, 1)
+        self.assertEqual(out.count("1.050  1.050 to 1.050  SLOWER"), 2)
+
+    def test_other_pictures_are_said(self):
+        status, out, _ = self.run_compare(programs=[self.old, self.copy, self.program("new", 9.0, hash="bb")])
+        self.assertEqual(status, 0)
+        self.assertIn("faster\n  the pictures of the last frame differ", out)
+
+    def test_noise_that_hides_2_percent_is_said(self):
+        for median_ms in (10.7, 10.0 / 1.07):
+            _, out, _ = self.run_compare(programs=[self.old, self.program("loud", median_ms), self.old])
+            self.assertIn("noise: up to 7 % can hide in it", out)
+
+    def test_what_cannot_be_measured_ends_it_with_2(self):
+        failing = self.folder / "failing"
+        failing.write_text("#!/bin/sh\necho 'error: no such key' >&2\nexit 2\n")
+        failing.chmod(0o700)
+        status, _, err = self.run_compare(programs=[self.old, self.copy, failing])
+        self.assertEqual(status, 2)
+        self.assertIn("error: no such key", err)
+        for words, said in [(["no_such_scene"], "SCENE, got 'no_such_scene'"), (["--turns", "5"], "--turns")]:
+            status, _, err = self.run_compare(*words, programs=[self.old, self.copy, self.old])
+            self.assertEqual(status, 2)
+            self.assertIn(said, err)
 
 
 class BuildTimes(unittest.TestCase):
