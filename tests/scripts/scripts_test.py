@@ -3,8 +3,11 @@
 import contextlib
 import io
 import json
+import os
 import pathlib
 import random
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -158,6 +161,64 @@ class BuildTimes(unittest.TestCase):
                           ["tests/lod", "0.0", "0.0", "0.0", "0.5", "0.5"], ["all", "7.0", "1.0", "0.0", "0.5", "8.5"]])
         self.assertIn("     5.0  b.o", text)
         self.assertNotIn("     2.0  a.o", text)
+
+
+class CheckCommits(Temporary):
+    def git(self, *words):
+        subprocess.run(["git", *words], cwd=self.folder, check=True, capture_output=True, env=self.environment)
+
+    def commit(self, message, **files):
+        """Files of so many different lines, by name."""
+        for name, lines in files.items():
+            path = self.folder / name.replace("__", "/")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text("".join(f"line {i} of {name}\n" for i in range(lines)))
+        self.git("add", ".")
+        self.git("commit", "-q", "--allow-empty", "-m", message)
+
+    def setUp(self):
+        super().setUp()
+        self.environment = dict(os.environ, GIT_CONFIG_GLOBAL="/dev/null", GIT_CONFIG_NOSYSTEM="1", GIT_AUTHOR_NAME="a",
+                                GIT_AUTHOR_EMAIL="a@b", GIT_COMMITTER_NAME="a", GIT_COMMITTER_EMAIL="a@b")
+        (self.folder / "scripts").mkdir()
+        shutil.copy(SOURCE / "scripts/check_commits.sh", self.folder / "scripts")
+        self.git("init", "-q")
+        self.commit("lod: Begin\n\nThere was nothing.", moved=2000)
+        self.git("tag", "begin")
+
+    def warnings(self, base="begin"):
+        run = subprocess.run([self.folder / "scripts/check_commits.sh", base], capture_output=True, text=True,
+                             check=True, env=self.environment)
+        self.assertEqual(run.stderr, "")
+        return run.stdout
+
+    def test_a_commit_as_it_should_be_is_passed_over(self):
+        self.commit("lod, tests: Bring the mesh closer\n\nIt was 3 m off.", lod=1500)
+        self.assertEqual(self.warnings(), "")
+
+    def test_titles_have_an_area_and_an_imperative(self):
+        self.commit("Bring the mesh closer\n\nIt was 3 m off.")
+        self.assertIn("is not of the shape 'area: Imperative'", self.warnings())
+        self.commit("lod: Moved the mesh\n\nIt was 3 m off.")
+        self.assertIn("'lod: Moved the mesh': its title's verb 'Moved' is not an imperative", self.warnings())
+
+    def test_a_body_of_trailers_gives_no_reason(self):
+        self.commit("lod: Move the mesh\n\nSigned-off-by: somebody")
+        self.assertIn("its body gives no reason", self.warnings())
+
+    def test_many_lines_are_warned_of_but_no_moves_goldens_or_images(self):
+        (self.folder / "moved").rename(self.folder / "renamed")
+        text = (self.folder / "renamed").read_text().splitlines(keepends=True)
+        (self.folder / "renamed").write_text("".join(text[:1000]))
+        (self.folder / "second").write_text("".join(text[1000:]))
+        self.commit("lod: Split a file\n\nIt was long.", tests__golden__list=5000, docs__drawing=10)
+        self.assertEqual(self.warnings(), "")
+        self.commit("lod: Grow\n\nFor a reason.", grown=1501)
+        self.assertIn("it changes 1501 lines, more than 1500", self.warnings())
+
+    def test_without_a_base_the_last_commits_are_looked_at(self):
+        self.commit("Grow")
+        self.assertRegex(self.warnings("origin/main"), "(?s)^note: no commit 'origin/main' here.*warning: .*'Grow'")
 
 
 if __name__ == "__main__":
