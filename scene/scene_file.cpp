@@ -298,7 +298,8 @@ class Reader {
   }
 
   // `table` is the path of the key's table, or empty.
-  [[noreturn]] void fail_unknown(Place place, std::string_view table, std::string_view key) const {
+  [[noreturn]] void fail_unknown(const Place& place, std::string_view table,
+                                 std::string_view key) const {
     const std::string shortened(key.substr(0, 100));
     const std::string prefix = table.empty() ? "" : fmt::format("{}.", table);
     const std::string where = table.empty() ? "" : fmt::format(" in [{}]", table);

@@ -9,8 +9,6 @@
 namespace swell::apps {
 namespace {
 
-using scene::ObjectKind;
-
 constexpr std::size_t kKinds = scene::kObjectKindNames.size();
 
 // The ids of kinds of objects, in the order of scene::ObjectKind; 0: none.

@@ -39,7 +39,7 @@ struct Picture {
 };
 
 inline Picture draw(const World& world, double t_s, int threads = 2,
-                    FrameOptions options = few_triangles()) {
+                    const FrameOptions& options = few_triangles()) {
   Workers workers(threads);
   Workspace workspace;
   Picture picture;

@@ -234,6 +234,7 @@ TEST(FrameDeathTest, RefusesWhatWasMovedFrom) {
   Workspace workspace;
   Target target;
   Workers workers(1);
+  // NOLINTBEGIN(bugprone-use-after-move): that is what the test is about
   EXPECT_DEATH(world.scene(), "the World was moved from");
   EXPECT_DEATH(render_frame(world, view, 0.0, {}, workspace, target, workers),
                "the World was moved from");
@@ -241,6 +242,7 @@ TEST(FrameDeathTest, RefusesWhatWasMovedFrom) {
   EXPECT_DEATH(render_frame(taken, view, 0.0, {}, workspace, target, workers),
                "the Workspace was moved from");
   workspace = std::move(other);  // good again
+  // NOLINTEND(bugprone-use-after-move)
   render_frame(taken, view, 0.0, few_triangles(), workspace, target, workers);
 }
 

@@ -24,7 +24,8 @@ inline const World& shipped_world(const std::string& name) {
 
 // A frame of a world, and what it was drawn with.
 struct LabelledFrame {
-  LabelledFrame(const World& drawn, const View& camera, double time_s, FrameOptions asked = {})
+  LabelledFrame(const World& drawn, const View& camera, double time_s,
+                const FrameOptions& asked = {})
       : world(drawn), view(camera), t_s(time_s), options(asked) {
     if (options.labels.empty()) options.labels = LabelSet::all();
     Workers workers(2);

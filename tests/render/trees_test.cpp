@@ -62,10 +62,11 @@ const World& island_world() {
 
 // A frame and what it was drawn with.
 struct TreeFrame {
-  explicit TreeFrame(const World& world, FrameOptions options = {}, int threads = 2)
+  explicit TreeFrame(const World& world, const FrameOptions& options = {}, int threads = 2)
       : TreeFrame(world, scene::camera_view(world.scene().camera, kTime_s, kTreesWide, kTreesHigh),
                   options, threads) {}
-  TreeFrame(const World& world, const View& view, FrameOptions options = {}, int threads = 2) {
+  TreeFrame(const World& world, const View& view, const FrameOptions& options = {},
+            int threads = 2) {
     Workers workers(threads);
     render_frame(world, view, kTime_s, options, workspace, target, workers);
   }
