@@ -221,5 +221,11 @@ class CheckCommits(Temporary):
         self.assertRegex(self.warnings("origin/main"), "(?s)^note: no commit 'origin/main' here.*warning: .*'Grow'")
 
 
+class TidySh(unittest.TestCase):
+    def test_an_unknown_option_ends_it_with_2(self):
+        run = subprocess.run([SOURCE / "scripts/tidy.sh", "--nonsense"], capture_output=True, text=True, check=False)
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+
+
 if __name__ == "__main__":
     unittest.main()
