@@ -31,12 +31,6 @@ HWY_INLINE IntVec FlagIf(Mask mask, std::uint32_t flag) {
   return hn::IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, static_cast<int>(flag)));
 }
 
-template <class V>
-HWY_INLINE auto IsFinite(V v) {
-  const FloatTag d;
-  return hn::Le(hn::Abs(v), hn::Set(d, 3.402823466e38f));
-}
-
 // Clip distances of one packet.
 struct User {
   FloatVec first, second;
@@ -77,9 +71,9 @@ HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, const User& user
   // Flags.
   const FloatVec guard_x = hn::Set(d, 2.0f * kGuardPx / width - 1.0f);
   const FloatVec guard_y = hn::Set(d, 2.0f * kGuardPx / height - 1.0f);
-  const auto finite =
-      hn::And(hn::And(hn::And(IsFinite(x), IsFinite(y)), hn::And(IsFinite(z), IsFinite(w))),
-              hn::And(IsFinite(user.first), IsFinite(user.second)));
+  const auto finite = hn::And(
+      hn::And(hn::And(hn::IsFinite(x), hn::IsFinite(y)), hn::And(hn::IsFinite(z), hn::IsFinite(w))),
+      hn::And(hn::IsFinite(user.first), hn::IsFinite(user.second)));
   const IntVec outside = OutsideFlags(x, y, z, w, user, guard_x, guard_y);
   const IntVec flags = hn::IfThenElse(hn::RebindMask(di, finite), outside,
                                       hn::Set(di, static_cast<int>(kNotFinite)));
