@@ -21,7 +21,6 @@ namespace HWY_NAMESPACE {
 using DU = hn::RebindToUnsigned<D>;
 using VU = hn::Vec<DU>;
 using Mask = hn::Mask<D>;
-constexpr std::size_t kLanes = hn::MaxLanes(D());
 
 // --- Stores: of the first `count` lanes
 

@@ -63,7 +63,6 @@ HWY_INLINE V3 OutOf(const PosedForm& form, const RayPart& part, V3 p) {
 // Sets `normal`, in the axes of the lanes' meshes, at their points q where they show forms. Returns
 // those lanes.
 HWY_INLINE hn::Mask<D> TakeFormNormals(const ObjectPrimitive* const* primitive, V3 q, V3& normal) {
-  constexpr std::size_t kLanes = hn::MaxLanes(D());
   const D d;
   auto taken = hn::FirstN(d, 0);
   // Most packets show one part.

@@ -1,11 +1,11 @@
-// The materials: one line each here, and one in list-inl.h. Shading folds over the list at compile
-// time, so that a pixel costs no call through a pointer. A surface whose material is not in the
-// list is not drawn.
+// The materials: one line each here, and a name in render/CMakeLists.txt. Each is a translation
+// unit that shades whole lists of pixels, so that a pixel costs no call. A surface whose material
+// is not in the list is not drawn.
 //
 // A material M is a plain struct with
 //   static constexpr SurfaceKind kSurface;                    // whose triangles it shades
 //   void fill(const MaterialInputs&, const RenderView&, M&);  // its constants, once a view
-// and, in its M-inl.h, the per-pixel code that list-inl.h describes.
+// and, in its m-inl.h, the per-pixel code that tile/surfel-inl.h describes.
 #pragma once
 
 #include <tuple>

@@ -11,7 +11,7 @@
 #include "render/materials/ground-inl.h"
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
-#include "render/materials/water-inl.h"
+#include "render/materials/topside-inl.h"
 #include "render/tile/attenuate-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -56,7 +56,7 @@ HWY_INLINE void BlendSamples(const ocean::InlandSample* samples, VI at, V s, V t
   const D d;
   const D8 d8;
   static_assert(sizeof(ocean::InlandSample) == 8 * sizeof(float));
-  constexpr std::size_t kLanes = hn::MaxLanes(d), kRow = 8 * ocean::kInlandSide;
+  constexpr std::size_t kRow = 8 * ocean::kInlandSide;
   alignas(64) std::int32_t number[kLanes];
   alignas(64) float east[kLanes], north[kLanes];
   hn::Store(at, DI(), number);

@@ -14,7 +14,7 @@
 #include "render/materials/ground-inl.h"
 #include "render/materials/land-inl.h"
 #include "render/materials/terrain.h"
-#include "render/materials/water-inl.h"
+#include "render/materials/topside-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/surfel-inl.h"
 

@@ -7,7 +7,7 @@
 #define SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_
 #endif
 
-#include "render/materials/water-inl.h"
+#include "render/materials/topside-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/sky-inl.h"
 
@@ -253,19 +253,6 @@ struct UndersideShader {
             hn::IfThenZeroElse(lost, FlagsOf(mirrored_alpha, bent_alpha, slopes.wake))};
   }
 };
-
-// Water far from any coast is spared the coast's code.
-template <ViewKind kView, class Use>
-HWY_INLINE void WithShader(const Water& water, const Use& use) {
-  if constexpr (shows(kView, Water::kSurface)) {
-    if (water.submerged)
-      use(UndersideShader{water});
-    else if (water.knows_land())
-      use(WaterShader<true>{water});
-    else
-      use(WaterShader<false>{water});
-  }
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render

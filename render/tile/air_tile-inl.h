@@ -19,13 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// Whether the air before surfaces is laid here. Clouds below the eye lie before it: where there are
-// any, each surface has both. Haze alone is little, and left to surfaces too.
-HWY_INLINE bool IsAirLaidLast(const Shading& s) {
-  return (s.media.fog.on || s.media.molecules_per_m.z > 0.0f) && !s.media.submerged &&
-         !s.light.clouds.is_below;
-}
-
 // Pixels, or parts of pixels, and where what they show is; of the sky, something near.
 struct PlaceShown {
   V x_px, y_px, z;

@@ -404,6 +404,14 @@ HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen,
   }
 }
 
+// Whether the air before surfaces is laid once all are shaded (air_tile-inl.h). Clouds below the
+// eye lie before it: where there are any, each surface has both. Haze alone is little, and left to
+// surfaces too.
+HWY_INLINE bool IsAirLaidLast(const Shading& s) {
+  return (s.media.fog.on || s.media.molecules_per_m.z > 0.0f) && !s.media.submerged &&
+         !s.light.clouds.is_below;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render
 HWY_AFTER_NAMESPACE();

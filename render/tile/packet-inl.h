@@ -25,6 +25,7 @@ using D = hn::ScalableTag<float>;
 using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;
 using VI = hn::Vec<DI>;
+constexpr std::size_t kLanes = hn::MaxLanes(D());
 
 struct V3 {
   V x, y, z;

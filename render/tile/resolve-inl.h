@@ -16,8 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kLanes = hn::MaxLanes(D());
-
 // The light of a packet of pixels from `at` on, which is a multiple of kLanes.
 HWY_INLINE V3 ReadLight(const ShadeScratch& scratch, std::size_t at) {
   const D d;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 
 #include "math/check.h"
@@ -11,12 +10,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/labels/keep_labels-inl.h"
-#include "render/materials/list-inl.h"
 #include "render/tile/air_tile-inl.h"
-#include "render/tile/attenuate-inl.h"
 #include "render/tile/cloud_deck-inl.h"
 #include "render/tile/cloud_picture-inl.h"
+#include "render/tile/light_code-inl.h"
+#include "render/tile/listed_packets-inl.h"
+#include "render/tile/material_units-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/pixel_lists-inl.h"
 #include "render/tile/resolve-inl.h"
@@ -27,197 +26,11 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// Where a packet's pixels, or parts of pixels, lie in the window, and what they show.
-struct ListedPacket {
-  Lanes lanes;
-  V x_px, y_px, z;
-};
-
-// Listed pixels, a packet from `at` on.
-struct PixelsInTile {
-  const Shading& s;
-  const TilePixels& tile;
-  const PixelList& list;
-  ShadeScratch& scratch;
-
-  // A run of neighbours is loaded and stored whole; a padded packet is none.
-  HWY_INLINE bool IsRun(std::size_t i) const {
-    return i + kLanes <= list.count &&
-           list.at[i + kLanes - 1] - list.at[i] == static_cast<int>(kLanes) - 1;
-  }
-
-  HWY_INLINE ListedPacket Load(std::size_t i) const {
-    const D d;
-    const DI di;
-    const hn::Rebind<std::uint16_t, D> d16;
-    const std::uint16_t* at = list.at + i;
-    const int size_log2 = std::countr_zero(static_cast<unsigned>(s.grid.tile_size_px));
-    const VI index = hn::PromoteTo(di, hn::LoadU(d16, at));
-    const VI y = hn::ShiftRightSame(index, size_log2);
-    const VI x = hn::Sub(index, hn::ShiftLeftSame(y, size_log2));
-    HWY_ALIGN std::array<float, kLanes> z;
-    const bool run = IsRun(i);
-    if (!run)
-      for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = tile.depth[at[lane]];
-    return {Lanes{tile.primitive, at}, hn::ConvertTo(d, hn::Add(x, hn::Set(di, tile.box.x0_px))),
-            hn::ConvertTo(d, hn::Add(y, hn::Set(di, tile.box.y0_px))),
-            hn::LoadU(d, run ? tile.depth + at[0] : z.data())};
-  }
-
-  HWY_INLINE void Store(std::size_t i, const V3& colour) const {
-    const D d;
-    const std::uint16_t* at = list.at + i;
-    if (IsRun(i)) {
-      hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
-      hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
-      hn::StoreU(colour.z, d, scratch.blue.data() + at[0]);
-      return;
-    }
-    HWY_ALIGN std::array<float, kLanes> red, green, blue;
-    hn::Store(colour.x, d, red.data());
-    hn::Store(colour.y, d, green.data());
-    hn::Store(colour.z, d, blue.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      scratch.red[at[lane]] = red[lane];
-      scratch.green[at[lane]] = green[lane];
-      scratch.blue[at[lane]] = blue[lane];
-    }
-  }
-};
-
-// Listed fragments, the same way.
-struct FragmentsInTile {
-  std::span<const EdgeFragment> fragments;
-  const PixelList& list;
-  ShadeScratch& scratch;
-
-  HWY_INLINE ListedPacket Load(std::size_t i) const {
-    const D d;
-    const std::uint16_t* at = list.at + i;
-    HWY_ALIGN std::array<float, kLanes> x, y, z;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const EdgeFragment& fragment = fragments[at[lane]];
-      x[lane] = fragment.x_px, y[lane] = fragment.y_px, z[lane] = fragment.z;
-    }
-    return {Lanes{scratch.fragment_primitive.data(), at}, hn::Load(d, x.data()),
-            hn::Load(d, y.data()), hn::Load(d, z.data())};
-  }
-
-  HWY_INLINE void Store(std::size_t i, const V3& colour) const {
-    const D d;
-    const std::uint16_t* at = list.at + i;
-    HWY_ALIGN std::array<float, kLanes> red, green, blue;
-    hn::Store(colour.x, d, red.data());
-    hn::Store(colour.y, d, green.data());
-    hn::Store(colour.z, d, blue.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      scratch.fragment_red[at[lane]] = red[lane];
-      scratch.fragment_green[at[lane]] = green[lane];
-      scratch.fragment_blue[at[lane]] = blue[lane];
-    }
-  }
-};
-
-// Calls shade(packet) for what is listed and stores the colours.
-template <class Listed, class Shade>
-HWY_INLINE void ShadeList(const Listed& listed, const Shade& shade) {
-  for (std::size_t i = 0; i < listed.list.count; i += kLanes)
-    listed.Store(i, shade(listed.Load(i)));
-}
-
-// The same for packets side by side: shade(packets, colours).
-template <class Listed, class Shade>
-HWY_INLINE void ShadeSideBySide(const Listed& listed, const Shade& shade) {
-  PerPacket<ListedPacket> packets;
-  PerPacket<V3> colours;
-  for (std::size_t i = 0; i < listed.list.count; i += kMostPacketsAtOnce * kLanes) {
-    const std::size_t pixels = std::min(listed.list.count - i, kMostPacketsAtOnce * kLanes);
-    const std::size_t count = (pixels + kLanes - 1) / kLanes;
-    for (std::size_t k = 0; k < count; ++k) packets[k] = listed.Load(i + k * kLanes);
-    shade(std::span<const ListedPacket>(packets.data(), count), colours.data());
-    for (std::size_t k = 0; k < count; ++k) listed.Store(i + k * kLanes, colours[k]);
-  }
-}
-
-// The light of a packet's pixels as it arrives, but for air that is laid last. What labels want of
-// the window's goes to `keep`.
-template <ViewKind kView, class M, class Shade, class Keep, class... Found>
-HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& material,
-                            const Lanes& lanes, const Packet& shown, const Shade& shade,
-                            const Keep& keep, const Found&... found) {
-  if constexpr (kView == ViewKind::kWindow) {
-    const auto surfel = shade(s, tile, lanes, shown, found...);
-    keep(lanes.at, surfel);
-    if (s.media.submerged) {
-      const V shafts = ShaftsBefore(s, tile.box, tile.shafts, shown.x_px, shown.y_px,
-                                    hn::Neg(shown.to_eye.z), shown.distance);
-      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light,
-                                      shafts);
-    }
-    if (IsAirLaidLast(s)) return surfel.light;
-    const V3 light = ThroughAir(s, shown, surfel.light);
-    return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
-  } else {
-    const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
-    const auto surfel = shade(s, tile, lanes, seen.packet, found...);
-    const V3 light = Attenuate<kView>(s, shown, seen, surfel.light);
-    if constexpr (requires { surfel.cover; })
-      return s.media.submerged ? light : Lerp(Constant(s.media.body), light, surfel.cover);
-    else
-      return light;
-  }
-}
-
-// The light of packets side by side. A function of its own: pixels and fragments share it.
-template <class M, class Shade, class Keep>
-HWY_NOINLINE void ArrivingLights(const Shading& s, const TilePixels& tile, const M& material,
-                                 const Shade& shade, const Keep& keep,
-                                 std::span<const ListedPacket> packets, V3* lights) {
-  PerPacket<Packet> shown;
-  PerPacket<typename Shade::Found> found;
-  for (std::size_t k = 0; k < packets.size(); ++k)
-    shown[k] = MakePacket(s.rays, packets[k].x_px, packets[k].y_px, packets[k].z);
-  shade.LookUp(s, std::span<const Packet>(shown.data(), packets.size()), found.data());
-  for (std::size_t k = 0; k < packets.size(); ++k)
-    lights[k] = ArrivingLight<ViewKind::kWindow>(s, tile, material, packets[k].lanes, shown[k],
-                                                 shade, keep, found[k]);
-}
-
-// Labels are of the pixels' centres alone: fragments keep nothing.
-template <ViewKind kView, class M, class Keep>
-HWY_INLINE void ShadeMaterial(const Shading& s, const TilePixels& tile, const PixelList& list,
-                              ShadeScratch& scratch, const Keep& keep) {
-  const M& material = s.material<M>();
-  WithShader<kView>(material, [&]<class Shade>(const Shade& shade) HWY_ATTR {
-    const auto shade_list = [&](const auto& listed, const auto& kept) HWY_ATTR {
-      // Elsewhere what is shown is not where it seems to be.
-      if constexpr (kView == ViewKind::kWindow && LooksUpSideBySide<Shade>) {
-        ShadeSideBySide(listed, [&](std::span<const ListedPacket> packets, V3* lights) HWY_ATTR {
-          ArrivingLights(s, tile, material, shade, kept, packets, lights);
-        });
-      } else {
-        ShadeList(listed, [&](const ListedPacket& packet) HWY_ATTR {
-          const Packet shown = MakePacket(s.rays, packet.x_px, packet.y_px, packet.z);
-          return ArrivingLight<kView>(s, tile, material, packet.lanes, shown, shade, kept);
-        });
-      }
-    };
-    shade_list(PixelsInTile{s, tile, list, scratch}, keep);
-    if (kView != ViewKind::kWindow || tile.fragments.empty()) return;
-    const PixelList parts = ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
-                                          s.primitives.end(M::kSurface), scratch);
-    shade_list(FragmentsInTile{tile.fragments, parts, scratch}, KeepNothing());
-  });
-}
-
 // Shades the pixels of all materials and returns their number.
-template <ViewKind kView, class Keep>
-HWY_INLINE std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile,
-                                     const PixelLists& lists, ShadeScratch& scratch,
-                                     const Keep& keep) {
-  const auto shade_all = [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
-    (ShadeMaterial<kView, std::tuple_element_t<k, Materials>>(s, tile, lists[k], scratch, keep),
-     ...);
+std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile, const PixelLists& lists,
+                          ShadeScratch& scratch, ShadedLabels* labels) {
+  const auto shade_all = [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (ShadeMaterial<std::tuple_element_t<k, Materials>>(s, tile, lists[k], scratch, labels), ...);
     return (lists[k].count + ... + 0);
   };
   return shade_all(std::make_index_sequence<kMaterialCount>());
@@ -236,12 +49,11 @@ void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& 
   }
 }
 
-template <class Keep>
-HWY_INLINE int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
-                              std::uint32_t* rgba, float* linear, const Keep& keep) {
+int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                   std::uint32_t* rgba, float* linear, ShadedLabels* labels) {
   const PixelLists lists = ListPixels(s, tile, scratch);
   ShadeSkyPackets(s, tile, lists[kSky], scratch);
-  const std::size_t shaded = ShadeSurfaces<ViewKind::kWindow>(s, tile, lists, scratch, keep);
+  const std::size_t shaded = ShadeSurfaces(s, tile, lists, scratch, labels);
   if (!tile.fragments.empty()) {
     const PixelList parts = ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch);
     ShadeList(FragmentsInTile{tile.fragments, parts, scratch},
@@ -273,14 +85,8 @@ TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scra
 }
 
 int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
-              float* linear) {
-  return ShadeAllPixels(s, PixelsOf(s, input, scratch), scratch, rgba, linear, KeepNothing());
-}
-
-// A function of its own: what labels take costs registers.
-int ShadeLabelledTile(const Shading& s, const TileInput& input, ShadeScratch& scratch,
-                      std::uint32_t* rgba, float* linear, ShadedLabels& labels) {
-  return ShadeAllPixels(s, PixelsOf(s, input, scratch), scratch, rgba, linear, KeepLabels{labels});
+              float* linear, ShadedLabels* labels) {
+  return ShadeAllPixels(s, PixelsOf(s, input, scratch), scratch, rgba, linear, labels);
 }
 
 void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32_t* rgba,
@@ -331,10 +137,7 @@ void ShadeLookupTile(const Shading& s, int tile_index, const float* depth,
   const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {},
                         s.sun_shadow.casters.of_tile(tile_index)};
   const PixelLists lists = ListPixels(s, tile, scratch);
-  if (s.kind == ViewKind::kRefraction)
-    ShadeSurfaces<ViewKind::kRefraction>(s, tile, lists, scratch, KeepNothing());
-  else
-    ShadeSurfaces<ViewKind::kReflection>(s, tile, lists, scratch, KeepNothing());
+  ShadeSurfaces(s, tile, lists, scratch, nullptr);
   EncodeLookupTile(s, tile.box, primitive, scratch, image);
 }
 
@@ -346,7 +149,6 @@ HWY_AFTER_NAMESPACE();
 namespace swell::render {
 
 HWY_EXPORT(ShadeTile);
-HWY_EXPORT(ShadeLabelledTile);
 HWY_EXPORT(ShadeSkyTile);
 HWY_EXPORT(ShadeLookupTile);
 
@@ -375,10 +177,7 @@ int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scr
   check_picture(shading, rgba, linear);
   SWELL_CHECK(input.fragments.size() <= kMaxTileFragments, "fragments={}", input.fragments.size());
   float* const light = linear.empty() ? nullptr : linear.data();
-  if (labels)
-    return HWY_DYNAMIC_DISPATCH(ShadeLabelledTile)(shading, input, scratch, rgba.data(), light,
-                                                   *labels);
-  return HWY_DYNAMIC_DISPATCH(ShadeTile)(shading, input, scratch, rgba.data(), light);
+  return HWY_DYNAMIC_DISPATCH(ShadeTile)(shading, input, scratch, rgba.data(), light, labels);
 }
 
 void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,

@@ -14,7 +14,6 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 using DU = hn::RebindToUnsigned<D>;
 using M = hn::Mask<D>;
-constexpr std::size_t kLanes = hn::MaxLanes(D());
 
 // A p.
 HWY_INLINE V3 Times(const RayQuadric& f, V3 p) {

@@ -16,7 +16,6 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 using M = hn::Mask<D>;
-constexpr std::size_t kLanes = hn::MaxLanes(D());
 
 struct Paths {
   V z, z_t, z_tt, begin, end;

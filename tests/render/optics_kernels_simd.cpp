@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "render/materials/fresnel-inl.h"
-#include "render/materials/water-inl.h"
+#include "render/materials/topside-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -8,7 +8,11 @@
 #include <algorithm>
 #include <array>
 
-#include "render/materials/list-inl.h"
+#include "render/materials/object-inl.h"
+#include "render/materials/river-inl.h"
+#include "render/materials/terrain-inl.h"
+#include "render/materials/tree-inl.h"
+#include "render/materials/water-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/sky-inl.h"

@@ -1,4 +1,4 @@
-// The water, as render/materials/water-inl.h. ADD_LAYERS() is written by peer_programs.cpp: a call for
+// The water, as render/materials/topside-inl.h. ADD_LAYERS() is written by peer_programs.cpp: a call for
 // each of the scene's maps.
 out vec4 colour;
 

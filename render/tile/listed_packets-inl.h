@@ -1,0 +1,138 @@
+// Packets of the pixels and the fragments that a list names: gathered, shaded, their colours
+// stored.
+#if defined(SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_
+#undef SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_
+#else
+#define SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "render/tile/packet-inl.h"
+#include "render/tile/pixel_lists-inl.h"
+#include "render/tile/surfel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// Where a packet's pixels, or parts of pixels, lie in the window, and what they show.
+struct ListedPacket {
+  Lanes lanes;
+  V x_px, y_px, z;
+};
+
+// Listed pixels, a packet from `at` on.
+struct PixelsInTile {
+  const Shading& s;
+  const TilePixels& tile;
+  const PixelList& list;
+  ShadeScratch& scratch;
+
+  // A run of neighbours is loaded and stored whole; a padded packet is none.
+  HWY_INLINE bool IsRun(std::size_t i) const {
+    return i + kLanes <= list.count &&
+           list.at[i + kLanes - 1] - list.at[i] == static_cast<int>(kLanes) - 1;
+  }
+
+  HWY_INLINE ListedPacket Load(std::size_t i) const {
+    const D d;
+    const DI di;
+    const hn::Rebind<std::uint16_t, D> d16;
+    const std::uint16_t* at = list.at + i;
+    const int size_log2 = std::countr_zero(static_cast<unsigned>(s.grid.tile_size_px));
+    const VI index = hn::PromoteTo(di, hn::LoadU(d16, at));
+    const VI y = hn::ShiftRightSame(index, size_log2);
+    const VI x = hn::Sub(index, hn::ShiftLeftSame(y, size_log2));
+    HWY_ALIGN std::array<float, kLanes> z;
+    const bool run = IsRun(i);
+    if (!run)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = tile.depth[at[lane]];
+    return {Lanes{tile.primitive, at}, hn::ConvertTo(d, hn::Add(x, hn::Set(di, tile.box.x0_px))),
+            hn::ConvertTo(d, hn::Add(y, hn::Set(di, tile.box.y0_px))),
+            hn::LoadU(d, run ? tile.depth + at[0] : z.data())};
+  }
+
+  HWY_INLINE void Store(std::size_t i, const V3& colour) const {
+    const D d;
+    const std::uint16_t* at = list.at + i;
+    if (IsRun(i)) {
+      hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
+      hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
+      hn::StoreU(colour.z, d, scratch.blue.data() + at[0]);
+      return;
+    }
+    HWY_ALIGN std::array<float, kLanes> red, green, blue;
+    hn::Store(colour.x, d, red.data());
+    hn::Store(colour.y, d, green.data());
+    hn::Store(colour.z, d, blue.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      scratch.red[at[lane]] = red[lane];
+      scratch.green[at[lane]] = green[lane];
+      scratch.blue[at[lane]] = blue[lane];
+    }
+  }
+};
+
+// Listed fragments, the same way.
+struct FragmentsInTile {
+  std::span<const EdgeFragment> fragments;
+  const PixelList& list;
+  ShadeScratch& scratch;
+
+  HWY_INLINE ListedPacket Load(std::size_t i) const {
+    const D d;
+    const std::uint16_t* at = list.at + i;
+    HWY_ALIGN std::array<float, kLanes> x, y, z;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const EdgeFragment& fragment = fragments[at[lane]];
+      x[lane] = fragment.x_px, y[lane] = fragment.y_px, z[lane] = fragment.z;
+    }
+    return {Lanes{scratch.fragment_primitive.data(), at}, hn::Load(d, x.data()),
+            hn::Load(d, y.data()), hn::Load(d, z.data())};
+  }
+
+  HWY_INLINE void Store(std::size_t i, const V3& colour) const {
+    const D d;
+    const std::uint16_t* at = list.at + i;
+    HWY_ALIGN std::array<float, kLanes> red, green, blue;
+    hn::Store(colour.x, d, red.data());
+    hn::Store(colour.y, d, green.data());
+    hn::Store(colour.z, d, blue.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      scratch.fragment_red[at[lane]] = red[lane];
+      scratch.fragment_green[at[lane]] = green[lane];
+      scratch.fragment_blue[at[lane]] = blue[lane];
+    }
+  }
+};
+
+// Calls shade(packet) for what is listed and stores the colours.
+template <class Listed, class Shade>
+HWY_INLINE void ShadeList(const Listed& listed, const Shade& shade) {
+  for (std::size_t i = 0; i < listed.list.count; i += kLanes)
+    listed.Store(i, shade(listed.Load(i)));
+}
+
+// The same for packets side by side: shade(packets, colours).
+template <class Listed, class Shade>
+HWY_INLINE void ShadeSideBySide(const Listed& listed, const Shade& shade) {
+  PerPacket<ListedPacket> packets;
+  PerPacket<V3> colours;
+  for (std::size_t i = 0; i < listed.list.count; i += kMostPacketsAtOnce * kLanes) {
+    const std::size_t pixels = std::min(listed.list.count - i, kMostPacketsAtOnce * kLanes);
+    const std::size_t count = (pixels + kLanes - 1) / kLanes;
+    for (std::size_t k = 0; k < count; ++k) packets[k] = listed.Load(i + k * kLanes);
+    shade(std::span<const ListedPacket>(packets.data(), count), colours.data());
+    for (std::size_t k = 0; k < count; ++k) listed.Store(i + k * kLanes, colours[k]);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
