@@ -25,7 +25,6 @@ void Fresnel(std::span<const float> cos_theta, float n, std::span<float> reflect
   }
 }
 
-constexpr std::size_t kLanes = hn::MaxLanes(D());
 
 // The points from `first` on, the last one repeated, each seen along its own ray.
 Packet PacketAt(std::span<const glm::vec3> p_rel, std::size_t first) {
