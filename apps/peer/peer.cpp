@@ -87,12 +87,12 @@ void Peer::State::take_maps(const Workspace::State& frame) {
     bind_layer(kCoastSurfUnit, sea.coast_surf, Levels::kNearest, true);
   }
   const auto& terrain = s.material<render::Terrain>();
-  if (terrain.map.albedo) {
-    bind_layer(kTerrainSlopesUnit, terrain.map.slopes, Levels::kBlended, false);
-    bind_layer(kAroundSlopesUnit, terrain.around.slopes, Levels::kBlended, false);
+  if (terrain.albedo.map.texels) {
+    bind_layer(kTerrainSlopesUnit, terrain.slopes, Levels::kBlended, false);
+    bind_layer(kAroundSlopesUnit, terrain.slopes_around, Levels::kBlended, false);
     bind_layer(kDetailUnit, terrain.detail, Levels::kBlended, false);
-    bind_texture(kAlbedoUnit, maps.image(*terrain.map.albedo));
-    bind_texture(kAroundAlbedoUnit, maps.image(*terrain.around.albedo));
+    bind_texture(kAlbedoUnit, maps.image(*terrain.albedo.map.texels));
+    bind_texture(kAroundAlbedoUnit, maps.image(*terrain.albedo.around.texels));
   }
   bind_texture(kReflectionUnit, reflection.colour());
   bind_texture(kRefractionUnit, refraction.colour());

@@ -178,20 +178,19 @@ void set_water(const Shading& s, const GlProgram& program) {
   program.set("view_ahead", water.view_ahead);
 }
 
-void set_ground(const render::GroundLayer& ground, const std::string& name,
-                const GlProgram& program) {
-  set_layer(ground.slopes, name + "slopes", program);
-  const auto size = static_cast<float>(ground.albedo->width);
-  program.set(
-      name + "albedo_place",
-      glm::vec3(ground.albedo_texels_per_m, ground.albedo_x_eye, ground.albedo_y_eye) / size);
+void set_ground(const render::SlopeLayer& slopes, const render::AlbedoLayer& albedo,
+                const std::string& name, const GlProgram& program) {
+  set_layer(slopes, name + "slopes", program);
+  const auto size = static_cast<float>(albedo.texels->width);
+  program.set(name + "albedo_place",
+              glm::vec3(albedo.texels_per_m, albedo.x_eye, albedo.y_eye) / size);
 }
 
 void set_terrain(const Shading& s, const GlProgram& program) {
   const auto& terrain = s.material<render::Terrain>();
-  if (!terrain.map.albedo) return;
-  set_ground(terrain.map, "", program);
-  set_ground(terrain.around, "around_", program);
+  if (!terrain.albedo.map.texels) return;
+  set_ground(terrain.slopes, terrain.albedo.map, "", program);
+  set_ground(terrain.slopes_around, terrain.albedo.around, "around_", program);
   set_layer(terrain.detail, "detail", program);
   program.set("swash_reach_m", terrain.swash.reach_m);
   program.set("swash_cycles", terrain.swash.cycles);

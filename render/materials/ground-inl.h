@@ -13,18 +13,18 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// How far p is from the nearest side of a layer's square, inside, as part of the side.
-HWY_INLINE V PartFromRim(const SlopeLayer& square, V3 p) {
-  const LayerPlace place = PlaceIn(square, p.x, p.y);
-  const float side_fx8 = 256.0f * static_cast<float>(square.map->size);
+// How far p is from the nearest side of the terrain's square, inside, as part of the side.
+HWY_INLINE V PartFromRim(const GroundAlbedo& ground, V3 p) {
+  const LayerPlace place = PlaceIn(ground, p.x, p.y);
+  const float side_fx8 = ground.side_fx8;
   const auto from_rim = [&](V x) HWY_ATTR { return hn::Min(x, hn::Sub(Constant(side_fx8), x)); };
   return hn::Mul(hn::Min(from_rim(place.x_fx8), from_rim(place.y_fx8)), Constant(1.0f / side_fx8));
 }
 
 // 1 on the map, falling to 0 over its last texels.
-HWY_INLINE V OnMap(const Terrain& terrain, V3 p) {
+HWY_INLINE V OnMap(const GroundAlbedo& ground, V3 p) {
   constexpr float kInverseRim = 40.0f;  // 1 / part of the side
-  return Clamp(hn::Mul(PartFromRim(terrain.map.slopes, p), Constant(kInverseRim)), 0.0f, 1.0f);
+  return Clamp(hn::Mul(PartFromRim(ground, p), Constant(kInverseRim)), 0.0f, 1.0f);
 }
 
 // What map() says, over the map's last texels that of its surroundings. join(map, around, blend)
@@ -60,25 +60,25 @@ HWY_INLINE GroundSlopes FindSlopes(const Terrain& terrain, V on_map, V3 p, V lev
     return slopes;
   };
   return BlendOnMap(
-      on_map, [&]() HWY_ATTR { return sample(terrain.map.slopes); },
-      [&]() HWY_ATTR { return sample(terrain.around.slopes); },
+      on_map, [&]() HWY_ATTR { return sample(terrain.slopes); },
+      [&]() HWY_ATTR { return sample(terrain.slopes_around); },
       [&](const GroundSlopes& map, const GroundSlopes& around, auto blend) HWY_ATTR {
         return GroundSlopes{blend(map.x, around.x), blend(map.y, around.y)};
       });
 }
 
-HWY_INLINE V3 FindAlbedo(const Terrain& terrain, V on_map, V3 p) {
-  const auto sample = [&](const GroundLayer& layer) HWY_ATTR {
-    const V per_m = Constant(layer.albedo_texels_per_m);
-    const V x = hn::MulAdd(p.x, per_m, Constant(layer.albedo_x_eye));
-    const V y = hn::MulAdd(p.y, per_m, Constant(layer.albedo_y_eye));
+HWY_INLINE V3 FindAlbedo(const GroundAlbedo& ground, V on_map, V3 p) {
+  const auto sample = [&](const AlbedoLayer& layer) HWY_ATTR {
+    const V per_m = Constant(layer.texels_per_m);
+    const V x = hn::MulAdd(p.x, per_m, Constant(layer.x_eye));
+    const V y = hn::MulAdd(p.y, per_m, Constant(layer.y_eye));
     V r, g, b, alpha;
-    texture::HWY_NAMESPACE::SampleRgba(D(), *layer.albedo, x, y, r, g, b, alpha);
+    texture::HWY_NAMESPACE::SampleRgba(D(), *layer.texels, x, y, r, g, b, alpha);
     return V3{hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)};
   };
   return BlendOnMap(
-      on_map, [&]() HWY_ATTR { return sample(terrain.map); },
-      [&]() HWY_ATTR { return sample(terrain.around); },
+      on_map, [&]() HWY_ATTR { return sample(ground.map); },
+      [&]() HWY_ATTR { return sample(ground.around); },
       [&](V3 map, V3 around, auto blend) HWY_ATTR {
         return V3{blend(map.x, around.x), blend(map.y, around.y), blend(map.z, around.z)};
       });
@@ -86,7 +86,7 @@ HWY_INLINE V3 FindAlbedo(const Terrain& terrain, V on_map, V3 p) {
 
 // 1 over the map, falling to 0 where its apron ends, beyond which there is deep water.
 HWY_INLINE V FloorShown(const Terrain& terrain, V3 p) {
-  const SlopeLayer& square = terrain.around.slopes;
+  const SlopeLayer& square = terrain.slopes_around;
   const LayerPlace place = PlaceIn(square, p.x, p.y);
   // Aprons away from the map, which is half as wide as the square.
   const float per_apron = 4.0f / (256.0f * static_cast<float>(square.map->size));

@@ -38,9 +38,9 @@ HWY_INLINE LandCover SampleCover(const texture::CoverMap& map, const SlopeLayer&
 HWY_INLINE LandCover FindCover(const Terrain& terrain, V on_map, V3 p, V level_m) {
   const Land& land = terrain.land;
   return BlendOnMap(
-      on_map, [&]() HWY_ATTR { return SampleCover(*land.ground, terrain.map.slopes, p, level_m); },
+      on_map, [&]() HWY_ATTR { return SampleCover(*land.ground, terrain.slopes, p, level_m); },
       [&]()
-          HWY_ATTR { return SampleCover(*land.ground_around, terrain.around.slopes, p, level_m); },
+          HWY_ATTR { return SampleCover(*land.ground_around, terrain.slopes_around, p, level_m); },
       [&](const LandCover& map, const LandCover& around, auto blend) HWY_ATTR {
         return LandCover{blend(map.grass, around.grass), blend(map.dry, around.dry),
                          blend(map.rock, around.rock), blend(map.sky_seen, around.sky_seen)};

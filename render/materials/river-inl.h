@@ -240,10 +240,9 @@ HWY_INLINE V3 FindBed(const River& river, V3 p, V height_m, V level_m) {
   const V relief = hn::NegMulAdd(sandy, Constant(0.31f * 0.7f), Constant(0.31f));
   const V stones = Clamp(hn::MulAdd(x, relief, Constant(1.0f)), 0.45f, 1.6f);
   V3 bed = Constant(river.gravel);
-  const Terrain& terrain = river.ground;
   const auto some = hn::Gt(sandy, hn::Zero(d));
-  if (terrain.map.albedo && !hn::AllFalse(d, some)) {
-    const V3 floor = FindAlbedo(terrain, OnMap(terrain, p), p);
+  if (river.ground.map.texels && !hn::AllFalse(d, some)) {
+    const V3 floor = FindAlbedo(river.ground, OnMap(river.ground, p), p);
     const auto join = [&](V gravel, V sand) HWY_ATTR {
       return hn::IfThenElse(some, Lerp(gravel, sand, sandy), gravel);
     };

@@ -48,7 +48,7 @@ void fill(const MaterialInputs& in, const RenderView& view, River& river) {
   river.base_variance = base_variance(in.world.scene);
   river.wind_share = in.without.has(Part::kRipples) ? 0.0f : kWindShare;
   const float sun = std::max(in.light.sun_direction.z, 0.0f) / static_cast<float>(kPi);
-  fill(in, view, river.ground);
+  river.ground = make_ground_albedo(in.world, eye);
   river.gravel = kBedAlbedo;
   river.sky_light = in.light.ambient;
   river.sun_light = sun * in.light.sun_irradiance;

@@ -8,9 +8,9 @@
 
 #include "ocean/inland_water.h"
 #include "render/materials/foam.h"
+#include "render/materials/ground_albedo.h"
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
-#include "render/materials/terrain.h"
 
 namespace swell::render {
 
@@ -44,7 +44,7 @@ struct River {
   float cycle_number = 0.0f;               // whole ones, modulo 4096
   float base_variance = 0.0f;              // slope variance of ripples too fine for any map
   float wind_share = 1.0f;                 // of the sea's ripples
-  Terrain ground;                          // whose sand beds at the sea's level have
+  GroundAlbedo ground;                     // whose sand beds at the sea's level have
   glm::vec3 gravel{0.0f};                  // reflectance of a bed above it
   glm::vec3 sky_light{0.0f};               // what a white bed under no water sends back, of the sky
   glm::vec3 sun_light{0.0f};               // and of a sun that nothing hides

@@ -68,7 +68,7 @@ HWY_INLINE GroundLook FindPlainGround(const Terrain& terrain, const Packet& pack
     AddSlopes(terrain.detail, packet.p, level_m, zero, zero, slopes.x, slopes.y, unused);
   }
   const V3 normal = NormalOf(slopes.x, slopes.y);
-  return {FindAlbedo(terrain, on_map, packet.p), normal, normal.z, Constant(1.0f)};
+  return {FindAlbedo(terrain.albedo, on_map, packet.p), normal, normal.z, Constant(1.0f)};
 }
 
 HWY_INLINE GroundLook FindDryGround(const Terrain& terrain, const ViewRays& rays,
@@ -85,7 +85,7 @@ template <bool kDetail>
 HWY_INLINE GroundLook FindGround(const Terrain& terrain, const ViewRays& rays, const Packet& packet,
                                  V level_m) {
   const D d;
-  const V on_map = OnMap(terrain, packet.p);
+  const V on_map = OnMap(terrain.albedo, packet.p);
   const GroundSlopes slopes = FindSlopes<kDetail>(terrain, on_map, packet.p, level_m);
   if constexpr (kDetail) {
     if (terrain.land.on) {

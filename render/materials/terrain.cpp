@@ -25,16 +25,9 @@ Swash make_swash(const ocean::Swash& sheets, double t_s, glm::dvec2 eye) {
   return swash;
 }
 
-GroundLayer make_ground_layer(const texture::PackedMap2& slopes, const texture::RgbaImage& albedo,
-                              const terrain::Grid& square, glm::dvec2 eye) {
-  const glm::dvec2 from_corner = eye - square.min_world;
-  GroundLayer layer{make_square_layer(slopes, square.size_m(), from_corner), &albedo};
-  const double texels_per_m = albedo.width / square.size_m();
-  layer.albedo_texels_per_m = static_cast<float>(texels_per_m);
-  // Texel centres lie at +0.5, the terrain's samples on the lattice.
-  layer.albedo_x_eye = static_cast<float>(from_corner.x * texels_per_m + 0.5);
-  layer.albedo_y_eye = static_cast<float>(from_corner.y * texels_per_m + 0.5);
-  return layer;
+SlopeLayer make_slopes(const texture::PackedMap2& slopes, const terrain::Grid& square,
+                       glm::dvec2 eye) {
+  return make_square_layer(slopes, square.size_m(), eye - square.min_world);
 }
 
 }  // namespace
@@ -44,9 +37,9 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
   const terrain::HeightGrid& land = *in.world.terrain;
   const TerrainMaps& maps = *in.world.terrain_maps;
   const glm::dvec2 eye(view.camera.eye_world);
-  terrain.map = make_ground_layer(maps.slopes, maps.albedo, land.grid, eye);
-  terrain.around = make_ground_layer(maps.slopes_around, maps.albedo_around,
-                                     terrain::square_with_apron(land), eye);
+  terrain.slopes = make_slopes(maps.slopes, land.grid, eye);
+  terrain.slopes_around = make_slopes(maps.slopes_around, terrain::square_with_apron(land), eye);
+  terrain.albedo = make_ground_albedo(in.world, eye);
   terrain.sun.map = nullptr;
   if (const LandShadow* shadow = in.world.land_shadow.get();
       shadow && shadow->ground.size > 0 && !in.without.has(Part::kShadows))

@@ -6,6 +6,7 @@
 #include "render/materials/canopy.h"
 #include "render/materials/checker.h"
 #include "render/materials/foam.h"
+#include "render/materials/ground_albedo.h"
 #include "render/materials/inputs.h"
 #include "render/materials/land.h"
 #include "render/materials/slope_layer.h"
@@ -21,17 +22,11 @@ struct Swash {
   glm::vec3 lag_c{0.0f};  // of the lobes of their edges, likewise
 };
 
-// Slopes and colours over one square.
-struct GroundLayer {
-  SlopeLayer slopes;
-  const texture::RgbaImage* albedo = nullptr;  // texels of the square's side: per metre, at the eye
-  float albedo_texels_per_m = 0.0f, albedo_x_eye = 0.0f, albedo_y_eye = 0.0f;
-};
-
 struct Terrain {
   static constexpr SurfaceKind kSurface = SurfaceKind::kTerrain;
 
-  GroundLayer map, around;  // the terrain's square; that with its apron
+  SlopeLayer slopes, slopes_around;  // of the terrain's square; of that with its apron
+  GroundAlbedo albedo;
   SlopeLayer detail;
   Land land;
   SlopeLayer sun;  // LandShadow::ground; no map: lit everywhere

@@ -11,6 +11,8 @@
 #include "render/labels/classes.h"
 #include "render/labels/label_channels.h"
 #include "render/lake_and_river.h"
+#include "render/materials/river.h"
+#include "render/materials/terrain.h"
 #include "render/view/meshes.h"
 #include "render/workspace.h"
 #include "render/world/world_state.h"
@@ -312,6 +314,12 @@ TEST(DrawnRivers, RipplesDoNotPulse) {
   const auto [least, most] = std::ranges::minmax(deviation);
   EXPECT_LT(most / least, 1.1);
   EXPECT_GT(least, 1.0);
+}
+
+// Of the land a river reads colours, and what lies around them.
+TEST(DrawnRivers, KeepNoLandOfTheirOwn) {
+  EXPECT_LT(sizeof(River), sizeof(Terrain));
+  EXPECT_LT(sizeof(River{}.ground), sizeof(SlopeLayer));
 }
 
 TEST(DrawnRivers, AreTheSameBitsWithAnyThreadsAndAfterAnyFrame) {
