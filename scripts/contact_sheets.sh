@@ -2,23 +2,30 @@
 # Contact sheets of a scene: six heights (across) by five heights of the sun (down) at one wind, and
 # five winds (across) by the same suns at 10 m.
 #   scripts/contact_sheets.sh NAME OUT_FOLDER     NAME: a scene of scenes/
-# Needs build/release/bin/swell-render and oiiotool (Debian: openimageio-tools).
+# Needs swell-render in SWELL_BIN (build/release/bin) and oiiotool (Debian: openimageio-tools).
 set -eu
 cd "$(dirname "$0")/.."
 name=$1 out=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# draw FILE EYE_HEIGHT_M PITCH_DEG SUN_ELEVATION_DEG WIND_MPS
+# render FILE EYE_HEIGHT_M PITCH_DEG SUN_ELEVATION_DEG WIND_MPS
+render() {
+  "${SWELL_BIN:-build/release/bin}/swell-render" --scene "scenes/$name.toml" --set "camera.eye_m[2]=$2" \
+    --set "camera.pitch_deg=$3" --set "sky.sun_elevation_deg=$4" --set "wind.speed_mps=$5" \
+    --size 192x108 --time 5 --out "$1" 2>"$work/said"
+}
+
+# The same; an eye that would be inside the ground is as high over that.
 draw() {
-  awk -v z="$2" -v pitch="$3" -v sun="$4" -v wind="$5" '
-    /^\[/ { table = $0 }
-    table == "[camera]" && /^eye_m/ { split($0, p, /[][,]/); $0 = "eye_m = [" p[2] ", " p[3] ", " z "]" }
-    table == "[camera]" && /^pitch_deg/ { $0 = "pitch_deg = " pitch }
-    table == "[sky]" && /^sun_elevation_deg/ { $0 = "sun_elevation_deg = " sun }
-    table == "[wind]" && /^speed_mps/ { $0 = "speed_mps = " wind }
-    { print }' "scenes/$name.toml" >"$work/scene.toml"
-  build/release/bin/swell-render --scene "$work/scene.toml" --size 192x108 --time 5 --out "$1" 2>/dev/null
+  render "$@" || { cat "$work/said" >&2; exit 1; }
+  ground=$(sed -n 's/.*inside the ground.*the ground is at \([0-9.]*\) m.*/\1/p' "$work/said")
+  if [ -n "$ground" ]; then
+    file=$1 eye=$(awk "BEGIN { print $2 + $ground }")
+    shift 2
+    render "$file" "$eye" "$@"
+  fi
+  grep warning: "$work/said" >&2 || true
 }
 
 suns="-5 2 10 40 80"

@@ -160,6 +160,22 @@ TEST_F(CommandLine, AnEyeBelowTheGroundIsWarnedOfOnce) {
   }
 }
 
+// scripts/contact_sheets.sh reads from it how high to lift the eye.
+TEST_F(CommandLine, TheWarningSaysHowHighTheGroundIs) {
+  write_text(scene_, "[sea]\nspectrum = false\n[terrain]\nisland_height_m = 35.0\n");
+  const auto said_from = [&](double eye_m) {
+    return run_render({"--scene", scene_, "--size", "16x9", "--triangles", "200", "--hash", "--set",
+                       fmt::format("camera.eye_m=[0, 0, {}]", eye_m)})
+        .err;
+  };
+  const std::string said = said_from(0.3), before = "the ground is at ";
+  const std::size_t at = said.find(before);
+  ASSERT_NE(at, std::string::npos) << said;
+  const double ground_m = std::stod(said.substr(at + before.size()));
+  EXPECT_GT(ground_m, 0.3);
+  EXPECT_EQ(said_from(ground_m + 0.3), "");
+}
+
 // They used to be left out without a word.
 TEST_F(CommandLine, WhatExrFilesDoNotShowIsRefused) {
   const auto render = [&](const std::string& file, const Arguments& more) {
