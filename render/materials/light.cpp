@@ -54,8 +54,8 @@ Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame
   if (light.moon_has_phase) light.disc_lit_from = moon_lit_from(world.scene.sky, sky.to_disc);
   light.exposure = sky.exposure;
   light.clouds = clouds;
-  if (sky.layer.any && !sky.clouds.any && !fog.on && base_variance(world.scene) < kCalmVariance)
-    light.calm = {&sky.layer, &maps.soft};
+  if (!sky.clouds.any && !fog.on && base_variance(world.scene) < kCalmVariance)
+    light.calm = {&maps.heights.front().map, maps.azimuth, sky.layer.any ? &sky.layer : nullptr};
   if (sky.shadow.any) light.cloud_shadow = &sky.shadow;
   return light;
 }

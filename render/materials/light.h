@@ -13,11 +13,12 @@
 
 namespace swell::render {
 
-// Clouds that water mirrors in their shapes, where it is calm: those of a layer, without volumetric
-// ones or fog before them, and in a wind that leaves water so calm.
+// The sky that water mirrors as it is, where it is calm: clear or with clouds of a layer, without
+// volumetric ones or fog before it, and in a wind that leaves water so calm.
 struct CalmMirror {
-  const Clouds* clouds = nullptr;              // as seen from the sea under the eye; none: off
-  const texture::RgbMap* cloudless = nullptr;  // the blurred sky without them
+  const texture::SmoothImage* sky = nullptr;  // the clear one at sea level (SkyMaps); none: off
+  glm::vec2 azimuth{0, 1};
+  const Clouds* clouds = nullptr;  // as seen from the sea under the eye; none: it is clear
   float pixel_angle = 1e-3f;
 };
 // Slope variance, of both axes together, from which on water mirrors the blurred sky alone: less

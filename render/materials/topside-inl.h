@@ -15,7 +15,7 @@
 #include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
 #include "render/materials/image_blur-inl.h"
-#include "render/materials/mirrored_clouds-inl.h"
+#include "render/materials/mirrored_sky-inl.h"
 #include "render/materials/visible_slopes-inl.h"
 #include "render/materials/water.h"
 #include "render/materials/water_slopes-inl.h"
@@ -162,8 +162,8 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   r.z = hn::Max(r.z, Constant(-0.25f));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
-  if (light.calm.clouds)
-    mirrored = MirrorClouds(light.calm, packet, r, length, s.variance, mirrored);
+  if (light.calm.sky)
+    mirrored = MirrorSky(light.calm, packet, r, length, s.variance, mirrored);
   if (light.stars.on)
     mirrored = Sum(mirrored, MirroredStars(light.stars, r, length,
                                            hn::Sub(s.variance, Constant(water.base_variance))));

@@ -116,7 +116,7 @@ HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& p
   const V zero = hn::Zero(d);
   const V3 level = {f.bent.x, f.bent.y, hn::Max(f.bent.z, zero)};
   const V3 up = Scale(level, InverseSqrt(hn::Max(Dot(level, level), Constant(1e-12f))));
-  V3 light = ClearSky(s.light, up);
+  V3 light = ClearSky(SkyOfEye(s.light), up);
   if (s.light.clouds.any) {
     const V angle = hn::Max(f.spread, Constant(s.rays.pixel_angle));
     const CloudView clouds = ViewClouds(s.light.clouds, up, Log2Coarse(d, angle));

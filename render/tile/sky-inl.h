@@ -48,7 +48,7 @@ HWY_INLINE SkyView ViewSky(const Shading& s, V3 ray) {
   V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
   // Below the horizon (beyond the sea's last triangle) the horizon's colour goes on.
   direction.z = hn::Max(direction.z, Constant(s.light.horizon_sine));
-  SkyView view = {ClearSky(s.light, direction), {}};
+  SkyView view = {ClearSky(SkyOfEye(s.light), direction), {}};
   if (s.light.clouds.any)
     view.clouds =
         ViewClouds(s.light.clouds, direction, Log2Coarse(D(), Constant(s.rays.pixel_angle)));

@@ -13,11 +13,21 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
+// A map as an eye sees it whose horizon has a sine.
+struct SkyOfHeight {
+  const texture::SmoothImage* map;
+  glm::vec2 azimuth;
+  float horizon_sine;
+};
+HWY_INLINE SkyOfHeight SkyOfEye(const Light& light) {
+  return {light.sky_map, light.sky_azimuth, light.horizon_sine};
+}
+
 // The column of a direction of length 1.
-HWY_INLINE V SkyColumn(const Light& light, V3 direction) {
+HWY_INLINE V SkyColumn(const SkyOfHeight& sky, V3 direction) {
   const V across2 = hn::MulAdd(direction.x, direction.x, hn::Mul(direction.y, direction.y));
-  const V along = hn::MulAdd(direction.x, Constant(light.sky_azimuth.x),
-                             hn::Mul(direction.y, Constant(light.sky_azimuth.y)));
+  const V along = hn::MulAdd(direction.x, Constant(sky.azimuth.x),
+                             hn::Mul(direction.y, Constant(sky.azimuth.y)));
   const V cosine = hn::Div(along, hn::Sqrt(hn::Max(across2, Constant(1e-12f))));
   const V half_sine2 = hn::NegMulAdd(cosine, Constant(0.5f), Constant(0.5f));
   const V half_sine = hn::Sqrt(Clamp(half_sine2, 0.0f, 1.0f));
@@ -32,21 +42,21 @@ HWY_INLINE V FromHorizon(V part) {
   return hn::Sqrt(hn::Max(hn::Sub(one, r), zero));
 }
 
-HWY_INLINE V3 SampleSky(const Light& light, V column, V row) {
+HWY_INLINE V3 SampleSky(const SkyOfHeight& sky, V column, V row) {
   V3 radiance;
-  texture::HWY_NAMESPACE::SampleSmooth(D(), *light.sky_map, column, row, radiance.x, radiance.y,
+  texture::HWY_NAMESPACE::SampleSmooth(D(), *sky.map, column, row, radiance.x, radiance.y,
                                        radiance.z);
   return radiance;
 }
 
 // The clear sky's radiance in a direction of length 1; below the horizon, that of the horizon.
-HWY_INLINE V3 ClearSky(const Light& light, V3 direction) {
-  const float scale = 1.0f / (1.0f - light.horizon_sine);
-  const V part = Clamp(hn::Mul(hn::Sub(direction.z, Constant(light.horizon_sine)), Constant(scale)),
-                       0.0f, 1.0f);
+HWY_INLINE V3 ClearSky(const SkyOfHeight& sky, V3 direction) {
+  const float scale = 1.0f / (1.0f - sky.horizon_sine);
+  const V part =
+      Clamp(hn::Mul(hn::Sub(direction.z, Constant(sky.horizon_sine)), Constant(scale)), 0.0f, 1.0f);
   const V row =
       hn::NegMulAdd(FromHorizon(part), Constant(kSkyRows - 1.0f), Constant(kSkyRows - 1.0f));
-  return SampleSky(light, SkyColumn(light, direction), row);
+  return SampleSky(sky, SkyColumn(sky, direction), row);
 }
 
 // `part` of the way from the horizon to straight down, of a direction of length 1.
@@ -59,7 +69,8 @@ HWY_INLINE V PartDown(const Light& light, V z) {
 HWY_INLINE V3 AirBelow(const Light& light, V3 direction, V part_down) {
   const V row =
       hn::MulAdd(FromHorizon(part_down), Constant(kAirRows - 1.0f), Constant(1.0f * kSkyRows));
-  return SampleSky(light, SkyColumn(light, direction), row);
+  const SkyOfHeight sky = SkyOfEye(light);
+  return SampleSky(sky, SkyColumn(sky, direction), row);
 }
 
 }  // namespace HWY_NAMESPACE

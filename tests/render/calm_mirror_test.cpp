@@ -1,4 +1,4 @@
-// A sea without wind mirrors the shapes of the clouds.
+// A sea without wind mirrors the sky as it is, and the shapes of the clouds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,9 @@ scene::Scene calm_clouds(double wind_mps) {
 
 // Along the water, northwards: the sun is behind the eye.
 struct CalmPicture : LinearRenderer {
-  explicit CalmPicture(double wind_mps) : LinearRenderer(calm_clouds(wind_mps)) {
+  explicit CalmPicture(double wind_mps) : CalmPicture(calm_clouds(wind_mps)) {}
+  explicit CalmPicture(const scene::Scene& scene, PartSet without = {}) : LinearRenderer(scene) {
+    options.without = without;
     draw_view(make_view({0.0, 0.0, kEye_m}, 0.0, 0.0, scene::radians(kFov_deg), 0.25f, kSize_px,
                         kSize_px),
               0.0);
@@ -71,6 +73,34 @@ TEST(CalmMirror, IsTheSkyTurnedOver) {
     const double sine = double{picture.direction(kSize_px / 2, kSize_px / 2 - over_px).z};
     EXPECT_GT(line.correlation, 0.95) << over_px;
     EXPECT_NEAR(line.slope / fresnel(sine), 1.0, 0.15) << over_px;
+  }
+}
+
+// A clear sky and a low sun ahead, over water without light of its own.
+scene::Scene low_sun(double elevation_deg) {
+  scene::Scene scene = calm_scene(elevation_deg, 0.0, 0.0);
+  scene.sea.spectrum = true;
+  scene.sea.wind_speed_mps = 0.0;
+  scene.sea.resolution = 32;
+  scene.water.body_colour = glm::vec3(0.0f);
+  return scene;
+}
+
+// Beside the sun's disc, whose own image is wider, the sky falls to half within a degree or two.
+TEST(CalmMirror, IsAsSharpAsTheSkyUnderALowSun) {
+  constexpr float kBesideTheDisc = 0.9976f;  // cosine of 4 degrees
+  for (const double elevation_deg : {1.0, 4.0, 10.0}) {
+    const scene::Scene scene = low_sun(elevation_deg);
+    const CalmPicture picture(scene, {Part::kHaze});
+    for (int over_px = 6; over_px <= 72; over_px += 6)
+      for (int x = 0; x < kSize_px; x += 4) {
+        const glm::vec3 up = picture.direction(x, kSize_px / 2 - over_px);
+        if (glm::dot(up, scene.sky.sun_direction) > kBesideTheDisc) continue;
+        const double sky = double{picture.at(x, kSize_px / 2 - over_px).y};
+        const double water = double{picture.at(x, kSize_px / 2 - 1 + over_px).y};
+        EXPECT_NEAR(water / (sky * fresnel(double{up.z})), 1.0, 0.03)
+            << elevation_deg << " " << over_px << " " << x;
+      }
   }
 }
 
