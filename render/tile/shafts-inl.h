@@ -48,6 +48,16 @@ HWY_INLINE V SunScattered(const Shafts& shafts, V3 ray) {
   return hn::Div(sun, hn::Add(sun, Constant(1.0f - shafts.sun_part + 1e-6f)));
 }
 
+// What clouds leave of the sun at a point in the water, over its mean.
+HWY_INLINE V SunUnderCloudsInWater(const Shading& s, const CloudShadow& clouds, V3 p) {
+  const V level = Constant(-s.rays.eye_z);
+  const V depth = hn::Max(hn::Sub(level, p.z), hn::Zero(D()));
+  return SunUnderClouds(clouds,
+                        {hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x),
+                         hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y), level},
+                        s.rays.eye_z);
+}
+
 // What land and objects leave of the sun at a point in the water.
 HWY_INLINE V SunVisibleInWater(const Shading& s, std::span<const std::uint16_t> casters, V3 p) {
   V visible = Constant(1.0f);
@@ -68,6 +78,7 @@ constexpr int kShaftSteps = 28;     // a multiple of 4
 HWY_NOINLINE static VI FollowShafts(const Shading& s, std::span<const std::uint16_t> casters,
                                     const V3& direction) {
   const Shafts& shafts = s.shafts;
+  const CloudShadow* const clouds = s.sun_shadow.clouds;
   const V one = Constant(1.0f);
   const ShaftRay ray = FindShaftRay(shafts, direction.z);
   const float node_angle = s.rays.pixel_angle * static_cast<float>(1 << shafts.step_log2);
@@ -76,7 +87,7 @@ HWY_NOINLINE static VI FollowShafts(const Shading& s, std::span<const std::uint1
   const V across_y = hn::NegMulAdd(direction.z, Constant(s.sun_shadow.entry.y), direction.y);
   const V across = hn::Sqrt(hn::MulAdd(across_x, across_x, hn::Mul(across_y, across_y)));
   std::array<V, 2> more = {hn::Zero(D()), hn::Zero(D())};
-  V visible = one;
+  V visible = one, under_clouds = one;
   for (int i = 0; i < kShaftSteps; ++i) {
     const float u = (static_cast<float>(i) + 0.5f) / kShaftSteps;
     const V t = hn::Mul(ray.reach, Constant(u * u));
@@ -88,13 +99,25 @@ HWY_NOINLINE static VI FollowShafts(const Shading& s, std::span<const std::uint1
     if (i % 2 == 0) visible = SunVisibleInWater(s, casters, p);
     const V more_sun =
         hn::Mul(hn::Sub(GatheredSun<true>(s, p, level_m), one), Constant(shafts.contrast));
-    const V sun = hn::Sub(hn::MulAdd(more_sun, visible, visible), one);
+    V sun = hn::Sub(hn::MulAdd(more_sun, visible, visible), one);
     // Sunlight that has been scattered on its way down makes no shafts.
     const V depth = hn::NegMulAdd(t, direction.z, Constant(shafts.eye_depth_m));
     const V lost = hn::MulAdd(depth, Constant(shafts.diffused_per_m), hn::Mul(t, ray.lost_per_m));
     const V weight = hn::Mul(step, Exp(D(), hn::Neg(lost)));
     V& part = more[2 * i / kShaftSteps];
+    if (clouds) {
+      // Under clouds it is missing all the same.
+      if (i % 2 == 0) under_clouds = SunUnderCloudsInWater(s, *clouds, p);
+      sun = hn::Mul(sun, under_clouds);
+      const V all = hn::Mul(step, Exp(D(), hn::Neg(hn::Mul(t, ray.lost_per_m))));
+      part = hn::MulAdd(hn::Sub(under_clouds, one), all, part);
+    }
     part = hn::MulAdd(sun, weight, part);
+  }
+  // Clouds' shadows go on beyond where shafts end.
+  if (clouds) {
+    const V beyond = hn::Sub(ScatteredOn(ray, ray.end), ScatteredOn(ray, ray.reach));
+    more[1] = hn::MulAdd(hn::Sub(under_clouds, one), hn::Max(beyond, hn::Zero(D())), more[1]);
   }
   const V near = ScatteredOn(ray, hn::Mul(ray.reach, Constant(0.25f)));
   const V beyond = hn::Max(hn::Sub(ScatteredOn(ray, ray.end), near), Constant(1e-3f));

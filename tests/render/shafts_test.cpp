@@ -150,6 +150,43 @@ TEST(Shafts, AreDarkInShadow) {
   EXPECT_LT(shafts(world, {.depth_m = 3.0, .pitch_rad = -0.3}).mean, -0.1);
 }
 
+// A cloud wider than water is clear, over an eye 30 m deep: the sun's part of what is scattered to
+// the eye is as much less as the sun is, and brings as much weaker shafts.
+TEST(Shafts, AreDimInTheShadowOfClouds) {
+  scene::Scene scene = deep_sea();
+  put_sun_in_the_south(scene.sky, 0.5 * std::numbers::pi);
+  scene.clouds.kind = scene::CloudKind::kPlaced;
+  scene.clouds.wind_factor = 0.0;
+  scene.clouds.cumulus = {{.position_m = {0.0, -3000.0}, .width_m = 3000.0, .height_m = 1200.0}};
+  const World world(scene, deep_world(), 2);
+  Workers workers(2);
+  Workspace workspace;
+  Target target;
+  FrameOptions options;
+  options.keep_linear = true;
+  const View view = view_of({.depth_m = 30.0, .pitch_rad = 0.2});
+  const auto light_with = [&](PartSet without) {
+    options.without = without;
+    render_frame(world, view, 3.0, options, workspace, target, workers);
+    double sum = 0.0;
+    for (std::size_t i = 1; i < target.linear.size(); i += 3)
+      sum += static_cast<double>(target.linear[i]);
+    return sum;
+  };
+  const double shaded = light_with({}), even = light_with({Part::kCloudShadows});
+  const Shading& shading = workspace.state().shading;
+  const double sun_part = static_cast<double>(shading.shafts.sun_part);
+  light_with({});
+  const CloudShadow& shadow = *shading.sun_shadow.clouds;
+  constexpr std::size_t kMiddle = CloudShadow::kSide / 2 * (CloudShadow::kSide + 1);
+  const double left = static_cast<double>(shadow.words[0][kMiddle] & 255u) / 255.0;
+  EXPECT_LT(left, 0.3);
+  // Level rays across a sun straight above: Henyey and Greenstein's function with g = 1/2 is 0.537.
+  const double phase = 0.75 / std::pow(1.25, 1.5);
+  const double sun = phase * sun_part / (phase * sun_part + 1.0 - sun_part);
+  EXPECT_NEAR(shaded / even, 1.0 - (1.0 - left) * sun, 0.05);
+}
+
 TEST(Shafts, AreTheSameBitsInTilesOfAnySize) {
   scene::Scene scene = deep_sea();
   scene.objects.push_back(slab({2.0, -3009.0}, {3.0, 3.0, 2.0}, -0.5));
