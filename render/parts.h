@@ -47,7 +47,7 @@ enum class Part : std::uint8_t {
   kFog,           // over the sea
   kStars,         // of the night sky
   kVolumeClouds,  // of [clouds], before and behind things, and mirrored
-  kCloudShadows,  // of all clouds on sea and land
+  kCloudShadows,  // of all clouds on sea and land, in fog and water
   kForms,         // objects made of functions
   kShelter,       // what land takes of the open sea's waves; queries and trains keep it
   kSurfFronts,    // foam that runs to shores without wave trains

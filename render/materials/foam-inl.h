@@ -7,7 +7,7 @@
 #endif
 
 #include "render/materials/foam.h"
-#include "render/tile/packet-inl.h"
+#include "render/tile/sun_shadow-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -37,9 +37,10 @@ HWY_INLINE V FoamCover(const Foam& material, V3 p, V level_m, V foam) {
   return CoverOfOver(FoamOver(material, p, level_m, foam));
 }
 
-// sun_visible: the part of the sun that the foam sees.
-HWY_INLINE V3 AddFoam(const Foam& material, V cover, V sun_visible, V3 light) {
-  const V3 foam = ScaleAdd(Constant(material.sun_light), sun_visible, Constant(material.sky_light));
+// seen: by the foam.
+HWY_INLINE V3 AddFoam(const Foam& material, V cover, const LightSeen& seen, V3 light) {
+  const V3 foam = ScaleAdd(Constant(material.sun_light), seen.sun,
+                           Scale(Constant(material.sky_light), seen.ambient));
   return Lerp(light, foam, hn::Mul(cover, Constant(0.92f)));
 }
 

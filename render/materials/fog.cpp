@@ -91,6 +91,8 @@ Fog make_fog(const World::State& world, double t_s, glm::dvec3 eye_world, PartSe
     fog.scattered = sky.irradiance * static_cast<float>((1.0 - l * l) / (4.0 * kPi));
   fog.even = world.fog_light.even;
   fog.ambient = world.fog_light.ambient;
+  fog.even_sun = world.fog_light.even_sun;
+  fog.ambient_sun = world.fog_light.ambient_sun;
   fog.at_eye = start_at(air, per_m, sun_sine, eye_world.z);
   fog.at_sea = start_at(air, per_m, sun_sine, 0.0);
   fill_banks(world, t_s, glm::dvec2(eye_world), fog);
@@ -105,11 +107,16 @@ FogLights light_fog(const scene::FoggyAir& air, const SkyMaps& sky) {
   const double sine = sky.to_light.z > 0.0f ? std::max<double>(sky.to_light.z, kLeastSine) : 0.0;
   for (int c = 0; c < 3; ++c) {
     const double depth = per_m[c] * scene::fog_above_m(air, 0.0);
-    const double sun = sky.irradiance[c], from_sky = sky.ambient[c];
-    const scene::FogLight light = scene::light_in_fog(depth, air.forward, sine, sun, from_sky,
-                                                      kSeaReflects * (from_sky + sun * sine / kPi));
+    const double sun = sky.irradiance[c];
+    const auto light_of = [&](double from_sky) {
+      return scene::light_in_fog(depth, air.forward, sine, sun, from_sky,
+                                 kSeaReflects * (from_sky + sun * sine / kPi));
+    };
+    const scene::FogLight light = light_of(sky.ambient[c]), of_sun = light_of(0.0);
     lights.even[c] = static_cast<float>(light.even);
     lights.ambient[c] = static_cast<float>(light.ambient);
+    lights.even_sun[c] = static_cast<float>(of_sun.even);
+    lights.ambient_sun[c] = static_cast<float>(of_sun.ambient);
   }
   return lights;
 }

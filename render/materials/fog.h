@@ -9,6 +9,8 @@
 
 namespace swell::render {
 
+struct CloudShadow;
+
 // Where a way through fog begins.
 struct FogStart {
   float height_m = 0.0f;       // over the sea
@@ -42,10 +44,13 @@ struct Fog {
   glm::vec3 scattered{0.0f};
   glm::vec3 even{0.0f};     // scene::FogLight
   glm::vec3 ambient{0.0f};  // the same
-  float forward = 0.0f;     // l
+  // The parts of both that are the sun's.
+  glm::vec3 even_sun{0.0f}, ambient_sun{0.0f};
+  float forward = 0.0f;  // l
   float sun_sine = 1.0f;
   int bank_count = 0;
   std::array<FogBank, kMostBanks> banks;
+  const CloudShadow* clouds = nullptr;  // in which there is less of the sun's light; none: nowhere
 };
 
 // eye_world: of the camera. What drifts with the wind is a function of t_s.

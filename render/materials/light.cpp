@@ -29,6 +29,11 @@ glm::vec3 moon_lit_from(const scene::Sky& sky, glm::vec3 to_disc) {
          cosine * to_disc;
 }
 
+// Of all channels together.
+float part_of(glm::vec3 part, glm::vec3 whole) {
+  return (part.x + part.y + part.z) / std::max(whole.x + whole.y + whole.z, 1e-12f);
+}
+
 }  // namespace
 
 Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky,
@@ -56,7 +61,10 @@ Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame
   light.clouds = clouds;
   if (!sky.clouds.any && !fog.on && base_variance(world.scene) < kCalmVariance)
     light.calm = {&maps.heights.front().map, maps.azimuth, sky.layer.any ? &sky.layer : nullptr};
-  if (sky.shadow.any) light.cloud_shadow = &sky.shadow;
+  if (sky.shadow.any) {
+    light.cloud_shadow = &sky.shadow;
+    if (fog.on) light.fog_ambient = part_of(fog.ambient_sun, fog.ambient);
+  }
   return light;
 }
 
@@ -65,6 +73,7 @@ Media make_media(const World::State& world, const Light& light, const Fog& fog, 
   const scene::WaterOptics& water = world.scene.water;
   Media media;
   media.fog = fog;
+  media.fog.clouds = light.cloud_shadow;
   if (!without.has(Part::kHaze)) {
     media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
     if (height_m > kAloft_m) media.molecules_per_m = world.sky->molecules_per_m;

@@ -48,6 +48,8 @@ struct Light {
   Stars stars;
   CalmMirror calm;
   const CloudShadow* cloud_shadow = nullptr;  // none: clouds dim all alike
+  // The part of `ambient` that fog scatters down of the sun's light, where clouds shade it; else 0.
+  float fog_ambient = 0.0f;
 };
 
 // What light passes on its way.

@@ -144,12 +144,13 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
 // Light that a matt surface sends back: of the sun, straight and thrown up by waves, of the sky
 // above, of the sea below.
 HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
-                        V sun_visible, V thrown) {
+                        const LightSeen& seen, V thrown) {
   const V facing = Dot(s.normal, Constant(light.sun_direction));
   const V lit = hn::Max(facing, hn::Mul(hn::Neg(facing), s.translucency));
-  const V cos_sun = hn::MulAdd(hn::Max(lit, hn::Zero(D())), sun_visible, thrown);
+  const V cos_sun = hn::MulAdd(hn::Max(lit, hn::Zero(D())), seen.sun, thrown);
   const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
-  const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen);
+  const V3 around =
+      Scale(Lerp(Constant(sea_light), Constant(light.ambient), sky_seen), seen.ambient);
   const V matt = hn::Sub(Constant(1.0f), s.metalness);
   return Product(Scale(s.albedo, matt), ScaleAdd(Constant(light.sun_irradiance),
                                                  hn::Mul(cos_sun, Constant(0.318309886f)), around));
@@ -253,7 +254,8 @@ struct Shader<Object, kView> {
     else
       thrown = hn::Mul(over_others,
                        ThrownLight(s, packet.p, surface.normal, FootprintAcross(s.rays, packet)));
-    const V3 matt = MattLight(s.light, object.sea_light, surface, sun_visible, thrown);
+    const V3 matt = MattLight(s.light, object.sea_light, surface,
+                              {sun_visible, AmbientUnderClouds(s, packet.p)}, thrown);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};
     return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),
             surface.normal};

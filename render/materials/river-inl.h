@@ -276,8 +276,8 @@ HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
     const V net = GatheredSunAt(s, 1, p, depth, level_m);
     gathered = hn::IfThenElse(shows, hn::Mul(sun_visible, net), sun_visible);
   }
-  const V3 lit =
-      Product(ScaleAdd(Constant(river.sun_light), gathered, Constant(river.sky_light)), bed);
+  const V3 of_sky = Scale(Constant(river.sky_light), AmbientUnderClouds(s, packet.p));
+  const V3 lit = Product(ScaleAdd(Constant(river.sun_light), gathered, of_sky), bed);
   const V length = hn::MulAdd(depth, Constant(kDaylightSlant), hn::Min(path, Constant(200.0f)));
   const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
   const V3 seen = AbsorbInWater(s.media, {depth, length}, lit);
@@ -389,7 +389,7 @@ struct Shader<River, ViewKind::kWindow> {
     V3 seen = Lerp(refracted, mirrored, f.reflectance);
     seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), seen);
     const V white = hn::Mul(foam.cover, hn::MulAdd(foam.thickness, Constant(0.5f), Constant(0.4f)));
-    seen = AddFoam(river.foam, white, sun_visible, seen);
+    seen = AddFoam(river.foam, white, {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
   }
 };

@@ -129,7 +129,7 @@ HWY_INLINE Ground LightGround(const Terrain& terrain, const Shading& s, const Pa
   const V rough = hn::Div(look.inverse_length, look.normal.z);
   const V cos_mean = hn::Mul(Dot(look.normal, Constant(light.sun_direction)), rough);
   const V cos_sun = hn::Mul(hn::Max(cos_mean, zero), sun_visible);
-  const V open = hn::Mul(look.sky_seen, under.sky);
+  const V open = hn::Mul(hn::Mul(look.sky_seen, under.sky), AmbientUnderClouds(s, packet.p));
   const V sky_seen = hn::Mul(hn::MulAdd(look.inverse_length, Constant(0.5f), Constant(0.5f)), open);
   const V3 arriving =
       ScaleAdd(Constant(light.sun_irradiance), hn::Mul(cos_sun, Constant(0.318309886f)),
@@ -264,7 +264,8 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
       ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, hn::Mul(film, sun_visible)), light);
   const V foam = SheetFoam(reach_m, swash, below, span_m, calm);
   const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
-  light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover), sun_visible, light);
+  light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover),
+                  {sun_visible, AmbientUnderClouds(s, packet.p)}, light);
   return {hn::IfThenElse(reached, light.x, ground.x), hn::IfThenElse(reached, light.y, ground.y),
           hn::IfThenElse(reached, light.z, ground.z)};
 }

@@ -162,8 +162,7 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   r.z = hn::Max(r.z, Constant(-0.25f));
   const V length = hn::Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
-  if (light.calm.sky)
-    mirrored = MirrorSky(light.calm, packet, r, length, s.variance, mirrored);
+  if (light.calm.sky) mirrored = MirrorSky(light.calm, packet, r, length, s.variance, mirrored);
   if (light.stars.on)
     mirrored = Sum(mirrored, MirroredStars(light.stars, r, length,
                                            hn::Sub(s.variance, Constant(water.base_variance))));
@@ -177,6 +176,14 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
     mirrored = Lerp(mirrored, image.light, image_alpha);
   }
   return mirrored;
+}
+
+// Radiance of deep water where nothing but clouds' shadows in fog dim it.
+HWY_INLINE V3 BodyUnderClouds(const Shading& s, const V3& p) {
+  const V3 body = Constant(s.media.body);
+  if (s.light.fog_ambient <= 0.0f) return body;
+  const V less = hn::Sub(AmbientUnderClouds(s, p), Constant(1.0f));
+  return ScaleAdd(Constant(s.media.body - s.media.body_sun), less, body);
 }
 
 // What comes up through the surface: scattered light of the water body, which comes in from around
@@ -201,8 +208,8 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
       hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
   const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
   const V3 crest_light = Scale(Constant(water.crest_glow), glow);
-  V3 deep = Sum(crest_light,
-                ScaleAdd(Constant(shading.media.body_sun), shade, Constant(shading.media.body)));
+  V3 deep = Sum(crest_light, ScaleAdd(Constant(shading.media.body_sun), shade,
+                                      BodyUnderClouds(shading, packet.p)));
   if (water.bump_detail.map)
     deep = Scale(deep, BumpLight(shading, water.bump_detail, packet, NormalOf(s.slope_x, s.slope_y),
                                  sun_visible));
@@ -314,7 +321,8 @@ struct WaterShader {
       sun_path =
           hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));
     V3 seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), arriving);
-    seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction, sun_visible, f.normal, seen);
+    seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction,
+                        {sun_visible, AmbientUnderClouds(shading, packet.p)}, f.normal, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
   }
 };

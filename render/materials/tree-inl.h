@@ -135,9 +135,9 @@ struct Shader<Tree, kView> {
     const V sky_seen = hn::Mul(hn::MulAdd(point.normal.z, half, half), open);
     // Below there is ground of about the trees' own brightness.
     const V around = hn::MulAdd(sky_seen, Constant(0.9f), Constant(0.1f));
-    const V3 arriving =
-        ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(sun, Constant(0.318309886f)),
-                 Scale(Constant(s.light.ambient), around));
+    const V3 arriving = ScaleAdd(
+        Constant(s.light.sun_irradiance), hn::Mul(sun, Constant(0.318309886f)),
+        Scale(Constant(s.light.ambient), hn::Mul(around, AmbientUnderClouds(s, packet.p))));
     return {Product(arriving, Scale(its.albedo, point.bright)), point.normal};
   }
 };

@@ -8,7 +8,7 @@
 
 #include "render/materials/foam_map-inl.h"
 #include "render/materials/whitecaps.h"
-#include "render/tile/packet-inl.h"
+#include "render/tile/sun_shadow-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -137,13 +137,14 @@ HWY_INLINE V OpacityOf(V thickness) {
   return hn::MulAdd(thickness, Constant(0.42f), Constant(0.55f));
 }
 
-// Water of radiance `light` under foam that sees sun_visible of the sun.
+// Water of radiance `light` under foam that sees so much of sun and sky.
 HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, const TornFoam& foam, glm::vec3 sun_direction,
-                           V sun_visible, V3 normal, V3 light) {
+                           const LightSeen& seen, V3 normal, V3 light) {
   const V zero = hn::Zero(D());
   if (hn::AllFalse(D(), hn::Gt(hn::Max(foam.cover, foam.bubbles), zero))) return light;
-  const V cos_sun = hn::Mul(hn::Max(Dot(normal, Constant(sun_direction)), zero), sun_visible);
-  const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light));
+  const V cos_sun = hn::Mul(hn::Max(Dot(normal, Constant(sun_direction)), zero), seen.sun);
+  const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun,
+                            Scale(Constant(material.sky_light), seen.ambient));
   const V3 bubbly = {hn::Mul(white.x, Constant(material.bubbles.x)),
                      hn::Mul(white.y, Constant(material.bubbles.y)),
                      hn::Mul(white.z, Constant(material.bubbles.z))};

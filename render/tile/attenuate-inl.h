@@ -183,7 +183,7 @@ HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
 [[maybe_unused]] static HWY_NOINLINE V3 SkyThroughAir(const Shading& s, V3 direction, V3 light) {
   const Fog& fog = s.media.fog;
   if (fog.is_exponential || fog.at_eye.above_m > 0.0f)
-    return SkyThroughFog(fog, fog.at_eye, direction, light);
+    return ThroughFog(SkyFog(fog, fog.at_eye, direction, kPlacesBeforeSky), light);
   const FogRay ray = {fog.at_eye, direction, Constant(kEndless_m), Constant(kEndless_m)};
   const FogPath path = PathInSlab(fog, ray);
   const auto meets = hn::Gt(path.amount, hn::Zero(D()));
@@ -199,12 +199,18 @@ HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
   return Where(meets, Haze(s, top, foggy), light);
 }
 
-// Fog on a way that begins at the sea, up to a height.
-static HWY_NOINLINE V3 FogFromSea(const Shading& s, V3 direction, V distance, V height, V3 colour) {
+// Fog on a way that begins at the sea, up to a height, and ends at a place.
+static HWY_NOINLINE V3 FogFromSea(const Shading& s, V3 direction, V distance, V height, V3 place,
+                                  V3 colour) {
   const Fog& fog = s.media.fog;
   const V length = hn::Max(distance, Constant(1e-3f)), up = hn::Max(height, hn::Zero(D()));
   direction.z = hn::Min(hn::Div(up, length), Constant(1.0f));
-  const FogRay ray = {fog.at_sea, direction, distance, up};
+  const FogRay ray = {fog.at_sea,
+                      direction,
+                      distance,
+                      up,
+                      hn::NegMulAdd(direction.x, distance, place.x),
+                      hn::NegMulAdd(direction.y, distance, place.y)};
   return ThroughFog(SeeFog(fog, ray, PathTo(fog, ray)), colour);
 }
 
@@ -390,7 +396,7 @@ HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen,
     if (!s.media.fog.on) return hazy;
     const V height = hn::Sub(seen.packet.p.z, Constant(s.media.eye_depth_m));
     return FogFromSea(s, Scale(seen.packet.to_eye, Constant(-1.0f)), seen.packet.distance, height,
-                      hazy);
+                      seen.packet.p, hazy);
   } else if (s.media.submerged) {
     return ThroughWater(s.media, glm::vec3(1.0f), seen.way, light);
   } else {
@@ -400,7 +406,7 @@ HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen,
     const V height = hn::Mul(hn::Sub(seen.packet.p.z, shown.p.z), Constant(0.5f));
     const V part = Clamp(hn::Div(height, hn::Max(hn::Neg(shown.p.z), Constant(1e-3f))), 0.0f, 1.0f);
     return FogFromSea(s, Scale(shown.to_eye, Constant(-1.0f)), hn::Mul(shown.distance, part),
-                      height, hazy);
+                      height, seen.packet.p, hazy);
   }
 }
 

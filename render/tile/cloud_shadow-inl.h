@@ -30,9 +30,10 @@ HWY_INLINE V CloudShadowTexel(const std::vector<std::uint32_t>& words, V u, V v)
               Lerp(value(hn::ShiftRight<16>(word)), value(hn::ShiftRight<24>(word)), s), t);
 }
 
-// The sun that clouds leave at p, relative to the eye, over what they leave of it on average. A
-// function of its own: what it takes would cost the shaders registers.
-inline HWY_NOINLINE V SunUnderClouds(const CloudShadow& shadow, const V3& p, float eye_z) {
+// SunUnderClouds(). share(level, part): what of a level's part may be used.
+template <class Share>
+HWY_INLINE V SampleCloudShadow(const CloudShadow& shadow, const V3& p, float eye_z,
+                               const Share& share) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
   constexpr float kMiddle = 0.5f * CloudShadow::kSide, kWhole = 0.42f * CloudShadow::kSide;
@@ -50,7 +51,7 @@ inline HWY_NOINLINE V SunUnderClouds(const CloudShadow& shadow, const V3& p, flo
     const V inside = Clamp(hn::Mul(hn::Sub(Constant(kMiddle - 1.0f), aside),
                                    Constant(1.0f / (kMiddle - 1.0f - kWhole))),
                            0.0f, 1.0f);
-    const V part = hn::Mul(inside, left);
+    const V part = share(level, hn::Mul(inside, left));
     if (!hn::AllFalse(d, hn::Gt(part, zero)))
       sum = hn::MulAdd(part, CloudShadowTexel(shadow.words[level], u, v), sum);
     left = hn::Sub(left, part);
@@ -63,6 +64,25 @@ inline HWY_NOINLINE V SunUnderClouds(const CloudShadow& shadow, const V3& p, flo
   const V over =
       Clamp(hn::Mul(above, Constant(1.0f / (shadow.lit_all_m - shadow.lit_from_m))), 0.0f, 1.0f);
   return Lerp(visible, one, over);
+}
+
+// The sun that clouds leave at p, relative to the eye, over what they leave of it on average. A
+// function of its own: what it takes would cost the shaders registers.
+inline HWY_NOINLINE V SunUnderClouds(const CloudShadow& shadow, const V3& p, float eye_z) {
+  return SampleCloudShadow(shadow, p, eye_z, [](std::size_t, V part) HWY_ATTR { return part; });
+}
+
+// The same about a place over the sea's level, as wide as places are apart that stand for all
+// between them.
+inline HWY_NOINLINE V SunUnderCloudsAbout(const CloudShadow& shadow, const V3& place, V apart_m) {
+  return SampleCloudShadow(shadow, place, 0.0f, [&](std::size_t level, V part) HWY_ATTR {
+    if (level + 1 == CloudShadow::kLevels) return part;
+    constexpr float kNone = 4.0f;  // texels apart: as far as those of the next level
+    const V texels = hn::Mul(apart_m, Constant(1.0f / CloudShadow::kTexels_m[level]));
+    return hn::Mul(part,
+                   Clamp(hn::Mul(hn::Sub(Constant(kNone), texels), Constant(1.0f / (kNone - 1.0f))),
+                         0.0f, 1.0f));
+  });
 }
 
 }  // namespace HWY_NAMESPACE

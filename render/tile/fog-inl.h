@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "render/materials/fog.h"
+#include "render/tile/cloud_shadow-inl.h"
 #include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,13 +20,14 @@ namespace HWY_NAMESPACE {
 // Further than all that fog lies before.
 constexpr float kEndless_m = 1e7f;
 
-// A way away from the eye: where it begins, its direction of length 1, its length, and how far it
-// ends over the sea.
+// A way away from the eye: where it begins, its direction of length 1, its length, how far it ends
+// over the sea, and how far it begins from the eye along x and y.
 struct FogRay {
   const FogStart& start;
   V3 direction;
   V distance;
   V end_height;
+  V from_x = hn::Zero(D()), from_y = hn::Zero(D());
 };
 
 // What of it lies in fog.
@@ -191,17 +193,93 @@ HWY_INLINE V FogPhase(const Fog& fog, V3 direction) {
   return hn::Div(Constant(1.0f), hn::Mul(under, hn::Sqrt(under)));
 }
 
-HWY_INLINE FogView SeeFog(const Fog& fog, const FogRay& ray, FogPath path, V phase) {
+// How far along a ray so much of its fog lies before: there the fog thins as e^(-z / H). With a the
+// fog straight up from the start and w the ray's rise, t = -(H / w) ln(1 - w amount / a).
+HWY_INLINE V DistanceOfAmount(const Fog& fog, const FogRay& ray, V rise, V amount) {
+  const D d;
+  const float above_m = std::max(ray.start.above_m, 1e-20f);
+  const V level = hn::Mul(amount, Constant(fog.top_m / above_m));
+  const V y = hn::Mul(hn::Mul(amount, rise), Constant(1.0f / above_m));
+  const V left = hn::Max(hn::Sub(Constant(1.0f), y), Constant(1e-4f));
+  const auto is_level = hn::Lt(hn::Abs(y), Constant(1e-3f));
+  const V bent = hn::Div(hn::Mul(Log2(d, left), Constant(-0.69314718f)),
+                         hn::IfThenElse(is_level, Constant(1.0f), y));
+  return hn::Mul(level, hn::IfThenElse(is_level, Constant(1.0f), bent));
+}
+
+// Places along a way, each of which stands for as much of the light that the way scatters. Before
+// the sky, which is found at few pixels, there are more of them, so that shafts are sharp.
+constexpr int kPlacesOnWay = 8, kPlacesBeforeSky = 32;
+
+// The sun's light that clouds leave a way to scatter to the eye, over its mean. `amount`: as the
+// path's, in its banks. From the part u of the way comes light e^(-x u), as in EffectOf().
+static HWY_NOINLINE V SunUnderCloudsOnWay(const Fog& fog, FogRay ray, FogPath path, V amount,
+                                          int places) {
+  const D d;
+  const V one = Constant(1.0f), zero = hn::Zero(d);
+  // A round earth's slab is level where most of the light comes from: near the eye.
+  V rise = ray.direction.z;
+  if (fog.is_exponential) {
+    const V upright = hn::Div(path.leaning, hn::Max(path.amount, Constant(1e-9f)));
+    rise = hn::Mul(hn::Sub(one, upright), Constant(fog.sun_sine));
+  }
+  const V depth = hn::Mul(amount, Constant(fog.per_m.y));
+  const V x = hn::Max(fog.is_paper ? depth : Leaning(fog, depth, rise), Constant(-60.0f));
+  const V lost = hn::Sub(one, Exp(d, hn::Neg(hn::Min(x, Constant(60.0f)))));
+  const auto is_even = hn::Lt(hn::Abs(x), Constant(1e-3f));
+  const V scale = hn::Div(Constant(-0.69314718f), hn::IfThenElse(is_even, one, x));
+
+  // How fast a place moves over the shadow: along the sun's light it stays the same.
+  const glm::vec2 slant = fog.clouds->slant;
+  const V across_x = hn::NegMulAdd(rise, Constant(slant.x), ray.direction.x);
+  const V across_y = hn::NegMulAdd(rise, Constant(slant.y), ray.direction.y);
+  const V across = hn::Sqrt(hn::MulAdd(across_x, across_x, hn::Mul(across_y, across_y)));
+  V sum = zero, last = path.before;
+  for (int k = 0; k < places; ++k) {
+    const V q = Constant((static_cast<float>(k) + 0.5f) / static_cast<float>(places));
+    const V part = hn::Mul(Log2(d, hn::NegMulAdd(lost, q, one)), scale);
+    const V before = hn::Mul(path.amount, hn::IfThenElse(is_even, q, part));
+    const V t = fog.is_exponential ? DistanceOfAmount(fog, ray, rise, before)
+                                   : hn::Add(path.before, before);
+    const V z = hn::Max(hn::MulAdd(t, rise, Constant(ray.start.height_m)), zero);
+    const V3 place = {hn::MulAdd(t, ray.direction.x, ray.from_x),
+                      hn::MulAdd(t, ray.direction.y, ray.from_y), z};
+    const V apart = hn::Mul(hn::Sub(t, last), across);
+    sum = hn::Add(sum, SunUnderCloudsAbout(*fog.clouds, place, apart));
+    last = t;
+  }
+  return hn::Mul(sum, Constant(1.0f / static_cast<float>(places)));
+}
+
+// The same less 1, of what is seen.
+HWY_INLINE V ShadeOfClouds(const Fog& fog, const FogRay& ray, const FogPath& path, V amount,
+                           int places) {
+  const D d;
+  const auto shows = hn::Gt(hn::Mul(amount, Constant(fog.per_m.y)), Constant(1.0f / 512.0f));
+  if (hn::AllFalse(d, shows)) return hn::Zero(d);
+  const V lit = SunUnderCloudsOnWay(fog, ray, path, amount, places);
+  return hn::IfThenElseZero(shows, hn::Sub(lit, Constant(1.0f)));
+}
+
+HWY_INLINE FogView SeeFog(const Fog& fog, const FogRay& ray, FogPath path, V phase,
+                          int places = kPlacesOnWay) {
   const V one = Constant(1.0f);
   const V upright = hn::Div(path.amount, path.leaning);
+  const FogPath way = path;
   if (fog.bank_count > 0) {
     const V density = MeanOfBanks(fog, ray, path);
     path.amount = hn::Mul(path.amount, density);
     path.leaning = hn::Mul(path.leaning, density);
   }
+  V shade = hn::Zero(D());
+  if (fog.clouds) shade = ShadeOfClouds(fog, ray, way, path.amount, places);
   const auto added = [&](const FogEffect& effect, int channel) HWY_ATTR {
-    return hn::MulAdd(hn::Mul(phase, effect.once), Constant(fog.scattered[channel]),
-                      hn::Mul(hn::Sub(one, effect.passes), Constant(fog.even[channel])));
+    const V once = hn::Mul(phase, effect.once), lost = hn::Sub(one, effect.passes);
+    const auto light = [&](glm::vec3 even) HWY_ATTR {
+      return hn::MulAdd(once, Constant(fog.scattered[channel]),
+                        hn::Mul(lost, Constant(even[channel])));
+    };
+    return fog.clouds ? hn::MulAdd(shade, light(fog.even_sun), light(fog.even)) : light(fog.even);
   };
   const FogEffect red = EffectOf(fog, ray.start, path, upright, 0);
   if (fog.is_grey)
@@ -238,13 +316,15 @@ HWY_INLINE FogPath PathTo(const Fog& fog, const FogRay& ray) {
 }
 
 // The fog before the sky, in a direction of length 1.
-static HWY_NOINLINE FogView SkyFog(const Fog& fog, const FogStart& start, V3 direction) {
+static HWY_NOINLINE FogView SkyFog(const Fog& fog, const FogStart& start, V3 direction,
+                                   int places) {
   const FogRay ray = {start, direction, Constant(kEndless_m), Constant(kEndless_m)};
-  return SeeFog(fog, ray, PathToSky(fog, ray));
+  return SeeFog(fog, ray, PathToSky(fog, ray), FogPhase(fog, direction), places);
 }
 
+// As waves mirror it.
 HWY_INLINE V3 SkyThroughFog(const Fog& fog, const FogStart& start, V3 direction, V3 light) {
-  return ThroughFog(SkyFog(fog, start, direction), light);
+  return ThroughFog(SkyFog(fog, start, direction, kPlacesOnWay), light);
 }
 
 // How much more of the sun there is at a height over the eye than at the sea, as the mean of the

@@ -210,7 +210,8 @@ inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, Sk
       StoreView(ViewSky(s, ray), s.light.clouds.any, at, nodes);
       const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
       nearest = hn::Max(nearest, Dot(direction, Constant(s.light.to_disc)));
-      if (has_fog) StoreFog(SkyFog(s.media.fog, s.media.fog.at_eye, direction), at, nodes);
+      if (has_fog)
+        StoreFog(SkyFog(s.media.fog, s.media.fog.at_eye, direction, kPlacesBeforeSky), at, nodes);
     }
   }
   // No pixel is further from a node than a step's diagonal, no direction turns by more than

@@ -122,6 +122,19 @@ HWY_INLINE V AheadOf(const Outline& outline, const SunPlace& at) {
   return hn::Sub(Lerp(end(outline.left_depth_m), end(outline.right_depth_m), t), at.depth);
 }
 
+// What a place sees of the sun's light and of that from above, over their means.
+struct LightSeen {
+  V sun, ambient;
+};
+
+// The light from above at p over its mean: fog in the shadow of clouds sends less of it down.
+HWY_INLINE V AmbientUnderClouds(const Shading& s, const V3& p) {
+  const V one = Constant(1.0f);
+  if (s.light.fog_ambient <= 0.0f) return one;
+  const V lit = SunUnderClouds(*s.sun_shadow.clouds, p, s.rays.eye_z);
+  return hn::MulAdd(hn::Sub(lit, one), Constant(s.light.fog_ambient), one);
+}
+
 // The pixels that a packet lies between.
 HWY_INLINE PixelSpan SpanOf(const Packet& packet) {
   const D d;

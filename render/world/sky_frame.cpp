@@ -79,8 +79,10 @@ void advance_sky(const World::State& world, const Clouds& mirrored, const Fog& f
   if (!mirrored.any && !sky.clouds.any && !fog.on) return;
   for (texture::RgbaImage* const codes : {&sky.codes_clear, &sky.codes})
     if (codes->width != kSoftSkySize) texture::resize_image(kSoftSkySize, kSoftSkySize, *codes);
+  Fog shaded = fog;
+  shaded.clouds = sky.shadow.any ? &sky.shadow : nullptr;
   for_each_row(kSoftSkySize, run.workers, [&](int y) {
-    write_soft_sky_row(maps, mirrored, sky.clouds, fog, y, sky.codes_clear, sky.codes);
+    write_soft_sky_row(maps, mirrored, sky.clouds, shaded, y, sky.codes_clear, sky.codes);
   });
   texture::pack_rgb(sky.codes_clear, sky.soft_clear);
   sky.mirrored = sky.mirrored_clear = &sky.soft_clear;

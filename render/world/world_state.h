@@ -93,6 +93,7 @@ struct SkyMaps {
 // What fog makes of the light over it: scene::FogLight of each channel, exposed.
 struct FogLights {
   glm::vec3 even{0.0f}, ambient{0.0f};
+  glm::vec3 even_sun{0.0f}, ambient_sun{0.0f};  // the parts that are the sun's
 };
 
 // Over the terrain's square, and coarser over the square with its apron.

@@ -1,11 +1,13 @@
 // The shaders' fog against the closed forms of scene/fog.h and sums along the way.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "render/shader_kernels.h"
+#include "render/world/cloud_shadow.h"
 #include "scene/fog.h"
 #include "texture/on_every_target.h"
 
@@ -186,6 +188,102 @@ TEST_P(FogKernel, BanksAreTheMeanOfTheirWaves) {
       const double depth = -std::log(fog.see(glm::vec3(direction), way_m).passes.x);
       EXPECT_NEAR(depth, 1e-3 * way_m * sum, 2e-4 * depth + 2e-7) << way_m << ' ' << turn;
     }
+}
+
+// Clouds that leave a fifth of the sun west of edge_m from the eye, and all of it east of that.
+struct HalfShade {
+  explicit HalfShade(double edge_m) : edge(edge_m) {
+    constexpr int n = CloudShadow::kSide;
+    shadow.any = true;
+    for (std::size_t level = 0; level < CloudShadow::kLevels; ++level) {
+      shadow.eye[level] = {0.5f * n - static_cast<float>(edge_m) / CloudShadow::kTexels_m[level],
+                           0.5f * n};
+      for (int i = 0; i < n * n; ++i) {
+        const auto lit = [&](int x) { return x < n / 2 ? 51u : 255u; };
+        const std::uint32_t here = lit(i % n), east = lit(i % n + 1);
+        shadow.words[level].push_back(here | east << 8 | here << 16 | east << 24);
+      }
+    }
+  }
+  double at(double x) const { return 0.2 + 0.8 * std::clamp((x - edge) / 48.0 + 1.0, 0.0, 1.0); }
+
+  double edge;
+  CloudShadow shadow;
+};
+
+Air air_of(scene::FogProfile profile, double per_m, double eye_m) {
+  scene::FoggyAir air = slab(per_m, 60.0);
+  air.profile = profile;
+  return Air(air, eye_m);
+}
+
+constexpr scene::FogProfile kProfiles[] = {scene::FogProfile::kSlab,
+                                           scene::FogProfile::kExponential};
+
+TEST_P(FogKernel, SunlightFallsByWhatCloudsLeaveOfIt) {
+  const HalfShade shaded(1500.0), lit(-100.0);
+  for (const auto profile : kProfiles)
+    for (const double per_m : {1e-4, 1e-3, 2e-2})
+      for (const float rise : {-0.02f, 0.0f, 0.1f, 0.9f}) {
+        Air fog = air_of(profile, per_m, 5.0);
+        fog.fog.even = {0.3f, 0.3f, 0.5f}, fog.fog.even_sun = glm::vec3(0.3f);
+        const double way_m = rise < 0.0f ? 200.0 : 1500.0;
+        const glm::vec3 west(-1.0f, 0.5f, rise), east(1.0f, 0.5f, rise);
+        const Air::Seen bare = fog.see(west, way_m), bare_east = fog.see(east, way_m);
+        fog.fog.clouds = &shaded.shadow;
+        const Air::Seen dim = fog.see(west, way_m);
+        fog.fog.clouds = &lit.shadow;
+        const Air::Seen bright = fog.see(east, way_m);
+        EXPECT_EQ(dim.passes, bare.passes);
+        EXPECT_NEAR(dim.added.y / bare.added.y, 0.2, 1e-3) << per_m << ' ' << rise;
+        EXPECT_NEAR(bright.added.y / bare_east.added.y, 1.0, 1e-4) << per_m << ' ' << rise;
+        // The sky's light is not the clouds' to shade.
+        EXPECT_NEAR(dim.added.z - dim.added.y, 0.2f * (1.0f - bare.passes.z), 2e-6);
+      }
+}
+
+// What thick fog shows is near, however far the way goes.
+TEST_P(FogKernel, CloudsFarAwayShadeNothingThatIsSeen) {
+  const HalfShade far(-1500.0);
+  for (const auto profile : kProfiles)
+    for (const double way_m : {5e3, 1e5, 1e8}) {
+      Air fog = air_of(profile, 2e-2, 5.0);
+      const glm::vec3 west(-1.0f, 0.0f, 0.0f);
+      const double bare = fog.see(west, way_m).added.y;
+      fog.fog.clouds = &far.shadow;
+      EXPECT_NEAR(fog.see(west, way_m).added.y / bare, 1.0, 1e-4) << way_m;
+    }
+}
+
+// Of sunlight that fog scatters once, by places along the way; each of eight stands for a part.
+TEST_P(FogKernel, CloudsShadeThePartOfAWayThatLiesInTheirShadow) {
+  constexpr int kSteps = 4000;
+  for (const auto profile : kProfiles)
+    for (const double per_m : {2e-4, 3e-3})
+      for (const double eye_m : {5.0, 300.0})
+        for (const double edge_m : {-500.0, -60.0, 20.0}) {
+          const HalfShade half(edge_m);
+          Air fog = air_of(profile, per_m, eye_m);
+          const glm::dvec3 direction =
+              glm::normalize(glm::dvec3(-1.0, 0.2, eye_m > 60.0 ? -0.3 : 0.01));
+          const double way_m = eye_m > 60.0 ? -eye_m / direction.z : 1200.0;
+          const glm::vec3 along(direction);
+          const double bare = fog.see(along, way_m).added.y;
+          fog.fog.clouds = &half.shadow;
+          double depth = 0.0, all = 0.0, seen = 0.0;
+          for (int i = 0; i < kSteps; ++i) {
+            const double t = way_m * (i + 0.5) / kSteps, z = eye_m + direction.z * t;
+            const double density = profile == scene::FogProfile::kExponential
+                                       ? std::exp(-z / fog.air.fog_top_m)
+                                       : static_cast<double>(z < fog.air.fog_top_m);
+            const double step = per_m * density * way_m / kSteps;
+            const double above = per_m * scene::fog_above_m(fog.air, z) / fog.fog.sun_sine;
+            const double arrives = step * std::exp(-depth - 0.5 * step - above);
+            all += arrives, seen += arrives * half.at(direction.x * t), depth += step;
+          }
+          EXPECT_NEAR(fog.see(along, way_m).added.y / bare, seen / all, 0.05)
+              << per_m << ' ' << eye_m << ' ' << edge_m;
+        }
 }
 
 }  // namespace

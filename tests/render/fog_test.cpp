@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/linear_renderer.h"
+#include "render/workspace.h"
 
 namespace swell::render {
 namespace {
@@ -157,6 +158,82 @@ TEST(FogInPictures, FrameAloneIsThatOfASequence) {
   for (const double t_s : {0.0, 1.0, 25.0}) sequence.draw_view(view, t_s);
   alone.draw_view(view, 25.0);
   EXPECT_EQ(alone.target.rgba, sequence.target.rgba);
+}
+
+void put_sun_overhead(scene::Sky& sky) {
+  sky.sun_elevation_rad = scene::radians(90.0);
+  sky.sun_direction = scene::sun_direction(sky.sun_azimuth_rad, sky.sun_elevation_rad);
+}
+
+// Fog so thick that all of a picture is the light of some fifty metres, under the middle of a
+// cloud.
+TEST(FogInPictures, IsDarkUnderACloudByWhatItTakesOfTheSun) {
+  scene::Scene scene = foggy_sea(60.0, 100.0);
+  put_sun_overhead(scene.sky);
+  scene.clouds.kind = scene::CloudKind::kPlaced;
+  scene.clouds.wind_factor = 0.0;
+  scene.clouds.cumulus = {{.width_m = 3000.0, .height_m = 1200.0}};
+  LinearRenderer cloudy(scene);
+  const View view = level_view({0, 0, 3}, 4.0);
+  cloudy.draw_view(view, 0.0);
+  const CloudShadow& shadow = cloudy.workspace.state().sky.shadow;
+  ASSERT_TRUE(shadow.any);
+  constexpr std::size_t kMiddle = CloudShadow::kSide / 2 * (CloudShadow::kSide + 1);
+  const float left = static_cast<float>(shadow.words[0][kMiddle] & 255u) / 255.0f * shadow.most;
+  EXPECT_LT(left, 0.3f);
+  const glm::vec3 shaded = cloudy.at(48, 20);
+  cloudy.options.without = {Part::kCloudShadows};
+  cloudy.draw_view(view, 0.0);
+  const FogLights& light = cloudy.world.state().fog_light;
+  const glm::vec3 of_sky = light.even - light.even_sun, sunny = cloudy.at(48, 20);
+  EXPECT_GT(sunny.y, 2.0f * of_sky.y);
+  EXPECT_NEAR((shaded.y - of_sky.y) / (sunny.y - of_sky.y), left, 0.02f);
+}
+
+// A white slab in the fog, under the same cloud and far from it: fog sends down less of the sun.
+TEST(FogInPictures, LightsWhatIsUnderACloudLess) {
+  scene::Scene scene = foggy_sea(400.0, 300.0);
+  put_sun_overhead(scene.sky);
+  scene.sea.spectrum = false;
+  scene.clouds.kind = scene::CloudKind::kPlaced;
+  scene.clouds.wind_factor = 0.0;
+  scene.clouds.cumulus = {{.width_m = 3000.0, .height_m = 1200.0}};
+  scene::FloatingObject slab;
+  slab.kind = scene::ObjectKind::kBox;
+  slab.motion = scene::Motion::kFixed;
+  slab.size_m = {4.0, 4.0, 1.0};
+  slab.colour = glm::vec3(0.8f);
+  scene.objects = {slab, slab};
+  scene.objects[1].position_m = {0.0, 9000.0};
+  LinearRenderer cloudy(scene);
+  const auto slab_at = [&](double y_m) {
+    cloudy.draw_view(level_view({0, y_m, 4}, -89.9), 0.0);
+    return luminance(cloudy.at(48, 32));
+  };
+  const float shaded = slab_at(0.0), lit = slab_at(9000.0);
+  cloudy.options.without = {Part::kCloudShadows};
+  const float even = slab_at(0.0);
+  EXPECT_NEAR(lit, even, 0.02f * even);
+  const World::State& world = cloudy.world.state();
+  // Of the light that is not the sky's a few parts of a hundred are left.
+  const float of_sky = luminance(world.fog_light.ambient - world.fog_light.ambient_sun);
+  EXPECT_LT(shaded, 0.25f * even + 0.8f * of_sky);
+}
+
+// Near and far ways share packets in one tile and not in another.
+TEST(FogInPictures, UnderCloudsIsTheSameInTilesOfAnySize) {
+  scene::Scene scene = foggy_sea(5000.0, 80.0);
+  scene.sky.cloud_cover = 0.5;
+  scene.air.banks = 0.5;
+  LinearRenderer foggy(scene);
+  const View view = level_view({0, 0, 4}, -3.0);
+  foggy.draw_view(view, 2.0);
+  const std::vector<std::uint32_t> expected = foggy.target.rgba;
+  for (const int tile_size_px : {16, 32}) {
+    foggy.options.tile_size_px = tile_size_px;
+    foggy.draw_view(view, 2.0);
+    EXPECT_EQ(foggy.target.rgba, expected) << tile_size_px;
+  }
 }
 
 }  // namespace
