@@ -16,7 +16,9 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
+#include <set>
 
 namespace swell::mesh_import {
 namespace {
@@ -36,27 +38,33 @@ template <class... T>
 // Opens regular files in one folder and below, of a bounded size together.
 class OneFolder : public Assimp::DefaultIOSystem {
  public:
-  explicit OneFolder(fs::path folder) : folder_(fs::weakly_canonical(folder)) {}
+  OneFolder(fs::path folder, const InputCounter& count_inputs)
+      : folder_(fs::weakly_canonical(folder)), count_inputs_(count_inputs) {}
 
-  bool Exists(const char* file) const override { return is_allowed(file); }
+  bool Exists(const char* file) const override { return !allowed_path(file).empty(); }
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (mode[0] != 'r' || !is_allowed(file)) return nullptr;
+    const fs::path path = allowed_path(file);
+    if (mode[0] != 'r' || path.empty()) return nullptr;
     std::error_code error;
-    taken_ += fs::file_size(file, error);
+    const std::uint64_t bytes = fs::file_size(path, error);
+    taken_ += bytes;
     if (error || taken_ > scene::kMostMeshFileBytes) return nullptr;
+    if (opened_.insert(path).second) count_inputs_(bytes);
     return DefaultIOSystem::Open(file, "rb");
   }
 
  private:
-  bool is_allowed(const char* file) const {
+  fs::path allowed_path(const char* file) const {  // empty: of no file that may be opened
     std::error_code error;
     const fs::path path = fs::canonical(file, error);
-    if (error || !fs::is_regular_file(path, error)) return false;
-    return std::ranges::mismatch(folder_, path).in1 == folder_.end();
+    if (error || !fs::is_regular_file(path, error)) return {};
+    return std::ranges::mismatch(folder_, path).in1 == folder_.end() ? path : fs::path();
   }
 
   fs::path folder_;
+  InputCounter count_inputs_;
+  std::set<fs::path> opened_;
   std::uint64_t taken_ = 0;
 };
 
@@ -195,8 +203,14 @@ bool is_finite(const aiMatrix4x4& m) {
 
 class Collector {
  public:
-  Collector(const aiScene& scene, const glm::mat3& axes, bool keep_normals, LooseMesh& to)
-      : scene_(scene), axes_(axes), keep_normals_(keep_normals), to_(to) {}
+  Collector(const aiScene& scene, const glm::mat3& axes, bool keep_normals,
+            const InputCounter& count_inputs, LooseMesh& to)
+      : scene_(scene),
+        axes_(axes),
+        keep_normals_(keep_normals),
+        count_inputs_(count_inputs),
+        to_(to),
+        is_placed_(scene.mNumMeshes) {}
 
   // Whatever hangs on the node, however deep.
   void add_all() {
@@ -210,17 +224,24 @@ class Collector {
       const aiMatrix4x4 transform = placed.transform * placed.node->mTransformation;
       if (!is_finite(transform)) refuse("a node at no place");
       for (unsigned i = 0; i < placed.node->mNumMeshes; ++i)
-        add(*scene_.mMeshes[placed.node->mMeshes[i]], transform);
+        place(placed.node->mMeshes[i], transform);
       for (unsigned i = placed.node->mNumChildren; i-- > 0;)
         open.push_back({placed.node->mChildren[i], transform});
     }
   }
 
  private:
-  void add(const aiMesh& mesh, const aiMatrix4x4& transform) {
+  void place(unsigned number, const aiMatrix4x4& transform) {
+    const aiMesh& mesh = *scene_.mMeshes[number];
     if (!mesh.HasFaces() || !mesh.HasPositions()) return;
     if (to_.material.size() + mesh.mNumFaces > scene::kMostMeshTriangles)
       refuse("over {0} triangles, allowed {0}", scene::kMostMeshTriangles);
+    if (is_placed_[number]) count_inputs_(kInputsPerCopiedTriangle * mesh.mNumFaces);
+    is_placed_[number] = true;
+    add(mesh, transform);
+  }
+
+  void add(const aiMesh& mesh, const aiMatrix4x4& transform) {
     glm::mat3 linear;
     for (unsigned row = 0; row < 3; ++row)
       for (unsigned column = 0; column < 3; ++column)
@@ -267,31 +288,34 @@ class Collector {
   const aiScene& scene_;
   glm::mat3 axes_;
   bool keep_normals_;
+  const InputCounter& count_inputs_;
   LooseMesh& to_;
+  std::vector<bool> is_placed_;  // of each mesh
 };
 
 }  // namespace
 
-LooseMesh read_asset(const fs::path& file, UpAxis up) {
+LooseMesh read_asset(const fs::path& file, UpAxis up, const InputCounter& count_inputs) {
   const std::string extension = extension_of(file);
   constexpr std::array<std::string_view, 5> kReadable = {"obj", "gltf", "glb", "stl", "dae"};
   if (std::ranges::find(kReadable, extension) == kReadable.end())
     refuse("a file '.{}', allowed .obj, .gltf, .glb, .stl and .dae", extension);
   const fs::path folder = fs::absolute(file).parent_path();
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFolder(folder));  // owns it
+  importer.SetIOHandler(new OneFolder(folder, count_inputs));  // owns it
   keep_readers_of(extension, importer);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* const scene =
       importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+  if (std::string_view(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
   if (!scene || !scene->mRootNode)
     refuse("a file that cannot be read ({})", importer.GetErrorString());
   LooseMesh mesh;
   const bool is_stl = extension == "stl";
   add_materials(*scene, folder, is_stl, mesh);
   // STL's normals say no more than its triangles do.
-  Collector(*scene, object_from_file(extension, up), !is_stl, mesh).add_all();
+  Collector(*scene, object_from_file(extension, up), !is_stl, count_inputs, mesh).add_all();
   if (mesh.material.empty()) refuse("a file without triangles");
   return mesh;
 }

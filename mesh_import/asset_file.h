@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,6 +18,12 @@ namespace swell::mesh_import {
 class Refused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// Is told what will be read next: the bytes of each file once, the texels of a picture, and for
+// each triangle that stands in more places than one kInputsPerCopiedTriangle.
+using InputCounter = std::function<void(std::uint64_t)>;
+inline void ignore_inputs(std::uint64_t) {}
+inline constexpr std::uint64_t kInputsPerCopiedTriangle = 8;
 
 // A picture on triangles: a file's path, or what the mesh file holds of it.
 struct TextureSource {
@@ -35,7 +43,8 @@ struct LooseMesh {
 };
 
 // Reads an OBJ, glTF, GLB, STL or COLLADA file with the files that it names in its folder or below.
-// Throws Refused.
-LooseMesh read_asset(const std::filesystem::path& file, scene::UpAxis up);
+// Throws Refused, and std::bad_alloc.
+LooseMesh read_asset(const std::filesystem::path& file, scene::UpAxis up,
+                     const InputCounter& count_inputs = ignore_inputs);
 
 }  // namespace swell::mesh_import

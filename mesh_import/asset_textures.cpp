@@ -41,7 +41,8 @@ std::uint32_t texel_of(std::span<const float> channels) {
   return code(0) | code(grey ? 0 : 1) << 8 | code(grey ? 0 : 2) << 16 | 0xff000000u;
 }
 
-scene::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels) {
+scene::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels,
+                          const InputCounter& count_inputs) {
   const texture::ImageCodec& codec = texture::image_codec();
   void* image = nullptr;
   texture::ImageInfo info;
@@ -61,6 +62,7 @@ scene::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels
   if (texels > most_texels)
     throw Refused(
         fmt::format("over {0} texels in its textures, allowed {0}", scene::kMostMeshTexels));
+  count_inputs(texels);
   const auto channels = static_cast<std::size_t>(info.channels);
   std::vector<float> pixels(texels * channels);
   check(codec.read(image, pixels, error));
@@ -72,29 +74,34 @@ scene::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels
   return texture;
 }
 
-std::vector<char> read_picture(const fs::path& path, const fs::path& folder) {
+std::vector<char> read_picture(const fs::path& path, const fs::path& folder,
+                               const InputCounter& count_inputs) {
   std::error_code error;
   const fs::path real = fs::canonical(path, error);
   const fs::path inside = fs::weakly_canonical(folder);
   if (error || std::ranges::mismatch(inside, real).in1 != inside.end())
     throw Refused(fmt::format("a texture '{}' that is not in the file's folder or below",
                               path.filename().string()));
+  const std::uint64_t bytes = fs::file_size(real, error);
+  if (!error) count_inputs(std::min(bytes, kMostImageBytes));
   return texture::read_bytes(real, kMostImageBytes);
 }
 
 }  // namespace
 
 std::vector<scene::FlatTexture> decode_textures(std::span<const TextureSource> sources,
-                                                const fs::path& folder) {
+                                                const fs::path& folder,
+                                                const InputCounter& count_inputs) {
   std::vector<scene::FlatTexture> textures;
   std::uint64_t left = scene::kMostMeshTexels;
   for (const TextureSource& source : sources) {
     if (!source.texels.empty())
       textures.push_back({source.width, source.height, source.texels});
     else if (!source.path.empty())
-      textures.push_back(decode(read_picture(source.path, folder), left));
+      textures.push_back(
+          decode(read_picture(source.path, folder, count_inputs), left, count_inputs));
     else
-      textures.push_back(decode(source.bytes, left));
+      textures.push_back(decode(source.bytes, left, count_inputs));
     const std::uint64_t taken = textures.back().texels.size();
     if (taken > left)
       throw Refused(

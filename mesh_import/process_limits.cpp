@@ -1,31 +1,84 @@
 #include "mesh_import/process_limits.h"
 
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
 
 #include "scene/run_importer.h"
 
 namespace swell::mesh_import {
 namespace {
 
-constexpr rlim_t kAddressSpace = rlim_t{6} << 30;
+#if defined(__has_feature)
+#define SWELL_HAS_FEATURE(x) __has_feature(x)
+#else
+#define SWELL_HAS_FEATURE(x) 0
+#endif
 
-void limit(__rlimit_resource what, rlim_t most) {
-  rlimit now{};
-  if (getrlimit(what, &now) == 0 && now.rlim_max != RLIM_INFINITY && now.rlim_max < most)
-    most = now.rlim_max;
-  const rlimit lower{most, most};
-  setrlimit(what, &lower);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    SWELL_HAS_FEATURE(address_sanitizer) || SWELL_HAS_FEATURE(thread_sanitizer)
+constexpr bool kLimitsMemory = false;  // the checks take terabytes of addresses
+#else
+constexpr bool kLimitsMemory = true;
+#endif
+
+// `now`, which can be raised to `most`. A bound that is lower already stays.
+void limit(__rlimit_resource what, rlim_t now, rlim_t most) {
+  rlimit before{};
+  if (getrlimit(what, &before) != 0) return;
+  most = std::min(most, before.rlim_cur);
+  const rlimit bound{std::min(now, most), most};
+  setrlimit(what, &bound);
 }
 
+void limit(__rlimit_resource what, rlim_t most) { limit(what, most, most); }
+
+// What RLIMIT_DATA counts of this process.
+std::uint64_t counted_memory() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t pages = 0;
+  for (int field = 0; field < 6; ++field) file >> pages;  // the sixth: data and stack
+  return file ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+void bound_memory(const rlimit& bound) { setrlimit(RLIMIT_DATA, &bound); }
+
 }  // namespace
+
+bool end_with_parent(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Of a parent that ended before the call no signal comes: it has another process as parent now.
+  return getppid() == parent;
+}
 
 void limit_process() {
   limit(RLIMIT_CPU, scene::kMostImport_s);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which take terabytes
-  limit(RLIMIT_AS, kAddressSpace);
-#endif
+  if (!kLimitsMemory) return;
+  limit(RLIMIT_AS, kMostMemory);
+  limit(RLIMIT_DATA, kLeastMemory, kMostMemory);
+}
+
+void allow_memory_for(std::uint64_t inputs) {
+  rlimit bound{};
+  if (!kLimitsMemory || getrlimit(RLIMIT_DATA, &bound) != 0) return;
+  const std::uint64_t more = std::min(inputs, kMostMemory / kMemoryPerInput) * kMemoryPerInput;
+  bound_memory({std::min(bound.rlim_cur + more, bound.rlim_max), bound.rlim_max});
+}
+
+void load_uncounted(const std::function<void()>& load) {
+  rlimit bound{};
+  if (!kLimitsMemory || getrlimit(RLIMIT_DATA, &bound) != 0) return load();
+  bound_memory({bound.rlim_max, bound.rlim_max});
+  const std::uint64_t before = counted_memory();
+  load();
+  const std::uint64_t taken = std::max(counted_memory(), before) - before;
+  bound_memory({std::min(bound.rlim_cur + taken, bound.rlim_max), bound.rlim_max});
 }
 
 }  // namespace swell::mesh_import

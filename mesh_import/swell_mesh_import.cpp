@@ -1,9 +1,12 @@
-// swell_mesh_import FILE auto|y|z: reads a mesh file and writes it as flat arrays
-// (scene/flat_mesh.h) to its output. It is run by the library (scene/run_importer.h). Exits with 1
-// and a line on its error output for a file that is refused.
+// swell_mesh_import FILE auto|y|z [PARENT]: reads a mesh file and writes it as flat arrays
+// (scene/flat_mesh.h) to its output. It is run by the library (scene/run_importer.h), whose process
+// PARENT it does not outlive. Exits with 1 and a line on its error output for a file that is
+// refused.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -13,6 +16,7 @@
 #include "mesh_import/asset_textures.h"
 #include "mesh_import/flatten_mesh.h"
 #include "mesh_import/process_limits.h"
+#include "texture/image_codec.h"
 
 namespace swell::mesh_import {
 namespace {
@@ -22,12 +26,14 @@ scene::FlatMesh import_mesh(const std::filesystem::path& file, scene::UpAxis up)
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (error) throw Refused(error.message());
   if (bytes > scene::kMostMeshFileBytes) throw Refused("a file of over 512 MiB, allowed 512 MiB");
-  LooseMesh loose = read_asset(file, up);
+  LooseMesh loose = read_asset(file, up, allow_memory_for);
   add_normals(loose);
   scene::FlatMesh flat;
   join_vertices(loose, flat);
   loose.corners = {};
-  flat.textures = decode_textures(loose.textures, std::filesystem::absolute(file).parent_path());
+  if (!loose.textures.empty()) load_uncounted([] { texture::image_codec(); });
+  flat.textures = decode_textures(loose.textures, std::filesystem::absolute(file).parent_path(),
+                                  allow_memory_for);
   add_levels(flat);
   return flat;
 }
@@ -47,14 +53,18 @@ scene::UpAxis axis_of(std::string_view name) {
 }
 
 int run(int argc, char** argv) {
+  if (argc == 4 && !end_with_parent(std::atoi(argv[3]))) return 1;  // nobody waits for it
   limit_process();
   std::string fault;
   try {
-    if (argc != 3) throw Refused("usage: swell_mesh_import FILE auto|y|z");
+    if (argc != 3 && argc != 4) throw Refused("usage: swell_mesh_import FILE auto|y|z [PARENT]");
     scene::write_flat_mesh(import_mesh(argv[1], axis_of(argv[2])), write_all);
     return 0;
   } catch (const std::bad_alloc&) {
-    fault = "a file that takes too much memory to read";
+    fault = fmt::format(
+        "a file that takes too much memory to read, allowed {} MB and {} times its "
+        "size, at most {} MB",
+        kLeastMemory >> 20, kMemoryPerInput, kMostMemory >> 20);
   } catch (const std::exception& error) {
     fault = error.what();
   } catch (...) {

@@ -141,7 +141,9 @@ std::vector<char> run_importer(const std::string& file, UpAxis up) {
   constexpr std::array<const char*, 3> kUp = {"auto", "y", "z"};
   Pipe out, err;
   fcntl(out.to_read(), F_SETPIPE_SZ, 1 << 20);  // fewer turns; what it is else is good too
-  Child child(importer_path(), {file, kUp[static_cast<std::size_t>(up)]}, out, err);
+  // It ends when this thread does, which waits for it.
+  Child child(importer_path(), {file, kUp[static_cast<std::size_t>(up)], std::to_string(getpid())},
+              out, err);
   out.close_writing();
   err.close_writing();
   std::vector<char> stream, message;
