@@ -9,6 +9,7 @@
 #include "ocean/map_waves.h"
 #include "scene/celestial.h"
 #include "scene/coast.h"
+#include "scene/key_places.h"
 #include "scene/parameters.h"
 #include "scene/sky.h"
 #include "terrain/sea_floor.h"
@@ -343,6 +344,11 @@ Fault fault_of_path(const std::vector<Waypoint>& path) {
                     fmt::format("more than that of the table before, {}", late->t_s)};
 }
 
+std::string name_for_messages(const Scene& scene) {
+  const bool has_name = !scene.name.empty() && scene.name.size() <= kMaxTextBytes;
+  return has_name ? scene.name : "scene";
+}
+
 }  // namespace
 
 std::optional<SceneFault> find_fault(const Scene& scene) {
@@ -402,12 +408,24 @@ std::string fault_text(const SceneFault& fault) {
   return fmt::format("{}, got {}, allowed {}", fault.key, fault.got, fault.allowed);
 }
 
-void check_scene(const Scene& scene) {
-  const Fault fault = find_fault(scene);
-  if (!fault) return;
-  const bool has_name = !scene.name.empty() && scene.name.size() <= kMaxTextBytes;
+std::string place_of_key(const Scene& scene, const std::string& key) {
+  if (!scene.places) return name_for_messages(scene);
+  return place_text(scene.places->file, place_of_key(scene.places->places, key));
+}
+
+void refuse(const Scene& scene, const SceneFault& fault) {
   throw SceneError(
-      one_line(fmt::format("{}: {}", has_name ? scene.name : "scene", fault_text(*fault))));
+      one_line(fmt::format("{}: {}", place_of_key(scene, fault.key), fault_text(fault))));
+}
+
+void refuse(const Scene& scene, const terrain::TerrainError& error) {
+  if (error.key.empty()) throw SceneError(error.what());
+  refuse(scene, SceneFault{error.key, error.got, error.allowed});
+}
+
+void check_scene(const Scene& scene) {
+  if (const Fault fault = find_fault(scene))
+    throw SceneError(one_line(fmt::format("{}: {}", name_for_messages(scene), fault_text(*fault))));
 }
 
 }  // namespace swell::scene

@@ -31,6 +31,16 @@ std::optional<SceneFault> find_disagreement(const Scene& scene);
 // The first fault of a list of disturbances, the scene's own or a frame's.
 std::optional<SceneFault> find_fault(const std::vector<ocean::Disturbance>& disturbances);
 
+// 'FILE:LINE: column COLUMN' or the setting where the scene has the key, or the table around it;
+// the name of a scene that was made in code.
+std::string place_of_key(const Scene& scene, const std::string& key);
+
+// Throws SceneError 'PLACE: KEY, got GOT, allowed ALLOWED' of a fault that shows when the scene is
+// built.
+[[noreturn]] void refuse(const Scene& scene, const SceneFault& fault);
+// The same of a TerrainError; of a file's content as it is.
+[[noreturn]] void refuse(const Scene& scene, const terrain::TerrainError& error);
+
 // Throws SceneError 'NAME: KEY, got GOT, allowed ALLOWED' for the first fault.
 void check_scene(const Scene& scene);
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,9 +16,6 @@
 #include "texture/bump_sequence.h"
 
 namespace swell::scene {
-
-// Where a file has the keys that it has.
-using Places = std::map<std::string, Place>;
 
 // What a TOML value is, for messages: its text if it is a number or boolean, else its type.
 std::string got_text(const toml::node& node);

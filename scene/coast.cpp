@@ -96,8 +96,7 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
   const Coast& coast = scene.coast;
   const ocean::SeaDescription& sea = scene.sea;
   if (coast.model == CoastModel::kNone || !terrain) return std::nullopt;
-  if (const auto fault = fault_of_coast_grid(coast, terrain->grid.size_m()))
-    throw SceneError(fault_text(*fault));
+  if (const auto fault = fault_of_coast_grid(coast, terrain->grid.size_m())) refuse(scene, *fault);
   std::vector<ocean::WaveSystem> systems = ocean::wave_systems(sea);
   if (systems.empty()) return std::nullopt;
   std::ranges::stable_sort(systems, std::greater{}, variance_of);
@@ -123,7 +122,7 @@ std::optional<terrain::ShoreMap> build_shore(const Scene& scene, const terrain::
   if (const std::filesystem::path& file = scene.terrain->boundary; !file.empty()) try {
       return terrain::read_boundary(file, *terrain);
     } catch (const terrain::TerrainError& error) {
-      throw SceneError(error.what());
+      refuse(scene, error);
     }
   Workers workers(threads);
   return terrain::ShoreMap(*terrain, workers);

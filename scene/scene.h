@@ -199,6 +199,8 @@ struct Picture {
 using SeaArea = ocean::SeaArea;
 using TerrainDescription = terrain::TerrainDescription;
 
+struct KeyPlaces;
+
 // May be made in code: render::World and scene::Water throw SceneError unless every value is in
 // the range that docs/scene.md states for its key (check_scene.h).
 struct Scene {
@@ -224,6 +226,8 @@ struct Scene {
   std::vector<ocean::Disturbance> disturbances;  // at most 256, besides the wakes of objects
   std::vector<ocean::River> rivers;              // at most 64; they and lakes need a terrain
   std::vector<ocean::Lake> lakes;                // at most 64
+  // Where the file has its keys, for messages; null: it was made in code.
+  std::shared_ptr<const KeyPlaces> places;
 };
 
 // The scene's disturbances, then the hulls of its objects that make wakes.

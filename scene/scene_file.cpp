@@ -84,7 +84,8 @@ class Reader {
     scene_.sky.sun_direction =
         sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
     if (const auto fault = find_disagreement(scene_))
-      fail(file_, place_of_key(fault->key), fault_text(*fault));
+      fail(file_, place_of_key(given_, fault->key), fault_text(*fault));
+    scene_.places = std::make_shared<const KeyPlaces>(file_, std::move(given_));
     return std::move(scene_);
   }
 
@@ -229,16 +230,6 @@ class Reader {
     }
   }
 
-  // Where the file has the key, or the table or array that it is an element of.
-  Place place_of_key(std::string key) const {
-    while (!given_.contains(key)) {
-      const std::size_t end = key.find_last_of(".[");
-      if (end == std::string::npos) return {};
-      key.resize(end);
-    }
-    return given_.at(key);
-  }
-
   bool is_section(std::string_view path) const {
     const std::string prefix = std::string(path) + ".";
     return std::ranges::any_of(parameters_,
@@ -247,6 +238,7 @@ class Reader {
 
   void read_section(const toml::node& node, const std::string& path) {
     if (!node.is_table()) values_.fail_value(node, path, got_text(node), "a table");
+    given_.emplace(path, place_of(node.source()));
     if (path == "terrain") scene_.terrain.emplace();
     read_table(*node.as_table(), path + ".");
   }
@@ -259,9 +251,11 @@ class Reader {
     const toml::array* tables = node.as_array();
     if (!tables || tables->size() > count_high)
       values_.fail_value(node, std::string(key), got_text(node), allowed);
+    given_.emplace(key, place_of(node.source()));
     for (const toml::node& element : *tables) {
       if (!element.is_table())
         values_.fail_value(element, std::string(key), got_text(element), allowed);
+      given_.emplace(fmt::format("{}[{}]", key, objects.size()), place_of(element.source()));
       objects.push_back(
           read_object(*element.as_table(), key, static_cast<int>(objects.size()), parameters));
     }

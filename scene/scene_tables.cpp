@@ -200,12 +200,6 @@ Place place_of(const toml::source_region& region) {
   return place;
 }
 
-std::string place_text(const fs::path& file, const Place& place) {
-  if (!place.setting.empty()) return place.setting;
-  if (place.line == 0) return file.string();
-  return fmt::format("{}:{}: column {}", file.string(), place.line, place.column);
-}
-
 void fail(const fs::path& file, const Place& place, const std::string& text) {
   throw SceneError(one_line(fmt::format("{}: {}", place_text(file, place), text)));
 }

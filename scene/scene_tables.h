@@ -10,21 +10,13 @@
 #include <string>
 #include <string_view>
 
+#include "scene/key_places.h"
+
 namespace swell::scene {
 
 inline constexpr std::size_t kMaxFileBytes = 1 << 20;
 
-// Where something stands: in a file, by line and column, which are 0 where they are not known
-// (JSON); or in a setting.
-struct Place {
-  std::uint32_t line = 1, column = 1;
-  std::string setting{};  // "setting KEY=VALUE"; empty: in the file
-};
-
 Place place_of(const toml::source_region& region);
-
-// 'FILE:LINE: column COLUMN', 'FILE' or 'setting KEY=VALUE'
-std::string place_text(const std::filesystem::path& file, const Place& place);
 
 // Throws SceneError 'PLACE: TEXT'.
 [[noreturn]] void fail(const std::filesystem::path& file, const Place& place,

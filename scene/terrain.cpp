@@ -1,6 +1,7 @@
 #include "scene/terrain.h"
 
 #include "ocean/river_bed.h"
+#include "scene/check_scene.h"
 #include "terrain/apron.h"
 #include "terrain/terrain.h"
 
@@ -11,13 +12,13 @@ bool has_inland_water(const Scene& scene) { return !scene.rivers.empty() || !sce
 
 // What is wrong with terrain or rivers, as a SceneError.
 template <class Build>
-auto built(const Build& build) {
+auto built(const Scene& scene, const Build& build) {
   try {
     return build();
   } catch (const terrain::TerrainError& error) {
-    throw SceneError(error.what());
+    refuse(scene, error);
   } catch (const ocean::RiverError& error) {
-    throw SceneError(error.what());
+    refuse(scene, SceneFault{error.key, error.got, error.allowed});
   }
 }
 
@@ -30,7 +31,7 @@ void dig(const ocean::RiverNetwork& network, terrain::HeightGrid& land) {
 
 std::optional<terrain::HeightGrid> build_terrain(const Scene& scene) {
   if (!scene.terrain) return std::nullopt;
-  return built([&] {
+  return built(scene, [&] {
     terrain::HeightGrid land = terrain::build_terrain(*scene.terrain);
     if (has_inland_water(scene)) dig({scene.rivers, scene.lakes}, land);
     return std::optional(std::move(land));
@@ -39,7 +40,7 @@ std::optional<terrain::HeightGrid> build_terrain(const Scene& scene) {
 
 std::optional<Land> build_land(const Scene& scene, Workers& workers) {
   if (!scene.terrain) return std::nullopt;
-  return built([&] {
+  return built(scene, [&] {
     Land land{terrain::build_terrain(*scene.terrain), nullptr};
     if (has_inland_water(scene)) {
       const ocean::RiverNetwork network(scene.rivers, scene.lakes);

@@ -13,7 +13,7 @@ namespace swell::scene {
 
 // Builds the scene's terrain with the beds of its rivers and lakes; nothing for scenes without one.
 // What terrain::build_terrain() throws as TerrainError and ocean as RiverError, it throws as
-// SceneError with the same text.
+// SceneError, with the place that the scene's file has for its key before the text.
 std::optional<terrain::HeightGrid> build_terrain(const Scene& scene);
 
 struct Land {

@@ -106,27 +106,27 @@ HeightGrid terrain_from_coast(const TerrainDescription& description) {
 // `above` is not allowed itself.
 void check_value(const char* name, double value, double above = -HUGE_VAL) {
   if (!(value > above && value < HUGE_VAL))
-    throw TerrainError(
-        fmt::format("terrain.{}, got {}, allowed finite and over {}", name, value, above));
+    throw TerrainError(fmt::format("terrain.{}", name), fmt::format("{}", value),
+                       fmt::format("finite and over {}", above));
 }
 
 void check_coast(std::span<const glm::dvec2> coast_m) {
-  if (coast_m.size() == 1) throw TerrainError("terrain.coast_m, got 1 point, allowed 2 or more");
+  if (coast_m.size() == 1) throw TerrainError("terrain.coast_m", "1 point", "2 or more");
   for (std::size_t n = 0; n < coast_m.size(); ++n) {
     check_value("coast_m, east", coast_m[n].x);
     check_value("coast_m, north", coast_m[n].y);
     if (n > 0 && glm::distance(coast_m[n], coast_m[n - 1]) < kShortestStretch_m)
-      throw TerrainError(fmt::format(
-          "terrain.coast_m[{}], got [{}, {}], allowed a point {} m or more from the one "
-          "before",
-          n, coast_m[n].x, coast_m[n].y, kShortestStretch_m));
+      throw TerrainError(
+          fmt::format("terrain.coast_m[{}]", n),
+          fmt::format("[{}, {}]", coast_m[n].x, coast_m[n].y),
+          fmt::format("a point {} m or more from the one before", kShortestStretch_m));
   }
 }
 
 void check_description(const TerrainDescription& description) {
   check_coast(description.coast_m);
   if (!description.coast_m.empty() && !description.height_image.empty())
-    throw TerrainError("terrain.coast_m, got it besides height_image, allowed one of them");
+    throw TerrainError("terrain.coast_m", "it besides height_image", "one of them");
   check_value("beach_slope", description.beach_slope, 0.0);
   check_value("beach_size_m", description.beach_size_m, 0.0);
   check_value("island_radius_m", description.island_radius_m, 0.0);

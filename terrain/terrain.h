@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "terrain/height_grid.h"
@@ -15,9 +16,16 @@
 namespace swell::terrain {
 
 // What is wrong with a description or its height image: what() is one line, 'WHERE, got what,
-// allowed what', WHERE 'terrain.KEY' or 'FILE: what'.
-class TerrainError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+// allowed what', WHERE a key as scenes have it or 'FILE: what'.
+struct TerrainError : std::runtime_error {
+  explicit TerrainError(const std::string& of_file) : std::runtime_error(of_file) {}
+  TerrainError(const std::string& of_key, const std::string& has, const std::string& may)
+      : std::runtime_error(of_key + ", got " + has + ", allowed " + may),
+        key(of_key),
+        got(has),
+        allowed(may) {}
+
+  std::string key, got, allowed;  // empty: what a file holds is wrong
 };
 
 // What the land is made of above the beach. Colours are linear reflectances.

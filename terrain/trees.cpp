@@ -310,6 +310,7 @@ Trees plant_trees(std::span<const TreeStand> stands, const HeightGrid& terrain,
     const TreeStand& stand = stands[n];
     if (!(stand.density_per_m2 > 0.0)) continue;
     const double tile_m = std::sqrt(kPoissonPoints / stand.density_per_m2);
+    if (!std::isfinite(tile_m)) continue;  // on no square is there one
     const auto shift = [&](std::uint64_t axis) {
       return tile_m * random_uniform(stand.seed, (std::uint64_t{1} << 62) + axis);
     };
@@ -323,17 +324,17 @@ Trees plant_trees(std::span<const TreeStand> stands, const HeightGrid& terrain,
     const auto tiles = tiles_of(plan);
     for (const std::vector<int>& row : tiles)
       places += static_cast<double>(row.size() * kPoissonPoints);
+    const auto fail = [&](const std::string& makes, const std::string& allowed) {
+      throw TerrainError(fmt::format("trees[{}].density_per_m2", n),
+                         fmt::format("{}, which makes {}", stand.density_per_m2, makes), allowed);
+    };
     if (places > kMostTreePlaces)
-      throw TerrainError(fmt::format(
-          "trees[{}].density_per_m2, got {}, which makes {:.2g} places for trees, allowed at most "
-          "{:.2g} of all stands",
-          n, stand.density_per_m2, places, kMostTreePlaces));
+      fail(fmt::format("{:.2g} places for trees", places),
+           fmt::format("at most {:.2g} of all stands", kMostTreePlaces));
     const std::vector<Tree> planted = plant_stand(plan, tiles, workers);
     if (trees.trees.size() + planted.size() > kMostTrees)
-      throw TerrainError(
-          fmt::format("trees[{}].density_per_m2, got {}, which makes {} trees of all stands, "
-                      "allowed at most {}",
-                      n, stand.density_per_m2, trees.trees.size() + planted.size(), kMostTrees));
+      fail(fmt::format("{} trees of all stands", trees.trees.size() + planted.size()),
+           fmt::format("at most {}", kMostTrees));
     trees.trees.insert(trees.trees.end(), planted.begin(), planted.end());
   }
   sort_into_cells(size_m, trees);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "ocean/river_network.h"
+#include "scene/check_scene.h"
 #include "terrain/terrain.h"
 
 namespace swell::render {
@@ -275,7 +276,7 @@ Forest grow_forest(const scene::Scene& scene, const terrain::HeightGrid& terrain
         {.rivers = has_rivers ? &rivers : nullptr, .still = near_still_water ? &still : nullptr},
         workers);
   } catch (const terrain::TerrainError& error) {
-    throw scene::SceneError(error.what());
+    scene::refuse(scene, error);
   }
   if (forest.trees.empty()) return forest;
   workers.for_each(forest.shapes.size(), [&](std::size_t species, int) {

@@ -7,6 +7,8 @@
 
 #include "ocean/sea_state.h"
 #include "ocean/small_sea.h"
+#include "scene/check_scene.h"
+#include "scene/parameters.h"
 
 namespace swell::render {
 namespace {
@@ -40,7 +42,8 @@ texture::BumpSequence build_ripple_sequence(const scene::Scene& scene, Workers& 
   try {
     return texture::read_bump_sequence(ripples.sequence, ripples.frames);
   } catch (const std::runtime_error& error) {
-    throw scene::SceneError(fmt::format("ripples.sequence: {}", error.what()));
+    throw scene::SceneError(scene::one_line(fmt::format(
+        "{}: ripples.sequence: {}", scene::place_of_key(scene, "ripples.sequence"), error.what())));
   }
 }
 

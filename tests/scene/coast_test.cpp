@@ -9,6 +9,7 @@
 
 #include "math/random.h"
 #include "scene/scene.h"
+#include "scene/settings.h"
 #include "scene/terrain.h"
 #include "scene/water.h"
 #include "terrain/height_image.h"
@@ -141,8 +142,8 @@ TEST_F(CoastOverAnImage, IsCheckedWhenItsSizeIsKnown) {
   scene.terrain = {.height_image = write_exr("a.exr", 3, 3, std::vector<float>(9, -5.0f)),
                    .metres_per_pixel = 1000.0};
   EXPECT_EQ(scene_error_of([&] { Water{scene}; }),
-            "coast.grid_spacing_m, got 0.5, allowed 0 or 0.98 to 100 m with trains = 1 over 2000 m "
-            "of terrain");
+            "scene: coast.grid_spacing_m, got 0.5, allowed 0 or 0.98 to 100 m with trains = 1 over "
+            "2000 m of terrain");
 }
 
 TEST(CoastGrid, IsAnnouncedIfItTakesLong) {
@@ -191,7 +192,40 @@ TEST(SceneTerrain, IsRefusedWithTheTextOfTheTerrainsFault) {
   Scene scene;
   EXPECT_FALSE(build_terrain(scene));
   scene.terrain = flat;
-  EXPECT_EQ(scene_error_of([&] { build_terrain(scene); }), text);
+  EXPECT_EQ(scene_error_of([&] { build_terrain(scene); }), "scene: " + text);
+}
+
+TEST(SceneTerrain, FaultsThatShowWhenItIsBuiltHaveTheirPlace) {
+  const auto fault_of = [](const std::string& text, std::vector<std::string> settings = {}) {
+    const std::string start =
+        "[terrain]\nisland_radius_m = 100\n"
+        "[[lake]]\nlevel_m = -100\noutline_m = [[0, 0], [9, 0], [0, 9]]\n[[lake]]\n";
+    const Scene scene = parse_scene(start + text, "test.toml", settings);
+    return scene_error_of([&] {
+      Workers workers(1);
+      build_land(scene, workers);
+    });
+  };
+  const std::string dry =
+      "lake[1].position_m, got [9000, 0], which is dry, allowed a place lower than 0 m";
+  EXPECT_EQ(fault_of("position_m = [9000, 0]\n"), "test.toml:7: column 14: " + dry);
+  EXPECT_EQ(fault_of("", {"lake[1].position_m=[9000, 0]"}),
+            "setting lake[1].position_m=[9000, 0]: " + dry);
+  // Without the key itself: its table.
+  EXPECT_EQ(fault_of("level_m = -30\n"),
+            "test.toml:6: column 1: lake[1].position_m, got [0, 0], which is dry, allowed a place "
+            "lower than -30 m");
+  EXPECT_EQ(fault_of("level_m = 400\n[[river]]\nsurface_m = [1, 0]\npath_m = [[9, 0], [9000, 0]]\n",
+                     {"lake="}),
+            "test.toml:10: column 10: river[0].path_m, got [225, 0], allowed points on the "
+            "terrain's square");
+  const Scene json = parse_scene(R"({"terrain.seed": 3, "lake": [{"level_m": -30}]})", "a.json");
+  EXPECT_EQ(scene_error_of([&] {
+              Workers workers(1);
+              build_land(json, workers);
+            }),
+            "a.json: lake[0].position_m, got [0, 0], which is dry, allowed a place lower than "
+            "-30 m");
 }
 
 // ---- In a sea that loops

@@ -226,6 +226,11 @@ TEST(WaterLines, DistanceFromTheSeaIsThatOfTheNearestWater) {
     }
 }
 
+TEST(Trees, OfTheLeastDensitiesThereAreNone) {
+  for (const double density_per_m2 : {5e-324, 1e-308, 1e-305, 1e-300, 1e-30})
+    EXPECT_TRUE(plant(even_stand(density_per_m2), plain(1000.0)).empty()) << density_per_m2;
+}
+
 TEST(Trees, TooManyAreRefusedInOneLine) {
   const auto fault_of = [](double density_per_m2, double size_m) -> std::string {
     try {
