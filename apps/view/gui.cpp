@@ -1,6 +1,10 @@
 #include "apps/view/gui.h"
 
+#if __has_include(<backends/imgui_impl_sdl2.h>)
+#include <backends/imgui_impl_sdl2.h>  // from Dear ImGui 1.89 on
+#else
 #include <backends/imgui_impl_sdl.h>
+#endif
 #include <imgui.h>
 #include <imgui_internal.h>  // its windows
 
@@ -42,7 +46,12 @@ Gui::Gui(SDL_Window* window, SDL_Renderer* renderer) : renderer_(renderer) {
   io.BackendRendererName = "swell SDL_Renderer";
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   set_style();
-  if (!ImGui_ImplSDL2_InitForSDLRenderer(window)) {
+#if IMGUI_VERSION_NUM >= 18700
+  const bool is_usable = ImGui_ImplSDL2_InitForSDLRenderer(window, renderer);
+#else
+  const bool is_usable = ImGui_ImplSDL2_InitForSDLRenderer(window);
+#endif
+  if (!is_usable) {
     ImGui::DestroyContext();
     throw std::runtime_error("Dear ImGui cannot use this window");
   }
