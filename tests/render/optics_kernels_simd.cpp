@@ -25,7 +25,6 @@ void Fresnel(std::span<const float> cos_theta, float n, std::span<float> reflect
   }
 }
 
-
 // The points from `first` on, the last one repeated, each seen along its own ray.
 Packet PacketAt(std::span<const glm::vec3> p_rel, std::size_t first) {
   HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
