@@ -22,15 +22,16 @@ void append_rgb(const render::Target& target, std::vector<std::uint8_t>& bytes) 
 }  // namespace
 
 void append_yuv(const render::Target& target, std::vector<std::uint8_t>& bytes) {
-  // BT.601 times 256, with 16 to 235 for black to white, and 128 for grey.
+  // BT.709 times 2^16, with 16 to 235 for black to white, and 128 for grey.
   struct Row {
     int r, g, b, offset;
   };
-  constexpr Row kRows[] = {{66, 129, 25, 16}, {-38, -74, 112, 128}, {112, -94, -18, 128}};
+  constexpr Row kRows[] = {
+      {11966, 40254, 4064, 16}, {-6596, -22189, 28785, 128}, {28785, -26146, -2639, 128}};
   for (const Row& row : kRows)
     for (const std::uint32_t pixel : target.rgba) {
       const int r = pixel & 255, g = pixel >> 8 & 255, b = pixel >> 16 & 255;
-      const int value = (row.r * r + row.g * g + row.b * b + 128 + 256 * row.offset) >> 8;
+      const int value = (row.r * r + row.g * g + row.b * b + (1 << 15) + (row.offset << 16)) >> 16;
       bytes.push_back(static_cast<std::uint8_t>(value));
     }
 }
@@ -56,8 +57,10 @@ void PictureStream::add(const render::Target& target) {
     append_rgb(target, bytes_);
   } else {
     if (!has_begun_)
-      append_text(fmt::format("YUV4MPEG2 W{} H{} F{} Ip A1:1 C444\n", target.width_px,
-                              target.height_px, frame_rate_text(fps_)),
+      // FFmpeg reads the range and skips the matrix, a tag of ours; it takes 95 bytes at most.
+      append_text(fmt::format("YUV4MPEG2 W{} H{} F{} Ip A1:1 C444 XCOLORRANGE=LIMITED "
+                              "XCOLORMATRIX=BT709\n",
+                              target.width_px, target.height_px, frame_rate_text(fps_)),
                   bytes_);
     append_text("FRAME\n", bytes_);
     append_yuv(target, bytes_);

@@ -9,8 +9,8 @@
 
 namespace swell::apps {
 
-// Y4M is YUV 4:4:4 of 8 bits by BT.601 with video levels, what readers take where a file says
-// nothing; it has the frames a second. PPM is 8-bit RGB, a file after the other.
+// Y4M is YUV 4:4:4 of 8 bits by BT.709, which players take for films of these sizes, with video
+// levels; its header says both, and the frames a second. PPM is 8-bit RGB, a file after the other.
 class PictureStream {
  public:
   // `format` is "y4m", "ppm" or empty: writes nothing. fps over 0.
@@ -26,7 +26,7 @@ class PictureStream {
   std::vector<std::uint8_t> bytes_;
 };
 
-// One frame of Y4M without its header: the planes Y, U and V. Within 1 of BT.601.
+// One frame of Y4M without its header: the planes Y, U and V. BT.709, rounded.
 void append_yuv(const render::Target& target, std::vector<std::uint8_t>& bytes);
 
 // "30:1", "30000:1001", "2997:100": fps in [0.001, 1e6] to a ten-millionth, or the nearest whole

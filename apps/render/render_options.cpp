@@ -162,7 +162,7 @@ void check_distinct(const RenderOptions& options) {
 std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   RenderOptions options;
   CommandLine line("swell-render", "Draws pictures of a scene.");
-  add_frame_setup(line, options.setup);
+  add_required_frame_setup(line, options.setup);
   add_quality_options(line, options.setup.frame);
   add_time_options(line, options);
   add_output_options(line, options);
@@ -242,8 +242,8 @@ bool files_exist(const RenderOptions& options, int frame) {
 void check_output(const RenderOptions& options) {
   if (!draws_pictures(options) && !options.dump_scene)
     throw OptionError(
-        "command line: --out, --labels-out, --depth, --ids, --hash, --json, --expect, --stream or "
-        "--dump-scene is required");
+        "command line: got nothing to do, allowed --out, --labels-out, --depth, --ids, --hash, "
+        "--json, --expect, --stream or --dump-scene");
   if (!options.stream.empty() && (options.hash || options.json == "-" || options.dump_scene))
     throw OptionError(
         "command line: --stream, got it with --hash, --json '-' or --dump-scene, allowed without "

@@ -87,7 +87,9 @@ TEST_F(Sequence, PpmHasTheBytesThatAreHashed) {
 }
 
 TEST_F(Sequence, Y4mHasAHeaderAndThePlanesOfEachFrame) {
-  const std::string y4m = stream("y4m"), header = "YUV4MPEG2 W32 H18 F30:1 Ip A1:1 C444\n";
+  const std::string
+      y4m = stream("y4m"),
+      header = "YUV4MPEG2 W32 H18 F30:1 Ip A1:1 C444 XCOLORRANGE=LIMITED XCOLORMATRIX=BT709\n";
   const std::string ppm = stream("ppm").substr(13);
   EXPECT_EQ(y4m.substr(0, header.size()), header);
   ASSERT_EQ(y4m.size(), header.size() + 3 * (6 + 32 * 18 * 3));
@@ -98,10 +100,11 @@ TEST_F(Sequence, Y4mHasAHeaderAndThePlanesOfEachFrame) {
   };
   for (std::size_t i = 0; i < 32 * 18; ++i) {
     const double r = at(ppm, 3 * i), g = at(ppm, 3 * i + 1), b = at(ppm, 3 * i + 2);
-    const double luma = 0.299 * r + 0.587 * g + 0.114 * b;
-    EXPECT_NEAR(at(frame, 6 + i), 16.0 + luma * 219.0 / 255.0, 1.0);
-    EXPECT_NEAR(at(frame, 6 + 576 + i), 128.0 + (b - luma) / 1.772 * 224.0 / 255.0, 1.0);
-    EXPECT_NEAR(at(frame, 6 + 1152 + i), 128.0 + (r - luma) / 1.402 * 224.0 / 255.0, 1.0);
+    // ITU-R BT.709-6, 3.2 to 3.4.
+    const double luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    EXPECT_NEAR(at(frame, 6 + i), 16.0 + luma * 219.0 / 255.0, 0.51);
+    EXPECT_NEAR(at(frame, 6 + 576 + i), 128.0 + (b - luma) / 1.8556 * 224.0 / 255.0, 0.51);
+    EXPECT_NEAR(at(frame, 6 + 1152 + i), 128.0 + (r - luma) / 1.5748 * 224.0 / 255.0, 0.51);
   }
 }
 
@@ -110,9 +113,9 @@ TEST(PictureStream, ReachesTheEndsOfTheVideoLevels) {
   target.rgba = {0xff000000, 0xffffffff, 0xff0000ff, 0xff00ff00, 0xffff0000};
   std::vector<std::uint8_t> bytes;
   append_yuv(target, bytes);
-  const std::vector<std::uint8_t> expected = {16,  235, 82,  144, 41,   // black, white, red,
-                                              128, 128, 90,  54,  240,  // green, blue
-                                              128, 128, 240, 34,  110};
+  const std::vector<std::uint8_t> expected = {16,  235, 63,  173, 32,   // black, white, red,
+                                              128, 128, 102, 42,  240,  // green, blue
+                                              128, 128, 240, 26,  118};
   EXPECT_EQ(bytes, expected);
 }
 
@@ -134,6 +137,24 @@ TEST_F(Sequence, FfmpegMakesAFilmOfIt) {
       render_program(), scene_, film, film, facts);
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(read_text(facts), "64,36,25/1,8\n");
+}
+
+// As docs/films.md has it; the codec keeps every bit.
+TEST_F(Sequence, FfmpegSeesThePicturesColoursInAFilmThatSaysBt709) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
+  const std::string facts = folder_.file("facts"), rgb = folder_.file("rgb");
+  const std::string command = fmt::format(
+      "'{0}' --scene '{1}' --size 32x18 --frames 0-0 --fps 30 --stream y4m | ffmpeg -v error -i - "
+      "-vf setparams=colorspace=bt709:color_primaries=bt709:color_trc=iec61966-2-1 -c:v ffv1 "
+      "'{2}.mkv' && ffprobe -v error -show_entries stream=color_range,color_space -of csv=p=0 "
+      "'{2}.mkv' >'{3}' && ffmpeg -v error -i '{2}.mkv' -f rawvideo -pix_fmt rgb24 '{2}'",
+      render_program(), scene_, rgb, facts);
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read_text(facts), "tv,bt709\n");
+  const std::string ppm = stream("ppm").substr(13), seen = read_text(rgb);
+  ASSERT_EQ(seen.size(), 32u * 18 * 3);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    EXPECT_NEAR(static_cast<unsigned char>(seen[i]), static_cast<unsigned char>(ppm[i]), 3) << i;
 }
 
 TEST_F(Sequence, FilesSayWhatTheyShow) {
