@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "math/enum_table.h"
+
 namespace swell::ocean {
 
 enum class DisturbanceKind : std::uint8_t {
@@ -17,8 +19,12 @@ enum class DisturbanceKind : std::uint8_t {
   kHull,      // a ship's that goes along a path
   kRotor,     // gusts under something that hovers
 };
-inline constexpr std::array<std::string_view, 4> kDisturbanceKindNames = {"drop", "footstep",
-                                                                          "hull", "rotor"};
+inline constexpr auto kDisturbanceKindNames = enum_words<DisturbanceKind>({
+    {DisturbanceKind::kDrop, "drop"},
+    {DisturbanceKind::kFootstep, "footstep"},
+    {DisturbanceKind::kHull, "hull"},
+    {DisturbanceKind::kRotor, "rotor"},
+});
 
 struct Disturbance {
   DisturbanceKind kind = DisturbanceKind::kDrop;

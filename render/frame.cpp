@@ -205,9 +205,19 @@ FrameStatistics statistics_of(const Workspace::State& ws) {
 }  // namespace
 
 std::string_view stage_name(Stage stage) {
-  constexpr std::string_view kNames[] = {"sea",  "triangulate", "displace", "trees", "visibility",
-                                         "rays", "lookups",     "clouds",   "shade"};
-  return kNames[static_cast<std::size_t>(stage)];
+  using enum Stage;
+  constexpr auto kNames = enum_words<Stage>({
+      {kSea, "sea"},
+      {kTriangulate, "triangulate"},
+      {kDisplace, "displace"},
+      {kTrees, "trees"},
+      {kVisibility, "visibility"},
+      {kRays, "rays"},
+      {kLookups, "lookups"},
+      {kClouds, "clouds"},
+      {kShade, "shade"},
+  });
+  return kNames[stage];
 }
 
 FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene& scene) {

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "math/enum_table.h"
 #include "math/parallel.h"
 #include "math/view.h"
 #include "render/labels/labels.h"
@@ -37,8 +38,8 @@ enum class Stage : std::uint8_t {
   kLookups,      // reflection and refraction images
   kClouds,       // rays through volumetric clouds
   kShade,        // shade and resolve every visible pixel once; labels
-  kCount
 };
+inline constexpr std::size_t kStages = kEnumerators<Stage>;
 std::string_view stage_name(Stage stage);  // "sea", "triangulate", ...
 
 // A scene made ready to draw: sea state, terrain, static maps. Read-only while frames are drawn;
@@ -125,7 +126,7 @@ struct Target {
 };
 
 struct FrameStatistics {
-  std::array<double, static_cast<std::size_t>(Stage::kCount)> stage_ms{};
+  std::array<double, kStages> stage_ms{};
   double frame_ms = 0.0;
   int water_triangles = 0, terrain_triangles = 0;
   int object_triangles = 0;  // of those that the view may show

@@ -10,6 +10,8 @@
 #include <optional>
 #include <string_view>
 
+#include "math/enum_table.h"
+
 namespace swell::render {
 
 enum class Part : std::uint8_t {
@@ -52,22 +54,52 @@ enum class Part : std::uint8_t {
   kShelter,       // what land takes of the open sea's waves; queries and trains keep it
   kSurfFronts,    // foam that runs to shores without wave trains
   kRivers,        // rivers and lakes: their beds lie dry; queries keep them
-  kCount
 };
-inline constexpr std::size_t kPartCount = static_cast<std::size_t>(Part::kCount);
+inline constexpr std::size_t kPartCount = kEnumerators<Part>;
 
-// In the order of Part; words of lower-case letters and '-'.
-inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "water",        "reflection",  "refraction", "ripples",       "glitter",       "whitecaps",
-    "haze",         "earth",       "clouds",     "shadows",       "hulls",         "apron",
-    "tiling",       "seen-slopes", "crests",     "altitude",      "textures",      "underwater",
-    "meniscus",     "caustics",    "shafts",     "uplight",       "sequence",      "sun-slide",
-    "caustic-bend", "own-shadows", "image-blur", "wakes",         "maps",          "land-detail",
-    "trees",        "fog",         "stars",      "volume-clouds", "cloud-shadows", "forms",
-    "shelter",      "surf-fronts", "rivers"};
-constexpr std::string_view part_name(Part part) {
-  return kPartNames[static_cast<std::size_t>(part)];
-}
+// Words of lower-case letters and '-'.
+inline constexpr auto kPartNames = enum_words<Part>({
+    {Part::kWater, "water"},
+    {Part::kReflection, "reflection"},
+    {Part::kRefraction, "refraction"},
+    {Part::kRipples, "ripples"},
+    {Part::kGlitter, "glitter"},
+    {Part::kWhitecaps, "whitecaps"},
+    {Part::kHaze, "haze"},
+    {Part::kEarth, "earth"},
+    {Part::kClouds, "clouds"},
+    {Part::kShadows, "shadows"},
+    {Part::kHulls, "hulls"},
+    {Part::kApron, "apron"},
+    {Part::kTiling, "tiling"},
+    {Part::kSeenSlopes, "seen-slopes"},
+    {Part::kCrests, "crests"},
+    {Part::kAltitude, "altitude"},
+    {Part::kTextures, "textures"},
+    {Part::kUnderwater, "underwater"},
+    {Part::kMeniscus, "meniscus"},
+    {Part::kCaustics, "caustics"},
+    {Part::kShafts, "shafts"},
+    {Part::kUplight, "uplight"},
+    {Part::kSequence, "sequence"},
+    {Part::kSunSlide, "sun-slide"},
+    {Part::kCausticBend, "caustic-bend"},
+    {Part::kOwnShadows, "own-shadows"},
+    {Part::kImageBlur, "image-blur"},
+    {Part::kWakes, "wakes"},
+    {Part::kMaps, "maps"},
+    {Part::kLandDetail, "land-detail"},
+    {Part::kTrees, "trees"},
+    {Part::kFog, "fog"},
+    {Part::kStars, "stars"},
+    {Part::kVolumeClouds, "volume-clouds"},
+    {Part::kCloudShadows, "cloud-shadows"},
+    {Part::kForms, "forms"},
+    {Part::kShelter, "shelter"},
+    {Part::kSurfFronts, "surf-fronts"},
+    {Part::kRivers, "rivers"},
+});
+constexpr std::string_view part_name(Part part) { return kPartNames[part]; }
 
 class PartSet {
  public:
@@ -82,6 +114,7 @@ class PartSet {
   bool operator==(const PartSet&) const = default;
 
  private:
+  static_assert(kPartCount <= 64);
   std::uint64_t bits_ = 0;
 };
 

@@ -41,7 +41,7 @@ class Profile {
  private:
   Clock::time_point start_;
   bool trace_enabled_ = false;
-  std::array<double, static_cast<std::size_t>(Stage::kCount)> stage_ms_{};
+  std::array<double, kStages> stage_ms_{};
   std::mutex mutex_;
   std::vector<TraceEvent> trace_;
 };

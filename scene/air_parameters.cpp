@@ -8,12 +8,15 @@ namespace swell::scene {
 namespace {
 
 struct FogProfileName {
-  static constexpr std::array<std::string_view, 2> words = {"slab", "exponential"};
+  using enum FogProfile;
+  static constexpr auto words =
+      enum_words<FogProfile>({{kSlab, "slab"}, {kExponential, "exponential"}});
   auto& operator()(auto& scene) const { return scene.air.profile; }
 };
 
 struct FogScatteringName {
-  static constexpr std::array<std::string_view, 2> words = {"exact", "paper"};
+  using enum FogScattering;
+  static constexpr auto words = enum_words<FogScattering>({{kExact, "exact"}, {kPaper, "paper"}});
   auto& operator()(auto& scene) const { return scene.air.scattering; }
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "math/check.h"
+#include "math/enum_table.h"
 #include "scene/boat_shapes.h"
 #include "scene/mesh_builder.h"
 #include "scene/shore_shapes.h"
@@ -71,17 +72,21 @@ void add_buoy(TopMark mark, MeshBuilder& to) {
 struct LevelErrors {
   float eight, four;
 };
-constexpr std::array<LevelErrors, 8> kLevelErrors = {{{0.020f, 0.066f},
-                                                      {0.064f, 0.200f},
-                                                      {0.020f, 0.020f},
-                                                      {0.021f, 0.060f},
-                                                      {0.015f, 0.041f},
-                                                      {0.006f, 0.006f},
-                                                      {0.034f, 0.047f},
-                                                      {0.120f, 0.190f}}};
+constexpr auto kLevelErrors = enum_table<ObjectKind, LevelErrors>({
+    {ObjectKind::kBuoy, {0.020f, 0.066f}},
+    {ObjectKind::kSphere, {0.064f, 0.200f}},
+    {ObjectKind::kBox, {0.020f, 0.020f}},
+    {ObjectKind::kBoat, {0.021f, 0.060f}},
+    {ObjectKind::kSailboat, {0.015f, 0.041f}},
+    {ObjectKind::kPier, {0.006f, 0.006f}},
+    {ObjectKind::kLighthouse, {0.034f, 0.047f}},
+    {ObjectKind::kRock, {0.120f, 0.190f}},
+    {ObjectKind::kMesh, {}},  // the file's levels have their own
+    {ObjectKind::kForm, {}},
+});
 
 float level_error(ObjectKind kind, int segments) {
-  const LevelErrors& errors = kLevelErrors[static_cast<std::size_t>(kind)];
+  const LevelErrors& errors = kLevelErrors[kind];
   return segments >= kLevelSegments[0] ? 0.0f : segments >= 8 ? errors.eight : errors.four;
 }
 

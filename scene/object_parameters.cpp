@@ -13,22 +13,26 @@ struct ObjectKindName {
 };
 
 struct MotionName {
-  static constexpr std::array<std::string_view, 2> words = {"float", "fixed"};
+  using enum Motion;
+  static constexpr auto words = enum_words<Motion>({{kFloat, "float"}, {kFixed, "fixed"}});
   auto& operator()(auto& object) const { return object.motion; }
 };
 
 struct UpAxisName {
-  static constexpr std::array<std::string_view, 3> words = {"auto", "y", "z"};
+  using enum UpAxis;
+  static constexpr auto words = enum_words<UpAxis>({{kByFormat, "auto"}, {kY, "y"}, {kZ, "z"}});
   auto& operator()(auto& object) const { return object.up; }
 };
 
 struct OriginName {
-  static constexpr std::array<std::string_view, 2> words = {"middle", "file"};
+  static constexpr auto words = enum_words<bool>({{false, "middle"}, {true, "file"}});
   auto& operator()(auto& object) const { return object.at_file_origin; }
 };
 
 struct TopMarkName {
-  static constexpr std::array<std::string_view, 3> words = {"can", "cone", "sphere"};
+  using enum TopMark;
+  static constexpr auto words =
+      enum_words<TopMark>({{kCan, "can"}, {kCone, "cone"}, {kSphere, "sphere"}});
   auto& operator()(auto& object) const { return object.top_mark; }
 };
 

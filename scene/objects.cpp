@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "math/check.h"
 #include "math/elementary.h"
@@ -135,14 +136,28 @@ struct Commonly {
   glm::vec3 colour;
 };
 
-// By kind, of those from kBoat on.
-constexpr std::array<Commonly, 5> kCommonly = {{
-    {{1.7, 4.6, 0.8}, 0.25, Motion::kFloat, {0.55f, 0.57f, 0.55f}},
-    {{2.9, 9.2, 14.5}, 0.12, Motion::kFloat, {0.62f, 0.62f, 0.60f}},
-    {{3.0, 36.0, 7.0}, 0.70, Motion::kFixed, {0.21f, 0.15f, 0.10f}},
-    {{8.0, 8.0, 26.0}, 0.0, Motion::kFixed, {0.55f, 0.03f, 0.02f}},
-    {{6.0, 5.0, 3.5}, 0.4, Motion::kFixed, {0.17f, 0.155f, 0.14f}},
-}};
+// Nothing of those that are as FloatingObject has it, nor of files.
+std::optional<Commonly> commonly_of(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::kBoat:
+      return Commonly{{1.7, 4.6, 0.8}, 0.25, Motion::kFloat, {0.55f, 0.57f, 0.55f}};
+    case ObjectKind::kSailboat:
+      return Commonly{{2.9, 9.2, 14.5}, 0.12, Motion::kFloat, {0.62f, 0.62f, 0.60f}};
+    case ObjectKind::kPier:
+      return Commonly{{3.0, 36.0, 7.0}, 0.70, Motion::kFixed, {0.21f, 0.15f, 0.10f}};
+    case ObjectKind::kLighthouse:
+      return Commonly{{8.0, 8.0, 26.0}, 0.0, Motion::kFixed, {0.55f, 0.03f, 0.02f}};
+    case ObjectKind::kRock:
+      return Commonly{{6.0, 5.0, 3.5}, 0.4, Motion::kFixed, {0.17f, 0.155f, 0.14f}};
+    case ObjectKind::kBuoy:
+    case ObjectKind::kSphere:
+    case ObjectKind::kBox:
+    case ObjectKind::kMesh:
+    case ObjectKind::kForm:
+      break;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -150,13 +165,12 @@ FloatingObject common_object(ObjectKind kind) {
   FloatingObject object;
   object.kind = kind;
   object.at_file_origin = kind == ObjectKind::kForm;  // its waterline is its z = 0
-  if (kind < ObjectKind::kBoat || is_of_file(kind)) return object;
-  const Commonly& commonly =
-      kCommonly[static_cast<std::size_t>(kind) - static_cast<std::size_t>(ObjectKind::kBoat)];
-  object.size_m = commonly.size_m;
-  object.draught = commonly.draught;
-  object.motion = commonly.motion;
-  object.colour = commonly.colour;
+  if (const std::optional<Commonly> commonly = commonly_of(kind)) {
+    object.size_m = commonly->size_m;
+    object.draught = commonly->draught;
+    object.motion = commonly->motion;
+    object.colour = commonly->colour;
+  }
   return object;
 }
 

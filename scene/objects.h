@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "math/enum_table.h"
+
 namespace swell::ocean {
 class DriftTrack;
 class WaterSurface;
@@ -32,8 +34,18 @@ enum class ObjectKind : std::uint8_t {
   kMesh,        // of a file
   kForm,        // of functions (scene/form.h), of a file
 };
-inline constexpr std::array<std::string_view, 10> kObjectKindNames = {
-    "buoy", "sphere", "box", "boat", "sailboat", "pier", "lighthouse", "rock", "mesh", "form"};
+inline constexpr auto kObjectKindNames = enum_words<ObjectKind>({
+    {ObjectKind::kBuoy, "buoy"},
+    {ObjectKind::kSphere, "sphere"},
+    {ObjectKind::kBox, "box"},
+    {ObjectKind::kBoat, "boat"},
+    {ObjectKind::kSailboat, "sailboat"},
+    {ObjectKind::kPier, "pier"},
+    {ObjectKind::kLighthouse, "lighthouse"},
+    {ObjectKind::kRock, "rock"},
+    {ObjectKind::kMesh, "mesh"},
+    {ObjectKind::kForm, "form"},
+});
 
 // What sets an object's height and tilt.
 enum class Motion : std::uint8_t {
@@ -90,6 +102,11 @@ struct FloatingObject {
 
 inline bool is_of_file(ObjectKind kind) {
   return kind == ObjectKind::kMesh || kind == ObjectKind::kForm;
+}
+
+// Closed all around, and about as wide as high.
+inline bool is_compact(ObjectKind kind) {
+  return kind == ObjectKind::kBuoy || kind == ObjectKind::kSphere || kind == ObjectKind::kBox;
 }
 
 // An object of the kind as it is commonly built: size, draught, colour, and whether it floats.

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "math/enum_table.h"
 #include "scene/parameters.h"
 #include "scene/shortest_number.h"
 
@@ -163,6 +164,8 @@ struct Row {
   // A boolean or enumerated field that the file names by one of the words.
   template <class Field>
   static Parameter<Object> choice(std::string_view key, Field, std::string_view meaning) {
+    using Chosen = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
+    static_assert(std::is_same_v<typename decltype(Field::words)::Of, Chosen>);
     Parameter<Object> row = ranged(key, ParameterKind::kChoice, {}, meaning);
     row.choices = Field::words;
     row.get = [](const Object& object) -> Value {

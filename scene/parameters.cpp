@@ -11,47 +11,59 @@ namespace {
 using Kind = ParameterKind;
 
 struct Priority {
-  static constexpr std::array<std::string_view, 2> words = {"projected_size", "inverse_distance"};
+  static constexpr auto words =
+      enum_words<bool>({{false, "projected_size"}, {true, "inverse_distance"}});
   auto& operator()(auto& scene) const { return scene.detail.inverse_distance_priority; }
 };
 
 struct TriangulationName {
-  static constexpr std::array<std::string_view, 3> words = {"roam", "radial", "plane"};
+  using enum Triangulation;
+  static constexpr auto words =
+      enum_words<Triangulation>({{kRoam, "roam"}, {kRadial, "radial"}, {kPlane, "plane"}});
   auto& operator()(auto& scene) const { return scene.detail.triangulation; }
 };
 
 struct TerrainMethodName {
-  static constexpr std::array<std::string_view, 2> words = {"roam", "rays"};
+  using enum TerrainMethod;
+  static constexpr auto words = enum_words<TerrainMethod>({{kRoam, "roam"}, {kRays, "rays"}});
   auto& operator()(auto& scene) const { return scene.detail.terrain_method; }
 };
 
 struct InterpolationName {
-  static constexpr std::array<std::string_view, 2> words = {"bilinear", "bicubic"};
+  static constexpr auto words = enum_words<bool>({{false, "bilinear"}, {true, "bicubic"}});
   auto& operator()(auto& scene) const { return scene.terrain->bicubic; }
 };
 
 struct EarthName {
-  static constexpr std::array<std::string_view, 2> words = {"flat", "round"};
+  static constexpr auto words = enum_words<bool>({{false, "flat"}, {true, "round"}});
   auto& operator()(auto& scene) const { return scene.round_earth; }
 };
 
 struct DistortionFactorName {
-  static constexpr std::array<std::string_view, 2> words = {"bounded", "paper"};
+  using enum DistortionFactor;
+  static constexpr auto words =
+      enum_words<DistortionFactor>({{kBounded, "bounded"}, {kPaper, "paper"}});
   auto& operator()(auto& scene) const { return scene.water.distortion_factor; }
 };
 
 struct GlitterName {
-  static constexpr std::array<std::string_view, 2> words = {"slopes", "projective"};
+  using enum Glitter;
+  static constexpr auto words =
+      enum_words<Glitter>({{kSlopes, "slopes"}, {kProjective, "projective"}});
   auto& operator()(auto& scene) const { return scene.water.glitter; }
 };
 
 struct RippleKindName {
-  static constexpr std::array<std::string_view, 2> words = {"layers", "sequence"};
+  using enum RippleKind;
+  static constexpr auto words =
+      enum_words<RippleKind>({{kLayers, "layers"}, {kSequence, "sequence"}});
   auto& operator()(auto& scene) const { return scene.ripples.kind; }
 };
 
 struct RippleLightingName {
-  static constexpr std::array<std::string_view, 2> words = {"optics", "paper"};
+  using enum RippleLighting;
+  static constexpr auto words =
+      enum_words<RippleLighting>({{kOptics, "optics"}, {kPaper, "paper"}});
   auto& operator()(auto& scene) const { return scene.ripples.lighting; }
 };
 
@@ -61,28 +73,32 @@ struct WaterTypeName {
 };
 
 struct RefractionName {
-  static constexpr std::array<std::string_view, 2> words = {"exact", "paper"};
+  using enum RefractionModel;
+  static constexpr auto words = enum_words<RefractionModel>({{kExact, "exact"}, {kPaper, "paper"}});
   auto& operator()(auto& scene) const { return scene.water.refraction; }
 };
 
 struct BackSidesName {
-  static constexpr std::array<std::string_view, 2> words = {"seen", "tilted"};
+  static constexpr auto words = enum_words<bool>({{false, "seen"}, {true, "tilted"}});
   auto& operator()(auto& scene) const { return scene.water.tilted_backs; }
 };
 
 struct MapSetName {
-  static constexpr std::array<std::string_view, 5> words = {"none", "river", "lake", "coast",
-                                                            "ocean"};
+  using enum ocean::MapSet;
+  static constexpr auto words = enum_words<ocean::MapSet>(
+      {{kNone, "none"}, {kRiver, "river"}, {kLake, "lake"}, {kCoast, "coast"}, {kOcean, "ocean"}});
   auto& operator()(auto& scene) const { return scene.sea.map_set; }
 };
 
 struct CoastModelName {
-  static constexpr std::array<std::string_view, 3> words = {"none", "trains", "blend"};
+  using enum CoastModel;
+  static constexpr auto words =
+      enum_words<CoastModel>({{kNone, "none"}, {kTrains, "trains"}, {kBlend, "blend"}});
   auto& operator()(auto& scene) const { return scene.coast.model; }
 };
 
 struct CoastMethod {
-  static constexpr std::array<std::string_view, 2> words = {"straight", "eikonal"};
+  static constexpr auto words = enum_words<bool>({{false, "straight"}, {true, "eikonal"}});
   auto& operator()(auto& scene) const { return scene.coast.eikonal; }
 };
 

@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "math/enum_table.h"
 #include "scene/flat_mesh.h"
 #include "texture/file_bytes.h"
 #include "texture/program_folder.h"
@@ -138,12 +139,12 @@ void read_both(const Pipe& out, const Pipe& err, Clock::time_point deadline,
 }  // namespace
 
 std::vector<char> run_importer(const std::string& file, UpAxis up) {
-  constexpr std::array<const char*, 3> kUp = {"auto", "y", "z"};
+  constexpr auto kUp =
+      enum_words<UpAxis>({{UpAxis::kByFormat, "auto"}, {UpAxis::kY, "y"}, {UpAxis::kZ, "z"}});
   Pipe out, err;
   fcntl(out.to_read(), F_SETPIPE_SZ, 1 << 20);  // fewer turns; what it is else is good too
   // It ends when this thread does, which waits for it.
-  Child child(importer_path(), {file, kUp[static_cast<std::size_t>(up)], std::to_string(getpid())},
-              out, err);
+  Child child(importer_path(), {file, std::string(kUp[up]), std::to_string(getpid())}, out, err);
   out.close_writing();
   err.close_writing();
   std::vector<char> stream, message;

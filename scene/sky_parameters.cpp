@@ -11,17 +11,22 @@ using Kind = ParameterKind;
 using SceneRow = Row<Scene>;
 
 struct SkyModelName {
-  static constexpr std::array<std::string_view, 2> words = {"atmosphere", "gradient"};
+  using enum SkyModel;
+  static constexpr auto words =
+      enum_words<SkyModel>({{kAtmosphere, "atmosphere"}, {kGradient, "gradient"}});
   auto& operator()(auto& scene) const { return scene.sky.model; }
 };
 
 struct CloudKindName {
-  static constexpr std::array<std::string_view, 3> words = {"none", "layer", "placed"};
+  using enum CloudKind;
+  static constexpr auto words =
+      enum_words<CloudKind>({{kNone, "none"}, {kLayer, "layer"}, {kPlaced, "placed"}});
   auto& operator()(auto& scene) const { return scene.clouds.kind; }
 };
 
 struct CloudRaysName {
-  static constexpr std::array<std::string_view, 2> words = {"volume", "rays"};
+  using enum CloudRays;
+  static constexpr auto words = enum_words<CloudRays>({{kVolume, "volume"}, {kRays, "rays"}});
   auto& operator()(auto& scene) const { return scene.clouds.rays; }
 };
 

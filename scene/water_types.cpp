@@ -5,6 +5,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/enum_table.h"
 
 namespace swell::scene {
 namespace {
@@ -40,20 +41,22 @@ double vertex(glm::dvec3 values) { return -0.5 * rise(values) / bend(values); }
 }  // namespace
 
 InherentOptics optics_of(WaterType type) {
-  static constexpr std::array<InherentOptics, 10> kTypes = {{
-      {{0.334, 0.062, 0.018}, {0.0009, 0.0017, 0.0038}},
-      {{0.334, 0.062, 0.022}, {0.0023, 0.0035, 0.0063}},
-      {{0.346, 0.068, 0.039}, {0.118, 0.112, 0.135}},
-      {{0.353, 0.077, 0.061}, {0.164, 0.187, 0.196}},
-      {{0.364, 0.090, 0.107}, {0.271, 0.296, 0.312}},
-      {{0.366, 0.100, 0.148}, {0.412, 0.433, 0.437}},
-      {{0.375, 0.122, 0.214}, {0.652, 0.696, 0.637}},
-      {{0.395, 0.159, 0.302}, {1.24, 1.23, 1.11}},
-      {{0.403, 0.195, 0.542}, {1.77, 2.35, 3.30}},
-      {{0.456, 0.348, 0.943}, {2.35, 3.12, 4.39}},
-  }};
+  using enum WaterType;
+  static constexpr auto kTypes = enum_table<WaterType, InherentOptics>({
+      {kNone, {}},
+      {kI, {{0.334, 0.062, 0.018}, {0.0009, 0.0017, 0.0038}}},
+      {kIA, {{0.334, 0.062, 0.022}, {0.0023, 0.0035, 0.0063}}},
+      {kIB, {{0.346, 0.068, 0.039}, {0.118, 0.112, 0.135}}},
+      {kII, {{0.353, 0.077, 0.061}, {0.164, 0.187, 0.196}}},
+      {kIII, {{0.364, 0.090, 0.107}, {0.271, 0.296, 0.312}}},
+      {k1C, {{0.366, 0.100, 0.148}, {0.412, 0.433, 0.437}}},
+      {k3C, {{0.375, 0.122, 0.214}, {0.652, 0.696, 0.637}}},
+      {k5C, {{0.395, 0.159, 0.302}, {1.24, 1.23, 1.11}}},
+      {k7C, {{0.403, 0.195, 0.542}, {1.77, 2.35, 3.30}}},
+      {k9C, {{0.456, 0.348, 0.943}, {2.35, 3.12, 4.39}}},
+  });
   SWELL_CHECK(type != WaterType::kNone, "no type");
-  return kTypes[static_cast<std::size_t>(type) - 1];
+  return kTypes[type];
 }
 
 glm::dvec3 backscattering(const InherentOptics& water) {

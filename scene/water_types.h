@@ -7,13 +7,24 @@
 #include <glm/glm.hpp>
 #include <string_view>
 
+#include "math/enum_table.h"
+
 namespace swell::scene {
 
 // Jerlov's types: I to III of the ocean, 1C to 9C of the coast. kNone: numbers of one's own.
 enum class WaterType : std::uint8_t { kNone, kI, kIA, kIB, kII, kIII, k1C, k3C, k5C, k7C, k9C };
 
-inline constexpr std::array<std::string_view, 11> kWaterTypeNames = {
-    "none", "I", "IA", "IB", "II", "III", "1C", "3C", "5C", "7C", "9C"};
+inline constexpr auto kWaterTypeNames = enum_words<WaterType>({{WaterType::kNone, "none"},
+                                                               {WaterType::kI, "I"},
+                                                               {WaterType::kIA, "IA"},
+                                                               {WaterType::kIB, "IB"},
+                                                               {WaterType::kII, "II"},
+                                                               {WaterType::kIII, "III"},
+                                                               {WaterType::k1C, "1C"},
+                                                               {WaterType::k3C, "3C"},
+                                                               {WaterType::k5C, "5C"},
+                                                               {WaterType::k7C, "7C"},
+                                                               {WaterType::k9C, "9C"}});
 
 // What a metre of water does to light [1/m].
 struct InherentOptics {

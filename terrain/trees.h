@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "math/enum_table.h"
 #include "math/parallel.h"
 #include "terrain/height_grid.h"
 
@@ -25,15 +26,21 @@ enum class TreeSpecies : std::uint8_t {
   kReed,
   kMixed,  // of a stand: conifers and broad-leaved trees
 };
-inline constexpr std::array<std::string_view, 4> kTreeSpeciesNames = {"conifer", "broadleaf",
-                                                                      "reed", "mixed"};
-inline constexpr std::size_t kTreeSpecies = 3;  // that one tree may be
+inline constexpr auto kTreeSpeciesNames = enum_words<TreeSpecies>({
+    {TreeSpecies::kConifer, "conifer"},
+    {TreeSpecies::kBroadleaf, "broadleaf"},
+    {TreeSpecies::kReed, "reed"},
+    {TreeSpecies::kMixed, "mixed"},
+});
+inline constexpr auto kTreeSpecies = static_cast<std::size_t>(TreeSpecies::kMixed);  // of one tree
+static_assert(kTreeSpecies + 1 == kEnumerators<TreeSpecies>);
 
 enum class TreePlace : std::uint8_t {
   kLand,   // wherever the ground allows
   kBanks,  // along rivers
 };
-inline constexpr std::array<std::string_view, 2> kTreePlaceNames = {"land", "banks"};
+inline constexpr auto kTreePlaceNames =
+    enum_words<TreePlace>({{TreePlace::kLand, "land"}, {TreePlace::kBanks, "banks"}});
 
 // Trees of one kind, over the terrain's square.
 struct TreeStand {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "math/check.h"
+#include "math/enum_table.h"
 #include "texture/file_bytes.h"
 #include "texture/image_codec.h"
 #include "texture/image_structure.h"
@@ -102,19 +103,22 @@ void check_size(const std::filesystem::path& path, const ImageInfo& info,
 }
 
 std::string_view kind_name(SampleKind kind) {
-  constexpr std::array<std::string_view, 12> kNames = {"8-bit unsigned whole numbers",
-                                                       "16-bit unsigned whole numbers",
-                                                       "32-bit unsigned whole numbers",
-                                                       "64-bit unsigned whole numbers",
-                                                       "8-bit signed whole numbers",
-                                                       "16-bit signed whole numbers",
-                                                       "32-bit signed whole numbers",
-                                                       "64-bit signed whole numbers",
-                                                       "16-bit floats",
-                                                       "32-bit floats",
-                                                       "64-bit floats",
-                                                       "samples of an unknown kind"};
-  return kNames[static_cast<std::size_t>(kind)];
+  using enum SampleKind;
+  constexpr auto kNames = enum_words<SampleKind>({
+      {kUnsigned8, "8-bit unsigned whole numbers"},
+      {kUnsigned16, "16-bit unsigned whole numbers"},
+      {kUnsigned32, "32-bit unsigned whole numbers"},
+      {kUnsigned64, "64-bit unsigned whole numbers"},
+      {kSigned8, "8-bit signed whole numbers"},
+      {kSigned16, "16-bit signed whole numbers"},
+      {kSigned32, "32-bit signed whole numbers"},
+      {kSigned64, "64-bit signed whole numbers"},
+      {kHalf, "16-bit floats"},
+      {kFloat, "32-bit floats"},
+      {kDouble, "64-bit floats"},
+      {kUnknown, "samples of an unknown kind"},
+  });
+  return kNames[kind];
 }
 
 // Only EXR says what its whole numbers mean: themselves. Those of 8 and 16 bits are shares of the
@@ -211,10 +215,16 @@ std::vector<std::uint8_t> encode(const EncodeRequest& request) {
 
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string_view format = checked_format(path);
-  // A text PNM takes up to as many bytes a sample as a float; every other format fewer.
-  const std::vector<char> bytes = read_bytes(path, limits.max_bytes + (1u << 20));
-  check_content(path, format, {bytes.data(), bytes.size()}, limits);
-  return decode(path, format, bytes, limits);
+  try {
+    // A text PNM takes up to as many bytes a sample as a float; every other format fewer.
+    const std::vector<char> bytes = read_bytes(path, limits.max_bytes + (1u << 20));
+    check_content(path, format, {bytes.data(), bytes.size()}, limits);
+    return decode(path, format, bytes, limits);
+  } catch (const FileError& error) {
+    const std::string what = error.what();
+    if (what.find(", allowed") != std::string::npos) throw;
+    throw FileError(what + ", allowed a whole picture in the format of its extension");
+  }
 }
 
 std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension,

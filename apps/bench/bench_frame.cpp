@@ -51,7 +51,7 @@ struct Samples {
   std::vector<double> frame_ms;
   std::vector<Quality> quality;
   int step_changes = 0;
-  std::array<std::vector<double>, static_cast<std::size_t>(render::Stage::kCount)> stage_ms;
+  std::array<std::vector<double>, render::kStages> stage_ms;
   render::FrameStatistics last;
   std::uint64_t hash = 0;
 };
@@ -201,7 +201,7 @@ void run_comparison(const FrameBench& bench, const CommandLine& line) {
 BenchMode add_bench_frame(CommandLine& program) {
   const auto bench = std::make_shared<FrameBench>();
   CommandLine line = program.add_mode("frame", "Whole frames of a scene; frame k is at k / 60 s");
-  add_frame_setup(line, bench->setup);
+  add_required_frame_setup(line, bench->setup);
   add_quality_options(line, bench->setup.frame);
   add_integer(line, "--frames", bench->frames, 1, 1000000, "Frames to measure");
   add_integer(line, "--warmup", bench->warm_up, 0, 10000, "Frames to draw before them");

@@ -43,7 +43,7 @@ BenchMode add_bench_optics(CommandLine& program) {
       "Frames/s without water and with water of two triangles, in scenes of 13912, 27824 and 41736 "
       "triangles of land and objects, beside those of a paper. All stands still but the water; one "
       "object is left out where that is needed for the number");
-  add_frame_setup(line, run->setup);
+  add_required_frame_setup(line, run->setup);
   add_without_option(line, run->setup.frame.without);
   add_integer(line, "--frames", run->frames, 1, 10000, "Frames to measure of each, by turns");
   add_json_option(line, run->json);

@@ -22,8 +22,9 @@
 namespace swell::apps {
 namespace {
 
+using render::kStages;
+
 constexpr double kFramesPerSecond = 60.0;
-constexpr auto kStages = static_cast<std::size_t>(render::Stage::kCount);
 // Threads of the one that drew last go to sleep before the other begins.
 constexpr std::chrono::milliseconds kPause{3};
 constexpr int kDifferenceGain = 8;
@@ -217,7 +218,7 @@ BenchMode add_bench_peer(CommandLine& program) {
   bench->setup.frame.edge_samples = 0;
   CommandLine line = program.add_mode(
       "peer", "The same frames by OpenGL on Mesa's llvmpipe: times and how pictures differ");
-  add_frame_setup(line, bench->setup);
+  add_required_frame_setup(line, bench->setup);
   add_without_option(line, bench->setup.frame.without);
   add_integer(line, "--frames", bench->frames, 1, 100000, "Frames to measure, of each");
   add_integer(line, "--warmup", bench->warm_up, 2, 10000, "Frames to draw before them");

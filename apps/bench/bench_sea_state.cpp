@@ -173,7 +173,9 @@ void run_table(const SeaStateBench& bench) {
 
 void run_sea_state(const SeaStateBench& bench) {
   if (bench.table == !bench.scene.path.empty())
-    throw OptionError("command line: sea-state, allowed either --scene or --table");
+    throw OptionError(bench.table
+                          ? "command line: --table, got it with --scene, allowed one of them"
+                          : "command line: --scene, got none, allowed it or --table");
   check_text_place(bench.json);
   bench.table ? run_table(bench) : run_scene(bench);
 }

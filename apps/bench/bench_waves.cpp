@@ -60,8 +60,9 @@ void write_filter(const WaveFigures& figures, const scene::Scene& scene) {
   const ocean::SeaDescription& sea = scene.sea;
   const std::vector<ocean::WaveSystem> systems = ocean::wave_systems(sea);
   if (systems.empty())
-    throw OptionError(fmt::format("command line: --filter, got it for {}, which has no spectrum",
-                                  figures.scene.path));
+    throw OptionError(fmt::format(
+        "command line: --filter, got it for {}, which has no spectrum, allowed scenes with one",
+        figures.scene.path));
   write_image(draw_filter(systems.front(), figures.pixels), figures.filter);
   const double length_m = ocean::peak_wavelength_m(systems.front());
   fmt::print("{}: peak at {:.4g} rad/m, a wavelength of {:.4g} m\n", figures.filter,
@@ -94,7 +95,8 @@ void write_section(const WaveFigures& figures, const scene::Scene& scene, const 
   const glm::dvec2 half(0.5 * shown_size_m(scene.area).x, 0.0);
   const glm::dvec2 from = point("--from", figures.from_m, scene.area.centre_m - half);
   const glm::dvec2 to = point("--to", figures.to_m, scene.area.centre_m + half);
-  if (from == to) throw OptionError("command line: --to, got the same point as --from");
+  if (from == to)
+    throw OptionError("command line: --to, got the same point as --from, allowed another one");
   const std::string title = fmt::format("{}, t = {:g} s", scene.name, figures.t_s);
   write_text(figures.section, draw_section(surface, water.terrain(), from, to, title));
 }

@@ -10,7 +10,7 @@
 namespace swell::apps {
 
 void add_frame_run(CommandLine& line, const std::string& frames_help, FrameRun& run) {
-  add_frame_setup(line, run.setup);
+  add_required_frame_setup(line, run.setup);
   add_quality_options(line, run.setup.frame);
   add_integer(line, "--frames", run.frames, 1, 10000, frames_help);
   add_json_option(line, run.json);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "math/check.h"
+#include "math/enum_table.h"
 
 namespace swell::apps {
 namespace {
@@ -14,6 +15,15 @@ constexpr double kResolution_ms = 1e-4;  // the last digit of a report
 constexpr double kSmallPart = 0.01;      // of the frame: what a verdict takes at least
 constexpr double kConfidence = 0.95;
 constexpr const char* kFrame = "frame";
+
+// In JSON.
+constexpr auto kVerdictWords = enum_table<Verdict, const char*>({
+    {Verdict::kSame, "same"},
+    {Verdict::kSlower, "slower"},
+    {Verdict::kFaster, "faster"},
+    {Verdict::kOnlyBefore, "only_old"},
+    {Verdict::kOnlyAfter, "only_new"},
+});
 
 const double* find_stage(const RunTimes& run, const std::string& stage) {
   const auto at = std::ranges::find(run.stage_ms, stage, &std::pair<std::string, double>::first);
@@ -73,9 +83,15 @@ std::vector<double> times_of(std::span<const RunPair> pairs, RunTimes RunPair::*
 }
 
 const char* verdict_name(Verdict verdict) {
-  constexpr const char* kNames[] = {"same", "SLOWER", "faster", "only in the old one",
-                                    "only in the new one"};
-  return kNames[static_cast<std::size_t>(verdict)];
+  using enum Verdict;
+  constexpr auto kNames = enum_table<Verdict, const char*>({
+      {kSame, "same"},
+      {kSlower, "SLOWER"},
+      {kFaster, "faster"},
+      {kOnlyBefore, "only in the old one"},
+      {kOnlyAfter, "only in the new one"},
+  });
+  return kNames[verdict];
 }
 
 bool in_both(const StageComparison& row) {
@@ -153,8 +169,7 @@ Json comparison_json(std::span<const StageComparison> rows) {
       stage["ratio"] = row.ratio;
       stage["ratio_95"] = {row.ratio_low, row.ratio_high};
     }
-    constexpr const char* kKeys[] = {"same", "slower", "faster", "only_old", "only_new"};
-    stage["verdict"] = kKeys[static_cast<std::size_t>(row.verdict)];
+    stage["verdict"] = kVerdictWords[row.verdict];
     stages.push_back(std::move(stage));
   }
   return stages;

@@ -1,22 +1,53 @@
 #include "apps/dataset/class_sets.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <numeric>
 
+#include "math/enum_table.h"
 #include "render/labels/classes.h"
 
 namespace swell::apps {
 namespace {
 
-constexpr std::size_t kKinds = scene::kObjectKindNames.size();
+using scene::ObjectKind;
 
-// The ids of kinds of objects, in the order of scene::ObjectKind; 0: none.
-using KindIds = std::array<int, kKinds>;
-constexpr KindIds kLarsKinds = {14, 19, 19, 12, 11, 0, 0, 0, 19, 19};
-constexpr KindIds kObstacleKinds = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-constexpr KindIds kWaterScenesKinds = {2, 0, 0, 5, 5, 1, 0, 0, 0, 0};
-constexpr KindIds kSwellKinds = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+// The ids of kinds of objects; 0: none.
+using KindIds = EnumTable<ObjectKind, int>;
+constexpr KindIds kLarsKinds = enum_table<ObjectKind, int>({
+    {ObjectKind::kBuoy, 14},
+    {ObjectKind::kSphere, 19},
+    {ObjectKind::kBox, 19},
+    {ObjectKind::kBoat, 12},
+    {ObjectKind::kSailboat, 11},
+    {ObjectKind::kPier, 0},
+    {ObjectKind::kLighthouse, 0},
+    {ObjectKind::kRock, 0},
+    {ObjectKind::kMesh, 19},
+    {ObjectKind::kForm, 19},
+});
+constexpr KindIds kWaterScenesKinds = enum_table<ObjectKind, int>({
+    {ObjectKind::kBuoy, 2},
+    {ObjectKind::kSphere, 0},
+    {ObjectKind::kBox, 0},
+    {ObjectKind::kBoat, 5},
+    {ObjectKind::kSailboat, 5},
+    {ObjectKind::kPier, 1},
+    {ObjectKind::kLighthouse, 0},
+    {ObjectKind::kRock, 0},
+    {ObjectKind::kMesh, 0},
+    {ObjectKind::kForm, 0},
+});
+constexpr KindIds kObstacleKinds = [] {
+  KindIds ids{};
+  ids.fill(1);
+  return ids;
+}();
+constexpr KindIds kSwellKinds = [] {  // as swell_categories() numbers them
+  KindIds ids{};
+  std::iota(ids.begin(), ids.end(), 1);
+  return ids;
+}();
 
 // Source: Zust, Pers, Kristan, LaRS, 2023 (panoptic ids); Yao et al., WaterScenes, 2023 (names).
 const std::vector<Category> kLarsThings = {
@@ -27,8 +58,6 @@ const std::vector<Category> kWaterScenesThings = {
 const std::vector<Category> kSegments = {{0, "obstacle"}, {1, "water"}, {2, "sky"}};
 
 constexpr std::uint8_t kObstacle = 0, kWater = 1, kSky = 2, kMastrIgnored = 4, kLarsIgnored = 255;
-
-constexpr std::array<std::string_view, 4> kNames = {"lars", "mastr1325", "waterscenes", "swell"};
 
 std::vector<Category> with(std::vector<Category> categories, const Category& more) {
   categories.insert(more.id == 0 ? categories.begin() : categories.end(), more);
@@ -82,6 +111,12 @@ std::optional<std::size_t> object_of(std::uint32_t id) {
 std::string ClassSet::names() { return "lars, mastr1325, waterscenes or swell"; }
 
 std::optional<ClassSet> ClassSet::find(std::string_view name, const scene::Scene& all) {
+  constexpr auto kNames = enum_words<Kind>({
+      {Kind::kLars, "lars"},
+      {Kind::kMastr1325, "mastr1325"},
+      {Kind::kWaterScenes, "waterscenes"},
+      {Kind::kSwell, "swell"},
+  });
   const auto place = std::ranges::find(kNames, name);
   if (place == kNames.end()) return std::nullopt;
   ClassSet set;
@@ -116,7 +151,7 @@ std::optional<int> ClassSet::category_of(const scene::FloatingObject& object) co
                              : kind_ == Kind::kMastr1325   ? &kObstacleKinds
                              : kind_ == Kind::kWaterScenes ? &kWaterScenesKinds
                                                            : &kSwellKinds;
-  const int id = (*ids)[static_cast<std::size_t>(object.kind)];
+  const int id = (*ids)[object.kind];
   return id == 0 ? std::nullopt : std::optional(id);
 }
 

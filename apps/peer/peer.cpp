@@ -204,8 +204,6 @@ void Peer::State::draw_pass(PeerPass pass) const {
       return shade_marked(programs->water, kWaterMark);
     case PeerPass::kSky:
       return draw_sky();
-    case PeerPass::kCount:
-      break;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "math/enum_table.h"
 #include "render/frame.h"
 
 namespace swell::apps {
@@ -21,9 +22,8 @@ enum class PeerPass : std::uint8_t {
   kLand,
   kWater,
   kSky,
-  kCount
 };
-inline constexpr auto kPeerPasses = static_cast<std::size_t>(PeerPass::kCount);
+inline constexpr std::size_t kPeerPasses = kEnumerators<PeerPass>;
 std::string_view peer_pass_name(PeerPass pass);  // "reflection", "refraction", ...
 
 // Parts of the picture that the peer does not draw.

@@ -3,9 +3,16 @@
 namespace swell::apps {
 
 std::string_view peer_pass_name(PeerPass pass) {
-  constexpr std::string_view kNames[] = {"reflection", "refraction", "visible",
-                                         "land",       "water",      "sky"};
-  return kNames[static_cast<std::size_t>(pass)];
+  using enum PeerPass;
+  constexpr auto kNames = enum_words<PeerPass>({
+      {kReflection, "reflection"},
+      {kRefraction, "refraction"},
+      {kVisible, "visible"},
+      {kLand, "land"},
+      {kWater, "water"},
+      {kSky, "sky"},
+  });
+  return kNames[pass];
 }
 
 }  // namespace swell::apps

@@ -111,8 +111,7 @@ void set_view(const Shading& s, const View& camera, const GlProgram& program) {
   program.set("ray", s.rays.ray - 0.5f * (s.rays.ray_dx + s.rays.ray_dy));
   program.set("ray_dx", s.rays.ray_dx);
   program.set("ray_dy", s.rays.ray_dy);
-  for (std::size_t unit = 0; unit < kSamplerNames.size(); ++unit)
-    program.set_sampler(kSamplerNames[unit], static_cast<int>(unit));
+  for (const SamplerName& sampler : kSamplerNames) program.set_sampler(sampler.name, sampler.unit);
   program.set_sampler("distance_map", kWindowDistanceUnit + static_cast<int>(s.kind));
 }
 

@@ -26,9 +26,25 @@ enum TextureUnit : int {
 };
 
 // The shaders' names of the units before the distances', which are "distance_map" of their view.
-inline constexpr std::array<const char*, kWindowDistanceUnit> kSamplerNames = {
-    "sky_soft",   "sky_map",       "noise",        "foam_pattern",   "coast_slopes",
-    "coast_surf", "reflection",    "refraction",   "terrain_slopes", "detail",
-    "albedo_map", "around_slopes", "around_albedo"};
+struct SamplerName {
+  TextureUnit unit;
+  const char* name;
+};
+inline constexpr auto kSamplerNames = std::to_array<SamplerName>({
+    {kSkySoftUnit, "sky_soft"},
+    {kSkyMapUnit, "sky_map"},
+    {kNoiseUnit, "noise"},
+    {kFoamUnit, "foam_pattern"},
+    {kCoastSlopesUnit, "coast_slopes"},
+    {kCoastSurfUnit, "coast_surf"},
+    {kReflectionUnit, "reflection"},
+    {kRefractionUnit, "refraction"},
+    {kTerrainSlopesUnit, "terrain_slopes"},
+    {kDetailUnit, "detail"},
+    {kAlbedoUnit, "albedo_map"},
+    {kAroundSlopesUnit, "around_slopes"},
+    {kAroundAlbedoUnit, "around_albedo"},
+});
+static_assert(kSamplerNames.size() == kWindowDistanceUnit);
 
 }  // namespace swell::apps

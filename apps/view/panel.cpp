@@ -149,8 +149,7 @@ void draw_counts(const PanelReport& report) {
 std::string name_of(const render::Pick& pick) {
   if (pick.what == render::Shown::kWater) return "water";
   if (pick.what == render::Shown::kLand) return "land";
-  const auto kind = static_cast<std::size_t>(pick.object_kind);
-  return fmt::format("{}, object[{}],", scene::kObjectKindNames[kind], pick.object);
+  return fmt::format("{}, object[{}],", scene::kObjectKindNames[pick.object_kind], pick.object);
 }
 
 std::string heights_of(const render::Pick& pick) {

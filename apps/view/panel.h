@@ -37,7 +37,7 @@ struct PanelReport {
   int width_px = 0, height_px = 0;
   int threads = 1;
   std::string scene_name, simd;
-  std::array<const char*, 3> wave_names{};  // of WaveModel's values
+  EnumTable<WaveModel, const char*> wave_names{};
   bool rebuilding = false;
   std::string message;  // what has just happened; may be empty
   CameraPose camera;    // of the last frame

@@ -50,12 +50,12 @@ bool draw_sun(AirChoice& air) {
 }
 
 bool draw_clouds(bool has_placed, AirChoice& air) {
-  int kind = static_cast<int>(air.clouds);
-  bool changed = ImGui::Combo(
-      "clouds", &kind, has_placed ? "thin alone\0a layer\0placed\0" : "thin alone\0a layer\0");
-  air.clouds = static_cast<scene::CloudKind>(kind);
-  if (air.clouds == scene::CloudKind::kLayer)
-    changed |= slide("layer's cover", air.cover, 0.0, 1.0, "%.2f");
+  using enum scene::CloudKind;
+  constexpr auto kNames = enum_table<scene::CloudKind, const char*>(
+      {{kNone, "thin alone"}, {kLayer, "a layer"}, {kPlaced, "placed"}});
+  const auto without_last = static_cast<std::size_t>(kPlaced);
+  bool changed = choose("clouds", air.clouds, kNames, has_placed ? kNames.size() : without_last);
+  if (air.clouds == kLayer) changed |= slide("layer's cover", air.cover, 0.0, 1.0, "%.2f");
   return slide("thin cover", air.thin_cover, 0.0, 1.0, "%.2f") || changed;
 }
 
@@ -79,24 +79,23 @@ bool draw_priorities(scene::Detail& detail) {
 
 // How the sea is cut into triangles.
 bool draw_mesh(scene::Detail& detail) {
-  int kind = static_cast<int>(detail.triangulation);
-  bool changed = ImGui::Combo("mesh", &kind, "ROAM\0radial grid\0plane\0");
-  detail.triangulation = static_cast<scene::Triangulation>(kind);
-  if (detail.triangulation != scene::Triangulation::kRoam) return changed;
-  int priority = detail.inverse_distance_priority;
-  changed |= ImGui::Combo("priority", &priority, "size over distance\0nearest\0");
-  detail.inverse_distance_priority = priority != 0;
+  using enum scene::Triangulation;
+  constexpr auto kMeshes = enum_table<scene::Triangulation, const char*>(
+      {{kRoam, "ROAM"}, {kRadial, "radial grid"}, {kPlane, "plane"}});
+  constexpr auto kPriorities =
+      enum_table<bool, const char*>({{false, "size over distance"}, {true, "nearest"}});
+  bool changed = choose("mesh", detail.triangulation, kMeshes);
+  if (detail.triangulation != kRoam) return changed;
+  changed |= choose("priority", detail.inverse_distance_priority, kPriorities);
   return draw_priorities(detail) || changed;
 }
 
 }  // namespace
 
-bool draw_sea(const scene::Scene& scene, std::span<const char* const> wave_names,
+bool draw_sea(const scene::Scene& scene, const EnumTable<WaveModel, const char*>& wave_names,
               SceneChoice& choice) {
   bool changed = draw_sea_state(choice.waves.sea_state);
-  int model = static_cast<int>(choice.waves.model);
-  changed |= ImGui::Combo("waves", &model, wave_names.data(), static_cast<int>(wave_names.size()));
-  choice.waves.model = static_cast<WaveModel>(model);
+  changed |= choose("waves", choice.waves.model, wave_names);
   changed |= draw_wind(scene, choice.waves);
   return draw_mesh(choice.detail) || changed;
 }
@@ -112,14 +111,13 @@ bool draw_land(const scene::Scene& scene, SceneChoice& choice) {
     ImGui::TextDisabled("the scene has none");
     return false;
   }
-  int coast = static_cast<int>(choice.coast);
-  bool changed =
-      ImGui::Combo("coast", &coast, "waves of the open sea\0wave trains\0both, blended\0");
-  choice.coast = static_cast<scene::CoastModel>(coast);
-  int method = static_cast<int>(choice.detail.terrain_method);
-  changed |= ImGui::Combo("drawn by", &method, "triangles\0rays\0");
-  choice.detail.terrain_method = static_cast<scene::TerrainMethod>(method);
-  return changed;
+  using enum scene::CoastModel;
+  constexpr auto kCoasts = enum_table<scene::CoastModel, const char*>(
+      {{kNone, "waves of the open sea"}, {kTrains, "wave trains"}, {kBlend, "both, blended"}});
+  constexpr auto kMethods = enum_table<scene::TerrainMethod, const char*>(
+      {{scene::TerrainMethod::kRoam, "triangles"}, {scene::TerrainMethod::kRays, "rays"}});
+  const bool changed = choose("coast", choice.coast, kCoasts);
+  return choose("drawn by", choice.detail.terrain_method, kMethods) || changed;
 }
 
 }  // namespace swell::view

@@ -8,8 +8,8 @@
 namespace swell::view {
 
 // Between Gui::begin_frame and end_frame, in a window. `scene` is the one that was loaded; each is
-// true if it has changed the choice. wave_names: of WaveModel's values.
-bool draw_sea(const scene::Scene& scene, std::span<const char* const> wave_names,
+// true if it has changed the choice.
+bool draw_sea(const scene::Scene& scene, const EnumTable<WaveModel, const char*>& wave_names,
               SceneChoice& choice);
 bool draw_light_and_air(const scene::Scene& scene, SceneChoice& choice);
 bool draw_land(const scene::Scene& scene, SceneChoice& choice);

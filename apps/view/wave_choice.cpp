@@ -31,17 +31,25 @@ double wind_speed_mps(const scene::Scene& scene, const WaveChoice& choice) {
                           : choice.wind_speed_mps;
 }
 
-std::array<const char*, 3> wave_names(const scene::Scene& scene) {
+EnumTable<WaveModel, const char*> wave_names(const scene::Scene& scene) {
+  using enum WaveModel;
   switch (scene.terrain ? scene.coast.model : scene::CoastModel::kNone) {
     case scene::CoastModel::kNone:
       break;
     case scene::CoastModel::kTrains:  // which end at the border of the terrain
-      return {"trains, spectrum beyond", "trains, sines beyond", "trains, both beyond"};
+      return enum_table<WaveModel, const char*>({{kSpectrum, "trains, spectrum beyond"},
+                                                 {kSines, "trains, sines beyond"},
+                                                 {kBoth, "trains, both beyond"}});
     case scene::CoastModel::kBlend:
-      return {"spectrum and trains", "sines and trains", "spectrum, sines, trains"};
+      return enum_table<WaveModel, const char*>({{kSpectrum, "spectrum and trains"},
+                                                 {kSines, "sines and trains"},
+                                                 {kBoth, "spectrum, sines, trains"}});
   }
-  if (scene.sea.has_maps()) return {"maps", "sines", "maps and sines"};
-  return {"spectrum", "sines", "spectrum and sines"};
+  if (scene.sea.has_maps())
+    return enum_table<WaveModel, const char*>(
+        {{kSpectrum, "maps"}, {kSines, "sines"}, {kBoth, "maps and sines"}});
+  return enum_table<WaveModel, const char*>(
+      {{kSpectrum, "spectrum"}, {kSines, "sines"}, {kBoth, "spectrum and sines"}});
 }
 
 scene::Scene with_waves(scene::Scene scene, const WaveChoice& choice) {

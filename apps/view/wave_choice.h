@@ -1,9 +1,9 @@
 // What the panel lets one change about the waves, and the scene that results.
 #pragma once
 
-#include <array>
 #include <optional>
 
+#include "math/enum_table.h"
 #include "scene/scene.h"
 
 namespace swell::view {
@@ -24,9 +24,9 @@ WaveChoice wave_choice(const scene::Scene& scene);
 // The wind of the choice: that of its sea state if it has one.
 double wind_speed_mps(const scene::Scene& scene, const WaveChoice& choice);
 
-// The scene's waves with each model, in the order of WaveModel; maps stand in the spectrum's place.
+// The scene's waves with each model; maps stand in the spectrum's place.
 // With a coast they have its trains, too, which no choice takes away.
-std::array<const char*, 3> wave_names(const scene::Scene& scene);
+EnumTable<WaveModel, const char*> wave_names(const scene::Scene& scene);
 
 // `scene` with other waves, its coast as it is. Explicit waves are kept as the scene has them; a
 // scene without any gets three that run with the wind. A sea state takes the place of maps.

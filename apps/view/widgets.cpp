@@ -39,4 +39,8 @@ bool slide_angle(const char* label, double& radians, double low_deg, double high
   return true;
 }
 
+bool choose_number(const char* label, int& chosen, std::span<const char* const> names) {
+  return ImGui::Combo(label, &chosen, names.data(), static_cast<int>(names.size()));
+}
+
 }  // namespace swell::view

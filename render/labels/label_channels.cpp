@@ -97,6 +97,7 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "0",
      "0"},
 }};
+static_assert(lists_all(kTable, &LabelInfo::label));
 
 }  // namespace
 

@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "math/enum_table.h"
+
 namespace swell::render {
 
 enum class Label : std::uint8_t {
@@ -23,7 +25,7 @@ enum class Label : std::uint8_t {
   kFoam,
   kFlags,
 };
-inline constexpr std::size_t kLabelCount = 11;
+inline constexpr std::size_t kLabelCount = kEnumerators<Label>;
 
 // Which labels are wanted.
 class LabelSet {
@@ -40,6 +42,7 @@ class LabelSet {
   bool operator==(const LabelSet&) const = default;
 
  private:
+  static_assert(kLabelCount < 32);
   std::uint32_t bits_ = 0;
 };
 

@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "math/enum_table.h"
+
 namespace swell::render {
 
 // In the order of their primitive numbers.
 // kWater: the sea; kRivers: rivers and lakes.
 enum class SurfaceKind : std::uint8_t { kWater, kTerrain, kObjects, kTrees, kRivers };
-inline constexpr std::size_t kSurfaceKinds = 5;
-inline constexpr std::array<SurfaceKind, kSurfaceKinds> kAllSurfaces = {
-    SurfaceKind::kWater, SurfaceKind::kTerrain, SurfaceKind::kObjects, SurfaceKind::kTrees,
-    SurfaceKind::kRivers};
+inline constexpr std::size_t kSurfaceKinds = kEnumerators<SurfaceKind>;
+inline constexpr auto kAllSurfaces = all_enumerators<SurfaceKind>();
 
 // Which picture of them a view is.
 enum class ViewKind : std::uint8_t {
@@ -21,9 +21,8 @@ enum class ViewKind : std::uint8_t {
   kReflection,  // the eye's side of the water's level, mirrored in it
   kRefraction,  // the other side, as it appears through the surface
 };
-inline constexpr std::size_t kViewKinds = 3;
-inline constexpr std::array<ViewKind, kViewKinds> kAllViewKinds = {
-    ViewKind::kWindow, ViewKind::kReflection, ViewKind::kRefraction};
+inline constexpr std::size_t kViewKinds = kEnumerators<ViewKind>;
+inline constexpr auto kAllViewKinds = all_enumerators<ViewKind>();
 
 // Water shows in the window only: it looks into the other pictures.
 constexpr bool shows(ViewKind view, SurfaceKind surface) {

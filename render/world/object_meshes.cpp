@@ -37,9 +37,9 @@ ObjectShape find_shape(const scene::FloatingObject& object,
   const scene::FloatingObject& object = scene.objects[n];
   const std::string& place = object.file_place.empty() ? scene.name : object.file_place;
   const bool says_what_is_allowed = fault.find("allowed") != std::string::npos;
-  throw scene::SceneError(scene::one_line(
-      fmt::format("{}: object[{}].file, got {}{}", place.empty() ? "scene" : place, n, fault,
-                  says_what_is_allowed ? "" : ", allowed a readable mesh file")));
+  throw scene::SceneError(scene::one_line(fmt::format(
+      "{}: object[{}].file, got {}{}", place.empty() ? "scene" : place, n,
+      scene::shortened(fault, 300), says_what_is_allowed ? "" : ", allowed a readable mesh file")));
 }
 
 ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {

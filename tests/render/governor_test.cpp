@@ -235,7 +235,7 @@ TEST(Governor, ASingleSlowFrameChangesNothing) {
 TEST(Governor, OneLateFrameOfAnyKindChangesNothing) {
   for (const double share_ms : {8.1, 12.0, 14.5})
     for (const double late_ms : {20.0, 34.0, 85.0, 340.0})
-      for (int where = -1; where <= static_cast<int>(Stage::kCount); ++where) {
+      for (int where = -1; where <= static_cast<int>(kStages); ++where) {
         Governor governor({.budget_ms = kBudget_ms}, full_quality());
         for (int k = 0; k < 300; ++k) {
           FrameStatistics s = simulate(kLagoon.times(share_ms / 8.1), governor.options(), {}, k);
@@ -243,12 +243,12 @@ TEST(Governor, OneLateFrameOfAnyKindChangesNothing) {
           const double more_ms = k == 150 ? late_ms - s.frame_ms : 0.0;
           if (where < 0) {  // everywhere
             for (double& ms : s.stage_ms) ms *= 1.0 + more_ms / s.frame_ms;
-          } else if (where < static_cast<int>(Stage::kCount)) {
+          } else if (where < static_cast<int>(kStages)) {
             s.stage_ms[static_cast<std::size_t>(where)] += more_ms;
           } else {
             outside_ms += more_ms;
           }
-          if (where < static_cast<int>(Stage::kCount)) s.frame_ms += more_ms;
+          if (where < static_cast<int>(kStages)) s.frame_ms += more_ms;
           ASSERT_TRUE(is_full(governor.next(s, outside_ms))) << share_ms << ' ' << late_ms << k;
         }
       }

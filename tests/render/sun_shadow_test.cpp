@@ -87,8 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ObjectShadow,
                          testing::Values(scene::ObjectKind::kBuoy, scene::ObjectKind::kSphere,
                                          scene::ObjectKind::kBox),
                          [](const auto& kind) {
-                           return std::string(
-                               scene::kObjectKindNames[static_cast<std::size_t>(kind.param)]);
+                           return std::string(scene::kObjectKindNames[kind.param]);
                          });
 
 TEST_P(ObjectShadow, LiesWhereRaysToTheSunMeetTheObject) {

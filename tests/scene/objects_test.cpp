@@ -214,7 +214,7 @@ TEST(ObjectMesh, BoatsPiersLighthousesAndRocksFillTheirBoxes) {
   for (const ObjectKind kind : {ObjectKind::kBoat, ObjectKind::kSailboat, ObjectKind::kPier,
                                 ObjectKind::kLighthouse, ObjectKind::kRock}) {
     for (const int segments : {8, 24}) {
-      SCOPED_TRACE(kObjectKindNames[static_cast<std::size_t>(kind)]);
+      SCOPED_TRACE(kObjectKindNames[kind]);
       const ObjectMesh mesh = make_object_mesh(kind, TopMark::kCan, segments);
       ASSERT_EQ(mesh.indices.size(), 3 * mesh.triangles.size());
       EXPECT_LE(mesh.triangles.size(), 2048u);

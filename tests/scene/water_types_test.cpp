@@ -40,7 +40,7 @@ TEST(WaterTypes, DaylightFadesAsJerlovMeasured) {
     if (known.type < WaterType::kIB || known.type > WaterType::k5C) continue;
     const glm::dvec3 attenuation = diffuse_attenuation(optics_of(known.type), kPi / 6.0);
     EXPECT_NEAR(attenuation.y, known.attenuation.y, 0.25 * known.attenuation.y)
-        << kWaterTypeNames[static_cast<std::size_t>(known.type)];
+        << kWaterTypeNames[known.type];
   }
 }
 
@@ -50,8 +50,7 @@ TEST(WaterTypes, AWhiteDiscIsSeenLessFarFromTypeToType) {
     const double depth_m = secchi_depth_m(optics_of(known.type));
     // The clearest light in type IB is near 490 nm, where none of the three wavelengths is.
     const double part = known.type == WaterType::kIB ? 0.25 : 0.15;
-    EXPECT_NEAR(depth_m, known.secchi_m, part * known.secchi_m)
-        << kWaterTypeNames[static_cast<std::size_t>(known.type)];
+    EXPECT_NEAR(depth_m, known.secchi_m, part * known.secchi_m) << kWaterTypeNames[known.type];
     EXPECT_LT(depth_m, before);
     before = depth_m;
   }
@@ -63,7 +62,7 @@ TEST(WaterTypes, DeepWaterHasTheColourOfItsSpectrum) {
     const glm::dvec3 colour = colour_of_deep_water(optics_of(known.type));
     for (int c = 1; c < 3; ++c)
       EXPECT_NEAR(colour[c], known.colour[c], 0.25 * known.colour[c] + 5e-4)
-          << kWaterTypeNames[static_cast<std::size_t>(known.type)] << " " << c;
+          << kWaterTypeNames[known.type] << " " << c;
   }
 }
 

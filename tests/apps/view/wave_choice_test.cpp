@@ -71,14 +71,14 @@ TEST(WaveChoice, AWindTakesThePlaceOfASeaState) {
 
 TEST(WaveChoice, NamesSayWhatTheSceneHas) {
   scene::Scene scene = windy();
-  EXPECT_STREQ(wave_names(scene)[0], "spectrum");
+  EXPECT_STREQ(wave_names(scene)[WaveModel::kSpectrum], "spectrum");
   scene.coast.model = scene::CoastModel::kBlend;
-  EXPECT_STREQ(wave_names(scene)[0], "spectrum") << "no terrain, no coast";
+  EXPECT_STREQ(wave_names(scene)[WaveModel::kSpectrum], "spectrum") << "no terrain, no coast";
   scene.terrain.emplace();
-  EXPECT_STREQ(wave_names(scene)[0], "spectrum and trains");
-  EXPECT_STREQ(wave_names(scene)[1], "sines and trains");
+  EXPECT_STREQ(wave_names(scene)[WaveModel::kSpectrum], "spectrum and trains");
+  EXPECT_STREQ(wave_names(scene)[WaveModel::kSines], "sines and trains");
   scene.coast.model = scene::CoastModel::kTrains;
-  EXPECT_STREQ(wave_names(scene)[0], "trains, spectrum beyond");
+  EXPECT_STREQ(wave_names(scene)[WaveModel::kSpectrum], "trains, spectrum beyond");
 }
 
 TEST(WaveChoice, NoChoiceTakesTheCoastAway) {
