@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/serve/default_scene.h"
 #include "apps/serve/serve.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/options.h"
@@ -10,6 +11,7 @@
 #include "apps/shared/program.h"
 #include "apps/view/viewer.h"
 #include "render/world/world_view.h"
+#include "scene/settings.h"
 
 namespace swell::serve {
 namespace {
@@ -72,7 +74,8 @@ void complete_address(Options& options) {
 std::optional<Options> parse_options(int argc, char** argv) {
   Options options;
   apps::CommandLine line("swell-view",
-                         "Flies over a scene in a window or a browser; F1 shows the keys.");
+                         "Flies over a scene, the open sea if none is named, in a window or a "
+                         "browser; F1 shows the keys.");
   apps::add_frame_setup(line, options.setup);
   apps::add_quality_options(line, options.setup.frame);
   apps::add_integer(line, "--frames", options.frames, 0, kMostFrames,
@@ -98,6 +101,11 @@ void warn_of_eye(const render::World& world) {
   apps::EyeWarning().look(0, world, view, workspace);
 }
 
+scene::Scene scene_of(const apps::SceneChoice& choice) {
+  if (!choice.path.empty()) return apps::load_scene(choice);
+  return scene::parse_scene(kDefaultScene, kDefaultSceneFile, choice.settings);
+}
+
 void run(const Options& options) {
   apps::select_simd(options.setup.simd);
   apps::check_linear_light(options.setup.frame, "--screenshot", options.screenshot);
@@ -110,7 +118,7 @@ void run(const Options& options) {
   settings.frame = options.setup.frame;
   settings.frame.keep_linear = apps::stores_linear_light(options.screenshot);
 
-  const scene::Scene scene = apps::load_scene(options.setup.scene);
+  const scene::Scene scene = scene_of(options.setup.scene);
   settings.output_folder = options.address ? options.files : "";
   if (options.address) return serve(scene, settings, *options.address);
 

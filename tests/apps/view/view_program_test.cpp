@@ -94,6 +94,23 @@ TEST_F(ViewProgram, TheScreenshotIsThePictureOfSwellRender) {
   expect_same_pixels(file("a.png"), file("b.png"));
 }
 
+TEST_F(ViewProgram, WithoutASceneTheOpenSeaIsShown) {
+  const ShellOutcome view = run(
+      fmt::format("cd / && SDL_VIDEODRIVER=dummy {} --set wind.speed_mps=9 --size 64x36 --frames 1 "
+                  "--screenshot {}",
+                  SWELL_VIEW, file("a.png")));
+  ASSERT_EQ(view.exit_code, 0) << view.output;
+  EXPECT_EQ(view.output, "");
+  const ShellOutcome render = run(fmt::format(
+      "{} --scene {}/scenes/open_ocean.toml --set wind.speed_mps=9 --size 64x36 --out {}",
+      SWELL_RENDER, SWELL_SOURCE_DIR, file("b.png")));
+  ASSERT_EQ(render.exit_code, 0) << render.output;
+  expect_same_pixels(file("a.png"), file("b.png"));
+  expect_one_error_line(
+      run(fmt::format("SDL_VIDEODRIVER=dummy {} --set wind.speed_mps=99", SWELL_VIEW)), 2,
+      "setting wind.speed_mps=99: wind.speed_mps, got 99, allowed 0 to 60");
+}
+
 TEST_F(ViewProgram, OnAnXServerOfAnyDepthThePictureIsTheSame) {
   const ShellOutcome render = run(fmt::format("{} --scene {} --size 320x200 --time 0.05 --out {}",
                                               SWELL_RENDER, scene(), file("b.png")));
