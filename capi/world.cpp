@@ -113,7 +113,7 @@ swell_status swell_object_info(const swell_world* world, size_t object, swell_ob
     found.klass = of.object_classes[object];
     found.name = objects[object].name.c_str();
     found.class_name = of.class_names[found.klass].c_str();
-    found.kind = scene::kObjectKindNames[static_cast<std::size_t>(objects[object].kind)].data();
+    found.kind = scene::kObjectKindNames[objects[object].kind].data();
     give(found, info, "info");
   });
 }

@@ -256,7 +256,7 @@ Fault fault_of_objects(const std::vector<FloatingObject>& objects, bool has_rive
       return fmt::format("{}[{}].{}", kObjectsKey, n, name);
     };
     const bool has_file = is_of_file(object.kind);
-    const std::string kind(kObjectKindNames[static_cast<std::size_t>(object.kind)]);
+    const std::string kind(kObjectKindNames[object.kind]);
     if (has_file && object.file.empty())
       return SceneFault{key("kind"), fmt::format("\"{}\" without a file", kind),
                         fmt::format("a {} with its file", kind)};
@@ -405,7 +405,7 @@ std::optional<SceneFault> find_fault(const std::vector<ocean::Disturbance>& dist
 }
 
 std::string fault_text(const SceneFault& fault) {
-  return fmt::format("{}, got {}, allowed {}", fault.key, fault.got, fault.allowed);
+  return fmt::format("{}, got {}, allowed {}", fault.key, shortened(fault.got, 300), fault.allowed);
 }
 
 std::string place_of_key(const Scene& scene, const std::string& key) {

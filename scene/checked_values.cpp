@@ -1,6 +1,7 @@
 #include "scene/checked_values.h"
 
 #include <fstream>
+#include <sstream>
 
 namespace swell::scene {
 
@@ -10,17 +11,27 @@ std::string got_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
   if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
-  if (const auto* text = node.as_string())
-    return fmt::format("\"{}\"", std::string_view(text->get()).substr(0, 100));
+  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", shortened(text->get()));
   if (const auto* array = node.as_array())
     return fmt::format("an array of {} values", array->size());
   if (node.is_table()) return "a table";
-  return "a date or time";
+  return text_value(node).value_or("a date or time");
+}
+
+std::optional<std::string> text_value(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (!node.is_date() && !node.is_time() && !node.is_date_time()) return std::nullopt;
+  std::ostringstream text;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_chronological<decltype(value)>) text << value.get();
+  });
+  return text.str();
 }
 
 void CheckedValues::fail_value(const toml::node& node, const std::string& path,
                                const std::string& got, const std::string& allowed) const {
-  fail(file_, place_of(node.source()), fmt::format("{}, got {}, allowed {}", path, got, allowed));
+  fail(file_, place_of(node.source()),
+       fmt::format("{}, got {}, allowed {}", path, shortened(got, 300), allowed));
 }
 
 fs::path CheckedValues::beside_file(const std::string& text) const {

@@ -20,6 +20,10 @@ namespace swell::scene {
 // What a TOML value is, for messages: its text if it is a number or boolean, else its type.
 std::string got_text(const toml::node& node);
 
+// The text of a value: a string's, or that of a date or time, which needs no quotes. Null of
+// others.
+std::optional<std::string> text_value(const toml::node& node);
+
 // Checks the values of one file, and notes the places of points in `given`.
 class CheckedValues {
  public:
@@ -116,13 +120,13 @@ class CheckedValues {
   template <class Object>
   std::string checked_text(const toml::node& node, const std::string& path,
                            const Parameter<Object>& parameter, const std::string& allowed) const {
-    const auto* text = node.as_string();
+    const std::optional<std::string> text = text_value(node);
     if (!text) fail_value(node, path, got_text(node), allowed);
-    if (parameter.is_of_frames) return checked_frame_paths(node, path, text->get(), parameter);
+    if (parameter.is_of_frames) return checked_frame_paths(node, path, *text, parameter);
     if (parameter.kind == ParameterKind::kPath)
-      return checked_path(node, path, text->get(), parameter.path_of);
-    if (!allows(parameter, text->get())) fail_value(node, path, got_text(node), allowed);
-    return text->get();
+      return checked_path(node, path, *text, parameter.path_of);
+    if (!allows(parameter, *text)) fail_value(node, path, got_text(node), allowed);
+    return *text;
   }
 
   // The absolute path of a file that can be opened.

@@ -12,6 +12,7 @@
 #include "math/elementary.h"
 #include "scene/parameters.h"
 #include "scene/scene_error.h"
+#include "scene/spelling.h"
 #include "scene/toml_limits.h"
 
 namespace swell::scene {
@@ -253,7 +254,9 @@ class FormReader {
       known.push_back("factor");
     for (const auto& [key, node] : table)
       if (std::ranges::find(known, key.str()) == known.end())
-        fail(node, "unknown key", fmt::format("'{}.{}'", path_, key.str().substr(0, 100)),
+        fail(node, "unknown key",
+             fmt::format("'{}.{}'{}", path_, shortened(key.str(), 100),
+                         did_you_mean(key.str(), known)),
              fmt::format("{}", fmt::join(known, ", ")));
   }
 
@@ -326,7 +329,7 @@ class FormReader {
     const toml::node* const node = table.get(key);
     const std::string text(node ? node->value_or(std::string_view()) : otherwise);
     if (std::ranges::find(words, text) == words.end())
-      fail(*node, fmt::format("{}.{}", path_, key), fmt::format("\"{}\"", text.substr(0, 100)),
+      fail(*node, fmt::format("{}.{}", path_, key), fmt::format("\"{}\"", shortened(text)),
            fmt::format("\"{}\"", fmt::join(words, "\", \"")));
     return text;
   }
@@ -358,7 +361,7 @@ Form parse_form(std::string_view text, const std::string& file_name) {
   } catch (const toml::parse_error& error) {
     throw SceneError(fmt::format("{}:{}: column {}: syntax error, got '{}', allowed TOML 1.0",
                                  file_name, error.source().begin.line, error.source().begin.column,
-                                 one_line(std::string(error.description()))));
+                                 one_line(shortened(error.description()))));
   }
   return FormReader(file_name).read(root);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "scene/scene_error.h"
 #include "scene/scene_tables.h"
 #include "scene/toml_limits.h"
 
@@ -72,7 +73,7 @@ class Converter {
 
   [[noreturn]] void refuse(const std::string& path, std::string_view got,
                            std::string_view allowed) const {
-    fail(file_, kNowhere, fmt::format("{}, got {}, allowed {}", path, got, allowed));
+    fail(file_, kNowhere, fmt::format("{}, got {}, allowed {}", shortened(path), got, allowed));
   }
 
   const std::filesystem::path& file_;
@@ -82,7 +83,8 @@ class Converter {
 
 toml::table parse_json_tables(std::string_view text, const std::filesystem::path& file) {
   const auto refuse = [&](std::string_view got) {
-    fail(file, {0, 0, {}}, fmt::format("syntax error, got '{}', allowed an object in JSON", got));
+    fail(file, {0, 0, {}},
+         fmt::format("syntax error, got '{}', allowed an object in JSON", shortened(got)));
   };
   Json json;
   try {

@@ -63,6 +63,17 @@ std::string one_line(std::string text) {
   return text.substr(0, end) + "...";
 }
 
+std::string shortened(std::string_view text, std::size_t most_bytes) {
+  if (text.size() <= most_bytes) return std::string(text);
+  const auto is_within = [&](std::size_t at) {
+    return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
+  };
+  std::size_t head = 2 * most_bytes / 3, tail = text.size() - (most_bytes - head - 3);
+  while (head > 0 && is_within(head)) --head;
+  while (tail < text.size() && is_within(tail)) ++tail;
+  return fmt::format("{}...{}", text.substr(0, head), text.substr(tail));
+}
+
 template <class Object>
 std::string allowed_text(const Parameter<Object>& parameter) {
   const std::string range =

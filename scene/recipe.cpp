@@ -12,6 +12,7 @@
 #include "scene/parameters.h"
 #include "scene/scene_tables.h"
 #include "scene/settings.h"
+#include "scene/spelling.h"
 
 namespace swell::scene {
 namespace {
@@ -81,7 +82,8 @@ class RecipeReader {
  private:
   [[noreturn]] void fault(const toml::node& node, const std::string& what,
                           const std::string& allowed) const {
-    fail(recipe_.file, place_of(node.source()), fmt::format("{}, allowed {}", what, allowed));
+    fail(recipe_.file, place_of(node.source()),
+         fmt::format("{}, allowed {}", shortened(what, 300), allowed));
   }
 
   void known(const toml::table& table, std::string_view name,
@@ -89,8 +91,8 @@ class RecipeReader {
     for (const auto& [key, node] : table)
       if (std::ranges::find(keys, key.str()) == keys.end())
         fail(recipe_.file, place_of(key.source()),
-             fmt::format("unknown key, got '{}{}', allowed {}", name, key.str(),
-                         fmt::join(keys, ", ")));
+             fmt::format("unknown key, got '{}{}'{}, allowed {}", name, shortened(key.str()),
+                         did_you_mean(key.str(), std::vector(keys)), fmt::join(keys, ", ")));
   }
 
   std::string text_value(const toml::table& table, std::string_view key,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace swell::scene {
 
@@ -10,5 +12,9 @@ namespace swell::scene {
 class SceneError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// The text for a message, with "..." in place of its middle if it has more bytes than this: so that
+// what is said after it, the allowed values, is not cut off. UTF-8 characters stay whole.
+std::string shortened(std::string_view text, std::size_t most_bytes = 160);
 
 }  // namespace swell::scene

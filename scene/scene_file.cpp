@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <numeric>
 
 #include "math/parallel.h"
 #include "ocean/map_sets.h"
@@ -21,6 +20,7 @@
 #include "scene/sea_state.h"
 #include "scene/settings.h"
 #include "scene/sky.h"
+#include "scene/spelling.h"
 
 namespace swell::scene {
 namespace {
@@ -31,21 +31,6 @@ constexpr double kMaxWind_mps = 60.0;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& text) {
   throw SceneError(one_line(fmt::format("{}: {}", file.string(), text)));
-}
-
-// Levenshtein's distance.
-int edit_distance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    int diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const int substituted = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
 }
 
 // Where else a file has something, for messages.
@@ -294,12 +279,28 @@ class Reader {
   // `table` is the path of the key's table, or empty.
   [[noreturn]] void fail_unknown(const Place& place, std::string_view table,
                                  std::string_view key) const {
-    const std::string shortened(key.substr(0, 100));
+    const std::string shown = shortened(key, 100);
     const std::string prefix = table.empty() ? "" : fmt::format("{}.", table);
     const std::string where = table.empty() ? "" : fmt::format(" in [{}]", table);
+    const std::vector<std::string> known = known_in_table(table, shown);
     fail(file_, place,
-         fmt::format("unknown key, got '{}{}', allowed{} {}", prefix, shortened, where,
-                     fmt::join(known_in_table(table, shortened), ", ")));
+         fmt::format("unknown key, got '{}{}'{}, allowed{} {}", prefix, shown,
+                     meant_key(key, known), where, fmt::join(known, ", ")));
+  }
+
+  // Of the table's keys, as they are listed, or one of another table with this name.
+  std::string meant_key(std::string_view key, std::span<const std::string> known) const {
+    std::vector<std::string_view> names;  // without brackets and the table's
+    for (std::string_view text : known) {
+      text.remove_prefix(std::min(text.find_first_not_of('['), text.size()));
+      text = text.substr(0, text.find(']'));
+      names.push_back(text.substr(text.find_last_of('.') + 1));
+    }
+    if (const std::string meant = did_you_mean(key, names); !meant.empty()) return meant;
+    const std::string end = fmt::format(".{}", key);
+    const auto elsewhere = std::ranges::find_if(
+        parameters_, [&](const auto& parameter) { return parameter.key.ends_with(end); });
+    return elsewhere == parameters_.end() ? "" : did_you_mean(elsewhere->key);
   }
 
   // The keys of a table and, in brackets, the tables in it; those most like `key` first.

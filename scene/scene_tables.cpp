@@ -31,7 +31,7 @@ toml::table parse_text(std::string_view text, const fs::path& file) {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     fail(file, place_of(error.source()),
-         fmt::format("syntax error, got '{}', allowed TOML 1.0", error.description()));
+         fmt::format("syntax error, got '{}', allowed TOML 1.0", shortened(error.description())));
   }
 }
 
@@ -52,7 +52,8 @@ std::string_view trimmed(std::string_view text) {
 // A setting that is being made.
 class Setting {
  public:
-  explicit Setting(const std::string& text) : source_(one_line(std::string(kSetting) + text)) {
+  explicit Setting(const std::string& text)
+      : source_(one_line(std::string(kSetting) + shortened(text))) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || text.size() > kMaxFileBytes || find_deep_nesting(text) != 0)
       refuse("a setting, got none, allowed KEY=VALUE");
@@ -74,7 +75,8 @@ class Setting {
         node = element(*node, part, part.indices[n], n + 1 == part.indices.size());
       table = node->as_table();
       if (!table)
-        refuse(fmt::format("'{}', got a key in it, allowed none: it is no table", part.name));
+        refuse(fmt::format("'{}', got a key in it, allowed none: it is no table",
+                           shortened(part.name)));
     }
     set_last(*table);
   }
@@ -89,7 +91,7 @@ class Setting {
       refuse(
           fmt::format("a key, got '{}', allowed dotted names, as wind.speed_mps or "
                       "object[0].name",
-                      text));
+                      shortened(text)));
     };
     const std::size_t bracket = std::min(text.find('['), text.size());
     KeyPart part{std::string(text.substr(0, bracket)), {}};
@@ -132,11 +134,11 @@ class Setting {
   toml::array& array_of(toml::node& node, const KeyPart& part, std::size_t index) const {
     toml::array* const array = node.as_array();
     if (!array)
-      refuse(
-          fmt::format("'{}', got [{}] after it, allowed none: it is no array", part.name, index));
+      refuse(fmt::format("'{}', got [{}] after it, allowed none: it is no array",
+                         shortened(part.name), index));
     if (index > array->size())
-      refuse(fmt::format("'{}', got [{}] after it, allowed [0] to [{}]", part.name, index,
-                         array->size()));
+      refuse(fmt::format("'{}', got [{}] after it, allowed [0] to [{}]", shortened(part.name),
+                         index, array->size()));
     return *array;
   }
 
@@ -179,7 +181,8 @@ class Setting {
     try {
       return parsed(quoted + '"');
     } catch (const toml::parse_error& error) {
-      refuse(fmt::format("a value, got '{}', allowed TOML 1.0 or text", error.description()));
+      refuse(fmt::format("a value, got '{}', allowed TOML 1.0 or text",
+                         shortened(error.description())));
     }
   }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <bit>
 #include <cstring>
 #include <string>
@@ -14,7 +13,11 @@ namespace swell::texture {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
-constexpr std::array<std::string_view, 4> kTypes = {"<f4", "<u4", "<u2", "|u1"};  // of NpySamples
+
+constexpr std::string_view type_name(std::span<const float>) { return "<f4"; }
+constexpr std::string_view type_name(std::span<const std::uint32_t>) { return "<u4"; }
+constexpr std::string_view type_name(std::span<const std::uint16_t>) { return "<u2"; }
+constexpr std::string_view type_name(std::span<const std::uint8_t>) { return "|u1"; }
 
 // Magic bytes, version, the header's length in two bytes, and the header: a Python dictionary,
 // spaces so that the samples begin at a multiple of 64 bytes, and a line's end.
@@ -37,7 +40,8 @@ std::vector<std::uint8_t> encode_npy(NpySamples samples, int height, int width, 
               channels);
   const std::string shape = channels == 0 ? fmt::format("({}, {})", height, width)
                                           : fmt::format("({}, {}, {})", height, width, channels);
-  const std::string head = file_head(kTypes[samples.index()], shape);
+  const std::string_view type = std::visit([](auto span) { return type_name(span); }, samples);
+  const std::string head = file_head(type, shape);
   std::vector<std::uint8_t> bytes(head.begin(), head.end());
   std::visit(
       [&](const auto& values) {

@@ -41,8 +41,8 @@ struct Target {
 };
 
 void check_kind(const std::filesystem::path& path, mode_t mode) {
-  if (S_ISDIR(mode)) fail(path, "cannot write: it is a directory");
-  if (!S_ISREG(mode)) fail(path, "cannot write: it is not a regular file");
+  if (S_ISDIR(mode)) fail(path, "cannot write, got a directory, allowed a file");
+  if (!S_ISREG(mode)) fail(path, "cannot write, got a device, a pipe or a socket, allowed a file");
 }
 
 // A link is replaced, and what it names stays as it is. One to a folder, a device or a pipe is
@@ -58,7 +58,7 @@ void check_link(const std::filesystem::path& path, int folder, const std::string
   std::array<char, kProcesses.size()> text{};
   const ssize_t got = ::readlinkat(folder, name.c_str(), text.data(), text.size());
   if (got == std::ssize(kProcesses) && std::string_view(text.data(), text.size()) == kProcesses)
-    fail(path, "cannot write: it stands for an open file");
+    fail(path, "cannot write, got what stands for an open file, allowed a file's own name");
 }
 
 // Refuses what is not a file: renaming over a device or a pipe would replace it.

@@ -84,7 +84,7 @@ void fill(const DatasetOptions& options, const scene::Recipe& recipe, const Clas
 
 void check(const DatasetOptions& options, const scene::Recipe& recipe, bool has_labels) {
   if (!std::filesystem::is_directory(options.out))
-    throw std::runtime_error(options.out + ": no folder of a data set");
+    throw std::runtime_error(one_line(options.out + ": got no folder, allowed one of a data set"));
   const DataSetFolder folder(options.out, recipe, has_labels, DataSetFolder::Use::kCheck);
   if (const std::string fault = folder.fault(); !fault.empty())
     throw std::runtime_error(one_line(fmt::format("{}: {}", options.out, fault)));

@@ -76,7 +76,7 @@ Json objects_json(const scene::Scene& scene, std::span<const std::string> class_
   for (std::size_t n = 0; n < scene.objects.size(); ++n) {
     const scene::FloatingObject& object = scene.objects[n];
     json.push_back(row(render::kFirstObjectId + n, object.name, classes[n],
-                       scene::kObjectKindNames[static_cast<std::size_t>(object.kind)]));
+                       scene::kObjectKindNames[object.kind]));
   }
   return json;
 }

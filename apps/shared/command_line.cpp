@@ -8,16 +8,24 @@
 #include "apps/shared/manual.h"
 #include "apps/shared/program.h"
 #include "apps/shared/version.h"
+#include "scene/scene_error.h"
+#include "scene/spelling.h"
 
 namespace swell::apps {
 namespace {
 
 using Texts = std::vector<std::string>;
 
-[[noreturn]] void refuse(std::string_view what, std::string_view got, const Texts& allowed,
-                         std::string_view more = "") {
-  throw OptionError(fmt::format("command line: {}, got '{}', allowed {}{}", what, got,
-                                fmt::join(allowed, ", "), more));
+template <class... Values>
+[[noreturn]] void refuse(fmt::format_string<Values...> text, Values&&... values) {
+  throw OptionError("command line: " + fmt::format(text, std::forward<Values>(values)...));
+}
+
+[[noreturn]] void refuse_word(std::string_view what, std::string_view got, const Texts& allowed,
+                              std::string_view more = "") {
+  const std::vector<std::string_view> names(allowed.begin(), allowed.end());
+  refuse("{}, got '{}'{}, allowed {}{}", what, scene::shortened(got),
+         scene::did_you_mean(got.substr(0, got.find('=')), names), fmt::join(allowed, ", "), more);
 }
 
 // Throws for the first argument that is no option of this line, nor a mode.
@@ -30,19 +38,55 @@ void check_no_extras(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) options.push_back(option->get_name());
 
   const auto is_option = [](const std::string& text) { return text.starts_with('-'); };
-  if (!modes.empty() && !is_option(extras.front())) refuse("unknown mode", extras.front(), modes);
+  if (!modes.empty() && !is_option(extras.front()))
+    refuse_word("unknown mode", extras.front(), modes);
   // An unknown option's value comes after it.
   const auto option = std::ranges::find_if(extras, is_option);
-  if (option == extras.end()) refuse("unknown argument", extras.front(), options);
-  refuse("unknown option", *option, options, modes.empty() ? "" : "; a mode's own come after it");
+  if (option == extras.end()) refuse_word("unknown argument", extras.front(), options);
+  refuse_word("unknown option", *option, options,
+              modes.empty() ? "" : "; a mode's own come after it");
 }
 
 // Throws for an option that was given more often than once.
 void check_once(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     if (option->get_items_expected_max() == 1 && option->count() > 1)
-      throw OptionError(fmt::format("command line: {}, got it {} times, allowed once",
-                                    option->get_name(), option->count()));
+      refuse("{}, got it {} times, allowed once", option->get_name(), option->count());
+}
+
+// Throws for options that do not go together, or of which one is missing.
+void check_together(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_required() && option->count() == 0)
+      refuse("{0}, got none, allowed {0} {1}", option->get_name(), option->get_type_name());
+    if (option->count() == 0) continue;
+    for (const CLI::Option* other : option->get_excludes())
+      if (other->count() > 0)
+        refuse("{}, got it with {}, allowed one of them", option->get_name(), other->get_name());
+    for (const CLI::Option* other : option->get_needs())
+      if (other->count() == 0)
+        refuse("{0}, got it without {1}, allowed with {1}", option->get_name(), other->get_name());
+  }
+}
+
+// Throws for what the library says of one option's values, 'NAME: ...' or '... NAME = VALUE'.
+void check_values(const CLI::App& app, const std::string& fault) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name(), kind = option->get_type_name();
+    if (fault.starts_with(name + ": "))
+      refuse("{0}, got too few values, allowed {0} {1}", name, kind);
+    if (const std::size_t at = fault.find(name + " = "); at != std::string::npos)
+      refuse("{0}, got '{1}', allowed {0} {2}", name,
+             scene::shortened(fault.substr(at + name.size() + 3)), kind);
+  }
+}
+
+// Throws what is wrong with a line, or one of its modes', that the library refused.
+void explain(const CLI::App& app, const std::string& fault) {
+  check_no_extras(app);  // before what may be missing only because of it
+  check_once(app);
+  check_values(app, fault);
+  check_together(app);
 }
 
 }  // namespace
@@ -105,14 +149,11 @@ bool CommandLine::parse(int argc, char** argv) {
     app_->exit(request);
     return false;
   } catch (const CLI::ParseError& e) {
-    // An unknown option before what may be missing only because of it.
-    check_no_extras(*app_);
-    for (const CLI::App* mode : app_->get_subcommands()) check_no_extras(*mode);
-    check_once(*app_);
-    for (const CLI::App* mode : app_->get_subcommands()) check_once(*mode);
+    explain(*app_, e.what());
+    for (const CLI::App* mode : app_->get_subcommands()) explain(*mode, e.what());
     if (argc < 2 && app_->get_require_subcommand_min() > 0)
-      throw OptionError("command line: got no mode, allowed those that --help lists");
-    throw OptionError(std::string("command line: ") + e.what());
+      refuse("got no mode, allowed those that --help lists");
+    refuse("{}", e.what());
   }
 }
 

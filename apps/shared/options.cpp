@@ -10,6 +10,7 @@
 #include "apps/shared/parse_number.h"
 #include "apps/shared/picture_file.h"
 #include "math/simd_target.h"
+#include "scene/scene_error.h"
 
 namespace swell::apps {
 namespace {
@@ -18,7 +19,8 @@ constexpr int kMaxSidePx = 8192;
 constexpr int kMaxFrame = 9999999;
 
 [[noreturn]] void refuse(std::string_view option, std::string_view got, std::string_view allowed) {
-  throw OptionError(fmt::format("command line: {}: got '{}', allowed {}", option, got, allowed));
+  throw OptionError(fmt::format("command line: {}: got '{}', allowed {}", option,
+                                scene::shortened(got), allowed));
 }
 
 // As the help shows it; nothing for a value below `low`, which means "not given".
@@ -49,10 +51,14 @@ void add_scene_options(CommandLine& line, SceneChoice& scene) {
 
 void add_frame_setup(CommandLine& line, FrameSetup& setup) {
   add_scene_options(line, setup.scene);
-  line.require("--scene");
   line.add_value({"--size", "WxH", "1280x720", "Picture size in pixels",
                   [&setup](const std::string& text) { setup.size = parse_size(text); }});
   add_machine_options(line, setup.threads, setup.simd);
+}
+
+void add_required_frame_setup(CommandLine& line, FrameSetup& setup) {
+  add_frame_setup(line, setup);
+  line.require("--scene");
 }
 
 void add_machine_options(CommandLine& line, int& threads, std::string& simd) {

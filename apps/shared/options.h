@@ -28,8 +28,11 @@ struct FrameSetup {
 // --scene and --set.
 void add_scene_options(CommandLine& line, SceneChoice& scene);
 
-// --scene, which must be given, --set, --size, --threads, --simd
+// --scene, --set, --size, --threads, --simd
 void add_frame_setup(CommandLine& line, FrameSetup& setup);
+
+// The same; --scene must be given.
+void add_required_frame_setup(CommandLine& line, FrameSetup& setup);
 
 // --tile, --triangles, --terrain-triangles, --lookup-scale, --background-error,
 // --picture-scale, --edge-samples, --wireframe, --without

@@ -36,7 +36,7 @@ struct FrameReport {
   double world_ms = 0.0, first_frame_ms = 0.0;  // before there was a picture: made once
   Spread frame_ms;
   int over_budget = 0;  // frames slower than the budget
-  std::array<Spread, static_cast<std::size_t>(render::Stage::kCount)> stage_ms;
+  std::array<Spread, render::kStages> stage_ms;
   render::FrameStatistics last;  // of the last frame
   std::uint64_t hash = 0;        // of the last frame's picture
   double peak_rss_mb = 0.0;

@@ -154,9 +154,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[sky]\nhorizon = [1, 0.1, 1]\nzenith = [0, 0.8, 0]\n",
               "test.toml:3: column 10: sky.zenith[1], got 0.8, allowed at most 7.66 times "
               "sky.horizon[1], which is 0.1"},
-        Fault{"name = 1979-05-27\n",
-              "test.toml:1: column 8: name, got a date or time, allowed text of at most 200 "
-              "bytes"}));
+        Fault{"[coast]\nmodel = 1979-05-27\n",
+              "test.toml:2: column 9: coast.model, got 1979-05-27, allowed \"none\", \"trains\" or "
+              "\"blend\""}));
 
 INSTANTIATE_TEST_SUITE_P(
     Coasts, SceneFileFault,
@@ -242,12 +242,14 @@ INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, SceneFileFault,
     ::testing::Values(
         Fault{"[camera]\nfov_deg = 50\n",
-              "test.toml:2: column 1: unknown key, got 'camera.fov_deg', allowed in [camera] "
+              "test.toml:2: column 1: unknown key, got 'camera.fov_deg' (did you mean "
+              "'fov_y_deg'?), allowed in [camera] "
               "fov_y_deg, roll_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, mount, focal_px, "
               "[[camera.path]], near_m, size_px, velocity_mps, mount_offset_m, quaternion, "
               "principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
-              "test.toml:1: column 2: unknown key, got 'camrea', allowed name, [camera], [air], "
+              "test.toml:1: column 2: unknown key, got 'camrea' (did you mean 'camera'?), allowed "
+              "name, [camera], [air], "
               "[sea], [[lake]], [water], [[camera.path]], [sky], [picture], [coast], [[river]], "
               "[[trees]], [clouds], [wind], [[sea.maps]], [ripples], [terrain], [[sea.swell]], "
               "[[sea.sines]], [detail], [[object]], [[disturbance]], [[clouds.cumulus]]"},
@@ -255,17 +257,20 @@ INSTANTIATE_TEST_SUITE_P(
               "test.toml:2: column 1: unknown key, got 'wind.speed_kn', allowed in [wind] "
               "speed_mps, from_deg"},
         Fault{"[[sea.sines]]\namplitud_m = 3\n",
-              "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m', allowed in "
+              "test.toml:2: column 1: unknown key, got 'sea.sines.amplitud_m' (did you mean "
+              "'amplitude_m'?), allowed in "
               "[sea.sines] amplitude_m, period_s, wavelength_m, to_deg, phase_deg"},
         Fault{"[[object]]\ncolor = [1, 0, 0]\n",
-              "test.toml:2: column 1: unknown key, got 'object.color', allowed in [object] colour, "
+              "test.toml:2: column 1: unknown key, got 'object.color' (did you mean 'colour'?), "
+              "allowed in [object] colour, "
               "motion, file, up, scale, class, kind, top_mark, roll_deg, wake, name, drift, "
               "checker_m, "
               "position_m, path_m, size_m, origin, path_closed, draught, roughness, metalness, "
               "height_m, "
               "speed_mps, heading_deg"},
         Fault{"\"na\\nme\" = 3\n",
-              "test.toml:1: column 1: unknown key, got 'na me', allowed name, [[lake]], [air], "
+              "test.toml:1: column 1: unknown key, got 'na me' (did you mean 'name'?), allowed "
+              "name, [[lake]], [air], "
               "[camera], [sky], [sea], [water], [wind], [[sea.maps]], [picture], [ripples], "
               "[coast], [[sea.swell]], [[sea.sines]], [[river]], [[trees]], [clouds], [detail], "
               "[[object]], [terrain], [[camera.path]], [[disturbance]], [[clouds.cumulus]]"},
@@ -281,7 +286,8 @@ INSTANTIATE_TEST_SUITE_P(
               "beaufort, fetch_km, resolution, tiling, loop_s, douglas, choppiness, gravity_mps2, "
               "amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
-              "test.toml:2: column 1: unknown key, got 'camera.eye.m', allowed in [camera] eye_m, "
+              "test.toml:2: column 1: unknown key, got 'camera.eye.m' (did you mean 'eye_m'?), "
+              "allowed in [camera] eye_m, "
               "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "
               "turn_deg_s, "
               "quaternion, focal_px, heading_deg, pitch_deg, mount_offset_m, principal_px"},
@@ -316,6 +322,23 @@ TEST(SceneFileFaults, AnUnknownKeyListsTheKeysOfItsTable) {
     }
     EXPECT_NE(error_of("x = 1\n").find("[" + table + "]"), std::string::npos);
   }
+}
+
+TEST(SceneFileFaults, AMisspeltKeyIsAnsweredWithTheOneThatWasMeant) {
+  const auto meant = [](const std::string& text) {
+    const std::string error = error_of(text), question = "(did you mean '";
+    const std::size_t at = error.find(question);
+    if (at == std::string::npos) return std::string();
+    return error.substr(at + question.size(), error.find("'?)") - at - question.size());
+  };
+  EXPECT_EQ(meant("[wind]\nspede_mps = 3\n"), "speed_mps");
+  EXPECT_EQ(meant("[[rivr]]\n"), "river");
+  EXPECT_EQ(meant("[[sea.swel]]\n"), "swell");
+  EXPECT_EQ(meant("[wnid]\n"), "wind");
+  EXPECT_EQ(meant("[[object]]\npositon_m = [0, 0]\n"), "position_m");
+  EXPECT_EQ(meant("[sea]\nspeed_mps = 3\n"), "wind.speed_mps");  // of another table
+  EXPECT_EQ(meant("[sea]\nqqqq = 3\n"), "");
+  EXPECT_EQ(meant("x = 3\n"), "");
 }
 
 TEST(SceneFileFaults, AtMost2000ObjectsAreTaken) {

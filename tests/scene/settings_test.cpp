@@ -90,20 +90,74 @@ TEST(Settings, TextMayGoWithoutQuotesAndWithThem) {
     EXPECT_EQ(parse_scene(kHarbour, "a.toml", Settings{setting}).objects[0].name, "old \"Marie\"");
 }
 
+TEST(Settings, TimesMayGoWithoutQuotesInFilesToo) {
+  const std::string time = "2026-06-21T19:30:00Z", half = "2026-06-21T19:30:00.5Z";
+  const Scene quoted = parse_scene("[sky]\ntime_utc = \"" + time + "\"\n", "test.toml");
+  ASSERT_EQ(quoted.sky.time_utc, time);
+  for (const Scene& scene :
+       {parse_scene("", "test.toml", Settings{"sky.time_utc=" + time}),
+        parse_scene("", "test.toml", Settings{"sky.time_utc=2026-06-21 19:30:00Z"}),
+        parse_scene("[sky]\ntime_utc = " + time + "\n", "test.toml")})
+    EXPECT_EQ(differences(scene, quoted), "");
+  EXPECT_EQ(parse_scene("", "a.toml", Settings{"sky.time_utc=" + half}).sky.time_utc, half);
+  const std::string allowed = "\", allowed a time as \"2026-06-21T12:00:00Z\", from 1900 to 2100";
+  for (const std::string other :
+       {"2026-06-21T19:30:00+02:00", "2026-06-21T19:30:00", "2026-06-21", "19:30:00"})
+    EXPECT_EQ(error_with("", {"sky.time_utc=" + other}),
+              "setting sky.time_utc=" + other + ": sky.time_utc, got \"" + other + allowed);
+  EXPECT_EQ(error_with("", {"wind.speed_mps=2026-06-21"}),
+            "setting wind.speed_mps=2026-06-21: wind.speed_mps, got 2026-06-21, allowed 0 to 60 "
+            "m/s");
+}
+
 TEST(Settings, FaultsNameTheSetting) {
   EXPECT_EQ(error_with(kHarbour, {"wind.speed_mps=fast"}),
             "setting wind.speed_mps=fast: wind.speed_mps, got \"fast\", allowed 0 to 60 m/s");
   EXPECT_EQ(error_with(kHarbour, {"wind.speed_mps=900"}),
             "setting wind.speed_mps=900: wind.speed_mps, got 900, allowed 0 to 60 m/s");
   EXPECT_TRUE(error_with(kHarbour, {"wind.spede_mps=9"})
-                  .starts_with("setting wind.spede_mps=9: unknown key, got 'wind.spede_mps', "
-                               "allowed in [wind] speed_mps, "));
+                  .starts_with("setting wind.spede_mps=9: unknown key, got 'wind.spede_mps' (did "
+                               "you mean 'speed_mps'?), allowed in [wind] speed_mps, "));
   EXPECT_TRUE(error_with(kHarbour, {"object[1].heading=9"})
                   .starts_with("setting object[1].heading=9: unknown key, got 'object.heading', "
                                "allowed in [object] heading_deg, "));
   EXPECT_EQ(error_with(kHarbour, {"sea.douglas=5"}),
             "test.toml:4: column 13: wind.speed_mps, got it besides sea.douglas in a setting "
             "sea.douglas=5, allowed one of sea.douglas, sea.beaufort, wind.speed_mps");
+}
+
+TEST(Settings, OfALongValueTheMiddleIsLeftOutAndNotWhatIsAllowed) {
+  const std::string many(300'000, 'x'), path(3000, 'x');
+  const auto is_short = [](const std::string& error, const std::string& start,
+                           const std::string& allowed) {
+    EXPECT_TRUE(error.starts_with(start)) << error;
+    EXPECT_TRUE(error.ends_with(allowed)) << error;
+    EXPECT_NE(error.find("..."), std::string::npos) << error;
+    EXPECT_LE(error.size(), 600u);
+  };
+  is_short(error_with(kHarbour, {"wind.speed_mps=" + many}), "setting wind.speed_mps=xxx",
+           ", allowed 0 to 60 m/s");
+  is_short(error_with(kHarbour, {"wind.speed_mps=[\"" + many + "\"]"}),
+           "setting wind.speed_mps=[\"xxx", "got an array of 1 values, allowed 0 to 60 m/s");
+  is_short(error_with(kHarbour, {"object[1].file=" + many}), "setting object[1].file=xxx",
+           ", allowed a readable mesh file");
+  is_short(error_with(kHarbour, {"terrain.height_image=" + path}),
+           "setting terrain.height_image=xxx", ", allowed a readable picture file");
+  is_short(error_with(kHarbour, {"object[1].name=\"" + many}), "setting object[1].name=\"xxx",
+           ", allowed text of at most 200 bytes");
+  is_short(error_with(kHarbour, {many + ".x=1"}), "setting xxx", ", [[clouds.cumulus]]");
+  is_short(error_with(kHarbour, {many}), "setting xxx", ", allowed KEY=VALUE");
+  is_short(error_with("name = \"" + many + "\"", {}), "test.toml:1: column 8: name, got \"xxx",
+           ", allowed text of at most 200 bytes");
+  // Characters stay whole.
+  for (std::size_t most = 9; most < 20; ++most) {
+    const std::string text =
+        shortened("\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4", most);
+    EXPECT_LE(text.size(), most);
+    EXPECT_EQ(text.find("..."), text.rfind("..."));
+    EXPECT_EQ((text.size() - 3) % 2, 0u) << text;
+  }
+  EXPECT_EQ(shortened("as it is", 8), "as it is");
 }
 
 TEST(Settings, WhatIsNoSettingIsRefused) {

@@ -100,28 +100,33 @@ TEST_F(CommandLine, RenderRefusesBadOptions) {
       {{"--time", "2e12"}, {"--time"}},
       {{"--frames", "5-3"}, {"--frames", "'5-3'"}},
       {{"--frames", "0-1", "--fps", "0"}, {"--fps"}},
-      {{"--frames", "0-1", "--time", "1"}, {"--frames", "--time"}},
+      {{"--frames", "0-1", "--time", "1"}, {"--time, got it with --frames, allowed one of them"}},
+      {{"--fps", "3"}, {"--fps, got it without --frames, allowed with --frames"}},
       {{"--tile", "48"}, {"--tile", "'48'", "16, 32 or 64"}},
       {{"--triangles", "1"}, {"--triangles"}},
       {{"--lookup-scale", "0.01"}, {"--lookup-scale"}},
       {{"--size", "8x8", "--size", "9x9"}, {"--size"}},
-      {{"--colour"}, {"--colour"}},
-      {{"stray"}, {"stray"}},
-      {{"--size"}, {"--size"}},
+      {{"--size", std::string(100'000, '9')}, {"got '999", "999...999", allowed}},
+      {{"--colour"}, {"unknown option, got '--colour', allowed --help, "}},
+      {{"--thread", "2"}, {"unknown option, got '--thread' (did you mean '--threads'?), allowed "}},
+      {{"--hsah"}, {"(did you mean '--hash'?), allowed "}},
+      {{"--edge-sample=4"}, {"got '--edge-sample=4' (did you mean '--edge-samples'?), allowed "}},
+      {{"stray"}, {"unknown argument, got 'stray', allowed --help"}},
+      {{"--size"}, {"--size, got too few values, allowed --size WxH"}},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(fmt::format("{}", c.arguments));
     Arguments arguments = {"--scene", scene_, "--hash"};
     arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
     Arguments pieces = c.pieces;
-    pieces.push_back("error: command line: ");
+    pieces.insert(pieces.end(), {"error: command line: ", ", allowed "});
     expect_refused(run_render(arguments), pieces);
   }
 }
 
 TEST_F(CommandLine, RenderNeedsASceneAndSomethingToDo) {
-  expect_refused(run_render({}), {"command line", "--scene"});
-  expect_refused(run_render({"--hash"}), {"command line", "--scene"});
+  expect_refused(run_render({}), {"command line: --scene, got none, allowed --scene FILE"});
+  expect_refused(run_render({"--hash"}), {"command line: --scene, got none, allowed --scene FILE"});
   expect_refused(run_render({"--scene", scene_}),
                  {"command line", "--out", "--hash", "--json", "--expect"});
 }
@@ -209,8 +214,8 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
       {{"--scene", scene_, "--fps", "3", "--bogus"}, {"unknown option", "'--bogus'"}},
       {{"bogus"}, {"unknown argument", "'bogus'"}},
       {{"--hash", "bogus", "more"}, {"unknown argument", "'bogus'"}},
-      {{"--scene"}, {"--scene", "missing"}},
-      {{"--hash"}, {"--scene is required"}},
+      {{"--scene"}, {"--scene, got too few values, allowed --scene FILE"}},
+      {{"--hash"}, {"--scene, got none, allowed --scene FILE"}},
   };
   for (const Case& c : render) {
     SCOPED_TRACE(fmt::format("{}", c.arguments));
@@ -220,11 +225,11 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
       {{"bogus"},
        {"unknown mode", "'bogus'",
         "frame, lod, optics, peer, query, scaling, sea-state, shading, terrain, waves"}},
-      {{"frme", "--scene", scene_}, {"unknown mode", "'frme'", "frame"}},
+      {{"frme", "--scene", scene_}, {"unknown mode, got 'frme' (did you mean 'frame'?), "}},
       {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
       {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},
       {{"frame", "lod"}, {"unknown argument", "'lod'"}},
-      {{"frame", "--scene"}, {"--scene", "missing"}},
+      {{"frame", "--scene"}, {"--scene, got too few values, allowed --scene FILE"}},
       {{}, {"no mode"}},
   };
   for (const Case& c : bench) {
@@ -260,7 +265,7 @@ TEST_F(CommandLine, BenchRefusesBadOptions) {
   };
   for (const Arguments& arguments : cases) {
     SCOPED_TRACE(fmt::format("{}", arguments));
-    expect_refused(run_bench(arguments), {"error: command line: "});
+    expect_refused(run_bench(arguments), {"error: command line: ", ", allowed "});
   }
 }
 
