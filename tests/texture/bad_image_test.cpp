@@ -36,6 +36,7 @@ std::string refusal(const fs::path& path, const ReadLimits& limits = {}) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2)) << path;
   EXPECT_EQ(line.find('\n'), std::string::npos) << line;
   EXPECT_EQ(line.rfind(path.string(), 0), 0u) << line;
+  EXPECT_NE(line.find(", allowed"), std::string::npos) << line;
   return line;
 }
 
