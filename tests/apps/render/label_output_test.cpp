@@ -442,7 +442,7 @@ TEST_F(LabelOutput, ImpossibleOptionsAreOneLine) {
       {{"--labels", "depth"}, {"--labels", "--out", "--labels-out"}},
       {{"--labels-out", exr}, {"--labels-out", "--labels"}},
       {{"--labels", "depth", "--labels-out", png}, {"--labels-out", png, ".exr"}},
-      {{"--labels", "depth", "--labels-out", folder_.file("none/a.exr")}, {"none", "directory"}},
+      {{"--labels", "depth", "--labels-out", folder_.file("none/a.exr")}, {"none", "folder"}},
       {{"--labels", "depth", "--frames", "0-1", "--labels-out", exr}, {"--labels-out", "%04d"}},
       {{"--labels", "depth", "--out", png, "--picture-scale", "0.5"}, {"--picture-scale"}},
       {{"--depth", folder_.file("d.exr")}, {"d.exr", "'.exr'", ".png .npy"}},
