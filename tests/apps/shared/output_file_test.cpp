@@ -108,7 +108,7 @@ TEST_F(OutputFile, ImpossiblePlacesAreRefusedBeforeAnythingIsRead) {
   struct Case {
     std::string path, piece;
   };
-  const Case places[] = {{folder_.file("missing/x.png"), "directory"},
+  const Case places[] = {{folder_.file("missing/x.png"), "a folder that is not there"},
                          {folder_.file("is_a_directory.png"), "directory"},
                          {folder_.file(std::string(300, 'n') + ".png"), "too long"}};
   const Case formats[] = {{folder_.file("x.bmp"), "'.bmp'"}, {folder_.file("x"), ".png"}};
