@@ -25,6 +25,21 @@ struct ListedPacket {
   V x_px, y_px, z;
 };
 
+// Writes each lane's colour to where `at` says.
+HWY_INLINE void ScatterColour(const V3& colour, const std::uint16_t* at, float* red, float* green,
+                              float* blue) {
+  const D d;
+  HWY_ALIGN std::array<float, kLanes> r, g, b;
+  hn::Store(colour.x, d, r.data());
+  hn::Store(colour.y, d, g.data());
+  hn::Store(colour.z, d, b.data());
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    red[at[lane]] = r[lane];
+    green[at[lane]] = g[lane];
+    blue[at[lane]] = b[lane];
+  }
+}
+
 // Listed pixels, a packet from `at` on.
 struct PixelsInTile {
   const Shading& s;
@@ -65,15 +80,7 @@ struct PixelsInTile {
       hn::StoreU(colour.z, d, scratch.blue.data() + at[0]);
       return;
     }
-    HWY_ALIGN std::array<float, kLanes> red, green, blue;
-    hn::Store(colour.x, d, red.data());
-    hn::Store(colour.y, d, green.data());
-    hn::Store(colour.z, d, blue.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      scratch.red[at[lane]] = red[lane];
-      scratch.green[at[lane]] = green[lane];
-      scratch.blue[at[lane]] = blue[lane];
-    }
+    ScatterColour(colour, at, scratch.red.data(), scratch.green.data(), scratch.blue.data());
   }
 };
 
@@ -96,17 +103,9 @@ struct FragmentsInTile {
   }
 
   HWY_INLINE void Store(std::size_t i, const V3& colour) const {
-    const D d;
     const std::uint16_t* at = list.at + i;
-    HWY_ALIGN std::array<float, kLanes> red, green, blue;
-    hn::Store(colour.x, d, red.data());
-    hn::Store(colour.y, d, green.data());
-    hn::Store(colour.z, d, blue.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      scratch.fragment_red[at[lane]] = red[lane];
-      scratch.fragment_green[at[lane]] = green[lane];
-      scratch.fragment_blue[at[lane]] = blue[lane];
-    }
+    ScatterColour(colour, at, scratch.fragment_red.data(), scratch.fragment_green.data(),
+                  scratch.fragment_blue.data());
   }
 };
 
