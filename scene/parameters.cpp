@@ -1,106 +1,13 @@
 #include "scene/parameters.h"
 
-#include <array>
-
 #include "ocean/sea_scale.h"
 #include "scene/parameter_row.h"
+#include "scene/scene_choices.h"
 
 namespace swell::scene {
 namespace {
 
 using Kind = ParameterKind;
-
-struct Priority {
-  static constexpr auto words =
-      enum_words<bool>({{false, "projected_size"}, {true, "inverse_distance"}});
-  auto& operator()(auto& scene) const { return scene.detail.inverse_distance_priority; }
-};
-
-struct TriangulationName {
-  using enum Triangulation;
-  static constexpr auto words =
-      enum_words<Triangulation>({{kRoam, "roam"}, {kRadial, "radial"}, {kPlane, "plane"}});
-  auto& operator()(auto& scene) const { return scene.detail.triangulation; }
-};
-
-struct TerrainMethodName {
-  using enum TerrainMethod;
-  static constexpr auto words = enum_words<TerrainMethod>({{kRoam, "roam"}, {kRays, "rays"}});
-  auto& operator()(auto& scene) const { return scene.detail.terrain_method; }
-};
-
-struct InterpolationName {
-  static constexpr auto words = enum_words<bool>({{false, "bilinear"}, {true, "bicubic"}});
-  auto& operator()(auto& scene) const { return scene.terrain->bicubic; }
-};
-
-struct EarthName {
-  static constexpr auto words = enum_words<bool>({{false, "flat"}, {true, "round"}});
-  auto& operator()(auto& scene) const { return scene.round_earth; }
-};
-
-struct DistortionFactorName {
-  using enum DistortionFactor;
-  static constexpr auto words =
-      enum_words<DistortionFactor>({{kBounded, "bounded"}, {kPaper, "paper"}});
-  auto& operator()(auto& scene) const { return scene.water.distortion_factor; }
-};
-
-struct GlitterName {
-  using enum Glitter;
-  static constexpr auto words =
-      enum_words<Glitter>({{kSlopes, "slopes"}, {kProjective, "projective"}});
-  auto& operator()(auto& scene) const { return scene.water.glitter; }
-};
-
-struct RippleKindName {
-  using enum RippleKind;
-  static constexpr auto words =
-      enum_words<RippleKind>({{kLayers, "layers"}, {kSequence, "sequence"}});
-  auto& operator()(auto& scene) const { return scene.ripples.kind; }
-};
-
-struct RippleLightingName {
-  using enum RippleLighting;
-  static constexpr auto words =
-      enum_words<RippleLighting>({{kOptics, "optics"}, {kPaper, "paper"}});
-  auto& operator()(auto& scene) const { return scene.ripples.lighting; }
-};
-
-struct WaterTypeName {
-  static constexpr auto words = kWaterTypeNames;
-  auto& operator()(auto& scene) const { return scene.water.type; }
-};
-
-struct RefractionName {
-  using enum RefractionModel;
-  static constexpr auto words = enum_words<RefractionModel>({{kExact, "exact"}, {kPaper, "paper"}});
-  auto& operator()(auto& scene) const { return scene.water.refraction; }
-};
-
-struct BackSidesName {
-  static constexpr auto words = enum_words<bool>({{false, "seen"}, {true, "tilted"}});
-  auto& operator()(auto& scene) const { return scene.water.tilted_backs; }
-};
-
-struct MapSetName {
-  using enum ocean::MapSet;
-  static constexpr auto words = enum_words<ocean::MapSet>(
-      {{kNone, "none"}, {kRiver, "river"}, {kLake, "lake"}, {kCoast, "coast"}, {kOcean, "ocean"}});
-  auto& operator()(auto& scene) const { return scene.sea.map_set; }
-};
-
-struct CoastModelName {
-  using enum CoastModel;
-  static constexpr auto words =
-      enum_words<CoastModel>({{kNone, "none"}, {kTrains, "trains"}, {kBlend, "blend"}});
-  auto& operator()(auto& scene) const { return scene.coast.model; }
-};
-
-struct CoastMethod {
-  static constexpr auto words = enum_words<bool>({{false, "straight"}, {true, "eikonal"}});
-  auto& operator()(auto& scene) const { return scene.coast.eikonal; }
-};
 
 #define SWELL_FIELD(PATH) \
   [](auto& object) -> auto& { return object.PATH; }
