@@ -10,6 +10,7 @@
 #include "render/world/forest.h"
 #include "render/world/world_state.h"
 #include "scene/scene.h"
+#include "scene/terrain.h"
 #include "scene/water.h"
 
 namespace swell::render {
@@ -110,6 +111,22 @@ TEST(TreesOfScenes, StandAlongLakesIfAskedTo) {
   ASSERT_GT(distances.size(), 100u);
   EXPECT_GT(std::ranges::min(distances), Bowl::kShore_m - Bowl::kError_m);
   EXPECT_LT(std::ranges::max(distances), Bowl::kShore_m + stand.bank_width_m + Bowl::kError_m);
+}
+
+TEST(TreesOfScenes, TooManyAreRefusedWithTheirPlace) {
+  const scene::Scene scene = scene::parse_scene(
+      "[terrain]\nisland_radius_m = 2000\n[[trees]]\n[[trees]]\ndensity_per_m2 = 10\n",
+      "test.toml");
+  Workers workers(2);
+  try {
+    grow_forest(scene, *scene::build_terrain(scene), nullptr, glm::vec3(0.0f, 0.0f, 1.0f), workers);
+    FAIL();
+  } catch (const scene::SceneError& error) {
+    EXPECT_TRUE(std::string(error.what())
+                    .starts_with("test.toml:5: column 18: trees[1].density_per_m2, got 10, which "
+                                 "makes "))
+        << error.what();
+  }
 }
 
 }  // namespace

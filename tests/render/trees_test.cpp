@@ -15,7 +15,6 @@
 #include "render/labels/label_channels.h"
 #include "render/view/choose_trees.h"
 #include "render/workspace.h"
-#include "render/world/forest.h"
 #include "scene/sky.h"
 #include "scene/terrain.h"
 
@@ -460,22 +459,6 @@ TEST(TreesOfScenes, TheSceneOfTreesHasAHundredThousand) {
       std::ranges::count(trees.trees, terrain::TreeSpecies::kReed, &terrain::Tree::species);
   EXPECT_NEAR(static_cast<double>(std::ssize(trees.trees) - reeds), 100000.0, 5000.0);
   EXPECT_GT(reeds, 1000);
-}
-
-TEST(TreesOfScenes, TooManyAreRefusedWithTheirPlace) {
-  const scene::Scene scene = scene::parse_scene(
-      "[terrain]\nisland_radius_m = 2000\n[[trees]]\n[[trees]]\ndensity_per_m2 = 10\n",
-      "test.toml");
-  Workers workers(2);
-  try {
-    grow_forest(scene, *scene::build_terrain(scene), nullptr, glm::vec3(0.0f, 0.0f, 1.0f), workers);
-    FAIL();
-  } catch (const scene::SceneError& error) {
-    EXPECT_TRUE(std::string(error.what())
-                    .starts_with("test.toml:5: column 18: trees[1].density_per_m2, got 10, which "
-                                 "makes "))
-        << error.what();
-  }
 }
 
 TEST(TreesOfScenes, BadInputIsNamedInOneLine) {
