@@ -132,7 +132,9 @@ def scene_files(words, commit, folder):
 
 
 def build(folder):
-    for command in (["cmake", "--preset", "release"],
+    """With the packages that the folder's own commit asks for."""
+    for command in (["scripts/setup.sh"],
+                    ["cmake", "--preset", "release"],
                     ["cmake", "--build", "--preset", "release", "--target", "swell-render", "swell-bench"]):
         if subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=sys.stderr, check=False).returncode:
             raise Refused(f"{folder} does not build")
