@@ -116,17 +116,19 @@ void add_button(const Json& json, std::vector<SDL_Event>& events) {
   const auto button = value_of<std::size_t>(json, "button");
   if (button >= kButtons.size()) return;
   // Where it is pressed counts, even if no motion was sent.
-  Json move = json;
-  move["dx"] = move["dy"] = 0;
-  add_move(move, events);
+  SDL_Event move{};
+  move.type = SDL_MOUSEMOTION;
+  move.motion.x = pixels_of(json, "x");
+  move.motion.y = pixels_of(json, "y");
+  events.push_back(move);
   SDL_Event event{};
   const bool is_down = value_of<bool>(json, "down");
   event.button.type = is_down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
   event.button.state = is_down ? SDL_PRESSED : SDL_RELEASED;
   event.button.button = kButtons[button];
   event.button.clicks = 1;
-  event.button.x = pixels_of(json, "x");
-  event.button.y = pixels_of(json, "y");
+  event.button.x = move.motion.x;
+  event.button.y = move.motion.y;
   events.push_back(event);
 }
 
@@ -158,10 +160,20 @@ void add_event(const Json& json, std::vector<SDL_Event>& events) {
   add_window_event(SDL_WINDOWEVENT_FOCUS_LOST, events);
 }
 
+// Events are objects of plain values in an array. What lies deeper is refused while it is read:
+// each level costs memory, and stack wherever values are copied.
+bool is_shallow(int depth, Json::parse_event_t event, Json& /*parsed*/) {
+  constexpr int kMostDepth = 2;
+  const bool is_opened =
+      event == Json::parse_event_t::array_start || event == Json::parse_event_t::object_start;
+  if (is_opened && depth >= kMostDepth) throw EventError("an event holds more than plain values");
+  return true;
+}
+
 }  // namespace
 
 std::vector<SDL_Event> parse_events(const std::string& json) {
-  const Json all = Json::parse(json, nullptr, false);
+  const Json all = Json::parse(json, is_shallow, false);
   if (!all.is_array()) throw EventError("no JSON array of events");
   if (all.size() > kMostEvents)
     throw EventError(fmt::format("{} events, allowed {} at once", all.size(), kMostEvents));

@@ -65,5 +65,16 @@ TEST(BrowserEvents, BadOnesAreRefused) {
     EXPECT_THROW(parse_events(text), EventError) << text.substr(0, 60);
 }
 
+TEST(BrowserEvents, AreObjectsOfPlainValues) {
+  const auto with = [](const std::string& value) {
+    return parse_events(R"([{"type":"button","button":0,"down":true,"x":1,"y":2,"more":)" + value +
+                        "}]");
+  };
+  EXPECT_EQ(with("1").size(), 2u);
+  EXPECT_THROW(with("[]"), EventError);
+  EXPECT_THROW(with("{}"), EventError);
+  EXPECT_THROW(with(std::string(30000, '[') + std::string(30000, ']')), EventError);
+}
+
 }  // namespace
 }  // namespace swell::serve
