@@ -60,10 +60,10 @@ HWY_INLINE V FrontFoam(const SurfFronts& fronts, V3 p, V part, V kept, V level_m
     const V past = hn::Sub(phase, hn::Floor(phase));  // since the front was there, in [0, 1)
     const V height = Clamp(hn::MulAdd(high[n], Constant(0.35f), Constant(0.65f)), 0.0f, 1.0f);
     const V comes = hn::Min(hn::Mul(past, Constant(30.0f)), one);
-    const V left = hn::Max(hn::NegMulAdd(past, Constant(1.6f), one), zero);
+    const V left = hn::Max(hn::NegMulAdd(past, Constant(fronts.drain), one), zero);
     const V shape = hn::Mul(comes, hn::Mul(left, left));
     foam = hn::Max(foam, hn::Mul(height, shape));
-    mean = hn::MulAdd(height, Constant(0.11f), mean);
+    mean = hn::MulAdd(height, Constant(fronts.mean), mean);
   }
   const V seen = Clamp(hn::Sub(Constant(fronts.level_lost), level_m), 0.0f, 1.0f);
   return hn::Mul(strength, Lerp(mean, foam, seen));

@@ -1,10 +1,14 @@
 #include "render/materials/near_shore.h"
 
 #include "math/elementary.h"
+#include "math/smoothstep.h"
 #include "ocean/sea_state.h"
 
 namespace swell::render {
 namespace {
+
+// Foam of waves of up to the first mean period is lace, of the second and more it is torn.
+constexpr double kFoamLasts_s = 10.0, kLacePeriod_s = 5.7, kTornPeriod_s = 6.15;
 
 // Far enough along the shore for fronts to lie within 10 degrees of it.
 glm::vec3 lag_along(glm::dvec2 eye, double x_m, double y_m) {
@@ -21,6 +25,14 @@ SurfFronts make_fronts(const MaterialInputs& in, const NearShoreMap& shore, glm:
   // Half of the mean distance between two fronts.
   const double apart_m = shore.reach_m * shore.period_s / shore.reach_s;
   fronts.level_lost = static_cast<float>(log(0.5 * apart_m) * 1.4426950408889634);
+  // Bubbles rise and burst within ten seconds: a front of long waves leaves foam for a part of the
+  // time alone.
+  const float per_cycle = static_cast<float>(4.0 * shore.period_s / kFoamLasts_s);
+  if (per_cycle > fronts.drain) {
+    fronts.mean *= fronts.drain / per_cycle;
+    fronts.drain = per_cycle;
+  }
+  fronts.torn = static_cast<float>(smoothstep(kLacePeriod_s, kTornPeriod_s, shore.period_s));
   fronts.lag_a = lag_along(eye, 410.0, 330.0);
   fronts.lag_b = lag_along(eye, -157.0, 131.0);
   fronts.lag_c = lag_along(eye, 67.0, -53.0);

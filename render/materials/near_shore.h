@@ -5,7 +5,9 @@
 //   turns = t / (4 T) + tau(s) / (4 T) + n / 4 + lag_n(x, y),      n = 0, 1, 2, 3
 // where tau = 2 sqrt(s / (g slope)) is the time that shallow water's waves need to the shore from
 // the distance s over a beach of one slope; it is at whole turns, and leaves foam that drains until
-// the next. So foam is a pure function of place and time, and its lines lie along the shore.
+// the next, within ten seconds at most. So foam is a pure function of place and time, and its lines
+// lie along the shore. That of long waves, whose fronts are far apart, lies there as whitecaps do:
+// torn, with water full of bubbles between.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,6 +24,9 @@ struct SurfFronts {
   float cycles = 0.0f;       // t / (4 T)
   float reach_turns = 0.0f;  // tau / (4 T) of the reach of NearShoreMap
   float level_lost = 0.0f;   // of footprints in which fronts are too close to be seen
+  float drain = 1.6f;        // what drains of a front's foam until the next, over all of it
+  float mean = 0.11f;        // of the foam of one front, over time and place
+  float torn = 0.0f;         // part that is torn as whitecaps are; the rest is lace
   // Lags along the shore: cycles by x, by y, under the eye.
   glm::vec3 lag_a{0.0f}, lag_b{0.0f}, lag_c{0.0f};
 };

@@ -46,6 +46,13 @@ HWY_INLINE void SetFoam(const TornFoam& foam, WaterSlopes& s) {
   s.foam_bubbles = foam.bubbles;
 }
 
+// Foam of another origin, torn like that which is there.
+HWY_INLINE void AddTornFoam(const TornFoam& foam, WaterSlopes& s) {
+  s.foam_cover = hn::Max(s.foam_cover, foam.cover);
+  s.foam_thickness = hn::Max(s.foam_thickness, foam.thickness);
+  s.foam_bubbles = hn::Max(s.foam_bubbles, foam.bubbles);
+}
+
 // Foam of another origin, so far over its threshold.
 HWY_INLINE void AddFoamOver(V over, WaterSlopes& s) {
   s.foam_cover = hn::Max(s.foam_cover, CoverOfOver(over));
@@ -79,6 +86,7 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
 // floor and what land takes of them, and the foam where waves break, both 0 outside the maps.
 struct Surf {
   V ceded, foam;
+  V torn_foam;             // that is torn as whitecaps are, beside `foam`
   hn::Mask<D> has_trains;  // in the trains' map
   hn::Mask<D> inside;      // in any
   bool is_near;            // any lane inside
@@ -101,13 +109,15 @@ HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
   const auto none = hn::MaskFromVec(zero);
-  Surf surf = {zero, zero, none, none, false, false};
+  Surf surf = {zero, zero, zero, none, none, false, false};
   if (water.has_coast) SampleTrains(water, p, level_m, surf);
   if (water.near_shore.map.map) {
     const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m);
     // What trains leave: they are the waves, where there are some.
     const V left = hn::Sub(one, surf.ceded);
-    surf.foam = hn::MulAdd(shore.foam, left, surf.foam);
+    const float torn = water.near_shore.fronts.torn;
+    surf.torn_foam = hn::Mul(hn::Mul(shore.foam, left), Constant(torn));
+    surf.foam = hn::MulAdd(hn::Mul(shore.foam, Constant(1.0f - torn)), left, surf.foam);
     surf.ceded = hn::MulAdd(shore.taken, left, surf.ceded);
     surf.inside = hn::Or(surf.inside, shore.inside);
   }
@@ -165,10 +175,7 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
   const V slope2 = hn::MulAdd(at.slope_x, at.slope_x, hn::Mul(at.slope_y, at.slope_y));
   s.wake =
       hn::Max(hn::Mul(slope2, Constant(1.0f / (0.02f * 0.02f))), hn::Mul(at.foam, Constant(10.0f)));
-  const TornFoam foam = TearWhitecaps(water.wakes.foam, p, level_m, at.foam);
-  s.foam_cover = hn::Max(s.foam_cover, foam.cover);
-  s.foam_thickness = hn::Max(s.foam_thickness, foam.thickness);
-  s.foam_bubbles = hn::Max(s.foam_bubbles, foam.bubbles);
+  AddTornFoam(TearWhitecaps(water.wakes.foam, p, level_m, at.foam), s);
 }
 
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
@@ -187,7 +194,7 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
     across[k] = FootprintAcross(rays, packets[k]);
     level_flat_m[k] = FootprintLevel(across[k], Clamp(packets[k].to_eye.z, kMinCos, 1.0f));
     level_m[k] = level_flat_m[k];
-    surf[k] = {zero, zero, hn::MaskFromVec(zero), hn::MaskFromVec(zero), false, false};
+    surf[k] = {zero, zero, zero, hn::MaskFromVec(zero), hn::MaskFromVec(zero), false, false};
     if constexpr (kCoast) surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k]);
     s[k] = NoSlopes(Constant(water.base_variance), zero, packets[k].to_eye.z);
     du[k] = dv[k] = zero;
@@ -212,9 +219,14 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
     for (std::size_t k = 0; k < count; ++k)
       SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
   }
-  if constexpr (kCoast)
+  if constexpr (kCoast) {
     for (std::size_t k = 0; k < count; ++k)
       AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]);
+    if (water.near_shore.fronts.torn > 0.0f)
+      for (std::size_t k = 0; k < count; ++k)
+        AddTornFoam(
+            TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], surf[k].torn_foam), s[k]);
+  }
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
   const int last_long = water.long_layer_count - 1;
