@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "fuzz/expect.h"
-#include "fuzz/scratch_folder.h"
+#include "fuzz/scratch_parent.h"
 #include "terrain/boundary.h"
 #include "terrain/terrain.h"
 #include "texture/image_io.h"
@@ -36,13 +36,13 @@ void read_boundary(const std::filesystem::path& file) {
 }
 
 void read_file(std::span<const char> input) {
-  static const ScratchFolder folder;
+  static const ScratchFolder folder(scratch_parent());
   if (input.size() < 2) return;
   const char letter = input[0];
   const bool is_boundary = letter == 'b';
   const bool is_exr = is_boundary || letter == 'e';
   const char* const name = is_exr ? "map.exr" : letter == 'n' ? "map.pgm" : "map.png";
-  const auto file = folder.write(name, input.subspan(2));
+  const auto file = folder.write(name, std::string_view(input.begin() + 2, input.end()));
   try {
     if (is_boundary)
       read_boundary(file);

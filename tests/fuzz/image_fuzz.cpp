@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "fuzz/expect.h"
-#include "fuzz/scratch_folder.h"
+#include "fuzz/scratch_parent.h"
 #include "texture/image_io.h"
 
 namespace swell::fuzz {
@@ -31,9 +31,10 @@ std::string name_of(char letter) {
 }
 
 void read_image(std::span<const char> input) {
-  static const ScratchFolder folder;
+  static const ScratchFolder folder(scratch_parent());
   if (input.empty()) return;
-  const auto file = folder.write(name_of(input[0]), input.subspan(1));
+  const auto file =
+      folder.write(name_of(input[0]), std::string_view(input.begin() + 1, input.end()));
   try {
     const texture::ImageF image = texture::read_image(file, kLimits);
     expect(image.width >= 1 && image.width <= kLimits.max_side_px && image.height >= 1 &&

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fuzz/expect.h"
-#include "fuzz/scratch_folder.h"
+#include "fuzz/scratch_parent.h"
 #include "mesh_import/asset_file.h"
 #include "mesh_import/asset_textures.h"
 #include "mesh_import/flatten_mesh.h"
@@ -47,9 +47,10 @@ std::vector<char> import(const std::filesystem::path& file) {
 }
 
 void read_mesh(std::span<const char> input) {
-  static const ScratchFolder folder;
+  static const ScratchFolder folder(scratch_parent());
   if (input.empty()) return;
-  const auto file = folder.write(name_of(input[0]), input.subspan(1));
+  const auto file =
+      folder.write(name_of(input[0]), std::string_view(input.begin() + 1, input.end()));
   std::vector<char> stream;
   try {
     stream = import(file);

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "fuzz/expect.h"
-#include "fuzz/scratch_folder.h"
+#include "fuzz/scratch_parent.h"
 #include "scene/recipe.h"
 #include "scene/scene_error.h"
 #include "scene/settings.h"
@@ -23,7 +23,7 @@ position_m = [10, 20]
 
 // The folder that recipes are read in, which has a scene.
 const ScratchFolder& folder() {
-  static const ScratchFolder made;
+  static const ScratchFolder made(scratch_parent());
   static const auto scene = made.write("s.toml", kScene);
   return made;
 }
@@ -39,7 +39,8 @@ void draw_samples(const scene::Recipe& recipe) {
 }
 
 void read_recipe(std::span<const char> bytes) {
-  const std::filesystem::path file = folder().write("recipe.toml", bytes);
+  const std::filesystem::path file =
+      folder().write("recipe.toml", std::string_view(bytes.begin(), bytes.end()));
   try {
     draw_samples(scene::load_recipe(file));
   } catch (const scene::SceneError& error) {

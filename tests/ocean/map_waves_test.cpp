@@ -17,6 +17,7 @@
 #include "ocean/sea_state.h"
 #include "ocean/velocity.h"
 #include "ocean/water.h"
+#include "scratch_folder.h"
 
 namespace swell::ocean {
 namespace {
@@ -24,14 +25,8 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // A file of a small map.
-std::string map_file(const MapRecipe& recipe, const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "map_waves";
-  std::filesystem::create_directories(folder);
-  const std::string path = (folder / name).string();
-  const std::vector<std::uint8_t> bytes = encode_map(make_periodic_map(recipe));
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
-  return path;
+std::string map_file(const MapRecipe& recipe, const ScratchFolder& folder) {
+  return folder.write("waves.map", encode_map(make_periodic_map(recipe))).string();
 }
 
 MapRecipe small_recipe() {
@@ -93,7 +88,8 @@ double reference_height(const MapLayer& layer, const PeriodicMap& map, double pe
 }
 
 TEST(MapWaves, HeightsAreTheSumOfTheLayers) {
-  const std::string file = map_file(small_recipe(), "sum.map");
+  const ScratchFolder folder;
+  const std::string file = map_file(small_recipe(), folder);
   const PeriodicMap map = read_map(file);
   // Offsets of whole samples: 64 m and 32 samples, 96 m and 32.
   const std::vector<MapLayer> layers = {{file, 96.0, 31.0, 1.5, {27.0, -6.0}, 2.5},
@@ -114,7 +110,8 @@ TEST(MapWaves, HeightsAreTheSumOfTheLayers) {
 }
 
 TEST(MapWaves, HeightAndLengthAreThoseAskedFor) {
-  const std::string file = map_file(small_recipe(), "hs.map");
+  const ScratchFolder folder;
+  const std::string file = map_file(small_recipe(), folder);
   SeaDescription description = sea_of({{file, 80.0, 0.0, 2.0}});
   description.amplitude_scale = 0.5;
   const Sea sea(description);
@@ -145,7 +142,8 @@ TEST(MapWaves, TheDefaultPeriodIsThatOfDeepWater) {
   for (int j = 0; j < 32; ++j)
     for (int i = 0; i < 32; ++i)
       recipe.heights.push_back(static_cast<float>(std::cos(kTwoPi * 2 * i / 32.0)));
-  const std::string file = map_file(recipe, "wave.map");
+  const ScratchFolder folder;
+  const std::string file = map_file(recipe, folder);
   const Sea sea(sea_of({{file, 100.0, 0.0, 1.0}}));
   const MapWaves& waves = sea.state().maps[0];
   EXPECT_NEAR(waves.wave_number_rad_m(), kTwoPi / 50.0, 0.01 * kTwoPi / 50.0);
@@ -243,7 +241,8 @@ TEST(MapWaves, StandBesideTheSpectrum) {
 }
 
 TEST(MapWaves, BadLayersAreRefused) {
-  const std::string file = map_file(small_recipe(), "bad.map");
+  const ScratchFolder folder;
+  const std::string file = map_file(small_recipe(), folder);
   const auto refused = [&](auto change) {
     MapLayer layer{file};
     change(layer);

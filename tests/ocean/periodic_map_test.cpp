@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "math/random.h"
+#include "scratch_folder.h"
 
 namespace swell::ocean {
 namespace {
@@ -264,15 +265,11 @@ TEST(MapFile, RandomBytesDoNoHarm) {
 }
 
 TEST(MapFile, FilesThatAreNoneAreRefused) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "periodic_map";
-  std::filesystem::create_directories(folder);
-  EXPECT_THROW(read_map(folder.string()), std::invalid_argument);
-  EXPECT_THROW(read_map((folder / "missing.map").string()), std::invalid_argument);
-  const std::string path = (folder / "sea.map").string();
+  const ScratchFolder folder;
+  EXPECT_THROW(read_map(folder.path().string()), std::invalid_argument);
+  EXPECT_THROW(read_map(folder.file("missing.map")), std::invalid_argument);
   const std::vector<std::uint8_t> bytes = encode_map(tiny_map(8));
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
-  EXPECT_EQ(encode_map(read_map(path)), bytes);
+  EXPECT_EQ(encode_map(read_map(folder.write("sea.map", bytes).string())), bytes);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "scratch_folder.h"
 #include "texture/image_io.h"
 
 namespace swell::render {
@@ -15,12 +16,7 @@ namespace swell::render {
 // With a folder for its height image, and for more.
 class FlatFloor : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "swell_floor_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    write("floor.png", {2, 2, 1, std::vector<std::uint8_t>(4, 0)});
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  FlatFloor() { write("floor.png", {2, 2, 1, std::vector<std::uint8_t>(4, 0)}); }
 
   void write(const std::string& name, const texture::Image8& image) const {
     texture::write_file(folder_ / name, texture::encode_image(image, ".png"));

@@ -10,6 +10,7 @@
 
 #include "math/random.h"
 #include "render/workspace.h"
+#include "scratch_folder.h"
 #include "texture/image_io.h"
 
 namespace swell::render {
@@ -33,12 +34,6 @@ std::ostream& operator<<(std::ostream& out, const Floor& floor) { return out << 
 
 class OddFloor : public testing::TestWithParam<Floor> {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "swell_floor_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write_picture(int side, Grey grey) const {
     texture::Image8 image{side, side, 1, {}};
     for (int n = 0; n < side * side; ++n) {
@@ -50,7 +45,8 @@ class OddFloor : public testing::TestWithParam<Floor> {
     return folder_ / "floor.png";
   }
 
-  fs::path folder_;
+  const ScratchFolder scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 scene::Scene windy_scene(const Floor& floor) {

@@ -9,6 +9,7 @@
 #include "math/simd_target.h"
 #include "render/drawn_frames.h"
 #include "render/labels/label_channels.h"
+#include "scratch_folder.h"
 
 namespace swell::render {
 namespace {
@@ -59,18 +60,18 @@ scene::Scene calm_scene() {
 }
 
 // Sunk by two fifths.
-scene::FloatingObject ball(scene::ObjectKind kind) {
+scene::FloatingObject ball(scene::ObjectKind kind, const ScratchFolder& folder) {
   scene::FloatingObject object = scene::common_object(kind);
   object.motion = scene::Motion::kFixed;
   object.size_m = glm::dvec3(5.0);
   object.draught = 0.4;
   object.colour = {0.5f, 0.1f, 0.05f};
   if (kind != scene::ObjectKind::kForm) return object;
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "swell_form_frames_ball.toml";
-  std::ofstream(file) << "[[form]]\nsize = [5, 5, 5]\nat = [0, 0, 0.5]\npainted = true\n"
-                         "colour = [1, 1, 1]\n";
-  object.file = file.string();
+  object.file = folder
+                    .write("ball.toml",
+                           "[[form]]\nsize = [5, 5, 5]\nat = [0, 0, 0.5]\npainted = true\n"
+                           "colour = [1, 1, 1]\n")
+                    .string();
   return object;
 }
 
@@ -85,9 +86,10 @@ double mean_difference(const Target& a, const Target& b) {
 
 // The ball of triangles has 24 sides.
 void expect_like_triangles(scene::Scene scene, double most) {
-  scene.objects = {ball(scene::ObjectKind::kSphere)};
+  const ScratchFolder folder;
+  scene.objects = {ball(scene::ObjectKind::kSphere, folder)};
   const World triangles(scene);
-  scene.objects = {ball(scene::ObjectKind::kForm)};
+  scene.objects = {ball(scene::ObjectKind::kForm, folder)};
   const World form(scene);
   scene.objects.clear();
   const World nothing(scene);
@@ -115,8 +117,9 @@ TEST(FormFrames, BallSeenFromUnderWaterLooksAsOneOfTriangles) {
 }
 
 TEST(FormFrames, AreLeftOutWithTheirPart) {
+  const ScratchFolder folder;
   scene::Scene scene = calm_scene();
-  scene.objects = {ball(scene::ObjectKind::kForm)};
+  scene.objects = {ball(scene::ObjectKind::kForm, folder)};
   const World with(scene);
   scene.objects.clear();
   const World without(scene);
@@ -129,8 +132,9 @@ TEST(FormFrames, AreLeftOutWithTheirPart) {
 }
 
 TEST(FormFrames, LabelsKnowThem) {
+  const ScratchFolder folder;
   scene::Scene scene = calm_scene();
-  scene.objects = {ball(scene::ObjectKind::kForm)};
+  scene.objects = {ball(scene::ObjectKind::kForm, folder)};
   const World world(scene);
   FrameOptions options = few_triangles();
   for (const Label label : {Label::kId, Label::kDepth, Label::kGeometricNormal})
@@ -153,14 +157,15 @@ TEST(FormFrames, LabelsKnowThem) {
 // An arm that stands up and is an eighth of a turn further in the next frame: its motion takes
 // pixels of the one onto it in the other.
 TEST(FormFrames, MotionTakesTurningPartsAlong) {
+  const ScratchFolder folder;
   constexpr double kStep_s = 0.125;
   scene::Scene scene = calm_scene();
-  scene::FloatingObject arm = ball(scene::ObjectKind::kForm);
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "swell_form_frames_arm.toml";
-  std::ofstream(file) << "[[form]]\nshape = \"box\"\nsize = [0.6, 0.6, 3]\nat = [0, 0, 1.5]\n"
-                         "spin_axis = [0, 1, 0]\nspin_rpm = 60\nhub = [0, 0, 0]\n";
-  arm.file = file.string();
+  scene::FloatingObject arm = ball(scene::ObjectKind::kForm, folder);
+  arm.file = folder
+                 .write("arm.toml",
+                        "[[form]]\nshape = \"box\"\nsize = [0.6, 0.6, 3]\nat = [0, 0, 1.5]\n"
+                        "spin_axis = [0, 1, 0]\nspin_rpm = 60\nhub = [0, 0, 0]\n")
+                 .string();
   arm.draught = 0.0;
   scene.objects = {arm};
   const World world(scene);

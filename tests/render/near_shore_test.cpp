@@ -9,6 +9,7 @@
 
 #include "render/labelled_frame.h"
 #include "render/world/world_state.h"
+#include "scratch_folder.h"
 #include "terrain/boundary.h"
 #include "texture/image_io.h"
 
@@ -246,8 +247,8 @@ TEST(NearShore, FoamOfAGaleIsNoNet) {
 TEST(NearShore, FrontsAreThePartThatIsPainted) {
   scene::Scene scene = straight_shore(0.0);
   const World made(scene);
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "swell_near_shore_boundary.exr";
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "boundary.exr";
   scene.terrain->boundary = file;
   std::vector<double> foam;
   for (const float part : {1.0f, 0.4f, 0.0f}) {
@@ -256,7 +257,6 @@ TEST(NearShore, FrontsAreThePartThatIsPainted) {
     texture::write_file(file, texture::encode_image(image, ".exr"));
     foam.push_back(foam_before(World(scene)));
   }
-  std::filesystem::remove(file);
   EXPECT_EQ(foam[0], foam_before(made));
   EXPECT_LT(foam[1], 0.8 * foam[0]);
   EXPECT_GT(foam[1], 1.5 * foam[2]);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/scene_text.h"
+#include "scratch_folder.h"
 
 namespace swell::scene {
 namespace {
@@ -14,23 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "swell_scene_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  const fs::path& path() const { return path_; }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
-};
 
 std::string load_error(const fs::path& path) {
   try {
@@ -376,7 +360,7 @@ TEST(SceneFile, WindowsLineEndsAndByteOrderMarkAreFine) {
 }
 
 TEST(SceneFile, HugeFilesAreRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string huge(100u << 20, '#');
   const std::string message =
       ":1: column 1: scene file, got more than 1048576 bytes, allowed 1048576";
@@ -386,7 +370,7 @@ TEST(SceneFile, HugeFilesAreRefused) {
 }
 
 TEST(SceneFile, FilesThatAreNotThereOrNotFilesAreRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string path = folder.path().string();
   EXPECT_EQ(load_error(path), path + ": scene file, got a directory, allowed a readable TOML file");
   EXPECT_EQ(load_error(path + "/none.toml"),
@@ -398,7 +382,7 @@ TEST(SceneFile, FilesThatAreNotThereOrNotFilesAreRefused) {
 }
 
 TEST(SceneFile, PicturePathsAreRelativeToTheSceneFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   folder.write("heights.png", "any");
   const fs::path path = folder.write("a.toml", "[terrain]\nheight_image = \"./heights.png\"\n");
   const Scene scene = load_scene(path);
@@ -407,7 +391,7 @@ TEST(SceneFile, PicturePathsAreRelativeToTheSceneFile) {
 }
 
 TEST(SceneFile, ATerrainIsMadeFromAPictureOrFromACoastLine) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   folder.write("heights.png", "any");
   const std::string coast = "coast_m = [[0, 0], [9, 0]]\n";
   const fs::path both =
@@ -420,7 +404,7 @@ TEST(SceneFile, ATerrainIsMadeFromAPictureOrFromACoastLine) {
 }
 
 TEST(SceneFile, PicturesThatAreNotThereAreNamedWithTheLineThatNamesThem) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string prefix = ":2: column 16: terrain.height_image, got \"";
   const std::string allowed = ", allowed a readable picture file";
   const fs::path a = folder.write("a.toml", "[terrain]\nheight_image = \"none.png\"\n");
@@ -431,7 +415,7 @@ TEST(SceneFile, PicturesThatAreNotThereAreNamedWithTheLineThatNamesThem) {
 }
 
 TEST(SceneFile, FramesOfASequenceHaveTheirNumberInTheName) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   folder.write("wave_0000.png", "any");
   const auto scene_of = [&](const std::string& name) {
     return folder.write("a.toml", "[ripples]\nsequence = \"" + name + "\"\nkind = \"sequence\"\n");
@@ -456,7 +440,7 @@ TEST(SceneFile, FramesOfASequenceHaveTheirNumberInTheName) {
 }
 
 TEST(SceneFile, NumbersDoNotDependOnTheLocale) {
-  const TemporaryFolder folder;  // Debian's minimal image has no comma locale: compile one
+  const ScratchFolder folder;  // Debian's minimal image has no comma locale: compile one
   const std::string locale = folder.path().string() + "/de_DE.UTF-8";
   const std::string compile = "localedef -i de_DE -f UTF-8 " + locale + " >/dev/null 2>&1";
   const bool compiled = std::system(compile.c_str()) == 0;

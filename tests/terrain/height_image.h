@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scratch_folder.h"
 #include "terrain/terrain.h"
 #include "texture/image_io.h"
 
@@ -17,15 +18,8 @@ namespace swell::terrain {
 // A folder for images, gone after the test.
 class HeightImage : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "swell_terrain_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
+    return scratch_.write(name, bytes);
   }
 
   // A float image of one channel.
@@ -46,7 +40,8 @@ class HeightImage : public ::testing::Test {
     return {};
   }
 
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 }  // namespace swell::terrain

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "math/random.h"
+#include "scratch_folder.h"
 #include "texture/image_io.h"
 
 namespace swell::texture {
@@ -60,11 +61,6 @@ const std::string kSignature = "\x89PNG\r\n\x1a\n", kEnd = chunk("IEND", "");
 
 class BadPng : public testing::Test {
  protected:
-  BadPng() {
-    path_ = fs::temp_directory_path() / ("swell-bad-" + std::to_string(getpid()) + ".png");
-  }
-  ~BadPng() override { fs::remove(path_); }
-
   // Reads the file; "" if it could be read, else the refusal without the file's name. Nothing may
   // be printed.
   std::string refusal(const std::string& chunks) {
@@ -88,7 +84,8 @@ class BadPng : public testing::Test {
     EXPECT_NE(line, "");
   }
 
-  fs::path path_;
+  const ScratchFolder folder_;
+  const fs::path path_ = folder_.path() / "bad.png";
 };
 
 constexpr int kWidth = 13, kHeight = 9;

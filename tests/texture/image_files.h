@@ -4,7 +4,6 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "math/random.h"
+#include "scratch_folder.h"
 #include "texture/image_io.h"
 
 namespace swell::texture {
@@ -24,25 +24,16 @@ using Bytes = std::vector<std::uint8_t>;
 // A fresh folder for each test, removed afterwards.
 class Files : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "swell-texture-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   fs::path put(const std::string& name, const Bytes& bytes) const {
-    std::ofstream(folder / name, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    return folder / name;
+    return scratch.write(name, bytes);
   }
   std::size_t file_count() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
   }
 
-  fs::path folder;
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path();
 };
 inline Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 

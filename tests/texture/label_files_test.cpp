@@ -12,6 +12,7 @@
 #include <string>
 
 #include "math/random.h"
+#include "scratch_folder.h"
 #include "texture/exr_channels.h"
 #include "texture/image_io.h"
 #include "texture/npy.h"
@@ -26,14 +27,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // A fresh folder for each test, removed afterwards.
 class LabelFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "swell-labels-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  fs::path folder;
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path();
 };
 using ExrChannels = LabelFiles;
 using Png16 = LabelFiles;

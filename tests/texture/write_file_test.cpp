@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "refused_calls.h"
+#include "scratch_folder.h"
 #include "texture/image_files.h"
 
 namespace swell::texture {
@@ -150,13 +151,6 @@ constexpr Way kWays[] = {{"UnnamedFiles", [] { return true; }},
 
 class ReplacedFile : public testing::TestWithParam<Way> {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "swell-write-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   // Writes with the parameter's way, in a child.
   void write(
       const fs::path& path, const std::string& text, const std::function<void()>& first = [] {}) {
@@ -186,7 +180,8 @@ class ReplacedFile : public testing::TestWithParam<Way> {
               -SIGXFSZ);
   }
 
-  fs::path folder;
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path();
 };
 INSTANTIATE_TEST_SUITE_P(Ways, ReplacedFile, testing::ValuesIn(kWays),
                          [](const auto& test) { return std::string(test.param.name); });

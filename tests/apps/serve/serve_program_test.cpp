@@ -98,7 +98,7 @@ class ServeProgram : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
 
-  const apps::ScratchFolder folder_;
+  const ScratchFolder folder_;
   pid_t pid_ = 0;
   std::string said_, token_;
   int port_ = 0;

@@ -84,7 +84,7 @@ TEST_F(WatchedViewer, StartsWithThePanelClosedIfAskedTo) {
 }
 
 TEST_F(WatchedViewer, SavesSoManyFilesInTheNamedFolderAndNoMore) {
-  const apps::ScratchFolder scratch;
+  const ScratchFolder scratch;
   ViewerSettings bounded = settings(0);
   bounded.output_folder = scratch.path() / "files";
   bounded.most_files = 3;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scratch_folder.h"
+
 namespace swell::apps {
 
 using Arguments = std::vector<std::string>;
@@ -42,21 +44,6 @@ constexpr bool can_limit_resources() {
   return true;
 #endif
 }
-
-// A directory that is removed with everything in it.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::vector<std::string> names() const;  // of all files, sorted
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -11,6 +11,7 @@
 
 #include "apps/shared/picture_file.h"
 #include "apps/view/viewer.h"
+#include "scratch_folder.h"
 #include "texture/image_io.h"
 #include "viewer_harness.h"
 
@@ -280,21 +281,14 @@ namespace fs = std::filesystem;
 // A working folder of this process alone, for as long as it lives.
 class ScreenshotFolder {
  public:
-  ScreenshotFolder()
-      : old_(fs::current_path()),
-        own_(fs::path(testing::TempDir()) / ("swell_shots_" + std::to_string(getpid()))) {
-    fs::create_directories(own_);
-    fs::current_path(own_);
-  }
-  ~ScreenshotFolder() {
-    fs::current_path(old_);
-    fs::remove_all(own_);
-  }
+  ScreenshotFolder() : old_(fs::current_path()) { fs::current_path(own_.path()); }
+  ~ScreenshotFolder() { fs::current_path(old_); }
   ScreenshotFolder(const ScreenshotFolder&) = delete;
   ScreenshotFolder& operator=(const ScreenshotFolder&) = delete;
 
  private:
-  fs::path old_, own_;
+  const ScratchFolder own_;
+  fs::path old_;
 };
 
 TEST_F(ViewerTest, ScreenshotsGetTheNextFreeName) {
