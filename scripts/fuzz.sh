@@ -1,16 +1,18 @@
 #!/bin/sh
-# Runs fuzz targets under the sanitizers, one after the other, and says how many inputs each has tried.
-#   scripts/fuzz.sh TARGET|all SECONDS
-# TARGET: the name of a tests/fuzz/TARGET_fuzz.cpp; SECONDS: how long each one runs. What is learnt stays in
+# Runs fuzz targets under the sanitizers and says how many inputs each has tried.
+#   scripts/fuzz.sh TARGET|all SECONDS [AT_ONCE]
+# TARGET: the name of a tests/fuzz/TARGET_fuzz.cpp; SECONDS: how long each one runs; AT_ONCE: how many run beside each
+# other, 1 unless given. What is learnt stays in
 # build/fuzz/corpus/TARGET for the next time. Ends with 1 if an input was found that a target fails at; it lies
 # in build/fuzz/findings then: mend the fault and put the input into tests/fuzz/corpus/TARGET.
 set -eu
 cd "$(dirname "$0")/.."
-if [ $# -ne 2 ]; then
-  echo "usage: scripts/fuzz.sh TARGET|all SECONDS" >&2
+if [ $# -lt 2 ] || [ $# -gt 3 ]; then
+  echo "usage: scripts/fuzz.sh TARGET|all SECONDS [AT_ONCE]" >&2
   exit 2
 fi
 seconds=$2
+at_once=${3:-1}
 
 targets=""
 for source in tests/fuzz/*_fuzz.cpp; do
@@ -82,8 +84,17 @@ fuzz() {
   echo "$1: $runs executions in $seconds s, $(stat average_exec_per_sec "$log") a second, no finding"
 }
 
+running=""
 failed=0
+# wait_for_all: until what runs has ended.
+wait_for_all() {
+  for process in $running; do wait "$process" || failed=1; done
+  running=""
+}
 for target in $targets; do
-  fuzz "$target" || failed=1
+  fuzz "$target" &
+  running="$running $!"
+  [ "$(echo "$running" | wc -w)" -lt "$at_once" ] || wait_for_all
 done
+wait_for_all
 exit $failed
