@@ -7,6 +7,7 @@ target_compile_options(swell_options INTERFACE
   # Per-target headers hold functions and settings that not every file includes them for.
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:Clang>:-Wno-unneeded-internal-declaration;-Wno-unused-function;-Wno-pragma-clang-attribute>>)
 if(SWELL_SANITIZE)
+  target_compile_definitions(swell_options INTERFACE SWELL_SANITIZED)
   target_compile_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE}
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})

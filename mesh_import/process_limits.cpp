@@ -13,14 +13,7 @@
 namespace swell::mesh_import {
 namespace {
 
-#if defined(__has_feature)
-#define SWELL_HAS_FEATURE(x) __has_feature(x)
-#else
-#define SWELL_HAS_FEATURE(x) 0
-#endif
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
-    SWELL_HAS_FEATURE(address_sanitizer) || SWELL_HAS_FEATURE(thread_sanitizer)
+#ifdef SWELL_SANITIZED
 constexpr bool kLimitsMemory = false;  // the checks take terabytes of addresses
 #else
 constexpr bool kLimitsMemory = true;

@@ -77,7 +77,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace swell::mesh_import
 
-#ifdef __SANITIZE_THREAD__
+#ifdef SWELL_SANITIZED
 // OpenImageIO's threads have ended by then, but nobody joins them.
 extern "C" const char* __tsan_default_options() { return "report_thread_leaks=0"; }
 #endif

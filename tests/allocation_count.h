@@ -1,4 +1,5 @@
-// Counts this program's calls of operator new, and their bytes.
+// Counts this program's calls of operator new, and their bytes; 0 under the sanitizers, which have
+// operators of their own.
 #pragma once
 
 #include <cstdint>

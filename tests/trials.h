@@ -6,7 +6,7 @@ namespace swell {
 // All of them, or a tenth under the sanitizers, which take ten times as long and look for something
 // else: what every case does.
 constexpr int trials(int all) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SWELL_SANITIZED
   return all / 10;
 #else
   return all;

@@ -236,7 +236,7 @@ TEST(MeshFile, WhatCannotBeReadIsRefusedInOneLine) {
   EXPECT_NE(refusal(folder / "a.blend").find("allowed .obj, .gltf"), std::string::npos);
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SWELL_SANITIZED
 constexpr int kRows = 100, kColumns = 200;  // checked builds are slow
 #else
 constexpr int kRows = 500, kColumns = 1000;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 int mutations() {
   const char* const asked = std::getenv("SWELL_MESH_MUTATIONS");
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SWELL_SANITIZED
   constexpr int kFew = 60;  // checked builds are slow
 #else
   constexpr int kFew = 240;

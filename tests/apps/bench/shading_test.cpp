@@ -64,7 +64,7 @@ TEST(Clock, IsThatOfACpu) {
 }
 
 TEST(ShadingProgram, FindsWhatWaterAndSkyTake) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SWELL_SANITIZED
   constexpr double kSlower = 20.0;
 #else
   constexpr double kSlower = 1.0;

@@ -38,7 +38,7 @@ std::string render_program();  // its path
 
 // False where the sanitizers need more memory, threads and time than a test of these can give.
 constexpr bool can_limit_resources() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SWELL_SANITIZED
   return false;
 #else
   return true;
