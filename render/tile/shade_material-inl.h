@@ -110,14 +110,4 @@ void ShadeMaterial(const Shading& s, const TilePixels& tile, const PixelList& li
 }  // namespace swell::render
 HWY_AFTER_NAMESPACE();
 
-// Compiles material M; outside of all namespaces, once a target.
-#undef SWELL_SHADE_MATERIAL
-#define SWELL_SHADE_MATERIAL(M)                                                       \
-  HWY_BEFORE_NAMESPACE();                                                             \
-  namespace swell::render::HWY_NAMESPACE {                                            \
-  template void ShadeMaterial<M>(const Shading&, const TilePixels&, const PixelList&, \
-                                 ShadeScratch&, ShadedLabels*);                       \
-  }                                                                                   \
-  HWY_AFTER_NAMESPACE()
-
 #endif  // per-target include guard
