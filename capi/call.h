@@ -52,10 +52,13 @@ swell_status guarded(const Work& work) noexcept {
 
 inline constexpr std::size_t kMostStructBytes = 4096;
 
+// Of no version is a structure's size one that would cut a pointer: sizeof is whole steps of
+// alignment.
 template <class Struct>
 std::size_t size_of(const Struct* given, const char* name) {
   check_not_null(given, name);
-  if (given->size < sizeof(std::size_t) || given->size > kMostStructBytes)
+  if (given->size < sizeof(std::size_t) || given->size > kMostStructBytes ||
+      given->size % alignof(Struct) != 0)
     refuse("{}.size, got {}, allowed sizeof, {}", name, given->size, sizeof(Struct));
   return given->size;
 }

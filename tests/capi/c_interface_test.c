@@ -266,7 +266,9 @@ static void test_scene_faults(void) {
   BAD(swell_world_create(&scene, NULL));
   BAD(swell_world_create(&scene, &world)); /* neither path nor text */
   BAD(swell_world_load(NULL, &world));
-  scene.text = "", scene.path = "x.toml";
+  scene.text = "", scene.size = offsetof(swell_scene, text) + 5; /* a part of a pointer */
+  BAD(swell_world_create(&scene, &world));
+  scene.size = sizeof scene, scene.path = "x.toml";
   BAD(swell_world_create(&scene, &world));
   scene.path = NULL, scene.threads = -1;
   BAD(swell_world_create(&scene, &world));
