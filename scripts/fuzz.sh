@@ -68,10 +68,10 @@ fuzz() {
   log=build/fuzz/findings/$1.log
   mkdir -p "$corpus"
   status=0
-  # Memory and time are far over what an input of this size may take.
+  # Memory and time are far over what an input of this size may take; so is time where targets share processors.
   # shellcheck disable=SC2046 # a list of words
   UBSAN_OPTIONS=print_stacktrace=1 build/fuzz/bin/fuzz_"$1" "$corpus" "tests/fuzz/corpus/$1" $(examples "$1") \
-    -max_total_time="$seconds" -max_len="$(most_bytes "$1")" -timeout=60 -rss_limit_mb=8192 \
+    -max_total_time="$seconds" -max_len="$(most_bytes "$1")" -timeout=$((60 * at_once)) -rss_limit_mb=8192 \
     -malloc_limit_mb="$(most_megabytes "$1")" -dict=build/fuzz/scene.dict -artifact_prefix="build/fuzz/findings/$1-" \
     -print_final_stats=1 -close_fd_mask=1 >"$log" 2>&1 || status=$?
   runs=$(stat number_of_executed_units "$log")
