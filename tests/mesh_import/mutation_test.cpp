@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 int mutations() {
   const char* const asked = std::getenv("SWELL_MESH_MUTATIONS");
 #ifdef SWELL_SANITIZED
-  constexpr int kFew = 20;  // checked builds are slow, and have the fuzz target's corpus too
+  constexpr int kFew = 60;  // checked builds are slow
 #else
   constexpr int kFew = 240;
 #endif
