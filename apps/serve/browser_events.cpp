@@ -101,11 +101,16 @@ void add_text(const Json& json, std::vector<SDL_Event>& events) {
   events.push_back(event);
 }
 
-void add_move(const Json& json, std::vector<SDL_Event>& events) {
+SDL_Event motion_to(const Json& json) {
   SDL_Event event{};
   event.type = SDL_MOUSEMOTION;
   event.motion.x = pixels_of(json, "x");
   event.motion.y = pixels_of(json, "y");
+  return event;
+}
+
+void add_move(const Json& json, std::vector<SDL_Event>& events) {
+  SDL_Event event = motion_to(json);
   event.motion.xrel = pixels_of(json, "dx");
   event.motion.yrel = pixels_of(json, "dy");
   events.push_back(event);
@@ -116,10 +121,7 @@ void add_button(const Json& json, std::vector<SDL_Event>& events) {
   const auto button = value_of<std::size_t>(json, "button");
   if (button >= kButtons.size()) return;
   // Where it is pressed counts, even if no motion was sent.
-  SDL_Event move{};
-  move.type = SDL_MOUSEMOTION;
-  move.motion.x = pixels_of(json, "x");
-  move.motion.y = pixels_of(json, "y");
+  const SDL_Event move = motion_to(json);
   events.push_back(move);
   SDL_Event event{};
   const bool is_down = value_of<bool>(json, "down");

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 // Shades the pixels of material M in the view of s.kind, and in the window the tile's fragments of
 // it; their colours go into `scratch`, and what labels want of the window's pixels into `labels`,
-// if any. Its unit has it.
+// if any. Defined in the unit of M.
 template <class M>
 void ShadeMaterial(const Shading& s, const TilePixels& tile, const PixelList& list,
                    ShadeScratch& scratch, ShadedLabels* labels);
