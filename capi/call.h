@@ -52,8 +52,8 @@ swell_status guarded(const Work& work) noexcept {
 
 inline constexpr std::size_t kMostStructBytes = 4096;
 
-// Of no version is a structure's size one that would cut a pointer: sizeof is whole steps of
-// alignment.
+// The size that the caller gave. sizeof is a multiple of the alignment in every version: another
+// size would cut a member.
 template <class Struct>
 std::size_t size_of(const Struct* given, const char* name) {
   check_not_null(given, name);
