@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "flat_floor.h"
-#include "render/workspace.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "texture/bump_sequence.h"
 
 namespace swell::render {
@@ -46,29 +47,19 @@ class CausticBend : public FlatFloor {
 std::vector<double> added_light(const World& world) {
   const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -0.5 * std::numbers::pi, 2.0 * kHalfFov_rad,
                               0.25f, kSize, kSize);
-  std::vector<double> added(kSize * kSize);
-  for (const double sign : {1.0, -1.0}) {
-    FrameOptions options;
-    options.keep_linear = true;
-    if (sign < 0.0) options.without = {Part::kCaustics};
-    Workers workers(2);
-    Workspace workspace;
-    Target target;
-    render_frame(world, view, 7.0, options, workspace, target, workers);
-    for (std::size_t i = 0; i < added.size(); ++i)
-      added[i] += sign * static_cast<double>(target.linear[3 * i + 1]);
-  }
+  const auto green = [&](PartSet without) {
+    return green_light(Shot(world, view, 7.0, {.keep_linear = true, .without = without}).target);
+  };
+  const std::vector<float> with = green({}), without = green({Part::kCaustics});
+  std::vector<double> added(with.begin(), with.end());
+  for (std::size_t i = 0; i < added.size(); ++i) added[i] -= without[i];
   return added;
 }
 
 // The ripples' slope at the eye, each layer's largest: root 2 times its deviation.
 double ripple_slope(const World& world) {
-  Workers workers(1);
-  Workspace workspace;
-  Target target;
-  const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -1.0, 1.0, 0.25f, 16, 16);
-  render_frame(world, view, 7.0, {}, workspace, target, workers);
-  const Water& water = workspace.state().shading.material<Water>();
+  const Shot shot(world, make_view({0.0, 0.0, kEye_m}, 0.0, -1.0, 1.0, 0.25f, 16, 16), 7.0, {}, 1);
+  const Water& water = shot.state().shading.material<Water>();
   double slope = 0.0;
   for (int i = water.first_ripples; i < water.layer_count; ++i)
     slope += std::sqrt(2.0) * static_cast<double>(texture::kBumpSlope) *

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "render/workspace.h"
-#include "scene/scene.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "trials.h"
 
 namespace swell::render {
@@ -35,10 +35,7 @@ scene::Scene sea_of(double wind_mps) {
 }
 
 View eye_at(double z_m) {
-  scene::Camera camera;
-  camera.eye_m = {kPlace_m, z_m};
-  camera.pitch_rad = 0.05;
-  camera.fov_y_rad = 1.0;
+  const scene::Camera camera{.eye_m = {kPlace_m, z_m}, .pitch_rad = 0.05, .fov_y_rad = 1.0};
   return scene::camera_view(camera, 0.0, kWidth, kHeight);
 }
 
@@ -47,28 +44,23 @@ struct DryRows {
   int drawn = 0, asked = 0;
 };
 
-class Diver {
- public:
-  explicit Diver(const World& world) : world_(world) {}
+struct Diver : Shot {
+  explicit Diver(const World& in) : world(in) {}
 
-  void draw(const View& view, double t_s) {
-    FrameOptions options;
-    options.keep_linear = true;
+  void draw(const View& seen, double t_s) {
+    FrameOptions options{.keep_linear = true};
     options.labels.add(Label::kFlags);
-    render_frame(world_, view, t_s, options, workspace_, target_, workers_);
+    Shot::draw(world, seen, t_s, options);
   }
-  const Target& target() const { return target_; }
 
   // Of the last frame.
-  double height_m(glm::dvec2 place_m) {
-    return static_cast<double>(
-        water_surface(world_.state(), workspace_.state().sea).height(place_m));
+  double height_m(glm::dvec2 place_m) const {
+    return static_cast<double>(water_surface(world.state(), state().sea).height(place_m));
   }
-  DryRows dry_rows(const View& view, int x) {
+  DryRows dry_rows(int x) const {
     DryRows rows;
     for (int y = 0; y < kHeight; ++y) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * kWidth + x;
-      rows.drawn += (target_.labels.flags[pixel] & kSeenInWater) == 0;
+      rows.drawn += (target.labels.flags[at(x, y)] & kSeenInWater) == 0;
       const glm::vec3 ray = view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       const glm::dvec3 begins = view.eye_world + glm::dvec3(view.near_m * ray);
       rows.asked += begins.z >= height_m(glm::dvec2(begins));
@@ -76,22 +68,8 @@ class Diver {
     return rows;
   }
 
- private:
-  const World& world_;
-  Workers workers_{2};
-  Workspace workspace_;
-  Target target_;
+  const World& world;
 };
-
-// Mean absolute difference of two pictures, in parts of white.
-double difference(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
-  int sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (int shift = 0; shift < 24; shift += 8)
-      sum +=
-          std::abs(static_cast<int>(a[i] >> shift & 255) - static_cast<int>(b[i] >> shift & 255));
-  return sum / (3.0 * 255.0 * static_cast<double>(a.size()));
-}
 
 // The median of what lies up to four before and after the i-th.
 double median_around(const std::vector<double>& all, std::size_t i) {
@@ -114,22 +92,22 @@ TEST_P(Diving, IsOneSmoothWayThroughTheSurface) {
   // Fewer of them are those about the middle.
   constexpr int kFrames = 300;
   const int frames = trials(kFrames), first = (kFrames - frames) / 2;
-  std::vector<std::uint32_t> before;
+  Target before;
   std::vector<double> steps;
   int cut = 0;
   diver.draw(eye_at(3.0), 10.0 + kFrame_s * (first - 1));
   for (int i = first; i < first + frames; ++i) {
-    const View view = eye_at(diver.height_m(kPlace_m) + kSinks_m * (kFrames / 2 - i));
-    diver.draw(view, 10.0 + kFrame_s * i);
-    const Target& target = diver.target();
+    diver.draw(eye_at(diver.height_m(kPlace_m) + kSinks_m * (kFrames / 2 - i)),
+               10.0 + kFrame_s * i);
+    const Target& target = diver.target;
     for (std::size_t k = 0; k < target.linear.size(); k += 3) {
       const float light = target.linear[k] + target.linear[k + 1] + target.linear[k + 2];
       ASSERT_TRUE(std::isfinite(light) && light > 0.005f) << i << ' ' << k / 3 << ' ' << light;
     }
-    if (!before.empty()) steps.push_back(difference(before, target.rgba));
-    before = target.rgba;
+    if (!before.rgba.empty()) steps.push_back(mean_difference(before, target) / 255.0);
+    before = target;
     for (int x = 0; x < kWidth; x += 5) {
-      const DryRows rows = diver.dry_rows(view, x);
+      const DryRows rows = diver.dry_rows(x);
       EXPECT_LE(std::abs(rows.drawn - rows.asked), 2) << i << ' ' << x;
       cut += rows.drawn > 0 && rows.drawn < kHeight;
     }

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "flat_floor.h"
-#include "render/frame.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "scene/water.h"
 
 namespace swell::render {
@@ -39,24 +40,18 @@ View looking_down() {
 }
 
 Target draw(const World& world, double t_s, PartSet without = {}) {
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.keep_linear = true;
-  options.without = without;
-  render_frame(world, looking_down(), t_s, options, workspace, target, workers);
-  return target;
+  return Shot(world, looking_down(), t_s, {.keep_linear = true, .without = without}).target;
 }
 
 // What caustics add to the green light of each pixel, in parts of the mean without them.
 std::vector<double> added_light(const World& world, double t_s) {
-  const Target with = draw(world, t_s), without = draw(world, t_s, {Part::kCaustics});
-  std::vector<double> added;
+  const std::vector<float> with = green_light(draw(world, t_s)),
+                           without = green_light(draw(world, t_s, {Part::kCaustics}));
+  std::vector<double> added(with.begin(), with.end());
   double mean = 0.0;
-  for (std::size_t i = 1; i < with.linear.size(); i += 3) {
-    added.push_back(static_cast<double>(with.linear[i]) - static_cast<double>(without.linear[i]));
-    mean += static_cast<double>(without.linear[i]) / (kSize * kSize);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    added[i] -= without[i];
+    mean += static_cast<double>(without[i]) / (kSize * kSize);
   }
   for (double& x : added) x /= mean;
   return added;

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "render/frame.h"
 #include "render/labels/classes.h"
 #include "render/labels/label_channels.h"
 #include "render/measure/pick.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 #include "render/world/world_state.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
@@ -59,20 +58,12 @@ const World& drift_world() {
   return world;
 }
 
-struct Frame {
-  Workspace workspace;
-  Target target;
-  View view;
-
-  Frame(const World& world, double t_s)
-      : view(scene::camera_view(world.scene().camera, t_s, 200, 150)) {
-    draw(world, t_s);
-  }
+struct Frame : Shot {
+  Frame(const World& world, double t_s) { draw(world, t_s); }
   void draw(const World& world, double t_s) {
     FrameOptions options;
     options.labels.add(Label::kId);
-    Workers workers(2);
-    render_frame(world, view, t_s, options, workspace, target, workers);
+    Shot::draw(world, view_of(world, t_s, 200, 150), t_s, options);
   }
 };
 
@@ -117,8 +108,8 @@ TEST(DrawnDrift, IsDrawnLabelledAndPickedWhereItsPoseIs) {
         frame.view.clip_from_rel * glm::vec4(glm::vec3(top - frame.view.eye_world), 1.0f);
     const glm::vec2 at_px((0.5f + 0.5f * clip.x / clip.w) * 200.0f,
                           (0.5f - 0.5f * clip.y / clip.w) * 150.0f);
-    const auto pixel = static_cast<std::size_t>(at_px.y) * 200 + static_cast<std::size_t>(at_px.x);
-    EXPECT_EQ(frame.target.labels.id[pixel], kFirstObjectId + 1) << t_s;
+    const glm::ivec2 p(at_px);
+    EXPECT_EQ(frame.target.labels.id[frame.at(p.x, p.y)], kFirstObjectId + 1) << t_s;
     PickScratch scratch;
     const auto picked = pick(world, frame.view, frame.workspace, at_px, scratch);
     ASSERT_TRUE(picked && picked->what == Shown::kObject) << t_s;

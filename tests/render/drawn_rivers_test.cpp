@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "render/frame.h"
 #include "render/labels/classes.h"
 #include "render/labels/label_channels.h"
 #include "render/lake_and_river.h"
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
+#include "render/shot.h"
 #include "render/view/meshes.h"
-#include "render/workspace.h"
 #include "render/world/world_state.h"
 #include "scene/scene.h"
 #include "scene/water.h"
@@ -49,114 +48,68 @@ const World& river_world() {
 }
 
 // What a small frame of a world shows.
-struct Frame {
-  Workspace workspace;
-  Target target;
-  View view;
+struct Frame : Shot {
+  explicit Frame(const World& world, double t_s = 2.0, const FrameOptions& options = {},
+                 int threads = 1)
+      : Shot(world, view_of(world, t_s, 160, 120), t_s, options, threads) {}
 
-  Frame(const World& world, double t_s, const FrameOptions& options = {}, int threads = 1)
-      : view(scene::camera_view(world.scene().camera, t_s, 160, 120)) {
-    Workers workers(threads);
-    render_frame(world, view, t_s, options, workspace, target, workers);
-  }
-
-  std::uint32_t primitive(int x, int y) const {
-    const VisibilityBuffer& buffer = workspace.state().visibility;
-    return buffer.primitive_of(tile(x, y))[at(x, y)];
-  }
-  bool shows_river(int x, int y) const {
-    const VisibilityBuffer& buffer = workspace.state().visibility;
-    return buffer.covered[static_cast<std::size_t>(tile(x, y))] > 0 &&
-           workspace.state().window.primitives.holds(SurfaceKind::kRivers, primitive(x, y));
-  }
   glm::dvec3 point(int x, int y) const {
-    const VisibilityBuffer& buffer = workspace.state().visibility;
-    const float depth_m = view.near_m / buffer.depth_of(tile(x, y))[at(x, y)];
+    const VisibilityBuffer& buffer = state().visibility;
+    const int size = buffer.grid.tile_size_px, tile = y / size * buffer.grid.tiles_x + x / size;
+    const float depth_m =
+        view.near_m / buffer.depth_of(tile)[static_cast<std::size_t>(y % size * size + x % size)];
     const glm::vec3 ray = view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     return view.eye_world + glm::dvec3(depth_m * ray);
   }
-  glm::vec3 light(int x, int y) const {  // with keep_linear
-    const float* const rgb = &target.linear[3 * static_cast<std::size_t>(y * view.width_px + x)];
-    return {rgb[0], rgb[1], rgb[2]};
-  }
-  float foam(int x, int y) const {
-    return target.labels.foam[static_cast<std::size_t>(y * view.width_px + x)];
-  }
-  std::vector<double> river_brightness() const {
-    std::vector<double> values;
-    for (int y = 0; y < view.height_px; ++y)
-      for (int x = 0; x < view.width_px; ++x) {
-        const std::uint32_t p = target.rgba[static_cast<std::size_t>(y * view.width_px + x)];
-        if (shows_river(x, y)) values.push_back((p >> 8) & 0xffu);
-      }
-    return values;
-  }
 
- private:
-  int tile(int x, int y) const {
-    const raster::TileGrid& grid = workspace.state().visibility.grid;
-    return y / grid.tile_size_px * grid.tiles_x + x / grid.tile_size_px;
-  }
-  std::size_t at(int x, int y) const {
-    const int size = workspace.state().visibility.grid.tile_size_px;
-    return static_cast<std::size_t>(y % size * size + x % size);
+  // Calls visit(x, y) for each pixel that shows a river.
+  template <class Visit>
+  void for_river(const Visit& visit) const {
+    for (int y = 0; y < view.height_px; ++y)
+      for (int x = 0; x < view.width_px; ++x)
+        if (shows(SurfaceKind::kRivers, x, y)) visit(x, y);
   }
 };
 
 TEST(DrawnRivers, LieWhereQueriesSay) {
-  const World& world = river_world();
-  const Frame frame(world, 2.0);
-  const scene::Water water(world.scene());
+  const Frame frame(river_world());
+  const scene::Water water(river_world().scene());
   ocean::SeaFrame sea;
   Workers workers(1);
   const scene::WaterSurface surface = water.at(2.0, sea, workers);
   // At the water's edge the drawn land is a little off.
   int river = 0, off = 0;
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x) {
-      if (!frame.shows_river(x, y)) continue;
-      const glm::dvec3 p = frame.point(x, y);
-      off += std::abs(static_cast<double>(surface.height(glm::dvec2(p))) - p.z) > 0.03;
-      ++river;
-    }
+  frame.for_river([&](int x, int y) {
+    const glm::dvec3 p = frame.point(x, y);
+    off += std::abs(static_cast<double>(surface.height(glm::dvec2(p))) - p.z) > 0.03;
+    ++river;
+  });
   EXPECT_GT(river, 1500);
   EXPECT_LT(off, river / 200);
 }
 
 TEST(DrawnRivers, CanBeLeftOut) {
-  const World& world = river_world();
-  FrameOptions without;
-  without.without = {Part::kRivers};
-  const Frame with(world, 2.0), dry(world, 2.0, without);
-  EXPECT_TRUE(dry.workspace.state().meshes.rivers.indices.empty());
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x)
-      if (with.shows_river(x, y)) {
-        const PrimitiveRanges& shown = dry.workspace.state().window.primitives;
-        EXPECT_TRUE(shown.holds(SurfaceKind::kTerrain, dry.primitive(x, y)) ||
-                    shown.holds(SurfaceKind::kWater, dry.primitive(x, y)));
-      }
+  const Frame dry(river_world(), 2.0, {.without = {Part::kRivers}});
+  EXPECT_TRUE(dry.state().meshes.rivers.indices.empty());
+  Frame(river_world()).for_river([&](int x, int y) {
+    EXPECT_TRUE(dry.shows(SurfaceKind::kTerrain, x, y) || dry.shows(SurfaceKind::kWater, x, y));
+  });
 }
 
 TEST(DrawnRivers, AreWaterInLabels) {
-  const World& world = river_world();
   FrameOptions options;
   options.labels.add(Label::kClass);
-  const Frame frame(world, 2.0, options);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x)
-      if (frame.shows_river(x, y)) {
-        const std::uint32_t c =
-            frame.target.labels.klass[static_cast<std::size_t>(y * frame.view.width_px + x)];
-        EXPECT_TRUE(c == kWaterClass || c == kFoamClass) << c;
-      }
+  const Frame frame(river_world(), 2.0, options);
+  frame.for_river([&](int x, int y) {
+    const std::uint32_t c = frame.target.labels.klass[frame.at(x, y)];
+    EXPECT_TRUE(c == kWaterClass || c == kFoamClass) << c;
+  });
 }
 
 // The lake fills the picture; its river comes down to the sea.
 TEST(DrawnRivers, MirrorInTheSeasLevelAndInOneMore) {
-  const World& world = river_world();
-  const Frame frame(world, 2.0);
-  const RiverMesh& rivers = frame.workspace.state().meshes.rivers;
+  const Frame frame(river_world());
+  const RiverMesh& rivers = frame.state().meshes.rivers;
   ASSERT_TRUE(rivers.mirror_level_m);
   EXPECT_NEAR(*rivers.mirror_level_m, 4.0f, 0.5f);
   EXPECT_EQ(rivers.mirror_share, 1.0f);
@@ -181,15 +134,9 @@ TEST(DrawnRivers, MirrorInTheSeasLevelAndInOneMore) {
   EXPECT_GT(std::min(low, high), 20);
 
   // What is drawn of both: the lake with its bank, from low above it.
-  FrameOptions without;
-  without.without = {Part::kReflection};
-  const Frame bare(world, 2.0, without);
+  const Frame bare(river_world(), 2.0, {.without = {Part::kReflection}});
   int changed = 0;
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x) {
-      const auto i = static_cast<std::size_t>(y * 160 + x);
-      changed += frame.shows_river(x, y) && frame.target.rgba[i] != bare.target.rgba[i];
-    }
+  frame.for_river([&](int x, int y) { changed += frame.codes(x, y) != bare.codes(x, y); });
   EXPECT_GT(changed, 100);
 }
 
@@ -202,13 +149,6 @@ scene::Scene seen_from_above(glm::dvec3 eye_m, const std::string& more = "") {
   return scene;
 }
 
-FrameOptions linear_without(Part part) {
-  FrameOptions options;
-  options.keep_linear = true;
-  options.without = {part};
-  return options;
-}
-
 // As at the sea's floor, into which a mouth passes. From 1.2 m up they are gravel, whatever the
 // land is.
 TEST(DrawnRivers, BedsAreOfTheLandsSandNearTheSea) {
@@ -216,23 +156,21 @@ TEST(DrawnRivers, BedsAreOfTheLandsSandNearTheSea) {
   const World sand(scene, 1);
   scene.terrain->ground.sand = {0.6f, 0.05f, 0.05f};
   const World red_sand(scene, 1);
-  const Frame a(sand, 2.0, linear_without(Part::kReflection)),
-      b(red_sand, 2.0, linear_without(Part::kReflection));
+  const FrameOptions options{.keep_linear = true, .without = {Part::kReflection}};
+  const Frame a(sand, 2.0, options), b(red_sand, 2.0, options);
   int high = 0, low = 0;
   float green = 0.0f, green_of_red = 0.0f;
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x) {
-      if (!a.shows_river(x, y)) continue;
-      const double level_m = a.point(x, y).z;
-      if (level_m > 1.25) {
-        EXPECT_EQ(a.light(x, y), b.light(x, y));
-        ++high;
-      } else if (level_m < 0.6) {
-        green += a.light(x, y).g;
-        green_of_red += b.light(x, y).g;
-        ++low;
-      }
+  a.for_river([&](int x, int y) {
+    const double level_m = a.point(x, y).z;
+    if (level_m > 1.25) {
+      EXPECT_EQ(a.linear(x, y), b.linear(x, y));
+      ++high;
+    } else if (level_m < 0.6) {
+      green += a.linear(x, y).g;
+      green_of_red += b.linear(x, y).g;
+      ++low;
     }
+  });
   EXPECT_GT(std::min(high, low), 100);
   EXPECT_LT(green_of_red, 0.8f * green);
 }
@@ -241,27 +179,24 @@ TEST(DrawnRivers, HaveCausticsOnTheirBeds) {
   scene::Scene scene = seen_from_above({-6.0, -100.0, 7.0});
   scene.sea.wind_speed_mps = 5.0;
   const World world(scene, 1);
-  FrameOptions with = linear_without(Part::kReflection), small_tiles = with;
-  const Frame a(world, 2.0, with);
-  with.without.add(Part::kCaustics);
-  const Frame b(world, 2.0, with);
+  const Frame a(world, 2.0, {.keep_linear = true, .without = {Part::kReflection}}),
+      b(world, 2.0, {.keep_linear = true, .without = {Part::kReflection, Part::kCaustics}});
   int river = 0, changed = 0;
   float light = 0.0f, light_without = 0.0f;
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x) {
-      if (!a.shows_river(x, y)) continue;
-      const float green = a.light(x, y).g, green_without = b.light(x, y).g;
-      light += green;
-      light_without += green_without;
-      changed += std::abs(green - green_without) > 0.02f * green_without;
-      ++river;
-    }
+  a.for_river([&](int x, int y) {
+    const float green = a.linear(x, y).g, green_without = b.linear(x, y).g;
+    light += green;
+    light_without += green_without;
+    changed += std::abs(green - green_without) > 0.02f * green_without;
+    ++river;
+  });
   EXPECT_GT(river, 5000);
   EXPECT_GT(changed, river / 3);
   // The waves only move the light about.
   EXPECT_NEAR(light / light_without, 1.0f, 0.05f);
-  small_tiles.tile_size_px = 32;
-  EXPECT_EQ(Frame(world, 2.0, small_tiles, 2).target.linear, a.target.linear);
+  const Frame small_tiles(
+      world, 2.0, {.tile_size_px = 32, .keep_linear = true, .without = {Part::kReflection}}, 2);
+  EXPECT_EQ(small_tiles.target.linear, a.target.linear);
 }
 
 // The foam that a sphere at `position` adds to the river's, south of it, from where the water
@@ -279,10 +214,11 @@ glm::vec2 foam_at_sphere(glm::dvec2 position, const std::string& more) {
   options.without = {Part::kHulls};
   const Frame without(world, 0.0, options);
   glm::vec2 added(0.0f);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x)
-      if (with.shows_river(x, y))
-        added[with.point(x, y).y > position.y] += with.foam(x, y) - without.foam(x, y);
+  with.for_river([&](int x, int y) {
+    const std::size_t i = with.at(x, y);
+    added[with.point(x, y).y > position.y] +=
+        with.target.labels.foam[i] - without.target.labels.foam[i];
+  });
   return added;
 }
 
@@ -301,10 +237,11 @@ TEST(DrawnRivers, AreWhiteInTheLeeOfWhatStandsInThem) {
 
 // RIV-05: the contrast of the carried ripples over their period, where every phase passes.
 TEST(DrawnRivers, RipplesDoNotPulse) {
-  const World& world = river_world();
   std::vector<double> deviation;
   for (int n = 0; n < 12; ++n) {
-    const std::vector<double> values = Frame(world, 10.0 + n * 0.125).river_brightness();
+    const Frame frame(river_world(), 10.0 + n * 0.125);
+    std::vector<double> values;
+    frame.for_river([&](int x, int y) { values.push_back(frame.codes(x, y).g); });
     double mean = 0.0, square = 0.0;
     for (const double v : values) mean += v / static_cast<double>(values.size());
     for (const double v : values)
@@ -325,10 +262,8 @@ TEST(DrawnRivers, KeepNoLandOfTheirOwn) {
 TEST(DrawnRivers, AreTheSameBitsWithAnyThreadsAndAfterAnyFrame) {
   const World& world = river_world();
   const Frame one(world, 7.5);
-  FrameOptions small_tiles;
-  small_tiles.tile_size_px = 32;
   EXPECT_EQ(Frame(world, 7.5, {}, 3).target.rgba, one.target.rgba);
-  EXPECT_EQ(Frame(world, 7.5, small_tiles, 2).target.rgba, one.target.rgba);
+  EXPECT_EQ(Frame(world, 7.5, {.tile_size_px = 32}, 2).target.rgba, one.target.rgba);
   Frame history(world, 1.0);
   Workers workers(2);
   render_frame(world, history.view, 7.5, {}, history.workspace, history.target, workers);

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "render/frame.h"
 #include "render/labels/label_channels.h"
+#include "render/shot.h"
 #include "render/view/meshes.h"
-#include "render/workspace.h"
 #include "render/world/world_state.h"
 #include "scene/scene.h"
 #include "scene/water.h"
@@ -38,29 +37,22 @@ height_m = 0.2
 )";
 constexpr double kTime_s = 20.5;
 
-struct Drawn {
-  Workspace workspace;
-  Target target;
-};
+View small_view(const World& world) { return view_of(world, 0.0, 160, 96); }
 
-void draw(const World& world, double t_s, const FrameOptions& options, Drawn& drawn,
-          int threads = 1) {
-  Workers workers(threads);
-  const View view = scene::camera_view(world.scene().camera, t_s, 160, 96);
-  render_frame(world, view, t_s, options, drawn.workspace, drawn.target, workers);
+Shot draw(const World& world, const FrameOptions& options = {}, int threads = 1) {
+  return Shot(world, small_view(world), kTime_s, options, threads);
 }
 
 World make_world() { return World(scene::parse_scene(kScene, "wake.toml"), 1); }
 
 TEST(DrawnWakes, VerticesHaveTheHeightsThatQueriesGive) {
   const World world = make_world();
-  Drawn drawn;
-  draw(world, kTime_s, {}, drawn);
+  const Shot shot = draw(world);
   const scene::Water water(world.scene());
   ocean::SeaFrame frame;
   Workers workers(1);
   const scene::WaterSurface surface = water.at(kTime_s, frame, workers);
-  const Surface& mesh = drawn.workspace.state().meshes.water;
+  const Surface& mesh = shot.state().meshes.water;
   int raised = 0;
   for (std::size_t v = 0; v < mesh.height_m.size(); ++v) {
     const glm::dvec2 p = vertex_world(mesh, v);
@@ -73,12 +65,10 @@ TEST(DrawnWakes, VerticesHaveTheHeightsThatQueriesGive) {
 
 TEST(DrawnWakes, AFrameAloneIsTheFrameInASequence) {
   const World world = make_world();
-  Drawn alone, sequence;
-  draw(world, kTime_s, {}, alone, 3);
-  FrameOptions tiles;
-  for (int n = 0; n < 5; ++n) draw(world, kTime_s - 2.0 + 0.4 * n, {}, sequence);
-  tiles.tile_size_px = 16;
-  draw(world, kTime_s, tiles, sequence);
+  const Shot alone = draw(world, {}, 3);
+  Shot sequence(1);
+  for (int n = 0; n < 5; ++n) sequence.draw(world, small_view(world), kTime_s - 2.0 + 0.4 * n);
+  sequence.draw(world, small_view(world), kTime_s, {.tile_size_px = 16});
   EXPECT_EQ(alone.target.rgba, sequence.target.rgba);
 }
 
@@ -88,33 +78,26 @@ TEST(DrawnWakes, AreLeftOutWithTheirPart) {
   calm.objects[0].wake = false;
   calm.disturbances.clear();
   const World without_any(calm, 1);
-  FrameOptions options;
-  Drawn wakes, without, calm_drawn;
-  draw(world, kTime_s, options, wakes);
-  options.without.add(Part::kWakes);
-  draw(world, kTime_s, options, without);
-  draw(without_any, kTime_s, {}, calm_drawn);
+  const Shot wakes = draw(world), without = draw(world, {.without = {Part::kWakes}}),
+             calm_shot = draw(without_any);
   EXPECT_NE(wakes.target.rgba, without.target.rgba);
-  const Surface& mesh = without.workspace.state().meshes.water;
+  const Surface& mesh = without.state().meshes.water;
   EXPECT_TRUE(std::ranges::all_of(mesh.height_m, [](float z) { return z == 0.0f; }));
-  EXPECT_EQ(without.workspace.state().shading.material<Water>().wakes.count, 0);
-  EXPECT_EQ(calm_drawn.workspace.state().shading.material<Water>().wakes.count, 0);
+  EXPECT_EQ(without.state().shading.material<Water>().wakes.count, 0);
+  EXPECT_EQ(calm_shot.state().shading.material<Water>().wakes.count, 0);
 }
 
 TEST(DrawnWakes, AreFlaggedInLabels) {
   const World world = make_world();
-  const auto flagged = [&](FrameOptions options) {
+  const auto flagged = [&](PartSet without) {
+    FrameOptions options{.without = without};
     options.labels.add(Label::kFlags);
-    Drawn drawn;
-    draw(world, kTime_s, options, drawn);
-    return std::ranges::count_if(drawn.target.labels.flags,
+    return std::ranges::count_if(draw(world, options).target.labels.flags,
                                  [](std::uint8_t flags) { return (flags & kShowsWake) != 0; });
   };
-  FrameOptions without;
-  without.without.add(Part::kWakes);
   EXPECT_GT(flagged({}), 160 * 96 / 50);
   EXPECT_LT(flagged({}), 160 * 96 * 3 / 4);
-  EXPECT_EQ(flagged(without), 0);
+  EXPECT_EQ(flagged({Part::kWakes}), 0);
 }
 
 TEST(DrawnWakes, AListForAFrameIsAsOneInTheScene) {
@@ -122,12 +105,7 @@ TEST(DrawnWakes, AListForAFrameIsAsOneInTheScene) {
   const std::vector<ocean::Disturbance> given = scene.disturbances;
   scene.disturbances.clear();
   const World world = make_world(), bare(scene, 1);
-  FrameOptions options;
-  Drawn in_scene, in_frame;
-  draw(world, kTime_s, options, in_scene);
-  options.disturbances = given;
-  draw(bare, kTime_s, options, in_frame);
-  EXPECT_EQ(in_scene.target.rgba, in_frame.target.rgba);
+  EXPECT_EQ(draw(world).target.rgba, draw(bare, {.disturbances = given}).target.rgba);
 }
 
 TEST(DrawnWakes, ABuoyAsternBobs) {
@@ -138,10 +116,10 @@ TEST(DrawnWakes, ABuoyAsternBobs) {
   scene.objects.push_back(buoy);
   const World world(scene, 1);
   double low_m = 1.0, high_m = -1.0;
-  Drawn drawn;
+  Shot film(1);
   for (double t_s = 15.0; t_s < 23.0; t_s += 0.5) {
-    draw(world, t_s, {}, drawn);
-    const double z = drawn.workspace.state().meshes.objects.poses[1].position_world.z;
+    film.draw(world, small_view(world), t_s);
+    const double z = film.state().meshes.objects.poses[1].position_world.z;
     low_m = std::min(low_m, z), high_m = std::max(high_m, z);
   }
   EXPECT_GT(high_m - low_m, 0.05);
@@ -149,16 +127,12 @@ TEST(DrawnWakes, ABuoyAsternBobs) {
 
 TEST(DrawnWakes, FoamBehindTheHullIsWhite) {
   const World world = make_world();
-  FrameOptions options;
-  options.labels = LabelSet::all();
-  Drawn drawn;
-  draw(world, kTime_s, options, drawn);
-  const std::vector<float>& foam = drawn.target.labels.foam;
-  EXPECT_GT(std::ranges::count_if(foam, [](float f) { return f > 0.3f; }), 30);
-  options.without.add(Part::kWakes);
-  options.without.add(Part::kHulls);
-  draw(world, kTime_s, options, drawn);
-  EXPECT_EQ(std::ranges::count_if(foam, [](float f) { return f > 0.3f; }), 0);
+  const auto white_pixels = [&](PartSet without) {
+    const Shot shot = draw(world, {.without = without, .labels = LabelSet::all()});
+    return std::ranges::count_if(shot.target.labels.foam, [](float f) { return f > 0.3f; });
+  };
+  EXPECT_GT(white_pixels({}), 30);
+  EXPECT_EQ(white_pixels({Part::kWakes, Part::kHulls}), 0);
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "raster/pass.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 
 namespace swell::render {
 namespace {
@@ -25,34 +24,23 @@ View look_down(glm::dvec3 eye, double reach_m, int width_px, int height_px) {
 }
 
 // Draws frames and tells where in the world the surface of a pixel is.
-class Film {
- public:
-  Film(const scene::Scene& scene, const View& view) : world_(scene), view_(view), workers_(2) {}
+struct Film : Shot {
+  Film(const scene::Scene& scene, const View& seen) : world(scene), camera(seen) {}
 
-  void draw(double t_s) {
-    FrameOptions options;
-    options.water_triangles = 20000;
-    render_frame(world_, view_, t_s, options, workspace_, target_, workers_);
-  }
+  void draw(double t_s) { Shot::draw(world, camera, t_s, {.water_triangles = 20000}); }
 
-  glm::dvec3 surface_at(int x_px, int y_px) {
-    VisibilityBuffer& seen = workspace_.state().visibility;
+  glm::dvec3 surface_at(int x_px, int y_px) const {
+    const VisibilityBuffer& seen = state().visibility;
     const int side = seen.grid.tile_size_px;
     const int tile = (y_px / side) * seen.grid.tiles_x + x_px / side;
     const std::size_t in_tile = static_cast<std::size_t>(y_px % side * side + x_px % side);
-    const double depth_m = view_.near_m / static_cast<double>(seen.depth_of(tile)[in_tile]);
+    const double depth_m = view.near_m / static_cast<double>(seen.depth_of(tile)[in_tile]);
     const float x = static_cast<float>(x_px) + 0.5f, y = static_cast<float>(y_px) + 0.5f;
-    return view_.eye_world + depth_m * glm::dvec3(view_.ray(x, y));
+    return view.eye_world + depth_m * glm::dvec3(view.ray(x, y));
   }
 
-  const World::State& world() const { return world_.state(); }
-
- private:
-  World world_;
-  View view_;
-  Workers workers_;
-  Workspace workspace_;
-  Target target_;
+  World world;
+  View camera;
 };
 
 // Where f is largest in [low, high].
@@ -167,7 +155,7 @@ TEST(DrawnWaves, ATrainHasThePeriodAndSpeedOfItsDepth) {
     }
   }
   const double width_m = film.surface_at(15, 320).x - film.surface_at(0, 320).x;
-  const double omega_train = kTwoPi / film.world().coast->trains.period_s.front();
+  const double omega_train = kTwoPi / film.world.state().coast->trains.period_s.front();
   for (std::size_t i = 0; i < depths_m.size(); ++i) {
     const auto swing = [&](double omega, std::size_t n) { return record.swing(omega, 4 * i + n); };
     const double omega = find_maximum(0.8 * omega_train, 1.2 * omega_train,

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "math/random.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 #include "scratch_folder.h"
 #include "texture/image_io.h"
 
@@ -69,23 +69,16 @@ TEST_P(OddFloor, GivesAFiniteSea) {
   if (GetParam().image_side > 0)
     scene.terrain->height_image = write_picture(GetParam().image_side, GetParam().grey);
   const World world(scene);
-  const View view = scene::camera_view(scene.camera, 3.0, 64, 36);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.keep_linear = true;
-  Workers one(1), three(3);
-  render_frame(world, view, 3.0, options, workspace, target, three);
-  const Surface& water = workspace.state().meshes.water;
+  const View view = view_of(world, 3.0, 64, 36);
+  const Shot shot(world, view, 3.0, {.keep_linear = true}, 3);
+  const Surface& water = shot.state().meshes.water;
   const float bound_m = world.state().water_bounds().height_m;
   EXPECT_LT(bound_m, 20.0f);
   EXPECT_TRUE(std::ranges::all_of(water.height_m, [&](float z) { return std::abs(z) <= bound_m; }));
-  EXPECT_TRUE(std::ranges::all_of(target.linear, [](float c) { return c >= 0.0f && c < 1e6f; }));
-  const std::uint64_t hash = picture_hash(target);
-  options.tile_size_px = 16;
-  Workspace fresh;
-  render_frame(world, view, 3.0, options, fresh, target, one);
-  EXPECT_EQ(picture_hash(target), hash);
+  EXPECT_TRUE(
+      std::ranges::all_of(shot.target.linear, [](float c) { return c >= 0.0f && c < 1e6f; }));
+  const Shot fresh(world, view, 3.0, {.tile_size_px = 16, .keep_linear = true}, 1);
+  EXPECT_EQ(picture_hash(fresh.target), picture_hash(shot.target));
 }
 
 std::vector<Floor> odd_floors() {

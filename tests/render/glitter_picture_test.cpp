@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "math/elementary.h"
-#include "render/frame.h"
-#include "scene/scene.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "scene/sky.h"
 
 namespace swell::render {
@@ -43,18 +43,9 @@ scene::Scene sea_behind_wall(double wind_mps, double elevation_deg) {
 
 // Green light of a strip of the sea.
 std::vector<float> strip(const World& world, const View& view, double t_s, PartSet without) {
-  FrameOptions options;
-  options.keep_linear = true;
-  options.edge_samples = 0;
-  options.without = without;
-  options.without.add({Part::kHaze, Part::kEarth, Part::kHulls, Part::kReflection});
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  render_frame(world, view, t_s, options, workspace, target, workers);
-  std::vector<float> green;
-  for (std::size_t i = 1; i < target.linear.size(); i += 3) green.push_back(target.linear[i]);
-  return green;
+  without.add({Part::kHaze, Part::kEarth, Part::kHulls, Part::kReflection});
+  const Shot shot(world, view, t_s, {.keep_linear = true, .edge_samples = 0, .without = without});
+  return green_light(shot.target);
 }
 
 // Standard deviation of the azimuth of the sun's path, which is what the wall takes away, where it

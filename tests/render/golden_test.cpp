@@ -7,8 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "render/frame.h"
-#include "scene/scene.h"
+#include "render/shot.h"
 #include "texture/image_io.h"
 
 namespace swell::render {
@@ -79,17 +78,9 @@ std::string report_difference(const std::string& name, const texture::Image8& ac
 TEST_P(Golden, PictureIsTheStoredOneToTheBit) {
   const Case& c = GetParam();
   const std::string name = case_name(c);
-  const World world(
-      scene::load_scene(fs::path(SWELL_SOURCE_DIR) / "scenes" / (std::string(c.scene) + ".toml")));
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.wireframe = c.wireframe;
-  const View view = scene::camera_view(world.scene().camera, c.t_s, 320, 180);
-  render_frame(world, view, c.t_s, options, workspace, target, workers);
-
-  const texture::Image8 actual = rgb_image(target);
+  const World& world = shipped_world(c.scene);
+  const Shot shot(world, view_of(world, c.t_s, 320, 180), c.t_s, {.wireframe = c.wireframe});
+  const texture::Image8 actual = rgb_image(shot.target);
   const fs::path file = kGoldenFolder / (name + ".png");
   if (std::getenv("SWELL_UPDATE_GOLDEN")) {
     write_png(file, actual);

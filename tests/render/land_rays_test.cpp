@@ -6,11 +6,12 @@
 #include <cmath>
 
 #include "math/simd_target.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "render/tile/shading.h"
 #include "render/view/cast_land.h"
 #include "render/view/land_paths.h"
 #include "render/view/refracted_image.h"
-#include "render/workspace.h"
 #include "render/world/world_state.h"
 #include "terrain/height_rays.h"
 #include "terrain/terrain.h"
@@ -27,37 +28,15 @@ scene::Scene with_rays(scene::Scene scene) {
   return scene;
 }
 
-// The lagoon, made once.
-const World& lagoon_of_triangles() {
-  static const World world(load("scenes/lagoon.toml"), 2);
-  return world;
-}
+// Made once.
 const World& lagoon_by_rays() {
-  static const World world(with_rays(load("scenes/lagoon.toml")), lagoon_of_triangles(), 2);
+  static const World world(with_rays(load_shipped("lagoon")), shipped_world("lagoon"), 2);
   return world;
 }
 
-struct Drawn {
-  Target target;
-  FrameStatistics statistics;
-};
-
-Drawn draw(const World& world, const View& view, FrameOptions options = {}, int threads = 2) {
-  Workers workers(threads);
-  Workspace workspace;
-  Drawn drawn;
+Shot draw(const World& world, const View& view, FrameOptions options = {}, int threads = 2) {
   options.edge_samples = std::max(options.edge_samples, 0);
-  drawn.statistics = render_frame(world, view, 5.0, options, workspace, drawn.target, workers);
-  return drawn;
-}
-
-double mean_difference(const Target& a, const Target& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.rgba.size(); ++k)
-    for (int c = 0; c < 3; ++c)
-      sum += std::abs(static_cast<int>(a.rgba[k] >> (8 * c) & 255) -
-                      static_cast<int>(b.rgba[k] >> (8 * c) & 255));
-  return sum / (3.0 * static_cast<double>(a.rgba.size()));
+  return Shot(world, view, 5.0, options, threads);
 }
 
 // The whole picture, with mirror and floor.
@@ -65,10 +44,8 @@ TEST(LandRays, ShowWhatManyTrianglesShow) {
   for (const char* file : {"scenes/lagoon.toml", "scenes/beach.toml", "tests/scenes/hills.toml"}) {
     const scene::Scene scene = load(file);
     const World triangles(scene, 2), rays(with_rays(scene), triangles, 2);
-    const View view = scene::camera_view(scene.camera, 5.0, 320, 180);
-    FrameOptions many;
-    many.terrain_triangles = 500000;
-    const Drawn a = draw(triangles, view, many), b = draw(rays, view);
+    const View view = view_of(rays, 5.0, 320, 180);
+    const Shot a = draw(triangles, view, {.terrain_triangles = 500000}), b = draw(rays, view);
     EXPECT_LT(mean_difference(a.target, b.target), 1.0) << file;
     EXPECT_EQ(b.statistics.terrain_triangles, 0) << file;
     EXPECT_EQ(b.statistics.shaded_pixels, b.statistics.visible_pixels) << file;
@@ -77,21 +54,20 @@ TEST(LandRays, ShowWhatManyTrianglesShow) {
 
 // Where the ridge of an island stands before the sky, and along the shore.
 TEST(LandRays, HaveTheEdgesThatTrianglesHave) {
-  const World &triangles = lagoon_of_triangles(), &rays = lagoon_by_rays();
-  const View view = scene::camera_view(rays.scene().camera, 5.0, 320, 180);
-  FrameOptions options;
-  options.terrain_triangles = 500000;
-  options.edge_samples = 8;
-  const Drawn a = draw(triangles, view, options), b = draw(rays, view, options);
-  options.edge_samples = 0;
-  const Drawn rough = draw(rays, view, options);
+  const World& rays = lagoon_by_rays();
+  const View view = view_of(rays, 5.0, 320, 180);
+  const auto draw_edges = [&](const World& world, int samples) {
+    return draw(world, view, {.terrain_triangles = 500000, .edge_samples = samples});
+  };
+  const Shot a = draw_edges(shipped_world("lagoon"), 8), b = draw_edges(rays, 8);
+  const Shot rough = draw_edges(rays, 0);
   // Only pixels of edges differ, and they come nearer to those of triangles.
-  const auto off = [&](const Drawn& drawn) {
+  const auto off = [&](const Shot& drawn) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < a.target.rgba.size(); ++k)
-      if (b.target.rgba[k] != rough.target.rgba[k])
-        sum += std::abs(static_cast<int>(a.target.rgba[k] >> 8 & 255) -
-                        static_cast<int>(drawn.target.rgba[k] >> 8 & 255));
+    for (int y = 0; y < 180; ++y)
+      for (int x = 0; x < 320; ++x)
+        if (b.codes(x, y) != rough.codes(x, y))
+          sum += std::abs(a.codes(x, y).g - drawn.codes(x, y).g);
     return sum;
   };
   EXPECT_GT(mean_difference(b.target, rough.target), 0.01);
@@ -101,25 +77,24 @@ TEST(LandRays, HaveTheEdgesThatTrianglesHave) {
 
 // An outline at 6 m: from straight above, the pixels over lower ground show no land.
 TEST(LandRays, EndAtTheOutline) {
-  scene::Scene scene = with_rays(load("scenes/lagoon.toml"));
+  scene::Scene scene = with_rays(load_shipped("lagoon"));
   scene.terrain->outline_m = 6.0;
   const World world(scene, 2);
-  const View view = make_view({0.0, 0.0, 3000.0}, camera_axes(0.0, scene::radians(-90.0), 0.0),
-                              lens_of_fov(0.12, 200, 200), 0.25f, 200, 200);
+  const View view =
+      make_view({0.0, 0.0, 3000.0}, 0.0, scene::radians(-90.0), 0.12, 0.25f, 200, 200);
   FrameOptions options;
   options.labels.add(Label::kId), options.labels.add(Label::kPosition);
-  const Drawn drawn = draw(world, view, options);
+  const Shot drawn = draw(world, view, options);
   const terrain::HeightGrid land = terrain::build_terrain(*scene.terrain);
   int inside = 0, wrong = 0;
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 200; ++x) {
-      const std::size_t at = static_cast<std::size_t>(200 * y + x);
       // Where the pixel's ray comes down to 6 m.
       const glm::dvec3 ray = position_of(view, x, y, 1.0f) - view.eye_world;
       const double t = (6.0 - view.eye_world.z) / ray.z;
       const double height_m = terrain::height_at(land, glm::dvec2(view.eye_world + t * ray));
       if (std::abs(height_m - 6.0) < 0.05) continue;
-      const bool is_land = drawn.target.labels.id[at] == kLandId;
+      const bool is_land = drawn.target.labels.id[drawn.at(x, y)] == kLandId;
       inside += height_m > 6.0;
       wrong += is_land != (height_m > 6.0);
     }
@@ -130,16 +105,16 @@ TEST(LandRays, EndAtTheOutline) {
 TEST(LandRays, HaveTheNormalOfTheirSurface) {
   const scene::Scene scene = load("tests/scenes/hills.toml");
   const World world(with_rays(scene), 2);
-  const View view = scene::camera_view(scene.camera, 5.0, 160, 90);
+  const View view = view_of(world, 5.0, 160, 90);
   FrameOptions options;
   for (const Label label : {Label::kId, Label::kDepth, Label::kGeometricNormal})
     options.labels.add(label);
-  const Drawn drawn = draw(world, view, options);
+  const Shot drawn = draw(world, view, options);
   const terrain::HeightGrid land = terrain::build_terrain(*scene.terrain);
   int seen = 0, off = 0;
   for (int y = 0; y < 90; ++y)
     for (int x = 0; x < 160; ++x) {
-      const std::size_t at = static_cast<std::size_t>(160 * y + x);
+      const std::size_t at = drawn.at(x, y);
       const glm::dvec2 p(position_of(view, x, y, drawn.target.labels.depth_m[at]));
       if (drawn.target.labels.id[at] != kLandId || !land.grid.holds(p)) continue;
       const glm::dvec3 n = glm::normalize(glm::dvec3(-terrain::slope_at(land, p), 1.0));
@@ -165,9 +140,8 @@ TEST(LandRays, AreNotLostByBeams) {
         view.land = world.state().land_rays.get();
         view.drop_per_m2 = n % 2 ? 7.8e-8f : 0.0f;
         view.camera =
-            make_view({40.0 * n - 260.0, -420.0 + 30.0 * n, eye_z},
-                      camera_axes(0.13 * n - 0.6, (submerged ? 0.1 : -0.1) * (n % 4), 0.0),
-                      lens_of_fov(0.2 + 0.1 * n, kSide_px, kSide_px), 0.25f, kSide_px, kSide_px);
+            make_view({40.0 * n - 260.0, -420.0 + 30.0 * n, eye_z}, 0.13 * n - 0.6,
+                      (submerged ? 0.1 : -0.1) * (n % 4), 0.2 + 0.1 * n, 0.25f, kSide_px, kSide_px);
         std::vector<float> depth(kSide_px * kSide_px);
         std::vector<std::uint32_t> primitive(depth.size());
         const raster::TileGrid grid = raster::tile_grid(view.viewport(), kSide_px);
@@ -199,26 +173,22 @@ TEST(LandRays, AreNotLostByBeams) {
 
 TEST(LandRays, AreTheSameBitsOverThreadsTargetsAndTiles) {
   const World& world = lagoon_by_rays();
-  const View view = scene::camera_view(world.scene().camera, 5.0, 161, 91);
-  FrameOptions options;
-  options.edge_samples = 4;
-  const Drawn one = draw(world, view, options, 1);
+  const View view = view_of(world, 5.0, 161, 91);
+  const Shot one = draw(world, view, {.edge_samples = 4}, 1);
   for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
-    options.tile_size_px = 32;
-    EXPECT_EQ(draw(world, view, options, 3).target.rgba, one.target.rgba);
+    const Shot three = draw(world, view, {.tile_size_px = 32, .edge_samples = 4}, 3);
+    EXPECT_EQ(three.target.rgba, one.target.rgba);
   }
 }
 
 // From under water the land is seen through the surface, and the floor mirrors in it.
 TEST(LandRays, AreSeenFromUnderWater) {
-  const World &triangles = lagoon_of_triangles(), &rays = lagoon_by_rays();
-  View view = make_view({-15.0, -420.0, -4.0}, camera_axes(0.05, 0.35, 0.0),
-                        lens_of_fov(scene::radians(70.0), 240, 136), 0.25f, 240, 136);
-  FrameOptions many;
-  many.terrain_triangles = 500000;
-  const Drawn a = draw(triangles, view, many), b = draw(rays, view);
+  const View view =
+      make_view({-15.0, -420.0, -4.0}, 0.05, 0.35, scene::radians(70.0), 0.25f, 240, 136);
+  const Shot a = draw(shipped_world("lagoon"), view, {.terrain_triangles = 500000});
+  const Shot b = draw(lagoon_by_rays(), view);
   EXPECT_LT(mean_difference(a.target, b.target), 2.0);
 }
 
@@ -226,8 +196,7 @@ TEST(LandRays, AreSeenFromUnderWater) {
 TEST(LandPath, GoesWhereLightInWaterGoes) {
   RenderView view;
   view.kind = ViewKind::kRefraction;
-  view.camera = make_view({0.0, 0.0, 5.0}, camera_axes(0.0, -0.5, 0.0), lens_of_fov(1.0, 100, 100),
-                          0.25f, 100, 100);
+  view.camera = make_view({0.0, 0.0, 5.0}, 0.0, -0.5, 1.0, 0.25f, 100, 100);
   view.refraction_index = 1.333f;
   for (const float dip : {-0.2f, -0.6f, -2.0f}) {
     const glm::vec3 direction(0.6f, 0.8f, dip);
@@ -243,8 +212,7 @@ TEST(LandPath, GoesWhereLightInWaterGoes) {
 TEST(LandPath, OfAMirrorRisesFromTheLevel) {
   RenderView view;
   view.kind = ViewKind::kReflection;
-  view.camera = make_view({0.0, 0.0, 5.0}, camera_axes(0.0, -0.5, 0.0), lens_of_fov(1.0, 100, 100),
-                          0.25f, 100, 100);
+  view.camera = make_view({0.0, 0.0, 5.0}, 0.0, -0.5, 1.0, 0.25f, 100, 100);
   const LandPath path = land_path(view, {0.0f, 1.0f, -0.5f});
   EXPECT_NEAR(path.begin, 10.0f, 1e-5f);
   EXPECT_NEAR(path.z + path.z_t * 30.0f, 10.0f, 1e-5f);

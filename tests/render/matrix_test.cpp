@@ -57,12 +57,10 @@ std::uint64_t hash_of(const World& world, double t_s, const Way& way, Workspace&
                       Target& target) {
   select_simd_target(way.simd);
   Workers workers(way.threads);
-  FrameOptions options;
-  options.water_triangles = 6000;
-  options.tile_size_px = way.tile_size_px;
   ocean::SeaFrame sea;
-  const View view = world_view(world, t_s, 160, 90, sea, workers);
-  render_frame(world, view, t_s, options, workspace, target, workers);
+  render_frame(world, world_view(world, t_s, 160, 90, sea, workers), t_s,
+               {.tile_size_px = way.tile_size_px, .water_triangles = 6000}, workspace, target,
+               workers);
   return picture_hash(target);
 }
 

@@ -6,11 +6,9 @@
 #include <numbers>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/drawn_water.h"
 #include "render/plain_sea.h"
 #include "render/shader_kernels.h"
-#include "render/workspace.h"
-#include "scene/scene.h"
 #include "scene/sky.h"
 #include "texture/on_every_target.h"
 
@@ -147,15 +145,6 @@ TEST_P(MirroredSea, ComesInSmoothly) {
 
 // ---- Of scenes
 
-const Water& drawn_water(const scene::Scene& scene, Workspace& workspace) {
-  const World world(scene);
-  Workers workers(1);
-  Target target;
-  const View view = scene::camera_view(scene.camera, 0.0, 64, 48);
-  render_frame(world, view, 0.0, {}, workspace, target, workers);
-  return workspace.state().shading.material<Water>();
-}
-
 // Also under a zenith that is brighter than the horizon, and with water of any colour.
 TEST(MirroredSeaOfScenes, IsNoBrighterThanTheHorizon) {
   scene::Scene scene;
@@ -170,9 +159,10 @@ TEST(MirroredSeaOfScenes, IsNoBrighterThanTheHorizon) {
               scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
           scene.sky.zenith = glm::vec3(zenith);
           scene.water.body_colour = glm::vec3(body);
-          Workspace workspace;
-          const glm::vec3 sea = drawn_water(scene, workspace).mirrored_sea;
-          const glm::vec3 horizon = workspace.state().shading.light.horizon;
+          const World world(scene);
+          const DrawnWater drawn(world, 0.0);
+          const glm::vec3 sea = drawn.water().mirrored_sea;
+          const glm::vec3 horizon = drawn.shading().light.horizon;
           for (int c = 0; c < 3; ++c) {
             EXPECT_GT(sea[c], 0.0f);
             EXPECT_LE(sea[c], horizon[c]) << wind << " " << elevation << " " << zenith;
@@ -190,8 +180,9 @@ TEST(MirroredSeaOfScenes, HidesHalfOfTheRaysThatSmithsShadowingHides) {
   scene.water.bump_strength = 0.0;
   for (const double steepness : {0.1, 0.3, 0.6}) {
     scene.sea.sines = {{.amplitude_m = steepness * 30.0 / (2.0 * kPi), .wavelength_m = 30.0}};
-    Workspace workspace;
-    const Water& water = drawn_water(scene, workspace);
+    const World world(scene);
+    const DrawnWater drawn(world, 0.0);
+    const Water& water = drawn.water();
     const double variance = water.base_variance + 0.5 * steepness * steepness;
     const double nu = water.wave_horizon / std::sqrt(variance);
     const double lambda = 0.5 * (std::exp(-nu * nu) / (nu * std::sqrt(kPi)) - std::erfc(nu));
@@ -201,9 +192,10 @@ TEST(MirroredSeaOfScenes, HidesHalfOfTheRaysThatSmithsShadowingHides) {
 
 // As seas are: dark.
 TEST(MirroredSeaOfScenes, IsDarkUnderAnOrdinarySky) {
-  Workspace workspace;
-  const glm::vec3 sea = drawn_water(scene::Scene(), workspace).mirrored_sea;
-  const glm::vec3 horizon = workspace.state().shading.light.horizon;
+  const World world((scene::Scene()));
+  const DrawnWater drawn(world, 0.0);
+  const glm::vec3 sea = drawn.water().mirrored_sea;
+  const glm::vec3 horizon = drawn.shading().light.horizon;
   for (int c = 0; c < 3; ++c) EXPECT_LT(sea[c], 0.5f * horizon[c]);
 }
 

@@ -8,9 +8,8 @@
 #include "math/elementary.h"
 #include "math/random.h"
 #include "mesh_import/mesh_files.h"
-#include "render/frame.h"
 #include "render/measure/pick.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 #include "scene/object_ray.h"
 #include "scene/scene.h"
 #include "texture/image_io.h"
@@ -31,20 +30,16 @@ scene::Scene calm_scene() {
   return scene;
 }
 
-struct Drawn {
-  const World& world;
-  Workspace workspace{};
-  Target target{};
-  View view{};
+// Pictures of a world through its own camera, with the same storage.
+struct Drawn : Shot {
+  explicit Drawn(const World& of, int threads = 2) : Shot(threads), world(of) {}
 
-  std::uint64_t draw(double t_s, const FrameOptions& options = {}, int threads = 2) {
-    Workers workers(threads);
-    view = scene::camera_view(world.scene().camera, t_s, kWidth, kHeight);
-    FrameOptions all = options;
-    all.water_triangles = 3000;
-    render_frame(world, view, t_s, all, workspace, target, workers);
-    return picture_hash(target);
+  std::uint64_t draw(double t_s, FrameOptions options = {}) {
+    options.water_triangles = 3000;
+    return picture_hash(Shot::draw(world, view_of(world, t_s, kWidth, kHeight), t_s, options));
   }
+
+  const World& world;
 };
 
 scene::FloatingObject object_of(scene::ObjectKind kind, glm::dvec2 position_m) {
@@ -70,15 +65,13 @@ TEST(ObjectFrames, APoseOfTheCallersIsThatOfAFixedObjectThere) {
   const World there(scene);
   scene.objects[1].position_m = {4000.0, 500.0};
   const World elsewhere(scene);
-  Drawn expected{there}, given{elsewhere};
+  Drawn expected(there), given(elsewhere);
   const double c = std::cos(scene::radians(70.0)), s = std::sin(scene::radians(70.0));
   const scene::GivenPose pose{
       1, {{4.0, 10.0, 0.3}, glm::dmat3(glm::dvec3(c, -s, 0.0), {s, c, 0.0}, {0.0, 0.0, 1.0})}};
-  FrameOptions options;
-  options.poses = {&pose, 1};
   expected.draw(2.0);
   const std::uint64_t away = given.draw(2.0);
-  EXPECT_NE(given.draw(2.0, options), away);
+  EXPECT_NE(given.draw(2.0, {.poses = {&pose, 1}}), away);
   // The axes differ in the last bits.
   int differ = 0;
   for (std::size_t i = 0; i < given.target.rgba.size(); ++i)
@@ -91,14 +84,9 @@ TEST(ObjectFramesDeathTest, PosesThatAreNoneAreRefused) {
   scene::Scene scene = calm_scene();
   scene.objects = {object_of(scene::ObjectKind::kBoat, {0.0, 0.0})};
   const World world(scene);
-  Drawn drawn{world};
   const auto expect_refused = [&](const scene::GivenPose& pose, const char* text) {
-    FrameOptions options;
-    options.poses = {&pose, 1};
-    EXPECT_DEATH(drawn.draw(0.0, options), text);
-    FrameOptions next;
-    next.next_poses = {&pose, 1};
-    EXPECT_DEATH(drawn.draw(0.0, next), text);
+    EXPECT_DEATH(Drawn(world).draw(0.0, {.poses = {&pose, 1}}), text);
+    EXPECT_DEATH(Drawn(world).draw(0.0, {.next_poses = {&pose, 1}}), text);
   };
   expect_refused({1, {}}, "a pose of object 1 of 1");
   expect_refused({0, {{NAN, 0.0, 0.0}, glm::dmat3(1.0)}}, "position_world=");
@@ -116,11 +104,11 @@ TEST(ObjectFrames, AnObjectOnAPathIsWhereItsTimeSays) {
   scene.objects[0].path_m = {{-30.0, 20.0}, {30.0, 20.0}};
   scene.objects[0].path_closed = false;
   const World world(scene);
-  Drawn drawn{world}, fresh{world};
+  Drawn drawn(world);
   drawn.draw(3.0);
   const std::uint64_t later = drawn.draw(10.0);
-  EXPECT_EQ(fresh.draw(10.0), later) << "whatever was drawn before";
-  const auto& poses = drawn.workspace.state().meshes.objects.poses;
+  EXPECT_EQ(Drawn(world).draw(10.0), later) << "whatever was drawn before";
+  const auto& poses = drawn.state().meshes.objects.poses;
   EXPECT_NEAR(poses[0].position_world.x, 0.0, 1e-9);
   EXPECT_NEAR(poses[0].position_world.y, 20.0, 1e-9);
 }
@@ -146,20 +134,15 @@ scene::Scene crowd(int count) {
 
 TEST(ObjectFrames, AThousandObjectsAreDrawnTheSameInEveryWay) {
   const World world(crowd(1000));
-  Drawn drawn{world};
+  Drawn drawn(world);
   const std::uint64_t hash = drawn.draw(4.0);
-  const auto& geometry = drawn.workspace.state().meshes.objects;
+  const auto& geometry = drawn.state().meshes.objects;
   EXPECT_EQ(geometry.poses.size(), 1000u);
   EXPECT_GT(geometry.in_window().instances.size(), 300u);
   EXPECT_LT(geometry.in_window().instances.size(), 1000u) << "those beside the view are left out";
-  for (const int threads : {1, 3}) {
-    for (const int tile_size_px : {16, 64}) {
-      Drawn other{world};
-      FrameOptions options;
-      options.tile_size_px = tile_size_px;
-      EXPECT_EQ(other.draw(4.0, options, threads), hash);
-    }
-  }
+  for (const int threads : {1, 3})
+    for (const int tile_size_px : {16, 64})
+      EXPECT_EQ(Drawn(world, threads).draw(4.0, {.tile_size_px = tile_size_px}), hash);
   drawn.draw(9.0);
   EXPECT_EQ(drawn.draw(4.0), hash) << "after another frame";
 }
@@ -177,9 +160,9 @@ TEST(ObjectFrames, PicksAreTheNearestOfAllTriangles) {
     scene.objects[i].at_file_origin = i % 2 == 0;
   }
   const World world(scene);
-  Drawn drawn{world};
+  Drawn drawn(world);
   drawn.draw(3.0);
-  const auto& geometry = drawn.workspace.state().meshes.objects.in_window();
+  const auto& geometry = drawn.state().meshes.objects.in_window();
   PickScratch scratch;
   int met = 0;
   for (int n = 0; n < 900; ++n) {
@@ -221,12 +204,12 @@ TEST(ObjectFrames, LabelsNameTheObjectOfAFile) {
   scene.objects[0].label = "barge";
   const World world(scene);
   EXPECT_NEAR(world.scene().objects[0].size_m.z, 9.0, 1e-6);
-  Drawn drawn{world};
+  Drawn drawn(world);
   FrameOptions options;
   options.labels.add(Label::kId);
   options.labels.add(Label::kNormal);
   drawn.draw(0.0, options);
-  const std::size_t middle = static_cast<std::size_t>(kHeight / 2) * kWidth + kWidth / 2;
+  const std::size_t middle = drawn.at(kWidth / 2, kHeight / 2);
   EXPECT_EQ(drawn.target.labels.id[middle], kFirstObjectId);
   EXPECT_LT(glm::distance(drawn.target.labels.normal[middle], glm::vec3(0, -1, 0)), 1e-3f);
 }
@@ -253,18 +236,13 @@ TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
   scene.objects = {mesh_of(folder / "wall.obj")};
   scene.objects[0].draught = 0.0;
   const World world(scene);
-  Drawn drawn{world};
-  FrameOptions options;
-  options.keep_linear = true;
-  options.without = {Part::kHaze, Part::kUplight};
+  Drawn drawn(world);
   // The wall's middle is at the picture's; a quarter is 3 m off, 40 m away.
   const int off = static_cast<int>(0.5 * kHeight / std::tan(0.5 * scene.camera.fov_y_rad) * 3 / 40);
   const auto colour_at = [&](int right, int down) {
-    const int x = kWidth / 2 + right * off, y = kHeight / 2 + down * off;
-    const float* const p = &drawn.target.linear[3 * (static_cast<std::size_t>(y) * kWidth + x)];
-    return glm::vec3(p[0], p[1], p[2]);
+    return drawn.linear(kWidth / 2 + right * off, kHeight / 2 + down * off);
   };
-  drawn.draw(0.0, options);
+  drawn.draw(0.0, {.keep_linear = true, .without = {Part::kHaze, Part::kUplight}});
   const glm::vec3 white = colour_at(1, 1);
   EXPECT_GT(std::min({white.x, white.y, white.z}), 0.1f);
   const std::array<std::pair<glm::ivec2, glm::vec3>, 3> expected = {
@@ -273,8 +251,7 @@ TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
     const glm::vec3 seen = colour_at(at.x, at.y) / white;
     EXPECT_LT(glm::distance(seen, part), 0.08f) << seen.x << " " << seen.y << " " << seen.z;
   }
-  options.without.add(Part::kTextures);
-  drawn.draw(0.0, options);
+  drawn.draw(0.0, {.keep_linear = true, .without = {Part::kHaze, Part::kUplight, Part::kTextures}});
   for (const int right : {-1, 1})
     for (const int down : {-1, 1})
       EXPECT_LT(glm::distance(colour_at(right, down) / white, glm::vec3(0.5f)), 0.08f);
@@ -299,13 +276,9 @@ TEST(ObjectFrames, ASurfaceWithoutABackIsSeenFromBothSides) {
     scene.objects[0].draught = 0.0;
     scene.objects[0].colour = glm::vec3(0.5f);
     const World world(scene);
-    Drawn drawn{world};
-    FrameOptions options;
-    options.keep_linear = true;
-    drawn.draw(0.0, options);
-    const std::size_t middle = static_cast<std::size_t>(kHeight / 2 - 12) * kWidth + kWidth / 2;
-    for (int k = 0; k < 3; ++k)
-      seen[turned][k] = drawn.target.linear[3 * middle + static_cast<std::size_t>(k)];
+    Drawn drawn(world);
+    drawn.draw(0.0, {.keep_linear = true});
+    seen[turned] = drawn.linear(kWidth / 2, kHeight / 2 - 12);
   }
   EXPECT_GT(seen[0].x, 0.1f);
   EXPECT_LT(glm::distance(seen[0], seen[1]), 1e-3f);

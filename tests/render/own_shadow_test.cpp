@@ -9,8 +9,9 @@
 #include "math/elementary.h"
 #include "mesh_import/mesh_files.h"
 #include "render/measure/pick.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "render/view/own_shadows.h"
-#include "render/workspace.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
 
@@ -19,24 +20,9 @@ namespace {
 
 constexpr int kWidth_px = 160, kHeight_px = 120;
 
-struct Frame {
-  Workspace workspace{};
-  Target target{};
-
-  void draw(const World& world, const View& view, PartSet without = {}) {
-    FrameOptions options;
-    options.keep_linear = true;
-    options.edge_samples = 0;
-    options.water_triangles = 2000;
-    options.without = without;
-    Workers workers(2);
-    render_frame(world, view, 1.0, options, workspace, target, workers);
-  }
-  float green(int x, int y) const {
-    return target
-        .linear[3 * (static_cast<std::size_t>(y) * kWidth_px + static_cast<std::size_t>(x)) + 1];
-  }
-};
+FrameOptions linear(PartSet without = {}) {
+  return {.water_triangles = 2000, .keep_linear = true, .edge_samples = 0, .without = without};
+}
 
 // A mesh on a flat sea, the sun in the east.
 scene::Scene scene_of(const std::string& name, const LooseTriangles& triangles,
@@ -75,14 +61,27 @@ LooseTriangles plate_with_wall() {
   return mesh;
 }
 
+// A closed surface of points from a pole, row 0, to the other, row `rows`; twice as many in a row.
+template <class Point>
+LooseTriangles closed_mesh(int rows, const Point& point) {
+  LooseTriangles mesh;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < 2 * rows; ++j) {
+      const glm::vec3 a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1),
+                      d = point(i, j + 1);
+      if (i < rows - 1) mesh.corners.insert(mesh.corners.end(), {a, b, c});
+      if (i > 0) mesh.corners.insert(mesh.corners.end(), {a, c, d});
+    }
+  return mesh;
+}
+
 TEST(OwnShadow, AWallShadesThePlateThatItStandsOn) {
   for (const double elevation_deg : {30.0, 60.0}) {
     const World world(scene_of("wall", plate_with_wall(), elevation_deg));
     const View view = make_view({0.0, 0.0, 60.0}, 0.0, -0.5 * kPi, scene::radians(26.0), 0.25f,
                                 kWidth_px, kHeight_px);
-    Frame with, without;
-    with.draw(world, view);
-    without.draw(world, view, {Part::kOwnShadows});
+    const Shot with(world, view, 1.0, linear());
+    const Shot without(world, view, 1.0, linear({Part::kOwnShadows}));
     const double shadow_m = 4.0 / std::tan(scene::radians(elevation_deg));
     PickScratch scratch;
     int shaded = 0, lit = 0;
@@ -96,7 +95,7 @@ TEST(OwnShadow, AWallShadesThePlateThatItStandsOn) {
         if (std::abs(p.z - 3.0) > 0.01 || std::abs(p.y) > 11.5) continue;
         // The map's points are 0.3 m apart, and the shadow is soft by one.
         const double past_wall_m = -0.5 - p.x;
-        const float part = with.green(x, y) / without.green(x, y);
+        const float part = with.linear(x, y).y / without.linear(x, y).y;
         if (past_wall_m > 0.3 && past_wall_m < shadow_m - 0.7) {
           EXPECT_LT(part, 0.6f) << p.x << " " << p.y;
           ++shaded;
@@ -112,32 +111,23 @@ TEST(OwnShadow, AWallShadesThePlateThatItStandsOn) {
 
 // A ball throws nothing on itself that faces the sun: no point of it is spotted.
 TEST(OwnShadow, ABallHasNone) {
-  LooseTriangles ball;
-  const auto point = [](int i, int j) {
+  const LooseTriangles ball = closed_mesh(40, [](int i, int j) {
     const SinCos up = sin_cos_turns(i / 80.0), around = sin_cos_turns(j / 80.0);
     return 6.0f * glm::vec3(up.sin * around.cos, up.sin * around.sin, up.cos);
-  };
-  for (int i = 0; i < 40; ++i)
-    for (int j = 0; j < 80; ++j) {
-      const glm::vec3 a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1),
-                      d = point(i, j + 1);
-      if (i < 39) ball.corners.insert(ball.corners.end(), {a, b, c});
-      if (i > 0) ball.corners.insert(ball.corners.end(), {a, c, d});
-    }
+  });
   for (const double elevation_deg : {10.0, 45.0}) {
     const World world(scene_of("ball", ball, elevation_deg));
     const View view = make_view({25.0, -25.0, 12.0}, scene::radians(-45.0), scene::radians(-8.0),
                                 scene::radians(30.0), 0.25f, kWidth_px, kHeight_px);
-    Frame with, without;
-    with.draw(world, view);
-    without.draw(world, view, {Part::kOwnShadows});
+    const Shot with(world, view, 1.0, linear());
+    const Shot without(world, view, 1.0, linear({Part::kOwnShadows}));
     double most = 0.0;
     for (int y = 0; y < kHeight_px; ++y)
       for (int x = 0; x < kWidth_px; ++x)
-        most = std::max(most, std::abs(1.0 - static_cast<double>(with.green(x, y)) /
-                                                 static_cast<double>(without.green(x, y))));
+        most = std::max(most, std::abs(1.0 - static_cast<double>(with.linear(x, y).y) /
+                                                 static_cast<double>(without.linear(x, y).y)));
     EXPECT_LT(most, 0.05) << elevation_deg;
-    EXPECT_FALSE(with.workspace.state().meshes.objects.shadows.own.empty());
+    EXPECT_FALSE(with.state().meshes.objects.shadows.own.empty());
   }
 }
 
@@ -171,43 +161,33 @@ TEST(OwnShadow, ATriangleRaisesThePointsThatItCovers) {
 
 // From frame to frame pictures change evenly, whether or not a mesh changes its level.
 TEST(ObjectLevels, AFlightTowardsAMeshShowsNoChangeOfLevel) {
-  LooseTriangles body;
-  const auto point = [](int i, int j) {
+  const LooseTriangles body = closed_mesh(64, [](int i, int j) {
     const SinCos up = sin_cos_turns(i / 128.0), around = sin_cos_turns(j / 128.0);
     const double r = 8.0 + 0.3 * sin(0.35 * i) * sin(2.0 * kPi * 6.0 * j / 128.0);
     return glm::vec3(r * up.sin * around.cos, 2.0 * r * up.sin * around.sin, r * up.cos);
-  };
-  for (int i = 0; i < 64; ++i)
-    for (int j = 0; j < 128; ++j) {
-      const glm::vec3 a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1),
-                      d = point(i, j + 1);
-      if (i < 63) body.corners.insert(body.corners.end(), {a, b, c});
-      if (i > 0) body.corners.insert(body.corners.end(), {a, c, d});
-    }
+  });
   scene::Scene scene = scene_of("body", body, 30.0);
   scene.objects[0].draught = 0.2;
   scene.objects[0].height_m = 0.0;
   const World world(scene);
-  Frame frame;
+  Shot film;
   std::vector<double> changes;
   std::vector<bool> is_new_level;
-  std::vector<std::uint32_t> before;
+  std::vector<int> before;
   const scene::ObjectMesh* level = nullptr;
   for (int k = 0; k < 60; ++k) {
     const double distance_m = 900.0 * std::exp(-0.05 * k);
     const View view = make_view({0.0, -distance_m, 0.1 * distance_m}, 0.0, std::atan(-0.1),
                                 scene::radians(8.0), 0.25f, kWidth_px, kHeight_px);
-    frame.draw(world, view);
-    const scene::ObjectMesh* const now = frame.workspace.state().meshes.objects.meshes[0];
+    const std::vector<int> green = green_codes(film.draw(world, view, 1.0, linear()));
+    const scene::ObjectMesh* const now = film.state().meshes.objects.meshes[0];
     if (k > 0) {
       double change = 0.0;
-      for (std::size_t i = 0; i < before.size(); ++i)
-        change += std::abs(static_cast<int>(before[i] >> 8 & 255u) -
-                           static_cast<int>(frame.target.rgba[i] >> 8 & 255u));
+      for (std::size_t i = 0; i < before.size(); ++i) change += std::abs(before[i] - green[i]);
       changes.push_back(change);
       is_new_level.push_back(now != level);
     }
-    before = frame.target.rgba;
+    before = green;
     level = now;
   }
   int new_levels = 0;

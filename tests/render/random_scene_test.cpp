@@ -10,7 +10,7 @@
 #include <string>
 
 #include "math/random.h"
-#include "render/frame.h"
+#include "render/shot.h"
 #include "scene/parameters.h"
 
 namespace swell::render {
@@ -184,11 +184,7 @@ std::string random_scene(Dice& dice, bool with_terrain) {
 }
 
 TEST(RandomScenes, GiveFinitePicturesAndShadeEveryVisiblePixelOnce) {
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.keep_linear = true;
+  Shot shot;
   int with_surface = 0, with_sky = 0;
   for (int n = 0; n < kScenes; ++n) {
     Dice dice(n);
@@ -197,16 +193,15 @@ TEST(RandomScenes, GiveFinitePicturesAndShadeEveryVisiblePixelOnce) {
     const double t_s = 0.01 * std::pow(1e8, dice.uniform());
     SCOPED_TRACE(fmt::format("scene {} at {} s:\n{}", n, t_s, text));
     const World world(scene::parse_scene(text, "random.toml"));
-    const View view = camera_view(world.scene().camera, t_s, kSize, kSize);
-    const FrameStatistics statistics =
-        render_frame(world, view, t_s, options, workspace, target, workers);
-    EXPECT_EQ(statistics.shaded_pixels, statistics.visible_pixels);
-    ASSERT_EQ(target.linear.size(), 3u * kSize * kSize);
+    shot.draw(world, view_of(world, t_s, kSize, kSize), t_s, {.keep_linear = true});
+    const std::uint64_t visible_pixels = shot.statistics.visible_pixels;
+    EXPECT_EQ(shot.statistics.shaded_pixels, visible_pixels);
+    ASSERT_EQ(shot.target.linear.size(), 3u * kSize * kSize);
     const auto wrong = std::ranges::count_if(
-        target.linear, [](float value) { return !(std::isfinite(value) && value >= 0.0f); });
+        shot.target.linear, [](float value) { return !(std::isfinite(value) && value >= 0.0f); });
     EXPECT_EQ(wrong, 0);
-    with_surface += statistics.visible_pixels > 0;
-    with_sky += statistics.visible_pixels < kSize * kSize;
+    with_surface += visible_pixels > 0;
+    with_sky += visible_pixels < kSize * kSize;
   }
   EXPECT_GE(with_surface, kScenes / 4);
   EXPECT_GE(with_sky, kScenes / 4);

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
-#include "render/workspace.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "scene/scene.h"
 #include "trials.h"
 
@@ -47,23 +49,18 @@ struct Look {
 };
 
 View view_of(const Look& look) {
-  scene::Camera camera;
-  camera.eye_m = {0.0, -3000.0, -look.depth_m};
-  camera.heading_rad = look.heading_rad;
-  camera.pitch_rad = look.pitch_rad;
-  camera.fov_y_rad = 1.0;
+  const scene::Camera camera = {.eye_m = {0.0, -3000.0, -look.depth_m},
+                                .heading_rad = look.heading_rad,
+                                .pitch_rad = look.pitch_rad,
+                                .fov_y_rad = 1.0};
   return scene::camera_view(camera, 0.0, kWidth, kHeight);
 }
 
-Target draw(const World& world, const View& view, double t_s, PartSet without = {}) {
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.keep_linear = true;
-  options.without = without;
-  render_frame(world, view, t_s, options, workspace, target, workers);
-  return target;
+FrameOptions linear(PartSet without = {}) { return {.keep_linear = true, .without = without}; }
+
+std::vector<float> green_of(const World& world, const View& view, double t_s,
+                            PartSet without = {}) {
+  return green_light(Shot(world, view, t_s, linear(without)).target);
 }
 
 // How the green light of a picture's pixels differs with a part, over the mean without it.
@@ -72,11 +69,12 @@ struct Change {
 };
 
 Change change_by(Part part, const World& world, const View& view, double t_s) {
-  const Target with = draw(world, view, t_s), without = draw(world, view, t_s, {part});
+  const std::vector<float> with = green_of(world, view, t_s);
+  const std::vector<float> without = green_of(world, view, t_s, {part});
   double all = 0.0, sum = 0.0, squares = 0.0;
-  for (std::size_t i = 1; i < with.linear.size(); i += 3) {
-    const auto base = static_cast<double>(without.linear[i]);
-    const double more = static_cast<double>(with.linear[i]) - base;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    const auto base = static_cast<double>(without[i]);
+    const double more = static_cast<double>(with[i]) - base;
     all += base, sum += more, squares += more * more;
   }
   constexpr double kPixels = kWidth * kHeight;
@@ -131,15 +129,13 @@ TEST(Shafts, AreNoneUnderCloudsOrWithoutCaustics) {
 }
 
 scene::FloatingObject slab(glm::dvec2 place_m, glm::dvec3 size_m, double height_m) {
-  scene::FloatingObject object;
-  object.kind = scene::ObjectKind::kBox;
-  object.motion = scene::Motion::kFixed;
-  object.position_m = place_m;
-  object.size_m = size_m;
-  object.height_m = height_m;
-  object.draught = 0.0;
-  object.colour = glm::vec3(0.8f);
-  return object;
+  return {.kind = scene::ObjectKind::kBox,
+          .position_m = place_m,
+          .size_m = size_m,
+          .draught = 0.0,
+          .colour = glm::vec3(0.8f),
+          .motion = scene::Motion::kFixed,
+          .height_m = height_m};
 }
 
 // Under a roof over the water there is no sun to scatter.
@@ -159,22 +155,14 @@ TEST(Shafts, AreDimInTheShadowOfClouds) {
   scene.clouds.wind_factor = 0.0;
   scene.clouds.cumulus = {{.position_m = {0.0, -3000.0}, .width_m = 3000.0, .height_m = 1200.0}};
   const World world(scene, deep_world(), 2);
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.keep_linear = true;
+  Shot film;
   const View view = view_of({.depth_m = 30.0, .pitch_rad = 0.2});
   const auto light_with = [&](PartSet without) {
-    options.without = without;
-    render_frame(world, view, 3.0, options, workspace, target, workers);
-    double sum = 0.0;
-    for (std::size_t i = 1; i < target.linear.size(); i += 3)
-      sum += static_cast<double>(target.linear[i]);
-    return sum;
+    const std::vector<float> green = green_light(film.draw(world, view, 3.0, linear(without)));
+    return std::accumulate(green.begin(), green.end(), 0.0);
   };
   const double shaded = light_with({}), even = light_with({Part::kCloudShadows});
-  const Shading& shading = workspace.state().shading;
+  const Shading& shading = film.state().shading;
   const double sun_part = static_cast<double>(shading.shafts.sun_part);
   light_with({});
   const CloudShadow& shadow = *shading.sun_shadow.clouds;
@@ -194,14 +182,8 @@ TEST(Shafts, AreTheSameBitsInTilesOfAnySize) {
   const View view = view_of({.pitch_rad = 0.3});
   std::vector<std::uint64_t> hashes;
   for (const int tile : {64, 32, 16}) {
-    Workers workers(tile == 64 ? 1 : 3);
-    Workspace workspace;
-    Target target;
-    FrameOptions options;
-    options.tile_size_px = tile;
-    options.edge_samples = 4;
-    render_frame(world, view, 3.0, options, workspace, target, workers);
-    hashes.push_back(picture_hash(target));
+    const FrameOptions options = {.tile_size_px = tile, .edge_samples = 4};
+    hashes.push_back(picture_hash(Shot(world, view, 3.0, options, tile == 64 ? 1 : 3).target));
   }
   EXPECT_EQ(hashes[1], hashes[0]);
   EXPECT_EQ(hashes[2], hashes[0]);
@@ -229,8 +211,8 @@ View from_below_the_slab() {
 // What a mirror of water sends up: albedo / pi, the sun's irradiance, Fresnel, the cosine.
 TEST(Uplight, IsTheSunThatFlatWaterMirrors) {
   const World world(slab_over_glass());
-  const Target with = draw(world, from_below_the_slab(), 1.0);
-  const Target without = draw(world, from_below_the_slab(), 1.0, {Part::kUplight});
+  const std::vector<float> with = green_of(world, from_below_the_slab(), 1.0);
+  const std::vector<float> without = green_of(world, from_below_the_slab(), 1.0, {Part::kUplight});
   const double in_air = 0.5 * std::numbers::pi - 0.5;
   const double in_water = std::asin(std::sin(in_air) / 1.333);
   const double s = std::sin(in_air - in_water) / std::sin(in_air + in_water);
@@ -238,10 +220,8 @@ TEST(Uplight, IsTheSunThatFlatWaterMirrors) {
   const double reflectance = 0.5 * (s * s + p * p);
   const auto irradiance = static_cast<double>(world.state().sky->irradiance.y);
   const double expected = 0.8 / std::numbers::pi * irradiance * reflectance * std::sin(0.5);
-  for (const int pixel : {0, kWidth - 1, kWidth * kHeight / 2, kWidth * kHeight - 1}) {
-    const std::size_t i = 3 * static_cast<std::size_t>(pixel) + 1;
-    EXPECT_NEAR((with.linear[i] - without.linear[i]) / expected, 1.0, 0.01) << pixel;
-  }
+  for (const std::size_t i : {0, kWidth - 1, kWidth * kHeight / 2, kWidth * kHeight - 1})
+    EXPECT_NEAR((with[i] - without[i]) / expected, 1.0, 0.01) << i;
 }
 
 TEST(Uplight, FallsOnNothingInShadow) {
@@ -267,7 +247,8 @@ TEST(Uplight, IsMovedByWaves) {
     mean += change.mean / 6;
   }
   EXPECT_NEAR(mean / flat, 1.0, 0.1);
-  EXPECT_NE(picture_hash(draw(world, view, 1.0)), picture_hash(draw(world, view, 1.3)));
+  EXPECT_NE(Shot(world, view, 1.0, linear()).target.rgba,
+            Shot(world, view, 1.3, linear()).target.rgba);
 }
 
 }  // namespace

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "render/frame.h"
 #include "render/shader_kernels.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 #include "scene/sky.h"
 
 namespace swell::render {
@@ -30,16 +29,14 @@ class SkyLattice : public testing::TestWithParam<Looking> {
     const Looking& looking = GetParam();
     const View view = make_view({0.0, 0.0, 10.0}, 0.0, radians(looking.pitch_deg),
                                 radians(looking.fov_deg), 0.25f, kWidth_px, kHeight_px);
-    FrameOptions options;
-    options.keep_linear = true;
-    render_frame(world, view, 3.0, options, workspace, target, workers);
+    shot.draw(world, view, 3.0, {.keep_linear = true});
     std::vector<float> x, y;
     for (int i = 0; i < kWidth_px * kHeight_px; ++i) {
       x.push_back(static_cast<float>(i % kWidth_px));
       y.push_back(static_cast<float>(i / kWidth_px));
     }
     alone.resize(x.size());
-    sky_light(workspace.state().shading, x, y, alone);
+    sky_light(shot.state().shading, x, y, alone);
     // The sky's rows, but for the step next to the horizon, where it ends.
     for (int i = 0; i < kHeight_px; ++i)
       if (view.ray(0.5f * kWidth_px, static_cast<float>(i) + 4.5f).z > 0.0f) rows = i + 1;
@@ -57,14 +54,8 @@ class SkyLattice : public testing::TestWithParam<Looking> {
     return scene;
   }
 
-  glm::vec3 drawn(std::size_t i) const {
-    return {target.linear[3 * i], target.linear[3 * i + 1], target.linear[3 * i + 2]};
-  }
-
   World world;
-  Workers workers{2};
-  Workspace workspace;
-  Target target;
+  Shot shot;
   std::vector<glm::vec3> alone;
   int rows = 0;
 };
@@ -72,13 +63,14 @@ class SkyLattice : public testing::TestWithParam<Looking> {
 TEST_P(SkyLattice, IsTheSkyOfEachPixel) {
   ASSERT_GE(rows, 30);
   double squares = 0.0, most = 0.0;
-  const auto count = static_cast<std::size_t>(rows * kWidth_px);
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 error = (drawn(i) - alone[i]) / (0.05f + alone[i]);
-    squares += glm::dot(error, error) / 3.0;
-    most = std::max({most, std::abs(double(error.x)), std::abs(double(error.z))});
-  }
-  const double rms = std::sqrt(squares / static_cast<double>(count));
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < kWidth_px; ++x) {
+      const glm::vec3 expected = alone[shot.at(x, y)];
+      const glm::vec3 error = (shot.linear(x, y) - expected) / (0.05f + expected);
+      squares += glm::dot(error, error) / 3.0;
+      most = std::max({most, std::abs(double(error.x)), std::abs(double(error.z))});
+    }
+  const double rms = std::sqrt(squares / (rows * kWidth_px));
   RecordProperty("rms", std::to_string(rms));
   RecordProperty("most", std::to_string(most));
   const bool clear = GetParam().cloud_cover == 0.0;

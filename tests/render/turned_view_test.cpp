@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/elementary.h"
-#include "render/frame.h"
+#include "render/shot.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
 
@@ -27,14 +27,7 @@ scene::Scene flat_sea() {
 
 // Linear light: the 8-bit picture is dithered by place.
 std::vector<float> draw(const World& world, const View& view) {
-  FrameOptions options;
-  options.lookup_scale = 1.0;
-  options.keep_linear = true;
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  render_frame(world, view, kTime_s, options, workspace, target, workers);
-  return target.linear;
+  return Shot(world, view, kTime_s, {.lookup_scale = 1.0, .keep_linear = true}).target.linear;
 }
 
 View rolled(double roll_rad) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "math/random.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -30,30 +30,25 @@ scene::Scene glass_scene() {
 }
 
 View view_from(glm::dvec3 eye_m, double pitch_rad, double fov_y_rad, int width_px, int height_px) {
-  scene::Camera camera;
-  camera.eye_m = eye_m;
-  camera.pitch_rad = pitch_rad;
-  camera.fov_y_rad = fov_y_rad;
+  const scene::Camera camera = {.eye_m = eye_m, .pitch_rad = pitch_rad, .fov_y_rad = fov_y_rad};
   return scene::camera_view(camera, 0.0, width_px, height_px);
 }
 
-struct Drawing {
-  Workspace workspace;
-  Target target;
+struct Drawing : Shot {
+  explicit Drawing(int threads = 2) : Shot(threads) {}
+  Drawing(const World& world, const View& seen, const FrameOptions& options = {}) {
+    draw(world, seen, options);
+  }
 
-  const Target& draw(const World& world, const View& view, FrameOptions options = {},
-                     double t_s = 3.0, int threads = 2) {
-    Workers workers(threads);
+  void draw(const World& world, const View& seen, FrameOptions options = {}, double t_s = 3.0) {
     options.keep_linear = true;
     if (options.water_triangles == 0) options.water_triangles = options.terrain_triangles = 1500;
-    render_frame(world, view, t_s, options, workspace, target, workers);
-    return target;
+    Shot::draw(world, seen, t_s, options);
   }
-};
 
-float green(const Target& target, int x, int y) {
-  return target.linear[3 * (static_cast<std::size_t>(y) * target.width_px + x) + 1];
-}
+  float green(int x, int y) const { return linear(x, y).y; }
+  bool in_water(int x, int y) const { return (target.labels.flags[at(x, y)] & kSeenInWater) != 0; }
+};
 
 // Radius of Snell's window on a flat surface, over the depth: 1 / sqrt(n^2 - 1).
 TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
@@ -61,14 +56,13 @@ TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
   const World world(glass_scene());
   Drawing drawing;
   for (const double depth_m : {0.7, 5.0, 40.0}) {
-    const View view = view_from({3.0, 4.0, -depth_m}, 0.5 * kPi, 2.0, kSize, kSize);
-    const Target& target = drawing.draw(world, view);
+    drawing.draw(world, view_from({3.0, 4.0, -depth_m}, 0.5 * kPi, 2.0, kSize, kSize));
     const double radius_px = 1.134542 * 0.5 * kSize / std::tan(1.0);
     int lit = 0;
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         const double r = std::hypot(x + 0.5 - 0.5 * kSize, y + 0.5 - 0.5 * kSize);
-        const float light = green(target, x, y);
+        const float light = drawing.green(x, y);
         lit += light > 0.2f;
         if (r < radius_px - 1.5) {
           ASSERT_GT(light, 0.3f) << x << ' ' << y;
@@ -84,9 +78,7 @@ TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
 TEST(UnderWater, TheWindowIsAsBrightAsFresnelSays) {
   constexpr int kSize = 128;
   const World world(glass_scene());
-  Drawing drawing;
-  const Target& target =
-      drawing.draw(world, view_from({0.0, 0.0, -2.0}, 0.5 * kPi, 1.8, kSize, kSize));
+  const Drawing drawing(world, view_from({0.0, 0.0, -2.0}, 0.5 * kPi, 1.8, kSize, kSize));
   constexpr double kN = 1.333;
   for (const int x : {64, 70, 80, 95, 105, 110}) {
     const double tan_water = (x + 0.5 - 64.0) / 64.0 * std::tan(0.9);
@@ -97,7 +89,7 @@ TEST(UnderWater, TheWindowIsAsBrightAsFresnelSays) {
     const double p = std::tan(air - water) / std::tan(air + water);
     const double passes = 1.0 - 0.5 * (s * s + p * p);
     const double clear = std::exp(-0.001 * 2.0 / std::cos(water));
-    EXPECT_NEAR(green(target, x, 64), passes * clear, 0.012) << x;
+    EXPECT_NEAR(drawing.green(x, 64), passes * clear, 0.012) << x;
   }
 }
 
@@ -108,11 +100,10 @@ TEST(UnderWater, NoSeamLiesBetweenFarWaterAndNone) {
   scene.water.absorption_per_m = glm::vec3(0.1f);
   scene.detail.triangulation = scene::Triangulation::kRoam;
   const World world(scene);
-  Drawing drawing;
-  const Target& target = drawing.draw(world, view_from({0.0, 0.0, -5.0}, 0.0, 0.6, 64, 128));
+  const Drawing drawing(world, view_from({0.0, 0.0, -5.0}, 0.0, 0.6, 64, 128));
   for (int y = 1; y < 128; ++y) {
-    ASSERT_GT(green(target, 32, y), 0.0f);
-    EXPECT_NEAR(green(target, 32, y) / green(target, 32, y - 1), 1.0f, 0.03f) << y;
+    ASSERT_GT(drawing.green(32, y), 0.0f);
+    EXPECT_NEAR(drawing.green(32, y) / drawing.green(32, y - 1), 1.0f, 0.03f) << y;
   }
 }
 
@@ -136,18 +127,17 @@ TEST(UnderWater, AnEyeThatDivesSeesSomethingAllTheWay) {
     double before = 0.0;
     for (int i = 0; i < 60; ++i) {
       const double z = 2.0 - 6.0 * i / 59.0;
-      const Target& target =
-          drawing.draw(world, view_from({0.0, -600.0, z}, 0.1, 1.0, 48, 27), {}, 10.0 + 0.02 * i);
+      drawing.draw(world, view_from({0.0, -600.0, z}, 0.1, 1.0, 48, 27), {}, 10.0 + 0.02 * i);
+      const std::vector<float>& linear = drawing.target.linear;
       double sum = 0.0;
       float least = 1e9f;
-      for (const float light : target.linear) {
+      for (const float light : linear) {
         ASSERT_TRUE(std::isfinite(light) && light >= 0.0f) << z;
         sum += std::min(static_cast<double>(light), 1.0);
       }
-      for (std::size_t k = 2; k < target.linear.size(); k += 3)
-        least = std::min(least, target.linear[k]);
+      for (std::size_t k = 2; k < linear.size(); k += 3) least = std::min(least, linear[k]);
       EXPECT_GT(least, 1e-4f) << waves << ' ' << z;
-      const double mean = sum / static_cast<double>(target.linear.size());
+      const double mean = sum / static_cast<double>(linear.size());
       EXPECT_GT(mean, 0.01) << waves << ' ' << z;
       if (i == 0) before = mean;
       // The near plane is as high as less than three steps of the eye.
@@ -162,20 +152,13 @@ TEST(UnderWater, IsDrawnWithoutLookupImages) {
   Drawing drawing;
   for (const PartSet without : {PartSet{Part::kReflection}, PartSet{Part::kRefraction},
                                 PartSet{Part::kReflection, Part::kRefraction}}) {
-    FrameOptions options;
-    options.without = without;
-    const Target& target =
-        drawing.draw(world, view_from({0.0, -600.0, -3.0}, 0.4, 1.0, 64, 36), options);
-    for (const float light : target.linear) ASSERT_TRUE(std::isfinite(light) && light >= 0.0f);
+    drawing.draw(world, view_from({0.0, -600.0, -3.0}, 0.4, 1.0, 64, 36), {.without = without});
+    for (const float light : drawing.target.linear)
+      ASSERT_TRUE(std::isfinite(light) && light >= 0.0f);
   }
 }
 
 // ---- The eye that the surface cuts
-
-bool in_water(const Target& target, int x, int y) {
-  const std::size_t at = static_cast<std::size_t>(y) * target.width_px + x;
-  return (target.labels.flags[at] & kSeenInWater) != 0;
-}
 
 FrameOptions with_flags() {
   FrameOptions options;
@@ -186,11 +169,9 @@ FrameOptions with_flags() {
 // The near plane's lower half is under a flat surface at the eye's height.
 TEST(UnderWater, AFlatSurfaceCutsThePictureInHalves) {
   const World world(glass_scene());
-  Drawing drawing;
-  const Target& target =
-      drawing.draw(world, view_from({0.0, 0.0, 0.0}, 0.0, 1.0, 100, 60), with_flags());
+  const Drawing drawing(world, view_from({0.0, 0.0, 0.0}, 0.0, 1.0, 100, 60), with_flags());
   for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 100; ++x) ASSERT_EQ(in_water(target, x, y), y >= 30) << x << ' ' << y;
+    for (int x = 0; x < 100; ++x) ASSERT_EQ(drawing.in_water(x, y), y >= 30) << x << ' ' << y;
 }
 
 // What begins in water is told by the drawn surface, which is a little off the water where that is
@@ -206,14 +187,13 @@ TEST(UnderWater, PixelsBeginInWaterWhereAQuerySaysSo) {
     const glm::dvec2 p(400.0 * random_uniform(3, 3 * i), 400.0 * random_uniform(3, 3 * i + 1));
     // As high as the water is there.
     drawing.draw(world, view_from({p, 3.0}, 0.0, 1.2, 16, 9));
-    const ocean::WaterSurface at_first =
-        water_surface(world.state(), drawing.workspace.state().sea);
+    const ocean::WaterSurface at_first = water_surface(world.state(), drawing.state().sea);
     const double z = static_cast<double>(at_first.height(p)) + 0.1 * random_uniform(3, 3 * i + 2);
     FrameOptions options = with_flags();
     options.water_triangles = 30000;
     const View view = view_from({p, z}, 0.0, 1.2, kWidth, kHeight);
-    const Target& target = drawing.draw(world, view, options);
-    const ocean::WaterSurface water = water_surface(world.state(), drawing.workspace.state().sea);
+    drawing.draw(world, view, options);
+    const ocean::WaterSurface water = water_surface(world.state(), drawing.state().sea);
     bool wet = false, dry = false;
     for (int y = 0; y < kHeight; y += 3)
       for (int x = 0; x < kWidth; x += 5) {
@@ -221,10 +201,10 @@ TEST(UnderWater, PixelsBeginInWaterWhereAQuerySaysSo) {
             view.eye_world + glm::dvec3(view.near_m * view.ray(static_cast<float>(x) + 0.5f,
                                                                static_cast<float>(y) + 0.5f));
         const double above_m = at.z - static_cast<double>(water.height(glm::dvec2(at)));
-        (in_water(target, x, y) ? wet : dry) = true;
+        (drawing.in_water(x, y) ? wet : dry) = true;
         if (std::abs(above_m) < 0.02) continue;
         ++checked;
-        EXPECT_EQ(in_water(target, x, y), above_m < 0.0) << i << ' ' << above_m;
+        EXPECT_EQ(drawing.in_water(x, y), above_m < 0.0) << i << ' ' << above_m;
       }
     crossed += wet && dry;
   }
@@ -235,43 +215,37 @@ TEST(UnderWater, PixelsBeginInWaterWhereAQuerySaysSo) {
 // The contract of all pictures holds for those that are shaded from both sides.
 TEST(UnderWater, ACutPictureHasTheSameBitsHoweverItIsDrawn) {
   const World world(wavy_scene(0.5));
-  Drawing drawing;
-  drawing.draw(world, view_from({0.0, -600.0, 4.0}, 0.0, 1.0, 16, 9));
-  const double z = static_cast<double>(
-      water_surface(world.state(), drawing.workspace.state().sea).height({0.0, -600.0}));
+  Drawing drawing(world, view_from({0.0, -600.0, 4.0}, 0.0, 1.0, 16, 9));
+  const double z =
+      static_cast<double>(water_surface(world.state(), drawing.state().sea).height({0.0, -600.0}));
   const View view = view_from({0.0, -600.0, z}, 0.05, 1.0, 150, 90);
   FrameOptions options = with_flags();
   options.edge_samples = 4;
   drawing.draw(world, view, options);
-  const std::uint64_t expected = picture_hash(drawing.target);
-  const auto flags = drawing.target.labels.flags;
   int wet = 0;
-  for (int x = 0; x < 150; ++x) wet += in_water(drawing.target, x, 89);
+  for (int x = 0; x < 150; ++x) wet += drawing.in_water(x, 89);
   EXPECT_GT(wet, 0);
   for (const int tile : {16, 32})
     for (const int threads : {1, 3}) {
-      Drawing other;
+      Drawing other(threads);
       options.tile_size_px = tile;
-      const Target& target = other.draw(world, view, options, 3.0, threads);
-      EXPECT_EQ(picture_hash(target), expected) << tile << ' ' << threads;
-      EXPECT_EQ(target.labels.flags, flags) << tile << ' ' << threads;
+      other.draw(world, view, options);
+      EXPECT_EQ(other.target.rgba, drawing.target.rgba) << tile << ' ' << threads;
+      EXPECT_EQ(other.target.labels.flags, drawing.target.labels.flags) << tile << ' ' << threads;
     }
 }
 
 // A line darker than what is above and below, and only with its part.
 TEST(UnderWater, TheMeniscusIsALineThatCanBeLeftOut) {
   const World world(glass_scene());
-  Drawing with, without;
   const View view = view_from({0.0, 0.0, 0.0}, 0.0, 1.0, 100, 60);
-  FrameOptions bare;
-  bare.without = {Part::kMeniscus};
-  const Target &a = with.draw(world, view), &b = without.draw(world, view, bare);
+  const Drawing with(world, view), without(world, view, {.without = {Part::kMeniscus}});
   for (int y = 0; y < 60; ++y) {
     const bool near = y >= 28 && y < 32;
     if (y == 29) {
-      EXPECT_LT(green(a, 50, y), 0.8f * green(b, 50, y));
+      EXPECT_LT(with.green(50, y), 0.8f * without.green(50, y));
     } else if (!near) {
-      EXPECT_EQ(green(a, 50, y), green(b, 50, y)) << y;
+      EXPECT_EQ(with.green(50, y), without.green(50, y)) << y;
     }
   }
 }

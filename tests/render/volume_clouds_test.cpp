@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "math/elementary.h"
 #include "math/simd_target.h"
 #include "render/cloud_kernels.h"
-#include "render/frame.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "render/world/cloud_shadow.h"
 #include "render/world/world_state.h"
 #include "scene/sky.h"
@@ -191,52 +193,28 @@ TEST(VolumeClouds, AreEnteredAndLeftWithoutAJump) {
   EXPECT_LT(most, 0.25f);
 }
 
-struct DrawnClouds {
-  std::uint64_t hash;
-  std::vector<float> linear;
-};
-
-DrawnClouds draw(const World& world, glm::dvec3 eye, double pitch_rad, const FrameOptions& options,
-                 int threads, Workspace& workspace, double t_s = 3.0) {
-  Workers workers(threads);
-  scene::Camera camera;
-  camera.eye_m = eye;
-  camera.pitch_rad = pitch_rad;
-  Target target;
-  render_frame(world, scene::camera_view(camera, 0.0, 150, 90), t_s, options, workspace, target,
-               workers);
-  return {picture_hash(target), target.linear};
+View northward(glm::dvec3 eye, double pitch_rad, int width_px = 150, int height_px = 90) {
+  return scene::camera_view({.eye_m = eye, .pitch_rad = pitch_rad}, 0.0, width_px, height_px);
 }
 
 // At the edge of a cloud a picture changes much over a few metres, but never at once: the largest
 // change of a flight falls as its frames come closer.
 TEST(VolumeClouds, AreFlownThroughWithoutAJump) {
   const World world(placed_scene({0.0, 0.0}), 2);
-  Workers workers(2);
-  Workspace workspace;
-  FrameOptions options;
-  options.water_triangles = 200;
-  options.lookup_scale = 0.05;
+  Shot film;
   struct Change {
     double y_m = 0.0, value = 0.0;
   };
   const auto largest_change = [&](double from_m, double step_m, int frames) {
     Change largest;
-    Target target;
-    std::vector<std::uint32_t> before;
+    Target before;
     for (int n = 0; n <= frames; ++n) {
-      scene::Camera camera;
-      camera.eye_m = {30.0, from_m + step_m * n, 1250.0};
-      render_frame(world, scene::camera_view(camera, 0.0, 48, 28), 3.0, options, workspace, target,
-                   workers);
-      double sum = 0.0;
-      for (std::size_t i = 0; i < before.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-          sum += std::abs(static_cast<double>(target.rgba[i] >> (8 * c) & 255) -
-                          static_cast<double>(before[i] >> (8 * c) & 255));
-      const double change = sum / (3.0 * static_cast<double>(target.rgba.size()));
-      if (change > largest.value) largest = {camera.eye_m.y - step_m, change};
-      before = target.rgba;
+      const double y_m = from_m + step_m * n;
+      film.draw(world, northward({30.0, y_m, 1250.0}, 0.0, 48, 28), 3.0,
+                {.water_triangles = 200, .lookup_scale = 0.05});
+      const double change = n == 0 ? 0.0 : mean_difference(before, film.target);
+      if (change > largest.value) largest = {y_m - step_m, change};
+      before = film.target;
     }
     return largest;
   };
@@ -247,20 +225,19 @@ TEST(VolumeClouds, AreFlownThroughWithoutAJump) {
 
 TEST(VolumeClouds, AreTheSameBitsOverThreadsTilesTargetsAndFramesBefore) {
   const World world(cloudy_scene(), 2);
-  FrameOptions options;
-  options.water_triangles = 2000;
-  options.edge_samples = 4;
+  const FrameOptions options = {.water_triangles = 2000, .edge_samples = 4};
+  const FrameOptions small = {.tile_size_px = 16, .water_triangles = 2000, .edge_samples = 4};
+  Workers two(2), three(3);
   for (const glm::dvec3& eye : {glm::dvec3(0, 0, 2), {0, 0, 1400}, {0, 0, 4000}}) {
-    const double pitch = eye.z > 3000.0 ? -0.3 : 0.2;
-    Workspace used;
-    const auto reference = draw(world, eye, pitch, options, 1, used).hash;
-    draw(world, {900.0, 100.0, 1700.0}, 0.0, options, 2, used, 77.0);
-    EXPECT_EQ(draw(world, eye, pitch, options, 3, used).hash, reference);
-    FrameOptions small = options;
-    small.tile_size_px = 16;
+    const View view = northward(eye, eye.z > 3000.0 ? -0.3 : 0.2);
+    const View other = northward({900.0, 100.0, 1700.0}, 0.0);
+    Shot used(1);
+    const auto reference = picture_hash(used.draw(world, view, 3.0, options));
+    render_frame(world, other, 77.0, options, used.workspace, used.target, two);
+    render_frame(world, view, 3.0, options, used.workspace, used.target, three);
+    EXPECT_EQ(picture_hash(used.target), reference);
     select_simd_target(SimdTarget::kAvx2);
-    Workspace fresh;
-    EXPECT_EQ(draw(world, eye, pitch, small, 2, fresh).hash, reference);
+    EXPECT_EQ(picture_hash(Shot(world, view, 3.0, small).target), reference);
     if (simd_target_available(SimdTarget::kAvx512)) select_simd_target(SimdTarget::kAvx512);
   }
 }
@@ -268,15 +245,8 @@ TEST(VolumeClouds, AreTheSameBitsOverThreadsTilesTargetsAndFramesBefore) {
 // CLD-04: the nodes' lattice is not seen.
 TEST(VolumeClouds, ShowNoPatternOfFourPixels) {
   const World world(cloudy_scene(), 2);
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  scene::Camera camera;
-  camera.eye_m = {0.0, 0.0, 2.0};
-  camera.pitch_rad = 0.6;
   constexpr int kWidth = 256, kHeight = 144;
-  render_frame(world, scene::camera_view(camera, 0.0, kWidth, kHeight), 3.0, {}, workspace, target,
-               workers);
+  const Shot shot(world, northward({0.0, 0.0, 2.0}, 0.6, kWidth, kHeight), 3.0);
   // The Fourier coefficient of one period in four pixels, of the picture under a smooth window.
   const auto peak = [&](int across, int down) {
     double re = 0.0, im = 0.0, sum = 0.0;
@@ -285,8 +255,7 @@ TEST(VolumeClouds, ShowNoPatternOfFourPixels) {
         const double window = std::pow(std::sin(kPi * (x + 0.5) / kWidth), 2) *
                               std::pow(std::sin(kPi * (y + 0.5) / kHeight), 2);
         const double phase = 0.5 * kPi * (across * x + down * y);
-        const double green =
-            static_cast<double>(target.rgba[static_cast<std::size_t>(y * kWidth + x)] >> 8 & 255);
+        const double green = shot.codes(x, y).y;
         re += window * green * std::cos(phase), im += window * green * std::sin(phase);
         sum += window;
       }
@@ -303,25 +272,10 @@ TEST(VolumeClouds, AreLitByTheVolumeAsBySecondRays) {
   const World by_volume(scene, 2);
   scene.clouds.rays = scene::CloudRays::kRays;
   const World by_rays(scene, by_volume, 2);
-  const auto picture = [&](const World& world) {
-    Workers workers(2);
-    Workspace workspace;
-    Target target;
-    scene::Camera camera;
-    camera.eye_m = {0, 0, 2};
-    camera.pitch_rad = 0.3;
-    render_frame(world, scene::camera_view(camera, 0.0, 160, 90), 0.0, {}, workspace, target,
-                 workers);
-    return target.rgba;
-  };
-  const auto a = picture(by_volume), b = picture(by_rays);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (int c = 0; c < 3; ++c)
-      sum += std::abs(static_cast<double>(a[i] >> (8 * c) & 255) -
-                      static_cast<double>(b[i] >> (8 * c) & 255));
-  EXPECT_LT(sum / (3.0 * static_cast<double>(a.size())), 3.0);
-  EXPECT_NE(a, b);
+  const View view = northward({0, 0, 2}, 0.3, 160, 90);
+  const Shot a(by_volume, view, 0.0), b(by_rays, view, 0.0);
+  EXPECT_LT(mean_difference(a.target, b.target), 3.0);
+  EXPECT_NE(a.target.rgba, b.target.rgba);
 }
 
 TEST(VolumeClouds, CanBeLeftOut) {
@@ -329,13 +283,10 @@ TEST(VolumeClouds, CanBeLeftOut) {
   const World world(scene, 2);
   scene.clouds.kind = scene::CloudKind::kNone;
   const World clear(scene, world, 2);
-  FrameOptions options;
-  options.without = {Part::kVolumeClouds, Part::kCloudShadows};
-  Workspace workspace;
-  const auto with = draw(world, {0, 0, 2}, 0.2, {}, 2, workspace).hash;
-  const auto without = draw(world, {0, 0, 2}, 0.2, options, 2, workspace).hash;
-  EXPECT_NE(with, without);
-  EXPECT_EQ(draw(clear, {0, 0, 2}, 0.2, {}, 2, workspace).hash, without);
+  const View view = northward({0, 0, 2}, 0.2);
+  const Shot without(world, view, 3.0, {.without = {Part::kVolumeClouds, Part::kCloudShadows}});
+  EXPECT_NE(Shot(world, view, 3.0).target.rgba, without.target.rgba);
+  EXPECT_EQ(Shot(clear, view, 3.0).target.rgba, without.target.rgba);
 }
 
 // Under a cloud the sun's image in the water goes out; beside it, it stays.
@@ -347,23 +298,16 @@ TEST(CloudShadows, TakeTheGlitterFromTheWater) {
   scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
   scene.clouds.cumulus[0].width_m = 3000.0;
   const World world(scene, 2);
-  FrameOptions options;
-  options.keep_linear = true;
-  options.water_triangles = 4000;
-  FrameOptions lit = options;
-  lit.without.add(Part::kCloudShadows);
   // The shadow lies as far from under the cloud as the sun slants over the height of its base.
   const double under_y = -900.0 / std::tan(scene::radians(50.0));
-  const auto glitter = [&](double y_m, const FrameOptions& o) {
-    Workspace workspace;
-    const auto picture = draw(world, {0.0, y_m - 10.0, 8.0}, -0.6, o, 2, workspace);
-    double sum = 0.0;
-    for (const float v : picture.linear) sum += double{v};
-    return sum;
+  const auto glitter = [&](double y_m, PartSet without) {
+    const Shot shot(world, northward({0.0, y_m - 10.0, 8.0}, -0.6), 3.0,
+                    {.water_triangles = 4000, .keep_linear = true, .without = without});
+    return std::accumulate(shot.target.linear.begin(), shot.target.linear.end(), 0.0);
   };
-  EXPECT_LT(glitter(under_y, options), 0.6 * glitter(under_y, lit));
-  EXPECT_NEAR(glitter(under_y - 6000.0, options), glitter(under_y - 6000.0, lit),
-              0.02 * glitter(under_y - 6000.0, lit));
+  EXPECT_LT(glitter(under_y, {}), 0.6 * glitter(under_y, {Part::kCloudShadows}));
+  const double lit = glitter(under_y - 6000.0, {Part::kCloudShadows});
+  EXPECT_NEAR(glitter(under_y - 6000.0, {}), lit, 0.02 * lit);
 }
 
 // The texels of a level stand still in the world.
@@ -372,7 +316,6 @@ TEST(CloudShadows, DoNotCrawlWithTheCamera) {
   scene.sky.cloud_cover = 0.4;
   const World world(scene, 2);
   Workers workers(2);
-  Workspace workspace;
   const auto shadow_at = [&](glm::dvec3 eye) {
     CloudShadow shadow;
     Profile profile;
@@ -404,11 +347,9 @@ TEST(CloudShadows, AreThoseOfTheOldLayerToo) {
   scene.clouds.kind = scene::CloudKind::kNone;
   scene.sky.cloud_cover = 0.5;
   const World world(scene, 2);
-  FrameOptions options;
-  Workspace workspace;
-  const auto with = draw(world, {0, 0, 100}, -0.3, options, 2, workspace).hash;
-  options.without.add(Part::kCloudShadows);
-  EXPECT_NE(draw(world, {0, 0, 100}, -0.3, options, 2, workspace).hash, with);
+  const View view = northward({0, 0, 100}, -0.3);
+  const Shot with(world, view, 3.0), without(world, view, 3.0, {.without = {Part::kCloudShadows}});
+  EXPECT_NE(with.target.rgba, without.target.rgba);
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 // A World is the same bits on any number of threads.
 #include <gtest/gtest.h>
 
+#include "render/shot.h"
 #include "render/world/world_state.h"
-#include "scene/scene.h"
 
 namespace swell::render {
 namespace {
 
 TEST(World, HasTheSameMapsOnAnyNumberOfThreads) {
-  scene::Scene scene = scene::load_scene(SWELL_SOURCE_DIR "/scenes/beach.toml");
+  scene::Scene scene = load_shipped("beach");
   scene.coast.trains = 1;
   const World alone(scene, 1);
   const World::State& a = alone.state();
