@@ -11,10 +11,7 @@ namespace swell::render {
 namespace {
 
 View view_down(glm::dvec3 eye) {
-  constexpr int kWidth_px = 320, kHeight_px = 240;
-  return make_view(eye, camera_axes(0.0, scene::radians(-90.0), 0.0),
-                   lens_of_fov(scene::radians(60.0), kWidth_px, kHeight_px), 0.25f, kWidth_px,
-                   kHeight_px);
+  return make_view(eye, 0.0, scene::radians(-90.0), scene::radians(60.0), 0.25f, 320, 240);
 }
 
 // The highest step of the ground's outline against the sea: land pixels beside water ones.
@@ -54,10 +51,10 @@ TEST(Ground, KeepsItsHillsWithFewTriangles) {
   for (const glm::dvec3& eye :
        {scene.camera.eye_m, glm::dvec3(-15.0, -500.0, 12.0), glm::dvec3(300.0, 200.0, 3.0)}) {
     const glm::dvec2 to_middle = -glm::dvec2(eye);
-    View view = make_view(eye, camera_axes(std::atan2(to_middle.x, to_middle.y), -0.1, 0.0),
-                          lens_of_fov(scene.camera.fov_y_rad, 320, 180), 0.25f, 320, 180);
+    const View view = make_view(eye, std::atan2(to_middle.x, to_middle.y), -0.1,
+                                scene.camera.fov_y_rad, 0.25f, 320, 180);
     const LabelledFrame frame(world, view, 5.0);
-    const std::vector<float>& drawn = frame.workspace.state().meshes.land.height_m;
+    const std::vector<float>& drawn = frame.state().meshes.land.height_m;
     EXPECT_GT(*std::ranges::max_element(drawn), 0.8 * top_m) << eye.x << " " << eye.y;
   }
 }

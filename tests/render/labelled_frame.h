@@ -4,39 +4,25 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
-#include <map>
-#include <string>
 
 #include "math/random.h"
-#include "render/drawn_shots.h"
 #include "render/labels/labels.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 
 namespace swell::render {
 
-// The world of load_shipped(name), made once: drawing does not change it.
-inline const World& shipped_world(const std::string& name) {
-  static std::map<std::string, World> worlds;
-  const auto found = worlds.find(name);
-  return found != worlds.end() ? found->second
-                               : worlds.emplace(name, World(load_shipped(name))).first->second;
-}
-
-// A frame of a world, and what it was drawn with.
-struct LabelledFrame {
-  LabelledFrame(const World& drawn, const View& camera, double time_s,
-                const FrameOptions& asked = {})
-      : world(drawn), view(camera), t_s(time_s), options(asked) {
+// A shot with all labels, unless some are asked for.
+struct LabelledFrame : Shot {
+  LabelledFrame(const World& drawn, const View& seen, double at_s, const FrameOptions& asked = {})
+      : world(drawn), t_s(at_s), options(asked) {
     if (options.labels.empty()) options.labels = LabelSet::all();
-    Workers workers(2);
-    render_frame(world, view, t_s, options, workspace, target, workers);
+    draw(world, seen, t_s, options);
   }
 
+  using Shot::at, Shot::primitive;
+  std::size_t at(glm::ivec2 p) const { return at(p.x, p.y); }
+  std::uint32_t primitive(glm::ivec2 p) const { return primitive(p.x, p.y); }
   const Labels& labels() const { return target.labels; }
-  std::size_t at(glm::ivec2 p) const {
-    return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(view.width_px) +
-           static_cast<std::size_t>(p.x);
-  }
   glm::dvec3 position(glm::ivec2 p) const {
     return position_of(view, p.x, p.y, labels().depth_m[at(p)]);
   }
@@ -44,16 +30,7 @@ struct LabelledFrame {
   // How far the earth has sunk at a place.
   double sunk_m(glm::dvec3 place) const {
     const glm::dvec2 rel(place - view.eye_world);
-    return glm::dot(rel, rel) * static_cast<double>(workspace.state().window.drop_per_m2);
-  }
-
-  // The primitive that pixel p shows.
-  std::uint32_t primitive(glm::ivec2 p) const {
-    const VisibilityBuffer& visibility = workspace.state().visibility;
-    const int size = visibility.grid.tile_size_px;
-    const int tile = p.y / size * visibility.grid.tiles_x + p.x / size;
-    if (visibility.covered[static_cast<std::size_t>(tile)] < 0) return raster::kNoPrimitive;
-    return visibility.primitive_of(tile)[static_cast<std::size_t>(p.y % size * size + p.x % size)];
+    return glm::dot(rel, rel) * static_cast<double>(state().window.drop_per_m2);
   }
 
   // Calls visit(p) for each pixel whose x and y are multiples of `step`.
@@ -64,11 +41,8 @@ struct LabelledFrame {
   }
 
   const World& world;
-  View view;
   double t_s;
   FrameOptions options;
-  Workspace workspace;
-  Target target;
 };
 
 // Window point of a place in the world, in doubles; what is behind the camera has NaN.

@@ -13,7 +13,7 @@
 namespace swell::render {
 namespace {
 
-constexpr int kWidth = 203, kHeight = 121;  // no whole packets, no whole tiles
+constexpr glm::ivec2 kSize_px(203, 121);  // no whole packets, no whole tiles
 
 struct Drawing {
   int threads = 2;
@@ -22,23 +22,19 @@ struct Drawing {
   bool wireframe = false;
 };
 
-void draw(const World& world, const Drawing& how, Workspace& workspace, Target& target) {
-  FrameOptions options;
-  options.water_triangles = 4000;
-  options.tile_size_px = how.tile_size_px;
-  options.labels = how.labels;
-  options.wireframe = how.wireframe;
-  options.next_view = random_view(world.scene(), 1, {kWidth, kHeight});
-  Workers workers(how.threads);
-  render_frame(world, random_view(world.scene(), 0, {kWidth, kHeight}), 2.0, options, workspace,
-               target, workers);
+void draw(const World& world, const Drawing& how, Shot& shot) {
+  shot.draw(world, random_view(world.scene(), 0, kSize_px), 2.0,
+            {.tile_size_px = how.tile_size_px,
+             .water_triangles = 4000,
+             .wireframe = how.wireframe,
+             .labels = how.labels,
+             .next_view = random_view(world.scene(), 1, kSize_px)});
 }
 
 Target draw(const World& world, const Drawing& how) {
-  Workspace workspace;
-  Target target;
-  draw(world, how, workspace, target);
-  return target;
+  Shot shot(how.threads);
+  draw(world, how, shot);
+  return shot.target;
 }
 
 template <class T>
@@ -72,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LabelsOfFrame,
 
 TEST_P(LabelsOfFrame, ThreadsTilesAndSimdTargetChangeNoBit) {
   const Labels reference = draw(world, {}).labels;
-  ASSERT_EQ(reference.id.size(), std::size_t{kWidth * kHeight});
+  ASSERT_EQ(reference.id.size(), std::size_t{kSize_px.x * kSize_px.y});
   for (const Drawing& how : {Drawing{.threads = 1}, Drawing{.threads = 7},
                              Drawing{.tile_size_px = 16}, Drawing{.tile_size_px = 32}})
     EXPECT_EQ(difference(draw(world, how).labels, reference), "")
@@ -90,13 +86,11 @@ TEST_P(LabelsOfFrame, ThePictureIsTheSameWithAndWithout) {
 
 TEST_P(LabelsOfFrame, AnyOneOfThemIsAsAmongAll) {
   const Labels all = draw(world, {}).labels;
-  Workspace workspace;
-  Target target;
+  Shot film;
   for (const LabelInfo& info : label_table()) {
     Drawing how{.labels = {}};
     how.labels.add(info.label);
-    draw(world, how, workspace, target);
-    const Labels& one = target.labels;
+    draw(world, how, film);
     const bool has_depth = info.label == Label::kDepth || info.label == Label::kDistance ||
                            info.label == Label::kPosition;
     Labels expected;
@@ -110,36 +104,31 @@ TEST_P(LabelsOfFrame, AnyOneOfThemIsAsAmongAll) {
     if (info.label == Label::kElevation) expected.elevation_m = all.elevation_m;
     if (info.label == Label::kFoam) expected.foam = all.foam;
     if (info.label == Label::kFlags) expected.flags = all.flags;
-    EXPECT_EQ(difference(one, expected), "") << info.name;
+    EXPECT_EQ(difference(film.target.labels, expected), "") << info.name;
   }
 }
 
 TEST_P(LabelsOfFrame, SteadyStateAllocatesNothing) {
-  Workers workers(1);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.water_triangles = 4000;
-  options.labels = LabelSet::all();
-  const View view = random_view(world.scene(), 0, {kWidth, kHeight});
-  const auto frame = [&](int k) {
-    render_frame(world, view, k / 60.0, options, workspace, target, workers);
+  Shot film(1);
+  const View view = random_view(world.scene(), 0, kSize_px);
+  const auto draw_all = [&] {
+    for (int k = 0; k < 6; ++k)
+      film.draw(world, view, k / 60.0, {.water_triangles = 4000, .labels = LabelSet::all()});
   };
-  for (int k = 0; k < 6; ++k) frame(k);
+  draw_all();
   const std::uint64_t before = allocation_count();
-  for (int k = 0; k < 6; ++k) frame(k);
+  draw_all();
   EXPECT_EQ(allocation_count() - before, 0u);
 }
 
 TEST(LabelsOfFrames, AWorkspaceGoesFromWorldToWorld) {
-  Workspace workspace;
-  Target target;
+  Shot film;
   for (const char* name : {"lagoon", "buoys", "open_ocean_plane", "beach", "sines", "lagoon"}) {
     const World& world = shipped_world(name);
-    draw(world, {}, workspace, target);
-    EXPECT_EQ(difference(target.labels, draw(world, {}).labels), "") << name;
-    draw(world, {.labels = {}}, workspace, target);
-    EXPECT_EQ(difference(target.labels, {}), "") << name;
+    draw(world, {}, film);
+    EXPECT_EQ(difference(film.target.labels, draw(world, {}).labels), "") << name;
+    draw(world, {.labels = {}}, film);
+    EXPECT_EQ(difference(film.target.labels, {}), "") << name;
   }
 }
 
@@ -150,21 +139,13 @@ TEST(LabelsOfFrames, WireframeChangesNone) {
 
 TEST(LabelsOfFramesDeathTest, OptionsThatDoNotGoWithLabelsAreRefused) {
   const World& world = shipped_world("sines");
-  const auto draw_with = [&](auto set) {
-    Workers workers(1);
-    Workspace workspace;
-    Target target;
-    FrameOptions options;
+  const auto draw_with = [&](FrameOptions options) {
     options.labels = LabelSet::all();
-    set(options);
-    render_frame(world, random_view(world.scene(), 0, {32, 32}), 0.0, options, workspace, target,
-                 workers);
+    Shot(world, random_view(world.scene(), 0, {32, 32}), 0.0, options, 1);
   };
-  EXPECT_DEATH(draw_with([](FrameOptions& o) { o.picture_scale = 0.5; }), "picture_scale=0.5");
-  EXPECT_DEATH(draw_with([](FrameOptions& o) { o.next_frame_s = 0.0; }), "next_frame_s=0");
-  EXPECT_DEATH(draw_with([&](FrameOptions& o) {
-                 o.next_view = random_view(world.scene(), 0, {32, 31});
-               }),
+  EXPECT_DEATH(draw_with({.picture_scale = 0.5}), "picture_scale=0.5");
+  EXPECT_DEATH(draw_with({.next_frame_s = 0.0}), "next_frame_s=0");
+  EXPECT_DEATH(draw_with({.next_view = random_view(world.scene(), 0, {32, 31})}),
                "next_view of 32x31");
 }
 

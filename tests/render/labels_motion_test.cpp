@@ -6,6 +6,7 @@
 
 #include "math/ray_triangle.h"
 #include "render/labelled_frame.h"
+#include "scene/water.h"
 
 namespace swell::render {
 namespace {
@@ -19,10 +20,7 @@ View view_at(glm::dvec3 eye, double heading, double pitch, double roll) {
 }
 
 FrameOptions motion_to(std::optional<View> next) {
-  FrameOptions options;
-  options.next_view = next;
-  options.next_frame_s = kStep_s;
-  return options;
+  return {.next_view = next, .next_frame_s = kStep_s};
 }
 
 glm::dvec2 motion(const LabelledFrame& frame, glm::ivec2 p) {
@@ -36,7 +34,7 @@ glm::dvec2 motion_to_point(const View& next, glm::ivec2 p, glm::dvec3 p_next) {
 
 TEST(LabelMotion, WhatStandsStillHasExactlyNone) {
   const World& world = shipped_world("lagoon");
-  const View view = scene::camera_view(world.scene().camera, kTime_s, kSize_px.x, kSize_px.y);
+  const View view = view_of(world, kTime_s, kSize_px.x, kSize_px.y);
   for (const std::optional<View>& next : {std::optional<View>(), std::optional<View>(view)}) {
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
     int land = 0, sky = 0, moving_water = 0;
@@ -114,7 +112,7 @@ struct NextPlaces {
   // The same of the drawn triangle that a ray meets: its vertices rise as the water does, or as
   // much of it as they show far out.
   static double rise_of_triangle(const LabelledFrame& frame, std::uint32_t i, const Ray& ray) {
-    const Workspace::State& drawn = frame.workspace.state();
+    const Workspace::State& drawn = frame.state();
     const Surface& surface = drawn.meshes.water;
     std::array<glm::dvec3, 3> corner;
     glm::dvec3 rises;
@@ -151,7 +149,7 @@ TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
     View next = random_view(scene, n, kSize_px);
     next.eye_world += glm::dvec3(0.3, -0.2, 0.1);
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
-    const Workspace::State& drawn = frame.workspace.state();
+    const Workspace::State& drawn = frame.state();
     const Surface& sea = drawn.meshes.water;
     for (std::size_t v = 0; v < drawn.labels.next_height_m.size(); v += 7) {
       const glm::dvec3 p(vertex_world(sea, v), 0.0);
@@ -187,9 +185,8 @@ TEST(LabelMotion, WaterMovesAsItsColumnsDo) {
   const World world(scene);
   const NextPlaces places(scene, kTime_s);
   const View view = view_at({0.0, -60.0, 14.0}, 0.3, -0.4, 0.0);
-  FrameOptions options = motion_to(std::nullopt);
-  options.water_triangles = 100000;
-  const LabelledFrame frame(world, view, kTime_s, options);
+  const LabelledFrame frame(world, view, kTime_s,
+                            {.water_triangles = 100000, .next_frame_s = kStep_s});
   double fastest = 0.0;
   frame.for_pixels(1, [&](glm::ivec2 p) {
     if (frame.labels().id[frame.at(p)] != kWaterId) return;

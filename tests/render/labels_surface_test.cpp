@@ -179,9 +179,9 @@ void compare_pixel(Traced& traced, glm::ivec2 p, IdErrors& errors) {
 
 TEST_P(LabelsOfScene, AreOfWhatARayThroughThePixelMeets) {
   constexpr int kViews = 10, kPixels = 250;
-  FrameOptions options;
-  options.water_triangles = options.terrain_triangles = 4000;
-  options.without.add(Part::kEarth);  // picks ask a flat world
+  const FrameOptions options = {.water_triangles = 4000,
+                                .terrain_triangles = 4000,
+                                .without = {Part::kEarth}};  // picks ask a flat world
   IdErrors errors;
   for (int n = 0; n < trials(kViews); ++n) {
     LabelledFrame frame(world, random_view(world.scene(), n, kSize_px), 3.0 + 7.0 * n, options);

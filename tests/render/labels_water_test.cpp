@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "render/labelled_frame.h"
+#include "scene/water.h"
 
 namespace swell::render {
 namespace {
@@ -23,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LabelsOfWater,
                          [](const auto& test) { return std::string(test.param); });
 
 glm::dvec3 vertex_of(const LabelledFrame& frame, std::uint32_t primitive, std::size_t k) {
-  const Surface& water = frame.workspace.state().meshes.water;
+  const Surface& water = frame.state().meshes.water;
   const std::uint32_t v = water.mesh.indices[3 * primitive + k];
   return {vertex_world(water, v), water.height_m[v]};
 }
@@ -65,10 +66,9 @@ TEST_P(LabelsOfWater, ElevationIsTheWatersHeightWithinWhatItsTriangleCutsOff) {
 // Where two pixels beside each other show one triangle, their places span it.
 TEST_P(LabelsOfWater, GeometricNormalsAreThoseOfThePlacesSeen) {
   int compared = 0;
-  FrameOptions options;  // large triangles
-  options.water_triangles = options.terrain_triangles = 500;
   for (int n = 0; n < 4; ++n) {
-    const LabelledFrame frame(world, random_view(scene, n, kSize_px), 5.0, options);
+    const LabelledFrame frame(world, random_view(scene, n, kSize_px), 5.0,
+                              {.water_triangles = 500, .terrain_triangles = 500});  // large ones
     for (int y = 0; y + 3 < kSize_px.y; ++y) {
       for (int x = 0; x + 3 < kSize_px.x; ++x) {
         const glm::ivec2 p(x, y), right(x + 3, y), down(x, y + 3);
@@ -157,8 +157,7 @@ TEST(Labels, SurfIsFoamAndWithoutWhitecapsFarFromACoastThereIsNone) {
 
 TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
   const World &world = shipped_world("lagoon"), &sea = shipped_world("open_ocean");
-  const LabelledFrame frame(
-      world, scene::camera_view(world.scene().camera, 5.0, kSize_px.x, kSize_px.y), 5.0);
+  const LabelledFrame frame(world, view_of(world, 5.0, kSize_px.x, kSize_px.y), 5.0);
   const auto share = [](const LabelledFrame& f, std::uint32_t bit) {
     return share_of(f, [&](std::size_t i) { return (f.labels().flags[i] & bit) != 0; });
   };
@@ -201,9 +200,7 @@ TEST(Labels, NormalsAreThoseOfTheWaves) {
   Workers workers(2);
   ocean::SeaFrame sea;
   const scene::WaterSurface surface = water.at(5.0, sea, workers);
-  const View view =
-      make_view({0.0, -120.0, 14.0}, camera_axes(0.2, -0.6, 0.0),
-                lens_of_fov(0.6, kSize_px.x, kSize_px.y), 0.25f, kSize_px.x, kSize_px.y);
+  const View view = make_view({0.0, -120.0, 14.0}, 0.2, -0.6, 0.6, 0.25f, kSize_px.x, kSize_px.y);
   const LabelledFrame frame(world, view, 5.0);
   frame.for_pixels(2, [&](glm::ivec2 p) {
     const glm::dvec2 place(frame.position(p));
@@ -221,9 +218,7 @@ TEST(Labels, NormalsOfABallPointAwayFromItsMiddle) {
   scene.objects[0].size_m = glm::dvec3(8.0);
   scene.objects[0].draught = 0.5;
   const World world(scene);
-  const View view =
-      make_view({0.0, -14.0, 3.0}, camera_axes(0.0, -0.1, 0.0),
-                lens_of_fov(0.9, kSize_px.x, kSize_px.y), 0.25f, kSize_px.x, kSize_px.y);
+  const View view = make_view({0.0, -14.0, 3.0}, 0.0, -0.1, 0.9, 0.25f, kSize_px.x, kSize_px.y);
   const LabelledFrame frame(world, view, 5.0);
   int count = 0;
   frame.for_pixels(1, [&](glm::ivec2 p) {

@@ -17,15 +17,8 @@ namespace swell::render {
 namespace {
 
 View view_down(glm::dvec2 middle, double height_m, int width_px, int height_px) {
-  return make_view({middle, height_m}, camera_axes(0.0, -0.5 * kPi, 0.0),
-                   lens_of_fov(50.0 * kPi / 180.0, width_px, height_px), 0.25f, width_px,
+  return make_view({middle, height_m}, 0.0, -0.5 * kPi, 50.0 * kPi / 180.0, 0.25f, width_px,
                    height_px);
-}
-
-FrameOptions without(PartSet parts) {
-  FrameOptions options;
-  options.without = parts;
-  return options;
 }
 
 scene::Scene windy_lagoon() {
@@ -45,14 +38,15 @@ int count_differences(const LabelledFrame& a, const LabelledFrame& b) {
 TEST(NearShore, ShelterCanBeLeftOut) {
   const World world(windy_lagoon());
   const View view = view_down({-300.0, 0.0}, 150.0, 160, 90);  // the lee: the wind is from the east
-  const LabelledFrame all(world, view, 5.0), bare(world, view, 5.0, without({Part::kShelter}));
+  const LabelledFrame all(world, view, 5.0), bare(world, view, 5.0, {.without = {Part::kShelter}});
   EXPECT_GT(count_differences(all, bare), 10000);
 }
 
 TEST(NearShore, FrontsCanBeLeftOut) {
   const World world(windy_lagoon());
   const View view = view_down({190.0, 0.0}, 150.0, 160, 90);
-  const LabelledFrame all(world, view, 5.0), bare(world, view, 5.0, without({Part::kSurfFronts}));
+  const LabelledFrame all(world, view, 5.0),
+      bare(world, view, 5.0, {.without = {Part::kSurfFronts}});
   const int different = count_differences(all, bare);
   EXPECT_GT(different, 300);
   EXPECT_LT(different, 14000);
@@ -62,7 +56,7 @@ TEST(NearShore, TheOpenSeaKnowsNothingOfIt) {
   const World& world = shipped_world("open_ocean");
   const View view = view_down({0.0, 0.0}, 30.0, 160, 90);
   const LabelledFrame all(world, view, 5.0),
-      bare(world, view, 5.0, without({Part::kShelter, Part::kSurfFronts}));
+      bare(world, view, 5.0, {.without = {Part::kShelter, Part::kSurfFronts}});
   EXPECT_EQ(count_differences(all, bare), 0);
 }
 
@@ -129,7 +123,7 @@ TEST(NearShore, FrontsLieAlongTheShoreWithin10Degrees) {
   for (const double east_m : {-60.0, 0.0, 80.0})
     for (const double t_s : {3.0, 7.3}) {
       const LabelledFrame frame(world, view_down({east_m, 30.0}, 70.0, 320, 240), t_s,
-                                without({Part::kWhitecaps}));
+                                {.without = {Part::kWhitecaps}});
       const FoamField foam(frame, 4);
       double across = 0.0, twist = 0.0, all = 0.0;
       for (int y = 6; y < foam.height - 6; ++y)
@@ -153,7 +147,7 @@ TEST(NearShore, FrontsRunToTheShore) {
   const World world(straight_shore(0.0));
   const auto profile = [&](double t_s) {
     const LabelledFrame frame(world, view_down({0.0, 30.0}, 70.0, 320, 240), t_s,
-                              without({Part::kWhitecaps}));
+                              {.without = {Part::kWhitecaps}});
     std::vector<double> mean(240);
     for (int y = 0; y < 240; ++y)
       for (int x = 0; x < 320; ++x)
@@ -180,7 +174,7 @@ TEST(NearShore, FrontsRunToTheShore) {
 // Part of the sea before a straight shore that foam hides, without whitecaps.
 double foam_before(const World& world) {
   const LabelledFrame frame(world, view_down({0.0, 30.0}, 70.0, 160, 120), 5.0,
-                            without({Part::kWhitecaps}));
+                            {.without = {Part::kWhitecaps}});
   double sum = 0.0;
   for (const float foam : frame.labels().foam) sum += static_cast<double>(foam);
   return sum / static_cast<double>(frame.labels().foam.size());
@@ -235,7 +229,7 @@ TEST(NearShore, FoamOfAGaleIsNoNet) {
   double area_m2 = 0.0;
   for (const double t_s : {3.0, 9.0, 15.0, 21.0}) {
     const LabelledFrame frame(world, view_down({0.0, 60.0}, kHeight_m, 320, 240), t_s,
-                              without({Part::kWhitecaps}));
+                              {.without = {Part::kWhitecaps}});
     enclosed += count_enclosed(frame);
     area_m2 += side_m * side_m * 320.0 / 240.0;
   }

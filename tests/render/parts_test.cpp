@@ -34,13 +34,11 @@ scene::Scene island() {
 }
 
 scene::FloatingObject box_at(glm::dvec2 position_m, glm::dvec3 size_m, glm::vec3 colour) {
-  scene::FloatingObject box;
-  box.kind = scene::ObjectKind::kBox;
-  box.position_m = position_m;
-  box.size_m = size_m;
-  box.draught = 0.0;
-  box.colour = colour;
-  return box;
+  return {.kind = scene::ObjectKind::kBox,
+          .position_m = position_m,
+          .size_m = size_m,
+          .draught = 0.0,
+          .colour = colour};
 }
 
 View looking_down(glm::dvec3 eye) {
@@ -51,11 +49,7 @@ View looking_north(double height_m, double fov_y_rad = 0.8) {
 }
 
 LabelledFrame frame_of(const World& world, const View& view, PartSet without, double t_s = 0.0) {
-  FrameOptions options;
-  options.keep_linear = true;
-  options.edge_samples = 0;
-  options.without = without;
-  return {world, view, t_s, options};
+  return {world, view, t_s, {.keep_linear = true, .edge_samples = 0, .without = without}};
 }
 
 // Pixels of which `is` is true.
@@ -71,10 +65,7 @@ int count_flag(const LabelledFrame& frame, std::uint32_t flag) {
                [&](glm::ivec2 p) { return (frame.labels().flags[frame.at(p)] & flag) != 0; });
 }
 
-glm::vec3 light_at(const LabelledFrame& frame, glm::ivec2 p) {
-  const float* const rgb = &frame.target.linear[3 * frame.at(p)];
-  return {rgb[0], rgb[1], rgb[2]};
-}
+glm::vec3 light_at(const LabelledFrame& frame, glm::ivec2 p) { return frame.linear(p.x, p.y); }
 
 TEST(WithoutWater, TheFloorIsSeenWhereItIs) {
   const World world(island());
@@ -168,8 +159,7 @@ TEST(WithoutGlitter, WaterMirrorsNoSun) {
   const View view =
       make_view({0.0, 0.0, 10.0}, 0.0, -scene.sky.sun_elevation_rad, 0.2, 0.25f, kWidth, kHeight);
   const auto brightest = [&](PartSet without) {
-    const LabelledFrame frame = frame_of(world, view, without);
-    return *std::ranges::max_element(frame.target.linear);
+    return std::ranges::max(frame_of(world, view, without).target.linear);
   };
   EXPECT_GT(brightest({}), 30.0f * brightest({Part::kGlitter}));
 }

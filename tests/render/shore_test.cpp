@@ -149,13 +149,10 @@ int count_dashes(const LabelledFrame& frame) {
 // frame.
 TEST(Shallows, MirrorWaterAsBrightAsTheyAre) {
   const World& world = shipped_world("beach");
-  FrameOptions options;
-  options.labels = LabelSet::all();
-  options.edge_samples = 0;
   const View view =
       view_from(world.scene(), {-150.0, -235.0, 2.5}, scene::radians(20.0), scene::radians(-12.0));
   for (const double t_s : {3.0, 7.0})
-    EXPECT_EQ(count_dashes({world, view, t_s, options}), 0) << t_s;
+    EXPECT_EQ(count_dashes({world, view, t_s, {.edge_samples = 0}}), 0) << t_s;
 }
 
 // ---- Swash
@@ -203,9 +200,7 @@ Steps steps_at_shore(const LabelledFrame& frame) {
 TEST(Swash, GoesOnWhereTheSeaEnds) {
   const World& world = shipped_world("beach");
   const scene::Camera& camera = world.scene().camera;
-  FrameOptions options;
-  options.labels = LabelSet::all();
-  options.edge_samples = 0;  // which would blend the two
+  const FrameOptions options = {.edge_samples = 0};  // which would blend the two
   for (const double t_s : {0.0, 3.0, 6.0, 9.0, 12.0}) {
     const auto expect_joined = [&](glm::dvec3 eye, double pitch_rad) {
       const View view = view_from(world.scene(), eye, camera.heading_rad, pitch_rad);

@@ -23,31 +23,30 @@ const scene::Water& lagoon_water() {
 }
 
 // The lagoon's water as pictures show it, and as queries do.
-struct DrawnAndAsked {
-  DrawnAndAsked(const View& view, double t_s)
-      : drawn(shipped_world("lagoon"), view, t_s, flat_world()),
-        surface(water.at(t_s, sea, workers)) {}
+struct DrawnAndAsked : LabelledFrame {
+  DrawnAndAsked(const View& seen, double at_s)
+      : LabelledFrame(shipped_world("lagoon"), seen, at_s, flat_world()),
+        surface(water.at(at_s, sea, workers)) {}
 
   static FrameOptions flat_world() {
-    FrameOptions options;
-    options.labels.add(Label::kDepth);
-    options.labels.add(Label::kId);
-    options.without.add(Part::kEarth);
-    return options;
+    FrameOptions asked = {.without = {Part::kEarth}};
+    asked.labels.add(Label::kDepth);
+    asked.labels.add(Label::kId);
+    return asked;
   }
 
-  bool shows(glm::ivec2 p, std::uint32_t id) const { return drawn.labels().id[drawn.at(p)] == id; }
+  bool shows(glm::ivec2 p, std::uint32_t id) const { return labels().id[at(p)] == id; }
   double ground_m(glm::dvec2 p) const { return terrain::height_at(*water.terrain(), p); }
 
   // Pairs of neighbours, water and land, that are about equally far.
   std::vector<std::array<glm::ivec2, 2>> line() const {
     std::vector<std::array<glm::ivec2, 2>> pairs;
-    const auto& depth = drawn.labels().depth_m;
-    for (int y = 0; y + 1 < drawn.view.height_px; ++y)
-      for (int x = 0; x + 1 < drawn.view.width_px; ++x)
+    const auto& depth = labels().depth_m;
+    for (int y = 0; y + 1 < view.height_px; ++y)
+      for (int x = 0; x + 1 < view.width_px; ++x)
         for (const glm::ivec2& step : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
           const glm::ivec2 p(x, y), q = p + step;
-          const float a = depth[drawn.at(p)], b = depth[drawn.at(q)];
+          const float a = depth[at(p)], b = depth[at(q)];
           if (!(std::abs(a - b) < 0.02f * a)) continue;
           if (shows(p, kWaterId) && shows(q, kLandId)) pairs.push_back({p, q});
           if (shows(p, kLandId) && shows(q, kWaterId)) pairs.push_back({q, p});
@@ -55,8 +54,6 @@ struct DrawnAndAsked {
     return pairs;
   }
 
-  Workers workers{2};
-  LabelledFrame drawn;
   const scene::Water& water = lagoon_water();
   ocean::SeaFrame sea;
   scene::WaterSurface surface;
@@ -75,13 +72,12 @@ TEST(WaterLine, IsWhereQueriesSayWithinTheMeshError) {
     const double turn = heading_deg * kPi / 180.0;
     const glm::dvec2 from = -260.0 * glm::dvec2(std::sin(turn), std::cos(turn));
     const DrawnAndAsked at(over_the_shore(from, heading_deg, 25.0), 4.0 + turn);
-    const double pixel =
-        2.0 * static_cast<double>(at.drawn.view.tan_half_y) / at.drawn.view.height_px;
+    const double pixel = 2.0 * static_cast<double>(at.view.tan_half_y) / at.view.height_px;
     for (const auto& [wet, dry] : at.line()) {
-      const glm::dvec3 p = 0.5 * (at.drawn.position(wet) + at.drawn.position(dry));
+      const glm::dvec3 p = 0.5 * (at.position(wet) + at.position(dry));
       const double off_m =
           static_cast<double>(at.surface.height(glm::dvec2(p))) - at.ground_m(glm::dvec2(p));
-      off_px.push_back(std::abs(off_m) / (glm::distance(p, at.drawn.view.eye_world) * pixel));
+      off_px.push_back(std::abs(off_m) / (glm::distance(p, at.view.eye_world) * pixel));
     }
   }
   ASSERT_GE(off_px.size(), 1000u);
@@ -93,19 +89,18 @@ TEST(WaterLine, IsWhereQueriesSayWithinTheMeshError) {
 // A pixel inside drawn water is of a place that is wet when asked, but for what triangles cut off.
 TEST(WaterLine, WhatIsDrawnWetIsWetWhenAsked) {
   const DrawnAndAsked at(over_the_shore({0.0, -260.0}, 0.0, 25.0), 4.0);
-  const double pixel =
-      2.0 * static_cast<double>(at.drawn.view.tan_half_y) / at.drawn.view.height_px;
+  const double pixel = 2.0 * static_cast<double>(at.view.tan_half_y) / at.view.height_px;
   int inside = 0, shallow = 0;
-  at.drawn.for_pixels(4, [&](glm::ivec2 p) {
+  at.for_pixels(4, [&](glm::ivec2 p) {
     if (!at.shows(p, kWaterId)) return;
-    const glm::dvec3 place = at.drawn.position(p);
+    const glm::dvec3 place = at.position(p);
     const glm::dvec2 flat(place);
     if (std::abs(flat.x) > 400.0 || std::abs(flat.y) > 400.0) return;
     ++inside;
     if (at.water.wets(at.surface, flat)) return;
     ++shallow;
     const double dry_m = at.ground_m(flat) - static_cast<double>(at.surface.height(flat));
-    EXPECT_LT(dry_m, kMostOff_px * pixel * glm::distance(place, at.drawn.view.eye_world))
+    EXPECT_LT(dry_m, kMostOff_px * pixel * glm::distance(place, at.view.eye_world))
         << p.x << " " << p.y;
   });
   EXPECT_GT(inside, 4000);

@@ -13,6 +13,7 @@
 #include "render/labelled_frame.h"
 #include "render/world/sea_maps.h"
 #include "scene/sky.h"
+#include "scene/water.h"
 
 namespace swell::render {
 namespace {
@@ -39,22 +40,13 @@ double mean_of(const std::vector<float>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-FrameOptions with_foam_and_places() {
-  FrameOptions options;
-  options.labels = LabelSet::all();
-  return options;
-}
-
 // Over some seconds, of a view that holds the longest patch.
 double mean_drawn_cover(const World& world, double height_m, int frames) {
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  const View view = from_above(height_m, 192);
+  Shot film;
   double sum = 0.0;
   for (int k = 0; k < frames; ++k) {
-    render_frame(world, view, 30.0 + 3.0 * k, with_foam_and_places(), workspace, target, workers);
-    sum += mean_of(target.labels.foam);
+    film.draw(world, from_above(height_m, 192), 30.0 + 3.0 * k, {.labels = LabelSet::all()});
+    sum += mean_of(film.target.labels.foam);
   }
   return sum / frames;
 }
@@ -180,15 +172,9 @@ TEST(FoamBlocks, AreSetAroundFoamAlone) {
 TEST(DrawnWhitecaps, AreTheSameInAFrameAloneAndInASequence) {
   const World world(open_sea(15.0));
   const View view = make_view({0.0, 0.0, 12.0}, 0.4, -0.15, 0.9, 0.25f, 96, 64);
-  Workers workers(2);
-  Workspace warm;
-  Target sequence, alone;
-  for (const double t_s : {2.0, 2.1, 2.2, 2.3, 2.4, 9.0, 2.3}) {
-    render_frame(world, view, t_s, {}, warm, sequence, workers);
-    Workspace cold;
-    render_frame(world, view, t_s, {}, cold, alone, workers);
-    EXPECT_EQ(sequence.rgba, alone.rgba) << t_s;
-  }
+  Shot film;
+  for (const double t_s : {2.0, 2.1, 2.2, 2.3, 2.4, 9.0, 2.3})
+    EXPECT_EQ(film.draw(world, view, t_s).rgba, Shot(world, view, t_s).target.rgba) << t_s;
 }
 
 TEST(DrawnWhitecaps, CanBeLeftOut) {
@@ -197,16 +183,9 @@ TEST(DrawnWhitecaps, CanBeLeftOut) {
   scene.sea.whitecaps = 0.0;
   const World without(scene);
   const View view = make_view({0.0, 0.0, 12.0}, 0.4, -0.15, 0.9, 0.25f, 96, 64);
-  Workers workers(2);
-  Workspace workspace;
-  Target a, b, c;
-  FrameOptions options;
-  render_frame(with, view, 2.0, options, workspace, a, workers);
-  options.without.add(Part::kWhitecaps);
-  render_frame(with, view, 2.0, options, workspace, b, workers);
-  render_frame(without, view, 2.0, {}, workspace, c, workers);
-  EXPECT_NE(a.rgba, b.rgba);
-  EXPECT_EQ(b.rgba, c.rgba);
+  const Shot left_out(with, view, 2.0, {.without = {Part::kWhitecaps}});
+  EXPECT_NE(Shot(with, view, 2.0).target.rgba, left_out.target.rgba);
+  EXPECT_EQ(Shot(without, view, 2.0).target.rgba, left_out.target.rgba);
 }
 
 // A gale with foam at this place.
@@ -219,15 +198,12 @@ scene::Scene white_sea() {
 // The light of pixels that foam hides all of, over that of level snow.
 Moments light_of_whole_foam(const scene::Scene& scene) {
   const World world(scene);
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options = with_foam_and_places();
-  options.keep_linear = true;
+  Shot film;
   Moments light_over_snow;
   for (int n = 0; n < 8; ++n) {
-    render_frame(world, from_above(60.0, 160), 30.0 + 5.0 * n, options, workspace, target, workers);
-    const Light& light = workspace.state().shading.light;
+    const Target& target = film.draw(world, from_above(60.0, 160), 30.0 + 5.0 * n,
+                                     {.keep_linear = true, .labels = LabelSet::all()});
+    const Light& light = film.state().shading.light;
     const double snow =
         0.8 * static_cast<double>(light.ambient.y + light.sun_irradiance.y * light.sun_direction.z /
                                                         std::numbers::pi_v<float>);
@@ -260,18 +236,15 @@ TEST(DrawnWhitecaps, HaveDepthInside) {
 // Water between and around foam is full of bubbles: brighter than the same water without.
 TEST(DrawnWhitecaps, LieInWaterThatIsBrighterForTheirBubbles) {
   const World world(white_sea());
-  Workers workers(2);
-  Workspace workspace;
-  Target with, without;
-  FrameOptions options = with_foam_and_places();
-  options.keep_linear = true;
-  FrameOptions bare = options;
-  bare.without.add(Part::kWhitecaps);
+  Shot foamy, bare;
   int brighter = 0, darker = 0;
   for (int n = 0; n < 8; ++n) {
     const double t_s = 30.0 + 5.0 * n;
-    render_frame(world, from_above(20.0, 160), t_s, options, workspace, with, workers);
-    render_frame(world, from_above(20.0, 160), t_s, bare, workspace, without, workers);
+    const auto draw = [&](PartSet parts, Shot& film) -> const Target& {
+      return film.draw(world, from_above(20.0, 160), t_s,
+                       {.keep_linear = true, .without = parts, .labels = LabelSet::all()});
+    };
+    const Target &with = draw({}, foamy), &without = draw({Part::kWhitecaps}, bare);
     for (std::size_t i = 0; i < with.labels.foam.size(); ++i) {
       if (with.labels.foam[i] > 0.0f) continue;
       const float change = with.linear[3 * i + 1] / without.linear[3 * i + 1];
