@@ -80,29 +80,17 @@ struct Errors {
   double ratio_8() const { return std::sqrt(with_8 / without); }
 };
 
-struct Drawn {
-  Values without, with_4, with_8;
-  std::vector<Places> exact;
-};
-
-Drawn draw_all(EdgeRenderer& r, const View& view, Paint paint) {
-  Drawn drawn;
-  drawn.exact.resize(static_cast<std::size_t>(kSize_px.x) * kSize_px.y);
+// By pixel.
+std::vector<Places> places_of(EdgeRenderer& r, const View& view, Paint paint) {
+  std::vector<Places> places(static_cast<std::size_t>(kSize_px.x) * kSize_px.y);
   for (const glm::dvec2& place : rook_places()) {
     r.draw(moved(view, place), 0);
     const Values values = painted(r, paint);
     const std::vector<Centre> centres = r.centres();
     for (std::size_t i = 0; i < values.size(); ++i)
-      drawn.exact[i].add(r.kind_of(centres[i].primitive), centres[i].z, values[i]);
+      places[i].add(r.kind_of(centres[i].primitive), centres[i].z, values[i]);
   }
-  const auto draw = [&](int samples) {
-    r.draw(moved(view, {0.0, 0.0}), samples);
-    return painted(r, paint);
-  };
-  drawn.without = draw(0);
-  drawn.with_4 = draw(4);
-  drawn.with_8 = draw(8);
-  return drawn;
+  return places;
 }
 
 // Over pictures moved by parts of a pixel: an edge along the rows is as wrong in all of its pixels
@@ -115,17 +103,16 @@ Errors measure(const World& world, const View& view, double t_s, Edge edge, doub
   EdgeRenderer renderer(world, t_s);
   Errors errors;
   for (int n = 0; n < std::max(1, trials(4)); ++n) {
-    const Drawn drawn =
-        draw_all(renderer, moved(view, kMoves[static_cast<std::size_t>(n)]), edge.paint);
-    for (std::size_t i = 0; i < drawn.exact.size(); ++i) {
-      if (!edge.holds(drawn.exact[i], farthest_crest)) continue;
-      ++errors.pixels;
-      const auto square = [&](const Values& v) {
-        return (v[i] - drawn.exact[i].mean) * (v[i] - drawn.exact[i].mean);
-      };
-      errors.without += square(drawn.without);
-      errors.with_4 += square(drawn.with_4);
-      errors.with_8 += square(drawn.with_8);
+    const View middle = moved(view, kMoves[static_cast<std::size_t>(n)]);
+    const std::vector<Places> exact = places_of(renderer, middle, edge.paint);
+    const auto counts = [&](const Places& p) { return edge.holds(p, farthest_crest); };
+    errors.pixels += static_cast<int>(std::ranges::count_if(exact, counts));
+    for (const auto& [samples, sum] :
+         {std::pair(0, &errors.without), {4, &errors.with_4}, {8, &errors.with_8}}) {
+      renderer.draw(moved(middle, {0.0, 0.0}), samples);
+      const Values values = painted(renderer, edge.paint);
+      for (std::size_t i = 0; i < exact.size(); ++i)
+        if (counts(exact[i])) *sum += (values[i] - exact[i].mean) * (values[i] - exact[i].mean);
     }
   }
   return errors;

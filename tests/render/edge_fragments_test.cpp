@@ -13,27 +13,21 @@ namespace {
 constexpr glm::ivec2 kSize_px(201, 117);
 constexpr double kTime_s = 2.0;
 
-class EdgesOf : public testing::TestWithParam<const char*> {};
+class EdgesOf : public testing::TestWithParam<const char*> {
+ protected:
+  const World& world = shipped_world(GetParam());
+  const View view = view_of(world, kTime_s, kSize_px.x, kSize_px.y);
+  EdgeRenderer frame{world, kTime_s};
+};
 INSTANTIATE_TEST_SUITE_P(Scenes, EdgesOf,
                          testing::Values("open_ocean", "lagoon", "beach", "buoys", "sea_state_8"),
                          [](const auto& test) { return std::string(test.param); });
 
-struct ShippedFrame {
-  explicit ShippedFrame(const char* name)
-      : world(shipped_world(name)),
-        view(view_of(world, kTime_s, kSize_px.x, kSize_px.y)),
-        renderer(world, kTime_s) {}
-  const World& world;
-  View view;
-  EdgeRenderer renderer;
-};
-
 TEST_P(EdgesOf, APixelsPartsHaveAllItsSamplesTogetherAndLieSideBySide) {
-  ShippedFrame frame(GetParam());
   for (const int samples : {4, 8}) {
-    frame.renderer.draw(frame.view, samples);
+    frame.draw(view, samples);
     std::size_t edge_pixels = 0;
-    for (const std::vector<EdgeFragment>& fragments : frame.renderer.state().edges.of_tile) {
+    for (const std::vector<EdgeFragment>& fragments : frame.state().edges.of_tile) {
       std::set<int> finished;
       for (std::size_t first = 0; first < fragments.size();) {
         int sum = 0, centres = 0;
@@ -59,46 +53,45 @@ TEST_P(EdgesOf, APixelsPartsHaveAllItsSamplesTogetherAndLieSideBySide) {
 
 // So they are shaded once. Of water and land it may show several places.
 TEST_P(EdgesOf, APixelShowsTheSkyAndAnObjectOnceAtMost) {
-  ShippedFrame frame(GetParam());
-  frame.renderer.draw(frame.view, 8);
-  const std::vector<Centre> centres = frame.renderer.centres();
-  const auto of_pixel = frame.renderer.fragments();
+  frame.draw(view, 8);
+  const std::vector<Centre> centres = frame.centres();
+  const auto of_pixel = frame.fragments();
   for (std::size_t pixel = 0; pixel < of_pixel.size(); ++pixel) {
     const auto x_px = static_cast<float>(pixel % kSize_px.x);
     const auto y_px = static_cast<float>(pixel / kSize_px.x);
     std::set<std::ptrdiff_t> surfaces;
     for (const EdgeFragment& f : of_pixel[pixel]) {
-      const auto surface = frame.renderer.surface_of(f.primitive);
+      const auto surface = frame.surface_of(f.primitive);
       const bool is_new = surfaces.insert(surface).second;
       ASSERT_TRUE(is_new || surface == 1 || surface == 2) << x_px << ", " << y_px;
       ASSERT_LT(std::abs(f.x_px - x_px), 0.5f);
       ASSERT_LT(std::abs(f.y_px - y_px), 0.5f);
-      const int kind = frame.renderer.kind_of(f.primitive);
+      const int kind = frame.kind_of(f.primitive);
       ASSERT_EQ(kind == 0, f.z == 0.0f);
       if (f.is_centre) {
-        ASSERT_EQ(kind, frame.renderer.kind_of(centres[pixel].primitive));
+        ASSERT_EQ(kind, frame.kind_of(centres[pixel].primitive));
       }
     }
   }
 }
 
 TEST_P(EdgesOf, ChangeNothingButThePixelsThatTheyMix) {
-  ShippedFrame with(GetParam()), without(GetParam());
-  const FrameStatistics reference = without.renderer.draw(without.view, 0);
-  const std::vector<Centre> expected = without.renderer.centres();
-  for (const auto& fragments : without.renderer.fragments()) ASSERT_TRUE(fragments.empty());
+  EdgeRenderer without(world, kTime_s);
+  without.draw(view, 0);
+  const std::vector<Centre> expected = without.centres();
+  for (const auto& fragments : without.fragments()) ASSERT_TRUE(fragments.empty());
   for (const int samples : {4, 8}) {
-    const FrameStatistics statistics = with.renderer.draw(with.view, samples);
-    EXPECT_EQ(statistics.visible_pixels, reference.visible_pixels);
-    EXPECT_EQ(statistics.shaded_pixels, reference.shaded_pixels);
-    EXPECT_EQ(statistics.water_triangles, reference.water_triangles);
-    const std::vector<Centre> centres = with.renderer.centres();
-    const auto of_pixel = with.renderer.fragments();
+    frame.draw(view, samples);
+    EXPECT_EQ(frame.statistics.visible_pixels, without.statistics.visible_pixels);
+    EXPECT_EQ(frame.statistics.shaded_pixels, without.statistics.shaded_pixels);
+    EXPECT_EQ(frame.statistics.water_triangles, without.statistics.water_triangles);
+    const std::vector<Centre> centres = frame.centres();
+    const auto of_pixel = frame.fragments();
     int changed = 0;
     for (std::size_t i = 0; i < centres.size(); ++i) {
       ASSERT_EQ(centres[i].z, expected[i].z);
       ASSERT_EQ(centres[i].primitive, expected[i].primitive);
-      const bool same = with.renderer.target.rgba[i] == without.renderer.target.rgba[i];
+      const bool same = frame.target.rgba[i] == without.target.rgba[i];
       ASSERT_TRUE(same || !of_pixel[i].empty()) << i % kSize_px.x << ", " << i / kSize_px.x;
       changed += !same;
     }
@@ -117,8 +110,7 @@ TEST(CalmSea, ThatFillsTheViewHasNoEdges) {
     EdgeRenderer with(world), without(world);
     for (const double pitch : {-1.5, -0.9, -0.4}) {
       const View view = make_view({3.0, 5.0, 12.0}, 0.7, pitch, 0.6, 0.25f, kSize_px.x, kSize_px.y);
-      const FrameStatistics statistics = without.draw(view, 0);
-      ASSERT_EQ(statistics.visible_pixels, std::uint64_t{201} * 117);
+      ASSERT_EQ(without.draw(view, 0).visible_pixels, std::uint64_t{201} * 117);
       for (const int samples : {4, 8}) {
         with.draw(view, samples);
         for (const auto& fragments : with.state().edges.of_tile) EXPECT_TRUE(fragments.empty());
@@ -206,9 +198,8 @@ TEST(Edges, HoldWhatPicturesMovedByTheSamplesPlacesShow) {
 // A level horizon may lie as near to a row of samples as rounding goes, so that each of its pixels
 // is off by one. Parts of land and sea smaller than a pixel are not looked for.
 TEST_P(EdgesOf, HoldWhatPicturesMovedByTheSamplesPlacesShow) {
-  ShippedFrame frame(GetParam());
   for (const int samples : {4, 8}) {
-    const Agreement found = compare_with_moved(frame.renderer, frame.view, samples);
+    const Agreement found = compare_with_moved(frame, view, samples);
     EXPECT_EQ(found.far_wrong, 0);
     EXPECT_LE(found.missed, found.edge_pixels / 50) << found.edge_pixels;
   }

@@ -3,26 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <string>
 #include <vector>
 
-#include "render/drawn_shots.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 
 namespace swell::render {
-
-// A shipped scene, made once: drawing does not change it.
-inline const World& shipped_world(const std::string& name) {
-  static std::map<std::string, World> worlds;
-  const auto found = worlds.find(name);
-  return found != worlds.end() ? found->second
-                               : worlds.emplace(name, World(load_shipped(name))).first->second;
-}
-
-inline View view_of(const World& world, double t_s, int width_px, int height_px) {
-  return scene::camera_view(world.scene().camera, t_s, width_px, height_px);
-}
 
 // What a pixel's centre shows.
 struct Centre {
@@ -31,20 +16,19 @@ struct Centre {
 };
 
 // Draws one frame after another of a world.
-class EdgeRenderer {
+class EdgeRenderer : public Shot {
  public:
   explicit EdgeRenderer(const World& world, double t_s = 0.0, int threads = 2)
-      : world_(world), t_s_(t_s), workers_(threads) {
+      : Shot(threads), world_(world), t_s_(t_s) {
     options.water_triangles = options.terrain_triangles = 4000;
     options.edge_samples = 0;
   }
 
-  FrameStatistics draw(const View& view, int edge_samples) {
+  const FrameStatistics& draw(const View& seen, int edge_samples) {
     options.edge_samples = edge_samples;
-    return render_frame(world_, view, t_s_, options, workspace_, target, workers_);
+    Shot::draw(world_, seen, t_s_, options);
+    return statistics;
   }
-
-  const Workspace::State& state() const { return workspace_.state(); }
 
   // By pixel of the picture.
   std::vector<Centre> centres() const {
@@ -87,7 +71,6 @@ class EdgeRenderer {
     return 3 + (objects.primitives[n].object - objects.instances.data());
   }
 
-  Target target;
   FrameOptions options;
 
  private:
@@ -107,8 +90,6 @@ class EdgeRenderer {
 
   const World& world_;
   double t_s_;
-  Workers workers_;
-  Workspace workspace_;
 };
 
 }  // namespace swell::render

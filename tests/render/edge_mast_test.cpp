@@ -22,11 +22,10 @@ std::vector<double> covered(const EdgeRenderer& r) {
   std::vector<double> shares;
   for (int i = kTopRow * kSize_px.x; i < kBottomRow * kSize_px.x; ++i) {
     const auto pixel = static_cast<std::size_t>(i);
-    double mast = r.kind_of(centres[pixel].primitive) == 3 ? 1.0 : 0.0;
-    if (!of_pixel[pixel].empty()) mast = 0.0;
+    double mast = of_pixel[pixel].empty() && r.kind_of(centres[pixel].primitive) == 3;
     for (const EdgeFragment& f : of_pixel[pixel])
-      mast += r.kind_of(f.primitive) == 3 ? static_cast<double>(f.samples) / r.state().edges.samples
-                                          : 0.0;
+      if (r.kind_of(f.primitive) == 3)
+        mast += static_cast<double>(f.samples) / r.state().edges.samples;
     shares.push_back(mast);
   }
   return shares;

@@ -1,8 +1,6 @@
 // Smooth edges: how parts of pixels are mixed, who asks for them, and what they cost.
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "allocation_count.h"
 #include "render/edge_frames.h"
 #include "render/edge_scenes.h"
@@ -13,26 +11,17 @@ namespace {
 constexpr glm::ivec2 kSize_px(120, 90);
 
 // A box before an even sky, of which only the front shows.
-struct BoxScene {
-  explicit BoxScene(double exposure) {
-    scene::Scene scene = plain_scene();
-    scene.sky.exposure = exposure;
-    scene.objects = {white_box({0.0, 30.0}, {6.0, 6.0, 9.0})};
-    world.emplace(scene);
-    renderer.emplace(*world);
-    renderer->options.keep_linear = true;
-  }
-  View view() const { return north_view(3.0, 0.15, 0.4, kSize_px.x, kSize_px.y); }
+scene::Scene box_scene(double exposure) {
+  scene::Scene scene = plain_scene();
+  scene.sky.exposure = exposure;
+  scene.objects = {white_box({0.0, 30.0}, {6.0, 6.0, 9.0})};
+  return scene;
+}
 
-  // One colour of a pixel's linear light.
-  double light(std::size_t pixel, int channel) const {
-    return static_cast<double>(
-        renderer->target.linear[3 * pixel + static_cast<std::size_t>(channel)]);
-  }
-
-  std::optional<World> world;
-  std::optional<EdgeRenderer> renderer;
-};
+// One colour of a pixel's linear light.
+double light(const EdgeRenderer& r, std::size_t pixel, int channel) {
+  return static_cast<double>(r.target.linear[3 * pixel + static_cast<std::size_t>(channel)]);
+}
 
 // Light as the display shows it (resolve-inl.h): a shoulder from 0.4 up.
 double tone(double x) {
@@ -47,41 +36,44 @@ struct Mix {
   double display(double exposure) const { return of(tone(exposure * box), tone(exposure * sky)); }
 };
 
-// Calls visit(pixel, channel, mix) for the box's edge pixels with an inner pixel of each side next
-// to them in their row.
+// Draws the box and calls visit(pixel, channel, mix) for its edge pixels with an inner pixel of
+// each side next to them in their row.
 template <class Visit>
-int for_each_mix(const BoxScene& box, int samples, const Visit& visit) {
-  const auto of_pixel = box.renderer->fragments();
-  const std::vector<Centre> centres = box.renderer->centres();
+int for_each_mix(EdgeRenderer& box, int samples, const Visit& visit) {
+  box.options.keep_linear = true;
+  box.draw(north_view(3.0, 0.15, 0.4, kSize_px.x, kSize_px.y), samples);
+  const auto of_pixel = box.fragments();
+  const std::vector<Centre> centres = box.centres();
   int visited = 0;
   for (int i = 4; i + 4 < kSize_px.x * kSize_px.y; ++i) {
     const auto pixel = static_cast<std::size_t>(i);
     const auto& parts = of_pixel[pixel];
     const auto inner = [&](std::size_t at, int kind) {
-      return of_pixel[at].empty() && box.renderer->kind_of(centres[at].primitive) == kind;
+      return of_pixel[at].empty() && box.kind_of(centres[at].primitive) == kind;
     };
     // Three pixels aside, beyond the edge.
     const std::size_t left = pixel - 3, right = pixel + 3;
     const bool on_left = inner(left, 3) && inner(right, 0);
     if (parts.size() != 2 || !(on_left || (inner(left, 0) && inner(right, 3)))) continue;
-    const bool first_is_box = box.renderer->kind_of(parts[0].primitive) == 3;
-    if (first_is_box == (box.renderer->kind_of(parts[1].primitive) == 3)) continue;
+    const bool first_is_box = box.kind_of(parts[0].primitive) == 3;
+    if (first_is_box == (box.kind_of(parts[1].primitive) == 3)) continue;
     const double share = parts[first_is_box ? 0 : 1].samples / static_cast<double>(samples);
     for (int c = 0; c < 3; ++c)
-      visit(pixel, c,
-            Mix{box.light(on_left ? left : right, c), box.light(on_left ? right : left, c), share});
+      visit(
+          pixel, c,
+          Mix{light(box, on_left ? left : right, c), light(box, on_left ? right : left, c), share});
     ++visited;
   }
   return visited;
 }
 
 TEST(EdgeMix, OfLinearLightIsTheMeanByTheSamples) {
-  BoxScene box(1.0);
+  const World world(box_scene(1.0));
+  EdgeRenderer box(world);
   for (const int samples : {4, 8}) {
-    box.renderer->draw(box.view(), samples);
     const int visited = for_each_mix(box, samples, [&](std::size_t pixel, int c, const Mix& mix) {
       ASSERT_GT(std::abs(mix.box - mix.sky), 0.1) << "edges to see";
-      ASSERT_NEAR(box.light(pixel, c), mix.linear(), 0.01 * std::max(mix.box, mix.sky));
+      ASSERT_NEAR(light(box, pixel, c), mix.linear(), 0.01 * std::max(mix.box, mix.sky));
     });
     EXPECT_GT(visited, 40);
   }
@@ -90,14 +82,14 @@ TEST(EdgeMix, OfLinearLightIsTheMeanByTheSamples) {
 // At the higher exposure the box is far too bright to show, and counts as white.
 TEST(EdgeMix, OfThePictureIsTheMeanOfWhatTheDisplayShows) {
   for (const double exposure : {0.6, 1.0, 8.0}) {
-    BoxScene box(exposure);
+    const World world(box_scene(exposure));
+    EdgeRenderer box(world);
     for (const int samples : {4, 8}) {
-      box.renderer->draw(box.view(), samples);
-      const auto& rgba = box.renderer->target.rgba;
       double most_apart = 0.0;
       const int visited = for_each_mix(box, samples, [&](std::size_t pixel, int c, const Mix& mix) {
         // A byte's step of sRGB is at most 0.009 of light.
-        ASSERT_NEAR(display_light(rgba[pixel], c), mix.display(exposure), 0.014) << exposure;
+        ASSERT_NEAR(display_light(box.target.rgba[pixel], c), mix.display(exposure), 0.014)
+            << exposure;
         most_apart =
             std::max(most_apart, std::abs(tone(exposure * mix.linear()) - mix.display(exposure)));
       });
@@ -177,18 +169,13 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EdgeFrames, testing::Values("lagoon", "buoys", 
 // Storage grows to the largest frame so far, so the second round finds everything large enough.
 TEST_P(EdgeFrames, AllocateNothingInTheSteadyState) {
   const World& world = shipped_world(GetParam());
-  Workers workers(1);
-  Workspace workspace;
-  Target target;
+  Shot film(1);
   const View view = view_of(world, 0.0, kSize_px.x, kSize_px.y);
   const auto round = [&] {
-    for (const int samples : {8, 4, 0, 8}) {
-      FrameOptions options;
-      options.water_triangles = options.terrain_triangles = 3000;
-      options.edge_samples = samples;
+    for (const int samples : {8, 4, 0, 8})
       for (const double t_s : {0.0, 0.1, 0.2})
-        render_frame(world, view, t_s, options, workspace, target, workers);
-    }
+        film.draw(world, view, t_s,
+                  {.water_triangles = 3000, .terrain_triangles = 3000, .edge_samples = samples});
   };
   round();
   const std::uint64_t before = allocation_count();
@@ -201,13 +188,12 @@ TEST_P(EdgeFrames, AllocateNothingInTheSteadyState) {
 TEST_P(EdgeFrames, ShadeFewPartsBesidesThePixels) {
   const World& world = shipped_world(GetParam());
   EdgeRenderer renderer(world, 1.0);
-  const FrameStatistics statistics =
-      renderer.draw(view_of(world, 1.0, 4 * kSize_px.x, 4 * kSize_px.y), 8);
+  renderer.draw(view_of(world, 1.0, 4 * kSize_px.x, 4 * kSize_px.y), 8);
   std::size_t parts = 0;
   for (const auto& fragments : renderer.state().edges.of_tile)
     parts +=
         static_cast<std::size_t>(std::ranges::count(fragments, false, &EdgeFragment::is_centre));
-  EXPECT_EQ(statistics.shaded_pixels, statistics.visible_pixels);
+  EXPECT_EQ(renderer.statistics.shaded_pixels, renderer.statistics.visible_pixels);
   EXPECT_GT(parts, 100u);
   EXPECT_LT(parts, renderer.target.rgba.size() / 50);
 }

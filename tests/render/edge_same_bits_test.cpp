@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "math/simd_target.h"
+#include "render/drawn_looks.h"
 #include "render/edge_frames.h"
 #include "trials.h"
 
@@ -21,12 +22,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SmoothEdgesOf,
                          testing::Values("lagoon", "buoys", "beach", "harbour", "open_ocean"),
                          [](const auto& test) { return std::string(test.param); });
 
-// The picture's colours before and after the tone curve.
-struct Picture {
-  std::vector<std::uint32_t> rgba;
-  std::vector<float> linear;
-  bool operator==(const Picture&) const = default;
-};
+// The picture's colours after and before the tone curve.
+using Picture = std::pair<std::vector<std::uint32_t>, std::vector<float>>;
 
 struct Way {
   int threads, tile_size_px;
@@ -63,18 +60,18 @@ TEST_P(SmoothEdgesOf, AreTheSameBitsForAnyThreadsTilesAndSimdTarget) {
 TEST_P(SmoothEdgesOf, AreTheSameBitsFromAnywhere) {
   const World& world = shipped_world(GetParam());
   for (int n = 0; n < std::max(1, trials(20)); ++n) {
-    const Shot shot = random_shot(n, 90 + 7 * n, 60 + 3 * n);
+    const Look look = random_look(n, 90 + 7 * n, 60 + 3 * n);
     const auto drawn = [&](const Way& way) {
       select_simd_target(way.simd);
-      EdgeRenderer renderer(world, shot.t_s, way.threads);
+      EdgeRenderer renderer(world, look.t_s, way.threads);
       renderer.options.tile_size_px = way.tile_size_px;
-      renderer.draw(shot.view, n % 2 == 0 ? 8 : 4);
+      renderer.draw(look.view, n % 2 == 0 ? 8 : 4);
       return renderer.target.rgba;
     };
     const auto reference = drawn({2, 64, SimdTarget::kAvx2});
-    EXPECT_TRUE(drawn({1, 16, SimdTarget::kAvx2}) == reference) << "shot " << n;
+    EXPECT_TRUE(drawn({1, 16, SimdTarget::kAvx2}) == reference) << "look " << n;
     if (simd_target_available(SimdTarget::kAvx512)) {
-      EXPECT_TRUE(drawn({3, 32, SimdTarget::kAvx512}) == reference) << "shot " << n;
+      EXPECT_TRUE(drawn({3, 32, SimdTarget::kAvx512}) == reference) << "look " << n;
     }
   }
 }
@@ -90,8 +87,8 @@ TEST(SmoothEdges, OfExtremeCamerasAreTheSameBitsAndFinite) {
         EdgeRenderer renderer(world, 1e9);
         renderer.options.tile_size_px = tile;
         renderer.options.keep_linear = true;
-        const FrameStatistics statistics = renderer.draw(view, 8);
-        EXPECT_EQ(statistics.shaded_pixels, statistics.visible_pixels);
+        renderer.draw(view, 8);
+        EXPECT_EQ(renderer.statistics.shaded_pixels, renderer.statistics.visible_pixels);
         EXPECT_TRUE(std::ranges::all_of(renderer.target.linear,
                                         [](float x) { return std::isfinite(x) && x >= 0.0f; }));
         if (tile == 64) reference = renderer.target.rgba;
@@ -119,21 +116,17 @@ TEST(SmoothEdges, OfASmallerPictureAreEnlarged) {
 // Storage that has held other scenes, sizes and numbers of samples.
 TEST_P(SmoothEdgesOf, OtherFramesLeaveNoTrace) {
   const World& world = shipped_world(GetParam());
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
+  Shot film;
   const auto frame = [&](const World& shown, glm::ivec2 size_px, int samples, int tile) {
-    FrameOptions options;
-    options.water_triangles = options.terrain_triangles = 4000;
-    options.edge_samples = samples;
-    options.tile_size_px = tile;
-    render_frame(shown, view_of(shown, kTime_s, size_px.x, size_px.y), kTime_s, options, workspace,
-                 target, workers);
-    return target.rgba;
+    const FrameOptions options{.tile_size_px = tile,
+                               .water_triangles = 4000,
+                               .terrain_triangles = 4000,
+                               .edge_samples = samples};
+    return film.draw(shown, view_of(shown, kTime_s, size_px.x, size_px.y), kTime_s, options).rgba;
   };
   constexpr glm::ivec2 kSize_px(201, 117);
   const auto alone = [&](int samples) {
-    return draw(world, kSize_px, samples, {2, 64, SimdTarget::kAvx2}).rgba;
+    return draw(world, kSize_px, samples, {2, 64, SimdTarget::kAvx2}).first;
   };
   const auto expected_0 = alone(0), expected_4 = alone(4), expected_8 = alone(8);
   EXPECT_FALSE(expected_4 == expected_0);

@@ -31,12 +31,10 @@ inline scene::Scene plain_scene() {
 }
 
 inline scene::FloatingObject white_box(glm::dvec2 position_m, glm::dvec3 size_m) {
-  scene::FloatingObject box;
-  box.kind = scene::ObjectKind::kBox;
-  box.position_m = position_m;
-  box.size_m = size_m;
-  box.colour = glm::vec3(0.9f);
-  return box;
+  return {.kind = scene::ObjectKind::kBox,
+          .position_m = position_m,
+          .size_m = size_m,
+          .colour = glm::vec3(0.9f)};
 }
 
 // A camera that looks north along the sea, level but for its roll.

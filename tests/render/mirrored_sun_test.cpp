@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "edge_scenes.h"
-#include "render/frame.h"
+#include "render/measures.h"
+#include "render/shot.h"
 
 namespace swell::render {
 namespace {
@@ -29,29 +30,21 @@ scene::Scene sea_with_sun_ahead(bool box) {
   return scene;
 }
 
-// Linear light.
+// The green light of a picture.
 std::vector<float> draw(const scene::Scene& scene) {
-  FrameOptions options;
-  options.lookup_scale = 1.0;
-  options.keep_linear = true;
-  options.edge_samples = 0;
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  render_frame(World(scene), north_view(kEye_m, 0.0, kFov_rad, kSize_px, kSize_px), 1.0, options,
-               workspace, target, workers);
-  return target.linear;
+  const View view = north_view(kEye_m, 0.0, kFov_rad, kSize_px, kSize_px);
+  return green_light(
+      Shot(World(scene), view, 1.0, {.lookup_scale = 1.0, .keep_linear = true, .edge_samples = 0})
+          .target);
 }
 
-// The largest green radiance on the water `far_m` ahead, within 2 m of the middle.
-float brightest(const std::vector<float>& linear, double far_m) {
+// The largest of it on the water `far_m` ahead, within 2 m of the middle.
+float brightest(const std::vector<float>& green, double far_m) {
   const double px_per_rad = 0.5 * kSize_px / std::tan(0.5 * kFov_rad);
   const auto y = static_cast<int>(0.5 * kSize_px + px_per_rad * kEye_m / far_m);
   const auto half = static_cast<int>(px_per_rad * 2.0 / far_m);
-  float most = 0.0f;
-  for (int x = kSize_px / 2 - half; x <= kSize_px / 2 + half; ++x)
-    most = std::max(most, linear[3 * static_cast<std::size_t>(y * kSize_px + x) + 1]);
-  return most;
+  const auto middle = green.begin() + y * kSize_px + kSize_px / 2;
+  return *std::max_element(middle - half, middle + half + 1);
 }
 
 TEST(MirroredSun, IsHiddenByWhatStandsBeforeIt) {

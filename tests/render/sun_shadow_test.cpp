@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "edge_scenes.h"
-#include "render/frame.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "scene/object_ray.h"
 #include "scene/sky.h"
 
@@ -22,25 +22,20 @@ void set_sun(double azimuth_deg, double elevation_deg, scene::Scene& scene) {
       scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
 }
 
-// Linear light of flat water.
-std::vector<float> draw(const World& world, const View& view, FrameOptions options = {}) {
-  options.keep_linear = true;
-  options.edge_samples = 0;
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  render_frame(world, view, 1.0, options, workspace, target, workers);
-  return target.linear;
-}
-
+// Linear light of pixels' middles alone.
 FrameOptions without(PartSet parts) {
-  FrameOptions options;
-  options.without = parts;
-  return options;
+  return {.keep_linear = true, .edge_samples = 0, .without = parts};
 }
 
-float green(const std::vector<float>& linear, int x, int y) {
-  return linear[3 * (static_cast<std::size_t>(y) * kSize_px + x) + 1];
+// The place on the water that the middle of a pixel of a picture without waves shows.
+glm::dvec2 place_at(const View& view, int x, int y) {
+  const glm::dvec3 ray(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+  return glm::dvec2(view.eye_world - ray * (view.eye_world.z / ray.z));
+}
+
+// How much less green light a pixel has in the shade.
+float taken(const Shot& lit, const Shot& shaded, int x, int y) {
+  return lit.linear(x, y).y - shaded.linear(x, y).y;
 }
 
 // A flat sea under an object of a kind, where all of a picture's points can be worked out.
@@ -95,23 +90,21 @@ TEST_P(ObjectShadow, LiesWhereRaysToTheSunMeetTheObject) {
     const OneObject one(GetParam(), elevation_deg);
     const World world(one.scene);
     const View view = from_above({6.0, 4.5}, 26.0);
-    const auto hulls = without({Part::kHulls});
-    const std::vector<float> shaded = draw(world, view, hulls);
-    const std::vector<float> lit = draw(world, view, without({Part::kHulls, Part::kShadows}));
+    const Shot shaded(world, view, 1.0, without({Part::kHulls}));
+    const Shot lit(world, view, 1.0, without({Part::kHulls, Part::kShadows}));
     // What the whole shadow takes away.
     float most = 0.0f;
-    for (std::size_t i = 0; i < lit.size(); i += 3)
-      most = std::max(most, lit[i + 1] - shaded[i + 1]);
+    for (int y = 0; y < kSize_px; ++y)
+      for (int x = 0; x < kSize_px; ++x) most = std::max(most, taken(lit, shaded, x, y));
     ASSERT_GT(most, 1e-4f);
     int in_shadow = 0, in_sun = 0, wrong = 0;
     for (int y = 0; y < kSize_px; y += 2) {
       for (int x = 0; x < kSize_px; x += 2) {
-        const glm::dvec3 ray(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-        const glm::dvec3 p = view.eye_world - ray * (view.eye_world.z / ray.z);
+        const glm::dvec2 p = place_at(view, x, y);
         // The object itself, and what is seen through it, is not the water's.
-        if (glm::length(glm::dvec2(p)) < 3.4) continue;
-        const double hidden = one.hidden({glm::dvec2(p), 0.0});
-        const double got = static_cast<double>((green(lit, x, y) - green(shaded, x, y)) / most);
+        if (glm::length(p) < 3.4) continue;
+        const double hidden = one.hidden({p, 0.0});
+        const double got = static_cast<double>(taken(lit, shaded, x, y) / most);
         in_shadow += hidden == 1.0;
         in_sun += hidden == 0.0;
         wrong += (hidden == 0.0 && got > 0.02) || (hidden == 1.0 && got < 0.9);
@@ -129,19 +122,17 @@ TEST_P(ObjectShadow, DoesNotCrawlWithTheCamera) {
   constexpr double kSide_m = 26.0, kPixel_m = kSide_m / kSize_px;
   const OneObject one(GetParam(), 25.0);
   const World world(one.scene);
-  const auto hulls = without({Part::kHulls}), unshaded = without({Part::kHulls, Part::kShadows});
   const auto shadow_from = [&](glm::dvec2 middle) {
     const View view = from_above(middle, kSide_m);
-    const std::vector<float> shaded = draw(world, view, hulls), lit = draw(world, view, unshaded);
+    const Shot shaded(world, view, 1.0, without({Part::kHulls}));
+    const Shot lit(world, view, 1.0, without({Part::kHulls, Part::kShadows}));
     glm::dvec3 sum(0.0);  // middle times weight, weight
     for (int y = 0; y < kSize_px; ++y)
       for (int x = 0; x < kSize_px; ++x) {
-        const glm::dvec3 ray(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-        const glm::dvec2 p(view.eye_world - ray * (view.eye_world.z / ray.z));
+        const glm::dvec2 p = place_at(view, x, y);
         // Not the object itself, nor what is seen through it; without an edge.
         const double beside = std::clamp(glm::length(p) - 3.4, 0.0, 1.0);
-        sum += beside * static_cast<double>(green(lit, x, y) - green(shaded, x, y)) *
-               glm::dvec3(p, 1.0);
+        sum += beside * static_cast<double>(taken(lit, shaded, x, y)) * glm::dvec3(p, 1.0);
       }
     return glm::dvec3(glm::dvec2(sum) / sum.z, sum.z);
   };
@@ -163,13 +154,13 @@ TEST(SunShadow, FallsIntoThePictureFromOutside) {
   const World world(scene);
   // 6.4 m above the water: 17.6 m of shadow, as far as y = 9.6.
   const View view = make_view({0.0, 0.0, 6.0}, 0.0, -0.6, 0.7, 0.25f, kSize_px, kSize_px);
-  const std::vector<float> shaded = draw(world, view, without({Part::kHulls}));
-  const std::vector<float> lit = draw(world, view, without({Part::kHulls, Part::kShadows}));
+  const Shot shaded(world, view, 1.0, without({Part::kHulls}));
+  const Shot lit(world, view, 1.0, without({Part::kHulls, Part::kShadows}));
   const auto taken_at = [&](double x_m, double y_m) {
     const glm::vec4 clip = view.clip_from_rel * glm::vec4(x_m, y_m, -6.0, 1.0);
     const int x = static_cast<int>((0.5f + 0.5f * clip.x / clip.w) * kSize_px);
     const int y = static_cast<int>((0.5f - 0.5f * clip.y / clip.w) * kSize_px);
-    return green(lit, x, y) - green(shaded, x, y);
+    return taken(lit, shaded, x, y);
   };
   EXPECT_GT(taken_at(0.0, 7.0), 1e-3f);
   EXPECT_GT(taken_at(2.0, 8.5), 1e-3f);
@@ -189,21 +180,20 @@ scene::Scene sea_behind_island(double elevation_deg) {
   return scene;
 }
 
-float brightest(const std::vector<float>& linear) {
-  float most = 0.0f;
-  for (std::size_t i = 1; i < linear.size(); i += 3) most = std::max(most, linear[i]);
-  return most;
+float brightest(const World& world, const View& view, PartSet parts) {
+  return std::ranges::max(green_light(Shot(world, view, 1.0, without(parts)).target));
 }
 
 // The picture shows water alone, looking down: the island is above its upper edge.
 TEST(SunShadow, OfAnIslandOutsideThePictureTakesTheGlintAway) {
   const View view = make_view({0.0, -210.0, 12.0}, 0.0, -0.3, 0.24, 0.25f, kSize_px, kSize_px);
   const World low(sea_behind_island(10.0)), high(sea_behind_island(35.0));
-  EXPECT_GT(brightest(draw(low, view, without({Part::kShadows}))), 1.0f);
-  EXPECT_LT(brightest(draw(low, view)), 0.3f);
+  EXPECT_GT(brightest(low, view, {Part::kShadows}), 1.0f);
+  EXPECT_LT(brightest(low, view, {}), 0.3f);
   // A sun that stands over the island is as bright as without it.
   const View down = make_view({0.0, -210.0, 12.0}, 0.0, -0.6, 0.24, 0.25f, kSize_px, kSize_px);
-  EXPECT_EQ(draw(high, down), draw(high, down, without({Part::kShadows})));
+  EXPECT_EQ(Shot(high, down, 1.0, without({})).target.linear,
+            Shot(high, down, 1.0, without({Part::kShadows})).target.linear);
 }
 
 TEST(SunShadow, IsTheSamePictureOnTilesOfAnySize) {
@@ -220,11 +210,12 @@ TEST(SunShadow, IsTheSamePictureOnTilesOfAnySize) {
   const View near = make_view({0.0, -190.0, 9.0}, 0.1, -0.15, 0.9, 0.25f, 160, 90);
   const View far = make_view({0.0, -190.0, 90.0}, 0.1, -0.01, 0.02, 0.25f, 160, 90);
   for (const View& view : {near, far}) {
-    const std::vector<float> expected = draw(world, view);
+    const Shot expected(world, view, 1.0, without({}));
     for (const int tile_size_px : {16, 32}) {
-      FrameOptions options;
+      FrameOptions options = without({});
       options.tile_size_px = tile_size_px;
-      EXPECT_EQ(draw(world, view, options), expected) << tile_size_px;
+      EXPECT_EQ(Shot(world, view, 1.0, options).target.linear, expected.target.linear)
+          << tile_size_px;
     }
   }
 }
@@ -240,15 +231,15 @@ TEST(Hull, DarkensAndFoamsTheWaterAtItsWaterline) {
   scene.objects[0].colour = glm::vec3(0.0f);
   const View view = from_above({0.0, 0.0}, 40.0);
   const auto mean_at = [&](const World& world, double low_m, double high_m) {
-    const std::vector<float> with = draw(world, view),
-                             bare = draw(world, view, without({Part::kHulls}));
+    const Shot with(world, view, 1.0, without({}));
+    const Shot bare(world, view, 1.0, without({Part::kHulls}));
     double sum = 0.0, n = 0.0;
     for (int y = 0; y < kSize_px; ++y)
       for (int x = 0; x < kSize_px; ++x) {
         const double px_m = 40.0 / kSize_px, mid = 0.5 * (kSize_px - 1);
         const double away = std::max(std::abs(x - mid), std::abs(y - mid)) * px_m - 2.5;
         if (away < low_m || away > high_m) continue;
-        sum += static_cast<double>(green(with, x, y) - green(bare, x, y));
+        sum += static_cast<double>((with.linear(x, y) - bare.linear(x, y)).y);
         ++n;
       }
     return sum / n;
@@ -272,14 +263,15 @@ TEST(Gloss, HasNoEdge) {
   scene.objects[0].colour = glm::vec3(0.0f);
   const World world(scene);
   const View view = make_view({0.0, 0.0, 4.5}, 0.0, -0.45, 0.5, 0.25f, kSize_px, kSize_px);
-  const std::vector<float> linear = draw(world, view);
+  const Shot shot(world, view, 1.0, without({}));
+  const auto green = [&](int x, int y) { return shot.linear(x, y).y; };
   // The rim is brighter than the middle, by Fresnel: in steps that are small against the whole.
   float widest = 0.0f, step = 0.0f;
   for (int y = 30; y < 66; ++y)
     for (int x = 30; x < 65; ++x) {
-      step = std::max(step, std::abs(green(linear, x + 1, y) - green(linear, x, y)));
-      step = std::max(step, std::abs(green(linear, x, y + 1) - green(linear, x, y)));
-      widest = std::max(widest, green(linear, x, y));
+      step = std::max(step, std::abs(green(x + 1, y) - green(x, y)));
+      step = std::max(step, std::abs(green(x, y + 1) - green(x, y)));
+      widest = std::max(widest, green(x, y));
     }
   EXPECT_GT(widest, 0.01f);
   EXPECT_LT(step, 0.1f * widest);

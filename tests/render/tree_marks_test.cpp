@@ -121,11 +121,8 @@ double smooth_part(const World& world) {
   constexpr int kWide = 200, kHigh = 120;
   EdgeRenderer renderer(world);
   renderer.draw(make_view(world.scene().camera.eye_m, 0.0, -0.33, 0.22, 0.25f, kWide, kHigh), 4);
-  const std::vector<Centre> centres = renderer.centres();
   const auto of_pixel = renderer.fragments();
-  const auto kind_at = [&](int x, int y) {
-    return renderer.kind_of(centres[static_cast<std::size_t>(y) * kWide + x].primitive);
-  };
+  const auto kind_at = [&](int x, int y) { return renderer.kind_of(renderer.primitive(x, y)); };
   const int land = 1 + static_cast<int>(SurfaceKind::kTerrain);
   const int trees = 1 + static_cast<int>(SurfaceKind::kTrees);
   int meet = 0, smooth = 0;
@@ -133,7 +130,7 @@ double smooth_part(const World& world) {
     for (int x = 0; x + 1 < kWide; ++x) {
       const std::set<int> kinds = {kind_at(x, y), kind_at(x + 1, y)};
       if (kinds != std::set<int>{land, trees}) continue;
-      const std::size_t at = static_cast<std::size_t>(y) * kWide + x;
+      const std::size_t at = renderer.at(x, y);
       ++meet;
       smooth += !of_pixel[at].empty() || !of_pixel[at + 1].empty();
     }
