@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "render/linear_renderer.h"
-#include "scene/sky.h"
 
 namespace swell::render {
 namespace {
@@ -14,16 +13,12 @@ using scene::radians;
 
 constexpr int kWidth_px = 70, kHeight_px = 90;  // tiles that are cut, too
 
-struct Looking {
-  double height_m, pitch_deg;
-};
-
 TEST(AirOverATile, IsThatOfItsPixels) {
   scene::Scene scene = calm_scene(35.0, 0.0, 200.0);
   scene.detail.water_triangles = 500;
   LinearRenderer renderer(scene);
-  for (const auto [height_m, pitch_deg] : {Looking{60.0, -6.0}, Looking{1500.0, -7.0},
-                                           Looking{1500.0, -50.0}, Looking{9000.0, -9.0}}) {
+  for (const auto& [height_m, pitch_deg] :
+       {std::pair(60.0, -6.0), {1500.0, -7.0}, {1500.0, -50.0}, {9000.0, -9.0}}) {
     const auto draw = [&](double pixel_rad) {
       renderer.draw_view(make_view({0.0, 0.0, height_m}, 0.0, radians(pitch_deg),
                                    pixel_rad * kHeight_px, 0.25f, kWidth_px, kHeight_px),

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "math/elementary.h"
-#include "render/drawn_shots.h"
 #include "render/linear_renderer.h"
+#include "render/measures.h"
 #include "render/world/world_state.h"
 #include "scene/sky.h"
 
@@ -23,25 +23,20 @@ constexpr std::array kHeights_m = {1500.0, 10000.0, 40000.0};
 
 double dip(double height_m) { return std::sqrt(2.0 * height_m / kRadius_m); }  // its tangent
 
-float luminance(glm::vec3 rgb) { return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
-
-// Northwards.
-struct Eye {
-  double height_m, pitch_rad, fov_rad;
-};
-
 struct Renderer : LinearRenderer {
   using LinearRenderer::LinearRenderer;
 
-  void draw(const Eye& eye) {
-    draw_view(make_view({0.0, 0.0, eye.height_m}, 0.0, eye.pitch_rad, eye.fov_rad, 0.25f, kWidth_px,
-                        kHeight_px),
-              5.0);
+  // Northwards.
+  void draw(double height_m, double pitch_rad, double fov_rad, PartSet without = {}) {
+    options.without = without;
+    draw_view(
+        make_view({0.0, 0.0, height_m}, 0.0, pitch_rad, fov_rad, 0.25f, kWidth_px, kHeight_px),
+        5.0);
   }
   // The mean over a row.
   glm::vec3 row(int y) const {
     glm::vec3 sum(0.0f);
-    for (int x = 0; x < kWidth_px; ++x) sum += at(x, y);
+    for (int x = 0; x < kWidth_px; ++x) sum += linear(x, y);
     return sum / static_cast<float>(kWidth_px);
   }
   double sine(int y) const {
@@ -51,10 +46,7 @@ struct Renderer : LinearRenderer {
   glm::vec3 mean_code(int begin, int end) const {
     glm::vec3 sum(0.0f);
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < kWidth_px; ++x) {
-        const std::uint32_t p = target.rgba[static_cast<std::size_t>(y * kWidth_px + x)];
-        sum += glm::vec3(p & 255, p >> 8 & 255, p >> 16 & 255);
-      }
+      for (int x = 0; x < kWidth_px; ++x) sum += glm::vec3(codes(x, y));
     return sum / static_cast<float>((end - begin) * kWidth_px);
   }
 };
@@ -67,13 +59,12 @@ TEST(Altitude, ShowsTheModelsSkyAtItsHeight) {
         scene::make_sky_light(renderer.world.scene().sky, renderer.workers);
     for (const double height_m : {450.0, 2200.0, 7500.0, 13000.0, 33000.0, 48000.0}) {
       const scene::SkyLight light = sky_light_aloft(sea_level, height_m, renderer.workers);
-      renderer.draw({height_m, radians(40.0), radians(80.0)});
+      renderer.draw(height_m, radians(40.0), radians(80.0));
       for (int y = 0; y < kHeight_px; y += 3) {
         if (renderer.sine(y) < 0.05) continue;  // where it changes from pixel to pixel
-        const glm::vec3 d = glm::normalize(renderer.view.ray(10.5f, static_cast<float>(y) + 0.5f));
-        const glm::vec3 expected = clear_radiance(light, d);
+        const glm::vec3 expected = clear_radiance(light, renderer.direction(10, y));
         for (int c = 0; c < 3; ++c)
-          EXPECT_NEAR(renderer.at(10, y)[c], expected[c], 0.06f * expected[c] + 1e-4f)
+          EXPECT_NEAR(renderer.linear(10, y)[c], expected[c], 0.06f * expected[c] + 1e-4f)
               << sun_deg << " " << height_m << " " << y;
       }
     }
@@ -85,7 +76,7 @@ TEST(Altitude, ShowsTheModelsSkyAtItsHeight) {
 TEST(Altitude, TheBrightBandLiesAtTheDippedHorizon) {
   for (const double height_m : kHeights_m) {
     Renderer renderer(calm_scene(40.0, 0.0));
-    renderer.draw({height_m, -dip(height_m), radians(12.0)});
+    renderer.draw(height_m, -dip(height_m), radians(12.0));
     int first_sea = 0;
     while (first_sea < kHeight_px && renderer.sine(first_sea) > -dip(height_m)) ++first_sea;
     ASSERT_GT(first_sea, 50) << height_m;
@@ -109,13 +100,11 @@ TEST(Altitude, TheBrightBandLiesAtTheDippedHorizon) {
 TEST(Altitude, TheSunsDiscIsWholeDownToTheDip) {
   for (const auto& [height_m, sun_deg] : {std::pair(10000.0, -1.5), std::pair(40000.0, -5.0)}) {
     Renderer renderer(calm_scene(sun_deg, 0.0, 0.0));
-    renderer.draw({height_m, radians(sun_deg), radians(2.0)});
-    float brightest = 0.0f;
-    for (int y = 0; y < kHeight_px; ++y)
-      for (int x = 0; x < kWidth_px; ++x) brightest = std::max(brightest, renderer.at(x, y).y);
-    int bright = 0;
-    for (int y = 0; y < kHeight_px; ++y)
-      for (int x = 0; x < kWidth_px; ++x) bright += renderer.at(x, y).y > 0.5f * brightest;
+    renderer.draw(height_m, radians(sun_deg), radians(2.0));
+    const std::vector<float> green = green_light(renderer.target);
+    const float half = 0.5f * std::ranges::max(green);
+    const auto bright =
+        static_cast<double>(std::ranges::count_if(green, [&](float g) { return g > half; }));
     const double radius_px = 0.004654 * kHeight_px / (2.0 * renderer.view.tan_half_y);
     EXPECT_NEAR(bright / (kPi * radius_px * radius_px), 1.0, 0.1) << height_m;
   }
@@ -128,8 +117,7 @@ TEST(Altitude, AirBelowIsABlueVeil) {
   Renderer renderer(scene);
   for (const double height_m : {10000.0, 40000.0}) {
     const auto middle = [&](PartSet without, double pitch_deg) {
-      renderer.options.without = without;
-      renderer.draw({height_m, radians(pitch_deg), radians(4.0)});
+      renderer.draw(height_m, radians(pitch_deg), radians(4.0), without);
       return renderer.row(kHeight_px / 2);
     };
     const glm::vec3 veil = middle({}, -89.0) - middle({Part::kHaze}, -89.0);
@@ -145,19 +133,17 @@ TEST(Altitude, CloudsLieBelowAnEyeAboveThem) {
   Renderer renderer(calm_scene(40.0, 0.5));
   for (const double height_m : {6000.0, 10000.0, 40000.0}) {
     const double clouds_dip = dip(height_m - scene::kCloudHeight_m);
-    renderer.options.without = {};
-    renderer.draw({height_m, -clouds_dip - 0.1, radians(40.0)});
-    const std::vector<float> with = renderer.target.linear;
-    renderer.options.without = {Part::kClouds};
-    renderer.draw({height_m, -clouds_dip - 0.1, radians(40.0)});
+    const auto green_without = [&](PartSet without) {
+      renderer.draw(height_m, -clouds_dip - 0.1, radians(40.0), without);
+      return green_light(renderer.target);
+    };
+    const std::vector<float> clouds = green_without({}), clear = green_without({Part::kClouds});
     int changed = 0;
     for (int y = 0; y < kHeight_px; ++y)
       for (int x = 0; x < kWidth_px; ++x) {
-        const float* p = with.data() + 3 * (y * kWidth_px + x);
-        const bool is_changed = std::abs(p[1] - renderer.at(x, y).y) > 0.02f * p[1];
-        const glm::vec3 ray = glm::normalize(
-            renderer.view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-        if (ray.z > -clouds_dip + 0.002) {
+        const std::size_t i = renderer.at(x, y);
+        const bool is_changed = std::abs(clouds[i] - clear[i]) > 0.02f * clouds[i];
+        if (renderer.direction(x, y).z > -clouds_dip + 0.002) {
           EXPECT_FALSE(is_changed) << height_m << " " << x << " " << y;
         }
         changed += is_changed;
@@ -173,7 +159,7 @@ TEST(Altitude, RisesWithoutAJump) {
   for (const double cloud_cover : {0.4, 1.0}) {
     Renderer renderer(calm_scene(30.0, cloud_cover));
     const auto bands_at = [&](double height_m) {
-      renderer.draw({height_m, -0.1, radians(60.0)});
+      renderer.draw(height_m, -0.1, radians(60.0));
       std::array<glm::vec3, 8> bands;
       for (int i = 0; i < 8; ++i) bands[i] = renderer.mean_code(i * kRows, (i + 1) * kRows);
       return bands;
@@ -191,8 +177,7 @@ TEST(Altitude, RisesWithoutAJump) {
 TEST(Altitude, CanBeLeftOut) {
   Renderer renderer(calm_scene(40.0, 0.0));
   const auto zenith = [&](double height_m, PartSet without) {
-    renderer.options.without = without;
-    renderer.draw({height_m, radians(80.0), radians(10.0)});
+    renderer.draw(height_m, radians(80.0), radians(10.0), without);
     return luminance(renderer.row(5));
   };
   const float sea_level = zenith(5.0, {Part::kAltitude});

@@ -1,13 +1,10 @@
 // A sea without wind mirrors the sky as it is, and the shapes of the clouds.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "math/elementary.h"
 #include "render/linear_renderer.h"
-#include "render/workspace.h"
 
 namespace swell::render {
 namespace {
@@ -15,8 +12,8 @@ namespace {
 constexpr int kSize_px = 160;
 constexpr double kEye_m = 2.0, kFov_deg = 40.0;
 
-scene::Scene calm_clouds(double wind_mps) {
-  scene::Scene scene = calm_scene(35.0, 0.5, 180.0);
+scene::Scene sea_of(double wind_mps, double sun_deg, double cloud_cover, double azimuth_deg) {
+  scene::Scene scene = calm_scene(sun_deg, cloud_cover, azimuth_deg);
   scene.sea.spectrum = true;
   scene.sea.wind_speed_mps = wind_mps;
   scene.sea.resolution = 32;
@@ -25,7 +22,7 @@ scene::Scene calm_clouds(double wind_mps) {
 
 // Along the water, northwards: the sun is behind the eye.
 struct CalmPicture : LinearRenderer {
-  explicit CalmPicture(double wind_mps) : CalmPicture(calm_clouds(wind_mps)) {}
+  explicit CalmPicture(double wind_mps) : CalmPicture(sea_of(wind_mps, 35.0, 0.5, 180.0)) {}
   explicit CalmPicture(const scene::Scene& scene, PartSet without = {}) : LinearRenderer(scene) {
     options.without = without;
     draw_view(make_view({0.0, 0.0, kEye_m}, 0.0, 0.0, scene::radians(kFov_deg), 0.25f, kSize_px,
@@ -38,7 +35,7 @@ struct CalmPicture : LinearRenderer {
 std::vector<double> row_of(const LinearRenderer& picture, int over_px) {
   std::vector<double> row(kSize_px);
   const int y = over_px > 0 ? kSize_px / 2 - over_px : kSize_px / 2 - 1 - over_px;
-  for (int x = 0; x < kSize_px; ++x) row[static_cast<std::size_t>(x)] = double{picture.at(x, y).y};
+  for (int x = 0; x < kSize_px; ++x) row[static_cast<std::size_t>(x)] = picture.linear(x, y).y;
   return row;
 }
 
@@ -76,28 +73,20 @@ TEST(CalmMirror, IsTheSkyTurnedOver) {
   }
 }
 
-// A clear sky and a low sun ahead, over water without light of its own.
-scene::Scene low_sun(double elevation_deg) {
-  scene::Scene scene = calm_scene(elevation_deg, 0.0, 0.0);
-  scene.sea.spectrum = true;
-  scene.sea.wind_speed_mps = 0.0;
-  scene.sea.resolution = 32;
-  scene.water.body_colour = glm::vec3(0.0f);
-  return scene;
-}
-
-// Beside the sun's disc, whose own image is wider, the sky falls to half within a degree or two.
+// A clear sky and a low sun ahead, over water without light of its own. Beside the sun's disc,
+// whose own image is wider, the sky falls to half within a degree or two.
 TEST(CalmMirror, IsAsSharpAsTheSkyUnderALowSun) {
   constexpr float kBesideTheDisc = 0.9976f;  // cosine of 4 degrees
   for (const double elevation_deg : {1.0, 4.0, 10.0}) {
-    const scene::Scene scene = low_sun(elevation_deg);
+    scene::Scene scene = sea_of(0.0, elevation_deg, 0.0, 0.0);
+    scene.water.body_colour = glm::vec3(0.0f);
     const CalmPicture picture(scene, {Part::kHaze});
     for (int over_px = 6; over_px <= 72; over_px += 6)
       for (int x = 0; x < kSize_px; x += 4) {
         const glm::vec3 up = picture.direction(x, kSize_px / 2 - over_px);
         if (glm::dot(up, scene.sky.sun_direction) > kBesideTheDisc) continue;
-        const double sky = double{picture.at(x, kSize_px / 2 - over_px).y};
-        const double water = double{picture.at(x, kSize_px / 2 - 1 + over_px).y};
+        const double sky = double{picture.linear(x, kSize_px / 2 - over_px).y};
+        const double water = double{picture.linear(x, kSize_px / 2 - 1 + over_px).y};
         EXPECT_NEAR(water / (sky * fresnel(double{up.z})), 1.0, 0.03)
             << elevation_deg << " " << over_px << " " << x;
       }

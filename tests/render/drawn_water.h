@@ -1,8 +1,7 @@
 // The sea on a flat mesh, so that waves show in the shading only, for tests of what is shaded.
 #pragma once
 
-#include "render/frame.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -16,18 +15,14 @@ inline scene::Scene shading_scene(double eye_z_m) {
   return scene;
 }
 
-// A small frame. The world it was drawn from has to outlive it.
-struct DrawnWater {
-  Workspace workspace;
-  Target target;
-  const Shading& shading() const { return workspace.state().shading; }
+// A small frame, on one thread.
+struct DrawnWater : Shot {
+  DrawnWater() : Shot(1) {}
+  DrawnWater(const World& world, double t_s) : DrawnWater() { draw_small(world, t_s); }
+  void draw_small(const World& world, double t_s) { draw(world, view_of(world, t_s, 64, 48), t_s); }
+
+  const Shading& shading() const { return state().shading; }
   const Water& water() const { return shading().material<Water>(); }
 };
-
-inline void draw(const World& world, double t_s, DrawnWater& drawn) {
-  Workers workers(1);
-  const View view = scene::camera_view(world.scene().camera, t_s, 64, 48);
-  render_frame(world, view, t_s, {}, drawn.workspace, drawn.target, workers);
-}
 
 }  // namespace swell::render

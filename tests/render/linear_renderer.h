@@ -1,9 +1,7 @@
 // Linear pictures of one world, one after the other, for tests.
 #pragma once
 
-#include <glm/glm.hpp>
-
-#include "render/frame.h"
+#include "render/shot.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
 
@@ -24,30 +22,13 @@ inline scene::Scene calm_scene(double sun_deg, double cloud_cover, double azimut
   return scene;
 }
 
-struct LinearRenderer {
-  explicit LinearRenderer(const scene::Scene& scene) : world(scene, 2) {
-    options.keep_linear = true;
-  }
+struct LinearRenderer : Shot {
+  explicit LinearRenderer(const scene::Scene& scene) : world(scene, 2) {}
 
-  void draw_view(const View& seen, double t_s) {
-    view = seen;
-    render_frame(world, view, t_s, options, workspace, target, workers);
-  }
-  glm::vec3 at(int x, int y) const {
-    const float* p = target.linear.data() + 3 * (y * view.width_px + x);
-    return {p[0], p[1], p[2]};
-  }
-  // Of the middle of a pixel's ray, of length 1.
-  glm::vec3 direction(int x, int y) const {
-    return glm::normalize(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-  }
+  void draw_view(const View& seen, double t_s) { draw(world, seen, t_s, options); }
 
   World world;
-  Workers workers{2};
-  FrameOptions options;
-  Workspace workspace;
-  Target target;
-  View view;
+  FrameOptions options = {.keep_linear = true};
 };
 
 }  // namespace swell::render

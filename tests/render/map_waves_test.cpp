@@ -30,9 +30,8 @@ std::array<int, 4> bytes_of(std::uint64_t quad, int channel) {
 // bits as four texels one by one, over the seam as well; and they are the map's slopes.
 TEST(MapWaves, OneWordHasAllThatABilinearSampleNeeds) {
   const World world(lake_scene());
-  DrawnWater drawn;
-  draw(world, 3.0, drawn);
-  const ocean::SeaFrame& frame = drawn.workspace.state().sea.frame;
+  const DrawnWater drawn(world, 3.0);
+  const ocean::SeaFrame& frame = drawn.state().sea.frame;
   ASSERT_EQ(frame.patches.size(), 7u);
   for (std::size_t layer = 0; layer < frame.patches.size(); ++layer) {
     const texture::PackedMap2& map = *drawn.water().layers[layer].map;
@@ -66,25 +65,19 @@ TEST(MapWaves, CanBeLeftOut) {
   scene::Scene scene = lake_scene();
   scene.detail.triangulation = scene::Triangulation::kRoam;
   const World world(scene);
-  Workers workers(1);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.without.add(Part::kMaps);
-  const View view = scene::camera_view(scene.camera, 3.0, 64, 48);
-  render_frame(world, view, 3.0, options, workspace, target, workers);
-  EXPECT_TRUE(workspace.state().sea.frame.patches.empty());
-  EXPECT_TRUE(std::ranges::all_of(workspace.state().meshes.water.height_m,
+  DrawnWater drawn;
+  drawn.draw(world, view_of(world, 3.0, 64, 48), 3.0, {.without = {Part::kMaps}});
+  EXPECT_TRUE(drawn.state().sea.frame.patches.empty());
+  EXPECT_TRUE(std::ranges::all_of(drawn.state().meshes.water.height_m,
                                   [](float height_m) { return height_m == 0.0f; }));
-  render_frame(world, view, 3.0, {}, workspace, target, workers);
-  EXPECT_EQ(workspace.state().sea.frame.patches.size(), 7u);
+  drawn.draw_small(world, 3.0);
+  EXPECT_EQ(drawn.state().sea.frame.patches.size(), 7u);
 }
 
 // What the eye sees of slopes is on the whole what a wind raises, maps and ripples together.
 TEST(MapWaves, RipplesFillWhatTheMapsLeaveOfTheWindsSlopes) {
   const World world(lake_scene());
-  DrawnWater drawn;
-  draw(world, 0.0, drawn);
+  const DrawnWater drawn(world, 0.0);
   double variance = drawn.water().base_variance;
   for (int i = 0; i < drawn.water().layer_count; ++i) {
     const SlopeLayer& layer = drawn.water().layers[static_cast<std::size_t>(i)];

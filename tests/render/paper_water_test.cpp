@@ -9,6 +9,7 @@
 
 #include "math/simd_target.h"
 #include "render/drawn_water.h"
+#include "render/measures.h"
 #include "scene/sky.h"
 #include "texture/image_io.h"
 
@@ -33,13 +34,13 @@ scene::Scene sea_of_ripples(double loop_s) {
 TEST(RippleSequence, LoopsBitForBit) {
   for (const double loop_s : {3.7, 4.0}) {
     const World world(sea_of_ripples(loop_s));
-    DrawnWater first, again;
-    draw(world, 0.3, first);
+    const DrawnWater first(world, 0.3);
+    DrawnWater again;
     for (const double loops : {1.0, 2.0, -1.0, 1000.0}) {
-      draw(world, 0.3 + loops * loop_s, again);
+      again.draw_small(world, 0.3 + loops * loop_s);
       EXPECT_EQ(again.target.rgba, first.target.rgba) << loop_s << " " << loops;
     }
-    draw(world, 0.3 + 0.4 * loop_s, again);
+    again.draw_small(world, 0.3 + 0.4 * loop_s);
     EXPECT_NE(again.target.rgba, first.target.rgba) << loop_s;
   }
 }
@@ -58,8 +59,7 @@ TEST(RippleSequence, FitsIntoTheLoopOfTheSea) {
 // Slope variance of the ripples, both axes together.
 double ripple_variance(const scene::Scene& scene) {
   const World world(scene);
-  DrawnWater drawn;
-  draw(world, 1.02, drawn);  // between two frames
+  const DrawnWater drawn(world, 1.02);  // between two frames
   const Water& water = drawn.water();
   double variance = 0.0;
   for (int i = water.first_ripples; i < water.layer_count; ++i) {
@@ -98,32 +98,20 @@ scene::Scene glitter_scene(double wind_mps, double elevation_deg, double azimuth
   scene.sky.cloud_cover = 0.0;
   scene.water.body_colour = glm::vec3(0.0f);
   const double far_m = 10.0 + 3.0 * kGlitterEye_m / std::tan(scene.sky.sun_elevation_rad);
-  scene::FloatingObject wall;
-  wall.kind = scene::ObjectKind::kBox;
-  wall.position_m =
-      far_m * glm::dvec2(std::sin(scene.sky.sun_azimuth_rad), std::cos(scene.sky.sun_azimuth_rad));
-  wall.heading_rad = scene.sky.sun_azimuth_rad;
-  wall.size_m = {500.0, 10.0, 500.0};
-  wall.draught = 0.5;
-  scene.objects = {wall};
+  scene.objects = {{.kind = scene::ObjectKind::kBox,
+                    .position_m = far_m * glm::dvec2(std::sin(scene.sky.sun_azimuth_rad),
+                                                     std::cos(scene.sky.sun_azimuth_rad)),
+                    .size_m = {500.0, 10.0, 500.0},
+                    .heading_rad = scene.sky.sun_azimuth_rad,
+                    .draught = 0.5}};
   return scene;
 }
 
 constexpr glm::ivec2 kSize_px(200, 160);
 
-// Green light.
-std::vector<float> draw(const World& world, const View& view, double t_s, PartSet without) {
-  FrameOptions options;
-  options.keep_linear = true;
-  options.without = without;
-  options.without.add({Part::kHaze, Part::kHulls, Part::kReflection});
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  render_frame(world, view, t_s, options, workspace, target, workers);
-  std::vector<float> green;
-  for (std::size_t i = 1; i < target.linear.size(); i += 3) green.push_back(target.linear[i]);
-  return green;
+std::vector<float> green_of(const World& world, const View& view, double t_s, PartSet without) {
+  without.add({Part::kHaze, Part::kHulls, Part::kReflection});
+  return green_light(Shot(world, view, t_s, {.keep_linear = true, .without = without}).target);
 }
 
 // What the wall takes away: its sum and its middle, in pixels from the left and the top.
@@ -135,8 +123,8 @@ DrawnGlitter draw_glitter(const scene::Scene& scene, const View& view, int times
   const World world(scene);
   DrawnGlitter glitter;
   for (int n = 0; n < times; ++n) {
-    const std::vector<float> lit = draw(world, view, 3.0 * n, {Part::kShadows});
-    const std::vector<float> dark = draw(world, view, 3.0 * n, {});
+    const std::vector<float> lit = green_of(world, view, 3.0 * n, {Part::kShadows});
+    const std::vector<float> dark = green_of(world, view, 3.0 * n, {});
     for (int y = 0; y < kSize_px.y; ++y)
       for (int x = 0; x < kSize_px.x; ++x) {
         const auto i = static_cast<std::size_t>(y * kSize_px.x + x);
@@ -225,43 +213,32 @@ scene::Scene with_all() {
 
 View small_view() { return make_view({-15.0, -225.0, 2.2}, 0.05, -0.66, 0.96, 0.25f, 96, 64); }
 
-std::uint64_t hash_of(const World& world, const FrameOptions& options, int threads) {
-  Workers workers(threads);
-  Workspace workspace;
-  Target target;
-  render_frame(world, small_view(), 2.3, options, workspace, target, workers);
-  return picture_hash(target);
+std::uint64_t hash_of(const World& world, const FrameOptions& options, int threads = 2) {
+  return picture_hash(Shot(world, small_view(), 2.3, options, threads).target);
 }
 
 TEST(PaperWater, IsTheSamePictureHoweverItIsDrawn) {
   const World world(with_all());
   const std::uint64_t expected = hash_of(world, {}, 1);
-  FrameOptions options;
-  for (const int tile : {16, 32}) {
-    options.tile_size_px = tile;
-    EXPECT_EQ(hash_of(world, options, 3), expected) << tile;
-  }
+  for (const int tile : {16, 32})
+    EXPECT_EQ(hash_of(world, {.tile_size_px = tile}, 3), expected) << tile;
   if (!simd_target_available(SimdTarget::kAvx512)) return;
   select_simd_target(SimdTarget::kAvx2);
-  EXPECT_EQ(hash_of(world, {}, 2), expected);
+  EXPECT_EQ(hash_of(world, {}), expected);
   select_simd_target(SimdTarget::kAvx512);
 }
 
 TEST(PaperWater, PartsCanBeLeftOut) {
   const World world(with_all());
-  const std::uint64_t whole = hash_of(world, {}, 2);
-  for (const Part part : {Part::kSequence, Part::kSunSlide, Part::kCausticBend}) {
-    FrameOptions options;
-    options.without.add(part);
-    EXPECT_NE(hash_of(world, options, 2), whole) << part_name(part);
-  }
+  const std::uint64_t whole = hash_of(world, {});
+  for (const Part part : {Part::kSequence, Part::kSunSlide, Part::kCausticBend})
+    EXPECT_NE(hash_of(world, {.without = {part}}), whole) << part_name(part);
   scene::Scene plain = with_all();
   plain.ripples = {};
   plain.water.glitter = scene::Glitter::kSlopes;
   plain.water.caustic_distortion = 0.0;
-  FrameOptions without;
-  without.without = {Part::kSequence, Part::kSunSlide, Part::kCausticBend};
-  EXPECT_EQ(hash_of(world, without, 2), hash_of(World(plain, world, 1), {}, 2));
+  EXPECT_EQ(hash_of(world, {.without = {Part::kSequence, Part::kSunSlide, Part::kCausticBend}}),
+            hash_of(World(plain, world, 1), {}));
 }
 
 }  // namespace

@@ -25,22 +25,20 @@ TEST(Ripples, LoopWithTheSea) {
   const World like(shading_scene(kEye_m));
   for (const double loop_s : {1.0, 10.0, 7.25, 1200.0}) {
     const World world(looping_scene(loop_s), like, 1);
-    DrawnWater first, again;
-    draw(world, 0.125, first);
+    const DrawnWater first(world, 0.125);
+    DrawnWater again;
     for (const double loops : {1.0, 2.0, -1.0, 1e6}) {
-      draw(world, 0.125 + loops * loop_s, again);
+      again.draw_small(world, 0.125 + loops * loop_s);
       EXPECT_EQ(again.target.rgba, first.target.rgba) << loop_s << " " << loops;
     }
-    draw(world, 0.125 + 0.375 * loop_s, again);
+    again.draw_small(world, 0.125 + 0.375 * loop_s);
     EXPECT_NE(again.target.rgba, first.target.rgba) << loop_s;
   }
 }
 
 // How far a layer's map has drifted from the time 0 to t_s, in periods: the shorter way round.
 std::vector<glm::dvec2> drift_periods(const World& world, double t_s) {
-  DrawnWater before, after;
-  draw(world, 0.0, before);
-  draw(world, t_s, after);
+  const DrawnWater before(world, 0.0), after(world, t_s);
   std::vector<glm::dvec2> drift;
   for (int i = before.water().first_ripples; i < before.water().layer_count; ++i) {
     const SlopeLayer &from = before.water().layers[i], &to = after.water().layers[i];
@@ -90,9 +88,7 @@ double ripple_variance(double wind_mps) {
   scene::Scene scene = shading_scene(kEye_m);
   scene.sea.wind_speed_mps = wind_mps;
   const World world(scene);  // whose maps the drawn water refers to
-  DrawnWater drawn;
-  draw(world, 0.0, drawn);
-  return ripple_variance(drawn.water());
+  return ripple_variance(DrawnWater(world, 0.0).water());
 }
 
 TEST(Ripples, LeaveASeaWithoutWindAsGlass) {
@@ -119,10 +115,9 @@ TEST(Ripples, MakeUpWhatTheWavesLeaveOfTheSeasSlopes) {
     scene.sea.wind_speed_mps = wind;
     scene.sea.resolution = 128;
     const World world(scene);
-    DrawnWater drawn;
-    draw(world, 0.0, drawn);
+    const DrawnWater drawn(world, 0.0);
     double variance = ripple_variance(drawn.water());
-    for (const ocean::PatchFrame& patch : drawn.workspace.state().sea.frame.patches)
+    for (const ocean::PatchFrame& patch : drawn.state().sea.frame.patches)
       variance += static_cast<double>(patch.slope_variance);
     EXPECT_NEAR(variance, 0.003 + 0.00512 * wind, 0.004) << wind;
   }

@@ -21,8 +21,7 @@ struct SlopeVariance {
 // Of level water at about `distance_m` from eyes `eye_m` high, in all directions from some places.
 SlopeVariance variance_seen(const World& world, double eye_m, double distance_m) {
   constexpr int kPlaces = 12, kPoints = 1024;
-  Workers workers(2);
-  DrawnWater drawn;
+  Shot shot;
   std::vector<glm::vec3> p(kPoints);
   std::vector<SeenWater> seen(kPoints);
   SlopeVariance mean;
@@ -31,14 +30,14 @@ SlopeVariance variance_seen(const World& world, double eye_m, double distance_m)
       return random_uniform(41, static_cast<std::uint64_t>(4 * kPoints * place + i));
     };
     const glm::dvec3 eye(2e4 * dice(0), 2e4 * dice(1), eye_m);
-    const View view = make_view(eye, 0.0, -0.7, 0.9, 0.25f, 64, 48);
-    render_frame(world, view, 3.0, {}, drawn.workspace, drawn.target, workers);
+    shot.draw(world, make_view(eye, 0.0, -0.7, 0.9, 0.25f, 64, 48), 3.0);
     for (int i = 0; i < kPoints; ++i) {
       const double azimuth = 2.0 * kPi * dice(2 * i + 2);
       const double r = distance_m * (0.8 + 0.4 * dice(2 * i + 3));
       p[i] = {r * std::sin(azimuth), r * std::cos(azimuth), -eye_m};
     }
-    sample_water(drawn.water(), drawn.shading().rays, 1, p, seen);
+    const Shading& shading = shot.state().shading;
+    sample_water(shading.material<Water>(), shading.rays, 1, p, seen);
     for (const SeenWater& s : seen) {
       mean.resolved += static_cast<double>(glm::dot(s.slope, s.slope)) / (kPlaces * kPoints);
       mean.roughness += static_cast<double>(s.variance) / (kPlaces * kPoints);

@@ -6,7 +6,6 @@
 
 #include "math/elementary.h"
 #include "render/linear_renderer.h"
-#include "render/workspace.h"
 #include "scene/sky.h"
 
 namespace swell::render {
@@ -32,13 +31,16 @@ struct SkyRenderer : LinearRenderer {
   explicit SkyRenderer(const scene::Scene& scene) : LinearRenderer(scene) {
     options.without.add(Part::kStars);
   }
+  SkyRenderer(const scene::Scene& scene, double pitch_deg, double fov_deg) : SkyRenderer(scene) {
+    draw(pitch_deg, fov_deg);
+  }
 
   void draw(double pitch_deg, double fov_deg, double t_s = 0.0) {
     draw_view(make_view({0.0, 0.0, kEye_m}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f,
                         kSize_px, kSize_px),
               t_s);
   }
-  float brightest() const { return *std::ranges::max_element(target.linear); }
+  float brightest() const { return std::ranges::max(target.linear); }
 };
 
 template <class Visit>
@@ -51,53 +53,49 @@ void for_each_pixel(const Visit& visit) {
 TEST(SkyPicture, ShowsTheModelsLight) {
   for (const double elevation_deg : {70.0, 20.0, 3.0, -5.0, -14.0}) {
     const scene::Scene scene = sky_scene(elevation_deg, 0.0);
-    SkyRenderer sky(scene);
+    const SkyRenderer sky(scene, 50.0, 80.0);
     Workers workers(1);
     const scene::SkyLight light =
         sky_light_aloft(scene::make_sky_light(scene.sky, workers), kEye_m, workers);
-    sky.draw(50.0, 80.0);
-    const float exposure = sky.at(5, 60).y / clear_radiance(light, sky.direction(5, 60)).y;
+    const float exposure = sky.linear(5, 60).y / clear_radiance(light, sky.direction(5, 60)).y;
     for_each_pixel([&](int x, int y) {
       const glm::vec3 d = sky.direction(x, y);
       if (glm::distance(d, light.to_light) < 0.06f) return;  // the disc, and next to it
       const glm::vec3 expected = exposure * clear_radiance(light, d);
       for (int c = 0; c < 3; ++c)
-        ASSERT_NEAR(sky.at(x, y)[c], expected[c], 0.02f * expected[c] + 1e-4f)
+        ASSERT_NEAR(sky.linear(x, y)[c], expected[c], 0.02f * expected[c] + 1e-4f)
             << elevation_deg << " " << x << " " << y;
     });
   }
 }
 
 TEST(SkyPicture, DiscIsHalfADegreeAcross) {
-  SkyRenderer sky(sky_scene(30.0, 0.0));
-  sky.draw(30.0, 1.0);
+  const SkyRenderer sky(sky_scene(30.0, 0.0), 30.0, 1.0);
   const float half = 0.5f * sky.brightest();
   int bright = 0;
-  for_each_pixel([&](int x, int y) { bright += sky.at(x, y).y > half; });
+  for_each_pixel([&](int x, int y) { bright += sky.linear(x, y).y > half; });
   const double radius_px = 0.004654 * kSize_px / (2.0 * sky.view.tan_half_y);
   EXPECT_NEAR(bright / (kPi * radius_px * radius_px), 1.0, 0.03);
 }
 
 // Its radiance times the solid angle that it fills is the light that it gives.
 TEST(SkyPicture, DiscIsAsBrightAsItsLight) {
-  SkyRenderer sky(sky_scene(30.0, 0.0));
-  sky.draw(30.0, 1.0);
-  const Light& light = sky.workspace.state().shading.light;
+  const SkyRenderer sky(sky_scene(30.0, 0.0), 30.0, 1.0);
+  const Light& light = sky.state().shading.light;
   const float solid_angle = static_cast<float>(kPi) * 0.004654f * 0.004654f;
-  EXPECT_NEAR(sky.at(kSize_px / 2, kSize_px / 2).y * solid_angle / light.sun_irradiance.y, 1.0f,
+  EXPECT_NEAR(sky.linear(kSize_px / 2, kSize_px / 2).y * solid_angle / light.sun_irradiance.y, 1.0f,
               0.02f);
 }
 
 TEST(SkyPicture, OvercastHidesTheDiscAndTheBlue) {
-  SkyRenderer sky(sky_scene(40.0, 1.0));
-  sky.draw(40.0, 60.0);
-  const glm::vec3 middle = sky.at(10, 10);
+  const SkyRenderer sky(sky_scene(40.0, 1.0), 40.0, 60.0);
+  const glm::vec3 middle = sky.linear(10, 10);
   EXPECT_LT(sky.brightest(), 4.0f * middle.y);
   for_each_pixel([&](int x, int y) {
-    const glm::vec3 here = sky.at(x, y);
+    const glm::vec3 here = sky.linear(x, y);
     ASSERT_LT(here.z, 1.4f * here.x) << x << " " << y;
   });
-  EXPECT_LT(sky.workspace.state().shading.light.sun_irradiance.y, 1e-3f);
+  EXPECT_LT(sky.state().shading.light.sun_irradiance.y, 1e-3f);
 }
 
 TEST(SkyPicture, CloudsCoverWhatTheSceneSays) {
@@ -131,7 +129,8 @@ TEST(SkyPicture, CloudsAreSmoothAtEveryZoom) {
     sky.draw(35.0, fov_deg);
     for (int y = 0; y < kSize_px; ++y)
       for (int x = 1; x + 1 < kSize_px; ++x) {
-        const float bend = sky.at(x - 1, y).y - 2.0f * sky.at(x, y).y + sky.at(x + 1, y).y;
+        const float bend =
+            sky.linear(x - 1, y).y - 2.0f * sky.linear(x, y).y + sky.linear(x + 1, y).y;
         ASSERT_LT(std::abs(bend), 0.012f) << fov_deg << " " << x << " " << y;
       }
   }
@@ -141,11 +140,11 @@ TEST(SkyPicture, CloudsAreSmoothAtEveryZoom) {
 // than the eye would see.
 TEST(SkyPicture, DarkSkiesHaveNoBands) {
   for (const double elevation_deg : {-8.0, -13.0, -25.0}) {
-    SkyRenderer sky(sky_scene(elevation_deg, 0.0));
-    sky.draw(30.0, 20.0);
+    const SkyRenderer sky(sky_scene(elevation_deg, 0.0), 30.0, 20.0);
     for (int y = 2; y < kSize_px; ++y) {
-      const float before = sky.at(7, y - 1).y / sky.at(7, y - 2).y;
-      ASSERT_NEAR(sky.at(7, y).y / sky.at(7, y - 1).y, before, 0.004f) << elevation_deg << " " << y;
+      const float before = sky.linear(7, y - 1).y / sky.linear(7, y - 2).y;
+      ASSERT_NEAR(sky.linear(7, y).y / sky.linear(7, y - 1).y, before, 0.004f)
+          << elevation_deg << " " << y;
     }
   }
 }
@@ -156,7 +155,7 @@ TEST(SkyPicture, CloudsDriftWithTheWindAndInTheMirror) {
   SkyRenderer sky(scene);
   const auto soft_at = [&](double t_s) {
     sky.draw(30.0, 60.0, t_s);
-    return sky.workspace.state().shading.light.sky_soft->words;
+    return sky.state().shading.light.sky_soft->words;
   };
   const auto first = soft_at(0.0);
   const std::vector<float> picture = sky.target.linear;
@@ -179,22 +178,19 @@ TEST(SkyPicture, LoopsWithTheSea) {
 TEST(SkyPicture, AFixedExposureIsKept) {
   scene::Scene scene = sky_scene(50.0, 0.0);
   scene.sky.exposure = 0.5;
-  SkyRenderer sky(scene);
-  sky.draw(80.0, 20.0);
-  const float once = sky.at(40, 40).y;
+  const SkyRenderer sky(scene, 80.0, 20.0);
+  const float once = sky.linear(40, 40).y;
   scene.sky.exposure = 1.0;
-  SkyRenderer brighter(scene);
-  brighter.draw(80.0, 20.0);
-  EXPECT_NEAR(brighter.at(40, 40).y / once, 2.0f, 1e-3f);
+  const SkyRenderer brighter(scene, 80.0, 20.0);
+  EXPECT_NEAR(brighter.linear(40, 40).y / once, 2.0f, 1e-3f);
 }
 
 TEST(SkyPicture, NightsAreDarkerThanDuskAndDuskThanDay) {
   double before = 1e9;
   for (const double elevation_deg : {40.0, -4.0, -20.0}) {
-    SkyRenderer sky(sky_scene(elevation_deg, 0.0));
-    sky.draw(60.0, 60.0);
+    const SkyRenderer sky(sky_scene(elevation_deg, 0.0), 60.0, 60.0);
     double sum = 0.0;
-    for_each_pixel([&](int x, int y) { sum += std::min(sky.at(x, y).y, 1.0f); });
+    for_each_pixel([&](int x, int y) { sum += std::min(sky.linear(x, y).y, 1.0f); });
     const double mean = sum / (kSize_px * kSize_px);
     EXPECT_LT(mean, before) << elevation_deg;
     EXPECT_GT(mean, 0.01) << elevation_deg;

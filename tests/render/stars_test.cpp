@@ -23,11 +23,10 @@ scene::Scene night(double moon_elevation_deg, double moon_phase) {
 }
 
 View upward(double heading_deg, double pitch_deg, double fov_deg, int side_px) {
-  scene::Camera camera;
-  camera.eye_m = {0, 0, 2};
-  camera.heading_rad = scene::radians(heading_deg);
-  camera.pitch_rad = scene::radians(pitch_deg);
-  camera.fov_y_rad = scene::radians(fov_deg);
+  const scene::Camera camera = {.eye_m = {0, 0, 2},
+                                .heading_rad = scene::radians(heading_deg),
+                                .pitch_rad = scene::radians(pitch_deg),
+                                .fov_y_rad = scene::radians(fov_deg)};
   return scene::camera_view(camera, 0.0, side_px, side_px);
 }
 
@@ -41,7 +40,7 @@ TEST(StarsInPictures, CanBeLeftOut) {
   LinearRenderer drawn(night(-40.0, 1.0));
   const View view = upward(0.0, 60.0, 40.0, 128);
   drawn.draw_view(view, 0.0);
-  const auto brightest = [&] { return *std::ranges::max_element(drawn.target.linear); };
+  const auto brightest = [&] { return std::ranges::max(drawn.target.linear); };
   const float with = brightest();
   drawn.options.without = {Part::kStars};
   drawn.draw_view(view, 0.0);
@@ -101,12 +100,11 @@ TEST(MoonInPictures, ShowsItsPhase) {
     LinearRenderer drawn(night(25.0, phase));
     drawn.options.without = {Part::kStars};
     drawn.draw_view(upward(120.0, 25.0, 1.0, 100), 0.0);
-    float most = 0.0f;
-    for (const float x : drawn.target.linear) most = std::max(most, x);
+    const float most = std::ranges::max(drawn.target.linear);
     left = right = 0;
     for (int y = 0; y < 100; ++y)
       for (int x = 0; x < 100; ++x)
-        if (drawn.at(x, y).y > 0.3f * most) ++(x < 50 ? left : right);
+        if (drawn.linear(x, y).y > 0.3f * most) ++(x < 50 ? left : right);
   };
   int full_left, full_right, half_left, half_right;
   lit(1.0, full_left, full_right);

@@ -20,10 +20,11 @@ constexpr double kTime_s = 3.0;
 
 constexpr double kEye_m = 12.0;
 
-// The scene's sea alone is made anew.
-void draw_like(const scene::Scene& scene, const World& like, DrawnWater& drawn) {
-  draw(World(scene, like, 1), kTime_s, drawn);
-}
+// Pictures of a scene whose sea alone is made anew.
+struct DrawnLike : DrawnWater {
+  DrawnLike(const scene::Scene& scene, const World& like)
+      : DrawnWater(World(scene, like, 1), kTime_s) {}
+};
 
 int different_pixels(const Target& a, const Target& b) {
   int count = 0;
@@ -39,13 +40,11 @@ TEST(WaterLayers, EverySineIsShaded) {
                                .wavelength_m = 2.0 + 0.1 * static_cast<double>(i),
                                .to_rad = 0.09 * static_cast<double>(i)});
   const World like(scene);
-  DrawnWater whole, part;
-  draw_like(scene, like, whole);
+  const DrawnLike whole(scene, like);
   for (std::size_t i = 0; i < ocean::kMaxSines; ++i) {
     scene::Scene without = scene;
     without.sea.sines[i].amplitude_m = 0.0;
-    draw_like(without, like, part);
-    EXPECT_GT(different_pixels(whole.target, part.target), 300) << "sine " << i;
+    EXPECT_GT(different_pixels(whole.target, DrawnLike(without, like).target), 300) << "sine " << i;
   }
 }
 
@@ -56,18 +55,15 @@ TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
   double length_m = 4000.0;
   for (std::size_t patches = 1; patches <= ocean::kMaxPatches; ++patches) {
     scene.sea.patch_lengths_m.push_back(length_m *= 0.4);
-    DrawnWater drawn;
-    draw_like(scene, like, drawn);
+    const DrawnLike drawn(scene, like);
     const Water& water = drawn.water();
     ASSERT_EQ(water.layer_count, static_cast<int>(patches) + 2);
     for (std::size_t i = 0; i < patches; ++i)
-      EXPECT_EQ(water.layers[i].map, &drawn.workspace.state().sea.patch_slopes[i]);
+      EXPECT_EQ(water.layers[i].map, &drawn.state().sea.patch_slopes[i]);
 
     scene::Scene smooth = scene;
     smooth.water.bump_strength = 0.0;
-    DrawnWater without_ripples;
-    draw_like(smooth, like, without_ripples);
-    EXPECT_GT(different_pixels(drawn.target, without_ripples.target), 300) << patches;
+    EXPECT_GT(different_pixels(drawn.target, DrawnLike(smooth, like).target), 300) << patches;
   }
 }
 
@@ -88,9 +84,7 @@ TEST(WaterLayers, RipplesStayNearTheShoreHoweverManyPatchesTheSeaHas) {
     if (patches > 0) with_ripples.sea.patch_lengths_m.resize(patches);
     scene::Scene without = with_ripples;
     without.water.bump_strength = 0.0;
-    DrawnWater a, b;
-    draw_like(with_ripples, like, a);
-    draw_like(without, like, b);
+    const DrawnLike a(with_ripples, like), b(without, like);
     EXPECT_GT(different_pixels(a.target, b.target), 1000) << patches << " patches";
   }
 }
@@ -208,9 +202,8 @@ TEST_P(WaterShader, ShowsTheSameHoweverManyPacketsAreSideBySide) {
   for (const bool has_coast : {true, false}) {
     scene::Scene scene = shore_scene();
     if (!has_coast) scene.coast = {};
-    DrawnWater drawn;
     const World like(scene);  // whose maps the drawn water refers to
-    draw_like(scene, like, drawn);
+    const DrawnLike drawn(scene, like);
     const Shading& shading = drawn.shading();
     const Water& water = shading.material<Water>();
     ASSERT_EQ(water.has_coast, has_coast);
