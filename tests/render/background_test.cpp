@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 
-#include "render/drawn_shots.h"
+#include "render/drawn_looks.h"
 
 namespace swell::render {
 namespace {
@@ -18,13 +19,14 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EachSea,
                          testing::Values("open_ocean", "sines", "beach", "open_ocean_radial"),
                          [](const auto& test) { return std::string(test.param); });
 
-// Where a vertex is seen, in pixels; false outside the picture.
-bool seen_at(const View& view, glm::vec4 p_clip, glm::dvec2& p_px) {
+// Where a place is seen, in pixels; nothing outside the picture.
+std::optional<glm::dvec2> seen_at(const View& view, glm::vec2 offset, float z_m) {
+  const float z_rel = z_m - static_cast<float>(view.eye_world.z);
+  const glm::vec4 p_clip = view.clip_from_rel * glm::vec4(offset, z_rel, 1.0f);
   if (p_clip.w <= view.near_m || std::abs(p_clip.x) > p_clip.w || std::abs(p_clip.y) > p_clip.w)
-    return false;
-  p_px = glm::dvec2(view.width_px, view.height_px) * 0.5 * glm::dvec2(p_clip) /
+    return std::nullopt;
+  return glm::dvec2(view.width_px, view.height_px) * 0.5 * glm::dvec2(p_clip) /
          static_cast<double>(p_clip.w);
-  return true;
 }
 
 TEST_P(EachSea, BackgroundIsDrawnWithinItsError) {
@@ -33,28 +35,18 @@ TEST_P(EachSea, BackgroundIsDrawnWithinItsError) {
     scene.detail.background_error_px = error_px;
     int seen = 0, left_out = 0;
     double worst_px = 0.0;
-    draw_shots(
-        scene, 8, kSize_px, 5000,
-        [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
-          for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
-            glm::dvec2 drawn_px, true_px;
-            const float drawn_z_rel = drawn.height_m[v] - static_cast<float>(shot.view.eye_world.z);
-            if (!seen_at(shot.view,
-                         shot.view.clip_from_rel * glm::vec4(drawn.offset[v], drawn_z_rel, 1.0f),
-                         drawn_px))
-              continue;
-            if (!shows_all_waves(drawn, shot.view, v)) continue;
-            ++seen;
-            const float height_m = surface.height(place_of(drawn, v));
-            left_out += height_m != drawn.height_m[v];
-            const float z_rel = height_m - static_cast<float>(shot.view.eye_world.z);
-            if (!seen_at(shot.view,
-                         shot.view.clip_from_rel * glm::vec4(drawn.offset[v], z_rel, 1.0f),
-                         true_px))
-              continue;
-            worst_px = std::max(worst_px, glm::distance(drawn_px, true_px));
-          }
-        });
+    draw_looks(scene, 8, kSize_px, 5000,
+               [&](const Look& look, const scene::WaterSurface& surface, const Surface& drawn) {
+                 for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
+                   const auto drawn_px = seen_at(look.view, drawn.offset[v], drawn.height_m[v]);
+                   if (!drawn_px || !shows_all_waves(drawn, look.view, v)) continue;
+                   ++seen;
+                   const float height_m = surface.height(place_of(drawn, v));
+                   left_out += height_m != drawn.height_m[v];
+                   if (const auto true_px = seen_at(look.view, drawn.offset[v], height_m))
+                     worst_px = std::max(worst_px, glm::distance(*drawn_px, *true_px));
+                 }
+               });
     EXPECT_LE(worst_px, error_px + 0.002) << "rounding of float positions";
     ASSERT_GT(seen, 1000);
     if (error_px > 1.0) {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "lod/priority.h"
-#include "render/drawn_shots.h"
+#include "render/drawn_looks.h"
 
 namespace swell::render {
 namespace {
@@ -105,10 +105,9 @@ glm::dvec3 weights_of(int place) {
   return {i / 5.0, j / 5.0, (5 - i - j) / 5.0};
 }
 
-void check_triangle(const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn,
+void check_triangle(const View& view, const scene::WaterSurface& surface, const Surface& drawn,
                     std::size_t triangle, const Bounds& bounds, const lod::PriorityFrame& priority,
                     Found& found) {
-  const View& view = shot.view;
   const std::uint32_t* v = &drawn.mesh.indices[3 * triangle];
   std::array<glm::dvec3, 3> corner;
   for (int c = 0; c < 3; ++c) corner[c] = {place_of(drawn, v[c]), drawn.height_m[v[c]]};
@@ -153,22 +152,24 @@ void check_triangle(const Shot& shot, const scene::WaterSurface& surface, const 
   found.claimed += seen && bound_px < HUGE_VAL;
 }
 
-Found check_shots(const scene::Scene& scene, int shots, int triangles) {
+Found check_looks(const char* name) {
+  scene::Scene scene = load_shipped(name);
+  scene.area.size_m = {20000.0, 20000.0};
   Found found;
   const ocean::Sea sea(scene.sea);
   Workers workers(2);
   ocean::SeaFrame frame;
-  draw_shots(scene, shots, {48, 27}, triangles,
-             [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
-               ocean::advance(sea, shot.t_s, frame, workers);
+  draw_looks(scene, 100, {48, 27}, 3000,
+             [&](const Look& look, const scene::WaterSurface& surface, const Surface& drawn) {
+               ocean::advance(sea, look.t_s, frame, workers);
                const Bounds bounds = bounds_of(sea, frame, scene.area.size_m);
                lod::AdaptRequest request;
-               request.view = shot.view;
+               request.view = look.view;
                request.min_height_m = -surface.bound_m();
                request.max_height_m = surface.bound_m();
                const lod::PriorityFrame priority = lod::make_priority_frame(request, drawn.domain);
                for (std::size_t n = 0; n < drawn.mesh.level.size(); ++n) {
-                 check_triangle(shot, surface, drawn, n, bounds, priority, found);
+                 check_triangle(look.view, surface, drawn, n, bounds, priority, found);
                  if (testing::Test::HasFatalFailure()) return;
                }
              });
@@ -176,9 +177,7 @@ Found check_shots(const scene::Scene& scene, int shots, int triangles) {
 }
 
 TEST(DrawnError, StaysBelowWhatThePriorityClaimsForSines) {
-  scene::Scene scene = load_shipped("sines");
-  scene.area.size_m = {20000.0, 20000.0};
-  const Found found = check_shots(scene, 100, 3000);
+  const Found found = check_looks("sines");
   EXPECT_GT(found.claimed, 150000);
   EXPECT_GT(found.claimed, 0.98 * found.seen);  // the rest cannot be split
   // The bounds are not idle.
@@ -187,9 +186,7 @@ TEST(DrawnError, StaysBelowWhatThePriorityClaimsForSines) {
 }
 
 TEST(DrawnError, StaysBelowWhatThePriorityClaimsForTheOpenOcean) {
-  scene::Scene scene = load_shipped("open_ocean");
-  scene.area.size_m = {20000.0, 20000.0};
-  const Found found = check_shots(scene, 100, 3000);
+  const Found found = check_looks("open_ocean");
   EXPECT_GT(found.claimed, 150000);
   EXPECT_GT(found.claimed, 0.98 * found.seen);
   EXPECT_GT(found.worst_m, 0.1);  // all waves at their steepest in one place are rare
@@ -211,18 +208,18 @@ TEST_P(DrawnVertices, HaveTheHeightOfAQuery) {
   scene.detail.terrain_triangles = 500;
   std::vector<glm::dvec2> places;
   std::vector<float> heights;
-  draw_shots(scene, GetParam().count, {16, 9}, 400,
-             [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
+  draw_looks(scene, GetParam().count, {16, 9}, 400,
+             [&](const Look& look, const scene::WaterSurface& surface, const Surface& drawn) {
                places.clear();
                for (std::size_t v = 0; v < drawn.height_m.size(); ++v)
                  places.push_back(place_of(drawn, v));
                heights.resize(places.size());
                surface.heights(places, heights);
                for (std::size_t v = 0; v < heights.size(); ++v) {
-                 if (shows_all_waves(drawn, shot.view, v)) {
-                   ASSERT_EQ(heights[v], drawn.height_m[v]) << shot.t_s << " s";
+                 if (shows_all_waves(drawn, look.view, v)) {
+                   ASSERT_EQ(heights[v], drawn.height_m[v]) << look.t_s << " s";
                  } else {
-                   ASSERT_LE(std::abs(drawn.height_m[v]), std::abs(heights[v])) << shot.t_s << " s";
+                   ASSERT_LE(std::abs(drawn.height_m[v]), std::abs(heights[v])) << look.t_s << " s";
                  }
                }
              });

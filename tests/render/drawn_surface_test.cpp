@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/drawn_shots.h"
+#include "render/drawn_looks.h"
 
 namespace swell::render {
 namespace {
@@ -21,12 +21,12 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface,
 
 void expect_queried_heights(const scene::Scene& scene) {
   int moved = 0;
-  draw_shots(scene, kFrames, kSize_px, kTriangles,
-             [&](const Shot& shot, const scene::WaterSurface& surface, const Surface& drawn) {
+  draw_looks(scene, kFrames, kSize_px, kTriangles,
+             [&](const Look& look, const scene::WaterSurface& surface, const Surface& drawn) {
                ASSERT_GT(drawn.height_m.size(), 1000u);
                for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
                  const double distance_m =
-                     glm::distance(glm::dvec3(place_of(drawn, v), 0.0), shot.view.eye_world);
+                     glm::distance(glm::dvec3(place_of(drawn, v), 0.0), look.view.eye_world);
                  if (distance_m > 0.79 * drawn.statistics.reach_m) continue;  // waves fade
                  ASSERT_EQ(drawn.height_m[v], surface.height(place_of(drawn, v))) << "vertex " << v;
                  moved += drawn.height_m[v] != 0.0f;
@@ -50,24 +50,19 @@ TEST(DrawnCrests, CanBeLeftOut) {
   scene::Scene scene = load_shipped("open_ocean");
   scene.sea.choppiness = 1.0;
   const World world(scene);
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  const View view = scene::camera_view(scene.camera, 0.0, 64, 36);
-  const auto is_sharp = [&] {
-    render_frame(world, view, 0.0, options, workspace, target, workers);
-    return !workspace.state().sea.frame.patches[0].displaced_x_m.empty();
+  Shot film;
+  const auto is_sharp = [&](PartSet without) {
+    film.draw(world, view_of(world, 0.0, 64, 36), 0.0, {.without = without});
+    return !film.state().sea.frame.patches[0].displaced_x_m.empty();
   };
-  EXPECT_TRUE(is_sharp());
-  options.without.add(Part::kCrests);
-  EXPECT_FALSE(is_sharp());
+  EXPECT_TRUE(is_sharp({}));
+  EXPECT_FALSE(is_sharp({Part::kCrests}));
 }
 
 // The plane leaves all waves to the shading.
 TEST(DrawnPlane, IsTwoFlatTriangles) {
-  draw_shots(load_shipped("open_ocean_plane"), kFrames, kSize_px, kTriangles,
-             [&](const Shot&, const scene::WaterSurface&, const Surface& drawn) {
+  draw_looks(load_shipped("open_ocean_plane"), kFrames, kSize_px, kTriangles,
+             [&](const Look&, const scene::WaterSurface&, const Surface& drawn) {
                ASSERT_EQ(drawn.mesh.level.size(), 2u);
                for (const float height_m : drawn.height_m) ASSERT_EQ(height_m, 0.0f);
              });
@@ -78,8 +73,8 @@ TEST_P(DrawnSurface, StaysBetweenItsVerticesWithinTheWavesSlope) {
   constexpr double kSteepest = 1.0;  // of these scenes' waves and fading
   double near_square = 0.0;
   int near = 0;
-  draw_shots(load_shipped(GetParam()), kFrames, kSize_px, kTriangles,
-             [&](const Shot&, const scene::WaterSurface& surface, const Surface& drawn) {
+  draw_looks(load_shipped(GetParam()), kFrames, kSize_px, kTriangles,
+             [&](const Look&, const scene::WaterSurface& surface, const Surface& drawn) {
                for (std::size_t i = 0; i + 2 < drawn.mesh.indices.size(); i += 3) {
                  const std::uint32_t* v = &drawn.mesh.indices[i];
                  const glm::dvec2 a = place_of(drawn, v[0]), b = place_of(drawn, v[1]);
@@ -133,17 +128,10 @@ World buoys(double nearer) {
 }
 
 Afloat draw_buoys(const World& world, double t_s) {
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.water_triangles = 10000;
-  const View view = scene::camera_view(world.scene().camera, t_s, 320, 180);
-  render_frame(world, view, t_s, options, workspace, target, workers);
+  const Shot shot(world, view_of(world, t_s, 320, 180), t_s, {.water_triangles = 10000});
   Afloat result;
-  for (const scene::ObjectPose& pose : workspace.state().meshes.objects.poses) {
-    const DrawnPlace place =
-        drawn_at(workspace.state().meshes.water, glm::dvec2(pose.position_world));
+  for (const scene::ObjectPose& pose : shot.state().meshes.objects.poses) {
+    const DrawnPlace place = drawn_at(shot.state().meshes.water, glm::dvec2(pose.position_world));
     const double gap_m = std::abs(place.height_m - pose.position_world.z);
     result.edge_m += place.edge_m;
     result.gap_m += gap_m;

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <vector>
 
 #include "math/simd_target.h"
-#include "render/drawn_frames.h"
-#include "render/labels/label_channels.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "scratch_folder.h"
 
 namespace swell::render {
@@ -21,31 +20,27 @@ const World& shipped_forms() {
 
 TEST(FormFrames, ThreadsTilesAndTargetsChangeNoPixel) {
   const World& world = shipped_forms();
-  FrameOptions options = few_triangles();
-  options.edge_samples = 4;
-  const Picture reference = draw(world, 5.0, 1, options);
-  EXPECT_EQ(difference(draw(world, 5.0, 3, options).target, reference.target), "");
-  for (const int tile : {16, 32}) {
-    options.tile_size_px = tile;
-    EXPECT_EQ(difference(draw(world, 5.0, 2, options).target, reference.target), "") << tile;
-  }
-  options.tile_size_px = 64;
+  const auto draw = [&](int tile, int threads) {
+    return small_shot(world, 5.0,
+                      {.tile_size_px = tile, .water_triangles = 4000, .edge_samples = 4}, threads)
+        .target;
+  };
+  const Target reference = draw(64, 1);
+  EXPECT_EQ(difference(draw(64, 3), reference), "");
+  for (const int tile : {16, 32}) EXPECT_EQ(difference(draw(tile, 2), reference), "") << tile;
   if (!simd_target_available(SimdTarget::kAvx512)) return;
   select_simd_target(SimdTarget::kAvx2);
-  const Picture narrow = draw(world, 5.0, 2, options);
+  const Target narrow = draw(64, 2);
   select_simd_target(SimdTarget::kAvx512);
-  EXPECT_EQ(difference(draw(world, 5.0, 2, options).target, narrow.target), "");
+  EXPECT_EQ(difference(draw(64, 2), narrow), "");
 }
 
 TEST(FormFrames, FramesBeforeChangeNoPixel) {
   const World& world = shipped_forms();
-  const Picture alone = draw(world, 5.0);
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
+  Shot film;
   for (const double t_s : {4.97, 4.99, 5.0})
-    render_frame(world, view_of(world, t_s), t_s, few_triangles(), workspace, target, workers);
-  EXPECT_EQ(difference(target, alone.target), "");
+    film.draw(world, view_of(world, t_s, kSmallWidth, kSmallHeight), t_s, few_triangles());
+  EXPECT_EQ(difference(film.target, small_shot(world, 5.0).target), "");
 }
 
 // A calm sea with a thing half in it, fixed.
@@ -75,27 +70,19 @@ scene::FloatingObject ball(scene::ObjectKind kind, const ScratchFolder& folder) 
   return object;
 }
 
-double mean_difference(const Target& a, const Target& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i)
-    for (int shift = 0; shift < 24; shift += 8)
-      sum += std::abs(static_cast<int>(a.rgba[i] >> shift & 0xff) -
-                      static_cast<int>(b.rgba[i] >> shift & 0xff));
-  return sum / (3.0 * static_cast<double>(a.rgba.size()));
+Target draw_with(const std::vector<scene::FloatingObject>& objects, scene::Scene scene,
+                 const FrameOptions& options = few_triangles()) {
+  scene.objects = objects;
+  return small_shot(World(scene), 1.0, options).target;
 }
 
 // The ball of triangles has 24 sides.
-void expect_like_triangles(scene::Scene scene, double most) {
+void expect_like_triangles(const scene::Scene& scene, double most) {
   const ScratchFolder folder;
-  scene.objects = {ball(scene::ObjectKind::kSphere, folder)};
-  const World triangles(scene);
-  scene.objects = {ball(scene::ObjectKind::kForm, folder)};
-  const World form(scene);
-  scene.objects.clear();
-  const World nothing(scene);
-  const Picture drawn = draw(form, 1.0);
-  EXPECT_LT(mean_difference(drawn.target, draw(triangles, 1.0).target), most);
-  EXPECT_GT(mean_difference(drawn.target, draw(nothing, 1.0).target), 8.0 * most);
+  const Target form = draw_with({ball(scene::ObjectKind::kForm, folder)}, scene);
+  const Target triangles = draw_with({ball(scene::ObjectKind::kSphere, folder)}, scene);
+  EXPECT_LT(mean_difference(form, triangles), most);
+  EXPECT_GT(mean_difference(form, draw_with({}, scene)), 8.0 * most);
 }
 
 TEST(FormFrames, BallOfAFunctionLooksAsOneOfTriangles) { expect_like_triangles(calm_scene(), 0.5); }
@@ -118,17 +105,14 @@ TEST(FormFrames, BallSeenFromUnderWaterLooksAsOneOfTriangles) {
 
 TEST(FormFrames, AreLeftOutWithTheirPart) {
   const ScratchFolder folder;
-  scene::Scene scene = calm_scene();
-  scene.objects = {ball(scene::ObjectKind::kForm, folder)};
-  const World with(scene);
-  scene.objects.clear();
-  const World without(scene);
-  FrameOptions options = few_triangles();
-  options.without = {Part::kForms};
+  const scene::Scene scene = calm_scene();
+  const scene::FloatingObject form = ball(scene::ObjectKind::kForm, folder);
+  const Target nothing = draw_with({}, scene);
+  const Target left_out =
+      draw_with({form}, scene, {.water_triangles = 4000, .without = {Part::kForms}});
   // But for the sea's triangles, which are finer around an object.
-  const Picture nothing = draw(without, 1.0);
-  EXPECT_LT(mean_difference(draw(with, 1.0, 2, options).target, nothing.target), 0.02);
-  EXPECT_GT(mean_difference(draw(with, 1.0).target, nothing.target), 4.0);
+  EXPECT_LT(mean_difference(left_out, nothing), 0.02);
+  EXPECT_GT(mean_difference(draw_with({form}, scene), nothing), 4.0);
 }
 
 TEST(FormFrames, LabelsKnowThem) {
@@ -139,15 +123,14 @@ TEST(FormFrames, LabelsKnowThem) {
   FrameOptions options = few_triangles();
   for (const Label label : {Label::kId, Label::kDepth, Label::kGeometricNormal})
     options.labels.add(label);
-  const Picture picture = draw(world, 1.0, 2, options);
-  const Labels& labels = picture.target.labels;
-  const View view = view_of(world, 1.0);
+  const Shot shot = small_shot(world, 1.0, options);
+  const Labels& labels = shot.target.labels;
   int seen = 0;
   for (std::size_t i = 0; i < labels.id.size(); ++i) {
     if (labels.id[i] != kFirstObjectId) continue;
     ++seen;
-    const int x = static_cast<int>(i) % kWidth, y = static_cast<int>(i) / kWidth;
-    const glm::dvec3 out = position_of(view, x, y, labels.depth_m[i]) - glm::dvec3(0, 0, 0.5);
+    const int x = static_cast<int>(i) % kSmallWidth, y = static_cast<int>(i) / kSmallWidth;
+    const glm::dvec3 out = position_of(shot.view, x, y, labels.depth_m[i]) - glm::dvec3(0, 0, 0.5);
     EXPECT_NEAR(glm::length(out), 2.5, 1e-3);
     EXPECT_GT(glm::dot(glm::normalize(out), glm::dvec3(labels.geometric_normal[i])), 0.9999);
   }
@@ -169,19 +152,19 @@ TEST(FormFrames, MotionTakesTurningPartsAlong) {
   arm.draught = 0.0;
   scene.objects = {arm};
   const World world(scene);
-  FrameOptions options = few_triangles();
-  options.next_frame_s = kStep_s;
+  FrameOptions options = {.water_triangles = 4000, .next_frame_s = kStep_s};
   options.labels.add(Label::kId), options.labels.add(Label::kMotion);
-  const Picture now = draw(world, 2.0, 2, options), next = draw(world, 2.0 + kStep_s, 2, options);
+  const Shot now = small_shot(world, 2.0, options),
+             next = small_shot(world, 2.0 + kStep_s, options);
   int seen = 0, found = 0, stayed = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const auto id_at = [](const Picture& picture, int i, int j) {
-        if (i < 0 || j < 0 || i >= kWidth || j >= kHeight) return kSkyId;
-        return picture.target.labels.id[static_cast<std::size_t>(j * kWidth + i)];
+  for (int y = 0; y < kSmallHeight; ++y)
+    for (int x = 0; x < kSmallWidth; ++x) {
+      const auto id_at = [](const Shot& shot, int i, int j) {
+        if (i < 0 || j < 0 || i >= kSmallWidth || j >= kSmallHeight) return kSkyId;
+        return shot.target.labels.id[shot.at(i, j)];
       };
       if (id_at(now, x, y) != kFirstObjectId) continue;
-      const glm::vec2 moved = now.target.labels.motion_px[static_cast<std::size_t>(y * kWidth + x)];
+      const glm::vec2 moved = now.target.labels.motion_px[now.at(x, y)];
       ++seen;
       found +=
           id_at(next, static_cast<int>(std::lround(static_cast<float>(x) + moved.x)),

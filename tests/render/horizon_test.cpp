@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <string>
 #include <vector>
 
 #include "math/elementary.h"
-#include "render/drawn_shots.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 
 namespace swell::render {
 namespace {
@@ -28,38 +25,9 @@ scene::Scene calm_sea() {
   return scene;
 }
 
-// A picture, and what was seen at its pixels' centres.
-class Picture {
- public:
-  Picture(const World& world, const View& view, double t_s = 5.0) : view_(view) {
-    Workers workers(2);
-    FrameOptions options;
-    options.water_triangles = 20000;
-    options.edge_samples = 0;
-    render_frame(world, view, t_s, options, workspace_, target_, workers);
-  }
-
-  // The surface's primitive, or raster::kNoPrimitive for the sky.
-  std::uint32_t primitive_at(int x, int y) const {
-    const VisibilityBuffer& seen = workspace_.state().visibility;
-    const int side = seen.grid.tile_size_px, tile = y / side * seen.grid.tiles_x + x / side;
-    if (seen.covered[static_cast<std::size_t>(tile)] < 0) return raster::kNoPrimitive;
-    return seen.primitive_of(tile)[static_cast<std::size_t>(y % side * side + x % side)];
-  }
-  bool shows(SurfaceKind kind, int x, int y) const {
-    return workspace_.state().window.primitives.holds(kind, primitive_at(x, y));
-  }
-  glm::ivec3 colour_at(int x, int y) const {
-    const std::uint32_t p = target_.rgba[static_cast<std::size_t>(y) * view_.width_px + x];
-    return {p & 255, p >> 8 & 255, p >> 16 & 255};
-  }
-  const Surface& water() const { return workspace_.state().meshes.water; }
-
- private:
-  View view_;
-  Workspace workspace_;
-  Target target_;
-};
+Shot draw(const World& world, const View& view) {
+  return Shot(world, view, 5.0, {.water_triangles = 20000, .edge_samples = 0});
+}
 
 // Rolled, so that the horizon crosses pixels' centres at all heights.
 View towards_horizon(glm::dvec3 eye, double tan_dip, double fov_y_rad, int width_px,
@@ -75,14 +43,15 @@ struct HorizonError {
   double mean_px = 0.0;
   int most_px = 0;
 };
-HorizonError horizon_error(const Picture& picture, const View& view, double tan_dip) {
+HorizonError horizon_error(const World& world, const View& view, double tan_dip) {
+  const Shot shot = draw(world, view);
   HorizonError error;
   for (int x = 0; x < view.width_px; ++x) {
     int missing = 0, first_water = view.height_px;
     for (int y = 0; y < view.height_px; ++y) {
       const glm::vec3 ray = view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       const double across = std::hypot(static_cast<double>(ray.x), static_cast<double>(ray.y));
-      const bool is_water = picture.shows(SurfaceKind::kWater, x, y);
+      const bool is_water = shot.shows(SurfaceKind::kWater, x, y);
       missing += (static_cast<double>(ray.z) < -tan_dip * across) - is_water;
       if (is_water) first_water = std::min(first_water, y);
       EXPECT_TRUE(is_water || first_water == view.height_px) << "sky at " << x << ", " << y;
@@ -100,7 +69,7 @@ TEST(Horizon, LiesAsFarDownAsTheEyesHeightSays) {
     const double fov_y_rad = 2.0 * std::atan(50.0 / 935.0);
     const View view =
         towards_horizon({800.0, -3000.0, height_m}, dip(height_m), fov_y_rad, 320, 100);
-    const HorizonError error = horizon_error(Picture(world, view), view, dip(height_m));
+    const HorizonError error = horizon_error(world, view, dip(height_m));
     EXPECT_LT(std::abs(error.mean_px), 0.1) << height_m << " m";
     EXPECT_LE(error.most_px, 1) << height_m << " m";
   }
@@ -111,7 +80,7 @@ TEST(Horizon, IsRoundInWideViewsToo) {
   for (const double height_m : kHeights_m) {
     const View view =
         towards_horizon({0.0, 0.0, height_m}, dip(height_m), scene::radians(60.0), 320, 180);
-    const HorizonError error = horizon_error(Picture(world, view), view, dip(height_m));
+    const HorizonError error = horizon_error(world, view, dip(height_m));
     EXPECT_LT(std::abs(error.mean_px), 0.1) << height_m << " m";
     EXPECT_LE(error.most_px, 1) << height_m << " m";
   }
@@ -122,7 +91,7 @@ TEST(Horizon, OfAFlatSeaLiesAtEyeHeight) {
   scene.round_earth = false;
   const World world(scene);
   const View view = towards_horizon({0.0, 0.0, 60.0}, 0.0, scene::radians(40.0), 320, 180);
-  const HorizonError error = horizon_error(Picture(world, view), view, 0.0);
+  const HorizonError error = horizon_error(world, view, 0.0);
   EXPECT_LT(std::abs(error.mean_px), 0.1);
 }
 
@@ -141,9 +110,9 @@ TEST(Horizon, HidesTheHullAndShowsTheMast) {
     const double fov_y_rad = 2.0 * std::atan(100.0 / kFocal_px);
     const View view =
         make_view({0.0, 0.0, 10.0}, 0.0, -std::atan(dip(10.0)), fov_y_rad, 0.25f, 16, 200);
-    const Picture picture(world, view);
+    const Shot shot = draw(world, view);
     int rows = 0;
-    for (int y = 0; y < view.height_px; ++y) rows += picture.shows(SurfaceKind::kObjects, 8, y);
+    for (int y = 0; y < view.height_px; ++y) rows += shot.shows(SurfaceKind::kObjects, 8, y);
     const double expected_px = std::max(tall_m - kHidden_m, 0.0) * kFocal_px / 20000.0;
     EXPECT_NEAR(rows, expected_px, 1.5) << tall_m << " m: 0.15 px at f = 20000";
   }
@@ -158,18 +127,18 @@ TEST(Horizon, OfAStormHasNoHeadlands) {
   for (const double height_m : {60.0, 300.0, 1500.0}) {
     const View view =
         towards_horizon({0.0, 0.0, height_m}, dip(height_m), scene::radians(10.0), 320, 180);
-    const HorizonError error = horizon_error(Picture(world, view), view, dip(height_m));
+    const HorizonError error = horizon_error(world, view, dip(height_m));
     EXPECT_LT(std::abs(error.mean_px), 0.25) << height_m << " m";
     EXPECT_LE(error.most_px, 1) << height_m << " m";
   }
 }
 
 // Pixels of which a channel differs by more than `steps`.
-int changed_pixels(const Picture& a, const Picture& b, const View& view, int steps) {
+int changed_pixels(const Shot& a, const Shot& b, int steps) {
   int changed = 0;
-  for (int y = 0; y < view.height_px; ++y) {
-    for (int x = 0; x < view.width_px; ++x) {
-      const glm::ivec3 d = glm::abs(a.colour_at(x, y) - b.colour_at(x, y));
+  for (int y = 0; y < a.view.height_px; ++y) {
+    for (int x = 0; x < a.view.width_px; ++x) {
+      const glm::ivec3 d = glm::abs(a.codes(x, y) - b.codes(x, y));
       changed += std::max({d.r, d.g, d.b}) > steps;
     }
   }
@@ -179,29 +148,27 @@ int changed_pixels(const Picture& a, const Picture& b, const View& view, int ste
 // The lattice's square jumps when the eye crosses a multiple of 4096 m or more. A micrometre to
 // either side of it nothing else moves; 2 mm are seen in near ripples.
 TEST(Horizon, AStepOfTheLatticeMovesNoPixel) {
-  const World world(load_shipped("open_ocean"));
+  const World& world = shipped_world("open_ocean");
   for (const double height_m : kHeights_m) {
     for (const double fov_deg : {10.0, 60.0}) {
-      const auto at = [&](double east_m) {
-        return towards_horizon({65536.0 + east_m, -900.0, height_m + 3.0}, dip(height_m),
-                               scene::radians(fov_deg), 160, 90);
+      const auto draw_at = [&](double east_m) {
+        return draw(world, towards_horizon({65536.0 + east_m, -900.0, height_m + 3.0},
+                                           dip(height_m), scene::radians(fov_deg), 160, 90));
       };
-      const View view = at(-1e-6);
-      const Picture before(world, view), after(world, at(1e-6));
-      ASSERT_NE(before.water().domain.min_world, after.water().domain.min_world);
-      EXPECT_EQ(changed_pixels(before, after, view, 8), 0)
-          << height_m << " m, " << fov_deg << " degrees";
+      const Shot before = draw_at(-1e-6), after = draw_at(1e-6);
+      ASSERT_NE(before.state().meshes.water.domain.min_world,
+                after.state().meshes.water.domain.min_world);
+      EXPECT_EQ(changed_pixels(before, after, 8), 0) << height_m << " m, " << fov_deg << " degrees";
     }
   }
 }
 
 // An endless sea has waves wherever the eye goes.
 TEST(Horizon, WavesGoOnEverywhere) {
-  const World world(load_shipped("open_ocean"));
+  const World& world = shipped_world("open_ocean");
   for (const glm::dvec2& at : {glm::dvec2(0.0), glm::dvec2(5e4, -3e4), glm::dvec2(-8e5, 9e5)}) {
-    const View view = make_view({at, 10.0}, 0.0, -0.2, 0.9, 0.25f, 96, 54);
-    const Picture picture(world, view);
-    const Surface& water = picture.water();
+    const Shot shot = draw(world, make_view({at, 10.0}, 0.0, -0.2, 0.9, 0.25f, 96, 54));
+    const Surface& water = shot.state().meshes.water;
     double square = 0.0;
     int near = 0;
     for (std::size_t i = 0; i < water.height_m.size(); ++i) {

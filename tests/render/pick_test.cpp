@@ -8,7 +8,8 @@
 #include <optional>
 #include <set>
 
-#include "render/drawn_shots.h"
+#include "render/shot.h"
+#include "scene/water.h"
 
 namespace swell::render {
 namespace {
@@ -16,26 +17,20 @@ namespace {
 constexpr glm::ivec2 kSize_px(160, 90);
 
 // A frame of a scene at 3 s.
-struct Drawn {
+struct Drawn : Shot {
   explicit Drawn(const scene::Scene& scene, glm::ivec2 size_px = kSize_px)
       : Drawn(scene, scene.camera, size_px) {}
   Drawn(const scene::Scene& scene, const scene::Camera& camera, glm::ivec2 size_px = kSize_px)
-      : world(scene), view(scene::camera_view(camera, t_s, size_px.x, size_px.y)) {
-    FrameOptions options;
-    options.water_triangles = 4000;
-    Workers workers(2);
-    Target target;
-    render_frame(world, view, t_s, options, workspace, target, workers);
+      : world(scene) {
+    draw(world, scene::camera_view(camera, 3.0, size_px.x, size_px.y), 3.0,
+         {.water_triangles = 4000});
   }
 
   std::optional<Pick> pick_at(glm::vec2 at_px) {
     return pick(world, view, workspace, at_px, scratch);
   }
 
-  const double t_s = 3.0;
   World world;
-  View view;
-  Workspace workspace;
   PickScratch scratch;
 };
 
@@ -58,8 +53,8 @@ std::size_t object_of(const Drawn& drawn, const ObjectPrimitive& primitive) {
 }
 
 // Nothing where the sky is.
-std::optional<DrawnPixel> pixel_at(Drawn& drawn, int x, int y) {
-  Workspace::State& ws = drawn.workspace.state();
+std::optional<DrawnPixel> pixel_at(const Drawn& drawn, int x, int y) {
+  const Workspace::State& ws = drawn.state();
   const int tile_px = ws.visibility.grid.tile_size_px;
   const int tile = y / tile_px * ws.visibility.grid.tiles_x + x / tile_px;
   if (ws.visibility.covered[static_cast<std::size_t>(tile)] < 0) return std::nullopt;
@@ -67,13 +62,13 @@ std::optional<DrawnPixel> pixel_at(Drawn& drawn, int x, int y) {
   const float depth = ws.visibility.depth_of(tile)[at];
   if (depth <= 0.0f) return std::nullopt;
   const double depth_m = static_cast<double>(drawn.view.near_m / depth);
-  const std::uint32_t id = ws.visibility.primitive_of(tile)[at];
+  const std::uint32_t id = drawn.primitive(x, y);
   const auto number_in = [&](SurfaceKind kind) {
     return static_cast<int>(id - ws.window.primitives.begin(kind));
   };
-  if (ws.window.primitives.holds(SurfaceKind::kWater, id))
+  if (drawn.shows(SurfaceKind::kWater, x, y))
     return DrawnPixel{Shown::kWater, number_in(SurfaceKind::kWater), depth_m};
-  if (ws.window.primitives.holds(SurfaceKind::kTerrain, id))
+  if (drawn.shows(SurfaceKind::kTerrain, x, y))
     return DrawnPixel{Shown::kLand, number_in(SurfaceKind::kTerrain), depth_m};
   const ObjectGeometry& drawn_objects = ws.meshes.objects;
   const ObjectPrimitive& primitive =
@@ -98,11 +93,6 @@ void expect_query_answer(const Pick& found, const scene::WaterSurface& surface) 
   EXPECT_EQ(found.slope, glm::dvec2(slope));
 }
 
-scene::WaterSurface surface_of(Drawn& drawn) {
-  const World::State& world = drawn.world.state();
-  return {world.water(), drawn.workspace.state().sea.frame};
-}
-
 // How often a pick found what the pixel there shows.
 struct Agreement {
   int pixels = 0, same = 0, as_deep = 0;
@@ -120,7 +110,7 @@ void compare(Drawn& drawn, glm::ivec2 at, const DrawnPixel& pixel, Agreement& ag
   ++agreement.same;
   const glm::dvec3 rel = found->p_world - drawn.view.eye_world;
   glm::dvec3 sunk = rel;  // as the picture has it
-  const double drop_per_m2 = drawn.workspace.state().window.drop_per_m2;
+  const double drop_per_m2 = drawn.state().window.drop_per_m2;
   sunk.z -= glm::dot(glm::dvec2(rel), glm::dvec2(rel)) * drop_per_m2;
   const double depth_m = glm::dot(sunk, glm::dvec3(drawn.view.forward));
   agreement.as_deep += std::abs(depth_m - pixel.depth_m) < 2e-3 * pixel.depth_m;
@@ -129,7 +119,8 @@ void compare(Drawn& drawn, glm::ivec2 at, const DrawnPixel& pixel, Agreement& ag
   if (pixel.what == Shown::kObject) {
     ASSERT_EQ(found->object_kind, drawn.world.scene().objects[pixel.object].kind);
   }
-  if (pixel.what != Shown::kLand) expect_query_answer(*found, surface_of(drawn));
+  if (pixel.what != Shown::kLand)
+    expect_query_answer(*found, {drawn.world.state().water(), drawn.state().sea.frame});
 }
 
 TEST_P(PickEachScene, IsTheTriangleThatThePixelShowsAndAsksTheSurfaceThere) {
@@ -153,8 +144,7 @@ TEST_P(PickEachScene, IsTheTriangleThatThePixelShowsAndAsksTheSurfaceThere) {
 // Objects of every distance: near ones of many triangles, far ones of few pixels.
 TEST(Pick, IsTheObjectThatThePixelShows) {
   constexpr glm::ivec2 kLarge_px(640, 360);
-  const scene::Scene scene = load_shipped("buoys");
-  Drawn drawn(scene, kLarge_px);
+  Drawn drawn(load_shipped("buoys"), kLarge_px);
   Agreement agreement;
   std::set<std::size_t> seen;
   for (int y = 0; y < kLarge_px.y; ++y) {

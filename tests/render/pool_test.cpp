@@ -11,7 +11,7 @@
 #include <numbers>
 #include <optional>
 
-#include "render/drawn_shots.h"
+#include "render/shot.h"
 
 namespace swell::render {
 namespace {
@@ -74,30 +74,25 @@ void meet_box(const scene::Scene& scene, std::size_t n, const scene::ObjectPose&
          c == 0.0 || is_light(at[(axis + 1) % 3] / c, at[(axis + 2) % 3] / c)};
 }
 
-class Pool {
- public:
-  explicit Pool(const scene::Scene& scene) : scene_(scene), world_(scene) {}
+struct Pool : Shot {
+  explicit Pool(const scene::Scene& scene) : world(scene) {}
 
-  const Target& draw(const View& view, const FrameOptions& asked = {}) {
-    FrameOptions options = asked;
+  const Target& draw(const View& from, FrameOptions options = {}) {
     options.keep_linear = true;
     options.labels.add(Label::kId);
     options.water_triangles = 500;
-    Workers workers(2);
-    view_ = view;
-    render_frame(world_, view, 3.0, options, workspace_, target_, workers);
-    poses_ = workspace_.state().meshes.objects.poses;
-    return target_;
+    return Shot::draw(world, from, 3.0, options);
   }
 
   Hit meet(const Ray& ray) const {
+    const scene::Scene& scene = world.scene();
     Hit hit;
-    for (std::size_t n = 0; n < scene_.objects.size(); ++n)
-      meet_box(scene_, n, poses_[n], ray, hit);
+    for (std::size_t n = 0; n < scene.objects.size(); ++n)
+      meet_box(scene, n, state().meshes.objects.poses[n], ray, hit);
     const double floor = (kFloor_m - ray.from.z) / ray.along.z;
     if (floor > 0.0 && floor < hit.distance) {
       const glm::dvec3 p = ray.from + floor * ray.along;
-      const double c = scene_.terrain->checker_m;
+      const double c = scene.terrain->checker_m;
       hit = {floor, kFloor, is_light(p.x / c, p.y / c)};
     }
     return hit;
@@ -106,8 +101,8 @@ class Pool {
   // The ray from the eye through a place of the picture up to the water.
   Ray seen(double x_px, double y_px) const {
     return {
-        view_.eye_world,
-        glm::normalize(glm::dvec3(view_.ray(static_cast<float>(x_px), static_cast<float>(y_px))))};
+        view.eye_world,
+        glm::normalize(glm::dvec3(view.ray(static_cast<float>(x_px), static_cast<float>(y_px))))};
   }
   Ray to_level(const Ray& ray) const {
     return {ray.from + (-ray.from.z / ray.along.z) * ray.along, ray.along};
@@ -128,28 +123,19 @@ class Pool {
   // within so many pixels.
   void for_sure(double within_px, const std::function<Hit(double, double)>& hit_at,
                 const std::function<void(glm::vec3, const Hit&)>& check) const {
-    for (int y = 0; y < view_.height_px; ++y)
-      for (int x = 0; x < view_.width_px; ++x) {
-        const std::size_t at = static_cast<std::size_t>(y) * view_.width_px + x;
-        if (target_.labels.id[at] != kWaterId) continue;
+    for (int y = 0; y < view.height_px; ++y)
+      for (int x = 0; x < view.width_px; ++x) {
+        if (target.labels.id[at(x, y)] != kWaterId) continue;
         const Hit hit = hit_at(x + 0.5, y + 0.5);
         bool sure = true;
         for (const double dx : {-within_px, within_px})
           for (const double dy : {-within_px, within_px})
             sure = sure && hit_at(x + 0.5 + dx, y + 0.5 + dy) == hit;
-        if (!sure) continue;
-        const float* const light = &target_.linear[3 * at];
-        check({light[0], light[1], light[2]}, hit);
+        if (sure) check(linear(x, y), hit);
       }
   }
 
- private:
-  scene::Scene scene_;
-  World world_;
-  Workspace workspace_;
-  Target target_;
-  View view_;
-  std::vector<scene::ObjectPose> poses_;
+  World world;
 };
 
 View view_from(glm::dvec3 eye_m, double heading_rad, double pitch_rad, double fov_y_rad,
@@ -211,17 +197,14 @@ TEST(Pool, TheFloorLiesWhereSnellsLawPutsIt) {
 
 // The pole leans to the right, 30 degrees.
 TEST(Pool, AStraightPoleIsBentAtTheLevel) {
-  const scene::Scene scene = pool_scene(0.0);
-  Pool pool(scene);
+  Pool pool(pool_scene(0.0));
   scene::GivenPose leaning{kPole, {}};
   leaning.pose.position_world = {-2.0, 0.0, 0.0};
   const double a = kPi / 6.0;
   leaning.pose.world_from_object =
       glm::dmat3(glm::dvec3(std::cos(a), 0.0, -std::sin(a)), glm::dvec3(0.0, 1.0, 0.0),
                  glm::dvec3(std::sin(a), 0.0, std::cos(a)));
-  FrameOptions options;
-  options.poses = {&leaning, 1};
-  pool.draw(view_from({-2.0, -3.5, 1.4}, 0.0, -0.5, 0.9, 320, 240), options);
+  pool.draw(view_from({-2.0, -3.5, 1.4}, 0.0, -0.5, 0.9, 320, 240), {.poses = {&leaning, 1}});
   int pole = 0, other = 0, wrong = 0;
   pool.for_sure(
       1.0, [&](double x, double y) { return pool.bent(x, y); },
@@ -255,10 +238,10 @@ TEST(Pool, ThePapersRefractionIsItsTwoLines) {
   const auto foot_px = [&](scene::RefractionModel model) {
     scene.water.refraction = model;
     Pool pool(scene);
-    const Target& target = pool.draw(view_from({1.0, -2.0, 2.0}, 0.0, -0.75, 0.3, 64, 480));
-    for (int y = target.height_px - 1; y >= 0; --y) {
-      const float* const light = &target.linear[3 * (static_cast<std::size_t>(y) * 64 + 33)];
-      if (light[2] < 0.3f * light[0]) return y + 1;  // red on grey
+    pool.draw(view_from({1.0, -2.0, 2.0}, 0.0, -0.75, 0.3, 64, 480));
+    for (int y = pool.view.height_px - 1; y >= 0; --y) {
+      const glm::vec3 light = pool.linear(33, y);
+      if (light.z < 0.3f * light.x) return y + 1;  // red on grey
     }
     return -1;
   };
@@ -284,10 +267,7 @@ TEST(Pool, ThePapersRefractionIsItsTwoLines) {
 // The weight is the share of the mirror at any angle.
 TEST(Pool, AConstantWeightBlendsTheTwoImages) {
   const View view = view_from({0.0, -6.0, 1.6}, 0.1, -0.4, 0.8, 64, 48);
-  const auto light_of = [&](double weight) {
-    Pool pool(pool_scene(weight));
-    return pool.draw(view).linear;
-  };
+  const auto light_of = [&](double weight) { return Pool(pool_scene(weight)).draw(view).linear; };
   const auto mirror = light_of(1.0), water = light_of(0.0), both = light_of(0.25);
   for (std::size_t i = 0; i < both.size(); ++i)
     ASSERT_NEAR(both[i], 0.25f * mirror[i] + 0.75f * water[i], 1e-4f) << i;
@@ -297,19 +277,15 @@ TEST(Pool, AConstantWeightBlendsTheTwoImages) {
 // Still water has none.
 TEST(Pool, ImagesAreSofterInRoughWater) {
   const View view = view_from({0.4, -9.0, 2.5}, 0.0, -0.2, 0.5, 96, 72);
-  FrameOptions sharp;
-  sharp.without.add(Part::kImageBlur);
   struct Picture {
     double mean = 0.0, steps = 0.0;  // between neighbours of a row
     std::vector<float> linear;
   };
-  const auto draw = [&](double wind_mps, const FrameOptions& options) {
+  const auto draw = [&](double wind_mps, PartSet without) {
     scene::Scene scene = pool_scene(1.0);
     scene.sea.wind_speed_mps = wind_mps;
     scene.water.distortion = 0.3;
-    Pool pool(scene);
-    Picture picture;
-    picture.linear = pool.draw(view, options).linear;
+    Picture picture{.linear = Pool(scene).draw(view, {.without = without}).linear};
     for (std::size_t i = 1; i < picture.linear.size() / 3; ++i) {
       picture.mean += static_cast<double>(picture.linear[3 * i]);
       picture.steps += std::abs(static_cast<double>(picture.linear[3 * i]) -
@@ -317,10 +293,10 @@ TEST(Pool, ImagesAreSofterInRoughWater) {
     }
     return picture;
   };
-  const Picture soft = draw(8.0, {}), hard = draw(8.0, sharp);
+  const Picture soft = draw(8.0, {}), hard = draw(8.0, {Part::kImageBlur});
   EXPECT_NEAR(soft.mean / hard.mean, 1.0, 0.02);
   EXPECT_LT(soft.steps, 0.9 * hard.steps);
-  EXPECT_EQ(draw(0.0, {}).linear, draw(0.0, sharp).linear);
+  EXPECT_EQ(draw(0.0, {}).linear, draw(0.0, {Part::kImageBlur}).linear);
 }
 
 // ---- A plane of the caller's
@@ -328,8 +304,7 @@ TEST(Pool, ImagesAreSofterInRoughWater) {
 TEST(Pool, AClipPlaneCutsTheWorldAndItsImages) {
   Pool pool(pool_scene(1.0));
   const View view = view_from({0.4, -4.0, 1.3}, 0.2, -0.2, 0.9, 160, 120);
-  FrameOptions cut;
-  cut.clip_plane = glm::dvec4(0.0, 0.0, -2.0, 2.0);  // up to 1 m
+  FrameOptions cut{.clip_plane = glm::dvec4(0.0, 0.0, -2.0, 2.0)};  // up to 1 m
   cut.labels.add(Label::kDepth);
   const Target& target = pool.draw(view, cut);
   double highest_m = 0.0;
@@ -361,9 +336,7 @@ TEST(Pool, TwoSidesOfAPlaneMakeTheWhole) {
   const View view = view_from({0.4, -4.0, 1.3}, 0.2, -0.2, 0.9, 160, 120);
   const glm::dvec4 plane(1.0, 0.3, 0.1, -1.2);
   const auto ids = [&](std::optional<glm::dvec4> clip) {
-    FrameOptions options;
-    options.clip_plane = clip;
-    return pool.draw(view, options).labels.id;
+    return pool.draw(view, {.clip_plane = clip}).labels.id;
   };
   const auto all = ids(std::nullopt), one = ids(plane), other = ids(-plane);
   int from_one = 0, from_other = 0;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ocean/sea_scale.h"
-#include "render/drawn_shots.h"
+#include "render/shot.h"
 
 namespace swell::render {
 namespace {
@@ -27,12 +27,8 @@ std::size_t at(int x, int y) {
 
 // Green light of a picture straight down, without what changes more slowly than waves: the mean and
 // the contrast of the neighbourhood.
-Field waves_of(const Target& target, int radius_px) {
-  const auto green = [&](int x, int y) {
-    return static_cast<double>(
-        target.linear[3 * (static_cast<std::size_t>(y) * kSize_px.x + static_cast<std::size_t>(x)) +
-                      1]);
-  };
+Field waves_of(const Shot& shot, int radius_px) {
+  const auto green = [&](int x, int y) { return static_cast<double>(shot.linear(x, y).y); };
   Field field{std::vector<double>(kPadded.x * kPadded.y),
               std::vector<double>(kPadded.x * kPadded.y)};
   for (int y = 0; y < kSize_px.y; ++y) {
@@ -115,30 +111,22 @@ double largest_correlation(const Field& field, double near_px, double far_px) {
 double repetition(scene::Scene scene, double height_m, PartSet without) {
   scene.area.size_m = glm::dvec2(60000.0);
   scene.sky.haze_distance_m = 1e6;
+  without.add(Part::kClouds);
   const World world(scene);
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
-  FrameOptions options;
-  options.without = without;
-  options.without.add(Part::kClouds);
-  options.keep_linear = true;
   const View view =
       make_view({0.0, 0.0, height_m}, 0.3, -0.5 * kPi, kFov_rad, 1.0f, kSize_px.x, kSize_px.y);
-  render_frame(world, view, 5.0, options, workspace, target, workers);
+  const Shot shot(world, view, 5.0, {.keep_linear = true, .without = without});
   const double pixel_m = 2.0 * height_m * std::tan(0.5 * kFov_rad) / kSize_px.y;
   const double peak_m = ocean::peak_wavelength_m(scene.sea.wind_speed_mps, scene.sea.gravity_mps2);
   const int radius_px = static_cast<int>(std::ceil(peak_m / pixel_m));
-  return largest_correlation(waves_of(target, radius_px), 3.0 * peak_m / pixel_m, 5000.0 / pixel_m);
+  return largest_correlation(waves_of(shot, radius_px), 3.0 * peak_m / pixel_m, 5000.0 / pixel_m);
 }
 
 TEST(Repetition, IsNotSeenFromHighAbove) {
   const scene::Scene scene = load_shipped("open_ocean");
-  PartSet tiling;
-  tiling.add(Part::kTiling);
   for (const double height_m : {1500.0, 5000.0}) {
     const double tiled = repetition(scene, height_m, {});
-    const double periodic = repetition(scene, height_m, tiling);
+    const double periodic = repetition(scene, height_m, {Part::kTiling});
     EXPECT_LT(tiled, 0.2) << height_m;
     EXPECT_GT(periodic, 0.4) << height_m;  // else the test sees nothing
   }

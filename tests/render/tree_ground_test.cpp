@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/drawn_frames.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 
 namespace swell::render {
 namespace {
@@ -40,20 +39,10 @@ const World& hills() {
   return world;
 }
 
-struct GroundFrame {
-  GroundFrame(glm::dvec3 eye, int terrain_triangles) {
-    FrameOptions options;
-    options.terrain_triangles = terrain_triangles;
-    options.triangle_capacity = kTriangles;
-    Workers workers(2);
-    render_frame(hills(), make_view(eye, 0.0, -0.1, 0.7, 0.25f, kWide, kHigh), 1.0, options,
-                 workspace, target, workers);
-  }
-  const Meshes& meshes() const { return workspace.state().meshes; }
-
-  Workspace workspace;
-  Target target;
-};
+Shot shot_from(glm::dvec3 eye, int terrain_triangles) {
+  return Shot(hills(), make_view(eye, 0.0, -0.1, 0.7, 0.25f, kWide, kHigh), 1.0,
+              {.terrain_triangles = terrain_triangles, .triangle_capacity = kTriangles});
+}
 
 constexpr glm::dvec3 kEyes[] = {{0.0, -260.0, 6.0}, {40.0, -330.0, 60.0}, {0.0, -120.0, 90.0}};
 
@@ -81,17 +70,18 @@ struct Feet {
   std::vector<double> tree_m, ground_m;
 };
 
-Feet feet_of(const GroundFrame& frame, glm::dvec3 eye) {
+Feet feet_of(const Shot& shot) {
   Feet feet;
-  const TreeDraws& draws = frame.meshes().trees.drawn_in(ViewKind::kWindow);
+  const Meshes& meshes = shot.state().meshes;
+  const TreeDraws& draws = meshes.trees.drawn_in(ViewKind::kWindow);
   const Forest& forest = *hills().state().forest;
   for (const DrawnCell& cell : draws.cells)
     for (std::uint32_t i = 0; i < cell.trees; ++i) {
       const DrawnTree& tree = draws.trees[forest.trees.cells[cell.cell].first + i];
-      const auto drawn_m = drawn_height_m(frame.meshes().land, tree.foot_rel);
+      const auto drawn_m = drawn_height_m(meshes.land, tree.foot_rel);
       if (!drawn_m) continue;
       const double true_m = forest.trees.origin.z + forest.columns.z_m[tree.tree];
-      feet.tree_m.push_back(eye.z + tree.foot_rel.z - *drawn_m);
+      feet.tree_m.push_back(shot.view.eye_world.z + tree.foot_rel.z - *drawn_m);
       feet.ground_m.push_back(true_m - *drawn_m);
     }
   return feet;
@@ -106,7 +96,7 @@ double farthest(const std::vector<double>& values) {
 TEST(TreesOnCoarseLand, StandOnTheGroundThatIsDrawn) {
   for (const glm::dvec3& eye : kEyes)
     for (const int triangles : {150, 600, 2000}) {
-      const Feet feet = feet_of(GroundFrame(eye, triangles), eye);
+      const Feet feet = feet_of(shot_from(eye, triangles));
       ASSERT_GT(feet.tree_m.size(), 100u) << eye.y << ' ' << triangles;
       EXPECT_LT(farthest(feet.tree_m), 0.01) << eye.y << ' ' << triangles;
       if (triangles == 150) {
@@ -118,9 +108,9 @@ TEST(TreesOnCoarseLand, StandOnTheGroundThatIsDrawn) {
 TEST(TreesOnCoarseLand, StandOnTheTrueGroundWithAsManyTrianglesAsTheSceneAsksFor) {
   for (const glm::dvec3& eye : kEyes)
     for (const int triangles : {kTriangles, 0}) {
-      const GroundFrame frame(eye, triangles);
-      EXPECT_EQ(frame.meshes().trees.on_drawn_ground, 0.0f);
-      const Feet feet = feet_of(frame, eye);
+      const Shot shot = shot_from(eye, triangles);
+      EXPECT_EQ(shot.state().meshes.trees.on_drawn_ground, 0.0f);
+      const Feet feet = feet_of(shot);
       ASSERT_GT(feet.tree_m.size(), 100u);
       for (std::size_t i = 0; i < feet.tree_m.size(); ++i)
         ASSERT_NEAR(feet.tree_m[i], feet.ground_m[i], 1e-4);
@@ -130,7 +120,7 @@ TEST(TreesOnCoarseLand, StandOnTheTrueGroundWithAsManyTrianglesAsTheSceneAsksFor
 TEST(TreesOnCoarseLand, GoOverToItLittleByLittle) {
   float before = 0.0f;
   for (int triangles = kTriangles; triangles > 2200; triangles -= 60) {
-    const float now = GroundFrame(kEyes[0], triangles).meshes().trees.on_drawn_ground;
+    const float now = shot_from(kEyes[0], triangles).state().meshes.trees.on_drawn_ground;
     EXPECT_GE(now, before);
     EXPECT_LT(now - before, 0.1f) << triangles;
     before = now;

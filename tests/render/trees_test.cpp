@@ -10,11 +10,11 @@
 #include "math/random.h"
 #include "math/simd_target.h"
 #include "raster/pass.h"
-#include "render/drawn_frames.h"
 #include "render/labels/classes.h"
 #include "render/labels/label_channels.h"
+#include "render/measures.h"
+#include "render/shot.h"
 #include "render/view/choose_trees.h"
-#include "render/workspace.h"
 #include "scene/sky.h"
 #include "scene/terrain.h"
 
@@ -60,27 +60,15 @@ const World& island_world() {
   return world;
 }
 
-// A frame and what it was drawn with.
-struct TreeFrame {
-  explicit TreeFrame(const World& world, const FrameOptions& options = {}, int threads = 2)
-      : TreeFrame(world, scene::camera_view(world.scene().camera, kTime_s, kTreesWide, kTreesHigh),
-                  options, threads) {}
-  TreeFrame(const World& world, const View& view, const FrameOptions& options = {},
-            int threads = 2) {
-    Workers workers(threads);
-    render_frame(world, view, kTime_s, options, workspace, target, workers);
-  }
-  const Workspace::State& state() const { return workspace.state(); }
-
-  Workspace workspace;
-  Target target;
-};
+Shot tree_shot(const World& world, const FrameOptions& options = {}, int threads = 2) {
+  return Shot(world, view_of(world, kTime_s, kTreesWide, kTreesHigh), kTime_s, options, threads);
+}
 
 int luma(std::uint32_t rgba) {
   return static_cast<int>((rgba & 255) * 2 + (rgba >> 8 & 255) * 5 + (rgba >> 16 & 255)) / 8;
 }
 
-double mean_difference(const Target& a, const Target& b) {
+double mean_luma_difference(const Target& a, const Target& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i)
     sum += std::abs(luma(a.rgba[i]) - luma(b.rgba[i]));
@@ -88,43 +76,37 @@ double mean_difference(const Target& a, const Target& b) {
 }
 
 TEST(DrawnTrees, HaveTheSameBitsOnAnyThreadsTilesAndTargets) {
-  FrameOptions options;
-  options.edge_samples = 4;
-  const TreeFrame reference(island_world(), options, 1);
-  EXPECT_EQ(difference(TreeFrame(island_world(), options, 3).target, reference.target), "");
-  for (const int tile : {16, 32}) {
-    options.tile_size_px = tile;
-    EXPECT_EQ(difference(TreeFrame(island_world(), options).target, reference.target), "") << tile;
-  }
-  options.tile_size_px = 64;
-  const World made_alone(wooded_island(), 1);
-  EXPECT_EQ(difference(TreeFrame(made_alone, options).target, reference.target), "");
+  const Shot reference = tree_shot(island_world(), {.edge_samples = 4}, 1);
+  const auto expect_same = [&](const World& world, int tile_size_px, int threads) {
+    const FrameOptions options = {.tile_size_px = tile_size_px, .edge_samples = 4};
+    const Shot shot = tree_shot(world, options, threads);
+    EXPECT_EQ(difference(shot.target, reference.target), "") << tile_size_px << " " << threads;
+  };
+  expect_same(island_world(), 64, 3);
+  for (const int tile : {16, 32}) expect_same(island_world(), tile, 2);
+  expect_same(World(wooded_island(), 1), 64, 2);
   if (!simd_target_available(SimdTarget::kAvx512)) return;
   select_simd_target(SimdTarget::kAvx2);
-  EXPECT_EQ(difference(TreeFrame(island_world(), options).target, reference.target), "");
+  expect_same(island_world(), 64, 2);
   select_simd_target(SimdTarget::kAvx512);
 }
 
 TEST(DrawnTrees, LeaveNoTraceOfFramesBefore) {
   const World& world = island_world();
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
+  Shot film;
   const auto draw_from = [&](glm::dvec3 eye, double heading) {
     const View view = make_view(eye, heading, -0.07, 0.7, 0.25f, kTreesWide, kTreesHigh);
-    render_frame(world, view, kTime_s, {}, workspace, target, workers);
-    return view;
+    film.draw(world, view, kTime_s);
   };
   draw_from({20.0, -60.0, 30.0}, 0.3);
   draw_from({500.0, -60.0, 300.0}, -1.5);
-  const View view = draw_from({0.0, -210.0, 5.0}, 0.0);
-  EXPECT_EQ(difference(TreeFrame(world, view).target, target), "");
+  draw_from({0.0, -210.0, 5.0}, 0.0);
+  EXPECT_EQ(difference(Shot(world, film.view, kTime_s).target, film.target), "");
 }
 
 // Triangles in another order leave each pixel with the same depth and the same triangle.
 TEST(DrawnTrees, OrderOfTrianglesChangesNoPixel) {
-  const scene::Camera& camera = island_world().scene().camera;
-  const TreeFrame frame(island_world(), scene::camera_view(camera, kTime_s, 640, 360));
+  const Shot frame(island_world(), view_of(island_world(), kTime_s, 640, 360), kTime_s);
   const auto indices = frame.state().meshes.indices(SurfaceKind::kTrees);
   ASSERT_GT(indices.size(), 2000u);
   std::vector<std::uint32_t> order(indices.size() / 3), shuffled;
@@ -168,7 +150,7 @@ TEST(DrawnTrees, AreLabelledByClassAndNumber) {
   options.labels.add(Label::kClass);
   options.labels.add(Label::kId);
   const World& world = island_world();
-  const TreeFrame frame(world, options);
+  const Shot frame = tree_shot(world, options);
   const std::vector<std::string> names = class_names(world.scene());
   const auto tree_class = class_of(names, "tree");
   ASSERT_TRUE(tree_class);
@@ -200,10 +182,9 @@ TEST(DrawnTrees, CoverAsMuchHoweverSmallTheyAreDrawn) {
     const double away_m = distance_m * std::sqrt(0.5);
     const View view = make_view({0.0, -away_m, away_m + 15.0}, 0.0, -0.25 * kPi,
                                 2.0 * std::atan(15.0 / distance_m), 0.25f, side_px, side_px);
-    FrameOptions options;
+    FrameOptions options = {.without = {Part::kWater}};
     options.labels.add(Label::kClass);
-    options.without = {Part::kWater};
-    const TreeFrame frame(world, view, options);
+    const Shot frame(world, view, kTime_s, options);
     return static_cast<double>(std::ranges::count(frame.target.labels.klass, *tree_class)) *
            pixel_m * pixel_m;
   };
@@ -245,11 +226,10 @@ double covered_m2(const World& world, std::uint32_t number, double distance_m, d
   const View view =
       make_view(eye, heading, -down, 2.0 * std::atan(0.5 * side_px * pixel_m / distance_m), 0.25f,
                 side_px, side_px);
-  FrameOptions options;
+  // So many triangles that the ground hides no more of a foot from afar.
+  FrameOptions options = {.terrain_triangles = 30000, .without = {Part::kWater}};
   options.labels.add(Label::kId);
-  options.without = {Part::kWater};
-  options.terrain_triangles = 30000;  // so that the ground hides no more of a foot from afar
-  const TreeFrame frame(world, view, options);
+  const Shot frame(world, view, kTime_s, options);
   return static_cast<double>(std::ranges::count(frame.target.labels.id, kFirstTreeId + number)) *
          pixel_m * pixel_m;
 }
@@ -275,26 +255,19 @@ TEST(DrawnTrees, AloneCoverAsMuchFrom20MetresTo2Kilometres) {
 }
 
 TEST(DrawnTrees, AreMirroredInTheWater) {
-  FrameOptions bare;
-  bare.without.add(Part::kTrees);
-  const TreeFrame with(island_world()), without(island_world(), bare);
-  const VisibilityBuffer& visibility = with.state().visibility;
+  const Shot with = tree_shot(island_world());
+  const Shot without = tree_shot(island_world(), {.without = {Part::kTrees}});
   int darker = 0, water = 0;
   for (int y = 0; y < kTreesHigh; ++y)
     for (int x = 0; x < kTreesWide; ++x) {
-      const int side = visibility.grid.tile_size_px;
-      const int tile = y / side * visibility.grid.tiles_x + x / side;
-      if (visibility.covered[static_cast<std::size_t>(tile)] < 0) continue;
-      const std::uint32_t p =
-          visibility.primitive_of(tile)[static_cast<std::size_t>(y % side * side + x % side)];
-      if (!with.state().window.primitives.holds(SurfaceKind::kWater, p)) continue;
-      const auto at = static_cast<std::size_t>(y) * kTreesWide + x;
+      if (!with.shows(SurfaceKind::kWater, x, y)) continue;
+      const std::size_t at = with.at(x, y);
       ++water;
       darker += luma(with.target.rgba[at]) < luma(without.target.rgba[at]) - 4;
     }
   EXPECT_GT(darker, water / 20);
-  EXPECT_GT(with.state().lookups.reflection.view.primitives.end(SurfaceKind::kTrees),
-            with.state().lookups.reflection.view.primitives.begin(SurfaceKind::kTrees));
+  const PrimitiveRanges& mirrored = with.state().lookups.reflection.view.primitives;
+  EXPECT_GT(mirrored.end(SurfaceKind::kTrees), mirrored.begin(SurfaceKind::kTrees));
 }
 
 // A sunny wood down to the shore, from above.
@@ -305,15 +278,15 @@ TEST(DrawnTrees, CastShadowsOnLandAndSeaAwayFromTheSun) {
   scene.sky.sun_elevation_rad = 0.35;
   scene.sky.sun_direction = scene::sun_direction(0.0, 0.35);
   const World world(scene);
-  FrameOptions options, unshaded;
+  FrameOptions options;
   options.labels.add(Label::kClass);
-  unshaded.without.add(Part::kShadows);
   const View view = make_view({0.0, -1.0, 420.0}, 0.0, -1.57, 0.7, 0.25f, kTreesWide, kTreesHigh);
-  const TreeFrame with(world, view, options), without(world, view, unshaded);
+  const Shot with(world, view, kTime_s, options);
+  const Shot without(world, view, kTime_s, {.without = {Part::kShadows}});
   int on_land = 0, on_sea_south = 0, on_sea_north = 0;
   for (int y = 0; y < kTreesHigh; ++y)
     for (int x = 0; x < kTreesWide; ++x) {
-      const auto at = static_cast<std::size_t>(y) * kTreesWide + x;
+      const std::size_t at = with.at(x, y);
       const bool darker = luma(with.target.rgba[at]) < luma(without.target.rgba[at]) - 4;
       if (with.target.labels.klass[at] == kTerrainClass) on_land += darker;
       if (with.target.labels.klass[at] != kWaterClass) continue;
@@ -369,21 +342,15 @@ TEST(DrawnTrees, LeftOutLeaveTheLandAsItIsWithoutAny) {
   scene::Scene bare = wooded_island();
   bare.trees.clear();
   const World bare_world(bare);
-  FrameOptions options;
-  options.without.add(Part::kTrees);
-  EXPECT_EQ(difference(TreeFrame(island_world(), options).target, TreeFrame(bare_world).target),
-            "");
+  const Shot left_out = tree_shot(island_world(), {.without = {Part::kTrees}});
+  EXPECT_EQ(difference(left_out.target, tree_shot(bare_world).target), "");
 }
 
 TEST(DrawnTrees, SwayWithTheWindAndRepeatThemselves) {
   const World& world = island_world();
   const auto at = [&](double t_s) {
-    const View view = scene::camera_view(world.scene().camera, 0.0, 640, 360);
-    Workers workers(2);
-    Workspace workspace;
-    Target target;
-    render_frame(world, view, t_s, {}, workspace, target, workers);
-    return workspace.state().meshes.trees.drawn_in(ViewKind::kWindow).p_rel;
+    const Shot shot(world, view_of(world, 0.0, 640, 360), t_s);
+    return shot.state().meshes.trees.drawn_in(ViewKind::kWindow).p_rel;
   };
   const auto a = at(1.0), b = at(1.0), c = at(2.0);
   EXPECT_EQ(a, b);
@@ -399,25 +366,17 @@ TEST(DrawnTrees, SwayWithTheWindAndRepeatThemselves) {
 // picture differs from the mean of its neighbours by much more than it does as a rule.
 TEST(DrawnTrees, PassIntoTheLandWithoutAPop) {
   const World& world = island_world();
-  Workers workers(2);
-  Workspace workspace;
-  std::vector<Target> frames;
-  FrameOptions options;
-  options.without.add(Part::kWater);
-  options.edge_samples = 4;
+  Shot film;
+  std::vector<double> mean;
   // The picture narrows as the eye goes, so that the island stays as large and its trees do not.
   for (int k = 0; k < 60; ++k) {
     const double away = 1.0 + 0.01 * k;
     const View view = make_view({0.0, -900.0 * away, 400.0 * away}, 0.0, -0.42, 0.5, 0.25f,
                                 static_cast<int>(220 / away), static_cast<int>(130 / away));
-    frames.emplace_back();
-    render_frame(world, view, kTime_s, options, workspace, frames.back(), workers);
-  }
-  std::vector<double> mean;
-  for (const Target& frame : frames) {
+    film.draw(world, view, kTime_s, {.edge_samples = 4, .without = {Part::kWater}});
     double sum = 0.0;
-    for (const std::uint32_t pixel : frame.rgba) sum += luma(pixel);
-    mean.push_back(sum / static_cast<double>(frame.rgba.size()));
+    for (const std::uint32_t pixel : film.target.rgba) sum += luma(pixel);
+    mean.push_back(sum / static_cast<double>(film.target.rgba.size()));
   }
   double most = 0.0;
   for (std::size_t k = 1; k + 1 < mean.size(); ++k)
@@ -429,18 +388,15 @@ TEST(DrawnTrees, PassIntoTheLandWithoutAPop) {
 // other triangles than it does without them by motion alone, many times over.
 TEST(DrawnTrees, SmallStepsMakeSmallDifferences) {
   const World& world = island_world();
-  Workers workers(2);
-  Workspace workspace;
-  FrameOptions options;
-  options.edge_samples = 4;
-  Target before, now;
+  Shot film;
+  Target before;
   std::vector<double> steps;
   for (int k = 0; k < 40; ++k) {
     const double away = 1.0 + 0.001 * k;
     const View view = make_view({0.0, -400.0 * away, 30.0 * away}, 0.0, -0.05, 0.5, 0.25f,
                                 kTreesWide, kTreesHigh);
-    render_frame(world, view, kTime_s, options, workspace, now, workers);
-    if (k > 0) steps.push_back(mean_difference(before, now));
+    const Target& now = film.draw(world, view, kTime_s, {.edge_samples = 4});
+    if (k > 0) steps.push_back(mean_luma_difference(before, now));
     before = now;
   }
   std::vector<double> sorted = steps;
@@ -449,8 +405,7 @@ TEST(DrawnTrees, SmallStepsMakeSmallDifferences) {
 }
 
 TEST(TreesOfScenes, TheSceneOfTreesHasAHundredThousand) {
-  const scene::Scene scene =
-      scene::load_scene(std::string(SWELL_SOURCE_DIR) + "/tests/scenes/trees.toml");
+  const scene::Scene scene = scene::load_scene(SWELL_SOURCE_DIR "/tests/scenes/trees.toml");
   const terrain::HeightGrid land = *scene::build_terrain(scene);
   const terrain::HeightGrid sea = terrain::distance_from_sea(land);
   Workers workers(2);

@@ -1,34 +1,21 @@
 // Random pictures of the shipped scenes, for tests that look at the meshes they are drawn with.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 
 #include "math/random.h"
-#include "render/workspace.h"
+#include "render/shot.h"
 #include "scene/water.h"
 
 namespace swell::render {
 
-// The scene of that name; "_radial" after it: with the radial grid, "_plane": with the plane.
-inline scene::Scene load_shipped(const std::string& name) {
-  const std::size_t end = std::min(name.find("_radial"), name.find("_plane"));
-  std::string file = SWELL_SOURCE_DIR "/scenes/";
-  file.append(name, 0, end).append(".toml");
-  scene::Scene scene = scene::load_scene(file);
-  if (name.ends_with("_radial")) scene.detail.triangulation = scene::Triangulation::kRadial;
-  if (name.ends_with("_plane")) scene.detail.triangulation = scene::Triangulation::kPlane;
-  return scene;
-}
-
 // Random eyes within 2 km of the origin, times from a day ago to a day ahead.
-struct Shot {
+struct Look {
   View view;
   double t_s;
 };
-inline Shot random_shot(int n, int width_px, int height_px) {
+inline Look random_look(int n, int width_px, int height_px) {
   const auto dice = [&](int i) {
     return random_uniform(77, static_cast<std::uint64_t>(8 * n + i));
   };
@@ -52,23 +39,19 @@ inline bool shows_all_waves(const Surface& drawn, const View& view, std::size_t 
   return distance_m < 0.79f * static_cast<float>(drawn.statistics.reach_m);
 }
 
-// Draws random shots and gives each and what it was drawn with to
-// check(shot, surface of the same time, drawn water).
+// Draws so many random looks and gives each and what it was drawn with to
+// check(look, surface of the same time, drawn water).
 template <class Check>
-void draw_shots(const scene::Scene& scene, int count, glm::ivec2 size_px, int triangles,
+void draw_looks(const scene::Scene& scene, int count, glm::ivec2 size_px, int triangles,
                 Check check) {
   const World world(scene);
   const scene::Water water(scene);
-  Workers workers(2);
-  Workspace workspace;
-  Target target;
   ocean::SeaFrame frame;
-  FrameOptions options;
-  options.water_triangles = triangles;
+  Shot shot;
   for (int n = 0; n < count; ++n) {
-    const Shot shot = random_shot(n, size_px.x, size_px.y);
-    render_frame(world, shot.view, shot.t_s, options, workspace, target, workers);
-    check(shot, water.at(shot.t_s, frame, workers), workspace.state().meshes.water);
+    const Look look = random_look(n, size_px.x, size_px.y);
+    shot.draw(world, look.view, look.t_s, {.water_triangles = triangles});
+    check(look, water.at(look.t_s, frame, shot.workers), shot.state().meshes.water);
   }
 }
 
