@@ -27,7 +27,7 @@ if(CMAKE_CXX_FLAGS MATCHES "-ffast-math|-Ofast|-ffp-contract=(fast|on)|-march=na
   message(FATAL_ERROR "CMAKE_CXX_FLAGS='${CMAKE_CXX_FLAGS}' would change pictures; remove the flag.")
 endif()
 
-# Headers that most files include, compiled once: a third of a build's time. That files include what they use shows with
+# Headers that most files include, compiled once: a third of a folder's compile time. That files include what they use shows with
 # CMAKE_DISABLE_PRECOMPILE_HEADERS (scripts/debian13.sh).
 set(swell_common_headers <algorithm> <array> <cmath> <cstdint> <functional> <memory> <optional> <span> <string> <string_view>
   <vector>)
