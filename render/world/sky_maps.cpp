@@ -255,8 +255,9 @@ void build_heights(const scene::SkyLight& sea_level, float exposure, Workers& wo
 
 }  // namespace
 
-SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers) {
-  const scene::SkyLight light = scene::make_sky_light(sky, workers);
+SkyMaps build_sky_maps(const scene::Sky& sky, const scene::Atmosphere& atmosphere,
+                       Workers& workers) {
+  const scene::SkyLight light = scene::make_sky_light(sky, atmosphere, workers);
   SkyMaps maps;
   maps.cloud_light =
       make_cloud_light(light, clear_ambient(light), static_cast<float>(sky.cloud_cover));

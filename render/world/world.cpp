@@ -7,6 +7,7 @@
 #include "scene/check_scene.h"
 #include "scene/coast.h"
 #include "scene/drift.h"
+#include "scene/sky.h"
 #include "scene/terrain.h"
 #include "terrain/bicubic.h"
 #include "texture/foam_pattern.h"
@@ -71,8 +72,17 @@ CoastMaps build_coast_maps(const ocean::CoastSea& coast, Workers& workers) {
 
 // The parts of a world. like: one that describes the part alike, or null.
 
-void add_sky(const World::State* like, Workers& workers, World::State& state) {
-  state.sky = like ? like->sky : shared(build_sky_maps(state.scene.sky, workers));
+// like: may have another sky.
+void add_sky(const World::State* like, bool same_sky, Workers& workers, World::State& state) {
+  const scene::Sky& sky = state.scene.sky;
+  const bool is_gradient = scene::is_gradient(sky);
+  const bool same_air = like && like->scene.sky.turbidity == sky.turbidity &&
+                        scene::is_gradient(like->scene.sky) == is_gradient;
+  state.atmosphere = same_air
+                         ? like->atmosphere
+                         : shared(is_gradient ? scene::Atmosphere()
+                                              : scene::make_atmosphere(sky.turbidity, workers));
+  state.sky = same_sky ? like->sky : shared(build_sky_maps(sky, *state.atmosphere, workers));
 }
 
 // Once there is a sky. like: with the same clouds.
@@ -222,7 +232,7 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
         add_ground_pattern(like, *state);
         add_paper_look(like, workers, *state);
         add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
-        add_sky(if_alike(like && like->scene.sky == now.sky), workers, *state);
+        add_sky(like, like && like->scene.sky == now.sky, workers, *state);
         add_clouds(if_alike(like && like->scene.clouds == now.clouds), workers, *state);
       });
   state->fog_light = light_fog(now.air, *state->sky);

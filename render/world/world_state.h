@@ -20,6 +20,7 @@
 #include "render/world/land_rays.h"
 #include "render/world/land_shadow.h"
 #include "render/world/sun_slide.h"
+#include "scene/atmosphere.h"
 #include "scene/mesh_file.h"
 #include "scene/object_mesh.h"
 #include "scene/scene.h"
@@ -134,9 +135,10 @@ struct ObjectMeshes {
 struct World::State {
   scene::Scene scene;
   std::shared_ptr<const ocean::Sea> sea = {};
-  std::shared_ptr<const ocean::Whitecaps> whitecaps = {};  // of the sea
-  std::shared_ptr<const ocean::CoastSea> coast = {};       // none: no wave trains
-  std::shared_ptr<const CoastMaps> coast_maps = {};        // there is one if there is a coast
+  std::shared_ptr<const ocean::Whitecaps> whitecaps = {};    // of the sea
+  std::shared_ptr<const ocean::CoastSea> coast = {};         // none: no wave trains
+  std::shared_ptr<const CoastMaps> coast_maps = {};          // there is one if there is a coast
+  std::shared_ptr<const scene::Atmosphere> atmosphere = {};  // empty: a painted sky
   std::shared_ptr<const SkyMaps> sky = {};
   FogLights fog_light = {};
   std::shared_ptr<const CloudVolume> cloud_volume = {};     // none: no volumetric clouds
@@ -201,7 +203,9 @@ inline constexpr int kAroundSize = 512;
 
 // These give the same bits with any workers.
 NearShoreMap build_near_shore(const World::State& world, Workers& workers);
-SkyMaps build_sky_maps(const scene::Sky& sky, Workers& workers);
+// atmosphere: of the sky's turbidity; of a painted sky any.
+SkyMaps build_sky_maps(const scene::Sky& sky, const scene::Atmosphere& atmosphere,
+                       Workers& workers);
 FogLights light_fog(const scene::FoggyAir& air, const SkyMaps& sky);
 // Gives objects of files their sizes. like: may be null; a world whose files are not read again.
 // Throws SceneError for a file that cannot be drawn.

@@ -6,6 +6,7 @@
 #include "math/simd_target.h"
 #include "render/measures.h"
 #include "render/shot.h"
+#include "scene/sky.h"
 
 namespace swell::render {
 namespace {
@@ -168,10 +169,15 @@ TEST(FrameBits, CallersFloatEnvironmentChangesNoPixel) {
 
 TEST(FrameBits, AWorldMadeLikeAnotherDrawsTheSamePicture) {
   const World& beach = shipped_world("beach");
-  scene::Scene other_wind = beach.scene(), other_all = shipped_world("open_ocean").scene();
+  scene::Scene other_wind = beach.scene(), other_sun = beach.scene(), other_air = beach.scene(),
+               painted = beach.scene(), other_all = shipped_world("open_ocean").scene();
   other_wind.sea.wind_speed_mps = 6.0;
+  other_sun.sky.sun_elevation_rad = 0.3;
+  other_sun.sky.sun_direction = scene::sun_direction(beach.scene().sky.sun_azimuth_rad, 0.3);
+  other_air.sky.turbidity = 6.0;
+  painted.sky.model = scene::SkyModel::kGradient;
   other_all.sea.seed += 1;
-  for (const scene::Scene& scene : {other_wind, other_all}) {
+  for (const scene::Scene& scene : {other_wind, other_sun, other_air, painted, other_all}) {
     const World like(scene, beach, 1);
     EXPECT_EQ(difference(small_shot(like, 2.0).target, small_shot(World(scene), 2.0).target), "");
   }
