@@ -54,7 +54,7 @@ drift = true
 )";
 
 const World& drift_world() {
-  static const World world(scene::parse_scene(kScene, "drift.toml"), 1);
+  static const World world = world_of(scene::parse_scene(kScene, "drift.toml"));
   return world;
 }
 
@@ -68,7 +68,7 @@ struct Frame : Shot {
 };
 
 std::vector<scene::ObjectPose> poses_at(const World& world, double t_s, glm::vec2* current) {
-  const scene::Water water(world.scene());
+  static const scene::Water water(drift_world().scene());
   ocean::SeaFrame sea;
   Workers workers(1);
   const scene::WaterSurface surface = water.at(t_s, sea, workers);

@@ -56,7 +56,7 @@ scene::Scene wooded_island(const std::string& more = "") {
 }
 
 const World& island_world() {
-  static const World world(wooded_island());
+  static const World world = world_of(wooded_island());
   return world;
 }
 
@@ -199,7 +199,7 @@ TEST(DrawnTrees, CoverAsMuchHoweverSmallTheyAreDrawn) {
 
 // Trees that stand alone, all as high, of both kinds.
 const World& sparse_world() {
-  static const World world([] {
+  static const World world = world_of([] {
     scene::Scene scene = wooded_island();
     scene.trees[0].density_per_m2 = 0.001;
     scene.trees[0].clumping = 0.0;
@@ -210,9 +210,9 @@ const World& sparse_world() {
 }
 
 // What a picture shows of a tree of the world, from 8 degrees above and another side of each:
-// pixel_m at its middle; `shift` moves the picture by parts of a pixel.
+// pixel_m at its middle; `shift` moves the picture by parts of a pixel. Draws with `shot`.
 double covered_m2(const World& world, std::uint32_t number, double distance_m, double pixel_m,
-                  glm::dvec2 shift) {
+                  glm::dvec2 shift, Shot& shot) {
   const terrain::Trees& trees = world.state().forest->trees;
   const terrain::Tree& tree = trees.trees[number];
   const double height_m = static_cast<double>(tree.height_m);
@@ -229,8 +229,8 @@ double covered_m2(const World& world, std::uint32_t number, double distance_m, d
   // So many triangles that the ground hides no more of a foot from afar.
   FrameOptions options = {.terrain_triangles = 30000, .without = {Part::kWater}};
   options.labels.add(Label::kId);
-  const Shot frame(world, view, kTime_s, options);
-  return static_cast<double>(std::ranges::count(frame.target.labels.id, kFirstTreeId + number)) *
+  const Target& picture = shot.draw(world, view, kTime_s, options);
+  return static_cast<double>(std::ranges::count(picture.labels.id, kFirstTreeId + number)) *
          pixel_m * pixel_m;
 }
 
@@ -239,14 +239,15 @@ double covered_m2(const World& world, std::uint32_t number, double distance_m, d
 TEST(DrawnTrees, AloneCoverAsMuchFrom20MetresTo2Kilometres) {
   const World& world = sparse_world();
   ASSERT_GT(world.state().forest->trees.trees.size(), 24u);
+  Shot shot;
   for (const double distance_m : {20.0, 60.0, 200.0, 400.0, 600.0, 1000.0, 2000.0}) {
     const int shifts = distance_m < 300.0 ? 1 : 8;
     double drawn_m2 = 0.0, whole_m2 = 0.0;
     for (std::uint32_t number = 0; number < 24; ++number) {
-      whole_m2 += covered_m2(world, number, distance_m, 0.03, glm::dvec2(0.0));
+      whole_m2 += covered_m2(world, number, distance_m, 0.03, glm::dvec2(0.0), shot);
       for (int k = 0; k < shifts; ++k)
         drawn_m2 += covered_m2(world, number, distance_m, distance_m / 935.0,
-                               {random_uniform(5, 2 * k), random_uniform(5, 2 * k + 1)}) /
+                               {random_uniform(5, 2 * k), random_uniform(5, 2 * k + 1)}, shot) /
                     shifts;
     }
     EXPECT_GT(whole_m2, 200.0);
@@ -277,7 +278,7 @@ TEST(DrawnTrees, CastShadowsOnLandAndSeaAwayFromTheSun) {
   scene.sky.sun_azimuth_rad = 0.0;  // in the north: shadows fall to the south
   scene.sky.sun_elevation_rad = 0.35;
   scene.sky.sun_direction = scene::sun_direction(0.0, 0.35);
-  const World world(scene);
+  const World world = world_of(scene);
   FrameOptions options;
   options.labels.add(Label::kClass);
   const View view = make_view({0.0, -1.0, 420.0}, 0.0, -1.57, 0.7, 0.25f, kTreesWide, kTreesHigh);
@@ -341,7 +342,7 @@ TEST(ChosenTrees, AreThoseThatThePictureShowsOnAnyTarget) {
 TEST(DrawnTrees, LeftOutLeaveTheLandAsItIsWithoutAny) {
   scene::Scene bare = wooded_island();
   bare.trees.clear();
-  const World bare_world(bare);
+  const World bare_world = world_of(bare);
   const Shot left_out = tree_shot(island_world(), {.without = {Part::kTrees}});
   EXPECT_EQ(difference(left_out.target, tree_shot(bare_world).target), "");
 }
@@ -419,7 +420,7 @@ TEST(TreesOfScenes, TheSceneOfTreesHasAHundredThousand) {
 TEST(TreesOfScenes, BadInputIsNamedInOneLine) {
   const auto fault_of = [](const std::string& more) -> std::string {
     try {
-      const World world(wooded_island(more));
+      const World world = world_of(wooded_island(more));
     } catch (const scene::SceneError& error) {
       return error.what();
     }

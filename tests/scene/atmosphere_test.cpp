@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "light_paths.h"
@@ -17,6 +18,15 @@ constexpr double kLux = 1e4;  // of the unit of irradiance
 
 double luminance(glm::dvec3 rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
+// Made once.
+const Atmosphere& air_of(double turbidity) {
+  static std::map<double, Atmosphere> made;
+  const auto found = made.find(turbidity);
+  if (found != made.end()) return found->second;
+  Workers workers(2);
+  return made.emplace(turbidity, make_atmosphere(turbidity, workers)).first->second;
+}
+
 SkyLight light_at(double elevation_deg, double moon_phase = 0.0, double turbidity = 2.2) {
   Sky sky;
   sky.turbidity = turbidity;
@@ -24,28 +34,8 @@ SkyLight light_at(double elevation_deg, double moon_phase = 0.0, double turbidit
   sky.sun_elevation_rad = radians(elevation_deg);
   sky.sun_direction = sun_direction(0.0, sky.sun_elevation_rad);
   Workers workers(2);
-  return make_sky_light(sky, workers);
+  return make_sky_light(sky, air_of(turbidity), workers);
 }
-
-// Suns of many heights in one air, without a moon.
-class Days {
- public:
-  explicit Days(double turbidity)
-      : turbidity_(turbidity), air_(make_atmosphere(turbidity, workers_)) {}
-  SkyLight at(double elevation_deg) {
-    Sky sky;
-    sky.turbidity = turbidity_;
-    sky.moon_phase = 0.0;
-    sky.sun_elevation_rad = radians(elevation_deg);
-    sky.sun_direction = sun_direction(0.0, sky.sun_elevation_rad);
-    return make_sky_light(sky, air_, workers_);
-  }
-
- private:
-  Workers workers_{2};
-  double turbidity_;
-  Atmosphere air_;
-};
 
 // Of a level plane.
 glm::dvec3 sky_irradiance(const SkyLight& light) {
@@ -91,10 +81,9 @@ double standard_illuminance_lx(double altitude_deg) {
 }
 
 TEST(Atmosphere, LightsTheGroundAsTheStandardTable) {
-  Days days(2.2);
   for (double altitude_deg = 90.0; altitude_deg >= -12.0; altitude_deg -= 1.0) {
     const double factor = altitude_deg >= 5.0 ? 1.2 : altitude_deg >= -6.0 ? 1.5 : 3.0;
-    const double lx = illuminance_lx(days.at(altitude_deg));
+    const double lx = illuminance_lx(light_at(altitude_deg));
     const double standard_lx = standard_illuminance_lx(altitude_deg);
     EXPECT_LE(lx, factor * standard_lx) << altitude_deg;
     EXPECT_GE(lx, standard_lx / factor) << altitude_deg;
@@ -107,12 +96,11 @@ TEST(Atmosphere, LightsTheGroundAsTheStandardTable) {
 // Source: Illuminating Engineering Society, Recommended Practice for the Calculation of Daylight
 // Availability, Journal of the Illuminating Engineering Society 13(4), 1984, pages 381 to 392.
 TEST(Atmosphere, SunAndSkyHaveTheirPartsOfDaylight) {
-  Days days(2.2);
   for (const double altitude_deg : {85.0, 60.0, 45.0, 30.0, 20.0, 15.0, 10.0}) {
     const double sine = std::sin(radians(altitude_deg));
     const double sun_klx = 127.5 * std::exp(-0.21 / sine) * sine;
     const double sky_klx = 0.8 + 15.5 * std::sqrt(sine);
-    const SkyLight light = days.at(altitude_deg);
+    const SkyLight light = light_at(altitude_deg);
     EXPECT_NEAR(10.0 * direct_irradiance(light) / sun_klx, 1.0, 0.2) << altitude_deg;
     EXPECT_NEAR(10.0 * luminance(sky_irradiance(light)) / sky_klx, 1.0, 0.2) << altitude_deg;
   }
@@ -136,11 +124,10 @@ TEST(Atmosphere, MoonLightsTheNight) {
 
 TEST(Atmosphere, EnergyNeverRisesAsTheSunSinks) {
   for (const double turbidity : {2.0, 4.0, 10.0}) {
-    Days days(turbidity);
     double before = 1e9;
     for (double altitude_deg = 90.0; altitude_deg >= -20.0;
-         altitude_deg -= altitude_deg > 15.0 ? 1.0 : 0.25) {
-      const SkyLight light = days.at(altitude_deg);
+         altitude_deg -= altitude_deg > 15.0 ? 3.0 : 0.5) {
+      const SkyLight light = light_at(altitude_deg, 0.0, turbidity);
       const glm::dvec3 sky = sky_irradiance(light);
       const glm::dvec3 direct =
           glm::dvec3(light.irradiance) * std::max(static_cast<double>(light.to_light.z), 0.0);
@@ -212,7 +199,7 @@ TEST(Atmosphere, IsAsBrightAsPathsOfLightSay) {
         Case{2.2, 20.0, 90.0, 60.0}, Case{2.2, 20.0, 180.0, 5.0}, Case{2.2, 20.0, 0.0, 20.0},
         Case{2.2, 10.0, 180.0, 30.0}, Case{2.2, 5.0, 90.0, 5.0}, Case{5.0, 80.0, 0.0, 2.0},
         Case{5.0, 80.0, 180.0, 10.0}}) {
-    const Atmosphere air = make_atmosphere(c.turbidity, workers);
+    const Atmosphere& air = air_of(c.turbidity);
     const glm::dvec3 to_sun(sun_direction(0.0, radians(c.sun_deg)));
     const glm::dvec3 d(sun_direction(radians(c.azimuth_deg), radians(c.elevation_deg)));
     const glm::vec3 ours = sky_radiance(make_sky_table(air, to_sun, 0.0, workers), d);
@@ -233,7 +220,7 @@ TEST(Atmosphere, IsAsBrightInThickHazeAsPathsOfLightSay) {
     double azimuth_deg, elevation_deg;
   };
   for (const double turbidity : {5.0, 10.0}) {
-    const Atmosphere air = make_atmosphere(turbidity, workers);
+    const Atmosphere& air = air_of(turbidity);
     for (const double sun_deg : {5.0, 2.0}) {
       const glm::dvec3 to_sun(sun_direction(0.0, radians(sun_deg)));
       const SkyTable table = make_sky_table(air, to_sun, 0.0, workers);
@@ -252,7 +239,7 @@ TEST(Atmosphere, IsAsBrightInThickHazeAsPathsOfLightSay) {
 // dipped horizon, where the air's bending moves what is seen (horizon_sine).
 TEST(Atmosphere, IsAsBrightAloftAsPathsOfLightSay) {
   Workers workers(2);
-  const Atmosphere air = make_atmosphere(2.2, workers);
+  const Atmosphere& air = air_of(2.2);
   const glm::dvec3 to_sun(sun_direction(0.0, radians(40.0)));
   LightPaths paths(2.2);
   double lost = 0.0;
@@ -280,7 +267,7 @@ TEST(Atmosphere, IsAsBrightAloftUnderALowSunAsPathsOfLightSay) {
   struct Place {
     double azimuth_deg, over_horizon_deg;
   };
-  const Atmosphere air = make_atmosphere(2.2, workers);
+  const Atmosphere& air = air_of(2.2);
   LightPaths paths(2.2);
   for (const double sun_deg : {5.0, 2.0})
     for (const double height_m : {3000.0, 6000.0, 12000.0, 30000.0}) {
@@ -318,7 +305,7 @@ TEST(Atmosphere, IsAsBrightAloftUnderALowSunAsPathsOfLightSay) {
 TEST(Atmosphere, ChangesSmoothlyWithTheHeight) {
   constexpr double kRatio = 1.05;
   Workers workers(2);
-  const Atmosphere air = make_atmosphere(2.2, workers);
+  const Atmosphere& air = air_of(2.2);
   for (const double sun_deg : {40.0, 5.0, 1.0, -8.0}) {
     const glm::dvec3 to_sun(sun_direction(0.0, radians(sun_deg)));
     std::array<std::array<double, 2>, 5> before{};
@@ -396,7 +383,7 @@ TEST(Atmosphere, OverheadLightPassesTheKnownDepth) {
 
 TEST(Atmosphere, HalfOfASettingSunIsHidden) {
   Workers workers(1);
-  const Atmosphere air = make_atmosphere(2.2, workers);
+  const Atmosphere& air = air_of(2.2);
   const double r = kSunRadius_rad;
   EXPECT_EQ(disc_transmittance(air, 0.0, -r), glm::vec3(0.0f));
   EXPECT_NEAR(disc_transmittance(air, 0.0, 0.0).x / transmittance(air, 0.0, 0.0).x, 0.5f, 1e-3f);
