@@ -55,7 +55,7 @@ scene::Scene sea_of(double wind_mps) {
 // HOR-04, under the sun a little less.
 TEST(Bands, OfFarWaterAreTheMeansOfAFinerPicture) {
   for (const double wind_mps : {5.0, 12.0}) {
-    const World world(sea_of(wind_mps));
+    const World world = world_of(sea_of(wind_mps));
     for (const double from_sun_rad : {0.0, 1.5, 3.1}) {
       for (const double down_rad : {0.05, 0.15}) {
         const std::vector<float> coarse = draw(world, 1500.0, from_sun_rad, down_rad);
@@ -77,7 +77,7 @@ TEST(Bands, OfFarWaterAreTheMeansOfAFinerPicture) {
 // whole, since the waves that one picture happens to show are few.
 TEST(Bands, OfNearWaterAreAsBrightHoweverFineThePicture) {
   for (const double wind_mps : {5.0, 12.0}) {
-    const World world(sea_of(wind_mps));
+    const World world = world_of(sea_of(wind_mps));
     for (const double eye_m : {10.0, 60.0})
       for (const double from_sun_rad : {0.0, 1.5})
         for (const double down_rad : {0.05, 0.15}) {
@@ -94,7 +94,7 @@ TEST(Bands, OfNearWaterAreAsBrightHoweverFineThePicture) {
 
 // HOR-05: while the camera turns by a tenth of a pixel a frame.
 TEST(Bands, StayAsBrightWhileTheCameraCreeps) {
-  const World world(sea_of(12.0));
+  const World world = world_of(sea_of(12.0));
   for (const auto& [eye_m, from_sun_rad] :
        {std::pair(2.0, 0.0), {2.0, 3.1}, {10.0, 1.5}, {60.0, 3.1}, {1500.0, 0.0}}) {
     std::array<double, kBands> before{};

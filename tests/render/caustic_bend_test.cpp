@@ -83,7 +83,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, i
 TEST_F(CausticBend, MovesTheLightByTheSlopeOfTheRipples) {
   constexpr int kMoved_px = 10;
   scene::Scene scene = shallow_water();
-  const World straight(scene);
+  const World straight = world_of(scene);
   const double pixel_m =
       2.0 * std::tan(kHalfFov_rad) * (kEye_m + kDepth_m / scene.water.refraction_index) / kSize;
   scene.water.caustic_distortion = kMoved_px * pixel_m / ripple_slope(straight);

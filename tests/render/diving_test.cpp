@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Winds, Diving, testing::Values(0.0, 4.0, 8.0, 13.0, 22.
 // than those around do. The water line of each column lies within two pixels of where a query puts
 // it: the drawn triangles miss the water by a few millimetres, of which a pixel has five.
 TEST_P(Diving, IsOneSmoothWayThroughTheSurface) {
-  const World world(sea_of(GetParam()));
+  const World world = world_of(sea_of(GetParam()));
   Diver diver(world);
   // Fewer of them are those about the middle.
   constexpr int kFrames = 300;

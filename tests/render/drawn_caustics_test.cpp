@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <deque>
 #include <numbers>
 #include <vector>
 
@@ -20,19 +19,11 @@ constexpr int kSize = 128;
 
 class DrawnCaustics : public FlatFloor {
  protected:
-  // Shares its sky with the first one that a test makes.
-  const World& world_of(const scene::Scene& scene) {
-    return worlds_.empty() ? worlds_.emplace_back(scene, 2)
-                           : worlds_.emplace_back(scene, worlds_.front(), 2);
-  }
-
   scene::Scene shallow_water(double depth_m, double waves) const {
     scene::Scene scene = flat_floor(depth_m, waves);
     scene.detail.water_triangles = scene.detail.terrain_triangles = 2000;
     return scene;
   }
-
-  std::deque<World> worlds_;
 };
 
 View looking_down() {
@@ -113,7 +104,7 @@ std::vector<double> minus_laplacian(const scene::Scene& scene, double t_s,
 TEST_F(DrawnCaustics, LieUnderTheBendsOfTheDrawnSea) {
   const double depth_m = 0.5, t_s = 7.0;
   const scene::Scene scene = shallow_water(depth_m, 0.3);
-  const World& world = world_of(scene);
+  const World world = world_of(scene);
   const std::vector<double> added = added_light(world, t_s);
   EXPECT_GT(deviation(added), 0.01);
   EXPECT_GT(correlation(added, minus_laplacian(scene, t_s, places_on_floor(depth_m))), 0.9);
@@ -124,9 +115,9 @@ TEST_F(DrawnCaustics, LieUnderTheBendsOfTheDrawnSea) {
 
 TEST_F(DrawnCaustics, OfAnotherSeedAreOthers) {
   scene::Scene scene = shallow_water(2.0, 0.6);
-  const World& world = world_of(scene);
+  const World world = world_of(scene);
   scene.sea.seed = 77;
-  const World& other = world_of(scene);
+  const World other = world_of(scene);
   const std::vector<double> here = added_light(world, 3.0), there = added_light(other, 3.0);
   EXPECT_GT(deviation(here), 0.05);
   EXPECT_GT(deviation(there), 0.05);
@@ -139,7 +130,7 @@ TEST_F(DrawnCaustics, HaveMostContrastAtSomeDepth) {
   for (const double depth_m : {0.05, 1.5, 12.0}) {
     scene::Scene scene = shallow_water(depth_m, 0.6);
     scene.sea.patch_lengths_m = {23.0, 5.3};  // the longer one's tiles differ: it has no maps
-    const World& world = world_of(scene);
+    const World world = world_of(scene);
     contrast.push_back(deviation(added_light(world, 3.0)));
   }
   EXPECT_GT(contrast[1], 0.1);
@@ -150,7 +141,7 @@ TEST_F(DrawnCaustics, HaveMostContrastAtSomeDepth) {
 TEST_F(DrawnCaustics, AreThoseOfAWholeLoopBefore) {
   scene::Scene scene = shallow_water(2.0, 0.6);
   scene.sea.loop_s = 20.0;
-  const World& world = world_of(scene);
+  const World world = world_of(scene);
   const std::uint64_t first = picture_hash(draw(world, 3.0));
   EXPECT_EQ(picture_hash(draw(world, 23.0)), first);
   EXPECT_NE(picture_hash(draw(world, 13.0)), first);
@@ -158,9 +149,9 @@ TEST_F(DrawnCaustics, AreThoseOfAWholeLoopBefore) {
 
 TEST_F(DrawnCaustics, OfNoContrastAreNone) {
   scene::Scene scene = shallow_water(2.0, 0.6);
-  const World& world = world_of(scene);
+  const World world = world_of(scene);
   scene.water.caustics = 0.0;
-  const World& without = world_of(scene);
+  const World without = world_of(scene);
   const std::uint64_t plain = picture_hash(draw(without, 3.0));
   EXPECT_EQ(picture_hash(draw(world, 3.0, {Part::kCaustics})), plain);
   EXPECT_NE(picture_hash(draw(world, 3.0)), plain);

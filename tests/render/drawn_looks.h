@@ -44,7 +44,7 @@ inline bool shows_all_waves(const Surface& drawn, const View& view, std::size_t 
 template <class Check>
 void draw_looks(const scene::Scene& scene, int count, glm::ivec2 size_px, int triangles,
                 Check check) {
-  const World world(scene);
+  const World world = world_of(scene);
   const scene::Water water(scene);
   ocean::SeaFrame frame;
   Shot shot;

@@ -43,7 +43,7 @@ scene::Scene river_scene(const std::string& more = "") {
 }
 
 const World& river_world() {
-  static const World world(river_scene(), 1);
+  static const World world = world_of(river_scene());
   return world;
 }
 
@@ -153,9 +153,9 @@ scene::Scene seen_from_above(glm::dvec3 eye_m, const std::string& more = "") {
 // land is.
 TEST(DrawnRivers, BedsAreOfTheLandsSandNearTheSea) {
   scene::Scene scene = seen_from_above({0.0, -80.0, 90.0});
-  const World sand(scene, 1);
+  const World sand = world_of(scene);
   scene.terrain->ground.sand = {0.6f, 0.05f, 0.05f};
-  const World red_sand(scene, 1);
+  const World red_sand = world_of(scene);
   const FrameOptions options{.keep_linear = true, .without = {Part::kReflection}};
   const Frame a(sand, 2.0, options), b(red_sand, 2.0, options);
   int high = 0, low = 0;
@@ -178,7 +178,7 @@ TEST(DrawnRivers, BedsAreOfTheLandsSandNearTheSea) {
 TEST(DrawnRivers, HaveCausticsOnTheirBeds) {
   scene::Scene scene = seen_from_above({-6.0, -100.0, 7.0});
   scene.sea.wind_speed_mps = 5.0;
-  const World world(scene, 1);
+  const World world = world_of(scene);
   const Frame a(world, 2.0, {.keep_linear = true, .without = {Part::kReflection}}),
       b(world, 2.0, {.keep_linear = true, .without = {Part::kReflection, Part::kCaustics}});
   int river = 0, changed = 0;
@@ -202,12 +202,10 @@ TEST(DrawnRivers, HaveCausticsOnTheirBeds) {
 // The foam that a sphere at `position` adds to the river's, south of it, from where the water
 // comes, and north.
 glm::vec2 foam_at_sphere(glm::dvec2 position, const std::string& more) {
-  const World world(
-      seen_from_above({position, 25.0},
-                      fmt::format("[[object]]\nkind = \"sphere\"\nsize_m = [2, 2, 2]\ndraught = "
-                                  "0.5\nposition_m = [{}, {}]\n{}",
-                                  position.x, position.y, more)),
-      1);
+  const World world = world_of(seen_from_above(
+      {position, 25.0}, fmt::format("[[object]]\nkind = \"sphere\"\nsize_m = [2, 2, 2]\ndraught = "
+                                    "0.5\nposition_m = [{}, {}]\n{}",
+                                    position.x, position.y, more)));
   FrameOptions options;
   options.labels.add(Label::kFoam);
   const Frame with(world, 0.0, options);

@@ -49,7 +49,7 @@ TEST(DrawnCrests, HaveTheHeightOfAQueryAtEveryVertex) {
 TEST(DrawnCrests, CanBeLeftOut) {
   scene::Scene scene = load_shipped("open_ocean");
   scene.sea.choppiness = 1.0;
-  const World world(scene);
+  const World world = world_of(scene);
   Shot film;
   const auto is_sharp = [&](PartSet without) {
     film.draw(world, view_of(world, 0.0, 64, 36), 0.0, {.without = without});
@@ -124,7 +124,7 @@ struct Afloat {
 World buoys(double nearer) {
   scene::Scene scene = load_shipped("buoys");
   scene.detail.objects = nearer;
-  return World(scene);
+  return world_of(scene);
 }
 
 Afloat draw_buoys(const World& world, double t_s) {

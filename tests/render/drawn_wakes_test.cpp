@@ -43,7 +43,7 @@ Shot draw(const World& world, const FrameOptions& options = {}, int threads = 1)
   return Shot(world, small_view(world), kTime_s, options, threads);
 }
 
-World make_world() { return World(scene::parse_scene(kScene, "wake.toml"), 1); }
+World make_world() { return world_of(scene::parse_scene(kScene, "wake.toml")); }
 
 TEST(DrawnWakes, VerticesHaveTheHeightsThatQueriesGive) {
   const World world = make_world();
@@ -77,7 +77,7 @@ TEST(DrawnWakes, AreLeftOutWithTheirPart) {
   scene::Scene calm = world.scene();
   calm.objects[0].wake = false;
   calm.disturbances.clear();
-  const World without_any(calm, 1);
+  const World without_any = world_of(calm);
   const Shot wakes = draw(world), without = draw(world, {.without = {Part::kWakes}}),
              calm_shot = draw(without_any);
   EXPECT_NE(wakes.target.rgba, without.target.rgba);
@@ -114,7 +114,7 @@ TEST(DrawnWakes, ABuoyAsternBobs) {
   buoy.position_m = {-15.0, 4.0};
   buoy.size_m = {0.8, 0.8, 2.0};
   scene.objects.push_back(buoy);
-  const World world(scene, 1);
+  const World world = world_of(scene);
   double low_m = 1.0, high_m = -1.0;
   Shot film(1);
   for (double t_s = 15.0; t_s < 23.0; t_s += 0.5) {

@@ -127,7 +127,7 @@ void expect_smooth(const Errors& errors) {
 TEST(EdgeAccuracy, OfABoxAgainstTheSkyAndTheSea) {
   scene::Scene scene = plain_scene();
   scene.objects = {white_box({0.0, 30.0}, {6.0, 6.0, 6.0})};
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = north_view(3.0, 0.23, 0.5, kSize_px.x, kSize_px.y);
   for (const unsigned kinds : {kSky | kObject, kWater | kObject, kWater | kSky}) {
     SCOPED_TRACE(kinds);
@@ -136,13 +136,13 @@ TEST(EdgeAccuracy, OfABoxAgainstTheSkyAndTheSea) {
   expect_smooth(measure(world, view, 0.0, {kSky | kObject, Paint::kLit}));
   // A calm mirrors what is above the horizon, without an edge.
   scene.sea.wind_speed_mps = 8.0;
-  expect_smooth(measure(World(scene), view, 0.0, {kSky | kWater, Paint::kLit}));
+  expect_smooth(measure(world_of(scene), view, 0.0, {kSky | kWater, Paint::kLit}));
 }
 
 TEST(EdgeAccuracy, OfALeaningMast) {
   scene::Scene scene = plain_scene();
   scene.objects = {white_box({0.0, 53.0}, {0.05, 0.05, 12.0})};
-  const World world(scene);
+  const World world = world_of(scene);
   for (const double fov_rad : {0.1, 0.3}) {  // 0.9 and 0.3 pixels wide
     const View view = north_view(3.0, 0.05, fov_rad, kSize_px.x, kSize_px.y);
     for (const Paint paint : {Paint::kByKind, Paint::kLit})
@@ -162,7 +162,7 @@ TEST(EdgeAccuracy, OfAShoreAndOfAnIslandAgainstTheSky) {
   scene::Scene bright = shipped_world("lagoon").scene();
   bright.sky.zenith = bright.sky.horizon = glm::vec3(1.0f);
   bright.sky.cloud_cover = 0.0;
-  const World world(bright);
+  const World world = world_of(bright);
   const View view = view_of(world, 2.0, kSize_px.x, kSize_px.y);
   expect_smooth(measure(world, view, 2.0, {kLand | kSky, Paint::kLit}));
 }

@@ -106,7 +106,7 @@ TEST(CalmSea, ThatFillsTheViewHasNoEdges) {
     scene::Scene scene = plain_scene();
     scene.detail.triangulation = triangulation;
     scene.water.bump_strength = 1.0;
-    const World world(scene);
+    const World world = world_of(scene);
     EdgeRenderer with(world), without(world);
     for (const double pitch : {-1.5, -0.9, -0.4}) {
       const View view = make_view({3.0, 5.0, 12.0}, 0.7, pitch, 0.6, 0.25f, kSize_px.x, kSize_px.y);
@@ -123,7 +123,7 @@ TEST(CalmSea, ThatFillsTheViewHasNoEdges) {
 // A plane towards the horizon is steep in depth, but one place: the horizon's pixels alone have
 // parts, two each.
 TEST(CalmSea, HasItsOnlyEdgeAtTheHorizon) {
-  const World world(plain_scene());
+  const World world = world_of(plain_scene());
   EdgeRenderer renderer(world);
   for (const double eye_z_m : {0.3, 3.0, 300.0}) {
     renderer.draw(north_view(eye_z_m, 0.1, 0.8, kSize_px.x, kSize_px.y), 8);
@@ -184,7 +184,7 @@ TEST(Edges, HoldWhatPicturesMovedByTheSamplesPlacesShow) {
   scene.objects = {white_box({-3.0, 30.0}, {4.0, 3.0, 5.0}),
                    white_box({3.0, 60.0}, {3.0, 9.0, 9.0}),
                    white_box({6.0, 50.0}, {0.06, 0.06, 14.0})};
-  const World world(scene);
+  const World world = world_of(scene);
   EdgeRenderer renderer(world);
   for (const int samples : {4, 8}) {
     const View view = north_view(3.0, 0.07, 0.6, kSize_px.x, kSize_px.y);

@@ -68,7 +68,7 @@ int for_each_mix(EdgeRenderer& box, int samples, const Visit& visit) {
 }
 
 TEST(EdgeMix, OfLinearLightIsTheMeanByTheSamples) {
-  const World world(box_scene(1.0));
+  const World world = world_of(box_scene(1.0));
   EdgeRenderer box(world);
   for (const int samples : {4, 8}) {
     const int visited = for_each_mix(box, samples, [&](std::size_t pixel, int c, const Mix& mix) {
@@ -82,7 +82,7 @@ TEST(EdgeMix, OfLinearLightIsTheMeanByTheSamples) {
 // At the higher exposure the box is far too bright to show, and counts as white.
 TEST(EdgeMix, OfThePictureIsTheMeanOfWhatTheDisplayShows) {
   for (const double exposure : {0.6, 1.0, 8.0}) {
-    const World world(box_scene(exposure));
+    const World world = world_of(box_scene(exposure));
     EdgeRenderer box(world);
     for (const int samples : {4, 8}) {
       double most_apart = 0.0;
@@ -104,9 +104,9 @@ TEST(EdgeMix, OfThePictureIsTheMeanOfWhatTheDisplayShows) {
 TEST(EdgeSamples, ComeFromTheSceneUnlessTheOptionsHaveSome) {
   scene::Scene scene = load_shipped("buoys");
   scene.picture.edge_samples = 4;
-  const World with(scene);
+  const World with = world_of(scene);
   scene.picture.edge_samples = 0;
-  const World without(scene);
+  const World without = world_of(scene);
   const View view = view_of(without, 1.0, kSize_px.x, kSize_px.y);
   const auto picture = [&](const World& world, int samples) {
     EdgeRenderer renderer(world, 1.0);

@@ -68,7 +68,7 @@ TEST_P(OddFloor, GivesAFiniteSea) {
   scene::Scene scene = windy_scene(GetParam());
   if (GetParam().image_side > 0)
     scene.terrain->height_image = write_picture(GetParam().image_side, GetParam().grey);
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = view_of(world, 3.0, 64, 36);
   const Shot shot(world, view, 3.0, {.keep_linear = true}, 3);
   const Surface& water = shot.state().meshes.water;

@@ -103,7 +103,7 @@ TEST(Frame, WindChangesThePictureAndTheSeedToo) {
   calm.sea.wind_speed_mps = 5.0;
   other_seed.sea.seed += 1;
   for (const scene::Scene& scene : {calm, other_seed})
-    EXPECT_NE(picture_hash(small_shot(World(scene), 2.0).target), reference);
+    EXPECT_NE(picture_hash(small_shot(world_of(scene), 2.0).target), reference);
 }
 
 TEST(Frame, OddSizesDraw) {
@@ -240,7 +240,7 @@ std::uint64_t object_pixels(const Workspace::State& state) {
 // picture that is pi (f tan(angle))^2 pixels.
 TEST(Objects, ABallOnTheWaterCoversTheAreaOfItsDisc) {
   const scene::Scene scene = calm_scene(scene::ObjectKind::kSphere, 8.0, 0.0);
-  const World world(scene);
+  const World world = world_of(scene);
   const int height_px = 400;
   const Shot shot(world, view_of(world, 0.0, 400, height_px), 0.0, few_triangles());
   const double focal_px = 0.5 * height_px / std::tan(0.5 * scene.camera.fov_y_rad);
@@ -255,8 +255,8 @@ TEST(Objects, ABoxShowsItselfAndItsMirrorImageAndNothingElseChanges) {
   scene::Scene empty = scene;
   empty.objects.clear();
   const FrameOptions options = {.water_triangles = 4000, .without = {Part::kShadows, Part::kHulls}};
-  const Target with = small_shot(World(scene), 0.0, options).target;
-  const Target without = small_shot(World(empty), 0.0, options).target;
+  const Target with = small_shot(world_of(scene), 0.0, options).target;
+  const Target without = small_shot(world_of(empty), 0.0, options).target;
   // The eye is as high as the box: the box's top lies at the horizon, and the mirror image is as
   // high as the box.
   const double focal_px = 0.5 * kSmallHeight / std::tan(0.5 * scene.camera.fov_y_rad);
@@ -282,8 +282,9 @@ TEST(Objects, OutOfViewChangeNoPixel) {
   scene::Scene empty = scene;
   empty.objects.clear();
   scene.objects[0].position_m = {0.0, -60.0};
-  EXPECT_EQ(difference(small_shot(World(scene), 0.0).target, small_shot(World(empty), 0.0).target),
-            "");
+  EXPECT_EQ(
+      difference(small_shot(world_of(scene), 0.0).target, small_shot(world_of(empty), 0.0).target),
+      "");
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ std::vector<float> strip(const World& world, const View& view, double t_s, PartS
 // is seen within half a degree of the sun's elevation below the level.
 double path_width_rad(const scene::Scene& scene) {
   const double down_rad = scene.sky.sun_elevation_rad;
-  const World world(scene);
+  const World world = world_of(scene);
   double sum = 0.0, moment = 0.0;
   for (int n = 0; n < 6; ++n) {
     const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -down_rad, scene::radians(8.0), 0.25f,

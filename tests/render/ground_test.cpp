@@ -46,7 +46,7 @@ TEST(Ground, ComesDownToTheSeaWhereItsMapEnds) {
 TEST(Ground, KeepsItsHillsWithFewTriangles) {
   scene::Scene scene = load_shipped("lagoon");
   scene.detail.terrain_triangles = 500;
-  const World world(scene, 2);
+  const World world = world_of(scene);
   const double top_m = world.state().terrain->highest_m;
   for (const glm::dvec3& eye :
        {scene.camera.eye_m, glm::dvec3(-15.0, -500.0, 12.0), glm::dvec3(300.0, 200.0, 3.0)}) {

@@ -64,7 +64,7 @@ HorizonError horizon_error(const World& world, const View& view, double tan_dip)
 
 // HOR-01, of a picture 720 pixels high (935 pixels to the radian, of which this is the middle).
 TEST(Horizon, LiesAsFarDownAsTheEyesHeightSays) {
-  const World world(calm_sea());
+  const World world = world_of(calm_sea());
   for (const double height_m : kHeights_m) {
     const double fov_y_rad = 2.0 * std::atan(50.0 / 935.0);
     const View view =
@@ -76,7 +76,7 @@ TEST(Horizon, LiesAsFarDownAsTheEyesHeightSays) {
 }
 
 TEST(Horizon, IsRoundInWideViewsToo) {
-  const World world(calm_sea());
+  const World world = world_of(calm_sea());
   for (const double height_m : kHeights_m) {
     const View view =
         towards_horizon({0.0, 0.0, height_m}, dip(height_m), scene::radians(60.0), 320, 180);
@@ -89,7 +89,7 @@ TEST(Horizon, IsRoundInWideViewsToo) {
 TEST(Horizon, OfAFlatSeaLiesAtEyeHeight) {
   scene::Scene scene = calm_sea();
   scene.round_earth = false;
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = towards_horizon({0.0, 0.0, 60.0}, 0.0, scene::radians(40.0), 320, 180);
   const HorizonError error = horizon_error(world, view, 0.0);
   EXPECT_LT(std::abs(error.mean_px), 0.1);
@@ -106,7 +106,7 @@ TEST(Horizon, HidesTheHullAndShowsTheMast) {
     mast.size_m = {4.0, 4.0, tall_m};
     mast.draught = 0.0;
     scene.objects = {mast};
-    const World world(scene);
+    const World world = world_of(scene);
     const double fov_y_rad = 2.0 * std::atan(100.0 / kFocal_px);
     const View view =
         make_view({0.0, 0.0, 10.0}, 0.0, -std::atan(dip(10.0)), fov_y_rad, 0.25f, 16, 200);
@@ -123,7 +123,7 @@ TEST(Horizon, OfAStormHasNoHeadlands) {
   scene::Scene scene;
   scene.sea.wind_speed_mps = 22.0;
   scene.sea.patch_lengths_m = {1400.0, 210.0, 31.0};
-  const World world(scene);
+  const World world = world_of(scene);
   for (const double height_m : {60.0, 300.0, 1500.0}) {
     const View view =
         towards_horizon({0.0, 0.0, height_m}, dip(height_m), scene::radians(10.0), 320, 180);

@@ -182,7 +182,7 @@ TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
 TEST(LabelMotion, WaterMovesAsItsColumnsDo) {
   scene::Scene scene = load_shipped("sines");
   scene.sea.sines.resize(2);  // of 90 and 37 m
-  const World world(scene);
+  const World world = world_of(scene);
   const NextPlaces places(scene, kTime_s);
   const View view = view_at({0.0, -60.0, 14.0}, 0.3, -0.4, 0.0);
   const LabelledFrame frame(world, view, kTime_s,

@@ -78,7 +78,7 @@ TEST(Labels, AnObjectHasTheNumberOfItsPlaceInTheScene) {
   scene.objects[2].position_m = {4.0, 30.0};
   scene.objects[0].label = "boat";
   scene.objects[2].label = "beacon";
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = make_view({0.0, 0.0, 4.0}, 0.0, 0.0, 0.6, 0.25f, kSize_px.x, kSize_px.y);
   const LabelledFrame frame(world, view, 2.0);
   int left = 0, right = 0;

@@ -145,7 +145,7 @@ TEST(Labels, SurfIsFoamAndWithoutWhitecapsFarFromACoastThereIsNone) {
   scene::Scene calm = load_shipped("open_ocean");
   calm.sea.whitecaps = 0.0;
   const World& beach = shipped_world("beach");
-  const World sea(calm);
+  const World sea = world_of(calm);
   const auto foam_of = [](const World& world) {
     const LabelledFrame frame(world, random_view(world.scene(), 0, kSize_px), 5.0);
     return share_of(frame, [&](std::size_t i) { return frame.labels().klass[i] == kFoamClass; });
@@ -195,7 +195,7 @@ TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
 TEST(Labels, NormalsAreThoseOfTheWaves) {
   scene::Scene scene = load_shipped("sines");
   scene.water.bump_strength = 0.0;
-  const World world(scene);
+  const World world = world_of(scene);
   const scene::Water water(scene);
   Workers workers(2);
   ocean::SeaFrame sea;
@@ -217,7 +217,7 @@ TEST(Labels, NormalsOfABallPointAwayFromItsMiddle) {
   scene.objects[0].kind = scene::ObjectKind::kSphere;
   scene.objects[0].size_m = glm::dvec3(8.0);
   scene.objects[0].draught = 0.5;
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = make_view({0.0, -14.0, 3.0}, 0.0, -0.1, 0.9, 0.25f, kSize_px.x, kSize_px.y);
   const LabelledFrame frame(world, view, 5.0);
   int count = 0;

@@ -43,7 +43,7 @@ Shot draw(const World& world, const View& view, FrameOptions options = {}, int t
 TEST(LandRays, ShowWhatManyTrianglesShow) {
   for (const char* file : {"scenes/lagoon.toml", "scenes/beach.toml", "tests/scenes/hills.toml"}) {
     const scene::Scene scene = load(file);
-    const World triangles(scene, 2), rays(with_rays(scene), triangles, 2);
+    const World triangles = world_of(scene), rays = world_of(with_rays(scene));
     const View view = view_of(rays, 5.0, 320, 180);
     const Shot a = draw(triangles, view, {.terrain_triangles = 500000}), b = draw(rays, view);
     EXPECT_LT(mean_difference(a.target, b.target), 1.0) << file;
@@ -79,7 +79,7 @@ TEST(LandRays, HaveTheEdgesThatTrianglesHave) {
 TEST(LandRays, EndAtTheOutline) {
   scene::Scene scene = with_rays(load_shipped("lagoon"));
   scene.terrain->outline_m = 6.0;
-  const World world(scene, 2);
+  const World world = world_of(scene);
   const View view =
       make_view({0.0, 0.0, 3000.0}, 0.0, scene::radians(-90.0), 0.12, 0.25f, 200, 200);
   FrameOptions options;
@@ -104,7 +104,7 @@ TEST(LandRays, EndAtTheOutline) {
 
 TEST(LandRays, HaveTheNormalOfTheirSurface) {
   const scene::Scene scene = load("tests/scenes/hills.toml");
-  const World world(with_rays(scene), 2);
+  const World world = world_of(with_rays(scene));
   const View view = view_of(world, 5.0, 160, 90);
   FrameOptions options;
   for (const Label label : {Label::kId, Label::kDepth, Label::kGeometricNormal})

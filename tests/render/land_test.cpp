@@ -15,7 +15,7 @@ namespace {
 scene::Scene hills() { return scene::load_scene(SWELL_SOURCE_DIR "/tests/scenes/hills.toml"); }
 
 const World& hill_world() {
-  static const World world(hills(), 2);
+  static const World world = world_of(hills());
   return world;
 }
 

@@ -23,7 +23,7 @@ inline scene::Scene calm_scene(double sun_deg, double cloud_cover, double azimut
 }
 
 struct LinearRenderer : Shot {
-  explicit LinearRenderer(const scene::Scene& scene) : world(scene, 2) {}
+  explicit LinearRenderer(const scene::Scene& scene) : world(world_of(scene)) {}
 
   void draw_view(const View& seen, double t_s) { draw(world, seen, t_s, options); }
 

@@ -159,7 +159,7 @@ TEST(MirroredSeaOfScenes, IsNoBrighterThanTheHorizon) {
               scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
           scene.sky.zenith = glm::vec3(zenith);
           scene.water.body_colour = glm::vec3(body);
-          const World world(scene);
+          const World world = world_of(scene);
           const DrawnWater drawn(world, 0.0);
           const glm::vec3 sea = drawn.water().mirrored_sea;
           const glm::vec3 horizon = drawn.shading().light.horizon;
@@ -180,7 +180,7 @@ TEST(MirroredSeaOfScenes, HidesHalfOfTheRaysThatSmithsShadowingHides) {
   scene.water.bump_strength = 0.0;
   for (const double steepness : {0.1, 0.3, 0.6}) {
     scene.sea.sines = {{.amplitude_m = steepness * 30.0 / (2.0 * kPi), .wavelength_m = 30.0}};
-    const World world(scene);
+    const World world = world_of(scene);
     const DrawnWater drawn(world, 0.0);
     const Water& water = drawn.water();
     const double variance = water.base_variance + 0.5 * steepness * steepness;
@@ -192,7 +192,7 @@ TEST(MirroredSeaOfScenes, HidesHalfOfTheRaysThatSmithsShadowingHides) {
 
 // As seas are: dark.
 TEST(MirroredSeaOfScenes, IsDarkUnderAnOrdinarySky) {
-  const World world((scene::Scene()));
+  const World world = world_of(scene::Scene());
   const DrawnWater drawn(world, 0.0);
   const glm::vec3 sea = drawn.water().mirrored_sea;
   const glm::vec3 horizon = drawn.shading().light.horizon;

@@ -33,9 +33,9 @@ scene::Scene sea_with_sun_ahead(bool box) {
 // The green light of a picture.
 std::vector<float> draw(const scene::Scene& scene) {
   const View view = north_view(kEye_m, 0.0, kFov_rad, kSize_px, kSize_px);
-  return green_light(
-      Shot(World(scene), view, 1.0, {.lookup_scale = 1.0, .keep_linear = true, .edge_samples = 0})
-          .target);
+  return green_light(Shot(world_of(scene), view, 1.0,
+                          {.lookup_scale = 1.0, .keep_linear = true, .edge_samples = 0})
+                         .target);
 }
 
 // The largest of it on the water `far_m` ahead, within 2 m of the middle.

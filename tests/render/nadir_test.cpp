@@ -25,7 +25,7 @@ TEST(Nadir, NoStarShowsInTheHaze) {
   scene::Scene scene = scene::load_scene(SWELL_SOURCE_DIR "/tests/scenes/nadir.toml");
   ASSERT_EQ(scene.camera.eye_m.z, 3000.0);
   scene.sea.wind_speed_mps = 0.0;  // nothing but the haze
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = make_view(scene.camera.eye_m, 0.3, -0.5 * std::numbers::pi,
                               scene.camera.fov_y_rad, 0.25f, kSize, kSize);
   const Shot shot(world, view, 0.0);

@@ -36,14 +36,14 @@ int count_differences(const LabelledFrame& a, const LabelledFrame& b) {
 }
 
 TEST(NearShore, ShelterCanBeLeftOut) {
-  const World world(windy_lagoon());
+  const World world = world_of(windy_lagoon());
   const View view = view_down({-300.0, 0.0}, 150.0, 160, 90);  // the lee: the wind is from the east
   const LabelledFrame all(world, view, 5.0), bare(world, view, 5.0, {.without = {Part::kShelter}});
   EXPECT_GT(count_differences(all, bare), 10000);
 }
 
 TEST(NearShore, FrontsCanBeLeftOut) {
-  const World world(windy_lagoon());
+  const World world = world_of(windy_lagoon());
   const View view = view_down({190.0, 0.0}, 150.0, 160, 90);
   const LabelledFrame all(world, view, 5.0),
       bare(world, view, 5.0, {.without = {Part::kSurfFronts}});
@@ -62,7 +62,7 @@ TEST(NearShore, TheOpenSeaKnowsNothingOfIt) {
 
 // The drawn slopes of the long waves are as much lower in a lee as the heights that are asked.
 TEST(NearShore, TheMapHasWhatQueriesHave) {
-  const World world(windy_lagoon());
+  const World world = world_of(windy_lagoon());
   const World::State& state = world.state();
   ASSERT_TRUE(state.near_shore);
   const NearShoreMap& near = *state.near_shore;
@@ -119,7 +119,7 @@ scene::Scene straight_shore(double wind_from_rad) {
 
 // The mean direction in which foam changes, by its squared gradients.
 TEST(NearShore, FrontsLieAlongTheShoreWithin10Degrees) {
-  const World world(straight_shore(0.4));
+  const World world = world_of(straight_shore(0.4));
   for (const double east_m : {-60.0, 0.0, 80.0})
     for (const double t_s : {3.0, 7.3}) {
       const LabelledFrame frame(world, view_down({east_m, 30.0}, 70.0, 320, 240), t_s,
@@ -144,7 +144,7 @@ TEST(NearShore, FrontsLieAlongTheShoreWithin10Degrees) {
 
 // Fronts run to the shore: what is seen a little later was further out before.
 TEST(NearShore, FrontsRunToTheShore) {
-  const World world(straight_shore(0.0));
+  const World world = world_of(straight_shore(0.0));
   const auto profile = [&](double t_s) {
     const LabelledFrame frame(world, view_down({0.0, 30.0}, 70.0, 320, 240), t_s,
                               {.without = {Part::kWhitecaps}});
@@ -182,9 +182,9 @@ double foam_before(const World& world) {
 
 TEST(NearShore, LeesHaveLessSurf) {
   // The wind from the sea, and from land.
-  const double from_sea = foam_before(World(straight_shore(0.0)));
+  const double from_sea = foam_before(world_of(straight_shore(0.0)));
   EXPECT_GT(from_sea, 0.02);
-  EXPECT_LT(foam_before(World(straight_shore(kPi))), 0.25 * from_sea);
+  EXPECT_LT(foam_before(world_of(straight_shore(kPi))), 0.25 * from_sea);
 }
 
 // Pieces of open water that foam closes in.
@@ -222,7 +222,7 @@ int count_enclosed(const LabelledFrame& frame) {
 TEST(NearShore, FoamOfAGaleIsNoNet) {
   scene::Scene scene = straight_shore(0.0);
   scene.sea.wind_speed_mps = 16.0;
-  const World world(scene);
+  const World world = world_of(scene);
   constexpr double kHeight_m = 30.0;
   const double side_m = 2.0 * kHeight_m * std::tan(25.0 * kPi / 180.0);
   int enclosed = 0;
@@ -240,7 +240,7 @@ TEST(NearShore, FoamOfAGaleIsNoNet) {
 // What is painted in the water boundary (terrain/boundary.h) is what runs in.
 TEST(NearShore, FrontsAreThePartThatIsPainted) {
   scene::Scene scene = straight_shore(0.0);
-  const World made(scene);
+  const World made = world_of(scene);
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "boundary.exr";
   scene.terrain->boundary = file;
@@ -249,7 +249,7 @@ TEST(NearShore, FrontsAreThePartThatIsPainted) {
     texture::ImageF image = terrain::boundary_image(*made.state().shore);
     for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = part;
     texture::write_file(file, texture::encode_image(image, ".exr"));
-    foam.push_back(foam_before(World(scene)));
+    foam.push_back(foam_before(World(scene, made, 2)));
   }
   EXPECT_EQ(foam[0], foam_before(made));
   EXPECT_LT(foam[1], 0.8 * foam[0]);

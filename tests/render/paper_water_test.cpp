@@ -33,7 +33,7 @@ scene::Scene sea_of_ripples(double loop_s) {
 
 TEST(RippleSequence, LoopsBitForBit) {
   for (const double loop_s : {3.7, 4.0}) {
-    const World world(sea_of_ripples(loop_s));
+    const World world = world_of(sea_of_ripples(loop_s));
     const DrawnWater first(world, 0.3);
     DrawnWater again;
     for (const double loops : {1.0, 2.0, -1.0, 1000.0}) {
@@ -58,7 +58,7 @@ TEST(RippleSequence, FitsIntoTheLoopOfTheSea) {
 
 // Slope variance of the ripples, both axes together.
 double ripple_variance(const scene::Scene& scene) {
-  const World world(scene);
+  const World world = world_of(scene);
   const DrawnWater drawn(world, 1.02);  // between two frames
   const Water& water = drawn.water();
   double variance = 0.0;
@@ -120,7 +120,7 @@ struct DrawnGlitter {
   glm::dvec2 middle_px{0.0};
 };
 DrawnGlitter draw_glitter(const scene::Scene& scene, const View& view, int times) {
-  const World world(scene);
+  const World world = world_of(scene);
   DrawnGlitter glitter;
   for (int n = 0; n < times; ++n) {
     const std::vector<float> lit = green_of(world, view, 3.0 * n, {Part::kShadows});
@@ -218,7 +218,7 @@ std::uint64_t hash_of(const World& world, const FrameOptions& options, int threa
 }
 
 TEST(PaperWater, IsTheSamePictureHoweverItIsDrawn) {
-  const World world(with_all());
+  const World world = world_of(with_all());
   const std::uint64_t expected = hash_of(world, {}, 1);
   for (const int tile : {16, 32})
     EXPECT_EQ(hash_of(world, {.tile_size_px = tile}, 3), expected) << tile;
@@ -229,7 +229,7 @@ TEST(PaperWater, IsTheSamePictureHoweverItIsDrawn) {
 }
 
 TEST(PaperWater, PartsCanBeLeftOut) {
-  const World world(with_all());
+  const World world = world_of(with_all());
   const std::uint64_t whole = hash_of(world, {});
   for (const Part part : {Part::kSequence, Part::kSunSlide, Part::kCausticBend})
     EXPECT_NE(hash_of(world, {.without = {part}}), whole) << part_name(part);

@@ -68,7 +68,7 @@ int count_flag(const LabelledFrame& frame, std::uint32_t flag) {
 glm::vec3 light_at(const LabelledFrame& frame, glm::ivec2 p) { return frame.linear(p.x, p.y); }
 
 TEST(WithoutWater, TheFloorIsSeenWhereItIs) {
-  const World world(island());
+  const World world = world_of(island());
   const View view = looking_down({0.0, -90.0, 20.0});
   const LabelledFrame wet = frame_of(world, view, {}), dry = frame_of(world, view, {Part::kWater});
   EXPECT_GT(count(wet, [&](glm::ivec2 p) { return wet.labels().id[wet.at(p)] == kWaterId; }),
@@ -88,7 +88,7 @@ TEST(WithoutWater, TheFloorIsSeenWhereItIs) {
 }
 
 TEST(WithoutWater, AnEyeBelowItsLevelIsInAir) {
-  const World world(island());
+  const World world = world_of(island());
   const View view = looking_down({0.0, -90.0, -1.0});
   EXPECT_EQ(count_flag(frame_of(world, view, {}), kSeenInWater), kWidth * kHeight);
   EXPECT_EQ(count_flag(frame_of(world, view, {Part::kWater}), kSeenInWater), 0);
@@ -98,7 +98,7 @@ TEST(WithoutWater, ThingsLieWhereTheyDidOnTheWaves) {
   scene::Scene scene;
   scene.detail.water_triangles = 2000;
   scene.objects = {box_at({0.0, 30.0}, {6.0, 6.0, 8.0}, glm::vec3(1.0f))};
-  const World world(scene);
+  const World world = world_of(scene);
   const LabelledFrame wet = frame_of(world, looking_north(9.0), {}, 3.0);
   const LabelledFrame dry = frame_of(world, looking_north(9.0), {Part::kWater}, 3.0);
   const int seen = count(wet, [&](glm::ivec2 p) {
@@ -112,7 +112,7 @@ TEST(WithoutWater, ThingsLieWhereTheyDidOnTheWaves) {
 
 TEST(WithoutReflection, WaterMirrorsTheSkyAlone) {
   scene::Scene scene = glass();
-  const World empty(scene);
+  const World empty = world_of(scene);
   scene.objects = {box_at({0.0, 30.0}, glm::dvec3(6.0), glm::vec3(1.0f))};
   const World world(scene, empty, 2);
   const PartSet bare = {Part::kHulls, Part::kShadows, Part::kRefraction};
@@ -133,8 +133,8 @@ TEST(WithoutReflection, WaterMirrorsTheSkyAlone) {
 }
 
 TEST(WithoutRefraction, ShallowWaterLooksDeep) {
-  const World shallow(island());
-  const World deep(glass());
+  const World shallow = world_of(island());
+  const World deep = world_of(glass());
   const View view = looking_down({0.0, -90.0, 20.0});
   const LabelledFrame floor = frame_of(shallow, view, {});
   const LabelledFrame no_floor = frame_of(shallow, view, {Part::kRefraction, Part::kReflection});
@@ -155,7 +155,7 @@ TEST(WithoutGlitter, WaterMirrorsNoSun) {
   scene.sky.sun_azimuth_rad = 0.0;
   scene.sky.sun_elevation_rad = scene::radians(30.0);
   scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
-  const World world(scene);
+  const World world = world_of(scene);
   const View view =
       make_view({0.0, 0.0, 10.0}, 0.0, -scene.sky.sun_elevation_rad, 0.2, 0.25f, kWidth, kHeight);
   const auto brightest = [&](PartSet without) {
@@ -170,7 +170,7 @@ TEST(WithoutRipples, SeasWithoutLongerWavesAreFlat) {
   scene.sea.wind_speed_mps = 6.0;
   scene.sea.amplitude_scale = 0.0;
   scene.water.bump_strength = 1.0;
-  const World world(scene);
+  const World world = world_of(scene);
   const auto tilted = [&](PartSet without) {
     const LabelledFrame frame = frame_of(world, looking_down({0.0, 0.0, 3.0}), without, 2.0);
     return count(frame, [&](glm::ivec2 p) {
@@ -193,7 +193,7 @@ TEST(WithoutHaze, ContrastIsWhole) {
   const View view = make_view({0.0, 0.0, 10.0}, 0.0, 0.0, 0.05, 0.25f, kWidth, kHeight);
   const auto middle_of = [&](float paint, PartSet without) {
     scene.objects = {box_at({0.0, kWall_m + 5.0}, {200.0, 10.0, 100.0}, glm::vec3(paint))};
-    const World world(scene);
+    const World world = world_of(scene);
     const LabelledFrame frame = frame_of(world, view, without);
     const glm::ivec2 middle(kWidth / 2, kHeight / 2);
     EXPECT_EQ(frame.labels().id[frame.at(middle)], kFirstObjectId);
@@ -207,7 +207,7 @@ TEST(WithoutHaze, ContrastIsWhole) {
 
 TEST(WithoutEarth, TheSeaIsThatOfAFlatScene) {
   scene::Scene scene = glass();
-  const World round(scene);
+  const World round = world_of(scene);
   scene.round_earth = false;
   const World flat(scene, round, 2);
   const View view = looking_north(400.0, 0.3);
@@ -217,7 +217,7 @@ TEST(WithoutEarth, TheSeaIsThatOfAFlatScene) {
 }
 
 TEST(WithoutApron, NoGroundLiesBeyondTheTerrainsSquare) {
-  const World world(island());
+  const World world = world_of(island());
   const terrain::Grid& square = world.state().terrain->grid;
   const glm::dvec2 far = square.min_world + square.size_m();
   const View view = looking_down({square.min_world, 300.0});
@@ -235,7 +235,7 @@ TEST(WithoutApron, NoGroundLiesBeyondTheTerrainsSquare) {
 }
 
 TEST(WithoutUnderwater, AnEyeBelowSeesThroughAir) {
-  const World world(island());
+  const World world = world_of(island());
   const View view = looking_down({0.0, -90.0, -1.0});
   const LabelledFrame wet = frame_of(world, view, {});
   const LabelledFrame dry = frame_of(world, view, {Part::kUnderwater});

@@ -21,7 +21,7 @@ struct Drawn : Shot {
   explicit Drawn(const scene::Scene& scene, glm::ivec2 size_px = kSize_px)
       : Drawn(scene, scene.camera, size_px) {}
   Drawn(const scene::Scene& scene, const scene::Camera& camera, glm::ivec2 size_px = kSize_px)
-      : world(scene) {
+      : world(world_of(scene)) {
     draw(world, scene::camera_view(camera, 3.0, size_px.x, size_px.y), 3.0,
          {.water_triangles = 4000});
   }

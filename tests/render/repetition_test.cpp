@@ -112,7 +112,7 @@ double repetition(scene::Scene scene, double height_m, PartSet without) {
   scene.area.size_m = glm::dvec2(60000.0);
   scene.sky.haze_distance_m = 1e6;
   without.add(Part::kClouds);
-  const World world(scene);
+  const World world = world_of(scene);
   const View view =
       make_view({0.0, 0.0, height_m}, 0.3, -0.5 * kPi, kFov_rad, 1.0f, kSize_px.x, kSize_px.y);
   const Shot shot(world, view, 5.0, {.keep_linear = true, .without = without});

@@ -22,7 +22,7 @@ scene::Scene looping_scene(double loop_s) {
 }
 
 TEST(Ripples, LoopWithTheSea) {
-  const World like(shading_scene(kEye_m));
+  const World like = world_of(shading_scene(kEye_m));
   for (const double loop_s : {1.0, 10.0, 7.25, 1200.0}) {
     const World world(looping_scene(loop_s), like, 1);
     const DrawnWater first(world, 0.125);
@@ -52,7 +52,7 @@ std::vector<glm::dvec2> drift_periods(const World& world, double t_s) {
 // Whole periods a loop, within half a period of what they would be; but a layer that would move by
 // less than that has one period.
 TEST(Ripples, DriftByTheNearestWholePeriodsOfALoop) {
-  const World free(shading_scene(kEye_m));
+  const World free = world_of(shading_scene(kEye_m));
   for (const double loop_s : {1.0, 7.25, 20.0, 100.0}) {
     const World looping(looping_scene(loop_s), free, 1);
     const double part = 1.0 / 256.0;  // of a loop
@@ -87,7 +87,7 @@ double ripple_variance(const Water& water) {
 double ripple_variance(double wind_mps) {
   scene::Scene scene = shading_scene(kEye_m);
   scene.sea.wind_speed_mps = wind_mps;
-  const World world(scene);  // whose maps the drawn water refers to
+  const World world = world_of(scene);  // whose maps the drawn water refers to
   return ripple_variance(DrawnWater(world, 0.0).water());
 }
 
@@ -114,7 +114,7 @@ TEST(Ripples, MakeUpWhatTheWavesLeaveOfTheSeasSlopes) {
     scene::Scene scene = shading_scene(kEye_m);
     scene.sea.wind_speed_mps = wind;
     scene.sea.resolution = 128;
-    const World world(scene);
+    const World world = world_of(scene);
     const DrawnWater drawn(world, 0.0);
     double variance = ripple_variance(drawn.water());
     for (const ocean::PatchFrame& patch : drawn.state().sea.frame.patches)

@@ -57,7 +57,7 @@ scene::Scene open_sea(double wind_mps) {
 // Sun's Glitter, 1954: 0.003 + 0.00512 U, with a scatter of 0.004, from 0 to 14 m/s.
 TEST(SeenVariance, IsCoxAndMunksNearAndFar) {
   for (const double wind_mps : {0.0, 2.0, 5.0, 8.0, 11.0, 14.0}) {
-    const World world(open_sea(wind_mps));
+    const World world = world_of(open_sea(wind_mps));
     for (const glm::dvec2& eye_and_distance_m : {glm::dvec2(2.0, 3.0), {60.0, 60.0}, {1500.0, 2e4}})
       EXPECT_NEAR(variance_seen(world, eye_and_distance_m.x, eye_and_distance_m.y).sum(),
                   0.003 + 0.00512 * wind_mps, 0.004)
@@ -67,7 +67,7 @@ TEST(SeenVariance, IsCoxAndMunksNearAndFar) {
 
 // HOR-03 and OPT-15: what is not resolved any more is roughness, to 3 % from 3 m to 20 km.
 TEST(SeenVariance, IsTheSameAtAnyDistance) {
-  const World world(open_sea(10.0));
+  const World world = world_of(open_sea(10.0));
   const double whole = variance_seen(world, 1500.0, 2e4).sum();
   for (const glm::dvec2& eye_and_distance_m : {glm::dvec2(2.0, 3.0),
                                                {2.0, 10.0},

@@ -40,7 +40,7 @@ scene::Scene deep_sea() {
 
 // Made once, as it takes longer than the pictures of it; what differs in a little is made like it.
 const World& deep_world() {
-  static const World world(deep_sea());
+  static const World world = world_of(deep_sea());
   return world;
 }
 
@@ -210,7 +210,7 @@ View from_below_the_slab() {
 
 // What a mirror of water sends up: albedo / pi, the sun's irradiance, Fresnel, the cosine.
 TEST(Uplight, IsTheSunThatFlatWaterMirrors) {
-  const World world(slab_over_glass());
+  const World world = world_of(slab_over_glass());
   const std::vector<float> with = green_of(world, from_below_the_slab(), 1.0);
   const std::vector<float> without = green_of(world, from_below_the_slab(), 1.0, {Part::kUplight});
   const double in_air = 0.5 * std::numbers::pi - 0.5;
@@ -228,17 +228,17 @@ TEST(Uplight, FallsOnNothingInShadow) {
   scene::Scene scene = slab_over_glass();
   scene.objects.push_back(slab({0.0, -12.0}, {30.0, 2.0, 30.0}, 0.0));
   const View view = from_below_the_slab();
-  const double sunny = change_by(Part::kUplight, World(slab_over_glass()), view, 1.0).mean;
-  EXPECT_LT(change_by(Part::kUplight, World(scene), view, 1.0).mean, 0.02 * sunny);
+  const double sunny = change_by(Part::kUplight, world_of(slab_over_glass()), view, 1.0).mean;
+  EXPECT_LT(change_by(Part::kUplight, world_of(scene), view, 1.0).mean, 0.02 * sunny);
 }
 
 // With waves it moves, and has the same mean.
 TEST(Uplight, IsMovedByWaves) {
   scene::Scene scene = slab_over_glass();
-  const double flat = change_by(Part::kUplight, World(scene), from_below_the_slab(), 1.0).mean;
+  const double flat = change_by(Part::kUplight, world_of(scene), from_below_the_slab(), 1.0).mean;
   scene.sea.wind_speed_mps = 3.0;
   scene.sea.patch_lengths_m = {97.0, 23.0, 5.3};
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = from_below_the_slab();
   double mean = 0.0;
   for (int i = 0; i < 6; ++i) {

@@ -56,7 +56,7 @@ scene::Scene telephoto_scene() {
 }
 
 TEST(Shimmer, IsNotSeenOnGrazingWavesThroughALongLens) {
-  const World world(telephoto_scene());
+  const World world = world_of(telephoto_scene());
   EXPECT_LT(shimmer(world, world.scene().camera), 0.002);
 }
 
@@ -68,7 +68,7 @@ struct Case {
     scene::Scene scene = telephoto_scene();
     scene.sea.wind_speed_mps = wind_mps;
     scene.camera.fov_y_rad = scene::radians(fov_deg);
-    return World(scene);
+    return world_of(scene);
   }
   scene::Camera camera(const scene::Scene& scene) const {
     scene::Camera camera = scene.camera;

@@ -88,7 +88,7 @@ TEST_P(ShippedShores, HaveNoDarkSpecksHoweverFarLookupsAreMoved) {
   const View view = view_from(scene, camera.eye_m, camera.heading_rad, camera.pitch_rad);
   for (const double distortion : kDistortions) {
     scene.water.distortion = distortion;
-    const World world(scene, 2);
+    const World world = world_of(scene);
     for (const double t_s : {0.0, 5.0, 23.0}) {
       const LabelledFrame frame(world, view, t_s);
       EXPECT_EQ(count_specks(frame), 0) << distortion << " " << t_s;
@@ -104,7 +104,7 @@ TEST(Lookups, ShowTheFloorOfShallowWaterHoweverSteepItsWaves) {
   scene.sea.amplitude_scale = 1.0;
   for (const double distortion : kDistortions) {
     scene.water.distortion = distortion;
-    const World world(scene, 2);
+    const World world = world_of(scene);
     const auto expect_floor = [&](const View& view, double t_s) {
       const LabelledFrame frame(world, view, t_s);
       EXPECT_EQ(count_floorless(frame), 0) << distortion;

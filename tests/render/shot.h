@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/workspace.h"
@@ -16,21 +17,38 @@ namespace swell::render {
 
 // The scene of that name in scenes/; "_radial" after it: with the radial grid, "_plane": with the
 // plane.
-inline scene::Scene load_shipped(const std::string& name) {
+inline scene::Scene load_shipped(std::string_view name) {
   const std::size_t end = std::min(name.find("_radial"), name.find("_plane"));
   scene::Scene scene =
-      scene::load_scene(SWELL_SOURCE_DIR "/scenes/" + name.substr(0, end) + ".toml");
+      scene::load_scene(SWELL_SOURCE_DIR "/scenes/" + std::string(name.substr(0, end)) + ".toml");
   if (name.ends_with("_radial")) scene.detail.triangulation = scene::Triangulation::kRadial;
   if (name.ends_with("_plane")) scene.detail.triangulation = scene::Triangulation::kPlane;
   return scene;
 }
 
 // Its world, made once: drawing does not change it.
-inline const World& shipped_world(const std::string& name) {
-  static std::map<std::string, World> worlds;
+inline const World& shipped_world(std::string_view name) {
+  static std::map<std::string, World, std::less<>> worlds;
   const auto found = worlds.find(name);
   if (found != worlds.end()) return found->second;
   return worlds.emplace(name, World(load_shipped(name))).first->second;
+}
+
+// A world made like that of the last few whose scenes share most with this one: sooner, the same
+// bits (FrameBits.AWorldMadeLikeAnotherDrawsTheSamePicture). Not for scenes whose files change.
+inline World world_of(const scene::Scene& scene) {
+  constexpr std::size_t kKept = 4;
+  static std::vector<World> kept;                  // the last one first
+  const auto likeness = [&](const World& world) {  // by the time that each part takes to make
+    const scene::Scene& like = world.scene();
+    return 4 * (like.sky == scene.sky) + 4 * (like.terrain == scene.terrain) +
+           2 * (like.sea == scene.sea) + (like.clouds == scene.clouds);
+  };
+  const auto like = std::ranges::max_element(kept, {}, likeness);
+  World world = like == kept.end() ? World(scene) : World(scene, *like, available_cpus());
+  kept.emplace(kept.begin(), scene, world, 1);
+  if (kept.size() > kKept) kept.pop_back();
+  return world;
 }
 
 // Through the scene's own camera.

@@ -25,7 +25,7 @@ class SkyLattice : public testing::TestWithParam<Looking> {
   // Tiles that are cut, too. Pixels as large as may be.
   static constexpr int kWidth_px = 650, kHeight_px = 90;
 
-  SkyLattice() : world(scene_of(GetParam()), 2) {
+  SkyLattice() : world(world_of(scene_of(GetParam()))) {
     const Looking& looking = GetParam();
     const View view = make_view({0.0, 0.0, 10.0}, 0.0, radians(looking.pitch_deg),
                                 radians(looking.fov_deg), 0.25f, kWidth_px, kHeight_px);

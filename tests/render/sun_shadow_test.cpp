@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ObjectShadow,
 TEST_P(ObjectShadow, LiesWhereRaysToTheSunMeetTheObject) {
   for (const double elevation_deg : {12.0, 40.0}) {
     const OneObject one(GetParam(), elevation_deg);
-    const World world(one.scene);
+    const World world = world_of(one.scene);
     const View view = from_above({6.0, 4.5}, 26.0);
     const Shot shaded(world, view, 1.0, without({Part::kHulls}));
     const Shot lit(world, view, 1.0, without({Part::kHulls, Part::kShadows}));
@@ -121,7 +121,7 @@ TEST_P(ObjectShadow, LiesWhereRaysToTheSunMeetTheObject) {
 TEST_P(ObjectShadow, DoesNotCrawlWithTheCamera) {
   constexpr double kSide_m = 26.0, kPixel_m = kSide_m / kSize_px;
   const OneObject one(GetParam(), 25.0);
-  const World world(one.scene);
+  const World world = world_of(one.scene);
   const auto shadow_from = [&](glm::dvec2 middle) {
     const View view = from_above(middle, kSide_m);
     const Shot shaded(world, view, 1.0, without({Part::kHulls}));
@@ -151,7 +151,7 @@ TEST(SunShadow, FallsIntoThePictureFromOutside) {
   scene::Scene scene = plain_scene();
   set_sun(180.0, 20.0, scene);
   scene.objects = {white_box({0.0, -8.0}, {6.0, 2.0, 8.0})};
-  const World world(scene);
+  const World world = world_of(scene);
   // 6.4 m above the water: 17.6 m of shadow, as far as y = 9.6.
   const View view = make_view({0.0, 0.0, 6.0}, 0.0, -0.6, 0.7, 0.25f, kSize_px, kSize_px);
   const Shot shaded(world, view, 1.0, without({Part::kHulls}));
@@ -187,7 +187,7 @@ float brightest(const World& world, const View& view, PartSet parts) {
 // The picture shows water alone, looking down: the island is above its upper edge.
 TEST(SunShadow, OfAnIslandOutsideThePictureTakesTheGlintAway) {
   const View view = make_view({0.0, -210.0, 12.0}, 0.0, -0.3, 0.24, 0.25f, kSize_px, kSize_px);
-  const World low(sea_behind_island(10.0)), high(sea_behind_island(35.0));
+  const World low = world_of(sea_behind_island(10.0)), high = world_of(sea_behind_island(35.0));
   EXPECT_GT(brightest(low, view, {Part::kShadows}), 1.0f);
   EXPECT_LT(brightest(low, view, {}), 0.3f);
   // A sun that stands over the island is as bright as without it.
@@ -206,7 +206,7 @@ TEST(SunShadow, IsTheSamePictureOnTilesOfAnySize) {
   scene.objects[2].kind = scene::ObjectKind::kSphere;
   // Far away, where a round earth sinks it by 5 m: 10 pixels.
   scene.objects.push_back(white_box({900.0, 8800.0}, {90.0, 60.0, 80.0}));
-  const World world(scene);
+  const World world = world_of(scene);
   const View near = make_view({0.0, -190.0, 9.0}, 0.1, -0.15, 0.9, 0.25f, 160, 90);
   const View far = make_view({0.0, -190.0, 90.0}, 0.1, -0.01, 0.02, 0.25f, 160, 90);
   for (const View& view : {near, far}) {
@@ -244,12 +244,12 @@ TEST(Hull, DarkensAndFoamsTheWaterAtItsWaterline) {
       }
     return sum / n;
   };
-  const World windy(scene);
+  const World windy = world_of(scene);
   EXPECT_GT(mean_at(windy, 0.0, 0.5), 0.02);
   EXPECT_EQ(mean_at(windy, 3.5, 12.0), 0.0);
   // A calm has no foam, and darker water.
   scene.sea.wind_speed_mps = 0.0;
-  const World calm(scene);
+  const World calm = world_of(scene);
   EXPECT_LT(mean_at(calm, 0.0, 0.6), 0.0);
 }
 
@@ -261,7 +261,7 @@ TEST(Gloss, HasNoEdge) {
   scene.objects = {white_box({0.0, 6.0}, {4.0, 4.0, 4.0})};
   scene.objects[0].kind = scene::ObjectKind::kSphere;
   scene.objects[0].colour = glm::vec3(0.0f);
-  const World world(scene);
+  const World world = world_of(scene);
   const View view = make_view({0.0, 0.0, 4.5}, 0.0, -0.45, 0.5, 0.25f, kSize_px, kSize_px);
   const Shot shot(world, view, 1.0, without({}));
   const auto green = [&](int x, int y) { return shot.linear(x, y).y; };

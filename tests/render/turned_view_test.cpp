@@ -58,7 +58,7 @@ TEST(TurnedView, ARolledPictureIsTheLevelOneTurned) {
   scene::Scene scene = flat_sea();
   scene.objects.resize(1);
   scene.objects[0].position_m = {0.0, 12.0};
-  const World world(scene);
+  const World world = world_of(scene);
   const auto level = draw(world, rolled(0.0));
   const glm::ivec2 size(kSize_px);
   constexpr int kLast = kSize_px - 1;
@@ -82,7 +82,7 @@ TEST(TurnedView, APictureBesideTheMiddleIsCutOutOfAWiderOne) {
   scene.sky.sun_azimuth_rad = 0.0;
   scene.sky.sun_elevation_rad = scene::radians(25.0);
   scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
-  const World world(scene);
+  const World world = world_of(scene);
   const View wide = rolled(0.3);
   // Its lower right part.
   const glm::ivec2 corner(80, 60), size(70, 90);

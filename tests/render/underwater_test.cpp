@@ -53,7 +53,7 @@ struct Drawing : Shot {
 // Radius of Snell's window on a flat surface, over the depth: 1 / sqrt(n^2 - 1).
 TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
   constexpr int kSize = 256;
-  const World world(glass_scene());
+  const World world = world_of(glass_scene());
   Drawing drawing;
   for (const double depth_m : {0.7, 5.0, 40.0}) {
     drawing.draw(world, view_from({3.0, 4.0, -depth_m}, 0.5 * kPi, 2.0, kSize, kSize));
@@ -77,7 +77,7 @@ TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
 // At each pixel the light of the sky that Fresnel lets through, which is that of the ray in air.
 TEST(UnderWater, TheWindowIsAsBrightAsFresnelSays) {
   constexpr int kSize = 128;
-  const World world(glass_scene());
+  const World world = world_of(glass_scene());
   const Drawing drawing(world, view_from({0.0, 0.0, -2.0}, 0.5 * kPi, 1.8, kSize, kSize));
   constexpr double kN = 1.333;
   for (const int x : {64, 70, 80, 95, 105, 110}) {
@@ -99,7 +99,7 @@ TEST(UnderWater, NoSeamLiesBetweenFarWaterAndNone) {
   scene.water.body_colour = glm::vec3(0.05f);
   scene.water.absorption_per_m = glm::vec3(0.1f);
   scene.detail.triangulation = scene::Triangulation::kRoam;
-  const World world(scene);
+  const World world = world_of(scene);
   const Drawing drawing(world, view_from({0.0, 0.0, -5.0}, 0.0, 0.6, 64, 128));
   for (int y = 1; y < 128; ++y) {
     ASSERT_GT(drawing.green(32, y), 0.0f);
@@ -122,7 +122,7 @@ scene::Scene wavy_scene(double amplitude_m) {
 // From 2 m above to 4 m below.
 TEST(UnderWater, AnEyeThatDivesSeesSomethingAllTheWay) {
   for (const double waves : {0.05, 0.5, 2.0}) {
-    const World world(wavy_scene(waves));
+    const World world = world_of(wavy_scene(waves));
     Drawing drawing;
     double before = 0.0;
     for (int i = 0; i < 60; ++i) {
@@ -148,7 +148,7 @@ TEST(UnderWater, AnEyeThatDivesSeesSomethingAllTheWay) {
 }
 
 TEST(UnderWater, IsDrawnWithoutLookupImages) {
-  const World world(wavy_scene(0.5));
+  const World world = world_of(wavy_scene(0.5));
   Drawing drawing;
   for (const PartSet without : {PartSet{Part::kReflection}, PartSet{Part::kRefraction},
                                 PartSet{Part::kReflection, Part::kRefraction}}) {
@@ -168,7 +168,7 @@ FrameOptions with_flags() {
 
 // The near plane's lower half is under a flat surface at the eye's height.
 TEST(UnderWater, AFlatSurfaceCutsThePictureInHalves) {
-  const World world(glass_scene());
+  const World world = world_of(glass_scene());
   const Drawing drawing(world, view_from({0.0, 0.0, 0.0}, 0.0, 1.0, 100, 60), with_flags());
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 100; ++x) ASSERT_EQ(drawing.in_water(x, y), y >= 30) << x << ' ' << y;
@@ -180,7 +180,7 @@ TEST(UnderWater, PixelsBeginInWaterWhereAQuerySaysSo) {
   constexpr int kWidth = 128, kHeight = 72;
   scene::Scene scene;
   scene.sea.wind_speed_mps = 8.0;
-  const World world(scene);
+  const World world = world_of(scene);
   Drawing drawing;
   int checked = 0, crossed = 0;
   for (std::uint64_t i = 0; i < 12; ++i) {
@@ -214,7 +214,7 @@ TEST(UnderWater, PixelsBeginInWaterWhereAQuerySaysSo) {
 
 // The contract of all pictures holds for those that are shaded from both sides.
 TEST(UnderWater, ACutPictureHasTheSameBitsHoweverItIsDrawn) {
-  const World world(wavy_scene(0.5));
+  const World world = world_of(wavy_scene(0.5));
   Drawing drawing(world, view_from({0.0, -600.0, 4.0}, 0.0, 1.0, 16, 9));
   const double z =
       static_cast<double>(water_surface(world.state(), drawing.state().sea).height({0.0, -600.0}));
@@ -237,7 +237,7 @@ TEST(UnderWater, ACutPictureHasTheSameBitsHoweverItIsDrawn) {
 
 // A line darker than what is above and below, and only with its part.
 TEST(UnderWater, TheMeniscusIsALineThatCanBeLeftOut) {
-  const World world(glass_scene());
+  const World world = world_of(glass_scene());
   const View view = view_from({0.0, 0.0, 0.0}, 0.0, 1.0, 100, 60);
   const Drawing with(world, view), without(world, view, {.without = {Part::kMeniscus}});
   for (int y = 0; y < 60; ++y) {

@@ -66,7 +66,7 @@ TEST(VolumeClouds, CoverAsMuchOfThePlaneAsAsked) {
   for (const double cover : {0.1, 0.3, 0.5, 0.7}) {
     scene::Scene scene = cloudy_scene();
     scene.clouds.cover = cover;
-    const World world(scene, 2);
+    const World world = world_of(scene);
     constexpr int kSide = 48;
     int covered = 0;
     for (int j = 0; j < kSide; ++j)
@@ -81,7 +81,7 @@ TEST(VolumeClouds, CoverAsMuchOfThePlaneAsAsked) {
 
 // CLD-08
 TEST(VolumeClouds, SkipWhatIsEmptyAndNothingElse) {
-  const World world(cloudy_scene(), 2);
+  const World world = world_of(cloudy_scene());
   for (const glm::dvec3& eye : {glm::dvec3(0, 0, 2), {500, 900, 1500}, {0, 0, 4000}}) {
     VolumeClouds clouds = clouds_at(world, eye);
     std::vector<glm::vec3> directions = sky_directions(40);
@@ -97,7 +97,7 @@ TEST(VolumeClouds, SkipWhatIsEmptyAndNothingElse) {
 TEST(VolumeClouds, HideAsMuchFromEitherSide) {
   scene::Scene scene = placed_scene({0.0, 0.0});
   scene.clouds.extinction_per_m = 0.002;
-  const World world(scene, 2);
+  const World world = world_of(scene);
   const double z_m = 1300.0;
   for (const double y_m : {-300.0, 0.0, 555.0}) {
     VolumeClouds from_west = clouds_at(world, {-2500.0, y_m, z_m});
@@ -112,7 +112,7 @@ TEST(VolumeClouds, HideAsMuchFromEitherSide) {
 }
 
 TEST(VolumeClouds, HalfTheStepShowsTheSame) {
-  const World world(cloudy_scene(), 2);
+  const World world = world_of(cloudy_scene());
   VolumeClouds clouds = clouds_at(world, {0, 0, 2});
   EXPECT_LE(clouds.steps.step_m * clouds.volume->extinction_per_m, 0.5f);
   const std::vector<glm::vec3> directions = sky_directions(80);
@@ -131,7 +131,7 @@ TEST(VolumeClouds, HalfTheStepShowsTheSame) {
 // The middle of a cloud lies where the lines of sight from two places cross.
 TEST(VolumeClouds, StandInSpace) {
   const glm::dvec2 place(400.0, 3000.0);
-  const World world(placed_scene(place), 2);
+  const World world = world_of(placed_scene(place));
   const auto bearing = [&](double x_m) {
     double sum = 0.0, weight = 0.0;
     std::vector<glm::vec3> directions;
@@ -155,13 +155,13 @@ TEST(VolumeClouds, StandInSpace) {
 }
 
 TEST(VolumeClouds, DriftWithTheWindAndNothingElse) {
-  const World world(cloudy_scene(), 2);
+  const World world = world_of(cloudy_scene());
   const double t_s = 500.0;
   const glm::dvec2 drift = volume_drift_m(world.scene(), 1.0, t_s);
   EXPECT_NEAR(glm::length(drift), 1.2 * 6.0 * t_s, 1e-6);
   scene::Scene still = cloudy_scene();
   still.clouds.change_mps = 0.0;
-  const World unchanging(still, 2);
+  const World unchanging = world_of(still);
   const auto directions = sky_directions(20);
   const auto before = see(clouds_at(unchanging, {0, 0, 2}), directions);
   const auto after = see(clouds_at(unchanging, {drift, 2.0}, t_s), directions);
@@ -171,7 +171,7 @@ TEST(VolumeClouds, DriftWithTheWindAndNothingElse) {
 
 // CLD-07, and the flight through a cloud.
 TEST(VolumeClouds, AreEnteredAndLeftWithoutAJump) {
-  const World world(placed_scene({0.0, 0.0}), 2);
+  const World world = world_of(placed_scene({0.0, 0.0}));
   const std::vector<glm::vec3> directions = {glm::normalize(glm::vec3(1.0f, 0.1f, 0.05f)),
                                              glm::normalize(glm::vec3(1.0f, -0.4f, -0.2f)),
                                              glm::normalize(glm::vec3(0.2f, 1.0f, 0.3f))};
@@ -200,7 +200,7 @@ View northward(glm::dvec3 eye, double pitch_rad, int width_px = 150, int height_
 // At the edge of a cloud a picture changes much over a few metres, but never at once: the largest
 // change of a flight falls as its frames come closer.
 TEST(VolumeClouds, AreFlownThroughWithoutAJump) {
-  const World world(placed_scene({0.0, 0.0}), 2);
+  const World world = world_of(placed_scene({0.0, 0.0}));
   Shot film;
   struct Change {
     double y_m = 0.0, value = 0.0;
@@ -224,7 +224,7 @@ TEST(VolumeClouds, AreFlownThroughWithoutAJump) {
 }
 
 TEST(VolumeClouds, AreTheSameBitsOverThreadsTilesTargetsAndFramesBefore) {
-  const World world(cloudy_scene(), 2);
+  const World world = world_of(cloudy_scene());
   const FrameOptions options = {.water_triangles = 2000, .edge_samples = 4};
   const FrameOptions small = {.tile_size_px = 16, .water_triangles = 2000, .edge_samples = 4};
   Workers two(2), three(3);
@@ -244,7 +244,7 @@ TEST(VolumeClouds, AreTheSameBitsOverThreadsTilesTargetsAndFramesBefore) {
 
 // CLD-04: the nodes' lattice is not seen.
 TEST(VolumeClouds, ShowNoPatternOfFourPixels) {
-  const World world(cloudy_scene(), 2);
+  const World world = world_of(cloudy_scene());
   constexpr int kWidth = 256, kHeight = 144;
   const Shot shot(world, northward({0.0, 0.0, 2.0}, 0.6, kWidth, kHeight), 3.0);
   // The Fourier coefficient of one period in four pixels, of the picture under a smooth window.
@@ -269,7 +269,7 @@ TEST(VolumeClouds, ShowNoPatternOfFourPixels) {
 // CLD-03
 TEST(VolumeClouds, AreLitByTheVolumeAsBySecondRays) {
   scene::Scene scene = cloudy_scene();
-  const World by_volume(scene, 2);
+  const World by_volume = world_of(scene);
   scene.clouds.rays = scene::CloudRays::kRays;
   const World by_rays(scene, by_volume, 2);
   const View view = northward({0, 0, 2}, 0.3, 160, 90);
@@ -280,7 +280,7 @@ TEST(VolumeClouds, AreLitByTheVolumeAsBySecondRays) {
 
 TEST(VolumeClouds, CanBeLeftOut) {
   scene::Scene scene = cloudy_scene();
-  const World world(scene, 2);
+  const World world = world_of(scene);
   scene.clouds.kind = scene::CloudKind::kNone;
   const World clear(scene, world, 2);
   const View view = northward({0, 0, 2}, 0.2);
@@ -297,7 +297,7 @@ TEST(CloudShadows, TakeTheGlitterFromTheWater) {
   scene.sky.sun_elevation_rad = scene::radians(50.0);
   scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
   scene.clouds.cumulus[0].width_m = 3000.0;
-  const World world(scene, 2);
+  const World world = world_of(scene);
   // The shadow lies as far from under the cloud as the sun slants over the height of its base.
   const double under_y = -900.0 / std::tan(scene::radians(50.0));
   const auto glitter = [&](double y_m, PartSet without) {
@@ -314,7 +314,7 @@ TEST(CloudShadows, TakeTheGlitterFromTheWater) {
 TEST(CloudShadows, DoNotCrawlWithTheCamera) {
   scene::Scene scene = cloudy_scene();
   scene.sky.cloud_cover = 0.4;
-  const World world(scene, 2);
+  const World world = world_of(scene);
   Workers workers(2);
   const auto shadow_at = [&](glm::dvec3 eye) {
     CloudShadow shadow;
@@ -346,7 +346,7 @@ TEST(CloudShadows, AreThoseOfTheOldLayerToo) {
   scene::Scene scene = cloudy_scene();
   scene.clouds.kind = scene::CloudKind::kNone;
   scene.sky.cloud_cover = 0.5;
-  const World world(scene, 2);
+  const World world = world_of(scene);
   const View view = northward({0, 0, 100}, -0.3);
   const Shot with(world, view, 3.0), without(world, view, 3.0, {.without = {Part::kCloudShadows}});
   EXPECT_NE(with.target.rgba, without.target.rgba);

@@ -39,7 +39,7 @@ TEST(WaterLayers, EverySineIsShaded) {
     scene.sea.sines.push_back({.amplitude_m = 0.02,
                                .wavelength_m = 2.0 + 0.1 * static_cast<double>(i),
                                .to_rad = 0.09 * static_cast<double>(i)});
-  const World like(scene);
+  const World like = world_of(scene);
   const DrawnLike whole(scene, like);
   for (std::size_t i = 0; i < ocean::kMaxSines; ++i) {
     scene::Scene without = scene;
@@ -51,7 +51,7 @@ TEST(WaterLayers, EverySineIsShaded) {
 TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
   scene::Scene scene = shading_scene(kEye_m);
   scene.sea.patch_lengths_m.clear();
-  const World like(shading_scene(kEye_m));
+  const World like = world_of(shading_scene(kEye_m));
   double length_m = 4000.0;
   for (std::size_t patches = 1; patches <= ocean::kMaxPatches; ++patches) {
     scene.sea.patch_lengths_m.push_back(length_m *= 0.4);
@@ -76,7 +76,7 @@ TEST(WaterLayers, RipplesStayNearTheShoreHoweverManyPatchesTheSeaHas) {
   scene.coast.model = scene::CoastModel::kTrains;
   scene.coast.trains = 1;
   scene.coast.grid_spacing_m = 10.0;
-  const World like(scene);
+  const World like = world_of(scene);
   for (const std::size_t patches : {0, 1, 2, 3}) {
     scene::Scene with_ripples = scene;
     with_ripples.sea.spectrum = patches > 0;
@@ -202,7 +202,7 @@ TEST_P(WaterShader, ShowsTheSameHoweverManyPacketsAreSideBySide) {
   for (const bool has_coast : {true, false}) {
     scene::Scene scene = shore_scene();
     if (!has_coast) scene.coast = {};
-    const World like(scene);  // whose maps the drawn water refers to
+    const World like = world_of(scene);  // whose maps the drawn water refers to
     const DrawnLike drawn(scene, like);
     const Shading& shading = drawn.shading();
     const Water& water = shading.material<Water>();

@@ -65,20 +65,20 @@ struct Moments {
 // OPT-16: within 35 % of the law.
 TEST(DrawnWhitecaps, CoverWhatTheWindSays) {
   for (const double wind : {6.0, 10.0, 15.0, 20.0}) {
-    const World world(open_sea(wind));
+    const World world = world_of(open_sea(wind));
     EXPECT_NEAR(mean_drawn_cover(world, 640.0, 6) / ocean::whitecap_cover(wind), 1.0, 0.35) << wind;
   }
 }
 
 // OPT-17.
 TEST(DrawnWhitecaps, AreNoneBelow3Point7MetresASecond) {
-  const World world(open_sea(3.6));
+  const World world = world_of(open_sea(3.6));
   EXPECT_EQ(mean_drawn_cover(world, 100.0, 1), 0.0);
 }
 
 // Maps of eight bits, their levels and lace: none loses foam or makes some.
 TEST(DrawnWhitecaps, CoverAsMuchFromFarAsFromNear) {
-  const World world(open_sea(12.0));
+  const World world = world_of(open_sea(12.0));
   const double expected = ocean::whitecap_cover(12.0);
   for (const double height_m : {1300.0, 3000.0, 8000.0})
     EXPECT_NEAR(mean_drawn_cover(world, height_m, 3) / expected, 1.0, 0.25) << height_m;
@@ -87,7 +87,7 @@ TEST(DrawnWhitecaps, CoverAsMuchFromFarAsFromNear) {
 // The lace leaves the mean as it is: pictures against the library's answers at the same places.
 TEST(DrawnWhitecaps, AreWhatIsAskedInTheMeanOverTheirLace) {
   const scene::Scene scene = open_sea(15.0);
-  const World world(scene);
+  const World world = world_of(scene);
   const scene::Water water(scene);
   Workers workers(2);
   const ocean::Whitecaps whitecaps = ocean::make_whitecaps(water.sea(), workers);
@@ -170,7 +170,7 @@ TEST(FoamBlocks, AreSetAroundFoamAlone) {
 }
 
 TEST(DrawnWhitecaps, AreTheSameInAFrameAloneAndInASequence) {
-  const World world(open_sea(15.0));
+  const World world = world_of(open_sea(15.0));
   const View view = make_view({0.0, 0.0, 12.0}, 0.4, -0.15, 0.9, 0.25f, 96, 64);
   Shot film;
   for (const double t_s : {2.0, 2.1, 2.2, 2.3, 2.4, 9.0, 2.3})
@@ -179,9 +179,9 @@ TEST(DrawnWhitecaps, AreTheSameInAFrameAloneAndInASequence) {
 
 TEST(DrawnWhitecaps, CanBeLeftOut) {
   scene::Scene scene = open_sea(15.0);
-  const World with(scene);
+  const World with = world_of(scene);
   scene.sea.whitecaps = 0.0;
-  const World without(scene);
+  const World without = world_of(scene);
   const View view = make_view({0.0, 0.0, 12.0}, 0.4, -0.15, 0.9, 0.25f, 96, 64);
   const Shot left_out(with, view, 2.0, {.without = {Part::kWhitecaps}});
   EXPECT_NE(Shot(with, view, 2.0).target.rgba, left_out.target.rgba);
@@ -197,7 +197,7 @@ scene::Scene white_sea() {
 
 // The light of pixels that foam hides all of, over that of level snow.
 Moments light_of_whole_foam(const scene::Scene& scene) {
-  const World world(scene);
+  const World world = world_of(scene);
   Shot film;
   Moments light_over_snow;
   for (int n = 0; n < 8; ++n) {
@@ -235,7 +235,7 @@ TEST(DrawnWhitecaps, HaveDepthInside) {
 
 // Water between and around foam is full of bubbles: brighter than the same water without.
 TEST(DrawnWhitecaps, LieInWaterThatIsBrighterForTheirBubbles) {
-  const World world(white_sea());
+  const World world = world_of(white_sea());
   Shot foamy, bare;
   int brighter = 0, darker = 0;
   for (int n = 0; n < 8; ++n) {
