@@ -3,8 +3,10 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 #include <fmt/core.h>
 
+#include <cstdarg>
 #include <exception>
 #include <memory>
 #include <new>
@@ -14,17 +16,39 @@
 namespace swell::texture {
 namespace {
 
+// What libtiff says OpenImageIO tells in its errors; from libtiff 4.5 on it goes to stderr too.
+// Another handler than libtiff's own is somebody else's.
+void silence_libtiff() {
+  using Handler = void (*)(const char*, const char*, std::va_list);
+  const auto library_of = [](auto* function) -> const void* {
+    Dl_info info = {};
+    return dladdr(reinterpret_cast<const void*>(function), &info) != 0 ? info.dli_fbase : nullptr;
+  };
+  for (const char* const name : {"TIFFSetErrorHandler", "TIFFSetWarningHandler"}) {
+    const auto set = reinterpret_cast<Handler (*)(Handler)>(dlsym(RTLD_DEFAULT, name));
+    if (!set) continue;
+    const Handler before = set(nullptr);
+    if (before && library_of(before) != library_of(set)) set(before);
+  }
+}
+
 // OpenImageIO on the calling thread only: files are small, and its pools would outlive the call.
-void use_one_thread() {
-  OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);
+// Once: from 2.5 on it aborts where two threads set how many threads it has.
+void set_up() {
+  static const bool is_done = [] {
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
+    silence_libtiff();
+    return true;
+  }();
+  static_cast<void>(is_done);
 }
 
 // Runs `work`, which returns false after it has set the error.
 template <class Work>
 CodecResult guarded(std::string& error, Work&& work) noexcept {
   try {
-    use_one_thread();
+    set_up();
     return work() ? CodecResult::kDone : CodecResult::kFault;
   } catch (const std::bad_alloc&) {
     return CodecResult::kNoRoom;

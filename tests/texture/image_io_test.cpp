@@ -1,7 +1,9 @@
 // Pictures written and read again.
 #include <unistd.h>
 
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "texture/image_files.h"
 
