@@ -92,6 +92,13 @@ void Gui::begin_frame() {
   int width = 0, height = 0;
   ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
   ImGui_ImplSDL2_NewFrame();
+#if IMGUI_VERSION_NUM >= 18700 && IMGUI_VERSION_NUM < 19150 && \
+    !defined(IMGUI_DISABLE_OBSOLETE_KEYIO)
+  // Its way of old to know keys, by their place on the keyboard, ends the program where a place
+  // stands for two keys: where it is unknown (a remote desktop's), or the layout changes.
+  std::ranges::fill(ImGui::GetIO().KeyMap, -1);
+  std::ranges::fill(ImGui::GetIO().KeysDown, false);
+#endif
   // That asks X for the pointer's place on the screen, which SDL knows from the motion of devices
   // alone: where a program moves the pointer (a remote desktop, a test) it is that of the last
   // press. Events have the place in the window always.
