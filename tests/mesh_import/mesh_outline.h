@@ -20,8 +20,9 @@ struct Outlines {
   double largest_m() const { return std::max({size_m.x, size_m.y, size_m.z}); }
   double points_per_m() const { return side / (1.8 * largest_m()); }
 
-  // Which points see the mesh along a direction.
-  std::vector<char> covered(const scene::ObjectMesh& mesh, glm::dvec3 along) const {
+  // Which points see the mesh along a direction: those that it covers, or all that it comes nearer
+  // than `reach` along the axes (0.5: a needle between points is seen, too).
+  std::vector<char> covered(const scene::ObjectMesh& mesh, glm::dvec3 along, double reach) const {
     const glm::dvec3 right = glm::normalize(
         glm::cross(along, std::abs(along.z) > 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
     const glm::dvec3 up = glm::cross(right, along);
@@ -33,7 +34,7 @@ struct Outlines {
         const glm::dvec3 p = (q - glm::dvec3(0.0, 0.0, 0.5)) * size_m;
         corner[k] = 0.5 * side + points_per_m() * glm::dvec2(glm::dot(p, right), glm::dot(p, up));
       }
-      cover(corner, points);
+      cover(corner, reach, points);
     }
     return points;
   }
@@ -53,7 +54,8 @@ struct Outlines {
            static_cast<std::size_t>(x);
   }
 
-  void cover(const std::array<glm::dvec2, 3>& corner, std::vector<char>& points) const {
+  void cover(const std::array<glm::dvec2, 3>& corner, double reach,
+             std::vector<char>& points) const {
     const auto edge = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
       return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
     };
@@ -64,8 +66,11 @@ struct Outlines {
       for (int x = static_cast<int>(low.x); x <= static_cast<int>(high.x); ++x) {
         const glm::dvec2 p(x + 0.5, y + 0.5);
         bool inside = area != 0.0;
-        for (std::size_t k = 0; k < 3; ++k)
-          inside &= edge(corner[k], corner[(k + 1) % 3], p) * area >= 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const glm::dvec2 &a = corner[k], &b = corner[(k + 1) % 3];
+          const double margin = reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y));
+          inside &= edge(a, b, p) * (area > 0.0 ? 1.0 : -1.0) >= -margin;
+        }
         if (inside) points[at(x, y)] = 1;
       }
   }
@@ -94,8 +99,11 @@ inline double outline_distance(const scene::ObjectMesh& a, const scene::ObjectMe
     // Evenly around, from level to 60 degrees up.
     const double turn = 2.4 * i, z = 0.86 * i / directions, level = std::sqrt(1.0 - z * z);
     const glm::dvec3 along(level * std::cos(turn), level * std::sin(turn), -z);
-    const auto of_a = outlines.covered(a, along), of_b = outlines.covered(b, along);
-    worst = std::max({worst, outlines.farthest(of_a, of_b), outlines.farthest(of_b, of_a)});
+    const auto distance = [&](const scene::ObjectMesh& from, const scene::ObjectMesh& to) {
+      return outlines.farthest(outlines.covered(from, along, 0.0),
+                               outlines.covered(to, along, 0.5));
+    };
+    worst = std::max({worst, distance(a, b), distance(b, a)});
   }
   return worst;
 }
