@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "apps/view/viewer.h"
+#include "render/shot.h"
 #include "render/world/world_view.h"
 #include "view_scene.h"
 
@@ -61,7 +62,7 @@ inline void push_window_event(Viewer& viewer, int what, int data1 = 0, int data2
 // What a program without a window draws.
 inline render::Target headless_picture(const scene::Scene& scene, double t_s, int width_px,
                                        int height_px, const render::FrameOptions& options = {}) {
-  const render::World world{scene::Scene(scene)};
+  const render::World world = render::world_of(scene);
   Workers workers(1);
   render::Workspace workspace;
   render::Target target;

@@ -17,7 +17,7 @@ namespace {
 std::vector<std::uint32_t> headless_label(const Viewer& viewer, render::Label label) {
   const double t_s = viewer.picture_time_s();
   const int width_px = viewer.picture().width_px, height_px = viewer.picture().height_px;
-  const render::World world{small_scene()};
+  const render::World world = render::world_of(small_scene());
   Workers workers(1);
   ocean::SeaFrame sea;
   render::FrameOptions options;
