@@ -112,7 +112,10 @@ def compare_all(programs, scenes, sizes, options):
 
 
 def git(*words):
-    run = subprocess.run(["git", *words], cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    try:
+        run = subprocess.run(["git", *words], cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        return None
     return run.stdout.strip() if run.returncode == 0 else None
 
 

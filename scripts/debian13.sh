@@ -1,6 +1,6 @@
 #!/bin/sh
-# Builds the programs of scripts/run.sh in a root of Debian 13 and compares the pictures of all scenes with
-# those of the release build beside it: half an hour on two cores. Needs root, mmdebstrap and build/release/bin.
+# Builds the programs of scripts/run.sh in a root of Debian 13, compares the pictures of all scenes with those of the
+# release build beside it, and runs the tests there: an hour on two cores. Needs root, mmdebstrap and build/release/bin.
 #   scripts/debian13.sh [FOLDER]   the root's folder, kept and used again; default build/debian13
 set -eu
 cd "$(dirname "$0")/.."
@@ -14,7 +14,7 @@ mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | grep -
 
 # inside COMMAND...: in the root, with its own processes, by which programs find their own folder.
 inside() {
-  unshare --mount sh -c 'mount -t proc proc "$0/proc" && mount --bind /dev "$0/dev" && exec chroot "$0" env -i "$@"' "$root" \
+  unshare --mount sh -c 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" env -i "$@"' "$root" \
     PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C "$@"
 }
 hashes='for scene in scenes/*.toml; do
@@ -39,3 +39,4 @@ inside sh -c "cd /swell && $hashes" >build/debian13.txt
 sh -c "$hashes" >build/debian12.txt
 diff build/debian12.txt build/debian13.txt
 echo "The same $(wc -l <build/debian13.txt) pictures on both"
+inside sh -c 'cd /swell && scripts/test.sh'

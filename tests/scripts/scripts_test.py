@@ -163,6 +163,7 @@ class BuildTimes(unittest.TestCase):
         self.assertNotIn("     2.0  a.o", text)
 
 
+@unittest.skipUnless(shutil.which("git"), "needs git")
 class CheckCommits(Temporary):
     def git(self, *words):
         subprocess.run(["git", *words], cwd=self.folder, check=True, capture_output=True, env=self.environment)

@@ -1,6 +1,7 @@
 """browser_test.py URL PID FOLDER: looks at a served viewer in headless Chromium."""
 import os
 import re
+import shutil
 import signal
 import sys
 import time
@@ -22,7 +23,7 @@ def browser(*more):
                      "window-size=1300,800", "user-data-dir=" + folder,
                      "host-resolver-rules=MAP evil.example 127.0.0.1") + more:
         options.add_argument("--" + argument)
-    return webdriver.Chrome(service=Service(), options=options)
+    return webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
 
 
 def ask(path):
