@@ -42,7 +42,8 @@ class FlatFloor : public testing::Test {
     return scene;
   }
 
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 }  // namespace swell::render

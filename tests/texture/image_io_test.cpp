@@ -1,6 +1,7 @@
 // Pictures written and read again.
 #include <unistd.h>
 
+#include <cstdlib>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -143,6 +144,20 @@ TEST_F(ImageFiles, SamplesOf8And16BitsAreSharesAndFloatsAreTakenAsTheyAre) {
   EXPECT_EQ(read_image(put("32f.exr", encoded("openexr", OIIO::TypeFloat, floats))).pixels, floats);
   EXPECT_EQ(read_image(put("16f.exr", encoded("openexr", OIIO::TypeHalf, halves))).pixels,
             (std::vector<float>{-3.5f, 0.25f, 65504.0f}));
+}
+
+// OpenImageIO 2.5 ends processes whose threads set it up at once.
+TEST(ImageFilesDeathTest, AreReadByThreadsAtOnce) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";  // in a process that has not set it up
+  const ScratchFolder folder;
+  const std::string file = folder.write("a.ppm", "P6 2 1 255\nabcdef").string();
+  const auto read = [&] {
+    std::vector<std::thread> threads;
+    for (int n = 0; n < 8; ++n) threads.emplace_back([&] { read_image(file); });
+    for (std::thread& thread : threads) thread.join();
+    std::exit(0);
+  };
+  for (int n = 0; n < 5; ++n) EXPECT_EXIT(read(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
