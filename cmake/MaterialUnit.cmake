@@ -1,9 +1,25 @@
-# make_material_unit(NAME SOURCE FOLDER): writes FOLDER/NAME_simd.cpp, the unit of a material of
-# SOURCE/render, whose struct has its name with a capital.
-function(make_material_unit name source folder)
+# make_material_units(NAME SOURCE FOLDER SIMD OUT): writes FOLDER/NAME_TARGET_simd.cpp, the units of a material of
+# SOURCE/render, whose struct has its name with a capital, one for each SIMD target: the largest take half a minute to
+# compile for both. SIMD: all, or avx2 alone. OUT: list to which their names are added.
+function(make_material_units name source folder simd out)
   string(SUBSTRING ${name} 0 1 first)
   string(TOUPPER ${first} first)
   string(SUBSTRING ${name} 1 -1 rest)
   set(MATERIAL ${first}${rest})
-  configure_file(${source}/render/tile/material_unit.cpp.in ${folder}/${name}_simd.cpp @ONLY)
+  set(targets avx2)
+  if(simd STREQUAL "all")
+    list(APPEND targets avx512)
+  endif()
+  foreach(target IN LISTS targets)
+    set(BASELINE HWY_AVX2)
+    set(OTHERS "HWY_AVX3 | HWY_AVX3_DL")
+    if(target STREQUAL "avx512")
+      set(BASELINE HWY_AVX3)
+      set(OTHERS HWY_AVX2)
+    endif()
+    set(unit ${folder}/${name}_${target}_simd.cpp)
+    configure_file(${source}/render/tile/material_unit.cpp.in ${unit} @ONLY)
+    list(APPEND ${out} ${unit})
+  endforeach()
+  set(${out} ${${out}} PARENT_SCOPE)
 endfunction()

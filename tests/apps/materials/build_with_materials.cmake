@@ -1,7 +1,7 @@
 # Builds swell-render with another list of materials, from what is built already: copies render/,
 # changes the list, and compiles the few sources that read it.
 #   cmake -DCHANGE=checkerboard|no_objects -DBUILD=FOLDER -DSOURCE=FOLDER -DSCRATCH=FOLDER
-#     -DNINJA=FILE -DAR=FILE -DCODEC=FILE -P build_with_materials.cmake
+#     -DSIMD=all|avx2 -DNINJA=FILE -DAR=FILE -DCODEC=FILE -P build_with_materials.cmake
 # The program is SCRATCH/CHANGE/swell-render. The build folder's generator is Ninja.
 cmake_minimum_required(VERSION 3.25)
 
@@ -90,10 +90,14 @@ file(STRINGS ${root}/render/CMakeLists.txt materials REGEX "^set\\(materials ")
 string(REGEX REPLACE "set\\(materials (.*)\\)" "\\1" materials "${materials}")
 separate_arguments(materials)
 include(${SOURCE}/cmake/MaterialUnit.cmake)
+set(units "")
 foreach(name IN LISTS materials)
-  make_material_unit(${name} ${root} ${root}/units)
-  string(REPLACE "/${unit}_simd.cpp" "/${name}_simd.cpp" command "${unit_command}")
-  compile(units/${name}_simd.cpp "${command}")
+  make_material_units(${name} ${root} ${root}/units ${SIMD} units)
+endforeach()
+foreach(file IN LISTS units)
+  get_filename_component(file ${file} NAME)
+  string(REPLACE "/${unit}_simd.cpp" "/${file}" command "${unit_command}")
+  compile(units/${file} "${command}")
 endforeach()
 list(LENGTH objects compiled)
 if(compiled EQUAL 0)
