@@ -67,25 +67,25 @@ struct Frame : Shot {
   }
 };
 
-std::vector<scene::ObjectPose> poses_at(const World& world, double t_s, glm::vec2* current) {
+std::vector<scene::ObjectPose> poses_at(double t_s, glm::vec2* current) {
   static const scene::Water water(drift_world().scene());
   ocean::SeaFrame sea;
   Workers workers(1);
   const scene::WaterSurface surface = water.at(t_s, sea, workers);
-  std::vector<scene::ObjectPose> poses(world.scene().objects.size());
-  scene::object_poses(world.scene().objects, surface, poses);
+  const std::vector<scene::FloatingObject>& objects = drift_world().scene().objects;
+  std::vector<scene::ObjectPose> poses(objects.size());
+  scene::object_poses(objects, surface, poses);
   const glm::dvec2 p(poses[1].position_world);
   surface.currents({&p, 1}, {current, 1});
   return poses;
 }
 
 TEST(DrawnDrift, MovesWithTheCurrentThatQueriesTell) {
-  const World& world = drift_world();
   glm::vec2 current, unused;
   double way_m = 0.0;
   for (double t_s = 5.0; t_s < 60.0; t_s += 5.0) {
-    const auto before = poses_at(world, t_s - 0.5, &unused), now = poses_at(world, t_s, &current),
-               after = poses_at(world, t_s + 0.5, &unused);
+    const auto before = poses_at(t_s - 0.5, &unused), now = poses_at(t_s, &current),
+               after = poses_at(t_s + 0.5, &unused);
     const glm::dvec2 moved(after[1].position_world - before[1].position_world);
     // The lattice of currents is bilinear between points a few metres apart.
     EXPECT_LT(glm::distance(moved, glm::dvec2(current)), 0.08 * glm::length(current)) << t_s;
@@ -102,7 +102,7 @@ TEST(DrawnDrift, IsDrawnLabelledAndPickedWhereItsPoseIs) {
   for (const double t_s : {0.0, 25.0, 50.0}) {
     const Frame frame(world, t_s);
     glm::vec2 unused;
-    const scene::ObjectPose pose = poses_at(world, t_s, &unused)[1];
+    const scene::ObjectPose pose = poses_at(t_s, &unused)[1];
     const glm::dvec3 top = pose.position_world + glm::dvec3(0.0, 0.0, 2.0);
     const glm::vec4 clip =
         frame.view.clip_from_rel * glm::vec4(glm::vec3(top - frame.view.eye_world), 1.0f);

@@ -126,7 +126,7 @@ TEST(Atmosphere, EnergyNeverRisesAsTheSunSinks) {
   for (const double turbidity : {2.0, 4.0, 10.0}) {
     double before = 1e9;
     for (double altitude_deg = 90.0; altitude_deg >= -20.0;
-         altitude_deg -= altitude_deg > 15.0 ? 3.0 : 0.5) {
+         altitude_deg -= altitude_deg > 15.0 ? 1.0 : 0.25) {
       const SkyLight light = light_at(altitude_deg, 0.0, turbidity);
       const glm::dvec3 sky = sky_irradiance(light);
       const glm::dvec3 direct =
