@@ -584,6 +584,20 @@ static void test_threads(bool same_session) {
 
 /* ---- Memory */
 
+/* A session has its world as long as it lives. */
+static void test_session_without_world(void) {
+  const swell_frame frame = small_frame();
+  const Opened o = open_scene(SMALL BUOY);
+  uint64_t hash[2] = {0, 1};
+  EXPECT(swell_render(o.session, &frame, o.picture) == SWELL_OK);
+  EXPECT(swell_picture_hash(o.picture, &hash[0]) == SWELL_OK);
+  swell_world_destroy(o.world);
+  EXPECT(swell_render(o.session, &frame, o.picture) == SWELL_OK);
+  EXPECT(swell_picture_hash(o.picture, &hash[1]) == SWELL_OK && hash[0] == hash[1]);
+  EXPECT(ask_at(o.session, 3.0, 1.0, 1) == SWELL_OK);
+  close_scene((Opened){NULL, o.session, o.picture});
+}
+
 static long resident_kb(void) {
   long kb = 0;
   char line[256];
@@ -629,6 +643,7 @@ int main(int argc, char** argv) {
   close_scene(o);
   test_threads(false);
   test_threads(true);
+  test_session_without_world();
   test_many_worlds(argc > 1 ? atoi(argv[1]) : 20);
   printf("%s: %d faults\n", argv[0], faults);
   return faults == 0 ? 0 : 1;
