@@ -7,10 +7,15 @@ target_compile_options(swell_options INTERFACE
   # Per-target headers hold functions and settings that not every file includes them for.
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:Clang>:-Wno-unneeded-internal-declaration;-Wno-unused-function;-Wno-pragma-clang-attribute>>)
 if(SWELL_SANITIZE)
+  include(CheckLinkerFlag)
   target_compile_definitions(swell_options INTERFACE SWELL_SANITIZED)
   target_compile_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE}
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
+  check_linker_flag(CXX -fuse-ld=lld SWELL_HAS_LLD)  # half of a link's time
+  if(SWELL_HAS_LLD)
+    target_link_options(swell_options INTERFACE -fuse-ld=lld)
+  endif()
   # Sanitized code makes GCC's flow warnings see paths that do not exist.
   set(flow_warnings -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
     -Wno-stringop-overflow)
