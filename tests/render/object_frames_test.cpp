@@ -24,6 +24,7 @@ scene::Scene calm_scene() {
   scene::Scene scene;
   scene.sea.wind_speed_mps = 0.0;
   scene.water.bump_strength = 0.0;
+  scene.sky.model = scene::SkyModel::kGradient;  // made in a tenth of the time
   scene.sky.cloud_cover = 0.0;
   scene.camera.eye_m = {0.0, -40.0, 6.0};
   scene.camera.pitch_rad = scene::radians(-6.0);
@@ -117,6 +118,7 @@ scene::Scene crowd(int count) {
   scene::Scene scene;
   scene.sea.resolution = 64;
   scene.sea.wind_speed_mps = 7.0;
+  scene.sky.model = scene::SkyModel::kGradient;
   scene.camera.eye_m = {0.0, -60.0, 12.0};
   scene.camera.pitch_rad = scene::radians(-5.0);
   constexpr std::array kKinds = {scene::ObjectKind::kBuoy,     scene::ObjectKind::kBoat,

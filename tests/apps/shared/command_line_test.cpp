@@ -136,7 +136,7 @@ TEST_F(CommandLine, AnEyeBelowTheGroundIsWarnedOfOnce) {
   struct Case {
     std::string camera, warning;  // the pieces of one line; empty: none
   };
-  const std::string flat = "[sea]\nspectrum = false\n";
+  const std::string flat = "[sea]\nspectrum = false\n[sky]\nmodel = \"gradient\"\n";
   const std::string island = flat + "[terrain]\nisland_height_m = 35.0\n";
   const std::string dive = "[camera]\neye_m = [0, 0, 1.05]\nvelocity_mps = [0, 0, -6.0]\n";
   const auto eye = [](const std::string& place) { return "[camera]\neye_m = " + place + "\n"; };
@@ -167,7 +167,9 @@ TEST_F(CommandLine, AnEyeBelowTheGroundIsWarnedOfOnce) {
 
 // scripts/contact_sheets.sh reads from it how high to lift the eye.
 TEST_F(CommandLine, TheWarningSaysHowHighTheGroundIs) {
-  write_text(scene_, "[sea]\nspectrum = false\n[terrain]\nisland_height_m = 35.0\n");
+  write_text(
+      scene_,
+      "[sea]\nspectrum = false\n[sky]\nmodel = \"gradient\"\n[terrain]\nisland_height_m = 35.0\n");
   const auto said_from = [&](double eye_m) {
     return run_render({"--scene", scene_, "--size", "16x9", "--triangles", "200", "--hash", "--set",
                        fmt::format("camera.eye_m=[0, 0, {}]", eye_m)})

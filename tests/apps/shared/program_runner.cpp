@@ -120,6 +120,8 @@ size_m = [1000.0, 1000.0]
 [wind]
 speed_mps = 11.0
 from_deg = 200.0
+[sky]
+model = "gradient"
 [detail]
 water_triangles = 1500
 )";
