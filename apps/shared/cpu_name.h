@@ -5,7 +5,7 @@
 
 namespace swell::apps {
 
-// The CPU's own name for itself, "AMD EPYC 9R14"; "unknown" if it has none.
+// The processor's name as the kernel has it, "AMD EPYC 9R14"; "unknown" if it has none.
 std::string cpu_name();
 
 }  // namespace swell::apps
