@@ -11,11 +11,11 @@
 #include <hwy/highway.h>
 #include <immintrin.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 // x without its fraction, and the whole number nearest to x (of two, the even one). The lowest
 // integer where |x| >= 2^31 or x is NaN; Highway's own conversions take three more instructions to
 // give the highest one on that side.
@@ -43,31 +43,31 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
   const hn::RebindToSigned<D> di;
   // x = whole turns + quarter / 4 + f, exactly, |f| <= 1/8.
-  const V r = hn::Sub(x, hn::Round(x));
-  const V quarter = hn::Round(hn::Mul(r, hn::Set(d, 4.0f)));
-  const V f = hn::NegMulAdd(quarter, hn::Set(d, 0.25f), r);
-  const V f2 = hn::Mul(f, f);
+  const V r = x - hn::Round(x);
+  const V quarter = hn::Round(r * 4.0f);
+  const V f = NegMulAdd(quarter, 0.25f, r);
+  const V f2 = f * f;
   // Taylor series of sin(2 pi f) / f and cos(2 pi f) in f^2.
   V s = hn::Set(d, 42.058693f);
-  s = hn::MulAdd(s, f2, hn::Set(d, -76.705859f));
-  s = hn::MulAdd(s, f2, hn::Set(d, 81.605249f));
-  s = hn::MulAdd(s, f2, hn::Set(d, -41.341702f));
-  s = hn::MulAdd(s, f2, hn::Set(d, 6.2831853f));
-  s = hn::Mul(s, f);
+  s = MulAdd(s, f2, -76.705859f);
+  s = MulAdd(s, f2, 81.605249f);
+  s = MulAdd(s, f2, -41.341702f);
+  s = MulAdd(s, f2, 6.2831853f);
+  s = s * f;
   V c = hn::Set(d, -26.426257f);
-  c = hn::MulAdd(c, f2, hn::Set(d, 60.244641f));
-  c = hn::MulAdd(c, f2, hn::Set(d, -85.456817f));
-  c = hn::MulAdd(c, f2, hn::Set(d, 64.939394f));
-  c = hn::MulAdd(c, f2, hn::Set(d, -19.739209f));
-  c = hn::MulAdd(c, f2, hn::Set(d, 1.0f));
+  c = MulAdd(c, f2, 60.244641f);
+  c = MulAdd(c, f2, -85.456817f);
+  c = MulAdd(c, f2, 64.939394f);
+  c = MulAdd(c, f2, -19.739209f);
+  c = MulAdd(c, f2, 1.0f);
   // Quarter turns: odd ones swap, 1 and 2 negate the cosine, 2 and 3 the sine.
   const auto q = hn::ConvertTo(di, quarter);
-  const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(q, hn::Set(di, 1)))));
+  const auto odd = hn::MaskFromVec(hn::BitCast(d, -(q & hn::Set(di, 1))));
   const auto two = hn::Set(di, 2);
-  const auto sin_sign = hn::ShiftLeft<30>(hn::And(q, two));
-  const auto cos_sign = hn::ShiftLeft<30>(hn::And(hn::Add(q, hn::Set(di, 1)), two));
-  sin_out = hn::Xor(hn::IfThenElse(odd, c, s), hn::BitCast(d, sin_sign));
-  cos_out = hn::Xor(hn::IfThenElse(odd, s, c), hn::BitCast(d, cos_sign));
+  const auto sin_sign = hn::ShiftLeft<30>(q & two);
+  const auto cos_sign = hn::ShiftLeft<30>((q + hn::Set(di, 1)) & two);
+  sin_out = hn::Xor(IfThenElse(odd, c, s), hn::BitCast(d, sin_sign));
+  cos_out = hn::Xor(IfThenElse(odd, s, c), hn::BitCast(d, cos_sign));
 }
 
 // 2^x, x clamped to [-126, 126]; exact where x is whole. Relative error 1e-7. NaN gives NaN.
@@ -76,27 +76,27 @@ HWY_INLINE V Exp2(D d, V x) {
   const hn::RebindToSigned<D> di;
   // Not Min and Max: which operand they return beside a NaN depends on the target.
   const V low = hn::Set(d, -126.0f), high = hn::Set(d, 126.0f);
-  x = hn::IfThenElse(hn::Lt(x, low), low, x);
-  x = hn::IfThenElse(hn::Gt(x, high), high, x);
+  x = IfThenElse(x < low, low, x);
+  x = IfThenElse(x > high, high, x);
   const V k = hn::Round(x);
-  const V r = hn::Sub(x, k);  // [-0.5, 0.5], exact
+  const V r = x - k;  // [-0.5, 0.5], exact
   // (2^r - 1) / r by interpolation at Chebyshev nodes: relative error 9e-9.
   V p = hn::Set(d, 0.000154531634f);
-  p = hn::MulAdd(p, r, hn::Set(d, 0.00133908633f));
-  p = hn::MulAdd(p, r, hn::Set(d, 0.00961808302f));
-  p = hn::MulAdd(p, r, hn::Set(d, 0.0555035695f));
-  p = hn::MulAdd(p, r, hn::Set(d, 0.240226507f));
-  p = hn::MulAdd(p, r, hn::Set(d, 0.693147182f));
-  p = hn::MulAdd(p, r, hn::Set(d, 1.0f));
-  const auto power = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, k), hn::Set(di, 127)));
-  return hn::Mul(p, hn::BitCast(d, power));
+  p = MulAdd(p, r, 0.00133908633f);
+  p = MulAdd(p, r, 0.00961808302f);
+  p = MulAdd(p, r, 0.0555035695f);
+  p = MulAdd(p, r, 0.240226507f);
+  p = MulAdd(p, r, 0.693147182f);
+  p = MulAdd(p, r, 1.0f);
+  const auto power = hn::ShiftLeft<23>(hn::ConvertTo(di, k) + hn::Set(di, 127));
+  return p * hn::BitCast(d, power);
 }
 
 // e^x, x clamped so that the result lies in [2^-126, 2^126]. Relative error
 // 1e-7 (1 + |x|). NaN gives NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp(D d, V x) {
-  return Exp2(d, hn::Mul(x, hn::Set(d, 1.44269504f)));
+  return Exp2(d, x * 1.44269504f);
 }
 
 // log2 of a positive normal x. Error 2e-7 (min(1, |log2 x|) + |log2 x| / 2). Other x give finite
@@ -106,17 +106,17 @@ HWY_INLINE V Log2(D d, V x) {
   const hn::RebindToSigned<D> di;
   const auto bits = hn::BitCast(di, x);
   // x = m 2^e with m in [sqrt(1/2), sqrt(2)).
-  const auto e = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
-  const V m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(e)));
+  const auto e = hn::ShiftRight<23>(bits - hn::Set(di, 0x3f3504f3));
+  const V m = hn::BitCast(d, bits - hn::ShiftLeft<23>(e));
   const V one = hn::Set(d, 1.0f);
-  const V s = hn::Div(hn::Sub(m, one), hn::Add(m, one));
-  const V s2 = hn::Mul(s, s);
+  const V s = (m - one) / (m + one);
+  const V s2 = s * s;
   // 2 atanh(s) / (s ln 2) in s^2, |s| <= 0.1716, at Chebyshev nodes: relative error 1.4e-8.
   V p = hn::Set(d, 0.431717694f);
-  p = hn::MulAdd(p, s2, hn::Set(d, 0.576715171f));
-  p = hn::MulAdd(p, s2, hn::Set(d, 0.961798847f));
-  p = hn::MulAdd(p, s2, hn::Set(d, 2.88539004f));
-  return hn::MulAdd(p, s, hn::ConvertTo(d, e));
+  p = MulAdd(p, s2, 0.576715171f);
+  p = MulAdd(p, s2, 0.961798847f);
+  p = MulAdd(p, s2, 2.88539004f);
+  return MulAdd(p, s, hn::ConvertTo(d, e));
 }
 
 // log2 of a positive normal x without a division, for choosing levels of detail. Absolute error
@@ -125,15 +125,15 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2Coarse(D d, V x) {
   const hn::RebindToSigned<D> di;
   const auto bits = hn::BitCast(di, x);
-  const auto e = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
-  const V m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(e)));
+  const auto e = hn::ShiftRight<23>(bits - hn::Set(di, 0x3f3504f3));
+  const V m = hn::BitCast(d, bits - hn::ShiftLeft<23>(e));
   // log2(1 + y) / y on y in [sqrt(1/2) - 1, sqrt(2) - 1], by weighted least squares.
-  const V y = hn::Sub(m, hn::Set(d, 1.0f));
+  const V y = m - 1.0f;
   V p = hn::Set(d, -0.3296294f);
-  p = hn::MulAdd(p, y, hn::Set(d, 0.51750935f));
-  p = hn::MulAdd(p, y, hn::Set(d, -0.72490419f));
-  p = hn::MulAdd(p, y, hn::Set(d, 1.4417606f));
-  return hn::MulAdd(p, y, hn::ConvertTo(d, e));
+  p = MulAdd(p, y, 0.51750935f);
+  p = MulAdd(p, y, -0.72490419f);
+  p = MulAdd(p, y, 1.4417606f);
+  return MulAdd(p, y, hn::ConvertTo(d, e));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -13,11 +13,12 @@
 #include <hwy/highway.h>
 
 #include "math/elementary-inl.h"
+#include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 using D = hn::CappedTag<float, kMapGroup>;
 using DI = hn::RebindToSigned<D>;
@@ -45,20 +46,20 @@ HWY_INLINE void AddTrain(const std::uint16_t* wave, std::int32_t time_fx16, Sum&
   const DI di;
   const hn::Rebind<std::uint16_t, D> d16;
   const auto theta = hn::PromoteTo(di, hn::LoadU(d16, wave));
-  const auto turns = hn::And(hn::Sub(theta, hn::Set(di, time_fx16)), hn::Set(di, 0xFFFF));
-  const V u = hn::Mul(hn::ConvertTo(d, turns), hn::Set(d, 1.0f / 65536.0f));
+  const auto turns = (theta - hn::Set(di, time_fx16)) & hn::Set(di, 0xFFFF);
+  const V u = hn::ConvertTo(d, turns) * (1.0f / 65536.0f);
   // The profile's derivative: that of cos(2 pi u) in deep water, of 8 (u - 1/2)^2 - 1 at the shore.
   V sine, cosine_unused;
   swell::HWY_NAMESPACE::SinCosTurns(d, u, sine, cosine_unused);
-  const V deep = hn::Mul(sine, hn::Set(d, -6.2831853f));
-  const V shore = hn::MulAdd(u, hn::Set(d, 16.0f), hn::Set(d, -8.0f));
-  const V part = hn::Mul(LoadUnsigned(wave + 3 * kMapGroup), hn::Set(d, 1.0f / 65536.0f));
-  const V rate = hn::MulAdd(part, hn::Sub(shore, deep), deep);
-  sum.slope_x = hn::MulAdd(rate, LoadSigned(wave + kMapGroup), sum.slope_x);
-  sum.slope_y = hn::MulAdd(rate, LoadSigned(wave + 2 * kMapGroup), sum.slope_y);
+  const V deep = sine * -6.2831853f;
+  const V shore = MulAdd(u, 16.0f, -8.0f);
+  const V part = LoadUnsigned(wave + 3 * kMapGroup) * (1.0f / 65536.0f);
+  const V rate = MulAdd(part, shore - deep, deep);
+  sum.slope_x = MulAdd(rate, LoadSigned(wave + kMapGroup), sum.slope_x);
+  sum.slope_y = MulAdd(rate, LoadSigned(wave + 2 * kMapGroup), sum.slope_y);
   // Before the crest, and behind it.
-  const V before = hn::NegMulAdd(u, hn::Set(d, 12.0f), hn::Set(d, 1.0f));
-  sum.foam = hn::Add(sum.foam, hn::Max(hn::Mul(hn::Mul(u, u), u), before));
+  const V before = NegMulAdd(u, 12.0f, 1.0f);
+  sum.foam = sum.foam + Max(u * u * u, before);
 }
 
 // The points from `first` of one group, as many as a vector has.
@@ -72,13 +73,13 @@ HWY_INLINE void BakePacket(const CoastMap& map, std::size_t group, std::size_t f
   for (std::size_t i = 0; i < trains; ++i) AddTrain(wave + 4 * kMapGroup * i, time_fx16[i], sum);
   const std::size_t at = group * kMapGroup + first;
   const V unit = hn::Set(d, map.slope_unit);
-  hn::StoreU(hn::Mul(sum.slope_x, unit), d, slope_x + at);
-  hn::StoreU(hn::Mul(sum.slope_y, unit), d, slope_y + at);
-  const V mean = hn::Mul(sum.foam, hn::Set(d, 1.0f / static_cast<float>(trains)));
-  const V stretched = hn::MulAdd(mean, hn::Set(d, kFoamGain), hn::Set(d, kFoamBias));
-  const V amount = hn::Min(hn::Max(stretched, hn::Zero(d)), hn::Set(d, 1.0f));
-  const V surf = hn::Mul(LoadUnsigned(map.surf.data() + at), hn::Set(d, 1.0f / 65536.0f));
-  hn::StoreU(hn::Mul(amount, surf), d, foam + at);
+  hn::StoreU(sum.slope_x * unit, d, slope_x + at);
+  hn::StoreU(sum.slope_y * unit, d, slope_y + at);
+  const V mean = sum.foam * (1.0f / static_cast<float>(trains));
+  const V stretched = MulAdd(mean, kFoamGain, kFoamBias);
+  const V amount = Min(Max(stretched, 0.0f), 1.0f);
+  const V surf = LoadUnsigned(map.surf.data() + at) * (1.0f / 65536.0f);
+  hn::StoreU(amount * surf, d, foam + at);
 }
 
 void BakeRow(const CoastMap& map, std::size_t row, const std::int32_t* time_fx16, float* slope_x,

@@ -23,38 +23,37 @@ struct Pair {
 // A packet of places in a periodic field: the indices of the four samples around each, and the
 // parts of the way from the first of them.
 struct Cells {
-  VInt i00, i10, i01, i11;
+  VI i00, i10, i01, i11;
   V part_x, part_y;
 };
 
 // x, y in samples, of a size below 2^22.
 HWY_INLINE Cells CellsAt(int size, V x, V y) {
-  const DInt di;
-  const VInt mask = hn::Set(di, size - 1), one = hn::Set(di, 1), width = hn::Set(di, size);
-  const V floor_x = hn::Floor(x), floor_y = hn::Floor(y);
-  const VInt column = hn::ConvertTo(di, floor_x), row = hn::ConvertTo(di, floor_y);
-  const VInt x0 = hn::And(column, mask), x1 = hn::And(hn::Add(column, one), mask);
-  const VInt y0 = hn::Mul(hn::And(row, mask), width);
-  const VInt y1 = hn::Mul(hn::And(hn::Add(row, one), mask), width);
-  return {hn::Add(y0, x0), hn::Add(y0, x1),     hn::Add(y1, x0),
-          hn::Add(y1, x1), hn::Sub(x, floor_x), hn::Sub(y, floor_y)};
+  const DI di;
+  const VI mask = hn::Set(di, size - 1), one = hn::Set(di, 1), width = hn::Set(di, size);
+  const V floor_x = Floor(x), floor_y = Floor(y);
+  const VI column = hn::ConvertTo(di, floor_x), row = hn::ConvertTo(di, floor_y);
+  const VI x0 = column & mask, x1 = (column + one) & mask;
+  const VI y0 = (row & mask) * width;
+  const VI y1 = ((row + one) & mask) * width;
+  return {y0 + x0, y0 + x1, y1 + x0, y1 + x1, x - floor_x, y - floor_y};
 }
 
 HWY_INLINE V Bilinear(const Cells& at, const float* samples) {
   const D d;
   const V s00 = hn::GatherIndex(d, samples, at.i00), s10 = hn::GatherIndex(d, samples, at.i10);
   const V s01 = hn::GatherIndex(d, samples, at.i01), s11 = hn::GatherIndex(d, samples, at.i11);
-  const V low = hn::MulAdd(at.part_x, hn::Sub(s10, s00), s00);
-  const V high = hn::MulAdd(at.part_x, hn::Sub(s11, s01), s01);
-  return hn::MulAdd(at.part_y, hn::Sub(high, low), low);
+  const V low = MulAdd(at.part_x, s10 - s00, s00);
+  const V high = MulAdd(at.part_x, s11 - s01, s01);
+  return MulAdd(at.part_y, high - low, low);
 }
 
 // Where the water at samples (i.., j) rests, in samples.
 HWY_INLINE Cells RestingCells(int size, int i, int j, V samples_per_m, Pair displaced) {
   const D d;
   const V x = hn::Iota(d, static_cast<float>(i)), y = hn::Set(d, static_cast<float>(j));
-  return CellsAt(size, hn::NegMulAdd(samples_per_m, displaced.x, x),
-                 hn::NegMulAdd(samples_per_m, displaced.y, y));
+  return CellsAt(size, NegMulAdd(samples_per_m, displaced.x, x),
+                 NegMulAdd(samples_per_m, displaced.y, y));
 }
 
 HWY_INLINE V MovedSamples_per_m(const Crests& crests, const PatchFrame& patch) {
@@ -82,12 +81,11 @@ void WarpRows(const Crests& crests, const LinearWaves& linear, int first, int la
       const Cells cells = RestingCells(n, i, j, samples_per_m, displaced);
       // h + r / 2 (h^2 + |D|^2) - mean, and the gradient of the first two there.
       const V h = Bilinear(cells, linear.height_m);
-      const V square =
-          hn::MulAdd(h, h, hn::MulAdd(displaced.x, displaced.x, hn::Mul(displaced.y, displaced.y)));
-      hn::StoreU(hn::Sub(hn::MulAdd(half_rise, square, h), mean), d, &patch.height_m[at]);
-      const V gain = hn::MulAdd(rise, h, one);
-      hn::StoreU(hn::Mul(gain, Bilinear(cells, linear.slope_x)), d, &patch.slope_x[at]);
-      hn::StoreU(hn::Mul(gain, Bilinear(cells, linear.slope_y)), d, &patch.slope_y[at]);
+      const V square = MulAdd(h, h, MulAdd(displaced.x, displaced.x, displaced.y * displaced.y));
+      hn::StoreU(MulAdd(half_rise, square, h) - mean, d, &patch.height_m[at]);
+      const V gain = MulAdd(rise, h, one);
+      hn::StoreU(gain * Bilinear(cells, linear.slope_x), d, &patch.slope_x[at]);
+      hn::StoreU(gain * Bilinear(cells, linear.slope_y), d, &patch.slope_y[at]);
       hn::StoreU(displaced.x, d, &patch.displaced_x_m[at]);
       hn::StoreU(displaced.y, d, &patch.displaced_y_m[at]);
     }
@@ -113,9 +111,7 @@ class WrappedRow {
 // The derivative at a sample, from those one and two before and after, times the sample spacing;
 // exact for polynomials of degree 4.
 HWY_INLINE V Difference(V before2, V before, V after, V after2) {
-  const D d;
-  return hn::MulSub(hn::Set(d, 2.0f / 3.0f), hn::Sub(after, before),
-                    hn::Mul(hn::Set(d, 1.0f / 12.0f), hn::Sub(after2, before2)));
+  return MulSub(2.0f / 3.0f, after - before, 1.0f / 12.0f * (after2 - before2));
 }
 
 // dz/dx = v - dD/dx . (c v - r D), v the slopes where the waves come from, D as it is here.
@@ -139,13 +135,13 @@ void SteepenRows(const Crests& crests, int first, int last, PatchFrame& patch) {
       const auto at = static_cast<std::size_t>(j * n + i);
       const V slope_x = hn::LoadU(d, &patch.slope_x[at]),
               slope_y = hn::LoadU(d, &patch.slope_y[at]);
-      const V gx = hn::Mul(samples_per_m, hn::MulSub(c, slope_x, hn::Mul(r, row_x.Load(i))));
-      const V gy = hn::Mul(samples_per_m, hn::MulSub(c, slope_y, hn::Mul(r, row_y.Load(i))));
-      const V warp_x = hn::MulAdd(along_x(row_x, i), gx, hn::Mul(along_x(row_y, i), gy));
-      const V warp_y = hn::MulAdd(along_y(patch.displaced_x_m, i), gx,
-                                  hn::Mul(along_y(patch.displaced_y_m, i), gy));
-      hn::StoreU(hn::Sub(slope_x, warp_x), d, &patch.slope_x[at]);
-      hn::StoreU(hn::Sub(slope_y, warp_y), d, &patch.slope_y[at]);
+      const V gx = samples_per_m * MulSub(c, slope_x, r * row_x.Load(i));
+      const V gy = samples_per_m * MulSub(c, slope_y, r * row_y.Load(i));
+      const V warp_x = MulAdd(along_x(row_x, i), gx, along_x(row_y, i) * gy);
+      const V warp_y =
+          MulAdd(along_y(patch.displaced_x_m, i), gx, along_y(patch.displaced_y_m, i) * gy);
+      hn::StoreU(slope_x - warp_x, d, &patch.slope_x[at]);
+      hn::StoreU(slope_y - warp_y, d, &patch.slope_y[at]);
     }
   }
 }
@@ -168,15 +164,15 @@ void MoveRows(const Crests& crests, const PatchFrame& patch, const float* linear
       const Cells cells = RestingCells(n, i, j, samples_per_m, {dx, dy});
       const V x = Bilinear(cells, linear), y = Bilinear(cells, linear + samples);
       const V rising = Bilinear(cells, linear + 2 * samples);
-      const V twice_z = hn::Mul(two, hn::Add(hn::LoadU(d, &patch.height_m[at]), mean));
-      const V twice_h = hn::NegMulAdd(r, hn::MulAdd(dx, dx, hn::Mul(dy, dy)), twice_z);
-      const V gain = hn::Sqrt(hn::Max(hn::MulAdd(r, twice_h, one), hn::Zero(d)));
-      const V gx = hn::MulSub(c, hn::LoadU(d, &patch.slope_x[at]), hn::Mul(r, dx));
-      const V gy = hn::MulSub(c, hn::LoadU(d, &patch.slope_y[at]), hn::Mul(r, dy));
-      const V carried = hn::MulAdd(gx, x, hn::Mul(gy, y));
+      const V twice_z = two * (hn::LoadU(d, &patch.height_m[at]) + mean);
+      const V twice_h = NegMulAdd(r, MulAdd(dx, dx, dy * dy), twice_z);
+      const V gain = Sqrt(Max(MulAdd(r, twice_h, one), 0.0f));
+      const V gx = MulSub(c, hn::LoadU(d, &patch.slope_x[at]), r * dx);
+      const V gy = MulSub(c, hn::LoadU(d, &patch.slope_y[at]), r * dy);
+      const V carried = MulAdd(gx, x, gy * y);
       hn::StoreU(x, d, &velocity.x_mps[at]);
       hn::StoreU(y, d, &velocity.y_mps[at]);
-      hn::StoreU(hn::MulSub(gain, rising, carried), d, &velocity.z_mps[at]);
+      hn::StoreU(MulSub(gain, rising, carried), d, &velocity.z_mps[at]);
     }
   }
 }

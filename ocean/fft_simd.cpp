@@ -9,14 +9,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
-using D = hn::ScalableTag<float>;  // 8 or 16 lanes: a batch row is two vectors or one
-using V = hn::Vec<D>;
-
+// Of a batch, whose row is two vectors of 8 lanes or one of 16.
 struct BatchRows {
   float* re;
   float* im;
@@ -30,8 +30,8 @@ HWY_INLINE BatchRows RowAt(BatchRows batch, std::size_t row, std::size_t lane) {
 // (re, im) = w (x_re, x_im), w = (w[0], w[1]).
 HWY_INLINE void Turn(D d, const float* w, V x_re, V x_im, V& re, V& im) {
   const V c = hn::Set(d, w[0]), s = hn::Set(d, w[1]);
-  re = hn::NegMulAdd(x_im, s, hn::Mul(x_re, c));
-  im = hn::MulAdd(x_im, c, hn::Mul(x_re, s));
+  re = NegMulAdd(x_im, s, x_re * c);
+  im = MulAdd(x_im, c, x_re * s);
 }
 
 // Loads row x, turned by w.
@@ -42,19 +42,19 @@ HWY_INLINE void LoadTurned(D d, BatchRows x, const float* w, V& re, V& im) {
 // Y[p] = sum_s i^(s p) x_s, stored at y, y + step, y + 2 step, y + 3 step.
 HWY_INLINE void StoreButterfly4(D d, V x0_re, V x0_im, V x1_re, V x1_im, V x2_re, V x2_im, V x3_re,
                                 V x3_im, BatchRows y, std::size_t step) {
-  const V even_sum_re = hn::Add(x0_re, x2_re), even_sum_im = hn::Add(x0_im, x2_im);
-  const V even_dif_re = hn::Sub(x0_re, x2_re), even_dif_im = hn::Sub(x0_im, x2_im);
-  const V odd_sum_re = hn::Add(x1_re, x3_re), odd_sum_im = hn::Add(x1_im, x3_im);
-  const V odd_dif_re = hn::Sub(x1_re, x3_re), odd_dif_im = hn::Sub(x1_im, x3_im);
-  hn::Store(hn::Add(even_sum_re, odd_sum_re), d, y.re);
-  hn::Store(hn::Add(even_sum_im, odd_sum_im), d, y.im);
+  const V even_sum_re = x0_re + x2_re, even_sum_im = x0_im + x2_im;
+  const V even_dif_re = x0_re - x2_re, even_dif_im = x0_im - x2_im;
+  const V odd_sum_re = x1_re + x3_re, odd_sum_im = x1_im + x3_im;
+  const V odd_dif_re = x1_re - x3_re, odd_dif_im = x1_im - x3_im;
+  hn::Store(even_sum_re + odd_sum_re, d, y.re);
+  hn::Store(even_sum_im + odd_sum_im, d, y.im);
   // i (re, im) = (-im, re).
-  hn::Store(hn::Sub(even_dif_re, odd_dif_im), d, y.re + step);
-  hn::Store(hn::Add(even_dif_im, odd_dif_re), d, y.im + step);
-  hn::Store(hn::Sub(even_sum_re, odd_sum_re), d, y.re + 2 * step);
-  hn::Store(hn::Sub(even_sum_im, odd_sum_im), d, y.im + 2 * step);
-  hn::Store(hn::Add(even_dif_re, odd_dif_im), d, y.re + 3 * step);
-  hn::Store(hn::Sub(even_dif_im, odd_dif_re), d, y.im + 3 * step);
+  hn::Store(even_dif_re - odd_dif_im, d, y.re + step);
+  hn::Store(even_dif_im + odd_dif_re, d, y.im + step);
+  hn::Store(even_sum_re - odd_sum_re, d, y.re + 2 * step);
+  hn::Store(even_sum_im - odd_sum_im, d, y.im + 2 * step);
+  hn::Store(even_dif_re + odd_dif_im, d, y.re + 3 * step);
+  hn::Store(even_dif_im - odd_dif_re, d, y.im + 3 * step);
 }
 
 // First stage of a size that is no power of four: neighbouring rows, no turning.
@@ -65,10 +65,10 @@ HWY_INLINE void FirstStage2(D d, std::size_t size, BatchRows batch) {
       float* const im = batch.im + i + lane;
       const V a_re = hn::Load(d, re), b_re = hn::Load(d, re + kFftBatch);
       const V a_im = hn::Load(d, im), b_im = hn::Load(d, im + kFftBatch);
-      hn::Store(hn::Add(a_re, b_re), d, re);
-      hn::Store(hn::Add(a_im, b_im), d, im);
-      hn::Store(hn::Sub(a_re, b_re), d, re + kFftBatch);
-      hn::Store(hn::Sub(a_im, b_im), d, im + kFftBatch);
+      hn::Store(a_re + b_re, d, re);
+      hn::Store(a_im + b_im, d, im);
+      hn::Store(a_re - b_re, d, re + kFftBatch);
+      hn::Store(a_im - b_im, d, im + kFftBatch);
     }
   }
 }

@@ -9,12 +9,13 @@
 
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
 #include "ocean/patch_tiles.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 // A place in the periodic plane: which square of a period's size it lies in, and where in it, x and
 // y in [0, 1].
@@ -37,18 +38,18 @@ HWY_INLINE RowPlace<D> PlaceInRow(D d, const SquarePlace<D>& place,
   const hn::RebindToSigned<D> di;
   const auto one = hn::Set(d, 1.0f);
   const auto is_odd = hn::RebindMask(d, hn::TestBit(row, hn::Set(di, 1)));
-  const auto moved = hn::Add(place.x, hn::IfThenElseZero(is_odd, hn::Set(d, 0.5f)));
-  const auto is_next = hn::Ge(moved, one);
-  return {hn::Sub(place.column, hn::VecFromMask(di, hn::RebindMask(di, is_next))),
-          hn::Sub(moved, hn::IfThenElseZero(is_next, one))};
+  const auto moved = place.x + IfThenElseZero(is_odd, hn::Set(d, 0.5f));
+  const auto is_next = moved >= one;
+  return {place.column - hn::VecFromMask(di, hn::RebindMask(di, is_next)),
+          moved - IfThenElseZero(is_next, one)};
 }
 
 // Whether no lane is where tiles are blended; `in_row` is its place in the row that it lies in.
 template <class D>
 HWY_INLINE bool AllInOneTile(D d, const RowPlace<D>& in_row, hn::Vec<D> y) {
   const auto half = hn::Set(d, 0.5f);
-  const auto from_middle = hn::Max(hn::Abs(hn::Sub(in_row.x, half)), hn::Abs(hn::Sub(y, half)));
-  return hn::AllTrue(d, hn::Le(from_middle, hn::Set(d, 0.5f * (1.0f - kTileBorder))));
+  const auto from_middle = Max(Abs(in_row.x - half), Abs(y - half));
+  return hn::AllTrue(d, from_middle <= 0.5f * (1.0f - kTileBorder));
 }
 
 // How many whole samples on a tile reads the patch, a power of two along each side.
@@ -61,27 +62,26 @@ struct TileOffset {
 template <class DI, class VI = hn::Vec<DI>>
 HWY_INLINE TileOffset<VI> OffsetOfTile(DI di, std::uint32_t seed, VI column, VI row, int samples) {
   const hn::RebindToUnsigned<DI> du;
-  const VI key = hn::Or(hn::ShiftLeft<16>(row), hn::And(column, hn::Set(di, 0xffff)));
+  const VI key = hn::ShiftLeft<16>(row) | (column & hn::Set(di, 0xffff));
   auto bits = hn::Xor(hn::BitCast(du, key), hn::Set(du, seed));
-  bits = hn::Mul(hn::Xor(bits, hn::ShiftRight<16>(bits)), hn::Set(du, 0x7feb352du));
-  bits = hn::Mul(hn::Xor(bits, hn::ShiftRight<15>(bits)), hn::Set(du, 0x846ca68bu));
+  bits = hn::Xor(bits, hn::ShiftRight<16>(bits)) * hn::Set(du, 0x7feb352du);
+  bits = hn::Xor(bits, hn::ShiftRight<15>(bits)) * hn::Set(du, 0x846ca68bu);
   bits = hn::Xor(bits, hn::ShiftRight<16>(bits));
   const VI mask = hn::Set(di, samples - 1);
-  return {hn::And(hn::BitCast(di, bits), mask),
-          hn::And(hn::BitCast(di, hn::ShiftRight<16>(bits)), mask)};
+  return {hn::BitCast(di, bits) & mask, hn::BitCast(di, hn::ShiftRight<16>(bits)) & mask};
 }
 
 // cos(pi s / 2) for s in [0, 1] within 0.002, exact at both ends, and its slope.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V QuarterCosine(D d, V s) {
-  const V s2 = hn::Mul(s, s);
-  const V sum = hn::MulAdd(s2, hn::Set(d, 0.22265625f), hn::Set(d, -1.22265625f));
-  return hn::MulAdd(sum, s2, hn::Set(d, 1.0f));
+template <Vector V>
+HWY_INLINE V QuarterCosine(V s) {
+  const V s2 = s * s;
+  const V sum = MulAdd(s2, 0.22265625f, -1.22265625f);
+  return MulAdd(sum, s2, 1.0f);
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V QuarterCosineSlope(D d, V s) {
-  return hn::Mul(s, hn::MulAdd(hn::Mul(s, s), hn::Set(d, 0.890625f), hn::Set(d, -2.4453125f)));
+template <Vector V>
+HWY_INLINE V QuarterCosineSlope(V s) {
+  return s * MulAdd(s * s, 0.890625f, -2.4453125f);
 }
 
 // Across one axis: the weights of the tile that a place lies in and of the one behind the nearer
@@ -96,19 +96,18 @@ template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D
 HWY_INLINE AxisBlend<D> BlendAlong(D d, VI tile, V place) {
   const hn::RebindToSigned<D> di;
   const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
-  const auto is_low = hn::Lt(place, half);
-  const V to_border = hn::IfThenElse(is_low, place, hn::Sub(one, place));
+  const auto is_low = place < half;
+  const V to_border = IfThenElse(is_low, place, one - place);
   // The other's share: from 1/2 on the border to 0 where the blend ends, as smooth_blend() falls.
-  const V t = hn::Max(hn::NegMulAdd(to_border, hn::Set(d, 1.0f / kTileBorder), half), hn::Zero(d));
-  const V share = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(t, hn::Set(d, 2.0f), hn::Set(d, 3.0f)));
-  const V rest = hn::Sub(one, share);
-  const V rise = hn::Mul(hn::Mul(t, hn::Sub(one, t)), hn::Set(d, 6.0f / kTileBorder));
-  const V turn = hn::IfThenElse(is_low, hn::Neg(rise), rise);
-  const VI step = hn::IfThenElse(hn::RebindMask(di, is_low), hn::Set(di, -1), hn::Set(di, 1));
-  return {{QuarterCosine(d, share), QuarterCosine(d, rest)},
-          {hn::Mul(QuarterCosineSlope(d, share), turn),
-           hn::Neg(hn::Mul(QuarterCosineSlope(d, rest), turn))},
-          {tile, hn::Add(tile, step)}};
+  const V t = Max(NegMulAdd(to_border, 1.0f / kTileBorder, half), 0.0f);
+  const V share = t * t * NegMulAdd(t, 2.0f, 3.0f);
+  const V rest = one - share;
+  const V rise = t * (one - t) * (6.0f / kTileBorder);
+  const V turn = IfThenElse(is_low, -rise, rise);
+  const VI step = IfThenElse(hn::RebindMask(di, is_low), hn::Set(di, -1), hn::Set(di, 1));
+  return {{QuarterCosine(share), QuarterCosine(rest)},
+          {QuarterCosineSlope(share) * turn, -(QuarterCosineSlope(rest) * turn)},
+          {tile, tile + step}};
 }
 
 // What a tile counts at a packet of places, and the slopes of that [1 / tiles].
@@ -127,15 +126,14 @@ HWY_INLINE void ForEachTile(D d, const PatchTiling& tiling, int samples,
   const V zero = hn::Zero(d);
   const AxisBlend<D> rows = BlendAlong(d, place.row, place.y);
   for (int r = 0; r < 2; ++r) {
-    if (hn::AllTrue(d, hn::Eq(rows.weight[r], zero))) continue;
+    if (hn::AllTrue(d, rows.weight[r] == zero)) continue;
     const RowPlace<D> in_row = PlaceInRow(d, place, rows.tile[r]);
     const AxisBlend<D> columns = BlendAlong(d, in_row.column, in_row.x);
     for (int c = 0; c < 2; ++c) {
-      if (hn::AllTrue(d, hn::Eq(columns.weight[c], zero))) continue;
+      if (hn::AllTrue(d, columns.weight[c] == zero)) continue;
       read(OffsetOfTile(di, tiling.seed, columns.tile[c], rows.tile[r], samples),
-           TileWeight<V>{hn::Mul(rows.weight[r], columns.weight[c]),
-                         hn::Mul(rows.weight[r], columns.slope[c]),
-                         hn::Mul(rows.slope[r], columns.weight[c])});
+           TileWeight<V>{rows.weight[r] * columns.weight[c], rows.weight[r] * columns.slope[c],
+                         rows.slope[r] * columns.weight[c]});
     }
   }
 }

@@ -25,8 +25,8 @@ struct ComplexV {
 // to 1e-6 of a turn.
 HWY_INLINE hn::Vec<DHalf> HalfTurnsAt(const double* turns_per_s, double t_s) {
   const DDouble dd;
-  const auto turns = hn::Mul(hn::LoadU(dd, turns_per_s), hn::Set(dd, t_s));
-  return hn::DemoteTo(DHalf(), hn::Sub(turns, hn::Round(turns)));
+  const auto turns = hn::LoadU(dd, turns_per_s) * hn::Set(dd, t_s);
+  return hn::DemoteTo(DHalf(), turns - hn::Round(turns));
 }
 
 HWY_INLINE V TurnsAt(D d, const double* turns_per_s, double t_s) {
@@ -38,10 +38,10 @@ HWY_INLINE V TurnsAt(D d, const double* turns_per_s, double t_s) {
 HWY_INLINE ComplexV WavesAt(D d, const PatchWaves& waves, std::size_t at, double t_s) {
   V s, c;
   swell::HWY_NAMESPACE::SinCosTurns(d, TurnsAt(d, waves.turns_per_s.data() + at, t_s), s, c);
-  const V re = hn::MulAdd(hn::LoadU(d, waves.cos_re.data() + at), c,
-                          hn::Mul(hn::LoadU(d, waves.sin_re.data() + at), s));
-  const V im = hn::MulAdd(hn::LoadU(d, waves.cos_im.data() + at), c,
-                          hn::Mul(hn::LoadU(d, waves.sin_im.data() + at), s));
+  const V re =
+      MulAdd(hn::LoadU(d, waves.cos_re.data() + at), c, hn::LoadU(d, waves.sin_re.data() + at) * s);
+  const V im =
+      MulAdd(hn::LoadU(d, waves.cos_im.data() + at), c, hn::LoadU(d, waves.sin_im.data() + at) * s);
   return {re, im};
 }
 
@@ -50,9 +50,8 @@ HWY_INLINE V OmegaAt(D d, const double* turns_per_s) {
   const DHalf dh;
   const DDouble dd;
   const auto two_pi = hn::Set(dd, 2.0 * kPi);
-  const auto half = [&](const double* turns) HWY_ATTR {
-    return hn::DemoteTo(dh, hn::Mul(two_pi, hn::LoadU(dd, turns)));
-  };
+  const auto half = [&](const double* turns)
+                        HWY_ATTR { return hn::DemoteTo(dh, two_pi * hn::LoadU(dd, turns)); };
   return hn::Combine(d, half(turns_per_s + hn::Lanes(dd)), half(turns_per_s));
 }
 
@@ -61,11 +60,11 @@ HWY_INLINE ComplexV RatesAt(D d, const PatchWaves& waves, std::size_t at, double
   V s, c;
   swell::HWY_NAMESPACE::SinCosTurns(d, TurnsAt(d, waves.turns_per_s.data() + at, t_s), s, c);
   const V omega = OmegaAt(d, waves.turns_per_s.data() + at);
-  const V re = hn::MulSub(hn::LoadU(d, waves.sin_re.data() + at), c,
-                          hn::Mul(hn::LoadU(d, waves.cos_re.data() + at), s));
-  const V im = hn::MulSub(hn::LoadU(d, waves.sin_im.data() + at), c,
-                          hn::Mul(hn::LoadU(d, waves.cos_im.data() + at), s));
-  return {hn::Mul(omega, re), hn::Mul(omega, im)};
+  const V re =
+      MulSub(hn::LoadU(d, waves.sin_re.data() + at), c, hn::LoadU(d, waves.cos_re.data() + at) * s);
+  const V im =
+      MulSub(hn::LoadU(d, waves.sin_im.data() + at), c, hn::LoadU(d, waves.cos_im.data() + at) * s);
+  return {omega * re, omega * im};
 }
 
 HWY_INLINE void StoreRow(D d, ComplexV v, std::size_t offset, float* re, float* im) {
@@ -95,7 +94,7 @@ HWY_INLINE void FillPair(const PatchWaves& a, const PatchWaves* b, int reach, co
       ComplexV h = waves_at(a, at + lane);
       if (b != nullptr) {
         const ComplexV h_b = waves_at(*b, at + lane);
-        h = {hn::Sub(h.re, h_b.im), hn::Add(h.im, h_b.re)};
+        h = {h.re - h_b.im, h.im + h_b.re};
       }
       StoreRow(d, h, offset + lane, re, im);
     }
@@ -132,8 +131,8 @@ HWY_INLINE void FillGradient(const PatchWaves& waves, const FftPlan& plan, int c
     for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
       const V kx = hn::LoadU(d, waves.k_rad_m.data() + column0 + lane);
       const ComplexV h = waves_at(at + lane, kx, ky);
-      const V re_out = hn::Neg(hn::MulAdd(ky, h.re, hn::Mul(kx, h.im)));
-      const V im_out = hn::MulSub(kx, h.re, hn::Mul(ky, h.im));
+      const V re_out = -MulAdd(ky, h.re, kx * h.im);
+      const V im_out = MulSub(kx, h.re, ky * h.im);
       StoreRow(d, {re_out, im_out}, offset + lane, re, im);
     }
   }
@@ -146,9 +145,9 @@ void FillSlopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int co
 }
 
 HWY_INLINE ComplexV OverWaveNumber(ComplexV f, V kx, V ky) {
-  const V k2 = hn::MulAdd(kx, kx, hn::Mul(ky, ky));
-  const V k = hn::Sqrt(hn::Max(k2, hn::Set(D(), 1e-30f)));  // no waves at k = 0
-  return {hn::Div(f.re, k), hn::Div(f.im, k)};
+  const V k2 = MulAdd(kx, kx, ky * ky);
+  const V k = Sqrt(Max(k2, 1e-30f));  // no waves at k = 0
+  return {f.re / k, f.im / k};
 }
 
 void FillDisplacements(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0,

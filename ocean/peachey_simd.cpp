@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 // A place along one axis of the grid: the cell, and the samples from its lower border. Beyond the
 // grid `free` leaves [0, 1]; `held` stays, and then does not change with the place: rate 0.
 struct AxisPlace {
-  VInt cell;
+  VI cell;
   V free, held, rate;
 };
 
@@ -33,13 +33,13 @@ struct HalfPlace {
 
 HWY_INLINE HalfPlace FindHalf(VDouble x_m, double min_m, double spacing_m, int cells) {
   const DDouble dd;
-  const auto u = hn::Div(hn::Sub(x_m, hn::Set(dd, min_m)), hn::Set(dd, spacing_m));
+  const auto u = (x_m - hn::Set(dd, min_m)) / hn::Set(dd, spacing_m);
   // Compare and select: NaN ends in cell 0.
   const auto first = hn::Zero(dd), last = hn::Set(dd, cells - 1);
-  auto cell = hn::Floor(u);
-  cell = hn::IfThenElse(hn::Gt(cell, first), cell, first);
-  cell = hn::IfThenElse(hn::Lt(cell, last), cell, last);
-  return {hn::DemoteTo(DHalfInt(), cell), hn::DemoteTo(DHalf(), hn::Sub(u, cell))};
+  auto cell = Floor(u);
+  cell = IfThenElse(cell > first, cell, first);
+  cell = IfThenElse(cell < last, cell, last);
+  return {hn::DemoteTo(DHalfInt(), cell), hn::DemoteTo(DHalf(), u - cell)};
 }
 
 HWY_INLINE AxisPlace FindAxis(VDouble low_m, VDouble high_m, double min_m, double spacing_m,
@@ -49,10 +49,9 @@ HWY_INLINE AxisPlace FindAxis(VDouble low_m, VDouble high_m, double min_m, doubl
   const HalfPlace high = FindHalf(high_m, min_m, spacing_m, cells);
   const V free = hn::Combine(d, high.free, low.free);
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const auto below = hn::Lt(free, zero), above = hn::Gt(free, one);
-  const V held = hn::IfThenElse(above, one, hn::IfThenElse(below, zero, free));
-  return {hn::Combine(DInt(), high.cell, low.cell), free, held,
-          hn::IfThenElse(hn::Or(below, above), zero, one)};
+  const auto below = free<zero, above = free> one;
+  const V held = IfThenElse(above, one, IfThenElse(below, zero, free));
+  return {hn::Combine(DI(), high.cell, low.cell), free, held, IfThenElse(below | above, zero, one)};
 }
 
 // A value and its derivative by x and y, per sample spacing.
@@ -61,30 +60,30 @@ struct Sampled {
 };
 
 // Values that go on beyond the grid as they are on its border.
-HWY_INLINE Sampled SampleHeld(const float* coefficients, VInt offset, const AxisPlace& x,
+HWY_INLINE Sampled SampleHeld(const float* coefficients, VI offset, const AxisPlace& x,
                               const AxisPlace& y) {
   const D d;
   const V c0 = hn::GatherIndex(d, coefficients, offset);
   const V c1 = hn::GatherIndex(d, coefficients + 1, offset);
   const V c2 = hn::GatherIndex(d, coefficients + 2, offset);
   const V c3 = hn::GatherIndex(d, coefficients + 3, offset);
-  const V by_x = hn::MulAdd(c3, y.held, c1), by_y = hn::MulAdd(c3, x.held, c2);
-  const V value = hn::MulAdd(c2, y.held, hn::MulAdd(by_x, x.held, c0));
-  return {value, hn::Mul(by_x, x.rate), hn::Mul(by_y, y.rate)};
+  const V by_x = MulAdd(c3, y.held, c1), by_y = MulAdd(c3, x.held, c2);
+  const V value = MulAdd(c2, y.held, MulAdd(by_x, x.held, c0));
+  return {value, by_x * x.rate, by_y * y.rate};
 }
 
 // Values that go on beyond the grid with their slope.
-HWY_INLINE Sampled SampleFree(const float* coefficients, VInt offset, const AxisPlace& x,
+HWY_INLINE Sampled SampleFree(const float* coefficients, VI offset, const AxisPlace& x,
                               const AxisPlace& y) {
   const D d;
   const V c0 = hn::GatherIndex(d, coefficients, offset);
   const V c1 = hn::GatherIndex(d, coefficients + 1, offset);
   const V c2 = hn::GatherIndex(d, coefficients + 2, offset);
   const V c3 = hn::GatherIndex(d, coefficients + 3, offset);
-  const V twist = hn::Mul(x.held, y.held);
-  const V plane = hn::MulAdd(c2, y.free, hn::MulAdd(c1, x.free, c0));
-  return {hn::MulAdd(c3, twist, plane), hn::MulAdd(hn::Mul(c3, y.held), x.rate, c1),
-          hn::MulAdd(hn::Mul(c3, x.held), y.rate, c2)};
+  const V twist = x.held * y.held;
+  const V plane = MulAdd(c2, y.free, MulAdd(c1, x.free, c0));
+  return {MulAdd(c3, twist, plane), MulAdd(c3 * y.held, x.rate, c1),
+          MulAdd(c3 * x.held, y.rate, c2)};
 }
 
 // The shore's part of the profile, and its derivative by the depth.
@@ -96,12 +95,12 @@ HWY_INLINE Blend FindBlend(V depth_m, float deep_m, float shallow_m) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V per_m = hn::Set(d, 1.0f / (deep_m - shallow_m));
-  const V x = hn::Mul(hn::Sub(hn::Set(d, deep_m), depth_m), per_m);
-  const V held = hn::IfThenElse(hn::Gt(x, one), one, hn::IfThenElse(hn::Gt(x, zero), x, zero));
-  const V x2 = hn::Mul(held, held);
-  const V part = hn::Mul(x2, hn::NegMulAdd(hn::Set(d, 2.0f), held, hn::Set(d, 3.0f)));
+  const V x = (deep_m - depth_m) * per_m;
+  const V held = IfThenElse(x > one, one, IfThenElse(x > zero, x, zero));
+  const V x2 = held * held;
+  const V part = x2 * NegMulAdd(2.0f, held, 3.0f);
   // 6 x (1 - x) dx/dh; 0 at both ends.
-  const V rate = hn::Mul(hn::Set(d, -6.0f), hn::Mul(hn::Sub(held, x2), per_m));
+  const V rate = -6.0f * ((held - x2) * per_m);
   return {part, rate};
 }
 
@@ -110,27 +109,27 @@ template <bool kSlopes>
 HWY_INLINE void AddTrain(const Sampled& theta, const Sampled& amplitude, const Sampled& depth,
                          const Blend& blend, V time_cycles, Sampled& z) {
   const D d;
-  const V turns = hn::Sub(theta.value, time_cycles);
-  const V u = hn::Sub(turns, hn::Floor(turns));  // [0, 1]
+  const V turns = theta.value - time_cycles;
+  const V u = turns - Floor(turns);  // [0, 1]
   // Deep and shallow profile.
   V s, c;
   swell::HWY_NAMESPACE::SinCosTurns(d, u, s, c);
-  const V centred = hn::Sub(u, hn::Set(d, 0.5f));
-  const V crest = hn::MulAdd(hn::Mul(hn::Set(d, 8.0f), centred), centred, hn::Set(d, -1.0f));
-  const V between = hn::Sub(crest, c);
-  const V w = hn::MulAdd(blend.part, between, c);
-  z.value = hn::MulAdd(amplitude.value, w, z.value);
+  const V centred = u - 0.5f;
+  const V crest = MulAdd(8.0f * centred, centred, -1.0f);
+  const V between = crest - c;
+  const V w = MulAdd(blend.part, between, c);
+  z.value = MulAdd(amplitude.value, w, z.value);
   if constexpr (kSlopes) {
     // d(A w) = w dA + A (w_u d theta + w_b d b).
-    const V deep_rate = hn::Mul(hn::Set(d, -6.2831853f), s);
-    const V crest_rate = hn::Mul(hn::Set(d, 16.0f), centred);
-    const V w_u = hn::MulAdd(blend.part, hn::Sub(crest_rate, deep_rate), deep_rate);
-    const V by_theta = hn::Mul(amplitude.value, w_u);
-    const V by_depth = hn::Mul(amplitude.value, hn::Mul(between, blend.rate));
-    z.dx = hn::MulAdd(w, amplitude.dx, hn::MulAdd(by_theta, theta.dx, z.dx));
-    z.dy = hn::MulAdd(w, amplitude.dy, hn::MulAdd(by_theta, theta.dy, z.dy));
-    z.dx = hn::MulAdd(by_depth, depth.dx, z.dx);
-    z.dy = hn::MulAdd(by_depth, depth.dy, z.dy);
+    const V deep_rate = -6.2831853f * s;
+    const V crest_rate = 16.0f * centred;
+    const V w_u = MulAdd(blend.part, crest_rate - deep_rate, deep_rate);
+    const V by_theta = amplitude.value * w_u;
+    const V by_depth = amplitude.value * (between * blend.rate);
+    z.dx = MulAdd(w, amplitude.dx, MulAdd(by_theta, theta.dx, z.dx));
+    z.dy = MulAdd(w, amplitude.dy, MulAdd(by_theta, theta.dy, z.dy));
+    z.dx = MulAdd(by_depth, depth.dx, z.dx);
+    z.dy = MulAdd(by_depth, depth.dy, z.dy);
   }
 }
 
@@ -139,7 +138,7 @@ template <bool kSlopes>
 HWY_INLINE Sampled TrainsPacket(const TrainSea& sea, const float* time_cycles,
                                 const glm::dvec2* p_world) {
   const D d;
-  const DInt di;
+  const DI di;
   const DDouble dd;
   // Find the cell.
   const double* const p = &p_world->x;
@@ -149,10 +148,10 @@ HWY_INLINE Sampled TrainsPacket(const TrainSea& sea, const float* time_cycles,
   const double spacing_m = sea.grid.spacing_m;
   const AxisPlace x = FindAxis(x_low, x_high, sea.grid.min_world.x, spacing_m, sea.cells_x);
   const AxisPlace y = FindAxis(y_low, y_high, sea.grid.min_world.y, spacing_m, sea.cells_y);
-  const VInt cell = hn::Add(hn::Mul(y.cell, hn::Set(di, sea.cells_x)), x.cell);
+  const VI cell = y.cell * hn::Set(di, sea.cells_x) + x.cell;
   // Add up the trains.
   const Sampled depth = SampleHeld(sea.depth.data(), hn::ShiftLeft<2>(cell), x, y);
-  const VInt offset = hn::Mul(cell, hn::Set(di, 8 * sea.trains));
+  const VI offset = cell * hn::Set(di, 8 * sea.trains);
   Sampled z{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   for (int i = 0; i < sea.trains; ++i) {
     const float* const wave = sea.waves.data() + 8 * i;
@@ -163,7 +162,7 @@ HWY_INLINE Sampled TrainsPacket(const TrainSea& sea, const float* time_cycles,
     AddTrain<kSlopes>(theta, amplitude, depth, blend, hn::Set(d, time_cycles[i]), z);
   }
   const V per_m = hn::Set(d, static_cast<float>(1.0 / spacing_m));
-  return {z.value, hn::Mul(z.dx, per_m), hn::Mul(z.dy, per_m)};
+  return {z.value, z.dx * per_m, z.dy * per_m};
 }
 
 // Where the results go; slopes null if not wanted.

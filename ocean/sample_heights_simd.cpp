@@ -66,7 +66,7 @@ struct DoublePacket {
 // Places along one axis: 16.16 samples, and by how many periods they have been moved into the
 // patch.
 struct FixedPlace {
-  VInt fx16, period;
+  VI fx16, period;
 };
 
 struct HalfFixedPlace {
@@ -76,76 +76,76 @@ struct HalfFixedPlace {
 // x in metres to 16.16 samples modulo the patch; periods modulo 2^16.
 HWY_INLINE HalfFixedPlace HalfFixedPosition(VDouble x_m, double fixed_per_m, double fixed_size) {
   const DDouble dd;
-  const auto u = hn::Round(hn::Mul(x_m, hn::Set(dd, fixed_per_m)));
-  const auto wraps = hn::Floor(hn::Mul(u, hn::Set(dd, 1.0 / fixed_size)));
-  const auto turns = hn::Floor(hn::Mul(wraps, hn::Set(dd, 1.0 / 65536.0)));
-  const auto period = hn::NegMulAdd(turns, hn::Set(dd, 65536.0), wraps);
-  return {hn::DemoteTo(DHalfInt(), hn::NegMulAdd(wraps, hn::Set(dd, fixed_size), u)),
+  const auto u = hn::Round(x_m * hn::Set(dd, fixed_per_m));
+  const auto wraps = Floor(u * hn::Set(dd, 1.0 / fixed_size));
+  const auto turns = Floor(wraps * hn::Set(dd, 1.0 / 65536.0));
+  const auto period = NegMulAdd(turns, hn::Set(dd, 65536.0), wraps);
+  return {hn::DemoteTo(DHalfInt(), NegMulAdd(wraps, hn::Set(dd, fixed_size), u)),
           hn::DemoteTo(DHalfInt(), period)};
 }
 
 HWY_INLINE FixedPlace FixedPosition(DoublePacket x_m, double fixed_per_m, double fixed_size) {
   const HalfFixedPlace low = HalfFixedPosition(x_m.low, fixed_per_m, fixed_size);
   const HalfFixedPlace high = HalfFixedPosition(x_m.high, fixed_per_m, fixed_size);
-  return {hn::Combine(DInt(), high.fx16, low.fx16), hn::Combine(DInt(), high.period, low.period)};
+  return {hn::Combine(DI(), high.fx16, low.fx16), hn::Combine(DI(), high.period, low.period)};
 }
 
 // Bilinear sample of a field at 16.16 positions (any integers: they wrap).
 template <Field kField>
-HWY_INLINE V PatchSample(const PatchFrame& patch, VInt x_fx16, VInt y_fx16) {
+HWY_INLINE V PatchSample(const PatchFrame& patch, VI x_fx16, VI y_fx16) {
   const D d;
-  const DInt di;
-  const VInt mask = hn::Set(di, patch.resolution - 1), one = hn::Set(di, 1);
-  const VInt x0 = hn::And(hn::ShiftRight<16>(x_fx16), mask);
-  const VInt y0 = hn::And(hn::ShiftRight<16>(y_fx16), mask);
-  const VInt x1 = hn::And(hn::Add(x0, one), mask);
-  const VInt row0 = hn::Mul(y0, hn::Set(di, patch.resolution));
-  const VInt row1 = hn::Mul(hn::And(hn::Add(y0, one), mask), hn::Set(di, patch.resolution));
+  const DI di;
+  const VI mask = hn::Set(di, patch.resolution - 1), one = hn::Set(di, 1);
+  const VI x0 = hn::ShiftRight<16>(x_fx16) & mask;
+  const VI y0 = hn::ShiftRight<16>(y_fx16) & mask;
+  const VI x1 = (x0 + one) & mask;
+  const VI row0 = y0 * hn::Set(di, patch.resolution);
+  const VI row1 = ((y0 + one) & mask) * hn::Set(di, patch.resolution);
 
   const float* const samples = patch_samples(patch, kField);
-  const V h00 = hn::GatherIndex(d, samples, hn::Add(row0, x0));
-  const V h10 = hn::GatherIndex(d, samples, hn::Add(row0, x1));
-  const V h01 = hn::GatherIndex(d, samples, hn::Add(row1, x0));
-  const V h11 = hn::GatherIndex(d, samples, hn::Add(row1, x1));
+  const V h00 = hn::GatherIndex(d, samples, row0 + x0);
+  const V h10 = hn::GatherIndex(d, samples, row0 + x1);
+  const V h01 = hn::GatherIndex(d, samples, row1 + x0);
+  const V h11 = hn::GatherIndex(d, samples, row1 + x1);
 
-  const VInt fraction_bits = hn::Set(di, 0xffff);
+  const VI fraction_bits = hn::Set(di, 0xffff);
   const V unit = hn::Set(d, 0x1p-16f);
-  const V fx = hn::Mul(hn::ConvertTo(d, hn::And(x_fx16, fraction_bits)), unit);
-  const V fy = hn::Mul(hn::ConvertTo(d, hn::And(y_fx16, fraction_bits)), unit);
-  const V h0 = hn::MulAdd(fx, hn::Sub(h10, h00), h00);
-  const V h1 = hn::MulAdd(fx, hn::Sub(h11, h01), h01);
-  return hn::MulAdd(fy, hn::Sub(h1, h0), h0);
+  const V fx = hn::ConvertTo(d, x_fx16 & fraction_bits) * unit;
+  const V fy = hn::ConvertTo(d, y_fx16 & fraction_bits) * unit;
+  const V h0 = MulAdd(fx, h10 - h00, h00);
+  const V h1 = MulAdd(fx, h11 - h01, h01);
+  return MulAdd(fy, h1 - h0, h0);
 }
 
 // The tiles' share in a field: a slope has the slope of their weights times their height as well.
 template <Field kField>
-HWY_INLINE V AddTile(const PatchFrame& patch, const TileWeight<V>& tile, VInt x_fx16, VInt y_fx16,
+HWY_INLINE V AddTile(const PatchFrame& patch, const TileWeight<V>& tile, VI x_fx16, VI y_fx16,
                      V sum) {
-  sum = hn::MulAdd(tile.weight, PatchSample<kField>(patch, x_fx16, y_fx16), sum);
+  sum = MulAdd(tile.weight, PatchSample<kField>(patch, x_fx16, y_fx16), sum);
   if constexpr (kField == Field::kHeight) return sum;
   const V per_m = hn::Set(D(), static_cast<float>(1.0 / patch.length_m));
-  const V slope = hn::Mul(kField == Field::kSlopeX ? tile.slope_x : tile.slope_y, per_m);
-  return hn::MulAdd(slope, PatchSample<Field::kHeight>(patch, x_fx16, y_fx16), sum);
+  const V slope = (kField == Field::kSlopeX ? tile.slope_x : tile.slope_y) * per_m;
+  return MulAdd(slope, PatchSample<Field::kHeight>(patch, x_fx16, y_fx16), sum);
 }
 
 // Sample of a field whose patch is tiled, at places in [0, resolution] of their periods.
 template <Field kField>
 HWY_INLINE V TiledSample(const PatchFrame& patch, FixedPlace x, FixedPlace y) {
   const D d;
-  const DInt di;
+  const DI di;
   const V unit = hn::Set(d, 0x1p-16f / static_cast<float>(patch.resolution));
-  const SquarePlace<D> place = {x.period, y.period, hn::Mul(hn::ConvertTo(d, x.fx16), unit),
-                                hn::Mul(hn::ConvertTo(d, y.fx16), unit)};
+  const SquarePlace<D> place = {x.period, y.period, hn::ConvertTo(d, x.fx16) * unit,
+                                hn::ConvertTo(d, y.fx16) * unit};
   const RowPlace<D> in_row = PlaceInRow(d, place, place.row);
-  const auto moved = [](VInt at_fx16, VInt samples)
-                         HWY_ATTR { return hn::Add(at_fx16, hn::ShiftLeft<16>(samples)); };
+  const auto moved = [](VI at_fx16, VI samples)
+                         HWY_ATTR { return at_fx16 + hn::ShiftLeft<16>(samples); };
   if (AllInOneTile(d, in_row, place.y)) {
     const auto by = OffsetOfTile(di, patch.tiling.seed, in_row.column, place.row, patch.resolution);
     return PatchSample<kField>(patch, moved(x.fx16, by.x), moved(y.fx16, by.y));
   }
   V sum = hn::Zero(d);
   ForEachTile(d, patch.tiling, patch.resolution, place,
-              [&](TileOffset<VInt> by, const TileWeight<V>& tile) HWY_ATTR {
+              [&](TileOffset<VI> by, const TileWeight<V>& tile) HWY_ATTR {
                 sum = AddTile<kField>(patch, tile, moved(x.fx16, by.x), moved(y.fx16, by.y), sum);
               });
   return sum;
@@ -159,9 +159,9 @@ HWY_INLINE V FieldSample(const PatchFrame& patch, FixedPlace x, FixedPlace y) {
 
 HWY_INLINE hn::Vec<DHalf> HalfSineTurns(const SineFrame& sine, VDouble x_m, VDouble y_m) {
   const DDouble dd;
-  const auto along_y = hn::MulAdd(hn::Set(dd, sine.cycles_per_m.y), y_m, hn::Set(dd, sine.cycles));
-  const auto turns = hn::MulAdd(hn::Set(dd, sine.cycles_per_m.x), x_m, along_y);
-  return hn::DemoteTo(DHalf(), hn::Sub(turns, hn::Round(turns)));
+  const auto along_y = MulAdd(hn::Set(dd, sine.cycles_per_m.y), y_m, hn::Set(dd, sine.cycles));
+  const auto turns = MulAdd(hn::Set(dd, sine.cycles_per_m.x), x_m, along_y);
+  return hn::DemoteTo(DHalf(), turns - hn::Round(turns));
 }
 
 // Adds the sine waves; their phases are exact to double.
@@ -174,7 +174,7 @@ HWY_INLINE V AddSines(std::span<const SineFrame> sines, DoublePacket x_m, Double
     V s, c;
     swell::HWY_NAMESPACE::SinCosTurns(d, turns, s, c);
     const V amplitude = hn::Set(d, sine_amplitude(sine, kField));
-    sum = hn::MulAdd(amplitude, kField == Field::kHeight ? s : c, sum);
+    sum = MulAdd(amplitude, kField == Field::kHeight ? s : c, sum);
   }
   return sum;
 }
@@ -191,8 +191,8 @@ HWY_INLINE V WorldPacket(const SeaFrame& frame, std::size_t patches, const glm::
   for (const PatchFrame& patch : std::span(frame.patches).first(patches)) {
     const double fixed_size = 65536.0 * patch.resolution;
     const double fixed_per_m = fixed_size / patch.length_m;
-    sum = hn::Add(sum, FieldSample<kField>(patch, FixedPosition(x, fixed_per_m, fixed_size),
-                                           FixedPosition(y, fixed_per_m, fixed_size)));
+    sum = sum + FieldSample<kField>(patch, FixedPosition(x, fixed_per_m, fixed_size),
+                                    FixedPosition(y, fixed_per_m, fixed_size));
   }
   return AddSines<kField>(frame.sines, x, y, sum);
 }
@@ -200,17 +200,16 @@ HWY_INLINE V WorldPacket(const SeaFrame& frame, std::size_t patches, const glm::
 // origin + an offset in metres as 16.16 samples modulo the patch. Wrapped before it is scaled up:
 // it has to fit.
 HWY_INLINE FixedPlace FixedOffset(V offset_m, const PatchFrame& patch, OriginPlace origin) {
-  const D d;
-  const DInt di;
-  const V patches = hn::Mul(offset_m, hn::Set(d, static_cast<float>(1.0 / patch.length_m)));
-  const V whole = hn::Floor(patches);
+  const DI di;
+  const V patches = offset_m * static_cast<float>(1.0 / patch.length_m);
+  const V whole = Floor(patches);
   const float fixed_size = 65536.0f * static_cast<float>(patch.resolution);
-  const VInt fraction = hn::NearestInt(hn::Mul(hn::Sub(patches, whole), hn::Set(d, fixed_size)));
-  const VInt sum = hn::Add(fraction, hn::Set(di, origin.fx16));
-  const VInt wraps = hn::ShiftRight<16>(
+  const VI fraction = hn::NearestInt((patches - whole) * fixed_size);
+  const VI sum = fraction + hn::Set(di, origin.fx16);
+  const VI wraps = hn::ShiftRight<16>(
       hn::ShiftRightSame(sum, std::countr_zero(static_cast<unsigned>(patch.resolution))));
-  const VInt period = hn::Add(hn::Add(hn::ConvertTo(di, whole), wraps), hn::Set(di, origin.period));
-  const VInt fx16 = hn::And(sum, hn::Set(di, 65536 * patch.resolution - 1));
+  const VI period = hn::ConvertTo(di, whole) + wraps + hn::Set(di, origin.period);
+  const VI fx16 = sum & hn::Set(di, 65536 * patch.resolution - 1);
   return {fx16, period};
 }
 
@@ -218,8 +217,8 @@ HWY_INLINE DoublePacket WorldCoordinate(double origin, V offset) {
   const DDouble dd;
   const DHalf dh;
   const auto base = hn::Set(dd, origin);
-  return {hn::Add(base, hn::PromoteTo(dd, hn::LowerHalf(dh, offset))),
-          hn::Add(base, hn::PromoteTo(dd, hn::UpperHalf(dh, offset)))};
+  return {base + hn::PromoteTo(dd, hn::LowerHalf(dh, offset)),
+          base + hn::PromoteTo(dd, hn::UpperHalf(dh, offset))};
 }
 
 // One packet of points around an origin, which lies at these places in the patches.
@@ -230,8 +229,8 @@ HWY_INLINE V OffsetPacket(const SeaFrame& frame, glm::dvec2 origin, const Origin
   hn::LoadInterleaved2(d, &offsets->x, x, y);
   V height = hn::Zero(d);
   for (const PatchFrame& patch : frame.patches) {
-    height = hn::Add(height, FieldSample<Field::kHeight>(patch, FixedOffset(x, patch, places->x),
-                                                         FixedOffset(y, patch, places->y)));
+    height = height + FieldSample<Field::kHeight>(patch, FixedOffset(x, patch, places->x),
+                                                  FixedOffset(y, patch, places->y));
     ++places;
   }
   if (frame.sines.empty()) return height;

@@ -9,18 +9,16 @@
 
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
-using D = hn::ScalableTag<float>;
-using DInt = hn::RebindToSigned<D>;
 using DHalf = hn::Half<D>;
 using DHalfInt = hn::RebindToSigned<DHalf>;
 using DDouble = hn::Rebind<double, DHalf>;
-using V = hn::Vec<D>;
-using VInt = hn::Vec<DInt>;
 using VDouble = hn::Vec<DDouble>;
 
 }  // namespace HWY_NAMESPACE

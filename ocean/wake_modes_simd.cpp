@@ -16,8 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
 
-using M = hn::Mask<D>;
-
 struct ComplexV {
   V re, im;
 };
@@ -25,8 +23,8 @@ struct ComplexV {
 HWY_INLINE V Set(float x) { return hn::Set(D(), x); }
 HWY_INLINE V SetTo(double x) { return hn::Set(D(), static_cast<float>(x)); }
 
-HWY_INLINE ComplexV Product(ComplexV a, ComplexV b) {
-  return {hn::MulSub(a.re, b.re, hn::Mul(a.im, b.im)), hn::MulAdd(a.re, b.im, hn::Mul(a.im, b.re))};
+HWY_INLINE ComplexV operator*(ComplexV a, ComplexV b) {
+  return {MulSub(a.re, b.re, a.im * b.im), MulAdd(a.re, b.im, a.im * b.re)};
 }
 
 // e^(2 pi i turns).
@@ -49,22 +47,22 @@ HWY_INLINE Modes ModesAt(const WakeWindow& window, V count_x, V count_y) {
   Modes m;
   m.count_x = count_x;
   m.count_y = count_y;
-  const V counts2 = hn::MulAdd(count_x, count_x, hn::Mul(count_y, count_y));
-  const V counts = hn::Sqrt(hn::Max(counts2, Set(0.25f)));  // nothing is made of k = 0
-  m.k = hn::Mul(counts, to_k);
-  V omega2 = hn::Mul(m.k, Set(window.gravity_mps2)), group = Set(0.5f);
+  const V counts2 = MulAdd(count_x, count_x, count_y * count_y);
+  const V counts = Sqrt(Max(counts2, Set(0.25f)));  // nothing is made of k = 0
+  m.k = counts * to_k;
+  V omega2 = m.k * Set(window.gravity_mps2), group = Set(0.5f);
   if (window.depth_m > 0.0f) {
     // tanh(k d) and 1/2 + k d / sinh(2 k d) by e = exp(-2 k d).
-    const V kd2 = hn::Mul(m.k, Set(2.0f * window.depth_m));
-    const V e = swell::HWY_NAMESPACE::Exp(D(), hn::Neg(hn::Min(kd2, Set(60.0f))));
-    omega2 = hn::Mul(omega2, hn::Div(hn::Sub(one, e), hn::Add(one, e)));
-    group = hn::Add(group, hn::Div(hn::Mul(kd2, e), hn::NegMulAdd(e, e, one)));
+    const V kd2 = m.k * Set(2.0f * window.depth_m);
+    const V e = swell::HWY_NAMESPACE::Exp(D(), -Min(kd2, Set(60.0f)));
+    omega2 = omega2 * ((one - e) / (one + e));
+    group = group + kd2 * e / NegMulAdd(e, e, one);
   }
-  const V omega = hn::Sqrt(omega2);
-  m.turns_per_s = hn::Mul(omega, SetTo(0.5 / kPi));
-  const V speed = hn::Div(hn::Mul(group, omega), hn::Mul(m.k, counts));
-  m.going_x = hn::Mul(speed, count_x);
-  m.going_y = hn::Mul(speed, count_y);
+  const V omega = Sqrt(omega2);
+  m.turns_per_s = omega * SetTo(0.5 / kPi);
+  const V speed = group * omega / (m.k * counts);
+  m.going_x = speed * count_x;
+  m.going_y = speed * count_y;
   return m;
 }
 
@@ -80,16 +78,16 @@ HWY_INLINE Limits LimitsOf(const WakeWindow& window, int axis) {
 
 // When something at x for s = 0 that goes on by v comes to a limit.
 HWY_INLINE V LeavesAt(Limits limits, V x, V v) {
-  const M stands = hn::Lt(hn::Abs(v), Set(1e-6f));
-  v = hn::IfThenElse(stands, Set(1e-6f), v);
-  const V end = hn::IfThenElse(hn::Gt(v, hn::Zero(D())), Set(limits.high_m), Set(limits.low_m));
-  return hn::Div(hn::Sub(end, x), v);
+  const M stands = Abs(v) < Set(1e-6f);
+  v = IfThenElse(stands, Set(1e-6f), v);
+  const V end = IfThenElse(v > 0.0f, Set(limits.high_m), Set(limits.low_m));
+  return (end - x) / v;
 }
 
 // How far x lies inside, 0 outside.
 HWY_INLINE V Inside(Limits limits, V x) {
-  const V inside = hn::Min(hn::Sub(x, Set(limits.low_m)), hn::Sub(Set(limits.high_m), x));
-  return hn::Max(inside, hn::Zero(D()));
+  const V inside = Min(x - Set(limits.low_m), Set(limits.high_m) - x);
+  return Max(inside, 0.0f);
 }
 
 // ---- A hump at one moment
@@ -98,22 +96,19 @@ HWY_INLINE void AddRing(const WakeWindow& window, const WakeRing& ring, const Mo
                         ComplexV& sum) {
   const D d;
   const auto length_m = static_cast<float>(window.length_m);
-  const V leaves = hn::Min(LeavesAt(LimitsOf(window, 0), Set(ring.x_m), m.going_x),
-                           LeavesAt(LimitsOf(window, 1), Set(ring.y_m), m.going_y));
+  const V leaves = Min(LeavesAt(LimitsOf(window, 0), Set(ring.x_m), m.going_x),
+                       LeavesAt(LimitsOf(window, 1), Set(ring.y_m), m.going_y));
   // 1 up to two thirds of that age, then down to 0 with no slope.
-  const V part = hn::Div(Set(3.0f * ring.age_s), hn::Max(leaves, Set(1e-6f)));
-  const V late = hn::Min(hn::Max(hn::Sub(part, Set(2.0f)), hn::Zero(d)), Set(1.0f));
-  const V kept =
-      hn::NegMulAdd(hn::Mul(late, late), hn::NegMulAdd(late, Set(2.0f), Set(3.0f)), Set(1.0f));
-  const V spread = hn::Mul(hn::Mul(m.k, m.k), Set(-0.25f * ring.radius_m * ring.radius_m));
+  const V part = Set(3.0f * ring.age_s) / Max(leaves, Set(1e-6f));
+  const V late = Min(Max(part - Set(2.0f), 0.0f), Set(1.0f));
+  const V kept = NegMulAdd(late * late, NegMulAdd(late, Set(2.0f), Set(3.0f)), Set(1.0f));
+  const V spread = m.k * m.k * Set(-0.25f * ring.radius_m * ring.radius_m);
   const float volume = static_cast<float>(kPi) * ring.radius_m * ring.radius_m * ring.height_m;
-  const V size = hn::Mul(hn::Mul(swell::HWY_NAMESPACE::Exp(d, spread), kept),
-                         Set(volume / (length_m * length_m)));
-  const V place =
-      hn::MulAdd(m.count_x, Set(ring.x_m / length_m), hn::Mul(m.count_y, Set(ring.y_m / length_m)));
-  const ComplexV e = OnCircle(hn::Neg(hn::MulAdd(m.turns_per_s, Set(ring.age_s), place)));
-  sum.re = hn::MulAdd(size, e.re, sum.re);
-  sum.im = hn::MulAdd(size, e.im, sum.im);
+  const V size = swell::HWY_NAMESPACE::Exp(d, spread) * kept * Set(volume / (length_m * length_m));
+  const V place = MulAdd(m.count_x, Set(ring.x_m / length_m), m.count_y * Set(ring.y_m / length_m));
+  const ComplexV e = OnCircle(-MulAdd(m.turns_per_s, Set(ring.age_s), place));
+  sum.re = MulAdd(size, e.re, sum.re);
+  sum.im = MulAdd(size, e.im, sum.im);
 }
 
 // ---- A hull
@@ -121,19 +116,17 @@ HWY_INLINE void AddRing(const WakeWindow& window, const WakeRing& ring, const Mo
 // The integral of e^(2 pi i (phase + rate s)) over ages s, times `weight`, added to sum; nothing
 // where `to` is not after `from`.
 HWY_INLINE void AddIntegral(V phase, V rate, V from, V to, float weight, ComplexV& sum) {
-  const D d;
-  const V half = hn::Mul(hn::Max(hn::Sub(to, from), hn::Zero(d)), Set(0.5f));
-  const V middle = hn::Mul(hn::Add(from, to), Set(0.5f));
-  const ComplexV e = OnCircle(hn::MulAdd(rate, middle, phase));
-  const V turns = hn::Mul(rate, half);
-  const V angle = hn::Mul(turns, SetTo(2.0 * kPi));
-  const M small = hn::Lt(hn::Abs(angle), Set(1e-3f));
+  const V half = Max(to - from, 0.0f) * Set(0.5f);
+  const V middle = (from + to) * Set(0.5f);
+  const ComplexV e = OnCircle(MulAdd(rate, middle, phase));
+  const V turns = rate * half;
+  const V angle = turns * SetTo(2.0 * kPi);
+  const M small = Abs(angle) < Set(1e-3f);
   const V sine = OnCircle(turns).im;
-  const V sinc =
-      hn::IfThenElse(small, Set(1.0f), hn::Div(sine, hn::IfThenElse(small, Set(1.0f), angle)));
-  const V size = hn::Mul(hn::Mul(half, sinc), Set(2.0f * weight));
-  sum.re = hn::MulAdd(size, e.re, sum.re);
-  sum.im = hn::MulAdd(size, e.im, sum.im);
+  const V sinc = IfThenElse(small, Set(1.0f), sine / IfThenElse(small, Set(1.0f), angle));
+  const V size = half * sinc * Set(2.0f * weight);
+  sum.re = MulAdd(size, e.re, sum.re);
+  sum.im = MulAdd(size, e.im, sum.im);
 }
 
 // The age from which on a mode's waves are outside, or the hull was not there yet. Waves from
@@ -145,16 +138,16 @@ HWY_INLINE V OldestInside(const WakeWindow& window, const Modes& m) {
   V oldest = Set(window.stretches.back().to_s);
   M left = hn::MaskFromVec(hn::Zero(D()));
   for (const WakeStretch& s : window.stretches) {
-    const V x = Set(s.x_m), v_x = hn::Sub(m.going_x, Set(s.u_mps)), turn = Set(s.to_s);
-    const V y = Set(s.y_m), v_y = hn::Sub(m.going_y, Set(s.v_mps));
-    const V out = hn::Min(LeavesAt(x_limits, x, v_x), LeavesAt(y_limits, y, v_y));
-    const V at = hn::Max(out, Set(s.from_s));
-    const M leaves = hn::AndNot(left, hn::Lt(at, turn));
-    oldest = hn::IfThenElse(leaves, hn::Min(at, oldest), oldest);
-    left = hn::Or(left, leaves);
-    const V inside_m = hn::Min(Inside(x_limits, hn::MulAdd(v_x, turn, x)),
-                               Inside(y_limits, hn::MulAdd(v_y, turn, y)));
-    oldest = hn::Min(oldest, hn::MulAdd(inside_m, Set(stays_s_m), turn));
+    const V x = Set(s.x_m), v_x = m.going_x - Set(s.u_mps), turn = Set(s.to_s);
+    const V y = Set(s.y_m), v_y = m.going_y - Set(s.v_mps);
+    const V out = Min(LeavesAt(x_limits, x, v_x), LeavesAt(y_limits, y, v_y));
+    const V at = Max(out, Set(s.from_s));
+    const M leaves = hn::AndNot(left, at < turn);
+    oldest = IfThenElse(leaves, Min(at, oldest), oldest);
+    left = left | leaves;
+    const V inside_m =
+        Min(Inside(x_limits, MulAdd(v_x, turn, x)), Inside(y_limits, MulAdd(v_y, turn, y)));
+    oldest = Min(oldest, MulAdd(inside_m, Set(stays_s_m), turn));
   }
   return oldest;
 }
@@ -172,55 +165,52 @@ HWY_INLINE ComplexV HullShape(const WakeWindow& window, const Modes& m, float ah
   const D d;
   const WakeHull& hull = window.hull;
   const V to_k = SetTo(2.0 * kPi / window.length_m);
-  const V along =
-      hn::Mul(to_k, hn::MulAdd(m.count_x, Set(ahead_x), hn::Mul(m.count_y, Set(ahead_y))));
-  const V across =
-      hn::Mul(to_k, hn::MulSub(m.count_x, Set(ahead_y), hn::Mul(m.count_y, Set(ahead_x))));
+  const V along = to_k * MulAdd(m.count_x, Set(ahead_x), m.count_y * Set(ahead_y));
+  const V across = to_k * MulSub(m.count_x, Set(ahead_y), m.count_y * Set(ahead_x));
   const float beam_m = kHullBeam * hull.beam_m;
   // Half of the draught deep, in the mean.
-  const V wide = hn::MulAdd(hn::Mul(across, across), Set(-0.5f * beam_m * beam_m),
-                            hn::Mul(m.k, Set(-0.5f * hull.draught_m)));
-  const V along2 = hn::Mul(along, along);
+  const V wide =
+      MulAdd(across * across, Set(-0.5f * beam_m * beam_m), m.k * Set(-0.5f * hull.draught_m));
+  const V along2 = along * along;
   const auto gauss = [&](float deviation_m) HWY_ATTR {
-    return swell::HWY_NAMESPACE::Exp(
-        d, hn::MulAdd(along2, Set(-0.5f * deviation_m * deviation_m), wide));
+    return swell::HWY_NAMESPACE::Exp(d,
+                                     MulAdd(along2, Set(-0.5f * deviation_m * deviation_m), wide));
   };
   const V bow = gauss(kBowLength * hull.length_m), stern = gauss(kSternLength * hull.length_m);
-  const V turns = hn::Mul(along, SetTo(0.5 / kPi));
-  const ComplexV to_bow = OnCircle(hn::Mul(turns, Set(-kBowPlace * hull.length_m)));
-  const ComplexV to_stern = OnCircle(hn::Mul(turns, Set(kSternPlace * hull.length_m)));
+  const V turns = along * SetTo(0.5 / kPi);
+  const ComplexV to_bow = OnCircle(turns * Set(-kBowPlace * hull.length_m));
+  const ComplexV to_stern = OnCircle(turns * Set(kSternPlace * hull.length_m));
   const auto area_m2 = static_cast<float>(window.length_m * window.length_m);
   const V flux = Set(kFullness * hull.speed_mps * hull.beam_m * hull.draught_m / area_m2);
-  return {hn::Mul(flux, hn::MulSub(bow, to_bow.re, hn::Mul(stern, to_stern.re))),
-          hn::Mul(flux, hn::MulSub(bow, to_bow.im, hn::Mul(stern, to_stern.im)))};
+  return {flux * MulSub(bow, to_bow.re, stern * to_stern.re),
+          flux * MulSub(bow, to_bow.im, stern * to_stern.im)};
 }
 
 HWY_INLINE void AddHull(const WakeWindow& window, const Modes& m, ComplexV& sum) {
   const D d;
   const auto inv_length = static_cast<float>(1.0 / window.length_m);
-  const V oldest = hn::Max(OldestInside(window, m), Set(1e-3f));
-  const V half_age = hn::Mul(oldest, Set(0.5f));
-  const V inv_oldest = hn::Div(Set(1.0f), oldest);  // turns a second of the fading
+  const V oldest = Max(OldestInside(window, m), Set(1e-3f));
+  const V half_age = oldest * Set(0.5f);
+  const V inv_oldest = Set(1.0f) / oldest;  // turns a second of the fading
   for (const WakeStretch& s : window.stretches) {
-    const V phase = hn::Neg(hn::MulAdd(m.count_x, Set(s.x_m * inv_length),
-                                       hn::Mul(m.count_y, Set(s.y_m * inv_length))));
-    const V rate = hn::Sub(hn::MulAdd(m.count_x, Set(s.u_mps * inv_length),
-                                      hn::Mul(m.count_y, Set(s.v_mps * inv_length))),
-                           m.turns_per_s);
-    const V from = Set(s.from_s), to = hn::Min(Set(s.to_s), oldest);
-    if (hn::AllFalse(d, hn::Lt(from, to))) continue;
+    const V phase =
+        -MulAdd(m.count_x, Set(s.x_m * inv_length), m.count_y * Set(s.y_m * inv_length));
+    const V rate =
+        MulAdd(m.count_x, Set(s.u_mps * inv_length), m.count_y * Set(s.v_mps * inv_length)) -
+        m.turns_per_s;
+    const V from = Set(s.from_s), to = Min(Set(s.to_s), oldest);
+    if (hn::AllFalse(d, from < to)) continue;
     ComplexV integral = {hn::Zero(d), hn::Zero(d)};
-    AddIntegral(phase, rate, from, hn::Min(to, half_age), 1.0f, integral);
+    AddIntegral(phase, rate, from, Min(to, half_age), 1.0f, integral);
     // From half of the oldest age T on (1 - cos(2 pi s / T)) / 2.
-    const V late = hn::Max(from, half_age);
+    const V late = Max(from, half_age);
     AddIntegral(phase, rate, late, to, 0.5f, integral);
-    AddIntegral(phase, hn::Add(rate, inv_oldest), late, to, -0.25f, integral);
-    AddIntegral(phase, hn::Sub(rate, inv_oldest), late, to, -0.25f, integral);
+    AddIntegral(phase, rate + inv_oldest, late, to, -0.25f, integral);
+    AddIntegral(phase, rate - inv_oldest, late, to, -0.25f, integral);
     const float inv_speed = 1.0f / window.hull.speed_mps;
-    const ComplexV part =
-        Product(HullShape(window, m, s.u_mps * inv_speed, s.v_mps * inv_speed), integral);
-    sum.re = hn::Add(sum.re, part.re);
-    sum.im = hn::Add(sum.im, part.im);
+    const ComplexV part = HullShape(window, m, s.u_mps * inv_speed, s.v_mps * inv_speed) * integral;
+    sum.re = sum.re + part.re;
+    sum.im = sum.im + part.im;
   }
 }
 
@@ -228,22 +218,21 @@ HWY_INLINE void AddHull(const WakeWindow& window, const Modes& m, ComplexV& sum)
 
 // Heights' modes times what makes velocities of them: -i omega, or g k / omega along k.
 HWY_INLINE ComplexV FieldOf(const WakeWindow& window, WakeField field, const Modes& m, ComplexV a) {
-  const V omega = hn::Mul(m.turns_per_s, SetTo(2.0 * kPi));
+  const V omega = m.turns_per_s * SetTo(2.0 * kPi);
   switch (field) {
     case WakeField::kHeight:
       return a;
     case WakeField::kRise:
-      return {hn::Mul(omega, a.im), hn::Neg(hn::Mul(omega, a.re))};
+      return {omega * a.im, -(omega * a.re)};
     case WakeField::kDriftX:
     case WakeField::kDriftY:
       break;
   }
   // g k / omega (k_x / k) = g k_x / omega.
   const V count = field == WakeField::kDriftX ? m.count_x : m.count_y;
-  const V drift = hn::Div(
-      hn::Mul(count, SetTo(2.0 * kPi / window.length_m * static_cast<double>(window.gravity_mps2))),
-      omega);
-  return {hn::Mul(drift, a.re), hn::Mul(drift, a.im)};
+  const V drift =
+      count * SetTo(2.0 * kPi / window.length_m * static_cast<double>(window.gravity_mps2)) / omega;
+  return {drift * a.re, drift * a.im};
 }
 
 void FillWake(const WakeWindow& window, WakeField field, const FftPlan& plan, int column0,
@@ -256,10 +245,10 @@ void FillWake(const WakeWindow& window, WakeField field, const FftPlan& plan, in
     float* const row_im = im + static_cast<std::size_t>(plan.slot[j]) * kFftBatch;
     for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
       const V column = hn::Iota(d, static_cast<float>(column0) + static_cast<float>(lane));
-      const V count_x = hn::IfThenElse(hn::Lt(column, Set(0.5f * kWakeSamples)), column,
-                                       hn::Sub(column, Set(kWakeSamples)));
-      const V counts2 = hn::MulAdd(count_x, count_x, hn::Mul(count_y, count_y));
-      const M some = hn::And(hn::Gt(counts2, hn::Zero(d)), hn::Lt(counts2, most2));
+      const V count_x =
+          IfThenElse(column < Set(0.5f * kWakeSamples), column, column - Set(kWakeSamples));
+      const V counts2 = MulAdd(count_x, count_x, count_y * count_y);
+      const M some = (counts2 > 0.0f) & (counts2 < most2);
       ComplexV sum = {hn::Zero(d), hn::Zero(d)};
       if (!hn::AllFalse(d, some)) {
         const Modes m = ModesAt(window, count_x, count_y);
@@ -267,8 +256,8 @@ void FillWake(const WakeWindow& window, WakeField field, const FftPlan& plan, in
         if (!window.stretches.empty()) AddHull(window, m, sum);
         sum = FieldOf(window, field, m, sum);
       }
-      hn::Store(hn::IfThenElseZero(some, sum.re), d, row_re + lane);
-      hn::Store(hn::IfThenElseZero(some, sum.im), d, row_im + lane);
+      hn::Store(IfThenElseZero(some, sum.re), d, row_re + lane);
+      hn::Store(IfThenElseZero(some, sum.im), d, row_im + lane);
     }
   }
 }

@@ -10,10 +10,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 // All below is written operation by operation as math/elementary.cpp and ocean/dispersion.cpp have
 // it, without fused ones, and so gives their bits.
@@ -25,32 +27,29 @@ HWY_INLINE V Constant(double x) { return hn::Set(D(), x); }
 // exp(x) for x in [-708, 0].
 HWY_INLINE V Exp(V x) {
   constexpr double kLn2Hi = 0x1.62e42fee00000p-1, kLn2Lo = 0x1.a39ef35793c76p-33;
-  const V k = hn::Round(hn::Mul(x, Constant(1.0 / (kLn2Hi + kLn2Lo))));
-  const V r = hn::Sub(hn::Sub(x, hn::Mul(k, Constant(kLn2Hi))), hn::Mul(k, Constant(kLn2Lo)));
+  const V k = hn::Round(x * (1.0 / (kLn2Hi + kLn2Lo)));
+  const V r = x - k * kLn2Hi - k * kLn2Lo;
   // 1 / n!, n = 14, 13, ... 0.
   constexpr std::array<double, 15> kFactorials = {
       87178291200.0, 6227020800.0, 479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0,
       720.0,         120.0,        24.0,        6.0,        2.0,       1.0,      1.0};
   V sum = Constant(1.0 / kFactorials[0]);
-  for (std::size_t n = 1; n < kFactorials.size(); ++n)
-    sum = hn::Add(hn::Mul(sum, r), Constant(1.0 / kFactorials[n]));
+  for (std::size_t n = 1; n < kFactorials.size(); ++n) sum = sum * r + 1.0 / kFactorials[n];
   // 2^k: the last bits of k + 1.5 * 2^52 are those of the integer k.
   const hn::RebindToUnsigned<D> bits;
-  const auto exponent =
-      hn::Add(hn::BitCast(bits, hn::Add(k, Constant(0x1.8p52))), hn::Set(bits, 1023));
-  return hn::Mul(sum, hn::BitCast(D(), hn::ShiftLeft<52>(exponent)));
+  const auto exponent = hn::BitCast(bits, k + 0x1.8p52) + hn::Set(bits, 1023);
+  return sum * hn::BitCast(D(), hn::ShiftLeft<52>(exponent));
 }
 
 // tanh(x) for x >= 0.
 HWY_INLINE V Tanh(V x) {
-  const V one = Constant(1.0), q = hn::Mul(x, x);
+  const V one = Constant(1.0), q = x * x;
   V series = Constant(62.0 / 2835);
-  for (const double c : {-17.0 / 315, 2.0 / 15, -1.0 / 3, 1.0})
-    series = hn::Add(Constant(c), hn::Mul(q, series));
-  const V e = Exp(hn::Mul(Constant(-2.0), hn::Min(x, Constant(20.0))));
-  const V quotient = hn::Div(hn::Sub(one, e), hn::Add(one, e));
-  const V far = hn::IfThenElse(hn::Gt(x, Constant(20.0)), one, quotient);
-  return hn::IfThenElse(hn::Lt(x, Constant(0.02)), hn::Mul(x, series), far);
+  for (const double c : {-17.0 / 315, 2.0 / 15, -1.0 / 3, 1.0}) series = c + q * series;
+  const V e = Exp(-2.0 * Min(x, 20.0));
+  const V quotient = (one - e) / (one + e);
+  const V far = IfThenElse(x > 20.0, one, quotient);
+  return IfThenElse(x < 0.02, x * series, far);
 }
 
 // kh for y = omega^2 h / g.
@@ -58,27 +57,27 @@ HWY_INLINE V HuntDepthInRadians(V y) {
   V sum = Constant(1.0), power = sum;
   for (const double c :
        {0.6666666666, 0.3555555555, 0.1608465608, 0.0632098765, 0.0217540484, 0.0065407983}) {
-    power = hn::Mul(power, y);
-    sum = hn::Add(sum, hn::Mul(Constant(c), power));
+    power = power * y;
+    sum = sum + c * power;
   }
-  return hn::Sqrt(hn::Add(hn::Mul(y, y), hn::Div(y, sum)));
+  return Sqrt(y * y + y / sum);
 }
 
 HWY_INLINE V NewtonStep(V x, V y) {
   const V t = Tanh(x);
-  const V slope = hn::Add(t, hn::Mul(x, hn::Sub(Constant(1.0), hn::Mul(t, t))));
-  return hn::Sub(x, hn::Div(hn::Sub(hn::Mul(x, t), y), slope));
+  const V slope = t + x * (1.0 - t * t);
+  return x - (x * t - y) / slope;
 }
 
 void WaveNumbers(double k_deep, const double* depth_m, double* k_rad_m, std::size_t count) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(D())) {
     const V depth = hn::LoadU(D(), depth_m + i);
-    const V y = hn::Mul(Constant(k_deep), depth);
-    const auto is_deep = hn::Gt(y, Constant(25.0));
+    const V y = k_deep * depth;
+    const auto is_deep = y > 25.0;
     V k = Constant(k_deep);
     if (!hn::AllTrue(D(), is_deep)) {
       const V kh = NewtonStep(NewtonStep(HuntDepthInRadians(y), y), y);
-      k = hn::IfThenElse(is_deep, k, hn::Div(kh, depth));
+      k = IfThenElse(is_deep, k, kh / depth);
     }
     hn::StoreU(k, D(), k_rad_m + i);
   }
@@ -88,13 +87,12 @@ void ShoalingCoefficients(const double* k_rad_m, const double* depth_m, double* 
                           std::size_t count) {
   const V one = Constant(1.0), half = Constant(0.5);
   for (std::size_t i = 0; i < count; i += hn::Lanes(D())) {
-    const V kh = hn::Mul(hn::LoadU(D(), k_rad_m + i), hn::LoadU(D(), depth_m + i));
+    const V kh = hn::LoadU(D(), k_rad_m + i) * hn::LoadU(D(), depth_m + i);
     const V t = Tanh(kh);
-    const V ratio = hn::Div(hn::Mul(kh, hn::Sub(one, hn::Mul(t, t))), t);
-    const V group =
-        hn::IfThenElse(hn::Gt(kh, Constant(25.0)), half, hn::Mul(half, hn::Add(one, ratio)));
-    const V flux = hn::Mul(hn::Mul(Constant(2.0), group), t);
-    hn::StoreU(hn::Div(one, hn::Sqrt(flux)), D(), coefficient + i);
+    const V ratio = kh * (one - t * t) / t;
+    const V group = IfThenElse(kh > 25.0, half, half * (one + ratio));
+    const V flux = 2.0 * group * t;
+    hn::StoreU(one / Sqrt(flux), D(), coefficient + i);
   }
 }
 

@@ -17,10 +17,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::raster {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 // While samples are drawn, one without a triangle has this depth, so that depth 0 still wins.
 constexpr float kEmptyDepth = -1.0f;
@@ -79,11 +81,11 @@ struct LaneEdge {
 // E itself, where the triangle is small enough for 32 bits.
 HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, const PixelRect& rect) {
   const IntTag di;
-  const IntVec offset = hn::Add(hn::Mul(hn::Set(di, edge.a), hn::Load(di, target.x_fx8.data())),
-                                hn::Mul(hn::Set(di, edge.b), hn::Load(di, target.y_fx8.data())));
+  const IntVec offset = hn::Set(di, edge.a) * hn::Load(di, target.x_fx8.data()) +
+                        hn::Set(di, edge.b) * hn::Load(di, target.y_fx8.data());
   const auto at_corner = static_cast<std::int32_t>(
       edge.at((target.box.x0_px + rect.x0) * kPixelFx8, (target.box.y0_px + rect.y0) * kPixelFx8));
-  return {hn::Add(hn::Set(di, at_corner), offset), edge.a * kPixelFx8, edge.b * kPixelFx8};
+  return {hn::Set(di, at_corner) + offset, edge.a * kPixelFx8, edge.b * kPixelFx8};
 }
 
 // A pixel's step in E is 256 a or 256 b exactly, and sample positions are multiples of 16 / 256 px,
@@ -96,10 +98,8 @@ HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target
   const IntVec y_step = hn::ShiftRight<4>(hn::Load(di, target.y_fx8.data()));
   const auto whole = static_cast<std::int32_t>(edge.at_corner >> kFractionBits);
   const auto rest = static_cast<std::int32_t>(edge.at_corner >> 4) & 15;
-  const IntVec offset =
-      hn::Add(hn::Mul(hn::Set(di, edge.a), x_step), hn::Mul(hn::Set(di, edge.b), y_step));
-  return {hn::Add(hn::Set(di, whole), hn::ShiftRight<4>(hn::Add(hn::Set(di, rest), offset))),
-          edge.a, edge.b};
+  const IntVec offset = hn::Set(di, edge.a) * x_step + hn::Set(di, edge.b) * y_step;
+  return {hn::Set(di, whole) + hn::ShiftRight<4>(hn::Set(di, rest) + offset), edge.a, edge.b};
 }
 
 // Edges whose sign says on which side the rectangle's samples lie. False if all are outside of one.
@@ -120,9 +120,9 @@ HWY_INLINE void DrawPacket(FloatMask inside, FloatVec z, FloatVec primitive,
                            float* HWY_RESTRICT depth, float* HWY_RESTRICT id) {
   const FloatTag d;
   const FloatVec old = hn::LoadU(d, depth);
-  const FloatMask wins = hn::And(inside, hn::Gt(z, old));
-  hn::StoreU(hn::IfThenElse(wins, z, old), d, depth);
-  hn::StoreU(hn::IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
+  const FloatMask wins = inside & (z > old);
+  hn::StoreU(IfThenElse(wins, z, old), d, depth);
+  hn::StoreU(IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
 }
 
 template <int kSamples>
@@ -145,8 +145,8 @@ HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& targe
   const IntVec x_fx8 = hn::Load(di, target.x_fx8.data()), y_fx8 = hn::Load(di, target.y_fx8.data());
   const std::int32_t corner_x = (target.box.x0_px + rect.x0) * kPixelFx8 - t.x_ref_fx8;
   const std::int32_t corner_y = (target.box.y0_px + rect.y0) * kPixelFx8 - t.y_ref_fx8;
-  const FloatVec dx = hn::Mul(hn::ConvertTo(d, hn::Add(hn::Set(di, corner_x), x_fx8)), to_px);
-  FloatVec dy = hn::Mul(hn::ConvertTo(d, hn::Add(hn::Set(di, corner_y), y_fx8)), to_px);
+  const FloatVec dx = hn::ConvertTo(d, hn::Set(di, corner_x) + x_fx8) * to_px;
+  FloatVec dy = hn::ConvertTo(d, hn::Set(di, corner_y) + y_fx8) * to_px;
   const FloatVec dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
   const FloatVec z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
   const FloatVec primitive = hn::BitCast(d, hn::Set(du, t.primitive));
@@ -166,21 +166,20 @@ HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& targe
     const std::uint32_t begin =
         (target.row_begin[y] + static_cast<std::uint32_t>(before)) * kSamples;
     const std::uint32_t count = static_cast<std::uint32_t>(inside) * kSamples;
-    const FloatVec z_row = hn::MulAdd(dz_dy, dy, z_min);
+    const FloatVec z_row = MulAdd(dz_dy, dy, z_min);
     for (std::uint32_t n = 0; n < count; n += kLanes) {
       const auto at = std::min<std::uint32_t>(begin + n, target.samples - kLanes);
-      const auto in_row = hn::Lt(hn::Add(lane, hn::Set(du, at - begin)), hn::Set(du, count));
-      const IntVec right = hn::Sub(hn::PromoteTo(di, hn::LoadU(d8, target.column + at)), x0);
-      const IntVec f0 = hn::Add(hn::Mul(a0, right), e0), f1 = hn::Add(hn::Mul(a1, right), e1);
-      const IntVec f2 = hn::Add(hn::Mul(a2, right), e2);
-      const auto covered = hn::Gt(hn::Or(hn::Or(f0, f1), f2), hn::Set(di, -1));
-      const FloatVec z = hn::MulAdd(dz_dx, hn::Add(dx, hn::ConvertTo(d, right)), z_row);
-      DrawPacket(hn::And(hn::RebindMask(d, covered), hn::RebindMask(d, in_row)),
-                 hn::Min(hn::Max(z, z_min), z_max), primitive, target.depth + at,
-                 reinterpret_cast<float*>(target.primitive) + at);
+      const auto in_row = lane + hn::Set(du, at - begin) < hn::Set(du, count);
+      const IntVec right = hn::PromoteTo(di, hn::LoadU(d8, target.column + at)) - x0;
+      const IntVec f0 = a0 * right + e0, f1 = a1 * right + e1;
+      const IntVec f2 = a2 * right + e2;
+      const auto covered = ((f0 | f1) | f2) > hn::Set(di, -1);
+      const FloatVec z = MulAdd(dz_dx, dx + hn::ConvertTo(d, right), z_row);
+      DrawPacket(hn::RebindMask(d, covered) & hn::RebindMask(d, in_row), Min(Max(z, z_min), z_max),
+                 primitive, target.depth + at, reinterpret_cast<float*>(target.primitive) + at);
     }
-    e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
-    dy = hn::Add(dy, hn::Set(d, 1.0f));
+    e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
+    dy = dy + 1.0f;
   }
 }
 

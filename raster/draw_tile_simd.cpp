@@ -13,10 +13,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::raster {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 using FloatTag = hn::ScalableTag<float>;
 using IntTag = hn::ScalableTag<std::int32_t>;
@@ -97,11 +99,11 @@ HWY_INLINE void DrawPacket(IntVec edges, FloatVec z, FloatVec primitive, float* 
                            float* HWY_RESTRICT id) {
   const FloatTag d;
   const IntTag di;
-  const auto inside = hn::RebindMask(d, hn::Gt(edges, hn::Set(di, -1)));
+  const auto inside = hn::RebindMask(d, edges > hn::Set(di, -1));
   const FloatVec old = hn::LoadU(d, depth);
-  const auto wins = hn::And(inside, hn::Gt(z, old));
-  hn::StoreU(hn::IfThenElse(wins, z, old), d, depth);
-  hn::StoreU(hn::IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
+  const auto wins = inside & (z > old);
+  hn::StoreU(IfThenElse(wins, z, old), d, depth);
+  hn::StoreU(IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
 }
 
 HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
@@ -114,7 +116,7 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
   // Edges at the first packet's lanes.
   const IntVec lane = hn::Iota(di, 0);
   const auto first = [&](int i) {
-    return hn::Add(hn::Set(di, edges.e[i]), hn::Mul(hn::Set(di, edges.a[i]), lane));
+    return hn::Set(di, edges.e[i]) + hn::Set(di, edges.a[i]) * lane;
   };
   IntVec e0 = first(0), e1 = first(1), e2 = first(2);
   const IntVec b0 = hn::Set(di, edges.b[0]), b1 = hn::Set(di, edges.b[1]);
@@ -123,12 +125,12 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
   // Offsets from the depth plane's reference, exact: multiples of 1/256 below 2^15.
   const std::int32_t px_fx8 = (tile.x0 + rect.x) * kPixelFx8 + kHalfPixelFx8;
   const std::int32_t py_fx8 = (tile.y0 + rect.y0) * kPixelFx8 + kHalfPixelFx8;
-  const FloatVec dx = hn::Add(ToPixels(px_fx8 - t.x_ref_fx8), hn::Iota(d, 0.0f));
+  const FloatVec dx = ToPixels(px_fx8 - t.x_ref_fx8) + hn::Iota(d, 0.0f);
   FloatVec dy = ToPixels(py_fx8 - t.y_ref_fx8);
   const FloatVec dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
   const FloatVec z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
   const auto depth_at = [&](FloatVec x_offset, FloatVec z_row) {
-    return hn::Min(hn::Max(hn::MulAdd(dz_dx, x_offset, z_row), z_min), z_max);
+    return Min(Max(MulAdd(dz_dx, x_offset, z_row), z_min), z_max);
   };
 
   const FloatVec primitive = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(t.primitive)));
@@ -139,10 +141,10 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
 
   if (rect.packets == 1) {
     for (std::int32_t row = 0; row < rows; ++row) {
-      const FloatVec z = depth_at(dx, hn::MulAdd(dz_dy, dy, z_min));
-      DrawPacket(hn::Or(hn::Or(e0, e1), e2), z, primitive, depth, id);
-      e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
-      dy = hn::Add(dy, one);
+      const FloatVec z = depth_at(dx, MulAdd(dz_dy, dy, z_min));
+      DrawPacket((e0 | e1) | e2, z, primitive, depth, id);
+      e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
+      dy = dy + one;
       depth += tile.size, id += tile.size;
     }
     return;
@@ -152,17 +154,17 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
   const IntVec a2 = hn::Set(di, edges.a[2] * kLanes);
   const FloatVec packet_width = hn::Set(d, static_cast<float>(kLanes));
   for (std::int32_t row = 0; row < rows; ++row) {
-    const FloatVec z_row = hn::MulAdd(dz_dy, dy, z_min);
+    const FloatVec z_row = MulAdd(dz_dy, dy, z_min);
     IntVec f0 = e0, f1 = e1, f2 = e2;
     FloatVec x_offset = dx;
     for (std::int32_t p = 0; p < rect.packets; ++p) {
-      const IntVec inside = hn::Or(hn::Or(f0, f1), f2);
+      const IntVec inside = (f0 | f1) | f2;
       DrawPacket(inside, depth_at(x_offset, z_row), primitive, depth + p * kLanes, id + p * kLanes);
-      f0 = hn::Add(f0, a0), f1 = hn::Add(f1, a1), f2 = hn::Add(f2, a2);
-      x_offset = hn::Add(x_offset, packet_width);
+      f0 = f0 + a0, f1 = f1 + a1, f2 = f2 + a2;
+      x_offset = x_offset + packet_width;
     }
-    e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
-    dy = hn::Add(dy, one);
+    e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
+    dy = dy + one;
     depth += tile.size, id += tile.size;
   }
 }
@@ -191,12 +193,11 @@ int FinishTile(const TileTarget& tile, Viewport viewport) {
     for (std::int32_t x = 0; x < tile.size; x += kLanes) {
       const std::int32_t i = y * tile.size + x;
       const auto id = hn::LoadU(du, tile.primitive + i);
-      const auto visible = hn::And(
-          hn::RebindMask(du, hn::Lt(lane, hn::Sub(columns, hn::Set(di, x)))), hn::Ne(id, none));
+      const auto visible = hn::RebindMask(du, lane < columns - hn::Set(di, x)) & (id != none);
       covered += hn::CountTrue(du, visible);
-      hn::StoreU(hn::IfThenElse(visible, id, none), du, tile.primitive + i);
+      hn::StoreU(IfThenElse(visible, id, none), du, tile.primitive + i);
       const FloatVec depth = hn::LoadU(d, tile.depth + i);
-      hn::StoreU(hn::IfThenElseZero(hn::RebindMask(d, visible), depth), d, tile.depth + i);
+      hn::StoreU(IfThenElseZero(hn::RebindMask(d, visible), depth), d, tile.depth + i);
     }
   }
   return static_cast<int>(covered);

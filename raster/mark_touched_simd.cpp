@@ -11,10 +11,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::raster {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 using IntTag = hn::ScalableTag<std::int32_t>;
 using IntVec = hn::Vec<IntTag>;
@@ -26,7 +28,7 @@ static_assert(kLanes <= 16, "a packet's mask has at most 16 bits");
 HWY_INLINE std::uint64_t BitsNotNegative(IntVec v) {
   const IntTag di;
   std::uint16_t bits = 0;
-  hn::StoreMaskBits(di, hn::Gt(v, hn::Set(di, -1)), reinterpret_cast<std::uint8_t*>(&bits));
+  hn::StoreMaskBits(di, v > hn::Set(di, -1), reinterpret_cast<std::uint8_t*>(&bits));
   return bits;
 }
 
@@ -52,7 +54,7 @@ HWY_INLINE void MarkTriangle(const SetupTriangle& t, SampleExtent extent, const 
   const IntVec lane = hn::Iota(di, 0);
   const auto first = [&](const SampleEdge& edge) {
     const auto e = static_cast<std::int32_t>((edge.at_corner + edge.reach) >> kFractionBits);
-    return hn::Add(hn::Set(di, e), hn::Mul(hn::Set(di, edge.a), lane));
+    return hn::Set(di, e) + hn::Set(di, edge.a) * lane;
   };
   IntVec e0 = first(edges[0]), e1 = first(edges[1]), e2 = first(edges[2]);
   const IntVec a0 = hn::Set(di, edges[0].a * kLanes), b0 = hn::Set(di, edges[0].b);
@@ -63,11 +65,11 @@ HWY_INLINE void MarkTriangle(const SetupTriangle& t, SampleExtent extent, const 
     IntVec f0 = e0, f1 = e1, f2 = e2;
     std::uint64_t bits = 0;
     for (std::int32_t x = rect.x0; x <= rect.x1; x += kLanes) {
-      bits |= BitsNotNegative(hn::Or(hn::Or(f0, f1), f2)) << x;
-      f0 = hn::Add(f0, a0), f1 = hn::Add(f1, a1), f2 = hn::Add(f2, a2);
+      bits |= BitsNotNegative((f0 | f1) | f2) << x;
+      f0 = f0 + a0, f1 = f1 + a1, f2 = f2 + a2;
     }
     mask.add_to_row(y, bits & columns);
-    e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+    e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
   }
 }
 

@@ -14,10 +14,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::raster {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 using FloatTag = hn::ScalableTag<float>;
 using IntTag = hn::ScalableTag<std::int32_t>;
@@ -28,7 +30,7 @@ using IntVec = hn::Vec<IntTag>;
 template <class Mask>
 HWY_INLINE IntVec FlagIf(Mask mask, std::uint32_t flag) {
   const IntTag di;
-  return hn::IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, static_cast<int>(flag)));
+  return IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, static_cast<int>(flag)));
 }
 
 // Clip distances of one packet.
@@ -42,20 +44,20 @@ HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, c
   const FloatTag d;
   const FloatVec zero = hn::Zero(d);
   // Frustum and user planes.
-  const FloatVec minus_w = hn::Neg(w);
-  IntVec flags = FlagIf(hn::Lt(x, minus_w), kOutsideLeft);
-  flags = hn::Or(flags, FlagIf(hn::Gt(x, w), kOutsideRight));
-  flags = hn::Or(flags, FlagIf(hn::Gt(y, w), kOutsideTop));
-  flags = hn::Or(flags, FlagIf(hn::Lt(y, minus_w), kOutsideBottom));
-  flags = hn::Or(flags, FlagIf(hn::Gt(z, w), kOutsideNear));
-  flags = hn::Or(flags, FlagIf(hn::Lt(z, zero), kOutsideFar));
-  flags = hn::Or(flags, FlagIf(hn::Lt(w, hn::Set(d, kMinW)), kOutsideW));
-  flags = hn::Or(flags, FlagIf(hn::Lt(user.first, zero), kOutsideUser));
-  flags = hn::Or(flags, FlagIf(hn::Lt(user.second, zero), kOutsideUser2));
+  const FloatVec minus_w = -w;
+  IntVec flags = FlagIf(x < minus_w, kOutsideLeft);
+  flags = flags | FlagIf(x > w, kOutsideRight);
+  flags = flags | FlagIf(y > w, kOutsideTop);
+  flags = flags | FlagIf(y < minus_w, kOutsideBottom);
+  flags = flags | FlagIf(z > w, kOutsideNear);
+  flags = flags | FlagIf(z < zero, kOutsideFar);
+  flags = flags | FlagIf(w < kMinW, kOutsideW);
+  flags = flags | FlagIf(user.first < zero, kOutsideUser);
+  flags = flags | FlagIf(user.second < zero, kOutsideUser2);
   // The fused k w - |x| has the sign of the exact value, as the clipper's double has.
-  const auto out_x = hn::Lt(hn::MulSub(guard_x, w, hn::Abs(x)), zero);
-  const auto out_y = hn::Lt(hn::MulSub(guard_y, w, hn::Abs(y)), zero);
-  return hn::Or(flags, FlagIf(hn::Or(out_x, out_y), kOutsideGuard));
+  const auto out_x = MulSub(guard_x, w, Abs(x)) < zero;
+  const auto out_y = MulSub(guard_y, w, Abs(y)) < zero;
+  return flags | FlagIf(out_x | out_y, kOutsideGuard);
 }
 
 // One packet: lanes from p_clip (4 floats a vertex) and user to out.
@@ -71,26 +73,25 @@ HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, const User& user
   // Flags.
   const FloatVec guard_x = hn::Set(d, 2.0f * kGuardPx / width - 1.0f);
   const FloatVec guard_y = hn::Set(d, 2.0f * kGuardPx / height - 1.0f);
-  const auto finite = hn::And(
-      hn::And(hn::And(hn::IsFinite(x), hn::IsFinite(y)), hn::And(hn::IsFinite(z), hn::IsFinite(w))),
-      hn::And(hn::IsFinite(user.first), hn::IsFinite(user.second)));
+  const auto finite = ((hn::IsFinite(x) & hn::IsFinite(y)) & (hn::IsFinite(z) & hn::IsFinite(w))) &
+                      (hn::IsFinite(user.first) & hn::IsFinite(user.second));
   const IntVec outside = OutsideFlags(x, y, z, w, user, guard_x, guard_y);
-  const IntVec flags = hn::IfThenElse(hn::RebindMask(di, finite), outside,
-                                      hn::Set(di, static_cast<int>(kNotFinite)));
+  const IntVec flags =
+      IfThenElse(hn::RebindMask(di, finite), outside, hn::Set(di, static_cast<int>(kNotFinite)));
 
   // Only vertices that need no clipping are divided; the others become the origin.
-  const IntVec unusable = hn::And(flags, hn::Set(di, static_cast<int>(kClipFlags | kNotFinite)));
-  const auto usable = hn::RebindMask(d, hn::Eq(unusable, hn::Zero(di)));
-  const FloatVec divisor = hn::IfThenElse(usable, w, hn::Set(d, 1.0f));
-  const FloatVec x_ndc = hn::Div(hn::IfThenElseZero(usable, x), divisor);
-  const FloatVec y_ndc = hn::Div(hn::IfThenElseZero(usable, y), divisor);
-  const FloatVec depth = hn::Div(hn::IfThenElseZero(usable, z), divisor);
+  const IntVec unusable = flags & hn::Set(di, static_cast<int>(kClipFlags | kNotFinite));
+  const auto usable = hn::RebindMask(d, unusable == hn::Zero(di));
+  const FloatVec divisor = IfThenElse(usable, w, 1.0f);
+  const FloatVec x_ndc = IfThenElseZero(usable, x) / divisor;
+  const FloatVec y_ndc = IfThenElseZero(usable, y) / divisor;
+  const FloatVec depth = IfThenElseZero(usable, z) / divisor;
 
   // x_px = (x_ndc + 1) width / 2, y_px = (1 - y_ndc) height / 2, times 256, to nearest even.
   const FloatVec half_x = hn::Set(d, 0.5f * kPixelFx8 * width);
   const FloatVec half_y = hn::Set(d, 0.5f * kPixelFx8 * height);
-  const IntVec x_fx8 = hn::NearestInt(hn::MulAdd(x_ndc, half_x, half_x));
-  const IntVec y_fx8 = hn::NearestInt(hn::NegMulAdd(y_ndc, half_y, half_y));
+  const IntVec x_fx8 = hn::NearestInt(MulAdd(x_ndc, half_x, half_x));
+  const IntVec y_fx8 = hn::NearestInt(NegMulAdd(y_ndc, half_y, half_y));
   hn::StoreInterleaved4(x_fx8, y_fx8, hn::BitCast(di, depth), flags, di, out);
 }
 

@@ -13,28 +13,19 @@
 #include <cstdint>
 #include <span>
 
+#include "math/lanes-inl.h"
 #include "terrain/height_pyramid.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::terrain {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
-using D = hn::ScalableTag<float>;
-using DI = hn::RebindToSigned<D>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<DI>;
-using M = hn::Mask<D>;
-constexpr std::size_t kLanes = hn::MaxLanes(D());
-
-HWY_INLINE V Constant(float value) { return hn::Set(D(), value); }
 HWY_INLINE VI Whole(int value) { return hn::Set(DI(), value); }
 HWY_INLINE V ToFloat(VI value) { return hn::ConvertTo(D(), value); }
-HWY_INLINE VI IfI(M mask, VI yes, VI no) {
-  return hn::IfThenElse(hn::RebindMask(DI(), mask), yes, no);
-}
+HWY_INLINE VI IfI(M mask, VI yes, VI no) { return IfThenElse(hn::RebindMask(DI(), mask), yes, no); }
 HWY_INLINE VI MaskedI(M mask, VI value) {
-  return hn::IfThenElseZero(hn::RebindMask(DI(), mask), value);
+  return IfThenElseZero(hn::RebindMask(DI(), mask), value);
 }
 
 // As many values from the first on as there are, at most a packet; 0 in lanes beyond.
@@ -67,10 +58,10 @@ struct Axis {
 
 // Of blocks 2^more to 2^(more + 1) times as wide as this many cells, and 2^more cells at least.
 HWY_INLINE VI LevelOf(V cells, int more, int levels) {
-  const V some = hn::Min(hn::Max(cells, Constant(1.0f)), Constant(32768.0f));
+  const V some = Min(Max(cells, 1.0f), 32768.0f);
   // A float's exponent is its logarithm.
-  const VI log2 = hn::Sub(hn::ShiftRight<23>(hn::BitCast(DI(), some)), Whole(127));
-  return hn::Min(hn::Add(log2, Whole(more)), Whole(levels));
+  const VI log2 = hn::ShiftRight<23>(hn::BitCast(DI(), some)) - Whole(127);
+  return Min(log2 + Whole(more), Whole(levels));
 }
 
 // The codes at these numbers of an array that has one more, with the next ones in the high halves.
@@ -78,7 +69,7 @@ HWY_INLINE VI GatherTwoCodes(const std::uint16_t* codes, VI number) {
   return hn::GatherOffset(DI(), reinterpret_cast<const std::int32_t*>(codes),
                           hn::ShiftLeft<1>(number));
 }
-HWY_INLINE V LowCode(VI both) { return ToFloat(hn::And(both, Whole(0xffff))); }
+HWY_INLINE V LowCode(VI both) { return ToFloat(both & Whole(0xffff)); }
 HWY_INLINE V HighCode(VI both) {
   const hn::RebindToUnsigned<D> du;
   return ToFloat(hn::BitCast(DI(), hn::ShiftRight<16>(hn::BitCast(du, both))));
@@ -91,13 +82,12 @@ HWY_INLINE V GatherCodes(const std::uint16_t* codes, VI number) {
 struct RayHeights {
   V z, z_t, z_tt;
 
-  HWY_INLINE V At(V t) const { return hn::MulAdd(hn::MulAdd(z_tt, t, z_t), t, z); }
+  HWY_INLINE V At(V t) const { return MulAdd(MulAdd(z_tt, t, z_t), t, z); }
   // No higher than the ray between t and end.
   HWY_INLINE V LowestIn(V t, V end) const {
-    const V way = hn::Sub(end, t);
-    const V sag =
-        hn::Mul(hn::Mul(hn::Max(z_tt, hn::Zero(D())), Constant(0.25f)), hn::Mul(way, way));
-    return hn::Sub(hn::Min(At(t), At(end)), sag);
+    const V way = end - t;
+    const V sag = Max(z_tt, 0.0f) * 0.25f * (way * way);
+    return Min(At(t), At(end)) - sag;
   }
 };
 

@@ -39,8 +39,7 @@ HWY_INLINE void SampleCover(D d, const CoverMap& map, VI x_fx8, VI y_fx8, VI lev
   const VI ab23 = hn::BitCast(di, hn::InterleaveLower(d64, s2, s3));
   const VI ce23 = hn::BitCast(di, hn::InterleaveUpper(d64, s2, s3));
   const auto channel = [&](VI sum) HWY_ATTR {
-    return hn::MulAdd(hn::ConvertTo(d, sum), hn::Set(d, 1.0f / (254.0f * 255.0f * 256.0f)),
-                      hn::Set(d, 0.5f));
+    return MulAdd(hn::ConvertTo(d, sum), 1.0f / (254.0f * 255.0f * 256.0f), 0.5f);
   };
   a = channel(EvenParts(di, ab01, ab23));
   b = channel(OddParts(di, ab01, ab23));

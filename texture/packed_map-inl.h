@@ -19,12 +19,13 @@
 #include <cstring>
 
 #include "math/elementary-inl.h"
+#include "math/lanes-inl.h"
 #include "texture/packed_map.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::texture {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 // Every 64-bit word belongs to one lane. Half 0 of a packet's words are those of the lanes with
 // lane % 4 < 2, half 1 the others: the order in which InterleaveLower and InterleaveUpper widen
@@ -134,16 +135,16 @@ HWY_INLINE VI BilinearWeights(DI di, VI x_fx8, VI y_fx8) {
   const auto fx = bytes(x_fx8, kHigh);  // 256 (256 x)
   const auto fy = bytes(y_fx8, kLow);   // 256 y
   // 255 y_i in 1/256, then rounded; the tie at y = 1/2 goes up in row 1 and down in row 0.
-  const auto signed_height = hn::Mul(fy, pair(0x10000 - 255, 255));
-  const auto height = hn::Add(signed_height, pair(255 * 256, 0));
-  const auto rounded = hn::Add(signed_height, pair(255 * 256 + 127, 128));
+  const auto signed_height = fy * pair(0x10000 - 255, 255);
+  const auto height = signed_height + pair(255 * 256, 0);
+  const auto rounded = signed_height + pair(255 * 256 + 127, 128);
   const auto rows = hn::ShiftRight<8>(rounded);
   // The low byte of `rounded` is 128 - 256 e_i; 64 + 127 - byte / 2 is 256 (1 + e_i) / 2.
   const auto half_error = hn::AndNot(hn::ShiftRight<1>(rounded), hn::Set(d16, 127));
-  const auto bias = hn::Add(half_error, hn::Set(d16, 64));
-  const auto right = hn::ShiftRight<8>(hn::Add(hn::MulHigh(height, fx), bias));
+  const auto bias = half_error + hn::Set(d16, 64);
+  const auto right = hn::ShiftRight<8>(hn::MulHigh(height, fx) + bias);
   // (rows - right) + 256 right.
-  return hn::BitCast(di, hn::Add(rows, hn::Mul(right, hn::Set(d16, 255))));
+  return hn::BitCast(di, rows + right * hn::Set(d16, 255));
 }
 
 // Weights of the left and right taps of both rows, as bytes 255 - f, f, 255 - f, f for the fraction
@@ -170,7 +171,7 @@ HWY_INLINE VI LowByteTwice(DI di, VI v) {
 // coordinates' low bytes.
 template <class DI, class VI = hn::Vec<DI>>
 HWY_INLINE VI WeightsAlongY(DI di, VI y_fx8) {
-  return hn::Add(hn::Xor(LowByteTwice(di, y_fx8), hn::Set(di, 0x000000ff)), hn::Set(di, 1));
+  return hn::Xor(LowByteTwice(di, y_fx8), hn::Set(di, 0x000000ff)) + hn::Set(di, 1);
 }
 
 // The numbers of the words of texels (x, y); coordinates in 1/256 texels of each lane's level,
@@ -179,10 +180,10 @@ HWY_INLINE VI WeightsAlongY(DI di, VI y_fx8) {
 template <class DI, class Map, class VI = hn::Vec<DI>>
 HWY_INLINE VI WordIndex(DI di, const Map& map, VI x_fx8, VI y_fx8, VI level) {
   const VI mask = hn::Shr(hn::Set(di, map.size - 1), level);
-  const VI x = hn::And(hn::ShiftRight<8>(x_fx8), mask);
-  const VI y = hn::And(hn::ShiftRight<8>(y_fx8), mask);
-  const VI row = hn::Or(y, hn::Add(mask, hn::Set(di, 1)));
-  return hn::Or(hn::Shl(row, hn::Sub(hn::Set(di, map.levels - 1), level)), x);
+  const VI x = hn::ShiftRight<8>(x_fx8) & mask;
+  const VI y = hn::ShiftRight<8>(y_fx8) & mask;
+  const VI row = y | (mask + hn::Set(di, 1));
+  return hn::Shl(row, hn::Set(di, map.levels - 1) - level) | x;
 }
 
 // Where those words of `map` lie, in bytes.
@@ -237,11 +238,11 @@ HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI ba
   HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
   StoreIndex(WordOffset(di, map, x, y, base), lane_index);
 
-  const auto part_coarse = hn::BitCast(
-      d16, LowByteTwice(di, swell::HWY_NAMESPACE::RoundToInt(hn::Mul(t, hn::Set(d, kWhole)))));
-  const auto part_fine = hn::Sub(hn::Set(d16, kWhole), part_coarse);
+  const auto part_coarse =
+      hn::BitCast(d16, LowByteTwice(di, swell::HWY_NAMESPACE::RoundToInt(t * kWhole)));
+  const auto part_fine = hn::Set(d16, kWhole) - part_coarse;
   const auto weights_y = [&](VI coordinate, auto part) HWY_ATTR {
-    return hn::BitCast(di, hn::Mul(hn::BitCast(d16, WeightsAlongY(di, coordinate)), part));
+    return hn::BitCast(di, hn::BitCast(d16, WeightsAlongY(di, coordinate)) * part);
   };
   const VI fine_x = WeightsAlongX(di, x), coarse_x = WeightsAlongX(di, hn::ShiftRight<1>(x));
   const VI fine_y = weights_y(y, part_fine);
@@ -258,13 +259,13 @@ HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI ba
   const hn::Repartition<std::int64_t, D> d64;
   const auto add_levels = [&](VI even, VI odd) HWY_ATTR {
     const auto e = hn::BitCast(d64, even), o = hn::BitCast(d64, odd);
-    return hn::Add(hn::BitCast(di, hn::InterleaveLower(d64, e, o)),
-                   hn::BitCast(di, hn::InterleaveUpper(d64, e, o)));
+    return hn::BitCast(di, hn::InterleaveLower(d64, e, o)) +
+           hn::BitCast(di, hn::InterleaveUpper(d64, e, o));
   };
   const VI low = add_levels(s0, s1), high = add_levels(s2, s3);
   const V unit = hn::Set(d, gain * map.scale * (1.0f / (255.0f * 256.0f * kWhole)));
-  a = hn::MulAdd(hn::ConvertTo(d, EvenParts(di, low, high)), unit, a);
-  b = hn::MulAdd(hn::ConvertTo(d, OddParts(di, low, high)), unit, b);
+  a = MulAdd(hn::ConvertTo(d, EvenParts(di, low, high)), unit, a);
+  b = MulAdd(hn::ConvertTo(d, OddParts(di, low, high)), unit, b);
 }
 
 // What `map` holds at (x_fx8, y_fx8), as AddBlended, bilinearly on one of its mip levels a lane.
@@ -286,8 +287,8 @@ HWY_INLINE void SampleLevel(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI l
   const VI sums0 = DotWords(hn::InterleaveLower(di, weights_y, weights_y), hn::BitCast(di, rows0));
   const VI sums1 = DotWords(hn::InterleaveUpper(di, weights_y, weights_y), hn::BitCast(di, rows1));
   const V unit = hn::Set(d, map.scale * (1.0f / (255.0f * 256.0f)));
-  a = hn::Mul(hn::ConvertTo(d, EvenParts(di, sums0, sums1)), unit);
-  b = hn::Mul(hn::ConvertTo(d, OddParts(di, sums0, sums1)), unit);
+  a = hn::ConvertTo(d, EvenParts(di, sums0, sums1)) * unit;
+  b = hn::ConvertTo(d, OddParts(di, sums0, sums1)) * unit;
 }
 
 // Where a sample lies in the maps of one size: which words it takes, and how much of their taps.
@@ -313,7 +314,7 @@ HWY_INLINE hn::Vec<D> SampleAt(D d, const PackedMap1& map, const WordPlace<VI>& 
       hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.words.data()), at.index);
   const auto rows = DotPairs(hn::BitCast(d8, at.weights_x), hn::BitCast(d8, taps));
   const VI sum = DotWords(at.weights_y, hn::BitCast(di, rows));
-  return hn::Mul(hn::ConvertTo(d, sum), hn::Set(d, 1.0f / (127.0f * 255.0f * 256.0f)));
+  return hn::ConvertTo(d, sum) * (1.0f / (127.0f * 255.0f * 256.0f));
 }
 
 // What `map` holds at (x_fx8, y_fx8), on one of its mip levels a lane.
@@ -324,14 +325,14 @@ HWY_INLINE V SampleLevel(D d, const PackedMap1& map, VI x_fx8, VI y_fx8, VI leve
 
 // Window coordinate to 1/256 texels from the first texel's centre, clamped to [0, last]; NaN counts
 // as 0. At most 2^14 texels: 22 bits.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Vec<hn::RebindToSigned<D>> WindowCoordinateFx8(D d, V x_px, V last) {
-  const hn::RebindToSigned<D> di;
-  V x = hn::Sub(x_px, hn::Set(d, 0.5f));
-  x = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);  // false for NaN
-  x = hn::IfThenElse(hn::Lt(x, last), x, last);
-  const V rounded = hn::MulAdd(x, hn::Set(d, 256.0f), hn::Set(d, 12582912.0f));
-  return hn::And(hn::BitCast(di, rounded), hn::Set(di, (1 << 22) - 1));
+template <Vector V>
+HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> WindowCoordinateFx8(V x_px, V last) {
+  const hn::RebindToSigned<hn::DFromV<V>> di;
+  V x = x_px - 0.5f;
+  x = IfThenElseZero(x > 0.0f, x);  // false for NaN
+  x = IfThenElse(x < last, x, last);
+  const V rounded = MulAdd(x, 256.0f, 12582912.0f);
+  return hn::BitCast(di, rounded) & hn::Set(di, (1 << 22) - 1);
 }
 
 // One half of a packet: the four channels of each lane, 16 bits each, in [0, 255 * 255].
@@ -346,9 +347,9 @@ HWY_INLINE VB BlendRows(D8 d8, VB row0, VB row1, VB weights0, VB weights1) {
   const VB taps0 = hn::Xor(hn::TableLookupBytes(row0, order), sign);
   const VB taps1 = hn::Xor(hn::TableLookupBytes(row1, order), sign);
   // The four weights add up to 255, so the sum of (tap - 128) is 255 * 128 too small.
-  const auto sum = hn::Add(hn::BitCast(d16, DotPairs(weights0, taps0)),
-                           hn::BitCast(d16, DotPairs(weights1, taps1)));
-  return hn::BitCast(d8, hn::Add(sum, hn::Set(d16, 255 * 128)));
+  const auto sum =
+      hn::BitCast(d16, DotPairs(weights0, taps0)) + hn::BitCast(d16, DotPairs(weights1, taps1));
+  return hn::BitCast(d8, sum + hn::Set(d16, 255 * 128));
 }
 
 // The texels of an image from `begin` on, in rows of `stride`, blended at a place a lane.
@@ -362,18 +363,18 @@ HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, V
 
   // Two texels of each of two rows.
   HWY_ALIGN std::uint32_t upper_index[hn::MaxLanes(d)], lower_index[hn::MaxLanes(d)];
-  const VI row = hn::Add(begin, hn::Mul(hn::ShiftRight<8>(y_fx8), stride));
-  const VI index = hn::Add(row, hn::ShiftRight<8>(x_fx8));
+  const VI row = begin + hn::ShiftRight<8>(y_fx8) * stride;
+  const VI index = row + hn::ShiftRight<8>(x_fx8);
   StoreIndex(index, upper_index);
-  StoreIndex(hn::Add(index, stride), lower_index);
+  StoreIndex(index + stride, lower_index);
   const std::uint32_t* const texels = image.texels.data();
 
   // The weights of row 0 (low 16 bits) and row 1 (high 16 bits), each over a whole lane, then
   // widened to words: left, right for each of the four channels.
-  const auto low = hn::And(weights, hn::Set(di, 0xffff));
-  const auto row0 = hn::Or(low, hn::ShiftLeft<16>(low));
+  const auto low = weights & hn::Set(di, 0xffff);
+  const auto row0 = low | hn::ShiftLeft<16>(low);
   const auto high = hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, weights)));
-  const auto row1 = hn::Or(high, hn::ShiftLeft<16>(high));
+  const auto row1 = high | hn::ShiftLeft<16>(high);
   const auto sums0 = BlendRows(d8, LoadWords<4, 0>(d8, texels, upper_index),
                                LoadWords<4, 0>(d8, texels, lower_index),
                                hn::BitCast(d8, hn::InterleaveLower(di, row0, row0)),
@@ -387,11 +388,11 @@ HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, V
   const auto ba = OddParts(di, sums0, sums1);
   const V unit = hn::Set(d, 1.0f / (255.0f * 255.0f));
   const auto low_channel = [&](auto pair) HWY_ATTR {
-    return hn::Mul(hn::ConvertTo(d, hn::And(pair, hn::Set(di, 0xffff))), unit);
+    return hn::ConvertTo(d, pair & hn::Set(di, 0xffff)) * unit;
   };
   const auto high_channel = [&](auto pair) HWY_ATTR {
     const auto shifted = hn::ShiftRight<16>(hn::BitCast(du, pair));
-    return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, shifted)), unit);
+    return hn::ConvertTo(d, hn::BitCast(di, shifted)) * unit;
   };
   r = low_channel(rg);
   g = high_channel(rg);
@@ -407,9 +408,8 @@ HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V&
   const hn::RebindToSigned<D> di;
   const V last_x = hn::Set(d, static_cast<float>(image.width - 1));
   const V last_y = hn::Set(d, static_cast<float>(image.height - 1));
-  SampleTexels(d, image, hn::Zero(di), hn::Set(di, image.stride),
-               WindowCoordinateFx8(d, x_px, last_x), WindowCoordinateFx8(d, y_px, last_y), r, g, b,
-               a);
+  SampleTexels(d, image, hn::Zero(di), hn::Set(di, image.stride), WindowCoordinateFx8(x_px, last_x),
+               WindowCoordinateFx8(y_px, last_y), r, g, b, a);
 }
 
 // The same on one of the image's softer levels a lane; positions are of texels of level 0.
@@ -424,10 +424,10 @@ HWY_INLINE void SampleRgbaLevel(D d, const RgbaImage& image, V x_px, V y_px, VI 
   const auto integer = [&](const std::array<std::int32_t, 16>& of_level) HWY_ATTR {
     return hn::TableLookupLanes(hn::Load(di, of_level.data()), hn::IndicesFromVec(di, level));
   };
-  const V x = hn::Mul(x_px, number(image.scale_x)), y = hn::Mul(y_px, number(image.scale_y));
+  const V x = x_px * number(image.scale_x), y = y_px * number(image.scale_y);
   SampleTexels(d, image, integer(image.level_begin), integer(image.level_stride),
-               WindowCoordinateFx8(d, x, number(image.last_x)),
-               WindowCoordinateFx8(d, y, number(image.last_y)), r, g, b, a);
+               WindowCoordinateFx8(x, number(image.last_x)),
+               WindowCoordinateFx8(y, number(image.last_y)), r, g, b, a);
 }
 
 // Samples `map` bilinearly at (x_fx8, y_fx8) [1/256 texels from the first texel's centre], clamped
@@ -439,13 +439,13 @@ HWY_INLINE void SampleRgb(D d, const RgbMap& map, V x_fx8, V y_fx8, V& r, V& g, 
   const hn::Repartition<std::uint8_t, D> d8;
   const V last = hn::Set(d, static_cast<float>(256 * (map.size - 1)));
   const auto whole = [&](V v) HWY_ATTR {
-    return swell::HWY_NAMESPACE::RoundToInt(hn::Min(hn::Max(v, hn::Zero(d)), last));
+    return swell::HWY_NAMESPACE::RoundToInt(Min(Max(v, 0.0f), last));
   };
   const VI x = whole(x_fx8), y = whole(y_fx8);
   HWY_ALIGN std::uint32_t lane_offset[hn::MaxLanes(d)];
   const VI row =
       hn::ShiftLeftSame(hn::ShiftRight<8>(y), std::countr_zero(static_cast<unsigned>(map.size)));
-  StoreIndex(hn::ShiftLeft<4>(hn::Or(row, hn::ShiftRight<8>(x))), lane_offset);
+  StoreIndex(hn::ShiftLeft<4>(row | hn::ShiftRight<8>(x)), lane_offset);
 
   const VI weights_x = WeightsAlongX(di, x), weights_y = WeightsAlongY(di, y);
   // Of each lane four sums: red, green, blue, 0.
@@ -462,8 +462,8 @@ HWY_INLINE void SampleRgb(D d, const RgbMap& map, V x_fx8, V y_fx8, V& r, V& g, 
   const auto b01 = hn::BitCast(d64, hn::InterleaveUpper(di, s0, s1));
   const auto b23 = hn::BitCast(d64, hn::InterleaveUpper(di, s2, s3));
   const auto channel = [&](auto sum) HWY_ATTR {
-    return hn::MulAdd(hn::ConvertTo(d, hn::BitCast(di, sum)),
-                      hn::Set(d, 1.0f / (255.0f * 255.0f * 256.0f)), hn::Set(d, 128.0f / 255.0f));
+    return MulAdd(hn::ConvertTo(d, hn::BitCast(di, sum)), 1.0f / (255.0f * 255.0f * 256.0f),
+                  128.0f / 255.0f);
   };
   r = channel(hn::InterleaveLower(d64, rg01, rg23));
   g = channel(hn::InterleaveUpper(d64, rg01, rg23));

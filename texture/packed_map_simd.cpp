@@ -10,13 +10,14 @@
 #include <cstdint>
 
 #include "math/check.h"
+#include "math/lanes-inl.h"
 #include "math/large_array.h"
 #include "texture/packed_map.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::texture {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 // Eight lanes on every target, so that sums have one order.
 using D = hn::CappedTag<float, 8>;
@@ -29,7 +30,7 @@ float max_magnitude(const float* HWY_RESTRICT values, std::size_t count) {
   auto largest = hn::Zero(d);
   std::size_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
-    largest = hn::Max(hn::Abs(hn::LoadU(d, values + i)), largest);
+    largest = Max(Abs(hn::LoadU(d, values + i)), largest);
   }
   float result = hn::GetLane(hn::MaxOfLanes(d, largest));
   for (; i < count; ++i) result = std::max(result, std::abs(values[i]));
@@ -46,7 +47,7 @@ double sum_of_squares(const float* HWY_RESTRICT row, int size) {
     auto sum = hn::Zero(d);
     for (int i = 0; i < size; i += kLanes) {
       const auto value = hn::LoadU(d, row + i);
-      sum = hn::MulAdd(value, value, sum);
+      sum = MulAdd(value, value, sum);
     }
     hn::Store(sum, d, columns);
   }
@@ -63,8 +64,8 @@ void quantize_row(const float* HWY_RESTRICT row, int size, float per_unit,
   const hn::Rebind<std::int8_t, D> d8;
   const auto limit = hn::Set(d, 127.0f);
   const auto quantize = [&](auto value) HWY_ATTR {
-    const auto scaled = hn::Mul(value, hn::Set(d, per_unit));
-    return hn::NearestInt(hn::Min(hn::Max(scaled, hn::Neg(limit)), limit));
+    const auto scaled = value * per_unit;
+    return hn::NearestInt(Min(Max(scaled, -limit), limit));
   };
   if (size < kLanes) {
     HWY_ALIGN float padded[kLanes] = {};
@@ -95,10 +96,8 @@ void filter_row(const float* HWY_RESTRICT above, const float* HWY_RESTRICT row,
     }
     return;
   }
-  const auto tent = [&](auto left, auto middle, auto right) HWY_ATTR {
-    return hn::Add(hn::Mul(hn::Set(d, 0.25f), hn::Add(left, right)),
-                   hn::Mul(hn::Set(d, 0.5f), middle));
-  };
+  const auto tent = [&](auto left, auto middle, auto right)
+                        HWY_ATTR { return 0.25f * (left + right) + 0.5f * middle; };
   for (int x = 0; x < size; x += kLanes) {
     const auto v = tent(hn::LoadU(d, above + x), hn::LoadU(d, row + x), hn::LoadU(d, below + x));
     hn::StoreU(v, d, column + x + 1);
@@ -173,8 +172,8 @@ double squared_differences(const float* HWY_RESTRICT from, const float* HWY_REST
   auto sum = hn::Zero(d);
   int i = 0;
   for (; i + kLanes + shift <= size; i += kLanes) {
-    const auto difference = hn::Sub(hn::LoadU(d, to + i + shift), hn::LoadU(d, from + i));
-    sum = hn::MulAdd(difference, difference, sum);
+    const auto difference = hn::LoadU(d, to + i + shift) - hn::LoadU(d, from + i);
+    sum = MulAdd(difference, difference, sum);
   }
   HWY_ALIGN float columns[kLanes];
   hn::Store(sum, d, columns);

@@ -9,11 +9,12 @@
 #include "texture/uv_noise.h"
 //
 #include "math/elementary-inl.h"
+#include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::texture {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 void unit_vectors(const float* HWY_RESTRICT turns, std::size_t count, float* HWY_RESTRICT cos_out,
                   float* HWY_RESTRICT sin_out) {

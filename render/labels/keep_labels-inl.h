@@ -32,7 +32,7 @@ struct KeepLabels {
       put(surfel.flags, labels.flags.data());
     };
     const auto index = hn::LoadU(d16, at);
-    if (hn::AllTrue(d16, hn::Eq(index, hn::Iota(d16, at[0])))) {
+    if (hn::AllTrue(d16, index == hn::Iota(d16, at[0]))) {
       store([&](V v, float* to) HWY_ATTR { hn::StoreU(v, d, to + at[0]); });
       return;
     }

@@ -18,10 +18,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-using DU = hn::RebindToUnsigned<D>;
-using VU = hn::Vec<DU>;
-using Mask = hn::Mask<D>;
-
 // --- Stores: of the first `count` lanes
 
 HWY_INLINE void StoreLanes(V v, std::size_t count, float* to) {
@@ -70,16 +66,16 @@ struct LabelPacket {
   V depth;       // [m]; +inf where the sky is seen
   V3 ray;        // of depth 1
   VU primitive;
-  Mask is_sky, is_water, is_object, is_tree;
-  Mask is_sea;          // of water, the sea
+  M is_sky, is_water, is_object, is_tree;
+  M is_sea;             // of water, the sea
   std::size_t tile_at;  // of the first pixel in the tile's buffers
   std::size_t count;    // of pixels in the picture
 };
 
-HWY_INLINE Mask InRange(const PrimitiveRanges& ranges, SurfaceKind kind, VU primitive) {
+HWY_INLINE M InRange(const PrimitiveRanges& ranges, SurfaceKind kind, VU primitive) {
   const DU du;
   const std::uint32_t begin = ranges.begin(kind), size = ranges.end(kind) - begin;
-  return hn::RebindMask(D(), hn::Lt(hn::Sub(primitive, hn::Set(du, begin)), hn::Set(du, size)));
+  return hn::RebindMask(D(), primitive - hn::Set(du, begin) < hn::Set(du, size));
 }
 
 // What packets are made from. A copy, so that storing labels cannot be thought to change it.
@@ -104,39 +100,36 @@ HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   const bool open_sky = !s.depth;
   p.primitive =
       open_sky ? hn::Set(du, raster::kNoPrimitive) : hn::LoadU(du, s.primitive + p.tile_at);
-  p.is_sky = hn::RebindMask(d, hn::Eq(p.primitive, hn::Set(du, raster::kNoPrimitive)));
+  p.is_sky = hn::RebindMask(d, p.primitive == hn::Set(du, raster::kNoPrimitive));
   p.is_sea = InRange(s.primitives, SurfaceKind::kWater, p.primitive);
-  p.is_water = hn::Or(p.is_sea, InRange(s.primitives, SurfaceKind::kRivers, p.primitive));
+  p.is_water = p.is_sea | InRange(s.primitives, SurfaceKind::kRivers, p.primitive);
   p.is_object = InRange(s.primitives, SurfaceKind::kObjects, p.primitive);
   p.is_tree = InRange(s.primitives, SurfaceKind::kTrees, p.primitive);
   // So far that floats have no depth for it, a surface is not at infinity all the same.
   const V z = open_sky ? hn::Zero(d) : hn::LoadU(d, s.depth + p.tile_at);
-  p.z = hn::IfThenZeroElse(p.is_sky, hn::Max(z, Constant(1e-30f)));
-  p.depth = hn::IfThenElse(p.is_sky, Constant(std::numeric_limits<float>::infinity()),
-                           hn::Div(Constant(s.rays.near_m), p.z));
+  p.z = hn::IfThenZeroElse(p.is_sky, Max(z, 1e-30f));
+  p.depth = IfThenElse(p.is_sky, std::numeric_limits<float>::infinity(), s.rays.near_m / p.z);
   return p;
 }
 
 // A table's vectors by the number of the packet's primitives, less first; of lanes outside `where`
 // any of them.
-HWY_INLINE V3 GatherAt(std::span<const glm::vec3> table, std::uint32_t first, const Mask& where,
+HWY_INLINE V3 GatherAt(std::span<const glm::vec3> table, std::uint32_t first, const M& where,
                        const LabelPacket& p) {
   const D d;
   const DU du;
-  const VU number =
-      hn::IfThenElseZero(hn::RebindMask(du, where), hn::Sub(p.primitive, hn::Set(du, first)));
+  const VU number = IfThenElseZero(hn::RebindMask(du, where), p.primitive - hn::Set(du, first));
   // Neighbours often share a triangle, and gathers are slow.
   const std::uint32_t one = hn::GetLane(number);
-  if (hn::AllTrue(du, hn::Eq(number, hn::Set(du, one)))) return Constant(table[one]);
-  const VI at = hn::BitCast(DI(), hn::Add(number, hn::Add(number, number)));
+  if (hn::AllTrue(du, number == hn::Set(du, one))) return Constant(table[one]);
+  const VI at = hn::BitCast(DI(), number + (number + number));
   const float* const base = &table[0].x;
   return {hn::GatherIndex(d, base, at), hn::GatherIndex(d, base + 1, at),
           hn::GatherIndex(d, base + 2, at)};
 }
 
-HWY_INLINE V3 OnlyWhere(const Mask& where, V3 v) {
-  return {hn::IfThenElseZero(where, v.x), hn::IfThenElseZero(where, v.y),
-          hn::IfThenElseZero(where, v.z)};
+HWY_INLINE V3 OnlyWhere(const M& where, V3 v) {
+  return {IfThenElseZero(where, v.x), IfThenElseZero(where, v.y), IfThenElseZero(where, v.z)};
 }
 
 // Calls visit(lane, primitive) where a lane shows an object.
@@ -171,9 +164,9 @@ template <class OfObject, class OfTree>
 HWY_INLINE VU NumberOf(const LabelSources& in, const LabelPacket& p, VU sky, VU water, VU land,
                        const OfObject& of_object, const OfTree& of_tree) {
   const DU du;
-  const VU number = hn::IfThenElse(hn::RebindMask(du, p.is_sky), sky,
-                                   hn::IfThenElse(hn::RebindMask(du, p.is_water), water, land));
-  if (hn::AllFalse(D(), hn::Or(p.is_object, p.is_tree))) return number;
+  const VU number = IfThenElse(hn::RebindMask(du, p.is_sky), sky,
+                               IfThenElse(hn::RebindMask(du, p.is_water), water, land));
+  if (hn::AllFalse(D(), p.is_object | p.is_tree)) return number;
   HWY_ALIGN std::array<std::uint32_t, kLanes> lanes;
   hn::Store(number, du, lanes.data());
   VisitObjects(in, p, [&](std::size_t lane, const ObjectPrimitive& shown) {
@@ -193,8 +186,8 @@ HWY_INLINE VU IdOf(const LabelSources& in, const LabelPacket& p) {
 
 HWY_INLINE VU ClassOf(const LabelSources& in, const LabelPacket& p, V foam) {
   const DU du;
-  const auto is_foam = hn::RebindMask(du, hn::Gt(foam, Constant(0.5f)));
-  const VU water = hn::IfThenElse(is_foam, hn::Set(du, kFoamClass), hn::Set(du, kWaterClass));
+  const auto is_foam = hn::RebindMask(du, foam > 0.5f);
+  const VU water = IfThenElse(is_foam, hn::Set(du, kFoamClass), hn::Set(du, kWaterClass));
   return NumberOf(
       in, p, hn::Set(du, kSkyClass), water, hn::Set(du, kTerrainClass),
       [&](std::uint32_t object) { return in.world.object_classes[object]; },
@@ -205,9 +198,9 @@ HWY_INLINE V3 ShadedNormal(const LabelTile& tile, const LabelPacket& p) {
   const D d;
   if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const ShadedLabels& s = *tile.shaded;
-  return OnlyWhere(hn::Not(p.is_sky), {hn::LoadU(d, s.normal_x.data() + p.tile_at),
-                                       hn::LoadU(d, s.normal_y.data() + p.tile_at),
-                                       hn::LoadU(d, s.normal_z.data() + p.tile_at)});
+  return OnlyWhere(!p.is_sky, {hn::LoadU(d, s.normal_x.data() + p.tile_at),
+                               hn::LoadU(d, s.normal_y.data() + p.tile_at),
+                               hn::LoadU(d, s.normal_z.data() + p.tile_at)});
 }
 
 // Sets the normals of land that rays find.
@@ -216,8 +209,8 @@ HWY_INLINE void TakeCastLand(const LabelSources& in, const LabelPacket& p, V3& n
   HWY_ALIGN std::array<std::uint32_t, kLanes> primitive;
   HWY_ALIGN std::array<float, kLanes> rel_x, rel_y, x, y, z;
   hn::Store(p.primitive, DU(), primitive.data());
-  hn::Store(hn::Mul(p.depth, p.ray.x), d, rel_x.data());
-  hn::Store(hn::Mul(p.depth, p.ray.y), d, rel_y.data());
+  hn::Store(p.depth * p.ray.x, d, rel_x.data());
+  hn::Store(p.depth * p.ray.y, d, rel_y.data());
   hn::Store(normal.x, d, x.data());
   hn::Store(normal.y, d, y.data());
   hn::Store(normal.z, d, z.data());
@@ -233,15 +226,15 @@ HWY_INLINE void TakeCastLand(const LabelSources& in, const LabelPacket& p, V3& n
 HWY_INLINE V3 GeometricNormal(const LabelSources& in, const LabelTile& tile, const LabelPacket& p) {
   const D d;
   if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  const Mask is_surface = hn::Not(p.is_sky);
+  const M is_surface = !p.is_sky;
   V3 normal = OnlyWhere(is_surface, GatherAt(in.tables.normal, 0, is_surface, p));
   if (in.world.land_rays) TakeCastLand(in, p, normal);
   if (!tile.shaded) return normal;
-  const Mask is_form = hn::And(p.is_object, hn::Eq(Dot(normal, normal), hn::Zero(d)));
+  const M is_form = p.is_object & (Dot(normal, normal) == hn::Zero(d));
   if (hn::AllFalse(d, is_form)) return normal;
   const V3 shaded = ShadedNormal(tile, p);
-  return {hn::IfThenElse(is_form, shaded.x, normal.x), hn::IfThenElse(is_form, shaded.y, normal.y),
-          hn::IfThenElse(is_form, shaded.z, normal.z)};
+  return {IfThenElse(is_form, shaded.x, normal.x), IfThenElse(is_form, shaded.y, normal.y),
+          IfThenElse(is_form, shaded.z, normal.z)};
 }
 
 // What the shader has left of the water; 0 elsewhere.
@@ -249,7 +242,7 @@ template <class Plane>
 HWY_INLINE V OfWater(const Plane& plane, const LabelPacket& p) {
   const D d;
   if (hn::AllFalse(d, p.is_water)) return hn::Zero(d);
-  return hn::IfThenElseZero(p.is_water, hn::LoadU(d, plane.data() + p.tile_at));
+  return IfThenElseZero(p.is_water, hn::LoadU(d, plane.data() + p.tile_at));
 }
 
 HWY_INLINE V FoamOf(const LabelTile& tile, const LabelPacket& p) {
@@ -259,13 +252,13 @@ HWY_INLINE V FoamOf(const LabelTile& tile, const LabelPacket& p) {
 
 // How far the sea has sunk where a packet's pixels look, on a round earth.
 HWY_INLINE V DropOf(const ViewRays& rays, const LabelPacket& p) {
-  const V x = hn::Mul(p.depth, p.ray.x), y = hn::Mul(p.depth, p.ray.y);
-  return hn::Mul(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(rays.drop_per_m2));
+  const V x = p.depth * p.ray.x, y = p.depth * p.ray.y;
+  return MulAdd(x, x, y * y) * rays.drop_per_m2;
 }
 
 HWY_INLINE V ElevationOf(const Shading& s, const LabelPacket& p) {
-  const V height = hn::MulAdd(p.depth, p.ray.z, Constant(s.rays.eye_z));
-  return hn::IfThenElseZero(p.is_water, hn::Add(height, DropOf(s.rays, p)));
+  const V height = MulAdd(p.depth, p.ray.z, s.rays.eye_z);
+  return IfThenElseZero(p.is_water, height + DropOf(s.rays, p));
 }
 
 // How far what is seen moves in the world to the next frame.
@@ -275,8 +268,8 @@ HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
   if (!hn::AllFalse(d, p.is_sea)) {
     const V3 rise =
         GatherAt(in.tables.rise, in.shading.primitives.begin(SurfaceKind::kWater), p.is_sea, p);
-    const V x = hn::Mul(p.depth, p.ray.x), y = hn::Mul(p.depth, p.ray.y);
-    move.z = hn::IfThenElseZero(p.is_sea, hn::MulAdd(rise.z, y, hn::MulAdd(rise.y, x, rise.x)));
+    const V x = p.depth * p.ray.x, y = p.depth * p.ray.y;
+    move.z = IfThenElseZero(p.is_sea, MulAdd(rise.z, y, MulAdd(rise.y, x, rise.x)));
   }
   if (hn::AllFalse(d, p.is_object)) return move;
   HWY_ALIGN std::array<float, kLanes> depth, ray_x, ray_y, ray_z, x, y, z;
@@ -300,8 +293,7 @@ HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
 
 // m v + b
 HWY_INLINE V3 MultiplyAdd(const glm::mat3& m, V3 v, V3 b) {
-  return ScaleAdd(Constant(m[0]), v.x,
-                  ScaleAdd(Constant(m[1]), v.y, ScaleAdd(Constant(m[2]), v.z, b)));
+  return MulAdd(Constant(m[0]), v.x, MulAdd(Constant(m[1]), v.y, MulAdd(Constant(m[2]), v.z, b)));
 }
 
 // CameraMotion's formula: with q = (x, y, 1) and m what is added to q, the point moves by
@@ -309,17 +301,17 @@ HWY_INLINE V3 MultiplyAdd(const glm::mat3& m, V3 v, V3 b) {
 HWY_INLINE void StoreMotion(const LabelSources& in, const LabelPacket& p, glm::vec2* to) {
   const CameraMotion& camera = in.tables.camera;
   const raster::Viewport viewport = in.shading.viewport;
-  const V x = hn::Add(p.x_px, Constant(0.5f - 0.5f * static_cast<float>(viewport.width_px)));
-  const V y = hn::Add(p.y_px, Constant(0.5f - 0.5f * static_cast<float>(viewport.height_px)));
-  const V inverse_depth = hn::Mul(p.z, Constant(1.0f / in.shading.rays.near_m));
+  const V x = p.x_px + (0.5f - 0.5f * static_cast<float>(viewport.width_px));
+  const V y = p.y_px + (0.5f - 0.5f * static_cast<float>(viewport.height_px));
+  const V inverse_depth = p.z * (1.0f / in.shading.rays.near_m);
   const V3 moved = MultiplyAdd(camera.next, MoveOf(in, p), Constant(camera.shift));
-  const V3 added = MultiplyAdd(camera.turn, {x, y, Constant(1.0f)}, Scale(moved, inverse_depth));
-  const V ahead = hn::Add(Constant(1.0f), added.z);
-  const Mask is_ahead = hn::Gt(ahead, Constant(1e-6f));
-  const V inverse = hn::Div(Constant(1.0f), hn::IfThenElse(is_ahead, ahead, Constant(1.0f)));
-  const V dx = hn::Mul(hn::NegMulAdd(x, added.z, added.x), inverse);
-  const V dy = hn::Mul(hn::NegMulAdd(y, added.z, added.y), inverse);
-  StoreLanes(hn::IfThenElseZero(is_ahead, dx), hn::IfThenElseZero(is_ahead, dy), p.count, to);
+  const V3 added = MultiplyAdd(camera.turn, {x, y, Constant(1.0f)}, moved * inverse_depth);
+  const V ahead = 1.0f + added.z;
+  const M is_ahead = ahead > 1e-6f;
+  const V inverse = 1.0f / IfThenElse(is_ahead, ahead, 1.0f);
+  const V dx = NegMulAdd(x, added.z, added.x) * inverse;
+  const V dy = NegMulAdd(y, added.z, added.y) * inverse;
+  StoreLanes(IfThenElseZero(is_ahead, dx), IfThenElseZero(is_ahead, dy), p.count, to);
 }
 
 // Calls put(packet, at) for the tile's packets; `at`: of the first pixel in the picture. What `put`
@@ -348,7 +340,7 @@ HWY_INLINE V FlagsOf(const LabelTile& tile, const LabelPacket& p) {
   const hn::Rebind<std::uint8_t, D> d8;
   const V in_water =
       hn::ConvertTo(d, hn::PromoteTo(DI(), hn::LoadU(d8, tile.in_water.data() + p.tile_at)));
-  return hn::MulAdd(in_water, Constant(static_cast<float>(kSeenInWater)), of_water);
+  return MulAdd(in_water, static_cast<float>(kSeenInWater), of_water);
 }
 
 // What needs no more of a packet than its depth or its primitives: a loop each, which leaves out

@@ -25,9 +25,9 @@ HWY_NOINLINE static V BumpLight(const Shading& s, const SlopeLayer& detail_layer
   V detail = one, same = zero, unused = zero;
   AddSlopes(detail_layer, packet.p, level_m, zero, zero, detail, same, unused);
   const glm::vec3 sun = s.light.sun_direction;
-  const V lit = hn::Max(Dot(normal, Constant(sun)), zero);
-  const V sunny = hn::Mul(lit, Constant(1.0f / std::max(sun.z, 0.2f)));
-  return hn::Mul(detail, Lerp(one, sunny, sun_visible));
+  const V lit = Max(Dot(normal, Constant(sun)), zero);
+  const V sunny = lit * (1.0f / std::max(sun.z, 0.2f));
+  return detail * Lerp(one, sunny, sun_visible);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -26,23 +26,20 @@ HWY_INLINE UnderTrees FindUnderTrees(const Canopy& canopy, const SquareMap& sun_
   const V zero = hn::Zero(d), one = Constant(1.0f);
   if (!canopy.cover.map) return {zero, zero, one, one};
   const V cover = SampleSquare(canopy.cover, packet.p, level_m, zero);
-  const V shade = hn::Sub(one, SampleSquare(sun_left, packet.p, level_m, one));
+  const V shade = one - SampleSquare(sun_left, packet.p, level_m, one);
   const V across = FootprintAcross(rays, packet);
-  const V far =
-      Clamp(hn::Mul(hn::Sub(across, Constant(canopy.near_log2_m)), Constant(canopy.per_log2)), 0.0f,
-            1.0f);
+  const V far = Clamp((across - canopy.near_log2_m) * canopy.per_log2, 0.0f, 1.0f);
   // From afar the crowns are seen, which the sun shines on, and less and less of their shade.
-  const V near = hn::NegMulAdd(far, cover, one);
-  return {cover, far, hn::NegMulAdd(shade, near, one),
-          hn::NegMulAdd(hn::Mul(cover, near), Constant(0.55f), one)};
+  const V near = NegMulAdd(far, cover, one);
+  return {cover, far, NegMulAdd(shade, near, one), NegMulAdd(cover * near, 0.55f, one)};
 }
 
 // Litter lies under trees that are drawn; from afar their crowns are seen.
 HWY_INLINE V3 ColourUnderTrees(const Canopy& canopy, const UnderTrees& under, V3 ground) {
   if (!canopy.cover.map) return ground;
   const V3 litter = {Constant(0.060f), Constant(0.052f), Constant(0.028f)};
-  const V3 floor = Lerp(ground, litter, hn::Mul(under.cover, Constant(0.65f)));
-  return Lerp(floor, Constant(canopy.crowns), hn::Mul(under.cover, under.far));
+  const V3 floor = Lerp(ground, litter, under.cover * 0.65f);
+  return Lerp(floor, Constant(canopy.crowns), under.cover * under.far);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -25,19 +25,17 @@ template <bool kNearest>
 HWY_INLINE V CausticWeight(const Caustics& caustics, std::size_t k, V depth) {
   const auto& at = caustics.depth_m;
   if constexpr (kNearest) {
-    const V contrast = k == 0 ? hn::Mul(depth, Constant(1.0f / at[k]))
-                              : hn::Div(Constant(at.back()), hn::Max(depth, Constant(at.back())));
+    const V contrast = k == 0 ? depth * (1.0f / at[k]) : at.back() / Max(depth, at.back());
     const float first = k > 0 ? 0.5f * (at[k - 1] + at[k]) : 0.0f;
     const float end = k + 1 < at.size() ? 0.5f * (at[k] + at[k + 1]) : 1e30f;
-    const auto here = hn::And(hn::Ge(depth, Constant(first)), hn::Lt(depth, Constant(end)));
-    return hn::IfThenElseZero(here, hn::Min(contrast, Constant(1.0f)));
+    const auto here = (depth >= first) & (depth < end);
+    return IfThenElseZero(here, Min(contrast, 1.0f));
   }
   const float before = k > 0 ? at[k - 1] : 0.0f;
-  const V rising = hn::Mul(hn::Sub(depth, Constant(before)), Constant(1.0f / (at[k] - before)));
-  const V falling = k + 1 < at.size() ? hn::Mul(hn::Sub(Constant(at[k + 1]), depth),
-                                                Constant(1.0f / (at[k + 1] - at[k])))
-                                      : hn::Div(Constant(at[k]), hn::Max(depth, Constant(at[k])));
-  return Clamp(hn::Min(rising, falling), 0.0f, 1.0f);
+  const V rising = (depth - before) * (1.0f / (at[k] - before));
+  const V falling = k + 1 < at.size() ? (at[k + 1] - depth) * (1.0f / (at[k + 1] - at[k]))
+                                      : at[k] / Max(depth, at[k]);
+  return Clamp(Min(rising, falling), 0.0f, 1.0f);
 }
 
 // Where a packet lies in a patch's maps, on the nearest level.
@@ -48,21 +46,19 @@ struct CausticPlace {
 
 HWY_INLINE CausticPlace PlaceInCaustics(const CausticPatch& patch, V x, V y, V level_m) {
   const LayerPlace place = PlaceIn(patch, x, y);
-  const V level = Clamp(hn::Add(level_m, Constant(patch.log2_texels_per_m)), 0.0f, kAllCausticLost);
-  const V shown = hn::Mul(hn::Sub(Constant(kAllCausticLost), level),
-                          Constant(1.0f / (kAllCausticLost - kFirstCausticLost)));
-  return {texture::HWY_NAMESPACE::PlaceOnLevel(DI(), *patch.map[0], RoundToInt(place.x_fx8),
-                                               RoundToInt(place.y_fx8),
-                                               TruncateToInt(hn::Add(level, Constant(0.5f)))),
-          hn::Min(shown, Constant(1.0f))};
+  const V level = Clamp(level_m + patch.log2_texels_per_m, 0.0f, kAllCausticLost);
+  const V shown = (kAllCausticLost - level) * (1.0f / (kAllCausticLost - kFirstCausticLost));
+  return {
+      texture::HWY_NAMESPACE::PlaceOnLevel(DI(), *patch.map[0], RoundToInt(place.x_fx8),
+                                           RoundToInt(place.y_fx8), TruncateToInt(level + 0.5f)),
+      Min(shown, 1.0f)};
 }
 
 // Intensity by one map.
 HWY_INLINE V SampleCaustic(const texture::PackedMap1& map, const CausticPlace& at) {
   const V code = texture::HWY_NAMESPACE::SampleAt(D(), map, at.words);
-  const V more = hn::MulAdd(code, Constant(0.5f * CausticMaps::kRange),
-                            Constant(0.5f * CausticMaps::kRange - 1.0f));
-  return hn::MulAdd(more, at.shown, Constant(1.0f));
+  const V more = MulAdd(code, 0.5f * CausticMaps::kRange, 0.5f * CausticMaps::kRange - 1.0f);
+  return MulAdd(more, at.shown, 1.0f);
 }
 
 // T' = T + Cc N, N of the ripples at T. Source: Ma, Zhu, Gong, 2006.
@@ -73,8 +69,8 @@ HWY_NOINLINE static void BendLookup(const Caustics& caustics, V level_m, V& x, V
     AddSlopes(caustics.ripples.layers[static_cast<std::size_t>(i)], {x, y, zero}, level_m, zero,
               zero, slope_x, slope_y, unused);
   const V by = Constant(caustics.bend_m);
-  x = hn::NegMulAdd(slope_x, by, x);
-  y = hn::NegMulAdd(slope_y, by, y);
+  x = NegMulAdd(slope_x, by, x);
+  y = NegMulAdd(slope_y, by, y);
 }
 
 // The sun's light on points p, `depth` under the water (0 or more), relative to the eye, against
@@ -87,9 +83,9 @@ HWY_NOINLINE static V GatheredSunAt(const Shading& s, std::size_t patches, const
   const D d;
   const Caustics& caustics = s.caustics;
   const V zero = hn::Zero(d), one = Constant(1.0f);
-  if (patches == 0 || hn::AllFalse(d, hn::Gt(depth, zero))) return one;
-  V x = hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x);
-  V y = hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y);
+  if (patches == 0 || hn::AllFalse(d, depth > zero)) return one;
+  V x = MulAdd(depth, s.sun_shadow.entry.x, p.x);
+  V y = MulAdd(depth, s.sun_shadow.entry.y, p.y);
   if (!kNearest && caustics.bend_m > 0.0f) BendLookup(caustics, level_m, x, y);
   std::array<CausticPlace, CausticMaps::kMostPatches> places;
   for (std::size_t i = 0; i < patches; ++i)
@@ -97,27 +93,27 @@ HWY_NOINLINE static V GatheredSunAt(const Shading& s, std::size_t patches, const
   V more = zero;
   for (std::size_t k = 0; k < CausticMaps::kDepths; ++k) {
     const V weight = CausticWeight<kNearest>(caustics, k, depth);
-    if (hn::AllFalse(d, hn::Gt(weight, zero))) continue;
+    if (hn::AllFalse(d, weight > zero)) continue;
     V intensity = one;
     for (std::size_t i = 0; i < patches; ++i)
-      if (!hn::AllFalse(d, hn::Gt(places[i].shown, zero)))
-        intensity = hn::Mul(intensity, SampleCaustic(*caustics.patch[i].map[k], places[i]));
-    more = hn::MulAdd(hn::Sub(intensity, one), weight, more);
+      if (!hn::AllFalse(d, places[i].shown > zero))
+        intensity = intensity * SampleCaustic(*caustics.patch[i].map[k], places[i]);
+    more = MulAdd(intensity - one, weight, more);
   }
-  return hn::MulAdd(more, Constant(caustics.strength), one);
+  return MulAdd(more, caustics.strength, one);
 }
 
 // The same under the sea's level.
 template <bool kNearest = false>
 HWY_INLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
-  const V depth = hn::Max(hn::Sub(Constant(-s.rays.eye_z), p.z), hn::Zero(D()));
+  const V depth = Max(-s.rays.eye_z - p.z, 0.0f);
   return GatheredSunAt<kNearest>(s, s.caustics.patches, p, depth, level_m);
 }
 
 // Whether pixels of this footprint show any pattern of the shortest patch.
 HWY_INLINE hn::Mask<D> ShowsShortCaustics(const Caustics& caustics, V level_m) {
   if (caustics.patches == 0) return hn::MaskFromVec(hn::Zero(D()));
-  return hn::Lt(level_m, Constant(kAllCausticLost - caustics.patch[0].log2_texels_per_m));
+  return level_m < kAllCausticLost - caustics.patch[0].log2_texels_per_m;
 }
 
 }  // namespace HWY_NAMESPACE

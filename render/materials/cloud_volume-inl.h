@@ -20,8 +20,8 @@ struct LatticePlace {
 };
 
 HWY_INLINE LatticePlace PlaceOnLattice(V x) {
-  const V whole = hn::Floor(x);
-  return {hn::ConvertTo(DI(), whole), hn::Sub(x, whole)};
+  const V whole = Floor(x);
+  return {hn::ConvertTo(DI(), whole), x - whole};
 }
 
 // The 64 bits that begin at an entry of a table: their lower and upper halves.
@@ -43,8 +43,8 @@ HWY_INLINE WordHalves LoadWords(const std::vector<Entry>& entries, VI at) {
 // Where the entry of a place stands in a table of 2^n x (2^n + 1) to a level.
 HWY_INLINE VI EntryAt(VI x, VI y, VI z, int n) {
   const VI wrap = hn::Set(DI(), (1 << n) - 1);
-  const VI row = hn::Add(hn::ShiftLeftSame(z, n), hn::And(y, wrap));
-  return hn::Add(hn::Add(hn::ShiftLeftSame(row, n), row), hn::And(x, wrap));
+  const VI row = hn::ShiftLeftSame(z, n) + (y & wrap);
+  return hn::ShiftLeftSame(row, n) + row + (x & wrap);
 }
 
 // Weights of an interpolation between entries and between the halves of each, as multiples of
@@ -56,10 +56,10 @@ struct HalfWeights {
 
 HWY_INLINE HalfWeights WeightsOf(V part_of_entries, V part_of_halves) {
   const DI di;
-  const VI x = hn::ConvertTo(di, hn::Mul(part_of_entries, Constant(128.0f)));
-  const VI y = hn::ConvertTo(di, hn::Mul(part_of_halves, Constant(128.0f)));
-  const VI both = hn::Sub(hn::Add(hn::ShiftLeft<16>(y), hn::Set(di, 128)), y);
-  return {hn::BitCast(Halves(), hn::Or(hn::ShiftLeft<16>(x), x)), hn::BitCast(Halves(), both)};
+  const VI x = hn::ConvertTo(di, part_of_entries * 128.0f);
+  const VI y = hn::ConvertTo(di, part_of_halves * 128.0f);
+  const VI both = hn::ShiftLeft<16>(y) + hn::Set(di, 128) - y;
+  return {hn::BitCast(Halves(), hn::ShiftLeft<16>(x) | x), hn::BitCast(Halves(), both)};
 }
 
 // Between two entries of four bytes, and between the halves of each: what that is of the even and
@@ -73,9 +73,8 @@ HWY_INLINE BytesBetween BetweenEntries(const WordHalves& word, const HalfWeights
   const Halves dh;
   const VI low = hn::Set(di, 0x00ff00ff);
   const auto between = [&](VI a, VI b) HWY_ATTR {
-    const auto first = hn::BitCast(dh, hn::And(a, low)), next = hn::BitCast(dh, hn::And(b, low));
-    const auto mixed =
-        hn::Add(hn::ShiftLeft<7>(first), hn::Mul(hn::Sub(next, first), weights.entries));
+    const auto first = hn::BitCast(dh, a & low), next = hn::BitCast(dh, b & low);
+    const auto mixed = hn::ShiftLeft<7>(first) + (next - first) * weights.entries;
     VI rest = hn::Zero(di);
     const VI sum = hn::ReorderWidenMulAccumulate(di, mixed, weights.halves, hn::Zero(di), rest);
     return hn::ConvertTo(D(), hn::RearrangeToOddPlusEven(sum, rest));
@@ -93,14 +92,14 @@ HWY_INLINE V SampleCorners(const CornerVolume& volume, V x, V y, V z) {
   const WordHalves word =
       LoadWords(volume.entries, EntryAt(px.cell, py.cell, pz.cell, volume.side_log2));
   const BytesBetween levels = BetweenEntries(word, WeightsOf(px.part, py.part));
-  return hn::Mul(Lerp(levels.even, levels.odd, pz.part), Constant(kPerCorner));
+  return Lerp(levels.even, levels.odd, pz.part) * kPerCorner;
 }
 
 // Small forms at a place in their points, which repeat along all axes.
 HWY_INLINE V SampleDetail(const CornerVolume& detail, V x, V y, V z) {
   const auto side = static_cast<float>(detail.side());
-  const V turns = hn::Floor(hn::Mul(z, Constant(1.0f / side)));
-  return SampleCorners(detail, x, y, hn::NegMulAdd(turns, Constant(side), z));
+  const V turns = Floor(z * (1.0f / side));
+  return SampleCorners(detail, x, y, NegMulAdd(turns, side, z));
 }
 
 HWY_INLINE V ColumnsAt(const CloudVolume& volume, V x, V y) {
@@ -112,20 +111,18 @@ HWY_INLINE V ColumnsAt(const CloudVolume& volume, V x, V y) {
     const V low = hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)));
     return Lerp(low, hn::ConvertTo(d, hn::ShiftRight<16>(pair)), py.part);
   };
-  return hn::Mul(Lerp(along_y(word.lower), along_y(word.upper), px.part),
-                 Constant(volume.column_step));
+  return Lerp(along_y(word.lower), along_y(word.upper), px.part) * volume.column_step;
 }
 
 // What of the form at a place in voxels changes evenly from point to point: of a layer, without its
 // profile, base and top.
 HWY_INLINE V BodyAt(const CloudVolume& volume, V x, V y, V z) {
   if (!volume.is_layer())
-    return hn::MulAdd(SampleCorners(volume.form, x, y, z), Constant(kFormHigh - kFormLow),
-                      Constant(kFormLow));
+    return MulAdd(SampleCorners(volume.form, x, y, z), kFormHigh - kFormLow, kFormLow);
   const V level = Clamp(z, 0.0f, static_cast<float>(volume.form.levels - 1));
   const V points = Constant(volume.level_m / static_cast<float>(volume.voxel_m));
-  const V bulges = SampleDetail(volume.detail, x, y, hn::Mul(level, points));
-  return hn::MulAdd(bulges, Constant(volume.bulge), ColumnsAt(volume, x, y));
+  const V bulges = SampleDetail(volume.detail, x, y, level * points);
+  return MulAdd(bulges, volume.bulge, ColumnsAt(volume, x, y));
 }
 
 // The form of a body at a height in levels.
@@ -133,12 +130,11 @@ HWY_INLINE V FormOf(const CloudVolume& volume, V body, V z) {
   if (!volume.is_layer()) return body;
   const auto top = static_cast<float>(volume.form.levels - 1);
   const V level = Clamp(z, 0.0f, top);
-  const V height = hn::Mul(level, Constant(1.0f / top));
-  const V lean = hn::MulAdd(height, Constant(1.0f - volume.towers), Constant(volume.towers));
-  const V profile = hn::Mul(hn::Mul(lean, lean), height);
-  const V inside = hn::Min(level, hn::Sub(Constant(top), level));
-  return hn::Min(hn::NegMulAdd(profile, Constant(volume.rise), body),
-                 hn::Mul(inside, Constant(volume.limit_per_m * volume.level_m)));
+  const V height = level * (1.0f / top);
+  const V lean = MulAdd(height, 1.0f - volume.towers, volume.towers);
+  const V profile = lean * lean * height;
+  const V inside = Min(level, top - level);
+  return Min(NegMulAdd(profile, volume.rise, body), inside * (volume.limit_per_m * volume.level_m));
 }
 
 // The form at a place in voxels.
@@ -150,12 +146,11 @@ constexpr float kMeanSmall = 0.33f;  // of small forms
 
 // The density of a form with small forms, as a part of the greatest.
 HWY_INLINE V DensityOf(const CloudVolume& volume, V form, V small) {
-  const V left = hn::NegMulAdd(hn::Sub(Constant(1.0f), small), Constant(volume.cut), form);
+  const V left = NegMulAdd(1.0f - small, volume.cut, form);
   const float scale = 1.0f / (1.0f - volume.threshold);
   // Thin at first: an edge that is soft for the rays, some pixels apart, that look for it.
-  const V inside = Clamp(left, 0.0f, 1.0f), density = hn::Mul(inside, inside);
-  return Clamp(hn::MulSub(density, Constant(scale), Constant(volume.threshold * scale)), 0.0f,
-               1.0f);
+  const V inside = Clamp(left, 0.0f, 1.0f), density = inside * inside;
+  return Clamp(MulSub(density, scale, volume.threshold * scale), 0.0f, 1.0f);
 }
 
 // The optical depth from a place in voxels towards `direction` (in the world) over steps that grow.
@@ -171,17 +166,16 @@ HWY_INLINE V DepthTowards(const CloudVolume& volume, V3 place, glm::vec3 directi
   float begin_m = 0.0f, length_m = first_m;
   for (int i = 0; i < steps; ++i) {
     const V t = Constant(begin_m + 0.5f * length_m);
-    const V x = hn::MulAdd(Constant(d.x), t, place.x), y = hn::MulAdd(Constant(d.y), t, place.y);
-    const V z = hn::MulAdd(Constant(d.z), t, place.z);
+    const V x = MulAdd(d.x, t, place.x), y = MulAdd(d.y, t, place.y);
+    const V z = MulAdd(d.z, t, place.z);
     V density = DensityOf(volume, FormAt(volume, x, y, z), Constant(kMeanSmall));
-    auto inside = hn::And(hn::Ge(z, hn::Zero(D())), hn::Le(z, Constant(highest)));
+    auto inside = (z >= 0.0f) & (z <= highest);
     if (!volume.repeats) {
       const V zero = hn::Zero(D());
-      inside = hn::And(inside, hn::And(hn::And(hn::Ge(x, zero), hn::Le(x, Constant(most))),
-                                       hn::And(hn::Ge(y, zero), hn::Le(y, Constant(most)))));
+      inside = inside & (((x >= zero) & (x <= most)) & ((y >= zero) & (y <= most)));
     }
-    density = hn::IfThenElseZero(inside, density);
-    depth = hn::MulAdd(density, Constant(volume.extinction_per_m * length_m), depth);
+    density = IfThenElseZero(inside, density);
+    depth = MulAdd(density, volume.extinction_per_m * length_m, depth);
     begin_m += length_m;
     length_m *= growth;
   }

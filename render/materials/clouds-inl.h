@@ -23,9 +23,9 @@ HWY_INLINE CloudPlace PlaceOnClouds(const Clouds& clouds, V3 direction) {
   constexpr float kEarthRadius_m = 6.36e6f;
   const float drop = 2.0f * clouds.height_m / kEarthRadius_m;
   const V z = direction.z;
-  const V rise = hn::Sqrt(hn::MulAdd(z, z, Constant(drop)));
-  const V slant = hn::Div(Constant(2.0f * clouds.height_m), hn::Add(z, rise));
-  return {hn::Mul(direction.x, slant), hn::Mul(direction.y, slant), slant, rise};
+  const V rise = Sqrt(MulAdd(z, z, drop));
+  const V slant = 2.0f * clouds.height_m / (z + rise);
+  return {direction.x * slant, direction.y * slant, slant, rise};
 }
 
 // The clouds' noise, how far it falls off towards the light, and the variance that pixels cannot
@@ -44,19 +44,19 @@ HWY_INLINE CloudNoise SampleClouds(const Clouds& clouds, V x, V y, V level) {
 
 HWY_INLINE V OpticalDepth(const Clouds& clouds, const CloudNoise& at) {
   const V scale = Constant(clouds.inv_deviation);
-  const V over = hn::MulSub(at.noise, scale, Constant(clouds.light.threshold));
+  const V over = MulSub(at.noise, scale, clouds.light.threshold);
   // The mean over what a pixel cannot resolve of max(over, 0)^2, about.
-  const V spread = hn::Mul(hn::Mul(at.lost, scale), scale);
-  const V root = hn::Sqrt(hn::MulAdd(over, over, hn::Add(spread, spread)));
-  const V mean = hn::Mul(hn::Add(over, root), Constant(0.5f));
-  return hn::Mul(hn::Mul(mean, mean), Constant(kCloudDepth));
+  const V spread = at.lost * scale * scale;
+  const V root = Sqrt(MulAdd(over, over, spread + spread));
+  const V mean = (over + root) * 0.5f;
+  return mean * mean * kCloudDepth;
 }
 
 // Henyey and Greenstein's phase function for water droplets.
 HWY_INLINE V CloudPhase(V cos_theta) {
   constexpr float g = 0.8f;
-  const V base = hn::NegMulAdd(cos_theta, Constant(2.0f * g), Constant(1.0f + g * g));
-  return hn::Div(Constant((1.0f - g * g) * 0.0795774715f), hn::Mul(base, hn::Sqrt(base)));
+  const V base = NegMulAdd(cos_theta, 2.0f * g, 1.0f + g * g);
+  return (1.0f - g * g) * 0.0795774715f / (base * Sqrt(base));
 }
 
 // What of the clouds' view changes slowly with the direction, which has length 1.
@@ -72,14 +72,14 @@ HWY_INLINE CloudView ViewClouds(const Clouds& clouds, V3 direction, V pixel_angl
   const V one = Constant(1.0f);
   const CloudPlace at = PlaceOnClouds(clouds, direction);
   // Far clouds are lost in haze, but for an overcast sky, which is of one piece.
-  const V far = Exp(d, hn::Mul(at.slant, Constant(-1.0f / 70000.0f)));
+  const V far = Exp(d, at.slant * (-1.0f / 70000.0f));
   // The zenith of an overcast sky is three times as bright as its horizon.
   // Source: Moon, Spencer, Illumination from a non-uniform sky, 1942.
-  const V zenith = hn::MulAdd(hn::Max(direction.z, hn::Zero(d)), Constant(0.86f), Constant(0.43f));
+  const V zenith = MulAdd(Max(direction.z, 0.0f), 0.86f, 0.43f);
   return {at.x,
           at.y,
-          FootprintLevel(hn::Add(Log2Coarse(d, at.slant), pixel_angle_log2), at.rise),
-          hn::Mul(Lerp(far, one, Constant(clouds.light.overcast)), Constant(clouds.shown)),
+          FootprintLevel(Log2Coarse(d, at.slant) + pixel_angle_log2, at.rise),
+          Lerp(far, one, Constant(clouds.light.overcast)) * clouds.shown,
           CloudPhase(Dot(direction, Constant(clouds.light.to_light))),
           Lerp(one, zenith, Constant(clouds.light.overcast))};
 }
@@ -91,17 +91,15 @@ HWY_INLINE V3 AddClouds(const Clouds& clouds, const CloudView& view, const Cloud
   const D d;
   const V one = Constant(1.0f);
   const V depth = OpticalDepth(clouds, at);
-  passes = Exp(d, hn::Neg(depth));
-  const V opacity = hn::Mul(hn::Sub(one, passes), view.shown);
+  passes = Exp(d, -depth);
+  const V opacity = (one - passes) * view.shown;
 
   // Light that comes through, less of it where clouds are thick; and at their bright sides.
-  const V through = hn::Div(one, hn::MulAdd(depth, Constant(clouds.light.loss), one));
-  const V bright =
-      Clamp(hn::MulAdd(at.side, Constant(0.5f * clouds.inv_deviation), one), 0.6f, 1.5f);
-  const V3 base =
-      Scale(Constant(clouds.light.base), hn::Mul(hn::Mul(through, bright), view.overcast));
-  const V forward = hn::Mul(view.forward, Exp(d, hn::Mul(depth, Constant(-0.6f))));
-  const V3 own = ScaleAdd(Constant(clouds.light.forward), forward, base);
+  const V through = one / MulAdd(depth, clouds.light.loss, one);
+  const V bright = Clamp(MulAdd(at.side, 0.5f * clouds.inv_deviation, one), 0.6f, 1.5f);
+  const V3 base = Constant(clouds.light.base) * (through * bright * view.overcast);
+  const V forward = view.forward * Exp(d, depth * -0.6f);
+  const V3 own = MulAdd(Constant(clouds.light.forward), forward, base);
   return Lerp(light, own, opacity);
 }
 

@@ -19,18 +19,16 @@ constexpr float kFoamRim = 0.3f;  // width of a bubble's rim, as a threshold
 // for less foam than a fiftieth, at least kFoamRim for 1.
 HWY_INLINE V FoamOver(const Foam& material, V3 p, V level_m, V foam) {
   const D d;
-  const auto some = hn::Gt(foam, Constant(0.02f));
+  const auto some = foam > 0.02f;
   if (hn::AllFalse(d, some)) return hn::Zero(d);
   // A step between two mip levels is no wider than the lace's own irregularity.
   V code, unused;
   NearestSlopes(material.pattern, p, level_m, code, unused);
-  const V threshold = hn::MulAdd(code, Constant(0.5f), Constant(0.5f));
-  return hn::IfThenElseZero(some, hn::MulSub(foam, Constant(1.0f + kFoamRim), threshold));
+  const V threshold = MulAdd(code, 0.5f, 0.5f);
+  return IfThenElseZero(some, MulSub(foam, 1.0f + kFoamRim, threshold));
 }
 
-HWY_INLINE V CoverOfOver(V over) {
-  return Clamp(hn::Mul(over, Constant(1.0f / kFoamRim)), 0.0f, 1.0f);
-}
+HWY_INLINE V CoverOfOver(V over) { return Clamp(over * (1.0f / kFoamRim), 0.0f, 1.0f); }
 
 // The part of a packet's pixels that foam hides.
 HWY_INLINE V FoamCover(const Foam& material, V3 p, V level_m, V foam) {
@@ -39,9 +37,9 @@ HWY_INLINE V FoamCover(const Foam& material, V3 p, V level_m, V foam) {
 
 // seen: by the foam.
 HWY_INLINE V3 AddFoam(const Foam& material, V cover, const LightSeen& seen, V3 light) {
-  const V3 foam = ScaleAdd(Constant(material.sun_light), seen.sun,
-                           Scale(Constant(material.sky_light), seen.ambient));
-  return Lerp(light, foam, hn::Mul(cover, Constant(0.92f)));
+  const V3 foam =
+      MulAdd(Constant(material.sun_light), seen.sun, Constant(material.sky_light) * seen.ambient);
+  return Lerp(light, foam, cover * 0.92f);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -18,54 +18,52 @@ constexpr float kFirstFoamLost = 3.0f, kAllFoamLost = 5.0f;
 
 // How much of the foam's place in the map is lost in pixels of that size, in [0, 1].
 HWY_INLINE V FoamLost(const FoamMap& foam, V level_m) {
-  const V past_first = hn::Add(level_m, Constant(foam.log2_texels_per_m - kFirstFoamLost));
-  return Clamp(hn::Mul(past_first, Constant(1.0f / (kAllFoamLost - kFirstFoamLost))), 0.0f, 1.0f);
+  const V past_first = level_m + (foam.log2_texels_per_m - kFirstFoamLost);
+  return Clamp(past_first * (1.0f / (kAllFoamLost - kFirstFoamLost)), 0.0f, 1.0f);
 }
 
 HWY_INLINE VI NearestFoamLevel(const FoamMap& foam, V level_m) {
-  return TruncateToInt(
-      Clamp(hn::Add(level_m, Constant(foam.log2_texels_per_m + 0.5f)), 0.0f, kAllFoamLost));
+  return TruncateToInt(Clamp(level_m + (foam.log2_texels_per_m + 0.5f), 0.0f, kAllFoamLost));
 }
 
 // Whether the blocks around places on these levels have foam, in any lane.
 HWY_INLINE bool AnyFoamNear(const FoamBlocks& blocks, VI x_fx8, VI y_fx8, VI level) {
   const DI di;
   constexpr int kAtOnce = static_cast<int>(hn::MaxLanes(DI()));  // rows of a table in a vector
-  const VI row = hn::And(hn::ShiftRight<12>(y_fx8), hn::Set(di, FoamBlocks::kRows - 1));
-  const auto in_table = hn::IndicesFromVec(di, hn::And(row, hn::Set(di, kAtOnce - 1)));
+  const VI row = hn::ShiftRight<12>(y_fx8) & hn::Set(di, FoamBlocks::kRows - 1);
+  const auto in_table = hn::IndicesFromVec(di, row & hn::Set(di, kAtOnce - 1));
   const auto bits_of = [&](int first) HWY_ATTR {
     const auto* const rows = reinterpret_cast<const std::int32_t*>(blocks.row.data());
     return hn::TableLookupLanes(hn::LoadU(di, rows + first), in_table);
   };
   VI bits = bits_of(0);
   if constexpr (kAtOnce < FoamBlocks::kRows)
-    bits = hn::IfThenElse(hn::Gt(row, hn::Set(di, kAtOnce - 1)), bits_of(kAtOnce), bits);
-  const VI column = hn::And(hn::ShiftRight<11>(x_fx8), hn::Set(di, FoamBlocks::kColumns - 1));
-  const VI bit = hn::And(hn::Shr(bits, column), hn::Set(di, 1));
-  const VI coarse = hn::Max(hn::Sub(level, hn::Set(di, FoamBlocks::kFinest)), hn::Zero(di));
-  return !hn::AllTrue(di, hn::Eq(hn::Or(bit, coarse), hn::Zero(di)));
+    bits = IfThenElse(row > hn::Set(di, kAtOnce - 1), bits_of(kAtOnce), bits);
+  const VI column = hn::ShiftRight<11>(x_fx8) & hn::Set(di, FoamBlocks::kColumns - 1);
+  const VI bit = hn::Shr(bits, column) & hn::Set(di, 1);
+  const VI coarse = Max(level - hn::Set(di, FoamBlocks::kFinest), hn::Zero(di));
+  return !hn::AllTrue(di, (bit | coarse) == hn::Zero(di));
 }
 
 HWY_INLINE V FoamAt(const FoamMap& foam, VI x_fx8, VI y_fx8, VI level) {
   const V half = Constant(0.5f);
   // What a sample finds where there is none.
-  V code =
-      hn::Mul(Constant(-127.0f * 255.0f * 256.0f), Constant(1.0f / (127.0f * 255.0f * 256.0f)));
+  V code = Constant(-127.0f * 255.0f * 256.0f) * Constant(1.0f / (127.0f * 255.0f * 256.0f));
   if (!foam.blocks || AnyFoamNear(*foam.blocks, x_fx8, y_fx8, level))
     code = texture::HWY_NAMESPACE::SampleLevel(D(), *foam.map, x_fx8, y_fx8, level);
-  return hn::MulAdd(code, half, half);
+  return MulAdd(code, half, half);
 }
 
 // The mean to the bit where all is lost, whatever the lanes beside show.
 HWY_INLINE V BlendFoam(const FoamMap& foam, V found, V lost) {
   const V mean = Constant(foam.mean);
-  return hn::IfThenElse(hn::Ge(lost, Constant(1.0f)), mean, Lerp(found, mean, lost));
+  return IfThenElse(lost >= 1.0f, mean, Lerp(found, mean, lost));
 }
 
 // The foam of a map that repeats.
 HWY_INLINE V FoamOfMap(const FoamMap& foam, V3 p, V level_m) {
   const V lost = FoamLost(foam, level_m);
-  if (hn::AllTrue(D(), hn::Ge(lost, Constant(1.0f)))) return Constant(foam.mean);
+  if (hn::AllTrue(D(), lost >= 1.0f)) return Constant(foam.mean);
   const LayerPlace place = PlaceIn(foam, p.x, p.y);
   const V found = FoamAt(foam, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8),
                          NearestFoamLevel(foam, level_m));

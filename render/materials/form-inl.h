@@ -21,10 +21,10 @@ struct ValueAndGradient {
 HWY_INLINE ValueAndGradient At(const RayQuadric& f, V3 p) {
   const V xy = Constant(f.xy), xz = Constant(f.xz), yz = Constant(f.yz);
   const V3 b = Constant(f.b);
-  const V3 half = {hn::MulAdd(Constant(f.xx), p.x, hn::MulAdd(xy, p.y, hn::MulAdd(xz, p.z, b.x))),
-                   hn::MulAdd(xy, p.x, hn::MulAdd(Constant(f.yy), p.y, hn::MulAdd(yz, p.z, b.y))),
-                   hn::MulAdd(xz, p.x, hn::MulAdd(yz, p.y, hn::MulAdd(Constant(f.zz), p.z, b.z)))};
-  return {hn::Add(Dot(p, Sum(half, b)), Constant(f.c)), half};
+  const V3 half = {MulAdd(f.xx, p.x, MulAdd(xy, p.y, MulAdd(xz, p.z, b.x))),
+                   MulAdd(xy, p.x, MulAdd(f.yy, p.y, MulAdd(yz, p.z, b.y))),
+                   MulAdd(xz, p.x, MulAdd(yz, p.y, MulAdd(f.zz, p.z, b.z)))};
+  return {Dot(p, half + b) + f.c, half};
 }
 
 // A term with its perturbations: grad F' = grad F + sum of 3 factor Q^2 grad Q.
@@ -33,11 +33,10 @@ HWY_INLINE ValueAndGradient At(const PosedForm& form, const RayTerm& term, V3 p)
   for (std::uint32_t i = 0; i < term.perturbations; ++i) {
     const RayPerturbation& r = form.perturbations[term.first_perturbation + i];
     const ValueAndGradient more = At(r.quadric, p);
-    const V q = hn::Max(more.value, hn::Zero(D())), q2 = hn::Mul(q, q);
+    const V q = Max(more.value, 0.0f), q2 = q * q;
     const V factor = Constant(r.factor);
-    result.value = hn::MulAdd(factor, hn::Mul(q2, q), result.value);
-    result.gradient =
-        ScaleAdd(more.gradient, hn::Mul(hn::Mul(factor, Constant(3.0f)), q2), result.gradient);
+    result.value = MulAdd(factor, q2 * q, result.value);
+    result.gradient = MulAdd(more.gradient, factor * 3.0f * q2, result.gradient);
   }
   return result;
 }
@@ -48,14 +47,14 @@ HWY_INLINE V3 OutOf(const PosedForm& form, const RayPart& part, V3 p) {
   V nearest = Constant(1e30f);
   for (std::uint32_t i = 0; i < part.terms; ++i) {
     const ValueAndGradient at = At(form, form.terms[part.first_term + i], p);
-    const V length2 = hn::Max(Dot(at.gradient, at.gradient), Constant(1e-30f));
-    const V away2 = hn::Div(hn::Mul(at.value, at.value), length2);
-    const auto nearer = hn::Lt(away2, nearest);
-    const V inverse = hn::Neg(InverseSqrt(length2));
-    nearest = hn::IfThenElse(nearer, away2, nearest);
-    out.x = hn::IfThenElse(nearer, hn::Mul(at.gradient.x, inverse), out.x);
-    out.y = hn::IfThenElse(nearer, hn::Mul(at.gradient.y, inverse), out.y);
-    out.z = hn::IfThenElse(nearer, hn::Mul(at.gradient.z, inverse), out.z);
+    const V length2 = Max(Dot(at.gradient, at.gradient), 1e-30f);
+    const V away2 = at.value * at.value / length2;
+    const auto nearer = away2 < nearest;
+    const V inverse = -InverseSqrt(length2);
+    nearest = IfThenElse(nearer, away2, nearest);
+    out.x = IfThenElse(nearer, at.gradient.x * inverse, out.x);
+    out.y = IfThenElse(nearer, at.gradient.y * inverse, out.y);
+    out.z = IfThenElse(nearer, at.gradient.z * inverse, out.z);
   }
   return out;
 }
@@ -74,16 +73,16 @@ HWY_INLINE hn::Mask<D> TakeFormNormals(const ObjectPrimitive* const* primitive, 
     HWY_ALIGN float same[kLanes];
     for (std::size_t i = 0; i < kLanes; ++i)
       same[i] = primitive[i]->object == &object && primitive[i]->triangle == last ? 1.0f : 0.0f;
-    const auto lanes = hn::Gt(hn::Load(d, same), hn::Zero(d));
+    const auto lanes = hn::Load(d, same) > 0.0f;
     const auto number = last - object.mesh->triangles.data();
     const RayPart& part = object.form->parts[static_cast<std::size_t>(number)];
     const V3 size = Constant(object.form_size);
-    const V3 p = Sum(Product(q, size), Constant(object.form_base - part.middle));
-    const V3 out = Product(OutOf(*object.form, part, p), size);
-    normal.x = hn::IfThenElse(lanes, out.x, normal.x);
-    normal.y = hn::IfThenElse(lanes, out.y, normal.y);
-    normal.z = hn::IfThenElse(lanes, out.z, normal.z);
-    taken = hn::Or(taken, lanes);
+    const V3 p = q * size + Constant(object.form_base - part.middle);
+    const V3 out = OutOf(*object.form, part, p) * size;
+    normal.x = IfThenElse(lanes, out.x, normal.x);
+    normal.y = IfThenElse(lanes, out.y, normal.y);
+    normal.z = IfThenElse(lanes, out.z, normal.z);
+    taken = taken | lanes;
   }
   return taken;
 }

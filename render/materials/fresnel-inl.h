@@ -8,10 +8,12 @@
 
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 // Unpolarised reflectance for light that meets a medium of relative index n >= 1 at angle theta to
 // the normal; cos_theta is clamped to [0, 1]. Absolute error 1e-6.
@@ -21,13 +23,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FresnelReflectance(D d, V cos_theta, float n) {
   const V one = hn::Set(d, 1.0f);
-  const V c = hn::Min(hn::Max(cos_theta, hn::Zero(d)), one);
-  const V g = hn::Sqrt(hn::MulAdd(c, c, hn::Set(d, n * n - 1.0f)));
-  const V minus = hn::Sub(g, c), plus = hn::Add(g, c);
-  const V s = hn::MulSub(c, plus, one), t = hn::MulAdd(c, minus, one);
-  const V minus_t = hn::Mul(minus, t), minus_s = hn::Mul(minus, s), plus_t = hn::Mul(plus, t);
-  const V numerator = hn::MulAdd(minus_t, minus_t, hn::Mul(minus_s, minus_s));
-  return hn::Div(hn::Mul(numerator, hn::Set(d, 0.5f)), hn::Mul(plus_t, plus_t));
+  const V c = Min(Max(cos_theta, 0.0f), one);
+  const V g = Sqrt(MulAdd(c, c, n * n - 1.0f));
+  const V minus = g - c, plus = g + c;
+  const V s = MulSub(c, plus, one), t = MulAdd(c, minus, one);
+  const V minus_t = minus * t, minus_s = minus * s, plus_t = plus * t;
+  const V numerator = MulAdd(minus_t, minus_t, minus_s * minus_s);
+  return numerator * 0.5f / (plus_t * plus_t);
 }
 
 }  // namespace HWY_NAMESPACE

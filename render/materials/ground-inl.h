@@ -17,14 +17,14 @@ namespace HWY_NAMESPACE {
 HWY_INLINE V PartFromRim(const GroundAlbedo& ground, V3 p) {
   const LayerPlace place = PlaceIn(ground, p.x, p.y);
   const float side_fx8 = ground.side_fx8;
-  const auto from_rim = [&](V x) HWY_ATTR { return hn::Min(x, hn::Sub(Constant(side_fx8), x)); };
-  return hn::Mul(hn::Min(from_rim(place.x_fx8), from_rim(place.y_fx8)), Constant(1.0f / side_fx8));
+  const auto from_rim = [&](V x) HWY_ATTR { return Min(x, side_fx8 - x); };
+  return Min(from_rim(place.x_fx8), from_rim(place.y_fx8)) * (1.0f / side_fx8);
 }
 
 // 1 on the map, falling to 0 over its last texels.
 HWY_INLINE V OnMap(const GroundAlbedo& ground, V3 p) {
   constexpr float kInverseRim = 40.0f;  // 1 / part of the side
-  return Clamp(hn::Mul(PartFromRim(ground, p), Constant(kInverseRim)), 0.0f, 1.0f);
+  return Clamp(PartFromRim(ground, p) * kInverseRim, 0.0f, 1.0f);
 }
 
 // What map() says, over the map's last texels that of its surroundings. join(map, around, blend)
@@ -32,13 +32,12 @@ HWY_INLINE V OnMap(const GroundAlbedo& ground, V3 p) {
 template <class Map, class Around, class Join>
 HWY_INLINE auto BlendOnMap(V on_map, const Map& map, const Around& around, const Join& join) {
   const D d;
-  if (hn::AllTrue(d, hn::Ge(on_map, Constant(1.0f)))) return map();
-  if (hn::AllFalse(d, hn::Gt(on_map, hn::Zero(d)))) return around();
+  if (hn::AllTrue(d, on_map >= 1.0f)) return map();
+  if (hn::AllFalse(d, on_map > 0.0f)) return around();
   // Whole weights keep the bits of packets that are all on the map or all around it.
-  const V left = hn::Sub(Constant(1.0f), on_map);
-  return join(map(), around(), [&](V inner, V outer) HWY_ATTR {
-    return hn::MulAdd(inner, on_map, hn::Mul(outer, left));
-  });
+  const V left = 1.0f - on_map;
+  return join(map(), around(),
+              [&](V inner, V outer) HWY_ATTR { return MulAdd(inner, on_map, outer * left); });
 }
 
 struct GroundSlopes {
@@ -70,11 +69,11 @@ HWY_INLINE GroundSlopes FindSlopes(const Terrain& terrain, V on_map, V3 p, V lev
 HWY_INLINE V3 FindAlbedo(const GroundAlbedo& ground, V on_map, V3 p) {
   const auto sample = [&](const AlbedoLayer& layer) HWY_ATTR {
     const V per_m = Constant(layer.texels_per_m);
-    const V x = hn::MulAdd(p.x, per_m, Constant(layer.x_eye));
-    const V y = hn::MulAdd(p.y, per_m, Constant(layer.y_eye));
+    const V x = MulAdd(p.x, per_m, layer.x_eye);
+    const V y = MulAdd(p.y, per_m, layer.y_eye);
     V r, g, b, alpha;
     texture::HWY_NAMESPACE::SampleRgba(D(), *layer.texels, x, y, r, g, b, alpha);
-    return V3{hn::Mul(r, r), hn::Mul(g, g), hn::Mul(b, b)};
+    return V3{r * r, g * g, b * b};
   };
   return BlendOnMap(
       on_map, [&]() HWY_ATTR { return sample(ground.map); },
@@ -91,12 +90,12 @@ HWY_INLINE V FloorShown(const Terrain& terrain, V3 p) {
   // Aprons away from the map, which is half as wide as the square.
   const float per_apron = 4.0f / (256.0f * static_cast<float>(square.map->size));
   const auto outside = [&](V x_fx8) HWY_ATTR {
-    const V from_middle = hn::Abs(hn::MulAdd(x_fx8, Constant(per_apron), Constant(-2.0f)));
-    return hn::Max(hn::Sub(from_middle, Constant(1.0f)), hn::Zero(D()));
+    const V from_middle = Abs(MulAdd(x_fx8, per_apron, -2.0f));
+    return Max(from_middle - 1.0f, 0.0f);
   };
   const V x = outside(place.x_fx8), y = outside(place.y_fx8);
-  const V away2 = hn::MulAdd(x, x, hn::Mul(y, y));
-  return SmoothBlend(hn::MulAdd(away2, Constant(-2.0f), Constant(2.0f)));
+  const V away2 = MulAdd(x, x, y * y);
+  return SmoothBlend(MulAdd(away2, -2.0f, 2.0f));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -22,21 +22,18 @@ struct AtHulls {
 // a round one; 0 inside.
 HWY_INLINE V OutsideWaterline(const Waterline& line, V x, V y) {
   const V zero = hn::Zero(D()), one = Constant(1.0f);
-  const auto along = [&](glm::vec2 axis) HWY_ATTR {
-    return hn::Abs(hn::MulAdd(x, Constant(axis.x), hn::Mul(y, Constant(axis.y))));
-  };
+  const auto along = [&](glm::vec2 axis) HWY_ATTR { return Abs(MulAdd(x, axis.x, y * axis.y)); };
   const V a = along(line.right), b = along(line.ahead);
   if (line.is_round) {
-    const V radii = hn::Sqrt(hn::MulAdd(a, a, hn::Mul(b, b)));
-    const V length = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
-    const V inside = hn::Div(length, hn::Max(radii, Constant(1e-6f)));
-    return hn::Max(hn::Sub(length, inside), zero);
+    const V radii = Sqrt(MulAdd(a, a, b * b));
+    const V length = Sqrt(MulAdd(x, x, y * y));
+    const V inside = length / Max(radii, 1e-6f);
+    return Max(length - inside, zero);
   }
-  const auto beyond = [&](V part, glm::vec2 axis) HWY_ATTR {
-    return hn::Mul(hn::Max(hn::Sub(part, one), zero), Constant(1.0f / glm::length(axis)));
-  };
+  const auto beyond = [&](V part, glm::vec2 axis)
+                          HWY_ATTR { return Max(part - one, zero) * (1.0f / glm::length(axis)); };
   const V da = beyond(a, line.right), db = beyond(b, line.ahead);
-  return hn::Sqrt(hn::MulAdd(da, da, hn::Mul(db, db)));
+  return Sqrt(MulAdd(da, da, db * db));
 }
 
 // All hulls together at points of the water in a span of pixels.
@@ -51,32 +48,29 @@ inline HWY_NOINLINE AtHulls SampleHulls(const SunShadow& shadow, const Foam& mat
     if (!shadow.casters.sea_pixels[number].meets(span)) continue;
     const ShadowCaster& caster = shadow.objects->casters[number];
     const Waterline& line = caster.waterline;
-    const V3 q = Sum(p, Constant(-line.middle_rel));
-    const V far = hn::Max(hn::Max(hn::Abs(q.x), hn::Abs(q.y)), hn::Abs(q.z));
-    const auto near = hn::Lt(far, Constant(caster.near_m));
+    const V3 q = p + Constant(-line.middle_rel);
+    const V far = Max(Max(Abs(q.x), Abs(q.y)), Abs(q.z));
+    const auto near = far < caster.near_m;
     if (hn::AllFalse(d, near)) continue;
     const V away = OutsideWaterline(line, q.x, q.y);
     // The form factor of a wall of the freeboard's height, as if the hull went on on both sides;
     // less as it looks narrower.
-    const V fading =
-        Clamp(hn::MulAdd(away, Constant(-1.0f / ShadowCaster::kContact_m), one), 0.0f, 1.0f);
-    const V sine = hn::Div(
-        away,
-        hn::Sqrt(hn::MulAdd(away, away, Constant(line.freeboard_m * line.freeboard_m + 1e-6f))));
-    const V narrow = hn::Div(Constant(line.radius_m), hn::Add(away, Constant(line.radius_m)));
-    const V hidden = hn::Mul(hn::Mul(hn::Sub(one, sine), Constant(0.5f)), hn::Mul(narrow, fading));
-    at.sky_hidden = hn::Max(at.sky_hidden, hn::IfThenElseZero(near, hidden));
+    const V fading = Clamp(MulAdd(away, -1.0f / ShadowCaster::kContact_m, one), 0.0f, 1.0f);
+    const V sine = away / Sqrt(MulAdd(away, away, line.freeboard_m * line.freeboard_m + 1e-6f));
+    const V narrow = line.radius_m / (away + line.radius_m);
+    const V hidden = (one - sine) * 0.5f * (narrow * fading);
+    at.sky_hidden = Max(at.sky_hidden, IfThenElseZero(near, hidden));
     // The ring is broader where the water flows off.
-    const V towards = hn::MulAdd(q.x, Constant(line.flow.x), hn::Mul(q.y, Constant(line.flow.y)));
-    const V leeward = Clamp(hn::Mul(towards, Constant(1.0f / line.radius_m)), -0.6f, 1.5f);
-    const V width = hn::Mul(hn::Add(leeward, one), Constant(line.foam_m));
-    const V ring = Clamp(hn::Sub(one, hn::Div(away, width)), 0.0f, 1.0f);
-    foam = hn::Max(foam, hn::IfThenElseZero(near, hn::Mul(ring, Constant(line.foam))));
+    const V towards = MulAdd(q.x, line.flow.x, q.y * line.flow.y);
+    const V leeward = Clamp(towards * (1.0f / line.radius_m), -0.6f, 1.5f);
+    const V width = (leeward + one) * line.foam_m;
+    const V ring = Clamp(one - away / width, 0.0f, 1.0f);
+    foam = Max(foam, IfThenElseZero(near, ring * line.foam));
   }
-  if (hn::AllTrue(d, hn::Eq(foam, zero))) return at;
+  if (hn::AllTrue(d, foam == zero)) return at;
   // Thinner towards its rim.
-  const V thick = hn::Min(hn::MulAdd(foam, Constant(1.1f), Constant(0.2f)), one);
-  at.foam_cover = hn::Mul(FoamCover(material, p, level_m, foam), thick);
+  const V thick = Min(MulAdd(foam, 1.1f, 0.2f), one);
+  at.foam_cover = FoamCover(material, p, level_m, foam) * thick;
   return at;
 }
 

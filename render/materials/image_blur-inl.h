@@ -28,17 +28,14 @@ HWY_INLINE BlurLevel Sharp() { return {hn::Zero(DI()), hn::Zero(D()), true}; }
 HWY_INLINE BlurLevel FindBlur(const LookupImage& lookup, V variance, V px2_per_slope2) {
   const int last = lookup.image->levels - 1;
   if (last == 0) return Sharp();
-  const V unseen = hn::Sub(variance, Constant(kGlassVariance));
-  const V spread2 =
-      hn::Mul(hn::Mul(unseen, px2_per_slope2), Constant(2.0f * lookup.scale_y * lookup.scale_y));
+  const V unseen = variance - kGlassVariance;
+  const V spread2 = unseen * px2_per_slope2 * (2.0f * lookup.scale_y * lookup.scale_y);
   // No less than on level 0, which is 1 here.
-  const auto blurred = hn::Gt(spread2, Constant(1.0f));
+  const auto blurred = spread2 > 1.0f;
   if (hn::AllFalse(D(), blurred)) return Sharp();
-  const V level =
-      hn::Min(hn::Mul(Log2Coarse(D(), hn::Max(spread2, Constant(1.0f))), Constant(0.5f)),
-              Constant(static_cast<float>(last)));
-  const VI base = TruncateToInt(hn::Max(level, hn::Zero(D())));
-  return {base, hn::Sub(level, hn::ConvertTo(D(), base)), false};
+  const V level = Min(Log2Coarse(D(), Max(spread2, 1.0f)) * 0.5f, static_cast<float>(last));
+  const VI base = TruncateToInt(Max(level, 0.0f));
+  return {base, level - hn::ConvertTo(D(), base), false};
 }
 
 // An image's codes and alpha at a place in its texels.
@@ -50,8 +47,8 @@ HWY_INLINE void SampleBlurred(const texture::RgbaImage& image, V x, V y, const B
   texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, level.base, code.x, code.y, code.z,
                                           alpha);
   // On the softest level, as a rule.
-  if (hn::AllTrue(d, hn::Eq(level.t, hn::Zero(d)))) return;
-  const VI next = hn::Min(hn::Add(level.base, hn::Set(DI(), 1)), hn::Set(DI(), image.levels - 1));
+  if (hn::AllTrue(d, level.t == hn::Zero(d))) return;
+  const VI next = Min(level.base + hn::Set(DI(), 1), hn::Set(DI(), image.levels - 1));
   V3 softer;
   V softer_alpha;
   texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, next, softer.x, softer.y, softer.z,

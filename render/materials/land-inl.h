@@ -26,8 +26,7 @@ struct LandCover {
 HWY_INLINE LandCover SampleCover(const texture::CoverMap& map, const SlopeLayer& square, V3 p,
                                  V level_m) {
   const LayerPlace place = PlaceIn(square, p.x, p.y);
-  const V level =
-      Clamp(hn::Add(level_m, Constant(square.log2_texels_per_m + 0.5f)), 0.0f, square.coarsest);
+  const V level = Clamp(level_m + (square.log2_texels_per_m + 0.5f), 0.0f, square.coarsest);
   LandCover cover;
   texture::HWY_NAMESPACE::SampleCover(D(), map, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8),
                                       TruncateToInt(level), cover.grass, cover.dry, cover.rock,
@@ -57,27 +56,25 @@ HWY_INLINE Pattern SamplePattern(const PatternLayer& pattern, V3 p, V level_m) {
   const V zero = hn::Zero(D());
   V code = zero, shade = zero, variance = zero;
   const V cosine = Constant(pattern.turn.x), sine = Constant(pattern.turn.y);
-  const V3 turned = {hn::MulSub(p.x, cosine, hn::Mul(p.y, sine)),
-                     hn::MulAdd(p.x, sine, hn::Mul(p.y, cosine)), p.z};
+  const V3 turned = {MulSub(p.x, cosine, p.y * sine), MulAdd(p.x, sine, p.y * cosine), p.z};
   AddSlopes(pattern.layer, turned, level_m, zero, zero, code, shade, variance);
   // Beyond the coarsest level there is nothing, whatever the lanes beside show.
-  const auto shown = hn::Lt(hn::Add(level_m, Constant(pattern.layer.log2_texels_per_m)),
-                            Constant(pattern.layer.coarsest));
-  code = hn::IfThenElseZero(shown, code);
-  shade = hn::IfThenElseZero(shown, shade);
+  const auto shown = level_m + pattern.layer.log2_texels_per_m < pattern.layer.coarsest;
+  code = IfThenElseZero(shown, code);
+  shade = IfThenElseZero(shown, shade);
   // Thresholds stay inside: what covers nothing, or all, does so everywhere.
-  const V threshold = Clamp(hn::MulAdd(code, Constant(0.498f), Constant(0.5f)), 0.002f, 0.998f);
-  return {threshold, shade, hn::Mul(variance, Constant(pattern.lost_per_variance))};
+  const V threshold = Clamp(MulAdd(code, 0.498f, 0.5f), 0.002f, 0.998f);
+  return {threshold, shade, variance * pattern.lost_per_variance};
 }
 
 // Whether a part of a place is there, blended over `width` of thresholds. Its mean over thresholds
 // is the part; it grows with it. What the pixel does not show of the pattern stays a part.
 HWY_INLINE V Sharpen(V part, const Pattern& pattern, float width) {
   const V half = Constant(0.5f);
-  const V room = hn::Mul(hn::Min(part, hn::Sub(Constant(1.0f), part)), Constant(2.0f));
+  const V room = Min(part, 1.0f - part) * 2.0f;
   const V ramp = Clamp(room, 1e-6f, width);
-  const V there = Clamp(hn::Add(hn::Div(hn::Sub(part, pattern.threshold), ramp), half), 0.0f, 1.0f);
-  return Lerp(there, part, hn::Min(hn::Mul(pattern.lost, Constant(2.2f)), Constant(1.0f)));
+  const V there = Clamp((part - pattern.threshold) / ramp + half, 0.0f, 1.0f);
+  return Lerp(there, part, Min(pattern.lost * 2.2f, 1.0f));
 }
 
 // Parts of a pixel, which add up to 1.
@@ -89,26 +86,25 @@ HWY_INLINE Parts SharpenCover(const LandCover& cover, const Pattern& wide, const
   const V one = Constant(1.0f);
   // One threshold for all: grass up to the first sum, dry growth up to the second.
   const auto sharpen = [&](V part) HWY_ATTR {
-    return Sharpen(Sharpen(hn::Min(part, one), wide, 0.8f), near, 0.45f);
+    return Sharpen(Sharpen(Min(part, one), wide, 0.8f), near, 0.45f);
   };
-  const V grown = hn::Add(cover.grass, cover.dry);
+  const V grown = cover.grass + cover.dry;
   const V grass = sharpen(cover.grass);
   const V to_dry = sharpen(grown);
-  const V to_rock = sharpen(hn::Add(grown, cover.rock));
-  return {grass, hn::Sub(to_dry, grass), hn::Sub(to_rock, to_dry), hn::Sub(one, to_rock)};
+  const V to_rock = sharpen(grown + cover.rock);
+  return {grass, to_dry - grass, to_rock - to_dry, one - to_rock};
 }
 
 // Adds a material that covers `part` of a pixel whose pattern has a shade.
 HWY_INLINE void AddMaterial(const MaterialColour& colour, V part, V shade, V3& albedo, V& relief) {
-  albedo = ScaleAdd(Constant(colour.mean), part,
-                    ScaleAdd(Constant(colour.variation), hn::Mul(part, shade), albedo));
-  relief = hn::MulAdd(part, Constant(colour.relief), relief);
+  albedo =
+      MulAdd(Constant(colour.mean), part, MulAdd(Constant(colour.variation), part * shade, albedo));
+  relief = MulAdd(part, colour.relief, relief);
 }
 
 // Layers of rock, as a shade.
 HWY_INLINE V StrataShade(const Land& land, V3 p, V height_m, V level_m) {
-  const V along =
-      hn::MulAdd(p.x, Constant(land.strata_along.x), hn::Mul(p.y, Constant(land.strata_along.y)));
+  const V along = MulAdd(p.x, land.strata_along.x, p.y * land.strata_along.y);
   return SamplePattern(land.strata, {along, height_m, height_m}, level_m).shade;
 }
 
@@ -124,47 +120,46 @@ HWY_INLINE LandLook FindLand(const Terrain& terrain, const ViewRays& rays, const
   const Land& land = terrain.land;
   const V zero = hn::Zero(D());
   const V3 p = packet.p;
-  const V height_m = hn::Add(p.z, Constant(rays.eye_z));
+  const V height_m = p.z + rays.eye_z;
   const LandCover cover = FindCover(terrain, on_map, p, level_m);
 
   const Pattern wide = SamplePattern(land.wide, p, level_m);
   Pattern near = SamplePattern(land.near, p, level_m);
-  V shade = hn::MulAdd(wide.shade, Constant(0.5f), hn::Mul(near.shade, Constant(0.55f)));
+  V shade = MulAdd(wide.shade, 0.5f, near.shade * 0.55f);
   if (ShowsDetail(land.fine.layer, level_m)) {
     const Pattern fine = SamplePattern(land.fine, p, level_m);
-    shade = hn::MulAdd(fine.shade, Constant(0.8f), shade);
+    shade = MulAdd(fine.shade, 0.8f, shade);
     // Edges are ragged from near by.
-    const V ragged = hn::MulAdd(fine.threshold, Constant(0.3f), Constant(-0.15f));
-    near.threshold = Clamp(hn::Add(near.threshold, ragged), 0.002f, 0.998f);
+    const V ragged = MulAdd(fine.threshold, 0.3f, -0.15f);
+    near.threshold = Clamp(near.threshold + ragged, 0.002f, 0.998f);
   }
   const Parts parts = SharpenCover(cover, wide, near);
 
   LandLook look = {slope_x, slope_y, zero, cover.sky_seen, {zero, zero, zero}};
   V relief = zero;
   V rock_shade = shade;
-  if (!hn::AllFalse(D(), hn::Gt(parts.rock, zero)))
-    rock_shade = hn::Add(StrataShade(land, p, height_m, level_m), hn::Mul(shade, Constant(0.7f)));
+  if (!hn::AllFalse(D(), parts.rock > zero))
+    rock_shade = StrataShade(land, p, height_m, level_m) + shade * 0.7f;
   AddMaterial(land.grass, parts.grass, shade, look.albedo, relief);
   AddMaterial(land.dry, parts.dry, shade, look.albedo, relief);
-  AddMaterial(land.rock, hn::IfThenElseZero(hn::Gt(parts.rock, zero), parts.rock), rock_shade,
-              look.albedo, relief);
+  AddMaterial(land.rock, IfThenElseZero(parts.rock > zero, parts.rock), rock_shade, look.albedo,
+              relief);
   const auto part_up = [&](float from_m, float to_m) HWY_ATTR {
-    return SmoothBlend(
-        hn::Mul(hn::Sub(height_m, Constant(from_m)), Constant(1.0f / (to_m - from_m))));
+    return SmoothBlend((height_m - from_m) * (1.0f / (to_m - from_m)));
   };
-  const V soil = hn::Mul(parts.bare, part_up(land.soil_begin_m, land.soil_begin_m + kSandToSoil_m));
+  const V soil = parts.bare * part_up(land.soil_begin_m, land.soil_begin_m + kSandToSoil_m);
   const V dry_sand =
       Lerp(Constant(kWetSand), Constant(1.0f), part_up(kWetSandEnd_m, kWetSandBegin_m));
   AddMaterial(land.soil, soil, shade, look.albedo, relief);
   V3 sand = {zero, zero, zero};
-  AddMaterial(land.sand, hn::Sub(parts.bare, soil), shade, sand, relief);
-  look.albedo = ScaleAdd(sand, dry_sand, look.albedo);
+  AddMaterial(land.sand, parts.bare - soil, shade, sand, relief);
+  look.albedo = MulAdd(sand, dry_sand, look.albedo);
 
   V bump_x = zero, bump_y = zero, lost = zero;
   AddSlopes(terrain.detail, p, level_m, zero, zero, bump_x, bump_y, lost);
-  look.slope_x = hn::MulAdd(bump_x, relief, look.slope_x);
-  look.slope_y = hn::MulAdd(bump_y, relief, look.slope_y);
-  look.variance = hn::Mul(lost, hn::Mul(relief, relief));
+  look.slope_x = MulAdd(bump_x, relief, look.slope_x);
+  look.slope_y = MulAdd(bump_y, relief, look.slope_y);
+  look.variance = lost * (relief * relief);
   return look;
 }
 

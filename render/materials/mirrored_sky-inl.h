@@ -21,18 +21,15 @@ HWY_INLINE V3 AddMirroredClouds(const CalmMirror& calm, const Packet& packet, V3
   const D d;
   // A pixel has grown on its way to the water, too.
   const Clouds& clouds = *calm.clouds;
-  const V way = hn::MulAdd(hn::Mul(packet.distance, direction.z), Constant(1.0f / clouds.height_m),
-                           Constant(1.0f));
-  const V pixel = hn::Mul(way, Constant(calm.pixel_angle));
+  const V way = MulAdd(packet.distance * direction.z, 1.0f / clouds.height_m, 1.0f);
+  const V pixel = way * calm.pixel_angle;
   // Slopes turn rays to the sides by the sine of their elevation less than up and down;
   // ViewClouds() takes a footprint across the view, and lengthens it by nearly as much.
-  const V sine = hn::Max(direction.z, Constant(0.05f));
-  const V spread2 =
-      hn::MulAdd(hn::Mul(variance, Constant(8.0f)), hn::Mul(sine, sine), hn::Mul(pixel, pixel));
-  const CloudView view =
-      ViewClouds(clouds, direction, hn::Mul(Log2Coarse(d, spread2), Constant(0.5f)));
+  const V sine = Max(direction.z, 0.05f);
+  const V spread2 = MulAdd(variance * 8.0f, sine * sine, pixel * pixel);
+  const CloudView view = ViewClouds(clouds, direction, Log2Coarse(d, spread2) * 0.5f);
   const CloudNoise noise =
-      SampleClouds(clouds, hn::Add(view.x, packet.p.x), hn::Add(view.y, packet.p.y), view.level);
+      SampleClouds(clouds, view.x + packet.p.x, view.y + packet.p.y, view.level);
   V passes;
   return AddClouds(clouds, view, noise, light, passes);
 }
@@ -42,11 +39,10 @@ HWY_INLINE V3 AddMirroredClouds(const CalmMirror& calm, const Packet& packet, V3
 static HWY_NOINLINE V3 MirrorSky(const CalmMirror& calm, const Packet& packet, V3 r, V length,
                                  V variance, V3 blurred) {
   const D d;
-  const V sharp =
-      SmoothBlend(hn::NegMulAdd(variance, Constant(1.25f / kCalmVariance), Constant(1.25f)));
-  if (hn::AllFalse(d, hn::Gt(sharp, hn::Zero(d)))) return blurred;
-  V3 direction = Scale(r, hn::Div(Constant(1.0f), length));
-  direction.z = hn::Max(direction.z, hn::Zero(d));
+  const V sharp = SmoothBlend(NegMulAdd(variance, 1.25f / kCalmVariance, 1.25f));
+  if (hn::AllFalse(d, sharp > 0.0f)) return blurred;
+  V3 direction = r * (1.0f / length);
+  direction.z = Max(direction.z, 0.0f);
   V3 light = ClearSky({calm.sky, calm.azimuth, 0.0f}, direction);
   if (calm.clouds) light = AddMirroredClouds(calm, packet, direction, variance, light);
   return Lerp(blurred, light, sharp);

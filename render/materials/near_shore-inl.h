@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 HWY_INLINE hn::Mask<D> IsInside(const SlopeLayer& layer, const LayerPlace& place) {
   const V low = hn::Zero(D()),
           high = Constant(0.999f * 256.0f * static_cast<float>(layer.map->size));
-  return hn::And(hn::And(hn::Gt(place.x_fx8, low), hn::Gt(place.y_fx8, low)),
-                 hn::And(hn::Lt(place.x_fx8, high), hn::Lt(place.y_fx8, high)));
+  return ((place.x_fx8 > low) & (place.y_fx8 > low)) &
+         ((place.x_fx8 < high) & (place.y_fx8 < high));
 }
 
 // Sine and cosine of a lag's turns.
@@ -26,8 +26,7 @@ struct AlongShore {
   V sine, cosine;
 };
 HWY_INLINE AlongShore FindAlong(glm::vec3 lag, V3 p) {
-  const V turns =
-      hn::MulAdd(p.x, Constant(lag.x), hn::MulAdd(p.y, Constant(lag.y), Constant(lag.z)));
+  const V turns = MulAdd(p.x, lag.x, MulAdd(p.y, lag.y, lag.z));
   AlongShore along;
   SinCosTurns(D(), turns, along.sine, along.cosine);
   return along;
@@ -38,35 +37,30 @@ HWY_INLINE AlongShore FindAlong(glm::vec3 lag, V3 p) {
 HWY_INLINE V FrontFoam(const SurfFronts& fronts, V3 p, V part, V kept, V level_m) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
-  const V seaward = hn::Max(part, zero);
-  const V zone = SmoothBlend(Clamp(hn::NegMulAdd(hn::Div(seaward, hn::Max(kept, Constant(0.1f))),
-                                                 Constant(1.5f), Constant(1.5f)),
-                                   0.0f, 1.0f));
-  const V strength =
-      hn::Mul(zone, Clamp(hn::MulAdd(kept, Constant(2.0f), Constant(-0.3f)), 0.0f, 1.0f));
-  if (hn::AllFalse(d, hn::Gt(strength, zero))) return zero;
+  const V seaward = Max(part, zero);
+  const V zone = SmoothBlend(Clamp(NegMulAdd(seaward / Max(kept, 0.1f), 1.5f, 1.5f), 0.0f, 1.0f));
+  const V strength = zone * Clamp(MulAdd(kept, 2.0f, -0.3f), 0.0f, 1.0f);
+  if (hn::AllFalse(d, strength > zero)) return zero;
   const AlongShore a = FindAlong(fronts.lag_a, p), b = FindAlong(fronts.lag_b, p),
                    c = FindAlong(fronts.lag_c, p);
-  const V turns =
-      hn::MulAdd(hn::Sqrt(seaward), Constant(fronts.reach_turns), Constant(fronts.cycles));
+  const V turns = MulAdd(Sqrt(seaward), fronts.reach_turns, fronts.cycles);
   // Which of the slow waves along the shore delay a front, and where it is high.
   const V lag[kSurfFronts] = {a.sine, b.sine, a.cosine, b.cosine};
-  const V high[kSurfFronts] = {hn::Add(b.sine, c.cosine), hn::Sub(a.cosine, c.sine),
-                               hn::Sub(c.sine, b.cosine), hn::Sub(hn::Neg(a.sine), c.cosine)};
+  const V high[kSurfFronts] = {b.sine + c.cosine, a.cosine - c.sine, c.sine - b.cosine,
+                               -a.sine - c.cosine};
   V foam = zero, mean = zero;
   for (int n = 0; n < kSurfFronts; ++n) {
-    const V phase = hn::Add(hn::MulAdd(lag[n], Constant(0.06f), turns),
-                            Constant(0.25f * static_cast<float>(n)));
-    const V past = hn::Sub(phase, hn::Floor(phase));  // since the front was there, in [0, 1)
-    const V height = Clamp(hn::MulAdd(high[n], Constant(0.35f), Constant(0.65f)), 0.0f, 1.0f);
-    const V comes = hn::Min(hn::Mul(past, Constant(30.0f)), one);
-    const V left = hn::Max(hn::NegMulAdd(past, Constant(fronts.drain), one), zero);
-    const V shape = hn::Mul(comes, hn::Mul(left, left));
-    foam = hn::Max(foam, hn::Mul(height, shape));
-    mean = hn::MulAdd(height, Constant(fronts.mean), mean);
+    const V phase = MulAdd(lag[n], 0.06f, turns) + 0.25f * static_cast<float>(n);
+    const V past = phase - Floor(phase);  // since the front was there, in [0, 1)
+    const V height = Clamp(MulAdd(high[n], 0.35f, 0.65f), 0.0f, 1.0f);
+    const V comes = Min(past * 30.0f, one);
+    const V left = Max(NegMulAdd(past, fronts.drain, one), zero);
+    const V shape = comes * (left * left);
+    foam = Max(foam, height * shape);
+    mean = MulAdd(height, fronts.mean, mean);
   }
-  const V seen = Clamp(hn::Sub(Constant(fronts.level_lost), level_m), 0.0f, 1.0f);
-  return hn::Mul(strength, Lerp(mean, foam, seen));
+  const V seen = Clamp(fronts.level_lost - level_m, 0.0f, 1.0f);
+  return strength * Lerp(mean, foam, seen);
 }
 
 // What the near shore's map says of a packet; all 0 outside it.
@@ -82,9 +76,9 @@ HWY_INLINE V KeptBeside(const NearShore& near, V3 p, V level_m) {
   if (!near.map.map || near.taken_gain == 0.0f) return one;
   const LayerPlace place = PlaceIn(near.map, p.x, p.y);
   V taken, unused;
-  SampleNearest(near.map, place, hn::Sub(level_m, Constant(0.5f)), taken, unused);
-  const V kept = hn::Max(hn::Sub(one, taken), Constant(0.02f));
-  return hn::IfThenElse(IsInside(near.map, place), kept, one);
+  SampleNearest(near.map, place, level_m - 0.5f, taken, unused);
+  const V kept = Max(one - taken, 0.02f);
+  return IfThenElse(IsInside(near.map, place), kept, one);
 }
 
 HWY_INLINE NearShoreAt SampleNearShore(const NearShore& near, V3 p, V level_m) {
@@ -94,13 +88,13 @@ HWY_INLINE NearShoreAt SampleNearShore(const NearShore& near, V3 p, V level_m) {
   NearShoreAt at = {IsInside(near.map, place), zero, zero};
   if (hn::AllFalse(d, at.inside)) return at;
   V taken, part;
-  SampleNearest(near.map, place, hn::Sub(level_m, Constant(0.5f)), taken, part);
-  at.taken = hn::IfThenElseZero(at.inside, hn::Mul(taken, Constant(near.taken_gain)));
+  SampleNearest(near.map, place, level_m - 0.5f, taken, part);
+  at.taken = IfThenElseZero(at.inside, taken * near.taken_gain);
   if (!near.fronts.on) return at;
-  const auto is_surf = hn::And(at.inside, hn::Lt(part, Constant(0.995f)));
+  const auto is_surf = at.inside & (part < 0.995f);
   if (hn::AllFalse(d, is_surf)) return at;
-  const V kept = hn::Sub(Constant(1.0f), taken);
-  at.foam = hn::IfThenElseZero(is_surf, FrontFoam(near.fronts, p, part, kept, level_m));
+  const V kept = 1.0f - taken;
+  at.foam = IfThenElseZero(is_surf, FrontFoam(near.fronts, p, part, kept, level_m));
   return at;
 }
 

@@ -99,33 +99,30 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
     squares.Set(i, SquaresAlong(*primitive[i]));
   }
   // To the mesh's coordinates, the normal there, and back.
-  const V3 q_rel = Sum(packet.p, Scale(bottom.Load(), Constant(-1.0f)));
+  const V3 q_rel = packet.p + bottom.Load() * -1.0f;
   const V3 q = {Dot(q_rel, right.Load()), Dot(q_rel, ahead.Load()), Dot(q_rel, up.Load())};
   const auto to_world = [&](V3 n) HWY_ATTR {
-    return ScaleAdd(right.Load(), n.x, ScaleAdd(ahead.Load(), n.y, Scale(up.Load(), n.z)));
+    return MulAdd(right.Load(), n.x, MulAdd(ahead.Load(), n.y, up.Load() * n.z));
   };
-  V3 n_mesh =
-      ScaleAdd(along_x.Load(), q.x,
-               ScaleAdd(along_y.Load(), q.y, ScaleAdd(along_z.Load(), q.z, at_origin.Load())));
+  V3 n_mesh = MulAdd(along_x.Load(), q.x,
+                     MulAdd(along_y.Load(), q.y, MulAdd(along_z.Load(), q.z, at_origin.Load())));
   const auto of_forms = TakeFormNormals(primitive, q, n_mesh);
   const V3 n = to_world(n_mesh);
   // Of a surface without a back the side that is seen.
-  const V inverse = InverseSqrt(hn::Max(Dot(n, n), Constant(1e-30f)));
-  const auto from_behind =
-      hn::AndNot(of_forms, hn::Lt(Dot(to_world(flat.Load()), packet.to_eye), hn::Zero(D())));
+  const V inverse = InverseSqrt(Max(Dot(n, n), 1e-30f));
+  const auto from_behind = hn::AndNot(of_forms, Dot(to_world(flat.Load()), packet.to_eye) < 0.0f);
   const V3 finishes = finish.Load();
-  ObjectSurface surface = {Scale(n, hn::IfThenElse(from_behind, hn::Neg(inverse), inverse)),
-                           albedo.Load(), finishes.x, finishes.y, finishes.z};
+  ObjectSurface surface = {n * IfThenElse(from_behind, -inverse, inverse), albedo.Load(),
+                           finishes.x, finishes.y, finishes.z};
   if (has_squares) {
     const V half_m = HalfFootprint(rays, packet, Dot(surface.normal, packet.to_eye));
-    const V half_px = hn::Mul(half_m, hn::Load(D(), squares_per_m));
-    surface.albedo = Scale(surface.albedo, CheckeredPaint(squares.Load(), q, half_px));
+    const V half_px = half_m * hn::Load(D(), squares_per_m);
+    surface.albedo = surface.albedo * CheckeredPaint(squares.Load(), q, half_px);
   }
   if (!has_pictures) return surface;
 
-  const V footprint =
-      FootprintLevel(FootprintAcross(rays, packet),
-                     hn::Max(hn::Abs(Dot(surface.normal, packet.to_eye)), Constant(0.05f)));
+  const V footprint = FootprintLevel(FootprintAcross(rays, packet),
+                                     Max(Abs(Dot(surface.normal, packet.to_eye)), 0.05f));
   HWY_ALIGN float x[Lanes3::kCount], y[Lanes3::kCount], z[Lanes3::kCount], size[Lanes3::kCount];
   hn::Store(q.x, D(), x);
   hn::Store(q.y, D(), y);
@@ -146,14 +143,12 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
 HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
                         const LightSeen& seen, V thrown) {
   const V facing = Dot(s.normal, Constant(light.sun_direction));
-  const V lit = hn::Max(facing, hn::Mul(hn::Neg(facing), s.translucency));
-  const V cos_sun = hn::MulAdd(hn::Max(lit, hn::Zero(D())), seen.sun, thrown);
-  const V sky_seen = hn::MulAdd(s.normal.z, Constant(0.5f), Constant(0.5f));
-  const V3 around =
-      Scale(Lerp(Constant(sea_light), Constant(light.ambient), sky_seen), seen.ambient);
-  const V matt = hn::Sub(Constant(1.0f), s.metalness);
-  return Product(Scale(s.albedo, matt), ScaleAdd(Constant(light.sun_irradiance),
-                                                 hn::Mul(cos_sun, Constant(0.318309886f)), around));
+  const V lit = Max(facing, -facing * s.translucency);
+  const V cos_sun = MulAdd(Max(lit, 0.0f), seen.sun, thrown);
+  const V sky_seen = MulAdd(s.normal.z, 0.5f, 0.5f);
+  const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen) * seen.ambient;
+  const V matt = 1.0f - s.metalness;
+  return s.albedo * matt * MulAdd(Constant(light.sun_irradiance), cos_sun * 0.318309886f, around);
 }
 
 // What varnish or metal mirrors of sky and sun, to the eye in direction to_eye. Rough varnish
@@ -162,38 +157,34 @@ HWY_INLINE V3 Gloss(const Light& light, glm::vec3 sea_light, const ObjectSurface
                     V sun_visible) {
   const D d;
   const V zero = hn::Zero(d);
-  const V cos_eye = hn::Max(Dot(s.normal, to_eye), zero);
-  const V dull = hn::Max(hn::NegMulAdd(s.roughness, Constant(1.0f / 0.84f), Constant(1.0f)), zero);
-  const V varnish = hn::Mul(FresnelReflectance(d, hn::Max(cos_eye, Constant(0.1f)), 1.5f), dull);
+  const V cos_eye = Max(Dot(s.normal, to_eye), zero);
+  const V dull = Max(NegMulAdd(s.roughness, 1.0f / 0.84f, 1.0f), zero);
+  const V varnish = FresnelReflectance(d, Max(cos_eye, 0.1f), 1.5f) * dull;
   const auto mirrored = [&](V dielectric) HWY_ATTR {
     return Lerp(V3{dielectric, dielectric, dielectric}, s.albedo, s.metalness);
   };
-  V3 r = ScaleAdd(s.normal, hn::Add(cos_eye, cos_eye), Scale(to_eye, Constant(-1.0f)));
+  V3 r = MulAdd(s.normal, cos_eye + cos_eye, to_eye * -1.0f);
   // Rays that go down meet the sea, which is darker. Dull paint spreads what it mirrors: a line
   // between the two would be drawn on everything round.
-  const V below = Clamp(hn::MulAdd(r.z, Constant(-1.6f), Constant(0.5f)), 0.0f, 1.0f);
-  const V sea =
-      hn::Mul(hn::Mul(below, below), hn::NegMulAdd(below, Constant(2.0f), Constant(3.0f)));
-  const V lowest = Constant(0.02f), over = hn::Sub(r.z, lowest);
-  r.z = hn::MulAdd(hn::Add(over, hn::Sqrt(hn::MulAdd(over, over, Constant(0.01f)))), Constant(0.5f),
-                   lowest);
+  const V below = Clamp(MulAdd(r.z, -1.6f, 0.5f), 0.0f, 1.0f);
+  const V sea = below * below * NegMulAdd(below, 2.0f, 3.0f);
+  const V lowest = Constant(0.02f), over = r.z - lowest;
+  r.z = MulAdd(over + Sqrt(MulAdd(over, over, 0.01f)), 0.5f, lowest);
   const V3 sky =
-      Lerp(SoftSkyRadiance(*light.sky_soft, r, hn::Sqrt(Dot(r, r))), Constant(sea_light), sea);
+      Lerp(SoftSkyRadiance(*light.sky_soft, r, Sqrt(Dot(r, r))), Constant(sea_light), sea);
 
   // Blinn and Phong's highlight, normalised, with the exponent n = 2 / roughness^4 - 2.
-  const V3 half = Sum(to_eye, Constant(light.sun_direction));
-  const V cos_half = hn::Mul(hn::Max(Dot(s.normal, half), zero),
-                             InverseSqrt(hn::Max(Dot(half, half), Constant(1e-6f))));
-  const V alpha = hn::Max(hn::Mul(s.roughness, s.roughness), Constant(0.0025f));
-  const V exponent = hn::Sub(hn::Div(Constant(2.0f), hn::Mul(alpha, alpha)), Constant(2.0f));
+  const V3 half = to_eye + Constant(light.sun_direction);
+  const V cos_half = Max(Dot(s.normal, half), zero) * InverseSqrt(Max(Dot(half, half), 1e-6f));
+  const V alpha = Max(s.roughness * s.roughness, 0.0025f);
+  const V exponent = 2.0f / (alpha * alpha) - 2.0f;
   const V log2 = Log2(d, Clamp(cos_half, 1e-6f, 1.0f));
-  const V highlight = Exp2(d, hn::Mul(log2, exponent));
-  const V gain = hn::Mul(hn::Add(exponent, Constant(8.0f)), Constant(1.0f / (8.0f * 3.14159265f)));
-  const V cos_sun =
-      hn::Mul(hn::Max(Dot(s.normal, Constant(light.sun_direction)), zero), sun_visible);
-  const V sun = hn::Mul(hn::Mul(highlight, cos_sun), gain);
-  const V3 of_sun = Product(mirrored(Constant(0.04f)), Constant(light.sun_irradiance));
-  return ScaleAdd(of_sun, sun, Product(sky, mirrored(varnish)));
+  const V highlight = Exp2(d, log2 * exponent);
+  const V gain = (exponent + 8.0f) * (1.0f / (8.0f * 3.14159265f));
+  const V cos_sun = Max(Dot(s.normal, Constant(light.sun_direction)), zero) * sun_visible;
+  const V sun = highlight * cos_sun * gain;
+  const V3 of_sun = mirrored(Constant(0.04f)) * Constant(light.sun_irradiance);
+  return MulAdd(of_sun, sun, sky * mirrored(varnish));
 }
 
 // What the lanes show.
@@ -243,21 +234,21 @@ struct Shader<Object, kView> {
     // What the object itself is before does not tell on the light from the water.
     V over_others = SunVisible(s, tile, packet, NumbersOf(objects));
     if (s.sun_shadow.under_trees.map) {
-      const V above_m = hn::Sub(packet.p.z, WaterlineOf(objects.data()));
-      over_others = hn::Mul(over_others, SunUnderTrees(s, packet, hn::Max(above_m, hn::Zero(D()))));
+      const V above_m = packet.p.z - WaterlineOf(objects.data());
+      over_others = over_others * SunUnderTrees(s, packet, Max(above_m, 0.0f));
     }
-    if (s.media.fog.on) over_others = hn::Mul(over_others, SunOverFog(s.media.fog, packet.p.z));
-    V sun_visible = hn::Mul(over_others, SunOverOwn(s, objects, packet, surface.normal));
+    if (s.media.fog.on) over_others = over_others * SunOverFog(s.media.fog, packet.p.z);
+    V sun_visible = over_others * SunOverOwn(s, objects, packet, surface.normal);
     V thrown = hn::Zero(D());
     if (ShowsWaterSide<kView>(s.media))
-      sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, FootprintAcross(s.rays, packet)));
+      sun_visible = sun_visible * GatheredSun(s, packet.p, FootprintAcross(s.rays, packet));
     else
-      thrown = hn::Mul(over_others,
-                       ThrownLight(s, packet.p, surface.normal, FootprintAcross(s.rays, packet)));
+      thrown =
+          over_others * ThrownLight(s, packet.p, surface.normal, FootprintAcross(s.rays, packet));
     const V3 matt = MattLight(s.light, object.sea_light, surface,
                               {sun_visible, AmbientUnderClouds(s, packet.p)}, thrown);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};
-    return {Sum(matt, Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible)),
+    return {matt + Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible),
             surface.normal};
   }
 };

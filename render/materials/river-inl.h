@@ -62,7 +62,7 @@ HWY_INLINE void BlendSamples(const ocean::InlandSample* samples, VI at, V s, V t
   hn::Store(at, DI(), number);
   hn::Store(s, d, east);
   hn::Store(t, d, north);
-  const auto lerp = [](V8 a, V8 b, V8 by) HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), by, a); };
+  const auto lerp = [](V8 a, V8 b, V8 by) HWY_ATTR { return MulAdd(b - a, by, a); };
   std::array<std::array<V8, 8>, kLanes / 8> columns;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const float* const p = &samples[number[lane]].level_m;
@@ -84,27 +84,23 @@ HWY_INLINE RiverAt SampleRiver(const River& river, const Packet& packet) {
   const D d;
   const DI di;
   const V per_m = Constant(river.cells_per_m);
-  const V x = hn::Mul(hn::Sub(packet.p.x, Constant(river.corner_rel.x)), per_m);
-  const V y = hn::Mul(hn::Sub(packet.p.y, Constant(river.corner_rel.y)), per_m);
+  const V x = (packet.p.x - river.corner_rel.x) * per_m;
+  const V y = (packet.p.y - river.corner_rel.y) * per_m;
   constexpr float kCells = ocean::kInlandBlock;
   const auto block_of = [&](V cells, int blocks) HWY_ATTR {
-    return TruncateToInt(
-        Clamp(hn::Mul(cells, Constant(1.0f / kCells)), 0.0f, static_cast<float>(blocks) - 0.5f));
+    return TruncateToInt(Clamp(cells * (1.0f / kCells), 0.0f, static_cast<float>(blocks) - 0.5f));
   };
   const VI bx = block_of(x, river.blocks_x), by = block_of(y, river.blocks_y);
-  const VI block =
-      hn::GatherIndex(di, river.block_index, hn::Add(hn::Mul(by, hn::Set(di, river.blocks_x)), bx));
+  const VI block = hn::GatherIndex(di, river.block_index, by * hn::Set(di, river.blocks_x) + bx);
   const auto in_block = [&](V cells, VI b) HWY_ATTR {
-    return Clamp(hn::NegMulAdd(hn::ConvertTo(d, b), Constant(kCells), cells), 0.0f,
-                 kCells - 1.0f / 1024.0f);
+    return Clamp(NegMulAdd(hn::ConvertTo(d, b), kCells, cells), 0.0f, kCells - 1.0f / 1024.0f);
   };
   const V u = in_block(x, bx), v = in_block(y, by);
   const VI i = TruncateToInt(u), j = TruncateToInt(v);
-  const V s = hn::Sub(u, hn::ConvertTo(d, i)), t = hn::Sub(v, hn::ConvertTo(d, j));
+  const V s = u - hn::ConvertTo(d, i), t = v - hn::ConvertTo(d, j);
   // Beside the lattice any block will do: nothing of the river is drawn there.
-  const VI first =
-      hn::Mul(hn::Max(block, hn::Zero(di)), hn::Set(di, static_cast<int>(ocean::kInlandSamples)));
-  const VI at = hn::Add(hn::Add(first, hn::Mul(j, hn::Set(di, ocean::kInlandSide))), i);
+  const VI first = Max(block, hn::Zero(di)) * hn::Set(di, static_cast<int>(ocean::kInlandSamples));
+  const VI at = first + j * hn::Set(di, ocean::kInlandSide) + i;
   std::array<V, 8> value;
   BlendSamples(river.samples, at, s, t, value);
   return {value[0], value[1], value[2], value[3], value[4], value[5], value[6]};
@@ -121,23 +117,22 @@ struct CarriedCopy {
 
 HWY_INLINE std::array<CarriedCopy, 2> CarriedAt(const River& river, const RiverAt& at, V3 p) {
   const D d;
-  const V turns = hn::Add(at.phase, Constant(river.cycles));
+  const V turns = at.phase + river.cycles;
   V sine, cosine;
-  SinCosTurns(d, hn::Mul(hn::Sub(turns, hn::Floor(turns)), Constant(0.5f)), sine, cosine);
+  SinCosTurns(d, (turns - Floor(turns)) * 0.5f, sine, cosine);
   const auto copy = [&](V copy_turns, V weight) HWY_ATTR {
-    const V whole = hn::Floor(copy_turns), phase = hn::Sub(copy_turns, whole);
-    const V carried_s =
-        hn::Mul(hn::Sub(phase, Constant(0.5f)), Constant(static_cast<float>(kCarried_s)));
-    const V number = hn::Add(whole, Constant(river.cycle_number));
+    const V whole = Floor(copy_turns), phase = copy_turns - whole;
+    const V carried_s = (phase - 0.5f) * static_cast<float>(kCarried_s);
+    const V number = whole + river.cycle_number;
     const auto jump = [&](float step) HWY_ATTR {
-      const V steps = hn::Mul(number, Constant(step));
-      return hn::Mul(hn::Sub(steps, hn::Floor(steps)), Constant(7.0f));
+      const V steps = number * step;
+      return (steps - Floor(steps)) * 7.0f;
     };
-    return CarriedCopy{{hn::Add(hn::NegMulAdd(at.east, carried_s, p.x), jump(0.754877666f)),
-                        hn::Add(hn::NegMulAdd(at.north, carried_s, p.y), jump(0.569840291f)), p.z},
+    return CarriedCopy{{NegMulAdd(at.east, carried_s, p.x) + jump(0.754877666f),
+                        NegMulAdd(at.north, carried_s, p.y) + jump(0.569840291f), p.z},
                        weight};
   };
-  return {copy(turns, sine), copy(hn::Add(turns, Constant(0.5f)), hn::Abs(cosine))};
+  return {copy(turns, sine), copy(turns + 0.5f, Abs(cosine))};
 }
 
 // The slopes of the sea where a river ends.
@@ -152,7 +147,7 @@ static HWY_NOINLINE void SeaSlopes(const Shading& s, std::span<const Packet> pac
 
 // What is the sea's alone has its very bits: the river's is left out where all lanes are.
 HWY_INLINE V PassIntoSea(V river, V sea, V share) {
-  return hn::IfThenElse(hn::Ge(share, Constant(1.0f)), sea, Lerp(river, sea, share));
+  return IfThenElse(share >= 1.0f, sea, Lerp(river, sea, share));
 }
 HWY_INLINE V3 PassIntoSea(V3 river, V3 sea, V share) {
   return {PassIntoSea(river.x, sea.x, share), PassIntoSea(river.y, sea.y, share),
@@ -178,51 +173,46 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
   const Water& water = shading.material<Water>();
   const V level_m =
       FootprintLevel(FootprintAcross(shading.rays, packet), Clamp(packet.to_eye.z, kMinCos, 1.0f));
-  const V speed = hn::Sqrt(hn::MulAdd(at.east, at.east, hn::Mul(at.north, at.north)));
+  const V speed = Sqrt(MulAdd(at.east, at.east, at.north * at.north));
   // How rough the flow is: root mean square slopes; none where they would not be seen, whatever
   // the lanes beside show.
-  const V all_rough = hn::MulAdd(at.white, Constant(0.12f),
-                                 hn::Mul(hn::Min(speed, Constant(2.0f)), Constant(0.045f)));
-  const V rough = hn::IfThenElseZero(hn::Gt(all_rough, Constant(1e-3f)), all_rough);
+  const V all_rough = MulAdd(at.white, 0.12f, Min(speed, 2.0f) * 0.045f);
+  const V rough = IfThenElseZero(all_rough > 1e-3f, all_rough);
   WaterSlopes s = NoSlopes(Constant(river.base_variance), zero, packet.to_eye.z);
-  const bool flows = !hn::AllFalse(d, hn::Gt(rough, zero));
-  const bool foams = !hn::AllFalse(d, hn::Gt(at.white, Constant(0.02f)));
+  const bool flows = !hn::AllFalse(d, rough > zero);
+  const bool foams = !hn::AllFalse(d, at.white > 0.02f);
   if (flows) {
     V x = zero, y = zero, lost = zero, code = zero;
     for (const CarriedCopy& copy : CarriedAt(river, at, packet.p)) {
       V copy_x = zero, copy_y = zero, lost_long = zero, lost_short = zero;
       AddSlopes(river.long_ripples, copy.p, level_m, zero, zero, copy_x, copy_y, lost_long);
       AddSlopes(river.short_ripples, copy.p, level_m, zero, zero, copy_x, copy_y, lost_short);
-      x = hn::MulAdd(copy.weight, copy_x, x);
-      y = hn::MulAdd(copy.weight, copy_y, y);
-      lost = hn::Add(lost_long, lost_short);
+      x = MulAdd(copy.weight, copy_x, x);
+      y = MulAdd(copy.weight, copy_y, y);
+      lost = lost_long + lost_short;
       if (!foams) continue;
       V threshold, unused;
       NearestSlopes(river.foam.pattern, copy.p, level_m, threshold, unused);
-      code = hn::MulAdd(copy.weight, threshold, code);
+      code = MulAdd(copy.weight, threshold, code);
     }
-    s.slope_x = hn::Mul(x, rough);
-    s.slope_y = hn::Mul(y, rough);
-    s.variance = hn::MulAdd(hn::Mul(rough, rough), lost, s.variance);
+    s.slope_x = x * rough;
+    s.slope_y = y * rough;
+    s.variance = MulAdd(rough * rough, lost, s.variance);
     if (foams) {
       // Never white all over: the lace moves.
-      const V over = hn::MulSub(at.white, Constant(0.5f * (1.0f + kFoamRim)),
-                                hn::MulAdd(code, Constant(0.5f), Constant(0.5f)));
-      AddFoamOver(hn::IfThenElse(hn::Gt(at.white, Constant(0.02f)), over, Constant(-1.0f)), s);
+      const V over = MulSub(at.white, 0.5f * (1.0f + kFoamRim), MulAdd(code, 0.5f, 0.5f));
+      AddFoamOver(IfThenElse(at.white > 0.02f, over, -1.0f), s);
     }
   }
   // The wind's, and where the water is too shallow for them none.
-  const V share =
-      hn::Mul(Clamp(hn::Mul(at.depth, Constant(4.0f)), 0.0f, 1.0f), Constant(river.wind_share));
+  const V share = Clamp(at.depth * 4.0f, 0.0f, 1.0f) * river.wind_share;
   V x = zero, y = zero, lost = zero;
   for (int i = water.first_ripples; i < water.layer_count; ++i)
     AddSlopes(water.layers[static_cast<std::size_t>(i)], packet.p, level_m, zero, zero, x, y, lost);
-  s.slope_x = hn::MulAdd(share, x, s.slope_x);
-  s.slope_y = hn::MulAdd(share, y, s.slope_y);
-  s.variance = hn::MulAdd(hn::Mul(share, share), lost, s.variance);
-  s.fine_variance = hn::Add(
-      s.variance, hn::MulAdd(hn::Mul(rough, rough), one,
-                             hn::Mul(hn::Mul(share, share), Constant(water.short_variance))));
+  s.slope_x = MulAdd(share, x, s.slope_x);
+  s.slope_y = MulAdd(share, y, s.slope_y);
+  s.variance = MulAdd(share * share, lost, s.variance);
+  s.fine_variance = s.variance + MulAdd(rough * rough, one, share * share * water.short_variance);
   if (water.wakes.count > 0) AddWakes(water, packet.p, level_m, s);
   return s;
 }
@@ -235,20 +225,18 @@ HWY_INLINE V3 FindBed(const River& river, V3 p, V height_m, V level_m) {
   const D d;
   V x = hn::Zero(d), y = hn::Zero(d), unused = hn::Zero(d);
   AddSlopes(river.stones, p, level_m, x, y, x, y, unused);
-  const V sandy = SmoothBlend(
-      hn::Mul(hn::Sub(Constant(kGravelBegin_m), height_m), Constant(1.0f / kGravelBegin_m)));
-  const V relief = hn::NegMulAdd(sandy, Constant(0.31f * 0.7f), Constant(0.31f));
-  const V stones = Clamp(hn::MulAdd(x, relief, Constant(1.0f)), 0.45f, 1.6f);
+  const V sandy = SmoothBlend((kGravelBegin_m - height_m) * (1.0f / kGravelBegin_m));
+  const V relief = NegMulAdd(sandy, 0.31f * 0.7f, 0.31f);
+  const V stones = Clamp(MulAdd(x, relief, 1.0f), 0.45f, 1.6f);
   V3 bed = Constant(river.gravel);
-  const auto some = hn::Gt(sandy, hn::Zero(d));
+  const auto some = sandy > 0.0f;
   if (river.ground.map.texels && !hn::AllFalse(d, some)) {
     const V3 floor = FindAlbedo(river.ground, OnMap(river.ground, p), p);
-    const auto join = [&](V gravel, V sand) HWY_ATTR {
-      return hn::IfThenElse(some, Lerp(gravel, sand, sandy), gravel);
-    };
+    const auto join = [&](V gravel, V sand)
+                          HWY_ATTR { return IfThenElse(some, Lerp(gravel, sand, sandy), gravel); };
     bed = {join(bed.x, floor.x), join(bed.y, floor.y), join(bed.z, floor.z)};
   }
-  return Scale(bed, stones);
+  return bed * stones;
 }
 
 // What comes up: the water's own light, and the bed's through it, at the place that the bent ray
@@ -256,32 +244,32 @@ HWY_INLINE V3 FindBed(const River& river, V3 p, V height_m, V level_m) {
 HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
                        const Packet& packet, const WaterSlopes& slopes, V sun_visible) {
   const D d;
-  const V one = Constant(1.0f), depth = hn::Max(at.depth, hn::Zero(d));
+  const V one = Constant(1.0f), depth = Max(at.depth, 0.0f);
   const float inv_n = 1.0f / s.media.refraction_index;
   const V cos_eye = Clamp(packet.to_eye.z, 0.0f, 1.0f);
-  const V sin_t = hn::Mul(hn::Sqrt(hn::NegMulAdd(cos_eye, cos_eye, one)), Constant(inv_n));
-  const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, one));
-  const V path = hn::Div(depth, cos_t);
+  const V sin_t = Sqrt(NegMulAdd(cos_eye, cos_eye, one)) * inv_n;
+  const V cos_t = Sqrt(NegMulAdd(sin_t, sin_t, one));
+  const V path = depth / cos_t;
   // Where the ray ends, moved by the slopes that it goes through.
-  const V away = hn::Mul(path, Constant(-inv_n)), bend = hn::Mul(depth, Constant(1.0f - inv_n));
-  const V3 p = {hn::MulAdd(slopes.slope_x, bend, hn::MulAdd(packet.to_eye.x, away, packet.p.x)),
-                hn::MulAdd(slopes.slope_y, bend, hn::MulAdd(packet.to_eye.y, away, packet.p.y)),
-                hn::Sub(packet.p.z, depth)};
+  const V away = path * -inv_n, bend = depth * (1.0f - inv_n);
+  const V3 p = {MulAdd(slopes.slope_x, bend, MulAdd(packet.to_eye.x, away, packet.p.x)),
+                MulAdd(slopes.slope_y, bend, MulAdd(packet.to_eye.y, away, packet.p.y)),
+                packet.p.z - depth};
   const V level_m = FootprintLevel(FootprintAcross(s.rays, packet), Clamp(cos_eye, 0.1f, 1.0f));
-  const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
+  const V height_m = packet.p.z + s.rays.eye_z;
   const V3 bed = FindBed(river, p, height_m, level_m);
   V gathered = sun_visible;
-  const auto shows = hn::And(ShowsShortCaustics(s.caustics, level_m), hn::Gt(depth, hn::Zero(d)));
+  const auto shows = ShowsShortCaustics(s.caustics, level_m) & (depth > 0.0f);
   if (!hn::AllFalse(d, shows)) {
     const V net = GatheredSunAt(s, 1, p, depth, level_m);
-    gathered = hn::IfThenElse(shows, hn::Mul(sun_visible, net), sun_visible);
+    gathered = IfThenElse(shows, sun_visible * net, sun_visible);
   }
-  const V3 of_sky = Scale(Constant(river.sky_light), AmbientUnderClouds(s, packet.p));
-  const V3 lit = Product(ScaleAdd(Constant(river.sun_light), gathered, of_sky), bed);
-  const V length = hn::MulAdd(depth, Constant(kDaylightSlant), hn::Min(path, Constant(200.0f)));
-  const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
+  const V3 of_sky = Constant(river.sky_light) * AmbientUnderClouds(s, packet.p);
+  const V3 lit = MulAdd(Constant(river.sun_light), gathered, of_sky) * bed;
+  const V length = MulAdd(depth, kDaylightSlant, Min(path, 200.0f));
+  const V shade = MulSub(sun_visible, 0.6f, 0.6f);
   const V3 seen = AbsorbInWater(s.media, {depth, length}, lit);
-  return ScaleAdd(Constant(s.media.body_sun), shade, seen);
+  return MulAdd(Constant(s.media.body_sun), shade, seen);
 }
 
 // What a packet shows of rivers, with the sea's part where they end.
@@ -296,9 +284,9 @@ HWY_INLINE RiverSeen SeeRiver(const Shading& shading, const River& river, const 
   const V zero = hn::Zero(d);
   RiverSeen seen = {SampleRiver(river, packet), NoSlopes(zero, zero, zero), false, false};
   // Looks pass into the sea's before the surface has.
-  seen.at.sea_share = SmoothBlend(hn::MulAdd(seen.at.sea_share, Constant(2.0f), Constant(-0.2f)));
-  seen.meets_sea = !hn::AllFalse(d, hn::Gt(seen.at.sea_share, hn::Zero(d)));
-  seen.is_river = !hn::AllTrue(d, hn::Ge(seen.at.sea_share, Constant(1.0f)));
+  seen.at.sea_share = SmoothBlend(MulAdd(seen.at.sea_share, 2.0f, -0.2f));
+  seen.meets_sea = !hn::AllFalse(d, seen.at.sea_share > 0.0f);
+  seen.is_river = !hn::AllTrue(d, seen.at.sea_share >= 1.0f);
   if (seen.is_river) seen.slopes = RiverSlopes(shading, river, seen.at, packet);
   return seen;
 }
@@ -343,14 +331,14 @@ struct Shader<River, ViewKind::kWindow> {
     const RiverAt& at = river_seen.at;
     const WaterSlopes& s = river_seen.slopes;
     const Facing f = FaceEye(shading.media, water, packet, s);
-    const V sun_visible = hn::Mul(SunVisible(shading, tile, packet, Constant(-1.0f)),
-                                  SunUnderTrees(shading, packet, hn::Zero(d)));
+    const V sun_visible = SunVisible(shading, tile, packet, Constant(-1.0f)) *
+                          SunUnderTrees(shading, packet, hn::Zero(d));
     V inv_variance, mirrored_alpha, refracted_alpha = hn::Zero(d);
     const V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media},
                                 f.area, inv_variance);
     V3 refracted = Constant(shading.media.body);
     if (river_seen.is_river) refracted = BedLight(shading, river, at, packet, s, sun_visible);
-    V3 floor = Difference(refracted, Constant(shading.media.body));
+    V3 floor = refracted - Constant(shading.media.body);
     if (river_seen.meets_sea) {
       V3 sea_floor;
       const V3 of_sea = RefractedLight(shading, water, packet, s, sun_visible,
@@ -364,31 +352,28 @@ struct Shader<River, ViewKind::kWindow> {
         ReflectedLight(light, water, packet, s, f, inv_variance, floor, false, mirrored_alpha);
     const auto lay_over = [&](const LookupImage& lookup, V share) HWY_ATTR {
       const Looked image = LookUpDistorted<false>(water, lookup, packet, s, 1.0f);
-      const V part = hn::Mul(image.alpha, share);
+      const V part = image.alpha * share;
       mirrored = Lerp(mirrored, image.light, part);
-      mirrored_alpha = hn::Max(mirrored_alpha, part);
+      mirrored_alpha = Max(mirrored_alpha, part);
     };
     // Of a level that is not the place's an image is not what is mirrored there.
     const auto share_of = [&](float level_m) HWY_ATTR {
-      const V off = hn::Abs(hn::Sub(packet.p.z, Constant(level_m - shading.rays.eye_z)));
-      return Clamp(hn::NegMulAdd(off, Constant(kMirrorFall_per_m),
-                                 Constant(kMirrorFall_per_m * kMirrorGone_m)),
-                   0.0f, 1.0f);
+      const V off = Abs(packet.p.z - (level_m - shading.rays.eye_z));
+      return Clamp(NegMulAdd(off, kMirrorFall_per_m, kMirrorFall_per_m * kMirrorGone_m), 0.0f,
+                   1.0f);
     };
-    const V by_sea = river.mirrors_sea ? hn::Max(at.sea_share, share_of(0.0f)) : at.sea_share;
-    if (tile.lookups.reflection && !hn::AllFalse(d, hn::Gt(by_sea, zero)))
+    const V by_sea = river.mirrors_sea ? Max(at.sea_share, share_of(0.0f)) : at.sea_share;
+    if (tile.lookups.reflection && !hn::AllFalse(d, by_sea > zero))
       lay_over(water.reflection, by_sea);
     if (river.reflection.image) {
-      const V share = hn::Mul(
-          hn::Mul(share_of(river.mirror_level_m), Constant(river.mirror_share)),
-          hn::Mul(hn::Sub(Constant(1.0f), by_sea),
-                  Clamp(hn::NegMulAdd(at.sea_share, Constant(4.0f), Constant(1.0f)), 0.0f, 1.0f)));
-      if (!hn::AllFalse(d, hn::Gt(share, zero))) lay_over(river.reflection, share);
+      const V share = share_of(river.mirror_level_m) * river.mirror_share *
+                      ((1.0f - by_sea) * Clamp(NegMulAdd(at.sea_share, 4.0f, 1.0f), 0.0f, 1.0f));
+      if (!hn::AllFalse(d, share > zero)) lay_over(river.reflection, share);
     }
-    refracted_alpha = hn::IfThenElseZero(hn::Gt(at.sea_share, zero), refracted_alpha);
+    refracted_alpha = IfThenElseZero(at.sea_share > zero, refracted_alpha);
     V3 seen = Lerp(refracted, mirrored, f.reflectance);
-    seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), seen);
-    const V white = hn::Mul(foam.cover, hn::MulAdd(foam.thickness, Constant(0.5f), Constant(0.4f)));
+    seen = MulAdd(Constant(water.glitter_light), sun_path * sun_visible, seen);
+    const V white = foam.cover * MulAdd(foam.thickness, 0.5f, 0.4f);
     seen = AddFoam(river.foam, white, {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
   }

@@ -21,16 +21,15 @@ HWY_INLINE V SampleSquare(const SquareMap& square, const V3& p, V level_m, V out
   const V zero = hn::Zero(d), half = Constant(0.5f);
   const LayerPlace place = PlaceIn(square, p.x, p.y);
   const V side = Constant(256.0f * static_cast<float>(square.map->size - 1));
-  const auto inside = hn::And(hn::And(hn::Ge(place.x_fx8, zero), hn::Ge(place.y_fx8, zero)),
-                              hn::And(hn::Lt(place.x_fx8, side), hn::Lt(place.y_fx8, side)));
+  const auto inside = ((place.x_fx8 >= zero) & (place.y_fx8 >= zero)) &
+                      ((place.x_fx8 < side) & (place.y_fx8 < side));
   if (hn::AllFalse(d, inside)) return outside;
   const float coarsest = static_cast<float>(square.map->levels - 1);
-  const V level =
-      Clamp(hn::Add(level_m, Constant(square.log2_texels_per_m + 0.5f)), 0.0f, coarsest);
+  const V level = Clamp(level_m + (square.log2_texels_per_m + 0.5f), 0.0f, coarsest);
   const V code = texture::HWY_NAMESPACE::SampleLevel(
-      d, *square.map, RoundToInt(hn::IfThenElseZero(inside, place.x_fx8)),
-      RoundToInt(hn::IfThenElseZero(inside, place.y_fx8)), TruncateToInt(level));
-  return hn::IfThenElse(inside, hn::MulAdd(code, half, half), outside);
+      d, *square.map, RoundToInt(IfThenElseZero(inside, place.x_fx8)),
+      RoundToInt(IfThenElseZero(inside, place.y_fx8)), TruncateToInt(level));
+  return IfThenElse(inside, MulAdd(code, half, half), outside);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -28,12 +28,12 @@ HWY_INLINE V SunFromMap(const Shading& s, const SlopeLayer& map, V3 p, V level_m
   const LayerPlace place = PlaceIn(map, p.x, p.y);
   V code, unused;
   SampleNearest(map, place, level_m, code, unused);
-  const V visible = hn::MulAdd(code, half, half);
+  const V visible = MulAdd(code, half, half);
   const V side = Constant(256.0f * static_cast<float>(map.map->size - 1));
-  const auto inside = hn::And(hn::And(hn::Ge(place.x_fx8, zero), hn::Ge(place.y_fx8, zero)),
-                              hn::And(hn::Lt(place.x_fx8, side), hn::Lt(place.y_fx8, side)));
+  const auto inside = ((place.x_fx8 >= zero) & (place.y_fx8 >= zero)) &
+                      ((place.x_fx8 < side) & (place.y_fx8 < side));
   if (hn::AllTrue(D(), inside) || !s.sun_shadow.land) return visible;
-  return hn::IfThenElse(inside, visible, SunOverLand(s.sun_shadow, p_lit, s.rays.eye_z));
+  return IfThenElse(inside, visible, SunOverLand(s.sun_shadow, p_lit, s.rays.eye_z));
 }
 
 // The part of the sun that the ground sees: over the sea floor, from where its light enters the
@@ -46,9 +46,9 @@ HWY_INLINE V SunOnGround(const Shading& s, const Terrain& terrain, const TilePix
   V visible = Constant(1.0f);
   if (terrain.sun.map) visible = SunFromMap(s, terrain.sun, packet.p, level_m, point.p);
   if (s.sun_shadow.clouds)
-    visible = hn::Mul(visible, SunUnderClouds(*s.sun_shadow.clouds, point.p, s.rays.eye_z));
+    visible = visible * SunUnderClouds(*s.sun_shadow.clouds, point.p, s.rays.eye_z);
   if (tile.casters.empty()) return visible;
-  return hn::Mul(visible, SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet), point));
+  return visible * SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet), point);
 }
 
 // What ground is like for light. normal: as seen; inverse_length: that of a normal (-slope_x,
@@ -73,11 +73,11 @@ HWY_INLINE GroundLook FindPlainGround(const Terrain& terrain, const Packet& pack
 
 HWY_INLINE GroundLook FindDryGround(const Terrain& terrain, const ViewRays& rays,
                                     const Packet& packet, V on_map, GroundSlopes slopes) {
-  const V cos_view = Clamp(hn::Abs(Dot(NormalOf(slopes.x, slopes.y), packet.to_eye)), 0.3f, 1.0f);
+  const V cos_view = Clamp(Abs(Dot(NormalOf(slopes.x, slopes.y), packet.to_eye)), 0.3f, 1.0f);
   const V level_m = FootprintLevel(FootprintAcross(rays, packet), cos_view);
   const LandLook land = FindLand(terrain, rays, packet, on_map, level_m, slopes.x, slopes.y);
-  const V slope2 = hn::MulAdd(land.slope_x, land.slope_x, hn::Mul(land.slope_y, land.slope_y));
-  const V inverse_length = InverseSqrt(hn::Add(Constant(1.0f), hn::Add(slope2, land.variance)));
+  const V slope2 = MulAdd(land.slope_x, land.slope_x, land.slope_y * land.slope_y);
+  const V inverse_length = InverseSqrt(1.0f + (slope2 + land.variance));
   return {land.albedo, NormalOf(land.slope_x, land.slope_y), inverse_length, land.sky_seen};
 }
 
@@ -89,18 +89,17 @@ HWY_INLINE GroundLook FindGround(const Terrain& terrain, const ViewRays& rays, c
   const GroundSlopes slopes = FindSlopes<kDetail>(terrain, on_map, packet.p, level_m);
   if constexpr (kDetail) {
     if (terrain.land.on) {
-      const auto dry = hn::Gt(packet.p.z, Constant(-rays.eye_z));
+      const auto dry = packet.p.z > -rays.eye_z;
       if (hn::AllTrue(d, dry)) return FindDryGround(terrain, rays, packet, on_map, slopes);
       const GroundLook floor = FindPlainGround<kDetail>(terrain, packet, on_map, level_m, slopes);
       if (hn::AllFalse(d, dry)) return floor;
       const GroundLook land = FindDryGround(terrain, rays, packet, on_map, slopes);
       const auto select = [&](V3 a, V3 b) HWY_ATTR {
-        return V3{hn::IfThenElse(dry, a.x, b.x), hn::IfThenElse(dry, a.y, b.y),
-                  hn::IfThenElse(dry, a.z, b.z)};
+        return V3{IfThenElse(dry, a.x, b.x), IfThenElse(dry, a.y, b.y), IfThenElse(dry, a.z, b.z)};
       };
       return {select(land.albedo, floor.albedo), select(land.normal, floor.normal),
-              hn::IfThenElse(dry, land.inverse_length, floor.inverse_length),
-              hn::IfThenElse(dry, land.sky_seen, floor.sky_seen)};
+              IfThenElse(dry, land.inverse_length, floor.inverse_length),
+              IfThenElse(dry, land.sky_seen, floor.sky_seen)};
     }
   }
   return FindPlainGround<kDetail>(terrain, packet, on_map, level_m, slopes);
@@ -123,18 +122,17 @@ HWY_INLINE Ground LightGround(const Terrain& terrain, const Shading& s, const Pa
   const UnderTrees under =
       FindUnderTrees(terrain.canopy, s.sun_shadow.under_trees, s.rays, packet, level_m);
   look.albedo = ColourUnderTrees(terrain.canopy, under, look.albedo);
-  sun_visible = hn::Mul(sun_visible, under.sun);
+  sun_visible = sun_visible * under.sun;
 
   // Slopes that are not shown make the mean cosine less.
-  const V rough = hn::Div(look.inverse_length, look.normal.z);
-  const V cos_mean = hn::Mul(Dot(look.normal, Constant(light.sun_direction)), rough);
-  const V cos_sun = hn::Mul(hn::Max(cos_mean, zero), sun_visible);
-  const V open = hn::Mul(hn::Mul(look.sky_seen, under.sky), AmbientUnderClouds(s, packet.p));
-  const V sky_seen = hn::Mul(hn::MulAdd(look.inverse_length, Constant(0.5f), Constant(0.5f)), open);
-  const V3 arriving =
-      ScaleAdd(Constant(light.sun_irradiance), hn::Mul(cos_sun, Constant(0.318309886f)),
-               Scale(Constant(light.ambient), sky_seen));
-  return {Product(arriving, look.albedo), look.normal};
+  const V rough = look.inverse_length / look.normal.z;
+  const V cos_mean = Dot(look.normal, Constant(light.sun_direction)) * rough;
+  const V cos_sun = Max(cos_mean, zero) * sun_visible;
+  const V open = look.sky_seen * under.sky * AmbientUnderClouds(s, packet.p);
+  const V sky_seen = MulAdd(look.inverse_length, 0.5f, 0.5f) * open;
+  const V3 arriving = MulAdd(Constant(light.sun_irradiance), cos_sun * 0.318309886f,
+                             Constant(light.ambient) * sky_seen);
+  return {arriving * look.albedo, look.normal};
 }
 
 // Where the sea's edge is now, as a height on the beach from 0 to reach_m: it stays low
@@ -147,47 +145,40 @@ struct SwashEdge {
 HWY_INLINE SwashEdge FindSwashEdge(const Swash& swash, V3 p) {
   const D d;
   V along_a, along_b, sine, cosine, unused;
-  SinCosTurns(d,
-              hn::MulAdd(p.x, Constant(swash.lag_a.x),
-                         hn::MulAdd(p.y, Constant(swash.lag_a.y), Constant(swash.lag_a.z))),
-              along_a, unused);
-  SinCosTurns(d,
-              hn::MulAdd(p.x, Constant(swash.lag_b.x),
-                         hn::MulAdd(p.y, Constant(swash.lag_b.y), Constant(swash.lag_b.z))),
-              along_b, unused);
-  const V lag = hn::Mul(hn::Add(along_a, along_b), Constant(0.3f));
-  const V turns = hn::Sub(Constant(swash.cycles), lag);
+  SinCosTurns(d, MulAdd(p.x, swash.lag_a.x, MulAdd(p.y, swash.lag_a.y, swash.lag_a.z)), along_a,
+              unused);
+  SinCosTurns(d, MulAdd(p.x, swash.lag_b.x, MulAdd(p.y, swash.lag_b.y, swash.lag_b.z)), along_b,
+              unused);
+  const V lag = (along_a + along_b) * 0.3f;
+  const V turns = swash.cycles - lag;
   SinCosTurns(d, turns, sine, cosine);
   // sin(phi - 0.35 cos phi) is high for a shorter time than low.
-  const V leaning = hn::MulAdd(cosine, Constant(-0.056f), turns);
+  const V leaning = MulAdd(cosine, -0.056f, turns);
   SinCosTurns(d, leaning, sine, cosine);
   const V half = Constant(0.5f);
   // Scallops: the edge is a row of lobes.
   V lobes;
-  SinCosTurns(d,
-              hn::MulAdd(p.x, Constant(swash.lag_c.x),
-                         hn::MulAdd(p.y, Constant(swash.lag_c.y),
-                                    hn::MulAdd(along_b, Constant(0.7f), Constant(swash.lag_c.z)))),
-              lobes, unused);
-  const V reach =
-      hn::MulAdd(along_b, Constant(0.09f), hn::MulAdd(lobes, Constant(0.06f), Constant(0.85f)));
-  const V edge = hn::Mul(hn::MulAdd(sine, half, half), hn::Mul(reach, Constant(swash.reach_m)));
-  return {edge, hn::MulAdd(cosine, hn::Neg(half), half)};
+  SinCosTurns(
+      d,
+      MulAdd(p.x, swash.lag_c.x, MulAdd(p.y, swash.lag_c.y, MulAdd(along_b, 0.7f, swash.lag_c.z))),
+      lobes, unused);
+  const V reach = MulAdd(along_b, 0.09f, MulAdd(lobes, 0.06f, 0.85f));
+  const V edge = MulAdd(sine, half, half) * (reach * swash.reach_m);
+  return {edge, MulAdd(cosine, -half, half)};
 }
 
 // How much higher or lower the ground is one pixel farther up [m]: seen from near the ground by
 // decimetres. `normal`: the ground's.
 HWY_INLINE V RiseOverPixel(const ViewRays& rays, const Packet& packet, V3 normal) {
-  const V along =
-      hn::Abs(hn::MulAdd(packet.to_eye.x, normal.x, hn::Mul(packet.to_eye.y, normal.y)));
-  const V facing = hn::Max(Dot(packet.to_eye, normal), Constant(0.004f));
-  return hn::Mul(hn::Mul(packet.depth, Constant(rays.pixel_angle)), hn::Div(along, facing));
+  const V along = Abs(MulAdd(packet.to_eye.x, normal.x, packet.to_eye.y * normal.y));
+  const V facing = Max(Dot(packet.to_eye, normal), 0.004f);
+  return packet.depth * rays.pixel_angle * (along / facing);
 }
 
 // From 0 to 1 while x goes from 0 to `ramp`, as pixels show it that span so much of x.
 HWY_INLINE V RampOverPixel(V x, float ramp, V span) {
-  const V width = hn::Sqrt(hn::MulAdd(hn::Mul(span, span), Constant(2.25f), Constant(ramp * ramp)));
-  return hn::Add(hn::Div(hn::Sub(x, Constant(0.5f * ramp)), width), Constant(0.5f));
+  const V width = Sqrt(MulAdd(span * span, 2.25f, ramp * ramp));
+  return (x - 0.5f * ramp) / width + 0.5f;
 }
 
 // The sea's waves where they run out over the sand: `kept` of them is left, in [0, 1].
@@ -195,30 +186,29 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
   const V zero = hn::Zero(D());
   const Water& water = s.material<Water>();
   const V flat = Constant(water.base_variance);
-  if (hn::AllFalse(D(), hn::Gt(kept, zero))) return NoSlopes(flat, flat, packet.to_eye.z);
+  if (hn::AllFalse(D(), kept > zero)) return NoSlopes(flat, flat, packet.to_eye.z);
   const WaterSlopes sea = SampleWater<true>(water, s.rays, packet);
   WaterSlopes left = NoSlopes(Lerp(flat, sea.variance, kept), Lerp(flat, sea.fine_variance, kept),
                               Lerp(packet.to_eye.z, sea.long_cosine, kept));
-  left.slope_x = hn::Mul(sea.slope_x, kept);
-  left.slope_y = hn::Mul(sea.slope_y, kept);
-  left.foam_cover = hn::Mul(sea.foam_cover, kept);
+  left.slope_x = sea.slope_x * kept;
+  left.slope_y = sea.slope_y * kept;
+  left.foam_cover = sea.foam_cover * kept;
   return left;
 }
 
 // Foam of a sheet whose rim is `below` [m of height] above: a bright rim, then lace that thins out.
 // None where the sea begins, which brings its own. Pixels span so much height.
 HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V span_m, V calm) {
-  const V from_rim = hn::Mul(below, Constant(1.0f / reach_m));
-  const V span = hn::Mul(span_m, Constant(1.0f / reach_m));
+  const V from_rim = below * (1.0f / reach_m);
+  const V span = span_m * (1.0f / reach_m);
   // Of a rim narrower than a pixel there is a part.
-  const V shown = InverseSqrt(hn::MulAdd(hn::Mul(span, span), Constant(81.0f), Constant(1.0f)));
-  const V rim =
-      hn::Mul(shown, Clamp(hn::NegMulAdd(from_rim, Constant(9.0f), Constant(1.0f)), 0.0f, 1.0f));
-  const V lace = Clamp(hn::NegMulAdd(from_rim, Constant(0.9f), Constant(0.6f)), 0.0f, 1.0f);
+  const V shown = InverseSqrt(MulAdd(span * span, 81.0f, 1.0f));
+  const V rim = shown * Clamp(NegMulAdd(from_rim, 9.0f, 1.0f), 0.0f, 1.0f);
+  const V lace = Clamp(NegMulAdd(from_rim, 0.9f, 0.6f), 0.0f, 1.0f);
   const V front = Clamp(RampOverPixel(from_rim, 0.025f, span), 0.0f, 1.0f);
-  const V fresh = hn::NegMulAdd(swash.retreat, Constant(0.6f), Constant(1.0f));
-  const V begun = hn::Min(hn::Mul(calm, Constant(2.0f)), Constant(1.0f));
-  return hn::Mul(hn::Mul(hn::Max(rim, lace), front), hn::Mul(fresh, begun));
+  const V fresh = NegMulAdd(swash.retreat, 0.6f, 1.0f);
+  const V begun = Min(calm * 2.0f, 1.0f);
+  return Max(rim, lace) * front * (fresh * begun);
 }
 
 // Wet sand mirrors the sky; a sheet of water with foam at its rim runs over it, and at the sea's
@@ -229,45 +219,44 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const D d;
   const float reach_m = terrain.swash.reach_m;
   const V3 ground = dry.light;
-  if (reach_m <= 0.0f || hn::AllFalse(d, hn::Lt(height_m, Constant(1.6f * reach_m)))) return ground;
+  if (reach_m <= 0.0f || hn::AllFalse(d, height_m < 1.6f * reach_m)) return ground;
   // In a lee sheets run less high: the beach is as if it were higher.
   const V kept = KeptBeside(s.material<Water>().near_shore, packet.p, level_m);
-  height_m = hn::Div(height_m, kept);
-  const auto reached = hn::Lt(height_m, Constant(1.6f * reach_m));
+  height_m = height_m / kept;
+  const auto reached = height_m < 1.6f * reach_m;
   if (hn::AllFalse(d, reached)) return ground;
   const SwashEdge swash = FindSwashEdge(terrain.swash, packet.p);
   // Sand stays wet for a while up to where the sheets come.
-  const V height = hn::Mul(height_m, Constant(1.0f / reach_m));
-  const V wet = SmoothBlend(hn::MulAdd(height, Constant(-1.0f / 1.1f), Constant(1.6f / 1.1f)));
-  const V calm = Clamp(hn::Mul(height, Constant(4.0f)), 0.0f, 1.0f);
-  const V below = hn::Sub(swash.edge_m, height_m);  // of the sheet's rim [m of height]
-  const V span_m = hn::Min(hn::Div(RiseOverPixel(s.rays, packet, dry.normal), kept),
-                           Constant(0.6f * reach_m));  // so that sheets end before `reached` does
+  const V height = height_m * (1.0f / reach_m);
+  const V wet = SmoothBlend(MulAdd(height, -1.0f / 1.1f, 1.6f / 1.1f));
+  const V calm = Clamp(height * 4.0f, 0.0f, 1.0f);
+  const V below = swash.edge_m - height_m;  // of the sheet's rim [m of height]
+  const V span_m = Min(RiseOverPixel(s.rays, packet, dry.normal) / kept,
+                       0.6f * reach_m);  // so that sheets end before `reached` does
   const V sheet = SmoothBlend(RampOverPixel(below, 0.125f * reach_m, span_m));
   // The sea thins out over a little of the sand, also where no sheet comes in.
-  const V film = hn::Max(sheet, SmoothBlend(hn::NegMulAdd(calm, Constant(1.2f), Constant(1.0f))));
+  const V film = Max(sheet, SmoothBlend(NegMulAdd(calm, 1.2f, 1.0f)));
 
-  const WaterSlopes waves = SampleRunOut(s, packet, hn::NegMulAdd(calm, film, film));
+  const WaterSlopes waves = SampleRunOut(s, packet, NegMulAdd(calm, film, film));
   const Facing f = FaceEye(s.media, s.material<Water>(), packet, waves);
   V inv_variance, unused;
   const V glint = SunGlint(s.light.sun_direction, packet, waves, GlintReflectance{s.media}, f.area,
                            inv_variance);
-  const V3 floor = Difference(ground, Constant(s.media.body));
+  const V3 floor = ground - Constant(s.media.body);
   const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f, inv_variance,
                                      floor, false, unused);
   const V half = Constant(0.5f);
-  const V shine = hn::Mul(f.reflectance, hn::MulAdd(film, half, hn::Mul(wet, half)));
-  const V bare = hn::NegMulAdd(wet, film, wet);
-  const V darkened = hn::NegMulAdd(bare, Constant(0.15f), Constant(1.0f));
-  V3 light = Lerp(Scale(ground, darkened), mirrored, shine);
-  light =
-      ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(glint, hn::Mul(film, sun_visible)), light);
+  const V shine = f.reflectance * MulAdd(film, half, wet * half);
+  const V bare = NegMulAdd(wet, film, wet);
+  const V darkened = NegMulAdd(bare, 0.15f, 1.0f);
+  V3 light = Lerp(ground * darkened, mirrored, shine);
+  light = MulAdd(Constant(s.light.sun_irradiance), glint * (film * sun_visible), light);
   const V foam = SheetFoam(reach_m, swash, below, span_m, calm);
   const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
-  light = AddFoam(terrain.foam, hn::Max(cover, waves.foam_cover),
+  light = AddFoam(terrain.foam, Max(cover, waves.foam_cover),
                   {sun_visible, AmbientUnderClouds(s, packet.p)}, light);
-  return {hn::IfThenElse(reached, light.x, ground.x), hn::IfThenElse(reached, light.y, ground.y),
-          hn::IfThenElse(reached, light.z, ground.z)};
+  return {IfThenElse(reached, light.x, ground.x), IfThenElse(reached, light.y, ground.y),
+          IfThenElse(reached, light.z, ground.z)};
 }
 
 // Ground as the eye sees it, with the sea's last sheets on it; without detail for what is seen
@@ -281,13 +270,13 @@ struct Shader<Terrain, kView> {
     const V level_m = GroundLevel(s.rays, packet);
     constexpr bool kDetail = kView == ViewKind::kWindow;
     V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
-    if (s.media.fog.on) sun_visible = hn::Mul(sun_visible, SunOverFog(s.media.fog, packet.p.z));
+    if (s.media.fog.on) sun_visible = sun_visible * SunOverFog(s.media.fog, packet.p.z);
     if (ShowsWaterSide<kView>(s.media))
-      sun_visible = hn::Mul(sun_visible, GatheredSun(s, packet.p, level_m));
+      sun_visible = sun_visible * GatheredSun(s, packet.p, level_m);
     const Ground ground = LightGround<kDetail>(terrain, s, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
       if (s.media.submerged) return Surfel{ground.light, ground.normal};
-      const V height_m = hn::Add(packet.p.z, Constant(s.rays.eye_z));
+      const V height_m = packet.p.z + s.rays.eye_z;
       return Surfel{AddSwash(s, terrain, packet, level_m, height_m, sun_visible, ground),
                     ground.normal};
     } else if constexpr (kView == ViewKind::kRefraction) {

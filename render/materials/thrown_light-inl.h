@@ -23,25 +23,24 @@ inline HWY_NOINLINE V ThrownLight(const Shading& s, const V3& p, const V3& norma
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
   const glm::vec3 sun = s.light.sun_direction;
-  const V height = hn::Max(hn::Add(p.z, Constant(s.rays.eye_z)), zero);
-  const V facing = hn::Max(Dot(normal, Constant({sun.x, sun.y, -sun.z})), zero);
-  const V low = Clamp(hn::Mul(hn::Sub(Constant(kThrownEnds_m), height),
-                              Constant(1.0f / (kThrownEnds_m - kThrownFades_m))),
-                      0.0f, 1.0f);
-  V light = hn::Mul(facing, low);
-  if (!s.caustics.throws_up || hn::AllFalse(d, hn::Gt(light, zero))) return zero;
-  const V x = hn::MulAdd(height, Constant(s.caustics.thrown_from.x), p.x);
-  const V y = hn::MulAdd(height, Constant(s.caustics.thrown_from.y), p.y);
+  const V height = Max(p.z + s.rays.eye_z, zero);
+  const V facing = Max(Dot(normal, Constant({sun.x, sun.y, -sun.z})), zero);
+  const V low =
+      Clamp((kThrownEnds_m - height) * (1.0f / (kThrownEnds_m - kThrownFades_m)), 0.0f, 1.0f);
+  V light = facing * low;
+  if (!s.caustics.throws_up || hn::AllFalse(d, light > zero)) return zero;
+  const V x = MulAdd(height, s.caustics.thrown_from.x, p.x);
+  const V y = MulAdd(height, s.caustics.thrown_from.y, p.y);
   for (std::size_t i = 0; i < s.caustics.patches; ++i) {
     const CausticPatch& patch = s.caustics.patch[i];
     const CausticPlace at = PlaceInCaustics(patch, x, y, level_m);
     // Contrast rises as that of a weak lens does, and falls above the focus.
-    const V to_map = hn::Mul(height, Constant(1.0f / patch.mirrored_m));
-    const V weight = hn::Min(to_map, hn::Div(one, hn::Max(to_map, Constant(1e-6f))));
-    const V more = hn::Sub(SampleCaustic(*patch.mirrored, at), one);
-    light = hn::Mul(light, hn::MulAdd(more, hn::Mul(weight, Constant(s.caustics.strength)), one));
+    const V to_map = height * (1.0f / patch.mirrored_m);
+    const V weight = Min(to_map, one / Max(to_map, 1e-6f));
+    const V more = SampleCaustic(*patch.mirrored, at) - one;
+    light = light * MulAdd(more, weight * s.caustics.strength, one);
   }
-  return hn::Mul(light, FresnelReflectance(d, Constant(sun.z), s.media.refraction_index));
+  return light * FresnelReflectance(d, Constant(sun.z), s.media.refraction_index);
 }
 
 }  // namespace HWY_NAMESPACE

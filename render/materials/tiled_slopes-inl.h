@@ -31,12 +31,9 @@ HWY_INLINE tiles::SquarePlace<D> SquareOf(const SlopeLayer& layer, VI x_fx8, VI 
   const int bits = std::countr_zero(static_cast<unsigned>(map_fx8));
   const VI in_map = hn::Set(di, map_fx8 - 1);
   const V unit = Constant(1.0f / static_cast<float>(map_fx8));
-  const auto period = [&](VI fx8, int at_eye) HWY_ATTR {
-    return hn::Add(hn::ShiftRightSame(fx8, bits), hn::Set(di, at_eye));
-  };
-  const auto inside = [&](VI fx8) HWY_ATTR {
-    return hn::Mul(hn::ConvertTo(d, hn::And(fx8, in_map)), unit);
-  };
+  const auto period = [&](VI fx8, int at_eye)
+                          HWY_ATTR { return hn::ShiftRightSame(fx8, bits) + hn::Set(di, at_eye); };
+  const auto inside = [&](VI fx8) HWY_ATTR { return hn::ConvertTo(d, fx8 & in_map) * unit; };
   return {period(x_fx8, layer.eye_column), period(y_fx8, layer.eye_row), inside(x_fx8),
           inside(y_fx8)};
 }
@@ -74,14 +71,13 @@ HWY_INLINE PatchSample SampleTile(const SlopeLayer& layer, const PatchPlace& at,
   const D d;
   const DI di;
   PatchSample s = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  texture::HWY_NAMESPACE::AddBlended(
-      d, *layer.map, hn::Add(at.slopes.x_fx8, hn::ShiftLeft<8>(by.x)),
-      hn::Add(at.slopes.y_fx8, hn::ShiftLeft<8>(by.y)), at.slopes.level.base, at.slopes.level.t,
-      layer.gain, s.slope_x, s.slope_y);
+  texture::HWY_NAMESPACE::AddBlended(d, *layer.map, at.slopes.x_fx8 + hn::ShiftLeft<8>(by.x),
+                                     at.slopes.y_fx8 + hn::ShiftLeft<8>(by.y), at.slopes.level.base,
+                                     at.slopes.level.t, layer.gain, s.slope_x, s.slope_y);
   if (at.foam) {
     const VI per_sample = hn::Set(di, at.foam->fx8_per_sample);
-    s.foam = FoamAt(*at.foam, hn::Add(hn::Mul(by.x, per_sample), at.foam_x_fx8),
-                    hn::Add(hn::Mul(by.y, per_sample), at.foam_y_fx8), at.foam_level);
+    s.foam = FoamAt(*at.foam, by.x * per_sample + at.foam_x_fx8, by.y * per_sample + at.foam_y_fx8,
+                    at.foam_level);
   }
   return s;
 }
@@ -99,10 +95,9 @@ static HWY_NOINLINE PatchSample BlendTiles(const SlopeLayer& layer, const PatchP
                      [&](tiles::TileOffset<VI> by, const tiles::TileWeight<V>& tile) HWY_ATTR {
                        const PatchSample found = is_own ? own : SampleTile(layer, at, by);
                        is_own = false;
-                       sum.slope_x = hn::MulAdd(tile.weight, found.slope_x, sum.slope_x);
-                       sum.slope_y = hn::MulAdd(tile.weight, found.slope_y, sum.slope_y);
-                       sum.foam =
-                           hn::MulAdd(hn::Mul(tile.weight, tile.weight), found.foam, sum.foam);
+                       sum.slope_x = MulAdd(tile.weight, found.slope_x, sum.slope_x);
+                       sum.slope_y = MulAdd(tile.weight, found.slope_y, sum.slope_y);
+                       sum.foam = MulAdd(tile.weight * tile.weight, found.foam, sum.foam);
                      });
   return sum;
 }
@@ -115,7 +110,7 @@ HWY_INLINE V AddLongestPatch(const SlopeLayer& layer, const FoamMap* foam, V3 p,
   const DI di;
   const MapLevel level = LevelIn(layer, level_m, variance);
   const V foam_lost = foam ? FoamLost(*foam, level_m) : Constant(1.0f);
-  const bool some_foam = !hn::AllTrue(d, hn::Ge(foam_lost, Constant(1.0f)));
+  const bool some_foam = !hn::AllTrue(d, foam_lost >= 1.0f);
   PatchSample found = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   if (!level.all_lost || some_foam) {
     const PatchPlace at = PlaceInPatch(layer, level, some_foam ? foam : nullptr, p, level_m);
@@ -130,8 +125,8 @@ HWY_INLINE V AddLongestPatch(const SlopeLayer& layer, const FoamMap* foam, V3 p,
     found = SampleTile(layer, at, by);
     if (layer.tiling.on && !tiles::AllInOneTile(d, in_row, square.y))
       found = BlendTiles(layer, at, square, found);
-    slope_x = hn::Add(slope_x, found.slope_x);
-    slope_y = hn::Add(slope_y, found.slope_y);
+    slope_x = slope_x + found.slope_x;
+    slope_y = slope_y + found.slope_y;
   }
   return foam ? BlendFoam(*foam, found.foam, foam_lost) : found.foam;
 }

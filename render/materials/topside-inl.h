@@ -41,23 +41,22 @@ struct Looked {
 HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px, const BlurLevel& level) {
   const D d;
   const V one = Constant(1.0f);
-  const V x = hn::Mul(x_px, Constant(lookup.scale_x)), y = hn::Mul(y_px, Constant(lookup.scale_y));
+  const V x = x_px * lookup.scale_x, y = y_px * lookup.scale_y;
   V3 code;
   V alpha;
   SampleBlurred(*lookup.image, x, y, level, code, alpha);
-  const auto some = hn::Gt(alpha, hn::Zero(d));
+  const auto some = alpha > 0.0f;
   if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
   // Codes that were blended with zeros.
-  if (!hn::AllFalse(d, hn::And(some, hn::Lt(alpha, one))))
-    code = Scale(code, hn::Div(one, hn::Max(alpha, Constant(1.0f / 512.0f))));
+  if (!hn::AllFalse(d, some & (alpha < one))) code = code * (one / Max(alpha, 1.0f / 512.0f));
   return {DecodeLight(code), alpha};
 }
 
 // What `front` leaves of a place shows `behind`.
 HWY_INLINE Looked LayOver(const Looked& front, const Looked& behind) {
-  const V shown = hn::Mul(hn::Sub(Constant(1.0f), front.alpha), behind.alpha);
-  const V alpha = hn::Add(front.alpha, shown);
-  const V part = hn::Div(shown, hn::Max(alpha, Constant(1.0f / 512.0f)));
+  const V shown = (1.0f - front.alpha) * behind.alpha;
+  const V alpha = front.alpha + shown;
+  const V part = shown / Max(alpha, 1.0f / 512.0f);
   return {Lerp(front.light, behind.light, part), alpha};
 }
 
@@ -68,23 +67,20 @@ template <bool kBacked>
 HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
                                   const Packet& packet, const WaterSlopes& s, float sign) {
   const D d;
-  const V right = hn::MulAdd(s.slope_x, Constant(water.view_right.x),
-                             hn::Mul(s.slope_y, Constant(water.view_right.y)));
-  const V ahead = hn::MulAdd(s.slope_x, Constant(water.view_ahead.x),
-                             hn::Mul(s.slope_y, Constant(water.view_ahead.y)));
-  const V gain = hn::Mul(Constant(sign * water.distortion_px),
-                         Clamp(hn::Mul(packet.to_eye.z, Constant(water.distortion_by_sine)),
-                               water.least_distortion, 1.0f));
+  const V right = MulAdd(s.slope_x, water.view_right.x, s.slope_y * water.view_right.y);
+  const V ahead = MulAdd(s.slope_x, water.view_ahead.x, s.slope_y * water.view_ahead.y);
+  const V gain = sign * water.distortion_px *
+                 Clamp(packet.to_eye.z * water.distortion_by_sine, water.least_distortion, 1.0f);
   // What lies under water is near the surface: slopes too fine to see move it by less than they
   // spread it.
-  const BlurLevel level = kBacked ? Sharp() : FindBlur(lookup, s.variance, hn::Mul(gain, gain));
+  const BlurLevel level = kBacked ? Sharp() : FindBlur(lookup, s.variance, gain * gain);
   const float bound = water.max_distortion_px;
-  const V dx = Clamp(hn::Mul(right, hn::Mul(gain, Constant(-0.5f))), -bound, bound);
-  const V dy = Clamp(hn::Mul(ahead, gain), -bound, bound);
+  const V dx = Clamp(right * (gain * -0.5f), -bound, bound);
+  const V dy = Clamp(ahead * gain, -bound, bound);
   const V half = Constant(0.5f);
-  const V x = hn::Add(packet.x_px, half), y = hn::Add(packet.y_px, half);
-  const Looked moved = LookUpAt(lookup, hn::Add(x, dx), hn::Add(y, dy), level);
-  const bool found = hn::AllTrue(d, hn::Ge(moved.alpha, Constant(1.0f)));
+  const V x = packet.x_px + half, y = packet.y_px + half;
+  const Looked moved = LookUpAt(lookup, x + dx, y + dy, level);
+  const bool found = hn::AllTrue(d, moved.alpha >= 1.0f);
   return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y, level));
 }
 
@@ -96,14 +92,14 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
 // the facets themselves 0.06; in the mean over waves at most 0.06 too much.
 HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
   const V zero = hn::Zero(D()), one = Constant(1.0f);
-  const V scale = hn::Mul(inv_variance, Constant(0.125f));
-  const V r_z2 = hn::Mul(r_z, hn::Abs(r_z));
-  const V turn = Clamp(hn::Mul(r_z2, scale), -1.0f, 1.0f);
-  const V up = hn::Mul(turn, hn::Sub(Constant(2.0f), hn::Abs(turn)));  // in [-1, 1]
-  const V down = hn::NegMulAdd(up, Constant(0.5f), Constant(0.5f));
-  const V low2 = hn::MulAdd(hn::Min(r_z2, zero), Constant(-0.125f), hn::Mul(to_eye_z, to_eye_z));
-  const V hidden = hn::Max(hn::NegMulAdd(low2, scale, one), zero);
-  return hn::Mul(down, hn::NegMulAdd(hidden, hidden, one));
+  const V scale = inv_variance * 0.125f;
+  const V r_z2 = r_z * Abs(r_z);
+  const V turn = Clamp(r_z2 * scale, -1.0f, 1.0f);
+  const V up = turn * (2.0f - Abs(turn));  // in [-1, 1]
+  const V down = NegMulAdd(up, 0.5f, 0.5f);
+  const V low2 = MulAdd(Min(r_z2, zero), -0.125f, to_eye_z * to_eye_z);
+  const V hidden = Max(NegMulAdd(low2, scale, one), zero);
+  return down * NegMulAdd(hidden, hidden, one);
 }
 
 // How the water's surface meets the eye.
@@ -125,8 +121,7 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
   } else {
     f.cos_eye = f.cos_mirror = Dot(f.normal, packet.to_eye);
     if (water.seen_slopes > 0.0f) {
-      const V drawn =
-          hn::Max(hn::Sub(Constant(1.0f), hn::Div(s.variance, s.fine_variance)), hn::Zero(d));
+      const V drawn = Max(1.0f - s.variance / s.fine_variance, 0.0f);
       f.cos_eye = UnhiddenCosine(f.cos_eye, s.long_cosine, s.fine_variance, drawn);
       f.cos_mirror = MirroringCosine(f.cos_eye, s.variance);
     }
@@ -141,9 +136,8 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
 // by the root of 8 variances of one axis.
 HWY_INLINE V3 MirroredStars(const Stars& stars, V3 r, V length, V variance) {
   const float least = std::min(1.5f * stars.pixel_angle, 0.9f * kWidestStar);
-  const V radius = hn::Sqrt(
-      hn::MulAdd(hn::Max(variance, hn::Zero(D())), Constant(16.0f), Constant(least * least)));
-  return StarLight(stars, Scale(r, hn::Div(Constant(1.0f), length)), radius);
+  const V radius = Sqrt(MulAdd(Max(variance, 0.0f), 16.0f, least * least));
+  return StarLight(stars, r * (1.0f / length), radius);
 }
 
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
@@ -153,21 +147,18 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
                              const WaterSlopes& s, const Facing& f, V inv_variance, V3 floor,
                              bool use_image, V& image_alpha) {
   const V horizon = Constant(water.wave_horizon);
-  const V r_z = hn::MulSub(hn::Add(f.cos_eye, f.cos_eye), f.normal.z, packet.to_eye.z);
-  const V sea =
-      PartOfSeaMirrored(hn::Sub(r_z, horizon), hn::Add(packet.to_eye.z, horizon), inv_variance);
-  V3 r = ScaleAdd(f.normal, hn::Add(f.cos_mirror, f.cos_mirror),
-                  Scale(packet.to_eye, Constant(-1.0f)));
+  const V r_z = MulSub(f.cos_eye + f.cos_eye, f.normal.z, packet.to_eye.z);
+  const V sea = PartOfSeaMirrored(r_z - horizon, packet.to_eye.z + horizon, inv_variance);
+  V3 r = MulAdd(f.normal, f.cos_mirror + f.cos_mirror, packet.to_eye * -1.0f);
   // Outside its circle the map goes on as at the horizon.
-  r.z = hn::Max(r.z, Constant(-0.25f));
-  const V length = hn::Sqrt(Dot(r, r));
+  r.z = Max(r.z, -0.25f);
+  const V length = Sqrt(Dot(r, r));
   V3 mirrored = SoftSkyRadiance(*light.sky_soft, r, length);
   if (light.calm.sky) mirrored = MirrorSky(light.calm, packet, r, length, s.variance, mirrored);
   if (light.stars.on)
-    mirrored = Sum(mirrored, MirroredStars(light.stars, r, length,
-                                           hn::Sub(s.variance, Constant(water.base_variance))));
+    mirrored = mirrored + MirroredStars(light.stars, r, length, s.variance - water.base_variance);
   const V3 mirrored_sea =
-      ScaleAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
+      MulAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
   mirrored = Lerp(mirrored, mirrored_sea, sea);
   image_alpha = hn::Zero(D());
   if (use_image) {
@@ -182,8 +173,8 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
 HWY_INLINE V3 BodyUnderClouds(const Shading& s, const V3& p) {
   const V3 body = Constant(s.media.body);
   if (s.light.fog_ambient <= 0.0f) return body;
-  const V less = hn::Sub(AmbientUnderClouds(s, p), Constant(1.0f));
-  return ScaleAdd(Constant(s.media.body - s.media.body_sun), less, body);
+  const V less = AmbientUnderClouds(s, p) - 1.0f;
+  return MulAdd(Constant(s.media.body - s.media.body_sun), less, body);
 }
 
 // What comes up through the surface: scattered light of the water body, which comes in from around
@@ -194,41 +185,36 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
                              V3& floor_added) {
   // Far triangles cut off some of the earth's curve: that is no trough.
   const V share =
-      Clamp(hn::NegMulAdd(packet.distance, Constant(kWaveShareFall * water.inv_wave_reach),
-                          Constant(kWaveShareAtEye)),
+      Clamp(NegMulAdd(packet.distance, kWaveShareFall * water.inv_wave_reach, kWaveShareAtEye),
             0.0f, 1.0f);
-  const V height = hn::Mul(share, hn::Add(packet.p.z, Constant(shading.rays.eye_z)));
-  const V crest =
-      Clamp(hn::MulAdd(height, Constant(water.inv_crest_height), Constant(0.4f)), 0.0f, 1.5f);
-  const V towards_sun = hn::Max(
-      hn::Neg(hn::MulAdd(packet.to_eye.x, Constant(shading.light.sun_direction.x),
-                         hn::Mul(packet.to_eye.y, Constant(shading.light.sun_direction.y)))),
-      hn::Zero(D()));
-  const V glow =
-      hn::Mul(hn::Mul(crest, crest), hn::MulAdd(towards_sun, sun_visible, Constant(0.35f)));
-  const V shade = hn::MulSub(sun_visible, Constant(0.6f), Constant(0.6f));
-  const V3 crest_light = Scale(Constant(water.crest_glow), glow);
-  V3 deep = Sum(crest_light, ScaleAdd(Constant(shading.media.body_sun), shade,
-                                      BodyUnderClouds(shading, packet.p)));
+  const V height = share * (packet.p.z + shading.rays.eye_z);
+  const V crest = Clamp(MulAdd(height, water.inv_crest_height, 0.4f), 0.0f, 1.5f);
+  const V towards_sun = Max(-MulAdd(packet.to_eye.x, shading.light.sun_direction.x,
+                                    packet.to_eye.y * shading.light.sun_direction.y),
+                            0.0f);
+  const V glow = crest * crest * MulAdd(towards_sun, sun_visible, 0.35f);
+  const V shade = MulSub(sun_visible, 0.6f, 0.6f);
+  const V3 crest_light = Constant(water.crest_glow) * glow;
+  V3 deep = crest_light +
+            MulAdd(Constant(shading.media.body_sun), shade, BodyUnderClouds(shading, packet.p));
   if (water.bump_detail.map)
-    deep = Scale(deep, BumpLight(shading, water.bump_detail, packet, NormalOf(s.slope_x, s.slope_y),
-                                 sun_visible));
+    deep = deep * BumpLight(shading, water.bump_detail, packet, NormalOf(s.slope_x, s.slope_y),
+                            sun_visible);
   image_alpha = hn::Zero(D());
   floor_added = Constant(glm::vec3(0.0f));
   if (!use_image) return deep;
   const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
   image_alpha = floor.alpha;
   // The image's water has no crests: over a floor too deep to be seen it must be as without one.
-  floor_added = Scale(Difference(Sum(floor.light, crest_light), deep), image_alpha);
-  return Sum(deep, floor_added);
+  floor_added = (floor.light + crest_light - deep) * image_alpha;
+  return deep + floor_added;
 }
 
 // What a facet that mirrors the sun to the eye reflects; `half` is the sum of their directions.
 struct GlintReflectance {
   const Media& media;
   HWY_INLINE V operator()(V3 half) const {
-    return FresnelReflectance(D(), hn::Mul(hn::Sqrt(Dot(half, half)), Constant(0.5f)),
-                              media.refraction_index);
+    return FresnelReflectance(D(), Sqrt(Dot(half, half)) * 0.5f, media.refraction_index);
   }
 };
 
@@ -240,36 +226,34 @@ struct GlintReflectance {
 template <class Reflectance>
 HWY_INLINE V SunGlint(glm::vec3 sun_direction, const Packet& packet, const WaterSlopes& s,
                       const Reflectance& reflectance, V area, V& inv_variance) {
-  const V3 half = Sum(packet.to_eye, Constant(sun_direction));
+  const V3 half = packet.to_eye + Constant(sun_direction);
   // The three quotients' denominators share one division.
-  const V z = hn::Max(half.z, Constant(1e-3f));
-  const V cos4 = hn::Mul(Constant(4.0f), hn::Max(area, Constant(kMinCos)));
-  const V z_cos4 = hn::Mul(z, cos4);
-  const V inverse = hn::Div(Constant(1.0f), hn::Mul(z_cos4, s.variance));
-  inv_variance = hn::Mul(inverse, z_cos4);  // = 1 / (2 sigma^2) per axis
-  const V inverse_z_cos4 = hn::Mul(inverse, s.variance);
-  const V inv_z = hn::Mul(inverse_z_cos4, cos4), inv_cos4 = hn::Mul(inverse_z_cos4, z);
+  const V z = Max(half.z, 1e-3f);
+  const V cos4 = 4.0f * Max(area, kMinCos);
+  const V z_cos4 = z * cos4;
+  const V inverse = 1.0f / (z_cos4 * s.variance);
+  inv_variance = inverse * z_cos4;  // = 1 / (2 sigma^2) per axis
+  const V inverse_z_cos4 = inverse * s.variance;
+  const V inv_z = inverse_z_cos4 * cos4, inv_cos4 = inverse_z_cos4 * z;
 
-  const V dx = hn::MulAdd(half.x, inv_z, s.slope_x);  // half-way slope is -half.xy / half.z
-  const V dy = hn::MulAdd(half.y, inv_z, s.slope_y);
-  const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
-  const auto on_path = hn::Gt(exponent, Constant(-50.0f));
+  const V dx = MulAdd(half.x, inv_z, s.slope_x);  // half-way slope is -half.xy / half.z
+  const V dy = MulAdd(half.y, inv_z, s.slope_y);
+  const V exponent = MulAdd(dx, dx, dy * dy) * -inv_variance;
+  const auto on_path = exponent > -50.0f;
   if (hn::AllFalse(D(), on_path)) return hn::Zero(D());
-  const V density = hn::IfThenElseZero(
-      on_path, hn::Mul(Exp(D(), exponent), hn::Mul(inv_variance, Constant(0.318309886f))));
-  const V inv_cos2 = hn::Mul(Dot(half, half), hn::Mul(inv_z, inv_z));
-  const V scale = hn::Mul(hn::Mul(inv_cos2, inv_cos2), inv_cos4);
-  return hn::Mul(hn::Mul(reflectance(half), density), scale);
+  const V density = IfThenElseZero(on_path, Exp(D(), exponent) * (inv_variance * 0.318309886f));
+  const V inv_cos2 = Dot(half, half) * (inv_z * inv_z);
+  const V scale = inv_cos2 * inv_cos2 * inv_cos4;
+  return reflectance(half) * density * scale;
 }
 
 // Bits of Label::kFlags, as a number: images that hide more than half of what else is seen, wakes.
 HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha, V wake) {
   const auto bit = [](V alpha, std::uint32_t value) HWY_ATTR {
-    return hn::IfThenElseZero(hn::Gt(alpha, Constant(0.5f)), Constant(static_cast<float>(value)));
+    return IfThenElseZero(alpha > 0.5f, Constant(static_cast<float>(value)));
   };
-  return hn::Add(
-      hn::Add(bit(mirrored_alpha, kShowsMirrored), bit(refracted_alpha, kShowsRefracted)),
-      bit(hn::Mul(wake, Constant(0.5f)), kShowsWake));
+  return bit(mirrored_alpha, kShowsMirrored) + bit(refracted_alpha, kShowsRefracted) +
+         bit(wake * 0.5f, kShowsWake);
 }
 
 // What hulls do to the water around them: they keep the sky's light off it and whiten it, afresh
@@ -281,10 +265,10 @@ HWY_INLINE void AddHulls(const Shading& shading, const TilePixels& tile, const P
       FootprintLevel(FootprintAcross(shading.rays, packet), Clamp(packet.to_eye.z, kMinCos, 1.0f));
   const AtHulls hulls = SampleHulls(shading.sun_shadow, shading.material<Water>().hull_foam,
                                     tile.casters, SpanOf(packet), packet.p, level_m);
-  refracted = Scale(refracted, hn::Sub(Constant(1.0f), hulls.sky_hidden));
-  foam.cover = hn::Max(foam.cover, hulls.foam_cover);
-  const auto splashed = hn::Gt(hulls.foam_cover, hn::Zero(D()));
-  foam.thickness = hn::IfThenElse(splashed, Constant(1.0f), foam.thickness);
+  refracted = refracted * (1.0f - hulls.sky_hidden);
+  foam.cover = Max(foam.cover, hulls.foam_cover);
+  const auto splashed = hulls.foam_cover > 0.0f;
+  foam.thickness = IfThenElse(splashed, 1.0f, foam.thickness);
 }
 
 // kCoast: water.knows_land().
@@ -318,9 +302,8 @@ struct WaterShader {
         water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
     const V3 arriving = Lerp(refracted, mirrored, weight);
     if (water.glitter.slide)
-      sun_path =
-          hn::Mul(f.reflectance, ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance));
-    V3 seen = ScaleAdd(Constant(water.glitter_light), hn::Mul(sun_path, sun_visible), arriving);
+      sun_path = f.reflectance * ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
+    V3 seen = MulAdd(Constant(water.glitter_light), sun_path * sun_visible, arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction,
                         {sun_visible, AmbientUnderClouds(shading, packet.p)}, f.normal, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};

@@ -58,7 +58,7 @@ HWY_INLINE TreeLanes LoadTrees(const Tree& material, std::uint32_t first, const 
     albedo.Set(i,
                is_bark ? species.bark : tree.leaves_albedo * LeafBrightness(tree, primitive.leaf));
   }
-  const V3 from_foot = Difference(packet.p, foot.Load());
+  const V3 from_foot = packet.p - foot.Load();
   const V3 across = aside.Load();
   return {from_foot,
           hn::Load(d, radius),
@@ -71,7 +71,7 @@ HWY_INLINE TreeLanes LoadTrees(const Tree& material, std::uint32_t first, const 
           hn::Load(d, through),
           hn::Load(d, size),
           hn::Load(d, crowding),
-          hn::MulAdd(from_foot.x, across.x, hn::MulAdd(from_foot.y, across.y, across.z))};
+          MulAdd(from_foot.x, across.x, MulAdd(from_foot.y, across.y, across.z))};
 }
 
 // A point of a crown.
@@ -86,25 +86,24 @@ HWY_INLINE CrownPoint FindCrownPoint(const Tree& material, const ViewRays& rays,
                                      const Packet& packet, const TreeLanes& tree) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
-  const V up =
-      Clamp(hn::Mul(hn::Sub(tree.from_foot.z, tree.crown_begin), tree.inverse_crown), 0.0f, 1.0f);
-  const V narrow = hn::Max(hn::NegMulAdd(tree.taper, up, one), Constant(0.2f));
-  const V scale = hn::Div(tree.inverse_radius, narrow);
-  const V x = hn::Mul(tree.from_foot.x, scale), y = hn::Mul(tree.from_foot.y, scale);
-  const V z = hn::MulAdd(tree.rise_by_up, up, tree.rise);
+  const V up = Clamp((tree.from_foot.z - tree.crown_begin) * tree.inverse_crown, 0.0f, 1.0f);
+  const V narrow = Max(NegMulAdd(tree.taper, up, one), 0.2f);
+  const V scale = tree.inverse_radius / narrow;
+  const V x = tree.from_foot.x * scale, y = tree.from_foot.y * scale;
+  const V z = MulAdd(tree.rise_by_up, up, tree.rise);
   // Large triangles lie across the crown's middle; the hull that they stand for bulges to the eye.
-  const V round = hn::Mul(z, hn::Sub(one, tree.taper));
-  const V out2 = hn::Min(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(round, round))), one);
-  const V inside = hn::Sub(one, out2);
-  V3 normal = ScaleAdd(packet.to_eye, hn::Sqrt(inside), V3{x, y, z});
+  const V round = z * (one - tree.taper);
+  const V out2 = Min(MulAdd(x, x, MulAdd(y, y, round * round)), one);
+  const V inside = one - out2;
+  V3 normal = MulAdd(packet.to_eye, Sqrt(inside), V3{x, y, z});
 
   V a = zero, b = zero, unused = zero;
   AddSlopes(material.foliage, {tree.across, tree.from_foot.z, zero}, FootprintAcross(rays, packet),
             zero, zero, a, b, unused);
-  normal = Sum(normal, {a, hn::Neg(a), b});
-  const V inverse = InverseSqrt(hn::Max(Dot(normal, normal), Constant(1e-6f)));
-  return {Scale(normal, inverse), Clamp(hn::MulAdd(b, Constant(0.3f), one), 0.5f, 1.6f), up,
-          hn::Mul(inside, hn::Sub(one, tree.leaf_size))};
+  normal = normal + V3{a, -a, b};
+  const V inverse = InverseSqrt(Max(Dot(normal, normal), 1e-6f));
+  return {normal * inverse, Clamp(MulAdd(b, 0.3f, one), 0.5f, 1.6f), up,
+          inside * (one - tree.leaf_size)};
 }
 
 template <ViewKind kView>
@@ -117,28 +116,26 @@ struct Shader<Tree, kView> {
     const V zero = hn::Zero(d), one = Constant(1.0f), half = Constant(0.5f);
     const TreeLanes its = LoadTrees(tree, s.primitives.begin(Tree::kSurface), lanes, packet);
     const CrownPoint point = FindCrownPoint(tree, s.rays, packet, its);
-    const auto is_bark = hn::Lt(its.translucency, zero);
-    const V through = hn::Max(its.translucency, zero);
+    const auto is_bark = its.translucency < zero;
+    const V through = Max(its.translucency, zero);
 
     // Neighbours and the crown itself take light from what lies low and deep inside.
-    const V low =
-        hn::Mul(hn::Sub(one, point.up), hn::MulAdd(its.crowding, Constant(0.7f), Constant(0.25f)));
-    const V deep = hn::IfThenElse(is_bark, Constant(0.5f), point.inside);
-    const V open = hn::Mul(hn::Sub(one, low), hn::NegMulAdd(deep, Constant(0.7f), one));
+    const V low = (one - point.up) * MulAdd(its.crowding, 0.7f, 0.25f);
+    const V deep = IfThenElse(is_bark, 0.5f, point.inside);
+    const V open = (one - low) * NegMulAdd(deep, 0.7f, one);
 
     const V facing = Dot(point.normal, Constant(s.light.sun_direction));
-    const V lit = hn::Max(hn::MulAdd(facing, Constant(0.75f), Constant(0.25f)), zero);
-    const V from_behind =
-        hn::Max(hn::Neg(Dot(packet.to_eye, Constant(s.light.sun_direction))), zero);
-    const V sun = hn::Mul(hn::MulAdd(through, from_behind, lit),
-                          hn::Mul(SunVisible(s, tile, packet, Constant(-1.0f)), open));
-    const V sky_seen = hn::Mul(hn::MulAdd(point.normal.z, half, half), open);
+    const V lit = Max(MulAdd(facing, 0.75f, 0.25f), zero);
+    const V from_behind = Max(-Dot(packet.to_eye, Constant(s.light.sun_direction)), zero);
+    const V sun =
+        MulAdd(through, from_behind, lit) * (SunVisible(s, tile, packet, Constant(-1.0f)) * open);
+    const V sky_seen = MulAdd(point.normal.z, half, half) * open;
     // Below there is ground of about the trees' own brightness.
-    const V around = hn::MulAdd(sky_seen, Constant(0.9f), Constant(0.1f));
-    const V3 arriving = ScaleAdd(
-        Constant(s.light.sun_irradiance), hn::Mul(sun, Constant(0.318309886f)),
-        Scale(Constant(s.light.ambient), hn::Mul(around, AmbientUnderClouds(s, packet.p))));
-    return {Product(arriving, Scale(its.albedo, point.bright)), point.normal};
+    const V around = MulAdd(sky_seen, 0.9f, 0.1f);
+    const V3 arriving =
+        MulAdd(Constant(s.light.sun_irradiance), sun * 0.318309886f,
+               Constant(s.light.ambient) * (around * AmbientUnderClouds(s, packet.p)));
+    return {arriving * (its.albedo * point.bright), point.normal};
   }
 };
 

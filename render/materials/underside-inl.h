@@ -22,7 +22,7 @@ HWY_NOINLINE static void SampleUnderside(const Water& water, const ViewRays& ray
   PerPacket<Packet> turned;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     turned[k] = shown[k];
-    turned[k].to_eye = Scale(shown[k].to_eye, Constant(-1.0f));
+    turned[k].to_eye = shown[k].to_eye * -1.0f;
   }
   const std::span<const Packet> packets(turned.data(), shown.size());
   if (water.knows_land())
@@ -46,9 +46,8 @@ struct FromBelow {
 // evenly and nothing below 0 counted.
 HWY_INLINE V MeanOverZero(V middle, V half_width) {
   const V zero = hn::Zero(D());
-  const V inside = hn::Max(hn::Add(hn::Min(middle, half_width), half_width), zero);
-  return hn::MulAdd(hn::Mul(inside, inside), hn::Div(Constant(0.25f), half_width),
-                    hn::Max(hn::Sub(middle, half_width), zero));
+  const V inside = Max(Min(middle, half_width) + half_width, zero);
+  return MulAdd(inside * inside, 0.25f / half_width, Max(middle - half_width, zero));
 }
 
 HWY_INLINE FromBelow LeaveWater(const Media& media, V3 ray, const WaterSlopes& s) {
@@ -56,22 +55,21 @@ HWY_INLINE FromBelow LeaveWater(const Media& media, V3 ray, const WaterSlopes& s
   const float n = media.refraction_index;
   FromBelow f;
   f.normal = NormalOf(s.slope_x, s.slope_y);
-  f.cos_water = hn::Min(hn::Max(Dot(f.normal, ray), Constant(kMinCos)), one);
-  const V sin2_water = hn::NegMulAdd(f.cos_water, f.cos_water, one);
-  const V cos2_air = hn::NegMulAdd(sin2_water, Constant(n * n), one);
+  f.cos_water = Min(Max(Dot(f.normal, ray), kMinCos), one);
+  const V sin2_water = NegMulAdd(f.cos_water, f.cos_water, one);
+  const V cos2_air = NegMulAdd(sin2_water, n * n, one);
   // The slopes' standard deviation along the ray turns cos_water by sigma sin_water.
-  const V sigma = hn::Sqrt(hn::Mul(s.variance, Constant(0.5f)));
-  const V turn = hn::Mul(sigma, hn::Sqrt(sin2_water));
-  const V width =
-      hn::MulAdd(hn::Mul(f.cos_water, turn), Constant(2.0f * 1.732f * n * n), Constant(1e-6f));
+  const V sigma = Sqrt(s.variance * 0.5f);
+  const V turn = sigma * Sqrt(sin2_water);
+  const V width = MulAdd(f.cos_water * turn, 2.0f * 1.732f * n * n, 1e-6f);
   const V mean = MeanOverZero(cos2_air, width);
-  f.cos_air = hn::Sqrt(mean);
-  f.reflectance = hn::IfThenElse(hn::Gt(mean, zero), FresnelReflectance(D(), f.cos_air, n), one);
-  const V along = hn::NegMulAdd(f.cos_water, Constant(n), f.cos_air);
-  const V3 bent = ScaleAdd(f.normal, along, Scale(ray, Constant(n)));
-  f.bent = Scale(bent, InverseSqrt(Dot(bent, bent)));
-  f.mirrored = ScaleAdd(f.normal, hn::Mul(f.cos_water, Constant(-2.0f)), ray);
-  f.spread = hn::Mul(sigma, Constant(n - 1.0f));
+  f.cos_air = Sqrt(mean);
+  f.reflectance = IfThenElse(mean > zero, FresnelReflectance(D(), f.cos_air, n), one);
+  const V along = NegMulAdd(f.cos_water, n, f.cos_air);
+  const V3 bent = MulAdd(f.normal, along, ray * n);
+  f.bent = bent * InverseSqrt(Dot(bent, bent));
+  f.mirrored = MulAdd(f.normal, f.cos_water * -2.0f, ray);
+  f.spread = sigma * (n - 1.0f);
   return f;
 }
 
@@ -85,10 +83,9 @@ HWY_INLINE WindowPlace PlaceInWindow(const ViewRays& rays, V3 direction) {
   const glm::vec3 down = rays.ray_dy / glm::dot(rays.ray_dy, rays.ray_dy);
   const float x = glm::dot(rays.ray, right), y = glm::dot(rays.ray, down);
   const glm::vec3 ahead = rays.ray - x * rays.ray_dx - y * rays.ray_dy;
-  const V inverse =
-      hn::Div(Constant(1.0f), hn::Max(Dot(direction, Constant(ahead)), Constant(0.05f)));
-  return {hn::MulSub(Dot(direction, Constant(right)), inverse, Constant(x)),
-          hn::MulSub(Dot(direction, Constant(down)), inverse, Constant(y))};
+  const V inverse = 1.0f / Max(Dot(direction, Constant(ahead)), 0.05f);
+  return {MulSub(Dot(direction, Constant(right)), inverse, x),
+          MulSub(Dot(direction, Constant(down)), inverse, y)};
 }
 
 // Looks a lookup image up in a direction of the eye: where a flat surface would bend or mirror the
@@ -100,8 +97,8 @@ HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const Look
   const float bound = water.max_distortion_px;
   const WindowPlace at = PlaceInWindow(s.rays, direction);
   const auto moved = [&](V from, V to) HWY_ATTR {
-    const V by = Clamp(hn::Mul(hn::Sub(to, from), Constant(kShare)), -bound, bound);
-    return hn::Add(from, hn::Add(by, Constant(0.5f)));
+    const V by = Clamp((to - from) * kShare, -bound, bound);
+    return from + (by + 0.5f);
   };
   const float px = kShare * turn / s.rays.pixel_angle;
   const BlurLevel level = FindBlur(lookup, variance, Constant(px * px));
@@ -114,26 +111,25 @@ HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& p
                            const FromBelow& f, V variance, bool use_image, V& image_alpha) {
   const D d;
   const V zero = hn::Zero(d);
-  const V3 level = {f.bent.x, f.bent.y, hn::Max(f.bent.z, zero)};
-  const V3 up = Scale(level, InverseSqrt(hn::Max(Dot(level, level), Constant(1e-12f))));
+  const V3 level = {f.bent.x, f.bent.y, Max(f.bent.z, zero)};
+  const V3 up = level * InverseSqrt(Max(Dot(level, level), 1e-12f));
   V3 light = ClearSky(SkyOfEye(s.light), up);
   if (s.light.clouds.any) {
-    const V angle = hn::Max(f.spread, Constant(s.rays.pixel_angle));
+    const V angle = Max(f.spread, s.rays.pixel_angle);
     const CloudView clouds = ViewClouds(s.light.clouds, up, Log2Coarse(d, angle));
     const CloudNoise noise = SampleClouds(s.light.clouds, clouds.x, clouds.y, clouds.level);
     V passes;
     light = AddClouds(s.light.clouds, clouds, noise, light, passes);
   }
   if (s.media.fog.on) light = SkyThroughFog(s.media.fog, s.media.fog.at_sea, up, light);
-  const V softness = hn::MulAdd(f.spread, Constant(2.0f), Constant(0.02f));
-  const V sea = SmoothBlend(hn::Div(hn::Neg(f.bent.z), softness));
+  const V softness = MulAdd(f.spread, 2.0f, 0.02f);
+  const V sea = SmoothBlend(-f.bent.z / softness);
   light = Lerp(light, Constant(water.mirrored_sea), sea);
   image_alpha = zero;
   if (!use_image) return light;
   const float inv_n = 1.0f / s.media.refraction_index;
-  const V x = hn::Mul(f.bent.x, Constant(inv_n)), y = hn::Mul(f.bent.y, Constant(inv_n));
-  const V z =
-      hn::Sqrt(hn::Max(hn::NegMulAdd(x, x, hn::NegMulAdd(y, y, Constant(1.0f))), Constant(1e-6f)));
+  const V x = f.bent.x * inv_n, y = f.bent.y * inv_n;
+  const V z = Sqrt(Max(NegMulAdd(x, x, NegMulAdd(y, y, 1.0f)), 1e-6f));
   const Looked image =
       LookUpTowards(s, water, water.refraction, packet, {x, y, z}, variance, 1.0f - inv_n);
   image_alpha = image.alpha;
@@ -144,8 +140,8 @@ HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& p
 // shows.
 HWY_INLINE V3 LightFromWater(const Shading& s, const Water& water, const Packet& packet,
                              const FromBelow& f, V variance, bool use_image, V& image_alpha) {
-  const V down = hn::Neg(f.mirrored.z);
-  const V3 deep = EndlessWater(s.media, glm::vec3(1.0f), hn::Max(down, hn::Zero(D())));
+  const V down = -f.mirrored.z;
+  const V3 deep = EndlessWater(s.media, glm::vec3(1.0f), Max(down, 0.0f));
   image_alpha = hn::Zero(D());
   if (!use_image) return deep;
   const V3 image_of = {f.mirrored.x, f.mirrored.y, down};
@@ -165,36 +161,35 @@ HWY_INLINE V SunThrough(glm::vec3 sun_direction, float n, V3 ray, const WaterSlo
   // about n - 1 of a slope.
   const float disc = kDiscRadius / std::max(n - 1.0f, 1e-3f), disc_variance = 0.5f * disc * disc;
   const V3 sun = Constant(sun_direction);
-  const V3 half = Difference(Scale(ray, Constant(n)), sun);  // along the normal that bends so
-  const V length2 = hn::Max(Dot(half, half), Constant(1e-6f));
+  const V3 half = ray * n - sun;  // along the normal that bends so
+  const V length2 = Max(Dot(half, half), 1e-6f);
   const V inv_length = InverseSqrt(length2);
-  const V3 h = Scale(half, inv_length);
-  const V z = hn::Max(h.z, Constant(0.05f));
-  const V inv_z = hn::Div(Constant(1.0f), z);
-  const V dx = hn::MulAdd(h.x, inv_z, s.slope_x), dy = hn::MulAdd(h.y, inv_z, s.slope_y);
-  const V inv_variance =
-      hn::Div(Constant(1.0f), hn::Add(s.variance, Constant(disc_variance)));  // 1 / (2 sigma^2)
-  const V exponent = hn::Mul(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Neg(inv_variance));
-  const auto some = hn::Gt(exponent, Constant(-40.0f));
+  const V3 h = half * inv_length;
+  const V z = Max(h.z, 0.05f);
+  const V inv_z = 1.0f / z;
+  const V dx = MulAdd(h.x, inv_z, s.slope_x), dy = MulAdd(h.y, inv_z, s.slope_y);
+  const V inv_variance = 1.0f / (s.variance + disc_variance);  // 1 / (2 sigma^2)
+  const V exponent = MulAdd(dx, dx, dy * dy) * -inv_variance;
+  const auto some = exponent > -40.0f;
   if (hn::AllFalse(D(), some)) return hn::Zero(D());
-  const V density = hn::Mul(hn::IfThenElseZero(some, Exp(D(), hn::Max(exponent, Constant(-40.0f)))),
-                            hn::Mul(inv_variance, Constant(0.318309886f)));
-  const V cos_air = hn::Max(Dot(sun, h), Constant(1e-4f)), cos_water = Dot(ray, h);
-  const V passes = hn::Sub(Constant(1.0f), FresnelReflectance(D(), cos_air, n));
-  const V inv_z2 = hn::Mul(inv_z, inv_z);
-  const V bends = hn::Mul(hn::Mul(cos_air, cos_water), hn::Mul(inv_z2, inv_z2));
-  const V spread = hn::Mul(hn::Max(f.cos_water, Constant(0.08f)), length2);
-  return hn::Mul(hn::Mul(passes, density), hn::Div(bends, spread));
+  const V density =
+      IfThenElseZero(some, Exp(D(), Max(exponent, -40.0f))) * (inv_variance * 0.318309886f);
+  const V cos_air = Max(Dot(sun, h), 1e-4f), cos_water = Dot(ray, h);
+  const V passes = 1.0f - FresnelReflectance(D(), cos_air, n);
+  const V inv_z2 = inv_z * inv_z;
+  const V bends = cos_air * cos_water * (inv_z2 * inv_z2);
+  const V spread = Max(f.cos_water, 0.08f) * length2;
+  return passes * density * (bends / spread);
 }
 
 // Foam lets light through from all sides: a dim white.
 HWY_INLINE V3 AddFoamFromBelow(const Shading& s, V cover, V sun_visible, V3 light) {
-  if (hn::AllFalse(D(), hn::Gt(cover, hn::Zero(D())))) return light;
+  if (hn::AllFalse(D(), cover > 0.0f)) return light;
   constexpr float kPasses = 0.35f;
   const float cos_sun = std::max(s.light.sun_direction.z, 0.0f);
-  const V3 white = ScaleAdd(Constant(s.light.sun_irradiance * (kPasses * cos_sun * 0.318309886f)),
-                            sun_visible, Constant(s.light.ambient * kPasses));
-  return Lerp(light, white, hn::Mul(cover, Constant(0.85f)));
+  const V3 white = MulAdd(Constant(s.light.sun_irradiance * (kPasses * cos_sun * 0.318309886f)),
+                          sun_visible, Constant(s.light.ambient * kPasses));
+  return Lerp(light, white, cover * 0.85f);
 }
 
 // Behind so much water the surface is not seen: what is left of its light is less than a step of
@@ -202,7 +197,7 @@ HWY_INLINE V3 AddFoamFromBelow(const Shading& s, V cover, V sun_visible, V3 ligh
 HWY_INLINE hn::Mask<D> LostInWater(const Media& media, const Packet& packet) {
   const glm::vec3 c = media.absorption_per_m;
   const float least = std::min({c.x, c.y, c.z});
-  return hn::Gt(hn::Mul(packet.distance, Constant(least)), Constant(9.0f));
+  return packet.distance * least > 9.0f;
 }
 
 struct UndersideShader {
@@ -226,11 +221,11 @@ struct UndersideShader {
     const auto lost = LostInWater(s.media, packet);
     const Surfel nothing = {{zero, zero, zero}, {zero, zero, one}};
     if (hn::AllTrue(d, lost)) return nothing;
-    const V3 ray = Scale(packet.to_eye, Constant(-1.0f));
+    const V3 ray = packet.to_eye * -1.0f;
     const FromBelow f = LeaveWater(s.media, ray, slopes);
 
     // Most of the surface mirrors all light: the air is looked for where some comes through.
-    const auto mirrors = hn::Ge(f.reflectance, one);
+    const auto mirrors = f.reflectance >= one;
     V mirrored_alpha, bent_alpha = zero;
     const V3 mirrored = LightFromWater(s, water, packet, f, slopes.variance,
                                        tile.lookups.reflection, mirrored_alpha);
@@ -243,9 +238,9 @@ struct UndersideShader {
     }
     // Shadows are looked for where there is sun to hide.
     const V sun = SunThrough(s.light.sun_direction, s.media.refraction_index, ray, slopes, f);
-    if (!hn::AllFalse(d, hn::Gt(hn::Max(sun, slopes.foam_cover), zero))) {
+    if (!hn::AllFalse(d, Max(sun, slopes.foam_cover) > zero)) {
       const V sun_visible = SunOnSea(s, tile, packet);
-      seen = ScaleAdd(Constant(s.light.sun_irradiance), hn::Mul(sun, sun_visible), seen);
+      seen = MulAdd(Constant(s.light.sun_irradiance), sun * sun_visible, seen);
       seen = AddFoamFromBelow(s, slopes.foam_cover, sun_visible, seen);
     }
     return {Where(lost, nothing.light, seen), Where(lost, nothing.normal, f.normal),

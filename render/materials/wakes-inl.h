@@ -29,18 +29,18 @@ inline HWY_NOINLINE WakesAt SampleWakes(const Wakes& wakes, const V3& p, const V
     const WakeLayer& layer = wakes.layers[static_cast<std::size_t>(n)];
     const LayerPlace place = PlaceIn(layer.slopes, p.x, p.y);
     const V high = Constant((ocean::kWakeSamples - 1.0f) * 256.0f);
-    const auto inside = hn::And(hn::And(hn::Gt(place.x_fx8, zero), hn::Gt(place.y_fx8, zero)),
-                                hn::And(hn::Lt(place.x_fx8, high), hn::Lt(place.y_fx8, high)));
+    const auto inside = ((place.x_fx8 > zero) & (place.y_fx8 > zero)) &
+                        ((place.x_fx8 < high) & (place.y_fx8 < high));
     if (hn::AllFalse(d, inside)) continue;
     at.is_near = true;
     V x = zero, y = zero, lost = zero;
     AddSlopes(layer.slopes, p, level_m, zero, zero, x, y, lost);
-    at.slope_x = hn::Add(at.slope_x, hn::IfThenElseZero(inside, x));
-    at.slope_y = hn::Add(at.slope_y, hn::IfThenElseZero(inside, y));
-    at.variance = hn::Add(at.variance, hn::IfThenElseZero(inside, lost));
+    at.slope_x = at.slope_x + IfThenElseZero(inside, x);
+    at.slope_y = at.slope_y + IfThenElseZero(inside, y);
+    at.variance = at.variance + IfThenElseZero(inside, lost);
     const V found = FoamAt(layer.foam, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8),
                            NearestFoamLevel(layer.foam, level_m));
-    at.foam = hn::Max(at.foam, hn::IfThenElseZero(inside, found));
+    at.foam = Max(at.foam, IfThenElseZero(inside, found));
   }
   return at;
 }

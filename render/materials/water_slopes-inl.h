@@ -48,38 +48,35 @@ HWY_INLINE void SetFoam(const TornFoam& foam, WaterSlopes& s) {
 
 // Foam of another origin, torn like that which is there.
 HWY_INLINE void AddTornFoam(const TornFoam& foam, WaterSlopes& s) {
-  s.foam_cover = hn::Max(s.foam_cover, foam.cover);
-  s.foam_thickness = hn::Max(s.foam_thickness, foam.thickness);
-  s.foam_bubbles = hn::Max(s.foam_bubbles, foam.bubbles);
+  s.foam_cover = Max(s.foam_cover, foam.cover);
+  s.foam_thickness = Max(s.foam_thickness, foam.thickness);
+  s.foam_bubbles = Max(s.foam_bubbles, foam.bubbles);
 }
 
 // Foam of another origin, so far over its threshold.
 HWY_INLINE void AddFoamOver(V over, WaterSlopes& s) {
-  s.foam_cover = hn::Max(s.foam_cover, CoverOfOver(over));
-  s.foam_thickness = hn::Max(s.foam_thickness, Clamp(over, 0.0f, 1.0f));
+  s.foam_cover = Max(s.foam_cover, CoverOfOver(over));
+  s.foam_thickness = Max(s.foam_thickness, Clamp(over, 0.0f, 1.0f));
 }
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
-  const V cycles =
-      hn::MulAdd(p.x, Constant(sine.kx), hn::MulAdd(p.y, Constant(sine.ky), Constant(sine.cycles)));
+  const V cycles = MulAdd(p.x, sine.kx, MulAdd(p.y, sine.ky, sine.cycles));
   V sin_unused, cosine;
   SinCosTurns(D(), cycles, sin_unused, cosine);
   // A wave shorter than two footprints turns into roughness.
   const float level_lost = sine.wavelength_log2 - 1.0f;
-  const V seen = Clamp(hn::Sub(Constant(level_lost), level_m), 0.0f, 1.0f);
-  const V amount = hn::Mul(cosine, seen);
-  s.slope_x = hn::MulAdd(amount, Constant(sine.slope_x), s.slope_x);
-  s.slope_y = hn::MulAdd(amount, Constant(sine.slope_y), s.slope_y);
+  const V seen = Clamp(level_lost - level_m, 0.0f, 1.0f);
+  const V amount = cosine * seen;
+  s.slope_x = MulAdd(amount, sine.slope_x, s.slope_x);
+  s.slope_y = MulAdd(amount, sine.slope_y, s.slope_y);
   const float variance = 0.5f * (sine.slope_x * sine.slope_x + sine.slope_y * sine.slope_y);
-  s.variance =
-      hn::MulAdd(hn::NegMulAdd(seen, seen, Constant(1.0f)), Constant(variance), s.variance);
+  s.variance = MulAdd(NegMulAdd(seen, seen, 1.0f), variance, s.variance);
 }
 
 // The unit normal of slopes.
 HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
-  const V inv_length =
-      InverseSqrt(hn::MulAdd(slope_x, slope_x, hn::MulAdd(slope_y, slope_y, Constant(1.0f))));
-  return {hn::Neg(hn::Mul(slope_x, inv_length)), hn::Neg(hn::Mul(slope_y, inv_length)), inv_length};
+  const V inv_length = InverseSqrt(MulAdd(slope_x, slope_x, MulAdd(slope_y, slope_y, 1.0f)));
+  return {-(slope_x * inv_length), -(slope_y * inv_length), inv_length};
 }
 
 // What a coast's maps say of a packet: what the sea's own waves cede to the trains that know its
@@ -98,11 +95,11 @@ HWY_INLINE void SampleTrains(const Water& water, V3 p, V level_m, Surf& surf) {
   const LayerPlace place = PlaceIn(layer, p.x, p.y);
   surf.has_trains = surf.inside = IsInside(layer, place);
   if (hn::AllFalse(D(), surf.inside)) return;
-  SampleNearest(layer, place, hn::Sub(level_m, Constant(0.5f)), surf.ceded, surf.foam);
+  SampleNearest(layer, place, level_m - 0.5f, surf.ceded, surf.foam);
   // All but half a step is all.
-  surf.ceded = hn::IfThenElse(hn::Gt(surf.ceded, Constant(0.996f)), Constant(1.0f), surf.ceded);
-  surf.ceded = hn::IfThenElseZero(surf.inside, surf.ceded);
-  surf.foam = hn::IfThenElseZero(surf.inside, surf.foam);
+  surf.ceded = IfThenElse(surf.ceded > 0.996f, 1.0f, surf.ceded);
+  surf.ceded = IfThenElseZero(surf.inside, surf.ceded);
+  surf.foam = IfThenElseZero(surf.inside, surf.foam);
 }
 
 HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
@@ -114,15 +111,15 @@ HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
   if (water.near_shore.map.map) {
     const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m);
     // What trains leave: they are the waves, where there are some.
-    const V left = hn::Sub(one, surf.ceded);
+    const V left = one - surf.ceded;
     const float torn = water.near_shore.fronts.torn;
-    surf.torn_foam = hn::Mul(hn::Mul(shore.foam, left), Constant(torn));
-    surf.foam = hn::MulAdd(hn::Mul(shore.foam, Constant(1.0f - torn)), left, surf.foam);
-    surf.ceded = hn::MulAdd(shore.taken, left, surf.ceded);
-    surf.inside = hn::Or(surf.inside, shore.inside);
+    surf.torn_foam = shore.foam * left * torn;
+    surf.foam = MulAdd(shore.foam * (1.0f - torn), left, surf.foam);
+    surf.ceded = MulAdd(shore.taken, left, surf.ceded);
+    surf.inside = surf.inside | shore.inside;
   }
   surf.is_near = !hn::AllFalse(d, surf.inside);
-  surf.all_ceded = surf.is_near && hn::AllTrue(d, hn::Ge(surf.ceded, one));
+  surf.all_ceded = surf.is_near && hn::AllTrue(d, surf.ceded >= one);
   return surf;
 }
 
@@ -130,27 +127,27 @@ HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
 // 1 - ceded, their variance its square.
 HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf, WaterSlopes& s) {
   const D d;
-  const V kept = hn::Sub(Constant(1.0f), surf.ceded);
-  const V long_variance = hn::Sub(s.variance, Constant(water.base_variance));
-  s.slope_x = hn::NegMulAdd(s.slope_x, surf.ceded, s.slope_x);
-  s.slope_y = hn::NegMulAdd(s.slope_y, surf.ceded, s.slope_y);
-  const V blended = hn::MulAdd(long_variance, hn::Mul(kept, kept), Constant(water.base_variance));
+  const V kept = 1.0f - surf.ceded;
+  const V long_variance = s.variance - water.base_variance;
+  s.slope_x = NegMulAdd(s.slope_x, surf.ceded, s.slope_x);
+  s.slope_y = NegMulAdd(s.slope_y, surf.ceded, s.slope_y);
+  const V blended = MulAdd(long_variance, kept * kept, water.base_variance);
   // Not rounded outside: a packet with no lane inside does not come by here.
-  s.variance = hn::IfThenElse(surf.inside, blended, s.variance);
+  s.variance = IfThenElse(surf.inside, blended, s.variance);
   if (hn::AllFalse(d, surf.has_trains)) return;
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
   AddSlopes(water.coast_slopes, p, level_m, x, y, x, y, lost);
-  s.slope_x = hn::Add(s.slope_x, hn::IfThenElseZero(surf.has_trains, x));
-  s.slope_y = hn::Add(s.slope_y, hn::IfThenElseZero(surf.has_trains, y));
-  s.variance = hn::Add(s.variance, hn::IfThenElseZero(surf.has_trains, lost));
+  s.slope_x = s.slope_x + IfThenElseZero(surf.has_trains, x);
+  s.slope_y = s.slope_y + IfThenElseZero(surf.has_trains, y);
+  s.variance = s.variance + IfThenElseZero(surf.has_trains, lost);
 }
 
 constexpr float kMinCos = 0.02f;
 
 // The area that waves of these slopes turn to the eye, over the level's.
 HWY_INLINE V CosineOfSlopes(const Packet& packet, const WaterSlopes& s) {
-  return hn::NegMulAdd(s.slope_x, packet.to_eye.x,
-                       hn::NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
+  return NegMulAdd(s.slope_x, packet.to_eye.x,
+                   NegMulAdd(s.slope_y, packet.to_eye.y, packet.to_eye.z));
 }
 
 // How Perlin noise bends the coordinates of the ripples.
@@ -168,13 +165,12 @@ HWY_INLINE void BendRipples(const Water& water, V3 p, V level_m, V& du, V& dv) {
 HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
   const WakesAt at = SampleWakes(water.wakes, p, level_m);
   if (!at.is_near) return;
-  s.slope_x = hn::Add(s.slope_x, at.slope_x);
-  s.slope_y = hn::Add(s.slope_y, at.slope_y);
-  s.variance = hn::Add(s.variance, at.variance);
-  s.fine_variance = hn::Add(s.fine_variance, at.variance);
-  const V slope2 = hn::MulAdd(at.slope_x, at.slope_x, hn::Mul(at.slope_y, at.slope_y));
-  s.wake =
-      hn::Max(hn::Mul(slope2, Constant(1.0f / (0.02f * 0.02f))), hn::Mul(at.foam, Constant(10.0f)));
+  s.slope_x = s.slope_x + at.slope_x;
+  s.slope_y = s.slope_y + at.slope_y;
+  s.variance = s.variance + at.variance;
+  s.fine_variance = s.fine_variance + at.variance;
+  const V slope2 = MulAdd(at.slope_x, at.slope_x, at.slope_y * at.slope_y);
+  s.wake = Max(slope2 * (1.0f / (0.02f * 0.02f)), at.foam * 10.0f);
   AddTornFoam(TearWhitecaps(water.wakes.foam, p, level_m, at.foam), s);
 }
 
@@ -213,9 +209,8 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
       foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
                                 s[k].slope_x, s[k].slope_y, s[k].variance);
     for (std::size_t k = 0; k < count; ++k)
-      foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p,
-                            hn::Add(packets[k].p.z, Constant(rays.eye_z)), level_flat_m[k],
-                            surf[k].ceded);
+      foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
+                            level_flat_m[k], surf[k].ceded);
     for (std::size_t k = 0; k < count; ++k)
       SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
   }
@@ -250,7 +245,7 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
       s[k].long_cosine = CosineOfSlopes(packets[k], s[k]);
       // The normal's length is left out: it is near 1, and a level needs no better.
       level_m[k] = FootprintLevel(across[k], Clamp(s[k].long_cosine, kMinCos, 1.0f));
-      s[k].fine_variance = hn::Add(s[k].variance, Constant(water.short_variance));
+      s[k].fine_variance = s[k].variance + water.short_variance;
     }
   }
   if (water.wakes.count > 0)

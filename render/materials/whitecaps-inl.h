@@ -19,8 +19,8 @@ constexpr float kCellsMelt = 1.0f, kCellsGone = 3.5f;
 
 // How much of a lace is seen in pixels of that size, in [0, 1].
 HWY_INLINE V LaceSeen(const FoamLace& lace, V level_m) {
-  const V left = hn::Sub(Constant(kCellsGone - lace.log2_texels_per_m), level_m);
-  return Clamp(hn::Mul(left, Constant(1.0f / (kCellsGone - kCellsMelt))), 0.0f, 1.0f);
+  const V left = kCellsGone - lace.log2_texels_per_m - level_m;
+  return Clamp(left * (1.0f / (kCellsGone - kCellsMelt)), 0.0f, 1.0f);
 }
 
 // Two thresholds of foam in [0, 1], spread evenly.
@@ -31,16 +31,14 @@ struct Thresholds {
 HWY_INLINE Thresholds SampleLace(const FoamLace& lace, V3 p, V level_m) {
   const D d;
   const V half = Constant(0.5f);
-  const V level = hn::Add(level_m, Constant(lace.log2_texels_per_m + 0.5f));
-  const V x = hn::MulAdd(p.x, Constant(lace.x_fx8_per_m.x),
-                         hn::MulAdd(p.y, Constant(lace.x_fx8_per_m.y), Constant(lace.x_eye_fx8)));
-  const V y = hn::MulAdd(p.x, Constant(lace.y_fx8_per_m.x),
-                         hn::MulAdd(p.y, Constant(lace.y_fx8_per_m.y), Constant(lace.y_eye_fx8)));
+  const V level = level_m + (lace.log2_texels_per_m + 0.5f);
+  const V x = MulAdd(p.x, lace.x_fx8_per_m.x, MulAdd(p.y, lace.x_fx8_per_m.y, lace.x_eye_fx8));
+  const V y = MulAdd(p.x, lace.y_fx8_per_m.x, MulAdd(p.y, lace.y_fx8_per_m.y, lace.y_eye_fx8));
   V lace_code, tears_code;
   texture::HWY_NAMESPACE::SampleLevel(d, *lace.map, RoundToInt(x), RoundToInt(y),
                                       TruncateToInt(Clamp(level, 0.0f, kCellsGone)), lace_code,
                                       tears_code);
-  return {hn::MulAdd(lace_code, half, half), hn::MulAdd(tears_code, half, half)};
+  return {MulAdd(lace_code, half, half), MulAdd(tears_code, half, half)};
 }
 
 // Where the laces' place p was before eddies bent them, or they would lie in straight lines.
@@ -48,39 +46,38 @@ HWY_INLINE V3 BendLace(const Whitecaps& material, V3 p, V level_m) {
   constexpr float kMostBend_m = 1.4f;
   const V half = Constant(0.5f), scale = Constant(2.0f * kMostBend_m);
   const Thresholds eddies = SampleLace(material.eddies, p, level_m);
-  p.x = hn::MulAdd(hn::Sub(eddies.lace, half), scale, p.x);
-  p.y = hn::MulAdd(hn::Sub(eddies.tears, half), scale, p.y);
+  p.x = MulAdd(eddies.lace - half, scale, p.x);
+  p.y = MulAdd(eddies.tears - half, scale, p.y);
   return p;
 }
 
 // The sum of two thresholds as one that is itself spread evenly: the distribution of the sum.
 HWY_INLINE V JoinThresholds(V a, V b) {
-  const V sum = hn::Add(a, b), rest = hn::Sub(Constant(2.0f), sum);
+  const V sum = a + b, rest = 2.0f - sum;
   const V half = Constant(0.5f), one = Constant(1.0f);
-  return hn::IfThenElse(hn::Lt(sum, one), hn::Mul(hn::Mul(sum, sum), half),
-                        hn::NegMulAdd(hn::Mul(rest, rest), half, one));
+  return IfThenElse(sum < one, sum * sum * half, NegMulAdd(rest * rest, half, one));
 }
 
 // The part of thresholds b, spread evenly, with which foam is over the sum of both.
 HWY_INLINE V CoverOfJoined(V foam, V a) {
-  const V two = Constant(2.0f), less = hn::Add(foam, foam), more = hn::Sub(two, less);
-  const V root = hn::Sqrt(hn::Max(hn::Min(less, more), hn::Zero(D())));
-  const V sum = hn::IfThenElse(hn::Lt(less, more), root, hn::Sub(two, root));
-  return Clamp(hn::Sub(sum, a), 0.0f, 1.0f);
+  const V two = Constant(2.0f), less = foam + foam, more = two - less;
+  const V root = Sqrt(Max(Min(less, more), 0.0f));
+  const V sum = IfThenElse(less < more, root, two - root);
+  return Clamp(sum - a, 0.0f, 1.0f);
 }
 
 // The part of a pixel that foam hides: in the mean over thresholds it is `foam`, exactly.
 HWY_INLINE V CoverOf(V foam, V threshold) {
   constexpr float kRim = 0.3f;  // width of a bubble's rim, as a threshold
   // Rims are narrow where they would reach beyond 0 or 1.
-  const V room = hn::Min(foam, hn::Sub(Constant(1.0f), foam));
-  const V width = hn::Max(hn::Min(hn::Add(room, room), Constant(kRim)), Constant(1e-3f));
-  return Clamp(hn::Add(hn::Div(hn::Sub(foam, threshold), width), Constant(0.5f)), 0.0f, 1.0f);
+  const V room = Min(foam, 1.0f - foam);
+  const V width = Max(Min(room + room, kRim), 1e-3f);
+  return Clamp((foam - threshold) / width + 0.5f, 0.0f, 1.0f);
 }
 
 // As ocean::foam_on_crest().
 HWY_INLINE V OnCrests(const Whitecaps& material, V height_m) {
-  const V part = hn::MulAdd(height_m, Constant(material.crest_per_m), Constant(1.0f));
+  const V part = MulAdd(height_m, material.crest_per_m, 1.0f);
   return Clamp(part, 2.0f - ocean::kMostOnCrest, ocean::kMostOnCrest);
 }
 
@@ -90,13 +87,13 @@ HWY_INLINE V WhitecapsAt(const Whitecaps& material, V long_foam, V3 p, V height_
                          V ceded) {
   if (material.count == 0) return hn::Zero(D());
   const V one = Constant(1.0f);
-  V free = hn::Sub(one, long_foam);
+  V free = one - long_foam;
   if (material.count > 1) {
     const V foam = FoamOfMap(material.foam[1], p, level_m);
-    const V on_crest = hn::Min(hn::Mul(foam, OnCrests(material, height_m)), one);
-    free = hn::NegMulAdd(on_crest, free, free);
+    const V on_crest = Min(foam * OnCrests(material, height_m), one);
+    free = NegMulAdd(on_crest, free, free);
   }
-  return hn::Mul(hn::Sub(one, free), hn::Sub(one, ceded));
+  return (one - free) * (one - ceded);
 }
 
 // Foam at a packet's pixels: the part of them that it hides, how thick it is there, and how many
@@ -110,46 +107,42 @@ struct TornFoam {
 HWY_INLINE TornFoam TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
   const D d;
   const V zero = hn::Zero(d);
-  const auto some = hn::Gt(foam, Constant(material.least));
+  const auto some = foam > material.least;
   if (hn::AllFalse(d, some)) return {zero, zero, zero};
-  V cover = foam, thickness = hn::Mul(foam, Constant(0.5f));
+  V cover = foam, thickness = foam * 0.5f;
   // Where it is 0 the blends below change no bit, whatever the lanes beside show.
-  const V seen = hn::IfThenElseZero(some, LaceSeen(material.tears, level_m));
-  if (!hn::AllTrue(d, hn::Eq(seen, zero))) {
+  const V seen = IfThenElseZero(some, LaceSeen(material.tears, level_m));
+  if (!hn::AllTrue(d, seen == zero)) {
     const V3 at = BendLace(material, p, level_m);
     const V tears = SampleLace(material.tears, at, level_m).tears;
     // Lace too fine to be seen leaves tears soft.
     V torn = CoverOfJoined(foam, tears), lace = Constant(0.5f);
     const V lace_seen = LaceSeen(material.lace, level_m);
-    if (!hn::AllTrue(d, hn::Eq(lace_seen, zero))) {
+    if (!hn::AllTrue(d, lace_seen == zero)) {
       lace = Lerp(lace, SampleLace(material.lace, at, level_m).lace, lace_seen);
       torn = Lerp(torn, CoverOf(foam, JoinThresholds(tears, lace)), lace_seen);
     }
     cover = Lerp(foam, torn, seen);
-    thickness = Lerp(thickness, hn::Max(hn::Sub(foam, JoinThresholds(tears, lace)), zero), seen);
+    thickness = Lerp(thickness, Max(foam - JoinThresholds(tears, lace), zero), seen);
   }
-  return {hn::IfThenElseZero(some, cover), hn::IfThenElseZero(some, thickness),
-          hn::IfThenElseZero(some, foam)};
+  return {IfThenElseZero(some, cover), IfThenElseZero(some, thickness), IfThenElseZero(some, foam)};
 }
 
 // How much of the light that foam of this thickness hides.
-HWY_INLINE V OpacityOf(V thickness) {
-  return hn::MulAdd(thickness, Constant(0.42f), Constant(0.55f));
-}
+HWY_INLINE V OpacityOf(V thickness) { return MulAdd(thickness, 0.42f, 0.55f); }
 
 // Water of radiance `light` under foam that sees so much of sun and sky.
 HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, const TornFoam& foam, glm::vec3 sun_direction,
                            const LightSeen& seen, V3 normal, V3 light) {
   const V zero = hn::Zero(D());
-  if (hn::AllFalse(D(), hn::Gt(hn::Max(foam.cover, foam.bubbles), zero))) return light;
-  const V cos_sun = hn::Mul(hn::Max(Dot(normal, Constant(sun_direction)), zero), seen.sun);
-  const V3 white = ScaleAdd(Constant(material.sun_light), cos_sun,
-                            Scale(Constant(material.sky_light), seen.ambient));
-  const V3 bubbly = {hn::Mul(white.x, Constant(material.bubbles.x)),
-                     hn::Mul(white.y, Constant(material.bubbles.y)),
-                     hn::Mul(white.z, Constant(material.bubbles.z))};
-  const V3 between = Lerp(light, bubbly, hn::Mul(foam.bubbles, Constant(0.4f)));
-  return Lerp(between, white, hn::Mul(foam.cover, OpacityOf(foam.thickness)));
+  if (hn::AllFalse(D(), Max(foam.cover, foam.bubbles) > zero)) return light;
+  const V cos_sun = Max(Dot(normal, Constant(sun_direction)), zero) * seen.sun;
+  const V3 white =
+      MulAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light) * seen.ambient);
+  const V3 bubbly = {white.x * material.bubbles.x, white.y * material.bubbles.y,
+                     white.z * material.bubbles.z};
+  const V3 between = Lerp(light, bubbly, foam.bubbles * 0.4f);
+  return Lerp(between, white, foam.cover * OpacityOf(foam.thickness));
 }
 
 }  // namespace HWY_NAMESPACE

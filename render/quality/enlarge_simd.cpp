@@ -8,12 +8,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
 #include "texture/packed_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 namespace packed = texture::HWY_NAMESPACE;
 
 using D8 = hn::ScalableTag<std::uint8_t>;
@@ -27,23 +28,22 @@ constexpr std::size_t kPixels = hn::MaxLanes(D32()), kHalf = hn::MaxLanes(D64())
 HWY_INLINE V64 LoadFields(const std::uint32_t* pixels) {
   const D64 d;
   const V64 p = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint32_t, D64>(), pixels));
-  return hn::Or(hn::And(p, hn::Set(d, 0x00ff00ffu)),
-                hn::ShiftLeft<24>(hn::And(p, hn::Set(d, 0xff00ff00u))));
+  return (p & 0x00ff00ffu) | hn::ShiftLeft<24>(p & 0xff00ff00u);
 }
 
 // The pixels of both halves of a packet, in order.
 HWY_INLINE V32 GatherBytes(V64 half0, V64 half1) {
-  return packed::EvenParts(D32(), hn::Or(half0, hn::ShiftRight<24>(half0)),
-                           hn::Or(half1, hn::ShiftRight<24>(half1)));
+  return packed::EvenParts(D32(), half0 | hn::ShiftRight<24>(half0),
+                           half1 | hn::ShiftRight<24>(half1));
 }
 
 // From a to b, rounded; the weight, in [0, 256], in every field. Sums are below 2^16.
 HWY_INLINE V64 Blend(V64 a, V64 b, V64 weight_fx8) {
   const hn::Repartition<std::uint16_t, D64> d16;
   const auto weight = hn::BitCast(d16, weight_fx8);
-  const auto part_a = hn::Mul(hn::BitCast(d16, a), hn::Sub(hn::Set(d16, 256), weight));
-  const auto part_b = hn::Mul(hn::BitCast(d16, b), weight);
-  const auto sum = hn::Add(hn::Add(part_a, part_b), hn::Set(d16, 128));
+  const auto part_a = hn::BitCast(d16, a) * (hn::Set(d16, 256) - weight);
+  const auto part_b = hn::BitCast(d16, b) * weight;
+  const auto sum = part_a + part_b + hn::Set(d16, 128);
   return hn::BitCast(D64(), hn::ShiftRight<8>(sum));
 }
 

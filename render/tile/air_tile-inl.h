@@ -31,13 +31,13 @@ struct PlaceShown {
 HWY_INLINE PlaceShown FindPlace(const Shading& s, V x_px, V y_px, V z) {
   PlaceShown at;
   at.x_px = x_px, at.y_px = y_px;
-  at.is_surface = hn::Gt(z, hn::Zero(D()));
-  at.z = hn::IfThenElse(at.is_surface, z, Constant(1.0f));
+  at.is_surface = z > 0.0f;
+  at.z = IfThenElse(at.is_surface, z, 1.0f);
   at.way = RayAt(s.rays, x_px, y_px);
-  at.depth = hn::Div(Constant(s.rays.near_m), at.z);
-  const V horizontal2 = hn::MulAdd(at.way.x, at.way.x, hn::Mul(at.way.y, at.way.y));
-  const V sunk = hn::Mul(hn::Mul(horizontal2, at.depth), Constant(s.rays.drop_per_m2));
-  at.height = hn::Mul(hn::Add(sunk, at.way.z), at.depth);
+  at.depth = s.rays.near_m / at.z;
+  const V horizontal2 = MulAdd(at.way.x, at.way.x, at.way.y * at.way.y);
+  const V sunk = horizontal2 * at.depth * s.rays.drop_per_m2;
+  at.height = (sunk + at.way.z) * at.depth;
   return at;
 }
 
@@ -49,7 +49,7 @@ struct FogAhead {
 
   static HWY_INLINE FogAhead Find(const Shading& s, V3 way) {
     const V length2 = Dot(way, way), inverse = InverseSqrt(length2);
-    return {hn::Mul(length2, inverse), inverse, FogPhase(s.media.fog, Scale(way, inverse))};
+    return {length2 * inverse, inverse, FogPhase(s.media.fog, way * inverse)};
   }
   template <class Store>
   HWY_INLINE void StoreTo(const Store& store) const {
@@ -61,8 +61,8 @@ struct FogAhead {
   }
 
   HWY_INLINE FogRay RayTo(const Shading& s, const PlaceShown& at) const {
-    return {s.media.fog.at_eye, Scale(at.way, inverse_length), hn::Mul(at.depth, length),
-            hn::Add(at.height, Constant(s.rays.eye_z))};
+    return {s.media.fog.at_eye, at.way * inverse_length, at.depth * length,
+            at.height + s.rays.eye_z};
   }
   HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
     return HazeAndFog(s, RayTo(s, at), phase, light,
@@ -74,7 +74,7 @@ struct FogAhead {
 HWY_INLINE V3 LayAloft(const Shading& s, const PlaceShown& at, const AirAhead& air, V distance,
                        V length, V3 light) {
   const V zero = hn::Zero(D());
-  const V3 p = {hn::Mul(at.way.x, at.depth), hn::Mul(at.way.y, at.depth), at.height};
+  const V3 p = {at.way.x * at.depth, at.way.y * at.depth, at.height};
   const Packet packet = {zero, zero, at.depth, p, distance, {zero, zero, zero}};
   return ThroughAirAloft(s, packet, light, length, [&]() HWY_ATTR { return air; });
 }
@@ -87,7 +87,7 @@ struct AloftAhead {
 
   static HWY_INLINE AloftAhead Find(const Shading& s, V3 way) {
     const V length2 = Dot(way, way), inverse = InverseSqrt(length2);
-    return {hn::Mul(length2, inverse), FindAirAhead(s.light, Scale(way, inverse))};
+    return {length2 * inverse, FindAirAhead(s.light, way * inverse)};
   }
   template <class Store>
   HWY_INLINE void StoreTo(const Store& store) const {
@@ -100,7 +100,7 @@ struct AloftAhead {
   }
 
   HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
-    const V distance = hn::Mul(at.depth, length);
+    const V distance = at.depth * length;
     return LayAloft(s, at, air, distance, distance, light);
   }
 };
@@ -113,7 +113,7 @@ struct FogBelowAhead {
 
   static HWY_INLINE FogBelowAhead Find(const Shading& s, V3 way) {
     const FogAhead fog = FogAhead::Find(s, way);
-    return {fog, FindAirAhead(s.light, Scale(way, fog.inverse_length))};
+    return {fog, FindAirAhead(s.light, way * fog.inverse_length)};
   }
   template <class Store>
   HWY_INLINE void StoreTo(const Store& store) const {
@@ -143,9 +143,8 @@ HWY_INLINE void FindNodes(const Shading& s, const raster::PixelBox& box, SkyNode
   for (int row = 0; row < rows; ++row) {
     const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
     for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
-      const V x_px =
-          hn::MulAdd(hn::ConvertTo(d, CountFrom(column)), Constant(static_cast<float>(kStep)),
-                     Constant(static_cast<float>(box.x0_px)));
+      const V x_px = MulAdd(hn::ConvertTo(d, CountFrom(column)), static_cast<float>(kStep),
+                            static_cast<float>(box.x0_px));
       const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
       Ahead::Find(s, RayAt(s.rays, x_px, y_px)).StoreTo([&](std::size_t channel, V value) HWY_ATTR {
         hn::StoreU(value, d, &nodes.air[channel][at]);
@@ -167,7 +166,7 @@ HWY_INLINE void LayOverTile(const Shading& s, const raster::PixelBox& box, const
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
       const std::size_t at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
       const V z = hn::LoadU(d, depth + at);
-      if (hn::AllFalse(d, hn::Gt(z, hn::Zero(d)))) continue;
+      if (hn::AllFalse(d, z > 0.0f)) continue;
       const PlaceShown place = FindPlace(s, hn::ConvertTo(d, CountFrom(box.x0_px + x)), y_px, z);
       const auto read = [&](std::size_t channel) HWY_ATTR {
         return ToPixels(between(nodes.air[channel].data(), static_cast<std::size_t>(x / kStep)));

@@ -26,13 +26,13 @@ HWY_INLINE V MeanHaze(const Shading& s, const Packet& shown, float per_m) {
   const V one = Constant(1.0f);
   const V eye = Constant(1.0f + std::max(eye_z, 0.0f) * per_m);
   // Mirrored things lie below the level.
-  const V height = hn::Abs(hn::Add(shown.p.z, Constant(eye_z)));
-  const V place = hn::MulAdd(height, Constant(per_m), one);
-  const V both = hn::Add(eye, place);
-  const V r2 = hn::MulAdd(shown.p.x, shown.p.x, hn::Mul(shown.p.y, shown.p.y));
-  const V sagging = hn::Mul(r2, Constant(0.25f * s.rays.drop_per_m2 * per_m));
-  const V middle = hn::Max(hn::MulSub(both, Constant(0.5f), sagging), one);
-  return hn::Div(hn::Mul(both, Constant(0.5f)), hn::Mul(hn::Mul(eye, place), middle));
+  const V height = Abs(shown.p.z + eye_z);
+  const V place = MulAdd(height, per_m, one);
+  const V both = eye + place;
+  const V r2 = MulAdd(shown.p.x, shown.p.x, shown.p.y * shown.p.y);
+  const V sagging = r2 * (0.25f * s.rays.drop_per_m2 * per_m);
+  const V middle = Max(MulSub(both, 0.5f, sagging), one);
+  return both * 0.5f / (eye * place * middle);
 }
 
 // Molecules thin with height as exp(-h / 8 km) does, which 10 km in MeanHaze()'s law are closest
@@ -48,9 +48,9 @@ struct AirAhead {
 // In a direction of length 1 as the eye has it.
 HWY_INLINE AirAhead FindAirAhead(const Light& light, V3 direction) {
   const V down = PartDown(light, direction.z);
-  const V level2 = hn::NegMulAdd(down, down, Constant(1.0f)), level4 = hn::Mul(level2, level2);
-  const V level8 = hn::Mul(level4, level4);
-  return {AirBelow(light, direction, down), hn::NegMulAdd(level8, level8, Constant(1.0f))};
+  const V level2 = NegMulAdd(down, down, 1.0f), level4 = level2 * level2;
+  const V level8 = level4 * level4;
+  return {AirBelow(light, direction, down), NegMulAdd(level8, level8, 1.0f)};
 }
 
 // The air below an eye far over the sea: haze, and the molecules beyond those that the haze stands
@@ -64,19 +64,19 @@ HWY_INLINE V3 ThroughAirAloft(const Shading& s, const Packet& packet, V3 colour,
   const V zero = hn::Zero(d);
   const V mean_haze = MeanHaze(s, packet, s.media.inv_haze_height_m);
   const V mean_air = MeanHaze(s, packet, kPerMoleculesHeight_m);
-  const V haze = hn::Mul(hn::Mul(length, mean_haze), Constant(s.media.inv_haze_m));
-  const V air = hn::Mul(length, hn::Max(hn::Sub(mean_air, mean_haze), zero));
+  const V haze = length * mean_haze * s.media.inv_haze_m;
+  const V air = length * Max(mean_air - mean_haze, zero);
   const glm::vec3 molecules = s.media.molecules_per_m;
   const auto amount = [&](float per_m) HWY_ATTR {
-    const V clear = Exp(d, hn::Neg(hn::MulAdd(air, Constant(per_m), haze)));
-    return hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), zero);
+    const V clear = Exp(d, -MulAdd(air, per_m, haze));
+    return Max(1.0f - 1.0f / 512.0f - clear, zero);
   };
   const V blue = amount(molecules.z);
-  if (hn::AllFalse(d, hn::Gt(blue, zero))) return colour;
+  if (hn::AllFalse(d, blue > zero)) return colour;
 
   const AirAhead seen = ahead();
-  const V all = hn::MulAdd(air, Constant(molecules.y), hn::Max(haze, Constant(1e-6f)));
-  const V white = hn::Max(hn::Mul(seen.steep, hn::Div(haze, all)), Constant(s.media.cloudy));
+  const V all = MulAdd(air, molecules.y, Max(haze, 1e-6f));
+  const V white = Max(seen.steep * (haze / all), s.media.cloudy);
   const V3 light = Lerp(seen.below, Constant(s.light.horizon), white);
   return {Lerp(colour.x, light.x, amount(molecules.x)),
           Lerp(colour.y, light.y, amount(molecules.y)), Lerp(colour.z, light.z, blue)};
@@ -86,9 +86,9 @@ HWY_INLINE V3 ThroughAirAloft(const Shading& s, const Packet& packet, V3 colour,
 static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour, V length) {
   // The direction as the eye has it; to_eye is the place's.
   const V3 p = packet.p;
-  const V r2 = hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y));
-  const V z = hn::Div(hn::NegMulAdd(r2, Constant(s.rays.drop_per_m2), p.z), packet.distance);
-  const V3 direction = {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), z};
+  const V r2 = MulAdd(p.x, p.x, p.y * p.y);
+  const V z = NegMulAdd(r2, s.rays.drop_per_m2, p.z) / packet.distance;
+  const V3 direction = {-packet.to_eye.x, -packet.to_eye.y, z};
   return ThroughAirAloft(s, packet, colour, length,
                          [&]() HWY_ATTR { return FindAirAhead(s.light, direction); });
 }
@@ -100,16 +100,15 @@ static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour, V le
 HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour, V length) {
   const D d;
   if (s.media.molecules_per_m.z > 0.0f) return AirAloft(s, packet, colour, length);
-  const V depth = hn::Mul(hn::Mul(length, Constant(-s.media.inv_haze_m)),
-                          MeanHaze(s, packet, s.media.inv_haze_height_m));
+  const V depth = length * -s.media.inv_haze_m * MeanHaze(s, packet, s.media.inv_haze_height_m);
   const V clear = Exp(d, depth);
-  const V amount = hn::Max(hn::Sub(Constant(1.0f - 1.0f / 512.0f), clear), hn::Zero(d));
-  if (hn::AllFalse(d, hn::Gt(amount, hn::Zero(d)))) return colour;
-  const V x = hn::Neg(packet.to_eye.x), y = hn::Neg(packet.to_eye.y);
-  const V horizontal2 = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Constant(1e-12f));
-  const V3 ahead = SoftSkyRadiance(*s.light.haze_sky, {x, y, hn::Zero(d)}, hn::Sqrt(horizontal2));
-  const V level4 = hn::Mul(horizontal2, horizontal2), level8 = hn::Mul(level4, level4);
-  const V steep = hn::NegMulAdd(level8, level8, Constant(1.0f));
+  const V amount = Max(1.0f - 1.0f / 512.0f - clear, 0.0f);
+  if (hn::AllFalse(d, amount > 0.0f)) return colour;
+  const V x = -packet.to_eye.x, y = -packet.to_eye.y;
+  const V horizontal2 = Max(MulAdd(x, x, y * y), 1e-12f);
+  const V3 ahead = SoftSkyRadiance(*s.light.haze_sky, {x, y, hn::Zero(d)}, Sqrt(horizontal2));
+  const V level4 = horizontal2 * horizontal2, level8 = level4 * level4;
+  const V steep = NegMulAdd(level8, level8, 1.0f);
   return Lerp(colour, Lerp(ahead, Constant(s.light.horizon), steep), amount);
 }
 
@@ -128,14 +127,14 @@ HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour
   const Fog& fog = s.media.fog;
   const FogPath path = PathTo(fog, ray);
   const FogView view = SeeFog(fog, ray, path, phase);
-  V behind = hn::Sub(ray.distance, path.before);
-  if (!fog.is_exponential) behind = hn::NegMulAdd(path.amount, Constant(fog.takes_haze), behind);
+  V behind = ray.distance - path.before;
+  if (!fog.is_exponential) behind = NegMulAdd(path.amount, fog.takes_haze, behind);
   // What fog hides has no haze.
-  const V seen = hn::Max(view.passes.x, hn::Max(view.passes.y, view.passes.z));
-  behind = hn::IfThenElseZero(hn::Ge(seen, Constant(1.0f / 512.0f)), behind);
-  if (!hn::AllFalse(d, hn::Gt(behind, zero))) colour = Haze(s, packet_of(), colour, behind);
+  const V seen = Max(view.passes.x, Max(view.passes.y, view.passes.z));
+  behind = IfThenElseZero(seen >= 1.0f / 512.0f, behind);
+  if (!hn::AllFalse(d, behind > zero)) colour = Haze(s, packet_of(), colour, behind);
   colour = ThroughFog(view, colour);
-  return hn::AllTrue(d, hn::Eq(path.before, zero)) ? colour : haze_before(colour, path.before);
+  return hn::AllTrue(d, path.before == zero) ? colour : haze_before(colour, path.before);
 }
 
 template <class PacketOf>
@@ -158,13 +157,11 @@ HWY_INLINE bool IsFogSeenFromAloft(const Shading& s) {
 static HWY_NOINLINE V3 ThroughAirAndFog(const Shading& s, Packet packet, V3 colour) {
   const Fog& fog = s.media.fog;
   const V3 p = packet.p;
-  const V r2 = hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y));
-  const V length = hn::Max(packet.distance, Constant(1e-3f));
-  const V rise = hn::Div(hn::NegMulAdd(r2, Constant(s.rays.drop_per_m2), p.z), length);
-  const FogRay ray = {fog.at_eye,
-                      {hn::Neg(packet.to_eye.x), hn::Neg(packet.to_eye.y), rise},
-                      packet.distance,
-                      hn::Add(p.z, Constant(s.rays.eye_z))};
+  const V r2 = MulAdd(p.x, p.x, p.y * p.y);
+  const V length = Max(packet.distance, 1e-3f);
+  const V rise = NegMulAdd(r2, s.rays.drop_per_m2, p.z) / length;
+  const FogRay ray = {
+      fog.at_eye, {-packet.to_eye.x, -packet.to_eye.y, rise}, packet.distance, p.z + s.rays.eye_z};
   return HazeAndFog(s, ray, FogPhase(fog, ray.direction), colour,
                     [&]() HWY_ATTR -> const Packet& { return packet; });
 }
@@ -174,8 +171,8 @@ HWY_INLINE V3 ThroughAir(const Shading& s, const Packet& packet, V3 colour) {
 }
 
 HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
+  return {IfThenElse(mask, yes.x, no.x), IfThenElse(mask, yes.y, no.y),
+          IfThenElse(mask, yes.z, no.z)};
 }
 
 // The sky through fog. An eye over the fog sees it under the sky through as much haze as the sea
@@ -186,15 +183,15 @@ HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
     return ThroughFog(SkyFog(fog, fog.at_eye, direction, kPlacesBeforeSky), light);
   const FogRay ray = {fog.at_eye, direction, Constant(kEndless_m), Constant(kEndless_m)};
   const FogPath path = PathInSlab(fog, ray);
-  const auto meets = hn::Gt(path.amount, hn::Zero(D()));
+  const auto meets = path.amount > 0.0f;
   if (hn::AllFalse(D(), meets)) return light;
-  const V3 p = Scale(direction, path.before);
-  const V r2 = hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y));
+  const V3 p = direction * path.before;
+  const V r2 = MulAdd(p.x, p.x, p.y * p.y);
   Packet top;
   top.x_px = top.y_px = top.depth = hn::Zero(D());
-  top.p = {p.x, p.y, hn::MulAdd(r2, Constant(s.rays.drop_per_m2), p.z)};
+  top.p = {p.x, p.y, MulAdd(r2, s.rays.drop_per_m2, p.z)};
   top.distance = path.before;
-  top.to_eye = Scale(direction, Constant(-1.0f));
+  top.to_eye = direction * -1.0f;
   const V3 foggy = ThroughFog(SeeFog(fog, ray, path), light);
   return Where(meets, Haze(s, top, foggy), light);
 }
@@ -203,28 +200,28 @@ HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
 static HWY_NOINLINE V3 FogFromSea(const Shading& s, V3 direction, V distance, V height, V3 place,
                                   V3 colour) {
   const Fog& fog = s.media.fog;
-  const V length = hn::Max(distance, Constant(1e-3f)), up = hn::Max(height, hn::Zero(D()));
-  direction.z = hn::Min(hn::Div(up, length), Constant(1.0f));
+  const V length = Max(distance, 1e-3f), up = Max(height, 0.0f);
+  direction.z = Min(up / length, 1.0f);
   const FogRay ray = {fog.at_sea,
                       direction,
                       distance,
                       up,
-                      hn::NegMulAdd(direction.x, distance, place.x),
-                      hn::NegMulAdd(direction.y, distance, place.y)};
+                      NegMulAdd(direction.x, distance, place.x),
+                      NegMulAdd(direction.y, distance, place.y)};
   return ThroughFog(SeeFog(fog, ray, PathTo(fog, ray)), colour);
 }
 
 // paper_depth_ratio() of the angle whose cosine in air this is, at least 0.02; the angle is right
 // to 7e-5. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, 1964, 4.4.45.
 HWY_INLINE V PaperDepthRatio(V cosine) {
-  V acos = hn::MulAdd(cosine, Constant(-0.0187293f), Constant(0.0742610f));
-  acos = hn::MulAdd(cosine, acos, Constant(-0.2121144f));
-  acos = hn::MulAdd(cosine, acos, Constant(1.5707288f));
-  const V rest = hn::Max(hn::Sub(Constant(1.0f), cosine), hn::Zero(D()));
-  const V angle = hn::Mul(acos, hn::Sqrt(rest));
-  const V steep = hn::NegMulAdd(angle, Constant(0.16f), Constant(0.75f));
-  const V flat = hn::NegMulAdd(angle, Constant(0.8f), Constant(1.26f));
-  return hn::IfThenElse(hn::Le(angle, Constant(0.8f)), steep, flat);
+  V acos = MulAdd(cosine, -0.0187293f, 0.0742610f);
+  acos = MulAdd(cosine, acos, -0.2121144f);
+  acos = MulAdd(cosine, acos, 1.5707288f);
+  const V rest = Max(1.0f - cosine, 0.0f);
+  const V angle = acos * Sqrt(rest);
+  const V steep = NegMulAdd(angle, 0.16f, 0.75f);
+  const V flat = NegMulAdd(angle, 0.8f, 1.26f);
+  return IfThenElse(angle <= 0.8f, steep, flat);
 }
 
 // Light's way through water to something at a depth.
@@ -234,21 +231,15 @@ struct WaterPath {
 };
 
 HWY_INLINE WaterPath PathThroughWater(const Media& media, const Packet& packet, V apparent) {
-  const D d;
-  const V cos_eye = hn::Max(packet.to_eye.z, Constant(0.02f));
+  const V cos_eye = Max(packet.to_eye.z, 0.02f);
   const float inv_n = 1.0f / media.refraction_index;
   // cos of the refracted ray; apparent depth / true depth k = (1/n) cos / cos_t.
-  const V sin_t =
-      hn::Mul(hn::Sqrt(hn::Max(hn::NegMulAdd(cos_eye, cos_eye, Constant(1.0f)), hn::Zero(d))),
-              Constant(inv_n));
-  const V cos_t = hn::Sqrt(hn::NegMulAdd(sin_t, sin_t, Constant(1.0f)));
-  const V depth =
-      media.paper_refraction
-          ? hn::Div(apparent, PaperDepthRatio(cos_eye))
-          : hn::Mul(apparent, hn::Div(hn::Mul(cos_t, Constant(media.refraction_index)), cos_eye));
-  const V path_up = hn::Min(hn::Div(depth, cos_t), Constant(200.0f));
-  return {depth,
-          hn::MulAdd(depth, Constant(kDaylightSlant), path_up)};  // sunlight comes down at a slant
+  const V sin_t = Sqrt(Max(NegMulAdd(cos_eye, cos_eye, 1.0f), 0.0f)) * inv_n;
+  const V cos_t = Sqrt(NegMulAdd(sin_t, sin_t, 1.0f));
+  const V depth = media.paper_refraction ? apparent / PaperDepthRatio(cos_eye)
+                                         : apparent * (cos_t * media.refraction_index / cos_eye);
+  const V path_up = Min(depth / cos_t, 200.0f);
+  return {depth, MulAdd(depth, kDaylightSlant, path_up)};  // sunlight comes down at a slant
 }
 
 // Light is lost on its way, and the water body's takes its place (Beer-Lambert).
@@ -256,7 +247,7 @@ HWY_INLINE V3 AbsorbInWater(const Media& media, const WaterPath& path, V3 light)
   const D d;
   const glm::vec3 absorption = media.absorption_per_m;
   const auto lost = [&](float per_m, V body, V seen) {
-    const V through = Exp(d, hn::Mul(path.length, Constant(-per_m)));
+    const V through = Exp(d, path.length * -per_m);
     return Lerp(body, seen, through);
   };
   return {lost(absorption.x, Constant(media.body.x), light.x),
@@ -273,11 +264,11 @@ HWY_INLINE bool ShowsWaterSide(const Media& media) {
 // (1 - e^-x) / x, given e^-x.
 HWY_INLINE V LossOver(V x, V e) {
   const V one = Constant(1.0f);
-  const V exact = hn::Div(hn::Sub(one, e), x);
+  const V exact = (one - e) / x;
   // Near 0 the difference has no digits left.
-  V series = hn::NegMulAdd(x, Constant(1.0f / 24.0f), Constant(1.0f / 6.0f));
-  series = hn::NegMulAdd(hn::NegMulAdd(x, series, Constant(0.5f)), x, one);
-  return hn::IfThenElse(hn::Lt(hn::Abs(x), Constant(0.03f)), series, exact);
+  V series = NegMulAdd(x, 1.0f / 24.0f, 1.0f / 6.0f);
+  series = NegMulAdd(NegMulAdd(x, series, 0.5f), x, one);
+  return IfThenElse(Abs(x) < 0.03f, series, exact);
 }
 
 // A straight way through water, from a depth at which the part `daylight` is left of the light that
@@ -298,13 +289,12 @@ HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWa
   const D d;
   const auto along = [&](int channel, V seen) HWY_ATTR {
     const float c = media.absorption_per_m[channel];
-    const V lost = hn::Mul(way.length, Constant(c));
-    const V x = hn::MulAdd(way.deeper, Constant(media.daylight_lost_per_m[channel]), lost);
+    const V lost = way.length * c;
+    const V x = MulAdd(way.deeper, media.daylight_lost_per_m[channel], lost);
     // Daylight makes up for e^60: from where it cannot, nothing is seen.
-    const V passes = Exp(d, Clamp(hn::Neg(x), -80.0f, 60.0f));
-    const V scattered = hn::Mul(hn::Mul(lost, LossOver(x, passes)),
-                                hn::Mul(shafts, Constant(media.scattered[channel])));
-    return hn::Mul(hn::MulAdd(seen, passes, scattered), Constant(daylight[channel]));
+    const V passes = Exp(d, Clamp(-x, -80.0f, 60.0f));
+    const V scattered = lost * LossOver(x, passes) * (shafts * media.scattered[channel]);
+    return MulAdd(seen, passes, scattered) * daylight[channel];
   };
   return {along(0, light.x), along(1, light.y), along(2, light.z)};
 }
@@ -313,9 +303,8 @@ HWY_INLINE V3 ThroughWater(const Media& media, glm::vec3 daylight, const WaterWa
 HWY_INLINE V3 EndlessWater(const Media& media, glm::vec3 daylight, V w) {
   const auto along = [&](int channel) HWY_ATTR {
     const float c = media.absorption_per_m[channel];
-    const V lost =
-        hn::MulAdd(w, Constant(media.daylight_lost_per_m[channel]), Constant(std::max(c, 1e-9f)));
-    return hn::Div(Constant(c * media.scattered[channel] * daylight[channel]), lost);
+    const V lost = MulAdd(w, media.daylight_lost_per_m[channel], std::max(c, 1e-9f));
+    return c * media.scattered[channel] * daylight[channel] / lost;
   };
   return {along(0), along(1), along(2)};
 }
@@ -326,8 +315,8 @@ template <SurfaceKind kSurface>
 HWY_INLINE V3 SeenInWater(const Media& media, V level, const Packet& shown, V3 light, V shafts) {
   const V zero = hn::Zero(D());
   V depth = zero;
-  if constexpr (kSurface != SurfaceKind::kWater) depth = hn::Max(hn::Sub(level, shown.p.z), zero);
-  const V deeper = hn::Sub(depth, Constant(media.eye_depth_m));
+  if constexpr (kSurface != SurfaceKind::kWater) depth = Max(level - shown.p.z, zero);
+  const V deeper = depth - media.eye_depth_m;
   return ThroughWater(media, media.daylight_at_eye, {shown.distance, deeper}, light, shafts);
 }
 
@@ -343,25 +332,25 @@ struct Seen {
 template <ViewKind kView>
 HWY_INLINE Seen FindSeenFromBelow(const Media& media, const Packet& shown, V level) {
   const V zero = hn::Zero(D()), one = Constant(1.0f), n = Constant(media.refraction_index);
-  const V beyond = hn::Sub(shown.p.z, level), image = hn::Max(beyond, zero);
+  const V beyond = shown.p.z - level, image = Max(beyond, zero);
   Seen seen;
   seen.packet = shown;
   if constexpr (kView == ViewKind::kReflection) {
-    seen.packet.p.z = hn::Sub(level, beyond);
-    seen.packet.to_eye.z = hn::Neg(shown.to_eye.z);
-    const V part = Clamp(hn::Div(image, hn::Max(shown.p.z, Constant(1e-3f))), 0.0f, 1.0f);
-    seen.way = {hn::Mul(shown.distance, part), image};
+    seen.packet.p.z = level - beyond;
+    seen.packet.to_eye.z = -shown.to_eye.z;
+    const V part = Clamp(image / Max(shown.p.z, 1e-3f), 0.0f, 1.0f);
+    seen.way = {shown.distance * part, image};
   } else {
-    const V cos_water = hn::Max(hn::Neg(shown.to_eye.z), Constant(0.02f));
-    const V sin_water = hn::Sqrt(hn::Max(hn::NegMulAdd(cos_water, cos_water, one), zero));
-    const V sin_air = hn::Min(hn::Mul(sin_water, n), one);
-    const V cos_air = hn::Sqrt(hn::NegMulAdd(sin_air, sin_air, one));
-    const V height = hn::Div(hn::Mul(image, cos_air), hn::Mul(n, cos_water));
-    const V across = hn::Div(hn::Mul(image, sin_water), cos_water);
-    seen.packet.p.z = hn::Add(level, hn::Add(height, hn::Min(beyond, zero)));
-    seen.packet.distance = hn::Sqrt(hn::MulAdd(height, height, hn::Mul(across, across)));
-    const V3 to_eye = {hn::Mul(shown.to_eye.x, n), hn::Mul(shown.to_eye.y, n), hn::Neg(cos_air)};
-    seen.packet.to_eye = Scale(to_eye, InverseSqrt(Dot(to_eye, to_eye)));
+    const V cos_water = Max(-shown.to_eye.z, 0.02f);
+    const V sin_water = Sqrt(Max(NegMulAdd(cos_water, cos_water, one), zero));
+    const V sin_air = Min(sin_water * n, one);
+    const V cos_air = Sqrt(NegMulAdd(sin_air, sin_air, one));
+    const V height = image * cos_air / (n * cos_water);
+    const V across = image * sin_water / cos_water;
+    seen.packet.p.z = level + (height + Min(beyond, zero));
+    seen.packet.distance = Sqrt(MulAdd(height, height, across * across));
+    const V3 to_eye = {shown.to_eye.x * n, shown.to_eye.y * n, -cos_air};
+    seen.packet.to_eye = to_eye * InverseSqrt(Dot(to_eye, to_eye));
   }
   return seen;
 }
@@ -373,15 +362,15 @@ HWY_INLINE Seen FindSeen(const Shading& s, const Packet& shown, V level) {
   Seen seen;
   seen.packet = shown;
   if constexpr (kView == ViewKind::kReflection) {
-    seen.packet.p.z = hn::Sub(hn::Add(level, level), shown.p.z);
-    seen.packet.to_eye.z = hn::Neg(shown.to_eye.z);
+    seen.packet.p.z = level + level - shown.p.z;
+    seen.packet.to_eye.z = -shown.to_eye.z;
   }
   if constexpr (kView == ViewKind::kRefraction) {
     const V zero = hn::Zero(D());
-    const V below = hn::Sub(level, shown.p.z);
-    seen.path = PathThroughWater(s.media, shown, hn::Abs(below));
-    seen.packet.p.z = hn::Sub(level, hn::CopySign(seen.path.depth, below));
-    seen.path.length = hn::IfThenElseZero(hn::Gt(below, zero), seen.path.length);
+    const V below = level - shown.p.z;
+    seen.path = PathThroughWater(s.media, shown, Abs(below));
+    seen.packet.p.z = level - hn::CopySign(seen.path.depth, below);
+    seen.path.length = IfThenElseZero(below > zero, seen.path.length);
   }
   return seen;
 }
@@ -394,19 +383,18 @@ HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen,
     if (!s.media.submerged) return AbsorbInWater(s.media, seen.path, light);
     const V3 hazy = Haze(s, seen.packet, light);
     if (!s.media.fog.on) return hazy;
-    const V height = hn::Sub(seen.packet.p.z, Constant(s.media.eye_depth_m));
-    return FogFromSea(s, Scale(seen.packet.to_eye, Constant(-1.0f)), seen.packet.distance, height,
-                      seen.packet.p, hazy);
+    const V height = seen.packet.p.z - s.media.eye_depth_m;
+    return FogFromSea(s, seen.packet.to_eye * -1.0f, seen.packet.distance, height, seen.packet.p,
+                      hazy);
   } else if (s.media.submerged) {
     return ThroughWater(s.media, glm::vec3(1.0f), seen.way, light);
   } else {
     const V3 hazy = Haze(s, shown, light);
     if (!s.media.fog.on) return hazy;
     // Beyond the water, which is in fog of its own.
-    const V height = hn::Mul(hn::Sub(seen.packet.p.z, shown.p.z), Constant(0.5f));
-    const V part = Clamp(hn::Div(height, hn::Max(hn::Neg(shown.p.z), Constant(1e-3f))), 0.0f, 1.0f);
-    return FogFromSea(s, Scale(shown.to_eye, Constant(-1.0f)), hn::Mul(shown.distance, part),
-                      height, seen.packet.p, hazy);
+    const V height = (seen.packet.p.z - shown.p.z) * 0.5f;
+    const V part = Clamp(height / Max(-shown.p.z, 1e-3f), 0.0f, 1.0f);
+    return FogFromSea(s, shown.to_eye * -1.0f, shown.distance * part, height, seen.packet.p, hazy);
   }
 }
 

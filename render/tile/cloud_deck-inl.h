@@ -22,12 +22,11 @@ constexpr float kNothingNear_m = 1e9f;
 // the rise 0.
 HWY_INLINE CloudPlace PlaceOnDeck(const Clouds& clouds, float drop_per_m2, V3 direction) {
   const float depth_m = -clouds.height_m;
-  const V down = hn::Max(hn::Neg(direction.z), Constant(1e-6f));
-  const V rise2 =
-      hn::NegMulAdd(Constant(4.0f * drop_per_m2), Constant(depth_m), hn::Mul(down, down));
-  const V rise = hn::Sqrt(hn::Max(rise2, hn::Zero(D())));
-  const V slant = hn::Div(Constant(2.0f * depth_m), hn::Add(down, rise));
-  return {hn::Mul(direction.x, slant), hn::Mul(direction.y, slant), slant, rise};
+  const V down = Max(-direction.z, 1e-6f);
+  const V rise2 = NegMulAdd(4.0f * drop_per_m2, depth_m, down * down);
+  const V rise = Sqrt(Max(rise2, 0.0f));
+  const V slant = 2.0f * depth_m / (down + rise);
+  return {direction.x * slant, direction.y * slant, slant, rise};
 }
 
 // What a place on the layer shows as a packet, for the air before it.
@@ -35,7 +34,7 @@ HWY_INLINE Packet DeckPacket(const Shading& s, V3 direction, const CloudPlace& a
   Packet packet;
   packet.x_px = packet.y_px = packet.depth = hn::Zero(D());
   packet.distance = at.slant;
-  packet.to_eye = Scale(direction, Constant(-1.0f));
+  packet.to_eye = direction * -1.0f;
   packet.p = {at.x, at.y, Constant(s.light.clouds.height_m)};
   return packet;
 }
@@ -46,30 +45,29 @@ static HWY_NOINLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m
   const Clouds& clouds = s.light.clouds;
   const V one = Constant(1.0f);
   const CloudPlace at = PlaceOnDeck(clouds, s.rays.drop_per_m2, direction);
-  const auto seen = hn::And(hn::Gt(at.rise, hn::Zero(d)), hn::Lt(at.slant, distance_m));
+  const auto seen = (at.rise > 0.0f) & (at.slant < distance_m);
   if (hn::AllFalse(d, seen)) return light;
   const V pixel_angle_log2 = Log2Coarse(d, Constant(s.rays.pixel_angle));
-  const V level = FootprintLevel(hn::Add(Log2Coarse(d, at.slant), pixel_angle_log2), at.rise);
+  const V level = FootprintLevel(Log2Coarse(d, at.slant) + pixel_angle_log2, at.rise);
   CloudNoise noise = SampleClouds(clouds, at.x, at.y, level);
   const V zero = hn::Zero(d);
   V unused = zero, lost = zero;
   AddSlopes(clouds.regions, {at.x, at.y, zero}, level, zero, zero, noise.noise, unused, lost);
-  const V passes = Exp(d, hn::Neg(OpticalDepth(clouds, noise)));
-  const V hidden = hn::Mul(hn::Sub(one, passes), Constant(clouds.shown));
-  const auto some = hn::And(seen, hn::Gt(hidden, Constant(kLeastHidden)));
+  const V passes = Exp(d, -OpticalDepth(clouds, noise));
+  const V hidden = (one - passes) * clouds.shown;
+  const auto some = seen & (hidden > kLeastHidden);
   if (hn::AllFalse(d, some)) return light;
   // White from above however thick they are, brighter towards the light.
-  const V bright =
-      Clamp(hn::MulAdd(noise.side, Constant(0.5f * clouds.inv_deviation), one), 0.6f, 1.5f);
-  const V3 own = Scale(Constant(clouds.light.tops), bright);
+  const V bright = Clamp(MulAdd(noise.side, 0.5f * clouds.inv_deviation, one), 0.6f, 1.5f);
+  const V3 own = Constant(clouds.light.tops) * bright;
   const V3 arriving = Haze(s, DeckPacket(s, direction, at), own);
-  return Lerp(light, arriving, hn::IfThenElseZero(some, hidden));
+  return Lerp(light, arriving, IfThenElseZero(some, hidden));
 }
 
 // The same before what a packet shows.
 HWY_INLINE V3 CloudsBefore(const Shading& s, const Packet& shown, V3 light) {
   const V3 ray = RayAt(s.rays, shown.x_px, shown.y_px);
-  return AddCloudDeck(s, Scale(ray, InverseSqrt(Dot(ray, ray))), shown.distance, light);
+  return AddCloudDeck(s, ray * InverseSqrt(Dot(ray, ray)), shown.distance, light);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -28,18 +28,18 @@ constexpr float kBeyondClouds_m = 1e9f;
 HWY_INLINE V3 LayClouds(const CloudsSeen& seen, V distance_m, V3 light) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
-  const V way = hn::Max(hn::Sub(seen.back, seen.front), Constant(1e-4f));
-  const V part = hn::Div(hn::MulSub(distance_m, seen.opacity, seen.front), way);
-  const auto whole = hn::Ge(part, one);
-  V hidden = hn::IfThenElseZero(whole, seen.opacity), shown = hn::IfThenElseZero(whole, one);
-  const auto among = hn::AndNot(whole, hn::Gt(part, zero));
+  const V way = Max(seen.back - seen.front, 1e-4f);
+  const V part = MulSub(distance_m, seen.opacity, seen.front) / way;
+  const auto whole = part >= one;
+  V hidden = IfThenElseZero(whole, seen.opacity), shown = IfThenElseZero(whole, one);
+  const auto among = hn::AndNot(whole, part > zero);
   if (!hn::AllFalse(d, among)) {
-    const V passes = hn::Max(hn::Sub(one, seen.opacity), Constant(1.0f / 256.0f));
-    const V some = hn::Sub(one, Exp2(d, hn::Mul(part, Log2(d, passes))));
-    hidden = hn::IfThenElse(among, some, hidden);
-    shown = hn::IfThenElse(among, hn::Div(some, hn::Max(seen.opacity, Constant(1e-6f))), shown);
+    const V passes = Max(one - seen.opacity, 1.0f / 256.0f);
+    const V some = one - Exp2(d, part * Log2(d, passes));
+    hidden = IfThenElse(among, some, hidden);
+    shown = IfThenElse(among, some / Max(seen.opacity, 1e-6f), shown);
   }
-  return ScaleAdd(seen.light, shown, Scale(light, hn::Sub(one, hidden)));
+  return MulAdd(seen.light, shown, light * (one - hidden));
 }
 
 // The clouds in the kLanes pixels from (x, y) of the window on; x a multiple of kLanes. Where they
@@ -50,10 +50,8 @@ HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) 
   const int step = picture.step();
   const float per_step = 1.0f / static_cast<float>(step);
   const VI lane = hn::Iota(di, 0);
-  const VI left = hn::ShiftRightSame(lane, picture.step_log2),
-           right = hn::Add(left, hn::Set(di, 1));
-  const V across =
-      hn::Mul(hn::ConvertTo(d, hn::And(lane, hn::Set(di, step - 1))), Constant(per_step));
+  const VI left = hn::ShiftRightSame(lane, picture.step_log2), right = left + hn::Set(di, 1);
+  const V across = hn::ConvertTo(d, lane & hn::Set(di, step - 1)) * per_step;
   const V below = Constant(static_cast<float>(y % step) * per_step);
   const std::size_t at =
       static_cast<std::size_t>(y / step) * picture.stride + static_cast<std::size_t>(x / step);
@@ -65,7 +63,7 @@ HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) 
   };
   const V zero = hn::Zero(d);
   CloudsSeen seen = {{zero, zero, zero}, read(CloudPicture::kOpacity), zero, zero};
-  if (hn::AllFalse(d, hn::Gt(seen.opacity, zero))) return seen;
+  if (hn::AllFalse(d, seen.opacity > zero)) return seen;
   seen.light = {read(0), read(1), read(2)};
   seen.front = read(CloudPicture::kFront), seen.back = read(CloudPicture::kBack);
   return seen;
@@ -75,20 +73,20 @@ HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) 
 HWY_INLINE CloudsSeen CloudsAt(const CloudPicture& picture, V x_px, V y_px) {
   const DI di;
   const float per_step = 1.0f / static_cast<float>(picture.step());
-  const V x = hn::Max(hn::Mul(x_px, Constant(per_step)), hn::Zero(D()));
-  const V y = hn::Max(hn::Mul(y_px, Constant(per_step)), hn::Zero(D()));
-  const VI column = hn::Min(TruncateToInt(x), hn::Set(di, picture.columns - 2));
-  const VI row = hn::Min(TruncateToInt(y), hn::Set(di, picture.rows - 2));
-  const V across = hn::Sub(x, hn::ConvertTo(D(), column));
-  const V below = hn::Sub(y, hn::ConvertTo(D(), row));
+  const V x = Max(x_px * per_step, 0.0f);
+  const V y = Max(y_px * per_step, 0.0f);
+  const VI column = Min(TruncateToInt(x), hn::Set(di, picture.columns - 2));
+  const VI row = Min(TruncateToInt(y), hn::Set(di, picture.rows - 2));
+  const V across = x - hn::ConvertTo(D(), column);
+  const V below = y - hn::ConvertTo(D(), row);
   const VI stride = hn::Set(di, static_cast<int>(picture.stride));
-  const VI upper = hn::Add(hn::Mul(row, stride), column), lower = hn::Add(upper, stride);
+  const VI upper = row * stride + column, lower = upper + stride;
   const VI one = hn::Set(di, 1);
   const auto read = [&](std::size_t channel) HWY_ATTR {
     const float* const nodes = picture.nodes[channel].data();
     const auto node = [&](VI at) HWY_ATTR { return hn::GatherIndex(D(), nodes, at); };
     return Lerp(Lerp(node(upper), node(lower), below),
-                Lerp(node(hn::Add(upper, one)), node(hn::Add(lower, one)), below), across);
+                Lerp(node(upper + one), node(lower + one), below), across);
   };
   return {{read(0), read(1), read(2)},
           read(CloudPicture::kOpacity),
@@ -99,9 +97,9 @@ HWY_INLINE CloudsSeen CloudsAt(const CloudPicture& picture, V x_px, V y_px) {
 // How far what a depth buffer's z shows is away, or the sky.
 HWY_INLINE V DistanceShown(const ViewRays& rays, V x_px, V y_px, V z) {
   const V3 ray = RayAt(rays, x_px, y_px);
-  const V depth = hn::Div(Constant(rays.near_m), hn::Max(z, Constant(1e-12f)));
-  const V distance = hn::Mul(depth, hn::Sqrt(Dot(ray, ray)));
-  return hn::IfThenElse(hn::Gt(z, hn::Zero(D())), distance, Constant(kBeyondClouds_m));
+  const V depth = rays.near_m / Max(z, 1e-12f);
+  const V distance = depth * Sqrt(Dot(ray, ray));
+  return IfThenElse(z > 0.0f, distance, kBeyondClouds_m);
 }
 
 // Lays clouds before all pixels of a tile, whose light stands in the scratch. depth: the tile's, or
@@ -113,7 +111,7 @@ inline HWY_NOINLINE void LayCloudsOverTile(const Shading& s, const raster::Pixel
   for (int y = 0; y < box.height_px; ++y)
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
       const CloudsSeen seen = CloudsOfPacket(*s.clouds, box.x0_px + x, box.y0_px + y);
-      if (hn::AllFalse(d, hn::Gt(seen.opacity, hn::Zero(d)))) continue;
+      if (hn::AllFalse(d, seen.opacity > 0.0f)) continue;
       const std::size_t at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
       const V x_px = hn::ConvertTo(d, CountFrom(box.x0_px + x));
       const V y_px = Constant(static_cast<float>(box.y0_px + y));

@@ -23,12 +23,12 @@ HWY_INLINE Packet CloudPacket(const Shading& s, V3 direction, V distance) {
   Packet packet;
   packet.x_px = packet.y_px = packet.depth = hn::Zero(D());
   packet.distance = distance;
-  packet.p = Scale(direction, distance);
-  packet.to_eye = Scale(direction, Constant(-1.0f));
-  const V horizontal2 = hn::MulAdd(direction.x, direction.x, hn::Mul(direction.y, direction.y));
-  const V sunk = hn::Mul(hn::Mul(horizontal2, distance), Constant(s.rays.drop_per_m2));
-  packet.p.z = hn::MulAdd(sunk, distance, packet.p.z);
-  packet.to_eye.z = hn::Sub(packet.to_eye.z, hn::Add(sunk, sunk));
+  packet.p = direction * distance;
+  packet.to_eye = direction * -1.0f;
+  const V horizontal2 = MulAdd(direction.x, direction.x, direction.y * direction.y);
+  const V sunk = horizontal2 * distance * s.rays.drop_per_m2;
+  packet.p.z = MulAdd(sunk, distance, packet.p.z);
+  packet.to_eye.z = packet.to_eye.z - (sunk + sunk);
   return packet;
 }
 
@@ -41,17 +41,17 @@ struct NodesSeen {
 NodesSeen SeeNodes(const Shading& s, const VolumeClouds& clouds, V x_px, V y_px, V nearest) {
   const D d;
   const V3 ray = RayAt(s.rays, x_px, y_px);
-  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  const V3 direction = ray * InverseSqrt(Dot(ray, ray));
   const CloudLightSeen seen = SeeClouds(clouds, direction, nearest, Constant(kFarthestCloud_m));
   V3 light = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  if (!hn::AllFalse(d, hn::Gt(seen.opacity, hn::Zero(d)))) {
+  if (!hn::AllFalse(d, seen.opacity > 0.0f)) {
     // The air before what is hidden shows as much of the cloud as is seen.
-    const V inverse = hn::Div(Constant(1.0f), hn::Max(seen.opacity, Constant(1e-6f)));
-    const V3 own = Scale(RadianceOf(clouds, seen), inverse);
-    light = Scale(ThroughAir(s, CloudPacket(s, direction, seen.distance), own), seen.opacity);
+    const V inverse = 1.0f / Max(seen.opacity, 1e-6f);
+    const V3 own = RadianceOf(clouds, seen) * inverse;
+    light = ThroughAir(s, CloudPacket(s, direction, seen.distance), own) * seen.opacity;
   }
-  return {{light.x, light.y, light.z, seen.opacity, hn::Mul(seen.opacity, seen.front),
-           hn::Mul(seen.opacity, seen.back)},
+  return {{light.x, light.y, light.z, seen.opacity, seen.opacity * seen.front,
+           seen.opacity * seen.back},
           seen.clear};
 }
 
@@ -134,16 +134,15 @@ HWY_INLINE hn::Mask<D> AreEven(const CloudPicture& picture, int i, int j) {
   constexpr float kLeast = 0.02f, kLight = 0.12f, kDistance = 0.2f;
   const D d;
   const std::size_t above = picture.index(i - 1, j - 1), below = picture.index(i - 1, j + 1);
-  auto is_even = hn::Eq(hn::Zero(d), hn::Zero(d));
+  auto is_even = hn::Zero(d) == hn::Zero(d);
   for (std::size_t channel = 0; channel < CloudPicture::kChannels; ++channel) {
     const float* const nodes = picture.nodes[channel].data();
     const V a = hn::LoadU(d, nodes + above), b = hn::LoadU(d, nodes + above + 2);
     const V c = hn::LoadU(d, nodes + below), e = hn::LoadU(d, nodes + below + 2);
-    const V low = hn::Min(hn::Min(a, b), hn::Min(c, e)),
-            high = hn::Max(hn::Max(a, b), hn::Max(c, e));
+    const V low = Min(Min(a, b), Min(c, e)), high = Max(Max(a, b), Max(c, e));
     const float part = channel > CloudPicture::kOpacity ? kDistance : kLight;
-    const V most = hn::MulAdd(high, Constant(part), Constant(kLeast));
-    is_even = hn::And(is_even, hn::Le(hn::Sub(high, low), most));
+    const V most = MulAdd(high, part, kLeast);
+    is_even = is_even & (high - low <= most);
   }
   return is_even;
 }
@@ -152,7 +151,7 @@ void EvenCloudCells(int j, CloudPicture& picture) {
   const DI di;
   for (int i = 1; i < picture.columns; i += static_cast<int>(hn::Lanes(di))) {
     const auto even = hn::RebindMask(di, AreEven(picture, i, j));
-    hn::StoreU(hn::IfThenElseZero(even, hn::Set(di, 1)), di, &picture.even[picture.index(i, j)]);
+    hn::StoreU(IfThenElseZero(even, hn::Set(di, 1)), di, &picture.even[picture.index(i, j)]);
   }
 }
 
@@ -187,19 +186,17 @@ void CloudSkyRow(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSk
   constexpr float kTexel = 2.0f / CloudSky::kSide;
   const V v = Constant(kTexel * (static_cast<float>(y) + 0.5f) - 1.0f);
   for (int x = 0; x < CloudSky::kSide; x += static_cast<int>(hn::Lanes(d))) {
-    const V column = hn::Add(hn::ConvertTo(d, CountFrom(x)), Constant(0.5f));
-    const V u = hn::MulSub(column, Constant(kTexel), one);
-    const V r2 = hn::MulAdd(u, u, hn::Mul(v, v));
-    const V z = hn::Max(hn::Div(hn::Sub(one, r2), hn::Add(one, r2)), Constant(0.004f));
-    const V across = hn::Sqrt(hn::Div(hn::NegMulAdd(z, z, one), hn::Max(r2, Constant(1e-12f))));
-    const CloudLightSeen seen = SeeClouds(clouds, {hn::Mul(u, across), hn::Mul(v, across), z},
-                                          hn::Zero(d), Constant(kFarthestCloud_m));
-    const V height = hn::Mul(seen.distance, z);
-    const V density =
-        hn::Div(Constant(air.inv_haze_m), hn::MulAdd(height, Constant(air.inv_haze_height_m), one));
-    const V clear = Exp(d, hn::Neg(hn::Mul(seen.distance, density)));
-    const V3 light =
-        Lerp(Scale(Constant(air.horizon), seen.opacity), RadianceOf(clouds, seen), clear);
+    const V column = hn::ConvertTo(d, CountFrom(x)) + 0.5f;
+    const V u = MulSub(column, kTexel, one);
+    const V r2 = MulAdd(u, u, v * v);
+    const V z = Max((one - r2) / (one + r2), 0.004f);
+    const V across = Sqrt(NegMulAdd(z, z, one) / Max(r2, 1e-12f));
+    const CloudLightSeen seen =
+        SeeClouds(clouds, {u * across, v * across, z}, hn::Zero(d), Constant(kFarthestCloud_m));
+    const V height = seen.distance * z;
+    const V density = air.inv_haze_m / MulAdd(height, air.inv_haze_height_m, one);
+    const V clear = Exp(d, -(seen.distance * density));
+    const V3 light = Lerp(Constant(air.horizon) * seen.opacity, RadianceOf(clouds, seen), clear);
     const std::size_t at =
         static_cast<std::size_t>(y) * CloudSky::kSide + static_cast<std::size_t>(x);
     hn::StoreU(light.x, d, &sky.texels[0][at]);

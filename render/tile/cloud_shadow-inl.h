@@ -20,12 +20,12 @@ HWY_INLINE V CloudShadowTexel(const std::vector<std::uint32_t>& words, V u, V v)
   constexpr float kLast = CloudShadow::kSide - 1;
   const V x = Clamp(u, 0.0f, kLast), y = Clamp(v, 0.0f, kLast);
   const VI i = TruncateToInt(x), j = TruncateToInt(y);
-  const V s = hn::Sub(x, hn::ConvertTo(d, i)), t = hn::Sub(y, hn::ConvertTo(d, j));
+  const V s = x - hn::ConvertTo(d, i), t = y - hn::ConvertTo(d, j);
   static_assert(CloudShadow::kSide == 128);
   const VI word = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(words.data()),
-                                  hn::Add(hn::ShiftLeft<7>(j), i));
+                                  hn::ShiftLeft<7>(j) + i);
   const VI byte = hn::Set(di, 0xff);
-  const auto value = [&](VI bits) HWY_ATTR { return hn::ConvertTo(d, hn::And(bits, byte)); };
+  const auto value = [&](VI bits) HWY_ATTR { return hn::ConvertTo(d, bits & byte); };
   return Lerp(Lerp(value(word), value(hn::ShiftRight<8>(word)), s),
               Lerp(value(hn::ShiftRight<16>(word)), value(hn::ShiftRight<24>(word)), s), t);
 }
@@ -37,32 +37,28 @@ HWY_INLINE V SampleCloudShadow(const CloudShadow& shadow, const V3& p, float eye
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
   constexpr float kMiddle = 0.5f * CloudShadow::kSide, kWhole = 0.42f * CloudShadow::kSide;
-  const V z = hn::Add(p.z, Constant(eye_z));
-  const V x = hn::NegMulAdd(z, Constant(shadow.slant.x), p.x);
-  const V y = hn::NegMulAdd(z, Constant(shadow.slant.y), p.y);
+  const V z = p.z + eye_z;
+  const V x = NegMulAdd(z, shadow.slant.x, p.x);
+  const V y = NegMulAdd(z, shadow.slant.y, p.y);
   V sum = zero, left = one;
   for (std::size_t level = 0; level < CloudShadow::kLevels; ++level) {
     const V per_m = Constant(1.0f / CloudShadow::kTexels_m[level]);
-    const V u = hn::MulAdd(x, per_m, Constant(shadow.eye[level].x));
-    const V v = hn::MulAdd(y, per_m, Constant(shadow.eye[level].y));
+    const V u = MulAdd(x, per_m, shadow.eye[level].x);
+    const V v = MulAdd(y, per_m, shadow.eye[level].y);
     // Towards its edge a level gives way to the next.
-    const V aside =
-        hn::Max(hn::Abs(hn::Sub(u, Constant(kMiddle))), hn::Abs(hn::Sub(v, Constant(kMiddle))));
-    const V inside = Clamp(hn::Mul(hn::Sub(Constant(kMiddle - 1.0f), aside),
-                                   Constant(1.0f / (kMiddle - 1.0f - kWhole))),
-                           0.0f, 1.0f);
-    const V part = share(level, hn::Mul(inside, left));
-    if (!hn::AllFalse(d, hn::Gt(part, zero)))
-      sum = hn::MulAdd(part, CloudShadowTexel(shadow.words[level], u, v), sum);
-    left = hn::Sub(left, part);
-    if (hn::AllFalse(d, hn::Gt(left, zero))) break;
+    const V aside = Max(Abs(u - kMiddle), Abs(v - kMiddle));
+    const V inside =
+        Clamp((kMiddle - 1.0f - aside) * (1.0f / (kMiddle - 1.0f - kWhole)), 0.0f, 1.0f);
+    const V part = share(level, inside * left);
+    if (!hn::AllFalse(d, part > zero))
+      sum = MulAdd(part, CloudShadowTexel(shadow.words[level], u, v), sum);
+    left = left - part;
+    if (hn::AllFalse(d, left > zero)) break;
   }
-  const V visible =
-      hn::MulAdd(sum, Constant(shadow.most / 255.0f), hn::Mul(left, Constant(shadow.mean)));
-  const V above = hn::Sub(z, Constant(shadow.lit_from_m));
-  if (hn::AllFalse(d, hn::Gt(above, zero))) return visible;
-  const V over =
-      Clamp(hn::Mul(above, Constant(1.0f / (shadow.lit_all_m - shadow.lit_from_m))), 0.0f, 1.0f);
+  const V visible = MulAdd(sum, shadow.most / 255.0f, left * shadow.mean);
+  const V above = z - shadow.lit_from_m;
+  if (hn::AllFalse(d, above > zero)) return visible;
+  const V over = Clamp(above * (1.0f / (shadow.lit_all_m - shadow.lit_from_m)), 0.0f, 1.0f);
   return Lerp(visible, one, over);
 }
 
@@ -78,10 +74,8 @@ inline HWY_NOINLINE V SunUnderCloudsAbout(const CloudShadow& shadow, const V3& p
   return SampleCloudShadow(shadow, place, 0.0f, [&](std::size_t level, V part) HWY_ATTR {
     if (level + 1 == CloudShadow::kLevels) return part;
     constexpr float kNone = 4.0f;  // texels apart: as far as those of the next level
-    const V texels = hn::Mul(apart_m, Constant(1.0f / CloudShadow::kTexels_m[level]));
-    return hn::Mul(part,
-                   Clamp(hn::Mul(hn::Sub(Constant(kNone), texels), Constant(1.0f / (kNone - 1.0f))),
-                         0.0f, 1.0f));
+    const V texels = apart_m * (1.0f / CloudShadow::kTexels_m[level]);
+    return part * Clamp((kNone - texels) * (1.0f / (kNone - 1.0f)), 0.0f, 1.0f);
   });
 }
 

@@ -38,7 +38,7 @@ struct FogPath {
 };
 
 HWY_INLINE V Leaning(const Fog& fog, V amount, V rise) {
-  return hn::NegMulAdd(hn::Mul(amount, rise), Constant(1.0f / fog.sun_sine), amount);
+  return NegMulAdd(amount * rise, 1.0f / fog.sun_sine, amount);
 }
 
 // Of a straight line over a round earth, whose height is that of a parabola, what lies under the
@@ -48,30 +48,30 @@ HWY_INLINE FogPath PathInSlab(const Fog& fog, const FogRay& ray) {
   const V zero = hn::Zero(d), least = Constant(1e-9f);
   const V rise = ray.direction.z;
   const float c = fog.drop_per_m2, under_top_m = fog.top_m - ray.start.height_m;
-  const V under_root = hn::MulAdd(rise, rise, Constant(4.0f * c * under_top_m));
-  const V root = hn::Sqrt(hn::Max(under_root, zero));
+  const V under_root = MulAdd(rise, rise, 4.0f * c * under_top_m);
+  const V root = Sqrt(Max(under_root, zero));
   V begin = zero, end;
   if (under_top_m >= 0.0f) {
-    end = hn::Div(Constant(2.0f * under_top_m), hn::Max(hn::Add(rise, root), least));
+    end = 2.0f * under_top_m / Max(rise + root, least);
   } else {
-    const V down = hn::Sub(root, rise);
-    const auto meets = hn::And(hn::Lt(rise, zero), hn::Gt(under_root, zero));
-    const V comes = hn::Div(Constant(-2.0f * under_top_m), hn::Max(down, least));
-    begin = hn::Min(hn::IfThenElse(meets, comes, ray.distance), ray.distance);
-    end = hn::Mul(down, Constant(0.5f / std::max(c, 1e-12f)));
+    const V down = root - rise;
+    const auto meets = (rise < zero) & (under_root > zero);
+    const V comes = -2.0f * under_top_m / Max(down, least);
+    begin = Min(IfThenElse(meets, comes, ray.distance), ray.distance);
+    end = down * (0.5f / std::max(c, 1e-12f));
   }
-  end = hn::Max(hn::Min(end, ray.distance), begin);
-  const V amount = hn::Sub(end, begin);
-  const V mean_rise = hn::MulAdd(hn::Add(begin, end), Constant(c), rise);
+  end = Max(Min(end, ray.distance), begin);
+  const V amount = end - begin;
+  const V mean_rise = MulAdd(begin + end, c, rise);
   return {begin, amount, Leaning(fog, amount, mean_rise)};
 }
 
 // (1 - e^-x) / x of x >= 0.
 HWY_INLINE V MeanPassing(V x) {
   const V one = Constant(1.0f);
-  const V e = Exp(D(), hn::Neg(hn::Min(x, Constant(80.0f))));
-  const V series = hn::NegMulAdd(hn::NegMulAdd(x, Constant(1.0f / 6.0f), Constant(0.5f)), x, one);
-  return hn::IfThenElse(hn::Lt(x, Constant(0.02f)), series, hn::Div(hn::Sub(one, e), x));
+  const V e = Exp(D(), -Min(x, 80.0f));
+  const V series = NegMulAdd(NegMulAdd(x, 1.0f / 6.0f, 0.5f), x, one);
+  return IfThenElse(x < 0.02f, series, (one - e) / x);
 }
 
 // Of fog that thins as e^(-z / H) the mean along a straight line between two heights.
@@ -79,16 +79,16 @@ HWY_INLINE FogPath PathInThinningFog(const Fog& fog, const FogRay& ray) {
   const D d;
   const V zero = hn::Zero(d);
   const float inv_top = 1.0f / fog.top_m, start_m = std::max(ray.start.height_m, 0.0f);
-  const V end_m = hn::Max(ray.end_height, zero);
-  const V low = hn::Min(end_m, Constant(start_m));
-  const V apart = hn::Mul(hn::Abs(hn::Sub(end_m, Constant(start_m))), Constant(inv_top));
-  const V density = Exp(d, hn::Neg(hn::Min(hn::Mul(low, Constant(inv_top)), Constant(80.0f))));
-  const V amount = hn::Mul(hn::Mul(density, ray.distance), MeanPassing(apart));
-  const V rise = hn::Div(hn::Sub(end_m, Constant(start_m)), hn::Max(ray.distance, Constant(1e-3f)));
+  const V end_m = Max(ray.end_height, zero);
+  const V low = Min(end_m, start_m);
+  const V apart = Abs(end_m - start_m) * inv_top;
+  const V density = Exp(d, -Min(low * inv_top, 80.0f));
+  const V amount = density * ray.distance * MeanPassing(apart);
+  const V rise = (end_m - start_m) / Max(ray.distance, 1e-3f);
   // From twice its height up fog lies at the end of the way.
-  const V fall = hn::Max(hn::Sub(Constant(start_m), end_m), Constant(1e-3f));
-  const V before = Clamp(hn::Div(Constant(start_m - 2.0f * fog.top_m), fall), 0.0f, 1.0f);
-  return {hn::Mul(before, ray.distance), amount, Leaning(fog, amount, rise)};
+  const V fall = Max(start_m - end_m, 1e-3f);
+  const V before = Clamp((start_m - 2.0f * fog.top_m) / fall, 0.0f, 1.0f);
+  return {before * ray.distance, amount, Leaning(fog, amount, rise)};
 }
 
 // Of fog that thins, all that a ray into the sky meets.
@@ -98,22 +98,22 @@ HWY_INLINE FogPath PathToSky(const Fog& fog, const FogRay& ray) {
   // sqrt(4 c H / pi).
   const V rise = ray.direction.z;
   const V bent = Constant(5.0929582f * fog.drop_per_m2 * fog.top_m);
-  const V sine = hn::Mul(hn::Add(rise, hn::Sqrt(hn::MulAdd(rise, rise, bent))), Constant(0.5f));
-  const V amount = hn::Div(Constant(ray.start.above_m), hn::Max(sine, Constant(1e-6f)));
+  const V sine = (rise + Sqrt(MulAdd(rise, rise, bent))) * 0.5f;
+  const V amount = ray.start.above_m / Max(sine, 1e-6f);
   return {hn::Zero(D()), amount, Leaning(fog, amount, sine)};
 }
 
 // cos(2 pi x) of |x| below 2^22. Absolute error 5e-7.
 HWY_INLINE V CosTurns(V x) {
-  const V r = hn::Sub(x, hn::Round(x));
-  const V r2 = hn::Mul(r, r);
+  const V r = x - hn::Round(x);
+  const V r2 = r * r;
   // (cos(2 pi r) - 1) / r^2 in r^2, at Chebyshev nodes.
-  V p = hn::MulAdd(Constant(6.71221733f), r2, Constant(-26.0995922f));
-  p = hn::MulAdd(p, r2, Constant(60.2028008f));
-  p = hn::MulAdd(p, r2, Constant(-85.4543839f));
-  p = hn::MulAdd(p, r2, Constant(64.9393387f));
-  p = hn::MulAdd(p, r2, Constant(-19.7392082f));
-  return hn::MulAdd(p, r2, Constant(1.0f));
+  V p = MulAdd(6.71221733f, r2, -26.0995922f);
+  p = MulAdd(p, r2, 60.2028008f);
+  p = MulAdd(p, r2, -85.4543839f);
+  p = MulAdd(p, r2, 64.9393387f);
+  p = MulAdd(p, r2, -19.7392082f);
+  return MulAdd(p, r2, 1.0f);
 }
 
 // The mean density between two places on a ray, against that of fog without banks. That of a wave
@@ -123,32 +123,32 @@ HWY_INLINE V MeanOfBanks(const Fog& fog, const FogRay& ray, const FogPath& path)
   constexpr float kTurn = 6.2831853f, kShortTurns = 4e-3f;
   const D d;
   const V zero = hn::Zero(d);
-  const V end = hn::Min(hn::Add(path.before, path.amount), hn::Min(ray.distance, Constant(1e5f)));
-  const V begin = hn::Min(path.before, end);
-  const V length = hn::Sub(end, begin);
-  const auto from_start = hn::Eq(begin, zero);
+  const V end = Min(path.before + path.amount, Min(ray.distance, 1e5f));
+  const V begin = Min(path.before, end);
+  const V length = end - begin;
+  const auto from_start = begin == zero;
   const bool all_from_start = hn::AllTrue(d, from_start);
   V density = Constant(1.0f);
   for (int i = 0; i < fog.bank_count; ++i) {
     const FogBank& bank = fog.banks[static_cast<std::size_t>(i)];
     const V at_eye = Constant(bank.turns);
-    const V per_m = hn::MulAdd(ray.direction.x, Constant(bank.turns_per_m.x),
-                               hn::Mul(ray.direction.y, Constant(bank.turns_per_m.y)));
-    const V turns = hn::Mul(per_m, length);
+    const V per_m =
+        MulAdd(ray.direction.x, bank.turns_per_m.x, ray.direction.y * bank.turns_per_m.y);
+    const V turns = per_m * length;
     V near = Constant(bank.cosine);
     if (!all_from_start)
-      near = hn::IfThenElse(from_start, near, CosTurns(hn::MulAdd(per_m, begin, at_eye)));
-    const V apart = hn::Sub(near, CosTurns(hn::MulAdd(per_m, end, at_eye)));
-    const auto is_short = hn::Lt(hn::Abs(turns), Constant(kShortTurns));
-    V wave = hn::Div(hn::Mul(apart, Constant(1.0f / kTurn)), turns);
+      near = IfThenElse(from_start, near, CosTurns(MulAdd(per_m, begin, at_eye)));
+    const V apart = near - CosTurns(MulAdd(per_m, end, at_eye));
+    const auto is_short = Abs(turns) < kShortTurns;
+    V wave = apart * (1.0f / kTurn) / turns;
     if (!hn::AllFalse(d, is_short)) {
-      const V middle = hn::Mul(hn::Add(begin, end), Constant(0.5f));
-      const V sine = CosTurns(hn::MulAdd(per_m, middle, hn::Sub(at_eye, Constant(0.25f))));
-      wave = hn::IfThenElse(is_short, sine, wave);
+      const V middle = (begin + end) * 0.5f;
+      const V sine = CosTurns(MulAdd(per_m, middle, at_eye - 0.25f));
+      wave = IfThenElse(is_short, sine, wave);
     }
-    density = hn::MulAdd(wave, Constant(bank.amount), density);
+    density = MulAdd(wave, bank.amount, density);
   }
-  return hn::Max(density, zero);
+  return Max(density, zero);
 }
 
 // What a way does to light of one channel: the part of it that passes, and what is scattered once
@@ -162,22 +162,20 @@ HWY_INLINE FogEffect EffectOf(const Fog& fog, const FogStart& start, const FogPa
                               int channel) {
   const D d;
   const V per_m = Constant(fog.per_m[channel]);
-  const V depth = hn::Min(hn::Mul(path.amount, per_m), Constant(80.0f));
-  const V passes = Exp(d, hn::Neg(depth));
+  const V depth = Min(path.amount * per_m, 80.0f);
+  const V passes = Exp(d, -depth);
   if (fog.is_paper) {
-    const V lost = hn::Sub(Constant(1.0f), passes);
-    return {passes, hn::Mul(lost, Constant(fog.at_sea.sun_passes[channel]))};
+    const V lost = 1.0f - passes;
+    return {passes, lost * fog.at_sea.sun_passes[channel]};
   }
   // e^-b (1 - e^-x) / x, b that of the sun's way to where this one begins.
   const float b = std::min(fog.per_m[channel] * start.above_m / fog.sun_sine, 80.0f);
   const V begin = Constant(start.sun_passes[channel]);
-  const V x = hn::Mul(path.leaning, per_m);
-  const V end = Exp(d, hn::Neg(Clamp(hn::Add(x, Constant(b)), 0.0f, 80.0f)));
-  const auto is_small = hn::Lt(hn::Abs(x), Constant(0.03f));
-  const V series =
-      hn::NegMulAdd(hn::NegMulAdd(x, Constant(1.0f / 6.0f), Constant(0.5f)), x, Constant(1.0f));
-  return {passes, hn::IfThenElse(is_small, hn::Mul(hn::Mul(depth, begin), series),
-                                 hn::Mul(hn::Sub(begin, end), upright))};
+  const V x = path.leaning * per_m;
+  const V end = Exp(d, -Clamp(x + b, 0.0f, 80.0f));
+  const auto is_small = Abs(x) < 0.03f;
+  const V series = NegMulAdd(NegMulAdd(x, 1.0f / 6.0f, 0.5f), x, 1.0f);
+  return {passes, IfThenElse(is_small, depth * begin * series, (begin - end) * upright)};
 }
 
 // The light that fog leaves of what is seen through it, and adds.
@@ -188,9 +186,8 @@ struct FogView {
 // Of the sun's light in a direction of length 1, Blinn's lobe without its factors.
 HWY_INLINE V FogPhase(const Fog& fog, V3 direction) {
   const V cosine = Dot(direction, Constant(fog.to_sun));
-  const V under = hn::NegMulAdd(cosine, Constant(2.0f * fog.forward),
-                                Constant(1.0f + fog.forward * fog.forward));
-  return hn::Div(Constant(1.0f), hn::Mul(under, hn::Sqrt(under)));
+  const V under = NegMulAdd(cosine, 2.0f * fog.forward, 1.0f + fog.forward * fog.forward);
+  return 1.0f / (under * Sqrt(under));
 }
 
 // How far along a ray so much of its fog lies before: there the fog thins as e^(-z / H). With a the
@@ -198,13 +195,12 @@ HWY_INLINE V FogPhase(const Fog& fog, V3 direction) {
 HWY_INLINE V DistanceOfAmount(const Fog& fog, const FogRay& ray, V rise, V amount) {
   const D d;
   const float above_m = std::max(ray.start.above_m, 1e-20f);
-  const V level = hn::Mul(amount, Constant(fog.top_m / above_m));
-  const V y = hn::Mul(hn::Mul(amount, rise), Constant(1.0f / above_m));
-  const V left = hn::Max(hn::Sub(Constant(1.0f), y), Constant(1e-4f));
-  const auto is_level = hn::Lt(hn::Abs(y), Constant(1e-3f));
-  const V bent = hn::Div(hn::Mul(Log2(d, left), Constant(-0.69314718f)),
-                         hn::IfThenElse(is_level, Constant(1.0f), y));
-  return hn::Mul(level, hn::IfThenElse(is_level, Constant(1.0f), bent));
+  const V level = amount * (fog.top_m / above_m);
+  const V y = amount * rise * (1.0f / above_m);
+  const V left = Max(1.0f - y, 1e-4f);
+  const auto is_level = Abs(y) < 1e-3f;
+  const V bent = Log2(d, left) * -0.69314718f / IfThenElse(is_level, 1.0f, y);
+  return level * IfThenElse(is_level, 1.0f, bent);
 }
 
 // Places along a way, each of which stands for as much of the light that the way scatters. Before
@@ -220,66 +216,65 @@ static HWY_NOINLINE V SunUnderCloudsOnWay(const Fog& fog, FogRay ray, FogPath pa
   // A round earth's slab is level where most of the light comes from: near the eye.
   V rise = ray.direction.z;
   if (fog.is_exponential) {
-    const V upright = hn::Div(path.leaning, hn::Max(path.amount, Constant(1e-9f)));
-    rise = hn::Mul(hn::Sub(one, upright), Constant(fog.sun_sine));
+    const V upright = path.leaning / Max(path.amount, 1e-9f);
+    rise = (one - upright) * fog.sun_sine;
   }
-  const V depth = hn::Mul(amount, Constant(fog.per_m.y));
-  const V x = hn::Max(fog.is_paper ? depth : Leaning(fog, depth, rise), Constant(-60.0f));
-  const V lost = hn::Sub(one, Exp(d, hn::Neg(hn::Min(x, Constant(60.0f)))));
-  const auto is_even = hn::Lt(hn::Abs(x), Constant(1e-3f));
-  const V scale = hn::Div(Constant(-0.69314718f), hn::IfThenElse(is_even, one, x));
+  const V depth = amount * fog.per_m.y;
+  const V x = Max(fog.is_paper ? depth : Leaning(fog, depth, rise), -60.0f);
+  const V lost = one - Exp(d, -Min(x, 60.0f));
+  const auto is_even = Abs(x) < 1e-3f;
+  const V scale = -0.69314718f / IfThenElse(is_even, one, x);
 
   // How fast a place moves over the shadow: along the sun's light it stays the same.
   const glm::vec2 slant = fog.clouds->slant;
-  const V across_x = hn::NegMulAdd(rise, Constant(slant.x), ray.direction.x);
-  const V across_y = hn::NegMulAdd(rise, Constant(slant.y), ray.direction.y);
-  const V across = hn::Sqrt(hn::MulAdd(across_x, across_x, hn::Mul(across_y, across_y)));
+  const V across_x = NegMulAdd(rise, slant.x, ray.direction.x);
+  const V across_y = NegMulAdd(rise, slant.y, ray.direction.y);
+  const V across = Sqrt(MulAdd(across_x, across_x, across_y * across_y));
   V sum = zero, last = path.before;
   for (int k = 0; k < places; ++k) {
     const V q = Constant((static_cast<float>(k) + 0.5f) / static_cast<float>(places));
-    const V part = hn::Mul(Log2(d, hn::NegMulAdd(lost, q, one)), scale);
-    const V before = hn::Mul(path.amount, hn::IfThenElse(is_even, q, part));
-    const V t = fog.is_exponential ? DistanceOfAmount(fog, ray, rise, before)
-                                   : hn::Add(path.before, before);
-    const V z = hn::Max(hn::MulAdd(t, rise, Constant(ray.start.height_m)), zero);
-    const V3 place = {hn::MulAdd(t, ray.direction.x, ray.from_x),
-                      hn::MulAdd(t, ray.direction.y, ray.from_y), z};
-    const V apart = hn::Mul(hn::Sub(t, last), across);
-    sum = hn::Add(sum, SunUnderCloudsAbout(*fog.clouds, place, apart));
+    const V part = Log2(d, NegMulAdd(lost, q, one)) * scale;
+    const V before = path.amount * IfThenElse(is_even, q, part);
+    const V t =
+        fog.is_exponential ? DistanceOfAmount(fog, ray, rise, before) : path.before + before;
+    const V z = Max(MulAdd(t, rise, ray.start.height_m), zero);
+    const V3 place = {MulAdd(t, ray.direction.x, ray.from_x),
+                      MulAdd(t, ray.direction.y, ray.from_y), z};
+    const V apart = (t - last) * across;
+    sum = sum + SunUnderCloudsAbout(*fog.clouds, place, apart);
     last = t;
   }
-  return hn::Mul(sum, Constant(1.0f / static_cast<float>(places)));
+  return sum * (1.0f / static_cast<float>(places));
 }
 
 // The same less 1, of what is seen.
 HWY_INLINE V ShadeOfClouds(const Fog& fog, const FogRay& ray, const FogPath& path, V amount,
                            int places) {
   const D d;
-  const auto shows = hn::Gt(hn::Mul(amount, Constant(fog.per_m.y)), Constant(1.0f / 512.0f));
+  const auto shows = amount * fog.per_m.y > 1.0f / 512.0f;
   if (hn::AllFalse(d, shows)) return hn::Zero(d);
   const V lit = SunUnderCloudsOnWay(fog, ray, path, amount, places);
-  return hn::IfThenElseZero(shows, hn::Sub(lit, Constant(1.0f)));
+  return IfThenElseZero(shows, lit - 1.0f);
 }
 
 HWY_INLINE FogView SeeFog(const Fog& fog, const FogRay& ray, FogPath path, V phase,
                           int places = kPlacesOnWay) {
   const V one = Constant(1.0f);
-  const V upright = hn::Div(path.amount, path.leaning);
+  const V upright = path.amount / path.leaning;
   const FogPath way = path;
   if (fog.bank_count > 0) {
     const V density = MeanOfBanks(fog, ray, path);
-    path.amount = hn::Mul(path.amount, density);
-    path.leaning = hn::Mul(path.leaning, density);
+    path.amount = path.amount * density;
+    path.leaning = path.leaning * density;
   }
   V shade = hn::Zero(D());
   if (fog.clouds) shade = ShadeOfClouds(fog, ray, way, path.amount, places);
   const auto added = [&](const FogEffect& effect, int channel) HWY_ATTR {
-    const V once = hn::Mul(phase, effect.once), lost = hn::Sub(one, effect.passes);
+    const V once = phase * effect.once, lost = one - effect.passes;
     const auto light = [&](glm::vec3 even) HWY_ATTR {
-      return hn::MulAdd(once, Constant(fog.scattered[channel]),
-                        hn::Mul(lost, Constant(even[channel])));
+      return MulAdd(once, fog.scattered[channel], lost * even[channel]);
     };
-    return fog.clouds ? hn::MulAdd(shade, light(fog.even_sun), light(fog.even)) : light(fog.even);
+    return fog.clouds ? MulAdd(shade, light(fog.even_sun), light(fog.even)) : light(fog.even);
   };
   const FogEffect red = EffectOf(fog, ray.start, path, upright, 0);
   if (fog.is_grey)
@@ -295,24 +290,24 @@ HWY_INLINE FogView SeeFog(const Fog& fog, const FogRay& ray, const FogPath& path
 }
 
 HWY_INLINE V3 ThroughFog(const FogView& view, V3 light) {
-  return {hn::MulAdd(light.x, view.passes.x, view.added.x),
-          hn::MulAdd(light.y, view.passes.y, view.added.y),
-          hn::MulAdd(light.z, view.passes.z, view.added.z)};
+  return {MulAdd(light.x, view.passes.x, view.added.x),
+          MulAdd(light.y, view.passes.y, view.added.y),
+          MulAdd(light.z, view.passes.z, view.added.z)};
 }
 
 // To a place. A way with both ends in a slab lies in it whole: from an eye in the fog the sea does.
 HWY_INLINE FogPath PathTo(const Fog& fog, const FogRay& ray) {
   if (fog.is_exponential) return PathInThinningFog(fog, ray);
   if (ray.start.height_m > fog.top_m) return PathInSlab(fog, ray);
-  const V up = hn::Sub(ray.end_height, Constant(ray.start.height_m));
+  const V up = ray.end_height - ray.start.height_m;
   const FogPath whole = {hn::Zero(D()), ray.distance,
-                         hn::NegMulAdd(up, Constant(1.0f / fog.sun_sine), ray.distance)};
-  const auto is_whole = hn::Le(ray.end_height, Constant(fog.top_m));
+                         NegMulAdd(up, 1.0f / fog.sun_sine, ray.distance)};
+  const auto is_whole = ray.end_height <= fog.top_m;
   if (hn::AllTrue(D(), is_whole)) return whole;
   const FogPath part = PathInSlab(fog, ray);
   return {hn::IfThenZeroElse(is_whole, part.before),
-          hn::IfThenElse(is_whole, whole.amount, part.amount),
-          hn::IfThenElse(is_whole, whole.leaning, part.leaning)};
+          IfThenElse(is_whole, whole.amount, part.amount),
+          IfThenElse(is_whole, whole.leaning, part.leaning)};
 }
 
 // The fog before the sky, in a direction of length 1.
@@ -332,15 +327,11 @@ HWY_INLINE V3 SkyThroughFog(const Fog& fog, const FogStart& start, V3 direction,
 HWY_INLINE V SunOverFog(const Fog& fog, V height) {
   const D d;
   const V zero = hn::Zero(d);
-  const V z = hn::Max(hn::Add(height, Constant(fog.at_eye.height_m)), zero);
-  const V thinner =
-      fog.is_exponential
-          ? hn::Sub(
-                Constant(1.0f),
-                Exp(d, hn::Neg(hn::Min(hn::Mul(z, Constant(1.0f / fog.top_m)), Constant(80.0f)))))
-          : hn::Min(hn::Mul(z, Constant(1.0f / fog.top_m)), Constant(1.0f));
+  const V z = Max(height + fog.at_eye.height_m, zero);
+  const V thinner = fog.is_exponential ? 1.0f - Exp(d, -Min(z * (1.0f / fog.top_m), 80.0f))
+                                       : Min(z * (1.0f / fog.top_m), 1.0f);
   const float depth = fog.at_sea.above_m * fog.per_m.y / fog.sun_sine;
-  return Exp(d, hn::Mul(thinner, Constant(std::min(depth, 80.0f))));
+  return Exp(d, thinner * std::min(depth, 80.0f));
 }
 
 }  // namespace HWY_NAMESPACE

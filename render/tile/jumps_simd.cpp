@@ -11,14 +11,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
-using D = hn::ScalableTag<float>;
-using DU = hn::RebindToUnsigned<D>;
-using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 constexpr int kStride = JumpScratch::kStride, kRim = JumpScratch::kRim;
 
@@ -39,13 +38,13 @@ constexpr float kTimesSlope = 0.25f;
 HWY_INLINE std::uint64_t Jumps(const float* p, int step) {
   const D d;
   const V b = hn::LoadU(d, p), c = hn::LoadU(d, p + step);
-  const V jump = hn::Abs(hn::Sub(b, c));
-  const V part = hn::Mul(hn::Max(b, c), hn::Set(d, kPartOfJump));
-  if (hn::AllFalse(d, hn::Gt(jump, part))) return 0;
-  const V before = hn::Abs(hn::Sub(hn::LoadU(d, p - step), b));
-  const V after = hn::Abs(hn::Sub(c, hn::LoadU(d, p + 2 * step)));
-  const V allowed = hn::MulAdd(hn::Max(before, after), hn::Set(d, kTimesSlope), part);
-  return BitsOf(d, hn::Gt(jump, allowed));
+  const V jump = Abs(b - c);
+  const V part = Max(b, c) * kPartOfJump;
+  if (hn::AllFalse(d, jump > part)) return 0;
+  const V before = Abs(hn::LoadU(d, p - step) - b);
+  const V after = Abs(c - hn::LoadU(d, p + 2 * step));
+  const V allowed = MulAdd(Max(before, after), kTimesSlope, part);
+  return BitsOf(d, jump > allowed);
 }
 
 // Pixels 0 to width - 1 of a row of depths that jump to the pixel `step` farther on.
@@ -78,7 +77,7 @@ void PixelsBehind(const JumpScratch& scratch, int side, float z, std::uint64_t* 
     const float* row = scratch.depth.data() + (y + kRim) * kStride + kRim;
     bits[y + 1] = 0;
     for (int x = 0; x < side; x += kLanes)
-      bits[y + 1] |= BitsOf(d, hn::Le(hn::LoadU(d, row + x), nearest)) << x;
+      bits[y + 1] |= BitsOf(d, hn::LoadU(d, row + x) <= nearest) << x;
   }
 }
 
@@ -90,8 +89,7 @@ void PixelsOf(const std::uint32_t* primitive, int side, int rows, std::uint32_t 
   for (int y = 0; y < rows; ++y) {
     bits[y] = 0;
     for (int x = 0; x < side; x += kLanes)
-      bits[y] |= BitsOf(d, hn::Lt(hn::Sub(hn::LoadU(d, primitive + y * side + x), first), count))
-                 << x;
+      bits[y] |= BitsOf(d, hn::LoadU(d, primitive + y * side + x) - first < count) << x;
   }
 }
 

@@ -61,13 +61,13 @@ struct PixelsInTile {
     const int size_log2 = std::countr_zero(static_cast<unsigned>(s.grid.tile_size_px));
     const VI index = hn::PromoteTo(di, hn::LoadU(d16, at));
     const VI y = hn::ShiftRightSame(index, size_log2);
-    const VI x = hn::Sub(index, hn::ShiftLeftSame(y, size_log2));
+    const VI x = index - hn::ShiftLeftSame(y, size_log2);
     HWY_ALIGN std::array<float, kLanes> z;
     const bool run = IsRun(i);
     if (!run)
       for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = tile.depth[at[lane]];
-    return {Lanes{tile.primitive, at}, hn::ConvertTo(d, hn::Add(x, hn::Set(di, tile.box.x0_px))),
-            hn::ConvertTo(d, hn::Add(y, hn::Set(di, tile.box.y0_px))),
+    return {Lanes{tile.primitive, at}, hn::ConvertTo(d, x + hn::Set(di, tile.box.x0_px)),
+            hn::ConvertTo(d, y + hn::Set(di, tile.box.y0_px)),
             hn::LoadU(d, run ? tile.depth + at[0] : z.data())};
   }
 

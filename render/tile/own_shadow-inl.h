@@ -21,22 +21,21 @@ HWY_INLINE V SunOverOne(const ObjectShadows& shadows, const SunDepth& map, const
   constexpr float kOff = 2.6f;
   const V off = Constant(kOff / map.points_per_m);
   const V facing = Dot(normal, Constant(shadows.sun));
-  const V3 q = ScaleAdd(normal, hn::CopySign(off, facing), Sum(p, Constant(-map.middle_rel)));
+  const V3 q = MulAdd(normal, hn::CopySign(off, facing), p + Constant(-map.middle_rel));
   const auto place = [&](glm::vec3 axis) HWY_ATTR {
-    const V at = hn::Sub(Dot(q, Constant(axis)), Constant(map.first_m));
-    return Clamp(hn::Mul(at, Constant(map.points_per_m)), 0.0f,
-                 static_cast<float>(map.side) - 1.001f);
+    const V at = Dot(q, Constant(axis)) - map.first_m;
+    return Clamp(at * map.points_per_m, 0.0f, static_cast<float>(map.side) - 1.001f);
   };
   const V x = place(shadows.right), y = place(shadows.up), depth = Dot(q, Constant(shadows.sun));
   const VI i = TruncateToInt(x), j = TruncateToInt(y);
-  const VI first = hn::Add(hn::Mul(j, hn::Set(DI(), map.side)), i);
+  const VI first = j * hn::Set(DI(), map.side) + i;
   const auto lit = [&](int offset) HWY_ATTR {
     const V nearest = hn::GatherIndex(d, map.depth_m.data() + offset, first);
-    return hn::IfThenElseZero(hn::Le(nearest, depth), Constant(1.0f));
+    return IfThenElseZero(nearest <= depth, Constant(1.0f));
   };
-  const V s = hn::Sub(x, hn::ConvertTo(d, i)), t = hn::Sub(y, hn::ConvertTo(d, j));
+  const V s = x - hn::ConvertTo(d, i), t = y - hn::ConvertTo(d, j);
   const V part = Lerp(Lerp(lit(0), lit(1), s), Lerp(lit(map.side), lit(map.side + 1), s), t);
-  return hn::NegMulAdd(hn::Sub(Constant(1.0f), part), Constant(map.strength), Constant(1.0f));
+  return NegMulAdd(1.0f - part, map.strength, 1.0f);
 }
 
 // The same of each lane's object; null: it does not shade itself.
@@ -50,8 +49,8 @@ HWY_NOINLINE V SunOverOwn(const ObjectShadows& shadows,
   for (std::size_t i = 0; i < kCount; ++i) {
     if (!maps[i] || (i > 0 && maps[i] == maps[i - 1])) continue;
     for (std::size_t k = 0; k < kCount; ++k) is_its[k] = maps[k] == maps[i] ? 1.0f : 0.0f;
-    const auto its = hn::Gt(hn::Load(d, is_its.data()), hn::Zero(d));
-    visible = hn::IfThenElse(its, SunOverOne(shadows, *maps[i], p, normal), visible);
+    const auto its = hn::Load(d, is_its.data()) > 0.0f;
+    visible = IfThenElse(its, SunOverOne(shadows, *maps[i], p, normal), visible);
   }
   return visible;
 }

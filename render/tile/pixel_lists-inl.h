@@ -46,7 +46,7 @@ inline void PadToPackets(PixelList& list) {
 // Appends pixels `first` and the kLanes - 1 after it.
 HWY_INLINE void AppendPacket(PixelList& list, std::size_t first) {
   const hn::Rebind<std::uint16_t, D> d16;
-  hn::StoreU(hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::uint16_t>(first))), d16,
+  hn::StoreU(hn::Iota(d16, 0) + hn::Set(d16, static_cast<std::uint16_t>(first)), d16,
              list.at + list.count);
   list.count += kLanes;
 }
@@ -69,12 +69,12 @@ inline HWY_NOINLINE void SortByMaterial(const Shading& s, const TilePixels& tile
       if (x + kLanes <= width) {
         const auto p = hn::LoadU(du, tile.primitive + i);
         hwy::Prefetch(tile.depth + i);  // read next
-        const auto is_first = hn::Lt(hn::Sub(p, begin), size), is_sky = hn::Eq(p, none);
+        const auto is_first = p - begin < size, is_sky = p == none;
         const bool some_sky = !hn::AllFalse(du, is_sky);
         if (some_sky) sky.Append(static_cast<std::uint16_t>(i));
-        PixelList* const list = hn::AllTrue(du, is_first)                    ? &first
-                                : hn::AllFalse(du, hn::Or(is_first, is_sky)) ? &others
-                                                                             : nullptr;
+        PixelList* const list = hn::AllTrue(du, is_first)             ? &first
+                                : hn::AllFalse(du, is_first | is_sky) ? &others
+                                                                      : nullptr;
         if (list) AppendPacket(*list, i);
         if (list || hn::AllTrue(du, is_sky)) {
           x += kLanes;

@@ -33,15 +33,15 @@ HWY_INLINE void WriteLight(V3 light, std::size_t at, ShadeScratch& scratch) {
 // The sRGB curve times 255, for linear x in [0, 1]. Error 0.09. Above the linear part a polynomial
 // in sqrt(x), fitted by weighted least squares to 1.055 x^(1/2.4) - 0.055.
 HWY_INLINE V EncodeSrgb(V x) {
-  const V s = hn::Sqrt(x);
+  const V s = Sqrt(x);
   V p = Constant(0.5172983f);
-  p = hn::MulAdd(p, s, Constant(-1.6236454f));
-  p = hn::MulAdd(p, s, Constant(2.0315608f));
-  p = hn::MulAdd(p, s, Constant(-1.4027299f));
-  p = hn::MulAdd(p, s, Constant(1.5179496f));
-  p = hn::MulAdd(p, s, Constant(-0.0401095f));
-  const V curve = hn::IfThenElse(hn::Lt(x, Constant(0.0031308f)), hn::Mul(x, Constant(12.92f)), p);
-  return hn::Mul(curve, Constant(255.0f));
+  p = MulAdd(p, s, -1.6236454f);
+  p = MulAdd(p, s, 2.0315608f);
+  p = MulAdd(p, s, -1.4027299f);
+  p = MulAdd(p, s, 1.5179496f);
+  p = MulAdd(p, s, -0.0401095f);
+  const V curve = IfThenElse(x < 0.0031308f, x * 12.92f, p);
+  return curve * 255.0f;
 }
 
 // Exposed light as light of the display, in [0, 1]: a long shoulder from kShoulder up that reaches
@@ -49,21 +49,20 @@ HWY_INLINE V EncodeSrgb(V x) {
 constexpr float kShoulder = 0.4f;
 
 HWY_INLINE V ToneCurve(V linear, V exposure) {
-  const V x = hn::Max(hn::Mul(linear, exposure), hn::Zero(D()));
-  const V over = hn::Max(hn::Sub(x, Constant(kShoulder)), hn::Zero(D()));
+  const V x = Max(linear * exposure, 0.0f);
+  const V over = Max(x - kShoulder, 0.0f);
   V mapped = x;
-  if (!hn::AllFalse(D(), hn::Gt(over, hn::Zero(D())))) {
-    const V shoulder =
-        hn::Div(over, hn::MulAdd(over, Constant(1.0f / (1.0f - kShoulder)), Constant(1.0f)));
-    mapped = hn::Min(hn::Add(hn::Min(x, Constant(kShoulder)), shoulder), Constant(1.0f));
+  if (!hn::AllFalse(D(), over > 0.0f)) {
+    const V shoulder = over / MulAdd(over, 1.0f / (1.0f - kShoulder), 1.0f);
+    mapped = Min(Min(x, kShoulder) + shoulder, 1.0f);
   }
   return mapped;
 }
 
 // sRGB, a dither of one step, 8 bits.
 HWY_INLINE VI ToByte(V display, V dither) {
-  const V code = hn::Add(EncodeSrgb(display), dither);
-  return hn::ConvertTo(DI(), hn::Min(code, Constant(255.0f)));
+  const V code = EncodeSrgb(display) + dither;
+  return hn::ConvertTo(DI(), Min(code, 255.0f));
 }
 
 // Pixels of display light at these places, alpha 255.
@@ -71,9 +70,8 @@ HWY_INLINE VI ToPixel(V3 display, V x_px, V y_px) {
   const V dither = PixelNoise(x_px, y_px);
   const VI r = ToByte(display.x, dither), g = ToByte(display.y, dither);
   const VI b = ToByte(display.z, dither);
-  return hn::Or(
-      hn::Or(r, hn::ShiftLeft<8>(g)),
-      hn::Or(hn::ShiftLeft<16>(b), hn::Set(DI(), static_cast<std::int32_t>(0xff000000u))));
+  return (r | hn::ShiftLeft<8>(g)) |
+         (hn::ShiftLeft<16>(b) | hn::Set(DI(), static_cast<std::int32_t>(0xff000000u)));
 }
 
 // Writes linear light, three floats a pixel.

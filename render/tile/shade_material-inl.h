@@ -32,7 +32,7 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
     keep(lanes.at, surfel);
     if (s.media.submerged) {
       const V shafts = ShaftsBefore(s, tile.box, tile.shafts, shown.x_px, shown.y_px,
-                                    hn::Neg(shown.to_eye.z), shown.distance);
+                                    -shown.to_eye.z, shown.distance);
       return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light,
                                       shafts);
     }

@@ -117,10 +117,10 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
       const std::size_t i = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
       const V3 light = ReadLight(scratch, i);
       const VI r = EncodeLight(light.x), g = EncodeLight(light.y), b = EncodeLight(light.z);
-      const VI rgb = hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)), hn::ShiftLeft<16>(b));
-      const auto texel = hn::Or(hn::BitCast(du, rgb), hn::Set(du, 0xff000000u));
-      const auto drawn = hn::Ne(hn::LoadU(du, primitive + i), hn::Set(du, raster::kNoPrimitive));
-      const auto result = hn::IfThenElseZero(drawn, texel);
+      const VI rgb = (r | hn::ShiftLeft<8>(g)) | hn::ShiftLeft<16>(b);
+      const auto texel = hn::BitCast(du, rgb) | hn::Set(du, 0xff000000u);
+      const auto drawn = hn::LoadU(du, primitive + i) != hn::Set(du, raster::kNoPrimitive);
+      const auto result = IfThenElseZero(drawn, texel);
       if (x + kLanes <= width) {
         hn::StoreU(result, du, row + x);
         continue;

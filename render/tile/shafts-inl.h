@@ -23,18 +23,18 @@ struct ShaftRay {
 };
 
 HWY_INLINE ShaftRay FindShaftRay(const Shafts& shafts, V up) {
-  const V to_level = hn::Div(Constant(shafts.eye_depth_m), hn::Max(up, Constant(1e-4f)));
+  const V to_level = shafts.eye_depth_m / Max(up, 1e-4f);
   return {
-      hn::NegMulAdd(up, Constant(shafts.daylight_lost_per_m), Constant(shafts.lost_per_m)),
-      hn::Min(to_level, Constant(shafts.reach_m)),
-      hn::Min(to_level, Constant(8.0f / shafts.lost_per_m)),
+      NegMulAdd(up, shafts.daylight_lost_per_m, shafts.lost_per_m),
+      Min(to_level, shafts.reach_m),
+      Min(to_level, 8.0f / shafts.lost_per_m),
   };
 }
 
 // What is scattered to the eye on so many metres of a ray, over what one metre at the eye does.
 HWY_INLINE V ScatteredOn(const ShaftRay& ray, V length) {
-  const V x = hn::Mul(ray.lost_per_m, length);
-  return hn::Mul(length, LossOver(x, Exp(D(), hn::Neg(x))));
+  const V x = ray.lost_per_m * length;
+  return length * LossOver(x, Exp(D(), -x));
 }
 
 // The sun's part of what is scattered towards the eye along a ray: water scatters forward. Source:
@@ -42,20 +42,20 @@ HWY_INLINE V ScatteredOn(const ShaftRay& ray, V length) {
 HWY_INLINE V SunScattered(const Shafts& shafts, V3 ray) {
   constexpr float kG = 0.5f;
   const V cosine = Dot(ray, Constant(shafts.to_sun));
-  const V under = hn::NegMulAdd(cosine, Constant(2.0f * kG), Constant(1.0f + kG * kG));
-  const V phase = hn::Div(Constant(1.0f - kG * kG), hn::Mul(under, hn::Sqrt(under)));
-  const V sun = hn::Mul(phase, Constant(shafts.sun_part));
-  return hn::Div(sun, hn::Add(sun, Constant(1.0f - shafts.sun_part + 1e-6f)));
+  const V under = NegMulAdd(cosine, 2.0f * kG, 1.0f + kG * kG);
+  const V phase = (1.0f - kG * kG) / (under * Sqrt(under));
+  const V sun = phase * shafts.sun_part;
+  return sun / (sun + (1.0f - shafts.sun_part + 1e-6f));
 }
 
 // What clouds leave of the sun at a point in the water, over its mean.
 HWY_INLINE V SunUnderCloudsInWater(const Shading& s, const CloudShadow& clouds, V3 p) {
   const V level = Constant(-s.rays.eye_z);
-  const V depth = hn::Max(hn::Sub(level, p.z), hn::Zero(D()));
-  return SunUnderClouds(clouds,
-                        {hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x),
-                         hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y), level},
-                        s.rays.eye_z);
+  const V depth = Max(level - p.z, 0.0f);
+  return SunUnderClouds(
+      clouds,
+      {MulAdd(depth, s.sun_shadow.entry.x, p.x), MulAdd(depth, s.sun_shadow.entry.y, p.y), level},
+      s.rays.eye_z);
 }
 
 // What land and objects leave of the sun at a point in the water.
@@ -67,7 +67,7 @@ HWY_INLINE V SunVisibleInWater(const Shading& s, std::span<const std::uint16_t> 
   if (casters.empty()) return visible;
   const LitPoint point = {enters, Constant(0.05f), Constant(-1.0f)};
   constexpr PixelSpan kAnywhere = {-1e9f, -1e9f, 1e9f, 1e9f};  // nodes lie outside their tile, too
-  return hn::Mul(visible, SunOverObjects(s.sun_shadow, casters, kAnywhere, point));
+  return visible * SunOverObjects(s.sun_shadow, casters, kAnywhere, point);
 }
 
 constexpr float kMostShaft = 4.0f;  // times the mean
@@ -83,50 +83,48 @@ HWY_NOINLINE static VI FollowShafts(const Shading& s, std::span<const std::uint1
   const ShaftRay ray = FindShaftRay(shafts, direction.z);
   const float node_angle = s.rays.pixel_angle * static_cast<float>(1 << shafts.step_log2);
   // How fast a point of the ray moves over the pattern: along the sun's light it stays the same.
-  const V across_x = hn::NegMulAdd(direction.z, Constant(s.sun_shadow.entry.x), direction.x);
-  const V across_y = hn::NegMulAdd(direction.z, Constant(s.sun_shadow.entry.y), direction.y);
-  const V across = hn::Sqrt(hn::MulAdd(across_x, across_x, hn::Mul(across_y, across_y)));
+  const V across_x = NegMulAdd(direction.z, s.sun_shadow.entry.x, direction.x);
+  const V across_y = NegMulAdd(direction.z, s.sun_shadow.entry.y, direction.y);
+  const V across = Sqrt(MulAdd(across_x, across_x, across_y * across_y));
   std::array<V, 2> more = {hn::Zero(D()), hn::Zero(D())};
   V visible = one, under_clouds = one;
   for (int i = 0; i < kShaftSteps; ++i) {
     const float u = (static_cast<float>(i) + 0.5f) / kShaftSteps;
-    const V t = hn::Mul(ray.reach, Constant(u * u));
-    const V step = hn::Mul(ray.reach, Constant(2.0f * u / kShaftSteps));
-    const V size =
-        hn::Max(hn::Mul(t, Constant(node_angle)), hn::Mul(hn::Mul(step, across), Constant(0.45f)));
-    const V level_m = Log2Coarse(D(), hn::Max(size, Constant(1e-3f)));
-    const V3 p = Scale(direction, t);
+    const V t = ray.reach * (u * u);
+    const V step = ray.reach * (2.0f * u / kShaftSteps);
+    const V size = Max(t * node_angle, step * across * 0.45f);
+    const V level_m = Log2Coarse(D(), Max(size, 1e-3f));
+    const V3 p = direction * t;
     if (i % 2 == 0) visible = SunVisibleInWater(s, casters, p);
-    const V more_sun =
-        hn::Mul(hn::Sub(GatheredSun<true>(s, p, level_m), one), Constant(shafts.contrast));
-    V sun = hn::Sub(hn::MulAdd(more_sun, visible, visible), one);
+    const V more_sun = (GatheredSun<true>(s, p, level_m) - one) * shafts.contrast;
+    V sun = MulAdd(more_sun, visible, visible) - one;
     // Sunlight that has been scattered on its way down makes no shafts.
-    const V depth = hn::NegMulAdd(t, direction.z, Constant(shafts.eye_depth_m));
-    const V lost = hn::MulAdd(depth, Constant(shafts.diffused_per_m), hn::Mul(t, ray.lost_per_m));
-    const V weight = hn::Mul(step, Exp(D(), hn::Neg(lost)));
+    const V depth = NegMulAdd(t, direction.z, shafts.eye_depth_m);
+    const V lost = MulAdd(depth, shafts.diffused_per_m, t * ray.lost_per_m);
+    const V weight = step * Exp(D(), -lost);
     V& part = more[2 * i / kShaftSteps];
     if (clouds) {
       // Under clouds it is missing all the same.
       if (i % 2 == 0) under_clouds = SunUnderCloudsInWater(s, *clouds, p);
-      sun = hn::Mul(sun, under_clouds);
-      const V all = hn::Mul(step, Exp(D(), hn::Neg(hn::Mul(t, ray.lost_per_m))));
-      part = hn::MulAdd(hn::Sub(under_clouds, one), all, part);
+      sun = sun * under_clouds;
+      const V all = step * Exp(D(), -(t * ray.lost_per_m));
+      part = MulAdd(under_clouds - one, all, part);
     }
-    part = hn::MulAdd(sun, weight, part);
+    part = MulAdd(sun, weight, part);
   }
   // Clouds' shadows go on beyond where shafts end.
   if (clouds) {
-    const V beyond = hn::Sub(ScatteredOn(ray, ray.end), ScatteredOn(ray, ray.reach));
-    more[1] = hn::MulAdd(hn::Sub(under_clouds, one), hn::Max(beyond, hn::Zero(D())), more[1]);
+    const V beyond = ScatteredOn(ray, ray.end) - ScatteredOn(ray, ray.reach);
+    more[1] = MulAdd(under_clouds - one, Max(beyond, 0.0f), more[1]);
   }
-  const V near = ScatteredOn(ray, hn::Mul(ray.reach, Constant(0.25f)));
-  const V beyond = hn::Max(hn::Sub(ScatteredOn(ray, ray.end), near), Constant(1e-3f));
+  const V near = ScatteredOn(ray, ray.reach * 0.25f);
+  const V beyond = Max(ScatteredOn(ray, ray.end) - near, 1e-3f);
   const V sun_part = SunScattered(shafts, direction);
   const auto code = [&](V part, V all) HWY_ATTR {
-    const V shaft = Clamp(hn::Mul(hn::Div(part, all), sun_part), -1.0f, kMostShaft);
-    return RoundToInt(hn::Mul(hn::Add(shaft, one), Constant(65535.0f / (1.0f + kMostShaft))));
+    const V shaft = Clamp(part / all * sun_part, -1.0f, kMostShaft);
+    return RoundToInt((shaft + one) * (65535.0f / (1.0f + kMostShaft)));
   };
-  return hn::Or(code(more[0], near), hn::ShiftLeft<16>(code(more[1], beyond)));
+  return code(more[0], near) | hn::ShiftLeft<16>(code(more[1], beyond));
 }
 
 // Nodes along one side of a tile, for so many pixels.
@@ -149,7 +147,7 @@ inline const std::int32_t* FindShafts(const Shading& s, const raster::PixelBox& 
       y[lane] = static_cast<float>(box.y0_px + (node / columns << step_log2));
     }
     const V3 ray = RayAt(s.rays, hn::Load(d, x.data()), hn::Load(d, y.data()));
-    const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+    const V3 direction = ray * InverseSqrt(Dot(ray, ray));
     hn::StoreU(FollowShafts(s, casters, direction), DI(), nodes.code.data() + first);
   }
   return nodes.code.data();
@@ -164,43 +162,41 @@ HWY_INLINE V ShaftsBefore(const Shading& s, const raster::PixelBox& box,
   const V one = Constant(1.0f);
   if (!codes) return one;
   const int step_log2 = s.shafts.step_log2, columns = shaft_nodes_along(box.width_px, step_log2);
-  const VI x = hn::Sub(RoundToInt(x_px), hn::Set(di, box.x0_px));
-  const VI y = hn::Sub(RoundToInt(y_px), hn::Set(di, box.y0_px));
+  const VI x = RoundToInt(x_px) - hn::Set(di, box.x0_px);
+  const VI y = RoundToInt(y_px) - hn::Set(di, box.y0_px);
   const VI column = hn::ShiftRightSame(x, step_log2), row = hn::ShiftRightSame(y, step_log2);
   const auto between = [&](VI at) HWY_ATTR {
-    const VI rest = hn::And(at, hn::Set(di, (1 << step_log2) - 1));
-    return hn::Mul(hn::ConvertTo(d, rest), Constant(1.0f / static_cast<float>(1 << step_log2)));
+    const VI rest = at & hn::Set(di, (1 << step_log2) - 1);
+    return hn::ConvertTo(d, rest) * (1.0f / static_cast<float>(1 << step_log2));
   };
   const V right = between(x), down = between(y);
-  const VI first = hn::Add(hn::Mul(row, hn::Set(di, columns)), column);
+  const VI first = row * hn::Set(di, columns) + column;
   const auto gather = [&](int offset)
                           HWY_ATTR { return hn::GatherIndex(di, codes + offset, first); };
   const VI at00 = gather(0), at10 = gather(1), at01 = gather(columns), at11 = gather(columns + 1);
   const auto shaft = [&](const auto& part) HWY_ATTR {
     const auto of = [&](VI code) HWY_ATTR { return hn::ConvertTo(d, part(code)); };
     const V mean = Lerp(Lerp(of(at00), of(at10), right), Lerp(of(at01), of(at11), right), down);
-    return hn::MulAdd(mean, Constant((1.0f + kMostShaft) / 65535.0f), Constant(-1.0f));
+    return MulAdd(mean, (1.0f + kMostShaft) / 65535.0f, -1.0f);
   };
-  const V near = shaft([&](VI code) HWY_ATTR { return hn::And(code, hn::Set(di, 0xffff)); });
-  const V beyond = shaft(
-      [&](VI code) HWY_ATTR { return hn::And(hn::ShiftRight<16>(code), hn::Set(di, 0xffff)); });
+  const V near = shaft([&](VI code) HWY_ATTR { return code & hn::Set(di, 0xffff); });
+  const V beyond =
+      shaft([&](VI code) HWY_ATTR { return hn::ShiftRight<16>(code) & hn::Set(di, 0xffff); });
   const ShaftRay ray = FindShaftRay(s.shafts, up);
   // About the part that is scattered near the eye: t / (1 + q t) for (1 - e^(-q t)) / q.
-  const V lost = hn::Max(ray.lost_per_m, hn::Zero(d)), end = hn::Mul(ray.reach, Constant(0.25f));
-  const V way = hn::Max(hn::Min(length, ray.end), end);
-  const V near_part =
-      hn::Div(hn::Mul(end, hn::MulAdd(lost, way, one)), hn::Mul(way, hn::MulAdd(lost, end, one)));
-  return hn::Add(Lerp(beyond, near, near_part), one);
+  const V lost = Max(ray.lost_per_m, 0.0f), end = ray.reach * 0.25f;
+  const V way = Max(Min(length, ray.end), end);
+  const V near_part = end * MulAdd(lost, way, one) / (way * MulAdd(lost, end, one));
+  return Lerp(beyond, near, near_part) + one;
 }
 
 // Water as far as the eye sees, where it sees nothing else.
 HWY_INLINE V3 OpenWater(const Shading& s, const raster::PixelBox& box, const std::int32_t* codes,
                         V x_px, V y_px) {
   const V3 ray = RayAt(s.rays, x_px, y_px);
-  const V up = hn::Mul(ray.z, InverseSqrt(Dot(ray, ray)));
-  const V3 light =
-      EndlessWater(s.media, s.media.daylight_at_eye, hn::Max(hn::Neg(up), hn::Zero(D())));
-  return Scale(light, ShaftsBefore(s, box, codes, x_px, y_px, up, Constant(1e6f)));
+  const V up = ray.z * InverseSqrt(Dot(ray, ray));
+  const V3 light = EndlessWater(s.media, s.media.daylight_at_eye, Max(-up, 0.0f));
+  return light * ShaftsBefore(s, box, codes, x_px, y_px, up, Constant(1e6f));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -24,18 +24,17 @@ constexpr float kDiscRadius = 0.004654f;  // of the sun and the moon
 // The part of a pixel that the disc of the sun or the moon fills, by the direction's distance from
 // its middle; half a degree across.
 HWY_INLINE V DiscPart(const Light& light, V3 direction, float pixel_angle) {
-  const V3 apart = Difference(direction, Constant(light.to_disc));
+  const V3 apart = direction - Constant(light.to_disc);
   const float rim = std::max(pixel_angle, 0.02f * kDiscRadius);
   const V away2 = Dot(apart, apart);
-  const V inside = hn::Sub(Constant(kDiscRadius), hn::Sqrt(away2));
-  const V disc = Clamp(hn::MulAdd(inside, Constant(1.0f / rim), Constant(0.5f)), 0.0f, 1.0f);
+  const V inside = kDiscRadius - Sqrt(away2);
+  const V disc = Clamp(MulAdd(inside, 1.0f / rim, 0.5f), 0.0f, 1.0f);
   if (!light.moon_has_phase) return disc;
   // The side of a sphere that the sun shines on.
-  const V depth =
-      hn::Sqrt(hn::Max(hn::Sub(Constant(kDiscRadius * kDiscRadius), away2), hn::Zero(D())));
-  const V lit = hn::NegMulAdd(depth, Constant(glm::dot(light.disc_lit_from, light.to_disc)),
-                              Dot(apart, Constant(light.disc_lit_from)));
-  return hn::Mul(disc, Clamp(hn::MulAdd(lit, Constant(1.0f / rim), Constant(0.5f)), 0.0f, 1.0f));
+  const V depth = Sqrt(Max(kDiscRadius * kDiscRadius - away2, 0.0f));
+  const V lit = NegMulAdd(depth, glm::dot(light.disc_lit_from, light.to_disc),
+                          Dot(apart, Constant(light.disc_lit_from)));
+  return disc * Clamp(MulAdd(lit, 1.0f / rim, 0.5f), 0.0f, 1.0f);
 }
 
 // What of the sky changes slowly from pixel to pixel.
@@ -45,9 +44,9 @@ struct SkyView {
 };
 
 HWY_INLINE SkyView ViewSky(const Shading& s, V3 ray) {
-  V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  V3 direction = ray * InverseSqrt(Dot(ray, ray));
   // Below the horizon (beyond the sea's last triangle) the horizon's colour goes on.
-  direction.z = hn::Max(direction.z, Constant(s.light.horizon_sine));
+  direction.z = Max(direction.z, s.light.horizon_sine);
   SkyView view = {ClearSky(SkyOfEye(s.light), direction), {}};
   if (s.light.clouds.any)
     view.clouds =
@@ -56,9 +55,9 @@ HWY_INLINE SkyView ViewSky(const Shading& s, V3 ray) {
 }
 
 HWY_INLINE V3 AddStars(const Shading& s, V3 ray, V3 light) {
-  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  const V3 direction = ray * InverseSqrt(Dot(ray, ray));
   const V spot = Constant(std::clamp(1.5f * s.rays.pixel_angle, 1e-6f, 0.99f * kWidestStar));
-  return Sum(light, StarLight(s.light.stars, direction, spot));
+  return light + StarLight(s.light.stars, direction, spot);
 }
 
 // The sky's light in a ray's direction before fog; the disc is looked for where `sees_disc`.
@@ -69,12 +68,12 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& 
   if (s.light.stars.on) light = AddStars(s, ray, light);
   if (s.light.clouds.any) light = AddClouds(s.light.clouds, view.clouds, noise, light, passes);
   if (!sees_disc && !s.light.clouds.is_below) return light;
-  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  const V3 direction = ray * InverseSqrt(Dot(ray, ray));
   if (sees_disc) {
     const V disc = DiscPart(s.light, direction, s.rays.pixel_angle);
-    const auto is_sky = hn::Gt(direction.z, Constant(s.light.horizon_sine));
-    const V shown = hn::IfThenElseZero(is_sky, hn::Mul(disc, passes));
-    light = ScaleAdd(Constant(s.light.disc_radiance), shown, light);
+    const auto is_sky = direction.z > s.light.horizon_sine;
+    const V shown = IfThenElseZero(is_sky, disc * passes);
+    light = MulAdd(Constant(s.light.disc_radiance), shown, light);
   }
   if (!s.light.clouds.is_below) return light;
   return AddCloudDeck(s, direction, Constant(kNothingNear_m), light);
@@ -82,7 +81,7 @@ HWY_INLINE V3 SkyLight(const Shading& s, const SkyView& view, const CloudNoise& 
 
 HWY_INLINE V3 BehindFog(const Shading& s, V3 ray, V3 light) {
   if (!s.media.fog.on) return light;
-  const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
+  const V3 direction = ray * InverseSqrt(Dot(ray, ray));
   return SkyThroughAir(s, direction, light);
 }
 
@@ -128,9 +127,9 @@ HWY_INLINE V ToPixels(V nodes) {
   const D d;
   const DI di;
   const VI lane = hn::Iota(di, 0);
-  const VI left = hn::ShiftRight<kStepLog2>(lane), right = hn::Add(left, hn::Set(di, 1));
-  const V part = hn::Mul(hn::ConvertTo(d, hn::And(lane, hn::Set(di, kStep - 1))),
-                         Constant(1.0f / static_cast<float>(kStep)));
+  const VI left = hn::ShiftRight<kStepLog2>(lane), right = left + hn::Set(di, 1);
+  const V part =
+      hn::ConvertTo(d, lane & hn::Set(di, kStep - 1)) * (1.0f / static_cast<float>(kStep));
   return Lerp(hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, left)),
               hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, right)), part);
 }
@@ -203,13 +202,13 @@ inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, Sk
   for (int row = 0; row < rows; ++row) {
     const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
     for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
-      const V x_px = hn::MulAdd(hn::ConvertTo(d, CountFrom(column)), Constant(step),
-                                Constant(static_cast<float>(box.x0_px)));
+      const V x_px =
+          MulAdd(hn::ConvertTo(d, CountFrom(column)), step, static_cast<float>(box.x0_px));
       const V3 ray = RayAt(s.rays, x_px, y_px);
       const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
       StoreView(ViewSky(s, ray), s.light.clouds.any, at, nodes);
-      const V3 direction = Scale(ray, InverseSqrt(Dot(ray, ray)));
-      nearest = hn::Max(nearest, Dot(direction, Constant(s.light.to_disc)));
+      const V3 direction = ray * InverseSqrt(Dot(ray, ray));
+      nearest = Max(nearest, Dot(direction, Constant(s.light.to_disc)));
       if (has_fog)
         StoreFog(SkyFog(s.media.fog, s.media.fog.at_eye, direction, kPlacesBeforeSky), at, nodes);
     }
@@ -217,7 +216,7 @@ inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, Sk
   // No pixel is further from a node than a step's diagonal, no direction turns by more than
   // pixel_angle a pixel, and cos(a) is over 1 - a^2 / 2.
   const float reach = 1.02f * kDiscRadius + (1.5f * step + 1.0f) * s.rays.pixel_angle;
-  return !hn::AllTrue(d, hn::Lt(nearest, Constant(1.0f - 0.5f * reach * reach - 1e-6f)));
+  return !hn::AllTrue(d, nearest < 1.0f - 0.5f * reach * reach - 1e-6f);
 }
 
 // The clouds' noise at places that `read` finds in the view's channels.
@@ -234,11 +233,10 @@ inline void FindNoiseDown(const Clouds& clouds, int column, int rows, SkyNodes& 
   const DI di;
   constexpr int kStride = static_cast<int>(SkyNodes::kStride);
   for (int first = 0; first < rows; first += static_cast<int>(kLanes)) {
-    const VI row = hn::Min(CountFrom(first), hn::Set(di, rows - 1));
-    const VI at =
-        hn::Add(hn::Mul(hn::ShiftRight<kStepLog2>(row), hn::Set(di, kStride)), hn::Set(di, column));
-    const V below = hn::Mul(hn::ConvertTo(d, hn::And(row, hn::Set(di, kStep - 1))),
-                            Constant(1.0f / static_cast<float>(kStep)));
+    const VI row = Min(CountFrom(first), hn::Set(di, rows - 1));
+    const VI at = hn::ShiftRight<kStepLog2>(row) * hn::Set(di, kStride) + hn::Set(di, column);
+    const V below =
+        hn::ConvertTo(d, row & hn::Set(di, kStep - 1)) * (1.0f / static_cast<float>(kStep));
     const CloudNoise found = NoiseAt(clouds, nodes, [&](const float* upper) HWY_ATTR {
       return Lerp(hn::GatherIndex(d, upper, at), hn::GatherIndex(d, upper + kStride, at), below);
     });

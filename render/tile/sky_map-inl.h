@@ -25,21 +25,20 @@ HWY_INLINE SkyOfHeight SkyOfEye(const Light& light) {
 
 // The column of a direction of length 1.
 HWY_INLINE V SkyColumn(const SkyOfHeight& sky, V3 direction) {
-  const V across2 = hn::MulAdd(direction.x, direction.x, hn::Mul(direction.y, direction.y));
-  const V along = hn::MulAdd(direction.x, Constant(sky.azimuth.x),
-                             hn::Mul(direction.y, Constant(sky.azimuth.y)));
-  const V cosine = hn::Div(along, hn::Sqrt(hn::Max(across2, Constant(1e-12f))));
-  const V half_sine2 = hn::NegMulAdd(cosine, Constant(0.5f), Constant(0.5f));
-  const V half_sine = hn::Sqrt(Clamp(half_sine2, 0.0f, 1.0f));
-  return hn::Mul(hn::Sqrt(half_sine), Constant(kSkyColumns - 1.0f));
+  const V across2 = MulAdd(direction.x, direction.x, direction.y * direction.y);
+  const V along = MulAdd(direction.x, sky.azimuth.x, direction.y * sky.azimuth.y);
+  const V cosine = along / Sqrt(Max(across2, 1e-12f));
+  const V half_sine2 = NegMulAdd(cosine, 0.5f, 0.5f);
+  const V half_sine = Sqrt(Clamp(half_sine2, 0.0f, 1.0f));
+  return Sqrt(half_sine) * (kSkyColumns - 1.0f);
 }
 
 // The root of 1 - r, where r = tan(zenith angle / 2) for the cosine `part` in [0, 1]: 0 at the
 // horizon, 1 at the end.
 HWY_INLINE V FromHorizon(V part) {
   const V one = Constant(1.0f), zero = hn::Zero(D());
-  const V r = hn::Sqrt(hn::Div(hn::Sub(one, part), hn::Add(one, part)));
-  return hn::Sqrt(hn::Max(hn::Sub(one, r), zero));
+  const V r = Sqrt((one - part) / (one + part));
+  return Sqrt(Max(one - r, zero));
 }
 
 HWY_INLINE V3 SampleSky(const SkyOfHeight& sky, V column, V row) {
@@ -52,23 +51,20 @@ HWY_INLINE V3 SampleSky(const SkyOfHeight& sky, V column, V row) {
 // The clear sky's radiance in a direction of length 1; below the horizon, that of the horizon.
 HWY_INLINE V3 ClearSky(const SkyOfHeight& sky, V3 direction) {
   const float scale = 1.0f / (1.0f - sky.horizon_sine);
-  const V part =
-      Clamp(hn::Mul(hn::Sub(direction.z, Constant(sky.horizon_sine)), Constant(scale)), 0.0f, 1.0f);
-  const V row =
-      hn::NegMulAdd(FromHorizon(part), Constant(kSkyRows - 1.0f), Constant(kSkyRows - 1.0f));
+  const V part = Clamp((direction.z - sky.horizon_sine) * scale, 0.0f, 1.0f);
+  const V row = NegMulAdd(FromHorizon(part), kSkyRows - 1.0f, kSkyRows - 1.0f);
   return SampleSky(sky, SkyColumn(sky, direction), row);
 }
 
 // `part` of the way from the horizon to straight down, of a direction of length 1.
 HWY_INLINE V PartDown(const Light& light, V z) {
   const float scale = 1.0f / (1.0f + light.horizon_sine);
-  return Clamp(hn::Mul(hn::Sub(Constant(light.horizon_sine), z), Constant(scale)), 0.0f, 1.0f);
+  return Clamp((light.horizon_sine - z) * scale, 0.0f, 1.0f);
 }
 
 // What air below the eye shows where nothing is seen through it.
 HWY_INLINE V3 AirBelow(const Light& light, V3 direction, V part_down) {
-  const V row =
-      hn::MulAdd(FromHorizon(part_down), Constant(kAirRows - 1.0f), Constant(1.0f * kSkyRows));
+  const V row = MulAdd(FromHorizon(part_down), kAirRows - 1.0f, 1.0f * kSkyRows);
   const SkyOfHeight sky = SkyOfEye(light);
   return SampleSky(sky, SkyColumn(sky, direction), row);
 }

@@ -28,9 +28,9 @@ HWY_INLINE VI HashCell(VI x) {
   const hn::RebindToUnsigned<DI> du;
   auto h = hn::BitCast(du, x);
   h = hn::Xor(h, hn::ShiftRight<16>(h));
-  h = hn::Mul(h, hn::Set(du, 0x7feb352du));
+  h = h * hn::Set(du, 0x7feb352du);
   h = hn::Xor(h, hn::ShiftRight<15>(h));
-  h = hn::Mul(h, hn::Set(du, 0x846ca68bu));
+  h = h * hn::Set(du, 0x846ca68bu);
   h = hn::Xor(h, hn::ShiftRight<16>(h));
   return hn::BitCast(di, h);
 }
@@ -39,8 +39,8 @@ HWY_INLINE VI HashCell(VI x) {
 template <int kShift>
 HWY_INLINE V PartOf(VI hash) {
   const DI di;
-  const VI bits = hn::And(hn::ShiftRight<kShift>(hash), hn::Set(di, 0xffff));
-  return hn::Mul(hn::Add(hn::ConvertTo(D(), bits), Constant(0.5f)), Constant(1.0f / 65536.0f));
+  const VI bits = hn::ShiftRight<kShift>(hash) & hn::Set(di, 0xffff);
+  return (hn::ConvertTo(D(), bits) + 0.5f) * (1.0f / 65536.0f);
 }
 
 // Radiance in a direction (world) of length 1, of stars drawn as spots of a radius [rad]. What
@@ -51,60 +51,55 @@ static HWY_NOINLINE V3 StarLight(const Stars& stars, V3 world, V radius) {
   const V zero = hn::Zero(d), one = Constant(1.0f);
   const V3 from_x = Constant(stars.from_world[0]), from_y = Constant(stars.from_world[1]);
   const V3 from_z = Constant(stars.from_world[2]);
-  const V3 p = ScaleAdd(from_x, world.x, ScaleAdd(from_y, world.y, Scale(from_z, world.z)));
+  const V3 p = MulAdd(from_x, world.x, MulAdd(from_y, world.y, from_z * world.z));
 
   // The cube's face, the place on it and the cell.
-  const V ax = hn::Abs(p.x), ay = hn::Abs(p.y), az = hn::Abs(p.z);
-  const auto is_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
-  const auto is_y = hn::AndNot(is_x, hn::Ge(ay, az));
-  const V major = hn::IfThenElse(is_x, p.x, hn::IfThenElse(is_y, p.y, p.z));
-  const V inverse = hn::Div(one, hn::Abs(major));
-  const V u = hn::Mul(hn::IfThenElse(is_x, p.y, p.x), inverse);
-  const V v = hn::Mul(hn::IfThenElse(hn::Or(is_x, is_y), p.z, p.y), inverse);
+  const V ax = Abs(p.x), ay = Abs(p.y), az = Abs(p.z);
+  const auto is_x = (ax >= ay) & (ax >= az);
+  const auto is_y = hn::AndNot(is_x, ay >= az);
+  const V major = IfThenElse(is_x, p.x, IfThenElse(is_y, p.y, p.z));
+  const V inverse = one / Abs(major);
+  const V u = IfThenElse(is_x, p.y, p.x) * inverse;
+  const V v = IfThenElse(is_x | is_y, p.z, p.y) * inverse;
   const V half = Constant(0.5f * kStarCells);
   const V last = Constant(kStarCells - 1.0f);
-  const V i = hn::Min(hn::Floor(hn::MulAdd(u, half, half)), last);
-  const V j = hn::Min(hn::Floor(hn::MulAdd(v, half, half)), last);
-  const V axis = hn::IfThenElse(is_x, zero, hn::IfThenElse(is_y, one, Constant(2.0f)));
-  const V face = hn::MulAdd(axis, Constant(2.0f), hn::IfThenElse(hn::Lt(major, zero), one, zero));
-  const V cell =
-      hn::MulAdd(hn::MulAdd(face, Constant(1.0f * kStarCells), j), Constant(1.0f * kStarCells), i);
+  const V i = Min(Floor(MulAdd(u, half, half)), last);
+  const V j = Min(Floor(MulAdd(v, half, half)), last);
+  const V axis = IfThenElse(is_x, zero, IfThenElse(is_y, one, 2.0f));
+  const V face = MulAdd(axis, 2.0f, IfThenElse(major < zero, one, zero));
+  const V cell = MulAdd(MulAdd(face, 1.0f * kStarCells, j), 1.0f * kStarCells, i);
 
   // Where in the cell its star is.
-  const VI hash = HashCell(hn::Add(hn::ConvertTo(di, cell), hn::Set(di, 1)));
+  const VI hash = HashCell(hn::ConvertTo(di, cell) + hn::Set(di, 1));
   const VI more = HashCell(hn::Xor(hash, hn::Set(di, 0x5bd1e995)));
   const V inner = Constant(1.0f - 2.0f * kStarMargin), rim = Constant(kStarMargin);
   const auto on_face = [&](V column, V part) HWY_ATTR {
-    const V at = hn::Add(column, hn::MulAdd(part, inner, rim));
-    return hn::MulSub(at, Constant(2.0f / kStarCells), one);
+    const V at = column + MulAdd(part, inner, rim);
+    return MulSub(at, 2.0f / kStarCells, one);
   };
   const V star_u = on_face(i, PartOf<0>(hash)), star_v = on_face(j, PartOf<16>(hash));
-  const V star_length = InverseSqrt(hn::MulAdd(star_u, star_u, hn::MulAdd(star_v, star_v, one)));
-  const V3 apart = {hn::Sub(hn::Mul(star_u, star_length), hn::Mul(u, hn::Abs(major))),
-                    hn::Sub(hn::Mul(star_v, star_length), hn::Mul(v, hn::Abs(major))),
-                    hn::Sub(star_length, hn::Abs(major))};
-  const V inv_radius = hn::Div(one, radius);
-  const V away2 = hn::Mul(Dot(apart, apart), hn::Mul(inv_radius, inv_radius));
-  const V inside = hn::Max(hn::Sub(one, away2), zero);
+  const V star_length = InverseSqrt(MulAdd(star_u, star_u, MulAdd(star_v, star_v, one)));
+  const V3 apart = {star_u * star_length - u * Abs(major), star_v * star_length - v * Abs(major),
+                    star_length - Abs(major)};
+  const V inv_radius = one / radius;
+  const V away2 = Dot(apart, apart) * (inv_radius * inv_radius);
+  const V inside = Max(one - away2, zero);
   const VI third = HashCell(hn::Xor(hash, hn::Set(di, 0x1b873593)));
-  const V solid = hn::Mul(hn::Mul(star_length, star_length), star_length);
-  const auto drawn = hn::And(hn::Lt(PartOf<0>(third), hn::Mul(solid, Constant(kMostStars))),
-                             hn::And(hn::Gt(inside, zero), hn::Lt(radius, Constant(kWidestStar))));
+  const V solid = star_length * star_length * star_length;
+  const auto drawn =
+      (PartOf<0>(third) < solid * kMostStars) & ((inside > zero) & (radius < kWidestStar));
   if (hn::AllFalse(d, drawn)) return {zero, zero, zero};
 
   // So many stars are brighter than a magnitude m: 10^(0.51 m). The spot (1 - r^2)^2 has the
   // integral pi / 3.
-  const V rank = hn::Max(PartOf<0>(more), Constant(1.0f / 5400.0f));
-  const V bright = Exp2(d, hn::Mul(Log2(d, rank), Constant(-0.4f / 0.51f)));
-  const V spot = hn::Mul(hn::Mul(inside, inside), hn::Mul(inv_radius, inv_radius));
+  const V rank = Max(PartOf<0>(more), 1.0f / 5400.0f);
+  const V bright = Exp2(d, Log2(d, rank) * (-0.4f / 0.51f));
+  const V spot = inside * inside * (inv_radius * inv_radius);
   // Air takes a fifth of them overhead and nearly all at the horizon.
-  const V air = Exp(d, hn::Div(Constant(-0.23f), hn::Add(hn::Max(world.z, zero), Constant(0.03f))));
-  const V light = hn::IfThenElseZero(
-      drawn,
-      hn::Mul(hn::Mul(bright, air), hn::Mul(spot, Constant(stars.brightness * 0.954929659f))));
+  const V air = Exp(d, -0.23f / (Max(world.z, zero) + 0.03f));
+  const V light = IfThenElseZero(drawn, bright * air * (spot * (stars.brightness * 0.954929659f)));
   const V warm = PartOf<16>(more);
-  return {hn::Mul(light, hn::MulAdd(warm, Constant(0.5f), Constant(0.75f))), light,
-          hn::Mul(light, hn::NegMulAdd(warm, Constant(0.7f), Constant(1.4f)))};
+  return {light * MulAdd(warm, 0.5f, 0.75f), light, light * NegMulAdd(warm, 0.7f, 1.4f)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -17,10 +17,9 @@ namespace HWY_NAMESPACE {
 // As disc_part() (render/world/land_shadow.h), and 1 for 1 and more.
 HWY_INLINE V DiscPart(V lit) {
   const V one = Constant(1.0f);
-  const V x = hn::MulSub(hn::Max(lit, hn::Zero(D())), Constant(2.0f), one);
-  const V part =
-      hn::MulAdd(x, hn::MulAdd(hn::Mul(x, x), Constant(-0.137f), Constant(0.637f)), Constant(0.5f));
-  return hn::IfThenElse(hn::Ge(lit, one), one, part);
+  const V x = MulSub(Max(lit, 0.0f), 2.0f, one);
+  const V part = MulAdd(x, MulAdd(x * x, -0.137f, 0.637f), 0.5f);
+  return IfThenElse(lit >= one, one, part);
 }
 
 // What the land leaves of the sun at p, relative to the eye. A function of its own, and few lanes
@@ -30,32 +29,29 @@ inline HWY_NOINLINE V SunOverLand(const SunShadow& shadow, const V3& p, float ey
   const DI di;
   const LandShadow& land = *shadow.land;
   const V one = Constant(1.0f);
-  const auto texel = [&](glm::vec3 axis) HWY_ATTR {
-    return hn::MulAdd(p.x, Constant(axis.x), hn::MulAdd(p.y, Constant(axis.y), Constant(axis.z)));
-  };
+  const auto texel = [&](glm::vec3 axis)
+                         HWY_ATTR { return MulAdd(p.x, axis.x, MulAdd(p.y, axis.y, axis.z)); };
   const V along = texel(shadow.along), across = texel(shadow.across);
   const glm::vec2 low(land.begin), high(land.end - 1);
   const auto inside =
-      hn::And(hn::And(hn::Ge(along, Constant(low.x)), hn::Ge(across, Constant(low.y))),
-              hn::And(hn::Lt(along, Constant(high.x)), hn::Lt(across, Constant(high.y))));
+      ((along >= low.x) & (across >= low.y)) & ((along < high.x) & (across < high.y));
   if (hn::AllFalse(d, inside)) return one;
-  const VI i = TruncateToInt(hn::IfThenElseZero(inside, along));
-  const VI j = TruncateToInt(hn::IfThenElseZero(inside, across));
+  const VI i = TruncateToInt(IfThenElseZero(inside, along));
+  const VI j = TruncateToInt(IfThenElseZero(inside, across));
 
   // Most points stand above all shadows around.
   constexpr int kBlock = LandShadow::kBlock_log2;
-  const VI block = hn::Add(hn::Mul(hn::ShiftRight<kBlock>(j), hn::Set(di, land.blocks_along)),
-                           hn::ShiftRight<kBlock>(i));
-  const V z = hn::Add(p.z, Constant(eye_z));
-  const auto low_enough =
-      hn::And(inside, hn::Lt(z, hn::GatherIndex(d, land.block_lit_above_m.data(), block)));
+  const VI block =
+      hn::ShiftRight<kBlock>(j) * hn::Set(di, land.blocks_along) + hn::ShiftRight<kBlock>(i);
+  const V z = p.z + eye_z;
+  const auto low_enough = inside & (z < hn::GatherIndex(d, land.block_lit_above_m.data(), block));
   if (hn::AllFalse(d, low_enough)) return one;
 
-  const V s = hn::Sub(along, hn::ConvertTo(d, i)), t = hn::Sub(across, hn::ConvertTo(d, j));
-  const VI first = hn::Add(hn::Mul(j, hn::Set(di, land.texels_along)), i);
+  const V s = along - hn::ConvertTo(d, i), t = across - hn::ConvertTo(d, j);
+  const VI first = j * hn::Set(di, land.texels_along) + i;
   const auto* const bounds = reinterpret_cast<const std::int32_t*>(land.bounds.data());
   const auto gather = [&](int offset) HWY_ATTR {
-    return hn::GatherIndex(di, bounds, hn::Add(first, hn::Set(di, offset)));
+    return hn::GatherIndex(di, bounds, first + hn::Set(di, offset));
   };
   const VI at00 = gather(0), at10 = gather(1);
   const VI at01 = gather(land.texels_along), at11 = gather(land.texels_along + 1);
@@ -63,14 +59,12 @@ inline HWY_NOINLINE V SunOverLand(const SunShadow& shadow, const V3& p, float ey
     const auto of = [&](VI word) HWY_ATTR { return hn::ConvertTo(d, code(word)); };
     return Lerp(Lerp(of(at00), of(at10), s), Lerp(of(at01), of(at11), s), t);
   };
-  const V dark_below =
-      between([&](VI word) HWY_ATTR { return hn::And(word, hn::Set(di, 0xffff)); });
-  const V lit_above = between(
-      [&](VI word) HWY_ATTR { return hn::And(hn::ShiftRight<16>(word), hn::Set(di, 0xffff)); });
-  const V height =
-      hn::Mul(hn::Sub(z, Constant(LandShadow::kLowest_m)), Constant(1.0f / land.step_m));
-  const V lit = hn::Div(hn::Sub(height, dark_below), hn::Max(hn::Sub(lit_above, dark_below), one));
-  return hn::IfThenElse(low_enough, DiscPart(lit), one);
+  const V dark_below = between([&](VI word) HWY_ATTR { return word & hn::Set(di, 0xffff); });
+  const V lit_above =
+      between([&](VI word) HWY_ATTR { return hn::ShiftRight<16>(word) & hn::Set(di, 0xffff); });
+  const V height = (z - LandShadow::kLowest_m) * (1.0f / land.step_m);
+  const V lit = (height - dark_below) / Max(lit_above - dark_below, one);
+  return IfThenElse(low_enough, DiscPart(lit), one);
 }
 
 // A point relative to an object's place, along the axes of ObjectShadows.
@@ -90,21 +84,21 @@ HWY_INLINE V DiscCovered(const Outline& outline, const SunPlace& at, V soft) {
   const V zero = hn::Zero(d);
   V covered = zero;
   for (int k = 0; k < kStrips; ++k) {
-    const V up = hn::MulAdd(soft, Constant(kUp[k]), at.up);
-    const V row = hn::Mul(hn::Sub(up, Constant(outline.lowest_m)), Constant(outline.rows_per_m));
+    const V up = MulAdd(soft, kUp[k], at.up);
+    const V row = (up - outline.lowest_m) * outline.rows_per_m;
     const VI i = TruncateToInt(Clamp(row, 0.0f, kLast - 1.0f));
-    const V t = Clamp(hn::Sub(row, hn::ConvertTo(d, i)), 0.0f, 1.0f);
+    const V t = Clamp(row - hn::ConvertTo(d, i), 0.0f, 1.0f);
     const auto end = [&](const std::array<float, Outline::kRows>& of_row) HWY_ATTR {
       return Lerp(hn::GatherIndex(d, of_row.data(), i), hn::GatherIndex(d, of_row.data() + 1, i),
                   t);
     };
-    const V half = hn::Mul(soft, Constant(kHalf[k]));
-    const V left = hn::Max(end(outline.left_m), hn::Sub(at.right, half));
-    const V right = hn::Min(end(outline.right_m), hn::Add(at.right, half));
-    const auto crosses = hn::And(hn::Ge(row, zero), hn::Le(row, Constant(kLast)));
-    covered = hn::Add(covered, hn::IfThenElseZero(crosses, hn::Max(hn::Sub(right, left), zero)));
+    const V half = soft * kHalf[k];
+    const V left = Max(end(outline.left_m), at.right - half);
+    const V right = Min(end(outline.right_m), at.right + half);
+    const auto crosses = (row >= zero) & (row <= kLast);
+    covered = covered + IfThenElseZero(crosses, Max(right - left, zero));
   }
-  return hn::Min(hn::Div(covered, hn::Mul(soft, Constant(kWhole))), Constant(1.0f));
+  return Min(covered / (soft * kWhole), 1.0f);
 }
 
 // How much nearer to the sun than the place the outline is there: more than that of whatever lies
@@ -112,14 +106,14 @@ HWY_INLINE V DiscCovered(const Outline& outline, const SunPlace& at, V soft) {
 HWY_INLINE V AheadOf(const Outline& outline, const SunPlace& at) {
   const D d;
   constexpr float kLast = Outline::kRows - 1;
-  const V row = hn::Mul(hn::Sub(at.up, Constant(outline.lowest_m)), Constant(outline.rows_per_m));
-  const VI i = TruncateToInt(Clamp(hn::Add(row, Constant(0.5f)), 0.0f, kLast));
+  const V row = (at.up - outline.lowest_m) * outline.rows_per_m;
+  const VI i = TruncateToInt(Clamp(row + 0.5f, 0.0f, kLast));
   const auto end = [&](const std::array<float, Outline::kRows>& of_row)
                        HWY_ATTR { return hn::GatherIndex(d, of_row.data(), i); };
   const V left = end(outline.left_m), right = end(outline.right_m);
-  const V width = hn::Max(hn::Sub(right, left), Constant(1e-6f));
-  const V t = Clamp(hn::Div(hn::Sub(at.right, left), width), 0.0f, 1.0f);
-  return hn::Sub(Lerp(end(outline.left_depth_m), end(outline.right_depth_m), t), at.depth);
+  const V width = Max(right - left, 1e-6f);
+  const V t = Clamp((at.right - left) / width, 0.0f, 1.0f);
+  return Lerp(end(outline.left_depth_m), end(outline.right_depth_m), t) - at.depth;
 }
 
 // What a place sees of the sun's light and of that from above, over their means.
@@ -132,7 +126,7 @@ HWY_INLINE V AmbientUnderClouds(const Shading& s, const V3& p) {
   const V one = Constant(1.0f);
   if (s.light.fog_ambient <= 0.0f) return one;
   const V lit = SunUnderClouds(*s.sun_shadow.clouds, p, s.rays.eye_z);
-  return hn::MulAdd(hn::Sub(lit, one), Constant(s.light.fog_ambient), one);
+  return MulAdd(lit - one, s.light.fog_ambient, one);
 }
 
 // The pixels that a packet lies between.
@@ -158,7 +152,7 @@ inline HWY_NOINLINE V SunOverObjects(const SunShadow& shadow,
   const D d;
   constexpr auto kRadius = static_cast<float>(kSunRadius_rad);
   const V zero = hn::Zero(d), one = Constant(1.0f);
-  const auto high = hn::Ge(point.p.z, Constant(shadows.lowest_rel_m));
+  const auto high = point.p.z >= shadows.lowest_rel_m;
   const std::span pixels = point.is_sea ? shadow.casters.sea_pixels : shadow.casters.pixels;
   const V3 of_eye = {Dot(point.p, Constant(shadows.right)), Dot(point.p, Constant(shadows.up)),
                      Dot(point.p, Constant(shadows.sun))};
@@ -167,28 +161,27 @@ inline HWY_NOINLINE V SunOverObjects(const SunShadow& shadow,
     if (!pixels[number].meets(span)) continue;
     const SunBox& box = shadows.boxes[number];
     if (box.reach_m <= 0.0f) continue;
-    const V3 p = Difference(of_eye, Constant(box.place));
+    const V3 p = of_eye - Constant(box.place);
     const SunPlace at = {p.x, p.y, p.z};
     // The box, as soft as anything in it is.
-    const V farthest = hn::Sub(Constant(box.most_depth_m), at.depth);
-    const V most_soft = hn::MulAdd(farthest, Constant(kRadius), point.soft);
-    const V aside = hn::Abs(hn::Sub(at.right, Constant(box.middle_m)));
-    const V above = hn::Abs(hn::Sub(at.up, Constant(box.middle_up_m)));
-    const auto in_box = hn::And(hn::Lt(aside, hn::Add(most_soft, Constant(box.half_width_m))),
-                                hn::Lt(above, hn::Add(most_soft, Constant(box.half_height_m))));
-    const auto other = hn::Ne(point.own, Constant(box.object));
-    const auto near = hn::And(hn::Gt(farthest, zero), hn::Lt(farthest, Constant(box.reach_m)));
-    const auto some = hn::And(hn::And(in_box, near), hn::And(other, high));
+    const V farthest = box.most_depth_m - at.depth;
+    const V most_soft = MulAdd(farthest, kRadius, point.soft);
+    const V aside = Abs(at.right - box.middle_m);
+    const V above = Abs(at.up - box.middle_up_m);
+    const auto in_box =
+        (aside < most_soft + box.half_width_m) & (above < most_soft + box.half_height_m);
+    const auto other = point.own != Constant(box.object);
+    const auto near = (farthest > zero) & (farthest < box.reach_m);
+    const auto some = (in_box & near) & (other & high);
     if (hn::AllFalse(d, some)) continue;
 
     const Outline& outline = shadows.casters[number].outline;
     const V ahead = AheadOf(outline, at);
-    const V soft = hn::MulAdd(hn::Max(ahead, zero), Constant(kRadius), point.soft);
-    const V fading =
-        Clamp(hn::NegMulAdd(ahead, Constant(2.0f / box.reach_m), Constant(2.0f)), 0.0f, 1.0f);
-    const V before = hn::Mul(Clamp(hn::Mul(ahead, Constant(20.0f)), 0.0f, 1.0f), fading);
-    const V covered = hn::Mul(DiscCovered(outline, at, soft), before);
-    visible = hn::IfThenElse(some, hn::NegMulAdd(visible, covered, visible), visible);
+    const V soft = MulAdd(Max(ahead, zero), kRadius, point.soft);
+    const V fading = Clamp(NegMulAdd(ahead, 2.0f / box.reach_m, 2.0f), 0.0f, 1.0f);
+    const V before = Clamp(ahead * 20.0f, 0.0f, 1.0f) * fading;
+    const V covered = DiscCovered(outline, at, soft) * before;
+    visible = IfThenElse(some, NegMulAdd(visible, covered, visible), visible);
   }
   return visible;
 }
@@ -197,14 +190,13 @@ inline HWY_NOINLINE V SunOverObjects(const SunShadow& shadow,
 // ones.
 HWY_INLINE V3 WhereLightEnters(const Shading& s, const V3& p) {
   const V level = Constant(-s.rays.eye_z), deepest = Constant(kDeepestShadow_m);
-  const V depth = hn::Max(hn::Sub(level, p.z), hn::Zero(D()));
-  const V z = hn::IfThenElse(hn::Lt(depth, deepest), hn::Max(p.z, level), Constant(-1e9f));
-  return {hn::MulAdd(depth, Constant(s.sun_shadow.entry.x), p.x),
-          hn::MulAdd(depth, Constant(s.sun_shadow.entry.y), p.y), z};
+  const V depth = Max(level - p.z, 0.0f);
+  const V z = IfThenElse(depth < deepest, Max(p.z, level), -1e9f);
+  return {MulAdd(depth, s.sun_shadow.entry.x, p.x), MulAdd(depth, s.sun_shadow.entry.y, p.y), z};
 }
 
 HWY_INLINE V PixelSoftness(const Shading& s, V depth) {
-  return hn::MulAdd(depth, Constant(0.5f * s.rays.pixel_angle), Constant(1e-4f));
+  return MulAdd(depth, 0.5f * s.rays.pixel_angle, 1e-4f);
 }
 
 // The part of the sun's light that trees leave at points so high above the ground or the water. As
@@ -213,8 +205,8 @@ HWY_INLINE V PixelSoftness(const Shading& s, V depth) {
 inline HWY_NOINLINE V SunUnderTrees(const Shading& s, const Packet& packet, V above_m) {
   const SunShadow& shadow = s.sun_shadow;
   if (!shadow.under_trees.map) return Constant(1.0f);
-  const V3 p = {hn::NegMulAdd(above_m, Constant(shadow.tree_slide.x), packet.p.x),
-                hn::NegMulAdd(above_m, Constant(shadow.tree_slide.y), packet.p.y), packet.p.z};
+  const V3 p = {NegMulAdd(above_m, shadow.tree_slide.x, packet.p.x),
+                NegMulAdd(above_m, shadow.tree_slide.y, packet.p.y), packet.p.z};
   return SampleSquare(shadow.under_trees, p, GroundLevel(s.rays, packet), Constant(1.0f));
 }
 
@@ -225,11 +217,10 @@ HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& 
   V visible = Constant(1.0f);
   if (s.sun_shadow.land) visible = SunOverLand(s.sun_shadow, packet.p, s.rays.eye_z);
   if (s.sun_shadow.clouds)
-    visible = hn::Mul(visible, SunUnderClouds(*s.sun_shadow.clouds, packet.p, s.rays.eye_z));
+    visible = visible * SunUnderClouds(*s.sun_shadow.clouds, packet.p, s.rays.eye_z);
   if (!tile.casters.empty())
-    visible =
-        hn::Mul(visible, SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet),
-                                        {packet.p, PixelSoftness(s, packet.depth), own, is_sea}));
+    visible = visible * SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet),
+                                       {packet.p, PixelSoftness(s, packet.depth), own, is_sea});
   return visible;
 }
 
@@ -238,20 +229,18 @@ inline HWY_NOINLINE V SunUnderTreesOnSea(const Shading& s, const Packet& packet)
   const D d;
   const V one = Constant(1.0f);
   const glm::vec2 low = s.sun_shadow.sea_shade_low, high = s.sun_shadow.sea_shade_high;
-  const auto in_x =
-      hn::And(hn::Gt(packet.p.x, Constant(low.x)), hn::Lt(packet.p.x, Constant(high.x)));
-  const auto in_y =
-      hn::And(hn::Gt(packet.p.y, Constant(low.y)), hn::Lt(packet.p.y, Constant(high.y)));
-  const auto in_box = hn::And(in_x, in_y);
+  const auto in_x = (packet.p.x > low.x) & (packet.p.x < high.x);
+  const auto in_y = (packet.p.y > low.y) & (packet.p.y < high.y);
+  const auto in_box = in_x & in_y;
   if (hn::AllFalse(d, in_box)) return one;
-  return hn::IfThenElse(in_box, SunUnderTrees(s, packet, hn::Zero(d)), one);
+  return IfThenElse(in_box, SunUnderTrees(s, packet, hn::Zero(d)), one);
 }
 
 // The part of the sun that the sea sees.
 HWY_INLINE V SunOnSea(const Shading& s, const TilePixels& tile, const Packet& packet) {
   const V visible = SunVisible(s, tile, packet, Constant(-1.0f), true);
   if (!s.sun_shadow.under_trees.map) return visible;
-  return hn::Mul(visible, SunUnderTreesOnSea(s, packet));
+  return visible * SunUnderTreesOnSea(s, packet);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -31,15 +31,15 @@ struct RayPacket {
 // a u^2 + 2 b u + c.
 struct Parabola {
   V a, b, c;
-  HWY_INLINE V At(V u) const { return hn::MulAdd(hn::MulAdd(a, u, hn::Add(b, b)), u, c); }
-  HWY_INLINE V HalfSlopeAt(V u) const { return hn::MulAdd(a, u, b); }
+  HWY_INLINE V At(V u) const { return MulAdd(MulAdd(a, u, b + b), u, c); }
+  HWY_INLINE V HalfSlopeAt(V u) const { return MulAdd(a, u, b); }
 };
 
 HWY_INLINE Parabola Along(const RayQuadric& f, const RayPacket& ray) {
   const V3 b = Constant(f.b), ad = Times(f, ray.d), ap = Times(f, ray.p);
-  const V3 more = {hn::Add(ap.x, b.x), hn::Add(ap.y, b.y), hn::Add(ap.z, b.z)};
-  const V3 most = {hn::Add(more.x, b.x), hn::Add(more.y, b.y), hn::Add(more.z, b.z)};
-  return {Dot(ray.d, ad), Dot(ray.d, more), hn::Add(Dot(ray.p, most), Constant(f.c))};
+  const V3 more = {ap.x + b.x, ap.y + b.y, ap.z + b.z};
+  const V3 most = {more.x + b.x, more.y + b.y, more.z + b.z};
+  return {Dot(ray.d, ad), Dot(ray.d, more), Dot(ray.p, most) + f.c};
 }
 
 // Between which depths a parabola is below 0 that opens upwards, and outside which if downwards.
@@ -51,27 +51,27 @@ struct Roots {
 HWY_INLINE Roots RootsOf(const Parabola& f) {
   const D d;
   const V far = Constant(kNowhere), zero = hn::Zero(d);
-  const V inside = hn::NegMulAdd(f.a, f.c, hn::Mul(f.b, f.b));
-  const M none = hn::Le(inside, zero);
-  const V root = hn::Sqrt(hn::Max(inside, zero));
+  const V inside = NegMulAdd(f.a, f.c, f.b * f.b);
+  const M none = inside <= zero;
+  const V root = Sqrt(Max(inside, zero));
   // The sum without cancellation, then Vieta's other one.
-  const V q = hn::Neg(hn::Add(f.b, hn::CopySign(root, f.b)));
-  const V first = hn::Div(q, f.a), second = hn::Div(f.c, q);
-  const M always = hn::And(none, hn::Ge(f.c, zero));
-  Roots roots = {hn::Min(first, second), hn::Max(first, second), hn::Ge(f.a, zero)};
+  const V q = -(f.b + hn::CopySign(root, f.b));
+  const V first = q / f.a, second = f.c / q;
+  const M always = none & (f.c >= zero);
+  Roots roots = {Min(first, second), Max(first, second), f.a >= zero};
   // Without a root: a gap that is empty, or all.
-  roots.low = hn::IfThenElse(none, hn::IfThenElse(always, far, hn::Neg(far)), roots.low);
-  roots.high = hn::IfThenElse(none, far, roots.high);
-  roots.upwards = hn::Or(roots.upwards, none);
+  roots.low = IfThenElse(none, IfThenElse(always, far, -far), roots.low);
+  roots.high = IfThenElse(none, far, roots.high);
+  roots.upwards = roots.upwards | none;
   return roots;
 }
 
 // The first depth from u on where the parabola is at least 0, or kNowhere.
 HWY_INLINE V NextInside(const Roots& f, V u) {
-  const M in_gap = hn::And(hn::Gt(u, f.low), hn::Lt(u, f.high));
-  const V over_gap = hn::IfThenElse(in_gap, f.high, u);
-  const V to_inside = hn::IfThenElse(hn::Gt(u, f.high), Constant(kNowhere), hn::Max(u, f.low));
-  return hn::IfThenElse(f.upwards, over_gap, to_inside);
+  const M in_gap = (u > f.low) & (u < f.high);
+  const V over_gap = IfThenElse(in_gap, f.high, u);
+  const V to_inside = IfThenElse(u > f.high, kNowhere, Max(u, f.low));
+  return IfThenElse(f.upwards, over_gap, to_inside);
 }
 
 // A term along the rays.
@@ -85,8 +85,8 @@ struct TermAlong {
 // The most of a parabola between depths u and u + h, where it is `here` and `there`.
 HWY_INLINE V MostBetween(const Parabola& f, V here, V there, V h) {
   // An arch rises over its chord by no more than -a h^2 / 4.
-  const V arch = hn::Mul(hn::Max(hn::Neg(f.a), hn::Zero(D())), hn::Mul(h, h));
-  return hn::MulAdd(arch, Constant(0.25f), hn::Max(here, there));
+  const V arch = Max(-f.a, 0.0f) * (h * h);
+  return MulAdd(arch, 0.25f, Max(here, there));
 }
 
 // One step along a term, below 0 at u: how far it is surely below 0, at most h.
@@ -98,27 +98,25 @@ HWY_INLINE V SureStep(const TermAlong& term, V u, V h, V& value) {
     const Parabola& r = term.r[i];
     const V f = Constant(term.factor[i]);
     const V here = r.At(u), slope = r.HalfSlopeAt(u);
-    const V q = hn::Max(here, zero), q2 = hn::Mul(q, q);
-    g = hn::MulAdd(f, hn::Mul(q2, q), g);
-    half_slope = hn::MulAdd(hn::Mul(f, Constant(3.0f)), hn::Mul(q2, slope), half_slope);
+    const V q = Max(here, zero), q2 = q * q;
+    g = MulAdd(f, q2 * q, g);
+    half_slope = MulAdd(f * 3.0f, q2 * slope, half_slope);
     // R'' = 6 Q Q'^2 + 6 Q^2 a, with Q' linear: at most what the ends of h give.
-    const V most = hn::Max(MostBetween(r, here, r.At(hn::Add(u, h)), h), zero);
-    const V end_slope = hn::MulAdd(r.a, h, slope);
-    const V slope2 = hn::Max(hn::Mul(slope, slope), hn::Mul(end_slope, end_slope));
-    const V of_factor = term.factor[i] > 0.0f
-                            ? hn::MulAdd(Constant(4.0f), slope2, hn::Mul(most, hn::Max(r.a, zero)))
-                            : hn::Mul(most, hn::Max(hn::Neg(r.a), zero));
+    const V most = Max(MostBetween(r, here, r.At(u + h), h), zero);
+    const V end_slope = MulAdd(r.a, h, slope);
+    const V slope2 = Max(slope * slope, end_slope * end_slope);
+    const V of_factor = term.factor[i] > 0.0f ? MulAdd(4.0f, slope2, most * Max(r.a, zero))
+                                              : most * Max(-r.a, zero);
     const V size = Constant(term.factor[i] > 0.0f ? term.factor[i] : -term.factor[i]);
-    half_bend = hn::MulAdd(hn::Mul(size, Constant(0.5f)), hn::Mul(six, hn::Mul(most, of_factor)),
-                           half_bend);
+    half_bend = MulAdd(size * 0.5f, six * (most * of_factor), half_bend);
   }
   value = g;
   // The first zero of g + 2 half_slope s + half_bend s^2.
-  const V inside = hn::NegMulAdd(half_bend, g, hn::Mul(half_slope, half_slope));
-  const V below = hn::Add(half_slope, hn::Sqrt(hn::Max(inside, zero)));
-  const M has_zero = hn::And(hn::Ge(inside, zero), hn::Gt(below, zero));
-  const V step = hn::Div(hn::Neg(g), below);
-  return hn::IfThenElse(has_zero, hn::Min(step, h), h);
+  const V inside = NegMulAdd(half_bend, g, half_slope * half_slope);
+  const V below = half_slope + Sqrt(Max(inside, zero));
+  const M has_zero = (inside >= zero) & (below > zero);
+  const V step = -g / below;
+  return IfThenElse(has_zero, Min(step, h), h);
 }
 
 // Where a ray may still meet a part.
@@ -128,16 +126,14 @@ struct Stay {
 
 // Cuts off what lies in a gap at the stay's begin or end. Returns where a gap is left in its midst.
 HWY_INLINE M CutTo(const Roots& f, Stay& stay) {
-  const M starts_in_gap = hn::And(f.upwards, hn::Lt(f.low, stay.from));
-  const M ends_in_gap = hn::And(f.upwards, hn::Gt(f.high, stay.to));
+  const M starts_in_gap = f.upwards & (f.low < stay.from);
+  const M ends_in_gap = f.upwards & (f.high > stay.to);
   const V far = Constant(kNowhere);
-  const V from =
-      hn::IfThenElse(starts_in_gap, f.high, hn::IfThenElse(f.upwards, hn::Neg(far), f.low));
-  const V to = hn::IfThenElse(ends_in_gap, f.low, hn::IfThenElse(f.upwards, far, f.high));
-  stay.from = hn::Max(stay.from, from);
-  stay.to = hn::Min(stay.to, to);
-  return hn::And(f.upwards, hn::And(hn::Gt(f.high, stay.from),
-                                    hn::And(hn::Lt(f.low, stay.to), hn::Lt(f.low, f.high))));
+  const V from = IfThenElse(starts_in_gap, f.high, IfThenElse(f.upwards, -far, f.low));
+  const V to = IfThenElse(ends_in_gap, f.low, IfThenElse(f.upwards, far, f.high));
+  stay.from = Max(stay.from, from);
+  stay.to = Min(stay.to, to);
+  return f.upwards & ((f.high > stay.from) & ((f.low < stay.to) & (f.low < f.high)));
 }
 
 // A term's perturbations on a packet's rays: between which depths each may tell.
@@ -151,8 +147,8 @@ HWY_INLINE Perturbed PerturbedOf(const TermAlong& term) {
     const Roots roots = RootsOf(term.r[i]);
     // One that opens upwards tells outside its gap, here: everywhere.
     const V far = Constant(kNowhere);
-    along.tells[i] = {hn::IfThenElse(roots.upwards, hn::Neg(far), roots.low),
-                      hn::IfThenElse(roots.upwards, far, roots.high)};
+    along.tells[i] = {IfThenElse(roots.upwards, -far, roots.low),
+                      IfThenElse(roots.upwards, far, roots.high)};
   }
   return along;
 }
@@ -171,54 +167,52 @@ HWY_INLINE V WalkInside(const TermAlong& term, const Roots& base, const Perturbe
       has_dent = true;
       continue;
     }
-    const V bump = hn::IfThenElse(hn::Gt(along.tells[i].to, u), hn::Max(along.tells[i].from, u),
-                                  Constant(kNowhere));
-    start = hn::Min(start, bump);
+    const V bump = IfThenElse(along.tells[i].to > u, Max(along.tells[i].from, u), kNowhere);
+    start = Min(start, bump);
   }
   M told = hn::FirstN(d, 0);
   for (std::size_t i = 0; i < term.perturbations; ++i)
-    told =
-        hn::Or(told, hn::And(hn::Gt(start, along.tells[i].from), hn::Lt(start, along.tells[i].to)));
-  told = hn::Or(told, hn::Lt(start, of_base));
+    told = told | ((start > along.tells[i].from) & (start < along.tells[i].to));
+  told = told | (start < of_base);
   u = start;
-  M walking = hn::And(hn::And(lanes, told), hn::Lt(u, to));
-  const V short_stretch = hn::Mul(least_step, Constant(64.0f));
-  V h = hn::Mul(hn::Sub(to, u), Constant(0.25f));
+  M walking = (lanes & told) & (u < to);
+  const V short_stretch = least_step * 64.0f;
+  V h = (to - u) * 0.25f;
   // Where nothing takes away from the base it ends there.
   if (!has_dent) {
-    const M ends = hn::Lt(of_base, to);
-    h = hn::IfThenElse(hn::And(ends, hn::Gt(of_base, u)), hn::Sub(of_base, u), h);
+    const M ends = of_base < to;
+    h = IfThenElse(ends & (of_base > u), of_base - u, h);
   }
   for (int k = 0; k < kMostSteps && !hn::AllFalse(d, walking); ++k) {
     V value;
     const V step = SureStep(term, u, h, value);
-    const M inside = hn::Ge(value, hn::Zero(d));
+    const M inside = value >= 0.0f;
     walking = hn::AndNot(inside, walking);
-    u = hn::IfThenElse(walking, hn::Add(u, step), u);
+    u = IfThenElse(walking, u + step, u);
     // So near a zero as to be there; but over a long stretch M may be far too much.
-    const M arrives = hn::And(hn::Lt(step, least_step), hn::Le(h, short_stretch));
+    const M arrives = (step < least_step) & (h <= short_stretch);
     walking = hn::AndNot(arrives, walking);
-    const M passed = hn::And(walking, hn::Ge(u, to));
-    u = hn::IfThenElse(passed, Constant(kNowhere), u);
+    const M passed = walking & (u >= to);
+    u = IfThenElse(passed, kNowhere, u);
     walking = hn::AndNot(passed, walking);
-    const V less = hn::Max(hn::Mul(step, Constant(4.0f)), hn::Mul(h, Constant(1.0f / 16.0f)));
-    const V next = hn::IfThenElse(hn::Lt(step, h), less, hn::Mul(h, Constant(2.0f)));
-    const V left = hn::Max(hn::Sub(to, u), least_step);
-    h = hn::Min(hn::Max(next, hn::Add(least_step, least_step)), left);
+    const V less = Max(step * 4.0f, h * (1.0f / 16.0f));
+    const V next = IfThenElse(step < h, less, h * 2.0f);
+    const V left = Max(to - u, least_step);
+    h = Min(Max(next, least_step + least_step), left);
   }
   return u;
 }
 
 HWY_INLINE V Inverse(V along) {
-  const M is_level = hn::Lt(hn::Abs(along), Constant(kSmallest));
-  return hn::Div(Constant(1.0f), hn::IfThenElse(is_level, Constant(kSmallest), along));
+  const M is_level = Abs(along) < kSmallest;
+  return 1.0f / IfThenElse(is_level, kSmallest, along);
 }
 
 HWY_INLINE void StayAlong(V p, V inverse, float half, Stay& stay) {
-  const V a = hn::Mul(hn::Sub(Constant(-half), p), inverse);
-  const V b = hn::Mul(hn::Sub(Constant(half), p), inverse);
-  stay.from = hn::Max(stay.from, hn::Min(a, b));
-  stay.to = hn::Min(stay.to, hn::Max(a, b));
+  const V a = (-half - p) * inverse;
+  const V b = (half - p) * inverse;
+  stay.from = Max(stay.from, Min(a, b));
+  stay.to = Min(stay.to, Max(a, b));
 }
 
 HWY_INLINE TermAlong TermOf(const PosedForm& form, const RayTerm& term, const RayPacket& ray) {
@@ -239,8 +233,7 @@ HWY_INLINE V FirstInside(const PosedForm& form, const RayPart& part, const RayPa
                          Stay& stay, M lanes) {
   const D d;
   const RayTerm& first = form.terms[part.first_term];
-  const V least_step =
-      hn::Mul(Constant(2e-7f), hn::Add(hn::Sub(stay.to, stay.from), hn::Abs(stay.from)));
+  const V least_step = 2e-7f * (stay.to - stay.from + Abs(stay.from));
   // Terms without perturbations are intervals, or all but a gap.
   std::array<Roots, scene::kMostTerms> gaps;
   std::size_t gap_count = 0;
@@ -248,9 +241,9 @@ HWY_INLINE V FirstInside(const PosedForm& form, const RayPart& part, const RayPa
     Roots& roots = gaps[gap_count];
     roots = RootsOf(Along(form.terms[part.first_term + i].quadric, ray));
     const M has_gap = CutTo(roots, stay);
-    lanes = hn::And(lanes, hn::Lt(stay.from, stay.to));
+    lanes = lanes & (stay.from < stay.to);
     if (hn::AllFalse(d, lanes)) return Constant(kNowhere);
-    gap_count += hn::AllFalse(d, hn::And(has_gap, lanes)) ? 0 : 1;
+    gap_count += hn::AllFalse(d, has_gap & lanes) ? 0 : 1;
   }
   V u = stay.from;
   if (first.perturbations == 0) {
@@ -265,7 +258,7 @@ HWY_INLINE V FirstInside(const PosedForm& form, const RayPart& part, const RayPa
     const V before = u;
     u = WalkInside(term, base, along, u, stay.to, least_step, lanes);
     for (std::size_t i = 0; i < gap_count; ++i) u = NextInside(gaps[i], u);
-    const M moved = hn::And(lanes, hn::And(hn::Gt(u, before), hn::Lt(u, stay.to)));
+    const M moved = lanes & ((u > before) & (u < stay.to));
     if (gap_count == 0 || hn::AllFalse(d, moved)) break;
   }
   return u;
@@ -273,42 +266,35 @@ HWY_INLINE V FirstInside(const PosedForm& form, const RayPart& part, const RayPa
 
 HWY_INLINE RayPacket StraightRays(const RayBlock& block, V x, V y) {
   const V3 dx = Constant(block.ray_dx), dy = Constant(block.ray_dy);
-  const V3 aside = {hn::MulAdd(dx.x, x, hn::Mul(dy.x, y)), hn::MulAdd(dx.y, x, hn::Mul(dy.y, y)),
-                    hn::MulAdd(dx.z, x, hn::Mul(dy.z, y))};
-  return {ScaleAdd(aside, Constant(block.middle_depth_m), Constant(block.middle)),
-          {hn::Add(aside.x, Constant(block.ray.x)), hn::Add(aside.y, Constant(block.ray.y)),
-           hn::Add(aside.z, Constant(block.ray.z))}};
+  const V3 aside = {MulAdd(dx.x, x, dy.x * y), MulAdd(dx.y, x, dy.y * y),
+                    MulAdd(dx.z, x, dy.z * y)};
+  return {MulAdd(aside, Constant(block.middle_depth_m), Constant(block.middle)),
+          {aside.x + block.ray.x, aside.y + block.ray.y, aside.z + block.ray.z}};
 }
 
 HWY_INLINE V3 Turned(const glm::mat3& m, V3 v) {
-  return {hn::MulAdd(Constant(m[0].x), v.x,
-                     hn::MulAdd(Constant(m[1].x), v.y, hn::Mul(Constant(m[2].x), v.z))),
-          hn::MulAdd(Constant(m[0].y), v.x,
-                     hn::MulAdd(Constant(m[1].y), v.y, hn::Mul(Constant(m[2].y), v.z))),
-          hn::MulAdd(Constant(m[0].z), v.x,
-                     hn::MulAdd(Constant(m[1].z), v.y, hn::Mul(Constant(m[2].z), v.z)))};
+  return {MulAdd(m[0].x, v.x, MulAdd(m[1].x, v.y, m[2].x * v.z)),
+          MulAdd(m[0].y, v.x, MulAdd(m[1].y, v.y, m[2].y * v.z)),
+          MulAdd(m[0].z, v.x, MulAdd(m[1].z, v.y, m[2].z * v.z))};
 }
 
 // Snell's law keeps the horizontal part of a ray whose depth is that of what it shows.
 HWY_INLINE RayPacket RaysBeyondWater(const RayBlock& block, V x, V y, V& from) {
-  const D d;
   const BentRays& bent = *block.bent;
   const V3 ray =
-      ScaleAdd(Constant(bent.ray_dx), x, ScaleAdd(Constant(bent.ray_dy), y, Constant(bent.ray)));
-  const V horizontal2 = hn::MulAdd(ray.x, ray.x, hn::Mul(ray.y, ray.y));
-  const V length2 = hn::MulAdd(ray.z, ray.z, horizontal2);
-  const V beyond2 = hn::MulSub(Constant(bent.index2), length2, horizontal2);
-  const V meets = hn::Div(Constant(bent.level_rel_m - bent.rise_m), ray.z);
-  const M goes_on = hn::And(hn::Gt(hn::Mul(ray.z, Constant(bent.towards)), Constant(1e-6f)),
-                            hn::And(hn::Gt(beyond2, hn::Zero(d)), hn::Gt(meets, hn::Zero(d))));
-  from = hn::IfThenElse(goes_on, from, Constant(kNowhere));
+      MulAdd(Constant(bent.ray_dx), x, MulAdd(Constant(bent.ray_dy), y, Constant(bent.ray)));
+  const V horizontal2 = MulAdd(ray.x, ray.x, ray.y * ray.y);
+  const V length2 = MulAdd(ray.z, ray.z, horizontal2);
+  const V beyond2 = MulSub(bent.index2, length2, horizontal2);
+  const V meets = (bent.level_rel_m - bent.rise_m) / ray.z;
+  const M goes_on = (ray.z * bent.towards > 1e-6f) & ((beyond2 > 0.0f) & (meets > 0.0f));
+  from = IfThenElse(goes_on, from, kNowhere);
   const V depth = Constant(block.middle_depth_m);
-  const V down = hn::Mul(Constant(bent.towards), hn::Sqrt(hn::Max(beyond2, Constant(1e-12f))));
+  const V down = bent.towards * Sqrt(Max(beyond2, 1e-12f));
   const V3 way = {ray.x, ray.y, down};
-  const V safe = hn::IfThenElse(goes_on, meets, depth);
-  const V3 p = {hn::Mul(ray.x, depth), hn::Mul(ray.y, depth),
-                hn::MulAdd(hn::Sub(depth, safe), down, Constant(bent.level_rel_m))};
-  return {Turned(bent.form_from_world, Difference(p, Constant(bent.origin_rel))),
+  const V safe = IfThenElse(goes_on, meets, depth);
+  const V3 p = {ray.x * depth, ray.y * depth, MulAdd(depth - safe, down, bent.level_rel_m)};
+  return {Turned(bent.form_from_world, p - Constant(bent.origin_rel)),
           Turned(bent.form_from_world, way)};
 }
 
@@ -318,15 +304,14 @@ HWY_INLINE void CutOff(const RayBlock& block, const RayPacket& ray, Stay& stay) 
   const V far = Constant(kNowhere), zero = hn::Zero(d);
   for (int i = 0; i < block.plane_count; ++i) {
     const glm::vec4 plane = block.planes[static_cast<std::size_t>(i)];
-    const V over = hn::Add(Dot(ray.p, Constant(glm::vec3(plane))), Constant(plane.w));
+    const V over = Dot(ray.p, Constant(glm::vec3(plane))) + plane.w;
     const V rise = Dot(ray.d, Constant(glm::vec3(plane)));
-    const V at = hn::Div(hn::Neg(over), hn::IfThenElse(hn::Eq(rise, zero), Constant(1.0f), rise));
-    const V from = hn::IfThenElse(hn::Gt(rise, zero), at, hn::Neg(far));
-    const M is_level = hn::Eq(rise, zero);
-    const V to = hn::IfThenElse(hn::Lt(rise, zero), at, far);
-    stay.from = hn::Max(stay.from, from);
-    stay.to =
-        hn::Min(stay.to, hn::IfThenElse(hn::And(is_level, hn::Lt(over, zero)), hn::Neg(far), to));
+    const V at = -over / IfThenElse(rise == zero, 1.0f, rise);
+    const V from = IfThenElse(rise > zero, at, -far);
+    const M is_level = rise == zero;
+    const V to = IfThenElse(rise < zero, at, far);
+    stay.from = Max(stay.from, from);
+    stay.to = Min(stay.to, IfThenElse(is_level & (over < zero), -far, to));
   }
 }
 
@@ -342,33 +327,32 @@ HWY_INLINE void CastPacket(const PosedForm& form, std::span<const std::uint16_t>
   CutOff(block, rays, whole);
   const V before = hn::LoadU(d, z);
   // What is there already; as far again as rounding goes.
-  const V there = hn::Div(Constant(1.0001f * block.near_m), hn::Max(before, Constant(1e-30f)));
-  whole.to = hn::Min(whole.to, hn::Sub(there, Constant(block.middle_depth_m)));
+  const V there = 1.0001f * block.near_m / Max(before, 1e-30f);
+  whole.to = Min(whole.to, there - block.middle_depth_m);
   const V3 inverse = {Inverse(rays.d.x), Inverse(rays.d.y), Inverse(rays.d.z)};
   V nearest = whole.to;
   auto found = hn::Set(du, 0u);
   M any = hn::FirstN(d, 0);
   for (const std::uint16_t number : parts) {
     const RayPart& part = form.parts[number];
-    const RayPacket ray = {Difference(rays.p, Constant(part.middle)), rays.d};
+    const RayPacket ray = {rays.p - Constant(part.middle), rays.d};
     Stay stay = {whole.from, nearest};
     StayAlong(ray.p.x, inverse.x, part.half.x, stay);
     StayAlong(ray.p.y, inverse.y, part.half.y, stay);
     StayAlong(ray.p.z, inverse.z, part.half.z, stay);
-    const M passes = hn::Lt(stay.from, stay.to);
+    const M passes = stay.from < stay.to;
     if (hn::AllFalse(d, passes)) continue;
     const V u = FirstInside(form, part, ray, stay, passes);
-    const M met = hn::And(passes, hn::Lt(u, stay.to));
-    nearest = hn::IfThenElse(met, u, nearest);
-    found = hn::IfThenElse(hn::RebindMask(du, met), hn::Set(du, first_primitive + number), found);
-    any = hn::Or(any, met);
+    const M met = passes & (u < stay.to);
+    nearest = IfThenElse(met, u, nearest);
+    found = IfThenElse(hn::RebindMask(du, met), hn::Set(du, first_primitive + number), found);
+    any = any | met;
   }
-  const V depth = hn::Add(nearest, Constant(block.middle_depth_m));
-  const V z_found = hn::Div(Constant(block.near_m), depth);
-  const M shows = hn::And(any, hn::Gt(z_found, before));
-  hn::StoreU(hn::IfThenElse(shows, z_found, before), d, z);
-  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, shows), found, hn::LoadU(du, primitive)), du,
-             primitive);
+  const V depth = nearest + block.middle_depth_m;
+  const V z_found = block.near_m / depth;
+  const M shows = any & (z_found > before);
+  hn::StoreU(IfThenElse(shows, z_found, before), d, z);
+  hn::StoreU(IfThenElse(hn::RebindMask(du, shows), found, hn::LoadU(du, primitive)), du, primitive);
 }
 
 void CastRays(const PosedForm& form, std::span<const std::uint16_t> parts, const RayBlock& block,

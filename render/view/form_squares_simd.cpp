@@ -35,9 +35,9 @@ struct Beams {
 
 // The most of q + g s + k s^2 for s in [-1, 1].
 HWY_INLINE V MostAlong(V q, V g, V k) {
-  const V size = hn::Abs(g), bend = hn::Neg(hn::Add(k, k));
-  const V turn = hn::MulAdd(hn::Mul(g, g), hn::Div(Constant(0.5f), bend), q);
-  return hn::IfThenElse(hn::Lt(size, bend), turn, hn::Add(q, hn::Add(size, k)));
+  const V size = Abs(g), bend = -(k + k);
+  const V turn = MulAdd(g * g, 0.5f / bend, q);
+  return IfThenElse(size < bend, turn, q + (size + k));
 }
 
 // A quadric over beams is q + g.s + s^T K s. Along the beam its range is exact; the squares' sides
@@ -48,26 +48,23 @@ struct Range {
 
 HWY_INLINE Range RangeOf(const RayQuadric& f, const Beams& beams) {
   const V3 b = Constant(f.b), bent = Times(f, beams.middle), along = Times(f, beams.along);
-  const V3 half_slope = Sum(bent, b);
-  const V q = hn::Add(Dot(beams.middle, Sum(half_slope, b)), Constant(f.c));
-  const V g = hn::Mul(Constant(2.0f), Dot(half_slope, beams.along));
+  const V3 half_slope = bent + b;
+  const V q = Dot(beams.middle, half_slope + b) + f.c;
+  const V g = 2.0f * Dot(half_slope, beams.along);
   const V k = Dot(along, beams.along);
   const V3 across = Constant(beams.across), down = Constant(beams.down);
   const glm::vec3 bent_across = f.times(beams.across), bent_down = f.times(beams.down);
   const float both = glm::dot(beams.across, bent_down);
-  const V mixed = hn::Add(hn::Abs(Dot(along, across)),
-                          hn::Add(hn::Abs(Dot(along, down)), Constant(both < 0.0f ? -both : both)));
-  const V g_across = hn::Mul(Constant(2.0f), Dot(half_slope, across));
-  const V g_down = hn::Mul(Constant(2.0f), Dot(half_slope, down));
+  const V mixed = Abs(Dot(along, across)) + (Abs(Dot(along, down)) + (both < 0.0f ? -both : both));
+  const V g_across = 2.0f * Dot(half_slope, across);
+  const V g_down = 2.0f * Dot(half_slope, down);
   const V k_across = Constant(glm::dot(beams.across, bent_across));
   const V k_down = Constant(glm::dot(beams.down, bent_down));
   const V zero = hn::Zero(D());
-  const V wider = hn::MulAdd(Constant(2.0f), mixed, Constant(rounding_of(f, beams.reach)));
-  const V more = hn::Add(MostAlong(zero, g_across, k_across), MostAlong(zero, g_down, k_down));
-  const V less = hn::Add(MostAlong(zero, g_across, hn::Neg(k_across)),
-                         MostAlong(zero, g_down, hn::Neg(k_down)));
-  return {hn::Neg(hn::Add(MostAlong(hn::Neg(q), g, hn::Neg(k)), hn::Add(less, wider))),
-          hn::Add(MostAlong(q, g, k), hn::Add(more, wider))};
+  const V wider = MulAdd(2.0f, mixed, rounding_of(f, beams.reach));
+  const V more = MostAlong(zero, g_across, k_across) + MostAlong(zero, g_down, k_down);
+  const V less = MostAlong(zero, g_across, -k_across) + MostAlong(zero, g_down, -k_down);
+  return {-(MostAlong(-q, g, -k) + (less + wider)), MostAlong(q, g, k) + (more + wider)};
 }
 
 HWY_INLINE V MostOf(const PosedForm& form, const RayTerm& term, const Beams& beams) {
@@ -75,10 +72,10 @@ HWY_INLINE V MostOf(const PosedForm& form, const RayTerm& term, const Beams& bea
   for (std::size_t i = 0; i < term.perturbations; ++i) {
     const RayPerturbation& r = form.perturbations[term.first_perturbation + i];
     const Range range = RangeOf(r.quadric, beams);
-    const V q = hn::Max(r.factor > 0.0f ? range.high : range.low, hn::Zero(D()));
+    const V q = Max(r.factor > 0.0f ? range.high : range.low, 0.0f);
     constexpr float kRounding = 1e-5f;
     const float factor = r.factor * (r.factor > 0.0f ? 1.0f + kRounding : 1.0f - kRounding);
-    most = hn::MulAdd(Constant(factor), hn::Mul(hn::Mul(q, q), q), most);
+    most = MulAdd(factor, q * q * q, most);
   }
   return most;
 }
@@ -101,10 +98,10 @@ std::uint64_t SquaresShowing(const PosedForm& form, const RayPart& part, const S
     if ((squares >> first & kPacket) == 0) continue;
     const hn::RebindToSigned<D> di;
     const auto number = hn::Iota(di, static_cast<int>(first));
-    const V i = hn::ConvertTo(d, hn::And(number, hn::Set(di, kSquares - 1)));
+    const V i = hn::ConvertTo(d, number & hn::Set(di, kSquares - 1));
     const V j = hn::ConvertTo(d, hn::ShiftRight<3>(number));
     const auto at = [&](glm::vec3 base, glm::vec3 dx, glm::vec3 dy) HWY_ATTR {
-      return ScaleAdd(Constant(dx), i, ScaleAdd(Constant(dy), j, Constant(base)));
+      return MulAdd(Constant(dx), i, MulAdd(Constant(dy), j, Constant(base)));
     };
     const Beams of_packet = {at(beams.middle, beams.middle_dx, beams.middle_dy),
                              at(beams.along, beams.along_dx, beams.along_dy), beams.across,
@@ -112,7 +109,7 @@ std::uint64_t SquaresShowing(const PosedForm& form, const RayPart& part, const S
     M may = hn::FirstN(d, kLanes);
     for (std::uint32_t term = 0; term < part.terms && !hn::AllFalse(d, may); ++term) {
       const V most = MostOf(form, form.terms[part.first_term + term], of_packet);
-      may = hn::And(may, hn::Ge(most, hn::Zero(d)));
+      may = may & (most >= 0.0f);
     }
     std::array<std::uint8_t, 8> bits{};
     hn::StoreMaskBits(d, may, bits.data());

@@ -12,15 +12,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-using DU = hn::RebindToUnsigned<D>;
-using M = hn::Mask<D>;
 
 // A p.
 HWY_INLINE V3 Times(const RayQuadric& f, V3 p) {
   const V xy = Constant(f.xy), xz = Constant(f.xz), yz = Constant(f.yz);
-  return {hn::MulAdd(Constant(f.xx), p.x, hn::MulAdd(xy, p.y, hn::Mul(xz, p.z))),
-          hn::MulAdd(xy, p.x, hn::MulAdd(Constant(f.yy), p.y, hn::Mul(yz, p.z))),
-          hn::MulAdd(xz, p.x, hn::MulAdd(yz, p.y, hn::Mul(Constant(f.zz), p.z)))};
+  return {MulAdd(f.xx, p.x, MulAdd(xy, p.y, xz * p.z)),
+          MulAdd(xy, p.x, MulAdd(f.yy, p.y, yz * p.z)),
+          MulAdd(xz, p.x, MulAdd(yz, p.y, f.zz * p.z))};
 }
 
 }  // namespace HWY_NAMESPACE

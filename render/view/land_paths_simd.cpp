@@ -15,8 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-using M = hn::Mask<D>;
-
 struct Paths {
   V z, z_t, z_tt, begin, end;
 };
@@ -29,12 +27,12 @@ struct Crossings {
 // Where z + z_t t + z_tt t^2 is 0 for the first time after t = 0.
 HWY_INLINE Crossings FirstCrossings(V z, V z_t, V z_tt) {
   const V zero = hn::Zero(D());
-  const V root2 = hn::Sub(hn::Mul(z_t, z_t), hn::Mul(hn::Mul(Constant(4.0f), z_tt), z));
-  const V root = hn::Sqrt(hn::Max(root2, zero));
-  const V under = hn::IfThenElse(hn::Gt(z, zero), hn::Sub(z_t, root), hn::Add(z_t, root));
-  const V t = hn::Div(hn::Mul(Constant(-2.0f), z), under);
-  const M crosses = hn::And(hn::Ge(root2, zero), hn::Ne(z, zero));
-  return {t, hn::And(crosses, hn::And(hn::Ne(under, zero), hn::Gt(t, zero)))};
+  const V root2 = z_t * z_t - 4.0f * z_tt * z;
+  const V root = Sqrt(Max(root2, zero));
+  const V under = IfThenElse(z > zero, z_t - root, z_t + root);
+  const V t = -2.0f * z / under;
+  const M crosses = (root2 >= zero) & (z != zero);
+  return {t, crosses & ((under != zero) & (t > zero))};
 }
 
 HWY_INLINE Paths Straight(const RenderView& view, V3 direction, V sag) {
@@ -44,34 +42,32 @@ HWY_INLINE Paths Straight(const RenderView& view, V3 direction, V sag) {
 
 // No way at all where a mask is false.
 HWY_INLINE Paths Where(M mask, const Paths& p) {
-  return {hn::IfThenElseZero(mask, p.z), hn::IfThenElseZero(mask, p.z_t),
-          hn::IfThenElseZero(mask, p.z_tt), hn::IfThenElse(mask, p.begin, Constant(1.0f)),
-          hn::IfThenElseZero(mask, p.end)};
+  return {IfThenElseZero(mask, p.z), IfThenElseZero(mask, p.z_t), IfThenElseZero(mask, p.z_tt),
+          IfThenElse(mask, p.begin, 1.0f), IfThenElseZero(mask, p.end)};
 }
 
 HWY_INLINE Paths Mirrored(const RenderView& view, float above_m, V3 direction, V sag, V begin) {
-  return {Constant(view.level_m - above_m), hn::Neg(direction.z), hn::Neg(sag),
-          hn::Max(begin, Constant(view.camera.near_m)), Constant(kFarthestLand)};
+  return {Constant(view.level_m - above_m), -direction.z, -sag, Max(begin, view.camera.near_m),
+          Constant(kFarthestLand)};
 }
 
 // On from where they meet the level at t.
 HWY_INLINE Paths Refracted(const RenderView& view, V3 direction, V h2, V sag, const Crossings& at) {
   const V zero = hn::Zero(D());
-  const V z_t = hn::Add(direction.z, hn::Mul(hn::Add(sag, sag), at.t));
+  const V z_t = direction.z + (sag + sag) * at.t;
   const float n = view.eye.submerged ? 1.0f / view.refraction_index : view.refraction_index;
-  const V down2 = hn::Sub(hn::Mul(Constant(n * n), hn::Add(h2, hn::Mul(z_t, z_t))), h2);
-  const V down = hn::Sqrt(hn::Max(down2, zero));
-  const V before = hn::Div(Constant(view.clip_margin_m), down);
-  const V slope = view.eye.submerged ? down : hn::Neg(down);
-  const Paths paths = {hn::Sub(Constant(view.level_m), hn::Mul(at.t, slope)), slope, zero,
-                       hn::Max(hn::Sub(at.t, before), Constant(view.camera.near_m)),
-                       Constant(kFarthestLand)};
-  return Where(hn::And(at.any, hn::Gt(down2, zero)), paths);  // or mirrored wholly
+  const V down2 = n * n * (h2 + z_t * z_t) - h2;
+  const V down = Sqrt(Max(down2, zero));
+  const V before = view.clip_margin_m / down;
+  const V slope = view.eye.submerged ? down : -down;
+  const Paths paths = {view.level_m - at.t * slope, slope, zero,
+                       Max(at.t - before, view.camera.near_m), Constant(kFarthestLand)};
+  return Where(at.any & (down2 > zero), paths);  // or mirrored wholly
 }
 
 HWY_INLINE Paths PathsOf(const RenderView& view, V3 direction) {
-  const V h2 = hn::Add(hn::Mul(direction.x, direction.x), hn::Mul(direction.y, direction.y));
-  const V sag = hn::Mul(Constant(view.drop_per_m2), h2);
+  const V h2 = direction.x * direction.x + direction.y * direction.y;
+  const V sag = view.drop_per_m2 * h2;
   const Paths straight = Straight(view, direction, sag);
   if (view.kind == ViewKind::kWindow) return straight;
 
@@ -87,20 +83,19 @@ HWY_INLINE Paths PathsOf(const RenderView& view, V3 direction) {
 
 // The part of paths that lies above a height: where they come down to it, or from where they rise.
 HWY_INLINE void ClipToOutline(float outline_m, Paths& p) {
-  const V slope = hn::Add(p.z_t, hn::Mul(p.begin, p.z_tt));
-  const V above = hn::Sub(hn::Add(p.z, hn::Mul(p.begin, slope)), Constant(outline_m));
-  const V rise = hn::Add(p.z_t, hn::Mul(hn::Mul(Constant(2.0f), p.z_tt), p.begin));
+  const V slope = p.z_t + p.begin * p.z_tt;
+  const V above = p.z + p.begin * slope - outline_m;
+  const V rise = p.z_t + 2.0f * p.z_tt * p.begin;
   const Crossings way = FirstCrossings(above, rise, p.z_tt);
-  const V there = hn::Add(p.begin, way.t);
-  const M is_above = hn::Ge(above, hn::Zero(D()));
-  p.begin = hn::IfThenElse(is_above, p.begin, hn::IfThenElse(way.any, there, p.end));
-  p.end = hn::IfThenElse(hn::And(is_above, way.any), hn::Min(p.end, there), p.end);
+  const V there = p.begin + way.t;
+  const M is_above = above >= 0.0f;
+  p.begin = IfThenElse(is_above, p.begin, IfThenElse(way.any, there, p.end));
+  p.end = IfThenElse(is_above & way.any, Min(p.end, there), p.end);
 }
 
 // ray + y ray_dy + x ray_dx.
 HWY_INLINE V DirectionOf(float ray, float ray_dx, float ray_dy, V x_px, V y_px) {
-  return hn::Add(hn::Add(Constant(ray), hn::Mul(y_px, Constant(ray_dy))),
-                 hn::Mul(x_px, Constant(ray_dx)));
+  return ray + y_px * ray_dy + x_px * ray_dx;
 }
 
 void SetLandRays(const RenderView& view, const ViewRays& rays, const LandRaysThrough& through) {
@@ -126,13 +121,12 @@ void SetLandRays(const RenderView& view, const ViewRays& rays, const LandRaysThr
                           DirectionOf(rays.ray.z, rays.ray_dx.z, rays.ray_dy.z, x_px, y_px)};
     Paths paths = PathsOf(view, direction);
     if (view.land->outline_m) ClipToOutline(*view.land->outline_m, paths);
-    const V there = hn::Min(paths.end, hn::Div(Constant(rays.near_m), depth));
-    paths.end = hn::IfThenElse(hn::Gt(depth, hn::Zero(d)), there, paths.end);
+    const V there = Min(paths.end, rays.near_m / depth);
+    paths.end = IfThenElse(depth > 0.0f, there, paths.end);
     store(direction.x, through.x), store(direction.y, through.y);
     store(paths.z, through.z), store(paths.z_t, through.z_t), store(paths.z_tt, through.z_tt);
-    const auto begin = [&](std::span<const float> free) HWY_ATTR {
-      return hn::Min(hn::Max(paths.begin, load(free)), Constant(kFarthestLand));
-    };
+    const auto begin = [&](std::span<const float> free)
+                           HWY_ATTR { return Min(Max(paths.begin, load(free)), kFarthestLand); };
     store(begin(through.free), through.begin);
     store(begin(through.free_around), through.begin_around);
     store(paths.end, through.end);

@@ -14,6 +14,7 @@
 #include "render/world/land_shadow.h"
 //
 #include "math/elementary-inl.h"
+#include "math/lanes-inl.h"
 
 #ifndef SWELL_RENDER_WORLD_CAUSTIC_RAYS_
 #define SWELL_RENDER_WORLD_CAUSTIC_RAYS_
@@ -47,11 +48,7 @@ struct SoftPass {
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
-using DU = hn::RebindToUnsigned<D>;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 // How a ray -l leaves a surface with normal N = (-grad h, 1) / |.|: as
 // share (-l) + along N, up or down.
@@ -67,19 +64,18 @@ struct Refract {
   HWY_INLINE Leaving operator()(const RayConstants& c, V cos_i, V inv_length) const {
     const D d;
     const V inv_n = hn::Set(d, c.inv_n), one = hn::Set(d, 1.0f);
-    const V sin2_t = hn::Mul(hn::NegMulAdd(cos_i, cos_i, one), hn::Mul(inv_n, inv_n));
-    const V along = hn::Mul(hn::MulSub(cos_i, inv_n, hn::Sqrt(hn::Sub(one, sin2_t))), inv_length);
-    return {along, hn::MulSub(hn::Set(d, c.to_light.z), inv_n, along), c.inv_n, 1.0f};
+    const V sin2_t = NegMulAdd(cos_i, cos_i, one) * (inv_n * inv_n);
+    const V along = MulSub(cos_i, inv_n, Sqrt(one - sin2_t)) * inv_length;
+    return {along, MulSub(c.to_light.z, inv_n, along), c.inv_n, 1.0f};
   }
 };
 
 // r = -l + 2 cos_i N. Waves that mirror light down are taken to mirror it far sideways.
 struct Mirror {
   HWY_INLINE Leaving operator()(const RayConstants& c, V cos_i, V inv_length) const {
-    const D d;
-    const V along = hn::Mul(hn::Add(cos_i, cos_i), inv_length);
-    const V up = hn::Sub(along, hn::Set(d, c.to_light.z));
-    return {along, hn::Max(up, hn::Set(d, kLeastRise)), 1.0f, -1.0f};
+    const V along = (cos_i + cos_i) * inv_length;
+    const V up = along - c.to_light.z;
+    return {along, Max(up, kLeastRise), 1.0f, -1.0f};
   }
 };
 
@@ -92,24 +88,22 @@ HWY_INLINE void TurnRays(const RayConstants& c, const WaveFields& waves, const L
   const std::size_t count = rays.per_depth_x.size();
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const V sx = hn::LoadU(d, waves.slope_x + i), sy = hn::LoadU(d, waves.slope_y + i);
-    const V inv_length = hn::Div(one, hn::Sqrt(hn::MulAdd(sx, sx, hn::MulAdd(sy, sy, one))));
-    const V facing = hn::NegMulAdd(sx, lx, hn::NegMulAdd(sy, ly, lz));
-    const V cos_i = hn::Max(hn::Mul(facing, inv_length), set(0.02f));
+    const V inv_length = one / Sqrt(MulAdd(sx, sx, MulAdd(sy, sy, one)));
+    const V facing = NegMulAdd(sx, lx, NegMulAdd(sy, ly, lz));
+    const V cos_i = Max(facing * inv_length, set(0.02f));
     const Leaving ray = leave(c, cos_i, inv_length);
     const auto slant = [&](V l, V slope) HWY_ATTR {
-      const V sideways = hn::MulAdd(l, set(ray.share), hn::Mul(slope, ray.along));
-      return hn::Div(hn::Neg(sideways), ray.away);
+      const V sideways = MulAdd(l, set(ray.share), slope * ray.along);
+      return -sideways / ray.away;
     };
     const V slant_x = slant(lx, sx), slant_y = slant(ly, sy), higher = set(ray.higher);
-    const V height = hn::Mul(hn::LoadU(d, waves.height_m + i), set(c.texels_per_m));
-    hn::StoreU(hn::Mul(height, hn::MulAdd(slant_x, higher, set(c.from_height.x))), d,
+    const V height = hn::LoadU(d, waves.height_m + i) * set(c.texels_per_m);
+    hn::StoreU(height * MulAdd(slant_x, higher, set(c.from_height.x)), d,
                rays.from_height_x.data() + i);
-    hn::StoreU(hn::Mul(height, hn::MulAdd(slant_y, higher, set(c.from_height.y))), d,
+    hn::StoreU(height * MulAdd(slant_y, higher, set(c.from_height.y)), d,
                rays.from_height_y.data() + i);
-    hn::StoreU(hn::Mul(hn::Sub(slant_x, set(c.flat.x)), set(c.texels_per_m)), d,
-               rays.per_depth_x.data() + i);
-    hn::StoreU(hn::Mul(hn::Sub(slant_y, set(c.flat.y)), set(c.texels_per_m)), d,
-               rays.per_depth_y.data() + i);
+    hn::StoreU((slant_x - set(c.flat.x)) * set(c.texels_per_m), d, rays.per_depth_x.data() + i);
+    hn::StoreU((slant_y - set(c.flat.y)) * set(c.texels_per_m), d, rays.per_depth_y.data() + i);
   }
 }
 
@@ -130,7 +124,6 @@ void add_rays(const CausticRays& rays, float depth_m, std::uint32_t* HWY_RESTRIC
   const D d;
   const DU du;
   const hn::CappedTag<std::uint32_t, 4> dq;
-  constexpr std::size_t kLanes = hn::MaxLanes(D());
   const int size = rays.size;
   const auto mask = hn::Set(du, static_cast<std::uint32_t>(size - 1));
   const auto low_byte = hn::Set(du, 255u), whole = hn::Set(du, 256u);
@@ -142,24 +135,22 @@ void add_rays(const CausticRays& rays, float depth_m, std::uint32_t* HWY_RESTRIC
       const std::size_t n = static_cast<std::size_t>(j) * size + i;
       const auto texel_fx8 = [&](V first, const float* from_height,
                                  const float* per_depth) HWY_ATTR {
-        const V x = hn::MulAdd(hn::LoadU(d, per_depth + n), hn::Set(d, depth_m),
-                               hn::Add(hn::LoadU(d, from_height + n), first));
-        return hn::BitCast(du, swell::HWY_NAMESPACE::RoundToInt(hn::Mul(x, hn::Set(d, 256.0f))));
+        const V x =
+            MulAdd(hn::LoadU(d, per_depth + n), depth_m, hn::LoadU(d, from_height + n) + first);
+        return hn::BitCast(du, swell::HWY_NAMESPACE::RoundToInt(x * 256.0f));
       };
-      const V column = hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<float>(i) + 0.5f));
+      const V column = hn::Iota(d, 0) + (static_cast<float>(i) + 0.5f);
       const auto x = texel_fx8(column, rays.from_height_x.data(), rays.per_depth_x.data());
       const auto y = texel_fx8(hn::Set(d, static_cast<float>(j) + 0.5f), rays.from_height_y.data(),
                                rays.per_depth_y.data());
-      const auto right = hn::And(x, low_byte), below = hn::And(y, low_byte);
-      const auto left = hn::Sub(whole, right), above = hn::Sub(whole, below);
-      hn::StoreInterleaved4(hn::Mul(left, above), hn::Mul(right, above), hn::Mul(left, below),
-                            hn::Mul(right, below), du, parts);
-      const auto row = hn::And(hn::ShiftRight<8>(y), mask);
-      hn::Store(hn::Or(hn::ShiftLeftSame(row, rows_log2), hn::And(hn::ShiftRight<8>(x), mask)), du,
-                at);
+      const auto right = x & low_byte, below = y & low_byte;
+      const auto left = whole - right, above = whole - below;
+      hn::StoreInterleaved4(left * above, right * above, left * below, right * below, du, parts);
+      const auto row = hn::ShiftRight<8>(y) & mask;
+      hn::Store(hn::ShiftLeftSame(row, rows_log2) | (hn::ShiftRight<8>(x) & mask), du, at);
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         std::uint32_t* const quad = quads + 4 * static_cast<std::size_t>(at[lane]);
-        hn::Store(hn::Add(hn::Load(dq, quad), hn::Load(dq, parts + 4 * lane)), dq, quad);
+        hn::Store(hn::Load(dq, quad) + hn::Load(dq, parts + 4 * lane), dq, quad);
       }
     }
   }
@@ -183,15 +174,14 @@ void sum_quads(const std::uint32_t* HWY_RESTRICT quads, int size, float* HWY_RES
       hn::Vec<DU> q0, q1, q2, q3, p0, p1, p2, p3;
       hn::LoadInterleaved4(du, here + 4 * i, q0, q1, q2, q3);
       hn::LoadInterleaved4(du, above + 4 * i, p0, p1, p2, p3);
-      const auto value = [&](hn::Vec<DU> sum) HWY_ATTR {
-        return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, sum)), unit);
-      };
-      hn::StoreU(value(hn::Add(q0, p2)), d, out + i);
-      hn::StoreU(value(hn::Add(q1, p3)), d, row + i + 1);  // of the texels to the right
+      const auto value = [&](hn::Vec<DU> sum)
+                             HWY_ATTR { return hn::ConvertTo(d, hn::BitCast(di, sum)) * unit; };
+      hn::StoreU(value(q0 + p2), d, out + i);
+      hn::StoreU(value(q1 + p3), d, row + i + 1);  // of the texels to the right
     }
     row[0] = row[size];
     for (int i = 0; i < size; i += step)
-      hn::StoreU(hn::Add(hn::LoadU(d, out + i), hn::LoadU(d, row + i)), d, out + i);
+      hn::StoreU(hn::LoadU(d, out + i) + hn::LoadU(d, row + i), d, out + i);
   }
 }
 
@@ -203,8 +193,8 @@ void soften(const float* HWY_RESTRICT from, int size, SoftPass pass, float* HWY_
   const int stride = pass.stride;
   const V part = hn::Set(d, pass.part);
   const auto blend = [&](V before, V here, V after) HWY_ATTR {
-    const V around = hn::NegMulAdd(hn::Set(d, 2.0f), here, hn::Add(before, after));
-    return hn::MulAdd(part, around, here);
+    const V around = NegMulAdd(2.0f, here, before + after);
+    return MulAdd(part, around, here);
   };
   const auto step = static_cast<int>(hn::Lanes(d));
   for (int j = 0; j < size; ++j) {

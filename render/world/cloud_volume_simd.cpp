@@ -13,7 +13,7 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE VI ToByte(V part) {
-  return hn::ConvertTo(DI(), hn::MulAdd(Clamp(part, 0.0f, 1.0f), Constant(255.0f), Constant(0.5f)));
+  return hn::ConvertTo(DI(), MulAdd(Clamp(part, 0.0f, 1.0f), 255.0f, 0.5f));
 }
 
 // Skylight comes from straight above and from four sides; what is scattered on its way goes on, so
@@ -24,9 +24,8 @@ HWY_INLINE V SkylightAt(const CloudVolume& volume, V3 place) {
       glm::vec3(0.1f, -0.8f, 0.6f), glm::vec3(-0.1f, 0.8f, 0.6f)};
   V sum = hn::Zero(D());
   for (const glm::vec3& from : kFrom)
-    sum = hn::Add(sum, Exp(D(), hn::Mul(DepthTowards(volume, place, from, 6, 30.0f, 1.8f),
-                                        Constant(-1.0f / 3.0f))));
-  return hn::Mul(sum, Constant(1.0f / kFrom.size()));
+    sum = sum + Exp(D(), DepthTowards(volume, place, from, 6, 30.0f, 1.8f) * (-1.0f / 3.0f));
+  return sum * (1.0f / kFrom.size());
 }
 
 void CloudLightRow(const CloudVolume& volume, glm::vec3 to_light, int level, int y,
@@ -34,13 +33,13 @@ void CloudLightRow(const CloudVolume& volume, glm::vec3 to_light, int level, int
   constexpr int n = 1 << CloudVolume::kLightSideLog2;
   const D d;
   for (int x = 0; x < n; x += static_cast<int>(hn::Lanes(d))) {
-    const V3 place = {hn::Mul(hn::ConvertTo(d, CountFrom(x)), Constant(2.0f)),
-                      Constant(2.0f * static_cast<float>(y)), Constant(static_cast<float>(level))};
+    const V3 place = {hn::ConvertTo(d, CountFrom(x)) * 2.0f, Constant(2.0f * static_cast<float>(y)),
+                      Constant(static_cast<float>(level))};
     const V depth = DepthTowards(volume, place, to_light, 22, 20.0f, 1.22f);
-    const VI sun = ToByte(Exp(d, hn::Mul(depth, Constant(-1.0f / CloudVolume::kLightDepth))));
+    const VI sun = ToByte(Exp(d, depth * (-1.0f / CloudVolume::kLightDepth)));
     const VI sky = ToByte(SkylightAt(volume, place));
     HWY_ALIGN std::array<std::int32_t, hn::MaxLanes(d)> values;
-    hn::Store(hn::Or(sun, hn::ShiftLeft<8>(sky)), DI(), values.data());
+    hn::Store(sun | hn::ShiftLeft<8>(sky), DI(), values.data());
     for (std::size_t i = 0; i < values.size(); ++i)
       row[static_cast<std::size_t>(x) + i] = static_cast<std::uint16_t>(values[i]);
   }
@@ -54,7 +53,7 @@ void CloudSunlightRow(const CloudVolume& volume, glm::vec3 to_light, int y, floa
   for (int x = 0; x < n; x += static_cast<int>(hn::Lanes(d))) {
     const V3 place = {hn::ConvertTo(d, CountFrom(x)), Constant(static_cast<float>(y)), hn::Zero(d)};
     const V depth = DepthTowards(volume, place, to_light, kSteps, way_m / kSteps, 1.0f);
-    hn::StoreU(Exp(d, hn::Neg(depth)), d, row + x);
+    hn::StoreU(Exp(d, -depth), d, row + x);
   }
 }
 

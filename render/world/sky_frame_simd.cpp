@@ -18,18 +18,17 @@ namespace HWY_NAMESPACE {
 constexpr float kSoftAngleLog2 = -4.5f;
 
 HWY_INLINE VI ByteOf(V radiance) {
-  const V part = hn::Mul(hn::Max(radiance, hn::Zero(D())), Constant(1.0f / kSoftSkyRange));
-  const V code = hn::Mul(hn::Sqrt(hn::Min(part, Constant(1.0f))), Constant(255.0f));
-  return hn::ConvertTo(DI(), hn::Add(code, Constant(0.5f)));
+  const V part = Max(radiance, 0.0f) * (1.0f / kSoftSkyRange);
+  const V code = Sqrt(Min(part, 1.0f)) * 255.0f;
+  return hn::ConvertTo(DI(), code + 0.5f);
 }
 
 HWY_INLINE VI CodeOf(V3 light) {
   const V range = Constant(kSoftSkyRange);
-  const V most = hn::Max(light.x, hn::Max(light.y, light.z));
-  const V fits = hn::Div(range, hn::Max(most, range));
-  return hn::Or(ByteOf(hn::Mul(light.x, fits)),
-                hn::Or(hn::ShiftLeft<8>(ByteOf(hn::Mul(light.y, fits))),
-                       hn::ShiftLeft<16>(ByteOf(hn::Mul(light.z, fits)))));
+  const V most = Max(light.x, Max(light.y, light.z));
+  const V fits = range / Max(most, range);
+  return ByteOf(light.x * fits) |
+         (hn::ShiftLeft<8>(ByteOf(light.y * fits)) | hn::ShiftLeft<16>(ByteOf(light.z * fits)));
 }
 
 // Lays what `volume` has at places of the map before `light`; texels: half of the map's.
@@ -37,21 +36,21 @@ HWY_INLINE V3 AddVolume(const CloudSky& volume, V column, V row, V3 light) {
   const DI di;
   constexpr float kPart = static_cast<float>(CloudSky::kSide) / kSoftSkySize;
   const auto place = [](V at) HWY_ATTR {
-    return Clamp(hn::MulAdd(at, Constant(kPart), Constant(-0.5f)), 0.0f, CloudSky::kSide - 1.001f);
+    return Clamp(MulAdd(at, kPart, -0.5f), 0.0f, CloudSky::kSide - 1.001f);
   };
   const V x = place(column), y = place(row);
   const VI i = TruncateToInt(x), j = TruncateToInt(y);
-  const V s = hn::Sub(x, hn::ConvertTo(D(), i)), t = hn::Sub(y, hn::ConvertTo(D(), j));
-  const VI upper = hn::Add(hn::Mul(j, hn::Set(di, CloudSky::kSide)), i);
+  const V s = x - hn::ConvertTo(D(), i), t = y - hn::ConvertTo(D(), j);
+  const VI upper = j * hn::Set(di, CloudSky::kSide) + i;
   const auto read = [&](std::size_t channel) HWY_ATTR {
     const float* const texels = volume.texels[channel].data();
     const auto at = [&](int offset) HWY_ATTR {
-      return hn::GatherIndex(D(), texels, hn::Add(upper, hn::Set(di, offset)));
+      return hn::GatherIndex(D(), texels, upper + hn::Set(di, offset));
     };
     return Lerp(Lerp(at(0), at(1), s), Lerp(at(CloudSky::kSide), at(CloudSky::kSide + 1), s), t);
   };
-  const V passes = hn::Sub(Constant(1.0f), read(CloudSky::kOpacity));
-  return ScaleAdd(light, passes, {read(0), read(1), read(2)});
+  const V passes = 1.0f - read(CloudSky::kOpacity);
+  return MulAdd(light, passes, {read(0), read(1), read(2)});
 }
 
 void SoftSkyRow(const SkyMaps& sky, const Clouds& clouds, const CloudSky& volume, const Fog& fog,
@@ -62,15 +61,15 @@ void SoftSkyRow(const SkyMaps& sky, const Clouds& clouds, const CloudSky& volume
   const V v = Constant(kStep * (static_cast<float>(y) + 0.5f) - 1.0f);
   const V one = Constant(1.0f);
   for (int x = 0; x < kSoftSkySize; x += static_cast<int>(hn::Lanes(d))) {
-    const V column = hn::Add(hn::ConvertTo(d, CountFrom(x)), Constant(0.5f));
-    const V u = hn::MulSub(column, Constant(kStep), one);
+    const V column = hn::ConvertTo(d, CountFrom(x)) + 0.5f;
+    const V u = MulSub(column, kStep, one);
     // Outside the horizon's circle: as at the horizon.
-    const V r2 = hn::MulAdd(u, u, hn::Mul(v, v));
-    const V z = hn::Max(hn::Div(hn::Sub(one, r2), hn::Add(one, r2)), hn::Zero(d));
-    const V across = hn::Sqrt(hn::Div(hn::NegMulAdd(z, z, one), hn::Max(r2, Constant(1e-12f))));
+    const V r2 = MulAdd(u, u, v * v);
+    const V z = Max((one - r2) / (one + r2), 0.0f);
+    const V across = Sqrt(NegMulAdd(z, z, one) / Max(r2, 1e-12f));
     const std::size_t at = static_cast<std::size_t>(y) * kSoftSkySize + static_cast<std::size_t>(x);
     const float* clear = sky.soft_clear.data() + at;
-    const V3 direction = {hn::Mul(u, across), hn::Mul(v, across), z};
+    const V3 direction = {u * across, v * across, z};
     V3 light = {hn::LoadU(d, clear), hn::LoadU(d, clear + kChannel),
                 hn::LoadU(d, clear + 2 * kChannel)};
     if (clouds.any) {

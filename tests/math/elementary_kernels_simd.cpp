@@ -10,11 +10,12 @@
 #include <hwy/highway.h>
 
 #include "math/elementary-inl.h"
+#include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace swell::HWY_NAMESPACE;  // lanes
 
 using Floats = hn::ScalableTag<float>;
 

@@ -22,7 +22,7 @@ struct EvenField {
   HWY_INLINE V EmptyUntil(V) const { return hn::Zero(D()); }
   HWY_INLINE V Body(V) const { return density; }
   HWY_INLINE V Form(V, V body) const { return body; }
-  HWY_INLINE hn::Mask<D> MayHold(V form) const { return hn::Gt(form, hn::Zero(D())); }
+  HWY_INLINE hn::Mask<D> MayHold(V form) const { return form > 0.0f; }
   HWY_INLINE V Density(V, V form) const { return form; }
   HWY_INLINE void Light(V, V& sun, V& sky) const { sun = sky = Constant(1.0f); }
 };

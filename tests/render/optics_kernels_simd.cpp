@@ -36,8 +36,8 @@ Packet PacketAt(std::span<const glm::vec3> p_rel, std::size_t first) {
   Packet packet;
   packet.x_px = packet.y_px = hn::Zero(d);
   packet.p = {hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)};
-  packet.depth = packet.distance = hn::Sqrt(Dot(packet.p, packet.p));
-  packet.to_eye = Scale(packet.p, hn::Div(Constant(-1.0f), packet.distance));
+  packet.depth = packet.distance = Sqrt(Dot(packet.p, packet.p));
+  packet.to_eye = packet.p * (-1.0f / packet.distance);
   return packet;
 }
 

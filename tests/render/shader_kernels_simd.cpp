@@ -111,9 +111,9 @@ void LightOfWater(const Shading& shading, std::span<const glm::vec3> to_eye,
     Packet packet;
     packet.x_px = packet.y_px = hn::Zero(D());
     packet.to_eye = LoadSome(to_eye, i);
-    packet.distance = hn::Div(Constant(shading.rays.eye_z), packet.to_eye.z);
+    packet.distance = shading.rays.eye_z / packet.to_eye.z;
     packet.depth = packet.distance;
-    packet.p = Scale(packet.to_eye, hn::Neg(packet.distance));
+    packet.p = packet.to_eye * -packet.distance;
     WaterSlopes slopes;
     shader.LookUp(shading, std::span(&packet, 1), &slopes);
     StoreSome(shader(shading, TilePixels{}, Lanes{}, packet, slopes).light, light, i);
@@ -209,9 +209,9 @@ void HazeBetween(const Shading& shading, std::span<const float> distance_m, glm:
     Packet packet;
     packet.distance = LoadSome(distance_m, i);
     packet.to_eye = Constant(to_eye);
-    packet.p = Scale(packet.to_eye, hn::Neg(packet.distance));
-    const V r2 = hn::MulAdd(packet.p.x, packet.p.x, hn::Mul(packet.p.y, packet.p.y));
-    packet.p.z = hn::MulAdd(r2, Constant(shading.rays.drop_per_m2), packet.p.z);
+    packet.p = packet.to_eye * -packet.distance;
+    const V r2 = MulAdd(packet.p.x, packet.p.x, packet.p.y * packet.p.y);
+    packet.p.z = MulAdd(r2, shading.rays.drop_per_m2, packet.p.z);
     StoreSome(Haze(shading, packet, Constant(light)), seen, i);
   });
 }
@@ -222,11 +222,11 @@ void SeeFogAlong(const Fog& fog, const FogStart& start, std::span<const glm::vec
   ForPackets(direction.size(), [&](std::size_t i) {
     const V3 d = LoadSome(direction, i);
     const V distance = LoadSome(distance_m, i);
-    const V height = hn::MulAdd(d.z, distance, Constant(start.height_m));
+    const V height = MulAdd(d.z, distance, start.height_m);
     const FogRay ray = {start, d, distance, height};
     const FogView to_place = SeeFog(fog, ray, PathTo(fog, ray));
     const FogView to_sky = SeeFog(fog, ray, PathToSky(fog, ray));
-    const auto is_sky = hn::Ge(distance, Constant(kEndless_m));
+    const auto is_sky = distance >= kEndless_m;
     StoreSome(Where(is_sky, to_sky.passes, to_place.passes), passes, i);
     StoreSome(Where(is_sky, to_sky.added, to_place.added), added, i);
   });
@@ -247,8 +247,8 @@ void FindPoints(const Media& media, float level_rel_m, std::span<const glm::vec3
   ForPackets(p_rel.size(), [&](std::size_t i) {
     Packet packet;
     packet.p = LoadSome(p_shown, i);
-    packet.distance = hn::Sqrt(Dot(packet.p, packet.p));
-    packet.to_eye = Scale(packet.p, hn::Div(Constant(-1.0f), packet.distance));
+    packet.distance = Sqrt(Dot(packet.p, packet.p));
+    packet.to_eye = packet.p * (-1.0f / packet.distance);
     StoreSome(FindSeen<kView>(shading, packet, Constant(level_rel_m)).packet.p, p_rel, i);
   });
 }
@@ -283,7 +283,7 @@ void LightCode(std::span<const float> light, std::span<int> byte, std::span<floa
     hn::Store(code, DI(), lanes.data());
     for (std::size_t k = 0; k < kLanes && i + k < byte.size(); ++k) byte[i + k] = lanes[k];
     // Other channels change nothing.
-    const V part = hn::Mul(hn::ConvertTo(D(), code), Constant(1.0f / 255.0f));
+    const V part = hn::ConvertTo(D(), code) * (1.0f / 255.0f);
     StoreSome(DecodeLight({part, hn::Zero(D()), Constant(1.0f)}).x, decoded, i);
   });
 }
