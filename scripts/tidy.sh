@@ -39,11 +39,13 @@ fi
 # Without GCC's precompiled header, which Clang cannot read.
 cmake --preset clang -B build/tidy -DSWELL_SIMD=avx2 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
 
-# to_read FILES: sources that are compiled; headers as they are, but those of vector code in a source that includes them.
+# to_read FILES: sources that are compiled; headers as they are, but those of vector code and of tests in a source that
+# includes them.
 to_read() {
   for file in "$@"; do
     case $file in
       *-inl.h) file=$(git grep -l --fixed-strings "#include \"$file\"" -- '*.cpp' | head -n 1) ;;
+      tests/*.h) file=$(git grep -l "#include \".*$(basename "$file")\"" -- 'tests/*.cpp' | head -n 1) ;;
     esac
     case $file in
       *.h) echo "$file" ;;
