@@ -12,7 +12,7 @@ if(SWELL_SANITIZE)
   target_compile_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE}
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
-  check_linker_flag(CXX -fuse-ld=lld SWELL_HAS_LLD)  # half of a link's time
+  check_linker_flag(CXX -fuse-ld=lld SWELL_HAS_LLD)  # a third of a link's time
   if(SWELL_HAS_LLD)
     target_link_options(swell_options INTERFACE -fuse-ld=lld)
   endif()

@@ -24,7 +24,7 @@ scene::Scene calm_scene() {
   scene::Scene scene;
   scene.sea.wind_speed_mps = 0.0;
   scene.water.bump_strength = 0.0;
-  scene.sky.model = scene::SkyModel::kGradient;  // made in a tenth of the time
+  scene.sky.model = scene::SkyModel::kGradient;  // made in a third of the time
   scene.sky.cloud_cover = 0.0;
   scene.camera.eye_m = {0.0, -40.0, 6.0};
   scene.camera.pitch_rad = scene::radians(-6.0);

@@ -13,7 +13,7 @@ inline scene::Scene small_scene() {
   scene.sea.resolution = 32;
   scene.sea.patch_lengths_m = {120.0};
   scene.sea.wind_speed_mps = 8.0;
-  scene.sky.model = scene::SkyModel::kGradient;  // made in a tenth of the time
+  scene.sky.model = scene::SkyModel::kGradient;  // made in a third of the time
   scene.area.size_m = {400.0, 400.0};
   scene.detail.water_triangles = 1500;
   return scene;
