@@ -29,7 +29,6 @@ using V = hn::Vec<D>;
 using VI = hn::Vec<DI>;
 using VU = hn::Vec<DU>;
 using M = hn::Mask<D>;
-using MI = hn::Mask<DI>;
 constexpr std::size_t kLanes = hn::MaxLanes(D());
 
 // A vector of any type and number of lanes.
