@@ -1,14 +1,11 @@
 #include "lod/mesh_query.h"
 
-#include <limits>
-
 #include "lod/prism.h"
 #include "math/check.h"
+#include "math/elementary.h"
 
 namespace swell::lod {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_query(const HeightMesh& surface, glm::dvec3 p) {
   check_heights(surface);
@@ -48,7 +45,7 @@ struct NearestSearch {
 struct BestVertex {
   const HeightMesh& surface;
   glm::dvec3 p;
-  double distance2 = kInfinity;
+  double distance2 = kInfinity<double>;
   std::uint32_t vertex = 0;
 
   void test(int triangle) {
@@ -65,7 +62,7 @@ struct BestVertex {
 struct BestEdge {
   const HeightMesh& surface;
   glm::dvec3 p;
-  double distance2 = kInfinity;
+  double distance2 = kInfinity<double>;
   std::array<std::uint32_t, 2> ends{};
   glm::dvec3 nearest{0.0};
 

@@ -6,9 +6,14 @@
 // Errors below are against the exact value, tested in tests/math/elementary_test.cpp.
 #pragma once
 
+#include <limits>
+
 namespace swell {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kTwoPi = 2.0 * kPi;
+template <typename T>
+inline constexpr T kInfinity = std::numeric_limits<T>::infinity();
 
 struct SinCos {
   double sin, cos;

@@ -6,11 +6,10 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "ocean/point_chunk.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr std::size_t kChunk = 256;
 
 // 1 inside the grid, falling to 0 over a rim that is a tenth to three tenths of its side wide: it
 // waves, or trains would end in straight lines.
@@ -96,11 +95,11 @@ void sample_coast(const CoastSea& coast, double t_s, std::span<const glm::dvec2>
                   std::span<float> height_m, std::span<float> share) {
   SWELL_CHECK(p_world.size() == height_m.size() && p_world.size() == share.size(),
               "{} points, {} heights, {} shares", p_world.size(), height_m.size(), share.size());
-  std::array<glm::dvec2, kChunk> near;
-  std::array<std::size_t, kChunk> place;
-  std::array<float, kChunk> z;
-  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
-    const std::size_t end = std::min(first + kChunk, p_world.size());
+  std::array<glm::dvec2, kPointChunk> near;
+  std::array<std::size_t, kPointChunk> place;
+  std::array<float, kPointChunk> z;
+  for (std::size_t first = 0; first < p_world.size(); first += kPointChunk) {
+    const std::size_t end = std::min(first + kPointChunk, p_world.size());
     std::size_t count = 0;
     for (std::size_t i = first; i < end; ++i) {
       share[i] = share_at(coast, p_world[i]);

@@ -31,7 +31,7 @@ struct Value {
   float v, dx, dy;
 };
 
-Value bilinear(const float* c, const Place& at) {
+Value value_in_cell(const float* c, const Place& at) {
   return {c[0] + c[1] * at.x + (c[2] + c[3] * at.x) * at.y, c[1] + c[3] * at.y, c[2] + c[3] * at.x};
 }
 
@@ -42,7 +42,7 @@ struct Wave {
 
 Wave wave_at(const TrainSea& sea, std::size_t train, const Place& at, float share, float depth_m) {
   const float* c = sea.waves.data() + 8 * (at.cell * static_cast<std::size_t>(sea.trains) + train);
-  const Value theta = bilinear(c, at), amplitude = bilinear(c + 4, at);
+  const Value theta = value_in_cell(c, at), amplitude = value_in_cell(c + 4, at);
   const float factor = share * amplitude.v / static_cast<float>(sea.grid.spacing_m);
   const double part = shore_part(depth_m, sea.deep_depth_m[train], sea.shallow_depth_m[train]);
   return {theta.v - std::floor(theta.v), factor * theta.dx, factor * theta.dy,
@@ -52,28 +52,28 @@ Wave wave_at(const TrainSea& sea, std::size_t train, const Place& at, float shar
 float surf_at(const TrainSea& sea, const Place& at, float depth_m) {
   double sum = 0.0;
   for (int i = 0; i < sea.trains; ++i)
-    sum += bilinear(sea.waves.data() + 8 * (at.cell * sea.trains + i) + 4, at).v;
+    sum += value_in_cell(sea.waves.data() + 8 * (at.cell * sea.trains + i) + 4, at).v;
   return static_cast<float>(breaking_part(sum, depth_m));
 }
 
 // All of the map's points, unpacked: waves by point, then train.
-struct Points {
+struct CoastPoints {
   std::vector<Wave> wave;
   std::vector<float> surf;
 };
 
-Points find_points(const CoastSea& coast, int size, Workers& workers) {
+CoastPoints find_coast_points(const CoastSea& coast, int size, Workers& workers) {
   const TrainSea& sea = coast.trains;
   const auto n = static_cast<std::size_t>(size), trains = static_cast<std::size_t>(sea.trains);
   const glm::dvec2 step = sea.grid.spacing_m *
                           glm::dvec2(sea.grid.samples_x - 1, sea.grid.samples_y - 1) /
                           static_cast<double>(size);
-  Points points{std::vector<Wave>(n * n * trains), std::vector<float>(n * n)};
+  CoastPoints points{std::vector<Wave>(n * n * trains), std::vector<float>(n * n)};
   workers.for_each(n, [&](std::size_t j, int) {
     for (std::size_t i = 0; i < n; ++i) {
       const glm::dvec2 p = lattice_point(sea.grid.min_world, step, glm::dvec2(i, j));
       const Place at = find_place(sea, p);
-      const float depth_m = bilinear(sea.depth.data() + 4 * at.cell, at).v;
+      const float depth_m = value_in_cell(sea.depth.data() + 4 * at.cell, at).v;
       float share = 0.0f;
       sample_coast_share(coast, {&p, 1}, {&share, 1});
       const std::size_t k = j * n + i;
@@ -114,7 +114,7 @@ double breaking_part(double sum_m, double depth_m) {
 
 CoastMap make_coast_map(const CoastSea& coast, int size, Workers& workers) {
   SWELL_CHECK(size >= kMapGroup && size % kMapGroup == 0, "size={}", size);
-  const Points points = find_points(coast, size, workers);
+  const CoastPoints points = find_coast_points(coast, size, workers);
   const auto trains = static_cast<std::size_t>(coast.trains.trains);
   CoastMap map;
   map.size = size;

@@ -7,11 +7,10 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "ocean/point_chunk.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr std::size_t kChunk = 256;
 
 // A place along one axis of the grid, as in sample_trains(): samples from the cell's lower border,
 // which `held` keeps in [0, 1]; rate is its derivative.
@@ -47,11 +46,11 @@ Phase sample_phase(const float* c, const AxisPlace& x, const AxisPlace& y) {
 }
 
 // A profile of amplitude 1 over its mean, and its derivative by u in cycles. part: the shore's.
-struct Profile {
+struct WaveProfile {
   double over_mean, rate;
 };
 
-Profile profile_at(double turns, double part) {
+WaveProfile profile_at(double turns, double part) {
   const double u = turns - std::floor(turns), centred = u - 0.5;
   const SinCos deep = sin_cos_turns(u);
   const double deep_rate = -2.0 * kPi * deep.sin;
@@ -72,9 +71,9 @@ glm::vec3 train_velocity(const TrainSea& sea, double t_s, glm::dvec2 p_world) {
     const double period_s = sea.period_s[i], turns = t_s / period_s;
     const Phase phase = sample_phase(wave, x, y);
     const double amplitude_m = sample_held(wave + 4, x, y);
-    const Profile w = profile_at(phase.cycles - (turns - std::floor(turns)),
-                                 shore_part(depth_m, static_cast<double>(sea.deep_depth_m[i]),
-                                            static_cast<double>(sea.shallow_depth_m[i])));
+    const WaveProfile w = profile_at(phase.cycles - (turns - std::floor(turns)),
+                                     shore_part(depth_m, static_cast<double>(sea.deep_depth_m[i]),
+                                                static_cast<double>(sea.shallow_depth_m[i])));
     // g k / omega = g T grad(cycles).
     const double per_gradient = sea.gravity_mps2[i] * period_s / grid.spacing_m;
     sum += glm::dvec3(amplitude_m * w.over_mean * per_gradient * phase.gradient,
@@ -99,9 +98,9 @@ void sample_coast_velocities(const CoastSea& coast, double t_s, std::span<const 
                              std::span<glm::vec3> velocity_mps) {
   SWELL_CHECK(p_world.size() == velocity_mps.size(), "{} points, {} velocities", p_world.size(),
               velocity_mps.size());
-  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, p_world.size() - first);
-    std::array<float, kChunk> share;
+  for (std::size_t first = 0; first < p_world.size(); first += kPointChunk) {
+    const std::size_t count = std::min(kPointChunk, p_world.size() - first);
+    std::array<float, kPointChunk> share;
     sample_coast_share(coast, p_world.subspan(first, count), std::span(share).first(count));
     for (std::size_t i = 0; i < count; ++i) {
       glm::vec3& velocity = velocity_mps[first + i];

@@ -8,11 +8,10 @@
 #include <utility>
 
 #include "math/check.h"
+#include "math/elementary.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Axis {
   int dx, dy;
@@ -29,7 +28,7 @@ class RimmedGrid {
  public:
   RimmedGrid(const terrain::Grid& grid, std::span<const double> values)
       : stride_(grid.samples_x + 2),
-        values_(static_cast<std::size_t>(stride_) * (grid.samples_y + 2), kInfinity) {
+        values_(static_cast<std::size_t>(stride_) * (grid.samples_y + 2), kInfinity<double>) {
     for (int j = 0; j < grid.samples_y; ++j) {
       const auto row = values.subspan(grid.index(0, j), static_cast<std::size_t>(grid.samples_x));
       std::ranges::copy(row, at(0, j));
@@ -71,7 +70,7 @@ class FirstArrivals {
     for (int j = 0; j < grid.samples_y; ++j) {
       for (int i = 0; i < grid.samples_x; ++i) {
         const std::size_t n = grid.index(i, j);
-        if (problem.slowness[n] == 0.0 || problem.source[n] < kInfinity) continue;
+        if (problem.slowness[n] == 0.0 || problem.source[n] < kInfinity<double>) continue;
         longest_step_ = std::max(longest_step_, problem.slowness[n] * grid.spacing_m);
         state_[theta.index(i, j)] = kIdle;
       }
@@ -79,7 +78,7 @@ class FirstArrivals {
     for (int j = 0; j < grid.samples_y; ++j) {
       for (int i = 0; i < grid.samples_x; ++i) {
         const double t = *theta.at(i, j);
-        if (!(t < kInfinity)) continue;
+        if (!(t < kInfinity<double>)) continue;
         for (const Axis axis : kAxes) {
           wake_later(i - axis.dx, j - axis.dy, lowered_from(t));
           wake_later(i + axis.dx, j + axis.dy, lowered_from(t));
@@ -217,7 +216,7 @@ Sample earliest_corner(const terrain::Grid& grid, Theta theta_of) {
 
 // An upwind difference weight * (theta - value); weight 0: the wave does not come along this axis.
 struct Difference {
-  double weight = 0.0, value = kInfinity;
+  double weight = 0.0, value = kInfinity<double>;
 };
 
 // Not a number: a sample that waits for others.
@@ -252,19 +251,19 @@ double solve_two(Difference a, Difference b, double slowness) {
   const double wa = a.weight * a.weight, wb = b.weight * b.weight, sum = wa + wb;
   const double difference = a.value - b.value;
   const double discriminant = sum * slowness * slowness - wa * wb * difference * difference;
-  if (!(discriminant >= 0.0)) return kInfinity;
+  if (!(discriminant >= 0.0)) return kInfinity<double>;
   const double theta = (wa * a.value + wb * b.value + std::sqrt(discriminant)) / sum;
-  return theta >= std::max(a.value, b.value) ? theta : kInfinity;
+  return theta >= std::max(a.value, b.value) ? theta : kInfinity<double>;
 }
 
 double solve_one(Difference a, double slowness) {
-  return a.weight > 0.0 ? a.value + slowness / a.weight : kInfinity;
+  return a.weight > 0.0 ? a.value + slowness / a.weight : kInfinity<double>;
 }
 
 double second_order_update(Difference a, Difference b, double slowness) {
   if (a.weight > 0.0 && b.weight > 0.0) {
     const double both = solve_two(a, b, slowness);
-    if (both < kInfinity) return both;
+    if (both < kInfinity<double>) return both;
   }
   return std::min(solve_one(a, slowness), solve_one(b, slowness));
 }
@@ -277,7 +276,7 @@ struct Faces {
 
 // theta at a grid point, infinity beyond the grid.
 double value_at(const terrain::Grid& grid, std::span<const double> theta, int i, int j) {
-  if (i < 0 || j < 0 || i >= grid.samples_x || j >= grid.samples_y) return kInfinity;
+  if (i < 0 || j < 0 || i >= grid.samples_x || j >= grid.samples_y) return kInfinity<double>;
   return theta[grid.index(i, j)];
 }
 
@@ -292,7 +291,7 @@ bool measure_faces(const EikonalProblem& problem, std::span<const double> theta,
     for (int side = 0; side < 2; ++side) {
       const int sign = 2 * side - 1, i1 = at.i + sign * axis.dx, j1 = at.j + sign * axis.dy;
       const double neighbour = value_at(grid, theta, i1, j1);
-      open[side] = neighbour < kInfinity;
+      open[side] = neighbour < kInfinity<double>;
       if (!open[side]) continue;
       const std::size_t m = grid.index(i1, j1);
       const double slowness = 0.5 * (problem.slowness[n] + problem.slowness[m]);
@@ -323,14 +322,15 @@ void solve_eikonal(const EikonalProblem& problem, std::vector<double>& theta) {
   RimmedGrid arrival(grid, problem.source);
   for (int j = 0; j < grid.samples_y; ++j)
     for (int i = 0; i < grid.samples_x; ++i)
-      if (problem.slowness[grid.index(i, j)] == 0.0) *arrival.at(i, j) = kInfinity;
+      if (problem.slowness[grid.index(i, j)] == 0.0) *arrival.at(i, j) = kInfinity<double>;
   sweep_until_converged(problem, arrival);
   // The same again in that order, with finer differences.
   theta.resize(grid.size());
   for (int j = 0; j < grid.samples_y; ++j) {
     for (int i = 0; i < grid.samples_x; ++i) {
       const std::size_t n = grid.index(i, j);
-      const bool known = problem.source[n] < kInfinity || *arrival.at(i, j) == kInfinity;
+      const bool known =
+          problem.source[n] < kInfinity<double> || *arrival.at(i, j) == kInfinity<double>;
       theta[n] = known ? *arrival.at(i, j) : kWaiting;
     }
   }
@@ -343,7 +343,7 @@ void solve_eikonal(const EikonalProblem& problem, std::vector<double>& theta) {
         !upwind_difference(grid, arrival, theta, at, kAxes[1], b, needed))
       return false;
     const double finer = second_order_update(a, b, problem.slowness[n]);
-    theta[n] = finer < kInfinity ? finer : *arrival.at(at.i, at.j);
+    theta[n] = finer < kInfinity<double> ? finer : *arrival.at(at.i, at.j);
     return true;
   });
 }
@@ -356,8 +356,8 @@ void spread_energy(const EikonalProblem& problem, std::span<const double> theta,
               theta.size());
   energy.resize(grid.size());
   for (std::size_t n = 0; n < energy.size(); ++n) {
-    const double here = problem.source[n] < kInfinity ? problem.source_energy[n] : kWaiting;
-    energy[n] = theta[n] < kInfinity ? here : 0.0;
+    const double here = problem.source[n] < kInfinity<double> ? problem.source_energy[n] : kWaiting;
+    energy[n] = theta[n] < kInfinity<double> ? here : 0.0;
   }
   const auto theta_of = [&](Sample at) { return theta[grid.index(at.i, at.j)]; };
   solve_down_the_wave(grid, earliest_corner(grid, theta_of), [&](Sample at, Sample& needed) {

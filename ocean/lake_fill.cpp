@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRimTolerance_m = 0.5;  // what banks of a few cells may be lower
 
-std::string key_of(std::size_t n, const char* name) {
+std::string lake_key(std::size_t n, const char* name) {
   return fmt::format("{}[{}].{}", kLakeKey, n, name);
 }
 
@@ -26,7 +26,7 @@ void check_rim(const Lake& lake, std::size_t number, const terrain::HeightGrid& 
       const glm::dvec2 at = glm::mix(p[n], to, static_cast<double>(k) / steps);
       const double ground_m = terrain::height_at(land, at);
       if (ground_m < lake.level_m - kRimTolerance_m)
-        throw RiverError(key_of(number, "level_m"),
+        throw RiverError(lake_key(number, "level_m"),
                          fmt::format("{} above its rim, which is {:.1f} m high at [{:.0f}, {:.0f}]",
                                      lake.level_m, ground_m, at.x, at.y),
                          "a level that the outline's land holds");
@@ -38,7 +38,7 @@ void fill(const Lake& lake, std::size_t number, const terrain::HeightGrid& land,
   const terrain::Grid& grid = land.grid;
   const glm::dvec2 at = (lake.position_m - grid.min_world) / grid.spacing_m;
   if (!grid.holds(lake.position_m) || terrain::height_at(land, lake.position_m) >= lake.level_m)
-    throw RiverError(key_of(number, "position_m"),
+    throw RiverError(lake_key(number, "position_m"),
                      fmt::format("[{}, {}], which is dry", lake.position_m.x, lake.position_m.y),
                      fmt::format("a place lower than {} m", lake.level_m));
   std::vector<glm::ivec2> open = {glm::ivec2(at)};
@@ -50,7 +50,7 @@ void fill(const Lake& lake, std::size_t number, const terrain::HeightGrid& land,
     if (cell == mark || !(land.height_m[grid.index(ij.x, ij.y)] < lake.level_m)) continue;
     cell = mark;
     if (ij.x == 0 || ij.y == 0 || ij.x == grid.samples_x - 1 || ij.y == grid.samples_y - 1)
-      throw RiverError(key_of(number, "level_m"),
+      throw RiverError(lake_key(number, "level_m"),
                        fmt::format("{} above its rim: the water runs off the map", lake.level_m),
                        "a level that the land holds");
     const glm::dvec2 p = grid.point(ij.x, ij.y);

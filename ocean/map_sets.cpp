@@ -38,9 +38,10 @@ SetFigures figures_of(MapSet set) {
 // Sides of the layers, in the longest one's: their ratios are quadratic irrationals, so that no two
 // layers ever repeat themselves together exactly. And their parts of the variance, which fall as
 // those of a sea's shorter waves do.
-constexpr std::array<double, kMapSetLayers> kSide = {1.0,      0.618034, 0.414214, 0.267949,
-                                                     0.171573, 0.118034, 0.071797};
-constexpr std::array<double, kMapSetLayers> kPart = {0.76, 0.085, 0.05, 0.04, 0.03, 0.02, 0.015};
+constexpr std::array<double, kMapSetLayers> kRelativeSide = {1.0,      0.618034, 0.414214, 0.267949,
+                                                             0.171573, 0.118034, 0.071797};
+constexpr std::array<double, kMapSetLayers> kEnergyPart = {0.76, 0.085, 0.05, 0.04,
+                                                           0.03, 0.02,  0.015};
 
 }  // namespace
 
@@ -60,8 +61,8 @@ std::vector<MapLayer> layers_of_set(MapSet set, std::uint64_t seed) {
   std::vector<MapLayer> layers(kMapSetLayers);
   for (std::size_t i = 0; i < kMapSetLayers; ++i) {
     const auto random = [&](std::uint64_t n) { return random_uniform(seed ^ kStream, 3 * i + n); };
-    layers[i].length_m = kSide[i] * figures.longest_m;
-    layers[i].hs_m = std::sqrt(kPart[i]) * figures.hs_m;
+    layers[i].length_m = kRelativeSide[i] * figures.longest_m;
+    layers[i].hs_m = std::sqrt(kEnergyPart[i]) * figures.hs_m;
     layers[i].offset_m = layers[i].length_m * glm::dvec2(random(0), random(1));
     layers[i].offset_s = 1000.0 * random(2);
   }

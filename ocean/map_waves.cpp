@@ -12,6 +12,7 @@
 #include "ocean/fft.h"
 #include "ocean/map_sets.h"
 #include "ocean/patch_waves.h"
+#include "ocean/require.h"
 #include "ocean/sea_state.h"
 
 namespace swell::ocean {
@@ -19,18 +20,12 @@ namespace {
 
 constexpr std::size_t kBands = 4;  // pieces of work that a map's rows make
 
-void require(double value, double low, double high, const char* name) {
-  if (value >= low && value <= high) return;  // NaN fails
-  throw std::invalid_argument(
-      fmt::format("maps.{}: got {}, allowed [{}, {}]", name, value, low, high));
-}
-
 void check_layer(const MapLayer& layer) {
-  require(layer.length_m, 0.5, 50000.0, "length_m");
-  if (layer.period_s != 0.0) require(layer.period_s, 0.1, 1e5, "period_s (or 0)");
-  require(layer.hs_m, 0.0, 30.0, "hs_m");
-  for (int axis = 0; axis < 2; ++axis) require(layer.offset_m[axis], -1e6, 1e6, "offset_m");
-  require(layer.offset_s, -1e6, 1e6, "offset_s");
+  require(layer.length_m, 0.5, 50000.0, "maps.length_m");
+  if (layer.period_s != 0.0) require(layer.period_s, 0.1, 1e5, "maps.period_s (or 0)");
+  require(layer.hs_m, 0.0, 30.0, "maps.hs_m");
+  for (int axis = 0; axis < 2; ++axis) require(layer.offset_m[axis], -1e6, 1e6, "maps.offset_m");
+  require(layer.offset_s, -1e6, 1e6, "maps.offset_s");
 }
 
 int sample_at(double offset_m, double length_m, int size) {

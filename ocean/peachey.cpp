@@ -16,8 +16,6 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * kPi;
-
 // h / L0 of water that is `part` of the local wavelength deep: L = L0 tanh(k h).
 double depth_over_deep_length(double part) { return part * tanh(kTwoPi * part); }
 
@@ -36,17 +34,11 @@ std::array<int, kMaxTrains> shuffled(int count, std::uint64_t seed) {
   return order;
 }
 
-// The wind's direction turned by an angle, counter-clockwise.
-glm::dvec2 turned(glm::dvec2 travel, double angle_rad) {
-  const double c = cos(angle_rad), s = sin(angle_rad);
-  return {c * travel.x - s * travel.y, s * travel.x + c * travel.y};
-}
-
 // Bilinear coefficients of four corner values.
 struct Bilinear {
   double c0, c1, c2, c3;
 };
-Bilinear bilinear(double v00, double v10, double v01, double v11) {
+Bilinear bilinear_of(double v00, double v10, double v01, double v11) {
   return {v00, v10 - v00, v01 - v00, (v11 - v01) - (v10 - v00)};
 }
 
@@ -65,7 +57,7 @@ std::array<std::size_t, 4> cell_corners(const terrain::Grid& grid, int i, int j)
 
 // value(sample): of the corners.
 Bilinear cell_bilinear(const std::array<std::size_t, 4>& corners, auto value) {
-  return bilinear(value(corners[0]), value(corners[1]), value(corners[2]), value(corners[3]));
+  return bilinear_of(value(corners[0]), value(corners[1]), value(corners[2]), value(corners[3]));
 }
 
 // Turns relative amplitudes into metres, and limits their sum to what the depth carries, for the

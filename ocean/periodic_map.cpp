@@ -9,6 +9,7 @@
 
 #include "math/elementary.h"
 #include "ocean/map_statistics.h"
+#include "ocean/require.h"
 #include "ocean/wave_automaton.h"
 
 namespace swell::ocean {
@@ -16,18 +17,12 @@ namespace {
 
 constexpr double kLeastCorrelation = -0.9;
 
-void require(double value, double low, double high, const char* name) {
-  if (value >= low && value <= high) return;  // NaN fails
-  throw std::invalid_argument(
-      fmt::format("map {}: got {}, allowed {} to {}", name, value, low, high));
-}
-
 void check_recipe(const MapRecipe& recipe) {
   if (recipe.size < kMinMapSize || recipe.size > kMaxMapSize ||
       !std::has_single_bit(static_cast<unsigned>(recipe.size)))
     throw std::invalid_argument(fmt::format("map size: got {}, allowed powers of two from {} to {}",
                                             recipe.size, kMinMapSize, kMaxMapSize));
-  require(recipe.frames, kMinMapFrames, kMaxMapFrames, "frames");
+  require(recipe.frames, kMinMapFrames, kMaxMapFrames, "map frames");
   const auto samples = static_cast<std::size_t>(recipe.size) * recipe.size * recipe.frames;
   if (samples > kMaxMapSamples)
     throw std::invalid_argument(
@@ -35,18 +30,18 @@ void check_recipe(const MapRecipe& recipe) {
                     recipe.frames, recipe.size, recipe.size, kMaxMapSamples));
   if (recipe.bits != 8 && recipe.bits != 16)
     throw std::invalid_argument(fmt::format("map bits: got {}, allowed 8 or 16", recipe.bits));
-  require(recipe.steps_per_frame, 1, 64, "steps per frame");
-  require(recipe.blend, 0.05, 0.5, "blend");
-  require(recipe.to_rad, -1e6, 1e6, "direction");
-  require(recipe.spreading, 0.0, 50.0, "spreading");
-  require(recipe.peak_waves, 1.0, recipe.size / 8.0, "peak waves");
-  require(recipe.drops, 1, 10000, "drops");
-  require(recipe.drop_cells, 1.0, 64.0, "drop radius");
+  require(recipe.steps_per_frame, 1, 64, "map steps per frame");
+  require(recipe.blend, 0.05, 0.5, "map blend");
+  require(recipe.to_rad, -1e6, 1e6, "map direction");
+  require(recipe.spreading, 0.0, 50.0, "map spreading");
+  require(recipe.peak_waves, 1.0, recipe.size / 8.0, "map peak waves");
+  require(recipe.drops, 1, 10000, "map drops");
+  require(recipe.drop_cells, 1.0, 64.0, "map drop radius");
   if (recipe.first != FirstDisturbance::kHeights) return;
   if (recipe.heights.size() != static_cast<std::size_t>(recipe.size) * recipe.size)
     throw std::invalid_argument(fmt::format("map heights: got {}, allowed {} x {}",
                                             recipe.heights.size(), recipe.size, recipe.size));
-  for (const float height : recipe.heights) require(height, -1e6, 1e6, "height");
+  for (const float height : recipe.heights) require(height, -1e6, 1e6, "map height");
 }
 
 void disturb(const MapRecipe& recipe, WaveAutomaton& automaton) {

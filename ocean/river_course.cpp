@@ -11,7 +11,7 @@ namespace {
 constexpr double kLeastStep_m = 0.5, kMostStep_m = 10.0;
 constexpr double kSharpestBend = 0.9;  // half width over radius
 
-double value_at(const std::vector<double>& values, std::size_t n) {
+double value_of_node(const std::vector<double>& values, std::size_t n) {
   return values.size() == 1 ? values[0] : values[n];
 }
 
@@ -166,8 +166,8 @@ Course make_course(const River& river, const std::string& key) {
   const std::vector<glm::dvec2> direction = directions_of(river.path_m, chord);
   std::vector<double> widths(points), depths(points);
   for (std::size_t n = 0; n < points; ++n) {
-    widths[n] = value_at(river.width_m, n);
-    depths[n] = value_at(river.depth_m, n);
+    widths[n] = value_of_node(river.width_m, n);
+    depths[n] = value_of_node(river.depth_m, n);
   }
   const Profile width(widths, chord), depth(depths, chord);
   Course course;

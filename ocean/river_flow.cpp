@@ -11,8 +11,8 @@ namespace swell::ocean {
 namespace {
 
 constexpr double kReachOfWidth = 3.0;
-constexpr double kStep_m = 0.01;  // of differences, each way
-constexpr double kCell_m = 24.0;
+constexpr double kDifference_m = 0.01;  // of differences, each way
+constexpr double kFlowCell_m = 24.0;
 constexpr std::size_t kMostBanks = 24;  // near one place
 
 // Where a river's bank meets the bank of another that it joins: on the other's course.
@@ -194,7 +194,7 @@ RiverFlow::RiverFlow(const RiverNetwork& network) {
   }
   std::vector<Segment> segments;
   for (const BankPiece& piece : banks_) segments.push_back(piece.segment);
-  index_ = SegmentIndex(segments, kCell_m);
+  index_ = SegmentIndex(segments, kFlowCell_m);
 }
 
 std::optional<double> RiverFlow::psi(glm::dvec2 p) const {
@@ -230,10 +230,12 @@ std::optional<double> RiverFlow::psi(glm::dvec2 p) const {
 }
 
 glm::dvec2 RiverFlow::velocity(glm::dvec2 p) const {
-  const auto east = psi(p + glm::dvec2(kStep_m, 0.0)), west = psi(p - glm::dvec2(kStep_m, 0.0));
-  const auto north = psi(p + glm::dvec2(0.0, kStep_m)), south = psi(p - glm::dvec2(0.0, kStep_m));
+  const auto east = psi(p + glm::dvec2(kDifference_m, 0.0)),
+             west = psi(p - glm::dvec2(kDifference_m, 0.0));
+  const auto north = psi(p + glm::dvec2(0.0, kDifference_m)),
+             south = psi(p - glm::dvec2(0.0, kDifference_m));
   if (!east || !west || !north || !south) return glm::dvec2(0.0);
-  return glm::dvec2(*north - *south, *west - *east) / (2.0 * kStep_m);
+  return glm::dvec2(*north - *south, *west - *east) / (2.0 * kDifference_m);
 }
 
 glm::dvec2 river_current(const RiverFlow& flow, const WaterPlace& place, glm::dvec2 p) {

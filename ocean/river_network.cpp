@@ -12,7 +12,7 @@ namespace swell::ocean {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCell_m = 32.0;
+constexpr double kNetworkCell_m = 32.0;
 constexpr int kDeepest = 64;  // rivers one after the other
 
 std::string key_of(std::string_view kind, std::size_t n) { return fmt::format("{}[{}]", kind, n); }
@@ -207,7 +207,7 @@ void RiverNetwork::index_segments() {
   }
   for (const Lake& lake : lakes_)
     for (const glm::dvec2& p : lake.outline_m) include(p, margin_m_);
-  index_ = SegmentIndex(segments, kCell_m);
+  index_ = SegmentIndex(segments, kNetworkCell_m);
 }
 
 std::optional<WaterPlace> RiverNetwork::water_near(glm::dvec2 p) const {

@@ -14,18 +14,12 @@
 #include "ocean/dispersion.h"
 #include "ocean/fft.h"
 #include "ocean/patch_transforms.h"
+#include "ocean/require.h"
 #include "ocean/sea_scale.h"
 #include "ocean/sea_state.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kTwoPi = 2.0 * kPi;
-
-void require(double value, double low, double high, const char* name) {
-  if (value >= low && value <= high) return;  // NaN fails
-  throw std::invalid_argument(fmt::format("{}: got {}, allowed [{}, {}]", name, value, low, high));
-}
 
 void check_systems(const SeaDescription& sea) {
   require(sea.wind_speed_mps, 0.0, 60.0, "wind_speed_mps");

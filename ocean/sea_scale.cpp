@@ -10,8 +10,6 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kInfinity = HUGE_VAL;
-
 constexpr std::array<SeaScaleStep, kMaxDouglas + 1> kDouglas = {{
     {"calm (glassy)", 0.0, 0.0, 0.0},
     {"calm (rippled)", 0.0, 0.1, 0.05},
@@ -22,7 +20,7 @@ constexpr std::array<SeaScaleStep, kMaxDouglas + 1> kDouglas = {{
     {"very rough", 4.0, 6.0, 5.0},
     {"high", 6.0, 9.0, 7.5},
     {"very high", 9.0, 14.0, 11.5},
-    {"phenomenal", 14.0, kInfinity, 16.5},
+    {"phenomenal", 14.0, kInfinity<double>, 16.5},
 }};
 
 constexpr std::array<std::string_view, kMaxBeaufort + 1> kBeaufortNames = {
@@ -44,7 +42,7 @@ SeaScaleStep douglas_step(int code) {
 SeaScaleStep beaufort_step(int number) {
   SWELL_CHECK(number >= 0 && number <= kMaxBeaufort, "number={}", number);
   const auto i = static_cast<std::size_t>(number);
-  const double high = number < kMaxBeaufort ? kBeaufortFrom_mps[i + 1] : kInfinity;
+  const double high = number < kMaxBeaufort ? kBeaufortFrom_mps[i + 1] : kInfinity<double>;
   return {kBeaufortNames[i], kBeaufortFrom_mps[i], high, 0.836 * number * std::sqrt(number)};
 }
 
@@ -56,9 +54,9 @@ int douglas_code(double significant_height_m) {
 }
 
 double developed_height_m(double wind_speed_mps, double gravity_mps2) {
-  if (std::isinf(wind_speed_mps)) return kInfinity;  // the last step's bound
-  return 4.0 *
-         std::sqrt(variance_below(make_wind_sea(wind_speed_mps, 0.0, gravity_mps2), kInfinity));
+  if (std::isinf(wind_speed_mps)) return kInfinity<double>;  // the last step's bound
+  return 4.0 * std::sqrt(variance_below(make_wind_sea(wind_speed_mps, 0.0, gravity_mps2),
+                                        kInfinity<double>));
 }
 
 double wind_of_developed_height(double significant_height_m, double gravity_mps2) {

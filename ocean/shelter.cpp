@@ -11,14 +11,8 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * kPi;
 // The grid's rim over which shelter ends, as a part of its side.
-constexpr double kRim = 0.08;
-
-glm::dvec2 turned(glm::dvec2 travel, double angle_rad) {
-  const double c = cos(angle_rad), s = sin(angle_rad);
-  return {c * travel.x - s * travel.y, s * travel.x + c * travel.y};
-}
+constexpr double kRimPart = 0.08;
 
 double wavelength_m(double gravity_mps2, double period_s) {
   return gravity_mps2 * period_s * period_s / kTwoPi;
@@ -61,7 +55,7 @@ terrain::Grid shelter_grid(const terrain::Grid& square) {
 // 0 on the grid's border, 1 inside its rim.
 double inside_rim(const terrain::Grid& grid, int i, int j) {
   const auto part = [&](int k) {
-    return std::min(k, grid.samples_x - 1 - k) / (kRim * (grid.samples_x - 1));
+    return std::min(k, grid.samples_x - 1 - k) / (kRimPart * (grid.samples_x - 1));
   };
   return smoothstep(0.0, 1.0, part(i)) * smoothstep(0.0, 1.0, part(j));
 }

@@ -10,8 +10,6 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * kPi;
-
 // exp(-5/4 (f_m / f)^4), the fraction of the energy below f where gamma is 1.
 double energy_fraction_below(double f_over_peak) {
   const double r2 = 1.0 / (f_over_peak * f_over_peak);

@@ -8,8 +8,7 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kPart = 0.1;
-constexpr double kTwoPi = 2.0 * kPi;
+constexpr double kHeightPart = 0.1;
 
 double turns_along(std::size_t lag, glm::dvec2 p) {
   return p.x / kSwashLags_m[lag].x + p.y / kSwashLags_m[lag].y;
@@ -22,11 +21,11 @@ double cosine_of_turns(double turns) { return cos(kTwoPi * (turns - std::floor(t
 
 Swash make_swash(const Sea& sea, const CoastSea* coast, const Shelter* shelter) {
   if (coast)
-    return {kPart * static_cast<double>(coast->trains.height_bound_m),
+    return {kHeightPart * static_cast<double>(coast->trains.height_bound_m),
             *std::ranges::max_element(coast->trains.period_s), shelter};
   if (!shelter) return {};
   const double mean_length_m = std::max(sea.mean_wavelength_m(), 1.0);
-  return {kPart * sea.significant_height_m(),
+  return {kHeightPart * sea.significant_height_m(),
           std::sqrt(kTwoPi * mean_length_m / sea.description().gravity_mps2), shelter};
 }
 

@@ -7,13 +7,12 @@
 #include "math/elementary.h"
 #include "ocean/patch_transforms.h"
 #include "ocean/patch_waves.h"
+#include "ocean/point_chunk.h"
 #include "ocean/sea_state.h"
 #include "ocean/wakes.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr std::size_t kChunk = 256;
 
 void size_component(const SeaFrame& frame, SeaFrame& component) {
   component.t_s = frame.t_s;
@@ -87,10 +86,10 @@ void sample_velocities(const VelocityFrame& velocity, std::span<const glm::dvec2
                        std::span<glm::vec3> velocity_mps) {
   SWELL_CHECK(p_world.size() == velocity_mps.size(), "{} points, {} velocities", p_world.size(),
               velocity_mps.size());
-  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, p_world.size() - first);
+  for (std::size_t first = 0; first < p_world.size(); first += kPointChunk) {
+    const std::size_t count = std::min(kPointChunk, p_world.size() - first);
     const auto p = p_world.subspan(first, count);
-    std::array<float, kChunk> x, y, z;
+    std::array<float, kPointChunk> x, y, z;
     sample_heights(velocity.x, p, std::span(x).first(count));
     sample_heights(velocity.y, p, std::span(y).first(count));
     sample_heights(velocity.z, p, std::span(z).first(count));

@@ -11,8 +11,6 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * kPi;
-
 // Waves that wrap round in a window fade before they do (wake_modes.h); of rings those that are
 // left after so many times sqrt(radius / g) are small.
 constexpr double kRingFades = 50.0, kRingEnds = 90.0;

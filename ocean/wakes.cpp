@@ -11,7 +11,7 @@
 namespace swell::ocean {
 namespace {
 
-constexpr std::size_t kSide = kWakeSamples, kAll = kSide * kSide;
+constexpr std::size_t kWindowSide = kWakeSamples, kAll = kWindowSide * kWindowSide;
 
 // All windows' fields, as heights.
 void transform_windows(WakeField field, std::span<const WakeWindow> sources, WakeFrame& frame,
@@ -32,11 +32,11 @@ void transform_windows(WakeField field, std::span<const WakeWindow> sources, Wak
 }
 
 // By row or column: 1 in the middle, 0 at the first and the last sample.
-constexpr std::array<float, kSide> kRim = [] {
+constexpr std::array<float, kWindowSide> kRim = [] {
   constexpr float kWidth = kWakeRim * kWakeSamples;
-  std::array<float, kSide> rim{};
-  for (std::size_t i = 0; i < kSide; ++i) {
-    const auto inside = static_cast<float>(std::min(i, kSide - 1 - i));
+  std::array<float, kWindowSide> rim{};
+  for (std::size_t i = 0; i < kWindowSide; ++i) {
+    const auto inside = static_cast<float>(std::min(i, kWindowSide - 1 - i));
     rim[i] = smooth_blend(std::min(inside / kWidth, 1.0f));
   }
   return rim;
@@ -44,9 +44,9 @@ constexpr std::array<float, kSide> kRim = [] {
 
 void fade_row(std::size_t j, WakeWindow& window) {
   const float row = kRim[j], bound_m = window.bound_m;
-  const auto z = std::span(window.height_m).subspan(j * kSide, kSide);
+  const auto z = std::span(window.height_m).subspan(j * kWindowSide, kWindowSide);
   put_in_lee(window, j, z);
-  for (std::size_t i = 0; i < kSide; ++i)
+  for (std::size_t i = 0; i < kWindowSide; ++i)
     z[i] = std::clamp(z[i] * row * kRim[i], -bound_m, bound_m);
 }
 
@@ -55,15 +55,15 @@ void fade_row(std::size_t j, WakeWindow& window) {
 void slope_row(std::size_t j, WakeWindow& window) {
   const float near = static_cast<float>(2.0 / 3.0 * kWakeSamples / window.length_m);
   const float far = -0.125f * near;
-  float* const slope_x = window.slope_x.data() + j * kSide;
-  float* const slope_y = window.slope_y.data() + j * kSide;
-  std::fill_n(slope_x, kSide, 0.0f);
-  std::fill_n(slope_y, kSide, 0.0f);
-  if (j < 2 || j + 2 >= kSide) return;
-  const float* const z = window.height_m.data() + j * kSide;
-  const float *const z1 = z + kSide, *const z2 = z1 + kSide;
-  const float *const z_1 = z - kSide, *const z_2 = z_1 - kSide;
-  for (std::size_t i = 2; i + 2 < kSide; ++i) {
+  float* const slope_x = window.slope_x.data() + j * kWindowSide;
+  float* const slope_y = window.slope_y.data() + j * kWindowSide;
+  std::fill_n(slope_x, kWindowSide, 0.0f);
+  std::fill_n(slope_y, kWindowSide, 0.0f);
+  if (j < 2 || j + 2 >= kWindowSide) return;
+  const float* const z = window.height_m.data() + j * kWindowSide;
+  const float *const z1 = z + kWindowSide, *const z2 = z1 + kWindowSide;
+  const float *const z_1 = z - kWindowSide, *const z_2 = z_1 - kWindowSide;
+  for (std::size_t i = 2; i + 2 < kWindowSide; ++i) {
     const float x = near * (z[i + 1] - z[i - 1]) + far * (z[i + 2] - z[i - 2]);
     const float y = near * (z1[i] - z_1[i]) + far * (z2[i] - z_2[i]);
     slope_x[i] = std::clamp(x, -kMostWakeSlope, kMostWakeSlope);
@@ -125,21 +125,21 @@ float breaking(float slope_x, float slope_y, float height_m) {
 
 // Returns whether there is any in the row.
 bool add_breaking(std::size_t j, const WakeWindow& window, std::span<float> foam) {
-  const float* const slope_x = window.slope_x.data() + j * kSide;
-  const float* const slope_y = window.slope_y.data() + j * kSide;
+  const float* const slope_x = window.slope_x.data() + j * kWindowSide;
+  const float* const slope_y = window.slope_y.data() + j * kWindowSide;
   int steep = 0;  // without branches: few rows have any
-  for (std::size_t i = 0; i < kSide; ++i) {
+  for (std::size_t i = 0; i < kWindowSide; ++i) {
     const float steep2 = slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i];
     steep |= static_cast<int>(steep2 > kLeastSteep * kLeastSteep);
   }
   if (steep == 0) return false;
-  for (std::size_t i = 0; i < kSide; ++i)
-    foam[i] = breaking(slope_x[i], slope_y[i], window.height_m[j * kSide + i]);
+  for (std::size_t i = 0; i < kWindowSide; ++i)
+    foam[i] = breaking(slope_x[i], slope_y[i], window.height_m[j * kWindowSide + i]);
   return true;
 }
 
 void foam_row(std::size_t j, WakeWindow& window) {
-  const auto row = std::span(window.foam).subspan(j * kSide, kSide);
+  const auto row = std::span(window.foam).subspan(j * kWindowSide, kWindowSide);
   std::ranges::fill(row, 0.0f);
   if (window.stretches.empty()) return;
   bool has_foam = add_breaking(j, window, row);
@@ -148,16 +148,16 @@ void foam_row(std::size_t j, WakeWindow& window) {
     has_foam |= add_strip(window, window.stretches[k], k == 0, j, strength, row);
   if (!has_foam) return;
   const float at_row = kRim[j];
-  for (std::size_t i = 0; i < kSide; ++i) row[i] *= at_row * kRim[i];
+  for (std::size_t i = 0; i < kWindowSide; ++i) row[i] *= at_row * kRim[i];
   put_in_lee(window, j, row);
 }
 
 void for_all_rows(WakeFrame& frame, Workers& workers,
                   FunctionRef<void(std::size_t, WakeWindow&)> body) {
   constexpr std::size_t kRows = 32;  // a task
-  workers.for_each(frame.count * (kSide / kRows), [&](std::size_t task, int) {
-    WakeWindow& window = frame.windows[task / (kSide / kRows)];
-    const std::size_t first = task % (kSide / kRows) * kRows;
+  workers.for_each(frame.count * (kWindowSide / kRows), [&](std::size_t task, int) {
+    WakeWindow& window = frame.windows[task / (kWindowSide / kRows)];
+    const std::size_t first = task % (kWindowSide / kRows) * kRows;
     for (std::size_t j = first; j < first + kRows; ++j) body(j, window);
   });
 }
@@ -176,14 +176,15 @@ void for_points_inside(const WakeFrame& frame, std::span<const glm::dvec2> p_wor
         continue;
       const auto i = static_cast<std::size_t>(q.x), j = static_cast<std::size_t>(q.y);
       const glm::vec2 t(q - glm::dvec2(static_cast<double>(i), static_cast<double>(j)));
-      visit(window, n, j * kSide + i, t);
+      visit(window, n, j * kWindowSide + i, t);
     }
   }
 }
 
-float bilinear(const std::vector<float>& field, std::size_t at, glm::vec2 t) {
+float window_value(const std::vector<float>& field, std::size_t at, glm::vec2 t) {
   const float low = field[at] + t.x * (field[at + 1] - field[at]);
-  const float high = field[at + kSide] + t.x * (field[at + kSide + 1] - field[at + kSide]);
+  const float high =
+      field[at + kWindowSide] + t.x * (field[at + kWindowSide + 1] - field[at + kWindowSide]);
   return low + t.y * (high - low);
 }
 
@@ -231,7 +232,7 @@ void add_wake_heights(const WakeFrame& frame, std::span<const glm::dvec2> p_worl
                       std::span<float> height_m) {
   for_points_inside(frame, p_world,
                     [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
-                      height_m[n] += bilinear(window.height_m, at, t);
+                      height_m[n] += window_value(window.height_m, at, t);
                     });
 }
 
@@ -239,7 +240,8 @@ void add_wake_slopes(const WakeFrame& frame, std::span<const glm::dvec2> p_world
                      std::span<glm::vec2> slope) {
   for_points_inside(
       frame, p_world, [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
-        slope[n] += glm::vec2(bilinear(window.slope_x, at, t), bilinear(window.slope_y, at, t));
+        slope[n] +=
+            glm::vec2(window_value(window.slope_x, at, t), window_value(window.slope_y, at, t));
       });
 }
 
@@ -247,7 +249,7 @@ void add_wake_foam(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                    std::span<float> foam) {
   for_points_inside(frame, p_world,
                     [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
-                      foam[n] = std::max(foam[n], bilinear(window.foam, at, t));
+                      foam[n] = std::max(foam[n], window_value(window.foam, at, t));
                     });
 }
 

@@ -6,16 +6,16 @@
 
 #include "math/check.h"
 #include "ocean/coast_velocity.h"
+#include "ocean/point_chunk.h"
 #include "ocean/sea_state.h"
 #include "ocean/wakes.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr std::size_t kChunk = 256;  // points whose fields are on the stack
-constexpr double kEdgePart = 0.1;    // of the area, over which waves fade
+constexpr double kEdgePart = 0.1;  // of the area, over which waves fade
 
-using Points = std::span<const glm::dvec2>;  // at most kChunk
+using Points = std::span<const glm::dvec2>;  // at most kPointChunk
 using Room = std::span<float>;
 
 // 1 inside the area, falling to 0 over its last tenth.
@@ -43,13 +43,13 @@ struct TrainWaves {
   double time_s(double t_s) const { return wave_time_s(water.sea->description(), t_s); }
 
   void take_room(Points p, Room room) const {
-    std::array<float, kChunk> share;
+    std::array<float, kPointChunk> share;
     sample_coast_share(*water.coast, p, std::span(share).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) room[i] *= spectrum_weight(share[i]);
   }
 
   void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
-    std::array<float, kChunk> z, share;
+    std::array<float, kPointChunk> z, share;
     sample_coast(*water.coast, time_s(frame.t_s), p, std::span(z).first(p.size()),
                  std::span(share).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -73,7 +73,7 @@ struct TrainWaves {
 
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const {
-    std::array<glm::vec3, kChunk> v;
+    std::array<glm::vec3, kPointChunk> v;
     sample_coast_velocities(*water.coast, time_s(velocity.z.t_s), p, std::span(v).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i)
       velocity_mps[i] += edge(water.area, p[i]) * sea_share(water, p[i]) * v[i];
@@ -102,7 +102,7 @@ struct SeaWaves {
       for (std::size_t i = 0; i < p.size(); ++i) room[i] *= edge(water.area, p[i]);
       return;
     }
-    std::array<float, kChunk> ground;
+    std::array<float, kPointChunk> ground;
     terrain::sample_heights(*water.land, p, std::span(ground).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
       const auto inland = water.inland ? water.inland->at(p[i]) : std::nullopt;
@@ -130,15 +130,15 @@ struct SeaWaves {
   // Places where the weight is 0 cost nothing.
   void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
     weigh(p, room, frame.sheltered);
-    std::array<glm::dvec2, kChunk> wavy;
-    std::array<std::size_t, kChunk> place;
+    std::array<glm::dvec2, kPointChunk> wavy;
+    std::array<std::size_t, kPointChunk> place;
     std::size_t count = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (room[i] == 0.0f) continue;
       wavy[count] = p[i];
       place[count++] = i;
     }
-    std::array<float, kChunk> z;
+    std::array<float, kPointChunk> z;
     sample_heights(frame, std::span(wavy).first(count), std::span(z).first(count), longest_patches);
     for (std::size_t k = 0; k < count; ++k) height_m[place[k]] += z[k] * room[place[k]];
   }
@@ -146,7 +146,7 @@ struct SeaWaves {
   // The waves' own slopes by their weight, and their height by the weight's slope.
   void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const {
     weigh(p, room, frame.sheltered);
-    std::array<float, kChunk> x, y, z;
+    std::array<float, kPointChunk> x, y, z;
     sample_slopes(frame, p, std::span(x).first(p.size()), std::span(y).first(p.size()));
     sample_heights(frame, p, std::span(z).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -159,7 +159,7 @@ struct SeaWaves {
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const {
     weigh(p, room, velocity.z.sheltered);
-    std::array<glm::vec3, kChunk> v;
+    std::array<glm::vec3, kPointChunk> v;
     sample_velocities(velocity, p, std::span(v).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) velocity_mps[i] += v[i] * room[i];
   }
@@ -180,7 +180,7 @@ struct WakeWaves {
 
   void add_heights(const SeaFrame& frame, Points p, Room, std::span<float> height_m) const {
     if (frame.wakes.count == 0) return;
-    std::array<float, kChunk> z{}, weight;
+    std::array<float, kPointChunk> z{}, weight;
     add_wake_heights(frame.wakes, p, std::span(z).first(p.size()));
     if (std::all_of(z.begin(), z.begin() + p.size(), [](float x) { return x == 0.0f; })) return;
     weigh(p, std::span(weight).first(p.size()));
@@ -190,8 +190,8 @@ struct WakeWaves {
   // The weight's own slope is left out.
   void add_slopes(const SeaFrame& frame, Points p, Room, std::span<glm::vec2> slope) const {
     if (frame.wakes.count == 0) return;
-    std::array<glm::vec2, kChunk> own{};
-    std::array<float, kChunk> weight;
+    std::array<glm::vec2, kPointChunk> own{};
+    std::array<float, kPointChunk> weight;
     add_wake_slopes(frame.wakes, p, std::span(own).first(p.size()));
     weigh(p, std::span(weight).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) slope[i] += own[i] * weight[i];
@@ -200,7 +200,7 @@ struct WakeWaves {
   void add_velocities(const VelocityFrame& velocity, Points p, Room,
                       std::span<glm::vec3> velocity_mps) const {
     if (velocity.z.wakes.count == 0) return;
-    std::array<float, kChunk> x{}, y{}, z{}, weight;
+    std::array<float, kPointChunk> x{}, y{}, z{}, weight;
     add_wake_heights(velocity.x.wakes, p, std::span(x).first(p.size()));
     add_wake_heights(velocity.y.wakes, p, std::span(y).first(p.size()));
     add_wake_heights(velocity.z.wakes, p, std::span(z).first(p.size()));
@@ -305,11 +305,11 @@ WaterBounds bounds_of(const WaterParts& water) {
 template <class T, class Add>
 void add_up(const WaterParts& water, const SeaWaves& sea, std::span<const glm::dvec2> p_world,
             std::span<T> sums, Add add) {
-  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, p_world.size() - first);
+  for (std::size_t first = 0; first < p_world.size(); first += kPointChunk) {
+    const std::size_t count = std::min(kPointChunk, p_world.size() - first);
     const auto some = sums.subspan(first, count);
     std::ranges::fill(some, T(0.0f));
-    std::array<float, kChunk> storage;
+    std::array<float, kPointChunk> storage;
     const Room room = std::span(storage).first(count);
     std::ranges::fill(room, 1.0f);
     for_each_source(water, sea, [&](const auto& source) {

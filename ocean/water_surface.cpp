@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "math/with_ieee.h"
+#include "ocean/point_chunk.h"
 #include "ocean/wakes.h"
 
 namespace swell::ocean {
@@ -90,10 +91,9 @@ void WaterSurface::normals(std::span<const glm::dvec2> p_world, std::span<glm::v
   const ScopedFloatEnvironment ieee;
   SWELL_CHECK(p_world.size() == normal.size(), "{} points, {} normals", p_world.size(),
               normal.size());
-  constexpr std::size_t kChunk = 256;
-  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, p_world.size() - first);
-    std::array<glm::vec2, kChunk> slope;
+  for (std::size_t first = 0; first < p_world.size(); first += kPointChunk) {
+    const std::size_t count = std::min(kPointChunk, p_world.size() - first);
+    std::array<glm::vec2, kPointChunk> slope;
     slopes(p_world.subspan(first, count), std::span(slope).first(count));
     for (std::size_t i = 0; i < count; ++i) {
       const glm::vec3 up(-slope[i], 1.0f);
@@ -120,11 +120,10 @@ void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame
   const ScopedFloatEnvironment ieee;
   SWELL_CHECK(p_world.size() == foam.size(), "{} points, {} foam", p_world.size(), foam.size());
   const CoastSea* const coast = water_.parts().coast;
-  constexpr std::size_t kChunk = 256;
-  for (std::size_t first = 0; first < p_world.size(); first += kChunk) {
-    const auto p = p_world.subspan(first, std::min(kChunk, p_world.size() - first));
+  for (std::size_t first = 0; first < p_world.size(); first += kPointChunk) {
+    const auto p = p_world.subspan(first, std::min(kPointChunk, p_world.size() - first));
     const auto some = foam.subspan(first, p.size());
-    std::array<float, kChunk> z, share;
+    std::array<float, kPointChunk> z, share;
     heights(p, std::span(z).first(p.size()));
     sample_whitecaps(whitecaps, p, std::span(z).first(p.size()), some);
     if (coast) {

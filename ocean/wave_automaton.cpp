@@ -14,7 +14,6 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * kPi;
 constexpr int kSoftenings = 6;  // of heights: a wave of 4 cells keeps 1/64, one of 12 two thirds
 
 struct Neighbours {

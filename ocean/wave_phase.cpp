@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <stdexcept>
 
 #include "math/elementary.h"
@@ -16,9 +15,6 @@
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTwoPi = 2.0 * kPi;
 
 void check_train(const WaveTrain& train) {
   const auto require = [](bool good, const std::string& what) {
@@ -90,7 +86,7 @@ void set_amplitude(const terrain::HeightGrid& floor, const WaveTrain& train, Wav
 
 // Phase of the deep-water wave, in cycles.
 double deep_cycles(const WaveTrain& train, glm::dvec2 p) {
-  return local_wave_number(train, kInfinity) * glm::dot(train.travel, p) / kTwoPi +
+  return local_wave_number(train, kInfinity<double>) * glm::dot(train.travel, p) / kTwoPi +
          train.phase_cycles;
 }
 
@@ -216,7 +212,8 @@ RefractedWave refract(const WaveTrain& train, glm::dvec2 uphill, double depth_m)
   const double across = glm::dot(train.travel, uphill);
   if (std::abs(across) < 1e-6) return {k * train.travel, 1.0};
   const glm::dvec2 along(-uphill.y, uphill.x);
-  const double k_along = local_wave_number(train, kInfinity) * glm::dot(train.travel, along);
+  const double k_along =
+      local_wave_number(train, kInfinity<double>) * glm::dot(train.travel, along);
   const double k_across = std::sqrt(std::max(k * k - k_along * k_along, 0.0));
   const double energy = std::abs(across) * k / std::max(k_across, 1e-6 * k);
   return {k_along * along + std::copysign(k_across, across) * uphill, std::min(energy, kMaxFocus)};
@@ -257,7 +254,7 @@ void set_border(const terrain::HeightGrid& floor, const WaveTrain& train, const 
     const glm::ivec2 at = border.start + n * border.step;
     const std::size_t sample = grid.index(at.x, at.y);
     const double depth = depth_of_sample(floor, sample);
-    const RefractedWave wave = refract(train, uphill, depth > 0.0 ? depth : kInfinity);
+    const RefractedWave wave = refract(train, uphill, depth > 0.0 ? depth : kInfinity<double>);
     const double rate = glm::dot(wave.k_rad_m, glm::dvec2(border.step)) * grid.spacing_m / kTwoPi;
     if (n > 0) cycles += 0.5 * (rate_before + rate);
     rate_before = rate;
@@ -271,7 +268,7 @@ void set_border(const terrain::HeightGrid& floor, const WaveTrain& train, const 
 EikonalProblem make_problem(const terrain::HeightGrid& floor, const WaveTrain& train) {
   const terrain::Grid& grid = floor.grid;
   EikonalProblem problem{grid, std::vector<double>(grid.size(), 0.0),
-                         std::vector<double>(grid.size(), kInfinity),
+                         std::vector<double>(grid.size(), kInfinity<double>),
                          std::vector<double>(grid.size(), 0.0)};
   RowWaves waves(floor, train);
   for (int j = 0; j < grid.samples_y; ++j) {
@@ -298,16 +295,16 @@ double continued_cycles(const terrain::Grid& grid, const std::vector<double>& cy
                         int j) {
   const auto at = [&](int x, int y) {
     const bool inside = x >= 0 && y >= 0 && x < grid.samples_x && y < grid.samples_y;
-    return inside ? cycles[grid.index(x, y)] : kInfinity;
+    return inside ? cycles[grid.index(x, y)] : kInfinity<double>;
   };
   double sum = 0.0;
   int count = 0;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       const double near = at(i + dx, j + dy);
-      if (near == kInfinity) continue;
+      if (near == kInfinity<double>) continue;
       const double beyond = at(i + 2 * dx, j + 2 * dy);
-      sum += beyond < kInfinity ? 2.0 * near - beyond : near;
+      sum += beyond < kInfinity<double> ? 2.0 * near - beyond : near;
       ++count;
     }
   }
@@ -320,7 +317,7 @@ void continue_onto_land(const terrain::Grid& grid, std::vector<double>& cycles) 
   for (int j = 0; j < grid.samples_y; ++j) {
     for (int i = 0; i < grid.samples_x; ++i) {
       const std::size_t n = grid.index(i, j);
-      if (cycles[n] == kInfinity) filled[n] = continued_cycles(grid, cycles, i, j);
+      if (cycles[n] == kInfinity<double>) filled[n] = continued_cycles(grid, cycles, i, j);
     }
   }
   cycles.swap(filled);
@@ -371,6 +368,11 @@ glm::dvec2 wave_vector_at(const terrain::Grid& grid, const WavePhase& phase, glm
   const glm::dvec2 below = glm::mix(slope(i0, j0), slope(i1, j0), f.x);
   const glm::dvec2 above = glm::mix(slope(i0, j1), slope(i1, j1), f.x);
   return glm::mix(below, above, f.y) * (kTwoPi / grid.spacing_m);
+}
+
+glm::dvec2 turned(glm::dvec2 travel, double angle_rad) {
+  const double c = cos(angle_rad), s = sin(angle_rad);
+  return {c * travel.x - s * travel.y, s * travel.x + c * travel.y};
 }
 
 double breaking_factor(double sum_m, double depth_m) {

@@ -67,6 +67,9 @@ glm::dvec2 wave_vector_at(const terrain::Grid& grid, const WavePhase& phase, glm
 // exceed this part of the depth.
 inline constexpr double kBreakingRatio = 0.78;
 
+// A direction turned by an angle, counter-clockwise.
+glm::dvec2 turned(glm::dvec2 travel, double angle_rad);
+
 // The factor in [0, 1] that brings trains whose amplitudes sum to sum_m down to what water of
 // depth_m carries; 0 on land.
 double breaking_factor(double sum_m, double depth_m);

@@ -12,7 +12,6 @@ constexpr double kRayleighHeight_m = 8000.0, kMieHeight_m = 1200.0;
 constexpr double kOzoneMiddle_m = 25000.0, kOzoneHalfWidth_m = 15000.0;
 constexpr double kMieAlbedo = 0.92, kAngstrom = 0.7;
 constexpr double kNarrow = 0.88, kWide = 0.45, kNarrowPart = 0.53;
-constexpr double kTop_m = kEarthRadius_m + kAirTop_m;
 
 // Source: L. G. Henyey, J. L. Greenstein, Diffuse radiation in the galaxy, 1941, eq. 2.
 double henyey_greenstein(double cos_theta, double g) {
@@ -72,7 +71,8 @@ std::optional<double> distance_to_sea_m(double radius_m, double sine) {
 }
 
 double distance_to_air_top_m(double radius_m, double sine) {
-  const double in_circle = kTop_m * kTop_m - radius_m * radius_m * (1.0 - sine * sine);
+  const double in_circle =
+      kAirTopRadius_m * kAirTopRadius_m - radius_m * radius_m * (1.0 - sine * sine);
   return std::max(-radius_m * sine + std::sqrt(std::max(in_circle, 0.0)), 0.0);
 }
 

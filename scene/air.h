@@ -11,6 +11,7 @@ namespace swell::scene {
 
 inline constexpr double kEarthRadius_m = 6360e3;
 inline constexpr double kAirTop_m = 100e3;
+inline constexpr double kAirTopRadius_m = kEarthRadius_m + kAirTop_m;
 
 // Three wavelengths, 680, 550 and 440 nm, stand for linear red, green and blue; ozone counts by
 // its mean over the bands of these colours.

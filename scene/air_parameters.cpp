@@ -26,30 +26,30 @@ struct FogScatteringName {
 }  // namespace
 
 std::vector<Parameter<Scene>> air_parameters() {
-  using SceneRow = Row<Scene>;
   return {
-      SceneRow::optional_number(
+      Row<Scene>::optional_number(
           "air.visibility_m", {10, 1e6, "m"}, SWELL_FIELD(air.visibility_m),
           "of fog over the sea, at sea level: 2 % of the contrast are left "
           "at this range (Koschmieder); without it and the next there is none"),
-      SceneRow::optional_vector("air.attenuation_per_m", {0, 1, "1/m"},
-                                SWELL_FIELD(air.attenuation_per_m),
-                                "B of fog: linear RGB, after 1/B metres 1/e of the light is left; "
-                                "excludes `visibility_m`"),
-      SceneRow::number("air.fog_top_m", {0, 1e5, "m"}, SWELL_FIELD(air.fog_top_m),
-                       "H, over mean sea level; 0: no fog"),
-      SceneRow::choice("air.profile", FogProfileName{},
-                       "how fog thins with height: even up to its top, or 1/e left at its top"),
-      SceneRow::choice("air.scattering", FogScatteringName{},
-                       "of the sun's light in fog: each point lit through the fog above it, or as "
-                       "the ground is (Klassen)"),
-      SceneRow::number("air.forward", {-0.99, 0.99}, SWELL_FIELD(air.forward),
-                       "l of Blinn's phase function: 0 scatters evenly, towards 1 straight on"),
-      SceneRow::number("air.banks", {0, 1}, SWELL_FIELD(air.banks),
-                       "how much thicker and thinner the fog is in places, which drift with the "
-                       "wind"),
-      SceneRow::number("air.bank_length_m", {10, 1e5, "m"}, SWELL_FIELD(air.bank_length_m),
-                       "about how far such places are apart"),
+      Row<Scene>::optional_vector(
+          "air.attenuation_per_m", {0, 1, "1/m"}, SWELL_FIELD(air.attenuation_per_m),
+          "B of fog: linear RGB, after 1/B metres 1/e of the light is left; "
+          "excludes `visibility_m`"),
+      Row<Scene>::number("air.fog_top_m", {0, 1e5, "m"}, SWELL_FIELD(air.fog_top_m),
+                         "H, over mean sea level; 0: no fog"),
+      Row<Scene>::choice("air.profile", FogProfileName{},
+                         "how fog thins with height: even up to its top, or 1/e left at its top"),
+      Row<Scene>::choice(
+          "air.scattering", FogScatteringName{},
+          "of the sun's light in fog: each point lit through the fog above it, or as "
+          "the ground is (Klassen)"),
+      Row<Scene>::number("air.forward", {-0.99, 0.99}, SWELL_FIELD(air.forward),
+                         "l of Blinn's phase function: 0 scatters evenly, towards 1 straight on"),
+      Row<Scene>::number("air.banks", {0, 1}, SWELL_FIELD(air.banks),
+                         "how much thicker and thinner the fog is in places, which drift with the "
+                         "wind"),
+      Row<Scene>::number("air.bank_length_m", {10, 1e5, "m"}, SWELL_FIELD(air.bank_length_m),
+                         "about how far such places are apart"),
   };
 }
 

@@ -11,8 +11,6 @@
 namespace swell::scene {
 namespace {
 
-constexpr double kTop_m = kEarthRadius_m + kAirTop_m;
-
 double cube(double x) { return x * x * x; }
 
 glm::dvec3 exp_each(glm::dvec3 x) { return {exp(x.x), exp(x.y), exp(x.z)}; }
@@ -20,7 +18,8 @@ glm::dvec3 exp_each(glm::dvec3 x) { return {exp(x.x), exp(x.y), exp(x.z)}; }
 // The transmittance: rows by height, columns by the distance to the air's top.
 // Source: Bruneton, Neyret 2008, section 4.
 constexpr int kHeights = 80, kDistances = 128;
-const double kHorizonAtTop_m = std::sqrt(kTop_m * kTop_m - kEarthRadius_m * kEarthRadius_m);
+const double kHorizonAtTop_m =
+    std::sqrt(kAirTopRadius_m * kAirTopRadius_m - kEarthRadius_m * kEarthRadius_m);
 
 double horizon_distance_m(double radius_m) {
   return std::sqrt(std::max(radius_m * radius_m - kEarthRadius_m * kEarthRadius_m, 0.0));
@@ -79,11 +78,12 @@ void fill_transmittance(Atmosphere& atmosphere, Workers& workers) {
   workers.for_each(kHeights, [&](std::size_t row, int) {
     const double horizon_m = kHorizonAtTop_m * static_cast<double>(row) / (kHeights - 1);
     const double radius_m = std::sqrt(horizon_m * horizon_m + kEarthRadius_m * kEarthRadius_m);
-    const double nearest_m = kTop_m - radius_m, furthest_m = horizon_m + kHorizonAtTop_m;
+    const double nearest_m = kAirTopRadius_m - radius_m, furthest_m = horizon_m + kHorizonAtTop_m;
     for (int column = 0; column < kDistances; ++column) {
       const double d =
           std::max(nearest_m + (furthest_m - nearest_m) * column / (kDistances - 1), 1e-3);
-      const double sine = (kTop_m * kTop_m - radius_m * radius_m - d * d) / (2.0 * radius_m * d);
+      const double sine =
+          (kAirTopRadius_m * kAirTopRadius_m - radius_m * radius_m - d * d) / (2.0 * radius_m * d);
       atmosphere.transmittance[row * kDistances + static_cast<std::size_t>(column)] =
           transmittance_to_top(atmosphere.air, radius_m, std::clamp(sine, -1.0, 1.0));
     }
@@ -92,7 +92,7 @@ void fill_transmittance(Atmosphere& atmosphere, Workers& workers) {
 
 HeightRow height_row_of(double height_m) {
   const double radius_m = kEarthRadius_m + height_m, horizon_m = horizon_distance_m(radius_m);
-  const double nearest_m = kTop_m - radius_m;
+  const double nearest_m = kAirTopRadius_m - radius_m;
   return {between(horizon_m / kHorizonAtTop_m * (kHeights - 1), kHeights), radius_m, nearest_m,
           1.0 / (horizon_m + kHorizonAtTop_m - nearest_m), -horizon_m / radius_m};
 }

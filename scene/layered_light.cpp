@@ -11,7 +11,7 @@ namespace swell::scene {
 namespace {
 
 constexpr int kLayers = kSourceHeights - 1;
-constexpr int kOrders = 10;
+constexpr int kSummedOrders = 10;
 constexpr double kLeastOfMode = 0.02;  // modes that shrank to less are left out
 constexpr double kStep = 0.003;        // of the sun's sine
 
@@ -123,14 +123,14 @@ Layer make_layer(const Air& air, const Slab& slab, int c, const std::array<doubl
 template <class T>
 using Channels = std::array<T, 3>;
 template <class T>
-using Rows = std::array<Channels<T>, kSourceHeights>;
+using HeightRows = std::array<Channels<T>, kSourceHeights>;
 using Stream = std::array<float, kStreams>;
 using Moments = std::array<float, kDegrees>;
 
 // ---- The sun's light
 
 struct SunLight {
-  Rows<float> arrives, growth;  // by height; d log(arrives) / d sine
+  HeightRows<float> arrives, growth;  // by height; d log(arrives) / d sine
   // What of the light it makes arrives at both sides of the layers: it fades within one by a power.
   std::array<Channels<Layer>, kLayers> down, up;
 };
@@ -179,11 +179,11 @@ SunLight sun_light(const Atmosphere& atmosphere, const Layers& layers, double si
 // ---- Modes of light
 
 struct Mode {
-  Rows<Stream> source, light;
+  HeightRows<Stream> source, light;
   // How much more light there is where the sun stands higher, towards which the streams come from:
   // times the cosine of the azimuth.
-  Rows<Stream> drift;
-  Rows<Moments> moments, sum;
+  HeightRows<Stream> drift;
+  HeightRows<Moments> moments, sum;
 };
 
 // Light along streams, its growth with the sine of the sun's elevation, and that times the way
@@ -192,7 +192,7 @@ struct StreamLight {
   StreamRow light{}, growth{}, drift_m{};
 };
 // The same of one stream.
-struct Ray {
+struct LowestRay {
   float light = 0.0f, growth = 0.0f, drift_m = 0.0f;
 };
 
@@ -210,13 +210,13 @@ class LayeredSky {
     for (int m = 0; m < kModes; ++m) scatter_sun(sun, m);
     finish_order(kModes);
     for (Mode& mode : modes_) mode.sum = mode.moments;
-    for (int order = 2; order <= kOrders; ++order) {
+    for (int order = 2; order <= kSummedOrders; ++order) {
       const int count = modes_of(order);
-      const Rows<Moments> before = modes_[0].moments;
+      const HeightRows<Moments> before = modes_[0].moments;
       for (int m = 0; m < count; ++m) scatter_again(m);
       finish_order(count);
       for (int m = 0; m < count; ++m) add(modes_[m].moments, modes_[m].sum);
-      if (order == kOrders) add_later_orders(before);
+      if (order == kSummedOrders) add_later_orders(before);
     }
   }
 
@@ -303,7 +303,7 @@ class LayeredSky {
              const Channels<float>& sea, int m) {
     for (int c = 0; c < 3; ++c) {
       StreamLight streams;
-      std::array<Ray, kSourceHeights> lowest{};  // that goes down
+      std::array<LowestRay, kSourceHeights> lowest{};  // that goes down
       keep(streams, kLayers, c, 0, m);
       for (int i = kLayers - 1; i >= 0; --i) {
         turn_down(down[i][c].turned, streams);
@@ -336,7 +336,7 @@ class LayeredSky {
     float near_growth, far_growth;
   };
 
-  static Ray lowest_of(const StreamLight& streams) {
+  static LowestRay lowest_of(const StreamLight& streams) {
     return {streams.light.back(), streams.growth.back(), streams.drift_m.back()};
   }
 
@@ -347,7 +347,7 @@ class LayeredSky {
   }
 
   // And from flatter ones below, the lowest from what comes down at `level`.
-  static void turn_up(const StreamRow& turned, const Ray& level, StreamLight& streams) {
+  static void turn_up(const StreamRow& turned, const LowestRay& level, StreamLight& streams) {
     const auto turn = [&](StreamRow& row, float last) {
       for (int j = 0; j < kHalf; ++j)
         row[j] += turned[j] * ((j + 1 < kHalf ? row[j + 1] : last) - row[j]);
@@ -405,15 +405,15 @@ class LayeredSky {
         growth_[i][c] = means_[i][c].growth / std::max(means_[i][c].light, 1e-35f);
   }
 
-  static void add(const Rows<Moments>& more, Rows<Moments>& sum) {
+  static void add(const HeightRows<Moments>& more, HeightRows<Moments>& sum) {
     for (int i = 0; i < kSourceHeights; ++i)
       for (int c = 0; c < 3; ++c)
         for (int l = 0; l < kDegrees; ++l) sum[i][c][l] += more[i][c][l];
   }
 
   // Alike in all azimuths.
-  void add_later_orders(const Rows<Moments>& before) {
-    const Rows<Moments>& last = modes_[0].moments;
+  void add_later_orders(const HeightRows<Moments>& before) {
+    const HeightRows<Moments>& last = modes_[0].moments;
     for (int i = 0; i < kSourceHeights; ++i)
       for (int c = 0; c < 3; ++c) {
         const float more = later_orders(before[i][c][0], last[i][c][0]);
@@ -428,8 +428,8 @@ class LayeredSky {
   const Layers& layers_;
   double sine_;
   std::vector<Mode> modes_;
-  Rows<float> growth_;  // of the light to be scattered: d log / d sine
-  Rows<Mean> means_;    // of the light last scattered
+  HeightRows<float> growth_;  // of the light to be scattered: d log / d sine
+  HeightRows<Mean> means_;    // of the light last scattered
   Moments haze_moment_, rayleigh_moment_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Paint kPaint{};
 constexpr Paint kWetPaint{glm::vec3(0.45f), true};
-constexpr Paint kAntifouling{glm::vec3(0.035f, 0.03f, 0.03f), false};
+constexpr Paint kBuoyBottomPaint{glm::vec3(0.035f, 0.03f, 0.03f), false};
 constexpr Paint kDeck{glm::vec3(0.6f), true};
 constexpr Paint kSteel{glm::vec3(0.10f, 0.10f, 0.11f), false};
 constexpr Paint kReflector{glm::vec3(0.75f, 0.75f, 0.72f), false};
@@ -50,7 +50,7 @@ void add_buoy(TopMark mark, MeshBuilder& to) {
   };
   // Hull, dark below the water, wet above, with a deck.
   turned({V(0.0f, 0.0f), V(0.30f, 0.0f), V(0.46f, 0.05f), V(0.5f, 0.09f), V(0.5f, 0.19f)},
-         kAntifouling);
+         kBuoyBottomPaint);
   turned({V(0.5f, 0.19f), V(0.5f, 0.225f)}, kWetPaint);
   turned({V(0.5f, 0.225f), V(0.5f, 0.265f), V(0.47f, 0.28f)}, kPaint);
   turned({V(0.47f, 0.28f), V(0.25f, 0.285f)}, kDeck);

@@ -22,7 +22,7 @@ constexpr int kGathered = (kSourceHeights + 1) / 2, kGatheredHaze = (kHazeHeight
 constexpr int kGatheredPoints = kGathered * kRoundSines;
 static_assert(kSourceHeights % 2 == 1 && kHazeHeights % 2 == 1);
 
-constexpr int kOrders = 5;  // that are gathered
+constexpr int kGatheredOrders = 5;  // that are gathered
 
 // ---- Directions
 
@@ -314,7 +314,7 @@ std::vector<glm::vec3> haze_moments(const std::vector<Harmonics>& cells, const R
 RoundLight scatter_on_round_earth(const Atmosphere& atmosphere, Workers& workers) {
   const Directions directions = make_directions(atmosphere.air, workers);
   Radiance last = gather_first(atmosphere, directions, workers), sum = last, before;
-  for (int order = 2; order <= kOrders; ++order) {
+  for (int order = 2; order <= kGatheredOrders; ++order) {
     before = std::move(last);
     last = gather_again(means_of(directions, before, workers), directions, workers);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += last[i];

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr double kMaxWind_mps = 60.0;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& text) {
+[[noreturn]] void refuse_file(const fs::path& file, const std::string& text) {
   throw SceneError(one_line(fmt::format("{}: {}", file.string(), text)));
 }
 
@@ -369,15 +369,15 @@ std::string read_text(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status))
-    fail(path, fmt::format("scene file, got '{}', {}", error.message(), allowed));
+    refuse_file(path, fmt::format("scene file, got '{}', {}", error.message(), allowed));
   if (!fs::is_regular_file(status))
-    fail(path, fmt::format("scene file, got a {}, {}",
+    refuse_file(path, fmt::format("scene file, got a {}, {}",
                            fs::is_directory(status) ? "directory" : "special file", allowed));
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "scene file, got one that cannot be opened, " + allowed);
+  if (!file) refuse_file(path, "scene file, got one that cannot be opened, " + allowed);
   std::string text(kMaxFileBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) fail(path, "scene file, got a read error, " + allowed);
+  if (file.bad()) refuse_file(path, "scene file, got a read error, " + allowed);
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;
 }

@@ -60,25 +60,26 @@ glm::vec3 point_of_rock(glm::vec3 direction, std::span<const Facet> facets) {
 // wide from most places, and dotted.
 void add_pier(MeshBuilder& to) {
   const bool fine = to.segments >= 12;
-  constexpr float kHalf = 18.0f, kTop = 2.1f, kLow = -4.9f;
+  constexpr float kHalfWidth = 18.0f, kTop = 2.1f, kLow = -4.9f;
   constexpr int kPairs = 9;
-  to.size = {3.0f, 2.0f * kHalf, kTop - kLow};
+  to.size = {3.0f, 2.0f * kHalfWidth, kTop - kLow};
   to.origin = {0.0f, 0.0f, -kLow};
   to.segments = fine ? 8 : 4;
   const int planks = fine ? 45 : 1;
-  const float step = 2.0f * kHalf / static_cast<float>(planks);
+  const float step = 2.0f * kHalfWidth / static_cast<float>(planks);
   for (int i = 0; i < planks; ++i) {
-    const float y = -kHalf + static_cast<float>(i) * step;
+    const float y = -kHalfWidth + static_cast<float>(i) * step;
     add_box({-1.5f, y, kTop - 0.12f}, {1.5f, y + step, kTop},
             weathered(kTimber, static_cast<std::uint64_t>(i), 0.25f), to);
   }
   for (const float x : {-1.1f, 1.1f})
-    add_box({x - 0.1f, -kHalf + 0.1f, kTop - 0.42f}, {x + 0.1f, kHalf - 0.1f, kTop - 0.13f},
-            kTimber, to);
+    add_box({x - 0.1f, -kHalfWidth + 0.1f, kTop - 0.42f},
+            {x + 0.1f, kHalfWidth - 0.1f, kTop - 0.13f}, kTimber, to);
   end_part({}, to);
   constexpr float kRadius = 0.16f;
   for (int i = 0; i < kPairs; ++i) {
-    const float y = -kHalf + 1.0f + static_cast<float>(i) * (2.0f * kHalf - 2.0f) / (kPairs - 1);
+    const float y =
+        -kHalfWidth + 1.0f + static_cast<float>(i) * (2.0f * kHalfWidth - 2.0f) / (kPairs - 1);
     for (const float x : {-1.1f, 1.1f}) {
       to.origin = {x, y, -kLow};
       Paint wet = weathered(kTimber, 100u + static_cast<std::uint64_t>(2 * i) + (x > 0.0f), 0.2f);

@@ -10,12 +10,12 @@ namespace {
 
 // The grid's cell below a point, and the place in it in [0, 1]; along an axis of one sample the
 // cell has no width.
-struct Cell {
+struct AxisCell {
   int i0, i1;
   double fraction;
 };
 
-Cell find_cell(double x, double min, double spacing_m, int samples) {
+AxisCell find_cell(double x, double min, double spacing_m, int samples) {
   // max first, so that NaN becomes 0.
   const double u = std::min(std::max(0.0, (x - min) / spacing_m), static_cast<double>(samples - 1));
   const int i0 = std::min(static_cast<int>(u), std::max(samples - 2, 0));
@@ -29,8 +29,8 @@ struct Corners {
 
 Corners find_corners(const HeightGrid& heights, glm::dvec2 p) {
   const Grid& grid = heights.grid;
-  const Cell x = find_cell(p.x, grid.min_world.x, grid.spacing_m, grid.samples_x);
-  const Cell y = find_cell(p.y, grid.min_world.y, grid.spacing_m, grid.samples_y);
+  const AxisCell x = find_cell(p.x, grid.min_world.x, grid.spacing_m, grid.samples_x);
+  const AxisCell y = find_cell(p.y, grid.min_world.y, grid.spacing_m, grid.samples_y);
   const float* south = &heights.height_m[grid.index(0, y.i0)];
   const float* north = &heights.height_m[grid.index(0, y.i1)];
   return {south[x.i0], south[x.i1], north[x.i0], north[x.i1], x.fraction, y.fraction};

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
+#include "math/elementary.h"
 #include "math/large_array.h"
 #include "terrain/apron.h"
 
@@ -71,12 +71,11 @@ void lower_envelope(const Line<float>& line, Envelope& store) {
   store.from.resize(n + 1);
   store.value.resize(n);
   for (std::size_t i = 0; i < n; ++i) store.value[i] = line[i];
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   std::size_t count = 0;  // of parabolas in the envelope
   for (std::size_t j = 0; j < n; ++j) {
     if (store.value[j] >= kFar) continue;
     const auto q = static_cast<double>(j);
-    float meet = -kInfinity;
+    float meet = -kInfinity<float>;
     while (count > 0) {
       const auto p = static_cast<double>(store.root[count - 1]);
       const double rise = static_cast<double>(store.value[j]) + q * q -
@@ -84,11 +83,11 @@ void lower_envelope(const Line<float>& line, Envelope& store) {
       meet = static_cast<float>(rise / (2.0 * (q - p)));
       if (meet > store.from[count - 1]) break;
       --count;
-      meet = -kInfinity;
+      meet = -kInfinity<float>;
     }
     store.root[count] = j;
     store.from[count] = meet;
-    store.from[++count] = kInfinity;
+    store.from[++count] = kInfinity<float>;
   }
   if (count == 0) return;
   for (std::size_t i = 0, k = 0; i < n; ++i) {

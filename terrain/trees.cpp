@@ -283,8 +283,8 @@ HeightGrid distance_from_sea(const HeightGrid& terrain) {
   const int n = std::min(terrain.grid.samples_x, kWaterLineSamples);
   const Grid grid{terrain.grid.min_world, terrain.grid.size_m() / (n - 1), n, n};
   HeightGrid distance = resample(terrain, grid);
-  constexpr float kFar = 1e12f;  // squared, in samples
-  for (float& h : distance.height_m) h = h <= 0.0f ? 0.0f : kFar;
+  constexpr float kFarthest = 1e12f;  // squared, in samples
+  for (float& h : distance.height_m) h = h <= 0.0f ? 0.0f : kFarthest;
   std::vector<float> line(static_cast<std::size_t>(n)), nearest(line.size());
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) line[j] = distance.height_m[grid.index(i, j)];

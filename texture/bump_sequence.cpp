@@ -55,7 +55,7 @@ Image8 make_detail(const ImageF& heights, const Moments& all) {
 
 // ---- Files
 
-[[noreturn]] void fail(const std::string& path, const std::string& text) {
+[[noreturn]] void refuse_sequence(const std::string& path, const std::string& text) {
   throw FileError(fmt::format("{}: {}", path, text));
 }
 
@@ -66,14 +66,14 @@ ImageF read_frame(const std::string& path, int frames, int size) {
   const bool fits = image.width == image.height && image.width >= kLeastBumpSize &&
                     image.width <= kMostBumpSize && std::has_single_bit(side);
   if (!fits || (size > 0 && image.width != size))
-    fail(path, fmt::format("bump image, got {} x {} pixels, allowed a square of {}", image.width,
-                           image.height,
-                           size > 0 ? fmt::format("{}, as the first", size)
-                                    : fmt::format("{} to {} a side, a power of two", kLeastBumpSize,
-                                                  kMostBumpSize)));
+    refuse_sequence(path, fmt::format("bump image, got {} x {} pixels, allowed a square of {}",
+                                      image.width, image.height,
+                                      size > 0 ? fmt::format("{}, as the first", size)
+                                               : fmt::format("{} to {} a side, a power of two",
+                                                             kLeastBumpSize, kMostBumpSize)));
   if (texels_of(image) * static_cast<std::size_t>(frames) > kMostBumpTexels)
-    fail(path, fmt::format("bump image, got {} frames of {} pixels a side, allowed {}", frames,
-                           image.width, kMostBumpTexels / texels_of(image)));
+    refuse_sequence(path, fmt::format("bump image, got {} frames of {} pixels a side, allowed {}",
+                                      frames, image.width, kMostBumpTexels / texels_of(image)));
   ImageF heights{image.width, image.height, 1, std::vector<float>(texels_of(image))};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
@@ -140,10 +140,11 @@ BumpSequence read_bump_sequence(std::string_view path, int frames) {
         read_frame(path_of_frame(path, frame), frames, frame > 0 ? heights[0].width : 0));
   const double slope = std::sqrt(moments_of(heights).slope2);
   if (!(slope >= kLeastSlope && slope <= kMostSlope))
-    fail(path_of_frame(path, 0),
-         fmt::format("bump images, got heights that differ by {:.3g} from a pixel to the next but "
-                     "one, allowed {} to {}",
-                     slope, kLeastSlope, kMostSlope));
+    refuse_sequence(
+        path_of_frame(path, 0),
+        fmt::format("bump images, got heights that differ by {:.3g} from a pixel to the next but "
+                    "one, allowed {} to {}",
+                    slope, kLeastSlope, kMostSlope));
   return make_bump_sequence(heights);
 }
 

@@ -11,6 +11,7 @@
 
 #include "apps/bench/bench.h"
 #include "apps/bench/compare_programs.h"
+#include "apps/bench/frame_run.h"
 #include "apps/bench/part_costs.h"
 #include "apps/bench/run_comparison.h"
 #include "apps/shared/cpu_name.h"
@@ -26,8 +27,6 @@
 
 namespace swell::apps {
 namespace {
-
-constexpr double kFramesPerSecond = 60.0;  // frame k shows time k / 60
 
 struct FrameBench {
   FrameSetup setup;
@@ -69,7 +68,7 @@ void add_counters(const Quality& quality, double time_us, Trace& trace) {
 }
 
 // Draws frames -warm_up to frames - 1 and keeps the numbers of those from 0 on.
-Samples measure(const FrameBench& bench, const render::World& world, Trace& trace) {
+Samples measure_frames(const FrameBench& bench, const render::World& world, Trace& trace) {
   Workers workers(bench.setup.threads);
   render::Workspace workspace;
   workspace.trace_enabled = !bench.trace.empty();
@@ -169,7 +168,7 @@ void run_frame_bench(const FrameBench& bench) {
   const double world_ms = making.elapsed_ms();
   Trace trace;
   const auto switches_before = resource_usage().ru_nivcsw;
-  const Samples samples = measure(bench, world, trace);
+  const Samples samples = measure_frames(bench, world, trace);
   FrameReport report = summarize(bench, world, samples);
   report.world_ms = world_ms;
   report.involuntary_switches = resource_usage().ru_nivcsw - switches_before;

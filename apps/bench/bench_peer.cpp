@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/frame_run.h"
 #include "apps/bench/picture_difference.h"
 #include "apps/peer/peer.h"
 #include "apps/shared/cpu_name.h"
@@ -24,7 +25,6 @@ namespace {
 
 using render::kStages;
 
-constexpr double kFramesPerSecond = 60.0;
 // Threads of the one that drew last go to sleep before the other begins.
 constexpr std::chrono::milliseconds kPause{3};
 constexpr int kDifferenceGain = 8;
@@ -118,7 +118,7 @@ PictureDifference Duel::compare_and_write() {
   return picture_difference(target_.rgba, rgba_);
 }
 
-PeerSamples measure(const PeerBench& bench, const render::World& world, Peer& peer) {
+PeerSamples measure_peer(const PeerBench& bench, const render::World& world, Peer& peer) {
   Duel duel(bench, world, peer);
   PeerSamples samples;
   // The first frame a few times: the peer compiles its shaders, both make their storage.
@@ -205,7 +205,7 @@ void run_peer_bench(const PeerBench& bench) {
   scene::Scene scene = load_scene(bench.setup.scene);
   Peer peer(bench.setup.threads);  // before any thread starts
   const render::World world(std::move(scene));
-  const PeerSamples samples = measure(bench, world, peer);
+  const PeerSamples samples = measure_peer(bench, world, peer);
   const Json report = report_json(bench, world, peer, samples);
   if (bench.json != "-") fmt::print("{}", report_text(report));
   if (!bench.json.empty()) write_text(bench.json, report.dump(2) + "\n");

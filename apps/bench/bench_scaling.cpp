@@ -15,8 +15,6 @@
 namespace swell::apps {
 namespace {
 
-constexpr int kWarmUp = 5;
-
 // Draws frames with a number of threads, one at a time.
 class Drawing {
  public:
@@ -94,7 +92,7 @@ struct Measurement {
 };
 
 // Of the frames that were interrupted least: as a rule, not at all.
-Measurement measure(const FrameRun& run, const render::World& world) {
+Measurement measure_scaling(const FrameRun& run, const render::World& world) {
   std::vector<DrawnTwice> frames = draw_frames(run, world);
   const std::int64_t least = std::ranges::min(frames, {}, &DrawnTwice::interruptions).interruptions;
   std::erase_if(frames, [&](const DrawnTwice& frame) { return frame.interruptions > least; });
@@ -112,7 +110,7 @@ Measurement measure(const FrameRun& run, const render::World& world) {
 
 void run_scaling_bench(const FrameRun& run) {
   const render::World world = begin_run(run);
-  const Measurement measurement = measure(run, world);
+  const Measurement measurement = measure_scaling(run, world);
   const ScalingReport report = predict_scaling(measurement.frames, run.setup.threads);
   const std::string how =
       fmt::format("{} of {} frames of one thread (interrupted {} times each)",

@@ -13,7 +13,6 @@
 namespace swell::apps {
 namespace {
 
-constexpr int kWarmUp = 5;
 constexpr int kClocksAFrame = 4;
 
 // What the tiles of the last frame show, and how long shading each took. One thread takes them in
@@ -38,7 +37,7 @@ ShadedFrame shaded_tiles(const render::Workspace& workspace) {
   return tiles;
 }
 
-ShadingReport measure(const FrameRun& run, const render::World& world) {
+ShadingReport measure_shading(const FrameRun& run, const render::World& world) {
   Workers one_thread(1);
   render::Workspace workspace;
   workspace.trace_enabled = true;
@@ -61,7 +60,7 @@ ShadingReport measure(const FrameRun& run, const render::World& world) {
 void run_shading_bench(const FrameRun& run) {
   const render::World world = begin_run(run);
   stay_on_this_cpu();
-  const ShadingReport report = measure(run, world);
+  const ShadingReport report = measure_shading(run, world);
   report_run(run, world, "one thread", shading_text(report), shading_json(report));
 }
 

@@ -12,6 +12,7 @@
 namespace swell::apps {
 
 inline constexpr double kFramesPerSecond = 60.0;  // frame k shows time k / 60
+inline constexpr int kWarmUp = 5;                 // frames before those that count
 
 struct FrameRun {
   FrameSetup setup;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "apps/bench/frame_run.h"
 #include "lod/uniform_grid.h"
 #include "render/measure/mesh_error.h"
 #include "render/workspace.h"
@@ -14,7 +15,7 @@ namespace swell::apps {
 namespace {
 
 constexpr double kTime_s = 4.0;
-constexpr double kSpeed_mps = 30.0, kFramesPerSecond = 60.0;
+constexpr double kSpeed_mps = 30.0;
 
 struct NamedView {
   std::string name;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/frame_run.h"
 #include "lod/roam.h"
 #include "ocean/sea.h"
 #include "texture/uv_noise.h"
@@ -14,7 +15,7 @@
 namespace swell::apps {
 namespace {
 
-constexpr double kFramesPerSecond = 60.0, kRound_s = 120.0;
+constexpr double kRound_s = 120.0;
 constexpr double kPi = std::numbers::pi;
 constexpr double kTexture_m = 8.0;  // period of the texture on the sea
 constexpr double kNoise_m = 23.0;   // period of the noise that bends its coordinates

@@ -13,8 +13,6 @@
 namespace swell::apps {
 namespace {
 
-constexpr int kWarmUp = 5;
-
 void stop_objects(scene::Scene& scene) {
   for (scene::FloatingObject& object : scene.objects) {
     const scene::PlanPose pose = scene::plan_pose(object, 0.0);

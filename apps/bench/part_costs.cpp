@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/bench/frame_run.h"
 #include "apps/shared/cpu_name.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/report.h"
@@ -10,8 +11,6 @@
 
 namespace swell::apps {
 namespace {
-
-constexpr double kFramesPerSecond = 60.0;  // frame k shows time k / 60
 
 // The frame's options, and what they come to.
 struct Variant {

@@ -61,19 +61,19 @@ scene::Scene scene_over(const HeightFile& file, const BenchMap& map) {
   return scene;
 }
 
-struct Flight {
+struct BudgetFlight {
   double frame_ms = 0.0;  // median
   render::Target last;
 };
 
 // A metre a frame, 580 m over the sea, down by 10 degrees.
-Flight fly(const TerrainComparison& comparison, const render::World& world, int triangles) {
+BudgetFlight fly(const TerrainComparison& comparison, const render::World& world, int triangles) {
   Workers workers(comparison.threads);
   render::Workspace workspace;
   render::FrameOptions options;
   options.edge_samples = 0;
   options.terrain_triangles = triangles;
-  Flight flight;
+  BudgetFlight flight;
   std::vector<double> ms;
   for (int k = 0; k < comparison.frames + 2; ++k) {
     const View view =
@@ -107,8 +107,9 @@ void compare_terrains(const TerrainComparison& comparison, std::span<const int> 
     const render::World triangles(scene, comparison.threads);
     scene.detail.terrain_method = scene::TerrainMethod::kRays;
     const render::World rays(scene, triangles, comparison.threads);
-    const Flight few = fly(comparison, triangles, 30000), many = fly(comparison, triangles, 500000),
-                 by_rays = fly(comparison, rays, 0);
+    const BudgetFlight few = fly(comparison, triangles, 30000),
+                       many = fly(comparison, triangles, 500000),
+                       by_rays = fly(comparison, rays, 0);
     fmt::print("{:>8}{:>18.2f}{:>9.3f}{:>18.2f}{:>9.2f}{:>9.3f}\n", n, few.frame_ms,
                picture_difference(few.last.rgba, many.last.rgba).mean, many.frame_ms,
                by_rays.frame_ms, picture_difference(by_rays.last.rgba, many.last.rgba).mean);

@@ -18,7 +18,8 @@ namespace {
 constexpr int kMaxSidePx = 8192;
 constexpr int kMaxFrame = 9999999;
 
-[[noreturn]] void refuse(std::string_view option, std::string_view got, std::string_view allowed) {
+[[noreturn]] void refuse_value(std::string_view option, std::string_view got,
+                               std::string_view allowed) {
   throw OptionError(fmt::format("command line: {}: got '{}', allowed {}", option,
                                 scene::shortened(got), allowed));
 }
@@ -73,7 +74,7 @@ void add_json_option(CommandLine& line, std::string& path) {
 void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
   const auto take_tile = [&frame](const std::string& text) {
     const int size = parse_number<int>(text).value_or(0);
-    if (size != 16 && size != 32 && size != 64) refuse("--tile", text, "16, 32 or 64");
+    if (size != 16 && size != 32 && size != 64) refuse_value("--tile", text, "16, 32 or 64");
     frame.tile_size_px = size;
   };
   line.add_value(
@@ -91,7 +92,8 @@ void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
              "Draw at this share of the size and enlarge: faster, less sharp; not for .exr");
   const auto take_samples = [&frame](const std::string& text) {
     const int samples = parse_number<int>(text).value_or(-1);
-    if (samples != 0 && samples != 4 && samples != 8) refuse("--edge-samples", text, "0, 4 or 8");
+    if (samples != 0 && samples != 4 && samples != 8)
+      refuse_value("--edge-samples", text, "0, 4 or 8");
     frame.edge_samples = samples;
   };
   line.add_value({"--edge-samples", "N", "",
@@ -105,7 +107,7 @@ void add_without_option(CommandLine& line, render::PartSet& without) {
   const std::string names = fmt::format("{}", fmt::join(render::kPartNames, ", "));
   const auto take_parts = [&without, names](const std::string& text) {
     const auto parts = render::parse_parts(text);
-    if (!parts) refuse("--without", text, names + ", with commas");
+    if (!parts) refuse_value("--without", text, names + ", with commas");
     without = *parts;
   };
   line.add_value(
@@ -115,7 +117,7 @@ void add_without_option(CommandLine& line, render::PartSet& without) {
 void add_labels_option(CommandLine& line, render::LabelSet& labels, const std::string& help) {
   const auto take_labels = [&labels](const std::string& text) {
     const auto wanted = parse_labels(text);
-    if (!wanted) refuse("--labels", text, label_names() + ", with commas");
+    if (!wanted) refuse_value("--labels", text, label_names() + ", with commas");
     labels = *wanted;
   };
   line.add_value({"--labels", "LIST", "", help + "; LIST is of " + label_names(), take_labels});
@@ -142,7 +144,7 @@ void add_integer(CommandLine& line, const std::string& name, int& value, int low
   const auto store = [&value, name, low, high](const std::string& text) {
     const auto number = parse_number<int>(text);
     if (!number || *number < low || *number > high)
-      refuse(name, text, fmt::format("whole numbers from {} to {}", low, high));
+      refuse_value(name, text, fmt::format("whole numbers from {} to {}", low, high));
     value = *number;
   };
   line.add_value({name, "N", default_text(value, low), help, store});
@@ -153,7 +155,7 @@ void add_number(CommandLine& line, const std::string& name, double& value, doubl
   const auto store = [&value, name, low, high](const std::string& text) {
     const auto number = parse_number<double>(text);
     if (!number || !std::isfinite(*number) || *number < low || *number > high)
-      refuse(name, text, fmt::format("numbers from {} to {}", low, high));
+      refuse_value(name, text, fmt::format("numbers from {} to {}", low, high));
     value = *number;
   };
   line.add_value({name, "X", default_text(value, low), help, store});
@@ -163,23 +165,23 @@ void select_simd(std::string_view name) {
   if (name.empty()) return;
   for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
     if (name != simd_target_name(target)) continue;
-    if (!simd_target_available(target)) refuse("--simd", name, "avx2 on this CPU");
+    if (!simd_target_available(target)) refuse_value("--simd", name, "avx2 on this CPU");
     select_simd_target(target);
     return;
   }
-  refuse("--simd", name, "avx2 or avx512");
+  refuse_value("--simd", name, "avx2 or avx512");
 }
 
 PictureSize parse_size(std::string_view text) {
   const auto size = parse_pair(text, 'x', 1, kMaxSidePx);
-  if (!size) refuse("--size", text, fmt::format("1x1 to {0}x{0}", kMaxSidePx));
+  if (!size) refuse_value("--size", text, fmt::format("1x1 to {0}x{0}", kMaxSidePx));
   return {size->first, size->second};
 }
 
 FrameRange parse_frame_range(std::string_view text) {
   const auto range = parse_pair(text, '-', 0, kMaxFrame);
   if (!range || range->first > range->second)
-    refuse("--frames", text, fmt::format("A-B with 0 <= A <= B <= {}", kMaxFrame));
+    refuse_value("--frames", text, fmt::format("A-B with 0 <= A <= B <= {}", kMaxFrame));
   return {range->first, range->second};
 }
 

@@ -7,12 +7,12 @@
 namespace swell::render {
 namespace {
 
-constexpr std::size_t kChunk = kVertexChunk;  // vertices or triangles a task
+constexpr std::size_t kTaskSize = kVertexChunk;  // vertices or triangles a task
 
 template <class Body>
 void for_chunks(std::size_t count, const StageRun& run, const Body& body) {
-  run.for_each((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-    body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
+  run.for_each((count + kTaskSize - 1) / kTaskSize, [&](std::size_t chunk, int) {
+    body(chunk * kTaskSize, std::min(count, (chunk + 1) * kTaskSize));
   });
 }
 

@@ -5,16 +5,11 @@
 #include "math/elementary.h"
 
 namespace swell::render {
-namespace {
-
-constexpr float kAlbedo = 0.8f;
-
-}  // namespace
 
 Foam make_foam(const MaterialInputs& in, glm::dvec2 eye, double period_m) {
   const float sun = std::max(in.light.sun_direction.z, 0.0f) / static_cast<float>(kPi);
-  return {make_layer(*in.world.foam_pattern, period_m, 1.0f, eye, {}), kAlbedo * in.light.ambient,
-          kAlbedo * sun * in.light.sun_irradiance};
+  return {make_layer(*in.world.foam_pattern, period_m, 1.0f, eye, {}),
+          kFoamAlbedo * in.light.ambient, kFoamAlbedo * sun * in.light.sun_irradiance};
 }
 
 }  // namespace swell::render

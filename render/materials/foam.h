@@ -14,6 +14,7 @@ struct Foam {
   glm::vec3 sky_light{0.0f}, sun_light{0.0f};
 };
 
+inline constexpr float kFoamAlbedo = 0.8f;
 inline constexpr double kFoamPeriod_m = 9.0;      // of broken waves
 inline constexpr double kHullFoamPeriod_m = 2.5;  // of what splashes about hulls
 

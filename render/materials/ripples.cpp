@@ -12,9 +12,8 @@ namespace {
 
 constexpr double kBumpSlope = double{texture::kBumpSlope};
 
-// Slope variance of what is too fine for any map: in a breeze, and of glass, which spreads the
-// sun's disc to about twice its width.
-constexpr float kBaseVariance = 0.0012f, kGlassVariance = 2e-5f;
+// Slope variance of what is too fine for any map, in a breeze.
+constexpr float kBaseVariance = 0.0012f;
 
 // The wind that makes ripples; sines have a breeze of their own.
 double ripple_wind_mps(const scene::Scene& scene) {

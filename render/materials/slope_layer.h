@@ -9,6 +9,9 @@
 
 namespace swell::render {
 
+// Slope variance of glass, which spreads the sun's disc to about twice its width, and no image.
+inline constexpr float kGlassVariance = 2e-5f;
+
 // A map of two channels, slopes as a rule, that repeats or lies over one square.
 struct SlopeLayer {
   const texture::PackedMap2* map = nullptr;

@@ -18,9 +18,6 @@ namespace swell::render {
 // The sea's patches and two layers of ripples.
 inline constexpr int kMaxSlopeLayers = static_cast<int>(ocean::kMaxPatches) + 2;
 
-// Slope variance of glass, which spreads the sun's disc to about twice its width, and no image.
-inline constexpr float kGlassVariance = 2e-5f;
-
 // A sine wave's slopes: amplitude_slope * cos(2 pi (cycles_per_m . p_rel + cycles)).
 struct SineLayer {
   float kx = 0.0f, ky = 0.0f;  // cycles per metre

@@ -4,11 +4,11 @@
 
 #include "math/elementary.h"
 #include "math/smoothstep.h"
+#include "render/materials/foam.h"
 
 namespace swell::render {
 namespace {
 
-constexpr float kAlbedo = 0.8f;
 // Light that bubbles send back has come through so much water, and loses half besides.
 constexpr float kBubblesDeep_m = 2.0f, kBubblesAlbedo = 0.5f;
 // Periods across the wind of the pattern, which has cells of 1/10 and 1/25 of that.
@@ -35,8 +35,8 @@ FoamLace make_lace(const MaterialInputs& in, glm::dvec2 eye, double period_m, do
 
 Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   Whitecaps whitecaps;
-  whitecaps.sky_light = kAlbedo * in.light.ambient;
-  whitecaps.sun_light = (kAlbedo / static_cast<float>(kPi)) * in.light.sun_irradiance;
+  whitecaps.sky_light = kFoamAlbedo * in.light.ambient;
+  whitecaps.sun_light = (kFoamAlbedo / static_cast<float>(kPi)) * in.light.sun_irradiance;
   for (int c = 0; c < 3; ++c)
     whitecaps.bubbles[c] = kBubblesAlbedo * static_cast<float>(exp(static_cast<double>(
                                                 -kBubblesDeep_m * in.media.absorption_per_m[c])));

@@ -9,7 +9,7 @@ namespace {
 
 // Shafts further away than twice the way on which water takes away 1 - 1/e of the light, or
 // than this, are too dim and too many to be told apart.
-constexpr float kReach = 2.0f, kMostReach_m = 40.0f;
+constexpr float kUsualReach = 2.0f, kMostShaftReach_m = 40.0f;
 constexpr float kDiffused = 0.5f;   // of the light that is lost
 constexpr float kBlurred_m = 8.0f;  // rays of this reach show half of the net's contrast
 constexpr float kMostNodeAngle = 0.016f;
@@ -31,7 +31,7 @@ Shafts make_shafts(const MaterialInputs& in, const RenderView& view, const ViewR
   const glm::vec3 shown = media.scattered / std::max(mean(media.scattered), 1e-12f);
   shafts.lost_per_m = std::max(mean(shown * media.absorption_per_m), 1e-3f);
   shafts.daylight_lost_per_m = mean(shown * media.daylight_lost_per_m);
-  shafts.reach_m = std::min(kReach / shafts.lost_per_m, kMostReach_m);
+  shafts.reach_m = std::min(kUsualReach / shafts.lost_per_m, kMostShaftReach_m);
   shafts.diffused_per_m = kDiffused * shafts.lost_per_m;
   shafts.contrast = 1.0f + shafts.reach_m / kBlurred_m;
   shafts.eye_depth_m = std::max(media.eye_depth_m, kLeastDepth_m);

@@ -15,8 +15,6 @@
 namespace swell::render {
 namespace {
 
-constexpr float kFarthest = kFarthestLand;
-
 // Where z + z_t t + z_tt t^2 is 0 for the first time after t = 0.
 std::optional<float> first_crossing(float z, float z_t, float z_tt) {
   const float root2 = z_t * z_t - 4.0f * z_tt * z;
@@ -30,7 +28,7 @@ std::optional<float> first_crossing(float z, float z_t, float z_tt) {
 // lower than a path and a height.
 struct LowestPath {
   float z = 0.0f, z_t = 0.0f, z_tt = 0.0f;
-  float floor = -kFarthest, begin = 0.0f;
+  float floor = -kFarthestLand, begin = 0.0f;
 };
 
 // The rays' heights over the level are known to this.
@@ -45,7 +43,7 @@ LowestPath lowest_path(const RenderView& view, glm::vec3 low, glm::vec3 high) {
   const float near_m = view.camera.near_m;
   const float level_m = view.level_m, above_m = eye_z - level_m;
   const bool beyond = view.eye.submerged == (above_m > 0.0f);
-  const LowestPath straight{eye_z, low.z, least_sag, -kFarthest, near_m};
+  const LowestPath straight{eye_z, low.z, least_sag, -kFarthestLand, near_m};
   if (view.kind == ViewKind::kWindow) return straight;
 
   // The first that any of them meets the level.
@@ -54,17 +52,18 @@ LowestPath lowest_path(const RenderView& view, glm::vec3 low, glm::vec3 high) {
   const float from = std::max(level_t.value_or(0.0f) * 0.9999f, near_m);
   if (view.kind == ViewKind::kReflection)
     return {level_m - above_m, -high.z, -most_sag,
-            beyond || view.eye.submerged ? -kFarthest : level_m - kLevel_m, beyond ? near_m : from};
+            beyond || view.eye.submerged ? -kFarthestLand : level_m - kLevel_m,
+            beyond ? near_m : from};
   if (beyond) return straight;
   if (view.eye.submerged)
-    return {level_m - view.clip_margin_m - kLevel_m, 0.0f, 0.0f, -kFarthest, near_m};
+    return {level_m - view.clip_margin_m - kLevel_m, 0.0f, 0.0f, -kFarthestLand, near_m};
   // As steep as the steepest, from where the first begins.
   const float n2 = view.refraction_index * view.refraction_index;
   const float most_down = std::sqrt((n2 - 1.0f) * most2 + n2 * low.z * low.z);
   const float least_down = std::sqrt((n2 - 1.0f) * least2);
   const float before = view.clip_margin_m / std::max(least_down, 1e-6f);
   const float begin = std::max(from - before, near_m);
-  return {level_m + begin * most_down, -most_down, 0.0f, -kFarthest, begin};
+  return {level_m + begin * most_down, -most_down, 0.0f, -kFarthestLand, begin};
 }
 
 // Where the rays of squares of a tile's pixels may begin. Squares begin at multiples of their size
@@ -99,7 +98,7 @@ class FreeWays {
   }
 
   void set_beam(const RenderView& view, const ViewRays& rays, glm::ivec2 first_px, std::size_t n) {
-    glm::vec3 low(kFarthest), high(-kFarthest);
+    glm::vec3 low(kFarthestLand), high(-kFarthestLand);
     // With all of the pixels' samples.
     for (const float y : {-0.5f, kSquare_px - 0.5f})
       for (const float x : {-0.5f, kSquare_px - 0.5f}) {

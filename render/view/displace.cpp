@@ -12,8 +12,6 @@
 namespace swell::render {
 namespace {
 
-constexpr std::size_t kChunk = kVertexChunk;  // vertices a task
-
 // Positions of the mesh's vertices relative to the eye.
 void place_vertices(Surface& surface, std::size_t begin, std::size_t end, glm::dvec2 eye) {
   lod::Domain from_eye = surface.domain;
@@ -26,7 +24,7 @@ void displace_land(const terrain::HeightGrid& terrain, glm::dvec2 eye, std::size
                    std::size_t end, Surface& land) {
   place_vertices(land, begin, end, eye);
   const std::size_t count = end - begin;
-  std::array<glm::dvec2, kChunk> p;
+  std::array<glm::dvec2, kVertexChunk> p;
   for (std::size_t i = 0; i < count; ++i) p[i] = eye + glm::dvec2(land.offset[begin + i]);
   terrain::sample_heights(terrain, std::span(p).first(count),
                           std::span(land.height_m).subspan(begin, count));
@@ -40,8 +38,8 @@ void displace_in_chunks(SurfaceKind kind, Surface& surface, const Meshes& meshes
   surface.offset.resize(count);
   surface.height_m.resize(count);
   resize_vertices(kind, count, views);
-  run.for_each((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-    const std::size_t begin = chunk * kChunk, end = std::min(count, begin + kChunk);
+  run.for_each((count + kVertexChunk - 1) / kVertexChunk, [&](std::size_t chunk, int) {
+    const std::size_t begin = chunk * kVertexChunk, end = std::min(count, begin + kVertexChunk);
     displace_some(begin, end);
     map_vertices(meshes, kind, begin, end, views);
   });
@@ -78,9 +76,9 @@ struct FarFocuses {
 // The sea's waves come some way into rivers.
 void displace_rivers(const World::State& world, const SeaMaps& sea, const View& view,
                      std::size_t begin, std::size_t end, RiverMesh& rivers) {
-  std::array<glm::dvec2, kChunk> place;
-  std::array<std::size_t, kChunk> vertex;
-  std::array<float, kChunk> height_m;
+  std::array<glm::dvec2, kVertexChunk> place;
+  std::array<std::size_t, kVertexChunk> vertex;
+  std::array<float, kVertexChunk> height_m;
   std::size_t count = 0;
   for (std::size_t i = begin; i < end; ++i) {
     if (rivers.sea_share[i] <= 0.0f) continue;
@@ -163,8 +161,8 @@ void displace(const World::State& world, const SeaMaps& sea, const View& view,
                      });
   const std::size_t count = meshes.rivers.p_rel.size();
   resize_vertices(SurfaceKind::kRivers, count, views);
-  run.for_each((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-    const std::size_t begin = chunk * kChunk, end = std::min(count, begin + kChunk);
+  run.for_each((count + kVertexChunk - 1) / kVertexChunk, [&](std::size_t chunk, int) {
+    const std::size_t begin = chunk * kVertexChunk, end = std::min(count, begin + kVertexChunk);
     displace_rivers(world, sea, view, begin, end, meshes.rivers);
     map_vertices(meshes, SurfaceKind::kRivers, begin, end, views);
   });

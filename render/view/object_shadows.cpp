@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "math/check.h"
@@ -16,7 +15,6 @@
 namespace swell::render {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kRounding_m = 0.5f;          // of the places of pixels far away
 constexpr std::size_t kMostCasters = 65535;  // lists of tiles hold 16 bits; 2000 piers have fewer
 constexpr double kMostLift_m = 3.0;
@@ -261,7 +259,7 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
   const SunVertices vertices(mesh, sun_frame(object, pose, shadows));
   const auto indices =
       std::span(mesh.indices).subspan(3u * part.first_triangle, 3u * part.triangles);
-  glm::vec3 low(kInfinity), high(-kInfinity);
+  glm::vec3 low(kInfinity<float>), high(-kInfinity<float>);
   for (const std::uint32_t index : indices) {
     const SunPoint p = vertices[index];
     low = glm::min(low, p);
@@ -276,8 +274,8 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
   outline.rows_per_m = (Outline::kRows - 1) / std::max(high.y - low.y - 2.0f * inside, 1e-6f);
   // The triangles of files look anywhere, and sails have one for two sides.
   const bool is_closed = scene::is_compact(object.kind);
-  outline.left_m.fill(kInfinity);
-  outline.right_m.fill(-kInfinity);
+  outline.left_m.fill(kInfinity<float>);
+  outline.right_m.fill(-kInfinity<float>);
   for (std::size_t i = 0; i < indices.size(); i += 3) {
     const std::array<SunPoint, 3> p = {vertices[indices[i]], vertices[indices[i + 1]],
                                        vertices[indices[i + 2]]};

@@ -1,19 +1,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "math/elementary.h"
 #include "render/view/object_shadows.h"
 #include "render/view/shadow_reach.h"
 
 namespace swell::render {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 // A part of the window, in pixels.
 struct WindowBox {
-  glm::vec2 low{kInfinity}, high{-kInfinity};
+  glm::vec2 low{kInfinity<float>}, high{-kInfinity<float>};
   bool all = false;  // of the window
 };
 
@@ -40,7 +38,7 @@ void add_point(const View& camera, glm::vec3 p_rel, float drop_m, WindowBox& box
 // `slant` a metre of depth.
 std::array<glm::vec3, 8> reached_below(const Corners& corners, glm::vec2 slant, float level,
                                        float wave_m) {
-  glm::vec3 low(kInfinity), high(-kInfinity);
+  glm::vec3 low(kInfinity<float>), high(-kInfinity<float>);
   for (int i = 0; i < corners.count; ++i)
     low = glm::min(low, corners.p[i]), high = glm::max(high, corners.p[i]);
   const glm::vec3 way(-(kDeepestShadow_m + wave_m) * slant, 0.0f);
@@ -80,7 +78,7 @@ WindowBox window_box(const Corners& corners, glm::vec2 slant, const RenderView& 
 
 // A pixel or two wider: shadows are as soft as a pixel at least.
 PixelSpan pixels_of(const WindowBox& box) {
-  if (box.all) return {-kInfinity, -kInfinity, kInfinity, kInfinity};
+  if (box.all) return {-kInfinity<float>, -kInfinity<float>, kInfinity<float>, kInfinity<float>};
   return {box.low.x - 2.0f, box.low.y - 2.0f, box.high.x + 2.0f, box.high.y + 2.0f};
 }
 

@@ -41,12 +41,12 @@ float spread_per_m(const World::State& world, double disc, double bent) {
 }
 
 // The shortest waves meet next to the surface, longer ones higher up.
-constexpr std::array<float, CausticMaps::kMostPatches> kHeights_m = {0.3f, 1.5f};
+constexpr std::array<float, CausticMaps::kMostPatches> kPlaneHeights_m = {0.3f, 1.5f};
 
 // Returns how many maps of the light that is thrown up there are to make.
 std::size_t begin_mirrored(const World::State& world, PartSet without, CausticMaps& maps) {
   maps.throws_up = !world.scene.objects.empty() && !without.has(Part::kUplight);
-  maps.height_m = kHeights_m;
+  maps.height_m = kPlaneHeights_m;
   maps.mirrored_spread_per_m = spread_per_m(world, 1.0, 2.0);
   return maps.throws_up ? maps.patches : 0;
 }

@@ -9,7 +9,7 @@
 namespace swell::render {
 namespace {
 
-constexpr float kLowestLight = 0.02f;  // sine of its elevation: lower, shadows reach too far
+constexpr float kShadowsFrom = 0.02f;  // sine of the light's elevation: lower, they reach too far
 
 void pack_level(const std::vector<std::uint8_t>& bytes, std::vector<std::uint32_t>& words) {
   constexpr int n = CloudShadow::kSide, stride = CloudShadow::kStride;
@@ -33,7 +33,7 @@ void advance_cloud_shadow(const World::State& world, const Clouds& deck, const V
   const CloudLight& light = sky.cloud_light;
   const bool has_deck = deck.any && light.overcast < 1.0f;
   shadow.any = (has_deck || volume.any()) && !without.has(Part::kCloudShadows) &&
-               sky.to_light.z > kLowestLight && sky.irradiance != glm::vec3(0.0f);
+               sky.to_light.z > kShadowsFrom && sky.irradiance != glm::vec3(0.0f);
   if (!shadow.any) return;
   CloudShadowRow in;
   shadow.slant = in.slant = glm::vec2(sky.to_light) / sky.to_light.z;

@@ -11,7 +11,7 @@
 namespace swell::render {
 namespace {
 
-constexpr int kSide = 1 << CloudVolume::kSideLog2;
+constexpr int kVolumeSide = 1 << CloudVolume::kSideLog2;
 constexpr int kDetailSide = 1 << CloudVolume::kDetailSideLog2;
 constexpr int kLayerLevels = 32, kPlacedLevels = 64;
 constexpr double kBaseEdge_m = 60.0;  // over which a cloud's flat lower side becomes dense
@@ -73,16 +73,16 @@ constexpr double kMeanDetail = 0.33;
 std::vector<double> make_columns(std::uint64_t seed, Workers& workers) {
   constexpr int kOctaves = 4;
   const texture::ImprovedNoise noise(seed);
-  std::vector<double> columns(static_cast<std::size_t>(kSide) * kSide);
-  for_each_row(kSide, workers, [&](int y) {
-    for (int x = 0; x < kSide; ++x) {
+  std::vector<double> columns(static_cast<std::size_t>(kVolumeSide) * kVolumeSide);
+  for_each_row(kVolumeSide, workers, [&](int y) {
+    for (int x = 0; x < kVolumeSide; ++x) {
       double sum = 0.0, gain = 1.0;
       int cells = scene::kCloudPeriods;
       for (int octave = 0; octave < kOctaves; ++octave, cells *= 2, gain *= 0.5) {
-        const double scale = static_cast<double>(cells) / kSide;
+        const double scale = static_cast<double>(cells) / kVolumeSide;
         sum += gain * noise.noise3(scale * x, scale * y, 0.37 + 11.0 * octave, cells);
       }
-      columns[static_cast<std::size_t>(y) * kSide + x] = sum;
+      columns[static_cast<std::size_t>(y) * kVolumeSide + x] = sum;
     }
   });
   double mean = 0.0, variance = 0.0;
@@ -150,13 +150,13 @@ void pack_columns(const std::vector<double>& columns, CloudVolume& volume) {
   volume.column_step = static_cast<float>(most / 32767.0);
   const auto at = [&](int x, int y) {
     const std::size_t column =
-        static_cast<std::size_t>(y & (kSide - 1)) * kSide + (x & (kSide - 1));
+        static_cast<std::size_t>(y & (kVolumeSide - 1)) * kVolumeSide + (x & (kVolumeSide - 1));
     const double steps = std::nearbyint(columns[column] / most * 32767.0);
     return std::uint32_t{static_cast<std::uint16_t>(static_cast<std::int16_t>(steps))};
   };
-  volume.columns.reserve(static_cast<std::size_t>(kSide) * (kSide + 1));
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x <= kSide; ++x) volume.columns.push_back(at(x, y) | at(x, y + 1) << 16);
+  volume.columns.reserve(static_cast<std::size_t>(kVolumeSide) * (kVolumeSide + 1));
+  for (int y = 0; y < kVolumeSide; ++y)
+    for (int x = 0; x <= kVolumeSide; ++x) volume.columns.push_back(at(x, y) | at(x, y + 1) << 16);
 }
 
 // Noise over the plane says where clouds stand, how high they tower follows from it, and round
@@ -180,13 +180,13 @@ void make_layer(const scene::CloudField& field, const std::vector<std::uint8_t>&
   const LayerParts parts{volume, detail};
   const int levels = volume.form.levels;
   std::vector<double> greatest(columns.size());
-  for_each_row(kSide, workers, [&](int y) {
-    for (int x = 0; x < kSide; ++x) {
+  for_each_row(kVolumeSide, workers, [&](int y) {
+    for (int x = 0; x < kVolumeSide; ++x) {
       double part = -1e9;
       for (int level = 0; level < levels; ++level)
         if (level * static_cast<double>(volume.level_m) >= kBaseEdge_m)
           part = std::max(part, parts.at(x, y, level));
-      const std::size_t column = static_cast<std::size_t>(y) * kSide + x;
+      const std::size_t column = static_cast<std::size_t>(y) * kVolumeSide + x;
       greatest[column] = columns[column] / per_edge + part;
     }
   });
@@ -195,12 +195,12 @@ void make_layer(const scene::CloudField& field, const std::vector<std::uint8_t>&
   if (cover <= 0.0) threshold = 1e3;
   for (double& column : columns) column = column / per_edge - threshold;
   pack_columns(columns, volume);
-  for_each_row(levels * kSide, workers, [&](int row) {
-    const int level = row / kSide, y = row % kSide;
-    for (int x = 0; x < kSide; ++x) {
+  for_each_row(levels * kVolumeSide, workers, [&](int row) {
+    const int level = row / kVolumeSide, y = row % kVolumeSide;
+    for (int x = 0; x < kVolumeSide; ++x) {
       const double form =
-          columns[static_cast<std::size_t>(y) * kSide + x] + parts.most(x, y, level);
-      most[static_cast<std::size_t>(row) * kSide + x] =
+          columns[static_cast<std::size_t>(y) * kVolumeSide + x] + parts.most(x, y, level);
+      most[static_cast<std::size_t>(row) * kVolumeSide + x] =
           form_byte(std::min(form, parts.limit(level)));
     }
   });
@@ -256,10 +256,10 @@ void make_placed(const scene::CloudField& field, const std::vector<std::uint8_t>
   std::vector<PerturbedForm> forms;
   for (const scene::Cumulus& cloud : field.cumulus) forms.push_back(make_form(cloud, field.base_m));
   const double cut = static_cast<double>(volume.cut) * (1.0 - kMeanDetail);
-  for_each_row(volume.form.levels * kSide, workers, [&](int row) {
-    const int level = row / kSide, y = row % kSide;
+  for_each_row(volume.form.levels * kVolumeSide, workers, [&](int row) {
+    const int level = row / kVolumeSide, y = row % kVolumeSide;
     const double z_m = level * static_cast<double>(volume.level_m);
-    for (int x = 0; x < kSide; ++x) {
+    for (int x = 0; x < kVolumeSide; ++x) {
       const glm::dvec3 p(volume.corner_m + volume.voxel_m * glm::dvec2(x, y), field.base_m + z_m);
       double most = kFormLow;
       for (const PerturbedForm& form : forms) {
@@ -272,9 +272,9 @@ void make_placed(const scene::CloudField& field, const std::vector<std::uint8_t>
         most = std::max(
             most, (form(p) + field.raggedness * (bulge - kMeanDetail)) * 0.5 * size_m / kEdge_m);
       }
-      const bool at_rim = x == 0 || y == 0 || x == kSide - 1 || y == kSide - 1;
+      const bool at_rim = x == 0 || y == 0 || x == kVolumeSide - 1 || y == kVolumeSide - 1;
       const double limits = at_rim ? kFormLow : z_m / kBaseEdge_m * (1.0 + cut);
-      bytes[static_cast<std::size_t>(row) * kSide + x] = form_byte(std::min(most, limits));
+      bytes[static_cast<std::size_t>(row) * kVolumeSide + x] = form_byte(std::min(most, limits));
     }
   });
 }
@@ -291,7 +291,7 @@ void fit_placed(const scene::CloudField& field, CloudVolume& volume) {
   }
   const double side_m = std::max(high.x - low.x, high.y - low.y);
   volume.repeats = false;
-  volume.voxel_m = side_m / (kSide - 1);
+  volume.voxel_m = side_m / (kVolumeSide - 1);
   volume.corner_m = 0.5 * (low + high) - 0.5 * side_m;
   volume.top_m = volume.base_m + static_cast<float>(height_m);
 }
@@ -318,7 +318,7 @@ void widen(std::vector<std::uint8_t>& cells, std::size_t stride, std::size_t cou
 // Cells that hold a cloud; then how far it is to the next one of those, by widening them one cell
 // at a time. most: of the form at each point of the lattice up to the next level.
 void find_empty(const std::vector<std::uint8_t>& most, CloudVolume& volume) {
-  constexpr int kCell = CloudVolume::kCell, n = CloudVolume::kCells, kFarthest = 12;
+  constexpr int kCell = CloudVolume::kCell, n = CloudVolume::kCells, kMostSteps = 12;
   const int levels = volume.form.levels, cell_levels = (levels + kCell - 1) / kCell;
   volume.cell_levels = cell_levels;
   std::vector<std::uint8_t> near(static_cast<std::size_t>(n) * n * cell_levels, 0);
@@ -328,16 +328,17 @@ void find_empty(const std::vector<std::uint8_t>& most, CloudVolume& volume) {
   };
   const std::uint8_t none = form_byte(static_cast<double>(volume.least_form) - 0.04);
   for (int z = 0; z < levels; ++z)
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < kSide; ++x) {
-        if (most[(static_cast<std::size_t>(z) * kSide + y) * kSide + x] <= none) continue;
+    for (int y = 0; y < kVolumeSide; ++y)
+      for (int x = 0; x < kVolumeSide; ++x) {
+        if (most[(static_cast<std::size_t>(z) * kVolumeSide + y) * kVolumeSide + x] <= none)
+          continue;
         // Samples in the cells on either side of this point see it.
         for (const int cy : {(y - 1) >> CloudVolume::kCellLog2, y >> CloudVolume::kCellLog2})
           for (const int cx : {(x - 1) >> CloudVolume::kCellLog2, x >> CloudVolume::kCellLog2})
             mark(cx, cy, z >> CloudVolume::kCellLog2);
       }
   std::vector<std::uint8_t> distance(near.size(), 0);
-  for (int step = 0; step < kFarthest; ++step) {
+  for (int step = 0; step < kMostSteps; ++step) {
     for (std::size_t i = 0; i < near.size(); ++i)
       distance[i] = static_cast<std::uint8_t>(distance[i] + 1 - near[i]);
     widen(near, 1, n, true);
@@ -364,10 +365,10 @@ void find_light(glm::vec3 to_light, Workers& workers, CloudVolume& volume) {
   for (int z = 0; z < levels; ++z)
     for (int y = 0; y < n; ++y)
       for (int x = 0; x <= n; ++x) volume.light.push_back(at(x, y, z) | at(x, y, z + 1) << 16);
-  volume.sunlight.resize(static_cast<std::size_t>(kSide) * kSide);
-  for_each_row(kSide, workers, [&](int y) {
+  volume.sunlight.resize(static_cast<std::size_t>(kVolumeSide) * kVolumeSide);
+  for_each_row(kVolumeSide, workers, [&](int y) {
     write_cloud_sunlight_row(volume, to_light, y,
-                             volume.sunlight.data() + static_cast<std::ptrdiff_t>(y) * kSide);
+                             volume.sunlight.data() + static_cast<std::ptrdiff_t>(y) * kVolumeSide);
   });
   double sum = 0.0;
   for (const float v : volume.sunlight) sum += static_cast<double>(v);
@@ -400,7 +401,7 @@ CloudVolume build_cloud_volume(const scene::CloudField& field, glm::vec3 to_ligh
   const bool is_layer = field.kind == scene::CloudKind::kLayer;
   volume.base_m = static_cast<float>(field.base_m);
   volume.top_m = static_cast<float>(field.top_m);
-  volume.voxel_m = scene::kCloudPeriods * field.size_m / kSide;
+  volume.voxel_m = scene::kCloudPeriods * field.size_m / kVolumeSide;
   if (!is_layer) fit_placed(field, volume);
   volume.form.levels = is_layer ? kLayerLevels : kPlacedLevels;
   volume.form.side_log2 = CloudVolume::kSideLog2;
@@ -419,13 +420,14 @@ CloudVolume build_cloud_volume(const scene::CloudField& field, glm::vec3 to_ligh
   wrapped.insert(wrapped.end(), detail.begin(),
                  detail.begin() + static_cast<std::ptrdiff_t>(kDetailSide) * kDetailSide);
   volume.detail = pack_corners(CloudVolume::kDetailSideLog2, kDetailSide + 1, wrapped);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kSide) * kSide * volume.form.levels);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kVolumeSide) * kVolumeSide *
+                                  volume.form.levels);
   if (is_layer) {
     make_layer(field, detail, volume, workers, bytes);
   } else {
     make_placed(field, detail, volume, workers, bytes);
     volume.form = pack_corners(CloudVolume::kSideLog2, volume.form.levels, bytes);
-    constexpr std::size_t kLevel = static_cast<std::size_t>(kSide) * kSide;
+    constexpr std::size_t kLevel = static_cast<std::size_t>(kVolumeSide) * kVolumeSide;
     for (std::size_t i = 0; i + kLevel < bytes.size(); ++i)
       bytes[i] = std::max(bytes[i], bytes[i + kLevel]);
   }

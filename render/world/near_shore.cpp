@@ -14,7 +14,7 @@ namespace {
 constexpr double kDepthOfSurf = 1.6;
 // Distances in the map, in texels at least: fewer would be stairs.
 constexpr double kLeastTexels = 2.5;
-constexpr double kMostReach_m = 400.0;
+constexpr double kMostSurfReach_m = 400.0;
 
 // The floor's mean slope within `within_m` of the shore, on the map: its apron may be steep.
 double beach_slope(const terrain::ShoreMap& shore, const terrain::Grid& map, double within_m) {
@@ -52,7 +52,7 @@ NearShoreMap build_near_shore(const World::State& world, Workers& workers) {
   const double slope =
       beach_slope(shore, world.terrain->grid, std::max(30.0, 3.0 * square.spacing_m));
   near.reach_m = std::clamp(kDepthOfSurf * height_m / slope, kLeastTexels * texel_m,
-                            std::max(kMostReach_m, kLeastTexels * texel_m));
+                            std::max(kMostSurfReach_m, kLeastTexels * texel_m));
   near.reach_s = 2.0 * std::sqrt(near.reach_m / (gravity * slope));
   // Of the mean wave, in deep water.
   near.period_s = std::sqrt(2.0 * kPi * std::max(world.sea->mean_wavelength_m(), 1.0) / gravity);
