@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 const Domain kSea{{-32768.0, -32768.0}, 65536.0, 17};
 
-AdaptRequest over_the_sea(glm::dvec3 eye, int budget) {
+AdaptRequest over_still_water(glm::dvec3 eye, int budget) {
   AdaptRequest request;
   request.view = make_view(eye, 0.0, -0.1, 1.0, 0.1f, 1280, 720);
   request.triangle_budget = budget;
@@ -42,7 +42,7 @@ Mesh rebuilt(const AdaptRequest& request, const Domain& domain) {
 TEST(RoamLimits, OperationsAreDoneInTheOrderOfImportance) {
   const Domain domain{{-300.0, 2000.0}, 700.0, 5};
   const std::vector<oracle::OracleDiamond> diamonds = oracle::all_diamonds(5);
-  AdaptRequest request = over_the_sea({50.0, 2100.0, 30.0}, 400);
+  AdaptRequest request = over_still_water({50.0, 2100.0, 30.0}, 400);
   Roam roam(domain, 2048);
   for (const int limit : {0, 1, 2, 5, 17, 60, 100}) {
     request.limits.max_operations = limit;
@@ -61,9 +61,9 @@ TEST(RoamLimits, OperationsAreDoneInTheOrderOfImportance) {
 
 TEST(RoamLimits, ManyShortStepsDoTheWorkOfOneLongStep) {
   Roam limited(kSea, 10000), free(kSea, 10000);
-  limited.adapt(over_the_sea({0.0, 0.0, 20.0}, 10000));
-  free.adapt(over_the_sea({0.0, 0.0, 20.0}, 10000));
-  AdaptRequest there = over_the_sea({3000.0, 500.0, 35.0}, 10000);
+  limited.adapt(over_still_water({0.0, 0.0, 20.0}, 10000));
+  free.adapt(over_still_water({0.0, 0.0, 20.0}, 10000));
+  AdaptRequest there = over_still_water({3000.0, 500.0, 35.0}, 10000);
   const AdaptStatistics all = free.adapt(there);
   there.limits.max_operations = 300;
   int operations = 0, steps = 0;
@@ -82,7 +82,7 @@ TEST(RoamLimits, ManyShortStepsDoTheWorkOfOneLongStep) {
 
 TEST(RoamLimits, TheBudgetHoldsWhateverTheLimitIs) {
   Roam roam(kSea, 10000);
-  AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 10000);
+  AdaptRequest request = over_still_water({0.0, 0.0, 20.0}, 10000);
   roam.adapt(request);
   request.triangle_budget = 500;
   request.limits.max_operations = 10;
@@ -93,10 +93,10 @@ TEST(RoamLimits, TheBudgetHoldsWhateverTheLimitIs) {
 
 TEST(RoamLimits, APassedDeadlineAllowsAFewStepsAndAFarOneChangesNothing) {
   Roam roam(kSea, 10000);
-  AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 10000);
+  AdaptRequest request = over_still_water({0.0, 0.0, 20.0}, 10000);
   roam.adapt(request);
   const Mesh before = mesh_of(roam);
-  AdaptRequest there = over_the_sea({200.0, 500.0, 35.0}, 10000);
+  AdaptRequest there = over_still_water({200.0, 500.0, 35.0}, 10000);
   there.limits.deadline = Clock::now();
   for (int call = 0; call < 5; ++call) {
     const AdaptStatistics late = roam.adapt(there);
@@ -112,7 +112,7 @@ TEST(RoamLimits, APassedDeadlineAllowsAFewStepsAndAFarOneChangesNothing) {
 
 TEST(RoamLimits, ADeadlineEndsABuildEarly) {
   Roam roam({{-32768.0, -32768.0}, 65536.0, 20}, 1000000);
-  AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 1000000);
+  AdaptRequest request = over_still_water({0.0, 0.0, 20.0}, 1000000);
   request.limits.deadline = Clock::now() + std::chrono::milliseconds(5);
   const AdaptStatistics done = roam.adapt(request);
   EXPECT_TRUE(done.stopped);
@@ -123,10 +123,10 @@ TEST(RoamLimits, ADeadlineEndsABuildEarly) {
 // Each call renews about a quarter of the keys; a few members that move miss turns.
 TEST(RoamLimits, GroupsOfPrioritiesEndInTheMeshOfAllForACameraThatStandsStill) {
   Roam roam(kSea, 10000);
-  AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 10000);
+  AdaptRequest request = over_still_water({0.0, 0.0, 20.0}, 10000);
   request.limits.priority_groups = 4;
   for (int frame = 0; frame <= 30; ++frame) {
-    request.view = over_the_sea({0.0, 0.5 * frame, 20.0}, 2).view;
+    request.view = over_still_water({0.0, 0.5 * frame, 20.0}, 2).view;
     EXPECT_LE(roam.adapt(request).triangles, 10000);
     ASSERT_EQ(find_fault(roam.tree(), true), "");
   }
@@ -137,9 +137,9 @@ TEST(RoamLimits, GroupsOfPrioritiesEndInTheMeshOfAllForACameraThatStandsStill) {
 
 TEST(RoamLimits, OneGroupAfterManyRenewsEveryKey) {
   Roam roam(kSea, 10000);
-  AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 10000);
+  AdaptRequest request = over_still_water({0.0, 0.0, 20.0}, 10000);
   for (int frame = 1; frame <= 12; ++frame) {
-    request.view = over_the_sea({0.0, 2.0 * frame, 20.0}, 2).view;
+    request.view = over_still_water({0.0, 2.0 * frame, 20.0}, 2).view;
     request.limits.priority_groups = frame % 3 == 0 ? 1 : 3 + frame;
     roam.adapt(request);
     ASSERT_EQ(find_fault(roam.tree(), frame % 3 != 0), "") << frame;
@@ -177,7 +177,7 @@ TEST(RoamLimits, WhateverIsLeftUndoneTheMeshIsValidAndTheNextFullStepMendsIt) {
 
 TEST(RoamLimitsDeathTest, RefusesLimitsThatAreNone) {
   Roam roam(kSea, 100);
-  AdaptRequest request = over_the_sea({0.0, 0.0, 20.0}, 100);
+  AdaptRequest request = over_still_water({0.0, 0.0, 20.0}, 100);
   request.limits.max_operations = -1;
   EXPECT_DEATH(roam.adapt(request), "max_operations=-1");
   request.limits = {.priority_groups = 0};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "constants.h"
 #include "math/elementary.h"
 #include "math/random.h"
 #include "math/view.h"
@@ -11,16 +12,15 @@
 namespace swell {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
 const Intrinsics kCamera = {800.0, 780.0, 300.0, 260.0};
 constexpr int kWidth_px = 640, kHeight_px = 480;
 
-void expect_near(glm::dvec3 a, glm::dvec3 b, double tolerance = 1e-6) {
+void expect_near_place(glm::dvec3 a, glm::dvec3 b, double tolerance = 1e-6) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
 }
 
 // The pipeline's path from a point to the window.
-glm::dvec2 project(const View& view, glm::dvec3 p_rel) {
+glm::dvec2 pixel_of(const View& view, glm::dvec3 p_rel) {
   const glm::dvec4 clip = glm::dmat4(view.clip_from_rel) * glm::dvec4(p_rel, 1.0);
   return {(1.0 + clip.x / clip.w) * 0.5 * view.width_px,
           (1.0 - clip.y / clip.w) * 0.5 * view.height_px};
@@ -58,31 +58,31 @@ std::vector<Shot> random_shots() {
 
 TEST(CameraModel, TheIdentityLooksStraightUpWithSouthOnTop) {
   const View view = make_view({}, glm::dquat(1, 0, 0, 0), kCamera, 0.1f, kWidth_px, kHeight_px);
-  expect_near(view.forward, {0, 0, 1});
-  expect_near(view.right, {1, 0, 0});
-  expect_near(view.up, {0, -1, 0});
+  expect_near_place(view.forward, {0, 0, 1});
+  expect_near_place(view.right, {1, 0, 0});
+  expect_near_place(view.up, {0, -1, 0});
 }
 
 // A quarter turn about east, from zenith to north: (cos 45, -sin 45, 0, 0).
 TEST(CameraModel, AKnownQuaternionLooksNorth) {
   const double s = std::sqrt(0.5);
   const View view = make_view({}, glm::dquat(s, -s, 0, 0), kCamera, 0.1f, kWidth_px, kHeight_px);
-  expect_near(view.forward, {0, 1, 0});
-  expect_near(view.right, {1, 0, 0});
-  expect_near(view.up, {0, 0, 1});
+  expect_near_place(view.forward, {0, 1, 0});
+  expect_near_place(view.right, {1, 0, 0});
+  expect_near_place(view.up, {0, 0, 1});
   // 10 m north, 1 m east and 2 m up.
-  const glm::dvec2 at = project(view, {1, 10, 2});
+  const glm::dvec2 at = pixel_of(view, {1, 10, 2});
   EXPECT_NEAR(at.x, 300.0 + 80.0, 1e-4);
   EXPECT_NEAR(at.y, 260.0 - 156.0, 1e-4);
 }
 
 TEST(CameraModel, TheAxisLandsAtThePrincipalPoint) {
   for (const Shot& shot : random_shots()) {
-    const glm::dvec2 at = project(shot.view, 50.0 * glm::dvec3(shot.view.forward));
+    const glm::dvec2 at = pixel_of(shot.view, 50.0 * glm::dvec3(shot.view.forward));
     EXPECT_NEAR(at.x, shot.k.cx, 1e-3);
     EXPECT_NEAR(at.y, shot.k.cy, 1e-3);
-    expect_near(shot.view.ray(static_cast<float>(shot.k.cx), static_cast<float>(shot.k.cy)),
-                shot.view.forward);
+    expect_near_place(shot.view.ray(static_cast<float>(shot.k.cx), static_cast<float>(shot.k.cy)),
+                      shot.view.forward);
   }
 }
 
@@ -90,7 +90,7 @@ TEST(CameraModel, PointsLandWhereTheTextbooksPinholeHasThem) {
   for (const Shot& shot : random_shots())
     for (const glm::vec2& at : {glm::vec2(0, 0), glm::vec2(640, 480), glm::vec2(17.5f, 402.25f)}) {
       const glm::dvec3 p_rel = 30.0 * glm::dvec3(shot.view.ray(at.x, at.y));
-      const glm::dvec2 expected = pinhole(shot.q, shot.k, p_rel), got = project(shot.view, p_rel);
+      const glm::dvec2 expected = pinhole(shot.q, shot.k, p_rel), got = pixel_of(shot.view, p_rel);
       EXPECT_NEAR(expected.x, at.x, 5e-3);
       EXPECT_NEAR(expected.y, at.y, 5e-3);
       EXPECT_NEAR(got.x, at.x, 5e-3);
@@ -107,15 +107,15 @@ TEST(CameraModel, AViewGivesItsPoseAndItsMatrixBack) {
     EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1.0, 1e-15);
     EXPECT_NEAR(std::abs(q.w * shot.q.w + q.x * shot.q.x + q.y * shot.q.y + q.z * shot.q.z), 1.0,
                 1e-12);
-    expect_near(rotate(q, {0.3, -2.0, 1.0}), rotate(shot.q, {0.3, -2.0, 1.0}), 1e-6);
+    expect_near_place(rotate(q, {0.3, -2.0, 1.0}), rotate(shot.q, {0.3, -2.0, 1.0}), 1e-6);
     EXPECT_NEAR(pose.k.fx, shot.k.fx, 1e-4);
     EXPECT_NEAR(pose.k.fy, shot.k.fy, 1e-4);
     EXPECT_NEAR(pose.k.cx, shot.k.cx, 3e-4);
     EXPECT_NEAR(pose.k.cy, shot.k.cy, 3e-4);
     const View again =
         make_view(pose.eye_world, q, pose.k, shot.view.near_m, kWidth_px, kHeight_px);
-    expect_near(again.right, shot.view.right);
-    expect_near(again.up, shot.view.up);
+    expect_near_place(again.right, shot.view.right);
+    expect_near_place(again.up, shot.view.up);
     EXPECT_NEAR(again.tan_middle_x, shot.view.tan_middle_x, 1e-6);
   }
 }
@@ -136,12 +136,12 @@ TEST(CameraModel, AMatrixMadeFromTheFieldOfViewGivesTheSameView) {
 
 TEST(CameraModel, AQuarterRollPutsTheRightSideDown) {
   const glm::dmat3 axes = camera_axes(0.0, 0.0, 90.0 * kDegree);
-  expect_near(axes[0], {0, 0, -1});
-  expect_near(axes[1], {0, 1, 0});
-  expect_near(axes[2], {1, 0, 0});
+  expect_near_place(axes[0], {0, 0, -1});
+  expect_near_place(axes[1], {0, 1, 0});
+  expect_near_place(axes[2], {1, 0, 0});
   // What lies east, on the right of a level picture, is on top.
   const View view = make_view({}, axes, lens_of_fov(1.0, 100, 100), 0.1f, 100, 100);
-  const glm::dvec2 east = project(view, {1, 10, 0});
+  const glm::dvec2 east = pixel_of(view, {1, 10, 0});
   EXPECT_NEAR(east.x, 50.0, 1e-4);
   EXPECT_LT(east.y, 45.0);
 }
@@ -152,7 +152,7 @@ TEST(CameraModel, RollKeepsTheLineOfSightAndAnOrthonormalFrame) {
     const glm::dmat3 level = camera_axes(u(0), 0.5 * u(1), 0.0);
     const glm::dmat3 rolled = camera_axes(u(0), 0.5 * u(1), u(2));
     EXPECT_EQ(rolled[1], level[1]);
-    expect_near(glm::cross(rolled[0], rolled[1]), rolled[2], 1e-15);
+    expect_near_place(glm::cross(rolled[0], rolled[1]), rolled[2], 1e-15);
     EXPECT_NEAR(glm::dot(rolled[0], level[0]), std::cos(u(2)), 1e-15);
     EXPECT_NEAR(glm::dot(rolled[0], level[2]), -std::sin(u(2)), 1e-15);
   }

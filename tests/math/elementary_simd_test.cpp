@@ -16,8 +16,8 @@
 namespace swell {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFloatInf = std::numeric_limits<float>::infinity();
+constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
 
 // Runs each test on one target and puts the best one back afterwards.
 class ElementarySimd : public testing::TestWithParam<SimdTarget> {
@@ -62,7 +62,7 @@ std::vector<float> bits_sweep(std::uint32_t first_bits, std::uint32_t last_bits,
 
 std::vector<float> run(void (*batch)(std::span<const float>, std::span<float>),
                        const std::vector<float>& x) {
-  std::vector<float> out(x.size(), kNan);
+  std::vector<float> out(x.size(), kFloatNan);
   batch(x, out);
   return out;
 }
@@ -75,7 +75,7 @@ double exact_cos_turns(double x) {
 }
 
 double largest_sin_cos_error(const std::vector<float>& x) {
-  std::vector<float> s(x.size(), kNan), c(x.size(), kNan);
+  std::vector<float> s(x.size(), kFloatNan), c(x.size(), kFloatNan);
   sin_cos_turns_batch(x, s, c);
   double worst = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -108,7 +108,7 @@ TEST_P(ElementarySimd, SineAndCosineKeepTheirErrorBoundAtEveryMagnitude) {
 }
 
 TEST_P(ElementarySimd, SineAndCosineOfNonFiniteArgumentsAreNan) {
-  const std::vector<float> x = {kInf, -kInf, kNan};
+  const std::vector<float> x = {kFloatInf, -kFloatInf, kFloatNan};
   std::vector<float> s(x.size()), c(x.size());
   sin_cos_turns_batch(x, s, c);
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -134,8 +134,8 @@ TEST_P(ElementarySimd, PowersOfTwoKeepTheirErrorBound) {
 }
 
 TEST_P(ElementarySimd, PowersOfTwoClampTheirArgumentAndKeepNan) {
-  const std::vector<float> y =
-      run(exp2_batch, {-126.5f, -1e30f, -kInf, 126.5f, 1e30f, kInf, kNan, -0.0f, 1e-45f});
+  const std::vector<float> y = run(exp2_batch, {-126.5f, -1e30f, -kFloatInf, 126.5f, 1e30f,
+                                                kFloatInf, kFloatNan, -0.0f, 1e-45f});
   const float low = 0x1p-126f, high = 0x1p126f;
   for (int i = 0; i < 3; ++i) EXPECT_EQ(y[static_cast<std::size_t>(i)], low);
   for (int i = 3; i < 6; ++i) EXPECT_EQ(y[static_cast<std::size_t>(i)], high);
@@ -154,7 +154,8 @@ TEST_P(ElementarySimd, TheExponentialKeepsItsErrorBound) {
 }
 
 TEST_P(ElementarySimd, TheExponentialClampsAndKeepsNan) {
-  const std::vector<float> y = run(exp_batch, {-kInf, -1e38f, kInf, 1e38f, kNan, 0.0f});
+  const std::vector<float> y =
+      run(exp_batch, {-kFloatInf, -1e38f, kFloatInf, 1e38f, kFloatNan, 0.0f});
   EXPECT_EQ(y[0], 0x1p-126f);
   EXPECT_EQ(y[1], 0x1p-126f);
   EXPECT_EQ(y[2], 0x1p126f);
@@ -203,7 +204,8 @@ TEST_P(ElementarySimd, TheLogarithmIsExactAtPowersOfTwo) {
 }
 
 TEST_P(ElementarySimd, TheLogarithmOfZeroDenormalsAndInfinityIsFinite) {
-  const std::vector<float> y = run(log2_batch, {0.0f, 1e-45f, 1.1754942e-38f, kInf, kNan, -1.0f});
+  const std::vector<float> y =
+      run(log2_batch, {0.0f, 1e-45f, 1.1754942e-38f, kFloatInf, kFloatNan, -1.0f});
   EXPECT_EQ(y[0], -127.0f);
   EXPECT_GE(y[1], -127.0f);
   EXPECT_LE(y[2], -126.0f);
@@ -242,7 +244,8 @@ TEST_P(ElementarySimd, ConvertingToIntegersIsExactAtEveryMagnitude) {
 }
 
 TEST_P(ElementarySimd, WhatNoIntegerHoldsIsTheLowestOne) {
-  const std::vector<float> x = {0x1p31f, 3e38f, kInf, -0x1.000002p31f, -3e38f, -kInf, kNan, -kNan};
+  const std::vector<float> x = {0x1p31f, 3e38f,      kFloatInf, -0x1.000002p31f,
+                                -3e38f,  -kFloatInf, kFloatNan, -kFloatNan};
   const std::vector<std::int32_t> lowest(x.size(), std::numeric_limits<std::int32_t>::min());
   EXPECT_EQ(run_to_int(truncate_to_int_batch, x), lowest);
   EXPECT_EQ(run_to_int(round_to_int_batch, x), lowest);
@@ -251,7 +254,7 @@ TEST_P(ElementarySimd, WhatNoIntegerHoldsIsTheLowestOne) {
 // One hash over sweeps that include every special value: equal on each target and over time.
 TEST_P(ElementarySimd, EveryTargetGivesTheGoldenBits) {
   std::vector<float> x = bits_sweep(0, 0xffff0000u, 49999);
-  for (const float special : {kInf, -kInf, kNan, 0.0f, -0.0f}) x.push_back(special);
+  for (const float special : {kFloatInf, -kFloatInf, kFloatNan, 0.0f, -0.0f}) x.push_back(special);
   std::vector<float> s(x.size()), c(x.size());
   sin_cos_turns_batch(x, s, c);
   BitsHash hash;

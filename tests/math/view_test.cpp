@@ -6,13 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "constants.h"
 #include "math/elementary.h"
 #include "math/random.h"
 
 namespace swell {
 namespace {
-
-constexpr double kDegree = kPi / 180.0;
 
 View view_towards(double heading_deg, double pitch_deg) {
   return make_view({0, 0, 0}, heading_deg * kDegree, pitch_deg * kDegree, 60.0 * kDegree, 0.5f, 640,

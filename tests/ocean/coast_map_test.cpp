@@ -14,15 +14,15 @@ constexpr int kSize = 64;
 constexpr double kStep_m = 1200.0 / kSize;  // between the map's points
 constexpr glm::dvec2 kCorner{-600.0, -300.0};
 
-// A beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
-terrain::HeightGrid beach() {
+// A straight_beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
+terrain::HeightGrid straight_beach() {
   const terrain::Grid grid{kCorner, 10.0, 121, 121};
   return terrain::make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
 }
 
-CoastSea make_coast(double wind_mps, int trains, int threads = 2) {
+CoastSea coast_with_trains(double wind_mps, int trains, int threads = 2) {
   Workers workers(threads);
-  return make_coast_sea(beach(), make_wind_sea(wind_mps, 0.3, 9.81), trains, 1,
+  return make_coast_sea(straight_beach(), make_wind_sea(wind_mps, 0.3, 9.81), trains, 1,
                         PhaseMethod::kEikonal, true, workers);
 }
 
@@ -46,9 +46,9 @@ Baked bake(const CoastSea& coast, double t_s, int threads = 2) {
 
 glm::dvec2 point(int i, int j) { return kCorner + kStep_m * glm::dvec2(i, j); }
 
-// In the middle of the beach, where waves are some grid steps long.
+// In the middle of the straight_beach, where waves are some grid steps long.
 TEST(CoastMap, SlopesAreTheHeightsDerivative) {
-  const CoastSea coast = make_coast(12.0, 4);
+  const CoastSea coast = coast_with_trains(12.0, 4);
   const Baked baked = bake(coast, 3.0);
   constexpr double kStep = 0.01;
   double error2 = 0.0, size2 = 0.0;
@@ -72,7 +72,7 @@ TEST(CoastMap, SlopesAreTheHeightsDerivative) {
 TEST(CoastMap, FoamIsOnlyWhereWavesBreak) {
   // 10 m/s: m0 = 0.28 m2, five trains' amplitudes sum up to 1.6 m: they fill 0.39 of 4 m of depth,
   // and spill from 0.6 of that limit on, 6.7 m. Shoaling takes both a little further out.
-  const CoastSea coast = make_coast(10.0, 5);
+  const CoastSea coast = coast_with_trains(10.0, 5);
   float most = 0.0f;
   Workers workers(2);
   const CoastMap map = make_coast_map(coast, kSize, workers);
@@ -94,7 +94,7 @@ TEST(CoastMap, FoamIsOnlyWhereWavesBreak) {
 }
 
 TEST(CoastMap, FoamFollowsTheCrestOfASingleTrain) {
-  const CoastSea coast = make_coast(10.0, 1);
+  const CoastSea coast = coast_with_trains(10.0, 1);
   const double period_s = coast.trains.period_s[0];
   // Past a point in the surf: a crest arrives where the height is greatest.
   constexpr int kI = 32, kJ = 20, kMoments = 200;
@@ -137,11 +137,12 @@ TEST(CoastMap, SurfBeginsAtThreeFifthsOfTheLimit) {
 }
 
 TEST(CoastMap, ThreadsChangeNoBit) {
-  EXPECT_EQ(bake(make_coast(10.0, 4, 1), 7.0, 1), bake(make_coast(10.0, 4, 3), 7.0, 3));
+  EXPECT_EQ(bake(coast_with_trains(10.0, 4, 1), 7.0, 1),
+            bake(coast_with_trains(10.0, 4, 3), 7.0, 3));
 }
 
 TEST(CoastMap, EveryTargetGivesTheSameBits) {
-  const CoastSea coast = make_coast(10.0, 5);
+  const CoastSea coast = coast_with_trains(10.0, 5);
   std::vector<Baked> results;
   for_each_simd_target([&] { results.push_back(bake(coast, 7.0)); });
   for (const Baked& result : results) EXPECT_EQ(result, results.front());

@@ -6,21 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <thread>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kG = 9.81;
-
 // k by bisection of omega^2 = g k tanh(k h).
 double bisected_wave_number(double period_s, double depth_m) {
-  const double omega = kTwoPi / period_s;
+  const double omega = kTurn / period_s;
   double low = omega * omega / kG, high = low + 2.0 * omega / std::sqrt(kG * depth_m);
   for (int i = 0; i < 80; ++i) {
     const double k = 0.5 * (low + high);
@@ -64,7 +61,7 @@ std::vector<glm::dvec2> random_points(int count, glm::dvec2 corner, glm::dvec2 s
 // 14 m is deep enough for the cosine profile of a 6 s wave and shallow enough for ellipses:
 // coth(kh) is 1.07.
 TEST(TrainVelocity, OneWaveMovesTheWaterOnEllipses) {
-  const double depth_m = 14.0, omega = kTwoPi / 6.0, k = bisected_wave_number(6.0, depth_m);
+  const double depth_m = 14.0, omega = kTurn / 6.0, k = bisected_wave_number(6.0, depth_m);
   const double coth = 1.0 / std::tanh(k * depth_m);
   ASSERT_GT(coth, 1.05);
   const glm::dvec2 to(0.8, 0.6);
@@ -132,7 +129,7 @@ TEST(TrainVelocity, NoWaterIsLostOnABeach) {
   };
   for (const double depth_m : {25.0, 10.0, 5.0, 2.0}) {
     const double x0 = 1500.0 - 50.0 * depth_m,
-                 length_m = kTwoPi / bisected_wave_number(8.0, depth_m);
+                 length_m = kTurn / bisected_wave_number(8.0, depth_m);
     double lost = 0.0, rising = 0.0;
     for (int n = 0; n < 64; ++n) {  // one period
       const double t_s = 8.0 / 64.0 * n, x = x0;
@@ -146,7 +143,7 @@ TEST(TrainVelocity, NoWaterIsLostOnABeach) {
       lost += (up + out) * (up + out);
       rising += up * up;
     }
-    EXPECT_LT(std::sqrt(lost / rising), 0.02 / (kTwoPi / length_m * depth_m)) << depth_m;
+    EXPECT_LT(std::sqrt(lost / rising), 0.02 / (kTurn / length_m * depth_m)) << depth_m;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "allocation_count.h"
+#include "constants.h"
 #include "ocean/sea.h"
 #include "ocean/sea_state.h"
 #include "ocean/simd_targets.h"
@@ -16,9 +17,6 @@
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kG = 9.81;
 
 SeaFrame frame_at(const Sea& sea, double t_s, int threads = 1) {
   Workers workers(threads);
@@ -97,7 +95,7 @@ PatchFrame warped(const std::vector<Wave>& waves, const Crests& crests) {
 }
 
 Wave wave(int count_x, int count_y, double amplitude_m, double phase) {
-  return {kTwoPi / kLength_m * glm::dvec2(count_x, count_y), amplitude_m, phase};
+  return {kTurn / kLength_m * glm::dvec2(count_x, count_y), amplitude_m, phase};
 }
 
 // Where the water at x rests, by as many steps as it takes.
@@ -245,8 +243,8 @@ Statistics statistics_of(double choppiness) {
 // smaller wave number, over sigma^3. That mean is the integral over k of P(k' > k)^2; Pierson's and
 // Moskowitz's energy below k is exp(-5/4 (k_m / k)^2) of all. Here up to the patch's shortest wave.
 double expected_skewness(double variance_m2) {
-  const double omega_m = kTwoPi * 0.13 * kG / kWind_mps, k_m = omega_m * omega_m / kG;
-  const double k_end = kTwoPi / kPatch_m * (0.5 * kResolution - 0.5);
+  const double omega_m = kTurn * 0.13 * kG / kWind_mps, k_m = omega_m * omega_m / kG;
+  const double k_end = kTurn / kPatch_m * (0.5 * kResolution - 0.5);
   const auto below = [&](double k) { return std::exp(-1.25 * k_m * k_m / (k * k)); };
   double mean_smaller = 0.0;
   constexpr int kParts = 10000;
@@ -344,7 +342,7 @@ TEST(Crests, OfSinesAreStokessOfSecondOrder) {
   description.sines = {
       {.amplitude_m = -0.7, .wavelength_m = 40.0, .to_rad = 1.0, .phase_rad = 0.4}};
   const Sea sea(description);
-  const double k = kTwoPi / 40.0, omega = std::sqrt(kG * k), a = 0.7;
+  const double k = kTurn / 40.0, omega = std::sqrt(kG * k), a = 0.7;
   const glm::dvec2 to(std::sin(1.0), std::cos(1.0));
   Workers workers(1);
   double highest = 0.0;

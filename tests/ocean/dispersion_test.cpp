@@ -3,17 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "constants.h"
 #include "math/random.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kPiRef = std::numbers::pi;
-constexpr double kG = 9.81;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double omega_of(double period_s) { return 2.0 * kPiRef / period_s; }
 
@@ -31,7 +26,7 @@ struct Row {
   double period_s, depth_m, k, length_m, speed_mps, n, shoaling;
 };
 
-constexpr Row kTable[] = {{10, kInfinity, 0.0402430353, 156.130999, 15.613100, 0.500000, 1.000000},
+constexpr Row kTable[] = {{10, kInf, 0.0402430353, 156.130999, 15.613100, 0.500000, 1.000000},
                           {10, 100, 0.0402686311, 156.031758, 15.603176, 0.502560, 0.997767},
                           {10, 50, 0.0415284525, 151.298325, 15.129833, 0.565297, 0.955375},
                           {10, 20, 0.0518256815, 121.236907, 12.123691, 0.764990, 0.917454},
@@ -89,16 +84,16 @@ TEST(Dispersion, HasTheDeepAndShallowLimits) {
 
 // PHY-01.
 TEST(Dispersion, AnswersForNoDepthAndNoFrequency) {
-  EXPECT_EQ(wave_number(1.0, 0.0, kG), kInfinity);
-  EXPECT_EQ(wave_number(1.0, -3.0, kG), kInfinity);
+  EXPECT_EQ(wave_number(1.0, 0.0, kG), kInf);
+  EXPECT_EQ(wave_number(1.0, -3.0, kG), kInf);
   EXPECT_EQ(wave_number(0.0, 10.0, kG), 0.0);
   EXPECT_EQ(wave_number(0.0, 0.0, kG), 0.0);
-  EXPECT_EQ(wave_number(0.5, kInfinity, kG), 0.25 / kG);
+  EXPECT_EQ(wave_number(0.5, kInf, kG), 0.25 / kG);
   EXPECT_EQ(group_ratio(0.0), 1.0);
-  EXPECT_EQ(group_ratio(kInfinity), 0.5);
+  EXPECT_EQ(group_ratio(kInf), 0.5);
   EXPECT_EQ(group_speed(1.0, 0.0, kG), 0.0);
-  EXPECT_EQ(shoaling_coefficient(0.0), kInfinity);
-  EXPECT_EQ(shoaling_coefficient(kInfinity), 1.0);
+  EXPECT_EQ(shoaling_coefficient(0.0), kInf);
+  EXPECT_EQ(shoaling_coefficient(kInf), 1.0);
 }
 
 // PHY-03.

@@ -8,20 +8,18 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
+#include "constants.h"
 #include "math/random.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Samples that a wave reaches, in the order it does.
 std::vector<std::size_t> arrival_order(const std::vector<double>& theta) {
   std::vector<std::size_t> order;
   for (std::size_t n = 0; n < theta.size(); ++n)
-    if (theta[n] < kInfinity) order.push_back(n);
+    if (theta[n] < kInf) order.push_back(n);
   std::ranges::stable_sort(order, {}, [&](std::size_t n) { return theta[n]; });
   return order;
 }
@@ -34,7 +32,7 @@ class PlainSolver {
   std::vector<double> theta() {
     arrival_ = problem_.source;
     for (std::size_t n = 0; n < arrival_.size(); ++n)
-      if (problem_.slowness[n] == 0.0) arrival_[n] = kInfinity;
+      if (problem_.slowness[n] == 0.0) arrival_[n] = kInf;
     for (int round = 0; round < 200; ++round) {
       double change = 0.0;
       for (const bool y_up : {true, false})
@@ -43,7 +41,7 @@ class PlainSolver {
     }
     std::vector<double> theta = arrival_;
     for (const std::size_t n : arrival_order(arrival_))
-      if (problem_.source[n] == kInfinity) theta[n] = finer(theta, n);
+      if (problem_.source[n] == kInf) theta[n] = finer(theta, n);
     return theta;
   }
 
@@ -51,14 +49,14 @@ class PlainSolver {
     std::vector<double> energy(theta.size(), 0.0);
     for (const std::size_t n : arrival_order(theta)) {
       energy[n] =
-          problem_.source[n] < kInfinity ? problem_.source_energy[n] : energy_at(theta, energy, n);
+          problem_.source[n] < kInf ? problem_.source_energy[n] : energy_at(theta, energy, n);
     }
     return energy;
   }
 
  private:
   double at(const std::vector<double>& values, int i, int j) const {
-    return i < 0 || j < 0 || i >= nx_ || j >= ny_ ? kInfinity : values[problem_.grid.index(i, j)];
+    return i < 0 || j < 0 || i >= nx_ || j >= ny_ ? kInf : values[problem_.grid.index(i, j)];
   }
 
   double sweep(bool x_up, bool y_up) {
@@ -67,11 +65,11 @@ class PlainSolver {
       for (int ii = 0; ii < nx_; ++ii) {
         const int i = x_up ? ii : nx_ - 1 - ii, j = y_up ? jj : ny_ - 1 - jj;
         const std::size_t n = problem_.grid.index(i, j);
-        if (problem_.slowness[n] == 0.0 || problem_.source[n] < kInfinity) continue;
+        if (problem_.slowness[n] == 0.0 || problem_.source[n] < kInf) continue;
         const double x = std::min(at(arrival_, i - 1, j), at(arrival_, i + 1, j));
         const double y = std::min(at(arrival_, i, j - 1), at(arrival_, i, j + 1));
         const double a = std::min(x, y), b = std::max(x, y);
-        if (a == kInfinity) continue;
+        if (a == kInf) continue;
         const double step = problem_.slowness[n] * problem_.grid.spacing_m, d = b - a;
         const double t = d < step ? 0.5 * (a + b + std::sqrt(2.0 * step * step - d * d)) : a + step;
         if (!(t < arrival_[n])) continue;
@@ -83,7 +81,7 @@ class PlainSolver {
   }
 
   struct Difference {
-    double weight = 0.0, value = kInfinity;
+    double weight = 0.0, value = kInf;
   };
   Difference difference(const std::vector<double>& theta, int i, int j, int dx, int dy) const {
     const double before = at(arrival_, i - dx, j - dy), after = at(arrival_, i + dx, j + dy);
@@ -106,9 +104,9 @@ class PlainSolver {
       const double both = (wa * a.value + wb * b.value + std::sqrt(discriminant)) / (wa + wb);
       if (discriminant >= 0.0 && both >= std::max(a.value, b.value)) return both;
     }
-    const double one = std::min(a.weight > 0.0 ? a.value + s / a.weight : kInfinity,
-                                b.weight > 0.0 ? b.value + s / b.weight : kInfinity);
-    return one < kInfinity ? one : theta[n];
+    const double one = std::min(a.weight > 0.0 ? a.value + s / a.weight : kInf,
+                                b.weight > 0.0 ? b.value + s / b.weight : kInf);
+    return one < kInf ? one : theta[n];
   }
 
   double energy_at(const std::vector<double>& theta, const std::vector<double>& energy,
@@ -120,7 +118,7 @@ class PlainSolver {
       std::array<bool, 2> open{};
       for (int k = 0; k < 2; ++k) {
         const int i1 = i + (2 * k - 1) * dx, j1 = j + (2 * k - 1) * dy;
-        open[k] = at(theta, i1, j1) < kInfinity;
+        open[k] = at(theta, i1, j1) < kInf;
         if (!open[k]) continue;
         const std::size_t m = problem_.grid.index(i1, j1);
         const double slowness = 0.5 * (problem_.slowness[n] + problem_.slowness[m]);
@@ -161,7 +159,7 @@ EikonalProblem random_problem(Dice& dice) {
     const bool open = dice.uniform() >= obstacles;
     problem.slowness.push_back(open ? 0.05 * (1 + dice.below(levels)) : 0.0);
   }
-  problem.source.assign(grid.size(), kInfinity);
+  problem.source.assign(grid.size(), kInf);
   problem.source_energy.assign(grid.size(), 0.0);
   const auto add = [&](int i, int j, double theta) {
     problem.source[grid.index(i, j)] = theta;
@@ -205,7 +203,7 @@ TEST(Eikonal, FollowsAWindingCorridorToItsEnd) {
   constexpr int kSide = 101;
   EikonalProblem problem{{{0.0, 0.0}, 1.0, kSide, kSide}, {}, {}, {}};
   problem.slowness.assign(problem.grid.size(), 1.0);
-  problem.source.assign(problem.grid.size(), kInfinity);
+  problem.source.assign(problem.grid.size(), kInf);
   problem.source_energy.assign(problem.grid.size(), 1.0);
   for (int j = 1; j < kSide; j += 2)
     for (int i = 0; i < kSide; ++i)

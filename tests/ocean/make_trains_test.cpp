@@ -2,25 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/peachey.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kG = 9.81;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 TEST(MakeTrains, HoldTheEnergyOfTheirBand) {
   const WaveSystem wind = make_wind_sea(12.0, 1.0, kG);
-  const double m0 = variance_below(wind, kInfinity);
+  const double m0 = variance_below(wind, kInf);
   const double peak_s = 12.0 / (0.13 * kG);
   for (const int count : {1, 4, 6, 16}) {
-    double variance = 0.0, period_before = kInfinity;
+    double variance = 0.0, period_before = kInf;
     for (const WaveTrain& train : make_trains(wind, count, 5)) {
       variance += 0.5 * train.amplitude_m * train.amplitude_m;
       EXPECT_LE(train.period_s, period_before);

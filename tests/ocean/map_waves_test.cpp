@@ -10,11 +10,12 @@
 #include <complex>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <stdexcept>
 
+#include "constants.h"
 #include "ocean/sea.h"
 #include "ocean/sea_state.h"
+#include "ocean/small_recipe.h"
 #include "ocean/velocity.h"
 #include "ocean/water.h"
 #include "scratch_folder.h"
@@ -22,19 +23,9 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-
 // A file of a small map.
 std::string map_file(const MapRecipe& recipe, const ScratchFolder& folder) {
   return folder.write("waves.map", encode_map(make_periodic_map(recipe))).string();
-}
-
-MapRecipe small_recipe() {
-  MapRecipe recipe;
-  recipe.size = 32;
-  recipe.frames = 64;
-  recipe.peak_waves = 2.0;
-  return recipe;
 }
 
 SeaDescription sea_of(std::vector<MapLayer> layers) {
@@ -141,13 +132,13 @@ TEST(MapWaves, TheDefaultPeriodIsThatOfDeepWater) {
   recipe.first = FirstDisturbance::kHeights;
   for (int j = 0; j < 32; ++j)
     for (int i = 0; i < 32; ++i)
-      recipe.heights.push_back(static_cast<float>(std::cos(kTwoPi * 2 * i / 32.0)));
+      recipe.heights.push_back(static_cast<float>(std::cos(kTurn * 2 * i / 32.0)));
   const ScratchFolder folder;
   const std::string file = map_file(recipe, folder);
   const Sea sea(sea_of({{file, 100.0, 0.0, 1.0}}));
   const MapWaves& waves = sea.state().maps[0];
-  EXPECT_NEAR(waves.wave_number_rad_m(), kTwoPi / 50.0, 0.01 * kTwoPi / 50.0);
-  const double speed_mps = std::sqrt(9.81 * 50.0 / kTwoPi);
+  EXPECT_NEAR(waves.wave_number_rad_m(), kTurn / 50.0, 0.01 * kTurn / 50.0);
+  const double speed_mps = std::sqrt(9.81 * 50.0 / kTurn);
   EXPECT_NEAR(waves.map->travel * 100.0 * waves.loops_per_s, speed_mps, 0.01 * speed_mps);
 }
 

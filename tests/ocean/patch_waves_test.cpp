@@ -8,18 +8,17 @@
 #include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/simd_targets.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kG = 9.81;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kLength = 400.0;
 
 PatchWaves waves_of(int size, std::uint64_t seed = 1, int patch = 0) {
   const WaveSystem sea = make_wind_sea(15.0, 1.0, kG);
-  const WaveBand band{0.0, kTwoPi / kLength * 15.5};
+  const WaveBand band{0.0, kTurn / kLength * 15.5};
   return make_patch_waves({{sea}}, band, kLength, size, 1.0, seed, patch);
 }
 
@@ -41,7 +40,7 @@ std::vector<std::complex<float>> wave_plane(const PatchWaves& waves, double t_s)
 }
 
 TEST(WaveVector, IsZeroInTheCornerAndNegativeInTheUpperHalf) {
-  const double dk = kTwoPi / 100.0;
+  const double dk = kTurn / 100.0;
   EXPECT_EQ(wave_vector(0, 0, 16, 100.0), glm::dvec2(0.0, 0.0));
   EXPECT_DOUBLE_EQ(wave_vector(7, 1, 16, 100.0).x, 7 * dk);
   EXPECT_DOUBLE_EQ(wave_vector(7, 1, 16, 100.0).y, dk);
@@ -111,8 +110,8 @@ TEST(PatchWaves, EachObeyTheDeepWaterDispersionAlsoAfterYears) {
       rms = std::sqrt(rms / static_cast<double>(now.size()));
       for (int j = 0; j < size; ++j) {
         for (int i = 0; i < size; ++i) {
-          const double ky = kTwoPi / kLength * (j < size / 2 ? j : j - size);
-          const double kx = kTwoPi / kLength * (i < size / 2 ? i : i - size);
+          const double ky = kTurn / kLength * (j < size / 2 ? j : j - size);
+          const double kx = kTurn / kLength * (i < size / 2 ? i : i - size);
           const double omega = std::sqrt(kG * std::hypot(kx, ky));
           const int at = j * size + i;
           const auto want = 2.0f * static_cast<float>(std::cos(omega * d)) * now[at];
@@ -128,14 +127,14 @@ TEST(PatchWaves, TurnTheWayTheyTravel) {
   // No directions but one: waves towards east stand in column 1 .. n/2 with falling phase.
   const PatchWaves waves = [] {
     const WaveSystem east = make_wind_sea(15.0, 1.5 * std::numbers::pi, kG);
-    return make_patch_waves({{east}}, {0.0, kTwoPi / kLength * 15.5}, kLength, 32, 1.0, 7, 0);
+    return make_patch_waves({{east}}, {0.0, kTurn / kLength * 15.5}, kLength, 32, 1.0, 7, 0);
   }();
   const double dt = 0.05;
   const auto h0 = wave_plane(waves, 10.0), h1 = wave_plane(waves, 10.0 + dt);
   double turned = 0.0, weight = 0.0;
   for (int i = 1; i < 10; ++i) {  // k = (i, 0): towards east
     const std::complex<double> a = h0[i], b = h1[i];
-    const double omega = std::sqrt(kG * kTwoPi / kLength * i);
+    const double omega = std::sqrt(kG * kTurn / kLength * i);
     turned += std::norm(a) * std::arg(b / a) / (omega * dt);
     weight += std::norm(a);
   }
@@ -164,7 +163,7 @@ TEST(PatchWaves, DifferBySeedAndPatch) {
 
 TEST(PatchWaves, StayInsideTheirBandToHalfACell) {
   const WaveSystem sea = make_wind_sea(15.0, 1.0, kG);
-  const double dk = kTwoPi / kLength;
+  const double dk = kTurn / kLength;
   const auto h =
       wave_plane(make_patch_waves({{sea}}, {5.0 * dk, 9.0 * dk}, kLength, 64, 1.0, 1, 0), 0);
   int nonzero = 0;

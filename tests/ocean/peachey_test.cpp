@@ -6,21 +6,16 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 
+#include "constants.h"
 #include "math/random.h"
 #include "ocean/simd_targets.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kPiRef = std::numbers::pi;
 constexpr double kTwoPiRef = 2.0 * kPiRef;
-constexpr double kDegree = kPiRef / 180.0;
-constexpr double kG = 9.81;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 glm::dvec2 unit(double angle_deg) {
   return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
@@ -52,7 +47,7 @@ double height_at(const TrainSea& sea, double t_s, glm::dvec2 p) {
 template <class F>
 double find_maximum(double low, double high, F f) {
   for (int round = 0; round < 4; ++round) {
-    double best = low, best_value = -kInfinity;
+    double best = low, best_value = -kInf;
     const double step = (high - low) / 40.0;
     for (int n = 0; n <= 40; ++n) {
       const double value = f(low + n * step);

@@ -11,18 +11,11 @@
 #include <stdexcept>
 
 #include "math/random.h"
+#include "ocean/small_recipe.h"
 #include "scratch_folder.h"
 
 namespace swell::ocean {
 namespace {
-
-MapRecipe small_recipe() {
-  MapRecipe recipe;
-  recipe.size = 32;
-  recipe.frames = 64;
-  recipe.peak_waves = 2.0;
-  return recipe;
-}
 
 double height(const PeriodicMap& map, int frame, std::size_t sample) {
   const auto of = static_cast<std::size_t>((frame + map.frames) % map.frames);

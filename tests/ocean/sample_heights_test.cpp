@@ -5,13 +5,12 @@
 #include <random>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/sea.h"
 #include "ocean/simd_targets.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // A patch of random heights in [-1, 1).
 PatchFrame random_patch(double length_m, int resolution, unsigned seed) {
@@ -173,8 +172,8 @@ TEST(SampleHeights, EvaluatesSinesExactly) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         double want = 0.0;
         for (const SineWave& sine : description.sines) {
-          const double k = kTwoPi / sine.wavelength_m;
-          const double omega = sine.period_s > 0.0 ? kTwoPi / sine.period_s : std::sqrt(9.81 * k);
+          const double k = kTurn / sine.wavelength_m;
+          const double omega = sine.period_s > 0.0 ? kTurn / sine.period_s : std::sqrt(9.81 * k);
           const double along =
               points[i].x * std::sin(sine.to_rad) + points[i].y * std::cos(sine.to_rad);
           want += sine.amplitude_m * std::sin(k * along - omega * t + sine.phase_rad);
@@ -191,7 +190,7 @@ TEST(SampleHeights, FollowsASineCrestAtItsPhaseSpeed) {
   // Crest at x = L/4 for t = 0, travelling east at sqrt(g L / 2 pi).
   description.sines = {
       {.amplitude_m = 1.0, .wavelength_m = 40.0, .to_rad = std::numbers::pi / 2.0}};
-  const double speed = std::sqrt(9.81 * 40.0 / kTwoPi);
+  const double speed = std::sqrt(9.81 * 40.0 / kTurn);
   const Sea sea(description);
   Workers workers(1);
   SeaFrame frame;

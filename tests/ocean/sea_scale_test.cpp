@@ -4,12 +4,11 @@
 
 #include <cmath>
 
+#include "constants.h"
 #include "ocean/sea.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kG = 9.81;
 
 TEST(SeaScale, StepsMeetAndHoldTheirPresets) {
   for (int code = 1; code <= kMaxDouglas; ++code) {

@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/sea.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kPiRef = std::numbers::pi;
-constexpr double kTwoPi = 2.0 * kPiRef;
-constexpr double kG = 9.81;
 constexpr int kSeeds = 64;
 
 // Variance of Pierson-Moskowitz waves with wave numbers below k_rad_m, in closed form.
 double variance_below_k(double wind_mps, double k_rad_m) {
-  const double f_m = 0.13 * kG / wind_mps, f = std::sqrt(kG * k_rad_m) / kTwoPi;
-  return 0.0081 * kG * kG / (std::pow(kTwoPi, 4) * 5.0 * std::pow(f_m, 4)) *
+  const double f_m = 0.13 * kG / wind_mps, f = std::sqrt(kG * k_rad_m) / kTurn;
+  return 0.0081 * kG * kG / (std::pow(kTurn, 4) * 5.0 * std::pow(f_m, 4)) *
          std::exp(-1.25 * std::pow(f_m / f, 4));
 }
 
@@ -57,7 +54,7 @@ SeaDescription one_patch(double wind_from_deg, int seed) {
 }
 
 // Waves with |k| below this fit into the patch.
-constexpr double kPatchEnd = kTwoPi / 3000.0 * 63.5;
+constexpr double kPatchEnd = kTurn / 3000.0 * 63.5;
 
 TEST(SeaStatistics, FieldHasTheVarianceOfItsBand) {
   Workers workers(1);
@@ -75,15 +72,15 @@ TEST(SeaStatistics, FieldHasTheVarianceOfItsBand) {
 
 // The integral of omega k cos(theta) S over the band: D's first moment is p / (p + 1).
 double expected_travel(double wind_mps) {
-  const double f_m = 0.13 * kG / wind_mps, f_end = std::sqrt(kG * kPatchEnd) / kTwoPi;
+  const double f_m = 0.13 * kG / wind_mps, f_end = std::sqrt(kG * kPatchEnd) / kTurn;
   double sum = 0.0;
   const int steps = 20000;
   for (int i = 0; i < steps; ++i) {
     const double f = f_end * (i + 0.5) / steps;
-    const double energy = 0.0081 * kG * kG / (std::pow(kTwoPi, 4) * std::pow(f, 5)) *
+    const double energy = 0.0081 * kG * kG / (std::pow(kTurn, 4) * std::pow(f, 5)) *
                           std::exp(-1.25 * std::pow(f_m / f, 4));
     const double p = 9.77 * std::pow(f / f_m, f < f_m ? 4.06 : -2.34);
-    const double omega = kTwoPi * f;
+    const double omega = kTurn * f;
     sum += omega * (omega * omega / kG) * p / (p + 1.0) * energy * f_end / steps;
   }
   return sum;
@@ -133,7 +130,7 @@ double sampled_significant_height(double wind_mps) {
 }
 
 TEST(SeaStatistics, SampledHeightsHaveTheSignificantHeightOfThePatchesBand) {
-  const double end_k = kTwoPi / 17.0 * 31.5;  // of the shortest default patch
+  const double end_k = kTurn / 17.0 * 31.5;  // of the shortest default patch
   for (const double wind_mps : {5.0, 10.0, 15.0}) {
     const double want = 4.0 * std::sqrt(variance_below_k(wind_mps, end_k));
     EXPECT_NEAR(sampled_significant_height(wind_mps) / want, 1.0, 0.05) << wind_mps << " m/s";
@@ -245,8 +242,8 @@ double squared_width_below(double f_m, double f_end) {
 TEST(SeaStatistics, HighestThirdOfNarrowBandWavesIsThatOfRayleighHeights) {
   // The patch ends at 0.9 f_m, and below that Pierson-Moskowitz falls steeply: a narrow band.
   const double f_m = 0.13 * kG / 15.0, f_end = 0.9 * f_m;
-  const double k_end = kTwoPi * f_end * kTwoPi * f_end / kG;
-  const Estimate ratio = significant_height_ratio(kTwoPi / k_end * 15.5, 32, 24);
+  const double k_end = kTurn * f_end * kTurn * f_end / kG;
+  const Estimate ratio = significant_height_ratio(kTurn / k_end * 15.5, 32, 24);
   // A height is the sum of the envelope at a crest and at the trough half a period later. The two
   // are Gaussian with correlation 1 - pi^2 nu^2 / 2, so that their mean's standard deviation is
   // 1 - pi^2 nu^2 / 8 of one's. Heights are lower than twice the envelope for this reason: M. A.

@@ -7,17 +7,15 @@
 #include <complex>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "allocation_count.h"
+#include "constants.h"
 #include "ocean/simd_targets.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kPiRef = std::numbers::pi;
 
 SeaDescription small_sea() {
   SeaDescription description;

@@ -10,12 +10,11 @@
 #include <functional>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/water.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kDegree = kPi / 180.0;
 
 // Heights on a square of `cells` cells about the origin.
 terrain::HeightGrid make_land(int cells, double spacing_m,

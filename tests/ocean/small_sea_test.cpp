@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "constants.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 TEST(SmallSea, HasTheHeightsOfItsWaves) {
   const SmallSea sea{.size = 128, .frames = 9, .wind_from_rad = 4.0};

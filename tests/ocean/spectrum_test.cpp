@@ -3,19 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
+#include "constants.h"
 #include "ocean/dispersion.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kPiRef = std::numbers::pi;
-constexpr double kG = 9.81;
-constexpr double kDegree = kPiRef / 180.0;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Midpoint rule.
 template <class F>
@@ -33,7 +27,7 @@ TEST(Spectrum, HasTheSignificantHeightAndPeakPeriodOfTheTable) {
   for (const Row& row : {Row{5, 0.6150, 3.921}, Row{10, 2.4598, 7.841}, Row{15, 5.5346, 11.762},
                          Row{20, 9.8393, 15.683}}) {
     const WaveSystem sea = make_wind_sea(row.wind_mps, 0.0, kG);
-    EXPECT_NEAR(4.0 * std::sqrt(variance_below(sea, kInfinity)), row.height_m, 1e-4);
+    EXPECT_NEAR(4.0 * std::sqrt(variance_below(sea, kInf)), row.height_m, 1e-4);
     EXPECT_NEAR(1.0 / sea.peak_hz, row.period_s, 1e-3);
   }
 }
@@ -50,7 +44,7 @@ TEST(Spectrum, IntegratesToItsClosedForm) {
 TEST(Spectrum, HoldsTheKnownPartOfTheEnergyBelowMultiplesOfThePeak) {
   const WaveSystem sea = make_wind_sea(12.0, 0.0, kG);
   const double peak = 0.13 * kG / 12.0;
-  const double m0 = variance_below(sea, kInfinity);
+  const double m0 = variance_below(sea, kInf);
   const std::pair<double, double> parts[] = {
       {1.5, 0.7812}, {2, 0.9248}, {3, 0.9847}, {4, 0.9951}, {5, 0.9980}};
   for (const auto& [multiple, part] : parts) {

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
+#include "constants.h"
+
 namespace swell::ocean {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 struct Snapshot {
   Snapshot(const Sea& sea, double t_s) : workers(1) {
@@ -26,7 +26,7 @@ TEST(Velocity, OneWaveMovesTheWaterOnCircles) {
   SeaDescription description;
   description.spectrum = false;
   description.sines = {{0.7, 40.0, std::numbers::pi / 3.0, 0.4, 0.0}};
-  const double k = kTwoPi / 40.0, omega = std::sqrt(9.81 * k);
+  const double k = kTurn / 40.0, omega = std::sqrt(9.81 * k);
   const glm::dvec2 to(std::sin(std::numbers::pi / 3.0), std::cos(std::numbers::pi / 3.0));
   const Sea sea(description);
   for (const double t_s : {-20.0, 0.0, 3.3, 500.0}) {

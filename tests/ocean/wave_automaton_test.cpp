@@ -10,10 +10,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "constants.h"
+
 namespace swell::ocean {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 double largest(const std::vector<double>& values) {
   double most = 0.0;
@@ -47,10 +47,10 @@ TEST(WaveAutomaton, WavesHaveTheSpeedOfTheirClosedForm) {
   constexpr int kSize = 32;
   for (const double courant : {0.3, 0.5, 0.86}) {
     for (const auto& [waves_x, waves_y] : {std::pair(8, 0), {0, 4}, {2, 2}, {3, -1}, {5, 5}}) {
-      const double kx = kTwoPi * waves_x / kSize, ky = kTwoPi * waves_y / kSize;
+      const double kx = kTurn * waves_x / kSize, ky = kTurn * waves_y / kSize;
       const double omega = omega_of(courant, kx, ky);
       WaveAutomaton automaton = make_automaton(kSize, courant);
-      EXPECT_NEAR(kTwoPi * turns_per_step(automaton, waves_x, waves_y), omega, 1e-7);
+      EXPECT_NEAR(kTurn * turns_per_step(automaton, waves_x, waves_y), omega, 1e-7);
       const auto height = [&](int i, int j, int n) {
         return std::cos(kx * i + ky * j - omega * n);
       };

@@ -5,20 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 
+#include "constants.h"
 #include "ocean/eikonal.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kPiRef = std::numbers::pi;
 constexpr double kTwoPiRef = 2.0 * kPiRef;
-constexpr double kDegree = kPiRef / 180.0;
-constexpr double kG = 9.81;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // k by bisection: the oracle of every wave length here.
 double bisected_wave_number(double period_s, double depth_m) {
@@ -301,7 +296,7 @@ TEST(WavePhase, RefusesBadTrains) {
   EXPECT_THROW(make({1.0, 0.0, {0.0, 1.0}}), std::invalid_argument);
   EXPECT_THROW(make({1.0, std::nan(""), {0.0, 1.0}}), std::invalid_argument);
   EXPECT_THROW(make({1.0, 5.0, {0.0, 2.0}}), std::invalid_argument);
-  EXPECT_THROW(make({1.0, 5.0, {0.0, 1.0}, kInfinity}), std::invalid_argument);
+  EXPECT_THROW(make({1.0, 5.0, {0.0, 1.0}, kInf}), std::invalid_argument);
   EXPECT_THROW(make({1.0, 5.0, {0.0, 1.0}, 0.0, -9.81}), std::invalid_argument);
   EXPECT_THROW(make_wave_phase({}, {1.0, 5.0, {0.0, 1.0}}, PhaseMethod::kStraight),
                std::invalid_argument);
@@ -322,7 +317,7 @@ TEST(Eikonal, BendsRoundTheEndOfAWall) {
     const double h = 1.0 / n;
     EikonalProblem problem{{{0.0, 0.0}, h, 2 * n + 1, 2 * n + 1}, {}, {}, {}};
     problem.slowness.assign(problem.grid.size(), 1.0);
-    problem.source.assign(problem.grid.size(), kInfinity);
+    problem.source.assign(problem.grid.size(), kInf);
     const glm::dvec2 end(1.0, 1.0);  // the wall: x = 1, y <= 1
     for (int j = 0; j <= n; ++j) problem.slowness[problem.grid.index(n, j)] = 0.0;
     // Exact distances around the source keep its own singularity out of the error.
@@ -344,7 +339,7 @@ TEST(Eikonal, BendsRoundTheEndOfAWall) {
             shadow ? glm::length(end - source) + glm::length(p - end) : glm::length(p - source);
         const double got = theta[problem.grid.index(i, j)];
         if (problem.slowness[problem.grid.index(i, j)] == 0.0) {
-          EXPECT_EQ(got, kInfinity);
+          EXPECT_EQ(got, kInf);
         } else {
           worst = std::max(worst, std::abs(got - exact));
         }
@@ -366,7 +361,7 @@ TEST(Eikonal, IsOfSecondOrderWhereItIsSmooth) {
       for (int i = 0; i <= n; ++i) {
         const glm::dvec2 p = problem.grid.point(i, j);
         problem.slowness.push_back(std::sqrt((1.0 + p.x) * (1.0 + p.x) + 1.0));
-        problem.source.push_back(i == 0 || j == 0 ? exact(p) : kInfinity);
+        problem.source.push_back(i == 0 || j == 0 ? exact(p) : kInf);
       }
     }
     std::vector<double> theta;

@@ -3,19 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "constants.h"
 #include "ocean/peachey.h"
 #include "ocean/sea.h"
 #include "ocean/spectrum.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kG = 9.81;
-constexpr double kPiRef = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The integral of f^n F(f) df by the midpoint rule on a fine grid around the peak.
 double moment(const WaveSystem& system, int n) {
@@ -28,18 +23,16 @@ double moment(const WaveSystem& system, int n) {
   return sum;
 }
 
-double height_of(const WaveSystem& system) {
-  return 4.0 * std::sqrt(variance_below(system, kInfinity));
-}
+double height_of(const WaveSystem& system) { return 4.0 * std::sqrt(variance_below(system, kInf)); }
 
 TEST(WaveSystems, VarianceIsTheIntegralOfTheSpectrum) {
   for (const double gamma : {1.0, 2.0, 3.3, 7.0}) {
     WaveSystem sea = make_wind_sea(12.0, 0.0, kG);
     sea.gamma = gamma;
-    EXPECT_NEAR(variance_below(sea, kInfinity) / moment(sea, 0), 1.0, 3e-4) << gamma;
+    EXPECT_NEAR(variance_below(sea, kInf) / moment(sea, 0), 1.0, 3e-4) << gamma;
     for (const double part : {0.1, 0.5, 0.9}) {
       const double f_hz = sea.peak_hz * frequency_of_energy(sea, part);
-      EXPECT_NEAR(variance_below(sea, f_hz) / variance_below(sea, kInfinity), part, 1e-5) << gamma;
+      EXPECT_NEAR(variance_below(sea, f_hz) / variance_below(sea, kInf), part, 1e-5) << gamma;
     }
   }
 }
@@ -52,7 +45,7 @@ TEST(WaveSystems, JonswapHasTheFiguresOfTheRecommendedPractice) {
   for (const double gamma : {1.0, 2.0, 3.3, 5.0}) {
     WaveSystem sea = make_wind_sea(12.0, 0.0, kG), plain = sea;
     sea.gamma = gamma;
-    const double gain = variance_below(sea, kInfinity) / variance_below(plain, kInfinity);
+    const double gain = variance_below(sea, kInf) / variance_below(plain, kInf);
     EXPECT_NEAR(gain * (1.0 - 0.287 * std::log(gamma)), 1.0, 0.01) << gamma;
     const double mean_s = std::sqrt(moment(sea, 0) / moment(sea, 2));
     const double want =

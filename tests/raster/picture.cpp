@@ -11,10 +11,6 @@
 namespace swell::raster {
 namespace {
 
-constexpr std::size_t kGuard = 16;
-constexpr float kGuardDepth = -77.0f;
-constexpr std::uint32_t kGuardPrimitive = 0xABCD1234u;
-
 struct GuardedTile {
   std::vector<float> depth;
   std::vector<std::uint32_t> primitive;

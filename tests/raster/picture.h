@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -13,6 +14,11 @@
 #include "raster/pass.h"
 
 namespace swell::raster {
+
+// Words around every tile that nothing may change.
+inline constexpr std::size_t kGuard = 16;
+inline constexpr float kGuardDepth = -77.0f;
+inline constexpr std::uint32_t kGuardPrimitive = 0xABCD1234u;
 
 // A whole viewport, row by row.
 struct Picture {

@@ -9,10 +9,6 @@
 namespace swell::raster {
 namespace {
 
-constexpr std::size_t kGuard = 16;
-constexpr float kGuardDepth = -77.0f;
-constexpr std::uint32_t kGuardPrimitive = 0xABCD1234u;
-
 // 1/16 px.
 constexpr int kVulkan4[4][2] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
 constexpr int kVulkan8[8][2] = {{9, 5},  {7, 11}, {13, 9},  {5, 3},

@@ -11,7 +11,7 @@ namespace {
 
 using scene::radians;
 
-constexpr int kWidth_px = 70, kHeight_px = 90;  // tiles that are cut, too
+constexpr int kTileWidth_px = 70, kTileHeight_px = 90;  // tiles that are cut, too
 
 TEST(AirOverATile, IsThatOfItsPixels) {
   scene::Scene scene = calm_scene(35.0, 0.0, 200.0);
@@ -20,9 +20,10 @@ TEST(AirOverATile, IsThatOfItsPixels) {
   for (const auto& [height_m, pitch_deg] :
        {std::pair(60.0, -6.0), {1500.0, -7.0}, {1500.0, -50.0}, {9000.0, -9.0}}) {
     const auto draw = [&](double pixel_rad) {
-      renderer.draw_view(make_view({0.0, 0.0, height_m}, 0.0, radians(pitch_deg),
-                                   pixel_rad * kHeight_px, 0.25f, kWidth_px, kHeight_px),
-                         5.0);
+      renderer.draw_view(
+          make_view({0.0, 0.0, height_m}, 0.0, radians(pitch_deg), pixel_rad * kTileHeight_px,
+                    0.25f, kTileWidth_px, kTileHeight_px),
+          5.0);
       return renderer.target.linear;
     };
     const auto on = draw(0.00149), off = draw(0.00151);

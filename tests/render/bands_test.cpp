@@ -13,8 +13,8 @@ namespace swell::render {
 namespace {
 
 constexpr int kBand_px = 8;
-constexpr glm::ivec2 kSize_px(160, 64);
-constexpr int kBands = kSize_px.y / kBand_px;
+constexpr glm::ivec2 kBandsSize_px(160, 64);
+constexpr int kBands = kBandsSize_px.y / kBand_px;
 constexpr double kFov_y_rad = 0.06;  // 960 x 540 pixels of 50 degrees have pixels as large
 
 // The green light of a frame of a sea at one time: of each pixel the mean over `times` x `times`
@@ -23,12 +23,12 @@ std::vector<float> draw(const World& world, double eye_m, double from_sun_rad, d
                         int times = 1, double turned_rad = 0.0) {
   const double heading_rad = world.scene().sky.sun_azimuth_rad + from_sun_rad + turned_rad;
   const View view = make_view({0.0, 0.0, eye_m}, heading_rad, -down_rad, kFov_y_rad, 0.25f,
-                              times * kSize_px.x, times * kSize_px.y);
+                              times * kBandsSize_px.x, times * kBandsSize_px.y);
   const Shot shot(world, view, 5.0, {.keep_linear = true});
-  std::vector<float> mean(static_cast<std::size_t>(kSize_px.x * kSize_px.y));
+  std::vector<float> mean(static_cast<std::size_t>(kBandsSize_px.x * kBandsSize_px.y));
   for (int y = 0; y < view.height_px; ++y)
     for (int x = 0; x < view.width_px; ++x)
-      mean[static_cast<std::size_t>(y / times * kSize_px.x + x / times)] +=
+      mean[static_cast<std::size_t>(y / times * kBandsSize_px.x + x / times)] +=
           static_cast<float>(static_cast<double>(shot.linear(x, y).y) / (times * times));
   return mean;
 }
@@ -41,8 +41,9 @@ double shown(double light) {
 }
 
 double band_mean(const std::vector<float>& picture, int band) {
-  const auto first = picture.begin() + band * kBand_px * kSize_px.x;
-  return std::accumulate(first, first + kBand_px * kSize_px.x, 0.0) / (kBand_px * kSize_px.x);
+  const auto first = picture.begin() + band * kBand_px * kBandsSize_px.x;
+  return std::accumulate(first, first + kBand_px * kBandsSize_px.x, 0.0) /
+         (kBand_px * kBandsSize_px.x);
 }
 
 scene::Scene sea_of(double wind_mps) {
@@ -67,7 +68,7 @@ TEST(Bands, OfFarWaterAreTheMeansOfAFinerPicture) {
         double squares = 0.0;
         for (std::size_t i = 0; i < fine.size(); ++i)
           squares += std::pow(shown(coarse[i]) - shown(fine[i]), 2.0);
-        EXPECT_LT(std::sqrt(squares / (kSize_px.x * kSize_px.y)), 3.0);
+        EXPECT_LT(std::sqrt(squares / (kBandsSize_px.x * kBandsSize_px.y)), 3.0);
       }
     }
   }
@@ -85,7 +86,7 @@ TEST(Bands, OfNearWaterAreAsBrightHoweverFineThePicture) {
           const std::vector<float> fine = draw(world, eye_m, from_sun_rad, down_rad, 8);
           double ratio = 0.0;
           for (int band = 0; band < kBands; ++band)
-            ratio += band_mean(coarse, band) / band_mean(fine, band) * kBand_px / kSize_px.y;
+            ratio += band_mean(coarse, band) / band_mean(fine, band) * kBand_px / kBandsSize_px.y;
           EXPECT_NEAR(ratio, 1.0, from_sun_rad == 0.0 ? 0.09 : 0.05)
               << wind_mps << " m/s, " << eye_m << " m, " << from_sun_rad << " " << down_rad;
         }
@@ -99,7 +100,7 @@ TEST(Bands, StayAsBrightWhileTheCameraCreeps) {
        {std::pair(2.0, 0.0), {2.0, 3.1}, {10.0, 1.5}, {60.0, 3.1}, {1500.0, 0.0}}) {
     std::array<double, kBands> before{};
     for (int n = 0; n <= 5; ++n) {
-      const double turned_rad = 0.1 * n * kFov_y_rad / kSize_px.y;
+      const double turned_rad = 0.1 * n * kFov_y_rad / kBandsSize_px.y;
       const std::vector<float> picture = draw(world, eye_m, from_sun_rad, 0.05, 1, turned_rad);
       for (int band = 0; band < kBands; ++band) {
         const double now = shown(band_mean(picture, band));

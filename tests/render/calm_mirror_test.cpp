@@ -9,8 +9,8 @@
 namespace swell::render {
 namespace {
 
-constexpr int kSize_px = 160;
-constexpr double kEye_m = 2.0, kFov_deg = 40.0;
+constexpr int kMirrorSide_px = 160;
+constexpr double kMirrorEye_m = 2.0, kFov_deg = 40.0;
 
 scene::Scene sea_of(double wind_mps, double sun_deg, double cloud_cover, double azimuth_deg) {
   scene::Scene scene = calm_scene(sun_deg, cloud_cover, azimuth_deg);
@@ -25,17 +25,18 @@ struct CalmPicture : LinearRenderer {
   explicit CalmPicture(double wind_mps) : CalmPicture(sea_of(wind_mps, 35.0, 0.5, 180.0)) {}
   explicit CalmPicture(const scene::Scene& scene, PartSet without = {}) : LinearRenderer(scene) {
     options.without = without;
-    draw_view(make_view({0.0, 0.0, kEye_m}, 0.0, 0.0, scene::radians(kFov_deg), 0.25f, kSize_px,
-                        kSize_px),
+    draw_view(make_view({0.0, 0.0, kMirrorEye_m}, 0.0, 0.0, scene::radians(kFov_deg), 0.25f,
+                        kMirrorSide_px, kMirrorSide_px),
               0.0);
   }
 };
 
 // Green light of a row so many pixels over the horizon, or under it.
 std::vector<double> row_of(const LinearRenderer& picture, int over_px) {
-  std::vector<double> row(kSize_px);
-  const int y = over_px > 0 ? kSize_px / 2 - over_px : kSize_px / 2 - 1 - over_px;
-  for (int x = 0; x < kSize_px; ++x) row[static_cast<std::size_t>(x)] = picture.linear(x, y).y;
+  std::vector<double> row(kMirrorSide_px);
+  const int y = over_px > 0 ? kMirrorSide_px / 2 - over_px : kMirrorSide_px / 2 - 1 - over_px;
+  for (int x = 0; x < kMirrorSide_px; ++x)
+    row[static_cast<std::size_t>(x)] = picture.linear(x, y).y;
   return row;
 }
 
@@ -67,7 +68,8 @@ TEST(CalmMirror, IsTheSkyTurnedOver) {
   const CalmPicture picture(0.0);
   for (int over_px = 16; over_px <= 72; over_px += 8) {
     const Line line = fit_line(row_of(picture, over_px), row_of(picture, -over_px));
-    const double sine = double{picture.direction(kSize_px / 2, kSize_px / 2 - over_px).z};
+    const double sine =
+        double{picture.direction(kMirrorSide_px / 2, kMirrorSide_px / 2 - over_px).z};
     EXPECT_GT(line.correlation, 0.95) << over_px;
     EXPECT_NEAR(line.slope / fresnel(sine), 1.0, 0.15) << over_px;
   }
@@ -82,11 +84,11 @@ TEST(CalmMirror, IsAsSharpAsTheSkyUnderALowSun) {
     scene.water.body_colour = glm::vec3(0.0f);
     const CalmPicture picture(scene, {Part::kHaze});
     for (int over_px = 6; over_px <= 72; over_px += 6)
-      for (int x = 0; x < kSize_px; x += 4) {
-        const glm::vec3 up = picture.direction(x, kSize_px / 2 - over_px);
+      for (int x = 0; x < kMirrorSide_px; x += 4) {
+        const glm::vec3 up = picture.direction(x, kMirrorSide_px / 2 - over_px);
         if (glm::dot(up, scene.sky.sun_direction) > kBesideTheDisc) continue;
-        const double sky = double{picture.linear(x, kSize_px / 2 - over_px).y};
-        const double water = double{picture.linear(x, kSize_px / 2 - 1 + over_px).y};
+        const double sky = double{picture.linear(x, kMirrorSide_px / 2 - over_px).y};
+        const double water = double{picture.linear(x, kMirrorSide_px / 2 - 1 + over_px).y};
         EXPECT_NEAR(water / (sky * fresnel(double{up.z})), 1.0, 0.03)
             << elevation_deg << " " << over_px << " " << x;
       }
@@ -98,7 +100,8 @@ double mirrored_contrast(const LinearRenderer& picture) {
   double water = 0.0, sky = 0.0;
   for (int over_px = 16; over_px <= 72; over_px += 4) {
     const std::vector<double> above = row_of(picture, over_px), below = row_of(picture, -over_px);
-    const double sine = double{picture.direction(kSize_px / 2, kSize_px / 2 - over_px).z};
+    const double sine =
+        double{picture.direction(kMirrorSide_px / 2, kMirrorSide_px / 2 - over_px).z};
     sky += fit_line(above, below).deviation * fresnel(sine);
     water += fit_line(below, above).deviation;
   }

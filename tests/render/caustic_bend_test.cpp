@@ -14,7 +14,7 @@
 namespace swell::render {
 namespace {
 
-constexpr double kEye_m = 4.0, kDepth_m = 0.5, kHalfFov_rad = 0.25;
+constexpr double kBendEye_m = 4.0, kDepth_m = 0.5, kHalfFov_rad = 0.25;
 constexpr int kSize = 128;
 
 // Half a metre of water over a flat floor under a sun straight above. Its ripples are waves of a
@@ -45,8 +45,8 @@ class CausticBend : public FlatFloor {
 
 // What caustics add to the green light of each pixel, seen from straight above, north on top.
 std::vector<double> added_light(const World& world) {
-  const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -0.5 * std::numbers::pi, 2.0 * kHalfFov_rad,
-                              0.25f, kSize, kSize);
+  const View view = make_view({0.0, 0.0, kBendEye_m}, 0.0, -0.5 * std::numbers::pi,
+                              2.0 * kHalfFov_rad, 0.25f, kSize, kSize);
   const auto green = [&](PartSet without) {
     return green_light(Shot(world, view, 7.0, {.keep_linear = true, .without = without}).target);
   };
@@ -58,7 +58,8 @@ std::vector<double> added_light(const World& world) {
 
 // The ripples' slope at the eye, each layer's largest: root 2 times its deviation.
 double ripple_slope(const World& world) {
-  const Shot shot(world, make_view({0.0, 0.0, kEye_m}, 0.0, -1.0, 1.0, 0.25f, 16, 16), 7.0, {}, 1);
+  const Shot shot(world, make_view({0.0, 0.0, kBendEye_m}, 0.0, -1.0, 1.0, 0.25f, 16, 16), 7.0, {},
+                  1);
   const Water& water = shot.state().shading.material<Water>();
   double slope = 0.0;
   for (int i = water.first_ripples; i < water.layer_count; ++i)
@@ -85,7 +86,7 @@ TEST_F(CausticBend, MovesTheLightByTheSlopeOfTheRipples) {
   scene::Scene scene = shallow_water();
   const World straight = world_of(scene);
   const double pixel_m =
-      2.0 * std::tan(kHalfFov_rad) * (kEye_m + kDepth_m / scene.water.refraction_index) / kSize;
+      2.0 * std::tan(kHalfFov_rad) * (kBendEye_m + kDepth_m / scene.water.refraction_index) / kSize;
   scene.water.caustic_distortion = kMoved_px * pixel_m / ripple_slope(straight);
   ASSERT_LT(scene.water.caustic_distortion, 10.0);
   const World bent(scene, straight, 1);

@@ -9,13 +9,13 @@
 #include <numeric>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 #include "texture/on_every_target.h"
 
 namespace swell::render {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr float kIndex = 1.333f;
 constexpr float kDisc_per_m = 0.00174f;  // spread by the sun's disc
 
@@ -36,10 +36,10 @@ ocean::PatchFrame patch_of(const std::vector<Wave>& waves, double length_m, int 
     for (int i = 0; i < size; ++i) {
       double height = 0.0, slope_x = 0.0, slope_y = 0.0;
       for (const Wave& w : waves) {
-        const double phase = kTwoPi * (w.along_x * i + w.along_y * j) / size + w.phase_rad;
+        const double phase = kTurn * (w.along_x * i + w.along_y * j) / size + w.phase_rad;
         height += w.amplitude_m * std::cos(phase);
-        slope_x -= w.amplitude_m * kTwoPi * w.along_x / length_m * std::sin(phase);
-        slope_y -= w.amplitude_m * kTwoPi * w.along_y / length_m * std::sin(phase);
+        slope_x -= w.amplitude_m * kTurn * w.along_x / length_m * std::sin(phase);
+        slope_y -= w.amplitude_m * kTurn * w.along_y / length_m * std::sin(phase);
       }
       patch.height_m.push_back(static_cast<float>(height));
       patch.slope_x.push_back(static_cast<float>(slope_x));
@@ -58,8 +58,8 @@ ocean::PatchFrame long_waves(double slope) {
     };
     const int x = count(1), y = count(2);
     if (x == 0 && y == 0) continue;
-    const double k = kTwoPi * std::hypot(x, y) / 6.0;
-    waves.push_back({x, y, slope / k / std::sqrt(24.0), kTwoPi * random_uniform(3, n)});
+    const double k = kTurn * std::hypot(x, y) / 6.0;
+    waves.push_back({x, y, slope / k / std::sqrt(24.0), kTurn * random_uniform(3, n)});
   }
   return patch_of(waves, 6.0, 128);
 }
@@ -98,7 +98,7 @@ Moments moments(const A& a, const B& b) {
 // OPT-10. Beside the crest rays of neighbours cross first; they do so 4.003 / (A k^2) below it.
 TEST_P(CausticRaysOnTarget, OfASineMeetWhereTheyMust) {
   constexpr int kSize = 128;
-  constexpr double kLength_m = 3.0, kWaveNumber = kTwoPi / kLength_m;
+  constexpr double kLength_m = 3.0, kWaveNumber = kTurn / kLength_m;
   for (const double steepness : {0.05, 0.1, 0.2, 0.3}) {
     const double amplitude_m = steepness / kWaveNumber;
     const ocean::PatchFrame patch =
@@ -231,7 +231,7 @@ TEST_P(CausticRaysOnTarget, OfAFinerPatchAreThoseOfACoarserOne) {
 // radius of curvature 1 / (A k^2), from the trough up.
 TEST_P(CausticRaysOnTarget, MirroredByASineMeetOverItsTrough) {
   constexpr int kSize = 128;
-  constexpr double kLength_m = 3.0, kWaveNumber = kTwoPi / kLength_m;
+  constexpr double kLength_m = 3.0, kWaveNumber = kTurn / kLength_m;
   for (const double steepness : {0.05, 0.1, 0.2, 0.3}) {
     const double amplitude_m = steepness / kWaveNumber;
     const ocean::PatchFrame patch = patch_of({{1, 0, amplitude_m, 0.0}}, kLength_m, kSize);

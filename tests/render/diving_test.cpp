@@ -13,7 +13,7 @@
 namespace swell::render {
 namespace {
 
-constexpr int kWidth = 96, kHeight = 54;
+constexpr int kDivingWidth = 96, kDivingHeight = 54;
 constexpr double kFrame_s = 1.0 / 120.0, kSinks_m = 0.003;  // a frame, against the water there
 constexpr glm::dvec2 kPlace_m{0.0, -600.0};
 
@@ -36,7 +36,7 @@ scene::Scene sea_of(double wind_mps) {
 
 View eye_at(double z_m) {
   const scene::Camera camera{.eye_m = {kPlace_m, z_m}, .pitch_rad = 0.05, .fov_y_rad = 1.0};
-  return scene::camera_view(camera, 0.0, kWidth, kHeight);
+  return scene::camera_view(camera, 0.0, kDivingWidth, kDivingHeight);
 }
 
 // The dry pixels from a column's top down, as they are drawn and as a query of the water has it.
@@ -59,7 +59,7 @@ struct Diver : Shot {
   }
   DryRows dry_rows(int x) const {
     DryRows rows;
-    for (int y = 0; y < kHeight; ++y) {
+    for (int y = 0; y < kDivingHeight; ++y) {
       rows.drawn += (target.labels.flags[at(x, y)] & kSeenInWater) == 0;
       const glm::vec3 ray = view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       const glm::dvec3 begins = view.eye_world + glm::dvec3(view.near_m * ray);
@@ -106,10 +106,10 @@ TEST_P(Diving, IsOneSmoothWayThroughTheSurface) {
     }
     if (!before.rgba.empty()) steps.push_back(mean_difference(before, target) / 255.0);
     before = target;
-    for (int x = 0; x < kWidth; x += 5) {
+    for (int x = 0; x < kDivingWidth; x += 5) {
       const DryRows rows = diver.dry_rows(x);
       EXPECT_LE(std::abs(rows.drawn - rows.asked), 2) << i << ' ' << x;
-      cut += rows.drawn > 0 && rows.drawn < kHeight;
+      cut += rows.drawn > 0 && rows.drawn < kDivingHeight;
     }
   }
   EXPECT_GT(cut, frames);

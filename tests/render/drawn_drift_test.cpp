@@ -58,8 +58,8 @@ const World& drift_world() {
   return world;
 }
 
-struct Frame : Shot {
-  Frame(const World& world, double t_s) { draw(world, t_s); }
+struct DriftFrame : Shot {
+  DriftFrame(const World& world, double t_s) { draw(world, t_s); }
   void draw(const World& world, double t_s) {
     FrameOptions options;
     options.labels.add(Label::kId);
@@ -100,7 +100,7 @@ TEST(DrawnDrift, MovesWithTheCurrentThatQueriesTell) {
 TEST(DrawnDrift, IsDrawnLabelledAndPickedWhereItsPoseIs) {
   const World& world = drift_world();
   for (const double t_s : {0.0, 25.0, 50.0}) {
-    const Frame frame(world, t_s);
+    const DriftFrame frame(world, t_s);
     glm::vec2 unused;
     const scene::ObjectPose pose = poses_at(t_s, &unused)[1];
     const glm::dvec3 top = pose.position_world + glm::dvec3(0.0, 0.0, 2.0);
@@ -120,15 +120,15 @@ TEST(DrawnDrift, IsDrawnLabelledAndPickedWhereItsPoseIs) {
 
 TEST(DrawnDrift, IsTheSameAloneAndAfterOtherFrames) {
   const World& world = drift_world();
-  const Frame alone(world, 40.0);
-  Frame history(world, 3.0);
+  const DriftFrame alone(world, 40.0);
+  DriftFrame history(world, 3.0);
   EXPECT_NE(history.target.rgba, alone.target.rgba);
   history.draw(world, 40.0);
   EXPECT_EQ(history.target.rgba, alone.target.rgba);
   // And in a world made from another one, whose way it takes.
   const World again(world.scene(), world, 2);
   EXPECT_EQ(again.scene().objects[1].drift_track, world.scene().objects[1].drift_track);
-  EXPECT_EQ(Frame(again, 40.0).target.rgba, alone.target.rgba);
+  EXPECT_EQ(DriftFrame(again, 40.0).target.rgba, alone.target.rgba);
 }
 
 }  // namespace

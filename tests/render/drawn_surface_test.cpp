@@ -11,7 +11,7 @@ namespace swell::render {
 namespace {
 
 constexpr int kFrames = 12, kTriangles = 5000;
-constexpr glm::ivec2 kSize_px(96, 54);
+constexpr glm::ivec2 kSurfaceSize_px(96, 54);
 
 class DrawnSurface : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface,
@@ -21,7 +21,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DrawnSurface,
 
 void expect_queried_heights(const scene::Scene& scene) {
   int moved = 0;
-  draw_looks(scene, kFrames, kSize_px, kTriangles,
+  draw_looks(scene, kFrames, kSurfaceSize_px, kTriangles,
              [&](const Look& look, const scene::WaterSurface& surface, const Surface& drawn) {
                ASSERT_GT(drawn.height_m.size(), 1000u);
                for (std::size_t v = 0; v < drawn.height_m.size(); ++v) {
@@ -61,7 +61,7 @@ TEST(DrawnCrests, CanBeLeftOut) {
 
 // The plane leaves all waves to the shading.
 TEST(DrawnPlane, IsTwoFlatTriangles) {
-  draw_looks(load_shipped("open_ocean_plane"), kFrames, kSize_px, kTriangles,
+  draw_looks(load_shipped("open_ocean_plane"), kFrames, kSurfaceSize_px, kTriangles,
              [&](const Look&, const scene::WaterSurface&, const Surface& drawn) {
                ASSERT_EQ(drawn.mesh.level.size(), 2u);
                for (const float height_m : drawn.height_m) ASSERT_EQ(height_m, 0.0f);
@@ -73,7 +73,7 @@ TEST_P(DrawnSurface, StaysBetweenItsVerticesWithinTheWavesSlope) {
   constexpr double kSteepest = 1.0;  // of these scenes' waves and fading
   double near_square = 0.0;
   int near = 0;
-  draw_looks(load_shipped(GetParam()), kFrames, kSize_px, kTriangles,
+  draw_looks(load_shipped(GetParam()), kFrames, kSurfaceSize_px, kTriangles,
              [&](const Look&, const scene::WaterSurface& surface, const Surface& drawn) {
                for (std::size_t i = 0; i + 2 < drawn.mesh.indices.size(); i += 3) {
                  const std::uint32_t* v = &drawn.mesh.indices[i];

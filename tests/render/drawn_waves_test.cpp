@@ -7,13 +7,11 @@
 #include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "render/shot.h"
 
 namespace swell::render {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kG = 9.81;
 
 // A row or a column of pixels that looks straight down from (x, y, height), north on top, `reach_m`
 // to either side along its longer axis.
@@ -59,7 +57,7 @@ double find_maximum(double low, double high, F f) {
 }
 
 // Hann's window, so that a wave's neighbours do not disturb it.
-double window(int n, int count) { return 1.0 - std::cos(kTwoPi * (n + 0.5) / count); }
+double window(int n, int count) { return 1.0 - std::cos(kTurn * (n + 0.5) / count); }
 
 // Heights of `places` at `times` times, dt_s apart.
 struct Record {
@@ -101,7 +99,7 @@ TEST(DrawnWaves, SinesHaveThePeriodAndSpeedOfDeepWater) {
     for (int i = 0; i < kPlaces; ++i) z.push_back(height_on_line(row, 0, -160.0 + i));
   }
   for (const ocean::SineWave& sine : scene.sea.sines) {
-    const double k_scene = kTwoPi / sine.wavelength_m, omega_deep = std::sqrt(kG * k_scene);
+    const double k_scene = kTurn / sine.wavelength_m, omega_deep = std::sqrt(kG * k_scene);
     const double omega = find_maximum(0.8 * omega_deep, 1.2 * omega_deep, [&](double w) {
       return std::abs(record.swing(w, 100)) + std::abs(record.swing(w, 200));
     });
@@ -155,7 +153,7 @@ TEST(DrawnWaves, ATrainHasThePeriodAndSpeedOfItsDepth) {
     }
   }
   const double width_m = film.surface_at(15, 320).x - film.surface_at(0, 320).x;
-  const double omega_train = kTwoPi / film.world.state().coast->trains.period_s.front();
+  const double omega_train = kTurn / film.world.state().coast->trains.period_s.front();
   for (std::size_t i = 0; i < depths_m.size(); ++i) {
     const auto swing = [&](double omega, std::size_t n) { return record.swing(omega, 4 * i + n); };
     const double omega = find_maximum(0.8 * omega_train, 1.2 * omega_train,

@@ -10,7 +10,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(160, 100);
+constexpr glm::ivec2 kAccuracySize_px(160, 100);
 
 using Values = std::vector<double>;  // by pixel
 
@@ -82,7 +82,7 @@ struct Errors {
 
 // By pixel.
 std::vector<Places> places_of(EdgeRenderer& r, const View& view, Paint paint) {
-  std::vector<Places> places(static_cast<std::size_t>(kSize_px.x) * kSize_px.y);
+  std::vector<Places> places(static_cast<std::size_t>(kAccuracySize_px.x) * kAccuracySize_px.y);
   for (const glm::dvec2& place : rook_places()) {
     r.draw(moved(view, place), 0);
     const Values values = painted(r, paint);
@@ -97,7 +97,7 @@ std::vector<Places> places_of(EdgeRenderer& r, const View& view, Paint paint) {
 // as the place of the rows makes it. `view` looks at a level sea from eye_m above it.
 Errors measure(const World& world, const View& view, double t_s, Edge edge, double eye_m = 10.0) {
   constexpr std::array<glm::dvec2, 4> kMoves = {{{0.0, 0.0}, {0.6, 0.5}, {0.3, 0.25}, {0.9, 0.75}}};
-  const double rad_per_px = 2.0 * static_cast<double>(view.tan_half_y) / kSize_px.y;
+  const double rad_per_px = 2.0 * static_cast<double>(view.tan_half_y) / kAccuracySize_px.y;
   const auto farthest_crest =
       static_cast<float>(static_cast<double>(view.near_m) * 5.0 * rad_per_px / eye_m);
   EdgeRenderer renderer(world, t_s);
@@ -128,7 +128,7 @@ TEST(EdgeAccuracy, OfABoxAgainstTheSkyAndTheSea) {
   scene::Scene scene = plain_scene();
   scene.objects = {white_box({0.0, 30.0}, {6.0, 6.0, 6.0})};
   const World world = world_of(scene);
-  const View view = north_view(3.0, 0.23, 0.5, kSize_px.x, kSize_px.y);
+  const View view = north_view(3.0, 0.23, 0.5, kAccuracySize_px.x, kAccuracySize_px.y);
   for (const unsigned kinds : {kSky | kObject, kWater | kObject, kWater | kSky}) {
     SCOPED_TRACE(kinds);
     expect_smooth(measure(world, view, 0.0, {kinds}));
@@ -144,7 +144,7 @@ TEST(EdgeAccuracy, OfALeaningMast) {
   scene.objects = {white_box({0.0, 53.0}, {0.05, 0.05, 12.0})};
   const World world = world_of(scene);
   for (const double fov_rad : {0.1, 0.3}) {  // 0.9 and 0.3 pixels wide
-    const View view = north_view(3.0, 0.05, fov_rad, kSize_px.x, kSize_px.y);
+    const View view = north_view(3.0, 0.05, fov_rad, kAccuracySize_px.x, kAccuracySize_px.y);
     for (const Paint paint : {Paint::kByKind, Paint::kLit})
       expect_smooth(measure(world, view, 0.0, {kSky | kObject, paint}));
   }
@@ -152,7 +152,7 @@ TEST(EdgeAccuracy, OfALeaningMast) {
 
 Errors measure_shipped(const char* name, Edge edge) {
   const World& world = shipped_world(name);
-  return measure(world, view_of(world, 2.0, kSize_px.x, kSize_px.y), 2.0, edge);
+  return measure(world, view_of(world, 2.0, kAccuracySize_px.x, kAccuracySize_px.y), 2.0, edge);
 }
 
 TEST(EdgeAccuracy, OfAShoreAndOfAnIslandAgainstTheSky) {
@@ -163,14 +163,14 @@ TEST(EdgeAccuracy, OfAShoreAndOfAnIslandAgainstTheSky) {
   bright.sky.zenith = bright.sky.horizon = glm::vec3(1.0f);
   bright.sky.cloud_cover = 0.0;
   const World world = world_of(bright);
-  const View view = view_of(world, 2.0, kSize_px.x, kSize_px.y);
+  const View view = view_of(world, 2.0, kAccuracySize_px.x, kAccuracySize_px.y);
   expect_smooth(measure(world, view, 2.0, {kLand | kSky, Paint::kLit}));
 }
 
 TEST(EdgeAccuracy, OfTheHorizonAndOfBuoys) {
-  const View rolled =
-      make_view({0.0, 0.0, 10.0}, camera_axes(0.5, -0.05, 0.1),
-                lens_of_fov(0.8, kSize_px.x, kSize_px.y), 0.25f, kSize_px.x, kSize_px.y);
+  const View rolled = make_view({0.0, 0.0, 10.0}, camera_axes(0.5, -0.05, 0.1),
+                                lens_of_fov(0.8, kAccuracySize_px.x, kAccuracySize_px.y), 0.25f,
+                                kAccuracySize_px.x, kAccuracySize_px.y);
   expect_smooth(measure(shipped_world("open_ocean"), rolled, 2.0, {kWater | kSky}));
   expect_smooth(measure_shipped("buoys", {kWater | kObject}));
 }
@@ -178,8 +178,8 @@ TEST(EdgeAccuracy, OfTheHorizonAndOfBuoys) {
 // Seen from between the waves through a long lens.
 Errors measure_crests(const char* name, double fov_rad) {
   constexpr double kEye_m = 4.0;
-  const View view =
-      make_view({0.0, 0.0, kEye_m}, 0.5, -0.4 * fov_rad, fov_rad, 0.25f, kSize_px.x, kSize_px.y);
+  const View view = make_view({0.0, 0.0, kEye_m}, 0.5, -0.4 * fov_rad, fov_rad, 0.25f,
+                              kAccuracySize_px.x, kAccuracySize_px.y);
   return measure(shipped_world(name), view, 2.0, {kWater, Paint::kByDepth}, kEye_m);
 }
 

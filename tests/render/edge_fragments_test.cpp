@@ -10,13 +10,13 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(201, 117);
+constexpr glm::ivec2 kFragmentsSize_px(201, 117);
 constexpr double kTime_s = 2.0;
 
 class EdgesOf : public testing::TestWithParam<const char*> {
  protected:
   const World& world = shipped_world(GetParam());
-  const View view = view_of(world, kTime_s, kSize_px.x, kSize_px.y);
+  const View view = view_of(world, kTime_s, kFragmentsSize_px.x, kFragmentsSize_px.y);
   EdgeRenderer frame{world, kTime_s};
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, EdgesOf,
@@ -47,7 +47,7 @@ TEST_P(EdgesOf, APixelsPartsHaveAllItsSamplesTogetherAndLieSideBySide) {
       }
     }
     EXPECT_GT(edge_pixels, 20u);
-    EXPECT_LT(edge_pixels, std::size_t{kSize_px.x} * kSize_px.y / 4);
+    EXPECT_LT(edge_pixels, std::size_t{kFragmentsSize_px.x} * kFragmentsSize_px.y / 4);
   }
 }
 
@@ -57,8 +57,8 @@ TEST_P(EdgesOf, APixelShowsTheSkyAndAnObjectOnceAtMost) {
   const std::vector<Centre> centres = frame.centres();
   const auto of_pixel = frame.fragments();
   for (std::size_t pixel = 0; pixel < of_pixel.size(); ++pixel) {
-    const auto x_px = static_cast<float>(pixel % kSize_px.x);
-    const auto y_px = static_cast<float>(pixel / kSize_px.x);
+    const auto x_px = static_cast<float>(pixel % kFragmentsSize_px.x);
+    const auto y_px = static_cast<float>(pixel / kFragmentsSize_px.x);
     std::set<std::ptrdiff_t> surfaces;
     for (const EdgeFragment& f : of_pixel[pixel]) {
       const auto surface = frame.surface_of(f.primitive);
@@ -92,7 +92,8 @@ TEST_P(EdgesOf, ChangeNothingButThePixelsThatTheyMix) {
       ASSERT_EQ(centres[i].z, expected[i].z);
       ASSERT_EQ(centres[i].primitive, expected[i].primitive);
       const bool same = frame.target.rgba[i] == without.target.rgba[i];
-      ASSERT_TRUE(same || !of_pixel[i].empty()) << i % kSize_px.x << ", " << i / kSize_px.x;
+      ASSERT_TRUE(same || !of_pixel[i].empty())
+          << i % kFragmentsSize_px.x << ", " << i / kFragmentsSize_px.x;
       changed += !same;
     }
     EXPECT_GT(changed, 20);
@@ -109,7 +110,8 @@ TEST(CalmSea, ThatFillsTheViewHasNoEdges) {
     const World world = world_of(scene);
     EdgeRenderer with(world), without(world);
     for (const double pitch : {-1.5, -0.9, -0.4}) {
-      const View view = make_view({3.0, 5.0, 12.0}, 0.7, pitch, 0.6, 0.25f, kSize_px.x, kSize_px.y);
+      const View view = make_view({3.0, 5.0, 12.0}, 0.7, pitch, 0.6, 0.25f, kFragmentsSize_px.x,
+                                  kFragmentsSize_px.y);
       ASSERT_EQ(without.draw(view, 0).visible_pixels, std::uint64_t{201} * 117);
       for (const int samples : {4, 8}) {
         with.draw(view, samples);
@@ -126,12 +128,12 @@ TEST(CalmSea, HasItsOnlyEdgeAtTheHorizon) {
   const World world = world_of(plain_scene());
   EdgeRenderer renderer(world);
   for (const double eye_z_m : {0.3, 3.0, 300.0}) {
-    renderer.draw(north_view(eye_z_m, 0.1, 0.8, kSize_px.x, kSize_px.y), 8);
+    renderer.draw(north_view(eye_z_m, 0.1, 0.8, kFragmentsSize_px.x, kFragmentsSize_px.y), 8);
     const auto of_pixel = renderer.fragments();
-    std::vector<int> in_column(kSize_px.x);
+    std::vector<int> in_column(kFragmentsSize_px.x);
     for (std::size_t i = 0; i < of_pixel.size(); ++i) {
       if (of_pixel[i].empty()) continue;
-      ++in_column[i % kSize_px.x];
+      ++in_column[i % kFragmentsSize_px.x];
       ASSERT_EQ(of_pixel[i].size(), 2u) << "eye at " << eye_z_m;
       ASSERT_NE(of_pixel[i][0].is_centre, of_pixel[i][1].is_centre);
     }
@@ -187,7 +189,7 @@ TEST(Edges, HoldWhatPicturesMovedByTheSamplesPlacesShow) {
   const World world = world_of(scene);
   EdgeRenderer renderer(world);
   for (const int samples : {4, 8}) {
-    const View view = north_view(3.0, 0.07, 0.6, kSize_px.x, kSize_px.y);
+    const View view = north_view(3.0, 0.07, 0.6, kFragmentsSize_px.x, kFragmentsSize_px.y);
     const Agreement found = compare_with_moved(renderer, view, samples);
     EXPECT_GT(found.edge_pixels, 250);
     EXPECT_LE(found.wrong, found.edge_pixels / 50) << found.edge_pixels;

@@ -10,7 +10,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(48, 96);
+constexpr glm::ivec2 kMastSize_px(48, 96);
 constexpr int kTopRow = 8, kBottomRow = 40;  // rows in which it stands before the sky
 constexpr double kRows = kBottomRow - kTopRow, kLean = 2.0 / kRows;
 constexpr double kSide_m = 0.05, kDistance_m = 60.0, kStep_px = 0.1;
@@ -20,7 +20,7 @@ std::vector<double> covered(const EdgeRenderer& r) {
   const std::vector<Centre> centres = r.centres();
   const auto of_pixel = r.fragments();
   std::vector<double> shares;
-  for (int i = kTopRow * kSize_px.x; i < kBottomRow * kSize_px.x; ++i) {
+  for (int i = kTopRow * kMastSize_px.x; i < kBottomRow * kMastSize_px.x; ++i) {
     const auto pixel = static_cast<std::size_t>(i);
     double mast = of_pixel[pixel].empty() && r.kind_of(centres[pixel].primitive) == 3;
     for (const EdgeFragment& f : of_pixel[pixel])
@@ -38,8 +38,8 @@ double sum_of(const std::vector<double>& values) {
 // The sums of the rows of such a picture.
 std::vector<double> rows_of(const std::vector<double>& pixels) {
   std::vector<double> rows;
-  for (auto at = pixels.begin(); at != pixels.end(); at += kSize_px.x)
-    rows.push_back(std::accumulate(at, at + kSize_px.x, 0.0));
+  for (auto at = pixels.begin(); at != pixels.end(); at += kMastSize_px.x)
+    rows.push_back(std::accumulate(at, at + kMastSize_px.x, 0.0));
   return rows;
 }
 
@@ -61,8 +61,8 @@ class Mast : public testing::TestWithParam<double> {
 
   View view_of_width(double width_px, double lean) const {
     const double focal_px = width_px * kDistance_m / kSide_m;
-    return north_view(1.0, std::atan(lean), 2.0 * std::atan(0.5 * kSize_px.y / focal_px),
-                      kSize_px.x, kSize_px.y);
+    return north_view(1.0, std::atan(lean), 2.0 * std::atan(0.5 * kMastSize_px.y / focal_px),
+                      kMastSize_px.x, kMastSize_px.y);
   }
 
   // Calls visit(renderer, n) after frame n of the camera's turn, for a lean either way.
@@ -87,10 +87,10 @@ class Mast : public testing::TestWithParam<double> {
       without.draw(view_of_width(GetParam(), kLean), 0);
       sky_ = without.target.rgba;
       near.draw(view_of_width(40.0, 0.0), 0);
-      mast_ = display_light(near.target.rgba[20 * kSize_px.x + kSize_px.x / 2], 1);
+      mast_ = display_light(near.target.rgba[20 * kMastSize_px.x + kMastSize_px.x / 2], 1);
     }
     std::vector<double> pixels;
-    for (int i = kTopRow * kSize_px.x; i < kBottomRow * kSize_px.x; ++i) {
+    for (int i = kTopRow * kMastSize_px.x; i < kBottomRow * kMastSize_px.x; ++i) {
       const auto pixel = static_cast<std::size_t>(i);
       const double sky = display_light(sky_[pixel], 1);
       pixels.push_back((display_light(r.target.rgba[pixel], 1) - sky) / (mast_ - sky));

@@ -8,7 +8,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(120, 90);
+constexpr glm::ivec2 kOptionsSize_px(120, 90);
 
 // A box before an even sky, of which only the front shows.
 scene::Scene box_scene(double exposure) {
@@ -41,11 +41,11 @@ struct Mix {
 template <class Visit>
 int for_each_mix(EdgeRenderer& box, int samples, const Visit& visit) {
   box.options.keep_linear = true;
-  box.draw(north_view(3.0, 0.15, 0.4, kSize_px.x, kSize_px.y), samples);
+  box.draw(north_view(3.0, 0.15, 0.4, kOptionsSize_px.x, kOptionsSize_px.y), samples);
   const auto of_pixel = box.fragments();
   const std::vector<Centre> centres = box.centres();
   int visited = 0;
-  for (int i = 4; i + 4 < kSize_px.x * kSize_px.y; ++i) {
+  for (int i = 4; i + 4 < kOptionsSize_px.x * kOptionsSize_px.y; ++i) {
     const auto pixel = static_cast<std::size_t>(i);
     const auto& parts = of_pixel[pixel];
     const auto inner = [&](std::size_t at, int kind) {
@@ -107,7 +107,7 @@ TEST(EdgeSamples, ComeFromTheSceneUnlessTheOptionsHaveSome) {
   const World with = world_of(scene);
   scene.picture.edge_samples = 0;
   const World without = world_of(scene);
-  const View view = view_of(without, 1.0, kSize_px.x, kSize_px.y);
+  const View view = view_of(without, 1.0, kOptionsSize_px.x, kOptionsSize_px.y);
   const auto picture = [&](const World& world, int samples) {
     EdgeRenderer renderer(world, 1.0);
     renderer.draw(view, samples);
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EdgeFrames, testing::Values("lagoon", "buoys", 
 TEST_P(EdgeFrames, AllocateNothingInTheSteadyState) {
   const World& world = shipped_world(GetParam());
   Shot film(1);
-  const View view = view_of(world, 0.0, kSize_px.x, kSize_px.y);
+  const View view = view_of(world, 0.0, kOptionsSize_px.x, kOptionsSize_px.y);
   const auto round = [&] {
     for (const int samples : {8, 4, 0, 8})
       for (const double t_s : {0.0, 0.1, 0.2})
@@ -188,7 +188,7 @@ TEST_P(EdgeFrames, AllocateNothingInTheSteadyState) {
 TEST_P(EdgeFrames, ShadeFewPartsBesidesThePixels) {
   const World& world = shipped_world(GetParam());
   EdgeRenderer renderer(world, 1.0);
-  renderer.draw(view_of(world, 1.0, 4 * kSize_px.x, 4 * kSize_px.y), 8);
+  renderer.draw(view_of(world, 1.0, 4 * kOptionsSize_px.x, 4 * kOptionsSize_px.y), 8);
   std::size_t parts = 0;
   for (const auto& fragments : renderer.state().edges.of_tile)
     parts +=

@@ -9,7 +9,7 @@
 namespace swell::render {
 namespace {
 
-constexpr double kTime_s = 2.0;
+constexpr double kSameBitsTime_s = 2.0;
 constexpr glm::ivec2 kSizes_px[] = {{201, 117}, {63, 65}, {130, 31}};
 
 class SmoothEdgesOf : public testing::TestWithParam<const char*> {
@@ -32,10 +32,10 @@ struct Way {
 
 Picture draw(const World& world, glm::ivec2 size_px, int samples, const Way& way) {
   select_simd_target(way.simd);
-  EdgeRenderer renderer(world, kTime_s, way.threads);
+  EdgeRenderer renderer(world, kSameBitsTime_s, way.threads);
   renderer.options.tile_size_px = way.tile_size_px;
   renderer.options.keep_linear = true;
-  renderer.draw(view_of(world, kTime_s, size_px.x, size_px.y), samples);
+  renderer.draw(view_of(world, kSameBitsTime_s, size_px.x, size_px.y), samples);
   return {renderer.target.rgba, renderer.target.linear};
 }
 
@@ -102,9 +102,9 @@ TEST(SmoothEdges, OfExtremeCamerasAreTheSameBitsAndFinite) {
 TEST(SmoothEdges, OfASmallerPictureAreEnlarged) {
   const World& world = shipped_world("buoys");
   const auto drawn = [&](int samples, int threads) {
-    EdgeRenderer renderer(world, kTime_s, threads);
+    EdgeRenderer renderer(world, kSameBitsTime_s, threads);
     renderer.options.picture_scale = 0.75;
-    renderer.draw(view_of(world, kTime_s, 201, 117), samples);
+    renderer.draw(view_of(world, kSameBitsTime_s, 201, 117), samples);
     return renderer.target.rgba;
   };
   const auto reference = drawn(4, 1);
@@ -122,7 +122,10 @@ TEST_P(SmoothEdgesOf, OtherFramesLeaveNoTrace) {
                                .water_triangles = 4000,
                                .terrain_triangles = 4000,
                                .edge_samples = samples};
-    return film.draw(shown, view_of(shown, kTime_s, size_px.x, size_px.y), kTime_s, options).rgba;
+    return film
+        .draw(shown, view_of(shown, kSameBitsTime_s, size_px.x, size_px.y), kSameBitsTime_s,
+              options)
+        .rgba;
   };
   constexpr glm::ivec2 kSize_px(201, 117);
   const auto alone = [&](int samples) {

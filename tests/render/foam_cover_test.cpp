@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/swash.h"
 #include "render/shader_kernels.h"
 #include "texture/foam_pattern.h"
@@ -124,8 +124,6 @@ Edges over_a_period(float reach_m) {
   }
   return result;
 }
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // (1 + sin(phi - 0.352 cos phi)) / 2 of the reach, which differs by 0.09 and, in lobes, by 0.06
 // either way about 0.85 along the shore, where phi lags by 0.3 of two sines.

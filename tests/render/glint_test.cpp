@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "constants.h"
 #include "render/plain_sea.h"
 #include "render/shader_kernels.h"
 #include "texture/on_every_target.h"
@@ -18,7 +18,6 @@ namespace {
 class Glint : public texture::OnEveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Targets, Glint, texture::every_target(), texture::target_name);
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kLeastArea = 0.02f;  // what SunGlint divides by at least
 
 // Total slope variance of the sea at a wind speed [m/s].
@@ -31,7 +30,7 @@ glm::dvec3 direction(double from_zenith_rad, double azimuth_rad) {
 }
 
 glm::dvec3 sun_at(double degrees_from_zenith) {
-  return direction(degrees_from_zenith * kPi / 180.0, 0.4);
+  return direction(degrees_from_zenith * kPiRef / 180.0, 0.4);
 }
 
 // Directions above least_z that stand for equal solid angles: two Gauss points in each of kRings
@@ -40,11 +39,11 @@ struct Sphere {
   explicit Sphere(double least_z) {
     constexpr int kRings = 750, kTurns = 1000;
     const double step = (1.0 - least_z) / kRings, off = 0.5 / std::sqrt(3.0);
-    solid_angle = 0.5 * step * 2.0 * kPi / kTurns;
+    solid_angle = 0.5 * step * 2.0 * kPiRef / kTurns;
     for (int i = 0; i < 2 * kRings; ++i) {
       const double z = least_z + (i / 2 + 0.5 + (i % 2 ? off : -off)) * step;
       for (int j = 0; j < kTurns; ++j)
-        directions.push_back(direction(std::acos(z), 2.0 * kPi * (j + 0.5) / kTurns));
+        directions.push_back(direction(std::acos(z), 2.0 * kPiRef * (j + 0.5) / kTurns));
     }
   }
   std::vector<glm::vec3> directions;
@@ -79,7 +78,7 @@ double facet_energy(glm::dvec3 sun, double variance, const Part& part) {
       if (lit > 0.0) sum += lit * part(mirrored) * std::exp(-(x * x + y * y) / variance);
     }
   }
-  return sum * step * step / (kPi * variance);
+  return sum * step * step / (kPiRef * variance);
 }
 
 constexpr auto kAll = [](glm::dvec3) { return 1.0; };
@@ -95,7 +94,7 @@ TEST_P(Glint, MirrorsAllTheLightThatFallsOnTheWater) {
       GlintSurface surface;
       surface.sun_direction = sun_at(degrees);
       surface.variance = static_cast<float>(cox_munk(wind));
-      const double all = energy(surface, sphere), falls = std::cos(degrees * kPi / 180.0);
+      const double all = energy(surface, sphere), falls = std::cos(degrees * kPiRef / 180.0);
       EXPECT_NEAR(all / falls, 1.0, 2e-5) << degrees << " degrees, wind " << wind;
       EXPECT_NEAR(all, facet_energy(sun_at(degrees), surface.variance, kAll), 3e-6) << degrees;
     }
@@ -138,15 +137,15 @@ TEST_P(Glint, MakesAPathAsWideAsTheSlopesSay) {
       {5.0, 1.65}, {10.0, 3.33}, {20.0, 6.88}, {30.0, 10.96}};
   const double variance = cox_munk(10.0);
   for (const auto& [elevation, width] : widths) {
-    const double eps = elevation * kPi / 180.0;
+    const double eps = elevation * kPiRef / 180.0;
     std::vector<glm::vec3> to_eye;
     std::vector<double> azimuth;
     for (int i = -4000; i <= 4000; ++i) {
       azimuth.push_back(1.4 * i / 4000.0);
-      to_eye.push_back(direction(0.5 * kPi - eps, kPi + azimuth.back()));
+      to_eye.push_back(direction(0.5 * kPiRef - eps, kPiRef + azimuth.back()));
     }
     GlintSurface surface;
-    surface.sun_direction = direction(0.5 * kPi - eps, 0.0);
+    surface.sun_direction = direction(0.5 * kPiRef - eps, 0.0);
     surface.variance = static_cast<float>(variance);
     std::vector<float> glint(to_eye.size());
     sun_glint(surface, to_eye, std::vector<float>(to_eye.size(), 0.3f), glint);
@@ -159,9 +158,10 @@ TEST_P(Glint, MakesAPathAsWideAsTheSlopesSay) {
       exact_sum += exact;
       exact_moment += exact * azimuth[i] * azimuth[i];
     }
-    const double got = std::sqrt(moment / sum) * 180.0 / kPi;
+    const double got = std::sqrt(moment / sum) * 180.0 / kPiRef;
     EXPECT_NEAR(got, width, 0.1 * width) << elevation;
-    EXPECT_NEAR(got, std::sqrt(exact_moment / exact_sum) * 180.0 / kPi, 1e-3 * width) << elevation;
+    EXPECT_NEAR(got, std::sqrt(exact_moment / exact_sum) * 180.0 / kPiRef, 1e-3 * width)
+        << elevation;
   }
 }
 
@@ -170,13 +170,13 @@ TEST_P(Glint, MakesAPathAsWideAsTheSlopesSay) {
 TEST_P(Glint, ReachesAsFarAsTheSlopesSay) {
   const double variance = cox_munk(10.0), sigma = std::sqrt(0.5 * variance);
   const double angle = 2.0 * std::atan(sigma);
-  EXPECT_NEAR(angle * 180.0 / kPi, 18.7, 0.05);
+  EXPECT_NEAR(angle * 180.0 / kPiRef, 18.7, 0.05);
   GlintSurface surface;
   surface.variance = static_cast<float>(variance);
   const std::vector<glm::vec3> to_eye = {direction(0.0, 0.0), direction(angle, 2.0)};
   std::vector<float> glint(2);
   sun_glint(surface, to_eye, {{1.0f, to_eye[1].z}}, glint);
-  EXPECT_NEAR(glint[0], 1.0 / (4.0 * kPi * variance), 1e-6);
+  EXPECT_NEAR(glint[0], 1.0 / (4.0 * kPiRef * variance), 1e-6);
   const double cos4 = std::pow(std::cos(0.5 * angle), 4);
   EXPECT_NEAR(glint[1] / glint[0], std::exp(-0.5) / (cos4 * std::cos(angle)), 2e-5);
 }
@@ -196,7 +196,7 @@ double fresnel(double cos_i, double n) {
 double area(double cosine, double variance) {
   const double sigma = std::sqrt(0.5 * variance);
   const double near = std::max(1.0 - std::abs(cosine) / (2.4 * sigma), 0.0);
-  return std::max(cosine, 0.0) + sigma / std::sqrt(2.0 * kPi) * near * near * near;
+  return std::max(cosine, 0.0) + sigma / std::sqrt(2.0 * kPiRef) * near * near * near;
 }
 double reflecting(double cosine, double variance) {
   const double raised = 0.5 * (std::sqrt(cosine * cosine + 2.4 * variance) - cosine);
@@ -211,7 +211,7 @@ TEST_P(Glint, IsAddedToTheMirroredSkyAndTheWatersOwnLight) {
   std::vector<glm::vec3> to_eye;
   for (const double degrees : {0.0, 20.0, 50.0, 65.0, 80.0, 88.0})
     for (const double azimuth : {0.4, 3.4, 3.6})
-      to_eye.push_back(direction(degrees * kPi / 180, azimuth));
+      to_eye.push_back(direction(degrees * kPiRef / 180, azimuth));
   const double sky = kSoftSkyRange * (128.0 / 255.0) * (128.0 / 255.0);
   // Rays that go down see the same.
   std::get<Water>(sea.shading.materials).mirrored_sea = glm::vec3(static_cast<float>(sky));
@@ -221,7 +221,7 @@ TEST_P(Glint, IsAddedToTheMirroredSkyAndTheWatersOwnLight) {
     const glm::dvec3 eye(to_eye[i]), half = eye + glm::dvec3(sea.shading.light.sun_direction);
     const double mirrors = fresnel(reflecting(eye.z, kVariance), 1.333);
     const double tan2 = (half.x * half.x + half.y * half.y) / (half.z * half.z);
-    const double p = std::exp(-tan2 / kVariance) / (kPi * kVariance);
+    const double p = std::exp(-tan2 / kVariance) / (kPiRef * kVariance);
     const double glint = fresnel(0.5 * glm::length(half), 1.333) * p * (1.0 + tan2) * (1.0 + tan2) /
                          (4.0 * area(eye.z, kVariance));
     for (int c = 0; c < 3; ++c) {
@@ -249,7 +249,7 @@ TEST_P(Glint, LosesLittleOfTheSunsLightToFacetsBehindFacets) {
     double sum = 0.0;
     for (std::size_t i = 0; i < light.size(); ++i)
       sum += static_cast<double>(light[i].y) * sphere.directions[i].z;
-    const double got = sum * sphere.solid_angle, falls = std::cos(c.degrees * kPi / 180.0);
+    const double got = sum * sphere.solid_angle, falls = std::cos(c.degrees * kPiRef / 180.0);
     EXPECT_NEAR(got / falls, c.part, 1e-3) << c.degrees << " degrees, wind " << c.wind;
     const double variance = cox_munk(c.wind);
     const auto part = [&](glm::dvec3 v) { return v.z > 0.0 ? v.z / area(v.z, variance) : 0.0; };

@@ -14,7 +14,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(320, 48);
+constexpr glm::ivec2 kGlitterSize_px(320, 48);
 constexpr double kEye_m = 20.0;
 
 // The sun stands ahead, the wind blows across the line of sight by half a right angle, so that
@@ -56,13 +56,13 @@ double path_width_rad(const scene::Scene& scene) {
   double sum = 0.0, moment = 0.0;
   for (int n = 0; n < 6; ++n) {
     const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -down_rad, scene::radians(8.0), 0.25f,
-                                kSize_px.x, kSize_px.y);
+                                kGlitterSize_px.x, kGlitterSize_px.y);
     const std::vector<float> lit = strip(world, view, 7.0 * n, {Part::kShadows});
     const std::vector<float> shaded = strip(world, view, 7.0 * n, {});
-    for (int y = 0; y < kSize_px.y; ++y)
-      for (int x = 0; x < kSize_px.x; ++x) {
+    for (int y = 0; y < kGlitterSize_px.y; ++y)
+      for (int x = 0; x < kGlitterSize_px.x; ++x) {
         const glm::dvec3 ray(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-        const auto i = static_cast<std::size_t>(y * kSize_px.x + x);
+        const auto i = static_cast<std::size_t>(y * kGlitterSize_px.x + x);
         const double azimuth = std::atan2(ray.x, ray.y), length = glm::length(ray);
         if (std::abs(std::asin(-ray.z / length) - down_rad) > scene::radians(0.5)) continue;
         const double solid_angle = 1.0 / (length * length * length);  // in proportion to it

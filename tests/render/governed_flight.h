@@ -115,4 +115,25 @@ inline std::vector<double> other_work(int frames, int longest, int least_gap, do
   return factors;
 }
 
+// From frame `first` on.
+inline double median_ms(const Flight& run, std::size_t first) {
+  std::vector<double> ms(run.frame_ms.begin() + static_cast<std::ptrdiff_t>(first),
+                         run.frame_ms.end());
+  const auto middle = ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2);
+  std::nth_element(ms.begin(), middle, ms.end());
+  return *middle;
+}
+
+inline int size_changes(const Flight& run, std::size_t first) {
+  int changes = 0;
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < run.options.size(); ++i)
+    changes += run.options[i].lookup_scale != run.options[i - 1].lookup_scale ||
+               run.options[i].picture_scale != run.options[i - 1].picture_scale;
+  return changes;
+}
+
+inline bool is_full_size(const FrameOptions& o) {
+  return o.lookup_scale == 0.5 && o.picture_scale == 1.0;
+}
+
 }  // namespace swell::render

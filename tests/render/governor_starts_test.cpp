@@ -22,20 +22,10 @@ Load load_of(const Load& scene, double share) {
 
 // How much slower frames are at a start: storage is made, pages are touched for the first time, and
 // the processor's clock goes up.
-double slow_start(int frame) {
+double slow_start_factor(int frame) {
   constexpr std::array kFactors = {14.0, 3.1, 2.2, 1.9, 2.4, 1.6, 1.5, 1.5, 1.4};
   if (frame < static_cast<int>(kFactors.size())) return kFactors[static_cast<std::size_t>(frame)];
   return frame < 40 ? 1.3 : 1.0;
-}
-
-bool is_full_size(const FrameOptions& o) { return o.lookup_scale == 0.5 && o.picture_scale == 1.0; }
-
-int size_changes(const Flight& run, std::size_t first) {
-  int changes = 0;
-  for (std::size_t i = first; i < run.options.size(); ++i)
-    changes += run.options[i].lookup_scale != run.options[i - 1].lookup_scale ||
-               run.options[i].picture_scale != run.options[i - 1].picture_scale;
-  return changes;
 }
 
 double share_with_most_triangles(const Flight& run, std::size_t first) {
@@ -46,14 +36,6 @@ double share_with_most_triangles(const Flight& run, std::size_t first) {
          static_cast<double>(run.options.end() - begin);
 }
 
-double median_ms(const Flight& run, std::size_t first) {
-  std::vector<double> ms(run.frame_ms.begin() + static_cast<std::ptrdiff_t>(first),
-                         run.frame_ms.end());
-  const auto middle = ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2);
-  std::nth_element(ms.begin(), middle, ms.end());
-  return *middle;
-}
-
 constexpr std::array kScenes = {kOpenSea, kLagoon, kCoast};
 constexpr std::array kFittingShares = {0.6, 0.9, 0.95, 0.99};
 
@@ -61,7 +43,7 @@ TEST(GovernorStart, ASceneThatFitsIsWholeAfterThreeSecondsAndStaysSo) {
   for (const Load& scene : kScenes)
     for (const double share : kFittingShares) {
       const Load load = load_of(scene, share);
-      const auto at = [&](int k) { return load.times(slow_start(k)); };
+      const auto at = [&](int k) { return load.times(slow_start_factor(k)); };
       const Flight r = run(3600, at, kNoise, kShow_ms);
       for (std::size_t k = kThreeSeconds; k < r.options.size(); ++k)
         ASSERT_TRUE(is_full_size(r.options[k])) << share << ' ' << k;
@@ -78,7 +60,7 @@ TEST(GovernorStart, SingleLateFramesLeaveASceneThatFitsWhole) {
         const Load load = load_of(kLagoon, share);
         const std::vector<double> late = other_work(2400, 1, 20, late_factor, seed);
         const auto at = [&](int k) {
-          return load.times(slow_start(k) * late[static_cast<std::size_t>(k)]);
+          return load.times(slow_start_factor(k) * late[static_cast<std::size_t>(k)]);
         };
         const Flight r = run(2400, at, kNoise, kShow_ms);
         for (std::size_t k = kThreeSeconds; k < r.options.size(); ++k)
@@ -94,7 +76,7 @@ TEST(GovernorStart, ASecondOfOtherWorkCostsThreeSecondsOfASmallerPictureAtMost) 
       for (const double factor : {1.3, 2.0, 4.0}) {
         const Load load = load_of(scene, share);
         const auto at = [&](int k) {
-          return load.times(slow_start(k) * (k >= kBegin && k < kEnd ? factor : 1.0));
+          return load.times(slow_start_factor(k) * (k >= kBegin && k < kEnd ? factor : 1.0));
         };
         const Flight r = run(1800, at, kNoise, kShow_ms);
         for (std::size_t k = kEnd + kThreeSeconds; k < r.options.size(); ++k)
@@ -108,7 +90,7 @@ TEST(GovernorStart, PhasesOfSlowFramesCostThreeSecondsEachAtMost) {
     const Load load = load_of(kLagoon, share);
     const std::vector<double> late = other_work(3600, 20, 300, 1.3, 7);
     const auto at = [&](int k) {
-      return load.times(slow_start(k) * late[static_cast<std::size_t>(k)]);
+      return load.times(slow_start_factor(k) * late[static_cast<std::size_t>(k)]);
     };
     const Flight r = run(3600, at, kNoise, kShow_ms);
     for (std::size_t k = kThreeSeconds, quiet = 0; k < late.size(); ++k) {
@@ -124,7 +106,7 @@ TEST(GovernorStart, ASceneThatDoesNotFitUsesTheBudgetAndKeepsItsSize) {
   for (const Load& scene : kScenes)
     for (const double share : {1.1, 1.2, 1.35, 1.5, 2.0, 2.5, 3.0}) {
       const Load load = load_of(scene, share);
-      const auto at = [&](int k) { return load.times(slow_start(k)); };
+      const auto at = [&](int k) { return load.times(slow_start_factor(k)); };
       const Flight r = run(3600, at, kNoise, kShow_ms);
       EXPECT_GE(median_ms(r, 1800), 0.88 * kBudget_ms) << scene.shade_ms << ' ' << share;
       EXPECT_LE(median_ms(r, 1800), 1.0 * kBudget_ms) << scene.shade_ms << ' ' << share;

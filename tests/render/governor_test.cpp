@@ -18,15 +18,6 @@ double share_within(const Flight& run, double ms) {
          static_cast<double>(run.frame_ms.end() - begin);
 }
 
-// Of the frames from `first` on.
-double median_ms(const Flight& run, std::size_t first) {
-  std::vector<double> frame_ms(run.frame_ms.begin() + static_cast<std::ptrdiff_t>(first),
-                               run.frame_ms.end());
-  const auto middle = frame_ms.begin() + static_cast<std::ptrdiff_t>(frame_ms.size() / 2);
-  std::nth_element(frame_ms.begin(), middle, frame_ms.end());
-  return *middle;
-}
-
 double largest_change(const Flight& run) {
   double largest = 0.0;
   for (std::size_t i = 1; i < run.options.size(); ++i)
@@ -37,14 +28,6 @@ double largest_change(const Flight& run) {
   return largest;
 }
 
-int size_changes(const Flight& run, std::size_t first) {
-  int changes = 0;
-  for (std::size_t i = std::max<std::size_t>(first, 1); i < run.options.size(); ++i)
-    changes += run.options[i].lookup_scale != run.options[i - 1].lookup_scale ||
-               run.options[i].picture_scale != run.options[i - 1].picture_scale;
-  return changes;
-}
-
 auto always(const Load& load) {
   return [load](int) { return load; };
 }
@@ -53,8 +36,6 @@ bool is_full(const FrameOptions& o) {
   return o.water_triangles == 30000 && o.terrain_triangles == 20000 && o.lookup_scale == 0.5 &&
          o.picture_scale == 1.0;
 }
-
-bool is_full_size(const FrameOptions& o) { return o.lookup_scale == 0.5 && o.picture_scale == 1.0; }
 
 // Of all frames.
 double share_at_full_size(const Flight& run) {

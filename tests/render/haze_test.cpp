@@ -19,8 +19,9 @@ constexpr double kHaze_m = 15000.0, kHeight_m = 1200.0, kRadius_m = 6371e3 / 0.8
 constexpr double kHazeCut = 1.0 / 512.0;
 
 // White haze over black things, so that what is seen is the haze's amount.
-struct Air {
-  Air(double eye_m, bool is_round) : eye_z_m(eye_m), drop_per_m2(is_round ? 0.5 / kRadius_m : 0.0) {
+struct HazeAir {
+  HazeAir(double eye_m, bool is_round)
+      : eye_z_m(eye_m), drop_per_m2(is_round ? 0.5 / kRadius_m : 0.0) {
     texture::RgbaImage image;
     texture::resize_image(16, 16, image);
     std::ranges::fill(image.texels, 0xffb4b4b4u);
@@ -62,7 +63,7 @@ double profile(double height_m) { return std::pow(1.0 + height_m / kHeight_m, -2
 // Over a flat sea the closed form is exact, up and down.
 TEST_P(ThinningHaze, IsTheSumAlongAStraightWay) {
   for (const double eye_m : {0.3, 10.0, 300.0, 1500.0, 10000.0, 40000.0}) {
-    const Air air(eye_m, false);
+    const HazeAir air(eye_m, false);
     for (const double down_deg : {90.0, 60.0, 30.0, 10.0}) {
       const double down_rad = down_deg * std::numbers::pi / 180.0;
       for (const double part : {0.2, 0.7, 1.0}) {
@@ -81,7 +82,7 @@ TEST_P(ThinningHaze, IsTheSumAlongAStraightWay) {
 TEST_P(ThinningHaze, HoldsAsMuchAsAnExponentialLayer) {
   const auto exponential = [](double height_m) { return std::exp(-height_m / kHeight_m); };
   for (const double eye_m : {10000.0, 40000.0}) {
-    const Air air(eye_m, true);
+    const HazeAir air(eye_m, true);
     const double down_rad = 0.5 * std::numbers::pi;
     const double expected = air.summed(eye_m, down_rad, exponential);
     EXPECT_NEAR(air.drawn(eye_m, down_rad), expected, 0.12 * expected) << eye_m;
@@ -91,15 +92,15 @@ TEST_P(ThinningHaze, HoldsAsMuchAsAnExponentialLayer) {
 // Along the same length the sea is clearer from above than from a boat.
 TEST_P(ThinningHaze, IsThinnerFromAbove) {
   const double way_m = 10000.0;
-  const double level = Air(2.0, true).drawn(way_m, 0.0);
+  const double level = HazeAir(2.0, true).drawn(way_m, 0.0);
   EXPECT_NEAR(level, way_m / kHaze_m, 0.01);
-  EXPECT_LT(Air(way_m, true).drawn(way_m, 0.5 * std::numbers::pi), 0.12 * level);
+  EXPECT_LT(HazeAir(way_m, true).drawn(way_m, 0.5 * std::numbers::pi), 0.12 * level);
 }
 
 // From straight down to the horizon the haze only grows, and without a seam.
 TEST_P(ThinningHaze, GrowsSmoothlyTowardsTheHorizon) {
   for (const double eye_m : {60.0, 1500.0, 10000.0, 40000.0}) {
-    const Air air(eye_m, true);
+    const HazeAir air(eye_m, true);
     const double dip_rad = std::sqrt(2.0 * eye_m / kRadius_m);
     double before = 0.0, growth_before = 0.0;
     for (int i = 0; i <= 400; ++i) {

@@ -13,7 +13,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(203, 121);  // no whole packets, no whole tiles
+constexpr glm::ivec2 kFrameSize_px(203, 121);  // no whole packets, no whole tiles
 
 struct Drawing {
   int threads = 2;
@@ -23,12 +23,12 @@ struct Drawing {
 };
 
 void draw(const World& world, const Drawing& how, Shot& shot) {
-  shot.draw(world, random_view(world.scene(), 0, kSize_px), 2.0,
+  shot.draw(world, random_view(world.scene(), 0, kFrameSize_px), 2.0,
             {.tile_size_px = how.tile_size_px,
              .water_triangles = 4000,
              .wireframe = how.wireframe,
              .labels = how.labels,
-             .next_view = random_view(world.scene(), 1, kSize_px)});
+             .next_view = random_view(world.scene(), 1, kFrameSize_px)});
 }
 
 Target draw(const World& world, const Drawing& how) {
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LabelsOfFrame,
 
 TEST_P(LabelsOfFrame, ThreadsTilesAndSimdTargetChangeNoBit) {
   const Labels reference = draw(world, {}).labels;
-  ASSERT_EQ(reference.id.size(), std::size_t{kSize_px.x * kSize_px.y});
+  ASSERT_EQ(reference.id.size(), std::size_t{kFrameSize_px.x * kFrameSize_px.y});
   for (const Drawing& how : {Drawing{.threads = 1}, Drawing{.threads = 7},
                              Drawing{.tile_size_px = 16}, Drawing{.tile_size_px = 32}})
     EXPECT_EQ(difference(draw(world, how).labels, reference), "")
@@ -110,7 +110,7 @@ TEST_P(LabelsOfFrame, AnyOneOfThemIsAsAmongAll) {
 
 TEST_P(LabelsOfFrame, SteadyStateAllocatesNothing) {
   Shot film(1);
-  const View view = random_view(world.scene(), 0, kSize_px);
+  const View view = random_view(world.scene(), 0, kFrameSize_px);
   const auto draw_all = [&] {
     for (int k = 0; k < 6; ++k)
       film.draw(world, view, k / 60.0, {.water_triangles = 4000, .labels = LabelSet::all()});

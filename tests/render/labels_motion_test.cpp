@@ -11,12 +11,13 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(320, 180);
+constexpr glm::ivec2 kMotionSize_px(320, 180);
 constexpr double kTime_s = 6.0, kStep_s = 0.125;
 
 View view_at(glm::dvec3 eye, double heading, double pitch, double roll) {
-  return make_view(eye, camera_axes(heading, pitch, roll), lens_of_fov(0.9, kSize_px.x, kSize_px.y),
-                   0.25f, kSize_px.x, kSize_px.y);
+  return make_view(eye, camera_axes(heading, pitch, roll),
+                   lens_of_fov(0.9, kMotionSize_px.x, kMotionSize_px.y), 0.25f, kMotionSize_px.x,
+                   kMotionSize_px.y);
 }
 
 FrameOptions motion_to(std::optional<View> next) {
@@ -34,7 +35,7 @@ glm::dvec2 motion_to_point(const View& next, glm::ivec2 p, glm::dvec3 p_next) {
 
 TEST(LabelMotion, WhatStandsStillHasExactlyNone) {
   const World& world = shipped_world("lagoon");
-  const View view = view_of(world, kTime_s, kSize_px.x, kSize_px.y);
+  const View view = view_of(world, kTime_s, kMotionSize_px.x, kMotionSize_px.y);
   for (const std::optional<View>& next : {std::optional<View>(), std::optional<View>(view)}) {
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
     int land = 0, sky = 0, moving_water = 0;
@@ -145,8 +146,8 @@ TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
   const NextPlaces places(scene, kTime_s);
   int water = 0, others = 0;
   for (int n = 0; n < 6; ++n) {
-    const View view = random_view(scene, n, kSize_px);
-    View next = random_view(scene, n, kSize_px);
+    const View view = random_view(scene, n, kMotionSize_px);
+    View next = random_view(scene, n, kMotionSize_px);
     next.eye_world += glm::dvec3(0.3, -0.2, 0.1);
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
     const Workspace::State& drawn = frame.state();

@@ -14,7 +14,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(200, 120);
+constexpr glm::ivec2 kSurfaceSize_px(200, 120);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // OUT-04: the inverse of the view's own projection, a matrix of floats.
@@ -79,13 +79,14 @@ TEST(Labels, AnObjectHasTheNumberOfItsPlaceInTheScene) {
   scene.objects[0].label = "boat";
   scene.objects[2].label = "beacon";
   const World world = world_of(scene);
-  const View view = make_view({0.0, 0.0, 4.0}, 0.0, 0.0, 0.6, 0.25f, kSize_px.x, kSize_px.y);
+  const View view =
+      make_view({0.0, 0.0, 4.0}, 0.0, 0.0, 0.6, 0.25f, kSurfaceSize_px.x, kSurfaceSize_px.y);
   const LabelledFrame frame(world, view, 2.0);
   int left = 0, right = 0;
   frame.for_pixels(1, [&](glm::ivec2 p) {
     const std::uint32_t id = frame.labels().id[frame.at(p)];
     if (id < kFirstObjectId) return;
-    const bool is_left = p.x < kSize_px.x / 2;
+    const bool is_left = p.x < kSurfaceSize_px.x / 2;
     ++(is_left ? left : right);
     ASSERT_EQ(id, kFirstObjectId + (is_left ? 1 : 2));
     ASSERT_EQ(frame.labels().klass[frame.at(p)], is_left ? kObjectClass : kFirstOwnClass + 1);
@@ -184,13 +185,14 @@ TEST_P(LabelsOfScene, AreOfWhatARayThroughThePixelMeets) {
                                 .without = {Part::kEarth}};  // picks ask a flat world
   IdErrors errors;
   for (int n = 0; n < trials(kViews); ++n) {
-    LabelledFrame frame(world, random_view(world.scene(), n, kSize_px), 3.0 + 7.0 * n, options);
+    LabelledFrame frame(world, random_view(world.scene(), n, kSurfaceSize_px), 3.0 + 7.0 * n,
+                        options);
     Traced traced{frame};
     for (int i = 0; i < kPixels; ++i) {
       const auto dice = [&](int k) {
         return random_uniform(9, static_cast<std::uint64_t>(2 * (kPixels * n + i) + k));
       };
-      compare_pixel(traced, glm::ivec2(glm::dvec2(kSize_px) * glm::dvec2(dice(0), dice(1))),
+      compare_pixel(traced, glm::ivec2(glm::dvec2(kSurfaceSize_px) * glm::dvec2(dice(0), dice(1))),
                     errors);
     }
   }

@@ -12,7 +12,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(320, 180);
+constexpr glm::ivec2 kWaterSize_px(320, 180);
 
 class LabelsOfWater : public testing::TestWithParam<const char*> {
  protected:
@@ -36,7 +36,7 @@ TEST_P(LabelsOfWater, ElevationIsTheWatersHeightWithinWhatItsTriangleCutsOff) {
   ocean::SeaFrame sea;
   const scene::WaterSurface surface = water.at(5.0, sea, workers);
   for (int n = 0; n < 4; ++n) {
-    const LabelledFrame frame(world, random_view(scene, n, kSize_px), 5.0);
+    const LabelledFrame frame(world, random_view(scene, n, kWaterSize_px), 5.0);
     double sum = 0.0;
     int count = 0;
     frame.for_pixels(3, [&](glm::ivec2 p) {
@@ -52,7 +52,7 @@ TEST_P(LabelsOfWater, ElevationIsTheWatersHeightWithinWhatItsTriangleCutsOff) {
                                  glm::distance(glm::dvec2(v[1]), glm::dvec2(v[2])),
                                  glm::distance(glm::dvec2(v[2]), glm::dvec2(v[0]))});
       const float depth = frame.labels().depth_m[frame.at(p)];
-      const double footprint_m = 2.0 * depth * frame.view.tan_half_y / kSize_px.y;
+      const double footprint_m = 2.0 * depth * frame.view.tan_half_y / kWaterSize_px.y;
       const double elevation = frame.labels().elevation_m[frame.at(p)];
       const double error = std::abs(elevation - surface.height(glm::dvec2(place)));
       ASSERT_LE(error, 0.5 * surface.bounds().slope * s + 0.01 * footprint_m);
@@ -67,10 +67,10 @@ TEST_P(LabelsOfWater, ElevationIsTheWatersHeightWithinWhatItsTriangleCutsOff) {
 TEST_P(LabelsOfWater, GeometricNormalsAreThoseOfThePlacesSeen) {
   int compared = 0;
   for (int n = 0; n < 4; ++n) {
-    const LabelledFrame frame(world, random_view(scene, n, kSize_px), 5.0,
+    const LabelledFrame frame(world, random_view(scene, n, kWaterSize_px), 5.0,
                               {.water_triangles = 500, .terrain_triangles = 500});  // large ones
-    for (int y = 0; y + 3 < kSize_px.y; ++y) {
-      for (int x = 0; x + 3 < kSize_px.x; ++x) {
+    for (int y = 0; y + 3 < kWaterSize_px.y; ++y) {
+      for (int x = 0; x + 3 < kWaterSize_px.x; ++x) {
         const glm::ivec2 p(x, y), right(x + 3, y), down(x, y + 3);
         const std::uint32_t primitive = frame.primitive(p);
         if (primitive == raster::kNoPrimitive || frame.primitive(right) != primitive ||
@@ -94,7 +94,8 @@ TEST_P(LabelsOfWater, GeometricNormalsAreThoseOfThePlacesSeen) {
 }
 
 TEST(Labels, SeenFromBelowTheWatersGeometricNormalsPointDown) {
-  const View view = make_view({0.0, 0.0, -20.0}, 0.0, 0.8, 0.9, 0.25f, kSize_px.x, kSize_px.y);
+  const View view =
+      make_view({0.0, 0.0, -20.0}, 0.0, 0.8, 0.9, 0.25f, kWaterSize_px.x, kWaterSize_px.y);
   const LabelledFrame frame(shipped_world("open_ocean"), view, 5.0);
   int water = 0;
   frame.for_pixels(1, [&](glm::ivec2 p) {
@@ -108,7 +109,7 @@ TEST(Labels, SeenFromBelowTheWatersGeometricNormalsPointDown) {
 TEST_P(LabelsOfWater, EveryLabelOfEveryPixelIsInItsRange) {
   const std::vector<std::uint32_t>& classes = world.state().object_classes;
   for (int n = 0; n < 4; ++n) {
-    const LabelledFrame frame(world, random_view(scene, n, kSize_px), 5.0);
+    const LabelledFrame frame(world, random_view(scene, n, kWaterSize_px), 5.0);
     const Labels& labels = frame.labels();
     frame.for_pixels(1, [&](glm::ivec2 p) {
       const std::size_t at = frame.at(p);
@@ -147,7 +148,7 @@ TEST(Labels, SurfIsFoamAndWithoutWhitecapsFarFromACoastThereIsNone) {
   const World& beach = shipped_world("beach");
   const World sea = world_of(calm);
   const auto foam_of = [](const World& world) {
-    const LabelledFrame frame(world, random_view(world.scene(), 0, kSize_px), 5.0);
+    const LabelledFrame frame(world, random_view(world.scene(), 0, kWaterSize_px), 5.0);
     return share_of(frame, [&](std::size_t i) { return frame.labels().klass[i] == kFoamClass; });
   };
   EXPECT_GT(foam_of(beach), 0.002);
@@ -157,7 +158,7 @@ TEST(Labels, SurfIsFoamAndWithoutWhitecapsFarFromACoastThereIsNone) {
 
 TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
   const World &world = shipped_world("lagoon"), &sea = shipped_world("open_ocean");
-  const LabelledFrame frame(world, view_of(world, 5.0, kSize_px.x, kSize_px.y), 5.0);
+  const LabelledFrame frame(world, view_of(world, 5.0, kWaterSize_px.x, kWaterSize_px.y), 5.0);
   const auto share = [](const LabelledFrame& f, std::uint32_t bit) {
     return share_of(f, [&](std::size_t i) { return (f.labels().flags[i] & bit) != 0; });
   };
@@ -169,7 +170,7 @@ TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
   const terrain::HeightGrid& land = *world.state().terrain;
   frame.for_pixels(1, [&](glm::ivec2 p) {
     if ((frame.labels().flags[frame.at(p)] & kShowsRefracted) == 0) return;
-    const glm::ivec2 texel_below(p.x, std::min(p.y + 2, kSize_px.y - 1));
+    const glm::ivec2 texel_below(p.x, std::min(p.y + 2, kWaterSize_px.y - 1));
     const glm::dvec2 place(frame.position(texel_below));
     float floor_m = 0.0f;
     terrain::sample_heights(land, {&place, 1}, {&floor_m, 1});
@@ -183,11 +184,11 @@ TEST(Labels, FlagsSayWhereWaterMirrorsAndWhereItShowsItsFloor) {
     if ((frame.labels().flags[frame.at(p)] & kShowsRefracted) != 0) shallow = frame.position(p);
   });
   const View down = make_view(shallow + glm::dvec3(0.0, 0.0, 12.0), 0.0, -0.5 * kPi, 0.5, 0.25f,
-                              kSize_px.x, kSize_px.y);
+                              kWaterSize_px.x, kWaterSize_px.y);
   const LabelledFrame below(world, down, 5.0);
   EXPECT_GT(share(below, kShowsRefracted), 0.5);
   EXPECT_LT(share(below, kShowsMirrored), 0.01);
-  const LabelledFrame open(sea, random_view(sea.scene(), 0, kSize_px), 5.0);
+  const LabelledFrame open(sea, random_view(sea.scene(), 0, kWaterSize_px), 5.0);
   EXPECT_EQ(share(open, kShowsMirrored | kShowsRefracted), 0.0);
 }
 
@@ -200,7 +201,8 @@ TEST(Labels, NormalsAreThoseOfTheWaves) {
   Workers workers(2);
   ocean::SeaFrame sea;
   const scene::WaterSurface surface = water.at(5.0, sea, workers);
-  const View view = make_view({0.0, -120.0, 14.0}, 0.2, -0.6, 0.6, 0.25f, kSize_px.x, kSize_px.y);
+  const View view =
+      make_view({0.0, -120.0, 14.0}, 0.2, -0.6, 0.6, 0.25f, kWaterSize_px.x, kWaterSize_px.y);
   const LabelledFrame frame(world, view, 5.0);
   frame.for_pixels(2, [&](glm::ivec2 p) {
     const glm::dvec2 place(frame.position(p));
@@ -218,7 +220,8 @@ TEST(Labels, NormalsOfABallPointAwayFromItsMiddle) {
   scene.objects[0].size_m = glm::dvec3(8.0);
   scene.objects[0].draught = 0.5;
   const World world = world_of(scene);
-  const View view = make_view({0.0, -14.0, 3.0}, 0.0, -0.1, 0.9, 0.25f, kSize_px.x, kSize_px.y);
+  const View view =
+      make_view({0.0, -14.0, 3.0}, 0.0, -0.1, 0.9, 0.25f, kWaterSize_px.x, kWaterSize_px.y);
   const LabelledFrame frame(world, view, 5.0);
   int count = 0;
   frame.for_pixels(1, [&](glm::ivec2 p) {

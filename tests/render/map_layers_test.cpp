@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "constants.h"
 #include "math/view.h"
 #include "render/shader_kernels.h"
 #include "texture/on_every_target.h"
@@ -17,8 +17,6 @@ namespace {
 
 class MapLayers : public texture::OnEveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Targets, MapLayers, texture::every_target(), texture::target_name);
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // ---- Levels of detail
 

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 #include "render/shader_kernels.h"
 #include "texture/on_every_target.h"
@@ -17,7 +16,6 @@ namespace {
 class MediaOptics : public texture::OnEveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Targets, MediaOptics, texture::every_target(), texture::target_name);
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kN = 1.333;
 
 // Apparent over true depth straight above a thing, tan(theta_water) / tan(theta_air), by Snell's
@@ -140,8 +138,8 @@ TEST_P(MediaOptics, DeepWaterShowsItsOwnLight) {
 
 // ---- Air
 
-constexpr double kHaze_m = 15000.0;
-constexpr double kHazeCut = 1.0 / 512.0;  // half a step of the picture
+constexpr double kMediaHaze_m = 15000.0;
+constexpr double kMediaHazeCut = 1.0 / 512.0;  // half a step of the picture
 
 struct HazyAir {
   HazyAir() {
@@ -151,7 +149,7 @@ struct HazyAir {
     sky = texture::pack_rgb(image);
     shading.light.sky_soft = shading.light.haze_sky = &sky;
     shading.light.horizon = glm::vec3(horizon());
-    shading.media.inv_haze_m = static_cast<float>(1.0 / kHaze_m);
+    shading.media.inv_haze_m = static_cast<float>(1.0 / kMediaHaze_m);
   }
   std::vector<glm::vec3> seen(const std::vector<float>& distance_m, glm::vec3 light) const {
     std::vector<glm::vec3> result(distance_m.size());
@@ -174,7 +172,8 @@ TEST_P(MediaOptics, HazeLeavesTheContrastThatKoschmiedersLawLeaves) {
   const auto seen = air.seen(distance_m, light);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     // The first half step of haze is left out, all along.
-    const double amount = std::max(1.0 - std::exp(-distance_m[i] / kHaze_m) - kHazeCut, 0.0);
+    const double amount =
+        std::max(1.0 - std::exp(-distance_m[i] / kMediaHaze_m) - kMediaHazeCut, 0.0);
     for (int c = 0; c < 3; ++c) {
       const double expected = light[c] + (air.horizon()[c] - light[c]) * amount;
       ASSERT_NEAR(seen[i][c], expected, 2e-6) << distance_m[i];
@@ -186,17 +185,17 @@ TEST_P(MediaOptics, HazeLeavesTheContrastThatKoschmiedersLawLeaves) {
 // them) has lost all but a fiftieth against the horizon.
 TEST_P(MediaOptics, HazeHidesWhatIsBeyondTheRangeOfSight) {
   const HazyAir air;
-  const auto seen =
-      air.seen({static_cast<float>(kHaze_m), static_cast<float>(3.912 * kHaze_m), 1e9f}, {});
+  const auto seen = air.seen(
+      {static_cast<float>(kMediaHaze_m), static_cast<float>(3.912 * kMediaHaze_m), 1e9f}, {});
   const auto contrast = [&](std::size_t i) { return 1.0 - seen[i].y / air.horizon().y; };
-  EXPECT_NEAR(contrast(0), std::exp(-1.0) + kHazeCut, 1e-5);
-  EXPECT_NEAR(contrast(1), 0.02 + kHazeCut, 1e-4);
-  EXPECT_NEAR(contrast(2), kHazeCut, 1e-5);
+  EXPECT_NEAR(contrast(0), std::exp(-1.0) + kMediaHazeCut, 1e-5);
+  EXPECT_NEAR(contrast(1), 0.02 + kMediaHazeCut, 1e-4);
+  EXPECT_NEAR(contrast(2), kMediaHazeCut, 1e-5);
 }
 
 TEST_P(MediaOptics, HazeOfLessThanHalfAStepIsLeftOut) {
   const HazyAir air;
-  const double first_m = -kHaze_m * std::log1p(-kHazeCut);  // 29.3 m
+  const double first_m = -kMediaHaze_m * std::log1p(-kMediaHazeCut);  // 29.3 m
   const glm::vec3 light(0.123f, 0.456f, 0.789f);
   const auto seen = air.seen(
       {0.0f, 10.0f, static_cast<float>(0.99 * first_m), static_cast<float>(1.1 * first_m)}, light);
@@ -218,7 +217,7 @@ TEST_P(MediaOptics, HazeStraightDownIsTheHorizonsMean) {
     for (int c = 0; c < 3; ++c) {
       const double mean = air.shading.light.horizon[c];
       const double expected = air.horizon()[c] + (mean - air.horizon()[c]) * steep;
-      EXPECT_NEAR(seen[0][c], (1.0 - kHazeCut) * expected, 2e-6) << degrees;
+      EXPECT_NEAR(seen[0][c], (1.0 - kMediaHazeCut) * expected, 2e-6) << degrees;
     }
   }
 }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "render/drawn_water.h"
 #include "render/plain_sea.h"
 #include "render/shader_kernels.h"
@@ -18,7 +18,6 @@ namespace {
 class MirroredSea : public texture::OnEveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Targets, MirroredSea, texture::every_target(), texture::target_name);
 
-constexpr double kPi = std::numbers::pi;
 constexpr float kSkyCode = 128.0f;
 constexpr float kSky = kSoftSkyRange * (kSkyCode / 255.0f) * (kSkyCode / 255.0f);
 
@@ -70,7 +69,7 @@ double facets_part(double variance, double elevation_rad, double slope) {
 constexpr double kVariances[] = {0.0012, 0.005, 0.02, 0.06};
 constexpr double kElevations_deg[] = {2.0, 4.0, 7.0, 12.0, 20.0, 45.0, 80.0};
 
-double radians(double degrees) { return degrees * kPi / 180.0; }
+double radians(double degrees) { return degrees * kPiRef / 180.0; }
 
 TEST_P(MirroredSea, IsSeenByAsManyFacetsAsThrowRaysDown) {
   double squares = 0.0;
@@ -179,13 +178,13 @@ TEST(MirroredSeaOfScenes, HidesHalfOfTheRaysThatSmithsShadowingHides) {
   scene.sea.spectrum = false;
   scene.water.bump_strength = 0.0;
   for (const double steepness : {0.1, 0.3, 0.6}) {
-    scene.sea.sines = {{.amplitude_m = steepness * 30.0 / (2.0 * kPi), .wavelength_m = 30.0}};
+    scene.sea.sines = {{.amplitude_m = steepness * 30.0 / (2.0 * kPiRef), .wavelength_m = 30.0}};
     const World world = world_of(scene);
     const DrawnWater drawn(world, 0.0);
     const Water& water = drawn.water();
     const double variance = water.base_variance + 0.5 * steepness * steepness;
     const double nu = water.wave_horizon / std::sqrt(variance);
-    const double lambda = 0.5 * (std::exp(-nu * nu) / (nu * std::sqrt(kPi)) - std::erfc(nu));
+    const double lambda = 0.5 * (std::exp(-nu * nu) / (nu * std::sqrt(kPiRef)) - std::erfc(nu));
     EXPECT_NEAR(1.0 / (1.0 + lambda), 0.5, 0.005) << steepness;
   }
 }

@@ -12,8 +12,8 @@
 namespace swell::render {
 namespace {
 
-constexpr int kSize_px = 160;
-constexpr double kEye_m = 3.0, kFov_rad = 0.6;
+constexpr int kSunSide_px = 160;
+constexpr double kEye_m = 3.0, kSunFov_rad = 0.6;
 
 // Ripples under a sun low in the north, and a box there that is higher than the sun's path.
 scene::Scene sea_with_sun_ahead(bool box) {
@@ -31,8 +31,8 @@ scene::Scene sea_with_sun_ahead(bool box) {
 }
 
 // The green light of a picture.
-std::vector<float> draw(const scene::Scene& scene) {
-  const View view = north_view(kEye_m, 0.0, kFov_rad, kSize_px, kSize_px);
+std::vector<float> draw_column_of_sun(const scene::Scene& scene) {
+  const View view = north_view(kEye_m, 0.0, kSunFov_rad, kSunSide_px, kSunSide_px);
   return green_light(Shot(world_of(scene), view, 1.0,
                           {.lookup_scale = 1.0, .keep_linear = true, .edge_samples = 0})
                          .target);
@@ -40,16 +40,16 @@ std::vector<float> draw(const scene::Scene& scene) {
 
 // The largest of it on the water `far_m` ahead, within 2 m of the middle.
 float brightest(const std::vector<float>& green, double far_m) {
-  const double px_per_rad = 0.5 * kSize_px / std::tan(0.5 * kFov_rad);
-  const auto y = static_cast<int>(0.5 * kSize_px + px_per_rad * kEye_m / far_m);
+  const double px_per_rad = 0.5 * kSunSide_px / std::tan(0.5 * kSunFov_rad);
+  const auto y = static_cast<int>(0.5 * kSunSide_px + px_per_rad * kEye_m / far_m);
   const auto half = static_cast<int>(px_per_rad * 2.0 / far_m);
-  const auto middle = green.begin() + y * kSize_px + kSize_px / 2;
+  const auto middle = green.begin() + y * kSunSide_px + kSunSide_px / 2;
   return *std::max_element(middle - half, middle + half + 1);
 }
 
 TEST(MirroredSun, IsHiddenByWhatStandsBeforeIt) {
-  const std::vector<float> open = draw(sea_with_sun_ahead(false));
-  const std::vector<float> hidden = draw(sea_with_sun_ahead(true));
+  const std::vector<float> open = draw_column_of_sun(sea_with_sun_ahead(false));
+  const std::vector<float> hidden = draw_column_of_sun(sea_with_sun_ahead(true));
   // A ray from the water at far_m meets the box, which is 29 m away and 4.4 m high above the water,
   // kEye_m (29 - far_m) / far_m up.
   for (const double far_m : {16.0, 18.0, 21.0, 24.0}) {

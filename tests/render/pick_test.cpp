@@ -14,13 +14,13 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(160, 90);
+constexpr glm::ivec2 kPickSize_px(160, 90);
 
 // A frame of a scene at 3 s.
 struct Drawn : Shot {
-  explicit Drawn(const scene::Scene& scene, glm::ivec2 size_px = kSize_px)
+  explicit Drawn(const scene::Scene& scene, glm::ivec2 size_px = kPickSize_px)
       : Drawn(scene, scene.camera, size_px) {}
-  Drawn(const scene::Scene& scene, const scene::Camera& camera, glm::ivec2 size_px = kSize_px)
+  Drawn(const scene::Scene& scene, const scene::Camera& camera, glm::ivec2 size_px = kPickSize_px)
       : world(world_of(scene)) {
     draw(world, scene::camera_view(camera, 3.0, size_px.x, size_px.y), 3.0,
          {.water_triangles = 4000});
@@ -127,8 +127,8 @@ TEST_P(PickEachScene, IsTheTriangleThatThePixelShowsAndAsksTheSurfaceThere) {
   Drawn drawn(load_shipped(GetParam()));
   Agreement agreement;
   int sky = 0;
-  for (int y = 1; y < kSize_px.y; y += 3) {
-    for (int x = 1; x < kSize_px.x; x += 3) {
+  for (int y = 1; y < kPickSize_px.y; y += 3) {
+    for (int x = 1; x < kPickSize_px.x; x += 3) {
       if (const auto pixel = pixel_at(drawn, x, y))
         compare(drawn, {x, y}, *pixel, agreement);
       else
@@ -167,8 +167,8 @@ TEST(Pick, BeginsWhereThePictureDoes) {
   camera.near_m = 40.0;  // two of the buoys and most of the water are nearer
   Drawn drawn(scene, camera);
   int same = 0, pixels = 0, empty = 0;
-  for (int y = kSize_px.y / 2; y < kSize_px.y; y += 2) {
-    for (int x = 0; x < kSize_px.x; x += 2, ++pixels) {
+  for (int y = kPickSize_px.y / 2; y < kPickSize_px.y; y += 2) {
+    for (int x = 0; x < kPickSize_px.x; x += 2, ++pixels) {
       const auto pixel = pixel_at(drawn, x, y);
       const auto found = drawn.pick_at(glm::vec2(x, y) + 0.5f);
       same += pixel ? found && found->what == pixel->what : !found;

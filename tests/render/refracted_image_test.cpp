@@ -5,21 +5,20 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "constants.h"
 #include "math/random.h"
 
 namespace swell::render {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kN = 1.333;
+constexpr double kWaterIndex = 1.333;
 
 // The angle in air of the way between two points, by bisection of s = sin(t_air).
 double angle_in_air(double air_m, double water_m, double horizontal_m) {
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 200; ++i) {
-    const double s = 0.5 * (low + high), w = s / kN;
+    const double s = 0.5 * (low + high), w = s / kWaterIndex;
     const double reached =
         air_m * s / std::sqrt(1.0 - s * s) + water_m * w / std::sqrt(1.0 - w * w);
     (reached < horizontal_m ? low : high) = s;
@@ -27,7 +26,7 @@ double angle_in_air(double air_m, double water_m, double horizontal_m) {
   return std::asin(low);
 }
 
-double in_water(double angle_in_air) { return std::asin(std::sin(angle_in_air) / kN); }
+double in_water(double angle_in_air) { return std::asin(std::sin(angle_in_air) / kWaterIndex); }
 
 struct Trial {
   double air_m, water_m, horizontal_m;
@@ -55,7 +54,7 @@ constexpr double kHalfPixel = 5e-4;
 TEST(RefractedImage, OfAPointInWaterLiesOnTheRayThatAnEyeInAirSees) {
   for_trials(0.05, [](const Trial& t) {
     const double angle = angle_in_air(t.air_m, t.water_m, t.horizontal_m);
-    const double depth_m = apparent_depth_m(t.way(), static_cast<float>(kN));
+    const double depth_m = apparent_depth_m(t.way(), static_cast<float>(kWaterIndex));
     ASSERT_NEAR(std::atan2(t.horizontal_m, t.air_m + depth_m), angle, 0.1 * kHalfPixel)
         << t.air_m << ' ' << t.water_m << ' ' << t.horizontal_m;
   });
@@ -64,7 +63,7 @@ TEST(RefractedImage, OfAPointInWaterLiesOnTheRayThatAnEyeInAirSees) {
 TEST(RefractedImage, OfAPointInAirLiesOnTheRayThatAnEyeInWaterSees) {
   for_trials(1e-3, [](const Trial& t) {
     const double angle = in_water(angle_in_air(t.air_m, t.water_m, t.horizontal_m));
-    const double height_m = apparent_height_m(t.way(), static_cast<float>(kN));
+    const double height_m = apparent_height_m(t.way(), static_cast<float>(kWaterIndex));
     ASSERT_NEAR(std::atan2(t.horizontal_m, t.water_m + height_m), angle, 0.2 * kHalfPixel)
         << t.air_m << ' ' << t.water_m << ' ' << t.horizontal_m;
   });
@@ -85,7 +84,7 @@ TEST(RefractedImage, ApparentDepthAndHeightAreTheTables) {
     const double water = std::tan(in_water(row.degrees * kDegree));
     for (const auto [air_m, water_m] : {std::array{2.0, 2.0}, {10.0, 3.0}, {0.5, 20.0}}) {
       const BentWay way = Trial{air_m, water_m, air_m * air + water_m * water}.way();
-      const auto n = static_cast<float>(kN);
+      const auto n = static_cast<float>(kWaterIndex);
       EXPECT_NEAR(apparent_depth_m(way, n) / water_m, row.k, 1e-5) << row.degrees;
       EXPECT_NEAR(air_m / apparent_height_m(way, n), row.k, 1e-5) << row.degrees;
     }
@@ -94,12 +93,12 @@ TEST(RefractedImage, ApparentDepthAndHeightAreTheTables) {
 
 // The whole sky is squeezed into a cone: what floats far away is seen at its rim.
 TEST(RefractedImage, OfFarThingsOnTheLevelIsTheWindowsRim) {
-  const double rim = std::asin(1.0 / kN);
+  const double rim = std::asin(1.0 / kWaterIndex);
   for (const double depth_m : {0.2, 2.0, 30.0})
     for (const double metres : {3.0, 100.0, 20000.0}) {
       const double horizontal_m = metres * depth_m;
-      const double height_m =
-          apparent_height_m(Trial{0.0, depth_m, horizontal_m}.way(), static_cast<float>(kN));
+      const double height_m = apparent_height_m(Trial{0.0, depth_m, horizontal_m}.way(),
+                                                static_cast<float>(kWaterIndex));
       EXPECT_NEAR(std::atan2(horizontal_m, depth_m + height_m), rim, 1e-4) << metres;
     }
 }
@@ -108,9 +107,9 @@ TEST(RefractedImage, OfFarThingsOnTheLevelIsTheWindowsRim) {
 // off in a picture of 720 lines.
 TEST(RefractedImage, OfANearFloorIsRight) {
   const double angle = angle_in_air(2.0, 2.0, 4.0);
-  const double depth_m = apparent_depth_m({2.0f, 2.0f, 4.0f}, static_cast<float>(kN));
+  const double depth_m = apparent_depth_m({2.0f, 2.0f, 4.0f}, static_cast<float>(kWaterIndex));
   EXPECT_NEAR(depth_m, 4.0 / std::tan(angle) - 2.0, 1e-5);
-  const double k_straight = std::cos(45 * kDegree) / std::sqrt(kN * kN - 0.5);
+  const double k_straight = std::cos(45 * kDegree) / std::sqrt(kWaterIndex * kWaterIndex - 0.5);
   EXPECT_GT(std::abs(2.0 * k_straight - depth_m), 0.08);
 }
 

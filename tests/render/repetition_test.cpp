@@ -13,7 +13,7 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(320, 180);
+constexpr glm::ivec2 kRepetitionSize_px(320, 180);
 constexpr glm::ivec2 kPadded(512, 512);
 constexpr double kFov_rad = 1.05;
 
@@ -31,13 +31,14 @@ Field waves_of(const Shot& shot, int radius_px) {
   const auto green = [&](int x, int y) { return static_cast<double>(shot.linear(x, y).y); };
   Field field{std::vector<double>(kPadded.x * kPadded.y),
               std::vector<double>(kPadded.x * kPadded.y)};
-  for (int y = 0; y < kSize_px.y; ++y) {
-    for (int x = 0; x < kSize_px.x; ++x) {
+  for (int y = 0; y < kRepetitionSize_px.y; ++y) {
+    for (int x = 0; x < kRepetitionSize_px.x; ++x) {
       double sum = 0.0, squares = 0.0;
       int count = 0;
-      for (int j = std::max(y - radius_px, 0); j <= std::min(y + radius_px, kSize_px.y - 1); ++j) {
-        for (int i = std::max(x - radius_px, 0); i <= std::min(x + radius_px, kSize_px.x - 1);
-             ++i) {
+      for (int j = std::max(y - radius_px, 0);
+           j <= std::min(y + radius_px, kRepetitionSize_px.y - 1); ++j) {
+        for (int i = std::max(x - radius_px, 0);
+             i <= std::min(x + radius_px, kRepetitionSize_px.x - 1); ++i) {
           sum += green(i, j), squares += green(i, j) * green(i, j), ++count;
         }
       }
@@ -95,11 +96,12 @@ double largest_correlation(const Field& field, double near_px, double far_px) {
   const auto before = correlate(squares, field.weight), after = correlate(field.weight, squares);
   const auto overlap = correlate(field.weight, field.weight);
   double largest = 0.0;
-  for (int y = -kSize_px.y; y <= kSize_px.y; ++y) {
-    for (int x = -kSize_px.x / 2; x <= kSize_px.x; ++x) {
+  for (int y = -kRepetitionSize_px.y; y <= kRepetitionSize_px.y; ++y) {
+    for (int x = -kRepetitionSize_px.x / 2; x <= kRepetitionSize_px.x; ++x) {
       const double lag_px = std::hypot(x, y);
       const std::size_t i = at((x + kPadded.x) % kPadded.x, (y + kPadded.y) % kPadded.y);
-      if (lag_px < near_px || lag_px > far_px || 3.0 * overlap[i] < kSize_px.x * kSize_px.y)
+      if (lag_px < near_px || lag_px > far_px ||
+          3.0 * overlap[i] < kRepetitionSize_px.x * kRepetitionSize_px.y)
         continue;
       largest = std::max(largest, products[i] / std::sqrt(before[i] * after[i]));
     }
@@ -113,10 +115,10 @@ double repetition(scene::Scene scene, double height_m, PartSet without) {
   scene.sky.haze_distance_m = 1e6;
   without.add(Part::kClouds);
   const World world = world_of(scene);
-  const View view =
-      make_view({0.0, 0.0, height_m}, 0.3, -0.5 * kPi, kFov_rad, 1.0f, kSize_px.x, kSize_px.y);
+  const View view = make_view({0.0, 0.0, height_m}, 0.3, -0.5 * kPi, kFov_rad, 1.0f,
+                              kRepetitionSize_px.x, kRepetitionSize_px.y);
   const Shot shot(world, view, 5.0, {.keep_linear = true, .without = without});
-  const double pixel_m = 2.0 * height_m * std::tan(0.5 * kFov_rad) / kSize_px.y;
+  const double pixel_m = 2.0 * height_m * std::tan(0.5 * kFov_rad) / kRepetitionSize_px.y;
   const double peak_m = ocean::peak_wavelength_m(scene.sea.wind_speed_mps, scene.sea.gravity_mps2);
   const int radius_px = static_cast<int>(std::ceil(peak_m / pixel_m));
   return largest_correlation(waves_of(shot, radius_px), 3.0 * peak_m / pixel_m, 5000.0 / pixel_m);

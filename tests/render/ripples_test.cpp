@@ -11,18 +11,18 @@
 namespace swell::render {
 namespace {
 
-constexpr double kEye_m = 4.0;
+constexpr double kRipplesEye_m = 4.0;
 
 // ---- In a sea that loops
 
 scene::Scene looping_scene(double loop_s) {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kRipplesEye_m);
   scene.sea.loop_s = loop_s;
   return scene;
 }
 
 TEST(Ripples, LoopWithTheSea) {
-  const World like = world_of(shading_scene(kEye_m));
+  const World like = world_of(shading_scene(kRipplesEye_m));
   for (const double loop_s : {1.0, 10.0, 7.25, 1200.0}) {
     const World world(looping_scene(loop_s), like, 1);
     const DrawnWater first(world, 0.125);
@@ -52,7 +52,7 @@ std::vector<glm::dvec2> drift_periods(const World& world, double t_s) {
 // Whole periods a loop, within half a period of what they would be; but a layer that would move by
 // less than that has one period.
 TEST(Ripples, DriftByTheNearestWholePeriodsOfALoop) {
-  const World free = world_of(shading_scene(kEye_m));
+  const World free = world_of(shading_scene(kRipplesEye_m));
   for (const double loop_s : {1.0, 7.25, 20.0, 100.0}) {
     const World looping(looping_scene(loop_s), free, 1);
     const double part = 1.0 / 256.0;  // of a loop
@@ -85,7 +85,7 @@ double ripple_variance(const Water& water) {
 }
 
 double ripple_variance(double wind_mps) {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kRipplesEye_m);
   scene.sea.wind_speed_mps = wind_mps;
   const World world = world_of(scene);  // whose maps the drawn water refers to
   return ripple_variance(DrawnWater(world, 0.0).water());
@@ -111,7 +111,7 @@ TEST(Ripples, GrowWithTheWind) {
 // Slopes of all sizes together have Cox and Munk's variance, within the scatter of their values.
 TEST(Ripples, MakeUpWhatTheWavesLeaveOfTheSeasSlopes) {
   for (const double wind : {1.0, 2.0, 5.0, 8.0, 11.0, 14.0}) {
-    scene::Scene scene = shading_scene(kEye_m);
+    scene::Scene scene = shading_scene(kRipplesEye_m);
     scene.sea.wind_speed_mps = wind;
     scene.sea.resolution = 128;
     const World world = world_of(scene);

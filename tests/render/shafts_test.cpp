@@ -14,7 +14,7 @@
 namespace swell::render {
 namespace {
 
-constexpr int kWidth = 96, kHeight = 54;
+constexpr int kShaftsWidth = 96, kShaftsHeight = 54;
 
 void put_sun_in_the_south(scene::Sky& sky, double elevation_rad) {
   sky.sun_azimuth_rad = std::numbers::pi;
@@ -53,7 +53,7 @@ View view_of(const Look& look) {
                                 .heading_rad = look.heading_rad,
                                 .pitch_rad = look.pitch_rad,
                                 .fov_y_rad = 1.0};
-  return scene::camera_view(camera, 0.0, kWidth, kHeight);
+  return scene::camera_view(camera, 0.0, kShaftsWidth, kShaftsHeight);
 }
 
 FrameOptions linear(PartSet without = {}) { return {.keep_linear = true, .without = without}; }
@@ -77,7 +77,7 @@ Change change_by(Part part, const World& world, const View& view, double t_s) {
     const double more = static_cast<double>(with[i]) - base;
     all += base, sum += more, squares += more * more;
   }
-  constexpr double kPixels = kWidth * kHeight;
+  constexpr double kPixels = kShaftsWidth * kShaftsHeight;
   const double mean = sum / kPixels;
   return {sum / all, std::sqrt(squares / kPixels - mean * mean) * kPixels / all};
 }
@@ -205,7 +205,8 @@ scene::Scene slab_over_glass() {
 }
 
 View from_below_the_slab() {
-  return make_view({0.0, -0.2, 0.3}, 0.0, 0.45 * std::numbers::pi, 0.8, 0.25f, kWidth, kHeight);
+  return make_view({0.0, -0.2, 0.3}, 0.0, 0.45 * std::numbers::pi, 0.8, 0.25f, kShaftsWidth,
+                   kShaftsHeight);
 }
 
 // What a mirror of water sends up: albedo / pi, the sun's irradiance, Fresnel, the cosine.
@@ -220,7 +221,8 @@ TEST(Uplight, IsTheSunThatFlatWaterMirrors) {
   const double reflectance = 0.5 * (s * s + p * p);
   const auto irradiance = static_cast<double>(world.state().sky->irradiance.y);
   const double expected = 0.8 / std::numbers::pi * irradiance * reflectance * std::sin(0.5);
-  for (const std::size_t i : {0, kWidth - 1, kWidth * kHeight / 2, kWidth * kHeight - 1})
+  for (const std::size_t i :
+       {0, kShaftsWidth - 1, kShaftsWidth * kShaftsHeight / 2, kShaftsWidth * kShaftsHeight - 1})
     EXPECT_NEAR((with[i] - without[i]) / expected, 1.0, 0.01) << i;
 }
 

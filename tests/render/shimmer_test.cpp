@@ -12,16 +12,16 @@
 namespace swell::render {
 namespace {
 
-constexpr glm::ivec2 kSize_px(320, 180);
+constexpr glm::ivec2 kShimmerSize_px(320, 180);
 constexpr int kFrames = 30, kStep = 25;  // of 255
 
-// Green of kSize_px pixels, each the mean of `times` x `times` of a larger picture.
+// Green of kShimmerSize_px pixels, each the mean of `times` x `times` of a larger picture.
 std::vector<int> green_of(const Target& target, int times) {
   const std::vector<int> codes = green_codes(target);
-  std::vector<int> green(static_cast<std::size_t>(kSize_px.x) * kSize_px.y);
+  std::vector<int> green(static_cast<std::size_t>(kShimmerSize_px.x) * kShimmerSize_px.y);
   for (int y = 0; y < target.height_px; ++y)
     for (int x = 0; x < target.width_px; ++x)
-      green[static_cast<std::size_t>(y / times * kSize_px.x + x / times)] +=
+      green[static_cast<std::size_t>(y / times * kShimmerSize_px.x + x / times)] +=
           codes[static_cast<std::size_t>(y * target.width_px + x)];
   for (int& g : green) g /= times * times;
   return green;
@@ -34,7 +34,8 @@ double shimmer(const World& world, const scene::Camera& camera, int times = 1) {
   std::vector<std::vector<int>> green;
   for (int n = 0; n < kFrames; ++n) {
     const double t_s = n / 60.0;
-    const View view = scene::camera_view(camera, t_s, times * kSize_px.x, times * kSize_px.y);
+    const View view =
+        scene::camera_view(camera, t_s, times * kShimmerSize_px.x, times * kShimmerSize_px.y);
     green.push_back(green_of(film.draw(world, view, t_s, {.edge_samples = 0}), times));
   }
   return part_reversed(green, kStep);

@@ -13,8 +13,6 @@
 namespace swell::render {
 namespace {
 
-using scene::radians;
-
 struct Looking {
   const char* name;
   double pitch_deg, fov_deg, cloud_cover;
@@ -27,8 +25,8 @@ class SkyLattice : public testing::TestWithParam<Looking> {
 
   SkyLattice() : world(world_of(scene_of(GetParam()))) {
     const Looking& looking = GetParam();
-    const View view = make_view({0.0, 0.0, 10.0}, 0.0, radians(looking.pitch_deg),
-                                radians(looking.fov_deg), 0.25f, kWidth_px, kHeight_px);
+    const View view = make_view({0.0, 0.0, 10.0}, 0.0, scene::radians(looking.pitch_deg),
+                                scene::radians(looking.fov_deg), 0.25f, kWidth_px, kHeight_px);
     shot.draw(world, view, 3.0, {.keep_linear = true});
     std::vector<float> x, y;
     for (int i = 0; i < kWidth_px * kHeight_px; ++i) {
@@ -44,8 +42,8 @@ class SkyLattice : public testing::TestWithParam<Looking> {
 
   static scene::Scene scene_of(const Looking& looking) {
     scene::Scene scene;
-    scene.sky.sun_elevation_rad = radians(25.0);
-    scene.sky.sun_azimuth_rad = radians(5.0);
+    scene.sky.sun_elevation_rad = scene::radians(25.0);
+    scene.sky.sun_azimuth_rad = scene::radians(5.0);
     scene.sky.sun_direction =
         scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
     scene.sky.cloud_cover = looking.cloud_cover;

@@ -13,8 +13,8 @@ namespace {
 
 using scene::radians;
 
-constexpr int kSize_px = 96;
-constexpr double kEye_m = 10.0;
+constexpr int kSkySide_px = 96;
+constexpr double kSkyEye_m = 10.0;
 
 scene::Scene sky_scene(double elevation_deg, double cloud_cover) {
   scene::Scene scene;
@@ -36,8 +36,8 @@ struct SkyRenderer : LinearRenderer {
   }
 
   void draw(double pitch_deg, double fov_deg, double t_s = 0.0) {
-    draw_view(make_view({0.0, 0.0, kEye_m}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f,
-                        kSize_px, kSize_px),
+    draw_view(make_view({0.0, 0.0, kSkyEye_m}, 0.0, radians(pitch_deg), radians(fov_deg), 0.25f,
+                        kSkySide_px, kSkySide_px),
               t_s);
   }
   float brightest() const { return std::ranges::max(target.linear); }
@@ -45,8 +45,8 @@ struct SkyRenderer : LinearRenderer {
 
 template <class Visit>
 void for_each_pixel(const Visit& visit) {
-  for (int y = 0; y < kSize_px; ++y)
-    for (int x = 0; x < kSize_px; ++x) visit(x, y);
+  for (int y = 0; y < kSkySide_px; ++y)
+    for (int x = 0; x < kSkySide_px; ++x) visit(x, y);
 }
 
 // Through maps and samplers, to 2 %; the radiance is the picture's times one factor.
@@ -56,7 +56,7 @@ TEST(SkyPicture, ShowsTheModelsLight) {
     const SkyRenderer sky(scene, 50.0, 80.0);
     Workers workers(1);
     const scene::SkyLight light =
-        sky_light_aloft(scene::make_sky_light(scene.sky, workers), kEye_m, workers);
+        sky_light_aloft(scene::make_sky_light(scene.sky, workers), kSkyEye_m, workers);
     const float exposure = sky.linear(5, 60).y / clear_radiance(light, sky.direction(5, 60)).y;
     for_each_pixel([&](int x, int y) {
       const glm::vec3 d = sky.direction(x, y);
@@ -74,7 +74,7 @@ TEST(SkyPicture, DiscIsHalfADegreeAcross) {
   const float half = 0.5f * sky.brightest();
   int bright = 0;
   for_each_pixel([&](int x, int y) { bright += sky.linear(x, y).y > half; });
-  const double radius_px = 0.004654 * kSize_px / (2.0 * sky.view.tan_half_y);
+  const double radius_px = 0.004654 * kSkySide_px / (2.0 * sky.view.tan_half_y);
   EXPECT_NEAR(bright / (kPi * radius_px * radius_px), 1.0, 0.03);
 }
 
@@ -83,8 +83,8 @@ TEST(SkyPicture, DiscIsAsBrightAsItsLight) {
   const SkyRenderer sky(sky_scene(30.0, 0.0), 30.0, 1.0);
   const Light& light = sky.state().shading.light;
   const float solid_angle = static_cast<float>(kPi) * 0.004654f * 0.004654f;
-  EXPECT_NEAR(sky.linear(kSize_px / 2, kSize_px / 2).y * solid_angle / light.sun_irradiance.y, 1.0f,
-              0.02f);
+  EXPECT_NEAR(sky.linear(kSkySide_px / 2, kSkySide_px / 2).y * solid_angle / light.sun_irradiance.y,
+              1.0f, 0.02f);
 }
 
 TEST(SkyPicture, OvercastHidesTheDiscAndTheBlue) {
@@ -115,7 +115,7 @@ TEST(SkyPicture, CloudsCoverWhatTheSceneSays) {
       for (std::size_t i = 0; i < clouds.size(); i += 3)
         covered += changed(i) || changed(i + 1) || changed(i + 2);
     }
-    covered /= 4.0 * kSize_px * kSize_px;
+    covered /= 4.0 * kSkySide_px * kSkySide_px;
     EXPECT_GT(covered, before) << cover;
     EXPECT_NEAR(covered, cover, 0.22);
     before = covered;
@@ -127,8 +127,8 @@ TEST(SkyPicture, CloudsAreSmoothAtEveryZoom) {
   SkyRenderer sky(sky_scene(50.0, 0.6));
   for (const double fov_deg : {1.0, 4.0}) {
     sky.draw(35.0, fov_deg);
-    for (int y = 0; y < kSize_px; ++y)
-      for (int x = 1; x + 1 < kSize_px; ++x) {
+    for (int y = 0; y < kSkySide_px; ++y)
+      for (int x = 1; x + 1 < kSkySide_px; ++x) {
         const float bend =
             sky.linear(x - 1, y).y - 2.0f * sky.linear(x, y).y + sky.linear(x + 1, y).y;
         ASSERT_LT(std::abs(bend), 0.012f) << fov_deg << " " << x << " " << y;
@@ -141,7 +141,7 @@ TEST(SkyPicture, CloudsAreSmoothAtEveryZoom) {
 TEST(SkyPicture, DarkSkiesHaveNoBands) {
   for (const double elevation_deg : {-8.0, -13.0, -25.0}) {
     const SkyRenderer sky(sky_scene(elevation_deg, 0.0), 30.0, 20.0);
-    for (int y = 2; y < kSize_px; ++y) {
+    for (int y = 2; y < kSkySide_px; ++y) {
       const float before = sky.linear(7, y - 1).y / sky.linear(7, y - 2).y;
       ASSERT_NEAR(sky.linear(7, y).y / sky.linear(7, y - 1).y, before, 0.004f)
           << elevation_deg << " " << y;
@@ -191,7 +191,7 @@ TEST(SkyPicture, NightsAreDarkerThanDuskAndDuskThanDay) {
     const SkyRenderer sky(sky_scene(elevation_deg, 0.0), 60.0, 60.0);
     double sum = 0.0;
     for_each_pixel([&](int x, int y) { sum += std::min(sky.linear(x, y).y, 1.0f); });
-    const double mean = sum / (kSize_px * kSize_px);
+    const double mean = sum / (kSkySide_px * kSkySide_px);
     EXPECT_LT(mean, before) << elevation_deg;
     EXPECT_GT(mean, 0.01) << elevation_deg;
     before = mean;

@@ -17,7 +17,7 @@ namespace {
 
 using Place = std::pair<int, int>;  // x, y [px]
 
-constexpr std::uint32_t kLand = 0, kLoneTree = 10, kWoodTree = 11;
+constexpr std::uint32_t kOpenLand = 0, kLoneTree = 10, kWoodTree = 11;
 constexpr int kSide = 32;
 
 // Land with some trees, all at one depth: primitive 10 is of a lone tree, 11 of one of a wood.
@@ -27,7 +27,7 @@ class MarkedPicture {
     visibility_.grid = raster::tile_grid(kViewport, tile_size_px);
     const auto tiles = static_cast<std::size_t>(visibility_.grid.count());
     visibility_.depth.assign(tiles * visibility_.tile_pixels(), 0.01f);
-    visibility_.primitive.assign(tiles * visibility_.tile_pixels(), kLand);
+    visibility_.primitive.assign(tiles * visibility_.tile_pixels(), kOpenLand);
     visibility_.covered.assign(tiles, tile_size_px * tile_size_px);
     visibility_.water_pixels.assign(tiles, 0);
   }

@@ -14,7 +14,7 @@
 namespace swell::render {
 namespace {
 
-constexpr int kSize_px = 160;
+constexpr int kTurnedSide_px = 160;
 constexpr double kTime_s = 4.0;
 
 // Two triangles, which are the same from everywhere.
@@ -26,13 +26,14 @@ scene::Scene flat_sea() {
 }
 
 // Linear light: the 8-bit picture is dithered by place.
-std::vector<float> draw(const World& world, const View& view) {
+std::vector<float> draw_turned(const World& world, const View& view) {
   return Shot(world, view, kTime_s, {.lookup_scale = 1.0, .keep_linear = true}).target.linear;
 }
 
 View rolled(double roll_rad) {
   return make_view({0.0, 0.0, 5.0}, camera_axes(0.0, -0.25, roll_rad),
-                   lens_of_fov(0.9, kSize_px, kSize_px), 0.25f, kSize_px, kSize_px);
+                   lens_of_fov(0.9, kTurnedSide_px, kTurnedSide_px), 0.25f, kTurnedSide_px,
+                   kTurnedSide_px);
 }
 
 // The share of pixels that differ by more than the share `tolerance`, and 0.002; `source` is the
@@ -59,18 +60,18 @@ TEST(TurnedView, ARolledPictureIsTheLevelOneTurned) {
   scene.objects.resize(1);
   scene.objects[0].position_m = {0.0, 12.0};
   const World world = world_of(scene);
-  const auto level = draw(world, rolled(0.0));
-  const glm::ivec2 size(kSize_px);
-  constexpr int kLast = kSize_px - 1;
+  const auto level = draw_turned(world, rolled(0.0));
+  const glm::ivec2 size(kTurnedSide_px);
+  constexpr int kLast = kTurnedSide_px - 1;
   // A camera turned clockwise has its picture turned counter-clockwise.
-  const auto clockwise = [](int x, int y) { return x * kSize_px + kLast - y; };
-  EXPECT_EQ(share_different(level, draw(world, rolled(0.5 * kPi)), size, clockwise), 0.0);
-  const auto other_way = [](int x, int y) { return (kLast - x) * kSize_px + y; };
-  EXPECT_EQ(share_different(level, draw(world, rolled(-0.5 * kPi)), size, other_way), 0.0);
-  const auto upside_down = [](int x, int y) { return (kLast - y) * kSize_px + kLast - x; };
-  EXPECT_EQ(share_different(level, draw(world, rolled(kPi)), size, upside_down), 0.0);
+  const auto clockwise = [](int x, int y) { return x * kTurnedSide_px + kLast - y; };
+  EXPECT_EQ(share_different(level, draw_turned(world, rolled(0.5 * kPi)), size, clockwise), 0.0);
+  const auto other_way = [](int x, int y) { return (kLast - x) * kTurnedSide_px + y; };
+  EXPECT_EQ(share_different(level, draw_turned(world, rolled(-0.5 * kPi)), size, other_way), 0.0);
+  const auto upside_down = [](int x, int y) { return (kLast - y) * kTurnedSide_px + kLast - x; };
+  EXPECT_EQ(share_different(level, draw_turned(world, rolled(kPi)), size, upside_down), 0.0);
   // Seen to tell pictures apart.
-  EXPECT_GT(share_different(level, draw(world, rolled(kPi)), size, clockwise), 0.2);
+  EXPECT_GT(share_different(level, draw_turned(world, rolled(kPi)), size, clockwise), 0.2);
 }
 
 // Vertices are rounded to 1/256 pixel, other ones in each picture: on the large triangles that
@@ -89,11 +90,11 @@ TEST(TurnedView, APictureBesideTheMiddleIsCutOutOfAWiderOne) {
   const OpticalPose pose = camera_pose(wide);
   const Intrinsics k = {pose.k.fx, pose.k.fy, pose.k.cx - corner.x, pose.k.cy - corner.y};
   const View part = make_view(pose.eye_world, pose.world_from_optical, k, 0.25f, size.x, size.y);
-  const auto place = [&](int x, int y) { return (y + corner.y) * kSize_px + x + corner.x; };
-  const auto whole = draw(world, wide);
-  EXPECT_LE(share_different(whole, draw(world, part), size, place, 0.1f), 0.01);
+  const auto place = [&](int x, int y) { return (y + corner.y) * kTurnedSide_px + x + corner.x; };
+  const auto whole = draw_turned(world, wide);
+  EXPECT_LE(share_different(whole, draw_turned(world, part), size, place, 0.1f), 0.01);
   const auto one_aside = [&](int x, int y) { return place(x, y) - 1; };
-  EXPECT_GE(share_different(whole, draw(world, part), size, one_aside, 0.1f), 0.5);
+  EXPECT_GE(share_different(whole, draw_turned(world, part), size, one_aside, 0.1f), 0.5);
 }
 
 }  // namespace

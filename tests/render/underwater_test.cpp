@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 #include "render/shot.h"
 #include "scene/scene.h"
 
 namespace swell::render {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A sea of glass under a sky of radiance 1, as clear as a scene may be and black below.
 scene::Scene glass_scene() {
@@ -56,7 +54,7 @@ TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
   const World world = world_of(glass_scene());
   Drawing drawing;
   for (const double depth_m : {0.7, 5.0, 40.0}) {
-    drawing.draw(world, view_from({3.0, 4.0, -depth_m}, 0.5 * kPi, 2.0, kSize, kSize));
+    drawing.draw(world, view_from({3.0, 4.0, -depth_m}, 0.5 * kPiRef, 2.0, kSize, kSize));
     const double radius_px = 1.134542 * 0.5 * kSize / std::tan(1.0);
     int lit = 0;
     for (int y = 0; y < kSize; ++y)
@@ -70,7 +68,7 @@ TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
           ASSERT_LT(light, 0.004f) << x << ' ' << y;
         }
       }
-    EXPECT_NEAR(std::sqrt(lit / kPi), radius_px, 1.0) << depth_m;
+    EXPECT_NEAR(std::sqrt(lit / kPiRef), radius_px, 1.0) << depth_m;
   }
 }
 
@@ -78,7 +76,7 @@ TEST(UnderWater, SnellsWindowIsACircleOfItsRadius) {
 TEST(UnderWater, TheWindowIsAsBrightAsFresnelSays) {
   constexpr int kSize = 128;
   const World world = world_of(glass_scene());
-  const Drawing drawing(world, view_from({0.0, 0.0, -2.0}, 0.5 * kPi, 1.8, kSize, kSize));
+  const Drawing drawing(world, view_from({0.0, 0.0, -2.0}, 0.5 * kPiRef, 1.8, kSize, kSize));
   constexpr double kN = 1.333;
   for (const int x : {64, 70, 80, 95, 105, 110}) {
     const double tan_water = (x + 0.5 - 64.0) / 64.0 * std::tan(0.9);

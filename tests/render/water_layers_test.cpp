@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTime_s = 3.0;
 
-constexpr double kEye_m = 12.0;
+constexpr double kLayersEye_m = 12.0;
 
 // Pictures of a scene whose sea alone is made anew.
 struct DrawnLike : DrawnWater {
@@ -33,7 +33,7 @@ int different_pixels(const Target& a, const Target& b) {
 }
 
 TEST(WaterLayers, EverySineIsShaded) {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kLayersEye_m);
   scene.sea.spectrum = false;
   for (std::size_t i = 0; i < ocean::kMaxSines; ++i)
     scene.sea.sines.push_back({.amplitude_m = 0.02,
@@ -49,9 +49,9 @@ TEST(WaterLayers, EverySineIsShaded) {
 }
 
 TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kLayersEye_m);
   scene.sea.patch_lengths_m.clear();
-  const World like = world_of(shading_scene(kEye_m));
+  const World like = world_of(shading_scene(kLayersEye_m));
   double length_m = 4000.0;
   for (std::size_t patches = 1; patches <= ocean::kMaxPatches; ++patches) {
     scene.sea.patch_lengths_m.push_back(length_m *= 0.4);
@@ -69,7 +69,7 @@ TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
 
 // Trains alone: nothing of the open sea's long waves is left.
 TEST(WaterLayers, RipplesStayNearTheShoreHoweverManyPatchesTheSeaHas) {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kLayersEye_m);
   scene.terrain.emplace();
   scene.terrain->coast_m = {{-400.0, -40.0}, {400.0, -40.0}};
   scene.terrain->beach_size_m = 800.0;
@@ -109,10 +109,10 @@ constexpr float kBaseVariance = 0.0012f;
 // Maps of one value everywhere, and water that has nothing but them and one sine.
 struct PlainWater {
   PlainWater(float share_of_trains, float wavelength_m) {
-    constexpr int kSize = 16;
-    const std::vector<float> zero(kSize * kSize), share(kSize * kSize, share_of_trains);
-    texture::pack_map2(kSize, zero, zero, 1.0f / 127.0f, still);
-    texture::pack_map2(kSize, share, zero, 1.0f / 127.0f, surf);
+    constexpr int kTexels = 16;
+    const std::vector<float> zero(kTexels * kTexels), share(kTexels * kTexels, share_of_trains);
+    texture::pack_map2(kTexels, zero, zero, 1.0f / 127.0f, still);
+    texture::pack_map2(kTexels, share, zero, 1.0f / 127.0f, surf);
     water.uv_noise = water.coast_slopes = water.foam.pattern = layer(still);
     water.coast_surf = layer(surf);
     water.has_coast = true;
@@ -166,7 +166,7 @@ TEST_P(WaterShader, TrainsTakeTheSquareOfTheirShareOfTheVariance) {
 // Near a shore some packets lie among the trains, some across their edge and some at sea, each of
 // which takes its own way through the shader.
 scene::Scene shore_scene() {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kLayersEye_m);
   scene.sea.patch_lengths_m = {640.0, 97.0, 17.0};
   scene.terrain.emplace();
   scene.terrain->coast_m = {{-400.0, 0.0}, {400.0, 0.0}};

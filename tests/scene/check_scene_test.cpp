@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "constants.h"
 #include "scene/parameters.h"
 #include "scene/water.h"
 
@@ -16,7 +17,6 @@ namespace swell::scene {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string key_of_fault(const Scene& scene) {
   const auto fault = find_fault(scene);
@@ -29,7 +29,7 @@ std::vector<ParameterValue> values_outside(const Parameter<Object>& parameter) {
   using Numbers = std::vector<double>;
   std::vector<ParameterValue> values;
   const double low = parameter.zero_too ? -1.0 : parameter.low;
-  const std::vector<double> wrong = {kNan, kInfinity, -kInfinity, low - 0.001,
+  const std::vector<double> wrong = {kNan, kInf, -kInf, low - 0.001,
                                      parameter.high * 1.001 + 0.001};
   const double good = parameter.high;
   switch (parameter.kind) {

@@ -5,12 +5,11 @@
 #include <numbers>
 #include <random>
 
+#include "constants.h"
 #include "scene/fog.h"
 
 namespace swell::scene {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A way down through an even layer of height H, from h.
 FogWay way_down(double per_m, double top_m, double eye_m, double angle_rad) {
@@ -31,7 +30,7 @@ TEST(FogLight, PhaseIntegratesAsItShould) {
     constexpr int kSteps = 200000;
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i) sum += phase(-1.0 + 2.0 * (i + 0.5) / kSteps);
-    return 2.0 * kPi * sum * 2.0 / kSteps;
+    return 2.0 * kPiRef * sum * 2.0 / kSteps;
   };
   const double known[][2] = {{0.3, 6.766507}, {0.6, 3.141593}, {0.85, 1.018895}};
   for (const auto& [l, value] : known) {
@@ -124,16 +123,17 @@ TEST(FogLight, AllThatIsLostComesOut) {
           const double down = scattered_once({depth / z, 0.0, -z}, sun_sine);
           const double up = scattered_once({depth / z, depth, z}, sun_sine);
           for (int k = 0; k < kSectors; ++k) {
-            const double level = across * across_sun * std::cos(2.0 * kPi * (k + 0.5) / kSectors);
+            const double level =
+                across * across_sun * std::cos(2.0 * kPiRef * (k + 0.5) / kSectors);
             out += z * (2.0 * even + down * fog_phase(level - z * sun_sine, l) +
                         up * fog_phase(level + z * sun_sine, l));
           }
         }
-        out *= 2.0 * kPi / (kRings * kSectors);
+        out *= 2.0 * kPiRef / (kRings * kSectors);
         const double lost = sun_sine * (1.0 - light.sun_passes);
         EXPECT_NEAR(out, lost, 0.02 * lost) << depth << ' ' << sun_sine << ' ' << l;
         // And no more falls on the sea than on the fog.
-        EXPECT_LE(light.ambient * kPi + sun_sine * light.sun_passes, sun_sine * 1.0001);
+        EXPECT_LE(light.ambient * kPiRef + sun_sine * light.sun_passes, sun_sine * 1.0001);
       }
 }
 

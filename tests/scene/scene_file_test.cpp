@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "constants.h"
 #include "scene/scene_text.h"
 #include "scratch_folder.h"
 
@@ -13,8 +14,6 @@ namespace swell::scene {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::string load_error(const fs::path& path) {
   try {

@@ -7,14 +7,13 @@
 #include <thread>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 #include "scene/scene.h"
 #include "scene/water.h"
 
 namespace swell::scene {
 namespace {
-
-constexpr double kPiRef = 3.14159265358979323846;
 
 std::vector<glm::dvec2> random_points(int count, glm::dvec2 centre, double range_m) {
   std::vector<glm::dvec2> points;

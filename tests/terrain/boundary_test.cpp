@@ -10,8 +10,8 @@
 namespace swell::terrain {
 namespace {
 
-// A round island of 60 m radius on 65 x 65 points, 4 m apart.
-HeightGrid island() {
+// A round small_island of 60 m radius on 65 x 65 points, 4 m apart.
+HeightGrid small_island() {
   HeightGrid land{
       {.min_world = {-128.0, -128.0}, .spacing_m = 4.0, .samples_x = 65, .samples_y = 65}};
   for (int j = 0; j < 65; ++j)
@@ -36,7 +36,7 @@ class Boundary : public HeightImage {
   }
   static std::string error_of(const std::filesystem::path& path) {
     try {
-      read_boundary(path, island());
+      read_boundary(path, small_island());
     } catch (const std::exception& error) {
       return error.what();
     }
@@ -46,7 +46,7 @@ class Boundary : public HeightImage {
 
 TEST_F(Boundary, HoldsDistanceDepthAndBankWithNorthOnTop) {
   Workers workers(1);
-  HeightGrid land = island();
+  HeightGrid land = small_island();
   for (int j = 0; j < 65; ++j)  // land all over the north
     for (int i = 0; i < 65; ++i)
       if (land.grid.point(i, j).y > 100.0) land.height_m[land.grid.index(i, j)] = 3.0f;
@@ -54,7 +54,7 @@ TEST_F(Boundary, HoldsDistanceDepthAndBankWithNorthOnTop) {
   ASSERT_EQ(image.width, image.height);
   ASSERT_EQ(image.channels, 4);
   const int middle = image.width / 2;
-  // The island's middle: 60 m from the line, 6 m high; the floor south of it.
+  // The small_island's middle: 60 m from the line, 6 m high; the floor south of it.
   EXPECT_NEAR(image.at(middle, middle, 0), -60.0f, 2.0f);
   EXPECT_EQ(image.at(middle, middle, 1), 0.0f);
   EXPECT_NEAR(image.at(middle, middle, 2), 6.0f, 1e-4f);
@@ -68,7 +68,7 @@ TEST_F(Boundary, HoldsDistanceDepthAndBankWithNorthOnTop) {
 
 TEST_F(Boundary, IsTheSameMapToTheBitWhenReadAgain) {
   Workers workers(2);
-  const HeightGrid land = island();
+  const HeightGrid land = small_island();
   const ShoreMap made(land, workers);
   const ShoreMap read = read_boundary(write_image("a.exr", boundary_image(made)), land);
   EXPECT_EQ(read.grid().samples_x, made.grid().samples_x);
@@ -81,10 +81,10 @@ TEST_F(Boundary, IsTheSameMapToTheBitWhenReadAgain) {
 }
 
 TEST_F(Boundary, MayBeOfAnotherSizeAndPaintedOver) {
-  const ShoreMap read = read_boundary(write_flat(3, {12.0f, 2.0f, 0.0f, 0.25f}), island());
+  const ShoreMap read = read_boundary(write_flat(3, {12.0f, 2.0f, 0.0f, 0.25f}), small_island());
   EXPECT_EQ(read.grid().samples_x, 3);
   EXPECT_NEAR(read.grid().size_m(),
-              ShoreMap(island(), *std::make_unique<Workers>(1)).grid().size_m(), 1e-9);
+              ShoreMap(small_island(), *std::make_unique<Workers>(1)).grid().size_m(), 1e-9);
   EXPECT_EQ(read.sample(17.0, -60.0).signed_distance_m, 12.0f);
   EXPECT_EQ(read.sample(17.0, -60.0).height_m, -2.0f);
   EXPECT_EQ(read.surf_at(17.0, -60.0), 0.25f);

@@ -7,15 +7,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 
 namespace swell::terrain {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Rays of any number, with spans over them.
 struct Rays {
@@ -109,7 +107,7 @@ TEST(HeightRays, MissNothingThatMarchingFinds) {
       Rays rays;
       for (std::uint64_t n = 0; n < kRays; ++n) {
         const auto random = [&](int k) { return random_uniform(seed + 7, 8 * n + k); };
-        const double azimuth = 2.0 * kPi * random(0);
+        const double azimuth = 2.0 * kPiRef * random(0);
         const double dip = n % 3 == 0 ? -0.3 * random(1) : 0.04 * (random(1) - 0.5);
         rays.add({std::cos(azimuth), std::sin(azimuth), dip},
                  height_at(map, from) + 8.0 * spacing_m * random(2),
@@ -148,7 +146,7 @@ TEST(HeightRays, MeetNothingWhereTheirBeamIsFree) {
     Rays rays;
     for (std::uint64_t n = 0; n < kBeams; ++n) {
       const auto random = [&](std::uint64_t k) { return random_uniform(seed + 17, 64 * n + k); };
-      const double azimuth = 2.0 * kPi * random(0), z = height_at(map, from) + 40.0 * random(1);
+      const double azimuth = 2.0 * kPiRef * random(0), z = height_at(map, from) + 40.0 * random(1);
       const glm::dvec3 middle(std::cos(azimuth), std::sin(azimuth), -0.7 * random(2));
       const double half = 0.02 * random(3) * random(4), sag = n % 3 == 1 ? 0.0005 : 0.0;
       const glm::dvec3 low = middle - half, high = middle + half;
@@ -204,7 +202,7 @@ TEST(HeightRays, StopAtBlocksWithoutMovingSilhouettesByMoreThanAPixel) {
   int silhouettes = 0, moved = 0, moved_by_large_blocks = 0, differ = 0;
   for (const double pitch_deg : {2.0, 10.0}) {
     const glm::dvec2 from = map.grid.min_world + map.grid.size_m() * glm::dvec2(0.05, 0.5);
-    const double pixel = 0.005, pitch = pitch_deg * kPi / 180.0;
+    const double pixel = 0.005, pitch = pitch_deg * kPiRef / 180.0;
     Rays rays;
     for (int j = 0; j < kRows; ++j)
       for (int i = 0; i < kColumns; ++i) {
@@ -262,7 +260,7 @@ TEST(HeightRays, LieWithinAQuarterOfTheTwistOfTriangles) {
   const glm::dvec2 from = map.grid.min_world + 32.25;
   Rays rays;
   for (std::uint64_t n = 0; n < 2000; ++n) {
-    const double azimuth = 2.0 * kPi * random_uniform(3, 2 * n);
+    const double azimuth = 2.0 * kPiRef * random_uniform(3, 2 * n);
     rays.add({std::cos(azimuth), std::sin(azimuth), -0.1 - 2.0 * random_uniform(3, 2 * n + 1)},
              height_at(map, from) + 15.0);
   }

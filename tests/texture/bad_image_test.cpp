@@ -154,7 +154,7 @@ TEST_F(BadImages, WholeNumbersThatNoFloatHoldsAreNamed) {
 }
 
 // CRC-32 as PNG uses it.
-std::uint32_t crc32(const std::uint8_t* bytes, std::size_t count) {
+std::uint32_t crc_of(const std::uint8_t* bytes, std::size_t count) {
   std::uint32_t crc = 0xffffffffu;
   for (std::size_t i = 0; i < count; ++i) {
     crc ^= bytes[i];
@@ -173,7 +173,7 @@ Bytes png_with_header(std::uint32_t width, std::uint32_t height, int bits, int c
   put_u32_big_endian(png, 20, height);
   png[24] = static_cast<std::uint8_t>(bits);
   png[25] = static_cast<std::uint8_t>(colour_type);
-  put_u32_big_endian(png, 29, crc32(&png[12], 17));
+  put_u32_big_endian(png, 29, crc_of(&png[12], 17));
   return png;
 }
 

@@ -88,11 +88,12 @@ class BadPng : public testing::Test {
   const fs::path path_ = folder_.path() / "bad.png";
 };
 
-constexpr int kWidth = 13, kHeight = 9;
-const std::string kRgb = header(kWidth, kHeight, 8, 2), kPalette = header(kWidth, kHeight, 8, 3);
+constexpr int kPngWidth = 13, kPngHeight = 9;
+const std::string kRgb = header(kPngWidth, kPngHeight, 8, 2),
+                  kPalette = header(kPngWidth, kPngHeight, 8, 3);
 
 TEST_F(BadPng, PixelsThatCannotBeInflatedAreRefused) {
-  const std::string rows = random_rows(kWidth, kHeight, 24), stream = deflated(rows);
+  const std::string rows = random_rows(kPngWidth, kPngHeight, 24), stream = deflated(rows);
   EXPECT_EQ(refusal(kRgb + chunk("IDAT", stream)), "");
   for (std::size_t i = 0; i < stream.size(); ++i) {
     constexpr std::size_t kStoredBlock = 2;  // whose first byte has five bits that mean nothing
@@ -105,7 +106,7 @@ TEST_F(BadPng, PixelsThatCannotBeInflatedAreRefused) {
 }
 
 TEST_F(BadPng, PixelsInPiecesAreOneStream) {
-  const std::string stream = deflated(random_rows(kWidth, kHeight, 24));
+  const std::string stream = deflated(random_rows(kPngWidth, kPngHeight, 24));
   const std::string first = chunk("IDAT", stream.substr(0, 20)),
                     second = chunk("IDAT", stream.substr(20)), none = chunk("IDAT", "");
   EXPECT_EQ(refusal(kRgb + none + first + none + second + none), "");
@@ -116,12 +117,13 @@ TEST_F(BadPng, PixelsInPiecesAreOneStream) {
 }
 
 TEST_F(BadPng, TooFewRowsAndUnknownFiltersAreRefused) {
-  const std::string rows = random_rows(kWidth, kHeight, 24);
+  const std::string rows = random_rows(kPngWidth, kPngHeight, 24);
   expect_refused(kRgb + pixels(rows.substr(0, rows.size() - 1)), "cut short");
   EXPECT_EQ(refusal(kRgb + pixels(rows + "more")), "");
-  for (int y = 0; y < kHeight; ++y) {
+  for (int y = 0; y < kPngHeight; ++y) {
     std::string filtered = rows;
-    filtered[static_cast<std::size_t>(y * (1 + 3 * kWidth))] = static_cast<char>(5 + 50 * y % 251);
+    filtered[static_cast<std::size_t>(y * (1 + 3 * kPngWidth))] =
+        static_cast<char>(5 + 50 * y % 251);
     expect_refused(kRgb + pixels(filtered), "filter");
   }
 }
@@ -163,13 +165,13 @@ TEST_F(BadPng, EveryKindIsReadWholeAndRefusedAByteShort) {
 }
 
 TEST_F(BadPng, PalettesThatDoNotFitAreRefused) {
-  const std::string indices = pixels(random_rows(kWidth, kHeight, 8));
+  const std::string indices = pixels(random_rows(kPngWidth, kPngHeight, 8));
   const auto palette = [](std::size_t bytes) { return chunk("PLTE", std::string(bytes, 'c')); };
   EXPECT_EQ(refusal(kPalette + palette(768) + indices), "");
   EXPECT_EQ(refusal(kPalette + palette(30) + indices), "");  // what is missing is black
   for (const std::size_t bytes : {0u, 1u, 31u, 771u})
     expect_refused(kPalette + palette(bytes) + indices, "palette has");
-  expect_refused(header(kWidth, kHeight, 1, 3) + palette(9) + indices, "palette has 9");
+  expect_refused(header(kPngWidth, kPngHeight, 1, 3) + palette(9) + indices, "palette has 9");
   expect_refused(kPalette + indices, "no palette");
   expect_refused(kPalette + indices + palette(768), "no palette");
   expect_refused(kPalette + palette(768) + palette(768) + indices, "two palettes");
@@ -178,12 +180,12 @@ TEST_F(BadPng, PalettesThatDoNotFitAreRefused) {
     const std::string transparency = chunk("tRNS", std::string(bytes, 't'));
     EXPECT_EQ(refusal(kPalette + palette(768) + transparency + indices), "");
     EXPECT_EQ(refusal(kPalette + transparency + palette(768) + indices), "");
-    EXPECT_EQ(refusal(kRgb + transparency + pixels(random_rows(kWidth, kHeight, 24))), "");
+    EXPECT_EQ(refusal(kRgb + transparency + pixels(random_rows(kPngWidth, kPngHeight, 24))), "");
   }
 }
 
 TEST_F(BadPng, OtherChunksAreReadOrRefusedWithoutAWord) {
-  const std::string rgb = pixels(random_rows(kWidth, kHeight, 24));
+  const std::string rgb = pixels(random_rows(kPngWidth, kPngHeight, 24));
   for (const char* type : {"gAMA", "cHRM", "sRGB", "iCCP", "sBIT", "bKGD", "hIST", "pHYs", "sPLT",
                            "tIME", "tEXt", "zTXt", "iTXt", "oFFs", "pCAL", "sCAL", "eXIf", "abCd"})
     for (const std::size_t bytes : {0u, 1u, 4u, 9u, 32u}) {

@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "constants.h"
 #include "texture/image_files.h"
 
 namespace swell::texture {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // Waves along x, three to a picture, that go on by a quarter of a wave from frame to frame.
 std::vector<ImageF> waves(int size, int frames, double height) {

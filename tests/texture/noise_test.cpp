@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 #include "texture/improved_noise.h"
 #include "texture/lattice.h"
@@ -14,7 +15,6 @@
 namespace swell::texture {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr Interpolation kAll[] = {Interpolation::kLinear, Interpolation::kCosine,
                                   Interpolation::kCubic};
 
@@ -24,7 +24,7 @@ double random_in(double lo, double hi, std::uint64_t counter) {
 
 double reference_weight(Interpolation interpolation, double t) {
   if (interpolation == Interpolation::kLinear) return t;
-  if (interpolation == Interpolation::kCosine) return (1 - std::cos(kPi * t)) / 2;
+  if (interpolation == Interpolation::kCosine) return (1 - std::cos(kPiRef * t)) / 2;
   return 3 * t * t - 2 * t * t * t;
 }
 

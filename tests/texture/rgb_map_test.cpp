@@ -29,9 +29,9 @@ constexpr double kErrorAt256ths = 1.0 / 256.0;
 constexpr double kErrorInPlace = kErrorAt256ths + 2 * 0.5 / 256.0;
 // The unit is rounded to float, and 255 * 256 * 128 of it are 0.502; 128 / 255 and the result, in
 // [0.5, 1), each by up to 2^-25.
-constexpr double kRoundings = 0.502 * 0x1p-24 + 2 * 0x1p-25;
+constexpr double kRgbRoundings = 0.502 * 0x1p-24 + 2 * 0x1p-25;
 
-constexpr std::array kSizes = {1, 2, 4, 16, 64, 256};
+constexpr std::array kRgbSizes = {1, 2, 4, 16, 64, 256};
 
 struct Random {
   explicit Random(int size)
@@ -61,14 +61,14 @@ void expect_blend(const RgbaImage& image, double x, double y, double weight_erro
                         255.0;
     const double lowest = *std::min_element(taps, taps + 4) / 255.0;
     const double highest = *std::max_element(taps, taps + 4) / 255.0;
-    ASSERT_NEAR(values[c], want, weight_error * (highest - lowest) + kRoundings);
-    ASSERT_GE(values[c], lowest - kRoundings);
-    ASSERT_LE(values[c], highest + kRoundings);
+    ASSERT_NEAR(values[c], want, weight_error * (highest - lowest) + kRgbRoundings);
+    ASSERT_GE(values[c], lowest - kRgbRoundings);
+    ASSERT_LE(values[c], highest + kRgbRoundings);
   }
 }
 
 TEST(RgbWords, HoldTheirNeighbourhoodsAndRepeatTheEdges) {
-  for (const int size : kSizes) {
+  for (const int size : kRgbSizes) {
     const Random random(size);
     ASSERT_EQ(random.map.size, size);
     ASSERT_EQ(random.map.words.size(), static_cast<std::size_t>(size) * size);
@@ -100,7 +100,7 @@ TEST(RgbWords, OfFourTexelsAreTheseBytes) {
 }
 
 TEST_P(RgbSamples, BlendLikeDoubleArithmeticAndClamp) {
-  for (const int size : kSizes) {
+  for (const int size : kRgbSizes) {
     const Random random(size);
     const auto x = random_coordinates(size, 1), y = random_coordinates(size, 2);
     const auto samples = sample_rgb(random.map, x, y);
@@ -114,7 +114,7 @@ TEST_P(RgbSamples, BlendLikeDoubleArithmeticAndClamp) {
 }
 
 TEST_P(RgbSamples, AtTexelPositionsAreTheirTexels) {
-  for (const int size : kSizes) {
+  for (const int size : kRgbSizes) {
     const Random random(size);
     std::vector<float> x, y;
     for (int n = 0; n < size * size; ++n) {
@@ -124,9 +124,9 @@ TEST_P(RgbSamples, AtTexelPositionsAreTheirTexels) {
     const auto samples = sample_rgb(random.map, x, y);
     for (int n = 0; n < size * size; ++n) {
       const auto want = [&](int c) { return channel(random.image, n % size, n / size, c) / 255.0; };
-      ASSERT_NEAR(samples[n].r, want(0), kRoundings);
-      ASSERT_NEAR(samples[n].g, want(1), kRoundings);
-      ASSERT_NEAR(samples[n].b, want(2), kRoundings);
+      ASSERT_NEAR(samples[n].r, want(0), kRgbRoundings);
+      ASSERT_NEAR(samples[n].g, want(1), kRgbRoundings);
+      ASSERT_NEAR(samples[n].b, want(2), kRgbRoundings);
     }
   }
 }
@@ -143,9 +143,9 @@ TEST_P(RgbSamples, RiseMonotonicallyBetweenTexels) {
     x.push_back(static_cast<float>(n % 256)), y.push_back(static_cast<float>(n / 256));
   const auto samples = sample_rgb(map, x, y);
   for (int n = 0; n < 65536; ++n) {
-    ASSERT_NEAR(samples[n].r, n % 256 / 255.0, kRoundings);
-    ASSERT_NEAR(samples[n].g, n / 256 / 256.0, kRoundings);
-    ASSERT_NEAR(samples[n].b, 0.0, kRoundings);
+    ASSERT_NEAR(samples[n].r, n % 256 / 255.0, kRgbRoundings);
+    ASSERT_NEAR(samples[n].g, n / 256 / 256.0, kRgbRoundings);
+    ASSERT_NEAR(samples[n].b, 0.0, kRgbRoundings);
     ASSERT_TRUE(n % 256 == 0 || samples[n].r > samples[n - 1].r);
     ASSERT_TRUE(n < 256 || samples[n].g > samples[n - 256].g);
   }
@@ -159,7 +159,7 @@ TEST_P(RgbSamples, StayInTheirRange) {
     const float want = static_cast<float>(texel & 0xff) / 255.0f;
     for (const Sample3& s :
          sample_rgb(pack_rgb(image), random_coordinates(4, 3), random_coordinates(4, 4))) {
-      ASSERT_NEAR(s.r, want, kRoundings);
+      ASSERT_NEAR(s.r, want, kRgbRoundings);
       ASSERT_EQ(s.g, s.r);
       ASSERT_EQ(s.b, s.r);
       ASSERT_GE(s.r, 0.0f);
@@ -172,7 +172,7 @@ TEST_P(RgbSamples, StayInTheirRange) {
 TEST_P(RgbSamples, OfNoPlaceInTheMapAreOfItsEdges) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  for (const int size : kSizes) {
+  for (const int size : kRgbSizes) {
     const Random random(size);
     const float last = 256.0f * static_cast<float>(size - 1);
     const std::array<std::array<float, 2>, 9> clamped = {{{kNan, 0.0f},
@@ -205,7 +205,7 @@ TEST_P(RgbSamples, DependOnTheirOwnLanesAlone) {
 
 TEST(RgbSamplesTargets, GiveTheSameBits) {
   if (!simd_target_available(SimdTarget::kAvx512)) GTEST_SKIP() << "this CPU lacks AVX-512";
-  for (const int size : kSizes) {
+  for (const int size : kRgbSizes) {
     const Random random(size);
     const auto x = random_coordinates(size, 8), y = random_coordinates(size, 9);
     select_simd_target(SimdTarget::kAvx2);

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 #include "math/simd_target.h"
 
 namespace swell::texture {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Frame {
   std::vector<float> cos, sin;
@@ -50,7 +49,7 @@ double reference_angle(const UvNoiseOptions& options, int i, int j, double t) {
     total += std::pow(options.persistence, octave) * value;
     sum += std::pow(options.persistence, octave);
   }
-  return options.angle_turns * 2 * kPi * total / sum;
+  return options.angle_turns * 2 * kPiRef * total / sum;
 }
 
 TEST(UvNoise, IsTheCosineAndSineOfPerlinNoise) {
@@ -149,8 +148,8 @@ TEST(UnitVectors, WorkForEveryCount) {
     }
     write_unit_vectors(turns, cos, sin);
     for (std::size_t n = 0; n < count; ++n) {
-      ASSERT_NEAR(cos[n], std::cos(2 * kPi * turns[n]), 3e-7);
-      ASSERT_NEAR(sin[n], std::sin(2 * kPi * turns[n]), 3e-7);
+      ASSERT_NEAR(cos[n], std::cos(2 * kPiRef * turns[n]), 3e-7);
+      ASSERT_NEAR(sin[n], std::sin(2 * kPiRef * turns[n]), 3e-7);
     }
   }
 }

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr int kSamples = 5, kWidth = 96, kHeight = 54;
+constexpr int kSetSamples = 5, kSetWidth = 96, kSetHeight = 54;
 
 std::string recipe_text(const std::string& more = "") {
   return fmt::format(R"(
@@ -32,7 +32,7 @@ count = {}
 size_px = [{}, {}]
 {}
 )",
-                     kSamples, kWidth, kHeight, more) +
+                     kSetSamples, kSetWidth, kSetHeight, more) +
          R"(
 [range]
 t_s = [0, 100]
@@ -239,7 +239,7 @@ TEST_F(DamagedRecord, OfAnotherShapeIsOneClearLine) {
 }
 
 TEST_F(DamagedRecord, OfAnEarlierVersionIsSaidAndDrawnAgain) {
-  for (int n = 0; n < kSamples; ++n) {
+  for (int n = 0; n < kSetSamples; ++n) {
     const fs::path path = folder_.path() / "a" / fmt::format("records/{:06}.json", n);
     Json record = Json::parse(read_text(path));
     record.erase("hash");
@@ -405,22 +405,22 @@ TEST_F(SceneWithFiles, TriesThemBeforeTheFolderIsMade) {
 
 // A mask that is right by itself, from the PNG of ids.
 struct Mask {
-  int x0 = kWidth, y0 = kHeight, x1 = -1, y1 = -1, area = 0;
+  int x0 = kSetWidth, y0 = kSetHeight, x1 = -1, y1 = -1, area = 0;
 };
 
 TEST_F(DataSet, BoxesAndRunsAreThoseOfTheMasks) {
   write_text(recipe_, recipe_text("labels = \"depth,id\""));
   make("a");
   const Json coco = Json::parse(read_text(folder_.path() / "a/annotations.json"));
-  ASSERT_EQ(coco["images"].size(), static_cast<std::size_t>(kSamples));
+  ASSERT_EQ(coco["images"].size(), static_cast<std::size_t>(kSetSamples));
   int cut_off = 0, several_runs_a_column = 0;
-  for (int n = 0; n < kSamples; ++n) {
+  for (int n = 0; n < kSetSamples; ++n) {
     const auto image =
         texture::read_image(folder_.path() / "a" / fmt::format("instances/{:06}.png", n));
     const auto id_at = [&](int x, int y) { return std::lround(image.at(x, y, 0) * 65535.0f); };
     std::map<long, Mask> masks;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSetHeight; ++y)
+      for (int x = 0; x < kSetWidth; ++x) {
         Mask& m = masks[id_at(x, y)];
         m.x0 = std::min(m.x0, x);
         m.x1 = std::max(m.x1, x);
@@ -436,14 +436,14 @@ TEST_F(DataSet, BoxesAndRunsAreThoseOfTheMasks) {
       const Mask& m = masks[id];
       EXPECT_EQ(one["bbox"], Json({m.x0, m.y0, m.x1 - m.x0 + 1, m.y1 - m.y0 + 1}));
       EXPECT_EQ(one["area"], m.area);
-      cut_off += m.x0 == 0 || m.y0 == 0 || m.x1 == kWidth - 1 || m.y1 == kHeight - 1;
+      cut_off += m.x0 == 0 || m.y0 == 0 || m.x1 == kSetWidth - 1 || m.y1 == kSetHeight - 1;
       int place = 0, number = 0;
       for (const int run : one["segmentation"]["counts"].get<std::vector<int>>()) {
         for (int i = 0; i < run; ++i, ++place)
-          ASSERT_EQ(id_at(place / kHeight, place % kHeight) == id, number % 2 == 1);
+          ASSERT_EQ(id_at(place / kSetHeight, place % kSetHeight) == id, number % 2 == 1);
         ++number;
       }
-      EXPECT_EQ(place, kWidth * kHeight);
+      EXPECT_EQ(place, kSetWidth * kSetHeight);
       several_runs_a_column += number / 2 > m.x1 - m.x0 + 1;
       masks.erase(id);
     }

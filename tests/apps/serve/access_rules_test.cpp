@@ -8,12 +8,12 @@ namespace {
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
-AccessRules rules_of(const std::string& token) {
+AccessRules rules_with_token(const std::string& token) {
   return {{"localhost", "127.0.0.1", "::1", "192.168.0.7"}, {"sea.example"}, token, 8123};
 }
 
 int status_of(const std::string& target, Fields fields, const std::string& token = "0123") {
-  return judge({"GET", target, std::move(fields), {}}, rules_of(token)).status;
+  return judge({"GET", target, std::move(fields), {}}, rules_with_token(token)).status;
 }
 
 int host_status(const std::string& host) {
@@ -32,7 +32,8 @@ TEST(AccessRules, RefuseAnyOtherHostAndNameTheOption) {
         "[::1]x", "127.0.0.1:80x", "localhost.", "127.0.0.1:8123:1", "localhost:123456",
         "[127.0.0.1].evil.example", "localhost@evil.example"})
     EXPECT_EQ(host_status(host), 421) << host;
-  const Verdict verdict = judge({"GET", "/", {{"Host", "evil.example"}}, {}}, rules_of("0123"));
+  const Verdict verdict =
+      judge({"GET", "/", {{"Host", "evil.example"}}, {}}, rules_with_token("0123"));
   EXPECT_NE(verdict.line.find("--serve-host NAME"), std::string::npos);
   EXPECT_EQ(status_of("/", {}), 400);
   EXPECT_EQ(status_of("/", {{"Host", "localhost"}, {"Host", "evil.example"}}), 400);
@@ -56,7 +57,7 @@ TEST(AccessRules, RefuseAForeignOriginAndSayThatItIsForeign) {
          "/input",
          {{"Host", "127.0.0.1:8123"}, {"Origin", origin}, {"Authorization", "Bearer 0123"}},
          {}},
-        rules_of("0123"));
+        rules_with_token("0123"));
   };
   for (const char* origin : {"http://elsewhere.example", "null", "http://127.0.0.1:8124", "",
                              "http://localhost:8123", "file://127.0.0.1:8123"}) {

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <random>
 
+#include "constants.h"
 #include "math/elementary.h"
 
 namespace swell::view {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
 
 CameraPose at(double heading_rad, double pitch_rad, double height_m = 10.0) {
   return {{100.0, 200.0, height_m}, heading_rad, pitch_rad};
@@ -20,7 +19,7 @@ TEST(CameraControls, ForwardAtHeadingZeroGoesNorthAndAtAQuarterTurnEast) {
   const glm::dvec3 north = fly(at(0, 0), {.forward = true}, 0.05).eye_m - at(0, 0).eye_m;
   EXPECT_NEAR(north.x, 0.0, 1e-12);
   EXPECT_GT(north.y, 0.1);
-  const glm::dvec3 east = fly(at(kTwoPi / 4, 0), {.forward = true}, 0.05).eye_m - at(0, 0).eye_m;
+  const glm::dvec3 east = fly(at(kTurn / 4, 0), {.forward = true}, 0.05).eye_m - at(0, 0).eye_m;
   EXPECT_GT(east.x, 0.1);
   EXPECT_NEAR(east.y, 0.0, 1e-12);
 }
@@ -83,7 +82,7 @@ TEST(CameraControls, AnyMouseMotionKeepsTheAnglesInRange) {
   for (int i = 0; i < 2000; ++i) {
     pose = fly(pose, {.look_x_px = motion(random), .look_y_px = motion(random)}, 0.01);
     ASSERT_GE(pose.heading_rad, 0.0);
-    ASSERT_LT(pose.heading_rad, kTwoPi);
+    ASSERT_LT(pose.heading_rad, kTurn);
     ASSERT_LE(std::abs(pose.pitch_rad), kPitchLimit_rad);
   }
 }

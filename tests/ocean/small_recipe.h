@@ -1,0 +1,15 @@
+#pragma once
+
+#include "ocean/periodic_map.h"
+
+namespace swell::ocean {
+
+inline MapRecipe small_recipe() {
+  MapRecipe recipe;
+  recipe.size = 32;
+  recipe.frames = 64;
+  recipe.peak_waves = 2.0;
+  return recipe;
+}
+
+}  // namespace swell::ocean
