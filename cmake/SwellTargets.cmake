@@ -51,6 +51,15 @@ endif()
 set(swell_common_headers <algorithm> <array> <cmath> <cstdint> <functional> <memory> <optional> <span> <string> <string_view>
   <vector>)
 
+# With CMAKE_UNITY_BUILD, as the presets have it, a target's files are compiled eight at a time, in a half to a third of the
+# time: most of it goes into the headers of what they use. So names at the top of a file differ from those of its folder's
+# other files. Vector code has units of its own, as each SIMD target reads them anew.
+# swell_keep_apart(FILE...): leaves out vector code among the files, and what replaces operator new.
+function(swell_keep_apart)
+  list(FILTER ARGN INCLUDE REGEX "(_simd|/allocation_count)\\.cpp$")
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # swell_add_headers(NAME HEADERS ... [LINKS ...] [OPTIONS ...]): for targets compiled with the same options,
 # target_precompile_headers(TARGET REUSE_FROM NAME).
 file(WRITE ${CMAKE_BINARY_DIR}/empty.cpp "")
@@ -77,6 +86,7 @@ function(swell_add_folder folder)
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
   add_library(swell_${folder} STATIC ${ARG_SOURCES})
+  swell_keep_apart(${ARG_SOURCES})
   add_library(swell::${folder} ALIAS swell_${folder})
   set_target_properties(swell_${folder} PROPERTIES EXPORT_NAME ${folder}
     POSITION_INDEPENDENT_CODE ON)

@@ -36,8 +36,8 @@ if ! command -v clang-tidy-16 >/dev/null || ! command -v clang++-16 >/dev/null; 
   echo "note: nothing is checked, for want of clang-tidy-16"
   exit 0
 fi
-# Without GCC's precompiled header, which Clang cannot read.
-cmake --preset clang -B build/tidy -DSWELL_SIMD=avx2 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
+# Each file by itself, without GCC's precompiled header, which Clang cannot read.
+cmake --preset clang -B build/tidy -DSWELL_SIMD=avx2 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF >/dev/null
 
 # to_read FILES: sources that are compiled; headers as they are, but those of vector code and of tests in a source that
 # includes them.

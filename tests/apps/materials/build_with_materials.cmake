@@ -82,6 +82,13 @@ foreach(i RANGE ${last})
   file(RELATIVE_PATH file ${SOURCE} ${file})
   if(file IN_LIST readers)
     compile(${file} "${command}")
+  elseif(file MATCHES "/swell_render.dir/Unity/")  # several sources, most of which read it
+    get_filename_component(name ${file} NAME)
+    file(READ ${SOURCE}/${file} text)
+    string(REPLACE "\"${SOURCE}/render/" "\"${root}/render/" text "${text}")
+    file(WRITE ${root}/${name} "${text}")
+    string(REPLACE " ${SOURCE}/${file}" " ${root}/${name}" command "${command}")
+    compile(${name} "${command}")
   endif()
 endforeach()
 
