@@ -18,35 +18,28 @@ namespace swell::lod {
 namespace HWY_NAMESPACE {
 using namespace swell::HWY_NAMESPACE;  // lanes
 
-using F = hn::ScalableTag<float>;
-using I = hn::RebindToSigned<F>;
-
 // One axis, its origin at the eye or another point; no operand is ever NaN.
 struct Axis {
-  hn::Vec<I> floor;
-  hn::Vec<F> fraction;
+  VI floor;
+  V fraction;
 
-  HWY_INLINE hn::Vec<F> Relative(hn::Vec<I> lattice) const {
-    return hn::ConvertTo(F(), lattice - floor) - fraction;
-  }
+  HWY_INLINE V Relative(VI lattice) const { return hn::ConvertTo(D(), lattice - floor) - fraction; }
 };
 
 HWY_INLINE Axis MakeAxis(int floor, float fraction) {
-  return {hn::Set(I(), floor), hn::Set(F(), fraction)};
+  return {hn::Set(DI(), floor), hn::Set(D(), fraction)};
 }
 
 // Distance from 0 to [low, high].
-HWY_INLINE hn::Vec<F> DistanceTo(hn::Vec<F> low, hn::Vec<F> high) {
-  return Max(Max(low, -high), hn::Zero(F()));
-}
+HWY_INLINE V DistanceTo(V low, V high) { return Max(Max(low, -high), hn::Zero(D())); }
 
 // Subtrees' boxes on the lattice, cut to the domain.
 struct Boxes {
-  hn::Vec<I> x_low, x_high, y_low, y_high;
+  VI x_low, x_high, y_low, y_high;
 };
 
 struct Interval {
-  hn::Vec<F> low, high;
+  V low, high;
 };
 
 // The products of members of two intervals.
@@ -63,16 +56,16 @@ struct Relief {
 
 // The largest codes in the cells under the corners of each box; two words, as of ReliefCell.
 struct ReliefCodes {
-  hn::Vec<I> slope, height;
+  VI slope, height;
 };
 
-HWY_INLINE ReliefCodes CodesUnder(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
-  const I di;
+HWY_INLINE ReliefCodes CodesUnder(const PriorityFrame& frame, const Boxes& box, VI level) {
+  const DI di;
   const auto zero = hn::Zero(di), one = hn::Set(di, 1);
   const auto finest = hn::Set(di, frame.relief.levels - 1);
-  const auto q = Min(Max(hn::ShiftRight<1>(level + one) - hn::Set(di, 2), zero), finest);
-  const auto begin = hn::Set(di, 0x55555555) & (hn::Shl(one, q + q) - one);
-  const auto shift = hn::Set(di, frame.lattice_bits) - q;
+  const auto q = Min(Max(hn::ShiftRight<1>(level + one) - 2, zero), finest);
+  const auto begin = 0x55555555 & (hn::Shl(one, q + q) - one);
+  const auto shift = frame.lattice_bits - q;
   const auto west = hn::Shr(box.x_low, shift), east = hn::Shr(box.x_high - one, shift);
   const auto south = begin + hn::Shl(hn::Shr(box.y_low, shift), q);
   const auto north = begin + hn::Shl(hn::Shr(box.y_high - one, shift), q);
@@ -80,19 +73,19 @@ HWY_INLINE ReliefCodes CodesUnder(const PriorityFrame& frame, const Boxes& box, 
   static_assert(sizeof(ReliefCell) == 8);
   const auto* words = reinterpret_cast<const std::int32_t*>(frame.relief.cells.data());
   const auto largest = [&](auto codes_tag, int word) HWY_ATTR {
-    const auto at = [&](hn::Vec<I> row, hn::Vec<I> column) HWY_ATTR {
+    const auto at = [&](VI row, VI column) HWY_ATTR {
       const auto number = row + column;
       return hn::BitCast(codes_tag, hn::GatherIndex(di, words + word, number + number));
     };
     return hn::BitCast(
         di, Max(Max(at(south, west), at(south, east)), Max(at(north, west), at(north, east))));
   };
-  return {largest(hn::Repartition<std::int8_t, F>(), 0),
-          largest(hn::Repartition<std::int16_t, F>(), 1)};
+  return {largest(hn::Repartition<std::int8_t, D>(), 0),
+          largest(hn::Repartition<std::int16_t, D>(), 1)};
 }
 
-HWY_INLINE Relief ReliefIn(const PriorityFrame& frame, const Boxes& box, hn::Vec<I> level) {
-  const F d;
+HWY_INLINE Relief ReliefIn(const PriorityFrame& frame, const Boxes& box, VI level) {
+  const D d;
   const ReliefFrame& relief = frame.relief;
   const auto most = hn::Set(d, relief.max_slope);
   if (relief.cells.empty())
@@ -111,9 +104,8 @@ HWY_INLINE Relief ReliefIn(const PriorityFrame& frame, const Boxes& box, hn::Vec
 }
 
 // How much further away than it is a part with this relief counts, squared.
-HWY_INLINE hn::Vec<F> ReliefFactor(const ReliefFrame& frame, const Relief& relief, Interval x,
-                                   Interval y) {
-  const F d;
+HWY_INLINE V ReliefFactor(const ReliefFrame& frame, const Relief& relief, Interval x, Interval y) {
+  const D d;
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const Interval along_x = Product(relief.slope_x, x), along_y = Product(relief.slope_y, y);
   const auto facing_most = along_x.high + along_y.high - relief.z.low;
@@ -133,20 +125,19 @@ HWY_INLINE hn::Vec<F> ReliefFactor(const ReliefFrame& frame, const Relief& relie
 }
 
 // (1 + d / (8 D))^16
-HWY_INLINE hn::Vec<F> HazeFactor(hn::Vec<F> distance, float inv_haze) {
+HWY_INLINE V HazeFactor(V distance, float inv_haze) {
   const auto share = Min(distance * inv_haze, kMostHaze);
   const auto q = 1.0f + share;
   const auto q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
   return q8 * q8;
 }
 
-HWY_INLINE hn::Mask<F> TouchesAFocus(const FocusFrame& focus, const Boxes& box, hn::Vec<I> level) {
-  const F d;
-  const I di;
+HWY_INLINE M TouchesAFocus(const FocusFrame& focus, const Boxes& box, VI level) {
+  const D d;
+  const DI di;
   auto touches = hn::FirstN(d, 0);
-  const auto apart =
-      ((box.x_low > hn::Set(di, focus.high.x)) | (box.x_high < hn::Set(di, focus.low.x))) |
-      ((box.y_low > hn::Set(di, focus.high.y)) | (box.y_high < hn::Set(di, focus.low.y)));
+  const auto apart = ((box.x_low > focus.high.x) | (box.x_high < focus.low.x)) |
+                     ((box.y_low > focus.high.y) | (box.y_high < focus.low.y));
   if (hn::AllTrue(di, apart)) return touches;
   for (std::size_t i = 0; i < static_cast<std::size_t>(focus.count); ++i) {
     const Axis x = MakeAxis(focus.centre_floor[i].x, focus.centre_fraction[i].x);
@@ -155,28 +146,26 @@ HWY_INLINE hn::Mask<F> TouchesAFocus(const FocusFrame& focus, const Boxes& box, 
     const auto dy = DistanceTo(y.Relative(box.y_low), y.Relative(box.y_high));
     const auto distance2 = dx * dx + dy * dy;
     const auto inside = distance2 <= focus.radius2[i];
-    const auto narrow = hn::RebindMask(d, level > hn::Set(di, focus.last_level[i]));
+    const auto narrow = hn::RebindMask(d, level > focus.last_level[i]);
     touches = touches | hn::AndNot(narrow, inside);
   }
   return hn::AndNot(hn::RebindMask(d, apart), touches);
 }
 
-HWY_INLINE hn::Vec<F> PowerOfTwo(hn::Vec<I> exponent) {
-  return hn::BitCast(F(), hn::ShiftLeft<23>(exponent + hn::Set(I(), 127)));
-}
+HWY_INLINE V PowerOfTwo(VI exponent) { return hn::BitCast(D(), hn::ShiftLeft<23>(exponent + 127)); }
 
 // The keys of one vector of diamonds; priority_key in priority.cpp says the same in scalars.
 template <bool kWithFactors>
-HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const Axis& axis_y,
-                           hn::Vec<I> x, hn::Vec<I> y, hn::Vec<I> level) {
-  const F d;
-  const I di;
+HWY_INLINE VI Keys(const PriorityFrame& frame, const Axis& axis_x, const Axis& axis_y, VI x, VI y,
+                   VI level) {
+  const D d;
+  const DI di;
   const auto zero = hn::Zero(di), n = hn::Set(di, 1 << frame.lattice_bits);
 
   // The subtree's box, cut to the domain.
   const auto one = hn::Set(di, 1);
   const auto h = hn::Shr(n, hn::ShiftRight<1>(level) + one);
-  const auto half = h * (hn::Set(di, 3) - (level & one));
+  const auto half = h * (3 - (level & one));
   const Boxes box{Max(x - half, zero), Min(x + half, n), Max(y - half, zero), Min(y + half, n)};
   const auto x_low = axis_x.Relative(box.x_low), x_high = axis_x.Relative(box.x_high);
   const auto y_low = axis_y.Relative(box.y_low), y_high = axis_y.Relative(box.y_high);
@@ -209,8 +198,7 @@ HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const
     }
   }
   const auto distance2 = horizontal2 + distance2_z;
-  const auto inv_size2 =
-      Max(PowerOfTwo(level & hn::Set(di, frame.level_mask)), frame.least_inv_size2);
+  const auto inv_size2 = Max(PowerOfTwo(level & frame.level_mask), frame.least_inv_size2);
   const auto inv_curved2 = PowerOfTwo(level + level) * frame.curvature_inv_size2;
   auto key = distance2 * Min(inv_size2, inv_curved2);
   if constexpr (kWithFactors) {
@@ -227,9 +215,9 @@ HWY_INLINE hn::Vec<I> Keys(const PriorityFrame& frame, const Axis& axis_x, const
 template <bool kWithFactors>
 void ComputeAllKeys(const PriorityFrame& frame, std::size_t count, const std::int32_t* x,
                     const std::int32_t* y, const std::int32_t* level, PriorityKey* keys) {
-  const F d;
-  const I di;
-  const hn::RebindToUnsigned<F> du;
+  const D d;
+  const DI di;
+  const DU du;
   const Axis axis_x = MakeAxis(frame.eye_floor.x, frame.eye_fraction.x);
   const Axis axis_y = MakeAxis(frame.eye_floor.y, frame.eye_fraction.y);
   std::size_t i = 0;

@@ -62,10 +62,10 @@ HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
   c = MulAdd(c, f2, 1.0f);
   // Quarter turns: odd ones swap, 1 and 2 negate the cosine, 2 and 3 the sine.
   const auto q = hn::ConvertTo(di, quarter);
-  const auto odd = hn::MaskFromVec(hn::BitCast(d, -(q & hn::Set(di, 1))));
+  const auto odd = hn::MaskFromVec(hn::BitCast(d, -(q & 1)));
   const auto two = hn::Set(di, 2);
   const auto sin_sign = hn::ShiftLeft<30>(q & two);
-  const auto cos_sign = hn::ShiftLeft<30>((q + hn::Set(di, 1)) & two);
+  const auto cos_sign = hn::ShiftLeft<30>((q + 1) & two);
   sin_out = hn::Xor(IfThenElse(odd, c, s), hn::BitCast(d, sin_sign));
   cos_out = hn::Xor(IfThenElse(odd, s, c), hn::BitCast(d, cos_sign));
 }
@@ -88,7 +88,7 @@ HWY_INLINE V Exp2(D d, V x) {
   p = MulAdd(p, r, 0.240226507f);
   p = MulAdd(p, r, 0.693147182f);
   p = MulAdd(p, r, 1.0f);
-  const auto power = hn::ShiftLeft<23>(hn::ConvertTo(di, k) + hn::Set(di, 127));
+  const auto power = hn::ShiftLeft<23>(hn::ConvertTo(di, k) + 127);
   return p * hn::BitCast(d, power);
 }
 
@@ -106,7 +106,7 @@ HWY_INLINE V Log2(D d, V x) {
   const hn::RebindToSigned<D> di;
   const auto bits = hn::BitCast(di, x);
   // x = m 2^e with m in [sqrt(1/2), sqrt(2)).
-  const auto e = hn::ShiftRight<23>(bits - hn::Set(di, 0x3f3504f3));
+  const auto e = hn::ShiftRight<23>(bits - 0x3f3504f3);
   const V m = hn::BitCast(d, bits - hn::ShiftLeft<23>(e));
   const V one = hn::Set(d, 1.0f);
   const V s = (m - one) / (m + one);
@@ -125,7 +125,7 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2Coarse(D d, V x) {
   const hn::RebindToSigned<D> di;
   const auto bits = hn::BitCast(di, x);
-  const auto e = hn::ShiftRight<23>(bits - hn::Set(di, 0x3f3504f3));
+  const auto e = hn::ShiftRight<23>(bits - 0x3f3504f3);
   const V m = hn::BitCast(d, bits - hn::ShiftLeft<23>(e));
   // log2(1 + y) / y on y in [sqrt(1/2) - 1, sqrt(2) - 1], by weighted least squares.
   const V y = m - 1.0f;

@@ -171,6 +171,7 @@ HWY_INLINE V3 operator-(V3 a, V3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; 
 HWY_INLINE V3 operator*(V3 a, V3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 HWY_INLINE V3 operator*(V3 a, V s) { return {a.x * s, a.y * s, a.z * s}; }
 HWY_INLINE V3 operator*(V3 a, float s) { return a * Constant(s); }
+HWY_INLINE V3 operator-(V3 a) { return {-a.x, -a.y, -a.z}; }
 // a s + b
 HWY_INLINE V3 MulAdd(V3 a, V s, V3 b) {
   return {MulAdd(a.x, s, b.x), MulAdd(a.y, s, b.y), MulAdd(a.z, s, b.z)};

@@ -46,7 +46,7 @@ HWY_INLINE void AddTrain(const std::uint16_t* wave, std::int32_t time_fx16, Sum&
   const DI di;
   const hn::Rebind<std::uint16_t, D> d16;
   const auto theta = hn::PromoteTo(di, hn::LoadU(d16, wave));
-  const auto turns = (theta - hn::Set(di, time_fx16)) & hn::Set(di, 0xFFFF);
+  const auto turns = (theta - time_fx16) & 0xFFFF;
   const V u = hn::ConvertTo(d, turns) * (1.0f / 65536.0f);
   // The profile's derivative: that of cos(2 pi u) in deep water, of 8 (u - 1/2)^2 - 1 at the shore.
   V sine, cosine_unused;

@@ -62,10 +62,10 @@ struct TileOffset {
 template <class DI, class VI = hn::Vec<DI>>
 HWY_INLINE TileOffset<VI> OffsetOfTile(DI di, std::uint32_t seed, VI column, VI row, int samples) {
   const hn::RebindToUnsigned<DI> du;
-  const VI key = hn::ShiftLeft<16>(row) | (column & hn::Set(di, 0xffff));
+  const VI key = hn::ShiftLeft<16>(row) | (column & 0xffff);
   auto bits = hn::Xor(hn::BitCast(du, key), hn::Set(du, seed));
-  bits = hn::Xor(bits, hn::ShiftRight<16>(bits)) * hn::Set(du, 0x7feb352du);
-  bits = hn::Xor(bits, hn::ShiftRight<15>(bits)) * hn::Set(du, 0x846ca68bu);
+  bits = hn::Xor(bits, hn::ShiftRight<16>(bits)) * 0x7feb352du;
+  bits = hn::Xor(bits, hn::ShiftRight<15>(bits)) * 0x846ca68bu;
   bits = hn::Xor(bits, hn::ShiftRight<16>(bits));
   const VI mask = hn::Set(di, samples - 1);
   return {hn::BitCast(di, bits) & mask, hn::BitCast(di, hn::ShiftRight<16>(bits)) & mask};

@@ -138,7 +138,6 @@ template <bool kSlopes>
 HWY_INLINE Sampled TrainsPacket(const TrainSea& sea, const float* time_cycles,
                                 const glm::dvec2* p_world) {
   const D d;
-  const DI di;
   const DDouble dd;
   // Find the cell.
   const double* const p = &p_world->x;
@@ -148,10 +147,10 @@ HWY_INLINE Sampled TrainsPacket(const TrainSea& sea, const float* time_cycles,
   const double spacing_m = sea.grid.spacing_m;
   const AxisPlace x = FindAxis(x_low, x_high, sea.grid.min_world.x, spacing_m, sea.cells_x);
   const AxisPlace y = FindAxis(y_low, y_high, sea.grid.min_world.y, spacing_m, sea.cells_y);
-  const VI cell = y.cell * hn::Set(di, sea.cells_x) + x.cell;
+  const VI cell = y.cell * sea.cells_x + x.cell;
   // Add up the trains.
   const Sampled depth = SampleHeld(sea.depth.data(), hn::ShiftLeft<2>(cell), x, y);
-  const VI offset = cell * hn::Set(di, 8 * sea.trains);
+  const VI offset = cell * (8 * sea.trains);
   Sampled z{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   for (int i = 0; i < sea.trains; ++i) {
     const float* const wave = sea.waves.data() + 8 * i;

@@ -99,8 +99,8 @@ HWY_INLINE V PatchSample(const PatchFrame& patch, VI x_fx16, VI y_fx16) {
   const VI x0 = hn::ShiftRight<16>(x_fx16) & mask;
   const VI y0 = hn::ShiftRight<16>(y_fx16) & mask;
   const VI x1 = (x0 + one) & mask;
-  const VI row0 = y0 * hn::Set(di, patch.resolution);
-  const VI row1 = ((y0 + one) & mask) * hn::Set(di, patch.resolution);
+  const VI row0 = y0 * patch.resolution;
+  const VI row1 = ((y0 + one) & mask) * patch.resolution;
 
   const float* const samples = patch_samples(patch, kField);
   const V h00 = hn::GatherIndex(d, samples, row0 + x0);
@@ -205,11 +205,11 @@ HWY_INLINE FixedPlace FixedOffset(V offset_m, const PatchFrame& patch, OriginPla
   const V whole = Floor(patches);
   const float fixed_size = 65536.0f * static_cast<float>(patch.resolution);
   const VI fraction = hn::NearestInt((patches - whole) * fixed_size);
-  const VI sum = fraction + hn::Set(di, origin.fx16);
+  const VI sum = fraction + origin.fx16;
   const VI wraps = hn::ShiftRight<16>(
       hn::ShiftRightSame(sum, std::countr_zero(static_cast<unsigned>(patch.resolution))));
-  const VI period = hn::ConvertTo(di, whole) + wraps + hn::Set(di, origin.period);
-  const VI fx16 = sum & hn::Set(di, 65536 * patch.resolution - 1);
+  const VI period = hn::ConvertTo(di, whole) + wraps + origin.period;
+  const VI fx16 = sum & (65536 * patch.resolution - 1);
   return {fx16, period};
 }
 

@@ -27,13 +27,7 @@ using namespace swell::HWY_NAMESPACE;  // lanes
 // While samples are drawn, one without a triangle has this depth, so that depth 0 still wins.
 constexpr float kEmptyDepth = -1.0f;
 
-using FloatTag = hn::ScalableTag<float>;
-using IntTag = hn::RebindToSigned<FloatTag>;
-using FloatVec = hn::Vec<FloatTag>;
-using IntVec = hn::Vec<IntTag>;
-using FloatMask = hn::Mask<FloatTag>;
-
-constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(hn::MaxLanes(FloatTag()));
+constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(hn::MaxLanes(D()));
 static_assert(kLanes % kMaxSamples == 0, "a packet holds whole pixels");
 
 // The marked pixels of a tile and their samples. Lanes are the samples of one or more pixels that
@@ -74,18 +68,18 @@ HWY_INLINE bool CutToMarked(const SampleTarget& target, std::uint64_t columns, P
 
 // An edge at the samples of a rectangle's first pixel, and its steps of one pixel.
 struct LaneEdge {
-  IntVec first;
+  VI first;
   std::int32_t step_x, step_y;
 };
 
 // E itself, where the triangle is small enough for 32 bits.
 HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, const PixelRect& rect) {
-  const IntTag di;
-  const IntVec offset = hn::Set(di, edge.a) * hn::Load(di, target.x_fx8.data()) +
-                        hn::Set(di, edge.b) * hn::Load(di, target.y_fx8.data());
+  const DI di;
+  const VI offset =
+      edge.a * hn::Load(di, target.x_fx8.data()) + edge.b * hn::Load(di, target.y_fx8.data());
   const auto at_corner = static_cast<std::int32_t>(
       edge.at((target.box.x0_px + rect.x0) * kPixelFx8, (target.box.y0_px + rect.y0) * kPixelFx8));
-  return {hn::Set(di, at_corner) + offset, edge.a * kPixelFx8, edge.b * kPixelFx8};
+  return {at_corner + offset, edge.a * kPixelFx8, edge.b * kPixelFx8};
 }
 
 // A pixel's step in E is 256 a or 256 b exactly, and sample positions are multiples of 16 / 256 px,
@@ -93,13 +87,13 @@ HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, cons
 //   floor(E / 256) = e + a dx + b dy >= 0 with e = floor((E(corner) + a x_fx8 + b y_fx8) / 256),
 // which fits 32 bits with E(corner) / 16 taken apart into whole pixels and the rest.
 HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target) {
-  const IntTag di;
-  const IntVec x_step = hn::ShiftRight<4>(hn::Load(di, target.x_fx8.data()));
-  const IntVec y_step = hn::ShiftRight<4>(hn::Load(di, target.y_fx8.data()));
+  const DI di;
+  const VI x_step = hn::ShiftRight<4>(hn::Load(di, target.x_fx8.data()));
+  const VI y_step = hn::ShiftRight<4>(hn::Load(di, target.y_fx8.data()));
   const auto whole = static_cast<std::int32_t>(edge.at_corner >> kFractionBits);
   const auto rest = static_cast<std::int32_t>(edge.at_corner >> 4) & 15;
-  const IntVec offset = hn::Set(di, edge.a) * x_step + hn::Set(di, edge.b) * y_step;
-  return {hn::Set(di, whole) + hn::ShiftRight<4>(hn::Set(di, rest) + offset), edge.a, edge.b};
+  const VI offset = edge.a * x_step + edge.b * y_step;
+  return {whole + hn::ShiftRight<4>(rest + offset), edge.a, edge.b};
 }
 
 // Edges whose sign says on which side the rectangle's samples lie. False if all are outside of one.
@@ -116,21 +110,21 @@ HWY_INLINE bool SetUpEdges(const SetupTriangle& t, const SampleTarget& target,
 }
 
 // Depth test and store of one packet.
-HWY_INLINE void DrawPacket(FloatMask inside, FloatVec z, FloatVec primitive,
-                           float* HWY_RESTRICT depth, float* HWY_RESTRICT id) {
-  const FloatTag d;
-  const FloatVec old = hn::LoadU(d, depth);
-  const FloatMask wins = inside & (z > old);
+HWY_INLINE void DrawPacket(M inside, V z, V primitive, float* HWY_RESTRICT depth,
+                           float* HWY_RESTRICT id) {
+  const D d;
+  const V old = hn::LoadU(d, depth);
+  const M wins = inside & (z > old);
   hn::StoreU(IfThenElse(wins, z, old), d, depth);
   hn::StoreU(IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
 }
 
 template <int kSamples>
 HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& target) {
-  const FloatTag d;
-  const IntTag di;
-  const hn::RebindToUnsigned<FloatTag> du;
-  const hn::Rebind<std::uint8_t, FloatTag> d8;
+  const D d;
+  const DI di;
+  const DU du;
+  const hn::Rebind<std::uint8_t, D> d8;
 
   // Is there anything to do?
   PixelRect rect = sample_rect_in_tile(t, target.extent, target.box);
@@ -141,21 +135,21 @@ HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& targe
   if (!SetUpEdges(t, target, rect, edges)) return;
 
   // Offsets from the depth plane's reference, exact: multiples of 1/256 below 2^15.
-  const FloatVec to_px = hn::Set(d, 1.0f / kPixelFx8);
-  const IntVec x_fx8 = hn::Load(di, target.x_fx8.data()), y_fx8 = hn::Load(di, target.y_fx8.data());
+  const V to_px = hn::Set(d, 1.0f / kPixelFx8);
+  const VI x_fx8 = hn::Load(di, target.x_fx8.data()), y_fx8 = hn::Load(di, target.y_fx8.data());
   const std::int32_t corner_x = (target.box.x0_px + rect.x0) * kPixelFx8 - t.x_ref_fx8;
   const std::int32_t corner_y = (target.box.y0_px + rect.y0) * kPixelFx8 - t.y_ref_fx8;
-  const FloatVec dx = hn::ConvertTo(d, hn::Set(di, corner_x) + x_fx8) * to_px;
-  FloatVec dy = hn::ConvertTo(d, hn::Set(di, corner_y) + y_fx8) * to_px;
-  const FloatVec dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
-  const FloatVec z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
-  const FloatVec primitive = hn::BitCast(d, hn::Set(du, t.primitive));
+  const V dx = hn::ConvertTo(d, corner_x + x_fx8) * to_px;
+  V dy = hn::ConvertTo(d, corner_y + y_fx8) * to_px;
+  const V dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
+  const V z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
+  const V primitive = hn::BitCast(d, hn::Set(du, t.primitive));
   const auto lane = hn::Iota(du, 0);
-  const IntVec x0 = hn::Set(di, rect.x0);
-  const IntVec a0 = hn::Set(di, edges[0].step_x), b0 = hn::Set(di, edges[0].step_y);
-  const IntVec a1 = hn::Set(di, edges[1].step_x), b1 = hn::Set(di, edges[1].step_y);
-  const IntVec a2 = hn::Set(di, edges[2].step_x), b2 = hn::Set(di, edges[2].step_y);
-  IntVec e0 = edges[0].first, e1 = edges[1].first, e2 = edges[2].first;
+  const VI x0 = hn::Set(di, rect.x0);
+  const VI a0 = hn::Set(di, edges[0].step_x), b0 = hn::Set(di, edges[0].step_y);
+  const VI a1 = hn::Set(di, edges[1].step_x), b1 = hn::Set(di, edges[1].step_y);
+  const VI a2 = hn::Set(di, edges[2].step_x), b2 = hn::Set(di, edges[2].step_y);
+  VI e0 = edges[0].first, e1 = edges[1].first, e2 = edges[2].first;
 
   for (std::int32_t y = rect.y0; y <= rect.y1; ++y) {
     // The samples of the row's marked pixels in the rectangle lie side by side. A packet that would
@@ -166,15 +160,15 @@ HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& targe
     const std::uint32_t begin =
         (target.row_begin[y] + static_cast<std::uint32_t>(before)) * kSamples;
     const std::uint32_t count = static_cast<std::uint32_t>(inside) * kSamples;
-    const FloatVec z_row = MulAdd(dz_dy, dy, z_min);
+    const V z_row = MulAdd(dz_dy, dy, z_min);
     for (std::uint32_t n = 0; n < count; n += kLanes) {
       const auto at = std::min<std::uint32_t>(begin + n, target.samples - kLanes);
-      const auto in_row = lane + hn::Set(du, at - begin) < hn::Set(du, count);
-      const IntVec right = hn::PromoteTo(di, hn::LoadU(d8, target.column + at)) - x0;
-      const IntVec f0 = a0 * right + e0, f1 = a1 * right + e1;
-      const IntVec f2 = a2 * right + e2;
-      const auto covered = ((f0 | f1) | f2) > hn::Set(di, -1);
-      const FloatVec z = MulAdd(dz_dx, dx + hn::ConvertTo(d, right), z_row);
+      const auto in_row = lane + (at - begin) < count;
+      const VI right = hn::PromoteTo(di, hn::LoadU(d8, target.column + at)) - x0;
+      const VI f0 = a0 * right + e0, f1 = a1 * right + e1;
+      const VI f2 = a2 * right + e2;
+      const auto covered = ((f0 | f1) | f2) > -1;
+      const V z = MulAdd(dz_dx, dx + hn::ConvertTo(d, right), z_row);
       DrawPacket(hn::RebindMask(d, covered) & hn::RebindMask(d, in_row), Min(Max(z, z_min), z_max),
                  primitive, target.depth + at, reinterpret_cast<float*>(target.primitive) + at);
     }

@@ -20,12 +20,7 @@ namespace swell::raster {
 namespace HWY_NAMESPACE {
 using namespace swell::HWY_NAMESPACE;  // lanes
 
-using FloatTag = hn::ScalableTag<float>;
-using IntTag = hn::ScalableTag<std::int32_t>;
-using FloatVec = hn::Vec<FloatTag>;
-using IntVec = hn::Vec<IntTag>;
-
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 static_assert(kLanes <= 16, "a packet must fit the smallest tile");
 
 // While a tile is drawn, a pixel without a triangle has this depth, so that depth 0 still wins.
@@ -88,60 +83,57 @@ HWY_INLINE bool EdgesInRect(const SetupTriangle& t, const TileTarget& tile, cons
   return true;
 }
 
-HWY_INLINE FloatVec ToPixels(std::int32_t fx8) {
-  const FloatTag d;
+HWY_INLINE V ToPixels(std::int32_t fx8) {
+  const D d;
   return hn::Set(d, static_cast<float>(fx8) * (1.0f / kPixelFx8));
 }
 
 // Depth test and store of one packet, whose covered lanes are those where `edges` is not negative.
 // Whole stores: masked ones took 1.7 times the time on AVX2.
-HWY_INLINE void DrawPacket(IntVec edges, FloatVec z, FloatVec primitive, float* HWY_RESTRICT depth,
+HWY_INLINE void DrawPacket(VI edges, V z, V primitive, float* HWY_RESTRICT depth,
                            float* HWY_RESTRICT id) {
-  const FloatTag d;
-  const IntTag di;
-  const auto inside = hn::RebindMask(d, edges > hn::Set(di, -1));
-  const FloatVec old = hn::LoadU(d, depth);
+  const D d;
+  const auto inside = hn::RebindMask(d, edges > -1);
+  const V old = hn::LoadU(d, depth);
   const auto wins = inside & (z > old);
   hn::StoreU(IfThenElse(wins, z, old), d, depth);
   hn::StoreU(IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
 }
 
 HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
-  const FloatTag d;
-  const IntTag di;
+  const D d;
+  const DI di;
   const PacketRect rect = RectInTile(t, tile);
   TileEdges edges;
   if (rect.y0 > rect.y1 || !EdgesInRect(t, tile, rect, edges)) return;
 
   // Edges at the first packet's lanes.
-  const IntVec lane = hn::Iota(di, 0);
-  const auto first = [&](int i) {
-    return hn::Set(di, edges.e[i]) + hn::Set(di, edges.a[i]) * lane;
-  };
-  IntVec e0 = first(0), e1 = first(1), e2 = first(2);
-  const IntVec b0 = hn::Set(di, edges.b[0]), b1 = hn::Set(di, edges.b[1]);
-  const IntVec b2 = hn::Set(di, edges.b[2]);
+  const VI lane = hn::Iota(di, 0);
+  const auto first = [&](int i) { return hn::Set(di, edges.e[i]) + edges.a[i] * lane; };
+  VI e0 = first(0), e1 = first(1), e2 = first(2);
+  const VI b0 = hn::Set(di, edges.b[0]), b1 = hn::Set(di, edges.b[1]);
+  const VI b2 = hn::Set(di, edges.b[2]);
 
   // Offsets from the depth plane's reference, exact: multiples of 1/256 below 2^15.
   const std::int32_t px_fx8 = (tile.x0 + rect.x) * kPixelFx8 + kHalfPixelFx8;
   const std::int32_t py_fx8 = (tile.y0 + rect.y0) * kPixelFx8 + kHalfPixelFx8;
-  const FloatVec dx = ToPixels(px_fx8 - t.x_ref_fx8) + hn::Iota(d, 0.0f);
-  FloatVec dy = ToPixels(py_fx8 - t.y_ref_fx8);
-  const FloatVec dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
-  const FloatVec z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
-  const auto depth_at = [&](FloatVec x_offset, FloatVec z_row) {
+  const V dx = ToPixels(px_fx8 - t.x_ref_fx8) + hn::Iota(d, 0.0f);
+  V dy = ToPixels(py_fx8 - t.y_ref_fx8);
+  const V dz_dx = hn::Set(d, t.dz_dx), dz_dy = hn::Set(d, t.dz_dy);
+  const V z_min = hn::Set(d, t.z_min), z_max = hn::Set(d, t.z_max);
+  const auto depth_at = [&](V x_offset, V z_row) {
     return Min(Max(MulAdd(dz_dx, x_offset, z_row), z_min), z_max);
   };
 
-  const FloatVec primitive = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(t.primitive)));
+  const V primitive = hn::BitCast(d, hn::Set(di, static_cast<std::int32_t>(t.primitive)));
   float* HWY_RESTRICT depth = tile.depth + rect.y0 * tile.size + rect.x;
   float* HWY_RESTRICT id = reinterpret_cast<float*>(tile.primitive) + (depth - tile.depth);
   const std::int32_t rows = rect.y1 - rect.y0 + 1;
-  const FloatVec one = hn::Set(d, 1.0f);
+  const V one = hn::Set(d, 1.0f);
 
   if (rect.packets == 1) {
     for (std::int32_t row = 0; row < rows; ++row) {
-      const FloatVec z = depth_at(dx, MulAdd(dz_dy, dy, z_min));
+      const V z = depth_at(dx, MulAdd(dz_dy, dy, z_min));
       DrawPacket((e0 | e1) | e2, z, primitive, depth, id);
       e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
       dy = dy + one;
@@ -150,15 +142,15 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
     return;
   }
 
-  const IntVec a0 = hn::Set(di, edges.a[0] * kLanes), a1 = hn::Set(di, edges.a[1] * kLanes);
-  const IntVec a2 = hn::Set(di, edges.a[2] * kLanes);
-  const FloatVec packet_width = hn::Set(d, static_cast<float>(kLanes));
+  const VI a0 = hn::Set(di, edges.a[0] * kLanes), a1 = hn::Set(di, edges.a[1] * kLanes);
+  const VI a2 = hn::Set(di, edges.a[2] * kLanes);
+  const V packet_width = hn::Set(d, static_cast<float>(kLanes));
   for (std::int32_t row = 0; row < rows; ++row) {
-    const FloatVec z_row = MulAdd(dz_dy, dy, z_min);
-    IntVec f0 = e0, f1 = e1, f2 = e2;
-    FloatVec x_offset = dx;
+    const V z_row = MulAdd(dz_dy, dy, z_min);
+    VI f0 = e0, f1 = e1, f2 = e2;
+    V x_offset = dx;
     for (std::int32_t p = 0; p < rect.packets; ++p) {
-      const IntVec inside = (f0 | f1) | f2;
+      const VI inside = (f0 | f1) | f2;
       DrawPacket(inside, depth_at(x_offset, z_row), primitive, depth + p * kLanes, id + p * kLanes);
       f0 = f0 + a0, f1 = f1 + a1, f2 = f2 + a2;
       x_offset = x_offset + packet_width;
@@ -170,9 +162,9 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
 }
 
 void ClearTile(const TileTarget& tile) {
-  const FloatTag d;
+  const D d;
   const hn::ScalableTag<std::uint32_t> du;
-  const FloatVec empty = hn::Set(d, kEmptyDepth);
+  const V empty = hn::Set(d, kEmptyDepth);
   const auto none = hn::Set(du, kNoPrimitive);
   for (int i = 0; i < tile.size * tile.size; i += kLanes) {
     hn::StoreU(empty, d, tile.depth + i);
@@ -182,21 +174,21 @@ void ClearTile(const TileTarget& tile) {
 
 // Empties what lies right of the viewport, turns empty depths to 0 and counts the covered pixels.
 int FinishTile(const TileTarget& tile, Viewport viewport) {
-  const FloatTag d;
-  const IntTag di;
+  const D d;
+  const DI di;
   const hn::ScalableTag<std::uint32_t> du;
   const auto none = hn::Set(du, kNoPrimitive);
-  const IntVec columns = hn::Set(di, viewport.width_px - tile.x0);
-  const IntVec lane = hn::Iota(di, 0);
+  const VI columns = hn::Set(di, viewport.width_px - tile.x0);
+  const VI lane = hn::Iota(di, 0);
   std::size_t covered = 0;
   for (std::int32_t y = 0; y < tile.size; ++y) {
     for (std::int32_t x = 0; x < tile.size; x += kLanes) {
       const std::int32_t i = y * tile.size + x;
       const auto id = hn::LoadU(du, tile.primitive + i);
-      const auto visible = hn::RebindMask(du, lane < columns - hn::Set(di, x)) & (id != none);
+      const auto visible = hn::RebindMask(du, lane < columns - x) & (id != none);
       covered += hn::CountTrue(du, visible);
       hn::StoreU(IfThenElse(visible, id, none), du, tile.primitive + i);
-      const FloatVec depth = hn::LoadU(d, tile.depth + i);
+      const V depth = hn::LoadU(d, tile.depth + i);
       hn::StoreU(IfThenElseZero(hn::RebindMask(d, visible), depth), d, tile.depth + i);
     }
   }

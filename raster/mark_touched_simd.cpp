@@ -18,17 +18,14 @@ namespace swell::raster {
 namespace HWY_NAMESPACE {
 using namespace swell::HWY_NAMESPACE;  // lanes
 
-using IntTag = hn::ScalableTag<std::int32_t>;
-using IntVec = hn::Vec<IntTag>;
-
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(IntTag()));
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(DI()));
 static_assert(kLanes <= 16, "a packet's mask has at most 16 bits");
 
 // A bit for each lane that is not negative.
-HWY_INLINE std::uint64_t BitsNotNegative(IntVec v) {
-  const IntTag di;
+HWY_INLINE std::uint64_t BitsNotNegative(VI v) {
+  const DI di;
   std::uint16_t bits = 0;
-  hn::StoreMaskBits(di, v > hn::Set(di, -1), reinterpret_cast<std::uint8_t*>(&bits));
+  hn::StoreMaskBits(di, v > -1, reinterpret_cast<std::uint8_t*>(&bits));
   return bits;
 }
 
@@ -44,25 +41,25 @@ HWY_INLINE bool HasAll(const PixelMask& mask, const PixelRect& rect, std::uint64
 //   E(x, y) + reach >= 0  <=>  floor((E(first) + reach) / 256) + a dx + b dy >= 0.
 HWY_INLINE void MarkTriangle(const SetupTriangle& t, SampleExtent extent, const PixelBox& box,
                              PixelMask& mask) {
-  const IntTag di;
+  const DI di;
   const PixelRect rect = sample_rect_in_tile(t, extent, box);
   if (rect.empty()) return;
   const std::uint64_t columns = bits_between(rect.x0, rect.x1);
   std::array<SampleEdge, 3> edges;
   if (HasAll(mask, rect, columns) || !set_up_sample_edges(t, extent, box, rect, edges)) return;
 
-  const IntVec lane = hn::Iota(di, 0);
+  const VI lane = hn::Iota(di, 0);
   const auto first = [&](const SampleEdge& edge) {
     const auto e = static_cast<std::int32_t>((edge.at_corner + edge.reach) >> kFractionBits);
-    return hn::Set(di, e) + hn::Set(di, edge.a) * lane;
+    return hn::Set(di, e) + edge.a * lane;
   };
-  IntVec e0 = first(edges[0]), e1 = first(edges[1]), e2 = first(edges[2]);
-  const IntVec a0 = hn::Set(di, edges[0].a * kLanes), b0 = hn::Set(di, edges[0].b);
-  const IntVec a1 = hn::Set(di, edges[1].a * kLanes), b1 = hn::Set(di, edges[1].b);
-  const IntVec a2 = hn::Set(di, edges[2].a * kLanes), b2 = hn::Set(di, edges[2].b);
+  VI e0 = first(edges[0]), e1 = first(edges[1]), e2 = first(edges[2]);
+  const VI a0 = hn::Set(di, edges[0].a * kLanes), b0 = hn::Set(di, edges[0].b);
+  const VI a1 = hn::Set(di, edges[1].a * kLanes), b1 = hn::Set(di, edges[1].b);
+  const VI a2 = hn::Set(di, edges[2].a * kLanes), b2 = hn::Set(di, edges[2].b);
 
   for (std::int32_t y = rect.y0; y <= rect.y1; ++y) {
-    IntVec f0 = e0, f1 = e1, f2 = e2;
+    VI f0 = e0, f1 = e1, f2 = e2;
     std::uint64_t bits = 0;
     for (std::int32_t x = rect.x0; x <= rect.x1; x += kLanes) {
       bits |= BitsNotNegative((f0 | f1) | f2) << x;

@@ -21,31 +21,25 @@ namespace swell::raster {
 namespace HWY_NAMESPACE {
 using namespace swell::HWY_NAMESPACE;  // lanes
 
-using FloatTag = hn::ScalableTag<float>;
-using IntTag = hn::ScalableTag<std::int32_t>;
-using FloatVec = hn::Vec<FloatTag>;
-using IntVec = hn::Vec<IntTag>;
-
 // Flag where the mask holds, else 0.
 template <class Mask>
-HWY_INLINE IntVec FlagIf(Mask mask, std::uint32_t flag) {
-  const IntTag di;
+HWY_INLINE VI FlagIf(Mask mask, std::uint32_t flag) {
+  const DI di;
   return IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, static_cast<int>(flag)));
 }
 
 // Clip distances of one packet.
 struct User {
-  FloatVec first, second;
+  V first, second;
 };
 
 // The flags of one packet, before kNotFinite.
-HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, const User& user,
-                               FloatVec guard_x, FloatVec guard_y) {
-  const FloatTag d;
-  const FloatVec zero = hn::Zero(d);
+HWY_INLINE VI OutsideFlags(V x, V y, V z, V w, const User& user, V guard_x, V guard_y) {
+  const D d;
+  const V zero = hn::Zero(d);
   // Frustum and user planes.
-  const FloatVec minus_w = -w;
-  IntVec flags = FlagIf(x < minus_w, kOutsideLeft);
+  const V minus_w = -w;
+  VI flags = FlagIf(x < minus_w, kOutsideLeft);
   flags = flags | FlagIf(x > w, kOutsideRight);
   flags = flags | FlagIf(y > w, kOutsideTop);
   flags = flags | FlagIf(y < minus_w, kOutsideBottom);
@@ -63,42 +57,42 @@ HWY_INLINE IntVec OutsideFlags(FloatVec x, FloatVec y, FloatVec z, FloatVec w, c
 // One packet: lanes from p_clip (4 floats a vertex) and user to out.
 HWY_INLINE void ProjectPacket(const float* HWY_RESTRICT p_clip, const User& user, Viewport viewport,
                               std::int32_t* HWY_RESTRICT out) {
-  const FloatTag d;
-  const IntTag di;
-  FloatVec x, y, z, w;
+  const D d;
+  const DI di;
+  V x, y, z, w;
   hn::LoadInterleaved4(d, p_clip, x, y, z, w);
   const auto width = static_cast<float>(viewport.width_px);
   const auto height = static_cast<float>(viewport.height_px);
 
   // Flags.
-  const FloatVec guard_x = hn::Set(d, 2.0f * kGuardPx / width - 1.0f);
-  const FloatVec guard_y = hn::Set(d, 2.0f * kGuardPx / height - 1.0f);
+  const V guard_x = hn::Set(d, 2.0f * kGuardPx / width - 1.0f);
+  const V guard_y = hn::Set(d, 2.0f * kGuardPx / height - 1.0f);
   const auto finite = ((hn::IsFinite(x) & hn::IsFinite(y)) & (hn::IsFinite(z) & hn::IsFinite(w))) &
                       (hn::IsFinite(user.first) & hn::IsFinite(user.second));
-  const IntVec outside = OutsideFlags(x, y, z, w, user, guard_x, guard_y);
-  const IntVec flags =
+  const VI outside = OutsideFlags(x, y, z, w, user, guard_x, guard_y);
+  const VI flags =
       IfThenElse(hn::RebindMask(di, finite), outside, hn::Set(di, static_cast<int>(kNotFinite)));
 
   // Only vertices that need no clipping are divided; the others become the origin.
-  const IntVec unusable = flags & hn::Set(di, static_cast<int>(kClipFlags | kNotFinite));
+  const VI unusable = flags & static_cast<int>(kClipFlags | kNotFinite);
   const auto usable = hn::RebindMask(d, unusable == hn::Zero(di));
-  const FloatVec divisor = IfThenElse(usable, w, 1.0f);
-  const FloatVec x_ndc = IfThenElseZero(usable, x) / divisor;
-  const FloatVec y_ndc = IfThenElseZero(usable, y) / divisor;
-  const FloatVec depth = IfThenElseZero(usable, z) / divisor;
+  const V divisor = IfThenElse(usable, w, 1.0f);
+  const V x_ndc = IfThenElseZero(usable, x) / divisor;
+  const V y_ndc = IfThenElseZero(usable, y) / divisor;
+  const V depth = IfThenElseZero(usable, z) / divisor;
 
   // x_px = (x_ndc + 1) width / 2, y_px = (1 - y_ndc) height / 2, times 256, to nearest even.
-  const FloatVec half_x = hn::Set(d, 0.5f * kPixelFx8 * width);
-  const FloatVec half_y = hn::Set(d, 0.5f * kPixelFx8 * height);
-  const IntVec x_fx8 = hn::NearestInt(MulAdd(x_ndc, half_x, half_x));
-  const IntVec y_fx8 = hn::NearestInt(NegMulAdd(y_ndc, half_y, half_y));
+  const V half_x = hn::Set(d, 0.5f * kPixelFx8 * width);
+  const V half_y = hn::Set(d, 0.5f * kPixelFx8 * height);
+  const VI x_fx8 = hn::NearestInt(MulAdd(x_ndc, half_x, half_x));
+  const VI y_fx8 = hn::NearestInt(NegMulAdd(y_ndc, half_y, half_y));
   hn::StoreInterleaved4(x_fx8, y_fx8, hn::BitCast(di, depth), flags, di, out);
 }
 
 void ProjectVertices(std::span<const glm::vec4> p_clip, const ClipDistances& clip_distance,
                      Viewport viewport, std::span<WindowVertex> out) {
-  const FloatTag d;
-  constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+  const D d;
+  constexpr std::size_t kLanes = hn::MaxLanes(D());
   const auto user_at = [&](std::span<const float> distance, std::size_t at) HWY_ATTR {
     return distance.empty() ? hn::Zero(d) : hn::LoadU(d, &distance[at]);
   };

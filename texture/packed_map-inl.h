@@ -141,10 +141,10 @@ HWY_INLINE VI BilinearWeights(DI di, VI x_fx8, VI y_fx8) {
   const auto rows = hn::ShiftRight<8>(rounded);
   // The low byte of `rounded` is 128 - 256 e_i; 64 + 127 - byte / 2 is 256 (1 + e_i) / 2.
   const auto half_error = hn::AndNot(hn::ShiftRight<1>(rounded), hn::Set(d16, 127));
-  const auto bias = half_error + hn::Set(d16, 64);
+  const auto bias = half_error + 64;
   const auto right = hn::ShiftRight<8>(hn::MulHigh(height, fx) + bias);
   // (rows - right) + 256 right.
-  return hn::BitCast(di, rows + right * hn::Set(d16, 255));
+  return hn::BitCast(di, rows + right * 255);
 }
 
 // Weights of the left and right taps of both rows, as bytes 255 - f, f, 255 - f, f for the fraction
@@ -171,7 +171,7 @@ HWY_INLINE VI LowByteTwice(DI di, VI v) {
 // coordinates' low bytes.
 template <class DI, class VI = hn::Vec<DI>>
 HWY_INLINE VI WeightsAlongY(DI di, VI y_fx8) {
-  return hn::Xor(LowByteTwice(di, y_fx8), hn::Set(di, 0x000000ff)) + hn::Set(di, 1);
+  return hn::Xor(LowByteTwice(di, y_fx8), hn::Set(di, 0x000000ff)) + 1;
 }
 
 // The numbers of the words of texels (x, y); coordinates in 1/256 texels of each lane's level,
@@ -182,8 +182,8 @@ HWY_INLINE VI WordIndex(DI di, const Map& map, VI x_fx8, VI y_fx8, VI level) {
   const VI mask = hn::Shr(hn::Set(di, map.size - 1), level);
   const VI x = hn::ShiftRight<8>(x_fx8) & mask;
   const VI y = hn::ShiftRight<8>(y_fx8) & mask;
-  const VI row = y | (mask + hn::Set(di, 1));
-  return hn::Shl(row, hn::Set(di, map.levels - 1) - level) | x;
+  const VI row = y | (mask + 1);
+  return hn::Shl(row, (map.levels - 1) - level) | x;
 }
 
 // Where those words of `map` lie, in bytes.
@@ -240,7 +240,7 @@ HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI ba
 
   const auto part_coarse =
       hn::BitCast(d16, LowByteTwice(di, swell::HWY_NAMESPACE::RoundToInt(t * kWhole)));
-  const auto part_fine = hn::Set(d16, kWhole) - part_coarse;
+  const auto part_fine = kWhole - part_coarse;
   const auto weights_y = [&](VI coordinate, auto part) HWY_ATTR {
     return hn::BitCast(di, hn::BitCast(d16, WeightsAlongY(di, coordinate)) * part);
   };
@@ -332,7 +332,7 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> WindowCoordinateFx8(V x_px
   x = IfThenElseZero(x > 0.0f, x);  // false for NaN
   x = IfThenElse(x < last, x, last);
   const V rounded = MulAdd(x, 256.0f, 12582912.0f);
-  return hn::BitCast(di, rounded) & hn::Set(di, (1 << 22) - 1);
+  return hn::BitCast(di, rounded) & ((1 << 22) - 1);
 }
 
 // One half of a packet: the four channels of each lane, 16 bits each, in [0, 255 * 255].
@@ -349,7 +349,7 @@ HWY_INLINE VB BlendRows(D8 d8, VB row0, VB row1, VB weights0, VB weights1) {
   // The four weights add up to 255, so the sum of (tap - 128) is 255 * 128 too small.
   const auto sum =
       hn::BitCast(d16, DotPairs(weights0, taps0)) + hn::BitCast(d16, DotPairs(weights1, taps1));
-  return hn::BitCast(d8, sum + hn::Set(d16, 255 * 128));
+  return hn::BitCast(d8, sum + 255 * 128);
 }
 
 // The texels of an image from `begin` on, in rows of `stride`, blended at a place a lane.
@@ -371,7 +371,7 @@ HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, V
 
   // The weights of row 0 (low 16 bits) and row 1 (high 16 bits), each over a whole lane, then
   // widened to words: left, right for each of the four channels.
-  const auto low = weights & hn::Set(di, 0xffff);
+  const auto low = weights & 0xffff;
   const auto row0 = low | hn::ShiftLeft<16>(low);
   const auto high = hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, weights)));
   const auto row1 = high | hn::ShiftLeft<16>(high);
@@ -387,9 +387,8 @@ HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, V
   const auto rg = EvenParts(di, sums0, sums1);
   const auto ba = OddParts(di, sums0, sums1);
   const V unit = hn::Set(d, 1.0f / (255.0f * 255.0f));
-  const auto low_channel = [&](auto pair) HWY_ATTR {
-    return hn::ConvertTo(d, pair & hn::Set(di, 0xffff)) * unit;
-  };
+  const auto low_channel = [&](auto pair)
+                               HWY_ATTR { return hn::ConvertTo(d, pair & 0xffff) * unit; };
   const auto high_channel = [&](auto pair) HWY_ATTR {
     const auto shifted = hn::ShiftRight<16>(hn::BitCast(du, pair));
     return hn::ConvertTo(d, hn::BitCast(di, shifted)) * unit;

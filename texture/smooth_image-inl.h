@@ -28,13 +28,13 @@ HWY_INLINE void SampleSmooth(D d, const SmoothImage& image, V x, V y, V& r, V& g
   const auto column = Min(swell::HWY_NAMESPACE::TruncateToInt(x), hn::Set(di, image.width - 2));
   const auto row = Min(swell::HWY_NAMESPACE::TruncateToInt(y), hn::Set(di, image.height - 2));
   const V right = x - hn::ConvertTo(d, column), below = y - hn::ConvertTo(d, row);
-  const auto upper = row * hn::Set(di, image.width) + column;
-  const auto lower = upper + hn::Set(di, image.width);
+  const auto upper = row * image.width + column;
+  const auto lower = upper + image.width;
   const V scale = hn::Set(d, image.range / (65535.0f * 65535.0f));
 
   const auto along_row = [&](const std::int32_t* words, auto index) HWY_ATTR {
     const auto word = hn::GatherIndex(di, words, index);
-    const V left = hn::ConvertTo(d, word & hn::Set(di, 0xffff));
+    const V left = hn::ConvertTo(d, word & 0xffff);
     const hn::RebindToUnsigned<D> du;
     const auto high = hn::ShiftRight<16>(hn::BitCast(du, word));
     const V next = hn::ConvertTo(d, hn::BitCast(di, high));

@@ -73,9 +73,8 @@ struct LabelPacket {
 };
 
 HWY_INLINE M InRange(const PrimitiveRanges& ranges, SurfaceKind kind, VU primitive) {
-  const DU du;
   const std::uint32_t begin = ranges.begin(kind), size = ranges.end(kind) - begin;
-  return hn::RebindMask(D(), primitive - hn::Set(du, begin) < hn::Set(du, size));
+  return hn::RebindMask(D(), primitive - begin < size);
 }
 
 // What packets are made from. A copy, so that storing labels cannot be thought to change it.
@@ -118,7 +117,7 @@ HWY_INLINE V3 GatherAt(std::span<const glm::vec3> table, std::uint32_t first, co
                        const LabelPacket& p) {
   const D d;
   const DU du;
-  const VU number = IfThenElseZero(hn::RebindMask(du, where), p.primitive - hn::Set(du, first));
+  const VU number = IfThenElseZero(hn::RebindMask(du, where), p.primitive - first);
   // Neighbours often share a triangle, and gathers are slow.
   const std::uint32_t one = hn::GetLane(number);
   if (hn::AllTrue(du, number == hn::Set(du, one))) return Constant(table[one]);

@@ -74,7 +74,7 @@ struct FrameCloudField {
                    (hn::ConvertTo(di, y) & wrap);
     const VI at = hn::ShiftLeft<CloudVolume::kCellsLog2>(row) + (hn::ConvertTo(di, x) & wrap);
     const VI bytes = LoadWords(volume.empty, at).lower;
-    const V cells = hn::ConvertTo(D(), bytes & hn::Set(di, 0xff));
+    const V cells = hn::ConvertTo(D(), bytes & 0xff);
     // The faces of the box of empty cells that the ray leaves by.
     const V reach = cells - 1.0f;
     const auto leave = [&](V p, V cell, V m_per_voxel) HWY_ATTR {
@@ -122,7 +122,6 @@ struct FrameCloudField {
   // Sunlight as it is scattered on to the eye, over the irradiance.
   HWY_INLINE void Light(V t, V& sun, V& sky) const {
     const D d;
-    const DI di;
     const CloudVolume& volume = *clouds.volume;
     const V3 place = Place(t);
     constexpr int n = CloudVolume::kLightSideLog2;
@@ -130,7 +129,7 @@ struct FrameCloudField {
     const LatticePlace py = PlaceOnLattice(place.y * 0.5f);
     const LatticePlace pz =
         PlaceOnLattice(Clamp(place.z, 0.0f, static_cast<float>(volume.form.levels) - 1.001f));
-    const VI next_row = py.cell + hn::Set(di, 1);
+    const VI next_row = py.cell + 1;
     const WordHalves row0 = LoadWords(volume.light, EntryAt(px.cell, py.cell, pz.cell, n));
     const WordHalves row1 = LoadWords(volume.light, EntryAt(px.cell, next_row, pz.cell, n));
     const HalfWeights weights = WeightsOf(px.part, pz.part);

@@ -30,14 +30,14 @@ constexpr float kLeastPassing = 1.0f / 100.0f, kLittlePassing = 1.0f / 40.0f;
 HWY_INLINE V StepAt(V t, const CloudSteps& steps) {
   const DI di;
   const V ratio = t * (1.0f / steps.far_m);
-  const V power = hn::BitCast(D(), hn::BitCast(di, ratio) & hn::Set(di, 0x7f800000));
+  const V power = hn::BitCast(D(), hn::BitCast(di, ratio) & 0x7f800000);
   return Max(power, 1.0f) * steps.step_m;
 }
 
 // 1 / x of powers of two.
 HWY_INLINE V InverseOfPower(V x) {
   const DI di;
-  return hn::BitCast(D(), hn::Set(di, 0x7f000000) - hn::BitCast(di, x));
+  return hn::BitCast(D(), 0x7f000000 - hn::BitCast(di, x));
 }
 
 // x rounded down to whole steps, which are powers of two.

@@ -58,7 +58,7 @@ HWY_INLINE HalfWeights WeightsOf(V part_of_entries, V part_of_halves) {
   const DI di;
   const VI x = hn::ConvertTo(di, part_of_entries * 128.0f);
   const VI y = hn::ConvertTo(di, part_of_halves * 128.0f);
-  const VI both = hn::ShiftLeft<16>(y) + hn::Set(di, 128) - y;
+  const VI both = hn::ShiftLeft<16>(y) + 128 - y;
   return {hn::BitCast(Halves(), hn::ShiftLeft<16>(x) | x), hn::BitCast(Halves(), both)};
 }
 

@@ -48,7 +48,7 @@ HWY_INLINE void SampleBlurred(const texture::RgbaImage& image, V x, V y, const B
                                           alpha);
   // On the softest level, as a rule.
   if (hn::AllTrue(d, level.t == hn::Zero(d))) return;
-  const VI next = Min(level.base + hn::Set(DI(), 1), hn::Set(DI(), image.levels - 1));
+  const VI next = Min(level.base + 1, hn::Set(DI(), image.levels - 1));
   V3 softer;
   V softer_alpha;
   texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, next, softer.x, softer.y, softer.z,

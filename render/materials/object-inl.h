@@ -99,7 +99,7 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
     squares.Set(i, SquaresAlong(*primitive[i]));
   }
   // To the mesh's coordinates, the normal there, and back.
-  const V3 q_rel = packet.p + bottom.Load() * -1.0f;
+  const V3 q_rel = packet.p - bottom.Load();
   const V3 q = {Dot(q_rel, right.Load()), Dot(q_rel, ahead.Load()), Dot(q_rel, up.Load())};
   const auto to_world = [&](V3 n) HWY_ATTR {
     return MulAdd(right.Load(), n.x, MulAdd(ahead.Load(), n.y, up.Load() * n.z));
@@ -163,7 +163,7 @@ HWY_INLINE V3 Gloss(const Light& light, glm::vec3 sea_light, const ObjectSurface
   const auto mirrored = [&](V dielectric) HWY_ATTR {
     return Lerp(V3{dielectric, dielectric, dielectric}, s.albedo, s.metalness);
   };
-  V3 r = MulAdd(s.normal, cos_eye + cos_eye, to_eye * -1.0f);
+  V3 r = MulAdd(s.normal, cos_eye + cos_eye, -to_eye);
   // Rays that go down meet the sea, which is darker. Dull paint spreads what it mirrors: a line
   // between the two would be drawn on everything round.
   const V below = Clamp(MulAdd(r.z, -1.6f, 0.5f), 0.0f, 1.0f);

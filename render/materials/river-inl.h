@@ -91,7 +91,7 @@ HWY_INLINE RiverAt SampleRiver(const River& river, const Packet& packet) {
     return TruncateToInt(Clamp(cells * (1.0f / kCells), 0.0f, static_cast<float>(blocks) - 0.5f));
   };
   const VI bx = block_of(x, river.blocks_x), by = block_of(y, river.blocks_y);
-  const VI block = hn::GatherIndex(di, river.block_index, by * hn::Set(di, river.blocks_x) + bx);
+  const VI block = hn::GatherIndex(di, river.block_index, by * river.blocks_x + bx);
   const auto in_block = [&](V cells, VI b) HWY_ATTR {
     return Clamp(NegMulAdd(hn::ConvertTo(d, b), kCells, cells), 0.0f, kCells - 1.0f / 1024.0f);
   };
@@ -99,8 +99,8 @@ HWY_INLINE RiverAt SampleRiver(const River& river, const Packet& packet) {
   const VI i = TruncateToInt(u), j = TruncateToInt(v);
   const V s = u - hn::ConvertTo(d, i), t = v - hn::ConvertTo(d, j);
   // Beside the lattice any block will do: nothing of the river is drawn there.
-  const VI first = Max(block, hn::Zero(di)) * hn::Set(di, static_cast<int>(ocean::kInlandSamples));
-  const VI at = first + j * hn::Set(di, ocean::kInlandSide) + i;
+  const VI first = Max(block, hn::Zero(di)) * static_cast<int>(ocean::kInlandSamples);
+  const VI at = first + j * ocean::kInlandSide + i;
   std::array<V, 8> value;
   BlendSamples(river.samples, at, s, t, value);
   return {value[0], value[1], value[2], value[3], value[4], value[5], value[6]};

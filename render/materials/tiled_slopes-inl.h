@@ -32,7 +32,7 @@ HWY_INLINE tiles::SquarePlace<D> SquareOf(const SlopeLayer& layer, VI x_fx8, VI 
   const VI in_map = hn::Set(di, map_fx8 - 1);
   const V unit = Constant(1.0f / static_cast<float>(map_fx8));
   const auto period = [&](VI fx8, int at_eye)
-                          HWY_ATTR { return hn::ShiftRightSame(fx8, bits) + hn::Set(di, at_eye); };
+                          HWY_ATTR { return hn::ShiftRightSame(fx8, bits) + at_eye; };
   const auto inside = [&](VI fx8) HWY_ATTR { return hn::ConvertTo(d, fx8 & in_map) * unit; };
   return {period(x_fx8, layer.eye_column), period(y_fx8, layer.eye_row), inside(x_fx8),
           inside(y_fx8)};

@@ -149,7 +149,7 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   const V horizon = Constant(water.wave_horizon);
   const V r_z = MulSub(f.cos_eye + f.cos_eye, f.normal.z, packet.to_eye.z);
   const V sea = PartOfSeaMirrored(r_z - horizon, packet.to_eye.z + horizon, inv_variance);
-  V3 r = MulAdd(f.normal, f.cos_mirror + f.cos_mirror, packet.to_eye * -1.0f);
+  V3 r = MulAdd(f.normal, f.cos_mirror + f.cos_mirror, -packet.to_eye);
   // Outside its circle the map goes on as at the horizon.
   r.z = Max(r.z, -0.25f);
   const V length = Sqrt(Dot(r, r));

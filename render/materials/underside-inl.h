@@ -22,7 +22,7 @@ HWY_NOINLINE static void SampleUnderside(const Water& water, const ViewRays& ray
   PerPacket<Packet> turned;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     turned[k] = shown[k];
-    turned[k].to_eye = shown[k].to_eye * -1.0f;
+    turned[k].to_eye = -shown[k].to_eye;
   }
   const std::span<const Packet> packets(turned.data(), shown.size());
   if (water.knows_land())
@@ -221,7 +221,7 @@ struct UndersideShader {
     const auto lost = LostInWater(s.media, packet);
     const Surfel nothing = {{zero, zero, zero}, {zero, zero, one}};
     if (hn::AllTrue(d, lost)) return nothing;
-    const V3 ray = packet.to_eye * -1.0f;
+    const V3 ray = -packet.to_eye;
     const FromBelow f = LeaveWater(s.media, ray, slopes);
 
     // Most of the surface mirrors all light: the air is looked for where some comes through.

@@ -41,9 +41,9 @@ HWY_INLINE V32 GatherBytes(V64 half0, V64 half1) {
 HWY_INLINE V64 Blend(V64 a, V64 b, V64 weight_fx8) {
   const hn::Repartition<std::uint16_t, D64> d16;
   const auto weight = hn::BitCast(d16, weight_fx8);
-  const auto part_a = hn::BitCast(d16, a) * (hn::Set(d16, 256) - weight);
+  const auto part_a = hn::BitCast(d16, a) * (256 - weight);
   const auto part_b = hn::BitCast(d16, b) * weight;
-  const auto sum = part_a + part_b + hn::Set(d16, 128);
+  const auto sum = part_a + part_b + 128;
   return hn::BitCast(D64(), hn::ShiftRight<8>(sum));
 }
 

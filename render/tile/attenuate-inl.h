@@ -191,7 +191,7 @@ HWY_INLINE V3 Where(hn::Mask<D> mask, V3 yes, V3 no) {
   top.x_px = top.y_px = top.depth = hn::Zero(D());
   top.p = {p.x, p.y, MulAdd(r2, s.rays.drop_per_m2, p.z)};
   top.distance = path.before;
-  top.to_eye = direction * -1.0f;
+  top.to_eye = -direction;
   const V3 foggy = ThroughFog(SeeFog(fog, ray, path), light);
   return Where(meets, Haze(s, top, foggy), light);
 }
@@ -384,8 +384,7 @@ HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen,
     const V3 hazy = Haze(s, seen.packet, light);
     if (!s.media.fog.on) return hazy;
     const V height = seen.packet.p.z - s.media.eye_depth_m;
-    return FogFromSea(s, seen.packet.to_eye * -1.0f, seen.packet.distance, height, seen.packet.p,
-                      hazy);
+    return FogFromSea(s, -seen.packet.to_eye, seen.packet.distance, height, seen.packet.p, hazy);
   } else if (s.media.submerged) {
     return ThroughWater(s.media, glm::vec3(1.0f), seen.way, light);
   } else {
@@ -394,7 +393,7 @@ HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen,
     // Beyond the water, which is in fog of its own.
     const V height = (seen.packet.p.z - shown.p.z) * 0.5f;
     const V part = Clamp(height / Max(-shown.p.z, 1e-3f), 0.0f, 1.0f);
-    return FogFromSea(s, shown.to_eye * -1.0f, shown.distance * part, height, seen.packet.p, hazy);
+    return FogFromSea(s, -shown.to_eye, shown.distance * part, height, seen.packet.p, hazy);
   }
 }
 

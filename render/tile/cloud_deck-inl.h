@@ -34,7 +34,7 @@ HWY_INLINE Packet DeckPacket(const Shading& s, V3 direction, const CloudPlace& a
   Packet packet;
   packet.x_px = packet.y_px = packet.depth = hn::Zero(D());
   packet.distance = at.slant;
-  packet.to_eye = direction * -1.0f;
+  packet.to_eye = -direction;
   packet.p = {at.x, at.y, Constant(s.light.clouds.height_m)};
   return packet;
 }

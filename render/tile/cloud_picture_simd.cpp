@@ -24,7 +24,7 @@ HWY_INLINE Packet CloudPacket(const Shading& s, V3 direction, V distance) {
   packet.x_px = packet.y_px = packet.depth = hn::Zero(D());
   packet.distance = distance;
   packet.p = direction * distance;
-  packet.to_eye = direction * -1.0f;
+  packet.to_eye = -direction;
   const V horizontal2 = MulAdd(direction.x, direction.x, direction.y * direction.y);
   const V sunk = horizontal2 * distance * s.rays.drop_per_m2;
   packet.p.z = MulAdd(sunk, distance, packet.p.z);

@@ -66,8 +66,8 @@ struct PixelsInTile {
     const bool run = IsRun(i);
     if (!run)
       for (std::size_t lane = 0; lane < kLanes; ++lane) z[lane] = tile.depth[at[lane]];
-    return {Lanes{tile.primitive, at}, hn::ConvertTo(d, x + hn::Set(di, tile.box.x0_px)),
-            hn::ConvertTo(d, y + hn::Set(di, tile.box.y0_px)),
+    return {Lanes{tile.primitive, at}, hn::ConvertTo(d, x + tile.box.x0_px),
+            hn::ConvertTo(d, y + tile.box.y0_px),
             hn::LoadU(d, run ? tile.depth + at[0] : z.data())};
   }
 

@@ -28,7 +28,7 @@ HWY_INLINE V SunOverOne(const ObjectShadows& shadows, const SunDepth& map, const
   };
   const V x = place(shadows.right), y = place(shadows.up), depth = Dot(q, Constant(shadows.sun));
   const VI i = TruncateToInt(x), j = TruncateToInt(y);
-  const VI first = j * hn::Set(DI(), map.side) + i;
+  const VI first = j * map.side + i;
   const auto lit = [&](int offset) HWY_ATTR {
     const V nearest = hn::GatherIndex(d, map.depth_m.data() + offset, first);
     return IfThenElseZero(nearest <= depth, Constant(1.0f));

@@ -46,8 +46,7 @@ inline void PadToPackets(PixelList& list) {
 // Appends pixels `first` and the kLanes - 1 after it.
 HWY_INLINE void AppendPacket(PixelList& list, std::size_t first) {
   const hn::Rebind<std::uint16_t, D> d16;
-  hn::StoreU(hn::Iota(d16, 0) + hn::Set(d16, static_cast<std::uint16_t>(first)), d16,
-             list.at + list.count);
+  hn::StoreU(hn::Iota(d16, 0) + static_cast<std::uint16_t>(first), d16, list.at + list.count);
   list.count += kLanes;
 }
 

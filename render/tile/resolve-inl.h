@@ -71,7 +71,7 @@ HWY_INLINE VI ToPixel(V3 display, V x_px, V y_px) {
   const VI r = ToByte(display.x, dither), g = ToByte(display.y, dither);
   const VI b = ToByte(display.z, dither);
   return (r | hn::ShiftLeft<8>(g)) |
-         (hn::ShiftLeft<16>(b) | hn::Set(DI(), static_cast<std::int32_t>(0xff000000u)));
+         (hn::ShiftLeft<16>(b) | static_cast<std::int32_t>(0xff000000u));
 }
 
 // Writes linear light, three floats a pixel.

@@ -118,7 +118,7 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
       const V3 light = ReadLight(scratch, i);
       const VI r = EncodeLight(light.x), g = EncodeLight(light.y), b = EncodeLight(light.z);
       const VI rgb = (r | hn::ShiftLeft<8>(g)) | hn::ShiftLeft<16>(b);
-      const auto texel = hn::BitCast(du, rgb) | hn::Set(du, 0xff000000u);
+      const auto texel = hn::BitCast(du, rgb) | 0xff000000u;
       const auto drawn = hn::LoadU(du, primitive + i) != hn::Set(du, raster::kNoPrimitive);
       const auto result = IfThenElseZero(drawn, texel);
       if (x + kLanes <= width) {

@@ -162,15 +162,15 @@ HWY_INLINE V ShaftsBefore(const Shading& s, const raster::PixelBox& box,
   const V one = Constant(1.0f);
   if (!codes) return one;
   const int step_log2 = s.shafts.step_log2, columns = shaft_nodes_along(box.width_px, step_log2);
-  const VI x = RoundToInt(x_px) - hn::Set(di, box.x0_px);
-  const VI y = RoundToInt(y_px) - hn::Set(di, box.y0_px);
+  const VI x = RoundToInt(x_px) - box.x0_px;
+  const VI y = RoundToInt(y_px) - box.y0_px;
   const VI column = hn::ShiftRightSame(x, step_log2), row = hn::ShiftRightSame(y, step_log2);
   const auto between = [&](VI at) HWY_ATTR {
-    const VI rest = at & hn::Set(di, (1 << step_log2) - 1);
+    const VI rest = at & ((1 << step_log2) - 1);
     return hn::ConvertTo(d, rest) * (1.0f / static_cast<float>(1 << step_log2));
   };
   const V right = between(x), down = between(y);
-  const VI first = row * hn::Set(di, columns) + column;
+  const VI first = row * columns + column;
   const auto gather = [&](int offset)
                           HWY_ATTR { return hn::GatherIndex(di, codes + offset, first); };
   const VI at00 = gather(0), at10 = gather(1), at01 = gather(columns), at11 = gather(columns + 1);
@@ -179,9 +179,8 @@ HWY_INLINE V ShaftsBefore(const Shading& s, const raster::PixelBox& box,
     const V mean = Lerp(Lerp(of(at00), of(at10), right), Lerp(of(at01), of(at11), right), down);
     return MulAdd(mean, (1.0f + kMostShaft) / 65535.0f, -1.0f);
   };
-  const V near = shaft([&](VI code) HWY_ATTR { return code & hn::Set(di, 0xffff); });
-  const V beyond =
-      shaft([&](VI code) HWY_ATTR { return hn::ShiftRight<16>(code) & hn::Set(di, 0xffff); });
+  const V near = shaft([&](VI code) HWY_ATTR { return code & 0xffff; });
+  const V beyond = shaft([&](VI code) HWY_ATTR { return hn::ShiftRight<16>(code) & 0xffff; });
   const ShaftRay ray = FindShaftRay(s.shafts, up);
   // About the part that is scattered near the eye: t / (1 + q t) for (1 - e^(-q t)) / q.
   const V lost = Max(ray.lost_per_m, 0.0f), end = ray.reach * 0.25f;

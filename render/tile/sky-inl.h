@@ -127,9 +127,8 @@ HWY_INLINE V ToPixels(V nodes) {
   const D d;
   const DI di;
   const VI lane = hn::Iota(di, 0);
-  const VI left = hn::ShiftRight<kStepLog2>(lane), right = left + hn::Set(di, 1);
-  const V part =
-      hn::ConvertTo(d, lane & hn::Set(di, kStep - 1)) * (1.0f / static_cast<float>(kStep));
+  const VI left = hn::ShiftRight<kStepLog2>(lane), right = left + 1;
+  const V part = hn::ConvertTo(d, lane & (kStep - 1)) * (1.0f / static_cast<float>(kStep));
   return Lerp(hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, left)),
               hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, right)), part);
 }
@@ -234,9 +233,8 @@ inline void FindNoiseDown(const Clouds& clouds, int column, int rows, SkyNodes& 
   constexpr int kStride = static_cast<int>(SkyNodes::kStride);
   for (int first = 0; first < rows; first += static_cast<int>(kLanes)) {
     const VI row = Min(CountFrom(first), hn::Set(di, rows - 1));
-    const VI at = hn::ShiftRight<kStepLog2>(row) * hn::Set(di, kStride) + hn::Set(di, column);
-    const V below =
-        hn::ConvertTo(d, row & hn::Set(di, kStep - 1)) * (1.0f / static_cast<float>(kStep));
+    const VI at = hn::ShiftRight<kStepLog2>(row) * kStride + column;
+    const V below = hn::ConvertTo(d, row & (kStep - 1)) * (1.0f / static_cast<float>(kStep));
     const CloudNoise found = NoiseAt(clouds, nodes, [&](const float* upper) HWY_ATTR {
       return Lerp(hn::GatherIndex(d, upper, at), hn::GatherIndex(d, upper + kStride, at), below);
     });

@@ -28,9 +28,9 @@ HWY_INLINE VI HashCell(VI x) {
   const hn::RebindToUnsigned<DI> du;
   auto h = hn::BitCast(du, x);
   h = hn::Xor(h, hn::ShiftRight<16>(h));
-  h = h * hn::Set(du, 0x7feb352du);
+  h = h * 0x7feb352du;
   h = hn::Xor(h, hn::ShiftRight<15>(h));
-  h = h * hn::Set(du, 0x846ca68bu);
+  h = h * 0x846ca68bu;
   h = hn::Xor(h, hn::ShiftRight<16>(h));
   return hn::BitCast(di, h);
 }
@@ -38,8 +38,7 @@ HWY_INLINE VI HashCell(VI x) {
 // (0, 1] of 16 bits of a hash.
 template <int kShift>
 HWY_INLINE V PartOf(VI hash) {
-  const DI di;
-  const VI bits = hn::ShiftRight<kShift>(hash) & hn::Set(di, 0xffff);
+  const VI bits = hn::ShiftRight<kShift>(hash) & 0xffff;
   return (hn::ConvertTo(D(), bits) + 0.5f) * (1.0f / 65536.0f);
 }
 
@@ -70,7 +69,7 @@ static HWY_NOINLINE V3 StarLight(const Stars& stars, V3 world, V radius) {
   const V cell = MulAdd(MulAdd(face, 1.0f * kStarCells, j), 1.0f * kStarCells, i);
 
   // Where in the cell its star is.
-  const VI hash = HashCell(hn::ConvertTo(di, cell) + hn::Set(di, 1));
+  const VI hash = HashCell(hn::ConvertTo(di, cell) + 1);
   const VI more = HashCell(hn::Xor(hash, hn::Set(di, 0x5bd1e995)));
   const V inner = Constant(1.0f - 2.0f * kStarMargin), rim = Constant(kStarMargin);
   const auto on_face = [&](V column, V part) HWY_ATTR {

@@ -41,27 +41,24 @@ inline HWY_NOINLINE V SunOverLand(const SunShadow& shadow, const V3& p, float ey
 
   // Most points stand above all shadows around.
   constexpr int kBlock = LandShadow::kBlock_log2;
-  const VI block =
-      hn::ShiftRight<kBlock>(j) * hn::Set(di, land.blocks_along) + hn::ShiftRight<kBlock>(i);
+  const VI block = hn::ShiftRight<kBlock>(j) * land.blocks_along + hn::ShiftRight<kBlock>(i);
   const V z = p.z + eye_z;
   const auto low_enough = inside & (z < hn::GatherIndex(d, land.block_lit_above_m.data(), block));
   if (hn::AllFalse(d, low_enough)) return one;
 
   const V s = along - hn::ConvertTo(d, i), t = across - hn::ConvertTo(d, j);
-  const VI first = j * hn::Set(di, land.texels_along) + i;
+  const VI first = j * land.texels_along + i;
   const auto* const bounds = reinterpret_cast<const std::int32_t*>(land.bounds.data());
-  const auto gather = [&](int offset) HWY_ATTR {
-    return hn::GatherIndex(di, bounds, first + hn::Set(di, offset));
-  };
+  const auto gather = [&](int offset)
+                          HWY_ATTR { return hn::GatherIndex(di, bounds, first + offset); };
   const VI at00 = gather(0), at10 = gather(1);
   const VI at01 = gather(land.texels_along), at11 = gather(land.texels_along + 1);
   const auto between = [&](auto&& code) HWY_ATTR {
     const auto of = [&](VI word) HWY_ATTR { return hn::ConvertTo(d, code(word)); };
     return Lerp(Lerp(of(at00), of(at10), s), Lerp(of(at01), of(at11), s), t);
   };
-  const V dark_below = between([&](VI word) HWY_ATTR { return word & hn::Set(di, 0xffff); });
-  const V lit_above =
-      between([&](VI word) HWY_ATTR { return hn::ShiftRight<16>(word) & hn::Set(di, 0xffff); });
+  const V dark_below = between([&](VI word) HWY_ATTR { return word & 0xffff; });
+  const V lit_above = between([&](VI word) HWY_ATTR { return hn::ShiftRight<16>(word) & 0xffff; });
   const V height = (z - LandShadow::kLowest_m) * (1.0f / land.step_m);
   const V lit = (height - dark_below) / Max(lit_above - dark_below, one);
   return IfThenElse(low_enough, DiscPart(lit), one);

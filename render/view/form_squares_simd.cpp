@@ -98,7 +98,7 @@ std::uint64_t SquaresShowing(const PosedForm& form, const RayPart& part, const S
     if ((squares >> first & kPacket) == 0) continue;
     const hn::RebindToSigned<D> di;
     const auto number = hn::Iota(di, static_cast<int>(first));
-    const V i = hn::ConvertTo(d, number & hn::Set(di, kSquares - 1));
+    const V i = hn::ConvertTo(d, number & (kSquares - 1));
     const V j = hn::ConvertTo(d, hn::ShiftRight<3>(number));
     const auto at = [&](glm::vec3 base, glm::vec3 dx, glm::vec3 dy) HWY_ATTR {
       return MulAdd(Constant(dx), i, MulAdd(Constant(dy), j, Constant(base)));

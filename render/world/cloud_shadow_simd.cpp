@@ -44,7 +44,7 @@ HWY_INLINE V LightUnderVolume(const CloudShadowRow& in, V x, V y) {
   const V light = Lerp(Lerp(at(px.cell, py.cell), at(right, py.cell), px.part),
                        Lerp(at(px.cell, up), at(right, up), px.part), py.part);
   if (volume.repeats) return light;
-  const auto inside = [&](VI cell) HWY_ATTR { return (cell > hn::Set(di, -1)) & (cell < wrap); };
+  const auto inside = [&](VI cell) HWY_ATTR { return (cell > -1) & (cell < wrap); };
   const auto both = inside(px.cell) & inside(py.cell);
   return IfThenElse(hn::RebindMask(D(), both), light, 1.0f);
 }

@@ -33,7 +33,6 @@ HWY_INLINE VI CodeOf(V3 light) {
 
 // Lays what `volume` has at places of the map before `light`; texels: half of the map's.
 HWY_INLINE V3 AddVolume(const CloudSky& volume, V column, V row, V3 light) {
-  const DI di;
   constexpr float kPart = static_cast<float>(CloudSky::kSide) / kSoftSkySize;
   const auto place = [](V at) HWY_ATTR {
     return Clamp(MulAdd(at, kPart, -0.5f), 0.0f, CloudSky::kSide - 1.001f);
@@ -41,12 +40,11 @@ HWY_INLINE V3 AddVolume(const CloudSky& volume, V column, V row, V3 light) {
   const V x = place(column), y = place(row);
   const VI i = TruncateToInt(x), j = TruncateToInt(y);
   const V s = x - hn::ConvertTo(D(), i), t = y - hn::ConvertTo(D(), j);
-  const VI upper = j * hn::Set(di, CloudSky::kSide) + i;
+  const VI upper = j * CloudSky::kSide + i;
   const auto read = [&](std::size_t channel) HWY_ATTR {
     const float* const texels = volume.texels[channel].data();
-    const auto at = [&](int offset) HWY_ATTR {
-      return hn::GatherIndex(D(), texels, upper + hn::Set(di, offset));
-    };
+    const auto at = [&](int offset)
+                        HWY_ATTR { return hn::GatherIndex(D(), texels, upper + offset); };
     return Lerp(Lerp(at(0), at(1), s), Lerp(at(CloudSky::kSide), at(CloudSky::kSide + 1), s), t);
   };
   const V passes = 1.0f - read(CloudSky::kOpacity);
