@@ -19,7 +19,8 @@ namespace HWY_NAMESPACE {
 struct ComplexV {
   V re, im;
 };
-using swell::HWY_NAMESPACE::operator*;  // beside the next
+// Beside the next; clang-tidy does not see who uses it.
+using swell::HWY_NAMESPACE::operator*;  // NOLINT(misc-unused-using-decls)
 
 HWY_INLINE ComplexV operator*(ComplexV a, ComplexV b) {
   return {MulSub(a.re, b.re, a.im * b.im), MulAdd(a.re, b.im, a.im * b.re)};
