@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kSamplesAcross = 4.0;  // the narrowest river
 constexpr double kLeastSpacing_m = 1.0, kMostSpacing_m = 4.0;
-constexpr double kStandardGravity_mps2 = 9.81;
+constexpr double kEarthGravity_mps2 = 9.81;
 
 // Foam where water runs as fast as its waves (Froude's number), and where it falls.
 float whiteness(const WaterPlace& place, double speed_mps) {
   if (place.width_m == 0.0) return 0.0f;
-  const double froude = speed_mps / std::sqrt(kStandardGravity_mps2 * 0.66 * place.depth_m);
+  const double froude = speed_mps / std::sqrt(kEarthGravity_mps2 * 0.66 * place.depth_m);
   const double fast = smoothstep(0.35, 1.0, froude), steep = smoothstep(0.02, 0.08, place.fall);
   return static_cast<float>(std::max(fast, steep) * (1.0 - place.sea_share));
 }

@@ -14,7 +14,7 @@ constexpr int kSize = 64;
 constexpr double kStep_m = 1200.0 / kSize;  // between the map's points
 constexpr glm::dvec2 kCorner{-600.0, -300.0};
 
-// A straight_beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
+// A beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
 terrain::HeightGrid straight_beach() {
   const terrain::Grid grid{kCorner, 10.0, 121, 121};
   return terrain::make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
@@ -46,7 +46,7 @@ Baked bake(const CoastSea& coast, double t_s, int threads = 2) {
 
 glm::dvec2 point(int i, int j) { return kCorner + kStep_m * glm::dvec2(i, j); }
 
-// In the middle of the straight_beach, where waves are some grid steps long.
+// In the middle of the beach, where waves are some grid steps long.
 TEST(CoastMap, SlopesAreTheHeightsDerivative) {
   const CoastSea coast = coast_with_trains(12.0, 4);
   const Baked baked = bake(coast, 3.0);
