@@ -371,8 +371,9 @@ std::string read_text(const fs::path& path) {
   if (!fs::exists(status))
     refuse_file(path, fmt::format("scene file, got '{}', {}", error.message(), allowed));
   if (!fs::is_regular_file(status))
-    refuse_file(path, fmt::format("scene file, got a {}, {}",
-                           fs::is_directory(status) ? "directory" : "special file", allowed));
+    refuse_file(path,
+                fmt::format("scene file, got a {}, {}",
+                            fs::is_directory(status) ? "directory" : "special file", allowed));
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse_file(path, "scene file, got one that cannot be opened, " + allowed);
   std::string text(kMaxFileBytes + 1, '\0');
