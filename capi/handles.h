@@ -28,7 +28,7 @@ struct NamedWorld {
   std::vector<std::uint32_t> object_classes;
 };
 
-// Of one time; empty: none yet.
+// A frame is kept with its time; t_s empty: there is none yet.
 template <class Frame>
 struct AtTime {
   std::optional<double> t_s;
@@ -61,7 +61,7 @@ struct swell_session {
 struct swell_picture {
   swell::render::Target target;
   std::optional<swell::View> view;  // none: nothing has been drawn
-  // Of the labels that follow from the depth, when they are asked for.
+  // These labels follow from the depth, when they are asked for.
   std::vector<float> distance_m;
   std::vector<glm::dvec3> position;
   std::atomic_flag busy{};

@@ -32,8 +32,8 @@ struct Envelopes {
 // Fits envelopes to this frame's heights, one a vertex, all finite. 6 ns a triangle.
 void build_envelopes(const Mesh& mesh, std::span<const float> height_m, Envelopes& envelopes);
 
-// The same from bounds of the height, so before there are heights: what is out of sight then needs
-// none. They stay true as long as the mesh does not change. `lattice_bits` of the mesh's domain.
+// Fits envelopes to bounds of the height, so before there are heights: what is out of sight then
+// needs none. They stay true as long as the mesh does not change. lattice_bits: of its domain.
 void build_envelopes(const Mesh& mesh, int lattice_bits, const HeightPyramid& bounds,
                      Envelopes& envelopes);
 

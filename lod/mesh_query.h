@@ -53,7 +53,8 @@ struct RayHit {
 RayHit intersect_ray(const HeightMesh& surface, glm::dvec3 origin_world, glm::dvec3 direction,
                      double max_distance_m);
 
-// The same by testing every triangle: for meshes of no bintree, whose envelopes are not looked at.
+// Finds the triangle of intersect_ray() by testing every one: for meshes of no bintree, whose
+// envelopes are not looked at.
 RayHit intersect_ray_in_all(const HeightMesh& surface, glm::dvec3 origin_world,
                             glm::dvec3 direction, double max_distance_m);
 

@@ -22,7 +22,7 @@ struct Interval {
   float low, high;
 };
 
-// The same relative to a point.
+// Returns the interval relative to a point, which is given as its floor and the rest.
 Interval relative(LatticeInterval i, int point_floor, float point_fraction) {
   return {static_cast<float>(i.low - point_floor) - point_fraction,
           static_cast<float>(i.high - point_floor) - point_fraction};

@@ -114,7 +114,7 @@ double distance_of_largest(const PriorityFrame& frame, PriorityKey key);
 // The key of the diamond centred at lattice point (x, y).
 PriorityKey priority_key(const PriorityFrame& frame, int x, int y, int level);
 
-// The same for many, bit for bit; all spans of one size. SIMD.
+// Computes priority_key() of many diamonds, bit for bit; all spans have one size. SIMD.
 void compute_priority_keys(const PriorityFrame& frame, std::span<const std::int32_t> x,
                            std::span<const std::int32_t> y, std::span<const std::int32_t> level,
                            std::span<PriorityKey> keys);

@@ -111,7 +111,7 @@ struct GridWriter {
     }
   }
 
-  // The same for all columns.
+  // Writes the levels of a column's triangles, which are the same in all columns.
   void write_column_levels(std::uint8_t* out) const {
     const auto halvings = [&](double r_m) {
       return std::bit_width(static_cast<unsigned>(layout.last_m / r_m)) - 1;

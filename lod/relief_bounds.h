@@ -23,8 +23,8 @@ struct ReliefCell {
 
 class ReliefBounds {
  public:
-  // Of samples x samples (>= 2) heights, spacing_m > 0 apart, row j northwards, that span the whole
-  // domain: of the bilinear surface through them. 12 MB at most.
+  // Bounds the bilinear surface through samples x samples (>= 2) heights, spacing_m > 0 apart, row
+  // j northwards, that span the whole domain. Takes 12 MB at most.
   ReliefBounds(std::span<const float> height_m, int samples, double spacing_m);
 
   // Cell (i, j) of level q is number relief_level_begin(q) + (j << q) + i.

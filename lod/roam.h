@@ -72,8 +72,9 @@ class Roam {
   // scratch in the tree: not two calls at a time on one Roam.
   void extract_mesh(Mesh& mesh) const;
 
-  // The same, but only if the triangulation has changed in its domain since `revision` was set by
-  // the call that wrote `mesh`. 0: write it; after another Roam, or something else, wrote the mesh.
+  // Writes the mesh only if the triangulation has changed in its domain since `revision` was set by
+  // the call that wrote `mesh`. 0: it writes; set this after another Roam, or something else, wrote
+  // the mesh.
   void update_mesh(Mesh& mesh, std::uint64_t& revision) const;
 
   struct Tree;

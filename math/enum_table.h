@@ -32,7 +32,7 @@ consteval std::size_t count_enumerators() {
     return kFirst;
 }
 
-// Of an enumeration whose values are 0, 1, 2 and so on.
+// kEnumerators counts the enumerators of an enumeration whose values are 0, 1, 2 and so on.
 template <class Enum>
 inline constexpr std::size_t kEnumerators = count_enumerators<Enum>();
 

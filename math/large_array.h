@@ -23,14 +23,14 @@ void reserve_large(std::vector<T>& array, std::size_t count) {
   advise_huge_pages(array.data(), array.capacity() * sizeof(T));
 }
 
-// The same for so many elements: as resize().
+// Resizes the array to `count` elements, with room as reserve_large() makes it.
 template <class T>
 void resize_large(std::vector<T>& array, std::size_t count) {
   reserve_large(array, count);
   array.resize(count);
 }
 
-// An array of so many elements, each T().
+// Makes such an array of `count` elements, each T().
 template <class T>
 std::vector<T> make_large(std::size_t count) {
   std::vector<T> array;

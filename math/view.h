@@ -81,7 +81,7 @@ Lens lens_of_intrinsics(const Intrinsics& k, int width_px, int height_px);
 View make_view(glm::dvec3 eye_world, const glm::dmat3& world_from_camera, const Lens& lens,
                float near_m, int width_px, int height_px);
 
-// The same from a pose of the optical frame and K.
+// Builds a view from a pose of the optical frame and K, else as above.
 View make_view(glm::dvec3 eye_world, const glm::dquat& world_from_optical, const Intrinsics& k,
                float near_m, int width_px, int height_px);
 

@@ -44,7 +44,7 @@ void bound_memory(const rlimit& bound) { setrlimit(RLIMIT_DATA, &bound); }
 
 bool end_with_parent(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Of a parent that ended before the call no signal comes: it has another process as parent now.
+  // No signal comes for a parent that ended before the call: this process has another parent then.
   return getppid() == parent;
 }
 

@@ -8,7 +8,8 @@
 
 namespace swell::mesh_import {
 
-// Of its own memory (RLIMIT_DATA): libraries' code and files that are mapped do not count.
+// These bound the process's own memory (RLIMIT_DATA) [bytes]: libraries' code and files that are
+// mapped do not count. kMostMemory bounds all its addresses (RLIMIT_AS), too.
 inline constexpr std::uint64_t kLeastMemory = 256ull << 20;
 inline constexpr std::uint64_t kMostMemory = 6ull << 30;
 inline constexpr std::uint64_t kMemoryPerInput = 64;  // of what is read (asset_file.h)

@@ -45,7 +45,7 @@ inline float spectrum_weight(float share) {
 CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind, int train_count,
                         std::uint64_t seed, PhaseMethod method, bool blend, Workers& workers);
 
-// The same with trains of the caller's own. `wind` says where the spectrum ends; kept: as of
+// Makes such a sea of the caller's own trains. `wind` says where the spectrum ends; kept: as of
 // make_train_sea().
 CoastSea make_coast_sea(const terrain::HeightGrid& floor, const WaveSystem& wind,
                         std::span<const WaveTrain> trains, PhaseMethod method, bool blend,

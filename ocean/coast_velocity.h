@@ -22,8 +22,8 @@ namespace swell::ocean {
 void sample_train_velocities(const TrainSea& sea, double t_s, std::span<const glm::dvec2> p_world,
                              std::span<glm::vec3> velocity_mps);
 
-// The same times the trains' share of the surface: the part that sample_coast()'s heights move by.
-// Points without a share cost nothing more.
+// Gives these velocities times the trains' share of the surface: the part that sample_coast()'s
+// heights move by. Points without a share cost nothing more.
 void sample_coast_velocities(const CoastSea& coast, double t_s, std::span<const glm::dvec2> p_world,
                              std::span<glm::vec3> velocity_mps);
 

@@ -33,7 +33,8 @@ struct LandMask {
 
   terrain::Grid grid;
   std::vector<std::uint8_t> land;  // 1: above the sea
-  // Of a square and its eight neighbours, row after row, and one square beyond each side.
+  // `around` tells of a square and its eight neighbours, row after row, with one square beyond each
+  // side.
   int squares_across = 0, squares_along = 0;
   std::vector<Around> around;
 };

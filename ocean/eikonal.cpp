@@ -318,13 +318,13 @@ void solve_eikonal(const EikonalProblem& problem, std::vector<double>& theta) {
   SWELL_CHECK(problem.slowness.size() == grid.size() && problem.source.size() == grid.size(),
               "samples={} slowness={} source={}", grid.size(), problem.slowness.size(),
               problem.source.size());
-  // First arrivals.
+  // `arrival` gets the first arrivals.
   RimmedGrid arrival(grid, problem.source);
   for (int j = 0; j < grid.samples_y; ++j)
     for (int i = 0; i < grid.samples_x; ++i)
       if (problem.slowness[grid.index(i, j)] == 0.0) *arrival.at(i, j) = kInfinity<double>;
   sweep_until_converged(problem, arrival);
-  // The same again in that order, with finer differences.
+  // theta is solved for again in the order of these, with finer differences.
   theta.resize(grid.size());
   for (int j = 0; j < grid.samples_y; ++j) {
     for (int i = 0; i < grid.samples_x; ++i) {

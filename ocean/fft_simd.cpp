@@ -16,7 +16,7 @@ namespace swell::ocean {
 namespace HWY_NAMESPACE {
 using namespace swell::HWY_NAMESPACE;  // lanes
 
-// Of a batch, whose row is two vectors of 8 lanes or one of 16.
+// BatchRows points into a batch, whose row is two vectors of 8 lanes or one of 16.
 struct BatchRows {
   float* re;
   float* im;

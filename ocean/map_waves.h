@@ -22,7 +22,7 @@ struct MapWaves {
   double variance_m2 = 0.0, slope_variance = 0.0;
 
   double peak_m() const { return metres * map->peak; }
-  // Of waves of root mean square slope and height.
+  // Returns the wave number of a wave with the map's root mean square slope and height.
   double wave_number_rad_m() const { return map->mean_wave_number() / length_m; }
 };
 
@@ -38,8 +38,9 @@ std::size_t count_map_layers(const SeaDescription& sea);
 void sample_maps(std::span<const MapWaves> waves, double t_s, std::span<PatchFrame> patches,
                  Workers& workers);
 
-// The same of the water's velocity at the surface: the rate of the heights, and along x and y that
-// of waves of deep water with this rate, i k / |k| times it. `storage` is working storage.
+// Fills height_m of the patches x, y and z with the water's velocity at the surface at t_s [m/s]:
+// z with the rate of the heights, x and y with the velocity of waves of deep water with this rate,
+// i k / |k| times it. `storage` is working storage.
 void sample_map_velocities(const MapWaves& waves, double t_s, PatchFrame& x, PatchFrame& y,
                            PatchFrame& z, std::vector<float>& storage, Workers& workers);
 

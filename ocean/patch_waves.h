@@ -71,7 +71,7 @@ bool fill_slopes(const PatchWaves& waves, const FftPlan& plan, double t_s, int c
 bool fill_displacements(const PatchWaves& waves, const FftPlan& plan, double t_s, int column0,
                         float* re, float* im);
 
-// The same of the water's velocity at the surface, by linear theory of deep water. With the rate
+// Write the water's velocity at the surface likewise, by linear theory of deep water. With the rate
 // h' = dh/dt: rising h'_a + i h'_b, as for heights; drift i (k_x + i k_y) / |k| h', the horizontal
 // velocities along x and y.
 bool fill_rising(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,

@@ -28,8 +28,8 @@ inline constexpr int kMaxTrains = 16;
 inline constexpr double kBandBegin = 0.02, kBandEnd = 0.9;
 std::vector<WaveTrain> make_trains(const WaveSystem& system, int count, std::uint64_t seed);
 
-// The same of several systems, at least one: each has a train or more, the more the higher it is.
-// count is at least their number.
+// Draws trains from several systems, at least one: each has a train or more, the more the higher it
+// is. count is at least their number.
 std::vector<WaveTrain> make_trains(std::span<const WaveSystem> systems, int count,
                                    std::uint64_t seed);
 

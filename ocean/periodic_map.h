@@ -24,7 +24,7 @@ struct PeriodicMap {
   double travel = 1.0;  // sides of the map that its waves run in a loop
   float height_scale = 1.0f, slope_scale = 1.0f;
   std::vector<std::int16_t> height, slope_x, slope_y;
-  // Of what the codes say.
+  // These are measured on what the codes say.
   double variance = 0.0, slope_variance = 0.0;  // slopes of both axes together
   double peak = 0.0;                            // the most |height|
 

@@ -69,7 +69,7 @@ class BankValues {
     return (left ? network_.discharge_m2_s(j.river, 0.0) : 0.0) + change(j.river, left, s_m);
   }
 
-  // The same bank of the river that it meets.
+  // Returns psi of that bank of j.on, upstream of the joint, likewise.
   double other_value(const Joint& j) const {
     const double s_m = opening_m_[static_cast<std::size_t>(&j - network_.joints().data())];
     return (j.on_left ? network_.discharge_m2_s(j.on, 0.0) : 0.0) + change(j.on, j.on_left, s_m);

@@ -25,7 +25,7 @@ const float* patch_samples(const PatchFrame& patch, Field field) {
   return field == Field::kSlopeX ? patch.slope_x.data() : patch.slope_y.data();
 }
 
-// Of A sin(phase), or of its derivative 2 pi k A cos(phase) along an axis.
+// Returns the amplitude of A sin(phase), or of its derivative 2 pi k A cos(phase) along an axis.
 float sine_amplitude(const SineFrame& sine, Field field) {
   if (field == Field::kHeight) return static_cast<float>(sine.amplitude_m);
   const double cycles_per_m = field == Field::kSlopeX ? sine.cycles_per_m.x : sine.cycles_per_m.y;

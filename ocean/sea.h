@@ -105,8 +105,9 @@ struct PatchFrame {
   // Mean square slope (both axes together) of the waves in the patch: a constant of the sea state.
   float slope_variance = 0.0f;
   PatchTiling tiling;
-  // Of sharp crests (ocean/crests.h), else empty: how far the linear waves have displaced the water
-  // that is at a sample; with choppiness c it rests at the sample's place less c times this.
+  // These are for sharp crests (ocean/crests.h), else empty: how far the linear waves have
+  // displaced the water that is at a sample; with choppiness c it rests at the sample's place less
+  // c times this.
   std::vector<float> displaced_x_m, displaced_y_m;
 };
 
@@ -119,7 +120,8 @@ struct SineFrame {
 
 struct SeaFrame {
   double t_s = 0.0;
-  // Of the spectrum, if it has waves, then of the maps; of either the longest first.
+  // The patches of the spectrum come first, if it has waves, then those of the maps; of either the
+  // longest first.
   std::vector<PatchFrame> patches;
   std::vector<SineFrame> sines;
   WakeFrame wakes;                        // advance_wakes() fills it, not advance()
@@ -141,7 +143,7 @@ class Sea {
   // A bound on |H| that holds everywhere and always in practice (6 standard deviations of the
   // spectrum plus the sum of the sines' amplitudes).
   double height_bound_m() const;
-  // The same of dH/dx and dH/dy.
+  // Bounds |dH/dx| and |dH/dy| likewise.
   double slope_bound() const;
   // A height bound of the waves of all patches but the `longest_patches` longest, without sines.
   double short_wave_bound_m(std::size_t longest_patches) const;
@@ -177,8 +179,8 @@ void advance(const Sea& sea, double t_s, SeaFrame& frame, Workers& workers,
 void sample_heights(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m, std::size_t longest_patches = SIZE_MAX);
 
-// The same at origin_world + offset, for points around an eye: faster, and exact to the float
-// rounding of the offsets (0.1 mm at 1 km).
+// Samples heights at origin_world + offset, for points around an eye: faster than above, and exact
+// to the float rounding of the offsets (0.1 mm at 1 km).
 void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
                     std::span<const glm::vec2> offset_m, std::span<float> height_m);
 

@@ -28,7 +28,7 @@ struct Sea::State {
   std::vector<SineTrain> sines;
   double spectrum_variance_m2 = 0.0;
 
-  // Of the patches and maps from one patch on, together.
+  // Bounds |H| of the patches from `first_patch` on together; maps count on behind the patches.
   double height_bound_m(std::size_t first_patch) const;
 };
 

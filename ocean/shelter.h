@@ -50,8 +50,8 @@ inline constexpr int kShelterCells = 256;
 // Works it out: about 3 ms of one core a beam. The same bits with any workers.
 Shelter make_shelter(const terrain::ShoreMap& shore, std::span<const Beam> beams, Workers& workers);
 
-// The same of one wave train, at other points: of waves as long in directions up to
-// kTrainSpread_rad beside its own, since a train stands for many waves.
+// Returns what land leaves of a wave train's height at the points of `at`: of waves as long in
+// directions up to kTrainSpread_rad beside its own, since a train stands for many waves.
 inline constexpr double kTrainSpread_rad = 0.12;
 std::vector<float> shelter_train(const LandMask& mask, const WaveTrain& train,
                                  const terrain::Grid& at);

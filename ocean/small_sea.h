@@ -29,10 +29,10 @@ struct SmallWave {
   double amplitude = 0.0, phase = 0.0;
 };
 
-// Of the same steepness at all lengths, most of them with the wind and none against it. A wave
-// takes the whole number of cycles a loop that is nearest to its own, of gravity and surface
-// tension (0.0728 N/m over 1000 kg/m^3), but at least 1 and at most a tenth of the frames, so
-// that frames can be blended.
+// Returns the sea's waves. Each octave of lengths is as steep as another. None runs against the
+// wind; one that runs with it is twice as high as one across it. A wave takes the whole number of
+// cycles a loop that is nearest to its own, of gravity and surface tension (0.0728 N/m over
+// 1000 kg/m^3), but at least 1 and at most a tenth of the frames, so that frames can be blended.
 std::vector<SmallWave> small_sea_waves(const SmallSea& sea);
 
 // Heights of each frame [arbitrary unit], size * size values, row by row from the south.

@@ -22,9 +22,9 @@ struct Swash {
   const Shelter* shelter = nullptr;  // lessens the reach; null: nowhere
 };
 
-// Of a tenth of the highest waves that trains have at the coast, or without trains of the sea's
-// significant height. Nothing where neither a coast nor a shelter says that there is a shore; both
-// may be null, and have to outlive the swash.
+// Makes a swash whose reach is a tenth of the coast's TrainSea::height_bound_m, or without trains
+// of the sea's significant height. There is none where neither a coast nor a shelter says that
+// there is a shore; both may be null. The shelter has to outlive the swash.
 Swash make_swash(const Sea& sea, const CoastSea* coast, const Shelter* shelter);
 
 // Height of the edge over the sea's level at p_world and wave_time_s(t): sand below it is covered.

@@ -27,7 +27,8 @@ void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbanc
                    double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers,
                    const terrain::ShoreMap* shore = nullptr);
 
-// The same windows with one component of the water's velocity in place of the heights.
+// Fills `velocity` with the windows of `wakes`, where one component of the water's velocity takes
+// the place of the heights.
 void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& velocity,
                            Workers& workers);
 

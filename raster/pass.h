@@ -93,7 +93,8 @@ PixelBox tile_box(Viewport viewport, const TileGrid& grid, int tile);
 // the top left.
 bool tile_has_triangles(const Pass& pass, int tile);
 
-// The same for the triangles of draws that have primitives in [first_primitive, end_primitive).
+// True if a triangle of draws that have primitives in [first_primitive, end_primitive) may touch
+// the tile, or a sample in it.
 bool tile_has_triangles(const Pass& pass, int tile, std::uint32_t first_primitive,
                         std::uint32_t end_primitive);
 

@@ -52,7 +52,7 @@ constexpr SampleExtent extent_of(std::span<const SamplePosition> positions) {
   return extent;
 }
 
-// Of a pass with `samples` of them.
+// Returns the extent of the positions of a pass with `samples` of them.
 constexpr SampleExtent sample_extent(int samples) {
   constexpr SampleExtent kCentre = extent_of(kCentrePosition);
   constexpr SampleExtent kOf4 = extent_of(kPositionsOf4), kOf8 = extent_of(kPositionsOf8);

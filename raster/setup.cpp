@@ -22,7 +22,7 @@ void set_up_depth(const std::array<const WindowVertex*, 3>& v, std::int64_t area
   out.dz_dx = static_cast<float>((dz1 * dy2 - dz2 * dy1) * scale);
   out.dz_dy = static_cast<float>((dz2 * dx1 - dz1 * dx2) * scale);
 
-  // Of equally far vertices the first.
+  // The reference is the farthest vertex, of equally far ones the first.
   const WindowVertex* far = v[0];
   if (v[1]->depth < far->depth) far = v[1];
   if (v[2]->depth < far->depth) far = v[2];

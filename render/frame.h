@@ -47,14 +47,14 @@ std::string_view stage_name(Stage stage);  // "sea", "triangulate", ...
 // be assigned to or destroyed; whatever else is done with it aborts with a message.
 class World {
  public:
-  // The same bits with any number of threads, in [1, 256]. Throws scene::SceneError (a value out of
-  // its range, as for files), texture::FileError (a height image), or std::runtime_error if there
-  // are not so many threads to be had.
+  // Builds the same bits with any number of threads, in [1, 256]. Throws scene::SceneError (a value
+  // out of its range, as for files), texture::FileError (a height image), or std::runtime_error if
+  // there are not so many threads to be had.
   explicit World(scene::Scene scene, int threads = available_cpus());
 
-  // The same bits, sooner: what both scenes describe alike (sky, sea, terrain with its maps, coast)
-  // is shared with `like`, height images are not read again. On `threads` threads; with another
-  // wind alone 20 ms, 200 ms more for the trains of a coast.
+  // Builds the same bits sooner: what both scenes describe alike (sky, sea, terrain with its maps,
+  // coast) is shared with `like`, and height images are not read again. On `threads` threads; with
+  // another wind alone 20 ms, 200 ms more for the trains of a coast.
   World(scene::Scene scene, const World& like, int threads);
   ~World();
   World(World&&) noexcept;
@@ -155,7 +155,8 @@ class Workspace {
   struct State;
   State& state();
   const State& state() const;
-  // Of the last frame; empty unless trace_enabled was set before it.
+  // The trace is that of the last frame; it is empty unless trace_enabled was set before that
+  // frame.
   bool trace_enabled = false;
   std::vector<TraceEvent> trace;
 

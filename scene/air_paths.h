@@ -35,7 +35,7 @@ inline glm::vec3 interpolate(const glm::vec3* table, int columns, Between row, B
   return low + row.part * (high - low);
 }
 
-// Of Atmosphere::transmittance.
+// Fills Atmosphere::transmittance.
 void fill_transmittance(Atmosphere& atmosphere, Workers& workers);
 
 // A height's row in the table of transmittance, and what else of the height a look-up needs.

@@ -19,24 +19,24 @@ namespace swell::scene {
 // Half the angle that the sun and the moon measure.
 inline constexpr double kSunRadius_rad = 0.004654;
 
-// Of light that comes from one direction with irradiance 1 outside the air.
+// The tables are for light that comes from one direction with irradiance 1 outside the air.
 struct Atmosphere {
   Air air;
   std::vector<glm::vec3> transmittance;  // by height and distance to the air's top
-  // Of the light that was scattered once or more, by height and sine of the light's elevation: its
-  // mean radiance over all directions; the moments (2, m) of what molecules make of it; and all
-  // moments of what haze does (scene/light_moments.h).
+  // These describe the light that was scattered once or more, by height and sine of the light's
+  // elevation: its mean radiance over all directions; the moments (2, m) of what molecules make of
+  // it; and all moments of what haze does (scene/light_moments.h).
   std::vector<glm::vec3> multiple, uneven, haze;
 };
 
-// The same bits with any workers. About 60 ms on two threads.
+// Makes the tables: the same bits with any workers. About 60 ms on two threads.
 Atmosphere make_atmosphere(double turbidity, Workers& workers);
 
 // The part of a light's rays that reach a height [0, kAirTop_m] from the sine of an elevation; 0
 // from below the earth's edge. A point of light.
 glm::vec3 transmittance(const Atmosphere& atmosphere, double height_m, double sin_elevation);
 
-// The same of a disc half a degree across: less where the earth's edge hides a part of it.
+// Returns that part for a disc half a degree across: less where the earth's edge hides some of it.
 glm::vec3 disc_transmittance(const Atmosphere& atmosphere, double height_m, double sin_elevation);
 
 // By angle from the horizon and azimuth from the light.

@@ -37,7 +37,8 @@ int days_in_month(int year, int month) {
   return kDays[static_cast<std::size_t>(month - 1)] + (month == 2 && leaps ? 1 : 0);
 }
 
-// Of the Gregorian calendar. Meeus, equation 7.1.
+// Counts the days from noon of 2000-01-01 to 0 h of a date of the Gregorian calendar. Source:
+// Meeus, equation 7.1.
 double days_of_date(int year, int month, int day) {
   const int y = month > 2 ? year : year - 1, m = month > 2 ? month : month + 12;
   const int century = y / 100;

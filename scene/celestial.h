@@ -26,7 +26,7 @@ struct EquatorialPlace {
 EquatorialPlace sun_place(double days);
 EquatorialPlace moon_place(double days);
 
-// Of Greenwich's meridian, in [0, 360).
+// Returns the sidereal time of Greenwich's meridian, in [0, 360).
 double sidereal_degrees(double days);
 
 // As seen from a place on the earth, clockwise from north and above the horizon.

@@ -38,7 +38,7 @@ std::string place_of_key(const Scene& scene, const std::string& key);
 // Throws SceneError 'PLACE: KEY, got GOT, allowed ALLOWED' of a fault that shows when the scene is
 // built.
 [[noreturn]] void refuse(const Scene& scene, const SceneFault& fault);
-// The same of a TerrainError; of a file's content as it is.
+// Throws SceneError likewise of a TerrainError; one of a file's content keeps its text.
 [[noreturn]] void refuse(const Scene& scene, const terrain::TerrainError& error);
 
 // Throws SceneError 'NAME: KEY, got GOT, allowed ALLOWED' for the first fault.

@@ -129,11 +129,11 @@ class CheckedValues {
     return *text;
   }
 
-  // The absolute path of a file that can be opened.
+  // Returns the absolute path of a file that can be opened.
   std::string checked_path(const toml::node& node, const std::string& key, const std::string& text,
                            std::string_view path_of) const;
 
-  // The same of files that a number tells apart, the first of which can be opened.
+  // Returns the absolute path of files that a number tells apart, of which number 0 can be opened.
   template <class Object>
   std::string checked_frame_paths(const toml::node& node, const std::string& key,
                                   const std::string& text,

@@ -40,8 +40,8 @@ struct FogWay {
 // height.
 double scattered_once(const FogWay& way, double sun_sine);
 
-// The same when each point has the ground's light, through all of the fog: `whole`, straight up.
-// Source: Vyatkin, Dolgovesov, 2019, equation 15, with S that has B.
+// Returns what it scatters when each point has the ground's light, through all of the fog: `whole`,
+// straight up. Source: Vyatkin, Dolgovesov, 2019, equation 15, with S that has B.
 double scattered_by_paper(const FogWay& way, double whole, double sun_sine);
 
 // What fog makes of light that falls on it. Radiances and irradiances in the unit of what falls.

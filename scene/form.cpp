@@ -12,7 +12,7 @@ namespace {
 
 double cube_of_positive(double q) { return q > 0.0 ? q * q * q : 0.0; }
 
-// Of q + g s + k s^2 for s in [-1, 1].
+// Returns the interval that q + g s + k s^2 takes for s in [-1, 1].
 Interval bounds_along(double q, double g, double k) {
   Interval range{std::min(q + g + k, q - g + k), std::max(q + g + k, q - g + k)};
   if (std::abs(g) < 2.0 * std::abs(k)) {

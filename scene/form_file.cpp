@@ -98,7 +98,7 @@ class FormReader {
   }
 
  private:
-  // Of the parts that one table gave, so that a message names the table.
+  // Checks the number of parts and the first that a table gave, so that a message names the table.
   void check_boxes(const toml::node& node, const Form& form, std::size_t first) const {
     if (form.parts.size() > kMostFormParts)
       fail(node, path_, fmt::format("{} parts with their copies", form.parts.size()),

@@ -119,7 +119,7 @@ ObjectTriangle paint_of(const FormPart& part) {
   return triangle;
 }
 
-// Of the box: what stands on a hull hides little of the sky.
+// Returns MeshPart::top, a height in the box: what stands on a hull hides little of the sky.
 float hull_top(const Form& form, const FormPart& part) {
   constexpr double kOfBreadth = 0.4;
   const double breadth_m = std::min(part.high.x - part.low.x, part.high.y - part.low.y);

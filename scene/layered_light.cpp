@@ -91,7 +91,8 @@ struct Slab {
   glm::dvec3 lost_per_m;  // in the mean
 };
 
-// Of channel c. Even light that dips is scattered at two thirds of its depth, in the mean.
+// Makes the layer of channel c. Even light that dips is scattered at two thirds of its depth, in
+// the mean.
 Layer make_layer(const Air& air, const Slab& slab, int c, const std::array<double, kHalf>& sines,
                  bool up) {
   Layer layer;
@@ -135,7 +136,7 @@ struct SunLight {
   std::array<Channels<Layer>, kLayers> down, up;
 };
 
-// Of light that is `here` on one side of the layer and `there` on the other.
+// Makes a layer of light that is `here` on its near side and `there` on its far side.
 Layer fade(const Layer& layer, double here, double there) {
   Layer out = layer;
   const double a = log(there / here);
@@ -191,7 +192,7 @@ struct Mode {
 struct StreamLight {
   StreamRow light{}, growth{}, drift_m{};
 };
-// The same of one stream.
+// LowestRay is what StreamLight holds of the lowest stream.
 struct LowestRay {
   float light = 0.0f, growth = 0.0f, drift_m = 0.0f;
 };

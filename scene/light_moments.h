@@ -22,7 +22,8 @@ inline constexpr int kDegrees = 20;
 // cos(m phi) for m below this: with 12, light beside a low sun in haze was 10 % too weak.
 inline constexpr int kModes = 16;
 
-// Of degree l >= m, in [0, kMoments): all degrees of a mode are neighbours.
+// Returns the number of moment (l, m), l >= m, in [0, kMoments): all degrees of a mode are
+// neighbours.
 constexpr int moment_index(int l, int m) { return m * kDegrees - m * (m - 1) / 2 + l - m; }
 inline constexpr int kMoments = moment_index(kModes, kModes);
 

@@ -161,7 +161,7 @@ void add_sheet(std::span<const glm::vec3> points, int columns, const Paint& pain
         std::array<std::uint32_t, 3> v;
         for (std::size_t k = 0; k < 3; ++k) {
           n[k] = normal(row + corner[k].x, column + corner[k].y);
-          // Of a fold's two sides this is one.
+          // A fold has two sides: this one takes its own normal.
           if (glm::dot(n[k], across) <= 0.0f) n[k] = unit(across);
           v[k] = vertex(corner[k].x, corner[k].y);
         }

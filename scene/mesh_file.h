@@ -25,7 +25,7 @@ struct MeshOfFile {
 // that begins with what was found. A million triangles take 3 s.
 MeshOfFile load_mesh(const std::string& file, UpAxis up);
 
-// The same from what the importer has written (scene/flat_mesh.h).
+// Makes the mesh from what the importer has written (scene/flat_mesh.h).
 MeshOfFile mesh_of(const FlatMesh& flat);
 
 // Gives an object of kind kMesh or kForm its file's size, draught and middle. Throws

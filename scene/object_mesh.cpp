@@ -67,8 +67,8 @@ void add_buoy(TopMark mark, MeshBuilder& to) {
   add_top_mark(mark, to);
 }
 
-// Of 8 segments and of 4, from any side, at common sizes. A box's is of how far refraction bends
-// its sides between their ends.
+// LevelErrors holds ObjectMesh::error with 8 segments and with 4, seen from any side, at common
+// sizes. A box's error is how far refraction bends its sides between their ends.
 struct LevelErrors {
   float eight, four;
 };

@@ -83,20 +83,20 @@ struct FloatingObject {
   // Its way, in a scene that a render::World holds (scene/drift.h).
   std::shared_ptr<const ocean::DriftTrack> drift_track{};
 
-  // Of what is painted.
+  // These hold for what is painted.
   double roughness = 0.42;  // 0: mirrors, 1: matt
   double metalness = 0.0;
   double checker_m = 0.0;  // side of its squares, every second one nearly black; 0: none
 
-  // Of a mesh or a form.
+  // These are for a mesh or a form.
   std::string file{};
   std::string
       file_place{};  // where a scene file names it, for messages: "harbour.toml:12: column 8"
   UpAxis up = UpAxis::kByFormat;
   double scale = 1.0;           // metres for a unit of the file
   bool at_file_origin = false;  // the position is that of the file's origin, at the waterline
-  // Of one that render::World has read, whose size_m and draught are then the file's: how far
-  // right and ahead of the origin the middle of its box lies.
+  // middle_m tells how far right and ahead of the position the middle of the box lies: 0 unless
+  // at_file_origin. render::World sets it and size_m by the file; if at_file_origin, also draught.
   glm::dvec2 middle_m{0.0};
 };
 

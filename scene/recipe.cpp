@@ -114,7 +114,7 @@ class RecipeReader {
     return number->get();
   }
 
-  // Two numbers in [low, high].
+  // Reads two numbers in [low, high].
   std::array<double, 2> numbers(std::string_view key, const toml::node& node, double low,
                                 double high, bool is_whole) const {
     const toml::array* array = node.as_array();
@@ -133,7 +133,7 @@ class RecipeReader {
     return result;
   }
 
-  // The same where the first may not be over the second.
+  // Reads two numbers likewise, where the first may not be over the second.
   std::array<double, 2> ends(std::string_view key, const toml::node& node, double low, double high,
                              bool is_whole) const {
     const auto result = numbers(key, node, low, high, is_whole);

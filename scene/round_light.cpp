@@ -199,7 +199,7 @@ Means means_of(const Directions& directions, const Radiance& radiance, Workers& 
   return means;
 }
 
-// Of light that was scattered once, or that the sea throws back.
+// Gathers light that was scattered once, or that the sea throws back.
 Radiance gather_first(const Atmosphere& atmosphere, const Directions& directions,
                       Workers& workers) {
   const HeightRow sea = height_row_of(0.0);
@@ -220,7 +220,7 @@ Radiance gather_first(const Atmosphere& atmosphere, const Directions& directions
       workers);
 }
 
-// The same of what was scattered once more than `source`.
+// Gathers light that was scattered once more than `source`.
 Radiance gather_again(const Means& source, const Directions& directions, Workers& workers) {
   return gather(
       directions,
@@ -274,7 +274,7 @@ std::vector<Harmonics> cell_moments() {
   return all;
 }
 
-// Of moments (2, m), what molecules make of them.
+// Returns what molecules make of the moments (2, m).
 std::vector<glm::vec3> uneven_moments(const std::vector<Harmonics>& cells,
                                       const Radiance& radiance) {
   std::vector<glm::vec3> all(std::size_t{kRayleighModes} * kPoints);

@@ -99,7 +99,7 @@ std::array<float, kModes> mode_cosines(double cos_azimuth) {
   return all;
 }
 
-// Of all modes, the columns that light meets at an azimuth: the others stay 0.
+// Sums the haze of all modes in the columns that light meets at an azimuth: the others stay 0.
 std::vector<glm::vec3> sum_haze(const PathSources& sources, const std::array<float, kModes>& modes,
                                 const PathSources::Columns& met) {
   const auto [first, count] = sources.haze_columns;

@@ -11,8 +11,8 @@
 
 namespace swell::scene {
 
-// Of Atmosphere::multiple, uneven and haze: of a round earth while the light is down, of level
-// layers when it is up.
+// Fills Atmosphere::multiple, uneven and haze: by a round earth while the light is down, by level
+// layers from 1.9 degrees up, and by a blend between.
 void fill_scattered_light(Atmosphere& atmosphere, Workers& workers);
 
 // What air makes, in a path's direction, of the light at its steps; for light of the elevations

@@ -238,7 +238,8 @@ std::vector<ocean::Disturbance> all_disturbances(const Scene& scene);
 // wrong type, NaN, value out of range, unreadable image.
 Scene load_scene(const std::filesystem::path& path);
 
-// The same from text; `file_name` is used in messages and to resolve relative paths.
+// Parses and checks a scene likewise, from text; `file_name` is used in messages and to resolve
+// relative paths.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file_name);
 
 // The scene as TOML with every key written out. A scene that was parsed comes back with the same

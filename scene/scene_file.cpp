@@ -264,7 +264,7 @@ class Reader {
     return object;
   }
 
-  // Of the defaults that the other keys change.
+  // Makes an object of the defaults that the other keys change.
   template <class Object>
   static Object object_for(const toml::table& table) {
     if constexpr (std::is_same_v<Object, FloatingObject>) {
@@ -288,7 +288,8 @@ class Reader {
                      meant_key(key, known), where, fmt::join(known, ", ")));
   }
 
-  // Of the table's keys, as they are listed, or one of another table with this name.
+  // Asks for the nearest of the table's keys, as they are listed, or for one of another table with
+  // this name.
   std::string meant_key(std::string_view key, std::span<const std::string> known) const {
     std::vector<std::string_view> names;  // without brackets and the table's
     for (std::string_view text : known) {

@@ -22,8 +22,8 @@ namespace swell::scene {
 // tables in each other. Throws as load_scene(path); of a setting's fault: 'setting KEY=VALUE: ...'.
 Scene load_scene(const std::filesystem::path& path, std::span<const std::string> settings);
 
-// The same from text. Relative paths, those of settings too, are relative to the folder of
-// `file_name`.
+// Parses such a scene from text. Relative paths, those of settings too, are relative to the folder
+// of `file_name`.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file_name,
                   std::span<const std::string> settings);
 

@@ -35,7 +35,7 @@ constexpr float kSunIrradiance = 12.75f;
 // Source: C. W. Allen, Astrophysical Quantities, 1973, section 66.
 // Eyes in the dark see it bluer than it is: Purkinje's effect.
 constexpr glm::vec3 kFullMoon = kSunIrradiance / 398000.0f * glm::vec3(0.75f, 1.02f, 1.45f);
-// Of the stars and the air's own glow: 2e-4 cd/m^2, which gives 6e-4 lx.
+// The stars and the air's own glow have 2e-4 cd/m^2, which gives 6e-4 lx.
 // Source: F. Patat, UBVRI night sky brightness during sunspot maximum, 2003: 21.6 magnitudes per
 // square second of arc.
 constexpr glm::vec3 kNight = 2e-8f * glm::vec3(0.8f, 1.0f, 1.6f);

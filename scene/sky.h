@@ -61,10 +61,10 @@ struct SkyLight {
 
 inline constexpr double kCloudHeight_m = 4000.0;
 
-// At sea level. The same bits with any workers.
+// Makes the light at sea level. The same bits with any workers.
 SkyLight make_sky_light(const Sky& sky, Workers& workers);
 
-// The same in air of the sky's turbidity that is there already, for many suns in one air.
+// Makes it likewise in air of the sky's turbidity that is there already, for many suns in one air.
 SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& workers);
 
 // What an eye at height_m in (0, kAirTop_m) sees of `light`, that of sea level: its sky, and discs.

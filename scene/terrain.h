@@ -21,7 +21,7 @@ struct Land {
   std::unique_ptr<const ocean::InlandWater> water;  // null: no rivers, no lakes
 };
 
-// The same, and the rivers and lakes: 0.1 to 1 s of one core.
+// Builds the terrain likewise, and the rivers and lakes: 0.1 to 1 s of one core.
 std::optional<Land> build_land(const Scene& scene, Workers& workers);
 
 }  // namespace swell::scene

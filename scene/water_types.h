@@ -32,9 +32,9 @@ struct InherentOptics {
   glm::dvec3 scattering{0.0};  // in all directions, pure water's among it
 };
 
-// Of a type but kNone. Sources: Williamson, Hollins, Measured IOPs of Jerlov water types, Applied
-// Optics 61, 2022 (IB to 5C, interpolated); Solonenko, Mobley, Inherent optical properties of
-// Jerlov water types, Applied Optics 54, 2015 (the others).
+// Returns the optics of a type but kNone. Sources: Williamson, Hollins, Measured IOPs of Jerlov
+// water types, Applied Optics 61, 2022 (IB to 5C, interpolated); Solonenko, Mobley, Inherent
+// optical properties of Jerlov water types, Applied Optics 54, 2015 (the others).
 InherentOptics optics_of(WaterType type);
 
 // The part of the scattering that goes back [1/m]: half of pure water's, 0.0183 of the particles'.

@@ -6,14 +6,15 @@
 namespace swell::terrain {
 namespace {
 
-// Of the samples at -1, 0, 1 and 2 at the place t in [0, 1).
+// Returns the weights of the samples at -1, 0, 1 and 2 at the place t in [0, 1).
 std::array<float, 4> weights(float t) {
   const float t2 = t * t, t3 = t2 * t;
   return {0.5f * (-t3 + 2.0f * t2 - t), 0.5f * (3.0f * t3 - 5.0f * t2 + 2.0f),
           0.5f * (-3.0f * t3 + 4.0f * t2 + t), 0.5f * (t3 - t2)};
 }
 
-// Between `count` samples that lie `stride` apart, `factor` for one, written `out_stride` apart.
+// Writes `factor` samples for each step between `count` samples that lie `stride` apart, and the
+// last one: `out_stride` apart.
 void refine_line(const float* from, int count, std::size_t stride, int factor, float* to,
                  std::size_t out_stride) {
   const auto at = [&](int i) {

@@ -64,7 +64,7 @@ glm::dvec2 slope_at(const HeightGrid& heights, glm::dvec2 p_world);
 void sample_heights(const HeightGrid& heights, std::span<const glm::dvec2> p_world,
                     std::span<float> height_m);
 
-// The same surface sampled at the points of another grid.
+// Samples height_at() at the points of another grid.
 HeightGrid resample(const HeightGrid& heights, const Grid& grid);
 
 // dH/dx and dH/dy at every sample, laid out as height_m: central differences, one-sided at the

@@ -38,7 +38,7 @@ float off_cell(const HeightPyramid& p, int i, int j, int step) {
   return std::max(off, std::abs(post(2, 1) - 0.5f * (b + d)));
 }
 
-// Of the blocks of one level: how far the surface is off a cell, at most [codes].
+// Roughness tells, of the blocks of one level, how far the surface is off a cell at most [codes].
 class Roughness {
  public:
   explicit Roughness(int blocks) : blocks_(blocks) {
@@ -47,7 +47,7 @@ class Roughness {
   std::uint16_t& at(int i, int j) {
     return codes_[static_cast<std::size_t>(j) * blocks_ + static_cast<std::size_t>(i)];
   }
-  // Of a block of the next level.
+  // Returns the largest value of the four blocks that make block (i, j) of the next level.
   float of_parts(int i, int j) {
     const auto below = [&](int y) { return std::max(at(2 * i, y), at(2 * i + 1, y)); };
     return std::max(below(2 * j), below(2 * j + 1));

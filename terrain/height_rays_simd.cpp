@@ -175,7 +175,7 @@ class Traveller {
     return {Max(Min(Min(x, y), w.end), w.t), x <= y};
   }
 
-  // Of the number of blocks of a level a side.
+  // Returns log2 of the number of blocks a side of the level.
   HWY_INLINE VI BlocksLog2(const Walk& w) const { return Whole(pyramid_.levels) - w.level; }
 
   HWY_INLINE V HeightOf(V code) const { return MulAdd(code, pyramid_.step_m, pyramid_.base_m); }
@@ -188,7 +188,7 @@ class Traveller {
     return GatherTwoCodes(pyramid_.maxima.data(), MaskedI(lanes, number)) & Whole(0xffff);
   }
 
-  // To the quarter of the block that a ray is in.
+  // Goes down to the quarter of the block that a ray is in.
   HWY_INLINE void Descend(M descends, VI block, Walk& w) const {
     const VI half = hn::ShiftRight<1>(block);
     const auto corner = [&](const Axis& axis, V per_t, VI before) HWY_ATTR {

@@ -56,7 +56,8 @@ struct Axis {
         cells(static_cast<float>(samples - 1)) {}
 };
 
-// Of blocks 2^more to 2^(more + 1) times as wide as this many cells, and 2^more cells at least.
+// Returns the level of blocks 2^(more - 1) to 2^more times as wide as this many cells, and 2^more
+// cells at least; `levels` at most.
 HWY_INLINE VI LevelOf(V cells, int more, int levels) {
   const V some = Min(Max(cells, 1.0f), 32768.0f);
   // A float's exponent is its logarithm.

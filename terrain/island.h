@@ -52,9 +52,9 @@ HeightGrid build_island(const TerrainDescription& description);
 
 inline constexpr int kArchipelagoSamples = 2049;
 
-// The same of `islands` islands on a square of archipelago_size_m: the largest is as described, the
-// others down to a fifth of it. They keep a lagoon's width apart; those that find no room are left
-// out.
+// Builds the heights of `islands` islands likewise, on a square of archipelago_size_m: the largest
+// is as described, the others down to a fifth of it. They keep a lagoon's width apart; those that
+// find no room are left out.
 HeightGrid build_archipelago(const TerrainDescription& description);
 
 }  // namespace swell::terrain

@@ -29,12 +29,12 @@ struct ShorePoint {
 // Read-only after it is made, by any number of threads. 8 bytes a point.
 class ShoreMap {
  public:
-  // Of a square of heights with its apron, on points as far apart as the heights' own or, where
-  // those are more than kShoreMapCells, by so many cells. Without a water line all distances are
-  // the square's diagonal, positive if it is sea. 0.1 s of one core; the same bits with any
+  // Maps a square of heights with its apron. The map has cells as large as the heights' own or,
+  // where those are more than kShoreMapCells a side, so many. Without a water line all distances
+  // are the square's diagonal, positive if it is sea. 0.1 s of one core; the same bits with any
   // workers.
   ShoreMap(const HeightGrid& land, Workers& workers);
-  // Of values that are known, of the points of a square: surf in [0, 1], or none.
+  // Takes known values of the points of a square: surf in [0, 1], or none.
   ShoreMap(const Grid& grid, std::vector<float> signed_distance_m, std::vector<float> height_m,
            std::vector<float> surf);
 
@@ -43,10 +43,10 @@ class ShoreMap {
   float surf_at(double x, double y) const;  // likewise
 
   const Grid& grid() const { return grid_; }
-  // Of the points, at grid().index(i, j).
+  // The values of point (i, j) are at grid().index(i, j).
   const std::vector<float>& signed_distance_m() const { return distance_m_; }
   const std::vector<float>& height_m() const { return height_m_; }
-  // Of the surf fronts that would run in there; empty: all of them everywhere.
+  // surf() is the part of the surf fronts that run in there; empty: all of them everywhere.
   const std::vector<float>& surf() const { return surf_; }
   // Whether there are both land and sea.
   bool has_line() const { return has_line_; }

@@ -65,7 +65,7 @@ struct TerrainDescription {
   double beach_size_m = 1200.0;  // the square's side
   std::uint64_t seed = 3;        // of the island or of the dunes
   double checker_m = 0.0;        // side of white and black squares laid over the ground; 0: none
-  // Of land that rays find:
+  // The next two are for land that rays find.
   bool bicubic = false;                  // between samples; false: bilinear
   std::optional<double> outline_m = {};  // what is lower is not there
   // The water boundary, read from a file (terrain/boundary.h); empty: made from the heights.

@@ -94,12 +94,12 @@ struct Trees {
   bool empty() const { return trees.empty(); }
 };
 
-// In all stands together: trees, and places looked at.
+// These bound all stands together: trees, and places looked at.
 inline constexpr std::size_t kMostTrees = 1'000'000;
 inline constexpr double kMostTreePlaces = 2e7;
 
-// The same bits with any workers; 0.1 us a place. Throws TerrainError for too many trees or places,
-// texture::FileError for a map that cannot be read.
+// Plants the trees of all stands: the same bits with any workers; 0.1 us a place. Throws
+// TerrainError for too many trees or places, texture::FileError for a map that cannot be read.
 Trees plant_trees(std::span<const TreeStand> stands, const HeightGrid& terrain,
                   const WaterLines& lines, Workers& workers);
 

@@ -35,7 +35,7 @@ class ScratchFolder {
   const std::filesystem::path& path() const { return path_; }
   std::string file(const std::string& name) const { return (path_ / name).string(); }
 
-  // Of the new file.
+  // Writes a file and returns its path.
   std::filesystem::path write(const std::string& name, std::string_view text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
@@ -44,7 +44,7 @@ class ScratchFolder {
     return write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 
-  // Of all files in it and in its folders, sorted.
+  // Returns the names of all files in it and in its folders, sorted.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))

@@ -25,7 +25,7 @@ HWY_INLINE void SampleCover(D d, const CoverMap& map, VI x_fx8, VI y_fx8, VI lev
   HWY_ALIGN std::uint32_t lane_offset[hn::MaxLanes(d)];
   StoreIndex(hn::ShiftLeft<4>(WordIndex(di, map, x, y, level)), lane_offset);
   const VI weights_x = WeightsAlongX(di, x), weights_y = WeightsAlongY(di, y);
-  // Of each lane four sums, one a channel.
+  // Each lane has four sums, one a channel.
   const auto sums = [&]<int kPart>() HWY_ATTR {
     const auto rows = DotPairs(hn::BitCast(d8, SpreadPart<kPart>(di, weights_x, weights_x)),
                                LoadBlocks<kPart>(d8, map.words.data(), lane_offset));

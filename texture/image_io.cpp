@@ -37,7 +37,7 @@ std::string_view format_of_extension(std::string_view extension) {
   return {};
 }
 
-// The same from the file's first bytes.
+// Finds the format's name by the file's first bytes; empty if they are those of no such format.
 std::string_view format_of_content(std::string_view bytes) {
   using namespace std::string_view_literals;
   if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
@@ -188,7 +188,7 @@ std::vector<std::string> default_channel_names(int channels) {
                        : std::vector<std::string>{"R", "G", "B", "A"};
 }
 
-// Of an image of whole numbers, without its samples.
+// Makes the request for an image of whole numbers, without its samples.
 template <class Image>
 EncodeRequest whole_number_request(const Image& image, const std::string& extension,
                                    const char* what) {

@@ -16,7 +16,7 @@ struct LatticePosition {
   double fraction;  // in [0, 1); NaN for a coordinate that is not finite
 };
 
-// Of a coordinate of 2^52 or more, which is a whole number, or one that is not finite.
+// Returns the position of a coordinate of 2^52 or more, a whole number, or one that is not finite.
 inline LatticePosition far_lattice_position(double x, int period) {
   if (!std::isfinite(x)) return {0, std::numeric_limits<double>::quiet_NaN()};
   const double turns = std::floor(x / period);  // exact: period is a power of two

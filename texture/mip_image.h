@@ -49,7 +49,8 @@ inline glm::vec3 sample_level(const MipImage& image, int number, float u, float 
   return low + t * (high - low);
 }
 
-// The same between levels: log2 of a footprint's breadth in texels. u, v and level finite.
+// Blends sample_level() between two levels. level: log2 of a footprint's breadth in texels. u, v
+// and level are finite.
 inline glm::vec3 sample(const MipImage& image, float u, float v, float level) {
   const float at = std::clamp(level, 0.0f, static_cast<float>(image.levels.size() - 1));
   const int fine = static_cast<int>(at);

@@ -247,7 +247,7 @@ HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI ba
   const VI fine_x = WeightsAlongX(di, x), coarse_x = WeightsAlongX(di, hn::ShiftRight<1>(x));
   const VI fine_y = weights_y(y, part_fine);
   const VI coarse_y = weights_y(hn::ShiftRight<1>(y), part_coarse);
-  // Of each lane four sums: fine a, fine b, coarse a, coarse b.
+  // Each lane has four sums: fine a, fine b, coarse a, coarse b.
   const auto sums = [&]<int kPart>() HWY_ATTR {
     const auto rows = DotPairs(hn::BitCast(d8, SpreadPart<kPart>(di, fine_x, coarse_x)),
                                LoadBlocks<kPart>(d8, map.words.data(), lane_index));
@@ -309,7 +309,7 @@ template <class D, class VI = hn::Vec<hn::RebindToSigned<D>>>
 HWY_INLINE hn::Vec<D> SampleAt(D d, const PackedMap1& map, const WordPlace<VI>& at) {
   const hn::RebindToSigned<D> di;
   const hn::Repartition<std::uint8_t, D> d8;
-  // Of 32 bits a lane, hardware gathers are as fast as loads.
+  // Hardware gathers of 32 bits a lane are as fast as loads.
   const VI taps =
       hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.words.data()), at.index);
   const auto rows = DotPairs(hn::BitCast(d8, at.weights_x), hn::BitCast(d8, taps));
@@ -411,7 +411,8 @@ HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V&
                WindowCoordinateFx8(y_px, last_y), r, g, b, a);
 }
 
-// The same on one of the image's softer levels a lane; positions are of texels of level 0.
+// Samples as SampleRgba(), on one of the image's softer levels a lane; positions are of texels of
+// level 0.
 template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
 HWY_INLINE void SampleRgbaLevel(D d, const RgbaImage& image, V x_px, V y_px, VI level, V& r, V& g,
                                 V& b, V& a) {
@@ -447,7 +448,7 @@ HWY_INLINE void SampleRgb(D d, const RgbMap& map, V x_fx8, V y_fx8, V& r, V& g, 
   StoreIndex(hn::ShiftLeft<4>(row | hn::ShiftRight<8>(x)), lane_offset);
 
   const VI weights_x = WeightsAlongX(di, x), weights_y = WeightsAlongY(di, y);
-  // Of each lane four sums: red, green, blue, 0.
+  // Each lane has four sums: red, green, blue, 0.
   const auto sums = [&]<int kPart>() HWY_ATTR {
     const auto rows = DotPairs(hn::BitCast(d8, SpreadPart<kPart>(di, weights_x, weights_x)),
                                LoadBlocks<kPart>(d8, map.words.data(), lane_offset));

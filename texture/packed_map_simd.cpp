@@ -200,7 +200,7 @@ double lost_between_texels(const float* values, int size) {
   return beside / 9.0 + across / 36.0;
 }
 
-// Of both channels of a level, summed over its texels.
+// LevelSquares sums both channels over a level's texels: their squares, and lost_between_texels().
 struct LevelSquares {
   double texels = 0.0, lost_between = 0.0;
 };

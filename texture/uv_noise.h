@@ -34,8 +34,9 @@ class UvNoise {
   static constexpr int kPeriod = 256;
   void evaluate(double t, std::span<float> cos_out, std::span<float> sin_out);
 
-  // The same, but repeating after loop_cells, a whole number in [1, 2^20], in which it passes
-  // through as many values of the lattice: 1 stands still. t is in [0, loop_cells].
+  // Writes noise that repeats after loop_cells, a whole number in [1, 2^20], else as evaluate().
+  // Octave o passes through 2^o loop_cells values of the lattice in that time: one value stands
+  // still. t is in [0, loop_cells].
   void evaluate_looping(double t, int loop_cells, std::span<float> cos_out,
                         std::span<float> sin_out);
 

@@ -105,7 +105,8 @@ Samples measure_frames(const FrameBench& bench, const render::World& world, Trac
   return samples;
 }
 
-// Of the frames after the first second, or of all if there are no more.
+// Summarizes the frames after the first second (60 frames), or all if there are no more. The step
+// changes are those of the whole run.
 GovernedReport summarize_governed(const FrameBench& bench, const Samples& samples) {
   constexpr std::size_t kFirstSecond = 60;
   const std::size_t frames = samples.frame_ms.size();

@@ -91,7 +91,7 @@ struct Measurement {
   std::int64_t interruptions = 0;  // of each frame
 };
 
-// Of the frames that were interrupted least: as a rule, not at all.
+// Measures the frames that were interrupted least: as a rule, not at all.
 Measurement measure_scaling(const FrameRun& run, const render::World& world) {
   std::vector<DrawnTwice> frames = draw_frames(run, world);
   const std::int64_t least = std::ranges::min(frames, {}, &DrawnTwice::interruptions).interruptions;

@@ -7,7 +7,7 @@
 
 namespace swell::apps {
 
-// Of |a - b| over all pixels and their three colours, in steps of 8 bits.
+// PictureDifference describes |a - b| over all pixels and their three colours, in steps of 8 bits.
 struct PictureDifference {
   double mean = 0.0;
   int p99 = 0, max = 0;

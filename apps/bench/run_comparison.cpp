@@ -51,7 +51,7 @@ std::size_t interval_rank(std::size_t n) {
   return n / 2;
 }
 
-// Of a stage that both sides have.
+// Compares a stage that both sides have.
 StageComparison compare_stage(std::span<const RunPair> pairs, const std::string& stage,
                               double frame_ms) {
   std::vector<double> before, after, ratio;

@@ -17,7 +17,7 @@ struct RunTimes {
   std::string picture_hash;                              // of the last frame, or empty
 };
 
-// Of what swell-bench frame --json writes. Throws std::invalid_argument, which says what is
+// Reads what swell-bench frame --json writes. Throws std::invalid_argument, which says what is
 // missing.
 RunTimes read_run_times(const std::string& report);
 

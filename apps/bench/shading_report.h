@@ -16,9 +16,9 @@ struct ShadedTile {
 };
 using ShadedFrame = std::vector<ShadedTile>;  // by number
 
-// Of tiles that show one kind in more than half of the frames: the time of all of them, each the
-// median of these frames, divided by their pixels. Other programs that interrupt most frames in a
-// few tiles do not count so.
+// PixelCost is taken from the tiles that show one kind in more than half of the frames: the time of
+// all of them, each the median of these frames, divided by their pixels. Other programs that
+// interrupt most frames in a few tiles do not count so.
 struct PixelCost {
   int tiles = 0;
   double ns = 0.0, cycles = 0.0;

@@ -36,7 +36,7 @@ ClassSet classes_of(const scene::Recipe& recipe) {
   return *classes;
 }
 
-// Of the shard that was asked for.
+// Drawn counts the samples of the shard that was asked for, and those of them that were drawn.
 struct Drawn {
   int samples = 0, drawn = 0;
 };

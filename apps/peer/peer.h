@@ -53,7 +53,7 @@ class Peer {
   // Draws the frame that was taken and waits until it is finished.
   void draw();
 
-  // The same, waiting after each pass: ms of each.
+  // Draws it and waits after each pass; returns the ms of each.
   std::array<double, kPeerPasses> draw_by_pass();
 
   // The picture as Target::rgba: of the size that was taken.

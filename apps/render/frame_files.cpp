@@ -30,7 +30,8 @@ std::string shell_word(const std::string& text) {
   return result;
 }
 
-// The same for a frame alone, in a sequence and in a part of one; so are its notes and its sidecar.
+// This command is the same for a frame alone, in a sequence and in a part of one; so are its notes,
+// and its sidecar but for the frame's number, fps and the names of files.
 std::vector<std::string> command_of(const RenderOptions& options, const DrawnFrame& frame) {
   std::vector<std::string> command = options.frame_command;
   command.insert(command.end(), {"--time", fmt::format("{}", frame.t_s)});

@@ -43,7 +43,7 @@ double next_time_s(const RenderOptions& options, int frame);  // 1 / fps later
 // The picture's file, empty if none is to be written. A single picture's name is taken as it is.
 std::filesystem::path picture_path(const RenderOptions& options, int frame);
 
-// The same of any other file that a frame has.
+// Names any other file of a frame likewise, by its pattern.
 std::filesystem::path numbered_path(const RenderOptions& options, const std::string& pattern,
                                     int frame);
 

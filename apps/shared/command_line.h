@@ -45,7 +45,8 @@ class CommandLine {
   };
   void add_value(const Value& value);
 
-  // Of options that have been added: `name` must be given; not together; not without.
+  // These bind options that have been added: `name` must be given; not together with `other`; not
+  // without it.
   void require(const std::string& name);
   void exclude(const std::string& name, const std::string& other);
   void need(const std::string& name, const std::string& other);

@@ -21,7 +21,8 @@ std::uint32_t pack(glm::dvec3 rgb) {
 
 std::uint32_t grey(double share) { return pack(glm::dvec3(share)); }
 
-// Of full value; saturation in [0, 1], hue in turns: red, green at a third, blue at two thirds.
+// Returns a colour of full value. saturation: in [0, 1]. hue: in turns from red, green at a third,
+// blue at two thirds.
 glm::dvec3 hue_rgb(double hue, double saturation) {
   const auto channel = [&](double at) {
     const double turns = hue - at, away = std::abs(turns - std::floor(turns + 0.5));

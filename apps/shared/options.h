@@ -31,7 +31,7 @@ void add_scene_options(CommandLine& line, SceneChoice& scene);
 // --scene, --set, --size, --threads, --simd
 void add_frame_setup(CommandLine& line, FrameSetup& setup);
 
-// The same; --scene must be given.
+// Adds the options of add_frame_setup(); --scene must be given.
 void add_required_frame_setup(CommandLine& line, FrameSetup& setup);
 
 // --tile, --triangles, --terrain-triangles, --lookup-scale, --background-error,

@@ -19,7 +19,7 @@ void check_output_place(const std::filesystem::path& path);
 // call at a time.
 void write_output(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
-// The same in a folder below which no link is followed.
+// Writes a file likewise, in a folder below which no link is followed.
 void write_output(const texture::OutputFolder& folder, const std::string& name,
                   std::span<const std::uint8_t> bytes);
 

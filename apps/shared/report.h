@@ -11,7 +11,7 @@
 
 namespace swell::apps {
 
-// Of a set of samples; percentiles by nearest rank, so each is one of the samples.
+// Spread describes a set of samples. Percentiles are by nearest rank, so each is one of them.
 struct Spread {
   double median = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;
 };

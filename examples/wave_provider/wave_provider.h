@@ -33,8 +33,8 @@ class WaveProvider {
   explicit WaveProvider(const std::string& scene_file, double start_s = 0.0,
                         double step_s = 1.0 / 30.0);
 
-  // Of the surface at simulation time t_s; times may come in any order, those that grow slowly are
-  // cheap.
+  // Samples the surface at simulation time t_s. Times may come in any order; those that grow slowly
+  // are cheap.
   std::vector<WaterSample> samples(const std::vector<Point>& points, double t_s);
 
   double elevation(double x, double y, double t_s);

@@ -143,7 +143,7 @@ HWY_INLINE void VisitObjects(const LabelSources& in, const LabelPacket& p, const
       visit(lane, in.objects.primitives[primitive[lane] - ranges.begin(SurfaceKind::kObjects)]);
 }
 
-// The same of trees.
+// Calls visit(lane, tree) where a lane shows a tree.
 template <class Visit>
 HWY_INLINE void VisitTrees(const LabelSources& in, const LabelPacket& p, const Visit& visit) {
   if (hn::AllFalse(D(), p.is_tree)) return;

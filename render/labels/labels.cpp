@@ -6,7 +6,7 @@
 namespace swell::render {
 namespace {
 
-// Of depth 1. View::ray in doubles.
+// Returns the ray through a pixel's centre with depth 1: View::ray in doubles.
 glm::dvec3 ray_of(const View& view, int x_px, int y_px) {
   const double x = (2.0 * x_px + 1.0) / view.width_px - 1.0;
   const double y = 1.0 - (2.0 * y_px + 1.0) / view.height_px;

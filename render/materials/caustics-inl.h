@@ -103,7 +103,7 @@ HWY_NOINLINE static V GatheredSunAt(const Shading& s, std::size_t patches, const
   return MulAdd(more, caustics.strength, one);
 }
 
-// The same under the sea's level.
+// Returns GatheredSunAt() by all patches, at the depth of p under the sea's level.
 template <bool kNearest = false>
 HWY_INLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
   const V depth = Max(-s.rays.eye_z - p.z, 0.0f);

@@ -12,7 +12,7 @@ Glitter make_glitter(const MaterialInputs& in) {
   if (!slide || in.without.has(Part::kSunSlide)) return glitter;
   const glm::vec3 sun = in.light.sun_direction;
   const float level = std::sqrt(sun.x * sun.x + sun.y * sun.y);
-  // Of a sun straight above any direction will do.
+  // Any direction will do under a sun straight above.
   const glm::vec2 towards = level > 1e-6f ? glm::vec2(sun) / level : glm::vec2(0.0f, 1.0f);
   glitter.slide = &slide->image;
   glitter.ahead = {sun.x, sun.y, -sun.z};

@@ -11,7 +11,7 @@ namespace swell::render {
 
 struct Glitter {
   const texture::RgbaImage* slide = nullptr;  // null: by the statistics of slopes
-  // Of the projector: unit, world. `ahead` leads from the eye to the mirrored sun.
+  // The projector's axes: unit, world. `ahead` leads from the eye to the mirrored sun.
   glm::vec3 right{1, 0, 0}, up{0, 0, 1}, ahead{0, 1, 0};
   float per_slope = 2.0f;      // Cp
   float disc_variance = 0.0f;  // of the sun's disc, along an axis

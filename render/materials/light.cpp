@@ -29,7 +29,7 @@ glm::vec3 moon_lit_from(const scene::Sky& sky, glm::vec3 to_disc) {
          cosine * to_disc;
 }
 
-// Of all channels together.
+// Returns the part that `part` is of `whole`, over all channels together.
 float part_of(glm::vec3 part, glm::vec3 whole) {
   return (part.x + part.y + part.z) / std::max(whole.x + whole.y + whole.z, 1e-12f);
 }

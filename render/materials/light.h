@@ -27,7 +27,7 @@ inline constexpr float kCalmVariance = 1.0f / 1024.0f;
 
 // Linear RGB, exposed (but for a gradient's: SkyMaps).
 struct Light {
-  // Of the sun, or of the moon when the sun is down.
+  // The light is the sun, or the moon when the sun is down.
   glm::vec3 sun_direction{0, 0, 1};
   glm::vec3 sun_irradiance{1.0f};             // what clouds leave of it on average
   glm::vec3 ambient{0.3f};                    // the sky's mean radiance
@@ -35,12 +35,12 @@ struct Light {
   const texture::RgbMap* sky_soft = nullptr;  // blurred, through fog
   const texture::RgbMap* haze_sky = nullptr;  // the same without fog: what haze fades to
 
-  // As the eye sees it from its height.
+  // The sky as the eye sees it from its height.
   const texture::SmoothImage* sky_map = nullptr;
   glm::vec2 sky_azimuth{0, 1};
   float horizon_sine = 0.0f;
   glm::vec3 to_disc{0, 0, 1}, disc_radiance{0.0f};
-  // From the moon to the sun, where the disc is that of a moon which is not full.
+  // The direction from the moon to the sun, where the disc is that of a moon which is not full.
   glm::vec3 disc_lit_from{0, 0, -1};
   bool moon_has_phase = false;
   float exposure = 1.0f;  // of the picture, still to be applied
@@ -85,7 +85,7 @@ Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame
 // height_m: sky_height_m().
 Media make_media(const World::State& world, const Light& light, const Fog& fog, double height_m,
                  PartSet without);
-// The same where an eye at the height eye_z over the mean level is under water.
+// Returns the media for an eye under water, at the height eye_z over the mean level.
 Media submerge(const Media& media, double eye_z);
 
 }  // namespace swell::render

@@ -55,7 +55,8 @@ inline glm::vec3 TexelAt(const ObjectPrimitive& primitive, glm::vec3 q, float lo
   return texture::sample(image, at(t.u), at(t.v), has_textures ? level : 1e9f);
 }
 
-// Of an object's squares those along a triangle: not across it, where one would end just there.
+// Returns an object's squares per unit on one of its triangles: 0 across the triangle, where a
+// square would end just there.
 inline glm::vec3 SquaresAlong(const ObjectPrimitive& primitive) {
   glm::vec3 squares = primitive.object->squares_per_unit;
   if (squares.x <= 0.0f) return squares;
@@ -108,7 +109,7 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
                      MulAdd(along_y.Load(), q.y, MulAdd(along_z.Load(), q.z, at_origin.Load())));
   const auto of_forms = TakeFormNormals(primitive, q, n_mesh);
   const V3 n = to_world(n_mesh);
-  // Of a surface without a back the side that is seen.
+  // A surface without a back has the normal of the side that is seen.
   const V inverse = InverseSqrt(Max(Dot(n, n), 1e-30f));
   const auto from_behind = hn::AndNot(of_forms, Dot(to_world(flat.Load()), packet.to_eye) < 0.0f);
   const V3 finishes = finish.Load();

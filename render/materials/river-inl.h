@@ -356,7 +356,7 @@ struct Shader<River, ViewKind::kWindow> {
       mirrored = Lerp(mirrored, image.light, part);
       mirrored_alpha = Max(mirrored_alpha, part);
     };
-    // Of a level that is not the place's an image is not what is mirrored there.
+    // An image of another level than the place's is not what is mirrored there.
     const auto share_of = [&](float level_m) HWY_ATTR {
       const V off = Abs(packet.p.z - (level_m - shading.rays.eye_z));
       return Clamp(NegMulAdd(off, kMirrorFall_per_m, kMirrorFall_per_m * kMirrorGone_m), 0.0f,

@@ -14,7 +14,7 @@ constexpr double kRiverFoam_m = 4.0;
 constexpr float kWindShare = 0.6f;                      // banks shelter
 constexpr glm::vec3 kBedAlbedo{0.155f, 0.14f, 0.105f};  // wet gravel
 
-// Of slope variance 1/2.
+// Makes a layer of ripples whose slope variance is 1/2.
 SlopeLayer make_ripple_layer(const texture::PackedMap2& map, double period_m, glm::dvec2 eye) {
   const float variance = 2.0f * std::max(map.lost_variance.back(), 1e-12f);
   return make_layer(map, period_m, 1.0f / std::sqrt(variance), eye, {});

@@ -8,7 +8,7 @@
 namespace swell::render {
 namespace {
 
-// Of magnitude 6, in 10 000 lx: magnitude 0 is 2.54e-6 lx.
+// The illuminance of a star of magnitude 6 [10 000 lx]: magnitude 0 is 2.54e-6 lx.
 // Source: C. W. Allen, Astrophysical Quantities, 1973, section 95.
 constexpr double kFaintest = 2.54e-10 * 3.9811e-3;
 // Sines of the sun's elevation: between them stars come out.

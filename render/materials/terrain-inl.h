@@ -201,7 +201,7 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
 HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V span_m, V calm) {
   const V from_rim = below * (1.0f / reach_m);
   const V span = span_m * (1.0f / reach_m);
-  // Of a rim narrower than a pixel there is a part.
+  // A rim narrower than a pixel shows in part.
   const V shown = InverseSqrt(MulAdd(span * span, 81.0f, 1.0f));
   const V rim = shown * Clamp(NegMulAdd(from_rim, 9.0f, 1.0f), 0.0f, 1.0f);
   const V lace = Clamp(NegMulAdd(from_rim, 0.9f, 0.6f), 0.0f, 1.0f);

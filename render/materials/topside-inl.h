@@ -87,9 +87,9 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
 // The part of the facets seen that mirror the sea again, not the sky. The mean slopes send the ray
 // to r_z, and slopes that a pixel cannot resolve spread it by 2 sigma, sigma^2 = variance / 2; the
 // blend is 1.4 times as wide as that normal distribution, or dark lines would show on fine waves.
-// Of the facets that throw rays down, the fewer are turned to the eye the lower it is: a part that
-// grows with to_eye_z^2 / (8 sigma^2), and on back sides with r_z^2. Root mean square error against
-// the facets themselves 0.06; in the mean over waves at most 0.06 too much.
+// The lower the eye is, the fewer of the facets that throw rays down are turned to it: that part
+// grows with to_eye_z^2 / (8 sigma^2), and on back sides also with r_z^2. Root mean square error
+// against the facets themselves 0.06; in the mean over waves at most 0.06 too much.
 HWY_INLINE V PartOfSeaMirrored(V r_z, V to_eye_z, V inv_variance) {
   const V zero = hn::Zero(D()), one = Constant(1.0f);
   const V scale = inv_variance * 0.125f;

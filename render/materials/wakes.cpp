@@ -5,7 +5,7 @@
 namespace swell::render {
 namespace {
 
-// The same pattern with cells a third as large.
+// Returns the pattern with cells a third as large.
 FoamLace finer(FoamLace lace) {
   constexpr float kTimes = 3.0f, kLog2Times = 1.5849625f;
   const float map_fx8 = 256.0f * static_cast<float>(lace.map->size);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kUvNoisePeriod_m = 23.0;
 constexpr int kMostLongLayers = 2;
 
-// Of tilted normals to the eye, at least.
+// The least cosine of tilted normals to the eye.
 constexpr float kLeastCos = 0.08f;
 
 void add_layer(const SlopeLayer& layer, Water& water) {

@@ -29,7 +29,7 @@ struct WaterSlopes {
   V fine_variance;  // of all slopes but the drawn ones of the long waves: triangles do not show
                     // them
   V long_cosine;    // to the eye, of those
-  // Of foam: TornFoam.
+  // The foam's thickness and bubbles, as in TornFoam.
   V foam_thickness, foam_bubbles;
   V wake;  // over 1 where one is seen
 };

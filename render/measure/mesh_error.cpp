@@ -91,7 +91,7 @@ void find_skyline(const ocean::WaterSurface& surface, SeaReference& sea, Workers
     const double across =
         (2.0 * x_px / view.width_px - 1.0) * static_cast<double>(view.tan_half_x) +
         static_cast<double>(view.tan_middle_x);
-    // Of a pitched view the horizon's distance along the axis is the cosine of a level one's.
+    // A pitched view has the horizon at a level view's distance times cos(pitch) along its axis.
     const double cos_pitch = glm::length(glm::dvec2(view.forward));
     rays[k] = skyline_along(view, surface, glm::normalize(ahead + right * (across * cos_pitch)));
   });

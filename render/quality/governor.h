@@ -82,7 +82,8 @@ class Governor {
   static constexpr double kMostChange = 0.1;  // of triangles, from frame to frame
 
  private:
-  // Of a frame at full quality: ms for its triangles, lookup images, picture pixels, and the rest.
+  // The cost of a frame at full quality [ms]: of its triangles, lookup images, picture pixels, and
+  // the rest.
   struct Cost {
     double triangles = 0.0, lookups = 0.0, pixels = 0.0, rest = 0.0;
   };

@@ -190,7 +190,7 @@ inline HWY_NOINLINE void LayAirOverTile(const Shading& s, const raster::PixelBox
     LayOverTile<AloftAhead>(s, box, depth, scratch);
 }
 
-// The same before the fragments.
+// Lays air before the surfaces that the fragments show.
 inline HWY_NOINLINE void LayAirOverFragments(const Shading& s,
                                              std::span<const EdgeFragment> fragments,
                                              ShadeScratch& scratch) {

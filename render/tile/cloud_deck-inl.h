@@ -64,7 +64,7 @@ static HWY_NOINLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m
   return Lerp(light, arriving, IfThenElseZero(some, hidden));
 }
 
-// The same before what a packet shows.
+// Lays the layer's clouds before what a packet shows.
 HWY_INLINE V3 CloudsBefore(const Shading& s, const Packet& shown, V3 light) {
   const V3 ray = RayAt(s.rays, shown.x_px, shown.y_px);
   return AddCloudDeck(s, ray * InverseSqrt(Dot(ray, ray)), shown.distance, light);

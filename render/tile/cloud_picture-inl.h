@@ -69,7 +69,7 @@ HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) 
   return seen;
 }
 
-// The same at any places in the window.
+// The clouds at any places in the window.
 HWY_INLINE CloudsSeen CloudsAt(const CloudPicture& picture, V x_px, V y_px) {
   const DI di;
   const float per_step = 1.0f / static_cast<float>(picture.step());
@@ -121,7 +121,8 @@ inline HWY_NOINLINE void LayCloudsOverTile(const Shading& s, const raster::Pixel
     }
 }
 
-// The same before the fragments, but for those of pixels' centres.
+// Lays clouds before the fragments. Those that pixels' centres show get the tile's light later,
+// from GatherCentres().
 inline HWY_NOINLINE void LayCloudsOverFragments(const Shading& s,
                                                 std::span<const EdgeFragment> fragments,
                                                 ShadeScratch& scratch) {

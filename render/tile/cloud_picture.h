@@ -28,7 +28,7 @@ struct CloudPicture {
   static constexpr std::size_t kChannels = 6, kOpacity = 3, kFront = 4, kBack = 5;
   std::array<std::vector<float>, kChannels> nodes;
 
-  // Of nodes whose rays were followed: up to where the ray met nothing [m].
+  // How far a node's ray meets nothing [m], at nodes whose rays were followed.
   std::vector<float> clear;
   // At (i, j), both odd: not 0 if the four coarse nodes around show about the same.
   std::vector<std::int32_t> even;

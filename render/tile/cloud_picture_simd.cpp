@@ -129,7 +129,8 @@ bool is_even(const CloudPicture& picture, int i, int j) {
   return picture.even[picture.index(i, j)] != 0;
 }
 
-// Of each other lane from i on.
+// Whether the corners of the cells around (i, j), (i + 2, j) and so on show about the same, in
+// every other lane from the first on.
 HWY_INLINE hn::Mask<D> AreEven(const CloudPicture& picture, int i, int j) {
   constexpr float kLeast = 0.02f, kLight = 0.12f, kDistance = 0.2f;
   const D d;

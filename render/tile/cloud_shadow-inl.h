@@ -68,8 +68,8 @@ inline HWY_NOINLINE V SunUnderClouds(const CloudShadow& shadow, const V3& p, flo
   return SampleCloudShadow(shadow, p, eye_z, [](std::size_t, V part) HWY_ATTR { return part; });
 }
 
-// The same about a place over the sea's level, as wide as places are apart that stand for all
-// between them.
+// The sun that clouds leave about a place over the sea's level, over what they leave of it on
+// average. It is blurred as widely as places are apart that stand for all between them.
 inline HWY_NOINLINE V SunUnderCloudsAbout(const CloudShadow& shadow, const V3& place, V apart_m) {
   return SampleCloudShadow(shadow, place, 0.0f, [&](std::size_t level, V part) HWY_ATTR {
     if (level + 1 == CloudShadow::kLevels) return part;

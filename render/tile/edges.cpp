@@ -11,8 +11,7 @@ namespace swell::render {
 namespace {
 
 // The primitives of what samples are told apart by: the water, the land, the trees, an object, or
-// the sky,
-// which has kNoPrimitive alone. No two begin alike.
+// the sky, which has kNoPrimitive alone. No two begin alike.
 struct SurfaceRange {
   std::uint32_t begin = raster::kNoPrimitive, size = 1;
   bool holds(std::uint32_t primitive) const { return primitive - begin < size; }
@@ -92,7 +91,7 @@ Group& group_of(const Sample& sample, std::span<Group, kMaxFragments> groups, st
 struct Pixel {
   std::uint16_t at;
   int x_px, y_px;  // in the picture
-  // Of the centre.
+  // What the pixel's centre shows.
   float z;
   std::uint32_t primitive;
   SurfaceRange surface;

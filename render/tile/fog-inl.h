@@ -41,8 +41,8 @@ HWY_INLINE V Leaning(const Fog& fog, V amount, V rise) {
   return NegMulAdd(amount * rise, 1.0f / fog.sun_sine, amount);
 }
 
-// Of a straight line over a round earth, whose height is that of a parabola, what lies under the
-// top: begin to end.
+// Returns the part of a ray that lies under the fog's top, from begin to end. Over a round earth
+// the height of a straight line is that of a parabola.
 HWY_INLINE FogPath PathInSlab(const Fog& fog, const FogRay& ray) {
   const D d;
   const V zero = hn::Zero(d), least = Constant(1e-9f);
@@ -74,7 +74,8 @@ HWY_INLINE V MeanPassing(V x) {
   return IfThenElse(x < 0.02f, series, (one - e) / x);
 }
 
-// Of fog that thins as e^(-z / H) the mean along a straight line between two heights.
+// Returns the path through fog that thins as e^(-z / H), by the fog's mean along a straight line
+// between two heights.
 HWY_INLINE FogPath PathInThinningFog(const Fog& fog, const FogRay& ray) {
   const D d;
   const V zero = hn::Zero(d);
@@ -91,7 +92,7 @@ HWY_INLINE FogPath PathInThinningFog(const Fog& fog, const FogRay& ray) {
   return {before * ray.distance, amount, Leaning(fog, amount, rise)};
 }
 
-// Of fog that thins, all that a ray into the sky meets.
+// Returns the path of a ray into the sky, with all the fog that it meets.
 HWY_INLINE FogPath PathToSky(const Fog& fog, const FogRay& ray) {
   if (!fog.is_exponential) return PathInSlab(fog, ray);
   // Chapman's path of level rays, sqrt(pi R H / 2): as over a flat earth with the sine
@@ -183,7 +184,7 @@ struct FogView {
   V3 passes, added;
 };
 
-// Of the sun's light in a direction of length 1, Blinn's lobe without its factors.
+// Returns Blinn's lobe of the sun's light, without its factors, in a direction of length 1.
 HWY_INLINE V FogPhase(const Fog& fog, V3 direction) {
   const V cosine = Dot(direction, Constant(fog.to_sun));
   const V under = NegMulAdd(cosine, 2.0f * fog.forward, 1.0f + fog.forward * fog.forward);
@@ -247,7 +248,7 @@ static HWY_NOINLINE V SunUnderCloudsOnWay(const Fog& fog, FogRay ray, FogPath pa
   return sum * (1.0f / static_cast<float>(places));
 }
 
-// The same less 1, of what is seen.
+// Returns SunUnderCloudsOnWay() less 1, and 0 where the fog is too thin to be seen.
 HWY_INLINE V ShadeOfClouds(const Fog& fog, const FogRay& ray, const FogPath& path, V amount,
                            int places) {
   const D d;
@@ -295,7 +296,8 @@ HWY_INLINE V3 ThroughFog(const FogView& view, V3 light) {
           MulAdd(light.z, view.passes.z, view.added.z)};
 }
 
-// To a place. A way with both ends in a slab lies in it whole: from an eye in the fog the sea does.
+// Returns the path to a place. A way with both ends in a slab lies in it whole: from an eye in the
+// fog the sea does.
 HWY_INLINE FogPath PathTo(const Fog& fog, const FogRay& ray) {
   if (fog.is_exponential) return PathInThinningFog(fog, ray);
   if (ray.start.height_m > fog.top_m) return PathInSlab(fog, ray);

@@ -116,7 +116,7 @@ HWY_INLINE void ShadeList(const Listed& listed, const Shade& shade) {
     listed.Store(i, shade(listed.Load(i)));
 }
 
-// The same for packets side by side: shade(packets, colours).
+// Calls shade(packets, colours) for listed packets side by side and stores the colours.
 template <class Listed, class Shade>
 HWY_INLINE void ShadeSideBySide(const Listed& listed, const Shade& shade) {
   PerPacket<ListedPacket> packets;

@@ -38,7 +38,8 @@ HWY_INLINE V SunOverOne(const ObjectShadows& shadows, const SunDepth& map, const
   return NegMulAdd(1.0f - part, map.strength, 1.0f);
 }
 
-// The same of each lane's object; null: it does not shade itself.
+// What each lane's object leaves of the sun at points p of its own surface, as SunOverOne() has it.
+// maps: null for an object that does not shade itself.
 template <std::size_t kCount>
 HWY_NOINLINE V SunOverOwn(const ObjectShadows& shadows,
                           const std::array<const SunDepth*, kCount>& maps, const V3& p,

@@ -11,7 +11,7 @@
 
 namespace swell::render {
 
-// Of a picture that begins partly in water, as that part sees it.
+// Inputs for the part of a picture that begins in water, where the rest begins in air.
 struct WetSide {
   const Crossing& line;
   const Shading& shading;

@@ -70,7 +70,7 @@ int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scr
                std::span<std::uint32_t> rgba, std::span<float> linear,
                ShadedLabels* labels = nullptr);
 
-// The same for a tile of open sky, without a visibility buffer.
+// Shades a tile of open sky as shade_tile() does, without a visibility buffer.
 void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,
                     std::span<std::uint32_t> rgba, std::span<float> linear);
 

@@ -27,7 +27,7 @@ Shafts make_shafts(const MaterialInputs& in, const RenderView& view, const ViewR
   if (view.kind != ViewKind::kWindow || !media.submerged || !has_pattern ||
       in.without.has(Part::kShafts))
     return shafts;
-  // Of the colours that are scattered: the others do not reach far.
+  // Shafts have the colours that are scattered: the others do not reach far.
   const glm::vec3 shown = media.scattered / std::max(mean(media.scattered), 1e-12f);
   shafts.lost_per_m = std::max(mean(shown * media.absorption_per_m), 1e-3f);
   shafts.daylight_lost_per_m = mean(shown * media.daylight_lost_per_m);

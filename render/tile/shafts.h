@@ -15,7 +15,7 @@ struct ViewRays;
 
 struct Shafts {
   float reach_m = 0.0f;  // rays are followed so far; 0: no shafts
-  // Of light on its way to the eye, and of daylight on its way down; mean of the channels.
+  // What light loses on its way to the eye, and daylight on its way down; mean of the channels.
   float lost_per_m = 0.0f, daylight_lost_per_m = 0.0f;
   float diffused_per_m = 0.0f;  // of sunlight on its way down: it comes from all sides then
   float contrast = 1.0f;        // what makes up for the net's blur over long steps
@@ -34,7 +34,7 @@ struct ShaftNodes {
   alignas(64) std::array<std::int32_t, kMostAlong * kMostAlong + kPadding> code{};
 };
 
-// Of the window of an eye under water.
+// Makes the shafts for the window of an eye under water; other views have none.
 Shafts make_shafts(const MaterialInputs& in, const RenderView& view, const ViewRays& rays,
                    glm::vec2 entry);
 

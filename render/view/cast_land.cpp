@@ -85,7 +85,7 @@ class FreeWays {
     if (view.land_has_apron) cast(view, view.land->around, count, free_around_);
   }
 
-  // Of the pixel (x, y) of the tile.
+  // The ray of the tile's pixel (x, y) meets no land up to this t: in the map, and around it.
   float of_map(int x, int y) const { return free_[number(x, y)]; }
   float around(int x, int y) const { return free_around_[number(x, y)]; }
 

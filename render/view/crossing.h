@@ -24,11 +24,11 @@ struct Crossing {
   std::vector<float> above_m;   // if the picture begins in both
   std::vector<int> near_water;  // working memory: triangles
 
-  // Of pixels of the box, where the picture begins in both.
+  // Whether pixels of the box begin in air, in water or in both. The picture must begin in both.
   Begins begins(const raster::PixelBox& box) const;
-  // At a pixel's centre: below 0 where it begins in water.
+  // Returns `above_m` at a pixel's centre: below 0 where it begins in water.
   float above(int x_px, int y_px) const;
-  // Pixels from a pixel to the line, about: as its cell between four nodes has it.
+  // About how many pixels lie between a pixel and the line, as its cell between four nodes has it.
   float rows_away(int x_px, int y_px) const;
   // No pixel of the pixel's cell is nearer than this.
   float least_rows_away(int x_px, int y_px) const;
@@ -37,8 +37,8 @@ struct Crossing {
   float per_px(const float* upper) const;
 };
 
-// Of the water's triangles at their heights of this frame. The picture begins as the eye does
-// where no wave can reach the near plane. 0.1 to 1 ms where one can.
+// Finds the crossing by the water's triangles at their heights of this frame. The picture begins as
+// the eye does where no wave can reach the near plane. 0.1 to 1 ms where one can.
 void find_crossing(const Surface& water, const View& view, const EyeInWater& eye,
                    float most_height_m, Crossing& line);
 

@@ -98,7 +98,7 @@ struct RegionParts {
   }
 };
 
-// Of the squares that a box and the form share.
+// Returns the parts that the squares shared by a box and the form may show.
 RegionParts parts_in(const FormsInView& in, const FormInView& form, const Region& region,
                      const raster::PixelBox& box) {
   RegionParts found;
@@ -298,7 +298,7 @@ void draw_form_samples(const FormsInView& forms, const raster::PixelBox& box, in
     first_of_row[static_cast<std::size_t>(y) + 1] =
         first_of_row[static_cast<std::size_t>(y)] +
         static_cast<std::size_t>(std::popcount(mask.row(y)) * samples);
-  // Of the block at (x0, y0), by rays as many at once as a cell has pixels.
+  // Draws the samples of the block at (x0, y0), by as many rays at once as a cell has pixels.
   const auto draw_block = [&](const FormInView& form, const RegionParts& found,
                               std::uint64_t squares, int x0, int y0) {
     const int column = x0 - box.x0_px;

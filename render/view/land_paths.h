@@ -18,9 +18,9 @@ struct LandPath {
 
 inline constexpr float kFarthestLand = 1e9f;  // [t]
 
-// Of the ray with this direction, relative to the eye, whose depth grows by 1 per t. A mirrored ray
-// goes up from where it meets the level, a refracted one on from there by Snell's law, as straight
-// as the other.
+// Returns the path of the ray with this direction, relative to the eye; its depth grows by 1 per t.
+// A mirrored ray goes up from where it meets the level, a refracted one on from there by Snell's
+// law, as straight as the other.
 LandPath land_path(const RenderView& view, glm::vec3 direction);
 
 // Rays through places of a picture, an element each; all spans have one length. They end where

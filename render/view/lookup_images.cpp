@@ -40,7 +40,7 @@ TileRange reachable_tiles(const View& window, const raster::TileGrid& grid, int 
 void size_target(const raster::TileGrid& grid, int levels, LookupTarget& target) {
   const View& view = target.view.camera;
   const auto tiles = static_cast<std::size_t>(grid.count());
-  // Of a camera that lies on its side up and down are to the sides.
+  // Up and down are to the sides of a camera that lies on its side.
   const bool is_upright = std::abs(view.up.z) >= std::abs(view.right.z);
   const auto axis = is_upright ? texture::BlurAxis::kY : texture::BlurAxis::kX;
   const bool same = target.image.width == view.width_px && target.image.height == view.height_px &&

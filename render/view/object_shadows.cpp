@@ -80,7 +80,8 @@ void add_edge(const SunPoint& a, const SunPoint& b, int step, Outline& outline) 
   }
 }
 
-// Of small objects some rows stand for all: every seventh, about a pixel apart, or every third.
+// Returns how many rows apart an outline is taken. Some rows stand for all of a small object: every
+// seventh, about a pixel apart, or every third.
 int row_step(float size_px) { return size_px < 8.0f ? 7 : size_px < 20.0f ? 3 : 1; }
 
 // The rows between those of every `step`.

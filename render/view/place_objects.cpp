@@ -107,7 +107,7 @@ bool in_mirror(const DrawnKind& drawn, Bounds ball, float waterline_rel_m) {
          in_view(drawn, ball.middle_rel, ball.radius_m);
 }
 
-// The same of what lies under water.
+// Whether a view of what lies under water may show any of the object.
 bool under_water(const DrawnKind& drawn, const Bounds& ball, float waterline_rel_m) {
   const float deepest_m = waterline_rel_m - ball.lowest_rel_m;
   if (deepest_m < -kWaveMargin_m) return false;
@@ -152,7 +152,7 @@ void for_pieces(const std::vector<ObjectPart>& parts, std::size_t begin, std::si
   }
 }
 
-// Vertices [begin, end), counted through all parts.
+// Writes vertices [begin, end), counted through all parts.
 void write_vertices(const World::State& world, std::span<const scene::ObjectPose> poses,
                     const View& view, std::size_t begin, std::size_t end, ObjectDraws& out) {
   for_pieces(out.parts, begin, end, &ObjectPart::first_vertex, &ObjectPart::vertices,
@@ -171,7 +171,7 @@ void write_vertices(const World::State& world, std::span<const scene::ObjectPose
              });
 }
 
-// The same of triangles.
+// Writes triangles [begin, end), counted through all parts.
 void write_triangles(std::size_t begin, std::size_t end, ObjectDraws& out) {
   for_pieces(out.parts, begin, end, &ObjectPart::first_triangle, &ObjectPart::triangles,
              [&](std::size_t i, std::size_t first, std::size_t count) {

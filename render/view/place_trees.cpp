@@ -20,15 +20,15 @@
 namespace swell::render {
 namespace {
 
-// Of a crown's box, for each triangle: of leaves, of those of tall crowns, of blades.
+// The area of a crown's box for each triangle: of leaves, of those of tall crowns, of blades.
 constexpr float kLeaf_px2 = 75.0f, kTallLeaf_px2 = 45.0f, kBlade_px2 = 16.0f;
 constexpr float kLow_px = 16.0f, kTall_px = 48.0f;  // trees with crowns of either
 // Trees of these heights have as few triangles as one, and as few as their shape needs.
 constexpr float kOneLeaf_px = 5.0f, kFewLeaves_px = 8.0f;
 constexpr float kGrown_px = 4.0f;  // trees of this height have all of it
-// Of trees of less height in a wood nobody sees whether their edges to the land between them are
-// smooth: from the one to the other, by their ranks. A wood: so much of the ground is under crowns,
-// and such a part of them is drawn; fewer are broad ones that stand out.
+// Nobody sees whether low trees in a wood have smooth edges to the land between them. Low trees are
+// lower than a height between the first two, by their ranks. A wood: so much of the ground is under
+// crowns, and such a part of the trees is drawn; fewer are broad ones that stand out.
 constexpr float kLikeLand_px = 32.0f, kUnlikeLand_px = 44.0f, kWood = 0.15f, kWoodKept = 0.25f;
 constexpr float kSways_px = 16.0f;  // trees of less height do not sway, of twice that do
 constexpr std::size_t kCellsAtOnce = 8, kTreesAhead = 4;

@@ -43,7 +43,7 @@ glm::vec4 image_clip_plane(ViewKind kind, const EyeInWater& eye, SurfaceKind sur
 
 namespace {
 
-// The same plane of points relative to the eye.
+// Returns a plane of the world as that of points relative to the eye.
 glm::vec4 relative_plane(const glm::dvec4& world, glm::dvec3 eye_world) {
   return glm::vec4(glm::dvec4(glm::dvec3(world), world.w + glm::dot(glm::dvec3(world), eye_world)));
 }

@@ -18,7 +18,8 @@ struct Corners {
   void add(glm::vec3 corner) { p[count++] = corner; }
 };
 
-// Of what lies no higher than highest_rel_m over the eye.
+// Returns the corners of all that the caster may tell on and that lies no higher than highest_rel_m
+// over the eye.
 Corners corners_of(const ShadowCaster& caster, const ObjectShadows& shadows,
                    float highest_rel_m = std::numeric_limits<float>::infinity());
 

@@ -50,7 +50,7 @@ struct DrawnCell {
 // The trees that views of one kind may show, nearest cells first.
 struct TreeDraws {
   std::vector<DrawnCell> cells;
-  // Of each cell in `cells` those that are drawn, from the place of its first in the world on.
+  // Each cell in `cells` has its drawn trees here, from its first tree's index in the world on.
   std::vector<DrawnTree> trees;
   std::vector<std::uint32_t> chosen;      // storage, likewise
   std::vector<TreePrimitive> primitives;  // per triangle

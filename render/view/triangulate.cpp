@@ -163,7 +163,7 @@ void adapt_surface(const lod::Domain& domain, const lod::AdaptRequest& request, 
   surface.roam->update_mesh(surface.mesh, surface.mesh_revision);
 }
 
-// Of an earlier frame.
+// Clears what an earlier frame left.
 void clear_surface(Surface& surface) {
   surface.statistics = {};
   surface.mesh_revision = 0;

@@ -77,7 +77,7 @@ void find_visible(const Meshes& meshes, int tile_size_px, int edge_samples, Rend
     find_visible_in_tile(meshes, window, static_cast<int>(tile), edge_samples != 0, run.profile,
                          visibility);
   });
-  // Of the threads' time, as if all of them had shared the rays evenly.
+  // The rays take their part of the threads' time, as if all threads had shared them evenly.
   const double rays_us = std::accumulate(visibility.rays_us.begin(), visibility.rays_us.end(), 0.0);
   run.profile.move(run.stage, Stage::kRays, 1e-3 * rays_us / run.workers.thread_count());
 }

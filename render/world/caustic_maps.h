@@ -42,8 +42,8 @@ inline constexpr int kMostCausticSize = 128;
 // asin(1/5) moves by their heights as one that high.
 void trace_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, float n, CausticRays& rays);
 
-// The same for the light that the waves mirror, at heights in place of depths. A light lower than
-// asin(1/10) goes as far sideways as one that high.
+// Traces the light that the waves mirror, as trace_rays() does, but to heights in place of depths.
+// A light lower than asin(1/10) goes as far sideways as one that high.
 void trace_mirrored_rays(const ocean::PatchFrame& patch, glm::vec3 to_light, CausticRays& rays);
 
 // How far a light's rays go sideways, away from it, in each metre up from flat water.

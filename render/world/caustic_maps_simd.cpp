@@ -36,7 +36,8 @@ struct WaveFields {
 
 inline constexpr float kLeastRise = 0.1f;  // of mirrored light, in a metre of its way
 
-// Of variance 2 part stride^2 [texels^2] along each axis; part in [0, 1/4].
+// A pass that softens texels. It adds the variance 2 part stride^2 [texels^2] along each axis; part
+// in [0, 1/4].
 struct SoftPass {
   float part;
   int stride;

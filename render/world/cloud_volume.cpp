@@ -45,7 +45,7 @@ std::vector<std::uint8_t> make_detail(std::uint64_t seed, Workers& workers) {
   return bytes;
 }
 
-// The same, between its points, as a part of its greatest value; x, y and z in periods.
+// Returns the detail between its points, as a part of its greatest value; x, y and z in periods.
 double detail_at(const std::vector<std::uint8_t>& bytes, double x, double y, double z) {
   constexpr int n = kDetailSide;
   const auto split = [](double v, int& cell) {

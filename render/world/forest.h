@@ -32,7 +32,8 @@ TreeLook tree_look(terrain::TreeSpecies species);
 // closed wood, of which nobody sees single ones.
 inline constexpr float kThinnedTree_px = 5.0f, kThinnedWood_px = 18.0f;
 
-// Of each tree what says whether it is drawn, side by side; kTreeLanes more than there are trees.
+// The columns hold what says of each tree whether it is drawn, one value a tree. They are
+// kTreeLanes longer than the list of trees.
 inline constexpr std::size_t kTreeLanes = 16;
 struct TreeColumns {
   std::vector<float> x_m, y_m, z_m;  // of the foot, from Trees::origin
@@ -49,7 +50,7 @@ struct Forest {
   // Over the terrain's square, as 2 x - 1: the part of the ground that crowns cover, and the part
   // of the sun's light that they leave to the ground and the water under it.
   texture::PackedMap1 cover, sun_left;
-  // Of the square, what holds all their shade on the sea [m from its corner].
+  // The box in the square that holds all their shade on the sea [m from the square's corner].
   glm::vec2 sea_shade_low{0.0f}, sea_shade_high{0.0f};
   glm::vec3 canopy_albedo{0.03f};  // of crowns from afar, with the shade between them
   float mean_height_m = 10.0f;

@@ -70,8 +70,8 @@ void blur_row(int size, int radius, const float* from, float* to) {
 
 constexpr int kColumnsATask = 64;
 
-// The same of columns [first, first + kColumnsATask), side by side: samples of one column alone lie
-// in few sets of the processor's caches.
+// Means over 2 radius + 1 samples of columns [first, first + kColumnsATask), side by side: samples
+// of one column alone lie in few sets of the processor's caches.
 void blur_columns(int size, int radius, int first, const float* from, float* to) {
   const int count = std::min(kColumnsATask, size - first);
   const auto row = [&](int j) {

@@ -31,7 +31,8 @@ double beach_slope(const terrain::ShoreMap& shore, const terrain::Grid& map, dou
   return distances_m > 0.0 ? std::clamp(depths_m / distances_m, 0.01, 0.5) : 0.1;
 }
 
-// Of the surf's reach to the shore: shorter where only a part of the surf is to run in.
+// Returns the distance from p to the shore over the surf's reach. The reach is shorter where only a
+// part of the surf is to run in.
 float part_of_reach(const terrain::ShoreMap& shore, glm::dvec2 p, float reach_m) {
   const float distance_m = shore.sample(p.x, p.y).signed_distance_m;
   const float surf = shore.surf_at(p.x, p.y);
@@ -54,7 +55,7 @@ NearShoreMap build_near_shore(const World::State& world, Workers& workers) {
   near.reach_m = std::clamp(kDepthOfSurf * height_m / slope, kLeastTexels * texel_m,
                             std::max(kMostSurfReach_m, kLeastTexels * texel_m));
   near.reach_s = 2.0 * std::sqrt(near.reach_m / (gravity * slope));
-  // Of the mean wave, in deep water.
+  // The period is that of the mean wave in deep water.
   near.period_s = std::sqrt(2.0 * kPi * std::max(world.sea->mean_wavelength_m(), 1.0) / gravity);
   auto taken = make_large<float>(static_cast<std::size_t>(n) * n);
   auto part = make_large<float>(taken.size());

@@ -24,7 +24,7 @@ bool same_shape(const scene::FloatingObject& a, const scene::FloatingObject& b) 
   return a.kind == b.kind && a.top_mark == b.top_mark && a.file == b.file && a.up == b.up;
 }
 
-// Of the first of these objects that has the same shape; null: of none.
+// Returns the shape of the first of `others` that has the same shape as `object`; null if none has.
 ObjectShape find_shape(const scene::FloatingObject& object,
                        std::span<const scene::FloatingObject> others,
                        const std::vector<ObjectShape>& shapes) {

@@ -12,8 +12,8 @@
 namespace swell::render {
 
 struct SkyFrame {
-  // Of the eye's height. What is lit and drawn is a function of that height alone, not of frames
-  // before.
+  // The sky from the eye's height. What is lit and drawn is a function of that height alone, not of
+  // frames before.
   const texture::SmoothImage* map = nullptr;
   float horizon_sine = 0.0f;
   glm::vec3 to_disc{0, 0, 1}, disc_radiance{0.0f};

@@ -157,7 +157,7 @@ double luminance(glm::vec3 rgb) {
   return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// Of the clear sky's luminance, from the horizon up.
+// Returns the root mean square of the clear sky's luminance, from the horizon up.
 double root_mean_square(const scene::SkyLight& light, double horizon_sine) {
   constexpr int kRings = 24, kSectors = 48;
   double sum = 0.0;

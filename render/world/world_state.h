@@ -82,7 +82,7 @@ struct SkyMaps {
   CloudLight cloud_light;
   glm::vec3 ambient{0.0f};  // mean radiance of the upper hemisphere, cosine-weighted
   glm::vec3 horizon{0.0f};  // mean radiance round the horizon
-  // Of the sun or the moon.
+  // The light is the sun, or the moon when the sun is down.
   glm::vec3 to_light{0, 0, 1};
   glm::vec3 irradiance{0.0f};       // under the clouds
   glm::vec3 to_sun{0, 0, 1};        // also when it is down
@@ -155,11 +155,11 @@ struct World::State {
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
   std::shared_ptr<const texture::BumpSequence> ripple_sequence = {};  // none: the bump map
   std::shared_ptr<const SunSlide> sun_slide = {};                     // none: glitter by slopes
-  // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. Of any
-  // size, it repeats. The same in every world.
+  // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. The map
+  // repeats and may have any size. It is the same in every world.
   std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
-  // Of the ground: thresholds of what covers it, and how its shade varies, both evenly spread over
-  // [-1, 1]. Of any size, it repeats. The same in every world.
+  // The ground's pattern: thresholds of what covers it, and how its shade varies, both evenly
+  // spread over [-1, 1]. The map repeats and may have any size. It is the same in every world.
   std::shared_ptr<const texture::PackedMap2> ground_pattern = {};
 
   // What is on the sea.
@@ -195,7 +195,7 @@ inline ocean::WaterSurface water_surface(const World::State& world, const ocean:
 // Points a side of the maps that lie over a coast's square.
 inline constexpr int kCoastMapSize = 256;
 
-// The same of NearShoreMap.
+// Points a side of NearShoreMap::map.
 inline constexpr int kNearShoreSize = 512;
 
 // Cells a side of what is known of the terrain with its apron: relief and slopes.

@@ -24,14 +24,15 @@ namespace swell::render {
 View world_view(const World& world, double t_s, int width_px, int height_px, ocean::SeaFrame& sea,
                 Workers& workers);
 
-// The same in a frame that is drawn with these options: the camera goes with the object that
-// carries it where the frame's poses put that, which needs no waves, or where its disturbances move
-// it. Aborts unless scene::check_given_poses() passes the poses.
+// The view of the scene's camera in a frame that is drawn with these options. The camera goes with
+// the object that carries it: where the frame's poses put that object, which needs no waves, or
+// where the waves and the frame's disturbances move it. Aborts unless scene::check_given_poses()
+// passes the poses.
 View world_view(const World& world, double t_s, const FrameOptions& options, glm::ivec2 size_px,
                 ocean::SeaFrame& sea, Workers& workers);
 
-// That of the frame after it, for FrameOptions::next_view: options.next_frame_s later, with
-// options.next_poses.
+// The view in the frame after that one, for FrameOptions::next_view: options.next_frame_s later,
+// with options.next_poses.
 View next_world_view(const World& world, double t_s, const FrameOptions& options,
                      glm::ivec2 size_px, ocean::SeaFrame& sea, Workers& workers);
 

@@ -26,7 +26,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 void run(const fs::path& file) {
   std::ifstream from(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(from), {}};
-  // Of its exact size: an address check sees the first byte that is read behind it.
+  // The buffer has the input's exact size: an address check sees the first byte read behind it.
   const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
   std::ranges::copy(bytes, exact.get());
   LLVMFuzzerTestOneInput(exact.get(), bytes.size());

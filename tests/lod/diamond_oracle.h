@@ -23,7 +23,7 @@ struct OracleDiamond {
   int level;
   int half;  // the largest power of two that divides both coordinates
   std::vector<Point> parents;
-  // Of dz/dx, dz/dy and z in it: set by bound_relief().
+  // Bounds of dz/dx, dz/dy and z [z_unit_m] in it and its descendants: set by bound_relief().
   float x_least = 0.0f, x_most = 0.0f, y_least = 0.0f, y_most = 0.0f;
   float z_unit_m = 0.0f, z_least = 0.0f, z_most = 0.0f;
 };
@@ -63,9 +63,9 @@ inline std::vector<OracleDiamond> all_diamonds(int bits) {
   return diamonds;
 }
 
-// The slopes and heights of a grid of heights with one sample a lattice point, in the cells (8 half
-// sizes wide at even levels, 4 at odd ones) that hold the diamond and its descendants, in 127ths of
-// the steepest.
+// Bounds the slopes and heights of a grid of heights with one sample a lattice point, in the cells
+// (8 half sizes wide at even levels, 4 at odd ones) that hold the diamond and its descendants:
+// slopes in 127ths of the steepest, heights in 32767ths of the highest.
 inline void bound_relief(std::vector<OracleDiamond>& diamonds, int bits, double step_m,
                          const std::vector<float>& height_m) {
   const int n = 1 << bits;

@@ -14,8 +14,8 @@ inline constexpr int kGeneratedFiles = 30;  // of each format
 struct GeneratedFile {
   std::filesystem::path path;
   std::string broken;  // what is wrong with it; empty: it is to be read
-  // Of one that is to be read: how many triangles have an area, and the corners of the box around
-  // them: right, ahead, up in units of the file, of COLLADA in metres.
+  // What a file that is to be read holds: how many triangles have an area, and the corners of the
+  // box around them: right, ahead, up in units of the file, of COLLADA in metres.
   std::size_t triangles = 0;
   glm::vec3 low{0.0f}, high{0.0f};
 };

@@ -50,7 +50,7 @@ struct GltfParts {
     return add(bytes, 5126, "VEC3", points.size(),
                R"(,"min":)" + list(low) + R"(,"max":)" + list(high));
   }
-  // Of 1, 2 or 4 bytes each.
+  // Adds indices of 1, 2 or 4 bytes each.
   std::size_t add_indices(const std::vector<std::size_t>& indices, int bytes_each) {
     std::string bytes;
     for (const std::size_t i : indices) {

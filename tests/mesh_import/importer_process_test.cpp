@@ -137,7 +137,7 @@ TEST(ImporterProcess, RefusesAFileOfAThousandBytesThatAsksForAGigabyte) {
   }
 }
 
-// Of a glTF file, with its buffer and its picture in files of their own, in two places.
+// A glTF file has its buffer and its picture in files of their own, and its mesh in two places.
 TEST(ImporterProcess, CountsWhatTheFileNamesThePicturesAndWhatIsPlacedAgain) {
   const fs::path folder = mesh_folder("parts");
   const texture::Image8 image{8, 4, 3, std::vector<std::uint8_t>(8 * 4 * 3, 200)};

@@ -54,7 +54,7 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   return {c / vx, c / std::sqrt(vx * vy), std::sqrt(vx)};
 }
 
-// Of level water, at the sine of a ray's elevation. Source: Fresnel 1823.
+// Returns the reflectance of level water, at the sine of a ray's elevation. Source: Fresnel 1823.
 double fresnel(double c) {
   const double t = std::sqrt(1.0 - (1.0 - c * c) / (1.333 * 1.333));
   const double s = (c - 1.333 * t) / (c + 1.333 * t), p = (1.333 * c - t) / (1.333 * c + t);

@@ -213,7 +213,7 @@ TEST_P(CausticRaysOnTarget, HaveMostContrastAtTheFocus) {
   EXPECT_TRUE(std::is_sorted(most, contrast.end(), std::greater()));
 }
 
-// Of a patch with more samples than a map has points the long waves count.
+// The long waves are what counts of a patch with more samples than a map has points.
 TEST_P(CausticRaysOnTarget, OfAFinerPatchAreThoseOfACoarserOne) {
   const std::vector<Wave> waves = {{3, 1, 0.01, 0.4}, {-2, 4, 0.008, 2.0}};
   CausticRays fine, coarse;

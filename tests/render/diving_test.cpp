@@ -53,7 +53,7 @@ struct Diver : Shot {
     Shot::draw(world, seen, t_s, options);
   }
 
-  // Of the last frame.
+  // Returns the water's height in the last frame.
   double height_m(glm::dvec2 place_m) const {
     return static_cast<double>(water_surface(world.state(), state().sea).height(place_m));
   }

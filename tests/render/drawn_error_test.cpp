@@ -45,7 +45,7 @@ double steepest_of(const ocean::PatchFrame& patch) {
 struct Bounds {
   double slope, curvature, height_m;
 
-  // Of the distance to a triangle with this longest edge, per half edge.
+  // Bounds the sea's distance to a triangle with this longest edge, per half edge.
   double over(double edge_m) const { return std::min(slope, 0.25 * curvature * edge_m); }
 };
 Bounds bounds_of(const ocean::Sea& sea, const ocean::SeaFrame& frame, glm::dvec2 area_m) {

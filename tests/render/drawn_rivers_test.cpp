@@ -251,7 +251,7 @@ TEST(DrawnRivers, RipplesDoNotPulse) {
   EXPECT_GT(least, 1.0);
 }
 
-// Of the land a river reads colours, and what lies around them.
+// A river reads only the land's colours, in the terrain's square and around it.
 TEST(DrawnRivers, KeepNoLandOfTheirOwn) {
   EXPECT_LT(sizeof(River), sizeof(Terrain));
   EXPECT_LT(sizeof(River{}.ground), sizeof(SlopeLayer));

@@ -30,7 +30,7 @@ class EdgeRenderer : public Shot {
     return statistics;
   }
 
-  // By pixel of the picture.
+  // Returns what the centre of each pixel of the picture shows.
   std::vector<Centre> centres() const {
     const VisibilityBuffer& buffer = state().visibility;
     std::vector<Centre> centres(pixel_count());
@@ -41,7 +41,7 @@ class EdgeRenderer : public Shot {
     return centres;
   }
 
-  // The same, in the order in which the tiles hold them.
+  // Returns the fragments of each pixel of the picture, in the order in which the tiles hold them.
   std::vector<std::vector<EdgeFragment>> fragments() const {
     std::vector<std::vector<EdgeFragment>> of_pixel(pixel_count());
     const raster::TileGrid& grid = state().visibility.grid;
@@ -56,14 +56,14 @@ class EdgeRenderer : public Shot {
     return of_pixel;
   }
 
-  // 0 the sky, 1 the water, 2 the land, 3 an object.
+  // Returns 0 for the sky, 1 the water, 2 the land, 3 an object, 4 a tree, 5 a river.
   int kind_of(std::uint32_t primitive) const {
     for (const SurfaceKind kind : kAllSurfaces)
       if (state().window.primitives.holds(kind, primitive)) return 1 + static_cast<int>(kind);
     return 0;
   }
 
-  // The same, but for every object its own.
+  // Returns kind_of(), but for every object its own number from 3 on. Not for trees and rivers.
   std::ptrdiff_t surface_of(std::uint32_t primitive) const {
     const ObjectDraws& objects = state().meshes.objects.in_window();
     if (kind_of(primitive) < 3) return kind_of(primitive);

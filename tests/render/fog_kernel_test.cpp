@@ -255,7 +255,8 @@ TEST_P(FogKernel, CloudsFarAwayShadeNothingThatIsSeen) {
     }
 }
 
-// Of sunlight that fog scatters once, by places along the way; each of eight stands for a part.
+// The expected light is sunlight that fog scatters once, by places along the way; each of the
+// kernel's eight places stands for a part.
 TEST_P(FogKernel, CloudsShadeThePartOfAWayThatLiesInTheirShadow) {
   constexpr int kSteps = 4000;
   for (const auto profile : kProfiles)

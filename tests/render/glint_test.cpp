@@ -61,9 +61,9 @@ double energy(const GlintSurface& surface, const Sphere& sphere) {
   return sum * sphere.solid_angle;
 }
 
-// The same from facets: those of slope (x, y) that the sun sees take p(x, y) (n.s / n.z) of its
-// light to where they mirror it. By quadrature over the slopes, of a Gaussian of `variance`;
-// `part(v)` of what goes to v counts.
+// Returns the energy that facets mirror: those of slope (x, y) that the sun sees take p(x, y)
+// (n.s / n.z) of its light to where they mirror it. By quadrature over the slopes, of a Gaussian of
+// `variance`; `part(v)` of what goes to v counts.
 template <class Part>
 double facet_energy(glm::dvec3 sun, double variance, const Part& part) {
   constexpr int kSteps = 1500;

@@ -85,7 +85,8 @@ TEST(GlitterPicture, OfTheSunsPathIsAsWideAsTheSlopesSay) {
   }
 }
 
-// The same at 20 degrees, by Cox and Munk's mean square slope, whose scatter is 0.004.
+// OPT-14 at 20 degrees: the width follows from Cox and Munk's mean square slope, which scatters by
+// 0.004.
 TEST(GlitterPicture, OfTheSunsPathIsAsWideAsTheWindSays) {
   constexpr double kElevation_deg = 20.0;
   const auto width_rad = [&](double slope_variance) {

@@ -10,7 +10,7 @@
 namespace swell::render {
 namespace {
 
-// Of the frames after the first second.
+// Returns the share of frames after the first second that take `ms` at most.
 double share_within(const Flight& run, double ms) {
   const auto begin = run.frame_ms.begin() + kSecond;
   return static_cast<double>(std::count_if(begin, run.frame_ms.end(),
@@ -37,7 +37,7 @@ bool is_full(const FrameOptions& o) {
          o.picture_scale == 1.0;
 }
 
-// Of all frames.
+// Returns the share of all frames that have full size.
 double share_at_full_size(const Flight& run) {
   return static_cast<double>(std::ranges::count_if(run.options, is_full_size)) /
          static_cast<double>(run.options.size());

@@ -110,8 +110,8 @@ struct NextPlaces {
   double rise(glm::dvec2 p) const {
     return static_cast<double>(next.height(p)) - static_cast<double>(now.height(p));
   }
-  // The same of the drawn triangle that a ray meets: its vertices rise as the water does, or as
-  // much of it as they show far out.
+  // What the drawn triangle rises by where a ray meets it: its vertices rise as the water does, or
+  // as much of it as they show far out.
   static double rise_of_triangle(const LabelledFrame& frame, std::uint32_t i, const Ray& ray) {
     const Workspace::State& drawn = frame.state();
     const Surface& surface = drawn.meshes.water;

@@ -120,7 +120,7 @@ glm::dvec3 mean_light(LinearRenderer& renderer, const View& view) {
   return sum / static_cast<double>(view.width_px * view.height_px);
 }
 
-// The same ground on few pixels has the mean of the ground on many.
+// A piece of ground has the same mean on few pixels as on many.
 TEST(Land, HasTheSameMeanColourFromAnyDistance) {
   LinearRenderer renderer(hills());
   for (const double height_m : {160.0, 260.0, 900.0}) {

@@ -12,7 +12,7 @@
 
 namespace swell::render {
 
-// Of linear light, as of Rec. 709.
+// Returns the luminance of linear light, as of Rec. 709.
 inline float luminance(glm::vec3 rgb) {
   return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
@@ -27,7 +27,8 @@ inline std::string difference(const Target& a, const Target& b) {
   return "";
 }
 
-// Of two pictures of one size, in codes of 0 to 255: the mean over pixels and channels.
+// Returns the mean absolute difference of two pictures of one size, over pixels and channels, in
+// codes of 0 to 255.
 inline double mean_difference(const Target& a, const Target& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i)

@@ -45,8 +45,9 @@ double sea_part(PlainSea& sea, double elevation_rad, double slope) {
   return 1.0 - static_cast<double>(light[0].y) / kSky;
 }
 
-// The same of the facets themselves, one bounce of each: by quadrature over Gaussian slopes about
-// the mean one, weighted by how much of a facet the eye sees.
+// Returns the part of the light that comes from the black sea by the facets themselves, one bounce
+// of each: by quadrature over Gaussian slopes about the mean one, weighted by how much of a facet
+// the eye sees.
 double facets_part(double variance, double elevation_rad, double slope) {
   constexpr int kSteps = 160;
   const double sigma = std::sqrt(0.5 * variance), c = std::sin(elevation_rad),

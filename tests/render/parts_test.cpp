@@ -182,7 +182,7 @@ TEST(WithoutRipples, SeasWithoutLongerWavesAreFlat) {
   EXPECT_EQ(tilted({Part::kRipples}), 0);
 }
 
-// Of the contrast between a white and a black wall exp(-distance / haze's) is left.
+// Haze leaves exp(-distance / haze's) of the contrast between a white and a black wall.
 TEST(WithoutHaze, ContrastIsWhole) {
   constexpr double kWall_m = 900.0, kHaze_m = 1000.0;
   scene::Scene scene = glass();

@@ -18,7 +18,8 @@ struct SlopeVariance {
   double sum() const { return resolved + roughness; }
 };
 
-// Of level water at about `distance_m` from eyes `eye_m` high, in all directions from some places.
+// Returns the mean slope variance that is seen of level water at about `distance_m` from eyes
+// `eye_m` high, in all directions from some places.
 SlopeVariance variance_seen(const World& world, double eye_m, double distance_m) {
   constexpr int kPlaces = 12, kPoints = 1024;
   Shot shot;

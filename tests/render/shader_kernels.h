@@ -27,12 +27,12 @@ void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,
                  std::span<glm::vec3> light);
 
-// Of slopes of one variance.
+// How facets with slopes of one variance are seen.
 struct SeenFacets {
   float cosine, mirroring, reflecting, area;  // SeenCosine() and the like
 };
 SeenFacets seen_facets(float cosine, float variance);
-// UnhiddenCosine()
+// Calls UnhiddenCosine() for each cosine.
 void unhidden_cosines(std::span<const float> cosine, float level_cosine, float variance_all,
                       float drawn, std::span<float> unhidden);
 

@@ -78,12 +78,12 @@ struct Shot {
     const std::uint32_t rgba = target.rgba[at(x, y)];
     return {rgba & 255, rgba >> 8 & 255, rgba >> 16 & 255};
   }
-  // Of a picture with keep_linear.
+  // Returns the linear light of a pixel; the picture was drawn with keep_linear.
   glm::vec3 linear(int x, int y) const {
     const float* const rgb = &target.linear[3 * at(x, y)];
     return {rgb[0], rgb[1], rgb[2]};
   }
-  // Through the middle of a pixel, of length 1.
+  // Returns the direction through the middle of a pixel, of length 1.
   glm::vec3 direction(int x, int y) const {
     return glm::normalize(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
   }

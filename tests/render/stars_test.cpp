@@ -59,7 +59,7 @@ TEST(StarsInPictures, NoneByDay) {
   EXPECT_EQ(with, drawn.target.rgba);
 }
 
-// The same light on finer pixels: four times as many of them, each as bright in the mean.
+// Finer pixels share the same light: four times as many of them, each as bright in the mean.
 TEST(StarsInPictures, AsBrightHoweverFineThePicture) {
   LinearRenderer drawn(night(-40.0, 1.0)), bare(night(-40.0, 1.0));
   bare.options.without = {Part::kStars};

@@ -116,7 +116,7 @@ World island_of_trees(double density_per_m2) {
                                   "island_of_trees.toml"));
 }
 
-// Of the pixels at which trees meet land, the part that shows parts of both.
+// Returns which part of pixel pairs where trees meet land is smooth: either pixel has fragments.
 double smooth_part(const World& world) {
   constexpr int kWide = 200, kHigh = 120;
   EdgeRenderer renderer(world);

@@ -37,7 +37,7 @@ SkyLight light_at(double elevation_deg, double moon_phase = 0.0, double turbidit
   return make_sky_light(sky, air_of(turbidity), workers);
 }
 
-// Of a level plane.
+// Returns the sky's irradiance on a level plane.
 glm::dvec3 sky_irradiance(const SkyLight& light) {
   constexpr int kRings = 90, kSectors = 48;
   glm::dvec3 sum(0.0);
@@ -61,7 +61,8 @@ double illuminance_lx(const SkyLight& light) {
   return kLux * (direct_irradiance(light) + luminance(sky_irradiance(light)));
 }
 
-// Of a level plane under a clear sky, without the moon, with the glow of the night sky.
+// Returns the illuminance of a level plane under a clear sky, without the moon, with the glow of
+// the night sky.
 // Source: P. M. Janiczek, J. A. DeYoung, Computer Programs for Sun and Moon Illuminance, United
 // States Naval Observatory Circular 171, 1987: log10 in powers of the altitude over 90 degrees.
 double standard_illuminance_lx(double altitude_deg) {
@@ -90,9 +91,9 @@ TEST(Atmosphere, LightsTheGroundAsTheStandardTable) {
   }
 }
 
-// Of a clear sky, by the sun's altitude h: the sun on a plane turned to it, 127.5 klx exp(-0.21 m),
-// m = 1 / sin h; the sky on a level plane, 0.8 + 15.5 sqrt(sin h) klx. Skies of the same clarity
-// scatter by more than the fifth that is allowed here.
+// A clear sky gives, by the sun's altitude h: the sun on a plane turned to it, 127.5 klx
+// exp(-0.21 m), m = 1 / sin h; the sky on a level plane, 0.8 + 15.5 sqrt(sin h) klx. Skies of the
+// same clarity scatter by more than the fifth that is allowed here.
 // Source: Illuminating Engineering Society, Recommended Practice for the Calculation of Daylight
 // Availability, Journal of the Illuminating Engineering Society 13(4), 1984, pages 381 to 392.
 TEST(Atmosphere, SunAndSkyHaveTheirPartsOfDaylight) {

@@ -18,7 +18,7 @@ class LightPaths {
  public:
   explicit LightPaths(double turbidity) : air_(make_air(turbidity)) {}
 
-  // Of a channel (0: red) and a sun of irradiance 1, from so many paths.
+  // Returns a channel's radiance (0: red) under a sun of irradiance 1, from so many paths.
   double radiance(int channel, glm::dvec3 direction, glm::dvec3 to_sun, int paths) {
     channel_ = channel;
     double sum = 0.0;
@@ -30,9 +30,9 @@ class LightPaths {
     return sum / paths;
   }
 
-  // The same at a height, of the air before the sea or space: thin air scatters few paths, so that
-  // each is made to scatter first at a place of its own, as if it had. `lost` becomes the part of
-  // light from behind it that the air takes.
+  // Returns the radiance at a height, of the air before the sea or space: thin air scatters few
+  // paths, so that each is made to scatter first at a place of its own, as if it had. `lost`
+  // becomes the part of light from behind it that the air takes.
   double radiance_aloft(int channel, double height_m, glm::dvec3 direction, glm::dvec3 to_sun,
                         int paths, double& lost) {
     channel_ = channel;

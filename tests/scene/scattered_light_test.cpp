@@ -12,7 +12,7 @@
 namespace swell::scene {
 namespace {
 
-// Of f(x) over [-1, 1].
+// Returns the integral of f(x) over [-1, 1].
 template <class F>
 double integral(const F& f) {
   constexpr int kSteps = 20000;

@@ -128,7 +128,7 @@ TEST_F(BadPng, TooFewRowsAndUnknownFiltersAreRefused) {
   }
 }
 
-// Of every colour type and depth, interlaced and not, at sizes where passes are empty.
+// Pictures have every colour type and depth, interlaced and not, and sizes where passes are empty.
 TEST_F(BadPng, EveryKindIsReadWholeAndRefusedAByteShort) {
   struct Kind {
     int colour_type, channels;

@@ -176,7 +176,7 @@ TEST(PerlinNoise, FractalsAreSumsOfOctaves) {
   }
 }
 
-// Of places that share a cell, that jump between cells, that go back, and that are no numbers.
+// Some places share a cell, some jump between cells, go back, or are no numbers.
 TEST(PerlinNoise, FractalOfARowIsThatOfEachPlace) {
   std::vector<double> x;
   for (int n = 0; n < 300; ++n) x.push_back(0.07 * n - 9.0);

@@ -31,7 +31,8 @@ constexpr double kErrorBetweenLevels = kErrorOnALevel + 0.5 / 127.0;
 // Coordinates are truncated to those fractions, less than 1/256 too low. Along x that is between
 // 1/256 too low and as much too high in all; along y up to 1/256 too low comes on top.
 constexpr double kErrorOfTruncating = 1.0 / 256.0;
-// Of the largest value: the sum and both factors of its unit are rounded to float, then the result.
+// The error of rounding, as a part of the largest value: the sum and both factors of its unit are
+// rounded to float, then the result.
 constexpr double kRoundings = 4 * 0x1p-24;
 
 struct Places {

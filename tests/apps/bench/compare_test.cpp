@@ -36,8 +36,8 @@ TEST(CompareRuns, TheRatioIsTheMedianOfThePairs) {
   EXPECT_EQ(row.verdict, Verdict::kSlower);
 }
 
-// Of n pairs P(all on one side) = 2 / 2^n: 1.6 % for 7, where the next would be 12.5 %. For 15 it
-// is 3.5 % that eleven or more heads or tails fall, so the ranks are 4 and 12.
+// P(all on one side) of n pairs is 2 / 2^n: 1.6 % for 7, where the next would be 12.5 %. For 15 it
+// is 3.5 % that twelve or more heads or tails fall, so the ranks are 4 and 12.
 TEST(CompareRuns, TheIntervalIsOfOrderStatistics) {
   std::vector<double> after_ms;
   for (int i = 1; i <= 15; ++i) {

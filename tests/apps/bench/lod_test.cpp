@@ -12,7 +12,7 @@
 namespace swell::apps {
 namespace {
 
-// Of the same sea, in the same view, from the same number of triangles at most.
+// All draw the same sea, in the same view, from the same number of triangles at most.
 TEST(Triangulations, RoamComesCloserToTheSeaThanTheGrids) {
   Workers workers(2);
   const Comparison comparison{.budgets = {1500, 10000, 50000},

@@ -30,7 +30,7 @@ TEST(PictureDifference, CountsEachColourOfEachPixel) {
   EXPECT_NEAR(d.psnr_db, 10.0 * std::log10(255.0 * 255.0 / (10.0 / 6.0)), 1e-9);
 }
 
-// Of 300 values two differ: less than a hundredth.
+// Two of 300 values differ: less than a hundredth.
 TEST(PictureDifference, ThePercentileLeavesOutTheRarest) {
   Pixels a(100, 0xff000000u), b = a;
   b[7] = 0xff0000c8u;

@@ -334,7 +334,8 @@ class SceneWithFiles : public DataSet {
     texture::write_file(folder_.file("heights.exr"), texture::encode_image(heights, ".exr"));
   }
 
-  // The same command after `change` names the folder and what differs; a new folder is fine.
+  // Expects that after `change` the same command fails and names the folder and what differs, and
+  // that a new folder is fine.
   void expect_other_state(const std::function<void()>& change) {
     make("a", {"--shard", "0/5"});
     change();

@@ -42,7 +42,7 @@ std::string still_lagoon_text() {
   return with_value(with_value(scene_text("lagoon"), "distortion", "0.0"), "lookup_scale", "1.0");
 }
 
-// The same, seen from another place.
+// The still lagoon, seen from another place.
 std::string lagoon_text(const std::string& eye_m, const std::string& pitch_deg) {
   return with_value(with_value(still_lagoon_text(), "eye_m", eye_m), "pitch_deg", pitch_deg);
 }

@@ -47,7 +47,7 @@ class PeerProgram : public testing::Test {
  protected:
   PeerProgram() { write_text(scene_, island_scene_text()); }
 
-  // Of a small picture, with more arguments.
+  // Runs `swell-bench peer` on a small picture, with more arguments.
   Outcome run(const Arguments& more) {
     Arguments arguments = {"peer", "--scene", scene_, "--size", "64x36"};
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -26,7 +26,7 @@ PictureRun run_pictures(const std::string& scene, const ScratchFolder& folder,
 void expect_same_pictures(const PictureRun& actual, const PictureRun& expected,
                           const std::string& name);
 
-// The same for one frame of each run.
+// Fails the test unless these frames of both runs have the same hash; `name` as above.
 void expect_same_picture(const PictureRun& actual, int actual_frame, const PictureRun& expected,
                          int expected_frame, const std::string& name);
 

@@ -10,7 +10,7 @@
 namespace swell::serve {
 namespace {
 
-// Of this process.
+// Returns the resident memory of this process.
 double memory_mb() {
   std::ifstream statm("/proc/self/statm");
   long whole = 0, resident = 0;

@@ -324,7 +324,7 @@ TEST_F(ViewerTest, ASavedSceneDrawsThePictureThatIsShown) {
   expect_headless_picture(viewer, saved);
 }
 
-// Of the window's top right of the panel, in the middle of which messages stand.
+// Counts white pixels at the window's top right of the panel, where messages stand in the middle.
 int white_pixels_at_the_top(Viewer& viewer) {
   const SDL_Rect top = {340, 0, 300, 60};
   std::vector<std::uint32_t> pixels(static_cast<std::size_t>(top.w * top.h));
