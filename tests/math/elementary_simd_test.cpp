@@ -67,10 +67,10 @@ std::vector<float> run(void (*batch)(std::span<const float>, std::span<float>),
   return out;
 }
 
-double exact_sin_turns(double x) {
+double double_sin_turns(double x) {
   return std::sin(2.0 * std::numbers::pi * (x - std::nearbyint(x)));
 }
-double exact_cos_turns(double x) {
+double double_cos_turns(double x) {
   return std::cos(2.0 * std::numbers::pi * (x - std::nearbyint(x)));
 }
 
@@ -80,7 +80,7 @@ double largest_sin_cos_error(const std::vector<float>& x) {
   double worst = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double error =
-        std::max(std::abs(s[i] - exact_sin_turns(x[i])), std::abs(c[i] - exact_cos_turns(x[i])));
+        std::max(std::abs(s[i] - double_sin_turns(x[i])), std::abs(c[i] - double_cos_turns(x[i])));
     worst = error <= worst ? worst : error;  // keeps NaN
   }
   return worst;

@@ -11,7 +11,7 @@ namespace swell::ocean {
 namespace {
 
 constexpr int kSize = 64;
-constexpr double kStep_m = 1200.0 / kSize;  // between the map's points
+constexpr double kMapStep_m = 1200.0 / kSize;  // between the map's points
 constexpr glm::dvec2 kCorner{-600.0, -300.0};
 
 // A beach of 1:40 along y = 0, the sea to the north; 1200 x 1200 m.
@@ -44,7 +44,7 @@ Baked bake(const CoastSea& coast, double t_s, int threads = 2) {
   return bake(make_coast_map(coast, kSize, workers), t_s, workers);
 }
 
-glm::dvec2 point(int i, int j) { return kCorner + kStep_m * glm::dvec2(i, j); }
+glm::dvec2 point(int i, int j) { return kCorner + kMapStep_m * glm::dvec2(i, j); }
 
 // In the middle of the beach, where waves are some grid steps long.
 TEST(CoastMap, SlopesAreTheHeightsDerivative) {

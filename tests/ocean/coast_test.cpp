@@ -23,7 +23,7 @@ CoastSea make_coast(double wind_mps, bool blend, int threads = 2) {
                         blend, workers);
 }
 
-std::vector<glm::dvec2> random_points(int count) {
+std::vector<glm::dvec2> random_coast_points(int count) {
   std::vector<glm::dvec2> p;
   for (int i = 0; i < count; ++i) {
     const auto n = static_cast<std::uint64_t>(2 * i);
@@ -78,7 +78,7 @@ TEST(Coast, ShareFallsToZeroAtTheGridsRim) {
 
 TEST(Coast, HeightsAreTheTrainsTimesTheirShare) {
   const CoastSea coast = make_coast(10.0, true);
-  const std::vector<glm::dvec2> p = random_points(1000);
+  const std::vector<glm::dvec2> p = random_coast_points(1000);
   std::vector<float> height(p.size()), share(p.size()), trains(p.size()), expected(p.size());
   sample_coast(coast, 12.5, p, height, share);
   sample_coast_share(coast, p, expected);
@@ -98,7 +98,7 @@ TEST(Coast, HeightsAreNoSteeperThanTheirBound) {
   constexpr double kStep_m = 0.02;
   float steepest = 0.0f;
   for (int n = 0; n < 20; ++n) {
-    for (const glm::dvec2& p : random_points(2000)) {
+    for (const glm::dvec2& p : random_coast_points(2000)) {
       const std::array<glm::dvec2, 3> at = {p, p + glm::dvec2(kStep_m, 0.0),
                                             p + glm::dvec2(0.0, kStep_m)};
       std::array<float, 3> z, share;

@@ -11,6 +11,7 @@
 
 #include "constants.h"
 #include "math/random.h"
+#include "ocean/train_sea.h"
 
 namespace swell::ocean {
 namespace {
@@ -26,11 +27,6 @@ double bisected_wave_number(double period_s, double depth_m) {
   return low;
 }
 
-TrainSea make_sea(const terrain::HeightGrid& floor, const std::vector<WaveTrain>& trains) {
-  Workers workers(1);
-  return make_train_sea(floor, trains, PhaseMethod::kEikonal, workers);
-}
-
 TrainSea flat_sea(double depth_m, const WaveTrain& train) {
   return make_sea(
       terrain::make_sea_floor({{0.0, 0.0}, 5.0, 101, 61}, [=](glm::dvec2) { return depth_m; }),
@@ -43,13 +39,7 @@ glm::dvec3 velocity_at(const TrainSea& sea, double t_s, glm::dvec2 p) {
   return v;
 }
 
-double height_at(const TrainSea& sea, double t_s, glm::dvec2 p) {
-  float z = 0.0f;
-  sample_trains(sea, t_s, {&p, 1}, {&z, 1});
-  return static_cast<double>(z);
-}
-
-std::vector<glm::dvec2> random_points(int count, glm::dvec2 corner, glm::dvec2 size) {
+std::vector<glm::dvec2> random_points_in(int count, glm::dvec2 corner, glm::dvec2 size) {
   std::vector<glm::dvec2> points;
   for (int n = 0; n < count; ++n) {
     const auto c = static_cast<std::uint64_t>(2 * n);
@@ -68,7 +58,7 @@ TEST(TrainVelocity, OneWaveMovesTheWaterOnEllipses) {
   const TrainSea sea = flat_sea(depth_m, {0.5, 6.0, to, 0.0});
   const double a = height_at(sea, 0.0, {0.0, 0.0});  // the wave at its crest: 0.5 m by its Ks
   for (const double t_s : {-77.0, 0.0, 2.5, 3600.0}) {
-    for (const glm::dvec2& p : random_points(100, {0.0, 0.0}, {500.0, 300.0})) {
+    for (const glm::dvec2& p : random_points_in(100, {0.0, 0.0}, {500.0, 300.0})) {
       const glm::dvec3 v = velocity_at(sea, t_s, p);
       const double phase = k * glm::dot(to, p) - omega * t_s;
       EXPECT_NEAR(v.x, a * omega * coth * to.x * std::cos(phase), 2e-4);
@@ -104,7 +94,7 @@ TrainSea bumpy_sea() {
 TEST(TrainVelocity, TheUpwardPartIsTheRateOfTheHeights) {
   const TrainSea sea = bumpy_sea();
   int wrong = 0, moving = 0;
-  for (const glm::dvec2& p : random_points(2000, {-150.0, 0.0}, {450.0, 350.0})) {
+  for (const glm::dvec2& p : random_points_in(2000, {-150.0, 0.0}, {450.0, 350.0})) {
     const double dt_s = 2e-3;
     const double rate = (height_at(sea, 40.0 + dt_s, p) - height_at(sea, 40.0 - dt_s, p)) / 0.004;
     const double up = velocity_at(sea, 40.0, p).z;
@@ -158,7 +148,7 @@ TEST(TrainVelocity, IsFiniteOnLandAndFarAway) {
 
 TEST(TrainVelocity, AnyBatchAndAnyThreadGivesTheSameBits) {
   const TrainSea sea = bumpy_sea();
-  const auto points = random_points(600, {-150.0, 0.0}, {450.0, 350.0});
+  const auto points = random_points_in(600, {-150.0, 0.0}, {450.0, 350.0});
   std::vector<glm::vec3> all(points.size());
   sample_train_velocities(sea, 3.5, points, all);
   std::vector<std::vector<glm::vec3>> got(4, std::vector<glm::vec3>(points.size()));
@@ -179,7 +169,7 @@ TEST(CoastVelocity, IsTheTrainsVelocityTimesTheirShare) {
       terrain::make_plane_beach(grid, {{{-600.0, 0.0}, {600.0, 0.0}}, 0.025, 60.0});
   const CoastSea coast = make_coast_sea(floor, make_wind_sea(9.0, 0.3, kG), 4, 1,
                                         PhaseMethod::kEikonal, true, workers);
-  const auto points = random_points(1000, {-800.0, -500.0}, {1600.0, 1600.0});
+  const auto points = random_points_in(1000, {-800.0, -500.0}, {1600.0, 1600.0});
   std::vector<glm::vec3> got(points.size()), trains(points.size());
   std::vector<float> share(points.size());
   sample_coast_velocities(coast, 6.5, points, got);

@@ -10,6 +10,7 @@
 
 #include "allocation_count.h"
 #include "constants.h"
+#include "ocean/frame_at.h"
 #include "ocean/sea.h"
 #include "ocean/sea_state.h"
 #include "ocean/simd_targets.h"
@@ -17,13 +18,6 @@
 
 namespace swell::ocean {
 namespace {
-
-SeaFrame frame_at(const Sea& sea, double t_s, int threads = 1) {
-  Workers workers(threads);
-  SeaFrame frame;
-  advance(sea, t_s, frame, workers);
-  return frame;
-}
 
 SeaDescription choppy(double choppiness) {
   SeaDescription description;
@@ -177,8 +171,8 @@ TEST(Crests, AllocateNothingOnceTheyAreThere) {
   EXPECT_EQ(allocation_count(), before);
 }
 
-// Moments of a field over its samples and over seeds.
-struct Moments {
+// CrestMoments of a field over its samples and over seeds.
+struct CrestMoments {
   double count = 0.0, sums[4] = {};
   void add(double value) {
     count += 1.0;
@@ -197,11 +191,11 @@ struct Moments {
 };
 
 struct Statistics {
-  Moments height, curvature;
+  CrestMoments height, curvature;
   double slope_variance = 0.0, stated_slope_variance = 0.0, stated_variance = 0.0;
 };
 
-constexpr int kSeeds = 64;
+constexpr int kCrestSeeds = 64;
 constexpr double kPatch_m = 1000.0, kWind_mps = 15.0;
 constexpr int kResolution = 128;
 
@@ -209,7 +203,7 @@ Statistics statistics_of(double choppiness) {
   Workers workers(1);
   Statistics sum;
   SeaFrame frame;
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < kCrestSeeds; ++seed) {
     SeaDescription description = choppy(choppiness);
     description.wind_speed_mps = kWind_mps;
     description.patch_lengths_m = {kPatch_m};
@@ -232,16 +226,17 @@ Statistics statistics_of(double choppiness) {
     double squares = 0.0;
     for (std::size_t i = 0; i < patch.slope_x.size(); ++i)
       squares += std::pow(patch.slope_x[i], 2.0) + std::pow(patch.slope_y[i], 2.0);
-    sum.slope_variance += squares / static_cast<double>(patch.slope_x.size()) / kSeeds;
-    sum.stated_slope_variance += static_cast<double>(patch.slope_variance) / kSeeds;
-    sum.stated_variance += std::pow(sea.significant_height_m() / 4.0, 2.0) / kSeeds;
+    sum.slope_variance += squares / static_cast<double>(patch.slope_x.size()) / kCrestSeeds;
+    sum.stated_slope_variance += static_cast<double>(patch.slope_variance) / kCrestSeeds;
+    sum.stated_variance += std::pow(sea.significant_height_m() / 4.0, 2.0) / kCrestSeeds;
   }
   return sum;
 }
 
-// Of long-crested waves of the second order: 3 times the integral over pairs of waves of the
-// smaller wave number, over sigma^3. That mean is the integral over k of P(k' > k)^2; Pierson's and
-// Moskowitz's energy below k is exp(-5/4 (k_m / k)^2) of all. Here up to the patch's shortest wave.
+// Returns the skewness of long-crested waves of the second order: 3 times the integral over pairs
+// of waves of the smaller wave number, over sigma^3. That mean is the integral over k of
+// P(k' > k)^2; Pierson's and Moskowitz's energy below k is exp(-5/4 (k_m / k)^2) of all. The
+// integral goes up to the patch's shortest wave.
 double expected_skewness(double variance_m2) {
   const double omega_m = kTurn * 0.13 * kG / kWind_mps, k_m = omega_m * omega_m / kG;
   const double k_end = kTurn / kPatch_m * (0.5 * kResolution - 0.5);

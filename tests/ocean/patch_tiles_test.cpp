@@ -15,12 +15,12 @@ namespace swell::ocean {
 namespace {
 
 constexpr int kSamples = 32;
-constexpr double kLength_m = 64.0;
+constexpr double kTiledLength_m = 64.0;
 
 SeaFrame tiled_frame(std::uint64_t seed) {
   SeaFrame frame;
   PatchFrame& patch = frame.patches.emplace_back();
-  patch.length_m = kLength_m;
+  patch.length_m = kTiledLength_m;
   patch.resolution = kSamples;
   patch.tiling = {true, 12345};
   for (auto* field : {&patch.height_m, &patch.slope_x, &patch.slope_y})
@@ -56,7 +56,7 @@ double half_weight(double x) {
   return std::sin(0.5 * std::numbers::pi * t * t * (3.0 - 2.0 * t));
 }
 
-// Of a tile from 0 to 1 at x.
+// Returns the weight at x of a tile from 0 to 1.
 double tile_weight(double x) { return half_weight(x) * half_weight(1.0 - x); }
 
 double bilinear(const std::vector<float>& field, glm::dvec2 samples) {
@@ -72,7 +72,7 @@ double bilinear(const std::vector<float>& field, glm::dvec2 samples) {
 }
 
 double reference_height(const PatchFrame& patch, glm::dvec2 p) {
-  const glm::dvec2 at = p / kLength_m;
+  const glm::dvec2 at = p / kTiledLength_m;
   double sum = 0.0;
   const auto row0 = static_cast<std::int64_t>(std::floor(at.y));
   for (std::int64_t row = row0 - 1; row <= row0 + 1; ++row) {
@@ -138,7 +138,7 @@ TEST(PatchTiles, GiveEachPlaceItsBitsInAnyCompany) {
   });
 }
 
-// Of a patch that is 1 everywhere the heights are the sum of the weights, and the slopes its.
+// The patch is 1 everywhere: heights are the sum of the weights, and slopes are that sum's.
 TEST(PatchTiles, HaveSlopesThatAreThoseOfTheirHeights) {
   SeaFrame frame = tiled_frame(4);
   std::ranges::fill(frame.patches[0].height_m, 1.0f);
@@ -161,10 +161,10 @@ TEST(PatchTiles, HaveSlopesThatAreThoseOfTheirHeights) {
   EXPECT_GT(steepest, 0.05);
 }
 
-struct Moments {
+struct TileMoments {
   double mean, variance, kurtosis;
 };
-Moments moments_of(const std::vector<float>& values) {
+TileMoments moments_of(const std::vector<float>& values) {
   double sum = 0.0, squares = 0.0, fourths = 0.0;
   for (const float v : values) sum += v, squares += v * v;
   const double n = static_cast<double>(values.size()), mean = sum / n;
@@ -200,7 +200,7 @@ TEST(PatchTiles, KeepTheDistributionOfHeightsAlsoWhereTheyAreBlended) {
   for (const float z : frame.patches[0].height_m) variance += z * z;
   variance /= static_cast<double>(frame.patches[0].height_m.size());
   for (const double part : {0.0, 0.03, 0.5}) {
-    const Moments m = moments_of(heights_on(frame, part));
+    const TileMoments m = moments_of(heights_on(frame, part));
     EXPECT_NEAR(m.mean, 0.0, 0.06 * std::sqrt(variance)) << part;
     EXPECT_NEAR(m.variance / variance, 1.0, 0.1) << part;
     EXPECT_NEAR(m.kurtosis, 3.0, 0.4) << part;

@@ -11,20 +11,13 @@
 #include "constants.h"
 #include "math/random.h"
 #include "ocean/simd_targets.h"
+#include "ocean/train_sea.h"
 
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPiRef = 2.0 * kPiRef;
-
 glm::dvec2 unit(double angle_deg) {
   return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
-}
-
-TrainSea make_sea(const terrain::HeightGrid& floor, const std::vector<WaveTrain>& trains,
-                  PhaseMethod method = PhaseMethod::kEikonal) {
-  Workers workers(1);
-  return make_train_sea(floor, trains, method, workers);
 }
 
 terrain::HeightGrid flat_floor(double depth_m) {
@@ -35,12 +28,6 @@ terrain::HeightGrid flat_floor(double depth_m) {
 terrain::HeightGrid west_beach(double width_m) {
   const terrain::Grid grid{{0.0, 0.0}, 5.0, 611, static_cast<int>(width_m / 5.0) + 1};
   return terrain::make_plane_beach(grid, {{{3000.0, 0.0}, {3000.0, 1.0}}, 0.02, 1000.0});
-}
-
-double height_at(const TrainSea& sea, double t_s, glm::dvec2 p) {
-  float z = 0.0f;
-  sample_trains(sea, t_s, {&p, 1}, {&z, 1});
-  return static_cast<double>(z);
 }
 
 // Where f is largest in [low, high], within 1e-4 of the range.
@@ -63,13 +50,13 @@ TEST(TrainSea, IsAPlaneCosineInDeepWater) {
   const terrain::HeightGrid floor = flat_floor(3000.0);
   const WaveTrain train{1.5, 6.0, unit(33.0), 0.4};
   const TrainSea sea = make_sea(floor, {train});
-  const double k = std::pow(kTwoPiRef / 6.0, 2) / kG;
+  const double k = std::pow(kTurn / 6.0, 2) / kG;
   for (std::uint64_t n = 0; n < 500; ++n) {
     // Also beyond the floor, where waves run on.
     const glm::dvec2 p(-200.0 + 1400.0 * random_uniform(1, n),
                        -200.0 + 500.0 * random_uniform(2, n));
     const double t_s = 1000.0 * random_uniform(3, n);
-    const double phase = k * glm::dot(unit(33.0), p) + kTwoPiRef * (0.4 - t_s / 6.0);
+    const double phase = k * glm::dot(unit(33.0), p) + kTurn * (0.4 - t_s / 6.0);
     EXPECT_NEAR(height_at(sea, t_s, p), 1.5 * std::cos(phase), 2e-4) << p.x << ", " << p.y;
   }
 }
@@ -105,12 +92,12 @@ TEST(TrainSea, SwingsWithItsPeriodAtEveryDepth) {
       std::complex<double> sum = 0.0;
       for (int n = 0; n < 320; ++n) {
         const double z = height_at(sea, t0 + 9.0 / 32.0 * n, {x, 30.0});
-        sum += z * std::polar(1.0, -kTwoPiRef * n / 32.0);
+        sum += z * std::polar(1.0, -kTurn * n / 32.0);
       }
       return sum;
     };
     const double turned = std::arg(coefficient(2.25) / coefficient(0.0));
-    EXPECT_NEAR(turned / (kTwoPiRef / 4.0), 1.0, 1e-3) << x;
+    EXPECT_NEAR(turned / (kTurn / 4.0), 1.0, 1e-3) << x;
     EXPECT_NEAR(height_at(sea, 123.0, {x, 30.0}), height_at(sea, 123.0 + 9000.0, {x, 30.0}), 1e-6);
   }
 }
@@ -150,7 +137,7 @@ TEST(TrainSea, ShowsCrestsInTheDirectionOfSnellsLaw) {
   };
   for (const Wave& wave : {Wave{6.0, 60.0}, {8.0, -45.0}, {12.0, 10.0}}) {
     const TrainSea sea = make_sea(west_beach(400.0), {{0.01, wave.period_s, unit(wave.angle_deg)}});
-    const double k_inf = std::pow(kTwoPiRef / wave.period_s, 2) / kG;
+    const double k_inf = std::pow(kTurn / wave.period_s, 2) / kG;
     for (const double depth_m : {20.0, 6.0, 2.0}) {
       double k = k_inf;  // k tanh(kh) = k_inf, by halved steps
       for (int n = 0; n < 200; ++n) k = 0.5 * (k + k_inf / std::tanh(k * depth_m));
@@ -275,12 +262,12 @@ class Reference {
 
   static double profile(double cycles, double depth_m, double period_s) {
     const double u = cycles - std::floor(cycles);
-    const double length = kG * period_s * period_s / kTwoPiRef;
+    const double length = kG * period_s * period_s / kTurn;
     const double deep = 0.25 * std::tanh(0.5 * kPiRef) * length;
     const double shallow = 0.05 * std::tanh(0.1 * kPiRef) * length;
     const double x = std::clamp((deep - depth_m) / (deep - shallow), 0.0, 1.0);
     const double b = x * x * (3 - 2 * x);
-    return (1 - b) * std::cos(kTwoPiRef * u) + b * (8 * (u - 0.5) * (u - 0.5) - 1);
+    return (1 - b) * std::cos(kTurn * u) + b * (8 * (u - 0.5) * (u - 0.5) - 1);
   }
 
   const terrain::HeightGrid& floor_;
@@ -414,7 +401,7 @@ TEST(TrainSea, RefusesWhatItCannotHold) {
 
 TEST(ProfileBlend, GoesFromAQuarterToATwentiethOfTheWavelength) {
   // T = 10 s: L = 4 h where k h = pi / 2, L = 20 h where k h = pi / 10.
-  const double length = kG * 100.0 / kTwoPiRef;
+  const double length = kG * 100.0 / kTurn;
   const double deep = length * 0.25 * std::tanh(0.5 * kPiRef);
   const double shallow = length * 0.05 * std::tanh(0.1 * kPiRef);
   const ProfileDepths depths = profile_depths(length);

@@ -2,17 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/sea.h"
 #include "ocean/sea_state.h"
 #include "ocean/velocity.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kTwoPiRef = 2.0 * std::numbers::pi;
 
 SeaDescription looping_sea(double loop_s) {
   SeaDescription description;
@@ -114,8 +112,8 @@ TEST(SeaLoop, MovesEveryWaveAtTheNearestFrequencyThatFits) {
           const double turns_per_s = patch.turns_per_s[wave_position(i, j, patch.size)];
           if (turns_per_s == 0.0) continue;
           const double counts = std::hypot(wave_count(i, patch.size), wave_count(j, patch.size));
-          const double k = kTwoPiRef * counts / patch.length_m;
-          const double turns = std::sqrt(description.gravity_mps2 * k) / kTwoPiRef * loop_s;
+          const double k = kTurn * counts / patch.length_m;
+          const double turns = std::sqrt(description.gravity_mps2 * k) / kTurn * loop_s;
           const double n = turns_per_s * loop_s;
           ++waves;
           ASSERT_NEAR(n, std::round(n), 1e-9 * n);

@@ -21,18 +21,18 @@ double variance_below_k(double wind_mps, double k_rad_m) {
          std::exp(-1.25 * std::pow(f_m / f, 4));
 }
 
-struct Moments {
+struct FieldMoments {
   double variance = 0.0;
   glm::dvec2 travel{0.0};  // mean of -dH/dt grad H: the integral of omega k S(k)
 };
 
-Moments field_moments(const Sea& sea, Workers& workers) {
+FieldMoments field_moments(const Sea& sea, Workers& workers) {
   const double dt = 0.01;
   SeaFrame before, now, after;
   advance(sea, 100.0 - dt, before, workers);
   advance(sea, 100.0, now, workers);
   advance(sea, 100.0 + dt, after, workers);
-  Moments sum;
+  FieldMoments sum;
   const PatchFrame& patch = now.patches[0];
   for (std::size_t i = 0; i < patch.height_m.size(); ++i) {
     const double h = patch.height_m[i];

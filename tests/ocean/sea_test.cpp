@@ -12,6 +12,7 @@
 
 #include "allocation_count.h"
 #include "constants.h"
+#include "ocean/frame_at.h"
 #include "ocean/simd_targets.h"
 
 namespace swell::ocean {
@@ -21,13 +22,6 @@ SeaDescription small_sea() {
   SeaDescription description;
   description.resolution = 32;
   return description;
-}
-
-SeaFrame frame_at(const Sea& sea, double t_s, int threads = 1) {
-  Workers workers(threads);
-  SeaFrame frame;
-  advance(sea, t_s, frame, workers);
-  return frame;
 }
 
 // Compared with ==, so that NaN anywhere fails.

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <vector>
 
+#include "constants.h"
 #include "math/random.h"
 #include "ocean/water_surface.h"
 #include "terrain/sea_floor.h"
 
 namespace swell::ocean {
 namespace {
-
-constexpr double kTwoPiRef = 6.283185307179586;
 
 SeaDescription two_sines() {
   SeaDescription sea;
@@ -58,7 +57,7 @@ TEST(WaterBounds, OfSinesAreTheSumsOfTheirAmplitudesAndSlopes) {
   const Sea sea(two_sines());
   const WaterBounds bounds = WaterBody({&sea, {{0.0, 0.0}, {2000.0, 3000.0}}}).bounds();
   EXPECT_FLOAT_EQ(bounds.height_m, 0.75f);
-  const double slope = kTwoPiRef * (0.5 / 20.0 + 0.25 / 7.0);
+  const double slope = kTurn * (0.5 / 20.0 + 0.25 / 7.0);
   EXPECT_FLOAT_EQ(bounds.slope, static_cast<float>(slope));
   // The edge: 0.75 m, which fade over 200 m with a slope of 1.5 at most along each axis.
   EXPECT_NEAR(bounds.steepest, slope + 2.0 * 0.75 * 1.5 / 200.0, 1e-12);

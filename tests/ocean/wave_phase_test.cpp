@@ -13,11 +13,9 @@
 namespace swell::ocean {
 namespace {
 
-constexpr double kTwoPiRef = 2.0 * kPiRef;
-
 // k by bisection: the oracle of every wave length here.
 double bisected_wave_number(double period_s, double depth_m) {
-  const double omega = kTwoPiRef / period_s;
+  const double omega = kTurn / period_s;
   double low = omega * omega / kG, high = low + 2.0 * omega / std::sqrt(kG * depth_m);
   for (int i = 0; i < 80; ++i) {
     const double k = 0.5 * (low + high);
@@ -26,9 +24,7 @@ double bisected_wave_number(double period_s, double depth_m) {
   return low;
 }
 
-double deep_wave_number(double period_s) {
-  return kTwoPiRef * kTwoPiRef / (period_s * period_s * kG);
-}
+double deep_wave_number(double period_s) { return kTurn * kTurn / (period_s * period_s * kG); }
 
 glm::dvec2 unit(double angle_deg) {
   return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
@@ -118,7 +114,7 @@ TEST(WavePhase, BendsAlongStraightLinesToFirstOrder) {
 }
 
 TEST(WavePhase, DoesNotCareHowTheBeachIsTurned) {
-  // The same beach with its coast at 37 degrees: contours cut every border at an angle.
+  // The beach slopes as above, with its coast at 37 degrees: contours cut every border at an angle.
   const glm::dvec2 uphill = unit(37.0), along(-uphill.y, uphill.x);
   const terrain::Grid grid{{-500.0, -500.0}, 5.0, 201, 201};
   const terrain::HeightGrid floor = terrain::make_sea_floor(
@@ -139,7 +135,7 @@ TEST(WavePhase, DoesNotCareHowTheBeachIsTurned) {
 TEST(WavePhase, CarriesItsEnergyToTheShore) {
   // a^2 cg cos(angle) is constant on a plane beach.
   const terrain::HeightGrid floor = west_beach(5.0, 300.0);
-  const double period_s = 9.0, omega = kTwoPiRef / period_s;
+  const double period_s = 9.0, omega = kTurn / period_s;
   const WavePhase phase =
       make_wave_phase(floor, {1.0, period_s, unit(40.0)}, PhaseMethod::kEikonal);
   const double k_deep = deep_wave_number(period_s);
@@ -164,7 +160,7 @@ double integrated_cycles(double period_s, double from_x, double to_x) {
     const double x = from_x + n * step;
     sum += k(x) + 4.0 * k(x + 0.5 * step) + k(x + step);
   }
-  return sum * step / 6.0 / kTwoPiRef;
+  return sum * step / 6.0 / kTurn;
 }
 
 // PHY-13: 10 to 26 wavelengths. The eikonal solver's second-order differences need a finer grid for
@@ -186,7 +182,7 @@ TEST(WavePhase, IsTheIntegralOfTheWaveNumber) {
     const WavePhase phase = make_wave_phase(floor, {1.0, 10.0, {1.0, 0.0}}, c.method);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t n = floor.grid.index(static_cast<int>(places[i] / c.spacing_m), 1);
-      EXPECT_LT(kTwoPiRef * std::abs(phase.cycles[n] - expected[i]), c.bound_rad)
+      EXPECT_LT(kTurn * std::abs(phase.cycles[n] - expected[i]), c.bound_rad)
           << c.spacing_m << " m, at " << places[i];
     }
   }
@@ -205,7 +201,7 @@ TEST(WavePhase, IsThePlaneWaveInDeepWater) {
         for (int i = 0; i < grid.samples_x; ++i) {
           const std::size_t n = grid.index(i, j);
           const double expected =
-              deep_wave_number(7.0) * glm::dot(unit(angle), grid.point(i, j)) / kTwoPiRef + 0.25;
+              deep_wave_number(7.0) * glm::dot(unit(angle), grid.point(i, j)) / kTurn + 0.25;
           worst = std::max(worst, std::abs(phase.cycles[n] - expected));
           ASSERT_NEAR(phase.amplitude[n], 1.0f, 1e-5f) << angle << " at " << i << ", " << j;
         }
@@ -256,7 +252,7 @@ TEST(WavePhase, IsSmoothAcrossTheWater) {
             phase.cycles[floor.grid.index(i, j)] - phase.cycles[floor.grid.index(i - 1, j)];
         const double k = bisected_wave_number(8.0, 0.02 * (3000.0 - 5.0 * (i - 0.5)));
         ASSERT_GT(step, 0.0);
-        ASSERT_LT(step, 1.3 * k * 5.0 / kTwoPiRef) << i << ", " << j;
+        ASSERT_LT(step, 1.3 * k * 5.0 / kTurn) << i << ", " << j;
       }
     }
   }

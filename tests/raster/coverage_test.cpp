@@ -11,11 +11,11 @@
 namespace swell::raster {
 namespace {
 
-constexpr int kThreads[] = {1, 3};
+constexpr int kThreadCounts[] = {1, 3};
 
 // Up to 256 triangles, each in a cell of its own, so that each can be checked by itself.
 constexpr int kCellPx = 32, kCellsPerRow = 16;
-constexpr Viewport kCells{kCellPx * kCellsPerRow, kCellPx* kCellsPerRow};
+constexpr Viewport kCellsView{kCellPx * kCellsPerRow, kCellPx* kCellsPerRow};
 
 constexpr int kBatches = trials(400);
 
@@ -62,17 +62,17 @@ Batch random_batch(Random& random) {
       p.x += 256 * kCellPx * (cell % kCellsPerRow);
       p.y += 256 * kCellPx * (cell / kCellsPerRow);
     }
-    batch.add(t, kCells);
+    batch.add(t, kCellsView);
   }
   return batch;
 }
 
-struct Tally {
+struct CoverageTally {
   int wrong = 0, covered = 0, rule_matters = 0;
 };
 
 // Compares the triangle's cell with the oracle.
-void check_cell(const Picture& picture, const Triangle& t, int cell, Tally& tally) {
+void check_cell(const Picture& picture, const Triangle& t, int cell, CoverageTally& tally) {
   const int x0 = cell % kCellsPerRow * kCellPx, y0 = cell / kCellsPerRow * kCellPx;
   bool matters = false;
   for (int y = y0; y < y0 + kCellPx; ++y) {
@@ -93,18 +93,18 @@ void check_cell(const Picture& picture, const Triangle& t, int cell, Tally& tall
 TEST(Coverage, HundredThousandTrianglesEqualTheIntegerOracleOnEveryConfiguration) {
   Random random(1);
   Workers one(1), three(3);
-  Tally tally;
+  CoverageTally tally;
   for (int b = 0; b < kBatches; ++b) {
     const Batch batch = random_batch(random);
     const Draw draw = batch.draw();
     std::optional<Picture> first;
-    for (const Configuration& c : all_configurations(kThreads)) {
+    for (const Configuration& c : all_configurations(kThreadCounts)) {
       // Every batch runs on every SIMD target; tile sizes and thread counts take turns.
       const bool turn = (c.tile_size_px / 16 + c.threads + b) % 3 == 0;
       if (first && !turn) continue;
       const ScopedSimdTarget target(c.target);
-      Picture picture =
-          draw_picture(std::span(&draw, 1), kCells, c.tile_size_px, c.threads == 1 ? one : three);
+      Picture picture = draw_picture(std::span(&draw, 1), kCellsView, c.tile_size_px,
+                                     c.threads == 1 ? one : three);
       if (first) {
         ASSERT_TRUE(picture.same_bits(*first)) << "batch " << b << " tile " << c.tile_size_px;
       } else {
@@ -144,7 +144,7 @@ TEST(Coverage, TrianglesUpToTheGuardBandEqualTheIntegerOracle) {
       p = {random.integer(-limit + 65536, limit), random.integer(-limit + 65536, limit)};
     if (n % 8 == 0)
       t = {{{-limit + 65536, -limit + 65536}, {limit, -limit + 65536 + n}, {n, limit}}};
-    for (const Configuration& c : all_configurations(std::span(kThreads, 1))) {
+    for (const Configuration& c : all_configurations(std::span(kThreadCounts, 1))) {
       if (c.tile_size_px != 16 << (n % 3)) continue;
       const ScopedSimdTarget target(c.target);
       Batch batch;

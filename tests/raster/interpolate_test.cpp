@@ -11,7 +11,7 @@
 namespace swell::raster {
 namespace {
 
-constexpr Viewport kView{64, 64};
+constexpr Viewport kInterpolatedView{64, 64};
 
 struct Known {
   Triangle t;
@@ -24,7 +24,7 @@ Known random_known(Random& random, int log2_ratio) {
   for (int i = 0; i < 3; ++i) {
     k.t[i] = {random.integer(0, 64 * 256), random.integer(0, 64 * 256)};
     const double w = std::exp2(static_cast<double>(random.integer(0, log2_ratio)));
-    k.p_clip[i] = clip_from_fx8(k.t[i], 0.5, w, kView);
+    k.p_clip[i] = clip_from_fx8(k.t[i], 0.5, w, kInterpolatedView);
   }
   return k;
 }
@@ -63,7 +63,7 @@ TEST(Interpolate, WeightsEqualTheExactOnesAtEveryCoveredPixel) {
   for (int n = 0; n < 1500; ++n) {
     const Known k = random_known(random, n % 2 == 0 ? 3 : 9);
     if (doubled_area(k.t) < 2 * 65536) continue;  // 1 square pixel
-    const TriangleInterpolator interpolator(k.p_clip, kView);
+    const TriangleInterpolator interpolator(k.p_clip, kInterpolatedView);
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {
         if (!covers(k.t, x, y)) continue;
@@ -92,7 +92,7 @@ TEST(Interpolate, AttributesLieInTheExactRangeAroundThePixelCentre) {
   for (int n = 0; n < 300; ++n) {
     const Known k = random_known(random, 3);
     if (doubled_area(k.t) < 2 * 65536) continue;
-    const TriangleInterpolator interpolator(k.p_clip, kView);
+    const TriangleInterpolator interpolator(k.p_clip, kInterpolatedView);
     for (int y = 0; y < 64; y += 3) {
       for (int x = 0; x < 64; x += 3) {
         if (!covers(k.t, x, y)) continue;
@@ -115,11 +115,12 @@ TEST(Interpolate, AttributesLieInTheExactRangeAroundThePixelCentre) {
 
 TEST(Interpolate, EdgeDistancesAreWindowDistances) {
   // A right triangle with legs along x = 8 and y = 8; its long edge is x + y = 48.
-  const std::array<glm::vec4, 3> p = {clip_from_window(8, 8, 0.5, 1, kView),
-                                      clip_from_window(40, 8, 0.5, 4, kView),
-                                      clip_from_window(8, 40, 0.5, 16, kView)};
+  const std::array<glm::vec4, 3> p = {clip_from_window(8, 8, 0.5, 1, kInterpolatedView),
+                                      clip_from_window(40, 8, 0.5, 4, kInterpolatedView),
+                                      clip_from_window(8, 40, 0.5, 16, kInterpolatedView)};
   for (const std::array<int, 3> order : {std::array{0, 1, 2}, std::array{0, 2, 1}}) {
-    const TriangleInterpolator interpolator({p[order[0]], p[order[1]], p[order[2]]}, kView);
+    const TriangleInterpolator interpolator({p[order[0]], p[order[1]], p[order[2]]},
+                                            kInterpolatedView);
     const SurfacePoint point = interpolator.at(12, 20);
     EXPECT_NEAR(point.edge_distance_px[0], (48.0 - 12.5 - 20.5) / std::sqrt(2.0), 1e-5);
     EXPECT_NEAR(point.edge_distance_px[order[1] == 1 ? 1 : 2], 4.5, 1e-6);
@@ -132,7 +133,7 @@ TEST(Interpolate, EdgeDistancesAreWindowDistances) {
 TEST(Interpolate, ATriangleThatReachesBehindTheCameraHasTheWeightsOfItsPlane) {
   const auto ground = [](double x_m, double depth_m) { return glm::vec4(x_m, -2.0, 0.1, depth_m); };
   const std::array<glm::vec4, 3> p = {ground(-30, 40), ground(30, 40), ground(0, -20)};
-  const TriangleInterpolator interpolator(p, kView);
+  const TriangleInterpolator interpolator(p, kInterpolatedView);
   for (int y = 40; y < 64; ++y) {
     const SurfacePoint point = interpolator.at(31, y);
     // y_ndc = -2 / w = 1 - (y + 0.5) / 32.

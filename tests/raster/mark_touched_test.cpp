@@ -10,8 +10,6 @@
 namespace swell::raster {
 namespace {
 
-constexpr int kSampleCounts[] = {4, 8};
-
 bool holds_covered_sample(const Triangle& t, int x, int y, int samples) {
   for (int s = 0; s < samples; ++s) {
     if (covers_point(t, sample_point(x, y, s, samples))) return true;
@@ -41,12 +39,12 @@ bool is_apart(const Triangle& t, int x, int y) {
   return false;
 }
 
-struct Tally {
+struct MarkTally {
   int missed = 0, apart = 0, covered = 0, marked = 0;
 };
 
 void check_marks(const std::vector<int>& marks, const Triangle& t, Viewport viewport, int samples,
-                 Tally& tally) {
+                 MarkTally& tally) {
   for (int y = 0; y < viewport.height_px; ++y) {
     for (int x = 0; x < viewport.width_px; ++x) {
       const bool marked = marks[y * viewport.width_px + x] != 0;
@@ -62,7 +60,7 @@ void check_marks(const std::vector<int>& marks, const Triangle& t, Viewport view
 TEST(Marks, HoldEveryPixelWithACoveredSampleAndNoneApartFromTheTriangle) {
   constexpr Viewport kView{128, 64};
   Random random(1);
-  Tally tally;
+  MarkTally tally;
   for (int n = 0; n < trials(1000); ++n) {
     const int samples = kSampleCounts[n % 2];
     FlatSoup soup;

@@ -77,7 +77,7 @@ enum class Ties { kTopLeft, kBottomLeft };
 // True if the triangle covers the point, in 64-bit integers.
 bool covers_point(const Triangle& t, const Point& p, Ties ties = Ties::kTopLeft);
 
-// The same of the centre of pixel (x, y).
+// True if the triangle covers the centre of pixel (x, y).
 bool covers(const Triangle& t, int x, int y, Ties ties = Ties::kTopLeft);
 
 // The exact line through two vertices of any w: a window point's signed distance [px].

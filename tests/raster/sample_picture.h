@@ -11,6 +11,8 @@
 
 namespace swell::raster {
 
+constexpr int kSampleCounts[] = {4, 8};  // a pixel
+
 // Every sample of a viewport, pixels row by row.
 struct SamplePicture {
   int width_px = 0, height_px = 0, samples = 0;

@@ -12,8 +12,6 @@
 namespace swell::raster {
 namespace {
 
-constexpr int kSampleCounts[] = {4, 8};
-
 // Area of the pixel's part where a (x - x0) + b (y - y0) >= 0, by cutting its square.
 double half_plane_area(const Point& on_line, double a, double b, int x, int y) {
   const glm::dvec2 square[] = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};

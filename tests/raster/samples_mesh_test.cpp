@@ -11,8 +11,6 @@
 namespace swell::raster {
 namespace {
 
-constexpr int kSampleCounts[] = {4, 8};
-
 struct Mesh {
   std::vector<glm::vec4> p_clip;
   std::vector<std::uint32_t> indices;

@@ -15,7 +15,7 @@ namespace swell::render {
 namespace {
 
 constexpr double kBendEye_m = 4.0, kDepth_m = 0.5, kHalfFov_rad = 0.25;
-constexpr int kSize = 128;
+constexpr int kBendSize_px = 128;
 
 // Half a metre of water over a flat floor under a sun straight above. Its ripples are waves of a
 // kilometre along x, so that their slope is the same all over the picture.
@@ -46,7 +46,7 @@ class CausticBend : public FlatFloor {
 // What caustics add to the green light of each pixel, seen from straight above, north on top.
 std::vector<double> added_light(const World& world) {
   const View view = make_view({0.0, 0.0, kBendEye_m}, 0.0, -0.5 * std::numbers::pi,
-                              2.0 * kHalfFov_rad, 0.25f, kSize, kSize);
+                              2.0 * kHalfFov_rad, 0.25f, kBendSize_px, kBendSize_px);
   const auto green = [&](PartSet without) {
     return green_light(Shot(world, view, 7.0, {.keep_linear = true, .without = without}).target);
   };
@@ -68,13 +68,13 @@ double ripple_slope(const World& world) {
   return slope;
 }
 
-// Of `a` and, so many pixels further right, `b`.
+// Returns the correlation of `a` with `b` so many pixels further right.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, int right_px) {
   double n = 0.0, sum_a = 0.0, sum_b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x + right_px < kSize; ++x) {
-      const double p = a[static_cast<std::size_t>(y * kSize + x)];
-      const double q = b[static_cast<std::size_t>(y * kSize + x + right_px)];
+  for (int y = 0; y < kBendSize_px; ++y)
+    for (int x = 0; x + right_px < kBendSize_px; ++x) {
+      const double p = a[static_cast<std::size_t>(y * kBendSize_px + x)];
+      const double q = b[static_cast<std::size_t>(y * kBendSize_px + x + right_px)];
       n += 1.0, sum_a += p, sum_b += q, aa += p * p, bb += q * q, ab += p * q;
     }
   return (n * ab - sum_a * sum_b) / std::sqrt((n * aa - sum_a * sum_a) * (n * bb - sum_b * sum_b));
@@ -85,8 +85,8 @@ TEST_F(CausticBend, MovesTheLightByTheSlopeOfTheRipples) {
   constexpr int kMoved_px = 10;
   scene::Scene scene = shallow_water();
   const World straight = world_of(scene);
-  const double pixel_m =
-      2.0 * std::tan(kHalfFov_rad) * (kBendEye_m + kDepth_m / scene.water.refraction_index) / kSize;
+  const double pixel_m = 2.0 * std::tan(kHalfFov_rad) *
+                         (kBendEye_m + kDepth_m / scene.water.refraction_index) / kBendSize_px;
   scene.water.caustic_distortion = kMoved_px * pixel_m / ripple_slope(straight);
   ASSERT_LT(scene.water.caustic_distortion, 10.0);
   const World bent(scene, straight, 1);

@@ -14,8 +14,8 @@
 namespace swell::render {
 namespace {
 
-constexpr double kEye_m = 4.0;
-constexpr int kSize = 128;
+constexpr double kCausticsEye_m = 4.0;
+constexpr int kCausticsSize_px = 128;
 
 class DrawnCaustics : public FlatFloor {
  protected:
@@ -27,7 +27,8 @@ class DrawnCaustics : public FlatFloor {
 };
 
 View looking_down() {
-  return make_view({0.0, 0.0, kEye_m}, 0.0, -0.5 * std::numbers::pi, 0.5, 0.25f, kSize, kSize);
+  return make_view({0.0, 0.0, kCausticsEye_m}, 0.0, -0.5 * std::numbers::pi, 0.5, 0.25f,
+                   kCausticsSize_px, kCausticsSize_px);
 }
 
 Target draw(const World& world, double t_s, PartSet without = {}) {
@@ -42,7 +43,7 @@ std::vector<double> added_light(const World& world, double t_s) {
   double mean = 0.0;
   for (std::size_t i = 0; i < added.size(); ++i) {
     added[i] -= without[i];
-    mean += static_cast<double>(without[i]) / (kSize * kSize);
+    mean += static_cast<double>(without[i]) / (kCausticsSize_px * kCausticsSize_px);
   }
   for (double& x : added) x /= mean;
   return added;
@@ -66,19 +67,20 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 std::vector<glm::dvec2> places_on_floor(double depth_m) {
   const View view = looking_down();
   std::vector<glm::dvec2> places;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kCausticsSize_px; ++y) {
+    for (int x = 0; x < kCausticsSize_px; ++x) {
       const glm::dvec3 ray = glm::normalize(
           glm::dvec3(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)));
       const double sine = std::hypot(ray.x, ray.y), below = sine / 1.333;
-      const double away_m = kEye_m * sine / -ray.z + depth_m * below / std::sqrt(1 - below * below);
+      const double away_m =
+          kCausticsEye_m * sine / -ray.z + depth_m * below / std::sqrt(1 - below * below);
       places.push_back(sine > 0.0 ? glm::dvec2(ray) / sine * away_m : glm::dvec2(0.0));
     }
   }
   return places;
 }
 
-// Of the sea over the places, by the library's own slopes.
+// Returns minus the sea's Laplacian over the places, times 0.12 m, by the library's own slopes.
 std::vector<double> minus_laplacian(const scene::Scene& scene, double t_s,
                                     const std::vector<glm::dvec2>& places) {
   constexpr double kStep_m = 0.06;

@@ -17,7 +17,7 @@ namespace swell::render {
 namespace {
 
 // A river that comes down a beach, from above; two spheres in it, one of which drifts.
-const std::string kScene = R"(
+const std::string kDriftScene = R"(
 [camera]
 eye_m = [0, -190, 60]
 heading_deg = 0
@@ -54,7 +54,7 @@ drift = true
 )";
 
 const World& drift_world() {
-  static const World world = world_of(scene::parse_scene(kScene, "drift.toml"));
+  static const World world = world_of(scene::parse_scene(kDriftScene, "drift.toml"));
   return world;
 }
 

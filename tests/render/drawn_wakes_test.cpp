@@ -17,7 +17,7 @@ namespace swell::render {
 namespace {
 
 // A calm sea with a boat that crosses it and a stone that falls.
-constexpr const char* kScene = R"(
+constexpr const char* kWakesScene = R"(
 [camera]
 eye_m = [-8, -22, 9]
 pitch_deg = -22
@@ -43,7 +43,7 @@ Shot draw(const World& world, const FrameOptions& options = {}, int threads = 1)
   return Shot(world, small_view(world), kTime_s, options, threads);
 }
 
-World make_world() { return world_of(scene::parse_scene(kScene, "wake.toml")); }
+World make_world() { return world_of(scene::parse_scene(kWakesScene, "wake.toml")); }
 
 TEST(DrawnWakes, VerticesHaveTheHeightsThatQueriesGive) {
   const World world = make_world();

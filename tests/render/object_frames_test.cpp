@@ -20,7 +20,7 @@ namespace {
 constexpr int kWidth = 192, kHeight = 108;
 
 // A flat, smooth sea with a clear view to the north.
-scene::Scene calm_scene() {
+scene::Scene scene_of_calm_objects() {
   scene::Scene scene;
   scene.sea.wind_speed_mps = 0.0;
   scene.water.bump_strength = 0.0;
@@ -57,7 +57,7 @@ scene::FloatingObject mesh_of(const std::filesystem::path& file) {
 }
 
 TEST(ObjectFrames, APoseOfTheCallersIsThatOfAFixedObjectThere) {
-  scene::Scene scene = calm_scene();
+  scene::Scene scene = scene_of_calm_objects();
   scene.objects = {object_of(scene::ObjectKind::kBoat, {-3.0, 2.0}),
                    object_of(scene::ObjectKind::kSailboat, {4.0, 10.0})};
   scene.objects[1].motion = scene::Motion::kFixed;
@@ -82,7 +82,7 @@ TEST(ObjectFrames, APoseOfTheCallersIsThatOfAFixedObjectThere) {
 }
 
 TEST(ObjectFramesDeathTest, PosesThatAreNoneAreRefused) {
-  scene::Scene scene = calm_scene();
+  scene::Scene scene = scene_of_calm_objects();
   scene.objects = {object_of(scene::ObjectKind::kBoat, {0.0, 0.0})};
   const World world(scene);
   const auto expect_refused = [&](const scene::GivenPose& pose, const char* text) {
@@ -100,7 +100,7 @@ TEST(ObjectFramesDeathTest, PosesThatAreNoneAreRefused) {
 }
 
 TEST(ObjectFrames, AnObjectOnAPathIsWhereItsTimeSays) {
-  scene::Scene scene = calm_scene();
+  scene::Scene scene = scene_of_calm_objects();
   scene.objects = {object_of(scene::ObjectKind::kSailboat, {0.0, 0.0})};
   scene.objects[0].path_m = {{-30.0, 20.0}, {30.0, 20.0}};
   scene.objects[0].path_closed = false;
@@ -201,7 +201,7 @@ TEST(ObjectFrames, LabelsNameTheObjectOfAFile) {
   const std::filesystem::path file = mesh_folder("label") / "a.glb";
   const glm::vec3 colour(0.2f, 0.4f, 0.6f);
   write_glb(file, box_triangles({-6, -6, -1}, {6, 6, 8}), &colour);
-  scene::Scene scene = calm_scene();
+  scene::Scene scene = scene_of_calm_objects();
   scene.objects = {mesh_of(file)};
   scene.objects[0].label = "barge";
   const World world(scene);
@@ -231,7 +231,7 @@ TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
   write_text(folder / "wall.obj",
              "mtllib wall.mtl\nv -6 0 0\nv 6 0 0\nv 6 12 0\nv -6 12 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
              "vt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n");
-  scene::Scene scene = calm_scene();
+  scene::Scene scene = scene_of_calm_objects();
   scene.camera.pitch_rad = 0.0;
   scene.sky.sun_azimuth_rad = scene::radians(180.0);
   scene.sky.sun_direction = {0.0f, -0.8660254f, 0.5f};
@@ -271,7 +271,7 @@ TEST(ObjectFrames, ASurfaceWithoutABackIsSeenFromBothSides) {
       square.corners = {a, b, c, a, c, d};
     const std::filesystem::path file = mesh_folder("square") / (turned ? "b.stl" : "a.stl");
     write_stl(file, square);
-    scene::Scene scene = calm_scene();
+    scene::Scene scene = scene_of_calm_objects();
     scene.sky.sun_azimuth_rad = scene::radians(180.0);
     scene.sky.sun_direction = {0.0f, -0.8660254f, 0.5f};
     scene.objects = {mesh_of(file)};
@@ -312,7 +312,7 @@ TEST(ObjectFrames, AFileThatCannotBeDrawnIsNamedWithItsLine) {
 TEST(ObjectFrames, AnotherWorldLikeItReadsNoFileAgain) {
   const std::filesystem::path file = mesh_folder("like") / "a.stl";
   write_stl(file, box_triangles({-1, -1, -1}, {1, 1, 1}));
-  scene::Scene scene = calm_scene();
+  scene::Scene scene = scene_of_calm_objects();
   scene.objects = {mesh_of(file)};
   const World world(scene);
   std::filesystem::remove(file);

@@ -16,13 +16,13 @@
 namespace swell::render {
 namespace {
 
-constexpr double kEye_m = 4.0;
+constexpr double kPaperEye_m = 4.0;
 
 // ---- The sequence
 
 // Nothing moves but ripples.
 scene::Scene sea_of_ripples(double loop_s) {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kPaperEye_m);
   scene.sea.spectrum = false;
   scene.sky.cloud_cover = 0.0;
   scene.ripples.kind = scene::RippleKind::kSequence;
@@ -70,7 +70,7 @@ double ripple_variance(const scene::Scene& scene) {
 }
 
 TEST(RippleSequence, IsAsRoughAsTheLayers) {
-  scene::Scene scene = shading_scene(kEye_m);
+  scene::Scene scene = shading_scene(kPaperEye_m);
   const double layers = ripple_variance(scene);
   scene.ripples.kind = scene::RippleKind::kSequence;
   EXPECT_NEAR(ripple_variance(scene), layers, 0.06 * layers);
@@ -109,7 +109,8 @@ scene::Scene glitter_scene(double wind_mps, double elevation_deg, double azimuth
 
 constexpr glm::ivec2 kSize_px(200, 160);
 
-std::vector<float> green_of(const World& world, const View& view, double t_s, PartSet without) {
+std::vector<float> green_without_air(const World& world, const View& view, double t_s,
+                                     PartSet without) {
   without.add({Part::kHaze, Part::kHulls, Part::kReflection});
   return green_light(Shot(world, view, t_s, {.keep_linear = true, .without = without}).target);
 }
@@ -123,8 +124,8 @@ DrawnGlitter draw_glitter(const scene::Scene& scene, const View& view, int times
   const World world = world_of(scene);
   DrawnGlitter glitter;
   for (int n = 0; n < times; ++n) {
-    const std::vector<float> lit = green_of(world, view, 3.0 * n, {Part::kShadows});
-    const std::vector<float> dark = green_of(world, view, 3.0 * n, {});
+    const std::vector<float> lit = green_without_air(world, view, 3.0 * n, {Part::kShadows});
+    const std::vector<float> dark = green_without_air(world, view, 3.0 * n, {});
     for (int y = 0; y < kSize_px.y; ++y)
       for (int x = 0; x < kSize_px.x; ++x) {
         const auto i = static_cast<std::size_t>(y * kSize_px.x + x);

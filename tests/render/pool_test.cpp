@@ -16,7 +16,7 @@
 namespace swell::render {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kN = 1.333, kFloor_m = -2.0;
+constexpr double kPi = std::numbers::pi, kPoolIndex = 1.333, kFloor_m = -2.0;
 constexpr int kTower = 0, kPole = 1, kFloor = -1;
 
 // In even light, through water and air as clear as can be.
@@ -114,7 +114,7 @@ struct Pool : Shot {
   }
   Hit bent(double x_px, double y_px) const {
     Ray ray = to_level(seen(x_px, y_px));
-    ray.along.x /= kN, ray.along.y /= kN;
+    ray.along.x /= kPoolIndex, ray.along.y /= kPoolIndex;
     ray.along.z = -std::sqrt(1.0 - ray.along.x * ray.along.x - ray.along.y * ray.along.y);
     return meet(ray);
   }
@@ -150,8 +150,8 @@ struct Squares {
   double contrast = 0.0;
 };
 
-// Of pixels that are sure within so many. What is brighter than the middle between those that show
-// one square wholly is light; where squares meet at a corner nothing is.
+// Counts the pixels of squares that are sure within so many. What is brighter than the middle
+// between those that show one square wholly is light; where squares meet at a corner nothing is.
 Squares count_squares(const Pool& pool, int what, double within_px,
                       const std::function<Hit(double, double)>& hit_at) {
   glm::dvec2 sum(0.0), count(0.0);
@@ -250,14 +250,14 @@ TEST(Pool, ThePapersRefractionIsItsTwoLines) {
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (air + high);
     const double reached =
-        2.0 * std::tan(middle) + 2.0 * std::tan(std::asin(std::sin(middle) / kN));
+        2.0 * std::tan(middle) + 2.0 * std::tan(std::asin(std::sin(middle) / kPoolIndex));
     (reached < 3.5 ? air : high) = middle;
   }
   const auto expected_px = [&](double k) {
     const double below = std::atan2(2.0 + 2.0 * k, 3.5);
     return 240.0 + 240.0 * std::tan(below - 0.75) / std::tan(0.15);
   };
-  const double exact = std::tan(std::asin(std::sin(air) / kN)) / std::tan(air);
+  const double exact = std::tan(std::asin(std::sin(air) / kPoolIndex)) / std::tan(air);
   const double paper = air <= 0.8 ? 0.75 - 0.16 * air : 1.26 - 0.8 * air;
   ASSERT_GT(std::abs(expected_px(exact) - expected_px(paper)), 4.0);
   EXPECT_NEAR(foot_px(scene::RefractionModel::kExact), expected_px(exact), 1.0);

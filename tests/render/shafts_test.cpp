@@ -58,8 +58,8 @@ View view_of(const Look& look) {
 
 FrameOptions linear(PartSet without = {}) { return {.keep_linear = true, .without = without}; }
 
-std::vector<float> green_of(const World& world, const View& view, double t_s,
-                            PartSet without = {}) {
+std::vector<float> green_of_shafts(const World& world, const View& view, double t_s,
+                                   PartSet without = {}) {
   return green_light(Shot(world, view, t_s, linear(without)).target);
 }
 
@@ -69,8 +69,8 @@ struct Change {
 };
 
 Change change_by(Part part, const World& world, const View& view, double t_s) {
-  const std::vector<float> with = green_of(world, view, t_s);
-  const std::vector<float> without = green_of(world, view, t_s, {part});
+  const std::vector<float> with = green_of_shafts(world, view, t_s);
+  const std::vector<float> without = green_of_shafts(world, view, t_s, {part});
   double all = 0.0, sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < with.size(); ++i) {
     const auto base = static_cast<double>(without[i]);
@@ -212,8 +212,9 @@ View from_below_the_slab() {
 // What a mirror of water sends up: albedo / pi, the sun's irradiance, Fresnel, the cosine.
 TEST(Uplight, IsTheSunThatFlatWaterMirrors) {
   const World world = world_of(slab_over_glass());
-  const std::vector<float> with = green_of(world, from_below_the_slab(), 1.0);
-  const std::vector<float> without = green_of(world, from_below_the_slab(), 1.0, {Part::kUplight});
+  const std::vector<float> with = green_of_shafts(world, from_below_the_slab(), 1.0);
+  const std::vector<float> without =
+      green_of_shafts(world, from_below_the_slab(), 1.0, {Part::kUplight});
   const double in_air = 0.5 * std::numbers::pi - 0.5;
   const double in_water = std::asin(std::sin(in_air) / 1.333);
   const double s = std::sin(in_air - in_water) / std::sin(in_air + in_water);

@@ -15,7 +15,7 @@ namespace {
 constexpr int kWide = 192, kHigh = 112, kTriangles = 3000;
 
 // Hills with woods, seen from the sea and from above.
-const World& hills() {
+const World& coarse_hills() {
   static const World world(scene::parse_scene(R"(
     [camera]
     eye_m = [0.0, -260.0, 6.0]
@@ -35,12 +35,12 @@ const World& hills() {
     density_per_m2 = 0.02
     height_m = [6.0, 14.0]
 )",
-                                              "hills.toml"));
+                                              "coarse_hills.toml"));
   return world;
 }
 
 Shot shot_from(glm::dvec3 eye, int terrain_triangles) {
-  return Shot(hills(), make_view(eye, 0.0, -0.1, 0.7, 0.25f, kWide, kHigh), 1.0,
+  return Shot(coarse_hills(), make_view(eye, 0.0, -0.1, 0.7, 0.25f, kWide, kHigh), 1.0,
               {.terrain_triangles = terrain_triangles, .triangle_capacity = kTriangles});
 }
 
@@ -64,8 +64,8 @@ std::optional<double> drawn_height_m(const Surface& land, glm::dvec2 at) {
   return std::nullopt;
 }
 
-// Of each tree that the window draws: how far over what is drawn it stands, and
-// how far the true ground lies over that [m].
+// The feet of trees that the window draws: how far over the drawn land each stands, and how far the
+// true ground lies over that [m].
 struct Feet {
   std::vector<double> tree_m, ground_m;
 };
@@ -74,7 +74,7 @@ Feet feet_of(const Shot& shot) {
   Feet feet;
   const Meshes& meshes = shot.state().meshes;
   const TreeDraws& draws = meshes.trees.drawn_in(ViewKind::kWindow);
-  const Forest& forest = *hills().state().forest;
+  const Forest& forest = *coarse_hills().state().forest;
   for (const DrawnCell& cell : draws.cells)
     for (std::uint32_t i = 0; i < cell.trees; ++i) {
       const DrawnTree& tree = draws.trees[forest.trees.cells[cell.cell].first + i];

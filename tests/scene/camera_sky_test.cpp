@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "math/random.h"
+#include "scene/expect_near.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
 
@@ -11,10 +12,6 @@ namespace swell::scene {
 namespace {
 
 constexpr double kQuarter = 3.14159265358979323846 / 2.0;
-
-void expect_near(glm::dvec3 value, glm::dvec3 expected, double tolerance) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], expected[i], tolerance) << i;
-}
 
 TEST(Camera, LooksNorthFromItsEyeByDefault) {
   const View view = camera_view({}, 0.0, 200, 100);
@@ -72,7 +69,7 @@ TEST(Camera, AQuaternionTakesThePlaceOfTheAngles) {
   EXPECT_EQ(view.eye_world, glm::dvec3(5, 0, 2));
 }
 
-// The same directions at the corners and at the principal point, whatever the size.
+// The corners and the principal point show the same directions, whatever the picture's size.
 TEST(Camera, AMatrixIsStretchedToThePicturesSize) {
   Camera camera;
   camera.focal_px = glm::dvec2(800.0, 780.0);

@@ -16,7 +16,7 @@
 namespace swell::scene {
 namespace {
 
-struct Dice {
+struct FormDice {
   std::uint64_t next = 0;
   double roll(double low, double high) { return low + (high - low) * random_uniform(7, next++); }
   glm::dvec3 point(double reach) {
@@ -24,7 +24,7 @@ struct Dice {
   }
 };
 
-Quadric random_quadric(Dice& dice) {
+Quadric random_quadric(FormDice& dice) {
   return {.xx = dice.roll(-1, 1),
           .yy = dice.roll(-1, 1),
           .zz = dice.roll(-1, 1),
@@ -35,7 +35,7 @@ Quadric random_quadric(Dice& dice) {
           .c = dice.roll(-1, 1)};
 }
 
-FormTerm random_term(Dice& dice) {
+FormTerm random_term(FormDice& dice) {
   FormTerm term{random_quadric(dice), {}};
   for (int i = 0; i < 3; ++i)
     term.perturbations.push_back({random_quadric(dice), dice.roll(-1, 1)});
@@ -43,7 +43,7 @@ FormTerm random_term(Dice& dice) {
 }
 
 TEST(Form, GradientIsThatOfDifferences) {
-  Dice dice;
+  FormDice dice;
   constexpr double kStep = 1e-5;
   for (int n = 0; n < 1000; ++n) {
     const FormTerm term = random_term(dice);
@@ -67,7 +67,7 @@ TEST(Form, GradientGoesOnOverWhereAPerturbationBegins) {
 }
 
 TEST(Form, BoundsHoldOverTheirPoints) {
-  Dice dice;
+  FormDice dice;
   int rejected = 0, empty = 0;
   for (int n = 0; n < trials(4000); ++n) {
     const FormTerm term = random_term(dice);
@@ -91,7 +91,7 @@ TEST(Form, BoundsHoldOverTheirPoints) {
 
 // FUN-02: of a sphere with one bump nearly every box without a point in it is seen to be empty.
 TEST(Form, BoundsOfASphereWithABumpAreTight) {
-  Dice dice;
+  FormDice dice;
   const FormTerm term{
       {.xx = -1.0, .yy = -1.0, .zz = -1.0, .c = 1.0},
       {{{.xx = -4.0, .yy = -4.0, .zz = -4.0, .b = {3.6, 0.6, 0.4}, .c = -2.37}, 2.0}}};

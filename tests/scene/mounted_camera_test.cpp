@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/elementary.h"
+#include "scene/expect_near.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "scene/water.h"
@@ -42,10 +43,6 @@ Moment at_time(const Scene& scene, double t_s) {
   std::vector<ObjectPose> poses(scene.objects.size());
   object_poses(scene.objects, surface, poses);
   return {camera_view(scene, surface, t_s, kWidth_px, kHeight_px), poses[1]};
-}
-
-void expect_near(glm::dvec3 value, glm::dvec3 expected, double tolerance) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], expected[i], tolerance) << i;
 }
 
 glm::dvec2 project(const View& view, glm::dvec3 p_world) {

@@ -34,7 +34,7 @@ Placed placed(ObjectKind kind, glm::dvec3 size_m, double draught, glm::dvec3 wat
 }
 
 // A die that gives numbers in [-1, 1).
-struct Dice {
+struct RayDice {
   std::uint64_t next = 0;
   double roll() { return 2.0 * random_uniform(31, next++) - 1.0; }
   glm::dvec3 point() {
@@ -73,7 +73,7 @@ std::optional<double> sphere_distance(glm::dvec3 centre, double radius, glm::dve
 // Sides 15 degrees wide both ways lie between the sphere and one of cos^2(7.5 deg) = 0.983 of its
 // size.
 TEST(ObjectRay, HitsASphereBetweenTheSpheresThatItsTrianglesLieBetween) {
-  Dice dice;
+  RayDice dice;
   int hits = 0, misses = 0;
   for (int i = 0; i < 2000; ++i) {
     const double radius = 0.2 + std::abs(3.0 * dice.roll());

@@ -9,33 +9,34 @@
 namespace swell::texture {
 namespace {
 
-constexpr int kSize = 64;
+constexpr int kPatternSize = 64;
 
 TEST(FoamPattern, AThresholdCoversExactlyItsPart) {
-  std::vector<float> pattern = make_foam_pattern(kSize, 3);
-  ASSERT_EQ(pattern.size(), static_cast<std::size_t>(kSize * kSize));
+  std::vector<float> pattern = make_foam_pattern(kPatternSize, 3);
+  ASSERT_EQ(pattern.size(), static_cast<std::size_t>(kPatternSize * kPatternSize));
   std::ranges::sort(pattern);
   for (std::size_t k = 0; k < pattern.size(); ++k)
-    ASSERT_FLOAT_EQ(pattern[k], (static_cast<float>(k) + 0.5f) / (kSize * kSize));
+    ASSERT_FLOAT_EQ(pattern[k], (static_cast<float>(k) + 0.5f) / (kPatternSize * kPatternSize));
 }
 
 // No seam: neighbours across the edge differ as neighbours inside do.
 TEST(FoamPattern, IsPeriodic) {
-  const std::vector<float> pattern = make_foam_pattern(kSize, 3);
+  const std::vector<float> pattern = make_foam_pattern(kPatternSize, 3);
   const auto mean_step = [&](int column) {
     double sum = 0.0;
-    for (int y = 0; y < kSize; ++y)
-      sum += std::abs(pattern[y * kSize + column] - pattern[y * kSize + (column + 1) % kSize]);
-    return sum / kSize;
+    for (int y = 0; y < kPatternSize; ++y)
+      sum += std::abs(pattern[y * kPatternSize + column] -
+                      pattern[y * kPatternSize + (column + 1) % kPatternSize]);
+    return sum / kPatternSize;
   };
   double inside = 0.0;
-  for (int x = 0; x < kSize - 1; ++x) inside += mean_step(x) / (kSize - 1);
-  EXPECT_NEAR(mean_step(kSize - 1), inside, 0.3 * inside);
+  for (int x = 0; x < kPatternSize - 1; ++x) inside += mean_step(x) / (kPatternSize - 1);
+  EXPECT_NEAR(mean_step(kPatternSize - 1), inside, 0.3 * inside);
 }
 
 TEST(FoamPattern, SeedsDiffer) {
-  EXPECT_EQ(make_foam_pattern(kSize, 3), make_foam_pattern(kSize, 3));
-  EXPECT_NE(make_foam_pattern(kSize, 3), make_foam_pattern(kSize, 4));
+  EXPECT_EQ(make_foam_pattern(kPatternSize, 3), make_foam_pattern(kPatternSize, 3));
+  EXPECT_NE(make_foam_pattern(kPatternSize, 3), make_foam_pattern(kPatternSize, 4));
 }
 
 }  // namespace

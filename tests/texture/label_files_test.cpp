@@ -35,7 +35,7 @@ using Png16 = LabelFiles;
 using Npy = LabelFiles;
 
 // Any bits that are a number or an infinity.
-std::vector<float> random_floats(std::size_t count, std::uint64_t seed) {
+std::vector<float> random_label_values(std::size_t count, std::uint64_t seed) {
   std::vector<float> values = {kInfinity, -kInfinity, -0.0f, 1e-42f, 65505.0f, 16777217.0f};
   for (std::uint64_t n = 0; values.size() < count; ++n) {
     const float value = std::bit_cast<float>(static_cast<std::uint32_t>(random_bits(seed, n)));
@@ -92,7 +92,7 @@ TEST_F(ExrChannels, ComeBackByNameWithEveryBit) {
   std::map<std::string, std::vector<std::uint32_t>> words;
   std::vector<ExrChannel> channels;
   for (const std::string& name : float_names) {
-    floats[name] = random_floats(kPixels, channels.size());
+    floats[name] = random_label_values(kPixels, channels.size());
     channels.push_back({name, floats[name]});
   }
   for (const std::string& name : word_names) {
@@ -214,7 +214,7 @@ TEST_F(Npy, HasTheDocumentedLayout) {
 }
 
 TEST_F(Npy, SaysTypeAndShape) {
-  const std::vector<float> floats = random_floats(24, 1);
+  const std::vector<float> floats = random_label_values(24, 1);
   const std::vector<std::uint32_t> words = random_words(24, 2);
   const std::vector<std::uint8_t> small(24, 9);
   const auto head = [](const Bytes& bytes) {

@@ -16,22 +16,22 @@ namespace {
 class LostVariance : public OnEveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Simd, LostVariance, every_target(), target_name);
 
-constexpr int kSize = 128;
+constexpr int kLostSize = 128;
 
 // One wave of `cycles_x`, `cycles_y` periods in the map, in both channels. It begins an eighth of a
 // turn off its crest, so that two samples a period have its mean square too.
 PackedMap2 sine_map(int cycles_x, int cycles_y, double a, double b) {
   std::vector<float> map_a, map_b;
-  for (int j = 0; j < kSize; ++j) {
-    for (int i = 0; i < kSize; ++i) {
-      const double turns = 0.125 + (cycles_x * i + cycles_y * j) / static_cast<double>(kSize);
+  for (int j = 0; j < kLostSize; ++j) {
+    for (int i = 0; i < kLostSize; ++i) {
+      const double turns = 0.125 + (cycles_x * i + cycles_y * j) / static_cast<double>(kLostSize);
       const double phase = 2.0 * std::numbers::pi * turns;
       map_a.push_back(static_cast<float>(a * std::cos(phase)));
       map_b.push_back(static_cast<float>(b * std::cos(phase)));
     }
   }
   PackedMap2 map;
-  pack_map2(kSize, map_a, map_b, 0.0f, map);
+  pack_map2(kLostSize, map_a, map_b, 0.0f, map);
   return map;
 }
 
@@ -41,7 +41,7 @@ PackedMap2 sine_map(int cycles_x, int cycles_y, double a, double b) {
 double amplitude_left(int cycles, int level) {
   double left = 1.0;
   for (int l = 0; l < level; ++l) {
-    const double half_step = std::numbers::pi * cycles * std::exp2(l) / kSize;
+    const double half_step = std::numbers::pi * cycles * std::exp2(l) / kLostSize;
     left *= std::cos(half_step) * std::cos(half_step);
   }
   return left;
@@ -50,7 +50,7 @@ double amplitude_left(int cycles, int level) {
 // The part of a wave's mean square that straight lines between the texels of a level leave: (2 +
 // cos) / 3 of its phase step.
 double variance_left_between(int cycles, int level) {
-  return (2.0 + std::cos(2.0 * std::numbers::pi * cycles * std::exp2(level) / kSize)) / 3.0;
+  return (2.0 + std::cos(2.0 * std::numbers::pi * cycles * std::exp2(level) / kLostSize)) / 3.0;
 }
 
 TEST_P(LostVariance, OfASineIsWhatTheFilterAndStraightLinesTakeOfIt) {
@@ -59,7 +59,7 @@ TEST_P(LostVariance, OfASineIsWhatTheFilterAndStraightLinesTakeOfIt) {
     const double whole = 0.5 * (0.3 * 0.3 + 0.2 * 0.2);
     // Down to the level whose texels are as long as the wave: from there on its samples all show
     // the same phase.
-    for (int level = 0; (std::max(x, y) << level) < kSize; ++level) {
+    for (int level = 0; (std::max(x, y) << level) < kLostSize; ++level) {
       const double left = amplitude_left(x, level) * amplitude_left(y, level);
       const double between = variance_left_between(x, level) * variance_left_between(y, level);
       EXPECT_NEAR(map.lost_variance[level], whole * (1.0 - left * left * between),
@@ -72,7 +72,7 @@ TEST_P(LostVariance, OfASineIsWhatTheFilterAndStraightLinesTakeOfIt) {
 // Four texels a wave: level 1 keeps half of the amplitude, level 2 nothing; between texels two
 // thirds of the square are left, then a third.
 TEST_P(LostVariance, OfAWaveOfFourTexelsIsAThirdThenNearlyAll) {
-  const PackedMap2 map = sine_map(kSize / 4, 0, 1.0, 0.0);
+  const PackedMap2 map = sine_map(kLostSize / 4, 0, 1.0, 0.0);
   EXPECT_NEAR(map.lost_variance[0], 0.5 / 3.0, 1e-6);
   EXPECT_NEAR(map.lost_variance[1], 0.5 * (1.0 - 0.25 / 3.0), 1e-6);
   for (int level = 2; level < map.levels; ++level)
@@ -83,9 +83,9 @@ TEST_P(LostVariance, OfAWaveOfFourTexelsIsAThirdThenNearlyAll) {
 TEST_P(LostVariance, OfASumOfWavesIsTheSumOfWhatTheyLose) {
   const PackedMap2 one = sine_map(7, 1, 0.4, 0.1), other = sine_map(2, 11, -0.2, 0.5);
   std::vector<float> a, b;
-  for (int j = 0; j < kSize; ++j) {
-    for (int i = 0; i < kSize; ++i) {
-      const double step = 2.0 * std::numbers::pi / kSize;
+  for (int j = 0; j < kLostSize; ++j) {
+    for (int i = 0; i < kLostSize; ++i) {
+      const double step = 2.0 * std::numbers::pi / kLostSize;
       const double first = std::cos(step * (16 + 7 * i + j)),
                    second = std::cos(step * (16 + 2 * i + 11 * j));
       a.push_back(static_cast<float>(0.4 * first - 0.2 * second));
@@ -93,7 +93,7 @@ TEST_P(LostVariance, OfASumOfWavesIsTheSumOfWhatTheyLose) {
     }
   }
   PackedMap2 both;
-  pack_map2(kSize, a, b, 0.0f, both);
+  pack_map2(kLostSize, a, b, 0.0f, both);
   for (int level = 0; level <= 3; ++level)
     EXPECT_NEAR(both.lost_variance[level], one.lost_variance[level] + other.lost_variance[level],
                 2e-7)

@@ -2,15 +2,12 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "apps/shared/json.h"
 #include "apps/shared/program_runner.h"
 #include "render/parts.h"
 
 namespace swell::apps {
 namespace {
-
-using Json = nlohmann::json;
 
 class Bench : public testing::Test {
  protected:

@@ -3,15 +3,13 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/shared/json.h"
 #include "apps/shared/program_runner.h"
 
 namespace swell::apps {
 namespace {
-
-using Json = nlohmann::json;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

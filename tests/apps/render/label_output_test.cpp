@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "apps/shared/json.h"
 #include "apps/shared/program_runner.h"
 #include "render/frame.h"
 #include "render/world/world_view.h"
@@ -18,7 +18,6 @@ namespace swell::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 using render::Label;
 constexpr int kWidth = 96, kHeight = 54;
