@@ -10,7 +10,7 @@
 #include "math/check.h"
 #include "math/large_array.h"
 #include "raster/sample_pattern.h"
-#include "render/view/own_shadows.h"
+#include "render/view/self_shadows.h"
 #include "render/workspace.h"
 
 namespace swell::render {
@@ -108,19 +108,20 @@ void prepare_scratch(int threads, Workspace::State& ws) {
 std::array<RenderView*, 5> prepare_views(const World::State& world, const View& view,
                                          const FrameOptions& options, Workspace::State& ws) {
   ws.window.camera = view;
-  for (LookupImages* const images : {&ws.lookups, &ws.wet_lookups}) {
+  for (PlanarMaps* const images : {&ws.planar_maps, &ws.wet_planar_maps}) {
     RenderView &reflection = images->reflection.view, &refraction = images->refraction.view;
     reflection.kind = ViewKind::kReflection;
     refraction.kind = ViewKind::kRefraction;
     refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
     refraction.paper_refraction = world.scene.water.refraction == scene::RefractionModel::kPaper;
-    reflection.camera = refraction.camera = lookup_camera(view, options.lookup_scale);
+    reflection.camera = refraction.camera = planar_camera(view, options.lookup_scale);
   }
-  const std::array views = {&ws.window, &ws.lookups.reflection.view, &ws.lookups.refraction.view,
-                            &ws.wet_lookups.reflection.view, &ws.wet_lookups.refraction.view};
+  const std::array views = {&ws.window, &ws.planar_maps.reflection.view,
+                            &ws.planar_maps.refraction.view, &ws.wet_planar_maps.reflection.view,
+                            &ws.wet_planar_maps.refraction.view};
   RenderView& mirror = ws.river_mirror.view;
   mirror.kind = ViewKind::kReflection;
-  mirror.camera = lookup_camera(view, options.lookup_scale);
+  mirror.camera = planar_camera(view, options.lookup_scale);
   mirror.drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
   mirror.clip_plane = options.clip_plane;
   mirror.clip_margin_m = 0.05f;
@@ -171,7 +172,7 @@ void place_vertices(const World::State& world, const View& view, double t_s,
     mirror.eye = {false, std::max(static_cast<float>(view.eye_world.z) - mirror.level_m, 0.05f)};
     map_land(ws.meshes, {&(shown[count++] = &mirror), 1}, run);
   }
-  ws.meshes.objects.draws_forms = !options.without.has(Part::kForms);
+  ws.meshes.objects.draws_implicits = !options.without.has(Part::kImplicits);
   const FrameViews all = FrameViews(shown).first(count);
   place_objects(world, ws.sea, options.poses, ws.meshes, all, run);
   const double before_us = run.profile.now_us();
@@ -213,7 +214,7 @@ std::string_view stage_name(Stage stage) {
       {kTrees, "trees"},
       {kVisibility, "visibility"},
       {kRays, "rays"},
-      {kLookups, "lookups"},
+      {kPlanarMaps, "lookups"},
       {kClouds, "clouds"},
       {kShade, "shade"},
   });
@@ -277,7 +278,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     place_vertices(world_state, drawn, t_s, options, views, ws, run);
     const ShadowOptions shadows{light.sun_direction, options.without, options.disturbances};
     find_shadow_casters(world_state, shadows, drawn, ws.meshes.objects, run);
-    find_own_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
+    find_self_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
   });
   stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,
@@ -291,7 +292,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   const Media water = submerge(air, drawn.eye_world.z);
   const EyeInWater first_side = ws.window.eye;
   const bool crosses = ws.crossing.picture == Begins::kInBoth;
-  const auto draw_side = [&](const EyeInWater& side, LookupImages& lookups, Shading& shading,
+  const auto draw_side = [&](const EyeInWater& side, PlanarMaps& planar_maps, Shading& shading,
                              const StageRun& run) {
     MaterialInputs inputs{world_state,       t_s,   ws.sea,
                           ws.meshes.objects, light, side.submerged ? water : air,
@@ -299,15 +300,16 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
     inputs.trees = &ws.meshes.trees;
     ws.window.eye = side;
-    draw_lookup_images(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, lookups, run);
+    draw_planar_maps(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, planar_maps, run);
     if (ws.meshes.rivers.mirror_level_m && !side.submerged)
       draw_river_mirror(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirror,
                         run);
     fill_shading(inputs, ws.window, options.tile_size_px, shading);
   };
-  stage(Stage::kLookups, [&](const StageRun& run) {
-    if (crosses) draw_side({true, first_side.to_surface_m}, ws.wet_lookups, ws.wet_shading, run);
-    draw_side(first_side, ws.lookups, ws.shading, run);
+  stage(Stage::kPlanarMaps, [&](const StageRun& run) {
+    if (crosses)
+      draw_side({true, first_side.to_surface_m}, ws.wet_planar_maps, ws.wet_shading, run);
+    draw_side(first_side, ws.planar_maps, ws.shading, run);
   });
   stage(Stage::kClouds, [&](const StageRun& run) {
     draw_clouds(ws.shading, volume_clouds, float(drawn.width_px) / float(view.width_px), ws.clouds,
@@ -317,12 +319,12 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   stage(Stage::kShade, [&](const StageRun& run) {
     if (!options.labels.empty())
       fill_label_tables({world_state, ws.meshes, ws.window, options, t_s}, ws.labels, run);
-    const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_lookups.of_tile,
+    const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_planar_maps.of_tile,
                       !options.without.has(Part::kMeniscus)};
     const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects.in_window(),
                               ws.meshes.trees.drawn_in(ViewKind::kWindow), world_state};
     shade_picture(
-        {ws.meshes, ws.window, ws.visibility, ws.edges, ws.lookups.of_tile, ws.shading,
+        {ws.meshes, ws.window, ws.visibility, ws.edges, ws.planar_maps.of_tile, ws.shading,
          options.wireframe, options.labels.empty() ? nullptr : &labels, crosses ? &wet : nullptr},
         ws.scratch, ws.shaded, drawn_target, run);
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);

@@ -35,7 +35,7 @@ enum class Stage : std::uint8_t {
   kTrees,        // choose which trees are drawn, and place them
   kVisibility,   // clip, set up, bin, find what is visible
   kRays,         // of that, rays to forms and to land without triangles
-  kLookups,      // reflection and refraction images
+  kPlanarMaps,   // reflection and refraction images
   kClouds,       // rays through volumetric clouds
   kShade,        // shade and resolve every visible pixel once; labels
 };

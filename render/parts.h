@@ -15,45 +15,45 @@
 namespace swell::render {
 
 enum class Part : std::uint8_t {
-  kWater,         // the sea: without it the land goes on dry, and things lie where they did
-  kReflection,    // what the water mirrors besides the sky
-  kRefraction,    // what lies under the water's surface
-  kRipples,       // the water's waves too short for the wave patches
-  kGlitter,       // the sun's image in the water seen from above
-  kWhitecaps,     // foam of the open sea
-  kHaze,          // between the eye and what it sees
-  kEarth,         // its curve: without it the sea is flat
-  kClouds,        // in the sky, and in what the water mirrors of it
-  kShadows,       // of land and objects before sun or moon
-  kHulls,         // foam and dark water where floating things meet it
-  kApron,         // the ground beyond the terrain's square
-  kTiling,        // what tells the places of a wave patch apart; queries of the sea keep it
-  kSeenSlopes,    // that of rough water slopes turned to the eye are seen, and others are not
-  kCrests,        // what makes the open sea's crests sharper than troughs; queries keep it
-  kAltitude,      // what the eye's height changes in the sky and in the air below it
-  kTextures,      // pictures on meshes: each is its mean colour
-  kUnderwater,    // what an eye below the surface sees; without it, it sees through air
-  kMeniscus,      // the dark line where the surface cuts the picture
-  kCaustics,      // the sun's light, gathered by the waves: shafts and uplight as well
-  kShafts,        // it in the water between the eye and what it sees
-  kUplight,       // it on objects above the water, from below
-  kSequence,      // a scene's sequence of bump images; without it, layers that drift
-  kSunSlide,      // a scene's projected glitter; without it, that of slopes
-  kCausticBend,   // how ripples move a scene's caustics
-  kOwnShadows,    // of objects on themselves
-  kImageBlur,     // what slopes finer than a pixel spread in the lookup images
-  kWakes,         // waves and foam of what disturbs the water
-  kMaps,          // waves of periodic maps; queries keep them
-  kLandDetail,    // what the ground is made of, finer than its maps; how much sky valleys see
-  kTrees,         // and reeds, with what they are of the land's colour and shade
-  kFog,           // over the sea
-  kStars,         // of the night sky
-  kVolumeClouds,  // of [clouds], before and behind things, and mirrored
-  kCloudShadows,  // of all clouds on sea and land, in fog and water
-  kForms,         // objects made of functions
-  kShelter,       // what land takes of the open sea's waves; queries and trains keep it
-  kSurfFronts,    // foam that runs to shores without wave trains
-  kRivers,        // rivers and lakes: their beds lie dry; queries keep them
+  kWater,          // the sea: without it the land goes on dry, and things lie where they did
+  kReflection,     // what the water mirrors besides the sky
+  kRefraction,     // what lies under the water's surface
+  kRipples,        // the water's waves too short for the wave patches
+  kGlitter,        // the sun's image in the water seen from above
+  kWhitecaps,      // foam of the open sea
+  kHaze,           // between the eye and what it sees
+  kEarth,          // its curve: without it the sea is flat
+  kClouds,         // in the sky, and in what the water mirrors of it
+  kShadows,        // of land and objects before sun or moon
+  kHulls,          // foam and dark water where floating things meet it
+  kApron,          // the ground beyond the terrain's square
+  kTiling,         // what tells the places of a wave patch apart; queries of the sea keep it
+  kVisibleSlopes,  // that of rough water slopes turned to the eye are seen, and others are not
+  kCrests,         // what makes the open sea's crests sharper than troughs; queries keep it
+  kAltitude,       // what the eye's height changes in the sky and in the air below it
+  kTextures,       // pictures on meshes: each is its mean colour
+  kUnderwater,     // what an eye below the surface sees; without it, it sees through air
+  kMeniscus,       // the dark line where the surface cuts the picture
+  kCaustics,       // the sun's light, gathered by the waves: shafts and uplight as well
+  kShafts,         // it in the water between the eye and what it sees
+  kUplight,        // it on objects above the water, from below
+  kSequence,       // a scene's sequence of bump images; without it, layers that drift
+  kSunTexture,     // a scene's projected glitter; without it, that of slopes
+  kCausticBend,    // how ripples move a scene's caustics
+  kSelfShadows,    // of objects on themselves
+  kImageBlur,      // what slopes finer than a pixel spread in the planar maps
+  kWakes,          // waves and foam of what disturbs the water
+  kMaps,           // waves of periodic maps; queries keep them
+  kLandDetail,     // what the ground is made of, finer than its maps; how much sky valleys see
+  kTrees,          // and reeds, with what they are of the land's colour and shade
+  kFog,            // over the sea
+  kStars,          // of the night sky
+  kVolumeClouds,   // of [clouds], before and behind things, and mirrored
+  kCloudShadows,   // of all clouds on sea and land, in fog and water
+  kImplicits,      // objects made of functions
+  kShelter,        // what land takes of the open sea's waves; queries and trains keep it
+  kSurfFronts,     // foam that runs to shores without wave trains
+  kRivers,         // rivers and lakes: their beds lie dry; queries keep them
 };
 inline constexpr std::size_t kPartCount = kEnumerators<Part>;
 
@@ -72,7 +72,7 @@ inline constexpr auto kPartNames = enum_words<Part>({
     {Part::kHulls, "hulls"},
     {Part::kApron, "apron"},
     {Part::kTiling, "tiling"},
-    {Part::kSeenSlopes, "seen-slopes"},
+    {Part::kVisibleSlopes, "seen-slopes"},
     {Part::kCrests, "crests"},
     {Part::kAltitude, "altitude"},
     {Part::kTextures, "textures"},
@@ -82,9 +82,9 @@ inline constexpr auto kPartNames = enum_words<Part>({
     {Part::kShafts, "shafts"},
     {Part::kUplight, "uplight"},
     {Part::kSequence, "sequence"},
-    {Part::kSunSlide, "sun-slide"},
+    {Part::kSunTexture, "sun-slide"},
     {Part::kCausticBend, "caustic-bend"},
-    {Part::kOwnShadows, "own-shadows"},
+    {Part::kSelfShadows, "own-shadows"},
     {Part::kImageBlur, "image-blur"},
     {Part::kWakes, "wakes"},
     {Part::kMaps, "maps"},
@@ -94,7 +94,7 @@ inline constexpr auto kPartNames = enum_words<Part>({
     {Part::kStars, "stars"},
     {Part::kVolumeClouds, "volume-clouds"},
     {Part::kCloudShadows, "cloud-shadows"},
-    {Part::kForms, "forms"},
+    {Part::kImplicits, "forms"},
     {Part::kShelter, "shelter"},
     {Part::kSurfFronts, "surf-fronts"},
     {Part::kRivers, "rivers"},

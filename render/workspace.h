@@ -11,8 +11,8 @@
 #include "render/quality/enlarge.h"
 #include "render/tile/shade_picture.h"
 #include "render/view/crossing.h"
-#include "render/view/lookup_images.h"
 #include "render/view/meshes.h"
+#include "render/view/planar_maps.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
 #include "render/world/sea_maps.h"
@@ -29,11 +29,11 @@ struct Workspace::State {
   VisibilityBuffer visibility;
   EdgeBuffer edges;
   Crossing crossing;
-  LookupTarget river_mirror;
-  CloudPicture clouds;                // volumetric ones, in the window
-  LookupImages lookups, wet_lookups;  // where the waterline crosses the picture, both
-  Shading shading, wet_shading;       // of the window
-  std::vector<int> shaded;            // per tile
+  PlanarTarget river_mirror;
+  CloudPicture clouds;                      // volumetric ones, in the window
+  PlanarMaps planar_maps, wet_planar_maps;  // where the waterline crosses the picture, both
+  Shading shading, wet_shading;             // of the window
+  std::vector<int> shaded;                  // per tile
   LabelTables labels;
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
   Target small;  // the picture before it is enlarged

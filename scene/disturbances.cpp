@@ -22,7 +22,7 @@ constexpr double kDraughtOfBeam = 0.17;
 
 bool makes_wake(const FloatingObject& object) {
   const bool is_boat = object.kind == ObjectKind::kBoat || object.kind == ObjectKind::kSailboat ||
-                       object.kind == ObjectKind::kForm;
+                       object.kind == ObjectKind::kImplicit;
   return is_boat && object.wake && object.motion == Motion::kFloat && object.path_m.size() >= 2;
 }
 

@@ -10,15 +10,16 @@
 
 namespace swell::scene {
 
-struct DrawnForm;
+struct DrawnImplicit;
 struct FlatMesh;
 
 struct MeshOfFile {
   std::vector<ObjectMesh> levels;  // finest first
   // The corners of its box in units of the file: right, ahead, up.
   glm::dvec3 low{0.0}, high{0.0};
-  // What is drawn, if the file has a form; the levels stand for it where that does not show.
-  std::shared_ptr<const DrawnForm> form;
+  // What is drawn, if the file has an implicit surface; the levels stand for it where that does not
+  // show.
+  std::shared_ptr<const DrawnImplicit> implicit;
 };
 
 // Reads the file in another process (scene/run_importer.h). Throws std::runtime_error in one line
@@ -28,7 +29,7 @@ MeshOfFile load_mesh(const std::string& file, UpAxis up);
 // Makes the mesh from what the importer has written (scene/flat_mesh.h).
 MeshOfFile mesh_of(const FlatMesh& flat);
 
-// Gives an object of kind kMesh or kForm its file's size, draught and middle. Throws
+// Gives an object of kind kMesh or kImplicit its file's size, draught and middle. Throws
 // std::runtime_error if it is larger or smaller than objects may be.
 void fit_object(const MeshOfFile& mesh, FloatingObject& object);
 

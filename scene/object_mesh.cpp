@@ -82,7 +82,7 @@ constexpr auto kLevelErrors = enum_table<ObjectKind, LevelErrors>({
     {ObjectKind::kLighthouse, {0.034f, 0.047f}},
     {ObjectKind::kRock, {0.120f, 0.190f}},
     {ObjectKind::kMesh, {}},  // the file's levels have their own
-    {ObjectKind::kForm, {}},
+    {ObjectKind::kImplicit, {}},
 });
 
 float level_error(ObjectKind kind, int segments) {
@@ -139,7 +139,7 @@ ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
       add_rock(builder);
       break;
     case ObjectKind::kMesh:
-    case ObjectKind::kForm:
+    case ObjectKind::kImplicit:
       SWELL_CHECK(false, "kind={}", "of a file");
       break;
   }

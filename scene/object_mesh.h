@@ -59,7 +59,7 @@ inline constexpr std::array<int, 3> kLevelSegments = {24, 8, 4};
 
 // Surfaces without a hole to see, outside out; sails are seen from both sides. Round parts have
 // `segments` sides, in [4, 32]; the error is that against 24 of them. At most 2048 triangles. Not
-// of kMesh or kForm (scene/mesh_file.h).
+// of kMesh or kImplicit (scene/mesh_file.h).
 ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments);
 
 // Gives a part whose triangles are known the plan that they have at a height, if they pass it.

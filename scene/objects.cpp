@@ -153,7 +153,7 @@ std::optional<Commonly> commonly_of(ObjectKind kind) {
     case ObjectKind::kSphere:
     case ObjectKind::kBox:
     case ObjectKind::kMesh:
-    case ObjectKind::kForm:
+    case ObjectKind::kImplicit:
       break;
   }
   return std::nullopt;
@@ -164,7 +164,7 @@ std::optional<Commonly> commonly_of(ObjectKind kind) {
 FloatingObject common_object(ObjectKind kind) {
   FloatingObject object;
   object.kind = kind;
-  object.at_file_origin = kind == ObjectKind::kForm;  // its waterline is its z = 0
+  object.at_file_origin = kind == ObjectKind::kImplicit;  // its waterline is its z = 0
   if (const std::optional<Commonly> commonly = commonly_of(kind)) {
     object.size_m = commonly->size_m;
     object.draught = commonly->draught;

@@ -32,7 +32,7 @@ enum class ObjectKind : std::uint8_t {
   kLighthouse,  // a tower with bands, a gallery and a lantern
   kRock,        // a boulder
   kMesh,        // of a file
-  kForm,        // of functions (scene/form.h), of a file
+  kImplicit,    // of functions (scene/implicit_surface.h), of a file
 };
 inline constexpr auto kObjectKindNames = enum_words<ObjectKind>({
     {ObjectKind::kBuoy, "buoy"},
@@ -44,7 +44,7 @@ inline constexpr auto kObjectKindNames = enum_words<ObjectKind>({
     {ObjectKind::kLighthouse, "lighthouse"},
     {ObjectKind::kRock, "rock"},
     {ObjectKind::kMesh, "mesh"},
-    {ObjectKind::kForm, "form"},
+    {ObjectKind::kImplicit, "form"},
 });
 
 // What sets an object's height and tilt.
@@ -88,7 +88,7 @@ struct FloatingObject {
   double metalness = 0.0;
   double checker_m = 0.0;  // side of its squares, every second one nearly black; 0: none
 
-  // These are for a mesh or a form.
+  // These are for a mesh or an implicit surface.
   std::string file{};
   std::string
       file_place{};  // where a scene file names it, for messages: "harbour.toml:12: column 8"
@@ -101,7 +101,7 @@ struct FloatingObject {
 };
 
 inline bool is_of_file(ObjectKind kind) {
-  return kind == ObjectKind::kMesh || kind == ObjectKind::kForm;
+  return kind == ObjectKind::kMesh || kind == ObjectKind::kImplicit;
 }
 
 // Closed all around, and about as wide as high.

@@ -13,7 +13,7 @@
 #include "scene/celestial.h"
 #include "scene/check_scene.h"
 #include "scene/checked_values.h"
-#include "scene/form_file.h"
+#include "scene/implicit_file.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "scene/scene_tables.h"
@@ -122,8 +122,8 @@ class Reader {
         read_tables(*node, kTreesKey, kMaxTreeStands, tree_parameters_, scene_.trees);
       } else if (path == kPathKey) {
         read_tables(*node, kPathKey, kMaxWaypoints, waypoint_parameters_, scene_.camera.path);
-      } else if (path == kFormsKey) {
-        continue;  // what objects of kind form that name this file read in it
+      } else if (path == kImplicitsKey) {
+        continue;  // what objects of kind "form" that name this file read in it
       } else if (is_section(path)) {
         read_section(*node, path);
       } else {

@@ -169,19 +169,20 @@ SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& w
                           : make_atmosphere_light(sky, atmosphere, workers);
 }
 
-SkyLight sky_light_aloft(const SkyLight& light, double height_m, Workers& workers) {
-  SkyLight aloft = light;
-  if (is_gradient(light.sky)) return aloft;
-  for (SkyLight::Source& source : aloft.sources)
+SkyLight sky_light_at_height(const SkyLight& light, double height_m, Workers& workers) {
+  SkyLight at_height = light;
+  if (is_gradient(light.sky)) return at_height;
+  for (SkyLight::Source& source : at_height.sources)
     source.table = make_sky_table(light.atmosphere, source.table.to_light, height_m, workers);
-  set_discs(height_m, aloft);
-  return aloft;
+  set_discs(height_m, at_height);
+  return at_height;
 }
 
 glm::vec3 clear_radiance(const SkyLight& light, glm::vec3 direction) {
   if (light.sources.empty()) return gradient_radiance(light.sky, direction);
-  const bool is_aloft = light.sources.front().table.horizon_sine < 0.0;
-  const glm::dvec3 d = is_aloft ? glm::normalize(glm::dvec3(direction)) : above_horizon(direction);
+  const bool is_at_height = light.sources.front().table.horizon_sine < 0.0;
+  const glm::dvec3 d =
+      is_at_height ? glm::normalize(glm::dvec3(direction)) : above_horizon(direction);
   glm::vec3 radiance = kNight;
   for (const SkyLight::Source& source : light.sources)
     radiance +=

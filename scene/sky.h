@@ -69,7 +69,7 @@ SkyLight make_sky_light(const Sky& sky, const Atmosphere& atmosphere, Workers& w
 
 // What an eye at height_m in (0, kAirTop_m) sees of `light`, that of sea level: its sky, and discs.
 // A gradient is the same at all heights. The same bits with any workers. About 5 ms on two threads.
-SkyLight sky_light_aloft(const SkyLight& light, double height_m, Workers& workers);
+SkyLight sky_light_at_height(const SkyLight& light, double height_m, Workers& workers);
 
 // Radiance of the clear sky in `direction` (world, any length but 0), finite and >= 0. Below the
 // horizon: sky_radiance()'s, of a gradient the horizon's. Thread safe.

@@ -24,7 +24,7 @@ constexpr KindIds kLarsKinds = enum_table<ObjectKind, int>({
     {ObjectKind::kLighthouse, 0},
     {ObjectKind::kRock, 0},
     {ObjectKind::kMesh, 19},
-    {ObjectKind::kForm, 19},
+    {ObjectKind::kImplicit, 19},
 });
 constexpr KindIds kWaterScenesKinds = enum_table<ObjectKind, int>({
     {ObjectKind::kBuoy, 2},
@@ -36,7 +36,7 @@ constexpr KindIds kWaterScenesKinds = enum_table<ObjectKind, int>({
     {ObjectKind::kLighthouse, 0},
     {ObjectKind::kRock, 0},
     {ObjectKind::kMesh, 0},
-    {ObjectKind::kForm, 0},
+    {ObjectKind::kImplicit, 0},
 });
 constexpr KindIds kObstacleKinds = [] {
   KindIds ids{};

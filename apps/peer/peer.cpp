@@ -29,7 +29,7 @@ struct Peer::State {
   void bind_texture(int unit, GLuint texture) const;
   void bind_layer(int unit, const render::SlopeLayer& layer, Levels levels, bool changed);
   void draw_pass(PeerPass pass) const;
-  void draw_lookup_image(const PeerTarget& target, const ViewPrograms& programs) const;
+  void draw_planar_map(const PeerTarget& target, const ViewPrograms& programs) const;
   void draw_visible(const PeerTarget& target, const ViewPrograms& programs, bool is_window) const;
   void shade_marked(const GlProgram& program, int mark) const;
   void draw_sky() const;
@@ -111,9 +111,9 @@ void Peer::take(const Workspace& workspace) {
 
   const View& camera = frame.window.camera;
   peer.window.resize(camera.width_px, camera.height_px);
-  const View& lookup = frame.lookups.reflection.view.camera;
-  peer.reflection.resize(lookup.width_px, lookup.height_px);
-  peer.refraction.resize(lookup.width_px, lookup.height_px);
+  const View& planar = frame.planar_maps.reflection.view.camera;
+  peer.reflection.resize(planar.width_px, planar.height_px);
+  peer.refraction.resize(planar.width_px, planar.height_px);
   peer.water.take(frame.meshes.water);
   peer.land.take(frame.meshes.land);
   peer.objects.take(frame.meshes.objects.in_window());
@@ -171,7 +171,7 @@ void Peer::State::shade_marked(const GlProgram& program, int mark) const {
   gl.Disable(GL_STENCIL_TEST);
 }
 
-void Peer::State::draw_lookup_image(const PeerTarget& target, const ViewPrograms& view) const {
+void Peer::State::draw_planar_map(const PeerTarget& target, const ViewPrograms& view) const {
   if (land.empty() && objects.empty()) return;
   target.bind_colour();
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
@@ -190,9 +190,9 @@ void Peer::State::draw_sky() const {
 void Peer::State::draw_pass(PeerPass pass) const {
   switch (pass) {
     case PeerPass::kReflection:
-      return draw_lookup_image(reflection, programs->reflection);
+      return draw_planar_map(reflection, programs->reflection);
     case PeerPass::kRefraction:
-      return draw_lookup_image(refraction, programs->refraction);
+      return draw_planar_map(refraction, programs->refraction);
     case PeerPass::kVisible:
       window.bind_colour();
       gl.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);

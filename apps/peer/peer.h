@@ -16,7 +16,7 @@ namespace swell::apps {
 
 // The passes of a frame, in order.
 enum class PeerPass : std::uint8_t {
-  kReflection,  // both lookup images; nothing without land and objects
+  kReflection,  // both planar maps; nothing without land and objects
   kRefraction,
   kVisible,  // objects, and where land and water are nearest
   kLand,

@@ -15,7 +15,7 @@ namespace {
 using render::Shading;
 using render::SlopeLayer;
 
-bool has_lookups(const Shading& window) {
+bool has_planar_maps(const Shading& window) {
   return window.material<render::Water>().reflection.image != nullptr;
 }
 
@@ -154,7 +154,7 @@ void set_water(const Shading& s, const GlProgram& program) {
   const auto& water = s.material<render::Water>();
   program.set("base_variance", water.base_variance);
   program.set("short_variance", water.short_variance);
-  program.set("seen_slopes", water.seen_slopes);
+  program.set("visible_slopes", water.visible_slopes);
   program.set("least_cos", water.least_cos);
   set_waves(water, program);
   if (water.has_coast) {
@@ -220,7 +220,7 @@ ShaderFeatures features_of(const render::Workspace::State& frame) {
   for (int i = 0; i < water.layer_count; ++i)
     features.water_defines += fmt::format("uniform sampler2D layer_{};\n", i);
   if (water.has_coast) features.water_defines += "#define COAST\n";
-  if (has_lookups(s)) features.water_defines += "#define LOOKUPS\n";
+  if (has_planar_maps(s)) features.water_defines += "#define LOOKUPS\n";
   features.water_layers = layers_text(water);
   if (s.material<render::Terrain>().swash.reach_m > 0.0f)
     features.terrain_defines = "#define SWASH\n";
@@ -240,10 +240,10 @@ void set_constants(const render::Workspace::State& frame, const PeerPrograms& pr
     set_view(s, frame.window.camera, *program);
   set_water(s, programs.water);
   set_view_programs(s, frame.window, programs.window);
-  if (!has_lookups(s)) return;
-  set_view_programs(frame.lookups.reflection.shading, frame.lookups.reflection.view,
+  if (!has_planar_maps(s)) return;
+  set_view_programs(frame.planar_maps.reflection.shading, frame.planar_maps.reflection.view,
                     programs.reflection);
-  set_view_programs(frame.lookups.refraction.shading, frame.lookups.refraction.view,
+  set_view_programs(frame.planar_maps.refraction.shading, frame.planar_maps.refraction.view,
                     programs.refraction);
 }
 

@@ -15,7 +15,7 @@ namespace swell::apps {
 // What a scene needs of the shaders, as preprocessor lines and calls: the same text, the same
 // programs.
 struct ShaderFeatures {
-  std::string water_defines;  // how many maps, coast, lookup images
+  std::string water_defines;  // how many maps, coast, planar maps
   std::string water_layers;   // the calls that add the layers, in order
   std::string terrain_defines;
 };

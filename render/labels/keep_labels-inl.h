@@ -1,4 +1,4 @@
-// Where the shader of a tile leaves what labels want of its surfels.
+// Where the shader of a tile leaves what labels want of its shading results.
 #if defined(SWELL_RENDER_LABELS_KEEP_LABELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_LABELS_KEEP_LABELS_INL_H_
 #undef SWELL_RENDER_LABELS_KEEP_LABELS_INL_H_
@@ -7,7 +7,7 @@
 #endif
 
 #include "render/labels/shaded_labels.h"
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -15,21 +15,21 @@ namespace HWY_NAMESPACE {
 
 // `at`: where in the tile each lane is. Without labels the compiler leaves their values out.
 struct KeepNothing {
-  HWY_INLINE void operator()(const std::uint16_t*, const Surfel&) const {}
+  HWY_INLINE void operator()(const std::uint16_t*, const ShadingResult&) const {}
 };
 
 struct KeepLabels {
   ShadedLabels& labels;
 
-  HWY_INLINE void operator()(const std::uint16_t* at, const Surfel& surfel) const {
+  HWY_INLINE void operator()(const std::uint16_t* at, const ShadingResult& result) const {
     const D d;
     const hn::Rebind<std::uint16_t, D> d16;
     const auto store = [&](const auto& put) HWY_ATTR {
-      put(surfel.normal.x, labels.normal_x.data());
-      put(surfel.normal.y, labels.normal_y.data());
-      put(surfel.normal.z, labels.normal_z.data());
-      put(surfel.foam_cover, labels.foam_cover.data());
-      put(surfel.flags, labels.flags.data());
+      put(result.normal.x, labels.normal_x.data());
+      put(result.normal.y, labels.normal_y.data());
+      put(result.normal.z, labels.normal_z.data());
+      put(result.foam_cover, labels.foam_cover.data());
+      put(result.flags, labels.flags.data());
     };
     const auto index = hn::LoadU(d16, at);
     if (hn::AllTrue(d16, index == hn::Iota(d16, at[0]))) {

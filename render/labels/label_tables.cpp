@@ -18,8 +18,8 @@ void for_chunks(std::size_t count, const StageRun& run, const Body& body) {
 
 // --- Normals
 
-// Turned to the side of the triangle that the eye is on. A triangle without an area stands for a
-// form, whose normal the shader knows.
+// Returns the normal on the side of the triangle that the eye is on. A triangle without an area
+// stands for an implicit surface, whose normal the shader knows.
 glm::vec3 seen_normal(const std::array<glm::vec3, 3>& p_rel) {
   const glm::vec3 n = glm::cross(p_rel[1] - p_rel[0], p_rel[2] - p_rel[0]);
   const float length = std::sqrt(glm::dot(n, n));
@@ -154,9 +154,9 @@ void fill_label_tables(const LabelInputs& in, LabelTables& tables, const StageRu
   tables.set = in.options.labels;
   tables.eye_world = in.window.camera.eye_world;
   const auto has = [&](Label label) { return tables.set.has(label); };
-  const bool has_forms = !in.window.forms.forms.empty();
+  const bool has_implicits = !in.window.implicits.implicits.empty();
   tables.from_shading = has(Label::kNormal) || has(Label::kFlags) ||
-                        (has_forms && has(Label::kGeometricNormal)) || has(Label::kFoam) ||
+                        (has_implicits && has(Label::kGeometricNormal)) || has(Label::kFoam) ||
                         has(Label::kClass);
   if (has(Label::kGeometricNormal)) fill_normals(in, tables, run);
   if (has(Label::kMotion)) fill_motion(in, tables, run);

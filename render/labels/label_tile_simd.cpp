@@ -4,7 +4,7 @@
 
 #include "math/check.h"
 #include "render/labels/label_tile.h"
-#include "render/view/forms.h"
+#include "render/view/implicits.h"
 #include "render/world/land_rays.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -229,11 +229,11 @@ HWY_INLINE V3 GeometricNormal(const LabelSources& in, const LabelTile& tile, con
   V3 normal = OnlyWhere(is_surface, GatherAt(in.tables.normal, 0, is_surface, p));
   if (in.world.land_rays) TakeCastLand(in, p, normal);
   if (!tile.shaded) return normal;
-  const M is_form = p.is_object & (Dot(normal, normal) == hn::Zero(d));
-  if (hn::AllFalse(d, is_form)) return normal;
+  const M is_implicit = p.is_object & (Dot(normal, normal) == hn::Zero(d));
+  if (hn::AllFalse(d, is_implicit)) return normal;
   const V3 shaded = ShadedNormal(tile, p);
-  return {IfThenElse(is_form, shaded.x, normal.x), IfThenElse(is_form, shaded.y, normal.y),
-          IfThenElse(is_form, shaded.z, normal.z)};
+  return {IfThenElse(is_implicit, shaded.x, normal.x), IfThenElse(is_implicit, shaded.y, normal.y),
+          IfThenElse(is_implicit, shaded.z, normal.z)};
 }
 
 // What the shader has left of the water; 0 elsewhere.

@@ -12,7 +12,7 @@ Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
   caustics.depth_m = maps.depth_m;
   caustics.strength = static_cast<float>(in.world.scene.water.caustics);
   caustics.throws_up = maps.throws_up;
-  caustics.thrown_from = -mirrored_slant(in.light.sun_direction);
+  caustics.reflected_from = -mirrored_slant(in.light.sun_direction);
   if (maps.patches > 0 && !in.without.has(Part::kCausticBend)) {
     caustics.bend_m = static_cast<float>(in.world.scene.water.caustic_distortion);
     caustics.ripples = make_ripples(in, eye);

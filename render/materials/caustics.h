@@ -12,7 +12,7 @@ namespace swell::render {
 // The maps of one wave patch.
 struct CausticPatch {
   std::array<const texture::PackedMap1*, CausticMaps::kDepths> map{};
-  const texture::PackedMap1* mirrored = nullptr;  // what is thrown up, at a height over the level
+  const texture::PackedMap1* mirrored = nullptr;  // reflected caustics, at a height over the level
   float mirrored_m = 1.0f;
   float texels_fx8_per_m = 1.0f;             // 1/256 texels of level 0
   float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // under the eye
@@ -25,7 +25,7 @@ struct Caustics {
   std::array<float, CausticMaps::kDepths> depth_m{};
   float strength = 1.0f;  // of the contrast
   bool throws_up = false;
-  glm::vec2 thrown_from{0.0f};  // towards the light, in each metre up
+  glm::vec2 reflected_from{0.0f};  // towards the light, in each metre up
   // How ripples move the lookup.
   float bend_m = 0.0f;  // Cc, 0: not at all
   Ripples ripples;

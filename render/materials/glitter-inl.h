@@ -13,11 +13,11 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// Radiance per irradiance of water that mirrors all light. T, where the eye's ray meets the slide,
-// is moved by the normal, T' = T + Cp N (N: right and away from the eye), and slopes that a pixel
-// does not show, whose variance of both axes is given, widen the slide's spot and dim it.
+// Radiance per irradiance of water that mirrors all light. T, where the eye's ray meets the
+// texture, is moved by the normal, T' = T + Cp N (N: right and away from the eye), and slopes that
+// a pixel does not show, whose variance of both axes is given, widen the texture's spot and dim it.
 // Source: Ma, Zhu, Gong, 2006; the widening is ours.
-HWY_NOINLINE static V ThrownGlitter(const Glitter& glitter, V3 to_eye, V3 normal, V variance) {
+HWY_NOINLINE static V ProjectedGlitter(const Glitter& glitter, V3 to_eye, V3 normal, V variance) {
   const V zero = hn::Zero(D()), one = Constant(1.0f);
   const V ahead = -Dot(to_eye, Constant(glitter.ahead));
   const V inv_ahead = one / Max(ahead, 0.05f);
@@ -31,15 +31,15 @@ HWY_NOINLINE static V ThrownGlitter(const Glitter& glitter, V3 to_eye, V3 normal
   const float spread = 0.5f * glitter.per_slope * glitter.per_slope;
   const V radius2 = MulAdd(variance, spread, glitter.disc_variance);
   const V inv_radius = InverseSqrt(radius2);
-  // Most packets look past the slide.
+  // Most packets look past the texture.
   const V away = Max(Abs(x), Abs(y)) * inv_radius;
-  const auto shown = (ahead > zero) & (away < SunSlide::kReach);
+  const auto shown = (ahead > zero) & (away < SunTexture::kReach);
   if (hn::AllFalse(D(), shown)) return zero;
-  const V per_radius = Constant(0.5f * static_cast<float>(SunSlide::kSize) / SunSlide::kReach);
-  const V middle = Constant(0.5f * static_cast<float>(SunSlide::kSize));
+  const V per_radius = Constant(0.5f * static_cast<float>(SunTexture::kSize) / SunTexture::kReach);
+  const V middle = Constant(0.5f * static_cast<float>(SunTexture::kSize));
   const V scale = inv_radius * per_radius;
   V root, unused_g, unused_b, unused_a;
-  texture::HWY_NAMESPACE::SampleRgba(D(), *glitter.slide, MulAdd(x, scale, middle),
+  texture::HWY_NAMESPACE::SampleRgba(D(), *glitter.sun_texture, MulAdd(x, scale, middle),
                                      MulAdd(y, scale, middle), root, unused_g, unused_b, unused_a);
   const V light = root * root * glitter.brightness;
   const V dimmed = light * (inv_radius * inv_radius);

@@ -7,7 +7,7 @@
 #endif
 
 #include "render/materials/foam-inl.h"
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,4 +1,4 @@
-// How soft water shows its lookup images: slopes finer than a pixel spread what it looks up.
+// How soft water shows its planar maps: slopes finer than a pixel spread what it looks up.
 #if defined(SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
 #undef SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
@@ -25,11 +25,11 @@ HWY_INLINE BlurLevel Sharp() { return {hn::Zero(DI()), hn::Zero(D()), true}; }
 // For lookups that slopes of this variance (of both axes together) spread: each moves them up or
 // down by the root of px2_per_slope2 [px of the window] times itself. A sample of level l is spread
 // by 2^l / 2 texels (its block, and the blend between blocks).
-HWY_INLINE BlurLevel FindBlur(const LookupImage& lookup, V variance, V px2_per_slope2) {
-  const int last = lookup.image->levels - 1;
+HWY_INLINE BlurLevel FindBlur(const PlanarMap& map, V variance, V px2_per_slope2) {
+  const int last = map.image->levels - 1;
   if (last == 0) return Sharp();
   const V unseen = variance - kGlassVariance;
-  const V spread2 = unseen * px2_per_slope2 * (2.0f * lookup.scale_y * lookup.scale_y);
+  const V spread2 = unseen * px2_per_slope2 * (2.0f * map.scale_y * map.scale_y);
   // No less than on level 0, which is 1 here.
   const auto blurred = spread2 > 1.0f;
   if (hn::AllFalse(D(), blurred)) return Sharp();

@@ -11,7 +11,7 @@
 namespace swell::render {
 
 // An off-screen picture that water looks into, at `scale` of the window's size.
-struct LookupImage {
+struct PlanarMap {
   const texture::RgbaImage* image = nullptr;
   float scale_x = 1.0f, scale_y = 1.0f;
 };
@@ -24,8 +24,8 @@ struct MaterialInputs {
   const Light& light;
   const Media& media;
   PartSet without;
-  LookupImage reflection = {}, refraction = {};  // once they are drawn
-  LookupImage river_reflection = {};             // what rivers at about this level mirror
+  PlanarMap reflection = {}, refraction = {};  // once they are drawn
+  PlanarMap river_reflection = {};             // what rivers at about this level mirror
   float river_level_m = 0.0f, river_mirror_share = 0.0f;
   // How far out the water's vertices show waves.
   double wave_reach_m = std::numeric_limits<double>::infinity();

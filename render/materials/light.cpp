@@ -12,7 +12,7 @@ namespace swell::render {
 namespace {
 
 // Below this the haze of sea level stands for all air.
-constexpr double kAloft_m = 20.0;
+constexpr double kAerialPerspective_m = 20.0;
 
 bool shows_phase(const scene::Sky& sky, glm::vec3 to_disc) {
   return !scene::is_gradient(sky) && to_disc != sky.sun_direction && sky.moon_phase < 1.0;
@@ -76,7 +76,7 @@ Media make_media(const World::State& world, const Light& light, const Fog& fog, 
   media.fog.clouds = light.cloud_shadow;
   if (!without.has(Part::kHaze)) {
     media.inv_haze_m = static_cast<float>(1.0 / world.scene.sky.haze_distance_m);
-    if (height_m > kAloft_m) media.molecules_per_m = world.sky->molecules_per_m;
+    if (height_m > kAerialPerspective_m) media.molecules_per_m = world.sky->molecules_per_m;
   }
   media.cloudy = world.sky->cloud_light.overcast * part_under_clouds(height_m);
   media.inv_haze_height_m = static_cast<float>(1.0 / world.scene.sky.haze_height_m);

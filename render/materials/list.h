@@ -5,7 +5,7 @@
 // A material M is a plain struct with
 //   static constexpr SurfaceKind kSurface;                    // whose triangles it shades
 //   void fill(const MaterialInputs&, const RenderView&, M&);  // its constants, once a view
-// and, in its m-inl.h, the per-pixel code that tile/surfel-inl.h describes.
+// and, in its m-inl.h, the per-pixel code that tile/shading_result-inl.h describes.
 #pragma once
 
 #include <tuple>

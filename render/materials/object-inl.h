@@ -8,15 +8,15 @@
 
 #include "render/materials/caustics-inl.h"
 #include "render/materials/checker-inl.h"
-#include "render/materials/form-inl.h"
 #include "render/materials/fresnel-inl.h"
+#include "render/materials/implicit-inl.h"
 #include "render/materials/object.h"
-#include "render/materials/thrown_light-inl.h"
+#include "render/materials/reflected_caustics-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/lanes3-inl.h"
-#include "render/tile/own_shadow-inl.h"
+#include "render/tile/self_shadow-inl.h"
+#include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"
-#include "render/tile/surfel-inl.h"
 #include "texture/mip_image.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -107,11 +107,12 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   };
   V3 n_mesh = MulAdd(along_x.Load(), q.x,
                      MulAdd(along_y.Load(), q.y, MulAdd(along_z.Load(), q.z, at_origin.Load())));
-  const auto of_forms = TakeFormNormals(primitive, q, n_mesh);
+  const auto of_implicits = TakeImplicitNormals(primitive, q, n_mesh);
   const V3 n = to_world(n_mesh);
   // A surface without a back has the normal of the side that is seen.
   const V inverse = InverseSqrt(Max(Dot(n, n), 1e-30f));
-  const auto from_behind = hn::AndNot(of_forms, Dot(to_world(flat.Load()), packet.to_eye) < 0.0f);
+  const auto from_behind =
+      hn::AndNot(of_implicits, Dot(to_world(flat.Load()), packet.to_eye) < 0.0f);
   const V3 finishes = finish.Load();
   ObjectSurface surface = {n * IfThenElse(from_behind, -inverse, inverse), albedo.Load(),
                            finishes.x, finishes.y, finishes.z};
@@ -139,13 +140,13 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   return surface;
 }
 
-// Light that a matt surface sends back: of the sun, straight and thrown up by waves, of the sky
+// Light that a matt surface sends back: of the sun, straight and reflected by waves, of the sky
 // above, of the sea below.
 HWY_INLINE V3 MattLight(const Light& light, glm::vec3 sea_light, const ObjectSurface& s,
-                        const LightSeen& seen, V thrown) {
+                        const LightSeen& seen, V reflected) {
   const V facing = Dot(s.normal, Constant(light.sun_direction));
   const V lit = Max(facing, -facing * s.translucency);
-  const V cos_sun = MulAdd(Max(lit, 0.0f), seen.sun, thrown);
+  const V cos_sun = MulAdd(Max(lit, 0.0f), seen.sun, reflected);
   const V sky_seen = MulAdd(s.normal.z, 0.5f, 0.5f);
   const V3 around = Lerp(Constant(sea_light), Constant(light.ambient), sky_seen) * seen.ambient;
   const V matt = 1.0f - s.metalness;
@@ -217,7 +218,7 @@ HWY_INLINE V SunOverOwn(const Shading& s, const ObjectPacket& objects, const Pac
   std::array<const SunDepth*, Lanes3::kCount> maps;
   const SunDepth* any = nullptr;
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    maps[i] = objects[i]->object->own_shadow;
+    maps[i] = objects[i]->object->self_shadow;
     if (maps[i]) any = maps[i];
   }
   return any ? SunOverOwn(*s.sun_shadow.objects, maps, packet.p, normal) : Constant(1.0f);
@@ -228,8 +229,8 @@ template <ViewKind kView>
 struct Shader<Object, kView> {
   const Object& object;
 
-  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes& lanes,
-                               const Packet& packet) const {
+  HWY_INLINE ShadingResult operator()(const Shading& s, const TilePixels& tile, const Lanes& lanes,
+                                      const Packet& packet) const {
     const ObjectPacket objects = ObjectsAt(s, lanes);
     const ObjectSurface surface = SampleObject(object, s.rays, objects.data(), packet);
     // What the object itself is before does not tell on the light from the water.
@@ -240,14 +241,14 @@ struct Shader<Object, kView> {
     }
     if (s.media.fog.on) over_others = over_others * SunOverFog(s.media.fog, packet.p.z);
     V sun_visible = over_others * SunOverOwn(s, objects, packet, surface.normal);
-    V thrown = hn::Zero(D());
+    V reflected = hn::Zero(D());
     if (ShowsWaterSide<kView>(s.media))
       sun_visible = sun_visible * GatheredSun(s, packet.p, FootprintAcross(s.rays, packet));
     else
-      thrown =
-          over_others * ThrownLight(s, packet.p, surface.normal, FootprintAcross(s.rays, packet));
+      reflected = over_others *
+                  ReflectedCaustics(s, packet.p, surface.normal, FootprintAcross(s.rays, packet));
     const V3 matt = MattLight(s.light, object.sea_light, surface,
-                              {sun_visible, AmbientUnderClouds(s, packet.p)}, thrown);
+                              {sun_visible, AmbientUnderClouds(s, packet.p)}, reflected);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};
     return {matt + Gloss(s.light, object.sea_light, surface, packet.to_eye, sun_visible),
             surface.normal};

@@ -291,13 +291,13 @@ HWY_INLINE RiverSeen SeeRiver(const Shading& shading, const River& river, const 
   return seen;
 }
 
-// Not shown in lookup images.
+// Not shown in planar maps.
 template <ViewKind kView>
 struct Shader<River, kView> {
   const River& river;
 
-  HWY_INLINE Surfel operator()(const Shading&, const TilePixels&, const Lanes&,
-                               const Packet& packet) const {
+  HWY_INLINE ShadingResult operator()(const Shading&, const TilePixels&, const Lanes&,
+                                      const Packet& packet) const {
     return {packet.p, packet.p};
   }
 };
@@ -322,8 +322,8 @@ struct Shader<River, ViewKind::kWindow> {
         seen[k].slopes = PassIntoSea(seen[k].slopes, sea[k], seen[k].at.sea_share);
   }
 
-  HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
-                               const Packet& packet, const RiverSeen& river_seen) const {
+  HWY_INLINE ShadingResult operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
+                                      const Packet& packet, const RiverSeen& river_seen) const {
     const D d;
     const V zero = hn::Zero(d);
     const Light& light = shading.light;
@@ -342,7 +342,7 @@ struct Shader<River, ViewKind::kWindow> {
     if (river_seen.meets_sea) {
       V3 sea_floor;
       const V3 of_sea = RefractedLight(shading, water, packet, s, sun_visible,
-                                       tile.lookups.refraction, refracted_alpha, sea_floor);
+                                       tile.planar_maps.refraction, refracted_alpha, sea_floor);
       refracted = PassIntoSea(refracted, of_sea, at.sea_share);
       floor = PassIntoSea(floor, sea_floor, at.sea_share);
     }
@@ -350,8 +350,8 @@ struct Shader<River, ViewKind::kWindow> {
     AddHulls(shading, tile, packet, refracted, foam);
     V3 mirrored =
         ReflectedLight(light, water, packet, s, f, inv_variance, floor, false, mirrored_alpha);
-    const auto lay_over = [&](const LookupImage& lookup, V share) HWY_ATTR {
-      const Looked image = LookUpDistorted<false>(water, lookup, packet, s, 1.0f);
+    const auto lay_over = [&](const PlanarMap& map, V share) HWY_ATTR {
+      const Looked image = LookUpDistorted<false>(water, map, packet, s, 1.0f);
       const V part = image.alpha * share;
       mirrored = Lerp(mirrored, image.light, part);
       mirrored_alpha = Max(mirrored_alpha, part);
@@ -363,7 +363,7 @@ struct Shader<River, ViewKind::kWindow> {
                    1.0f);
     };
     const V by_sea = river.mirrors_sea ? Max(at.sea_share, share_of(0.0f)) : at.sea_share;
-    if (tile.lookups.reflection && !hn::AllFalse(d, by_sea > zero))
+    if (tile.planar_maps.reflection && !hn::AllFalse(d, by_sea > zero))
       lay_over(water.reflection, by_sea);
     if (river.reflection.image) {
       const V share = share_of(river.mirror_level_m) * river.mirror_share *

@@ -49,7 +49,7 @@ struct River {
   glm::vec3 sky_light{0.0f};               // what a white bed under no water sends back, of the sky
   glm::vec3 sun_light{0.0f};               // and of a sun that nothing hides
 
-  LookupImage reflection;
+  PlanarMap reflection;
   float mirror_level_m = 0.0f;  // that the image is of
   float mirror_share = 0.0f;    // how much of it shows
   bool mirrors_sea = true;      // water at about the sea's level looks into the sea's image

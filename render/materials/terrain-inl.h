@@ -16,7 +16,7 @@
 #include "render/materials/terrain.h"
 #include "render/materials/topside-inl.h"
 #include "render/tile/attenuate-inl.h"
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -275,14 +275,14 @@ struct Shader<Terrain, kView> {
       sun_visible = sun_visible * GatheredSun(s, packet.p, level_m);
     const Ground ground = LightGround<kDetail>(terrain, s, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
-      if (s.media.submerged) return Surfel{ground.light, ground.normal};
+      if (s.media.submerged) return ShadingResult{ground.light, ground.normal};
       const V height_m = packet.p.z + s.rays.eye_z;
-      return Surfel{AddSwash(s, terrain, packet, level_m, height_m, sun_visible, ground),
-                    ground.normal};
+      return ShadingResult{AddSwash(s, terrain, packet, level_m, height_m, sun_visible, ground),
+                           ground.normal};
     } else if constexpr (kView == ViewKind::kRefraction) {
-      return FadingSurfel{{ground.light, ground.normal}, FloorShown(terrain, packet.p)};
+      return FadingResult{{ground.light, ground.normal}, FloorShown(terrain, packet.p)};
     } else {
-      return Surfel{ground.light, ground.normal};
+      return ShadingResult{ground.light, ground.normal};
     }
   }
 };

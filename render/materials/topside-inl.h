@@ -21,30 +21,30 @@
 #include "render/materials/water_slopes-inl.h"
 #include "render/materials/whitecaps-inl.h"
 #include "render/tile/light_code-inl.h"
+#include "render/tile/shading_result-inl.h"
 #include "render/tile/stars-inl.h"
 #include "render/tile/sun_shadow-inl.h"
-#include "render/tile/surfel-inl.h"
 #include "render/view/wave_reach.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// What a lookup image shows at a place, and what part of the place it fills.
+// What a planar map shows at a place, and what part of the place it fills.
 struct Looked {
   V3 light;
   V alpha;
 };
 
-// Looks a lookup image up at a window position, on a level of it. Samples beside nothing are no
+// Looks a planar map up at a window position, on a level of it. Samples beside nothing are no
 // darker: only their alpha is less.
-HWY_INLINE Looked LookUpAt(const LookupImage& lookup, V x_px, V y_px, const BlurLevel& level) {
+HWY_INLINE Looked LookUpAt(const PlanarMap& map, V x_px, V y_px, const BlurLevel& level) {
   const D d;
   const V one = Constant(1.0f);
-  const V x = x_px * lookup.scale_x, y = y_px * lookup.scale_y;
+  const V x = x_px * map.scale_x, y = y_px * map.scale_y;
   V3 code;
   V alpha;
-  SampleBlurred(*lookup.image, x, y, level, code, alpha);
+  SampleBlurred(*map.image, x, y, level, code, alpha);
   const auto some = alpha > 0.0f;
   if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
   // Codes that were blended with zeros.
@@ -60,12 +60,12 @@ HWY_INLINE Looked LayOver(const Looked& front, const Looked& behind) {
   return {Lerp(front.light, behind.light, part), alpha};
 }
 
-// Looks a lookup image up at the pixel's own window position, moved by the slopes (spec: distortion
+// Looks a planar map up at the pixel's own window position, moved by the slopes (spec: distortion
 // tied to the bump, fading where the surface is seen edge-on so that far, small things hold
 // together). Where kBacked, what is not found there is looked up at the pixel's own position.
 template <bool kBacked>
-HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
-                                  const Packet& packet, const WaterSlopes& s, float sign) {
+HWY_INLINE Looked LookUpDistorted(const Water& water, const PlanarMap& map, const Packet& packet,
+                                  const WaterSlopes& s, float sign) {
   const D d;
   const V right = MulAdd(s.slope_x, water.view_right.x, s.slope_y * water.view_right.y);
   const V ahead = MulAdd(s.slope_x, water.view_ahead.x, s.slope_y * water.view_ahead.y);
@@ -73,15 +73,15 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const LookupImage& lookup,
                  Clamp(packet.to_eye.z * water.distortion_by_sine, water.least_distortion, 1.0f);
   // What lies under water is near the surface: slopes too fine to see move it by less than they
   // spread it.
-  const BlurLevel level = kBacked ? Sharp() : FindBlur(lookup, s.variance, gain * gain);
+  const BlurLevel level = kBacked ? Sharp() : FindBlur(map, s.variance, gain * gain);
   const float bound = water.max_distortion_px;
   const V dx = Clamp(right * (gain * -0.5f), -bound, bound);
   const V dy = Clamp(ahead * gain, -bound, bound);
   const V half = Constant(0.5f);
   const V x = packet.x_px + half, y = packet.y_px + half;
-  const Looked moved = LookUpAt(lookup, x + dx, y + dy, level);
+  const Looked moved = LookUpAt(map, x + dx, y + dy, level);
   const bool found = hn::AllTrue(d, moved.alpha >= 1.0f);
-  return !kBacked || found ? moved : LayOver(moved, LookUpAt(lookup, x, y, level));
+  return !kBacked || found ? moved : LayOver(moved, LookUpAt(map, x, y, level));
 }
 
 // The part of the facets seen that mirror the sea again, not the sky. The mean slopes send the ray
@@ -120,7 +120,7 @@ HWY_INLINE Facing FaceEye(const Media& media, const Water& water, const Packet& 
     f.cos_eye = f.cos_mirror = TiltToEye(packet.to_eye, water.least_cos, f.normal);
   } else {
     f.cos_eye = f.cos_mirror = Dot(f.normal, packet.to_eye);
-    if (water.seen_slopes > 0.0f) {
+    if (water.visible_slopes > 0.0f) {
       const V drawn = Max(1.0f - s.variance / s.fine_variance, 0.0f);
       f.cos_eye = UnhiddenCosine(f.cos_eye, s.long_cosine, s.fine_variance, drawn);
       f.cos_mirror = MirroringCosine(f.cos_eye, s.variance);
@@ -282,8 +282,8 @@ struct WaterShader {
     SampleWater<kCoast>(water, shading.rays, packets, found);
   }
 
-  HWY_INLINE Surfel operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
-                               const Packet& packet, const WaterSlopes& s) const {
+  HWY_INLINE ShadingResult operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
+                                      const Packet& packet, const WaterSlopes& s) const {
     const Light& light = shading.light;
     const Facing f = FaceEye(shading.media, water, packet, s);
 
@@ -292,17 +292,18 @@ struct WaterShader {
     V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media}, f.area,
                           inv_variance);
     V3 floor;
-    V3 refracted = RefractedLight(shading, water, packet, s, sun_visible, tile.lookups.refraction,
-                                  refracted_alpha, floor);
+    V3 refracted = RefractedLight(shading, water, packet, s, sun_visible,
+                                  tile.planar_maps.refraction, refracted_alpha, floor);
     const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance, floor,
-                                       tile.lookups.reflection, mirrored_alpha);
+                                       tile.planar_maps.reflection, mirrored_alpha);
     TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
     AddHulls(shading, tile, packet, refracted, foam);
     const V weight =
         water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
     const V3 arriving = Lerp(refracted, mirrored, weight);
-    if (water.glitter.slide)
-      sun_path = f.reflectance * ThrownGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
+    if (water.glitter.sun_texture)
+      sun_path =
+          f.reflectance * ProjectedGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
     V3 seen = MulAdd(Constant(water.glitter_light), sun_path * sun_visible, arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction,
                         {sun_visible, AmbientUnderClouds(shading, packet.p)}, f.normal, seen);

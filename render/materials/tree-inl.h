@@ -9,8 +9,8 @@
 
 #include "render/materials/tree.h"
 #include "render/tile/lanes3-inl.h"
+#include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"
-#include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -110,8 +110,8 @@ template <ViewKind kView>
 struct Shader<Tree, kView> {
   const Tree& tree;
 
-  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes& lanes,
-                               const Packet& packet) const {
+  HWY_INLINE ShadingResult operator()(const Shading& s, const TilePixels& tile, const Lanes& lanes,
+                                      const Packet& packet) const {
     const D d;
     const V zero = hn::Zero(d), one = Constant(1.0f), half = Constant(0.5f);
     const TreeLanes its = LoadTrees(tree, s.primitives.begin(Tree::kSurface), lanes, packet);

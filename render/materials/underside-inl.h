@@ -88,10 +88,10 @@ HWY_INLINE WindowPlace PlaceInWindow(const ViewRays& rays, V3 direction) {
           MulSub(Dot(direction, Constant(down)), inverse, y)};
 }
 
-// Looks a lookup image up in a direction of the eye: where a flat surface would bend or mirror the
+// Looks a planar map up in a direction of the eye: where a flat surface would bend or mirror the
 // ray as the waves do, for things far beyond it. Nearer ones move by less. Slopes of this variance,
 // which turn the direction by `turn` times as much, spread what is seen.
-HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const LookupImage& lookup,
+HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const PlanarMap& map,
                                 const Packet& packet, V3 direction, V variance, float turn) {
   constexpr float kShare = 0.6f;
   const float bound = water.max_distortion_px;
@@ -101,8 +101,8 @@ HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const Look
     return from + (by + 0.5f);
   };
   const float px = kShare * turn / s.rays.pixel_angle;
-  const BlurLevel level = FindBlur(lookup, variance, Constant(px * px));
-  return LookUpAt(lookup, moved(packet.x_px, at.x_px), moved(packet.y_px, at.y_px), level);
+  const BlurLevel level = FindBlur(map, variance, Constant(px * px));
+  return LookUpAt(map, moved(packet.x_px, at.x_px), moved(packet.y_px, at.y_px), level);
 }
 
 // The sky in a bent ray's direction, the sea where waves turn the ray down, and in front of both
@@ -214,12 +214,12 @@ struct UndersideShader {
     for (std::size_t k = 0; k < packets.size(); ++k) found[k] = NoSlopes(zero, zero, zero);
   }
 
-  HWY_INLINE Surfel operator()(const Shading& s, const TilePixels& tile, const Lanes&,
-                               const Packet& packet, const WaterSlopes& slopes) const {
+  HWY_INLINE ShadingResult operator()(const Shading& s, const TilePixels& tile, const Lanes&,
+                                      const Packet& packet, const WaterSlopes& slopes) const {
     const D d;
     const V zero = hn::Zero(d), one = Constant(1.0f);
     const auto lost = LostInWater(s.media, packet);
-    const Surfel nothing = {{zero, zero, zero}, {zero, zero, one}};
+    const ShadingResult nothing = {{zero, zero, zero}, {zero, zero, one}};
     if (hn::AllTrue(d, lost)) return nothing;
     const V3 ray = -packet.to_eye;
     const FromBelow f = LeaveWater(s.media, ray, slopes);
@@ -228,11 +228,11 @@ struct UndersideShader {
     const auto mirrors = f.reflectance >= one;
     V mirrored_alpha, bent_alpha = zero;
     const V3 mirrored = LightFromWater(s, water, packet, f, slopes.variance,
-                                       tile.lookups.reflection, mirrored_alpha);
+                                       tile.planar_maps.reflection, mirrored_alpha);
     V3 seen = mirrored;
     if (!hn::AllTrue(d, mirrors)) {
-      const V3 bent =
-          LightFromAir(s, water, packet, f, slopes.variance, tile.lookups.refraction, bent_alpha);
+      const V3 bent = LightFromAir(s, water, packet, f, slopes.variance,
+                                   tile.planar_maps.refraction, bent_alpha);
       seen = Where(mirrors, mirrored, Lerp(bent, mirrored, f.reflectance));
       bent_alpha = hn::IfThenZeroElse(mirrors, bent_alpha);
     }

@@ -129,7 +129,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.mirrored_sea = mirrored_sea(in, reflectance);
   water.mirrored_floor_part = 1.0f - reflectance;
   water.short_variance = layer_variance(water, water.long_layer_count);
-  water.seen_slopes = in.without.has(Part::kSeenSlopes) ? 0.0f : 1.0f;
+  water.visible_slopes = in.without.has(Part::kVisibleSlopes) ? 0.0f : 1.0f;
   water.least_cos = in.world.scene.water.tilted_backs ? kLeastCos : 0.0f;
   water.wave_horizon = wave_horizon(variance);
   water.glitter_light = in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;

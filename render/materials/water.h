@@ -38,7 +38,7 @@ struct Water {
   SlopeLayer bump_detail;       // of the paper's lighting, without a map: none
   SlopeLayer uv_noise;          // values in [-1, 1], not slopes
   float short_variance = 0.0f;  // slope variance of the layers after the long ones
-  float seen_slopes = 1.0f;     // 1, or 0: all slopes of rough water are seen, also the hidden ones
+  float visible_slopes = 1.0f;  // 1, or 0: all slopes of rough water are seen, also the hidden ones
   float least_cos = 0.0f;  // of normals to the eye, which are tilted to have it; 0: they are not
   float base_variance = 0.0f;  // slope variance of ripples too fine for any map
   // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
@@ -61,7 +61,7 @@ struct Water {
   glm::vec3 crest_glow{0.0f};        // added where light shines through crests
   float inv_crest_height = 0.0f;
   float inv_wave_reach = 0.0f;  // of the vertices, per metre
-  LookupImage reflection, refraction;
+  PlanarMap reflection, refraction;
   float distortion_px = 0.0f;      // window pixels per unit of slope
   float max_distortion_px = 0.0f;  // bound of the displacement, each way
   // What it is multiplied by: the sine of the eye's elevation over the water, times this, bounded.

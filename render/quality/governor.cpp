@@ -11,7 +11,7 @@ namespace {
 
 // Sizes against those of full quality.
 struct Sizes {
-  double lookups, picture;
+  double planar_maps, picture;
 };
 constexpr double kLeastPicture = 0.5;
 // A step of the picture's side changes its pixels by 6 %: so little that a picture which just does
@@ -60,11 +60,11 @@ constexpr int kRaiseProven = 60;  // within the budget since a step up, so that 
 // Half of finding what is visible goes over triangles, half over pixels.
 constexpr double kVisibilityOfTriangles = 0.5;
 
-// Time for the lookup images goes by their side, not by their pixels: at a lagoon 3.0 ms, 1.5 at
+// Time for the planar maps goes by their side, not by their pixels: at a lagoon 3.0 ms, 1.5 at
 // half and 0.7 at a quarter. Taken by pixels, 8 ms too much were expected of the way back up.
-double lookup_sides(int step) {
+double planar_sides(int step) {
   const Sizes& s = kSizes[static_cast<std::size_t>(step)];
-  return s.lookups * s.picture;
+  return s.planar_maps * s.picture;
 }
 
 double picture_pixels(int step) {
@@ -73,7 +73,7 @@ double picture_pixels(int step) {
 }
 
 double of_others(const auto& cost, int step) {
-  return cost.rest + cost.lookups * lookup_sides(step) + cost.pixels * picture_pixels(step);
+  return cost.rest + cost.planar_maps * planar_sides(step) + cost.pixels * picture_pixels(step);
 }
 
 double predicted_ms(const auto& cost, int step, double detail) {
@@ -116,7 +116,7 @@ void Governor::write_options() {
   options_ = full_;
   options_.water_triangles = share(full_.water_triangles);
   options_.terrain_triangles = share(full_.terrain_triangles);
-  options_.lookup_scale = full_.lookup_scale * sizes.lookups;
+  options_.lookup_scale = full_.lookup_scale * sizes.planar_maps;
   options_.picture_scale = full_.picture_scale * sizes.picture;
   if (frames_ > 0) {  // the first is drawn whole
     const double lod_ms = kMostLod * settings_.budget_ms;
@@ -147,12 +147,13 @@ void Governor::learn(const FrameStatistics& last, double outside_ms) {
       stage(Stage::kTriangulate) + stage(Stage::kDisplace) + kVisibilityOfTriangles * visibility;
   const double pixels = stage(Stage::kShade) + stage(Stage::kClouds) + rays +
                         (1.0 - kVisibilityOfTriangles) * visibility;
-  const double lookups = stage(Stage::kLookups);
+  const double planar_maps = stage(Stage::kPlanarMaps);
   const double frame_ms = last.frame_ms + outside_ms;
 
   const std::size_t place = frames_++ % kRemembered;
-  costs_[place] = {triangles / report_.detail, lookups / lookup_sides(report_.step),
-                   pixels / picture_pixels(report_.step), frame_ms - triangles - pixels - lookups};
+  costs_[place] = {triangles / report_.detail, planar_maps / planar_sides(report_.step),
+                   pixels / picture_pixels(report_.step),
+                   frame_ms - triangles - pixels - planar_maps};
   strays_[(frames_ - 1) % kStraysRemembered] =
       report_.predicted_ms > 0.0 ? frame_ms / report_.predicted_ms : 1.0;
   frames_kept_since_raise_ += frame_ms <= settings_.budget_ms;
@@ -169,7 +170,7 @@ Governor::Cost Governor::median_cost(std::size_t frames) const {
     std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
     return *middle;
   };
-  return {median(&Cost::triangles), median(&Cost::lookups), median(&Cost::pixels),
+  return {median(&Cost::triangles), median(&Cost::planar_maps), median(&Cost::pixels),
           median(&Cost::rest)};
 }
 

@@ -11,7 +11,7 @@
 //
 // What gives, in this order:
 //   1. triangles of water and land together, down to 0.4 of full quality;
-//   2. size of the lookup images, in two steps: mirrored land gets softer;
+//   2. size of the planar maps, in two steps: mirrored land gets softer;
 //   3. size of the picture, by 3 % a step down to half, enlarged to the full size. On two cores
 //      shading is three quarters of a frame at 1280x720, so nothing else can halve a frame; a step
 //      costs sharpness everywhere alike. (Fewer layers of ripples far away would leave a line on
@@ -28,7 +28,7 @@
 // to. Frames that other work makes late, up to four in a row, cost no size; after more of them it
 // is back in two seconds.
 //
-// The model of a frame's cost: ms a triangle, a row of the lookup images, a picture pixel and what
+// The model of a frame's cost: ms a triangle, a row of the planar maps, a picture pixel and what
 // is left, each the median over the last frames of what the stages took by what they had to do; so
 // what a change will cost is known before it is made, and a single frame that the machine disturbed
 // changes nothing. How far most frames stray from the model sets how far below the budget to aim:
@@ -82,10 +82,10 @@ class Governor {
   static constexpr double kMostChange = 0.1;  // of triangles, from frame to frame
 
  private:
-  // The cost of a frame at full quality [ms]: of its triangles, lookup images, picture pixels, and
+  // The cost of a frame at full quality [ms]: of its triangles, planar maps, picture pixels, and
   // the rest.
   struct Cost {
-    double triangles = 0.0, lookups = 0.0, pixels = 0.0, rest = 0.0;
+    double triangles = 0.0, planar_maps = 0.0, pixels = 0.0, rest = 0.0;
   };
   // The model over few frames, quick to see that frames got slower, and over many, hard to fool.
   struct Model {

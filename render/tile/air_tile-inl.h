@@ -70,22 +70,22 @@ struct FogAhead {
   }
 };
 
-// The air below before the first `length` of the way, whose whole is `distance`.
-HWY_INLINE V3 LayAloft(const Shading& s, const PlaceShown& at, const AirAhead& air, V distance,
-                       V length, V3 light) {
+// The aerial perspective of the first `length` of the way, whose whole is `distance`.
+HWY_INLINE V3 LayAerialPerspective(const Shading& s, const PlaceShown& at, const AirAhead& air,
+                                   V distance, V length, V3 light) {
   const V zero = hn::Zero(D());
   const V3 p = {at.way.x * at.depth, at.way.y * at.depth, at.height};
   const Packet packet = {zero, zero, at.depth, p, distance, {zero, zero, zero}};
-  return ThroughAirAloft(s, packet, light, length, [&]() HWY_ATTR { return air; });
+  return ThroughAerialPerspective(s, packet, light, length, [&]() HWY_ATTR { return air; });
 }
 
-// ... of the air below ...
-struct AloftAhead {
+// ... of aerial perspective ...
+struct AerialPerspectiveAhead {
   static constexpr std::size_t kChannels = 5;
   V length;
   AirAhead air;
 
-  static HWY_INLINE AloftAhead Find(const Shading& s, V3 way) {
+  static HWY_INLINE AerialPerspectiveAhead Find(const Shading& s, V3 way) {
     const V length2 = Dot(way, way), inverse = InverseSqrt(length2);
     return {length2 * inverse, FindAirAhead(s.light, way * inverse)};
   }
@@ -95,23 +95,23 @@ struct AloftAhead {
     store(4, air.steep);
   }
   template <class Read>
-  static HWY_INLINE AloftAhead ReadFrom(const Read& read) {
+  static HWY_INLINE AerialPerspectiveAhead ReadFrom(const Read& read) {
     return {read(0), {{read(1), read(2), read(3)}, read(4)}};
   }
 
   HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
     const V distance = at.depth * length;
-    return LayAloft(s, at, air, distance, distance, light);
+    return LayAerialPerspective(s, at, air, distance, distance, light);
   }
 };
 
 // ... and of both.
-struct FogBelowAhead {
+struct FogAndPerspectiveAhead {
   static constexpr std::size_t kChannels = FogAhead::kChannels + 4;
   FogAhead fog;
   AirAhead air;
 
-  static HWY_INLINE FogBelowAhead Find(const Shading& s, V3 way) {
+  static HWY_INLINE FogAndPerspectiveAhead Find(const Shading& s, V3 way) {
     const FogAhead fog = FogAhead::Find(s, way);
     return {fog, FindAirAhead(s.light, way * fog.inverse_length)};
   }
@@ -121,7 +121,7 @@ struct FogBelowAhead {
     store(3, air.below.x), store(4, air.below.y), store(5, air.below.z), store(6, air.steep);
   }
   template <class Read>
-  static HWY_INLINE FogBelowAhead ReadFrom(const Read& read) {
+  static HWY_INLINE FogAndPerspectiveAhead ReadFrom(const Read& read) {
     return {FogAhead::ReadFrom(read), {{read(3), read(4), read(5)}, read(6)}};
   }
 
@@ -131,7 +131,7 @@ struct FogBelowAhead {
         s, ray, fog.phase, light,
         [&]() HWY_ATTR { return MakePacket(s.rays, at.x_px, at.y_px, at.z); },
         [&](V3 seen, V length)
-            HWY_ATTR { return LayAloft(s, at, air, ray.distance, length, seen); });
+            HWY_ATTR { return LayAerialPerspective(s, at, air, ray.distance, length, seen); });
   }
 };
 
@@ -182,12 +182,12 @@ HWY_INLINE void LayOverTile(const Shading& s, const raster::PixelBox& box, const
 inline HWY_NOINLINE void LayAirOverTile(const Shading& s, const raster::PixelBox& box,
                                         const float* depth, ShadeScratch& scratch) {
   if (!IsAirLaidLast(s)) return;
-  if (IsFogSeenFromAloft(s))
-    LayOverTile<FogBelowAhead>(s, box, depth, scratch);
+  if (IsFogSeenFromAbove(s))
+    LayOverTile<FogAndPerspectiveAhead>(s, box, depth, scratch);
   else if (s.media.fog.on)
     LayOverTile<FogAhead>(s, box, depth, scratch);
   else
-    LayOverTile<AloftAhead>(s, box, depth, scratch);
+    LayOverTile<AerialPerspectiveAhead>(s, box, depth, scratch);
 }
 
 // Lays air before the surfaces that the fragments show.
@@ -197,8 +197,9 @@ inline HWY_NOINLINE void LayAirOverFragments(const Shading& s,
   if (!IsAirLaidLast(s)) return;
   LayOverFragments(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
     const PlaceShown place = FindPlace(s, x_px, y_px, z);
-    const V3 seen = s.media.fog.on ? FogAhead::Find(s, place.way).Lay(s, place, light)
-                                   : AloftAhead::Find(s, place.way).Lay(s, place, light);
+    const V3 seen = s.media.fog.on
+                        ? FogAhead::Find(s, place.way).Lay(s, place, light)
+                        : AerialPerspectiveAhead::Find(s, place.way).Lay(s, place, light);
     return Where(place.is_surface, seen, light);
   });
 }

@@ -58,8 +58,8 @@ HWY_INLINE AirAhead FindAirAhead(const Light& light, V3 direction) {
 // the air below, and haze the mean of the horizon, as under an overcast sky all air has. Of the
 // packet, place and distance count. ahead(): asked for where there is any.
 template <class Ahead>
-HWY_INLINE V3 ThroughAirAloft(const Shading& s, const Packet& packet, V3 colour, V length,
-                              const Ahead& ahead) {
+HWY_INLINE V3 ThroughAerialPerspective(const Shading& s, const Packet& packet, V3 colour, V length,
+                                       const Ahead& ahead) {
   const D d;
   const V zero = hn::Zero(d);
   const V mean_haze = MeanHaze(s, packet, s.media.inv_haze_height_m);
@@ -83,14 +83,14 @@ HWY_INLINE V3 ThroughAirAloft(const Shading& s, const Packet& packet, V3 colour,
 }
 
 // `packet` is a copy: by reference a call would keep all packets in memory.
-static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour, V length) {
+static HWY_NOINLINE V3 AerialPerspective(const Shading& s, Packet packet, V3 colour, V length) {
   // The direction as the eye has it; to_eye is the place's.
   const V3 p = packet.p;
   const V r2 = MulAdd(p.x, p.x, p.y * p.y);
   const V z = NegMulAdd(r2, s.rays.drop_per_m2, p.z) / packet.distance;
   const V3 direction = {-packet.to_eye.x, -packet.to_eye.y, z};
-  return ThroughAirAloft(s, packet, colour, length,
-                         [&]() HWY_ATTR { return FindAirAhead(s.light, direction); });
+  return ThroughAerialPerspective(s, packet, colour, length,
+                                  [&]() HWY_ATTR { return FindAirAhead(s.light, direction); });
 }
 
 // Blends towards the horizon's colour with distance, so that no edge of the sea shows. Haze of less
@@ -99,7 +99,7 @@ static HWY_NOINLINE V3 AirAloft(const Shading& s, Packet packet, V3 colour, V le
 // over. The haze is that of `length` of the way.
 HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour, V length) {
   const D d;
-  if (s.media.molecules_per_m.z > 0.0f) return AirAloft(s, packet, colour, length);
+  if (s.media.molecules_per_m.z > 0.0f) return AerialPerspective(s, packet, colour, length);
   const V depth = length * -s.media.inv_haze_m * MeanHaze(s, packet, s.media.inv_haze_height_m);
   const V clear = Exp(d, depth);
   const V amount = Max(1.0f - 1.0f / 512.0f - clear, 0.0f);
@@ -147,7 +147,7 @@ HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour
 
 // Whether rays of this view may meet air before they meet fog, and what this air shows depends on
 // the direction alone.
-HWY_INLINE bool IsFogSeenFromAloft(const Shading& s) {
+HWY_INLINE bool IsFogSeenFromAbove(const Shading& s) {
   const Fog& fog = s.media.fog;
   const float reaches_m = fog.is_exponential ? 2.0f * fog.top_m : fog.top_m;
   return fog.on && s.media.molecules_per_m.z > 0.0f && fog.at_eye.height_m > reaches_m;

@@ -62,7 +62,9 @@ struct Group {
   std::uint32_t primitive = raster::kNoPrimitive;
 };
 
-bool same_place(float a, float b) { return std::abs(a - b) <= kPartOfJump * std::max(a, b); }
+bool same_place(float a, float b) {
+  return std::abs(a - b) <= kPartOfDiscontinuity * std::max(a, b);
+}
 
 // What one sample shows.
 struct Sample {
@@ -192,7 +194,7 @@ ObjectExtent extent_of(std::span<const glm::vec4> p_clip, raster::Viewport viewp
 
 // Marks what triangles of an object touch, but for the pixels inside it and those that hide it.
 void mark_object(const RenderView& window, const VisibilityBuffer& visibility, int tile,
-                 const ObjectPart& part, float nearest_z, const JumpScratch& scratch,
+                 const ObjectPart& part, float nearest_z, const DiscontinuityScratch& scratch,
                  raster::PixelMask& mask) {
   const std::uint32_t begin = window.primitives.begin(SurfaceKind::kObjects) + part.first_triangle;
   const std::uint32_t end = begin + part.triangles;
@@ -216,17 +218,18 @@ struct TileEdges {
   std::span<const std::uint8_t> like_land;  // TreeDraws
 };
 
-raster::PixelMask mark_pixels(const TileEdges& in, int tile, JumpScratch& scratch) {
+raster::PixelMask mark_pixels(const TileEdges& in, int tile, DiscontinuityScratch& scratch) {
   raster::PixelMask mask;
-  mark_jumps(in.visibility, in.window.primitives, in.window.viewport(), in.like_land, tile, scratch,
-             mask);
+  mark_discontinuities(in.visibility, in.window.primitives, in.window.viewport(), in.like_land,
+                       tile, scratch, mask);
   const int tiles_x = in.visibility.grid.tiles_x;
   for (std::size_t i = 0; i < in.objects.size(); ++i)
     if (in.extents[i].tiles.holds(tile % tiles_x, tile / tiles_x))
       mark_object(in.window, in.visibility, tile, in.objects[i], in.extents[i].nearest_z, scratch,
                   mask);
-  mark_forms(in.window.forms, raster::tile_box(in.window.viewport(), in.visibility.grid, tile),
-             in.visibility.grid.tile_size_px, in.visibility.primitive_of(tile), mask);
+  mark_implicits(in.window.implicits,
+                 raster::tile_box(in.window.viewport(), in.visibility.grid, tile),
+                 in.visibility.grid.tile_size_px, in.visibility.primitive_of(tile), mask);
   return mask;
 }
 
@@ -282,7 +285,7 @@ void find_edges(const Meshes& meshes, const RenderView& window, const Visibility
   const TileEdges in{
       window,        visibility,    SurfaceRanges(window, objects),
       objects.parts, edges.objects, meshes.trees.drawn_in(ViewKind::kWindow).like_land};
-  const raster::PixelMask mask = mark_pixels(in, tile, scratch.jumps);
+  const raster::PixelMask mask = mark_pixels(in, tile, scratch.discontinuities);
   const auto samples =
       static_cast<std::size_t>(mask.count()) * static_cast<std::size_t>(edges.samples);
   if (samples == 0) return;
@@ -292,8 +295,9 @@ void find_edges(const Meshes& meshes, const RenderView& window, const Visibility
   if (window.land)
     cast_land_samples(window, raster::tile_box(window.viewport(), visibility.grid, tile),
                       edges.samples, mask, scratch.depth, scratch.primitive);
-  draw_form_samples(window.forms, raster::tile_box(window.viewport(), visibility.grid, tile),
-                    edges.samples, mask, scratch.depth, scratch.primitive);
+  draw_implicit_samples(window.implicits,
+                        raster::tile_box(window.viewport(), visibility.grid, tile), edges.samples,
+                        mask, scratch.depth, scratch.primitive);
   std::vector<EdgeFragment>& fragments = edges.of_tile[static_cast<std::size_t>(tile)];
   if (edges.samples == 8)
     sort_samples<8>(in, tile, mask, scratch, fragments);

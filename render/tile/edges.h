@@ -5,11 +5,10 @@
 // each, and the colours are mixed by their numbers of samples. Nothing else is mixed: depth, labels
 // and the count of visible pixels stay those of the centres.
 //
-// A pixel is looked at if a neighbour shows another kind of surface (tile/jumps.h; small trees of a
-// wood and the land between them are one kind), if the depth
-// jumps to a neighbour by more than the surfaces' own slope explains, or if a triangle of an object
-// touches it that the centres around neither all show nor all hide, so that a mast thinner than a
-// pixel is found.
+// A pixel is looked at if a neighbour shows another kind of surface (tile/discontinuities.h; small
+// trees of a wood and the land between them are one kind), if the depth jumps to a neighbour by
+// more than the surfaces' own slope explains, or if a triangle of an object touches it that the
+// centres around neither all show nor all hide, so that a mast thinner than a pixel is found.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@
 #include <vector>
 
 #include "raster/samples.h"
-#include "render/tile/jumps.h"
+#include "render/tile/discontinuities.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
 
@@ -58,7 +57,7 @@ struct EdgeBuffer {
 
 // Working memory of one thread.
 struct EdgeScratch {
-  JumpScratch jumps;
+  DiscontinuityScratch discontinuities;
   std::vector<float> depth;  // of samples
   std::vector<std::uint32_t> primitive;
 };

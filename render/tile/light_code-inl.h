@@ -1,4 +1,4 @@
-// Light as a byte of a lookup image: all that there is, from night to glints.
+// Light as a byte of a planar map: all that there is, from night to glints.
 //
 // c = sqrt(x / (x + 1)) of 0 to 1 is near sqrt(x) in the dark, where the eye sees steps, and never
 // full: c = 1 would be infinite light. x = c^2 / (1 - c^2).

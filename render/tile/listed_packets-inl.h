@@ -13,7 +13,7 @@
 
 #include "render/tile/packet-inl.h"
 #include "render/tile/pixel_lists-inl.h"
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -9,7 +9,7 @@
 
 #include "render/labels/shaded_labels.h"
 #include "render/tile/pixel_lists-inl.h"
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

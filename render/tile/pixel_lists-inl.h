@@ -16,7 +16,7 @@
 
 #include "render/materials/list.h"
 #include "render/tile/packet-inl.h"
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -10,7 +10,7 @@
 #include <array>
 #include <span>
 
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -28,23 +28,23 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
                             const Lanes& lanes, const Packet& shown, const Shade& shade,
                             const Keep& keep, const Found&... found) {
   if constexpr (kView == ViewKind::kWindow) {
-    const auto surfel = shade(s, tile, lanes, shown, found...);
-    keep(lanes.at, surfel);
+    const auto result = shade(s, tile, lanes, shown, found...);
+    keep(lanes.at, result);
     if (s.media.submerged) {
       const V shafts = ShaftsBefore(s, tile.box, tile.shafts, shown.x_px, shown.y_px,
                                     -shown.to_eye.z, shown.distance);
-      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, surfel.light,
+      return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, result.light,
                                       shafts);
     }
-    if (IsAirLaidLast(s)) return surfel.light;
-    const V3 light = ThroughAir(s, shown, surfel.light);
+    if (IsAirLaidLast(s)) return result.light;
+    const V3 light = ThroughAir(s, shown, result.light);
     return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
-    const auto surfel = shade(s, tile, lanes, seen.packet, found...);
-    const V3 light = Attenuate<kView>(s, shown, seen, surfel.light);
-    if constexpr (requires { surfel.cover; })
-      return s.media.submerged ? light : Lerp(Constant(s.media.body), light, surfel.cover);
+    const auto result = shade(s, tile, lanes, seen.packet, found...);
+    const V3 light = Attenuate<kView>(s, shown, seen, result.light);
+    if constexpr (requires { result.cover; })
+      return s.media.submerged ? light : Lerp(Constant(s.media.body), light, result.cover);
     else
       return light;
   }

@@ -34,7 +34,8 @@ Begins begins_in(const PictureInputs& in, int tile) {
 
 // Shades a tile as from one side of the surface.
 int shade_side(const PictureInputs& in, int tile, const Shading& shading,
-               const std::vector<TileLookups>& lookups, ThreadScratch& scratch, Target& target) {
+               const std::vector<TilePlanarMaps>& planar_maps, ThreadScratch& scratch,
+               Target& target) {
   const auto index = static_cast<std::size_t>(tile);
   const std::span<const EdgeFragment> fragments = in.edges.of_tile[index];
   if (in.visibility.covered[index] <= 0 && fragments.empty()) {
@@ -44,7 +45,7 @@ int shade_side(const PictureInputs& in, int tile, const Shading& shading,
   const bool labels_shading = in.labels && in.labels->tables.from_shading;
   return shade_tile(shading,
                     {tile, in.visibility.depth_of(tile), in.visibility.primitive_of(tile),
-                     fragments, lookups[index]},
+                     fragments, planar_maps[index]},
                     scratch.shade, target.rgba, target.linear,
                     labels_shading ? &scratch.labels : nullptr);
 }
@@ -52,13 +53,13 @@ int shade_side(const PictureInputs& in, int tile, const Shading& shading,
 int shade_sides(const PictureInputs& in, int tile, Begins begins, ThreadScratch& scratch,
                 Target& target) {
   if (!in.wet || begins == Begins::kInAir)
-    return shade_side(in, tile, in.shading, in.lookups, scratch, target);
+    return shade_side(in, tile, in.shading, in.planar_maps, scratch, target);
   const auto shade_wet = [&] {
-    return shade_side(in, tile, in.wet->shading, in.wet->lookups, scratch, target);
+    return shade_side(in, tile, in.wet->shading, in.wet->planar_maps, scratch, target);
   };
   if (begins == Begins::kInWater) return shade_wet();
   if (!scratch.crossed) scratch.crossed = std::make_unique<CrossedScratch>();
-  shade_side(in, tile, in.shading, in.lookups, scratch, target);
+  shade_side(in, tile, in.shading, in.planar_maps, scratch, target);
   const raster::PixelBox box = raster::tile_box(in.window.viewport(), in.visibility.grid, tile);
   const bool labels_shading = in.labels && in.labels->tables.from_shading;
   keep_tile(box, target, *scratch.crossed);

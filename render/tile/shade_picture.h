@@ -7,7 +7,7 @@
 #include "render/frame.h"
 #include "render/labels/label_tile.h"
 #include "render/view/crossing.h"
-#include "render/view/lookup_images.h"
+#include "render/view/planar_maps.h"
 
 namespace swell::render {
 
@@ -15,7 +15,7 @@ namespace swell::render {
 struct WetSide {
   const Crossing& line;
   const Shading& shading;
-  const std::vector<TileLookups>& lookups;
+  const std::vector<TilePlanarMaps>& planar_maps;
   bool meniscus;
 };
 
@@ -24,8 +24,8 @@ struct PictureInputs {
   const Meshes& meshes;
   const RenderView& window;
   const VisibilityBuffer& visibility;
-  EdgeBuffer& edges;                        // filled tile by tile
-  const std::vector<TileLookups>& lookups;  // by tile
+  EdgeBuffer& edges;                               // filled tile by tile
+  const std::vector<TilePlanarMaps>& planar_maps;  // by tile
   const Shading& shading;
   bool wireframe;
   const LabelSources* labels = nullptr;  // none: no labels

@@ -17,8 +17,8 @@ namespace swell::render {
 inline constexpr int kMaxTilePixels = 64 * 64;
 static_assert(ShadedLabels::kMostPixels == kMaxTilePixels);
 
-// What water in a tile can see in the lookup images.
-struct TileLookups {
+// What water in a tile can see in the planar maps.
+struct TilePlanarMaps {
   bool reflection = false, refraction = false;
 };
 
@@ -57,7 +57,7 @@ struct TileInput {
   std::span<const float> depth;  // its visibility buffer
   std::span<const std::uint32_t> primitive;
   std::span<const EdgeFragment> fragments = {};
-  TileLookups lookups = {};
+  TilePlanarMaps planar_maps = {};
 };
 
 // Shades all pixels of a tile that lie in the window and writes their 8-bit sRGB values to `rgba`
@@ -76,7 +76,7 @@ void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,
 
 // Shades a tile of a reflection or refraction image: land and objects get their encoded radiance
 // and alpha 255, the others 0.
-void shade_lookup_tile(const Shading& shading, int tile, std::span<const float> depth,
+void shade_planar_tile(const Shading& shading, int tile, std::span<const float> depth,
                        std::span<const std::uint32_t> primitive, ShadeScratch& scratch,
                        texture::RgbaImage& image);
 

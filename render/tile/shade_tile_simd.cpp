@@ -19,8 +19,8 @@
 #include "render/tile/packet-inl.h"
 #include "render/tile/pixel_lists-inl.h"
 #include "render/tile/resolve-inl.h"
+#include "render/tile/shading_result-inl.h"
 #include "render/tile/sky-inl.h"
-#include "render/tile/surfel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -79,7 +79,7 @@ TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scra
           input.depth.data(),
           input.primitive.data(),
           input.fragments,
-          input.lookups,
+          input.planar_maps,
           casters,
           FindShafts(s, box, casters, scratch.shafts)};
 }
@@ -103,8 +103,8 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
   ResolveTile(s, box, scratch, rgba, linear);
 }
 
-// Writes a tile's colours to the lookup image, zeros where there is no primitive and so no colour.
-HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
+// Writes a tile's colours to the planar map, zeros where there is no primitive and so no colour.
+HWY_INLINE void EncodePlanarTile(const Shading& s, const raster::PixelBox& box,
                                  const std::uint32_t* primitive, const ShadeScratch& scratch,
                                  texture::RgbaImage& image) {
   const hn::RebindToUnsigned<D> du;
@@ -131,14 +131,14 @@ HWY_INLINE void EncodeLookupTile(const Shading& s, const raster::PixelBox& box,
   }
 }
 
-void ShadeLookupTile(const Shading& s, int tile_index, const float* depth,
+void ShadePlanarTile(const Shading& s, int tile_index, const float* depth,
                      const std::uint32_t* primitive, ShadeScratch& scratch,
                      texture::RgbaImage& image) {
   const TilePixels tile{raster::tile_box(s.viewport, s.grid, tile_index), depth, primitive, {}, {},
                         s.sun_shadow.casters.of_tile(tile_index)};
   const PixelLists lists = ListPixels(s, tile, scratch);
   ShadeSurfaces(s, tile, lists, scratch, nullptr);
-  EncodeLookupTile(s, tile.box, primitive, scratch, image);
+  EncodePlanarTile(s, tile.box, primitive, scratch, image);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -150,7 +150,7 @@ namespace swell::render {
 
 HWY_EXPORT(ShadeTile);
 HWY_EXPORT(ShadeSkyTile);
-HWY_EXPORT(ShadeLookupTile);
+HWY_EXPORT(ShadePlanarTile);
 
 namespace {
 
@@ -187,11 +187,11 @@ void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,
   (shading, tile, scratch, rgba.data(), linear.empty() ? nullptr : linear.data());
 }
 
-void shade_lookup_tile(const Shading& shading, int tile, std::span<const float> depth,
+void shade_planar_tile(const Shading& shading, int tile, std::span<const float> depth,
                        std::span<const std::uint32_t> primitive, ShadeScratch& scratch,
                        texture::RgbaImage& image) {
   check_tile(shading, depth, primitive);
-  HWY_DYNAMIC_DISPATCH(ShadeLookupTile)
+  HWY_DYNAMIC_DISPATCH(ShadePlanarTile)
   (shading, tile, depth.data(), primitive.data(), scratch, image);
 }
 

@@ -1,4 +1,4 @@
-// The map of the clear sky and of the air below the eye (SkyAloft).
+// The map of the clear sky and of the air below the eye (SkyAtHeight).
 #if defined(SWELL_RENDER_TILE_SKY_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_TILE_SKY_MAP_INL_H_
 #undef SWELL_RENDER_TILE_SKY_MAP_INL_H_

@@ -8,7 +8,7 @@
 
 #include "render/materials/square_map-inl.h"
 #include "render/tile/cloud_shadow-inl.h"
-#include "render/tile/surfel-inl.h"
+#include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

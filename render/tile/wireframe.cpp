@@ -53,13 +53,13 @@ Triangle triangle_of(const PictureInputs& in, std::uint32_t primitive) {
   return triangle_at(in.window.vertices_of(kind).p_clip, meshes.indices(kind), n, level);
 }
 
-// A form has none, nor has land that is found by rays.
+// An implicit surface has none, nor has land that is found by rays.
 bool has_triangle(const PictureInputs& in, std::uint32_t primitive) {
   const PrimitiveRanges& ranges = in.window.primitives;
   if (ranges.holds(SurfaceKind::kTerrain, primitive)) return !in.window.land;
   if (!ranges.holds(SurfaceKind::kObjects, primitive)) return true;
   const std::uint32_t n = primitive - ranges.begin(SurfaceKind::kObjects);
-  return !in.meshes.objects.in_window().primitives[n].object->form;
+  return !in.meshes.objects.in_window().primitives[n].object->implicit;
 }
 
 }  // namespace

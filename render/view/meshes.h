@@ -11,7 +11,7 @@
 
 #include "lod/roam.h"
 #include "render/profile.h"
-#include "render/view/form_rays.h"
+#include "render/view/implicit_rays.h"
 #include "render/view/shadow_casters.h"
 #include "render/view/surfaces.h"
 #include "render/view/trees_drawn.h"
@@ -50,11 +50,12 @@ struct ObjectInstance {
   float squares_per_m = 0.0f;                 // of its checkers; 0: it has none
   glm::vec3 squares_per_unit{0.0f};           // the same along the mesh's axes
   const scene::ObjectMesh* mesh = nullptr;
-  const SunDepth* own_shadow = nullptr;        // none: it does not shade itself
-  float log2_units_per_m = 0.0f;               // of the mesh's lengths, in the mean over its axes
-  std::uint32_t object = 0;                    // its index in the scene
-  const PosedForm* form = nullptr;             // none: it is drawn as its triangles
-  glm::vec3 form_size{1.0f}, form_base{0.0f};  // a form's point is base + size (mesh coordinates)
+  const SunDepth* self_shadow = nullptr;    // none: it does not shade itself
+  float log2_units_per_m = 0.0f;            // of the mesh's lengths, in the mean over its axes
+  std::uint32_t object = 0;                 // its index in the scene
+  const PosedImplicit* implicit = nullptr;  // none: it is drawn as its triangles
+  glm::vec3 implicit_size{1.0f},
+      implicit_base{0.0f};  // an implicit surface's point is base + size (mesh coordinates)
 };
 
 // Which triangle of which object a primitive is.
@@ -84,10 +85,10 @@ struct ObjectGeometry {
   std::vector<scene::ObjectPose> poses;          // of all objects of the scene
   std::vector<const scene::ObjectMesh*> meshes;  // of the same, in the window; null: not in view
   std::array<ObjectDraws, kViewKinds> draws;
-  ObjectShadows shadows;                    // of those that the view may show
-  bool draws_forms = true;                  // Part::kForms
-  std::vector<PosedForm> forms;             // at the frame's time
-  std::vector<const scene::Form*> form_of;  // what they are of; of each shape one
+  ObjectShadows shadows;                                   // of those that the view may show
+  bool draws_implicits = true;                             // Part::kImplicits
+  std::vector<PosedImplicit> implicits;                    // at the frame's time
+  std::vector<const scene::ImplicitSurface*> implicit_of;  // what they are of; of each shape one
 
   ObjectDraws& drawn_in(ViewKind kind) { return draws[static_cast<std::size_t>(kind)]; }
   const ObjectDraws& drawn_in(ViewKind kind) const { return draws[static_cast<std::size_t>(kind)]; }

@@ -308,7 +308,7 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
   for (std::size_t i = 0; i < all.size(); ++i) {
     const glm::vec3 place_rel(objects.poses[i].position_world - view.eye_world);
     if (drawn_size_px(all[i], place_rel, view) < kSmallestCaster_px) continue;
-    if (world.objects.of_object[i]->form && !objects.draws_forms) continue;
+    if (world.objects.of_object[i]->implicit && !objects.draws_implicits) continue;
     const std::vector<scene::MeshPart>& parts = world.objects.parts[i];
     for (std::size_t k = 0; k < parts.size(); ++k) {
       ShadowCaster caster = caster_of(all[i], parts[k], objects.poses[i], options, view);

@@ -5,7 +5,7 @@
 #include "math/elementary.h"
 #include "render/view/object_levels.h"
 #include "render/view/refracted_image.h"
-#include "scene/form_mesh.h"
+#include "scene/implicit_mesh.h"
 
 namespace swell::render {
 namespace {
@@ -186,28 +186,29 @@ void write_triangles(std::size_t begin, std::size_t end, ObjectDraws& out) {
              });
 }
 
-// A form's shape, in place of triangles.
-void take_form(const ObjectGeometry& geometry, const scene::MeshOfFile& shape,
-               ObjectInstance& instance) {
-  const scene::Form& form = shape.form->form;
-  const auto at = std::ranges::find(geometry.form_of, &form);
-  instance.form = &geometry.forms[static_cast<std::size_t>(at - geometry.form_of.begin())];
-  instance.form_size = glm::vec3(form.high - form.low);
-  instance.form_base = {0.5 * (form.low.x + form.high.x), 0.5 * (form.low.y + form.high.y),
-                        form.low.z};
+// An implicit surface's shape, in place of triangles.
+void take_implicit(const ObjectGeometry& geometry, const scene::MeshOfFile& shape,
+                   ObjectInstance& instance) {
+  const scene::ImplicitSurface& implicit = shape.implicit->implicit;
+  const auto at = std::ranges::find(geometry.implicit_of, &implicit);
+  instance.implicit =
+      &geometry.implicits[static_cast<std::size_t>(at - geometry.implicit_of.begin())];
+  instance.implicit_size = glm::vec3(implicit.high - implicit.low);
+  instance.implicit_base = {0.5 * (implicit.low.x + implicit.high.x),
+                            0.5 * (implicit.low.y + implicit.high.y), implicit.low.z};
 }
 
-// The scene's forms at t_s, one for all objects of a shape.
-void pose_forms(const World::State& world, double t_s, ObjectGeometry& geometry) {
-  geometry.form_of.clear();
+// The scene's implicit surfaces at t_s, one for all objects of a shape.
+void pose_implicits(const World::State& world, double t_s, ObjectGeometry& geometry) {
+  geometry.implicit_of.clear();
   for (const ObjectShape& shape : world.objects.of_object)
-    if (shape->form &&
-        std::ranges::find(geometry.form_of, &shape->form->form) == geometry.form_of.end())
-      geometry.form_of.push_back(&shape->form->form);
-  if (geometry.forms.size() < geometry.form_of.size())
-    geometry.forms.resize(geometry.form_of.size());
-  for (std::size_t i = 0; i < geometry.form_of.size(); ++i)
-    pose_form(*geometry.form_of[i], t_s, geometry.forms[i]);
+    if (shape->implicit && std::ranges::find(geometry.implicit_of, &shape->implicit->implicit) ==
+                               geometry.implicit_of.end())
+      geometry.implicit_of.push_back(&shape->implicit->implicit);
+  if (geometry.implicits.size() < geometry.implicit_of.size())
+    geometry.implicits.resize(geometry.implicit_of.size());
+  for (std::size_t i = 0; i < geometry.implicit_of.size(); ++i)
+    pose_implicit(*geometry.implicit_of[i], t_s, geometry.implicits[i]);
 }
 
 // Which objects the views may show, and where what they are drawn with goes.
@@ -224,11 +225,12 @@ void list_instances(const World::State& world, const DrawnKind& drawn,
     const Bounds ball = bounds_of(objects[i], placement);
     const float px_per_m = most_px_per_m(ball.middle_rel, ball.radius_m, drawn.camera);
     const scene::MeshOfFile& shape = *world.objects.of_object[i];
-    if (shape.form && !geometry.draws_forms) continue;
-    const scene::ObjectMesh& mesh =
-        shape.form ? shape.form->mesh : coarsest_mesh(world, i, kMostLevelError_px / px_per_m);
+    if (shape.implicit && !geometry.draws_implicits) continue;
+    const scene::ObjectMesh& mesh = shape.implicit
+                                        ? shape.implicit->mesh
+                                        : coarsest_mesh(world, i, kMostLevelError_px / px_per_m);
     draws.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
-    if (shape.form) take_form(geometry, shape, draws.instances.back());
+    if (shape.implicit) take_implicit(geometry, shape, draws.instances.back());
     draws.instances.back().object = static_cast<std::uint32_t>(i);
     draws.instances.back().mesh = &mesh;
     part.first_triangle += part.triangles;
@@ -291,7 +293,7 @@ void place_objects(const World::State& world, const SeaMaps& sea,
   ObjectGeometry& geometry = meshes.objects;
   geometry.poses.resize(world.scene.objects.size());
   drawn_poses(world, sea.frame, given, geometry.poses, run);
-  pose_forms(world, sea.frame.t_s, geometry);
+  pose_implicits(world, sea.frame.t_s, geometry);
   for (const ViewKind kind : kAllViewKinds) {
     std::array<RenderView*, 2> of_kind{};  // from the air, from below
     std::size_t count = 0;
@@ -306,7 +308,8 @@ void place_objects(const World::State& world, const SeaMaps& sea,
   geometry.meshes.assign(geometry.poses.size(), nullptr);
   for (const ObjectInstance& instance : geometry.in_window().instances)
     geometry.meshes[instance.object] =
-        instance.form ? &world.objects.of_object[instance.object]->levels.front() : instance.mesh;
+        instance.implicit ? &world.objects.of_object[instance.object]->levels.front()
+                          : instance.mesh;
 }
 
 }  // namespace swell::render

@@ -174,7 +174,7 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples,
   }
   raster::prepare_pass(std::span(draws).first(count), view.viewport(), tile_size_px, view.pass,
                        workers, edge_samples);
-  find_forms(meshes.objects.drawn_in(view.kind), view);
+  find_implicits(meshes.objects.drawn_in(view.kind), view);
 }
 
 }  // namespace swell::render

@@ -17,7 +17,7 @@
 #include "math/parallel.h"
 #include "math/view.h"
 #include "raster/pass.h"
-#include "render/view/forms.h"
+#include "render/view/implicits.h"
 #include "render/view/meshes.h"
 #include "render/view/surfaces.h"
 
@@ -53,7 +53,7 @@ struct RenderView {
   std::array<ViewVertices, kSurfaceKinds> vertices;
   PrimitiveRanges primitives;  // of the surfaces that it shows
   raster::Pass pass;
-  FormsInView forms;
+  ImplicitsInView implicits;
 
   ViewVertices& vertices_of(SurfaceKind k) { return vertices[static_cast<std::size_t>(k)]; }
   const ViewVertices& vertices_of(SurfaceKind k) const {

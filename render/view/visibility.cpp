@@ -50,8 +50,9 @@ void find_visible_in_tile(const Meshes& meshes, const RenderView& window, int ti
     const double before_us = profile.now_us();
     if (window.land)
       covered = cast_land(window, visibility.grid, tile, covered < 0, depth, primitive);
-    covered = draw_forms(window.forms, raster::tile_box(window.viewport(), visibility.grid, tile),
-                         visibility.grid.tile_size_px, covered, depth, primitive);
+    covered =
+        draw_implicits(window.implicits, raster::tile_box(window.viewport(), visibility.grid, tile),
+                       visibility.grid.tile_size_px, covered, depth, primitive);
     visibility.rays_us[tile] = profile.now_us() - before_us;
   }
   if (covered < 0) return;
@@ -72,7 +73,7 @@ void find_visible(const Meshes& meshes, int tile_size_px, int edge_samples, Rend
   visibility.covered.resize(tiles);
   visibility.water_pixels.resize(tiles);
   visibility.looks_into.resize(tiles);
-  visibility.rays_us.resize(window.land || !window.forms.forms.empty() ? tiles : 0);
+  visibility.rays_us.resize(window.land || !window.implicits.implicits.empty() ? tiles : 0);
   run.for_each(tiles, [&](std::size_t tile, int) {
     find_visible_in_tile(meshes, window, static_cast<int>(tile), edge_samples != 0, run.profile,
                          visibility);

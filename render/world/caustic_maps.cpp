@@ -43,7 +43,7 @@ float spread_per_m(const World::State& world, double disc, double bent) {
 // The shortest waves meet next to the surface, longer ones higher up.
 constexpr std::array<float, CausticMaps::kMostPatches> kPlaneHeights_m = {0.3f, 1.5f};
 
-// Returns how many maps of the light that is thrown up there are to make.
+// Returns how many maps of reflected caustics there are to make.
 std::size_t begin_mirrored(const World::State& world, PartSet without, CausticMaps& maps) {
   maps.throws_up = !world.scene.objects.empty() && !without.has(Part::kUplight);
   maps.height_m = kPlaneHeights_m;
@@ -73,15 +73,15 @@ std::size_t trace_caustics(const World::State& world, const ocean::SeaFrame& sea
     patches[maps.patches++] = &patch;
   }
   const auto n = static_cast<float>(world.scene.water.refraction_index);
-  const std::size_t thrown_up = begin_mirrored(world, without, maps);
-  run.for_each(maps.patches + thrown_up, [&](std::size_t i, int) {
+  const std::size_t reflected = begin_mirrored(world, without, maps);
+  run.for_each(maps.patches + reflected, [&](std::size_t i, int) {
     if (i < maps.patches)
       trace_rays(*patches[i], world.sky->to_light, n, maps.rays[i]);
     else
       trace_mirrored_rays(*patches[i - maps.patches], world.sky->to_light,
                           maps.mirrored_rays[i - maps.patches]);
   });
-  return maps.patches * CausticMaps::kDepths + thrown_up;
+  return maps.patches * CausticMaps::kDepths + reflected;
 }
 
 void make_caustic_map(CausticMaps& maps, std::size_t number) {

@@ -1,4 +1,4 @@
-// Caustics: how the waves gather the light of the sun, under water and, thrown up, above it. Rays
+// Caustics: how the waves gather the light of the sun, under water and, reflected, above it. Rays
 // go down from the points of a wave patch, each bent by the slope there, and light the points of
 // the same grid at a depth: a periodic map of intensity over that under flat water, whose mean
 // is 1.
@@ -71,7 +71,7 @@ struct CausticMaps {
   std::array<double, kMostPatches> length_m{};
   float spread_per_m = 0.0f;  // of rays: by the light's disc, and by waves too short for patches
   std::array<texture::PackedMap1, kDepths * kMostPatches> map;  // patch by patch, by depth
-  // Thrown up, a map a patch at a height of its own; none where nothing stands in the water.
+  // Reflected, a map a patch at a height of its own; none where nothing stands in the water.
   bool throws_up = false;
   std::array<float, kMostPatches> height_m{};
   float mirrored_spread_per_m = 0.0f;

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "render/world/world_state.h"
-#include "scene/form_file.h"
-#include "scene/form_mesh.h"
+#include "scene/implicit_file.h"
+#include "scene/implicit_mesh.h"
 #include "scene/parameters.h"
 #include "scene/scene_error.h"
 
@@ -46,9 +46,9 @@ ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {
   const scene::FloatingObject& object = scene.objects[n];
   if (!scene::is_of_file(object.kind)) return built_in(object);
   try {
-    if (object.kind == scene::ObjectKind::kForm)
+    if (object.kind == scene::ObjectKind::kImplicit)
       return std::make_shared<const scene::MeshOfFile>(
-          scene::with_meshes(scene::load_form(object.file)));
+          scene::with_meshes(scene::load_implicit(object.file)));
     return std::make_shared<const scene::MeshOfFile>(scene::load_mesh(object.file, object.up));
   } catch (const scene::SceneError&) {
     throw;

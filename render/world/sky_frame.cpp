@@ -19,9 +19,9 @@ float part_between(double low_m, double high_m, double height_m) {
 
 // The map and the discs between the two heights that were worked out next to height_m.
 void set_heights(const SkyMaps& maps, double height_m, SkyFrame& sky, Workers& workers) {
-  const auto above = std::ranges::upper_bound(maps.heights, height_m, {}, &SkyAloft::height_m);
-  const SkyAloft& low = *std::prev(above);
-  const SkyAloft& high = above == maps.heights.end() ? low : *above;
+  const auto above = std::ranges::upper_bound(maps.heights, height_m, {}, &SkyAtHeight::height_m);
+  const SkyAtHeight& low = *std::prev(above);
+  const SkyAtHeight& high = above == maps.heights.end() ? low : *above;
   sky.map = &low.map;
   sky.disc_radiance = low.disc_radiance;
   float exposure = low.exposure;

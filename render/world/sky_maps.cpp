@@ -218,7 +218,7 @@ float choose_exposure(const scene::SkyLight& light, SkyMaps& maps) {
 
 // The exposure where an eye sees so many times the light of sea level. From high up the sun may
 // still shine, or the sky glow, when it is night below.
-float exposure_aloft(const scene::Sky& sky, double light_ratio) {
+float exposure_at_height(const scene::Sky& sky, double light_ratio) {
   if (sky.exposure || light_ratio <= 1.0) return 1.0f;
   return static_cast<float>(scene::automatic_exposure(light_ratio) /
                             scene::automatic_exposure(1.0));
@@ -245,12 +245,12 @@ void build_heights(const scene::SkyLight& sea_level, float exposure, Workers& wo
     maps.heights.push_back(
         {height_m, build_clear_sky(light, glm::dvec2(maps.azimuth), height_m, exposure, workers),
          exposure * light.disc_radiance, exposure * light.sun_disc_radiance,
-         exposure_aloft(light.sky, light_here / light_below)});
+         exposure_at_height(light.sky, light_here / light_below)});
   };
   add_height(sea_level, 0.0);
   if (is_gradient(sea_level.sky)) return;
   for (const double height_m : kHeights_m)
-    add_height(sky_light_aloft(sea_level, height_m, workers), height_m);
+    add_height(sky_light_at_height(sea_level, height_m, workers), height_m);
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ void add_paper_look(const World::State* like, Workers& workers, World::State& st
                                 ? like->ripple_sequence
                                 : shared(build_ripple_sequence(now, workers));
   if (now.water.glitter == scene::Glitter::kProjective)
-    state.sun_slide = like && like->sun_slide ? like->sun_slide : shared(make_sun_slide());
+    state.sun_texture = like && like->sun_texture ? like->sun_texture : shared(make_sun_texture());
 }
 
 void add_foam_pattern(const World::State* like, World::State& state) {

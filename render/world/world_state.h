@@ -19,7 +19,7 @@
 #include "render/world/forest.h"
 #include "render/world/land_rays.h"
 #include "render/world/land_shadow.h"
-#include "render/world/sun_slide.h"
+#include "render/world/sun_texture.h"
 #include "scene/atmosphere.h"
 #include "scene/mesh_file.h"
 #include "scene/object_mesh.h"
@@ -60,7 +60,7 @@ inline constexpr int kSoftSkySize = 128;
 inline constexpr int kSkyColumns = 128, kSkyRows = 192, kAirRows = 64;
 
 // The clear sky as an eye at a height sees it, exposed.
-struct SkyAloft {
+struct SkyAtHeight {
   double height_m = 0.0;
   texture::SmoothImage map;
   glm::vec3 disc_radiance{0.0f};      // of the light
@@ -73,11 +73,11 @@ struct SkyAloft {
 // The sky, exposed. The blurred map shows the upper hemisphere: direction d of length 1 lies at
 // r = |d.xy| / (1 + d.z) from its middle, and the horizon is the circle of radius size / 2.
 struct SkyMaps {
-  std::vector<SkyAloft> heights;  // what the eye sees behind the clouds, sea level first
-  glm::vec2 azimuth{0, 1};        // the light's, of length 1
-  std::vector<float> soft_clear;  // blurred at sea level, kSoftSkySize^2 reds, greens, blues
-  texture::RgbMap soft;           // the same as a map, for a sky without clouds
-  texture::PackedMap2 clouds;     // noise
+  std::vector<SkyAtHeight> heights;  // what the eye sees behind the clouds, sea level first
+  glm::vec2 azimuth{0, 1};           // the light's, of length 1
+  std::vector<float> soft_clear;     // blurred at sea level, kSoftSkySize^2 reds, greens, blues
+  texture::RgbMap soft;              // the same as a map, for a sky without clouds
+  texture::PackedMap2 clouds;        // noise
   float cloud_variance = 0.0f;
   CloudLight cloud_light;
   glm::vec3 ambient{0.0f};  // mean radiance of the upper hemisphere, cosine-weighted
@@ -154,7 +154,7 @@ struct World::State {
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
   std::shared_ptr<const texture::BumpSequence> ripple_sequence = {};  // none: the bump map
-  std::shared_ptr<const SunSlide> sun_slide = {};                     // none: glitter by slopes
+  std::shared_ptr<const SunTexture> sun_texture = {};                 // none: glitter by slopes
   // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. The map
   // repeats and may have any size. It is the same in every world.
   std::shared_ptr<const texture::PackedMap2> foam_pattern = {};

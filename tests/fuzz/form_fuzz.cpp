@@ -1,11 +1,11 @@
-// Form files, and the boxes that are found of their parts.
+// Files of implicit surfaces, and the boxes that are found of their parts.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "fuzz/expect.h"
-#include "scene/form_file.h"
+#include "scene/implicit_file.h"
 #include "scene/scene_error.h"
 
 namespace swell::fuzz {
@@ -17,18 +17,18 @@ bool is_box(glm::dvec3 low, glm::dvec3 high) {
   return true;
 }
 
-void read_form(std::string_view text) {
-  scene::Form form;
+void read_implicit(std::string_view text) {
+  scene::ImplicitSurface implicit;
   try {
-    form = scene::parse_form(text, "form.toml");
+    implicit = scene::parse_implicit(text, "form.toml");
   } catch (const scene::SceneError& error) {
     expect(std::string_view(error.what()).find('\n') == std::string_view::npos,
            "what a form is refused with is one line");
     return;
   }
-  expect(!form.parts.empty(), "a form that is taken has a part");
-  expect(is_box(form.low, form.high), "a form has a box");
-  for (const scene::FormPart& part : form.parts) {
+  expect(!implicit.parts.empty(), "a form that is taken has a part");
+  expect(is_box(implicit.low, implicit.high), "a form has a box");
+  for (const scene::ImplicitPart& part : implicit.parts) {
     expect(is_box(part.low, part.high), "a part has a box");
     expect(scene::value(part, part.inside) >= 0.0, "a part's point lies inside");
   }
@@ -38,6 +38,6 @@ void read_form(std::string_view text) {
 }  // namespace swell::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  swell::fuzz::read_form({reinterpret_cast<const char*>(data), size});
+  swell::fuzz::read_implicit({reinterpret_cast<const char*>(data), size});
   return 0;
 }

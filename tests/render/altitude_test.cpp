@@ -58,7 +58,7 @@ TEST(Altitude, ShowsTheModelsSkyAtItsHeight) {
     const scene::SkyLight sea_level =
         scene::make_sky_light(renderer.world.scene().sky, renderer.workers);
     for (const double height_m : {450.0, 2200.0, 7500.0, 13000.0, 33000.0, 48000.0}) {
-      const scene::SkyLight light = sky_light_aloft(sea_level, height_m, renderer.workers);
+      const scene::SkyLight light = sky_light_at_height(sea_level, height_m, renderer.workers);
       renderer.draw(height_m, radians(40.0), radians(80.0));
       for (int y = 0; y < kHeight_px; y += 3) {
         if (renderer.sine(y) < 0.05) continue;  // where it changes from pixel to pixel

@@ -225,7 +225,7 @@ TEST_P(CausticRaysOnTarget, OfAFinerPatchAreThoseOfACoarserOne) {
   EXPECT_NEAR(m.deviation_a / m.deviation_b, 1.0, 0.01);
 }
 
-// ---- Thrown up
+// ---- Reflected
 
 // A sun straight above over a sine: a wave's trough mirrors as a hollow mirror does, of half its
 // radius of curvature 1 / (A k^2), from the trough up.
@@ -264,7 +264,7 @@ TEST_P(CausticRaysOnTarget, AreMirroredBySlopesUnderASlantingSun) {
 }
 
 // Weak ones are 2 h times the Laplacian of the sea: bright over troughs.
-TEST_P(CausticRaysOnTarget, ThrownUpAreTheLaplacianWhereTheyAreWeak) {
+TEST_P(CausticRaysOnTarget, ReflectedAreTheLaplacianWhereTheyAreWeak) {
   const ocean::PatchFrame patch = long_waves(0.03);
   std::vector<double> bends_per_m = between_points(minus_laplacian(patch), patch.resolution);
   for (double& bend : bends_per_m) bend = -bend;

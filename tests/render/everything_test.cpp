@@ -26,7 +26,7 @@ class Everything : public testing::Test {
 
 TEST_F(Everything, IsInThePicture) {
   const Target all = draw({});  // too coarse for caustics, which are seen from near
-  for (const Part part : {Part::kForms, Part::kTrees, Part::kRivers, Part::kVolumeClouds,
+  for (const Part part : {Part::kImplicits, Part::kTrees, Part::kRivers, Part::kVolumeClouds,
                           Part::kCloudShadows, Part::kWakes, Part::kSurfFronts, Part::kHaze,
                           Part::kShadows, Part::kReflection, Part::kRefraction}) {
     const Target& without = draw({part});
@@ -48,7 +48,7 @@ TEST_F(Everything, StagesTakeTheTimeOfWhatIsDrawnInThem) {
   // Stages follow one another, but for the first two, which run side by side.
   EXPECT_LE(sum_ms - stage_ms(Stage::kSea) - stage_ms(Stage::kTriangulate),
             film_.statistics.frame_ms);
-  draw({Part::kForms});
+  draw({Part::kImplicits});
   EXPECT_EQ(stage_ms(Stage::kRays), 0.0);
 }
 

@@ -269,7 +269,7 @@ TEST(Objects, ABoxShowsItselfAndItsMirrorImageAndNothingElseChanges) {
       ++changed;
       const double right = std::abs(x + 0.5 - 0.5 * kSmallWidth),
                    down = y + 0.5 - 0.5 * kSmallHeight;
-      // A lookup image's texel is two pixels, and a bilinear sample reads one further.
+      // A planar map's texel is two pixels, and a bilinear sample reads one further.
       changed_far += right > half_px + 4.0 || down < -1.0 || down > 2.0 * level_px + 4.0;
     }
   }

@@ -192,7 +192,7 @@ double fresnel(double cos_i, double n) {
 }
 
 // The area that facets turn to the eye over the level's, and the cosine that they reflect under: as
-// the shader has them (SeenSlopes.HaveTheMeansOfTheFacetsThatAreSeen).
+// the shader has them (VisibleSlopes.HaveTheMeansOfTheFacetsThatAreSeen).
 double area(double cosine, double variance) {
   const double sigma = std::sqrt(0.5 * variance);
   const double near = std::max(1.0 - std::abs(cosine) / (2.4 * sigma), 0.0);

@@ -17,11 +17,12 @@ inline constexpr int kSecond = 60;  // frames
 
 // What a frame at full quality costs on the simulated machine.
 struct Load {
-  double sea_ms = 0.5, triangles_ms = 2.0, visibility_ms = 1.5, lookups_ms = 0.0, shade_ms = 8.0;
+  double sea_ms = 0.5, triangles_ms = 2.0, visibility_ms = 1.5, planar_maps_ms = 0.0,
+         shade_ms = 8.0;
   double rest_ms = 0.2;
   Load times(double factor) const {
-    return {factor * sea_ms,     factor * triangles_ms, factor * visibility_ms,
-            factor * lookups_ms, factor * shade_ms,     factor * rest_ms};
+    return {factor * sea_ms,         factor * triangles_ms, factor * visibility_ms,
+            factor * planar_maps_ms, factor * shade_ms,     factor * rest_ms};
   }
 };
 inline constexpr Load kOpenSea{};
@@ -61,11 +62,11 @@ inline FrameStatistics simulate(const Load& load, const FrameOptions& options, c
   stage(Stage::kSea) = load.sea_ms * factor(0);
   stage(Stage::kTriangulate) = load.triangles_ms * (0.05 + 0.95 * triangles) * factor(1);
   stage(Stage::kVisibility) = load.visibility_ms * (0.6 * triangles + 0.4 * pixels) * factor(2);
-  stage(Stage::kLookups) = load.lookups_ms * (0.3 * triangles + 0.7 * lookups) * factor(3);
+  stage(Stage::kPlanarMaps) = load.planar_maps_ms * (0.3 * triangles + 0.7 * lookups) * factor(3);
   stage(Stage::kShade) = load.shade_ms * (0.05 + 0.95 * pixels) * factor(4);
   if (dice(5) < noise.spike_share) {
     const auto hit = static_cast<std::size_t>(dice(6) * 5.0);
-    stage(std::array{Stage::kSea, Stage::kTriangulate, Stage::kVisibility, Stage::kLookups,
+    stage(std::array{Stage::kSea, Stage::kTriangulate, Stage::kVisibility, Stage::kPlanarMaps,
                      Stage::kShade}[hit]) += noise.spike_ms;
   }
   for (const double ms : s.stage_ms) s.frame_ms += ms;

@@ -303,13 +303,13 @@ TEST(Governor, BurstsAreNoFailedRaises) {
 
 TEST(Governor, TrianglesGiveWayBeforeLookupsAndLookupsBeforeThePicture) {
   // By what is left of a frame with few triangles and small lookups: 0.6 of the coast's.
-  int with_triangles = 0, with_lookups = 0, with_picture = 0;
+  int with_triangles = 0, with_planar_maps = 0, with_picture = 0;
   for (double factor = 0.4; factor < 2.0; factor += 0.02) {
     const Flight r = run(1200, always(kCoast.times(factor)), {.sigma = 0.02});
     EXPECT_GE(share_within(r, 1.1 * kBudget_ms), 0.99) << factor;
     const FrameOptions& end = r.options.back();
     with_triangles += end.water_triangles < 30000 && end.lookup_scale == 0.5;
-    with_lookups += end.lookup_scale < 0.5 && end.picture_scale == 1.0;
+    with_planar_maps += end.lookup_scale < 0.5 && end.picture_scale == 1.0;
     with_picture += end.picture_scale < 1.0;
     for (const FrameOptions& options : r.options) {
       if (end.lookup_scale == 0.5) {
@@ -321,7 +321,7 @@ TEST(Governor, TrianglesGiveWayBeforeLookupsAndLookupsBeforeThePicture) {
     }
   }
   EXPECT_GE(with_triangles, 2);
-  EXPECT_GE(with_lookups, 2);
+  EXPECT_GE(with_planar_maps, 2);
   EXPECT_GE(with_picture, 2);
 }
 
@@ -392,7 +392,7 @@ TEST(Governor, NinetyNineOfAHundredFramesFitWhileTheLoadComesAndGoes) {
       mixed.*m = (1.0 - share) * kOpenSea.*m + share * kCoast.*m;
     };
     for (const auto m : {&Load::sea_ms, &Load::triangles_ms, &Load::visibility_ms,
-                         &Load::lookups_ms, &Load::shade_ms})
+                         &Load::planar_maps_ms, &Load::shade_ms})
       mix(m);
     return mixed;
   };

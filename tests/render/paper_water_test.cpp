@@ -184,7 +184,7 @@ TEST(ProjectedGlitter, HasItsMiddleWhereThatOfSlopesHasIt) {
   }
 }
 
-// The slide takes as much light to the eye as the statistics of slopes, on glass.
+// The texture takes as much light to the eye as the statistics of slopes, on glass.
 TEST(ProjectedGlitter, OfGlassIsAsBrightAsThatOfSlopes) {
   const View view = view_to({40.0, -50.0}, 10.0);
   scene::Scene scene = glitter_scene(0.0, 50.0, 40.0);
@@ -232,13 +232,13 @@ TEST(PaperWater, IsTheSamePictureHoweverItIsDrawn) {
 TEST(PaperWater, PartsCanBeLeftOut) {
   const World world = world_of(with_all());
   const std::uint64_t whole = hash_of(world, {});
-  for (const Part part : {Part::kSequence, Part::kSunSlide, Part::kCausticBend})
+  for (const Part part : {Part::kSequence, Part::kSunTexture, Part::kCausticBend})
     EXPECT_NE(hash_of(world, {.without = {part}}), whole) << part_name(part);
   scene::Scene plain = with_all();
   plain.ripples = {};
   plain.water.glitter = scene::Glitter::kSlopes;
   plain.water.caustic_distortion = 0.0;
-  EXPECT_EQ(hash_of(world, {.without = {Part::kSequence, Part::kSunSlide, Part::kCausticBend}}),
+  EXPECT_EQ(hash_of(world, {.without = {Part::kSequence, Part::kSunTexture, Part::kCausticBend}}),
             hash_of(World(plain, world, 1), {}));
 }
 

@@ -184,11 +184,11 @@ TEST_P(PictureBytes, KeepTheMeanOfAPlainAreaByTheDither) {
   }
 }
 
-// ---- Lookup images
+// ---- Planar maps
 
 // sqrt(x / (x + 1)) of 255, to the nearest, at most 254: no light but 0 is lost, and none is cut
 // off at white.
-TEST_P(PictureBytes, OfLookupImagesHoldLightFromNightToGlints) {
+TEST_P(PictureBytes, OfPlanarMapsHoldLightFromNightToGlints) {
   std::vector<float> light = {0.0f, -1.0f, 1e30f};
   for (int i = 0; i < 4000; ++i) light.push_back(std::exp2(static_cast<float>(i) / 200.0f - 13.0f));
   std::vector<int> byte(light.size());

@@ -23,7 +23,7 @@ void sun_glint(const GlintSurface& surface, std::span<const glm::vec3> to_eye,
                std::span<const float> area, std::span<float> glint);
 
 // Light that leaves open water at its mean level towards the eye: shading's Water as its shader
-// shows it, without lookup images.
+// shows it, without planar maps.
 void water_light(const Shading& shading, std::span<const glm::vec3> to_eye,
                  std::span<glm::vec3> light);
 
@@ -100,7 +100,7 @@ void sky_light(const Shading& shading, std::span<const float> x_px, std::span<co
 void encode_srgb(std::span<const float> linear, std::span<float> code);
 void to_byte(std::span<const float> linear, float exposure, std::span<const float> dither,
              std::span<int> byte);
-// Bytes of lookup images, and the light that they stand for.
+// Bytes of planar maps, and the light that they stand for.
 void light_code(std::span<const float> light, std::span<int> byte, std::span<float> decoded);
 void pixel_noise(std::span<const float> x_px, std::span<const float> y_px, std::span<float> noise);
 

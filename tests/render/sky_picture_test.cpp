@@ -56,7 +56,7 @@ TEST(SkyPicture, ShowsTheModelsLight) {
     const SkyRenderer sky(scene, 50.0, 80.0);
     Workers workers(1);
     const scene::SkyLight light =
-        sky_light_aloft(scene::make_sky_light(scene.sky, workers), kSkyEye_m, workers);
+        sky_light_at_height(scene::make_sky_light(scene.sky, workers), kSkyEye_m, workers);
     const float exposure = sky.linear(5, 60).y / clear_radiance(light, sky.direction(5, 60)).y;
     for_each_pixel([&](int x, int y) {
       const glm::vec3 d = sky.direction(x, y);

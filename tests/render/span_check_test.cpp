@@ -234,7 +234,7 @@ TEST_F(SpanDeathTest, RenderChecksEveryPair) {
   EXPECT_REFUSED(shade(depth, primitive, fewer, {}));
   EXPECT_REFUSED(shade(depth, primitive, rgba, linear));
   EXPECT_REFUSED(shade_sky_tile(shading, 0, *scratch, fewer, {}));
-  EXPECT_REFUSED(shade_lookup_tile(shading, 0, shallow, primitive, *scratch, image));
+  EXPECT_REFUSED(shade_planar_tile(shading, 0, shallow, primitive, *scratch, image));
 }
 
 }  // namespace

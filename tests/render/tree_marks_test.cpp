@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "render/edge_frames.h"
-#include "render/tile/jumps.h"
+#include "render/tile/discontinuities.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -45,10 +45,10 @@ class MarkedPicture {
     std::set<Place> places;
     const PrimitiveRanges ranges({0, 10, 0, 2, 0});  // land and trees
     const std::vector<std::uint8_t> like_land = {0, 1};
-    JumpScratch scratch;
+    DiscontinuityScratch scratch;
     for (int tile = 0; tile < visibility_.grid.count(); ++tile) {
       raster::PixelMask mask;
-      mark_jumps(visibility_, ranges, kViewport, like_land, tile, scratch, mask);
+      mark_discontinuities(visibility_, ranges, kViewport, like_land, tile, scratch, mask);
       const raster::PixelBox box = raster::tile_box(kViewport, visibility_.grid, tile);
       for (int y = 0; y < box.height_px; ++y)
         for (int x = 0; x < box.width_px; ++x)

@@ -267,7 +267,7 @@ TEST(DrawnTrees, AreMirroredInTheWater) {
       darker += luma(with.target.rgba[at]) < luma(without.target.rgba[at]) - 4;
     }
   EXPECT_GT(darker, water / 20);
-  const PrimitiveRanges& mirrored = with.state().lookups.reflection.view.primitives;
+  const PrimitiveRanges& mirrored = with.state().planar_maps.reflection.view.primitives;
   EXPECT_GT(mirrored.end(SurfaceKind::kTrees), mirrored.begin(SurfaceKind::kTrees));
 }
 

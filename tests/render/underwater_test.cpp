@@ -145,7 +145,7 @@ TEST(UnderWater, AnEyeThatDivesSeesSomethingAllTheWay) {
   }
 }
 
-TEST(UnderWater, IsDrawnWithoutLookupImages) {
+TEST(UnderWater, IsDrawnWithoutPlanarMaps) {
   const World world = world_of(wavy_scene(0.5));
   Drawing drawing;
   for (const PartSet without : {PartSet{Part::kReflection}, PartSet{Part::kRefraction},

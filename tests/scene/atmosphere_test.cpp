@@ -255,7 +255,8 @@ TEST(Atmosphere, IsAsBrightAloftAsPathsOfLightSay) {
         return glm::dvec3(std::sqrt(std::max(1.0 - z * z, 0.0)), 0.0, z);
       };
       const double ours = sky_radiance(table, at(sine)).y;
-      const double theirs = paths.radiance_aloft(1, height_m, at(true_sine), to_sun, 20000, lost);
+      const double theirs =
+          paths.radiance_at_height(1, height_m, at(true_sine), to_sun, 20000, lost);
       EXPECT_NEAR(ours / theirs, 1.0, 0.05) << height_m << " m, " << sine;
     }
   }
@@ -289,7 +290,7 @@ TEST(Atmosphere, IsAsBrightAloftUnderALowSunAsPathsOfLightSay) {
         glm::dvec3 mine, theirs;
         for (const int c : {0, 1, 2}) {
           double lost = 1.0;
-          theirs[c] = paths.radiance_aloft(c, height_m, at(sine), to_sun, 20000, lost);
+          theirs[c] = paths.radiance_at_height(c, height_m, at(sine), to_sun, 20000, lost);
           mine[c] = double{ours[c]} * (sine > straight ? 1.0 : lost);
           EXPECT_NEAR(mine[c] / theirs[c], 1.0, 0.09)
               << sun_deg << ", " << height_m << " m: " << p.azimuth_deg << " " << p.over_horizon_deg
@@ -348,7 +349,7 @@ TEST(Atmosphere, ZenithDarkensWithHeight) {
   const SkyLight sea_level = light_at(40.0);
   double before = luminance(clear_radiance(sea_level, {0, 0, 1}));
   for (const double height_m : {1500.0, 5000.0, 10000.0, 20000.0, 40000.0}) {
-    const SkyLight light = sky_light_aloft(sea_level, height_m, workers);
+    const SkyLight light = sky_light_at_height(sea_level, height_m, workers);
     const double here = luminance(clear_radiance(light, {0, 0, 1}));
     EXPECT_LT(here, 0.85 * before) << height_m;
     before = here;
@@ -360,11 +361,11 @@ TEST(Atmosphere, ZenithDarkensWithHeight) {
 TEST(Atmosphere, TheSunSetsLaterAloft) {
   Workers workers(2);
   const SkyLight sea_level = light_at(-1.5);
-  const SkyLight light = sky_light_aloft(sea_level, 10000.0, workers);
+  const SkyLight light = sky_light_at_height(sea_level, 10000.0, workers);
   EXPECT_GT(light.sun_disc_radiance.y, 0.0f);
   EXPECT_GT(light_at(1.0).disc_radiance.x / light_at(1.0).disc_radiance.z,
-            2.0f * sky_light_aloft(light_at(1.0), 40000.0, workers).disc_radiance.x /
-                sky_light_aloft(light_at(1.0), 40000.0, workers).disc_radiance.z);
+            2.0f * sky_light_at_height(light_at(1.0), 40000.0, workers).disc_radiance.x /
+                sky_light_at_height(light_at(1.0), 40000.0, workers).disc_radiance.z);
 }
 
 // The optical depth of the air overhead, by hand: density times scale height.

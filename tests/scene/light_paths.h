@@ -33,8 +33,8 @@ class LightPaths {
   // Returns the radiance at a height, of the air before the sea or space: thin air scatters few
   // paths, so that each is made to scatter first at a place of its own, as if it had. `lost`
   // becomes the part of light from behind it that the air takes.
-  double radiance_aloft(int channel, double height_m, glm::dvec3 direction, glm::dvec3 to_sun,
-                        int paths, double& lost) {
+  double radiance_at_height(int channel, double height_m, glm::dvec3 direction, glm::dvec3 to_sun,
+                            int paths, double& lost) {
     channel_ = channel;
     const glm::dvec3 eye(0.0, 0.0, kEarthRadius_m + height_m);
     const double radius_m = kEarthRadius_m + height_m;

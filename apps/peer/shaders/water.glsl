@@ -2,7 +2,7 @@
 // each of the scene's maps.
 out vec4 colour;
 
-uniform float base_variance, short_variance, seen_slopes, least_cos;
+uniform float base_variance, short_variance, visible_slopes, least_cos;
 uniform vec4 layer_place[LAYERS], layer_scale[LAYERS], layer_tiles[LAYERS];
 #if SINES > 0
 uniform vec4 sine_wave[SINES];  // cycles per metre along x and y, cycles under the eye, level lost
@@ -124,7 +124,7 @@ void main() {
 
   // Light from above and from below.
   vec3 normal = normal_of(s.slope);
-  float drawn = seen_slopes * max(1.0 - s.variance / fine_variance, 0.0);
+  float drawn = visible_slopes * max(1.0 - s.variance / fine_variance, 0.0);
   float cos_eye = dot(normal, to_eye);
   if (least_cos > 0.0) {
     float least = least_cos / sqrt(1.0 - least_cos * least_cos);
@@ -138,7 +138,7 @@ void main() {
   float reflectance = fresnel(cos_eye + raised * away * away, refraction_index);
   float r_z = 2.0 * cos_eye * normal.z - to_eye.z;
   float sea = part_of_sea_mirrored(r_z - wave_horizon, to_eye.z + wave_horizon, s.variance);
-  float mirror_raised = least_cos > 0.0 ? 0.0 : seen_slopes * raised * away;
+  float mirror_raised = least_cos > 0.0 ? 0.0 : visible_slopes * raised * away;
   vec3 r = normal * (2.0 * (cos_eye + mirror_raised)) - to_eye;
   r.z = max(r.z, -0.25);
   float share = clamp(2.0 - 1.25 * inv_wave_reach * point.distance_m, 0.0, 1.0);

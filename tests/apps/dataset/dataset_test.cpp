@@ -325,7 +325,7 @@ class SceneWithFiles : public DataSet {
                    ".mtl\nusemtl paint\nv 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\n"
                    "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   }
-  void put_form(double size_m) {
+  void put_implicit(double size_m) {
     write_text(folder_.file("f.toml"), fmt::format("[[form]]\nsize = [{0}, {0}, {0}]\n", size_m));
   }
   void put_heights(float height_m) {
@@ -357,10 +357,10 @@ TEST_F(SceneWithFiles, DoesNotMixStatesOfAMeshsMaterial) {
   expect_other_state([&] { put_mesh("0 1 0"); });
 }
 
-TEST_F(SceneWithFiles, DoesNotMixStatesOfAForm) {
-  put_form(1.0);
+TEST_F(SceneWithFiles, DoesNotMixStatesOfAnImplicitSurface) {
+  put_implicit(1.0);
   add_to_scene("[[object]]\nkind = \"form\"\nfile = \"f.toml\"\n");
-  expect_other_state([&] { put_form(1.5); });
+  expect_other_state([&] { put_implicit(1.5); });
 }
 
 TEST_F(SceneWithFiles, DoesNotMixStatesOfAHeightImage) {

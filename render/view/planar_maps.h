@@ -1,0 +1,56 @@
+// Stage 5: the pictures that water looks into, mirrored and refracted, where visible water can.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/tile/crossed_tile.h"
+#include "render/tile/shade_tile.h"
+#include "render/view/render_view.h"
+#include "render/view/visibility.h"
+
+namespace swell::render {
+
+// Working memory of one thread.
+struct ThreadScratch {
+  ShadeScratch shade;
+  ShadedLabels labels;
+  EdgeScratch edges;
+  std::unique_ptr<CrossedScratch> crossed;  // once a frame has needed it
+  std::array<std::uint8_t, kMaxTilePixels> in_water;
+  alignas(64) std::array<float, kMaxTilePixels> depth;
+  alignas(64) std::array<std::uint32_t, kMaxTilePixels> primitive;
+};
+using ScratchList = std::span<const std::unique_ptr<ThreadScratch>>;  // one a thread
+
+struct PlanarTarget {
+  RenderView view;
+  texture::RgbaImage image;
+  std::vector<std::uint8_t> wanted;   // per tile: water can look into it
+  std::vector<std::uint8_t> written;  // per tile: holds anything but zeros
+  Shading shading;
+};
+
+struct PlanarMaps {
+  PlanarTarget reflection, refraction;
+  std::vector<TilePlanarMaps> of_tile;  // what the window's tiles see of them
+};
+
+// The window's camera for pictures of `scale` times its size each way.
+View planar_camera(const View& window, double scale);
+
+// Draws what the window's water can see. The vertices of both views are mapped; inputs.reflection
+// and inputs.refraction are set where there is anything to see.
+void draw_planar_maps(const Meshes& meshes, const RenderView& window,
+                      const VisibilityBuffer& visibility, ScratchList scratch,
+                      MaterialInputs& inputs, PlanarMaps& images, const StageRun& run);
+
+// Draws what the window's rivers and lakes mirror at meshes.rivers.mirror_level_m, where they show;
+// the vertices are mapped. inputs.river_reflection is set where there is anything to see.
+void draw_river_mirror(const Meshes& meshes, const RenderView& window,
+                       const VisibilityBuffer& visibility, ScratchList scratch,
+                       MaterialInputs& inputs, PlanarTarget& mirror, const StageRun& run);
+
+}  // namespace swell::render
