@@ -255,7 +255,7 @@ Fault fault_of_objects(const std::vector<FloatingObject>& objects, bool has_rive
     const auto key = [&](std::string_view name) {
       return fmt::format("{}[{}].{}", kObjectsKey, n, name);
     };
-    const bool has_file = is_of_file(object.kind);
+    const bool has_file = kObjectKinds[object.kind].is_of_file;
     const std::string kind(kObjectKindNames[object.kind]);
     if (has_file && object.file.empty())
       return SceneFault{key("kind"), fmt::format("\"{}\" without a file", kind),

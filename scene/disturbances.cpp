@@ -21,9 +21,8 @@ struct KindName {
 constexpr double kDraughtOfBeam = 0.17;
 
 bool makes_wake(const FloatingObject& object) {
-  const bool is_boat = object.kind == ObjectKind::kBoat || object.kind == ObjectKind::kSailboat ||
-                       object.kind == ObjectKind::kImplicit;
-  return is_boat && object.wake && object.motion == Motion::kFloat && object.path_m.size() >= 2;
+  return kObjectKinds[object.kind].makes_wake && object.wake && object.motion == Motion::kFloat &&
+         object.path_m.size() >= 2;
 }
 
 Disturbance hull_of(const FloatingObject& object) {

@@ -67,29 +67,6 @@ void add_buoy(TopMark mark, MeshBuilder& to) {
   add_top_mark(mark, to);
 }
 
-// LevelErrors holds ObjectMesh::error with 8 segments and with 4, seen from any side, at common
-// sizes. A box's error is how far refraction bends its sides between their ends.
-struct LevelErrors {
-  float eight, four;
-};
-constexpr auto kLevelErrors = enum_table<ObjectKind, LevelErrors>({
-    {ObjectKind::kBuoy, {0.020f, 0.066f}},
-    {ObjectKind::kSphere, {0.064f, 0.200f}},
-    {ObjectKind::kBox, {0.020f, 0.020f}},
-    {ObjectKind::kBoat, {0.021f, 0.060f}},
-    {ObjectKind::kSailboat, {0.015f, 0.041f}},
-    {ObjectKind::kPier, {0.006f, 0.006f}},
-    {ObjectKind::kLighthouse, {0.034f, 0.047f}},
-    {ObjectKind::kRock, {0.120f, 0.190f}},
-    {ObjectKind::kMesh, {}},  // the file's levels have their own
-    {ObjectKind::kImplicit, {}},
-});
-
-float level_error(ObjectKind kind, int segments) {
-  const LevelErrors& errors = kLevelErrors[kind];
-  return segments >= kLevelSegments[0] ? 0.0f : segments >= 8 ? errors.eight : errors.four;
-}
-
 // A box whose sides are cut into slices: what stands in water is seen bent, the further down the
 // more.
 void add_sliced_box(int slices, MeshBuilder& to) {
@@ -107,47 +84,6 @@ void add_sliced_box(int slices, MeshBuilder& to) {
       add_polygon(std::array{at(i, low), at(i + 1, low), at(i + 1, high), at(i, high)}, kPaint, to);
     }
 }
-
-}  // namespace
-
-ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
-  SWELL_CHECK(segments >= 4 && segments <= 32, "segments={}", segments);
-  MeshBuilder builder{.segments = segments};
-  switch (kind) {
-    case ObjectKind::kBuoy:
-      add_buoy(top_mark, builder);
-      break;
-    case ObjectKind::kSphere:
-      add_ball(0.5f, 0.0f, 1.0f, kPaint, builder);
-      break;
-    case ObjectKind::kBox:
-      add_sliced_box(segments < kSlimSegments ? 1 : 8, builder);
-      break;
-    case ObjectKind::kBoat:
-      add_boat(builder);
-      break;
-    case ObjectKind::kSailboat:
-      add_sailboat(builder);
-      break;
-    case ObjectKind::kPier:
-      add_pier(builder);
-      break;
-    case ObjectKind::kLighthouse:
-      add_lighthouse(builder);
-      break;
-    case ObjectKind::kRock:
-      add_rock(builder);
-      break;
-    case ObjectKind::kMesh:
-    case ObjectKind::kImplicit:
-      SWELL_CHECK(false, "kind={}", "of a file");
-      break;
-  }
-  builder.mesh.error = level_error(kind, segments);
-  return std::move(builder.mesh);
-}
-
-namespace {
 
 // Calls visit(p) where edges of the part's triangles pass a height.
 template <class Visit>
@@ -171,28 +107,68 @@ float hull_top(const FloatingObject& object) {
   return static_cast<float>(std::min(top, 1.0));
 }
 
-MeshPart whole_part(const FloatingObject& object, const ObjectMesh& mesh) {
-  const auto below = static_cast<float>(object.draught);
-  MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
-  switch (object.kind) {
-    case ObjectKind::kBuoy:
-      part.half = glm::vec2(0.5f), part.top = 0.28f;
-      break;
-    case ObjectKind::kSphere:
-      part.half = glm::vec2(0.5f * std::max(2.0f * std::sqrt(below * (1.0f - below)), 1e-3f));
-      break;
-    case ObjectKind::kBox:
-      part.half = glm::vec2(0.5f), part.is_round = false;
-      break;
-    default:
-      set_waterline(mesh, below, part);
-      part.top = hull_top(object);
-      break;
-  }
-  return part;
+// The plan of a part at the waterline: its middle, half its sizes, whether it is round, and its
+// top.
+using SetPlan = void (*)(const FloatingObject& object, const ObjectMesh& mesh, MeshPart& part);
+
+void set_buoy_plan(const FloatingObject&, const ObjectMesh&, MeshPart& part) {
+  part.half = glm::vec2(0.5f), part.top = 0.28f;
 }
 
+void set_ball_plan(const FloatingObject& object, const ObjectMesh&, MeshPart& part) {
+  const auto below = static_cast<float>(object.draught);
+  part.half = glm::vec2(0.5f * std::max(2.0f * std::sqrt(below * (1.0f - below)), 1e-3f));
+}
+
+void set_box_plan(const FloatingObject&, const ObjectMesh&, MeshPart& part) {
+  part.half = glm::vec2(0.5f), part.is_round = false;
+}
+
+void set_hull_plan(const FloatingObject& object, const ObjectMesh& mesh, MeshPart& part) {
+  set_waterline(mesh, static_cast<float>(object.draught), part);
+  part.top = hull_top(object);
+}
+
+// How a kind's triangles are built. `eight` and `four` are ObjectMesh::error with 8 segments and
+// with 4, seen from any side, at common sizes; a box's is how far refraction bends its sides
+// between their ends. A kind of a file is not built: its file's levels have errors of their own.
+struct KindShape {
+  void (*build)(TopMark top_mark, MeshBuilder& to) = nullptr;
+  float eight = 0.0f, four = 0.0f;
+  SetPlan set_plan = set_hull_plan;
+};
+
+constexpr auto kKindShapes = enum_table<ObjectKind, KindShape>({
+    {ObjectKind::kBuoy, {add_buoy, 0.020f, 0.066f, set_buoy_plan}},
+    {ObjectKind::kSphere,
+     {[](TopMark, MeshBuilder& to) { add_ball(0.5f, 0.0f, 1.0f, kPaint, to); }, 0.064f, 0.200f,
+      set_ball_plan}},
+    {ObjectKind::kBox,
+     {[](TopMark, MeshBuilder& to) { add_sliced_box(to.segments < kSlimSegments ? 1 : 8, to); },
+      0.020f, 0.020f, set_box_plan}},
+    {ObjectKind::kBoat, {[](TopMark, MeshBuilder& to) { add_boat(to); }, 0.021f, 0.060f}},
+    {ObjectKind::kSailboat, {[](TopMark, MeshBuilder& to) { add_sailboat(to); }, 0.015f, 0.041f}},
+    {ObjectKind::kPier, {[](TopMark, MeshBuilder& to) { add_pier(to); }, 0.006f, 0.006f}},
+    {ObjectKind::kLighthouse,
+     {[](TopMark, MeshBuilder& to) { add_lighthouse(to); }, 0.034f, 0.047f}},
+    {ObjectKind::kRock, {[](TopMark, MeshBuilder& to) { add_rock(to); }, 0.120f, 0.190f}},
+    {ObjectKind::kMesh, {}},
+    {ObjectKind::kImplicit, {}},
+});
+
 }  // namespace
+
+ObjectMesh make_object_mesh(ObjectKind kind, TopMark top_mark, int segments) {
+  SWELL_CHECK(segments >= 4 && segments <= 32, "segments={}", segments);
+  const KindShape& shape = kKindShapes[kind];
+  SWELL_CHECK(shape.build != nullptr, "kind={}", kObjectKinds[kind].name);
+  MeshBuilder builder{.segments = segments};
+  shape.build(top_mark, builder);
+  builder.mesh.error = segments >= kLevelSegments[0] ? 0.0f
+                       : segments >= 8               ? shape.eight
+                                                     : shape.four;
+  return std::move(builder.mesh);
+}
 
 // The box around where the triangles pass the height. It is round unless something lies near a
 // corner, at the root of 2 from the middle.
@@ -210,7 +186,9 @@ void set_waterline(const ObjectMesh& mesh, float z, MeshPart& part) {
 
 std::vector<MeshPart> mesh_parts(const FloatingObject& object, const ObjectMesh& mesh) {
   if (!mesh.parts.empty()) return mesh.parts;
-  return {whole_part(object, mesh)};
+  MeshPart whole{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
+  kKindShapes[object.kind].set_plan(object, mesh, whole);
+  return {whole};
 }
 
 }  // namespace swell::scene

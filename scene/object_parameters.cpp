@@ -52,11 +52,11 @@ std::vector<Parameter<FloatingObject>> object_parameters() {
   auto size = ObjectRow::vector("size_m", {0.05, 500, "m"}, SWELL_FIELD(size_m),
                                 "across, along its heading, and from its lowest point to the top; "
                                 "a mesh or form has its file's");
-  size.is_set = [](const FloatingObject& object) { return !is_of_file(object.kind); };
+  size.is_set = [](const FloatingObject& object) { return !kObjectKinds[object.kind].is_of_file; };
   auto draught = ObjectRow::number("draught", {0, 1}, SWELL_FIELD(draught),
                                    "part of its height that lies below still water");
   draught.is_set = [](const FloatingObject& object) {
-    return !is_of_file(object.kind) || !object.at_file_origin;
+    return !kObjectKinds[object.kind].is_of_file || !object.at_file_origin;
   };
   return {
       ObjectRow::choice("kind", ObjectKindName{},

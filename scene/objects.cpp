@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "math/check.h"
 #include "math/elementary.h"
@@ -129,48 +128,17 @@ ObjectPose pose_of(const FloatingObject& object, const ocean::WaterSurface& surf
           rolled(upright_frame(right, ahead, glm::dvec2(0.0)), object.roll_rad), water.height_m};
 }
 
-struct Commonly {
-  glm::dvec3 size_m;
-  double draught;
-  Motion motion;
-  glm::vec3 colour;
-};
-
-// Nothing of those that are as FloatingObject has it, nor of files.
-std::optional<Commonly> commonly_of(ObjectKind kind) {
-  switch (kind) {
-    case ObjectKind::kBoat:
-      return Commonly{{1.7, 4.6, 0.8}, 0.25, Motion::kFloat, {0.55f, 0.57f, 0.55f}};
-    case ObjectKind::kSailboat:
-      return Commonly{{2.9, 9.2, 14.5}, 0.12, Motion::kFloat, {0.62f, 0.62f, 0.60f}};
-    case ObjectKind::kPier:
-      return Commonly{{3.0, 36.0, 7.0}, 0.70, Motion::kFixed, {0.21f, 0.15f, 0.10f}};
-    case ObjectKind::kLighthouse:
-      return Commonly{{8.0, 8.0, 26.0}, 0.0, Motion::kFixed, {0.55f, 0.03f, 0.02f}};
-    case ObjectKind::kRock:
-      return Commonly{{6.0, 5.0, 3.5}, 0.4, Motion::kFixed, {0.17f, 0.155f, 0.14f}};
-    case ObjectKind::kBuoy:
-    case ObjectKind::kSphere:
-    case ObjectKind::kBox:
-    case ObjectKind::kMesh:
-    case ObjectKind::kImplicit:
-      break;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 FloatingObject common_object(ObjectKind kind) {
+  const ObjectKindFacts& facts = kObjectKinds[kind];
   FloatingObject object;
   object.kind = kind;
-  object.at_file_origin = kind == ObjectKind::kImplicit;  // its waterline is its z = 0
-  if (const std::optional<Commonly> commonly = commonly_of(kind)) {
-    object.size_m = commonly->size_m;
-    object.draught = commonly->draught;
-    object.motion = commonly->motion;
-    object.colour = commonly->colour;
-  }
+  object.size_m = facts.size_m;
+  object.draught = facts.draught;
+  object.colour = facts.colour;
+  object.motion = facts.motion;
+  object.at_file_origin = facts.at_file_origin;
   return object;
 }
 

@@ -4,7 +4,7 @@
 //   scene::object_poses(scene.objects, water.at(t_s, frame, workers), poses);
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -34,18 +34,6 @@ enum class ObjectKind : std::uint8_t {
   kMesh,        // of a file
   kImplicit,    // of functions (scene/implicit_surface.h), of a file
 };
-inline constexpr auto kObjectKindNames = enum_words<ObjectKind>({
-    {ObjectKind::kBuoy, "buoy"},
-    {ObjectKind::kSphere, "sphere"},
-    {ObjectKind::kBox, "box"},
-    {ObjectKind::kBoat, "boat"},
-    {ObjectKind::kSailboat, "sailboat"},
-    {ObjectKind::kPier, "pier"},
-    {ObjectKind::kLighthouse, "lighthouse"},
-    {ObjectKind::kRock, "rock"},
-    {ObjectKind::kMesh, "mesh"},
-    {ObjectKind::kImplicit, "form"},
-});
 
 // What sets an object's height and tilt.
 enum class Motion : std::uint8_t {
@@ -59,16 +47,77 @@ enum class UpAxis : std::uint8_t { kByFormat, kY, kZ };
 // What a buoy carries on top.
 enum class TopMark : std::uint8_t { kCan, kCone, kSphere };
 
+// What all objects of a kind have in common. One more kind is an enumerator, a row of kObjectKinds
+// and one of object_mesh.cpp, which names what builds its triangles.
+struct ObjectKindFacts {
+  std::string_view name;  // in scene files
+  // As it is commonly built, and where a scene says no more: FloatingObject's members.
+  glm::dvec3 size_m{2.6, 2.6, 6.0};
+  double draught = 0.2;
+  glm::vec3 colour{0.60f, 0.03f, 0.02f};
+  Motion motion = Motion::kFloat;
+  bool is_compact = false;      // closed all around, and about as wide as high
+  bool shades_itself = true;    // a part of it may stand between another one and the sun
+  bool makes_wake = false;      // where it floats along a path
+  bool is_of_file = false;      // its shape, with the size of that
+  bool at_file_origin = false;  // its waterline is the file's z = 0
+};
+
+inline constexpr auto kObjectKinds = enum_table<ObjectKind, ObjectKindFacts>({
+    {ObjectKind::kBuoy, {.name = "buoy", .is_compact = true}},
+    {ObjectKind::kSphere, {.name = "sphere", .is_compact = true, .shades_itself = false}},
+    {ObjectKind::kBox, {.name = "box", .is_compact = true, .shades_itself = false}},
+    {ObjectKind::kBoat,
+     {.name = "boat",
+      .size_m = {1.7, 4.6, 0.8},
+      .draught = 0.25,
+      .colour = {0.55f, 0.57f, 0.55f},
+      .makes_wake = true}},
+    {ObjectKind::kSailboat,
+     {.name = "sailboat",
+      .size_m = {2.9, 9.2, 14.5},
+      .draught = 0.12,
+      .colour = {0.62f, 0.62f, 0.60f},
+      .makes_wake = true}},
+    {ObjectKind::kPier,
+     {.name = "pier",
+      .size_m = {3.0, 36.0, 7.0},
+      .draught = 0.70,
+      .colour = {0.21f, 0.15f, 0.10f},
+      .motion = Motion::kFixed}},
+    {ObjectKind::kLighthouse,
+     {.name = "lighthouse",
+      .size_m = {8.0, 8.0, 26.0},
+      .draught = 0.0,
+      .colour = {0.55f, 0.03f, 0.02f},
+      .motion = Motion::kFixed}},
+    {ObjectKind::kRock,
+     {.name = "rock",
+      .size_m = {6.0, 5.0, 3.5},
+      .draught = 0.4,
+      .colour = {0.17f, 0.155f, 0.14f},
+      .motion = Motion::kFixed}},
+    {ObjectKind::kMesh, {.name = "mesh", .is_of_file = true}},
+    {ObjectKind::kImplicit,
+     {.name = "form", .makes_wake = true, .is_of_file = true, .at_file_origin = true}},
+});
+
+inline constexpr auto kObjectKindNames = [] {
+  EnumTable<ObjectKind, std::string_view> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kObjectKinds[i].name;
+  return names;
+}();
+
 struct FloatingObject {
   ObjectKind kind = ObjectKind::kBuoy;
   TopMark top_mark = TopMark::kCan;
-  glm::dvec2 position_m{0.0};        // east, north; moored there, unless it has a path or drifts
-  glm::dvec3 size_m{2.6, 2.6, 6.0};  // across, along the heading, up
-  double heading_rad = 0.0;          // clockwise from north
-  double draught = 0.2;              // part of the height below still water
-  glm::vec3 colour{0.60f, 0.03f, 0.02f};  // linear RGB reflectance of the paint
-  std::string name{};                     // no other object's, or empty
-  std::string label{};                    // its class in labelled pictures; empty: "object"
+  glm::dvec2 position_m{0.0};  // east, north; moored there, unless it has a path or drifts
+  glm::dvec3 size_m = ObjectKindFacts{}.size_m;  // across, along the heading, up
+  double heading_rad = 0.0;                      // clockwise from north
+  double draught = ObjectKindFacts{}.draught;    // part of the height below still water
+  glm::vec3 colour = ObjectKindFacts{}.colour;   // linear RGB reflectance of the paint
+  std::string name{};                            // no other object's, or empty
+  std::string label{};                           // its class in labelled pictures; empty: "object"
 
   Motion motion = Motion::kFloat;
   double height_m = 0.0;  // fixed: of its waterline over the mean sea level
@@ -100,16 +149,8 @@ struct FloatingObject {
   glm::dvec2 middle_m{0.0};
 };
 
-inline bool is_of_file(ObjectKind kind) {
-  return kind == ObjectKind::kMesh || kind == ObjectKind::kImplicit;
-}
-
-// Closed all around, and about as wide as high.
-inline bool is_compact(ObjectKind kind) {
-  return kind == ObjectKind::kBuoy || kind == ObjectKind::kSphere || kind == ObjectKind::kBox;
-}
-
-// An object of the kind as it is commonly built: size, draught, colour, and whether it floats.
+// Returns an object of the kind as it is commonly built: size, draught, colour, and whether it
+// floats.
 FloatingObject common_object(ObjectKind kind);
 
 // The name of the object's class in labelled pictures.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <initializer_list>
 #include <numeric>
 
 #include "math/enum_table.h"
@@ -12,32 +13,23 @@ namespace {
 
 using scene::ObjectKind;
 
-// The ids of kinds of objects; 0: none.
+// The ids of kinds of objects; 0: none. The rows name what a set has a class for. Other kinds that
+// commonly float are `floating`, and what stands on the ground is no thing.
 using KindIds = EnumTable<ObjectKind, int>;
-constexpr KindIds kLarsKinds = enum_table<ObjectKind, int>({
-    {ObjectKind::kBuoy, 14},
-    {ObjectKind::kSphere, 19},
-    {ObjectKind::kBox, 19},
-    {ObjectKind::kBoat, 12},
-    {ObjectKind::kSailboat, 11},
-    {ObjectKind::kPier, 0},
-    {ObjectKind::kLighthouse, 0},
-    {ObjectKind::kRock, 0},
-    {ObjectKind::kMesh, 19},
-    {ObjectKind::kImplicit, 19},
-});
-constexpr KindIds kWaterScenesKinds = enum_table<ObjectKind, int>({
-    {ObjectKind::kBuoy, 2},
-    {ObjectKind::kSphere, 0},
-    {ObjectKind::kBox, 0},
-    {ObjectKind::kBoat, 5},
-    {ObjectKind::kSailboat, 5},
-    {ObjectKind::kPier, 1},
-    {ObjectKind::kLighthouse, 0},
-    {ObjectKind::kRock, 0},
-    {ObjectKind::kMesh, 0},
-    {ObjectKind::kImplicit, 0},
-});
+constexpr KindIds kind_ids(std::initializer_list<EnumRow<ObjectKind, int>> rows, int floating) {
+  KindIds ids{};
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    ids[i] = scene::kObjectKinds[i].motion == scene::Motion::kFloat ? floating : 0;
+  for (const auto& [kind, id] : rows) ids[kind] = id;
+  return ids;
+}
+constexpr KindIds kLarsKinds =
+    kind_ids({{ObjectKind::kBuoy, 14}, {ObjectKind::kBoat, 12}, {ObjectKind::kSailboat, 11}}, 19);
+constexpr KindIds kWaterScenesKinds = kind_ids({{ObjectKind::kBuoy, 2},
+                                                {ObjectKind::kBoat, 5},
+                                                {ObjectKind::kSailboat, 5},
+                                                {ObjectKind::kPier, 1}},
+                                               0);
 constexpr KindIds kObstacleKinds = [] {
   KindIds ids{};
   ids.fill(1);

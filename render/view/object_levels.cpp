@@ -20,7 +20,7 @@ float most_px_per_m(glm::vec3 p_rel, float radius_m, const View& view) {
 float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const View& view) {
   const float distance_m = std::sqrt(glm::dot(p_rel, p_rel));
   const float px_at_1_m = 0.5f * static_cast<float>(view.height_px) / view.tan_half_y;
-  if (scene::is_compact(object.kind))
+  if (scene::kObjectKinds[object.kind].is_compact)
     return px_at_1_m * static_cast<float>(object.size_m.z) / std::max(distance_m, view.near_m);
   // Its nearest point.
   const auto size_m =

@@ -274,7 +274,7 @@ Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
   outline.lowest_m = low.y + inside;
   outline.rows_per_m = (Outline::kRows - 1) / std::max(high.y - low.y - 2.0f * inside, 1e-6f);
   // The triangles of files look anywhere, and sails have one for two sides.
-  const bool is_closed = scene::is_compact(object.kind);
+  const bool is_closed = scene::kObjectKinds[object.kind].is_compact;
   outline.left_m.fill(kInfinity<float>);
   outline.right_m.fill(-kInfinity<float>);
   for (std::size_t i = 0; i < indices.size(); i += 3) {

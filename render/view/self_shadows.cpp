@@ -25,18 +25,13 @@ glm::vec3 middle_of(const scene::FloatingObject& object, const scene::ObjectPose
   return glm::vec3(pose.position_world + pose.world_from_object * middle - view.eye_world);
 }
 
-// Nothing stands before a part of a ball or a box that faces the sun.
-bool may_shade_itself(scene::ObjectKind kind) {
-  return kind != scene::ObjectKind::kSphere && kind != scene::ObjectKind::kBox;
-}
-
 // The largest objects of the window, largest first: their numbers and sizes.
 void list_largest(const World::State& world, const View& view, const ObjectGeometry& objects,
                   std::vector<SunDepth>& list) {
   list.clear();
   for (const ObjectInstance& instance : objects.in_window().instances) {
     const scene::FloatingObject& object = world.scene.objects[instance.object];
-    if (!may_shade_itself(object.kind)) continue;
+    if (!scene::kObjectKinds[object.kind].shades_itself) continue;
     const float radius_m = radius_of(object);
     const glm::vec3 middle = middle_of(object, objects.poses[instance.object], view);
     const float size_px = 2.0f * radius_m * most_px_per_m(middle, radius_m, view);

@@ -44,7 +44,7 @@ ObjectShape find_shape(const scene::FloatingObject& object,
 
 ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {
   const scene::FloatingObject& object = scene.objects[n];
-  if (!scene::is_of_file(object.kind)) return built_in(object);
+  if (!scene::kObjectKinds[object.kind].is_of_file) return built_in(object);
   try {
     if (object.kind == scene::ObjectKind::kImplicit)
       return std::make_shared<const scene::MeshOfFile>(
@@ -66,7 +66,7 @@ ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like) 
     ObjectShape shape = find_shape(object, scene.objects, result.of_object);
     if (!shape && like) shape = find_shape(object, like->scene.objects, like->objects.of_object);
     if (!shape) shape = shape_of(scene, n);
-    if (scene::is_of_file(object.kind)) {
+    if (scene::kObjectKinds[object.kind].is_of_file) {
       try {
         scene::fit_object(*shape, object);
       } catch (const std::runtime_error& error) {
