@@ -65,7 +65,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "px",
      "Where in the picture the point that is seen is one frame later, whether it is seen then or "
      "not, less where it is now; x right, y down. Water moves as its column does, up and down at "
-     "one place, objects as they float; what water mirrors or shows does not count.",
+     "one place, objects as they float, trees as they sway; what water mirrors or shows does not "
+     "count.",
      "by the camera's rotation alone",
      "0, 0 where the point is behind the next camera"},
     {Label::kElevation,

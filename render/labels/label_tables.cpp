@@ -139,6 +139,11 @@ void fill_motion(const LabelInputs& in, LabelTables& tables, const StageRun& run
   drawn_poses(in.world, tables.next_sea, in.options.next_poses, tables.next_poses, run);
   for (std::size_t i = 0; i < poses.size(); ++i)
     tables.object_motion[i] = motion_of(poses[i], tables.next_poses[i], now.eye_world);
+
+  const TreeDraws& trees = in.meshes.trees.drawn_in(ViewKind::kWindow);
+  tables.tree_move.resize(trees.p_rel.size());
+  if (!trees.p_rel.empty())
+    find_tree_moves(in.world, trees, in.t_s + in.options.next_frame_s, tables.tree_move, run);
 }
 
 }  // namespace

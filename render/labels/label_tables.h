@@ -44,6 +44,7 @@ struct LabelTables {
   // By triangle of the water: it rises by rise.x + rise.y x + rise.z y at a place (x, y) relative
   // to the eye.
   std::vector<glm::vec3> rise;
+  std::vector<glm::vec3> tree_move;  // by vertex of the window's TreeDraws
   // Storage.
   ocean::SeaFrame next_sea;
   std::vector<float> next_height_m;           // per vertex of the water

@@ -143,7 +143,7 @@ HWY_INLINE void VisitObjects(const LabelSources& in, const LabelPacket& p, const
       visit(lane, in.objects.primitives[primitive[lane] - ranges.begin(SurfaceKind::kObjects)]);
 }
 
-// Calls visit(lane, tree) where a lane shows a tree.
+// Calls visit(lane, triangle) where a lane shows a tree: the triangle's number in TreeDraws.
 template <class Visit>
 HWY_INLINE void VisitTrees(const LabelSources& in, const LabelPacket& p, const Visit& visit) {
   if (hn::AllFalse(D(), p.is_tree)) return;
@@ -152,7 +152,7 @@ HWY_INLINE void VisitTrees(const LabelSources& in, const LabelPacket& p, const V
   const PrimitiveRanges& ranges = in.shading.primitives;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
     if (ranges.holds(SurfaceKind::kTrees, primitive[lane]))
-      visit(lane, in.trees.tree_of(primitive[lane] - ranges.begin(SurfaceKind::kTrees)).tree);
+      visit(lane, primitive[lane] - ranges.begin(SurfaceKind::kTrees));
 }
 
 // --- Labels
@@ -171,7 +171,9 @@ HWY_INLINE VU NumberOf(const LabelSources& in, const LabelPacket& p, VU sky, VU 
   VisitObjects(in, p, [&](std::size_t lane, const ObjectPrimitive& shown) {
     lanes[lane] = of_object(shown.object->object);
   });
-  VisitTrees(in, p, [&](std::size_t lane, std::uint32_t tree) { lanes[lane] = of_tree(tree); });
+  VisitTrees(in, p, [&](std::size_t lane, std::uint32_t triangle) {
+    lanes[lane] = of_tree(in.trees.tree_of(triangle).tree);
+  });
   return hn::Load(du, lanes.data());
 }
 
@@ -260,6 +262,17 @@ HWY_INLINE V ElevationOf(const Shading& s, const LabelPacket& p) {
   return IfThenElseZero(p.is_water, height + DropOf(s.rays, p));
 }
 
+// How far the point p_rel of a triangle moves whose corners move so far: an affine function.
+glm::vec3 move_of_tree(const glm::vec3* corner, const glm::vec3* move, glm::vec3 p_rel) {
+  const glm::vec3 a = corner[1] - corner[0], b = corner[2] - corner[0], p = p_rel - corner[0];
+  const glm::vec3 normal = glm::cross(a, b);
+  const float area2 = glm::dot(normal, normal);
+  if (!(area2 > 0.0f)) return move[0];
+  const float by_a = glm::dot(glm::cross(p, b), normal) / area2;
+  const float by_b = glm::dot(glm::cross(a, p), normal) / area2;
+  return move[0] + by_a * (move[1] - move[0]) + by_b * (move[2] - move[0]);
+}
+
 // How far what is seen moves in the world to the next frame.
 HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
   const D d;
@@ -270,12 +283,13 @@ HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
     const V x = p.depth * p.ray.x, y = p.depth * p.ray.y;
     move.z = IfThenElseZero(p.is_sea, MulAdd(rise.z, y, MulAdd(rise.y, x, rise.x)));
   }
-  if (hn::AllFalse(d, p.is_object)) return move;
-  HWY_ALIGN std::array<float, kLanes> depth, ray_x, ray_y, ray_z, x, y, z;
+  if (hn::AllFalse(d, p.is_object | p.is_tree)) return move;
+  HWY_ALIGN std::array<float, kLanes> depth, ray_x, ray_y, ray_z, drop, x, y, z;
   hn::Store(p.depth, d, depth.data());
   hn::Store(p.ray.x, d, ray_x.data());
   hn::Store(p.ray.y, d, ray_y.data());
   hn::Store(p.ray.z, d, ray_z.data());
+  hn::Store(DropOf(in.shading.rays, p), d, drop.data());
   hn::Store(move.x, d, x.data());
   hn::Store(move.y, d, y.data());
   hn::Store(move.z, d, z.data());
@@ -285,6 +299,14 @@ HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
     const glm::vec3 turned = part_move(shown, p_rel, in.tables.step_s);
     const glm::vec3 moved =
         motion.turn * (p_rel + turned - motion.origin_rel) + motion.shift + turned;
+    x[lane] = moved.x, y[lane] = moved.y, z[lane] = moved.z;
+  });
+  VisitTrees(in, p, [&](std::size_t lane, std::uint32_t triangle) {
+    glm::vec3 p_rel = depth[lane] * glm::vec3(ray_x[lane], ray_y[lane], ray_z[lane]);
+    p_rel.z += drop[lane];  // corners are those of a flat earth
+    const std::size_t corner = std::size_t{3} * triangle;
+    const glm::vec3 moved =
+        move_of_tree(&in.trees.p_rel[corner], &in.tables.tree_move[corner], p_rel);
     x[lane] = moved.x, y[lane] = moved.y, z[lane] = moved.z;
   });
   return {hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data())};

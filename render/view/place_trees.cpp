@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/check.h"
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "ocean/sea_state.h"
@@ -33,25 +34,34 @@ constexpr float kLikeLand_px = 32.0f, kUnlikeLand_px = 44.0f, kWood = 0.15f, kWo
 constexpr float kSways_px = 16.0f;  // trees of less height do not sway, of twice that do
 constexpr std::size_t kCellsAtOnce = 8, kTreesAhead = 4;
 
-// What trees of a kind of view are drawn from.
-struct TreeView {
-  const Forest& forest;
-  TreeSight sight;
+// What sways trees at a time.
+struct Sway {
   glm::vec2 wind;   // where it goes to, times how far a tree of height 1 bends
   glm::vec2 turns;  // of two swings, in time
-  const Meshes& meshes;
 };
 
-TreeView tree_view(const World::State& world, const RenderView& view, const Meshes& meshes,
-                   bool shows_all, double t_s) {
-  const ocean::SeaDescription& sea = world.scene.sea;
-  const View& camera = view.camera;
+Sway sway_at(const ocean::SeaDescription& sea, double t_s) {
   const double blows = std::min(sea.wind_speed_mps / 20.0, 1.0);
   const SinCos from = {sin(sea.wind_from_rad), cos(sea.wind_from_rad)};
   const auto turns = [&](double per_s) {
     const double t = t_s * (sea.loop_s > 0.0 ? ocean::looping_frequency(per_s, sea.loop_s) : per_s);
     return static_cast<float>(t - std::floor(t));
   };
+  return {glm::vec2(-from.sin, -from.cos) * static_cast<float>(0.035 * blows),
+          {turns(0.31), turns(0.47)}};
+}
+
+// What trees of a kind of view are drawn from.
+struct TreeView {
+  const Forest& forest;
+  TreeSight sight;
+  Sway sway;
+  const Meshes& meshes;
+};
+
+TreeView tree_view(const World::State& world, const RenderView& view, const Meshes& meshes,
+                   bool shows_all, double t_s) {
+  const View& camera = view.camera;
   return {*world.forest,
           {.planes = frustum_planes(camera),
            .origin_rel = glm::vec3(world.forest->trees.origin - camera.eye_world),
@@ -60,8 +70,7 @@ TreeView tree_view(const World::State& world, const RenderView& view, const Mesh
            .mirror_rel_m = -static_cast<float>(camera.eye_world.z),
            .is_mirrored = view.kind == ViewKind::kReflection,
            .shows_all = shows_all},
-          glm::vec2(-from.sin, -from.cos) * static_cast<float>(0.035 * blows),
-          {turns(0.31), turns(0.47)},
+          sway_at(world.scene.sea, t_s),
           meshes};
 }
 
@@ -90,8 +99,8 @@ void list_cells(const TreeView& view, TreeDraws& draws) {
                     [](const DrawnCell& cell) { return std::pair(cell.distance_m, cell.cell); });
 }
 
-const scene::TreeShape& shape_of(const TreeView& view, const DrawnTree& drawn) {
-  return view.forest.shapes[drawn.species];
+const scene::TreeShape& shape_of(const Forest& forest, const DrawnTree& drawn) {
+  return forest.shapes[drawn.species];
 }
 
 // Trees of one species differ in colour.
@@ -106,7 +115,7 @@ glm::vec3 leaves_of(const DrawnTree& drawn) {
 
 // What a tree's pixels need, once its sizes are set.
 void prepare_shading(const TreeView& view, DrawnTree& drawn) {
-  drawn.crown_begin_m = shape_of(view, drawn).crown_begin * drawn.height_m;
+  drawn.crown_begin_m = shape_of(view.forest, drawn).crown_begin * drawn.height_m;
   drawn.inverse_crown_m = 1.0f / (drawn.height_m - drawn.crown_begin_m);
   drawn.inverse_radius_m = 1.0f / drawn.radius_m;
   drawn.leaves_albedo = leaves_of(drawn);
@@ -123,6 +132,10 @@ float leaves_in(const scene::TreeShape& shape, float box_px2, float height_px) {
   const float leaf_px2 = kLeaf_px2 + tall * (kTallLeaf_px2 - kLeaf_px2);
   return std::clamp(box_px2 / (shape.is_blades ? kBlade_px2 : leaf_px2), least,
                     static_cast<float>(shape.leaves.size()));
+}
+
+std::uint32_t crown_triangles(const DrawnTree& drawn) {
+  return static_cast<std::uint32_t>(std::ceil(drawn.leaves));
 }
 
 // How a tree that is drawn is.
@@ -150,7 +163,7 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
   const float less = height_px / thinned_px;
   const float broader =
       less < 1.0f ? std::min(1.0f / (less * std::sqrt(std::sqrt(less))), kBroadest) : 1.0f;
-  const scene::TreeShape& shape = shape_of(view, drawn);
+  const scene::TreeShape& shape = shape_of(view.forest, drawn);
   drawn.height_m = full_height_m * grown;
   drawn.radius_m = full_radius_m * grown * broader;
   const float box_px2 = 2.0f * full_radius_m * full_height_m * px_per_m * px_per_m;
@@ -160,7 +173,7 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
                     height_px < kLikeLand_px + trees.rank[number] * (kUnlikeLand_px - kLikeLand_px);
   drawn.sways = smoothstep(kSways_px, 2.0f * kSways_px, height_px);
   drawn.leaf_size = scene::leaf_size(shape, drawn.leaves);
-  drawn.triangles = static_cast<std::uint32_t>(std::ceil(drawn.leaves));
+  drawn.triangles = crown_triangles(drawn);
   const float trunk_m = shape.trunk * drawn.height_m;
   // From half a pixel's width on; among others not until it is four times as wide.
   const float seen =
@@ -202,7 +215,7 @@ struct TreePose {
   float crown_m, leaf_height_m;
 };
 
-TreePose pose_of(const TreeView& view, const DrawnTree& drawn) {
+TreePose pose_of(const Sway& at, const DrawnTree& drawn) {
   TreePose pose;
   pose.crown_m = drawn.height_m - drawn.crown_begin_m;
   const glm::vec3 from_eye = drawn.foot_rel + glm::vec3(0.0f, 0.0f, 0.5f * drawn.height_m);
@@ -218,13 +231,13 @@ TreePose pose_of(const TreeView& view, const DrawnTree& drawn) {
   pose.leaf_height_m = std::sqrt(tall * tall + flat * flat);
   if (drawn.sways == 0.0f) return pose;
   const float phase = static_cast<float>(drawn.looks & 0xffff) * (1.0f / 65536.0f);
-  const SinCos slow = sin_cos_turns(static_cast<double>(view.turns.x + phase));
-  const SinCos quick = sin_cos_turns(static_cast<double>(view.turns.y + 7.0f * phase));
+  const SinCos slow = sin_cos_turns(static_cast<double>(at.turns.x + phase));
+  const SinCos quick = sin_cos_turns(static_cast<double>(at.turns.y + 7.0f * phase));
   const float bends = 0.6f + 0.4f * static_cast<float>(0.6 * slow.sin + 0.4 * quick.sin);
   const float far_m = drawn.sways * drawn.height_m;
-  pose.sway = view.wind * (far_m * bends);
+  pose.sway = at.wind * (far_m * bends);
   pose.flutter =
-      glm::vec2(quick.cos, quick.sin) * (0.25f * far_m * std::sqrt(glm::dot(view.wind, view.wind)));
+      glm::vec2(quick.cos, quick.sin) * (0.25f * far_m * std::sqrt(glm::dot(at.wind, at.wind)));
   return pose;
 }
 
@@ -246,8 +259,8 @@ void write_crown(const scene::TreeShape& shape, const DrawnTree& drawn, const Tr
                  glm::vec3* p) {
   const float size = drawn.leaf_size;
   const ShapeSide side = side_of(drawn);
-  const auto count = static_cast<std::size_t>(std::ceil(drawn.leaves));
-  for (std::size_t n = 0; n < count; ++n) {
+  const std::uint32_t count = crown_triangles(drawn);
+  for (std::uint32_t n = 0; n < count; ++n) {
     const scene::TreeLeaf& leaf = shape.leaves[n];
     const float grown = std::sqrt(std::min(drawn.leaves - static_cast<float>(n), 1.0f));
     const glm::vec3 at = scene::leaf_middle(shape, leaf, size);
@@ -278,15 +291,18 @@ void write_trunk(const DrawnTree& drawn, const TreePose& pose, glm::vec3* p) {
   std::ranges::copy(corners, p);
 }
 
+void write_corners(const Forest& forest, const Sway& at, const DrawnTree& drawn, glm::vec3* p) {
+  const TreePose pose = pose_of(at, drawn);
+  write_crown(shape_of(forest, drawn), drawn, pose, p);
+  const std::uint32_t crown = crown_triangles(drawn);
+  if (drawn.triangles > crown) write_trunk(drawn, pose, p + std::size_t{3} * crown);
+}
+
 // `at`: of the tree in draws.trees.
 void write_tree(const TreeView& view, std::uint32_t at, std::size_t first, TreeDraws& draws) {
   const DrawnTree& drawn = draws.trees[at];
-  const scene::TreeShape& shape = shape_of(view, drawn);
-  const TreePose pose = pose_of(view, drawn);
-  glm::vec3* const p = draws.p_rel.data() + 3 * first;
-  write_crown(shape, drawn, pose, p);
-  const auto crown = static_cast<std::uint32_t>(std::ceil(drawn.leaves));
-  if (drawn.triangles > crown) write_trunk(drawn, pose, p + std::size_t{3} * crown);
+  write_corners(view.forest, view.sway, drawn, draws.p_rel.data() + 3 * first);
+  const std::uint32_t crown = crown_triangles(drawn);
   for (std::uint32_t n = 0; n < drawn.triangles; ++n)
     draws.primitives[first + n] = {at, n < crown ? n : kTrunkLeaf};
   std::fill_n(draws.like_land.begin() + static_cast<std::ptrdiff_t>(first), drawn.triangles,
@@ -325,6 +341,16 @@ void size_draws(TreeDraws& draws) {
     draws.indices[i] = static_cast<std::uint32_t>(i);
 }
 
+// Calls body(cell) for each of the cells, some of them a task.
+template <class Cells, class Body>
+void for_cells(Cells& cells, const StageRun& run, const Body& body) {
+  run.for_each((cells.size() + kCellsAtOnce - 1) / kCellsAtOnce, [&](std::size_t chunk, int) {
+    const std::size_t begin = chunk * kCellsAtOnce;
+    const std::size_t end = std::min(cells.size(), begin + kCellsAtOnce);
+    for (std::size_t i = begin; i < end; ++i) body(cells[i]);
+  });
+}
+
 void place_in_views(const World::State& world, double t_s, Meshes& meshes, FrameViews views,
                     const StageRun& run) {
   // Through the surface an eye under water sees them far from where they are.
@@ -335,18 +361,10 @@ void place_in_views(const World::State& world, double t_s, Meshes& meshes, Frame
   draws.trees.resize(view.forest.trees.trees.size());
   draws.chosen.resize(view.forest.trees.trees.size());
   list_cells(view, draws);
-  const auto for_cells = [&](auto&& body) {
-    run.for_each((draws.cells.size() + kCellsAtOnce - 1) / kCellsAtOnce,
-                 [&](std::size_t chunk, int) {
-                   const std::size_t begin = chunk * kCellsAtOnce;
-                   const std::size_t end = std::min(draws.cells.size(), begin + kCellsAtOnce);
-                   for (std::size_t i = begin; i < end; ++i) body(draws.cells[i]);
-                 });
-  };
-  for_cells([&](DrawnCell& cell) { choose_trees(view, cell, draws); });
+  for_cells(draws.cells, run, [&](DrawnCell& cell) { choose_trees(view, cell, draws); });
   size_draws(draws);
   resize_vertices(SurfaceKind::kTrees, draws.p_rel.size(), views);
-  for_cells([&](const DrawnCell& cell) {
+  for_cells(draws.cells, run, [&](const DrawnCell& cell) {
     write_cell(view, cell, draws);
     const std::size_t begin = std::size_t{3} * cell.first_triangle;
     map_vertices(meshes, SurfaceKind::kTrees, begin, begin + std::size_t{3} * cell.triangles,
@@ -389,6 +407,24 @@ void place_trees(const World::State& world, double t_s, const FrameOptions& opti
       resize_vertices(SurfaceKind::kTrees, 0, its);
     }
   }
+}
+
+void find_tree_moves(const World::State& world, const TreeDraws& draws, double next_s,
+                     std::span<glm::vec3> move, const StageRun& run) {
+  SWELL_CHECK(move.size() == draws.p_rel.size(), "{} moves of {} vertices", move.size(),
+              draws.p_rel.size());
+  const Forest& forest = *world.forest;
+  const Sway next = sway_at(world.scene.sea, next_s);
+  for_cells(draws.cells, run, [&](const DrawnCell& cell) {
+    const std::uint32_t first = forest.trees.cells[cell.cell].first;
+    std::size_t at = std::size_t{3} * cell.first_triangle;
+    for (std::uint32_t i = first; i < first + cell.trees; ++i) {
+      const DrawnTree& drawn = draws.trees[i];
+      write_corners(forest, next, drawn, move.data() + at);
+      for (const std::size_t end = at + std::size_t{3} * drawn.triangles; at < end; ++at)
+        move[at] -= draws.p_rel[at];
+    }
+  });
 }
 
 }  // namespace swell::render

@@ -140,6 +140,11 @@ void place_objects(const World::State& world, const SeaMaps& sea,
 void place_trees(const World::State& world, double t_s, const FrameOptions& options, Meshes& meshes,
                  FrameViews views, const StageRun& run);
 
+// Sets how far each vertex of `draws`, as place_trees() left it, is from where the same tree has it
+// at next_s. Trees that do not sway move by exactly 0.
+void find_tree_moves(const World::State& world, const TreeDraws& draws, double next_s,
+                     std::span<glm::vec3> move, const StageRun& run);
+
 // Numbers the triangles of what the view shows, clips, sets up and bins them; with edge_samples
 // (0, 4 or 8) also for samples.
 void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples, RenderView& view,

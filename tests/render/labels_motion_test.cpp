@@ -178,6 +178,54 @@ TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
   EXPECT_GE(others, scene.objects.empty() && !scene.terrain ? 0 : 100);
 }
 
+// The trees of this frame and of the next, both as they are drawn: a point of a triangle goes to
+// the same point of the triangle.
+TEST(LabelMotion, TreesMoveAsTheySway) {
+  const World world = world_of(scene::parse_scene(R"(
+    [wind]
+    speed_mps = 18.0
+    from_deg = 300.0
+    [sky]
+    model = "gradient"
+    [terrain]
+    island_radius_m = 130.0
+    island_height_m = 30.0
+    [[trees]]
+    density_per_m2 = 0.02
+    height_m = [6.0, 14.0]
+)",
+                                                  "windy_trees.toml"));
+  const View view = view_at({0.0, -120.0, 9.0}, 0.1, 0.05, 0.0);
+  constexpr double kSwing_s = 1.0;
+  const LabelledFrame frame(world, view, kTime_s, {.next_frame_s = kSwing_s});
+  const LabelledFrame later(world, view, kTime_s + kSwing_s);
+  const auto trees_of = [](const LabelledFrame& f) -> const TreeDraws& {
+    return f.state().meshes.trees.drawn_in(ViewKind::kWindow);
+  };
+  const std::vector<glm::vec3>&now = trees_of(frame).p_rel, &next = trees_of(later).p_rel;
+  ASSERT_EQ(now.size(), next.size());
+  const PrimitiveRanges& ranges = frame.state().window.primitives;
+  int trees = 0;
+  double fastest = 0.0;
+  frame.for_pixels(1, [&](glm::ivec2 p) {
+    if (!ranges.holds(SurfaceKind::kTrees, frame.primitive(p))) return;
+    const std::size_t first = 3u * (frame.primitive(p) - ranges.begin(SurfaceKind::kTrees));
+    const glm::dvec3 ray = position_of(view, p.x, p.y, 1.0f) - view.eye_world;
+    const auto crossing = cross_triangle(make_ray(glm::dvec3(0.0), ray),
+                                         {now[first], now[first + 1], now[first + 2]});
+    if (!crossing) return;  // beside an edge, to rounding
+    glm::dvec3 place = view.eye_world;
+    for (int k = 0; k < 3; ++k)
+      place += crossing->weight[k] * glm::dvec3(next[first + static_cast<std::size_t>(k)]);
+    const glm::dvec2 expected = motion_to_point(view, p, place);
+    ASSERT_LT(glm::distance(motion(frame, p), expected), 2e-3) << p.x << " " << p.y;
+    ++trees;
+    fastest = std::max(fastest, glm::length(expected));
+  });
+  EXPECT_GT(trees, 3000);
+  EXPECT_GT(fastest, 0.5);
+}
+
 // Where triangles are small against the waves, pixels move as the columns of the water that is
 // asked: what the triangles cut off of its rise bounds the difference.
 TEST(LabelMotion, WaterMovesAsItsColumnsDo) {
