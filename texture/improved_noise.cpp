@@ -22,7 +22,6 @@ constexpr std::array<std::uint8_t, 256> kPerlinPermutation = {
     141, 128, 195, 78,  66,  215, 61,  156, 180};
 
 double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
-double between(double a, double b, double weight) { return a + weight * (b - a); }
 
 // Dot product of (x, y, z) with one of the twelve directions to the middles of a cube's edges
 // (four of them twice).
@@ -51,11 +50,9 @@ double ImprovedNoise::noise3(double x, double y, double z, int period) const {
         p_[p_[p_[(px.cell + di) & wrap] + ((py.cell + dj) & wrap)] + ((pz.cell + dk) & wrap)];
     return gradient_dot(hash, px.fraction - di, py.fraction - dj, pz.fraction - dk);
   };
-  const auto edge = [&](int dj, int dk) {
-    return between(corner(0, dj, dk), corner(1, dj, dk), u);
-  };
-  const auto face = [&](int dk) { return between(edge(0, dk), edge(1, dk), v); };
-  return between(face(0), face(1), w);
+  const auto edge = [&](int dj, int dk) { return mix(corner(0, dj, dk), corner(1, dj, dk), u); };
+  const auto face = [&](int dk) { return mix(edge(0, dk), edge(1, dk), v); };
+  return mix(face(0), face(1), w);
 }
 
 }  // namespace swell::texture

@@ -33,6 +33,9 @@ inline LatticePosition lattice_position(double x, int period) {
   return {static_cast<int>(cell & (period - 1)), fraction + 0.0};  // of -0.0 it is 0.0
 }
 
+// a + weight (b - a)
+inline double mix(double a, double b, double weight) { return a + weight * (b - a); }
+
 // A permutation of 0 .. 255 by the seed (Fisher and Yates), written twice.
 inline std::array<std::uint8_t, 512> make_permutation(std::uint64_t seed) {
   std::array<std::uint8_t, 512> p;

@@ -14,8 +14,6 @@ namespace {
 constexpr int kPeriod = 256;
 constexpr std::uint64_t kValueStream = 0x76616c7565;  // apart from the permutation's numbers
 
-double mix(double a, double b, double weight) { return a + weight * (b - a); }
-
 // interpolation_weight(), without a call for the usual one.
 double weight_at(Interpolation interpolation, double t) {
   return interpolation == Interpolation::kCubic ? smooth_blend(t)

@@ -62,22 +62,22 @@ class AbandonOnSignals {
   std::array<struct sigaction, kEndingSignals.size()> before_{};
 };
 
-[[noreturn]] void refuse(const fs::path& path, std::string_view what) {
+}  // namespace
+
+void refuse_output(const fs::path& path, std::string_view what) {
   throw texture::FileError(fmt::format("{}: {}", path.string(), what));
 }
-
-}  // namespace
 
 void check_output_place(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code error;
   if (!fs::is_directory(folder, error))
-    refuse(path, "got a folder that is not there, allowed one that is");
+    refuse_output(path, "got a folder that is not there, allowed one that is");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    refuse(path, "got a folder that cannot be written to, allowed one that can");
+    refuse_output(path, "got a folder that cannot be written to, allowed one that can");
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::none) refuse(path, error.message());
-  if (fs::is_directory(status)) refuse(path, "got a directory, allowed a file's name");
+  if (status.type() == fs::file_type::none) refuse_output(path, error.message());
+  if (fs::is_directory(status)) refuse_output(path, "got a directory, allowed a file's name");
   texture::remove_abandoned_files(folder);
 }
 

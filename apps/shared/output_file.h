@@ -5,10 +5,14 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "texture/output_folder.h"
 
 namespace swell::apps {
+
+// Throws texture::FileError with the path and what is wrong with it.
+[[noreturn]] void refuse_output(const std::filesystem::path& path, std::string_view what);
 
 // Throws texture::FileError if no file can be written to `path`: directory missing or
 // not writable, path is a directory or too long. Removes what killed runs left in the directory.

@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse_picture(const fs::path& path, std::string_view what) {
-  throw texture::FileError(fmt::format("{}: {}", path.string(), what));
-}
-
 }  // namespace
 
 FrameFilePattern parse_file_pattern(const fs::path& path) {
@@ -50,8 +46,8 @@ void check_picture_file(const fs::path& path) {
   constexpr std::array kExtensions = {".png", ".exr", ".tif", ".tiff"};
   const std::string extension = lower_extension(path);
   if (std::ranges::find(kExtensions, extension) == kExtensions.end())
-    refuse_picture(
-        path, fmt::format("picture format, got '{}', allowed .png .exr .tif .tiff", extension));
+    refuse_output(path,
+                  fmt::format("picture format, got '{}', allowed .png .exr .tif .tiff", extension));
   check_output_place(path);
 }
 
