@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/view/surface_points.h"
+
 namespace swell::render {
 namespace {
 
@@ -27,11 +29,6 @@ glm::vec3 seen_normal(const std::array<glm::vec3, 3>& p_rel) {
   return n * ((glm::dot(n, p_rel[0]) > 0.0f ? -1.0f : 1.0f) / length);
 }
 
-// The drawn place of a vertex relative to the eye.
-glm::vec3 place_of(const Surface& surface, float level_rel_m, std::uint32_t vertex) {
-  return {surface.offset[vertex], surface.height_m[vertex] + level_rel_m};
-}
-
 template <class Place>
 void fill_normals(std::span<const std::uint32_t> indices, std::span<glm::vec3> normal,
                   const StageRun& run, const Place& place) {
@@ -44,7 +41,6 @@ void fill_normals(std::span<const std::uint32_t> indices, std::span<glm::vec3> n
 
 void fill_normals(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
   const PrimitiveRanges& primitives = in.window.primitives;
-  const auto level_rel_m = -static_cast<float>(in.window.camera.eye_world.z);
   tables.normal.resize(primitives.count());
   for (const SurfaceKind kind : kAllSurfaces) {
     const auto normal =
@@ -55,20 +51,9 @@ void fill_normals(const LabelInputs& in, LabelTables& tables, const StageRun& ru
       std::ranges::fill(normal, glm::vec3(0.0f));
       continue;
     }
-    if (kind == SurfaceKind::kTrees) {
-      const TreeDraws& trees = in.meshes.trees.drawn_in(ViewKind::kWindow);
-      fill_normals(indices, normal, run, [&](std::uint32_t i) { return trees.p_rel[i]; });
-    } else if (kind == SurfaceKind::kObjects) {
-      fill_normals(indices, normal, run,
-                   [&](std::uint32_t i) { return in.meshes.objects.in_window().p_rel[i]; });
-    } else if (kind == SurfaceKind::kRivers) {
-      fill_normals(indices, normal, run,
-                   [&](std::uint32_t i) { return in.meshes.rivers.p_rel[i]; });
-    } else {
-      const Surface& surface = kind == SurfaceKind::kWater ? in.meshes.water : in.meshes.land;
-      fill_normals(indices, normal, run,
-                   [&](std::uint32_t i) { return place_of(surface, level_rel_m, i); });
-    }
+    visit_points(in.meshes, kind, in.window, [&](const auto& point) {
+      fill_normals(indices, normal, run, [&](std::uint32_t i) { return point(i).p_rel; });
+    });
   }
 }
 

@@ -6,6 +6,7 @@
 #include "math/check.h"
 #include "render/materials/list.h"
 #include "render/view/refracted_image.h"
+#include "render/view/surface_points.h"
 
 namespace swell::render {
 
@@ -52,18 +53,6 @@ float distance_to(const glm::vec4& plane, glm::vec3 p) {
   return plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w;
 }
 
-// A vertex of a height field in a view of the water at level_m; the mean level is mean_rel_m over
-// the eye.
-WorldPoint point_of(const Surface& surface, std::size_t i, float mean_rel_m, float level_m) {
-  const float height_m = surface.height_m[i];
-  return {{surface.offset[i], height_m + mean_rel_m}, height_m - level_m, mean_rel_m + level_m};
-}
-
-WorldPoint point_of(const ObjectDraws& objects, std::size_t i) {
-  const glm::vec3 p = objects.p_rel[i];
-  return {p, p.z - objects.waterline_rel_m[i], objects.waterline_rel_m[i]};
-}
-
 // Maps vertices [begin, end) of a surface, whose points are point(i).
 template <ViewKind kView, class Point>
 void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, RenderView& view,
@@ -103,35 +92,6 @@ void map_range(SurfaceKind surface, std::size_t begin, std::size_t end, RenderVi
   }
 }
 
-void map_range(const Meshes& meshes, SurfaceKind surface, std::size_t begin, std::size_t end,
-               RenderView& view) {
-  const auto mean_rel_m = -static_cast<float>(view.camera.eye_world.z);
-  const float level_m = view.level_m;
-  switch (surface) {
-    case SurfaceKind::kWater:
-      return map_range(surface, begin, end, view, [&](std::size_t i) {
-        return point_of(meshes.water, i, mean_rel_m, level_m);
-      });
-    case SurfaceKind::kTerrain:
-      return map_range(surface, begin, end, view, [&](std::size_t i) {
-        return point_of(meshes.land, i, mean_rel_m, level_m);
-      });
-    case SurfaceKind::kObjects:
-      return map_range(surface, begin, end, view, [&](std::size_t i) {
-        return point_of(meshes.objects.drawn_in(view.kind), i);
-      });
-    case SurfaceKind::kRivers:
-      return map_range(surface, begin, end, view, [&](std::size_t i) {
-        return WorldPoint{meshes.rivers.p_rel[i], 0.0f, meshes.rivers.p_rel[i].z};
-      });
-    case SurfaceKind::kTrees:
-      return map_range(surface, begin, end, view, [&](std::size_t i) {
-        const glm::vec3 p = meshes.trees.drawn_in(view.kind).p_rel[i];
-        return WorldPoint{p, p.z - (mean_rel_m + level_m), mean_rel_m + level_m};
-      });
-  }
-}
-
 }  // namespace
 
 void resize_vertices(SurfaceKind surface, std::size_t count, FrameViews views) {
@@ -146,8 +106,11 @@ void resize_vertices(SurfaceKind surface, std::size_t count, FrameViews views) {
 
 void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, std::size_t end,
                   FrameViews views) {
-  for (RenderView* view : views)
-    if (shows(view->kind, surface)) map_range(meshes, surface, begin, end, *view);
+  for (RenderView* view : views) {
+    if (!shows(view->kind, surface)) continue;
+    visit_points(meshes, surface, *view,
+                 [&](const auto& point) { map_range(surface, begin, end, *view, point); });
+  }
 }
 
 void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples, RenderView& view,
