@@ -104,80 +104,224 @@ void prepare_scratch(int threads, Workspace::State& ws) {
     ws.scratch.push_back(std::make_unique<ThreadScratch>());
 }
 
-// The cameras of the window and of what its water looks into, from the air and from below.
-std::array<RenderView*, 5> prepare_views(const World::State& world, const View& view,
-                                         const FrameOptions& options, Workspace::State& ws) {
-  ws.window.camera = view;
-  for (PlanarMaps* const images : {&ws.planar_maps, &ws.wet_planar_maps}) {
-    RenderView &reflection = images->reflection.view, &refraction = images->refraction.view;
-    reflection.kind = ViewKind::kReflection;
-    refraction.kind = ViewKind::kRefraction;
-    refraction.refraction_index = static_cast<float>(world.scene.water.refraction_index);
-    refraction.paper_refraction = world.scene.water.refraction == scene::RefractionModel::kPaper;
-    reflection.camera = refraction.camera = planar_camera(view, options.lookup_scale);
+// What every stage of a frame reads, and where they write.
+struct FrameInputs {
+  const World::State& world;
+  const View& view;  // as it is drawn
+  double t_s;
+  const FrameOptions& options;  // with the scene's defaults
+  Workspace::State& ws;
+  Workers& workers;
+
+  bool has(Part part) const { return !options.without.has(part); }
+
+  // Runs work(run) as a whole stage: a row of the profile, of the bench and of the trace.
+  template <class Work>
+  void stage(Stage name, const Work& work) const {
+    const StageScope scope(ws.profile, name);
+    work(StageRun{workers, ws.profile, name});
   }
-  const std::array views = {&ws.window, &ws.planar_maps.reflection.view,
-                            &ws.planar_maps.refraction.view, &ws.wet_planar_maps.reflection.view,
-                            &ws.wet_planar_maps.refraction.view};
-  RenderView& mirror = ws.river_mirror.view;
-  mirror.kind = ViewKind::kReflection;
-  mirror.camera = planar_camera(view, options.lookup_scale);
-  mirror.drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
-  mirror.clip_plane = options.clip_plane;
-  mirror.clip_margin_m = 0.05f;
-  for (RenderView* const shown : views) {
-    shown->drop_per_m2 = drop_per_m2(world.earth_radius_m(options.without));
-    shown->clip_plane = options.clip_plane;
-    shown->land = world.land_rays.get();
-    shown->land_has_apron = !options.without.has(Part::kApron);
-    shown->clip_margin_m = clip_margin_m(world.water_bounds().height_m);
+};
+
+// Views of a frame, which stages go through one by one.
+class ViewList {
+ public:
+  void add(RenderView& view) { views_[count_++] = &view; }
+  void add(FrameViews views) {
+    for (RenderView* const view : views) add(*view);
   }
+  FrameViews all() const { return std::span(views_).first(count_); }
+
+ private:
+  std::array<RenderView*, 6> views_{};  // the window, two images a side of the water, a mirror
+  std::size_t count_ = 0;
+};
+
+// The images that water on one side looks into.
+ViewList views_of(PlanarMaps& maps) {
+  ViewList views;
+  views.add(maps.reflection.view);
+  views.add(maps.refraction.view);
   return views;
+}
+
+// The cameras of the window and of what its water looks into, from the air and from below.
+void prepare_views(const FrameInputs& in) {
+  Workspace::State& ws = in.ws;
+  const auto prepare = [&](RenderView& view, ViewKind kind, const View& camera, float margin_m) {
+    view.kind = kind;
+    view.camera = camera;
+    view.drop_per_m2 = drop_per_m2(in.world.earth_radius_m(in.options.without));
+    view.clip_plane = in.options.clip_plane;
+    view.clip_margin_m = margin_m;
+  };
+  const View image = planar_camera(in.view, in.options.lookup_scale);
+  const float margin_m = clip_margin_m(in.world.water_bounds().height_m);
+  prepare(ws.window, ViewKind::kWindow, in.view, margin_m);
+  prepare(ws.river_mirror.view, ViewKind::kReflection, image, 0.05f);
+  ViewList with_land;
+  with_land.add(ws.window);
+  for (PlanarMaps* const maps : {&ws.planar_maps, &ws.wet_planar_maps}) {
+    RenderView& refraction = maps->refraction.view;
+    prepare(maps->reflection.view, ViewKind::kReflection, image, margin_m);
+    prepare(refraction, ViewKind::kRefraction, image, margin_m);
+    refraction.refraction_index = static_cast<float>(in.world.scene.water.refraction_index);
+    refraction.paper_refraction = in.world.scene.water.refraction == scene::RefractionModel::kPaper;
+    with_land.add(views_of(*maps).all());
+  }
+  for (RenderView* const view : with_land.all()) {
+    view->land = in.world.land_rays.get();
+    view->land_has_apron = in.has(Part::kApron);
+  }
+}
+
+// The air over the eye, before there is a sea.
+struct Air {
+  double sky_m;             // the eye's height, as the sky counts it
+  Clouds clouds, mirrored;  // as the eye sees them, and as the sea's level does
+  Fog fog;
+};
+
+Air find_air(const FrameInputs& in) {
+  const glm::dvec3 eye = in.view.eye_world;
+  const PartSet without = in.options.without;
+  const double sky_m = sky_height_m(in.view, without);
+  return {sky_m, make_clouds(in.world, in.t_s, {eye.x, eye.y, sky_m}, without),
+          make_clouds(in.world, in.t_s, {eye.x, eye.y, 0.0}, without),
+          make_fog(in.world, in.t_s, eye, without)};
+}
+
+Light find_light(const FrameInputs& in, const Air& air) {
+  Light light = make_light(in.world, air.clouds, in.ws.sky, air.fog);
+  light.stars = make_stars(in.world, in.t_s, in.options.without);
+  return light;
+}
+
+// Stage 1: the sea, the clouds and the sky at the frame's time.
+void advance(const FrameInputs& in, const Air& air, const StageRun& run) {
+  const PartSet without = in.options.without;
+  const glm::dvec2 eye(in.view.eye_world);
+  advance_sea(in.world, in.t_s, in.options.disturbances, without, in.ws.sea, run);
+  advance_clouds(in.world, air.mirrored, in.t_s, eye, without, in.ws.sky, run);
+  advance_sky(in.world, air.mirrored, air.fog, air.sky_m, without, in.ws.sky, run);
 }
 
 void set_eye(const EyeInWater& eye, FrameViews views) {
   for (RenderView* const view : views) view->eye = eye;
 }
 
-// Stage 3: the places of all vertices in the frame's views. Where the waterline crosses the
-// picture, the first three are of an eye in air and two more of one in water. Without water there
-// is the window alone.
-void place_vertices(const World::State& world, const View& view, double t_s,
-                    const FrameOptions& options, FrameViews all_views, Workspace::State& ws,
-                    const StageRun& run) {
-  EyeInWater eye = find_eye_in_water(world, ws.sea, view, options);
-  FrameViews views = all_views.first(options.without.has(Part::kWater) ? 1 : 3);
-  set_eye(eye, views);
-  displace(world, ws.sea, view, options, ws.meshes, views, run);
+// Displaces water and land into the views, and finds where the waterline crosses the picture.
+// Returns the views that are shown: then images of both sides. Without water the window alone.
+ViewList place_water(const FrameInputs& in, const StageRun& run) {
+  Workspace::State& ws = in.ws;
+  EyeInWater eye = find_eye_in_water(in.world, ws.sea, in.view, in.options);
+  const ViewList images = in.has(Part::kWater) ? views_of(ws.planar_maps) : ViewList{};
+  ViewList views;
+  views.add(ws.window);
+  views.add(images.all());
+  set_eye(eye, views.all());
+  displace(in.world, ws.sea, in.view, in.options, ws.meshes, views.all(), run);
   ws.crossing.picture = Begins::kInAir;
-  if (!options.without.has(Part::kUnderwater))
-    find_crossing(ws.meshes.water, view, eye, world.water_bounds(options.disturbances).height_m,
-                  ws.crossing);
+  if (in.has(Part::kUnderwater))
+    find_crossing(ws.meshes.water, in.view, eye,
+                  in.world.water_bounds(in.options.disturbances).height_m, ws.crossing);
   if (eye.submerged != (ws.crossing.picture == Begins::kInWater)) {
     eye.submerged = !eye.submerged;
-    set_eye(eye, views);
-    map_land(ws.meshes, views.subspan(1), run);
+    set_eye(eye, views.all());
+    map_land(ws.meshes, images.all(), run);
   }
   if (ws.crossing.picture == Begins::kInBoth) {
-    views = all_views;
-    set_eye({true, eye.to_surface_m}, views.subspan(3));
-    map_land(ws.meshes, views.subspan(3), run);
+    const ViewList wet = views_of(ws.wet_planar_maps);
+    set_eye({true, eye.to_surface_m}, wet.all());
+    map_land(ws.meshes, wet.all(), run);
+    views.add(wet.all());
   }
-  std::array<RenderView*, 6> shown{};
-  std::size_t count = 0;
-  for (RenderView* const one : views) shown[count++] = one;
-  if (ws.meshes.rivers.mirror_level_m && !eye.submerged) {
-    RenderView& mirror = ws.river_mirror.view;
-    mirror.level_m = *ws.meshes.rivers.mirror_level_m;
-    mirror.eye = {false, std::max(static_cast<float>(view.eye_world.z) - mirror.level_m, 0.05f)};
-    map_land(ws.meshes, {&(shown[count++] = &mirror), 1}, run);
-  }
-  ws.meshes.objects.draws_implicits = !options.without.has(Part::kImplicits);
-  const FrameViews all = FrameViews(shown).first(count);
-  place_objects(world, ws.sea, options.poses, ws.meshes, all, run);
+  return views;
+}
+
+// Adds the mirror of the nearest inland water, if it is seen from the air.
+void place_river_mirror(const FrameInputs& in, ViewList& views, const StageRun& run) {
+  Workspace::State& ws = in.ws;
+  if (!ws.meshes.rivers.mirror_level_m || ws.window.eye.submerged) return;
+  RenderView& mirror = ws.river_mirror.view;
+  mirror.level_m = *ws.meshes.rivers.mirror_level_m;
+  const float above_m = static_cast<float>(in.view.eye_world.z) - mirror.level_m;
+  mirror.eye = {false, std::max(above_m, 0.05f)};
+  ViewList one;
+  one.add(mirror);
+  map_land(ws.meshes, one.all(), run);
+  views.add(mirror);
+}
+
+// Stage 3: the places of all vertices in the frame's views.
+void place_vertices(const FrameInputs& in, const StageRun& run) {
+  Workspace::State& ws = in.ws;
+  ViewList views = place_water(in, run);
+  place_river_mirror(in, views, run);
+  ws.meshes.objects.draws_implicits = in.has(Part::kImplicits);
+  place_objects(in.world, ws.sea, in.options.poses, ws.meshes, views.all(), run);
   const double before_us = run.profile.now_us();
-  place_trees(world, t_s, options, ws.meshes, all, {run.workers, run.profile, Stage::kTrees});
+  place_trees(in.world, in.t_s, in.options, ws.meshes, views.all(),
+              {run.workers, run.profile, Stage::kTrees});
   run.profile.move(run.stage, Stage::kTrees, 1e-3 * (run.profile.now_us() - before_us));
+}
+
+void find_shadows(const FrameInputs& in, const Light& light, const StageRun& run) {
+  const ShadowOptions shadows{light.sun_direction, in.options.without, in.options.disturbances};
+  find_shadow_casters(in.world, shadows, in.view, in.ws.meshes.objects, run);
+  find_self_shadows(in.world, shadows, in.view, in.ws.meshes.objects, run);
+}
+
+// Stage 5 on one side of the water: the images that it looks into, and what shading needs.
+void draw_side(const FrameInputs& in, const Light& light, const Media& media,
+               const EyeInWater& side, PlanarMaps& maps, Shading& shading, const StageRun& run) {
+  Workspace::State& ws = in.ws;
+  MaterialInputs inputs{in.world,          in.t_s, ws.sea, ws.meshes.objects, light, media,
+                        in.options.without};
+  inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
+  inputs.trees = &ws.meshes.trees;
+  ws.window.eye = side;
+  draw_planar_maps(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, maps, run);
+  if (ws.meshes.rivers.mirror_level_m && !side.submerged)
+    draw_river_mirror(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirror,
+                      run);
+  fill_shading(inputs, ws.window, in.options.tile_size_px, shading);
+}
+
+// Stage 5: images of both sides if the waterline crosses the picture, the eye's own last.
+void draw_images(const FrameInputs& in, const Light& light, const Air& air, const StageRun& run) {
+  Workspace::State& ws = in.ws;
+  const Media in_air = make_media(in.world, light, air.fog, air.sky_m, in.options.without);
+  const Media in_water = submerge(in_air, in.view.eye_world.z);
+  const EyeInWater eye = ws.window.eye;
+  if (ws.crossing.picture == Begins::kInBoth)
+    draw_side(in, light, in_water, {true, eye.to_surface_m}, ws.wet_planar_maps, ws.wet_shading,
+              run);
+  draw_side(in, light, eye.submerged ? in_water : in_air, eye, ws.planar_maps, ws.shading, run);
+}
+
+// Volumetric clouds in the window, which is drawn `scale` times as large as asked for.
+void draw_window_clouds(const FrameInputs& in, float scale, const StageRun& run) {
+  const VolumeClouds clouds = make_volume_clouds(
+      in.world, in.t_s, in.view.eye_world, make_rays(in.view).pixel_angle, in.options.without);
+  draw_clouds(in.ws.shading, clouds, scale, in.ws.clouds, run);
+  in.ws.shading.clouds = &in.ws.clouds;
+}
+
+// Stage 6: the picture, and the labels that are asked for.
+void shade(const FrameInputs& in, Target& target, const StageRun& run) {
+  Workspace::State& ws = in.ws;
+  const bool has_labels = !in.options.labels.empty();
+  if (has_labels)
+    fill_label_tables({in.world, ws.meshes, ws.window, in.options, in.t_s}, ws.labels, run);
+  const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_planar_maps.of_tile,
+                    in.has(Part::kMeniscus)};
+  const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects.in_window(),
+                            ws.meshes.trees.drawn_in(ViewKind::kWindow), in.world};
+  shade_picture({ws.meshes, ws.window, ws.visibility, ws.edges, ws.planar_maps.of_tile, ws.shading,
+                 in.options.wireframe, has_labels ? &labels : nullptr,
+                 ws.crossing.picture == Begins::kInBoth ? &wet : nullptr},
+                ws.scratch, ws.shaded, target, run);
 }
 
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
@@ -239,94 +383,42 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   for (const auto& poses : {asked.poses, asked.next_poses})
     scene::check_given_poses(poses, world.scene().objects.size());
   const ScopedFloatEnvironment ieee;
-  const World::State& world_state = world.state();
   Workspace::State& ws = workspace.state();
   const FrameOptions options = with_scene_defaults(asked, world.scene());
   const View drawn = drawn_view(view, options);
   const bool small = drawn.width_px < view.width_px || drawn.height_px < view.height_px;
   Target& drawn_target = small ? ws.small : target;
+  const FrameInputs in{world.state(), drawn, t_s, options, ws, workers};
   ws.profile.begin_frame(workspace.trace_enabled);
   prepare_target(drawn, options, drawn_target);
   prepare_scratch(workers.thread_count(), ws);
-  const std::array<RenderView*, 5> views = prepare_views(world_state, drawn, options, ws);
-  const auto stage = [&](Stage name, auto&& work) {
-    const StageScope scope(ws.profile, name);
-    work(StageRun{workers, ws.profile, name});
-  };
+  prepare_views(in);
 
-  const glm::dvec3 eye = view.eye_world;
-  const double sky_m = sky_height_m(view, options.without);
-  const Clouds clouds = make_clouds(world_state, t_s, {eye.x, eye.y, sky_m}, options.without);
-  const Fog fog = make_fog(world_state, t_s, eye, options.without);
-  const Clouds mirrored = make_clouds(world_state, t_s, {eye.x, eye.y, 0.0}, options.without);
+  const Air air = find_air(in);
   workers.run_both(
+      [&] { in.stage(Stage::kSea, [&](const StageRun& run) { advance(in, air, run); }); },
       [&] {
-        stage(Stage::kSea, [&](const StageRun& run) {
-          advance_sea(world_state, t_s, options.disturbances, options.without, ws.sea, run);
-          advance_clouds(world_state, mirrored, t_s, glm::dvec2(eye), options.without, ws.sky, run);
-          advance_sky(world_state, mirrored, fog, sky_m, options.without, ws.sky, run);
-        });
-      },
-      [&] {
-        stage(Stage::kTriangulate, [&](const StageRun& run) {
-          triangulate(world_state, drawn, t_s, options, ws.meshes, run);
+        in.stage(Stage::kTriangulate, [&](const StageRun& run) {
+          triangulate(in.world, drawn, t_s, options, ws.meshes, run);
         });
       });
-  Light light = make_light(world_state, clouds, ws.sky, fog);
-  light.stars = make_stars(world_state, t_s, options.without);
-  stage(Stage::kDisplace, [&](const StageRun& run) {
-    place_vertices(world_state, drawn, t_s, options, views, ws, run);
-    const ShadowOptions shadows{light.sun_direction, options.without, options.disturbances};
-    find_shadow_casters(world_state, shadows, drawn, ws.meshes.objects, run);
-    find_self_shadows(world_state, shadows, drawn, ws.meshes.objects, run);
+  const Light light = find_light(in, air);
+  in.stage(Stage::kDisplace, [&](const StageRun& run) {
+    place_vertices(in, run);
+    find_shadows(in, light, run);
   });
-  stage(Stage::kVisibility, [&](const StageRun& run) {
+  in.stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,
                  run);
     prepare_edges(ws.meshes.objects.in_window(), ws.window, ws.visibility, options.edge_samples,
                   ws.edges);
   });
-  const VolumeClouds volume_clouds =
-      make_volume_clouds(world_state, t_s, eye, make_rays(drawn).pixel_angle, options.without);
-  const Media air = make_media(world_state, light, fog, sky_m, options.without);
-  const Media water = submerge(air, drawn.eye_world.z);
-  const EyeInWater first_side = ws.window.eye;
-  const bool crosses = ws.crossing.picture == Begins::kInBoth;
-  const auto draw_side = [&](const EyeInWater& side, PlanarMaps& planar_maps, Shading& shading,
-                             const StageRun& run) {
-    MaterialInputs inputs{world_state,       t_s,   ws.sea,
-                          ws.meshes.objects, light, side.submerged ? water : air,
-                          options.without};
-    inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
-    inputs.trees = &ws.meshes.trees;
-    ws.window.eye = side;
-    draw_planar_maps(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, planar_maps, run);
-    if (ws.meshes.rivers.mirror_level_m && !side.submerged)
-      draw_river_mirror(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirror,
-                        run);
-    fill_shading(inputs, ws.window, options.tile_size_px, shading);
-  };
-  stage(Stage::kPlanarMaps, [&](const StageRun& run) {
-    if (crosses)
-      draw_side({true, first_side.to_surface_m}, ws.wet_planar_maps, ws.wet_shading, run);
-    draw_side(first_side, ws.planar_maps, ws.shading, run);
+  in.stage(Stage::kPlanarMaps, [&](const StageRun& run) { draw_images(in, light, air, run); });
+  in.stage(Stage::kClouds, [&](const StageRun& run) {
+    draw_window_clouds(in, float(drawn.width_px) / float(view.width_px), run);
   });
-  stage(Stage::kClouds, [&](const StageRun& run) {
-    draw_clouds(ws.shading, volume_clouds, float(drawn.width_px) / float(view.width_px), ws.clouds,
-                run);
-    ws.shading.clouds = &ws.clouds;
-  });
-  stage(Stage::kShade, [&](const StageRun& run) {
-    if (!options.labels.empty())
-      fill_label_tables({world_state, ws.meshes, ws.window, options, t_s}, ws.labels, run);
-    const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_planar_maps.of_tile,
-                      !options.without.has(Part::kMeniscus)};
-    const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects.in_window(),
-                              ws.meshes.trees.drawn_in(ViewKind::kWindow), world_state};
-    shade_picture(
-        {ws.meshes, ws.window, ws.visibility, ws.edges, ws.planar_maps.of_tile, ws.shading,
-         options.wireframe, options.labels.empty() ? nullptr : &labels, crosses ? &wet : nullptr},
-        ws.scratch, ws.shaded, drawn_target, run);
+  in.stage(Stage::kShade, [&](const StageRun& run) {
+    shade(in, drawn_target, run);
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
   });
   workspace.trace = ws.profile.trace();
