@@ -24,6 +24,13 @@ if(SWELL_SANITIZE)
     "$<$<CXX_COMPILER_ID:GNU>:${flow_warnings};-fno-tree-pta>")
 endif()
 
+# For tests and programs, whose time is the library's: they compile in two thirds of the time so, and run as fast. GCC sees
+# bounds in std::string and std::vector then that are not there.
+set(swell_light_options $<$<CONFIG:Release>:-O1>)
+foreach(warning alloc-size-larger-than array-bounds restrict stringop-overflow)
+  list(APPEND swell_light_options $<$<CXX_COMPILER_ID:GNU>:-Wno-${warning}>)
+endforeach()
+
 # For code that calls the library for its work: programs, and tests of pictures and files. Sanitized, it compiles in a
 # third to a half of the time so.
 set(swell_caller_options "")
