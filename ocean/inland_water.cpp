@@ -23,58 +23,51 @@ float whiteness(const WaterPlace& place, double speed_mps) {
   return static_cast<float>(std::max(fast, steep) * (1.0 - place.sea_share));
 }
 
+// The water at p, of rivers and of lakes that were filled.
+std::optional<WaterPlace> water_at(const RiverNetwork& network, const LakeFill& fill,
+                                   glm::dvec2 p) {
+  const std::optional<WaterPlace> place = network.water_near(p);
+  const std::optional<double> level_m = fill.level_near(p);
+  if (!level_m || (place && place->outside_m < 0.0)) return place;
+  WaterPlace lake;
+  lake.level_m = *level_m;
+  lake.outside_m = 0.0;
+  lake.in_lake = true;
+  lake.speed_share = 0.0;
+  return lake;
+}
+
+// Marks the cells that are drawn: all of such a cell is near water, some of it is wet, and it is
+// not the sea's.
+void mark_wet_cells(const std::array<bool, kInlandSamples>& near, const InlandSample* samples,
+                    InlandBlock& block) {
+  block.low_m = HUGE_VALF, block.high_m = -HUGE_VALF;
+  for (int j = 0; j < kInlandBlock; ++j)
+    for (int i = 0; i < kInlandBlock; ++i) {
+      const std::size_t n = static_cast<std::size_t>(j) * kInlandSide + i;
+      const std::array<std::size_t, 4> at = {n, n + 1, n + kInlandSide, n + kInlandSide + 1};
+      const bool is_near = std::ranges::all_of(at, [&](std::size_t k) { return near[k]; });
+      const bool is_own =
+          std::ranges::any_of(at, [&](std::size_t k) { return samples[k].sea_share < 1.0f; });
+      if (!is_near || !is_own) continue;
+      block.wet[static_cast<std::size_t>(j) * kInlandBlock + i] = 1;
+      ++block.wet_cells;
+      for (const std::size_t k : at) {
+        block.low_m = std::min(block.low_m, samples[k].level_m);
+        block.high_m = std::max(block.high_m, samples[k].level_m);
+        block.sea |= samples[k].sea_share > 0.0f;
+      }
+    }
+}
+
 }  // namespace
 
 InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
                          const terrain::HeightGrid& land, Workers& workers) {
-  glm::dvec2 low = glm::min(network.low(), fill.low), high = glm::max(network.high(), fill.high);
-  low = glm::max(low, land.grid.min_world);
-  high = glm::min(high, land.grid.min_world + land.grid.extent_m());
   spacing_m_ =
       std::clamp(network.least_width_m() / kSamplesAcross, kLeastSpacing_m, kMostSpacing_m);
   const double margin_m = std::max(2.5 * land.grid.spacing_m, 2.0 * spacing_m_);
-
-  // The water at p, of rivers and of lakes that were filled.
-  const auto water_at = [&](glm::dvec2 p) {
-    std::optional<WaterPlace> place = network.water_near(p);
-    if (const std::optional<double> level_m = fill.level_near(p);
-        level_m && !(place && place->outside_m < 0.0)) {
-      WaterPlace lake;
-      lake.level_m = *level_m;
-      lake.outside_m = 0.0;
-      lake.in_lake = true;
-      lake.speed_share = 0.0;
-      return std::optional(lake);
-    }
-    return place;
-  };
-
-  // The blocks that hold any of it.
-  const double block_m = spacing_m_ * kInlandBlock;
-  corner_ = low;
-  blocks_x_ = std::max(1, static_cast<int>(std::ceil((high.x - low.x) / block_m)));
-  blocks_y_ = std::max(1, static_cast<int>(std::ceil((high.y - low.y) / block_m)));
-  block_index_.assign(static_cast<std::size_t>(blocks_x_) * blocks_y_, -1);
-  std::vector<std::uint8_t> holds(block_index_.size(), 0);
-  workers.for_each(holds.size(), [&](std::size_t n, int) {
-    const glm::dvec2 corner =
-        corner_ + block_m * glm::dvec2(n % static_cast<std::size_t>(blocks_x_),
-                                       n / static_cast<std::size_t>(blocks_x_));
-    const auto near = network.water_near(corner + 0.5 * block_m);
-    holds[n] =
-        (near && near->outside_m < 0.75 * block_m + margin_m) || fill.touches(corner, block_m);
-  });
-  for (std::size_t n = 0; n < holds.size(); ++n) {
-    if (!holds[n]) continue;
-    if (blocks_.size() == kMostInlandBlocks)
-      throw RiverError(std::string(kRiverKey), "more rivers and lakes than fit the lattice",
-                       fmt::format("{} blocks of {:.0f} m", kMostInlandBlocks, block_m));
-    block_index_[n] = static_cast<std::int32_t>(blocks_.size());
-    InlandBlock block;
-    block.first_cell = kInlandBlock * glm::ivec2(n % static_cast<std::size_t>(blocks_x_),
-                                                 n / static_cast<std::size_t>(blocks_x_));
-    blocks_.push_back(block);
-  }
+  find_blocks(network, fill, land.grid, margin_m, workers);
 
   const RiverFlow flow(network);
   const texture::PerlinNoise noise(17);
@@ -88,7 +81,7 @@ InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
         const glm::dvec2 p = point(block.first_cell + glm::ivec2(i, j));
         const std::size_t n = static_cast<std::size_t>(j) * kInlandSide + i;
         InlandSample& sample = samples[n];
-        const std::optional<WaterPlace> place = water_at(p);
+        const std::optional<WaterPlace> place = water_at(network, fill, p);
         if (!place) continue;
         near[n] = place->outside_m < margin_m;
         const glm::dvec2 v = river_current(flow, *place, p);
@@ -101,26 +94,40 @@ InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
         sample.phase = static_cast<float>(noise.fractal2(p.x / 9.0, p.y / 9.0, 2, 0.5));
         sample.near = 1.0f;
       }
-    // A cell is drawn where all of it is near water, some of it is wet, and it is not the sea's.
-    block.low_m = HUGE_VALF, block.high_m = -HUGE_VALF;
-    for (int j = 0; j < kInlandBlock; ++j)
-      for (int i = 0; i < kInlandBlock; ++i) {
-        const std::size_t n = static_cast<std::size_t>(j) * kInlandSide + i;
-        const std::array<std::size_t, 4> at = {n, n + 1, n + kInlandSide, n + kInlandSide + 1};
-        const bool is_near = std::ranges::all_of(at, [&](std::size_t k) { return near[k]; });
-        const bool is_own =
-            std::ranges::any_of(at, [&](std::size_t k) { return samples[k].sea_share < 1.0f; });
-        if (!is_near || !is_own) continue;
-        block.wet[static_cast<std::size_t>(j) * kInlandBlock + i] = 1;
-        ++block.wet_cells;
-        for (const std::size_t k : at) {
-          block.low_m = std::min(block.low_m, samples[k].level_m);
-          block.high_m = std::max(block.high_m, samples[k].level_m);
-          block.sea |= samples[k].sea_share > 0.0f;
-        }
-      }
+    mark_wet_cells(near, samples, block);
   });
   for (const InlandBlock& block : blocks_) highest_m_ = std::max(highest_m_, block.high_m);
+}
+
+// Finds the blocks of the lattice that hold any water, or are within the margin of some.
+void InlandWater::find_blocks(const RiverNetwork& network, const LakeFill& fill,
+                              const terrain::Grid& land, double margin_m, Workers& workers) {
+  const glm::dvec2 low = glm::max(glm::min(network.low(), fill.low), land.min_world);
+  const glm::dvec2 high =
+      glm::min(glm::max(network.high(), fill.high), land.min_world + land.extent_m());
+  const double block_m = spacing_m_ * kInlandBlock;
+  corner_ = low;
+  blocks_x_ = std::max(1, static_cast<int>(std::ceil((high.x - low.x) / block_m)));
+  blocks_y_ = std::max(1, static_cast<int>(std::ceil((high.y - low.y) / block_m)));
+  block_index_.assign(static_cast<std::size_t>(blocks_x_) * blocks_y_, -1);
+  std::vector<std::uint8_t> holds(block_index_.size(), 0);
+  const auto columns = static_cast<std::size_t>(blocks_x_);
+  workers.for_each(holds.size(), [&](std::size_t n, int) {
+    const glm::dvec2 corner = corner_ + block_m * glm::dvec2(n % columns, n / columns);
+    const auto near = network.water_near(corner + 0.5 * block_m);
+    holds[n] =
+        (near && near->outside_m < 0.75 * block_m + margin_m) || fill.touches(corner, block_m);
+  });
+  for (std::size_t n = 0; n < holds.size(); ++n) {
+    if (!holds[n]) continue;
+    if (blocks_.size() == kMostInlandBlocks)
+      throw RiverError(std::string(kRiverKey), "more rivers and lakes than fit the lattice",
+                       fmt::format("{} blocks of {:.0f} m", kMostInlandBlocks, block_m));
+    block_index_[n] = static_cast<std::int32_t>(blocks_.size());
+    InlandBlock block;
+    block.first_cell = kInlandBlock * glm::ivec2(n % columns, n / columns);
+    blocks_.push_back(block);
+  }
 }
 
 // The samples of the block at p, and how many cells p is from the first.

@@ -69,6 +69,8 @@ class InlandWater {
   std::span<const InlandSample> samples() const { return samples_; }  // block after block
 
  private:
+  void find_blocks(const RiverNetwork& network, const LakeFill& fill, const terrain::Grid& land,
+                   double margin_m, Workers& workers);
   const InlandSample* block_at(glm::dvec2 p, glm::dvec2& cells) const;
 
   glm::dvec2 corner_{0.0};

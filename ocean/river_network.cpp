@@ -210,35 +210,19 @@ void RiverNetwork::index_segments() {
   index_ = SegmentIndex(segments, kNetworkCell_m);
 }
 
-std::optional<WaterPlace> RiverNetwork::water_near(glm::dvec2 p) const {
-  WaterPlace sum;
-  double weights = 0.0, level = 0.0, share = 0.0, fall = 0.0, speed = 0.0;
-  sum.bed_m = HUGE_VAL;
-  const auto add = [&](double level_m, double outside_m, double softness_m, double sea_share,
-                       double falls, double moves) {
-    const double far = std::max(outside_m, 0.0) + softness_m;
-    const double weight = 1.0 / (far * far);
-    weights += weight;
-    level += weight * level_m;
-    share += weight * sea_share;
-    fall += weight * falls;
-    speed += weight * moves;
-  };
-  // The nearest place of each river that reaches p; segments come river by river.
-  const auto near = index_.near(p);
-  for (std::size_t k = 0; k < near.size();) {
-    const std::uint32_t river = of_segment_[near[k]].river;
-    std::uint32_t nearest = 0;
-    double least_m = HUGE_VAL;
-    for (; k < near.size() && of_segment_[near[k]].river == river; ++k) {
-      const std::uint32_t node = of_segment_[near[k]].node;
-      const auto& nodes = courses_[river].nodes;
-      const double d = nearest_on({nodes[node].p, nodes[node + 1].p}, p).distance_m;
-      if (d < least_m) least_m = d, nearest = node;
-    }
-    const CoursePlace at = place_on(courses_[river], nearest, p);
-    if (at.outside_m > margin_m_) continue;
-    const auto& nodes = courses_[river].nodes;
+// The water of several rivers and lakes near a place, each counted by how near it is.
+class RiverNetwork::NearWater {
+ public:
+  NearWater(const RiverNetwork& network, glm::dvec2 p) : network_(network), p_(p) {
+    sum_.bed_m = HUGE_VAL;
+  }
+
+  // Adds a river at the node of its nearest segment.
+  void add_river(std::uint32_t river, std::uint32_t nearest) {
+    const Course& course = network_.courses_[river];
+    const CoursePlace at = place_on(course, nearest, p_);
+    if (at.outside_m > network_.margin_m_) return;
+    const auto& nodes = course.nodes;
     const double half_m = at.node.half_width_m;
     const double falls = (nodes[nearest].level_m - nodes[nearest + 1].level_m) /
                          (nodes[nearest + 1].s_m - nodes[nearest].s_m);
@@ -246,44 +230,91 @@ std::optional<WaterPlace> RiverNetwork::water_near(glm::dvec2 p) const {
     const double aside = smoothstep(-0.2 * half_m, 0.1 * half_m, at.outside_m) *
                          smoothstep(0.0, 0.05, at.node.sea_share);
     const double to_sea = 1.0 - (1.0 - at.node.sea_share) * (1.0 - aside);
-    // Lakes slow the water over two widths.
-    const double ends_m = 4.0 * half_m;
-    double moves = 1.0 - at.node.sea_share;
-    if (find_named(lakes_, rivers_[river].into))
-      moves *= smoothstep(0.0, ends_m, courses_[river].length_m() - at.node.s_m);
-    if (find_named(lakes_, rivers_[river].from)) moves *= smoothstep(0.0, ends_m, at.node.s_m);
-    add(at.node.level_m, at.outside_m, 0.1 * half_m, to_sea, falls, moves);
+    add(at.node.level_m, at.outside_m, 0.1 * half_m, to_sea, falls, speed_share(river, at));
     const double across = std::abs(at.offset_m) / half_m;
-    sum.bed_m = std::min(sum.bed_m, at.node.level_m - at.node.depth_m * (1.0 - across * across));
-    if (at.outside_m < sum.outside_m) {
-      sum.outside_m = at.outside_m;
-      sum.width_m = 2.0 * half_m;
-      sum.depth_m = at.node.depth_m;
+    sum_.bed_m = std::min(sum_.bed_m, at.node.level_m - at.node.depth_m * (1.0 - across * across));
+    if (at.outside_m < sum_.outside_m) {
+      sum_.outside_m = at.outside_m;
+      sum_.width_m = 2.0 * half_m;
+      sum_.depth_m = at.node.depth_m;
     }
   }
-  for (const Lake& lake : lakes_) {
-    if (lake.outline_m.empty()) continue;
-    const double outside_m = outside_outline(lake.outline_m, p);
-    if (outside_m > margin_m_) continue;
+
+  void add_lake(const Lake& lake) {
+    if (lake.outline_m.empty()) return;
+    const double outside_m = outside_outline(lake.outline_m, p_);
+    if (outside_m > network_.margin_m_) return;
     add(lake.level_m, outside_m, 1.0, 0.0, 0.0, 0.0);
     if (lake.depth_m > 0.0) {
       const double dug = smoothstep(0.0, 8.0 * lake.depth_m, -outside_m);
       const double rim = std::max(outside_m, 0.0) * 0.1;
-      sum.bed_m = std::min(sum.bed_m, lake.level_m - lake.depth_m * std::max(dug, 0.0) + rim);
+      sum_.bed_m = std::min(sum_.bed_m, lake.level_m - lake.depth_m * std::max(dug, 0.0) + rim);
     }
-    if (outside_m < sum.outside_m) {
-      sum.outside_m = outside_m;
-      sum.width_m = 0.0;
-      sum.depth_m = lake.depth_m;
-      sum.in_lake = outside_m <= 0.0;
+    if (outside_m < sum_.outside_m) {
+      sum_.outside_m = outside_m;
+      sum_.width_m = 0.0;
+      sum_.depth_m = lake.depth_m;
+      sum_.in_lake = outside_m <= 0.0;
     }
   }
-  if (weights == 0.0) return std::nullopt;
-  sum.level_m = level / weights;
-  sum.sea_share = share / weights;
-  sum.fall = fall / weights;
-  sum.speed_share = speed / weights;
-  return sum;
+
+  std::optional<WaterPlace> mean() const {
+    if (weights_ == 0.0) return std::nullopt;
+    WaterPlace mean = sum_;
+    mean.level_m = level_ / weights_;
+    mean.sea_share = share_ / weights_;
+    mean.fall = fall_ / weights_;
+    mean.speed_share = speed_ / weights_;
+    return mean;
+  }
+
+ private:
+  void add(double level_m, double outside_m, double softness_m, double sea_share, double falls,
+           double moves) {
+    const double far = std::max(outside_m, 0.0) + softness_m;
+    const double weight = 1.0 / (far * far);
+    weights_ += weight;
+    level_ += weight * level_m;
+    share_ += weight * sea_share;
+    fall_ += weight * falls;
+    speed_ += weight * moves;
+  }
+
+  // Lakes slow a river's water over two widths.
+  double speed_share(std::uint32_t river, const CoursePlace& at) const {
+    const River& described = network_.rivers_[river];
+    const double ends_m = 4.0 * at.node.half_width_m;
+    double moves = 1.0 - at.node.sea_share;
+    if (find_named(network_.lakes_, described.into))
+      moves *= smoothstep(0.0, ends_m, network_.courses_[river].length_m() - at.node.s_m);
+    if (find_named(network_.lakes_, described.from)) moves *= smoothstep(0.0, ends_m, at.node.s_m);
+    return moves;
+  }
+
+  const RiverNetwork& network_;
+  glm::dvec2 p_;
+  WaterPlace sum_;
+  double weights_ = 0.0, level_ = 0.0, share_ = 0.0, fall_ = 0.0, speed_ = 0.0;
+};
+
+std::optional<WaterPlace> RiverNetwork::water_near(glm::dvec2 p) const {
+  NearWater water(*this, p);
+  // The nearest place of each river that reaches p; segments come river by river.
+  const auto near = index_.near(p);
+  for (std::size_t k = 0; k < near.size();) {
+    const std::uint32_t river = of_segment_[near[k]].river;
+    const auto& nodes = courses_[river].nodes;
+    std::uint32_t nearest = 0;
+    double least_m = HUGE_VAL;
+    for (; k < near.size() && of_segment_[near[k]].river == river; ++k) {
+      const std::uint32_t node = of_segment_[near[k]].node;
+      const double d = nearest_on({nodes[node].p, nodes[node + 1].p}, p).distance_m;
+      if (d < least_m) least_m = d, nearest = node;
+    }
+    water.add_river(river, nearest);
+  }
+  for (const Lake& lake : lakes_) water.add_lake(lake);
+  return water.mean();
 }
 
 }  // namespace swell::ocean

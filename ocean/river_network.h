@@ -64,6 +64,7 @@ class RiverNetwork {
   glm::dvec2 high() const { return high_; }
 
  private:
+  class NearWater;
   struct CourseSegment {
     std::uint32_t river, node;
   };
