@@ -180,33 +180,42 @@ struct Rays {
   alignas(64) std::array<std::uint32_t, kCellPixels> primitive;
 };
 
-void draw_cell(const ImplicitInView& implicit, const Parts& parts, const RayBlock& block, int x0,
-               int y0, int block_x0, int block_y0, const raster::PixelBox& box, int side_px,
-               std::span<float> depth, std::span<std::uint32_t> primitive) {
+// What a tile's buffers hold, side_px^2 long.
+struct TileBuffers {
+  const raster::PixelBox& box;
+  int side_px;
+  std::span<float> depth;
+  std::span<std::uint32_t> primitive;
+};
+
+// Draws the cell at (x0, y0) of the picture with the rays of the block at block_px.
+void draw_cell(const ImplicitInView& implicit, const Parts& parts, const RayBlock& block,
+               glm::ivec2 block_px, int x0, int y0, const TileBuffers& tile) {
   Rays rays;
+  const raster::PixelBox& box = tile.box;
   const int columns = std::min(kCell_px, box.x0_px + box.width_px - x0);
   const int rows = std::min(kCell_px, box.y0_px + box.height_px - y0);
   const auto at = [&](int row) {
-    return static_cast<std::size_t>(y0 - box.y0_px + row) * static_cast<std::size_t>(side_px) +
+    return static_cast<std::size_t>(y0 - box.y0_px + row) * static_cast<std::size_t>(tile.side_px) +
            static_cast<std::size_t>(x0 - box.x0_px);
   };
   for (int row = 0; row < kCell_px; ++row)
     for (int column = 0; column < kCell_px; ++column) {
       const std::size_t i = static_cast<std::size_t>(row * kCell_px + column);
       const bool inside = row < rows && column < columns;
-      rays.x[i] = static_cast<float>(x0 + column - block_x0) + 0.5f - 0.5f * kBlock_px;
-      rays.y[i] = static_cast<float>(y0 + row - block_y0) + 0.5f - 0.5f * kBlock_px;
-      rays.z[i] = inside ? depth[at(row) + static_cast<std::size_t>(column)] : 1.0f;
-      rays.primitive[i] = inside ? primitive[at(row) + static_cast<std::size_t>(column)] : 0;
+      rays.x[i] = static_cast<float>(x0 + column - block_px.x) + 0.5f - 0.5f * kBlock_px;
+      rays.y[i] = static_cast<float>(y0 + row - block_px.y) + 0.5f - 0.5f * kBlock_px;
+      rays.z[i] = inside ? tile.depth[at(row) + static_cast<std::size_t>(column)] : 1.0f;
+      rays.primitive[i] = inside ? tile.primitive[at(row) + static_cast<std::size_t>(column)] : 0;
     }
   cast_rays(*implicit.implicit, parts.list(), block, implicit.first_primitive, rays.x, rays.y,
             rays.z, rays.primitive);
   for (int row = 0; row < rows; ++row) {
     const auto first = static_cast<std::ptrdiff_t>(row * kCell_px);
     std::copy_n(rays.z.begin() + first, columns,
-                depth.begin() + static_cast<std::ptrdiff_t>(at(row)));
+                tile.depth.begin() + static_cast<std::ptrdiff_t>(at(row)));
     std::copy_n(rays.primitive.begin() + first, columns,
-                primitive.begin() + static_cast<std::ptrdiff_t>(at(row)));
+                tile.primitive.begin() + static_cast<std::ptrdiff_t>(at(row)));
   }
 }
 
@@ -231,9 +240,8 @@ void for_blocks(const ImplicitsInView& in, const ImplicitInView& implicit,
 }
 
 void draw_implicit(const ImplicitsInView& in, const ImplicitInView& implicit,
-                   const raster::PixelBox& box, int side_px, std::span<float> depth,
-                   std::span<std::uint32_t> primitive) {
-  for_blocks(in, implicit, box,
+                   const TileBuffers& tile) {
+  for_blocks(in, implicit, tile.box,
              [&](const RegionParts& found, std::uint64_t squares, int x0, int y0) {
                BentRays bent;
                const RayBlock block = block_at(in, implicit, x0, y0, bent);
@@ -243,10 +251,50 @@ void draw_implicit(const ImplicitsInView& in, const ImplicitInView& implicit,
                  found.list(std::uint64_t{1} << square, of_cell);
                  const int x = found.region.x0_px + square % kSquares * kCell_px;
                  const int y = found.region.y0_px + square / kSquares * kCell_px;
-                 draw_cell(implicit, of_cell, block, x, y, x0, y0, box, side_px, depth, primitive);
+                 draw_cell(implicit, of_cell, block, {x0, y0}, x, y, tile);
                }
              });
 }
+
+// The rays of a block's samples, cast as many at once as a cell has pixels.
+class SampleRays {
+ public:
+  SampleRays(const ImplicitInView& implicit, const Parts& parts, const RayBlock& block,
+             std::span<float> depth, std::span<std::uint32_t> primitive)
+      : implicit_(implicit), parts_(parts), block_(block), depth_(depth), primitive_(primitive) {}
+
+  // Adds the ray of a sample at (x, y) from the block's middle.
+  void add(float x, float y, std::size_t sample) {
+    rays_.x[count_] = x;
+    rays_.y[count_] = y;
+    rays_.z[count_] = depth_[sample];
+    rays_.primitive[count_] = primitive_[sample];
+    sample_[count_++] = sample;
+    if (count_ == kCellPixels) cast();
+  }
+
+  // Casts those that were added since.
+  void cast() {
+    if (count_ == 0) return;
+    for (std::size_t i = count_; i < kCellPixels; ++i)
+      rays_.x[i] = rays_.y[i] = 0.0f, rays_.z[i] = 1.0f, rays_.primitive[i] = 0;
+    cast_rays(*implicit_.implicit, parts_.list(), block_, implicit_.first_primitive, rays_.x,
+              rays_.y, rays_.z, rays_.primitive);
+    for (std::size_t i = 0; i < count_; ++i)
+      depth_[sample_[i]] = rays_.z[i], primitive_[sample_[i]] = rays_.primitive[i];
+    count_ = 0;
+  }
+
+ private:
+  const ImplicitInView& implicit_;
+  const Parts& parts_;
+  const RayBlock& block_;
+  std::span<float> depth_;
+  std::span<std::uint32_t> primitive_;
+  Rays rays_;
+  std::array<std::size_t, kCellPixels> sample_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -260,7 +308,7 @@ int draw_implicits(const ImplicitsInView& implicits, const raster::PixelBox& box
     std::ranges::fill(primitive, raster::kNoPrimitive);
   }
   for (const ImplicitInView& implicit : implicits.implicits)
-    if (meets(implicit, box)) draw_implicit(implicits, implicit, box, side_px, depth, primitive);
+    if (meets(implicit, box)) draw_implicit(implicits, implicit, {box, side_px, depth, primitive});
   // Beyond the viewport nothing is covered.
   return static_cast<int>(primitive.size()) -
          static_cast<int>(std::ranges::count(primitive, raster::kNoPrimitive));
@@ -305,7 +353,7 @@ void draw_implicit_samples(const ImplicitsInView& implicits, const raster::Pixel
     first_of_row[static_cast<std::size_t>(y) + 1] =
         first_of_row[static_cast<std::size_t>(y)] +
         static_cast<std::size_t>(std::popcount(mask.row(y)) * samples);
-  // Draws the samples of the block at (x0, y0), by as many rays at once as a cell has pixels.
+  // Draws the samples of the block at (x0, y0).
   const auto draw_block = [&](const ImplicitInView& implicit, const RegionParts& found,
                               std::uint64_t squares, int x0, int y0) {
     const int column = x0 - box.x0_px;
@@ -319,18 +367,7 @@ void draw_implicit_samples(const ImplicitsInView& implicits, const raster::Pixel
     const RayBlock block = block_at(implicits, implicit, x0, y0, bent);
     Parts parts;
     found.list(squares, parts);
-    Rays rays;
-    std::array<std::size_t, kCellPixels> sample;
-    std::size_t count = 0;
-    const auto cast = [&] {
-      for (std::size_t i = count; i < kCellPixels; ++i)
-        rays.x[i] = rays.y[i] = 0.0f, rays.z[i] = 1.0f, rays.primitive[i] = 0;
-      cast_rays(*implicit.implicit, parts.list(), block, implicit.first_primitive, rays.x, rays.y,
-                rays.z, rays.primitive);
-      for (std::size_t i = 0; i < count; ++i)
-        depth[sample[i]] = rays.z[i], primitive[sample[i]] = rays.primitive[i];
-      count = 0;
-    };
+    SampleRays rays(implicit, parts, block, depth, primitive);
     for (int y = y0; y < end_y; ++y) {
       const int row = y - box.y0_px;
       for (std::uint64_t left = row_of(y); left != 0; left &= left - 1) {
@@ -338,19 +375,15 @@ void draw_implicit_samples(const ImplicitsInView& implicits, const raster::Pixel
         const std::uint64_t before = mask.row(row) & ((std::uint64_t{1} << bit) - 1);
         const std::size_t first = first_of_row[static_cast<std::size_t>(row)] +
                                   static_cast<std::size_t>(std::popcount(before) * samples);
-        for (std::size_t s = 0; s < static_cast<std::size_t>(samples); ++s) {
-          rays.x[count] = static_cast<float>(bit - column) - 0.5f * kBlock_px +
-                          static_cast<float>(positions[s].x_fx8) * (1.0f / 256.0f);
-          rays.y[count] = static_cast<float>(y - y0) - 0.5f * kBlock_px +
-                          static_cast<float>(positions[s].y_fx8) * (1.0f / 256.0f);
-          rays.z[count] = depth[first + s];
-          rays.primitive[count] = primitive[first + s];
-          sample[count++] = first + s;
-          if (count == kCellPixels) cast();
-        }
+        for (std::size_t s = 0; s < static_cast<std::size_t>(samples); ++s)
+          rays.add(static_cast<float>(bit - column) - 0.5f * kBlock_px +
+                       static_cast<float>(positions[s].x_fx8) * (1.0f / 256.0f),
+                   static_cast<float>(y - y0) - 0.5f * kBlock_px +
+                       static_cast<float>(positions[s].y_fx8) * (1.0f / 256.0f),
+                   first + s);
       }
     }
-    if (count > 0) cast();
+    rays.cast();
   };
   for (const ImplicitInView& implicit : implicits.implicits)
     if (meets(implicit, box))

@@ -124,6 +124,32 @@ void find_images(double eye_z, RiverMesh& rivers) {
   }
 }
 
+// The level of the water in view, and how much of the picture it may fill.
+struct LevelInView {
+  double weights = 0.0, levels = 0.0, solid_angle = 0.0;
+
+  // Blocks count by their nearness, so that the level moves smoothly as the eye does.
+  void add(const ocean::InlandBlock& block, double spacing_m, double level_m, double distance_m,
+           double eye_z) {
+    const double near_m = distance_m + 0.25 * (spacing_m * kInlandBlock);
+    const double weight = (1.0 - static_cast<double>(mirror_share(static_cast<float>(level_m)))) /
+                          (near_m * near_m * near_m);
+    weights += weight;
+    levels += weight * level_m;
+    solid_angle +=
+        weight * block.wet_cells * spacing_m * spacing_m * std::max(eye_z - level_m, 0.0);
+  }
+
+  void set_mirror(const View& view, RiverMesh& rivers) const {
+    const double level_m = levels / weights;
+    const double part = solid_angle / static_cast<double>(4.0f * view.tan_half_x * view.tan_half_y);
+    if (!(part > kLeastPart && view.eye_world.z > level_m + kLeastOver_m)) return;
+    rivers.mirror_level_m = static_cast<float>(level_m);
+    rivers.mirror_share =
+        static_cast<float>(std::min((part - kLeastPart) / (kFullPart - kLeastPart), 1.0));
+  }
+};
+
 }  // namespace
 
 void choose_rivers(const World::State& world, const View& view, const FrameOptions& options,
@@ -138,7 +164,7 @@ void choose_rivers(const World::State& world, const View& view, const FrameOptio
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   const double spacing_m = inland->spacing_m(), block_m = spacing_m * kInlandBlock;
   const auto drop = static_cast<float>(drop_per_m2(world.earth_radius_m(options.without)));
-  double weights = 0.0, levels = 0.0, solid_angle = 0.0;
+  LevelInView level;
   for (std::size_t b = 0; b < inland->blocks().size(); ++b) {
     const ocean::InlandBlock& block = inland->blocks()[b];
     if (!(block.low_m <= block.high_m)) continue;
@@ -152,14 +178,7 @@ void choose_rivers(const World::State& world, const View& view, const FrameOptio
     if (!may_be_seen(planes, middle_rel, radius_m)) continue;
     const double distance_m =
         std::max(0.0, static_cast<double>(glm::length(middle_rel) - radius_m));
-    // Blocks count by their nearness, so that the level moves smoothly as the eye does.
-    const double near_m = distance_m + 0.25 * block_m;
-    const double weight = (1.0 - static_cast<double>(mirror_share(static_cast<float>(middle.z)))) /
-                          (near_m * near_m * near_m);
-    weights += weight;
-    levels += weight * middle.z;
-    solid_angle += weight * block.wet_cells * spacing_m * spacing_m *
-                   std::max(view.eye_world.z - middle.z, 0.0);
+    level.add(block, spacing_m, middle.z, distance_m, view.eye_world.z);
     const auto samples =
         inland->samples().subspan(b * ocean::kInlandSamples, ocean::kInlandSamples);
     const auto first = static_cast<std::uint32_t>(rivers.p_rel.size());
@@ -175,13 +194,7 @@ void choose_rivers(const World::State& world, const View& view, const FrameOptio
         rivers.sea_share.push_back(s.sea_share);
       }
   }
-  const double level_m = levels / weights;
-  const double part = solid_angle / static_cast<double>(4.0f * view.tan_half_x * view.tan_half_y);
-  if (part > kLeastPart && view.eye_world.z > level_m + kLeastOver_m) {
-    rivers.mirror_level_m = static_cast<float>(level_m);
-    rivers.mirror_share =
-        static_cast<float>(std::min((part - kLeastPart) / (kFullPart - kLeastPart), 1.0));
-  }
+  level.set_mirror(view, rivers);
   find_images(view.eye_world.z, rivers);
 }
 
