@@ -316,8 +316,7 @@ void shade(const FrameInputs& in, Target& target, const StageRun& run) {
     fill_label_tables({in.world, ws.meshes, ws.window, in.options, in.t_s}, ws.labels, run);
   const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_planar_maps.of_tile,
                     in.has(Part::kMeniscus)};
-  const LabelSources labels{ws.labels, ws.shading, ws.meshes.objects.in_window(),
-                            ws.meshes.trees.drawn_in(ViewKind::kWindow), in.world};
+  const LabelSources labels{ws.labels, ws.shading, in.world};
   shade_picture({ws.meshes, ws.window, ws.visibility, ws.edges, ws.planar_maps.of_tile, ws.shading,
                  in.options.wireframe, has_labels ? &labels : nullptr,
                  ws.crossing.picture == Begins::kInBoth ? &wet : nullptr},

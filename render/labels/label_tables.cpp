@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/view/implicits.h"
 #include "render/view/surface_points.h"
 
 namespace swell::render {
@@ -16,6 +17,50 @@ void for_chunks(std::size_t count, const StageRun& run, const Body& body) {
   run.for_each((count + kTaskSize - 1) / kTaskSize, [&](std::size_t chunk, int) {
     body(chunk * kTaskSize, std::min(count, (chunk + 1) * kTaskSize));
   });
+}
+
+// What a table by primitive has of a surface.
+template <class T>
+std::span<T> of_surface(std::vector<T>& table, const PrimitiveRanges& primitives,
+                        SurfaceKind kind) {
+  return std::span(table).subspan(primitives.begin(kind),
+                                  primitives.end(kind) - primitives.begin(kind));
+}
+
+// --- Numbers
+
+// The numbers of water, land, object n of the scene and tree n of the world.
+template <class OfObject, class OfTree>
+void fill_numbers(const LabelInputs& in, std::uint32_t water, std::uint32_t land,
+                  const OfObject& of_object, const OfTree& of_tree,
+                  std::vector<std::uint32_t>& numbers) {
+  const PrimitiveRanges& primitives = in.window.primitives;
+  numbers.assign(primitives.count(), land);
+  for (const SurfaceKind kind : {SurfaceKind::kWater, SurfaceKind::kRivers})
+    std::ranges::fill(of_surface(numbers, primitives, kind), water);
+  if (!primitives.empty(SurfaceKind::kObjects)) {
+    const ObjectDraws& draws = in.meshes.objects.in_window();
+    const auto objects = of_surface(numbers, primitives, SurfaceKind::kObjects);
+    for (std::size_t i = 0; i < draws.parts.size(); ++i)
+      std::ranges::fill(objects.subspan(draws.parts[i].first_triangle, draws.parts[i].triangles),
+                        of_object(draws.instances[i].object));
+  }
+  const TreeDraws& trees = in.meshes.trees.drawn_in(ViewKind::kWindow);
+  const auto of_trees = of_surface(numbers, primitives, SurfaceKind::kTrees);
+  for (std::size_t i = 0; i < of_trees.size(); ++i) of_trees[i] = of_tree(trees.tree_of(i).tree);
+}
+
+void fill_ids(const LabelInputs& in, LabelTables& tables) {
+  fill_numbers(
+      in, kWaterId, kLandId, [](std::uint32_t object) { return kFirstObjectId + object; },
+      [](std::uint32_t tree) { return kFirstTreeId + tree; }, tables.id);
+}
+
+void fill_classes(const LabelInputs& in, LabelTables& tables) {
+  fill_numbers(
+      in, kWaterClass, kTerrainClass,
+      [&](std::uint32_t object) { return in.world.object_classes[object]; },
+      [&](std::uint32_t) { return in.world.tree_class; }, tables.klass);
 }
 
 // --- Normals
@@ -43,9 +88,7 @@ void fill_normals(const LabelInputs& in, LabelTables& tables, const StageRun& ru
   const PrimitiveRanges& primitives = in.window.primitives;
   tables.normal.resize(primitives.count());
   for (const SurfaceKind kind : kAllSurfaces) {
-    const auto normal =
-        std::span(tables.normal)
-            .subspan(primitives.begin(kind), primitives.end(kind) - primitives.begin(kind));
+    const std::span<glm::vec3> normal = of_surface(tables.normal, primitives, kind);
     const auto indices = in.meshes.indices(kind);
     if (indices.empty()) {
       std::ranges::fill(normal, glm::vec3(0.0f));
@@ -69,66 +112,113 @@ glm::dmat3 pixels_from_rel(const View& view) {
       x_px * (right - middle_x * forward), -y_px * (up - middle_y * forward), forward));
 }
 
-// The plane through what the triangle's vertices rise by.
-glm::vec3 rise_of(const std::array<glm::dvec2, 3>& p, const std::array<double, 3>& rise_m) {
-  const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
-  const double da = rise_m[1] - rise_m[0], db = rise_m[2] - rise_m[0];
-  const double area = a.x * b.y - a.y * b.x;
-  if (area == 0.0) return {static_cast<float>(rise_m[0]), 0.0f, 0.0f};
-  const glm::dvec2 slope((da * b.y - db * a.y) / area, (db * a.x - da * b.x) / area);
-  return glm::vec3(rise_m[0] - glm::dot(slope, p[0]), slope.x, slope.y);
+using AffineMap = glm::dmat4x3;
+
+AffineMap affine_map(const glm::dmat3& turn, glm::dvec3 shift) {
+  return {turn[0], turn[1], turn[2], shift};
 }
 
-void fill_rise(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
+// How a triangle moves whose corners move so: as its plane does, and not with the height over it.
+AffineMove move_of_triangle(const std::array<glm::dvec3, 3>& p_rel,
+                            const std::array<glm::dvec3, 3>& move) {
+  const glm::dvec3 a = p_rel[1] - p_rel[0], b = p_rel[2] - p_rel[0], normal = glm::cross(a, b);
+  const double area2 = glm::dot(normal, normal);
+  if (!(area2 > 0.0)) return AffineMove(affine_map(glm::dmat3(0.0), move[0]));
+  const glm::dmat3 turn = glm::outerProduct((move[1] - move[0]) / area2, glm::cross(b, normal)) +
+                          glm::outerProduct((move[2] - move[0]) / area2, glm::cross(normal, a));
+  return AffineMove(affine_map(turn, move[0] - turn * p_rel[0]));
+}
+
+// From how far the surface's vertices move.
+void fill_moves(const LabelInputs& in, SurfaceKind kind, std::span<const glm::vec3> vertex_move,
+                std::span<AffineMove> moves, const StageRun& run) {
+  const std::span<const std::uint32_t> indices = in.meshes.indices(kind);
+  visit_points(in.meshes, kind, in.window, [&](const auto& point) {
+    for_chunks(moves.size(), run, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        std::array<glm::dvec3, 3> p_rel, move;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t vertex = indices[3 * i + k];
+          p_rel[k] = point(vertex).p_rel;
+          move[k] = vertex_move[vertex];
+        }
+        moves[i] = move_of_triangle(p_rel, move);
+      }
+    });
+  });
+}
+
+void fill_sea_moves(const LabelInputs& in, std::span<AffineMove> moves, LabelTables& tables,
+                    const StageRun& run) {
   const Surface& water = in.meshes.water;
   const WaterHeights heights{in.world, tables.next_sea, in.window.camera,
                              static_cast<float>(in.options.background_error_px)};
   tables.next_height_m.resize(water.height_m.size());
-  tables.rise.resize(water.mesh.indices.size() / 3);
-  for_chunks(tables.next_height_m.size(), run, [&](std::size_t begin, std::size_t end) {
+  tables.vertex_move.resize(water.height_m.size());
+  for_chunks(water.height_m.size(), run, [&](std::size_t begin, std::size_t end) {
     water_heights(heights, water, begin, end, tables.next_height_m);
+    for (std::size_t i = begin; i < end; ++i)
+      tables.vertex_move[i] = {0.0f, 0.0f, tables.next_height_m[i] - water.height_m[i]};
   });
-  for_chunks(tables.rise.size(), run, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      std::array<glm::dvec2, 3> p;
-      std::array<double, 3> rise_m;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = water.mesh.indices[3 * i + k];
-        p[k] = water.offset[v];
-        rise_m[k] = static_cast<double>(tables.next_height_m[v]) - water.height_m[v];
-      }
-      tables.rise[i] = rise_of(p, rise_m);
-    }
-  });
+  fill_moves(in, SurfaceKind::kWater, tables.vertex_move, moves, run);
 }
 
-ObjectMotion motion_of(const scene::ObjectPose& now, const scene::ObjectPose& next,
-                       glm::dvec3 eye_world) {
+void fill_tree_moves(const LabelInputs& in, std::span<AffineMove> moves, LabelTables& tables,
+                     const StageRun& run) {
+  const TreeDraws& trees = in.meshes.trees.drawn_in(ViewKind::kWindow);
+  tables.vertex_move.resize(trees.p_rel.size());
+  find_tree_moves(in.world, trees, in.t_s + in.options.next_frame_s, tables.vertex_move, run);
+  fill_moves(in, SurfaceKind::kTrees, tables.vertex_move, moves, run);
+}
+
+// How the points of a rigid object move.
+AffineMap move_of_object(const scene::ObjectPose& now, const scene::ObjectPose& next,
+                         glm::dvec3 eye_world) {
   const glm::dmat3 turn =
       (next.world_from_object - now.world_from_object) * glm::transpose(now.world_from_object);
-  return {glm::mat3(turn), glm::vec3(now.position_world - eye_world),
-          glm::vec3(next.position_world - now.position_world)};
+  const glm::dvec3 shift = next.position_world - now.position_world;
+  return affine_map(turn, shift - turn * (now.position_world - eye_world));
+}
+
+// How points move that `first` moves, then `second`.
+AffineMap move_by_both(const AffineMap& first, const AffineMap& second) {
+  const glm::dmat3 turn(second);
+  return first + second + turn * first;
+}
+
+void fill_object_moves(const LabelInputs& in, std::span<AffineMove> moves, LabelTables& tables,
+                       const StageRun& run) {
+  const std::vector<scene::ObjectPose>& poses = in.meshes.objects.poses;
+  const ObjectDraws& draws = in.meshes.objects.in_window();
+  tables.next_poses.resize(poses.size());
+  drawn_poses(in.world, tables.next_sea, in.options.next_poses, tables.next_poses, run);
+  for (std::size_t i = 0; i < draws.parts.size(); ++i) {
+    const ObjectInstance& instance = draws.instances[i];
+    const auto [first, count] = std::pair(draws.parts[i].first_triangle, draws.parts[i].triangles);
+    const AffineMap move = move_of_object(
+        poses[instance.object], tables.next_poses[instance.object], in.window.camera.eye_world);
+    std::ranges::fill(moves.subspan(first, count), AffineMove(move));
+    if (!instance.implicit) continue;
+    for (std::uint32_t part = 0; part < count; ++part)
+      if (const auto turning = part_move(instance, part, in.options.next_frame_s))
+        moves[first + part] = AffineMove(move_by_both(*turning, move));
+  }
 }
 
 void fill_motion(const LabelInputs& in, LabelTables& tables, const StageRun& run) {
   const View& now = in.window.camera;
-  tables.step_s = in.options.next_frame_s;
+  const PrimitiveRanges& primitives = in.window.primitives;
   tables.camera = camera_motion(now, in.options.next_view.value_or(now));
   advance_waves(in.world, in.t_s + in.options.next_frame_s, in.options.disturbances,
                 in.options.without, tables.next_sea, run.workers);
-  fill_rise(in, tables, run);
-
-  const std::vector<scene::ObjectPose>& poses = in.meshes.objects.poses;
-  tables.next_poses.resize(poses.size());
-  tables.object_motion.resize(poses.size());
-  drawn_poses(in.world, tables.next_sea, in.options.next_poses, tables.next_poses, run);
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    tables.object_motion[i] = motion_of(poses[i], tables.next_poses[i], now.eye_world);
-
-  const TreeDraws& trees = in.meshes.trees.drawn_in(ViewKind::kWindow);
-  tables.tree_move.resize(trees.p_rel.size());
-  if (!trees.p_rel.empty())
-    find_tree_moves(in.world, trees, in.t_s + in.options.next_frame_s, tables.tree_move, run);
+  tables.move.assign(primitives.count(), AffineMove(0.0f));
+  const auto fill = [&](SurfaceKind kind, const auto& fill_its) {
+    if (!primitives.empty(kind))
+      fill_its(in, of_surface(tables.move, primitives, kind), tables, run);
+  };
+  fill(SurfaceKind::kWater, fill_sea_moves);
+  fill(SurfaceKind::kObjects, fill_object_moves);
+  fill(SurfaceKind::kTrees, fill_tree_moves);
 }
 
 }  // namespace
@@ -148,6 +238,8 @@ void fill_label_tables(const LabelInputs& in, LabelTables& tables, const StageRu
   tables.from_shading = has(Label::kNormal) || has(Label::kFlags) ||
                         (has_implicits && has(Label::kGeometricNormal)) || has(Label::kFoam) ||
                         has(Label::kClass);
+  if (has(Label::kId)) fill_ids(in, tables);
+  if (has(Label::kClass)) fill_classes(in, tables);
   if (has(Label::kGeometricNormal)) fill_normals(in, tables, run);
   if (has(Label::kMotion)) fill_motion(in, tables, run);
 }

@@ -25,29 +25,23 @@ struct CameraMotion {
 
 CameraMotion camera_motion(const View& now, const View& next);
 
-// A rigid object's points p_rel move by turn (p_rel - origin_rel) + shift.
-struct ObjectMotion {
-  glm::mat3 turn{0.0f};
-  glm::vec3 origin_rel{0.0f}, shift{0.0f};
-};
+// How far a point p_rel of a primitive moves to the next frame: move * (p_rel, 1), relative to the
+// eye [m], on a flat earth. What stands still has one of exactly 0.
+using AffineMove = glm::mat4x3;
 
 struct LabelTables {
   LabelSet set;
   bool from_shading = false;  // some labels come from the shader
   glm::dvec3 eye_world{0.0};
-  // By primitive of the window; for kGeometricNormal. Of land that rays find: none.
-  std::vector<glm::vec3> normal;
-  // For kMotion.
-  CameraMotion camera;
-  double step_s = 0.0;                      // to the next frame
-  std::vector<ObjectMotion> object_motion;  // by object of the scene
-  // By triangle of the water: it rises by rise.x + rise.y x + rise.z y at a place (x, y) relative
-  // to the eye.
-  std::vector<glm::vec3> rise;
-  std::vector<glm::vec3> tree_move;  // by vertex of the window's TreeDraws
+  // By primitive of the window, each where a label that is asked for needs it.
+  std::vector<std::uint32_t> id, klass;  // of water that is no foam
+  std::vector<glm::vec3> normal;         // for kGeometricNormal; of land that rays find: none
+  std::vector<AffineMove> move;          // for kMotion
+  CameraMotion camera;                   // likewise
   // Storage.
   ocean::SeaFrame next_sea;
   std::vector<float> next_height_m;           // per vertex of the water
+  std::vector<glm::vec3> vertex_move;         // of a surface whose vertices move one by one
   std::vector<scene::ObjectPose> next_poses;  // of all objects
 };
 

@@ -14,9 +14,7 @@ namespace swell::render {
 // What the labels of all tiles of a picture are made from.
 struct LabelSources {
   const LabelTables& tables;
-  const Shading& shading;      // of the window
-  const ObjectDraws& objects;  // that are drawn
-  const TreeDraws& trees;      // likewise
+  const Shading& shading;  // of the window
   const World::State& world;
 };
 

@@ -4,7 +4,6 @@
 
 #include "math/check.h"
 #include "render/labels/label_tile.h"
-#include "render/view/implicits.h"
 #include "render/world/land_rays.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -66,8 +65,7 @@ struct LabelPacket {
   V depth;       // [m]; +inf where the sky is seen
   V3 ray;        // of depth 1
   VU primitive;
-  M is_sky, is_water, is_object, is_tree;
-  M is_sea;             // of water, the sea
+  M is_sky, is_water;
   std::size_t tile_at;  // of the first pixel in the tile's buffers
   std::size_t count;    // of pixels in the picture
 };
@@ -100,10 +98,8 @@ HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   p.primitive =
       open_sky ? hn::Set(du, raster::kNoPrimitive) : hn::LoadU(du, s.primitive + p.tile_at);
   p.is_sky = hn::RebindMask(d, p.primitive == hn::Set(du, raster::kNoPrimitive));
-  p.is_sea = InRange(s.primitives, SurfaceKind::kWater, p.primitive);
-  p.is_water = p.is_sea | InRange(s.primitives, SurfaceKind::kRivers, p.primitive);
-  p.is_object = InRange(s.primitives, SurfaceKind::kObjects, p.primitive);
-  p.is_tree = InRange(s.primitives, SurfaceKind::kTrees, p.primitive);
+  p.is_water = InRange(s.primitives, SurfaceKind::kWater, p.primitive) |
+               InRange(s.primitives, SurfaceKind::kRivers, p.primitive);
   // So far that floats have no depth for it, a surface is not at infinity all the same.
   const V z = open_sky ? hn::Zero(d) : hn::LoadU(d, s.depth + p.tile_at);
   p.z = hn::IfThenZeroElse(p.is_sky, Max(z, 1e-30f));
@@ -111,88 +107,51 @@ HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   return p;
 }
 
-// A table's vectors by the number of the packet's primitives, less first; of lanes outside `where`
-// any of them.
-HWY_INLINE V3 GatherAt(std::span<const glm::vec3> table, std::uint32_t first, const M& where,
-                       const LabelPacket& p) {
+// What a table says of the packet's primitives, which are not all the sky's, as kWords words an
+// entry; of the sky's lanes it says that of entry 0.
+template <std::size_t kWords, class Entry>
+HWY_INLINE std::array<V, kWords> EntriesOf(std::span<const Entry> table, const LabelPacket& p) {
+  static_assert(sizeof(Entry) == kWords * sizeof(float));
   const D d;
   const DU du;
-  const VU number = IfThenElseZero(hn::RebindMask(du, where), p.primitive - first);
+  const VU number = IfThenZeroElse(hn::RebindMask(du, p.is_sky), p.primitive);
+  const float* const base = reinterpret_cast<const float*>(table.data());
+  std::array<V, kWords> words;
   // Neighbours often share a triangle, and gathers are slow.
   const std::uint32_t one = hn::GetLane(number);
-  if (hn::AllTrue(du, number == hn::Set(du, one))) return Constant(table[one]);
-  const VI at = hn::BitCast(DI(), number + (number + number));
-  const float* const base = &table[0].x;
-  return {hn::GatherIndex(d, base, at), hn::GatherIndex(d, base + 1, at),
-          hn::GatherIndex(d, base + 2, at)};
+  if (hn::AllTrue(du, number == hn::Set(du, one))) {
+    for (std::size_t i = 0; i < kWords; ++i) words[i] = Constant(base[kWords * one + i]);
+    return words;
+  }
+  const VI at = hn::BitCast(DI(), number * hn::Set(du, kWords));
+  for (std::size_t i = 0; i < kWords; ++i) words[i] = hn::GatherIndex(d, base + i, at);
+  return words;
 }
 
 HWY_INLINE V3 OnlyWhere(const M& where, V3 v) {
   return {IfThenElseZero(where, v.x), IfThenElseZero(where, v.y), IfThenElseZero(where, v.z)};
 }
 
-// Calls visit(lane, primitive) where a lane shows an object.
-template <class Visit>
-HWY_INLINE void VisitObjects(const LabelSources& in, const LabelPacket& p, const Visit& visit) {
-  if (hn::AllFalse(D(), p.is_object)) return;
-  HWY_ALIGN std::array<std::uint32_t, kLanes> primitive;
-  hn::Store(p.primitive, DU(), primitive.data());
-  const PrimitiveRanges& ranges = in.shading.primitives;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    if (ranges.holds(SurfaceKind::kObjects, primitive[lane]))
-      visit(lane, in.objects.primitives[primitive[lane] - ranges.begin(SurfaceKind::kObjects)]);
-}
-
-// Calls visit(lane, triangle) where a lane shows a tree: the triangle's number in TreeDraws.
-template <class Visit>
-HWY_INLINE void VisitTrees(const LabelSources& in, const LabelPacket& p, const Visit& visit) {
-  if (hn::AllFalse(D(), p.is_tree)) return;
-  HWY_ALIGN std::array<std::uint32_t, kLanes> primitive;
-  hn::Store(p.primitive, DU(), primitive.data());
-  const PrimitiveRanges& ranges = in.shading.primitives;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    if (ranges.holds(SurfaceKind::kTrees, primitive[lane]))
-      visit(lane, primitive[lane] - ranges.begin(SurfaceKind::kTrees));
-}
-
 // --- Labels
 
-// What is seen, as numbers: of the sky, of the water, of the land; of object n what of_object(n)
-// is, of tree n what of_tree(n) is.
-template <class OfObject, class OfTree>
-HWY_INLINE VU NumberOf(const LabelSources& in, const LabelPacket& p, VU sky, VU water, VU land,
-                       const OfObject& of_object, const OfTree& of_tree) {
+// A table's numbers of what is seen; the sky has its own.
+HWY_INLINE VU NumberOf(std::span<const std::uint32_t> table, const LabelPacket& p,
+                       std::uint32_t of_sky) {
   const DU du;
-  const VU number = IfThenElse(hn::RebindMask(du, p.is_sky), sky,
-                               IfThenElse(hn::RebindMask(du, p.is_water), water, land));
-  if (hn::AllFalse(D(), p.is_object | p.is_tree)) return number;
-  HWY_ALIGN std::array<std::uint32_t, kLanes> lanes;
-  hn::Store(number, du, lanes.data());
-  VisitObjects(in, p, [&](std::size_t lane, const ObjectPrimitive& shown) {
-    lanes[lane] = of_object(shown.object->object);
-  });
-  VisitTrees(in, p, [&](std::size_t lane, std::uint32_t triangle) {
-    lanes[lane] = of_tree(in.trees.tree_of(triangle).tree);
-  });
-  return hn::Load(du, lanes.data());
+  if (hn::AllTrue(D(), p.is_sky)) return hn::Set(du, of_sky);
+  const VU number = hn::BitCast(du, EntriesOf<1>(table, p)[0]);
+  return IfThenElse(hn::RebindMask(du, p.is_sky), hn::Set(du, of_sky), number);
 }
 
 HWY_INLINE VU IdOf(const LabelSources& in, const LabelPacket& p) {
-  const DU du;
-  return NumberOf(
-      in, p, hn::Set(du, kSkyId), hn::Set(du, kWaterId), hn::Set(du, kLandId),
-      [](std::uint32_t object) { return kFirstObjectId + object; },
-      [](std::uint32_t tree) { return kFirstTreeId + tree; });
+  return NumberOf(in.tables.id, p, kSkyId);
 }
 
 HWY_INLINE VU ClassOf(const LabelSources& in, const LabelPacket& p, V foam) {
   const DU du;
-  const auto is_foam = hn::RebindMask(du, foam > 0.5f);
-  const VU water = IfThenElse(is_foam, hn::Set(du, kFoamClass), hn::Set(du, kWaterClass));
-  return NumberOf(
-      in, p, hn::Set(du, kSkyClass), water, hn::Set(du, kTerrainClass),
-      [&](std::uint32_t object) { return in.world.object_classes[object]; },
-      [&](std::uint32_t) { return in.world.tree_class; });
+  const M is_foam = p.is_water & (foam > 0.5f);
+  return IfThenElse(hn::RebindMask(du, is_foam), hn::Set(du, kFoamClass),
+                    NumberOf(in.tables.klass, p, kSkyClass));
 }
 
 HWY_INLINE V3 ShadedNormal(const LabelTile& tile, const LabelPacket& p) {
@@ -227,11 +186,11 @@ HWY_INLINE void TakeCastLand(const LabelSources& in, const LabelPacket& p, V3& n
 HWY_INLINE V3 GeometricNormal(const LabelSources& in, const LabelTile& tile, const LabelPacket& p) {
   const D d;
   if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  const M is_surface = !p.is_sky;
-  V3 normal = OnlyWhere(is_surface, GatherAt(in.tables.normal, 0, is_surface, p));
+  const auto [x, y, z] = EntriesOf<3, glm::vec3>(in.tables.normal, p);
+  V3 normal = OnlyWhere(!p.is_sky, {x, y, z});
   if (in.world.land_rays) TakeCastLand(in, p, normal);
   if (!tile.shaded) return normal;
-  const M is_implicit = p.is_object & (Dot(normal, normal) == hn::Zero(d));
+  const M is_implicit = hn::AndNot(p.is_sky, Dot(normal, normal) == hn::Zero(d));
   if (hn::AllFalse(d, is_implicit)) return normal;
   const V3 shaded = ShadedNormal(tile, p);
   return {IfThenElse(is_implicit, shaded.x, normal.x), IfThenElse(is_implicit, shaded.y, normal.y),
@@ -251,65 +210,29 @@ HWY_INLINE V FoamOf(const LabelTile& tile, const LabelPacket& p) {
   return OfWater(tile.shaded->foam_cover, p);
 }
 
-// How far the sea has sunk where a packet's pixels look, on a round earth.
-HWY_INLINE V DropOf(const ViewRays& rays, const LabelPacket& p) {
-  const V x = p.depth * p.ray.x, y = p.depth * p.ray.y;
+// How far the sea has sunk at (x, y) relative to the eye, on a round earth.
+HWY_INLINE V DropOf(const ViewRays& rays, V x, V y) {
   return MulAdd(x, x, y * y) * rays.drop_per_m2;
 }
 
 HWY_INLINE V ElevationOf(const Shading& s, const LabelPacket& p) {
   const V height = MulAdd(p.depth, p.ray.z, s.rays.eye_z);
-  return IfThenElseZero(p.is_water, height + DropOf(s.rays, p));
-}
-
-// How far the point p_rel of a triangle moves whose corners move so far: an affine function.
-glm::vec3 move_of_tree(const glm::vec3* corner, const glm::vec3* move, glm::vec3 p_rel) {
-  const glm::vec3 a = corner[1] - corner[0], b = corner[2] - corner[0], p = p_rel - corner[0];
-  const glm::vec3 normal = glm::cross(a, b);
-  const float area2 = glm::dot(normal, normal);
-  if (!(area2 > 0.0f)) return move[0];
-  const float by_a = glm::dot(glm::cross(p, b), normal) / area2;
-  const float by_b = glm::dot(glm::cross(a, p), normal) / area2;
-  return move[0] + by_a * (move[1] - move[0]) + by_b * (move[2] - move[0]);
+  const V drop = DropOf(s.rays, p.depth * p.ray.x, p.depth * p.ray.y);
+  return IfThenElseZero(p.is_water, height + drop);
 }
 
 // How far what is seen moves in the world to the next frame.
 HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
   const D d;
-  V3 move = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  if (!hn::AllFalse(d, p.is_sea)) {
-    const V3 rise =
-        GatherAt(in.tables.rise, in.shading.primitives.begin(SurfaceKind::kWater), p.is_sea, p);
-    const V x = p.depth * p.ray.x, y = p.depth * p.ray.y;
-    move.z = IfThenElseZero(p.is_sea, MulAdd(rise.z, y, MulAdd(rise.y, x, rise.x)));
-  }
-  if (hn::AllFalse(d, p.is_object | p.is_tree)) return move;
-  HWY_ALIGN std::array<float, kLanes> depth, ray_x, ray_y, ray_z, drop, x, y, z;
-  hn::Store(p.depth, d, depth.data());
-  hn::Store(p.ray.x, d, ray_x.data());
-  hn::Store(p.ray.y, d, ray_y.data());
-  hn::Store(p.ray.z, d, ray_z.data());
-  hn::Store(DropOf(in.shading.rays, p), d, drop.data());
-  hn::Store(move.x, d, x.data());
-  hn::Store(move.y, d, y.data());
-  hn::Store(move.z, d, z.data());
-  VisitObjects(in, p, [&](std::size_t lane, const ObjectPrimitive& shown) {
-    const ObjectMotion& motion = in.tables.object_motion[shown.object->object];
-    const glm::vec3 p_rel = depth[lane] * glm::vec3(ray_x[lane], ray_y[lane], ray_z[lane]);
-    const glm::vec3 turned = part_move(shown, p_rel, in.tables.step_s);
-    const glm::vec3 moved =
-        motion.turn * (p_rel + turned - motion.origin_rel) + motion.shift + turned;
-    x[lane] = moved.x, y[lane] = moved.y, z[lane] = moved.z;
-  });
-  VisitTrees(in, p, [&](std::size_t lane, std::uint32_t triangle) {
-    glm::vec3 p_rel = depth[lane] * glm::vec3(ray_x[lane], ray_y[lane], ray_z[lane]);
-    p_rel.z += drop[lane];  // corners are those of a flat earth
-    const std::size_t corner = std::size_t{3} * triangle;
-    const glm::vec3 moved =
-        move_of_tree(&in.trees.p_rel[corner], &in.tables.tree_move[corner], p_rel);
-    x[lane] = moved.x, y[lane] = moved.y, z[lane] = moved.z;
-  });
-  return {hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data())};
+  if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  const auto m = EntriesOf<12, AffineMove>(in.tables.move, p);
+  const V depth = IfThenZeroElse(p.is_sky, p.depth);
+  const V x = depth * p.ray.x, y = depth * p.ray.y;
+  const V z = MulAdd(depth, p.ray.z, DropOf(in.shading.rays, x, y));
+  const auto along = [&](std::size_t axis) HWY_ATTR {
+    return MulAdd(m[axis], x, MulAdd(m[3 + axis], y, MulAdd(m[6 + axis], z, m[9 + axis])));
+  };
+  return OnlyWhere(!p.is_sky, {along(0), along(1), along(2)});
 }
 
 // m v + b

@@ -322,20 +322,19 @@ void find_implicits(const ObjectDraws& objects, RenderView& view) {
   }
 }
 
-glm::vec3 part_move(const ObjectPrimitive& shown, glm::vec3 p_rel, double step_s) {
-  const ObjectInstance& instance = *shown.object;
-  if (!instance.implicit) return glm::vec3(0.0f);
-  const auto number = static_cast<std::size_t>(shown.triangle - instance.mesh->triangles.data());
-  const RayPart& part = instance.implicit->parts[number];
-  const glm::dvec3 spin(part.spin);
+std::optional<glm::dmat4x3> part_move(const ObjectInstance& object, std::uint32_t part,
+                                      double step_s) {
+  const RayPart& turning = object.implicit->parts[part];
+  const glm::dvec3 spin(turning.spin);
   const double turns_per_s = glm::length(spin);
-  if (turns_per_s == 0.0) return glm::vec3(0.0f);
-  const ImplicitPlace place = place_of(instance);
-  const glm::dvec3 p_implicit =
-      place.base + place.implicit_from_world * (glm::dvec3(p_rel) - place.bottom_rel);
-  const glm::dvec3 arm = p_implicit - glm::dvec3(part.hub);
-  const glm::dvec3 turned = turn_about(spin / turns_per_s, turns_per_s * step_s) * arm;
-  return glm::vec3(place.world_from_implicit * (turned - arm));
+  if (turns_per_s == 0.0) return std::nullopt;
+  const ImplicitPlace place = place_of(object);
+  const glm::dmat3 turn = turn_about(spin / turns_per_s, turns_per_s * step_s) - glm::dmat3(1.0);
+  const glm::dmat3 moved = place.world_from_implicit * turn;
+  const glm::dmat3 linear = moved * place.implicit_from_world;
+  const glm::dvec3 arm_of_eye =
+      place.base - place.implicit_from_world * place.bottom_rel - glm::dvec3(turning.hub);
+  return glm::dmat4x3(linear[0], linear[1], linear[2], moved * arm_of_eye);
 }
 
 }  // namespace swell::render

@@ -20,7 +20,7 @@ namespace swell::render {
 
 struct RenderView;
 struct ObjectDraws;
-struct ObjectPrimitive;
+struct ObjectInstance;
 
 // An implicit surface in one view.
 struct ImplicitInView {
@@ -75,9 +75,9 @@ void draw_implicit_samples(const ImplicitsInView& implicits, const raster::Pixel
                            int samples, const raster::PixelMask& mask, std::span<float> depth,
                            std::span<std::uint32_t> primitive);
 
-// How far the point p_rel of an implicit surface's part moves in step_s seconds by the part's
-// turning; all relative to the eye. 0 of parts that do not turn, and of objects that are no
-// implicit surfaces.
-glm::vec3 part_move(const ObjectPrimitive& part, glm::vec3 p_rel, double step_s);
+// How far a point p_rel of part `part` of an object that is an implicit surface moves in step_s
+// seconds by the part's turning: map * (p_rel, 1); all relative to the eye. None: it does not turn.
+std::optional<glm::dmat4x3> part_move(const ObjectInstance& object, std::uint32_t part,
+                                      double step_s);
 
 }  // namespace swell::render
