@@ -317,10 +317,10 @@ void shade(const FrameInputs& in, Target& target, const StageRun& run) {
   const WetSide wet{ws.crossing, ws.wet_shading, ws.wet_planar_maps.of_tile,
                     in.has(Part::kMeniscus)};
   const LabelSources labels{ws.labels, ws.shading, in.world};
-  shade_picture({ws.meshes, ws.window, ws.visibility, ws.edges, ws.planar_maps.of_tile, ws.shading,
-                 in.options.wireframe, has_labels ? &labels : nullptr,
-                 ws.crossing.picture == Begins::kInBoth ? &wet : nullptr},
-                ws.scratch, ws.shaded, target, run);
+  shade_picture(
+      {ws.window, ws.visibility, ws.edges, ws.planar_maps.of_tile, ws.shading, in.options.wireframe,
+       has_labels ? &labels : nullptr, ws.crossing.picture == Begins::kInBoth ? &wet : nullptr},
+      ws.scratch, ws.shaded, target, run);
 }
 
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
@@ -409,8 +409,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   in.stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,
                  run);
-    prepare_edges(ws.meshes.objects.in_window(), ws.window, ws.visibility, options.edge_samples,
-                  ws.edges);
+    prepare_edges(ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
   in.stage(Stage::kPlanarMaps, [&](const StageRun& run) { draw_images(in, light, air, run); });
   in.stage(Stage::kClouds, [&](const StageRun& run) {

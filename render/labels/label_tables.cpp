@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/view/draw_record.h"
 #include "render/view/implicits.h"
-#include "render/view/surface_points.h"
 
 namespace swell::render {
 namespace {
@@ -89,7 +89,7 @@ void fill_normals(const LabelInputs& in, LabelTables& tables, const StageRun& ru
   tables.normal.resize(primitives.count());
   for (const SurfaceKind kind : kAllSurfaces) {
     const std::span<glm::vec3> normal = of_surface(tables.normal, primitives, kind);
-    const auto indices = in.meshes.indices(kind);
+    const auto indices = in.window.draws[kind].indices;
     if (indices.empty()) {
       std::ranges::fill(normal, glm::vec3(0.0f));
       continue;
@@ -132,7 +132,7 @@ AffineMove move_of_triangle(const std::array<glm::dvec3, 3>& p_rel,
 // From how far the surface's vertices move.
 void fill_moves(const LabelInputs& in, SurfaceKind kind, std::span<const glm::vec3> vertex_move,
                 std::span<AffineMove> moves, const StageRun& run) {
-  const std::span<const std::uint32_t> indices = in.meshes.indices(kind);
+  const std::span<const std::uint32_t> indices = in.window.draws[kind].indices;
   visit_points(in.meshes, kind, in.window, [&](const auto& point) {
     for_chunks(moves.size(), run, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {

@@ -98,8 +98,10 @@ HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   p.primitive =
       open_sky ? hn::Set(du, raster::kNoPrimitive) : hn::LoadU(du, s.primitive + p.tile_at);
   p.is_sky = hn::RebindMask(d, p.primitive == hn::Set(du, raster::kNoPrimitive));
-  p.is_water = InRange(s.primitives, SurfaceKind::kWater, p.primitive) |
-               InRange(s.primitives, SurfaceKind::kRivers, p.primitive);
+  p.is_water = hn::MaskFromVec(hn::Zero(d));
+  for (const SurfaceKind kind : kAllSurfaces)
+    if (kSurfaceTraits[kind].is_water)
+      p.is_water = p.is_water | InRange(s.primitives, kind, p.primitive);
   // So far that floats have no depth for it, a surface is not at infinity all the same.
   const V z = open_sky ? hn::Zero(d) : hn::LoadU(d, s.depth + p.tile_at);
   p.z = hn::IfThenZeroElse(p.is_sky, Max(z, 1e-30f));

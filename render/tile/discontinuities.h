@@ -23,12 +23,11 @@ struct DiscontinuityScratch {
 // surface whose depths differ by more are of two places of it: a crest and farther water.
 inline constexpr float kPartOfDiscontinuity = 0.3f;
 
-// Marks both pixels of each such pair, so far as they lie in the tile. like_land: TreeDraws'; those
-// trees count as land. `visibility` is that of the whole window, so that the result does not depend
-// on the size of tiles.
-void mark_discontinuities(const VisibilityBuffer& visibility, const PrimitiveRanges& primitives,
-                          raster::Viewport viewport, std::span<const std::uint8_t> like_land,
-                          int tile, DiscontinuityScratch& scratch, raster::PixelMask& mask);
+// Marks both pixels of each such pair, so far as they lie in the tile. Kinds of surfaces are those
+// of SurfaceTraits::edges_as. `visibility` is that of the whole window, so that the result does not
+// depend on the size of tiles.
+void mark_discontinuities(const VisibilityBuffer& visibility, const RenderView& window, int tile,
+                          DiscontinuityScratch& scratch, raster::PixelMask& mask);
 
 // The tile's pixels that show, or one of whose four neighbours shows, nothing nearer than depth z
 // (of the visibility buffer): where something at z may be seen. `scratch` is as

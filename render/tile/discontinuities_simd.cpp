@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "render/tile/discontinuities.h"
@@ -305,31 +306,34 @@ bool is_open_water(const VisibilityBuffer& visibility, const TileAround& t, int 
 
 }  // namespace
 
-void mark_discontinuities(const VisibilityBuffer& visibility, const PrimitiveRanges& primitives,
-                          raster::Viewport viewport, std::span<const std::uint8_t> like_land,
-                          int tile, DiscontinuityScratch& scratch, raster::PixelMask& mask) {
-  const TileAround around = look_around(visibility, viewport, tile);
+void mark_discontinuities(const VisibilityBuffer& visibility, const RenderView& window, int tile,
+                          DiscontinuityScratch& scratch, raster::PixelMask& mask) {
+  const TileAround around = look_around(visibility, window.viewport(), tile);
   copy_depth(around, scratch);
   raster::PixelMask found;
   HWY_DYNAMIC_DISPATCH(MarkDepthDiscontinuities)(scratch, around.side, found);
   for (int y = 0; y < around.box.height_px; ++y)
     mask.add_to_row(y, found.row(y) & lowest_bits(around.box.width_px));
   if (is_open_water(visibility, around, tile)) return;
-  const auto bits = [&](SurfaceKind kind) {
-    return bits_of(around, {primitives.begin(kind), primitives.end(kind)});
-  };
-  const bool has_trees = !primitives.empty(SurfaceKind::kTrees);
-  for (const SurfaceKind kind : kAllSurfaces)
-    if (!primitives.empty(kind) && kind != SurfaceKind::kTrees &&
-        !(has_trees && kind == SurfaceKind::kTerrain))
-      mark_borders(around, bits(kind), mask);
-  if (!has_trees) return;
-  // Trees and land together, and between them where the trees stand out against it.
-  const std::uint32_t begin = primitives.begin(SurfaceKind::kTrees);
-  const std::uint32_t end = primitives.end(SurfaceKind::kTrees);
-  const PixelBits land = bits(SurfaceKind::kTerrain);
-  mark_borders(around, land | bits(SurfaceKind::kTrees), mask);
-  mark_contacts(around, land, bits_of(around, {begin, end, like_land}), mask);
+  const PrimitiveRanges& primitives = window.primitives;
+  EnumTable<SurfaceKind, std::optional<PixelBits>> of_kind;  // by SurfaceTraits::edges_as
+  for (const SurfaceKind surface : kAllSurfaces) {
+    if (primitives.empty(surface)) continue;
+    const PixelBits bits = bits_of(around, {primitives.begin(surface), primitives.end(surface)});
+    std::optional<PixelBits>& all = of_kind[kSurfaceTraits[surface].edges_as];
+    all = all ? *all | bits : bits;
+  }
+  for (const std::optional<PixelBits>& bits : of_kind)
+    if (bits) mark_borders(around, *bits, mask);
+  // Between what is of one kind where it stands out against the other.
+  for (const SurfaceKind surface : kAllSurfaces) {
+    const std::span<const std::uint8_t> like_land = window.draws[surface].like_land;
+    if (like_land.empty()) continue;
+    const std::uint32_t begin = primitives.begin(surface), end = primitives.end(surface);
+    const SurfaceKind land = kSurfaceTraits[surface].edges_as;
+    mark_contacts(around, bits_of(around, {primitives.begin(land), primitives.end(land)}),
+                  bits_of(around, {begin, end, like_land}), mask);
+  }
 }
 
 raster::PixelMask find_behind(const DiscontinuityScratch& scratch, int side, float z) {

@@ -41,10 +41,11 @@ struct TileBox {
   bool holds(int x, int y) const { return x >= x0 && x <= x1 && y >= y0 && y <= y1; }
 };
 
-// Where an object's triangles lie in the window.
-struct ObjectExtent {
+// Where the triangles of a DrawPart lie in the window.
+struct PartExtent {
   TileBox tiles;
-  float nearest_z;  // depth of its nearest vertex, as in the visibility buffer
+  float nearest_z;           // depth of its nearest vertex, as in the visibility buffer
+  std::uint32_t begin, end;  // its primitives
 };
 
 // The pixels of a frame where surfaces meet.
@@ -52,7 +53,7 @@ struct EdgeBuffer {
   int samples = 0;  // a pixel: 0, 4 or 8
   // By tile; a pixel's fragments lie side by side and have all of its samples together.
   std::vector<std::vector<EdgeFragment>> of_tile;
-  std::vector<ObjectExtent> objects;  // by ObjectDraws::parts
+  std::vector<PartExtent> parts;  // of all surfaces
 };
 
 // Working memory of one thread.
@@ -63,13 +64,13 @@ struct EdgeScratch {
 };
 
 // Stage 4, after the visibility of all tiles: makes room for the edges' fragments, and says where
-// objects lie. The window's pass was prepared with `samples`, 4 or 8; with 0 there are none.
-void prepare_edges(const ObjectDraws& objects, const RenderView& window,
-                   const VisibilityBuffer& visibility, int samples, EdgeBuffer& edges);
+// parts lie. The window's pass was prepared with `samples`, 4 or 8; with 0 there are none.
+void prepare_edges(const RenderView& window, const VisibilityBuffer& visibility, int samples,
+                   EdgeBuffer& edges);
 
 // Stage 6, before the tile is shaded and while its visibility comes into cache anyway: finds the
 // fragments of its edges. Different tiles may be searched by different threads at one time.
-void find_edges(const Meshes& meshes, const RenderView& window, const VisibilityBuffer& visibility,
-                int tile, EdgeScratch& scratch, EdgeBuffer& edges);
+void find_edges(const RenderView& window, const VisibilityBuffer& visibility, int tile,
+                EdgeScratch& scratch, EdgeBuffer& edges);
 
 }  // namespace swell::render

@@ -80,7 +80,7 @@ void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int
   run.for_each(tiles, [&](std::size_t index, int thread) {
     const auto tile = static_cast<int>(index);
     ThreadScratch& memory = *scratch[thread];
-    find_edges(in.meshes, in.window, visibility, tile, memory.edges, in.edges);
+    find_edges(in.window, visibility, tile, memory.edges, in.edges);
     const Begins begins = begins_in(in, tile);
     shaded[index] = shade_sides(in, tile, begins, memory, target);
     if (in.wet && in.wet->meniscus)

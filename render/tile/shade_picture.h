@@ -21,7 +21,6 @@ struct WetSide {
 
 // What the finished picture is made from.
 struct PictureInputs {
-  const Meshes& meshes;
   const RenderView& window;
   const VisibilityBuffer& visibility;
   EdgeBuffer& edges;                               // filled tile by tile

@@ -34,32 +34,22 @@ struct Triangle {
   int level;
 };
 
-Triangle triangle_at(std::span<const glm::vec4> p_clip, std::span<const std::uint32_t> indices,
-                     std::size_t n, int level) {
-  return {{p_clip[indices[3 * n]], p_clip[indices[3 * n + 1]], p_clip[indices[3 * n + 2]]}, level};
-}
-
-Triangle triangle_of(const PictureInputs& in, std::uint32_t primitive) {
+// None: what rays find has no triangles.
+std::optional<Triangle> triangle_of(const RenderView& window, std::uint32_t primitive) {
   constexpr int kWhite = 7;
-  const PrimitiveRanges& ranges = in.window.primitives;
-  const Meshes& meshes = in.meshes;
-  SurfaceKind kind = SurfaceKind::kWater;
-  for (const SurfaceKind k : kAllSurfaces)
-    if (ranges.holds(k, primitive)) kind = k;
-  const std::size_t n = primitive - ranges.begin(kind);
-  const int level = kind == SurfaceKind::kWater     ? meshes.water.mesh.level[n]
-                    : kind == SurfaceKind::kTerrain ? meshes.land.mesh.level[n]
-                                                    : kWhite;
-  return triangle_at(in.window.vertices_of(kind).p_clip, meshes.indices(kind), n, level);
-}
-
-// An implicit surface has none, nor has land that is found by rays.
-bool has_triangle(const PictureInputs& in, std::uint32_t primitive) {
-  const PrimitiveRanges& ranges = in.window.primitives;
-  if (ranges.holds(SurfaceKind::kTerrain, primitive)) return !in.window.land;
-  if (!ranges.holds(SurfaceKind::kObjects, primitive)) return true;
-  const std::uint32_t n = primitive - ranges.begin(SurfaceKind::kObjects);
-  return !in.meshes.objects.in_window().primitives[n].object->implicit;
+  for (const SurfaceKind kind : kAllSurfaces) {
+    if (!window.primitives.holds(kind, primitive)) continue;
+    const DrawRecord& record = window.draws[kind];
+    const std::uint32_t n = primitive - window.primitives.begin(kind);
+    if (record.is_cast || (!record.parts.empty() && record.part_of(n).is_cast)) break;
+    const std::span<const glm::vec4> p_clip = window.vertices_of(kind).p_clip;
+    const auto corner = [&](std::size_t k) {
+      return p_clip[record.indices[std::size_t{3} * n + k]];
+    };
+    return Triangle{{corner(0), corner(1), corner(2)},
+                    record.level.empty() ? kWhite : record.level[n]};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -76,13 +66,15 @@ void draw_wireframe(const PictureInputs& in, int tile, Target& target) {
     for (int x = 0; x < box.width_px; ++x) {
       const std::uint32_t p =
           primitive[static_cast<std::size_t>(y) * visibility.grid.tile_size_px + x];
-      if (p == raster::kNoPrimitive || !has_triangle(in, p)) continue;
       if (p != current) {
-        const Triangle triangle = triangle_of(in, p);
-        interpolator.emplace(triangle.p_clip, viewport);
-        colour = level_colour(triangle.level);
         current = p;
+        interpolator.reset();
+        if (const auto triangle = triangle_of(in.window, p)) {
+          interpolator.emplace(triangle->p_clip, viewport);
+          colour = level_colour(triangle->level);
+        }
       }
+      if (!interpolator) continue;
       const auto& edge = interpolator->at(box.x0_px + x, box.y0_px + y).edge_distance_px;
       const float nearest = std::min({std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2])});
       const float line = std::clamp(kLineWidth_px - nearest, 0.0f, 1.0f);

@@ -64,16 +64,17 @@ struct ObjectPrimitive {
   const ObjectInstance* object = nullptr;
 };
 
-// Which triangles and vertices of ObjectDraws are one object's.
-struct ObjectPart {
+// Which of a surface's triangles and vertices are one thing.
+struct DrawPart {
   std::uint32_t first_triangle = 0, triangles = 0;
   std::uint32_t first_vertex = 0, vertices = 0;
+  bool is_cast = false;  // found by rays: its triangles but stand for its parts
 };
 
 // The objects that views of one kind may show, each of as many triangles as the view needs.
 struct ObjectDraws {
   std::vector<ObjectInstance> instances;
-  std::vector<ObjectPart> parts;            // of the same
+  std::vector<DrawPart> parts;              // of the same
   std::vector<ObjectPrimitive> primitives;  // per triangle
   std::vector<std::uint32_t> indices;       // 3 per triangle
   std::vector<glm::vec3> p_rel;             // per vertex, relative to the eye
@@ -115,23 +116,6 @@ struct Meshes {
   ObjectGeometry objects;
   RiverMesh rivers;
   TreeGeometry trees;
-
-  std::span<const std::uint32_t> indices(SurfaceKind surface,
-                                         ViewKind view = ViewKind::kWindow) const {
-    switch (surface) {
-      case SurfaceKind::kWater:
-        return water.mesh.indices;
-      case SurfaceKind::kTerrain:
-        return land.mesh.indices;
-      case SurfaceKind::kObjects:
-        return objects.drawn_in(view).indices;
-      case SurfaceKind::kRivers:
-        return rivers.indices;
-      case SurfaceKind::kTrees:
-        return trees.drawn_in(view).indices;
-    }
-    return {};
-  }
 };
 
 // Stage 2: the cells of rivers and lakes that the view may show, joined where they are small in it.

@@ -141,7 +141,7 @@ bool may_show(const DrawnKind& drawn, const scene::FloatingObject& object,
 // Calls body(i, first, count) for the pieces of parts that numbers [begin, end) are of, counted
 // through all parts: of part i those from its own number `first` on.
 template <class First, class Count, class Body>
-void for_pieces(const std::vector<ObjectPart>& parts, std::size_t begin, std::size_t end,
+void for_pieces(const std::vector<DrawPart>& parts, std::size_t begin, std::size_t end,
                 First first_of, Count count_of, const Body& body) {
   auto part = std::ranges::upper_bound(parts, begin, {}, first_of) - 1;
   for (; begin < end; ++part) {
@@ -155,7 +155,7 @@ void for_pieces(const std::vector<ObjectPart>& parts, std::size_t begin, std::si
 // Writes vertices [begin, end), counted through all parts.
 void write_vertices(const World::State& world, std::span<const scene::ObjectPose> poses,
                     const View& view, std::size_t begin, std::size_t end, ObjectDraws& out) {
-  for_pieces(out.parts, begin, end, &ObjectPart::first_vertex, &ObjectPart::vertices,
+  for_pieces(out.parts, begin, end, &DrawPart::first_vertex, &DrawPart::vertices,
              [&](std::size_t i, std::size_t first, std::size_t count) {
                const ObjectInstance& instance = out.instances[i];
                const Placement placement =
@@ -173,10 +173,10 @@ void write_vertices(const World::State& world, std::span<const scene::ObjectPose
 
 // Writes triangles [begin, end), counted through all parts.
 void write_triangles(std::size_t begin, std::size_t end, ObjectDraws& out) {
-  for_pieces(out.parts, begin, end, &ObjectPart::first_triangle, &ObjectPart::triangles,
+  for_pieces(out.parts, begin, end, &DrawPart::first_triangle, &DrawPart::triangles,
              [&](std::size_t i, std::size_t first, std::size_t count) {
                const ObjectInstance& instance = out.instances[i];
-               const ObjectPart& part = out.parts[i];
+               const DrawPart& part = out.parts[i];
                const std::size_t at = part.first_triangle + first;
                for (std::size_t k = 0; k < 3 * count; ++k)
                  out.indices[3 * at + k] =
@@ -218,7 +218,7 @@ void list_instances(const World::State& world, const DrawnKind& drawn,
   draws.instances.clear();
   draws.instances.reserve(objects.size());  // primitives point into it
   draws.parts.clear();
-  ObjectPart part;
+  DrawPart part;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Placement placement = placement_of(objects[i], geometry.poses[i], drawn.camera);
     if (!may_show(drawn, objects[i], placement)) continue;
@@ -237,6 +237,7 @@ void list_instances(const World::State& world, const DrawnKind& drawn,
     part.first_vertex += part.vertices;
     part.triangles = static_cast<std::uint32_t>(mesh.triangles.size());
     part.vertices = static_cast<std::uint32_t>(mesh.position.size());
+    part.is_cast = shape.implicit != nullptr;
     draws.parts.push_back(part);
   }
   const std::size_t triangles = part.first_triangle + part.triangles;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/view/cast_land.h"
+#include "render/view/draw_record.h"
 
 namespace swell::render {
 namespace {
@@ -144,8 +145,8 @@ void draw_planar_maps(const Meshes& meshes, const RenderView& window,
   images.of_tile.assign(tiles, {});
   const bool any = window.land || std::ranges::any_of(kAllSurfaces, [&](SurfaceKind s) {
                      return shows(ViewKind::kReflection, s) &&
-                            !(meshes.indices(s, ViewKind::kReflection).empty() &&
-                              meshes.indices(s, ViewKind::kRefraction).empty());
+                            !(draw_record(meshes, s, ViewKind::kReflection).indices.empty() &&
+                              draw_record(meshes, s, ViewKind::kRefraction).indices.empty());
                    });
   if (!any || inputs.without.has(Part::kWater)) return;
 

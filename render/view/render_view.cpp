@@ -5,8 +5,8 @@
 
 #include "math/check.h"
 #include "render/materials/list.h"
+#include "render/view/draw_record.h"
 #include "render/view/refracted_image.h"
-#include "render/view/surface_points.h"
 
 namespace swell::render {
 
@@ -39,7 +39,7 @@ glm::vec4 image_clip_plane(ViewKind kind, const EyeInWater& eye, SurfaceKind sur
                            float margin_m) {
   const float to_eyes_side = eye.submerged ? -1.0f : 1.0f;
   if (kind == ViewKind::kRefraction) return {0.0f, 0.0f, -to_eyes_side, margin_m};
-  return {0.0f, 0.0f, to_eyes_side, surface == SurfaceKind::kTerrain ? 0.0f : margin_m};
+  return {0.0f, 0.0f, to_eyes_side, kSurfaceTraits[surface].keeps_clip_margin ? margin_m : 0.0f};
 }
 
 namespace {
@@ -115,24 +115,24 @@ void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, 
 
 void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples, RenderView& view,
                        Workers& workers) {
-  const auto is_drawn = [&](SurfaceKind s) { return shows(view.kind, s) && has_material(s); };
   std::array<std::uint32_t, kSurfaceKinds> triangles{};
-  for (const SurfaceKind s : kAllSurfaces)
-    if (is_drawn(s))
-      triangles[static_cast<std::size_t>(s)] =
-          static_cast<std::uint32_t>(meshes.indices(s, view.kind).size() / 3);
-  if (view.land && is_drawn(SurfaceKind::kTerrain))
-    triangles[static_cast<std::size_t>(SurfaceKind::kTerrain)] = 1;  // for all of it
-  view.primitives = PrimitiveRanges(triangles);
-
   std::array<raster::Draw, kSurfaceKinds> draws;
+  for (const SurfaceKind s : kAllSurfaces) {
+    DrawRecord& record = view.draws[s] = {};
+    if (!shows(view.kind, s) || !has_material(s)) continue;
+    record = draw_record(meshes, s, view.kind);
+    record.is_cast = s == SurfaceKind::kTerrain && view.land;
+    triangles[static_cast<std::size_t>(s)] =
+        record.is_cast ? 1 : static_cast<std::uint32_t>(record.indices.size() / 3);
+  }
+  view.primitives = PrimitiveRanges(triangles);
   std::size_t count = 0;
   for (const SurfaceKind s : kAllSurfaces) {
-    if (!is_drawn(s)) continue;
+    if (view.primitives.empty(s)) continue;
     const ViewVertices& vertices = view.vertices_of(s);
     draws[count].p_clip = vertices.p_clip;
     draws[count].clip_distance = {vertices.clip_distance, vertices.second_clip_distance};
-    draws[count].indices = meshes.indices(s, view.kind);
+    draws[count].indices = view.draws[s].indices;
     draws[count++].first_primitive = view.primitives.begin(s);
   }
   raster::prepare_pass(std::span(draws).first(count), view.viewport(), tile_size_px, view.pass,

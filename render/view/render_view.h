@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,6 +33,22 @@ struct ViewVertices {
   std::vector<float> second_clip_distance;  // of RenderView::clip_plane, if there is one
 };
 
+// A surface's triangles in a view, as the stages after their placing know them.
+struct DrawRecord {
+  std::span<const std::uint32_t> indices = {};  // 3 per triangle
+  // Things that are told apart where edges are looked for, in the order of their triangles; none:
+  // all of it is one.
+  std::span<const DrawPart> parts = {};
+  std::span<const std::uint8_t> like_land =
+      {};                                    // per triangle: 1 if it is one with edges_as; or none
+  std::span<const std::uint8_t> level = {};  // per triangle, of detail; or none
+  bool is_cast = false;                      // found by rays: one primitive for all of it
+
+  const DrawPart& part_of(std::uint32_t triangle) const {
+    return *std::prev(std::ranges::upper_bound(parts, triangle, {}, &DrawPart::first_triangle));
+  }
+};
+
 // Where a view's eye is.
 struct EyeInWater {
   bool submerged = false;     // under the drawn surface
@@ -51,7 +68,8 @@ struct RenderView {
   const LandRays* land = nullptr;        // none: the land is triangles
   bool land_has_apron = true;
   std::array<ViewVertices, kSurfaceKinds> vertices;
-  PrimitiveRanges primitives;  // of the surfaces that it shows
+  EnumTable<SurfaceKind, DrawRecord> draws;  // of the surfaces that it shows
+  PrimitiveRanges primitives;                // of the same
   raster::Pass pass;
   ImplicitsInView implicits;
 

@@ -24,10 +24,23 @@ enum class ViewKind : std::uint8_t {
 inline constexpr std::size_t kViewKinds = kEnumerators<ViewKind>;
 inline constexpr auto kAllViewKinds = all_enumerators<ViewKind>();
 
-// Water shows in the window only: it looks into the other pictures.
+// What the stages of a frame know of a kind of surface beside its triangles.
+struct SurfaceTraits {
+  bool is_water = false;          // shows in the window only: it looks into the other pictures
+  bool keeps_clip_margin = true;  // images keep a margin of what lies beyond the water's level
+  // The kind that it is one with where edges are looked for, but for DrawRecord::like_land.
+  SurfaceKind edges_as;
+};
+inline constexpr auto kSurfaceTraits = enum_table<SurfaceKind, SurfaceTraits>({
+    {SurfaceKind::kWater, {.is_water = true, .edges_as = SurfaceKind::kWater}},
+    {SurfaceKind::kTerrain, {.keeps_clip_margin = false, .edges_as = SurfaceKind::kTerrain}},
+    {SurfaceKind::kObjects, {.edges_as = SurfaceKind::kObjects}},
+    {SurfaceKind::kTrees, {.edges_as = SurfaceKind::kTerrain}},
+    {SurfaceKind::kRivers, {.is_water = true, .edges_as = SurfaceKind::kRivers}},
+});
+
 constexpr bool shows(ViewKind view, SurfaceKind surface) {
-  return view == ViewKind::kWindow ||
-         (surface != SurfaceKind::kWater && surface != SurfaceKind::kRivers);
+  return view == ViewKind::kWindow || !kSurfaceTraits[surface].is_water;
 }
 
 // The one table of primitive numbers: the triangles of each surface have consecutive ones, surface

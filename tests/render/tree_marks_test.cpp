@@ -43,12 +43,15 @@ class MarkedPicture {
 
   std::set<Place> marked() const {
     std::set<Place> places;
-    const PrimitiveRanges ranges({0, 10, 0, 2, 0});  // land and trees
     const std::vector<std::uint8_t> like_land = {0, 1};
+    RenderView window;
+    window.camera.width_px = window.camera.height_px = kSide;
+    window.primitives = PrimitiveRanges({0, 10, 0, 2, 0});  // land and trees
+    window.draws[SurfaceKind::kTrees].like_land = like_land;
     DiscontinuityScratch scratch;
     for (int tile = 0; tile < visibility_.grid.count(); ++tile) {
       raster::PixelMask mask;
-      mark_discontinuities(visibility_, ranges, kViewport, like_land, tile, scratch, mask);
+      mark_discontinuities(visibility_, window, tile, scratch, mask);
       const raster::PixelBox box = raster::tile_box(kViewport, visibility_.grid, tile);
       for (int y = 0; y < box.height_px; ++y)
         for (int x = 0; x < box.width_px; ++x)

@@ -107,7 +107,7 @@ TEST(DrawnTrees, LeaveNoTraceOfFramesBefore) {
 // Triangles in another order leave each pixel with the same depth and the same triangle.
 TEST(DrawnTrees, OrderOfTrianglesChangesNoPixel) {
   const Shot frame(island_world(), view_of(island_world(), kTime_s, 640, 360), kTime_s);
-  const auto indices = frame.state().meshes.indices(SurfaceKind::kTrees);
+  const auto indices = frame.state().window.draws[SurfaceKind::kTrees].indices;
   ASSERT_GT(indices.size(), 2000u);
   std::vector<std::uint32_t> order(indices.size() / 3), shuffled;
   std::iota(order.begin(), order.end(), 0u);

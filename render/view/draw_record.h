@@ -1,9 +1,28 @@
-// The one place that knows how each surface keeps the places of its vertices.
+// The one place that knows how each surface keeps its triangles and the places of its vertices.
 #pragma once
 
 #include "render/view/render_view.h"
 
 namespace swell::render {
+
+// The surface's triangles in views of a kind. Valid until the meshes change.
+inline DrawRecord draw_record(const Meshes& meshes, SurfaceKind surface, ViewKind view) {
+  switch (surface) {
+    case SurfaceKind::kWater:
+      return {.indices = meshes.water.mesh.indices, .level = meshes.water.mesh.level};
+    case SurfaceKind::kTerrain:
+      return {.indices = meshes.land.mesh.indices, .level = meshes.land.mesh.level};
+    case SurfaceKind::kObjects:
+      return {.indices = meshes.objects.drawn_in(view).indices,
+              .parts = meshes.objects.drawn_in(view).parts};
+    case SurfaceKind::kTrees:
+      return {.indices = meshes.trees.drawn_in(view).indices,
+              .like_land = meshes.trees.drawn_in(view).like_land};
+    case SurfaceKind::kRivers:
+      return {.indices = meshes.rivers.indices};
+  }
+  return {};
+}
 
 // Calls visit(point) once: point(i) is the WorldPoint of vertex i of a surface as the view draws
 // it.
