@@ -253,17 +253,14 @@ void place_river_mirror(const FrameInputs& in, ViewList& views, const StageRun& 
   views.add(mirror);
 }
 
-// Stage 3: the places of all vertices in the frame's views.
-void place_vertices(const FrameInputs& in, const StageRun& run) {
+// Stage 3: the places of all vertices but the trees' in the frame's views, which it returns.
+ViewList place_vertices(const FrameInputs& in, const StageRun& run) {
   Workspace::State& ws = in.ws;
   ViewList views = place_water(in, run);
   place_river_mirror(in, views, run);
   ws.meshes.objects.draws_implicits = in.has(Part::kImplicits);
   place_objects(in.world, ws.sea, in.options.poses, ws.meshes, views.all(), run);
-  const double before_us = run.profile.now_us();
-  place_trees(in.world, in.t_s, in.options, ws.meshes, views.all(),
-              {run.workers, run.profile, Stage::kTrees});
-  run.profile.move(run.stage, Stage::kTrees, 1e-3 * (run.profile.now_us() - before_us));
+  return views;
 }
 
 void find_shadows(const FrameInputs& in, const Light& light, const StageRun& run) {
@@ -273,16 +270,15 @@ void find_shadows(const FrameInputs& in, const Light& light, const StageRun& run
 }
 
 // Stage 5 on one side of the water: the images that it looks into, and what shading needs.
-void draw_side(const FrameInputs& in, const Light& light, const Media& media,
-               const EyeInWater& side, PlanarMaps& maps, Shading& shading, const StageRun& run) {
+void draw_side(const FrameInputs& in, const Light& light, const Media& media, PlanarMaps& maps,
+               Shading& shading, const StageRun& run) {
   Workspace::State& ws = in.ws;
   MaterialInputs inputs{in.world,          in.t_s, ws.sea, ws.meshes.objects, light, media,
                         in.options.without};
   inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   inputs.trees = &ws.meshes.trees;
-  ws.window.eye = side;
   draw_planar_maps(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, maps, run);
-  if (ws.meshes.rivers.mirror_level_m && !side.submerged)
+  if (ws.meshes.rivers.mirror_level_m && !media.submerged)
     draw_river_mirror(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirror,
                       run);
   fill_shading(inputs, ws.window, in.options.tile_size_px, shading);
@@ -293,11 +289,10 @@ void draw_images(const FrameInputs& in, const Light& light, const Air& air, cons
   Workspace::State& ws = in.ws;
   const Media in_air = make_media(in.world, light, air.fog, air.sky_m, in.options.without);
   const Media in_water = submerge(in_air, in.view.eye_world.z);
-  const EyeInWater eye = ws.window.eye;
   if (ws.crossing.picture == Begins::kInBoth)
-    draw_side(in, light, in_water, {true, eye.to_surface_m}, ws.wet_planar_maps, ws.wet_shading,
-              run);
-  draw_side(in, light, eye.submerged ? in_water : in_air, eye, ws.planar_maps, ws.shading, run);
+    draw_side(in, light, in_water, ws.wet_planar_maps, ws.wet_shading, run);
+  draw_side(in, light, ws.window.eye.submerged ? in_water : in_air, ws.planar_maps, ws.shading,
+            run);
 }
 
 // Volumetric clouds in the window, which is drawn `scale` times as large as asked for.
@@ -402,9 +397,13 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
         });
       });
   const Light light = find_light(in, air);
+  ViewList views;
   in.stage(Stage::kDisplace, [&](const StageRun& run) {
-    place_vertices(in, run);
+    views = place_vertices(in, run);
     find_shadows(in, light, run);
+  });
+  in.stage(Stage::kTrees, [&](const StageRun& run) {
+    place_trees(in.world, t_s, options, ws.meshes, views.all(), run);
   });
   in.stage(Stage::kVisibility, [&](const StageRun& run) {
     find_visible(ws.meshes, options.tile_size_px, options.edge_samples, ws.window, ws.visibility,

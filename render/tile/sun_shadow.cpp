@@ -30,7 +30,7 @@ void fill_sun_shadow(const MaterialInputs& in, const RenderView& view, const ras
   shadow.objects = &in.objects.shadows;
   fill_tree_shadow(in, glm::dvec2(view.camera.eye_world), shadow);
   shadow.entry = underwater_slant(in.light.sun_direction, in.media.refraction_index);
-  list_casters(in.objects.shadows, shadow.entry, view, grid, shadow.casters);
+  list_casters(in.objects.shadows, {shadow.entry, in.media.submerged}, view, grid, shadow.casters);
   if (in.without.has(Part::kShadows) || !in.world.land_shadow || in.world.land_shadow->is_empty())
     return;
   const LandShadow& land = *in.world.land_shadow;

@@ -25,9 +25,13 @@ struct ShadowOptions {
 void find_shadow_casters(const World::State& world, const ShadowOptions& options, const View& view,
                          ObjectGeometry& objects, const StageRun& run);
 
-// The casters of each tile of a view, where sunlight under water comes from `slant` aside a metre
-// of depth. The same pixels are shaded with tiles of any size.
-void list_casters(const ObjectShadows& shadows, glm::vec2 slant, const RenderView& view,
+struct LightInWater {
+  glm::vec2 slant{0.0f};       // how far aside sunlight comes from under water, a metre of depth
+  bool eye_submerged = false;  // what is shaded begins in water
+};
+
+// The casters of each tile of a view. The same pixels are shaded with tiles of any size.
+void list_casters(const ObjectShadows& shadows, const LightInWater& light, const RenderView& view,
                   const raster::TileGrid& grid, TileCasters& of_tile);
 
 }  // namespace swell::render

@@ -53,14 +53,14 @@ std::array<glm::vec3, 8> reached_below(const Corners& corners, glm::vec2 slant, 
 
 // Where a view shows what lies between the corners. In a mirror or under water things appear
 // between heights that bound map_point()'s, whose level is that of the sea or of any hull.
-WindowBox window_box(const Corners& corners, glm::vec2 slant, const RenderView& view,
+WindowBox window_box(const Corners& corners, const LightInWater& light, const RenderView& view,
                      float lowest_rel_m) {
   WindowBox box;
-  box.all = view.eye.submerged;
+  box.all = light.eye_submerged;
   const float drop_m = most_drop_m(corners, view.drop_per_m2);
   const float level = -static_cast<float>(view.camera.eye_world.z), wave_m = level - lowest_rel_m;
   if (view.kind == ViewKind::kRefraction) {
-    for (const glm::vec3& p : reached_below(corners, slant, level, wave_m))
+    for (const glm::vec3& p : reached_below(corners, light.slant, level, wave_m))
       add_point(view.camera, p, drop_m, box);
     return box;
   }
@@ -94,7 +94,7 @@ TileSpan tiles_of(const PixelSpan& pixels, const raster::TileGrid& grid) {
 
 }  // namespace
 
-void list_casters(const ObjectShadows& shadows, glm::vec2 slant, const RenderView& view,
+void list_casters(const ObjectShadows& shadows, const LightInWater& light, const RenderView& view,
                   const raster::TileGrid& grid, TileCasters& of_tile) {
   of_tile.first.clear();
   of_tile.caster.clear();
@@ -105,7 +105,7 @@ void list_casters(const ObjectShadows& shadows, glm::vec2 slant, const RenderVie
   of_tile.tiles.clear();
   for (const ShadowCaster& caster : shadows.casters) {
     const auto shown = [&](const Corners& corners) {
-      return pixels_of(window_box(corners, slant, view, shadows.lowest_rel_m));
+      return pixels_of(window_box(corners, light, view, shadows.lowest_rel_m));
     };
     of_tile.pixels.push_back(shown(corners_of(caster, shadows)));
     of_tile.sea_pixels.push_back(shown(corners_of(caster, shadows, shadows.sea_below_rel_m)));
