@@ -27,25 +27,27 @@ HWY_INLINE BatchRows RowAt(BatchRows batch, std::size_t row, std::size_t lane) {
   return {batch.re + offset, batch.im + offset};
 }
 
-// (re, im) = w (x_re, x_im), w = (w[0], w[1]).
-HWY_INLINE void Turn(D d, const float* w, V x_re, V x_im, V& re, V& im) {
-  const V c = hn::Set(d, w[0]), s = hn::Set(d, w[1]);
-  re = NegMulAdd(x_im, s, x_re * c);
-  im = MulAdd(x_im, c, x_re * s);
-}
+// Samples of rows, a lane each.
+struct RowSamples {
+  V re, im;
+};
 
-// Loads row x, turned by w.
-HWY_INLINE void LoadTurned(D d, BatchRows x, const float* w, V& re, V& im) {
-  Turn(d, w, hn::Load(d, x.re), hn::Load(d, x.im), re, im);
+HWY_INLINE RowSamples LoadRow(D d, BatchRows x) { return {hn::Load(d, x.re), hn::Load(d, x.im)}; }
+
+// Loads row x, turned by w = (w[0], w[1]).
+HWY_INLINE RowSamples LoadTurned(D d, BatchRows x, const float* w) {
+  const V c = hn::Set(d, w[0]), s = hn::Set(d, w[1]);
+  const auto [re, im] = LoadRow(d, x);
+  return {NegMulAdd(im, s, re * c), MulAdd(im, c, re * s)};
 }
 
 // Y[p] = sum_s i^(s p) x_s, stored at y, y + step, y + 2 step, y + 3 step.
-HWY_INLINE void StoreButterfly4(D d, V x0_re, V x0_im, V x1_re, V x1_im, V x2_re, V x2_im, V x3_re,
-                                V x3_im, BatchRows y, std::size_t step) {
-  const V even_sum_re = x0_re + x2_re, even_sum_im = x0_im + x2_im;
-  const V even_dif_re = x0_re - x2_re, even_dif_im = x0_im - x2_im;
-  const V odd_sum_re = x1_re + x3_re, odd_sum_im = x1_im + x3_im;
-  const V odd_dif_re = x1_re - x3_re, odd_dif_im = x1_im - x3_im;
+HWY_INLINE void StoreButterfly4(D d, RowSamples x0, RowSamples x1, RowSamples x2, RowSamples x3,
+                                BatchRows y, std::size_t step) {
+  const V even_sum_re = x0.re + x2.re, even_sum_im = x0.im + x2.im;
+  const V even_dif_re = x0.re - x2.re, even_dif_im = x0.im - x2.im;
+  const V odd_sum_re = x1.re + x3.re, odd_sum_im = x1.im + x3.im;
+  const V odd_dif_re = x1.re - x3.re, odd_dif_im = x1.im - x3.im;
   hn::Store(even_sum_re + odd_sum_re, d, y.re);
   hn::Store(even_sum_im + odd_sum_im, d, y.im);
   // i (re, im) = (-im, re).
@@ -78,10 +80,10 @@ HWY_INLINE void FirstStage4(D d, std::size_t size, BatchRows batch) {
   for (std::size_t row = 0; row < size; row += 4) {
     for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
       const BatchRows x = RowAt(batch, row, lane);
-      StoreButterfly4(d, hn::Load(d, x.re), hn::Load(d, x.im),                       //
-                      hn::Load(d, x.re + kStep), hn::Load(d, x.im + kStep),          //
-                      hn::Load(d, x.re + 2 * kStep), hn::Load(d, x.im + 2 * kStep),  //
-                      hn::Load(d, x.re + 3 * kStep), hn::Load(d, x.im + 3 * kStep), x, kStep);
+      const auto row_of = [&](std::size_t n) HWY_ATTR {
+        return LoadRow(d, {x.re + n * kStep, x.im + n * kStep});
+      };
+      StoreButterfly4(d, row_of(0), row_of(1), row_of(2), row_of(3), x, kStep);
     }
   }
 }
@@ -95,12 +97,10 @@ HWY_INLINE void Stage4(D d, std::size_t size, std::size_t m, const float* twiddl
       const float* const w = twiddles + 6 * k;
       for (std::size_t lane = 0; lane < kFftBatch; lane += hn::Lanes(d)) {
         const BatchRows x = RowAt(batch, group + k, lane);
-        V x1_re, x1_im, x2_re, x2_im, x3_re, x3_im;
-        LoadTurned(d, {x.re + step, x.im + step}, w, x1_re, x1_im);
-        LoadTurned(d, {x.re + 2 * step, x.im + 2 * step}, w + 2, x2_re, x2_im);
-        LoadTurned(d, {x.re + 3 * step, x.im + 3 * step}, w + 4, x3_re, x3_im);
-        StoreButterfly4(d, hn::Load(d, x.re), hn::Load(d, x.im), x1_re, x1_im, x2_re, x2_im, x3_re,
-                        x3_im, x, step);
+        const auto turned = [&](std::size_t n) HWY_ATTR {
+          return LoadTurned(d, {x.re + n * step, x.im + n * step}, w + 2 * (n - 1));
+        };
+        StoreButterfly4(d, LoadRow(d, x), turned(1), turned(2), turned(3), x, step);
       }
     }
   }

@@ -7,6 +7,7 @@
 // usual h0(k) e^(i omega t) + conj(h0(-k)) e^(-i omega t).) h(-k) = conj h(k) bit for bit.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -55,6 +56,11 @@ struct PatchWaves {
 // At least one system, all of the same gravity.
 PatchWaves make_patch_waves(std::span<const WaveSystem> systems, WaveBand band, double length_m,
                             int size, double amplitude_scale, std::uint64_t seed, int patch);
+
+// The farthest count of waves of one patch or two.
+inline int reach_of(const PatchWaves& a, const PatchWaves* b) {
+  return b == nullptr ? a.reach : std::max(a.reach, b->reach);
+}
 
 // Write columns [column0, column0 + 16) of h(k, t) as a batch for inverse_fft_batch; false and
 // nothing written if there are no waves in them.

@@ -80,9 +80,10 @@ HWY_INLINE void ZeroRow(D d, std::size_t offset, float* re, float* im) {
 
 // f_a + i f_b, f = waves_at(waves, position).
 template <class WavesOfPatch>
-HWY_INLINE void FillPair(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
-                         int column0, float* re, float* im, WavesOfPatch waves_at) {
+HWY_INLINE void FillPair(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, int column0,
+                         float* re, float* im, WavesOfPatch waves_at) {
   const D d;
+  const int reach = reach_of(a, b);
   for (int j = 0; j < a.size; ++j) {
     const std::size_t offset = static_cast<std::size_t>(plan.slot[j] * kFftBatch);
     if (std::abs(wave_count(j, a.size)) > reach) {
@@ -101,18 +102,18 @@ HWY_INLINE void FillPair(const PatchWaves& a, const PatchWaves* b, int reach, co
   }
 }
 
-void FillHeights(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
-                 double t_s, int column0, float* re, float* im) {
-  FillPair(a, b, reach, plan, column0, re, im,
-           [&](const PatchWaves& waves, std::size_t at)
-               HWY_ATTR { return WavesAt(D(), waves, at, t_s); });
+void FillHeights(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,
+                 int column0, float* re, float* im) {
+  FillPair(a, b, plan, column0, re, im, [&](const PatchWaves& waves, std::size_t at) HWY_ATTR {
+    return WavesAt(D(), waves, at, t_s);
+  });
 }
 
-void FillRising(const PatchWaves& a, const PatchWaves* b, int reach, const FftPlan& plan,
-                double t_s, int column0, float* re, float* im) {
-  FillPair(a, b, reach, plan, column0, re, im,
-           [&](const PatchWaves& waves, std::size_t at)
-               HWY_ATTR { return RatesAt(D(), waves, at, t_s); });
+void FillRising(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,
+                int column0, float* re, float* im) {
+  FillPair(a, b, plan, column0, re, im, [&](const PatchWaves& waves, std::size_t at) HWY_ATTR {
+    return RatesAt(D(), waves, at, t_s);
+  });
 }
 
 // (i k_x - k_y) f, f = waves_at(position, k_x, k_y).
@@ -190,9 +191,8 @@ HWY_EXPORT(FillDrift);
 
 bool fill_heights(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,
                   int column0, float* re, float* im) {
-  const int reach = b == nullptr ? a.reach : std::max(a.reach, b->reach);
-  if (!columns_hold_waves(column0, a.size, reach)) return false;
-  HWY_DYNAMIC_DISPATCH(FillHeights)(a, b, reach, plan, t_s, column0, re, im);
+  if (!columns_hold_waves(column0, a.size, reach_of(a, b))) return false;
+  HWY_DYNAMIC_DISPATCH(FillHeights)(a, b, plan, t_s, column0, re, im);
   return true;
 }
 
@@ -212,9 +212,8 @@ bool fill_displacements(const PatchWaves& waves, const FftPlan& plan, double t_s
 
 bool fill_rising(const PatchWaves& a, const PatchWaves* b, const FftPlan& plan, double t_s,
                  int column0, float* re, float* im) {
-  const int reach = b == nullptr ? a.reach : std::max(a.reach, b->reach);
-  if (!columns_hold_waves(column0, a.size, reach)) return false;
-  HWY_DYNAMIC_DISPATCH(FillRising)(a, b, reach, plan, t_s, column0, re, im);
+  if (!columns_hold_waves(column0, a.size, reach_of(a, b))) return false;
+  HWY_DYNAMIC_DISPATCH(FillRising)(a, b, plan, t_s, column0, re, im);
   return true;
 }
 

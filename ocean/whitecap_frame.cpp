@@ -16,7 +16,7 @@ void make_next(const Whitecaps& whitecaps, double step, WhitecapFrame& frame, Wo
   for (std::size_t p = 0; p < whitecaps.patches.size(); ++p)
     waves[p] = &whitecaps.patches[p].breaking;
   break_waves(whitecaps, whitecaps.plan, {waves.data(), whitecaps.patches.size()}, step,
-              frame.breaking_a, frame.breaking_b, frame.fft_planes, workers);
+              {frame.breaking_a, frame.breaking_b}, frame.fft_planes, workers);
   for (std::size_t p = 0; p < whitecaps.patches.size(); ++p) {
     const FoamPatch& patch = whitecaps.patches[p];
     age_foam(p == 0 ? frame.breaking_a : frame.breaking_b, patch.threshold, patch.decay,
@@ -66,15 +66,16 @@ void make_step(const Whitecaps& whitecaps, double step, bool is_known, WhitecapF
 }  // namespace
 
 void break_waves(const Whitecaps& whitecaps, const FftPlan& plan,
-                 std::span<const PatchWaves* const> waves, double step, std::span<float> a,
-                 std::span<float> b, std::vector<float>& planes, Workers& workers) {
+                 std::span<const PatchWaves* const> waves, double step,
+                 const std::array<std::span<float>, kMostFoamPatches>& breaking,
+                 std::vector<float>& planes, Workers& workers) {
   double t_s = step * whitecaps.step_s;
   if (whitecaps.steps_in_loop > 0) {
     const double loop = whitecaps.steps_in_loop;
     t_s = (step - loop * std::floor(step / loop)) * whitecaps.step_s;
   }
   const PatchWaves* const other = waves.size() > 1 ? waves[1] : nullptr;
-  const FftOutput output{a.data(), other ? b.data() : nullptr};
+  const FftOutput output{breaking[0].data(), other ? breaking[1].data() : nullptr};
   inverse_fft_2d(
       plan,
       [&](int, int column0, float* re, float* im) {

@@ -1,6 +1,7 @@
 // One step of the open sea's foam, for those who make it and those who try its thresholds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,10 +20,11 @@ inline int steps_of_life(const FoamPatch& patch) {
 }
 
 // B of one patch or two at a step, a square of the plan's size each. `waves` are as long as the
-// plan; b is not touched for one patch.
+// plan; the second of `breaking` is not touched for one patch.
 void break_waves(const Whitecaps& whitecaps, const FftPlan& plan,
-                 std::span<const PatchWaves* const> waves, double step, std::span<float> a,
-                 std::span<float> b, std::vector<float>& planes, Workers& workers);
+                 std::span<const PatchWaves* const> waves, double step,
+                 const std::array<std::span<float>, kMostFoamPatches>& breaking,
+                 std::vector<float>& planes, Workers& workers);
 
 // Foam one step later: `codes` is F_(m-1) and becomes F_m. `breaking` is as long.
 void age_foam(std::span<const float> breaking, float threshold, int decay,

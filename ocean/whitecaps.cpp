@@ -95,7 +95,7 @@ class Trials {
     for (std::vector<float>& fields : fields_) fields.resize(kSteps * kPoints);
     std::vector<float> planes;
     for (int n = 0; n < kSteps; ++n)
-      break_waves(whitecaps, plan, {waves.data(), coarse.size()}, n, field(0, n), field(1, n),
+      break_waves(whitecaps, plan, {waves.data(), coarse.size()}, n, {field(0, n), field(1, n)},
                   planes, workers);
   }
 

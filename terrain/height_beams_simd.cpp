@@ -50,9 +50,19 @@ HWY_INLINE M RisesAbove(V height, const RayHeights& lowest, V t) {
   return rises & (lowest.At(t) > height);
 }
 
-// Steps as long as the beam covers two by two blocks at most, larger ones after each that is free.
-HWY_INLINE V CastBeam(const HeightPyramid& p, const Axis& axis_x, const Axis& axis_y, V x_low,
-                      V x_high, V y_low, V y_high, const RayHeights& lowest, V floor, V t) {
+// Beams of rays: at t they lie between (x_low, y_low) t and (x_high, y_high) t, in cells, and no
+// lower than `lowest` and `floor`.
+struct BeamPacket {
+  V x_low, x_high, y_low, y_high;
+  RayHeights lowest;
+  V floor;
+};
+
+// Returns up to where beams are free from t on. Steps as long as the beam covers two by two blocks
+// at most, larger ones after each that is free.
+HWY_INLINE V CastBeam(const HeightPyramid& p, const Axis& axis_x, const Axis& axis_y,
+                      const BeamPacket& beam, V t) {
+  const auto& [x_low, x_high, y_low, y_high, lowest, floor] = beam;
   const D d;
   const DI di;
   constexpr int kMostSteps = 48;
@@ -111,11 +121,13 @@ void CastBeams(const HeightPyramid& pyramid, glm::dvec2 from_world, const Height
     const auto load = [&](std::span<const float> values) HWY_ATTR { return LoadSome(values, n); };
     const auto scaled = [&](std::span<const float> values)
                             HWY_ATTR { return load(values) * per_m; };
-    StoreSome(CastBeam(pyramid, axis_x, axis_y, scaled(beams.x_low), scaled(beams.x_high),
-                       scaled(beams.y_low), scaled(beams.y_high),
-                       {load(beams.z), load(beams.z_t), load(beams.z_tt)}, load(beams.floor),
-                       load(beams.begin)),
-              n, t_free);
+    const BeamPacket beam = {scaled(beams.x_low),
+                             scaled(beams.x_high),
+                             scaled(beams.y_low),
+                             scaled(beams.y_high),
+                             {load(beams.z), load(beams.z_t), load(beams.z_tt)},
+                             load(beams.floor)};
+    StoreSome(CastBeam(pyramid, axis_x, axis_y, beam, load(beams.begin)), n, t_free);
   }
 }
 

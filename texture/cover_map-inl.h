@@ -15,9 +15,9 @@ namespace HWY_NAMESPACE {
 
 // The four channels of `map` at (x_fx8, y_fx8) [1/256 texels of level 0; the map repeats],
 // bilinearly on one of its mip levels a lane. Results in [0, 1].
-template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
-HWY_INLINE void SampleCover(D d, const CoverMap& map, VI x_fx8, VI y_fx8, VI level, V& a, V& b,
-                            V& c, V& e) {
+template <class D, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE FourChannels<hn::Vec<D>> SampleCover(D d, const CoverMap& map, VI x_fx8, VI y_fx8,
+                                                VI level) {
   const hn::RebindToSigned<D> di;
   const hn::Repartition<std::uint8_t, D> d8;
   const hn::Repartition<std::int64_t, D> d64;
@@ -34,17 +34,15 @@ HWY_INLINE void SampleCover(D d, const CoverMap& map, VI x_fx8, VI y_fx8, VI lev
   };
   const auto s0 = sums.template operator()<0>(), s1 = sums.template operator()<1>();
   const auto s2 = sums.template operator()<2>(), s3 = sums.template operator()<3>();
-  const VI ab01 = hn::BitCast(di, hn::InterleaveLower(d64, s0, s1));
-  const VI ce01 = hn::BitCast(di, hn::InterleaveUpper(d64, s0, s1));
-  const VI ab23 = hn::BitCast(di, hn::InterleaveLower(d64, s2, s3));
-  const VI ce23 = hn::BitCast(di, hn::InterleaveUpper(d64, s2, s3));
+  const VI rg01 = hn::BitCast(di, hn::InterleaveLower(d64, s0, s1));
+  const VI ba01 = hn::BitCast(di, hn::InterleaveUpper(d64, s0, s1));
+  const VI rg23 = hn::BitCast(di, hn::InterleaveLower(d64, s2, s3));
+  const VI ba23 = hn::BitCast(di, hn::InterleaveUpper(d64, s2, s3));
   const auto channel = [&](VI sum) HWY_ATTR {
     return MulAdd(hn::ConvertTo(d, sum), 1.0f / (254.0f * 255.0f * 256.0f), 0.5f);
   };
-  a = channel(EvenParts(di, ab01, ab23));
-  b = channel(OddParts(di, ab01, ab23));
-  c = channel(EvenParts(di, ce01, ce23));
-  e = channel(OddParts(di, ce01, ce23));
+  return {channel(EvenParts(di, rg01, rg23)), channel(OddParts(di, rg01, rg23)),
+          channel(EvenParts(di, ba01, ba23)), channel(OddParts(di, ba01, ba23))};
 }
 
 }  // namespace HWY_NAMESPACE

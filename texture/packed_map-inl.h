@@ -222,15 +222,23 @@ HWY_INLINE hn::Vec<D8> LoadBlocks(D8, const void* words, const std::uint32_t* HW
 #endif
 }
 
-// Adds `gain` times what `map` holds at (x_fx8, y_fx8) [1/256 texels of level 0; texel (i, j) lies
-// at (i, j), and the map repeats], bilinearly on mip levels `base` and `base` + 1 and between them
-// by t in [0, 1], to (a, b). base in [0, detail_levels); the level after the last one of those is
-// 0. The positive weights add up to 1 and are off by less than 1/127 together; with t 0 a texel's
-// own position gives that texel.
-template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
-HWY_INLINE void AddBlended(D d, const PackedMap2& map, VI x_fx8, VI y_fx8, VI base, V t, float gain,
+// Where maps are blended: at (x_fx8, y_fx8) [1/256 texels of level 0; texel (i, j) lies at (i, j),
+// and a map repeats], bilinearly on mip levels `base` and `base` + 1 and between them by t in
+// [0, 1]. base in [0, detail_levels); the level after the last one of those is 0.
+template <class D>
+struct BlendedPlace {
+  hn::Vec<hn::RebindToSigned<D>> x_fx8, y_fx8, base;
+  hn::Vec<D> t;
+};
+
+// Adds `gain` times what `map` holds there to (a, b). The positive weights add up to 1 and are off
+// by less than 1/127 together; with t 0 a texel's own position gives that texel.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void AddBlended(D d, const PackedMap2& map, const BlendedPlace<D>& place, float gain,
                            V& a, V& b) {
   const hn::RebindToSigned<D> di;
+  using VI = hn::Vec<decltype(di)>;
+  const auto [x_fx8, y_fx8, base, t] = place;
   const hn::Repartition<std::uint8_t, D> d8;
   const hn::Repartition<std::int16_t, D> d16;
   constexpr int kWhole = 127;  // of the blend: 256 * 127 fits 16 bits
@@ -352,10 +360,23 @@ HWY_INLINE VB BlendRows(D8 d8, VB row0, VB row1, VB weights0, VB weights1) {
   return hn::BitCast(d8, sum + 255 * 128);
 }
 
-// The texels of an image from `begin` on, in rows of `stride`, blended at a place a lane.
-template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
-HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, VI x_fx8, VI y_fx8,
-                             V& r, V& g, V& b, V& a) {
+// Four values a lane, of an image's or a map's channels.
+template <class V>
+struct FourChannels {
+  V r, g, b, a;
+};
+
+// Which texels of an image are a level of it: from `begin` on, in rows of `stride`.
+template <class VI>
+struct TexelRows {
+  VI begin, stride;
+};
+
+// A level's texels, blended at a place a lane.
+template <class D, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE FourChannels<hn::Vec<D>> SampleTexels(D d, const RgbaImage& image,
+                                                 const TexelRows<VI>& rows, VI x_fx8, VI y_fx8) {
+  using V = hn::Vec<D>;
   const hn::RebindToSigned<D> di;
   const hn::RebindToUnsigned<D> du;
   const hn::Repartition<std::uint8_t, D> d8;
@@ -363,10 +384,10 @@ HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, V
 
   // Two texels of each of two rows.
   HWY_ALIGN std::uint32_t upper_index[hn::MaxLanes(d)], lower_index[hn::MaxLanes(d)];
-  const VI row = begin + hn::ShiftRight<8>(y_fx8) * stride;
+  const VI row = rows.begin + hn::ShiftRight<8>(y_fx8) * rows.stride;
   const VI index = row + hn::ShiftRight<8>(x_fx8);
   StoreIndex(index, upper_index);
-  StoreIndex(index + stride, lower_index);
+  StoreIndex(index + rows.stride, lower_index);
   const std::uint32_t* const texels = image.texels.data();
 
   // The weights of row 0 (low 16 bits) and row 1 (high 16 bits), each over a whole lane, then
@@ -393,29 +414,26 @@ HWY_INLINE void SampleTexels(D d, const RgbaImage& image, VI begin, VI stride, V
     const auto shifted = hn::ShiftRight<16>(hn::BitCast(du, pair));
     return hn::ConvertTo(d, hn::BitCast(di, shifted)) * unit;
   };
-  r = low_channel(rg);
-  g = high_channel(rg);
-  b = low_channel(ba);
-  a = high_channel(ba);
+  return {low_channel(rg), high_channel(rg), low_channel(ba), high_channel(ba)};
 }
 
 // Samples `image` bilinearly at the window position (x_px, y_px) [texels of that image; texel
 // (x, y)'s centre is (x + 0.5, y + 0.5)], clamped to the image; NaN counts as the first texel's
 // centre. Results in [0, 1]. fill_padding() must have been called.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void SampleRgba(D d, const RgbaImage& image, V x_px, V y_px, V& r, V& g, V& b, V& a) {
+HWY_INLINE FourChannels<V> SampleRgba(D d, const RgbaImage& image, V x_px, V y_px) {
   const hn::RebindToSigned<D> di;
+  using VI = hn::Vec<decltype(di)>;
   const V last_x = hn::Set(d, static_cast<float>(image.width - 1));
   const V last_y = hn::Set(d, static_cast<float>(image.height - 1));
-  SampleTexels(d, image, hn::Zero(di), hn::Set(di, image.stride), WindowCoordinateFx8(x_px, last_x),
-               WindowCoordinateFx8(y_px, last_y), r, g, b, a);
+  return SampleTexels(d, image, TexelRows<VI>{hn::Zero(di), hn::Set(di, image.stride)},
+                      WindowCoordinateFx8(x_px, last_x), WindowCoordinateFx8(y_px, last_y));
 }
 
 // Samples as SampleRgba(), on one of the image's softer levels a lane; positions are of texels of
 // level 0.
 template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
-HWY_INLINE void SampleRgbaLevel(D d, const RgbaImage& image, V x_px, V y_px, VI level, V& r, V& g,
-                                V& b, V& a) {
+HWY_INLINE FourChannels<V> SampleRgbaLevel(D d, const RgbaImage& image, V x_px, V y_px, VI level) {
   const hn::RebindToSigned<D> di;
   const auto lane = hn::IndicesFromVec(d, level);
   const auto number = [&](const std::array<float, 16>& of_level) HWY_ATTR {
@@ -425,9 +443,9 @@ HWY_INLINE void SampleRgbaLevel(D d, const RgbaImage& image, V x_px, V y_px, VI 
     return hn::TableLookupLanes(hn::Load(di, of_level.data()), hn::IndicesFromVec(di, level));
   };
   const V x = x_px * number(image.scale_x), y = y_px * number(image.scale_y);
-  SampleTexels(d, image, integer(image.level_begin), integer(image.level_stride),
-               WindowCoordinateFx8(x, number(image.last_x)),
-               WindowCoordinateFx8(y, number(image.last_y)), r, g, b, a);
+  const TexelRows<VI> rows{integer(image.level_begin), integer(image.level_stride)};
+  return SampleTexels(d, image, rows, WindowCoordinateFx8(x, number(image.last_x)),
+                      WindowCoordinateFx8(y, number(image.last_y)));
 }
 
 // Samples `map` bilinearly at (x_fx8, y_fx8) [1/256 texels from the first texel's centre], clamped

@@ -23,7 +23,7 @@ HWY_NOINLINE static V BumpLight(const Shading& s, const SlopeLayer& detail_layer
   const V level_m =
       FootprintLevel(FootprintAcross(s.rays, packet), Clamp(packet.to_eye.z, 0.02f, 1.0f));
   V detail = one, same = zero, unused = zero;
-  AddSlopes(detail_layer, packet.p, level_m, zero, zero, detail, same, unused);
+  AddSlopes(detail_layer, packet.p, level_m, {zero, zero}, detail, same, unused);
   const glm::vec3 sun = s.light.sun_direction;
   const V lit = Max(Dot(normal, Constant(sun)), zero);
   const V sunny = lit * (1.0f / std::max(sun.z, 0.2f));

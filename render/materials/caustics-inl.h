@@ -66,8 +66,8 @@ HWY_NOINLINE static void BendLookup(const Caustics& caustics, V level_m, V& x, V
   const V zero = hn::Zero(D());
   V slope_x = zero, slope_y = zero, unused = zero;
   for (int i = 0; i < caustics.ripples.count; ++i)
-    AddSlopes(caustics.ripples.layers[static_cast<std::size_t>(i)], {x, y, zero}, level_m, zero,
-              zero, slope_x, slope_y, unused);
+    AddSlopes(caustics.ripples.layers[static_cast<std::size_t>(i)], {x, y, zero}, level_m,
+              {zero, zero}, slope_x, slope_y, unused);
   const V by = Constant(caustics.bend_m);
   x = NegMulAdd(slope_x, by, x);
   y = NegMulAdd(slope_y, by, y);

@@ -38,7 +38,7 @@ HWY_INLINE CloudNoise SampleClouds(const Clouds& clouds, V x, V y, V level) {
   const V zero = hn::Zero(D());
   CloudNoise found = {zero, zero, zero};
   for (const SlopeLayer& layer : clouds.layers)
-    AddSlopes(layer, {x, y, zero}, level, zero, zero, found.noise, found.side, found.lost);
+    AddSlopes(layer, {x, y, zero}, level, {zero, zero}, found.noise, found.side, found.lost);
   return found;
 }
 

@@ -38,9 +38,9 @@ HWY_NOINLINE static V ProjectedGlitter(const Glitter& glitter, V3 to_eye, V3 nor
   const V per_radius = Constant(0.5f * static_cast<float>(SunTexture::kSize) / SunTexture::kReach);
   const V middle = Constant(0.5f * static_cast<float>(SunTexture::kSize));
   const V scale = inv_radius * per_radius;
-  V root, unused_g, unused_b, unused_a;
-  texture::HWY_NAMESPACE::SampleRgba(D(), *glitter.sun_texture, MulAdd(x, scale, middle),
-                                     MulAdd(y, scale, middle), root, unused_g, unused_b, unused_a);
+  const V root = texture::HWY_NAMESPACE::SampleRgba(
+                     D(), *glitter.sun_texture, MulAdd(x, scale, middle), MulAdd(y, scale, middle))
+                     .r;
   const V light = root * root * glitter.brightness;
   const V dimmed = light * (inv_radius * inv_radius);
   return IfThenElseZero(shown, dimmed);

@@ -52,7 +52,7 @@ HWY_INLINE GroundSlopes FindSlopes(const Terrain& terrain, V on_map, V3 p, V lev
     GroundSlopes slopes{zero, zero};
     V unused = zero;
     if constexpr (kBlended) {
-      AddSlopes(layer, p, level_m, zero, zero, slopes.x, slopes.y, unused);
+      AddSlopes(layer, p, level_m, {zero, zero}, slopes.x, slopes.y, unused);
     } else {
       NearestSlopes(layer, p, level_m, slopes.x, slopes.y);
     }
@@ -71,9 +71,8 @@ HWY_INLINE V3 FindAlbedo(const GroundAlbedo& ground, V on_map, V3 p) {
     const V per_m = Constant(layer.texels_per_m);
     const V x = MulAdd(p.x, per_m, layer.x_eye);
     const V y = MulAdd(p.y, per_m, layer.y_eye);
-    V r, g, b, alpha;
-    texture::HWY_NAMESPACE::SampleRgba(D(), *layer.texels, x, y, r, g, b, alpha);
-    return V3{r * r, g * g, b * b};
+    const auto root = texture::HWY_NAMESPACE::SampleRgba(D(), *layer.texels, x, y);
+    return V3{root.r * root.r, root.g * root.g, root.b * root.b};
   };
   return BlendOnMap(
       on_map, [&]() HWY_ATTR { return sample(ground.map); },

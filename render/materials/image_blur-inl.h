@@ -39,22 +39,19 @@ HWY_INLINE BlurLevel FindBlur(const PlanarMap& map, V variance, V px2_per_slope2
 }
 
 // An image's codes and alpha at a place in its texels.
-HWY_INLINE void SampleBlurred(const texture::RgbaImage& image, V x, V y, const BlurLevel& level,
-                              V3& code, V& alpha) {
+HWY_INLINE texture::HWY_NAMESPACE::FourChannels<V> SampleBlurred(const texture::RgbaImage& image,
+                                                                 V x, V y, const BlurLevel& level) {
+  using texture::HWY_NAMESPACE::SampleRgba;
+  using texture::HWY_NAMESPACE::SampleRgbaLevel;
   const D d;
-  if (level.is_sharp)
-    return texture::HWY_NAMESPACE::SampleRgba(d, image, x, y, code.x, code.y, code.z, alpha);
-  texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, level.base, code.x, code.y, code.z,
-                                          alpha);
+  if (level.is_sharp) return SampleRgba(d, image, x, y);
+  const auto code = SampleRgbaLevel(d, image, x, y, level.base);
   // On the softest level, as a rule.
-  if (hn::AllTrue(d, level.t == hn::Zero(d))) return;
+  if (hn::AllTrue(d, level.t == hn::Zero(d))) return code;
   const VI next = Min(level.base + 1, hn::Set(DI(), image.levels - 1));
-  V3 softer;
-  V softer_alpha;
-  texture::HWY_NAMESPACE::SampleRgbaLevel(d, image, x, y, next, softer.x, softer.y, softer.z,
-                                          softer_alpha);
-  code = Lerp(code, softer, level.t);
-  alpha = Lerp(alpha, softer_alpha, level.t);
+  const auto softer = SampleRgbaLevel(d, image, x, y, next);
+  return {Lerp(code.r, softer.r, level.t), Lerp(code.g, softer.g, level.t),
+          Lerp(code.b, softer.b, level.t), Lerp(code.a, softer.a, level.t)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -27,11 +27,9 @@ HWY_INLINE LandCover SampleCover(const texture::CoverMap& map, const SlopeLayer&
                                  V level_m) {
   const LayerPlace place = PlaceIn(square, p.x, p.y);
   const V level = Clamp(level_m + (square.log2_texels_per_m + 0.5f), 0.0f, square.coarsest);
-  LandCover cover;
-  texture::HWY_NAMESPACE::SampleCover(D(), map, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8),
-                                      TruncateToInt(level), cover.grass, cover.dry, cover.rock,
-                                      cover.sky_seen);
-  return cover;
+  const auto [grass, dry, rock, sky_seen] = texture::HWY_NAMESPACE::SampleCover(
+      D(), map, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8), TruncateToInt(level));
+  return {grass, dry, rock, sky_seen};
 }
 
 HWY_INLINE LandCover FindCover(const Terrain& terrain, V on_map, V3 p, V level_m) {
@@ -57,7 +55,7 @@ HWY_INLINE Pattern SamplePattern(const PatternLayer& pattern, V3 p, V level_m) {
   V code = zero, shade = zero, variance = zero;
   const V cosine = Constant(pattern.turn.x), sine = Constant(pattern.turn.y);
   const V3 turned = {MulSub(p.x, cosine, p.y * sine), MulAdd(p.x, sine, p.y * cosine), p.z};
-  AddSlopes(pattern.layer, turned, level_m, zero, zero, code, shade, variance);
+  AddSlopes(pattern.layer, turned, level_m, {zero, zero}, code, shade, variance);
   // Beyond the coarsest level there is nothing, whatever the lanes beside show.
   const auto shown = level_m + pattern.layer.log2_texels_per_m < pattern.layer.coarsest;
   code = IfThenElseZero(shown, code);
@@ -156,7 +154,7 @@ HWY_INLINE LandLook FindLand(const Terrain& terrain, const ViewRays& rays, const
   look.albedo = MulAdd(sand, dry_sand, look.albedo);
 
   V bump_x = zero, bump_y = zero, lost = zero;
-  AddSlopes(terrain.detail, p, level_m, zero, zero, bump_x, bump_y, lost);
+  AddSlopes(terrain.detail, p, level_m, {zero, zero}, bump_x, bump_y, lost);
   look.slope_x = MulAdd(bump_x, relief, look.slope_x);
   look.slope_y = MulAdd(bump_y, relief, look.slope_y);
   look.variance = lost * (relief * relief);

@@ -185,8 +185,8 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
     V x = zero, y = zero, lost = zero, code = zero;
     for (const CarriedCopy& copy : CarriedAt(river, at, packet.p)) {
       V copy_x = zero, copy_y = zero, lost_long = zero, lost_short = zero;
-      AddSlopes(river.long_ripples, copy.p, level_m, zero, zero, copy_x, copy_y, lost_long);
-      AddSlopes(river.short_ripples, copy.p, level_m, zero, zero, copy_x, copy_y, lost_short);
+      AddSlopes(river.long_ripples, copy.p, level_m, {zero, zero}, copy_x, copy_y, lost_long);
+      AddSlopes(river.short_ripples, copy.p, level_m, {zero, zero}, copy_x, copy_y, lost_short);
       x = MulAdd(copy.weight, copy_x, x);
       y = MulAdd(copy.weight, copy_y, y);
       lost = lost_long + lost_short;
@@ -208,7 +208,8 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
   const V share = Clamp(at.depth * 4.0f, 0.0f, 1.0f) * river.wind_share;
   V x = zero, y = zero, lost = zero;
   for (int i = water.first_ripples; i < water.layer_count; ++i)
-    AddSlopes(water.layers[static_cast<std::size_t>(i)], packet.p, level_m, zero, zero, x, y, lost);
+    AddSlopes(water.layers[static_cast<std::size_t>(i)], packet.p, level_m, {zero, zero}, x, y,
+              lost);
   s.slope_x = MulAdd(share, x, s.slope_x);
   s.slope_y = MulAdd(share, y, s.slope_y);
   s.variance = MulAdd(share * share, lost, s.variance);
@@ -224,7 +225,7 @@ constexpr float kGravelBegin_m = 1.2f;
 HWY_INLINE V3 FindBed(const River& river, V3 p, V height_m, V level_m) {
   const D d;
   V x = hn::Zero(d), y = hn::Zero(d), unused = hn::Zero(d);
-  AddSlopes(river.stones, p, level_m, x, y, x, y, unused);
+  AddSlopes(river.stones, p, level_m, {x, y}, x, y, unused);
   const V sandy = SmoothBlend((kGravelBegin_m - height_m) * (1.0f / kGravelBegin_m));
   const V relief = NegMulAdd(sandy, 0.31f * 0.7f, 0.31f);
   const V stones = Clamp(MulAdd(x, relief, 1.0f), 0.45f, 1.6f);
@@ -333,28 +334,26 @@ struct Shader<River, ViewKind::kWindow> {
     const Facing f = FaceEye(shading.media, water, packet, s);
     const V sun_visible = SunVisible(shading, tile, packet, Constant(-1.0f)) *
                           SunUnderTrees(shading, packet, hn::Zero(d));
-    V inv_variance, mirrored_alpha, refracted_alpha = hn::Zero(d);
+    V inv_variance, refracted_alpha = hn::Zero(d);
     const V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media},
                                 f.area, inv_variance);
     V3 refracted = Constant(shading.media.body);
     if (river_seen.is_river) refracted = BedLight(shading, river, at, packet, s, sun_visible);
     V3 floor = refracted - Constant(shading.media.body);
     if (river_seen.meets_sea) {
-      V3 sea_floor;
-      const V3 of_sea = RefractedLight(shading, water, packet, s, sun_visible,
-                                       tile.planar_maps.refraction, refracted_alpha, sea_floor);
-      refracted = PassIntoSea(refracted, of_sea, at.sea_share);
-      floor = PassIntoSea(floor, sea_floor, at.sea_share);
+      const Refracted of_sea =
+          RefractedLight(shading, water, packet, s, sun_visible, tile.planar_maps.refraction);
+      refracted = PassIntoSea(refracted, of_sea.light, at.sea_share);
+      floor = PassIntoSea(floor, of_sea.floor_added, at.sea_share);
+      refracted_alpha = of_sea.image_alpha;
     }
     TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
     AddHulls(shading, tile, packet, refracted, foam);
-    V3 mirrored =
-        ReflectedLight(light, water, packet, s, f, inv_variance, floor, false, mirrored_alpha);
+    Looked mirrored = ReflectedLight(shading, packet, s, f, inv_variance, floor, false);
     const auto lay_over = [&](const PlanarMap& map, V share) HWY_ATTR {
       const Looked image = LookUpDistorted<false>(water, map, packet, s, 1.0f);
       const V part = image.alpha * share;
-      mirrored = Lerp(mirrored, image.light, part);
-      mirrored_alpha = Max(mirrored_alpha, part);
+      mirrored = {Lerp(mirrored.light, image.light, part), Max(mirrored.alpha, part)};
     };
     // An image of another level than the place's is not what is mirrored there.
     const auto share_of = [&](float level_m) HWY_ATTR {
@@ -371,11 +370,11 @@ struct Shader<River, ViewKind::kWindow> {
       if (!hn::AllFalse(d, share > zero)) lay_over(river.reflection, share);
     }
     refracted_alpha = IfThenElseZero(at.sea_share > zero, refracted_alpha);
-    V3 seen = Lerp(refracted, mirrored, f.reflectance);
+    V3 seen = Lerp(refracted, mirrored.light, f.reflectance);
     seen = MulAdd(Constant(water.glitter_light), sun_path * sun_visible, seen);
     const V white = foam.cover * MulAdd(foam.thickness, 0.5f, 0.4f);
     seen = AddFoam(river.foam, white, {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
-    return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
+    return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted_alpha, s.wake)};
   }
 };
 

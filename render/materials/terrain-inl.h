@@ -65,7 +65,7 @@ HWY_INLINE GroundLook FindPlainGround(const Terrain& terrain, const Packet& pack
   if constexpr (kDetail) {
     const V zero = hn::Zero(D());
     V unused = zero;
-    AddSlopes(terrain.detail, packet.p, level_m, zero, zero, slopes.x, slopes.y, unused);
+    AddSlopes(terrain.detail, packet.p, level_m, {zero, zero}, slopes.x, slopes.y, unused);
   }
   const V3 normal = NormalOf(slopes.x, slopes.y);
   return {FindAlbedo(terrain.albedo, on_map, packet.p), normal, normal.z, Constant(1.0f)};
@@ -239,12 +239,11 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
 
   const WaterSlopes waves = SampleRunOut(s, packet, NegMulAdd(calm, film, film));
   const Facing f = FaceEye(s.media, s.material<Water>(), packet, waves);
-  V inv_variance, unused;
+  V inv_variance;
   const V glint = SunGlint(s.light.sun_direction, packet, waves, GlintReflectance{s.media}, f.area,
                            inv_variance);
   const V3 floor = ground - Constant(s.media.body);
-  const V3 mirrored = ReflectedLight(s.light, s.material<Water>(), packet, waves, f, inv_variance,
-                                     floor, false, unused);
+  const V3 mirrored = ReflectedLight(s, packet, waves, f, inv_variance, floor, false).light;
   const V half = Constant(0.5f);
   const V shine = f.reflectance * MulAdd(film, half, wet * half);
   const V bare = NegMulAdd(wet, film, wet);

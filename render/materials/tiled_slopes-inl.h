@@ -71,9 +71,11 @@ HWY_INLINE PatchSample SampleTile(const SlopeLayer& layer, const PatchPlace& at,
   const D d;
   const DI di;
   PatchSample s = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  texture::HWY_NAMESPACE::AddBlended(d, *layer.map, at.slopes.x_fx8 + hn::ShiftLeft<8>(by.x),
-                                     at.slopes.y_fx8 + hn::ShiftLeft<8>(by.y), at.slopes.level.base,
-                                     at.slopes.level.t, layer.gain, s.slope_x, s.slope_y);
+  texture::HWY_NAMESPACE::AddBlended(
+      d, *layer.map,
+      {at.slopes.x_fx8 + hn::ShiftLeft<8>(by.x), at.slopes.y_fx8 + hn::ShiftLeft<8>(by.y),
+       at.slopes.level.base, at.slopes.level.t},
+      layer.gain, s.slope_x, s.slope_y);
   if (at.foam) {
     const VI per_sample = hn::Set(di, at.foam->fx8_per_sample);
     s.foam = FoamAt(*at.foam, by.x * per_sample + at.foam_x_fx8, by.y * per_sample + at.foam_y_fx8,

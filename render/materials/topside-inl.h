@@ -42,9 +42,8 @@ HWY_INLINE Looked LookUpAt(const PlanarMap& map, V x_px, V y_px, const BlurLevel
   const D d;
   const V one = Constant(1.0f);
   const V x = x_px * map.scale_x, y = y_px * map.scale_y;
-  V3 code;
-  V alpha;
-  SampleBlurred(*map.image, x, y, level, code, alpha);
+  const auto [r, g, b, alpha] = SampleBlurred(*map.image, x, y, level);
+  V3 code = {r, g, b};
   const auto some = alpha > 0.0f;
   if (hn::AllFalse(d, some)) return {Constant(glm::vec3(0.0f)), alpha};
   // Codes that were blended with zeros.
@@ -142,10 +141,11 @@ HWY_INLINE V3 MirroredStars(const Stars& stars, V3 r, V length, V variance) {
 
 // What the surface mirrors: the sky in the reflected direction, the sea where that points below the
 // horizon that waves make, brighter by what its floor adds here, and in front of both whatever the
-// reflection image shows there, whose part is `image_alpha`.
-HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, const Facing& f, V inv_variance, V3 floor,
-                             bool use_image, V& image_alpha) {
+// reflection image shows there; `alpha` is the image's part.
+HWY_INLINE Looked ReflectedLight(const Shading& shading, const Packet& packet, const WaterSlopes& s,
+                                 const Facing& f, V inv_variance, V3 floor, bool use_image) {
+  const Light& light = shading.light;
+  const Water& water = shading.material<Water>();
   const V horizon = Constant(water.wave_horizon);
   const V r_z = MulSub(f.cos_eye + f.cos_eye, f.normal.z, packet.to_eye.z);
   const V sea = PartOfSeaMirrored(r_z - horizon, packet.to_eye.z + horizon, inv_variance);
@@ -160,13 +160,9 @@ HWY_INLINE V3 ReflectedLight(const Light& light, const Water& water, const Packe
   const V3 mirrored_sea =
       MulAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
   mirrored = Lerp(mirrored, mirrored_sea, sea);
-  image_alpha = hn::Zero(D());
-  if (use_image) {
-    const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
-    image_alpha = image.alpha;
-    mirrored = Lerp(mirrored, image.light, image_alpha);
-  }
-  return mirrored;
+  if (!use_image) return {mirrored, hn::Zero(D())};
+  const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
+  return {Lerp(mirrored, image.light, image.alpha), image.alpha};
 }
 
 // Radiance of deep water where nothing but clouds' shadows in fog dim it.
@@ -177,12 +173,18 @@ HWY_INLINE V3 BodyUnderClouds(const Shading& s, const V3& p) {
   return MulAdd(Constant(s.media.body - s.media.body_sun), less, body);
 }
 
+struct Refracted {
+  V3 light;
+  V image_alpha;   // the part of it that the refraction image shows
+  V3 floor_added;  // what that changes
+};
+
 // What comes up through the surface: scattered light of the water body, which comes in from around
 // and so is never quite in the shade, brighter in thin crests against the sun, and the floor where
-// the refraction image shows one, whose part is `image_alpha`; `floor_added` is what that changes.
-HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const Packet& packet,
-                             const WaterSlopes& s, V sun_visible, bool use_image, V& image_alpha,
-                             V3& floor_added) {
+// the refraction image shows one.
+HWY_INLINE Refracted RefractedLight(const Shading& shading, const Water& water,
+                                    const Packet& packet, const WaterSlopes& s, V sun_visible,
+                                    bool use_image) {
   // Far triangles cut off some of the earth's curve: that is no trough.
   const V share =
       Clamp(NegMulAdd(packet.distance, kWaveShareFall * water.inv_wave_reach, kWaveShareAtEye),
@@ -200,14 +202,11 @@ HWY_INLINE V3 RefractedLight(const Shading& shading, const Water& water, const P
   if (water.bump_detail.map)
     deep = deep * BumpLight(shading, water.bump_detail, packet, NormalOf(s.slope_x, s.slope_y),
                             sun_visible);
-  image_alpha = hn::Zero(D());
-  floor_added = Constant(glm::vec3(0.0f));
-  if (!use_image) return deep;
+  if (!use_image) return {deep, hn::Zero(D()), Constant(glm::vec3(0.0f))};
   const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
-  image_alpha = floor.alpha;
   // The image's water has no crests: over a floor too deep to be seen it must be as without one.
-  floor_added = (floor.light + crest_light - deep) * image_alpha;
-  return deep + floor_added;
+  const V3 floor_added = (floor.light + crest_light - deep) * floor.alpha;
+  return {deep + floor_added, floor.alpha, floor_added};
 }
 
 // What a facet that mirrors the sun to the eye reflects; `half` is the sum of their directions.
@@ -288,26 +287,25 @@ struct WaterShader {
     const Facing f = FaceEye(shading.media, water, packet, s);
 
     const V sun_visible = SunOnSea(shading, tile, packet);
-    V inv_variance, mirrored_alpha, refracted_alpha;
+    V inv_variance;
     V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media}, f.area,
                           inv_variance);
-    V3 floor;
-    V3 refracted = RefractedLight(shading, water, packet, s, sun_visible,
-                                  tile.planar_maps.refraction, refracted_alpha, floor);
-    const V3 mirrored = ReflectedLight(light, water, packet, s, f, inv_variance, floor,
-                                       tile.planar_maps.reflection, mirrored_alpha);
+    Refracted refracted =
+        RefractedLight(shading, water, packet, s, sun_visible, tile.planar_maps.refraction);
+    const Looked mirrored = ReflectedLight(shading, packet, s, f, inv_variance,
+                                           refracted.floor_added, tile.planar_maps.reflection);
     TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
-    AddHulls(shading, tile, packet, refracted, foam);
+    AddHulls(shading, tile, packet, refracted.light, foam);
     const V weight =
         water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
-    const V3 arriving = Lerp(refracted, mirrored, weight);
+    const V3 arriving = Lerp(refracted.light, mirrored.light, weight);
     if (water.glitter.sun_texture)
       sun_path =
           f.reflectance * ProjectedGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
     V3 seen = MulAdd(Constant(water.glitter_light), sun_path * sun_visible, arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction,
                         {sun_visible, AmbientUnderClouds(shading, packet.p)}, f.normal, seen);
-    return {seen, f.normal, foam.cover, FlagsOf(mirrored_alpha, refracted_alpha, s.wake)};
+    return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted.image_alpha, s.wake)};
   }
 };
 

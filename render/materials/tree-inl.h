@@ -99,7 +99,7 @@ HWY_INLINE CrownPoint FindCrownPoint(const Tree& material, const ViewRays& rays,
 
   V a = zero, b = zero, unused = zero;
   AddSlopes(material.foliage, {tree.across, tree.from_foot.z, zero}, FootprintAcross(rays, packet),
-            zero, zero, a, b, unused);
+            {zero, zero}, a, b, unused);
   normal = normal + V3{a, -a, b};
   const V inverse = InverseSqrt(Max(Dot(normal, normal), 1e-6f));
   return {normal * inverse, Clamp(MulAdd(b, 0.3f, one), 0.5f, 1.6f), up,

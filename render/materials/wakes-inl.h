@@ -34,7 +34,7 @@ inline HWY_NOINLINE WakesAt SampleWakes(const Wakes& wakes, const V3& p, const V
     if (hn::AllFalse(d, inside)) continue;
     at.is_near = true;
     V x = zero, y = zero, lost = zero;
-    AddSlopes(layer.slopes, p, level_m, zero, zero, x, y, lost);
+    AddSlopes(layer.slopes, p, level_m, {zero, zero}, x, y, lost);
     at.slope_x = at.slope_x + IfThenElseZero(inside, x);
     at.slope_y = at.slope_y + IfThenElseZero(inside, y);
     at.variance = at.variance + IfThenElseZero(inside, lost);

@@ -136,7 +136,7 @@ HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf
   s.variance = IfThenElse(surf.inside, blended, s.variance);
   if (hn::AllFalse(d, surf.has_trains)) return;
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
-  AddSlopes(water.coast_slopes, p, level_m, x, y, x, y, lost);
+  AddSlopes(water.coast_slopes, p, level_m, {x, y}, x, y, lost);
   s.slope_x = s.slope_x + IfThenElseZero(surf.has_trains, x);
   s.slope_y = s.slope_y + IfThenElseZero(surf.has_trains, y);
   s.variance = s.variance + IfThenElseZero(surf.has_trains, lost);
@@ -158,7 +158,7 @@ HWY_INLINE void BendRipples(const Water& water, V3 p, V level_m, V& du, V& dv) {
   if (kCoast && water.has_coast)
     NearestSlopes(water.uv_noise, p, level_m, du, dv);
   else
-    AddSlopes(water.uv_noise, p, level_m, du, dv, du, dv, unused);
+    AddSlopes(water.uv_noise, p, level_m, {du, dv}, du, dv, unused);
 }
 
 // What disturbs the water: slopes on those that there are, and foam, torn as whitecaps are.
@@ -235,7 +235,7 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
     if (i >= (has_patch ? 1 : 0) && !(is_long && all_ceded)) {
       const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
       for (std::size_t k = 0; k < count; ++k)
-        AddSlopes(layer, packets[k].p, level_m[k], du[k], dv[k], s[k].slope_x, s[k].slope_y,
+        AddSlopes(layer, packets[k].p, level_m[k], {du[k], dv[k]}, s[k].slope_x, s[k].slope_y,
                   s[k].variance);
     }
     if (!is_long) continue;

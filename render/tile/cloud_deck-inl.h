@@ -52,7 +52,7 @@ static HWY_NOINLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m
   CloudNoise noise = SampleClouds(clouds, at.x, at.y, level);
   const V zero = hn::Zero(d);
   V unused = zero, lost = zero;
-  AddSlopes(clouds.regions, {at.x, at.y, zero}, level, zero, zero, noise.noise, unused, lost);
+  AddSlopes(clouds.regions, {at.x, at.y, zero}, level, {zero, zero}, noise.noise, unused, lost);
   const V passes = Exp(d, -OpticalDepth(clouds, noise));
   const V hidden = (one - passes) * clouds.shown;
   const auto some = seen & (hidden > kLeastHidden);

@@ -129,22 +129,27 @@ HWY_INLINE MapLevel LevelIn(const SlopeLayer& layer, V level_m, V& variance) {
   return {base, t, hn::AllTrue(d, level >= layer.coarsest)};
 }
 
-// The place of p in a layer's map; (du, dv) perturb it, in units of uv_noise_m.
-HWY_INLINE LayerPlace PlaceBent(const SlopeLayer& layer, V3 p, V du, V dv) {
+// What perturbs texture coordinates, in units of SlopeLayer::uv_noise_m.
+struct UvNoise {
+  V u, v;
+};
+
+// The place of p in a layer's map, perturbed.
+HWY_INLINE LayerPlace PlaceBent(const SlopeLayer& layer, V3 p, const UvNoise& by) {
   const V noise = Constant(layer.uv_noise_m);
-  return PlaceIn(layer, MulAdd(du, noise, p.x), MulAdd(dv, noise, p.y));
+  return PlaceIn(layer, MulAdd(by.u, noise, p.x), MulAdd(by.v, noise, p.y));
 }
 
 // Adds a layer's slopes at p to (slope_x, slope_y), blended between mip levels, and the variance
-// that they have lost to `variance`. (du, dv) perturb the coordinates, in units of uv_noise_m.
-HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, V du, V dv, V& slope_x,
-                          V& slope_y, V& variance) {
+// that they have lost to `variance`.
+HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, const UvNoise& noise,
+                          V& slope_x, V& slope_y, V& variance) {
   const MapLevel level = LevelIn(layer, level_m, variance);
   if (level.all_lost) return;
-  const LayerPlace place = PlaceBent(layer, p, du, dv);
-  texture::HWY_NAMESPACE::AddBlended(D(), *layer.map, RoundToInt(place.x_fx8),
-                                     RoundToInt(place.y_fx8), level.base, level.t, layer.gain,
-                                     slope_x, slope_y);
+  const LayerPlace place = PlaceBent(layer, p, noise);
+  texture::HWY_NAMESPACE::AddBlended(
+      D(), *layer.map, {RoundToInt(place.x_fx8), RoundToInt(place.y_fx8), level.base, level.t},
+      layer.gain, slope_x, slope_y);
 }
 
 // What a layer's map holds at a place on the nearest mip level with detail: one sample, and nothing

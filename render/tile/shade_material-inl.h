@@ -24,9 +24,10 @@ namespace HWY_NAMESPACE {
 // The light of a packet's pixels as it arrives, but for air that is laid last. What labels want of
 // the window's goes to `keep`.
 template <ViewKind kView, class M, class Shade, class Keep, class... Found>
-HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& material,
-                            const Lanes& lanes, const Packet& shown, const Shade& shade,
-                            const Keep& keep, const Found&... found) {
+HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const Lanes& lanes,
+                            const Packet& shown, const Shade& shade, const Keep& keep,
+                            const Found&... found) {
+  const M& material = s.material<M>();
   if constexpr (kView == ViewKind::kWindow) {
     const auto result = shade(s, tile, lanes, shown, found...);
     keep(lanes.at, result);
@@ -52,17 +53,17 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const M& m
 
 // The light of packets side by side. A function of its own: pixels and fragments share it.
 template <class M, class Shade, class Keep>
-HWY_NOINLINE void ArrivingLights(const Shading& s, const TilePixels& tile, const M& material,
-                                 const Shade& shade, const Keep& keep,
-                                 std::span<const ListedPacket> packets, V3* lights) {
+HWY_NOINLINE void ArrivingLights(const Shading& s, const TilePixels& tile, const Shade& shade,
+                                 const Keep& keep, std::span<const ListedPacket> packets,
+                                 V3* lights) {
   PerPacket<Packet> shown;
   PerPacket<typename Shade::Found> found;
   for (std::size_t k = 0; k < packets.size(); ++k)
     shown[k] = MakePacket(s.rays, packets[k].x_px, packets[k].y_px, packets[k].z);
   shade.LookUp(s, std::span<const Packet>(shown.data(), packets.size()), found.data());
   for (std::size_t k = 0; k < packets.size(); ++k)
-    lights[k] = ArrivingLight<ViewKind::kWindow>(s, tile, material, packets[k].lanes, shown[k],
-                                                 shade, keep, found[k]);
+    lights[k] = ArrivingLight<ViewKind::kWindow, M>(s, tile, packets[k].lanes, shown[k], shade,
+                                                    keep, found[k]);
 }
 
 // Labels are of the pixels' centres alone: fragments keep nothing. A function of its own for each
@@ -76,12 +77,12 @@ HWY_NOINLINE void ShadePixels(const Shading& s, const TilePixels& tile, const Pi
       // Elsewhere what is shown is not where it seems to be.
       if constexpr (kView == ViewKind::kWindow && LooksUpSideBySide<Shade>) {
         ShadeSideBySide(listed, [&](std::span<const ListedPacket> packets, V3* lights) HWY_ATTR {
-          ArrivingLights(s, tile, material, shade, kept, packets, lights);
+          ArrivingLights<M>(s, tile, shade, kept, packets, lights);
         });
       } else {
         ShadeList(listed, [&](const ListedPacket& packet) HWY_ATTR {
           const Packet shown = MakePacket(s.rays, packet.x_px, packet.y_px, packet.z);
-          return ArrivingLight<kView>(s, tile, material, packet.lanes, shown, shade, kept);
+          return ArrivingLight<kView, M>(s, tile, packet.lanes, shown, shade, kept);
         });
       }
     };

@@ -74,13 +74,19 @@ struct RayBlock {
   int plane_count;
 };
 
-// Finds the nearest of the implicit surface's listed parts along the rays at (x, y) [px] from the
-// block's middle. Where it is nearer than z of the depth buffer it sets z, and primitive to the
-// part's number plus first_primitive. The spans are of one length, a multiple of 16. Quickest with
-// the nearest parts first. What rays meet depends on the order of the list alone, where two parts
-// are equally near, not on which others are in it, nor on which other rays.
-void cast_rays(const PosedImplicit& implicit, std::span<const std::uint16_t> parts,
-               const RayBlock& block, std::uint32_t first_primitive, std::span<const float> x,
+// Parts of an implicit surface; part n has the primitive number first_primitive + n.
+struct ListedParts {
+  const PosedImplicit& implicit;
+  std::span<const std::uint16_t> number;
+  std::uint32_t first_primitive;
+};
+
+// Finds the nearest of the listed parts along the rays at (x, y) [px] from the block's middle.
+// Where it is nearer than z of the depth buffer it sets z and the part's primitive. The spans are
+// of one length, a multiple of 16. Quickest with the nearest parts first. What rays meet depends on
+// the order of the list alone, where two parts are equally near, not on which others are in it, nor
+// on which other rays.
+void cast_rays(const ListedParts& parts, const RayBlock& block, std::span<const float> x,
                std::span<const float> y, std::span<float> z, std::span<std::uint32_t> primitive);
 
 }  // namespace swell::render

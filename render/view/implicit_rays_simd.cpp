@@ -317,9 +317,9 @@ HWY_INLINE void CutOff(const RayBlock& block, const RayPacket& ray, Stay& stay) 
   }
 }
 
-HWY_INLINE void CastPacket(const PosedImplicit& implicit, std::span<const std::uint16_t> parts,
-                           const RayBlock& block, std::uint32_t first_primitive, const float* x,
+HWY_INLINE void CastPacket(const ListedParts& parts, const RayBlock& block, const float* x,
                            const float* y, float* z, std::uint32_t* primitive) {
+  const PosedImplicit& implicit = parts.implicit;
   const D d;
   const DU du;
   Stay whole = {Constant(block.near_m - block.middle_depth_m), Constant(kNowhere)};
@@ -335,7 +335,7 @@ HWY_INLINE void CastPacket(const PosedImplicit& implicit, std::span<const std::u
   V nearest = whole.to;
   auto found = hn::Set(du, 0u);
   M any = hn::FirstN(d, 0);
-  for (const std::uint16_t number : parts) {
+  for (const std::uint16_t number : parts.number) {
     const RayPart& part = implicit.parts[number];
     const RayPacket ray = {rays.p - Constant(part.middle), rays.d};
     Stay stay = {whole.from, nearest};
@@ -347,7 +347,7 @@ HWY_INLINE void CastPacket(const PosedImplicit& implicit, std::span<const std::u
     const V u = FirstInside(implicit, part, ray, stay, passes);
     const M met = passes & (u < stay.to);
     nearest = IfThenElse(met, u, nearest);
-    found = IfThenElse(hn::RebindMask(du, met), hn::Set(du, first_primitive + number), found);
+    found = IfThenElse(hn::RebindMask(du, met), hn::Set(du, parts.first_primitive + number), found);
     any = any | met;
   }
   const V depth = nearest + block.middle_depth_m;
@@ -357,11 +357,10 @@ HWY_INLINE void CastPacket(const PosedImplicit& implicit, std::span<const std::u
   hn::StoreU(IfThenElse(hn::RebindMask(du, shows), found, hn::LoadU(du, primitive)), du, primitive);
 }
 
-void CastRays(const PosedImplicit& implicit, std::span<const std::uint16_t> parts,
-              const RayBlock& block, std::uint32_t first_primitive, std::span<const float> x,
+void CastRays(const ListedParts& parts, const RayBlock& block, std::span<const float> x,
               std::span<const float> y, std::span<float> z, std::span<std::uint32_t> primitive) {
   for (std::size_t i = 0; i < x.size(); i += kLanes)
-    CastPacket(implicit, parts, block, first_primitive, &x[i], &y[i], &z[i], &primitive[i]);
+    CastPacket(parts, block, &x[i], &y[i], &z[i], &primitive[i]);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -373,10 +372,9 @@ namespace swell::render {
 
 HWY_EXPORT(CastRays);
 
-void cast_rays(const PosedImplicit& implicit, std::span<const std::uint16_t> parts,
-               const RayBlock& block, std::uint32_t first_primitive, std::span<const float> x,
+void cast_rays(const ListedParts& parts, const RayBlock& block, std::span<const float> x,
                std::span<const float> y, std::span<float> z, std::span<std::uint32_t> primitive) {
-  HWY_DYNAMIC_DISPATCH(CastRays)(implicit, parts, block, first_primitive, x, y, z, primitive);
+  HWY_DYNAMIC_DISPATCH(CastRays)(parts, block, x, y, z, primitive);
 }
 
 }  // namespace swell::render

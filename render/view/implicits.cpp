@@ -208,7 +208,7 @@ void draw_cell(const ImplicitInView& implicit, const Parts& parts, const RayBloc
       rays.z[i] = inside ? tile.depth[at(row) + static_cast<std::size_t>(column)] : 1.0f;
       rays.primitive[i] = inside ? tile.primitive[at(row) + static_cast<std::size_t>(column)] : 0;
     }
-  cast_rays(*implicit.implicit, parts.list(), block, implicit.first_primitive, rays.x, rays.y,
+  cast_rays({*implicit.implicit, parts.list(), implicit.first_primitive}, block, rays.x, rays.y,
             rays.z, rays.primitive);
   for (int row = 0; row < rows; ++row) {
     const auto first = static_cast<std::ptrdiff_t>(row * kCell_px);
@@ -278,7 +278,7 @@ class SampleRays {
     if (count_ == 0) return;
     for (std::size_t i = count_; i < kCellPixels; ++i)
       rays_.x[i] = rays_.y[i] = 0.0f, rays_.z[i] = 1.0f, rays_.primitive[i] = 0;
-    cast_rays(*implicit_.implicit, parts_.list(), block_, implicit_.first_primitive, rays_.x,
+    cast_rays({*implicit_.implicit, parts_.list(), implicit_.first_primitive}, block_, rays_.x,
               rays_.y, rays_.z, rays_.primitive);
     for (std::size_t i = 0; i < count_; ++i)
       depth_[sample_[i]] = rays_.z[i], primitive_[sample_[i]] = rays_.primitive[i];

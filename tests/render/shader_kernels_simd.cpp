@@ -153,7 +153,7 @@ void LayerSlopes(const SlopeLayer& layer, std::span<const glm::vec3> p_rel,
   const V zero = hn::Zero(D());
   ForPackets(slopes.size(), [&](std::size_t i) {
     WaterSlopes s = NoSlopes(zero, zero, zero);
-    AddSlopes(layer, LoadSome(p_rel, i), LoadSome(level_m, i), zero, zero, s.slope_x, s.slope_y,
+    AddSlopes(layer, LoadSome(p_rel, i), LoadSome(level_m, i), {zero, zero}, s.slope_x, s.slope_y,
               s.variance);
     StoreSome(V3{s.slope_x, s.slope_y, s.variance}, slopes, i);
   });

@@ -70,8 +70,10 @@ void blended(const PackedMap2& map, const MapPlaces& places, std::span<const flo
       a_packet[i] = before.a, b_packet[i] = before.b;
     }
     hn::Vec<D> a = hn::Load(d, a_packet), b = hn::Load(d, b_packet);
-    AddBlended(d, map, load_packet(places.x_fx8, first), load_packet(places.y_fx8, first),
-               load_packet(places.level, first), hn::Load(d, t_packet), gain, a, b);
+    AddBlended(d, map,
+               {load_packet(places.x_fx8, first), load_packet(places.y_fx8, first),
+                load_packet(places.level, first), hn::Load(d, t_packet)},
+               gain, a, b);
     store_packet(a, b, first, sums);
   }
 }
@@ -83,8 +85,7 @@ void rgba(const RgbaImage& image, std::span<const float> x_px, std::span<const f
   for (std::size_t first = 0; first < x_px.size(); first += kLanes) {
     copy_packet(x_px, first, x_packet);
     copy_packet(y_px, first, y_packet);
-    hn::Vec<D> r, g, b, a;
-    SampleRgba(d, image, hn::Load(d, x_packet), hn::Load(d, y_packet), r, g, b, a);
+    const auto [r, g, b, a] = SampleRgba(d, image, hn::Load(d, x_packet), hn::Load(d, y_packet));
     hn::Store(r, d, channels[0]);
     hn::Store(g, d, channels[1]);
     hn::Store(b, d, channels[2]);
@@ -104,9 +105,9 @@ void rgba_level(const RgbaImage& image, std::span<const float> x_px, std::span<c
     copy_packet(x_px, first, x_packet);
     copy_packet(y_px, first, y_packet);
     copy_packet(level, first, level_packet);
-    hn::Vec<D> r, g, b, a;
-    SampleRgbaLevel(d, image, hn::Load(d, x_packet), hn::Load(d, y_packet),
-                    hn::Load(hn::RebindToSigned<D>(), level_packet), r, g, b, a);
+    const auto [r, g, b, a] =
+        SampleRgbaLevel(d, image, hn::Load(d, x_packet), hn::Load(d, y_packet),
+                        hn::Load(hn::RebindToSigned<D>(), level_packet));
     hn::Store(r, d, channels[0]);
     hn::Store(g, d, channels[1]);
     hn::Store(b, d, channels[2]);
@@ -143,13 +144,12 @@ void cover(const CoverMap& map, const MapPlaces& places, std::span<Sample4> out)
     copy_packet(places.x_fx8, first, x_packet);
     copy_packet(places.y_fx8, first, y_packet);
     copy_packet(places.level, first, level_packet);
-    hn::Vec<D> a, b, c, e;
-    SampleCover(d, map, hn::Load(di, x_packet), hn::Load(di, y_packet), hn::Load(di, level_packet),
-                a, b, c, e);
-    hn::Store(a, d, channels[0]);
-    hn::Store(b, d, channels[1]);
-    hn::Store(c, d, channels[2]);
-    hn::Store(e, d, channels[3]);
+    const auto [r, g, b, a] = SampleCover(d, map, hn::Load(di, x_packet), hn::Load(di, y_packet),
+                                          hn::Load(di, level_packet));
+    hn::Store(r, d, channels[0]);
+    hn::Store(g, d, channels[1]);
+    hn::Store(b, d, channels[2]);
+    hn::Store(a, d, channels[3]);
     for (std::size_t i = 0; i < kLanes && first + i < out.size(); ++i)
       out[first + i] = {channels[0][i], channels[1][i], channels[2][i], channels[3][i]};
   }
