@@ -16,6 +16,10 @@ if(SWELL_SANITIZE)
   if(SWELL_HAS_LLD)
     target_link_options(swell_options INTERFACE -fuse-ld=lld)
   endif()
+  # What the address checks find where it does harm, for a fifth of the time that code with checks takes to compile.
+  if(SWELL_SANITIZE MATCHES "address.*undefined")
+    target_compile_options(swell_options INTERFACE -fno-sanitize=null,object-size,vptr)
+  endif()
   # Sanitized code makes GCC's flow warnings see paths that do not exist.
   set(flow_warnings -Wno-maybe-uninitialized -Wno-array-bounds -Wno-mismatched-new-delete
     -Wno-stringop-overflow)
@@ -24,11 +28,13 @@ if(SWELL_SANITIZE)
     "$<$<CXX_COMPILER_ID:GNU>:${flow_warnings};-fno-tree-pta>")
 endif()
 
-# For tests and programs, whose time is the library's: they compile in two thirds of the time so, and run as fast. GCC sees
-# bounds in std::string and std::vector then that are not there.
+# For programs and tests, whose time is the library's: they compile in two thirds of the time at -O1, tests in half at -Og,
+# and run as fast. GCC sees bounds in std::string and std::vector then that are not there.
 set(swell_light_options $<$<CONFIG:Release>:-O1>)
+set(swell_test_options $<$<CONFIG:Release>:-Og>)
 foreach(warning alloc-size-larger-than array-bounds restrict stringop-overflow)
   list(APPEND swell_light_options $<$<CXX_COMPILER_ID:GNU>:-Wno-${warning}>)
+  list(APPEND swell_test_options $<$<CXX_COMPILER_ID:GNU>:-Wno-${warning}>)
 endforeach()
 
 # For code that calls the library for its work: programs, and tests of pictures and files. Sanitized, it compiles in a
