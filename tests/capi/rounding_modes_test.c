@@ -1,6 +1,7 @@
 /* A host's rounding mode changes no bit of a world, an answer or a picture, and no call changes the
  * mode.
- *   rounding_modes_test SCENE... */
+ *   rounding_modes_test [--in-turn] SCENE...
+ * --in-turn: each scene in one of the modes, the next one in the next. */
 #include <fenv.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -135,11 +136,11 @@ static void free_answers(Answers* a) {
   free(a);
 }
 
-static void test_scene(const char* scene) {
+static void test_scene(const char* scene, int first_mode, int last_mode) {
   double xy[2 * kPoints];
   for (int i = 0; i < kPoints; ++i) xy[2 * i] = 7.3 * i - 200.1, xy[2 * i + 1] = 311.7 - 11.9 * i;
   Answers* const expected = answers_of(scene, xy);
-  for (int m = 1; m < kModes; ++m) {
+  for (int m = first_mode; m <= last_mode; ++m) {
     char name[300];
     snprintf(name, sizeof name, "%s, rounding to %s", scene, kModeName[m]);
     place = name;
@@ -155,7 +156,12 @@ static void test_scene(const char* scene) {
 }
 
 int main(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) test_scene(argv[i]);
-  printf("%d scenes: %d faults\n", argc - 1, faults);
-  return argc > 1 && faults == 0 ? 0 : 1;
+  const bool in_turn = argc > 1 && strcmp(argv[1], "--in-turn") == 0;
+  const int first = in_turn ? 2 : 1;
+  for (int i = first; i < argc; ++i) {
+    const int mode = 1 + i % (kModes - 1); /* all but the nearest */
+    test_scene(argv[i], in_turn ? mode : 1, in_turn ? mode : kModes - 1);
+  }
+  printf("%d scenes: %d faults\n", argc - first, faults);
+  return argc > first && faults == 0 ? 0 : 1;
 }
