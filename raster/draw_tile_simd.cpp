@@ -130,22 +130,22 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
   float* HWY_RESTRICT id = reinterpret_cast<float*>(tile.primitive) + (depth - tile.depth);
   const std::int32_t rows = rect.y1 - rect.y0 + 1;
   const V one = hn::Set(d, 1.0f);
+  const auto next_row = [&] {
+    e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
+    dy = dy + one;
+    depth += tile.size, id += tile.size;
+  };
 
   if (rect.packets == 1) {
-    for (std::int32_t row = 0; row < rows; ++row) {
-      const V z = depth_at(dx, MulAdd(dz_dy, dy, z_min));
-      DrawPacket((e0 | e1) | e2, z, primitive, depth, id);
-      e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
-      dy = dy + one;
-      depth += tile.size, id += tile.size;
-    }
+    for (std::int32_t row = 0; row < rows; ++row, next_row())
+      DrawPacket((e0 | e1) | e2, depth_at(dx, MulAdd(dz_dy, dy, z_min)), primitive, depth, id);
     return;
   }
 
   const VI a0 = hn::Set(di, edges.a[0] * kLanes), a1 = hn::Set(di, edges.a[1] * kLanes);
   const VI a2 = hn::Set(di, edges.a[2] * kLanes);
   const V packet_width = hn::Set(d, static_cast<float>(kLanes));
-  for (std::int32_t row = 0; row < rows; ++row) {
+  for (std::int32_t row = 0; row < rows; ++row, next_row()) {
     const V z_row = MulAdd(dz_dy, dy, z_min);
     VI f0 = e0, f1 = e1, f2 = e2;
     V x_offset = dx;
@@ -155,9 +155,6 @@ HWY_INLINE void DrawTriangle(const SetupTriangle& t, const TileTarget& tile) {
       f0 = f0 + a0, f1 = f1 + a1, f2 = f2 + a2;
       x_offset = x_offset + packet_width;
     }
-    e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
-    dy = dy + one;
-    depth += tile.size, id += tile.size;
   }
 }
 

@@ -16,7 +16,7 @@ using render::Shading;
 using render::SlopeLayer;
 
 bool has_planar_maps(const Shading& window) {
-  return window.material<render::Water>().reflection.image != nullptr;
+  return window.material<render::Water>().images.reflection.image != nullptr;
 }
 
 // --- Texts
@@ -162,19 +162,19 @@ void set_water(const Shading& s, const GlProgram& program) {
     set_layer(water.coast_surf, "coast_surf", program);
     set_foam(water.foam, program);
   }
-  program.set("mirrored_sea", water.mirrored_sea);
-  program.set("mirrored_floor_part", water.mirrored_floor_part);
-  program.set("wave_horizon", water.wave_horizon);
-  program.set("crest_glow", water.crest_glow);
-  program.set("inv_crest_height", water.inv_crest_height);
-  program.set("inv_wave_reach", water.inv_wave_reach);
+  program.set("mirrored_sea", water.optics.mirrored_sea);
+  program.set("mirrored_floor_part", water.optics.mirrored_floor_part);
+  program.set("wave_horizon", water.optics.wave_horizon);
+  program.set("crest_glow", water.optics.crest_glow);
+  program.set("inv_crest_height", water.optics.inv_crest_height);
+  program.set("inv_wave_reach", water.optics.inv_wave_reach);
   program.set("inv_window", 1.0f / glm::vec2(s.viewport.width_px, s.viewport.height_px));
-  program.set("distortion_px", water.distortion_px);
-  program.set("max_distortion_px", water.max_distortion_px);
-  program.set("distortion_by_sine", water.distortion_by_sine);
-  program.set("least_distortion", water.least_distortion);
-  program.set("view_right", water.view_right);
-  program.set("view_ahead", water.view_ahead);
+  program.set("distortion_px", water.images.distortion_px);
+  program.set("max_distortion_px", water.images.max_distortion_px);
+  program.set("distortion_by_sine", water.images.distortion_by_sine);
+  program.set("least_distortion", water.images.least_distortion);
+  program.set("view_right", water.images.view_right);
+  program.set("view_ahead", water.images.view_ahead);
 }
 
 void set_ground(const render::SlopeLayer& slopes, const render::AlbedoLayer& albedo,

@@ -8,7 +8,7 @@ namespace swell::render {
 
 Glitter make_glitter(const MaterialInputs& in) {
   Glitter glitter;
-  const SunTexture* const sun_texture = in.world.sun_texture.get();
+  const SunTexture* const sun_texture = in.world.textures.sun_texture.get();
   if (!sun_texture || in.without.has(Part::kSunTexture)) return glitter;
   const glm::vec3 sun = in.light.sun_direction;
   const float level = std::sqrt(sun.x * sun.x + sun.y * sun.y);

@@ -31,7 +31,7 @@ void fill(const MaterialInputs& in, glm::dvec2 eye, double texel_m, Land& land) 
   const TerrainMaps& maps = *in.world.terrain_maps;
   land.ground = &maps.ground;
   land.ground_around = &maps.ground_around;
-  const texture::PackedMap2& pattern = *in.world.ground_pattern;
+  const texture::PackedMap2& pattern = *in.world.textures.ground;
   const double wide_m = std::max(kWideTexels * texel_m, kLeastWide_m);
   land.wide = make_pattern(pattern, wide_m, eye, {0.96, 0.28});
   land.near = make_pattern(pattern, kNear_m, eye, {0.8, -0.6});

@@ -9,7 +9,7 @@
 
 namespace swell::render {
 
-// The ground's pattern (World::State::ground_pattern) laid over the land.
+// The ground's pattern (Textures::ground) laid over the land.
 struct PatternLayer {
   SlopeLayer layer;
   float lost_per_variance = 1.0f;  // what part of it is lost, by the variance that it has lost

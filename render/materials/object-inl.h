@@ -65,66 +65,46 @@ inline glm::vec3 SquaresAlong(const ObjectPrimitive& primitive) {
   return squares;
 }
 
-// What the triangles hold at points p relative to the eye.
-HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& rays,
-                                      const ObjectPrimitive* const* primitive,
-                                      const Packet& packet) {
+// What a packet's triangles and their objects hold, a lane each.
+struct ObjectLanes {
   Lanes3 bottom, right, ahead, up, at_origin, along_x, along_y, along_z, albedo, flat;
   Lanes3 finish;  // roughness, metalness, translucency
   Lanes3 squares;
   HWY_ALIGN float squares_per_m[Lanes3::kCount];
   bool has_pictures = false, has_squares = false;
-  for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
-    const ObjectInstance& object = *primitive[i]->object;
-    const scene::ObjectTriangle& triangle = *primitive[i]->triangle;
-    bottom.Set(i, object.bottom_rel);
-    right.Set(i, object.right);
-    ahead.Set(i, object.ahead);
-    up.Set(i, object.up);
-    at_origin.Set(i, triangle.normal_at_origin);
-    along_x.Set(i, triangle.normal_along_x);
-    along_y.Set(i, triangle.normal_along_y);
-    along_z.Set(i, triangle.normal_along_z);
-    flat.Set(i, triangle.flat_normal);
-    const float paint = triangle.painted ? 1.0f : 0.0f;
-    const glm::vec3 tint = triangle.tint, colour = object.colour;
-    const auto painted = [&](float t, float c) { return t * (paint * c + (1.0f - paint)); };
-    albedo.Set(i,
-               {painted(tint.x, colour.x), painted(tint.y, colour.y), painted(tint.z, colour.z)});
-    const glm::vec2 own(triangle.roughness, triangle.metalness);
-    const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
-    finish.Set(i, {its.x, its.y, triangle.translucency});
-    has_pictures |= !object.mesh->textured.empty();
-    has_squares |= object.squares_per_m > 0.0f;
-    squares_per_m[i] = object.squares_per_m;
-    squares.Set(i, SquaresAlong(*primitive[i]));
-  }
-  // To the mesh's coordinates, the normal there, and back.
-  const V3 q_rel = packet.p - bottom.Load();
-  const V3 q = {Dot(q_rel, right.Load()), Dot(q_rel, ahead.Load()), Dot(q_rel, up.Load())};
-  const auto to_world = [&](V3 n) HWY_ATTR {
-    return MulAdd(right.Load(), n.x, MulAdd(ahead.Load(), n.y, up.Load() * n.z));
-  };
-  V3 n_mesh = MulAdd(along_x.Load(), q.x,
-                     MulAdd(along_y.Load(), q.y, MulAdd(along_z.Load(), q.z, at_origin.Load())));
-  const auto of_implicits = TakeImplicitNormals(primitive, q, n_mesh);
-  const V3 n = to_world(n_mesh);
-  // A surface without a back has the normal of the side that is seen.
-  const V inverse = InverseSqrt(Max(Dot(n, n), 1e-30f));
-  const auto from_behind =
-      hn::AndNot(of_implicits, Dot(to_world(flat.Load()), packet.to_eye) < 0.0f);
-  const V3 finishes = finish.Load();
-  ObjectSurface surface = {n * IfThenElse(from_behind, -inverse, inverse), albedo.Load(),
-                           finishes.x, finishes.y, finishes.z};
-  if (has_squares) {
-    const V half_m = HalfFootprint(rays, packet, Dot(surface.normal, packet.to_eye));
-    const V half_px = half_m * hn::Load(D(), squares_per_m);
-    surface.albedo = surface.albedo * CheckeredPaint(squares.Load(), q, half_px);
-  }
-  if (!has_pictures) return surface;
 
-  const V footprint = FootprintLevel(FootprintAcross(rays, packet),
-                                     Max(Abs(Dot(surface.normal, packet.to_eye)), 0.05f));
+  HWY_INLINE explicit ObjectLanes(const ObjectPrimitive* const* primitive) {
+    for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
+      const ObjectInstance& object = *primitive[i]->object;
+      const scene::ObjectTriangle& triangle = *primitive[i]->triangle;
+      bottom.Set(i, object.bottom_rel);
+      right.Set(i, object.right);
+      ahead.Set(i, object.ahead);
+      up.Set(i, object.up);
+      at_origin.Set(i, triangle.normal_at_origin);
+      along_x.Set(i, triangle.normal_along_x);
+      along_y.Set(i, triangle.normal_along_y);
+      along_z.Set(i, triangle.normal_along_z);
+      flat.Set(i, triangle.flat_normal);
+      const float paint = triangle.painted ? 1.0f : 0.0f;
+      const glm::vec3 tint = triangle.tint, colour = object.colour;
+      const auto painted = [&](float t, float c) { return t * (paint * c + (1.0f - paint)); };
+      albedo.Set(i,
+                 {painted(tint.x, colour.x), painted(tint.y, colour.y), painted(tint.z, colour.z)});
+      const glm::vec2 own(triangle.roughness, triangle.metalness);
+      const glm::vec2 its = triangle.painted ? glm::vec2(object.roughness, object.metalness) : own;
+      finish.Set(i, {its.x, its.y, triangle.translucency});
+      has_pictures |= !object.mesh->textured.empty();
+      has_squares |= object.squares_per_m > 0.0f;
+      squares_per_m[i] = object.squares_per_m;
+      squares.Set(i, SquaresAlong(*primitive[i]));
+    }
+  }
+};
+
+// Multiplies the albedo by what the meshes' pictures show at q, pixels of this footprint wide.
+HWY_INLINE void TakePictures(const ObjectPrimitive* const* primitive, bool has_textures, V3 q,
+                             V footprint, Lanes3& albedo) {
   HWY_ALIGN float x[Lanes3::kCount], y[Lanes3::kCount], z[Lanes3::kCount], size[Lanes3::kCount];
   hn::Store(q.x, D(), x);
   hn::Store(q.y, D(), y);
@@ -132,11 +112,45 @@ HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& ra
   hn::Store(footprint, D(), size);
   for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
     if (primitive[i]->object->mesh->textured.empty()) continue;
-    const glm::vec3 texel =
-        TexelAt(*primitive[i], {x[i], y[i], z[i]}, size[i], material.has_textures);
+    const glm::vec3 texel = TexelAt(*primitive[i], {x[i], y[i], z[i]}, size[i], has_textures);
     albedo.Set(i, {albedo.x[i] * texel.x, albedo.y[i] * texel.y, albedo.z[i] * texel.z});
   }
-  surface.albedo = albedo.Load();
+}
+
+// What the triangles hold at points p relative to the eye.
+HWY_INLINE ObjectSurface SampleObject(const Object& material, const ViewRays& rays,
+                                      const ObjectPrimitive* const* primitive,
+                                      const Packet& packet) {
+  ObjectLanes lanes(primitive);
+  // To the mesh's coordinates, the normal there, and back.
+  const V3 q_rel = packet.p - lanes.bottom.Load();
+  const V3 q = {Dot(q_rel, lanes.right.Load()), Dot(q_rel, lanes.ahead.Load()),
+                Dot(q_rel, lanes.up.Load())};
+  const auto to_world = [&](V3 n) HWY_ATTR {
+    return MulAdd(lanes.right.Load(), n.x, MulAdd(lanes.ahead.Load(), n.y, lanes.up.Load() * n.z));
+  };
+  V3 n_mesh = MulAdd(
+      lanes.along_x.Load(), q.x,
+      MulAdd(lanes.along_y.Load(), q.y, MulAdd(lanes.along_z.Load(), q.z, lanes.at_origin.Load())));
+  const auto of_implicits = TakeImplicitNormals(primitive, q, n_mesh);
+  const V3 n = to_world(n_mesh);
+  // A surface without a back has the normal of the side that is seen.
+  const V inverse = InverseSqrt(Max(Dot(n, n), 1e-30f));
+  const auto from_behind =
+      hn::AndNot(of_implicits, Dot(to_world(lanes.flat.Load()), packet.to_eye) < 0.0f);
+  const V3 finishes = lanes.finish.Load();
+  ObjectSurface surface = {n * IfThenElse(from_behind, -inverse, inverse), lanes.albedo.Load(),
+                           finishes.x, finishes.y, finishes.z};
+  if (lanes.has_squares) {
+    const V half_m = HalfFootprint(rays, packet, Dot(surface.normal, packet.to_eye));
+    const V half_px = half_m * hn::Load(D(), lanes.squares_per_m);
+    surface.albedo = surface.albedo * CheckeredPaint(lanes.squares.Load(), q, half_px);
+  }
+  if (!lanes.has_pictures) return surface;
+  const V footprint = FootprintLevel(FootprintAcross(rays, packet),
+                                     Max(Abs(Dot(surface.normal, packet.to_eye)), 0.05f));
+  TakePictures(primitive, material.has_textures, q, footprint, lanes.albedo);
+  surface.albedo = lanes.albedo.Load();
   return surface;
 }
 

@@ -54,7 +54,7 @@ double ripple_variance(const MaterialInputs& in) {
 // Two layers of ripples that drift across each other, downwind.
 void add_layers(const MaterialInputs& in, glm::dvec2 eye, Ripples& ripples) {
   const scene::Scene& scene = in.world.scene;
-  const texture::PackedMap2& bump = *in.world.bump;
+  const texture::PackedMap2& bump = *in.world.textures.bump;
   const float map_variance = std::max(bump.lost_variance.back(), 1e-12f);
   const double variance = ripple_variance(in);
   const double travel = scene.sea.wind_from_rad + kPi;
@@ -96,7 +96,7 @@ float base_variance(const scene::Scene& scene) {
 Ripples make_ripples(const MaterialInputs& in, glm::dvec2 eye) {
   Ripples ripples;
   if (in.without.has(Part::kRipples)) return ripples;
-  if (in.world.ripple_sequence && !in.without.has(Part::kSequence))
+  if (in.world.textures.ripple_sequence && !in.without.has(Part::kSequence))
     add_sequence(in, eye, ripples);
   else
     add_layers(in, eye, ripples);

@@ -363,7 +363,7 @@ struct Shader<River, ViewKind::kWindow> {
     };
     const V by_sea = river.mirrors_sea ? Max(at.sea_share, share_of(0.0f)) : at.sea_share;
     if (tile.planar_maps.reflection && !hn::AllFalse(d, by_sea > zero))
-      lay_over(water.reflection, by_sea);
+      lay_over(water.images.reflection, by_sea);
     if (river.reflection.image) {
       const V share = share_of(river.mirror_level_m) * river.mirror_share *
                       ((1.0f - by_sea) * Clamp(NegMulAdd(at.sea_share, 4.0f, 1.0f), 0.0f, 1.0f));
@@ -371,7 +371,7 @@ struct Shader<River, ViewKind::kWindow> {
     }
     refracted_alpha = IfThenElseZero(at.sea_share > zero, refracted_alpha);
     V3 seen = Lerp(refracted, mirrored.light, f.reflectance);
-    seen = MulAdd(Constant(water.glitter_light), sun_path * sun_visible, seen);
+    seen = MulAdd(Constant(water.optics.glitter_light), sun_path * sun_visible, seen);
     const V white = foam.cover * MulAdd(foam.thickness, 0.5f, 0.4f);
     seen = AddFoam(river.foam, white, {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted_alpha, s.wake)};

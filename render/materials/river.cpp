@@ -33,9 +33,9 @@ void fill(const MaterialInputs& in, const RenderView& view, River& river) {
   river.corner_rel = glm::vec2(inland->corner() - eye);
   river.cells_per_m = static_cast<float>(1.0 / inland->spacing_m());
 
-  river.long_ripples = make_ripple_layer(*in.world.bump, kLongRipples_m, eye);
-  river.short_ripples = make_ripple_layer(*in.world.bump, kShortRipples_m, eye);
-  river.stones = make_ripple_layer(*in.world.bump, kStones_m, eye);
+  river.long_ripples = make_ripple_layer(*in.world.textures.bump, kLongRipples_m, eye);
+  river.short_ripples = make_ripple_layer(*in.world.textures.bump, kShortRipples_m, eye);
+  river.stones = make_ripple_layer(*in.world.textures.bump, kStones_m, eye);
   river.foam = make_foam(in, eye, kRiverFoam_m);
   const double cycles = in.t_s / kCarried_s;
   river.cycles = fraction(cycles);

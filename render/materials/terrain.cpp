@@ -45,8 +45,8 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
       shadow && shadow->ground.size > 0 && !in.without.has(Part::kShadows))
     terrain.sun = make_square_layer(shadow->ground, land.grid.size_m(), eye - land.grid.min_world);
   const float detail_gain =
-      0.11f / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
-  terrain.detail = make_layer(*in.world.bump, kDetailPeriod_m, detail_gain, eye, {});
+      0.11f / std::sqrt(std::max(in.world.textures.bump->lost_variance.back(), 1e-12f));
+  terrain.detail = make_layer(*in.world.textures.bump, kDetailPeriod_m, detail_gain, eye, {});
 
   fill(in, eye, land.grid.size_m() / maps.ground.size, terrain.land);
   terrain.canopy = make_canopy(in, land.grid, eye);

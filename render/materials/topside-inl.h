@@ -66,14 +66,17 @@ template <bool kBacked>
 HWY_INLINE Looked LookUpDistorted(const Water& water, const PlanarMap& map, const Packet& packet,
                                   const WaterSlopes& s, float sign) {
   const D d;
-  const V right = MulAdd(s.slope_x, water.view_right.x, s.slope_y * water.view_right.y);
-  const V ahead = MulAdd(s.slope_x, water.view_ahead.x, s.slope_y * water.view_ahead.y);
-  const V gain = sign * water.distortion_px *
-                 Clamp(packet.to_eye.z * water.distortion_by_sine, water.least_distortion, 1.0f);
+  const V right =
+      MulAdd(s.slope_x, water.images.view_right.x, s.slope_y * water.images.view_right.y);
+  const V ahead =
+      MulAdd(s.slope_x, water.images.view_ahead.x, s.slope_y * water.images.view_ahead.y);
+  const V gain =
+      sign * water.images.distortion_px *
+      Clamp(packet.to_eye.z * water.images.distortion_by_sine, water.images.least_distortion, 1.0f);
   // What lies under water is near the surface: slopes too fine to see move it by less than they
   // spread it.
   const BlurLevel level = kBacked ? Sharp() : FindBlur(map, s.variance, gain * gain);
-  const float bound = water.max_distortion_px;
+  const float bound = water.images.max_distortion_px;
   const V dx = Clamp(right * (gain * -0.5f), -bound, bound);
   const V dy = Clamp(ahead * gain, -bound, bound);
   const V half = Constant(0.5f);
@@ -146,7 +149,7 @@ HWY_INLINE Looked ReflectedLight(const Shading& shading, const Packet& packet, c
                                  const Facing& f, V inv_variance, V3 floor, bool use_image) {
   const Light& light = shading.light;
   const Water& water = shading.material<Water>();
-  const V horizon = Constant(water.wave_horizon);
+  const V horizon = Constant(water.optics.wave_horizon);
   const V r_z = MulSub(f.cos_eye + f.cos_eye, f.normal.z, packet.to_eye.z);
   const V sea = PartOfSeaMirrored(r_z - horizon, packet.to_eye.z + horizon, inv_variance);
   V3 r = MulAdd(f.normal, f.cos_mirror + f.cos_mirror, -packet.to_eye);
@@ -157,11 +160,11 @@ HWY_INLINE Looked ReflectedLight(const Shading& shading, const Packet& packet, c
   if (light.calm.sky) mirrored = MirrorSky(light.calm, packet, r, length, s.variance, mirrored);
   if (light.stars.on)
     mirrored = mirrored + MirroredStars(light.stars, r, length, s.variance - water.base_variance);
-  const V3 mirrored_sea =
-      MulAdd(floor, Constant(water.mirrored_floor_part), Constant(water.mirrored_sea));
+  const V3 mirrored_sea = MulAdd(floor, Constant(water.optics.mirrored_floor_part),
+                                 Constant(water.optics.mirrored_sea));
   mirrored = Lerp(mirrored, mirrored_sea, sea);
   if (!use_image) return {mirrored, hn::Zero(D())};
-  const Looked image = LookUpDistorted<false>(water, water.reflection, packet, s, 1.0f);
+  const Looked image = LookUpDistorted<false>(water, water.images.reflection, packet, s, 1.0f);
   return {Lerp(mirrored, image.light, image.alpha), image.alpha};
 }
 
@@ -186,24 +189,24 @@ HWY_INLINE Refracted RefractedLight(const Shading& shading, const Water& water,
                                     const Packet& packet, const WaterSlopes& s, V sun_visible,
                                     bool use_image) {
   // Far triangles cut off some of the earth's curve: that is no trough.
-  const V share =
-      Clamp(NegMulAdd(packet.distance, kWaveShareFall * water.inv_wave_reach, kWaveShareAtEye),
-            0.0f, 1.0f);
+  const V share = Clamp(
+      NegMulAdd(packet.distance, kWaveShareFall * water.optics.inv_wave_reach, kWaveShareAtEye),
+      0.0f, 1.0f);
   const V height = share * (packet.p.z + shading.rays.eye_z);
-  const V crest = Clamp(MulAdd(height, water.inv_crest_height, 0.4f), 0.0f, 1.5f);
+  const V crest = Clamp(MulAdd(height, water.optics.inv_crest_height, 0.4f), 0.0f, 1.5f);
   const V towards_sun = Max(-MulAdd(packet.to_eye.x, shading.light.sun_direction.x,
                                     packet.to_eye.y * shading.light.sun_direction.y),
                             0.0f);
   const V glow = crest * crest * MulAdd(towards_sun, sun_visible, 0.35f);
   const V shade = MulSub(sun_visible, 0.6f, 0.6f);
-  const V3 crest_light = Constant(water.crest_glow) * glow;
+  const V3 crest_light = Constant(water.optics.crest_glow) * glow;
   V3 deep = crest_light +
             MulAdd(Constant(shading.media.body_sun), shade, BodyUnderClouds(shading, packet.p));
   if (water.bump_detail.map)
     deep = deep * BumpLight(shading, water.bump_detail, packet, NormalOf(s.slope_x, s.slope_y),
                             sun_visible);
   if (!use_image) return {deep, hn::Zero(D()), Constant(glm::vec3(0.0f))};
-  const Looked floor = LookUpDistorted<true>(water, water.refraction, packet, s, -0.5f);
+  const Looked floor = LookUpDistorted<true>(water, water.images.refraction, packet, s, -0.5f);
   // The image's water has no crests: over a floor too deep to be seen it must be as without one.
   const V3 floor_added = (floor.light + crest_light - deep) * floor.alpha;
   return {deep + floor_added, floor.alpha, floor_added};
@@ -296,13 +299,14 @@ struct WaterShader {
                                            refracted.floor_added, tile.planar_maps.reflection);
     TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
     AddHulls(shading, tile, packet, refracted.light, foam);
-    const V weight =
-        water.reflection_weight < 0.0f ? f.reflectance : Constant(water.reflection_weight);
+    const V weight = water.optics.reflection_weight < 0.0f
+                         ? f.reflectance
+                         : Constant(water.optics.reflection_weight);
     const V3 arriving = Lerp(refracted.light, mirrored.light, weight);
     if (water.glitter.sun_texture)
       sun_path =
           f.reflectance * ProjectedGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
-    V3 seen = MulAdd(Constant(water.glitter_light), sun_path * sun_visible, arriving);
+    V3 seen = MulAdd(Constant(water.optics.glitter_light), sun_path * sun_visible, arriving);
     seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction,
                         {sun_visible, AmbientUnderClouds(shading, packet.p)}, f.normal, seen);
     return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted.image_alpha, s.wake)};

@@ -22,8 +22,8 @@ void fill(const MaterialInputs& in, const RenderView& view, Tree& tree) {
     tree.species[i] = {look.bark, look.translucency, look.rise, look.taper};
   }
   const float gain =
-      kFoliageSlope / std::sqrt(std::max(in.world.bump->lost_variance.back(), 1e-12f));
-  tree.foliage = make_layer(*in.world.bump, kFoliagePeriod_m, gain, glm::dvec2(0.0), {});
+      kFoliageSlope / std::sqrt(std::max(in.world.textures.bump->lost_variance.back(), 1e-12f));
+  tree.foliage = make_layer(*in.world.textures.bump, kFoliagePeriod_m, gain, glm::dvec2(0.0), {});
 }
 
 }  // namespace swell::render

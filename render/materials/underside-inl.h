@@ -94,7 +94,7 @@ HWY_INLINE WindowPlace PlaceInWindow(const ViewRays& rays, V3 direction) {
 HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const PlanarMap& map,
                                 const Packet& packet, V3 direction, V variance, float turn) {
   constexpr float kShare = 0.6f;
-  const float bound = water.max_distortion_px;
+  const float bound = water.images.max_distortion_px;
   const WindowPlace at = PlaceInWindow(s.rays, direction);
   const auto moved = [&](V from, V to) HWY_ATTR {
     const V by = Clamp((to - from) * kShare, -bound, bound);
@@ -124,14 +124,14 @@ HWY_INLINE V3 LightFromAir(const Shading& s, const Water& water, const Packet& p
   if (s.media.fog.on) light = SkyThroughFog(s.media.fog, s.media.fog.at_sea, up, light);
   const V softness = MulAdd(f.spread, 2.0f, 0.02f);
   const V sea = SmoothBlend(-f.bent.z / softness);
-  light = Lerp(light, Constant(water.mirrored_sea), sea);
+  light = Lerp(light, Constant(water.optics.mirrored_sea), sea);
   image_alpha = zero;
   if (!use_image) return light;
   const float inv_n = 1.0f / s.media.refraction_index;
   const V x = f.bent.x * inv_n, y = f.bent.y * inv_n;
   const V z = Sqrt(Max(NegMulAdd(x, x, NegMulAdd(y, y, 1.0f)), 1e-6f));
   const Looked image =
-      LookUpTowards(s, water, water.refraction, packet, {x, y, z}, variance, 1.0f - inv_n);
+      LookUpTowards(s, water, water.images.refraction, packet, {x, y, z}, variance, 1.0f - inv_n);
   image_alpha = image.alpha;
   return Lerp(light, image.light, image_alpha);
 }
@@ -145,7 +145,8 @@ HWY_INLINE V3 LightFromWater(const Shading& s, const Water& water, const Packet&
   image_alpha = hn::Zero(D());
   if (!use_image) return deep;
   const V3 image_of = {f.mirrored.x, f.mirrored.y, down};
-  const Looked image = LookUpTowards(s, water, water.reflection, packet, image_of, variance, 2.0f);
+  const Looked image =
+      LookUpTowards(s, water, water.images.reflection, packet, image_of, variance, 2.0f);
   image_alpha = image.alpha;
   return Lerp(deep, image.light, image_alpha);
 }

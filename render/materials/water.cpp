@@ -66,14 +66,14 @@ void fill_slope_axes(const View& camera, Water& water) {
   const bool level = camera.right.z == 0.0f;
   const glm::vec2 right =
       level ? glm::vec2(camera.right) : glm::vec2(camera.forward.y, -camera.forward.x);
-  water.view_right = right / std::max(glm::length(right), 1e-6f);
-  water.view_ahead = glm::vec2(-water.view_right.y, water.view_right.x);
+  water.images.view_right = right / std::max(glm::length(right), 1e-6f);
+  water.images.view_ahead = glm::vec2(-water.images.view_right.y, water.images.view_right.x);
   if (level) return;
-  const glm::vec2 l = water.view_right, a = water.view_ahead;
+  const glm::vec2 l = water.images.view_right, a = water.images.view_ahead;
   const float cos_r = glm::dot(glm::vec2(camera.right), l);
   const float sin_r = glm::dot(glm::vec2(camera.up), l);
-  water.view_right = cos_r * l - 2.0f * sin_r * a;
-  water.view_ahead = cos_r * a + 0.5f * sin_r * l;
+  water.images.view_right = cos_r * l - 2.0f * sin_r * a;
+  water.images.view_ahead = cos_r * a + 0.5f * sin_r * l;
 }
 
 // As FresnelReflectance() of the shaders.
@@ -126,27 +126,29 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   const float variance = slope_variance(in, water);
   const float cosine = std::min(std::sqrt(variance), 1.0f);
   const float reflectance = fresnel_reflectance(cosine, in.media.refraction_index);
-  water.mirrored_sea = mirrored_sea(in, reflectance);
-  water.mirrored_floor_part = 1.0f - reflectance;
+  water.optics.mirrored_sea = mirrored_sea(in, reflectance);
+  water.optics.mirrored_floor_part = 1.0f - reflectance;
   water.short_variance = layer_variance(water, water.long_layer_count);
   water.visible_slopes = in.without.has(Part::kVisibleSlopes) ? 0.0f : 1.0f;
   water.least_cos = in.world.scene.water.tilted_backs ? kLeastCos : 0.0f;
-  water.wave_horizon = wave_horizon(variance);
-  water.glitter_light = in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
-  water.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
-  water.inv_crest_height = 1.0f / crest_height_m(in.world);
-  water.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
+  water.optics.wave_horizon = wave_horizon(variance);
+  water.optics.glitter_light =
+      in.without.has(Part::kGlitter) ? glm::vec3(0.0f) : in.light.sun_irradiance;
+  water.optics.crest_glow = glm::vec3(0.5f, 1.0f, 0.75f) * in.media.body;
+  water.optics.inv_crest_height = 1.0f / crest_height_m(in.world);
+  water.optics.inv_wave_reach = static_cast<float>(1.0 / in.wave_reach_m);
   water.submerged = in.media.submerged;
-  water.reflection_weight =
+  water.optics.reflection_weight =
       static_cast<float>(in.world.scene.water.reflection_weight.value_or(-1.0));
-  water.reflection = in.reflection;
-  water.refraction = in.refraction;
-  water.distortion_px = static_cast<float>(in.world.scene.water.distortion * camera.height_px);
+  water.images.reflection = in.reflection;
+  water.images.refraction = in.refraction;
+  water.images.distortion_px =
+      static_cast<float>(in.world.scene.water.distortion * camera.height_px);
   if (in.world.scene.water.distortion_factor == scene::DistortionFactor::kPaper) {
-    water.distortion_by_sine = 0.5f / camera.tan_half_y;
-    water.least_distortion = 0.0f;
+    water.images.distortion_by_sine = 0.5f / camera.tan_half_y;
+    water.images.least_distortion = 0.0f;
   }
-  water.max_distortion_px = max_distortion_px(camera);
+  water.images.max_distortion_px = max_distortion_px(camera);
   fill_slope_axes(camera, water);
 }
 

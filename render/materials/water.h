@@ -26,6 +26,28 @@ struct SineLayer {
   float wavelength_log2 = 0.0f;
 };
 
+// What light does at the water.
+struct WaterOptics {
+  glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
+  float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
+  float reflection_weight = -1.0f;   // of what it mirrors; below 0: Fresnel's
+  float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
+  glm::vec3 glitter_light{0.0f};     // of the sun, in its image
+  glm::vec3 crest_glow{0.0f};        // added where light shines through crests
+  float inv_crest_height = 0.0f;
+  float inv_wave_reach = 0.0f;  // of the vertices, per metre
+};
+
+// The images that the water looks into, and how slopes displace the lookups.
+struct WaterImages {
+  PlanarMap reflection, refraction;
+  float distortion_px = 0.0f;      // window pixels per unit of slope
+  float max_distortion_px = 0.0f;  // bound of the displacement, each way
+  // What it is multiplied by: the sine of the eye's elevation over the water, times this, bounded.
+  float distortion_by_sine = 6.0f, least_distortion = 0.1f;
+  glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
+};
+
 struct Water {
   static constexpr SurfaceKind kSurface = SurfaceKind::kWater;
 
@@ -52,21 +74,8 @@ struct Water {
   Whitecaps whitecaps;
   Wakes wakes;
   Glitter glitter;
-
-  glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
-  float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
-  float reflection_weight = -1.0f;   // of what it mirrors; below 0: Fresnel's
-  float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
-  glm::vec3 glitter_light{0.0f};     // of the sun, in its image
-  glm::vec3 crest_glow{0.0f};        // added where light shines through crests
-  float inv_crest_height = 0.0f;
-  float inv_wave_reach = 0.0f;  // of the vertices, per metre
-  PlanarMap reflection, refraction;
-  float distortion_px = 0.0f;      // window pixels per unit of slope
-  float max_distortion_px = 0.0f;  // bound of the displacement, each way
-  // What it is multiplied by: the sine of the eye's elevation over the water, times this, bounded.
-  float distortion_by_sine = 6.0f, least_distortion = 0.1f;
-  glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
+  WaterOptics optics;
+  WaterImages images;
 };
 
 // How far slopes may displace a lookup, each way.

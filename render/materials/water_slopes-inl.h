@@ -174,6 +174,33 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
   AddTornFoam(TearWhitecaps(water.wakes.foam, p, level_m, at.foam), s);
 }
 
+// Adds the slopes of the sea's longest patch, and what foam its waves have, where surf leaves some.
+HWY_INLINE void AddPatchAndFoam(const Water& water, const ViewRays& rays,
+                                std::span<const Packet> packets, std::span<const V> level_flat_m,
+                                const Surf* surf, WaterSlopes* s) {
+  const FoamMap* const long_foam = water.whitecaps.count > 0 ? &water.whitecaps.foam[0] : nullptr;
+  PerPacket<V> foam;
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
+                              s[k].slope_x, s[k].slope_y, s[k].variance);
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
+                          level_flat_m[k], surf[k].ceded);
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
+}
+
+// Adds the foam of waves that break at a coast.
+HWY_INLINE void AddCoastFoam(const Water& water, std::span<const Packet> packets,
+                             std::span<const V> level_flat_m, const Surf* surf, WaterSlopes* s) {
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]);
+  if (water.near_shore.fronts.torn <= 0.0f) return;
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    AddTornFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], surf[k].torn_foam),
+                s[k]);
+}
+
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise
 // bends where the longest of them are seen. How steeply the eye meets the long waves decides how
 // long a pixel's footprint is on the shorter ones. A layer waits for the longer ones: packets side
@@ -202,26 +229,10 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
   if constexpr (kCoast)
     for (std::size_t k = 0; k < count; ++k) all_ceded = all_ceded && surf[k].all_ceded;
   const bool has_patch = water.first_ripples > 0;
-  if (has_patch && !all_ceded) {
-    const FoamMap* const long_foam = water.whitecaps.count > 0 ? &water.whitecaps.foam[0] : nullptr;
-    PerPacket<V> foam;
-    for (std::size_t k = 0; k < count; ++k)
-      foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
-                                s[k].slope_x, s[k].slope_y, s[k].variance);
-    for (std::size_t k = 0; k < count; ++k)
-      foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
-                            level_flat_m[k], surf[k].ceded);
-    for (std::size_t k = 0; k < count; ++k)
-      SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
-  }
-  if constexpr (kCoast) {
-    for (std::size_t k = 0; k < count; ++k)
-      AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]);
-    if (water.near_shore.fronts.torn > 0.0f)
-      for (std::size_t k = 0; k < count; ++k)
-        AddTornFoam(
-            TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], surf[k].torn_foam), s[k]);
-  }
+  if (has_patch && !all_ceded)
+    AddPatchAndFoam(water, rays, packets, std::span(level_flat_m).first(count), surf.data(), s);
+  if constexpr (kCoast)
+    AddCoastFoam(water, packets, std::span(level_flat_m).first(count), surf.data(), s);
   // Without patches the sines alone are the long waves: the loop then begins before the first
   // layer. (One loop with AddSlopes in it once: two take 4 % longer.)
   const int last_long = water.long_layer_count - 1;

@@ -16,7 +16,7 @@ constexpr double kEddies_m = 173.0, kTears_m = 41.0, kLace_m = 9.7;
 
 // stretch: how many times as long cells are along the wind as across it.
 FoamLace make_lace(const MaterialInputs& in, glm::dvec2 eye, double period_m, double stretch) {
-  const texture::PackedMap2& map = *in.world.foam_pattern;
+  const texture::PackedMap2& map = *in.world.textures.foam;
   const double from = in.world.scene.sea.wind_from_rad;
   const glm::dvec2 along(sin(from), cos(from)), across(along.y, -along.x);
   const double map_fx8 = 256.0 * map.size;

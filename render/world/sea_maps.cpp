@@ -147,7 +147,7 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
   sea.wake_slopes.resize(std::max(sea.wake_slopes.size(), wakes));
   sea.wake_foam.resize(sea.wake_slopes.size());
   sea.wake_values.resize(sea.wake_slopes.size());
-  const bool has_sequence = world.ripple_sequence && !without.has(Part::kSequence);
+  const bool has_sequence = world.textures.ripple_sequence && !without.has(Part::kSequence);
   const std::size_t ripples = noise + (has_coast ? 3 : 1);
   run.for_each(caustics + wakes + ripples + (has_sequence ? 1 : 0), [&](std::size_t job, int) {
     if (job < caustics) return make_caustic_map(sea.caustics, job);
@@ -165,7 +165,7 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
     else if (i == noise)
       pack_noise(world.scene.sea, t_s, sea);
     else if (i == ripples)
-      pack_ripples(world.scene, *world.ripple_sequence, t_s, sea.ripples);
+      pack_ripples(world.scene, *world.textures.ripple_sequence, t_s, sea.ripples);
     else if (i == noise + 1)
       texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
                          sea.coast_slopes);

@@ -101,26 +101,27 @@ void add_sea(const World::State* like, Workers& workers, World::State& state) {
 }
 
 void add_bump(const World::State* like, World::State& state) {
-  state.bump = like ? like->bump : shared(build_bump_map(state.scene.sea.seed));
+  state.textures.bump = like ? like->textures.bump : shared(build_bump_map(state.scene.sea.seed));
 }
 
 // like: may be null.
 void add_paper_look(const World::State* like, Workers& workers, World::State& state) {
   const scene::Scene& now = state.scene;
   if (now.ripples.kind == scene::RippleKind::kSequence)
-    state.ripple_sequence = like && same_ripple_sequence(like->scene, now)
-                                ? like->ripple_sequence
-                                : shared(build_ripple_sequence(now, workers));
+    state.textures.ripple_sequence = like && same_ripple_sequence(like->scene, now)
+                                         ? like->textures.ripple_sequence
+                                         : shared(build_ripple_sequence(now, workers));
   if (now.water.glitter == scene::Glitter::kProjective)
-    state.sun_texture = like && like->sun_texture ? like->sun_texture : shared(make_sun_texture());
+    state.textures.sun_texture = like && like->textures.sun_texture ? like->textures.sun_texture
+                                                                    : shared(make_sun_texture());
 }
 
 void add_foam_pattern(const World::State* like, World::State& state) {
-  state.foam_pattern = like ? like->foam_pattern : shared(build_foam_pattern());
+  state.textures.foam = like ? like->textures.foam : shared(build_foam_pattern());
 }
 
 void add_ground_pattern(const World::State* like, World::State& state) {
-  state.ground_pattern = like ? like->ground_pattern : shared(build_ground_pattern());
+  state.textures.ground = like ? like->textures.ground : shared(build_ground_pattern());
 }
 
 void add_terrain(const World::State* like, Workers& workers, World::State& state) {

@@ -131,6 +131,19 @@ struct ObjectMeshes {
   std::vector<std::vector<scene::MeshPart>> parts;  // of each object's finest level, at its draught
 };
 
+// Textures that lie over the water and the ground. Worlds share them.
+struct Textures {
+  std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
+  std::shared_ptr<const texture::BumpSequence> ripple_sequence = {};  // none: the bump map
+  std::shared_ptr<const SunTexture> sun_texture = {};                 // none: glitter by slopes
+  // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. The map
+  // repeats and may have any size. It is the same in every world.
+  std::shared_ptr<const texture::PackedMap2> foam = {};
+  // The ground's pattern: thresholds of what covers it, and how its shade varies, both evenly
+  // spread over [-1, 1]. The map repeats and may have any size. It is the same in every world.
+  std::shared_ptr<const texture::PackedMap2> ground = {};
+};
+
 // Parts are shared by worlds whose scenes describe them alike.
 struct World::State {
   scene::Scene scene;
@@ -152,15 +165,7 @@ struct World::State {
   std::shared_ptr<const ocean::Shelter> shelter = {};   // none: the sea is open everywhere
   std::shared_ptr<const NearShoreMap> near_shore = {};  // there is one if there is shelter
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
-  std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
-  std::shared_ptr<const texture::BumpSequence> ripple_sequence = {};  // none: the bump map
-  std::shared_ptr<const SunTexture> sun_texture = {};                 // none: glitter by slopes
-  // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. The map
-  // repeats and may have any size. It is the same in every world.
-  std::shared_ptr<const texture::PackedMap2> foam_pattern = {};
-  // The ground's pattern: thresholds of what covers it, and how its shade varies, both evenly
-  // spread over [-1, 1]. The map repeats and may have any size. It is the same in every world.
-  std::shared_ptr<const texture::PackedMap2> ground_pattern = {};
+  Textures textures = {};
 
   // What is on the sea.
   ObjectMeshes objects = {};

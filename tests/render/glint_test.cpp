@@ -214,7 +214,7 @@ TEST_P(Glint, IsAddedToTheMirroredSkyAndTheWatersOwnLight) {
       to_eye.push_back(direction(degrees * kPiRef / 180, azimuth));
   const double sky = kSoftSkyRange * (128.0 / 255.0) * (128.0 / 255.0);
   // Rays that go down see the same.
-  std::get<Water>(sea.shading.materials).mirrored_sea = glm::vec3(static_cast<float>(sky));
+  std::get<Water>(sea.shading.materials).optics.mirrored_sea = glm::vec3(static_cast<float>(sky));
   std::vector<glm::vec3> light(to_eye.size());
   water_light(sea.shading, to_eye, light);
   for (std::size_t i = 0; i < to_eye.size(); ++i) {

@@ -161,7 +161,7 @@ TEST(MirroredSeaOfScenes, IsNoBrighterThanTheHorizon) {
           scene.water.body_colour = glm::vec3(body);
           const World world = world_of(scene);
           const DrawnWater drawn(world, 0.0);
-          const glm::vec3 sea = drawn.water().mirrored_sea;
+          const glm::vec3 sea = drawn.water().optics.mirrored_sea;
           const glm::vec3 horizon = drawn.shading().light.horizon;
           for (int c = 0; c < 3; ++c) {
             EXPECT_GT(sea[c], 0.0f);
@@ -184,7 +184,7 @@ TEST(MirroredSeaOfScenes, HidesHalfOfTheRaysThatSmithsShadowingHides) {
     const DrawnWater drawn(world, 0.0);
     const Water& water = drawn.water();
     const double variance = water.base_variance + 0.5 * steepness * steepness;
-    const double nu = water.wave_horizon / std::sqrt(variance);
+    const double nu = water.optics.wave_horizon / std::sqrt(variance);
     const double lambda = 0.5 * (std::exp(-nu * nu) / (nu * std::sqrt(kPiRef)) - std::erfc(nu));
     EXPECT_NEAR(1.0 / (1.0 + lambda), 0.5, 0.005) << steepness;
   }
@@ -194,7 +194,7 @@ TEST(MirroredSeaOfScenes, HidesHalfOfTheRaysThatSmithsShadowingHides) {
 TEST(MirroredSeaOfScenes, IsDarkUnderAnOrdinarySky) {
   const World world = world_of(scene::Scene());
   const DrawnWater drawn(world, 0.0);
-  const glm::vec3 sea = drawn.water().mirrored_sea;
+  const glm::vec3 sea = drawn.water().optics.mirrored_sea;
   const glm::vec3 horizon = drawn.shading().light.horizon;
   for (int c = 0; c < 3; ++c) EXPECT_LT(sea[c], 0.5f * horizon[c]);
 }

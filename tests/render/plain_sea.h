@@ -25,12 +25,12 @@ struct PlainSea {
     auto& water = std::get<Water>(shading.materials);
     water.uv_noise.map = &still;
     water.base_variance = variance;
-    water.inv_crest_height = 1.0f;
+    water.optics.inv_crest_height = 1.0f;
   }
   void set_sun(glm::vec3 direction, glm::vec3 irradiance) {
     shading.light.sun_direction = direction;
     shading.light.sun_irradiance = irradiance;
-    std::get<Water>(shading.materials).glitter_light = irradiance;
+    std::get<Water>(shading.materials).optics.glitter_light = irradiance;
   }
 
   texture::RgbMap sky;

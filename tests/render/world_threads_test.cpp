@@ -28,9 +28,9 @@ TEST(World, HasTheSameMapsOnAnyNumberOfThreads) {
     EXPECT_EQ(a.coast_maps->waves.wave, b.coast_maps->waves.wave);
     EXPECT_EQ(a.coast_maps->waves.surf, b.coast_maps->waves.surf);
     EXPECT_EQ(a.coast_maps->ceded, b.coast_maps->ceded);
-    EXPECT_EQ(a.foam_pattern->words, b.foam_pattern->words);
+    EXPECT_EQ(a.textures.foam->words, b.textures.foam->words);
     EXPECT_EQ(a.whitecaps->patches.at(0).threshold, b.whitecaps->patches.at(0).threshold);
-    EXPECT_EQ(a.bump->words, b.bump->words);
+    EXPECT_EQ(a.textures.bump->words, b.textures.bump->words);
   }
 }
 
