@@ -234,11 +234,12 @@ struct BlendedPlace {
 // Adds `gain` times what `map` holds there to (a, b). The positive weights add up to 1 and are off
 // by less than 1/127 together; with t 0 a texel's own position gives that texel.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void AddBlended(D d, const PackedMap2& map, const BlendedPlace<D>& place, float gain,
-                           V& a, V& b) {
+HWY_INLINE void AddBlended(D d, const PackedMap2& map, BlendedPlace<D> place, float gain, V& a,
+                           V& b) {
   const hn::RebindToSigned<D> di;
   using VI = hn::Vec<decltype(di)>;
-  const auto [x_fx8, y_fx8, base, t] = place;
+  const VI x_fx8 = place.x_fx8, y_fx8 = place.y_fx8, base = place.base;
+  const V t = place.t;
   const hn::Repartition<std::uint8_t, D> d8;
   const hn::Repartition<std::int16_t, D> d16;
   constexpr int kWhole = 127;  // of the blend: 256 * 127 fits 16 bits

@@ -135,15 +135,15 @@ struct UvNoise {
 };
 
 // The place of p in a layer's map, perturbed.
-HWY_INLINE LayerPlace PlaceBent(const SlopeLayer& layer, V3 p, const UvNoise& by) {
+HWY_INLINE LayerPlace PlaceBent(const SlopeLayer& layer, V3 p, UvNoise by) {
   const V noise = Constant(layer.uv_noise_m);
   return PlaceIn(layer, MulAdd(by.u, noise, p.x), MulAdd(by.v, noise, p.y));
 }
 
 // Adds a layer's slopes at p to (slope_x, slope_y), blended between mip levels, and the variance
 // that they have lost to `variance`.
-HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, const UvNoise& noise,
-                          V& slope_x, V& slope_y, V& variance) {
+HWY_INLINE void AddSlopes(const SlopeLayer& layer, V3 p, V level_m, UvNoise noise, V& slope_x,
+                          V& slope_y, V& variance) {
   const MapLevel level = LevelIn(layer, level_m, variance);
   if (level.all_lost) return;
   const LayerPlace place = PlaceBent(layer, p, noise);
