@@ -109,26 +109,30 @@ HWY_INLINE LabelPacket LoadPacket(const PacketSource& s, int x, int y) {
   return p;
 }
 
-// What a table says of the packet's primitives, which are not all the sky's, as kWords words an
-// entry; of the sky's lanes it says that of entry 0.
-template <std::size_t kWords, class Entry>
-HWY_INLINE std::array<V, kWords> EntriesOf(std::span<const Entry> table, const LabelPacket& p) {
-  static_assert(sizeof(Entry) == kWords * sizeof(float));
-  const D d;
-  const DU du;
-  const VU number = IfThenZeroElse(hn::RebindMask(du, p.is_sky), p.primitive);
-  const float* const base = reinterpret_cast<const float*>(table.data());
-  std::array<V, kWords> words;
-  // Neighbours often share a triangle, and gathers are slow.
-  const std::uint32_t one = hn::GetLane(number);
-  if (hn::AllTrue(du, number == hn::Set(du, one))) {
-    for (std::size_t i = 0; i < kWords; ++i) words[i] = Constant(base[kWords * one + i]);
-    return words;
+// What a table says of a packet's primitives, an entry of kWords words each; of the sky's lanes
+// what it says of entry 0.
+template <std::size_t kWords>
+struct Entries {
+  const float* base;
+  std::uint32_t one;  // the entry of all lanes, if is_one
+  bool is_one;
+  VI at;
+
+  template <class Entry>
+  HWY_INLINE Entries(std::span<const Entry> table, const LabelPacket& p)
+      : base(reinterpret_cast<const float*>(table.data())) {
+    static_assert(sizeof(Entry) == kWords * sizeof(float));
+    const DU du;
+    const VU number = IfThenZeroElse(hn::RebindMask(du, p.is_sky), p.primitive);
+    // Neighbours often share a triangle, and gathers are slow.
+    one = hn::GetLane(number);
+    is_one = hn::AllTrue(du, number == hn::Set(du, one));
+    at = hn::BitCast(DI(), number * hn::Set(du, kWords));
   }
-  const VI at = hn::BitCast(DI(), number * hn::Set(du, kWords));
-  for (std::size_t i = 0; i < kWords; ++i) words[i] = hn::GatherIndex(d, base + i, at);
-  return words;
-}
+  HWY_INLINE V Word(std::size_t i) const {
+    return is_one ? Constant(base[kWords * one + i]) : hn::GatherIndex(D(), base + i, at);
+  }
+};
 
 HWY_INLINE V3 OnlyWhere(const M& where, V3 v) {
   return {IfThenElseZero(where, v.x), IfThenElseZero(where, v.y), IfThenElseZero(where, v.z)};
@@ -141,7 +145,7 @@ HWY_INLINE VU NumberOf(std::span<const std::uint32_t> table, const LabelPacket& 
                        std::uint32_t of_sky) {
   const DU du;
   if (hn::AllTrue(D(), p.is_sky)) return hn::Set(du, of_sky);
-  const VU number = hn::BitCast(du, EntriesOf<1>(table, p)[0]);
+  const VU number = hn::BitCast(du, Entries<1>(table, p).Word(0));
   return IfThenElse(hn::RebindMask(du, p.is_sky), hn::Set(du, of_sky), number);
 }
 
@@ -188,8 +192,8 @@ HWY_INLINE void TakeCastLand(const LabelSources& in, const LabelPacket& p, V3& n
 HWY_INLINE V3 GeometricNormal(const LabelSources& in, const LabelTile& tile, const LabelPacket& p) {
   const D d;
   if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  const auto [x, y, z] = EntriesOf<3, glm::vec3>(in.tables.normal, p);
-  V3 normal = OnlyWhere(!p.is_sky, {x, y, z});
+  const Entries<3> n(std::span<const glm::vec3>(in.tables.normal), p);
+  V3 normal = OnlyWhere(!p.is_sky, {n.Word(0), n.Word(1), n.Word(2)});
   if (in.world.land_rays) TakeCastLand(in, p, normal);
   if (!tile.shaded) return normal;
   const M is_implicit = hn::AndNot(p.is_sky, Dot(normal, normal) == hn::Zero(d));
@@ -227,13 +231,17 @@ HWY_INLINE V ElevationOf(const Shading& s, const LabelPacket& p) {
 HWY_INLINE V3 MoveOf(const LabelSources& in, const LabelPacket& p) {
   const D d;
   if (hn::AllTrue(d, p.is_sky)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  const auto m = EntriesOf<12, AffineMove>(in.tables.move, p);
+  const Entries<12> m(std::span<const AffineMove>(in.tables.move), p);
   const V depth = IfThenZeroElse(p.is_sky, p.depth);
   const V x = depth * p.ray.x, y = depth * p.ray.y;
   const V z = MulAdd(depth, p.ray.z, DropOf(in.shading.rays, x, y));
   const auto along = [&](std::size_t axis) HWY_ATTR {
-    return MulAdd(m[axis], x, MulAdd(m[3 + axis], y, MulAdd(m[6 + axis], z, m[9 + axis])));
+    return MulAdd(m.Word(axis), x,
+                  MulAdd(m.Word(3 + axis), y, MulAdd(m.Word(6 + axis), z, m.Word(9 + axis))));
   };
+  const V zero = hn::Zero(d);
+  if (hn::AllTrue(d, p.is_water | p.is_sky))  // water rises, and no more
+    return OnlyWhere(p.is_water, {zero, zero, along(2)});
   return OnlyWhere(!p.is_sky, {along(0), along(1), along(2)});
 }
 
