@@ -36,8 +36,9 @@ void fill_numbers(const LabelInputs& in, std::uint32_t water, std::uint32_t land
                   std::vector<std::uint32_t>& numbers) {
   const PrimitiveRanges& primitives = in.window.primitives;
   numbers.assign(primitives.count(), land);
-  for (const SurfaceKind kind : {SurfaceKind::kWater, SurfaceKind::kRivers})
-    std::ranges::fill(of_surface(numbers, primitives, kind), water);
+  for (const SurfaceKind kind : kAllSurfaces)
+    if (kSurfaceTraits[kind].is_water)
+      std::ranges::fill(of_surface(numbers, primitives, kind), water);
   if (!primitives.empty(SurfaceKind::kObjects)) {
     const ObjectDraws& draws = in.meshes.objects.in_window();
     const auto objects = of_surface(numbers, primitives, SurfaceKind::kObjects);
