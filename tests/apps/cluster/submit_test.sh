@@ -35,7 +35,16 @@ grep -q "typo.toml:.*number" line || wrong "the typo is not named: $(cat line)"
 small_recipe "$source" 2 >recipe.toml
 "$submit" state 2 "$bin/swell-dataset" --recipe recipe.toml --out out >said
 [ "$(wc -l <queued)" -eq 2 ] || wrong "not two jobs: $(cat queued)"
+# While it is written it is not there yet.
+cat >stub/sed <<PROGRAM
+#!/bin/sh
+sleep 0.2
+[ ! -e state/failed ] || touch early
+exec $(command -v sed) "\$@"
+PROGRAM
+chmod +x stub/sed
 ! "$source/scripts/slurm/after.sh" 3 3 state 2 "$bin/swell-dataset" --recipe recipe.toml --out out >said || wrong "complete"
+[ ! -e early ] || wrong "STATE/failed is there before it is whole"
 grep -q "not done: 0,1" state/failed || wrong "the tasks are not named: $(cat state/failed)"
 grep -q "^log: state/log/task_1.txt" state/failed || wrong "the log is not named: $(cat state/failed)"
 echo "submit.sh tries a recipe, and STATE/failed names the logs"
