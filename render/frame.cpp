@@ -410,6 +410,10 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
                  run);
     prepare_edges(ws.window, ws.visibility, options.edge_samples, ws.edges);
   });
+  if (has_rays(ws.window))
+    in.stage(Stage::kRays, [&](const StageRun& run) {
+      find_by_rays(ws.meshes, options.edge_samples, ws.window, ws.visibility, run);
+    });
   in.stage(Stage::kPlanarMaps, [&](const StageRun& run) { draw_images(in, light, air, run); });
   in.stage(Stage::kClouds, [&](const StageRun& run) {
     draw_window_clouds(in, float(drawn.width_px) / float(view.width_px), run);

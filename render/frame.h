@@ -34,7 +34,7 @@ enum class Stage : std::uint8_t {
   kDisplace,     // displace vertices, transform them
   kTrees,        // choose which trees are drawn, and place them
   kVisibility,   // clip, set up, bin, find what is visible
-  kRays,         // of that, rays to forms and to land without triangles
+  kRays,         // rays to forms and to land without triangles
   kPlanarMaps,   // reflection and refraction images
   kClouds,       // rays through volumetric clouds
   kShade,        // shade and resolve every visible pixel once; labels

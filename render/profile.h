@@ -29,11 +29,6 @@ class Profile {
     const std::lock_guard lock(mutex_);
     trace_.push_back({stage, thread, start_us, end_us});
   }
-  // Counts so much of one stage's time as another's, which it contains.
-  void move(Stage from, Stage to, double ms) {
-    stage_ms_[static_cast<std::size_t>(from)] -= ms;
-    stage_ms_[static_cast<std::size_t>(to)] += ms;
-  }
   const auto& stage_ms() const { return stage_ms_; }
   std::vector<TraceEvent>& trace() { return trace_; }
   bool trace_enabled() const { return trace_enabled_; }

@@ -63,7 +63,7 @@ struct EdgeScratch {
   std::vector<std::uint32_t> primitive;
 };
 
-// Stage 4, after the visibility of all tiles: makes room for the edges' fragments, and says where
+// Stage 4, once the window's pass is there: makes room for the edges' fragments, and says where
 // parts lie. The window's pass was prepared with `samples`, 4 or 8; with 0 there are none.
 void prepare_edges(const RenderView& window, const VisibilityBuffer& visibility, int samples,
                    EdgeBuffer& edges);

@@ -1,7 +1,6 @@
 #include "render/view/visibility.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "math/large_array.h"
 #include "render/view/cast_land.h"
@@ -36,29 +35,15 @@ std::uint8_t images_of(const Meshes& meshes, const RenderView& window, int tile,
   return static_cast<std::uint8_t>(images);
 }
 
-void find_visible_in_tile(const Meshes& meshes, const RenderView& window, int tile, bool samples,
-                          const Profile& profile, VisibilityBuffer& visibility) {
-  visibility.covered[tile] = -1;
-  visibility.water_pixels[tile] = 0;
-  visibility.looks_into[tile] = 0;
-  const std::span<float> depth = visibility.depth_of(tile);
-  const std::span<std::uint32_t> primitive = visibility.primitive_of(tile);
-  int& covered = visibility.covered[tile];
-  if (raster::tile_has_triangles(window.pass, tile))
-    covered = raster::draw_tile(window.pass, tile, depth, primitive);
-  if (!visibility.rays_us.empty()) {
-    const double before_us = profile.now_us();
-    if (window.land)
-      covered = cast_land(window, visibility.grid, tile, covered < 0, depth, primitive);
-    covered =
-        draw_implicits(window.implicits, raster::tile_box(window.viewport(), visibility.grid, tile),
-                       visibility.grid.tile_size_px, covered, depth, primitive);
-    visibility.rays_us[tile] = profile.now_us() - before_us;
-  }
-  if (covered < 0) return;
-  visibility.water_pixels[tile] = count_of(window.primitives, SurfaceKind::kWater, primitive);
+// What later stages ask of a tile's water, once all of it is there. `samples`: as for images_of().
+void note_water(const Meshes& meshes, const RenderView& window, int tile, bool samples,
+                VisibilityBuffer& visibility) {
+  const bool is_empty = visibility.covered[tile] < 0;
+  const std::span<const std::uint32_t> primitive = visibility.primitive_of(tile);
+  int& water = visibility.water_pixels[tile];
+  water = is_empty ? 0 : count_of(window.primitives, SurfaceKind::kWater, primitive);
   visibility.looks_into[tile] =
-      images_of(meshes, window, tile, samples, visibility.water_pixels[tile], primitive);
+      is_empty ? 0 : images_of(meshes, window, tile, samples, water, primitive);
 }
 
 }  // namespace
@@ -73,14 +58,34 @@ void find_visible(const Meshes& meshes, int tile_size_px, int edge_samples, Rend
   visibility.covered.resize(tiles);
   visibility.water_pixels.resize(tiles);
   visibility.looks_into.resize(tiles);
-  visibility.rays_us.resize(window.land || !window.implicits.implicits.empty() ? tiles : 0);
-  run.for_each(tiles, [&](std::size_t tile, int) {
-    find_visible_in_tile(meshes, window, static_cast<int>(tile), edge_samples != 0, run.profile,
-                         visibility);
+  run.for_each(tiles, [&](std::size_t i, int) {
+    const int tile = static_cast<int>(i);
+    visibility.covered[tile] = raster::tile_has_triangles(window.pass, tile)
+                                   ? raster::draw_tile(window.pass, tile, visibility.depth_of(tile),
+                                                       visibility.primitive_of(tile))
+                                   : -1;
+    if (!has_rays(window)) note_water(meshes, window, tile, edge_samples != 0, visibility);
   });
-  // The rays take their part of the threads' time, as if all threads had shared them evenly.
-  const double rays_us = std::accumulate(visibility.rays_us.begin(), visibility.rays_us.end(), 0.0);
-  run.profile.move(run.stage, Stage::kRays, 1e-3 * rays_us / run.workers.thread_count());
+}
+
+bool has_rays(const RenderView& window) {
+  return window.land != nullptr || !window.implicits.implicits.empty();
+}
+
+void find_by_rays(const Meshes& meshes, int edge_samples, const RenderView& window,
+                  VisibilityBuffer& visibility, const StageRun& run) {
+  run.for_each(visibility.covered.size(), [&](std::size_t i, int) {
+    const int tile = static_cast<int>(i);
+    const std::span<float> depth = visibility.depth_of(tile);
+    const std::span<std::uint32_t> primitive = visibility.primitive_of(tile);
+    int& covered = visibility.covered[tile];
+    if (window.land)
+      covered = cast_land(window, visibility.grid, tile, covered < 0, depth, primitive);
+    covered =
+        draw_implicits(window.implicits, raster::tile_box(window.viewport(), visibility.grid, tile),
+                       visibility.grid.tile_size_px, covered, depth, primitive);
+    note_water(meshes, window, tile, edge_samples != 0, visibility);
+  });
 }
 
 }  // namespace swell::render

@@ -19,7 +19,6 @@ struct VisibilityBuffer {
   std::vector<int> covered;  // pixels with a surface; -1: no triangle, buffers unset
   std::vector<int> water_pixels;
   std::vector<std::uint8_t> looks_into;  // LooksInto, of water in pixels' centres or parts of them
-  std::vector<double> rays_us;           // time that its rays took; empty if the window has none
 
   std::size_t tile_pixels() const {
     return static_cast<std::size_t>(grid.tile_size_px) * grid.tile_size_px;
@@ -39,8 +38,15 @@ struct VisibilityBuffer {
 };
 
 // Prepares the window's pass, with edge_samples (0, 4 or 8) also for samples, and draws its
-// visibility buffer.
+// triangles into its visibility buffer.
 void find_visible(const Meshes& meshes, int tile_size_px, int edge_samples, RenderView& window,
+                  VisibilityBuffer& visibility, const StageRun& run);
+
+// Whether the window shows anything by rays: land that is drawn so, or implicit surfaces.
+bool has_rays(const RenderView& window);
+
+// Adds what rays of the window meet before its triangles. Only if has_rays(window).
+void find_by_rays(const Meshes& meshes, int edge_samples, const RenderView& window,
                   VisibilityBuffer& visibility, const StageRun& run);
 
 }  // namespace swell::render
