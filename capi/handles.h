@@ -1,6 +1,7 @@
 // What the handles of swell.h stand for.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -61,8 +62,8 @@ struct swell_session {
 struct swell_picture {
   swell::render::Target target;
   std::optional<swell::View> view;  // none: nothing has been drawn
-  // These labels follow from the depth, when they are asked for.
-  std::vector<float> distance_m;
-  std::vector<glm::dvec3> position;
+  // Of labels that follow from the depth, once they are asked for.
+  std::array<std::vector<float>, swell::render::kLabelCount> lengths;
+  std::array<std::vector<glm::dvec3>, swell::render::kLabelCount> places;
   std::atomic_flag busy{};
 };

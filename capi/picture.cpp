@@ -1,5 +1,7 @@
 // Pictures: drawing them, and their planes.
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 #include "capi/call.h"
 #include "capi/camera.h"
@@ -125,8 +127,8 @@ void draw(swell_session& session, const swell_frame& given, swell_picture& pictu
   asked.options.next_view = next_view(asked, session);
   picture.view.reset();
   session.drawn_view.reset();
-  picture.distance_m.clear();
-  picture.position.clear();
+  for (auto& values : picture.lengths) values.clear();
+  for (auto& values : picture.places) values.clear();
   render::render_frame(world, view, given.t_s, asked.options, session.workspace, picture.target,
                        session.workers);
   session.drawn_view = picture.view = view;
@@ -154,49 +156,39 @@ swell_plane plane_of(const std::vector<Stored>& values, const View& view) {
                                (static_cast<std::size_t>(view.width_px) * view.height_px))};
 }
 
-// Fills what follows from the depth, if it is not there yet.
-template <class Stored, class OfDepth>
-const std::vector<Stored>& from_depth(const swell_picture& picture, const OfDepth& of_depth,
-                                      std::vector<Stored>& values) {
-  const View& view = *picture.view;
+// What a plane holds side by side of a label's values.
+template <class Number>
+Number element_of(Number);
+template <glm::length_t kSize, class Number>
+Number element_of(glm::vec<kSize, Number>);
+
+// The plane of values that follow from the depth, which are filled if they are not there yet.
+template <class Stored, class Value>
+swell_plane plane_from_depth(const swell_picture& picture,
+                             Value (*of_depth)(const View&, int, int, float),
+                             std::vector<Stored>& values) {
   const std::vector<float>& depth_m = picture.target.labels.depth_m;
-  if (values.size() == depth_m.size()) return values;
-  values.resize(depth_m.size());
-  std::size_t i = 0;
-  for (int y = 0; y < view.height_px; ++y)
-    for (int x = 0; x < view.width_px; ++x, ++i)
-      values[i] = static_cast<Stored>(of_depth(view, x, y, depth_m[i]));
-  return values;
+  if (values.size() != depth_m.size()) {
+    const std::vector<Value> found = render::from_depth(*picture.view, depth_m, of_depth);
+    values.assign(found.begin(), found.end());
+  }
+  return plane_of<decltype(element_of(Stored()))>(values, *picture.view);
 }
 
-swell_plane label_plane(swell_picture& picture, Label label) {
-  const View& view = *picture.view;
-  const render::Labels& labels = picture.target.labels;
-  switch (label) {
-    case Label::kDepth:
-      return plane_of<float>(labels.depth_m, view);
-    case Label::kDistance:
-      return plane_of<float>(from_depth(picture, render::distance_of, picture.distance_m), view);
-    case Label::kPosition:
-      return plane_of<double>(from_depth(picture, render::position_of, picture.position), view);
-    case Label::kNormal:
-      return plane_of<float>(labels.normal, view);
-    case Label::kGeometricNormal:
-      return plane_of<float>(labels.geometric_normal, view);
-    case Label::kId:
-      return plane_of<std::uint32_t>(labels.id, view);
-    case Label::kClass:
-      return plane_of<std::uint32_t>(labels.klass, view);
-    case Label::kMotion:
-      return plane_of<float>(labels.motion_px, view);
-    case Label::kElevation:
-      return plane_of<float>(labels.elevation_m, view);
-    case Label::kFoam:
-      return plane_of<float>(labels.foam, view);
-    case Label::kFlags:
-      return plane_of<std::uint8_t>(labels.flags, view);
-  }
-  refuse("label {}", static_cast<int>(label));
+swell_plane label_plane(swell_picture& picture, const render::LabelInfo& info) {
+  const auto label = static_cast<std::size_t>(info.label);
+  return std::visit(
+      [&]<class Values>(const Values values) {
+        if constexpr (std::is_member_pointer_v<Values>) {
+          const auto& stored = picture.target.labels.*values;
+          return plane_of<decltype(element_of(stored[0]))>(stored, *picture.view);
+        } else if constexpr (std::is_same_v<Values, double (*)(const View&, int, int, float)>) {
+          return plane_from_depth(picture, values, picture.lengths[label]);
+        } else {
+          return plane_from_depth(picture, values, picture.places[label]);
+        }
+      },
+      info.values);
 }
 
 const View& drawn_view(const swell_picture& picture) {
@@ -213,7 +205,7 @@ swell_plane find_plane(swell_picture& picture, const char* name) {
   if (std::string_view(name) == "linear" && !target.linear.empty())
     return plane_of<float>(target.linear, view);
   const render::LabelInfo* info = render::find_label(name);
-  if (info && target.labels.set.has(info->label)) return label_plane(picture, info->label);
+  if (info && target.labels.set.has(info->label)) return label_plane(picture, *info);
   refuse("plane, got '{}', allowed rgba, linear and labels that the frame was asked for",
          std::string_view(name).substr(0, 100));
 }

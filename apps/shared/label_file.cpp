@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 #include "apps/shared/output_file.h"
 #include "apps/shared/picture_file.h"
@@ -15,12 +17,22 @@ namespace swell::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using render::Label;
 
-// A plane for each component of vectors.
-template <class Vector>
-void add_components(const render::LabelInfo& info, std::span<const Vector> vectors,
-                    std::vector<LabelPlane>& planes) {
+// One plane of the label's numbers ...
+template <class Number>
+void add_values(const render::LabelInfo& info, const std::vector<Number>& values,
+                std::vector<LabelPlane>& planes) {
+  using Written = std::conditional_t<std::is_integral_v<Number>, std::uint32_t, float>;
+  std::vector<Written> samples;
+  samples.reserve(values.size());
+  for (const Number value : values) samples.push_back(static_cast<Written>(value));
+  planes.push_back({std::string(info.planes[0]), std::move(samples)});
+}
+
+// ... or one for each component of its vectors.
+template <glm::length_t kSize, class Number>
+void add_values(const render::LabelInfo& info, const std::vector<glm::vec<kSize, Number>>& vectors,
+                std::vector<LabelPlane>& planes) {
   for (std::size_t c = 0; c < info.plane_count(); ++c) {
     std::vector<float> samples(vectors.size());
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -29,50 +41,15 @@ void add_components(const render::LabelInfo& info, std::span<const Vector> vecto
   }
 }
 
-// What follows from the depth: distances, places.
-template <class Value, class OfDepth>
-std::vector<Value> from_depth(std::span<const float> depth_m, const View& view,
-                              const OfDepth& of_depth) {
-  std::vector<Value> values;
-  values.reserve(depth_m.size());
-  for (std::size_t i = 0; i < depth_m.size(); ++i) {
-    const int x_px = static_cast<int>(i) % view.width_px;
-    const int y_px = static_cast<int>(i) / view.width_px;
-    values.push_back(static_cast<Value>(of_depth(view, x_px, y_px, depth_m[i])));
-  }
-  return values;
-}
-
 void add_planes(const render::LabelInfo& info, const render::Labels& labels, const View& view,
                 std::vector<LabelPlane>& planes) {
-  const auto add = [&](auto samples) {
-    planes.push_back({std::string(info.planes[0]), std::move(samples)});
+  const auto add = [&](const auto values) {
+    if constexpr (std::is_member_pointer_v<decltype(values)>)
+      add_values(info, labels.*values, planes);
+    else
+      add_values(info, render::from_depth(view, labels.depth_m, values), planes);
   };
-  switch (info.label) {
-    case Label::kDepth:
-      return add(labels.depth_m);
-    case Label::kDistance:
-      return add(from_depth<float>(labels.depth_m, view, render::distance_of));
-    case Label::kPosition:
-      return add_components<glm::dvec3>(
-          info, from_depth<glm::dvec3>(labels.depth_m, view, render::position_of), planes);
-    case Label::kNormal:
-      return add_components<glm::vec3>(info, labels.normal, planes);
-    case Label::kGeometricNormal:
-      return add_components<glm::vec3>(info, labels.geometric_normal, planes);
-    case Label::kId:
-      return add(labels.id);
-    case Label::kClass:
-      return add(labels.klass);
-    case Label::kMotion:
-      return add_components<glm::vec2>(info, labels.motion_px, planes);
-    case Label::kElevation:
-      return add(labels.elevation_m);
-    case Label::kFoam:
-      return add(labels.foam);
-    case Label::kFlags:
-      return add(std::vector<std::uint32_t>(labels.flags.begin(), labels.flags.end()));
-  }
+  std::visit(add, info.values);
 }
 
 void write_words(const fs::path& path, int width_px, int height_px,

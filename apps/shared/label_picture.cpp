@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 #include "math/elementary.h"
 
@@ -36,12 +38,6 @@ double height_share(double height_m) { return 0.5 + 0.5 * height_m / kHighest_m;
 double stripe(double metres) {
   const double periods = metres / kStripes_m;
   return 2.0 * std::abs(periods - std::floor(periods + 0.5));
-}
-
-// One colour a pixel from the values at its index.
-template <class Colour>
-void fill(std::vector<std::uint32_t>& rgba, const Colour& colour) {
-  for (std::size_t i = 0; i < rgba.size(); ++i) rgba[i] = colour(i);
 }
 
 }  // namespace
@@ -90,45 +86,45 @@ std::uint32_t flags_colour(std::uint8_t flags) {
                (flags & render::kShowsMirrored) != 0 ? 1.0 : 0.0});
 }
 
+namespace {
+
+std::uint32_t colour_of(render::LabelLook look, float value) {
+  switch (look) {
+    case render::LabelLook::kHeight:
+      return elevation_colour(value);
+    case render::LabelLook::kShare:
+      return share_colour(value);
+    default:
+      return depth_colour(value);
+  }
+}
+
+std::uint32_t colour_of(render::LabelLook, double value) {
+  return depth_colour(static_cast<float>(value));
+}
+std::uint32_t colour_of(render::LabelLook, std::uint32_t value) { return number_colour(value); }
+std::uint32_t colour_of(render::LabelLook, std::uint8_t value) { return flags_colour(value); }
+std::uint32_t colour_of(render::LabelLook, glm::vec2 value) { return motion_colour(value); }
+std::uint32_t colour_of(render::LabelLook, glm::vec3 value) { return normal_colour(value); }
+std::uint32_t colour_of(render::LabelLook, glm::dvec3 value) { return position_colour(value); }
+
+}  // namespace
+
 void paint_label(render::Label label, const render::Labels& labels, const View& view,
                  std::vector<std::uint32_t>& rgba) {
-  using render::Label;
-  const int width_px = view.width_px;
-  const auto pixel_of = [&](auto of_depth) {  // a function of the view, the pixel and its depth
-    return [&labels, &view, width_px, of_depth](std::size_t i) {
-      const int x_px = static_cast<int>(i) % width_px, y_px = static_cast<int>(i) / width_px;
-      return of_depth(view, x_px, y_px, labels.depth_m[i]);
-    };
+  const render::LabelInfo& info = render::label_table()[static_cast<std::size_t>(label)];
+  const auto paint = [&](const auto& values) {
+    rgba.clear();
+    for (const auto& value : values) rgba.push_back(colour_of(info.look, value));
   };
-  rgba.resize(static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
-  switch (label) {
-    case Label::kDepth:
-      return fill(rgba, [&](std::size_t i) { return depth_colour(labels.depth_m[i]); });
-    case Label::kDistance:
-      return fill(rgba, pixel_of([](const View& v, int x, int y, float depth_m) {
-                    return depth_colour(static_cast<float>(render::distance_of(v, x, y, depth_m)));
-                  }));
-    case Label::kPosition:
-      return fill(rgba, pixel_of([](const View& v, int x, int y, float depth_m) {
-                    return position_colour(render::position_of(v, x, y, depth_m));
-                  }));
-    case Label::kNormal:
-      return fill(rgba, [&](std::size_t i) { return normal_colour(labels.normal[i]); });
-    case Label::kGeometricNormal:
-      return fill(rgba, [&](std::size_t i) { return normal_colour(labels.geometric_normal[i]); });
-    case Label::kId:
-      return fill(rgba, [&](std::size_t i) { return number_colour(labels.id[i]); });
-    case Label::kClass:
-      return fill(rgba, [&](std::size_t i) { return number_colour(labels.klass[i]); });
-    case Label::kMotion:
-      return fill(rgba, [&](std::size_t i) { return motion_colour(labels.motion_px[i]); });
-    case Label::kElevation:
-      return fill(rgba, [&](std::size_t i) { return elevation_colour(labels.elevation_m[i]); });
-    case Label::kFoam:
-      return fill(rgba, [&](std::size_t i) { return share_colour(labels.foam[i]); });
-    case Label::kFlags:
-      return fill(rgba, [&](std::size_t i) { return flags_colour(labels.flags[i]); });
-  }
+  std::visit(
+      [&](const auto values) {
+        if constexpr (std::is_member_pointer_v<decltype(values)>)
+          paint(labels.*values);
+        else
+          paint(render::from_depth(view, labels.depth_m, values));
+      },
+      info.values);
 }
 
 }  // namespace swell::apps

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/labels/labels.h"
+
 namespace swell::render {
 namespace {
 
@@ -13,8 +15,17 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "m",
      "Distance from the eye along the view axis.",
      "+inf",
-     ""},
-    {Label::kDistance, "distance", {"distance"}, false, "m", "Distance from the eye.", "+inf", ""},
+     "",
+     &Labels::depth_m},
+    {Label::kDistance,
+     "distance",
+     {"distance"},
+     false,
+     "m",
+     "Distance from the eye.",
+     "+inf",
+     "",
+     &distance_of},
     {Label::kPosition,
      "position",
      {"P.X", "P.Y", "P.Z"},
@@ -22,7 +33,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "m",
      "Place in the world: east, north, up.",
      "+inf or -inf by the sign of the direction's component, 0 where that is 0",
-     ""},
+     "",
+     &position_of},
     {Label::kNormal,
      "normal",
      {"N.X", "N.Y", "N.Z"},
@@ -31,7 +43,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "Unit normal that shading used, in the world: with the waves and the unevenness of the ground "
      "that triangles cannot hold, as far as pixels of that size show them.",
      "0, 0, 0",
-     ""},
+     "",
+     &Labels::normal},
     {Label::kGeometricNormal,
      "geometric_normal",
      {"Ng.X", "Ng.Y", "Ng.Z"},
@@ -39,7 +52,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "1",
      "Unit normal of the drawn triangle, in the world, on the side that is seen.",
      "0, 0, 0",
-     ""},
+     "",
+     &Labels::geometric_normal},
     {Label::kId,
      "id",
      {"id"},
@@ -47,7 +61,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "",
      "Which thing is seen: 1 the sea, 2 the land, 16 + n object n of the scene, 4096 + n tree n.",
      "0",
-     ""},
+     "",
+     &Labels::id},
     {Label::kClass,
      "class",
      {"class"},
@@ -57,7 +72,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "that "
      "foam hides more than half of, from 5 on classes that objects name, and that of trees.",
      "0",
-     ""},
+     "",
+     &Labels::klass},
     {Label::kMotion,
      "motion",
      {"motion.X", "motion.Y"},
@@ -68,7 +84,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "one place, objects as they float, trees as they sway; what water mirrors or shows does not "
      "count.",
      "by the camera's rotation alone",
-     "0, 0 where the point is behind the next camera"},
+     "0, 0 where the point is behind the next camera",
+     &Labels::motion_px},
     {Label::kElevation,
      "elevation",
      {"elevation"},
@@ -76,7 +93,9 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "m",
      "Height of the drawn water above the mean level.",
      "0",
-     "0"},
+     "0",
+     &Labels::elevation_m,
+     LabelLook::kHeight},
     {Label::kFoam,
      "foam",
      {"foam"},
@@ -84,7 +103,9 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "1",
      "Part of the water that foam of breaking waves hides, in [0, 1].",
      "0",
-     "0"},
+     "0",
+     &Labels::foam,
+     LabelLook::kShare},
     {Label::kFlags,
      "flags",
      {"flags"},
@@ -96,7 +117,8 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      "a "
      "wake tilts the water by more than 0.02 or has left foam on it.",
      "0",
-     "0"},
+     "0",
+     &Labels::flags},
 }};
 static_assert(lists_all(kTable, &LabelInfo::label));
 

@@ -5,10 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "math/enum_table.h"
+#include "math/view.h"
 
 namespace swell::render {
 
@@ -46,6 +50,29 @@ class LabelSet {
   std::uint32_t bits_ = 0;
 };
 
+// One value a pixel each, row by row; empty where it was not asked for. Distance and position are
+// not stored: they follow from the depth, which is there for them.
+struct Labels {
+  LabelSet set;
+  std::vector<float> depth_m;
+  std::vector<glm::vec3> normal, geometric_normal;
+  std::vector<std::uint32_t> id, klass;
+  std::vector<glm::vec2> motion_px;
+  std::vector<float> elevation_m, foam;
+  std::vector<std::uint8_t> flags;
+};
+
+// Where a label's values are: in a member of Labels, or as a function of the view, the pixel and
+// its depth.
+using LabelValues =
+    std::variant<std::vector<float> Labels::*, std::vector<std::uint8_t> Labels::*,
+                 std::vector<std::uint32_t> Labels::*, std::vector<glm::vec2> Labels::*,
+                 std::vector<glm::vec3> Labels::*, double (*)(const View&, int, int, float),
+                 glm::dvec3 (*)(const View&, int, int, float)>;
+
+// What a label's floats are, for pictures of them.
+enum class LabelLook : std::uint8_t { kDistance, kHeight, kShare };
+
 struct LabelInfo {
   Label label;
   std::string_view name;                   // in options and documents
@@ -55,6 +82,8 @@ struct LabelInfo {
   std::string_view meaning;                // one sentence
   std::string_view of_sky;                 // its value where the sky is seen
   std::string_view elsewhere;              // its value where it does not apply, or ""
+  LabelValues values;
+  LabelLook look = LabelLook::kDistance;
   std::size_t plane_count() const { return planes[1].empty() ? 1 : planes[2].empty() ? 2 : 3; }
 };
 

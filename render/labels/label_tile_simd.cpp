@@ -351,17 +351,15 @@ HWY_EXPORT(FillTile);
 
 void resize_labels(LabelSet set, raster::Viewport viewport, Labels& labels) {
   const std::size_t pixels = static_cast<std::size_t>(viewport.width_px) * viewport.height_px;
-  const auto resize = [&](bool is_wanted, auto& plane) { plane.resize(is_wanted ? pixels : 0); };
   labels.set = set;
-  resize(needs_depth(set), labels.depth_m);
-  resize(set.has(Label::kNormal), labels.normal);
-  resize(set.has(Label::kGeometricNormal), labels.geometric_normal);
-  resize(set.has(Label::kId), labels.id);
-  resize(set.has(Label::kClass), labels.klass);
-  resize(set.has(Label::kMotion), labels.motion_px);
-  resize(set.has(Label::kElevation), labels.elevation_m);
-  resize(set.has(Label::kFoam), labels.foam);
-  resize(set.has(Label::kFlags), labels.flags);
+  for (const LabelInfo& info : label_table())
+    std::visit(
+        [&](const auto values) {
+          if constexpr (std::is_member_pointer_v<decltype(values)>)
+            (labels.*values).resize(set.has(info.label) ? pixels : 0);
+        },
+        info.values);
+  if (needs_depth(set)) labels.depth_m.resize(pixels);
 }
 
 void fill_label_tile(const LabelSources& in, const LabelTile& tile, Labels& labels) {
