@@ -177,6 +177,11 @@ HWY_INLINE V3 MulAdd(V3 a, V s, V3 b) {
   return {MulAdd(a.x, s, b.x), MulAdd(a.y, s, b.y), MulAdd(a.z, s, b.z)};
 }
 HWY_INLINE V Dot(V3 a, V3 b) { return MulAdd(a.x, b.x, MulAdd(a.y, b.y, a.z * b.z)); }
+template <class Mask>
+HWY_INLINE V3 IfThenElse(Mask mask, V3 yes, V3 no) {
+  return {IfThenElse(mask, yes.x, no.x), IfThenElse(mask, yes.y, no.y),
+          IfThenElse(mask, yes.z, no.z)};
+}
 HWY_INLINE V3 Lerp(V3 a, V3 b, V t) {
   return {Lerp(a.x, b.x, t), Lerp(a.y, b.y, t), Lerp(a.z, b.z, t)};
 }

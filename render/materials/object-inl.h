@@ -12,11 +12,12 @@
 #include "render/materials/implicit-inl.h"
 #include "render/materials/object.h"
 #include "render/materials/reflected_caustics-inl.h"
-#include "render/tile/attenuate-inl.h"
+#include "render/tile/fog-inl.h"
 #include "render/tile/lanes3-inl.h"
 #include "render/tile/self_shadow-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"
+#include "render/tile/through_water-inl.h"
 #include "texture/mip_image.h"
 
 HWY_BEFORE_NAMESPACE();

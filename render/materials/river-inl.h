@@ -12,7 +12,7 @@
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
 #include "render/materials/topside-inl.h"
-#include "render/tile/attenuate-inl.h"
+#include "render/tile/through_water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -15,8 +15,9 @@
 #include "render/materials/land-inl.h"
 #include "render/materials/terrain.h"
 #include "render/materials/topside-inl.h"
-#include "render/tile/attenuate-inl.h"
+#include "render/tile/fog-inl.h"
 #include "render/tile/shading_result-inl.h"
+#include "render/tile/through_water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

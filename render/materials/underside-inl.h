@@ -8,8 +8,9 @@
 #endif
 
 #include "render/materials/topside-inl.h"
-#include "render/tile/attenuate-inl.h"
+#include "render/tile/fog-inl.h"
 #include "render/tile/sky-inl.h"
+#include "render/tile/through_water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -234,7 +235,7 @@ struct UndersideShader {
     if (!hn::AllTrue(d, mirrors)) {
       const V3 bent = LightFromAir(s, water, packet, f, slopes.variance,
                                    tile.planar_maps.refraction, bent_alpha);
-      seen = Where(mirrors, mirrored, Lerp(bent, mirrored, f.reflectance));
+      seen = IfThenElse(mirrors, mirrored, Lerp(bent, mirrored, f.reflectance));
       bent_alpha = hn::IfThenZeroElse(mirrors, bent_alpha);
     }
     // Shadows are looked for where there is sun to hide.
@@ -244,7 +245,7 @@ struct UndersideShader {
       seen = MulAdd(Constant(s.light.sun_irradiance), sun * sun_visible, seen);
       seen = AddFoamFromBelow(s, slopes.foam_cover, sun_visible, seen);
     }
-    return {Where(lost, nothing.light, seen), Where(lost, nothing.normal, f.normal),
+    return {IfThenElse(lost, nothing.light, seen), IfThenElse(lost, nothing.normal, f.normal),
             hn::IfThenZeroElse(lost, slopes.foam_cover),
             hn::IfThenZeroElse(lost, FlagsOf(mirrored_alpha, bent_alpha, slopes.wake))};
   }

@@ -7,7 +7,8 @@
 #endif
 
 #include "render/materials/clouds-inl.h"
-#include "render/tile/attenuate-inl.h"
+#include "render/tile/air-inl.h"
+#include "render/tile/medium-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -64,11 +65,14 @@ static HWY_NOINLINE V3 AddCloudDeck(const Shading& s, V3 direction, V distance_m
   return Lerp(light, arriving, IfThenElseZero(some, hidden));
 }
 
-// Lays the layer's clouds before what a packet shows.
-HWY_INLINE V3 CloudsBefore(const Shading& s, const Packet& shown, V3 light) {
-  const V3 ray = RayAt(s.rays, shown.x_px, shown.y_px);
-  return AddCloudDeck(s, ray * InverseSqrt(Dot(ray, ray)), shown.distance, light);
-}
+// The layer before surfaces; the sky has its own.
+struct CloudDeck : LaidByPixel<CloudDeck> {
+  static constexpr bool kBeforeSky = false;
+  static bool IsOn(const Shading& s) { return s.light.clouds.is_below; }
+  static HWY_INLINE V3 Through(const Shading& s, const AirWay& way, V3 light) {
+    return AddCloudDeck(s, way.direction, way.distance, light);
+  }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render

@@ -7,8 +7,8 @@
 #endif
 
 #include "render/tile/cloud_picture.h"
+#include "render/tile/medium-inl.h"
 #include "render/tile/packet-inl.h"
-#include "render/tile/resolve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -102,35 +102,29 @@ HWY_INLINE V DistanceShown(const ViewRays& rays, V x_px, V y_px, V z) {
   return IfThenElse(z > 0.0f, distance, kBeyondClouds_m);
 }
 
-// Lays clouds before all pixels of a tile, whose light stands in the scratch. depth: the tile's, or
-// null for open sky.
-inline HWY_NOINLINE void LayCloudsOverTile(const Shading& s, const raster::PixelBox& box,
-                                           const float* depth, ShadeScratch& scratch) {
-  if (!s.clouds || !s.clouds->any || s.media.submerged) return;
-  const D d;
-  for (int y = 0; y < box.height_px; ++y)
-    for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
-      const CloudsSeen seen = CloudsOfPacket(*s.clouds, box.x0_px + x, box.y0_px + y);
-      if (hn::AllFalse(d, seen.opacity > 0.0f)) continue;
-      const std::size_t at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
-      const V x_px = hn::ConvertTo(d, CountFrom(box.x0_px + x));
-      const V y_px = Constant(static_cast<float>(box.y0_px + y));
-      V distance = Constant(kBeyondClouds_m);
-      if (depth) distance = DistanceShown(s.rays, x_px, y_px, hn::LoadU(d, depth + at));
-      WriteLight(LayClouds(seen, distance, ReadLight(scratch, at)), at, scratch);
-    }
-}
+struct VolumetricClouds {
+  static bool IsOn(const Shading& s) { return s.clouds && s.clouds->any; }
 
-// Lays clouds before the fragments. Those that pixels' centres show get the tile's light later,
-// from GatherCentres().
-inline HWY_NOINLINE void LayCloudsOverFragments(const Shading& s,
-                                                std::span<const EdgeFragment> fragments,
-                                                ShadeScratch& scratch) {
-  if (!s.clouds || !s.clouds->any || s.media.submerged) return;
-  LayOverFragments(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
-    return LayClouds(CloudsAt(*s.clouds, x_px, y_px), DistanceShown(s.rays, x_px, y_px, z), light);
-  });
-}
+  static HWY_NOINLINE void LayOverTile(const Shading& s, const raster::PixelBox& box,
+                                       const float* depth, ShadeScratch& scratch) {
+    LayOverPixels(s, box, depth, scratch, [&](const PixelsShown& p, V3& light) HWY_ATTR {
+      const CloudsSeen seen = CloudsOfPacket(*s.clouds, box.x0_px + p.x, box.y0_px + p.y);
+      if (hn::AllFalse(D(), seen.opacity > 0.0f)) return false;
+      light = LayClouds(seen, DistanceShown(s.rays, p.x_px, p.y_px, p.z), light);
+      return true;
+    });
+  }
+
+  // Those that pixels' centres show get the tile's light later, from GatherCentres().
+  static HWY_NOINLINE void LayOverFragments(const Shading& s,
+                                            std::span<const EdgeFragment> fragments,
+                                            ShadeScratch& scratch) {
+    LayOverEachFragment(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
+      return LayClouds(CloudsAt(*s.clouds, x_px, y_px), DistanceShown(s.rays, x_px, y_px, z),
+                       light);
+    });
+  }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render

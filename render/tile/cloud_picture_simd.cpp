@@ -12,7 +12,7 @@
 #include <hwy/highway.h>
 //
 #include "render/materials/cloud_field-inl.h"
-#include "render/tile/attenuate-inl.h"
+#include "render/tile/air-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

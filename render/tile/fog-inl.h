@@ -10,25 +10,21 @@
 #include <algorithm>
 
 #include "render/materials/fog.h"
+#include "render/tile/air_way-inl.h"
 #include "render/tile/cloud_shadow-inl.h"
-#include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// Further than all that fog lies before.
-constexpr float kEndless_m = 1e7f;
-
-// A way away from the eye: where it begins, its direction of length 1, its length, how far it ends
-// over the sea, and how far it begins from the eye along x and y.
-struct FogRay {
+// A way that may lie in fog.
+struct FogRay : AirWay {
   const FogStart& start;
-  V3 direction;
-  V distance;
-  V end_height;
-  V from_x = hn::Zero(D()), from_y = hn::Zero(D());
 };
+
+HWY_INLINE FogRay RayToSky(const FogStart& start, V3 direction) {
+  return {{direction, Constant(kEndless_m), Constant(kEndless_m), start.height_m}, start};
+}
 
 // What of it lies in fog.
 struct FogPath {
@@ -315,7 +311,7 @@ HWY_INLINE FogPath PathTo(const Fog& fog, const FogRay& ray) {
 // The fog before the sky, in a direction of length 1.
 static HWY_NOINLINE FogView SkyFog(const Fog& fog, const FogStart& start, V3 direction,
                                    int places) {
-  const FogRay ray = {start, direction, Constant(kEndless_m), Constant(kEndless_m)};
+  const FogRay ray = RayToSky(start, direction);
   return SeeFog(fog, ray, PathToSky(fog, ray), FogPhase(fog, direction), places);
 }
 

@@ -129,8 +129,8 @@ inline void GatherCentres(const TilePixels& tile, ShadeScratch& scratch) {
 
 // The light of all fragments becomes lay(x_px, y_px, z, light).
 template <class Lay>
-HWY_INLINE void LayOverFragments(std::span<const EdgeFragment> fragments, ShadeScratch& scratch,
-                                 const Lay& lay) {
+HWY_INLINE void LayOverEachFragment(std::span<const EdgeFragment> fragments, ShadeScratch& scratch,
+                                    const Lay& lay) {
   const D d;
   for (std::size_t n = 0; n < fragments.size(); n += kLanes) {
     HWY_ALIGN std::array<float, kLanes> x{}, y{}, z{};

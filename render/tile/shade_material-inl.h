@@ -12,7 +12,6 @@
 
 #include "render/labels/keep_labels-inl.h"
 #include "render/tile/attenuate-inl.h"
-#include "render/tile/cloud_deck-inl.h"
 #include "render/tile/listed_packets-inl.h"
 #include "render/tile/material_units-inl.h"
 #include "render/tile/shafts-inl.h"
@@ -21,8 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// The light of a packet's pixels as it arrives, but for air that is laid last. What labels want of
-// the window's goes to `keep`.
+// The light of a packet's pixels as it arrives, but for media that are laid last. What labels want
+// of the window's goes to `keep`.
 template <ViewKind kView, class M, class Shade, class Keep, class... Found>
 HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const Lanes& lanes,
                             const Packet& shown, const Shade& shade, const Keep& keep,
@@ -37,9 +36,7 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const Lane
       return SeenInWater<M::kSurface>(s.media, WaterLevel(material, s, lanes), shown, result.light,
                                       shafts);
     }
-    if (IsAirLaidLast(s)) return result.light;
-    const V3 light = ThroughAir(s, shown, result.light);
-    return s.light.clouds.is_below ? CloudsBefore(s, shown, light) : light;
+    return Air::IsOn(s) ? result.light : Haze(s, shown, result.light);
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
     const auto result = shade(s, tile, lanes, seen.packet, found...);

@@ -10,12 +10,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/tile/air_tile-inl.h"
-#include "render/tile/cloud_deck-inl.h"
-#include "render/tile/cloud_picture-inl.h"
 #include "render/tile/light_code-inl.h"
 #include "render/tile/listed_packets-inl.h"
 #include "render/tile/material_units-inl.h"
+#include "render/tile/media-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/pixel_lists-inl.h"
 #include "render/tile/resolve-inl.h"
@@ -61,10 +59,7 @@ int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scrat
                 return ShadeSky(s, tile.box, tile.shafts, packet.x_px, packet.y_px);
               });
   }
-  LayAirOverTile(s, tile.box, tile.depth, scratch);
-  LayAirOverFragments(s, tile.fragments, scratch);
-  LayCloudsOverFragments(s, tile.fragments, scratch);
-  LayCloudsOverTile(s, tile.box, tile.depth, scratch);
+  LayMedia(s, tile.box, tile.depth, tile.fragments, scratch);
   ResolveTile(s, tile.box, scratch, rgba, linear);
   if (!tile.fragments.empty()) ResolveFragments(s, tile, scratch, rgba, linear);
   return static_cast<int>(shaded);
@@ -99,7 +94,7 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
       WriteLight(SkyOfPacket(s, box, lattice, x, y),
                  static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
-  LayCloudsOverTile(s, box, nullptr, scratch);
+  LayMedia(s, box, nullptr, {}, scratch);
   ResolveTile(s, box, scratch, rgba, linear);
 }
 

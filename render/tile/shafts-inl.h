@@ -7,9 +7,9 @@
 #endif
 
 #include "render/materials/caustics-inl.h"
-#include "render/tile/attenuate-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/sun_shadow-inl.h"
+#include "render/tile/through_water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -7,8 +7,9 @@
 #endif
 
 #include "render/materials/clouds-inl.h"
-#include "render/tile/attenuate-inl.h"
+#include "render/tile/air-inl.h"
 #include "render/tile/cloud_deck-inl.h"
+#include "render/tile/lattice-inl.h"
 #include "render/tile/packet-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/shafts-inl.h"
@@ -97,42 +98,6 @@ static HWY_NOINLINE V3 ShadeSky(const Shading& s, const raster::PixelBox& box,
   return BehindFog(s, ray, SkyLight(s, view, noise, ray, true));
 }
 
-// The sky of a tile lies on straight lines between nodes on every fourth pixel: of every fourth row
-// for what changes slowly, of each row for the noise of clouds, which lie flat.
-constexpr int kStepLog2 = 2, kStep = 1 << kStepLog2;
-constexpr float kMostStepAngle = 0.006f;  // more, and too much of the sky lies between two nodes
-
-// Nodes along one side, for so many pixels.
-constexpr int nodes_along(int pixels) { return (pixels - 1) / kStep + 2; }
-
-// Where a row of pixels lies between two rows of nodes; `row` in pixels.
-struct BetweenRows {
-  std::size_t at;  // of the upper row's first node
-  V below;
-
-  HWY_INLINE explicit BetweenRows(int row)
-      : at(static_cast<std::size_t>(row / kStep) * SkyNodes::kStride),
-        below(Constant(static_cast<float>(row % kStep) / static_cast<float>(kStep))) {}
-
-  // The nodes from `column` on of a channel.
-  HWY_INLINE V operator()(const float* HWY_RESTRICT nodes, std::size_t column) const {
-    const D d;
-    const float* const upper = nodes + at + column;
-    return Lerp(hn::LoadU(d, upper), hn::LoadU(d, upper + SkyNodes::kStride), below);
-  }
-};
-
-// Nodes a, b, c ... to pixels: a, a, a, a, b ... and what lies between them and the next nodes.
-HWY_INLINE V ToPixels(V nodes) {
-  const D d;
-  const DI di;
-  const VI lane = hn::Iota(di, 0);
-  const VI left = hn::ShiftRight<kStepLog2>(lane), right = left + 1;
-  const V part = hn::ConvertTo(d, lane & (kStep - 1)) * (1.0f / static_cast<float>(kStep));
-  return Lerp(hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, left)),
-              hn::TableLookupLanes(nodes, hn::IndicesFromVec(d, right)), part);
-}
-
 HWY_INLINE void StoreView(const SkyView& view, bool clouds, std::size_t at, SkyNodes& nodes) {
   const D d;
   std::size_t channel = 0;
@@ -152,13 +117,6 @@ HWY_INLINE SkyView ReadView(const SkyNodes& nodes, bool clouds, const Read& read
   if (!clouds) return view;
   view.clouds.shown = read(), view.clouds.forward = read(), view.clouds.overcast = read();
   return view;
-}
-
-// Whether what the air does in a direction lies on straight lines between nodes: of fog Blinn's
-// lobe, which is 1 - l wide.
-inline bool IsAirOnLattice(const Shading& s) {
-  const float step = kStep * s.rays.pixel_angle;
-  return step <= kMostStepAngle && 1.0f - std::abs(s.media.fog.forward) > 10.0f * step;
 }
 
 // Whether fog before the sky does. exp(-t / sin) bends most where it is between 0 and 1, which for

@@ -223,12 +223,12 @@ void SeeFogAlong(const Fog& fog, const FogStart& start, std::span<const glm::vec
     const V3 d = LoadSome(direction, i);
     const V distance = LoadSome(distance_m, i);
     const V height = MulAdd(d.z, distance, start.height_m);
-    const FogRay ray = {start, d, distance, height};
+    const FogRay ray = {{d, distance, height, start.height_m}, start};
     const FogView to_place = SeeFog(fog, ray, PathTo(fog, ray));
     const FogView to_sky = SeeFog(fog, ray, PathToSky(fog, ray));
     const auto is_sky = distance >= kEndless_m;
-    StoreSome(Where(is_sky, to_sky.passes, to_place.passes), passes, i);
-    StoreSome(Where(is_sky, to_sky.added, to_place.added), added, i);
+    StoreSome(IfThenElse(is_sky, to_sky.passes, to_place.passes), passes, i);
+    StoreSome(IfThenElse(is_sky, to_sky.added, to_place.added), added, i);
   });
 }
 
