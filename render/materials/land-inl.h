@@ -9,6 +9,10 @@
 #define SWELL_RENDER_MATERIALS_LAND_INL_H_
 #endif
 
+#include <array>
+#include <tuple>
+#include <utility>
+
 #include "render/materials/ground-inl.h"
 #include "render/materials/land.h"
 #include "render/world/ground_cover.h"
@@ -18,18 +22,22 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// What a place of the cover maps holds: parts of materials, and of the sky that it sees.
+// What a place of the cover maps holds: parts of covers, and of the sky that it sees.
 struct LandCover {
-  V grass, dry, rock, sky_seen;
+  std::array<V, 4 * std::tuple_size_v<CoverMaps>> channels;
 };
 
-HWY_INLINE LandCover SampleCover(const texture::CoverMap& map, const SlopeLayer& square, V3 p,
-                                 V level_m) {
+HWY_INLINE LandCover SampleCover(const CoverMaps& maps, const SlopeLayer& square, V3 p, V level_m) {
   const LayerPlace place = PlaceIn(square, p.x, p.y);
   const V level = Clamp(level_m + (square.log2_texels_per_m + 0.5f), 0.0f, square.coarsest);
-  const auto [grass, dry, rock, sky_seen] = texture::HWY_NAMESPACE::SampleCover(
-      D(), map, RoundToInt(place.x_fx8), RoundToInt(place.y_fx8), TruncateToInt(level));
-  return {grass, dry, rock, sky_seen};
+  LandCover cover;
+  for (std::size_t n = 0; n < maps.size(); ++n) {
+    const auto [r, g, b, a] = texture::HWY_NAMESPACE::SampleCover(
+        D(), maps[n], RoundToInt(place.x_fx8), RoundToInt(place.y_fx8), TruncateToInt(level));
+    cover.channels[4 * n] = r, cover.channels[4 * n + 1] = g;
+    cover.channels[4 * n + 2] = b, cover.channels[4 * n + 3] = a;
+  }
+  return cover;
 }
 
 HWY_INLINE LandCover FindCover(const Terrain& terrain, V on_map, V3 p, V level_m) {
@@ -39,8 +47,10 @@ HWY_INLINE LandCover FindCover(const Terrain& terrain, V on_map, V3 p, V level_m
       [&]()
           HWY_ATTR { return SampleCover(*land.ground_around, terrain.slopes_around, p, level_m); },
       [&](const LandCover& map, const LandCover& around, auto blend) HWY_ATTR {
-        return LandCover{blend(map.grass, around.grass), blend(map.dry, around.dry),
-                         blend(map.rock, around.rock), blend(map.sky_seen, around.sky_seen)};
+        LandCover cover;
+        for (std::size_t n = 0; n <= kSkySeenChannel; ++n)
+          cover.channels[n] = blend(map.channels[n], around.channels[n]);
+        return cover;
       });
 }
 
@@ -75,22 +85,29 @@ HWY_INLINE V Sharpen(V part, const Pattern& pattern, float width) {
   return Lerp(there, part, Min(pattern.lost * 2.2f, 1.0f));
 }
 
-// Parts of a pixel, which add up to 1.
+// Parts of a pixel that mapped covers have, and what they leave.
 struct Parts {
-  V grass, dry, rock, bare;
+  std::array<V, kMappedCovers> of;
+  V bare;
 };
 
 HWY_INLINE Parts SharpenCover(const LandCover& cover, const Pattern& wide, const Pattern& near) {
   const V one = Constant(1.0f);
-  // One threshold for all: grass up to the first sum, dry growth up to the second.
+  // One threshold for all: the first cover up to its part, the second up to the sum of both.
   const auto sharpen = [&](V part) HWY_ATTR {
     return Sharpen(Sharpen(Min(part, one), wide, 0.8f), near, 0.45f);
   };
-  const V grown = cover.grass + cover.dry;
-  const V grass = sharpen(cover.grass);
-  const V to_dry = sharpen(grown);
-  const V to_rock = sharpen(grown + cover.rock);
-  return {grass, to_dry - grass, to_rock - to_dry, one - to_rock};
+  Parts parts;
+  V sum = cover.channels[0], below = sharpen(sum);
+  parts.of[0] = below;
+  for (std::size_t n = 1; n < kMappedCovers; ++n) {
+    sum = sum + cover.channels[n];
+    const V up_to = sharpen(sum);
+    parts.of[n] = up_to - below;
+    below = up_to;
+  }
+  parts.bare = one - below;
+  return parts;
 }
 
 // Adds a material that covers `part` of a pixel whose pattern has a shade.
@@ -133,24 +150,30 @@ HWY_INLINE LandLook FindLand(const Terrain& terrain, const ViewRays& rays, const
   }
   const Parts parts = SharpenCover(cover, wide, near);
 
-  LandLook look = {slope_x, slope_y, zero, cover.sky_seen, {zero, zero, zero}};
+  LandLook look = {slope_x, slope_y, zero, cover.channels[kSkySeenChannel], {zero, zero, zero}};
   V relief = zero;
-  V rock_shade = shade;
-  if (!hn::AllFalse(D(), parts.rock > zero))
-    rock_shade = StrataShade(land, p, height_m, level_m) + shade * 0.7f;
-  AddMaterial(land.grass, parts.grass, shade, look.albedo, relief);
-  AddMaterial(land.dry, parts.dry, shade, look.albedo, relief);
-  AddMaterial(land.rock, IfThenElseZero(parts.rock > zero, parts.rock), rock_shade, look.albedo,
-              relief);
+  const auto add_mapped = [&]<std::size_t... n>(std::index_sequence<n...>) HWY_ATTR {
+    const auto add = [&]<Cover kOf>(V part) HWY_ATTR {
+      V part_shade = shade;
+      if constexpr (kCoverTraits[kOf].has_strata) {
+        if (!hn::AllFalse(D(), part > zero))
+          part_shade = StrataShade(land, p, height_m, level_m) + shade * 0.7f;
+        part = IfThenElseZero(part > zero, part);
+      }
+      AddMaterial(land.covers[kOf], part, part_shade, look.albedo, relief);
+    };
+    (add.template operator()<static_cast<Cover>(n)>(parts.of[n]), ...);
+  };
+  add_mapped(std::make_index_sequence<kMappedCovers>());
   const auto part_up = [&](float from_m, float to_m) HWY_ATTR {
     return SmoothBlend((height_m - from_m) * (1.0f / (to_m - from_m)));
   };
   const V soil = parts.bare * part_up(land.soil_begin_m, land.soil_begin_m + kSandToSoil_m);
   const V dry_sand =
       Lerp(Constant(kWetSand), Constant(1.0f), part_up(kWetSandEnd_m, kWetSandBegin_m));
-  AddMaterial(land.soil, soil, shade, look.albedo, relief);
+  AddMaterial(land.covers[Cover::kSoil], soil, shade, look.albedo, relief);
   V3 sand = {zero, zero, zero};
-  AddMaterial(land.sand, parts.bare - soil, shade, sand, relief);
+  AddMaterial(land.covers[Cover::kSand], parts.bare - soil, shade, sand, relief);
   look.albedo = MulAdd(sand, dry_sand, look.albedo);
 
   V bump_x = zero, bump_y = zero, lost = zero;

@@ -18,11 +18,6 @@ PatternLayer make_pattern(const texture::PackedMap2& pattern, double length_m, g
           turn};
 }
 
-// variation: of each channel, as part of its mean.
-MaterialColour vary(const glm::vec3& mean, const glm::vec3& variation, float relief) {
-  return {mean, mean * variation, relief};
-}
-
 }  // namespace
 
 void fill(const MaterialInputs& in, glm::dvec2 eye, double texel_m, Land& land) {
@@ -39,11 +34,11 @@ void fill(const MaterialInputs& in, glm::dvec2 eye, double texel_m, Land& land) 
   land.strata = make_pattern(pattern, kStrata_m, {glm::dot(kStrataAlong, eye), 0.0});
   land.strata_along = kStrataAlong;
   const terrain::GroundMaterials& materials = in.world.scene.terrain->ground;
-  land.sand = vary(materials.sand, {0.09f, 0.10f, 0.12f}, 0.5f);
-  land.soil = vary(materials.soil, {0.35f, 0.32f, 0.28f}, 1.0f);
-  land.grass = vary(materials.grass, {0.62f, 0.42f, 0.40f}, 1.5f);
-  land.dry = vary(materials.dry, {0.36f, 0.38f, 0.45f}, 1.3f);
-  land.rock = vary(materials.rock, {0.42f, 0.42f, 0.42f}, 2.4f);
+  for (const Cover cover : all_enumerators<Cover>()) {
+    const CoverTraits& traits = kCoverTraits[cover];
+    const glm::vec3 mean = traits.mean(materials);
+    land.covers[cover] = {mean, mean * traits.variation, traits.relief};
+  }
   land.soil_begin_m = static_cast<float>(materials.grass_from_m);
 }
 

@@ -5,7 +5,7 @@
 
 #include "render/materials/inputs.h"
 #include "render/materials/slope_layer.h"
-#include "texture/cover_map.h"
+#include "render/world/ground_cover.h"
 
 namespace swell::render {
 
@@ -16,21 +16,21 @@ struct PatternLayer {
   glm::vec2 turn{1.0f, 0.0f};      // cosine and sine of how far it is turned
 };
 
-// Mean reflectance of a material, and how it varies with the pattern's shade.
+// CoverTraits of a scene's materials; the variation is of each channel.
 struct MaterialColour {
   glm::vec3 mean{0.0f}, variation{0.0f};
-  float relief = 1.0f;  // multiplies the slopes of Terrain::detail
+  float relief = 1.0f;
 };
 
 struct Land {
   bool on = false;
-  const texture::CoverMap* ground = nullptr;  // as far as Terrain::map and around go
-  const texture::CoverMap* ground_around = nullptr;
+  const CoverMaps* ground = nullptr;  // as far as Terrain::map and around go
+  const CoverMaps* ground_around = nullptr;
   PatternLayer wide, near, fine;  // one pattern at three sizes
   // Layers of rock: the pattern over height and one way along the ground.
   PatternLayer strata;
   glm::vec2 strata_along{0.0f};
-  MaterialColour sand, soil, grass, dry, rock;
+  EnumTable<Cover, MaterialColour> covers;
   float soil_begin_m = 0.0f;  // height at which sand begins to turn to soil
 };
 

@@ -48,7 +48,7 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
       0.11f / std::sqrt(std::max(in.world.textures.bump->lost_variance.back(), 1e-12f));
   terrain.detail = make_layer(*in.world.textures.bump, kDetailPeriod_m, detail_gain, eye, {});
 
-  fill(in, eye, land.grid.size_m() / maps.ground.size, terrain.land);
+  fill(in, eye, land.grid.size_m() / maps.ground[0].size, terrain.land);
   terrain.canopy = make_canopy(in, land.grid, eye);
   terrain.checker = make_checker(in.world.scene.terrain->checker_m, eye);
   terrain.swash = {};

@@ -107,7 +107,11 @@ GroundCover cover_of(const GroundPlace& place, const terrain::GroundMaterials& m
   const float lush = inland * smoothstep(0.05f, 0.75f, wetness);
   const float grown = growth * (1.0f - rock);
   const float thin = 0.75f + 0.2f * clamp_to(place.clumps, -1.0f, 1.0f);
-  return {grown * lush, grown * (1.0f - lush) * thin, rock};
+  GroundCover cover;
+  cover[Cover::kGrass] = grown * lush;
+  cover[Cover::kDry] = grown * (1.0f - lush) * thin;
+  cover[Cover::kRock] = rock;
+  return cover;
 }
 
 glm::vec3 bare_ground(float height_m, const terrain::GroundMaterials& materials) {
@@ -120,9 +124,14 @@ glm::vec3 bare_ground(float height_m, const terrain::GroundMaterials& materials)
 // Wet sand passes into the floor's colours, with grey-green growth, within two metres of depth.
 glm::vec3 ground_albedo(const GroundPlace& place, const terrain::GroundMaterials& materials) {
   const GroundCover cover = cover_of(place, materials);
-  const glm::vec3 land =
-      cover.grass * materials.grass + cover.dry * materials.dry + cover.rock * materials.rock +
-      (1.0f - cover.grass - cover.dry - cover.rock) * bare_ground(place.height_m, materials);
+  glm::vec3 land(0.0f);
+  float bare = 1.0f;
+  for (std::size_t n = 0; n < kMappedCovers; ++n) {
+    const auto of = static_cast<Cover>(n);
+    land += cover[of] * kCoverTraits[of].mean(materials);
+    bare -= cover[of];
+  }
+  land += bare * bare_ground(place.height_m, materials);
   const glm::vec3 sand = materials.sand * (1.0f + 0.08f * place.patchiness);
   const glm::vec3 reef(0.16f, 0.19f, 0.13f);
   const glm::vec3 floor = glm::mix(sand, reef, 0.75f * smoothstep(0.15f, 0.5f, place.patchiness));

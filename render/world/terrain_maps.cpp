@@ -86,17 +86,23 @@ texture::RgbaImage paint(int size, Workers& workers, const AlbedoAt& albedo_at) 
   return image;
 }
 
-// The parts of grass, dry growth and rock in the ground, and of the sky that it sees.
-texture::CoverMap pack_ground(const Relief& relief, double step_m,
-                              const std::vector<GroundPlace>& places,
-                              const terrain::GroundMaterials& materials, Workers& workers) {
+CoverMaps pack_ground(const Relief& relief, double step_m, const std::vector<GroundPlace>& places,
+                      const terrain::GroundMaterials& materials, Workers& workers) {
   const std::vector<float> sky_seen = find_sky_seen(relief.size, relief.height_m, step_m, workers);
-  auto values = make_large<glm::vec4>(places.size());
+  std::array<std::vector<glm::vec4>, std::tuple_size_v<CoverMaps>> values;
+  for (auto& four : values) four = make_large<glm::vec4>(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
     const GroundCover cover = cover_of(places[k], materials);
-    values[k] = {cover.grass, cover.dry, cover.rock, sky_seen[k]};
+    const auto channel = [&](std::size_t n) -> float& {
+      return values[n / 4][k][static_cast<glm::length_t>(n % 4)];
+    };
+    for (std::size_t n = 0; n < kMappedCovers; ++n) channel(n) = cover[static_cast<Cover>(n)];
+    channel(kSkySeenChannel) = sky_seen[k];
   }
-  return texture::pack_cover(relief.size, std::move(values));
+  CoverMaps maps;
+  for (std::size_t n = 0; n < maps.size(); ++n)
+    maps[n] = texture::pack_cover(relief.size, std::move(values[n]));
+  return maps;
 }
 
 // What the places of a relief are like: noise_at(i, j) numbers the texel of the noise.

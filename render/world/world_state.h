@@ -17,6 +17,7 @@
 #include "render/frame.h"
 #include "render/world/cloud_volume.h"
 #include "render/world/forest.h"
+#include "render/world/ground_cover.h"
 #include "render/world/land_rays.h"
 #include "render/world/land_shadow.h"
 #include "render/world/sun_texture.h"
@@ -27,7 +28,6 @@
 #include "terrain/height_grid.h"
 #include "terrain/shore_map.h"
 #include "texture/bump_sequence.h"
-#include "texture/cover_map.h"
 #include "texture/packed_map.h"
 #include "texture/smooth_image.h"
 
@@ -101,8 +101,7 @@ struct FogLights {
 struct TerrainMaps {
   texture::PackedMap2 slopes, slopes_around;
   texture::RgbaImage albedo, albedo_around;  // sqrt-encoded reflectance
-  // Parts of grass, dry growth and rock, and of the sky that the ground sees (ground_cover.h).
-  texture::CoverMap ground, ground_around;
+  CoverMaps ground, ground_around;
 };
 
 // Over a coast's square, kCoastMapSize points a side.

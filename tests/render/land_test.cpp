@@ -21,7 +21,7 @@ const World& hill_world() {
 
 // Level 0 of the cover map: grass, dry growth, rock and sky in [0, 1].
 glm::vec4 cover_at(const World& world, int i, int j) {
-  const texture::CoverMap& map = world.state().terrain_maps->ground;
+  const texture::CoverMap& map = world.state().terrain_maps->ground[0];
   const auto& bytes = map.words[static_cast<std::size_t>(map.size) * map.size +
                                 static_cast<std::size_t>(j) * map.size + i]
                           .bytes;
@@ -47,7 +47,7 @@ TEST(Land, HasItsMaterialsByHeightAndSteepness) {
   const World& world = hill_world();
   const terrain::HeightGrid& land = *world.state().terrain;
   const terrain::GroundMaterials& materials = world.scene().terrain->ground;
-  const int size = world.state().terrain_maps->ground.size;
+  const int size = world.state().terrain_maps->ground[0].size;
   const double step_m = land.grid.size_m() / size;
   MeanCover cliffs, meadows, beaches;
   for (int j = 8; j < size - 8; j += 3) {
@@ -81,9 +81,9 @@ TEST(Land, IsGreenerWhereItIsWet) {
   const auto cover = [&](float hollow) {
     return cover_of({30.0f, 0.2f, hollow, 0.0f, 0.0f}, materials);
   };
-  EXPECT_GT(cover(0.8f).grass, cover(0.0f).grass);
-  EXPECT_GT(cover(0.0f).grass, cover(-0.8f).grass);
-  EXPECT_GT(cover(-0.8f).dry, cover(0.8f).dry);
+  EXPECT_GT(cover(0.8f)[Cover::kGrass], cover(0.0f)[Cover::kGrass]);
+  EXPECT_GT(cover(0.0f)[Cover::kGrass], cover(-0.8f)[Cover::kGrass]);
+  EXPECT_GT(cover(-0.8f)[Cover::kDry], cover(0.8f)[Cover::kDry]);
 }
 
 // A wedge-shaped valley between two planes of 45 degrees: the horizon stands at most 90 degrees
