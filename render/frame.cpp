@@ -260,6 +260,7 @@ ViewList place_vertices(const FrameInputs& in, const StageRun& run) {
   place_river_mirror(in, views, run);
   ws.meshes.objects.draws_implicits = in.has(Part::kImplicits);
   place_objects(in.world, ws.sea, in.options.poses, ws.meshes, views.all(), run);
+  place_surfaces({in.world, in.t_s, in.view, in.options.without}, ws.meshes, views.all());
   return views;
 }
 

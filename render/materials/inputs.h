@@ -16,6 +16,14 @@ struct PlanarMap {
   float scale_x = 1.0f, scale_y = 1.0f;
 };
 
+// What materials that have triangles of their own place them by.
+struct PlaceInputs {
+  const World::State& world;
+  double t_s;
+  const View& view;  // the window's camera
+  PartSet without;
+};
+
 struct MaterialInputs {
   const World::State& world;
   double t_s;

@@ -1,11 +1,13 @@
-// The materials: one line each here, and a name in render/CMakeLists.txt. Each is a translation
-// unit that shades whole lists of pixels, so that a pixel costs no call. A surface whose material
-// is not in the list is not drawn.
+// The materials: two lines each, which the build reads, too. Each is a translation unit that shades
+// whole lists of pixels, so that a pixel costs no call. A surface whose material is not in the list
+// is not drawn.
 //
 // A material M is a plain struct with
 //   static constexpr SurfaceKind kSurface;                    // whose triangles it shades
 //   void fill(const MaterialInputs&, const RenderView&, M&);  // its constants, once a view
-// and, in its m-inl.h, the per-pixel code that tile/shading_result-inl.h describes.
+// and, in its m-inl.h, the per-pixel code that tile/shading_result-inl.h describes. One whose kind
+// of surface is its own also places its triangles, once a frame:
+//   static void place(const PlaceInputs&, PlacedSurface&);
 #pragma once
 
 #include <tuple>

@@ -20,8 +20,9 @@ inline DrawRecord draw_record(const Meshes& meshes, SurfaceKind surface, ViewKin
               .like_land = meshes.trees.drawn_in(view).like_land};
     case SurfaceKind::kRivers:
       return {.indices = meshes.rivers.indices};
+    default:
+      return {.indices = meshes.placed[surface].indices};
   }
-  return {};
 }
 
 // Calls visit(point) once: point(i) is the WorldPoint of vertex i of a surface as the view draws
@@ -55,6 +56,11 @@ void visit_points(const Meshes& meshes, SurfaceKind surface, const RenderView& v
     case SurfaceKind::kTrees:
       return visit([&, &trees = meshes.trees.drawn_in(view.kind)](std::size_t i) {
         const glm::vec3 p = trees.p_rel[i];
+        return WorldPoint{p, p.z - level_rel_m, level_rel_m};
+      });
+    default:
+      return visit([&, &placed = meshes.placed[surface]](std::size_t i) {
+        const glm::vec3 p = placed.p_rel[i];
         return WorldPoint{p, p.z - level_rel_m, level_rel_m};
       });
   }

@@ -108,6 +108,12 @@ struct RiverMesh {
   float mirror_share = 0.0f;  // how much of that image shows: less where little is in view
 };
 
+// The triangles of a kind that its material places (materials/list.h).
+struct PlacedSurface {
+  std::vector<std::uint32_t> indices;  // 3 per triangle
+  std::vector<glm::vec3> p_rel;        // per vertex, relative to the eye
+};
+
 // The images that water may look into.
 enum LooksInto : std::uint8_t { kSeaFloor = 1, kSeaMirror = 2, kRiverMirror = 4 };
 
@@ -116,6 +122,7 @@ struct Meshes {
   ObjectGeometry objects;
   RiverMesh rivers;
   TreeGeometry trees;
+  EnumTable<SurfaceKind, PlacedSurface> placed;
 };
 
 // Stage 2: the cells of rivers and lakes that the view may show, joined where they are small in it.

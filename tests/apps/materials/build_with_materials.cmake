@@ -16,15 +16,12 @@ function(change_materials folder)
       -i ${SOURCE}/examples/checkerboard/checkerboard.patch)
     return()
   endif()
-  # Objects: a line in each list, and the files.
+  # Objects: their lines in the list, and the files.
   set(materials ${folder}/render/materials)
   file(READ ${materials}/list.h text)
   string(REGEX REPLACE "#include \"render/materials/object[^\n]*\n" "" text "${text}")
   string(REGEX REPLACE "\n *Object, *//" "" text "${text}")
   file(WRITE ${materials}/list.h "${text}")
-  file(READ ${folder}/render/CMakeLists.txt text)
-  string(REGEX REPLACE "(set\\(materials[^)]*) object" "\\1" text "${text}")
-  file(WRITE ${folder}/render/CMakeLists.txt "${text}")
   file(REMOVE ${materials}/object.h ${materials}/object-inl.h)
 endfunction()
 
@@ -93,10 +90,8 @@ foreach(i RANGE ${last})
 endforeach()
 
 # The materials' units, as render/CMakeLists.txt makes them.
-file(STRINGS ${root}/render/CMakeLists.txt materials REGEX "^set\\(materials ")
-string(REGEX REPLACE "set\\(materials (.*)\\)" "\\1" materials "${materials}")
-separate_arguments(materials)
 include(${SOURCE}/cmake/MaterialUnit.cmake)
+read_materials(${root} materials)
 set(units "")
 foreach(name IN LISTS materials)
   make_material_units(${name} ${root} ${root}/units ${SIMD} units)
