@@ -64,7 +64,7 @@ endif()
 set(swell_common_headers <algorithm> <array> <cmath> <cstdint> <functional> <memory> <optional> <span> <string> <string_view>
   <vector>)
 
-# With CMAKE_UNITY_BUILD, as the presets have it, a target's files are compiled eight at a time, in a half to a third of the
+# With CMAKE_UNITY_BUILD, as the presets have it, a target's files are compiled up to 32 at a time, in a third of the
 # time: most of it goes into the headers of what they use. So names at the top of a file differ from those of its folder's
 # other files. Vector code has units of its own, as each SIMD target reads them anew.
 # swell_keep_apart(FILE...): leaves out vector code among the files, and what replaces operator new.

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <imgui.h>
 
-#include "math/elementary.h"
+#include "scene/camera.h"
 
 namespace swell::view {
 namespace {
@@ -32,10 +32,9 @@ bool slide_by_decades(const char* label, double& value, double low, double high,
 }
 
 bool slide_angle(const char* label, double& radians, double low_deg, double high_deg) {
-  constexpr double kRadPerDeg = kPi / 180.0;
-  double degrees = radians / kRadPerDeg;
+  double degrees = radians / scene::kRadPerDeg;
   if (!slide(label, degrees, low_deg, high_deg, "%.0f deg")) return false;
-  radians = degrees * kRadPerDeg;
+  radians = degrees * scene::kRadPerDeg;
   return true;
 }
 

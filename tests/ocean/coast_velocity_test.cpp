@@ -16,17 +16,6 @@
 namespace swell::ocean {
 namespace {
 
-// k by bisection of omega^2 = g k tanh(k h).
-double bisected_wave_number(double period_s, double depth_m) {
-  const double omega = kTurn / period_s;
-  double low = omega * omega / kG, high = low + 2.0 * omega / std::sqrt(kG * depth_m);
-  for (int i = 0; i < 80; ++i) {
-    const double k = 0.5 * (low + high);
-    (kG * k * std::tanh(k * depth_m) < omega * omega ? low : high) = k;
-  }
-  return low;
-}
-
 TrainSea flat_sea(double depth_m, const WaveTrain& train) {
   return make_sea(
       terrain::make_sea_floor({{0.0, 0.0}, 5.0, 101, 61}, [=](glm::dvec2) { return depth_m; }),

@@ -16,10 +16,6 @@
 namespace swell::ocean {
 namespace {
 
-glm::dvec2 unit(double angle_deg) {
-  return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
-}
-
 terrain::HeightGrid flat_floor(double depth_m) {
   return terrain::make_sea_floor({{0.0, 0.0}, 5.0, 201, 21}, [=](glm::dvec2) { return depth_m; });
 }

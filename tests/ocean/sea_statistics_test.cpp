@@ -12,7 +12,7 @@
 namespace swell::ocean {
 namespace {
 
-constexpr int kSeeds = 64;
+constexpr int kSeaSeeds = 64;
 
 // Variance of Pierson-Moskowitz waves with wave numbers below k_rad_m, in closed form.
 double variance_below_k(double wind_mps, double k_rad_m) {
@@ -59,15 +59,15 @@ constexpr double kPatchEnd = kTurn / 3000.0 * 63.5;
 TEST(SeaStatistics, FieldHasTheVarianceOfItsBand) {
   Workers workers(1);
   double mean = 0.0, mean_square = 0.0;
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < kSeaSeeds; ++seed) {
     const double variance = field_moments(Sea(one_patch(60.0, seed)), workers).variance;
-    mean += variance / kSeeds;
-    mean_square += variance * variance / kSeeds;
+    mean += variance / kSeaSeeds;
+    mean_square += variance * variance / kSeaSeeds;
   }
   const double want = variance_below_k(15.0, kPatchEnd);
   const double one_seed_error = std::sqrt(mean_square - mean * mean);
   EXPECT_NEAR(mean / want, 1.0, 0.02) << "one seed's standard error " << one_seed_error / want;
-  EXPECT_LE(std::abs(mean - want), 3.0 * one_seed_error / std::sqrt(kSeeds));
+  EXPECT_LE(std::abs(mean - want), 3.0 * one_seed_error / std::sqrt(kSeaSeeds));
 }
 
 // The integral of omega k cos(theta) S over the band: D's first moment is p / (p + 1).
@@ -90,7 +90,7 @@ TEST(SeaStatistics, FieldTravelsWithTheWindAsStronglyAsTheFormSays) {
   Workers workers(1);
   for (const double from_deg : {60.0, 150.0}) {  // also: a turn of the wind turns the sea
     glm::dvec2 travel(0.0);
-    for (int seed = 0; seed < kSeeds; ++seed) {
+    for (int seed = 0; seed < kSeaSeeds; ++seed) {
       travel += field_moments(Sea(one_patch(from_deg, 1000 + seed)), workers).travel / 64.0;
     }
     const double to_deg = std::atan2(travel.x, travel.y) * 180.0 / kPiRef;
@@ -101,12 +101,12 @@ TEST(SeaStatistics, FieldTravelsWithTheWindAsStronglyAsTheFormSays) {
 
 TEST(SeaStatistics, PatchesTogetherHaveTheSignificantHeightOfTheWind) {
   double mean_square = 0.0;
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < kSeaSeeds; ++seed) {
     SeaDescription description;
     description.resolution = 64;
     description.seed = static_cast<std::uint64_t>(seed);
     const double height = Sea(description).significant_height_m();
-    mean_square += height * height / kSeeds;
+    mean_square += height * height / kSeaSeeds;
   }
   EXPECT_NEAR(std::sqrt(mean_square) / (0.0246 * 15.0 * 15.0), 1.0, 0.05);
 }

@@ -1,11 +1,28 @@
 // Seas of wave trains alone, made and sampled on one thread.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
+#include "constants.h"
 #include "ocean/peachey.h"
 
 namespace swell::ocean {
+
+// k by bisection of omega^2 = g k tanh(k h): the oracle of every wave length of these seas.
+inline double bisected_wave_number(double period_s, double depth_m) {
+  const double omega = kTurn / period_s;
+  double low = omega * omega / kG, high = low + 2.0 * omega / std::sqrt(kG * depth_m);
+  for (int i = 0; i < 80; ++i) {
+    const double k = 0.5 * (low + high);
+    (kG * k * std::tanh(k * depth_m) < omega * omega ? low : high) = k;
+  }
+  return low;
+}
+
+inline glm::dvec2 unit(double angle_deg) {
+  return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
+}
 
 inline TrainSea make_sea(const terrain::HeightGrid& floor, const std::vector<WaveTrain>& trains,
                          PhaseMethod method = PhaseMethod::kEikonal) {

@@ -9,26 +9,12 @@
 
 #include "constants.h"
 #include "ocean/eikonal.h"
+#include "ocean/train_sea.h"
 
 namespace swell::ocean {
 namespace {
 
-// k by bisection: the oracle of every wave length here.
-double bisected_wave_number(double period_s, double depth_m) {
-  const double omega = kTurn / period_s;
-  double low = omega * omega / kG, high = low + 2.0 * omega / std::sqrt(kG * depth_m);
-  for (int i = 0; i < 80; ++i) {
-    const double k = 0.5 * (low + high);
-    (kG * k * std::tanh(k * depth_m) < omega * omega ? low : high) = k;
-  }
-  return low;
-}
-
 double deep_wave_number(double period_s) { return kTurn * kTurn / (period_s * period_s * kG); }
-
-glm::dvec2 unit(double angle_deg) {
-  return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
-}
 
 // 1:50, deepening to the west of the coast at x = 3000: depth 60 m at x = 0.
 terrain::HeightGrid west_beach(double spacing_m, double width_m) {

@@ -11,8 +11,6 @@
 namespace swell::raster {
 namespace {
 
-constexpr int kThreadCounts[] = {1, 3};
-
 // Up to 256 triangles, each in a cell of its own, so that each can be checked by itself.
 constexpr int kCellPx = 32, kCellsPerRow = 16;
 constexpr Viewport kCellsView{kCellPx * kCellsPerRow, kCellPx* kCellsPerRow};

@@ -27,10 +27,6 @@ struct Scene {
   }
 };
 
-double ulp(float v) {
-  return double{std::nextafter(v, std::numeric_limits<float>::infinity())} - double{v};
-}
-
 // A triangle on the 1/256 grid with given depths, in a power-of-two viewport, so that nothing
 // rounds before the rasterizer's own arithmetic.
 struct KnownTriangle {

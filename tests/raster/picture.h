@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -45,8 +47,15 @@ struct Configuration {
   int tile_size_px;
   int threads;
 };
+inline constexpr int kThreadCounts[] = {1, 3};
+
 // Every available SIMD target x tile size x thread count.
 std::vector<Configuration> all_configurations(std::span<const int> thread_counts);
+
+// How far the next float is.
+inline double ulp(float v) {
+  return double{std::nextafter(v, std::numeric_limits<float>::infinity())} - double{v};
+}
 
 // Restores the SIMD target at scope exit.
 class ScopedSimdTarget {

@@ -11,13 +11,13 @@
 namespace swell::raster {
 namespace {
 
-struct Mesh {
+struct SampledMesh {
   std::vector<glm::vec4> p_clip;
   std::vector<std::uint32_t> indices;
 };
 
 // How many triangles, each drawn alone, cover each sample.
-std::vector<int> times_covered(const Mesh& mesh, Viewport viewport, int samples) {
+std::vector<int> times_covered(const SampledMesh& mesh, Viewport viewport, int samples) {
   std::vector<int> times;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const Draw draw{.p_clip = mesh.p_clip, .indices = std::span(mesh.indices).subspan(i, 3)};
@@ -28,7 +28,7 @@ std::vector<int> times_covered(const Mesh& mesh, Viewport viewport, int samples)
   return times;
 }
 
-void add_quads(Mesh& mesh, std::uint32_t cells) {
+void add_quads(SampledMesh& mesh, std::uint32_t cells) {
   for (std::uint32_t y = 0; y < cells; ++y) {
     for (std::uint32_t x = 0; x < cells; ++x) {
       const std::uint32_t a = y * (cells + 1) + x, b = a + 1, c = a + cells + 1, d = c + 1;
@@ -44,7 +44,7 @@ TEST(MeshSamples, JitteredGridsCoverEachSampleOnce) {
   for (const int samples : kSampleCounts) {
     // Cells from smaller than the gaps between samples to wider than a tile.
     for (const std::uint32_t cells : {2u, 9u, 24u}) {
-      Mesh mesh;
+      SampledMesh mesh;
       const double step_x = 40.0 / cells, step_y = 24.0 / cells;
       const double jitter = std::min(0.3, 3.0 / step_x);
       for (std::uint32_t i = 0; i < (cells + 1) * (cells + 1); ++i) {
@@ -65,7 +65,7 @@ TEST(MeshSamples, AFanAroundASampleCoversItOnce) {
   for (const int samples : kSampleCounts) {
     for (int s = 0; s < samples; ++s) {
       const Point centre = sample_point(11, 13, s, samples);
-      Mesh mesh;
+      SampledMesh mesh;
       mesh.p_clip.push_back(clip_from_fx8(centre, 0.5, 1.0, kView));
       constexpr int kSlices = 16;
       for (int i = 0; i < kSlices; ++i) {
@@ -113,7 +113,7 @@ TEST(ClippedSamples, VerticesFarBeyondTheGuardBandLeaveEverySampleRight) {
   int wrong = 0, covered = 0;
   std::uint64_t clipped = 0;
   for (int n = 0; n < trials(200); ++n) {
-    Mesh mesh{{}, {0, 1, 2}};
+    SampledMesh mesh{{}, {0, 1, 2}};
     for (int i = 0; i < 3; ++i) {
       const double far = kFar[random.integer(0, 5)];
       const double w = random.integer(0, 7) == 0 ? 1e-6 : random.between(0.2, 16.0);
@@ -138,7 +138,7 @@ TEST(MeshSamples, AFloorCutByTheNearPlaneHasNoHoles) {
   Random random(4);
   std::uint64_t clipped = 0;
   for (int n = 0; n < 40; ++n) {
-    Mesh mesh;
+    SampledMesh mesh;
     for (std::uint32_t i = 0; i < (kCells + 1) * (kCells + 1); ++i) {
       const double right = -60.0 + 10.0 * (i % (kCells + 1) + random.between(-0.3, 0.3));
       const double ahead = -25.0 + 10.0 * (i / (kCells + 1) + random.between(-0.3, 0.3));

@@ -13,8 +13,6 @@
 namespace swell::raster {
 namespace {
 
-constexpr int kThreadCounts[] = {1, 3};
-
 TEST(SamplePattern, HasThePositionsOfTheVulkanSpecification) {
   for (const int samples : kSampleCounts) {
     const std::span<const SamplePosition> positions = sample_positions(samples);
@@ -188,10 +186,6 @@ TEST(Samples, OnATopOrLeftEdgeBelongToTheTriangle) {
       EXPECT_FALSE(owned({up, down, left})) << samples << " samples, number " << s;
     }
   }
-}
-
-double ulp(float v) {
-  return double{std::nextafter(v, std::numeric_limits<float>::infinity())} - double{v};
 }
 
 // As RAS-10 of the centres: by barycentric weights in long double.
