@@ -292,6 +292,70 @@ HWY_INLINE RiverSeen SeeRiver(const Shading& shading, const River& river, const 
   return seen;
 }
 
+// Its bed, and at its end what lies under the sea.
+struct RiverBody {
+  const Shading& shading;
+  const TilePixels& tile;
+  const River& river;
+  const Packet& packet;
+  const RiverSeen& seen;
+
+  HWY_INLINE V SunVisible() const {
+    return ::swell::render::HWY_NAMESPACE::SunVisible(shading, tile, packet, Constant(-1.0f)) *
+           SunUnderTrees(shading, packet, hn::Zero(D()));
+  }
+
+  HWY_INLINE Refracted Below(V sun_visible) const {
+    const V zero = hn::Zero(D());
+    const V sea_share = seen.at.sea_share;
+    Refracted below = {Constant(shading.media.body), zero, {zero, zero, zero}};
+    if (seen.is_river)
+      below.light = BedLight(shading, river, seen.at, packet, seen.slopes, sun_visible);
+    below.floor_added = below.light - Constant(shading.media.body);
+    if (!seen.meets_sea) return below;
+    const Refracted of_sea = RefractedLight(shading, shading.material<Water>(), packet, seen.slopes,
+                                            sun_visible, tile.planar_maps.refraction);
+    return {PassIntoSea(below.light, of_sea.light, sea_share),
+            IfThenElseZero(sea_share > zero, of_sea.image_alpha),
+            PassIntoSea(below.floor_added, of_sea.floor_added, sea_share)};
+  }
+
+  // An image of another level than the place's is not what is mirrored there.
+  HWY_INLINE V ShareOfLevel(float level_m) const {
+    const V off = Abs(packet.p.z - (level_m - shading.rays.eye_z));
+    return Clamp(NegMulAdd(off, kMirrorFall_per_m, kMirrorFall_per_m * kMirrorGone_m), 0.0f, 1.0f);
+  }
+
+  HWY_INLINE Looked Mirrored(const Facing& f, V inv_variance, V3 floor) const {
+    const D d;
+    const V zero = hn::Zero(d);
+    const Water& water = shading.material<Water>();
+    const V sea_share = seen.at.sea_share;
+    Looked mirrored = ReflectedLight(shading, packet, seen.slopes, f, inv_variance, floor, false);
+    const auto lay_over = [&](const PlanarMap& map, V share) HWY_ATTR {
+      const Looked image = LookUpDistorted<false>(water, map, packet, seen.slopes, 1.0f);
+      const V part = image.alpha * share;
+      mirrored = {Lerp(mirrored.light, image.light, part), Max(mirrored.alpha, part)};
+    };
+    const V by_sea = river.mirrors_sea ? Max(sea_share, ShareOfLevel(0.0f)) : sea_share;
+    if (tile.planar_maps.reflection && !hn::AllFalse(d, by_sea > zero))
+      lay_over(water.images.reflection, by_sea);
+    if (!river.reflection.image) return mirrored;
+    const V share = ShareOfLevel(river.mirror_level_m) * river.mirror_share *
+                    ((1.0f - by_sea) * Clamp(NegMulAdd(sea_share, 4.0f, 1.0f), 0.0f, 1.0f));
+    if (!hn::AllFalse(d, share > zero)) lay_over(river.reflection, share);
+    return mirrored;
+  }
+
+  HWY_INLINE V Weight(const Facing& f) const { return f.reflectance; }
+  HWY_INLINE V SunPath(const Facing&, V glint) const { return glint; }
+  HWY_INLINE V3 AddFoam(const TornFoam& foam, const Facing&, const LightSeen& light_seen,
+                        V3 light) const {
+    const V white = foam.cover * MulAdd(foam.thickness, 0.5f, 0.4f);
+    return ::swell::render::HWY_NAMESPACE::AddFoam(river.foam, white, light_seen, light);
+  }
+};
+
 // Not shown in planar maps.
 template <ViewKind kView>
 struct Shader<River, kView> {
@@ -324,57 +388,9 @@ struct Shader<River, ViewKind::kWindow> {
   }
 
   HWY_INLINE ShadingResult operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
-                                      const Packet& packet, const RiverSeen& river_seen) const {
-    const D d;
-    const V zero = hn::Zero(d);
-    const Light& light = shading.light;
-    const Water& water = shading.material<Water>();
-    const RiverAt& at = river_seen.at;
-    const WaterSlopes& s = river_seen.slopes;
-    const Facing f = FaceEye(shading.media, water, packet, s);
-    const V sun_visible = SunVisible(shading, tile, packet, Constant(-1.0f)) *
-                          SunUnderTrees(shading, packet, hn::Zero(d));
-    V inv_variance, refracted_alpha = hn::Zero(d);
-    const V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media},
-                                f.area, inv_variance);
-    V3 refracted = Constant(shading.media.body);
-    if (river_seen.is_river) refracted = BedLight(shading, river, at, packet, s, sun_visible);
-    V3 floor = refracted - Constant(shading.media.body);
-    if (river_seen.meets_sea) {
-      const Refracted of_sea =
-          RefractedLight(shading, water, packet, s, sun_visible, tile.planar_maps.refraction);
-      refracted = PassIntoSea(refracted, of_sea.light, at.sea_share);
-      floor = PassIntoSea(floor, of_sea.floor_added, at.sea_share);
-      refracted_alpha = of_sea.image_alpha;
-    }
-    TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
-    AddHulls(shading, tile, packet, refracted, foam);
-    Looked mirrored = ReflectedLight(shading, packet, s, f, inv_variance, floor, false);
-    const auto lay_over = [&](const PlanarMap& map, V share) HWY_ATTR {
-      const Looked image = LookUpDistorted<false>(water, map, packet, s, 1.0f);
-      const V part = image.alpha * share;
-      mirrored = {Lerp(mirrored.light, image.light, part), Max(mirrored.alpha, part)};
-    };
-    // An image of another level than the place's is not what is mirrored there.
-    const auto share_of = [&](float level_m) HWY_ATTR {
-      const V off = Abs(packet.p.z - (level_m - shading.rays.eye_z));
-      return Clamp(NegMulAdd(off, kMirrorFall_per_m, kMirrorFall_per_m * kMirrorGone_m), 0.0f,
-                   1.0f);
-    };
-    const V by_sea = river.mirrors_sea ? Max(at.sea_share, share_of(0.0f)) : at.sea_share;
-    if (tile.planar_maps.reflection && !hn::AllFalse(d, by_sea > zero))
-      lay_over(water.images.reflection, by_sea);
-    if (river.reflection.image) {
-      const V share = share_of(river.mirror_level_m) * river.mirror_share *
-                      ((1.0f - by_sea) * Clamp(NegMulAdd(at.sea_share, 4.0f, 1.0f), 0.0f, 1.0f));
-      if (!hn::AllFalse(d, share > zero)) lay_over(river.reflection, share);
-    }
-    refracted_alpha = IfThenElseZero(at.sea_share > zero, refracted_alpha);
-    V3 seen = Lerp(refracted, mirrored.light, f.reflectance);
-    seen = MulAdd(Constant(water.optics.glitter_light), sun_path * sun_visible, seen);
-    const V white = foam.cover * MulAdd(foam.thickness, 0.5f, 0.4f);
-    seen = AddFoam(river.foam, white, {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
-    return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted_alpha, s.wake)};
+                                      const Packet& packet, const RiverSeen& seen) const {
+    return ShadeFromAbove(shading, tile, packet, seen.slopes,
+                          RiverBody{shading, tile, river, packet, seen});
   }
 };
 

@@ -273,6 +273,63 @@ HWY_INLINE void AddHulls(const Shading& shading, const TilePixels& tile, const P
   foam.thickness = IfThenElse(splashed, 1.0f, foam.thickness);
 }
 
+// The light of a surface from above, of slopes that a body of water has there. The body says what
+// is its own, each for a packet:
+//   V SunVisible();
+//   Refracted Below(V sun_visible);                            what comes up through the surface
+//   Looked Mirrored(const Facing&, V inv_variance, V3 floor);  floor: Refracted::floor_added
+//   V Weight(const Facing&);                                   of what it mirrors
+//   V SunPath(const Facing&, V glint);
+//   V3 AddFoam(const TornFoam&, const Facing&, const LightSeen&, V3 light);
+template <class Body>
+HWY_INLINE ShadingResult ShadeFromAbove(const Shading& shading, const TilePixels& tile,
+                                        const Packet& packet, const WaterSlopes& s,
+                                        const Body& body) {
+  const Water& water = shading.material<Water>();
+  const Facing f = FaceEye(shading.media, water, packet, s);
+  const V sun_visible = body.SunVisible();
+  V inv_variance;
+  const V glint = SunGlint(shading.light.sun_direction, packet, s, GlintReflectance{shading.media},
+                           f.area, inv_variance);
+  Refracted refracted = body.Below(sun_visible);
+  const Looked mirrored = body.Mirrored(f, inv_variance, refracted.floor_added);
+  TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
+  AddHulls(shading, tile, packet, refracted.light, foam);
+  const V3 arriving = Lerp(refracted.light, mirrored.light, body.Weight(f));
+  const V sun_path = body.SunPath(f, glint);
+  V3 seen = MulAdd(Constant(water.optics.glitter_light), sun_path * sun_visible, arriving);
+  seen = body.AddFoam(foam, f, {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
+  return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted.image_alpha, s.wake)};
+}
+
+struct SeaBody {
+  const Shading& shading;
+  const TilePixels& tile;
+  const Water& water;
+  const Packet& packet;
+  const WaterSlopes& s;
+
+  HWY_INLINE V SunVisible() const { return SunOnSea(shading, tile, packet); }
+  HWY_INLINE Refracted Below(V sun_visible) const {
+    return RefractedLight(shading, water, packet, s, sun_visible, tile.planar_maps.refraction);
+  }
+  HWY_INLINE Looked Mirrored(const Facing& f, V inv_variance, V3 floor) const {
+    return ReflectedLight(shading, packet, s, f, inv_variance, floor, tile.planar_maps.reflection);
+  }
+  HWY_INLINE V Weight(const Facing& f) const {
+    return water.optics.reflection_weight < 0.0f ? f.reflectance
+                                                 : Constant(water.optics.reflection_weight);
+  }
+  HWY_INLINE V SunPath(const Facing& f, V glint) const {
+    if (!water.glitter.sun_texture) return glint;
+    return f.reflectance * ProjectedGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
+  }
+  HWY_INLINE V3 AddFoam(const TornFoam& foam, const Facing& f, const LightSeen& seen,
+                        V3 light) const {
+    return AddWhitecaps(water.whitecaps, foam, shading.light.sun_direction, seen, f.normal, light);
+  }
+};
+
 // kCoast: water.knows_land().
 template <bool kCoast>
 struct WaterShader {
@@ -286,30 +343,7 @@ struct WaterShader {
 
   HWY_INLINE ShadingResult operator()(const Shading& shading, const TilePixels& tile, const Lanes&,
                                       const Packet& packet, const WaterSlopes& s) const {
-    const Light& light = shading.light;
-    const Facing f = FaceEye(shading.media, water, packet, s);
-
-    const V sun_visible = SunOnSea(shading, tile, packet);
-    V inv_variance;
-    V sun_path = SunGlint(light.sun_direction, packet, s, GlintReflectance{shading.media}, f.area,
-                          inv_variance);
-    Refracted refracted =
-        RefractedLight(shading, water, packet, s, sun_visible, tile.planar_maps.refraction);
-    const Looked mirrored = ReflectedLight(shading, packet, s, f, inv_variance,
-                                           refracted.floor_added, tile.planar_maps.reflection);
-    TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
-    AddHulls(shading, tile, packet, refracted.light, foam);
-    const V weight = water.optics.reflection_weight < 0.0f
-                         ? f.reflectance
-                         : Constant(water.optics.reflection_weight);
-    const V3 arriving = Lerp(refracted.light, mirrored.light, weight);
-    if (water.glitter.sun_texture)
-      sun_path =
-          f.reflectance * ProjectedGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
-    V3 seen = MulAdd(Constant(water.optics.glitter_light), sun_path * sun_visible, arriving);
-    seen = AddWhitecaps(water.whitecaps, foam, light.sun_direction,
-                        {sun_visible, AmbientUnderClouds(shading, packet.p)}, f.normal, seen);
-    return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted.image_alpha, s.wake)};
+    return ShadeFromAbove(shading, tile, packet, s, SeaBody{shading, tile, water, packet, s});
   }
 };
 
