@@ -140,10 +140,10 @@ class Sea {
 
   const SeaDescription& description() const;
 
-  // A bound on |H| that holds everywhere and always in practice (6 standard deviations of the
-  // spectrum plus the sum of the sines' amplitudes).
+  // A bound on |H| in m that holds everywhere and always in practice: 6 standard deviations of the
+  // patches and maps, and the sum of the sines' amplitudes with their second order.
   double height_bound_m() const;
-  // Bounds |dH/dx| and |dH/dy| likewise.
+  // Bounds |dH/dx| and |dH/dy| likewise, with what the blending of tiles adds to the patches'.
   double slope_bound() const;
   // A height bound of the waves of all patches but the `longest_patches` longest, without sines.
   double short_wave_bound_m(std::size_t longest_patches) const;

@@ -24,7 +24,7 @@ struct GovernedReport {
   int least_triangles = 0, most_triangles = 0;
   double least_lookup_scale = 0.0, most_lookup_scale = 0.0;
   double least_picture_scale = 0.0, most_picture_scale = 0.0;
-  int step_changes = 0;  // of the scales
+  int step_changes = 0;  // of the scales, from the first frame on
 };
 
 struct FrameReport {
