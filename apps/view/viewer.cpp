@@ -63,7 +63,7 @@ void Viewer::handle(const SDL_Event& event) {
   gui_.handle(event);
   switch (event.type) {
     case SDL_QUIT:
-      quit_ = true;
+      input_.quits = true;
       break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
@@ -88,17 +88,17 @@ void Viewer::handle(const SDL_Event& event) {
 }
 
 void Viewer::handle_window(const SDL_WindowEvent& event) {
-  if (event.event == SDL_WINDOWEVENT_CLOSE) quit_ = true;
-  if (event.event == SDL_WINDOWEVENT_LEAVE) pointer_.reset();
+  if (event.event == SDL_WINDOWEVENT_CLOSE) input_.quits = true;
+  if (event.event == SDL_WINDOWEVENT_LEAVE) input_.pointer.reset();
   if (event.event != SDL_WINDOWEVENT_FOCUS_LOST) return;
-  held_.reset();  // their key-up events go to another window
+  input_.held.reset();  // their key-up events go to another window
   capture_mouse(false);
 }
 
 void Viewer::handle_key(const SDL_KeyboardEvent& key) {
   const SDL_Scancode place = key.keysym.scancode;
   const bool is_down = key.type == SDL_KEYDOWN && !gui_.wants_text();
-  if (place >= 0 && place < SDL_NUM_SCANCODES) held_[place] = is_down;
+  if (place >= 0 && place < SDL_NUM_SCANCODES) input_.held[place] = is_down;
   if (!is_down || key.repeat != 0) return;
   if (const auto command = command_for(key.keysym.sym)) run_command(*command);
   if (const auto code = sea_state_for(key.keysym.sym)) choose_sea_state(*code);
@@ -106,26 +106,26 @@ void Viewer::handle_key(const SDL_KeyboardEvent& key) {
 
 void Viewer::handle_mouse(const SDL_Event& event) {
   if (event.type == SDL_MOUSEMOTION) {
-    if (mouse_captured_) look_px_ += glm::dvec2(event.motion.xrel, event.motion.yrel);
-    pointer_ = glm::vec2(event.motion.x, event.motion.y);
+    if (input_.mouse_captured) input_.look_px += glm::dvec2(event.motion.xrel, event.motion.yrel);
+    input_.pointer = glm::vec2(event.motion.x, event.motion.y);
     return;
   }
   const bool is_right = event.button.button == SDL_BUTTON_RIGHT;
   const bool is_left = event.button.button == SDL_BUTTON_LEFT;
   if (event.type == SDL_MOUSEBUTTONUP) {
-    if (capture_ends_with_button_) capture_mouse(false);
+    if (input_.capture_ends_with_button) capture_mouse(false);
   } else if (event.button.button == SDL_BUTTON_MIDDLE) {
     drop_stone();
-  } else if ((is_right || is_left) && !mouse_captured_ && !gui_.wants_mouse()) {
+  } else if ((is_right || is_left) && !input_.mouse_captured && !gui_.wants_mouse()) {
     capture_mouse(true);
-    capture_ends_with_button_ = is_right || settings_.audience;  // a browser keeps Esc
+    input_.capture_ends_with_button = is_right || settings_.audience;  // a browser keeps Esc
   }
 }
 
 void Viewer::capture_mouse(bool capture) {
-  if (capture == mouse_captured_) return;
-  mouse_captured_ = capture;
-  capture_ends_with_button_ = false;
+  if (capture == input_.mouse_captured) return;
+  input_.mouse_captured = capture;
+  input_.capture_ends_with_button = false;
   if (!settings_.audience)  // whose pointer is not ours to hide
     SDL_SetRelativeMouseMode(capture ? SDL_TRUE : SDL_FALSE);
 }
@@ -167,10 +167,10 @@ void Viewer::run_command(Command command) {
       save_scene();
       break;
     case Command::kEscape:
-      if (mouse_captured_)
+      if (input_.mouse_captured)
         capture_mouse(false);
       else
-        quit_ = true;
+        input_.quits = true;
       break;
   }
 }
@@ -224,17 +224,17 @@ bool Viewer::is_seen() const {
 bool Viewer::turn() {
   SDL_Event event;
   while (SDL_PollEvent(&event)) handle(event);
-  if (quit_) return false;
+  if (input_.quits) return false;
 
   // A run of counted frames draws them all, seen or not.
   if (settings_.frames == 0 && !is_seen()) {
     if (SDL_WaitEventTimeout(&event, kSleepWhileHidden_ms)) handle(event);
-    return !quit_;
+    return !input_.quits;
   }
   draw_frame();
-  ++frames_drawn_;
+  ++drawn_.count;
   if (settings_.frames == 0) wait_for_refresh();
-  return settings_.frames == 0 || frames_drawn_ < settings_.frames;
+  return settings_.frames == 0 || drawn_.count < settings_.frames;
 }
 
 void Viewer::draw_frame() {
@@ -242,19 +242,19 @@ void Viewer::draw_frame() {
   rebuilder_.swap_if_ready(world_);
   build_panels();
   clock_.paused = panel_.paused;
-  if (frames_drawn_ > 0) tick(clock_, dt_s);
+  if (drawn_.count > 0) tick(clock_, dt_s);
 
   // Draw. Nothing below handles events, so the window's surface stays what it is until shown.
-  picture_view_ = next_view(dt_s);
-  report_.fov_y_rad = fov_y_rad(picture_view_);
-  picture_time_s_ = clock_.t_s;
-  report_.statistics = render::render_frame(*world_, picture_view_, picture_time_s_, next_options(),
-                                            workspace_, target_, workers_);
-  shows_label_ = panel_.label.has_value();
-  if (shows_label_) {
-    label_picture_.width_px = target_.width_px;
-    label_picture_.height_px = target_.height_px;
-    apps::paint_label(*panel_.label, target_.labels, picture_view_, label_picture_.rgba);
+  drawn_.view = next_view(dt_s);
+  report_.fov_y_rad = fov_y_rad(drawn_.view);
+  drawn_.time_s = clock_.t_s;
+  report_.statistics = render::render_frame(*world_, drawn_.view, drawn_.time_s, next_options(),
+                                            drawn_.workspace, drawn_.target, workers_);
+  drawn_.shows_label = panel_.label.has_value();
+  if (drawn_.shows_label) {
+    drawn_.label_picture.width_px = drawn_.target.width_px;
+    drawn_.label_picture.height_px = drawn_.target.height_px;
+    apps::paint_label(*panel_.label, drawn_.target.labels, drawn_.view, drawn_.label_picture.rgba);
   }
   pick_under_pointer();
 
@@ -268,19 +268,19 @@ void Viewer::draw_frame() {
   report_.present_ms = Milliseconds(shown - drawn).count();
   report_.frame_ms = Milliseconds(shown - last_frame_start_).count();
   add_frame(report_.history, report_.frame_ms);
-  if (panel_.governed && !shows_label_)  // whose frames are not drawn as it said
+  if (panel_.governed && !drawn_.shows_label)  // whose frames are not drawn as it said
     governor_.next(report_.statistics, report_.frame_ms - report_.statistics.frame_ms);
 }
 
 const render::FrameOptions& Viewer::next_options() {
   governor_.set_budget_ms(panel_.budget_ms);
   governor_.set_full_quality(panel_.frame);
-  options_ = panel_.governed ? governor_.options() : panel_.frame;
-  options_.disturbances = stones_;
-  ask_for_label(options_);
+  drawn_.options = panel_.governed ? governor_.options() : panel_.frame;
+  drawn_.options.disturbances = stones_;
+  ask_for_label(drawn_.options);
   report_.governor = governor_.report();
-  report_.picture_scale = options_.picture_scale;
-  return options_;
+  report_.picture_scale = drawn_.options.picture_scale;
+  return drawn_.options;
 }
 
 // Labels are of the picture's own pixels: it is drawn at its full size.
@@ -292,8 +292,8 @@ void Viewer::ask_for_label(render::FrameOptions& options) {
   options.next_frame_s = 1.0 / kStepsPerSecond;
   if (*panel_.label != render::Label::kMotion || pose_) return;
   options.next_view =
-      render::world_view(*world_, picture_time_s_ + options.next_frame_s, picture_view_.width_px,
-                         picture_view_.height_px, sea_, workers_);
+      render::world_view(*world_, drawn_.time_s + options.next_frame_s, drawn_.view.width_px,
+                         drawn_.view.height_px, sea_, workers_);
 }
 
 // In the title, for as long as it is shown, and in a message.
@@ -313,9 +313,9 @@ void Viewer::name_label() {
 
 void Viewer::pick_under_pointer() {
   report_.pick.reset();
-  if (!pointer_ || mouse_captured_ || gui_.wants_mouse()) return;
-  const glm::vec2 pixel = *pointer_ * window_.pixels_per_unit() + 0.5f;
-  report_.pick = render::pick(*world_, picture_view_, workspace_, pixel, pick_scratch_);
+  if (!input_.pointer || input_.mouse_captured || gui_.wants_mouse()) return;
+  const glm::vec2 pixel = *input_.pointer * window_.pixels_per_unit() + 0.5f;
+  report_.pick = render::pick(*world_, drawn_.view, drawn_.workspace, pixel, pick_scratch_);
 }
 
 // Where the pointer is on the water, now; the first of too many is forgotten.
@@ -340,10 +340,10 @@ double Viewer::time_since_last_frame_s() {
 
 View Viewer::next_view(double dt_s) {
   const WindowSize size = window_.size_px();
-  CameraInput input = motion_of(held_);
-  input.look_x_px = look_px_.x;
-  input.look_y_px = look_px_.y;
-  look_px_ = glm::dvec2(0.0);
+  CameraInput input = motion_of(input_.held);
+  input.look_x_px = input_.look_px.x;
+  input.look_y_px = input_.look_px.y;
+  input_.look_px = glm::dvec2(0.0);
 
   const scene::Camera& camera = scene_.camera;
   const View on_path =
@@ -362,8 +362,8 @@ View Viewer::next_view(double dt_s) {
 void Viewer::build_panels() {
   report_.t_s = clock_.t_s;
   report_.rebuilding = rebuilder_.busy();
-  report_.width_px = target_.width_px;
-  report_.height_px = target_.height_px;
+  report_.width_px = drawn_.target.width_px;
+  report_.height_px = drawn_.target.height_px;
   if (const std::string error = rebuilder_.error(); !error.empty()) say(error);
   if (Clock::now() - said_ > kMessageStays) report_.message.clear();
 
@@ -375,7 +375,7 @@ void Viewer::build_panels() {
     if (changes.save_scene) save_scene();
   }
   name_label();
-  if (report_.pick && pointer_) draw_pick(*report_.pick, *pointer_);
+  if (report_.pick && input_.pointer) draw_pick(*report_.pick, *input_.pointer);
   if (show_help_) draw_help(settings_.audience.has_value());
   if (!report_.message.empty()) draw_message(report_.message);
   gui_.end_frame();

@@ -58,10 +58,12 @@ class Viewer {
   void handle(const SDL_Event& event);
 
   // The last frame drawn; empty before the first one.
-  const render::Target& picture() const { return target_; }
+  const render::Target& picture() const { return drawn_.target; }
 
   // What the window shows of it: the same, or a label of it in false colours.
-  const render::Target& shown() const { return shows_label_ ? label_picture_ : target_; }
+  const render::Target& shown() const {
+    return drawn_.shows_label ? drawn_.label_picture : drawn_.target;
+  }
 
   // The last frame once more, at the full quality that the panel asks for, whatever the governor
   // left out, with the label that is shown in place of 8-bit colour; not before the first frame. In
@@ -73,8 +75,8 @@ class Viewer {
   const PanelSettings& panel() const { return panel_; }
   const PanelReport& report() const { return report_; }
   std::size_t stones() const { return stones_.size(); }
-  double picture_time_s() const { return picture_time_s_; }
-  int frames_drawn() const { return frames_drawn_; }
+  double picture_time_s() const { return drawn_.time_s; }
+  int frames_drawn() const { return drawn_.count; }
   bool has_own_camera() const { return pose_.has_value(); }
   bool is_rebuilding() const { return rebuilder_.busy(); }
   bool shows_panel() const { return show_panel_; }
@@ -118,6 +120,26 @@ class Viewer {
   void drop_stone();
   void wait_for_refresh() const;
 
+  // What the window has told since the last frame, and what it holds down.
+  struct Input {
+    HeldKeys held;
+    glm::dvec2 look_px{0.0};           // mouse motion not yet used
+    std::optional<glm::vec2> pointer;  // over the window, in its own units
+    bool mouse_captured = false, capture_ends_with_button = false;
+    bool quits = false;
+  };
+
+  // The frames drawn, and the last of them.
+  struct Drawn {
+    render::Workspace workspace;
+    render::FrameOptions options;
+    render::Target target, label_picture;
+    bool shows_label = false;
+    double time_s = 0.0;
+    View view;
+    int count = 0;
+  };
+
   scene::Scene scene_;  // as loaded
   ViewerSettings settings_;
   Window window_;
@@ -125,30 +147,19 @@ class Viewer {
   std::shared_ptr<const render::World> world_;
   WorldRebuilder rebuilder_;
   Workers workers_;
-  render::Workspace workspace_;
-  render::FrameOptions options_;  // of the last frame
-  render::Target target_;
-  render::Target label_picture_;
-  bool shows_label_ = false;  // of the last frame
+  Drawn drawn_;
   render::Governor governor_;
   render::PickScratch pick_scratch_;
   std::vector<ocean::Disturbance> stones_;  // thrown into the water
 
   SimClock clock_;
-  HeldKeys held_;
-  glm::dvec2 look_px_{0.0};           // mouse motion not yet used
-  std::optional<glm::vec2> pointer_;  // over the window, in its own units
-  std::optional<CameraPose> pose_;    // none: the scene's camera
-  ocean::SeaFrame sea_;               // of the waves that carry the eye
+  Input input_;
+  std::optional<CameraPose> pose_;  // none: the scene's camera
+  ocean::SeaFrame sea_;             // of the waves that carry the eye
   PanelSettings panel_;
   PanelReport report_;
   std::optional<render::Label> named_label_;  // in the title
   bool show_panel_, show_help_ = false;
-  bool mouse_captured_ = false, capture_ends_with_button_ = false;
-  bool quit_ = false;
-  int frames_drawn_ = 0;
-  double picture_time_s_ = 0.0;
-  View picture_view_;
   Clock::time_point last_frame_start_, said_;
 };
 

@@ -47,14 +47,13 @@ render::Target Viewer::full_picture() {
   ask_for_label(options);
   render::Workspace workspace;
   render::Target picture;
-  render::render_frame(*world_, picture_view_, picture_time_s_, options, workspace, picture,
-                       workers_);
-  if (panel_.label) apps::paint_label(*panel_.label, picture.labels, picture_view_, picture.rgba);
+  render::render_frame(*world_, drawn_.view, drawn_.time_s, options, workspace, picture, workers_);
+  if (panel_.label) apps::paint_label(*panel_.label, picture.labels, drawn_.view, picture.rgba);
   return picture;
 }
 
 void Viewer::save_screenshot() {
-  if (frames_drawn_ == 0) return;
+  if (drawn_.count == 0) return;
   try {
     const fs::path path = free_name(settings_, ".png");
     apps::write_picture(full_picture(), path);
@@ -65,7 +64,7 @@ void Viewer::save_screenshot() {
 }
 
 void Viewer::copy_camera() {
-  if (frames_drawn_ == 0) return;
+  if (drawn_.count == 0) return;
   const bool is_copied = SDL_SetClipboardText(camera_text().c_str()) == 0;
   say(is_copied ? "copied the camera as TOML" : std::string("nothing copied: ") + SDL_GetError());
 }
