@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/peer/gl.h"
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 #include "texture/smooth_image.h"
 
 namespace swell::apps {

@@ -8,7 +8,8 @@
 
 #include <algorithm>
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
+#include "render/tile/shading.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

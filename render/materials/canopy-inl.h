@@ -7,7 +7,7 @@
 #endif
 
 #include "render/materials/canopy.h"
-#include "render/materials/square_map-inl.h"
+#include "render/packets/square_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "render/materials/inputs.h"
-#include "render/materials/square_map.h"
+#include "render/packets/square_map.h"
 
 namespace swell::render {
 

@@ -1,7 +1,7 @@
 #include "render/materials/caustics.h"
 
 #include "math/elementary.h"
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 
 namespace swell::render {
 

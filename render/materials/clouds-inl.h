@@ -7,7 +7,7 @@
 #endif
 
 #include "render/materials/clouds.h"
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

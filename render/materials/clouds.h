@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 #include "render/parts.h"
 #include "render/world/world_state.h"
 

@@ -1,6 +1,6 @@
 #include "render/materials/ground_albedo.h"
 
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 #include "terrain/apron.h"
 
 namespace swell::render {

@@ -6,7 +6,7 @@
 #define SWELL_RENDER_MATERIALS_IMPLICIT_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 #include "render/view/meshes.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,7 +7,8 @@
 #endif
 
 #include "render/materials/caustics-inl.h"
-#include "render/materials/fresnel-inl.h"
+#include "render/packets/fresnel-inl.h"
+#include "render/tile/shading.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

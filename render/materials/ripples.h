@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "render/materials/inputs.h"
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 
 namespace swell::render {
 

@@ -10,7 +10,7 @@
 #include "render/materials/foam.h"
 #include "render/materials/ground_albedo.h"
 #include "render/materials/inputs.h"
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 
 namespace swell::render {
 

@@ -9,7 +9,7 @@
 #include "render/materials/ground_albedo.h"
 #include "render/materials/inputs.h"
 #include "render/materials/land.h"
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 
 namespace swell::render {
 

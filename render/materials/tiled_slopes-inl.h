@@ -10,7 +10,7 @@
 
 #include "ocean/patch_tiles-inl.h"
 #include "render/materials/foam_map-inl.h"
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

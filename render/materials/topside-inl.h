@@ -11,7 +11,6 @@
 
 #include "render/labels/label_channels.h"
 #include "render/materials/bump_light-inl.h"
-#include "render/materials/fresnel-inl.h"
 #include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
 #include "render/materials/image_blur-inl.h"
@@ -20,8 +19,10 @@
 #include "render/materials/water.h"
 #include "render/materials/water_slopes-inl.h"
 #include "render/materials/whitecaps-inl.h"
+#include "render/packets/fresnel-inl.h"
 #include "render/tile/light_code-inl.h"
 #include "render/tile/shading_result-inl.h"
+#include "render/tile/sky_map-inl.h"
 #include "render/tile/stars-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/view/wave_reach.h"

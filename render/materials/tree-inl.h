@@ -8,7 +8,7 @@
 #endif
 
 #include "render/materials/tree.h"
-#include "render/tile/lanes3-inl.h"
+#include "render/packets/lanes3-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 

@@ -8,7 +8,7 @@
 
 #include "render/materials/foam_map-inl.h"
 #include "render/materials/wakes.h"
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

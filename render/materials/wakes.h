@@ -5,8 +5,8 @@
 
 #include "ocean/wake_sources.h"
 #include "render/materials/inputs.h"
-#include "render/materials/slope_layer.h"
 #include "render/materials/whitecaps.h"
+#include "render/packets/slope_layer.h"
 
 namespace swell::render {
 

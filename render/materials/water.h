@@ -9,9 +9,9 @@
 #include "render/materials/glitter.h"
 #include "render/materials/inputs.h"
 #include "render/materials/near_shore.h"
-#include "render/materials/slope_layer.h"
 #include "render/materials/wakes.h"
 #include "render/materials/whitecaps.h"
+#include "render/packets/slope_layer.h"
 
 namespace swell::render {
 

@@ -8,8 +8,9 @@
 
 #include <algorithm>
 
+#include "render/packets/packet-inl.h"
 #include "render/tile/fog-inl.h"
-#include "render/tile/packet-inl.h"
+#include "render/tile/shading.h"
 #include "render/tile/sky_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -6,7 +6,7 @@
 #define SWELL_RENDER_TILE_AIR_WAY_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

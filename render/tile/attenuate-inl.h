@@ -6,8 +6,8 @@
 #define SWELL_RENDER_TILE_ATTENUATE_INL_H_
 #endif
 
+#include "render/packets/packet-inl.h"
 #include "render/tile/media-inl.h"
-#include "render/tile/packet-inl.h"
 #include "render/tile/through_water-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -6,9 +6,9 @@
 #define SWELL_RENDER_TILE_CLOUD_PICTURE_INL_H_
 #endif
 
+#include "render/packets/packet-inl.h"
 #include "render/tile/cloud_picture.h"
 #include "render/tile/medium-inl.h"
-#include "render/tile/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -6,7 +6,7 @@
 #define SWELL_RENDER_TILE_CLOUD_SHADOW_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 #include "render/world/cloud_shadow.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -8,7 +8,8 @@
 
 #include <cstddef>
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
+#include "render/tile/shade_tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

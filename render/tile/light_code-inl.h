@@ -9,7 +9,7 @@
 #define SWELL_RENDER_TILE_LIGHT_CODE_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

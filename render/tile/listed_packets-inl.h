@@ -11,7 +11,7 @@
 #include <array>
 #include <bit>
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 #include "render/tile/pixel_lists-inl.h"
 #include "render/tile/shading_result-inl.h"
 

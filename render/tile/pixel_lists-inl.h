@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "render/materials/list.h"
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 #include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -10,11 +10,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/packets/packet-inl.h"
 #include "render/tile/light_code-inl.h"
 #include "render/tile/listed_packets-inl.h"
 #include "render/tile/material_units-inl.h"
 #include "render/tile/media-inl.h"
-#include "render/tile/packet-inl.h"
 #include "render/tile/pixel_lists-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/shading_result-inl.h"

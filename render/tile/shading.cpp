@@ -2,17 +2,6 @@
 
 namespace swell::render {
 
-ViewRays make_rays(const View& camera) {
-  ViewRays rays;
-  rays.ray = camera.ray(0.5f, 0.5f);
-  rays.ray_dx = camera.right * (2.0f * camera.tan_half_x / static_cast<float>(camera.width_px));
-  rays.ray_dy = -camera.up * (2.0f * camera.tan_half_y / static_cast<float>(camera.height_px));
-  rays.near_m = camera.near_m;
-  rays.eye_z = static_cast<float>(camera.eye_world.z);
-  rays.pixel_angle = 2.0f * camera.tan_half_y / static_cast<float>(camera.height_px);
-  return rays;
-}
-
 void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_size_px,
                   Shading& shading) {
   shading.kind = view.kind;

@@ -8,22 +8,13 @@
 #include "render/materials/caustics.h"
 #include "render/materials/light.h"
 #include "render/materials/list.h"
+#include "render/packets/view_rays.h"
 #include "render/tile/cloud_picture.h"
 #include "render/tile/shafts.h"
 #include "render/tile/sun_shadow.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {
-
-// Where pixels lie in the world, relative to the eye:
-// p_rel = depth (ray + x_px ray_dx + y_px ray_dy), depth = near_m / z.
-struct ViewRays {
-  glm::vec3 ray{0.0f}, ray_dx{0.0f}, ray_dy{0.0f};
-  float near_m = 0.25f;
-  float eye_z = 0.0f;
-  float pixel_angle = 0.001f;  // size of a pixel at depth 1
-  float drop_per_m2 = 0.0f;    // how far a round earth sinks (math/earth.h)
-};
 
 struct Shading {
   ViewKind kind = ViewKind::kWindow;
@@ -46,8 +37,6 @@ struct Shading {
     return std::get<M>(materials);
   }
 };
-
-ViewRays make_rays(const View& camera);
 
 // in.light and in.media are copied.
 void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_size_px,

@@ -6,7 +6,8 @@
 #define SWELL_RENDER_TILE_SHADING_RESULT_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
+#include "render/tile/shade_tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

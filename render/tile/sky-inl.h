@@ -7,10 +7,10 @@
 #endif
 
 #include "render/materials/clouds-inl.h"
+#include "render/packets/packet-inl.h"
 #include "render/tile/air-inl.h"
 #include "render/tile/cloud_deck-inl.h"
 #include "render/tile/lattice-inl.h"
-#include "render/tile/packet-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/shafts-inl.h"
 #include "render/tile/sky_map-inl.h"

@@ -6,7 +6,8 @@
 #define SWELL_RENDER_TILE_SKY_MAP_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/materials/light.h"
+#include "render/packets/packet-inl.h"
 #include "texture/smooth_image-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -67,6 +68,20 @@ HWY_INLINE V3 AirBelow(const Light& light, V3 direction, V part_down) {
   const V row = MulAdd(FromHorizon(part_down), kAirRows - 1.0f, 1.0f * kSkyRows);
   const SkyOfHeight sky = SkyOfEye(light);
   return SampleSky(sky, SkyColumn(sky, direction), row);
+}
+
+// The blurred sky's radiance in direction (x, y, z), z > -0.5, any length of (x, y, z) equal to
+// `length`.
+HWY_INLINE V3 SoftSkyRadiance(const texture::RgbMap& map, V3 direction, V length) {
+  const D d;
+  const float half_fx8 = 128.0f * static_cast<float>(map.size);
+  const V scale = half_fx8 / (length + direction.z);
+  const V middle = Constant(half_fx8 - 128.0f);
+  V r, g, b;
+  texture::HWY_NAMESPACE::SampleRgb(d, map, MulAdd(direction.x, scale, middle),
+                                    MulAdd(direction.y, scale, middle), r, g, b);
+  const V range = Constant(kSoftSkyRange);
+  return {r * r * range, g * g * range, b * b * range};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,7 +6,7 @@
 #define SWELL_RENDER_TILE_SUN_SHADOW_INL_H_
 #endif
 
-#include "render/materials/square_map-inl.h"
+#include "render/packets/square_map-inl.h"
 #include "render/tile/cloud_shadow-inl.h"
 #include "render/tile/shading_result-inl.h"
 

@@ -6,7 +6,7 @@
 
 #include "raster/pass.h"
 #include "render/materials/inputs.h"
-#include "render/materials/square_map.h"
+#include "render/packets/square_map.h"
 #include "render/view/render_view.h"
 #include "render/world/land_shadow.h"
 

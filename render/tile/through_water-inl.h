@@ -8,7 +8,9 @@
 
 #include <algorithm>
 
-#include "render/tile/packet-inl.h"
+#include "render/materials/light.h"
+#include "render/packets/packet-inl.h"
+#include "render/view/surfaces.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

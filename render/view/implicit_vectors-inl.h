@@ -6,7 +6,7 @@
 #define SWELL_RENDER_VIEW_IMPLICIT_VECTORS_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 #include "render/view/implicit_rays.h"
 
 HWY_BEFORE_NAMESPACE();

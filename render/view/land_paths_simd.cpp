@@ -9,7 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -9,8 +9,8 @@
 #include <array>
 #include <utility>
 
-#include "render/materials/fresnel-inl.h"
 #include "render/materials/topside-inl.h"
+#include "render/packets/fresnel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

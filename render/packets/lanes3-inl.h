@@ -1,12 +1,12 @@
 // What pixels beside each other hold, one by one.
-#if defined(SWELL_RENDER_TILE_LANES3_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TILE_LANES3_INL_H_
-#undef SWELL_RENDER_TILE_LANES3_INL_H_
+#if defined(SWELL_RENDER_PACKETS_LANES3_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_PACKETS_LANES3_INL_H_
+#undef SWELL_RENDER_PACKETS_LANES3_INL_H_
 #else
-#define SWELL_RENDER_TILE_LANES3_INL_H_
+#define SWELL_RENDER_PACKETS_LANES3_INL_H_
 #endif
 
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

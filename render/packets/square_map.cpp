@@ -1,4 +1,4 @@
-#include "render/materials/square_map.h"
+#include "render/packets/square_map.h"
 
 #include "math/elementary.h"
 

@@ -1,10 +1,10 @@
 // The value types of the shaders: a packet is one SIMD vector of pixels. Per-target code; the
 // targets are fixed-size (x86), so vectors may be members of these short-lived structs.
-#if defined(SWELL_RENDER_TILE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TILE_PACKET_INL_H_
-#undef SWELL_RENDER_TILE_PACKET_INL_H_
+#if defined(SWELL_RENDER_PACKETS_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_PACKETS_PACKET_INL_H_
+#undef SWELL_RENDER_PACKETS_PACKET_INL_H_
 #else
-#define SWELL_RENDER_TILE_PACKET_INL_H_
+#define SWELL_RENDER_PACKETS_PACKET_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -13,7 +13,8 @@
 
 #include "math/elementary-inl.h"
 #include "math/lanes-inl.h"
-#include "render/tile/shade_tile.h"
+#include "render/packets/slope_layer.h"
+#include "render/packets/view_rays.h"
 #include "texture/packed_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -167,20 +168,6 @@ HWY_INLINE void NearestSlopes(const SlopeLayer& layer, V3 p, V level_m, V& a, V&
   const V gain = Constant(layer.gain);
   a = a * gain;
   b = b * gain;
-}
-
-// The blurred sky's radiance in direction (x, y, z), z > -0.5, any length of (x, y, z) equal to
-// `length`.
-HWY_INLINE V3 SoftSkyRadiance(const texture::RgbMap& map, V3 direction, V length) {
-  const D d;
-  const float half_fx8 = 128.0f * static_cast<float>(map.size);
-  const V scale = half_fx8 / (length + direction.z);
-  const V middle = Constant(half_fx8 - 128.0f);
-  V r, g, b;
-  texture::HWY_NAMESPACE::SampleRgb(d, map, MulAdd(direction.x, scale, middle),
-                                    MulAdd(direction.y, scale, middle), r, g, b);
-  const V range = Constant(kSoftSkyRange);
-  return {r * r * range, g * g * range, b * b * range};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,9 +1,9 @@
 // Fresnel's reflectance of a dielectric on Highway vectors.
-#if defined(SWELL_RENDER_MATERIALS_FRESNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_FRESNEL_INL_H_
-#undef SWELL_RENDER_MATERIALS_FRESNEL_INL_H_
+#if defined(SWELL_RENDER_PACKETS_FRESNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_PACKETS_FRESNEL_INL_H_
+#undef SWELL_RENDER_PACKETS_FRESNEL_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_FRESNEL_INL_H_
+#define SWELL_RENDER_PACKETS_FRESNEL_INL_H_
 #endif
 
 #include <hwy/highway.h>

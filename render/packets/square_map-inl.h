@@ -1,13 +1,13 @@
 // Maps of one channel over a square of the land.
-#if defined(SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_
-#undef SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_
+#if defined(SWELL_RENDER_PACKETS_SQUARE_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_PACKETS_SQUARE_MAP_INL_H_
+#undef SWELL_RENDER_PACKETS_SQUARE_MAP_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_SQUARE_MAP_INL_H_
+#define SWELL_RENDER_PACKETS_SQUARE_MAP_INL_H_
 #endif
 
-#include "render/materials/square_map.h"
-#include "render/tile/packet-inl.h"
+#include "render/packets/packet-inl.h"
+#include "render/packets/square_map.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

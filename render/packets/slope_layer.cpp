@@ -1,4 +1,4 @@
-#include "render/materials/slope_layer.h"
+#include "render/packets/slope_layer.h"
 
 #include <algorithm>
 #include <cmath>
