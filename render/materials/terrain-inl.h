@@ -95,10 +95,8 @@ HWY_INLINE GroundLook FindGround(const Terrain& terrain, const ViewRays& rays, c
       const GroundLook floor = FindPlainGround<kDetail>(terrain, packet, on_map, level_m, slopes);
       if (hn::AllFalse(d, dry)) return floor;
       const GroundLook land = FindDryGround(terrain, rays, packet, on_map, slopes);
-      const auto select = [&](V3 a, V3 b) HWY_ATTR {
-        return V3{IfThenElse(dry, a.x, b.x), IfThenElse(dry, a.y, b.y), IfThenElse(dry, a.z, b.z)};
-      };
-      return {select(land.albedo, floor.albedo), select(land.normal, floor.normal),
+      return {IfThenElse(dry, land.albedo, floor.albedo),
+              IfThenElse(dry, land.normal, floor.normal),
               IfThenElse(dry, land.inverse_length, floor.inverse_length),
               IfThenElse(dry, land.sky_seen, floor.sky_seen)};
     }
@@ -255,8 +253,7 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
   light = AddFoam(terrain.foam, Max(cover, waves.foam_cover),
                   {sun_visible, AmbientUnderClouds(s, packet.p)}, light);
-  return {IfThenElse(reached, light.x, ground.x), IfThenElse(reached, light.y, ground.y),
-          IfThenElse(reached, light.z, ground.z)};
+  return IfThenElse(reached, light, ground);
 }
 
 // Ground as the eye sees it, with the sea's last sheets on it; without detail for what is seen

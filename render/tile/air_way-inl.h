@@ -37,7 +37,7 @@ HWY_INLINE AirWay WayTo(const ViewRays& rays, const Packet& packet) {
       {-packet.to_eye.x, -packet.to_eye.y, rise}, packet.distance, p.z + rays.eye_z, rays.eye_z};
 }
 
-// The way that begins at the sea, as far below a place as `height`.
+// The way that begins at the sea and ends at a place, which is so high over it.
 HWY_INLINE AirWay WayFromSea(V3 direction, V distance, V height, V3 place) {
   const V length = Max(distance, 1e-3f), up = Max(height, 0.0f);
   direction.z = Min(up / length, 1.0f);

@@ -3,15 +3,13 @@
 //
 // A medium M is a struct of static functions:
 //   bool IsOn(const Shading&);
-//   // Before what a tile of the window shows, whose light stands in the scratch; depth: the
-//   tile's,
-//   // or null for open sky. LaidByPixel<M> makes both of one function.
 //   void LayOverTile(const Shading&, const raster::PixelBox&, const float* depth, ShadeScratch&);
 //   void LayOverFragments(const Shading&, std::span<const EdgeFragment>, ShadeScratch&);
-//   // Before what water mirrors, or an eye in it sees through the surface, on a way from the sea;
-//   // if it has one.
-//   V3 Beyond(const Shading&, const AirWay&, V3 light);
-
+//   V3 Beyond(const Shading&, const AirWay&, V3 light);  // if it has one
+// The Lay functions lay it before what a tile of the window shows, whose light stands in the
+// scratch; depth is the tile's, or null for open sky. LaidByPixel<M> makes both of one function.
+// Beyond() is for what water mirrors, or an eye in it sees through the surface, on a way from the
+// sea.
 #if defined(SWELL_RENDER_TILE_MEDIA_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_TILE_MEDIA_INL_H_
 #undef SWELL_RENDER_TILE_MEDIA_INL_H_
