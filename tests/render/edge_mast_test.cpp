@@ -77,7 +77,7 @@ class Mast : public testing::TestWithParam<double> {
     }
   }
 
-  World without_{plain_scene()}, with_{mast_scene()};
+  World without_ = world_of(plain_scene()), with_ = world_of(mast_scene());
 
   // The brightness that the mast adds to each pixel of the finished picture, in that of a pixel all
   // mast.

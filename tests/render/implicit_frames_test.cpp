@@ -73,7 +73,7 @@ scene::FloatingObject ball(scene::ObjectKind kind, const ScratchFolder& folder) 
 Target draw_with(const std::vector<scene::FloatingObject>& objects, scene::Scene scene,
                  const FrameOptions& options = few_triangles()) {
   scene.objects = objects;
-  return small_shot(World(scene), 1.0, options).target;
+  return small_shot(world_of(scene), 1.0, options).target;
 }
 
 // The ball of triangles has 24 sides.
@@ -121,7 +121,7 @@ TEST(ImplicitFrames, LabelsKnowThem) {
   const ScratchFolder folder;
   scene::Scene scene = calm_scene();
   scene.objects = {ball(scene::ObjectKind::kImplicit, folder)};
-  const World world(scene);
+  const World world = world_of(scene);
   FrameOptions options = few_triangles();
   for (const Label label : {Label::kId, Label::kDepth, Label::kGeometricNormal})
     options.labels.add(label);
@@ -153,7 +153,7 @@ TEST(ImplicitFrames, MotionTakesTurningPartsAlong) {
                  .string();
   arm.draught = 0.0;
   scene.objects = {arm};
-  const World world(scene);
+  const World world = world_of(scene);
   FrameOptions options = {.water_triangles = 4000, .next_frame_s = kStep_s};
   options.labels.add(Label::kId), options.labels.add(Label::kMotion);
   const Shot now = small_shot(world, 2.0, options),

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "ocean/sea_state.h"
+#include "ocean/water_surface.h"
 #include "render/drawn_water.h"
 
 namespace swell::render {
@@ -29,7 +30,7 @@ std::array<int, 4> bytes_of(std::uint64_t quad, int channel) {
 // PER-05: the four codes of a bilinear sample lie in one 32-bit half of a word, and give the same
 // bits as four texels one by one, over the seam as well; and they are the map's slopes.
 TEST(MapWaves, OneWordHasAllThatABilinearSampleNeeds) {
-  const World world(lake_scene());
+  const World world = world_of(lake_scene());
   const DrawnWater drawn(world, 3.0);
   const ocean::SeaFrame& frame = drawn.state().sea.frame;
   ASSERT_EQ(frame.patches.size(), 7u);
@@ -64,7 +65,7 @@ TEST(MapWaves, OneWordHasAllThatABilinearSampleNeeds) {
 TEST(MapWaves, CanBeLeftOut) {
   scene::Scene scene = lake_scene();
   scene.detail.triangulation = scene::Triangulation::kRoam;
-  const World world(scene);
+  const World world = world_of(scene);
   DrawnWater drawn;
   drawn.draw(world, view_of(world, 3.0, 64, 48), 3.0, {.without = {Part::kMaps}});
   EXPECT_TRUE(drawn.state().sea.frame.patches.empty());
@@ -76,7 +77,7 @@ TEST(MapWaves, CanBeLeftOut) {
 
 // What the eye sees of slopes is on the whole what a wind raises, maps and ripples together.
 TEST(MapWaves, RipplesFillWhatTheMapsLeaveOfTheWindsSlopes) {
-  const World world(lake_scene());
+  const World world = world_of(lake_scene());
   const DrawnWater drawn(world, 0.0);
   double variance = drawn.water().base_variance;
   for (int i = 0; i < drawn.water().layer_count; ++i) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "math/simd_target.h"
-#include "render/frame.h"
+#include "render/shot.h"
 #include "render/world/world_view.h"
 #include "scene/scene.h"
 
@@ -65,7 +65,7 @@ std::uint64_t hash_of(const World& world, double t_s, const Way& way, Workspace&
 }
 
 TEST_P(EverySceneFile, IsTheSamePictureHoweverItIsDrawn) {
-  const World world(scene::load_scene(GetParam()));
+  const World world = world_of(scene::load_scene(GetParam()));
   // One workspace goes through all ways and times, the reference has one of its own.
   Workspace workspace, reference_workspace;
   Target target;

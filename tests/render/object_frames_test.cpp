@@ -63,9 +63,9 @@ TEST(ObjectFrames, APoseOfTheCallersIsThatOfAFixedObjectThere) {
   scene.objects[1].motion = scene::Motion::kFixed;
   scene.objects[1].height_m = 0.3;
   scene.objects[1].heading_rad = scene::radians(70.0);
-  const World there(scene);
+  const World there = world_of(scene);
   scene.objects[1].position_m = {4000.0, 500.0};
-  const World elsewhere(scene);
+  const World elsewhere = world_of(scene);
   Drawn expected(there), given(elsewhere);
   const double c = std::cos(scene::radians(70.0)), s = std::sin(scene::radians(70.0));
   const scene::GivenPose pose{
@@ -84,7 +84,7 @@ TEST(ObjectFrames, APoseOfTheCallersIsThatOfAFixedObjectThere) {
 TEST(ObjectFramesDeathTest, PosesThatAreNoneAreRefused) {
   scene::Scene scene = scene_of_calm_objects();
   scene.objects = {object_of(scene::ObjectKind::kBoat, {0.0, 0.0})};
-  const World world(scene);
+  const World world = world_of(scene);
   const auto expect_refused = [&](const scene::GivenPose& pose, const char* text) {
     EXPECT_DEATH(Drawn(world).draw(0.0, {.poses = {&pose, 1}}), text);
     EXPECT_DEATH(Drawn(world).draw(0.0, {.next_poses = {&pose, 1}}), text);
@@ -104,7 +104,7 @@ TEST(ObjectFrames, AnObjectOnAPathIsWhereItsTimeSays) {
   scene.objects = {object_of(scene::ObjectKind::kSailboat, {0.0, 0.0})};
   scene.objects[0].path_m = {{-30.0, 20.0}, {30.0, 20.0}};
   scene.objects[0].path_closed = false;
-  const World world(scene);
+  const World world = world_of(scene);
   Drawn drawn(world);
   drawn.draw(3.0);
   const std::uint64_t later = drawn.draw(10.0);
@@ -135,7 +135,7 @@ scene::Scene crowd(int count) {
 }
 
 TEST(ObjectFrames, AThousandObjectsAreDrawnTheSameInEveryWay) {
-  const World world(crowd(1000));
+  const World world = world_of(crowd(1000));
   Drawn drawn(world);
   const std::uint64_t hash = drawn.draw(4.0);
   const auto& geometry = drawn.state().meshes.objects;
@@ -161,7 +161,7 @@ TEST(ObjectFrames, PicksAreTheNearestOfAllTriangles) {
     scene.objects[i].position_m = place;
     scene.objects[i].at_file_origin = i % 2 == 0;
   }
-  const World world(scene);
+  const World world = world_of(scene);
   Drawn drawn(world);
   drawn.draw(3.0);
   const auto& geometry = drawn.state().meshes.objects.in_window();
@@ -204,7 +204,7 @@ TEST(ObjectFrames, LabelsNameTheObjectOfAFile) {
   scene::Scene scene = scene_of_calm_objects();
   scene.objects = {mesh_of(file)};
   scene.objects[0].label = "barge";
-  const World world(scene);
+  const World world = world_of(scene);
   EXPECT_NEAR(world.scene().objects[0].size_m.z, 9.0, 1e-6);
   Drawn drawn(world);
   FrameOptions options;
@@ -237,7 +237,7 @@ TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
   scene.sky.sun_direction = {0.0f, -0.8660254f, 0.5f};
   scene.objects = {mesh_of(folder / "wall.obj")};
   scene.objects[0].draught = 0.0;
-  const World world(scene);
+  const World world = world_of(scene);
   Drawn drawn(world);
   // The wall's middle is at the picture's; a quarter is 3 m off, 40 m away.
   const int off = static_cast<int>(0.5 * kHeight / std::tan(0.5 * scene.camera.fov_y_rad) * 3 / 40);
@@ -277,7 +277,7 @@ TEST(ObjectFrames, ASurfaceWithoutABackIsSeenFromBothSides) {
     scene.objects = {mesh_of(file)};
     scene.objects[0].draught = 0.0;
     scene.objects[0].colour = glm::vec3(0.5f);
-    const World world(scene);
+    const World world = world_of(scene);
     Drawn drawn(world);
     drawn.draw(0.0, {.keep_linear = true});
     seen[turned] = drawn.linear(kWidth / 2, kHeight / 2 - 12);

@@ -77,7 +77,7 @@ LooseTriangles closed_mesh(int rows, const Point& point) {
 
 TEST(SelfShadow, AWallShadesThePlateThatItStandsOn) {
   for (const double elevation_deg : {30.0, 60.0}) {
-    const World world(scene_of("wall", plate_with_wall(), elevation_deg));
+    const World world = world_of(scene_of("wall", plate_with_wall(), elevation_deg));
     const View view = make_view({0.0, 0.0, 60.0}, 0.0, -0.5 * kPi, scene::radians(26.0), 0.25f,
                                 kWidth_px, kHeight_px);
     const Shot with(world, view, 1.0, linear());
@@ -116,7 +116,7 @@ TEST(SelfShadow, ABallHasNone) {
     return 6.0f * glm::vec3(up.sin * around.cos, up.sin * around.sin, up.cos);
   });
   for (const double elevation_deg : {10.0, 45.0}) {
-    const World world(scene_of("ball", ball, elevation_deg));
+    const World world = world_of(scene_of("ball", ball, elevation_deg));
     const View view = make_view({25.0, -25.0, 12.0}, scene::radians(-45.0), scene::radians(-8.0),
                                 scene::radians(30.0), 0.25f, kWidth_px, kHeight_px);
     const Shot with(world, view, 1.0, linear());
@@ -169,7 +169,7 @@ TEST(ObjectLevels, AFlightTowardsAMeshShowsNoChangeOfLevel) {
   scene::Scene scene = scene_of("body", body, 30.0);
   scene.objects[0].draught = 0.2;
   scene.objects[0].height_m = 0.0;
-  const World world(scene);
+  const World world = world_of(scene);
   Shot film;
   std::vector<double> changes;
   std::vector<bool> is_new_level;

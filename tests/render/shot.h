@@ -12,6 +12,7 @@
 
 #include "render/workspace.h"
 #include "scene/camera.h"
+#include "scene/sky.h"
 
 namespace swell::render {
 
@@ -26,14 +27,6 @@ inline scene::Scene load_shipped(std::string_view name) {
   return scene;
 }
 
-// Its world, made once: drawing does not change it.
-inline const World& shipped_world(std::string_view name) {
-  static std::map<std::string, World, std::less<>> worlds;
-  const auto found = worlds.find(name);
-  if (found != worlds.end()) return found->second;
-  return worlds.emplace(name, World(load_shipped(name))).first->second;
-}
-
 // A world made like that of the last few whose scenes share most with this one: sooner, the same
 // bits (FrameBits.AWorldMadeLikeAnotherDrawsTheSamePicture). Not for scenes whose files change.
 inline World world_of(const scene::Scene& scene) {
@@ -41,14 +34,24 @@ inline World world_of(const scene::Scene& scene) {
   static std::vector<World> kept;                  // the last one first
   const auto likeness = [&](const World& world) {  // by the time that each part takes to make
     const scene::Scene& like = world.scene();
-    return 4 * (like.sky == scene.sky) + 4 * (like.terrain == scene.terrain) +
-           2 * (like.sea == scene.sea) + (like.clouds == scene.clouds);
+    const bool same_air = like.sky.turbidity == scene.sky.turbidity &&
+                          is_gradient(like.sky) == is_gradient(scene.sky);
+    return 8 * (like.terrain == scene.terrain) + 6 * same_air + 4 * (like.sea == scene.sea) +
+           2 * (like.sky == scene.sky) + 2 * (like.clouds == scene.clouds);
   };
   const auto like = std::ranges::max_element(kept, {}, likeness);
   World world = like == kept.end() ? World(scene) : World(scene, *like, available_cpus());
   kept.emplace(kept.begin(), scene, world, 1);
   if (kept.size() > kKept) kept.pop_back();
   return world;
+}
+
+// A shipped scene's world, made once: drawing does not change it.
+inline const World& shipped_world(std::string_view name) {
+  static std::map<std::string, World, std::less<>> worlds;
+  const auto found = worlds.find(name);
+  if (found != worlds.end()) return found->second;
+  return worlds.emplace(name, world_of(load_shipped(name))).first->second;
 }
 
 // Through the scene's own camera.

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "render/shot.h"
+#include "render/world/forest.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {
@@ -16,7 +18,7 @@ constexpr int kWide = 192, kHigh = 112, kTriangles = 3000;
 
 // Hills with woods, seen from the sea and from above.
 const World& coarse_hills() {
-  static const World world(scene::parse_scene(R"(
+  static const World world = world_of(scene::parse_scene(R"(
     [camera]
     eye_m = [0.0, -260.0, 6.0]
     fov_y_deg = 40.0
@@ -35,7 +37,7 @@ const World& coarse_hills() {
     density_per_m2 = 0.02
     height_m = [6.0, 14.0]
 )",
-                                              "coarse_hills.toml"));
+                                                         "coarse_hills.toml"));
   return world;
 }
 

@@ -106,7 +106,7 @@ TEST_P(MarksOfTrees, ASmallTreeOfAWoodIsMarkedAgainstTheSkyButNoTree) {
 
 // An island of trees of 12 m, seen so that they are 20 pixels high.
 World island_of_trees(double density_per_m2) {
-  return World(scene::parse_scene(R"(
+  return world_of(scene::parse_scene(R"(
     [camera]
     eye_m = [0.0, -330.0, 120.0]
     [terrain]
@@ -116,7 +116,7 @@ World island_of_trees(double density_per_m2) {
     clumping = 0.0
     height_m = [11.9, 12.0]
     density_per_m2 = )" + std::to_string(density_per_m2),
-                                  "island_of_trees.toml"));
+                                     "island_of_trees.toml"));
 }
 
 // Returns which part of pixel pairs where trees meet land is smooth: either pixel has fragments.

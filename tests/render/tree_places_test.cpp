@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "ocean/inland_water.h"
 #include "render/lake_and_river.h"
+#include "render/shot.h"
 #include "render/world/forest.h"
 #include "render/world/world_state.h"
 #include "scene/scene.h"
@@ -32,7 +34,7 @@ TEST(TreesOfScenes, StandBesideRiversAndNeitherInNorByLakes) {
     ground_m = [0.0, 100.0]
 )",
                          "banks.toml");
-  const World world(scene);
+  const World world = world_of(scene);
   const scene::Water water(scene);
   const terrain::Trees& trees = world.state().forest->trees;
   int by_the_river = 0, on_land = 0;
