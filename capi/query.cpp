@@ -5,6 +5,8 @@
 #include "capi/camera.h"
 #include "capi/disturbances.h"
 #include "capi/handles.h"
+#include "ocean/sea.h"
+#include "ocean/water_surface.h"
 #include "render/world/sea_maps.h"
 #include "render/world/world_state.h"
 #include "terrain/height_grid.h"

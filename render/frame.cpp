@@ -9,9 +9,11 @@
 
 #include "math/check.h"
 #include "math/large_array.h"
+#include "ocean/water_surface.h"
 #include "raster/sample_pattern.h"
 #include "render/view/self_shadows.h"
 #include "render/workspace.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

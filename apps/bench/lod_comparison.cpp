@@ -7,6 +7,7 @@
 
 #include "apps/bench/frame_run.h"
 #include "lod/uniform_grid.h"
+#include "ocean/water_surface.h"
 #include "render/measure/mesh_error.h"
 #include "render/workspace.h"
 #include "scene/water.h"

@@ -6,6 +6,7 @@
 
 #include "render/view/draw_record.h"
 #include "render/view/implicits.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

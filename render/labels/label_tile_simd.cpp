@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "render/packets/packet-inl.h"
+#include "render/world/world_state.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,6 +1,8 @@
 #include "render/materials/canopy.h"
 
 #include "math/elementary.h"
+#include "render/world/forest.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

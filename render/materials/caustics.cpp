@@ -2,6 +2,7 @@
 
 #include "math/elementary.h"
 #include "render/packets/slope_layer.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 

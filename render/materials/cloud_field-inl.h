@@ -8,6 +8,8 @@
 
 #include "render/materials/cloud_rays-inl.h"
 #include "render/materials/cloud_volume-inl.h"
+#include "render/world/cloud_volume.h"
+#include "render/world/sky_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -8,6 +8,7 @@
 
 #include "render/materials/volume_clouds.h"
 #include "render/packets/packet-inl.h"
+#include "render/world/cloud_volume.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

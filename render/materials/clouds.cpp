@@ -7,6 +7,8 @@
 #include "math/smoothstep.h"
 #include "ocean/sea_state.h"
 #include "render/world/for_each_row.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 #include "scene/sky.h"
 #include "texture/perlin.h"
 

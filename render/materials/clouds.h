@@ -4,9 +4,9 @@
 #include <array>
 #include <glm/glm.hpp>
 
+#include "render/frame.h"
 #include "render/packets/slope_layer.h"
-#include "render/parts.h"
-#include "render/world/world_state.h"
+#include "render/world/sky_maps.h"
 
 namespace swell::scene {
 struct SkyLight;

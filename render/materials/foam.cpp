@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "math/elementary.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 

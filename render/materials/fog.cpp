@@ -5,6 +5,8 @@
 
 #include "math/elementary.h"
 #include "ocean/sea.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 #include "scene/fog.h"
 
 namespace swell::render {

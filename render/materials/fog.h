@@ -4,8 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "render/parts.h"
-#include "render/world/world_state.h"
+#include "render/frame.h"
 
 namespace swell::render {
 

@@ -8,6 +8,7 @@
 
 #include "render/materials/glitter.h"
 #include "render/packets/packet-inl.h"
+#include "render/world/sun_texture.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

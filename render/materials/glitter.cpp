@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "render/world/land_shadow.h"
+#include "render/world/sun_texture.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 

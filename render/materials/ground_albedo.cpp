@@ -1,6 +1,8 @@
 #include "render/materials/ground_albedo.h"
 
 #include "render/packets/slope_layer.h"
+#include "render/world/terrain_maps.h"
+#include "render/world/world_state.h"
 #include "terrain/apron.h"
 
 namespace swell::render {

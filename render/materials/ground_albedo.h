@@ -3,7 +3,8 @@
 
 #include <glm/glm.hpp>
 
-#include "render/world/world_state.h"
+#include "render/frame.h"
+#include "texture/packed_map.h"
 
 namespace swell::render {
 

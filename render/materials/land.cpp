@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "render/world/terrain_maps.h"
+#include "render/world/world_state.h"
+#include "terrain/height_grid.h"
+
 namespace swell::render {
 namespace {
 

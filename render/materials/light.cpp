@@ -5,6 +5,8 @@
 
 #include "math/elementary.h"
 #include "render/materials/ripples.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 #include "scene/sky.h"
 
 namespace swell::render {

@@ -8,7 +8,6 @@
 #include "render/materials/stars.h"
 #include "render/parts.h"
 #include "render/world/sky_frame.h"
-#include "render/world/world_state.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "ocean/inland_water.h"
 #include "render/materials/ripples.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

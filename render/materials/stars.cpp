@@ -2,6 +2,8 @@
 
 #include "math/elementary.h"
 #include "math/smoothstep.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 #include "scene/celestial.h"
 #include "scene/sky.h"
 

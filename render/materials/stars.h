@@ -3,8 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/parts.h"
-#include "render/world/world_state.h"
+#include "render/frame.h"
 
 namespace swell::render {
 

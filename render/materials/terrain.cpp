@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/sea.h"
 #include "ocean/sea_state.h"
 #include "ocean/swash.h"
+#include "render/world/land_shadow.h"
+#include "render/world/terrain_maps.h"
+#include "render/world/world_state.h"
 #include "terrain/apron.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/world/forest.h"
+#include "render/world/world_state.h"
+
 namespace swell::render {
 namespace {
 

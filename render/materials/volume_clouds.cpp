@@ -7,6 +7,9 @@
 #include "math/earth.h"
 #include "math/elementary.h"
 #include "ocean/sea_state.h"
+#include "render/world/cloud_volume.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

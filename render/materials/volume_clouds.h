@@ -4,9 +4,8 @@
 #include <glm/glm.hpp>
 
 #include "math/view.h"
-#include "render/parts.h"
+#include "render/frame.h"
 #include "render/world/cloud_volume.h"
-#include "render/world/world_state.h"
 
 namespace swell::render {
 

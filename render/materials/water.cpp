@@ -5,7 +5,11 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "ocean/coast.h"
+#include "ocean/sea.h"
+#include "ocean/water_surface.h"
 #include "render/materials/ripples.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "render/materials/foam.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

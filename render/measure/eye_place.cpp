@@ -1,6 +1,8 @@
 #include "render/measure/eye_place.h"
 
+#include "ocean/water_surface.h"
 #include "render/workspace.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 

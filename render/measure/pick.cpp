@@ -9,6 +9,8 @@
 #include "math/with_ieee.h"
 #include "ocean/water_surface.h"
 #include "render/workspace.h"
+#include "render/world/land_rays.h"
+#include "render/world/world_state.h"
 #include "scene/object_ray.h"
 #include "terrain/height_rays.h"
 

@@ -13,6 +13,7 @@
 //
 #include "render/materials/cloud_field-inl.h"
 #include "render/tile/air-inl.h"
+#include "render/world/sky_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

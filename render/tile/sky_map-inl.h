@@ -8,6 +8,7 @@
 
 #include "render/materials/light.h"
 #include "render/packets/packet-inl.h"
+#include "render/world/sky_maps.h"
 #include "texture/smooth_image-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,6 +9,7 @@
 #include "render/packets/square_map-inl.h"
 #include "render/tile/cloud_shadow-inl.h"
 #include "render/tile/shading_result-inl.h"
+#include "render/world/land_shadow.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "render/view/object_shadows.h"
+#include "render/world/forest.h"
+#include "render/world/land_shadow.h"
+#include "render/world/world_state.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

@@ -10,6 +10,7 @@
 #include "render/tile/shading.h"
 #include "render/view/land_paths.h"
 #include "render/world/land_rays.h"
+#include "render/world/world_state.h"
 #include "terrain/height_rays.h"
 
 namespace swell::render {

@@ -5,9 +5,12 @@
 #include <cstdint>
 
 #include "math/check.h"
+#include "ocean/sea.h"
+#include "ocean/water_surface.h"
 #include "render/quality/background.h"
 #include "render/view/render_view.h"
 #include "render/view/wave_reach.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/water_surface.h"
 #include "render/view/render_view.h"
 #include "render/view/wave_reach.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 

@@ -16,7 +16,6 @@
 #include "render/view/surfaces.h"
 #include "render/view/trees_drawn.h"
 #include "render/world/sea_maps.h"
-#include "render/world/world_state.h"
 #include "scene/object_mesh.h"
 #include "scene/objects.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/world/world_state.h"
+
 namespace swell::render {
 
 float most_px_per_m(glm::vec3 p_rel, float radius_m, const View& view) {

@@ -8,9 +8,13 @@
 #include "math/earth.h"
 #include "math/elementary.h"
 #include "math/smoothstep.h"
+#include "ocean/inland_water.h"
+#include "ocean/sea.h"
+#include "ocean/water_surface.h"
 #include "render/view/object_levels.h"
 #include "render/view/shadow_reach.h"
 #include "render/world/land_shadow.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

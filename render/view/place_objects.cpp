@@ -3,8 +3,11 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "ocean/water_surface.h"
 #include "render/view/object_levels.h"
 #include "render/view/refracted_image.h"
+#include "render/world/object_meshes.h"
+#include "render/world/world_state.h"
 #include "scene/implicit_mesh.h"
 
 namespace swell::render {

@@ -17,6 +17,7 @@
 #include "render/view/render_view.h"
 #include "render/view/tree_ground.h"
 #include "render/world/forest.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

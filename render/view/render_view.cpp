@@ -7,6 +7,7 @@
 #include "render/materials/list.h"
 #include "render/view/draw_record.h"
 #include "render/view/refracted_image.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 

@@ -21,6 +21,7 @@
 #include "render/view/implicits.h"
 #include "render/view/meshes.h"
 #include "render/view/surfaces.h"
+#include "render/world/land_rays.h"
 
 namespace swell::render {
 

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "ocean/inland_water.h"
 #include "render/materials/river.h"
 #include "render/view/meshes.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/view/object_levels.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "render/view/object_shadows.h"
 #include "render/view/shadow_reach.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

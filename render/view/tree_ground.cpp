@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lod/mesh_query.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

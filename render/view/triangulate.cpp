@@ -9,6 +9,7 @@
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
 #include "render/view/meshes.h"
+#include "render/world/world_state.h"
 #include "scene/fog.h"
 #include "terrain/apron.h"
 

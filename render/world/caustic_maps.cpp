@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/world/land_shadow.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
+#include "terrain/height_grid.h"
+
 namespace swell::render {
 namespace {
 

@@ -19,7 +19,6 @@
 #include "ocean/sea.h"
 #include "render/parts.h"
 #include "render/profile.h"
-#include "render/world/world_state.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "render/world/for_each_row.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 #include "scene/sky.h"
 
 namespace swell::render {

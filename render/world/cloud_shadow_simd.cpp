@@ -11,6 +11,7 @@
 //
 #include "render/materials/cloud_volume-inl.h"
 #include "render/materials/clouds-inl.h"
+#include "render/world/cloud_volume.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

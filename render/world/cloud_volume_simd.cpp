@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 //
 #include "render/materials/cloud_volume-inl.h"
+#include "render/world/sky_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,11 +1,16 @@
 // The map of what a shore does to the sea before it.
+#include "render/world/near_shore_map.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "math/elementary.h"
 #include "math/large_array.h"
+#include "ocean/sea.h"
+#include "ocean/shelter.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
+#include "terrain/shore_map.h"
 
 namespace swell::render {
 namespace {

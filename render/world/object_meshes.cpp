@@ -1,4 +1,6 @@
 // The shapes of a world's objects.
+#include "render/world/object_meshes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

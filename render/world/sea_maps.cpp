@@ -5,8 +5,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "ocean/sea.h"
 #include "ocean/sea_state.h"
 #include "ocean/wakes.h"
+#include "ocean/water_surface.h"
+#include "render/world/coast_maps.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {
@@ -173,6 +177,10 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
       texture::pack_map2(kCoastMapSize, world.coast_maps->ceded, sea.coast_foam, 1.0f / 127.0f,
                          sea.coast_surf);
   });
+}
+
+ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {
+  return water_surface(world, sea.frame);
 }
 
 }  // namespace swell::render

@@ -6,13 +6,17 @@
 #include <vector>
 
 #include "ocean/sea.h"
-#include "render/parts.h"
+#include "ocean/water_surface.h"
+#include "ocean/whitecaps.h"
 #include "render/profile.h"
 #include "render/world/caustic_maps.h"
 #include "render/world/ripple_sequence.h"
-#include "render/world/world_state.h"
 #include "texture/packed_map.h"
 #include "texture/uv_noise.h"
+
+namespace swell::ocean {
+class WaterSurface;
+}
 
 namespace swell::render {
 
@@ -57,8 +61,6 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
 FoamBlocks find_foam_blocks(const ocean::WhitecapFrame::Patch& patch);
 
 // The water's surface at the time of `sea`, of the same world.
-inline ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {
-  return water_surface(world, sea.frame);
-}
+ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea);
 
 }  // namespace swell::render

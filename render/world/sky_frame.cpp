@@ -4,6 +4,8 @@
 
 #include "math/elementary.h"
 #include "render/world/for_each_row.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 #include "scene/atmosphere.h"
 
 namespace swell::render {

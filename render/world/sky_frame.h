@@ -7,7 +7,7 @@
 #include "render/profile.h"
 #include "render/tile/cloud_picture.h"
 #include "render/world/cloud_shadow.h"
-#include "render/world/world_state.h"
+#include "render/world/sky_maps.h"
 
 namespace swell::render {
 

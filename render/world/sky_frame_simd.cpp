@@ -9,6 +9,7 @@
 //
 #include "render/materials/clouds-inl.h"
 #include "render/tile/fog-inl.h"
+#include "render/world/sky_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

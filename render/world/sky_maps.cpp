@@ -1,4 +1,6 @@
 // The sky as maps, exposed.
+#include "render/world/sky_maps.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>

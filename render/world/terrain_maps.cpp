@@ -1,4 +1,6 @@
 // The land's slopes and colours as maps over its square, and around it.
+#include "render/world/terrain_maps.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "math/with_ieee.h"
+#include "ocean/water_surface.h"
 #include "render/world/sea_maps.h"
+#include "render/world/world_state.h"
 #include "scene/camera.h"
 
 namespace swell::render {

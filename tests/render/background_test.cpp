@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "ocean/water_surface.h"
 #include "render/drawn_looks.h"
 
 namespace swell::render {

@@ -11,6 +11,7 @@
 
 #include "render/materials/cloud_field-inl.h"
 #include "render/tile/cloud_picture-inl.h"
+#include "render/world/sky_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -6,8 +6,11 @@
 #include <cstdlib>
 #include <vector>
 
+#include "ocean/water_surface.h"
 #include "render/measures.h"
 #include "render/shot.h"
+#include "render/world/world_state.h"
+#include "terrain/height_grid.h"
 #include "trials.h"
 
 namespace swell::render {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "ocean/water_surface.h"
 #include "render/labels/classes.h"
 #include "render/labels/label_channels.h"
 #include "render/measure/pick.h"

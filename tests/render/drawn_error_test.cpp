@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "lod/priority.h"
+#include "ocean/water_surface.h"
 #include "render/drawn_looks.h"
 
 namespace swell::render {

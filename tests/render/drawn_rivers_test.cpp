@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ocean/water_surface.h"
 #include "render/labels/classes.h"
 #include "render/labels/label_channels.h"
 #include "render/lake_and_river.h"
@@ -17,6 +18,7 @@
 #include "render/world/world_state.h"
 #include "scene/scene.h"
 #include "scene/water.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ocean/water_surface.h"
 #include "render/drawn_looks.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ocean/water_surface.h"
 #include "render/labels/label_channels.h"
 #include "render/shot.h"
 #include "render/view/meshes.h"

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "math/random.h"
+#include "ocean/water_surface.h"
 #include "render/shot.h"
+#include "render/world/world_state.h"
 #include "scratch_folder.h"
+#include "terrain/height_grid.h"
 #include "texture/image_io.h"
 
 namespace swell::render {

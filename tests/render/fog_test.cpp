@@ -7,6 +7,8 @@
 
 #include "render/linear_renderer.h"
 #include "render/measures.h"
+#include "render/world/sky_maps.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

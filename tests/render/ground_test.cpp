@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "render/labelled_frame.h"
+#include "render/world/world_state.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/ray_triangle.h"
+#include "ocean/water_surface.h"
 #include "render/labelled_frame.h"
 #include "scene/water.h"
 

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "ocean/water_surface.h"
 #include "render/labelled_frame.h"
+#include "render/world/world_state.h"
 #include "scene/water.h"
 
 namespace swell::render {

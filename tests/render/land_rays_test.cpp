@@ -13,6 +13,7 @@
 #include "render/view/land_paths.h"
 #include "render/view/refracted_image.h"
 #include "render/world/world_state.h"
+#include "terrain/height_grid.h"
 #include "terrain/height_rays.h"
 #include "terrain/terrain.h"
 

@@ -7,7 +7,9 @@
 #include "render/linear_renderer.h"
 #include "render/measures.h"
 #include "render/world/ground_cover.h"
+#include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

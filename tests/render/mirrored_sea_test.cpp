@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "constants.h"
+#include "ocean/water_surface.h"
 #include "render/drawn_water.h"
 #include "render/plain_sea.h"
 #include "render/shader_kernels.h"
+#include "render/world/sky_maps.h"
 #include "scene/sky.h"
 #include "texture/on_every_target.h"
 

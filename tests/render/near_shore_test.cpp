@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "render/labelled_frame.h"
+#include "render/world/near_shore_map.h"
 #include "render/world/world_state.h"
 #include "scratch_folder.h"
 #include "terrain/boundary.h"
+#include "terrain/height_grid.h"
 #include "texture/image_io.h"
 
 namespace swell::render {

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "math/simd_target.h"
+#include "ocean/water_surface.h"
 #include "render/drawn_water.h"
 #include "render/measures.h"
 #include "scene/sky.h"
+#include "terrain/height_grid.h"
 #include "texture/image_io.h"
 
 namespace swell::render {

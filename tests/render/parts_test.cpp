@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "render/labelled_frame.h"
+#include "render/world/world_state.h"
 #include "scene/sky.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

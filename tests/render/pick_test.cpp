@@ -8,7 +8,9 @@
 #include <optional>
 #include <set>
 
+#include "ocean/water_surface.h"
 #include "render/shot.h"
+#include "render/world/world_state.h"
 #include "scene/water.h"
 
 namespace swell::render {

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "render/shot.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

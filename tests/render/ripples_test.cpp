@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ocean/water_surface.h"
 #include "render/drawn_water.h"
 
 namespace swell::render {

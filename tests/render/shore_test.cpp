@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "render/labelled_frame.h"
+#include "render/world/terrain_maps.h"
+#include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {

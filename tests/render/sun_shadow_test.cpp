@@ -9,6 +9,7 @@
 #include "render/shot.h"
 #include "scene/object_ray.h"
 #include "scene/sky.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

@@ -15,6 +15,8 @@
 #include "render/measures.h"
 #include "render/shot.h"
 #include "render/view/choose_trees.h"
+#include "render/world/forest.h"
+#include "render/world/world_state.h"
 #include "scene/sky.h"
 #include "scene/terrain.h"
 

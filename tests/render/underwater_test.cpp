@@ -8,8 +8,11 @@
 
 #include "constants.h"
 #include "math/random.h"
+#include "ocean/water_surface.h"
 #include "render/shot.h"
+#include "render/world/world_state.h"
 #include "scene/scene.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

@@ -10,8 +10,10 @@
 
 #include "math/random.h"
 #include "math/simd_target.h"
+#include "ocean/water_surface.h"
 #include "render/drawn_water.h"
 #include "render/optics_kernels.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

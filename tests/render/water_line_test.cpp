@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ocean/water_surface.h"
 #include "render/labelled_frame.h"
 #include "scene/water.h"
 #include "terrain/height_grid.h"

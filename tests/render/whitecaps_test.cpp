@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "ocean/water_surface.h"
 #include "render/labelled_frame.h"
 #include "render/world/sea_maps.h"
 #include "scene/sky.h"

@@ -1,8 +1,13 @@
 // A World is the same bits on any number of threads.
 #include <gtest/gtest.h>
 
+#include "ocean/whitecaps.h"
 #include "render/shot.h"
+#include "render/world/coast_maps.h"
+#include "render/world/sky_maps.h"
+#include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"
+#include "terrain/height_grid.h"
 
 namespace swell::render {
 namespace {

@@ -7,6 +7,7 @@
 #include "apps/view/eye_floor.h"
 #include "apps/view/viewer.h"
 #include "scene/water.h"
+#include "terrain/height_grid.h"
 #include "viewer_harness.h"
 
 namespace swell::view {

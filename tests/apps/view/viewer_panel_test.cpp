@@ -12,6 +12,7 @@
 #include "apps/shared/picture_file.h"
 #include "apps/view/viewer.h"
 #include "scratch_folder.h"
+#include "terrain/height_grid.h"
 #include "texture/image_io.h"
 #include "viewer_harness.h"
 
