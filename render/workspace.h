@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "render/frame.h"
-#include "render/labels/label_tables.h"
+#include "render/picture/label_tables.h"
+#include "render/picture/planar_maps.h"
+#include "render/picture/shade_picture.h"
 #include "render/profile.h"
 #include "render/quality/enlarge.h"
-#include "render/tile/shade_picture.h"
 #include "render/view/crossing.h"
 #include "render/view/meshes.h"
-#include "render/view/planar_maps.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
 #include "render/world/sea_maps.h"

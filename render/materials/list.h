@@ -31,9 +31,8 @@ using Materials = std::tuple<  //
 
 inline constexpr std::size_t kMaterialCount = std::tuple_size_v<Materials>;
 
-constexpr bool has_material(SurfaceKind surface) {
-  return []<class... M>(SurfaceKind s, std::tuple<M...>*) { return ((M::kSurface == s) || ...); }(
-             surface, static_cast<Materials*>(nullptr));
-}
+// Stage 3: which kinds of surface have a material, the triangles that materials place themselves,
+// and their vertices in the views.
+void place_surfaces(const PlaceInputs& in, Meshes& meshes, FrameViews views);
 
 }  // namespace swell::render

@@ -17,9 +17,7 @@ namespace swell::render {
 // Ripples are carried by the flow for this long, then begin anew where they began.
 inline constexpr double kCarried_s = 1.5;
 
-// Water of rivers and lakes shows an image that is mirrored in another level all the same: all of
-// it up to half a metre off, nothing from two metres on.
-inline constexpr float kMirrorFull_m = 0.5f, kMirrorGone_m = 2.0f;
+// How fast they lose the image of another level.
 inline constexpr float kMirrorFall_per_m = 1.0f / (kMirrorGone_m - kMirrorFull_m);
 
 // How much, of a level so far off.

@@ -10,8 +10,8 @@
 #include <array>
 #include <span>
 
-#include "render/labels/keep_labels-inl.h"
 #include "render/tile/attenuate-inl.h"
+#include "render/tile/keep_labels-inl.h"
 #include "render/tile/listed_packets-inl.h"
 #include "render/tile/material_units-inl.h"
 #include "render/tile/shafts-inl.h"

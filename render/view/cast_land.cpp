@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "render/tile/shading.h"
+#include "render/packets/view_rays.h"
 #include "render/view/land_paths.h"
 #include "render/world/land_rays.h"
 #include "render/world/world_state.h"

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "render/tile/shading.h"
+#include "render/packets/view_rays.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {

@@ -107,6 +107,10 @@ struct RiverMesh {
   float mirror_share = 0.0f;  // how much of that image shows: less where little is in view
 };
 
+// Water of rivers and lakes shows an image that is mirrored in another level all the same: all of
+// it up to half a metre off, nothing from two metres on.
+inline constexpr float kMirrorFull_m = 0.5f, kMirrorGone_m = 2.0f;
+
 // The triangles of a kind that its material places (materials/list.h).
 struct PlacedSurface {
   std::vector<std::uint32_t> indices;  // 3 per triangle
@@ -122,6 +126,7 @@ struct Meshes {
   RiverMesh rivers;
   TreeGeometry trees;
   EnumTable<SurfaceKind, PlacedSurface> placed;
+  EnumTable<SurfaceKind, bool> has_material = {};  // others are not drawn
 };
 
 // Stage 2: the cells of rivers and lakes that the view may show, joined where they are small in it.

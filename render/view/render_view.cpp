@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "math/check.h"
-#include "render/materials/list.h"
 #include "render/view/draw_record.h"
 #include "render/view/refracted_image.h"
 #include "render/world/world_state.h"
@@ -120,7 +119,7 @@ void prepare_view_pass(const Meshes& meshes, int tile_size_px, int edge_samples,
   std::array<raster::Draw, kSurfaceKinds> draws;
   for (const SurfaceKind s : kAllSurfaces) {
     DrawRecord& record = view.draws[s] = {};
-    if (!shows(view.kind, s) || !has_material(s)) continue;
+    if (!shows(view.kind, s) || !meshes.has_material[s]) continue;
     record = draw_record(meshes, s, view.kind);
     record.is_cast = s == SurfaceKind::kTerrain && view.land;
     triangles[static_cast<std::size_t>(s)] =

@@ -26,7 +26,6 @@
 namespace swell::render {
 
 struct LandRays;
-struct PlaceInputs;
 
 // A surface's vertices in a view.
 struct ViewVertices {
@@ -154,9 +153,6 @@ void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
 void place_objects(const World::State& world, const SeaMaps& sea,
                    std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
                    const StageRun& run);
-
-// Stage 3: the triangles that materials place themselves, and their vertices in the views.
-void place_surfaces(const PlaceInputs& in, Meshes& meshes, FrameViews views);
 
 // Stage 3: the trees that views may show, as they sway at t_s, and their vertices in the views. On
 // the ground that is drawn where that has fewer triangles than the scene asks for.

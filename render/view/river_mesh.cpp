@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "ocean/inland_water.h"
-#include "render/materials/river.h"
 #include "render/view/meshes.h"
 #include "render/world/world_state.h"
 

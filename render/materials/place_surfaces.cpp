@@ -1,13 +1,13 @@
 #include <tuple>
 
 #include "render/materials/list.h"
-#include "render/view/render_view.h"
 
 namespace swell::render {
 namespace {
 
 template <class M>
 void place_surface(const PlaceInputs& in, Meshes& meshes, FrameViews views) {
+  meshes.has_material[M::kSurface] = true;
   if constexpr (requires(PlacedSurface & surface) { M::place(in, surface); }) {
     PlacedSurface& surface = meshes.placed[M::kSurface];
     M::place(in, surface);

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "render/labels/label_tables.h"
 #include "render/labels/labels.h"
 #include "render/labels/shaded_labels.h"
+#include "render/picture/label_tables.h"
 #include "render/tile/shading.h"
 
 namespace swell::render {

@@ -1,4 +1,4 @@
-#include "render/tile/shade_picture.h"
+#include "render/picture/shade_picture.h"
 
 namespace swell::render {
 namespace {

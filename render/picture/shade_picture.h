@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "render/frame.h"
-#include "render/labels/label_tile.h"
+#include "render/picture/label_tile.h"
+#include "render/picture/planar_maps.h"
 #include "render/view/crossing.h"
-#include "render/view/planar_maps.h"
 
 namespace swell::render {
 

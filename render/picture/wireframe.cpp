@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "raster/interpolate.h"
-#include "render/tile/shade_picture.h"
+#include "render/picture/shade_picture.h"
 
 namespace swell::render {
 namespace {

@@ -3,11 +3,11 @@
 #include <limits>
 
 #include "math/check.h"
-#include "render/labels/label_tile.h"
+#include "render/picture/label_tile.h"
 #include "render/world/land_rays.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/labels/label_tile_simd.cpp"
+#define HWY_TARGET_INCLUDE "render/picture/label_tile_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,4 +1,4 @@
-#include "render/tile/crossed_tile.h"
+#include "render/picture/crossed_tile.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "render/view/planar_maps.h"
+#include "render/picture/planar_maps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/labels/label_tables.h"
+#include "render/picture/label_tables.h"
 
 #include <algorithm>
 #include <array>
