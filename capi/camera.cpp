@@ -5,7 +5,7 @@
 
 #include "capi/call.h"
 #include "math/elementary.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "scene/camera.h"
 
 namespace swell::capi {

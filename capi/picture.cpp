@@ -9,7 +9,7 @@
 #include "capi/handles.h"
 #include "render/labels/label_channels.h"
 #include "render/labels/labels.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::capi {
 namespace {

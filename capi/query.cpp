@@ -7,7 +7,7 @@
 #include "capi/handles.h"
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
-#include "render/world/sea_maps.h"
+#include "render/sea/sea_maps.h"
 #include "render/world/world_state.h"
 #include "terrain/height_grid.h"
 

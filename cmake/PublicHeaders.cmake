@@ -9,7 +9,7 @@ set(swell_entry_headers
   raster/pass.h
   scene/object_ray.h scene/objects.h scene/scene.h scene/settings.h scene/terrain.h scene/water.h
   render/frame.h render/measure/eye_place.h render/measure/mesh_error.h render/measure/pick.h
-  render/quality/governor.h render/world/world_view.h)
+  render/quality/governor.h render/world_view.h)
 
 # swell_find_public_headers(OUT SOURCE_FOLDER)
 # The entry headers and all that they reach by #include "...", as paths from the source folder.

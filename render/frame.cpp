@@ -11,6 +11,7 @@
 #include "math/large_array.h"
 #include "ocean/water_surface.h"
 #include "raster/sample_pattern.h"
+#include "render/materials/ripples.h"
 #include "render/view/self_shadows.h"
 #include "render/workspace.h"
 #include "render/world/world_state.h"
@@ -194,7 +195,7 @@ Air find_air(const FrameInputs& in) {
 }
 
 Light find_light(const FrameInputs& in, const Air& air) {
-  Light light = make_light(in.world, air.clouds, in.ws.sky, air.fog);
+  Light light = make_light(in.world, air.clouds, in.ws.sky, air.fog, base_variance(in.world.scene));
   light.stars = make_stars(in.world, in.t_s, in.options.without);
   return light;
 }

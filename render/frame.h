@@ -5,7 +5,7 @@
 //   swell::render::Workspace workspace;
 //   swell::render::Target target;
 //   swell::ocean::SeaFrame sea;
-//   const auto view = world_view(world, t_s, 1280, 720, sea, workers);  // world/world_view.h
+//   const auto view = world_view(world, t_s, 1280, 720, sea, workers);  // world_view.h
 //   swell::render::render_frame(world, view, t_s, {}, workspace, target, workers);
 //   // target.rgba: 1280 * 720 pixels, R in the low byte
 #pragma once

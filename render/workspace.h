@@ -11,12 +11,12 @@
 #include "render/picture/shade_picture.h"
 #include "render/profile.h"
 #include "render/quality/enlarge.h"
+#include "render/sea/sea_maps.h"
+#include "render/sky/sky_frame.h"
 #include "render/view/crossing.h"
 #include "render/view/meshes.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
-#include "render/world/sea_maps.h"
-#include "render/world/sky_frame.h"
 
 namespace swell::render {
 

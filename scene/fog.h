@@ -1,6 +1,6 @@
 // Light in a layer of fog over the sea, by optical depth: what a way through it loses, and what it
 // scatters to the eye of the light of the sun, each time from one direction, and of that of the
-// sky. The renderer's kernels (render/tile/fog-inl.h) follow the same forms.
+// sky. The renderer's kernels (render/sky/fog-inl.h) follow the same forms.
 //
 // Source: R. V. Klassen, Modeling the effect of the atmosphere on light, 1987 (two sources, the sun
 // and the sky); J. F. Blinn, Light reflection functions for simulation of clouds and dusty

@@ -23,7 +23,7 @@
 #include "math/simd_target.h"
 #include "render/frame.h"
 #include "render/quality/governor.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::apps {
 namespace {

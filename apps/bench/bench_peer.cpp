@@ -18,7 +18,7 @@
 #include "apps/shared/picture_file.h"
 #include "apps/shared/report.h"
 #include "math/simd_target.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::apps {
 namespace {

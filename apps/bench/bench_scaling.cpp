@@ -10,7 +10,7 @@
 #include "apps/bench/scaling_report.h"
 #include "apps/bench/work_record.h"
 #include "apps/shared/report.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::apps {
 namespace {

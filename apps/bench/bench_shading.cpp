@@ -8,7 +8,7 @@
 #include "apps/bench/shading_report.h"
 #include "math/check.h"
 #include "render/workspace.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/bench/frame_run.h"
 #include "apps/shared/report.h"
 #include "math/check.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "scene/objects.h"
 
 namespace swell::apps {

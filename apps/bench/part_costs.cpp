@@ -7,7 +7,7 @@
 #include "apps/shared/notices.h"
 #include "apps/shared/report.h"
 #include "math/simd_target.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::apps {
 namespace {

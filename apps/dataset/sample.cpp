@@ -8,7 +8,7 @@
 #include "apps/shared/json.h"
 #include "apps/shared/label_file.h"
 #include "apps/shared/picture_file.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "scene/settings.h"
 #include "texture/image_io.h"
 

@@ -13,7 +13,7 @@
 #include "apps/shared/program.h"
 #include "apps/shared/progress.h"
 #include "render/frame.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "scene/settings.h"
 
 namespace swell::apps {

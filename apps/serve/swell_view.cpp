@@ -10,7 +10,7 @@
 #include "apps/shared/picture_file.h"
 #include "apps/shared/program.h"
 #include "apps/view/viewer.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "scene/settings.h"
 
 namespace swell::serve {

@@ -12,7 +12,7 @@
 #include "math/elementary.h"
 #include "math/simd_target.h"
 #include "ocean/sea_scale.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::view {
 namespace {

@@ -1,6 +1,6 @@
 // Draws a scene into a PNG file: embed SCENE.toml PICTURE.png
 #include <render/frame.h>
-#include <render/world/world_view.h>
+#include <render/world_view.h>
 #include <texture/image_io.h>
 
 int main(int argc, char** argv) {

@@ -3,10 +3,10 @@
 
 #include <limits>
 
-#include "render/materials/light.h"
 #include "render/parts.h"
+#include "render/sea/sea_maps.h"
+#include "render/sky/light.h"
 #include "render/view/render_view.h"
-#include "render/world/sea_maps.h"
 
 namespace swell::render {
 

@@ -15,7 +15,7 @@
 #include "render/materials/terrain.h"
 #include "render/materials/topside-inl.h"
 #include "render/packets/fresnel-inl.h"
-#include "render/tile/fog-inl.h"
+#include "render/sky/fog-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/through_water-inl.h"
 

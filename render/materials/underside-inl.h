@@ -8,7 +8,7 @@
 #endif
 
 #include "render/materials/topside-inl.h"
-#include "render/tile/fog-inl.h"
+#include "render/sky/fog-inl.h"
 #include "render/tile/sky-inl.h"
 #include "render/tile/through_water-inl.h"
 

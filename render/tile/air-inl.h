@@ -9,9 +9,9 @@
 #include <algorithm>
 
 #include "render/packets/packet-inl.h"
-#include "render/tile/fog-inl.h"
+#include "render/sky/fog-inl.h"
+#include "render/sky/sky_map-inl.h"
 #include "render/tile/shading.h"
-#include "render/tile/sky_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

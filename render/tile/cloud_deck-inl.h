@@ -6,7 +6,7 @@
 #define SWELL_RENDER_TILE_CLOUD_DECK_INL_H_
 #endif
 
-#include "render/materials/clouds-inl.h"
+#include "render/sky/clouds-inl.h"
 #include "render/tile/air-inl.h"
 #include "render/tile/medium-inl.h"
 

@@ -50,15 +50,4 @@ void draw_clouds(const Shading& shading, const VolumeClouds& clouds, float pictu
   in_rows(4, [&](int j) { write_fine_clouds(shading, clouds, j, picture); });
 }
 
-void draw_cloud_sky(const VolumeClouds& clouds, const CloudAir& air, CloudSky& sky,
-                    const StageRun& run) {
-  sky.any = clouds.any();
-  if (!sky.any) return;
-  for (std::vector<float>& channel : sky.texels)
-    channel.resize(static_cast<std::size_t>(CloudSky::kSide) * CloudSky::kSide);
-  run.for_each(CloudSky::kSide, [&](std::size_t y, int) {
-    write_cloud_sky_row(clouds, air, static_cast<int>(y), sky);
-  });
-}
-
 }  // namespace swell::render

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/materials/volume_clouds.h"
 #include "render/profile.h"
+#include "render/sky/volume_clouds.h"
 
 namespace swell::render {
 
@@ -41,24 +41,5 @@ struct CloudPicture {
 // drawn; where it will be enlarged, nodes lie as many of its pixels apart as in one of full size.
 void draw_clouds(const Shading& shading, const VolumeClouds& clouds, float picture_scale,
                  CloudPicture& picture, const StageRun& run);
-
-// The clouds over the sea as the blurred sky shows them (SkyMaps::soft): texels of kSide^2, of
-// light and of the part that passes.
-struct CloudSky {
-  static constexpr int kSide = 64;
-  bool any = false;
-  static constexpr std::size_t kChannels = 4, kOpacity = 3;
-  std::array<std::vector<float>, kChannels> texels;
-};
-
-// clouds: as seen from the sea's level under the eye. horizon, inv_haze_m, inv_haze_height_m:
-// colour and density of the haze that far clouds are lost in.
-struct CloudAir {
-  glm::vec3 horizon{0.0f};
-  float inv_haze_m = 0.0f, inv_haze_height_m = 0.0f;
-};
-void draw_cloud_sky(const VolumeClouds& clouds, const CloudAir& air, CloudSky& sky,
-                    const StageRun& run);
-void write_cloud_sky_row(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSky& sky);
 
 }  // namespace swell::render

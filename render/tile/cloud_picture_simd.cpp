@@ -11,9 +11,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 //
-#include "render/materials/cloud_field-inl.h"
+#include "render/sky/cloud_field-inl.h"
+#include "render/sky/sky_maps.h"
 #include "render/tile/air-inl.h"
-#include "render/world/sky_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -182,32 +182,6 @@ void FineCloudRows(const Shading& s, const VolumeClouds& clouds, int j, CloudPic
   DrawNodes(s, clouds, list, picture);
 }
 
-void CloudSkyRow(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSky& sky) {
-  const D d;
-  const V one = Constant(1.0f);
-  constexpr float kTexel = 2.0f / CloudSky::kSide;
-  const V v = Constant(kTexel * (static_cast<float>(y) + 0.5f) - 1.0f);
-  for (int x = 0; x < CloudSky::kSide; x += static_cast<int>(hn::Lanes(d))) {
-    const V column = hn::ConvertTo(d, CountFrom(x)) + 0.5f;
-    const V u = MulSub(column, kTexel, one);
-    const V r2 = MulAdd(u, u, v * v);
-    const V z = Max((one - r2) / (one + r2), 0.004f);
-    const V across = Sqrt(NegMulAdd(z, z, one) / Max(r2, 1e-12f));
-    const CloudLightSeen seen =
-        SeeClouds(clouds, {u * across, v * across, z}, hn::Zero(d), Constant(kFarthestCloud_m));
-    const V height = seen.distance * z;
-    const V density = air.inv_haze_m / MulAdd(height, air.inv_haze_height_m, one);
-    const V clear = Exp(d, -(seen.distance * density));
-    const V3 light = Lerp(Constant(air.horizon) * seen.opacity, RadianceOf(clouds, seen), clear);
-    const std::size_t at =
-        static_cast<std::size_t>(y) * CloudSky::kSide + static_cast<std::size_t>(x);
-    hn::StoreU(light.x, d, &sky.texels[0][at]);
-    hn::StoreU(light.y, d, &sky.texels[1][at]);
-    hn::StoreU(light.z, d, &sky.texels[2][at]);
-    hn::StoreU(seen.opacity, d, &sky.texels[CloudSky::kOpacity][at]);
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render
 HWY_AFTER_NAMESPACE();
@@ -218,7 +192,6 @@ namespace swell::render {
 HWY_EXPORT(CoarseCloudRows);
 HWY_EXPORT(EvenCloudCells);
 HWY_EXPORT(FineCloudRows);
-HWY_EXPORT(CloudSkyRow);
 
 void write_coarse_clouds(const Shading& shading, const VolumeClouds& clouds, int j, int spacing,
                          bool known, CloudPicture& picture) {
@@ -237,11 +210,6 @@ void write_fine_clouds(const Shading& shading, const VolumeClouds& clouds, int j
   SWELL_CHECK(clouds.any() && j >= 0 && j < picture.rows && j % 4 == 0, "row={} of {}", j,
               picture.rows);
   HWY_DYNAMIC_DISPATCH(FineCloudRows)(shading, clouds, j, picture);
-}
-
-void write_cloud_sky_row(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSky& sky) {
-  SWELL_CHECK(clouds.any() && y >= 0 && y < CloudSky::kSide, "row={}", y);
-  HWY_DYNAMIC_DISPATCH(CloudSkyRow)(clouds, air, y, sky);
 }
 
 }  // namespace swell::render

@@ -8,7 +8,7 @@
 
 #include <span>
 
-#include "render/tile/air_way-inl.h"
+#include "render/sky/air_way-inl.h"
 #include "render/tile/resolve-inl.h"
 
 HWY_BEFORE_NAMESPACE();

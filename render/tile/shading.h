@@ -6,9 +6,9 @@
 
 #include "raster/pass.h"
 #include "render/materials/caustics.h"
-#include "render/materials/light.h"
 #include "render/materials/list.h"
 #include "render/packets/view_rays.h"
+#include "render/sky/light.h"
 #include "render/tile/cloud_picture.h"
 #include "render/tile/shafts.h"
 #include "render/tile/sun_shadow.h"

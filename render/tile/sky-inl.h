@@ -6,15 +6,15 @@
 #define SWELL_RENDER_TILE_SKY_INL_H_
 #endif
 
-#include "render/materials/clouds-inl.h"
 #include "render/packets/packet-inl.h"
+#include "render/sky/clouds-inl.h"
+#include "render/sky/sky_map-inl.h"
+#include "render/sky/stars-inl.h"
 #include "render/tile/air-inl.h"
 #include "render/tile/cloud_deck-inl.h"
 #include "render/tile/lattice-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/shafts-inl.h"
-#include "render/tile/sky_map-inl.h"
-#include "render/tile/stars-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

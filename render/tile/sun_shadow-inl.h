@@ -7,7 +7,7 @@
 #endif
 
 #include "render/packets/square_map-inl.h"
-#include "render/tile/cloud_shadow-inl.h"
+#include "render/sky/cloud_shadow-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/world/land_shadow.h"
 

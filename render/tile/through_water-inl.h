@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "render/materials/light.h"
 #include "render/packets/packet-inl.h"
+#include "render/sky/light.h"
 #include "render/view/surfaces.h"
 
 HWY_BEFORE_NAMESPACE();

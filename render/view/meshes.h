@@ -11,11 +11,11 @@
 
 #include "lod/roam.h"
 #include "render/profile.h"
+#include "render/sea/sea_maps.h"
 #include "render/view/implicit_rays.h"
 #include "render/view/shadow_casters.h"
 #include "render/view/surfaces.h"
 #include "render/view/trees_drawn.h"
-#include "render/world/sea_maps.h"
 #include "scene/object_mesh.h"
 #include "scene/objects.h"
 

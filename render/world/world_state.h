@@ -12,7 +12,6 @@
 #include "ocean/disturbance.h"
 #include "render/frame.h"
 #include "render/world/object_meshes.h"
-#include "render/world/sky_maps.h"
 #include "scene/scene.h"
 
 namespace swell {
@@ -30,23 +29,29 @@ struct WaterBounds;
 struct WaterParts;
 struct Whitecaps;
 }  // namespace ocean
+namespace scene {
+struct Atmosphere;
+}
 namespace terrain {
 class ShoreMap;
 struct HeightGrid;
 }  // namespace terrain
 namespace texture {
 struct BumpSequence;
-}
+struct PackedMap2;
+}  // namespace texture
 }  // namespace swell
 
 namespace swell::render {
 
 struct CloudVolume;
 struct CoastMaps;
+struct FogLights;
 struct Forest;
 struct LandRays;
 struct LandShadow;
 struct NearShoreMap;
+struct SkyMaps;
 struct SunTexture;
 struct TerrainMaps;
 
@@ -72,7 +77,7 @@ struct World::State {
   std::shared_ptr<const CoastMaps> coast_maps = {};          // there is one if there is a coast
   std::shared_ptr<const scene::Atmosphere> atmosphere = {};  // empty: a painted sky
   std::shared_ptr<const SkyMaps> sky = {};
-  FogLights fog_light = {};
+  std::shared_ptr<const FogLights> fog_light = {};
   std::shared_ptr<const CloudVolume> cloud_volume = {};     // none: no volumetric clouds
   std::shared_ptr<const terrain::HeightGrid> terrain = {};  // none: deep water everywhere
   std::shared_ptr<const ocean::InlandWater> inland = {};    // none: no rivers, no lakes

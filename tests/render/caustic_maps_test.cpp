@@ -1,6 +1,6 @@
 // Caustics against what is known of them: where a sine's light meets, how much light there is, and
 // how weak caustics follow from the waves.
-#include "render/world/caustic_maps.h"
+#include "render/sea/caustic_maps.h"
 
 #include <gtest/gtest.h>
 

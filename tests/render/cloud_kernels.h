@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "render/materials/volume_clouds.h"
+#include "render/sky/volume_clouds.h"
 #include "render/tile/cloud_picture.h"
 
 namespace swell::render {

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <array>
 
-#include "render/materials/cloud_field-inl.h"
+#include "render/sky/cloud_field-inl.h"
+#include "render/sky/sky_maps.h"
 #include "render/tile/cloud_picture-inl.h"
-#include "render/world/sky_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

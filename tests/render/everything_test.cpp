@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/shot.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::render {
 namespace {

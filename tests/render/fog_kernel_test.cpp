@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/shader_kernels.h"
-#include "render/world/cloud_shadow.h"
+#include "render/sky/cloud_shadow.h"
 #include "scene/fog.h"
 #include "texture/on_every_target.h"
 

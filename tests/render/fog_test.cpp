@@ -7,7 +7,7 @@
 
 #include "render/linear_renderer.h"
 #include "render/measures.h"
-#include "render/world/sky_maps.h"
+#include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {
@@ -174,7 +174,7 @@ TEST(FogInPictures, IsDarkUnderACloudByWhatItTakesOfTheSun) {
   const glm::vec3 shaded = cloudy.linear(48, 20);
   cloudy.options.without = {Part::kCloudShadows};
   cloudy.draw_view(view, 0.0);
-  const FogLights& light = cloudy.world.state().fog_light;
+  const FogLights& light = *cloudy.world.state().fog_light;
   const glm::vec3 of_sky = light.even - light.even_sun, sunny = cloudy.linear(48, 20);
   EXPECT_GT(sunny.y, 2.0f * of_sky.y);
   EXPECT_NEAR((shaded.y - of_sky.y) / (sunny.y - of_sky.y), left, 0.02f);
@@ -203,7 +203,7 @@ TEST(FogInPictures, LightsWhatIsUnderACloudLess) {
   EXPECT_NEAR(lit, even, 0.02f * even);
   const World::State& world = cloudy.world.state();
   // A few hundredths are left of the light that is not the sky's.
-  const float of_sky = luminance(world.fog_light.ambient - world.fog_light.ambient_sun);
+  const float of_sky = luminance(world.fog_light->ambient - world.fog_light->ambient_sun);
   EXPECT_LT(shaded, 0.25f * even + 0.8f * of_sky);
 }
 

@@ -10,7 +10,7 @@
 #include "constants.h"
 #include "render/plain_sea.h"
 #include "render/shader_kernels.h"
-#include "render/world/sky_maps.h"
+#include "render/sky/sky_maps.h"
 #include "texture/on_every_target.h"
 
 namespace swell::render {

@@ -11,7 +11,7 @@
 
 #include "math/simd_target.h"
 #include "render/shot.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "scene/scene.h"
 
 namespace swell::render {

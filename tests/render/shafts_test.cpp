@@ -8,7 +8,7 @@
 
 #include "render/measures.h"
 #include "render/shot.h"
-#include "render/world/sky_maps.h"
+#include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"

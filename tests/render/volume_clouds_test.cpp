@@ -11,7 +11,7 @@
 #include "render/cloud_kernels.h"
 #include "render/measures.h"
 #include "render/shot.h"
-#include "render/world/cloud_shadow.h"
+#include "render/sky/cloud_shadow.h"
 #include "render/world/world_state.h"
 #include "scene/sky.h"
 

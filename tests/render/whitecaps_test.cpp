@@ -12,7 +12,7 @@
 
 #include "ocean/water_surface.h"
 #include "render/labelled_frame.h"
-#include "render/world/sea_maps.h"
+#include "render/sea/sea_maps.h"
 #include "scene/sky.h"
 #include "scene/water.h"
 

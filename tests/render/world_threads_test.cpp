@@ -3,8 +3,8 @@
 
 #include "ocean/whitecaps.h"
 #include "render/shot.h"
+#include "render/sky/sky_maps.h"
 #include "render/world/coast_maps.h"
-#include "render/world/sky_maps.h"
 #include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"
 #include "terrain/height_grid.h"

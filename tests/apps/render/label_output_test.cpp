@@ -12,7 +12,7 @@
 #include "apps/shared/json.h"
 #include "apps/shared/program_runner.h"
 #include "render/frame.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 
 namespace swell::apps {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "apps/view/viewer.h"
 #include "render/shot.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "view_scene.h"
 
 namespace swell::view {

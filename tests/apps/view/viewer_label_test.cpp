@@ -6,7 +6,7 @@
 
 #include "apps/shared/label_picture.h"
 #include "apps/view/viewer.h"
-#include "render/world/world_view.h"
+#include "render/world_view.h"
 #include "viewer_harness.h"
 
 namespace swell::view {
