@@ -347,33 +347,6 @@ FrameStatistics statistics_of(const Workspace::State& ws) {
 
 }  // namespace
 
-std::string_view stage_name(Stage stage) {
-  using enum Stage;
-  constexpr auto kNames = enum_words<Stage>({
-      {kSea, "sea"},
-      {kTriangulate, "triangulate"},
-      {kDisplace, "displace"},
-      {kTrees, "trees"},
-      {kVisibility, "visibility"},
-      {kRays, "rays"},
-      {kPlanarMaps, "lookups"},
-      {kClouds, "clouds"},
-      {kShade, "shade"},
-  });
-  return kNames[stage];
-}
-
-FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene& scene) {
-  FrameOptions result = options;
-  if (result.water_triangles == 0) result.water_triangles = scene.detail.water_triangles;
-  if (result.terrain_triangles == 0) result.terrain_triangles = scene.detail.terrain_triangles;
-  if (result.lookup_scale == 0.0) result.lookup_scale = scene.water.lookup_scale;
-  if (result.background_error_px < 0.0)
-    result.background_error_px = scene.detail.background_error_px;
-  if (result.edge_samples < 0) result.edge_samples = scene.picture.edge_samples;
-  return result;
-}
-
 FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& asked, Workspace& workspace, Target& target,
                              Workers& workers) {

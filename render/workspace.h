@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "render/frame.h"
+#include "render/frame/profile.h"
 #include "render/picture/label_tables.h"
 #include "render/picture/planar_maps.h"
 #include "render/picture/shade_picture.h"
-#include "render/profile.h"
 #include "render/quality/enlarge.h"
 #include "render/sea/sea_maps.h"
 #include "render/sky/sky_frame.h"

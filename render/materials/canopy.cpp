@@ -1,6 +1,7 @@
 #include "render/materials/canopy.h"
 
 #include "math/elementary.h"
+#include "render/frame/parts.h"
 #include "render/world/forest.h"
 #include "render/world/world_state.h"
 

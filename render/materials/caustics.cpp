@@ -1,6 +1,7 @@
 #include "render/materials/caustics.h"
 
 #include "math/elementary.h"
+#include "render/frame/parts.h"
 #include "render/packets/slope_layer.h"
 #include "render/world/world_state.h"
 

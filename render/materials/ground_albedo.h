@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/frame.h"
+#include "render/world/world.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {

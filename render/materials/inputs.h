@@ -3,10 +3,11 @@
 
 #include <limits>
 
-#include "render/parts.h"
+#include "render/frame/parts.h"
 #include "render/sea/sea_maps.h"
 #include "render/sky/light.h"
 #include "render/view/render_view.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/frame/parts.h"
 #include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"
 #include "terrain/height_grid.h"

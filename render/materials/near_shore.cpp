@@ -3,6 +3,7 @@
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "ocean/sea_state.h"
+#include "render/frame/parts.h"
 #include "render/world/near_shore_map.h"
 #include "render/world/world_state.h"
 #include "terrain/shore_map.h"

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "render/frame/parts.h"
 #include "render/materials/inputs.h"
 
 namespace swell::render {

@@ -6,6 +6,7 @@
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "ocean/sea_state.h"
+#include "render/frame/parts.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

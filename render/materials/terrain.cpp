@@ -6,6 +6,7 @@
 #include "ocean/sea.h"
 #include "ocean/sea_state.h"
 #include "ocean/swash.h"
+#include "render/frame/parts.h"
 #include "render/world/land_shadow.h"
 #include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"

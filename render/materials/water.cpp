@@ -8,6 +8,7 @@
 #include "ocean/coast.h"
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
+#include "render/frame/parts.h"
 #include "render/materials/ripples.h"
 #include "render/world/world_state.h"
 

@@ -4,6 +4,7 @@
 
 #include "math/elementary.h"
 #include "math/smoothstep.h"
+#include "render/frame/parts.h"
 #include "render/materials/foam.h"
 #include "render/world/world_state.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "raster/pass.h"
-#include "render/frame.h"
+#include "render/frame/target.h"
 #include "render/labels/shaded_labels.h"
 #include "render/tile/shade_tile.h"
 #include "render/view/crossing.h"

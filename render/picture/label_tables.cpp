@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/frame/profile.h"
 #include "render/view/draw_record.h"
 #include "render/view/implicits.h"
 #include "render/world/world_state.h"

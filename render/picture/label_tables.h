@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "ocean/sea.h"
-#include "render/frame.h"
+#include "render/frame/options.h"
+#include "render/frame/profile.h"
 #include "render/view/render_view.h"
+#include "render/world/world.h"
 #include "scene/objects.h"
 
 namespace swell::render {

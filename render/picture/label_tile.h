@@ -8,6 +8,7 @@
 #include "render/labels/shaded_labels.h"
 #include "render/picture/label_tables.h"
 #include "render/tile/shading.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/frame/parts.h"
+#include "render/frame/profile.h"
 #include "render/view/cast_land.h"
 #include "render/view/draw_record.h"
 

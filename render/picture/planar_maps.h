@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "render/frame/profile.h"
 #include "render/picture/crossed_tile.h"
 #include "render/tile/shade_tile.h"
 #include "render/view/render_view.h"

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/frame/profile.h"
+#include "render/frame/target.h"
 #include "render/picture/label_tile.h"
 #include "render/picture/planar_maps.h"
 #include "render/view/crossing.h"

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "raster/interpolate.h"
+#include "render/frame/target.h"
 #include "render/picture/shade_picture.h"
 
 namespace swell::render {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "math/check.h"
+#include "render/frame/stages.h"
 
 namespace swell::render {
 namespace {

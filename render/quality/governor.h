@@ -40,6 +40,7 @@
 #include <cstddef>
 
 #include "render/frame.h"
+#include "render/frame/options.h"
 
 namespace swell::render {
 

@@ -17,8 +17,9 @@
 #include <vector>
 
 #include "ocean/sea.h"
-#include "render/parts.h"
-#include "render/profile.h"
+#include "render/frame/parts.h"
+#include "render/frame/profile.h"
+#include "render/world/world.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {

@@ -8,9 +8,11 @@
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
 #include "ocean/whitecaps.h"
-#include "render/profile.h"
+#include "render/frame/parts.h"
+#include "render/frame/profile.h"
 #include "render/sea/caustic_maps.h"
 #include "render/sea/ripple_sequence.h"
+#include "render/world/world.h"
 #include "texture/packed_map.h"
 #include "texture/uv_noise.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/frame/parts.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"

@@ -6,9 +6,11 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/profile.h"
+#include "render/frame/parts.h"
+#include "render/frame/profile.h"
 #include "render/sky/clouds.h"
 #include "render/sky/volume_clouds.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/profile.h"
+#include "render/frame/profile.h"
 #include "render/sky/volume_clouds.h"
 
 namespace swell::render {

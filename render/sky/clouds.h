@@ -4,9 +4,10 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "render/frame.h"
+#include "render/frame/parts.h"
 #include "render/packets/slope_layer.h"
 #include "render/sky/sky_maps.h"
+#include "render/world/world.h"
 
 namespace swell::scene {
 struct SkyLight;

@@ -4,7 +4,8 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "render/frame.h"
+#include "render/frame/parts.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -3,11 +3,12 @@
 
 #include <glm/glm.hpp>
 
-#include "render/parts.h"
+#include "render/frame/parts.h"
 #include "render/sky/clouds.h"
 #include "render/sky/fog.h"
 #include "render/sky/sky_frame.h"
 #include "render/sky/stars.h"
+#include "render/world/world.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {

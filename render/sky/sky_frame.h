@@ -2,12 +2,14 @@
 // with the clouds where they have drifted.
 #pragma once
 
-#include "render/profile.h"
+#include "render/frame/parts.h"
+#include "render/frame/profile.h"
 #include "render/sky/cloud_shadow.h"
 #include "render/sky/cloud_sky.h"
 #include "render/sky/clouds.h"
 #include "render/sky/fog.h"
 #include "render/sky/sky_maps.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -3,7 +3,8 @@
 
 #include <glm/glm.hpp>
 
-#include "render/frame.h"
+#include "render/frame/parts.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

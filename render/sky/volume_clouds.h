@@ -4,8 +4,9 @@
 #include <glm/glm.hpp>
 
 #include "math/view.h"
-#include "render/frame.h"
+#include "render/frame/parts.h"
 #include "render/sky/cloud_volume.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/profile.h"
+#include "render/frame/profile.h"
 #include "render/sky/volume_clouds.h"
 
 namespace swell::render {

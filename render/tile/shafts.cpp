@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/frame/parts.h"
 #include "render/tile/shading.h"
 
 namespace swell::render {

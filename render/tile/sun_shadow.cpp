@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/frame/parts.h"
 #include "render/view/object_shadows.h"
 #include "render/world/forest.h"
 #include "render/world/land_shadow.h"

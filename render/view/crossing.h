@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raster/pass.h"
+#include "render/frame/profile.h"
 #include "render/view/meshes.h"
 #include "render/view/render_view.h"
 

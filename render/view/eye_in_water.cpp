@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ocean/water_surface.h"
+#include "render/frame/options.h"
 #include "render/view/render_view.h"
 #include "render/view/wave_reach.h"
 #include "render/world/world_state.h"

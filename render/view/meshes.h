@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "lod/roam.h"
-#include "render/profile.h"
+#include "render/frame/options.h"
+#include "render/frame/profile.h"
 #include "render/sea/sea_maps.h"
 #include "render/view/implicit_rays.h"
 #include "render/view/shadow_casters.h"
 #include "render/view/surfaces.h"
 #include "render/view/trees_drawn.h"
+#include "render/world/world.h"
 #include "scene/object_mesh.h"
 #include "scene/objects.h"
 

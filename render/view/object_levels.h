@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/view/render_view.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "raster/pass.h"
+#include "render/frame/parts.h"
+#include "render/frame/profile.h"
 #include "render/view/render_view.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -4,6 +4,7 @@
 
 #include "math/elementary.h"
 #include "ocean/water_surface.h"
+#include "render/frame/profile.h"
 #include "render/view/object_levels.h"
 #include "render/view/refracted_image.h"
 #include "render/world/object_meshes.h"

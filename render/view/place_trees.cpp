@@ -13,6 +13,8 @@
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "ocean/sea_state.h"
+#include "render/frame/options.h"
+#include "render/frame/profile.h"
 #include "render/view/choose_trees.h"
 #include "render/view/render_view.h"
 #include "render/view/tree_ground.h"

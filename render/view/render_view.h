@@ -18,10 +18,13 @@
 #include "math/parallel.h"
 #include "math/view.h"
 #include "raster/pass.h"
+#include "render/frame/options.h"
+#include "render/frame/profile.h"
 #include "render/view/implicits.h"
 #include "render/view/meshes.h"
 #include "render/view/surfaces.h"
 #include "render/world/land_rays.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

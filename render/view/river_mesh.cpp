@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ocean/inland_water.h"
+#include "render/frame/options.h"
 #include "render/view/meshes.h"
 #include "render/world/world_state.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/frame/parts.h"
 #include "render/view/object_levels.h"
 #include "render/world/world_state.h"
 

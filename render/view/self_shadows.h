@@ -1,7 +1,9 @@
 // Stage 3: what objects throw on themselves.
 #pragma once
 
+#include "render/frame/profile.h"
 #include "render/view/object_shadows.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -4,8 +4,9 @@
 
 #include <glm/glm.hpp>
 
-#include "render/frame.h"
+#include "render/frame/options.h"
 #include "render/view/meshes.h"
+#include "render/world/world.h"
 
 namespace swell::render {
 

@@ -8,6 +8,8 @@
 
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
+#include "render/frame/options.h"
+#include "render/frame/profile.h"
 #include "render/view/meshes.h"
 #include "render/world/world_state.h"
 #include "scene/fog.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raster/pass.h"
-#include "render/profile.h"
+#include "render/frame/profile.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {

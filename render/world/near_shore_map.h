@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "math/parallel.h"
-#include "render/frame.h"
+#include "render/world/world.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/world/world.h"
 #include "scene/mesh_file.h"
 
 namespace swell::render {

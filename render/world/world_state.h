@@ -10,8 +10,9 @@
 
 #include "math/earth.h"
 #include "ocean/disturbance.h"
-#include "render/frame.h"
+#include "render/frame/parts.h"
 #include "render/world/object_meshes.h"
+#include "render/world/world.h"
 #include "scene/scene.h"
 
 namespace swell {

@@ -1,5 +1,5 @@
 // Far vertices that leave waves out stay within the error that was allowed, and leave many out.
-#include "render/quality/background.h"
+#include "render/sea/background.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "render/parts.h"
+#include "render/frame/parts.h"
 
 namespace swell::render {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "apps/shared/json.h"
 #include "apps/shared/program_runner.h"
-#include "render/parts.h"
+#include "render/frame/parts.h"
 
 namespace swell::apps {
 namespace {

@@ -1,11 +1,14 @@
 // Times of a frame's stages.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <mutex>
+#include <source_location>
 #include <vector>
 
-#include "render/frame.h"
+#include "math/parallel.h"
+#include "render/frame/stages.h"
 
 namespace swell::render {
 

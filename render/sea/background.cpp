@@ -1,4 +1,4 @@
-#include "render/quality/background.h"
+#include "render/sea/background.h"
 
 #include <algorithm>
 #include <cmath>
