@@ -11,7 +11,7 @@
 #include "math/large_array.h"
 #include "ocean/water_surface.h"
 #include "raster/sample_pattern.h"
-#include "render/materials/ripples.h"
+#include "render/tile/ripples.h"
 #include "render/view/self_shadows.h"
 #include "render/workspace.h"
 #include "render/world/world_state.h"
@@ -275,7 +275,7 @@ void find_shadows(const FrameInputs& in, const Light& light, const StageRun& run
 
 // Stage 5 on one side of the water: the images that it looks into, and what shading needs.
 void draw_side(const FrameInputs& in, const Light& light, const Media& media, PlanarMaps& maps,
-               Shading& shading, const StageRun& run) {
+               ViewShading& shading, const StageRun& run) {
   Workspace::State& ws = in.ws;
   MaterialInputs inputs{in.world,          in.t_s, ws.sea, ws.meshes.objects, light, media,
                         in.options.without};

@@ -7,10 +7,10 @@
 
 #include "render/frame.h"
 #include "render/frame/profile.h"
+#include "render/picture/enlarge.h"
 #include "render/picture/label_tables.h"
 #include "render/picture/planar_maps.h"
 #include "render/picture/shade_picture.h"
-#include "render/quality/enlarge.h"
 #include "render/sea/sea_maps.h"
 #include "render/sky/sky_frame.h"
 #include "render/view/crossing.h"
@@ -32,7 +32,7 @@ struct Workspace::State {
   PlanarTarget river_mirror;
   CloudPicture clouds;                      // volumetric ones, in the window
   PlanarMaps planar_maps, wet_planar_maps;  // where the waterline crosses the picture, both
-  Shading shading, wet_shading;             // of the window
+  ViewShading shading, wet_shading;         // of the window
   std::vector<int> shaded;                  // per tile
   LabelTables labels;
   std::vector<std::unique_ptr<ThreadScratch>> scratch;

@@ -4,8 +4,8 @@
 
 #include <glm/glm.hpp>
 
-#include "render/materials/inputs.h"
 #include "render/packets/square_map.h"
+#include "render/tile/inputs.h"
 
 namespace swell::render {
 

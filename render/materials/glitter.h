@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/materials/inputs.h"
+#include "render/tile/inputs.h"
 #include "render/world/sun_texture.h"
 
 namespace swell::render {

@@ -17,6 +17,7 @@
 #include "render/materials/terrain.h"
 #include "render/materials/tree.h"
 #include "render/materials/water.h"
+#include "render/tile/shading.h"
 
 namespace swell::render {
 
@@ -30,6 +31,20 @@ using Materials = std::tuple<  //
     >;
 
 inline constexpr std::size_t kMaterialCount = std::tuple_size_v<Materials>;
+
+// The shading of a view.
+struct ViewShading : Shading {
+  Materials materials;
+};
+
+template <class M>
+const M& Shading::material() const {
+  return std::get<M>(static_cast<const ViewShading&>(*this).materials);
+}
+
+// in.light and in.media are copied.
+void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_size_px,
+                  ViewShading& shading);
 
 // Stage 3: which kinds of surface have a material, the triangles that materials place themselves,
 // and their vertices in the views.

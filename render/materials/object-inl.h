@@ -6,15 +6,16 @@
 #define SWELL_RENDER_MATERIALS_OBJECT_INL_H_
 #endif
 
-#include "render/materials/caustics-inl.h"
 #include "render/materials/checker-inl.h"
 #include "render/materials/implicit-inl.h"
+#include "render/materials/list.h"
 #include "render/materials/object.h"
 #include "render/materials/reflected_caustics-inl.h"
 #include "render/packets/fresnel-inl.h"
 #include "render/packets/lanes3-inl.h"
 #include "render/sky/fog-inl.h"
 #include "render/sky/sky_map-inl.h"
+#include "render/tile/caustics-inl.h"
 #include "render/tile/self_shadow-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "render/frame/parts.h"
-#include "render/materials/inputs.h"
+#include "render/tile/inputs.h"
 
 namespace swell::render {
 

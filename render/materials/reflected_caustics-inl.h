@@ -6,8 +6,8 @@
 #define SWELL_RENDER_MATERIALS_REFLECTED_CAUSTICS_INL_H_
 #endif
 
-#include "render/materials/caustics-inl.h"
 #include "render/packets/fresnel-inl.h"
+#include "render/tile/caustics-inl.h"
 #include "render/tile/shading.h"
 
 HWY_BEFORE_NAMESPACE();

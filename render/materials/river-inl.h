@@ -7,11 +7,12 @@
 #define SWELL_RENDER_MATERIALS_RIVER_INL_H_
 #endif
 
-#include "render/materials/caustics-inl.h"
 #include "render/materials/ground-inl.h"
+#include "render/materials/list.h"
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
 #include "render/materials/topside-inl.h"
+#include "render/tile/caustics-inl.h"
 #include "render/tile/through_water-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -6,7 +6,7 @@
 #include "math/elementary.h"
 #include "ocean/inland_water.h"
 #include "render/frame/parts.h"
-#include "render/materials/ripples.h"
+#include "render/tile/ripples.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

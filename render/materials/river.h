@@ -9,8 +9,8 @@
 #include "ocean/inland_water.h"
 #include "render/materials/foam.h"
 #include "render/materials/ground_albedo.h"
-#include "render/materials/inputs.h"
 #include "render/packets/slope_layer.h"
+#include "render/tile/inputs.h"
 
 namespace swell::render {
 

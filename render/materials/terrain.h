@@ -7,9 +7,9 @@
 #include "render/materials/checker.h"
 #include "render/materials/foam.h"
 #include "render/materials/ground_albedo.h"
-#include "render/materials/inputs.h"
 #include "render/materials/land.h"
 #include "render/packets/slope_layer.h"
+#include "render/tile/inputs.h"
 
 namespace swell::render {
 

@@ -14,6 +14,7 @@
 #include "render/materials/glitter-inl.h"
 #include "render/materials/hull-inl.h"
 #include "render/materials/image_blur-inl.h"
+#include "render/materials/list.h"
 #include "render/materials/visible_slopes-inl.h"
 #include "render/materials/water.h"
 #include "render/materials/water_slopes-inl.h"

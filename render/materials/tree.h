@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "render/materials/inputs.h"
 #include "render/packets/slope_layer.h"
+#include "render/tile/inputs.h"
 
 namespace swell::render {
 

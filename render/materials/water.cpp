@@ -9,7 +9,7 @@
 #include "ocean/sea.h"
 #include "ocean/water_surface.h"
 #include "render/frame/parts.h"
-#include "render/materials/ripples.h"
+#include "render/tile/ripples.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

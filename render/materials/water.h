@@ -7,11 +7,11 @@
 #include "ocean/sea.h"
 #include "render/materials/foam.h"
 #include "render/materials/glitter.h"
-#include "render/materials/inputs.h"
 #include "render/materials/near_shore.h"
 #include "render/materials/wakes.h"
 #include "render/materials/whitecaps.h"
 #include "render/packets/slope_layer.h"
+#include "render/tile/inputs.h"
 
 namespace swell::render {
 

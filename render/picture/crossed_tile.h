@@ -9,7 +9,7 @@
 #include "raster/pass.h"
 #include "render/frame/target.h"
 #include "render/labels/shaded_labels.h"
-#include "render/tile/shade_tile.h"
+#include "render/shade/shade_tile.h"
 #include "render/view/crossing.h"
 
 namespace swell::render {

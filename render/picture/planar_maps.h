@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "render/frame/profile.h"
+#include "render/materials/list.h"
 #include "render/picture/crossed_tile.h"
-#include "render/tile/shade_tile.h"
+#include "render/shade/shade_tile.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
 
@@ -31,7 +32,7 @@ struct PlanarTarget {
   texture::RgbaImage image;
   std::vector<std::uint8_t> wanted;   // per tile: water can look into it
   std::vector<std::uint8_t> written;  // per tile: holds anything but zeros
-  Shading shading;
+  ViewShading shading;
 };
 
 struct PlanarMaps {

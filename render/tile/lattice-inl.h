@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "render/packets/packet-inl.h"
-#include "render/tile/shade_tile.h"
+#include "render/tile/scratch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -18,7 +18,6 @@ void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_siz
   shading.shafts = make_shafts(in, view, shading.rays, shading.sun_shadow.entry);
   shading.exposure = in.light.exposure;
   shading.primitives = view.primitives;
-  std::apply([&](auto&... material) { (fill(in, view, material), ...); }, shading.materials);
 }
 
 }  // namespace swell::render

@@ -1,14 +1,13 @@
-// Everything that the shading of a view reads, besides the tile's own pixels: rays, light, media
-// and the materials' constants.
+// Everything that the shading of a view reads, besides the tile's own pixels and the materials'
+// constants: rays, light, media.
 #pragma once
 
 #include <glm/glm.hpp>
 
 #include "raster/pass.h"
-#include "render/materials/caustics.h"
-#include "render/materials/list.h"
 #include "render/packets/view_rays.h"
 #include "render/sky/light.h"
+#include "render/tile/caustics.h"
 #include "render/tile/cloud_picture.h"
 #include "render/tile/shafts.h"
 #include "render/tile/sun_shadow.h"
@@ -30,15 +29,14 @@ struct Shading {
   const CloudPicture* clouds = nullptr;  // volumetric ones, before all pixels; none: no such
   float exposure = 1.0f;
   PrimitiveRanges primitives;
-  Materials materials;
 
+  // The constants of a material: each Shading is part of a ViewShading (materials/list.h), which
+  // says how. Who calls this includes that.
   template <class M>
-  const M& material() const {
-    return std::get<M>(materials);
-  }
+  const M& material() const;
 };
 
-// in.light and in.media are copied.
+// All but the materials. in.light and in.media are copied.
 void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_size_px,
                   Shading& shading);
 

@@ -7,7 +7,8 @@
 #endif
 
 #include "render/packets/packet-inl.h"
-#include "render/tile/shade_tile.h"
+#include "render/tile/scratch.h"
+#include "render/tile/shading.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

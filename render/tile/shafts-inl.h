@@ -6,7 +6,7 @@
 #define SWELL_RENDER_TILE_SHAFTS_INL_H_
 #endif
 
-#include "render/materials/caustics-inl.h"
+#include "render/tile/caustics-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/tile/through_water-inl.h"

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "raster/pass.h"
-#include "render/materials/inputs.h"
+#include "render/tile/inputs.h"
 
 namespace swell::render {
 

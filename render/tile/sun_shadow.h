@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 
 #include "raster/pass.h"
-#include "render/materials/inputs.h"
 #include "render/packets/square_map.h"
+#include "render/tile/inputs.h"
 #include "render/view/render_view.h"
 #include "render/world/land_shadow.h"
 

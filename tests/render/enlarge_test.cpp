@@ -1,5 +1,5 @@
 // Enlarging against bilinear interpolation in double.
-#include "render/quality/enlarge.h"
+#include "render/picture/enlarge.h"
 
 #include <gtest/gtest.h>
 

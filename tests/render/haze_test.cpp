@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "render/materials/list.h"
 #include "render/shader_kernels.h"
 #include "render/sky/sky_maps.h"
 #include "texture/on_every_target.h"
@@ -56,7 +57,7 @@ struct HazeAir {
 
   double eye_z_m, drop_per_m2;
   texture::RgbMap sky;
-  Shading shading;
+  ViewShading shading;
 };
 
 double profile(double height_m) { return std::pow(1.0 + height_m / kHeight_m, -2.0); }

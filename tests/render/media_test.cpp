@@ -7,6 +7,7 @@
 
 #include "constants.h"
 #include "math/random.h"
+#include "render/materials/list.h"
 #include "render/shader_kernels.h"
 #include "render/sky/sky_maps.h"
 #include "texture/on_every_target.h"
@@ -162,7 +163,7 @@ struct HazyAir {
     return code * code * (static_cast<double>(kSoftSkyRange) / (255.0 * 255.0));
   }
   texture::RgbMap sky;
-  Shading shading;
+  ViewShading shading;
 };
 
 TEST_P(MediaOptics, HazeLeavesTheContrastThatKoschmiedersLawLeaves) {

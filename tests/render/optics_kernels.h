@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "render/tile/shade_tile.h"
+#include "render/shade/shade_tile.h"
 
 namespace swell::render {
 

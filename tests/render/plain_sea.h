@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/tile/shade_tile.h"
+#include "render/materials/list.h"
+#include "render/shade/shade_tile.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
@@ -35,7 +36,7 @@ struct PlainSea {
 
   texture::RgbMap sky;
   texture::PackedMap2 still;
-  Shading shading;
+  ViewShading shading;
 };
 
 }  // namespace swell::render

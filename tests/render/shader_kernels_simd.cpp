@@ -242,7 +242,7 @@ void StarsIn(const Stars& stars, std::span<const glm::vec3> direction, float rad
 template <ViewKind kView>
 void FindPoints(const Media& media, float level_rel_m, std::span<const glm::vec3> p_shown,
                 std::span<glm::vec3> p_rel) {
-  Shading shading;
+  ViewShading shading;
   shading.media = media;
   ForPackets(p_rel.size(), [&](std::size_t i) {
     Packet packet;

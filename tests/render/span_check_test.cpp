@@ -20,10 +20,11 @@
 #include "ocean/water_surface.h"
 #include "raster/pass.h"
 #include "raster/vertices.h"
+#include "render/materials/list.h"
 #include "render/measure/mesh_error.h"
-#include "render/quality/enlarge.h"
+#include "render/picture/enlarge.h"
 #include "render/sea/background.h"
-#include "render/tile/shade_tile.h"
+#include "render/shade/shade_tile.h"
 #include "scene/coast.h"
 #include "scene/objects.h"
 #include "scene/water.h"
@@ -221,7 +222,7 @@ TEST_F(SpanDeathTest, RenderChecksEveryPair) {
   EXPECT_REFUSED(background_heights(background, surface, p.right, v2.shorter, a.right));
   EXPECT_REFUSED(background_heights(background, surface, p.right, v2.right, a.shorter));
 
-  Shading shading;
+  ViewShading shading;
   shading.viewport = {16, 16};
   shading.grid = raster::tile_grid(shading.viewport, 16);
   auto scratch = std::make_unique<ShadeScratch>();

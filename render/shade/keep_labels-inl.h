@@ -1,9 +1,9 @@
 // Where the shader of a tile leaves what labels want of its shading results.
-#if defined(SWELL_RENDER_TILE_KEEP_LABELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TILE_KEEP_LABELS_INL_H_
-#undef SWELL_RENDER_TILE_KEEP_LABELS_INL_H_
+#if defined(SWELL_RENDER_SHADE_KEEP_LABELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_SHADE_KEEP_LABELS_INL_H_
+#undef SWELL_RENDER_SHADE_KEEP_LABELS_INL_H_
 #else
-#define SWELL_RENDER_TILE_KEEP_LABELS_INL_H_
+#define SWELL_RENDER_SHADE_KEEP_LABELS_INL_H_
 #endif
 
 #include "render/labels/shaded_labels.h"

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "render/quality/enlarge.h"
+#include "render/picture/enlarge.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/quality/enlarge_simd.cpp"
+#define HWY_TARGET_INCLUDE "render/picture/enlarge_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

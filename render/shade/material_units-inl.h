@@ -1,14 +1,14 @@
 // The door to the materials, each of which is a translation unit (material_unit.cpp.in): one call a
 // tile and material.
-#if defined(SWELL_RENDER_TILE_MATERIAL_UNITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TILE_MATERIAL_UNITS_INL_H_
-#undef SWELL_RENDER_TILE_MATERIAL_UNITS_INL_H_
+#if defined(SWELL_RENDER_SHADE_MATERIAL_UNITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_SHADE_MATERIAL_UNITS_INL_H_
+#undef SWELL_RENDER_SHADE_MATERIAL_UNITS_INL_H_
 #else
-#define SWELL_RENDER_TILE_MATERIAL_UNITS_INL_H_
+#define SWELL_RENDER_SHADE_MATERIAL_UNITS_INL_H_
 #endif
 
 #include "render/labels/shaded_labels.h"
-#include "render/tile/pixel_lists-inl.h"
+#include "render/shade/pixel_lists-inl.h"
 #include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();

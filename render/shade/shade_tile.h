@@ -9,47 +9,10 @@
 #include <span>
 
 #include "render/labels/shaded_labels.h"
-#include "render/tile/edges.h"
+#include "render/tile/scratch.h"
 #include "render/tile/shading.h"
 
 namespace swell::render {
-
-inline constexpr int kMaxTilePixels = 64 * 64;
-static_assert(ShadedLabels::kMostPixels == kMaxTilePixels);
-
-// What water in a tile can see in the planar maps.
-struct TilePlanarMaps {
-  bool reflection = false, refraction = false;
-};
-
-inline constexpr std::size_t kMaxTileFragments = kMaxFragments * kMaxTilePixels;
-inline constexpr std::size_t kListPadding = 64;  // a list's end, up to whole packets
-
-// The sky over a tile at every fourth pixel and one more, of every fourth row and one more and of
-// each row, in rows that end with what fills whole vectors. `air` holds fog before the sky, and
-// once that is drawn, the same of the air before surfaces.
-struct SkyNodes {
-  static constexpr std::size_t kStride = 32, kViewChannels = 9, kNoiseChannels = 3,
-                               kAirChannels = 7;
-  alignas(64) std::array<std::array<float, kStride * 17>, kViewChannels> view{};
-  alignas(64) std::array<std::array<float, kStride * 64>, kNoiseChannels> noise{};
-  alignas(64) std::array<std::array<float, kStride * 17>, kAirChannels> air{};
-};
-
-// Working memory of one thread.
-struct ShadeScratch {
-  alignas(64) std::array<float, kMaxTilePixels> red, green, blue;
-  SkyNodes sky;
-  ShaftNodes shafts;
-  // By material, and the sky last: its pixels, padded to whole packets.
-  alignas(64) std::array<std::array<std::uint16_t, kMaxTilePixels + kListPadding>,
-                         kMaterialCount + 1> lists;
-  // The tile's fragments: their primitives, their colours, and again lists.
-  std::array<std::uint32_t, kMaxTileFragments> fragment_primitive;
-  alignas(64) std::array<float, kMaxTileFragments + kListPadding> fragment_red, fragment_green,
-      fragment_blue;
-  std::array<std::uint16_t, kMaxTileFragments + kListPadding> fragment_list;
-};
 
 // A tile as the window sees it.
 struct TileInput {

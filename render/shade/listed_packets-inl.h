@@ -1,10 +1,10 @@
 // Packets of the pixels and the fragments that a list names: gathered, shaded, their colours
 // stored.
-#if defined(SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_
-#undef SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_
+#if defined(SWELL_RENDER_SHADE_LISTED_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_SHADE_LISTED_PACKETS_INL_H_
+#undef SWELL_RENDER_SHADE_LISTED_PACKETS_INL_H_
 #else
-#define SWELL_RENDER_TILE_LISTED_PACKETS_INL_H_
+#define SWELL_RENDER_SHADE_LISTED_PACKETS_INL_H_
 #endif
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <bit>
 
 #include "render/packets/packet-inl.h"
-#include "render/tile/pixel_lists-inl.h"
+#include "render/shade/pixel_lists-inl.h"
 #include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -3,19 +3,19 @@
 #include <utility>
 
 #include "math/check.h"
-#include "render/tile/shade_tile.h"
+#include "render/shade/shade_tile.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/tile/shade_tile_simd.cpp"
+#define HWY_TARGET_INCLUDE "render/shade/shade_tile_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "render/packets/packet-inl.h"
+#include "render/shade/listed_packets-inl.h"
+#include "render/shade/material_units-inl.h"
+#include "render/shade/pixel_lists-inl.h"
 #include "render/tile/light_code-inl.h"
-#include "render/tile/listed_packets-inl.h"
-#include "render/tile/material_units-inl.h"
 #include "render/tile/media-inl.h"
-#include "render/tile/pixel_lists-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/sky-inl.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "render/materials/inputs.h"
-#include "render/materials/ripples.h"
+#include "render/tile/inputs.h"
+#include "render/tile/ripples.h"
 
 namespace swell::render {
 

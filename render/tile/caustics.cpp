@@ -1,4 +1,4 @@
-#include "render/materials/caustics.h"
+#include "render/tile/caustics.h"
 
 #include "math/elementary.h"
 #include "render/frame/parts.h"

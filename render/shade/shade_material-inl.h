@@ -1,19 +1,19 @@
 // What a material's unit (material_unit.cpp.in) is made of: the light of listed pixels as it
 // arrives at the eye.
-#if defined(SWELL_RENDER_TILE_SHADE_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TILE_SHADE_MATERIAL_INL_H_
-#undef SWELL_RENDER_TILE_SHADE_MATERIAL_INL_H_
+#if defined(SWELL_RENDER_SHADE_SHADE_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_SHADE_SHADE_MATERIAL_INL_H_
+#undef SWELL_RENDER_SHADE_SHADE_MATERIAL_INL_H_
 #else
-#define SWELL_RENDER_TILE_SHADE_MATERIAL_INL_H_
+#define SWELL_RENDER_SHADE_SHADE_MATERIAL_INL_H_
 #endif
 
 #include <array>
 #include <span>
 
+#include "render/shade/keep_labels-inl.h"
+#include "render/shade/listed_packets-inl.h"
+#include "render/shade/material_units-inl.h"
 #include "render/tile/attenuate-inl.h"
-#include "render/tile/keep_labels-inl.h"
-#include "render/tile/listed_packets-inl.h"
-#include "render/tile/material_units-inl.h"
 #include "render/tile/shafts-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,4 +1,4 @@
-#include "render/quality/enlarge.h"
+#include "render/picture/enlarge.h"
 
 #include <algorithm>
 

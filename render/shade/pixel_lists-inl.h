@@ -1,9 +1,9 @@
 // A tile's pixels in lists by material, and of its fragments those of a material.
-#if defined(SWELL_RENDER_TILE_PIXEL_LISTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_TILE_PIXEL_LISTS_INL_H_
-#undef SWELL_RENDER_TILE_PIXEL_LISTS_INL_H_
+#if defined(SWELL_RENDER_SHADE_PIXEL_LISTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_SHADE_PIXEL_LISTS_INL_H_
+#undef SWELL_RENDER_SHADE_PIXEL_LISTS_INL_H_
 #else
-#define SWELL_RENDER_TILE_PIXEL_LISTS_INL_H_
+#define SWELL_RENDER_SHADE_PIXEL_LISTS_INL_H_
 #endif
 
 #include <hwy/cache_control.h>

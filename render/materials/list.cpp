@@ -1,6 +1,6 @@
-#include <tuple>
-
 #include "render/materials/list.h"
+
+#include <tuple>
 
 namespace swell::render {
 namespace {
@@ -17,6 +17,12 @@ void place_surface(const PlaceInputs& in, Meshes& meshes, FrameViews views) {
 }
 
 }  // namespace
+
+void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_size_px,
+                  ViewShading& shading) {
+  fill_shading(in, view, tile_size_px, static_cast<Shading&>(shading));
+  std::apply([&](auto&... material) { (fill(in, view, material), ...); }, shading.materials);
+}
 
 void place_surfaces(const PlaceInputs& in, Meshes& meshes, FrameViews views) {
   [&]<class... M>(std::tuple<M...>*) {

@@ -1,15 +1,15 @@
 // The light that waves gather on what lies under water.
-#if defined(SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_
-#undef SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_
+#if defined(SWELL_RENDER_TILE_CAUSTICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_TILE_CAUSTICS_INL_H_
+#undef SWELL_RENDER_TILE_CAUSTICS_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_CAUSTICS_INL_H_
+#define SWELL_RENDER_TILE_CAUSTICS_INL_H_
 #endif
 
 #include <algorithm>
 
-#include "render/materials/caustics.h"
 #include "render/packets/packet-inl.h"
+#include "render/tile/caustics.h"
 #include "render/tile/shading.h"
 
 HWY_BEFORE_NAMESPACE();

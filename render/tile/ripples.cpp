@@ -1,4 +1,4 @@
-#include "render/materials/ripples.h"
+#include "render/tile/ripples.h"
 
 #include <algorithm>
 #include <cmath>
