@@ -1,18 +1,19 @@
-# read_materials(SOURCE OUT): the names of the materials, as SOURCE/render/materials/list.h includes their headers.
+# read_materials(SOURCE OUT): the materials, FOLDER/NAME each, as SOURCE/render/materials/list.h includes their headers.
 function(read_materials source out)
   set(list ${source}/render/materials/list.h)
-  file(STRINGS ${list} includes REGEX "^#include \"render/materials/")
-  list(TRANSFORM includes REPLACE ".*/(.*)\\.h\"" "\\1")
+  file(STRINGS ${list} includes REGEX "^#include \"render/(materials|water)/")
+  list(TRANSFORM includes REPLACE ".*render/(.*)\\.h\"" "\\1")
   set(${out} ${includes} PARENT_SCOPE)
   if(NOT CMAKE_SCRIPT_MODE_FILE)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
   endif()
 endfunction()
 
-# make_material_units(NAME SOURCE FOLDER SIMD OUT): writes FOLDER/NAME_TARGET_simd.cpp, the units of a material of
-# SOURCE/render, whose struct has its name with a capital, one for each SIMD target: the largest take half a minute to
+# make_material_units(MATERIAL SOURCE FOLDER SIMD OUT): writes FOLDER/NAME_TARGET_simd.cpp, the units of a material of
+# SOURCE/render, as read_materials() names it, whose struct has its name with a capital, one for each SIMD target: the largest take half a minute to
 # compile for both. SIMD: all, or avx2 alone. OUT: list to which their names are added.
-function(make_material_units name source folder simd out)
+function(make_material_units material source folder simd out)
+  get_filename_component(name ${material} NAME)
   string(SUBSTRING ${name} 0 1 first)
   string(TOUPPER ${first} first)
   string(SUBSTRING ${name} 1 -1 rest)

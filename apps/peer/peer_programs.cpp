@@ -21,7 +21,7 @@ bool has_planar_maps(const Shading& window) {
 
 // --- Texts
 
-// The calls that sample the water's layers, in the order of render/materials/topside-inl.h: after
+// The calls that sample the water's layers, in the order of render/water/topside-inl.h: after
 // each of the long waves the footprint's level is that on the waves so far.
 std::string layers_text(const render::Water& water) {
   std::string text;

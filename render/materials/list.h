@@ -16,8 +16,8 @@
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
 #include "render/materials/tree.h"
-#include "render/materials/water.h"
 #include "render/tile/shading.h"
+#include "render/water/water.h"
 
 namespace swell::render {
 

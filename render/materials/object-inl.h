@@ -8,7 +8,6 @@
 
 #include "render/materials/checker-inl.h"
 #include "render/materials/implicit-inl.h"
-#include "render/materials/list.h"
 #include "render/materials/object.h"
 #include "render/materials/reflected_caustics-inl.h"
 #include "render/packets/fresnel-inl.h"

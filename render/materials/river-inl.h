@@ -8,12 +8,11 @@
 #endif
 
 #include "render/materials/ground-inl.h"
-#include "render/materials/list.h"
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
-#include "render/materials/topside-inl.h"
 #include "render/tile/caustics-inl.h"
 #include "render/tile/through_water-inl.h"
+#include "render/water/topside-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -7,10 +7,10 @@
 #include <glm/glm.hpp>
 
 #include "ocean/inland_water.h"
-#include "render/materials/foam.h"
 #include "render/materials/ground_albedo.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
+#include "render/water/foam.h"
 
 namespace swell::render {
 

@@ -8,17 +8,16 @@
 
 #include "render/materials/canopy-inl.h"
 #include "render/materials/checker-inl.h"
-#include "render/materials/foam-inl.h"
 #include "render/materials/ground-inl.h"
 #include "render/materials/land-inl.h"
-#include "render/materials/list.h"
 #include "render/materials/terrain.h"
-#include "render/materials/topside-inl.h"
 #include "render/packets/fresnel-inl.h"
 #include "render/sky/fog-inl.h"
 #include "render/tile/caustics-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/through_water-inl.h"
+#include "render/water/foam-inl.h"
+#include "render/water/topside-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

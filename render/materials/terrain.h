@@ -5,11 +5,11 @@
 
 #include "render/materials/canopy.h"
 #include "render/materials/checker.h"
-#include "render/materials/foam.h"
 #include "render/materials/ground_albedo.h"
 #include "render/materials/land.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
+#include "render/water/foam.h"
 
 namespace swell::render {
 

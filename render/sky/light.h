@@ -80,7 +80,7 @@ struct Media {
 inline constexpr float kDaylightSlant = 1.2f;
 
 // clouds, sky: of the frame; the sky to be kept as long as the light. ripple_variance: of the
-// slopes of ripples too fine for any map (materials/ripples.h).
+// slopes of ripples too fine for any map (tile/ripples.h).
 Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky,
                  const Fog& fog, float ripple_variance);
 // height_m: sky_height_m().

@@ -30,8 +30,8 @@ struct Shading {
   float exposure = 1.0f;
   PrimitiveRanges primitives;
 
-  // The constants of a material: each Shading is part of a ViewShading (materials/list.h), which
-  // says how. Who calls this includes that.
+  // The constants of a material: each Shading is part of a ViewShading. Defined in
+  // materials/list.h, which includes all of them.
   template <class M>
   const M& material() const;
 };

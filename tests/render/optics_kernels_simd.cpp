@@ -9,8 +9,8 @@
 #include <array>
 #include <utility>
 
-#include "render/materials/topside-inl.h"
 #include "render/packets/fresnel-inl.h"
+#include "render/water/topside-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -12,10 +12,10 @@
 #include "render/materials/river-inl.h"
 #include "render/materials/terrain-inl.h"
 #include "render/materials/tree-inl.h"
-#include "render/materials/water-inl.h"
 #include "render/tile/attenuate-inl.h"
 #include "render/tile/resolve-inl.h"
 #include "render/tile/sky-inl.h"
+#include "render/water/water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

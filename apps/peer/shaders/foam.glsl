@@ -1,4 +1,4 @@
-// Foam, as render/materials/foam-inl.h.
+// Foam, as render/water/foam-inl.h.
 uniform sampler2D foam_pattern;
 uniform vec4 foam_place, foam_scale;
 uniform vec3 foam_light;

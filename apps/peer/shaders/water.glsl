@@ -1,4 +1,4 @@
-// The water, as render/materials/topside-inl.h. ADD_LAYERS() is written by peer_programs.cpp: a call for
+// The water, as render/water/topside-inl.h. ADD_LAYERS() is written by peer_programs.cpp: a call for
 // each of the scene's maps.
 out vec4 colour;
 
@@ -68,7 +68,7 @@ vec4 look_up(sampler2D image, vec2 slope, float to_eye_z, float sign) {
 }
 #endif
 
-// As render/materials/visible_slopes-inl.h.
+// As render/water/visible_slopes-inl.h.
 float seen_cosine(float c, float variance) { return 0.5 * (c + sqrt(2.4 * variance + c * c)); }
 float seen_area(float c, float variance) {
   float near = max(1.0 - abs(c) * inversesqrt(0.5 * variance) / 2.4, 0.0);

@@ -1,13 +1,13 @@
 // How soft water shows its planar maps: slopes finer than a pixel spread what it looks up.
-#if defined(SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
-#undef SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
+#if defined(SWELL_RENDER_WATER_IMAGE_BLUR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_IMAGE_BLUR_INL_H_
+#undef SWELL_RENDER_WATER_IMAGE_BLUR_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_IMAGE_BLUR_INL_H_
+#define SWELL_RENDER_WATER_IMAGE_BLUR_INL_H_
 #endif
 
-#include "render/materials/water.h"
 #include "render/packets/packet-inl.h"
+#include "render/water/water.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

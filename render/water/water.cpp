@@ -1,4 +1,4 @@
-#include "render/materials/water.h"
+#include "render/water/water.h"
 
 #include <algorithm>
 #include <cmath>

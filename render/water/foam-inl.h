@@ -1,13 +1,13 @@
 // Foam on broken waves and on the sheets of water that they send up the beach.
-#if defined(SWELL_RENDER_MATERIALS_FOAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_FOAM_INL_H_
-#undef SWELL_RENDER_MATERIALS_FOAM_INL_H_
+#if defined(SWELL_RENDER_WATER_FOAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_FOAM_INL_H_
+#undef SWELL_RENDER_WATER_FOAM_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_FOAM_INL_H_
+#define SWELL_RENDER_WATER_FOAM_INL_H_
 #endif
 
-#include "render/materials/foam.h"
 #include "render/tile/sun_shadow-inl.h"
+#include "render/water/foam.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,4 +1,4 @@
-#include "render/materials/wakes.h"
+#include "render/water/wakes.h"
 
 #include <cmath>
 

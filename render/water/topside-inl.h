@@ -1,24 +1,15 @@
 // The water's surface from above.
-#if defined(SWELL_RENDER_MATERIALS_TOPSIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_TOPSIDE_INL_H_
-#undef SWELL_RENDER_MATERIALS_TOPSIDE_INL_H_
+#if defined(SWELL_RENDER_WATER_TOPSIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_TOPSIDE_INL_H_
+#undef SWELL_RENDER_WATER_TOPSIDE_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_TOPSIDE_INL_H_
+#define SWELL_RENDER_WATER_TOPSIDE_INL_H_
 #endif
 
 #include <algorithm>
 #include <span>
 
 #include "render/labels/label_channels.h"
-#include "render/materials/bump_light-inl.h"
-#include "render/materials/glitter-inl.h"
-#include "render/materials/hull-inl.h"
-#include "render/materials/image_blur-inl.h"
-#include "render/materials/list.h"
-#include "render/materials/visible_slopes-inl.h"
-#include "render/materials/water.h"
-#include "render/materials/water_slopes-inl.h"
-#include "render/materials/whitecaps-inl.h"
 #include "render/packets/fresnel-inl.h"
 #include "render/sky/mirrored_sky-inl.h"
 #include "render/sky/sky_map-inl.h"
@@ -27,6 +18,14 @@
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/view/wave_reach.h"
+#include "render/water/bump_light-inl.h"
+#include "render/water/glitter-inl.h"
+#include "render/water/hull-inl.h"
+#include "render/water/image_blur-inl.h"
+#include "render/water/visible_slopes-inl.h"
+#include "render/water/water.h"
+#include "render/water/water_slopes-inl.h"
+#include "render/water/whitecaps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

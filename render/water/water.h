@@ -5,13 +5,13 @@
 #include <glm/glm.hpp>
 
 #include "ocean/sea.h"
-#include "render/materials/foam.h"
-#include "render/materials/glitter.h"
-#include "render/materials/near_shore.h"
-#include "render/materials/wakes.h"
-#include "render/materials/whitecaps.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
+#include "render/water/foam.h"
+#include "render/water/glitter.h"
+#include "render/water/near_shore.h"
+#include "render/water/wakes.h"
+#include "render/water/whitecaps.h"
 
 namespace swell::render {
 

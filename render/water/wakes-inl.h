@@ -1,14 +1,14 @@
 // Wakes at a packet of water.
-#if defined(SWELL_RENDER_MATERIALS_WAKES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_WAKES_INL_H_
-#undef SWELL_RENDER_MATERIALS_WAKES_INL_H_
+#if defined(SWELL_RENDER_WATER_WAKES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_WAKES_INL_H_
+#undef SWELL_RENDER_WATER_WAKES_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_WAKES_INL_H_
+#define SWELL_RENDER_WATER_WAKES_INL_H_
 #endif
 
-#include "render/materials/foam_map-inl.h"
-#include "render/materials/wakes.h"
 #include "render/packets/packet-inl.h"
+#include "render/water/foam_map-inl.h"
+#include "render/water/wakes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,13 +1,13 @@
 // The water material: its surface from above or from below, as the eye is.
-#if defined(SWELL_RENDER_MATERIALS_WATER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_WATER_INL_H_
-#undef SWELL_RENDER_MATERIALS_WATER_INL_H_
+#if defined(SWELL_RENDER_WATER_WATER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_WATER_INL_H_
+#undef SWELL_RENDER_WATER_WATER_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_WATER_INL_H_
+#define SWELL_RENDER_WATER_WATER_INL_H_
 #endif
 
-#include "render/materials/topside-inl.h"
-#include "render/materials/underside-inl.h"
+#include "render/water/topside-inl.h"
+#include "render/water/underside-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,4 +1,4 @@
-#include "render/materials/near_shore.h"
+#include "render/water/near_shore.h"
 
 #include "math/elementary.h"
 #include "math/smoothstep.h"

@@ -1,13 +1,13 @@
 // What floating hulls do to the water around them.
-#if defined(SWELL_RENDER_MATERIALS_HULL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_HULL_INL_H_
-#undef SWELL_RENDER_MATERIALS_HULL_INL_H_
+#if defined(SWELL_RENDER_WATER_HULL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_HULL_INL_H_
+#undef SWELL_RENDER_WATER_HULL_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_HULL_INL_H_
+#define SWELL_RENDER_WATER_HULL_INL_H_
 #endif
 
-#include "render/materials/foam-inl.h"
 #include "render/tile/shading_result-inl.h"
+#include "render/water/foam-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,9 +1,9 @@
 // The paper's lighting of bump: the water's own colour times dot(normal, light) and a detail.
-#if defined(SWELL_RENDER_MATERIALS_BUMP_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_BUMP_LIGHT_INL_H_
-#undef SWELL_RENDER_MATERIALS_BUMP_LIGHT_INL_H_
+#if defined(SWELL_RENDER_WATER_BUMP_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_BUMP_LIGHT_INL_H_
+#undef SWELL_RENDER_WATER_BUMP_LIGHT_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_BUMP_LIGHT_INL_H_
+#define SWELL_RENDER_WATER_BUMP_LIGHT_INL_H_
 #endif
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 // Foam of one patch's waves.
-#if defined(SWELL_RENDER_MATERIALS_FOAM_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_FOAM_MAP_INL_H_
-#undef SWELL_RENDER_MATERIALS_FOAM_MAP_INL_H_
+#if defined(SWELL_RENDER_WATER_FOAM_MAP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_FOAM_MAP_INL_H_
+#undef SWELL_RENDER_WATER_FOAM_MAP_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_FOAM_MAP_INL_H_
+#define SWELL_RENDER_WATER_FOAM_MAP_INL_H_
 #endif
 
-#include "render/materials/whitecaps.h"
 #include "render/packets/packet-inl.h"
+#include "render/water/whitecaps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,16 +1,16 @@
 // The water's surface from below: Snell's window with the world above bent into it, and the mirror
 // of total reflection around it.
-#if defined(SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_
-#undef SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_
+#if defined(SWELL_RENDER_WATER_UNDERSIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_UNDERSIDE_INL_H_
+#undef SWELL_RENDER_WATER_UNDERSIDE_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_UNDERSIDE_INL_H_
+#define SWELL_RENDER_WATER_UNDERSIDE_INL_H_
 #endif
 
-#include "render/materials/topside-inl.h"
 #include "render/sky/fog-inl.h"
 #include "render/tile/sky-inl.h"
 #include "render/tile/through_water-inl.h"
+#include "render/water/topside-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

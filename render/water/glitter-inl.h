@@ -1,13 +1,13 @@
 // The sun's glitter, looked up in the picture that the mirrored sun throws on the water.
-#if defined(SWELL_RENDER_MATERIALS_GLITTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_GLITTER_INL_H_
-#undef SWELL_RENDER_MATERIALS_GLITTER_INL_H_
+#if defined(SWELL_RENDER_WATER_GLITTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_GLITTER_INL_H_
+#undef SWELL_RENDER_WATER_GLITTER_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_GLITTER_INL_H_
+#define SWELL_RENDER_WATER_GLITTER_INL_H_
 #endif
 
-#include "render/materials/glitter.h"
 #include "render/packets/packet-inl.h"
+#include "render/water/glitter.h"
 #include "render/world/sun_texture.h"
 
 HWY_BEFORE_NAMESPACE();

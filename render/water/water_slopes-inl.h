@@ -1,21 +1,21 @@
 // The water's surface at a packet: slopes and foam of all waves.
-#if defined(SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_
-#undef SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_
+#if defined(SWELL_RENDER_WATER_WATER_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_WATER_SLOPES_INL_H_
+#undef SWELL_RENDER_WATER_WATER_SLOPES_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_WATER_SLOPES_INL_H_
+#define SWELL_RENDER_WATER_WATER_SLOPES_INL_H_
 #endif
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "render/materials/foam-inl.h"
-#include "render/materials/near_shore-inl.h"
-#include "render/materials/tiled_slopes-inl.h"
-#include "render/materials/wakes-inl.h"
-#include "render/materials/water.h"
-#include "render/materials/whitecaps-inl.h"
+#include "render/water/foam-inl.h"
+#include "render/water/near_shore-inl.h"
+#include "render/water/tiled_slopes-inl.h"
+#include "render/water/wakes-inl.h"
+#include "render/water/water.h"
+#include "render/water/whitecaps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,16 +1,16 @@
 // Slopes and foam of the sea's longest patch, which covers it by tiles (ocean/patch_tiles.h).
-#if defined(SWELL_RENDER_MATERIALS_TILED_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_TILED_SLOPES_INL_H_
-#undef SWELL_RENDER_MATERIALS_TILED_SLOPES_INL_H_
+#if defined(SWELL_RENDER_WATER_TILED_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_TILED_SLOPES_INL_H_
+#undef SWELL_RENDER_WATER_TILED_SLOPES_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_TILED_SLOPES_INL_H_
+#define SWELL_RENDER_WATER_TILED_SLOPES_INL_H_
 #endif
 
 #include <bit>
 
 #include "ocean/patch_tiles-inl.h"
-#include "render/materials/foam_map-inl.h"
 #include "render/packets/packet-inl.h"
+#include "render/water/foam_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

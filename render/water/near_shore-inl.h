@@ -1,13 +1,13 @@
 // What a shore does to the sea before it, a packet at a time.
-#if defined(SWELL_RENDER_MATERIALS_NEAR_SHORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_NEAR_SHORE_INL_H_
-#undef SWELL_RENDER_MATERIALS_NEAR_SHORE_INL_H_
+#if defined(SWELL_RENDER_WATER_NEAR_SHORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_NEAR_SHORE_INL_H_
+#undef SWELL_RENDER_WATER_NEAR_SHORE_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_NEAR_SHORE_INL_H_
+#define SWELL_RENDER_WATER_NEAR_SHORE_INL_H_
 #endif
 
-#include "render/materials/near_shore.h"
 #include "render/packets/packet-inl.h"
+#include "render/water/near_shore.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,11 +1,11 @@
-#include "render/materials/whitecaps.h"
+#include "render/water/whitecaps.h"
 
 #include <algorithm>
 
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "render/frame/parts.h"
-#include "render/materials/foam.h"
+#include "render/water/foam.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

@@ -1,14 +1,14 @@
 // Foam of the open sea's breaking waves.
-#if defined(SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
-#undef SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#if defined(SWELL_RENDER_WATER_WHITECAPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_WHITECAPS_INL_H_
+#undef SWELL_RENDER_WATER_WHITECAPS_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_WHITECAPS_INL_H_
+#define SWELL_RENDER_WATER_WHITECAPS_INL_H_
 #endif
 
-#include "render/materials/foam_map-inl.h"
-#include "render/materials/whitecaps.h"
 #include "render/tile/sun_shadow-inl.h"
+#include "render/water/foam_map-inl.h"
+#include "render/water/whitecaps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -1,10 +1,10 @@
 // Which slopes of rough water an eye near the surface sees: those turned to it, as much as they
 // are.
-#if defined(SWELL_RENDER_MATERIALS_VISIBLE_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SWELL_RENDER_MATERIALS_VISIBLE_SLOPES_INL_H_
-#undef SWELL_RENDER_MATERIALS_VISIBLE_SLOPES_INL_H_
+#if defined(SWELL_RENDER_WATER_VISIBLE_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_WATER_VISIBLE_SLOPES_INL_H_
+#undef SWELL_RENDER_WATER_VISIBLE_SLOPES_INL_H_
 #else
-#define SWELL_RENDER_MATERIALS_VISIBLE_SLOPES_INL_H_
+#define SWELL_RENDER_WATER_VISIBLE_SLOPES_INL_H_
 #endif
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/materials/glitter.h"
+#include "render/water/glitter.h"
 
 #include <cmath>
 

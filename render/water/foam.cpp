@@ -1,4 +1,4 @@
-#include "render/materials/foam.h"
+#include "render/water/foam.h"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "ocean/wake_sources.h"
-#include "render/materials/whitecaps.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
+#include "render/water/whitecaps.h"
 
 namespace swell::render {
 
