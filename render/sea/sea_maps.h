@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "ocean/sea.h"
-#include "ocean/water_surface.h"
 #include "ocean/whitecaps.h"
 #include "render/frame/parts.h"
 #include "render/frame/profile.h"

@@ -23,7 +23,6 @@
 #include "render/view/implicits.h"
 #include "render/view/meshes.h"
 #include "render/view/surfaces.h"
-#include "render/world/land_rays.h"
 #include "render/world/world.h"
 
 namespace swell::render {
