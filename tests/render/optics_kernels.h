@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "render/materials/list.h"
 #include "render/shade/shade_tile.h"
 
 namespace swell::render {
