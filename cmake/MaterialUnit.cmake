@@ -10,8 +10,8 @@ function(read_materials source out)
 endfunction()
 
 # make_material_units(MATERIAL SOURCE FOLDER SIMD OUT): writes FOLDER/NAME_TARGET_simd.cpp, the units of a material of
-# SOURCE/render, as read_materials() names it, whose struct has its name with a capital, one for each SIMD target: the largest take half a minute to
-# compile for both. SIMD: all, or avx2 alone. OUT: list to which their names are added.
+# SOURCE/render, as read_materials() names it, whose struct has its name with a capital, one for each SIMD target: the
+# largest take half a minute to compile for both. SIMD: all, or avx2 alone. OUT: list to which their names are added.
 function(make_material_units material source folder simd out)
   get_filename_component(name ${material} NAME)
   string(SUBSTRING ${name} 0 1 first)
