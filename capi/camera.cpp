@@ -123,11 +123,11 @@ swell_status swell_camera_look(const double eye_m[3], double heading_deg, double
       check_range("eye_m", eye_m[i], -kFarthestEye_m, kFarthestEye_m);
       made.eye_m[i] = eye_m[i];
     }
-    const glm::dmat3 axes = camera_axes(scene::radians(heading_deg), scene::radians(pitch_deg),
-                                        scene::radians(roll_deg));
+    const glm::dmat3 axes =
+        camera_axes(radians(heading_deg), radians(pitch_deg), radians(roll_deg));
     // The optical frame: right, down, ahead.
     set(made.quaternion_wxyz, glm::quat_cast(glm::dmat3(axes[0], -axes[2], axes[1])));
-    const double focal_px = 0.5 * size.height_px / swell::tan(0.5 * scene::radians(fov_y_deg));
+    const double focal_px = 0.5 * size.height_px / swell::tan(0.5 * radians(fov_y_deg));
     set(made.focal_px, glm::dvec2(focal_px));
     set(made.principal_px, 0.5 * glm::dvec2(size.width_px, size.height_px));
     made.near_m = kNear_m;

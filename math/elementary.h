@@ -12,6 +12,8 @@ namespace swell {
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kTwoPi = 2.0 * kPi;
+inline constexpr double kRadPerDeg = kPi / 180.0;
+constexpr double radians(double deg) { return deg * kRadPerDeg; }
 template <typename T>
 inline constexpr T kInfinity = std::numeric_limits<T>::infinity();
 

@@ -24,9 +24,9 @@ namespace swell::mesh_import {
 namespace {
 
 namespace fs = std::filesystem;
-using scene::FlatMaterial;
-using scene::FlatVertex;
 using scene::UpAxis;
+using shapes::FlatMaterial;
+using shapes::FlatVertex;
 
 template <class... T>
 [[noreturn]] void refuse(fmt::format_string<T...> text, T&&... values) {
@@ -49,7 +49,7 @@ class OneFolder : public Assimp::DefaultIOSystem {
     std::error_code error;
     const std::uint64_t bytes = fs::file_size(path, error);
     taken_ += bytes;
-    if (error || taken_ > scene::kMostMeshFileBytes) return nullptr;
+    if (error || taken_ > shapes::kMostMeshFileBytes) return nullptr;
     if (opened_.insert(path).second) count_inputs_(bytes);
     return DefaultIOSystem::Open(file, "rb");
   }
@@ -131,8 +131,8 @@ class Textures {
     const auto [found, is_new] =
         numbers_.try_emplace(name.C_Str(), static_cast<std::int32_t>(sources_.size()));
     if (is_new) sources_.push_back(source_of(name.C_Str()));
-    if (sources_.size() > scene::kMostMeshTextures)
-      refuse("over {0} textures, allowed {0}", scene::kMostMeshTextures);
+    if (sources_.size() > shapes::kMostMeshTextures)
+      refuse("over {0} textures, allowed {0}", shapes::kMostMeshTextures);
     return found->second;
   }
   std::vector<TextureSource> take() { return std::move(sources_); }
@@ -151,7 +151,7 @@ class Textures {
     } else {
       source.width = held->mWidth, source.height = held->mHeight;
       const std::size_t texels = std::size_t{source.width} * source.height;
-      if (texels > scene::kMostMeshTexels) refuse("a texture of {} texels", texels);
+      if (texels > shapes::kMostMeshTexels) refuse("a texture of {} texels", texels);
       for (std::size_t i = 0; i < texels; ++i) {
         const aiTexel& t = held->pcData[i];
         source.texels.push_back(t.r | t.g << 8 | t.b << 16 | 0xff000000u);
@@ -168,8 +168,8 @@ class Textures {
 
 void add_materials(const aiScene& scene, const fs::path& folder, bool plain, LooseMesh& mesh) {
   Textures textures(scene, folder);
-  if (scene.mNumMaterials > scene::kMostMeshMaterials)
-    refuse("{} materials, allowed {}", scene.mNumMaterials, scene::kMostMeshMaterials);
+  if (scene.mNumMaterials > shapes::kMostMeshMaterials)
+    refuse("{} materials, allowed {}", scene.mNumMaterials, shapes::kMostMeshMaterials);
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     FlatMaterial material = material_of(*scene.mMaterials[i]);
     if (plain || is_default(scene, i)) material.painted = 1;
@@ -234,8 +234,8 @@ class Collector {
   void place(unsigned number, const aiMatrix4x4& transform) {
     const aiMesh& mesh = *scene_.mMeshes[number];
     if (!mesh.HasFaces() || !mesh.HasPositions()) return;
-    if (to_.material.size() + mesh.mNumFaces > scene::kMostMeshTriangles)
-      refuse("over {0} triangles, allowed {0}", scene::kMostMeshTriangles);
+    if (to_.material.size() + mesh.mNumFaces > shapes::kMostMeshTriangles)
+      refuse("over {0} triangles, allowed {0}", shapes::kMostMeshTriangles);
     if (is_placed_[number]) count_inputs_(kInputsPerCopiedTriangle * mesh.mNumFaces);
     is_placed_[number] = true;
     add(mesh, transform);

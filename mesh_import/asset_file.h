@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/flat_mesh.h"
 #include "scene/objects.h"
+#include "shapes/flat_mesh.h"
 
 namespace swell::mesh_import {
 
@@ -35,10 +35,10 @@ struct TextureSource {
 
 // Three vertices a triangle. Axes as of an object: right, ahead, up.
 struct LooseMesh {
-  std::vector<scene::FlatVertex> corners;
+  std::vector<shapes::FlatVertex> corners;
   std::vector<bool> has_normals;        // of each triangle
   std::vector<std::uint32_t> material;  // the same
-  std::vector<scene::FlatMaterial> materials;
+  std::vector<shapes::FlatMaterial> materials;
   std::vector<TextureSource> textures;
 };
 

@@ -41,8 +41,8 @@ std::uint32_t texel_of(std::span<const float> channels) {
   return code(0) | code(grey ? 0 : 1) << 8 | code(grey ? 0 : 2) << 16 | 0xff000000u;
 }
 
-scene::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels,
-                          const InputCounter& count_inputs) {
+shapes::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels,
+                           const InputCounter& count_inputs) {
   const texture::ImageCodec& codec = texture::image_codec();
   void* image = nullptr;
   texture::ImageInfo info;
@@ -53,20 +53,20 @@ scene::FlatTexture decode(std::span<const char> bytes, std::uint64_t most_texels
   };
   check(codec.open(format_of({bytes.data(), bytes.size()}), bytes, image, info, error));
   const std::unique_ptr<void, void (*)(void*)> owner(image, codec.close);
-  const auto is_side = [](int side) { return side >= 1 && side <= scene::kMostTextureSide_px; };
+  const auto is_side = [](int side) { return side >= 1 && side <= shapes::kMostTextureSide_px; };
   if (!is_side(info.width) || !is_side(info.height) || info.depth != 1 || info.is_deep ||
       info.channels < 1 || info.channels > 4)
     throw Refused(fmt::format("a texture of {} x {} with {} channels, allowed {} a side and 4",
-                              info.width, info.height, info.channels, scene::kMostTextureSide_px));
+                              info.width, info.height, info.channels, shapes::kMostTextureSide_px));
   const std::size_t texels = static_cast<std::size_t>(info.width) * info.height;
   if (texels > most_texels)
     throw Refused(
-        fmt::format("over {0} texels in its textures, allowed {0}", scene::kMostMeshTexels));
+        fmt::format("over {0} texels in its textures, allowed {0}", shapes::kMostMeshTexels));
   count_inputs(texels);
   const auto channels = static_cast<std::size_t>(info.channels);
   std::vector<float> pixels(texels * channels);
   check(codec.read(image, pixels, error));
-  scene::FlatTexture texture{
+  shapes::FlatTexture texture{
       static_cast<std::uint32_t>(info.width), static_cast<std::uint32_t>(info.height), {}};
   texture.texels.reserve(texels);
   for (std::size_t i = 0; i < texels; ++i)
@@ -89,11 +89,11 @@ std::vector<char> read_picture(const fs::path& path, const fs::path& folder,
 
 }  // namespace
 
-std::vector<scene::FlatTexture> decode_textures(std::span<const TextureSource> sources,
-                                                const fs::path& folder,
-                                                const InputCounter& count_inputs) {
-  std::vector<scene::FlatTexture> textures;
-  std::uint64_t left = scene::kMostMeshTexels;
+std::vector<shapes::FlatTexture> decode_textures(std::span<const TextureSource> sources,
+                                                 const fs::path& folder,
+                                                 const InputCounter& count_inputs) {
+  std::vector<shapes::FlatTexture> textures;
+  std::uint64_t left = shapes::kMostMeshTexels;
   for (const TextureSource& source : sources) {
     if (!source.texels.empty())
       textures.push_back({source.width, source.height, source.texels});
@@ -105,7 +105,7 @@ std::vector<scene::FlatTexture> decode_textures(std::span<const TextureSource> s
     const std::uint64_t taken = textures.back().texels.size();
     if (taken > left)
       throw Refused(
-          fmt::format("over {0} texels in its textures, allowed {0}", scene::kMostMeshTexels));
+          fmt::format("over {0} texels in its textures, allowed {0}", shapes::kMostMeshTexels));
     left -= taken;
   }
   return textures;

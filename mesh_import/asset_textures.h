@@ -11,8 +11,8 @@ namespace swell::mesh_import {
 
 // PNG, JPEG, TIFF, HDR, EXR and PNM. A picture outside `folder` is refused, as are too many texels
 // in all. Throws Refused.
-std::vector<scene::FlatTexture> decode_textures(std::span<const TextureSource> sources,
-                                                const std::filesystem::path& folder,
-                                                const InputCounter& count_inputs = ignore_inputs);
+std::vector<shapes::FlatTexture> decode_textures(std::span<const TextureSource> sources,
+                                                 const std::filesystem::path& folder,
+                                                 const InputCounter& count_inputs = ignore_inputs);
 
 }  // namespace swell::mesh_import

@@ -11,8 +11,8 @@
 namespace swell::mesh_import {
 namespace {
 
-using scene::FlatLevel;
-using scene::FlatVertex;
+using shapes::FlatLevel;
+using shapes::FlatVertex;
 
 constexpr float kCosCrease = 0.76604444f;  // of 40 degrees
 // Around a vertex with more triangles than this they are flat: whoever has so many is no surface.
@@ -85,7 +85,7 @@ void add_normals(LooseMesh& mesh) {
   }
 }
 
-void join_vertices(const LooseMesh& mesh, scene::FlatMesh& flat) {
+void join_vertices(const LooseMesh& mesh, shapes::FlatMesh& flat) {
   std::vector<unsigned> remap(mesh.corners.size());
   const std::size_t vertices =
       meshopt_generateVertexRemap(remap.data(), nullptr, mesh.corners.size(), mesh.corners.data(),
@@ -155,10 +155,10 @@ float distance_between(const FlatLevel& fine, const FlatLevel& coarse,
 
 }  // namespace
 
-void add_levels(scene::FlatMesh& flat) {
+void add_levels(shapes::FlatMesh& flat) {
   constexpr std::size_t kFewTriangles = 400;
   const float* const positions = flat.vertices[0].position.data();
-  while (flat.levels.size() < scene::kMostMeshLevels &&
+  while (flat.levels.size() < shapes::kMostMeshLevels &&
          flat.levels.back().material.size() > kFewTriangles) {
     const auto parts = by_material(flat.levels.back(), flat.materials.size());
     FlatLevel next;

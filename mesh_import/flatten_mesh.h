@@ -10,9 +10,9 @@ namespace swell::mesh_import {
 void add_normals(LooseMesh& mesh);
 
 // The vertices and the finest level, without triangles that have no area.
-void join_vertices(const LooseMesh& mesh, scene::FlatMesh& flat);
+void join_vertices(const LooseMesh& mesh, shapes::FlatMesh& flat);
 
 // Levels of a quarter of the triangles each of the one before, down to some hundred.
-void add_levels(scene::FlatMesh& flat);
+void add_levels(shapes::FlatMesh& flat);
 
 }  // namespace swell::mesh_import

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "scene/run_importer.h"
+#include "shapes/run_importer.h"
 
 namespace swell::mesh_import {
 namespace {
@@ -49,7 +49,7 @@ bool end_with_parent(pid_t parent) {
 }
 
 void limit_process() {
-  limit(RLIMIT_CPU, scene::kMostImport_s);
+  limit(RLIMIT_CPU, shapes::kMostImport_s);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
   if (!kLimitsMemory) return;

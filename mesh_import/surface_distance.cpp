@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLeastCells = 4, kMostCells = 48;  // along the longest side
 
-glm::vec3 place(const scene::FlatVertex& v) {
+glm::vec3 place(const shapes::FlatVertex& v) {
   return {v.position[0], v.position[1], v.position[2]};
 }
 
@@ -39,7 +39,7 @@ float square_to_triangle(glm::vec3 p, const std::array<glm::vec3, 3>& q) {
 // The triangles of a surface by the cells of a grid that their boxes touch.
 class TriangleGrid {
  public:
-  TriangleGrid(std::span<const scene::FlatVertex> vertices, std::span<const std::uint32_t> indices)
+  TriangleGrid(std::span<const shapes::FlatVertex> vertices, std::span<const std::uint32_t> indices)
       : vertices_(vertices), indices_(indices) {
     glm::vec3 high(-1e30f);
     low_ = glm::vec3(1e30f);
@@ -114,7 +114,7 @@ class TriangleGrid {
       }
   }
 
-  std::span<const scene::FlatVertex> vertices_;
+  std::span<const shapes::FlatVertex> vertices_;
   std::span<const std::uint32_t> indices_;
   glm::vec3 low_;
   float cell_ = 1.0f;
@@ -124,7 +124,7 @@ class TriangleGrid {
 
 }  // namespace
 
-float farthest_from(std::span<const scene::FlatVertex> vertices,
+float farthest_from(std::span<const shapes::FlatVertex> vertices,
                     std::span<const std::uint32_t> numbers,
                     std::span<const std::uint32_t> indices) {
   if (numbers.empty() || indices.empty()) return 0.0f;

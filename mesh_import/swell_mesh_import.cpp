@@ -1,7 +1,7 @@
 // swell_mesh_import FILE auto|y|z [PARENT]: reads a mesh file and writes it as flat arrays
-// (scene/flat_mesh.h) to its output. It is run by the library (scene/run_importer.h), whose process
-// PARENT it does not outlive. Exits with 1 and a line on its error output for a file that is
-// refused.
+// (shapes/flat_mesh.h) to its output. It is run by the library (shapes/run_importer.h), whose
+// process PARENT it does not outlive. Exits with 1 and a line on its error output for a file that
+// is refused.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -21,14 +21,14 @@
 namespace swell::mesh_import {
 namespace {
 
-scene::FlatMesh import_mesh(const std::filesystem::path& file, scene::UpAxis up) {
+shapes::FlatMesh import_mesh(const std::filesystem::path& file, scene::UpAxis up) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (error) throw Refused(error.message());
-  if (bytes > scene::kMostMeshFileBytes) throw Refused("a file of over 512 MiB, allowed 512 MiB");
+  if (bytes > shapes::kMostMeshFileBytes) throw Refused("a file of over 512 MiB, allowed 512 MiB");
   LooseMesh loose = read_asset(file, up, allow_memory_for);
   add_normals(loose);
-  scene::FlatMesh flat;
+  shapes::FlatMesh flat;
   join_vertices(loose, flat);
   loose.corners = {};
   if (!loose.textures.empty()) load_uncounted([] { texture::image_codec(); });
@@ -58,7 +58,7 @@ int run(int argc, char** argv) {
   std::string fault;
   try {
     if (argc != 3 && argc != 4) throw Refused("usage: swell_mesh_import FILE auto|y|z [PARENT]");
-    scene::write_flat_mesh(import_mesh(argv[1], axis_of(argv[2])), write_all);
+    shapes::write_flat_mesh(import_mesh(argv[1], axis_of(argv[2])), write_all);
     return 0;
   } catch (const std::bad_alloc&) {
     fault = fmt::format(

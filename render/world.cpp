@@ -20,12 +20,12 @@
 #include "render/world/sun_texture.h"
 #include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"
-#include "scene/atmosphere.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
 #include "scene/drift.h"
-#include "scene/sky.h"
 #include "scene/terrain.h"
+#include "sky/atmosphere.h"
+#include "sky/sky_light.h"
 #include "terrain/bicubic.h"
 #include "terrain/height_grid.h"
 #include "terrain/shore_map.h"
@@ -94,13 +94,12 @@ CoastMaps build_coast_maps(const ocean::CoastSea& coast, Workers& workers) {
 // like: may have another sky.
 void add_sky(const World::State* like, bool same_sky, Workers& workers, World::State& state) {
   const scene::Sky& sky = state.scene.sky;
-  const bool is_gradient = scene::is_gradient(sky);
+  const bool is_gradient = sky::is_gradient(sky);
   const bool same_air = like && like->scene.sky.turbidity == sky.turbidity &&
-                        scene::is_gradient(like->scene.sky) == is_gradient;
-  state.atmosphere = same_air
-                         ? like->atmosphere
-                         : shared(is_gradient ? scene::Atmosphere()
-                                              : scene::make_atmosphere(sky.turbidity, workers));
+                        sky::is_gradient(like->scene.sky) == is_gradient;
+  state.atmosphere = same_air ? like->atmosphere
+                              : shared(is_gradient ? sky::Atmosphere()
+                                                   : sky::make_atmosphere(sky.turbidity, workers));
   state.sky = same_sky ? like->sky : shared(build_sky_maps(sky, *state.atmosphere, workers));
 }
 

@@ -17,9 +17,6 @@ namespace swell::scene {
 
 struct Scene;
 
-inline constexpr double kRadPerDeg = kPi / 180.0;
-constexpr double radians(double deg) { return deg * kRadPerDeg; }
-
 // Where the camera is and looks at a time.
 struct Waypoint {
   double t_s = 0.0;

@@ -7,11 +7,11 @@
 
 #include "ocean/drift.h"
 #include "ocean/map_waves.h"
-#include "scene/celestial.h"
 #include "scene/coast.h"
 #include "scene/key_places.h"
 #include "scene/parameters.h"
-#include "scene/sky.h"
+#include "sky/celestial.h"
+#include "sky/sky_light.h"
 #include "terrain/sea_floor.h"
 
 namespace swell::scene {
@@ -106,19 +106,20 @@ Fault fault_of_tables(std::string_view key, const std::vector<Object>& objects, 
 // ---- Values that have to agree
 
 Fault fault_of_sky(const Sky& sky) {
-  const glm::vec3 direction = sun_direction(sky.sun_azimuth_rad, sky.sun_elevation_rad);
+  const glm::vec3 direction = sky::sun_direction(sky.sun_azimuth_rad, sky.sun_elevation_rad);
   if (!(glm::distance(sky.sun_direction, direction) < 1e-3f))
     return SceneFault{
         "sky.sun_direction",
         fmt::format("[{}, {}, {}]", sky.sun_direction.x, sky.sun_direction.y, sky.sun_direction.z),
         fmt::format("the direction of the azimuth and the elevation, [{}, {}, {}]", direction.x,
                     direction.y, direction.z)};
-  if (!sky.time_utc.empty() && !parse_time_utc(sky.time_utc))
+  if (!sky.time_utc.empty() && !sky::parse_time_utc(sky.time_utc))
     return SceneFault{"sky.time_utc", fmt::format("\"{}\"", sky.time_utc),
                       "a time as \"2026-06-21T12:00:00Z\", from 1900 to 2100"};
-  const GradientSky gradient = gradient_of(sky);
+  const sky::GradientSky gradient = sky::gradient_of(sky);
   for (int c = 0; c < 3; ++c)
-    if (kBeyondHorizon * gradient.zenith[c] > (1.0f + kBeyondHorizon) * gradient.horizon[c])
+    if (sky::kBeyondHorizon * gradient.zenith[c] >
+        (1.0f + sky::kBeyondHorizon) * gradient.horizon[c])
       return SceneFault{
           fmt::format("sky.zenith[{}]", c), fmt::format("{}", gradient.zenith[c]),
           fmt::format("at most 7.66 times sky.horizon[{}], which is {}", c, gradient.horizon[c])};

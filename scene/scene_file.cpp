@@ -10,7 +10,6 @@
 #include "math/parallel.h"
 #include "ocean/map_sets.h"
 #include "ocean/sea_scale.h"
-#include "scene/celestial.h"
 #include "scene/check_scene.h"
 #include "scene/checked_values.h"
 #include "scene/implicit_file.h"
@@ -19,8 +18,9 @@
 #include "scene/scene_tables.h"
 #include "scene/sea_state.h"
 #include "scene/settings.h"
-#include "scene/sky.h"
 #include "scene/spelling.h"
+#include "sky/celestial.h"
+#include "sky/sky_light.h"
 
 namespace swell::scene {
 namespace {
@@ -64,10 +64,10 @@ class Reader {
     apply_sea_state();
     apply_water_type();
     finish_coast();
-    if (is_gradient(scene_.sky)) scene_.sky.model = SkyModel::kGradient;
+    if (sky::is_gradient(scene_.sky)) scene_.sky.model = SkyModel::kGradient;
     apply_time();
     scene_.sky.sun_direction =
-        sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
+        sky::sun_direction(scene_.sky.sun_azimuth_rad, scene_.sky.sun_elevation_rad);
     if (const auto fault = find_disagreement(scene_))
       fail(file_, place_of_key(given_, fault->key), fault_text(*fault));
     scene_.places = std::make_shared<const KeyPlaces>(file_, std::move(given_));
@@ -135,8 +135,8 @@ class Reader {
   // Sun and moon as they stand at sky.time_utc.
   void apply_time() {
     if (scene_.sky.time_utc.empty()) return;
-    const std::optional<double> days = parse_time_utc(scene_.sky.time_utc);
-    if (days) place_sun_and_moon(*days, scene_.sky);
+    const std::optional<double> days = sky::parse_time_utc(scene_.sky.time_utc);
+    if (days) sky::place_sun_and_moon(*days, scene_.sky);
   }
 
   // Maps take the spectrum's place, and a set has a wind.

@@ -10,7 +10,7 @@ namespace swell::scene {
 
 struct SceneFile {
   std::string path;
-  bool is_mesh = false;  // which may have further files; scene/run_importer.h reads them all
+  bool is_mesh = false;  // which may have further files; shapes/run_importer.h reads them all
   UpAxis up = {};        // of a mesh
   bool operator==(const SceneFile&) const = default;
 };

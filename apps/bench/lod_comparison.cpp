@@ -24,7 +24,7 @@ struct NamedView {
   double heading_rad, pitch_rad;
 
   View at(glm::dvec3 moved_m, int width_px, int height_px) const {
-    return make_view(eye + moved_m, heading_rad, pitch_rad, scene::radians(50.0), 0.25f, width_px,
+    return make_view(eye + moved_m, heading_rad, pitch_rad, radians(50.0), 0.25f, width_px,
                      height_px);
   }
 };
@@ -32,8 +32,8 @@ struct NamedView {
 std::vector<NamedView> compared_views(const scene::WaterSurface& surface) {
   const glm::dvec2 boat(0.0, -600.0);
   const double boat_z = std::max(static_cast<double>(surface.height(boat)), 0.0) + 2.5;
-  return {{"bridge, 10 m", {0.0, -900.0, 10.0}, scene::radians(20.0), scene::radians(-7.0)},
-          {"boat, 2.5 m", {boat, boat_z}, scene::radians(20.0), scene::radians(-3.0)}};
+  return {{"bridge, 10 m", {0.0, -900.0, 10.0}, radians(20.0), radians(-7.0)},
+          {"boat, 2.5 m", {boat, boat_z}, radians(20.0), radians(-3.0)}};
 }
 
 // One triangulation of the scene, drawn by the renderer itself.

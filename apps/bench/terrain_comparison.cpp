@@ -76,11 +76,10 @@ BudgetFlight fly(const TerrainComparison& comparison, const render::World& world
   BudgetFlight flight;
   std::vector<double> ms;
   for (int k = 0; k < comparison.frames + 2; ++k) {
-    const View view =
-        make_view({-6000.0 + k, 120.0, 700.0 - kSeaLevel_m},
-                  camera_axes(scene::radians(90.0), scene::radians(-10.0), 0.0),
-                  lens_of_fov(scene::radians(50.0), comparison.width_px, comparison.height_px),
-                  0.25f, comparison.width_px, comparison.height_px);
+    const View view = make_view(
+        {-6000.0 + k, 120.0, 700.0 - kSeaLevel_m}, camera_axes(radians(90.0), radians(-10.0), 0.0),
+        lens_of_fov(radians(50.0), comparison.width_px, comparison.height_px), 0.25f,
+        comparison.width_px, comparison.height_px);
     const render::FrameStatistics statistics =
         render::render_frame(world, view, 5.0, options, workspace, flight.last, workers);
     if (k >= 2) ms.push_back(statistics.frame_ms);

@@ -12,9 +12,9 @@
 
 #include "apps/shared/program.h"
 #include "render/frame.h"
-#include "scene/run_importer.h"
 #include "scene/scene_error.h"
 #include "scene/scene_files.h"
+#include "shapes/run_importer.h"
 
 namespace swell::apps {
 namespace {
@@ -43,7 +43,7 @@ Bytes read_file(const std::string& path) {
 Bytes content_of(const scene::SceneFile& file) {
   if (!file.is_mesh) return read_file(file.path);
   try {
-    const std::vector<char> mesh = scene::run_importer(file.path, file.up);
+    const std::vector<char> mesh = shapes::run_importer(file.path, file.up);
     return {mesh.begin(), mesh.end()};
   } catch (const std::runtime_error& error) {
     refuse(file.path, error.what());

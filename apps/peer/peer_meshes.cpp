@@ -40,8 +40,8 @@ void PeerMesh::take(const render::Surface& surface) {
 }
 
 // The peer draws no pictures on meshes: each is its mean colour.
-static glm::vec3 mean_of_texture(const scene::ObjectTriangle& triangle,
-                                 const scene::ObjectMesh& mesh) {
+static glm::vec3 mean_of_texture(const shapes::ObjectTriangle& triangle,
+                                 const shapes::ObjectMesh& mesh) {
   if (mesh.textured.empty()) return glm::vec3(1.0f);
   const auto number = static_cast<std::size_t>(&triangle - mesh.triangles.data());
   const std::int32_t texture = mesh.textured[number].texture;
@@ -56,7 +56,7 @@ void PeerMesh::take(const render::ObjectDraws& objects) {
   std::vector<float> waterline_rel_m;
   for (std::size_t i = 0; i < corners; ++i) {
     const std::uint32_t vertex = objects.indices[i];
-    const scene::ObjectTriangle& triangle = *objects.primitives[i / 3].triangle;
+    const shapes::ObjectTriangle& triangle = *objects.primitives[i / 3].triangle;
     const render::ObjectInstance& object = *objects.primitives[i / 3].object;
     const glm::vec3 p = objects.p_rel[vertex], q = p - object.bottom_rel;
     // To the mesh's coordinates, the normal there, and back.

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "math/elementary.h"
-#include "scene/celestial.h"
-#include "scene/sky.h"
+#include "sky/celestial.h"
+#include "sky/sky_light.h"
 
 namespace swell::view {
 namespace {
@@ -17,7 +17,7 @@ constexpr int kDateLength = 11;         // "2026-06-21T"
 constexpr double kKoschmieder = 3.912;  // ln 50, which B = 3.912 / V has
 
 double hour_of(std::string_view time_utc) {
-  const double days = scene::parse_time_utc(time_utc).value_or(0.0) + 0.5;  // from midnight
+  const double days = sky::parse_time_utc(time_utc).value_or(0.0) + 0.5;  // from midnight
   return 24.0 * (days - std::floor(days));
 }
 
@@ -29,13 +29,13 @@ std::string time_at(std::string_view day, double hour_utc) {
 void choose_sun(const AirChoice& choice, scene::Sky& sky) {
   if (choice.by_time) {
     sky.time_utc = time_at(sky.time_utc.empty() ? kMidsummer : sky.time_utc, choice.hour_utc);
-    scene::place_sun_and_moon(*scene::parse_time_utc(sky.time_utc), sky);
+    sky::place_sun_and_moon(*sky::parse_time_utc(sky.time_utc), sky);
   } else {
     sky.time_utc.clear();
     sky.sun_azimuth_rad = choice.sun_azimuth_rad;
     sky.sun_elevation_rad = choice.sun_elevation_rad;
   }
-  sky.sun_direction = scene::sun_direction(sky.sun_azimuth_rad, sky.sun_elevation_rad);
+  sky.sun_direction = sky::sun_direction(sky.sun_azimuth_rad, sky.sun_elevation_rad);
 }
 
 void choose_fog(const AirChoice& choice, scene::FoggyAir& air) {

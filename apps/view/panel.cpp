@@ -25,10 +25,9 @@ bool draw_camera(const CameraPose& pose, double fov_y_rad) {
   text(fmt::format("x {:.1f} y {:.1f} z {:.1f} m", pose.eye_m.x, pose.eye_m.y, pose.eye_m.z));
   ImGui::SameLine(right_px - ImGui::CalcTextSize(kCopy).x - 8.0f);
   const bool copy = ImGui::SmallButton(kCopy);
-  text(fmt::format("heading {:.1f}  pitch {:.1f}  fov {:.1f} deg",
-                   pose.heading_rad / scene::kRadPerDeg, pose.pitch_rad / scene::kRadPerDeg,
-                   fov_y_rad / scene::kRadPerDeg));
-  if (pose.roll_rad != 0.0) text(fmt::format("roll {:.1f}", pose.roll_rad / scene::kRadPerDeg));
+  text(fmt::format("heading {:.1f}  pitch {:.1f}  fov {:.1f} deg", pose.heading_rad / kRadPerDeg,
+                   pose.pitch_rad / kRadPerDeg, fov_y_rad / kRadPerDeg));
+  if (pose.roll_rad != 0.0) text(fmt::format("roll {:.1f}", pose.roll_rad / kRadPerDeg));
   return copy;
 }
 

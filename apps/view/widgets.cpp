@@ -32,9 +32,9 @@ bool slide_by_decades(const char* label, double& value, double low, double high,
 }
 
 bool slide_angle(const char* label, double& radians, double low_deg, double high_deg) {
-  double degrees = radians / scene::kRadPerDeg;
+  double degrees = radians / kRadPerDeg;
   if (!slide(label, degrees, low_deg, high_deg, "%.0f deg")) return false;
-  radians = degrees * scene::kRadPerDeg;
+  radians = degrees * kRadPerDeg;
   return true;
 }
 

@@ -66,7 +66,7 @@ HWY_INLINE hn::Mask<D> TakeImplicitNormals(const ObjectPrimitive* const* primiti
   const D d;
   auto taken = hn::FirstN(d, 0);
   // Most packets show one part.
-  const auto* last = static_cast<const scene::ObjectTriangle*>(nullptr);
+  const auto* last = static_cast<const shapes::ObjectTriangle*>(nullptr);
   for (std::size_t first = 0; first < kLanes; ++first) {
     const ObjectInstance& object = *primitive[first]->object;
     if (!object.implicit || primitive[first]->triangle == last) continue;

@@ -44,8 +44,8 @@ HWY_INLINE V WaterlineOf(const ObjectPrimitive* const* primitive) {
 // shows.
 inline glm::vec3 TexelAt(const ObjectPrimitive& primitive, glm::vec3 q, float log2_footprint_m,
                          bool has_textures) {
-  const scene::ObjectMesh& mesh = *primitive.object->mesh;
-  const scene::TriangleTexture& t =
+  const shapes::ObjectMesh& mesh = *primitive.object->mesh;
+  const shapes::TriangleTexture& t =
       mesh.textured[static_cast<std::size_t>(primitive.triangle - mesh.triangles.data())];
   if (t.texture < 0) return glm::vec3(1.0f);
   const texture::MipImage& image = (*mesh.textures)[static_cast<std::size_t>(t.texture)];
@@ -78,7 +78,7 @@ struct ObjectLanes {
   HWY_INLINE explicit ObjectLanes(const ObjectPrimitive* const* primitive) {
     for (std::size_t i = 0; i < Lanes3::kCount; ++i) {
       const ObjectInstance& object = *primitive[i]->object;
-      const scene::ObjectTriangle& triangle = *primitive[i]->triangle;
+      const shapes::ObjectTriangle& triangle = *primitive[i]->triangle;
       bottom.Set(i, object.bottom_rel);
       right.Set(i, object.right);
       ahead.Set(i, object.ahead);

@@ -11,7 +11,7 @@
 #include "render/workspace.h"
 #include "render/world/land_rays.h"
 #include "render/world/world_state.h"
-#include "scene/object_ray.h"
+#include "shapes/object_ray.h"
 #include "terrain/height_rays.h"
 
 namespace swell::render {
@@ -58,7 +58,7 @@ void meet_objects(std::span<const scene::FloatingObject> objects, const ObjectGe
   for (std::size_t i = 0; i < drawn.meshes.size(); ++i) {
     if (!drawn.meshes[i]) continue;
     const auto hit =
-        scene::intersect_ray(objects[i], drawn.poses[i], *drawn.meshes[i], ray.origin, ray.along);
+        shapes::intersect_ray(objects[i], drawn.poses[i], *drawn.meshes[i], ray.origin, ray.along);
     if (hit)
       keep_nearer({.what = Shown::kObject,
                    .distance_m = hit->distance_m,

@@ -7,7 +7,7 @@
 #include "render/sky/sky_maps.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -41,7 +41,7 @@ void advance_cloud_shadow(const World::State& world, const Clouds& deck, const V
   CloudShadowRow in;
   shadow.slant = in.slant = glm::vec2(sky.to_light) / sky.to_light.z;
   shadow.mean = 1.0f;
-  shadow.lit_all_m = static_cast<float>(scene::kCloudHeight_m);
+  shadow.lit_all_m = static_cast<float>(sky::kCloudHeight_m);
   shadow.lit_from_m = 0.85f * shadow.lit_all_m;
   if (has_deck) {
     in.deck = &deck;

@@ -9,7 +9,7 @@
 #include "render/sky/sky_maps.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 #include "texture/perlin.h"
 
 namespace swell::render {
@@ -73,7 +73,7 @@ SlopeLayer make_cloud_layer(const texture::PackedMap2& map, double period_m, flo
 
 }  // namespace
 
-CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, float cover) {
+CloudLight make_cloud_light(const sky::SkyLight& light, glm::vec3 ambient, float cover) {
   CloudLight clouds;
   clouds.overcast = smoothstep(0.75f, 1.0f, cover);
   clouds.threshold = threshold_of(cover) - 1.5f * clouds.overcast;
@@ -123,13 +123,13 @@ void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
 }
 
 float part_under_clouds(double height_m) {
-  return static_cast<float>(smoothstep(0.0, kNearLayer_m, scene::kCloudHeight_m - height_m));
+  return static_cast<float>(smoothstep(0.0, kNearLayer_m, sky::kCloudHeight_m - height_m));
 }
 
 Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without) {
   Clouds clouds;
   const scene::Scene& scene = world.scene;
-  const double height_m = scene::kCloudHeight_m - eye.z;
+  const double height_m = sky::kCloudHeight_m - eye.z;
   clouds.shown = static_cast<float>(smoothstep(0.0, kNearLayer_m, std::abs(height_m)));
   clouds.any = scene.sky.cloud_cover > 0.0 && clouds.shown > 0.0f && !without.has(Part::kClouds);
   if (!clouds.any) return clouds;

@@ -9,7 +9,7 @@
 #include "render/sky/sky_maps.h"
 #include "render/world/world.h"
 
-namespace swell::scene {
+namespace swell::sky {
 struct SkyLight;
 }
 
@@ -19,7 +19,7 @@ namespace swell::render {
 inline constexpr float kCloudDepth = 1.3f;
 
 // light: exposed. ambient: mean radiance of the clear sky.
-CloudLight make_cloud_light(const scene::SkyLight& light, glm::vec3 ambient, float cover);
+CloudLight make_cloud_light(const sky::SkyLight& light, glm::vec3 ambient, float cover);
 
 // Noise that repeats, of mean 0, and how much less of it there is towards the light.
 void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,

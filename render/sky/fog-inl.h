@@ -1,4 +1,4 @@
-// Fog on the way to the eye: what a way loses, and what it scatters to the eye. scene/fog.h has the
+// Fog on the way to the eye: what a way loses, and what it scatters to the eye. sky/fog.h has the
 // forms and names their papers.
 #if defined(SWELL_RENDER_SKY_FOG_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_SKY_FOG_INL_H_

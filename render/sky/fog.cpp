@@ -7,7 +7,7 @@
 #include "ocean/sea.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"
-#include "scene/fog.h"
+#include "sky/fog.h"
 
 namespace swell::render {
 namespace {
@@ -31,7 +31,7 @@ constexpr std::array<BankShape, Fog::kMostBanks> kBanks = {{{1.0, 0.2, 0.30},
 FogStart start_at(const scene::FoggyAir& air, glm::dvec3 per_m, double sun_sine, double height_m) {
   FogStart start;
   start.height_m = static_cast<float>(height_m);
-  const double above_m = scene::fog_above_m(air, height_m);
+  const double above_m = sky::fog_above_m(air, height_m);
   start.above_m = static_cast<float>(above_m);
   for (int c = 0; c < 3; ++c)
     start.sun_passes[c] = static_cast<float>(exp(-std::min(per_m[c] * above_m / sun_sine, 80.0)));
@@ -70,7 +70,7 @@ void fill_banks(const World::State& world, double t_s, glm::dvec2 eye, Fog& fog)
 Fog make_fog(const World::State& world, double t_s, glm::dvec3 eye_world, PartSet without) {
   Fog fog;
   const scene::FoggyAir& air = world.scene.air;
-  const glm::dvec3 per_m = scene::fog_per_m(air);
+  const glm::dvec3 per_m = sky::fog_per_m(air);
   fog.on = per_m != glm::dvec3(0.0) && !without.has(Part::kFog);
   if (!fog.on) return fog;
   fog.is_grey = per_m.x == per_m.y && per_m.y == per_m.z;
@@ -105,16 +105,16 @@ FogLights light_fog(const scene::FoggyAir& air, const SkyMaps& sky) {
   // What the sea sends back of the light that falls on it.
   constexpr double kSeaReflects = 0.07;
   FogLights lights;
-  const glm::dvec3 per_m = scene::fog_per_m(air);
+  const glm::dvec3 per_m = sky::fog_per_m(air);
   const double sine = sky.to_light.z > 0.0f ? std::max<double>(sky.to_light.z, kLeastSine) : 0.0;
   for (int c = 0; c < 3; ++c) {
-    const double depth = per_m[c] * scene::fog_above_m(air, 0.0);
+    const double depth = per_m[c] * sky::fog_above_m(air, 0.0);
     const double sun = sky.irradiance[c];
     const auto light_of = [&](double from_sky) {
-      return scene::light_in_fog(depth, air.forward, sine, sun, from_sky,
-                                 kSeaReflects * (from_sky + sun * sine / kPi));
+      return sky::light_in_fog(depth, air.forward, sine, sun, from_sky,
+                               kSeaReflects * (from_sky + sun * sine / kPi));
     };
-    const scene::FogLight light = light_of(sky.ambient[c]), of_sun = light_of(0.0);
+    const sky::FogLight light = light_of(sky.ambient[c]), of_sun = light_of(0.0);
     lights.even[c] = static_cast<float>(light.even);
     lights.ambient[c] = static_cast<float>(light.ambient);
     lights.even_sun[c] = static_cast<float>(of_sun.even);

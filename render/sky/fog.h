@@ -1,4 +1,4 @@
-// Fog over the sea (scene/fog.h), for one frame.
+// Fog over the sea (sky/fog.h), for one frame.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct Fog {
   // Exposed. The sun's light over the fog, times (1 - l^2) / (4 pi).
   glm::vec3 to_sun{0, 0, 1};
   glm::vec3 scattered{0.0f};
-  glm::vec3 even{0.0f};     // scene::FogLight
+  glm::vec3 even{0.0f};     // sky::FogLight
   glm::vec3 ambient{0.0f};  // the same
   // The parts of both that are the sun's.
   glm::vec3 even_sun{0.0f}, ambient_sun{0.0f};

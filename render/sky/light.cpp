@@ -6,7 +6,7 @@
 #include "math/elementary.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 
@@ -16,7 +16,7 @@ namespace {
 constexpr double kAerialPerspective_m = 20.0;
 
 bool shows_phase(const scene::Sky& sky, glm::vec3 to_disc) {
-  return !scene::is_gradient(sky) && to_disc != sky.sun_direction && sky.moon_phase < 1.0;
+  return !sky::is_gradient(sky) && to_disc != sky.sun_direction && sky.moon_phase < 1.0;
 }
 
 // The moon's lit side is turned to where the sun has set, and shows as much as its phase says.

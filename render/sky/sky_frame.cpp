@@ -6,7 +6,7 @@
 #include "render/sky/sky_maps.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
-#include "scene/atmosphere.h"
+#include "sky/atmosphere.h"
 
 namespace swell::render {
 namespace {
@@ -43,7 +43,7 @@ void set_heights(const SkyMaps& maps, double height_m, SkyFrame& sky, Workers& w
   }
   sky.exposure = maps.exposure * exposure;
   sky.to_disc = maps.to_light;
-  if (maps.to_sun.z > sky.horizon_sine - static_cast<float>(scene::kSunRadius_rad)) {
+  if (maps.to_sun.z > sky.horizon_sine - static_cast<float>(sky::kSunRadius_rad)) {
     sky.to_disc = maps.to_sun;
     sky.disc_radiance = sun_disc;
   }
@@ -74,7 +74,7 @@ void advance_sky(const World::State& world, const Clouds& mirrored, const Fog& f
                  PartSet without, SkyFrame& sky, const StageRun& run) {
   const SkyMaps& maps = *world.sky;
   const bool is_flat = drop_per_m2(world.earth_radius_m(without)) == 0.0f;
-  sky.horizon_sine = is_flat ? 0.0f : static_cast<float>(scene::horizon_sine(height_m));
+  sky.horizon_sine = is_flat ? 0.0f : static_cast<float>(sky::horizon_sine(height_m));
   set_heights(maps, height_m, sky, run.workers);
   sky.mirrored = sky.mirrored_clear = &maps.soft;
   sky.layer = mirrored;

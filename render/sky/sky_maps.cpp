@@ -10,7 +10,7 @@
 #include "render/world/for_each_row.h"
 #include "render/world/rgb_code.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -66,7 +66,7 @@ void blur(std::vector<float>& rgb, int size, int radius, bool along_rows, Worker
   rgb.swap(result);
 }
 
-std::vector<float> sample_soft_sky(const scene::SkyLight& light, float exposure, Workers& workers) {
+std::vector<float> sample_soft_sky(const sky::SkyLight& light, float exposure, Workers& workers) {
   std::vector<float> rgb = sample_map(kSoftSkySize, workers, [&](glm::vec2 place) {
     return exposure * clear_radiance(light, sky_direction(place));
   });
@@ -86,10 +86,10 @@ double row_sine(int row, double horizon_sine) {
                 : horizon_sine - part * (1.0 + horizon_sine);
 }
 
-texture::SmoothImage build_clear_sky(const scene::SkyLight& light, glm::dvec2 azimuth,
+texture::SmoothImage build_clear_sky(const sky::SkyLight& light, glm::dvec2 azimuth,
                                      double height_m, float exposure, Workers& workers) {
   constexpr int kAllRows = kSkyRows + kAirRows;
-  const double horizon_sine = scene::horizon_sine(height_m);
+  const double horizon_sine = sky::horizon_sine(height_m);
   std::vector<float> rgb(std::size_t{3} * kSkyColumns * kAllRows);
   for_each_row(kAllRows, workers, [&](int row) {
     float* p = rgb.data() + std::ptrdiff_t{3} * row * kSkyColumns;
@@ -130,7 +130,7 @@ std::vector<float> by_channel(const std::vector<float>& rgb) {
 }
 
 // Mean radiance of the clear sky weighted by the cosine to the zenith: rings of equal weight.
-glm::vec3 clear_ambient(const scene::SkyLight& light) {
+glm::vec3 clear_ambient(const sky::SkyLight& light) {
   constexpr int kRings = 16, kSectors = 32;
   glm::vec3 sum(0.0f);
   for (int i = 0; i < kRings; ++i) {
@@ -145,7 +145,7 @@ glm::vec3 clear_ambient(const scene::SkyLight& light) {
   return sum / static_cast<float>(kRings * kSectors);
 }
 
-glm::vec3 clear_horizon(const scene::SkyLight& light) {
+glm::vec3 clear_horizon(const sky::SkyLight& light) {
   constexpr int kSectors = 96;
   glm::vec3 sum(0.0f);
   for (int j = 0; j < kSectors; ++j) {
@@ -160,7 +160,7 @@ double luminance(glm::vec3 rgb) {
 }
 
 // Returns the root mean square of the clear sky's luminance, from the horizon up.
-double root_mean_square(const scene::SkyLight& light, double horizon_sine) {
+double root_mean_square(const sky::SkyLight& light, double horizon_sine) {
   constexpr int kRings = 24, kSectors = 48;
   double sum = 0.0;
   for (int i = 0; i < kRings; ++i) {
@@ -177,7 +177,7 @@ double root_mean_square(const scene::SkyLight& light, double horizon_sine) {
 }
 
 // The means over the sky with its clouds, and the direct light under them.
-void set_lights(const scene::SkyLight& light, SkyMaps& maps) {
+void set_lights(const sky::SkyLight& light, SkyMaps& maps) {
   const CloudLight& clouds = maps.cloud_light;
   maps.ambient = glm::mix(clear_ambient(light), clouds.mean_radiance, clouds.mean_opacity);
   maps.horizon = glm::mix(clear_horizon(light), 0.5f * clouds.mean_radiance, clouds.overcast);
@@ -196,53 +196,52 @@ void expose(float exposure, SkyMaps& maps) {
 
 // What an eye adapts to: what a white level surface shows, or over a closed layer of clouds its
 // tops; and the sky, its brightest parts above all. `maps` are exposed already.
-double light_seen(const scene::SkyLight& light, double height_m, float exposure,
+double light_seen(const sky::SkyLight& light, double height_m, float exposure,
                   const SkyMaps& maps) {
   const CloudLight& clouds = maps.cloud_light;
   const double under = part_under_clouds(height_m);
   const double white =
       luminance(maps.ambient) + luminance(maps.irradiance) * std::max(maps.to_light.z, 0.0f) / kPi;
   const double level = std::lerp(white, luminance(clouds.tops), clouds.overcast * (1.0 - under));
-  const double clear = exposure * root_mean_square(light, scene::horizon_sine(height_m));
+  const double clear = exposure * root_mean_square(light, sky::horizon_sine(height_m));
   return level + 2.0 * std::lerp(clear, luminance(maps.ambient), clouds.overcast * under);
 }
 
 // The factor of what is stored. A gradient is stored as it is.
-float choose_exposure(const scene::SkyLight& light, SkyMaps& maps) {
+float choose_exposure(const sky::SkyLight& light, SkyMaps& maps) {
   const scene::Sky& sky = light.sky;
   if (is_gradient(sky)) {
     maps.exposure = static_cast<float>(sky.exposure.value_or(1.0));
     return 1.0f;
   }
   if (sky.exposure) return static_cast<float>(*sky.exposure);
-  return static_cast<float>(scene::automatic_exposure(light_seen(light, 0.0, 1.0f, maps)));
+  return static_cast<float>(sky::automatic_exposure(light_seen(light, 0.0, 1.0f, maps)));
 }
 
 // The exposure where an eye sees so many times the light of sea level. From high up the sun may
 // still shine, or the sky glow, when it is night below.
 float exposure_at_height(const scene::Sky& sky, double light_ratio) {
   if (sky.exposure || light_ratio <= 1.0) return 1.0f;
-  return static_cast<float>(scene::automatic_exposure(light_ratio) /
-                            scene::automatic_exposure(1.0));
+  return static_cast<float>(sky::automatic_exposure(light_ratio) / sky::automatic_exposure(1.0));
 }
 
 // The sky is drawn alike on both sides of its brighter light: in twilight that is the sun, wherever
 // the moon stands.
-glm::vec3 brighter_side(const scene::SkyLight& light) {
+glm::vec3 brighter_side(const sky::SkyLight& light) {
   constexpr float kTwilight = -0.2f;
   const glm::vec3 to_sun = light.sky.sun_direction;
-  const bool is_opposite = scene::moon_direction(light.sky) == -to_sun;
+  const bool is_opposite = sky::moon_direction(light.sky) == -to_sun;
   return !is_opposite && to_sun.z > kTwilight ? to_sun : light.to_light;
 }
 
 // `maps`: exposed.
-void build_heights(const scene::SkyLight& sea_level, float exposure, Workers& workers,
+void build_heights(const sky::SkyLight& sea_level, float exposure, Workers& workers,
                    SkyMaps& maps) {
   const glm::vec2 level(brighter_side(sea_level));
   const float length = glm::length(level);
   if (length > 0.0f) maps.azimuth = level / length;
   const double light_below = light_seen(sea_level, 0.0, exposure, maps);
-  const auto add_height = [&](const scene::SkyLight& light, double height_m) {
+  const auto add_height = [&](const sky::SkyLight& light, double height_m) {
     const double light_here = light_seen(light, height_m, exposure, maps);
     maps.heights.push_back(
         {height_m, build_clear_sky(light, glm::dvec2(maps.azimuth), height_m, exposure, workers),
@@ -257,9 +256,8 @@ void build_heights(const scene::SkyLight& sea_level, float exposure, Workers& wo
 
 }  // namespace
 
-SkyMaps build_sky_maps(const scene::Sky& sky, const scene::Atmosphere& atmosphere,
-                       Workers& workers) {
-  const scene::SkyLight light = scene::make_sky_light(sky, atmosphere, workers);
+SkyMaps build_sky_maps(const scene::Sky& sky, const sky::Atmosphere& atmosphere, Workers& workers) {
+  const sky::SkyLight light = sky::make_sky_light(sky, atmosphere, workers);
   SkyMaps maps;
   maps.cloud_light =
       make_cloud_light(light, clear_ambient(light), static_cast<float>(sky.cloud_cover));

@@ -8,11 +8,11 @@
 #include "texture/packed_map.h"
 #include "texture/smooth_image.h"
 
-namespace swell::scene {
+namespace swell::sky {
 struct Atmosphere;
 struct FoggyAir;
 struct Sky;
-}  // namespace swell::scene
+}  // namespace swell::sky
 
 namespace swell::render {
 
@@ -39,7 +39,7 @@ inline constexpr int kSoftSkySize = 128;
 // light's azimuth: column 0 has that azimuth, the last one the opposite, and the root of
 // sin(azimuth / 2) grows evenly. Row 0 is the zenith and row kSkyRows - 1 the horizon, where the
 // rows are closest; the rows after that go from the horizon to straight down, and hold the air
-// before the sea (scene::sky_radiance). render/sky/sky_map-inl.h says where a direction lies.
+// before the sea (sky::sky_radiance). render/sky/sky_map-inl.h says where a direction lies.
 inline constexpr int kSkyColumns = 128, kSkyRows = 192, kAirRows = 64;
 
 // The clear sky as an eye at a height sees it, exposed.
@@ -74,15 +74,14 @@ struct SkyMaps {
   float stored_exposure = 1.0f;     // that has been applied
 };
 
-// What fog makes of the light over it: scene::FogLight of each channel, exposed.
+// What fog makes of the light over it: sky::FogLight of each channel, exposed.
 struct FogLights {
   glm::vec3 even{0.0f}, ambient{0.0f};
   glm::vec3 even_sun{0.0f}, ambient_sun{0.0f};  // the parts that are the sun's
 };
 
 // atmosphere: of the sky's turbidity; of a painted sky any. The same bits with any workers.
-SkyMaps build_sky_maps(const scene::Sky& sky, const scene::Atmosphere& atmosphere,
-                       Workers& workers);
-FogLights light_fog(const scene::FoggyAir& air, const SkyMaps& sky);
+SkyMaps build_sky_maps(const sky::Sky& sky, const sky::Atmosphere& atmosphere, Workers& workers);
+FogLights light_fog(const sky::FoggyAir& air, const SkyMaps& sky);
 
 }  // namespace swell::render

@@ -4,8 +4,8 @@
 #include "math/smoothstep.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"
-#include "scene/celestial.h"
-#include "scene/sky.h"
+#include "sky/celestial.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -23,13 +23,12 @@ Stars make_stars(const World::State& world, double t_s, PartSet without) {
   const scene::Sky& sky = world.scene.sky;
   Stars stars;
   const double night = smoothstep<double>(kDay, kDusk, sky.sun_direction.z);
-  stars.on = night > 0.0 && !scene::is_gradient(sky) && !without.has(Part::kStars);
+  stars.on = night > 0.0 && !sky::is_gradient(sky) && !without.has(Part::kStars);
   if (!stars.on) return stars;
-  const double days = scene::parse_time_utc(sky.time_utc).value_or(0.0);
+  const double days = sky::parse_time_utc(sky.time_utc).value_or(0.0);
   const double turned = 2.0 * kPi * kSiderealPerDay * t_s / 86400.0;
-  const double sidereal_rad =
-      scene::radians(scene::sidereal_degrees(days)) + sky.longitude_rad + turned;
-  stars.from_world = glm::mat3(scene::stars_from_world(sidereal_rad, sky.latitude_rad));
+  const double sidereal_rad = radians(sky::sidereal_degrees(days)) + sky.longitude_rad + turned;
+  stars.from_world = glm::mat3(sky::stars_from_world(sidereal_rad, sky.latitude_rad));
   stars.brightness = static_cast<float>(night * kFaintest) * world.sky->stored_exposure;
   return stars;
 }

@@ -18,8 +18,8 @@
 #include "render/view/surfaces.h"
 #include "render/view/trees_drawn.h"
 #include "render/world/world.h"
-#include "scene/object_mesh.h"
 #include "scene/objects.h"
+#include "shapes/object_mesh.h"
 
 namespace swell::render {
 
@@ -50,7 +50,7 @@ struct ObjectInstance {
   float roughness = 0.42f, metalness = 0.0f;  // of its paint
   float squares_per_m = 0.0f;                 // of its checkers; 0: it has none
   glm::vec3 squares_per_unit{0.0f};           // the same along the mesh's axes
-  const scene::ObjectMesh* mesh = nullptr;
+  const shapes::ObjectMesh* mesh = nullptr;
   const SunDepth* self_shadow = nullptr;    // none: it does not shade itself
   float log2_units_per_m = 0.0f;            // of the mesh's lengths, in the mean over its axes
   std::uint32_t object = 0;                 // its index in the scene
@@ -61,7 +61,7 @@ struct ObjectInstance {
 
 // Which triangle of which object a primitive is.
 struct ObjectPrimitive {
-  const scene::ObjectTriangle* triangle = nullptr;
+  const shapes::ObjectTriangle* triangle = nullptr;
   const ObjectInstance* object = nullptr;
 };
 
@@ -84,8 +84,8 @@ struct ObjectDraws {
 
 // The objects of a frame.
 struct ObjectGeometry {
-  std::vector<scene::ObjectPose> poses;          // of all objects of the scene
-  std::vector<const scene::ObjectMesh*> meshes;  // of the same, in the window; null: not in view
+  std::vector<scene::ObjectPose> poses;           // of all objects of the scene
+  std::vector<const shapes::ObjectMesh*> meshes;  // of the same, in the window; null: not in view
   std::array<ObjectDraws, kViewKinds> draws;
   ObjectShadows shadows;                                   // of those that the view may show
   bool draws_implicits = true;                             // Part::kImplicits

@@ -30,9 +30,9 @@ float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const 
   return px_at_1_m * size_m / std::max(distance_m - 0.5f * size_m, view.near_m);
 }
 
-const scene::ObjectMesh& coarsest_mesh(const World::State& world, std::size_t object,
-                                       float error_m) {
-  const std::vector<scene::ObjectMesh>& levels = world.objects.of_object[object]->levels;
+const shapes::ObjectMesh& coarsest_mesh(const World::State& world, std::size_t object,
+                                        float error_m) {
+  const std::vector<shapes::ObjectMesh>& levels = world.objects.of_object[object]->levels;
   const glm::dvec3 size_m = world.scene.objects[object].size_m;
   const auto largest_m = static_cast<float>(std::max({size_m.x, size_m.y, size_m.z}));
   std::size_t level = levels.size() - 1;

@@ -43,12 +43,12 @@ struct SunFrame {
 // A mesh's vertices as the sun sees them: those of a small one are worked out once, of which each
 // has six triangles.
 struct SunVertices {
-  const scene::ObjectMesh& mesh;
+  const shapes::ObjectMesh& mesh;
   SunFrame frame;
   std::array<SunPoint, 512> found;
   bool is_small;
 
-  SunVertices(const scene::ObjectMesh& of, const SunFrame& sun)
+  SunVertices(const shapes::ObjectMesh& of, const SunFrame& sun)
       : mesh(of), frame(sun), is_small(of.position.size() <= found.size()) {
     if (is_small) std::ranges::transform(of.position, found.begin(), sun);
   }
@@ -110,7 +110,7 @@ void set_axes(glm::vec3 sun, ObjectShadows& shadows) {
 }
 
 // The plan of a part of a hull at still water.
-Waterline waterline_of(const scene::FloatingObject& object, const scene::MeshPart& part,
+Waterline waterline_of(const scene::FloatingObject& object, const shapes::MeshPart& part,
                        const scene::ObjectPose& pose, const View& view) {
   const glm::vec2 size(object.size_m);
   const glm::vec2 half = part.half * size;
@@ -196,7 +196,7 @@ Outline largest_outline(const scene::FloatingObject& object) {
 }
 
 // All but its outline.
-ShadowCaster caster_of(const scene::FloatingObject& object, const scene::MeshPart& part,
+ShadowCaster caster_of(const scene::FloatingObject& object, const shapes::MeshPart& part,
                        const scene::ObjectPose& pose, const ShadowOptions& options,
                        const View& view) {
   ShadowCaster caster;
@@ -230,8 +230,8 @@ bool in_view(const Corners& corners, float level, float drop_m,
 }
 
 // What throws a caster's shadow.
-const scene::ObjectMesh& outline_mesh(const World::State& world, const ShadowCaster& caster,
-                                      const View& view) {
+const shapes::ObjectMesh& outline_mesh(const World::State& world, const ShadowCaster& caster,
+                                       const View& view) {
   const glm::vec3 size_m(world.scene.objects[caster.object].size_m);
   const float largest_m = std::max({size_m.x, size_m.y, size_m.z});
   const float radius_m = caster.outline.right_most_m;
@@ -257,7 +257,7 @@ SunBox sun_box(const ShadowCaster& caster, const ObjectShadows& shadows) {
 
 }  // namespace
 
-Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
+Outline outline_of(const shapes::ObjectMesh& mesh, const shapes::MeshPart& part,
                    const scene::FloatingObject& object, const scene::ObjectPose& pose,
                    const ObjectShadows& shadows, int step) {
   SWELL_DCHECK((Outline::kRows - 1) % step == 0, "step={}", step);
@@ -313,7 +313,7 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     const glm::vec3 place_rel(objects.poses[i].position_world - view.eye_world);
     if (drawn_size_px(all[i], place_rel, view) < kSmallestCaster_px) continue;
     if (world.objects.of_object[i]->implicit && !objects.draws_implicits) continue;
-    const std::vector<scene::MeshPart>& parts = world.objects.parts[i];
+    const std::vector<shapes::MeshPart>& parts = world.objects.parts[i];
     for (std::size_t k = 0; k < parts.size(); ++k) {
       ShadowCaster caster = caster_of(all[i], parts[k], objects.poses[i], options, view);
       caster.object = static_cast<std::uint32_t>(i);
@@ -335,8 +335,8 @@ void find_shadow_casters(const World::State& world, const ShadowOptions& options
     ShadowCaster& caster = shadows.casters[i];
     if (caster.reach_m <= 0.0f) return;
     const scene::FloatingObject& object = all[caster.object];
-    const scene::ObjectMesh& mesh = outline_mesh(world, caster, view);
-    scene::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
+    const shapes::ObjectMesh& mesh = outline_mesh(world, caster, view);
+    shapes::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (!mesh.parts.empty()) part = mesh.parts[caster.part];
     const int step = row_step(drawn_size_px(object, caster.place_rel, view));
     caster.outline = outline_of(mesh, part, object, objects.poses[caster.object], shadows, step);

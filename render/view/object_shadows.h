@@ -12,7 +12,7 @@ namespace swell::render {
 // The triangles of a part of the mesh where the pose puts them, as the sun sees them along the axes
 // of `shadows`; from the object's place. Every `step`-th row is found, which divides kRows - 1, and
 // the others lie between them. 20 us for a buoy of many triangles and all rows.
-Outline outline_of(const scene::ObjectMesh& mesh, const scene::MeshPart& part,
+Outline outline_of(const shapes::ObjectMesh& mesh, const shapes::MeshPart& part,
                    const scene::FloatingObject& object, const scene::ObjectPose& pose,
                    const ObjectShadows& shadows, int step);
 

@@ -9,7 +9,7 @@
 #include "render/view/refracted_image.h"
 #include "render/world/object_meshes.h"
 #include "render/world/world_state.h"
-#include "scene/implicit_mesh.h"
+#include "shapes/implicit_mesh.h"
 
 namespace swell::render {
 namespace {
@@ -191,7 +191,7 @@ void write_triangles(std::size_t begin, std::size_t end, ObjectDraws& out) {
 }
 
 // An implicit surface's shape, in place of triangles.
-void take_implicit(const ObjectGeometry& geometry, const scene::MeshOfFile& shape,
+void take_implicit(const ObjectGeometry& geometry, const shapes::MeshOfFile& shape,
                    ObjectInstance& instance) {
   const scene::ImplicitSurface& implicit = shape.implicit->implicit;
   const auto at = std::ranges::find(geometry.implicit_of, &implicit);
@@ -228,11 +228,11 @@ void list_instances(const World::State& world, const DrawnKind& drawn,
     if (!may_show(drawn, objects[i], placement)) continue;
     const Bounds ball = bounds_of(objects[i], placement);
     const float px_per_m = most_px_per_m(ball.middle_rel, ball.radius_m, drawn.camera);
-    const scene::MeshOfFile& shape = *world.objects.of_object[i];
+    const shapes::MeshOfFile& shape = *world.objects.of_object[i];
     if (shape.implicit && !geometry.draws_implicits) continue;
-    const scene::ObjectMesh& mesh = shape.implicit
-                                        ? shape.implicit->mesh
-                                        : coarsest_mesh(world, i, kMostLevelError_px / px_per_m);
+    const shapes::ObjectMesh& mesh = shape.implicit
+                                         ? shape.implicit->mesh
+                                         : coarsest_mesh(world, i, kMostLevelError_px / px_per_m);
     draws.instances.push_back(instance_of(objects[i], geometry.poses[i], placement));
     if (shape.implicit) take_implicit(geometry, shape, draws.instances.back());
     draws.instances.back().object = static_cast<std::uint32_t>(i);

@@ -1,7 +1,7 @@
 // Stage 3: trees, of as many triangles as each takes where it is seen.
 //
 // How many follows from the size that a tree has in the picture, without steps: the last triangle
-// of a crown grows from nothing, and all the others shrink meanwhile (scene/tree_shape.h). Trees
+// of a crown grows from nothing, and all the others shrink meanwhile (shapes/tree_shape.h). Trees
 // that are only a few pixels high get fewer and broader, by their ranks, and sink into the land at
 // last, which by then has their colour (render/materials/canopy-inl.h).
 #include <hwy/cache_control.h>
@@ -102,7 +102,7 @@ void list_cells(const TreeView& view, TreeDraws& draws) {
                     [](const DrawnCell& cell) { return std::pair(cell.distance_m, cell.cell); });
 }
 
-const scene::TreeShape& shape_of(const Forest& forest, const DrawnTree& drawn) {
+const shapes::TreeShape& shape_of(const Forest& forest, const DrawnTree& drawn) {
   return forest.shapes[drawn.species];
 }
 
@@ -128,7 +128,7 @@ void prepare_shading(const TreeView& view, DrawnTree& drawn) {
 }
 
 // Triangles of a crown whose box is so large in the picture.
-float leaves_in(const scene::TreeShape& shape, float box_px2, float height_px) {
+float leaves_in(const shapes::TreeShape& shape, float box_px2, float height_px) {
   const float small = smoothstep(kOneLeaf_px, kFewLeaves_px, height_px);
   const float least = 1.0f + small * (shape.fewest_leaves - 1.0f);
   const float tall = smoothstep(kLow_px, kTall_px, height_px);
@@ -166,7 +166,7 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
   const float less = height_px / thinned_px;
   const float broader =
       less < 1.0f ? std::min(1.0f / (less * std::sqrt(std::sqrt(less))), kBroadest) : 1.0f;
-  const scene::TreeShape& shape = shape_of(view.forest, drawn);
+  const shapes::TreeShape& shape = shape_of(view.forest, drawn);
   drawn.height_m = full_height_m * grown;
   drawn.radius_m = full_radius_m * grown * broader;
   const float box_px2 = 2.0f * full_radius_m * full_height_m * px_per_m * px_per_m;
@@ -175,7 +175,7 @@ DrawnTree drawn_tree(const TreeView& view, std::uint32_t number) {
   drawn.like_land = drawn.crowding > kWood && kept > kWoodKept &&
                     height_px < kLikeLand_px + trees.rank[number] * (kUnlikeLand_px - kLikeLand_px);
   drawn.sways = smoothstep(kSways_px, 2.0f * kSways_px, height_px);
-  drawn.leaf_size = scene::leaf_size(shape, drawn.leaves);
+  drawn.leaf_size = shapes::leaf_size(shape, drawn.leaves);
   drawn.triangles = crown_triangles(drawn);
   const float trunk_m = shape.trunk * drawn.height_m;
   // From half a pixel's width on; among others not until it is four times as wide.
@@ -258,15 +258,15 @@ ShapeSide side_of(const DrawnTree& drawn) {
 }
 
 // The corners of a tree's triangles.
-void write_crown(const scene::TreeShape& shape, const DrawnTree& drawn, const TreePose& pose,
+void write_crown(const shapes::TreeShape& shape, const DrawnTree& drawn, const TreePose& pose,
                  glm::vec3* p) {
   const float size = drawn.leaf_size;
   const ShapeSide side = side_of(drawn);
   const std::uint32_t count = crown_triangles(drawn);
   for (std::uint32_t n = 0; n < count; ++n) {
-    const scene::TreeLeaf& leaf = shape.leaves[n];
+    const shapes::TreeLeaf& leaf = shape.leaves[n];
     const float grown = std::sqrt(std::min(drawn.leaves - static_cast<float>(n), 1.0f));
-    const glm::vec3 at = scene::leaf_middle(shape, leaf, size);
+    const glm::vec3 at = shapes::leaf_middle(shape, leaf, size);
     const float flutter =
         at.z * (pose.flutter.x * leaf.flutter.x + pose.flutter.y * leaf.flutter.y) * (1.0f - size);
     const glm::vec2 from_trunk =
@@ -276,7 +276,7 @@ void write_crown(const scene::TreeShape& shape, const DrawnTree& drawn, const Tr
                              pose.right * flutter;
     const glm::vec3 bent = shape.is_blades ? glm::vec3(pose.sway, 0.0f) : glm::vec3(0.0f);
     for (const glm::vec2& corner : leaf.corner) {
-      const glm::vec2 c = scene::leaf_corner(shape, corner, size, grown);
+      const glm::vec2 c = shapes::leaf_corner(shape, corner, size, grown);
       *p++ = middle + pose.right * (c.x * drawn.radius_m) + pose.up * (c.y * pose.leaf_height_m) +
              bent * (c.y * c.y);
     }

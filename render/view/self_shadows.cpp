@@ -64,7 +64,7 @@ void fill_depth(const World::State& world, const scene::ObjectPose& pose,
                 const ObjectShadows& shadows, const SunDepth& map, std::span<float> depth_m) {
   std::ranges::fill(depth_m, SunDepth::kNothing_m);
   const scene::FloatingObject& object = world.scene.objects[map.object];
-  const scene::ObjectMesh& mesh = coarsest_mesh(world, map.object, kMostError / map.points_per_m);
+  const shapes::ObjectMesh& mesh = coarsest_mesh(world, map.object, kMostError / map.points_per_m);
   const glm::mat3 sun_from_world =
       glm::transpose(glm::mat3(shadows.right, shadows.up, shadows.sun));
   const glm::mat3 axes = sun_from_world * glm::mat3(pose.world_from_object);

@@ -12,7 +12,7 @@
 #include "render/frame/profile.h"
 #include "render/view/meshes.h"
 #include "render/world/world_state.h"
-#include "scene/fog.h"
+#include "sky/fog.h"
 #include "terrain/apron.h"
 
 namespace swell::render {
@@ -74,10 +74,10 @@ constexpr float kFlatLand = 8.0f, kSunkenLand = 16.0f, kMostTimes = 16.0f;
 
 // Where 1/e of the contrast is left, of things seen level through haze and the fog at the eye.
 double seen_distance_m(const scene::Scene& scene, double eye_height_m) {
-  const double fog_m = scene::fog_above_m(scene.air, eye_height_m), top_m = scene.air.fog_top_m;
+  const double fog_m = sky::fog_above_m(scene.air, eye_height_m), top_m = scene.air.fog_top_m;
   const bool is_slab = scene.air.profile == scene::FogProfile::kSlab;
   const double density = fog_m <= 0.0 ? 0.0 : is_slab ? 1.0 : fog_m / top_m;
-  return 1.0 / (1.0 / scene.sky.haze_distance_m + density * scene::fog_per_m(scene.air).y);
+  return 1.0 / (1.0 / scene.sky.haze_distance_m + density * sky::fog_per_m(scene.air).y);
 }
 
 lod::PriorityFactors priority_factors(const scene::Scene& scene, const View& view) {

@@ -280,7 +280,7 @@ Forest grow_forest(const scene::Scene& scene, const terrain::HeightGrid& terrain
   }
   if (forest.trees.empty()) return forest;
   workers.for_each(forest.shapes.size(), [&](std::size_t species, int) {
-    forest.shapes[species] = scene::make_tree_shape(static_cast<TreeSpecies>(species));
+    forest.shapes[species] = shapes::make_tree_shape(static_cast<TreeSpecies>(species));
   });
   add_canopy(terrain, to_light, workers, forest);
   add_columns(forest);

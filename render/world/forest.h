@@ -10,7 +10,7 @@
 #include "math/parallel.h"
 #include "ocean/inland_water.h"
 #include "scene/scene.h"
-#include "scene/tree_shape.h"
+#include "shapes/tree_shape.h"
 #include "terrain/trees.h"
 #include "texture/packed_map.h"
 
@@ -46,7 +46,7 @@ struct Forest {
   terrain::Trees trees;
   TreeColumns columns;
   std::vector<float> crowding;  // by tree: part of the ground around that crowns cover
-  std::array<scene::TreeShape, terrain::kTreeSpecies> shapes;
+  std::array<shapes::TreeShape, terrain::kTreeSpecies> shapes;
   // Over the terrain's square, as 2 x - 1: the part of the ground that crowns cover, and the part
   // of the sun's light that they leave to the ground and the water under it.
   texture::PackedMap1 cover, sun_left;

@@ -8,18 +8,18 @@
 
 #include "render/world/world_state.h"
 #include "scene/implicit_file.h"
-#include "scene/implicit_mesh.h"
 #include "scene/parameters.h"
 #include "scene/scene_error.h"
+#include "shapes/implicit_mesh.h"
 
 namespace swell::render {
 namespace {
 
 ObjectShape built_in(const scene::FloatingObject& object) {
-  scene::MeshOfFile shape;
-  for (const int segments : scene::kLevelSegments)
-    shape.levels.push_back(scene::make_object_mesh(object.kind, object.top_mark, segments));
-  return std::make_shared<const scene::MeshOfFile>(std::move(shape));
+  shapes::MeshOfFile shape;
+  for (const int segments : shapes::kLevelSegments)
+    shape.levels.push_back(shapes::make_object_mesh(object.kind, object.top_mark, segments));
+  return std::make_shared<const shapes::MeshOfFile>(std::move(shape));
 }
 
 bool same_shape(const scene::FloatingObject& a, const scene::FloatingObject& b) {
@@ -49,9 +49,9 @@ ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {
   if (!scene::kObjectKinds[object.kind].is_of_file) return built_in(object);
   try {
     if (object.kind == scene::ObjectKind::kImplicit)
-      return std::make_shared<const scene::MeshOfFile>(
-          scene::with_meshes(scene::load_implicit(object.file)));
-    return std::make_shared<const scene::MeshOfFile>(scene::load_mesh(object.file, object.up));
+      return std::make_shared<const shapes::MeshOfFile>(
+          shapes::with_meshes(scene::load_implicit(object.file)));
+    return std::make_shared<const shapes::MeshOfFile>(shapes::load_mesh(object.file, object.up));
   } catch (const scene::SceneError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -70,12 +70,12 @@ ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like) 
     if (!shape) shape = shape_of(scene, n);
     if (scene::kObjectKinds[object.kind].is_of_file) {
       try {
-        scene::fit_object(*shape, object);
+        shapes::fit_object(*shape, object);
       } catch (const std::runtime_error& error) {
         fail(scene, n, error.what());
       }
     }
-    result.parts.push_back(scene::mesh_parts(object, shape->levels.front()));
+    result.parts.push_back(shapes::mesh_parts(object, shape->levels.front()));
     result.of_object.push_back(std::move(shape));
   }
   return result;

@@ -30,7 +30,7 @@ struct WaterBounds;
 struct WaterParts;
 struct Whitecaps;
 }  // namespace ocean
-namespace scene {
+namespace sky {
 struct Atmosphere;
 }
 namespace terrain {
@@ -73,10 +73,10 @@ struct Textures {
 struct World::State {
   scene::Scene scene;
   std::shared_ptr<const ocean::Sea> sea = {};
-  std::shared_ptr<const ocean::Whitecaps> whitecaps = {};    // of the sea
-  std::shared_ptr<const ocean::CoastSea> coast = {};         // none: no wave trains
-  std::shared_ptr<const CoastMaps> coast_maps = {};          // there is one if there is a coast
-  std::shared_ptr<const scene::Atmosphere> atmosphere = {};  // empty: a painted sky
+  std::shared_ptr<const ocean::Whitecaps> whitecaps = {};  // of the sea
+  std::shared_ptr<const ocean::CoastSea> coast = {};       // none: no wave trains
+  std::shared_ptr<const CoastMaps> coast_maps = {};        // there is one if there is a coast
+  std::shared_ptr<const sky::Atmosphere> atmosphere = {};  // empty: a painted sky
   std::shared_ptr<const SkyMaps> sky = {};
   std::shared_ptr<const FogLights> fog_light = {};
   std::shared_ptr<const CloudVolume> cloud_volume = {};     // none: no volumetric clouds

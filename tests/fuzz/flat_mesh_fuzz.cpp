@@ -5,13 +5,13 @@
 #include <stdexcept>
 
 #include "fuzz/expect.h"
-#include "scene/flat_mesh.h"
-#include "scene/mesh_file.h"
+#include "shapes/flat_mesh.h"
+#include "shapes/mesh_file.h"
 
 namespace swell::fuzz {
 namespace {
 
-bool is_finite(const scene::ObjectTriangle& t) {
+bool is_finite(const shapes::ObjectTriangle& t) {
   const auto all = [](glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
@@ -19,30 +19,30 @@ bool is_finite(const scene::ObjectTriangle& t) {
          all(t.normal_along_y) && all(t.normal_along_z);
 }
 
-void check_mesh(const scene::MeshOfFile& mesh) {
+void check_mesh(const shapes::MeshOfFile& mesh) {
   expect(!mesh.levels.empty(), "a mesh has a level");
   for (int i = 0; i < 3; ++i)
     expect(std::isfinite(mesh.low[i]) && mesh.low[i] <= mesh.high[i], "a mesh has a box");
-  for (const scene::ObjectMesh& level : mesh.levels) {
+  for (const shapes::ObjectMesh& level : mesh.levels) {
     expect(level.indices.size() == 3 * level.triangles.size(), "a triangle has three indices");
     for (const std::uint32_t index : level.indices)
       expect(index < level.position.size(), "an index has a vertex");
-    for (const scene::ObjectTriangle& triangle : level.triangles)
+    for (const shapes::ObjectTriangle& triangle : level.triangles)
       expect(is_finite(triangle), "a triangle has finite normals");
   }
 }
 
 void read_mesh(std::span<const char> bytes) {
-  scene::FlatMesh flat;
+  shapes::FlatMesh flat;
   try {
-    flat = scene::read_flat_mesh(bytes);
+    flat = shapes::read_flat_mesh(bytes);
   } catch (const std::runtime_error&) {
     return;
   }
-  const scene::MeshOfFile mesh = scene::mesh_of(flat);
+  const shapes::MeshOfFile mesh = shapes::mesh_of(flat);
   scene::FloatingObject object;
   try {
-    scene::fit_object(mesh, object);
+    shapes::fit_object(mesh, object);
   } catch (const std::runtime_error&) {
     return;  // larger or smaller than objects may be: a point has no normals
   }

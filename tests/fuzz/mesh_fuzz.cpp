@@ -10,7 +10,7 @@
 #include "mesh_import/asset_file.h"
 #include "mesh_import/asset_textures.h"
 #include "mesh_import/flatten_mesh.h"
-#include "scene/flat_mesh.h"
+#include "shapes/flat_mesh.h"
 
 namespace swell::fuzz {
 namespace {
@@ -34,12 +34,12 @@ std::string name_of(char letter) {
 std::vector<char> import(const std::filesystem::path& file) {
   mesh_import::LooseMesh loose = mesh_import::read_asset(file, scene::UpAxis::kByFormat);
   mesh_import::add_normals(loose);
-  scene::FlatMesh flat;
+  shapes::FlatMesh flat;
   mesh_import::join_vertices(loose, flat);
   flat.textures = mesh_import::decode_textures(loose.textures, file.parent_path());
   mesh_import::add_levels(flat);
   std::vector<char> stream;
-  scene::write_flat_mesh(flat, [&](const void* bytes, std::size_t size) {
+  shapes::write_flat_mesh(flat, [&](const void* bytes, std::size_t size) {
     const char* const from = static_cast<const char*>(bytes);
     stream.insert(stream.end(), from, from + size);
   });
@@ -57,7 +57,7 @@ void read_mesh(std::span<const char> input) {
   } catch (const mesh_import::Refused&) {
     return;
   }
-  scene::read_flat_mesh(stream);
+  shapes::read_flat_mesh(stream);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What comes from the importer is believed in nothing.
-#include "scene/flat_mesh.h"
+#include "shapes/flat_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "math/random.h"
 
-namespace swell::scene {
+namespace swell::shapes {
 namespace {
 
 FlatMesh small_mesh() {
@@ -97,4 +97,4 @@ TEST(FlatMesh, ChangedBytesGiveAMeshThatIsWholeOrAreRefused) {
 }
 
 }  // namespace
-}  // namespace swell::scene
+}  // namespace swell::shapes

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "mesh_import/mesh_files.h"
-#include "scene/mesh_file.h"
+#include "shapes/mesh_file.h"
 
-namespace swell::scene {
+namespace swell::shapes {
 namespace {
 
 TEST(GeneratedFiles, EachIsReadAsItWasWrittenOrRefusedInOneLine) {
@@ -16,7 +16,7 @@ TEST(GeneratedFiles, EachIsReadAsItWasWrittenOrRefusedInOneLine) {
   for (const GeneratedFile& file : generate_mesh_files(mesh_folder("generated"))) {
     SCOPED_TRACE(file.path.filename().string() + " " + file.broken);
     try {
-      const MeshOfFile mesh = load_mesh(file.path.string(), UpAxis::kByFormat);
+      const MeshOfFile mesh = load_mesh(file.path.string(), scene::UpAxis::kByFormat);
       ++read;
       ASSERT_EQ(file.broken, "");
       EXPECT_EQ(mesh.levels.front().triangles.size(), file.triangles);
@@ -37,4 +37,4 @@ TEST(GeneratedFiles, EachIsReadAsItWasWrittenOrRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace swell::scene
+}  // namespace swell::shapes

@@ -15,11 +15,11 @@
 #include "mesh_import/asset_file.h"
 #include "mesh_import/asset_textures.h"
 #include "mesh_import/mesh_files.h"
-#include "scene/mesh_file.h"
-#include "scene/run_importer.h"
+#include "shapes/mesh_file.h"
+#include "shapes/run_importer.h"
 #include "texture/image_io.h"
 
-namespace swell::scene {
+namespace swell::shapes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,7 +75,7 @@ TEST(ImporterProcess, EndsWhenItsParentIsKilled) {
   const pid_t parent = fork();
   if (parent == 0) {
     close(ends[0]);
-    for (;;) run_importer(file, UpAxis::kByFormat);
+    for (;;) run_importer(file, scene::UpAxis::kByFormat);
   }
   close(ends[1]);
   pid_t importer = 0;
@@ -128,7 +128,7 @@ TEST(ImporterProcess, RefusesAFileOfAThousandBytesThatAsksForAGigabyte) {
   text.replace(at, text.find('"', at) - at, "268435456");
   write_text(file, text);
   try {
-    load_mesh(file.string(), UpAxis::kByFormat);
+    load_mesh(file.string(), scene::UpAxis::kByFormat);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(),
@@ -158,7 +158,7 @@ TEST(ImporterProcess, CountsWhatTheFileNamesThePicturesAndWhatIsPlacedAgain) {
              R"("buffers":[{"byteLength":36,"uri":"a.bin"}]})");
   std::uint64_t inputs = 0;
   const mesh_import::InputCounter count = [&](std::uint64_t more) { inputs += more; };
-  const auto mesh = mesh_import::read_asset(folder / "a.gltf", UpAxis::kByFormat, count);
+  const auto mesh = mesh_import::read_asset(folder / "a.gltf", scene::UpAxis::kByFormat, count);
   EXPECT_EQ(mesh.material.size(), 2u);
   EXPECT_EQ(inputs, fs::file_size(folder / "a.gltf") + 36 + 8);
   inputs = 0;
@@ -167,7 +167,7 @@ TEST(ImporterProcess, CountsWhatTheFileNamesThePicturesAndWhatIsPlacedAgain) {
 }
 
 }  // namespace
-}  // namespace swell::scene
+}  // namespace swell::shapes
 
 // What Assimp leaks as it reads a file, which in the program ends with the process.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }

@@ -1,5 +1,5 @@
 // Meshes of files: the same box of four formats, units and axes, levels, textures, refusals.
-#include "scene/mesh_file.h"
+#include "shapes/mesh_file.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "mesh_import/mesh_files.h"
 #include "texture/image_io.h"
 
-namespace swell::scene {
+namespace swell::shapes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ std::multiset<std::multiset<Place>> triangles_of(const MeshOfFile& mesh) {
 
 std::string refusal(const fs::path& file) {
   try {
-    load_mesh(file.string(), UpAxis::kByFormat);
+    load_mesh(file.string(), scene::UpAxis::kByFormat);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -56,11 +56,11 @@ std::string refusal(const fs::path& file) {
 
 TEST(MeshFile, ABoxOfEveryFormatHasTheSameTwelveTrianglesAndNormals) {
   const auto files = write_all_formats(mesh_folder("box"), box_triangles(kLow, kHigh), &kColour);
-  const auto expected = triangles_of(load_mesh(files[1].string(), UpAxis::kByFormat));
+  const auto expected = triangles_of(load_mesh(files[1].string(), scene::UpAxis::kByFormat));
   ASSERT_EQ(expected.size(), 12u);
   for (const fs::path& file : files) {
     SCOPED_TRACE(file);
-    const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+    const MeshOfFile mesh = load_mesh(file.string(), scene::UpAxis::kByFormat);
     EXPECT_LT(glm::distance(mesh.low, glm::dvec3(kLow)), 1e-6);
     EXPECT_LT(glm::distance(mesh.high, glm::dvec3(kHigh)), 1e-6);
     EXPECT_EQ(triangles_of(mesh), expected);
@@ -94,7 +94,7 @@ TEST(MeshFile, ABoxOfEveryFormatHasTheSameTwelveTrianglesAndNormals) {
 TEST(MeshFile, WithoutAMaterialTheObjectPaintsIt) {
   for (const fs::path& file :
        write_all_formats(mesh_folder("plain"), box_triangles(kLow, kHigh), nullptr)) {
-    const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+    const MeshOfFile mesh = load_mesh(file.string(), scene::UpAxis::kByFormat);
     for (const ObjectTriangle& t : mesh.levels[0].triangles) EXPECT_TRUE(t.painted) << file;
   }
 }
@@ -102,7 +102,7 @@ TEST(MeshFile, WithoutAMaterialTheObjectPaintsIt) {
 TEST(MeshFile, UnitsAndAxesAreThoseOfTheFileOrTheKey) {
   const fs::path folder = mesh_folder("axes");
   const LooseTriangles box = box_triangles(kLow, kHigh);
-  const auto box_of = [&](const fs::path& file, UpAxis up) {
+  const auto box_of = [&](const fs::path& file, scene::UpAxis up) {
     const MeshOfFile mesh = load_mesh(file.string(), up);
     return std::pair(mesh.low, mesh.high);
   };
@@ -111,22 +111,22 @@ TEST(MeshFile, UnitsAndAxesAreThoseOfTheFileOrTheKey) {
     EXPECT_LT(glm::distance(found.second, high), 1e-5);
   };
   write_dae(folder / "cm.dae", box, nullptr, 0.01);
-  expect_box(box_of(folder / "cm.dae", UpAxis::kByFormat), 0.01 * glm::dvec3(kLow),
+  expect_box(box_of(folder / "cm.dae", scene::UpAxis::kByFormat), 0.01 * glm::dvec3(kLow),
              0.01 * glm::dvec3(kHigh));
   write_dae(folder / "z.dae", box, nullptr, 1.0, true);
-  expect_box(box_of(folder / "z.dae", UpAxis::kByFormat), kLow, kHigh);
+  expect_box(box_of(folder / "z.dae", scene::UpAxis::kByFormat), kLow, kHigh);
   write_stl(folder / "a.stl", box);
-  expect_box(box_of(folder / "a.stl", UpAxis::kZ), kLow, kHigh);
+  expect_box(box_of(folder / "a.stl", scene::UpAxis::kZ), kLow, kHigh);
   // Its z taken for what lies behind: x, -z, y.
-  expect_box(box_of(folder / "a.stl", UpAxis::kY), {kLow.x, -kHigh.z, kLow.y},
+  expect_box(box_of(folder / "a.stl", scene::UpAxis::kY), {kLow.x, -kHigh.z, kLow.y},
              {kHigh.x, -kLow.z, kHigh.y});
 }
 
 TEST(MeshFile, AnObjectTakesItsSizeFromTheFile) {
   const fs::path file = mesh_folder("fit") / "a.stl";
   write_stl(file, box_triangles(kLow, kHigh));
-  const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
-  FloatingObject object = common_object(ObjectKind::kMesh);
+  const MeshOfFile mesh = load_mesh(file.string(), scene::UpAxis::kByFormat);
+  scene::FloatingObject object = common_object(scene::ObjectKind::kMesh);
   object.scale = 2.0;
   object.draught = 0.3;
   fit_object(mesh, object);
@@ -158,7 +158,7 @@ TEST(MeshFile, WhereTheFileHasNoNormalsSmoothPartsGetThem) {
   }
   const fs::path file = mesh_folder("ball") / "a.stl";
   write_stl(file, ball);
-  const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+  const MeshOfFile mesh = load_mesh(file.string(), scene::UpAxis::kByFormat);
   const ObjectMesh& level = mesh.levels.front();
   EXPECT_EQ(level.triangles.size(), ball.corners.size() / 3);
   for (std::size_t i = 0; i < level.triangles.size(); ++i) {
@@ -194,7 +194,7 @@ TEST(MeshFile, APictureLiesWhereItsCoordinatesSay) {
   write_text(folder / "a.obj",
              "mtllib a.mtl\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
              "usemtl m\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
-  const MeshOfFile mesh = load_mesh((folder / "a.obj").string(), UpAxis::kByFormat);
+  const MeshOfFile mesh = load_mesh((folder / "a.obj").string(), scene::UpAxis::kByFormat);
   const ObjectMesh& level = mesh.levels.front();
   ASSERT_EQ(level.textured.size(), 2u);
   ASSERT_EQ(level.textures->size(), 1u);
@@ -262,7 +262,7 @@ TEST(MeshFile, AMillionTrianglesLoadInFiveSeconds) {
   const fs::path file = mesh_folder("million") / "a.stl";
   write_stl(file, ball);
   const auto start = std::chrono::steady_clock::now();
-  const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+  const MeshOfFile mesh = load_mesh(file.string(), scene::UpAxis::kByFormat);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   // The poles' triangles have no area.
   EXPECT_EQ(mesh.levels.front().triangles.size(), std::size_t{2} * kColumns * (kRows - 1));
@@ -274,4 +274,4 @@ TEST(MeshFile, AMillionTrianglesLoadInFiveSeconds) {
 }
 
 }  // namespace
-}  // namespace swell::scene
+}  // namespace swell::shapes

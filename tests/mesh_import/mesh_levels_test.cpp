@@ -6,9 +6,9 @@
 #include "math/elementary.h"
 #include "mesh_import/mesh_files.h"
 #include "mesh_import/mesh_outline.h"
-#include "scene/mesh_file.h"
+#include "shapes/mesh_file.h"
 
-namespace swell::scene {
+namespace swell::shapes {
 namespace {
 
 // Two points of the pictures.
@@ -17,17 +17,17 @@ double least_seen(const Outlines& outlines) {
 }
 
 TEST(MeshLevels, BuiltInShapesKeepTheirOutlines) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(ObjectKind::kMesh); ++k) {
-    const auto kind = static_cast<ObjectKind>(k);
-    SCOPED_TRACE(kObjectKindNames[k]);
-    const bool is_round = kind == ObjectKind::kSphere || kind == ObjectKind::kBox;
-    const Outlines outlines{kind == ObjectKind::kPier ? 800 : 200,
+  for (std::size_t k = 0; k < static_cast<std::size_t>(scene::ObjectKind::kMesh); ++k) {
+    const auto kind = static_cast<scene::ObjectKind>(k);
+    SCOPED_TRACE(scene::kObjectKindNames[k]);
+    const bool is_round = kind == scene::ObjectKind::kSphere || kind == scene::ObjectKind::kBox;
+    const Outlines outlines{kind == scene::ObjectKind::kPier ? 800 : 200,
                             is_round ? glm::dvec3(1.0) : common_object(kind).size_m};
-    const ObjectMesh finest = make_object_mesh(kind, TopMark::kSphere, kLevelSegments[0]);
+    const ObjectMesh finest = make_object_mesh(kind, scene::TopMark::kSphere, kLevelSegments[0]);
     EXPECT_EQ(finest.error, 0.0f);
     float before = 0.0f;
     for (const int segments : kLevelSegments) {
-      const ObjectMesh mesh = make_object_mesh(kind, TopMark::kSphere, segments);
+      const ObjectMesh mesh = make_object_mesh(kind, scene::TopMark::kSphere, segments);
       EXPECT_GE(mesh.error, before);
       before = mesh.error;
       EXPECT_LT(outline_distance(finest, mesh, outlines, 8),
@@ -78,7 +78,7 @@ TEST(MeshLevels, MeshesOfFilesKeepTheirOutlines) {
   for (const LooseTriangles& triangles : {ball, ship}) {
     const std::filesystem::path file = mesh_folder("levels") / "a.stl";
     write_stl(file, triangles);
-    const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+    const MeshOfFile mesh = load_mesh(file.string(), scene::UpAxis::kByFormat);
     const Outlines outlines{600, mesh.high - mesh.low};
     for (std::size_t level = 1; level < mesh.levels.size(); ++level, ++coarser) {
       SCOPED_TRACE(std::to_string(mesh.levels[level].triangles.size()) + " of " +
@@ -92,4 +92,4 @@ TEST(MeshLevels, MeshesOfFilesKeepTheirOutlines) {
 }
 
 }  // namespace
-}  // namespace swell::scene
+}  // namespace swell::shapes

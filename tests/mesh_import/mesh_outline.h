@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "scene/object_mesh.h"
+#include "shapes/object_mesh.h"
 
 namespace swell {
 
@@ -22,7 +22,7 @@ struct Outlines {
 
   // Which points see the mesh along a direction: those that it covers, or all that it comes nearer
   // than `reach` along the axes (0.5: a needle between points is seen, too).
-  std::vector<char> covered(const scene::ObjectMesh& mesh, glm::dvec3 along, double reach) const {
+  std::vector<char> covered(const shapes::ObjectMesh& mesh, glm::dvec3 along, double reach) const {
     const glm::dvec3 right = glm::normalize(
         glm::cross(along, std::abs(along.z) > 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
     const glm::dvec3 up = glm::cross(right, along);
@@ -92,14 +92,14 @@ struct Outlines {
 
 // How far the outlines of two meshes lie from each other at most, from all around, in parts of the
 // largest side; right to two points of the pictures.
-inline double outline_distance(const scene::ObjectMesh& a, const scene::ObjectMesh& b,
+inline double outline_distance(const shapes::ObjectMesh& a, const shapes::ObjectMesh& b,
                                const Outlines& outlines, int directions) {
   double worst = 0.0;
   for (int i = 0; i < directions; ++i) {
     // Evenly around, from level to 60 degrees up.
     const double turn = 2.4 * i, z = 0.86 * i / directions, level = std::sqrt(1.0 - z * z);
     const glm::dvec3 along(level * std::cos(turn), level * std::sin(turn), -z);
-    const auto distance = [&](const scene::ObjectMesh& from, const scene::ObjectMesh& to) {
+    const auto distance = [&](const shapes::ObjectMesh& from, const shapes::ObjectMesh& to) {
       return outlines.farthest(outlines.covered(from, along, 0.0),
                                outlines.covered(to, along, 0.5));
     };

@@ -17,9 +17,9 @@
 #include "math/random.h"
 #include "mesh_import/generated_files.h"
 #include "mesh_import/mesh_files.h"
-#include "scene/mesh_file.h"
+#include "shapes/mesh_file.h"
 
-namespace swell::scene {
+namespace swell::shapes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,7 +100,7 @@ struct Outcomes {
 // Either a mesh whose numbers are in their ranges, or one line.
 void expect_sane(const fs::path& file, Outcomes& outcomes) {
   try {
-    const MeshOfFile mesh = load_mesh(file.string(), UpAxis::kByFormat);
+    const MeshOfFile mesh = load_mesh(file.string(), scene::UpAxis::kByFormat);
     ++outcomes.read;
     for (const ObjectMesh& level : mesh.levels) {
       ASSERT_FALSE(level.triangles.empty());
@@ -142,4 +142,4 @@ TEST(MeshMutation, BrokenFilesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace swell::scene
+}  // namespace swell::shapes

@@ -9,8 +9,6 @@
 namespace swell::render {
 namespace {
 
-using scene::radians;
-
 constexpr int kTileWidth_px = 70, kTileHeight_px = 90;  // tiles that are cut, too
 
 TEST(AirOverATile, IsThatOfItsPixels) {

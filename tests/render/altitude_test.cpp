@@ -10,12 +10,10 @@
 #include "render/linear_renderer.h"
 #include "render/measures.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
-
-using scene::radians;
 
 constexpr int kWidth_px = 48, kHeight_px = 128;
 constexpr double kRadius_m = 6371e3 / 0.87;  // HOR: k = 0.13
@@ -55,10 +53,10 @@ struct Renderer : LinearRenderer {
 TEST(Altitude, ShowsTheModelsSkyAtItsHeight) {
   for (const double sun_deg : {40.0, 3.0}) {
     Renderer renderer(calm_scene(sun_deg, 0.0));
-    const scene::SkyLight sea_level =
-        scene::make_sky_light(renderer.world.scene().sky, renderer.workers);
+    const sky::SkyLight sea_level =
+        sky::make_sky_light(renderer.world.scene().sky, renderer.workers);
     for (const double height_m : {450.0, 2200.0, 7500.0, 13000.0, 33000.0, 48000.0}) {
-      const scene::SkyLight light = sky_light_at_height(sea_level, height_m, renderer.workers);
+      const sky::SkyLight light = sky_light_at_height(sea_level, height_m, renderer.workers);
       renderer.draw(height_m, radians(40.0), radians(80.0));
       for (int y = 0; y < kHeight_px; y += 3) {
         if (renderer.sine(y) < 0.05) continue;  // where it changes from pixel to pixel
@@ -132,7 +130,7 @@ TEST(Altitude, AirBelowIsABlueVeil) {
 TEST(Altitude, CloudsLieBelowAnEyeAboveThem) {
   Renderer renderer(calm_scene(40.0, 0.5));
   for (const double height_m : {6000.0, 10000.0, 40000.0}) {
-    const double clouds_dip = dip(height_m - scene::kCloudHeight_m);
+    const double clouds_dip = dip(height_m - sky::kCloudHeight_m);
     const auto green_without = [&](PartSet without) {
       renderer.draw(height_m, -clouds_dip - 0.1, radians(40.0), without);
       return green_light(renderer.target);

@@ -25,7 +25,7 @@ struct CalmPicture : LinearRenderer {
   explicit CalmPicture(double wind_mps) : CalmPicture(sea_of(wind_mps, 35.0, 0.5, 180.0)) {}
   explicit CalmPicture(const scene::Scene& scene, PartSet without = {}) : LinearRenderer(scene) {
     options.without = without;
-    draw_view(make_view({0.0, 0.0, kMirrorEye_m}, 0.0, 0.0, scene::radians(kFov_deg), 0.25f,
+    draw_view(make_view({0.0, 0.0, kMirrorEye_m}, 0.0, 0.0, radians(kFov_deg), 0.25f,
                         kMirrorSide_px, kMirrorSide_px),
               0.0);
   }

@@ -147,7 +147,7 @@ scene::Scene seen_from_above(glm::dvec3 eye_m, const std::string& more = "") {
   scene::Scene scene = river_scene(more);
   scene.camera.eye_m = eye_m;
   scene.camera.heading_rad = 0.0;
-  scene.camera.pitch_rad = scene::radians(-89.0);
+  scene.camera.pitch_rad = radians(-89.0);
   return scene;
 }
 

@@ -9,7 +9,7 @@ namespace swell::render {
 inline scene::Scene shading_scene(double eye_z_m) {
   scene::Scene scene;
   scene.camera.eye_m = {0.0, 0.0, eye_z_m};
-  scene.camera.pitch_rad = scene::radians(-40.0);
+  scene.camera.pitch_rad = radians(-40.0);
   scene.detail.triangulation = scene::Triangulation::kPlane;
   scene.sea.resolution = 16;
   return scene;

@@ -30,7 +30,7 @@ class FlatFloor : public testing::Test {
     scene.terrain->metres_per_pixel = 500.0;
     scene.terrain->low_m = -depth_m;
     scene.terrain->high_m = -0.5 * depth_m;
-    scene.sky.sun_elevation_rad = scene::radians(90.0);
+    scene.sky.sun_elevation_rad = radians(90.0);
     scene.sky.sun_direction = {0.0f, 0.0f, 1.0f};
     scene.sky.cloud_cover = 0.0;
     scene.sea.wind_speed_mps = 4.0;

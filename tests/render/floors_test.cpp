@@ -55,7 +55,7 @@ class OddFloor : public testing::TestWithParam<Floor> {
 scene::Scene windy_scene(const Floor& floor) {
   scene::Scene scene;
   scene.camera.eye_m = {0.0, -20.0, 6.0};
-  scene.camera.pitch_rad = scene::radians(-12.0);
+  scene.camera.pitch_rad = radians(-12.0);
   scene.sea.resolution = 32;
   scene.sea.wind_speed_mps = 9.0;
   scene.detail.water_triangles = scene.detail.terrain_triangles = 3000;

@@ -1,4 +1,4 @@
-// The shaders' fog against the closed forms of scene/fog.h and sums along the way.
+// The shaders' fog against the closed forms of sky/fog.h and sums along the way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "render/shader_kernels.h"
 #include "render/sky/cloud_shadow.h"
-#include "scene/fog.h"
+#include "sky/fog.h"
 #include "texture/on_every_target.h"
 
 namespace swell::render {
@@ -22,7 +22,7 @@ struct Air {
     fog.on = true;
     fog.is_exponential = air.profile == scene::FogProfile::kExponential;
     fog.is_paper = air.scattering == scene::FogScattering::kPaper;
-    fog.per_m = scene::fog_per_m(air);
+    fog.per_m = sky::fog_per_m(air);
     fog.is_grey = fog.per_m.x == fog.per_m.y && fog.per_m.y == fog.per_m.z;
     fog.top_m = static_cast<float>(air.fog_top_m);
     fog.sun_sine = static_cast<float>(sun_sine);
@@ -33,7 +33,7 @@ struct Air {
   }
 
   FogStart start(double height_m) const {
-    const double above_m = scene::fog_above_m(air, height_m);
+    const double above_m = sky::fog_above_m(air, height_m);
     FogStart start{static_cast<float>(height_m), static_cast<float>(above_m)};
     for (int c = 0; c < 3; ++c)
       start.sun_passes[c] = static_cast<float>(std::exp(-fog.per_m[c] * above_m / fog.sun_sine));
@@ -278,7 +278,7 @@ TEST_P(FogKernel, CloudsShadeThePartOfAWayThatLiesInTheirShadow) {
                                        ? std::exp(-z / fog.air.fog_top_m)
                                        : static_cast<double>(z < fog.air.fog_top_m);
             const double step = per_m * density * way_m / kSteps;
-            const double above = per_m * scene::fog_above_m(fog.air, z) / fog.fog.sun_sine;
+            const double above = per_m * sky::fog_above_m(fog.air, z) / fog.fog.sun_sine;
             const double arrives = step * std::exp(-depth - 0.5 * step - above);
             all += arrives, seen += arrives * half.at(direction.x * t), depth += step;
           }

@@ -1,5 +1,5 @@
 // Fog in pictures.
-#include "scene/fog.h"
+#include "sky/fog.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ scene::Scene foggy_sea(double visibility_m, double top_m) {
   scene::Scene scene;
   scene.air.visibility_m = visibility_m;
   scene.air.fog_top_m = top_m;
-  scene.sky.sun_azimuth_rad = scene::radians(90.0);
+  scene.sky.sun_azimuth_rad = radians(90.0);
   scene.sky.sun_direction = {0.8660254f, 0.0f, 0.5f};
   scene.sky.cloud_cover = 0.0;
   return scene;
@@ -29,7 +29,7 @@ scene::Scene without_fog(scene::Scene scene) {
 }
 
 View level_view(glm::dvec3 eye, double pitch_deg) {
-  return scene::camera_view({.eye_m = eye, .pitch_rad = scene::radians(pitch_deg)}, 0.0, 96, 64);
+  return scene::camera_view({.eye_m = eye, .pitch_rad = radians(pitch_deg)}, 0.0, 96, 64);
 }
 
 // A linear picture of a world of its own.
@@ -151,9 +151,9 @@ TEST(FogInPictures, FrameAloneIsThatOfASequence) {
 
 // One cloud, and the sun over it.
 void put_cloud_overhead(scene::Scene& scene) {
-  scene.sky.sun_elevation_rad = scene::radians(90.0);
+  scene.sky.sun_elevation_rad = radians(90.0);
   scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
   scene.clouds.kind = scene::CloudKind::kPlaced;
   scene.clouds.wind_factor = 0.0;
   scene.clouds.cumulus = {{.width_m = 3000.0, .height_m = 1200.0}};

@@ -6,7 +6,7 @@
 #include "math/simd_target.h"
 #include "render/measures.h"
 #include "render/shot.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -173,7 +173,7 @@ TEST(FrameBits, AWorldMadeLikeAnotherDrawsTheSamePicture) {
                painted = beach.scene(), other_all = shipped_world("open_ocean").scene();
   other_wind.sea.wind_speed_mps = 6.0;
   other_sun.sky.sun_elevation_rad = 0.3;
-  other_sun.sky.sun_direction = scene::sun_direction(beach.scene().sky.sun_azimuth_rad, 0.3);
+  other_sun.sky.sun_direction = sky::sun_direction(beach.scene().sky.sun_azimuth_rad, 0.3);
   other_air.sky.turbidity = 6.0;
   painted.sky.model = scene::SkyModel::kGradient;
   other_all.sea.seed += 1;

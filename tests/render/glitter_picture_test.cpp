@@ -9,7 +9,7 @@
 #include "math/elementary.h"
 #include "render/measures.h"
 #include "render/shot.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -27,8 +27,8 @@ scene::Scene sea_behind_wall(double wind_mps, double elevation_deg) {
   scene.sea.whitecaps = 0.0;
   scene.water.body_colour = glm::vec3(0.0f);
   scene.sky.sun_azimuth_rad = 0.0;
-  scene.sky.sun_elevation_rad = scene::radians(elevation_deg);
-  scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
+  scene.sky.sun_elevation_rad = radians(elevation_deg);
+  scene.sky.sun_direction = sky::sun_direction(0.0, scene.sky.sun_elevation_rad);
   scene.sky.zenith = scene.sky.horizon = glm::vec3(0.1f);
   scene.sky.sun_radiance = glm::vec3(2.0f);
   scene.sky.cloud_cover = 0.0;
@@ -55,7 +55,7 @@ double path_width_rad(const scene::Scene& scene) {
   const World world = world_of(scene);
   double sum = 0.0, moment = 0.0;
   for (int n = 0; n < 6; ++n) {
-    const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -down_rad, scene::radians(8.0), 0.25f,
+    const View view = make_view({0.0, 0.0, kEye_m}, 0.0, -down_rad, radians(8.0), 0.25f,
                                 kGlitterSize_px.x, kGlitterSize_px.y);
     const std::vector<float> lit = strip(world, view, 7.0 * n, {Part::kShadows});
     const std::vector<float> shaded = strip(world, view, 7.0 * n, {});
@@ -64,7 +64,7 @@ double path_width_rad(const scene::Scene& scene) {
         const glm::dvec3 ray(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
         const auto i = static_cast<std::size_t>(y * kGlitterSize_px.x + x);
         const double azimuth = std::atan2(ray.x, ray.y), length = glm::length(ray);
-        if (std::abs(std::asin(-ray.z / length) - down_rad) > scene::radians(0.5)) continue;
+        if (std::abs(std::asin(-ray.z / length) - down_rad) > radians(0.5)) continue;
         const double solid_angle = 1.0 / (length * length * length);  // in proportion to it
         const double glint = solid_angle * static_cast<double>(lit[i] - shaded[i]);
         sum += glint;
@@ -91,7 +91,7 @@ TEST(GlitterPicture, OfTheSunsPathIsAsWideAsTheWindSays) {
   constexpr double kElevation_deg = 20.0;
   const auto width_rad = [&](double slope_variance) {
     const double deviation = std::sqrt(0.5 * slope_variance);
-    return std::asin(2.0 * deviation * std::tan(scene::radians(kElevation_deg)));
+    return std::asin(2.0 * deviation * std::tan(radians(kElevation_deg)));
   };
   for (const double wind_mps : {3.0, 6.0, 14.0}) {
     const double variance = 0.003 + 0.00512 * wind_mps;

@@ -13,7 +13,7 @@ namespace swell::render {
 namespace {
 
 View view_down(glm::dvec3 eye) {
-  return make_view(eye, 0.0, scene::radians(-90.0), scene::radians(60.0), 0.25f, 320, 240);
+  return make_view(eye, 0.0, radians(-90.0), radians(60.0), 0.25f, 320, 240);
 }
 
 // The highest step of the ground's outline against the sea: land pixels beside water ones.

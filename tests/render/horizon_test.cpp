@@ -78,8 +78,7 @@ TEST(Horizon, LiesAsFarDownAsTheEyesHeightSays) {
 TEST(Horizon, IsRoundInWideViewsToo) {
   const World world = world_of(calm_sea());
   for (const double height_m : kHeights_m) {
-    const View view =
-        towards_horizon({0.0, 0.0, height_m}, dip(height_m), scene::radians(60.0), 320, 180);
+    const View view = towards_horizon({0.0, 0.0, height_m}, dip(height_m), radians(60.0), 320, 180);
     const HorizonError error = horizon_error(world, view, dip(height_m));
     EXPECT_LT(std::abs(error.mean_px), 0.1) << height_m << " m";
     EXPECT_LE(error.most_px, 1) << height_m << " m";
@@ -90,7 +89,7 @@ TEST(Horizon, OfAFlatSeaLiesAtEyeHeight) {
   scene::Scene scene = calm_sea();
   scene.round_earth = false;
   const World world = world_of(scene);
-  const View view = towards_horizon({0.0, 0.0, 60.0}, 0.0, scene::radians(40.0), 320, 180);
+  const View view = towards_horizon({0.0, 0.0, 60.0}, 0.0, radians(40.0), 320, 180);
   const HorizonError error = horizon_error(world, view, 0.0);
   EXPECT_LT(std::abs(error.mean_px), 0.1);
 }
@@ -125,8 +124,7 @@ TEST(Horizon, OfAStormHasNoHeadlands) {
   scene.sea.patch_lengths_m = {1400.0, 210.0, 31.0};
   const World world = world_of(scene);
   for (const double height_m : {60.0, 300.0, 1500.0}) {
-    const View view =
-        towards_horizon({0.0, 0.0, height_m}, dip(height_m), scene::radians(10.0), 320, 180);
+    const View view = towards_horizon({0.0, 0.0, height_m}, dip(height_m), radians(10.0), 320, 180);
     const HorizonError error = horizon_error(world, view, dip(height_m));
     EXPECT_LT(std::abs(error.mean_px), 0.25) << height_m << " m";
     EXPECT_LE(error.most_px, 1) << height_m << " m";
@@ -153,7 +151,7 @@ TEST(Horizon, AStepOfTheLatticeMovesNoPixel) {
     for (const double fov_deg : {10.0, 60.0}) {
       const auto draw_at = [&](double east_m) {
         return draw(world, towards_horizon({65536.0 + east_m, -900.0, height_m + 3.0},
-                                           dip(height_m), scene::radians(fov_deg), 160, 90));
+                                           dip(height_m), radians(fov_deg), 160, 90));
       };
       const Shot before = draw_at(-1e-6), after = draw_at(1e-6);
       ASSERT_NE(before.state().meshes.water.domain.min_world,

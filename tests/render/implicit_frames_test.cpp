@@ -50,7 +50,7 @@ scene::Scene calm_scene() {
   scene.water.bump_strength = 0.0;
   scene.sky.cloud_cover = 0.0;
   scene.camera.eye_m = {0.0, -14.0, 3.0};
-  scene.camera.pitch_rad = scene::radians(-8.0);
+  scene.camera.pitch_rad = radians(-8.0);
   return scene;
 }
 
@@ -93,7 +93,7 @@ TEST(ImplicitFrames, BallSeenThroughTheWaterLooksAsOneOfTriangles) {
   scene::Scene scene = calm_scene();
   scene.water.absorption_per_m = glm::vec3(0.02f);
   scene.camera.eye_m = {0.0, -7.0, 6.0};
-  scene.camera.pitch_rad = scene::radians(-45.0);
+  scene.camera.pitch_rad = radians(-45.0);
   expect_like_triangles(scene, 0.8);
 }
 
@@ -101,7 +101,7 @@ TEST(ImplicitFrames, BallSeenFromUnderWaterLooksAsOneOfTriangles) {
   scene::Scene scene = calm_scene();
   scene.water.absorption_per_m = glm::vec3(0.02f);
   scene.camera.eye_m = {0.0, -9.0, -3.0};
-  scene.camera.pitch_rad = scene::radians(25.0);
+  scene.camera.pitch_rad = radians(25.0);
   expect_like_triangles(scene, 1.0);
 }
 

@@ -81,8 +81,7 @@ TEST(LandRays, EndAtTheOutline) {
   scene::Scene scene = with_rays(load_shipped("lagoon"));
   scene.terrain->outline_m = 6.0;
   const World world = world_of(scene);
-  const View view =
-      make_view({0.0, 0.0, 3000.0}, 0.0, scene::radians(-90.0), 0.12, 0.25f, 200, 200);
+  const View view = make_view({0.0, 0.0, 3000.0}, 0.0, radians(-90.0), 0.12, 0.25f, 200, 200);
   FrameOptions options;
   options.labels.add(Label::kId), options.labels.add(Label::kPosition);
   const Shot drawn = draw(world, view, options);
@@ -186,8 +185,7 @@ TEST(LandRays, AreTheSameBitsOverThreadsTargetsAndTiles) {
 
 // From under water the land is seen through the surface, and the floor mirrors in it.
 TEST(LandRays, AreSeenFromUnderWater) {
-  const View view =
-      make_view({-15.0, -420.0, -4.0}, 0.05, 0.35, scene::radians(70.0), 0.25f, 240, 136);
+  const View view = make_view({-15.0, -420.0, -4.0}, 0.05, 0.35, radians(70.0), 0.25f, 240, 136);
   const Shot a = draw(shipped_world("lagoon"), view, {.terrain_triangles = 500000});
   const Shot b = draw(lagoon_by_rays(), view);
   EXPECT_LT(mean_difference(a.target, b.target), 2.0);

@@ -110,8 +110,8 @@ TEST(Land, SeesLessSkyInValleys) {
 
 // A camera above a meadow, on pictures of any size.
 View above_meadow(double height_m, int width_px, int height_px) {
-  return make_view({330.0, 120.0, height_m}, 0.4, scene::radians(-80.0), scene::radians(50.0),
-                   0.25f, width_px, height_px);
+  return make_view({330.0, 120.0, height_m}, 0.4, radians(-80.0), radians(50.0), 0.25f, width_px,
+                   height_px);
 }
 
 glm::dvec3 mean_light(LinearRenderer& renderer, const View& view) {
@@ -140,9 +140,8 @@ TEST(Land, DoesNotShimmerInASlowPan) {
        {glm::dvec3(-500.0, -500.0, 330.0), glm::dvec3(330.0, 120.0, 130.0)}) {
     std::vector<std::vector<int>> frames;
     for (int n = 0; n < 9; ++n) {
-      const double heading = scene::radians(45.0 + n * 0.25 * 70.0 / 240);
-      const View view =
-          make_view(eye, heading, scene::radians(-35.0), scene::radians(40.0), 0.25f, 240, 136);
+      const double heading = radians(45.0 + n * 0.25 * 70.0 / 240);
+      const View view = make_view(eye, heading, radians(-35.0), radians(40.0), 0.25f, 240, 136);
       frames.push_back(green_codes(film.draw(hill_world(), view, 0.0, {.edge_samples = 0})));
     }
     EXPECT_LT(part_reversed(frames, 12), 0.004) << eye.z;

@@ -3,17 +3,17 @@
 
 #include "render/shot.h"
 #include "scene/scene.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 
 // A flat sea under the sun, with a fixed exposure.
 inline scene::Scene calm_scene(double sun_deg, double cloud_cover, double azimuth_deg = 70.0) {
   scene::Scene scene;
-  scene.sky.sun_elevation_rad = scene::radians(sun_deg);
-  scene.sky.sun_azimuth_rad = scene::radians(azimuth_deg);
+  scene.sky.sun_elevation_rad = radians(sun_deg);
+  scene.sky.sun_azimuth_rad = radians(azimuth_deg);
   scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
   scene.sky.cloud_cover = cloud_cover;
   scene.sky.exposure = 1.0;
   scene.sea.spectrum = false;

@@ -11,7 +11,7 @@
 #include "render/plain_sea.h"
 #include "render/shader_kernels.h"
 #include "render/sky/sky_maps.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 #include "texture/on_every_target.h"
 
 namespace swell::render {
@@ -158,7 +158,7 @@ TEST(MirroredSeaOfScenes, IsNoBrighterThanTheHorizon) {
           scene.sea.wind_speed_mps = wind;
           scene.sky.sun_elevation_rad = radians(elevation);
           scene.sky.sun_direction =
-              scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+              sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
           scene.sky.zenith = glm::vec3(zenith);
           scene.water.body_colour = glm::vec3(body);
           const World world = world_of(scene);

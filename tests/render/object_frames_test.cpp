@@ -10,8 +10,8 @@
 #include "mesh_import/mesh_files.h"
 #include "render/measure/pick.h"
 #include "render/shot.h"
-#include "scene/object_ray.h"
 #include "scene/scene.h"
+#include "shapes/object_ray.h"
 #include "texture/image_io.h"
 
 namespace swell::render {
@@ -27,7 +27,7 @@ scene::Scene scene_of_calm_objects() {
   scene.sky.model = scene::SkyModel::kGradient;  // made in a third of the time
   scene.sky.cloud_cover = 0.0;
   scene.camera.eye_m = {0.0, -40.0, 6.0};
-  scene.camera.pitch_rad = scene::radians(-6.0);
+  scene.camera.pitch_rad = radians(-6.0);
   return scene;
 }
 
@@ -62,12 +62,12 @@ TEST(ObjectFrames, APoseOfTheCallersIsThatOfAFixedObjectThere) {
                    object_of(scene::ObjectKind::kSailboat, {4.0, 10.0})};
   scene.objects[1].motion = scene::Motion::kFixed;
   scene.objects[1].height_m = 0.3;
-  scene.objects[1].heading_rad = scene::radians(70.0);
+  scene.objects[1].heading_rad = radians(70.0);
   const World there = world_of(scene);
   scene.objects[1].position_m = {4000.0, 500.0};
   const World elsewhere = world_of(scene);
   Drawn expected(there), given(elsewhere);
-  const double c = std::cos(scene::radians(70.0)), s = std::sin(scene::radians(70.0));
+  const double c = std::cos(radians(70.0)), s = std::sin(radians(70.0));
   const scene::GivenPose pose{
       1, {{4.0, 10.0, 0.3}, glm::dmat3(glm::dvec3(c, -s, 0.0), {s, c, 0.0}, {0.0, 0.0, 1.0})}};
   expected.draw(2.0);
@@ -120,7 +120,7 @@ scene::Scene crowd(int count) {
   scene.sea.wind_speed_mps = 7.0;
   scene.sky.model = scene::SkyModel::kGradient;
   scene.camera.eye_m = {0.0, -60.0, 12.0};
-  scene.camera.pitch_rad = scene::radians(-5.0);
+  scene.camera.pitch_rad = radians(-5.0);
   constexpr std::array kKinds = {scene::ObjectKind::kBuoy,     scene::ObjectKind::kBoat,
                                  scene::ObjectKind::kSailboat, scene::ObjectKind::kRock,
                                  scene::ObjectKind::kSphere,   scene::ObjectKind::kBox};
@@ -233,7 +233,7 @@ TEST(ObjectFrames, APictureIsSeenWhereItLiesAndItsMeanWithoutIt) {
              "vt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n");
   scene::Scene scene = scene_of_calm_objects();
   scene.camera.pitch_rad = 0.0;
-  scene.sky.sun_azimuth_rad = scene::radians(180.0);
+  scene.sky.sun_azimuth_rad = radians(180.0);
   scene.sky.sun_direction = {0.0f, -0.8660254f, 0.5f};
   scene.objects = {mesh_of(folder / "wall.obj")};
   scene.objects[0].draught = 0.0;
@@ -272,7 +272,7 @@ TEST(ObjectFrames, ASurfaceWithoutABackIsSeenFromBothSides) {
     const std::filesystem::path file = mesh_folder("square") / (turned ? "b.stl" : "a.stl");
     write_stl(file, square);
     scene::Scene scene = scene_of_calm_objects();
-    scene.sky.sun_azimuth_rad = scene::radians(180.0);
+    scene.sky.sun_azimuth_rad = radians(180.0);
     scene.sky.sun_direction = {0.0f, -0.8660254f, 0.5f};
     scene.objects = {mesh_of(file)};
     scene.objects[0].draught = 0.0;

@@ -11,7 +11,7 @@
 #include "ocean/water_surface.h"
 #include "render/drawn_water.h"
 #include "render/measures.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 #include "terrain/height_grid.h"
 #include "texture/image_io.h"
 
@@ -89,12 +89,12 @@ scene::Scene glitter_scene(double wind_mps, double elevation_deg, double azimuth
   scene.round_earth = false;
   scene.detail.triangulation = scene::Triangulation::kPlane;
   scene.sea.wind_speed_mps = wind_mps;
-  scene.sea.wind_from_rad = scene::radians(azimuth_deg + 45.0);
+  scene.sea.wind_from_rad = radians(azimuth_deg + 45.0);
   scene.sea.whitecaps = 0.0;
-  scene.sky.sun_azimuth_rad = scene::radians(azimuth_deg);
-  scene.sky.sun_elevation_rad = scene::radians(elevation_deg);
+  scene.sky.sun_azimuth_rad = radians(azimuth_deg);
+  scene.sky.sun_elevation_rad = radians(elevation_deg);
   scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
   scene.sky.zenith = scene.sky.horizon = glm::vec3(0.1f);
   scene.sky.sun_radiance = glm::vec3(1.0f);
   scene.sky.cloud_cover = 0.0;
@@ -153,9 +153,8 @@ glm::dvec2 mirrored_sun_px(glm::dvec2 heading_pitch_deg, glm::dvec2 sun_deg, dou
 }
 
 View view_to(glm::dvec2 heading_pitch_deg, double fov_deg) {
-  return make_view({0.0, 0.0, kGlitterEye_m}, scene::radians(heading_pitch_deg.x),
-                   scene::radians(heading_pitch_deg.y), scene::radians(fov_deg), 0.25f, kSize_px.x,
-                   kSize_px.y);
+  return make_view({0.0, 0.0, kGlitterEye_m}, radians(heading_pitch_deg.x),
+                   radians(heading_pitch_deg.y), radians(fov_deg), 0.25f, kSize_px.x, kSize_px.y);
 }
 
 TEST(ProjectedGlitter, StandsWhereFlatWaterMirrorsTheSun) {

@@ -7,7 +7,7 @@
 
 #include "render/labelled_frame.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 #include "terrain/height_grid.h"
 
 namespace swell::render {
@@ -155,8 +155,8 @@ TEST(WithoutRefraction, ShallowWaterLooksDeep) {
 TEST(WithoutGlitter, WaterMirrorsNoSun) {
   scene::Scene scene = glass();
   scene.sky.sun_azimuth_rad = 0.0;
-  scene.sky.sun_elevation_rad = scene::radians(30.0);
-  scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
+  scene.sky.sun_elevation_rad = radians(30.0);
+  scene.sky.sun_direction = sky::sun_direction(0.0, scene.sky.sun_elevation_rad);
   const World world = world_of(scene);
   const View view =
       make_view({0.0, 0.0, 10.0}, 0.0, -scene.sky.sun_elevation_rad, 0.2, 0.25f, kWidth, kHeight);
@@ -190,7 +190,7 @@ TEST(WithoutHaze, ContrastIsWhole) {
   scene::Scene scene = glass();
   scene.sky.haze_distance_m = kHaze_m;
   scene.sky.haze_height_m = 1e7;
-  scene.sky.sun_azimuth_rad = scene::radians(180.0);
+  scene.sky.sun_azimuth_rad = radians(180.0);
   scene.sky.sun_direction = {0.0f, -0.8660254f, 0.5f};
   const View view = make_view({0.0, 0.0, 10.0}, 0.0, 0.0, 0.05, 0.25f, kWidth, kHeight);
   const auto middle_of = [&](float paint, PartSet without) {

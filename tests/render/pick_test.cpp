@@ -77,7 +77,7 @@ std::optional<DrawnPixel> pixel_at(const Drawn& drawn, int x, int y) {
       drawn_objects.in_window()
           .primitives[static_cast<std::size_t>(number_in(SurfaceKind::kObjects))];
   const std::size_t object = object_of(drawn, primitive);
-  const scene::ObjectTriangle* first = drawn_objects.meshes[object]->triangles.data();
+  const shapes::ObjectTriangle* first = drawn_objects.meshes[object]->triangles.data();
   return DrawnPixel{Shown::kObject, static_cast<int>(primitive.triangle - first), depth_m, object};
 }
 

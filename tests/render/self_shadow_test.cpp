@@ -13,7 +13,7 @@
 #include "render/shot.h"
 #include "render/view/self_shadows.h"
 #include "scene/scene.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -33,10 +33,10 @@ scene::Scene scene_of(const std::string& name, const LooseTriangles& triangles,
   scene.sea.wind_speed_mps = 0.0;
   scene.water.bump_strength = 0.0;
   scene.sky.cloud_cover = 0.0;
-  scene.sky.sun_azimuth_rad = scene::radians(90.0);
-  scene.sky.sun_elevation_rad = scene::radians(elevation_deg);
+  scene.sky.sun_azimuth_rad = radians(90.0);
+  scene.sky.sun_elevation_rad = radians(elevation_deg);
   scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
   scene::FloatingObject object = scene::common_object(scene::ObjectKind::kMesh);
   object.file = file.string();
   object.motion = scene::Motion::kFixed;
@@ -78,11 +78,11 @@ LooseTriangles closed_mesh(int rows, const Point& point) {
 TEST(SelfShadow, AWallShadesThePlateThatItStandsOn) {
   for (const double elevation_deg : {30.0, 60.0}) {
     const World world = world_of(scene_of("wall", plate_with_wall(), elevation_deg));
-    const View view = make_view({0.0, 0.0, 60.0}, 0.0, -0.5 * kPi, scene::radians(26.0), 0.25f,
-                                kWidth_px, kHeight_px);
+    const View view =
+        make_view({0.0, 0.0, 60.0}, 0.0, -0.5 * kPi, radians(26.0), 0.25f, kWidth_px, kHeight_px);
     const Shot with(world, view, 1.0, linear());
     const Shot without(world, view, 1.0, linear({Part::kSelfShadows}));
-    const double shadow_m = 4.0 / std::tan(scene::radians(elevation_deg));
+    const double shadow_m = 4.0 / std::tan(radians(elevation_deg));
     PickScratch scratch;
     int shaded = 0, lit = 0;
     for (int y = 0; y < kHeight_px; y += 3)
@@ -117,8 +117,8 @@ TEST(SelfShadow, ABallHasNone) {
   });
   for (const double elevation_deg : {10.0, 45.0}) {
     const World world = world_of(scene_of("ball", ball, elevation_deg));
-    const View view = make_view({25.0, -25.0, 12.0}, scene::radians(-45.0), scene::radians(-8.0),
-                                scene::radians(30.0), 0.25f, kWidth_px, kHeight_px);
+    const View view = make_view({25.0, -25.0, 12.0}, radians(-45.0), radians(-8.0), radians(30.0),
+                                0.25f, kWidth_px, kHeight_px);
     const Shot with(world, view, 1.0, linear());
     const Shot without(world, view, 1.0, linear({Part::kSelfShadows}));
     double most = 0.0;
@@ -174,13 +174,13 @@ TEST(ObjectLevels, AFlightTowardsAMeshShowsNoChangeOfLevel) {
   std::vector<double> changes;
   std::vector<bool> is_new_level;
   std::vector<int> before;
-  const scene::ObjectMesh* level = nullptr;
+  const shapes::ObjectMesh* level = nullptr;
   for (int k = 0; k < 60; ++k) {
     const double distance_m = 900.0 * std::exp(-0.05 * k);
     const View view = make_view({0.0, -distance_m, 0.1 * distance_m}, 0.0, std::atan(-0.1),
-                                scene::radians(8.0), 0.25f, kWidth_px, kHeight_px);
+                                radians(8.0), 0.25f, kWidth_px, kHeight_px);
     const std::vector<int> green = green_codes(film.draw(world, view, 1.0, linear()));
-    const scene::ObjectMesh* const now = film.state().meshes.objects.meshes[0];
+    const shapes::ObjectMesh* const now = film.state().meshes.objects.meshes[0];
     if (k > 0) {
       double change = 0.0;
       for (std::size_t i = 0; i < before.size(); ++i) change += std::abs(before[i] - green[i]);

@@ -68,7 +68,7 @@ struct Case {
   World world() const {
     scene::Scene scene = telephoto_scene();
     scene.sea.wind_speed_mps = wind_mps;
-    scene.camera.fov_y_rad = scene::radians(fov_deg);
+    scene.camera.fov_y_rad = radians(fov_deg);
     return world_of(scene);
   }
   scene::Camera camera(const scene::Scene& scene) const {

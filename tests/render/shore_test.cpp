@@ -151,8 +151,7 @@ int count_dashes(const LabelledFrame& frame) {
 // frame.
 TEST(Shallows, MirrorWaterAsBrightAsTheyAre) {
   const World& world = shipped_world("beach");
-  const View view =
-      view_from(world.scene(), {-150.0, -235.0, 2.5}, scene::radians(20.0), scene::radians(-12.0));
+  const View view = view_from(world.scene(), {-150.0, -235.0, 2.5}, radians(20.0), radians(-12.0));
   for (const double t_s : {3.0, 7.0})
     EXPECT_EQ(count_dashes({world, view, t_s, {.edge_samples = 0}}), 0) << t_s;
 }

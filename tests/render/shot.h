@@ -12,7 +12,7 @@
 
 #include "render/workspace.h"
 #include "scene/camera.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 

@@ -8,7 +8,7 @@
 
 #include "render/shader_kernels.h"
 #include "render/shot.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -25,8 +25,8 @@ class SkyLattice : public testing::TestWithParam<Looking> {
 
   SkyLattice() : world(world_of(scene_of(GetParam()))) {
     const Looking& looking = GetParam();
-    const View view = make_view({0.0, 0.0, 10.0}, 0.0, scene::radians(looking.pitch_deg),
-                                scene::radians(looking.fov_deg), 0.25f, kWidth_px, kHeight_px);
+    const View view = make_view({0.0, 0.0, 10.0}, 0.0, radians(looking.pitch_deg),
+                                radians(looking.fov_deg), 0.25f, kWidth_px, kHeight_px);
     shot.draw(world, view, 3.0, {.keep_linear = true});
     std::vector<float> x, y;
     for (int i = 0; i < kWidth_px * kHeight_px; ++i) {
@@ -42,10 +42,10 @@ class SkyLattice : public testing::TestWithParam<Looking> {
 
   static scene::Scene scene_of(const Looking& looking) {
     scene::Scene scene;
-    scene.sky.sun_elevation_rad = scene::radians(25.0);
-    scene.sky.sun_azimuth_rad = scene::radians(5.0);
+    scene.sky.sun_elevation_rad = radians(25.0);
+    scene.sky.sun_azimuth_rad = radians(5.0);
     scene.sky.sun_direction =
-        scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+        sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
     scene.sky.cloud_cover = looking.cloud_cover;
     scene.sea.resolution = 16;
     scene.detail.water_triangles = 100;

@@ -6,12 +6,10 @@
 
 #include "math/elementary.h"
 #include "render/linear_renderer.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
-
-using scene::radians;
 
 constexpr int kSkySide_px = 96;
 constexpr double kSkyEye_m = 10.0;
@@ -19,7 +17,7 @@ constexpr double kSkyEye_m = 10.0;
 scene::Scene sky_scene(double elevation_deg, double cloud_cover) {
   scene::Scene scene;
   scene.sky.sun_elevation_rad = radians(elevation_deg);
-  scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
+  scene.sky.sun_direction = sky::sun_direction(0.0, scene.sky.sun_elevation_rad);
   scene.sky.cloud_cover = cloud_cover;
   scene.sea.resolution = 16;
   scene.detail.water_triangles = 100;
@@ -55,8 +53,8 @@ TEST(SkyPicture, ShowsTheModelsLight) {
     const scene::Scene scene = sky_scene(elevation_deg, 0.0);
     const SkyRenderer sky(scene, 50.0, 80.0);
     Workers workers(1);
-    const scene::SkyLight light =
-        sky_light_at_height(scene::make_sky_light(scene.sky, workers), kSkyEye_m, workers);
+    const sky::SkyLight light =
+        sky_light_at_height(sky::make_sky_light(scene.sky, workers), kSkyEye_m, workers);
     const float exposure = sky.linear(5, 60).y / clear_radiance(light, sky.direction(5, 60)).y;
     for_each_pixel([&](int x, int y) {
       const glm::vec3 d = sky.direction(x, y);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/linear_renderer.h"
-#include "scene/celestial.h"
+#include "sky/celestial.h"
 
 namespace swell::render {
 namespace {
@@ -13,10 +13,10 @@ namespace {
 scene::Scene night(double moon_elevation_deg, double moon_phase) {
   scene::Scene scene;
   scene.sky.cloud_cover = 0.0;
-  scene.sky.sun_elevation_rad = scene::radians(-30.0);
+  scene.sky.sun_elevation_rad = radians(-30.0);
   scene.sky.sun_direction = {0.0f, 0.8660254f, -0.5f};
-  scene.sky.moon_azimuth_rad = scene::radians(120.0);
-  scene.sky.moon_elevation_rad = scene::radians(moon_elevation_deg);
+  scene.sky.moon_azimuth_rad = radians(120.0);
+  scene.sky.moon_elevation_rad = radians(moon_elevation_deg);
   scene.sky.moon_phase = moon_phase;
   scene.sea.wind_speed_mps = 0.0;
   return scene;
@@ -24,9 +24,9 @@ scene::Scene night(double moon_elevation_deg, double moon_phase) {
 
 View upward(double heading_deg, double pitch_deg, double fov_deg, int side_px) {
   const scene::Camera camera = {.eye_m = {0, 0, 2},
-                                .heading_rad = scene::radians(heading_deg),
-                                .pitch_rad = scene::radians(pitch_deg),
-                                .fov_y_rad = scene::radians(fov_deg)};
+                                .heading_rad = radians(heading_deg),
+                                .pitch_rad = radians(pitch_deg),
+                                .fov_y_rad = radians(fov_deg)};
   return scene::camera_view(camera, 0.0, side_px, side_px);
 }
 

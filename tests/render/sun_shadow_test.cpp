@@ -7,8 +7,8 @@
 #include "edge_scenes.h"
 #include "render/measures.h"
 #include "render/shot.h"
-#include "scene/object_ray.h"
-#include "scene/sky.h"
+#include "shapes/object_ray.h"
+#include "sky/sky_light.h"
 #include "terrain/height_grid.h"
 
 namespace swell::render {
@@ -20,7 +20,7 @@ void set_sun(double azimuth_deg, double elevation_deg, scene::Scene& scene) {
   scene.sky.sun_azimuth_rad = azimuth_deg * kPi / 180.0;
   scene.sky.sun_elevation_rad = elevation_deg * kPi / 180.0;
   scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
 }
 
 // Linear light of pixels' middles alone.
@@ -47,7 +47,7 @@ struct OneObject {
     object.kind = kind;
     object.heading_rad = 0.5;
     scene.objects = {object};
-    mesh = scene::make_object_mesh(kind, object.top_mark, scene::kLevelSegments[0]);
+    mesh = shapes::make_object_mesh(kind, object.top_mark, shapes::kLevelSegments[0]);
   }
 
   // The part of nine rays that meet the object: from `p` to points of the sun's rim, and to its
@@ -57,18 +57,18 @@ struct OneObject {
     const scene::ObjectPose pose = {glm::dvec3(0.0), {glm::cross(ahead, up), ahead, up}};
     const glm::dvec3 sun(scene.sky.sun_direction);
     const glm::dvec3 right = glm::normalize(glm::cross(sun, up)), above = glm::cross(right, sun);
-    int met = scene::intersect_ray(object, pose, mesh, p, sun).has_value();
+    int met = shapes::intersect_ray(object, pose, mesh, p, sun).has_value();
     for (const glm::dvec2& side : {glm::dvec2(1.0, 0.0), {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {
       const glm::dvec3 aside = side.x * right + side.y * above;
       const glm::dvec3 rim = sun + 0.0046 * aside, beside = p + 0.22 * aside;
-      met += scene::intersect_ray(object, pose, mesh, p, rim).has_value();
-      met += scene::intersect_ray(object, pose, mesh, beside, sun).has_value();
+      met += shapes::intersect_ray(object, pose, mesh, p, rim).has_value();
+      met += shapes::intersect_ray(object, pose, mesh, beside, sun).has_value();
     }
     return met / 9.0;
   }
 
   glm::dvec3 ahead{std::sin(0.5), std::cos(0.5), 0.0}, up{0.0, 0.0, 1.0};
-  scene::ObjectMesh mesh;
+  shapes::ObjectMesh mesh;
   scene::Scene scene;
 };
 

@@ -17,8 +17,8 @@
 #include "render/view/choose_trees.h"
 #include "render/world/forest.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
 #include "scene/terrain.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -279,7 +279,7 @@ TEST(DrawnTrees, CastShadowsOnLandAndSeaAwayFromTheSun) {
   scene.trees[0].ground_m.x = 0.1;
   scene.sky.sun_azimuth_rad = 0.0;  // in the north: shadows fall to the south
   scene.sky.sun_elevation_rad = 0.35;
-  scene.sky.sun_direction = scene::sun_direction(0.0, 0.35);
+  scene.sky.sun_direction = sky::sun_direction(0.0, 0.35);
   const World world = world_of(scene);
   FrameOptions options;
   options.labels.add(Label::kClass);

@@ -9,7 +9,7 @@
 #include "math/elementary.h"
 #include "render/shot.h"
 #include "scene/scene.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -81,8 +81,8 @@ TEST(TurnedView, APictureBesideTheMiddleIsCutOutOfAWiderOne) {
   // Into the sun, where neighbours differ most.
   scene::Scene scene = flat_sea();
   scene.sky.sun_azimuth_rad = 0.0;
-  scene.sky.sun_elevation_rad = scene::radians(25.0);
-  scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
+  scene.sky.sun_elevation_rad = radians(25.0);
+  scene.sky.sun_direction = sky::sun_direction(0.0, scene.sky.sun_elevation_rad);
   const World world = world_of(scene);
   const View wide = rolled(0.3);
   // Its lower right part.

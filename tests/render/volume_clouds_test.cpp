@@ -13,7 +13,7 @@
 #include "render/shot.h"
 #include "render/sky/cloud_shadow.h"
 #include "render/world/world_state.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -25,9 +25,9 @@ scene::Scene cloudy_scene() {
   scene.sea.spectrum = false;
   scene.sea.wind_speed_mps = 6.0;
   scene.sky.cloud_cover = 0.0;
-  scene.sky.sun_elevation_rad = scene::radians(45.0);
+  scene.sky.sun_elevation_rad = radians(45.0);
   scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
   scene.clouds.kind = scene::CloudKind::kLayer;
   return scene;
 }
@@ -294,12 +294,12 @@ TEST(CloudShadows, TakeTheGlitterFromTheWater) {
   scene::Scene scene = placed_scene({0.0, 0.0});
   scene.sea.spectrum = true;
   scene.sky.sun_azimuth_rad = 0.0;
-  scene.sky.sun_elevation_rad = scene::radians(50.0);
-  scene.sky.sun_direction = scene::sun_direction(0.0, scene.sky.sun_elevation_rad);
+  scene.sky.sun_elevation_rad = radians(50.0);
+  scene.sky.sun_direction = sky::sun_direction(0.0, scene.sky.sun_elevation_rad);
   scene.clouds.cumulus[0].width_m = 3000.0;
   const World world = world_of(scene);
   // The shadow lies as far from under the cloud as the sun slants over the height of its base.
-  const double under_y = -900.0 / std::tan(scene::radians(50.0));
+  const double under_y = -900.0 / std::tan(radians(50.0));
   const auto glitter = [&](double y_m, PartSet without) {
     const Shot shot(world, northward({0.0, y_m - 10.0, 8.0}, -0.6), 3.0,
                     {.water_triangles = 4000, .keep_linear = true, .without = without});

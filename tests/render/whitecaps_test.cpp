@@ -13,8 +13,8 @@
 #include "ocean/water_surface.h"
 #include "render/labelled_frame.h"
 #include "render/sea/sea_maps.h"
-#include "scene/sky.h"
 #include "scene/water.h"
+#include "sky/sky_light.h"
 
 namespace swell::render {
 namespace {
@@ -228,7 +228,7 @@ TEST(DrawnWhitecaps, HaveDepthInside) {
   scene::Scene scene = white_sea();
   scene.sky.sun_elevation_rad = -0.05;
   scene.sky.sun_direction =
-      scene::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
   const Moments light = light_of_whole_foam(scene);
   ASSERT_GT(light.count, 50.0);
   EXPECT_GT(light.deviation() / light.mean(), 0.05);

@@ -6,7 +6,7 @@
 #include "math/random.h"
 #include "scene/expect_near.h"
 #include "scene/scene.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::scene {
 namespace {
@@ -185,31 +185,31 @@ TEST(CameraDeathTest, AMountedCamerasViewNeedsItsObject) {
 Sky clear_sky() {
   Sky sky;
   sky.model = SkyModel::kGradient;
-  sky.sun_direction = sun_direction(0.0, 0.7);
+  sky.sun_direction = sky::sun_direction(0.0, 0.7);
   return sky;
 }
 
 TEST(Sky, SunDirectionIsClockwiseFromNorth) {
-  expect_near(sun_direction(0.0, 0.0), {0, 1, 0}, 1e-7);
-  expect_near(sun_direction(kQuarter, 0.0), {1, 0, 0}, 1e-7);
-  expect_near(sun_direction(1.0, kQuarter), {0, 0, 1}, 1e-7);
-  expect_near(sun_direction(3.0 * kQuarter, kQuarter / 3.0), {-std::sqrt(0.75), 0, 0.5}, 1e-7);
+  expect_near(sky::sun_direction(0.0, 0.0), {0, 1, 0}, 1e-7);
+  expect_near(sky::sun_direction(kQuarter, 0.0), {1, 0, 0}, 1e-7);
+  expect_near(sky::sun_direction(1.0, kQuarter), {0, 0, 1}, 1e-7);
+  expect_near(sky::sun_direction(3.0 * kQuarter, kQuarter / 3.0), {-std::sqrt(0.75), 0, 0.5}, 1e-7);
 }
 
 TEST(GradientSky, WithoutSunHasItsZenithAndHorizonColours) {
   Sky sky = clear_sky();
   sky.sun_radiance = glm::vec3(0.0f);
-  expect_near(gradient_radiance(sky, {0, 0, 1}), gradient_of(sky).zenith, 1e-3);
-  expect_near(gradient_radiance(sky, {1, 0, 0}), gradient_of(sky).horizon, 0.1);
+  expect_near(sky::gradient_radiance(sky, {0, 0, 1}), sky::gradient_of(sky).zenith, 1e-3);
+  expect_near(sky::gradient_radiance(sky, {1, 0, 0}), sky::gradient_of(sky).horizon, 0.1);
 }
 
 TEST(GradientSky, GoesFromHorizonToZenithWithoutSteps) {
   const Sky sky = clear_sky();
-  glm::vec3 last = gradient_radiance(sky, {-1, 0, 0});
+  glm::vec3 last = sky::gradient_radiance(sky, {-1, 0, 0});
   for (int i = 1; i <= 2000; ++i) {
     const double angle = kQuarter * i / 2000.0;
     const glm::vec3 now =
-        gradient_radiance(sky, {-static_cast<float>(std::cos(angle)), 0.0f, std::sin(angle)});
+        sky::gradient_radiance(sky, {-static_cast<float>(std::cos(angle)), 0.0f, std::sin(angle)});
     EXPECT_LT(glm::length(now - last), 0.01f) << i;
     last = now;
   }
@@ -217,30 +217,30 @@ TEST(GradientSky, GoesFromHorizonToZenithWithoutSteps) {
 
 TEST(GradientSky, IsBrightestAroundTheSun) {
   const Sky sky = clear_sky();
-  const glm::vec3 at_sun = gradient_radiance(sky, sky.sun_direction);
-  const glm::vec3 beside = gradient_radiance(sky, sun_direction(0.3, 0.7));
-  const glm::vec3 opposite = gradient_radiance(sky, sun_direction(2.0 * kQuarter, 0.7));
+  const glm::vec3 at_sun = sky::gradient_radiance(sky, sky.sun_direction);
+  const glm::vec3 beside = sky::gradient_radiance(sky, sky::sun_direction(0.3, 0.7));
+  const glm::vec3 opposite = sky::gradient_radiance(sky, sky::sun_direction(2.0 * kQuarter, 0.7));
   EXPECT_GT(at_sun.x, beside.x);
   EXPECT_GT(beside.x, opposite.x);
 }
 
 TEST(GradientSky, BelowTheHorizonIsTheHorizonsColour) {
   const Sky sky = clear_sky();
-  const glm::vec3 horizon = gradient_radiance(sky, {0.6f, -0.8f, 0.0f});
-  expect_near(gradient_radiance(sky, {0.3f, -0.4f, -0.7f}), horizon, 1e-6);
-  EXPECT_TRUE(std::isfinite(gradient_radiance(sky, {0, 0, -1}).x));
+  const glm::vec3 horizon = sky::gradient_radiance(sky, {0.6f, -0.8f, 0.0f});
+  expect_near(sky::gradient_radiance(sky, {0.3f, -0.4f, -0.7f}), horizon, 1e-6);
+  EXPECT_TRUE(std::isfinite(sky::gradient_radiance(sky, {0, 0, -1}).x));
 }
 
 TEST(GradientSky, IsFiniteAndNotNegativeForAnySkyAndDirection) {
   for (int n = 0; n < 3000; ++n) {
     const auto uniform = [&](int k) { return random_uniform(n, k); };
     Sky sky;
-    sky.sun_direction = sun_direction(6.3 * uniform(0), kQuarter * (2.0 * uniform(1) - 1.0));
+    sky.sun_direction = sky::sun_direction(6.3 * uniform(0), kQuarter * (2.0 * uniform(1) - 1.0));
     sky.zenith = glm::vec3(glm::dvec3(100.0 * uniform(2)));
     sky.horizon = glm::vec3(uniform(3), 0.0, 100.0 * uniform(4));
     const glm::vec3 direction =
-        sun_direction(6.3 * uniform(6), kQuarter * (2.0 * uniform(7) - 1.0));
-    const glm::vec3 radiance = gradient_radiance(sky, direction);
+        sky::sun_direction(6.3 * uniform(6), kQuarter * (2.0 * uniform(7) - 1.0));
+    const glm::vec3 radiance = sky::gradient_radiance(sky, direction);
     for (int c = 0; c < 3; ++c) ASSERT_TRUE(radiance[c] >= 0.0f && radiance[c] < 1e4f) << n;
   }
 }

@@ -9,8 +9,8 @@
 
 #include "math/random.h"
 #include "scene/implicit_file.h"
-#include "scene/implicit_mesh.h"
 #include "scene/scene_error.h"
+#include "shapes/implicit_mesh.h"
 #include "trials.h"
 
 namespace swell::scene {
@@ -164,7 +164,7 @@ TEST(ImplicitSurface, ShippedImplicitsAreSmall) {
   for (const auto& entry : std::filesystem::directory_iterator(
            std::filesystem::path(SWELL_SOURCE_DIR) / "scenes/forms")) {
     EXPECT_LT(entry.file_size(), 4096u) << entry.path();
-    const MeshOfFile mesh = with_meshes(load_implicit(entry.path().string()));
+    const shapes::MeshOfFile mesh = shapes::with_meshes(load_implicit(entry.path().string()));
     EXPECT_GT(mesh.levels.front().triangles.size(), 1000u);
     ++count;
   }

@@ -8,9 +8,9 @@
 
 #include "math/elementary.h"
 #include "math/random.h"
-#include "scene/object_mesh.h"
 #include "scene/scene.h"
 #include "scene/water.h"
+#include "shapes/object_mesh.h"
 
 namespace swell::scene {
 namespace {
@@ -117,17 +117,17 @@ TEST(ObjectPoses, OtherObjectsChangeNoBit) {
   }
 }
 
-glm::vec3 corner(const ObjectMesh& mesh, std::size_t triangle, int i) {
+glm::vec3 corner(const shapes::ObjectMesh& mesh, std::size_t triangle, int i) {
   return mesh.position[mesh.indices[3 * triangle + static_cast<std::size_t>(i)]];
 }
 
-glm::vec3 normal_at(const ObjectTriangle& t, glm::vec3 q) {
+glm::vec3 normal_at(const shapes::ObjectTriangle& t, glm::vec3 q) {
   return t.normal_at_origin + q.x * t.normal_along_x + q.y * t.normal_along_y +
          q.z * t.normal_along_z;
 }
 
 // By the divergence theorem.
-double volume_of(const ObjectMesh& mesh) {
+double volume_of(const shapes::ObjectMesh& mesh) {
   double sum = 0.0;
   for (std::size_t n = 0; n < mesh.triangles.size(); ++n)
     sum += static_cast<double>(
@@ -136,9 +136,9 @@ double volume_of(const ObjectMesh& mesh) {
 }
 
 TEST(ObjectMesh, BoxAndSphereHaveTheirVolumes) {
-  EXPECT_NEAR(volume_of(make_object_mesh(ObjectKind::kBox, TopMark::kCan, 8)), 1.0, 1e-6);
+  EXPECT_NEAR(volume_of(shapes::make_object_mesh(ObjectKind::kBox, TopMark::kCan, 8)), 1.0, 1e-6);
   // A ball of diameter 1; 32 flat sides around and 16 along take 1.6 % away.
-  const double ball = volume_of(make_object_mesh(ObjectKind::kSphere, TopMark::kCan, 32));
+  const double ball = volume_of(shapes::make_object_mesh(ObjectKind::kSphere, TopMark::kCan, 32));
   EXPECT_NEAR(ball / (kPi / 6.0), 0.984, 0.004);
 }
 
@@ -215,7 +215,7 @@ TEST(ObjectMesh, BoatsPiersLighthousesAndRocksFillTheirBoxes) {
                                 ObjectKind::kLighthouse, ObjectKind::kRock}) {
     for (const int segments : {8, 24}) {
       SCOPED_TRACE(kObjectKindNames[kind]);
-      const ObjectMesh mesh = make_object_mesh(kind, TopMark::kCan, segments);
+      const shapes::ObjectMesh mesh = shapes::make_object_mesh(kind, TopMark::kCan, segments);
       ASSERT_EQ(mesh.indices.size(), 3 * mesh.triangles.size());
       EXPECT_LE(mesh.triangles.size(), 2048u);
       glm::vec3 low(9.0f), high(-9.0f);
@@ -235,7 +235,7 @@ TEST(ObjectMesh, BoatsPiersLighthousesAndRocksFillTheirBoxes) {
       }
       // Each triangle is in one part.
       std::uint32_t next = 0;
-      for (const MeshPart& part : mesh_parts(common_object(kind), mesh)) {
+      for (const shapes::MeshPart& part : shapes::mesh_parts(common_object(kind), mesh)) {
         EXPECT_EQ(part.first_triangle, next);
         next += part.triangles;
       }
@@ -247,7 +247,8 @@ TEST(ObjectMesh, BoatsPiersLighthousesAndRocksFillTheirBoxes) {
 // A boat's waterline is as long and as broad as its hull is there; a pier's are its posts'.
 TEST(ObjectMesh, PartsKnowWhereTheyCutTheWater) {
   const auto parts_of = [](ObjectKind kind) {
-    return mesh_parts(common_object(kind), make_object_mesh(kind, TopMark::kCan, 24));
+    return shapes::mesh_parts(common_object(kind),
+                              shapes::make_object_mesh(kind, TopMark::kCan, 24));
   };
   const auto boat = parts_of(ObjectKind::kBoat);
   ASSERT_EQ(boat.size(), 1u);
@@ -265,7 +266,7 @@ TEST(ObjectMesh, EveryShapeFitsItsBoxAndItsNormalsPointOut) {
   for (const ObjectKind kind : {ObjectKind::kBuoy, ObjectKind::kSphere, ObjectKind::kBox}) {
     for (const TopMark mark : {TopMark::kCan, TopMark::kCone, TopMark::kSphere}) {
       for (const int segments : {4, 8, 24, 32}) {
-        const ObjectMesh mesh = make_object_mesh(kind, mark, segments);
+        const shapes::ObjectMesh mesh = shapes::make_object_mesh(kind, mark, segments);
         ASSERT_EQ(mesh.indices.size(), 3 * mesh.triangles.size());
         float top = 0.0f, bottom = 1.0f;
         for (const glm::vec3& q : mesh.position) {
@@ -287,7 +288,7 @@ TEST(ObjectMesh, EveryShapeFitsItsBoxAndItsNormalsPointOut) {
 
 // A sphere's normals at the corners are its radii.
 TEST(ObjectMesh, ASpheresCornersHaveTheNormalsOfTheSphere) {
-  const ObjectMesh mesh = make_object_mesh(ObjectKind::kSphere, TopMark::kCan, 24);
+  const shapes::ObjectMesh mesh = shapes::make_object_mesh(ObjectKind::kSphere, TopMark::kCan, 24);
   for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
     for (int i = 0; i < 3; ++i) {
       const glm::vec3 q = corner(mesh, n, i);

@@ -471,5 +471,10 @@ TEST(SceneFile, EveryDeliveredSceneLoadsAndComesBackFromItsDump) {
   EXPECT_GE(count_good("tests/scenes"), 27);
 }
 
+TEST(SceneFile, AKeyOfThePaintedSkyMakesItOne) {
+  EXPECT_EQ(parse_scene("[sky]\nhorizon = [1, 1, 1]\n", "a.toml").sky.model, SkyModel::kGradient);
+  EXPECT_EQ(parse_scene("[sky]\nturbidity = 3\n", "a.toml").sky.model, SkyModel::kAtmosphere);
+}
+
 }  // namespace
 }  // namespace swell::scene

@@ -5,7 +5,8 @@ import re
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
-TOP_FOLDERS = ("math", "texture", "terrain", "ocean", "lod", "raster", "scene", "mesh_import", "render", "capi", "apps")
+TOP_FOLDERS = ("math", "texture", "terrain", "ocean", "lod", "raster", "sky", "scene", "shapes", "mesh_import",
+               "render", "capi", "apps")
 MOST_FILES = 45  # in a folder of render/
 
 

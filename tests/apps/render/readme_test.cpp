@@ -52,7 +52,7 @@ TEST(Documents, LinksLeadToFiles) {
 TEST(Documents, FunctionsThatTheFramesPageNamesAreThere) {
   const std::filesystem::path root(SWELL_SOURCE_DIR);
   std::string sources;
-  for (const char* folder : {"lod", "ocean", "raster", "render", "scene"})
+  for (const char* folder : {"lod", "ocean", "raster", "render", "scene", "shapes", "sky"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
         sources += read_text(entry.path());

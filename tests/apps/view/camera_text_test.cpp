@@ -33,7 +33,7 @@ TEST(CameraText, TheFarthestPoseOfAFlightCanBeRead) {
 }
 
 TEST(CameraText, SaysNoMoreThanIsNeeded) {
-  const CameraPose pose = {{-15.0, -290.0, 5.0}, scene::radians(3.0), scene::radians(-6.0)};
+  const CameraPose pose = {{-15.0, -290.0, 5.0}, radians(3.0), radians(-6.0)};
   EXPECT_EQ(camera_toml(pose, {}),
             "[camera]\n"
             "eye_m = [-15.0, -290.0, 5.0]\n"
@@ -44,7 +44,7 @@ TEST(CameraText, SaysNoMoreThanIsNeeded) {
 }
 
 TEST(CameraText, RollAndTheMatrixKComeBackToo) {
-  const CameraPose pose = {{1.0, 2.0, 3.0}, 0.5, -0.25, scene::radians(7.0)};
+  const CameraPose pose = {{1.0, 2.0, 3.0}, 0.5, -0.25, radians(7.0)};
   const scene::Camera lens = {.near_m = 0.5,
                               .focal_px = glm::dvec2(912.5, 910.75),
                               .principal_px = glm::dvec2(644.0, 352.5),

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "math/elementary.h"
-#include "scene/sky.h"
+#include "sky/sky_light.h"
 
 namespace swell::view {
 namespace {
@@ -70,7 +70,7 @@ TEST(AirChoice, TheTimePlacesTheSunAsInAFile) {
   const scene::Sky sky = with_air(file, by_hand).sky;
   EXPECT_EQ(sky.time_utc, "");
   EXPECT_EQ(sky.sun_elevation_rad, 0.25);
-  EXPECT_EQ(sky.sun_direction, scene::sun_direction(sky.sun_azimuth_rad, 0.25));
+  EXPECT_EQ(sky.sun_direction, sky::sun_direction(sky.sun_azimuth_rad, 0.25));
 }
 
 }  // namespace

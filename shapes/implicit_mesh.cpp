@@ -1,0 +1,174 @@
+#include "shapes/implicit_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace swell::shapes {
+namespace {
+
+constexpr int kSegments = 4;  // along the edge of a cube
+
+// From the implicit surface's axes into its box of size 1.
+struct ToBox {
+  glm::dvec3 middle, size;
+  glm::vec3 operator()(glm::dvec3 p) const { return glm::vec3((p - middle) / size); }
+};
+
+ToBox to_box(const scene::ImplicitSurface& implicit) {
+  const glm::dvec3 middle = 0.5 * (implicit.low + implicit.high);
+  return {{middle.x, middle.y, implicit.low.z}, implicit.high - implicit.low};
+}
+
+// The outermost point of the part on a ray from its inside.
+glm::dvec3 outermost(const scene::ImplicitPart& part, glm::dvec3 along) {
+  constexpr int kSteps = 96, kHalvings = 30;
+  double reach = 1e300;
+  for (int c = 0; c < 3; ++c) {
+    const double to = along[c] > 0.0 ? part.high[c] : part.low[c];
+    if (std::abs(along[c]) > 1e-12)
+      reach = std::min(reach, std::abs(to - part.inside[c]) / std::abs(along[c]));
+  }
+  double inner = 0.0, outer = reach / kSteps;
+  for (int k = kSteps; k >= 1; --k) {
+    const double t = reach * k / kSteps;
+    if (value(part, part.inside + t * along) < 0.0) continue;
+    inner = t, outer = reach * std::min(k + 1, kSteps) / kSteps;
+    break;
+  }
+  for (int k = 0; k < kHalvings; ++k) {
+    const double t = 0.5 * (inner + outer);
+    (value(part, part.inside + t * along) >= 0.0 ? inner : outer) = t;
+  }
+  return part.inside + inner * along;
+}
+
+// A direction from the middle of a cube, so that edges of boxes and rims of cylinders are kept.
+glm::dvec3 direction_of(const scene::ImplicitPart& part, glm::dvec3 on_cube) {
+  if (!part.is_box) {
+    const double across = std::max(std::abs(on_cube.x), std::abs(on_cube.y));
+    const double length = std::sqrt(on_cube.x * on_cube.x + on_cube.y * on_cube.y);
+    if (length > 0.0) on_cube.x *= across / length, on_cube.y *= across / length;
+  }
+  return part.frame * on_cube;
+}
+
+void add_face(const scene::ImplicitPart& part, int axis, double side, const ToBox& to_box,
+              ObjectMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.position.size());
+  for (int j = 0; j <= kSegments; ++j)
+    for (int i = 0; i <= kSegments; ++i) {
+      glm::dvec3 on_cube;
+      on_cube[axis] = side;
+      on_cube[(axis + 1) % 3] = side * (2.0 * i / kSegments - 1.0);
+      on_cube[(axis + 2) % 3] = 2.0 * j / kSegments - 1.0;
+      mesh.position.push_back(to_box(outermost(part, direction_of(part, on_cube))));
+    }
+  constexpr std::uint32_t kRow = kSegments + 1;
+  for (std::uint32_t j = 0; j < kSegments; ++j)
+    for (std::uint32_t i = 0; i < kSegments; ++i) {
+      const std::uint32_t a = first + j * kRow + i;
+      for (const std::uint32_t corner : {a, a + 1, a + kRow + 1, a, a + kRow + 1, a + kRow})
+        mesh.indices.push_back(corner);
+    }
+}
+
+// A sheet: where lines along the thinnest side of its box enter it, and where they leave it last.
+// Its rim is lost up to a cell.
+void add_sheet(const scene::ImplicitPart& part, const ToBox& to_box, ObjectMesh& mesh) {
+  constexpr int kSide = 14, kSteps = 160;
+  constexpr std::uint32_t kNone = ~0u;
+  const glm::dvec3 size = part.high - part.low;
+  const int through = size.x < size.y ? (size.x < size.z ? 0 : 2) : (size.y < size.z ? 1 : 2);
+  const int across = (through + 1) % 3, along = (through + 2) % 3;
+  std::array<std::uint32_t, (kSide + 1) * (kSide + 1)> found;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    glm::dvec3 p;
+    p[across] = part.low[across] + size[across] * static_cast<double>(i % (kSide + 1)) / kSide;
+    p[along] = part.low[along] + size[along] * static_cast<double>(i / (kSide + 1)) / kSide;
+    glm::dvec3 first(1e300), last(0.0);
+    for (int k = 0; k <= kSteps; ++k) {
+      p[through] = part.low[through] + size[through] * k / kSteps;
+      if (value(part, p) < 0.0) continue;
+      if (first.x == 1e300) first = p;
+      last = p;
+    }
+    found[i] = first.x == 1e300 ? kNone : static_cast<std::uint32_t>(mesh.position.size());
+    if (found[i] == kNone) continue;
+    mesh.position.push_back(to_box(first));
+    mesh.position.push_back(to_box(last));
+  }
+  for (std::size_t j = 0; j < kSide; ++j)
+    for (std::size_t i = 0; i < kSide; ++i) {
+      const std::size_t at = j * (kSide + 1) + i;
+      const std::array<std::uint32_t, 4> corner = {found[at], found[at + 1], found[at + kSide + 2],
+                                                   found[at + kSide + 1]};
+      if (std::ranges::find(corner, kNone) != corner.end()) continue;
+      for (const std::uint32_t side : {0u, 1u})
+        for (const std::size_t k : {0u, 1u, 2u, 0u, 2u, 3u})
+          mesh.indices.push_back(corner[k] + side);
+    }
+}
+
+ObjectTriangle paint_of(const scene::ImplicitPart& part) {
+  ObjectTriangle triangle;
+  triangle.normal_at_origin = triangle.flat_normal = {0.0f, 0.0f, 1.0f};
+  triangle.tint = part.colour;
+  triangle.roughness = part.roughness, triangle.metalness = part.metalness;
+  triangle.translucency = part.translucency;
+  triangle.painted = part.painted;
+  return triangle;
+}
+
+// Returns MeshPart::top, a height in the box: what stands on a hull hides little of the sky.
+float hull_top(const scene::ImplicitSurface& implicit, const scene::ImplicitPart& part) {
+  constexpr double kOfBreadth = 0.4;
+  const double breadth_m = std::min(part.high.x - part.low.x, part.high.y - part.low.y);
+  const double top_m = std::min(part.high.z, kOfBreadth * breadth_m);
+  return static_cast<float>(
+      std::clamp((top_m - implicit.low.z) / (implicit.high.z - implicit.low.z), 0.0, 1.0));
+}
+
+ObjectMesh stand_in(const scene::ImplicitSurface& implicit, const ToBox& to_box) {
+  ObjectMesh mesh;
+  for (const scene::ImplicitPart& part : implicit.parts) {
+    if (part.turns_per_s != 0.0) continue;
+    MeshPart piece{.first_triangle = static_cast<std::uint32_t>(mesh.triangles.size())};
+    if (part.is_hollow) {
+      add_sheet(part, to_box, mesh);
+    } else {
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) add_face(part, axis, side, to_box, mesh);
+    }
+    mesh.triangles.resize(mesh.indices.size() / 3, paint_of(part));
+    piece.triangles = static_cast<std::uint32_t>(mesh.triangles.size()) - piece.first_triangle;
+    set_waterline(mesh, static_cast<float>(-implicit.low.z / (implicit.high.z - implicit.low.z)),
+                  piece);
+    piece.top = hull_top(implicit, part);
+    mesh.parts.push_back(piece);
+  }
+  return mesh;
+}
+
+ObjectMesh drawn_mesh(const scene::ImplicitSurface& implicit) {
+  ObjectMesh mesh;
+  for (const float z : {0.0f, 1.0f})
+    for (const float y : {-0.5f, 0.5f})
+      for (const float x : {-0.5f, 0.5f}) mesh.position.push_back({x, y, z});
+  for (const scene::ImplicitPart& part : implicit.parts) mesh.triangles.push_back(paint_of(part));
+  mesh.indices.resize(3 * implicit.parts.size(), 0);
+  return mesh;
+}
+
+}  // namespace
+
+MeshOfFile with_meshes(scene::ImplicitSurface implicit) {
+  MeshOfFile result;
+  result.low = implicit.low, result.high = implicit.high;
+  result.levels.push_back(stand_in(implicit, to_box(implicit)));
+  ObjectMesh drawn = drawn_mesh(implicit);
+  result.implicit = std::make_shared<const DrawnImplicit>(std::move(implicit), std::move(drawn));
+  return result;
+}
+
+}  // namespace swell::shapes

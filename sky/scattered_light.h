@@ -1,0 +1,36 @@
+// Light in the air that was scattered once or more, at each place and in each direction.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "math/parallel.h"
+#include "sky/air_paths.h"
+#include "sky/light_moments.h"
+
+namespace swell::sky {
+
+// Fills Atmosphere::multiple, uneven and haze: by a round earth while the light is down, by level
+// layers from 1.9 degrees up, and by a blend between.
+void fill_scattered_light(Atmosphere& atmosphere, Workers& workers);
+
+// What air makes, in a path's direction, of the light at its steps; for light of the elevations
+// that the path meets.
+struct PathSources {
+  // By sine of the light's elevation, of which there are so many.
+  struct Columns {
+    int first = 0, count = 0;
+  };
+  // Molecules and haze, by mode of the azimuth: by step of the path, and by height.
+  Columns air_columns, haze_columns;
+  std::array<std::vector<glm::vec3>, kRayleighModes> air;
+  std::array<std::vector<glm::vec3>, kModes> haze;
+};
+PathSources sources_along(const Atmosphere& atmosphere, const Path& path, double light_sine);
+
+// As scatter_again() of all light, at the azimuth of `light`, whose cosine is given.
+glm::vec3 scatter_light_again(const PathSources& sources, double cos_azimuth, const Path& path,
+                              LightAngles light);
+
+}  // namespace swell::sky
