@@ -93,14 +93,17 @@ function(swell_add_headers name)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 swell_add_headers(swell_folder_headers HEADERS ${swell_common_headers} <glm/glm.hpp>)
-set_target_properties(swell_folder_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+swell_add_headers(swell_light_folder_headers HEADERS ${swell_common_headers} <glm/glm.hpp>
+  OPTIONS ${swell_light_options} ${swell_caller_options})
+set_target_properties(swell_folder_headers swell_light_folder_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
-# swell_add_folder(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# swell_add_folder(NAME [LIGHT] SOURCES ... LINKS ... PRIVATE_LINKS ...)
+# LIGHT: no picture and no world waits for its code, which is compiled lightly.
 # A static library of one folder. Its headers are visible as "folder/x.h" only to targets that
 # link it, because each folder has an include root of its own: a wrong include does not build.
 # cmake/PublicHeaders.cmake says which headers are installed.
 function(swell_add_folder folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   set(root ${CMAKE_BINARY_DIR}/include/${folder})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
@@ -109,7 +112,12 @@ function(swell_add_folder folder)
   add_library(swell::${folder} ALIAS swell_${folder})
   set_target_properties(swell_${folder} PROPERTIES EXPORT_NAME ${folder}
     POSITION_INDEPENDENT_CODE ON)
-  target_precompile_headers(swell_${folder} REUSE_FROM swell_folder_headers)
+  if(ARG_LIGHT)
+    target_compile_options(swell_${folder} PRIVATE ${swell_light_options} ${swell_caller_options})
+    target_precompile_headers(swell_${folder} REUSE_FROM swell_light_folder_headers)
+  else()
+    target_precompile_headers(swell_${folder} REUSE_FROM swell_folder_headers)
+  endif()
   target_include_directories(swell_${folder} PUBLIC
     $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include/swell>)
   target_link_libraries(swell_${folder} PUBLIC ${ARG_LINKS}
