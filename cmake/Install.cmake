@@ -3,7 +3,8 @@
 include(CMakePackageConfigHelpers)
 include(PublicHeaders)
 swell_find_public_headers(ignored ${CMAKE_SOURCE_DIR})  # a name without a file is an error now
-install(CODE "set(swell_source_folder \"${CMAKE_SOURCE_DIR}\")")
+install(CODE "set(swell_source_folder \"${CMAKE_SOURCE_DIR}\")
+set(swell_binary_folder \"${CMAKE_BINARY_DIR}\")")
 install(SCRIPT cmake/InstallHeaders.cmake)
 install(EXPORT swell-c-targets NAMESPACE swell:: DESTINATION lib/cmake/swell)
 install(EXPORT swell-targets NAMESPACE swell:: DESTINATION lib/cmake/swell)

@@ -119,7 +119,7 @@ function(swell_add_folder folder)
     target_precompile_headers(swell_${folder} REUSE_FROM swell_folder_headers)
   endif()
   target_include_directories(swell_${folder} PUBLIC
-    $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include/swell>)
+    $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include>)
   target_link_libraries(swell_${folder} PUBLIC ${ARG_LINKS}
     PRIVATE $<BUILD_INTERFACE:swell_options> ${ARG_PRIVATE_LINKS})
   # What programs that embed the library must compile its headers with.

@@ -25,6 +25,10 @@ private=$(cd "$include" && find . -name '*-inl.h' -o -name '*_state.h' -o -name 
 others=$(find "$include" -type f ! -name '*.h')
 [ -z "$others" ] || { echo "not headers: $others"; exit 1; }
 
+# Whose includes could mean a file of the program's own.
+quoted=$(grep -rl '^ *# *include "' "$include" || true)
+[ -z "$quoted" ] || { echo "headers that do not include <swell/...>:"; echo "$quoted"; exit 1; }
+
 # A source for each header, which includes it twice.
 mkdir "$scratch/project"
 cat >"$scratch/project/CMakeLists.txt" <<END
@@ -37,7 +41,7 @@ target_link_libraries(headers PRIVATE swell::render)
 target_compile_options(headers PRIVATE -fsyntax-only)
 END
 (cd "$include" && find . -name '*.h') | while read -r header; do
-  name=${header#./}
+  name=swell/${header#./}
   printf '#include <%s>\n#include <%s>\n' "$name" "$name" \
     >"$scratch/project/$(echo "$name" | tr / _).cpp"
 done
