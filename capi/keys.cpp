@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "capi/call.h"
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 
 namespace swell::capi {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "apps/dataset/class_sets.h"
 #include "apps/dataset/sample.h"
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 #include "texture/output_folder.h"
 
 namespace swell::apps {

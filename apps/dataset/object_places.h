@@ -6,7 +6,7 @@
 
 #include "math/view.h"
 #include "render/frame.h"
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 
 namespace swell::apps {
 

@@ -12,8 +12,8 @@
 
 #include "apps/shared/program.h"
 #include "render/frame.h"
+#include "scene/file/scene_files.h"
 #include "scene/scene_error.h"
-#include "scene/scene_files.h"
 #include "shapes/run_importer.h"
 
 namespace swell::apps {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 
 namespace swell::apps {
 

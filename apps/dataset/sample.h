@@ -10,7 +10,7 @@
 #include "apps/shared/notices.h"
 #include "math/parallel.h"
 #include "render/frame.h"
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 
 namespace swell::apps {
 

@@ -12,7 +12,7 @@
 #include "apps/shared/options.h"
 #include "apps/shared/program.h"
 #include "apps/shared/progress.h"
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 
 namespace swell::apps {
 namespace {

@@ -8,8 +8,8 @@
 #include "apps/shared/manual.h"
 #include "apps/shared/program.h"
 #include "apps/shared/version.h"
+#include "scene/file/spelling.h"
 #include "scene/scene_error.h"
-#include "scene/spelling.h"
 
 namespace swell::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 
 namespace swell::view {
 namespace {

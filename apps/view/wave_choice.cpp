@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "math/elementary.h"
-#include "scene/sea_state.h"
+#include "scene/file/sea_state.h"
 
 namespace swell::view {
 namespace {

@@ -8,7 +8,7 @@
 #include "ocean/sea_state.h"
 #include "ocean/small_sea.h"
 #include "scene/check_scene.h"
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 
 namespace swell::render {
 namespace {

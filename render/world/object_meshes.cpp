@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "render/world/world_state.h"
-#include "scene/implicit_file.h"
-#include "scene/parameters.h"
+#include "scene/file/implicit_file.h"
+#include "scene/file/parameters.h"
 #include "scene/scene_error.h"
 #include "shapes/implicit_mesh.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "fuzz/expect.h"
-#include "scene/implicit_file.h"
+#include "scene/file/implicit_file.h"
 #include "scene/scene_error.h"
 
 namespace swell::fuzz {

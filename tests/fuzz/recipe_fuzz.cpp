@@ -5,7 +5,7 @@
 
 #include "fuzz/expect.h"
 #include "fuzz/scratch_parent.h"
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 #include "scene/scene_error.h"
 #include "scene/settings.h"
 

@@ -6,7 +6,7 @@
 
 #include "math/elementary.h"
 #include "render/view/render_view.h"
-#include "scene/implicit_file.h"
+#include "scene/file/implicit_file.h"
 
 namespace swell::render {
 

@@ -11,7 +11,7 @@
 
 #include "math/random.h"
 #include "render/shot.h"
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 
 namespace swell::render {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 #include "scene/water.h"
 
 namespace swell::scene {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "math/random.h"
-#include "scene/implicit_file.h"
+#include "scene/file/implicit_file.h"
 #include "scene/scene_error.h"
 #include "shapes/implicit_mesh.h"
 #include "trials.h"

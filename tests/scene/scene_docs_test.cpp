@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 
 namespace swell::scene {
 namespace {

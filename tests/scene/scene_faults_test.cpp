@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 #include "scene/scene_text.h"
 
 namespace swell::scene {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "math/random.h"
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 #include "scene/scene_text.h"
 #include "trials.h"
 

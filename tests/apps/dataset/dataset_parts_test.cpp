@@ -7,7 +7,7 @@
 #include "apps/dataset/dataset_options.h"
 #include "apps/dataset/instances.h"
 #include "apps/shared/program.h"
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 #include "scene/scene.h"
 
 namespace swell::apps {

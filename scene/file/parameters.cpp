@@ -1,8 +1,8 @@
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 
 #include "ocean/sea_scale.h"
-#include "scene/parameter_row.h"
-#include "scene/scene_choices.h"
+#include "scene/file/parameter_row.h"
+#include "scene/file/scene_choices.h"
 
 namespace swell::scene {
 namespace {

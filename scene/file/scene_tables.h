@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/key_places.h"
+#include "scene/file/key_places.h"
 
 namespace swell::scene {
 

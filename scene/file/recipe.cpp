@@ -1,4 +1,4 @@
-#include "scene/recipe.h"
+#include "scene/file/recipe.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "math/random.h"
-#include "scene/parameters.h"
-#include "scene/scene_tables.h"
+#include "scene/file/parameters.h"
+#include "scene/file/scene_tables.h"
+#include "scene/file/spelling.h"
 #include "scene/settings.h"
-#include "scene/spelling.h"
 
 namespace swell::scene {
 namespace {

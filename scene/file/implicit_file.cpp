@@ -1,4 +1,4 @@
-#include "scene/implicit_file.h"
+#include "scene/file/implicit_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,10 +10,10 @@
 #include <optional>
 
 #include "math/elementary.h"
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
+#include "scene/file/spelling.h"
+#include "scene/file/toml_limits.h"
 #include "scene/scene_error.h"
-#include "scene/spelling.h"
-#include "scene/toml_limits.h"
 
 namespace swell::scene {
 namespace {

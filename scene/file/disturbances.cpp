@@ -1,8 +1,8 @@
 // The keys of [[disturbance]], and what of a scene disturbs the water.
 #include <array>
 
-#include "scene/parameter_row.h"
-#include "scene/parameters.h"
+#include "scene/file/parameter_row.h"
+#include "scene/file/parameters.h"
 
 namespace swell::scene {
 namespace {

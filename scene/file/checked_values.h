@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/parameters.h"
-#include "scene/scene_tables.h"
+#include "scene/file/parameters.h"
+#include "scene/file/scene_tables.h"
 #include "texture/bump_sequence.h"
 
 namespace swell::scene {

@@ -1,4 +1,4 @@
-#include "scene/key_places.h"
+#include "scene/file/key_places.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // Keys of [sky], [clouds] and [[clouds.cumulus]].
 #include <array>
 
-#include "scene/parameter_row.h"
-#include "scene/parameters.h"
+#include "scene/file/parameter_row.h"
+#include "scene/file/parameters.h"
 
 namespace swell::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/sea_state.h"
+#include "scene/file/sea_state.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "scene/checked_values.h"
+#include "scene/file/checked_values.h"
 
 #include <fstream>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "scene/scene_files.h"
+#include "scene/file/scene_files.h"
 
 #include "texture/bump_sequence.h"
 

@@ -1,11 +1,11 @@
-#include "scene/scene_tables.h"
+#include "scene/file/scene_tables.h"
 
 #include <fmt/core.h>
 
-#include "scene/json_tables.h"
-#include "scene/parameters.h"
+#include "scene/file/json_tables.h"
+#include "scene/file/parameters.h"
+#include "scene/file/toml_limits.h"
 #include "scene/scene_error.h"
-#include "scene/toml_limits.h"
 
 namespace swell::scene {
 namespace {

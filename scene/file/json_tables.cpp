@@ -1,13 +1,13 @@
-#include "scene/json_tables.h"
+#include "scene/file/json_tables.h"
 
 #include <fmt/core.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "scene/file/scene_tables.h"
+#include "scene/file/toml_limits.h"
 #include "scene/scene_error.h"
-#include "scene/scene_tables.h"
-#include "scene/toml_limits.h"
 
 namespace swell::scene {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "math/parallel.h"
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 #include "scene/scene.h"
 
 namespace swell::scene {

@@ -1,4 +1,4 @@
-#include "scene/toml_limits.h"
+#include "scene/file/toml_limits.h"
 
 namespace swell::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/spelling.h"
+#include "scene/file/spelling.h"
 
 #include <fmt/format.h>
 

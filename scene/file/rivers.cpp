@@ -1,6 +1,6 @@
 // The keys of [[river]] and [[lake]].
-#include "scene/parameter_row.h"
-#include "scene/parameters.h"
+#include "scene/file/parameter_row.h"
+#include "scene/file/parameters.h"
 
 namespace swell::scene {
 namespace {

@@ -1,7 +1,7 @@
 // How values of the table are said: in messages, in docs/scene.md and in dumped scenes.
 #include <fmt/format.h>
 
-#include "scene/parameters.h"
+#include "scene/file/parameters.h"
 
 namespace swell::scene {
 namespace {

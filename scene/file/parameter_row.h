@@ -1,4 +1,4 @@
-// How the rows of the table of parameters are made (scene/parameters.cpp).
+// How the rows of the table of parameters are made (scene/file/parameters.cpp).
 #pragma once
 
 #include <fmt/core.h>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "math/enum_table.h"
-#include "scene/parameters.h"
-#include "scene/shortest_number.h"
+#include "scene/file/parameters.h"
+#include "scene/file/shortest_number.h"
 
 namespace swell::scene {
 
