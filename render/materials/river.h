@@ -1,8 +1,6 @@
 // Rivers and lakes: what their per-pixel code (river-inl.h) reads.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -16,14 +14,6 @@ namespace swell::render {
 
 // Ripples are carried by the flow for this long, then begin anew where they began.
 inline constexpr double kCarried_s = 1.5;
-
-// How fast they lose the image of another level.
-inline constexpr float kMirrorFall_per_m = 1.0f / (kMirrorGone_m - kMirrorFull_m);
-
-// How much, of a level so far off.
-inline float mirror_share(float off_m) {
-  return std::clamp((kMirrorGone_m - std::abs(off_m)) * kMirrorFall_per_m, 0.0f, 1.0f);
-}
 
 struct River {
   static constexpr SurfaceKind kSurface = SurfaceKind::kRivers;

@@ -2,7 +2,9 @@
 // RenderView holds what becomes of their vertices in a picture.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -112,6 +114,12 @@ struct RiverMesh {
 // Water of rivers and lakes shows an image that is mirrored in another level all the same: all of
 // it up to half a metre off, nothing from two metres on.
 inline constexpr float kMirrorFull_m = 0.5f, kMirrorGone_m = 2.0f;
+
+// How fast water loses the image of another level, and how much is left of one so far off.
+inline constexpr float kMirrorFall_per_m = 1.0f / (kMirrorGone_m - kMirrorFull_m);
+inline float mirror_share(float off_m) {
+  return std::clamp((kMirrorGone_m - std::abs(off_m)) * kMirrorFall_per_m, 0.0f, 1.0f);
+}
 
 // The triangles of a kind that its material places (materials/list.h).
 struct PlacedSurface {

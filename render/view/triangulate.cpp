@@ -8,6 +8,7 @@
 
 #include "lod/plane.h"
 #include "lod/radial_grid.h"
+#include "ocean/water.h"
 #include "render/frame/options.h"
 #include "render/frame/profile.h"
 #include "render/view/meshes.h"
