@@ -7,7 +7,8 @@ set(swell_entry_headers
   texture/image_io.h texture/improved_noise.h texture/normal_map.h texture/perlin.h
   texture/uv_noise.h
   raster/pass.h
-  shapes/object_ray.h scene/objects.h scene/scene.h scene/settings.h scene/terrain.h scene/water.h
+  scene/objects.h scene/scene.h scene/settings.h scene/terrain.h scene/water.h
+  shapes/object_ray.h
   render/frame.h render/measure/eye_place.h render/measure/mesh_error.h render/measure/pick.h
   render/quality/governor.h render/world_view.h)
 
