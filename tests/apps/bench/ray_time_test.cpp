@@ -36,6 +36,20 @@ void time_all(std::vector<Timed>& all) {
     }
 }
 
+// The exponent k of time ~ pixels^k that lies nearest to all of the pictures, in logarithms.
+double exponent(const std::vector<Timed>& all) {
+  double x_sum = 0, y_sum = 0, xx_sum = 0, xy_sum = 0;
+  for (const Timed& timed : all) {
+    const double x = std::log(double(timed.picture.width_px) * timed.picture.height_px);
+    const double y = std::log(timed.least_ms);
+    x_sum += x, y_sum += y, xx_sum += x * x, xy_sum += x * y;
+  }
+  const auto n = double(all.size());
+  return (n * xy_sum - x_sum * y_sum) / (n * xx_sum - x_sum * x_sum);
+}
+
+// Over nine times the pixels an exponent of 0.1 too much is a quarter more time. Of all four
+// pictures at once, as one of them alone may be timed badly on a busy machine.
 TEST(RayTime, IsLinearInThePixels) {
   Workers workers(2);
   const terrain::HeightPyramid map = make_hills(1024, workers);
@@ -44,12 +58,7 @@ TEST(RayTime, IsLinearInThePixels) {
     for (const int height_px : {180, 270, 360, 540})
       all.push_back({map, {height_px * 16 / 9, height_px, pitch_deg, false}});
     time_all(all);
-    for (std::size_t k = 1; k < all.size(); ++k) {
-      const auto pixels = [](const RayPicture& p) { return double(p.width_px) * p.height_px; };
-      const double more = pixels(all[k].picture) / pixels(all[k - 1].picture);
-      EXPECT_NEAR(all[k].least_ms / all[k - 1].least_ms / more, 1.0, 0.15)
-          << pitch_deg << " degrees, " << all[k].picture.height_px << " rows";
-    }
+    EXPECT_NEAR(exponent(all), 1.0, 0.1) << pitch_deg << " degrees";
   }
 }
 
