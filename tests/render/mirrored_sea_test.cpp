@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -54,14 +55,24 @@ double facets_part(double variance, double elevation_rad, double slope) {
   constexpr int kSteps = 160;
   const double sigma = std::sqrt(0.5 * variance), c = std::sin(elevation_rad),
                h = std::cos(elevation_rad);
+  static const auto deviations = [] {
+    std::array<double, kSteps> u;
+    for (int i = 0; i < kSteps; ++i) u[i] = 10.0 * (i + 0.5) / kSteps - 5.0;
+    return u;
+  }();
+  static const auto densities = [] {
+    std::array<double, kSteps> p;
+    for (int i = 0; i < kSteps; ++i) p[i] = std::exp(-0.5 * deviations[i] * deviations[i]);
+    return p;
+  }();
   double seen = 0.0, down = 0.0;
   for (int j = 0; j < kSteps; ++j) {
+    const double y = slope + sigma * deviations[j];  // towards the eye
+    const double projected = c + y * h;
+    if (projected <= 0.0) continue;
     for (int i = 0; i < kSteps; ++i) {
-      const double u = 10.0 * (i + 0.5) / kSteps - 5.0, v = 10.0 * (j + 0.5) / kSteps - 5.0;
-      const double x = sigma * u, y = slope + sigma * v;  // across and towards the eye
-      const double projected = c + y * h;
-      if (projected <= 0.0) continue;
-      const double weight = projected * std::exp(-0.5 * (u * u + v * v));
+      const double x = sigma * deviations[i];  // across
+      const double weight = projected * densities[i] * densities[j];
       seen += weight;
       if (2.0 * projected / (1.0 + x * x + y * y) < c) down += weight;
     }
