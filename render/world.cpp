@@ -1,4 +1,8 @@
 // Making a scene ready to draw: everything that does not change with time.
+#include <array>
+#include <optional>
+#include <span>
+
 #include "lod/relief_bounds.h"
 #include "math/check.h"
 #include "ocean/coast.h"
@@ -17,6 +21,7 @@
 #include "render/world/land_shadow.h"
 #include "render/world/near_shore_map.h"
 #include "render/world/object_meshes.h"
+#include "render/world/part_maker.h"
 #include "render/world/sun_texture.h"
 #include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"
@@ -80,187 +85,196 @@ texture::PackedMap2 build_ground_pattern() {
   return map;
 }
 
-template <class T>
-std::shared_ptr<const T> shared(T value) {
-  return std::make_shared<const T>(std::move(value));
-}
-
 CoastMaps build_coast_maps(const ocean::CoastSea& coast, Workers& workers) {
   return {ocean::make_coast_map(coast, kCoastMapSize, workers), build_ceded_map(coast)};
 }
 
-// The parts of a world. like: one that describes the part alike, or null.
-
-// like: may have another sky.
-void add_sky(const World::State* like, bool same_sky, Workers& workers, World::State& state) {
-  const scene::Sky& sky = state.scene.sky;
-  const bool is_gradient = sky::is_gradient(sky);
-  const bool same_air = like && like->scene.sky.turbidity == sky.turbidity &&
-                        sky::is_gradient(like->scene.sky) == is_gradient;
-  state.atmosphere = same_air ? like->atmosphere
-                              : shared(is_gradient ? sky::Atmosphere()
-                                                   : sky::make_atmosphere(sky.turbidity, workers));
-  state.sky = same_sky ? like->sky : shared(build_sky_maps(sky, *state.atmosphere, workers));
+// What parts are made of.
+ValueBytes sea_inputs(const PartMaker& parts) {
+  return parts.of({"sea", "-sea.douglas", "-sea.beaufort", "-sea.centre_m", "-sea.size_m",
+                   "-sea.earth", "wind"});
+}
+ValueBytes land_inputs(const PartMaker& parts) {
+  return parts.of({"terrain", "-terrain.method", "river", "lake"});
+}
+ValueBytes coast_inputs(const PartMaker& parts) {
+  return parts.of({"coast"}).add(sea_inputs(parts).hash()).add(land_inputs(parts).hash());
+}
+// Once there is a sky.
+ValueBytes lit_land_inputs(const PartMaker& parts, const World::State& state) {
+  return land_inputs(parts).add(state.sky->to_light);
 }
 
-// Once there is a sky. like: with the same clouds.
-void add_clouds(const World::State* like, Workers& workers, World::State& state) {
+void add_sky(PartMaker& parts, Workers& workers, World::State& state) {
+  const scene::Sky& sky = state.scene.sky;
+  const bool is_gradient = sky::is_gradient(sky);
+  state.atmosphere = parts.share("air", ValueBytes().add(is_gradient).add(sky.turbidity), [&] {
+    return is_gradient ? sky::Atmosphere() : sky::make_atmosphere(sky.turbidity, workers);
+  });
+  state.sky = parts.share("sky", parts.of({"sky"}).add(sky.sun_direction),
+                          [&] { return build_sky_maps(sky, *state.atmosphere, workers); });
+}
+
+// Once there is a sky.
+void add_clouds(PartMaker& parts, Workers& workers, World::State& state) {
   const scene::CloudField& field = state.scene.clouds;
   if (field.kind == scene::CloudKind::kNone) return;
   const glm::vec3 to_light = state.sky->to_light;
-  state.cloud_volume = like && like->sky->to_light == to_light
-                           ? like->cloud_volume
-                           : shared(build_cloud_volume(field, to_light, workers));
+  state.cloud_volume = parts.share("clouds", parts.of({"clouds"}).add(to_light),
+                                   [&] { return build_cloud_volume(field, to_light, workers); });
 }
 
-void add_sea(const World::State* like, Workers& workers, World::State& state) {
-  state.sea = like ? like->sea : std::make_shared<const ocean::Sea>(state.scene.sea);
-  state.whitecaps = like ? like->whitecaps : shared(ocean::make_whitecaps(*state.sea, workers));
+void add_sea(PartMaker& parts, Workers& workers, World::State& state) {
+  const ValueBytes inputs = sea_inputs(parts);
+  state.sea = parts.share("sea", inputs, [&] { return ocean::Sea(state.scene.sea); });
+  state.whitecaps =
+      parts.share("whitecaps", inputs, [&] { return ocean::make_whitecaps(*state.sea, workers); });
 }
 
-void add_bump(const World::State* like, World::State& state) {
-  state.textures.bump = like ? like->textures.bump : shared(build_bump_map(state.scene.sea.seed));
+void add_textures(PartMaker& parts, Workers& workers, World::State& state) {
+  const scene::Scene& scene = state.scene;
+  Textures& textures = state.textures;
+  textures.foam = parts.share("foam", {}, build_foam_pattern);
+  textures.ground = parts.share("ground", {}, build_ground_pattern);
+  textures.bump = parts.share("bump", ValueBytes().add(scene.sea.seed),
+                              [&] { return build_bump_map(scene.sea.seed); });
+  if (scene.ripples.kind == scene::RippleKind::kSequence)
+    textures.ripple_sequence = parts.share(
+        "ripples", parts.of({"ripples", "wind.from_deg", "sea.gravity_mps2", "sea.seed"}),
+        [&] { return build_ripple_sequence(scene, workers); });
+  if (scene.water.glitter == scene::Glitter::kProjective)
+    textures.sun_texture = parts.share("sun", {}, make_sun_texture);
 }
 
-// like: may be null.
-void add_paper_look(const World::State* like, Workers& workers, World::State& state) {
-  const scene::Scene& now = state.scene;
-  if (now.ripples.kind == scene::RippleKind::kSequence)
-    state.textures.ripple_sequence = like && same_ripple_sequence(like->scene, now)
-                                         ? like->textures.ripple_sequence
-                                         : shared(build_ripple_sequence(now, workers));
-  if (now.water.glitter == scene::Glitter::kProjective)
-    state.textures.sun_texture = like && like->textures.sun_texture ? like->textures.sun_texture
-                                                                    : shared(make_sun_texture());
+// The land, and what follows from its heights alone.
+struct LandParts {
+  std::shared_ptr<const terrain::HeightGrid> terrain;
+  std::shared_ptr<const ocean::InlandWater> inland;
+  std::shared_ptr<const terrain::ShoreMap> shore;
+  std::shared_ptr<const TerrainMaps> maps;
+  std::shared_ptr<const lod::ReliefBounds> relief_bounds;
+};
+
+// The land as it is drawn; `smooth` is room for it.
+const terrain::HeightGrid& drawn_land(const terrain::HeightGrid& land,
+                                      const terrain::TerrainDescription& description,
+                                      Workers& workers, terrain::HeightGrid& smooth) {
+  if (!description.bicubic) return land;
+  return smooth = terrain::refine_bicubic(land, workers);
 }
 
-void add_foam_pattern(const World::State* like, World::State& state) {
-  state.textures.foam = like ? like->textures.foam : shared(build_foam_pattern());
-}
-
-void add_ground_pattern(const World::State* like, World::State& state) {
-  state.textures.ground = like ? like->textures.ground : shared(build_ground_pattern());
-}
-
-void add_terrain(const World::State* like, Workers& workers, World::State& state) {
-  if (!state.scene.terrain) return;
-  if (like) {
-    state.terrain = like->terrain;
-    state.terrain_maps = like->terrain_maps;
-    state.shore = like->shore;
-    state.relief_bounds = like->relief_bounds;
-    state.inland = like->inland;
-    state.land_rays = like->land_rays;
-    return;
-  }
-  std::optional<scene::Land> land = scene::build_land(state.scene, workers);
-  state.terrain = shared(std::move(land->terrain));
-  state.inland = std::move(land->water);
-  state.shore =
-      shared(*scene::build_shore(state.scene, state.terrain.get(), workers.thread_count()));
-  const terrain::HeightGrid around = sample_around(*state.terrain, workers);
-  const terrain::TerrainDescription& description = *state.scene.terrain;
+LandParts build_land_parts(const scene::Scene& scene, Workers& workers) {
+  std::optional<scene::Land> land = scene::build_land(scene, workers);
+  LandParts parts;
+  parts.terrain = std::make_shared<const terrain::HeightGrid>(std::move(land->terrain));
+  parts.inland = std::move(land->water);
+  parts.shore = std::make_shared<const terrain::ShoreMap>(
+      *scene::build_shore(scene, parts.terrain.get(), workers.thread_count()));
+  const terrain::HeightGrid around = sample_around(*parts.terrain, workers);
   terrain::HeightGrid smooth;
-  if (description.bicubic) smooth = terrain::refine_bicubic(*state.terrain, workers);
-  const terrain::HeightGrid& drawn = description.bicubic ? smooth : *state.terrain;
-  state.terrain_maps = shared(build_terrain_maps(drawn, around, description, workers));
-  state.relief_bounds =
-      shared(lod::ReliefBounds(around.height_m, around.grid.samples_x, around.grid.spacing_m));
-  if (state.scene.detail.terrain_method == scene::TerrainMethod::kRays)
-    state.land_rays = shared(build_land_rays(drawn, around, description, workers));
+  const terrain::HeightGrid& drawn = drawn_land(*parts.terrain, *scene.terrain, workers, smooth);
+  parts.maps = std::make_shared<const TerrainMaps>(
+      build_terrain_maps(drawn, around, *scene.terrain, workers));
+  parts.relief_bounds = std::make_shared<const lod::ReliefBounds>(
+      around.height_m, around.grid.samples_x, around.grid.spacing_m);
+  return parts;
 }
 
-// like: may have another coast.
-void add_coast(const World::State* like, bool same_coast, Workers& workers, World::State& state) {
-  if (same_coast) {
-    state.coast = like->coast;
-    state.coast_maps = like->coast_maps;
-  } else if (auto coast =
-                 scene::build_coast(state.scene, state.terrain.get(), state.shore.get(), workers)) {
-    state.coast = shared(std::move(*coast));
-    state.coast_maps = shared(build_coast_maps(*state.coast, workers));
-  }
+void add_land(PartMaker& parts, Workers& workers, World::State& state) {
+  const scene::Scene& scene = state.scene;
+  if (!scene.terrain) return;
+  const ValueBytes inputs = land_inputs(parts);
+  const auto land = parts.share("land", inputs, [&] { return build_land_parts(scene, workers); });
+  state.terrain = land->terrain;
+  state.inland = land->inland;
+  state.shore = land->shore;
+  state.terrain_maps = land->maps;
+  state.relief_bounds = land->relief_bounds;
+  if (scene.detail.terrain_method != scene::TerrainMethod::kRays) return;
+  state.land_rays = parts.share("land rays", inputs, [&] {
+    terrain::HeightGrid smooth;
+    return build_land_rays(drawn_land(*state.terrain, *scene.terrain, workers, smooth),
+                           sample_around(*state.terrain, workers), *scene.terrain, workers);
+  });
 }
 
-// like: one with the same terrain and sea, or null.
-void add_shelter(const World::State* like, Workers& workers, World::State& state) {
-  if (like) {
-    state.shelter = like->shelter;
-  } else if (auto shelter = scene::build_shelter(state.scene, state.shore.get(), workers)) {
-    state.shelter = shared(std::move(*shelter));
-  }
+// Once there is land.
+void add_coast(PartMaker& parts, Workers& workers, World::State& state) {
+  const ValueBytes inputs = coast_inputs(parts);
+  state.coast = parts.share("coast", inputs, [&] {
+    return scene::build_coast(state.scene, state.terrain.get(), state.shore.get(), workers);
+  });
+  if (state.coast)
+    state.coast_maps =
+        parts.share("coast maps", inputs, [&] { return build_coast_maps(*state.coast, workers); });
+  state.shelter = parts.share("shelter", sea_inputs(parts).add(land_inputs(parts).hash()), [&] {
+    return scene::build_shelter(state.scene, state.shore.get(), workers);
+  });
 }
 
-// Once there are sea, coast and shelter. like: with the same of them all, or null.
-void add_near_shore(const World::State* like, Workers& workers, World::State& state) {
-  if (like) {
-    state.near_shore = like->near_shore;
-  } else if (state.shelter) {
-    state.near_shore = shared(build_near_shore(state, workers));
-  }
+// Once there are sea, coast and shelter.
+void add_near_shore(PartMaker& parts, Workers& workers, World::State& state) {
+  if (!state.shelter) return;
+  state.near_shore = parts.share("near shore", coast_inputs(parts),
+                                 [&] { return build_near_shore(state, workers); });
 }
 
-// Once there are land and sky. like: with the same land and water.
-void add_land_shadow(const World::State* like, Workers& workers, World::State& state) {
+// Once there are land and sky.
+void add_land_shadow(PartMaker& parts, Workers& workers, World::State& state) {
   if (!state.terrain) return;
-  const glm::vec3 to_light = state.sky->to_light;
-  if (like && like->sky->to_light == to_light) {
-    state.land_shadow = like->land_shadow;
-  } else if (auto shadow = cast_land_shadow(*state.terrain, to_light,
-                                            state.scene.water.refraction_index, workers)) {
-    state.land_shadow = shared(std::move(*shadow));
-  }
+  const double water_index = state.scene.water.refraction_index;
+  state.land_shadow = parts.share(
+      "land shadow", lit_land_inputs(parts, state).add(water_index),
+      [&] { return cast_land_shadow(*state.terrain, state.sky->to_light, water_index, workers); });
 }
 
-// Once there are land and sky. like: with the same land and trees.
-void add_forest(const World::State* like, Workers& workers, World::State& state) {
+// Once there are land and sky.
+void add_forest(PartMaker& parts, Workers& workers, World::State& state) {
   if (state.scene.trees.empty()) return;
-  if (like && like->sky->to_light == state.sky->to_light) {
-    state.forest = like->forest;
-    return;
-  }
-  Forest forest =
-      grow_forest(state.scene, *state.terrain, state.inland.get(), state.sky->to_light, workers);
-  if (!forest.trees.empty()) state.forest = shared(std::move(forest));
+  const ValueBytes inputs = parts.of({"trees"}).add(lit_land_inputs(parts, state).hash());
+  state.forest = parts.share("forest", inputs, [&]() -> std::optional<Forest> {
+    Forest forest =
+        grow_forest(state.scene, *state.terrain, state.inland.get(), state.sky->to_light, workers);
+    return forest.trees.empty() ? std::nullopt : std::optional(std::move(forest));
+  });
 }
 
-// like: may be null.
-std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State* like,
+// Those of scenes with the same rivers and lakes.
+std::vector<const scene::Scene*> same_rivers(const scene::Scene& scene,
+                                             std::span<const World* const> like) {
+  std::vector<const scene::Scene*> same;
+  for (const World* const world : like)
+    if (world->scene().rivers == scene.rivers && world->scene().lakes == scene.lakes)
+      same.push_back(&world->scene());
+  return same;
+}
+
+std::unique_ptr<World::State> make_state(scene::Scene scene, std::span<const World* const> like,
                                          int threads) {
   const ScopedFloatEnvironment ieee;
   scene::check_scene(scene);
   SWELL_CHECK(threads >= 1 && threads <= 256, "threads={}", threads);
   auto state = std::make_unique<World::State>(World::State{.scene = std::move(scene)});
   const scene::Scene& now = state->scene;
-  const auto if_alike = [&](bool is_alike) { return is_alike ? like : nullptr; };
-  const bool same_sea = like && like->scene.sea == now.sea;
-  const bool same_terrain = like && like->scene.terrain == now.terrain &&
-                            like->scene.rivers == now.rivers && like->scene.lakes == now.lakes &&
-                            like->scene.detail.terrain_method == now.detail.terrain_method;
-  const bool same_coast = same_sea && same_terrain && like->scene.coast == now.coast;
+  PartMaker parts(now, like, state->parts);
   Workers workers(threads);
   workers.run_both(
       [&] {
-        add_terrain(if_alike(same_terrain), workers, *state);
-        add_coast(like, same_coast, workers, *state);
-        add_shelter(if_alike(same_sea && same_terrain), workers, *state);
+        add_land(parts, workers, *state);
+        add_coast(parts, workers, *state);
       },
       [&] {
-        add_sea(if_alike(same_sea), workers, *state);
-        add_foam_pattern(like, *state);
-        add_ground_pattern(like, *state);
-        add_paper_look(like, workers, *state);
-        add_bump(if_alike(like && like->scene.sea.seed == now.sea.seed), *state);
-        add_sky(like, like && like->scene.sky == now.sky, workers, *state);
-        add_clouds(if_alike(like && like->scene.clouds == now.clouds), workers, *state);
+        add_sea(parts, workers, *state);
+        add_textures(parts, workers, *state);
+        add_sky(parts, workers, *state);
+        add_clouds(parts, workers, *state);
       });
-  state->fog_light = shared(light_fog(now.air, *state->sky));
-  const bool same_water = like && like->scene.water.refraction_index == now.water.refraction_index;
-  add_near_shore(if_alike(same_coast), workers, *state);
-  add_land_shadow(if_alike(same_terrain && same_water), workers, *state);
-  add_forest(if_alike(same_terrain && like->scene.trees == now.trees), workers, *state);
-  state->objects = build_object_meshes(state->scene, like);
-  scene::find_drift_tracks(state->scene, same_terrain ? &like->scene : nullptr, workers);
+  state->fog_light = std::make_shared<const FogLights>(light_fog(now.air, *state->sky));
+  add_near_shore(parts, workers, *state);
+  add_land_shadow(parts, workers, *state);
+  add_forest(parts, workers, *state);
+  state->objects = build_object_meshes(state->scene, parts);
+  scene::find_drift_tracks(state->scene, same_rivers(now, like), workers);
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);
@@ -269,10 +283,11 @@ std::unique_ptr<World::State> make_state(scene::Scene scene, const World::State*
 
 }  // namespace
 
-World::World(scene::Scene scene, int threads)
-    : state_(make_state(std::move(scene), nullptr, threads)) {}
+World::World(scene::Scene scene, int threads) : state_(make_state(std::move(scene), {}, threads)) {}
 World::World(scene::Scene scene, const World& like, int threads)
-    : state_(make_state(std::move(scene), &like.state(), threads)) {}
+    : World(std::move(scene), std::array{&like}, threads) {}
+World::World(scene::Scene scene, std::span<const World* const> like, int threads)
+    : state_(make_state(std::move(scene), like, threads)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;

@@ -16,16 +16,16 @@ ocean::Drifter drifter_of(const FloatingObject& object) {
 }
 
 std::shared_ptr<const ocean::DriftTrack> track_of(const ocean::Drifter& drifter,
-                                                  std::span<const FloatingObject> objects) {
-  const auto same = std::ranges::find_if(objects, [&](const FloatingObject& other) {
-    return other.drift_track && other.drift_track->drifter() == drifter;
-  });
-  return same == objects.end() ? nullptr : same->drift_track;
+                                                  std::span<const Scene* const> scenes) {
+  for (const Scene* const scene : scenes)
+    for (const FloatingObject& other : scene->objects)
+      if (other.drift_track && other.drift_track->drifter() == drifter) return other.drift_track;
+  return nullptr;
 }
 
 }  // namespace
 
-void find_drift_tracks(Scene& scene, const Scene* like, Workers& workers) {
+void find_drift_tracks(Scene& scene, std::span<const Scene* const> like, Workers& workers) {
   if (std::ranges::none_of(scene.objects, &FloatingObject::drift)) return;
   const ocean::RiverNetwork network(scene.rivers, scene.lakes);
   const ocean::RiverFlow flow(network);
@@ -34,7 +34,7 @@ void find_drift_tracks(Scene& scene, const Scene* like, Workers& workers) {
     object.drift_track = nullptr;
     if (!object.drift) return;
     const ocean::Drifter drifter = drifter_of(object);
-    if (like) object.drift_track = track_of(drifter, like->objects);
+    object.drift_track = track_of(drifter, like);
     if (!object.drift_track)
       object.drift_track = std::make_shared<const ocean::DriftTrack>(network, flow, drifter);
   });

@@ -47,11 +47,6 @@ texture::BumpSequence build_ripple_sequence(const scene::Scene& scene, Workers& 
   }
 }
 
-bool same_ripple_sequence(const scene::Scene& a, const scene::Scene& b) {
-  return a.ripples == b.ripples && a.sea.wind_from_rad == b.sea.wind_from_rad &&
-         a.sea.gravity_mps2 == b.sea.gravity_mps2 && a.sea.seed == b.sea.seed;
-}
-
 double ripple_loop_part(const scene::Scene& scene, double t_s) {
   ocean::SeaDescription loop = scene.sea;
   double loops = 1.0;

@@ -14,9 +14,6 @@ namespace swell::render {
 // The scene's own waves, or its files. Throws SceneError for files that are no sequence.
 texture::BumpSequence build_ripple_sequence(const scene::Scene& scene, Workers& workers);
 
-// Whether a sequence is the same for both scenes.
-bool same_ripple_sequence(const scene::Scene& a, const scene::Scene& b);
-
 // Where in the loop of the ripples a time is, in [0, 1]. In a sea that loops they have a whole
 // number of loops, the nearest one, but at least one.
 double ripple_loop_part(const scene::Scene& scene, double t_s);

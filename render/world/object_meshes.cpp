@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "render/world/world_state.h"
+#include "render/world/part_maker.h"
 #include "scene/file/implicit_file.h"
 #include "scene/file/parameters.h"
 #include "scene/scene_error.h"
@@ -15,24 +15,11 @@
 namespace swell::render {
 namespace {
 
-ObjectShape built_in(const scene::FloatingObject& object) {
+shapes::MeshOfFile built_in(const scene::FloatingObject& object) {
   shapes::MeshOfFile shape;
   for (const int segments : shapes::kLevelSegments)
     shape.levels.push_back(shapes::make_object_mesh(object.kind, object.top_mark, segments));
-  return std::make_shared<const shapes::MeshOfFile>(std::move(shape));
-}
-
-bool same_shape(const scene::FloatingObject& a, const scene::FloatingObject& b) {
-  return a.kind == b.kind && a.top_mark == b.top_mark && a.file == b.file && a.up == b.up;
-}
-
-// Returns the shape of the first of `others` that has the same shape as `object`; null if none has.
-ObjectShape find_shape(const scene::FloatingObject& object,
-                       std::span<const scene::FloatingObject> others,
-                       const std::vector<ObjectShape>& shapes) {
-  for (std::size_t i = 0; i < std::min(others.size(), shapes.size()); ++i)
-    if (same_shape(object, others[i])) return shapes[i];
-  return nullptr;
+  return shape;
 }
 
 [[noreturn]] void fail(const scene::Scene& scene, std::size_t n, const std::string& fault) {
@@ -44,14 +31,13 @@ ObjectShape find_shape(const scene::FloatingObject& object,
       scene::shortened(fault, 300), says_what_is_allowed ? "" : ", allowed a readable mesh file")));
 }
 
-ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {
+shapes::MeshOfFile shape_of(const scene::Scene& scene, std::size_t n) {
   const scene::FloatingObject& object = scene.objects[n];
   if (!scene::kObjectKinds[object.kind].is_of_file) return built_in(object);
   try {
     if (object.kind == scene::ObjectKind::kImplicit)
-      return std::make_shared<const shapes::MeshOfFile>(
-          shapes::with_meshes(scene::load_implicit(object.file)));
-    return std::make_shared<const shapes::MeshOfFile>(shapes::load_mesh(object.file, object.up));
+      return shapes::with_meshes(scene::load_implicit(object.file));
+    return shapes::load_mesh(object.file, object.up);
   } catch (const scene::SceneError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -61,13 +47,13 @@ ObjectShape shape_of(const scene::Scene& scene, std::size_t n) {
 
 }  // namespace
 
-ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like) {
+ObjectMeshes build_object_meshes(scene::Scene& scene, PartMaker& parts) {
   ObjectMeshes result;
   for (std::size_t n = 0; n < scene.objects.size(); ++n) {
     scene::FloatingObject& object = scene.objects[n];
-    ObjectShape shape = find_shape(object, scene.objects, result.of_object);
-    if (!shape && like) shape = find_shape(object, like->scene.objects, like->objects.of_object);
-    if (!shape) shape = shape_of(scene, n);
+    const ValueBytes inputs =
+        ValueBytes().add(object.kind).add(object.top_mark).add(object.file).add(object.up);
+    ObjectShape shape = parts.share("shape", inputs, [&] { return shape_of(scene, n); });
     if (scene::kObjectKinds[object.kind].is_of_file) {
       try {
         shapes::fit_object(*shape, object);

@@ -4,10 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "render/world/world.h"
+#include "scene/scene.h"
 #include "shapes/mesh_file.h"
 
 namespace swell::render {
+
+class PartMaker;
 
 // A shape with its levels of detail, finest first. Worlds share those of files.
 using ObjectShape = std::shared_ptr<const shapes::MeshOfFile>;
@@ -19,8 +21,8 @@ struct ObjectMeshes {
       parts;  // of each object's finest level, at its draught
 };
 
-// Gives objects of files their sizes. like: may be null; a world whose files are not read again.
-// Throws SceneError for a file that cannot be drawn.
-ObjectMeshes build_object_meshes(scene::Scene& scene, const World::State* like);
+// Gives objects of files their sizes; `parts`: of the scene. Throws SceneError for a file that
+// cannot be drawn.
+ObjectMeshes build_object_meshes(scene::Scene& scene, PartMaker& parts);
 
 }  // namespace swell::render

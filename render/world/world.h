@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "math/parallel.h"
 #include "scene/scene.h"
@@ -18,9 +19,10 @@ class World {
   // there are not so many threads to be had.
   explicit World(scene::Scene scene, int threads = available_cpus());
 
-  // Builds the same bits sooner: what both scenes describe alike (sky, sea, terrain with its maps,
-  // coast) is shared with `like`, and height images are not read again. On `threads` threads; with
-  // another wind alone 20 ms, 200 ms more for the trains of a coast.
+  // Builds the same bits sooner: what one of `like` has made of the same (sky, sea, terrain with
+  // its maps, coast) is shared with it, and its files are not read again. On `threads` threads;
+  // with another wind alone 20 ms, 200 ms more for the trains of a coast.
+  World(scene::Scene scene, std::span<const World* const> like, int threads);
   World(scene::Scene scene, const World& like, int threads);
   ~World();
   World(World&&) noexcept;

@@ -11,6 +11,7 @@
 #include "math/earth.h"
 #include "ocean/disturbance.h"
 #include "render/frame/parts.h"
+#include "render/world/kept_parts.h"
 #include "render/world/object_meshes.h"
 #include "render/world/world.h"
 #include "scene/scene.h"
@@ -69,7 +70,7 @@ struct Textures {
   std::shared_ptr<const texture::PackedMap2> ground = {};
 };
 
-// Parts are shared by worlds whose scenes describe them alike.
+// Parts are shared by worlds whose scenes describe them alike (render/world/part_maker.h).
 struct World::State {
   scene::Scene scene;
   std::shared_ptr<const ocean::Sea> sea = {};
@@ -91,6 +92,7 @@ struct World::State {
   std::shared_ptr<const NearShoreMap> near_shore = {};  // there is one if there is shelter
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   Textures textures = {};
+  KeptParts parts = {};  // all of these, as other worlds look for them
 
   // What is on the sea.
   ObjectMeshes objects = {};

@@ -28,7 +28,7 @@ struct Row {
   template <class Field>
   static Parameter<Object> number(std::string_view key, Range range, Field,
                                   std::string_view meaning) {
-    Parameter<Object> row = ranged(key, ParameterKind::kNumber, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kNumber, range, meaning);
     row.get = [](const Object& object) -> Value {
       return std::vector<double>{to_file(Field{}(object))};
     };
@@ -42,7 +42,7 @@ struct Row {
   template <class Field>
   static Parameter<Object> optional_number(std::string_view key, Range range, Field,
                                            std::string_view meaning) {
-    Parameter<Object> row = ranged(key, ParameterKind::kNumber, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kNumber, range, meaning);
     row.get = [](const Object& object) -> Value {
       return std::vector<double>{Field{}(object).value_or(0.0)};
     };
@@ -57,7 +57,7 @@ struct Row {
   template <class Field>
   static Parameter<Object> angle(std::string_view key, Range range, Field,
                                  std::string_view meaning) {
-    Parameter<Object> row = ranged(key, ParameterKind::kNumber, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kNumber, range, meaning);
     row.get = [](const Object& object) -> Value {
       const double rad = Field{}(object);
       return std::vector<double>{shortest_preimage(rad, rad / kRadPerDeg, radians)};
@@ -72,7 +72,7 @@ struct Row {
   template <class Field>
   static Parameter<Object> optional_angle(std::string_view key, Range range, Field,
                                           std::string_view meaning) {
-    Parameter<Object> row = ranged(key, ParameterKind::kNumber, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kNumber, range, meaning);
     row.get = [](const Object& object) -> Value {
       const double rad = Field{}(object).value_or(0.0);
       return std::vector<double>{shortest_preimage(rad, rad / kRadPerDeg, radians)};
@@ -95,7 +95,7 @@ struct Row {
   static Parameter<Object> vector(std::string_view key, Range range, Field,
                                   std::string_view meaning) {
     using Vector = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
-    Parameter<Object> row = ranged(key, ParameterKind::kNumbers, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kNumbers, range, meaning);
     row.count_low = row.count_high = Vector::length();
     row.get = [](const Object& object) -> Value { return numbers_of(Field{}(object)); };
     row.set = [](Object& object, const Value& value) {
@@ -110,7 +110,7 @@ struct Row {
                                            std::string_view meaning) {
     using Optional = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
     using Vector = typename Optional::value_type;
-    Parameter<Object> row = ranged(key, ParameterKind::kNumbers, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kNumbers, range, meaning);
     row.count_low = row.count_high = Vector::length();
     row.get = [](const Object& object) -> Value {
       return numbers_of(Field{}(object).value_or(Vector(0)));
@@ -136,7 +136,7 @@ struct Row {
   static Parameter<Object> integer(std::string_view key, ParameterKind kind, Range range, Field,
                                    std::string_view meaning) {
     using Integer = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
-    Parameter<Object> row = ranged(key, kind, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, kind, range, meaning);
     row.get = [](const Object& object) -> Value {
       return static_cast<std::int64_t>(Field{}(object));
     };
@@ -150,7 +150,7 @@ struct Row {
   template <class Field>
   static Parameter<Object> optional_integer(std::string_view key, Range range, Field,
                                             std::string_view meaning) {
-    Parameter<Object> row = ranged(key, ParameterKind::kInteger, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kInteger, range, meaning);
     row.get = [](const Object& object) -> Value {
       return static_cast<std::int64_t>(Field{}(object).value_or(0));
     };
@@ -166,7 +166,7 @@ struct Row {
   static Parameter<Object> choice(std::string_view key, Field, std::string_view meaning) {
     using Chosen = std::remove_cvref_t<decltype(Field{}(std::declval<Object&>()))>;
     static_assert(std::is_same_v<typename decltype(Field::words)::Of, Chosen>);
-    Parameter<Object> row = ranged(key, ParameterKind::kChoice, {}, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kChoice, {}, meaning);
     row.choices = Field::words;
     row.get = [](const Object& object) -> Value {
       const auto index = static_cast<std::size_t>(Field{}(object));  // of a scene made in code: any
@@ -185,7 +185,7 @@ struct Row {
   template <class Field>
   static Parameter<Object> points(std::string_view key, Range range, int count_low, int count_high,
                                   Field, std::string_view meaning) {
-    Parameter<Object> row = ranged(key, ParameterKind::kPoints, range, meaning);
+    Parameter<Object> row = ranged<Field>(key, ParameterKind::kPoints, range, meaning);
     row.count_low = count_low, row.count_high = count_high;
     row.get = [](const Object& object) -> Value {
       std::vector<double> numbers;
@@ -209,7 +209,7 @@ struct Row {
   template <class Stored, class Field>
   static Parameter<Object> plain(std::string_view key, ParameterKind kind, Field,
                                  std::string_view meaning) {
-    Parameter<Object> row = ranged(key, kind, {}, meaning);
+    Parameter<Object> row = ranged<Field>(key, kind, {}, meaning);
     row.get = [](const Object& object) -> Value { return Stored(Field{}(object)); };
     row.set = [](Object& object, const Value& value) { Field{}(object) = std::get<Stored>(value); };
     return row;
@@ -248,9 +248,11 @@ struct Row {
     return v;
   }
 
+  template <class Field>
   static Parameter<Object> ranged(std::string_view key, ParameterKind kind, Range range,
                                   std::string_view meaning) {
     Parameter<Object> row;
+    row.add_value = [](const Object& object, ValueBytes& to) { to.add(Field{}(object)); };
     row.key = key, row.kind = kind, row.meaning = meaning;
     row.low = range.low, row.high = range.high, row.unit = range.unit;
     return row;

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "math/value_hash.h"
 #include "scene/scene.h"
 
 namespace swell::scene {
@@ -46,6 +47,7 @@ struct Parameter {
   // get() gives a value that set() turns back into the same bits, with as few digits as possible.
   ParameterValue (*get)(const Object&);
   void (*set)(Object&, const ParameterValue&);
+  void (*add_value)(const Object&, ValueBytes&);  // as the object holds it
   // False if the object has no value, nor a default. Null: always true.
   bool (*is_set)(const Object&) = nullptr;
 };

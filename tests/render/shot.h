@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <glm/glm.hpp>
 #include <map>
 #include <string>
@@ -27,22 +28,16 @@ inline scene::Scene load_shipped(std::string_view name) {
   return scene;
 }
 
-// A world made like that of the last few whose scenes share most with this one: sooner, the same
-// bits (FrameBits.AWorldMadeLikeAnotherDrawsTheSamePicture). Not for scenes whose files change.
+// A world made like those of the last few scenes: sooner, the same bits
+// (FrameBits.AWorldMadeLikeAnotherDrawsTheSamePicture). Not for scenes whose files change.
 inline World world_of(const scene::Scene& scene) {
-  constexpr std::size_t kKept = 4;
-  static std::vector<World> kept;                  // the last one first
-  const auto likeness = [&](const World& world) {  // by the time that each part takes to make
-    const scene::Scene& like = world.scene();
-    const bool same_air = like.sky.turbidity == scene.sky.turbidity &&
-                          is_gradient(like.sky) == is_gradient(scene.sky);
-    return 8 * (like.terrain == scene.terrain) + 6 * same_air + 4 * (like.sea == scene.sea) +
-           2 * (like.sky == scene.sky) + 2 * (like.clouds == scene.clouds);
-  };
-  const auto like = std::ranges::max_element(kept, {}, likeness);
-  World world = like == kept.end() ? World(scene) : World(scene, *like, available_cpus());
-  kept.emplace(kept.begin(), scene, world, 1);
-  if (kept.size() > kKept) kept.pop_back();
+  constexpr std::size_t kKept = 8;
+  static std::deque<World> kept;
+  std::vector<const World*> like;
+  for (const World& world : kept) like.push_back(&world);
+  World world(scene, like, available_cpus());
+  kept.emplace_back(scene, world, 1);
+  if (kept.size() > kKept) kept.pop_front();
   return world;
 }
 

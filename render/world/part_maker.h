@@ -1,0 +1,76 @@
+// Parts of a world, each made once for all worlds that are made of the same. A part says what goes
+// into it: keys of the scene, values, other parts' inputs. By their hash it is found again.
+//
+//   const ValueBytes inputs = parts.of({"clouds"}).add(to_light);
+//   state.cloud_volume = parts.share("cloud volume", inputs, [&] { return build_...; });
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "math/value_hash.h"
+#include "render/world/kept_parts.h"
+#include "render/world/world.h"
+
+namespace swell::render {
+
+class PartMaker {
+ public:
+  // A maker of parts for a scene, which takes those that worlds of `like` have; kept: of the world
+  // that is made. All outlive it.
+  PartMaker(const scene::Scene& scene, std::span<const World* const> like, KeptParts& kept);
+
+  // What the scene says under these keys (scene/file/key_values.h).
+  ValueBytes of(std::initializer_list<std::string_view> keys) const;
+
+  // Returns what make() makes of these inputs, from where it is already: a T, or a std::optional<T>
+  // that is null here if it is empty. Parts of one name have one type. May be called by several
+  // threads at once; two that ask for the same part at the same time may both make it.
+  template <class Make>
+  auto share(std::string_view name, ValueBytes inputs, Make&& make) {
+    using Made = std::remove_cvref_t<std::invoke_result_t<Make>>;
+    const ValueHash key = inputs.add(name).hash();
+    if (const std::shared_ptr<const void>* const found = find(key))
+      return typed<Made>(keep(key, *found));
+    return typed<Made>(keep(key, shared(make())));
+  }
+
+ private:
+  template <class T>
+  struct Part {
+    using Type = T;
+  };
+  template <class T>
+  struct Part<std::optional<T>> {
+    using Type = T;
+  };
+  template <class Made>
+  static std::shared_ptr<const typename Part<Made>::Type> typed(
+      const std::shared_ptr<const void>& part) {
+    return std::static_pointer_cast<const typename Part<Made>::Type>(part);
+  }
+  template <class T>
+  static std::shared_ptr<const void> shared(T made) {
+    return std::make_shared<const T>(std::move(made));
+  }
+  template <class T>
+  static std::shared_ptr<const void> shared(std::optional<T> made) {
+    return made ? shared(*std::move(made)) : nullptr;
+  }
+
+  const std::shared_ptr<const void>* find(const ValueHash& key);
+  std::shared_ptr<const void> keep(const ValueHash& key, std::shared_ptr<const void> part);
+
+  const scene::Scene& scene_;
+  std::span<const World* const> like_;
+  KeptParts& kept_;
+  std::mutex mutex_;  // of kept_
+};
+
+}  // namespace swell::render
