@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ocean/disturbance.h"
+#include "ocean/wakes/disturbance.h"
 #include "swell.h"
 
 namespace swell::capi {

@@ -10,9 +10,9 @@
 
 #include "math/parallel.h"
 #include "math/view.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/whitecaps.h"
 #include "ocean/velocity.h"
-#include "ocean/whitecaps.h"
 #include "render/frame.h"
 #include "render/measure/pick.h"
 #include "swell.h"

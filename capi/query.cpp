@@ -5,7 +5,7 @@
 #include "capi/camera.h"
 #include "capi/disturbances.h"
 #include "capi/handles.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
 #include "render/sea/sea_maps.h"
 #include "render/world/world_state.h"

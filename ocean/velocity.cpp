@@ -5,11 +5,11 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "ocean/patch_transforms.h"
-#include "ocean/patch_waves.h"
-#include "ocean/point_chunk.h"
-#include "ocean/sea_state.h"
-#include "ocean/wakes.h"
+#include "ocean/open_sea/patch_transforms.h"
+#include "ocean/open_sea/sea_state.h"
+#include "ocean/spectrum/patch_waves.h"
+#include "ocean/spectrum/point_chunk.h"
+#include "ocean/wakes/wakes.h"
 
 namespace swell::ocean {
 namespace {

@@ -1,12 +1,12 @@
 // How the water at the surface moves: linear theory of deep water, from the same waves as the
 // heights. A wave of amplitude A moves it on circles of radius A, forwards on the crests. Where
-// crests are sharp (ocean/crests.h), of the water that they have brought to a place.
+// crests are sharp (ocean/open_sea/crests.h), of the water that they have brought to a place.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <span>
 
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 
 namespace swell::ocean {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "math/check.h"
-#include "ocean/coast_velocity.h"
-#include "ocean/point_chunk.h"
-#include "ocean/sea_state.h"
-#include "ocean/wakes.h"
+#include "ocean/coast/coast_velocity.h"
+#include "ocean/open_sea/sea_state.h"
+#include "ocean/spectrum/point_chunk.h"
+#include "ocean/wakes/wakes.h"
 
 namespace swell::ocean {
 namespace {

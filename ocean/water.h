@@ -5,11 +5,12 @@
 // The sources, in the order in which they take their room:
 //   trains  the coast's, which know the sea floor; they leave the rest of their share
 //   sea     spectrum waves on patches and sines: in the room that is left, lower in the lee of land
-//           (ocean/shelter.h), fading where the water is shallower than they are high
-//   wakes   of what disturbs the water (ocean/wakes.h), which are in the frame: they take no room
+//           (ocean/coast/shelter.h), fading where the water is shallower than they are high
+//   wakes   of what disturbs the water (ocean/wakes/wakes.h), which are in the frame: they take no
+//   room
 // All fade to the mean level over the last tenth of an area that has an end. Rivers and lakes have
-// levels of their own (ocean/inland_water.h): of the waves they have the wakes, and where a river
-// ends the sea's as well, by its share.
+// levels of their own (ocean/inland/inland_water.h): of the waves they have the wakes, and where a
+// river ends the sea's as well, by its share.
 //
 // A source is a struct in water.cpp with these members, for up to kChunk points at a time:
 //   take_room(p, room)                       room[i] *= what it leaves to the sources after it
@@ -25,13 +26,13 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "ocean/coast.h"
-#include "ocean/disturbance.h"
-#include "ocean/inland_water.h"
-#include "ocean/sea.h"
+#include "ocean/coast/coast.h"
+#include "ocean/coast/shelter.h"
+#include "ocean/inland/inland_water.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/sea_area.h"
-#include "ocean/shelter.h"
 #include "ocean/velocity.h"
+#include "ocean/wakes/disturbance.h"
 #include "terrain/height_grid.h"
 
 namespace swell::ocean {

@@ -6,8 +6,8 @@
 
 #include "math/check.h"
 #include "math/with_ieee.h"
-#include "ocean/point_chunk.h"
-#include "ocean/wakes.h"
+#include "ocean/spectrum/point_chunk.h"
+#include "ocean/wakes/wakes.h"
 
 namespace swell::ocean {
 namespace {

@@ -11,8 +11,8 @@
 #include <optional>
 #include <span>
 
+#include "ocean/open_sea/whitecaps.h"
 #include "ocean/water.h"
-#include "ocean/whitecaps.h"
 
 namespace swell::ocean {
 

@@ -13,7 +13,7 @@
 
 #include "math/parallel.h"
 #include "math/view.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "render/frame.h"
 
 namespace swell::render {

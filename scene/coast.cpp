@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea_state.h"
 #include "terrain/boundary.h"
 #include "terrain/terrain.h"
 

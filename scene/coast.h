@@ -6,8 +6,8 @@
 #include <string>
 
 #include "math/parallel.h"
-#include "ocean/coast.h"
-#include "ocean/shelter.h"
+#include "ocean/coast/coast.h"
+#include "ocean/coast/shelter.h"
 #include "scene/check_scene.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"

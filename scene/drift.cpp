@@ -5,7 +5,7 @@
 #include <span>
 
 #include "math/elementary.h"
-#include "ocean/drift.h"
+#include "ocean/inland/drift.h"
 
 namespace swell::scene {
 namespace {

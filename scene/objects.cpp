@@ -7,7 +7,7 @@
 #include "math/check.h"
 #include "math/elementary.h"
 #include "math/parallel.h"
-#include "ocean/drift.h"
+#include "ocean/inland/drift.h"
 #include "ocean/water_surface.h"
 
 namespace swell::scene {

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "ocean/disturbance.h"
-#include "ocean/river.h"
-#include "ocean/sea.h"
+#include "ocean/inland/river.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/sea_area.h"
+#include "ocean/wakes/disturbance.h"
 #include "scene/camera.h"
 #include "scene/clouds.h"
 #include "scene/objects.h"
@@ -161,8 +161,8 @@ struct Scene {
   FoggyAir air;
   CloudField clouds;
   ocean::SeaDescription sea;
-  // The sea state that the file asked for, at most one of them (ocean/sea_scale.h). The wind, and
-  // the patch lengths if the file has none, follow from it and stand in `sea`.
+  // The sea state that the file asked for, at most one of them (ocean/spectrum/sea_scale.h). The
+  // wind, and the patch lengths if the file has none, follow from it and stand in `sea`.
   std::optional<int> douglas, beaufort;
   SeaArea area;
   bool round_earth = true;  // false: flat, with the horizon at infinity

@@ -1,6 +1,6 @@
 #include "scene/terrain.h"
 
-#include "ocean/river_bed.h"
+#include "ocean/inland/river_bed.h"
 #include "scene/check_scene.h"
 #include "terrain/apron.h"
 #include "terrain/terrain.h"

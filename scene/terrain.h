@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "math/parallel.h"
-#include "ocean/inland_water.h"
+#include "ocean/inland/inland_water.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
 

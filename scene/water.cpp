@@ -1,8 +1,8 @@
 #include "scene/water.h"
 
-#include "ocean/sea_state.h"
-#include "ocean/swash.h"
-#include "ocean/wakes.h"
+#include "ocean/coast/swash.h"
+#include "ocean/open_sea/sea_state.h"
+#include "ocean/wakes/wakes.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
 #include "scene/terrain.h"

@@ -23,10 +23,10 @@
 #include <optional>
 
 #include "math/parallel.h"
-#include "ocean/coast.h"
-#include "ocean/disturbance.h"
-#include "ocean/sea.h"
-#include "ocean/shelter.h"
+#include "ocean/coast/coast.h"
+#include "ocean/coast/shelter.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/wakes/disturbance.h"
 #include "ocean/water_surface.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"

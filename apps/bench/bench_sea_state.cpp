@@ -13,7 +13,7 @@
 #include "apps/shared/options.h"
 #include "apps/shared/report.h"
 #include "math/random.h"
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 #include "scene/water.h"
 
 namespace swell::apps {

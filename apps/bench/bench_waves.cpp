@@ -14,7 +14,7 @@
 #include "apps/shared/picture_file.h"
 #include "apps/shared/report.h"
 #include "math/elementary.h"
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 #include "texture/image_io.h"
 
 namespace swell::apps {

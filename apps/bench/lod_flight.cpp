@@ -9,7 +9,7 @@
 #include "apps/bench/bench.h"
 #include "apps/bench/frame_run.h"
 #include "lod/roam.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "texture/uv_noise.h"
 
 namespace swell::apps {

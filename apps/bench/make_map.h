@@ -1,10 +1,10 @@
-// swell-bench waves --make-map: files of periodic maps (ocean/periodic_map.h).
+// swell-bench waves --make-map: files of periodic maps (ocean/open_sea/periodic_map.h).
 #pragma once
 
 #include <string>
 
 #include "apps/shared/command_line.h"
-#include "ocean/periodic_map.h"
+#include "ocean/open_sea/periodic_map.h"
 
 namespace swell::apps {
 

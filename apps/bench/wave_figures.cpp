@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "math/elementary.h"
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 
 namespace swell::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
-#include "ocean/spectrum.h"
+#include "ocean/spectrum/spectrum.h"
 #include "scene/water.h"
 #include "texture/image.h"
 

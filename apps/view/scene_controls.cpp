@@ -7,7 +7,7 @@
 
 #include "apps/view/widgets.h"
 #include "math/elementary.h"
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 
 namespace swell::view {
 namespace {

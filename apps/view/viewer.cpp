@@ -11,7 +11,7 @@
 #include "apps/view/eye_floor.h"
 #include "math/elementary.h"
 #include "math/simd_target.h"
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 #include "render/world_view.h"
 
 namespace swell::view {

@@ -52,8 +52,9 @@ struct FrameOptions {
   // unless scene::check_given_poses() passes them), and for the label of motion in the next one.
   // Read during the call only.
   std::span<const scene::GivenPose> poses = {}, next_poses = {};
-  // What disturbs the water besides the scene's own list: of its values (ocean/disturbance.h), with
-  // two points or more in a hull's path. Read during the call only.
+  // What disturbs the water besides the scene's own list: of its values
+  // (ocean/wakes/disturbance.h), with two points or more in a hull's path. Read during the call
+  // only.
   std::span<const ocean::Disturbance> disturbances = {};
 };
 

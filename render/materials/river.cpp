@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
-#include "ocean/inland_water.h"
+#include "ocean/inland/inland_water.h"
 #include "render/frame/parts.h"
 #include "render/tile/ripples.h"
 #include "render/world/world_state.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "ocean/inland_water.h"
+#include "ocean/inland/inland_water.h"
 #include "render/materials/ground_albedo.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ocean/sea.h"
-#include "ocean/sea_state.h"
-#include "ocean/swash.h"
+#include "ocean/coast/swash.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/sea_state.h"
 #include "render/frame/parts.h"
 #include "render/world/land_shadow.h"
 #include "render/world/terrain_maps.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "ocean/patch_tiles.h"
+#include "ocean/open_sea/patch_tiles.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {

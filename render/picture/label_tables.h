@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "render/frame/options.h"
 #include "render/frame/profile.h"
 #include "render/view/render_view.h"

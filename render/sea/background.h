@@ -16,7 +16,7 @@
 #include <span>
 
 #include "math/view.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
 
 namespace swell::render {

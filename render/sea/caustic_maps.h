@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "render/frame/parts.h"
 #include "render/frame/profile.h"
 #include "render/world/world.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ocean/sea_state.h"
-#include "ocean/small_sea.h"
+#include "ocean/open_sea/sea_state.h"
+#include "ocean/open_sea/small_sea.h"
 #include "scene/check_scene.h"
 #include "scene/file/parameters.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "ocean/sea.h"
-#include "ocean/sea_state.h"
-#include "ocean/wakes.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/sea_state.h"
+#include "ocean/wakes/wakes.h"
 #include "ocean/water_surface.h"
 #include "render/world/coast_maps.h"
 #include "render/world/world_state.h"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ocean/sea.h"
-#include "ocean/whitecaps.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/whitecaps.h"
 #include "render/frame/parts.h"
 #include "render/frame/profile.h"
 #include "render/sea/caustic_maps.h"

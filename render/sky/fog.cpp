@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"
 #include "sky/fog.h"

@@ -6,7 +6,7 @@
 
 #include "math/earth.h"
 #include "math/elementary.h"
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea_state.h"
 #include "render/sky/cloud_volume.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"

@@ -5,7 +5,7 @@
 
 #include "math/elementary.h"
 #include "math/smoothstep.h"
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea_state.h"
 #include "render/frame/parts.h"
 #include "render/world/world_state.h"
 

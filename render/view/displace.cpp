@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "math/check.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
 #include "render/frame/options.h"
 #include "render/frame/profile.h"

@@ -12,7 +12,7 @@
 #include "math/check.h"
 #include "math/elementary.h"
 #include "math/smoothstep.h"
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea_state.h"
 #include "render/frame/options.h"
 #include "render/frame/profile.h"
 #include "render/view/choose_trees.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "ocean/inland_water.h"
+#include "ocean/inland/inland_water.h"
 #include "render/frame/options.h"
 #include "render/view/meshes.h"
 #include "render/world/world_state.h"

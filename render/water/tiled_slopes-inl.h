@@ -1,4 +1,5 @@
-// Slopes and foam of the sea's longest patch, which covers it by tiles (ocean/patch_tiles.h).
+// Slopes and foam of the sea's longest patch, which covers it by tiles
+// (ocean/open_sea/patch_tiles.h).
 #if defined(SWELL_RENDER_WATER_TILED_SLOPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_WATER_TILED_SLOPES_INL_H_
 #undef SWELL_RENDER_WATER_TILED_SLOPES_INL_H_
@@ -8,7 +9,7 @@
 
 #include <bit>
 
-#include "ocean/patch_tiles-inl.h"
+#include "ocean/open_sea/patch_tiles-inl.h"
 #include "render/packets/packet-inl.h"
 #include "render/water/foam_map-inl.h"
 

@@ -1,9 +1,10 @@
-// Waves and foam of what disturbs the water (ocean/wakes.h), as the water's shader reads them.
+// Waves and foam of what disturbs the water (ocean/wakes/wakes.h), as the water's shader reads
+// them.
 #pragma once
 
 #include <array>
 
-#include "ocean/wake_sources.h"
+#include "ocean/wakes/wake_sources.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
 #include "render/water/whitecaps.h"

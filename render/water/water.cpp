@@ -5,8 +5,8 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
-#include "ocean/coast.h"
-#include "ocean/sea.h"
+#include "ocean/coast/coast.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
 #include "render/frame/parts.h"
 #include "render/tile/ripples.h"

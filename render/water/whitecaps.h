@@ -1,10 +1,11 @@
-// Whitecaps of the open sea: where its foam lies (ocean/whitecaps.h), how it tears, and its light.
+// Whitecaps of the open sea: where its foam lies (ocean/open_sea/whitecaps.h), how it tears, and
+// its light.
 #pragma once
 
 #include <array>
 #include <glm/glm.hpp>
 
-#include "ocean/whitecaps.h"
+#include "ocean/open_sea/whitecaps.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ocean/coast_map.h"
+#include "ocean/coast/coast_map.h"
 
 namespace swell::render {
 

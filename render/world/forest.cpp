@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ocean/river_network.h"
+#include "ocean/inland/river_network.h"
 #include "scene/check_scene.h"
 #include "terrain/terrain.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "math/parallel.h"
-#include "ocean/inland_water.h"
+#include "ocean/inland/inland_water.h"
 #include "scene/scene.h"
 #include "shapes/tree_shape.h"
 #include "terrain/trees.h"

@@ -6,8 +6,8 @@
 
 #include "math/elementary.h"
 #include "math/large_array.h"
-#include "ocean/sea.h"
-#include "ocean/shelter.h"
+#include "ocean/coast/shelter.h"
+#include "ocean/open_sea/sea.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
 #include "terrain/shore_map.h"

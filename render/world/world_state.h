@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "math/earth.h"
-#include "ocean/disturbance.h"
+#include "ocean/wakes/disturbance.h"
 #include "render/frame/parts.h"
 #include "render/world/kept_parts.h"
 #include "render/world/object_meshes.h"

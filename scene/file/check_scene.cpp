@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ocean/drift.h"
-#include "ocean/map_waves.h"
+#include "ocean/inland/drift.h"
+#include "ocean/open_sea/map_waves.h"
 #include "scene/coast.h"
 #include "scene/file/key_places.h"
 #include "scene/file/parameters.h"

@@ -1,6 +1,6 @@
 #include "scene/file/parameters.h"
 
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 #include "scene/file/parameter_row.h"
 #include "scene/file/scene_choices.h"
 

@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "math/parallel.h"
-#include "ocean/map_sets.h"
-#include "ocean/sea_scale.h"
+#include "ocean/open_sea/map_sets.h"
+#include "ocean/spectrum/sea_scale.h"
 #include "scene/check_scene.h"
 #include "scene/file/checked_values.h"
 #include "scene/file/implicit_file.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 
 namespace swell::scene {
 

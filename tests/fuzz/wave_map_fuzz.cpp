@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "fuzz/expect.h"
-#include "ocean/periodic_map.h"
+#include "ocean/open_sea/periodic_map.h"
 
 namespace swell::fuzz {
 namespace {

@@ -1,5 +1,5 @@
 // The maps that a coast is shaded with: slopes of its waves, foam where they break.
-#include "ocean/coast_map.h"
+#include "ocean/coast/coast_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Trains near a coast and their share of the surface.
-#include "ocean/coast.h"
+#include "ocean/coast/coast.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The water under wave trains: linear theory in closed form, the rate of the heights, and the
 // conservation of water.
-#include "ocean/coast_velocity.h"
+#include "ocean/coast/coast_velocity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Sharp crests: the warp against waves summed up by hand, its statistics against theory.
-#include "ocean/crests.h"
+#include "ocean/open_sea/crests.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include "allocation_count.h"
 #include "constants.h"
 #include "ocean/frame_at.h"
-#include "ocean/sea.h"
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/sea_state.h"
 #include "ocean/simd_targets.h"
 #include "ocean/velocity.h"
 

@@ -1,4 +1,4 @@
-#include "ocean/dispersion.h"
+#include "ocean/spectrum/dispersion.h"
 
 #include <gtest/gtest.h>
 

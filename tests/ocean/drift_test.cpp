@@ -1,5 +1,5 @@
 // What floats on a river keeps its stream line, at the water's speed.
-#include "ocean/drift.h"
+#include "ocean/inland/drift.h"
 
 #include <gtest/gtest.h>
 

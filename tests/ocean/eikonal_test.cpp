@@ -1,6 +1,6 @@
 // The eikonal solver against a plain one: sweeps over the whole grid, then samples sorted by
 // arrival.
-#include "ocean/eikonal.h"
+#include "ocean/coast/eikonal.h"
 
 #include <gtest/gtest.h>
 

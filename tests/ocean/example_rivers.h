@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ocean/river.h"
+#include "ocean/inland/river.h"
 
 namespace swell::ocean {
 

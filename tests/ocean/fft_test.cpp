@@ -1,4 +1,4 @@
-#include "ocean/fft.h"
+#include "ocean/spectrum/fft.h"
 
 #include <gtest/gtest.h>
 #include <kiss_fftnd.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 
 namespace swell::ocean {
 

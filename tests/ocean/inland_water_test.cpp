@@ -1,4 +1,4 @@
-#include "ocean/inland_water.h"
+#include "ocean/inland/inland_water.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/random.h"
-#include "ocean/river_bed.h"
+#include "ocean/inland/river_bed.h"
 #include "ocean/water_surface.h"
 
 namespace swell::ocean {

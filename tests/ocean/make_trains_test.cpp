@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "ocean/peachey.h"
+#include "ocean/coast/peachey.h"
 
 namespace swell::ocean {
 namespace {

@@ -1,5 +1,5 @@
 // Maps as the sea's waves: the sum of their layers, its slopes, its velocities, its loop.
-#include "ocean/map_waves.h"
+#include "ocean/open_sea/map_waves.h"
 
 #include <gtest/gtest.h>
 #include <kiss_fft.h>
@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "constants.h"
-#include "ocean/sea.h"
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/sea_state.h"
 #include "ocean/small_recipe.h"
 #include "ocean/velocity.h"
 #include "ocean/water.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "math/random.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/simd_targets.h"
 
 namespace swell::ocean {

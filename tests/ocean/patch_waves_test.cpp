@@ -1,4 +1,4 @@
-#include "ocean/patch_waves.h"
+#include "ocean/spectrum/patch_waves.h"
 
 #include <gtest/gtest.h>
 

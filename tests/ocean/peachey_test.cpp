@@ -1,4 +1,4 @@
-#include "ocean/peachey.h"
+#include "ocean/coast/peachey.h"
 
 #include <gtest/gtest.h>
 

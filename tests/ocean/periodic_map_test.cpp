@@ -1,5 +1,5 @@
 // Maps periodic in space and time: their loop, their codes, their files.
-#include "ocean/periodic_map.h"
+#include "ocean/open_sea/periodic_map.h"
 
 #include <gtest/gtest.h>
 

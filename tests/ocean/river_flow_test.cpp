@@ -1,4 +1,4 @@
-#include "ocean/river_flow.h"
+#include "ocean/inland/river_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ocean/example_rivers.h"
-#include "ocean/river_network.h"
+#include "ocean/inland/river_network.h"
 
 namespace swell::ocean {
 namespace {

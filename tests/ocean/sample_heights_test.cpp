@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 #include "ocean/simd_targets.h"
 
 namespace swell::ocean {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "constants.h"
-#include "ocean/sea.h"
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/sea_state.h"
 #include "ocean/velocity.h"
 
 namespace swell::ocean {

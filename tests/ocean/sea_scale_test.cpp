@@ -1,11 +1,11 @@
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "constants.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 
 namespace swell::ocean {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 
 namespace swell::ocean {
 namespace {

@@ -1,4 +1,4 @@
-#include "ocean/sea.h"
+#include "ocean/open_sea/sea.h"
 
 #include <gtest/gtest.h>
 

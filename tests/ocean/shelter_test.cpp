@@ -1,6 +1,6 @@
 // The lee of land against Sommerfeld's exact answer for a long straight breakwater, summed over the
 // waves of a sea as the published diagrams are.
-#include "ocean/shelter.h"
+#include "ocean/coast/shelter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ocean/periodic_map.h"
+#include "ocean/open_sea/periodic_map.h"
 
 namespace swell::ocean {
 

@@ -1,5 +1,5 @@
 // The small sea of bump images: its heights are the sum of its waves, which loop.
-#include "ocean/small_sea.h"
+#include "ocean/open_sea/small_sea.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ocean/spectrum.h"
+#include "ocean/spectrum/spectrum.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "constants.h"
-#include "ocean/dispersion.h"
+#include "ocean/spectrum/dispersion.h"
 
 namespace swell::ocean {
 namespace {

@@ -1,4 +1,4 @@
-#include "ocean/wakes.h"
+#include "ocean/wakes/wakes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The automaton that makes periodic maps: what its steps keep, how fast its waves are.
-#include "ocean/wave_automaton.h"
+#include "ocean/open_sea/wave_automaton.h"
 
 #include <gtest/gtest.h>
 

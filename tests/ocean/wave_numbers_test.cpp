@@ -1,4 +1,4 @@
-#include "ocean/wave_numbers.h"
+#include "ocean/spectrum/wave_numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "math/random.h"
-#include "ocean/dispersion.h"
 #include "ocean/simd_targets.h"
+#include "ocean/spectrum/dispersion.h"
 
 namespace swell::ocean {
 namespace {

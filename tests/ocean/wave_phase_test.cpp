@@ -1,4 +1,4 @@
-#include "ocean/wave_phase.h"
+#include "ocean/coast/wave_phase.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "constants.h"
-#include "ocean/eikonal.h"
+#include "ocean/coast/eikonal.h"
 #include "ocean/train_sea.h"
 
 namespace swell::ocean {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "constants.h"
-#include "ocean/peachey.h"
-#include "ocean/sea.h"
-#include "ocean/spectrum.h"
+#include "ocean/coast/peachey.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/spectrum/spectrum.h"
 
 namespace swell::ocean {
 namespace {

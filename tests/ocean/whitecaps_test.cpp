@@ -1,6 +1,6 @@
 // Foam of the open sea: how much of it there is, where it is born, how it goes, and that it is a
 // function of the time alone.
-#include "ocean/whitecaps.h"
+#include "ocean/open_sea/whitecaps.h"
 
 #include <gtest/gtest.h>
 

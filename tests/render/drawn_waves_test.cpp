@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "ocean/coast.h"
+#include "ocean/coast/coast.h"
 #include "render/shot.h"
 #include "render/world/world_state.h"
 #include "terrain/height_grid.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "ocean/swash.h"
+#include "ocean/coast/swash.h"
 #include "render/shader_kernels.h"
 #include "texture/foam_pattern.h"
 #include "texture/on_every_target.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ocean/sea_state.h"
+#include "ocean/open_sea/sea_state.h"
 #include "ocean/water_surface.h"
 #include "render/drawn_water.h"
 

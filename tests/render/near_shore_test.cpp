@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "ocean/shelter.h"
+#include "ocean/coast/shelter.h"
 #include "render/labelled_frame.h"
 #include "render/world/near_shore_map.h"
 #include "render/world/world_state.h"

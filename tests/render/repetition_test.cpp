@@ -7,7 +7,7 @@
 #include <complex>
 #include <vector>
 
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 #include "render/shot.h"
 
 namespace swell::render {

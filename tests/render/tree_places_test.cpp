@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ocean/inland_water.h"
+#include "ocean/inland/inland_water.h"
 #include "render/lake_and_river.h"
 #include "render/shot.h"
 #include "render/world/forest.h"

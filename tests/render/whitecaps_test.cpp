@@ -1,6 +1,6 @@
 // Whitecaps as pictures have them: how much of the sea they hide from near and far, what is asked
 // of them, and that a frame alone is the frame of a sequence.
-#include "ocean/whitecaps.h"
+#include "ocean/open_sea/whitecaps.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A World is the same bits on any number of threads.
 #include <gtest/gtest.h>
 
-#include "ocean/whitecaps.h"
+#include "ocean/open_sea/whitecaps.h"
 #include "render/shot.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/coast_maps.h"

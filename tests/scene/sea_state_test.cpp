@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "ocean/sea_scale.h"
+#include "ocean/spectrum/sea_scale.h"
 #include "scene/scene_text.h"
 #include "scene/water.h"
 

@@ -7,7 +7,7 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 TOP_FOLDERS = ("math", "texture", "terrain", "ocean", "lod", "raster", "sky", "scene", "shapes", "mesh_import",
                "render", "capi", "apps")
-SPLIT_FOLDERS = ("render", "scene", "shapes", "sky")
+SPLIT_FOLDERS = ("ocean", "render", "scene", "shapes", "sky", "texture")
 MOST_FILES = 45  # in a folder of these
 
 

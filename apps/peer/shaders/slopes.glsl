@@ -15,8 +15,8 @@ void add_slopes(sampler2D map, vec4 place, vec4 scale, vec2 p, float level_m, in
   s.variance += found.b * scale.z;
 }
 
-// The tiles of a patch, as ocean/patch_tiles-inl.h. `tiles`: the eye's period along both axes, the
-// seed's upper and lower 16 bits.
+// The tiles of a patch, as ocean/open_sea/patch_tiles-inl.h. `tiles`: the eye's period along both
+// axes, the seed's upper and lower 16 bits.
 vec2 offset_of_tile(ivec2 tile, vec4 tiles, int samples) {
   uvec2 place = uvec2((tile + ivec2(tiles.xy)) & 0xffff);
   uint bits = (place.y << 16 | place.x) ^ (uint(tiles.z) << 16 | uint(tiles.w));

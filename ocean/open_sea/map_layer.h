@@ -1,0 +1,28 @@
+// Waves from maps of heights that are periodic in space and in time, laid over the sea in layers of
+// different periods (ocean/open_sea/periodic_map.h):
+//   H(x, y, t) = sum_i h_i(a_i x + b_i, a_i y + c_i, d_i t + e_i).
+// Source: Gabdrakhmanov, Modelling of Interactive Water Surfaces.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+
+namespace swell::ocean {
+
+struct MapLayer {
+  std::string file;          // of a map, read when the sea is made
+  double length_m = 100.0;   // after which it repeats itself along x and y, [0.5, 50000]
+  double period_s = 0.0;     // and in time, [0.1, 100000]; 0: its mean wave is as fast as in deep
+                             // water
+  double hs_m = 1.0;         // significant height, [0, 30]
+  glm::dvec2 offset_m{0.0};  // the world's origin shows this place of the map, to whole samples
+  double offset_s = 0.0;     // and t = 0 this time
+
+  bool operator==(const MapLayer&) const = default;
+};
+
+// Seven layers, made for the wind's direction, that look like a kind of water.
+enum class MapSet : std::uint8_t { kNone, kRiver, kLake, kCoast, kOcean };
+
+}  // namespace swell::ocean

@@ -1,0 +1,113 @@
+// Foam of the open sea: where its waves break, and what is left of that a little later.
+//
+// Water breaks where it falls too fast: where its acceleration dz/dt^2 = -g sum |k| h, the sum over
+// all waves h, passes a threshold. B is this sum, of each patch apart, over the waves that are seen
+// to break, its phase moved ahead to the fronts of crests. Foam has a code, which B over its
+// threshold raises, and which otherwise falls by the same amount each step of time:
+//   code_m(x) = max(code_(m-1)(x) - decay, born(B(x, t_m))), in [0, 255].
+// After 255 / decay steps it has forgotten all that was before. So foam is a function of time alone
+// although it has a past, and what is kept from frame to frame is a cache and nothing else.
+// Thresholds are set so that the mean of foam over place and time is what is seen of the wind.
+//
+// Source: Longuet-Higgins, On Wave Breaking and the Equilibrium Spectrum of Wind-Generated Waves,
+// 1969 (crests break where they fall by g / 2); Monahan, O'Muircheartaigh, Optimal Power-Law
+// Description of Oceanic Whitecap Coverage Dependence on Wind Speed, 1980; Monahan, Oceanic
+// Whitecaps, 1971 (from 3.7 m/s; foam decays by 1 / e in 3.85 s).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "math/parallel.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/spectrum/fft.h"
+#include "ocean/spectrum/patch_waves.h"
+
+namespace swell::ocean {
+
+// Points a side of the maps of foam, which lie over patches and repeat with them.
+inline constexpr int kFoamMapSize = 256;
+// The longest patches have foam, but not the last of several: its waves break unseen.
+inline constexpr std::size_t kMostFoamPatches = 2;
+
+// The part of the sea that whitecaps cover in a wind of U10 [m/s] >= 0: 3.84e-6 U10^3.41 up to
+// 20 m/s, beyond that rising ever more slowly to 0.3; 0 up to 3.7 m/s, and less than the law up to
+// 5 m/s, where they begin.
+double whitecap_cover(double wind_speed_mps);
+
+// The foam of one patch, as it is made from the patch's waves.
+struct FoamPatch {
+  double length_m = 0.0;
+  PatchWaves breaking;     // whose heights are B, in standard deviations
+  double cover = 0.0;      // mean of the foam over place and time
+  float threshold = 0.0f;  // of B
+  int decay = 1;           // codes a step, [1, 255]
+};
+
+// What does not change with time.
+struct Whitecaps {
+  SeaDescription sea;  // whose they are
+  FftPlan plan;
+  std::vector<FoamPatch> patches;  // at most kMostFoamPatches, longest first; none without foam
+  double step_s = 0.0;             // between two times of the foam
+  int steps_in_loop = 0;           // 0: the sea does not repeat
+  float crest_per_m = 0.0f;        // for foam_on_crest()
+};
+
+// Finds the thresholds by trying them on a minute of the sea: 25 ms. No patches up to 3.7 m/s, for
+// seas without a spectrum, and with sea.whitecaps = 0. The same bits with any workers.
+Whitecaps make_whitecaps(const Sea& sea, Workers& workers);
+
+// Foam at one time.
+struct WhitecapFrame {
+  // Codes at the steps before and after that time, kFoamMapSize points a side: sample
+  // [j * kFoamMapSize + i] is at world x = i L / n, y = j L / n.
+  struct Patch {
+    double length_m = 0.0;
+    PatchTiling tiling;      // the waves'
+    int wave_samples = 128;  // points a side of the waves' patch, which tiles are moved by
+    std::vector<std::uint8_t> before, after;
+  };
+  std::vector<Patch> patches;
+  float past = 0.0f;         // part of the step that has passed, [0, 1]: foam goes from before to
+                             // after along a straight line
+  float crest_per_m = 0.0f;  // as Whitecaps has it
+  // Whose foam it is, if any's, and the number of the step before.
+  bool is_filled = false;
+  SeaDescription sea;
+  double step = 0.0;
+  // Storage.
+  std::vector<float> breaking_a, breaking_b, fft_planes;
+};
+
+// The part of the surface that is white where foam has this code: it goes fast at first, and then
+// ever more slowly.
+constexpr float foam_of_code(std::uint8_t code) {
+  const float life = static_cast<float>(code) / 255.0f;
+  return life * life;
+}
+
+// Short waves break on the crests of long ones: foam of all but the longest patch counts so many
+// times where the surface is this high over the mean level, and once in the mean.
+inline constexpr float kMostOnCrest = 1.6f;
+inline float foam_on_crest(float height_m, float crest_per_m) {
+  return std::clamp(1.0f + height_m * crest_per_m, 2.0f - kMostOnCrest, kMostOnCrest);
+}
+
+// Fills `frame` with the foam at t_s, any finite time: the same bits whatever it held before. In
+// the same step as the last call, or the next, this takes no field or one (0.3 ms on one thread),
+// else 255 / decay of them (10 ms). Allocates nothing once filled from a sea of as many patches.
+void advance_whitecaps(const Whitecaps& whitecaps, double t_s, WhitecapFrame& frame,
+                       Workers& workers);
+
+// The part of the surface that is white at world points where it is height_m high, in [0, 1]: the
+// mean over the lace that pictures draw, which is finer than a map's texel. Bilinear. Spans of one
+// length, points below 1e9 m.
+void sample_whitecaps(const WhitecapFrame& frame, std::span<const glm::dvec2> p_world,
+                      std::span<const float> height_m, std::span<float> foam);
+
+}  // namespace swell::ocean
