@@ -4,7 +4,7 @@
 #include <new>
 
 #include "scene/scene_error.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::capi {
 namespace {

@@ -4,7 +4,7 @@ set(swell_entry_headers
   math/elementary.h math/parallel.h math/random.h math/simd_target.h math/view.h
   ocean/coast/coast.h ocean/spectrum/dispersion.h ocean/open_sea/sea.h ocean/spectrum/sea_scale.h ocean/spectrum/spectrum.h ocean/velocity.h
   lod/mesh_query.h lod/plane.h lod/radial_grid.h lod/roam.h lod/uniform_grid.h
-  texture/image_io.h texture/improved_noise.h texture/normal_map.h texture/perlin.h
+  texture/image/image_io.h texture/improved_noise.h texture/normal_map.h texture/perlin.h
   texture/uv_noise.h
   raster/pass.h
   scene/objects.h scene/scene.h scene/settings.h scene/terrain.h scene/water.h

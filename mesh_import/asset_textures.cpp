@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "texture/file_bytes.h"
-#include "texture/image_codec.h"
+#include "texture/image/file_bytes.h"
+#include "texture/image/image_codec.h"
 
 namespace swell::mesh_import {
 namespace {

@@ -16,7 +16,7 @@
 #include "mesh_import/asset_textures.h"
 #include "mesh_import/flatten_mesh.h"
 #include "mesh_import/process_limits.h"
-#include "texture/image_codec.h"
+#include "texture/image/image_codec.h"
 
 namespace swell::mesh_import {
 namespace {

@@ -17,8 +17,8 @@
 
 #include "math/enum_table.h"
 #include "shapes/flat_mesh.h"
-#include "texture/file_bytes.h"
-#include "texture/program_folder.h"
+#include "texture/image/file_bytes.h"
+#include "texture/image/program_folder.h"
 
 namespace swell::shapes {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "terrain/apron.h"
 #include "terrain/terrain.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::terrain {
 namespace {

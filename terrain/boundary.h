@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "terrain/shore_map.h"
-#include "texture/image.h"
+#include "texture/image/image.h"
 
 namespace swell::terrain {
 

@@ -11,7 +11,7 @@
 #include "terrain/apron.h"
 #include "terrain/island.h"
 #include "terrain/sea_floor.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 #include "texture/perlin.h"
 
 namespace swell::terrain {

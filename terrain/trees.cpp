@@ -11,7 +11,7 @@
 #include "math/smoothstep.h"
 #include "terrain/poisson_tile.h"
 #include "terrain/terrain.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 #include "texture/perlin.h"
 
 namespace swell::terrain {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "math/check.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 #include "texture/normal_map.h"
 
 namespace swell::texture {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "texture/image.h"
+#include "texture/image/image.h"
 
 namespace swell::texture {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "texture/image.h"
+#include "texture/image/image.h"
 
 namespace swell::texture {
 

@@ -15,7 +15,7 @@
 #include "apps/shared/report.h"
 #include "math/elementary.h"
 #include "ocean/spectrum/sea_scale.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

@@ -8,7 +8,7 @@
 #include "scene/coast.h"
 #include "scene/terrain.h"
 #include "terrain/boundary.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 

@@ -5,7 +5,7 @@
 #include "apps/shared/options.h"
 #include "apps/shared/output_file.h"
 #include "math/elementary.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

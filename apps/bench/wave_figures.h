@@ -7,7 +7,7 @@
 
 #include "ocean/spectrum/spectrum.h"
 #include "scene/water.h"
-#include "texture/image.h"
+#include "texture/image/image.h"
 
 namespace swell::apps {
 

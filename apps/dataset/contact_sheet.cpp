@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "apps/shared/label_picture.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

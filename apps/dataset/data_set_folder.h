@@ -10,7 +10,7 @@
 #include "apps/dataset/class_sets.h"
 #include "apps/dataset/sample.h"
 #include "scene/file/recipe.h"
-#include "texture/output_folder.h"
+#include "texture/image/output_folder.h"
 
 namespace swell::apps {
 

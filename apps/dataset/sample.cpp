@@ -10,7 +10,7 @@
 #include "apps/shared/picture_file.h"
 #include "render/world_view.h"
 #include "scene/settings.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

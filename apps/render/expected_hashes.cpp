@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "apps/render/frame_record.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

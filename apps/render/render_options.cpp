@@ -10,7 +10,7 @@
 #include "apps/shared/output_file.h"
 #include "apps/shared/picture_file.h"
 #include "apps/shared/report.h"
-#include "texture/image_note.h"
+#include "texture/image/image_note.h"
 
 namespace swell::apps {
 namespace {

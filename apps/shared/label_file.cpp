@@ -9,9 +9,9 @@
 
 #include "apps/shared/output_file.h"
 #include "apps/shared/picture_file.h"
-#include "texture/image.h"
-#include "texture/image_io.h"
-#include "texture/npy.h"
+#include "texture/image/image.h"
+#include "texture/image/image_io.h"
+#include "texture/image/npy.h"
 
 namespace swell::apps {
 namespace {

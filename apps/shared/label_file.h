@@ -12,7 +12,7 @@
 
 #include "math/view.h"
 #include "render/frame.h"
-#include "texture/exr_channels.h"
+#include "texture/image/exr_channels.h"
 
 namespace swell::apps {
 

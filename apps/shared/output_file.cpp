@@ -7,8 +7,8 @@
 #include <array>
 #include <string_view>
 
-#include "texture/image_io.h"
-#include "texture/signal_lock.h"
+#include "texture/image/image_io.h"
+#include "texture/image/signal_lock.h"
 
 namespace swell::apps {
 namespace {

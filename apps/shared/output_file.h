@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "texture/output_folder.h"
+#include "texture/image/output_folder.h"
 
 namespace swell::apps {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "apps/shared/output_file.h"
-#include "texture/image.h"
-#include "texture/image_io.h"
+#include "texture/image/image.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

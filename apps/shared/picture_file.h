@@ -5,8 +5,8 @@
 #include <string>
 
 #include "render/frame.h"
-#include "texture/image.h"
-#include "texture/image_note.h"
+#include "texture/image/image.h"
+#include "texture/image/image_note.h"
 
 namespace swell::apps {
 

@@ -10,7 +10,7 @@
 
 #include "math/simd_target.h"
 #include "scene/scene.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

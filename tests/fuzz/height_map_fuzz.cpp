@@ -8,7 +8,7 @@
 #include "fuzz/scratch_parent.h"
 #include "terrain/boundary.h"
 #include "terrain/terrain.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "fuzz/expect.h"
 #include "fuzz/scratch_parent.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::fuzz {
 namespace {

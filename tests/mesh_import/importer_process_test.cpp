@@ -17,7 +17,7 @@
 #include "mesh_import/mesh_files.h"
 #include "shapes/mesh_file.h"
 #include "shapes/run_importer.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::shapes {
 namespace {

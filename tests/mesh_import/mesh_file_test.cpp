@@ -12,7 +12,7 @@
 
 #include "math/elementary.h"
 #include "mesh_import/mesh_files.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::shapes {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "scene/scene.h"
 #include "scratch_folder.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::render {
 

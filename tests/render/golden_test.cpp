@@ -8,7 +8,7 @@
 #include <string>
 
 #include "render/shot.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::render {
 namespace {

@@ -14,7 +14,7 @@
 #include "scratch_folder.h"
 #include "terrain/boundary.h"
 #include "terrain/height_grid.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::render {
 namespace {

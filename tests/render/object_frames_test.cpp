@@ -12,7 +12,7 @@
 #include "render/shot.h"
 #include "scene/scene.h"
 #include "shapes/object_ray.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::render {
 namespace {

@@ -13,7 +13,7 @@
 #include "render/measures.h"
 #include "sky/sky_light.h"
 #include "terrain/height_grid.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::render {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "scratch_folder.h"
 #include "terrain/terrain.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::terrain {
 

@@ -14,7 +14,7 @@
 
 #include "math/random.h"
 #include "scratch_folder.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::texture {
 

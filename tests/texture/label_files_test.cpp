@@ -13,9 +13,9 @@
 
 #include "math/random.h"
 #include "scratch_folder.h"
-#include "texture/exr_channels.h"
-#include "texture/image_io.h"
-#include "texture/npy.h"
+#include "texture/image/exr_channels.h"
+#include "texture/image/image_io.h"
+#include "texture/image/npy.h"
 
 namespace swell::texture {
 namespace {

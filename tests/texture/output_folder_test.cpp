@@ -1,5 +1,5 @@
 // Below a folder of outputs no link is followed.
-#include "texture/output_folder.h"
+#include "texture/image/output_folder.h"
 
 #include "texture/image_files.h"
 

@@ -14,7 +14,7 @@
 #include <random>
 
 #include "apps/shared/program_runner.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

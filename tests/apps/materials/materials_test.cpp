@@ -13,7 +13,7 @@
 #include "apps/shared/program_runner.h"
 #include "render/measure/pick.h"
 #include "scene/terrain.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

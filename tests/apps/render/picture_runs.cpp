@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

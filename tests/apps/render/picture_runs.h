@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/shared/program_runner.h"
-#include "texture/image.h"
+#include "texture/image/image.h"
 
 namespace swell::apps {
 

@@ -12,7 +12,7 @@
 #include "apps/shared/program_runner.h"
 #include "math/random.h"
 #include "refused_calls.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

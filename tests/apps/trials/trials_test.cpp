@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "apps/shared/program_runner.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "apps/shared/program_runner.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/view/viewer.h"
 #include "scratch_folder.h"
 #include "terrain/height_grid.h"
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 #include "viewer_harness.h"
 
 namespace swell::view {

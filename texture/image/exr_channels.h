@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "texture/image_note.h"
+#include "texture/image/image_note.h"
 
 namespace swell::texture {
 

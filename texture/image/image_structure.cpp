@@ -1,4 +1,4 @@
-#include "texture/image_structure.h"
+#include "texture/image/image_structure.h"
 
 #include <zlib.h>
 
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "texture/file_bytes.h"
+#include "texture/image/file_bytes.h"
 
 namespace swell::texture {
 namespace {

@@ -1,4 +1,4 @@
-#include "texture/png_file.h"
+#include "texture/image/png_file.h"
 
 #include <png.h>
 
@@ -8,7 +8,7 @@
 #include <new>
 
 #include "math/check.h"
-#include "texture/file_bytes.h"
+#include "texture/image/file_bytes.h"
 
 namespace swell::texture {
 namespace {

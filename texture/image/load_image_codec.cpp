@@ -4,9 +4,9 @@
 #include <array>
 
 #include "math/parallel.h"
-#include "texture/file_bytes.h"
-#include "texture/image_codec.h"
-#include "texture/program_folder.h"
+#include "texture/image/file_bytes.h"
+#include "texture/image/image_codec.h"
+#include "texture/image/program_folder.h"
 
 namespace swell::texture {
 namespace {

@@ -1,4 +1,4 @@
-#include "texture/npy.h"
+#include "texture/image/npy.h"
 
 #include <fmt/core.h>
 

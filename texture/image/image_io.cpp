@@ -1,4 +1,4 @@
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 
 #include "math/check.h"
 #include "math/enum_table.h"
-#include "texture/file_bytes.h"
-#include "texture/image_codec.h"
-#include "texture/image_structure.h"
-#include "texture/png_file.h"
+#include "texture/image/file_bytes.h"
+#include "texture/image/image_codec.h"
+#include "texture/image/image_structure.h"
+#include "texture/image/png_file.h"
 
 namespace swell::texture {
 namespace {

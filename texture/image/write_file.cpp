@@ -12,9 +12,9 @@
 #include <optional>
 
 #include "math/parallel.h"
-#include "texture/file_bytes.h"
-#include "texture/output_folder.h"
-#include "texture/signal_lock.h"
+#include "texture/image/file_bytes.h"
+#include "texture/image/output_folder.h"
+#include "texture/image/signal_lock.h"
 
 namespace swell::texture {
 namespace {

@@ -1,4 +1,4 @@
-#include "texture/output_folder.h"
+#include "texture/image/output_folder.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "texture/file_bytes.h"
+#include "texture/image/file_bytes.h"
 
 namespace swell::texture {
 namespace {

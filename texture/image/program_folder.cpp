@@ -1,9 +1,9 @@
-#include "texture/program_folder.h"
+#include "texture/image/program_folder.h"
 
 #include <dlfcn.h>
 #include <link.h>
 
-#include "texture/image_codec.h"
+#include "texture/image/image_codec.h"
 
 namespace swell::texture {
 

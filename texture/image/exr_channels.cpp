@@ -1,10 +1,10 @@
-#include "texture/exr_channels.h"
+#include "texture/image/exr_channels.h"
 
 #include <algorithm>
 #include <bit>
 
 #include "math/check.h"
-#include "texture/image_codec.h"
+#include "texture/image/image_codec.h"
 
 namespace swell::texture {
 namespace {

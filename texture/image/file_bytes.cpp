@@ -1,4 +1,4 @@
-#include "texture/file_bytes.h"
+#include "texture/image/file_bytes.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

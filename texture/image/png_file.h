@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "texture/image_codec.h"
+#include "texture/image/image_codec.h"
 
 namespace swell::texture {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::texture {
 

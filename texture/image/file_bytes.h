@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::texture {
 

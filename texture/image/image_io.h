@@ -1,6 +1,6 @@
 // Image files. The one door to OpenImageIO, which is loaded with the first image that is decoded,
-// or encoded as anything but PNG (texture/image_codec.h; throws std::runtime_error if there is no
-// room for it), and to libpng. Reads PNG, EXR, HDR, TIFF and PNM (by name and by content) and
+// or encoded as anything but PNG (texture/image/image_codec.h; throws std::runtime_error if there
+// is no room for it), and to libpng. Reads PNG, EXR, HDR, TIFF and PNM (by name and by content) and
 // nothing else; writes PNG, EXR and TIFF to memory first and then to a new file that gets the name
 // when it is done, so that a file is whole or not there.
 #pragma once
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "texture/image.h"
-#include "texture/image_note.h"
+#include "texture/image/image.h"
+#include "texture/image/image_note.h"
 
 namespace swell::texture {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "texture/image_note.h"
+#include "texture/image/image_note.h"
 
 namespace swell::texture {
 

@@ -1,5 +1,5 @@
 // The module behind image_codec.h: OpenImageIO, and nothing else of Swell.
-#include "texture/image_codec.h"
+#include "texture/image/image_codec.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "texture/image_io.h"
+#include "texture/image/image_io.h"
 
 namespace swell::texture {
 
