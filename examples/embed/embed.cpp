@@ -1,7 +1,7 @@
 // Draws a scene into a PNG file: embed SCENE.toml PICTURE.png
 #include <swell/render/frame.h>
 #include <swell/render/world_view.h>
-#include <swell/texture/image_io.h>
+#include <swell/texture/image/image_io.h>
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
