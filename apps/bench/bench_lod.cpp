@@ -7,12 +7,12 @@
 
 #include "apps/bench/bench.h"
 #include "apps/bench/lod_comparison.h"
-#include "apps/bench/lod_figures.h"
 #include "apps/bench/lod_flight.h"
 #include "apps/shared/cpu_name.h"
 #include "apps/shared/json.h"
 #include "apps/shared/options.h"
 #include "apps/shared/report.h"
+#include "tools/figures/lod_figures.h"
 
 namespace swell::apps {
 namespace {

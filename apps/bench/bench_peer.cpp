@@ -9,7 +9,6 @@
 #include "apps/bench/bench.h"
 #include "apps/bench/frame_run.h"
 #include "apps/bench/picture_difference.h"
-#include "apps/peer/peer.h"
 #include "apps/shared/cpu_name.h"
 #include "apps/shared/json.h"
 #include "apps/shared/notices.h"
@@ -19,6 +18,7 @@
 #include "apps/shared/report.h"
 #include "math/simd_target.h"
 #include "render/world_view.h"
+#include "tools/peer/peer.h"
 
 namespace swell::apps {
 namespace {

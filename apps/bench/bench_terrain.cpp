@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "apps/bench/bench.h"
-#include "apps/bench/make_boundary.h"
 #include "apps/bench/ray_picture.h"
 #include "apps/bench/terrain_comparison.h"
 #include "apps/shared/cpu_name.h"
 #include "apps/shared/options.h"
 #include "apps/shared/report.h"
 #include "terrain/terrain.h"
+#include "tools/maps/make_boundary.h"
 
 namespace swell::apps {
 namespace {

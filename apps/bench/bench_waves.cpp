@@ -6,8 +6,6 @@
 #include <string>
 
 #include "apps/bench/bench.h"
-#include "apps/bench/make_map.h"
-#include "apps/bench/wave_figures.h"
 #include "apps/shared/notices.h"
 #include "apps/shared/options.h"
 #include "apps/shared/output_file.h"
@@ -16,6 +14,8 @@
 #include "math/elementary.h"
 #include "ocean/spectrum/sea_scale.h"
 #include "texture/image/image_io.h"
+#include "tools/figures/wave_figures.h"
+#include "tools/maps/make_map.h"
 
 namespace swell::apps {
 namespace {

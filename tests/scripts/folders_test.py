@@ -6,8 +6,8 @@ import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 TOP_FOLDERS = ("math", "texture", "terrain", "ocean", "lod", "raster", "sky", "scene", "shapes", "mesh_import",
-               "render", "capi", "apps")
-SPLIT_FOLDERS = ("ocean", "render", "scene", "shapes", "sky", "texture")
+               "render", "capi", "tools", "apps")
+SPLIT_FOLDERS = ("apps", "ocean", "render", "scene", "shapes", "sky", "texture", "tools")
 MOST_FILES = 45  # in a folder of these
 
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/bench/lod_comparison.h"
-#include "apps/bench/lod_figures.h"
+#include "tools/figures/lod_figures.h"
 
 namespace swell::apps {
 namespace {

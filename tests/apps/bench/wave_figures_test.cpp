@@ -1,5 +1,5 @@
 // Figures of waves: what has to be where in them.
-#include "apps/bench/wave_figures.h"
+#include "tools/figures/wave_figures.h"
 
 #include <gtest/gtest.h>
 

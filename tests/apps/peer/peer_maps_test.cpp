@@ -1,5 +1,5 @@
 // The one place of the peer that knows how Swell packs its maps.
-#include "apps/peer/peer_maps.h"
+#include "tools/peer/peer_maps.h"
 
 #include <gtest/gtest.h>
 

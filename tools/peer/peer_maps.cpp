@@ -1,4 +1,4 @@
-#include "apps/peer/peer_maps.h"
+#include "tools/peer/peer_maps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "apps/bench/lod_figures.h"
+#include "tools/figures/lod_figures.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "apps/peer/egl_context.h"
+#include "tools/peer/egl_context.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>

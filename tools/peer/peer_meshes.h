@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "apps/peer/gl.h"
 #include "render/view/meshes.h"
+#include "tools/peer/gl.h"
 
 namespace swell::apps {
 

@@ -1,7 +1,7 @@
 // The peer where Swell was built without EGL.
 #include <stdexcept>
 
-#include "apps/peer/peer.h"
+#include "tools/peer/peer.h"
 
 namespace swell::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/peer/gl_program.h"
+#include "tools/peer/gl_program.h"
 
 #include <array>
 #include <stdexcept>

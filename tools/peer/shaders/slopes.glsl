@@ -1,4 +1,4 @@
-// Maps of slopes (apps/peer/peer_maps.h): `place` is (turns per metre, coordinates under the eye,
+// Maps of slopes (tools/peer/peer_maps.h): `place` is (turns per metre, coordinates under the eye,
 // log2 of texels per metre), `scale` turns a sample into slopes and lost variance.
 struct Slopes {
   vec2 slope;

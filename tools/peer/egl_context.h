@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/peer/gl.h"
+#include "tools/peer/gl.h"
 
 namespace swell::apps {
 

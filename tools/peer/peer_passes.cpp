@@ -1,4 +1,4 @@
-#include "apps/peer/peer.h"
+#include "tools/peer/peer.h"
 
 namespace swell::apps {
 

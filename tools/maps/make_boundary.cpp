@@ -1,4 +1,4 @@
-#include "apps/bench/make_boundary.h"
+#include "tools/maps/make_boundary.h"
 
 #include <fmt/core.h>
 

@@ -1,13 +1,13 @@
-#include "apps/peer/peer_programs.h"
+#include "tools/peer/peer_programs.h"
 
 #include <fmt/core.h>
 
 #include <cmath>
 #include <vector>
 
-#include "apps/peer/peer_maps.h"
-#include "apps/peer/shaders.h"
-#include "apps/peer/texture_units.h"
+#include "tools/peer/peer_maps.h"
+#include "tools/peer/shaders.h"
+#include "tools/peer/texture_units.h"
 
 namespace swell::apps {
 namespace {

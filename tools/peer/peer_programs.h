@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "apps/peer/gl_program.h"
 #include "render/tile/shading.h"
 #include "render/workspace.h"
+#include "tools/peer/gl_program.h"
 
 namespace swell::apps {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "apps/peer/gl.h"
+#include "tools/peer/gl.h"
 
 namespace swell::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/peer/peer_targets.h"
+#include "tools/peer/peer_targets.h"
 
 #include <stdexcept>
 

@@ -1,15 +1,15 @@
-#include "apps/peer/peer.h"
+#include "tools/peer/peer.h"
 
 #include <chrono>
 #include <optional>
 #include <stdexcept>
 
-#include "apps/peer/egl_context.h"
-#include "apps/peer/peer_maps.h"
-#include "apps/peer/peer_meshes.h"
-#include "apps/peer/peer_programs.h"
-#include "apps/peer/peer_targets.h"
-#include "apps/peer/texture_units.h"
+#include "tools/peer/egl_context.h"
+#include "tools/peer/peer_maps.h"
+#include "tools/peer/peer_meshes.h"
+#include "tools/peer/peer_programs.h"
+#include "tools/peer/peer_targets.h"
+#include "tools/peer/texture_units.h"
 
 namespace swell::apps {
 

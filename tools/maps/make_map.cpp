@@ -1,4 +1,4 @@
-#include "apps/bench/make_map.h"
+#include "tools/maps/make_map.h"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // What the peer draws a view into.
 #pragma once
 
-#include "apps/peer/gl.h"
+#include "tools/peer/gl.h"
 
 namespace swell::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/bench/wave_figures.h"
+#include "tools/figures/wave_figures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/peer/gl.h"
 #include "render/packets/slope_layer.h"
 #include "texture/smooth_image.h"
+#include "tools/peer/gl.h"
 
 namespace swell::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/peer/peer_meshes.h"
+#include "tools/peer/peer_meshes.h"
 
 #include <numeric>
 #include <vector>

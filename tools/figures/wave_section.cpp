@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/bench/wave_figures.h"
+#include "tools/figures/wave_figures.h"
 
 namespace swell::apps {
 namespace {
