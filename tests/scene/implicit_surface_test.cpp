@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "math/random.h"
 #include "scene/file/implicit_file.h"
 #include "scene/scene_error.h"
-#include "shapes/implicit_mesh.h"
 #include "trials.h"
 
 namespace swell::scene {
@@ -156,19 +154,6 @@ TEST(ImplicitSurface, BoxesOfThinThingsAreTight) {
       "bend = [{ size = [0.3, 0.2, 0.5], at = [0, 0.1, 0.3], factor = 1 }]\n",
       "form.toml");
   EXPECT_LT(glm::length(implicit.high - implicit.low), 6.0);
-}
-
-// 100 times fewer bytes than triangles that lie as near: the paper's figure.
-TEST(ImplicitSurface, ShippedImplicitsAreSmall) {
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(
-           std::filesystem::path(SWELL_SOURCE_DIR) / "scenes/forms")) {
-    EXPECT_LT(entry.file_size(), 4096u) << entry.path();
-    const shapes::MeshOfFile mesh = shapes::with_meshes(load_implicit(entry.path().string()));
-    EXPECT_GT(mesh.levels.front().triangles.size(), 1000u);
-    ++count;
-  }
-  EXPECT_EQ(count, 4);
 }
 
 std::string refusal(const std::string& text) {

@@ -1,4 +1,4 @@
-// Floating objects: how the sea carries them, and their shapes.
+// Floating objects: how the sea carries them.
 #include "scene/objects.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 #include "math/random.h"
 #include "scene/scene.h"
 #include "scene/water.h"
-#include "shapes/object_mesh.h"
 
 namespace swell::scene {
 namespace {
@@ -117,31 +116,6 @@ TEST(ObjectPoses, OtherObjectsChangeNoBit) {
   }
 }
 
-glm::vec3 corner(const shapes::ObjectMesh& mesh, std::size_t triangle, int i) {
-  return mesh.position[mesh.indices[3 * triangle + static_cast<std::size_t>(i)]];
-}
-
-glm::vec3 normal_at(const shapes::ObjectTriangle& t, glm::vec3 q) {
-  return t.normal_at_origin + q.x * t.normal_along_x + q.y * t.normal_along_y +
-         q.z * t.normal_along_z;
-}
-
-// By the divergence theorem.
-double volume_of(const shapes::ObjectMesh& mesh) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < mesh.triangles.size(); ++n)
-    sum += static_cast<double>(
-        glm::dot(corner(mesh, n, 0), glm::cross(corner(mesh, n, 1), corner(mesh, n, 2))));
-  return sum / 6.0;
-}
-
-TEST(ObjectMesh, BoxAndSphereHaveTheirVolumes) {
-  EXPECT_NEAR(volume_of(shapes::make_object_mesh(ObjectKind::kBox, TopMark::kCan, 8)), 1.0, 1e-6);
-  // A ball of diameter 1; 32 flat sides around and 16 along take 1.6 % away.
-  const double ball = volume_of(shapes::make_object_mesh(ObjectKind::kSphere, TopMark::kCan, 32));
-  EXPECT_NEAR(ball / (kPi / 6.0), 0.984, 0.004);
-}
-
 TEST(ObjectPoses, AFixedObjectStandsUprightAtItsHeightWhateverTheWavesAre) {
   FloatingObject pier = common_object(ObjectKind::kPier);
   EXPECT_EQ(pier.motion, Motion::kFixed);
@@ -208,94 +182,6 @@ TEST(ObjectPoses, OnAPathAnObjectGoesAtItsSpeedAndTurnsAsLongAsItIs) {
   EXPECT_EQ(plan_pose(boat, 61.0).position_m, plan_pose(boat, 1e6).position_m);
   EXPECT_NEAR(glm::distance(plan_pose(boat, 1e6).position_m, glm::dvec2(40, 0)), 0.0, 1e-12);
   EXPECT_NEAR(glm::distance(plan_pose(boat, -1e6).position_m, glm::dvec2(0, 0)), 0.0, 1e-12);
-}
-
-TEST(ObjectMesh, BoatsPiersLighthousesAndRocksFillTheirBoxes) {
-  for (const ObjectKind kind : {ObjectKind::kBoat, ObjectKind::kSailboat, ObjectKind::kPier,
-                                ObjectKind::kLighthouse, ObjectKind::kRock}) {
-    for (const int segments : {8, 24}) {
-      SCOPED_TRACE(kObjectKindNames[kind]);
-      const shapes::ObjectMesh mesh = shapes::make_object_mesh(kind, TopMark::kCan, segments);
-      ASSERT_EQ(mesh.indices.size(), 3 * mesh.triangles.size());
-      EXPECT_LE(mesh.triangles.size(), 2048u);
-      glm::vec3 low(9.0f), high(-9.0f);
-      for (const glm::vec3& q : mesh.position) low = glm::min(low, q), high = glm::max(high, q);
-      const glm::vec3 wanted_low(-0.5f, -0.5f, 0.0f), wanted_high(0.5f, 0.5f, 1.0f);
-      for (int c = 0; c < 3; ++c) {
-        EXPECT_GE(low[c], wanted_low[c] - 1e-5f);
-        EXPECT_LE(low[c], wanted_low[c] + 0.03f);
-        EXPECT_LE(high[c], wanted_high[c] + 1e-5f);
-        EXPECT_GE(high[c], wanted_high[c] - 0.03f);
-      }
-      for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-        const glm::vec3 a = corner(mesh, n, 0), b = corner(mesh, n, 1), c = corner(mesh, n, 2);
-        const glm::vec3 smooth = normal_at(mesh.triangles[n], (a + b + c) / 3.0f);
-        ASSERT_TRUE(std::isfinite(glm::dot(smooth, smooth)));
-        ASSERT_GT(glm::dot(mesh.triangles[n].flat_normal, smooth), 0.0f) << "triangle " << n;
-      }
-      // Each triangle is in one part.
-      std::uint32_t next = 0;
-      for (const shapes::MeshPart& part : shapes::mesh_parts(common_object(kind), mesh)) {
-        EXPECT_EQ(part.first_triangle, next);
-        next += part.triangles;
-      }
-      EXPECT_EQ(next, mesh.triangles.size());
-    }
-  }
-}
-
-// A boat's waterline is as long and as broad as its hull is there; a pier's are its posts'.
-TEST(ObjectMesh, PartsKnowWhereTheyCutTheWater) {
-  const auto parts_of = [](ObjectKind kind) {
-    return shapes::mesh_parts(common_object(kind),
-                              shapes::make_object_mesh(kind, TopMark::kCan, 24));
-  };
-  const auto boat = parts_of(ObjectKind::kBoat);
-  ASSERT_EQ(boat.size(), 1u);
-  EXPECT_GT(boat[0].half.x, 0.25f);
-  EXPECT_LT(boat[0].half.x, 0.48f);
-  EXPECT_NEAR(boat[0].middle.x, 0.0f, 1e-3f);
-  const auto pier = parts_of(ObjectKind::kPier);
-  ASSERT_EQ(pier.size(), 19u);
-  EXPECT_EQ(pier[0].half, glm::vec2(0.0f)) << "the deck";
-  for (std::size_t i = 1; i < pier.size(); ++i)
-    EXPECT_NEAR(pier[i].half.x * common_object(ObjectKind::kPier).size_m.x, 0.16, 1e-4);
-}
-
-TEST(ObjectMesh, EveryShapeFitsItsBoxAndItsNormalsPointOut) {
-  for (const ObjectKind kind : {ObjectKind::kBuoy, ObjectKind::kSphere, ObjectKind::kBox}) {
-    for (const TopMark mark : {TopMark::kCan, TopMark::kCone, TopMark::kSphere}) {
-      for (const int segments : {4, 8, 24, 32}) {
-        const shapes::ObjectMesh mesh = shapes::make_object_mesh(kind, mark, segments);
-        ASSERT_EQ(mesh.indices.size(), 3 * mesh.triangles.size());
-        float top = 0.0f, bottom = 1.0f;
-        for (const glm::vec3& q : mesh.position) {
-          ASSERT_LE(std::max(std::abs(q.x), std::abs(q.y)), 0.5f + 1e-6f);
-          top = std::max(top, q.z), bottom = std::min(bottom, q.z);
-        }
-        EXPECT_NEAR(top, 1.0f, 1e-6f);
-        EXPECT_NEAR(bottom, 0.0f, 1e-6f);
-        for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-          const glm::vec3 a = corner(mesh, n, 0), b = corner(mesh, n, 1), c = corner(mesh, n, 2);
-          const glm::vec3 flat = glm::normalize(glm::cross(b - a, c - a));
-          const glm::vec3 smooth = normal_at(mesh.triangles[n], (a + b + c) / 3.0f);
-          ASSERT_GT(glm::dot(flat, glm::normalize(smooth)), 0.6f) << "triangle " << n;
-        }
-      }
-    }
-  }
-}
-
-// A sphere's normals at the corners are its radii.
-TEST(ObjectMesh, ASpheresCornersHaveTheNormalsOfTheSphere) {
-  const shapes::ObjectMesh mesh = shapes::make_object_mesh(ObjectKind::kSphere, TopMark::kCan, 24);
-  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-    for (int i = 0; i < 3; ++i) {
-      const glm::vec3 q = corner(mesh, n, i);
-      const glm::vec3 radius = 2.0f * (q - glm::vec3(0.0f, 0.0f, 0.5f));
-      EXPECT_LT(glm::distance(normal_at(mesh.triangles[n], q), radius), 2e-5f);
-    }
-  }
 }
 
 }  // namespace
