@@ -28,7 +28,7 @@ double cpu_ms() {
 // By turns, so that a slow moment of the machine slows all of them.
 void time_all(std::vector<Timed>& all) {
   Workers workers(1);
-  for (int n = 0; n < 15; ++n)
+  for (int n = 0; n < 9; ++n)
     for (Timed& timed : all) {
       const double before = cpu_ms();
       cast_picture(timed.map, timed.picture, workers);
