@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
 #include <random>
 
+#include "trials.h"
 #include "viewer_harness.h"
 
 namespace swell::view {
@@ -206,7 +208,7 @@ TEST_F(ViewerTest, AStormOfEventsInAnyOrderIsSurvived) {
   std::mt19937 random(9);
   const auto below = [&](int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); };
   Viewer viewer(small_scene(), settings_of(1000000));
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < std::max(trials(4000), 1000); ++i) {
     const auto place = static_cast<SDL_Scancode>(below(SDL_NUM_SCANCODES));
     switch (below(6)) {
       case 0:
