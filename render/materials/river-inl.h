@@ -7,6 +7,10 @@
 #define SWELL_RENDER_MATERIALS_RIVER_INL_H_
 #endif
 
+#include <algorithm>
+#include <array>
+#include <span>
+
 #include "render/materials/ground-inl.h"
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
@@ -157,11 +161,11 @@ HWY_INLINE WaterSlopes PassIntoSea(const WaterSlopes& a, const WaterSlopes& b, V
   return {PassIntoSea(a.slope_x, b.slope_x, share),
           PassIntoSea(a.slope_y, b.slope_y, share),
           PassIntoSea(a.variance, b.variance, share),
-          PassIntoSea(a.foam_cover, b.foam_cover, share),
           PassIntoSea(a.fine_variance, b.fine_variance, share),
           PassIntoSea(a.long_cosine, b.long_cosine, share),
-          PassIntoSea(a.foam_thickness, b.foam_thickness, share),
-          PassIntoSea(a.foam_bubbles, b.foam_bubbles, share),
+          {PassIntoSea(a.foam.cover, b.foam.cover, share),
+           PassIntoSea(a.foam.thickness, b.foam.thickness, share),
+           PassIntoSea(a.foam.bubbles, b.foam.bubbles, share)},
           PassIntoSea(a.wake, b.wake, share)};
 }
 
@@ -192,7 +196,7 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
       lost = lost_long + lost_short;
       if (!foams) continue;
       V threshold, unused;
-      NearestSlopes(river.foam.pattern, copy.p, level_m, threshold, unused);
+      NearestSlopes(river.foam_lace, copy.p, level_m, threshold, unused);
       code = MulAdd(copy.weight, threshold, code);
     }
     s.slope_x = x * rough;
@@ -201,7 +205,7 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
     if (foams) {
       // Never white all over: the lace moves.
       const V over = MulSub(at.white, 0.5f * (1.0f + kFoamRim), MulAdd(code, 0.5f, 0.5f));
-      AddFoamOver(IfThenElse(at.white > 0.02f, over, -1.0f), s);
+      s.foam = FoamOfOver(IfThenElse(at.white > 0.02f, over, -1.0f));
     }
   }
   // The wind's, and where the water is too shallow for them none.
@@ -294,6 +298,8 @@ HWY_INLINE RiverSeen SeeRiver(const Shading& shading, const River& river, const 
 
 // Its bed, and at its end what lies under the sea.
 struct RiverBody {
+  static constexpr FoamOpacity kFoam = {0.368f, 0.46f, 0.0f};
+
   const Shading& shading;
   const TilePixels& tile;
   const River& river;
@@ -349,10 +355,8 @@ struct RiverBody {
 
   HWY_INLINE V Weight(const Facing& f) const { return f.reflectance; }
   HWY_INLINE V SunPath(const Facing&, V glint) const { return glint; }
-  HWY_INLINE V3 AddFoam(const TornFoam& foam, const Facing&, const LightSeen& light_seen,
-                        V3 light) const {
-    const V white = foam.cover * MulAdd(foam.thickness, 0.5f, 0.4f);
-    return ::swell::render::HWY_NAMESPACE::AddFoam(river.foam, white, light_seen, light);
+  HWY_INLINE V SunOnFoam(const Facing&) const {
+    return Constant(std::max(shading.light.sun_direction.z, 0.0f));
   }
 };
 

@@ -39,7 +39,7 @@ void fill(const MaterialInputs& in, const RenderView& view, River& river) {
   river.long_ripples = make_ripple_layer(*in.world.textures.bump, kLongRipples_m, eye);
   river.short_ripples = make_ripple_layer(*in.world.textures.bump, kShortRipples_m, eye);
   river.stones = make_ripple_layer(*in.world.textures.bump, kStones_m, eye);
-  river.foam = make_foam(in, eye, kRiverFoam_m);
+  river.foam_lace = make_foam_lace(in, eye, kRiverFoam_m);
   const double cycles = in.t_s / kCarried_s;
   river.cycles = fraction(cycles);
   river.cycle_number =

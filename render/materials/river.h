@@ -27,7 +27,7 @@ struct River {
 
   SlopeLayer long_ripples, short_ripples;  // carried; of slope variance 1 together
   SlopeLayer stones;                       // of the bed
-  Foam foam;                               // likewise carried
+  SlopeLayer foam_lace;                    // likewise carried
   float cycles = 0.0f;                     // of kCarried_s that have passed, without whole ones
   float cycle_number = 0.0f;               // whole ones, modulo 4096
   float base_variance = 0.0f;              // slope variance of ripples too fine for any map

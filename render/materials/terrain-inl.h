@@ -6,6 +6,8 @@
 #define SWELL_RENDER_MATERIALS_TERRAIN_INL_H_
 #endif
 
+#include <algorithm>
+
 #include "render/materials/canopy-inl.h"
 #include "render/materials/checker-inl.h"
 #include "render/materials/ground-inl.h"
@@ -191,7 +193,7 @@ HWY_INLINE WaterSlopes SampleRunOut(const Shading& s, const Packet& packet, V ke
                               Lerp(packet.to_eye.z, sea.long_cosine, kept));
   left.slope_x = sea.slope_x * kept;
   left.slope_y = sea.slope_y * kept;
-  left.foam_cover = sea.foam_cover * kept;
+  left.foam.cover = sea.foam.cover * kept;
   return left;
 }
 
@@ -210,6 +212,8 @@ HWY_INLINE V SheetFoam(float reach_m, const SwashEdge& swash, V below, V span_m,
   return Max(rim, lace) * front * (fresh * begun);
 }
 
+constexpr FoamOpacity kSheetFoam = {0.92f, 0.0f, 0.0f};
+
 // Wet sand mirrors the sky; a sheet of water with foam at its rim runs over it, and at the sea's
 // level both are what the sea is where it has no depth. `ground` is the ground's light at p, whose
 // height is height_m and which sees the part sun_visible of the sun.
@@ -220,7 +224,8 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const V3 ground = dry.light;
   if (reach_m <= 0.0f || hn::AllFalse(d, height_m < 1.6f * reach_m)) return ground;
   // In a lee sheets run less high: the beach is as if it were higher.
-  const V kept = KeptBeside(s.material<Water>().near_shore, packet.p, level_m);
+  const Water& water = s.material<Water>();
+  const V kept = KeptBeside(water.near_shore, packet.p, level_m);
   height_m = height_m / kept;
   const auto reached = height_m < 1.6f * reach_m;
   if (hn::AllFalse(d, reached)) return ground;
@@ -237,7 +242,7 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   const V film = Max(sheet, SmoothBlend(NegMulAdd(calm, 1.2f, 1.0f)));
 
   const WaterSlopes waves = SampleRunOut(s, packet, NegMulAdd(calm, film, film));
-  const Facing f = FaceEye(s.media, s.material<Water>(), packet, waves);
+  const Facing f = FaceEye(s.media, water, packet, waves);
   V inv_variance;
   const V glint = SunGlint(s.light.sun_direction, packet, waves, GlintReflectance{s.media}, f.area,
                            inv_variance);
@@ -250,8 +255,10 @@ HWY_INLINE V3 AddSwash(const Shading& s, const Terrain& terrain, const Packet& p
   V3 light = Lerp(ground * darkened, mirrored, shine);
   light = MulAdd(Constant(s.light.sun_irradiance), glint * (film * sun_visible), light);
   const V foam = SheetFoam(reach_m, swash, below, span_m, calm);
-  const V cover = FoamCover(terrain.foam, packet.p, level_m, foam);
-  light = AddFoam(terrain.foam, Max(cover, waves.foam_cover),
+  FoamLayer layer = waves.foam;
+  layer.cover = Max(layer.cover, FoamCover(water.foam_lace, packet.p, level_m, foam));
+  light = AddFoam(water.foam_light, kSheetFoam, layer,
+                  Constant(std::max(s.light.sun_direction.z, 0.0f)),
                   {sun_visible, AmbientUnderClouds(s, packet.p)}, light);
   return IfThenElse(reached, light, ground);
 }

@@ -63,7 +63,6 @@ void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain) {
   const ocean::Swash sheets =
       ocean::make_swash(*in.world.sea, in.world.coast.get(), in.world.shelter.get());
   terrain.swash = make_swash(sheets, ocean::wave_time_s(in.world.scene.sea, in.t_s), eye);
-  terrain.foam = make_foam(in, eye);
 }
 
 }  // namespace swell::render

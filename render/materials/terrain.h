@@ -9,7 +9,6 @@
 #include "render/materials/land.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
-#include "render/water/foam.h"
 
 namespace swell::render {
 
@@ -33,7 +32,6 @@ struct Terrain {
   Checker checker;
   Canopy canopy;
   Swash swash;
-  Foam foam;
 };
 
 void fill(const MaterialInputs& in, const RenderView& view, Terrain& terrain);

@@ -14,8 +14,8 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 struct AtHulls {
-  V sky_hidden;  // part of the sky's light that hulls keep off
-  V foam_cover;  // part of the water that the foam at their waterlines hides
+  V sky_hidden;    // part of the sky's light that hulls keep off
+  FoamLayer foam;  // at their waterlines
 };
 
 // How far q, relative to a waterline's middle, lies outside it [m]: along the line to the middle of
@@ -37,12 +37,12 @@ HWY_INLINE V OutsideWaterline(const Waterline& line, V x, V y) {
 }
 
 // All hulls together at points of the water in a span of pixels.
-inline HWY_NOINLINE AtHulls SampleHulls(const SunShadow& shadow, const Foam& material,
+inline HWY_NOINLINE AtHulls SampleHulls(const SunShadow& shadow, const SlopeLayer& lace,
                                         std::span<const std::uint16_t> casters,
                                         const PixelSpan& span, const V3& p, const V& level_m) {
   const D d;
   const V zero = hn::Zero(d), one = Constant(1.0f);
-  AtHulls at = {zero, zero};
+  AtHulls at = {zero, NoFoam()};
   V foam = zero;
   for (const std::uint16_t number : casters) {
     if (!shadow.casters.sea_pixels[number].meets(span)) continue;
@@ -70,7 +70,8 @@ inline HWY_NOINLINE AtHulls SampleHulls(const SunShadow& shadow, const Foam& mat
   if (hn::AllTrue(d, foam == zero)) return at;
   // Thinner towards its rim.
   const V thick = Min(MulAdd(foam, 1.1f, 0.2f), one);
-  at.foam_cover = FoamCover(material, p, level_m, foam) * thick;
+  at.foam.cover = FoamCover(lace, p, level_m, foam) * thick;
+  at.foam.thickness = IfThenElseZero(at.foam.cover > zero, one);
   return at;
 }
 

@@ -259,19 +259,16 @@ HWY_INLINE V FlagsOf(V mirrored_alpha, V refracted_alpha, V wake) {
          bit(wake * 0.5f, kShowsWake);
 }
 
-// What hulls do to the water around them: they keep the sky's light off it and whiten it, afresh
-// and so thickly.
+// What hulls do to the water around them: they keep the sky's light off it and whiten it.
 HWY_INLINE void AddHulls(const Shading& shading, const TilePixels& tile, const Packet& packet,
-                         V3& refracted, TornFoam& foam) {
+                         V3& refracted, FoamLayer& foam) {
   if (tile.casters.empty()) return;
   const V level_m =
       FootprintLevel(FootprintAcross(shading.rays, packet), Clamp(packet.to_eye.z, kMinCos, 1.0f));
-  const AtHulls hulls = SampleHulls(shading.sun_shadow, shading.material<Water>().hull_foam,
+  const AtHulls hulls = SampleHulls(shading.sun_shadow, shading.material<Water>().hull_foam_lace,
                                     tile.casters, SpanOf(packet), packet.p, level_m);
   refracted = refracted * (1.0f - hulls.sky_hidden);
-  foam.cover = Max(foam.cover, hulls.foam_cover);
-  const auto splashed = hulls.foam_cover > 0.0f;
-  foam.thickness = IfThenElse(splashed, 1.0f, foam.thickness);
+  foam = Join(foam, hulls.foam);
 }
 
 // The light of a surface from above, of slopes that a body of water has there. The body says what
@@ -281,7 +278,8 @@ HWY_INLINE void AddHulls(const Shading& shading, const TilePixels& tile, const P
 //   Looked Mirrored(const Facing&, V inv_variance, V3 floor);  floor: Refracted::floor_added
 //   V Weight(const Facing&);                                   of what it mirrors
 //   V SunPath(const Facing&, V glint);
-//   V3 AddFoam(const TornFoam&, const Facing&, const LightSeen&, V3 light);
+//   V SunOnFoam(const Facing&);                                the cosine
+//   FoamOpacity kFoam;
 template <class Body>
 HWY_INLINE ShadingResult ShadeFromAbove(const Shading& shading, const TilePixels& tile,
                                         const Packet& packet, const WaterSlopes& s,
@@ -294,16 +292,19 @@ HWY_INLINE ShadingResult ShadeFromAbove(const Shading& shading, const TilePixels
                            f.area, inv_variance);
   Refracted refracted = body.Below(sun_visible);
   const Looked mirrored = body.Mirrored(f, inv_variance, refracted.floor_added);
-  TornFoam foam = {s.foam_cover, s.foam_thickness, s.foam_bubbles};
+  FoamLayer foam = s.foam;
   AddHulls(shading, tile, packet, refracted.light, foam);
   const V3 arriving = Lerp(refracted.light, mirrored.light, body.Weight(f));
   const V sun_path = body.SunPath(f, glint);
   V3 seen = MulAdd(Constant(water.optics.glitter_light), sun_path * sun_visible, arriving);
-  seen = body.AddFoam(foam, f, {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
+  seen = AddFoam(water.foam_light, Body::kFoam, foam, body.SunOnFoam(f),
+                 {sun_visible, AmbientUnderClouds(shading, packet.p)}, seen);
   return {seen, f.normal, foam.cover, FlagsOf(mirrored.alpha, refracted.image_alpha, s.wake)};
 }
 
 struct SeaBody {
+  static constexpr FoamOpacity kFoam = {0.55f, 0.42f, 0.4f};
+
   const Shading& shading;
   const TilePixels& tile;
   const Water& water;
@@ -325,9 +326,8 @@ struct SeaBody {
     if (!water.glitter.sun_texture) return glint;
     return f.reflectance * ProjectedGlitter(water.glitter, packet.to_eye, f.normal, s.variance);
   }
-  HWY_INLINE V3 AddFoam(const TornFoam& foam, const Facing& f, const LightSeen& seen,
-                        V3 light) const {
-    return AddWhitecaps(water.whitecaps, foam, shading.light.sun_direction, seen, f.normal, light);
+  HWY_INLINE V SunOnFoam(const Facing& f) const {
+    return Max(Dot(f.normal, Constant(shading.light.sun_direction)), 0.0f);
   }
 };
 

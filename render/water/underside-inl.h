@@ -240,13 +240,13 @@ struct UndersideShader {
     }
     // Shadows are looked for where there is sun to hide.
     const V sun = SunThrough(s.light.sun_direction, s.media.refraction_index, ray, slopes, f);
-    if (!hn::AllFalse(d, Max(sun, slopes.foam_cover) > zero)) {
+    if (!hn::AllFalse(d, Max(sun, slopes.foam.cover) > zero)) {
       const V sun_visible = SunOnSea(s, tile, packet);
       seen = MulAdd(Constant(s.light.sun_irradiance), sun * sun_visible, seen);
-      seen = AddFoamFromBelow(s, slopes.foam_cover, sun_visible, seen);
+      seen = AddFoamFromBelow(s, slopes.foam.cover, sun_visible, seen);
     }
     return {IfThenElse(lost, nothing.light, seen), IfThenElse(lost, nothing.normal, f.normal),
-            hn::IfThenZeroElse(lost, slopes.foam_cover),
+            hn::IfThenZeroElse(lost, slopes.foam.cover),
             hn::IfThenZeroElse(lost, FlagsOf(mirrored_alpha, bent_alpha, slopes.wake))};
   }
 };

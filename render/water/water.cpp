@@ -162,13 +162,15 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
 float max_distortion_px(const View& window) { return 0.1f * static_cast<float>(window.height_px); }
 
 void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
-  if (!shows(view.kind, Water::kSurface) || in.without.has(Part::kWater)) return;
+  if (!shows(view.kind, Water::kSurface)) return;
+  water.foam_light = make_foam_light(in);  // rivers' too
+  if (in.without.has(Part::kWater)) return;
   const glm::dvec2 eye(view.camera.eye_world);
   fill_waves(in, eye, water);
   fill_coast(in, eye, water);
   water.near_shore = make_near_shore(in, eye);
-  water.foam = make_foam(in, eye);
-  water.hull_foam = make_foam(in, eye, kHullFoamPeriod_m);
+  water.foam_lace = make_foam_lace(in, eye);
+  water.hull_foam_lace = make_foam_lace(in, eye, kHullFoamPeriod_m);
   water.whitecaps = make_whitecaps(in, eye);
   water.wakes = make_wakes(in, water.whitecaps, eye);
   water.glitter = make_glitter(in);

@@ -70,7 +70,8 @@ struct Water {
   bool submerged = false;  // the eye sees the surface from below
   SlopeLayer coast_slopes, coast_surf;
   NearShore near_shore;
-  Foam foam, hull_foam;
+  SlopeLayer foam_lace, hull_foam_lace;
+  FoamLight foam_light;
   Whitecaps whitecaps;
   Wakes wakes;
   Glitter glitter;

@@ -25,38 +25,17 @@ namespace HWY_NAMESPACE {
 // together) of the slopes too fine for a pixel.
 struct WaterSlopes {
   V slope_x, slope_y, variance;
-  V foam_cover;     // part hidden by foam, in [0, 1]
   V fine_variance;  // of all slopes but the drawn ones of the long waves: triangles do not show
                     // them
   V long_cosine;    // to the eye, of those
-  // The foam's thickness and bubbles, as in TornFoam.
-  V foam_thickness, foam_bubbles;
+  FoamLayer foam;
   V wake;  // over 1 where one is seen
 };
 
 // Level water without foam or wakes.
 HWY_INLINE WaterSlopes NoSlopes(V variance, V fine_variance, V long_cosine) {
   const V zero = hn::Zero(D());
-  return {zero, zero, variance, zero, fine_variance, long_cosine, zero, zero, zero};
-}
-
-HWY_INLINE void SetFoam(const TornFoam& foam, WaterSlopes& s) {
-  s.foam_cover = foam.cover;
-  s.foam_thickness = foam.thickness;
-  s.foam_bubbles = foam.bubbles;
-}
-
-// Foam of another origin, torn like that which is there.
-HWY_INLINE void AddTornFoam(const TornFoam& foam, WaterSlopes& s) {
-  s.foam_cover = Max(s.foam_cover, foam.cover);
-  s.foam_thickness = Max(s.foam_thickness, foam.thickness);
-  s.foam_bubbles = Max(s.foam_bubbles, foam.bubbles);
-}
-
-// Foam of another origin, so far over its threshold.
-HWY_INLINE void AddFoamOver(V over, WaterSlopes& s) {
-  s.foam_cover = Max(s.foam_cover, CoverOfOver(over));
-  s.foam_thickness = Max(s.foam_thickness, Clamp(over, 0.0f, 1.0f));
+  return {zero, zero, variance, fine_variance, long_cosine, NoFoam(), zero};
 }
 
 HWY_INLINE void AddSine(const SineLayer& sine, V3 p, V level_m, WaterSlopes& s) {
@@ -171,7 +150,7 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
   s.fine_variance = s.fine_variance + at.variance;
   const V slope2 = MulAdd(at.slope_x, at.slope_x, at.slope_y * at.slope_y);
   s.wake = Max(slope2 * (1.0f / (0.02f * 0.02f)), at.foam * 10.0f);
-  AddTornFoam(TearWhitecaps(water.wakes.foam, p, level_m, at.foam), s);
+  s.foam = Join(s.foam, TearWhitecaps(water.wakes.foam, p, level_m, at.foam));
 }
 
 // Adds the slopes of the sea's longest patch, and what foam its waves have, where surf leaves some.
@@ -187,18 +166,20 @@ HWY_INLINE void AddPatchAndFoam(const Water& water, const ViewRays& rays,
     foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
                           level_flat_m[k], surf[k].ceded);
   for (std::size_t k = 0; k < packets.size(); ++k)
-    SetFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]), s[k]);
+    s[k].foam = TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]);
 }
 
 // Adds the foam of waves that break at a coast.
 HWY_INLINE void AddCoastFoam(const Water& water, std::span<const Packet> packets,
                              std::span<const V> level_flat_m, const Surf* surf, WaterSlopes* s) {
   for (std::size_t k = 0; k < packets.size(); ++k)
-    AddFoamOver(FoamOver(water.foam, packets[k].p, level_flat_m[k], surf[k].foam), s[k]);
+    s[k].foam =
+        Join(s[k].foam,
+             FoamOfOver(FoamOver(water.foam_lace, packets[k].p, level_flat_m[k], surf[k].foam)));
   if (water.near_shore.fronts.torn <= 0.0f) return;
   for (std::size_t k = 0; k < packets.size(); ++k)
-    AddTornFoam(TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], surf[k].torn_foam),
-                s[k]);
+    s[k].foam = Join(s[k].foam, TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k],
+                                              surf[k].torn_foam));
 }
 
 // Slopes from the sines, the wave patches and the scrolling bump layers, whose coordinates noise

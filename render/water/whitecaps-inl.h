@@ -6,7 +6,7 @@
 #define SWELL_RENDER_WATER_WHITECAPS_INL_H_
 #endif
 
-#include "render/tile/sun_shadow-inl.h"
+#include "render/water/foam-inl.h"
 #include "render/water/foam_map-inl.h"
 #include "render/water/whitecaps.h"
 
@@ -96,19 +96,13 @@ HWY_INLINE V WhitecapsAt(const Whitecaps& material, V long_foam, V3 p, V height_
   return (one - free) * (one - ceded);
 }
 
-// Foam at a packet's pixels: the part of them that it hides, how thick it is there, and how many
-// bubbles the water has between and around it; all in [0, 1].
-struct TornFoam {
-  V cover, thickness, bubbles;
-};
-
 // Foam is as thick as it is over its threshold, so that lace and tears go on inside what is white
 // all over; from far it has the mean of that.
-HWY_INLINE TornFoam TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
+HWY_INLINE FoamLayer TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V foam) {
   const D d;
   const V zero = hn::Zero(d);
   const auto some = foam > material.least;
-  if (hn::AllFalse(d, some)) return {zero, zero, zero};
+  if (hn::AllFalse(d, some)) return NoFoam();
   V cover = foam, thickness = foam * 0.5f;
   // Where it is 0 the blends below change no bit, whatever the lanes beside show.
   const V seen = IfThenElseZero(some, LaceSeen(material.tears, level_m));
@@ -126,23 +120,6 @@ HWY_INLINE TornFoam TearWhitecaps(const Whitecaps& material, V3 p, V level_m, V 
     thickness = Lerp(thickness, Max(foam - JoinThresholds(tears, lace), zero), seen);
   }
   return {IfThenElseZero(some, cover), IfThenElseZero(some, thickness), IfThenElseZero(some, foam)};
-}
-
-// How much of the light that foam of this thickness hides.
-HWY_INLINE V OpacityOf(V thickness) { return MulAdd(thickness, 0.42f, 0.55f); }
-
-// Water of radiance `light` under foam that sees so much of sun and sky.
-HWY_INLINE V3 AddWhitecaps(const Whitecaps& material, const TornFoam& foam, glm::vec3 sun_direction,
-                           const LightSeen& seen, V3 normal, V3 light) {
-  const V zero = hn::Zero(D());
-  if (hn::AllFalse(D(), Max(foam.cover, foam.bubbles) > zero)) return light;
-  const V cos_sun = Max(Dot(normal, Constant(sun_direction)), zero) * seen.sun;
-  const V3 white =
-      MulAdd(Constant(material.sun_light), cos_sun, Constant(material.sky_light) * seen.ambient);
-  const V3 bubbly = {white.x * material.bubbles.x, white.y * material.bubbles.y,
-                     white.z * material.bubbles.z};
-  const V3 between = Lerp(light, bubbly, foam.bubbles * 0.4f);
-  return Lerp(between, white, foam.cover * OpacityOf(foam.thickness));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,14 +5,11 @@
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "render/frame/parts.h"
-#include "render/water/foam.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {
 namespace {
 
-// Light that bubbles send back has come through so much water, and loses half besides.
-constexpr float kBubblesDeep_m = 2.0f, kBubblesAlbedo = 0.5f;
 // Periods across the wind of the pattern, which has cells of 1/10 and 1/25 of that.
 constexpr double kEddies_m = 173.0, kTears_m = 41.0, kLace_m = 9.7;
 
@@ -37,11 +34,6 @@ FoamLace make_lace(const MaterialInputs& in, glm::dvec2 eye, double period_m, do
 
 Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye) {
   Whitecaps whitecaps;
-  whitecaps.sky_light = kFoamAlbedo * in.light.ambient;
-  whitecaps.sun_light = (kFoamAlbedo / static_cast<float>(kPi)) * in.light.sun_irradiance;
-  for (int c = 0; c < 3; ++c)
-    whitecaps.bubbles[c] = kBubblesAlbedo * static_cast<float>(exp(static_cast<double>(
-                                                -kBubblesDeep_m * in.media.absorption_per_m[c])));
   // Lines of foam along the wind are seen from Beaufort 7 on, 13.9 m/s.
   const double wind_mps = in.world.scene.sea.wind_speed_mps;
   const double gale = smoothstep(11.0, 20.0, wind_mps);

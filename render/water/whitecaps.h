@@ -1,5 +1,4 @@
-// Whitecaps of the open sea: where its foam lies (ocean/open_sea/whitecaps.h), how it tears, and
-// its light.
+// Whitecaps of the open sea: where its foam lies (ocean/open_sea/whitecaps.h) and how it tears.
 #pragma once
 
 #include <array>
@@ -37,8 +36,6 @@ struct Whitecaps {
   float crest_per_m = 0.0f;  // ocean::foam_on_crest()
   float least = 0.0f;        // less foam is not drawn: less than far water shows
   FoamLace eddies, tears, lace;
-  glm::vec3 sky_light{0.0f}, sun_light{0.0f};  // radiance of snow under the sky, facing the sun
-  glm::vec3 bubbles{0.0f};                     // of that, what water full of bubbles sends back
 };
 
 Whitecaps make_whitecaps(const MaterialInputs& in, glm::dvec2 eye);

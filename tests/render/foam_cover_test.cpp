@@ -23,7 +23,7 @@ struct FoamField {
     std::vector<float> code = texture::make_foam_pattern(kPattern, 4);
     for (float& c : code) c = 2.0f * c - 1.0f;
     texture::pack_map2(kPattern, code, code, 1.0f / 127.0f, map);
-    foam.pattern = make_layer(map, 9.0, 1.0f, {0.0, 0.0}, {});
+    lace = make_layer(map, 9.0, 1.0f, {0.0, 0.0}, {});
   }
   // The mean over one period, sampled at the pattern's texels.
   double mean_cover(float amount, int level) const {
@@ -38,12 +38,12 @@ struct FoamField {
       p.emplace_back(9.0f * static_cast<float>(i % kPattern) / kPattern,
                      9.0f * static_cast<float>(i / kPattern) / kPattern, -1.0f);
     std::vector<float> cover(p.size());
-    const float level_m = static_cast<float>(level) - foam.pattern.log2_texels_per_m;
-    foam_cover(foam, p, level_m, std::vector<float>(p.size(), amount), cover);
+    const float level_m = static_cast<float>(level) - lace.log2_texels_per_m;
+    foam_cover(lace, p, level_m, std::vector<float>(p.size(), amount), cover);
     return cover;
   }
   texture::PackedMap2 map;
-  Foam foam;
+  SlopeLayer lace;
 };
 
 // Thresholds are spread evenly over [0, 1], and rims are 0.3 wide as thresholds: the mean of

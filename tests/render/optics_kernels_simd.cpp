@@ -43,7 +43,7 @@ Packet PacketAt(std::span<const glm::vec3> p_rel, std::size_t first) {
 
 void StoreSeen(const WaterSlopes& s, std::span<SeenWater> seen, std::size_t first) {
   HWY_ALIGN float lanes[4][kLanes];
-  const V values[4] = {s.slope_x, s.slope_y, s.variance, s.foam_cover};
+  const V values[4] = {s.slope_x, s.slope_y, s.variance, s.foam.cover};
   for (int i = 0; i < 4; ++i) hn::Store(values[i], D(), lanes[i]);
   for (std::size_t lane = 0; lane < kLanes && first + lane < seen.size(); ++lane)
     seen[first + lane] = {{lanes[0][lane], lanes[1][lane]}, lanes[2][lane], lanes[3][lane]};

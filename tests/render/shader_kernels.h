@@ -41,7 +41,7 @@ void unhidden_cosines(std::span<const float> cosine, float level_cosine, float v
 void tilted_normals(std::span<const glm::vec3> to_eye, float least_cos, std::span<glm::vec3> normal,
                     std::span<float> cosine);
 
-void foam_cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
+void foam_cover(const SlopeLayer& lace, std::span<const glm::vec3> p_rel, float level_m,
                 std::span<const float> amount, std::span<float> cover);
 
 void swash_edge(const Swash& swash, std::span<const glm::vec3> p_rel, std::span<float> edge_m,

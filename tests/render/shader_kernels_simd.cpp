@@ -120,10 +120,10 @@ void LightOfWater(const Shading& shading, std::span<const glm::vec3> to_eye,
   });
 }
 
-void Cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
+void Cover(const SlopeLayer& lace, std::span<const glm::vec3> p_rel, float level_m,
            std::span<const float> amount, std::span<float> cover) {
   ForPackets(cover.size(), [&](std::size_t i) {
-    StoreSome(FoamCover(foam, LoadSome(p_rel, i), Constant(level_m), LoadSome(amount, i)), cover,
+    StoreSome(FoamCover(lace, LoadSome(p_rel, i), Constant(level_m), LoadSome(amount, i)), cover,
               i);
   });
 }
@@ -356,9 +356,9 @@ void sky_light(const Shading& shading, std::span<const float> x_px, std::span<co
   HWY_DYNAMIC_DISPATCH(Sky)(shading, x_px, y_px, light);
 }
 
-void foam_cover(const Foam& foam, std::span<const glm::vec3> p_rel, float level_m,
+void foam_cover(const SlopeLayer& lace, std::span<const glm::vec3> p_rel, float level_m,
                 std::span<const float> amount, std::span<float> cover) {
-  HWY_DYNAMIC_DISPATCH(Cover)(foam, p_rel, level_m, amount, cover);
+  HWY_DYNAMIC_DISPATCH(Cover)(lace, p_rel, level_m, amount, cover);
 }
 
 void swash_edge(const Swash& swash, std::span<const glm::vec3> p_rel, std::span<float> edge_m,

@@ -115,7 +115,7 @@ struct PlainWater {
     const std::vector<float> zero(kTexels * kTexels), share(kTexels * kTexels, share_of_trains);
     texture::pack_map2(kTexels, zero, zero, 1.0f / 127.0f, still);
     texture::pack_map2(kTexels, share, zero, 1.0f / 127.0f, surf);
-    water.uv_noise = water.coast_slopes = water.foam.pattern = layer(still);
+    water.uv_noise = water.coast_slopes = water.foam_lace = layer(still);
     water.coast_surf = layer(surf);
     water.has_coast = true;
     water.base_variance = kBaseVariance;

@@ -82,7 +82,7 @@ void Peer::State::take_maps(const Workspace::State& frame) {
                is_patch);
   }
   if (sea.has_coast) {
-    bind_layer(kFoamUnit, sea.foam.pattern, Levels::kNearest, false);
+    bind_layer(kFoamUnit, sea.foam_lace, Levels::kNearest, false);
     bind_layer(kCoastSlopesUnit, sea.coast_slopes, Levels::kBlended, true);
     bind_layer(kCoastSurfUnit, sea.coast_surf, Levels::kNearest, true);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -121,9 +122,11 @@ void set_layer(const SlopeLayer& layer, const std::string& name, const GlProgram
   program.set(name + "_scale", texture_scale(layer));
 }
 
-void set_foam(const render::Foam& foam, const GlProgram& program) {
-  set_layer(foam.pattern, "foam", program);
-  program.set("foam_light", foam.sky_light + foam.sun_light);
+void set_foam(const Shading& s, const GlProgram& program) {
+  const auto& water = s.material<render::Water>();
+  set_layer(water.foam_lace, "foam", program);
+  const float cos_sun = std::max(s.light.sun_direction.z, 0.0f);
+  program.set("foam_light", water.foam_light.sky + cos_sun * water.foam_light.sun);
 }
 
 void set_waves(const render::Water& water, const GlProgram& program) {
@@ -160,7 +163,7 @@ void set_water(const Shading& s, const GlProgram& program) {
   if (water.has_coast) {
     set_layer(water.coast_slopes, "coast_slopes", program);
     set_layer(water.coast_surf, "coast_surf", program);
-    set_foam(water.foam, program);
+    set_foam(s, program);
   }
   program.set("mirrored_sea", water.optics.mirrored_sea);
   program.set("mirrored_floor_part", water.optics.mirrored_floor_part);
@@ -196,7 +199,7 @@ void set_terrain(const Shading& s, const GlProgram& program) {
   program.set("lag_a", terrain.swash.lag_a);
   program.set("lag_b", terrain.swash.lag_b);
   program.set("lag_c", terrain.swash.lag_c);
-  set_foam(terrain.foam, program);
+  set_foam(s, program);
 }
 
 void set_view_programs(const Shading& s, const render::RenderView& view,
