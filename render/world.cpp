@@ -155,26 +155,27 @@ struct LandParts {
   std::shared_ptr<const lod::ReliefBounds> relief_bounds;
 };
 
-// The land as it is drawn; `smooth` is room for it.
-const terrain::HeightGrid& drawn_land(const terrain::HeightGrid& land,
-                                      const terrain::TerrainDescription& description,
-                                      Workers& workers, terrain::HeightGrid& smooth) {
-  if (!description.bicubic) return land;
-  return smooth = terrain::refine_bicubic(land, workers);
+// The land as it is drawn, and heights of it and of what surrounds it.
+struct DrawnLand {
+  terrain::HeightGrid heights, around;
+};
+
+DrawnLand draw_land(const terrain::HeightGrid& land, bool bicubic, Workers& workers) {
+  return {bicubic ? terrain::refine_bicubic(land, workers) : land, sample_around(land, workers)};
 }
 
-LandParts build_land_parts(const scene::Scene& scene, Workers& workers) {
+// `drawn` gives the DrawnLand of a terrain.
+template <class Drawn>
+LandParts build_land_parts(const scene::Scene& scene, Workers& workers, Drawn&& drawn) {
   std::optional<scene::Land> land = scene::build_land(scene, workers);
   LandParts parts;
   parts.terrain = std::make_shared<const terrain::HeightGrid>(std::move(land->terrain));
   parts.inland = std::move(land->water);
   parts.shore = std::make_shared<const terrain::ShoreMap>(
       *scene::build_shore(scene, parts.terrain.get(), workers.thread_count()));
-  const terrain::HeightGrid around = sample_around(*parts.terrain, workers);
-  terrain::HeightGrid smooth;
-  const terrain::HeightGrid& drawn = drawn_land(*parts.terrain, *scene.terrain, workers, smooth);
+  const auto& [heights, around] = drawn(*parts.terrain);
   parts.maps = std::make_shared<const TerrainMaps>(
-      build_terrain_maps(drawn, around, *scene.terrain, workers));
+      build_terrain_maps(heights, around, *scene.terrain, workers));
   parts.relief_bounds = std::make_shared<const lod::ReliefBounds>(
       around.height_m, around.grid.samples_x, around.grid.spacing_m);
   return parts;
@@ -184,7 +185,12 @@ void add_land(PartMaker& parts, Workers& workers, World::State& state) {
   const scene::Scene& scene = state.scene;
   if (!scene.terrain) return;
   const ValueBytes inputs = land_inputs(parts);
-  const auto land = parts.share("land", inputs, [&] { return build_land_parts(scene, workers); });
+  std::optional<DrawnLand> made;  // if a part has to be made
+  const auto drawn = [&](const terrain::HeightGrid& land) -> const DrawnLand& {
+    return made ? *made : made.emplace(draw_land(land, scene.terrain->bicubic, workers));
+  };
+  const auto land =
+      parts.share("land", inputs, [&] { return build_land_parts(scene, workers, drawn); });
   state.terrain = land->terrain;
   state.inland = land->inland;
   state.shore = land->shore;
@@ -192,9 +198,8 @@ void add_land(PartMaker& parts, Workers& workers, World::State& state) {
   state.relief_bounds = land->relief_bounds;
   if (scene.detail.terrain_method != scene::TerrainMethod::kRays) return;
   state.land_rays = parts.share("land rays", inputs, [&] {
-    terrain::HeightGrid smooth;
-    return build_land_rays(drawn_land(*state.terrain, *scene.terrain, workers, smooth),
-                           sample_around(*state.terrain, workers), *scene.terrain, workers);
+    const auto& [heights, around] = drawn(*state.terrain);
+    return build_land_rays(heights, around, *scene.terrain, workers);
   });
 }
 
