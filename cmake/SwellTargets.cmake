@@ -66,8 +66,8 @@ endif()
 
 # Headers that most files include, compiled once: a third of a folder's compile time. That files include what they use shows with
 # CMAKE_DISABLE_PRECOMPILE_HEADERS (scripts/debian13.sh).
-set(swell_common_headers <algorithm> <array> <cmath> <cstdint> <functional> <memory> <optional> <span> <string> <string_view>
-  <vector>)
+set(swell_common_headers <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory> <mutex> <optional> <span>
+  <string> <string_view> <variant> <vector>)
 
 # With CMAKE_UNITY_BUILD, as the presets have it, a target's files are compiled up to 32 at a time, in a third of the
 # time: most of it goes into the headers of what they use. So names at the top of a file differ from those of its folder's
