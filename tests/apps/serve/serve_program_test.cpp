@@ -46,6 +46,7 @@ class ServeProgram : public testing::Test {
     const std::string folder = folder_.path().string();
     pid_ = fork();
     if (pid_ == 0) {
+      apps::begin_child(SIGHUP);
       dup2(ends[1], 1);
       if (chdir(folder.c_str()) != 0) _exit(99);
       if (ignored) std::signal(ignored, SIG_IGN);

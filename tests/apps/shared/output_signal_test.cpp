@@ -32,6 +32,7 @@ class Signals : public testing::TestWithParam<Way> {
   int end_by(int signal, std::uint64_t delay_us, const std::function<void()>& work) {
     const pid_t child = fork();
     if (child == 0) {
+      begin_child(signal);
       if (!GetParam().unnamed_files && !refuse_unnamed_files()) _exit(9);
       work();
       _exit(0);

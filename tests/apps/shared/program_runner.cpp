@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,6 +27,7 @@ void replace_stream(int stream, const std::string& path, int flags) {
 [[noreturn]] void become(const std::string& program, const Arguments& arguments,
                          const Surroundings& surroundings, const std::string& out,
                          const std::string& err) {
+  begin_child(surroundings.signal);
   replace_stream(STDIN_FILENO, "/dev/null", O_RDONLY);
   replace_stream(STDOUT_FILENO, out, O_WRONLY | O_CREAT | O_TRUNC);
   replace_stream(STDERR_FILENO, err, O_WRONLY | O_CREAT | O_TRUNC);
@@ -57,6 +59,11 @@ void replace_stream(int stream, const std::string& path, int flags) {
 }
 
 }  // namespace
+
+void begin_child(int signal) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (signal != 0 && signal != SIGKILL) std::signal(signal, SIG_DFL);
+}
 
 Outcome run_program(const std::string& program, const Arguments& arguments,
                     const Surroundings& surroundings) {

@@ -30,6 +30,10 @@ struct Surroundings {
   std::uint64_t signal_after_us = 0;
 };
 
+// In a child just forked: it ends when its parent does, and the signal (0: none) ends it though
+// whoever started the tests has it ignored, as nohup has SIGHUP.
+void begin_child(int signal);
+
 Outcome run_render(const Arguments& arguments, const Surroundings& surroundings = {});
 Outcome run_bench(const Arguments& arguments, const Surroundings& surroundings = {});
 Outcome run_program(const std::string& program, const Arguments& arguments,
