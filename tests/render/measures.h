@@ -27,6 +27,13 @@ inline std::string difference(const Target& a, const Target& b) {
   return "";
 }
 
+// How many pixels of two pictures of one size differ.
+inline int different_pixels(const Target& a, const Target& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) count += a.rgba[i] != b.rgba[i];
+  return count;
+}
+
 // Returns the mean absolute difference of two pictures of one size, over pixels and channels, in
 // codes of 0 to 255.
 inline double mean_difference(const Target& a, const Target& b) {

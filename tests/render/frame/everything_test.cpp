@@ -1,6 +1,7 @@
 // scenes/everything.toml shows what it is there for, in its own camera's picture.
 #include <gtest/gtest.h>
 
+#include "render/measures.h"
 #include "render/shot.h"
 #include "render/world_view.h"
 
@@ -30,23 +31,17 @@ constexpr Part kParts[] = {Part::kImplicits,    Part::kTrees,        Part::kRive
                            Part::kSurfFronts,   Part::kHaze,         Part::kShadows,
                            Part::kReflection,   Part::kRefraction};
 
-int changed_values(const Target& a, const Target& b) {
-  int changed = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i) changed += a.rgba[i] != b.rgba[i];
-  return changed;
-}
-
 TEST_F(Everything, IsInThePicture) {
   const Target all = draw({});
   for (const Part part : kParts)
-    EXPECT_GE(changed_values(all, draw({part})), 10) << part_name(part);
+    EXPECT_GE(different_pixels(all, draw({part})), 10) << part_name(part);
 }
 
 TEST_F(Everything, CanBeLeftOutAllAtOnce) {
   const Target all = draw({});
   PartSet parts;
   for (const Part part : kParts) parts.add(part);
-  EXPECT_GE(changed_values(all, draw(parts)), 10000);
+  EXPECT_GE(different_pixels(all, draw(parts)), 10000);
 }
 
 TEST_F(Everything, StagesTakeTheTimeOfWhatIsDrawnInThem) {

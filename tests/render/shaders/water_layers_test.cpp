@@ -12,6 +12,7 @@
 #include "math/simd_target.h"
 #include "ocean/water_surface.h"
 #include "render/drawn_water.h"
+#include "render/measures.h"
 #include "render/shaders/optics_kernels.h"
 #include "terrain/height_grid.h"
 
@@ -27,12 +28,6 @@ struct DrawnLike : DrawnWater {
   DrawnLike(const scene::Scene& scene, const World& like)
       : DrawnWater(World(scene, like, 1), kTime_s) {}
 };
-
-int different_pixels(const Target& a, const Target& b) {
-  int count = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i) count += a.rgba[i] != b.rgba[i];
-  return count;
-}
 
 TEST(WaterLayers, EverySineIsShaded) {
   scene::Scene scene = shading_scene(kLayersEye_m);
