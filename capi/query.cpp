@@ -28,7 +28,7 @@ const Frame& frame_at(double t_s, AtTime<Frame>& kept, const Advance& advance) {
   return kept.frame;
 }
 
-const render::World::State& state_of(const swell_session& session) {
+const render::WorldState& state_of(const swell_session& session) {
   return session.named->world.state();
 }
 
@@ -69,7 +69,7 @@ void ask(const swell_query& query, swell_session& session) {
   check_points(query);
   const auto disturbances = given_disturbances(query.disturbances, query.disturbance_count);
   if (query.count == 0) return;
-  const render::World::State& world = state_of(session);
+  const render::WorldState& world = state_of(session);
   std::optional<Forgetting> forgetting;
   if (!disturbances.empty()) forgetting.emplace(session);
   const ocean::SeaFrame& sea = sea_at(query.t_s, session, disturbances);

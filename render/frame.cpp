@@ -109,7 +109,7 @@ void prepare_scratch(int threads, Workspace::State& ws) {
 
 // What every stage of a frame reads, and where they write.
 struct FrameInputs {
-  const World::State& world;
+  const WorldState& world;
   const View& view;  // as it is drawn
   double t_s;
   const FrameOptions& options;  // with the scene's defaults
@@ -403,7 +403,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   return statistics_of(ws);
 }
 
-const World::State& World::state() const {
+const WorldState& World::state() const {
   SWELL_CHECK(state_, "the World was moved from");
   return *state_;
 }

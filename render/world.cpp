@@ -101,11 +101,11 @@ ValueBytes coast_inputs(const PartMaker& parts) {
   return parts.of({"coast"}).add(sea_inputs(parts).hash()).add(land_inputs(parts).hash());
 }
 // Once there is a sky.
-ValueBytes lit_land_inputs(const PartMaker& parts, const World::State& state) {
+ValueBytes lit_land_inputs(const PartMaker& parts, const WorldState& state) {
   return land_inputs(parts).add(state.sky->to_light);
 }
 
-void add_sky(PartMaker& parts, Workers& workers, World::State& state) {
+void add_sky(PartMaker& parts, Workers& workers, WorldState& state) {
   const scene::Sky& sky = state.scene.sky;
   const bool is_gradient = sky::is_gradient(sky);
   state.atmosphere = parts.share("air", ValueBytes().add(is_gradient).add(sky.turbidity), [&] {
@@ -116,7 +116,7 @@ void add_sky(PartMaker& parts, Workers& workers, World::State& state) {
 }
 
 // Once there is a sky.
-void add_clouds(PartMaker& parts, Workers& workers, World::State& state) {
+void add_clouds(PartMaker& parts, Workers& workers, WorldState& state) {
   const scene::CloudField& field = state.scene.clouds;
   if (field.kind == scene::CloudKind::kNone) return;
   const glm::vec3 to_light = state.sky->to_light;
@@ -124,14 +124,14 @@ void add_clouds(PartMaker& parts, Workers& workers, World::State& state) {
                                    [&] { return build_cloud_volume(field, to_light, workers); });
 }
 
-void add_sea(PartMaker& parts, Workers& workers, World::State& state) {
+void add_sea(PartMaker& parts, Workers& workers, WorldState& state) {
   const ValueBytes inputs = sea_inputs(parts);
   state.sea = parts.share("sea", inputs, [&] { return ocean::Sea(state.scene.sea); });
   state.whitecaps =
       parts.share("whitecaps", inputs, [&] { return ocean::make_whitecaps(*state.sea, workers); });
 }
 
-void add_textures(PartMaker& parts, Workers& workers, World::State& state) {
+void add_textures(PartMaker& parts, Workers& workers, WorldState& state) {
   const scene::Scene& scene = state.scene;
   Textures& textures = state.textures;
   textures.foam = parts.share("foam", {}, build_foam_pattern);
@@ -181,7 +181,7 @@ LandParts build_land_parts(const scene::Scene& scene, Workers& workers, Drawn&& 
   return parts;
 }
 
-void add_land(PartMaker& parts, Workers& workers, World::State& state) {
+void add_land(PartMaker& parts, Workers& workers, WorldState& state) {
   const scene::Scene& scene = state.scene;
   if (!scene.terrain) return;
   const ValueBytes inputs = land_inputs(parts);
@@ -204,7 +204,7 @@ void add_land(PartMaker& parts, Workers& workers, World::State& state) {
 }
 
 // Once there is land.
-void add_coast(PartMaker& parts, Workers& workers, World::State& state) {
+void add_coast(PartMaker& parts, Workers& workers, WorldState& state) {
   const ValueBytes inputs = coast_inputs(parts);
   state.coast = parts.share("coast", inputs, [&] {
     return scene::build_coast(state.scene, state.terrain.get(), state.shore.get(), workers);
@@ -218,14 +218,14 @@ void add_coast(PartMaker& parts, Workers& workers, World::State& state) {
 }
 
 // Once there are sea, coast and shelter.
-void add_near_shore(PartMaker& parts, Workers& workers, World::State& state) {
+void add_near_shore(PartMaker& parts, Workers& workers, WorldState& state) {
   if (!state.shelter) return;
   state.near_shore = parts.share("near shore", coast_inputs(parts),
                                  [&] { return build_near_shore(state, workers); });
 }
 
 // Once there are land and sky.
-void add_land_shadow(PartMaker& parts, Workers& workers, World::State& state) {
+void add_land_shadow(PartMaker& parts, Workers& workers, WorldState& state) {
   if (!state.terrain) return;
   const double water_index = state.scene.water.refraction_index;
   state.land_shadow = parts.share(
@@ -234,7 +234,7 @@ void add_land_shadow(PartMaker& parts, Workers& workers, World::State& state) {
 }
 
 // Once there are land and sky.
-void add_forest(PartMaker& parts, Workers& workers, World::State& state) {
+void add_forest(PartMaker& parts, Workers& workers, WorldState& state) {
   if (state.scene.trees.empty()) return;
   const ValueBytes inputs = parts.of({"trees"}).add(lit_land_inputs(parts, state).hash());
   state.forest = parts.share("forest", inputs, [&]() -> std::optional<Forest> {
@@ -254,12 +254,12 @@ std::vector<const scene::Scene*> same_rivers(const scene::Scene& scene,
   return same;
 }
 
-std::unique_ptr<World::State> make_state(scene::Scene scene, std::span<const World* const> like,
-                                         int threads) {
+std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World* const> like,
+                                       int threads) {
   const ScopedFloatEnvironment ieee;
   scene::check_scene(scene);
   SWELL_CHECK(threads >= 1 && threads <= 256, "threads={}", threads);
-  auto state = std::make_unique<World::State>(World::State{.scene = std::move(scene)});
+  auto state = std::make_unique<WorldState>(WorldState{.scene = std::move(scene)});
   const scene::Scene& now = state->scene;
   PartMaker parts(now, like, state->parts);
   Workers workers(threads);

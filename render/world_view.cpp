@@ -29,7 +29,7 @@ View world_view(const World& world, double t_s, int width_px, int height_px, oce
 View world_view(const World& world, double t_s, const FrameOptions& options, glm::ivec2 size_px,
                 ocean::SeaFrame& sea, Workers& workers) {
   const ScopedFloatEnvironment ieee;
-  const World::State& w = world.state();
+  const WorldState& w = world.state();
   scene::check_given_poses(options.poses, w.scene.objects.size());
   const scene::FloatingObject* mount = scene::camera_mount(w.scene);
   if (!mount) return scene::camera_view(w.scene.camera, t_s, size_px.x, size_px.y);

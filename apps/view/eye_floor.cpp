@@ -7,7 +7,7 @@
 namespace swell::view {
 
 double eye_floor_m(const render::World& world, glm::dvec3 eye_m) {
-  const render::World::State& w = world.state();
+  const render::WorldState& w = world.state();
   if (!w.terrain) return -kDeepestEye_m;
   const glm::dvec2 p(eye_m);
   float ground_m = 0.0f;

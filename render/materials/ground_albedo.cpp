@@ -20,7 +20,7 @@ AlbedoLayer make_albedo_layer(const texture::RgbaImage& albedo, const terrain::G
 
 }  // namespace
 
-GroundAlbedo make_ground_albedo(const World::State& world, glm::dvec2 eye) {
+GroundAlbedo make_ground_albedo(const WorldState& world, glm::dvec2 eye) {
   GroundAlbedo ground;
   if (!world.terrain) return ground;
   const terrain::HeightGrid& land = *world.terrain;

@@ -21,6 +21,6 @@ struct GroundAlbedo {
 };
 
 // Without land there are no texels.
-GroundAlbedo make_ground_albedo(const World::State& world, glm::dvec2 eye);
+GroundAlbedo make_ground_albedo(const WorldState& world, glm::dvec2 eye);
 
 }  // namespace swell::render

@@ -8,7 +8,7 @@ namespace swell::render {
 
 EyeReport find_eye(const World& world, const Workspace& workspace, glm::dvec3 eye_world) {
   const ScopedFloatEnvironment ieee;
-  const World::State& w = world.state();
+  const WorldState& w = world.state();
   const glm::dvec2 p(eye_world);
   if (w.terrain) {
     float ground_m = 0.0f;

@@ -69,7 +69,7 @@ void meet_objects(std::span<const scene::FloatingObject> objects, const ObjectGe
   }
 }
 
-void ask_water(const World::State& world, const ocean::SeaFrame& sea, Pick& pick) {
+void ask_water(const WorldState& world, const ocean::SeaFrame& sea, Pick& pick) {
   const ocean::WaterSurface water = water_surface(world, sea);
   const glm::dvec2 p(pick.p_world);
   glm::vec2 slope;
@@ -89,7 +89,7 @@ void ask_land(const terrain::HeightGrid& terrain, Pick& pick) {
 }
 
 // The nearest thing that was drawn on a ray of the flat world.
-std::optional<Pick> meet_all(const World::State& w, const Workspace::State& ws, const Ray& ray,
+std::optional<Pick> meet_all(const WorldState& w, const Workspace::State& ws, const Ray& ray,
                              PickScratch& scratch) {
   std::optional<Pick> nearest;
   const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
@@ -125,7 +125,7 @@ struct BentRay {
   }
 };
 
-std::optional<Pick> meet_all(const World::State& w, const Workspace::State& ws, const BentRay& bent,
+std::optional<Pick> meet_all(const WorldState& w, const Workspace::State& ws, const BentRay& bent,
                              PickScratch& scratch) {
   constexpr int kMostChords = 4;
   std::optional<Pick> met;
@@ -141,7 +141,7 @@ std::optional<Pick> meet_all(const World::State& w, const Workspace::State& ws, 
 std::optional<Pick> find_pick(const World& world, const View& view, const Workspace& workspace,
                               glm::vec2 at_px, PickScratch& scratch) {
   SWELL_CHECK(std::isfinite(at_px.x) && std::isfinite(at_px.y), "at_px=({}, {})", at_px.x, at_px.y);
-  const World::State& w = world.state();
+  const WorldState& w = world.state();
   const Workspace::State& ws = workspace.state();
   // From where the picture begins.
   const glm::dvec3 to_pixel(view.ray(at_px.x, at_px.y));

@@ -49,7 +49,7 @@ struct LabelTables {
 
 // What a frame is drawn from, once it is known what is visible.
 struct LabelInputs {
-  const World::State& world;
+  const WorldState& world;
   const Meshes& meshes;
   const RenderView& window;
   const FrameOptions& options;  // with the scene's defaults

@@ -16,7 +16,7 @@ namespace swell::render {
 struct LabelSources {
   const LabelTables& tables;
   const Shading& shading;  // of the window
-  const World::State& world;
+  const WorldState& world;
 };
 
 // A tile: its visibility buffer, both empty where it shows nothing but sky; and what its shader has

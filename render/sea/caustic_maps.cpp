@@ -19,7 +19,7 @@ constexpr double kObjectDepth_m = 3.0;  // floating things reach down to about t
 constexpr float kLowestLight = 0.02f;   // z of the direction to a light that tells under water
 
 // How far down there is something to be lit, 0: nothing.
-double lit_depth_m(const World::State& world) {
+double lit_depth_m(const WorldState& world) {
   double depth_m = world.scene.objects.empty() ? 0.0 : kObjectDepth_m;
   if (world.terrain) {
     depth_m = std::max(depth_m, -static_cast<double>(world.terrain->lowest_m));
@@ -29,7 +29,7 @@ double lit_depth_m(const World::State& world) {
   return std::min(depth_m, kDeepest_m);
 }
 
-bool shows_caustics(const World::State& world, PartSet without) {
+bool shows_caustics(const WorldState& world, PartSet without) {
   return !without.has(Part::kCaustics) && world.scene.water.caustics > 0.0 &&
          world.sky->to_light.z > kLowestLight && world.sky->irradiance != glm::vec3(0.0f);
 }
@@ -38,7 +38,7 @@ bool shows_caustics(const World::State& world, PartSet without) {
 // bends light by `bent`: waves too short for patches focus close to the surface, and only scatter
 // further off. They are taken to have a fifth of the mean square slope that the wind raises.
 // Source: Cox and Munk, Measurement of the Roughness of the Sea Surface, 1954.
-float spread_per_m(const World::State& world, double disc, double bent) {
+float spread_per_m(const WorldState& world, double disc, double bent) {
   const double wind_mps = world.scene.sea.has_wind_waves() ? world.scene.sea.wind_speed_mps : 0.0;
   const double slope2 = 0.2 * 0.5 * (0.003 + 0.00512 * wind_mps);  // along one axis
   const double radius = 0.5 * disc * kSunRadius_rad;
@@ -49,7 +49,7 @@ float spread_per_m(const World::State& world, double disc, double bent) {
 constexpr std::array<float, CausticMaps::kMostPatches> kPlaneHeights_m = {0.3f, 1.5f};
 
 // Returns how many maps of reflected caustics there are to make.
-std::size_t begin_mirrored(const World::State& world, PartSet without, CausticMaps& maps) {
+std::size_t begin_mirrored(const WorldState& world, PartSet without, CausticMaps& maps) {
   maps.throws_up = !world.scene.objects.empty() && !without.has(Part::kUplight);
   maps.height_m = kPlaneHeights_m;
   maps.mirrored_spread_per_m = spread_per_m(world, 1.0, 2.0);
@@ -58,7 +58,7 @@ std::size_t begin_mirrored(const World::State& world, PartSet without, CausticMa
 
 }  // namespace
 
-std::size_t trace_caustics(const World::State& world, const ocean::SeaFrame& sea, PartSet without,
+std::size_t trace_caustics(const WorldState& world, const ocean::SeaFrame& sea, PartSet without,
                            CausticMaps& maps, const StageRun& run) {
   maps.patches = 0;
   maps.throws_up = false;

@@ -83,7 +83,7 @@ struct CausticMaps {
 
 // Begins the maps of a frame of the world's sea: of its shortest two patches, but for one whose
 // tiles differ, at depths between its floor's and none. Returns how many maps there are to make.
-std::size_t trace_caustics(const World::State& world, const ocean::SeaFrame& sea, PartSet without,
+std::size_t trace_caustics(const WorldState& world, const ocean::SeaFrame& sea, PartSet without,
                            CausticMaps& maps, const StageRun& run);
 
 // Makes one of them. May run for several at once.

@@ -19,7 +19,7 @@ constexpr int kUvNoiseSize = texture::UvNoiseOptions{}.size;
 constexpr double kUvNoiseCells_per_s = 0.25;
 constexpr float kCoastSlopeScale = 1.5f / 127.0f;  // steeper fronts of breaking waves are clamped
 
-void bake_coast(const World::State& world, double t_s, SeaMaps& sea, Workers& workers) {
+void bake_coast(const WorldState& world, double t_s, SeaMaps& sea, Workers& workers) {
   constexpr std::size_t kPoints = static_cast<std::size_t>(kCoastMapSize) * kCoastMapSize;
   for (std::vector<float>* map : {&sea.coast_slope_x, &sea.coast_slope_y, &sea.coast_foam})
     map->resize(kPoints);
@@ -114,7 +114,7 @@ FoamBlocks find_foam_blocks(const ocean::WhitecapFrame::Patch& patch) {
   return blocks;
 }
 
-void advance_waves(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+void advance_waves(const WorldState& world, double t_s, std::span<const ocean::Disturbance> more,
                    PartSet without, ocean::SeaFrame& frame, Workers& workers) {
   ocean::advance(*world.sea, t_s, frame, workers, !without.has(Part::kCrests));
   frame.sheltered = !without.has(Part::kShelter);
@@ -124,7 +124,7 @@ void advance_waves(const World::State& world, double t_s, std::span<const ocean:
                          workers, world.shore.get());
 }
 
-void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+void advance_sea(const WorldState& world, double t_s, std::span<const ocean::Disturbance> more,
                  PartSet without, SeaMaps& sea, const StageRun& run) {
   advance_waves(world, t_s, more, without, sea.frame, run.workers);
   if (without.has(Part::kMaps)) leave_out_maps(*world.sea, sea.frame);
@@ -179,7 +179,7 @@ void advance_sea(const World::State& world, double t_s, std::span<const ocean::D
   });
 }
 
-ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea) {
+ocean::WaterSurface water_surface(const WorldState& world, const SeaMaps& sea) {
   return water_surface(world, sea.frame);
 }
 

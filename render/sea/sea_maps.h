@@ -51,17 +51,17 @@ struct SeaMaps {
 
 // Fills `frame` with the world's waves at t_s and those of what disturbs the water besides, as
 // pictures without these parts have them.
-void advance_waves(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+void advance_waves(const WorldState& world, double t_s, std::span<const ocean::Disturbance> more,
                    PartSet without, ocean::SeaFrame& frame, Workers& workers);
 
 // Fills `sea` with the world's sea at time t_s, as far as pictures without these parts need it.
-void advance_sea(const World::State& world, double t_s, std::span<const ocean::Disturbance> more,
+void advance_sea(const WorldState& world, double t_s, std::span<const ocean::Disturbance> more,
                  PartSet without, SeaMaps& sea, const StageRun& run);
 
 // Where foam of a patch is, at any time between its steps.
 FoamBlocks find_foam_blocks(const ocean::WhitecapFrame::Patch& patch);
 
 // The water's surface at the time of `sea`, of the same world.
-ocean::WaterSurface water_surface(const World::State& world, const SeaMaps& sea);
+ocean::WaterSurface water_surface(const WorldState& world, const SeaMaps& sea);
 
 }  // namespace swell::render

@@ -29,7 +29,7 @@ void pack_level(const std::vector<std::uint8_t>& bytes, std::vector<std::uint32_
 
 }  // namespace
 
-void advance_cloud_shadow(const World::State& world, const Clouds& deck, const VolumeClouds& volume,
+void advance_cloud_shadow(const WorldState& world, const Clouds& deck, const VolumeClouds& volume,
                           glm::dvec3 eye, PartSet without, CloudShadow& shadow,
                           const StageRun& run) {
   const SkyMaps& sky = *world.sky;

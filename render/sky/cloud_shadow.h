@@ -35,7 +35,7 @@ struct CloudShadow {
 };
 
 // deck: the layer of clouds as seen from the sea's level under the eye, or none; volume: the same.
-void advance_cloud_shadow(const World::State& world, const Clouds& deck, const VolumeClouds& volume,
+void advance_cloud_shadow(const WorldState& world, const Clouds& deck, const VolumeClouds& volume,
                           glm::dvec3 eye, PartSet without, CloudShadow& shadow,
                           const StageRun& run);
 

@@ -126,7 +126,7 @@ float part_under_clouds(double height_m) {
   return static_cast<float>(smoothstep(0.0, kNearLayer_m, sky::kCloudHeight_m - height_m));
 }
 
-Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without) {
+Clouds make_clouds(const WorldState& world, double t_s, glm::dvec3 eye, PartSet without) {
   Clouds clouds;
   const scene::Scene& scene = world.scene;
   const double height_m = sky::kCloudHeight_m - eye.z;

@@ -44,6 +44,6 @@ struct Clouds {
 float part_under_clouds(double height_m);
 
 // What drifts with the wind is a function of t_s.
-Clouds make_clouds(const World::State& world, double t_s, glm::dvec3 eye, PartSet without);
+Clouds make_clouds(const WorldState& world, double t_s, glm::dvec3 eye, PartSet without);
 
 }  // namespace swell::render

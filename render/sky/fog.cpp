@@ -47,7 +47,7 @@ double drifted_turns(const ocean::SeaDescription& sea, glm::dvec2 turns_per_m, d
   return turns_a_loop * (t_s / sea.loop_s);
 }
 
-void fill_banks(const World::State& world, double t_s, glm::dvec2 eye, Fog& fog) {
+void fill_banks(const WorldState& world, double t_s, glm::dvec2 eye, Fog& fog) {
   const scene::FoggyAir& air = world.scene.air;
   const ocean::SeaDescription& sea = world.scene.sea;
   if (air.banks <= 0.0) return;
@@ -67,7 +67,7 @@ void fill_banks(const World::State& world, double t_s, glm::dvec2 eye, Fog& fog)
 
 }  // namespace
 
-Fog make_fog(const World::State& world, double t_s, glm::dvec3 eye_world, PartSet without) {
+Fog make_fog(const WorldState& world, double t_s, glm::dvec3 eye_world, PartSet without) {
   Fog fog;
   const scene::FoggyAir& air = world.scene.air;
   const glm::dvec3 per_m = sky::fog_per_m(air);

@@ -54,6 +54,6 @@ struct Fog {
 };
 
 // eye_world: of the camera. What drifts with the wind is a function of t_s.
-Fog make_fog(const World::State& world, double t_s, glm::dvec3 eye_world, PartSet without);
+Fog make_fog(const WorldState& world, double t_s, glm::dvec3 eye_world, PartSet without);
 
 }  // namespace swell::render

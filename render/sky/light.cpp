@@ -37,8 +37,8 @@ float part_of(glm::vec3 part, glm::vec3 whole) {
 
 }  // namespace
 
-Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky,
-                 const Fog& fog, float ripple_variance) {
+Light make_light(const WorldState& world, const Clouds& clouds, const SkyFrame& sky, const Fog& fog,
+                 float ripple_variance) {
   const SkyMaps& maps = *world.sky;
   Light light;
   light.sun_direction = maps.to_light;
@@ -69,7 +69,7 @@ Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame
   return light;
 }
 
-Media make_media(const World::State& world, const Light& light, const Fog& fog, double height_m,
+Media make_media(const WorldState& world, const Light& light, const Fog& fog, double height_m,
                  PartSet without) {
   const scene::WaterOptics& water = world.scene.water;
   Media media;

@@ -81,10 +81,10 @@ inline constexpr float kDaylightSlant = 1.2f;
 
 // clouds, sky: of the frame; the sky to be kept as long as the light. ripple_variance: of the
 // slopes of ripples too fine for any map (tile/ripples.h).
-Light make_light(const World::State& world, const Clouds& clouds, const SkyFrame& sky,
-                 const Fog& fog, float ripple_variance);
+Light make_light(const WorldState& world, const Clouds& clouds, const SkyFrame& sky, const Fog& fog,
+                 float ripple_variance);
 // height_m: sky_height_m().
-Media make_media(const World::State& world, const Light& light, const Fog& fog, double height_m,
+Media make_media(const WorldState& world, const Light& light, const Fog& fog, double height_m,
                  PartSet without);
 // Returns the media for an eye under water, at the height eye_z over the mean level.
 Media submerge(const Media& media, double eye_z);

@@ -55,7 +55,7 @@ double sky_height_m(const View& view, PartSet without) {
   return without.has(Part::kAltitude) ? 0.0 : std::max(view.eye_world.z, 0.0);
 }
 
-void advance_clouds(const World::State& world, const Clouds& mirrored, double t_s, glm::dvec2 eye,
+void advance_clouds(const WorldState& world, const Clouds& mirrored, double t_s, glm::dvec2 eye,
                     PartSet without, SkyFrame& sky, const StageRun& run) {
   constexpr float kTexel = 2.0f / CloudSky::kSide;
   VolumeClouds volume = make_volume_clouds(world, t_s, {eye, 0.0}, kTexel, without);
@@ -70,7 +70,7 @@ void advance_clouds(const World::State& world, const Clouds& mirrored, double t_
   advance_cloud_shadow(world, mirrored, volume, {eye, 0.0}, without, sky.shadow, run);
 }
 
-void advance_sky(const World::State& world, const Clouds& mirrored, const Fog& fog, double height_m,
+void advance_sky(const WorldState& world, const Clouds& mirrored, const Fog& fog, double height_m,
                  PartSet without, SkyFrame& sky, const StageRun& run) {
   const SkyMaps& maps = *world.sky;
   const bool is_flat = drop_per_m2(world.earth_radius_m(without)) == 0.0f;

@@ -38,12 +38,12 @@ double sky_height_m(const View& view, PartSet without);
 
 // Fills `sky` for an eye at height_m >= 0. `mirrored`: the clouds as seen from the sea; sky.clouds:
 // the volumetric ones.
-void advance_sky(const World::State& world, const Clouds& mirrored, const Fog& fog, double height_m,
+void advance_sky(const WorldState& world, const Clouds& mirrored, const Fog& fog, double height_m,
                  PartSet without, SkyFrame& sky, const StageRun& run);
 
 // Fills sky.clouds and sky.shadow: what the volumetric clouds and those of a layer (`mirrored`) do
 // to the mirror and to the sun on the sea, at t_s, under an eye.
-void advance_clouds(const World::State& world, const Clouds& mirrored, double t_s, glm::dvec2 eye,
+void advance_clouds(const WorldState& world, const Clouds& mirrored, double t_s, glm::dvec2 eye,
                     PartSet without, SkyFrame& sky, const StageRun& run);
 
 // Writes row y of `clear`: the sky, the clouds of a layer and volumetric ones, if there are any, as

@@ -19,7 +19,7 @@ constexpr double kSiderealPerDay = 1.00273790935;
 
 }  // namespace
 
-Stars make_stars(const World::State& world, double t_s, PartSet without) {
+Stars make_stars(const WorldState& world, double t_s, PartSet without) {
   const scene::Sky& sky = world.scene.sky;
   Stars stars;
   const double night = smoothstep<double>(kDay, kDusk, sky.sun_direction.z);

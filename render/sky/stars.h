@@ -16,6 +16,6 @@ struct Stars {
 };
 
 // By day there are none. They turn with the earth, a function of t_s.
-Stars make_stars(const World::State& world, double t_s, PartSet without);
+Stars make_stars(const WorldState& world, double t_s, PartSet without);
 
 }  // namespace swell::render

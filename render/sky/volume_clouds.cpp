@@ -40,7 +40,7 @@ glm::dvec2 volume_drift_m(const scene::Scene& scene, double period_m, double t_s
          (period_m * (ocean::wave_time_s(sea, t_s) / sea.loop_s));
 }
 
-VolumeClouds make_volume_clouds(const World::State& world, double t_s, glm::dvec3 eye,
+VolumeClouds make_volume_clouds(const WorldState& world, double t_s, glm::dvec3 eye,
                                 float pixel_angle, PartSet without) {
   VolumeClouds clouds;
   if (!world.cloud_volume || without.has(Part::kVolumeClouds)) return clouds;

@@ -41,7 +41,7 @@ struct VolumeClouds {
 inline constexpr float kFarthestCloud_m = 100000.0f;
 
 // As seen from `eye` at t_s; pixel_angle [rad] says how fine far steps must be.
-VolumeClouds make_volume_clouds(const World::State& world, double t_s, glm::dvec3 eye,
+VolumeClouds make_volume_clouds(const WorldState& world, double t_s, glm::dvec3 eye,
                                 float pixel_angle, PartSet without);
 
 // How far the wind has carried them: a function of t_s.

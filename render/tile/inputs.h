@@ -19,14 +19,14 @@ struct PlanarMap {
 
 // What materials that have triangles of their own place them by.
 struct PlaceInputs {
-  const World::State& world;
+  const WorldState& world;
   double t_s;
   const View& view;  // the window's camera
   PartSet without;
 };
 
 struct MaterialInputs {
-  const World::State& world;
+  const WorldState& world;
   double t_s;
   const SeaMaps& sea;
   const ObjectGeometry& objects;

@@ -56,7 +56,7 @@ struct FarFocuses {
   std::array<lod::Focus, lod::kMaxFocuses> focus;
   std::size_t count = 0;
 
-  FarFocuses(const World::State& world, std::span<const lod::Focus> focuses, glm::dvec3 eye,
+  FarFocuses(const WorldState& world, std::span<const lod::Focus> focuses, glm::dvec3 eye,
              double reach_m) {
     if (focuses.empty()) return;
     const auto inv_reach = static_cast<float>(1.0 / reach_m);
@@ -79,7 +79,7 @@ struct FarFocuses {
 };
 
 // The sea's waves come some way into rivers.
-void displace_rivers(const World::State& world, const SeaMaps& sea, const View& view,
+void displace_rivers(const WorldState& world, const SeaMaps& sea, const View& view,
                      std::size_t begin, std::size_t end, RiverMesh& rivers) {
   std::array<glm::dvec2, kVertexChunk> place;
   std::array<std::size_t, kVertexChunk> vertex;
@@ -150,7 +150,7 @@ void water_heights(const WaterHeights& in, const Surface& water, std::size_t beg
   for (std::size_t k = 0; k < count; ++k) height_m[vertex[k]] = wave_m[k] * share[k];
 }
 
-void displace(const World::State& world, const SeaMaps& sea, const View& view,
+void displace(const WorldState& world, const SeaMaps& sea, const View& view,
               const FrameOptions& options, Meshes& meshes, FrameViews views, const StageRun& run) {
   const WaterHeights heights{world, sea.frame, view,
                              static_cast<float>(options.background_error_px)};

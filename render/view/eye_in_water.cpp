@@ -10,7 +10,7 @@
 
 namespace swell::render {
 
-EyeInWater find_eye_in_water(const World::State& world, const SeaMaps& sea, const View& view,
+EyeInWater find_eye_in_water(const WorldState& world, const SeaMaps& sea, const View& view,
                              const FrameOptions& options) {
   constexpr float kLeastToSurface_m = 0.05f;
   const double eye_z = view.eye_world.z;

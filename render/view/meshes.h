@@ -140,11 +140,11 @@ struct Meshes {
 };
 
 // Stage 2: the cells of rivers and lakes that the view may show, joined where they are small in it.
-void choose_rivers(const World::State& world, const View& view, const FrameOptions& options,
+void choose_rivers(const WorldState& world, const View& view, const FrameOptions& options,
                    RiverMesh& rivers);
 
 // Stage 2: triangulates water and land for the view at t_s.
-void triangulate(const World::State& world, const View& view, double t_s,
-                 const FrameOptions& options, Meshes& meshes, const StageRun& run);
+void triangulate(const WorldState& world, const View& view, double t_s, const FrameOptions& options,
+                 Meshes& meshes, const StageRun& run);
 
 }  // namespace swell::render

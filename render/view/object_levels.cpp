@@ -30,7 +30,7 @@ float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const 
   return px_at_1_m * size_m / std::max(distance_m - 0.5f * size_m, view.near_m);
 }
 
-const shapes::ObjectMesh& coarsest_mesh(const World::State& world, std::size_t object,
+const shapes::ObjectMesh& coarsest_mesh(const WorldState& world, std::size_t object,
                                         float error_m) {
   const std::vector<shapes::ObjectMesh>& levels = world.objects.of_object[object]->levels;
   const glm::dvec3 size_m = world.scene.objects[object].size_m;

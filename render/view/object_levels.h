@@ -17,7 +17,6 @@ float most_px_per_m(glm::vec3 p_rel, float radius_m, const View& view);
 float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const View& view);
 
 // The coarsest level of an object's mesh that lies at most error_m off its finest one.
-const shapes::ObjectMesh& coarsest_mesh(const World::State& world, std::size_t object,
-                                        float error_m);
+const shapes::ObjectMesh& coarsest_mesh(const WorldState& world, std::size_t object, float error_m);
 
 }  // namespace swell::render

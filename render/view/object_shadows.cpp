@@ -137,7 +137,7 @@ struct WaterMotion {
   glm::dvec2 downwind{0.0, 1.0};
 };
 
-WaterMotion motion_of(const World::State& world) {
+WaterMotion motion_of(const WorldState& world) {
   const double length_m = world.water_bounds().mean_wavelength_m;
   const double travel = world.scene.sea.wind_from_rad + kPi;
   WaterMotion motion;
@@ -160,7 +160,7 @@ void add_foam(const WaterMotion& motion, double height_m, Waterline& line) {
 
 // The current that runs past a part of an object in a river, none past one that makes a wake;
 // nothing beside rivers.
-std::optional<glm::vec2> river_past(const World::State& world, const scene::FloatingObject& object,
+std::optional<glm::vec2> river_past(const WorldState& world, const scene::FloatingObject& object,
                                     glm::dvec2 part_world) {
   if (!world.inland) return std::nullopt;
   const auto at = world.inland->at(part_world);
@@ -230,7 +230,7 @@ bool in_view(const Corners& corners, float level, float drop_m,
 }
 
 // What throws a caster's shadow.
-const shapes::ObjectMesh& outline_mesh(const World::State& world, const ShadowCaster& caster,
+const shapes::ObjectMesh& outline_mesh(const WorldState& world, const ShadowCaster& caster,
                                        const View& view) {
   const glm::vec3 size_m(world.scene.objects[caster.object].size_m);
   const float largest_m = std::max({size_m.x, size_m.y, size_m.z});
@@ -295,7 +295,7 @@ Outline outline_of(const shapes::ObjectMesh& mesh, const shapes::MeshPart& part,
   return outline;
 }
 
-void find_shadow_casters(const World::State& world, const ShadowOptions& options, const View& view,
+void find_shadow_casters(const WorldState& world, const ShadowOptions& options, const View& view,
                          ObjectGeometry& objects, const StageRun& run) {
   const std::vector<scene::FloatingObject>& all = world.scene.objects;
   ObjectShadows& shadows = objects.shadows;

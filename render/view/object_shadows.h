@@ -25,7 +25,7 @@ struct ShadowOptions {
 
 // Sets objects.shadows: all objects that may tell on what the view shows, in front of it or not, at
 // the poses in `objects`.
-void find_shadow_casters(const World::State& world, const ShadowOptions& options, const View& view,
+void find_shadow_casters(const WorldState& world, const ShadowOptions& options, const View& view,
                          ObjectGeometry& objects, const StageRun& run);
 
 struct LightInWater {

@@ -157,7 +157,7 @@ void for_pieces(const std::vector<DrawPart>& parts, std::size_t begin, std::size
 }
 
 // Writes vertices [begin, end), counted through all parts.
-void write_vertices(const World::State& world, std::span<const scene::ObjectPose> poses,
+void write_vertices(const WorldState& world, std::span<const scene::ObjectPose> poses,
                     const View& view, std::size_t begin, std::size_t end, ObjectDraws& out) {
   for_pieces(out.parts, begin, end, &DrawPart::first_vertex, &DrawPart::vertices,
              [&](std::size_t i, std::size_t first, std::size_t count) {
@@ -203,7 +203,7 @@ void take_implicit(const ObjectGeometry& geometry, const shapes::MeshOfFile& sha
 }
 
 // The scene's implicit surfaces at t_s, one for all objects of a shape.
-void pose_implicits(const World::State& world, double t_s, ObjectGeometry& geometry) {
+void pose_implicits(const WorldState& world, double t_s, ObjectGeometry& geometry) {
   geometry.implicit_of.clear();
   for (const ObjectShape& shape : world.objects.of_object)
     if (shape->implicit && std::ranges::find(geometry.implicit_of, &shape->implicit->implicit) ==
@@ -216,8 +216,8 @@ void pose_implicits(const World::State& world, double t_s, ObjectGeometry& geome
 }
 
 // Which objects the views may show, and where what they are drawn with goes.
-void list_instances(const World::State& world, const DrawnKind& drawn,
-                    const ObjectGeometry& geometry, ObjectDraws& draws) {
+void list_instances(const WorldState& world, const DrawnKind& drawn, const ObjectGeometry& geometry,
+                    ObjectDraws& draws) {
   const std::vector<scene::FloatingObject>& objects = world.scene.objects;
   draws.instances.clear();
   draws.instances.reserve(objects.size());  // primitives point into it
@@ -253,7 +253,7 @@ void list_instances(const World::State& world, const DrawnKind& drawn,
 }
 
 // The objects of views of one kind.
-void place_in_views(const World::State& world, Meshes& meshes, FrameViews views,
+void place_in_views(const WorldState& world, Meshes& meshes, FrameViews views,
                     const StageRun& run) {
   const DrawnKind drawn = drawn_kind(views);
   ObjectDraws& draws = meshes.objects.drawn_in(drawn.kind);
@@ -274,7 +274,7 @@ void place_in_views(const World::State& world, Meshes& meshes, FrameViews views,
 
 }  // namespace
 
-void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
+void drawn_poses(const WorldState& world, const ocean::SeaFrame& sea,
                  std::span<const scene::GivenPose> given, std::span<scene::ObjectPose> poses,
                  const StageRun& run) {
   if (poses.empty()) return;
@@ -292,7 +292,7 @@ void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
     for (const scene::GivenPose& g : given) poses[g.object].water_m = 0.0;
 }
 
-void place_objects(const World::State& world, const SeaMaps& sea,
+void place_objects(const WorldState& world, const SeaMaps& sea,
                    std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
                    const StageRun& run) {
   ObjectGeometry& geometry = meshes.objects;

@@ -62,7 +62,7 @@ struct TreeView {
   const Meshes& meshes;
 };
 
-TreeView tree_view(const World::State& world, const RenderView& view, const Meshes& meshes,
+TreeView tree_view(const WorldState& world, const RenderView& view, const Meshes& meshes,
                    bool shows_all, double t_s) {
   const View& camera = view.camera;
   return {*world.forest,
@@ -354,7 +354,7 @@ void for_cells(Cells& cells, const StageRun& run, const Body& body) {
   });
 }
 
-void place_in_views(const World::State& world, double t_s, Meshes& meshes, FrameViews views,
+void place_in_views(const WorldState& world, double t_s, Meshes& meshes, FrameViews views,
                     const StageRun& run) {
   // Through the surface an eye under water sees them far from where they are.
   const bool shows_all =
@@ -391,7 +391,7 @@ bool shows_trees(const RenderView& view) {
 
 }  // namespace
 
-void place_trees(const World::State& world, double t_s, const FrameOptions& options, Meshes& meshes,
+void place_trees(const WorldState& world, double t_s, const FrameOptions& options, Meshes& meshes,
                  FrameViews views, const StageRun& run) {
   const bool has_trees = world.forest && !options.without.has(Part::kTrees);
   if (has_trees) prepare_tree_ground(world, options, meshes.land, meshes.trees);
@@ -412,7 +412,7 @@ void place_trees(const World::State& world, double t_s, const FrameOptions& opti
   }
 }
 
-void find_tree_moves(const World::State& world, const TreeDraws& draws, double next_s,
+void find_tree_moves(const WorldState& world, const TreeDraws& draws, double next_s,
                      std::span<glm::vec3> move, const StageRun& run) {
   SWELL_CHECK(move.size() == draws.p_rel.size(), "{} moves of {} vertices", move.size(),
               draws.p_rel.size());

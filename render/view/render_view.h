@@ -113,7 +113,7 @@ inline float clip_margin_m(float highest_wave_m) { return std::clamp(highest_wav
 
 // Where the eye is in the water at the time of `sea`: a function of world, view and time. A surface
 // that reaches into the near plane may lie on both sides of the eye; the point of the eye decides.
-EyeInWater find_eye_in_water(const World::State& world, const SeaMaps& sea, const View& view,
+EyeInWater find_eye_in_water(const WorldState& world, const SeaMaps& sea, const View& view,
                              const FrameOptions& options);
 
 // All views of a frame.
@@ -128,12 +128,12 @@ void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, 
 
 // Stage 3: heights of all vertices of water and land at the time of `sea`, and their places in the
 // views.
-void displace(const World::State& world, const SeaMaps& sea, const View& view,
+void displace(const WorldState& world, const SeaMaps& sea, const View& view,
               const FrameOptions& options, Meshes& meshes, FrameViews views, const StageRun& run);
 
 // What the water's vertices are displaced by at the time of `sea`, as the view needs them.
 struct WaterHeights {
-  const World::State& world;
+  const WorldState& world;
   const ocean::SeaFrame& sea;
   const View& view;
   float background_error_px;
@@ -146,24 +146,24 @@ void water_heights(const WaterHeights& in, const Surface& water, std::size_t beg
                    std::span<float> vertex_height_m);
 
 // Where all objects are, as they are drawn: where the caller puts them, or the scene.
-void drawn_poses(const World::State& world, const ocean::SeaFrame& sea,
+void drawn_poses(const WorldState& world, const ocean::SeaFrame& sea,
                  std::span<const scene::GivenPose> given, std::span<scene::ObjectPose> poses,
                  const StageRun& run);
 
 // Stage 3: objects where they are, as far as the view may show them, and their vertices in the
 // views.
-void place_objects(const World::State& world, const SeaMaps& sea,
+void place_objects(const WorldState& world, const SeaMaps& sea,
                    std::span<const scene::GivenPose> given, Meshes& meshes, FrameViews views,
                    const StageRun& run);
 
 // Stage 3: the trees that views may show, as they sway at t_s, and their vertices in the views. On
 // the ground that is drawn where that has fewer triangles than the scene asks for.
-void place_trees(const World::State& world, double t_s, const FrameOptions& options, Meshes& meshes,
+void place_trees(const WorldState& world, double t_s, const FrameOptions& options, Meshes& meshes,
                  FrameViews views, const StageRun& run);
 
 // Sets how far each vertex of `draws`, as place_trees() left it, is from where the same tree has it
 // at next_s. Trees that do not sway move by exactly 0.
-void find_tree_moves(const World::State& world, const TreeDraws& draws, double next_s,
+void find_tree_moves(const WorldState& world, const TreeDraws& draws, double next_s,
                      std::span<glm::vec3> move, const StageRun& run);
 
 // Numbers the triangles of what the view shows, clips, sets up and bins them; with edge_samples

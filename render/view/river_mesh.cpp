@@ -154,7 +154,7 @@ struct LevelInView {
 
 }  // namespace
 
-void choose_rivers(const World::State& world, const View& view, const FrameOptions& options,
+void choose_rivers(const WorldState& world, const View& view, const FrameOptions& options,
                    RiverMesh& rivers) {
   rivers.indices.clear();
   rivers.p_rel.clear();

@@ -28,7 +28,7 @@ glm::vec3 middle_of(const scene::FloatingObject& object, const scene::ObjectPose
 }
 
 // The largest objects of the window, largest first: their numbers and sizes.
-void list_largest(const World::State& world, const View& view, const ObjectGeometry& objects,
+void list_largest(const WorldState& world, const View& view, const ObjectGeometry& objects,
                   std::vector<SunDepth>& list) {
   list.clear();
   for (const ObjectInstance& instance : objects.in_window().instances) {
@@ -60,7 +60,7 @@ int side_of(float size_px) {
   return side;
 }
 
-void fill_depth(const World::State& world, const scene::ObjectPose& pose,
+void fill_depth(const WorldState& world, const scene::ObjectPose& pose,
                 const ObjectShadows& shadows, const SunDepth& map, std::span<float> depth_m) {
   std::ranges::fill(depth_m, SunDepth::kNothing_m);
   const scene::FloatingObject& object = world.scene.objects[map.object];
@@ -144,7 +144,7 @@ void add_triangle(const std::array<glm::vec3, 3>& corner, int side, std::span<fl
   for (std::size_t k = 0; k < 3; ++k) add_edge(corner[k], corner[(k + 1) % 3], side, depth_m);
 }
 
-void find_self_shadows(const World::State& world, const ShadowOptions& options, const View& view,
+void find_self_shadows(const WorldState& world, const ShadowOptions& options, const View& view,
                        ObjectGeometry& objects, const StageRun& run) {
   ObjectShadows& shadows = objects.shadows;
   shadows.own.clear();

@@ -9,7 +9,7 @@ namespace swell::render {
 
 // Finds the SunDepths of the objects that look large enough, for their instances in all views. The
 // axes of `objects.shadows` are those of the frame. 0.1 ms for an object that fills the window.
-void find_self_shadows(const World::State& world, const ShadowOptions& options, const View& view,
+void find_self_shadows(const WorldState& world, const ShadowOptions& options, const View& view,
                        ObjectGeometry& objects, const StageRun& run);
 
 // Raises the points of a map, side rows of them, to what they see of a triangle; its corners are

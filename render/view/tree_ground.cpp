@@ -15,8 +15,8 @@ constexpr double kOnDrawnGround = 0.75;
 
 }  // namespace
 
-void prepare_tree_ground(const World::State& world, const FrameOptions& options,
-                         const Surface& land, TreeGeometry& trees) {
+void prepare_tree_ground(const WorldState& world, const FrameOptions& options, const Surface& land,
+                         TreeGeometry& trees) {
   const double share =
       options.terrain_triangles / static_cast<double>(world.scene.detail.terrain_triangles);
   const double coarser = land.mesh.indices.empty() ? 0.0 : (1.0 - share) / (1.0 - kOnDrawnGround);

@@ -12,8 +12,8 @@ namespace swell::render {
 
 // Before trees are placed, when the land's vertices have their heights. Trees stand on the true
 // ground where the land has as many triangles as the scene asks for, or is drawn by rays.
-void prepare_tree_ground(const World::State& world, const FrameOptions& options,
-                         const Surface& land, TreeGeometry& trees);
+void prepare_tree_ground(const WorldState& world, const FrameOptions& options, const Surface& land,
+                         TreeGeometry& trees);
 
 // How far over a foot on the true ground the ground is on which the tree stands [m]; below: under
 // 0.

@@ -107,7 +107,7 @@ lod::AdaptLimits adapt_limits(const FrameOptions& options) {
 
 // What both surfaces are triangulated for.
 struct Wanted {
-  const World::State& world;
+  const WorldState& world;
   const View& view;
   double t_s;
   const FrameOptions& options;
@@ -227,8 +227,8 @@ void triangulate_land(const Wanted& wanted, Surface& land) {
 
 }  // namespace
 
-void triangulate(const World::State& world, const View& view, double t_s,
-                 const FrameOptions& options, Meshes& meshes, const StageRun& run) {
+void triangulate(const WorldState& world, const View& view, double t_s, const FrameOptions& options,
+                 Meshes& meshes, const StageRun& run) {
   const Wanted wanted{world, view, t_s, options};
   run.workers.run_both([&] { triangulate_water(wanted, meshes.water); },
                        [&] {

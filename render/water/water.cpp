@@ -122,7 +122,7 @@ glm::vec3 mirrored_sea(const MaterialInputs& in, float reflectance) {
 }
 
 // How high crests are that light shines through.
-float crest_height_m(const World::State& world) {
+float crest_height_m(const WorldState& world) {
   const auto sea_m = static_cast<float>(world.sea->significant_height_m());
   return std::max({sea_m, world.water().wakes.height_m, 0.1f});
 }

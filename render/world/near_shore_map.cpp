@@ -46,7 +46,7 @@ float part_of_reach(const terrain::ShoreMap& shore, glm::dvec2 p, float reach_m)
 
 }  // namespace
 
-NearShoreMap build_near_shore(const World::State& world, Workers& workers) {
+NearShoreMap build_near_shore(const WorldState& world, Workers& workers) {
   const terrain::ShoreMap& shore = *world.shore;
   const terrain::Grid& square = shore.grid();
   constexpr int n = kNearShoreSize;

@@ -24,6 +24,6 @@ struct NearShoreMap {
 };
 
 // The same bits with any workers.
-NearShoreMap build_near_shore(const World::State& world, Workers& workers);
+NearShoreMap build_near_shore(const WorldState& world, Workers& workers);
 
 }  // namespace swell::render

@@ -9,6 +9,8 @@
 
 namespace swell::render {
 
+struct WorldState;
+
 // A scene made ready to draw: sea state, terrain, static maps. Read-only while frames are drawn;
 // several threads may draw the same World with a Workspace each. One that was moved from may only
 // be assigned to or destroyed; whatever else is done with it aborts with a message.
@@ -29,11 +31,10 @@ class World {
   World& operator=(World&&) noexcept;
   const scene::Scene& scene() const;
 
-  struct State;
-  const State& state() const;
+  const WorldState& state() const;
 
  private:
-  std::unique_ptr<State> state_;
+  std::unique_ptr<WorldState> state_;
 };
 
 }  // namespace swell::render

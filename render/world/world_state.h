@@ -71,7 +71,7 @@ struct Textures {
 };
 
 // Parts are shared by worlds whose scenes describe them alike (render/world/part_maker.h).
-struct World::State {
+struct WorldState {
   scene::Scene scene;
   std::shared_ptr<const ocean::Sea> sea = {};
   std::shared_ptr<const ocean::Whitecaps> whitecaps = {};  // of the sea
@@ -114,6 +114,6 @@ struct World::State {
 };
 
 // The water's surface at the time of `sea`, a frame of the world's sea.
-ocean::WaterSurface water_surface(const World::State& world, const ocean::SeaFrame& sea);
+ocean::WaterSurface water_surface(const WorldState& world, const ocean::SeaFrame& sea);
 
 }  // namespace swell::render

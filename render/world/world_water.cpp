@@ -4,17 +4,17 @@
 
 namespace swell::render {
 
-ocean::WaterParts World::State::water(std::span<const ocean::Disturbance> more) const {
+ocean::WaterParts WorldState::water(std::span<const ocean::Disturbance> more) const {
   ocean::WakeBounds wakes = ocean::wake_bounds(disturbances, scene.sea.gravity_mps2);
   wakes.include(ocean::wake_bounds(more, scene.sea.gravity_mps2));
   return {sea.get(), scene.area, terrain.get(), coast.get(), wakes, shelter.get(), inland.get()};
 }
 
-ocean::WaterBounds World::State::water_bounds(std::span<const ocean::Disturbance> more) const {
+ocean::WaterBounds WorldState::water_bounds(std::span<const ocean::Disturbance> more) const {
   return ocean::WaterBody(water(more)).bounds();
 }
 
-ocean::WaterSurface water_surface(const World::State& world, const ocean::SeaFrame& sea) {
+ocean::WaterSurface water_surface(const WorldState& world, const ocean::SeaFrame& sea) {
   return {world.water(), sea};
 }
 

@@ -22,7 +22,7 @@ scene::Scene small_coast() {
 constexpr const char* kAll =
     "sea whitecaps coast air sky terrain maps shadow forest shore shelter near ";
 std::string common(const World& a, const World& b) {
-  const World::State &x = a.state(), &y = b.state();
+  const WorldState &x = a.state(), &y = b.state();
   std::string text;
   const auto add = [&](const char* name, const auto& p, const auto& q) {
     EXPECT_TRUE(p && q) << name;

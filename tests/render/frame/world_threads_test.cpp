@@ -16,10 +16,10 @@ TEST(World, HasTheSameMapsOnAnyNumberOfThreads) {
   scene::Scene scene = load_shipped("beach");
   scene.coast.trains = 1;
   const World alone(scene, 1);
-  const World::State& a = alone.state();
+  const WorldState& a = alone.state();
   for (const int threads : {2, 7}) {
     const World shared(scene, threads);
-    const World::State& b = shared.state();
+    const WorldState& b = shared.state();
     ASSERT_EQ(a.sky->heights.size(), b.sky->heights.size());
     for (std::size_t i = 0; i < a.sky->heights.size(); ++i)
       EXPECT_EQ(a.sky->heights[i].map.channels, b.sky->heights[i].map.channels);

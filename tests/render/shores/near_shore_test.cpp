@@ -66,7 +66,7 @@ TEST(NearShore, TheOpenSeaKnowsNothingOfIt) {
 // The drawn slopes of the long waves are as much lower in a lee as the heights that are asked.
 TEST(NearShore, TheMapHasWhatQueriesHave) {
   const World world = world_of(windy_lagoon());
-  const World::State& state = world.state();
+  const WorldState& state = world.state();
   ASSERT_TRUE(state.near_shore);
   const NearShoreMap& near = *state.near_shore;
   for (int n = 0; n < 200; ++n) {

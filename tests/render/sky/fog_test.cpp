@@ -201,7 +201,7 @@ TEST(FogInPictures, LightsWhatIsUnderACloudLess) {
   cloudy.options.without = {Part::kCloudShadows};
   const float even = slab_at(0.0);
   EXPECT_NEAR(lit, even, 0.02f * even);
-  const World::State& world = cloudy.world.state();
+  const WorldState& world = cloudy.world.state();
   // A few hundredths are left of the light that is not the sky's.
   const float of_sky = luminance(world.fog_light->ambient - world.fog_light->ambient_sun);
   EXPECT_LT(shaded, 0.25f * even + 0.8f * of_sky);
