@@ -11,8 +11,8 @@
 #include "math/large_array.h"
 #include "ocean/water_surface.h"
 #include "raster/sample_pattern.h"
+#include "render/shadows/self_shadows.h"
 #include "render/tile/ripples.h"
-#include "render/view/self_shadows.h"
 #include "render/workspace.h"
 #include "render/world/world_state.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/frame/parts.h"
-#include "render/view/object_shadows.h"
+#include "render/shadows/object_shadows.h"
 #include "render/world/forest.h"
 #include "render/world/land_shadow.h"
 #include "render/world/world_state.h"

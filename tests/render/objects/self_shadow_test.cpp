@@ -10,8 +10,8 @@
 #include "mesh_import/mesh_files.h"
 #include "render/measure/pick.h"
 #include "render/measures.h"
+#include "render/shadows/self_shadows.h"
 #include "render/shot.h"
-#include "render/view/self_shadows.h"
 #include "scene/scene.h"
 #include "sky/sky_light.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "math/elementary.h"
-#include "render/view/object_shadows.h"
-#include "render/view/shadow_reach.h"
+#include "render/shadows/object_shadows.h"
+#include "render/shadows/shadow_reach.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/frame/profile.h"
-#include "render/view/object_shadows.h"
+#include "render/shadows/object_shadows.h"
 #include "render/world/world.h"
 
 namespace swell::render {

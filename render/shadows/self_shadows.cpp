@@ -1,4 +1,4 @@
-#include "render/view/self_shadows.h"
+#include "render/shadows/self_shadows.h"
 
 #include <algorithm>
 #include <cmath>

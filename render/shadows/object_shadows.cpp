@@ -1,4 +1,4 @@
-#include "render/view/object_shadows.h"
+#include "render/shadows/object_shadows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "ocean/inland/inland_water.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
+#include "render/shadows/shadow_reach.h"
 #include "render/view/object_levels.h"
-#include "render/view/shadow_reach.h"
 #include "render/world/land_shadow.h"
 #include "render/world/world_state.h"
 

@@ -1,4 +1,4 @@
-#include "render/view/shadow_reach.h"
+#include "render/shadows/shadow_reach.h"
 
 #include <algorithm>
 
