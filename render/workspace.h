@@ -13,6 +13,7 @@
 #include "render/picture/shade_picture.h"
 #include "render/sea/sea_maps.h"
 #include "render/sky/sky_frame.h"
+#include "render/tile/cloud_picture.h"
 #include "render/view/crossing.h"
 #include "render/view/meshes.h"
 #include "render/view/render_view.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "render/view/render_view.h"
 #include "render/world/world_state.h"
 #include "scene/settings.h"
 #include "terrain/height_grid.h"

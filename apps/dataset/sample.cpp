@@ -8,6 +8,7 @@
 #include "apps/shared/json.h"
 #include "apps/shared/label_file.h"
 #include "apps/shared/picture_file.h"
+#include "render/view/render_view.h"
 #include "render/world_view.h"
 #include "scene/settings.h"
 #include "texture/image/image_io.h"

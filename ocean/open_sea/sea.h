@@ -14,14 +14,11 @@
 #include "math/parallel.h"
 #include "ocean/open_sea/map_layer.h"
 #include "ocean/open_sea/patch_tiles.h"
+#include "ocean/spectrum/limits.h"
 #include "ocean/spectrum/spectrum.h"
 #include "ocean/wakes/wake_sources.h"
 
 namespace swell::ocean {
-
-// What a sea is made of at most; everything that is drawn or asked has all of it.
-inline constexpr std::size_t kMaxPatches = 8, kMaxSines = 64, kMaxSwells = 4;
-inline constexpr std::size_t kMaxSineTrains = 2 * kMaxSines;  // with what sharpens their crests
 
 // So many of the longest patches are tiled: what the next ones hold is too short to be seen from
 // where they would be seen to repeat themselves.

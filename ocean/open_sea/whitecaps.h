@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "math/parallel.h"
+#include "ocean/open_sea/foam_on_crest.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/spectrum/fft.h"
 #include "ocean/spectrum/patch_waves.h"
@@ -31,8 +32,6 @@ namespace swell::ocean {
 
 // Points a side of the maps of foam, which lie over patches and repeat with them.
 inline constexpr int kFoamMapSize = 256;
-// The longest patches have foam, but not the last of several: its waves break unseen.
-inline constexpr std::size_t kMostFoamPatches = 2;
 
 // The part of the sea that whitecaps cover in a wind of U10 [m/s] >= 0: 3.84e-6 U10^3.41 up to
 // 20 m/s, beyond that rising ever more slowly to 0.3; 0 up to 3.7 m/s, and less than the law up to
@@ -89,13 +88,6 @@ struct WhitecapFrame {
 constexpr float foam_of_code(std::uint8_t code) {
   const float life = static_cast<float>(code) / 255.0f;
   return life * life;
-}
-
-// Short waves break on the crests of long ones: foam of all but the longest patch counts so many
-// times where the surface is this high over the mean level, and once in the mean.
-inline constexpr float kMostOnCrest = 1.6f;
-inline float foam_on_crest(float height_m, float crest_per_m) {
-  return std::clamp(1.0f + height_m * crest_per_m, 2.0f - kMostOnCrest, kMostOnCrest);
 }
 
 // Fills `frame` with the foam at t_s, any finite time: the same bits whatever it held before. In

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "ocean/spectrum/fft.h"
+#include "ocean/spectrum/limits.h"
 #include "ocean/wakes/disturbance.h"
 
 namespace swell::ocean {
 
-inline constexpr int kWakeSamples = 256;            // a side of a window
-inline constexpr std::size_t kMostWakeWindows = 8;  // at a time
 inline constexpr std::size_t kMostHullWindows = 6;  // of these: the largest hulls
 inline constexpr std::size_t kMostRings = 64;       // at a time: the latest
 inline constexpr std::size_t kMostStretches = 24;   // of a hull's way: the latest

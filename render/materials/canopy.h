@@ -7,6 +7,10 @@
 #include "render/packets/square_map.h"
 #include "render/tile/inputs.h"
 
+namespace swell::terrain {
+struct Grid;
+}
+
 namespace swell::render {
 
 struct Canopy {

@@ -3,10 +3,11 @@
 
 #include <glm/glm.hpp>
 
-#include "render/world/world.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
+
+struct WorldState;
 
 // Colours over a square: texels per metre, and at the eye.
 struct AlbedoLayer {

@@ -2,6 +2,9 @@
 
 #include <tuple>
 
+#include "render/view/meshes.h"
+#include "render/view/render_view.h"
+
 namespace swell::render {
 namespace {
 

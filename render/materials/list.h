@@ -10,6 +10,7 @@
 //   static void place(const PlaceInputs&, PlacedSurface&);
 #pragma once
 
+#include <span>
 #include <tuple>
 
 #include "render/materials/object.h"
@@ -20,6 +21,9 @@
 #include "render/water/water.h"
 
 namespace swell::render {
+
+struct Meshes;
+struct RenderView;
 
 // The first one's pixels are found fastest.
 using Materials = std::tuple<  //
@@ -48,6 +52,6 @@ void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_siz
 
 // Stage 3: which kinds of surface have a material, the triangles that materials place themselves,
 // and their vertices in the views.
-void place_surfaces(const PlaceInputs& in, Meshes& meshes, FrameViews views);
+void place_surfaces(const PlaceInputs& in, Meshes& meshes, std::span<RenderView* const> views);
 
 }  // namespace swell::render

@@ -11,11 +11,13 @@
 #include <array>
 #include <span>
 
+#include "ocean/inland/inland_sample.h"
 #include "render/materials/ground-inl.h"
 #include "render/materials/river.h"
 #include "render/materials/terrain.h"
 #include "render/tile/caustics-inl.h"
 #include "render/tile/through_water-inl.h"
+#include "render/view/rivers_drawn.h"
 #include "render/water/topside-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -6,7 +6,10 @@
 #include "math/elementary.h"
 #include "ocean/inland/inland_water.h"
 #include "render/frame/parts.h"
+#include "render/sky/light.h"
 #include "render/tile/ripples.h"
+#include "render/view/meshes.h"
+#include "render/view/render_view.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "ocean/inland/inland_water.h"
 #include "render/materials/ground_albedo.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
 #include "render/water/foam.h"
+
+namespace swell::ocean {
+struct InlandSample;
+}
 
 namespace swell::render {
 

@@ -7,6 +7,7 @@
 #include "ocean/open_sea/sea.h"
 #include "ocean/open_sea/sea_state.h"
 #include "render/frame/parts.h"
+#include "render/view/render_view.h"
 #include "render/world/land_shadow.h"
 #include "render/world/terrain_maps.h"
 #include "render/world/world_state.h"

@@ -11,6 +11,7 @@
 #include "render/packets/lanes3-inl.h"
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"
+#include "render/view/trees_drawn.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/view/render_view.h"
+#include "render/view/trees_drawn.h"
 #include "render/world/forest.h"
 #include "render/world/world_state.h"
 

@@ -7,8 +7,12 @@
 
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
+#include "terrain/trees.h"
 
 namespace swell::render {
+
+struct DrawnTree;
+struct TreePrimitive;
 
 // A species, for all of its trees.
 struct TreeSurface {

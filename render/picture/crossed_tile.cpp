@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "render/frame/target.h"
+#include "render/view/crossing.h"
+
 namespace swell::render {
 namespace {
 

@@ -7,12 +7,13 @@
 #include <span>
 
 #include "raster/pass.h"
-#include "render/frame/target.h"
 #include "render/labels/shaded_labels.h"
-#include "render/shade/shade_tile.h"
-#include "render/view/crossing.h"
+#include "render/tile/scratch.h"
 
 namespace swell::render {
+
+struct Crossing;
+struct Target;
 
 // A tile's pixels as seen from the air, while it is shaded from the water. A thread's.
 struct CrossedScratch {

@@ -5,8 +5,12 @@
 #include <cmath>
 
 #include "render/frame/profile.h"
+#include "render/sea/sea_maps.h"
 #include "render/view/draw_record.h"
 #include "render/view/implicits.h"
+#include "render/view/meshes.h"
+#include "render/view/objects_drawn.h"
+#include "render/view/trees_drawn.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

@@ -10,10 +10,11 @@
 #include "render/frame/options.h"
 #include "render/frame/profile.h"
 #include "render/view/render_view.h"
-#include "render/world/world.h"
 #include "scene/objects.h"
 
 namespace swell::render {
+
+struct WorldState;
 
 // Where pixels move to from a camera to the next. With q = (x, y, 1), x and y a pixel's centre as
 // seen from the middle of the picture, z its depth and m how far its point moves in the world, the

@@ -8,9 +8,10 @@
 #include "render/labels/shaded_labels.h"
 #include "render/picture/label_tables.h"
 #include "render/tile/shading.h"
-#include "render/world/world.h"
 
 namespace swell::render {
+
+struct WorldState;
 
 // What the labels of all tiles of a picture are made from.
 struct LabelSources {

@@ -7,6 +7,7 @@
 #include "render/frame/profile.h"
 #include "render/view/cast_land.h"
 #include "render/view/draw_record.h"
+#include "render/view/meshes.h"
 
 namespace swell::render {
 namespace {

@@ -1,5 +1,9 @@
 #include "render/picture/shade_picture.h"
 
+#include "render/frame/target.h"
+#include "render/picture/label_tile.h"
+#include "render/view/crossing.h"
+
 namespace swell::render {
 namespace {
 

@@ -4,13 +4,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/frame/profile.h"
-#include "render/frame/target.h"
-#include "render/picture/label_tile.h"
 #include "render/picture/planar_maps.h"
-#include "render/view/crossing.h"
 
 namespace swell::render {
+
+struct Crossing;
+struct EdgeBuffer;
+struct LabelSources;
+struct StageRun;
+struct Target;
 
 // Inputs for the part of a picture that begins in water, where the rest begins in air.
 struct WetSide {

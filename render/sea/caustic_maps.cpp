@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/frame/profile.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/land_shadow.h"
 #include "render/world/world_state.h"

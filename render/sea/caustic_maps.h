@@ -16,13 +16,18 @@
 #include <span>
 #include <vector>
 
-#include "ocean/open_sea/sea.h"
 #include "render/frame/parts.h"
-#include "render/frame/profile.h"
-#include "render/world/world.h"
 #include "texture/packed_map.h"
 
+namespace swell::ocean {
+struct PatchFrame;
+struct SeaFrame;
+}  // namespace swell::ocean
+
 namespace swell::render {
+
+struct StageRun;
+struct WorldState;
 
 // Where rays go that meet flat water at the points of a periodic grid: point (i, j)'s crosses the
 // depth d [m] at texel (i, j) + from_height + d per_depth.

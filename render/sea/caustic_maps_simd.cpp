@@ -15,6 +15,7 @@
 //
 #include "math/elementary-inl.h"
 #include "math/lanes-inl.h"
+#include "ocean/open_sea/sea.h"
 
 #ifndef SWELL_RENDER_WORLD_CAUSTIC_RAYS_
 #define SWELL_RENDER_WORLD_CAUSTIC_RAYS_

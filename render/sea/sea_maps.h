@@ -10,8 +10,8 @@
 #include "render/frame/parts.h"
 #include "render/frame/profile.h"
 #include "render/sea/caustic_maps.h"
+#include "render/sea/foam_blocks.h"
 #include "render/sea/ripple_sequence.h"
-#include "render/world/world.h"
 #include "texture/packed_map.h"
 #include "texture/uv_noise.h"
 
@@ -21,13 +21,7 @@ class WaterSurface;
 
 namespace swell::render {
 
-// Where a map of foam has any: bit i of row j is of the texels from (8 i, 16 j) on, and is set
-// where a sample there, bilinear on a level up to kFinest, may find some.
-struct FoamBlocks {
-  static constexpr int kColumns = 32, kRows = 16, kFinest = 2;
-  alignas(64) std::array<std::uint32_t, kRows> row{};
-  bool are_few = false;  // so that looking spares samples
-};
+struct WorldState;
 
 struct SeaMaps {
   ocean::SeaFrame frame;

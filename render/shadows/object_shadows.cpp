@@ -11,8 +11,10 @@
 #include "ocean/inland/inland_water.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
+#include "render/frame/profile.h"
 #include "render/shadows/shadow_reach.h"
 #include "render/view/object_levels.h"
+#include "render/view/objects_drawn.h"
 #include "render/world/land_shadow.h"
 #include "render/world/world_state.h"
 

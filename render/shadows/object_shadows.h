@@ -1,13 +1,34 @@
 // Stage 3: which floating objects stand in the light, and in which tiles of a view that may show.
 #pragma once
 
+#include <glm/glm.hpp>
+#include <span>
+
 #include "raster/pass.h"
 #include "render/frame/parts.h"
-#include "render/frame/profile.h"
-#include "render/view/render_view.h"
-#include "render/world/world.h"
+#include "render/view/shadow_casters.h"
+
+namespace swell {
+struct View;
+namespace ocean {
+struct Disturbance;
+}
+namespace scene {
+struct FloatingObject;
+struct ObjectPose;
+}  // namespace scene
+namespace shapes {
+struct MeshPart;
+struct ObjectMesh;
+}  // namespace shapes
+}  // namespace swell
 
 namespace swell::render {
+
+struct ObjectGeometry;
+struct RenderView;
+struct StageRun;
+struct WorldState;
 
 // The triangles of a part of the mesh where the pose puts them, as the sun sees them along the axes
 // of `shadows`; from the object's place. Every `step`-th row is found, which divides kRows - 1, and

@@ -5,6 +5,7 @@
 
 #include "render/frame/parts.h"
 #include "render/view/object_levels.h"
+#include "render/view/objects_drawn.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

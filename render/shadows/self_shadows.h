@@ -1,11 +1,17 @@
 // Stage 3: what objects throw on themselves.
 #pragma once
 
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+
 #include "render/frame/profile.h"
 #include "render/shadows/object_shadows.h"
-#include "render/world/world.h"
 
 namespace swell::render {
+
+struct ObjectGeometry;
+struct WorldState;
 
 // Finds the SunDepths of the objects that look large enough, for their instances in all views. The
 // axes of `objects.shadows` are those of the frame. 0.1 ms for an object that fills the window.

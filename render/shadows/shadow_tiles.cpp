@@ -5,6 +5,8 @@
 #include "math/elementary.h"
 #include "render/shadows/object_shadows.h"
 #include "render/shadows/shadow_reach.h"
+#include "render/view/render_view.h"
+#include "render/view/surfaces.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

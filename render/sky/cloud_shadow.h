@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "render/frame/parts.h"
-#include "render/frame/profile.h"
-#include "render/sky/clouds.h"
-#include "render/sky/volume_clouds.h"
-#include "render/world/world.h"
 
 namespace swell::render {
+
+struct Clouds;
+struct StageRun;
+struct VolumeClouds;
+struct WorldState;
 
 // Squares about the eye, each four times as wide as the one before, on lattices that stand still in
 // the world: what a place gets does not change as the camera moves.

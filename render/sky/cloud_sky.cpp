@@ -1,5 +1,8 @@
 #include "render/sky/cloud_sky.h"
 
+#include "render/frame/profile.h"
+#include "render/sky/volume_clouds.h"
+
 namespace swell::render {
 
 void draw_cloud_sky(const VolumeClouds& clouds, const CloudAir& air, CloudSky& sky,

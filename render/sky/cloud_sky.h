@@ -5,10 +5,10 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/frame/profile.h"
-#include "render/sky/volume_clouds.h"
-
 namespace swell::render {
+
+struct StageRun;
+struct VolumeClouds;
 
 // The clouds over the sea as the blurred sky shows them (SkyMaps::soft): texels of kSide^2, of
 // light and of the part that passes.

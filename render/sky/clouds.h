@@ -7,13 +7,14 @@
 #include "render/frame/parts.h"
 #include "render/packets/slope_layer.h"
 #include "render/sky/sky_maps.h"
-#include "render/world/world.h"
 
 namespace swell::sky {
 struct SkyLight;
 }
 
 namespace swell::render {
+
+struct WorldState;
 
 // Optical depth of clouds at one deviation of the noise over the threshold; with its square.
 inline constexpr float kCloudDepth = 1.3f;

@@ -5,11 +5,11 @@
 #include <glm/glm.hpp>
 
 #include "render/frame/parts.h"
-#include "render/world/world.h"
 
 namespace swell::render {
 
 struct CloudShadow;
+struct WorldState;
 
 // Where a way through fog begins.
 struct FogStart {

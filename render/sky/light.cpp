@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "render/sky/sky_frame.h"
 #include "render/sky/sky_maps.h"
 #include "render/world/world_state.h"
 #include "sky/sky_light.h"

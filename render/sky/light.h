@@ -6,12 +6,14 @@
 #include "render/frame/parts.h"
 #include "render/sky/clouds.h"
 #include "render/sky/fog.h"
-#include "render/sky/sky_frame.h"
 #include "render/sky/stars.h"
-#include "render/world/world.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
+
+struct CloudShadow;
+struct SkyFrame;
+struct WorldState;
 
 // The sky that water mirrors as it is, where it is calm: clear or with clouds of a layer, without
 // volumetric ones or fog before it, and in a wind that leaves water so calm.

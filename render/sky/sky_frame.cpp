@@ -4,6 +4,7 @@
 
 #include "math/elementary.h"
 #include "render/sky/sky_maps.h"
+#include "render/sky/volume_clouds.h"
 #include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
 #include "sky/atmosphere.h"

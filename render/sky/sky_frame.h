@@ -2,6 +2,7 @@
 // with the clouds where they have drifted.
 #pragma once
 
+#include "math/view.h"
 #include "render/frame/parts.h"
 #include "render/frame/profile.h"
 #include "render/sky/cloud_shadow.h"
@@ -9,9 +10,10 @@
 #include "render/sky/clouds.h"
 #include "render/sky/fog.h"
 #include "render/sky/sky_maps.h"
-#include "render/world/world.h"
 
 namespace swell::render {
+
+struct WorldState;
 
 struct SkyFrame {
   // The sky from the eye's height. What is lit and drawn is a function of that height alone, not of

@@ -4,9 +4,10 @@
 #include <glm/glm.hpp>
 
 #include "render/frame/parts.h"
-#include "render/world/world.h"
 
 namespace swell::render {
+
+struct WorldState;
 
 struct Stars {
   bool on = false;

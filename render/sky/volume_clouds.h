@@ -6,9 +6,14 @@
 #include "math/view.h"
 #include "render/frame/parts.h"
 #include "render/sky/cloud_volume.h"
-#include "render/world/world.h"
+
+namespace swell::scene {
+struct Scene;
+}
 
 namespace swell::render {
+
+struct WorldState;
 
 // Samples of a ray lie on whole steps from the eye; from far_m on steps are twice as long, and so
 // on. Both are powers of two.

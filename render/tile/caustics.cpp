@@ -3,6 +3,9 @@
 #include "math/elementary.h"
 #include "render/frame/parts.h"
 #include "render/packets/slope_layer.h"
+#include "render/sea/sea_maps.h"
+#include "render/sky/light.h"
+#include "render/tile/inputs.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

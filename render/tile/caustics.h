@@ -4,10 +4,12 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "render/tile/inputs.h"
+#include "render/sea/caustic_maps.h"
 #include "render/tile/ripples.h"
 
 namespace swell::render {
+
+struct MaterialInputs;
 
 // The maps of one wave patch.
 struct CausticPatch {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/frame/profile.h"
+#include "render/sky/volume_clouds.h"
 #include "render/tile/cloud_rows.h"
 #include "render/tile/shading.h"
 

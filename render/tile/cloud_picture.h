@@ -7,12 +7,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/frame/profile.h"
-#include "render/sky/volume_clouds.h"
-
 namespace swell::render {
 
 struct Shading;
+struct StageRun;
+struct VolumeClouds;
 
 struct CloudPicture {
   static constexpr int kMostStepLog2 = 2, kLeastStepLog2 = 1;

@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <span>
 
+#include "raster/pass.h"
 #include "raster/samples.h"
 #include "render/view/surfaces.h"
-#include "render/view/visibility.h"
 
 namespace swell::render {
+
+struct RenderView;
+struct VisibilityBuffer;
 
 // A tile's depth with a rim of its neighbours'. Beyond the picture the nearest pixel goes on.
 struct DiscontinuityScratch {

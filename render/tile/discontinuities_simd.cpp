@@ -13,6 +13,8 @@
 #include <hwy/highway.h>
 
 #include "math/lanes-inl.h"
+#include "render/view/render_view.h"
+#include "render/view/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/view/cast_land.h"
+#include "render/view/visibility.h"
 
 namespace swell::render {
 namespace {

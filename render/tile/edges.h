@@ -18,10 +18,11 @@
 
 #include "raster/samples.h"
 #include "render/tile/discontinuities.h"
-#include "render/view/render_view.h"
-#include "render/view/visibility.h"
 
 namespace swell::render {
+
+struct RenderView;
+struct VisibilityBuffer;
 
 // A part of a pixel: what some of its samples show.
 struct EdgeFragment {

@@ -3,13 +3,23 @@
 
 #include <limits>
 
+#include "math/view.h"
 #include "render/frame/parts.h"
-#include "render/sea/sea_maps.h"
-#include "render/sky/light.h"
-#include "render/view/render_view.h"
-#include "render/world/world.h"
+#include "render/view/surfaces.h"
+
+namespace swell::texture {
+struct RgbaImage;
+}
 
 namespace swell::render {
+
+struct Light;
+struct Media;
+struct ObjectGeometry;
+struct RenderView;
+struct SeaMaps;
+struct TreeGeometry;
+struct WorldState;
 
 // An off-screen picture that water looks into, at `scale` of the window's size.
 struct PlanarMap {

@@ -7,6 +7,8 @@
 #include "math/smoothstep.h"
 #include "ocean/open_sea/sea_state.h"
 #include "render/frame/parts.h"
+#include "render/sea/sea_maps.h"
+#include "render/tile/inputs.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

@@ -6,9 +6,14 @@
 #include <glm/glm.hpp>
 
 #include "render/packets/slope_layer.h"
-#include "render/tile/inputs.h"
+
+namespace swell::scene {
+struct Scene;
+}
 
 namespace swell::render {
+
+struct MaterialInputs;
 
 struct Ripples {
   std::array<SlopeLayer, 2> layers;

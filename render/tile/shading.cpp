@@ -1,5 +1,8 @@
 #include "render/tile/shading.h"
 
+#include "render/tile/inputs.h"
+#include "render/view/render_view.h"
+
 namespace swell::render {
 
 void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_size_px,

@@ -8,12 +8,15 @@
 #include "render/packets/view_rays.h"
 #include "render/sky/light.h"
 #include "render/tile/caustics.h"
-#include "render/tile/cloud_picture.h"
 #include "render/tile/shafts.h"
 #include "render/tile/sun_shadow.h"
-#include "render/view/render_view.h"
+#include "render/view/surfaces.h"
 
 namespace swell::render {
+
+struct CloudPicture;
+struct MaterialInputs;
+struct RenderView;
 
 struct Shading {
   ViewKind kind = ViewKind::kWindow;

@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "render/frame/parts.h"
+#include "render/sea/sea_maps.h"
+#include "render/tile/inputs.h"
 #include "render/tile/shading.h"
+#include "render/view/render_view.h"
 
 namespace swell::render {
 namespace {

@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "raster/pass.h"
-#include "render/tile/inputs.h"
-
 namespace swell::render {
 
+struct MaterialInputs;
+struct RenderView;
 struct ViewRays;
 
 struct Shafts {

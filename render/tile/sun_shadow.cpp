@@ -4,6 +4,10 @@
 
 #include "render/frame/parts.h"
 #include "render/shadows/object_shadows.h"
+#include "render/sky/light.h"
+#include "render/tile/inputs.h"
+#include "render/view/objects_drawn.h"
+#include "render/view/render_view.h"
 #include "render/world/forest.h"
 #include "render/world/land_shadow.h"
 #include "render/world/world_state.h"

@@ -6,11 +6,14 @@
 
 #include "raster/pass.h"
 #include "render/packets/square_map.h"
-#include "render/tile/inputs.h"
-#include "render/view/render_view.h"
-#include "render/world/land_shadow.h"
+#include "render/view/shadow_casters.h"
 
 namespace swell::render {
+
+struct CloudShadow;
+struct LandShadow;
+struct MaterialInputs;
+struct RenderView;
 
 struct SunShadow {
   // The land's: texel `along` of a point p relative to the eye is (p.x, p.y, 1) . along.

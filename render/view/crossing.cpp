@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "render/frame/profile.h"
+#include "render/view/meshes.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "raster/pass.h"
-#include "render/frame/profile.h"
-#include "render/view/meshes.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {
+
+struct Meshes;
+struct StageRun;
+struct Surface;
 
 // What a part of the picture looks through first.
 enum class Begins : std::uint8_t { kInAir, kInWater, kInBoth };

@@ -10,6 +10,8 @@
 #include "render/frame/options.h"
 #include "render/frame/profile.h"
 #include "render/sea/background.h"
+#include "render/sea/sea_maps.h"
+#include "render/view/meshes.h"
 #include "render/view/render_view.h"
 #include "render/view/wave_reach.h"
 #include "render/world/world_state.h"

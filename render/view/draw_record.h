@@ -1,6 +1,7 @@
 // The one place that knows how each surface keeps its triangles and the places of its vertices.
 #pragma once
 
+#include "render/view/meshes.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {

@@ -4,6 +4,7 @@
 
 #include "ocean/water_surface.h"
 #include "render/frame/options.h"
+#include "render/sea/sea_maps.h"
 #include "render/view/render_view.h"
 #include "render/view/wave_reach.h"
 #include "render/world/world_state.h"

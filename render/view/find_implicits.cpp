@@ -5,6 +5,7 @@
 
 #include "math/elementary.h"
 #include "render/view/implicits.h"
+#include "render/view/objects_drawn.h"
 #include "render/view/render_view.h"
 
 namespace swell::render {

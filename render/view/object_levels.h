@@ -1,10 +1,22 @@
 // Stage 3: how large objects look, and with how many triangles each is drawn.
 #pragma once
 
-#include "render/view/render_view.h"
-#include "render/world/world.h"
+#include <cstddef>
+#include <glm/glm.hpp>
+
+namespace swell {
+struct View;
+namespace scene {
+struct FloatingObject;
+}
+namespace shapes {
+struct ObjectMesh;
+}
+}  // namespace swell
 
 namespace swell::render {
+
+struct WorldState;
 
 // An outline that is drawn lies no further off that of the finest level.
 inline constexpr float kMostLevelError_px = 0.5f;

@@ -16,8 +16,10 @@
 #include "render/frame/options.h"
 #include "render/frame/profile.h"
 #include "render/view/choose_trees.h"
+#include "render/view/meshes.h"
 #include "render/view/render_view.h"
 #include "render/view/tree_ground.h"
+#include "render/view/trees_drawn.h"
 #include "render/world/forest.h"
 #include "render/world/world_state.h"
 

@@ -5,6 +5,7 @@
 
 #include "math/check.h"
 #include "render/view/draw_record.h"
+#include "render/view/meshes.h"
 #include "render/view/refracted_image.h"
 #include "render/world/world_state.h"
 

@@ -15,19 +15,32 @@
 #include <span>
 #include <vector>
 
-#include "math/parallel.h"
 #include "math/view.h"
 #include "raster/pass.h"
-#include "render/frame/options.h"
-#include "render/frame/profile.h"
 #include "render/view/implicits.h"
-#include "render/view/meshes.h"
 #include "render/view/surfaces.h"
-#include "render/world/world.h"
+
+namespace swell {
+class Workers;
+namespace ocean {
+struct SeaFrame;
+}
+namespace scene {
+struct GivenPose;
+struct ObjectPose;
+}  // namespace scene
+}  // namespace swell
 
 namespace swell::render {
 
+struct FrameOptions;
 struct LandRays;
+struct Meshes;
+struct SeaMaps;
+struct StageRun;
+struct Surface;
+struct TreeDraws;
+struct WorldState;
 
 // A surface's vertices in a view.
 struct ViewVertices {

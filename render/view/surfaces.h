@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
 
 #include "math/enum_table.h"
 
@@ -42,6 +44,19 @@ inline constexpr auto kSurfaceTraits = enum_table<SurfaceKind, SurfaceTraits>({
 constexpr bool shows(ViewKind view, SurfaceKind surface) {
   return view == ViewKind::kWindow || !kSurfaceTraits[surface].is_water;
 }
+
+// Which of a surface's triangles and vertices are one thing.
+struct DrawPart {
+  std::uint32_t first_triangle = 0, triangles = 0;
+  std::uint32_t first_vertex = 0, vertices = 0;
+  bool is_cast = false;  // found by rays: its triangles but stand for its parts
+};
+
+// The triangles of a kind that its material places (materials/list.h).
+struct PlacedSurface {
+  std::vector<std::uint32_t> indices;  // 3 per triangle
+  std::vector<glm::vec3> p_rel;        // per vertex, relative to the eye
+};
 
 // The one table of primitive numbers: the triangles of each surface have consecutive ones, surface
 // after surface. raster::kNoPrimitive lies in no range.

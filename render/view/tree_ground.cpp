@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "lod/mesh_query.h"
+#include "render/frame/options.h"
+#include "render/view/meshes.h"
+#include "render/view/trees_drawn.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

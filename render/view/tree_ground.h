@@ -4,11 +4,13 @@
 
 #include <glm/glm.hpp>
 
-#include "render/frame/options.h"
-#include "render/view/meshes.h"
-#include "render/world/world.h"
-
 namespace swell::render {
+
+struct FrameOptions;
+struct Meshes;
+struct Surface;
+struct TreeGeometry;
+struct WorldState;
 
 // Before trees are placed, when the land's vertices have their heights. Trees stand on the true
 // ground where the land has as many triangles as the scene asks for, or is drawn by rays.

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "math/large_array.h"
+#include "render/frame/profile.h"
 #include "render/view/cast_land.h"
+#include "render/view/meshes.h"
 
 namespace swell::render {
 namespace {

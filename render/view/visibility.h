@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "raster/pass.h"
-#include "render/frame/profile.h"
-#include "render/view/render_view.h"
 
 namespace swell::render {
+
+struct Meshes;
+struct RenderView;
+struct StageRun;
 
 // Per-tile results, in tile order.
 struct VisibilityBuffer {

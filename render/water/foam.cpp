@@ -1,6 +1,7 @@
 #include "render/water/foam.h"
 
 #include "math/elementary.h"
+#include "render/sky/light.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

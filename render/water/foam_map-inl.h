@@ -7,6 +7,7 @@
 #endif
 
 #include "render/packets/packet-inl.h"
+#include "render/sea/foam_blocks.h"
 #include "render/water/whitecaps.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/frame/parts.h"
+#include "render/sky/light.h"
 #include "render/world/land_shadow.h"
 #include "render/world/sun_texture.h"
 #include "render/world/world_state.h"

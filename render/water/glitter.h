@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 
 #include "render/tile/inputs.h"
-#include "render/world/sun_texture.h"
 
 namespace swell::render {
 

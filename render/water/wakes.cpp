@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "render/sea/sea_maps.h"
+
 namespace swell::render {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "ocean/wakes/wake_sources.h"
+#include "ocean/spectrum/limits.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
 #include "render/water/whitecaps.h"

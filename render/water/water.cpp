@@ -9,7 +9,10 @@
 #include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
 #include "render/frame/parts.h"
+#include "render/sea/sea_maps.h"
+#include "render/sky/light.h"
 #include "render/tile/ripples.h"
+#include "render/view/render_view.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

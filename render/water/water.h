@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "ocean/open_sea/sea.h"
+#include "ocean/spectrum/limits.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
 #include "render/water/foam.h"

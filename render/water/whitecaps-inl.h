@@ -6,6 +6,7 @@
 #define SWELL_RENDER_WATER_WHITECAPS_INL_H_
 #endif
 
+#include "ocean/open_sea/foam_on_crest.h"
 #include "render/water/foam-inl.h"
 #include "render/water/foam_map-inl.h"
 #include "render/water/whitecaps.h"

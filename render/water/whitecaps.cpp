@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "math/smoothstep.h"
 #include "render/frame/parts.h"
+#include "render/sea/sea_maps.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {

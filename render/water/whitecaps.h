@@ -4,11 +4,13 @@
 #include <array>
 #include <glm/glm.hpp>
 
-#include "ocean/open_sea/whitecaps.h"
+#include "ocean/spectrum/limits.h"
 #include "render/packets/slope_layer.h"
 #include "render/tile/inputs.h"
 
 namespace swell::render {
+
+struct FoamBlocks;
 
 // Thresholds in [-1, 1] laid along the wind and stretched by it.
 struct FoamLace {

@@ -4,10 +4,11 @@
 #include <glm/glm.hpp>
 
 #include "math/parallel.h"
-#include "render/world/world.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
+
+struct WorldState;
 
 // Points a side of NearShoreMap::map.
 inline constexpr int kNearShoreSize = 512;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/elementary.h"
+#include "render/view/objects_drawn.h"
 #include "render/view/render_view.h"
 #include "scene/file/implicit_file.h"
 

@@ -18,10 +18,10 @@ class FogKernel : public texture::OnEveryTarget {};
 INSTANTIATE_TEST_SUITE_P(Targets, FogKernel, texture::every_target(), texture::target_name);
 
 struct Air {
-  explicit Air(const scene::FoggyAir& of, double eye_m, double sun_sine = 0.5) : air(of) {
+  explicit Air(const sky::FoggyAir& of, double eye_m, double sun_sine = 0.5) : air(of) {
     fog.on = true;
-    fog.is_exponential = air.profile == scene::FogProfile::kExponential;
-    fog.is_paper = air.scattering == scene::FogScattering::kPaper;
+    fog.is_exponential = air.profile == sky::FogProfile::kExponential;
+    fog.is_paper = air.scattering == sky::FogScattering::kPaper;
     fog.per_m = sky::fog_per_m(air);
     fog.is_grey = fog.per_m.x == fog.per_m.y && fog.per_m.y == fog.per_m.z;
     fog.top_m = static_cast<float>(air.fog_top_m);
@@ -50,12 +50,12 @@ struct Air {
     return {passes[0], added[0]};
   }
 
-  scene::FoggyAir air;
+  sky::FoggyAir air;
   Fog fog;
 };
 
-scene::FoggyAir slab(double per_m, double top_m) {
-  scene::FoggyAir air;
+sky::FoggyAir slab(double per_m, double top_m) {
+  sky::FoggyAir air;
   air.attenuation_per_m = glm::vec3(static_cast<float>(per_m));
   air.fog_top_m = top_m;
   air.forward = 0.0;
@@ -64,7 +64,7 @@ scene::FoggyAir slab(double per_m, double top_m) {
 
 // FOG-04.
 TEST_P(FogKernel, VisibilityLeavesTwoPercent) {
-  scene::FoggyAir air;
+  sky::FoggyAir air;
   for (const double visibility_m : {200.0, 1000.0, 5000.0}) {
     air.visibility_m = visibility_m;
     const Air fog(air, 2.0);
@@ -76,15 +76,15 @@ TEST_P(FogKernel, VisibilityLeavesTwoPercent) {
 TEST_P(FogKernel, LayerScattersAsKnown) {
   const glm::vec3 down(0.0f, std::cos(0.3f), -std::sin(0.3f));
   const double way_m = 100.0 / std::sin(0.3);
-  scene::FoggyAir air = slab(1e-3, 200.0);
+  sky::FoggyAir air = slab(1e-3, 200.0);
   EXPECT_NEAR(Air(air, 100.0, std::sin(0.7)).see(down, way_m).added.x / 1e-3, 228.671, 0.02);
-  air.scattering = scene::FogScattering::kPaper;
+  air.scattering = sky::FogScattering::kPaper;
   EXPECT_NEAR(Air(air, 100.0, std::sin(0.7)).see(down, way_m).added.x / 1e-3, 210.463, 0.02);
 }
 
 TEST_P(FogKernel, ThinningFogHasKnownDepths) {
-  scene::FoggyAir air = slab(1e-3, 100.0);
-  air.profile = scene::FogProfile::kExponential;
+  sky::FoggyAir air = slab(1e-3, 100.0);
+  air.profile = sky::FogProfile::kExponential;
   const Air fog(air, 10.0);
   const double known[][2] = {{0.0, 0.904837}, {0.01, 0.861067}, {0.5, 0.179748}};
   for (const auto& [rise, depth] : known) {
@@ -99,8 +99,7 @@ TEST_P(FogKernel, IsTheSumAlongTheWay) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 400; ++trial) {
-    scene::FoggyAir air =
-        slab(std::pow(10.0, -4.0 + 2.0 * unit(random)), 20.0 + 200 * unit(random));
+    sky::FoggyAir air = slab(std::pow(10.0, -4.0 + 2.0 * unit(random)), 20.0 + 200 * unit(random));
     air.attenuation_per_m = glm::vec3(*air.attenuation_per_m) * glm::vec3(0.8f, 1.0f, 1.3f);
     const double eye_m = trial % 3 == 0 ? 5.0 : 400.0 * unit(random);
     const double sun_sine = 0.05 + 0.95 * unit(random);
@@ -137,8 +136,8 @@ TEST_P(FogKernel, IsTheSumAlongTheWay) {
 
 // Where the sky begins nothing changes at once: a far place, and the sky behind it.
 TEST_P(FogKernel, SkyGoesOnFromFarPlaces) {
-  for (const auto profile : {scene::FogProfile::kSlab, scene::FogProfile::kExponential}) {
-    scene::FoggyAir air = slab(2e-3, 60.0);
+  for (const auto profile : {sky::FogProfile::kSlab, sky::FogProfile::kExponential}) {
+    sky::FoggyAir air = slab(2e-3, 60.0);
     air.profile = profile;
     const Air fog(air, 4.0);
     for (const float z : {0.02f, 0.1f, 0.7f, 1.0f}) {
@@ -211,14 +210,13 @@ struct HalfShade {
   CloudShadow shadow;
 };
 
-Air air_of(scene::FogProfile profile, double per_m, double eye_m) {
-  scene::FoggyAir air = slab(per_m, 60.0);
+Air air_of(sky::FogProfile profile, double per_m, double eye_m) {
+  sky::FoggyAir air = slab(per_m, 60.0);
   air.profile = profile;
   return Air(air, eye_m);
 }
 
-constexpr scene::FogProfile kProfiles[] = {scene::FogProfile::kSlab,
-                                           scene::FogProfile::kExponential};
+constexpr sky::FogProfile kProfiles[] = {sky::FogProfile::kSlab, sky::FogProfile::kExponential};
 
 TEST_P(FogKernel, SunlightFallsByWhatCloudsLeaveOfIt) {
   const HalfShade shaded(1500.0), lit(-100.0);
@@ -274,7 +272,7 @@ TEST_P(FogKernel, CloudsShadeThePartOfAWayThatLiesInTheirShadow) {
           double depth = 0.0, all = 0.0, seen = 0.0;
           for (int i = 0; i < kSteps; ++i) {
             const double t = way_m * (i + 0.5) / kSteps, z = eye_m + direction.z * t;
-            const double density = profile == scene::FogProfile::kExponential
+            const double density = profile == sky::FogProfile::kExponential
                                        ? std::exp(-z / fog.air.fog_top_m)
                                        : static_cast<double>(z < fog.air.fog_top_m);
             const double step = per_m * density * way_m / kSteps;

@@ -10,6 +10,7 @@
 #include "render/materials/list.h"
 #include "render/shaders/shader_kernels.h"
 #include "render/sky/sky_maps.h"
+#include "render/view/render_view.h"
 #include "texture/on_every_target.h"
 
 namespace swell::render {

@@ -11,6 +11,7 @@
 
 #include "constants.h"
 #include "math/random.h"
+#include "ocean/open_sea/sea.h"
 #include "texture/on_every_target.h"
 
 namespace swell::render {
