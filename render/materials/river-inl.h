@@ -145,7 +145,7 @@ HWY_INLINE std::array<CarriedCopy, 2> CarriedAt(const River& river, const RiverA
 static HWY_NOINLINE void SeaSlopes(const Shading& s, std::span<const Packet> packets,
                                    WaterSlopes* found) {
   const Water& water = s.material<Water>();
-  if (water.has_coast)
+  if (water.trains.on)
     SampleWater<true>(water, s.rays, packets, found);
   else
     SampleWater<false>(water, s.rays, packets, found);

@@ -59,13 +59,13 @@ void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
 }
 
 void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
-  water.has_coast = in.world.coast != nullptr;
-  if (!water.has_coast) return;
+  water.trains.on = in.world.coast != nullptr;
+  if (!water.trains.on) return;
   const terrain::Grid& grid = in.world.coast->trains.grid;
   const double size_m = grid.size_m();
   const glm::dvec2 from_corner = eye - grid.min_world;
-  water.coast_slopes = make_square_layer(in.sea.coast_slopes, size_m, from_corner);
-  water.coast_surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);
+  water.trains.slopes = make_square_layer(in.sea.coast_slopes, size_m, from_corner);
+  water.trains.surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);
 }
 
 // The displacement of the lookups turns with the picture. Across the line of sight it is half as

@@ -26,6 +26,13 @@ struct SineLayer {
   float wavelength_log2 = 0.0f;
 };
 
+// Wave trains near a coast. Not periodic: they hold within their square.
+struct CoastTrains {
+  bool on = false;
+  SlopeLayer slopes;
+  SlopeLayer surf;  // what the longest waves of the sea cede to them, and their foam
+};
+
 // What light does at the water.
 struct WaterOptics {
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
@@ -63,13 +70,10 @@ struct Water {
   float visible_slopes = 1.0f;  // 1, or 0: all slopes of rough water are seen, also the hidden ones
   float least_cos = 0.0f;  // of normals to the eye, which are tilted to have it; 0: they are not
   float base_variance = 0.0f;  // slope variance of ripples too fine for any map
-  // Near a coast: slopes of wave trains; what the longest waves of the sea cede to them, and their
-  // foam. Not periodic: they hold within their square.
-  bool has_coast = false;
-  bool knows_land() const { return has_coast || near_shore.map.map != nullptr; }
-  bool submerged = false;  // the eye sees the surface from below
-  SlopeLayer coast_slopes, coast_surf;
+  bool submerged = false;      // the eye sees the surface from below
+  CoastTrains trains;
   NearShore near_shore;
+  bool knows_land() const { return trains.on || near_shore.map.map != nullptr; }
   SlopeLayer foam_lace, hull_foam_lace;
   FoamLight foam_light;
   Whitecaps whitecaps;

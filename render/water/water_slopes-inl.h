@@ -70,7 +70,7 @@ struct Surf {
 };
 
 HWY_INLINE void SampleTrains(const Water& water, V3 p, V level_m, Surf& surf) {
-  const SlopeLayer& layer = water.coast_surf;
+  const SlopeLayer& layer = water.trains.surf;
   const LayerPlace place = PlaceIn(layer, p.x, p.y);
   surf.has_trains = surf.inside = IsInside(layer, place);
   if (hn::AllFalse(D(), surf.inside)) return;
@@ -86,7 +86,7 @@ HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
   const V zero = hn::Zero(d), one = Constant(1.0f);
   const auto none = hn::MaskFromVec(zero);
   Surf surf = {zero, zero, zero, none, none, false, false};
-  if (water.has_coast) SampleTrains(water, p, level_m, surf);
+  if (water.trains.on) SampleTrains(water, p, level_m, surf);
   if (water.near_shore.map.map) {
     const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m);
     // What trains leave: they are the waves, where there are some.
@@ -115,7 +115,7 @@ HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf
   s.variance = IfThenElse(surf.inside, blended, s.variance);
   if (hn::AllFalse(d, surf.has_trains)) return;
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
-  AddSlopes(water.coast_slopes, p, level_m, {x, y}, x, y, lost);
+  AddSlopes(water.trains.slopes, p, level_m, {x, y}, x, y, lost);
   s.slope_x = s.slope_x + IfThenElseZero(surf.has_trains, x);
   s.slope_y = s.slope_y + IfThenElseZero(surf.has_trains, y);
   s.variance = s.variance + IfThenElseZero(surf.has_trains, lost);
@@ -134,7 +134,7 @@ template <bool kCoast>
 HWY_INLINE void BendRipples(const Water& water, V3 p, V level_m, V& du, V& dv) {
   V unused = hn::Zero(D());
   // In scenes with surf nobody sees the step between two levels of the noise.
-  if (kCoast && water.has_coast)
+  if (kCoast && water.trains.on)
     NearestSlopes(water.uv_noise, p, level_m, du, dv);
   else
     AddSlopes(water.uv_noise, p, level_m, {du, dv}, du, dv, unused);

@@ -75,16 +75,16 @@ void Peer::State::take_maps(const Workspace::State& frame) {
   gl.ActiveTexture(GL_TEXTURE0 + kSkyMapUnit);  // which an upload binds to as well
   bind_texture(kSkyMapUnit, maps.changing_image(*s.light.sky_map));
   // Where there is surf nobody sees the step between two levels of the noise.
-  bind_layer(kNoiseUnit, sea.uv_noise, sea.has_coast ? Levels::kNearest : Levels::kBlended, true);
+  bind_layer(kNoiseUnit, sea.uv_noise, sea.trains.on ? Levels::kNearest : Levels::kBlended, true);
   for (int i = 0; i < sea.layer_count; ++i) {
     const bool is_patch = i < sea.layer_count - 2;  // the last two are ripples, whose map stays
     bind_layer(kFirstLayerUnit + i, sea.layers[static_cast<std::size_t>(i)], Levels::kBlended,
                is_patch);
   }
-  if (sea.has_coast) {
+  if (sea.trains.on) {
     bind_layer(kFoamUnit, sea.foam_lace, Levels::kNearest, false);
-    bind_layer(kCoastSlopesUnit, sea.coast_slopes, Levels::kBlended, true);
-    bind_layer(kCoastSurfUnit, sea.coast_surf, Levels::kNearest, true);
+    bind_layer(kCoastSlopesUnit, sea.trains.slopes, Levels::kBlended, true);
+    bind_layer(kCoastSurfUnit, sea.trains.surf, Levels::kNearest, true);
   }
   const auto& terrain = s.material<render::Terrain>();
   if (terrain.albedo.map.texels) {

@@ -33,7 +33,7 @@ std::string layers_text(const render::Water& water) {
         "fine_variance = s.variance + short_variance;\n";
   };
   const std::string blend =
-      water.has_coast ? "blend_coast(p.xy, level_flat_m, surf.x, inside, s);\n" : "";
+      water.trains.on ? "blend_coast(p.xy, level_flat_m, surf.x, inside, s);\n" : "";
   if (water.long_layer_count == 0) {
     text += blend;
     next_level();
@@ -160,9 +160,9 @@ void set_water(const Shading& s, const GlProgram& program) {
   program.set("visible_slopes", water.visible_slopes);
   program.set("least_cos", water.least_cos);
   set_waves(water, program);
-  if (water.has_coast) {
-    set_layer(water.coast_slopes, "coast_slopes", program);
-    set_layer(water.coast_surf, "coast_surf", program);
+  if (water.trains.on) {
+    set_layer(water.trains.slopes, "coast_slopes", program);
+    set_layer(water.trains.surf, "coast_surf", program);
     set_foam(s, program);
   }
   program.set("mirrored_sea", water.optics.mirrored_sea);
@@ -222,7 +222,7 @@ ShaderFeatures features_of(const render::Workspace::State& frame) {
       fmt::format("#define LAYERS {}\n#define SINES {}\n", water.layer_count, water.sine_count);
   for (int i = 0; i < water.layer_count; ++i)
     features.water_defines += fmt::format("uniform sampler2D layer_{};\n", i);
-  if (water.has_coast) features.water_defines += "#define COAST\n";
+  if (water.trains.on) features.water_defines += "#define COAST\n";
   if (has_planar_maps(s)) features.water_defines += "#define LOOKUPS\n";
   features.water_layers = layers_text(water);
   if (s.material<render::Terrain>().swash.reach_m > 0.0f)

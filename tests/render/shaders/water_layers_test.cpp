@@ -110,9 +110,9 @@ struct PlainWater {
     const std::vector<float> zero(kTexels * kTexels), share(kTexels * kTexels, share_of_trains);
     texture::pack_map2(kTexels, zero, zero, 1.0f / 127.0f, still);
     texture::pack_map2(kTexels, share, zero, 1.0f / 127.0f, surf);
-    water.uv_noise = water.coast_slopes = water.foam_lace = layer(still);
-    water.coast_surf = layer(surf);
-    water.has_coast = true;
+    water.uv_noise = water.trains.slopes = water.foam_lace = layer(still);
+    water.trains.surf = layer(surf);
+    water.trains.on = true;
     water.base_variance = kBaseVariance;
     // Its slope is largest under the eye.
     water.sines[0] = {.kx = 1.0f / wavelength_m,
@@ -203,7 +203,7 @@ TEST_P(WaterShader, ShowsTheSameHoweverManyPacketsAreSideBySide) {
     const DrawnLike drawn(scene, like);
     const Shading& shading = drawn.shading();
     const Water& water = shading.material<Water>();
-    ASSERT_EQ(water.has_coast, has_coast);
+    ASSERT_EQ(water.trains.on, has_coast);
     std::vector<glm::vec3> p = scattered_runs(300);
     p.resize(p.size() - 21);  // the last packets are not full
     std::vector<SeenWater> alone = seen_at(water, shading.rays, 1, p);
