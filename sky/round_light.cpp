@@ -169,16 +169,13 @@ Radiance gather(const Directions& directions, const RadianceOf& radiance_of, Wor
   return radiance;
 }
 
-void add_row(float part, const glm::vec3* from, glm::vec3* to) {
-  for (int column = 0; column < kRoundSines; ++column) to[column] += part * from[column];
-}
-
 std::vector<glm::vec3> mean_of(const Directions& directions, const Radiance& radiance) {
   std::vector<glm::vec3> mean(kPoints);
   for (std::size_t d = 0; d < kDirections; ++d)
     for (std::size_t row = 0; row < kGathered; ++row)
-      add_row(directions.part[d / kAzimuths],
-              radiance.data() + d * kGatheredPoints + row * kRoundSines, gathered_row(mean, row));
+      add_part(directions.part[d / kAzimuths],
+               radiance.data() + d * kGatheredPoints + row * kRoundSines, kRoundSines,
+               gathered_row(mean, row));
   fill_rest(mean.data(), kSourceHeights);
   return mean;
 }
@@ -191,8 +188,8 @@ Means means_of(const Directions& directions, const Radiance& radiance, Workers& 
     for (std::size_t from = 0; from < kDirections; ++from) {
       const float part = directions.haze_part[to * kDirections + from];
       for (std::size_t row = 0; row < kGatheredHaze; ++row)
-        add_row(part, radiance.data() + from * kGatheredPoints + row * kRoundSines,
-                sum + 2 * row * kSourceSines);
+        add_part(part, radiance.data() + from * kGatheredPoints + row * kRoundSines, kRoundSines,
+                 sum + 2 * row * kSourceSines);
     }
     fill_rest(sum, kHazeHeights);
   });
@@ -283,9 +280,9 @@ std::vector<glm::vec3> uneven_moments(const std::vector<Harmonics>& cells,
     glm::vec3* const uneven = all.data() + std::size_t{kPoints} * m;
     for (std::size_t d = 0; d < kDirections; ++d)
       for (std::size_t row = 0; row < kGathered; ++row)
-        add_row(phase * cells[d][moment_index(2, m)],
-                radiance.data() + d * kGatheredPoints + row * kRoundSines,
-                uneven + 2 * row * kSourceSines);
+        add_part(phase * cells[d][moment_index(2, m)],
+                 radiance.data() + d * kGatheredPoints + row * kRoundSines, kRoundSines,
+                 uneven + 2 * row * kSourceSines);
     fill_rest(uneven, kSourceHeights);
   }
   return all;
@@ -301,8 +298,8 @@ std::vector<glm::vec3> haze_moments(const std::vector<Harmonics>& cells, const R
       const auto phase = static_cast<float>(mie_moment(l));
       for (std::size_t d = 0; d < kDirections; ++d)
         for (std::size_t row = 0; row < kGatheredHaze; ++row)
-          add_row(phase * cells[d][n], radiance.data() + d * kGatheredPoints + row * kRoundSines,
-                  haze.data() + n * kHazePoints + 2 * row * kSourceSines);
+          add_part(phase * cells[d][n], radiance.data() + d * kGatheredPoints + row * kRoundSines,
+                   kRoundSines, haze.data() + n * kHazePoints + 2 * row * kSourceSines);
       fill_rest(haze.data() + n * kHazePoints, kHazeHeights);
     }
   });

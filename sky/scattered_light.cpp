@@ -81,9 +81,8 @@ void add_haze(const Atmosphere& atmosphere, const Harmonics& at, PathSources& so
     for (int l = m; l < kDegrees; ++l) {
       const int n = moment_index(l, m);
       const glm::vec3* in = atmosphere.haze.data() + std::size_t{kHazePoints} * n + first;
-      glm::vec3* to = out.data();
-      for (int height = 0; height < kHazeHeights; ++height, in += kSourceSines)
-        for (int column = 0; column < count; ++column) *to++ += at[n] * in[column];
+      for (int height = 0; height < kHazeHeights; ++height)
+        add_part(at[n], in + height * kSourceSines, count, out.data() + height * count);
     }
   }
 }
@@ -104,10 +103,12 @@ std::vector<glm::vec3> sum_haze(const PathSources& sources, const std::array<flo
                                 const PathSources::Columns& met) {
   const auto [first, count] = sources.haze_columns;
   std::vector<glm::vec3> haze(sources.haze[0].size());
+  if (met.count == 0) return haze;
   for (std::size_t m = 0; m < kModes; ++m)
-    for (std::size_t row = 0; row < haze.size(); row += static_cast<std::size_t>(count))
-      for (int column = met.first - first; column < met.first - first + met.count; ++column)
-        haze[row + column] += modes[m] * sources.haze[m][row + column];
+    for (std::size_t row = 0; row < haze.size(); row += static_cast<std::size_t>(count)) {
+      const std::size_t at = row + static_cast<std::size_t>(met.first - first);
+      add_part(modes[m], sources.haze[m].data() + at, met.count, haze.data() + at);
+    }
   return haze;
 }
 
