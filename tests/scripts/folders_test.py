@@ -1,4 +1,4 @@
-"""The folders of the sources: their includes point down, and none is too large to look through."""
+"""The folders of the sources: their includes point down, none is too large to look through, and headers include few."""
 
 import pathlib
 import re
@@ -8,6 +8,11 @@ SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 TOP_FOLDERS = ("math", "texture", "terrain", "ocean", "lod", "raster", "sky", "scene", "shapes", "mesh_import",
                "render", "capi", "tools", "apps")
 MOST_FILES = 45  # in a folder with sources
+MOST_HEADERS = 60  # of ours that one includes, with all that these include; but for these, which compose:
+COMPOSING = {"render/workspace.h", "render/picture/planar_maps.h", "render/picture/shade_picture.h",
+             "render/shade/shade_material-inl.h", "render/materials/object-inl.h", "render/materials/river-inl.h",
+             "render/materials/terrain-inl.h", "render/water/topside-inl.h", "render/water/underside-inl.h",
+             "render/water/water-inl.h", "tools/peer/peer_programs.h"}
 
 
 def sources(folders=TOP_FOLDERS):
@@ -24,6 +29,26 @@ def includes_between_folders():
             if (SOURCE / include).exists() and there != folder:
                 arrows.setdefault(folder, {})[there] = f"{file.relative_to(SOURCE)} includes {include}"
     return arrows
+
+
+def headers_included():
+    """{header: how many of ours it includes, with all that these include}."""
+    direct = {}
+    for file in sources():
+        if file.suffix == ".h":
+            includes = re.findall(r'^#include "([^"]+)"', file.read_text(), re.MULTILINE)
+            direct[file.relative_to(SOURCE).as_posix()] = [there for there in includes if (SOURCE / there).exists()]
+
+    def all_of(header):
+        found, ways = set(), [header]
+        while ways:
+            for there in direct.get(ways.pop(), ()):
+                if there not in found:
+                    found.add(there)
+                    ways.append(there)
+        return found
+
+    return {header: len(all_of(header)) for header in direct}
 
 
 def find_circle(arrows):
@@ -63,6 +88,11 @@ class Folders(unittest.TestCase):
         for large in ("render/view", "scene/file", "tests/render/shaders"):
             self.assertGreater(files[large], 20)
         self.assertEqual({folder: count for folder, count in files.items() if count > MOST_FILES}, {})
+
+    def test_headers_include_few(self):
+        counts = headers_included()
+        self.assertGreater(counts["render/workspace.h"], MOST_HEADERS)
+        self.assertEqual({header for header, count in counts.items() if count > MOST_HEADERS}, COMPOSING)
 
 
 if __name__ == "__main__":
