@@ -24,7 +24,7 @@ double root4(double x) { return std::sqrt(std::sqrt(x)); }
 // Where the last ring lies.
 double last_ring_m(const View& view) {
   const double eye_m = std::max(view.eye_world.z, 0.0);
-  const double horizon_m = kBeyondHorizon * std::sqrt(2.0 * kEarthRadius_m * eye_m);
+  const double horizon_m = kBeyondHorizon * std::sqrt(2.0 * kEffectiveEarthRadius_m * eye_m);
   return std::clamp(horizon_m, kRadialLast_m, 0.49 * kMostDomain_m);
 }
 

@@ -11,7 +11,7 @@ namespace swell {
 // coefficient of refraction k = 0.13 of the standard atmosphere. The horizon then lies at
 // sqrt(2 R' h), 3.827 km times the root of the eye's height in metres, and sqrt(2 h / R') below the
 // level.
-inline constexpr double kEarthRadius_m = 6371e3 / (1.0 - 0.13);
+inline constexpr double kEffectiveEarthRadius_m = 6371e3 / (1.0 - 0.13);
 
 // r^2 times this is how far the sea has sunk; of a flat earth (infinity) 0.
 constexpr float drop_per_m2(double earth_radius_m) {

@@ -83,7 +83,7 @@ glm::vec3 whole_disc_transmittance(const Atmosphere& atmosphere, double height_m
 }
 
 double horizon_sine(double height_m) {
-  const double tangent = std::sqrt(2.0 * height_m / swell::kEarthRadius_m);
+  const double tangent = std::sqrt(2.0 * height_m / kEffectiveEarthRadius_m);
   return -tangent / std::sqrt(1.0 + tangent * tangent);
 }
 

@@ -8,6 +8,7 @@
 
 #include "render/packets/packet-inl.h"
 #include "render/sky/clouds.h"
+#include "sky/air.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -20,8 +21,8 @@ struct CloudPlace {
 };
 
 HWY_INLINE CloudPlace PlaceOnClouds(const Clouds& clouds, V3 direction) {
-  constexpr float kEarthRadius_m = 6.36e6f;
-  const float drop = 2.0f * clouds.height_m / kEarthRadius_m;
+  constexpr auto kRadius_m = static_cast<float>(sky::kEarthRadius_m);
+  const float drop = 2.0f * clouds.height_m / kRadius_m;
   const V z = direction.z;
   const V rise = Sqrt(MulAdd(z, z, drop));
   const V slant = 2.0f * clouds.height_m / (z + rise);

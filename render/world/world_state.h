@@ -109,7 +109,8 @@ struct WorldState {
   double earth_radius_m(PartSet without) const {
     const bool bends =
         scene.detail.triangulation != scene::Triangulation::kPlane && !without.has(Part::kEarth);
-    return scene.round_earth && bends ? kEarthRadius_m : std::numeric_limits<double>::infinity();
+    return scene.round_earth && bends ? kEffectiveEarthRadius_m
+                                      : std::numeric_limits<double>::infinity();
   }
 };
 
