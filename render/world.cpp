@@ -1,13 +1,18 @@
 // Making a scene ready to draw: everything that does not change with time.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
 
 #include "lod/relief_bounds.h"
 #include "math/check.h"
+#include "math/elementary.h"
 #include "ocean/coast/coast.h"
 #include "ocean/coast/shelter.h"
+#include "ocean/inland/drift.h"
 #include "ocean/inland/inland_water.h"
+#include "ocean/inland/river_flow.h"
+#include "ocean/inland/river_network.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/open_sea/whitecaps.h"
 #include "render/labels/classes.h"
@@ -27,7 +32,6 @@
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
-#include "scene/drift.h"
 #include "scene/terrain.h"
 #include "sky/atmosphere.h"
 #include "sky/sky_light.h"
@@ -244,14 +248,22 @@ void add_forest(PartMaker& parts, Workers& workers, WorldState& state) {
   });
 }
 
-// Those of scenes with the same rivers and lakes.
-std::vector<const scene::Scene*> same_rivers(const scene::Scene& scene,
-                                             std::span<const World* const> like) {
-  std::vector<const scene::Scene*> same;
-  for (const World* const world : like)
-    if (world->scene().rivers == scene.rivers && world->scene().lakes == scene.lakes)
-      same.push_back(&world->scene());
-  return same;
+// The ways of objects that rivers carry away. Once their sizes are known.
+void add_drift(PartMaker& parts, Workers& workers, scene::Scene& scene) {
+  if (std::ranges::none_of(scene.objects, &scene::FloatingObject::drift)) return;
+  const ocean::RiverNetwork network(scene.rivers, scene.lakes);
+  const ocean::RiverFlow flow(network);
+  const ValueBytes rivers = parts.of({"river", "lake"});
+  workers.for_each(scene.objects.size(), [&](std::size_t n, int) {
+    scene::FloatingObject& object = scene.objects[n];
+    object.drift_track = nullptr;
+    if (!object.drift) return;
+    const ocean::Drifter drifter = {
+        object.position_m, {sin(object.heading_rad), cos(object.heading_rad)}, object.size_m.y};
+    object.drift_track = parts.share(
+        "drift", ValueBytes(rivers).add(drifter.p).add(drifter.ahead).add(drifter.length_m),
+        [&] { return ocean::DriftTrack(network, flow, drifter); });
+  });
 }
 
 std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World* const> like,
@@ -279,7 +291,7 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World
   add_land_shadow(parts, workers, *state);
   add_forest(parts, workers, *state);
   state->objects = build_object_meshes(state->scene, parts);
-  scene::find_drift_tracks(state->scene, same_rivers(now, like), workers);
+  add_drift(parts, workers, state->scene);
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);

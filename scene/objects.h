@@ -129,7 +129,7 @@ struct FloatingObject {
   bool path_closed = true;  // from the last point on to the first; false: it stops at the last
   bool wake = true;         // what floats along a path and is a boat makes one
   bool drift = false;       // the river at its position takes it along from t = 0 on
-  // Its way, in a scene that a render::World holds (scene/drift.h).
+  // Its way, in a scene that a render::World holds.
   std::shared_ptr<const ocean::DriftTrack> drift_track{};
 
   // These hold for what is painted.

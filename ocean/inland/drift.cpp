@@ -71,8 +71,7 @@ DriftPlace step(const Stream& stream, const DriftPlace& from, const DriftPlace& 
 
 }  // namespace
 
-DriftTrack::DriftTrack(const RiverNetwork& network, const RiverFlow& flow, const Drifter& drifter)
-    : drifter_(drifter) {
+DriftTrack::DriftTrack(const RiverNetwork& network, const RiverFlow& flow, const Drifter& drifter) {
   const Stream stream(network, flow, drifter);
   const double psi = flow.psi(drifter.p).value_or(0.0);
   Point at{0.0, {drifter.p, 0.0}, {}};

@@ -15,8 +15,6 @@ struct Drifter {
   glm::dvec2 p{0.0};           // world, of its middle
   glm::dvec2 ahead{0.0, 1.0};  // unit, where it points
   double length_m = 1.0;       // along `ahead`
-
-  bool operator==(const Drifter&) const = default;
 };
 
 struct DriftPlace {
@@ -37,7 +35,6 @@ class DriftTrack {
   // with the water's velocities, less than 1e-3 of the width off the level line.
   DriftPlace at(double t_s) const;
 
-  const Drifter& drifter() const { return drifter_; }
   double end_s() const { return points_.back().t_s; }
 
  private:
@@ -46,7 +43,6 @@ class DriftTrack {
     DriftPlace place, per_s;
   };
 
-  Drifter drifter_;
   std::vector<Point> points_;
 };
 
