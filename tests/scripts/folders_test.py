@@ -31,6 +31,13 @@ def includes_between_folders():
     return arrows
 
 
+def folders_from_below():
+    """The folders of render/ in the order of docs/frame.md; "" is what lies in none."""
+    table = (SOURCE / "docs/frame.md").read_text().split("### The folders, from below")[1].split("\n\n")[2]
+    names = [name.strip() for row in re.findall(r"^\| ([\w/., ]+) \|", table, re.MULTILINE)[1:] for name in row.split(",")]
+    return list(dict.fromkeys(name.removesuffix("/") if name.endswith("/") else "" for name in names))
+
+
 def headers_included():
     """{header: how many of ours it includes, with all that these include}."""
     direct = {}
@@ -80,6 +87,16 @@ class Folders(unittest.TestCase):
         self.assertEqual(find_circle(arrows), ["b to c", "c to b"])
         del arrows["c"]["b"]
         self.assertEqual(find_circle(arrows), [])
+
+    def test_those_of_render_include_only_what_lies_below(self):
+        order = folders_from_below()
+        self.assertLess(order.index("water"), order.index("materials"))
+        within = {(folder.removeprefix("render").strip("/"), there.removeprefix("render").strip("/")): include
+                  for folder, arrows in includes_between_folders().items() for there, include in arrows.items()
+                  if folder.split("/")[0] == there.split("/")[0] == "render"}
+        self.assertEqual({folder for arrow in within for folder in arrow}, set(order))
+        self.assertEqual([include for (folder, there), include in within.items()
+                          if order.index(there) > order.index(folder)], [])
 
     def test_none_has_too_many_files(self):
         folders = {file.parent for file in sources(TOP_FOLDERS + ("tests", "examples"))}
