@@ -23,6 +23,7 @@ function(change_materials folder)
   string(REGEX REPLACE "\n *Object, *//" "" text "${text}")
   file(WRITE ${materials}/list.h "${text}")
   file(REMOVE ${materials}/object.h ${materials}/object-inl.h)
+  file(WRITE ${materials}/object.cpp "")  # the unity build still names it
 endfunction()
 
 # The files of render/ that include one of `found`, in any number of steps, and these themselves.
