@@ -104,7 +104,7 @@ void prepare_target(const View& view, const FrameOptions& options, Target& targe
   resize_labels(options.labels, {view.width_px, view.height_px}, target.labels);
 }
 
-void prepare_scratch(int threads, Workspace::State& ws) {
+void prepare_scratch(int threads, FrameState& ws) {
   while (ws.scratch.size() < static_cast<std::size_t>(threads))
     ws.scratch.push_back(std::make_unique<ThreadScratch>());
 }
@@ -115,7 +115,7 @@ struct FrameInputs {
   const View& view;  // as it is drawn
   double t_s;
   const FrameOptions& options;  // with the scene's defaults
-  Workspace::State& ws;
+  FrameState& ws;
   Workers& workers;
 
   bool has(Part part) const { return !options.without.has(part); }
@@ -152,7 +152,7 @@ ViewList views_of(PlanarMaps& maps) {
 
 // The cameras of the window and of what its water looks into, from the air and from below.
 void prepare_views(const FrameInputs& in) {
-  Workspace::State& ws = in.ws;
+  FrameState& ws = in.ws;
   const auto prepare = [&](RenderView& view, ViewKind kind, const View& camera, float margin_m) {
     view.kind = kind;
     view.camera = camera;
@@ -218,7 +218,7 @@ void set_eye(const EyeInWater& eye, FrameViews views) {
 // Displaces water and land into the views, and finds where the waterline crosses the picture.
 // Returns the views that are shown: then images of both sides. Without water the window alone.
 ViewList place_water(const FrameInputs& in, const StageRun& run) {
-  Workspace::State& ws = in.ws;
+  FrameState& ws = in.ws;
   EyeInWater eye = find_eye_in_water(in.world, ws.sea, in.view, in.options);
   const ViewList images = in.has(Part::kWater) ? views_of(ws.planar_maps) : ViewList{};
   ViewList views;
@@ -246,7 +246,7 @@ ViewList place_water(const FrameInputs& in, const StageRun& run) {
 
 // Adds the mirror of the nearest inland water, if it is seen from the air.
 void place_river_mirror(const FrameInputs& in, ViewList& views, const StageRun& run) {
-  Workspace::State& ws = in.ws;
+  FrameState& ws = in.ws;
   if (!ws.meshes.rivers.mirror_level_m || ws.window.eye.submerged) return;
   RenderView& mirror = ws.river_mirror.view;
   mirror.level_m = *ws.meshes.rivers.mirror_level_m;
@@ -260,7 +260,7 @@ void place_river_mirror(const FrameInputs& in, ViewList& views, const StageRun& 
 
 // Stage 3: the places of all vertices but the trees' in the frame's views, which it returns.
 ViewList place_vertices(const FrameInputs& in, const StageRun& run) {
-  Workspace::State& ws = in.ws;
+  FrameState& ws = in.ws;
   ViewList views = place_water(in, run);
   place_river_mirror(in, views, run);
   ws.meshes.objects.draws_implicits = in.has(Part::kImplicits);
@@ -278,7 +278,7 @@ void find_shadows(const FrameInputs& in, const Light& light, const StageRun& run
 // Stage 5 on one side of the water: the images that it looks into, and what shading needs.
 void draw_side(const FrameInputs& in, const Light& light, const Media& media, PlanarMaps& maps,
                ViewShading& shading, const StageRun& run) {
-  Workspace::State& ws = in.ws;
+  FrameState& ws = in.ws;
   MaterialInputs inputs{in.world,          in.t_s, ws.sea, ws.meshes.objects, light, media,
                         in.options.without};
   inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
@@ -292,7 +292,7 @@ void draw_side(const FrameInputs& in, const Light& light, const Media& media, Pl
 
 // Stage 5: images of both sides if the waterline crosses the picture, the eye's own last.
 void draw_images(const FrameInputs& in, const Light& light, const Air& air, const StageRun& run) {
-  Workspace::State& ws = in.ws;
+  FrameState& ws = in.ws;
   const Media in_air = make_media(in.world, light, air.fog, air.sky_m, in.options.without);
   const Media in_water = submerge(in_air, in.view.eye_world.z);
   if (ws.crossing.picture == Begins::kInBoth)
@@ -311,7 +311,7 @@ void draw_window_clouds(const FrameInputs& in, float scale, const StageRun& run)
 
 // Stage 6: the picture, and the labels that are asked for.
 void shade(const FrameInputs& in, Target& target, const StageRun& run) {
-  Workspace::State& ws = in.ws;
+  FrameState& ws = in.ws;
   const bool has_labels = !in.options.labels.empty();
   if (has_labels)
     fill_label_tables({in.world, ws.meshes, ws.window, in.options, in.t_s}, ws.labels, run);
@@ -331,7 +331,7 @@ void enlarge_picture(const Target& small, EnlargeTables& tables, const View& vie
           {view.width_px, view.height_px}, tables, workers);
 }
 
-FrameStatistics statistics_of(const Workspace::State& ws) {
+FrameStatistics statistics_of(const FrameState& ws) {
   FrameStatistics s;
   s.stage_ms = ws.profile.stage_ms();
   s.frame_ms = ws.profile.now_us() * 1e-3;
@@ -356,7 +356,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   for (const auto& poses : {asked.poses, asked.next_poses})
     scene::check_given_poses(poses, world.scene().objects.size());
   const ScopedFloatEnvironment ieee;
-  Workspace::State& ws = workspace.state();
+  FrameState& ws = workspace.state();
   const FrameOptions options = with_scene_defaults(asked, world.scene());
   const View drawn = drawn_view(view, options);
   const bool small = drawn.width_px < view.width_px || drawn.height_px < view.height_px;
@@ -410,14 +410,14 @@ const WorldState& World::state() const {
   return *state_;
 }
 
-Workspace::State& Workspace::state() {
+FrameState& Workspace::state() {
   SWELL_CHECK(state_, "the Workspace was moved from");
   return *state_;
 }
 
-const Workspace::State& Workspace::state() const { return const_cast<Workspace*>(this)->state(); }
+const FrameState& Workspace::state() const { return const_cast<Workspace*>(this)->state(); }
 
-Workspace::Workspace() : state_(std::make_unique<State>()) {}
+Workspace::Workspace() : state_(std::make_unique<FrameState>()) {}
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;

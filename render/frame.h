@@ -35,6 +35,8 @@ struct FrameStatistics {
   std::uint64_t shaded_pixels = 0;   // surface shader runs; equal to visible_pixels
 };
 
+struct FrameState;  // workspace.h
+
 // Everything that is reused from frame to frame: a cache, never an input. One frame at a time. One
 // that was moved from: as a World.
 class Workspace {
@@ -44,16 +46,15 @@ class Workspace {
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
 
-  struct State;
-  State& state();
-  const State& state() const;
+  FrameState& state();
+  const FrameState& state() const;
   // The trace is that of the last frame; it is empty unless trace_enabled was set before that
   // frame.
   bool trace_enabled = false;
   std::vector<TraceEvent> trace;
 
  private:
-  std::unique_ptr<State> state_;
+  std::unique_ptr<FrameState> state_;
 };
 
 // Draws the world at time t_s. The picture depends on (world, view, t_s, options) alone: any

@@ -11,6 +11,7 @@
 #include "render/picture/label_tables.h"
 #include "render/picture/planar_maps.h"
 #include "render/picture/shade_picture.h"
+#include "render/picture/thread_scratch.h"
 #include "render/sea/sea_maps.h"
 #include "render/sky/sky_frame.h"
 #include "render/tile/cloud_picture.h"
@@ -21,7 +22,7 @@
 
 namespace swell::render {
 
-struct Workspace::State {
+struct FrameState {
   Profile profile;
   SeaMaps sea;
   SkyFrame sky;

@@ -18,7 +18,7 @@ constexpr int kClocksAFrame = 4;
 // What the tiles of the last frame show, and how long shading each took. One thread takes them in
 // their order, so that its pieces of the stage in the trace are the tiles.
 ShadedFrame shaded_tiles(const render::Workspace& workspace) {
-  const render::Workspace::State& frame = workspace.state();
+  const render::FrameState& frame = workspace.state();
   const render::VisibilityBuffer& visibility = frame.visibility;
   ShadedFrame tiles;
   for (const render::TraceEvent& piece : workspace.trace) {

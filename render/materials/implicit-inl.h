@@ -7,7 +7,7 @@
 #endif
 
 #include "render/packets/packet-inl.h"
-#include "render/view/objects_drawn.h"
+#include "render/view/object_instance.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

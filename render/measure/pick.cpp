@@ -89,7 +89,7 @@ void ask_land(const terrain::HeightGrid& terrain, Pick& pick) {
 }
 
 // The nearest thing that was drawn on a ray of the flat world.
-std::optional<Pick> meet_all(const WorldState& w, const Workspace::State& ws, const Ray& ray,
+std::optional<Pick> meet_all(const WorldState& w, const FrameState& ws, const Ray& ray,
                              PickScratch& scratch) {
   std::optional<Pick> nearest;
   const bool is_bintree = w.scene.detail.triangulation != scene::Triangulation::kRadial;
@@ -125,7 +125,7 @@ struct BentRay {
   }
 };
 
-std::optional<Pick> meet_all(const WorldState& w, const Workspace::State& ws, const BentRay& bent,
+std::optional<Pick> meet_all(const WorldState& w, const FrameState& ws, const BentRay& bent,
                              PickScratch& scratch) {
   constexpr int kMostChords = 4;
   std::optional<Pick> met;
@@ -142,7 +142,7 @@ std::optional<Pick> find_pick(const World& world, const View& view, const Worksp
                               glm::vec2 at_px, PickScratch& scratch) {
   SWELL_CHECK(std::isfinite(at_px.x) && std::isfinite(at_px.y), "at_px=({}, {})", at_px.x, at_px.y);
   const WorldState& w = world.state();
-  const Workspace::State& ws = workspace.state();
+  const FrameState& ws = workspace.state();
   // From where the picture begins.
   const glm::dvec3 to_pixel(view.ray(at_px.x, at_px.y));
   const glm::dvec3 to_near_plane = static_cast<double>(view.near_m) * to_pixel;

@@ -5,6 +5,8 @@
 
 #include "render/frame/parts.h"
 #include "render/frame/profile.h"
+#include "render/picture/thread_scratch.h"
+#include "render/shade/shade_tile.h"
 #include "render/view/cast_land.h"
 #include "render/view/draw_record.h"
 #include "render/view/meshes.h"

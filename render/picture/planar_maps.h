@@ -6,25 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "render/frame/profile.h"
 #include "render/materials/list.h"
-#include "render/picture/crossed_tile.h"
-#include "render/shade/shade_tile.h"
+#include "render/tile/shading.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
 
 namespace swell::render {
 
-// Working memory of one thread.
-struct ThreadScratch {
-  ShadeScratch shade;
-  ShadedLabels labels;
-  EdgeScratch edges;
-  std::unique_ptr<CrossedScratch> crossed;  // once a frame has needed it
-  std::array<std::uint8_t, kMaxTilePixels> in_water;
-  alignas(64) std::array<float, kMaxTilePixels> depth;
-  alignas(64) std::array<std::uint32_t, kMaxTilePixels> primitive;
-};
+struct StageRun;
+struct ThreadScratch;
 using ScratchList = std::span<const std::unique_ptr<ThreadScratch>>;  // one a thread
 
 struct PlanarTarget {

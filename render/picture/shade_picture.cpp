@@ -1,7 +1,11 @@
 #include "render/picture/shade_picture.h"
 
+#include "render/frame/profile.h"
 #include "render/frame/target.h"
+#include "render/picture/crossed_tile.h"
 #include "render/picture/label_tile.h"
+#include "render/picture/thread_scratch.h"
+#include "render/shade/shade_tile.h"
 #include "render/view/crossing.h"
 
 namespace swell::render {

@@ -16,6 +16,7 @@
 
 #include "render/materials/list.h"
 #include "render/packets/packet-inl.h"
+#include "render/tile/scratch.h"
 #include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();

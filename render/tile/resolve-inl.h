@@ -10,6 +10,7 @@
 #include <array>
 #include <span>
 
+#include "render/tile/scratch.h"
 #include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -14,11 +14,6 @@ namespace swell::render {
 inline constexpr int kMaxTilePixels = 64 * 64;
 static_assert(ShadedLabels::kMostPixels == kMaxTilePixels);
 
-// What water in a tile can see in the planar maps.
-struct TilePlanarMaps {
-  bool reflection = false, refraction = false;
-};
-
 inline constexpr std::size_t kMaxTileFragments = kMaxFragments * kMaxTilePixels;
 inline constexpr std::size_t kListPadding = 64;  // a list's end, up to whole packets
 

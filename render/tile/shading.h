@@ -43,4 +43,9 @@ struct Shading {
 void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_size_px,
                   Shading& shading);
 
+// What water in a tile can see in the planar maps.
+struct TilePlanarMaps {
+  bool reflection = false, refraction = false;
+};
+
 }  // namespace swell::render

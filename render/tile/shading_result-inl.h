@@ -7,11 +7,12 @@
 #endif
 
 #include "render/packets/packet-inl.h"
-#include "render/tile/scratch.h"
 #include "render/tile/shading.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
+struct EdgeFragment;
+
 namespace HWY_NAMESPACE {
 
 // A tile of the visibility buffer.

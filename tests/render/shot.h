@@ -86,7 +86,7 @@ struct Shot {
     return glm::normalize(view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
   }
 
-  const Workspace::State& state() const { return workspace.state(); }
+  const FrameState& state() const { return workspace.state(); }
   // What the middle of a pixel shows; raster::kNoPrimitive for the sky.
   std::uint32_t primitive(int x, int y) const {
     const VisibilityBuffer& buffer = state().visibility;

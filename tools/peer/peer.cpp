@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "render/workspace.h"
 #include "tools/peer/egl_context.h"
 #include "tools/peer/peer_maps.h"
 #include "tools/peer/peer_meshes.h"
@@ -25,7 +26,7 @@ constexpr int kWaterMark = 1, kLandMark = 2;
 struct Peer::State {
   explicit State(int threads);
 
-  void take_maps(const Workspace::State& frame);
+  void take_maps(const render::FrameState& frame);
   void bind_texture(int unit, GLuint texture) const;
   void bind_layer(int unit, const render::SlopeLayer& layer, Levels levels, bool changed);
   void draw_pass(PeerPass pass) const;
@@ -68,7 +69,7 @@ void Peer::State::bind_layer(int unit, const render::SlopeLayer& layer, Levels l
   bind_texture(unit, maps.slopes(layer, levels, changed));
 }
 
-void Peer::State::take_maps(const Workspace::State& frame) {
+void Peer::State::take_maps(const render::FrameState& frame) {
   const render::Shading& s = frame.shading;
   const auto& sea = s.material<render::Water>();
   bind_texture(kSkySoftUnit, maps.image(*s.light.sky_soft));
@@ -102,7 +103,7 @@ void Peer::State::take_maps(const Workspace::State& frame) {
 }
 
 void Peer::take(const Workspace& workspace) {
-  const Workspace::State& frame = workspace.state();
+  const render::FrameState& frame = workspace.state();
   State& peer = *state_;
   const ShaderFeatures features = features_of(frame);
   const std::string key = features.water_defines + features.water_layers + features.terrain_defines;

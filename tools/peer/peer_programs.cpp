@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "render/workspace.h"
 #include "tools/peer/peer_maps.h"
 #include "tools/peer/shaders.h"
 #include "tools/peer/texture_units.h"
@@ -214,7 +215,7 @@ void set_view_programs(const Shading& s, const render::RenderView& view,
 
 }  // namespace
 
-ShaderFeatures features_of(const render::Workspace::State& frame) {
+ShaderFeatures features_of(const render::FrameState& frame) {
   const Shading& s = frame.shading;
   const auto& water = s.material<render::Water>();
   ShaderFeatures features;
@@ -237,7 +238,7 @@ PeerPrograms::PeerPrograms(const Gl& gl, const ShaderFeatures& features)
       reflection(view_programs(gl, features, "REFLECTION")),
       refraction(view_programs(gl, features, "REFRACTION")) {}
 
-void set_constants(const render::Workspace::State& frame, const PeerPrograms& programs) {
+void set_constants(const render::FrameState& frame, const PeerPrograms& programs) {
   const Shading& s = frame.shading;
   for (const GlProgram* program : {&programs.water, &programs.sky})
     set_view(s, frame.window.camera, *program);

@@ -7,8 +7,11 @@
 #include <string>
 
 #include "render/tile/shading.h"
-#include "render/workspace.h"
 #include "tools/peer/gl_program.h"
+
+namespace swell::render {
+struct FrameState;
+}
 
 namespace swell::apps {
 
@@ -19,7 +22,7 @@ struct ShaderFeatures {
   std::string water_layers;   // the calls that add the layers, in order
   std::string terrain_defines;
 };
-ShaderFeatures features_of(const render::Workspace::State& frame);
+ShaderFeatures features_of(const render::FrameState& frame);
 
 // Programs of one view: objects are shaded as they are drawn, land and water once it is known where
 // they are nearest.
@@ -35,6 +38,6 @@ struct PeerPrograms {
 };
 
 // Sets all constants of a frame.
-void set_constants(const render::Workspace::State& frame, const PeerPrograms& programs);
+void set_constants(const render::FrameState& frame, const PeerPrograms& programs);
 
 }  // namespace swell::apps

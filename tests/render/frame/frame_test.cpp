@@ -230,7 +230,7 @@ scene::Scene calm_scene(scene::ObjectKind kind, double size_m, double draught) {
   return scene;
 }
 
-std::uint64_t object_pixels(const Workspace::State& state) {
+std::uint64_t object_pixels(const FrameState& state) {
   return static_cast<std::uint64_t>(std::ranges::count_if(
       state.visibility.primitive,
       [&](std::uint32_t p) { return state.window.primitives.holds(SurfaceKind::kObjects, p); }));

@@ -114,7 +114,7 @@ struct NextPlaces {
   // What the drawn triangle rises by where a ray meets it: its vertices rise as the water does, or
   // as much of it as they show far out.
   static double rise_of_triangle(const LabelledFrame& frame, std::uint32_t i, const Ray& ray) {
-    const Workspace::State& drawn = frame.state();
+    const FrameState& drawn = frame.state();
     const Surface& surface = drawn.meshes.water;
     std::array<glm::dvec3, 3> corner;
     glm::dvec3 rises;
@@ -151,7 +151,7 @@ TEST_P(MotionOfScene, TakesPointsToWhereTheNextFrameHasThem) {
     View next = random_view(scene, n, kMotionSize_px);
     next.eye_world += glm::dvec3(0.3, -0.2, 0.1);
     const LabelledFrame frame(world, view, kTime_s, motion_to(next));
-    const Workspace::State& drawn = frame.state();
+    const FrameState& drawn = frame.state();
     const Surface& sea = drawn.meshes.water;
     for (std::size_t v = 0; v < drawn.labels.next_height_m.size(); v += 7) {
       const glm::dvec3 p(vertex_world(sea, v), 0.0);

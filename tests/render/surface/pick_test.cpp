@@ -56,7 +56,7 @@ std::size_t object_of(const Drawn& drawn, const ObjectPrimitive& primitive) {
 
 // Nothing where the sky is.
 std::optional<DrawnPixel> pixel_at(const Drawn& drawn, int x, int y) {
-  const Workspace::State& ws = drawn.state();
+  const FrameState& ws = drawn.state();
   const int tile_px = ws.visibility.grid.tile_size_px;
   const int tile = y / tile_px * ws.visibility.grid.tiles_x + x / tile_px;
   if (ws.visibility.covered[static_cast<std::size_t>(tile)] < 0) return std::nullopt;
