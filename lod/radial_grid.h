@@ -12,7 +12,7 @@
 // at 100 m. Turning about the vertical moves no vertex; moving the eye moves all of them, so
 // waves that the grid is too coarse for swim, which ROAM's do not.
 //
-// Source: Gabdrakhmanov, interactive water of large worlds.
+// Source: Gabdrakhmanov, Modelling Interactive Water Surfaces.
 #pragma once
 
 #include "lod/roam.h"

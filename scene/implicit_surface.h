@@ -8,8 +8,8 @@
 // The union of parts, the intersection of terms and the difference (a term with its signs changed)
 // give any combination.
 //
-// Source: Vyatkin, Dolgovesov, "Visualization of functionally defined objects, terrain and clouds",
-// 2019; the surfaces after Vyatkin, "Complex surface modeling using perturbation functions", 2007.
+// Source: Vyatkin, Dolgovesov, 2019; the surfaces after Vyatkin, Complex-Surface Modeling Using
+// Perturbation Functions, Avtometriya 43(3), 2007.
 #pragma once
 
 #include <array>

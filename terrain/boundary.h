@@ -6,7 +6,7 @@
 //   G  the depth of the sea [m], 0 on land
 //   B  the height of the bank [m], 0 in the sea
 //   A  the part of surf fronts that run in there, 0 to 1; 1 where a map is made from heights
-// Source: Gabdrakhmanov, Program complex of similar territorial zones simulation modeling: one
+// Source: Gabdrakhmanov, Modelling Interactive Water Surfaces: one
 // texture of depths and banks drives shore, surf and caustics.
 #pragma once
 

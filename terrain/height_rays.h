@@ -1,9 +1,9 @@
 // Where rays meet a surface of heights, without triangles: a pyramid of maxima leaves out what a
 // ray passes above, nearest part first, down to cells, or to blocks as small as a pixel.
 //
-// Source: Vyatkin and Dolgovesov, Recursive search of ray intersections with shape textures
-// (functionally defined terrain), 2019; the step through a pyramid by Tevs, Ihrke and Seidel,
-// Maximum mipmaps for fast, accurate, and scalable dynamic height field rendering, 2008.
+// Source: Vyatkin, Dolgovesov, 2019 (land as a base plane with a "shape texture"); the step through
+// a pyramid by Tevs, Ihrke, Seidel, Maximum Mipmaps for Fast, Accurate, and Scalable Dynamic Height
+// Field Rendering, 2008.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,7 +1,7 @@
 // Waves from maps of heights that are periodic in space and in time, laid over the sea in layers of
 // different periods (ocean/open_sea/periodic_map.h):
 //   H(x, y, t) = sum_i h_i(a_i x + b_i, a_i y + c_i, d_i t + e_i).
-// Source: Gabdrakhmanov, Modelling of Interactive Water Surfaces.
+// Source: Gabdrakhmanov, Modelling Interactive Water Surfaces.
 #pragma once
 
 #include <cstdint>

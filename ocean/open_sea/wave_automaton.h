@@ -4,7 +4,7 @@
 //   u+ = 2 u - u- + C^2 Lap u,   Lap = [1 4 1; 4 -20 4; 1 4 1] / 6,   C = c dt / dx.
 // All waves have one speed c, but for the grid: sin^2(omega dt / 2) = -C^2 Lap(k) / 4, which the
 // nine points make the same in all directions up to the fourth order.
-// Sources: Gabdrakhmanov, Interactive Water of Large Worlds (maps from a cellular automaton);
+// Sources: Gabdrakhmanov, Modelling Interactive Water Surfaces (maps from a cellular automaton);
 // Patra, Karttunen, Stencils with Isotropic Discretization Error for Differential Operators, 2006.
 #pragma once
 

@@ -1,8 +1,8 @@
 // The volumetric clouds of a world, tabulated where they stand at t = 0: their form, the light in
 // them and their shadow. Wind moves all of it as one, so that nothing is made anew in a frame.
 //
-// Source: S. Vyatkin, B. Dolgovesov, Functionally defined surfaces, terrain, light and clouds, 2019
-// (noise, height distribution, bounding functions, rays); K. Perlin, Improving Noise, 2002.
+// Source: Vyatkin, Dolgovesov, 2019 (noise, height distribution, bounding functions, rays);
+// K. Perlin, Improving Noise, 2002.
 #pragma once
 
 #include <array>

@@ -50,7 +50,7 @@ inline float apparent_depth_m(const BentWay& way, float n) {
 
 // Apparent over true depth by two straight lines, for water of 1.333, by the angle in air [rad];
 // within 0.081 of Snell's law.
-// Source: Ma, Zhu, Gong, Interactive water scene simulation, 2006.
+// Source: Ma, Zhu, Gong, 2006.
 inline float paper_depth_ratio(float angle_in_air) {
   return angle_in_air <= 0.8f ? 0.75f - 0.16f * angle_in_air : 1.26f - 0.8f * angle_in_air;
 }

@@ -65,7 +65,7 @@ HWY_INLINE V ReflectingCosine(V c, V variance) {
 
 // Tilts a unit normal n whose cosine to the eye v is below e' to n + (e' - n.v) v, scaled to
 // length 1, and returns its cosine. e' = e / sqrt(1 - e^2) makes the cosine e at least; normals
-// over e' stay as they are. 0 < e < 1. Source: Gabdrakhmanov, Modelling of Interactive Water
+// over e' stay as they are. 0 < e < 1. Source: Gabdrakhmanov, Modelling Interactive Water
 // Surfaces (back sides of waves).
 HWY_INLINE V TiltToEye(const V3& to_eye, float least_cos, V3& normal) {
   const V least = Constant(least_cos / std::sqrt(1.0f - least_cos * least_cos));
