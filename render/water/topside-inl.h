@@ -78,7 +78,7 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const PlanarMap& map, cons
   // spread it.
   const BlurLevel level = kBacked ? Sharp() : FindBlur(map, s.variance, gain * gain);
   const float bound = water.images.max_distortion_px;
-  const V dx = Clamp(right * (gain * -0.5f), -bound, bound);
+  const V dx = Clamp(right * (gain * -water.images.distortion_across), -bound, bound);
   const V dy = Clamp(ahead * gain, -bound, bound);
   const V half = Constant(0.5f);
   const V x = packet.x_px + half, y = packet.y_px + half;

@@ -68,8 +68,8 @@ void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   water.trains.surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);
 }
 
-// The displacement of the lookups turns with the picture. Across the line of sight it is half as
-// large (LookUpDistorted), hence the factors of a rolled camera.
+// The displacement of the lookups turns with the picture. Across the line of sight it may be less
+// (LookUpDistorted), hence the factors of a rolled camera.
 void fill_slope_axes(const View& camera, Water& water) {
   const bool level = camera.right.z == 0.0f;
   const glm::vec2 right =
@@ -80,8 +80,9 @@ void fill_slope_axes(const View& camera, Water& water) {
   const glm::vec2 l = water.images.view_right, a = water.images.view_ahead;
   const float cos_r = glm::dot(glm::vec2(camera.right), l);
   const float sin_r = glm::dot(glm::vec2(camera.up), l);
-  water.images.view_right = cos_r * l - 2.0f * sin_r * a;
-  water.images.view_ahead = cos_r * a + 0.5f * sin_r * l;
+  const float across = water.images.distortion_across;
+  water.images.view_right = cos_r * l - 1.0f / across * sin_r * a;
+  water.images.view_ahead = cos_r * a + across * sin_r * l;
 }
 
 // As FresnelReflectance() of the shaders.
@@ -155,6 +156,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   if (in.world.scene.water.distortion_factor == scene::DistortionFactor::kPaper) {
     water.images.distortion_by_sine = 0.5f / camera.tan_half_y;
     water.images.least_distortion = 0.0f;
+    water.images.distortion_across = 1.0f;
   }
   water.images.max_distortion_px = max_distortion_px(camera);
   fill_slope_axes(camera, water);

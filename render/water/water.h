@@ -52,6 +52,7 @@ struct WaterImages {
   float max_distortion_px = 0.0f;  // bound of the displacement, each way
   // What it is multiplied by: the sine of the eye's elevation over the water, times this, bounded.
   float distortion_by_sine = 6.0f, least_distortion = 0.1f;
+  float distortion_across = 0.5f;                // to the side, over that up and down
   glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
 };
 

@@ -23,4 +23,18 @@ struct SeenWater {
 void sample_water(const Water& water, const ViewRays& rays, int packets_at_once,
                   std::span<const glm::vec3> p_rel, std::span<SeenWater> seen);
 
+// What LookUpDistorted() finds at a window position with these slopes of the water: codes.
+struct DistortedLookUp {
+  glm::vec2 at_px;
+  glm::vec2 slope;    // along x and y of the world
+  float to_eye_z;     // sine of the elevation at which the eye is seen
+  float sign = 1.0f;  // -1: of what lies below
+};
+void look_up_distorted(const Water& water, const PlanarMap& map,
+                       std::span<const DistortedLookUp> lookups, std::span<glm::vec3> light);
+
+// ProjectedGlitter() in these directions to the eye on water of one normal.
+void projected_glitter(const Glitter& glitter, std::span<const glm::vec3> to_eye, glm::vec3 normal,
+                       float variance, std::span<float> light);
+
 }  // namespace swell::render

@@ -70,6 +70,29 @@ void SampleInPackets(const Water& water, const ViewRays& rays, int packets_at_on
     SampleAll<false>(water, rays, at_once, p_rel, seen);
 }
 
+// One lookup a packet, in all of its lanes.
+void LookUpAll(const Water& water, const PlanarMap& map, std::span<const DistortedLookUp> lookups,
+               std::span<glm::vec3> light) {
+  for (std::size_t i = 0; i < lookups.size(); ++i) {
+    const DistortedLookUp& l = lookups[i];
+    Packet packet;
+    packet.x_px = Constant(l.at_px.x), packet.y_px = Constant(l.at_px.y);
+    packet.to_eye = Constant(glm::vec3(0.0f, 0.0f, l.to_eye_z));
+    WaterSlopes slopes;
+    slopes.slope_x = Constant(l.slope.x), slopes.slope_y = Constant(l.slope.y);
+    slopes.variance = hn::Zero(D());
+    const V3 seen = LookUpDistorted<false>(water, map, packet, slopes, l.sign).light;
+    light[i] = {hn::GetLane(seen.x), hn::GetLane(seen.y), hn::GetLane(seen.z)};
+  }
+}
+
+void GlitterAt(const Glitter& glitter, std::span<const glm::vec3> to_eye, glm::vec3 normal,
+               float variance, std::span<float> light) {
+  for (std::size_t i = 0; i < to_eye.size(); ++i)
+    light[i] = hn::GetLane(
+        ProjectedGlitter(glitter, Constant(to_eye[i]), Constant(normal), Constant(variance)));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render
 HWY_AFTER_NAMESPACE();
@@ -79,6 +102,8 @@ namespace swell::render {
 
 HWY_EXPORT(Fresnel);
 HWY_EXPORT(SampleInPackets);
+HWY_EXPORT(LookUpAll);
+HWY_EXPORT(GlitterAt);
 
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance) {
   HWY_DYNAMIC_DISPATCH(Fresnel)(cos_theta, n, reflectance);
@@ -87,6 +112,16 @@ void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<fl
 void sample_water(const Water& water, const ViewRays& rays, int packets_at_once,
                   std::span<const glm::vec3> p_rel, std::span<SeenWater> seen) {
   HWY_DYNAMIC_DISPATCH(SampleInPackets)(water, rays, packets_at_once, p_rel, seen);
+}
+
+void look_up_distorted(const Water& water, const PlanarMap& map,
+                       std::span<const DistortedLookUp> lookups, std::span<glm::vec3> light) {
+  HWY_DYNAMIC_DISPATCH(LookUpAll)(water, map, lookups, light);
+}
+
+void projected_glitter(const Glitter& glitter, std::span<const glm::vec3> to_eye, glm::vec3 normal,
+                       float variance, std::span<float> light) {
+  HWY_DYNAMIC_DISPATCH(GlitterAt)(glitter, to_eye, normal, variance, light);
 }
 
 }  // namespace swell::render
