@@ -60,8 +60,10 @@ LowestPath lowest_path(const RenderView& view, glm::vec3 low, glm::vec3 high) {
     return {level_m - view.clip_margin_m - kLevel_m, 0.0f, 0.0f, -kFarthestLand, near_m};
   // As steep as the steepest, from where the first begins.
   const float n2 = view.refraction_index * view.refraction_index;
-  const float most_down = std::sqrt((n2 - 1.0f) * most2 + n2 * low.z * low.z);
-  const float least_down = std::sqrt((n2 - 1.0f) * least2);
+  // The paper's law makes them less than half as steep again.
+  const float steeper = view.paper_refraction ? 1.5f : 1.0f;
+  const float most_down = steeper * std::sqrt((n2 - 1.0f) * most2 + n2 * low.z * low.z);
+  const float least_down = std::sqrt((n2 - 1.0f) * least2) / steeper;
   const float before = view.clip_margin_m / std::max(least_down, 1e-6f);
   const float begin = std::max(from - before, near_m);
   return {level_m + begin * most_down, -most_down, 0.0f, -kFarthestLand, begin};
@@ -169,10 +171,30 @@ class LandRayBatch {
   }
 
   void flush() {
+    std::ranges::fill(first(towards_), 0.0f);
+    cast();
+    // Each time along the chord to what was met before: three times take it to where the bent ray
+    // meets the land, but for a thousandth.
+    const bool bends = view_.paper_refraction && view_.kind == ViewKind::kRefraction;
+    for (int again = 0; bends && again < 3; ++again) {
+      std::ranges::copy(first(met_), towards_.begin());
+      cast();
+    }
+    take_nearer();
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kBatch = 256;
+  using Values = std::array<float, kBatch>;
+
+  std::span<float> first(Values& values) const { return std::span(values).first(count_); }
+
+  void cast() {
     set_land_rays(view_, rays_,
                   {first(x_px_), first(y_px_), first(there_), first(free_), first(free_around_),
-                   first(x_), first(y_), first(z_), first(z_t_), first(z_tt_), first(begin_),
-                   first(begin_around_), first(end_)});
+                   first(towards_), first(x_), first(y_), first(z_), first(z_t_), first(z_tt_),
+                   first(begin_), first(begin_around_), first(end_)});
     cast(view_.land->map, begin_, met_);
     if (view_.land_has_apron) {
       bool any = false;
@@ -185,15 +207,7 @@ class LandRayBatch {
         for (std::size_t n = 0; n < count_; ++n) met_[n] = lower(met_around_[n], met_[n]);
       }
     }
-    take_nearer();
-    count_ = 0;
   }
-
- private:
-  static constexpr std::size_t kBatch = 256;
-  using Values = std::array<float, kBatch>;
-
-  std::span<float> first(Values& values) const { return std::span(values).first(count_); }
 
   void cast(const terrain::HeightPyramid& heights, Values& begin, Values& t) {
     terrain::cast_rays(
@@ -218,7 +232,7 @@ class LandRayBatch {
   std::span<std::uint32_t> primitive_;
   std::size_t count_ = 0;
   std::array<std::uint32_t, kBatch> element_;
-  Values x_px_, y_px_, there_, free_, free_around_;
+  Values x_px_, y_px_, there_, free_, free_around_, towards_;
   Values x_, y_, z_, z_t_, z_tt_, begin_, begin_around_, end_, met_, met_around_;
 };
 

@@ -20,15 +20,18 @@ inline constexpr float kFarthestLand = 1e9f;  // [t]
 
 // Returns the path of the ray with this direction, relative to the eye; its depth grows by 1 per t.
 // A mirrored ray goes up from where it meets the level, a refracted one on from there by Snell's
-// law, as straight as the other.
-LandPath land_path(const RenderView& view, glm::vec3 direction);
+// law, as straight as the other. By the paper's law (RenderView::paper_refraction) it is bent a
+// little, and the path is its chord from the level to `towards` [t]; 0: its tangent at the level.
+LandPath land_path(const RenderView& view, glm::vec3 direction, float towards = 0.0f);
 
 // Rays through places of a picture, an element each; all spans have one length. They end where
-// something nearer is, and land that is lower than view.land->outline_m is not on their ways.
+// something nearer is, and land that is lower than view.land->outline_m, or beyond view.clip_plane,
+// is not on their ways.
 struct LandRaysThrough {
   std::span<const float> x_px, y_px;
   std::span<const float> depth;              // what is there, as in the depth buffer
   std::span<const float> free, free_around;  // t before which a ray meets neither map
+  std::span<const float> towards;            // as land_path()'s
   std::span<float> x, y, z, z_t, z_tt;       // as terrain::HeightRays'
   std::span<float> begin, begin_around, end;
 };

@@ -61,6 +61,27 @@ inline float paper_depth_m(const BentWay& way, float n) {
   return way.water_m * paper_depth_ratio(static_cast<float>(atan2(x, 1.0)));
 }
 
+// That ratio of the point whose image, with it, an eye in air sees so far below the level, along a
+// ray of this tan(angle to the vertical), at least 0: not quite that of the ray's angle. The root
+// of air x + water(x) tan(t_water) = horizontal, which rises, by Newton's method.
+inline float paper_depth_ratio_seen(float air_m, float image_depth_m, float tan_seen, float n) {
+  const float n2 = n * n, m2 = n2 - 1.0f, air = std::max(air_m, kLeastAirHeight_m);
+  const float horizontal_m = (air + image_depth_m) * tan_seen;
+  const auto ratio = [](float x) {
+    return paper_depth_ratio(static_cast<float>(atan2(static_cast<double>(x), 1.0)));
+  };
+  float x = tan_seen, k = ratio(x);
+  for (int step = 0; step < 6; ++step) {
+    const float inv_g = 1.0f / (n2 + m2 * x * x), inv_s = std::sqrt(inv_g), inv_k = 1.0f / k;
+    const float k_x = (k > 0.622f ? -0.16f : -0.8f) / (1.0f + x * x);
+    const float miss = air * x + image_depth_m * x * inv_s * inv_k - horizontal_m;
+    const float slope = air + image_depth_m * inv_k * inv_s * (n2 * inv_g - x * k_x * inv_k);
+    x = std::max(x - miss / slope, 0.0f);
+    k = ratio(x);
+  }
+  return k;
+}
+
 // How far above the level an eye in water sees the image of a point in air [m]. Points on the level
 // that lie further away than Snell's window is wide appear at the window's rim, high above it.
 inline float apparent_height_m(const BentWay& way, float n) {

@@ -43,12 +43,11 @@ glm::vec4 image_clip_plane(ViewKind kind, const EyeInWater& eye, SurfaceKind sur
   return {0.0f, 0.0f, to_eyes_side, kSurfaceTraits[surface].keeps_clip_margin ? margin_m : 0.0f};
 }
 
-namespace {
-
-// Returns a plane of the world as that of points relative to the eye.
 glm::vec4 relative_plane(const glm::dvec4& world, glm::dvec3 eye_world) {
   return glm::vec4(glm::dvec4(glm::dvec3(world), world.w + glm::dot(glm::dvec3(world), eye_world)));
 }
+
+namespace {
 
 float distance_to(const glm::vec4& plane, glm::vec3 p) {
   return plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w;

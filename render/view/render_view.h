@@ -124,6 +124,9 @@ glm::vec4 image_clip_plane(ViewKind kind, const EyeInWater& eye, SurfaceKind sur
 // For a sea of waves up to this height.
 inline float clip_margin_m(float highest_wave_m) { return std::clamp(highest_wave_m, 0.02f, 0.3f); }
 
+// Returns a plane of the world as that of points relative to the eye.
+glm::vec4 relative_plane(const glm::dvec4& world, glm::dvec3 eye_world);
+
 // Where the eye is in the water at the time of `sea`: a function of world, view and time. A surface
 // that reaches into the near plane may lie on both sides of the eye; the point of the eye decides.
 EyeInWater find_eye_in_water(const WorldState& world, const SeaMaps& sea, const View& view,

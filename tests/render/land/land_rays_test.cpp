@@ -191,6 +191,58 @@ TEST(LandRays, AreSeenFromUnderWater) {
   EXPECT_LT(mean_difference(a.target, b.target), 2.0);
 }
 
+scene::Scene with_paper_refraction(scene::Scene scene) {
+  scene.water.refraction = scene::RefractionModel::kPaper;
+  return scene;
+}
+
+// Ma, Zhu, Gong, 2006: the scene under water is squeezed by k, whoever finds it.
+TEST(LandRays, AreSqueezedByThePapersRatioAsTrianglesAre) {
+  const scene::Scene scene = with_paper_refraction(load_shipped("lagoon"));
+  const World triangles = world_of(scene), rays = world_of(with_rays(scene));
+  const View view = make_view({-15.0, -420.0, 6.0}, 0.05, -0.5, radians(70.0), 0.25f, 240, 136);
+  const FrameOptions calm{.terrain_triangles = 500000,
+                          .without = {Part::kHaze, Part::kReflection, Part::kCaustics}};
+  const Shot a = draw(triangles, view, calm), b = draw(rays, view, calm);
+  const Shot exact = draw(lagoon_by_rays(), view, calm);
+  EXPECT_LT(mean_difference(a.target, b.target), 0.3);
+  EXPECT_GT(mean_difference(exact.target, b.target), 2.0 * mean_difference(a.target, b.target));
+}
+
+// What one side of a plane shows and what the other shows is all there is, and each is what
+// triangles show of it; but where ground is cut open triangles are hollow.
+TEST(LandRays, EndAtTheCallersClipPlane) {
+  const View view = view_of(lagoon_by_rays(), 5.0, 240, 136);
+  const auto drawn = [&](const World& world, std::optional<glm::dvec4> plane) {
+    FrameOptions options{.terrain_triangles = 500000, .clip_plane = plane};
+    options.labels.add(Label::kId), options.labels.add(Label::kDepth);
+    return draw(world, view, options);
+  };
+  const Shot all = drawn(lagoon_by_rays(), std::nullopt);
+  for (const glm::dvec4& plane : {glm::dvec4(1.0, 0.3, 0.0, 20.0), {0.0, 0.0, 1.0, -12.0}}) {
+    const Shot one = drawn(lagoon_by_rays(), plane), other = drawn(lagoon_by_rays(), -plane);
+    const Shot triangles = drawn(shipped_world("lagoon"), plane);
+    const auto side_of = [&](const Shot& shot, std::size_t i) {
+      const int x = static_cast<int>(i) % view.width_px, y = static_cast<int>(i) / view.width_px;
+      const glm::dvec3 p = position_of(view, x, y, shot.target.labels.depth_m[i]);
+      return glm::dot(glm::dvec3(plane), p) + plane.w;
+    };
+    int kept = 0, cut = 0, unlike = 0;
+    for (std::size_t i = 0; i < all.target.labels.id.size(); ++i) {
+      if (all.target.labels.id[i] != kLandId) continue;
+      const double side = side_of(all, i);
+      if (std::abs(side) < 0.5) continue;
+      (side > 0.0 ? kept : cut) += 1;
+      EXPECT_EQ((side > 0.0 ? one : other).target.labels.id[i], kLandId) << i;
+      if (one.target.labels.id[i] != kLandId || side_of(one, i) > 0.1)
+        unlike += one.target.labels.id[i] != triangles.target.labels.id[i];
+    }
+    EXPECT_GT(kept, 300);
+    EXPECT_GT(cut, 300);
+    EXPECT_LT(unlike, (kept + cut) / 100);
+  }
+}
+
 // A refracted ray's point and its image lie where Snell's law puts them.
 TEST(LandPath, GoesWhereLightInWaterGoes) {
   RenderView view;
@@ -206,6 +258,34 @@ TEST(LandPath, GoesWhereLightInWaterGoes) {
       EXPECT_NEAR(5.0f + dip * t, -apparent_m, 2e-3f * (1.0f + t)) << dip << " " << depth_m;
     }
   }
+}
+
+// The paper's straight lines for apparent over true depth bend a ray in water; the chord to a point
+// ends where the point's image, as vertices have it, lies on the ray.
+TEST(LandPath, GoesWhereThePaperPutsWhatIsInWater) {
+  RenderView view;
+  view.kind = ViewKind::kRefraction;
+  view.paper_refraction = true;
+  view.camera = make_view({0.0, 0.0, 5.0}, 0.0, -0.5, 1.0, 0.25f, 100, 100);
+  view.refraction_index = 1.333f;
+  const PointMap map{ViewKind::kRefraction, {.to_surface_m = 5.0f}, 1.333f, true};
+  for (const float dip : {-0.1f, -0.6f, -0.97f, -0.98f, -3.0f}) {
+    const glm::vec3 direction(0.6f, 0.8f, dip);
+    for (const float depth_m : {0.01f, 0.5f, 4.0f, 20.0f, 200.0f}) {
+      float t = 0.0f;
+      for (int n = 0; n < 8; ++n) {
+        const LandPath path = land_path(view, direction, t);
+        t = (-depth_m - path.z) / path.z_t;
+      }
+      const glm::vec3 p = t * direction;
+      const glm::vec3 shown = map_point(map, {{p.x, p.y, -5.0f - depth_m}, -depth_m, -5.0f});
+      EXPECT_NEAR(shown.z / t, dip, 2e-3f * std::abs(dip)) << dip << " " << depth_m;
+    }
+  }
+  // In shallow water it falls by its own angle's ratio, 0.75 - 0.16 theta.
+  const float theta = std::atan(1.0f);
+  const LandPath shallow = land_path(view, {0.6f, 0.8f, -1.0f});
+  EXPECT_NEAR(shallow.z_t, -1.0f / (0.75f - 0.16f * theta), 1e-4f);
 }
 
 TEST(LandPath, OfAMirrorRisesFromTheLevel) {
