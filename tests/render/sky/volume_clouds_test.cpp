@@ -223,6 +223,47 @@ TEST(VolumeClouds, AreFlownThroughWithoutAJump) {
   EXPECT_LT(largest_change(flight.y_m, 1.0, 20).value, 0.15 * flight.value);
 }
 
+// From the middle of a cloud, its rim 400 m away or more on all sides: neither sky nor sea is seen,
+// nor any structure, and more light comes from where the sun is, and from above.
+TEST(VolumeClouds, AroundAnEyeAreEvenLightThatIsBrightestTowardsTheSun) {
+  scene::Scene scene = placed_scene({0.0, 0.0});
+  scene.sky.sun_azimuth_rad = 0.0;
+  scene.sky.sun_elevation_rad = radians(25.0);
+  scene.sky.sun_direction =
+      sky::sun_direction(scene.sky.sun_azimuth_rad, scene.sky.sun_elevation_rad);
+  const World world = world_of(scene);
+  const glm::dvec3 eye(0.0, 0.0, scene.clouds.base_m + 550.0);
+  for (const RaySeen& seen : see(clouds_at(world, eye), sky_directions(20)))
+    EXPECT_EQ(seen.opacity, 1.0f);
+
+  const auto mean_code = [&](double heading_deg, double pitch_deg) {
+    const scene::Camera camera{
+        .eye_m = eye, .heading_rad = radians(heading_deg), .pitch_rad = radians(pitch_deg)};
+    const Shot drawn(world, scene::camera_view(camera, 0.0, 96, 64), 0.0);
+    int most_step = 0;
+    double sum = 0.0;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 96; ++x) {
+        sum += drawn.codes(x, y).g;
+        if (x > 0)
+          most_step = std::max(most_step, std::abs(drawn.codes(x, y).g - drawn.codes(x - 1, y).g));
+        if (y > 0)
+          most_step = std::max(most_step, std::abs(drawn.codes(x, y).g - drawn.codes(x, y - 1).g));
+      }
+    EXPECT_LE(most_step, 2) << heading_deg << ' ' << pitch_deg;  // a step of light, and the dither
+    return sum / (64 * 96);
+  };
+  const double to_sun = mean_code(0.0, 25.0), away = mean_code(180.0, 0.0);
+  const double aside = mean_code(90.0, 0.0), down = mean_code(0.0, -80.0);
+  for (const double code : {to_sun, away, aside, down}) {
+    EXPECT_GT(code, 100.0);
+    EXPECT_LT(code, 250.0);
+  }
+  EXPECT_GT(to_sun, away + 2.0);
+  EXPECT_GT(to_sun, aside + 2.0);
+  EXPECT_GT(to_sun, down + 2.0);
+}
+
 TEST(VolumeClouds, AreTheSameBitsOverThreadsTilesTargetsAndFramesBefore) {
   const World world = world_of(cloudy_scene());
   const FrameOptions options = {.water_triangles = 2000, .edge_samples = 4};
