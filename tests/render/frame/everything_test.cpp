@@ -60,5 +60,26 @@ TEST_F(Everything, StagesTakeTheTimeOfWhatIsDrawnInThem) {
   EXPECT_EQ(stage_ms(Stage::kRays), 0.0);
 }
 
+// scenes/everything_rays.toml: the same things, with all land found by rays, and one map.
+TEST(EverythingRays, HasItsLandByRaysAndWavesOfAMapBesides) {
+  scene::Scene scene = load_shipped("everything_rays");
+  ASSERT_EQ(scene.detail.terrain_method, scene::TerrainMethod::kRays);
+  ASSERT_EQ(scene.sea.maps.size(), 1u);
+  ASSERT_TRUE(scene.sea.spectrum);
+  EXPECT_EQ(scene.objects.size(), shipped_world("everything").scene().objects.size());
+  const World world = world_of(scene);
+  scene.sea.maps.clear();
+  const World without_map = world_of(scene);
+  ocean::SeaFrame sea;
+  Workers workers(2);
+  const View view = world_view(world, 5.0, 160, 90, sea, workers);
+  const Shot drawn(world, view, 5.0, {.edge_samples = 0});
+  EXPECT_EQ(drawn.statistics.terrain_triangles, 0);
+  EXPECT_GT(drawn.statistics.stage_ms[static_cast<std::size_t>(Stage::kRays)], 0.0);
+  EXPECT_GE(
+      different_pixels(drawn.target, Shot(without_map, view, 5.0, {.edge_samples = 0}).target),
+      3000);
+}
+
 }  // namespace
 }  // namespace swell::render
