@@ -159,6 +159,7 @@ void prepare_views(const FrameInputs& in) {
     view.drop_per_m2 = drop_per_m2(in.world.earth_radius_m(in.options.without));
     view.clip_plane = in.options.clip_plane;
     view.clip_margin_m = margin_m;
+    view.level_m = 0.0f;
   };
   const View image = planar_camera(in.view, in.options.lookup_scale);
   const float margin_m = clip_margin_m(in.world.water_bounds().height_m);
@@ -212,32 +213,35 @@ void advance(const FrameInputs& in, const Air& air, const StageRun& run) {
 }
 
 void set_eye(const EyeInWater& eye, FrameViews views) {
-  for (RenderView* const view : views) view->eye = eye;
+  for (RenderView* const view : views) {
+    view->eye = eye;
+    view->level_m = eye.level_m;
+  }
 }
 
 // Displaces water and land into the views, and finds where the waterline crosses the picture.
 // Returns the views that are shown: then images of both sides. Without water the window alone.
 ViewList place_water(const FrameInputs& in, const StageRun& run) {
   FrameState& ws = in.ws;
-  EyeInWater eye = find_eye_in_water(in.world, ws.sea, in.view, in.options);
+  const WaterAtEye water = find_water_at_eye(in.world, ws.sea, in.view, in.options);
   const ViewList images = in.has(Part::kWater) ? views_of(ws.planar_maps) : ViewList{};
   ViewList views;
   views.add(ws.window);
   views.add(images.all());
-  set_eye(eye, views.all());
+  set_eye(water.from(water.submerged), views.all());
   displace(in.world, ws.sea, in.view, in.options, ws.meshes, views.all(), run);
   ws.crossing.picture = Begins::kInAir;
   if (in.has(Part::kUnderwater))
-    find_crossing(ws.meshes.water, in.view, eye,
+    find_crossing(ws.meshes.water, in.view, water,
                   in.world.water_bounds(in.options.disturbances).height_m, ws.crossing);
-  if (eye.submerged != (ws.crossing.picture == Begins::kInWater)) {
-    eye.submerged = !eye.submerged;
-    set_eye(eye, views.all());
+  const bool begins_in_water = ws.crossing.picture == Begins::kInWater;
+  if (water.submerged != begins_in_water) {
+    set_eye(water.from(begins_in_water), views.all());
     map_land(ws.meshes, images.all(), run);
   }
   if (ws.crossing.picture == Begins::kInBoth) {
     const ViewList wet = views_of(ws.wet_planar_maps);
-    set_eye({true, eye.to_surface_m}, wet.all());
+    set_eye(water.in_water, wet.all());
     map_land(ws.meshes, wet.all(), run);
     views.add(wet.all());
   }
@@ -294,7 +298,10 @@ void draw_side(const FrameInputs& in, const Light& light, const Media& media, Pl
 void draw_images(const FrameInputs& in, const Light& light, const Air& air, const StageRun& run) {
   FrameState& ws = in.ws;
   const Media in_air = make_media(in.world, light, air.fog, air.sky_m, in.options.without);
-  const Media in_water = submerge(in_air, in.view.eye_world.z);
+  const RenderView& from_water = ws.crossing.picture == Begins::kInBoth
+                                     ? ws.wet_planar_maps.reflection.view
+                                     : ws.planar_maps.reflection.view;
+  const Media in_water = submerge(in_air, in.view.eye_world.z, from_water.level_m);
   if (ws.crossing.picture == Begins::kInBoth)
     draw_side(in, light, in_water, ws.wet_planar_maps, ws.wet_shading, run);
   draw_side(in, light, ws.window.eye.submerged ? in_water : in_air, ws.planar_maps, ws.shading,

@@ -12,13 +12,14 @@
 #include <span>
 
 #include "ocean/inland/inland_sample.h"
-#include "render/materials/ground-inl.h"
 #include "render/materials/river.h"
+#include "render/materials/river_bed-inl.h"
 #include "render/materials/terrain.h"
 #include "render/tile/caustics-inl.h"
 #include "render/tile/through_water-inl.h"
 #include "render/view/rivers_drawn.h"
 #include "render/water/topside-inl.h"
+#include "render/water/underside-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -224,28 +225,6 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
   return s;
 }
 
-// The level over the sea's up to which there is some of the sea floor's sand in a bed [m].
-constexpr float kGravelBegin_m = 1.2f;
-
-// The bed's reflectance: wet gravel further up, the sea's floor where a river comes down to it.
-HWY_INLINE V3 FindBed(const River& river, V3 p, V height_m, V level_m) {
-  const D d;
-  V x = hn::Zero(d), y = hn::Zero(d), unused = hn::Zero(d);
-  AddSlopes(river.stones, p, level_m, {x, y}, x, y, unused);
-  const V sandy = SmoothBlend((kGravelBegin_m - height_m) * (1.0f / kGravelBegin_m));
-  const V relief = NegMulAdd(sandy, 0.31f * 0.7f, 0.31f);
-  const V stones = Clamp(MulAdd(x, relief, 1.0f), 0.45f, 1.6f);
-  V3 bed = Constant(river.gravel);
-  const auto some = sandy > 0.0f;
-  if (river.ground.map.texels && !hn::AllFalse(d, some)) {
-    const V3 floor = FindAlbedo(river.ground, OnMap(river.ground, p), p);
-    const auto join = [&](V gravel, V sand)
-                          HWY_ATTR { return IfThenElse(some, Lerp(gravel, sand, sandy), gravel); };
-    bed = {join(bed.x, floor.x), join(bed.y, floor.y), join(bed.z, floor.z)};
-  }
-  return bed * stones;
-}
-
 // What comes up: the water's own light, and the bed's through it, at the place that the bent ray
 // meets, under the net of light that the sea's short waves make.
 HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
@@ -345,7 +324,7 @@ struct RiverBody {
       const V part = image.alpha * share;
       mirrored = {Lerp(mirrored.light, image.light, part), Max(mirrored.alpha, part)};
     };
-    const V by_sea = river.mirrors_sea ? Max(sea_share, ShareOfLevel(0.0f)) : sea_share;
+    const V by_sea = Max(sea_share, ShareOfLevel(0.0f));
     if (tile.planar_maps.reflection && !hn::AllFalse(d, by_sea > zero))
       lay_over(water.images.reflection, by_sea);
     if (!river.reflection.image) return mirrored;
@@ -399,6 +378,40 @@ struct Shader<River, ViewKind::kWindow> {
                           RiverBody{shading, tile, river, packet, seen});
   }
 };
+
+// The surface from below, as the sea's, with its own slopes.
+struct RiverUnderside {
+  using Found = WaterSlopes;
+  const River& river;
+
+  HWY_INLINE void LookUp(const Shading& shading, std::span<const Packet> packets,
+                         WaterSlopes* found) const {
+    // Sampled as from above, along the same lines.
+    PerPacket<Packet> turned;
+    for (std::size_t k = 0; k < packets.size(); ++k) {
+      turned[k] = packets[k];
+      turned[k].to_eye = -packets[k].to_eye;
+    }
+    PerPacket<RiverSeen> seen;
+    const Shader<River, ViewKind::kWindow> from_above{river};
+    from_above.LookUp(shading, std::span(turned.data(), packets.size()), seen.data());
+    for (std::size_t k = 0; k < packets.size(); ++k) found[k] = seen[k].slopes;
+  }
+
+  HWY_INLINE ShadingResult operator()(const Shading& shading, const TilePixels& tile,
+                                      const Lanes& lanes, const Packet& packet,
+                                      const WaterSlopes& slopes) const {
+    return UndersideShader{shading.material<Water>()}(shading, tile, lanes, packet, slopes);
+  }
+};
+
+template <ViewKind kView, class Use>
+HWY_INLINE void WithShader(const River& river, const Use& use) {
+  if constexpr (kView == ViewKind::kWindow) {
+    if (river.submerged) return use(RiverUnderside{river});
+  }
+  use(Shader<River, kView>{river});
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace swell::render

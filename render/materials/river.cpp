@@ -30,7 +30,7 @@ SlopeLayer make_ripple_layer(const texture::PackedMap2& map, double period_m, gl
 
 void fill(const MaterialInputs& in, const RenderView& view, River& river) {
   const ocean::InlandWater* const inland = in.world.inland.get();
-  if (!inland || !shows(view.kind, River::kSurface) || in.without.has(Part::kRivers)) return;
+  if (!inland || in.without.has(Part::kRivers)) return;
   const glm::dvec2 eye(view.camera.eye_world);
   river.samples = inland->samples().data();
   river.block_index = inland->block_index().data();
@@ -50,7 +50,7 @@ void fill(const MaterialInputs& in, const RenderView& view, River& river) {
   river.reflection = in.river_reflection;
   river.mirror_level_m = in.river_level_m;
   river.mirror_share = in.river_mirror_share;
-  river.mirrors_sea = !in.media.submerged;
+  river.submerged = in.media.submerged;
   river.base_variance = base_variance(in.world.scene);
   river.wind_share = in.without.has(Part::kRipples) ? 0.0f : kWindShare;
   const float sun = std::max(in.light.sun_direction.z, 0.0f) / static_cast<float>(kPi);

@@ -43,7 +43,7 @@ struct River {
   PlanarMap reflection;
   float mirror_level_m = 0.0f;  // that the image is of
   float mirror_share = 0.0f;    // how much of it shows
-  bool mirrors_sea = true;      // water at about the sea's level looks into the sea's image
+  bool submerged = false;       // the eye sees the surface from below
 };
 
 void fill(const MaterialInputs& in, const RenderView& view, River& river);

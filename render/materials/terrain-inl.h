@@ -12,6 +12,7 @@
 #include "render/materials/checker-inl.h"
 #include "render/materials/ground-inl.h"
 #include "render/materials/land-inl.h"
+#include "render/materials/river_bed-inl.h"
 #include "render/materials/terrain.h"
 #include "render/packets/fresnel-inl.h"
 #include "render/sky/fog-inl.h"
@@ -85,14 +86,21 @@ HWY_INLINE GroundLook FindDryGround(const Terrain& terrain, const ViewRays& rays
 }
 
 template <bool kDetail>
-HWY_INLINE GroundLook FindGround(const Terrain& terrain, const ViewRays& rays, const Packet& packet,
+HWY_INLINE GroundLook FindGround(const Terrain& terrain, const Shading& s, const Packet& packet,
                                  V level_m) {
   const D d;
+  const ViewRays& rays = s.rays;
   const V on_map = OnMap(terrain.albedo, packet.p);
   const GroundSlopes slopes = FindSlopes<kDetail>(terrain, on_map, packet.p, level_m);
+  // In a river or a lake.
+  if (s.media.water_level_m != 0.0f && s.kind != ViewKind::kRefraction) {
+    GroundLook bed = FindPlainGround<kDetail>(terrain, packet, on_map, level_m, slopes);
+    bed.albedo = FindBed(s.material<River>(), packet.p, Constant(s.media.water_level_m), level_m);
+    return bed;
+  }
   if constexpr (kDetail) {
     if (terrain.land.on) {
-      const auto dry = packet.p.z > -rays.eye_z;
+      const auto dry = packet.p.z > s.level_rel_m;
       if (hn::AllTrue(d, dry)) return FindDryGround(terrain, rays, packet, on_map, slopes);
       const GroundLook floor = FindPlainGround<kDetail>(terrain, packet, on_map, level_m, slopes);
       if (hn::AllFalse(d, dry)) return floor;
@@ -115,7 +123,7 @@ HWY_INLINE Ground LightGround(const Terrain& terrain, const Shading& s, const Pa
                               V level_m, V sun_visible) {
   const Light& light = s.light;
   const V zero = hn::Zero(D());
-  GroundLook look = FindGround<kDetail>(terrain, s.rays, packet, level_m);
+  GroundLook look = FindGround<kDetail>(terrain, s, packet, level_m);
   if (terrain.checker.per_m > 0.0f) {
     const V grey = CheckeredGround(terrain.checker, s.rays, packet);
     look.albedo = {grey, grey, grey};

@@ -96,10 +96,11 @@ Media make_media(const WorldState& world, const Light& light, const Fog& fog, do
 // What scatters to the eye on a way through water that ends nowhere is
 // scattered exp(-K z) c / (c + K w), c lost a metre, K of daylight, w down a metre: from above,
 // straight down, the radiance of deep water.
-Media submerge(const Media& above, double eye_z) {
+Media submerge(const Media& above, double eye_z, float water_level_m) {
   Media media = above;
   media.submerged = true;
-  media.eye_depth_m = std::max(-static_cast<float>(eye_z), 0.0f);
+  media.water_level_m = water_level_m;
+  media.eye_depth_m = std::max(water_level_m - static_cast<float>(eye_z), 0.0f);
   media.daylight_lost_per_m = kDaylightSlant * media.absorption_per_m;
   media.scattered = (1.0f + kDaylightSlant) * media.body;
   for (int c = 0; c < 3; ++c) {

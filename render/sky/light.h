@@ -72,7 +72,8 @@ struct Media {
   glm::vec3 absorption_per_m{0.0f};
   // For an eye under water.
   bool submerged = false;
-  float eye_depth_m = 0.0f;             // under the mean level, at least 0
+  float water_level_m = 0.0f;           // of the water that it is in: the sea's is 0
+  float eye_depth_m = 0.0f;             // under that level, at least 0
   glm::vec3 daylight_at_eye{1.0f};      // what is left there of the light that enters
   glm::vec3 scattered{0.0f};            // radiance of a long level way just under the surface
   glm::vec3 daylight_lost_per_m{0.0f};  // of light on its way down
@@ -88,7 +89,7 @@ Light make_light(const WorldState& world, const Clouds& clouds, const SkyFrame& 
 // height_m: sky_height_m().
 Media make_media(const WorldState& world, const Light& light, const Fog& fog, double height_m,
                  PartSet without);
-// Returns the media for an eye under water, at the height eye_z over the mean level.
-Media submerge(const Media& media, double eye_z);
+// Returns the media for an eye at the height eye_z in water of this level, both over the sea's.
+Media submerge(const Media& media, double eye_z, float water_level_m = 0.0f);
 
 }  // namespace swell::render

@@ -20,7 +20,8 @@ template <SurfaceKind kSurface>
 HWY_INLINE V3 SeenInWater(const Media& media, V level, const Packet& shown, V3 light, V shafts) {
   const V zero = hn::Zero(D());
   V depth = zero;
-  if constexpr (kSurface != SurfaceKind::kWater) depth = Max(level - shown.p.z, zero);
+  constexpr bool kIsWater = kSurface == SurfaceKind::kWater || kSurface == SurfaceKind::kRivers;
+  if constexpr (!kIsWater) depth = Max(level - shown.p.z, zero);
   const V deeper = depth - media.eye_depth_m;
   return ThroughWater(media, media.daylight_at_eye, {shown.distance, deeper}, light, shafts);
 }

@@ -104,10 +104,10 @@ HWY_NOINLINE static V GatheredSunAt(const Shading& s, std::size_t patches, const
   return MulAdd(more, caustics.strength, one);
 }
 
-// Returns GatheredSunAt() by all patches, at the depth of p under the sea's level.
+// Returns GatheredSunAt() by all patches, at the depth of p under the water's level.
 template <bool kNearest = false>
 HWY_INLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {
-  const V depth = Max(-s.rays.eye_z - p.z, 0.0f);
+  const V depth = Max(s.level_rel_m - p.z, 0.0f);
   return GatheredSunAt<kNearest>(s, s.caustics.patches, p, depth, level_m);
 }
 

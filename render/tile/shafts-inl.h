@@ -50,7 +50,7 @@ HWY_INLINE V SunScattered(const Shafts& shafts, V3 ray) {
 
 // What clouds leave of the sun at a point in the water, over its mean.
 HWY_INLINE V SunUnderCloudsInWater(const Shading& s, const CloudShadow& clouds, V3 p) {
-  const V level = Constant(-s.rays.eye_z);
+  const V level = Constant(s.level_rel_m);
   const V depth = Max(level - p.z, 0.0f);
   return SunUnderClouds(
       clouds,

@@ -184,10 +184,10 @@ inline HWY_NOINLINE V SunOverObjects(const SunShadow& shadow,
   return visible;
 }
 
-// Where light that falls on points under the sea's level comes in; far below all for very deep
+// Where light that falls on points under the water's level comes in; far below all for very deep
 // ones.
 HWY_INLINE V3 WhereLightEnters(const Shading& s, const V3& p) {
-  const V level = Constant(-s.rays.eye_z), deepest = Constant(kDeepestShadow_m);
+  const V level = Constant(s.level_rel_m), deepest = Constant(kDeepestShadow_m);
   const V depth = Max(level - p.z, 0.0f);
   const V z = IfThenElse(depth < deepest, Max(p.z, level), -1e9f);
   return {MulAdd(depth, s.sun_shadow.entry.x, p.x), MulAdd(depth, s.sun_shadow.entry.y, p.y), z};

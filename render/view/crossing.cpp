@@ -92,7 +92,9 @@ bool may_cross(const Surface& water, const View& view, std::span<const int> tria
   return eye_z - reach_m <= highest && eye_z + reach_m >= lowest;
 }
 
-void find_nodes(const Surface& water, const View& view, Crossing& line) {
+// surface_m(p): the water's height at p from the eye.
+template <class Height>
+void find_nodes(const View& view, const Height& surface_m, Crossing& line) {
   line.columns = (view.width_px - 1) / kStep + 2;
   const int rows = (view.height_px - 1) / kStep + 2;
   line.above_m.resize(static_cast<std::size_t>(line.columns) * rows);
@@ -102,7 +104,7 @@ void find_nodes(const Surface& water, const View& view, Crossing& line) {
       const glm::vec3 p = view.near_m * view.ray(static_cast<float>(column * kStep),
                                                  static_cast<float>(row * kStep));
       line.above_m[static_cast<std::size_t>(row) * line.columns + column] =
-          p.z + eye_z - height_at(water, line.near_water, {p.x, p.y});
+          p.z + eye_z - surface_m(glm::vec2(p));
     }
 }
 
@@ -154,14 +156,23 @@ float Crossing::least_rows_away(int x_px, int y_px) const {
   return std::max({least, -most, 0.0f}) / per_px(upper);
 }
 
-void find_crossing(const Surface& water, const View& view, const EyeInWater& eye,
+void find_crossing(const Surface& sea, const View& view, const WaterAtEye& water,
                    float most_height_m, Crossing& line) {
-  line.picture = eye.submerged ? Begins::kInWater : Begins::kInAir;
+  line.picture = water.submerged ? Begins::kInWater : Begins::kInAir;
   const auto eye_z = static_cast<float>(view.eye_world.z);
-  if (std::abs(eye_z) > most_height_m + reach_of_near_plane(view)) return;
-  list_triangles(water, box_of_near_plane(view), line.near_water);
-  if (!may_cross(water, view, line.near_water)) return;
-  find_nodes(water, view, line);
+  const float reach_m = reach_of_near_plane(view);
+  if (water.is_inland) {
+    const float level_m = water.in_water.level_m;
+    if (std::abs(eye_z - level_m) > reach_m) return;
+    find_nodes(
+        view, [&](glm::vec2) { return level_m; }, line);
+  } else {
+    if (std::abs(eye_z) > most_height_m + reach_m) return;
+    list_triangles(sea, box_of_near_plane(view), line.near_water);
+    if (!may_cross(sea, view, line.near_water)) return;
+    find_nodes(
+        view, [&](glm::vec2 p) { return height_at(sea, line.near_water, p); }, line);
+  }
   const auto [least, most] = std::minmax_element(line.above_m.begin(), line.above_m.end());
   line.picture = begins_of(*least, *most);
 }

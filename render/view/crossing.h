@@ -40,9 +40,10 @@ struct Crossing {
   float per_px(const float* upper) const;
 };
 
-// Finds the crossing by the water's triangles at their heights of this frame. The picture begins as
-// the eye does where no wave can reach the near plane. 0.1 to 1 ms where one can.
-void find_crossing(const Surface& water, const View& view, const EyeInWater& eye,
+// Finds the crossing by the sea's triangles at their heights of this frame, or where the eye is in
+// a river or a lake by its level. The picture begins as the eye does where no wave can reach the
+// near plane. 0.1 to 1 ms where one can.
+void find_crossing(const Surface& sea, const View& view, const WaterAtEye& water,
                    float most_height_m, Crossing& line);
 
 // Maps the land into the views anew, as an eye on the other side of the surface needs it.

@@ -69,6 +69,16 @@ struct DrawRecord {
 struct EyeInWater {
   bool submerged = false;     // under the drawn surface
   float to_surface_m = 1.0f;  // over 0: to the level, or half of that to the surface if it is more
+  float level_m = 0.0f;  // that is looked at: of the water that the eye is in, the sea's from air
+};
+
+// The water at an eye's place in the plane.
+struct WaterAtEye {
+  EyeInWater in_air, in_water;  // from either side of its surface
+  bool submerged = false;       // on which the eye is
+  bool is_inland = false;       // a river or a lake
+
+  const EyeInWater& from(bool in) const { return in ? in_water : in_air; }
 };
 
 struct RenderView {
@@ -129,7 +139,7 @@ glm::vec4 relative_plane(const glm::dvec4& world, glm::dvec3 eye_world);
 
 // Where the eye is in the water at the time of `sea`: a function of world, view and time. A surface
 // that reaches into the near plane may lie on both sides of the eye; the point of the eye decides.
-EyeInWater find_eye_in_water(const WorldState& world, const SeaMaps& sea, const View& view,
+WaterAtEye find_water_at_eye(const WorldState& world, const SeaMaps& sea, const View& view,
                              const FrameOptions& options);
 
 // All views of a frame.

@@ -21,6 +21,9 @@ constexpr double kFarCell = 0.01;
 // this part of the picture; from the second part on the image is all there.
 constexpr double kLeastOver_m = 0.05, kLeastPart = 0.005, kFullPart = 0.015;
 
+// No near plane reaches further down into water from above it.
+constexpr double kNearPlane_m = 1.0;
+
 bool may_be_seen(const std::array<glm::vec4, 5>& planes, glm::vec3 middle_rel, float radius_m) {
   return std::ranges::all_of(planes, [&](const glm::vec4& plane) {
     return glm::dot(glm::vec3(plane), middle_rel) + plane.w > -radius_m;
@@ -104,8 +107,9 @@ class BlockCells {
   int far_ = 1, widest_ = kInlandBlock;
 };
 
-// Where rivers look, once their levels and the mirror's are known.
-void find_images(double eye_z, RiverMesh& rivers) {
+// Where rivers look, once their levels and the mirror's are known. from_within: the images are of
+// the level of the river that the eye is in.
+void find_images(double eye_z, bool from_within, RiverMesh& rivers) {
   rivers.looks_into.resize(rivers.indices.size() / 3);
   for (std::size_t n = 0; n < rivers.looks_into.size(); ++n) {
     float low_m = HUGE_VALF, high_m = -HUGE_VALF, sea = 0.0f;
@@ -121,7 +125,8 @@ void find_images(double eye_z, RiverMesh& rivers) {
       return low_m < level_m + reach_m && high_m > level_m - reach_m;
     };
     rivers.looks_into[n] = static_cast<std::uint8_t>(
-        (sea > 0.0f ? kSeaFloor | kSeaMirror : 0) | (mirrored_in(0.0f) ? kSeaMirror : 0) |
+        (sea > 0.0f || from_within ? kSeaFloor | kSeaMirror : 0) |
+        (mirrored_in(0.0f) ? kSeaMirror : 0) |
         (rivers.mirror_level_m && mirrored_in(*rivers.mirror_level_m) ? kRiverMirror : 0));
   }
 }
@@ -197,7 +202,10 @@ void choose_rivers(const WorldState& world, const View& view, const FrameOptions
       }
   }
   level.set_mirror(view, rivers);
-  find_images(view.eye_world.z, rivers);
+  const auto at_eye = inland->at(glm::dvec2(view.eye_world));
+  const bool from_within =
+      at_eye && view.eye_world.z < static_cast<double>(at_eye->level_m) + kNearPlane_m;
+  find_images(view.eye_world.z, from_within, rivers);
 }
 
 }  // namespace swell::render
