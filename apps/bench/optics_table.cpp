@@ -41,15 +41,16 @@ StillScene fill_with_land(render::World world, const FrameSetup& setup, int tria
   return still;
 }
 
-double draw_ms(const StillScene& still, int frame, const render::FrameOptions& options,
-               render::Workspace& workspace, render::Target& target, Workers& workers) {
+render::FrameStatistics draw(const StillScene& still, int frame,
+                             const render::FrameOptions& options, render::Workspace& workspace,
+                             render::Target& target, Workers& workers) {
   const double t_s = frame / kFramesPerSecond;
   const render::FrameStatistics drawn =
       render::render_frame(still.world, still.view, t_s, options, workspace, target, workers);
   SWELL_CHECK(drawn.terrain_triangles == still.land_triangles &&
                   drawn.object_triangles == still.object_triangles,
               "{} and {} triangles", drawn.terrain_triangles, drawn.object_triangles);
-  return drawn.frame_ms;
+  return drawn;
 }
 
 }  // namespace
@@ -75,33 +76,42 @@ OpticsRow measure_water(const StillScene& still, int frames, Workers& workers) {
   without.without.add(render::Part::kWater);
   render::Workspace dry_workspace, wet_workspace;
   render::Target target;
-  std::vector<double> dry_ms, wet_ms;
+  std::vector<double> dry_ms, wet_ms, shading_ms, lookups_ms;
   for (int k = -kWarmUp; k < frames; ++k) {
-    const double dry = draw_ms(still, k, without, dry_workspace, target, workers);
-    const double wet = draw_ms(still, k, still.frame, wet_workspace, target, workers);
+    const auto dry = draw(still, k, without, dry_workspace, target, workers);
+    const auto wet = draw(still, k, still.frame, wet_workspace, target, workers);
     if (k < 0) continue;
-    dry_ms.push_back(dry);
-    wet_ms.push_back(wet);
+    dry_ms.push_back(dry.frame_ms);
+    wet_ms.push_back(wet.frame_ms);
+    shading_ms.push_back(wet.stage_ms[static_cast<std::size_t>(render::Stage::kShade)]);
+    lookups_ms.push_back(wet.stage_ms[static_cast<std::size_t>(render::Stage::kPlanarMaps)]);
   }
+  const auto median = [](std::vector<double>& ms) { return spread(std::move(ms)).median; };
   return {still.land_triangles,
           still.object_triangles,
-          {spread(std::move(dry_ms)).median, spread(std::move(wet_ms)).median}};
+          {median(dry_ms), median(wet_ms)},
+          median(shading_ms),
+          median(lookups_ms)};
 }
 
 std::string optics_text(std::span<const OpticsRow> rows) {
   std::string text = fmt::format(
-      "frames/s without and with water of two triangles, and the water's share of a frame's time\n"
-      "{:>9} {:>9} {:>9} {:>6}   GeForce FX 5600 (Ma and others, 2006)\n",
-      "triangles", "without", "with", "%");
+      "frames/s without and with water of two triangles, and the water's share of a frame's time;\n"
+      "ms to shade a frame with it, and to draw what it looks into\n"
+      "{:>9} {:>9} {:>9} {:>6} {:>8} {:>8}   GeForce FX 5600 (Ma and others, 2006)\n",
+      "triangles", "without", "with", "%", "shading", "lookups");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const PaperRow& paper = kPaperRows[i];
     const WaterCost& cost = rows[i].cost;
-    text += fmt::format("{:>9} {:>9.1f} {:>9.1f} {:>6.1f} {:>9} {:>4} {:>6.1f}\n",
+    text += fmt::format("{:>9} {:>9.1f} {:>9.1f} {:>6.1f} {:>8.2f} {:>8.2f} {:>9} {:>4} {:>6.1f}\n",
                         rows[i].land_triangles + rows[i].object_triangles, 1e3 / cost.dry_ms,
-                        1e3 / cost.wet_ms, 100.0 * cost.water_share(), paper.dry_per_s,
-                        paper.wet_per_s, 100.0 * paper.cost().water_share());
+                        1e3 / cost.wet_ms, 100.0 * cost.water_share(), rows[i].shading_ms,
+                        rows[i].lookups_ms, paper.dry_per_s, paper.wet_per_s,
+                        100.0 * paper.cost().water_share());
   }
-  return text;
+  return text +
+         "The card was as fast with the water where vertices kept it busy. Here triangles are "
+         "cheap, and\nwhat takes the time is pixels, as many of water in each row.\n";
 }
 
 Json optics_json(std::span<const OpticsRow> rows) {
@@ -115,6 +125,8 @@ Json optics_json(std::span<const OpticsRow> rows) {
                     {"ms_without", cost.dry_ms},
                     {"ms_with", cost.wet_ms},
                     {"water_share", cost.water_share()},
+                    {"ms_shading", rows[i].shading_ms},
+                    {"ms_lookups", rows[i].lookups_ms},
                     {"paper",
                      {{"frames_per_s_without", paper.dry_per_s},
                       {"frames_per_s_with", paper.wet_per_s},

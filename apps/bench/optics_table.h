@@ -46,7 +46,9 @@ std::optional<StillScene> make_still_scene(const render::World& world, const Fra
 
 struct OpticsRow {
   int land_triangles = 0, object_triangles = 0;
-  WaterCost cost;  // medians
+  WaterCost cost;           // medians, as what follows of frames with the water
+  double shading_ms = 0.0;  // which does not grow with the scene
+  double lookups_ms = 0.0;  // to draw what the water looks into
 };
 
 // Draws each frame without and with the water, by turns.

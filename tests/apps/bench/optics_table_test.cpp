@@ -20,13 +20,16 @@ TEST(OpticsTable, TakesTheWatersShareFromFramesPerSecond) {
 }
 
 TEST(OpticsTable, ShowsEachRowBesideThePapers) {
-  const OpticsRow rows[] = {{10000, 3912, {4.0, 5.0}}, {20000, 7824, {8.0, 10.0}}};
+  const OpticsRow rows[] = {{10000, 3912, {4.0, 5.0}, 2.5, 0.75},
+                            {20000, 7824, {8.0, 10.0}, 2.5, 1.0}};
   const std::string text = optics_text(rows);
-  EXPECT_NE(text.find("    13912     250.0     200.0   20.0        61   55    9.8\n"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("    13912     250.0     200.0   20.0     2.50     0.75        61   55    9.8\n"),
+      std::string::npos)
       << text;
-  EXPECT_NE(text.find("    27824     125.0     100.0   20.0        46   45    2.2\n"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("    27824     125.0     100.0   20.0     2.50     1.00        46   45    2.2\n"),
+      std::string::npos)
       << text;
 }
 
@@ -51,6 +54,8 @@ TEST(OpticsProgram, DrawsScenesOfThePapersSizesExactly) {
     const double dry_ms = row.at("ms_without"), wet_ms = row.at("ms_with");
     EXPECT_GT(dry_ms, 0.0);
     EXPECT_NEAR(row.at("water_share"), 1.0 - dry_ms / wet_ms, 1e-9);
+    EXPECT_GT(row.at("ms_shading"), 0.0);
+    EXPECT_GT(row.at("ms_lookups"), 0.0);
   }
   EXPECT_EQ(rows[0].at("paper").at("frames_per_s_without"), 61.0);
 }
