@@ -16,6 +16,7 @@ struct BenchMode {
 BenchMode add_bench_frame(CommandLine& program);
 BenchMode add_bench_lod(CommandLine& program);
 BenchMode add_bench_optics(CommandLine& program);
+BenchMode add_bench_papers(CommandLine& program);  // apps/papers
 BenchMode add_bench_peer(CommandLine& program);
 BenchMode add_bench_query(CommandLine& program);
 BenchMode add_bench_scaling(CommandLine& program);

@@ -137,8 +137,20 @@ LodFigure forced_split_figure() {
                 true);
 }
 
+LodFigure split_figure() {
+  lod::Roam::Tree tree({.min_world = {0.0, 0.0}, .size_m = kSteps, .lattice_bits = kBits}, 16);
+  lod::reset_tree(tree);
+  const Leaves left = leaves_of(tree);
+  lod::split(tree, node_at(tree, {kSteps / 2, kSteps / 2}));
+  const Leaves right = leaves_of(tree);
+  return figure("lod_split.svg", left, fmt::format("{} triangles", left.size()), right,
+                fmt::format("split: {} triangles", right.size()), true);
+}
+
 }  // namespace
 
-std::vector<LodFigure> lod_figures() { return {grid_figure(), forced_split_figure()}; }
+std::vector<LodFigure> lod_figures() {
+  return {grid_figure(), forced_split_figure(), split_figure()};
+}
 
 }  // namespace swell::apps

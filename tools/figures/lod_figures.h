@@ -1,4 +1,4 @@
-// swell-bench lod --figures: the original paper's two figures of triangulations, drawn by the
+// swell-bench lod --figures: the original paper's figures of triangulations, drawn by the
 // triangulation code itself.
 // Source: Elykov et al., 2000.
 #pragma once
@@ -19,6 +19,7 @@ struct LodFigure {
 // 1. The uniform grid of 9 x 9 points, each square in four triangles, and its simplification for
 //    an eye over the lower left corner.
 // 2. A triangulation, and what one forced split makes of it: ten triangles more.
+// 3. Two base neighbours, and the four triangles that their split makes, which a merge takes back.
 std::vector<LodFigure> lod_figures();
 
 }  // namespace swell::apps
