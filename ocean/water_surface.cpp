@@ -6,6 +6,9 @@
 
 #include "math/check.h"
 #include "math/with_ieee.h"
+#include "ocean/coast/coast_map.h"
+#include "ocean/coast/foam_lace.h"
+#include "ocean/open_sea/sea_state.h"
 #include "ocean/spectrum/point_chunk.h"
 #include "ocean/wakes/wakes.h"
 
@@ -120,18 +123,25 @@ void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame
   const ScopedFloatEnvironment ieee;
   SWELL_CHECK(p_world.size() == foam.size(), "{} points, {} foam", p_world.size(), foam.size());
   const CoastSea* const coast = water_.parts().coast;
+  const double wave_t_s = wave_time_s(water_.parts().sea->description(), frame_->t_s);
   for (std::size_t first = 0; first < p_world.size(); first += kPointChunk) {
     const auto p = p_world.subspan(first, std::min(kPointChunk, p_world.size() - first));
     const auto some = foam.subspan(first, p.size());
-    std::array<float, kPointChunk> z, share;
+    std::array<float, kPointChunk> z, ceded{}, surf;
     heights(p, std::span(z).first(p.size()));
-    sample_whitecaps(whitecaps, p, std::span(z).first(p.size()), some);
     if (coast) {
-      sample_coast_share(*coast, p, std::span(share).first(p.size()));
-      for (std::size_t i = 0; i < p.size(); ++i) some[i] *= spectrum_weight(share[i]);
+      sample_coast_share(*coast, p, std::span(ceded).first(p.size()));
+      for (float& x : ceded) x = 1.0f - spectrum_weight(x);
     }
+    sample_whitecaps(whitecaps, p, std::span(z).first(p.size()), some, ceded);
     if (const Shelter* shelter = water_.parts().shelter; shelter && frame_->sheltered)
       apply_shelter(*shelter, p, some);
+    if (coast) {
+      sample_surf_foam(*coast, wave_t_s, p, std::span(surf).first(p.size()));
+      // Two patterns that know nothing of each other.
+      for (std::size_t i = 0; i < p.size(); ++i)
+        some[i] = 1.0f - (1.0f - some[i]) * (1.0f - mean_lace_cover(surf[i]));
+    }
     if (const InlandWater* const inland = water_.parts().inland)
       for (std::size_t i = 0; i < p.size(); ++i)
         if (const auto at = inland->at(p[i]))

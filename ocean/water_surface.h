@@ -61,10 +61,11 @@ class WaterSurface {
   // The current at the surface in m/s, east and north: that of rivers, 0 elsewhere.
   void currents(std::span<const glm::dvec2> p_world, std::span<glm::vec2> current_mps) const;
 
-  // The part of the surface that the open sea's whitecaps hide, in [0, 1], as pictures have it in
-  // the mean over foam's lace: near a coast less, by what the sea's waves leave to the trains,
-  // whose own foam is not counted. The foam of wakes is, where there is more of it. `whitecaps` is
-  // of the same sea and time, from advance_whitecaps().
+  // The part of the surface that whitecaps of the open sea and of a coast's trains hide and the
+  // surf of these, in [0, 1], as pictures have it in the mean over foam's lace. The foam of wakes
+  // is counted where there is more of it; surf fronts of shores without trains are not. `whitecaps`
+  // is of the same sea, coast and time, from advance_whitecaps(): of one made without the coast,
+  // trains have no whitecaps.
   void foam(std::span<const glm::dvec2> p_world, const WhitecapFrame& whitecaps,
             std::span<float> foam) const;
 

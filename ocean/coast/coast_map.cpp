@@ -12,19 +12,7 @@ namespace {
 // Crests of waves that are not quite at their limit spill already.
 constexpr double kSpilling = 0.6;
 
-// A point's cell and its place in it.
-struct Place {
-  std::size_t cell;
-  float x, y;
-};
-
-Place find_place(const TrainSea& sea, glm::dvec2 p_world) {
-  const glm::dvec2 at = (p_world - sea.grid.min_world) / sea.grid.spacing_m;
-  const int i = std::clamp(static_cast<int>(at.x), 0, sea.cells_x - 1);
-  const int j = std::clamp(static_cast<int>(at.y), 0, sea.cells_y - 1);
-  return {static_cast<std::size_t>(j) * sea.cells_x + i, static_cast<float>(at.x - i),
-          static_cast<float>(at.y - j)};
-}
+using Place = PlaceInTrains;
 
 // v = c0 + c1 x + c2 y + c3 x y, and its slopes per cell.
 struct Value {
@@ -73,7 +61,7 @@ CoastPoints find_coast_points(const CoastSea& coast, int size, Workers& workers)
     for (std::size_t i = 0; i < n; ++i) {
       const glm::dvec2 p = lattice_point(sea.grid.min_world, step, glm::dvec2(i, j));
       const Place at = find_place(sea, p);
-      const float depth_m = value_in_cell(sea.depth.data() + 4 * at.cell, at).v;
+      const float depth_m = depth_at(sea, at);
       float share = 0.0f;
       sample_coast_share(coast, {&p, 1}, {&share, 1});
       const std::size_t k = j * n + i;
@@ -106,6 +94,23 @@ void pack_group(std::span<const Wave> wave, std::size_t stride, float unit, std:
 
 }  // namespace
 
+PlaceInTrains find_place(const TrainSea& sea, glm::dvec2 p_world) {
+  const glm::dvec2 at = (p_world - sea.grid.min_world) / sea.grid.spacing_m;
+  const int i = std::clamp(static_cast<int>(at.x), 0, sea.cells_x - 1);
+  const int j = std::clamp(static_cast<int>(at.y), 0, sea.cells_y - 1);
+  return {static_cast<std::size_t>(j) * sea.cells_x + i, static_cast<float>(at.x - i),
+          static_cast<float>(at.y - j)};
+}
+
+float depth_at(const TrainSea& sea, const PlaceInTrains& at) {
+  return value_in_cell(sea.depth.data() + 4 * at.cell, at).v;
+}
+
+TrainAtPlace train_at(const TrainSea& sea, std::size_t train, const PlaceInTrains& at) {
+  const float* c = sea.waves.data() + 8 * (at.cell * static_cast<std::size_t>(sea.trains) + train);
+  return {value_in_cell(c, at).v, value_in_cell(c + 4, at).v};
+}
+
 double breaking_part(double sum_m, double depth_m) {
   if (!(depth_m > 0.0)) return 0.0;
   const double limit_m = 0.5 * kBreakingRatio * depth_m;
@@ -136,6 +141,27 @@ CoastMap make_coast_map(const CoastSea& coast, int size, Workers& workers) {
   }
   for (const float surf : points.surf) map.surf.push_back(fixed16(surf));
   return map;
+}
+
+void sample_surf_foam(const CoastSea& coast, double t_s, std::span<const glm::dvec2> p_world,
+                      std::span<float> foam) {
+  const TrainSea& sea = coast.trains;
+  sample_coast_share(coast, p_world, foam);
+  for (std::size_t k = 0; k < foam.size(); ++k) {
+    if (foam[k] == 0.0f) continue;
+    const Place at = find_place(sea, p_world[k]);
+    const float surf = foam[k] * surf_at(sea, at, depth_at(sea, at));
+    float sum = 0.0f;
+    for (std::size_t n = 0; n < sea.period_s.size(); ++n) {
+      const double cycles = t_s / sea.period_s[n];
+      const float turns =
+          train_at(sea, n, at).cycles - static_cast<float>(cycles - std::floor(cycles));
+      const float u = turns - std::floor(turns);
+      sum += std::max(u * u * u, 1.0f - 12.0f * u);
+    }
+    const float mean = sum / static_cast<float>(sea.trains);
+    foam[k] = surf * std::clamp(mean * kFoamGain + kFoamBias, 0.0f, 1.0f);
+  }
 }
 
 }  // namespace swell::ocean

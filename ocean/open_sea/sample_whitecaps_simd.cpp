@@ -10,20 +10,42 @@
 namespace swell::ocean {
 namespace {
 
-// Bilinear between texels.
-float foam_at_texels(const WhitecapFrame::Patch& patch, float past, glm::dvec2 texels) {
+// Bilinear between texels of a map that repeats: value(texel).
+float value_at_texels(glm::dvec2 texels, auto value) {
   constexpr int n = kFoamMapSize;
   const glm::dvec2 corner = glm::floor(texels);
   const glm::vec2 part(texels - corner);
   const auto index = [](double x) { return static_cast<std::size_t>(x - n * std::floor(x / n)); };
   const std::array<std::size_t, 2> x = {index(corner.x), index(corner.x + 1.0)};
   const std::array<std::size_t, 2> y = {n * index(corner.y), n * index(corner.y + 1.0)};
-  const auto at = [&](int i, int j) {
-    const std::size_t texel = y[j] + x[i];
-    return glm::mix(foam_of_code(patch.before[texel]), foam_of_code(patch.after[texel]), past);
-  };
+  const auto at = [&](int i, int j) { return value(y[j] + x[i]); };
   return glm::mix(glm::mix(at(0, 0), at(1, 0), part.x), glm::mix(at(0, 1), at(1, 1), part.x),
                   part.y);
+}
+
+float foam_at_texels(const WhitecapFrame::Patch& patch, float past, glm::dvec2 texels) {
+  return value_at_texels(texels, [&](std::size_t texel) {
+    return glm::mix(foam_of_code(patch.before[texel]), foam_of_code(patch.after[texel]), past);
+  });
+}
+
+// Foam of trains, and what they leave of that of short waves.
+struct OnTrains {
+  float foam = 0.0f, short_part = 1.0f;
+};
+
+OnTrains on_trains_at(const WhitecapFrame& frame, glm::dvec2 p_world) {
+  const TrainSquare& trains = *frame.trains;
+  const glm::dvec2 texels = (p_world - trains.min_world) * (kFoamMapSize / trains.size_m);
+  const auto is_inside = [](double x) { return x >= 0.0 && x <= kFoamMapSize - 1.0; };
+  if (!is_inside(texels.x) || !is_inside(texels.y)) return {};
+  return {value_at_texels(texels,
+                          [&](std::size_t at) {
+                            return trains.part[at] * glm::mix(foam_of_code(frame.trains_before[at]),
+                                                              foam_of_code(frame.trains_after[at]),
+                                                              frame.past);
+                          }),
+          value_at_texels(texels, [&](std::size_t at) { return trains.short_part[at]; })};
 }
 
 }  // namespace
@@ -63,14 +85,21 @@ HWY_AFTER_NAMESPACE();
 namespace swell::ocean {
 
 void sample_whitecaps(const WhitecapFrame& frame, std::span<const glm::dvec2> p_world,
-                      std::span<const float> height_m, std::span<float> foam) {
+                      std::span<const float> height_m, std::span<float> foam,
+                      std::span<const float> ceded) {
   SWELL_CHECK(p_world.size() == foam.size() && height_m.size() == foam.size(),
               "{} points, {} heights, {} foam", p_world.size(), height_m.size(), foam.size());
   for (std::size_t k = 0; k < p_world.size(); ++k) {
+    const float kept = 1.0f - (ceded.empty() ? 0.0f : ceded[k]);
+    const OnTrains trains = frame.trains ? on_trains_at(frame, p_world[k]) : OnTrains{0.0f, kept};
     float free = 1.0f;
     for (std::size_t p = 0; p < frame.patches.size(); ++p) {
       float part = HWY_NAMESPACE::foam_at(frame.patches[p], frame.past, p_world[k]);
-      if (p > 0) part = std::min(part * foam_on_crest(height_m[k], frame.crest_per_m), 1.0f);
+      if (p == 0)
+        part = part * kept + trains.foam;
+      else
+        part = std::min(part * foam_on_crest(height_m[k], frame.crest_per_m), 1.0f) *
+               trains.short_part;
       free *= 1.0f - part;
     }
     foam[k] = 1.0f - free;

@@ -22,6 +22,7 @@ void make_next(const Whitecaps& whitecaps, double step, WhitecapFrame& frame, Wo
     age_foam(p == 0 ? frame.breaking_a : frame.breaking_b, patch.threshold, patch.decay,
              frame.patches[p].after);
   }
+  if (frame.trains) age_train_foam(whitecaps, step, frame.breaking_a, frame.trains_after, workers);
 }
 
 void start(const Whitecaps& whitecaps, WhitecapFrame& frame) {
@@ -33,6 +34,9 @@ void start(const Whitecaps& whitecaps, WhitecapFrame& frame) {
     frame.patches[p].before.resize(kTexels);
     frame.patches[p].after.assign(kTexels, 0);
   }
+  frame.trains = whitecaps.trains;
+  frame.trains_before.resize(frame.trains ? kTexels : 0);
+  frame.trains_after.assign(frame.trains_before.size(), 0);
   frame.breaking_a.resize(count > 0 ? kTexels : 0);
   frame.breaking_b.resize(count > 1 ? kTexels : 0);
   if (frame.sea != whitecaps.sea) frame.sea = whitecaps.sea;
@@ -43,6 +47,7 @@ void start(const Whitecaps& whitecaps, WhitecapFrame& frame) {
 void take_step(const Whitecaps& whitecaps, double step, WhitecapFrame& frame, Workers& workers) {
   for (WhitecapFrame::Patch& patch : frame.patches)
     std::ranges::copy(patch.after, patch.before.begin());
+  std::ranges::copy(frame.trains_after, frame.trains_before.begin());
   make_next(whitecaps, step, frame, workers);
 }
 
@@ -65,15 +70,17 @@ void make_step(const Whitecaps& whitecaps, double step, bool is_known, WhitecapF
 
 }  // namespace
 
+double time_of_step(const Whitecaps& whitecaps, double step) {
+  if (whitecaps.steps_in_loop == 0) return step * whitecaps.step_s;
+  const double loop = whitecaps.steps_in_loop;
+  return (step - loop * std::floor(step / loop)) * whitecaps.step_s;
+}
+
 void break_waves(const Whitecaps& whitecaps, const FftPlan& plan,
                  std::span<const PatchWaves* const> waves, double step,
                  const std::array<std::span<float>, kMostFoamPatches>& breaking,
                  std::vector<float>& planes, Workers& workers) {
-  double t_s = step * whitecaps.step_s;
-  if (whitecaps.steps_in_loop > 0) {
-    const double loop = whitecaps.steps_in_loop;
-    t_s = (step - loop * std::floor(step / loop)) * whitecaps.step_s;
-  }
+  const double t_s = time_of_step(whitecaps, step);
   const PatchWaves* const other = waves.size() > 1 ? waves[1] : nullptr;
   const FftOutput output{breaking[0].data(), other ? breaking[1].data() : nullptr};
   inverse_fft_2d(
@@ -103,7 +110,8 @@ void advance_whitecaps(const Whitecaps& whitecaps, double t_s, WhitecapFrame& fr
   const double steps = wave_time_s(whitecaps.sea, t_s) / whitecaps.step_s;
   const double step = std::floor(steps);
   frame.past = static_cast<float>(steps - step);
-  const bool is_known = frame.is_filled && frame.sea == whitecaps.sea;
+  const bool is_known =
+      frame.is_filled && frame.sea == whitecaps.sea && frame.trains == whitecaps.trains;
   if (!is_known || frame.step != step) make_step(whitecaps, step, is_known, frame, workers);
   for (std::size_t p = 0; p < frame.patches.size(); ++p)
     frame.patches[p].tiling = tiling_of_patch(whitecaps.sea, p);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "math/elementary.h"
+#include "math/random.h"
 #include "math/smoothstep.h"
 #include "ocean/open_sea/sea_state.h"
 #include "ocean/open_sea/whitecap_steps.h"
@@ -17,7 +18,7 @@ constexpr double kStep_s = 0.25;  // crests pass less than two texels meanwhile
 // How long whole foam lasts on the longest patch and on the other; a quarter of it is left after
 // half of that. Bubbles decay by 1 / e in 3.85 s (Monahan 1971).
 constexpr double kLongLife_s = 8.0, kShortLife_s = 5.0;
-constexpr double kAhead_rad = 0.6;  // B leads the crests by this phase
+constexpr double kOnTrains = 1.5;  // C's gain in B'
 // In wave numbers of the spectrum's peak: waves that break are between these.
 constexpr double kLongest = 6.0, kShortest = 20.0;
 
@@ -36,7 +37,8 @@ Gain gain_at(glm::dvec2 k_rad_m, glm::dvec2 travel, double peak_rad_m) {
       cos_wind * cos_wind /
       ((1.0 + kLongest / peaks) * std::sqrt(1.0 + peaks * peaks / (kShortest * kShortest)));
   // cos(a) |k| h - sin(a) dh/ds along the waves: behind a crest by the phase a it is k h.
-  return {kept * k * cos(kAhead_rad), -kept * glm::dot(k_rad_m, travel) * sin(kAhead_rad)};
+  return {kept * k * cos(kBirthsAhead_rad),
+          -kept * glm::dot(k_rad_m, travel) * sin(kBirthsAhead_rad)};
 }
 
 // B's waves on a grid of `size` points a side, not scaled; waves too short for it are left out.
@@ -83,6 +85,12 @@ void scale_waves(float factor, PatchWaves& waves) {
 
 // ---- Thresholds
 
+// The distribution of a field: normal, of this deviation about each of these means alike.
+struct Births {
+  double deviation = 1.0;
+  std::vector<double> mean = {0.0};
+};
+
 // B over a minute, on a coarse grid, that thresholds are tried on.
 class Trials {
  public:
@@ -101,38 +109,64 @@ class Trials {
 
   // The threshold with which the mean of patch p's foam is its cover.
   float find_threshold(std::size_t p, const FoamPatch& patch) const {
-    float low = -1.0f, high = 5.0f;
-    for (int n = 0; n < 9; ++n) {
-      const float middle = 0.5f * (low + high);
-      (mean_foam(p, middle, patch) > patch.cover ? low : high) = middle;
+    return find_threshold(fields_[p], {}, patch);
+  }
+
+  // That of B', from the first patch's B; C's phases are those of as many places as the grid has.
+  float find_threshold_on_trains(const Whitecaps& whitecaps) const {
+    constexpr std::uint64_t kSeed = 1;
+    const TrainSquare& trains = *whitecaps.trains;
+    const TrainFoam& foam = whitecaps.on_trains;
+    std::vector<std::uint16_t> phase;
+    for (std::size_t k = 0; k < trains.period_s.size() * kPoints; ++k)
+      phase.push_back(static_cast<std::uint16_t>(random_bits(kSeed, k)));
+    std::vector<float> on_trains = fields_[0], c(kPoints);
+    for (int step = 0; step < kSteps; ++step) {
+      add_crests(trains, phase, time_of_step(whitecaps, step), c);
+      const auto b = std::span(on_trains).subspan(static_cast<std::size_t>(step) * kPoints);
+      for (std::size_t i = 0; i < kPoints; ++i) b[i] = foam.scale * (b[i] + foam.gain * c[i]);
     }
-    return 0.5f * (low + high);
+    Births births{static_cast<double>(foam.scale), {}};
+    for (std::size_t i = 0; i < kPoints; i += kMeansEvery)
+      births.mean.push_back(static_cast<double>(foam.scale * foam.gain * c[i]));
+    return find_threshold(on_trains, births, whitecaps.patches.front());
   }
 
  private:
   std::span<float> field(std::size_t p, int step) {
     return std::span(fields_[p]).subspan(static_cast<std::size_t>(step) * kPoints, kPoints);
   }
-  std::span<const float> field(std::size_t p, int step) const {
-    return std::span(fields_[p]).subspan(static_cast<std::size_t>(step) * kPoints, kPoints);
+
+  static float find_threshold(std::span<const float> fields, const Births& births,
+                              const FoamPatch& patch) {
+    float low = -1.0f, high = 5.0f;
+    for (int n = 0; n < 9; ++n) {
+      const float middle = 0.5f * (low + high);
+      (mean_foam(fields, births, middle, patch) > patch.cover ? low : high) = middle;
+    }
+    return 0.5f * (low + high);
   }
 
   static constexpr std::size_t kPoints = static_cast<std::size_t>(kGrid) * kGrid;
+  static constexpr std::size_t kMeansEvery = 16;
 
-  // The mean of patch p's foam. A minute knows well how much foam becomes of what is born, but not
-  // how often the rare waves come that break: that is known of the normal distribution.
-  double mean_foam(std::size_t p, float threshold, const FoamPatch& patch) const {
+  // The mean of a patch's foam, with a field for each step. A minute knows well how much foam
+  // becomes of what is born, but not how often the rare waves come that break: that is known of the
+  // normal distribution.
+  static double mean_foam(std::span<const float> fields, const Births& distribution,
+                          float threshold, const FoamPatch& patch) {
     const int life = steps_of_life(patch);
     std::vector<std::uint8_t> codes(kPoints, 0), born(kPoints, 0);
     double foam = 0.0, births = 0.0;
     for (int n = 0; n < kSteps; ++n) {
-      age_foam(field(p, n), threshold, patch.decay, codes);
+      const auto field = fields.subspan(static_cast<std::size_t>(n) * kPoints, kPoints);
+      age_foam(field, threshold, patch.decay, codes);
       if (n >= life) foam += mean_of(codes) / (kSteps - life);  // earlier ones know their beginning
       if (n % kBirthsEvery != 0) continue;
-      age_foam(field(p, n), threshold, kFullCode, born);
+      age_foam(field, threshold, kFullCode, born);
       births += mean_of(born) * kBirthsEvery / kSteps;
     }
-    return births > 0.0 ? foam / births * mean_births(threshold) : 0.0;
+    return births > 0.0 ? foam / births * mean_births(distribution, threshold) : 0.0;
   }
 
   static double mean_of(std::span<const std::uint8_t> codes) {
@@ -141,17 +175,20 @@ class Trials {
     return squares / (static_cast<double>(codes.size()) * kFullCode * kFullCode);
   }
 
-  // The mean of foam that is born, over a normal distribution of B.
-  static double mean_births(double threshold) {
+  // The mean of foam that is born.
+  static double mean_births(const Births& births, double threshold) {
     constexpr int kParts = 64;
     constexpr double kWidth = 5.0 / kParts;
     double sum = 0.0;
-    for (int n = 0; n < kParts; ++n) {
-      const double excess = (n + 0.5) * kWidth, b = threshold + excess;
-      const double born = std::min(excess / kFullExcess, 1.0);
-      sum += born * born * exp(-0.5 * b * b) * kWidth;
-    }
-    return sum / std::sqrt(2.0 * kPi);
+    for (const double mean : births.mean)
+      for (int n = 0; n < kParts; ++n) {
+        const double excess = (n + 0.5) * kWidth;
+        const double b = (threshold + excess - mean) / births.deviation;
+        const double born = std::min(excess / kFullExcess, 1.0);
+        sum += born * born * exp(-0.5 * b * b) * kWidth;
+      }
+    return sum /
+           (std::sqrt(2.0 * kPi) * births.deviation * static_cast<double>(births.mean.size()));
   }
 
   std::array<std::vector<float>, kMostFoamPatches> fields_;
@@ -189,6 +226,24 @@ void add_patches(const Sea& sea, const WaveSystem& wind, double cover, Whitecaps
     patch.cover = 1.0 - pow(1.0 - cover, patch.breaking.variance_m2 / variance);
 }
 
+// How the square of trains lies in the longest patch.
+TrainFoam lay_square(const TrainSquare& trains, double length_m) {
+  TrainFoam foam;
+  foam.gain = static_cast<float>(kOnTrains);
+  foam.scale = static_cast<float>(1.0 / std::sqrt(1.0 + kOnTrains * kOnTrains));
+  const auto lay = [&](double from_m, std::vector<std::uint8_t>& texel, std::vector<float>& past) {
+    for (int i = 0; i < kFoamMapSize; ++i) {
+      const double periods = (from_m + i * trains.size_m / kFoamMapSize) / length_m;
+      const double texels = (periods - std::floor(periods)) * kFoamMapSize;
+      texel.push_back(static_cast<std::uint8_t>(std::min(texels, kFoamMapSize - 1.0)));
+      past.push_back(static_cast<float>(texels - texel.back()));
+    }
+  };
+  lay(trains.min_world.x, foam.column, foam.past_column);
+  lay(trains.min_world.y, foam.row, foam.past_row);
+  return foam;
+}
+
 }  // namespace
 
 double whitecap_cover(double wind_speed_mps) {
@@ -202,7 +257,8 @@ double whitecap_cover(double wind_speed_mps) {
   return kMost - rest * exp(-(wind_speed_mps - kHigh_mps) * rise / rest);
 }
 
-Whitecaps make_whitecaps(const Sea& sea, Workers& workers) {
+Whitecaps make_whitecaps(const Sea& sea, Workers& workers,
+                         std::shared_ptr<const TrainSquare> trains) {
   const ScopedFloatEnvironment ieee;
   Whitecaps whitecaps;
   const SeaDescription& description = sea.description();
@@ -220,14 +276,22 @@ Whitecaps make_whitecaps(const Sea& sea, Workers& workers) {
   whitecaps.crest_per_m = static_cast<float>(2.8 / sea.significant_height_m());
   for (PatchWaves& waves : coarse)
     scale_waves(static_cast<float>(1.0 / std::sqrt(waves.variance_m2)), waves);
+  if (trains) whitecaps.on_trains = lay_square(*trains, whitecaps.patches.front().length_m);
+  whitecaps.trains = std::move(trains);
   const Trials trials(whitecaps, coarse, workers);
-  workers.for_each(whitecaps.patches.size(), [&](std::size_t p, int) {
+  // Waves made lower break less; waves made higher than any wind's are no whiter for it.
+  const double height = std::min(description.amplitude_scale, 1.0);
+  const std::size_t patches = whitecaps.patches.size();
+  workers.for_each(patches + (whitecaps.trains ? 1 : 0), [&](std::size_t p, int) {
+    if (p == patches) {
+      whitecaps.on_trains.threshold = trials.find_threshold_on_trains(whitecaps);
+      return;
+    }
     FoamPatch& patch = whitecaps.patches[p];
     patch.threshold = trials.find_threshold(p, patch);
-    // Waves made lower break less; waves made higher than any wind's are no whiter for it.
-    const double height = std::min(description.amplitude_scale, 1.0);
     scale_waves(static_cast<float>(height / std::sqrt(patch.breaking.variance_m2)), patch.breaking);
   });
+  whitecaps.on_trains.gain *= static_cast<float>(height);
   return whitecaps;
 }
 

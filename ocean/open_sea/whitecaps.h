@@ -9,6 +9,13 @@
 // although it has a past, and what is kept from frame to frame is a cache and nothing else.
 // Thresholds are set so that the mean of foam over place and time is what is seen of the wind.
 //
+// Where a coast's wave trains are the long waves, short ones ride on them, and break on their
+// crests. There the longest patch's B makes room for one of the trains as well,
+//   B' = (B + m C) / sqrt(1 + m^2),     C = sum of w_i sqrt(2) cos(2 pi u_i - ahead)
+// with the trains' phases u_i and weights by their steepness, sum w_i^2 = 1: births run with the
+// crests, and B breaks their lines up. The rest is as above, with a threshold of its own for the
+// same mean.
+//
 // Source: Longuet-Higgins, On Wave Breaking and the Equilibrium Spectrum of Wind-Generated Waves,
 // 1969 (crests break where they fall by g / 2); Monahan, O'Muircheartaigh, Optimal Power-Law
 // Description of Oceanic Whitecap Coverage Dependence on Wind Speed, 1980; Monahan, Oceanic
@@ -19,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -47,6 +55,32 @@ struct FoamPatch {
   int decay = 1;           // codes a step, [1, 255]
 };
 
+// A coast's wave trains as whitecaps know them (ocean/coast/train_square.h makes one), on a square
+// of kFoamMapSize points a side: point [j * kFoamMapSize + i] lies at min_world + (i, j) size_m /
+// kFoamMapSize. Never changed once it is made.
+struct TrainSquare {
+  glm::dvec2 min_world{0.0};
+  double size_m = 0.0;
+  // By train.
+  std::vector<double> period_s;
+  std::vector<float> weight;  // the sum of their squares is 1
+  // By train, then by point: theta of sample_trains() in 2^-16 cycles.
+  std::vector<std::uint16_t> phase;
+  // By point: what there is of the trains' whitecaps, and of those of shorter waves, both in [0,
+  // 1]: in shallow water surf takes their place.
+  std::vector<float> part, short_part;
+};
+
+// How whitecaps of trains are made.
+struct TrainFoam {
+  float gain = 0.0f, scale = 1.0f;  // B' = scale (B + gain C)
+  float threshold = 0.0f;           // of B'
+  // Where the square's columns and rows lie in the longest patch: texels of kFoamMapSize a side,
+  // and how far past them, [0, 1].
+  std::vector<std::uint8_t> column, row;
+  std::vector<float> past_column, past_row;
+};
+
 // What does not change with time.
 struct Whitecaps {
   SeaDescription sea;  // whose they are
@@ -55,11 +89,15 @@ struct Whitecaps {
   double step_s = 0.0;             // between two times of the foam
   int steps_in_loop = 0;           // 0: the sea does not repeat
   float crest_per_m = 0.0f;        // for foam_on_crest()
+  std::shared_ptr<const TrainSquare> trains;  // none: the open sea alone
+  TrainFoam on_trains;                        // with the first patch's cover and decay
 };
 
-// Finds the thresholds by trying them on a minute of the sea: 25 ms. No patches up to 3.7 m/s, for
-// seas without a spectrum, and with sea.whitecaps = 0. The same bits with any workers.
-Whitecaps make_whitecaps(const Sea& sea, Workers& workers);
+// Finds the thresholds by trying them on a minute of the sea: 25 ms, with trains 40. No patches up
+// to 3.7 m/s, for seas without a spectrum, and with sea.whitecaps = 0. The same bits with any
+// workers.
+Whitecaps make_whitecaps(const Sea& sea, Workers& workers,
+                         std::shared_ptr<const TrainSquare> trains = nullptr);
 
 // Foam at one time.
 struct WhitecapFrame {
@@ -72,6 +110,9 @@ struct WhitecapFrame {
     std::vector<std::uint8_t> before, after;
   };
   std::vector<Patch> patches;
+  // Codes of the trains' whitecaps, likewise, over the square; none: no trains, or no foam.
+  std::shared_ptr<const TrainSquare> trains;
+  std::vector<std::uint8_t> trains_before, trains_after;
   float past = 0.0f;         // part of the step that has passed, [0, 1]: foam goes from before to
                              // after along a straight line
   float crest_per_m = 0.0f;  // as Whitecaps has it
@@ -91,15 +132,18 @@ constexpr float foam_of_code(std::uint8_t code) {
 }
 
 // Fills `frame` with the foam at t_s, any finite time: the same bits whatever it held before. In
-// the same step as the last call, or the next, this takes no field or one (0.3 ms on one thread),
-// else 255 / decay of them (10 ms). Allocates nothing once filled from a sea of as many patches.
+// the same step as the last call, or the next, this takes no field or one (0.3 ms on one thread,
+// with trains 0.7), else 255 / decay of them (10 ms, with trains 25). Allocates nothing once filled
+// from a sea of as many patches.
 void advance_whitecaps(const Whitecaps& whitecaps, double t_s, WhitecapFrame& frame,
                        Workers& workers);
 
 // The part of the surface that is white at world points where it is height_m high, in [0, 1]: the
-// mean over the lace that pictures draw, which is finer than a map's texel. Bilinear. Spans of one
+// mean over the lace that pictures draw, which is finer than a map's texel. Bilinear. Where trains
+// are, `ceded` of the longest patch's foam makes room for theirs; empty: nothing. Spans of one
 // length, points below 1e9 m.
 void sample_whitecaps(const WhitecapFrame& frame, std::span<const glm::dvec2> p_world,
-                      std::span<const float> height_m, std::span<float> foam);
+                      std::span<const float> height_m, std::span<float> foam,
+                      std::span<const float> ceded = {});
 
 }  // namespace swell::ocean
