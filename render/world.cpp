@@ -9,6 +9,7 @@
 #include "math/elementary.h"
 #include "ocean/coast/coast.h"
 #include "ocean/coast/shelter.h"
+#include "ocean/coast/train_square.h"
 #include "ocean/inland/drift.h"
 #include "ocean/inland/inland_water.h"
 #include "ocean/inland/river_flow.h"
@@ -128,11 +129,8 @@ void add_clouds(PartMaker& parts, Workers& workers, WorldState& state) {
                                    [&] { return build_cloud_volume(field, to_light, workers); });
 }
 
-void add_sea(PartMaker& parts, Workers& workers, WorldState& state) {
-  const ValueBytes inputs = sea_inputs(parts);
-  state.sea = parts.share("sea", inputs, [&] { return ocean::Sea(state.scene.sea); });
-  state.whitecaps =
-      parts.share("whitecaps", inputs, [&] { return ocean::make_whitecaps(*state.sea, workers); });
+void add_sea(PartMaker& parts, WorldState& state) {
+  state.sea = parts.share("sea", sea_inputs(parts), [&] { return ocean::Sea(state.scene.sea); });
 }
 
 void add_textures(PartMaker& parts, Workers& workers, WorldState& state) {
@@ -221,6 +219,14 @@ void add_coast(PartMaker& parts, Workers& workers, WorldState& state) {
   });
 }
 
+// Once there are sea and coast.
+void add_whitecaps(PartMaker& parts, Workers& workers, WorldState& state) {
+  const ValueBytes inputs = state.coast ? coast_inputs(parts) : sea_inputs(parts);
+  state.whitecaps = parts.share("whitecaps", inputs, [&] {
+    return ocean::make_whitecaps(*state.sea, state.coast.get(), workers);
+  });
+}
+
 // Once there are sea, coast and shelter.
 void add_near_shore(PartMaker& parts, Workers& workers, WorldState& state) {
   if (!state.shelter) return;
@@ -281,12 +287,13 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World
         add_coast(parts, workers, *state);
       },
       [&] {
-        add_sea(parts, workers, *state);
+        add_sea(parts, *state);
         add_textures(parts, workers, *state);
         add_sky(parts, workers, *state);
         add_clouds(parts, workers, *state);
       });
   state->fog_light = std::make_shared<const FogLights>(light_fog(now.air, *state->sky));
+  add_whitecaps(parts, workers, *state);
   add_near_shore(parts, workers, *state);
   add_land_shadow(parts, workers, *state);
   add_forest(parts, workers, *state);

@@ -61,6 +61,23 @@ void pack_foam(const ocean::WhitecapFrame::Patch& patch, float past, std::vector
   texture::pack_map1(ocean::kFoamMapSize, values, map);
 }
 
+// The trains' whitecaps at the frame's time.
+void pack_train_whitecaps(SeaMaps& sea) {
+  const ocean::WhitecapFrame& frame = sea.whitecaps;
+  const ocean::TrainSquare& trains = *frame.trains;
+  sea.train_foam.resize(trains.part.size());
+  sea.short_part.resize(trains.part.size());
+  for (std::size_t i = 0; i < trains.part.size(); ++i) {
+    const float before = ocean::foam_of_code(frame.trains_before[i]);
+    const float after = ocean::foam_of_code(frame.trains_after[i]);
+    const float foam = trains.part[i] * (before + frame.past * (after - before));
+    sea.train_foam[i] = 2.0f * foam - 1.0f;
+    sea.short_part[i] = 2.0f * trains.short_part[i] - 1.0f;
+  }
+  texture::pack_map2(ocean::kFoamMapSize, sea.train_foam, sea.short_part, 1.0f / 127.0f,
+                     sea.coast_whitecaps);
+}
+
 // Whether any of eight codes is foam that a map's byte shows: of those up to 11 it is 0.
 bool shows_foam(const std::uint8_t* codes) {
   constexpr std::uint64_t kEach = 0x0101010101010101u;
@@ -152,7 +169,8 @@ void advance_sea(const WorldState& world, double t_s, std::span<const ocean::Dis
   sea.wake_foam.resize(sea.wake_slopes.size());
   sea.wake_values.resize(sea.wake_slopes.size());
   const bool has_sequence = world.textures.ripple_sequence && !without.has(Part::kSequence);
-  const std::size_t ripples = noise + (has_coast ? 3 : 1);
+  const bool has_train_foam = has_foam && sea.whitecaps.trains;
+  const std::size_t ripples = noise + (has_coast ? 3 : 1) + (has_train_foam ? 1 : 0);
   run.for_each(caustics + wakes + ripples + (has_sequence ? 1 : 0), [&](std::size_t job, int) {
     if (job < caustics) return make_caustic_map(sea.caustics, job);
     if (job < caustics + wakes) {
@@ -170,6 +188,8 @@ void advance_sea(const WorldState& world, double t_s, std::span<const ocean::Dis
       pack_noise(world.scene.sea, t_s, sea);
     else if (i == ripples)
       pack_ripples(world.scene, *world.textures.ripple_sequence, t_s, sea.ripples);
+    else if (has_train_foam && i == noise + 3)
+      pack_train_whitecaps(sea);
     else if (i == noise + 1)
       texture::pack_map2(kCoastMapSize, sea.coast_slope_x, sea.coast_slope_y, kCoastSlopeScale,
                          sea.coast_slopes);

@@ -31,6 +31,8 @@ struct SeaMaps {
   std::vector<FoamBlocks> foam_blocks;           // the same
   texture::PackedMap2 uv_noise;                  // bends the coordinates of ripples
   texture::PackedMap2 coast_slopes, coast_surf;  // slopes of the trains; ceded, foam
+  // The trains' whitecaps, and what these leave of short waves', both twice less 1.
+  texture::PackedMap2 coast_whitecaps;
   RippleMaps ripples;                            // of a sequence
   CausticMaps caustics;                          // the sun under water
   std::vector<texture::PackedMap2> wake_slopes;  // one a window of wakes
@@ -39,6 +41,7 @@ struct SeaMaps {
   texture::UvNoise noise{{}};
   std::vector<float> noise_cos, noise_sin;
   std::vector<float> coast_slope_x, coast_slope_y, coast_foam;
+  std::vector<float> train_foam, short_part;
   std::vector<std::vector<float>> foam_values;  // one a patch
   std::vector<std::vector<float>> wake_values;  // one a window
 };

@@ -6,6 +6,7 @@
 #define SWELL_RENDER_WATER_FOAM_INL_H_
 #endif
 
+#include "ocean/coast/foam_lace.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/water/foam.h"
 
@@ -29,7 +30,7 @@ HWY_INLINE FoamLayer Join(const FoamLayer& a, const FoamLayer& b) {
   return {Max(a.cover, b.cover), Max(a.thickness, b.thickness), Max(a.bubbles, b.bubbles)};
 }
 
-constexpr float kFoamRim = 0.3f;  // width of a bubble's rim, as a threshold
+using ocean::kFoamRim;
 
 // How far foam in [0, 1] is over the threshold of its lace: hidden is what is kFoamRim over it. 0
 // for less foam than a fiftieth, at least kFoamRim for 1.

@@ -18,7 +18,8 @@ namespace HWY_NAMESPACE {
 constexpr float kFirstFoamLost = 3.0f, kAllFoamLost = 5.0f;
 
 // How much of the foam's place in the map is lost in pixels of that size, in [0, 1].
-HWY_INLINE V FoamLost(const FoamMap& foam, V level_m) {
+template <class Layer>
+HWY_INLINE V FoamLost(const Layer& foam, V level_m) {
   const V past_first = level_m + (foam.log2_texels_per_m - kFirstFoamLost);
   return Clamp(past_first * (1.0f / (kAllFoamLost - kFirstFoamLost)), 0.0f, 1.0f);
 }

@@ -7,6 +7,7 @@
 #include "math/elementary.h"
 #include "ocean/coast/coast.h"
 #include "ocean/open_sea/sea.h"
+#include "ocean/open_sea/whitecaps.h"
 #include "ocean/water_surface.h"
 #include "render/frame/parts.h"
 #include "render/sea/sea_maps.h"
@@ -66,6 +67,9 @@ void fill_coast(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   const glm::dvec2 from_corner = eye - grid.min_world;
   water.trains.slopes = make_square_layer(in.sea.coast_slopes, size_m, from_corner);
   water.trains.surf = make_square_layer(in.sea.coast_surf, size_m, from_corner);
+  water.trains.whitecaps = {};
+  if (in.world.whitecaps->trains && !in.without.has(Part::kWhitecaps))
+    water.trains.whitecaps = make_square_layer(in.sea.coast_whitecaps, size_m, from_corner);
 }
 
 // The displacement of the lookups turns with the picture. Across the line of sight it may be less

@@ -31,6 +31,8 @@ struct CoastTrains {
   bool on = false;
   SlopeLayer slopes;
   SlopeLayer surf;  // what the longest waves of the sea cede to them, and their foam
+  // Their whitecaps and CoastWhitecaps::short_part, both twice less 1; no map: no whitecaps.
+  SlopeLayer whitecaps;
 };
 
 // What light does at the water.

@@ -62,12 +62,37 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
 // floor and what land takes of them, and the foam where waves break, both 0 outside the maps.
 struct Surf {
   V ceded, foam;
-  V torn_foam;             // that is torn as whitecaps are, beside `foam`
+  V torn_foam;  // that is torn as whitecaps are, beside `foam`
+  V trains;     // the part of `ceded` that is the trains'
+  CoastWhitecaps whitecaps;
   hn::Mask<D> has_trains;  // in the trains' map
   hn::Mask<D> inside;      // in any
   bool is_near;            // any lane inside
   bool all_ceded;          // no lane has anything of the sea's long waves
 };
+
+HWY_INLINE Surf NoSurf() {
+  const V zero = hn::Zero(D());
+  const auto none = hn::MaskFromVec(zero);
+  return {zero, zero, zero, zero, NoCoastWhitecaps(), none, none, false, false};
+}
+
+// Whitecaps of the trains; from far, where eight bits lose them, their mean.
+HWY_INLINE void SampleTrainWhitecaps(const Water& water, const LayerPlace& place, V level_m,
+                                     Surf& surf) {
+  const D d;
+  const V one = Constant(1.0f), half = Constant(0.5f);
+  const SlopeLayer& layer = water.trains.whitecaps;
+  V foam, short_part;
+  SampleNearest(layer, place, level_m, foam, short_part);
+  foam = MulAdd(foam, half, half);
+  short_part = Min(MulAdd(short_part, half, half), one);
+  // As TrainSquare has them: part = ceded - (1 - short_part).
+  const V part = Max(surf.ceded - (one - short_part), hn::Zero(d));
+  foam = Lerp(foam, part * water.whitecaps.foam[0].mean, FoamLost(layer, level_m));
+  surf.whitecaps.on_trains = IfThenElseZero(surf.inside, foam);
+  surf.whitecaps.short_part = IfThenElse(surf.inside, short_part, one);
+}
 
 HWY_INLINE void SampleTrains(const Water& water, V3 p, V level_m, Surf& surf) {
   const SlopeLayer& layer = water.trains.surf;
@@ -79,13 +104,14 @@ HWY_INLINE void SampleTrains(const Water& water, V3 p, V level_m, Surf& surf) {
   surf.ceded = IfThenElse(surf.ceded > 0.996f, 1.0f, surf.ceded);
   surf.ceded = IfThenElseZero(surf.inside, surf.ceded);
   surf.foam = IfThenElseZero(surf.inside, surf.foam);
+  surf.trains = surf.ceded;
+  if (water.trains.whitecaps.map) SampleTrainWhitecaps(water, place, level_m, surf);
 }
 
 HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
   const D d;
-  const V zero = hn::Zero(d), one = Constant(1.0f);
-  const auto none = hn::MaskFromVec(zero);
-  Surf surf = {zero, zero, zero, none, none, false, false};
+  const V one = Constant(1.0f);
+  Surf surf = NoSurf();
   if (water.trains.on) SampleTrains(water, p, level_m, surf);
   if (water.near_shore.map.map) {
     const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m);
@@ -95,6 +121,7 @@ HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
     surf.torn_foam = shore.foam * left * torn;
     surf.foam = MulAdd(shore.foam * (1.0f - torn), left, surf.foam);
     surf.ceded = MulAdd(shore.taken, left, surf.ceded);
+    surf.whitecaps.taken = shore.taken;
     surf.inside = surf.inside | shore.inside;
   }
   surf.is_near = !hn::AllFalse(d, surf.inside);
@@ -153,6 +180,20 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
   s.foam = Join(s.foam, TearWhitecaps(water.wakes.foam, p, level_m, at.foam));
 }
 
+// Adds whitecaps: `foam` is that of the longest patch's waves.
+HWY_INLINE void AddWhitecaps(const Water& water, const ViewRays& rays,
+                             std::span<const Packet> packets, std::span<const V> level_flat_m,
+                             const Surf* surf, PerPacket<V>& foam, WaterSlopes* s) {
+  if (water.trains.on)
+    for (std::size_t k = 0; k < packets.size(); ++k)
+      foam[k] = NegMulAdd(foam[k], surf[k].trains, foam[k]) + surf[k].whitecaps.on_trains;
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
+                          level_flat_m[k], surf[k].whitecaps);
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    s[k].foam = TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]);
+}
+
 // Adds the slopes of the sea's longest patch, and what foam its waves have, where surf leaves some.
 HWY_INLINE void AddPatchAndFoam(const Water& water, const ViewRays& rays,
                                 std::span<const Packet> packets, std::span<const V> level_flat_m,
@@ -162,11 +203,7 @@ HWY_INLINE void AddPatchAndFoam(const Water& water, const ViewRays& rays,
   for (std::size_t k = 0; k < packets.size(); ++k)
     foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
                               s[k].slope_x, s[k].slope_y, s[k].variance);
-  for (std::size_t k = 0; k < packets.size(); ++k)
-    foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
-                          level_flat_m[k], surf[k].ceded);
-  for (std::size_t k = 0; k < packets.size(); ++k)
-    s[k].foam = TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]);
+  AddWhitecaps(water, rays, packets, level_flat_m, surf, foam, s);
 }
 
 // Adds the foam of waves that break at a coast.
@@ -198,7 +235,7 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
     across[k] = FootprintAcross(rays, packets[k]);
     level_flat_m[k] = FootprintLevel(across[k], Clamp(packets[k].to_eye.z, kMinCos, 1.0f));
     level_m[k] = level_flat_m[k];
-    surf[k] = {zero, zero, zero, hn::MaskFromVec(zero), hn::MaskFromVec(zero), false, false};
+    surf[k] = NoSurf();
     if constexpr (kCoast) surf[k] = SampleSurf(water, packets[k].p, level_flat_m[k]);
     s[k] = NoSlopes(Constant(water.base_variance), zero, packets[k].to_eye.z);
     du[k] = dv[k] = zero;
@@ -212,6 +249,11 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
   const bool has_patch = water.first_ripples > 0;
   if (has_patch && !all_ceded)
     AddPatchAndFoam(water, rays, packets, std::span(level_flat_m).first(count), surf.data(), s);
+  if (kCoast && all_ceded && water.trains.whitecaps.map) {
+    PerPacket<V> none;
+    none.fill(zero);
+    AddWhitecaps(water, rays, packets, std::span(level_flat_m).first(count), surf.data(), none, s);
+  }
   if constexpr (kCoast)
     AddCoastFoam(water, packets, std::span(level_flat_m).first(count), surf.data(), s);
   // Without patches the sines alone are the long waves: the loop then begins before the first

@@ -82,19 +82,30 @@ HWY_INLINE V OnCrests(const Whitecaps& material, V height_m) {
   return Clamp(part, 2.0f - ocean::kMostOnCrest, ocean::kMostOnCrest);
 }
 
+// Whitecaps of a coast's trains at a packet, what these leave of short waves' in shallow water, and
+// what land takes of all.
+struct CoastWhitecaps {
+  V on_trains, short_part, taken;
+};
+
+HWY_INLINE CoastWhitecaps NoCoastWhitecaps() {
+  const V zero = hn::Zero(D());
+  return {zero, Constant(1.0f), zero};
+}
+
 // The part of the surface that is white at p, height_m over the mean level, but for its lace.
-// long_foam: the longest patch's; `ceded` is what the open sea's waves leave to a coast's.
+// long_foam: the longest patch's and the trains'.
 HWY_INLINE V WhitecapsAt(const Whitecaps& material, V long_foam, V3 p, V height_m, V level_m,
-                         V ceded) {
+                         const CoastWhitecaps& coast) {
   if (material.count == 0) return hn::Zero(D());
   const V one = Constant(1.0f);
   V free = one - long_foam;
   if (material.count > 1) {
     const V foam = FoamOfMap(material.foam[1], p, level_m);
-    const V on_crest = Min(foam * OnCrests(material, height_m), one);
+    const V on_crest = Min(foam * OnCrests(material, height_m), one) * coast.short_part;
     free = NegMulAdd(on_crest, free, free);
   }
-  return (one - free) * (one - ceded);
+  return (one - free) * (one - coast.taken);
 }
 
 // Foam is as thick as it is over its threshold, so that lace and tears go on inside what is white

@@ -10,10 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "ocean/water_surface.h"
-#include "render/labelled_frame.h"
+#include "render/drawn_foam.h"
 #include "render/sea/sea_maps.h"
-#include "scene/water.h"
 #include "sky/sky_light.h"
 
 namespace swell::render {
@@ -28,25 +26,13 @@ scene::Scene open_sea(double wind_mps) {
   return scene;
 }
 
-// Straight down from a height, a picture of as much sea as the eye is high.
-View from_above(double height_m, int size_px) {
-  const double fov_rad = 2.0 * std::atan(0.5);
-  return make_view({0.0, 0.0, height_m}, 0.3, -0.5 * std::numbers::pi, fov_rad, 0.25f, size_px,
-                   size_px);
-}
-
-double mean_of(const std::vector<float>& values) {
-  double sum = 0.0;
-  for (const float value : values) sum += static_cast<double>(value);
-  return sum / static_cast<double>(values.size());
-}
-
 // Over some seconds, of a view that holds the longest patch.
 double mean_drawn_cover(const World& world, double height_m, int frames) {
   Shot film;
   double sum = 0.0;
   for (int k = 0; k < frames; ++k) {
-    film.draw(world, from_above(height_m, 192), 30.0 + 3.0 * k, {.labels = LabelSet::all()});
+    film.draw(world, from_above({0.0, 0.0}, height_m, 192), 30.0 + 3.0 * k,
+              {.labels = LabelSet::all()});
     sum += mean_of(film.target.labels.foam);
   }
   return sum / frames;
@@ -87,40 +73,12 @@ TEST(DrawnWhitecaps, CoverAsMuchFromFarAsFromNear) {
 
 // The lace leaves the mean as it is: pictures against the library's answers at the same places.
 TEST(DrawnWhitecaps, AreWhatIsAskedInTheMeanOverTheirLace) {
-  const scene::Scene scene = open_sea(15.0);
-  const World world = world_of(scene);
-  const scene::Water water(scene);
-  Workers workers(2);
-  const ocean::Whitecaps whitecaps = ocean::make_whitecaps(water.sea(), workers);
-  ocean::SeaFrame sea;
-  ocean::WhitecapFrame foam;
   for (const double height_m : {40.0, 120.0, 300.0}) {
-    double drawn = 0.0, asked = 0.0, both = 0.0, drawn2 = 0.0, asked2 = 0.0;
-    int blocks = 0;
-    for (int k = 0; k < 16; ++k) {
-      const double t_s = 60.0 + 7.7 * k;
-      const scene::WaterSurface surface = water.at(t_s, sea, workers);
-      ocean::advance_whitecaps(whitecaps, t_s, foam, workers);
-      const LabelledFrame frame(world, from_above(height_m, 160), t_s);
-      std::vector<glm::dvec2> p;
-      frame.for_pixels(1, [&](glm::ivec2 px) { p.emplace_back(frame.position(px)); });
-      std::vector<float> white(p.size());
-      surface.foam(p, foam, white);
-      // In blocks of 16 x 16 pixels.
-      for (int block = 0; block < 100; ++block, ++blocks) {
-        double a = 0.0, b = 0.0;
-        for (int i = 0; i < 256; ++i) {
-          const int x = block % 10 * 16 + i % 16, y = block / 10 * 16 + i / 16;
-          a += static_cast<double>(frame.labels().foam[frame.at({x, y})]) / 256.0;
-          b += static_cast<double>(white[static_cast<std::size_t>(y * 160 + x)]) / 256.0;
-        }
-        drawn += a, asked += b, both += a * b, drawn2 += a * a, asked2 += b * b;
-      }
-    }
-    ASSERT_GT(asked / blocks, 0.005) << height_m;
-    EXPECT_NEAR(drawn / asked, 1.0, 0.15) << height_m;
+    const FoamComparison c = compare_foam(open_sea(15.0), {0.0, 0.0}, height_m, 16);
+    ASSERT_GT(c.asked / c.blocks, 0.005) << height_m;
+    EXPECT_NEAR(c.drawn / c.asked, 1.0, 0.15) << height_m;
     // Lace as coarse as the blocks is noise to them; foam elsewhere than asked gives 0.
-    EXPECT_GT(both / std::sqrt(drawn2 * asked2), 0.5) << height_m;
+    EXPECT_GT(c.likeness(), 0.5) << height_m;
   }
 }
 
@@ -202,7 +160,7 @@ Moments light_of_whole_foam(const scene::Scene& scene) {
   Shot film;
   Moments light_over_snow;
   for (int n = 0; n < 8; ++n) {
-    const Target& target = film.draw(world, from_above(60.0, 160), 30.0 + 5.0 * n,
+    const Target& target = film.draw(world, from_above({0.0, 0.0}, 60.0, 160), 30.0 + 5.0 * n,
                                      {.keep_linear = true, .labels = LabelSet::all()});
     const Light& light = film.state().shading.light;
     const double snow =
@@ -242,7 +200,7 @@ TEST(DrawnWhitecaps, LieInWaterThatIsBrighterForTheirBubbles) {
   for (int n = 0; n < 8; ++n) {
     const double t_s = 30.0 + 5.0 * n;
     const auto draw = [&](PartSet parts, Shot& film) -> const Target& {
-      return film.draw(world, from_above(20.0, 160), t_s,
+      return film.draw(world, from_above({0.0, 0.0}, 20.0, 160), t_s,
                        {.keep_linear = true, .without = parts, .labels = LabelSet::all()});
     };
     const Target &with = draw({}, foamy), &without = draw({Part::kWhitecaps}, bare);
