@@ -10,8 +10,27 @@
 namespace swell::ocean {
 namespace {
 
-// Where whitecaps are whole: a depth as part of the waves' height, and the least one.
-constexpr double kWholeDepth = 1.0 / 8.0, kLeastDepth_m = 0.1;
+// Where whitecaps are whole: a depth as part of the waves' height, and the least one. In a gale it
+// is a quarter of that.
+constexpr double kWholeDepth = 1.0 / 8.0, kLeastDepth_m = 0.1, kLessInGale = 0.75;
+// How much more of them waves that break all the time leave in a gale, and the depth, as part of
+// the waves' height out at sea, where they begin to.
+constexpr double kMoreInSurf = 3.0, kSurfDepth = 0.4;
+// From Beaufort 6 to 8.
+constexpr double kFirstGale_mps = 11.0, kGale_mps = 20.0;
+
+// What there is of whitecaps in water of this depth; in surf more than 1. `sum_m`: of the trains'
+// amplitudes.
+struct ShallowPart {
+  double wet, more;
+};
+ShallowPart shallow_part(double depth_m, double sum_m, double wave_height_m, double gale) {
+  const double whole_m = kWholeDepth * wave_height_m;
+  const double surf = breaking_part(sum_m, depth_m) *
+                      (1.0 - smoothstep(whole_m, kSurfDepth * wave_height_m, depth_m));
+  const double begin_m = std::max(whole_m * (1.0 - kLessInGale * gale), kLeastDepth_m);
+  return {smoothstep(0.0, begin_m, depth_m), 1.0 + kMoreInSurf * gale * surf};
+}
 
 // Mean amplitude times wave number in deep water, by train, as weights whose squares add up to 1.
 std::vector<float> weights_of(const TrainSea& trains, std::span<const double> amplitude_m) {
@@ -31,7 +50,7 @@ std::vector<float> weights_of(const TrainSea& trains, std::span<const double> am
 }  // namespace
 
 std::shared_ptr<const TrainSquare> make_train_square(const CoastSea& coast, double wave_height_m,
-                                                     Workers& workers) {
+                                                     double wind_mps, Workers& workers) {
   constexpr std::size_t kSide = kFoamMapSize, kPoints = kSide * kSide;
   const TrainSea& sea = coast.trains;
   const auto trains = static_cast<std::size_t>(sea.trains);
@@ -43,7 +62,7 @@ std::shared_ptr<const TrainSquare> make_train_square(const CoastSea& coast, doub
   square.part.resize(kPoints);
   square.short_part.resize(kPoints);
   std::vector<double> row_sum_m(trains * kSide);  // of amplitudes, by train and row
-  const double whole_m = std::max(kWholeDepth * wave_height_m, kLeastDepth_m);
+  const double gale = smoothstep(kFirstGale_mps, kGale_mps, wind_mps);
   workers.for_each(kSide, [&](std::size_t j, int) {
     for (std::size_t i = 0; i < kSide; ++i) {
       const glm::dvec2 p = square.min_world + glm::dvec2(i, j) * (square.size_m / kFoamMapSize);
@@ -51,18 +70,21 @@ std::shared_ptr<const TrainSquare> make_train_square(const CoastSea& coast, doub
       const PlaceInTrains place = find_place(sea, p);
       float share = 0.0f;
       sample_coast_share(coast, {&p, 1}, {&share, 1});
-      const auto depth_m = static_cast<double>(depth_at(sea, place));
-      const auto wet = static_cast<float>(smoothstep(0.0, whole_m, depth_m));
-      const float ceded = 1.0f - spectrum_weight(share);
-      square.part[at] = ceded * wet;
-      square.short_part[at] = 1.0f - ceded * (1.0f - wet);
+      double sum_m = 0.0;
       for (std::size_t n = 0; n < trains; ++n) {
         const TrainAtPlace train = train_at(sea, n, place);
         const float cycles = train.cycles - std::floor(train.cycles);
         square.phase[n * kPoints + at] =
             static_cast<std::uint16_t>(static_cast<std::uint32_t>(cycles * 65536.0f));
         row_sum_m[n * kSide + j] += static_cast<double>(train.amplitude_m);
+        sum_m += static_cast<double>(train.amplitude_m);
       }
+      const auto depth_m = static_cast<double>(depth_at(sea, place));
+      const ShallowPart shallow = shallow_part(depth_m, sum_m, wave_height_m, gale);
+      const auto wet = static_cast<float>(shallow.wet);
+      const float ceded = 1.0f - spectrum_weight(share);
+      square.part[at] = ceded * wet * static_cast<float>(shallow.more);
+      square.short_part[at] = 1.0f - ceded * (1.0f - wet);
     }
   });
   std::vector<double> sum_m(trains);
@@ -77,9 +99,10 @@ Whitecaps make_whitecaps(const Sea& sea, const CoastSea* coast, Workers& workers
   // Calm seas have none to make it for.
   const SeaDescription& description = sea.description();
   const bool has_foam = whitecap_cover(description.wind_speed_mps) * description.whitecaps > 0.0;
-  return make_whitecaps(
-      sea, workers,
-      coast && has_foam ? make_train_square(*coast, sea.significant_height_m(), workers) : nullptr);
+  return make_whitecaps(sea, workers,
+                        coast && has_foam ? make_train_square(*coast, sea.significant_height_m(),
+                                                              description.wind_speed_mps, workers)
+                                          : nullptr);
 }
 
 }  // namespace swell::ocean

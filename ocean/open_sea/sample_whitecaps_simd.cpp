@@ -41,9 +41,10 @@ OnTrains on_trains_at(const WhitecapFrame& frame, glm::dvec2 p_world) {
   if (!is_inside(texels.x) || !is_inside(texels.y)) return {};
   return {value_at_texels(texels,
                           [&](std::size_t at) {
-                            return trains.part[at] * glm::mix(foam_of_code(frame.trains_before[at]),
-                                                              foam_of_code(frame.trains_after[at]),
-                                                              frame.past);
+                            const float foam =
+                                glm::mix(foam_of_code(frame.trains_before[at]),
+                                         foam_of_code(frame.trains_after[at]), frame.past);
+                            return std::min(trains.part[at] * foam, 1.0f);
                           }),
           value_at_texels(texels, [&](std::size_t at) { return trains.short_part[at]; })};
 }
@@ -96,7 +97,7 @@ void sample_whitecaps(const WhitecapFrame& frame, std::span<const glm::dvec2> p_
     for (std::size_t p = 0; p < frame.patches.size(); ++p) {
       float part = HWY_NAMESPACE::foam_at(frame.patches[p], frame.past, p_world[k]);
       if (p == 0)
-        part = part * kept + trains.foam;
+        part = std::min(part * kept + trains.foam, 1.0f);
       else
         part = std::min(part * foam_on_crest(height_m[k], frame.crest_per_m), 1.0f) *
                trains.short_part;

@@ -66,8 +66,8 @@ struct TrainSquare {
   std::vector<float> weight;  // the sum of their squares is 1
   // By train, then by point: theta of sample_trains() in 2^-16 cycles.
   std::vector<std::uint16_t> phase;
-  // By point: what there is of the trains' whitecaps, and of those of shorter waves, both in [0,
-  // 1]: in shallow water surf takes their place.
+  // By point: what there is of the trains' whitecaps, over 1 in the surf of a gale, and of those of
+  // shorter waves, in [0, 1]: in shallow water surf takes their place.
   std::vector<float> part, short_part;
 };
 

@@ -186,7 +186,8 @@ HWY_INLINE void AddWhitecaps(const Water& water, const ViewRays& rays,
                              const Surf* surf, PerPacket<V>& foam, WaterSlopes* s) {
   if (water.trains.on)
     for (std::size_t k = 0; k < packets.size(); ++k)
-      foam[k] = NegMulAdd(foam[k], surf[k].trains, foam[k]) + surf[k].whitecaps.on_trains;
+      foam[k] =
+          Min(NegMulAdd(foam[k], surf[k].trains, foam[k]) + surf[k].whitecaps.on_trains, 1.0f);
   for (std::size_t k = 0; k < packets.size(); ++k)
     foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
                           level_flat_m[k], surf[k].whitecaps);

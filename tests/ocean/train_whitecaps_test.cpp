@@ -150,7 +150,7 @@ TEST(TrainWhitecaps, AreNoStripes) {
 }
 
 TEST(TrainWhitecaps, MakeRoomForSurfInShallowWaterAndAreNotOnLand) {
-  TrainCoast coast(15.0);
+  TrainCoast coast(10.0);
   const TrainSquare& trains = *coast.whitecaps.trains;
   float before = 0.0f;
   for (std::size_t row = 0; row < kFoamSide; ++row) {
@@ -168,6 +168,24 @@ TEST(TrainWhitecaps, MakeRoomForSurfInShallowWaterAndAreNotOnLand) {
     before = trains.part[k];
   }
   EXPECT_EQ(before, 1.0f);
+}
+
+// Surf does not drain there from one crest to the next.
+TEST(TrainWhitecaps, AreManyInTheSurfOfAGaleAlone) {
+  for (const double wind : {10.0, 22.0}) {
+    TrainCoast coast(wind);
+    float most = 0.0f;
+    for (std::size_t k = 0; k < kFoamPoints; ++k) {
+      const float part = coast.whitecaps.trains->part[k];
+      most = std::max(most, part);
+      // Waves of 22 m/s are 12 m high out at sea; the floor falls by a tenth.
+      if (coast.point(k).y > 60.0) {
+        EXPECT_LE(part, 1.0f) << coast.point(k).y;
+      }
+    }
+    EXPECT_GT(most, wind > 20.0 ? 2.0f : 0.99f);
+    EXPECT_LE(most, wind > 20.0 ? 4.0f : 1.0f);
+  }
 }
 
 // ---- When

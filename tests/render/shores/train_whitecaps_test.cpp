@@ -95,6 +95,7 @@ TEST(DrawnTrainWhitecaps, AreWhatIsAskedInTheMeanOverTheirLace) {
 
 // With surf under whitecaps, and where trains and spectrum blend.
 TEST(DrawnTrainWhitecaps, AreWhatIsAskedInTheSurfOfABeachInAGale) {
+  expect_asked_is_drawn(beach_in(22.0), {-100.0, -120.0}, 100.0);
   expect_asked_is_drawn(beach_in(22.0), {-100.0, 100.0}, 300.0);
   expect_asked_is_drawn(beach_in(22.0), {-100.0, 250.0}, 300.0);
   expect_asked_is_drawn(beach_in(12.0), {-100.0, 250.0}, 100.0);
