@@ -292,7 +292,7 @@ typedef struct swell_query {
   float* slope;         /* [count][2]: dz/dx, dz/dy */
   float* normal;        /* [count][3]: unit vectors */
   float* velocity_mps;  /* [count][3]: of the water at the surface, east, north, up */
-  float* foam;          /* [count]: part that whitecaps hide, [0, 1] */
+  float* foam;          /* [count]: part that whitecaps and surf of trains hide, [0, 1] */
   float* still_depth_m; /* [count]: of the ground under the mean sea level, below 0 on land;
                            infinite without terrain */
   const swell_disturbance* disturbances; /* as in the frame; the waves are worked out anew then */

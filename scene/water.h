@@ -11,7 +11,8 @@
 //
 // Foam, which knows the waves of some seconds before, is made beside it:
 //
-//   const ocean::Whitecaps whitecaps = ocean::make_whitecaps(water.sea(), workers);
+//   const ocean::Whitecaps whitecaps =
+//       ocean::make_whitecaps(water.sea(), water.coast(), workers);  // ocean/coast/train_square.h
 //   ocean::WhitecapFrame foam;
 //   ocean::advance_whitecaps(whitecaps, t_s, foam, workers);
 //   std::vector<float> white(buoys.size());

@@ -291,7 +291,7 @@ class World:
         return self._ask("velocity", xy, t, disturbances)
 
     def foam(self, xy: npt.ArrayLike, t: float) -> npt.NDArray[np.float32]:
-        """The part of the surface that whitecaps hide, in [0, 1]: [...]."""
+        """The part of the surface that whitecaps and surf of wave trains hide, in [0, 1]: [...]."""
         return self._ask("foam", xy, t)
 
     def still_depth(self, xy: npt.ArrayLike) -> npt.NDArray[np.float32]:
