@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "lod/relief_bounds.h"
 #include "math/check.h"
@@ -33,6 +34,7 @@
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
+#include "scene/obstacles.h"
 #include "scene/terrain.h"
 #include "sky/atmosphere.h"
 #include "sky/sky_light.h"
@@ -105,6 +107,16 @@ ValueBytes land_inputs(const PartMaker& parts) {
 ValueBytes coast_inputs(const PartMaker& parts) {
   return parts.of({"coast"}).add(sea_inputs(parts).hash()).add(land_inputs(parts).hash());
 }
+std::vector<ocean::Obstacle> river_obstacles(const scene::Scene& scene) {
+  if (scene.rivers.empty()) return {};
+  return scene::river_obstacles(scene, {scene.rivers, scene.lakes});
+}
+ValueBytes add_obstacles(std::span<const ocean::Obstacle> obstacles, ValueBytes inputs) {
+  inputs.add(obstacles.size());
+  for (const ocean::Obstacle& o : obstacles)
+    inputs.add(o.middle).add(o.ahead).add(o.half_m).add(o.is_round);
+  return inputs;
+}
 // Once there is a sky.
 ValueBytes lit_land_inputs(const PartMaker& parts, const WorldState& state) {
   return land_inputs(parts).add(state.sky->to_light);
@@ -151,7 +163,7 @@ void add_textures(PartMaker& parts, Workers& workers, WorldState& state) {
 // The land, and what follows from its heights alone.
 struct LandParts {
   std::shared_ptr<const terrain::HeightGrid> terrain;
-  std::shared_ptr<const ocean::InlandWater> inland;
+  ocean::LakeFill lakes;
   std::shared_ptr<const terrain::ShoreMap> shore;
   std::shared_ptr<const TerrainMaps> maps;
   std::shared_ptr<const lod::ReliefBounds> relief_bounds;
@@ -169,10 +181,10 @@ DrawnLand draw_land(const terrain::HeightGrid& land, bool bicubic, Workers& work
 // `drawn` gives the DrawnLand of a terrain.
 template <class Drawn>
 LandParts build_land_parts(const scene::Scene& scene, Workers& workers, Drawn&& drawn) {
-  std::optional<scene::Land> land = scene::build_land(scene, workers);
+  std::optional<scene::Ground> ground = scene::build_ground(scene);
   LandParts parts;
-  parts.terrain = std::make_shared<const terrain::HeightGrid>(std::move(land->terrain));
-  parts.inland = std::move(land->water);
+  parts.terrain = std::make_shared<const terrain::HeightGrid>(std::move(ground->terrain));
+  parts.lakes = std::move(ground->lakes);
   parts.shore = std::make_shared<const terrain::ShoreMap>(
       *scene::build_shore(scene, parts.terrain.get(), workers.thread_count()));
   const auto& [heights, around] = drawn(*parts.terrain);
@@ -194,7 +206,9 @@ void add_land(PartMaker& parts, Workers& workers, WorldState& state) {
   const auto land =
       parts.share("land", inputs, [&] { return build_land_parts(scene, workers, drawn); });
   state.terrain = land->terrain;
-  state.inland = land->inland;
+  state.inland = parts.share("inland water", add_obstacles(river_obstacles(scene), inputs), [&] {
+    return scene::build_inland_water(scene, land->lakes, *land->terrain, workers);
+  });
   state.shore = land->shore;
   state.terrain_maps = land->maps;
   state.relief_bounds = land->relief_bounds;
@@ -246,7 +260,10 @@ void add_land_shadow(PartMaker& parts, Workers& workers, WorldState& state) {
 // Once there are land and sky.
 void add_forest(PartMaker& parts, Workers& workers, WorldState& state) {
   if (state.scene.trees.empty()) return;
-  const ValueBytes inputs = parts.of({"trees"}).add(lit_land_inputs(parts, state).hash());
+  // What stands in rivers may make the lattice finer, at whose points lakes are looked up.
+  const double spacing_m = state.inland ? state.inland->spacing_m() : 0.0;
+  const ValueBytes inputs =
+      parts.of({"trees"}).add(lit_land_inputs(parts, state).hash()).add(spacing_m);
   state.forest = parts.share("forest", inputs, [&]() -> std::optional<Forest> {
     Forest forest =
         grow_forest(state.scene, *state.terrain, state.inland.get(), state.sky->to_light, workers);
@@ -258,8 +275,9 @@ void add_forest(PartMaker& parts, Workers& workers, WorldState& state) {
 void add_drift(PartMaker& parts, Workers& workers, scene::Scene& scene) {
   if (std::ranges::none_of(scene.objects, &scene::FloatingObject::drift)) return;
   const ocean::RiverNetwork network(scene.rivers, scene.lakes);
-  const ocean::RiverFlow flow(network);
-  const ValueBytes rivers = parts.of({"river", "lake"});
+  const std::vector<ocean::Obstacle> obstacles = river_obstacles(scene);
+  const ocean::RiverFlow flow(network, obstacles);
+  const ValueBytes rivers = add_obstacles(obstacles, parts.of({"river", "lake"}));
   workers.for_each(scene.objects.size(), [&](std::size_t n, int) {
     scene::FloatingObject& object = scene.objects[n];
     object.drift_track = nullptr;
@@ -281,6 +299,7 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World
   const scene::Scene& now = state->scene;
   PartMaker parts(now, like, state->parts);
   Workers workers(threads);
+  state->objects = build_object_meshes(state->scene, parts);
   workers.run_both(
       [&] {
         add_land(parts, workers, *state);
@@ -297,7 +316,6 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World
   add_near_shore(parts, workers, *state);
   add_land_shadow(parts, workers, *state);
   add_forest(parts, workers, *state);
-  state->objects = build_object_meshes(state->scene, parts);
   add_drift(parts, workers, state->scene);
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);

@@ -47,6 +47,22 @@ enum class UpAxis : std::uint8_t { kByFormat, kY, kZ };
 // What a buoy carries on top.
 enum class TopMark : std::uint8_t { kCan, kCone, kSphere };
 
+// What a kind takes up of the water's surface.
+enum class PlanShape : std::uint8_t {
+  kRound,  // an ellipse
+  kBox,
+  kPosts,  // those of a pier
+};
+
+// The posts of a pier stand in pairs along it: how many, where the last pair stands and how far out
+// a post is, from the middle, and half its sizes, all in parts of the pier's.
+struct PierPosts {
+  int pairs = 9;
+  double aside = 1.1 / 3.0, ahead = 17.0 / 36.0;
+  glm::dvec2 half{0.16 / 3.0, 0.16 / 36.0};
+};
+inline constexpr PierPosts kPierPosts{};
+
 // What all objects of a kind have in common. One more kind is an enumerator, a row of kObjectKinds
 // and one of object_mesh.cpp, which names what builds its triangles.
 struct ObjectKindFacts {
@@ -56,6 +72,7 @@ struct ObjectKindFacts {
   double draught = 0.2;
   glm::vec3 colour{0.60f, 0.03f, 0.02f};
   Motion motion = Motion::kFloat;
+  PlanShape plan = PlanShape::kRound;
   bool is_compact = false;      // closed all around, and about as wide as high
   bool shades_itself = true;    // a part of it may stand between another one and the sun
   bool makes_wake = false;      // where it floats along a path
@@ -66,7 +83,8 @@ struct ObjectKindFacts {
 inline constexpr auto kObjectKinds = enum_table<ObjectKind, ObjectKindFacts>({
     {ObjectKind::kBuoy, {.name = "buoy", .is_compact = true}},
     {ObjectKind::kSphere, {.name = "sphere", .is_compact = true, .shades_itself = false}},
-    {ObjectKind::kBox, {.name = "box", .is_compact = true, .shades_itself = false}},
+    {ObjectKind::kBox,
+     {.name = "box", .plan = PlanShape::kBox, .is_compact = true, .shades_itself = false}},
     {ObjectKind::kBoat,
      {.name = "boat",
       .size_m = {1.7, 4.6, 0.8},
@@ -84,7 +102,8 @@ inline constexpr auto kObjectKinds = enum_table<ObjectKind, ObjectKindFacts>({
       .size_m = {3.0, 36.0, 7.0},
       .draught = 0.70,
       .colour = {0.21f, 0.15f, 0.10f},
-      .motion = Motion::kFixed}},
+      .motion = Motion::kFixed,
+      .plan = PlanShape::kPosts}},
     {ObjectKind::kLighthouse,
      {.name = "lighthouse",
       .size_m = {8.0, 8.0, 26.0},
@@ -97,9 +116,13 @@ inline constexpr auto kObjectKinds = enum_table<ObjectKind, ObjectKindFacts>({
       .draught = 0.4,
       .colour = {0.17f, 0.155f, 0.14f},
       .motion = Motion::kFixed}},
-    {ObjectKind::kMesh, {.name = "mesh", .is_of_file = true}},
+    {ObjectKind::kMesh, {.name = "mesh", .plan = PlanShape::kBox, .is_of_file = true}},
     {ObjectKind::kImplicit,
-     {.name = "form", .makes_wake = true, .is_of_file = true, .at_file_origin = true}},
+     {.name = "form",
+      .plan = PlanShape::kBox,
+      .makes_wake = true,
+      .is_of_file = true,
+      .at_file_origin = true}},
 });
 
 inline constexpr auto kObjectKindNames = [] {

@@ -1,7 +1,10 @@
 #include "scene/terrain.h"
 
+#include <utility>
+
 #include "ocean/inland/river_bed.h"
 #include "scene/check_scene.h"
+#include "scene/obstacles.h"
 #include "terrain/apron.h"
 #include "terrain/terrain.h"
 
@@ -38,18 +41,28 @@ std::optional<terrain::HeightGrid> build_terrain(const Scene& scene) {
   });
 }
 
-std::optional<Land> build_land(const Scene& scene, Workers& workers) {
+std::optional<Ground> build_ground(const Scene& scene) {
   if (!scene.terrain) return std::nullopt;
   return built(scene, [&] {
-    Land land{terrain::build_terrain(*scene.terrain), nullptr};
+    Ground ground{terrain::build_terrain(*scene.terrain), {}};
     if (has_inland_water(scene)) {
       const ocean::RiverNetwork network(scene.rivers, scene.lakes);
-      const ocean::LakeFill lakes = ocean::fill_lakes(scene.lakes, land.terrain);
-      dig(network, land.terrain);
-      land.water =
-          std::make_unique<const ocean::InlandWater>(network, lakes, land.terrain, workers);
+      ground.lakes = ocean::fill_lakes(scene.lakes, ground.terrain);
+      dig(network, ground.terrain);
     }
-    return std::optional(std::move(land));
+    return std::optional(std::move(ground));
+  });
+}
+
+std::optional<ocean::InlandWater> build_inland_water(const Scene& scene,
+                                                     const ocean::LakeFill& lakes,
+                                                     const terrain::HeightGrid& terrain,
+                                                     Workers& workers) {
+  if (!has_inland_water(scene)) return std::nullopt;
+  return built(scene, [&] {
+    const ocean::RiverNetwork network(scene.rivers, scene.lakes);
+    return std::optional<ocean::InlandWater>(std::in_place, network, lakes, terrain,
+                                             river_obstacles(scene, network), workers);
   });
 }
 

@@ -22,9 +22,9 @@ Water::Water(const Scene& scene, int threads) : sea_(sea_of(scene)), area_(scene
   const ScopedFloatEnvironment ieee;
   disturbances_ = all_disturbances(scene);
   Workers workers(threads);
-  if (std::optional<Land> land = build_land(scene, workers)) {
-    terrain_ = std::move(land->terrain);
-    inland_ = std::move(land->water);
+  if (std::optional<Ground> ground = build_ground(scene)) {
+    terrain_ = std::move(ground->terrain);
+    inland_ = build_inland_water(scene, ground->lakes, *terrain_, workers);
   }
   shore_ = build_shore(scene, terrain());
   coast_ = build_coast(scene, terrain(), shore(), workers);

@@ -20,7 +20,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 
 #include "math/parallel.h"
@@ -57,7 +56,7 @@ class Water {
   const ocean::Sea& sea() const { return sea_; }
   const terrain::HeightGrid* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
   const terrain::ShoreMap* shore() const { return shore_ ? &*shore_ : nullptr; }
-  const ocean::InlandWater* inland() const { return inland_.get(); }
+  const ocean::InlandWater* inland() const { return inland_ ? &*inland_ : nullptr; }
   const ocean::CoastSea* coast() const { return coast_ ? &*coast_ : nullptr; }
   const ocean::Shelter* shelter() const { return shelter_ ? &*shelter_ : nullptr; }
 
@@ -66,7 +65,7 @@ class Water {
   SeaArea area_;
   std::optional<terrain::HeightGrid> terrain_;
   std::optional<terrain::ShoreMap> shore_;
-  std::unique_ptr<const ocean::InlandWater> inland_;
+  std::optional<ocean::InlandWater> inland_;
   std::optional<ocean::CoastSea> coast_;
   std::optional<ocean::Shelter> shelter_;
   std::vector<ocean::Disturbance> disturbances_;

@@ -37,6 +37,23 @@ std::optional<WaterPlace> water_at(const RiverNetwork& network, const LakeFill& 
   return lake;
 }
 
+// The lattice's spacing: half as wide where that shows an obstacle which falls between its points.
+double spacing_around(std::span<const Obstacle> obstacles, double coarse_m) {
+  const bool is_between = std::ranges::any_of(obstacles, [&](const Obstacle& o) {
+    const double half_m = std::min(o.half_m.x, o.half_m.y);
+    return half_m >= 0.25 * coarse_m && half_m < coarse_m;
+  });
+  return is_between ? std::max(0.5 * coarse_m, kLeastSpacing_m) : coarse_m;
+}
+
+// The mean of the flow over a cell's width, and no further than the bank: so what lies between
+// samples takes its part of the water away.
+glm::dvec2 mean_current(const RiverFlow& flow, const WaterPlace& place, glm::dvec2 p,
+                        double spacing_m) {
+  const double half_m = std::clamp(-place.outside_m, kFlowDifference_m, 0.5 * spacing_m);
+  return river_current(flow, place, p, half_m);
+}
+
 // Marks the cells that are drawn: all of such a cell is near water, some of it is wet, and it is
 // not the sea's.
 void mark_wet_cells(const std::array<bool, kInlandSamples>& near, const InlandSample* samples,
@@ -63,19 +80,41 @@ void mark_wet_cells(const std::array<bool, kInlandSamples>& near, const InlandSa
 }  // namespace
 
 InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
-                         const terrain::HeightGrid& land, Workers& workers) {
-  spacing_m_ =
+                         const terrain::HeightGrid& land, std::span<const Obstacle> obstacles,
+                         Workers& workers) {
+  const double coarse_m =
       std::clamp(network.least_width_m() / kSamplesAcross, kLeastSpacing_m, kMostSpacing_m);
-  const double margin_m = std::max(2.5 * land.grid.spacing_m, 2.0 * spacing_m_);
-  find_blocks(network, fill, land.grid, margin_m, workers);
+  const auto try_spacing = [&](double spacing_m) {
+    spacing_m_ = spacing_m;
+    const double margin_m = std::max(2.5 * land.grid.spacing_m, 2.0 * spacing_m_);
+    return find_blocks(network, fill, land.grid, margin_m, workers) <= kMostInlandBlocks;
+  };
+  const double fine_m = spacing_around(obstacles, coarse_m);
+  if (!(fine_m < coarse_m && try_spacing(fine_m)) && !try_spacing(coarse_m))
+    throw RiverError(
+        std::string(kRiverKey), "more rivers and lakes than fit the lattice",
+        fmt::format("{} blocks of {:.0f} m", kMostInlandBlocks, spacing_m_ * kInlandBlock));
+  fill_samples(network, fill, land, obstacles, workers);
+  for (const InlandBlock& block : blocks_) highest_m_ = std::max(highest_m_, block.high_m);
+}
 
+void InlandWater::fill_samples(const RiverNetwork& network, const LakeFill& fill,
+                               const terrain::HeightGrid& land, std::span<const Obstacle> obstacles,
+                               Workers& workers) {
+  const double margin_m = std::max(2.5 * land.grid.spacing_m, 2.0 * spacing_m_);
   const RiverFlow flow(network);
+  std::optional<RiverFlow> parted;
+  if (!obstacles.empty()) parted.emplace(network, obstacles);
   const texture::PerlinNoise noise(17);
   samples_.resize(blocks_.size() * kInlandSamples);
+  undisturbed_.resize(blocks_.size());
   workers.for_each(blocks_.size(), [&](std::size_t b, int) {
     InlandBlock& block = blocks_[b];
     InlandSample* const samples = &samples_[b * kInlandSamples];
     std::array<bool, kInlandSamples> near{};
+    std::vector<glm::vec2> undisturbed;
+    if (parted) undisturbed.resize(kInlandSamples);
+    bool is_parted = false;
     for (int j = 0; j < kInlandSide; ++j)
       for (int i = 0; i < kInlandSide; ++i) {
         const glm::dvec2 p = point(block.first_cell + glm::ivec2(i, j));
@@ -84,7 +123,12 @@ InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
         const std::optional<WaterPlace> place = water_at(network, fill, p);
         if (!place) continue;
         near[n] = place->outside_m < margin_m;
-        const glm::dvec2 v = river_current(flow, *place, p);
+        glm::dvec2 v = river_current(flow, *place, p);
+        if (parted) undisturbed[n] = v;
+        if (parted && parted->is_parted(p)) {
+          is_parted = true;
+          v = mean_current(*parted, *place, p, spacing_m_);
+        }
         sample.level_m = static_cast<float>(place->level_m);
         sample.depth_m = static_cast<float>(place->level_m - terrain::height_at(land, p));
         sample.east_mps = static_cast<float>(v.x);
@@ -95,13 +139,13 @@ InlandWater::InlandWater(const RiverNetwork& network, const LakeFill& fill,
         sample.near = 1.0f;
       }
     mark_wet_cells(near, samples, block);
+    if (is_parted) undisturbed_[b] = std::move(undisturbed);
   });
-  for (const InlandBlock& block : blocks_) highest_m_ = std::max(highest_m_, block.high_m);
 }
 
 // Finds the blocks of the lattice that hold any water, or are within the margin of some.
-void InlandWater::find_blocks(const RiverNetwork& network, const LakeFill& fill,
-                              const terrain::Grid& land, double margin_m, Workers& workers) {
+std::size_t InlandWater::find_blocks(const RiverNetwork& network, const LakeFill& fill,
+                                     const terrain::Grid& land, double margin_m, Workers& workers) {
   const glm::dvec2 low = glm::max(glm::min(network.low(), fill.low), land.min_world);
   const glm::dvec2 high =
       glm::min(glm::max(network.high(), fill.high), land.min_world + land.extent_m());
@@ -118,39 +162,37 @@ void InlandWater::find_blocks(const RiverNetwork& network, const LakeFill& fill,
     holds[n] =
         (near && near->outside_m < 0.75 * block_m + margin_m) || fill.touches(corner, block_m);
   });
+  blocks_.clear();
   for (std::size_t n = 0; n < holds.size(); ++n) {
     if (!holds[n]) continue;
-    if (blocks_.size() == kMostInlandBlocks)
-      throw RiverError(std::string(kRiverKey), "more rivers and lakes than fit the lattice",
-                       fmt::format("{} blocks of {:.0f} m", kMostInlandBlocks, block_m));
     block_index_[n] = static_cast<std::int32_t>(blocks_.size());
     InlandBlock block;
     block.first_cell = kInlandBlock * glm::ivec2(n % columns, n / columns);
     blocks_.push_back(block);
   }
+  return blocks_.size();
 }
 
-// The samples of the block at p, and how many cells p is from the first.
-const InlandSample* InlandWater::block_at(glm::dvec2 p, glm::dvec2& cells) const {
-  cells = (p - corner_) / spacing_m_;
+std::optional<InlandWater::Place> InlandWater::place_of(glm::dvec2 p) const {
+  glm::dvec2 cells = (p - corner_) / spacing_m_;
   const glm::dvec2 block = glm::floor(cells / static_cast<double>(kInlandBlock));
   if (!(block.x >= 0.0 && block.y >= 0.0 && block.x < blocks_x_ && block.y < blocks_y_))
-    return nullptr;
+    return std::nullopt;
   const std::int32_t n = block_index_[static_cast<std::size_t>(block.y) * blocks_x_ +
                                       static_cast<std::size_t>(block.x)];
-  if (n < 0) return nullptr;
+  if (n < 0) return std::nullopt;
   cells -= static_cast<double>(kInlandBlock) * block;
   const auto i = static_cast<std::size_t>(cells.x), j = static_cast<std::size_t>(cells.y);
-  if (!blocks_[static_cast<std::size_t>(n)].wet[j * kInlandBlock + i]) return nullptr;
+  if (!blocks_[static_cast<std::size_t>(n)].wet[j * kInlandBlock + i]) return std::nullopt;
   cells -= glm::dvec2(i, j);
-  return &samples_[static_cast<std::size_t>(n) * kInlandSamples + j * kInlandSide + i];
+  return Place{static_cast<std::size_t>(n) * kInlandSamples + j * kInlandSide + i, cells};
 }
 
 std::optional<InlandSample> InlandWater::at(glm::dvec2 p) const {
-  glm::dvec2 t;
-  const InlandSample* const s = block_at(p, t);
-  if (!s) return std::nullopt;
-  const auto x = static_cast<float>(t.x), y = static_cast<float>(t.y);
+  const std::optional<Place> place = place_of(p);
+  if (!place) return std::nullopt;
+  const InlandSample* const s = &samples_[place->sample];
+  const auto x = static_cast<float>(place->cells.x), y = static_cast<float>(place->cells.y);
   const auto blend = [&](float InlandSample::*value) {
     const float south = s[0].*value + x * (s[1].*value - s[0].*value);
     const float north =
@@ -161,6 +203,20 @@ std::optional<InlandSample> InlandWater::at(glm::dvec2 p) const {
                       blend(&InlandSample::east_mps), blend(&InlandSample::north_mps),
                       blend(&InlandSample::white),    blend(&InlandSample::sea_share),
                       blend(&InlandSample::phase),    blend(&InlandSample::near)};
+}
+
+glm::vec2 InlandWater::undisturbed_current(glm::dvec2 p) const {
+  const std::optional<Place> place = place_of(p);
+  if (!place) return glm::vec2(0.0f);
+  const std::vector<glm::vec2>& of_block = undisturbed_[place->sample / kInlandSamples];
+  if (of_block.empty()) {
+    const InlandSample sample = *at(p);
+    return {sample.east_mps, sample.north_mps};
+  }
+  const glm::vec2* const s = &of_block[place->sample % kInlandSamples];
+  const glm::vec2 t(place->cells);
+  return glm::mix(glm::mix(s[0], s[1], t.x), glm::mix(s[kInlandSide], s[kInlandSide + 1], t.x),
+                  t.y);
 }
 
 float InlandWater::sea_share(glm::dvec2 p) const {

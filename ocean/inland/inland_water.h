@@ -12,6 +12,7 @@
 #include "math/parallel.h"
 #include "ocean/inland/inland_sample.h"
 #include "ocean/inland/lake_fill.h"
+#include "ocean/inland/obstacle.h"
 #include "ocean/inland/river_flow.h"
 #include "ocean/inland/river_network.h"
 #include "terrain/height_grid.h"
@@ -29,13 +30,15 @@ struct InlandBlock {
 // Read-only after it is made.
 class InlandWater {
  public:
-  // lakes: of the land before dig_beds(); land: after it. The same bits with any workers. Throws
-  // RiverError: more water than kMostInlandBlocks hold.
+  // lakes: of the land before dig_beds(); land: after it; obstacles: which the flow parts before.
+  // The same bits with any workers. Throws RiverError: more water than kMostInlandBlocks hold.
   InlandWater(const RiverNetwork& network, const LakeFill& lakes, const terrain::HeightGrid& land,
-              Workers& workers);
+              std::span<const Obstacle> obstacles, Workers& workers);
 
   // Nothing where there is no river or lake: on dry land, too.
   std::optional<InlandSample> at(glm::dvec2 p) const;
+  // The current that there would be at p without obstacles [m/s]: what runs against them.
+  glm::vec2 undisturbed_current(glm::dvec2 p) const;
   // 1 where no river ends; 0 where the sea's waves do not come.
   float sea_share(glm::dvec2 p) const;
   float highest_m() const { return highest_m_; }
@@ -54,9 +57,18 @@ class InlandWater {
   std::span<const InlandSample> samples() const { return samples_; }  // block after block
 
  private:
-  void find_blocks(const RiverNetwork& network, const LakeFill& fill, const terrain::Grid& land,
-                   double margin_m, Workers& workers);
-  const InlandSample* block_at(glm::dvec2 p, glm::dvec2& cells) const;
+  // Where the cell of a place is: its first sample, and how many cells p is from it.
+  struct Place {
+    std::size_t sample;
+    glm::dvec2 cells;
+  };
+  // Returns how many.
+  std::size_t find_blocks(const RiverNetwork& network, const LakeFill& fill,
+                          const terrain::Grid& land, double margin_m, Workers& workers);
+  void fill_samples(const RiverNetwork& network, const LakeFill& fill,
+                    const terrain::HeightGrid& land, std::span<const Obstacle> obstacles,
+                    Workers& workers);
+  std::optional<Place> place_of(glm::dvec2 p) const;
 
   glm::dvec2 corner_{0.0};
   double spacing_m_ = 1.0;
@@ -64,6 +76,7 @@ class InlandWater {
   std::vector<std::int32_t> block_index_;
   std::vector<InlandBlock> blocks_;
   std::vector<InlandSample> samples_;
+  std::vector<std::vector<glm::vec2>> undisturbed_;  // of the samples of blocks with obstacles
   float highest_m_ = 0.0f;
 };
 

@@ -11,9 +11,11 @@ namespace swell::ocean {
 namespace {
 
 constexpr double kReachOfWidth = 3.0;
-constexpr double kDifference_m = 0.01;  // of differences, each way
 constexpr double kFlowCell_m = 24.0;
 constexpr std::size_t kMostBanks = 24;  // near one place
+
+// f, for t in [0, 1].
+double fall_off(double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); }
 
 // Where a river's bank meets the bank of another that it joins: on the other's course.
 struct Meeting {
@@ -141,7 +143,8 @@ Meeting trim(const Course& other, bool at_end, const std::string& key,
 
 }  // namespace
 
-RiverFlow::RiverFlow(const RiverNetwork& network) {
+RiverFlow::RiverFlow(const RiverNetwork& network, std::span<const Obstacle> obstacles,
+                     double widened_m) {
   const std::vector<Course>& courses = network.courses();
   std::vector<std::array<std::vector<BankPoint>, 2>> banks(courses.size());  // right, left
   for (std::size_t r = 0; r < courses.size(); ++r)
@@ -195,9 +198,10 @@ RiverFlow::RiverFlow(const RiverNetwork& network) {
   std::vector<Segment> segments;
   for (const BankPiece& piece : banks_) segments.push_back(piece.segment);
   index_ = SegmentIndex(segments, kFlowCell_m);
+  add_obstacles(network, obstacles, widened_m);
 }
 
-std::optional<double> RiverFlow::psi(glm::dvec2 p) const {
+RiverFlow::Banks RiverFlow::banks_at(glm::dvec2 p, double least_m) const {
   // The most that any piece of a bank weighs: near its end the next one takes over without a step.
   struct Found {
     std::uint32_t bank;
@@ -207,11 +211,11 @@ std::optional<double> RiverFlow::psi(glm::dvec2 p) const {
   std::size_t count = 0;
   for (const std::uint32_t n : index_.near(p)) {
     const BankPiece& piece = banks_[n];
-    const double s = piece.segment.reach_m, d = nearest_on(piece.segment, p).distance_m;
-    if (d < 1e-9 * s) return piece.psi;
+    const double s = piece.segment.reach_m;
+    const double d = std::max(nearest_on(piece.segment, p).distance_m, least_m);
+    if (d < 1e-9 * s) return {piece.psi, 1.0, true};
     if (d >= s) continue;
-    const double t = 1.0 - d / s;
-    const double weight = t * t * t * (t * (6.0 * t - 15.0) + 10.0) / d;
+    const double weight = fall_off(1.0 - d / s) / d;
     std::size_t k = 0;
     while (k < count && found[k].bank != piece.bank) ++k;
     if (k == count) {
@@ -220,28 +224,54 @@ std::optional<double> RiverFlow::psi(glm::dvec2 p) const {
     }
     found[k].weight = std::max(found[k].weight, weight);
   }
-  double sum = 0.0, weights = 0.0;
+  Banks all;
   for (std::size_t k = 0; k < count; ++k) {
-    sum += found[k].weight * found[k].psi;
-    weights += found[k].weight;
+    all.sum += found[k].weight * found[k].psi;
+    all.weights += found[k].weight;
   }
-  if (weights == 0.0) return std::nullopt;
-  return sum / weights;
+  return all;
 }
 
-glm::dvec2 RiverFlow::velocity(glm::dvec2 p) const {
-  const auto east = psi(p + glm::dvec2(kDifference_m, 0.0)),
-             west = psi(p - glm::dvec2(kDifference_m, 0.0));
-  const auto north = psi(p + glm::dvec2(0.0, kDifference_m)),
-             south = psi(p - glm::dvec2(0.0, kDifference_m));
+std::optional<double> RiverFlow::psi(glm::dvec2 p) const {
+  Banks all = banks_at(p, 0.0);
+  if (all.on_bank) return all.sum;
+  if (all.weights == 0.0) return std::nullopt;
+  for (const std::uint32_t n : around_.near(p)) {
+    const Standing& one = standing_[n];
+    const double q = sizes_from(one.outline, p);
+    if (q >= kObstacleReach || one.weight == 0.0) continue;
+    if (q <= 1.0) return one.psi;
+    const double weight =
+        one.weight * fall_off((kObstacleReach - q) / (kObstacleReach - 1.0)) / (q * q - 1.0);
+    all.sum += weight * one.psi;
+    all.weights += weight;
+  }
+  return all.sum / all.weights;
+}
+
+glm::dvec2 RiverFlow::velocity(glm::dvec2 p, double half_m) const {
+  const auto east = psi(p + glm::dvec2(half_m, 0.0)), west = psi(p - glm::dvec2(half_m, 0.0));
+  const auto north = psi(p + glm::dvec2(0.0, half_m)), south = psi(p - glm::dvec2(0.0, half_m));
   if (!east || !west || !north || !south) return glm::dvec2(0.0);
-  return glm::dvec2(*north - *south, *west - *east) / (2.0 * kDifference_m);
+  return glm::dvec2(*north - *south, *west - *east) / (2.0 * half_m);
 }
 
-glm::dvec2 river_current(const RiverFlow& flow, const WaterPlace& place, glm::dvec2 p) {
+bool RiverFlow::is_parted(glm::dvec2 p) const {
+  return std::ranges::any_of(around_.near(p), [&](std::uint32_t n) {
+    return standing_[n].weight > 0.0 && sizes_from(standing_[n].outline, p) < kObstacleReach;
+  });
+}
+
+bool RiverFlow::is_blocked(glm::dvec2 p) const {
+  return std::ranges::any_of(
+      around_.near(p), [&](std::uint32_t n) { return sizes_from(standing_[n].outline, p) < 1.0; });
+}
+
+glm::dvec2 river_current(const RiverFlow& flow, const WaterPlace& place, glm::dvec2 p,
+                         double half_m) {
   if (place.width_m == 0.0 || place.speed_share <= 0.0 || place.outside_m > 0.0)
     return glm::dvec2(0.0);
-  return place.speed_share * flow.velocity(p);
+  return place.speed_share * flow.velocity(p, half_m);
 }
 
 }  // namespace swell::ocean

@@ -168,7 +168,7 @@ std::optional<glm::vec2> river_past(const WorldState& world, const scene::Floati
   const auto at = world.inland->at(part_world);
   if (!at || at->sea_share >= 1.0f) return std::nullopt;
   const bool stands = object.path_m.empty() && !object.drift_track;
-  return stands ? glm::vec2(at->east_mps, at->north_mps) : glm::vec2(0.0f);
+  return stands ? world.inland->undisturbed_current(part_world) : glm::vec2(0.0f);
 }
 
 // White water at what a current runs against, more of it in its lee.

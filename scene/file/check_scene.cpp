@@ -10,6 +10,7 @@
 #include "scene/coast.h"
 #include "scene/file/key_places.h"
 #include "scene/file/parameters.h"
+#include "scene/obstacles.h"
 #include "sky/celestial.h"
 #include "sky/sky_light.h"
 #include "terrain/sea_floor.h"
@@ -314,7 +315,7 @@ Fault fault_of_rivers(const Scene& scene) {
                       "it without a terrain", "rivers and lakes on a terrain"};
   try {
     const ocean::RiverNetwork network(scene.rivers, scene.lakes);
-    const ocean::RiverFlow flow(network);
+    const ocean::RiverFlow flow(network, river_obstacles(scene, network));
     return fault_of_drifters(scene.objects, network, flow);
   } catch (const ocean::RiverError& error) {
     return SceneFault{error.key, error.got, error.allowed};

@@ -60,7 +60,7 @@ struct Country {
     land = hilly_land();
     Workers workers(2);
     dig_beds(network, land);
-    inland.emplace(network, LakeFill{}, land, workers);
+    inland.emplace(network, LakeFill{}, land, std::span<const Obstacle>(), workers);
   }
 
   RiverNetwork network{rivers(), lakes()};
@@ -184,7 +184,7 @@ TEST(InlandWater, LakesFillTheLandUpToTheirLevelAndNoFurther) {
   const LakeFill fill = fill_lakes({&lake, 1}, land);
   Workers workers(1);
   const RiverNetwork network({}, {&lake, 1});
-  const InlandWater inland(network, fill, land, workers);
+  const InlandWater inland(network, fill, land, {}, workers);
   EXPECT_NEAR(inland.at({0.0, 0.0})->level_m, 8.0, 1e-6);
   EXPECT_NEAR(inland.at({20.0, 10.0})->depth_m, 4.0, 0.05);
   EXPECT_GT(inland.at({48.0, 0.0})->depth_m, 0.0f);

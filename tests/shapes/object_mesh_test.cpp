@@ -10,6 +10,8 @@
 #include "math/elementary.h"
 #include "scene/file/implicit_file.h"
 #include "scene/objects.h"
+#include "scene/obstacles.h"
+#include "scene/scene.h"
 #include "shapes/implicit_mesh.h"
 
 namespace swell::shapes {
@@ -43,6 +45,42 @@ TEST(ObjectMesh, BoxAndSphereHaveTheirVolumes) {
   // A ball of diameter 1; 32 flat sides around and 16 along take 1.6 % away.
   const double ball = volume_of(make_object_mesh(ObjectKind::kSphere, TopMark::kCan, 32));
   EXPECT_NEAR(ball / (kPi / 6.0), 0.984, 0.004);
+}
+
+// What rivers part before (scene/obstacles.h) holds the waterlines that pictures show.
+TEST(ObjectMesh, PlansThatRiversPartBeforeHoldTheWaterlines) {
+  ocean::River river;
+  river.path_m = {{0.0, -500.0}, {0.0, 500.0}};
+  river.width_m = {400.0};
+  river.surface_m = {0.0, 0.0};
+  for (const ObjectKind kind :
+       {ObjectKind::kBuoy, ObjectKind::kSphere, ObjectKind::kBox, ObjectKind::kBoat,
+        ObjectKind::kSailboat, ObjectKind::kPier, ObjectKind::kLighthouse, ObjectKind::kRock}) {
+    SCOPED_TRACE(kObjectKindNames[kind]);
+    scene::Scene scene;
+    scene.rivers = {river};
+    scene.objects = {common_object(kind)};
+    const auto obstacles = scene::river_obstacles(scene, {scene.rivers, scene.lakes});
+    int parts = 0;
+    for (const MeshPart& part :
+         mesh_parts(scene.objects[0], make_object_mesh(kind, TopMark::kCan, 24))) {
+      if (part.half.x <= 0.0f) continue;
+      const glm::dvec2 size(scene.objects[0].size_m), middle = glm::dvec2(part.middle) * size;
+      double least = 1e9;
+      for (const ocean::Obstacle& o : obstacles) {
+        double most = 0.0;
+        for (int k = 0; k < 24; ++k) {
+          const SinCos turn = sin_cos_turns(k / 24.0);
+          const glm::dvec2 way = glm::dvec2(part.half) * size * glm::dvec2(turn.cos, turn.sin);
+          most = std::max(most, ocean::sizes_from(o, middle + way));
+        }
+        least = std::min(least, most);
+      }
+      EXPECT_LT(least, 1.02);
+      ++parts;
+    }
+    EXPECT_EQ(static_cast<std::size_t>(parts), obstacles.size());
+  }
 }
 
 TEST(ObjectMesh, BoatsPiersLighthousesAndRocksFillTheirBoxes) {

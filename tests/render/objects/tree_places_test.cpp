@@ -80,7 +80,7 @@ struct Bowl {
     scene.trees = {stand};
     Workers workers(2);
     const ocean::InlandWater inland({{}, scene.lakes}, ocean::fill_lakes(scene.lakes, land), land,
-                                    workers);
+                                    {}, workers);
     const Forest forest = grow_forest(scene, land, &inland, {0.0f, 0.0f, 1.0f}, workers);
     std::vector<double> all;
     for (const terrain::Tree& tree : forest.trees.trees)

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -233,6 +234,34 @@ TEST(DrawnRivers, AreWhiteInTheLeeOfWhatStandsInThem) {
   EXPECT_EQ(foam_at_sphere({-8.0, -100.0}, "wake = false\npath_m = [[-8, -100], [-8, -90]]\n"),
             glm::vec2(0.0f));
   EXPECT_EQ(foam_at_sphere({0.0, -202.0}, ""), glm::vec2(0.0f));
+}
+
+// The river's own currents, which pictures' ripples are carried by and queries answer.
+TEST(DrawnRivers, PartBeforeARockForPicturesAndQueriesAlike) {
+  const scene::Scene with = river_scene(
+      "[[object]]\nkind = \"rock\"\nsize_m = [3, 3, 3]\nposition_m = [-8, -100]\n"
+      "height_m = 1.4\n");
+  const World world = world_of(with);
+  const scene::Water water(with), open(river_scene());
+  ocean::SeaFrame sea, open_sea;
+  Workers workers(1);
+  const scene::WaterSurface surface = water.at(2.0, sea, workers);
+  const scene::WaterSurface open_surface = open.at(2.0, open_sea, workers);
+  // In the rock, beside it, and before it on either side.
+  const std::array<glm::dvec2, 5> p = {
+      {{-8.0, -100.0}, {-5.4, -100.0}, {-10.6, -100.0}, {-6.8, -101.8}, {-9.2, -101.8}}};
+  std::array<glm::vec2, 5> v, free;
+  surface.currents(p, v);
+  open_surface.currents(p, free);
+  EXPECT_LT(glm::length(v[0]), 0.2f * glm::length(free[0]));
+  EXPECT_GT(v[1].y, 1.15f * free[1].y);
+  EXPECT_GT(v[2].y, 1.15f * free[2].y);
+  EXPECT_GT(v[3].x, free[3].x + 0.1f);
+  EXPECT_LT(v[4].x, free[4].x - 0.1f);
+  for (std::size_t n = 0; n < p.size(); ++n) {
+    const auto drawn = world.state().inland->at(p[n]);
+    EXPECT_EQ(glm::vec2(drawn->east_mps, drawn->north_mps), v[n]) << n;
+  }
 }
 
 // RIV-05: the contrast of the carried ripples over their period, where every phase passes.
