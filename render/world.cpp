@@ -13,7 +13,6 @@
 #include "ocean/coast/train_square.h"
 #include "ocean/inland/drift.h"
 #include "ocean/inland/inland_water.h"
-#include "ocean/inland/river_flow.h"
 #include "ocean/inland/river_network.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/open_sea/whitecaps.h"
@@ -271,23 +270,35 @@ void add_forest(PartMaker& parts, Workers& workers, WorldState& state) {
   });
 }
 
+ocean::Drifter drifter_of(const scene::FloatingObject& object) {
+  const glm::dvec2 size = object.size_m;
+  const bool is_compact = scene::kObjectKinds[object.kind].plan == scene::PlanShape::kRound &&
+                          scene::kObjectKinds[object.kind].is_compact;
+  return {.p = object.position_m,
+          .ahead = {sin(object.heading_rad), cos(object.heading_rad)},
+          .length_m = size.y,
+          .radius_m = 0.5 * (is_compact ? std::max(size.x, size.y) : glm::length(size))};
+}
+
 // The ways of objects that rivers carry away. Once their sizes are known.
-void add_drift(PartMaker& parts, Workers& workers, scene::Scene& scene) {
-  if (std::ranges::none_of(scene.objects, &scene::FloatingObject::drift)) return;
-  const ocean::RiverNetwork network(scene.rivers, scene.lakes);
+void add_drift(PartMaker& parts, scene::Scene& scene) {
+  std::vector<ocean::Drifter> drifters;
+  for (const scene::FloatingObject& object : scene.objects)
+    if (object.drift) drifters.push_back(drifter_of(object));
+  if (drifters.empty()) return;
   const std::vector<ocean::Obstacle> obstacles = river_obstacles(scene);
-  const ocean::RiverFlow flow(network, obstacles);
-  const ValueBytes rivers = add_obstacles(obstacles, parts.of({"river", "lake"}));
-  workers.for_each(scene.objects.size(), [&](std::size_t n, int) {
-    scene::FloatingObject& object = scene.objects[n];
-    object.drift_track = nullptr;
-    if (!object.drift) return;
-    const ocean::Drifter drifter = {
-        object.position_m, {sin(object.heading_rad), cos(object.heading_rad)}, object.size_m.y};
-    object.drift_track = parts.share(
-        "drift", ValueBytes(rivers).add(drifter.p).add(drifter.ahead).add(drifter.length_m),
-        [&] { return ocean::DriftTrack(network, flow, drifter); });
-  });
+  ValueBytes inputs = add_obstacles(obstacles, parts.of({"river", "lake"}));
+  for (const ocean::Drifter& d : drifters)
+    inputs.add(d.p).add(d.ahead).add(d.length_m).add(d.radius_m);
+  const std::shared_ptr<const std::vector<ocean::DriftTrack>> tracks =
+      parts.share("drift", inputs, [&] {
+        const ocean::RiverNetwork network(scene.rivers, scene.lakes);
+        return ocean::make_drift_tracks(network, obstacles, drifters);
+      });
+  std::size_t n = 0;
+  for (scene::FloatingObject& object : scene.objects)
+    object.drift_track =
+        object.drift ? std::shared_ptr<const ocean::DriftTrack>(tracks, &(*tracks)[n++]) : nullptr;
 }
 
 std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World* const> like,
@@ -316,7 +327,7 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World
   add_near_shore(parts, workers, *state);
   add_land_shadow(parts, workers, *state);
   add_forest(parts, workers, *state);
-  add_drift(parts, workers, state->scene);
+  add_drift(parts, state->scene);
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);

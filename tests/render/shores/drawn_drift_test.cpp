@@ -1,6 +1,7 @@
 // What drifts on a river: pictures, labels, picks and queries agree on where it is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -117,6 +118,29 @@ TEST(DrawnDrift, IsDrawnLabelledAndPickedWhereItsPoseIs) {
     EXPECT_EQ(picked->object, 1u);
     EXPECT_LT(glm::distance(picked->p_world, pose.position_world), 4.0);
   }
+}
+
+// Spheres of 4 m: one moored in the way of two.
+TEST(DrawnDrift, KeepsOffWhatIsMooredAndOffOtherDrifters) {
+  const std::string sphere = "[[object]]\nkind = \"sphere\"\nsize_m = [4, 4, 4]\ndraught = 0.2\n";
+  const World world =
+      world_of(scene::parse_scene(kDriftScene + sphere + "position_m = [5, -151]\ndrift = true\n" +
+                                      sphere + "position_m = [-6, -100]\n",
+                                  "drift.toml"));
+  const std::vector<scene::FloatingObject>& objects = world.scene().objects;
+  double apart_m = 1e9, off_m = 1e9;
+  for (double t_s = 0.0; t_s < 400.0; t_s += 0.25) {
+    const glm::dvec2 a = scene::plan_pose(objects[1], t_s).position_m;
+    const glm::dvec2 b = scene::plan_pose(objects[2], t_s).position_m;
+    apart_m = std::min(apart_m, glm::distance(a, b));
+    for (const glm::dvec2& p : {a, b})
+      off_m = std::min(off_m, glm::distance(p, objects[3].position_m));
+  }
+  EXPECT_GE(apart_m, 4.0);
+  EXPECT_GE(off_m, 3.99);
+  EXPECT_LT(off_m, 6.0);
+  for (const std::size_t n : {1, 2})
+    EXPECT_GT(scene::plan_pose(objects[n], 1e9).position_m.y, -20.0) << n;
 }
 
 TEST(DrawnDrift, IsTheSameAloneAndAfterOtherFrames) {
