@@ -57,7 +57,8 @@ HWY_INLINE Cells RestingCells(int size, int i, int j, V samples_per_m, Pair disp
 }
 
 HWY_INLINE V MovedSamples_per_m(const Crests& crests, const PatchFrame& patch) {
-  return hn::Set(D(), static_cast<float>(crests.choppiness * (patch.resolution / patch.length_m)));
+  return hn::Set(D(),
+                 static_cast<float>(crests.choppiness * (patch.resolution / patch.length_m.x)));
 }
 
 void WarpRows(const Crests& crests, const LinearWaves& linear, int first, int last,
@@ -119,7 +120,7 @@ void SteepenRows(const Crests& crests, int first, int last, PatchFrame& patch) {
   const D d;
   const int n = patch.resolution;
   const V c = hn::Set(d, crests.choppiness), r = hn::Set(d, crests.rise_per_m);
-  const V samples_per_m = hn::Set(d, static_cast<float>(n / patch.length_m));
+  const V samples_per_m = hn::Set(d, static_cast<float>(n / patch.length_m.x));
   for (int j = first; j < last; ++j) {
     const WrappedRow row_x(patch.displaced_x_m, j, n), row_y(patch.displaced_y_m, j, n);
     const auto along_x = [&](const WrappedRow& row, int i) HWY_ATTR {

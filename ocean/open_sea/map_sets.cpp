@@ -61,7 +61,7 @@ std::vector<MapLayer> layers_of_set(MapSet set, std::uint64_t seed) {
   std::vector<MapLayer> layers(kMapSetLayers);
   for (std::size_t i = 0; i < kMapSetLayers; ++i) {
     const auto random = [&](std::uint64_t n) { return random_uniform(seed ^ kStream, 3 * i + n); };
-    layers[i].length_m = kRelativeSide[i] * figures.longest_m;
+    layers[i].length_m = glm::dvec2(kRelativeSide[i] * figures.longest_m);
     layers[i].hs_m = std::sqrt(kEnergyPart[i]) * figures.hs_m;
     layers[i].offset_m = layers[i].length_m * glm::dvec2(random(0), random(1));
     layers[i].offset_s = 1000.0 * random(2);

@@ -5,7 +5,7 @@
 
 namespace swell::ocean {
 
-// variance, slope_variance and peak of a map that has its codes.
+// The variances and the peak of a map that has its codes.
 void measure(PeriodicMap& map);
 
 }  // namespace swell::ocean

@@ -21,10 +21,12 @@ namespace {
 constexpr std::size_t kBands = 4;  // pieces of work that a map's rows make
 
 void check_layer(const MapLayer& layer) {
-  require(layer.length_m, 0.5, 50000.0, "maps.length_m");
   if (layer.period_s != 0.0) require(layer.period_s, 0.1, 1e5, "maps.period_s (or 0)");
   require(layer.hs_m, 0.0, 30.0, "maps.hs_m");
-  for (int axis = 0; axis < 2; ++axis) require(layer.offset_m[axis], -1e6, 1e6, "maps.offset_m");
+  for (int axis = 0; axis < 2; ++axis) {
+    require(layer.length_m[axis], 0.5, 50000.0, "maps.length_m");
+    require(layer.offset_m[axis], -1e6, 1e6, "maps.offset_m");
+  }
   require(layer.offset_s, -1e6, 1e6, "maps.offset_s");
 }
 
@@ -33,10 +35,18 @@ int sample_at(double offset_m, double length_m, int size) {
   return static_cast<int>(std::nearbyint((sides - std::floor(sides)) * size)) & (size - 1);
 }
 
+// Laid over L_x by L_y, waves of mean squares k_x^2 and k_y^2 [rad per side] have those of
+// k^2 = k_x^2 / L_x^2 + k_y^2 / L_y^2; over a square of side S, (k_x^2 + k_y^2) / S^2.
+double square_side_m(const PeriodicMap& map, glm::dvec2 length_m) {
+  const double ratio = length_m.x / length_m.y;
+  const double part_y = map.slope_variance_y / map.slope_variance;
+  return length_m.x / std::sqrt(1.0 + (ratio * ratio - 1.0) * part_y);
+}
+
 // The time of a loop in which the map's mean wave runs as fast as in deep water.
-double deep_water_period_s(const PeriodicMap& map, double length_m, double gravity_mps2) {
-  const double speed_mps = std::sqrt(gravity_mps2 * length_m / map.mean_wave_number());
-  return map.travel * length_m / speed_mps;
+double deep_water_period_s(const PeriodicMap& map, double square_m, double gravity_mps2) {
+  const double speed_mps = std::sqrt(gravity_mps2 * square_m / map.mean_wave_number());
+  return map.travel * square_m / speed_mps;
 }
 
 MapWaves lay_map(std::shared_ptr<const PeriodicMap> map, const MapLayer& layer,
@@ -44,17 +54,18 @@ MapWaves lay_map(std::shared_ptr<const PeriodicMap> map, const MapLayer& layer,
   check_layer(layer);
   MapWaves waves;
   waves.length_m = layer.length_m;
+  waves.square_m = square_side_m(*map, layer.length_m);
   const double period_s = layer.period_s != 0.0
                               ? layer.period_s
-                              : deep_water_period_s(*map, layer.length_m, sea.gravity_mps2);
+                              : deep_water_period_s(*map, waves.square_m, sea.gravity_mps2);
   waves.loops_per_s = looping_frequency(1.0 / period_s, sea.loop_s);
   const double first = layer.offset_s / period_s;
   waves.first_loops = first - std::floor(first);
-  waves.first_x = sample_at(layer.offset_m.x, layer.length_m, map->size);
-  waves.first_y = sample_at(layer.offset_m.y, layer.length_m, map->size);
+  waves.first_x = sample_at(layer.offset_m.x, layer.length_m.x, map->size);
+  waves.first_y = sample_at(layer.offset_m.y, layer.length_m.y, map->size);
   waves.metres = 0.25 * sea.amplitude_scale * layer.hs_m / std::sqrt(map->variance);
   waves.variance_m2 = waves.metres * waves.metres * map->variance;
-  const double per_m = waves.metres / layer.length_m;
+  const double per_m = waves.metres / waves.square_m;
   waves.slope_variance = per_m * per_m * map->slope_variance;
   waves.map = std::move(map);
   return waves;
@@ -106,7 +117,7 @@ void sample_band(const MapWaves& waves, double t_s, std::size_t band, PatchFrame
   const PeriodicMap& map = *waves.map;
   const MapTime time = map_time(map, loops_at(waves, t_s));
   const double height = waves.metres * static_cast<double>(map.height_scale);
-  const double slope = waves.metres / waves.length_m * static_cast<double>(map.slope_scale);
+  const glm::dvec2 slope = waves.metres / waves.length_m * static_cast<double>(map.slope_scale);
   const int rows = map.size / static_cast<int>(kBands);
   const int first = static_cast<int>(band) * rows;
   const auto blend = [&](const std::vector<std::int16_t>& codes, double scale,
@@ -115,26 +126,27 @@ void sample_band(const MapWaves& waves, double t_s, std::size_t band, PatchFrame
                field.data());
   };
   blend(map.height, height, patch.height_m);
-  blend(map.slope_x, slope, patch.slope_x);
-  blend(map.slope_y, slope, patch.slope_y);
+  blend(map.slope_x, slope.x, patch.slope_x);
+  blend(map.slope_y, slope.y, patch.slope_y);
 }
 
 // i k / |k| times the field of which `re` and `im` hold the conjugate of the transform, to `x` and
-// `y`.
-void turn_along_waves(const FftPlan& plan, const float* re, const float* im, const FftOutput& out,
-                      std::vector<float>& planes, Workers& workers) {
+// `y`; `ratio`: of the field's length along x to that along y.
+void turn_along_waves(const FftPlan& plan, double ratio, const float* re, const float* im,
+                      const FftOutput& out, std::vector<float>& planes, Workers& workers) {
   const int size = plan.size;
   const double per_sample = 1.0 / (static_cast<double>(size) * size);
   const auto fill = [&](int, int column0, float* to_re, float* to_im) {
     for (int j = 0; j < size; ++j) {
-      const int ky = wave_count(j, size);
+      const double ky = ratio * wave_count(j, size);
       for (int lane = 0; lane < kFftBatch; ++lane) {
-        const int i = column0 + lane, kx = wave_count(i, size);
+        const int i = column0 + lane;
+        const double kx = wave_count(i, size);
         const auto from = static_cast<std::size_t>(j) * size + i;
         const auto to = static_cast<std::size_t>(plan.slot[j] * kFftBatch + lane);
         // The mean has no direction, and waves of two samples no sign.
-        const bool is_wave = (kx != 0 || ky != 0) && 2 * i != size && 2 * j != size;
-        const double k = std::sqrt(static_cast<double>(kx * kx + ky * ky));
+        const bool is_wave = (kx != 0.0 || ky != 0.0) && 2 * i != size && 2 * j != size;
+        const double k = std::sqrt(kx * kx + ky * ky);
         const double unit = is_wave ? per_sample / k : 0.0;
         const double a = static_cast<double>(re[from]) * unit;
         const double b = -static_cast<double>(im[from]) * unit;
@@ -166,7 +178,7 @@ std::vector<MapWaves> make_map_waves(const SeaDescription& sea) {
     check_layer(layer);
     waves.push_back(lay_map(std::make_shared<const PeriodicMap>(read_map(layer.file)), layer, sea));
   }
-  std::ranges::stable_sort(waves, std::greater{}, &MapWaves::length_m);
+  std::ranges::stable_sort(waves, std::greater{}, &MapWaves::square_m);
   return waves;
 }
 
@@ -200,8 +212,8 @@ void sample_map_velocities(const MapWaves& waves, double t_s, PatchFrame& x, Pat
   std::vector<float> re(map.frame_samples()), im(map.frame_samples());
   const FftOutput spectrum = {re.data(), im.data()};
   inverse_fft_2d(plan, fill, {&spectrum, 1}, storage, workers);
-  turn_along_waves(plan, re.data(), im.data(), {x.height_m.data(), y.height_m.data()}, storage,
-                   workers);
+  turn_along_waves(plan, waves.length_m.x / waves.length_m.y, re.data(), im.data(),
+                   {x.height_m.data(), y.height_m.data()}, storage, workers);
 }
 
 }  // namespace swell::ocean

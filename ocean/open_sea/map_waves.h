@@ -14,7 +14,8 @@ namespace swell::ocean {
 // A map laid over the sea.
 struct MapWaves {
   std::shared_ptr<const PeriodicMap> map;  // layers of a set share one
-  double length_m = 0.0;
+  glm::dvec2 length_m{0.0};
+  double square_m = 0.0;  // side of the square over which its mean wave would be as long
   double loops_per_s = 0.0;
   double first_loops = 0.0;      // at t = 0
   int first_x = 0, first_y = 0;  // sample at the world's origin
@@ -23,7 +24,7 @@ struct MapWaves {
 
   double peak_m() const { return metres * map->peak; }
   // Returns the wave number of a wave with the map's root mean square slope and height.
-  double wave_number_rad_m() const { return map->mean_wave_number() / length_m; }
+  double wave_number_rad_m() const { return map->mean_wave_number() / square_m; }
 };
 
 // The layers of the description's set and of its maps, whose files are read. Throws

@@ -154,17 +154,19 @@ void add_codes(const std::vector<double>& values, float scale, int bits,
 }  // namespace
 
 void measure(PeriodicMap& map) {
-  double height2 = 0.0, slope2 = 0.0, most = 0.0;
+  double height2 = 0.0, slope2 = 0.0, slope_y2 = 0.0, most = 0.0;
   for (std::size_t i = 0; i < map.height.size(); ++i) {
     const double h = map.height[i], x = map.slope_x[i], y = map.slope_y[i];
     height2 += h * h;
     slope2 += x * x + y * y;
+    slope_y2 += y * y;
     most = std::max(most, std::abs(h));
   }
   const double count = static_cast<double>(map.height.size());
   const double h_scale = map.height_scale, s_scale = map.slope_scale;
   map.variance = height2 / count * h_scale * h_scale;
   map.slope_variance = slope2 / count * s_scale * s_scale;
+  map.slope_variance_y = slope_y2 / count * s_scale * s_scale;
   map.peak = most * h_scale;
 }
 

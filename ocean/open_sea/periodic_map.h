@@ -26,6 +26,7 @@ struct PeriodicMap {
   std::vector<std::int16_t> height, slope_x, slope_y;
   // These are measured on what the codes say.
   double variance = 0.0, slope_variance = 0.0;  // slopes of both axes together
+  double slope_variance_y = 0.0;                // of that along y
   double peak = 0.0;                            // the most |height|
 
   std::size_t frame_samples() const { return static_cast<std::size_t>(size) * size; }

@@ -32,9 +32,21 @@ float sine_amplitude(const SineFrame& sine, Field field) {
   return static_cast<float>(2.0 * kPi * cycles_per_m * sine.amplitude_m);
 }
 
+// What takes metres to 16.16 samples of a patch, and those to periods.
+struct PatchScale {
+  glm::dvec2 fixed_per_m;
+  double fixed_size, periods_per_fixed;
+};
+
+PatchScale scale_of(const PatchFrame& patch) {
+  const double fixed_size = 65536.0 * patch.resolution;
+  return {fixed_size / patch.length_m, fixed_size, 1.0 / fixed_size};
+}
+
 // Where an origin lies along one axis of a patch: 16.16 samples in [0, resolution], and the period.
 struct OriginPlace {
   int fx16 = 0, period = 0;
+  float periods_per_m = 0.0f;
 };
 
 struct OriginPlaces {
@@ -74,19 +86,20 @@ struct HalfFixedPlace {
 };
 
 // x in metres to 16.16 samples modulo the patch; periods modulo 2^16.
-HWY_INLINE HalfFixedPlace HalfFixedPosition(VDouble x_m, double fixed_per_m, double fixed_size) {
+HWY_INLINE HalfFixedPlace HalfFixedPosition(VDouble x_m, double fixed_per_m,
+                                            const PatchScale& scale) {
   const DDouble dd;
   const auto u = hn::Round(x_m * hn::Set(dd, fixed_per_m));
-  const auto wraps = Floor(u * hn::Set(dd, 1.0 / fixed_size));
+  const auto wraps = Floor(u * hn::Set(dd, scale.periods_per_fixed));
   const auto turns = Floor(wraps * hn::Set(dd, 1.0 / 65536.0));
   const auto period = NegMulAdd(turns, hn::Set(dd, 65536.0), wraps);
-  return {hn::DemoteTo(DHalfInt(), NegMulAdd(wraps, hn::Set(dd, fixed_size), u)),
+  return {hn::DemoteTo(DHalfInt(), NegMulAdd(wraps, hn::Set(dd, scale.fixed_size), u)),
           hn::DemoteTo(DHalfInt(), period)};
 }
 
-HWY_INLINE FixedPlace FixedPosition(DoublePacket x_m, double fixed_per_m, double fixed_size) {
-  const HalfFixedPlace low = HalfFixedPosition(x_m.low, fixed_per_m, fixed_size);
-  const HalfFixedPlace high = HalfFixedPosition(x_m.high, fixed_per_m, fixed_size);
+HWY_INLINE FixedPlace FixedPosition(DoublePacket x_m, double fixed_per_m, const PatchScale& scale) {
+  const HalfFixedPlace low = HalfFixedPosition(x_m.low, fixed_per_m, scale);
+  const HalfFixedPlace high = HalfFixedPosition(x_m.high, fixed_per_m, scale);
   return {hn::Combine(DI(), high.fx16, low.fx16), hn::Combine(DI(), high.period, low.period)};
 }
 
@@ -123,8 +136,10 @@ HWY_INLINE V AddTile(const PatchFrame& patch, const TileWeight<V>& tile, VI x_fx
                      V sum) {
   sum = MulAdd(tile.weight, PatchSample<kField>(patch, x_fx16, y_fx16), sum);
   if constexpr (kField == Field::kHeight) return sum;
-  const V per_m = hn::Set(D(), static_cast<float>(1.0 / patch.length_m));
-  const V slope = (kField == Field::kSlopeX ? tile.slope_x : tile.slope_y) * per_m;
+  constexpr bool kAlongX = kField == Field::kSlopeX;
+  const double length_m = kAlongX ? patch.length_m.x : patch.length_m.y;
+  const V per_m = hn::Set(D(), static_cast<float>(1.0 / length_m));
+  const V slope = (kAlongX ? tile.slope_x : tile.slope_y) * per_m;
   return MulAdd(slope, PatchSample<Field::kHeight>(patch, x_fx16, y_fx16), sum);
 }
 
@@ -181,18 +196,18 @@ HWY_INLINE V AddSines(std::span<const SineFrame> sines, DoublePacket x_m, Double
 
 // One packet of world points.
 template <Field kField>
-HWY_INLINE V WorldPacket(const SeaFrame& frame, std::size_t patches, const glm::dvec2* p_world) {
+HWY_INLINE V WorldPacket(const SeaFrame& frame, std::span<const PatchScale> scales,
+                         const glm::dvec2* p_world) {
   const DDouble dd;
   const double* const p = &p_world->x;
   DoublePacket x, y;
   hn::LoadInterleaved2(dd, p, x.low, y.low);
   hn::LoadInterleaved2(dd, p + 2 * hn::Lanes(dd), x.high, y.high);
   V sum = hn::Zero(D());
-  for (const PatchFrame& patch : std::span(frame.patches).first(patches)) {
-    const double fixed_size = 65536.0 * patch.resolution;
-    const double fixed_per_m = fixed_size / patch.length_m;
-    sum = sum + FieldSample<kField>(patch, FixedPosition(x, fixed_per_m, fixed_size),
-                                    FixedPosition(y, fixed_per_m, fixed_size));
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const PatchScale& scale = scales[i];
+    sum = sum + FieldSample<kField>(frame.patches[i], FixedPosition(x, scale.fixed_per_m.x, scale),
+                                    FixedPosition(y, scale.fixed_per_m.y, scale));
   }
   return AddSines<kField>(frame.sines, x, y, sum);
 }
@@ -201,7 +216,7 @@ HWY_INLINE V WorldPacket(const SeaFrame& frame, std::size_t patches, const glm::
 // it has to fit.
 HWY_INLINE FixedPlace FixedOffset(V offset_m, const PatchFrame& patch, OriginPlace origin) {
   const DI di;
-  const V patches = offset_m * static_cast<float>(1.0 / patch.length_m);
+  const V patches = offset_m * origin.periods_per_m;
   const V whole = Floor(patches);
   const float fixed_size = 65536.0f * static_cast<float>(patch.resolution);
   const VI fraction = hn::NearestInt((patches - whole) * fixed_size);
@@ -258,8 +273,12 @@ HWY_INLINE void ForPackets(std::span<const Point> points, float* height_m, Packe
 template <Field kField>
 void SampleField(const SeaFrame& frame, std::size_t patches, std::span<const glm::dvec2> p_world,
                  float* samples) {
+  SWELL_CHECK(patches <= kMaxPatches, "patches={}", patches);
+  std::array<PatchScale, kMaxPatches> all;
+  for (std::size_t p = 0; p < patches; ++p) all[p] = scale_of(frame.patches[p]);
+  const std::span<const PatchScale> scales(all.data(), patches);
   ForPackets(p_world, samples,
-             [&](const glm::dvec2* p) HWY_ATTR { return WorldPacket<kField>(frame, patches, p); });
+             [&](const glm::dvec2* p) HWY_ATTR { return WorldPacket<kField>(frame, scales, p); });
 }
 
 void SampleWorld(const SeaFrame& frame, std::size_t patches, std::span<const glm::dvec2> p_world,
@@ -287,10 +306,10 @@ HWY_AFTER_NAMESPACE();
 namespace swell::ocean {
 namespace {
 
-OriginPlace origin_place(double x_m, const PatchFrame& patch) {
-  const double patches = x_m / patch.length_m, whole = std::floor(patches);
-  return {static_cast<int>(std::nearbyint((patches - whole) * 65536.0 * patch.resolution)),
-          tile_number(whole)};
+OriginPlace origin_place(double x_m, double length_m, int resolution) {
+  const double patches = x_m / length_m, whole = std::floor(patches);
+  return {static_cast<int>(std::nearbyint((patches - whole) * 65536.0 * resolution)),
+          tile_number(whole), static_cast<float>(1.0 / length_m)};
 }
 
 }  // namespace
@@ -323,8 +342,9 @@ void sample_heights(const SeaFrame& frame, glm::dvec2 origin_world,
               origin_world.x, origin_world.y);
   std::array<OriginPlaces, kMaxPatches> places;
   for (std::size_t p = 0; p < frame.patches.size(); ++p) {
-    places[p] = {origin_place(origin_world.x, frame.patches[p]),
-                 origin_place(origin_world.y, frame.patches[p])};
+    const PatchFrame& patch = frame.patches[p];
+    places[p] = {origin_place(origin_world.x, patch.length_m.x, patch.resolution),
+                 origin_place(origin_world.y, patch.length_m.y, patch.resolution)};
   }
   HWY_DYNAMIC_DISPATCH(SampleOffsets)
   (frame, origin_world, places.data(), offset_m, height_m.data());

@@ -189,7 +189,7 @@ void size_patches(const Sea::State& state, bool sharp_crests, std::vector<PatchF
   for (std::size_t p = 0; p < state.patches.size(); ++p) {
     const PatchWaves& waves = state.patches[p];
     const std::size_t samples = static_cast<std::size_t>(waves.size) * waves.size;
-    patches[p].length_m = waves.length_m;
+    patches[p].length_m = glm::dvec2(waves.length_m);
     patches[p].resolution = waves.size;
     patches[p].slope_variance = static_cast<float>(waves.slope_variance);
     patches[p].tiling = tiling_of_patch(state.description, p);
@@ -287,14 +287,15 @@ double Sea::height_bound_m() const {
 double Sea::slope_bound() const {
   double variance = 0.0;
   std::size_t patch = 0;
-  const auto add = [&](const auto& waves) {
+  const auto add = [&](const auto& waves, double length_m) {
     variance += waves.slope_variance;
     if (!tiling_of_patch(state_->description, patch++).on) return;
-    const double blend_per_m = kTileBlendSlope / waves.length_m;
+    const double blend_per_m = kTileBlendSlope / length_m;
     variance += waves.variance_m2 * blend_per_m * blend_per_m;
   };
-  std::ranges::for_each(state_->patches, add);
-  std::ranges::for_each(state_->maps, add);
+  for (const PatchWaves& waves : state_->patches) add(waves, waves.length_m);
+  for (const MapWaves& waves : state_->maps)
+    add(waves, std::min(waves.length_m.x, waves.length_m.y));
   double bound = 6.0 * std::sqrt(variance);
   for (const SineWave& sine : state_->description.sines)
     bound += std::abs(sine.amplitude_m) * kTwoPi / sine.wavelength_m *

@@ -94,9 +94,9 @@ struct SeaDescription {
 std::vector<WaveSystem> wave_systems(const SeaDescription& sea);
 
 // One patch at one time: resolution x resolution samples, periodic; sample [j * resolution + i] is
-// at world x = i L / n, y = j L / n, in a tile moved by that tile's offset.
+// at world x = i L_x / n, y = j L_y / n, in a tile moved by that tile's offset.
 struct PatchFrame {
-  double length_m = 0.0;
+  glm::dvec2 length_m{0.0};  // L_x and L_y; the spectrum's patches are square
   int resolution = 0;
   std::vector<float> height_m, slope_x, slope_y;  // slope = dH/dx, dH/dy from the same spectrum
   // Mean square slope (both axes together) of the waves in the patch: a constant of the sea state.

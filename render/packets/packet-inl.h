@@ -98,10 +98,18 @@ struct LayerPlace {
   V x_fx8, y_fx8;
 };
 
+// Of a layer that may have other lengths along x and y.
+template <class Layer>
+concept HasTwoLengths = requires(const Layer& layer) {
+  layer.y_texels_fx8_per_m;
+};
+
 template <class Layer>
 HWY_INLINE LayerPlace PlaceIn(const Layer& layer, V x_m, V y_m) {
   const V per_m = Constant(layer.texels_fx8_per_m);
-  return {MulAdd(x_m, per_m, layer.x_eye_fx8), MulAdd(y_m, per_m, layer.y_eye_fx8)};
+  V y_per_m = per_m;
+  if constexpr (HasTwoLengths<Layer>) y_per_m = Constant(layer.y_texels_fx8_per_m);
+  return {MulAdd(x_m, per_m, layer.x_eye_fx8), MulAdd(y_m, y_per_m, layer.y_eye_fx8)};
 }
 
 // Whether a layer has detail at any lane's level.

@@ -9,15 +9,19 @@ namespace swell::render {
 
 float fraction(double x) { return static_cast<float>(x - std::floor(x)); }
 
-SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain, glm::dvec2 eye,
-                      glm::dvec2 moved_m) {
+namespace {
+
+// `eye` relative to the map's origin.
+SlopeLayer lay(const texture::PackedMap2& map, glm::dvec2 length_m, float gain, glm::dvec2 eye) {
   SlopeLayer layer;
   layer.map = &map;
   const double map_fx8 = 256.0 * map.size;
-  layer.texels_fx8_per_m = static_cast<float>(map_fx8 / length_m);
-  layer.x_eye_fx8 = static_cast<float>(map_fx8) * fraction((eye.x - moved_m.x) / length_m);
-  layer.y_eye_fx8 = static_cast<float>(map_fx8) * fraction((eye.y - moved_m.y) / length_m);
-  layer.log2_texels_per_m = static_cast<float>(log(map.size / length_m) * 1.4426950408889634);
+  layer.texels_fx8_per_m = static_cast<float>(map_fx8 / length_m.x);
+  layer.y_texels_fx8_per_m = static_cast<float>(map_fx8 / length_m.y);
+  layer.x_eye_fx8 = static_cast<float>(map_fx8) * fraction(eye.x / length_m.x);
+  layer.y_eye_fx8 = static_cast<float>(map_fx8) * fraction(eye.y / length_m.y);
+  const double finest_m = std::min(length_m.x, length_m.y);
+  layer.log2_texels_per_m = static_cast<float>(log(map.size / finest_m) * 1.4426950408889634);
   layer.gain = gain;
   layer.coarsest = std::nextafter(static_cast<float>(map.detail_levels), 0.0f);
   const auto lost = [&](int level) {
@@ -32,12 +36,19 @@ SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gai
   return layer;
 }
 
-SlopeLayer make_patch_layer(const texture::PackedMap2& map, double length_m,
+}  // namespace
+
+SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain, glm::dvec2 eye,
+                      glm::dvec2 moved_m) {
+  return lay(map, glm::dvec2(length_m), gain, eye - moved_m);
+}
+
+SlopeLayer make_patch_layer(const texture::PackedMap2& map, glm::dvec2 length_m,
                             const ocean::PatchTiling& tiling, glm::dvec2 eye) {
-  SlopeLayer layer = make_layer(map, length_m, 1.0f, eye, {});
+  SlopeLayer layer = lay(map, length_m, 1.0f, eye);
   layer.tiling = tiling;
-  layer.eye_column = ocean::tile_number(std::floor(eye.x / length_m));
-  layer.eye_row = ocean::tile_number(std::floor(eye.y / length_m));
+  layer.eye_column = ocean::tile_number(std::floor(eye.x / length_m.x));
+  layer.eye_row = ocean::tile_number(std::floor(eye.y / length_m.y));
   return layer;
 }
 

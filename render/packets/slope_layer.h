@@ -15,12 +15,13 @@ inline constexpr float kGlassVariance = 2e-5f;
 // A map of two channels, slopes as a rule, that repeats or lies over one square.
 struct SlopeLayer {
   const texture::PackedMap2* map = nullptr;
-  float texels_fx8_per_m = 1.0f;             // 1/256 texels of level 0
+  float texels_fx8_per_m = 1.0f;  // along x, 1/256 texels of level 0
+  float y_texels_fx8_per_m = 1.0f;
   float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // map position under the eye; in the map if it repeats
-  float log2_texels_per_m = 0.0f;
-  float gain = 1.0f;        // multiplies the slopes
-  float uv_noise_m = 0.0f;  // how far the coordinates are perturbed
-  float coarsest = 0.0f;    // the level from which on nothing is left, a little less
+  float log2_texels_per_m = 0.0f;            // along the axis with more of them
+  float gain = 1.0f;                         // multiplies the slopes
+  float uv_noise_m = 0.0f;                   // how far the coordinates are perturbed
+  float coarsest = 0.0f;  // the level from which on nothing is left, a little less
   // Whether and how tiles cover the sea with it (not one square), and the eye's period, modulo
   // 2^16.
   ocean::PatchTiling tiling;
@@ -38,8 +39,8 @@ float fraction(double x);
 SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain, glm::dvec2 eye,
                       glm::dvec2 moved_m);
 
-// Lays a patch's map over the sea by the patch's tiles.
-SlopeLayer make_patch_layer(const texture::PackedMap2& map, double length_m,
+// Lays a patch's map over the sea by the patch's tiles; length_m: along x and y.
+SlopeLayer make_patch_layer(const texture::PackedMap2& map, glm::dvec2 length_m,
                             const ocean::PatchTiling& tiling, glm::dvec2 eye);
 
 // A layer over one square that does not repeat: the eye's place in it, from_corner [m], is not

@@ -32,8 +32,8 @@ struct WorldState;
 // Where rays go that meet flat water at the points of a periodic grid: point (i, j)'s crosses the
 // depth d [m] at texel (i, j) + from_height + d per_depth.
 struct CausticRays {
-  int size = 0;  // points a side, a power of two in [16, kMostCausticSize]
-  double length_m = 0.0;
+  int size = 0;              // points a side, a power of two in [16, kMostCausticSize]
+  glm::dvec2 length_m{0.0};  // along x and y
   std::vector<float> from_height_x, from_height_y, per_depth_x, per_depth_y;  // [texels (/m)]
   std::vector<float> slope_x, slope_y, height_m, filtered,
       row;  // of a finer patch, on fewer points
@@ -73,7 +73,7 @@ struct CausticMaps {
 
   std::array<float, kDepths> depth_m{};  // rising
   std::size_t patches = 0;               // 0: no floor or no sun to show
-  std::array<double, kMostPatches> length_m{};
+  std::array<glm::dvec2, kMostPatches> length_m{};
   float spread_per_m = 0.0f;  // of rays: by the light's disc, and by waves too short for patches
   std::array<texture::PackedMap1, kDepths * kMostPatches> map;  // patch by patch, by depth
   // Reflected, a map a patch at a height of its own; none where nothing stands in the water.

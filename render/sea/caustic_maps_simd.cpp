@@ -26,7 +26,8 @@ struct RayConstants {
   glm::vec3 to_light;
   glm::vec2 from_height;  // what a height moves a ray by on its way to the level
   glm::vec2 flat;         // slant under flat water, or above it of mirrored light
-  float inv_n = 1.0f, texels_per_m = 1.0f;
+  float inv_n = 1.0f;
+  glm::vec2 texels_per_m{1.0f};
 };
 
 // The points of a patch that rays come from.
@@ -40,7 +41,7 @@ inline constexpr float kLeastRise = 0.1f;  // of mirrored light, in a metre of i
 // A pass that softens texels. It adds the variance 2 part stride^2 [texels^2] along each axis; part
 // in [0, 1/4].
 struct SoftPass {
-  float part;
+  glm::vec2 part;
   int stride;
 };
 
@@ -99,13 +100,14 @@ HWY_INLINE void TurnRays(const RayConstants& c, const WaveFields& waves, const L
       return -sideways / ray.away;
     };
     const V slant_x = slant(lx, sx), slant_y = slant(ly, sy), higher = set(ray.higher);
-    const V height = hn::LoadU(d, waves.height_m + i) * set(c.texels_per_m);
-    hn::StoreU(height * MulAdd(slant_x, higher, set(c.from_height.x)), d,
+    const V x_per_m = set(c.texels_per_m.x), y_per_m = set(c.texels_per_m.y);
+    const V height_m = hn::LoadU(d, waves.height_m + i);
+    hn::StoreU(height_m * x_per_m * MulAdd(slant_x, higher, set(c.from_height.x)), d,
                rays.from_height_x.data() + i);
-    hn::StoreU(height * MulAdd(slant_y, higher, set(c.from_height.y)), d,
+    hn::StoreU(height_m * y_per_m * MulAdd(slant_y, higher, set(c.from_height.y)), d,
                rays.from_height_y.data() + i);
-    hn::StoreU((slant_x - set(c.flat.x)) * set(c.texels_per_m), d, rays.per_depth_x.data() + i);
-    hn::StoreU((slant_y - set(c.flat.y)) * set(c.texels_per_m), d, rays.per_depth_y.data() + i);
+    hn::StoreU((slant_x - set(c.flat.x)) * x_per_m, d, rays.per_depth_x.data() + i);
+    hn::StoreU((slant_y - set(c.flat.y)) * y_per_m, d, rays.per_depth_y.data() + i);
   }
 }
 
@@ -193,8 +195,8 @@ void soften(const float* HWY_RESTRICT from, int size, SoftPass pass, float* HWY_
             float* HWY_RESTRICT to) {
   const D d;
   const int stride = pass.stride;
-  const V part = hn::Set(d, pass.part);
-  const auto blend = [&](V before, V here, V after) HWY_ATTR {
+  const V part_x = hn::Set(d, pass.part.x), part_y = hn::Set(d, pass.part.y);
+  const auto blend = [&](V part, V before, V here, V after) HWY_ATTR {
     const V around = NegMulAdd(2.0f, here, before + after);
     return MulAdd(part, around, here);
   };
@@ -206,13 +208,14 @@ void soften(const float* HWY_RESTRICT from, int size, SoftPass pass, float* HWY_
     const float *const above = row_of(j - stride), *const here = row_of(j);
     const float* const below = row_of(j + stride);
     for (int i = 0; i < size; i += step)
-      hn::StoreU(blend(hn::LoadU(d, above + i), hn::LoadU(d, here + i), hn::LoadU(d, below + i)), d,
-                 row + stride + i);
+      hn::StoreU(
+          blend(part_y, hn::LoadU(d, above + i), hn::LoadU(d, here + i), hn::LoadU(d, below + i)),
+          d, row + stride + i);
     std::copy_n(row + size, stride, row);
     std::copy_n(row + stride, stride, row + stride + size);
     float* const out = to + static_cast<std::size_t>(j) * size;
     for (int i = 0; i < size; i += step)
-      hn::StoreU(blend(hn::LoadU(d, row + i), hn::LoadU(d, row + stride + i),
+      hn::StoreU(blend(part_x, hn::LoadU(d, row + i), hn::LoadU(d, row + stride + i),
                        hn::LoadU(d, row + 2 * stride + i)),
                  d, out + i);
   }
@@ -233,7 +236,7 @@ HWY_EXPORT(soften);
 
 namespace {
 
-constexpr SoftPass kTent = {0.25f, 1};  // [1 2 1] / 4
+constexpr SoftPass kTent = {glm::vec2(0.25f), 1};  // [1 2 1] / 4
 constexpr int kWidestPass = 4;
 
 // Every 2nd, 4th, ... point of a field of size x size, each time after a tent filter.
@@ -257,7 +260,7 @@ RayConstants ray_constants(glm::vec3 to_light, glm::vec2 flat, const CausticRays
   c.to_light = to_light;
   c.from_height = glm::vec2(to_light) / std::max(to_light.z, 0.2f);
   c.flat = flat;
-  c.texels_per_m = static_cast<float>(rays.size / rays.length_m);
+  c.texels_per_m = static_cast<double>(rays.size) / rays.length_m;
   return c;
 }
 
@@ -313,15 +316,16 @@ std::span<const float> gather_rays(const CausticRays& rays, float depth_m, float
   HWY_DYNAMIC_DISPATCH(sum_quads)
   (scratch.quads.data(), rays.size, scratch.row.data(), scratch.intensity.data());
   // Passes twice as wide each time, the last one as strong as is left to do: at most 10 texels^2.
-  const float spread = spread_per_m * depth_m * static_cast<float>(rays.size / rays.length_m);
-  float variance = 2.0f * kTent.part + spread * spread;
-  for (int stride = 1; stride <= kWidestPass && variance > 0.0f; stride *= 2) {
+  const glm::vec2 texels_per_m(static_cast<double>(rays.size) / rays.length_m);
+  const glm::vec2 spread = spread_per_m * depth_m * texels_per_m;
+  glm::vec2 variance = 2.0f * kTent.part + spread * spread;
+  for (int stride = 1; stride <= kWidestPass && variance != glm::vec2(0.0f); stride *= 2) {
     const auto unit = static_cast<float>(2 * stride * stride);
-    const SoftPass pass = {std::min(variance / unit, kTent.part), stride};
+    const SoftPass pass = {glm::min(variance / unit, kTent.part), stride};
     HWY_DYNAMIC_DISPATCH(soften)
     (scratch.intensity.data(), rays.size, pass, scratch.row.data(), scratch.softened.data());
     std::swap(scratch.intensity, scratch.softened);
-    variance -= pass.part * unit;
+    variance = glm::max(variance - pass.part * unit, 0.0f);
   }
   return scratch.intensity;
 }

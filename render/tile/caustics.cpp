@@ -1,5 +1,7 @@
 #include "render/tile/caustics.h"
 
+#include <algorithm>
+
 #include "math/elementary.h"
 #include "render/frame/parts.h"
 #include "render/packets/slope_layer.h"
@@ -28,12 +30,15 @@ Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
       patch.map[k] = &maps.map[p * CausticMaps::kDepths + k];
     patch.mirrored = &maps.mirrored[p];
     patch.mirrored_m = maps.height_m[p];
-    const double size = patch.map[0]->size, length_m = maps.length_m[p];
-    patch.texels_fx8_per_m = static_cast<float>(256.0 * size / length_m);
+    const double size = patch.map[0]->size;
+    const glm::dvec2 length_m = maps.length_m[p];
+    patch.texels_fx8_per_m = static_cast<float>(256.0 * size / length_m.x);
+    patch.y_texels_fx8_per_m = static_cast<float>(256.0 * size / length_m.y);
     // The values lie half a texel before the points of the waves.
-    patch.x_eye_fx8 = static_cast<float>(256.0 * size) * fraction(eye.x / length_m) + 128.0f;
-    patch.y_eye_fx8 = static_cast<float>(256.0 * size) * fraction(eye.y / length_m) + 128.0f;
-    patch.log2_texels_per_m = static_cast<float>(log(size / length_m) * 1.4426950408889634);
+    patch.x_eye_fx8 = static_cast<float>(256.0 * size) * fraction(eye.x / length_m.x) + 128.0f;
+    patch.y_eye_fx8 = static_cast<float>(256.0 * size) * fraction(eye.y / length_m.y) + 128.0f;
+    const double finest_m = std::min(length_m.x, length_m.y);
+    patch.log2_texels_per_m = static_cast<float>(log(size / finest_m) * 1.4426950408889634);
   }
   return caustics;
 }

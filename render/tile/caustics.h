@@ -16,9 +16,10 @@ struct CausticPatch {
   std::array<const texture::PackedMap1*, CausticMaps::kDepths> map{};
   const texture::PackedMap1* mirrored = nullptr;  // reflected caustics, at a height over the level
   float mirrored_m = 1.0f;
-  float texels_fx8_per_m = 1.0f;             // 1/256 texels of level 0
+  float texels_fx8_per_m = 1.0f;  // along x, 1/256 texels of level 0
+  float y_texels_fx8_per_m = 1.0f;
   float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // under the eye
-  float log2_texels_per_m = 0.0f;
+  float log2_texels_per_m = 0.0f;            // along the axis with more of them
 };
 
 struct Caustics {

@@ -83,6 +83,9 @@ class CheckedValues {
   std::vector<double> checked_numbers(const toml::node& node, const std::string& path,
                                       const Parameter<Object>& parameter,
                                       const std::string& allowed) const {
+    if (parameter.one_for_all && node.is_number())
+      return std::vector<double>(static_cast<std::size_t>(parameter.count_high),
+                                 checked_number(node, path, parameter, allowed));
     std::vector<double> numbers;
     for (const toml::node& element : checked_array(node, path, parameter, allowed))
       numbers.push_back(

@@ -104,6 +104,15 @@ struct Row {
     return row;
   }
 
+  // A GLM vector whose numbers are the same where the file has but one.
+  template <class Field>
+  static Parameter<Object> number_or_vector(std::string_view key, Range range, Field field,
+                                            std::string_view meaning) {
+    Parameter<Object> row = vector(key, range, field, meaning);
+    row.one_for_all = true;
+    return row;
+  }
+
   // A field that may hold no GLM vector.
   template <class Field>
   static Parameter<Object> optional_vector(std::string_view key, Range range, Field,

@@ -1,6 +1,8 @@
 // How values of the table are said: in messages, in docs/scene.md and in dumped scenes.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scene/file/parameters.h"
 
 namespace swell::scene {
@@ -35,6 +37,12 @@ std::string list_text(const std::vector<double>& numbers) {
     text += float_text(number);
   }
   return "[" + text + "]";
+}
+
+// A list, or the number that all of them are.
+std::string numbers_text(const std::vector<double>& numbers, bool one_for_all) {
+  const bool is_one = one_for_all && std::ranges::count(numbers, numbers[0]) == std::ssize(numbers);
+  return is_one ? float_text(numbers[0]) : list_text(numbers);
 }
 
 // Points as pairs of numbers.
@@ -84,7 +92,8 @@ std::string allowed_text(const Parameter<Object>& parameter) {
       return range;
     case Kind::kNumbers:
       if (parameter.count_low == parameter.count_high)
-        return fmt::format("{} numbers, each {}", parameter.count_low, range);
+        return fmt::format("{}{} numbers, each {}", parameter.one_for_all ? "one number or " : "",
+                           parameter.count_low, range);
       return fmt::format("{} to {} numbers, each {}", parameter.count_low, parameter.count_high,
                          range);
     case Kind::kPoints:
@@ -129,7 +138,7 @@ std::string toml_text(const Parameter<Object>& parameter, const Object& object) 
     case Kind::kNumber:
       return float_text(std::get<std::vector<double>>(value)[0]);
     case Kind::kNumbers:
-      return list_text(std::get<std::vector<double>>(value));
+      return numbers_text(std::get<std::vector<double>>(value), parameter.one_for_all);
     case Kind::kPoints:
       return points_text(std::get<std::vector<double>>(value));
     case Kind::kInteger:

@@ -362,8 +362,8 @@ std::vector<Parameter<ocean::MapLayer>> map_parameters() {
   file.path_of = "map";
   return {
       file,
-      MapRow::number("length_m", {0.5, 50000, "m"}, SWELL_FIELD(length_m),
-                     "after which it repeats itself, along x and y"),
+      MapRow::number_or_vector("length_m", {0.5, 50000, "m"}, SWELL_FIELD(length_m),
+                               "after which it repeats itself, along x and along y"),
       MapRow::or_zero(MapRow::number("period_s", {0.1, 100000, "s"}, SWELL_FIELD(period_s),
                                      "after which it repeats itself in time; 0: so that its mean "
                                      "wave is as fast as in deep water")),

@@ -40,6 +40,7 @@ struct Parameter {
   double low = 0.0, high = 0.0;
   bool zero_too = false;              // 0 is allowed although low > 0
   int count_low = 1, count_high = 1;  // of kNumbers and kPoints
+  bool one_for_all = false;           // of kNumbers: one without an array stands for all of them
   std::span<const std::string_view> choices;
   std::string_view path_of = "picture";  // what a path is the name of
   bool is_of_frames = false;             // a path with one %04d, the number of the frame from 0

@@ -78,7 +78,7 @@ PatchFrame warped(const std::vector<Wave>& waves, const Crests& crests) {
     dy.push_back(static_cast<float>(at.displacement.y));
   }
   PatchFrame patch;
-  patch.length_m = kLength_m;
+  patch.length_m = glm::dvec2(kLength_m);
   patch.resolution = kSize;
   for (auto* field : {&patch.height_m, &patch.slope_x, &patch.slope_y, &patch.displaced_x_m,
                       &patch.displaced_y_m})

@@ -59,8 +59,8 @@ double reference_height(const MapLayer& layer, const PeriodicMap& map, double pe
       return static_cast<double>(map.height[static_cast<std::size_t>(
           (frame * map.size + wrapped(j)) * map.size + wrapped(i))]);
     };
-    const double u = (p.x + layer.offset_m.x) / layer.length_m * map.size;
-    const double v = (p.y + layer.offset_m.y) / layer.length_m * map.size;
+    const glm::dvec2 at = (p + layer.offset_m) / layer.length_m * static_cast<double>(map.size);
+    const double u = at.x, v = at.y;
     const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
     const double x = u - i, y = v - j;
     return (1 - y) * ((1 - x) * code(i, j) + x * code(i + 1, j)) +
@@ -82,9 +82,9 @@ TEST(MapWaves, HeightsAreTheSumOfTheLayers) {
   const ScratchFolder folder;
   const std::string file = map_file(small_recipe(), folder);
   const PeriodicMap map = read_map(file);
-  // Offsets of whole samples: 64 m and 32 samples, 96 m and 32.
-  const std::vector<MapLayer> layers = {{file, 96.0, 31.0, 1.5, {27.0, -6.0}, 2.5},
-                                        {file, 64.0, 17.0, 0.8, {-130.0, 4.0}, -40.0}};
+  // Offsets of whole samples: 96 m and 32 samples, 64 and 40 m and 32.
+  const std::vector<MapLayer> layers = {{file, glm::dvec2(96.0), 31.0, 1.5, {27.0, -6.0}, 2.5},
+                                        {file, {64.0, 40.0}, 17.0, 0.8, {-130.0, 5.0}, -40.0}};
   const Sea sea(sea_of(layers));
   Workers workers(2);
   SeaFrame frame;
@@ -103,7 +103,7 @@ TEST(MapWaves, HeightsAreTheSumOfTheLayers) {
 TEST(MapWaves, HeightAndLengthAreThoseAskedFor) {
   const ScratchFolder folder;
   const std::string file = map_file(small_recipe(), folder);
-  SeaDescription description = sea_of({{file, 80.0, 0.0, 2.0}});
+  SeaDescription description = sea_of({{file, glm::dvec2(80.0), 0.0, 2.0}});
   description.amplitude_scale = 0.5;
   const Sea sea(description);
   EXPECT_NEAR(sea.significant_height_m(), 1.0, 1e-3);
@@ -112,7 +112,7 @@ TEST(MapWaves, HeightAndLengthAreThoseAskedFor) {
   advance(sea, 12.0, frame, workers);
   ASSERT_EQ(frame.patches.size(), 1u);
   const PatchFrame& patch = frame.patches[0];
-  EXPECT_EQ(patch.length_m, 80.0);
+  EXPECT_EQ(patch.length_m, glm::dvec2(80.0));
   EXPECT_EQ(patch.resolution, 32);
   double height2 = 0.0, slope2 = 0.0, most = 0.0;
   for (std::size_t i = 0; i < patch.height_m.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(MapWaves, TheDefaultPeriodIsThatOfDeepWater) {
       recipe.heights.push_back(static_cast<float>(std::cos(kTurn * 2 * i / 32.0)));
   const ScratchFolder folder;
   const std::string file = map_file(recipe, folder);
-  const Sea sea(sea_of({{file, 100.0, 0.0, 1.0}}));
+  const Sea sea(sea_of({{file, glm::dvec2(100.0), 0.0, 1.0}}));
   const MapWaves& waves = sea.state().maps[0];
   EXPECT_NEAR(waves.wave_number_rad_m(), kTurn / 50.0, 0.01 * kTurn / 50.0);
   const double speed_mps = std::sqrt(9.81 * 50.0 / kTurn);
@@ -240,7 +240,9 @@ TEST(MapWaves, BadLayersAreRefused) {
     EXPECT_THROW(Sea{sea_of({layer})}, std::invalid_argument);
   };
   refused([](MapLayer& layer) { layer.file = "/none/such.map"; });
-  refused([](MapLayer& layer) { layer.length_m = 0.0; });
+  refused([](MapLayer& layer) { layer.length_m = glm::dvec2(0.0); });
+  refused([](MapLayer& layer) { layer.length_m.y = -20.0; });
+  refused([](MapLayer& layer) { layer.length_m.x = NAN; });
   refused([](MapLayer& layer) { layer.period_s = -1.0; });
   refused([](MapLayer& layer) { layer.hs_m = NAN; });
   refused([](MapLayer& layer) { layer.offset_m.y = INFINITY; });

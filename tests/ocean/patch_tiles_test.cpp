@@ -20,7 +20,7 @@ constexpr double kTiledLength_m = 64.0;
 SeaFrame tiled_frame(std::uint64_t seed) {
   SeaFrame frame;
   PatchFrame& patch = frame.patches.emplace_back();
-  patch.length_m = kTiledLength_m;
+  patch.length_m = glm::dvec2(kTiledLength_m);
   patch.resolution = kSamples;
   patch.tiling = {true, 12345};
   for (auto* field : {&patch.height_m, &patch.slope_x, &patch.slope_y})
@@ -159,6 +159,28 @@ TEST(PatchTiles, HaveSlopesThatAreThoseOfTheirHeights) {
     steepest = std::max(steepest, static_cast<double>(std::hypot(x, y)));
   }
   EXPECT_GT(steepest, 0.05);
+}
+
+// Half as long along y: the same heights at half of y, twice the slopes along y.
+TEST(PatchTiles, AreAsLongAlongEachAxisAsThePatch) {
+  const SeaFrame square = tiled_frame(5);
+  SeaFrame flat = square;
+  flat.patches[0].length_m.y = 0.5 * kTiledLength_m;
+  for (float& slope : flat.patches[0].slope_y) slope *= 2.0f;
+  const auto places = random_places(3000, 500.0);
+  std::vector<glm::dvec2> nearer;
+  for (const glm::dvec2& p : places) nearer.emplace_back(p.x, 0.5 * p.y);
+  for_each_simd_target([&] {
+    std::vector<float> z(places.size()), x = z, y = z, flat_z = z, flat_x = z, flat_y = z;
+    sample_heights(square, places, z);
+    sample_slopes(square, places, x, y);
+    sample_heights(flat, nearer, flat_z);
+    sample_slopes(flat, nearer, flat_x, flat_y);
+    for (float& slope : y) slope *= 2.0f;
+    EXPECT_EQ(flat_z, z);
+    EXPECT_EQ(flat_x, x);
+    EXPECT_EQ(flat_y, y);
+  });
 }
 
 struct TileMoments {

@@ -16,7 +16,7 @@ namespace {
 PatchFrame random_patch(double length_m, int resolution, unsigned seed) {
   std::mt19937 bits(seed);
   PatchFrame patch;
-  patch.length_m = length_m;
+  patch.length_m = glm::dvec2(length_m);
   patch.resolution = resolution;
   patch.height_m.resize(static_cast<std::size_t>(resolution) * resolution);
   for (float& h : patch.height_m) h = static_cast<float>(bits()) * 0x1p-31f - 1.0f;
@@ -26,6 +26,7 @@ PatchFrame random_patch(double length_m, int resolution, unsigned seed) {
 SeaFrame random_frame() {
   SeaFrame frame;
   frame.patches = {random_patch(97.0, 32, 1), random_patch(640.0 / 3.0, 128, 2)};
+  frame.patches[1].length_m.y = 151.0;
   return frame;
 }
 
@@ -48,7 +49,7 @@ std::vector<float> heights(const SeaFrame& frame, const std::vector<glm::dvec2>&
 // Bilinear interpolation in double.
 double patch_height(const PatchFrame& patch, glm::dvec2 p) {
   const int n = patch.resolution;
-  const glm::dvec2 u = p * (n / patch.length_m);
+  const glm::dvec2 u = p * (static_cast<double>(n) / patch.length_m);
   const glm::dvec2 cell = glm::floor(u), f = u - cell;
   const auto sample = [&](double i, double j) {
     const auto wrap = [&](double v) { return static_cast<int>(v - n * std::floor(v / n)); };

@@ -106,8 +106,8 @@ std::vector<double> derivative(const PatchFrame& patch, bool along_x) {
   const int n = patch.resolution;
   std::vector<double> weight(n, 0.0);
   for (int m = 1; m < n; ++m) {
-    weight[m] =
-        0.5 * (m % 2 == 0 ? 1.0 : -1.0) / std::tan(kPiRef * m / n) * 2.0 * kPiRef / patch.length_m;
+    weight[m] = 0.5 * (m % 2 == 0 ? 1.0 : -1.0) / std::tan(kPiRef * m / n) * 2.0 * kPiRef /
+                (along_x ? patch.length_m.x : patch.length_m.y);
   }
   std::vector<double> slope(patch.height_m.size(), 0.0);
   for (int j = 0; j < n; ++j) {

@@ -64,6 +64,24 @@ INSTANTIATE_TEST_SUITE_P(
               "allowed at most 8 of both"},
         Fault{"[[sea.maps]]\nlength_m = 20\n",
               "test.toml:1: column 1: sea.maps[0].file, got none, allowed a readable map file"},
+        Fault{"[[sea.maps]]\nlength_m = 0\n",
+              "test.toml:2: column 12: sea.maps[0].length_m, got 0, allowed one number or 2 "
+              "numbers, each 0.5 to 50000 m"},
+        Fault{"[[sea.maps]]\nlength_m = -20.5\n",
+              "test.toml:2: column 12: sea.maps[0].length_m, got -20.5, allowed one number or 2 "
+              "numbers, each 0.5 to 50000 m"},
+        Fault{"[[sea.maps]]\nlength_m = [10, 20, 30]\n",
+              "test.toml:2: column 12: sea.maps[0].length_m, got an array of 3 values, allowed one "
+              "number or 2 numbers, each 0.5 to 50000 m"},
+        Fault{"[[sea.maps]]\nlength_m = [10]\n",
+              "test.toml:2: column 12: sea.maps[0].length_m, got an array of 1 values, allowed one "
+              "number or 2 numbers, each 0.5 to 50000 m"},
+        Fault{"[[sea.maps]]\nlength_m = [10, -1]\n",
+              "test.toml:2: column 17: sea.maps[0].length_m[1], got -1, allowed one number or 2 "
+              "numbers, each 0.5 to 50000 m"},
+        Fault{"[[sea.maps]]\nlength_m = true\n",
+              "test.toml:2: column 12: sea.maps[0].length_m, got true, allowed one number or 2 "
+              "numbers, each 0.5 to 50000 m"},
         Fault{"[[sea.maps]]\nfile = \"/none/none.map\"\nperiod_s = 0.01\n",
               "test.toml:2: column 8: sea.maps[0].file, got \"/none/none.map\" (No such file or "
               "directory), allowed a readable map file"},

@@ -311,12 +311,28 @@ TEST(SceneFile, MapsAreReadAndDumpedAndTakeTheSpectrumsPlace) {
       "offset_m = [3, -4]\noffset_s = -7\n[[sea.maps]]\nfile = \"" + file + "\"\n";
   const Scene scene = parse_scene(text, "test.toml");
   ASSERT_EQ(scene.sea.maps.size(), 2u);
-  const ocean::MapLayer expected{file, 40.5, 12.5, 0.25, {3.0, -4.0}, -7.0};
+  const ocean::MapLayer expected{file, glm::dvec2(40.5), 12.5, 0.25, {3.0, -4.0}, -7.0};
   EXPECT_EQ(scene.sea.maps[0], expected);
   EXPECT_FALSE(scene.sea.spectrum);
   EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
   const Scene both = parse_scene("[sea]\nspectrum = true\n" + text, "test.toml");
   EXPECT_TRUE(both.sea.spectrum);
+}
+
+TEST(SceneFile, AMapHasOneLengthOrOneAlongEachAxis) {
+  const auto dump = [](std::string_view length, glm::dvec2 expected) {
+    const std::string file = SWELL_SOURCE_DIR "/README.md";  // only the sea looks into it
+    const Scene scene = parse_scene(
+        "[[sea.maps]]\nfile = \"" + file + "\"\nlength_m = " + std::string(length) + "\n",
+        "test.toml");
+    EXPECT_EQ(scene.sea.maps[0].length_m, expected) << length;
+    EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
+    return dump_scene(scene);
+  };
+  EXPECT_NE(dump("40", glm::dvec2(40.0)).find("\nlength_m = 40.0\n"), std::string::npos);
+  EXPECT_NE(dump("[40, 40.0]", glm::dvec2(40.0)).find("\nlength_m = 40.0\n"), std::string::npos);
+  EXPECT_NE(dump("[40, 17.5]", {40.0, 17.5}).find("\nlength_m = [40.0, 17.5]\n"),
+            std::string::npos);
 }
 
 TEST(SceneFile, ASetOfMapsHasAWindOfItsOwn) {

@@ -23,6 +23,13 @@ bool has_planar_maps(const Shading& window) {
 
 // --- Texts
 
+// Where a layer lies, for maps that are as long along both axes.
+std::string place_text(const SlopeLayer& layer) {
+  if (layer.y_texels_fx8_per_m == layer.texels_fx8_per_m) return "p.xy";
+  return fmt::format("p.xy * vec2(1.0, {:#.9g})",
+                     layer.y_texels_fx8_per_m / layer.texels_fx8_per_m);
+}
+
 // The calls that sample the water's layers, in the order of render/water/topside-inl.h: after
 // each of the long waves the footprint's level is that on the waves so far.
 std::string layers_text(const render::Water& water) {
@@ -45,11 +52,12 @@ std::string layers_text(const render::Water& water) {
       text +=
           "bend = sample_map(noise, noise_place, p.xy, level_m).rg * noise_scale.x + "
           "noise_scale.y;\n";
-    const bool is_tiled = water.layers[static_cast<std::size_t>(i)].tiling.on;
+    const SlopeLayer& layer = water.layers[static_cast<std::size_t>(i)];
+    const bool is_tiled = layer.tiling.on;
     text +=
-        fmt::format("{1}(layer_{0}, layer_place[{0}], layer_scale[{0}], {2}p.xy{3}, level_m, s);\n",
+        fmt::format("{1}(layer_{0}, layer_place[{0}], layer_scale[{0}], {2}{3}{4}, level_m, s);\n",
                     i, is_tiled ? "add_tiled_slopes" : "add_slopes",
-                    is_tiled ? fmt::format("layer_tiles[{}], ", i) : "",
+                    is_tiled ? fmt::format("layer_tiles[{}], ", i) : "", place_text(layer),
                     is_bent ? fmt::format(" + bend * layer_scale[{}].w", i) : "");
     if (i >= water.long_layer_count) continue;
     if (i == water.long_layer_count - 1) text += blend;

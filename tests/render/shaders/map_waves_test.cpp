@@ -3,10 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
+#include "ocean/open_sea/periodic_map.h"
 #include "ocean/open_sea/sea_state.h"
 #include "ocean/water_surface.h"
+#include "render/drawn_looks.h"
 #include "render/drawn_water.h"
+#include "render/shaders/shader_kernels.h"
+#include "render/view/meshes.h"
+#include "scene/water.h"
+#include "scratch_folder.h"
 
 namespace swell::render {
 namespace {
@@ -16,6 +23,18 @@ scene::Scene lake_scene() {
   scene.sea.spectrum = false;
   scene.sea.map_set = ocean::MapSet::kLake;
   scene.sea.wind_speed_mps = 4.5;
+  return scene;
+}
+
+// Maps of 30 by 12 m and of 5 by 17 m.
+scene::Scene stretched_scene(const ScratchFolder& folder) {
+  scene::Scene scene = shading_scene(20.0);
+  ocean::MapRecipe recipe;
+  recipe.size = 32, recipe.frames = 16, recipe.peak_waves = 2.0;
+  const std::string file =
+      folder.write("waves.map", ocean::encode_map(ocean::make_periodic_map(recipe))).string();
+  scene.sea.spectrum = false;
+  scene.sea.maps = {{file, {30.0, 12.0}, 0.0, 0.4}, {file, {5.0, 17.0}, 0.0, 0.2}};
   return scene;
 }
 
@@ -59,6 +78,61 @@ TEST(MapWaves, OneWordHasAllThatABilinearSampleNeeds) {
                     frame.patches[layer].slope_x[at], 0.501f * map.scale);
       }
     }
+  }
+}
+
+// Slopes are codes of a scale, at places of 1/256 texel.
+TEST(MapWaves, StretchedOnesAreShadedAsTheyAreAsked) {
+  const ScratchFolder folder;
+  scene::Scene scene = stretched_scene(folder);
+  scene.sea.tiling = false;
+  const World world = world_of(scene);
+  const DrawnWater drawn(world, 3.0);
+  std::vector<glm::dvec2> places;
+  std::vector<glm::vec3> from_eye;
+  for (int n = 0; n < 400; ++n) {
+    from_eye.emplace_back(0.37f * static_cast<float>(n), 60.0f - 0.53f * static_cast<float>(n),
+                          -20.0f);
+    places.emplace_back(from_eye.back());
+  }
+  const std::vector<float> finest(places.size(), -20.0f);
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    const SlopeLayer& shaded = drawn.water().layers[layer];
+    ocean::SeaFrame alone;
+    alone.patches = {drawn.state().sea.frame.patches[layer]};
+    std::vector<glm::vec3> got(places.size());
+    add_slopes(shaded, from_eye, finest, got);
+    std::vector<float> x(places.size()), y(places.size());
+    ocean::sample_slopes(alone, places, x, y);
+    const float bound = 0.75f * shaded.map->scale;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      ASSERT_NEAR(got[i].x, x[i], bound) << layer << " " << i;
+      ASSERT_NEAR(got[i].y, y[i], bound) << layer << " " << i;
+    }
+    const glm::dvec2 length_m = alone.patches[0].length_m;
+    EXPECT_NEAR(shaded.log2_texels_per_m, std::log2(32.0 / std::min(length_m.x, length_m.y)), 1e-5);
+  }
+}
+
+TEST(MapWaves, VerticesHaveTheHeightsThatQueriesGive) {
+  const ScratchFolder folder;
+  for (scene::Scene scene : {lake_scene(), stretched_scene(folder)}) {
+    scene.detail.triangulation = scene::Triangulation::kRoam;
+    const World world = world_of(scene);
+    const DrawnWater drawn(world, 3.0);
+    const scene::Water water(scene);
+    ocean::SeaFrame frame;
+    Workers workers(1);
+    const scene::WaterSurface surface = water.at(3.0, frame, workers);
+    const Surface& mesh = drawn.state().meshes.water;
+    float highest_m = 0.0f;
+    for (std::size_t v = 0; v < mesh.height_m.size(); ++v) {
+      const glm::dvec2 p = vertex_world(mesh, v);
+      if (!shows_all_waves(mesh, view_of(world, 3.0, 64, 48), v)) continue;
+      ASSERT_EQ(mesh.height_m[v], surface.height(p)) << p.x << " " << p.y;
+      highest_m = std::max(highest_m, mesh.height_m[v]);
+    }
+    EXPECT_GT(highest_m, 0.1f);
   }
 }
 

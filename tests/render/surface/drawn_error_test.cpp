@@ -28,7 +28,7 @@ namespace {
 // A bound on the slope of a patch between its samples, whose heights are bilinear.
 double steepest_of(const ocean::PatchFrame& patch) {
   const int n = patch.resolution;
-  const double step_m = patch.length_m / n;
+  const double step_m = std::min(patch.length_m.x, patch.length_m.y) / n;
   const auto z = [&](int i, int j) { return patch.height_m[(j & (n - 1)) * n + (i & (n - 1))]; };
   float steepest2 = 0.0f;
   for (int j = 0; j < n; ++j) {

@@ -31,7 +31,7 @@ struct Wave {
 
 ocean::PatchFrame patch_of(const std::vector<Wave>& waves, double length_m, int size) {
   ocean::PatchFrame patch;
-  patch.length_m = length_m;
+  patch.length_m = glm::dvec2(length_m);
   patch.resolution = size;
   for (int j = 0; j < size; ++j) {
     for (int i = 0; i < size; ++i) {
@@ -67,7 +67,7 @@ ocean::PatchFrame long_waves(double slope) {
 
 std::vector<double> minus_laplacian(const ocean::PatchFrame& patch) {
   const int n = patch.resolution;
-  const double per_m = 0.5 * n / patch.length_m;
+  const double per_m = 0.5 * n / patch.length_m.x;
   std::vector<double> result;
   const auto at = [&](const std::vector<float>& field, int i, int j) {
     return static_cast<double>(field[static_cast<std::size_t>((j & (n - 1)) * n + (i & (n - 1)))]);
@@ -224,6 +224,32 @@ TEST_P(CausticRaysOnTarget, OfAFinerPatchAreThoseOfACoarserOne) {
   const Moments m = moments(fine.per_depth_x, coarse.per_depth_x);
   EXPECT_GT(m.correlation, 0.99999);
   EXPECT_NEAR(m.deviation_a / m.deviation_b, 1.0, 0.01);
+}
+
+// Waves that do not change along an axis, on a patch twice as long along it: half as many texels to
+// the metre there, and the same light.
+TEST_P(CausticRaysOnTarget, HaveTexelsAsLongAlongEachAxisAsThePatchHas) {
+  for (const bool along_x : {true, false}) {
+    const Wave wave = along_x ? Wave{2, 0, 0.05, 0.4} : Wave{0, 2, 0.05, 0.4};
+    const ocean::PatchFrame square = patch_of({wave}, 6.0, 64);
+    ocean::PatchFrame stretched = square;
+    (along_x ? stretched.length_m.y : stretched.length_m.x) = 12.0;
+    CausticRays rays, long_rays;
+    CausticScratch scratch, long_scratch;
+    trace_rays(square, {0.36f, 0.48f, 0.8f}, kIndex, rays);
+    trace_rays(stretched, {0.36f, 0.48f, 0.8f}, kIndex, long_rays);
+    const float x = along_x ? 1.0f : 2.0f, y = along_x ? 2.0f : 1.0f;
+    for (std::size_t i = 0; i < rays.per_depth_x.size(); ++i) {
+      ASSERT_EQ(x * long_rays.per_depth_x[i], rays.per_depth_x[i]);
+      ASSERT_EQ(y * long_rays.per_depth_y[i], rays.per_depth_y[i]);
+      ASSERT_EQ(x * long_rays.from_height_x[i], rays.from_height_x[i]);
+      ASSERT_EQ(y * long_rays.from_height_y[i], rays.from_height_y[i]);
+    }
+    trace_rays(square, {0.0f, 0.0f, 1.0f}, kIndex, rays);
+    trace_rays(stretched, {0.0f, 0.0f, 1.0f}, kIndex, long_rays);
+    EXPECT_TRUE(std::ranges::equal(gather_rays(rays, 4.0f, 0.02f, scratch),
+                                   gather_rays(long_rays, 4.0f, 0.02f, long_scratch)));
+  }
 }
 
 // ---- Reflected
