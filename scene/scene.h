@@ -135,7 +135,7 @@ struct Detail {
   double objects = 8.0;  // floating things' places count as this many times nearer, [1, 64]
   // Parts that count as this many times further away, [1, 16]; 1: as they are (lod/request.h).
   double back_facing = 1.0, normal_spread = 1.0, silhouette = 1.0;
-  double visibility = 0.0;           // the haze counts this much, [0, 4]
+  double visibility = 0.0;           // poor visibility counts this much, [0, 4]
   double background_error_px = 0.0;  // far water may be so far from where it should be drawn
 
   bool normals_count() const {

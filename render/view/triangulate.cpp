@@ -81,7 +81,20 @@ double seen_distance_m(const scene::Scene& scene, double eye_height_m) {
   return 1.0 / (1.0 / scene.sky.haze_distance_m + density * sky::fog_per_m(scene.air).y);
 }
 
-lod::PriorityFactors priority_factors(const scene::Scene& scene, const View& view) {
+// How far things are seen by this light, over how far they are by day: where what is left of the
+// contrast is a step of the picture. `white`: what a white level surface shows, 1 by day.
+double seen_by_light(double white) {
+  constexpr double kSteps = 255.0, kLeast = 0.05;
+  return std::clamp(log(std::max(white, 1e-6) * kSteps) / log(kSteps), kLeast, 1.0);
+}
+
+double white_shown(const SkyMaps& sky) {
+  const float sun = sky.irradiance.y * std::max(sky.to_light.z, 0.0f) / static_cast<float>(kPi);
+  return static_cast<double>(sky.exposure * (sky.ambient.y + sun));
+}
+
+lod::PriorityFactors priority_factors(const WorldState& world, const View& view) {
+  const scene::Scene& scene = world.scene;
   const scene::Detail& detail = scene.detail;
   lod::PriorityFactors factors;
   factors.focus_nearer = static_cast<float>(detail.objects);
@@ -90,7 +103,8 @@ lod::PriorityFactors priority_factors(const scene::Scene& scene, const View& vie
   factors.off_silhouette = static_cast<float>(detail.silhouette);
   if (detail.visibility > 0.0)
     factors.haze_distance_m =
-        static_cast<float>(seen_distance_m(scene, view.eye_world.z) / detail.visibility);
+        static_cast<float>(seen_distance_m(scene, view.eye_world.z) *
+                           seen_by_light(white_shown(*world.sky)) / detail.visibility);
   return factors;
 }
 
@@ -147,7 +161,7 @@ lod::AdaptRequest request_for(const Wanted& wanted, int budget, float low_m, flo
   request.min_height_m = low_m;
   request.max_height_m = high_m;
   request.earth_radius_m = wanted.world.earth_radius_m(wanted.options.without);
-  request.factors = priority_factors(wanted.world.scene, wanted.view);
+  request.factors = priority_factors(wanted.world, wanted.view);
   request.limits = adapt_limits(wanted.options);
   return request;
 }
