@@ -25,4 +25,8 @@ struct MapLayer {
 // Seven layers, made for the wind's direction, that look like a kind of water.
 enum class MapSet : std::uint8_t { kNone, kRiver, kLake, kCoast, kOcean };
 
+// How heights of layers are looked up: the samples as they are, four for a bilinear one; or codes
+// of 16 bits, the four of one side by side, in less time.
+enum class MapHeights : std::uint8_t { kExact, kPacked };
+
 }  // namespace swell::ocean

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -130,6 +131,35 @@ void sample_band(const MapWaves& waves, double t_s, std::size_t band, PatchFrame
   blend(map.slope_y, slope.y, patch.slope_y);
 }
 
+// Codes of a row's samples and of the next ones, side by side. The sum's low bits are the nearest
+// whole number, in two's complement.
+void code_pairs(const PatchFrame& patch, int row, std::uint32_t* pairs) {
+  constexpr float kWholeBits = 0x1.8p23f;
+  const int n = patch.resolution;
+  const float* const height_m =
+      patch.height_m.data() + static_cast<std::ptrdiff_t>(row & (n - 1)) * n;
+  const float per_m = 1.0f / patch.height_step_m;
+  const auto code = [&](int i) {
+    return std::bit_cast<std::uint32_t>(height_m[i] * per_m + kWholeBits) & 0xffff;
+  };
+  for (int i = 0; i + 1 < n; ++i) pairs[i] = code(i) | code(i + 1) << 16;
+  pairs[n - 1] = code(n - 1) | code(0) << 16;
+}
+
+void pack_band(std::size_t band, PatchFrame& patch) {
+  const int n = patch.resolution, rows = n / static_cast<int>(kBands);
+  const int first = static_cast<int>(band) * rows;
+  std::array<std::array<std::uint32_t, kMaxMapSize>, 2> pairs;
+  std::uint32_t *here = pairs[0].data(), *next = pairs[1].data();
+  code_pairs(patch, first, here);
+  for (int j = first; j < first + rows; ++j) {
+    code_pairs(patch, j + 1, next);
+    std::uint64_t* const quads = patch.height_quads.data() + static_cast<std::ptrdiff_t>(j) * n;
+    for (int i = 0; i < n; ++i) quads[i] = here[i] | static_cast<std::uint64_t>(next[i]) << 32;
+    std::swap(here, next);
+  }
+}
+
 // i k / |k| times the field of which `re` and `im` hold the conjugate of the transform, to `x` and
 // `y`; `ratio`: of the field's length along x to that along y.
 void turn_along_waves(const FftPlan& plan, double ratio, const float* re, const float* im,
@@ -182,12 +212,21 @@ std::vector<MapWaves> make_map_waves(const SeaDescription& sea) {
   return waves;
 }
 
+float packed_step_m(const MapWaves& waves) {
+  constexpr double kMostOfFour = 1.25;  // sum of the sizes of the cubic's weights
+  constexpr double kLeast_m = 1e-12;    // of a layer without height
+  return static_cast<float>(std::max(kMostOfFour * waves.peak_m() / 32767.0, kLeast_m));
+}
+
 void sample_maps(std::span<const MapWaves> waves, double t_s, std::span<PatchFrame> patches,
                  Workers& workers) {
   SWELL_CHECK(waves.size() == patches.size(), "{} maps, {} patches", waves.size(), patches.size());
   workers.for_each(kBands * waves.size(), [&](std::size_t i, int) {
     sample_band(waves[i / kBands], t_s, i % kBands, patches[i / kBands]);
   });
+  if (patches.empty() || patches[0].height_quads.empty()) return;
+  workers.for_each(kBands * waves.size(),
+                   [&](std::size_t i, int) { pack_band(i % kBands, patches[i / kBands]); });
 }
 
 void sample_map_velocities(const MapWaves& waves, double t_s, PatchFrame& x, PatchFrame& y,

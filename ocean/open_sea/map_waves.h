@@ -34,8 +34,12 @@ std::vector<MapWaves> make_map_waves(const SeaDescription& sea);
 // How many layers that will be.
 std::size_t count_map_layers(const SeaDescription& sea);
 
+// The step of packed heights: 1.25 / 32767 of the map's peak, over which no time between frames is
+// higher. They are off by half of it at most.
+float packed_step_m(const MapWaves& waves);
+
 // Fills the heights and slopes of patches, which have their sizes, one for each of `waves`, at time
-// t_s (wave_time_s()).
+// t_s (wave_time_s()), and their packed heights, if they have some.
 void sample_maps(std::span<const MapWaves> waves, double t_s, std::span<PatchFrame> patches,
                  Workers& workers);
 

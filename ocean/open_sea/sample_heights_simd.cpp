@@ -18,16 +18,26 @@
 namespace swell::ocean {
 namespace {
 
-enum class Field { kHeight, kSlopeX, kSlopeY };
+// kSomePacked: heights, of which those of some patches are packed.
+enum class Field { kHeight, kSomePacked, kSlopeX, kSlopeY };
+
+constexpr bool is_height(Field field) {
+  return field == Field::kHeight || field == Field::kSomePacked;
+}
+
+bool has_packed_heights(const SeaFrame& frame) {
+  return std::ranges::any_of(frame.patches,
+                             [](const PatchFrame& patch) { return !patch.height_quads.empty(); });
+}
 
 const float* patch_samples(const PatchFrame& patch, Field field) {
-  if (field == Field::kHeight) return patch.height_m.data();
+  if (is_height(field)) return patch.height_m.data();
   return field == Field::kSlopeX ? patch.slope_x.data() : patch.slope_y.data();
 }
 
 // Returns the amplitude of A sin(phase), or of its derivative 2 pi k A cos(phase) along an axis.
 float sine_amplitude(const SineFrame& sine, Field field) {
-  if (field == Field::kHeight) return static_cast<float>(sine.amplitude_m);
+  if (is_height(field)) return static_cast<float>(sine.amplitude_m);
   const double cycles_per_m = field == Field::kSlopeX ? sine.cycles_per_m.x : sine.cycles_per_m.y;
   return static_cast<float>(2.0 * kPi * cycles_per_m * sine.amplitude_m);
 }
@@ -65,6 +75,7 @@ struct OriginPlaces {
 #include "math/elementary-inl.h"
 #include "ocean/open_sea/patch_tiles-inl.h"
 #include "ocean/spectrum/vectors-inl.h"
+#include "texture/packed_map-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::ocean {
@@ -103,11 +114,51 @@ HWY_INLINE FixedPlace FixedPosition(DoublePacket x_m, double fixed_per_m, const 
   return {hn::Combine(DI(), high.fx16, low.fx16), hn::Combine(DI(), high.period, low.period)};
 }
 
+// Four samples, at the corners of a cell: its left and right, lower and upper ones.
+struct Corners {
+  V h00, h10, h01, h11;
+};
+
+HWY_INLINE V BetweenCorners(const Corners& c, VI x_fx16, VI y_fx16) {
+  const D d;
+  const VI fraction_bits = hn::Set(DI(), 0xffff);
+  const V unit = hn::Set(d, 0x1p-16f);
+  const V fx = hn::ConvertTo(d, x_fx16 & fraction_bits) * unit;
+  const V fy = hn::ConvertTo(d, y_fx16 & fraction_bits) * unit;
+  const V h0 = MulAdd(fx, c.h10 - c.h00, c.h00);
+  const V h1 = MulAdd(fx, c.h11 - c.h01, c.h01);
+  return MulAdd(fy, h1 - h0, h0);
+}
+
+// A sample of packed heights: one load of 64 bits a lane.
+HWY_INLINE V QuadSample(const PatchFrame& patch, VI x_fx16, VI y_fx16) {
+  namespace packed = texture::HWY_NAMESPACE;
+  const D d;
+  const DI di;
+  const VI mask = hn::Set(di, patch.resolution - 1);
+  const VI column = hn::ShiftRight<16>(x_fx16) & mask, row = hn::ShiftRight<16>(y_fx16) & mask;
+  HWY_ALIGN std::uint32_t lane_index[hn::MaxLanes(d)];
+  packed::StoreIndex(row * patch.resolution + column, lane_index);
+  const hn::Repartition<std::uint8_t, D> d8;
+  const auto quads0 = packed::LoadWords<8, 0>(d8, patch.height_quads.data(), lane_index);
+  const auto quads1 = packed::LoadWords<8, 1>(d8, patch.height_quads.data(), lane_index);
+  const VI lower = packed::EvenParts(di, quads0, quads1);
+  const VI upper = packed::OddParts(di, quads0, quads1);
+  const auto left = [&](VI pair) HWY_ATTR {
+    return hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)));
+  };
+  const auto right = [&](VI pair) HWY_ATTR { return hn::ConvertTo(d, hn::ShiftRight<16>(pair)); };
+  const Corners steps = {left(lower), right(lower), left(upper), right(upper)};
+  return BetweenCorners(steps, x_fx16, y_fx16) * patch.height_step_m;
+}
+
 // Bilinear sample of a field at 16.16 positions (any integers: they wrap).
 template <Field kField>
 HWY_INLINE V PatchSample(const PatchFrame& patch, VI x_fx16, VI y_fx16) {
   const D d;
   const DI di;
+  if (kField == Field::kSomePacked && !patch.height_quads.empty())
+    return QuadSample(patch, x_fx16, y_fx16);
   const VI mask = hn::Set(di, patch.resolution - 1), one = hn::Set(di, 1);
   const VI x0 = hn::ShiftRight<16>(x_fx16) & mask;
   const VI y0 = hn::ShiftRight<16>(y_fx16) & mask;
@@ -116,18 +167,10 @@ HWY_INLINE V PatchSample(const PatchFrame& patch, VI x_fx16, VI y_fx16) {
   const VI row1 = ((y0 + one) & mask) * patch.resolution;
 
   const float* const samples = patch_samples(patch, kField);
-  const V h00 = hn::GatherIndex(d, samples, row0 + x0);
-  const V h10 = hn::GatherIndex(d, samples, row0 + x1);
-  const V h01 = hn::GatherIndex(d, samples, row1 + x0);
-  const V h11 = hn::GatherIndex(d, samples, row1 + x1);
-
-  const VI fraction_bits = hn::Set(di, 0xffff);
-  const V unit = hn::Set(d, 0x1p-16f);
-  const V fx = hn::ConvertTo(d, x_fx16 & fraction_bits) * unit;
-  const V fy = hn::ConvertTo(d, y_fx16 & fraction_bits) * unit;
-  const V h0 = MulAdd(fx, h10 - h00, h00);
-  const V h1 = MulAdd(fx, h11 - h01, h01);
-  return MulAdd(fy, h1 - h0, h0);
+  const Corners corners = {
+      hn::GatherIndex(d, samples, row0 + x0), hn::GatherIndex(d, samples, row0 + x1),
+      hn::GatherIndex(d, samples, row1 + x0), hn::GatherIndex(d, samples, row1 + x1)};
+  return BetweenCorners(corners, x_fx16, y_fx16);
 }
 
 // The tiles' share in a field: a slope has the slope of their weights times their height as well.
@@ -135,7 +178,7 @@ template <Field kField>
 HWY_INLINE V AddTile(const PatchFrame& patch, const TileWeight<V>& tile, VI x_fx16, VI y_fx16,
                      V sum) {
   sum = MulAdd(tile.weight, PatchSample<kField>(patch, x_fx16, y_fx16), sum);
-  if constexpr (kField == Field::kHeight) return sum;
+  if constexpr (is_height(kField)) return sum;
   constexpr bool kAlongX = kField == Field::kSlopeX;
   const double length_m = kAlongX ? patch.length_m.x : patch.length_m.y;
   const V per_m = hn::Set(D(), static_cast<float>(1.0 / length_m));
@@ -189,7 +232,7 @@ HWY_INLINE V AddSines(std::span<const SineFrame> sines, DoublePacket x_m, Double
     V s, c;
     swell::HWY_NAMESPACE::SinCosTurns(d, turns, s, c);
     const V amplitude = hn::Set(d, sine_amplitude(sine, kField));
-    sum = MulAdd(amplitude, kField == Field::kHeight ? s : c, sum);
+    sum = MulAdd(amplitude, is_height(kField) ? s : c, sum);
   }
   return sum;
 }
@@ -237,6 +280,7 @@ HWY_INLINE DoublePacket WorldCoordinate(double origin, V offset) {
 }
 
 // One packet of points around an origin, which lies at these places in the patches.
+template <Field kField>
 HWY_INLINE V OffsetPacket(const SeaFrame& frame, glm::dvec2 origin, const OriginPlaces* places,
                           const glm::vec2* offsets) {
   const D d;
@@ -244,13 +288,13 @@ HWY_INLINE V OffsetPacket(const SeaFrame& frame, glm::dvec2 origin, const Origin
   hn::LoadInterleaved2(d, &offsets->x, x, y);
   V height = hn::Zero(d);
   for (const PatchFrame& patch : frame.patches) {
-    height = height + FieldSample<Field::kHeight>(patch, FixedOffset(x, patch, places->x),
-                                                  FixedOffset(y, patch, places->y));
+    height = height + FieldSample<kField>(patch, FixedOffset(x, patch, places->x),
+                                          FixedOffset(y, patch, places->y));
     ++places;
   }
   if (frame.sines.empty()) return height;
-  return AddSines<Field::kHeight>(frame.sines, WorldCoordinate(origin.x, x),
-                                  WorldCoordinate(origin.y, y), height);
+  return AddSines<kField>(frame.sines, WorldCoordinate(origin.x, x), WorldCoordinate(origin.y, y),
+                          height);
 }
 
 // Calls packet(points) for full packets, then once more for what is left, filled up with zeros.
@@ -283,6 +327,8 @@ void SampleField(const SeaFrame& frame, std::size_t patches, std::span<const glm
 
 void SampleWorld(const SeaFrame& frame, std::size_t patches, std::span<const glm::dvec2> p_world,
                  float* height_m) {
+  if (has_packed_heights(frame))
+    return SampleField<Field::kSomePacked>(frame, patches, p_world, height_m);
   SampleField<Field::kHeight>(frame, patches, p_world, height_m);
 }
 
@@ -294,8 +340,13 @@ void SampleSlopes(const SeaFrame& frame, std::span<const glm::dvec2> p_world, fl
 
 void SampleOffsets(const SeaFrame& frame, glm::dvec2 origin, const OriginPlaces* places,
                    std::span<const glm::vec2> offsets, float* height_m) {
-  ForPackets(offsets, height_m,
-             [&](const glm::vec2* p) HWY_ATTR { return OffsetPacket(frame, origin, places, p); });
+  if (has_packed_heights(frame))
+    return ForPackets(offsets, height_m, [&](const glm::vec2* p) HWY_ATTR {
+      return OffsetPacket<Field::kSomePacked>(frame, origin, places, p);
+    });
+  ForPackets(offsets, height_m, [&](const glm::vec2* p) HWY_ATTR {
+    return OffsetPacket<Field::kHeight>(frame, origin, places, p);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -180,6 +180,9 @@ void size_map_patches(const Sea::State& state, std::vector<PatchFrame>& patches)
     patch.tiling = tiling_of_patch(state.description, state.patches.size() + m);
     for (auto* field : {&patch.height_m, &patch.slope_x, &patch.slope_y})
       field->resize(waves.map->frame_samples());
+    const bool is_packed = state.description.map_heights == MapHeights::kPacked;
+    patch.height_quads.resize(is_packed ? waves.map->frame_samples() : 0);
+    patch.height_step_m = packed_step_m(waves);
   }
 }
 

@@ -78,6 +78,7 @@ struct SeaDescription {
   // spectrum and the layers of both together are at most kMaxPatches.
   MapSet map_set = MapSet::kNone;
   std::vector<MapLayer> maps;
+  MapHeights map_heights = MapHeights::kExact;
   // Crests sharper than troughs: 0 for linear waves to 1 for waves of second order in their
   // steepness (ocean/open_sea/crests.h), [0, 1].
   double choppiness = 0.0;
@@ -102,6 +103,10 @@ struct PatchFrame {
   // Mean square slope (both axes together) of the waves in the patch: a constant of the sea state.
   float slope_variance = 0.0f;
   PatchTiling tiling;
+  // Of packed heights (MapHeights), else empty: sample (i, j) has those of (i, j), (i + 1, j),
+  // (i, j + 1) and (i + 1, j + 1), from the low 16 bits up, as signed numbers of steps.
+  std::vector<std::uint64_t> height_quads;
+  float height_step_m = 0.0f;
   // These are for sharp crests (ocean/open_sea/crests.h), else empty: how far the linear waves have
   // displaced the water that is at a sample; with choppiness c it rests at the sample's place less
   // c times this.

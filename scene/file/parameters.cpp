@@ -86,6 +86,9 @@ Rows sea_rows() {
       SceneRow::choice("sea.map_set", MapSetName{},
                        "seven layers of a periodic map that look like this water; sets the wind "
                        "if that is left out"),
+      SceneRow::choice("sea.map_heights", MapHeightsName{},
+                       "of maps, when they are looked up; packed: in 16 bits, which makes queries "
+                       "faster and is off by 2e-5 of a layer's highest height at most"),
       SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, ocean::kMaxPatches,
                      SWELL_FIELD(sea.patch_lengths_m),
                      "periods of the patches that hold the wind waves, longest first"),

@@ -86,6 +86,13 @@ struct MapSetName {
   auto& operator()(auto& scene) const { return scene.sea.map_set; }
 };
 
+struct MapHeightsName {
+  using enum ocean::MapHeights;
+  static constexpr auto words =
+      enum_words<ocean::MapHeights>({{kExact, "exact"}, {kPacked, "packed"}});
+  auto& operator()(auto& scene) const { return scene.sea.map_heights; }
+};
+
 struct CoastModelName {
   using enum CoastModel;
   static constexpr auto words =

@@ -302,7 +302,7 @@ INSTANTIATE_TEST_SUITE_P(
               "[[sea.maps]], earth, [[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, "
               "size_m, gamma, map_set, whitecaps, "
               "beaufort, fetch_km, resolution, tiling, loop_s, douglas, choppiness, gravity_mps2, "
-              "amplitude_scale, patch_lengths_m"},
+              "map_heights, amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
               "test.toml:2: column 1: unknown key, got 'camera.eye.m' (did you mean 'eye_m'?), "
               "allowed in [camera] eye_m, "

@@ -57,6 +57,7 @@ loop_s = 25
 whitecaps = 0.5
 choppiness = 0.75
 map_set = "lake"
+map_heights = "packed"
 centre_m = [10, 20]
 size_m = [500, 600]
 earth = "flat"
@@ -172,6 +173,7 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.water.caustics, 0.75);
   EXPECT_TRUE(scene.water.tilted_backs);
   EXPECT_EQ(scene.sea.map_set, ocean::MapSet::kLake);
+  EXPECT_EQ(scene.sea.map_heights, ocean::MapHeights::kPacked);
   EXPECT_EQ(scene.water.distortion_factor, DistortionFactor::kPaper);
   EXPECT_EQ(scene.water.caustic_distortion, 0.25);
   EXPECT_EQ(scene.water.glitter, Glitter::kProjective);

@@ -161,6 +161,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sea.whitecaps);
   SWELL_COMPARE(sea.tiling);
   SWELL_COMPARE(sea.map_set);
+  SWELL_COMPARE(sea.map_heights);
   SWELL_COMPARE(sea.seed);
   SWELL_COMPARE(sea.resolution);
   SWELL_COMPARE(sea.patch_lengths_m);

@@ -116,7 +116,9 @@ TEST(MapWaves, StretchedOnesAreShadedAsTheyAreAsked) {
 
 TEST(MapWaves, VerticesHaveTheHeightsThatQueriesGive) {
   const ScratchFolder folder;
-  for (scene::Scene scene : {lake_scene(), stretched_scene(folder)}) {
+  scene::Scene packed_scene = lake_scene();
+  packed_scene.sea.map_heights = ocean::MapHeights::kPacked;
+  for (scene::Scene scene : {lake_scene(), stretched_scene(folder), packed_scene}) {
     scene.detail.triangulation = scene::Triangulation::kRoam;
     const World world = world_of(scene);
     const DrawnWater drawn(world, 3.0);
