@@ -109,6 +109,7 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
       floor, systems.front(), trains,
       coast.eikonal ? ocean::PhaseMethod::kEikonal : ocean::PhaseMethod::kStraight,
       coast.model == CoastModel::kBlend, workers, shelter_trains(shore, trains, floor, workers));
+  made.surf_width = coast.surf_width;
   // In a sea that loops trains keep their form and change their speed, as all waves do.
   if (sea.loop_s != 0.0)
     for (double& period_s : made.trains.period_s)

@@ -109,6 +109,7 @@ struct Coast {
   bool eikonal = true;                   // phases bent by the floor; false: straight ones
   double grid_spacing_m = 0.0;           // [0.5, 100]; 0: the terrain's side / 256
   std::uint64_t seed = 1;
+  double surf_width = 1.0;  // [0.1, 5]: of the band of surf, over what the waves' height gives
 
   bool operator==(const Coast&) const = default;
 };

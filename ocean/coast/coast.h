@@ -20,6 +20,9 @@ struct CoastSea {
   TrainSea trains;
   std::vector<float> share;  // for the samples of trains.grid, in [0, 1]
   float peak_wavelength_m = 1.0f;
+  // Surf begins in water so many times as deep as waves break in: on a plane beach its band is so
+  // many times as wide.
+  double surf_width = 1.0;
   // The steepest slopes [1/m] of the share and of spectrum_weight(share), between samples.
   float share_slope_per_m = 0.0f;
 

@@ -37,11 +37,12 @@ Wave wave_at(const TrainSea& sea, std::size_t train, const Place& at, float shar
           static_cast<float>(part)};
 }
 
-float surf_at(const TrainSea& sea, const Place& at, float depth_m) {
+float surf_at(const CoastSea& coast, const Place& at, float depth_m) {
+  const TrainSea& sea = coast.trains;
   double sum = 0.0;
   for (int i = 0; i < sea.trains; ++i)
     sum += value_in_cell(sea.waves.data() + 8 * (at.cell * sea.trains + i) + 4, at).v;
-  return static_cast<float>(breaking_part(sum, depth_m));
+  return static_cast<float>(breaking_part(coast, sum, static_cast<double>(depth_m)));
 }
 
 // All of the map's points, unpacked: waves by point, then train.
@@ -67,7 +68,7 @@ CoastPoints find_coast_points(const CoastSea& coast, int size, Workers& workers)
       const std::size_t k = j * n + i;
       for (std::size_t train = 0; train < trains; ++train)
         points.wave[k * trains + train] = wave_at(sea, train, at, share, depth_m);
-      points.surf[k] = share * surf_at(sea, at, depth_m);
+      points.surf[k] = share * surf_at(coast, at, depth_m);
     }
   });
   return points;
@@ -117,6 +118,14 @@ double breaking_part(double sum_m, double depth_m) {
   return smoothstep(kSpilling, 1.0, sum_m / limit_m);
 }
 
+double breaking_part(const CoastSea& coast, double sum_m, double depth_m) {
+  const double width = coast.surf_width;
+  if (width >= 1.0) return breaking_part(sum_m, depth_m / width);
+  // Broken waves are at their limit everywhere: nothing of them tells where they began to be.
+  const double highest_m = static_cast<double>(coast.trains.height_bound_m);
+  return std::min(breaking_part(sum_m, depth_m), breaking_part(highest_m, depth_m / width));
+}
+
 CoastMap make_coast_map(const CoastSea& coast, int size, Workers& workers) {
   SWELL_CHECK(size >= kMapGroup && size % kMapGroup == 0, "size={}", size);
   const CoastPoints points = find_coast_points(coast, size, workers);
@@ -150,7 +159,7 @@ void sample_surf_foam(const CoastSea& coast, double t_s, std::span<const glm::dv
   for (std::size_t k = 0; k < foam.size(); ++k) {
     if (foam[k] == 0.0f) continue;
     const Place at = find_place(sea, p_world[k]);
-    const float surf = foam[k] * surf_at(sea, at, depth_at(sea, at));
+    const float surf = foam[k] * surf_at(coast, at, depth_at(sea, at));
     float sum = 0.0f;
     for (std::size_t n = 0; n < sea.period_s.size(); ++n) {
       const double cycles = t_s / sea.period_s[n];

@@ -48,6 +48,10 @@ TrainAtPlace train_at(const TrainSea& sea, std::size_t train, const PlaceInTrain
 // amplitudes, against what water of depth_m carries. 0 on land.
 double breaking_part(double sum_m, double depth_m);
 
+// The same in the coast's band of surf, wider or narrower than where waves break: there it is by
+// the highest of the coast's waves.
+double breaking_part(const CoastSea& coast, double sum_m, double depth_m);
+
 // A train's foam is 1 at its crest, grows from 0 over the twelfth of a wave before it and decays
 // behind it, by the cube of what is left until the next crest. The trains' mean is stretched by
 // these, so that one crest alone is little and crests that meet are white.

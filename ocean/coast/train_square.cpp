@@ -19,17 +19,21 @@ constexpr double kMoreInSurf = 3.0, kSurfDepth = 0.4;
 // From Beaufort 6 to 8.
 constexpr double kFirstGale_mps = 11.0, kGale_mps = 20.0;
 
-// What there is of whitecaps in water of this depth; in surf more than 1. `sum_m`: of the trains'
-// amplitudes.
+// What there is of whitecaps in water of this depth; in surf more than 1. `breaking`: the part of
+// the crests that break.
 struct ShallowPart {
   double wet, more;
 };
-ShallowPart shallow_part(double depth_m, double sum_m, double wave_height_m, double gale) {
-  const double whole_m = kWholeDepth * wave_height_m;
-  const double surf = breaking_part(sum_m, depth_m) *
-                      (1.0 - smoothstep(whole_m, kSurfDepth * wave_height_m, depth_m));
-  const double begin_m = std::max(whole_m * (1.0 - kLessInGale * gale), kLeastDepth_m);
-  return {smoothstep(0.0, begin_m, depth_m), 1.0 + kMoreInSurf * gale * surf};
+struct Breakers {
+  double height_m, gale, surf_width;
+};
+ShallowPart shallow_part(double depth_m, double breaking, const Breakers& waves) {
+  const double whole_m = kWholeDepth * waves.height_m;
+  const double in_band_m = depth_m / waves.surf_width;
+  const double surf =
+      breaking * (1.0 - smoothstep(whole_m, kSurfDepth * waves.height_m, in_band_m));
+  const double begin_m = std::max(whole_m * (1.0 - kLessInGale * waves.gale), kLeastDepth_m);
+  return {smoothstep(0.0, begin_m, depth_m), 1.0 + kMoreInSurf * waves.gale * surf};
 }
 
 // Mean amplitude times wave number in deep water, by train, as weights whose squares add up to 1.
@@ -80,7 +84,8 @@ std::shared_ptr<const TrainSquare> make_train_square(const CoastSea& coast, doub
         sum_m += static_cast<double>(train.amplitude_m);
       }
       const auto depth_m = static_cast<double>(depth_at(sea, place));
-      const ShallowPart shallow = shallow_part(depth_m, sum_m, wave_height_m, gale);
+      const ShallowPart shallow = shallow_part(depth_m, breaking_part(coast, sum_m, depth_m),
+                                               {wave_height_m, gale, coast.surf_width});
       const auto wet = static_cast<float>(shallow.wet);
       const float ceded = 1.0f - spectrum_weight(share);
       square.part[at] = ceded * wet * static_cast<float>(shallow.more);

@@ -59,6 +59,7 @@ NearShoreMap build_near_shore(const WorldState& world, Workers& workers) {
       beach_slope(shore, world.terrain->grid, std::max(30.0, 3.0 * square.spacing_m));
   near.reach_m = std::clamp(kDepthOfSurf * height_m / slope, kLeastTexels * texel_m,
                             std::max(kMostSurfReach_m, kLeastTexels * texel_m));
+  near.reach_m = std::max(near.reach_m * world.scene.coast.surf_width, kLeastTexels * texel_m);
   near.reach_s = 2.0 * std::sqrt(near.reach_m / (gravity * slope));
   // The period is that of the mean wave in deep water.
   near.period_s = std::sqrt(2.0 * kPi * std::max(world.sea->mean_wavelength_m(), 1.0) / gravity);

@@ -244,6 +244,9 @@ Rows coast_rows() {
       SceneRow::choice("coast.method", CoastMethod{}, "whether the floor bends the trains' crests"),
       SceneRow::integer("coast.seed", Kind::kInteger, {0, kMaxSeed}, SWELL_FIELD(coast.seed),
                         "another number, other trains of the same sea"),
+      SceneRow::number("coast.surf_width", {0.1, 5}, SWELL_FIELD(coast.surf_width),
+                       "multiplies the width of the band of surf before a shore, with trains or "
+                       "without: how deep the water is in which foam begins; the waves stay"),
       SceneRow::or_zero(SceneRow::number(
           "coast.grid_spacing_m", {0.5, 100, "m"}, SWELL_FIELD(coast.grid_spacing_m),
           "most distance between the points that the trains are worked out at, which may make at "

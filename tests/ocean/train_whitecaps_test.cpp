@@ -247,6 +247,31 @@ TEST(SurfFoam, IsWhatTheMapsHave) {
   EXPECT_GT(some, 5);
 }
 
+// How far from the shore there is foam at any time.
+double surf_reach_m(const CoastSea& coast) {
+  std::vector<glm::dvec2> p;
+  for (int y = 1; y < 400; ++y) p.emplace_back(0.0, 0.5 * y);
+  std::vector<float> foam(p.size());
+  double reach_m = 0.0;
+  for (double t_s = 0.0; t_s < 60.0; t_s += 1.0) {
+    sample_surf_foam(coast, t_s, p, foam);
+    for (std::size_t k = 0; k < p.size(); ++k)
+      if (foam[k] > 0.05f) reach_m = std::max(reach_m, p[k].y);
+  }
+  return reach_m;
+}
+
+// On a plane floor the band is as wide as the depth is in which foam begins.
+TEST(SurfFoam, HasABandAsWideAsAskedFor) {
+  TrainCoast coast(12.0);
+  const double one_m = surf_reach_m(coast.coast);
+  ASSERT_GT(one_m, 20.0);
+  for (const double width : {0.5, 2.0}) {
+    coast.coast.surf_width = width;
+    EXPECT_NEAR(surf_reach_m(coast.coast) / one_m, width, 0.15 * width);
+  }
+}
+
 TEST(SurfFoam, CoversTheMeanOverItsLacesThresholds) {
   for (const float foam : {0.0f, 0.1f, 0.23f, 0.5f, 0.77f, 0.9f, 1.0f}) {
     double sum = 0.0;

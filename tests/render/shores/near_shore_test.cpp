@@ -83,6 +83,23 @@ TEST(NearShore, TheMapHasWhatQueriesHave) {
   }
 }
 
+TEST(NearShore, FrontsReachAsFarAsTheBandIsWide) {
+  scene::Scene scene = windy_lagoon();
+  const World one = world_of(scene);
+  scene.coast.surf_width = 2.0;
+  const World wide = world_of(scene);
+  const NearShoreMap &near = *one.state().near_shore, &far = *wide.state().near_shore;
+  EXPECT_EQ(far.reach_m, 2.0 * near.reach_m);
+  const View view = view_down({190.0, 0.0}, 150.0, 160, 90);
+  const auto foam_of = [&](const World& world) {
+    const LabelledFrame frame(world, view, 5.0, {.without = {Part::kWhitecaps}});
+    double sum = 0.0;
+    for (const float foam : frame.labels().foam) sum += static_cast<double>(foam);
+    return sum;
+  };
+  EXPECT_GT(foam_of(wide), 1.3 * foam_of(one));
+}
+
 // Foam in a picture from straight above, smoothed over some pixels.
 struct FoamField {
   int width, height;

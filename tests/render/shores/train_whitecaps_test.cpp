@@ -101,6 +101,24 @@ TEST(DrawnTrainWhitecaps, AreWhatIsAskedInTheSurfOfABeachInAGale) {
   expect_asked_is_drawn(beach_in(12.0), {-100.0, 250.0}, 100.0);
 }
 
+// More foam in a wider band, less in a narrower one, drawn where it is asked.
+TEST(DrawnSurf, HasABandAsWideAsAskedFor) {
+  scene::Scene scene = beach_in(10.0);
+  scene.sea.whitecaps = 0.0;
+  const auto drawn = [&](double width) {
+    scene.coast.surf_width = width;
+    const FoamComparison c = compare_foam(scene, {-100.0, 0.0}, 300.0, 12);
+    if (c.asked > 0.0) {
+      EXPECT_GT(c.likeness(), 0.5) << width;
+    }
+    return c.drawn / c.blocks;
+  };
+  const double one = drawn(1.0);
+  EXPECT_GT(one, 0.002);
+  EXPECT_GT(drawn(2.5), 1.3 * one);
+  EXPECT_LT(drawn(0.4), 0.7 * one);
+}
+
 // From near: lace that pixels blur hides up to a fifth less.
 TEST(DrawnSurf, IsWhatIsAskedInTheMeanOverItsLace) {
   scene::Scene scene = beach_in(22.0);
