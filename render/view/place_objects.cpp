@@ -305,15 +305,12 @@ void place_objects(const WorldState& world, const SeaMaps& sea,
   drawn_poses(world, sea.frame, given, geometry.poses, run);
   pose_implicits(world, sea.frame.t_s, geometry);
   for (const ViewKind kind : kAllViewKinds) {
-    std::array<RenderView*, 2> of_kind{};  // from the air, from below
-    std::size_t count = 0;
-    for (RenderView* const view : views)
-      if (view->kind == kind) of_kind[count++] = view;
+    const ViewsOfKind of_kind(views, kind);
     // Without water there are no images.
-    if (count == 0)
+    if (of_kind.all().empty())
       geometry.drawn_in(kind) = {};
     else
-      place_in_views(world, meshes, std::span(of_kind).first(count), run);
+      place_in_views(world, meshes, of_kind.all(), run);
   }
   geometry.meshes.assign(geometry.poses.size(), nullptr);
   for (const ObjectInstance& instance : geometry.in_window().instances)

@@ -398,13 +398,10 @@ void place_trees(const WorldState& world, double t_s, const FrameOptions& option
   const bool has_trees = world.forest && !options.without.has(Part::kTrees);
   if (has_trees) prepare_tree_ground(world, options, meshes.land, meshes.trees);
   for (const ViewKind kind : kAllViewKinds) {
-    std::array<RenderView*, 3> of_kind{};  // from the air, from below, of a river
-    std::size_t count = 0;
-    bool shown = has_trees;
-    for (RenderView* const view : views)
-      if (view->kind == kind) of_kind[count++] = view;
-    const FrameViews its = std::span(of_kind).first(count);
-    shown = shown && std::ranges::any_of(its, [](const RenderView* v) { return shows_trees(*v); });
+    const ViewsOfKind of_kind(views, kind);
+    const FrameViews its = of_kind.all();
+    const bool shown =
+        has_trees && std::ranges::any_of(its, [](const RenderView* v) { return shows_trees(*v); });
     if (shown) {
       place_in_views(world, t_s, meshes, its, run);
     } else {

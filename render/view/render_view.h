@@ -145,6 +145,20 @@ WaterAtEye find_water_at_eye(const WorldState& world, const SeaMaps& sea, const 
 // All views of a frame.
 using FrameViews = std::span<RenderView* const>;
 
+// Those of one kind among a frame's.
+class ViewsOfKind {
+ public:
+  ViewsOfKind(FrameViews views, ViewKind kind) {
+    for (RenderView* const view : views)
+      if (view->kind == kind) views_[count_++] = view;
+  }
+  FrameViews all() const { return std::span(views_).first(count_); }
+
+ private:
+  std::array<RenderView*, 3> views_{};  // from the air, from below, of a river
+  std::size_t count_ = 0;
+};
+
 // Makes room for a surface's vertices in the views that show it.
 void resize_vertices(SurfaceKind surface, std::size_t count, FrameViews views);
 
