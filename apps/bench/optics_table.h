@@ -47,7 +47,7 @@ std::optional<StillScene> make_still_scene(const render::World& world, const Fra
 struct OpticsRow {
   int land_triangles = 0, object_triangles = 0;
   WaterCost cost;           // medians, as what follows of frames with the water
-  double shading_ms = 0.0;  // which does not grow with the scene
+  double shading_ms = 0.0;  // which grows with edges alone
   double lookups_ms = 0.0;  // to draw what the water looks into
 };
 
