@@ -49,9 +49,11 @@ WaterAtEye find_water_at_eye(const WorldState& world, const SeaMaps& sea, const 
   water.submerged = !in_air && eye_z < surface_m;
   water.is_inland = level_m.has_value();
   const double level = level_m.value_or(0.0);
-  water.in_air = {false, way_to_surface(eye_z, level_m ? 0.0 : eye_z - surface_m), 0.0f};
-  water.in_water = {true, way_to_surface(level - eye_z, eye_z - surface_m),
-                    static_cast<float>(level)};
+  const float way_m =
+      way_to_surface(water.submerged ? level - eye_z : eye_z - level, eye_z - surface_m);
+  // From the air over a river or a lake it is the sea that is looked at.
+  water.in_air = {false, level_m ? way_to_surface(eye_z, 0.0) : way_m, 0.0f};
+  water.in_water = {true, way_m, static_cast<float>(level)};
   return water;
 }
 
