@@ -10,7 +10,6 @@
 #include "lod/radial_grid.h"
 #include "ocean/inland/river_network.h"
 #include "ocean/open_sea/periodic_map.h"
-#include "scene/water.h"
 #include "tools/figures/wave_figures.h"
 
 namespace swell::apps {
@@ -21,19 +20,16 @@ using enum render::Part;
 // From above, with the water of the network's first branching: Q_i = w_i / (sum of w_j) Q_0.
 PaperItem network(PaperStudio& studio) {
   const std::string file = "river.toml";
-  const scene::Scene scene = studio.load(file);
-  const scene::Water water(scene);
-  ocean::SeaFrame frame;
-  const scene::WaterSurface surface = water.at(5.0, frame, studio.workers());
+  const ShownWater shown(studio, file);
   PaperItem item{"Figure 1",
                  "A hydrographic network; where channels part, the water does by their widths, and "
                  "none is lost",
                  file,
-                 {studio.write("maps_1_network", draw_map(surface, water.terrain(),
+                 {studio.write("maps_1_network", draw_map(shown.surface, shown.water.terrain(),
                                                           {{300.0, 600.0}, 1000.0, 480, {0, 1}}))},
                  {},
                  ""};
-  const ocean::RiverNetwork rivers(scene.rivers, scene.lakes);
+  const ocean::RiverNetwork rivers(shown.scene.rivers, shown.scene.lakes);
   for (const ocean::Joint& joint : rivers.joints()) {
     if (joint.joins) continue;
     const double before = rivers.discharge_m2_s(joint.on, joint.s_m - 0.5);
@@ -132,12 +128,8 @@ PaperItem backs(PaperStudio& studio) {
 
 std::vector<PaperItem> shores(PaperStudio& studio) {
   const std::string beach = "waves_beach.toml";
-  const scene::Scene scene = studio.load(beach);
-  const scene::Water water(scene);
-  ocean::SeaFrame frame;
-  const scene::WaterSurface surface = water.at(5.0, frame, studio.workers());
-  const terrain::Grid& grid = water.terrain()->grid;
-  const glm::dvec2 middle = grid.min_world + 0.5 * grid.size_m();
+  const ShownWater shown(studio, beach);
+  const double x_m = shown.middle_m().x;
   const std::array<std::string, 6> from_above = {
       "camera.mount=",          "camera.quaternion=",
       "camera.mount_offset_m=", "camera.eye_m=[1540, -1640, 30]",
@@ -152,8 +144,8 @@ std::vector<PaperItem> shores(PaperStudio& studio) {
            "How waves form at a shore",
            beach,
            {studio.write("maps_7_surf",
-                         draw_section(surface, water.terrain(), glm::dvec2(middle.x, -220.0),
-                                      glm::dvec2(middle.x, 20.0), "surf"))},
+                         draw_section(shown.surface, shown.water.terrain(), glm::dvec2(x_m, -220.0),
+                                      glm::dvec2(x_m, 20.0), "surf"))},
            {},
            ""}};
 }

@@ -11,6 +11,7 @@
 
 #include "apps/shared/options.h"
 #include "render/frame.h"
+#include "scene/water.h"
 #include "texture/image/image.h"
 
 namespace swell::apps {
@@ -46,6 +47,8 @@ struct Paper {
   std::vector<PaperItem> items;
 };
 
+inline constexpr double kShown_s = 5.0;  // what pictures show
+
 // Where pictures go, and what draws them.
 class PaperStudio {
  public:
@@ -56,7 +59,7 @@ class PaperStudio {
   // All return the file's name in `out`. sets: as --set has them.
   std::string draw(std::string_view name, const std::string& scene,
                    std::span<const std::string> sets = {}, render::FrameOptions options = {},
-                   double t_s = 5.0);
+                   double t_s = kShown_s);
   std::string write(std::string_view name, const texture::Image8& image) const;
   std::string write(std::string_view name, const std::string& svg) const;
 
@@ -84,6 +87,20 @@ class PaperStudio {
   std::deque<KeptWorld> kept_;
   render::Workspace workspace_;
   render::FrameStatistics statistics_;
+};
+
+// A scene's water at the time of the pictures.
+struct ShownWater {
+  ShownWater(PaperStudio& studio, const std::string& file);
+
+  // Of the terrain's square, which the scene has.
+  glm::dvec2 middle_m() const;
+  double side_m() const;
+
+  scene::Scene scene;
+  scene::Water water;
+  ocean::SeaFrame frame;
+  scene::WaterSurface surface;
 };
 
 // Elykov, Belago, Kuzikovsky, Nekrasov, 2000.

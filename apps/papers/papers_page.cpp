@@ -1,22 +1,10 @@
 #include <fmt/core.h>
 
 #include "apps/papers/paper.h"
+#include "apps/shared/xml_text.h"
 
 namespace swell::apps {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    if (c == '<')
-      html += "&lt;";
-    else if (c == '&')
-      html += "&amp;";
-    else
-      html += c;
-  }
-  return html;
-}
 
 const char* relation(Agreement agreement) {
   switch (agreement) {
@@ -32,22 +20,22 @@ const char* relation(Agreement agreement) {
 
 std::string number_row(const PaperNumber& n) {
   return fmt::format("<tr><td>{}</td><td>{}{:.6g} {}</td><td>{:.6g} {}</td><td>{}</td></tr>\n",
-                     escaped(n.what), relation(n.agreement), n.paper, escaped(n.unit), n.ours,
-                     escaped(n.unit), n.holds() ? "" : "differs");
+                     xml_text(n.what), relation(n.agreement), n.paper, xml_text(n.unit), n.ours,
+                     xml_text(n.unit), n.holds() ? "" : "differs");
 }
 
 std::string item_html(const PaperItem& item) {
   std::string html =
-      fmt::format("<h3>{}</h3>\n<p>{}</p>\n", escaped(item.number), escaped(item.words));
+      fmt::format("<h3>{}</h3>\n<p>{}</p>\n", xml_text(item.number), xml_text(item.words));
   for (const std::string& picture : item.pictures)
-    html += fmt::format("<img src=\"{}\" alt=\"{}\">\n", picture, escaped(item.number));
+    html += fmt::format("<img src=\"{}\" alt=\"{}\">\n", picture, xml_text(item.number));
   if (!item.numbers.empty()) {
     html += "<table><tr><th></th><th>paper</th><th>here</th><th></th></tr>\n";
     for (const PaperNumber& number : item.numbers) html += number_row(number);
     html += "</table>\n";
   }
-  if (!item.difference.empty()) html += fmt::format("<p>{}</p>\n", escaped(item.difference));
-  if (!item.scene.empty()) html += fmt::format("<p class=\"scene\">{}</p>\n", escaped(item.scene));
+  if (!item.difference.empty()) html += fmt::format("<p>{}</p>\n", xml_text(item.difference));
+  if (!item.scene.empty()) html += fmt::format("<p class=\"scene\">{}</p>\n", xml_text(item.scene));
   return html;
 }
 
@@ -63,7 +51,7 @@ std::string papers_page(std::span<const Paper> papers) {
       ".scene { color: #666; font-family: monospace; }\n</style></head>\n<body>\n"
       "<h1>Four papers, made again</h1>\n";
   for (const Paper& paper : papers) {
-    html += fmt::format("<h2>{}</h2>\n", escaped(paper.title));
+    html += fmt::format("<h2>{}</h2>\n", xml_text(paper.title));
     for (const PaperItem& item : paper.items) html += item_html(item);
   }
   return html + "</body></html>\n";

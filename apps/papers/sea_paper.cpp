@@ -12,7 +12,6 @@
 #include "apps/papers/svg_plot.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/spectrum/sea_scale.h"
-#include "scene/water.h"
 #include "texture/perlin.h"
 #include "tools/figures/lod_figures.h"
 #include "tools/figures/wave_figures.h"
@@ -56,21 +55,17 @@ PaperItem open_sea(PaperStudio& studio) {
 
 PaperItem beach(PaperStudio& studio) {
   const std::string file = "waves_beach.toml";
-  const scene::Scene scene = studio.load(file);
-  const scene::Water water(scene);
-  ocean::SeaFrame frame;
-  const scene::WaterSurface surface = water.at(5.0, frame, studio.workers());
-  const terrain::Grid& grid = water.terrain()->grid;
-  const glm::dvec2 middle = grid.min_world + 0.5 * grid.size_m();
-  const glm::dvec2 half(0.0, 0.5 * grid.size_m());
-  const double from = scene.sea.wind_from_rad;
-  const MapView view{middle, grid.size_m(), 400, {std::sin(from), std::cos(from)}};
+  const ShownWater shown(studio, file);
+  const glm::dvec2 middle = shown.middle_m(), half(0.0, 0.5 * shown.side_m());
+  const double from = shown.scene.sea.wind_from_rad;
+  const MapView view{middle, shown.side_m(), 400, {std::sin(from), std::cos(from)}};
   return {"Figure 3",
           "A coast of linear depth and the waves that run up it, from above and in section",
           file,
-          {studio.write("sea_3_above", draw_map(surface, water.terrain(), view)),
-           studio.write("sea_3_section", draw_section(surface, water.terrain(), middle - half,
-                                                      middle + half, "towards the shore"))},
+          {studio.write("sea_3_above", draw_map(shown.surface, shown.water.terrain(), view)),
+           studio.write("sea_3_section",
+                        draw_section(shown.surface, shown.water.terrain(), middle - half,
+                                     middle + half, "towards the shore"))},
           {},
           ""};
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/shared/xml_text.h"
 #include "tools/figures/wave_figures.h"
 
 namespace swell::apps {
@@ -81,20 +82,6 @@ std::string area(const Axes& axes, const std::vector<float>& z_m, const char* co
                      kLeft_px, kBottom_px, line_points(axes, z_m), kRight_px, kBottom_px);
 }
 
-// Text as XML takes it.
-std::string escaped(const std::string& text) {
-  std::string xml;
-  for (const char c : text) {
-    if (c == '&')
-      xml += "&amp;";
-    else if (c == '<')
-      xml += "&lt;";
-    else
-      xml += c;
-  }
-  return xml;
-}
-
 std::string tick_lines(const Axes& axes) {
   std::string svg;
   const double step_x = tick_step(axes.length_m, 12);
@@ -127,7 +114,7 @@ std::string draw_section(const scene::WaterSurface& surface, const terrain::Heig
       kWidth_px, kHeight_px);
   svg += fmt::format(
       "<text x=\"{}\" y=\"20\">{}: from ({:g}, {:g}) to ({:g}, {:g}) m, heights x {:.1f}</text>\n",
-      kLeft_px, escaped(title), from_m.x, from_m.y, to_m.x, to_m.y, axes.exaggeration());
+      kLeft_px, xml_text(title), from_m.x, from_m.y, to_m.x, to_m.y, axes.exaggeration());
   svg += area(axes, profile.surface_m, "#6fb3d2");
   svg += fmt::format(
       "<polyline fill=\"none\" stroke=\"#0b3c5d\" stroke-width=\"1.2\" points=\"{}\"/>\n",
