@@ -11,6 +11,7 @@
 #include "ocean/water.h"
 #include "render/frame/options.h"
 #include "render/frame/profile.h"
+#include "render/sky/sky_maps.h"
 #include "render/view/meshes.h"
 #include "render/world/world_state.h"
 #include "sky/fog.h"
