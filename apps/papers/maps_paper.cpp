@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/papers/paper.h"
+#include "apps/papers/shown_water.h"
 #include "apps/papers/svg_plot.h"
 #include "lod/radial_grid.h"
 #include "ocean/inland/river_network.h"

@@ -11,7 +11,7 @@
 
 #include "apps/shared/options.h"
 #include "render/frame.h"
-#include "scene/water.h"
+#include "scene/scene.h"
 #include "texture/image/image.h"
 
 namespace swell::apps {
@@ -87,20 +87,6 @@ class PaperStudio {
   std::deque<KeptWorld> kept_;
   render::Workspace workspace_;
   render::FrameStatistics statistics_;
-};
-
-// A scene's water at the time of the pictures.
-struct ShownWater {
-  ShownWater(PaperStudio& studio, const std::string& file);
-
-  // Of the terrain's square, which the scene has.
-  glm::dvec2 middle_m() const;
-  double side_m() const;
-
-  scene::Scene scene;
-  scene::Water water;
-  ocean::SeaFrame frame;
-  scene::WaterSurface surface;
 };
 
 // Elykov, Belago, Kuzikovsky, Nekrasov, 2000.

@@ -94,13 +94,4 @@ std::string PaperStudio::write(std::string_view name, const std::string& svg) co
   return file;
 }
 
-ShownWater::ShownWater(PaperStudio& studio, const std::string& file)
-    : scene(studio.load(file)),
-      water(scene),
-      surface(water.at(kShown_s, frame, studio.workers())) {}
-
-glm::dvec2 ShownWater::middle_m() const { return water.terrain()->grid.min_world + 0.5 * side_m(); }
-
-double ShownWater::side_m() const { return water.terrain()->grid.size_m(); }
-
 }  // namespace swell::apps

@@ -9,6 +9,7 @@
 
 #include "apps/bench/lod_flight.h"
 #include "apps/papers/paper.h"
+#include "apps/papers/shown_water.h"
 #include "apps/papers/svg_plot.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/spectrum/sea_scale.h"
