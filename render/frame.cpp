@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "math/check.h"
 #include "math/large_array.h"
@@ -138,7 +139,8 @@ class ViewList {
   FrameViews all() const { return std::span(views_).first(count_); }
 
  private:
-  std::array<RenderView*, 6> views_{};  // the window, two images a side of the water, a mirror
+  // The window, two images a side of the water, mirrors of rivers.
+  std::array<RenderView*, 5 + kMostRiverMirrors> views_{};
   std::size_t count_ = 0;
 };
 
@@ -164,7 +166,8 @@ void prepare_views(const FrameInputs& in) {
   const View image = planar_camera(in.view, in.options.lookup_scale);
   const float margin_m = clip_margin_m(in.world.water_bounds().height_m);
   prepare(ws.window, ViewKind::kWindow, in.view, margin_m);
-  prepare(ws.river_mirror.view, ViewKind::kReflection, image, 0.05f);
+  for (PlanarTarget& mirror : ws.river_mirrors.targets)
+    prepare(mirror.view, ViewKind::kReflection, image, 0.05f);
   ViewList with_land;
   with_land.add(ws.window);
   for (PlanarMaps* const maps : {&ws.planar_maps, &ws.wet_planar_maps}) {
@@ -248,25 +251,28 @@ ViewList place_water(const FrameInputs& in, const StageRun& run) {
   return views;
 }
 
-// Adds the mirror of the nearest inland water, if it is seen from the air.
-void place_river_mirror(const FrameInputs& in, ViewList& views, const StageRun& run) {
+// Adds the mirrors of rivers and lakes, if they are seen from the air.
+void place_river_mirrors(const FrameInputs& in, ViewList& views, const StageRun& run) {
   FrameState& ws = in.ws;
-  if (!ws.meshes.rivers.mirror_level_m || ws.window.eye.submerged) return;
-  RenderView& mirror = ws.river_mirror.view;
-  mirror.level_m = *ws.meshes.rivers.mirror_level_m;
-  const float above_m = static_cast<float>(in.view.eye_world.z) - mirror.level_m;
-  mirror.eye = {false, std::max(above_m, 0.05f)};
-  ViewList one;
-  one.add(mirror);
-  map_land(ws.meshes, one.all(), run);
-  views.add(mirror);
+  const std::span<const RiverMirror> levels = ws.meshes.rivers.mirrors();
+  if (levels.empty() || ws.window.eye.submerged) return;
+  ViewList mirrors;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    RenderView& mirror = ws.river_mirrors.targets[k].view;
+    mirror.level_m = levels[k].level_m;
+    const float above_m = static_cast<float>(in.view.eye_world.z) - mirror.level_m;
+    mirror.eye = {false, std::max(above_m, 0.05f)};
+    mirrors.add(mirror);
+  }
+  map_land(ws.meshes, mirrors.all(), run);
+  views.add(mirrors.all());
 }
 
 // Stage 3: the places of all vertices but the trees' in the frame's views, which it returns.
 ViewList place_vertices(const FrameInputs& in, const StageRun& run) {
   FrameState& ws = in.ws;
   ViewList views = place_water(in, run);
-  place_river_mirror(in, views, run);
+  place_river_mirrors(in, views, run);
   ws.meshes.objects.draws_implicits = in.has(Part::kImplicits);
   place_objects(in.world, ws.sea, in.options.poses, ws.meshes, views.all(), run);
   place_surfaces({in.world, in.t_s, in.view, in.options.without}, ws.meshes, views.all());
@@ -288,9 +294,9 @@ void draw_side(const FrameInputs& in, const Light& light, const Media& media, Pl
   inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   inputs.trees = &ws.meshes.trees;
   draw_planar_maps(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, maps, run);
-  if (ws.meshes.rivers.mirror_level_m && !media.submerged)
-    draw_river_mirror(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirror,
-                      run);
+  if (!media.submerged)
+    draw_river_mirrors(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirrors,
+                       run);
   fill_shading(inputs, ws.window, in.options.tile_size_px, shading);
 }
 

@@ -31,7 +31,7 @@ struct FrameState {
   VisibilityBuffer visibility;
   EdgeBuffer edges;
   Crossing crossing;
-  PlanarTarget river_mirror;
+  RiverMirrors river_mirrors;
   CloudPicture clouds;                      // volumetric ones, in the window
   PlanarMaps planar_maps, wet_planar_maps;  // where the waterline crosses the picture, both
   ViewShading shading, wet_shading;         // of the window

@@ -327,10 +327,12 @@ struct RiverBody {
     const V by_sea = Max(sea_share, ShareOfLevel(0.0f));
     if (tile.planar_maps.reflection && !hn::AllFalse(d, by_sea > zero))
       lay_over(water.images.reflection, by_sea);
-    if (!river.reflection.image) return mirrored;
-    const V share = ShareOfLevel(river.mirror_level_m) * river.mirror_share *
-                    ((1.0f - by_sea) * Clamp(NegMulAdd(sea_share, 4.0f, 1.0f), 0.0f, 1.0f));
-    if (!hn::AllFalse(d, share > zero)) lay_over(river.reflection, share);
+    if (river.images.empty()) return mirrored;
+    const V not_by_sea = (1.0f - by_sea) * Clamp(NegMulAdd(sea_share, 4.0f, 1.0f), 0.0f, 1.0f);
+    for (const RiverImage& image : river.images) {
+      const V share = ShareOfLevel(image.level_m) * image.share * not_by_sea;
+      if (!hn::AllFalse(d, share > zero)) lay_over(image.map, share);
+    }
     return mirrored;
   }
 

@@ -47,9 +47,7 @@ void fill(const MaterialInputs& in, const RenderView& view, River& river) {
   river.cycles = fraction(cycles);
   river.cycle_number =
       static_cast<float>(std::floor(cycles) - 4096.0 * std::floor(std::floor(cycles) / 4096.0));
-  river.reflection = in.river_reflection;
-  river.mirror_level_m = in.river_level_m;
-  river.mirror_share = in.river_mirror_share;
+  river.images = in.river_images;
   river.submerged = in.media.submerged;
   river.base_variance = base_variance(in.world.scene);
   river.wind_share = in.without.has(Part::kRipples) ? 0.0f : kWindShare;

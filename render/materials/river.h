@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "render/materials/ground_albedo.h"
 #include "render/packets/slope_layer.h"
@@ -40,10 +41,8 @@ struct River {
   glm::vec3 sky_light{0.0f};               // what a white bed under no water sends back, of the sky
   glm::vec3 sun_light{0.0f};               // and of a sun that nothing hides
 
-  PlanarMap reflection;
-  float mirror_level_m = 0.0f;  // that the image is of
-  float mirror_share = 0.0f;    // how much of it shows
-  bool submerged = false;       // the eye sees the surface from below
+  std::span<const RiverImage> images;  // what it mirrors
+  bool submerged = false;              // the eye sees the surface from below
 };
 
 void fill(const MaterialInputs& in, const RenderView& view, River& river);

@@ -107,6 +107,26 @@ void draw_planar_map(const Meshes& meshes, const MaterialInputs& inputs, int til
   texture::fill_padding(target.image);
 }
 
+// Sizes a river's mirror and finds its tiles that water may look into; returns whether there are
+// any. looks: the bit of LooksInto.
+bool find_wanted(const RenderView& window, const VisibilityBuffer& visibility, std::uint8_t looks,
+                 const MaterialInputs& inputs, PlanarTarget& mirror) {
+  const raster::TileGrid grid =
+      raster::tile_grid(mirror.view.viewport(), visibility.grid.tile_size_px);
+  const glm::vec2 scale = scale_of(mirror.view.camera, window.camera);
+  size_target(grid, inputs.without.has(Part::kImageBlur) ? 1 : texture::kMostRgbaLevels, mirror);
+  bool any = false;
+  for (int tile = 0; tile < visibility.grid.count(); ++tile) {
+    if (!(visibility.looks_into[tile] & looks)) continue;
+    const TileRange r = reachable_tiles(window.camera, visibility.grid, tile, scale, grid);
+    for (int y = r.y0; y < r.y1; ++y)
+      for (int x = r.x0; x < r.x1; ++x)
+        mirror.wanted[static_cast<std::size_t>(y) * grid.tiles_x + x] = 1;
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 View planar_camera(const View& window, double scale) {
@@ -119,28 +139,21 @@ View planar_camera(const View& window, double scale) {
   return view;
 }
 
-void draw_river_mirror(const Meshes& meshes, const RenderView& window,
-                       const VisibilityBuffer& visibility, ScratchList scratch,
-                       MaterialInputs& inputs, PlanarTarget& mirror, const StageRun& run) {
+void draw_river_mirrors(const Meshes& meshes, const RenderView& window,
+                        const VisibilityBuffer& visibility, ScratchList scratch,
+                        MaterialInputs& inputs, RiverMirrors& mirrors, const StageRun& run) {
+  mirrors.images.clear();
   if (inputs.without.has(Part::kReflection)) return;
-  const int tile_size_px = visibility.grid.tile_size_px;
-  const raster::TileGrid grid = raster::tile_grid(mirror.view.viewport(), tile_size_px);
-  const glm::vec2 scale = scale_of(mirror.view.camera, window.camera);
-  size_target(grid, inputs.without.has(Part::kImageBlur) ? 1 : texture::kMostRgbaLevels, mirror);
-  bool any = false;
-  for (int tile = 0; tile < visibility.grid.count(); ++tile) {
-    if (!(visibility.looks_into[tile] & kRiverMirror)) continue;
-    const TileRange r = reachable_tiles(window.camera, visibility.grid, tile, scale, grid);
-    for (int y = r.y0; y < r.y1; ++y)
-      for (int x = r.x0; x < r.x1; ++x)
-        mirror.wanted[static_cast<std::size_t>(y) * grid.tiles_x + x] = 1;
-    any = true;
+  for (std::size_t k = 0; k < meshes.rivers.mirror_count; ++k) {
+    PlanarTarget& target = mirrors.targets[k];
+    const auto looks = static_cast<std::uint8_t>(kRiverMirror << k);
+    if (!find_wanted(window, visibility, looks, inputs, target)) continue;
+    draw_planar_map(meshes, inputs, visibility.grid.tile_size_px, scratch, target, run);
+    const glm::vec2 scale = scale_of(target.view.camera, window.camera);
+    const RiverMirror& level = meshes.rivers.mirror[k];
+    mirrors.images.push_back({{&target.image, scale.x, scale.y}, level.level_m, level.share});
   }
-  if (!any) return;
-  draw_planar_map(meshes, inputs, tile_size_px, scratch, mirror, run);
-  inputs.river_reflection = {&mirror.image, scale.x, scale.y};
-  inputs.river_level_m = *meshes.rivers.mirror_level_m;
-  inputs.river_mirror_share = meshes.rivers.mirror_share;
+  inputs.river_images = mirrors.images;
 }
 
 void draw_planar_maps(const Meshes& meshes, const RenderView& window,

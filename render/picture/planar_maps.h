@@ -1,6 +1,7 @@
 // Stage 5: the pictures that water looks into, mirrored and refracted, where visible water can.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -30,6 +31,12 @@ struct PlanarMaps {
   std::vector<TilePlanarMaps> of_tile;  // what the window's tiles see of them
 };
 
+// What rivers and lakes mirror, of each level of RiverMesh::mirrors().
+struct RiverMirrors {
+  std::array<PlanarTarget, kMostRiverMirrors> targets;
+  std::vector<RiverImage> images;  // of those that are drawn
+};
+
 // The window's camera for pictures of `scale` times its size each way.
 View planar_camera(const View& window, double scale);
 
@@ -39,10 +46,10 @@ void draw_planar_maps(const Meshes& meshes, const RenderView& window,
                       const VisibilityBuffer& visibility, ScratchList scratch,
                       MaterialInputs& inputs, PlanarMaps& images, const StageRun& run);
 
-// Draws what the window's rivers and lakes mirror at meshes.rivers.mirror_level_m, where they show;
-// the vertices are mapped. inputs.river_reflection is set where there is anything to see.
-void draw_river_mirror(const Meshes& meshes, const RenderView& window,
-                       const VisibilityBuffer& visibility, ScratchList scratch,
-                       MaterialInputs& inputs, PlanarTarget& mirror, const StageRun& run);
+// Draws what the window's rivers and lakes mirror, where they show; the vertices are mapped.
+// inputs.river_images has what there is to see of it, which `mirrors` keeps.
+void draw_river_mirrors(const Meshes& meshes, const RenderView& window,
+                        const VisibilityBuffer& visibility, ScratchList scratch,
+                        MaterialInputs& inputs, RiverMirrors& mirrors, const StageRun& run);
 
 }  // namespace swell::render

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "math/view.h"
 #include "render/frame/parts.h"
@@ -27,6 +28,13 @@ struct PlanarMap {
   float scale_x = 1.0f, scale_y = 1.0f;
 };
 
+// What rivers and lakes at about this level mirror.
+struct RiverImage {
+  PlanarMap map;
+  float level_m = 0.0f;
+  float share = 0.0f;  // how much of it shows
+};
+
 // What materials that have triangles of their own place them by.
 struct PlaceInputs {
   const WorldState& world;
@@ -43,9 +51,8 @@ struct MaterialInputs {
   const Light& light;
   const Media& media;
   PartSet without;
-  PlanarMap reflection = {}, refraction = {};  // once they are drawn
-  PlanarMap river_reflection = {};             // what rivers at about this level mirror
-  float river_level_m = 0.0f, river_mirror_share = 0.0f;
+  PlanarMap reflection = {}, refraction = {};     // once they are drawn
+  std::span<const RiverImage> river_images = {};  // likewise
   // How far out the water's vertices show waves.
   double wave_reach_m = std::numeric_limits<double>::infinity();
   const TreeGeometry* trees = nullptr;  // none: no trees are drawn

@@ -18,6 +18,7 @@
 #include "math/view.h"
 #include "raster/pass.h"
 #include "render/view/implicits.h"
+#include "render/view/rivers_drawn.h"
 #include "render/view/surfaces.h"
 
 namespace swell {
@@ -155,7 +156,8 @@ class ViewsOfKind {
   FrameViews all() const { return std::span(views_).first(count_); }
 
  private:
-  std::array<RenderView*, 3> views_{};  // from the air, from below, of a river
+  // From the air, from below, of rivers.
+  std::array<RenderView*, 2 + kMostRiverMirrors> views_{};
   std::size_t count_ = 0;
 };
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <span>
 
 #include "ocean/inland/inland_water.h"
 #include "render/frame/options.h"
@@ -107,7 +109,7 @@ class BlockCells {
   int far_ = 1, widest_ = kInlandBlock;
 };
 
-// Where rivers look, once their levels and the mirror's are known. from_within: the images are of
+// Where rivers look, once their levels and the mirrors' are known. from_within: the images are of
 // the level of the river that the eye is in.
 void find_images(double eye_z, bool from_within, RiverMesh& rivers) {
   rivers.looks_into.resize(rivers.indices.size() / 3);
@@ -124,16 +126,19 @@ void find_images(double eye_z, bool from_within, RiverMesh& rivers) {
     const auto mirrored_in = [&](float level_m) {
       return low_m < level_m + reach_m && high_m > level_m - reach_m;
     };
-    rivers.looks_into[n] = static_cast<std::uint8_t>(
-        (sea > 0.0f || from_within ? kSeaFloor | kSeaMirror : 0) |
-        (mirrored_in(0.0f) ? kSeaMirror : 0) |
-        (rivers.mirror_level_m && mirrored_in(*rivers.mirror_level_m) ? kRiverMirror : 0));
+    unsigned into = (sea > 0.0f || from_within ? kSeaFloor | kSeaMirror : 0) |
+                    (mirrored_in(0.0f) ? kSeaMirror : 0);
+    for (std::size_t k = 0; k < rivers.mirror_count; ++k)
+      if (mirrored_in(rivers.mirror[k].level_m)) into |= unsigned{kRiverMirror} << k;
+    rivers.looks_into[n] = static_cast<std::uint8_t>(into);
   }
 }
 
-// The level of the water in view, and how much of the picture it may fill.
+// The level of some water in view, and how much of the picture it may fill.
 struct LevelInView {
   double weights = 0.0, levels = 0.0, solid_angle = 0.0;
+
+  double level_m() const { return levels / weights; }
 
   // Blocks count by their nearness, so that the level moves smoothly as the eye does.
   void add(const ocean::InlandBlock& block, double spacing_m, double level_m, double distance_m,
@@ -147,14 +152,56 @@ struct LevelInView {
         weight * block.wet_cells * spacing_m * spacing_m * std::max(eye_z - level_m, 0.0);
   }
 
-  void set_mirror(const View& view, RiverMesh& rivers) const {
-    const double level_m = levels / weights;
+  // Adds the mirror of this level, if it shows and there is water to show it.
+  void add_mirror(const View& view, RiverMesh& rivers) const {
     const double part = solid_angle / static_cast<double>(4.0f * view.tan_half_x * view.tan_half_y);
-    if (!(part > kLeastPart && view.eye_world.z > level_m + kLeastOver_m)) return;
-    rivers.mirror_level_m = static_cast<float>(level_m);
-    rivers.mirror_share =
-        static_cast<float>(std::min((part - kLeastPart) / (kFullPart - kLeastPart), 1.0));
+    if (!(part > kLeastPart && view.eye_world.z > level_m() + kLeastOver_m)) return;
+    const auto rel_m = static_cast<float>(level_m() - view.eye_world.z);
+    if (std::ranges::none_of(rivers.p_rel,
+                             [&](glm::vec3 p) { return std::abs(p.z - rel_m) < kMirrorGone_m; }))
+      return;
+    rivers.mirror[rivers.mirror_count++] = {
+        static_cast<float>(level_m()),
+        static_cast<float>(std::min((part - kLeastPart) / (kFullPart - kLeastPart), 1.0))};
   }
+};
+
+// The levels of the water in view: of all of it, and of lakes.
+class LevelsInView {
+ public:
+  void add(const ocean::InlandBlock& block, double spacing_m, double level_m, double distance_m,
+           double eye_z) {
+    all_.add(block, spacing_m, level_m, distance_m, eye_z);
+    if (block.high_m - block.low_m > kStill_m) return;
+    const auto known = std::find_if(lakes_.begin(), lakes_.begin() + count_, [&](const auto& lake) {
+      return std::abs(lake.level_m() - level_m) < static_cast<double>(kMirrorFull_m);
+    });
+    if (known == lakes_.end()) return;
+    if (known == lakes_.begin() + count_) ++count_;
+    known->add(block, spacing_m, level_m, distance_m, eye_z);
+  }
+
+  void set_mirrors(const View& view, RiverMesh& rivers) {
+    rivers.mirror_count = 0;
+    all_.add_mirror(view, rivers);
+    const std::span lakes(lakes_.begin(), lakes_.begin() + count_);
+    std::ranges::stable_sort(lakes, std::greater{}, &LevelInView::solid_angle);
+    for (const LevelInView& lake : lakes) {
+      if (rivers.mirror_count == kMostRiverMirrors) return;
+      const bool is_served = std::ranges::any_of(rivers.mirrors(), [&](const RiverMirror& mirror) {
+        return std::abs(mirror.level_m - static_cast<float>(lake.level_m())) < kMirrorFull_m;
+      });
+      if (!is_served) lake.add_mirror(view, rivers);
+    }
+  }
+
+ private:
+  static constexpr float kStill_m = 0.01f;  // the most that the levels of a block of lake differ
+  static constexpr std::size_t kMostLakes = 32;
+
+  LevelInView all_;
+  std::array<LevelInView, kMostLakes> lakes_;
+  std::ptrdiff_t count_ = 0;
 };
 
 }  // namespace
@@ -165,13 +212,13 @@ void choose_rivers(const WorldState& world, const View& view, const FrameOptions
   rivers.p_rel.clear();
   rivers.sea_share.clear();
   rivers.looks_into.clear();
-  rivers.mirror_level_m.reset();
+  rivers.mirror_count = 0;
   const ocean::InlandWater* const inland = world.inland.get();
   if (!inland || options.without.has(Part::kRivers) || options.without.has(Part::kWater)) return;
   const std::array<glm::vec4, 5> planes = frustum_planes(view);
   const double spacing_m = inland->spacing_m(), block_m = spacing_m * kInlandBlock;
   const auto drop = static_cast<float>(drop_per_m2(world.earth_radius_m(options.without)));
-  LevelInView level;
+  LevelsInView levels;
   for (std::size_t b = 0; b < inland->blocks().size(); ++b) {
     const ocean::InlandBlock& block = inland->blocks()[b];
     if (!(block.low_m <= block.high_m)) continue;
@@ -185,7 +232,7 @@ void choose_rivers(const WorldState& world, const View& view, const FrameOptions
     if (!may_be_seen(planes, middle_rel, radius_m)) continue;
     const double distance_m =
         std::max(0.0, static_cast<double>(glm::length(middle_rel) - radius_m));
-    level.add(block, spacing_m, middle.z, distance_m, view.eye_world.z);
+    levels.add(block, spacing_m, middle.z, distance_m, view.eye_world.z);
     const auto samples =
         inland->samples().subspan(b * ocean::kInlandSamples, ocean::kInlandSamples);
     const auto first = static_cast<std::uint32_t>(rivers.p_rel.size());
@@ -201,7 +248,7 @@ void choose_rivers(const WorldState& world, const View& view, const FrameOptions
         rivers.sea_share.push_back(s.sea_share);
       }
   }
-  level.set_mirror(view, rivers);
+  levels.set_mirrors(view, rivers);
   const auto at_eye = inland->at(glm::dvec2(view.eye_world));
   const bool from_within =
       at_eye && view.eye_world.z < static_cast<double>(at_eye->level_m) + kNearPlane_m;

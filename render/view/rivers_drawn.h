@@ -2,16 +2,28 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
+#include <span>
 #include <vector>
 
 namespace swell::render {
 
-// The images that water may look into.
+// Levels of rivers and lakes that have a mirror at a time, besides the sea's.
+inline constexpr std::size_t kMostRiverMirrors = 3;
+
+// The images that water may look into; kRiverMirror << k is that of RiverMesh::mirrors()[k].
 enum LooksInto : std::uint8_t { kSeaFloor = 1, kSeaMirror = 2, kRiverMirror = 4 };
+inline constexpr std::uint8_t kRiverMirrors = kRiverMirror * ((1u << kMostRiverMirrors) - 1u);
+
+// An image is mirrored in this level.
+struct RiverMirror {
+  float level_m = 0.0f;
+  float share = 0.0f;  // how much of the image shows: less where little of its water is in view
+};
 
 // The rivers and lakes that a window may show.
 struct RiverMesh {
@@ -19,10 +31,12 @@ struct RiverMesh {
   std::vector<glm::vec3> p_rel;          // per vertex, relative to the eye
   std::vector<float> sea_share;          // per vertex: of the sea's waves, which displace() adds
   std::vector<std::uint8_t> looks_into;  // per triangle: bits of LooksInto
-  // The level of what lies nearest to the eye but for water that the sea's mirror serves; an image
-  // mirrored in it is drawn. None: too little of it is in view.
-  std::optional<float> mirror_level_m;
-  float mirror_share = 0.0f;  // how much of that image shows: less where little is in view
+  // But for water that the sea's mirror serves: the level of what lies nearest to the eye, then
+  // those of lakes that it does not serve, the one that fills most of the picture first. None: too
+  // little is in view.
+  std::array<RiverMirror, kMostRiverMirrors> mirror{};
+  std::size_t mirror_count = 0;
+  std::span<const RiverMirror> mirrors() const { return std::span(mirror).first(mirror_count); }
 };
 
 // Water of rivers and lakes shows an image that is mirrored in another level all the same: all of

@@ -29,7 +29,7 @@ std::uint8_t images_of(const Meshes& meshes, const RenderView& window, int tile,
   if (water_pixels > 0 || (samples && may_show(SurfaceKind::kWater)))
     images = kSeaFloor | kSeaMirror;
   if (!may_show(SurfaceKind::kRivers)) return static_cast<std::uint8_t>(images);
-  if (samples) return kSeaFloor | kSeaMirror | kRiverMirror;
+  if (samples) return kSeaFloor | kSeaMirror | kRiverMirrors;
   const std::uint32_t first = window.primitives.begin(SurfaceKind::kRivers);
   const std::span<const std::uint8_t> looks_into = meshes.rivers.looks_into;
   for (const std::uint32_t p : primitives)

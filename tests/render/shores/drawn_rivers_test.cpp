@@ -113,9 +113,9 @@ TEST(DrawnRivers, AreWaterInLabels) {
 TEST(DrawnRivers, MirrorInTheSeasLevelAndInOneMore) {
   const Frame frame(river_world());
   const RiverMesh& rivers = frame.state().meshes.rivers;
-  ASSERT_TRUE(rivers.mirror_level_m);
-  EXPECT_NEAR(*rivers.mirror_level_m, 4.0f, 0.5f);
-  EXPECT_EQ(rivers.mirror_share, 1.0f);
+  ASSERT_EQ(rivers.mirror_count, 1u);
+  EXPECT_NEAR(rivers.mirror[0].level_m, 4.0f, 0.5f);
+  EXPECT_EQ(rivers.mirror[0].share, 1.0f);
   int low = 0, high = 0;
   for (std::size_t n = 0; n < rivers.looks_into.size(); ++n) {
     const glm::vec3 p = rivers.p_rel[rivers.indices[3 * n]];
