@@ -30,6 +30,7 @@
 #include "render/world/part_maker.h"
 #include "render/world/sun_texture.h"
 #include "render/world/terrain_maps.h"
+#include "render/world/water_texture.h"
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
 #include "scene/coast.h"
@@ -157,6 +158,9 @@ void add_textures(PartMaker& parts, Workers& workers, WorldState& state) {
         [&] { return build_ripple_sequence(scene, workers); });
   if (scene.water.glitter == scene::Glitter::kProjective)
     textures.sun_texture = parts.share("sun", {}, make_sun_texture);
+  if (!scene.water.texture.empty())
+    textures.water = parts.share("water texture", parts.of({"water.texture"}),
+                                 [&] { return build_water_texture(scene); });
 }
 
 // The land, and what follows from its heights alone.

@@ -55,7 +55,9 @@ struct WaterOptics {
   double refraction_index = 1.333;
   WaterType type = WaterType::kNone;
   // A type's, where a file leaves them out.
-  glm::vec3 body_colour{0.004f, 0.030f, 0.045f};    // linear radiance factor of deep water
+  glm::vec3 body_colour{0.004f, 0.030f, 0.045f};  // linear radiance factor of deep water
+  std::string texture;             // a picture of it that repeats itself; empty: one colour
+  double texture_length_m = 20.0;  // of the sea that the picture covers, [0.1, 10000]
   glm::vec3 absorption_per_m{0.35f, 0.07f, 0.05f};  // Beer-Lambert, linear RGB
   double distortion = 0.06;  // C0 of the lookups' displacement, in picture heights
   DistortionFactor distortion_factor = DistortionFactor::kBounded;
@@ -71,6 +73,7 @@ struct WaterOptics {
   double glitter_distortion = 2.0;  // Cp of the projected glitter, in radians
   RefractionModel refraction = RefractionModel::kExact;
   std::optional<double> reflection_weight;  // of what it mirrors, [0, 1]; none: Fresnel's
+  double refraction_weight = 1.0;           // of what lies under it against its own light, [0, 1]
 };
 
 // How waves too short for the wave patches are made.
@@ -85,10 +88,15 @@ enum class RippleLighting : std::uint8_t {
   kPaper,   // and the water's own colour by dot(normal, light) times a picture of details
 };
 
+// What the files of a sequence hold.
+enum class RipplePictures : std::uint8_t { kHeights, kNormals };
+
 struct Ripples {
   RippleKind kind = RippleKind::kLayers;
   RippleLighting lighting = RippleLighting::kOptics;
-  std::string sequence;   // files of heights, as "waves_%04d.png"; empty: waves of our own
+  std::string sequence;  // files, as "waves_%04d.png"; empty: waves of our own
+  RipplePictures pictures = RipplePictures::kHeights;
+  std::string detail;     // files of colours beside them; empty: made from the heights
   int frames = 128;       // of the sequence, [2, 256]
   double loop_s = 4.0;    // after which it begins anew, [0.1, 1000]
   double length_m = 6.0;  // of the sea that a frame covers, [0.1, 1000]

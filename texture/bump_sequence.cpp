@@ -3,11 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "math/check.h"
-#include "texture/image/image_io.h"
 #include "texture/normal_map.h"
 
 namespace swell::texture {
@@ -15,10 +13,6 @@ namespace {
 
 // Differences of heights that can be made into slopes, root mean square.
 constexpr double kLeastSlope = 1e-6, kMostSlope = 1e12;
-
-std::size_t texels_of(const ImageF& image) {
-  return static_cast<std::size_t>(image.width) * image.height;
-}
 
 struct Moments {
   double slope2 = 0.0;                 // mean square of (x, y)'s length, for a strength of 1
@@ -55,30 +49,76 @@ Image8 make_detail(const ImageF& heights, const Moments& all) {
 
 // ---- Files
 
-[[noreturn]] void refuse_sequence(const std::string& path, const std::string& text) {
-  throw FileError(fmt::format("{}: {}", path, text));
+// Slopes of normals that are no rounding, root mean square.
+constexpr double kLeastNormalSlope = 0.01;
+
+[[noreturn]] void refuse_sequence(std::string_view path, const std::string& text) {
+  throw FileError(fmt::format("{}: {}", path_of_frame(path, 0), text));
 }
 
-// Checked against the first frame's size.
-ImageF read_frame(const std::string& path, int frames, int size) {
-  const ImageF image = read_image(path, {.max_side_px = kMostBumpSize});
-  const auto side = static_cast<unsigned>(image.width);
-  const bool fits = image.width == image.height && image.width >= kLeastBumpSize &&
-                    image.width <= kMostBumpSize && std::has_single_bit(side);
-  if (!fits || (size > 0 && image.width != size))
-    refuse_sequence(path, fmt::format("bump image, got {} x {} pixels, allowed a square of {}",
-                                      image.width, image.height,
-                                      size > 0 ? fmt::format("{}, as the first", size)
-                                               : fmt::format("{} to {} a side, a power of two",
-                                                             kLeastBumpSize, kMostBumpSize)));
-  if (texels_of(image) * static_cast<std::size_t>(frames) > kMostBumpTexels)
-    refuse_sequence(path, fmt::format("bump image, got {} frames of {} pixels a side, allowed {}",
-                                      frames, image.width, kMostBumpTexels / texels_of(image)));
-  ImageF heights{image.width, image.height, 1, std::vector<float>(texels_of(image))};
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      heights.at(x, y, 0) = image.at(x, image.height - 1 - y, 0);
-  return heights;
+BumpSequence sequence_of_heights(std::string_view path, std::span<const ImageF> heights) {
+  const double slope = std::sqrt(moments_of(heights).slope2);
+  if (!(slope >= kLeastSlope && slope <= kMostSlope))
+    refuse_sequence(
+        path, fmt::format("bump images, got heights that differ by {:.3g} from a pixel to the next "
+                          "but one, allowed {} to {}",
+                          slope, kLeastSlope, kMostSlope));
+  return make_bump_sequence(heights);
+}
+
+// The slopes of a sequence's normals, frame after frame.
+struct Slopes {
+  std::vector<float> x, y;
+};
+
+Slopes slopes_of_normals(std::span<const ImageF> normals) {
+  constexpr float kLeastUp = 0.05f;
+  Slopes slopes;
+  for (const ImageF& frame : normals)
+    for (std::size_t n = 0; n < texels_of(frame); ++n) {
+      const auto part = [&](std::size_t c) { return 2.0f * frame.pixels[3 * n + c] - 1.0f; };
+      const float up = std::max(part(2), kLeastUp);
+      slopes.x.push_back(-part(0) / up);
+      slopes.y.push_back(-part(1) / up);
+    }
+  return slopes;
+}
+
+// Takes the mean away; returns the mean square of what is left.
+double centre(std::vector<float>& values) {
+  double sum = 0.0, squares = 0.0;
+  for (const float value : values) sum += static_cast<double>(value);
+  const auto count = static_cast<double>(values.size());
+  for (float& value : values) {
+    value -= static_cast<float>(sum / count);
+    squares += double{value} * value;
+  }
+  return squares / count;
+}
+
+BumpSequence sequence_of_normals(std::string_view path, std::span<const ImageF> normals) {
+  Slopes slopes = slopes_of_normals(normals);
+  const double slope = std::sqrt(centre(slopes.x) + centre(slopes.y));
+  if (!(slope >= kLeastNormalSlope))
+    refuse_sequence(path, fmt::format("bump images, got normals with slopes of {:.3g}, allowed {} "
+                                      "and more",
+                                      slope, kLeastNormalSlope));
+  const auto strength = static_cast<float>(double{kBumpSlope} / slope);
+  for (float& value : slopes.x) value *= strength;
+  for (float& value : slopes.y) value *= strength;
+  BumpSequence sequence;
+  sequence.size = normals[0].width;
+  const std::size_t texels = texels_of(normals[0]);
+  for (std::size_t f = 0; f < normals.size(); ++f) {
+    const auto of_frame = [&](const std::vector<float>& values) {
+      return std::span(values).subspan(f * texels, texels);
+    };
+    sequence.normals.push_back(
+        encode_normals(sequence.size, sequence.size, of_frame(slopes.x), of_frame(slopes.y)));
+    sequence.details.push_back(
+        {sequence.size, sequence.size, 1, std::vector<std::uint8_t>(texels, 128)});
+  }
+  return sequence;
 }
 
 }  // namespace
@@ -105,14 +145,11 @@ void blend_frames(const BumpSequence& sequence, double loop_part, BumpFrame& fra
   const double place = loop_part * static_cast<double>(frames), whole = std::floor(place);
   const std::size_t now = static_cast<std::size_t>(whole) % frames, next = (now + 1) % frames;
   const auto weight = static_cast<float>(place - whole);
-  const std::uint8_t *a = sequence.normals[now].pixels.data(),
-                     *b = sequence.normals[next].pixels.data();
-  const std::uint8_t *detail_a = sequence.details[now].pixels.data(),
-                     *detail_b = sequence.details[next].pixels.data();
   const std::size_t texels = static_cast<std::size_t>(sequence.size) * sequence.size;
   frame.slope_x.resize(texels);
   frame.slope_y.resize(texels);
-  frame.detail.resize(texels);
+  const std::uint8_t *a = sequence.normals[now].pixels.data(),
+                     *b = sequence.normals[next].pixels.data();
   const auto blend = [weight](std::uint8_t from, std::uint8_t to) {
     const float x = from;
     return x + weight * (static_cast<float>(to) - x) - 127.5f;
@@ -122,30 +159,32 @@ void blend_frames(const BumpSequence& sequence, double loop_part, BumpFrame& fra
     const float z = blend(a[3 * n + 2], b[3 * n + 2]);
     frame.slope_x[n] = -x / z;
     frame.slope_y[n] = -y / z;
-    frame.detail[n] = blend(detail_a[n], detail_b[n]) / 127.5f;
+  }
+  const Image8 &detail_a = sequence.details[now], &detail_b = sequence.details[next];
+  const auto channels = static_cast<std::size_t>(detail_a.channels);
+  frame.detail.resize(channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    frame.detail[c].resize(texels);
+    for (std::size_t n = 0; n < texels; ++n) {
+      const std::size_t at = channels * n + c;
+      frame.detail[c][n] = blend(detail_a.pixels[at], detail_b.pixels[at]) / 127.5f;
+    }
   }
 }
 
-std::string path_of_frame(std::string_view path, int frame) {
-  const std::size_t at = path.find(kFrameNumber);
-  SWELL_CHECK(at != std::string_view::npos, "path={}", path);
-  return fmt::format("{}{:04d}{}", path.substr(0, at), frame,
-                     path.substr(at + kFrameNumber.size()));
+BumpSequence read_bump_sequence(std::string_view path, int frames, BumpPictures pictures) {
+  const std::vector<std::string> paths = paths_of_frames(path, frames);
+  if (pictures == BumpPictures::kNormals)
+    return sequence_of_normals(path, read_square_frames(paths, "bump image", 3));
+  return sequence_of_heights(path, read_square_frames(paths, "bump image", 1));
 }
 
-BumpSequence read_bump_sequence(std::string_view path, int frames) {
-  std::vector<ImageF> heights;
-  for (int frame = 0; frame < frames; ++frame)
-    heights.push_back(
-        read_frame(path_of_frame(path, frame), frames, frame > 0 ? heights[0].width : 0));
-  const double slope = std::sqrt(moments_of(heights).slope2);
-  if (!(slope >= kLeastSlope && slope <= kMostSlope))
-    refuse_sequence(
-        path_of_frame(path, 0),
-        fmt::format("bump images, got heights that differ by {:.3g} from a pixel to the next but "
-                    "one, allowed {} to {}",
-                    slope, kLeastSlope, kMostSlope));
-  return make_bump_sequence(heights);
+void read_bump_details(std::string_view path, BumpSequence& sequence) {
+  const auto frames = static_cast<int>(sequence.normals.size());
+  ColourFrames colours = read_colour_frames(paths_of_frames(path, frames), sequence.size);
+  const glm::vec3 mean = colours.mean;
+  sequence.tint = mean / std::max({mean.x, mean.y, mean.z, 1e-6f});
+  sequence.details = std::move(colours.frames);
 }
 
 }  // namespace swell::texture

@@ -1,7 +1,7 @@
 #include "texture/mip_image.h"
 
 #include "math/check.h"
-#include "math/elementary.h"
+#include "texture/srgb.h"
 
 namespace swell::texture {
 namespace {
@@ -10,8 +10,7 @@ std::array<float, 256> make_linear_table() {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double code = static_cast<double>(i) / 255.0;
-    table[i] =
-        static_cast<float>(code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4));
+    table[i] = static_cast<float>(linear_of_srgb(code));
   }
   return table;
 }

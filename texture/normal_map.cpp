@@ -99,11 +99,10 @@ void compute_slopes(const ImageF& heights, Edges edges, float strength, std::spa
   }
 }
 
-Image8 make_normal_map(const ImageF& heights, Edges edges, float strength) {
-  const std::size_t texels = std::size_t{1} * heights.width * heights.height;
-  std::vector<float> slope_x(texels), slope_y(texels);
-  compute_slopes(heights, edges, strength, slope_x, slope_y);
-  Image8 map{heights.width, heights.height, 3, std::vector<std::uint8_t>(3 * texels)};
+Image8 encode_normals(int width, int height, std::span<const float> slope_x,
+                      std::span<const float> slope_y) {
+  const std::size_t texels = std::size_t{1} * width * height;
+  Image8 map{width, height, 3, std::vector<std::uint8_t>(3 * texels)};
   for (std::size_t n = 0; n < texels; ++n) {
     const float x = -slope_x[n], y = -slope_y[n];
     const float length = std::sqrt(x * x + y * y + 1.0f);
@@ -112,6 +111,13 @@ Image8 make_normal_map(const ImageF& heights, Edges edges, float strength) {
     map.pixels[3 * n + 2] = normal_byte(1.0f / length);
   }
   return map;
+}
+
+Image8 make_normal_map(const ImageF& heights, Edges edges, float strength) {
+  const std::size_t texels = std::size_t{1} * heights.width * heights.height;
+  std::vector<float> slope_x(texels), slope_y(texels);
+  compute_slopes(heights, edges, strength, slope_x, slope_y);
+  return encode_normals(heights.width, heights.height, slope_x, slope_y);
 }
 
 SlopeMap make_bump_slopes(int size, std::uint64_t seed) {

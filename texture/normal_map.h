@@ -19,8 +19,11 @@ enum class Edges : std::uint8_t { kPeriodic, kClamped };
 void compute_slopes(const ImageF& heights, Edges edges, float strength, std::span<float> slope_x,
                     std::span<float> slope_y);
 
-// Unit normals (-slope_x, -slope_y, 1) / length of the same slopes as RGB bytes:
-// byte = round(255 (n + 1) / 2), so n = 2 byte / 255 - 1.
+// Unit normals (-slope_x, -slope_y, 1) / length of slopes, width * height of them each, as RGB
+// bytes: byte = round(255 (n + 1) / 2), so n = 2 byte / 255 - 1.
+Image8 encode_normals(int width, int height, std::span<const float> slope_x,
+                      std::span<const float> slope_y);
+// The same of the slopes of heights.
 Image8 make_normal_map(const ImageF& heights, Edges edges, float strength);
 
 struct SlopeMap {

@@ -16,7 +16,8 @@ namespace swell::apps {
 namespace {
 
 constexpr double kIndex = 1.333, kHalfTurn_rad = 0.5 * std::numbers::pi;
-const std::string kHarbour = "harbour.toml", kBumpScene = "papers/optics_water.toml";
+const std::string kHarbour = "harbour.toml", kBumpScene = "papers/optics_water.toml",
+                  kTextureScene = "papers/optics_texture.toml";
 const std::array<std::string, 3> kFlat = {"sea.amplitude_scale=0", "water.distortion=0",
                                           "wind.speed_mps=0"};
 
@@ -104,41 +105,71 @@ PaperItem depth_ratio(PaperStudio& studio) {
 // The figures of one effect each.
 std::vector<PaperItem> effects(PaperStudio& studio) {
   return {{"Figure 4",
-           "Reflection alone: the image, and the image on the water",
-           kHarbour,
-           {studio.draw("optics_4_reflection", kHarbour, kFlat,
-                        without({kRefraction, kRipples, kGlitter, kCaustics, kHulls}))},
+           "Reflection alone: lerp(waterTexture, image, weight)",
+           kTextureScene,
+           {studio.draw("optics_4_reflection", kTextureScene, kFlat,
+                        without({kRefraction, kSequence, kRipples, kGlitter, kCaustics}))},
            {},
-           "The weight of the image is Fresnel's, by the angle."},
+           ""},
           {"Figure 5",
-           "Refraction alone",
-           kHarbour,
-           {studio.draw("optics_5_refraction", kHarbour, kFlat,
-                        without({kReflection, kRipples, kGlitter, kCaustics, kHulls}))},
+           "Refraction alone: the same with the image of what lies under the water",
+           kTextureScene,
+           {studio.draw("optics_5_refraction", kTextureScene, kFlat,
+                        without({kReflection, kSequence, kRipples, kGlitter, kCaustics}))},
            {},
            ""}};
 }
 
-texture::Image8 grey_as_rgb(const texture::Image8& grey) {
+// Details in grey as the colours of deep and of shallow water.
+texture::Image8 coloured(const texture::Image8& grey) {
+  constexpr std::array<double, 3> kDeep = {20.0, 75.0, 95.0}, kShallow = {60.0, 150.0, 150.0};
   texture::Image8 rgb{grey.width, grey.height, 3, {}};
-  for (const std::uint8_t value : grey.pixels) rgb.pixels.insert(rgb.pixels.end(), 3, value);
+  for (const std::uint8_t value : grey.pixels)
+    for (std::size_t c = 0; c < 3; ++c)
+      rgb.pixels.push_back(
+          static_cast<std::uint8_t>(std::lround(std::lerp(kDeep[c], kShallow[c], value / 255.0))));
   return rgb;
 }
 
+// Files have the north on top.
+texture::Image8 turned(const texture::Image8& image) {
+  texture::Image8 picture{image.width, image.height, image.channels, {}};
+  const auto row = static_cast<std::ptrdiff_t>(image.width) * image.channels;
+  for (int y = image.height - 1; y >= 0; --y)
+    picture.pixels.insert(picture.pixels.end(), image.pixels.begin() + y * row,
+                          image.pixels.begin() + (y + 1) * row);
+  return picture;
+}
+
+// Pairs of details and normals as files, drawn as the paper's were.
 std::vector<PaperItem> bumps(PaperStudio& studio) {
-  const texture::BumpSequence sequence =
-      render::build_ripple_sequence(studio.load(kBumpScene), studio.workers());
+  constexpr int kFrames = 16;
+  const std::string frames = fmt::format("ripples.frames={}", kFrames);
+  const texture::BumpSequence sequence = render::build_ripple_sequence(
+      studio.load(kBumpScene, std::span(&frames, 1)), studio.workers());
+  std::vector<std::string> details, normals;
+  for (std::size_t n = 0; n < kFrames; ++n) {
+    details.push_back(studio.write(fmt::format("optics_6_detail_{:04}", n),
+                                   turned(coloured(sequence.details[n]))));
+    normals.push_back(
+        studio.write(fmt::format("optics_6_normals_{:04}", n), turned(sequence.normals[n])));
+  }
+  const auto set_files = [&](std::string_view key, std::string_view name) {
+    return fmt::format("ripples.{}=\"{}\"", key, studio.picture_path(name).string());
+  };
+  const std::array<std::string, 4> pairs = {
+      frames, set_files("sequence", "optics_6_normals_%04d.png"),
+      set_files("detail", "optics_6_detail_%04d.png"), "ripples.pictures=\"normals\""};
   return {{"Figure 6",
            "The pictures of the bump mapping: detail and normals, one pair of a sequence",
            kBumpScene,
-           {studio.write("optics_6_detail", grey_as_rgb(sequence.details.front())),
-            studio.write("optics_6_normals", sequence.normals.front())},
+           {details.front(), normals.front()},
            {},
-           "Made from the heights of a small sea; the paper's were painted."},
+           "Made from the heights of a small sea; the paper's details were painted."},
           {"Figure 7",
-           "Bumps alone",
+           "Bumps alone: dot(normal, light) times the detail, from such pairs of files",
            kBumpScene,
-           {studio.draw("optics_7_bumps", kBumpScene, {},
+           {studio.draw("optics_7_bumps", kBumpScene, pairs,
                         without({kReflection, kRefraction, kGlitter}))},
            {},
            ""},
@@ -166,9 +197,9 @@ PaperItem caustics(PaperStudio& studio) {
 
 PaperItem combined(PaperStudio& studio) {
   return {"Figure 10",
-          "All effects together",
-          kHarbour,
-          {studio.draw("optics_10_all", kHarbour),
+          "All effects together, with the paper's weights and with Fresnel's",
+          kTextureScene,
+          {studio.draw("optics_10_all", kTextureScene), studio.draw("optics_10_harbour", kHarbour),
            studio.draw("optics_10_dry", kHarbour, {}, without({kWater}))},
           {},
           ""};

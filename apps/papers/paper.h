@@ -63,6 +63,10 @@ class PaperStudio {
   std::string write(std::string_view name, const texture::Image8& image) const;
   std::string write(std::string_view name, const std::string& svg) const;
 
+  // The absolute path of a file beside the page.
+  std::filesystem::path picture_path(std::string_view file) const {
+    return std::filesystem::absolute(out_) / file;
+  }
   std::filesystem::path scene_path(const std::string& scene) const { return scenes_ / scene; }
   scene::Scene load(const std::string& scene, std::span<const std::string> sets = {}) const;
   // Made of what the last few worlds have in common with it, or one of them.

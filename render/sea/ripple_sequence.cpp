@@ -39,11 +39,18 @@ texture::BumpSequence make_own_sequence(const ocean::SmallSea& sea, Workers& wor
 texture::BumpSequence build_ripple_sequence(const scene::Scene& scene, Workers& workers) {
   const scene::Ripples& ripples = scene.ripples;
   if (ripples.sequence.empty()) return make_own_sequence(small_sea(scene), workers);
+  std::string key = "ripples.sequence";
   try {
-    return texture::read_bump_sequence(ripples.sequence, ripples.frames);
+    texture::BumpSequence sequence = texture::read_bump_sequence(
+        ripples.sequence, ripples.frames,
+        ripples.pictures == scene::RipplePictures::kNormals ? texture::BumpPictures::kNormals
+                                                            : texture::BumpPictures::kHeights);
+    key = "ripples.detail";
+    if (!ripples.detail.empty()) texture::read_bump_details(ripples.detail, sequence);
+    return sequence;
   } catch (const std::runtime_error& error) {
-    throw scene::SceneError(scene::one_line(fmt::format(
-        "{}: ripples.sequence: {}", scene::place_of_key(scene, "ripples.sequence"), error.what())));
+    throw scene::SceneError(scene::one_line(
+        fmt::format("{}: {}: {}", scene::place_of_key(scene, key), key, error.what())));
   }
 }
 
@@ -66,7 +73,7 @@ void pack_ripples(const scene::Scene& scene, const texture::BumpSequence& sequen
   const texture::BumpFrame& frame = maps.frame;
   texture::pack_map2(sequence.size, frame.slope_x, frame.slope_y, kSlopeScale, maps.slopes);
   if (scene.ripples.lighting == scene::RippleLighting::kPaper)
-    texture::pack_map2(sequence.size, frame.detail, frame.detail, 1.0f / 127.0f, maps.detail);
+    pack_tint(sequence.size, frame.detail, maps.detail);
 }
 
 }  // namespace swell::render

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "math/parallel.h"
+#include "render/packets/tint.h"
 #include "scene/scene.h"
 #include "texture/bump_sequence.h"
 #include "texture/packed_map.h"
@@ -20,8 +21,8 @@ double ripple_loop_part(const scene::Scene& scene, double t_s);
 
 struct RippleMaps {
   texture::PackedMap2 slopes;
-  texture::PackedMap2 detail;  // its first channel
-  texture::BumpFrame frame;    // storage
+  TintMaps detail;
+  texture::BumpFrame frame;  // storage
 };
 
 // Fills the maps at t_s; `detail` only if the scene's lighting wants it.

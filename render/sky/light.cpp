@@ -6,6 +6,7 @@
 #include "math/elementary.h"
 #include "render/sky/sky_frame.h"
 #include "render/sky/sky_maps.h"
+#include "render/world/water_texture.h"
 #include "render/world/world_state.h"
 #include "sky/sky_light.h"
 
@@ -88,8 +89,9 @@ Media make_media(const WorldState& world, const Light& light, const Fog& fog, do
   // Light that enters the water: the sky's and the sun's, as radiance of a white surface.
   const glm::vec3 entering_sun =
       light.sun_irradiance * (std::max(light.sun_direction.z, 0.0f) / static_cast<float>(kPi));
-  media.body = water.body_colour * (light.ambient + entering_sun);
-  media.body_sun = water.body_colour * entering_sun;
+  const glm::vec3 colour = mean_water_colour(world, !without.has(Part::kSequence));
+  media.body = colour * (light.ambient + entering_sun);
+  media.body_sun = colour * entering_sun;
   return media;
 }
 

@@ -87,7 +87,7 @@ void add_sequence(const MaterialInputs& in, glm::dvec2 eye, Ripples& ripples) {
   for (const double scale : {1.0, 0.397})
     ripples.layers[ripples.count++] = make_layer(maps.slopes, scale * length_m, gain, eye, {});
   if (scene.ripples.lighting == scene::RippleLighting::kPaper)
-    ripples.detail = make_layer(maps.detail, length_m, 1.0f, eye, {});
+    ripples.detail = make_tint(maps.detail, length_m, eye);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "render/packets/slope_layer.h"
+#include "render/packets/tint.h"
 
 namespace swell::scene {
 struct Scene;
@@ -18,7 +19,7 @@ struct MaterialInputs;
 struct Ripples {
   std::array<SlopeLayer, 2> layers;
   int count = 0;
-  SlopeLayer detail;  // of a sequence in the paper's lighting, else without a map
+  TintLayer detail;  // of a sequence in the paper's lighting, or none
 };
 
 Ripples make_ripples(const MaterialInputs& in, glm::dvec2 eye);

@@ -18,10 +18,10 @@
 #include "render/tile/shading_result-inl.h"
 #include "render/tile/sun_shadow-inl.h"
 #include "render/view/wave_reach.h"
-#include "render/water/bump_light-inl.h"
 #include "render/water/glitter-inl.h"
 #include "render/water/hull-inl.h"
 #include "render/water/image_blur-inl.h"
+#include "render/water/own_colour-inl.h"
 #include "render/water/visible_slopes-inl.h"
 #include "render/water/water.h"
 #include "render/water/water_slopes-inl.h"
@@ -203,14 +203,14 @@ HWY_INLINE Refracted RefractedLight(const Shading& shading, const Water& water,
   const V3 crest_light = Constant(water.optics.crest_glow) * glow;
   V3 deep = crest_light +
             MulAdd(Constant(shading.media.body_sun), shade, BodyUnderClouds(shading, packet.p));
-  if (water.bump_detail.map)
-    deep = deep * BumpLight(shading, water.bump_detail, packet, NormalOf(s.slope_x, s.slope_y),
-                            sun_visible);
+  if (water.bump_detail.on() || water.texture.on())
+    deep = deep * OwnColour(shading, water, packet, NormalOf(s.slope_x, s.slope_y), sun_visible);
   if (!use_image) return {deep, hn::Zero(D()), Constant(glm::vec3(0.0f))};
   const Looked floor = LookUpDistorted<true>(water, water.images.refraction, packet, s, -0.5f);
   // The image's water has no crests: over a floor too deep to be seen it must be as without one.
-  const V3 floor_added = (floor.light + crest_light - deep) * floor.alpha;
-  return {deep + floor_added, floor.alpha, floor_added};
+  const V weight = floor.alpha * water.optics.refraction_weight;
+  const V3 floor_added = (floor.light + crest_light - deep) * weight;
+  return {deep + floor_added, weight, floor_added};
 }
 
 // What a facet that mirrors the sun to the eye reflects; `half` is the sum of their directions.

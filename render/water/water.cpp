@@ -14,6 +14,7 @@
 #include "render/sky/light.h"
 #include "render/tile/ripples.h"
 #include "render/view/render_view.h"
+#include "render/world/water_texture.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {
@@ -54,6 +55,9 @@ void fill_waves(const MaterialInputs& in, glm::dvec2 eye, Water& water) {
   const Ripples ripples = make_ripples(in, eye);
   for (int i = 0; i < ripples.count; ++i) add_layer(ripples.layers[i], water);
   water.bump_detail = ripples.detail;
+  water.texture = {};
+  if (const auto& texture = in.world.textures.water)
+    water.texture = make_tint(texture->maps, in.world.scene.water.texture_length_m, eye);
   for (const ocean::SineFrame& sine : in.sea.frame.sines)
     water.sines[water.sine_count++] = make_sine(sine, eye);
   water.uv_noise = make_layer(in.sea.uv_noise, kUvNoisePeriod_m, 1.0f, eye, {});
@@ -153,6 +157,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.submerged = in.media.submerged;
   water.optics.reflection_weight =
       static_cast<float>(in.world.scene.water.reflection_weight.value_or(-1.0));
+  water.optics.refraction_weight = static_cast<float>(in.world.scene.water.refraction_weight);
   water.images.reflection = in.reflection;
   water.images.refraction = in.refraction;
   water.images.distortion_px =

@@ -6,6 +6,7 @@
 
 #include "ocean/spectrum/limits.h"
 #include "render/packets/slope_layer.h"
+#include "render/packets/tint.h"
 #include "render/tile/inputs.h"
 #include "render/water/foam.h"
 #include "render/water/glitter.h"
@@ -40,6 +41,7 @@ struct WaterOptics {
   glm::vec3 mirrored_sea{0.0f};      // radiance of the deep sea where waves mirror it
   float mirrored_floor_part = 0.0f;  // how much a floor's light adds to it
   float reflection_weight = -1.0f;   // of what it mirrors; below 0: Fresnel's
+  float refraction_weight = 1.0f;    // of the refraction image against the water's own light
   float wave_horizon = 0.0f;         // sine of the elevation at which half of the rays meet a wave
   glm::vec3 glitter_light{0.0f};     // of the sun, in its image
   glm::vec3 crest_glow{0.0f};        // added where light shines through crests
@@ -67,7 +69,8 @@ struct Water {
   std::array<SineLayer, ocean::kMaxSineTrains> sines;
   int sine_count = 0;
   int first_ripples = 0;        // the layer from which on noise bends the coordinates
-  SlopeLayer bump_detail;       // of the paper's lighting, without a map: none
+  TintLayer bump_detail;        // of the paper's lighting, or none
+  TintLayer texture;            // the water's own, or none
   SlopeLayer uv_noise;          // values in [-1, 1], not slopes
   float short_variance = 0.0f;  // slope variance of the layers after the long ones
   float visible_slopes = 1.0f;  // 1, or 0: all slopes of rough water are seen, also the hidden ones

@@ -56,12 +56,14 @@ struct NearShoreMap;
 struct SkyMaps;
 struct SunTexture;
 struct TerrainMaps;
+struct WaterTexture;
 
 // Textures that lie over the water and the ground. Worlds share them.
 struct Textures {
   std::shared_ptr<const texture::PackedMap2> bump = {};  // ripples, slopes of a map with period 1
   std::shared_ptr<const texture::BumpSequence> ripple_sequence = {};  // none: the bump map
   std::shared_ptr<const SunTexture> sun_texture = {};                 // none: glitter by slopes
+  std::shared_ptr<const WaterTexture> water = {};                     // none: one colour
   // Thresholds of foam, stretched to [-1, 1]: its lace, and how patches of it are torn. The map
   // repeats and may have any size. It is the same in every world.
   std::shared_ptr<const texture::PackedMap2> foam = {};

@@ -179,6 +179,8 @@ Fault fault_of_maps(const ocean::SeaDescription& sea) {
 }
 
 Fault fault_of_ripples(const Ripples& ripples) {
+  if (!ripples.detail.empty() && ripples.sequence.empty())
+    return SceneFault{"ripples.detail", "it without ripples.sequence", "both"};
   if (ripples.sequence.empty() || ripples.kind == RippleKind::kSequence) return std::nullopt;
   return SceneFault{"ripples.sequence", "it with kind = \"layers\"", "it with kind = \"sequence\""};
 }

@@ -13,7 +13,7 @@
 
 #include "scene/file/parameters.h"
 #include "scene/file/scene_tables.h"
-#include "texture/bump_sequence.h"
+#include "texture/square_frames.h"
 
 namespace swell::scene {
 

@@ -134,6 +134,12 @@ Rows water_rows() {
                        "Jerlov's kind of sea water: sets the next two where they are left out"),
       SceneRow::vector("water.body_colour", {0, 1}, SWELL_FIELD(water.body_colour),
                        "linear RGB that deep water sends back, as a part of the light"),
+      SceneRow::plain<std::string>(
+          "water.texture", Kind::kPath, SWELL_FIELD(water.texture),
+          "picture of that colour, in its place: square, a power of two of 32 to 512 pixels a "
+          "side, repeated over the sea, relative to the scene file; empty: one colour"),
+      SceneRow::number("water.texture_length_m", {0.1, 10000, "m"},
+                       SWELL_FIELD(water.texture_length_m), "side of the square that it covers"),
       SceneRow::vector("water.absorption_per_m", {0, 100, "1/m"},
                        SWELL_FIELD(water.absorption_per_m),
                        "linear RGB; after 1/absorption metres 1/e of the light is left"),
@@ -173,6 +179,9 @@ Rows water_rows() {
                                 SWELL_FIELD(water.reflection_weight),
                                 "of mirrored against sunken things, seen from above: one number "
                                 "for all angles in place of Fresnel's reflectance"),
+      SceneRow::number("water.refraction_weight", {0, 1}, SWELL_FIELD(water.refraction_weight),
+                       "of the picture of what lies under the water, against the water's own "
+                       "colour or texture"),
       SceneRow::integer("detail.water_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
@@ -221,8 +230,15 @@ Rows ripple_rows() {
                        "dot(normal, light) times a picture of details"),
       SceneRow::frame_paths(
           "ripples.sequence", SWELL_FIELD(ripples.sequence),
-          "pictures of heights, square and of one size, with their number from 0 in place of "
+          "pictures of waves, square and of one size, with their number from 0 in place of "
           "`%04d`, relative to the scene file; empty: waves of our own that the wind drives"),
+      SceneRow::choice("ripples.pictures", RipplePicturesName{},
+                       "what they hold: heights, or normals in red (east), green (north) and blue "
+                       "(up)"),
+      SceneRow::frame_paths(
+          "ripples.detail", SWELL_FIELD(ripples.detail),
+          "pictures of the colours that go with them, as many and as large, which with lighting = "
+          "\"paper\" tint the water; empty: details in grey, made from the heights"),
       SceneRow::integer("ripples.frames", Kind::kInteger, {2, 256}, SWELL_FIELD(ripples.frames),
                         "pictures of the sequence"),
       SceneRow::number("ripples.loop_s", {0.1, 1000, "s"}, SWELL_FIELD(ripples.loop_s),

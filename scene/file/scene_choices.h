@@ -63,6 +63,13 @@ struct RippleLightingName {
   auto& operator()(auto& scene) const { return scene.ripples.lighting; }
 };
 
+struct RipplePicturesName {
+  using enum RipplePictures;
+  static constexpr auto words =
+      enum_words<RipplePictures>({{kHeights, "heights"}, {kNormals, "normals"}});
+  auto& operator()(auto& scene) const { return scene.ripples.pictures; }
+};
+
 struct WaterTypeName {
   static constexpr auto words = kWaterTypeNames;
   auto& operator()(auto& scene) const { return scene.water.type; }

@@ -1,6 +1,6 @@
 #include "scene/file/scene_files.h"
 
-#include "texture/bump_sequence.h"
+#include "texture/square_frames.h"
 
 namespace swell::scene {
 
@@ -15,9 +15,11 @@ std::vector<SceneFile> files_of(const Scene& scene) {
   }
   for (const terrain::TreeStand& stand : scene.trees) add(stand.density_map.string());
   for (const auto& layer : scene.sea.maps) add(layer.file);
-  if (!scene.ripples.sequence.empty())
-    for (int frame = 0; frame < scene.ripples.frames; ++frame)
-      add(texture::path_of_frame(scene.ripples.sequence, frame));
+  add(scene.water.texture);
+  for (const std::string& path : {scene.ripples.sequence, scene.ripples.detail})
+    if (!path.empty())
+      for (int frame = 0; frame < scene.ripples.frames; ++frame)
+        add(texture::path_of_frame(path, frame));
   for (const FloatingObject& object : scene.objects)
     if (object.kind == ObjectKind::kMesh && !object.file.empty())
       files.push_back({object.file, true, object.up});

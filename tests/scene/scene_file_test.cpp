@@ -87,10 +87,13 @@ caustic_distortion = 0.25
 glitter = "projective"
 refraction = "paper"
 reflection_weight = 0.5
+refraction_weight = 0.25
+texture_length_m = 15
 glitter_distortion = 1.5
 [ripples]
 kind = "sequence"
 lighting = "paper"
+pictures = "normals"
 frames = 32
 loop_s = 2.5
 length_m = 3
@@ -180,11 +183,14 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.water.glitter_distortion, 1.5);
   EXPECT_EQ(scene.ripples.kind, RippleKind::kSequence);
   EXPECT_EQ(scene.ripples.lighting, RippleLighting::kPaper);
+  EXPECT_EQ(scene.ripples.pictures, RipplePictures::kNormals);
   EXPECT_EQ(scene.ripples.frames, 32);
   EXPECT_EQ(scene.ripples.loop_s, 2.5);
   EXPECT_EQ(scene.ripples.length_m, 3.0);
   EXPECT_EQ(scene.water.refraction, RefractionModel::kPaper);
   EXPECT_EQ(scene.water.reflection_weight, 0.5);
+  EXPECT_EQ(scene.water.refraction_weight, 0.25);
+  EXPECT_EQ(scene.water.texture_length_m, 15.0);
   EXPECT_EQ(scene.coast.model, CoastModel::kTrains);
   EXPECT_EQ(scene.coast.trains, 7);
   EXPECT_FALSE(scene.coast.eikonal);
@@ -454,6 +460,11 @@ TEST(SceneFile, FramesOfASequenceHaveTheirNumberInTheName) {
       folder.write("a.toml", "[ripples]\nsequence = \"wave_%04d.png\"\nkind = \"layers\"\n");
   EXPECT_EQ(load_error(layers),
             where + "got it with kind = \"layers\", allowed it with kind = \"sequence\"");
+  const fs::path alone =
+      folder.write("b.toml", "[ripples]\ndetail = \"wave_%04d.png\"\nkind = \"sequence\"\n");
+  EXPECT_EQ(load_error(alone), alone.string() +
+                                   ":2: column 10: ripples.detail, got it without "
+                                   "ripples.sequence, allowed both");
 }
 
 TEST(SceneFile, NumbersDoNotDependOnTheLocale) {

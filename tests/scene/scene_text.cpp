@@ -186,6 +186,9 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(ripples);
   SWELL_COMPARE(water.refraction);
   SWELL_COMPARE(water.reflection_weight);
+  SWELL_COMPARE(water.refraction_weight);
+  SWELL_COMPARE(water.texture);
+  SWELL_COMPARE(water.texture_length_m);
   SWELL_COMPARE(coast.model);
   SWELL_COMPARE(coast.trains);
   SWELL_COMPARE(coast.eikonal);
