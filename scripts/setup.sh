@@ -33,10 +33,17 @@ install() {
       apt-get install -q -y --no-install-recommends $1 </dev/null
 }
 
-packages=$(missing packages.txt)
-[ -z "$packages" ] || install "$packages"
+all=$(missing packages.txt)
 for group in "$@"; do
-  packages=$(missing "packages_$group.txt")
-  [ -z "$packages" ] || install "$packages" ||
-    echo "note: goes on without the group '$group' of packages:$packages"
+  all="$all$(missing "packages_$group.txt")"
 done
+# All at once takes the package lists but once; where that cannot be done, what can be had.
+if [ -n "$all" ] && ! install "$all"; then
+  packages=$(missing packages.txt)
+  [ -z "$packages" ] || install "$packages"
+  for group in "$@"; do
+    packages=$(missing "packages_$group.txt")
+    [ -z "$packages" ] || install "$packages" ||
+      echo "note: goes on without the group '$group' of packages:$packages"
+  done
+fi
