@@ -135,6 +135,12 @@ void add_coarse_posts(HeightPyramid& p, Workers& workers) {
   }
 }
 
+// A point in cells, the nearest of the grid.
+glm::dvec2 on_grid(const HeightPyramid& p, glm::dvec2 p_world) {
+  return glm::clamp((p_world - p.grid.min_world) / p.grid.spacing_m, 0.0,
+                    static_cast<double>(p.grid.samples_x - 1));
+}
+
 }  // namespace
 
 HeightPyramid make_height_pyramid(const Grid& grid, float base_m, float step_m,
@@ -169,9 +175,35 @@ HeightPyramid make_height_pyramid(const HeightGrid& heights, CellSquare hole, Wo
   return make_height_pyramid(heights.grid, lowest, step_m, std::move(posts), hole, workers);
 }
 
+double height_at(const HeightPyramid& p, glm::dvec2 p_world) {
+  const glm::dvec2 at = on_grid(p, p_world);
+  const glm::ivec2 cell = glm::min(glm::ivec2(at), p.grid.samples_x - 2);
+  const glm::dvec2 part = at - glm::dvec2(cell);
+  const auto code = [&](int i, int j) {
+    return static_cast<double>(p.posts[p.grid.index(cell.x + i, cell.y + j)]);
+  };
+  const double low = code(0, 0) + part.x * (code(1, 0) - code(0, 0));
+  const double high = code(0, 1) + part.x * (code(1, 1) - code(0, 1));
+  return static_cast<double>(p.base_m) +
+         static_cast<double>(p.step_m) * (low + part.y * (high - low));
+}
+
+float highest_over(const HeightPyramid& p, glm::dvec2 low, glm::dvec2 high) {
+  const glm::ivec2 last(p.grid.samples_x - 2);
+  const glm::ivec2 first = glm::min(glm::ivec2(on_grid(p, low)), last);
+  const glm::ivec2 end = glm::min(glm::ivec2(on_grid(p, high)), last);
+  int level = 1;
+  while (level < p.levels && std::max(end.x - first.x, end.y - first.y) >> level > 0) ++level;
+  const int blocks = p.side >> level;
+  std::uint16_t highest = 0;
+  for (int j = first.y >> level; j <= end.y >> level; ++j)
+    for (int i = first.x >> level; i <= end.x >> level; ++i)
+      highest = std::max(highest, p.maxima[block(blocks, i, j)]);
+  return p.base_m + p.step_m * static_cast<float>(highest);
+}
+
 glm::vec3 normal_at(const HeightPyramid& p, glm::dvec2 p_world) {
-  const glm::dvec2 at = glm::clamp((p_world - p.grid.min_world) / p.grid.spacing_m, 0.0,
-                                   static_cast<double>(p.grid.samples_x - 1));
+  const glm::dvec2 at = on_grid(p, p_world);
   const glm::ivec2 cell = glm::min(glm::ivec2(at), p.grid.samples_x - 2);
   const glm::vec2 part(at - glm::dvec2(cell));
   const auto code = [&](int i, int j) {

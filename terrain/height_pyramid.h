@@ -50,6 +50,12 @@ HeightPyramid make_height_pyramid(const Grid& grid, float base_m, float step_m,
 // From heights, to the nearest of 2^16 steps between the lowest and the highest.
 HeightPyramid make_height_pyramid(const HeightGrid& heights, CellSquare hole, Workers& workers);
 
+// Bilinear height at a point; beyond the grid that of its border.
+double height_at(const HeightPyramid& pyramid, glm::dvec2 p_world);
+
+// At least the height of every point with low <= p <= high; beyond the grid that of its border.
+float highest_over(const HeightPyramid& pyramid, glm::dvec2 low, glm::dvec2 high);
+
 // Unit normal, upwards, of the surface at a point; beyond the grid that of its border. The same
 // bits everywhere.
 glm::vec3 normal_at(const HeightPyramid& pyramid, glm::dvec2 p_world);

@@ -79,6 +79,70 @@ HWY_INLINE V GatherCodes(const std::uint16_t* codes, VI number) {
   return LowCode(GatherTwoCodes(codes, number));
 }
 
+// The maximum of a block, and whether the surface in it is smooth (HeightPyramid).
+struct Maximum {
+  V height;
+  M is_smooth;
+};
+
+// Heights of a post and of the next one.
+struct PostPair {
+  V first, second;
+};
+
+// The heights of a pyramid.
+struct OneTable {
+  const HeightPyramid& pyramid;
+
+  const HeightPyramid& Grid() const { return pyramid; }
+  HWY_INLINE V HeightOf(V code) const { return MulAdd(code, pyramid.step_m, pyramid.base_m); }
+  HWY_INLINE Maximum MaximumAt(VI number) const {
+    const VI code = GatherTwoCodes(pyramid.maxima.data(), number) & Whole(0xffff);
+    return {HeightOf(ToFloat(code)), hn::RebindMask(D(), (code & Whole(1)) == Whole(0))};
+  }
+  HWY_INLINE PostPair PostsAt(VI number) const {
+    const VI both = GatherTwoCodes(pyramid.posts.data(), number);
+    return {HeightOf(LowCode(both)), HeightOf(HighCode(both))};
+  }
+};
+
+// Heights between those of two pyramids of one size: share 0 is the first, to the bit. The same
+// mean of their maxima lies over it.
+struct TwoTables {
+  OneTable a, b;
+  float share;
+
+  const HeightPyramid& Grid() const { return a.pyramid; }
+  HWY_INLINE V Between(V from, V to) const { return MulAdd(to - from, share, from); }
+  HWY_INLINE Maximum MaximumAt(VI number) const {
+    const Maximum from = a.MaximumAt(number), to = b.MaximumAt(number);
+    return {Between(from.height, to.height), from.is_smooth & to.is_smooth};
+  }
+  HWY_INLINE PostPair PostsAt(VI number) const {
+    const PostPair from = a.PostsAt(number), to = b.PostsAt(number);
+    return {Between(from.first, to.first), Between(from.second, to.second)};
+  }
+};
+
+// The highest of the blocks that hold [x_low, x_high] x [y_low, y_high], in cells, of the finest
+// level that has four such at most.
+template <class Heights>
+HWY_INLINE V HighestOver(const Heights& heights, V x_low, V x_high, V y_low, V y_high) {
+  const HeightPyramid& p = heights.Grid();
+  const VI level = LevelOf(Max(x_high - x_low, y_high - y_low), 1, p.levels);
+  const VI blocks_log2 = Whole(p.levels) - level;
+  const VI blocks = hn::Shl(Whole(1), blocks_log2);
+  const auto block = [&](V at) HWY_ATTR {
+    const VI cell = hn::ConvertTo(DI(), Clamp(at, 0.0f, static_cast<float>(p.side - 1)));
+    return hn::Shr(cell, level);
+  };
+  const VI i0 = block(x_low), i1 = block(x_high), j0 = block(y_low), j1 = block(y_high);
+  const auto at = [&](VI i, VI j) HWY_ATTR {
+    return heights.MaximumAt(hn::Shl(blocks + j, blocks_log2) + i).height;
+  };
+  return Max(Max(at(i0, j0), at(i1, j0)), Max(at(i0, j1), at(i1, j1)));
+}
+
 // A ray's height over t.
 struct RayHeights {
   V z, z_t, z_tt;

@@ -9,6 +9,7 @@
 
 #include "math/elementary.h"
 #include "terrain/apron.h"
+#include "terrain/height_image.h"
 #include "terrain/island.h"
 #include "terrain/sea_floor.h"
 #include "texture/image/image_io.h"
@@ -18,14 +19,6 @@ namespace swell::terrain {
 namespace {
 
 constexpr float kMaxHeight = 12000.0f;  // metres, up and down
-
-// Whether a picture file holds metres (true) or parts of white (false).
-bool holds_metres(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".exr" || extension == ".hdr";
-}
 
 [[noreturn]] void fail_pixel(const std::filesystem::path& path, int x, int y, float value,
                              const std::string& allowed) {
@@ -143,6 +136,13 @@ void check_description(const TerrainDescription& description) {
 }
 
 }  // namespace
+
+bool holds_metres(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".exr" || extension == ".hdr";
+}
 
 std::optional<double> described_size_m(const TerrainDescription& description) {
   if (!description.coast_m.empty()) return description.beach_size_m;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -396,6 +397,34 @@ TEST(HeightPyramid, HasTheHighestPostOfEachBlock) {
         EXPECT_LE(code, highest + 1) << level << " " << i << " " << j;
       }
   }
+}
+
+// To a step of its codes; and no point of a rectangle is higher than its bound, which is that of a
+// block of the pyramid: the whole map's at most.
+TEST(HeightPyramid, KnowsItsHeightsAndTheirBounds) {
+  const HeightGrid map = rough_map(50, 2.0, 9);
+  Workers workers(2);
+  const HeightPyramid p = make_height_pyramid(map, {}, workers);
+  const double size_m = map.grid.size_m();
+  const float highest = *std::ranges::max_element(map.height_m);
+  int tight = 0;
+  for (std::uint64_t n = 0; n < 2000; ++n) {
+    const auto roll = [&](std::uint64_t k) { return random_uniform(11, 8 * n + k); };
+    const glm::dvec2 low = map.grid.min_world + size_m * glm::dvec2(roll(0), roll(1));
+    const double most_m = roll(2) * roll(2) * size_m;
+    const glm::dvec2 high = low + most_m * glm::dvec2(roll(3), roll(4));
+    const float bound = highest_over(p, low, high);
+    EXPECT_LE(bound, highest + 2.0f * p.step_m);
+    tight += bound < highest - 1.0f;
+    for (const double s : {0.0, 0.3, 0.7, 1.0})
+      for (const double t : {0.0, 0.4, 1.0}) {
+        const glm::dvec2 at = low + glm::dvec2(s, t) * (high - low);
+        const double height = height_at(map, at);
+        EXPECT_NEAR(height_at(p, at), height, static_cast<double>(p.step_m));
+        EXPECT_LE(height_at(p, at), static_cast<double>(bound) + 1e-5);
+      }
+  }
+  EXPECT_GT(tight, 1000);
 }
 
 // A hill on one side, and noise on the other.
