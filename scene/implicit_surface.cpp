@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "math/elementary.h"
+
 namespace swell::scene {
 namespace {
 
@@ -179,6 +181,18 @@ Cell swept(const ImplicitPart& part) {
 
 }  // namespace
 
+glm::dmat3 turn_about(glm::dvec3 axis, double turns) {
+  const SinCos angle = sin_cos_turns(turns);
+  glm::dmat3 m;
+  for (int i = 0; i < 3; ++i) {
+    glm::dvec3 e(0.0);
+    e[i] = 1.0;
+    m[i] = angle.cos * e + angle.sin * glm::cross(axis, e) +
+           (1.0 - angle.cos) * glm::dot(axis, e) * axis;
+  }
+  return m;
+}
+
 double value(const ImplicitTerm& term, glm::dvec3 p) {
   double f = term.quadric(p);
   for (const Perturbation& r : term.perturbations) f += r.factor * cube_of_positive(r.quadric(p));
@@ -197,7 +211,7 @@ glm::dvec3 gradient(const ImplicitTerm& term, glm::dvec3 p) {
 double value(const ImplicitPart& part, glm::dvec3 p) {
   double least = 1e300;
   for (const ImplicitTerm& term : part.terms) least = std::min(least, value(term, p));
-  return least;
+  return part.table ? std::min(least, value(*part.table, p)) : least;
 }
 
 // The quadric is q + g . s + s^T K s of the spans' factors s. Along the first span, which is the
@@ -235,9 +249,10 @@ Interval bounds(const ImplicitTerm& term, glm::dvec3 middle, const Spans& spans)
 }
 
 bool may_hold(const ImplicitPart& part, glm::dvec3 middle, const Spans& spans) {
-  return std::ranges::all_of(part.terms, [&](const ImplicitTerm& term) {
-    return bounds(term, middle, spans).high >= 0.0;
-  });
+  return std::ranges::all_of(
+             part.terms,
+             [&](const ImplicitTerm& term) { return bounds(term, middle, spans).high >= 0.0; }) &&
+         !(part.table && most_of(*part.table, middle, spans) < 0.0);
 }
 
 void find_boxes(ImplicitSurface& implicit) {

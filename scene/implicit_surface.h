@@ -5,8 +5,9 @@
 //   F'(p) = F(p) + sum of factor_i R_i(p),  R_i = Q_i(p)^3 where Q_i(p) > 0, else 0
 //
 // So a term has a continuous gradient and curvature, and few of them make a smooth, curved shape.
-// The union of parts, the intersection of terms and the difference (a term with its signs changed)
-// give any combination.
+// A part may have a table of heights besides, which bounds it as a term does
+// (scene/height_table.h). The union of parts, the intersection of terms and the difference (a term
+// with its signs changed) give any combination.
 //
 // Source: Vyatkin, Dolgovesov, 2019; the surfaces after Vyatkin, Complex-Surface Modeling Using
 // Perturbation Functions, Avtometriya 43(3), 2007.
@@ -15,8 +16,11 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "scene/height_table.h"
 
 namespace swell::scene {
 
@@ -46,12 +50,13 @@ struct ImplicitTerm {
 
 // In metres along the implicit surface's axes: right, ahead, up. z = 0 is its waterline.
 struct ImplicitPart {
-  std::vector<ImplicitTerm> terms;  // 1 to kMostTerms; the first alone has perturbations
-  glm::dvec3 low{0.0}, high{0.0};   // a box that holds it, as it is at t = 0
-  glm::dvec3 inside{0.0};           // one of its points, near its middle if that is one
-  glm::dmat3 frame{1.0};            // its first shape's half axes
-  bool is_box = false;              // that is what its first shape is
-  bool is_hollow = false;           // its middle is not one of its points: a sail, a ring
+  std::vector<ImplicitTerm> terms;   // 1 to kMostTerms; the first alone has perturbations
+  std::optional<HeightTable> table;  // then no term has perturbations
+  glm::dvec3 low{0.0}, high{0.0};    // a box that holds it, as it is at t = 0
+  glm::dvec3 inside{0.0};            // one of its points, near its middle if that is one
+  glm::dmat3 frame{1.0};             // its first shape's half axes
+  bool is_box = false;               // that is what its first shape is
+  bool is_hollow = false;            // its middle is not one of its points: a sail, a ring
   // It turns about the line through `hub` along `axis` (unit), by a right-handed angle.
   glm::dvec3 hub{0.0}, axis{0.0, 1.0, 0.0};
   double turns_per_s = 0.0;
@@ -65,13 +70,17 @@ inline constexpr std::size_t kMostTerms = 8, kMostPerturbations = 8;
 inline constexpr std::size_t kMostImplicitBytes = 65536;
 
 struct ImplicitSurface {
-  std::vector<ImplicitPart> parts;  // at least one
-  glm::dvec3 low{0.0}, high{0.0};   // a box that holds them however they turn
+  std::vector<ImplicitPart> parts;    // at least one
+  glm::dvec3 low{0.0}, high{0.0};     // a box that holds them however they turn
+  std::vector<std::string> pictures;  // the files of its tables
 };
+
+// The right-handed turn by so many whole turns about a unit axis.
+glm::dmat3 turn_about(glm::dvec3 axis, double turns);
 
 double value(const ImplicitTerm& term, glm::dvec3 p);
 glm::dvec3 gradient(const ImplicitTerm& term, glm::dvec3 p);
-// The least of the part's terms: at least 0 inside.
+// The least of the part's terms and its table: at least 0 inside.
 double value(const ImplicitPart& part, glm::dvec3 p);
 
 // What points middle + sum of s_i span[i], s_i in [-1, 1], have of a function, at least and at

@@ -7,6 +7,7 @@
 #endif
 
 #include "render/packets/packet-inl.h"
+#include "render/view/implicit_tables-inl.h"
 #include "render/view/object_instance.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,22 +42,45 @@ HWY_INLINE ValueAndGradient At(const PosedImplicit& implicit, const RayTerm& ter
   return result;
 }
 
-// Out of the part at p, from its middle: against the gradient of the term whose zero is nearest.
-HWY_INLINE V3 OutOf(const PosedImplicit& implicit, const RayPart& part, V3 p) {
-  V3 out = Constant(glm::vec3(0.0f));
-  V nearest = Constant(1e30f);
-  for (std::uint32_t i = 0; i < part.terms; ++i) {
-    const ValueAndGradient at = At(implicit, implicit.terms[part.first_term + i], p);
+// The direction against the gradient of the function whose zero is nearest.
+struct NearestZero {
+  V3 out;
+  V away2;
+
+  HWY_INLINE void Take(const ValueAndGradient& at) {
     const V length2 = Max(Dot(at.gradient, at.gradient), 1e-30f);
-    const V away2 = at.value * at.value / length2;
-    const auto nearer = away2 < nearest;
+    const V away2_here = at.value * at.value / length2;
+    const auto nearer = away2_here < away2;
     const V inverse = -InverseSqrt(length2);
-    nearest = IfThenElse(nearer, away2, nearest);
+    away2 = IfThenElse(nearer, away2_here, away2);
     out.x = IfThenElse(nearer, at.gradient.x * inverse, out.x);
     out.y = IfThenElse(nearer, at.gradient.y * inverse, out.y);
     out.z = IfThenElse(nearer, at.gradient.z * inverse, out.z);
   }
-  return out;
+};
+
+// A table's functions h - z and h - threshold.
+HWY_INLINE void TakeTable(const RayTable& table, V3 p, NearestZero& zero) {
+  const V3 at = InTable(table, p);
+  const HeightAndSlope h =
+      WithHeights(table, [&](const auto& of) HWY_ATTR { return HeightsAt(of, at.x, at.y); });
+  const glm::mat3 transposed = glm::transpose(table.linear);
+  const V3 level = Turned(transposed, {h.along_u, h.along_v, hn::Zero(D())}) * 0.5f;
+  zero.Take({h.height - at.z, level - Constant(0.5f * transposed[2])});
+  // Level heights have no border.
+  constexpr float kLevel = 1e-12f;
+  const V over = IfThenElse(Dot(level, level) > kLevel, h.height - table.threshold_m, 1e15f);
+  zero.Take({over, level});
+}
+
+// Out of the part at p, from its middle.
+HWY_INLINE V3 OutOf(const PosedImplicit& implicit, const RayPart& part, V3 p) {
+  NearestZero zero = {Constant(glm::vec3(0.0f)), Constant(1e30f)};
+  for (std::uint32_t i = 0; i < part.terms; ++i)
+    zero.Take(At(implicit, implicit.terms[part.first_term + i], p));
+  if (part.table != RayPart::kNoTable)
+    TakeTable(implicit.tables[static_cast<std::size_t>(part.table)], p, zero);
+  return zero.out;
 }
 
 // Sets `normal`, in the axes of the lanes' meshes, at their points q where they show implicit

@@ -7,6 +7,7 @@
 #include "render/view/implicits.h"
 #include "render/view/objects_drawn.h"
 #include "render/view/render_view.h"
+#include "scene/implicit_surface.h"
 
 namespace swell::render {
 namespace {
@@ -24,19 +25,6 @@ scene::Quadric about(const scene::Quadric& f, const glm::dmat3& back, glm::dvec3
   return result;
 }
 
-// The turn by an angle about an axis.
-glm::dmat3 turn_about(glm::dvec3 axis, double turns) {
-  const SinCos angle = sin_cos_turns(turns);
-  glm::dmat3 m;
-  for (int i = 0; i < 3; ++i) {
-    glm::dvec3 e(0.0);
-    e[i] = 1.0;
-    m[i] = angle.cos * e + angle.sin * glm::cross(axis, e) +
-           (1.0 - angle.cos) * glm::dot(axis, e) * axis;
-  }
-  return m;
-}
-
 // How a part has turned: p_now = hub + turned (p - hub), p = back p_now + offset.
 struct Turn {
   glm::dmat3 turned{1.0}, back{1.0};
@@ -46,7 +34,7 @@ struct Turn {
 Turn turn_of(const scene::ImplicitPart& part, double t_s) {
   if (part.turns_per_s == 0.0) return {};
   Turn turn;
-  turn.turned = turn_about(part.axis, part.turns_per_s * t_s);
+  turn.turned = scene::turn_about(part.axis, part.turns_per_s * t_s);
   turn.back = glm::transpose(turn.turned);
   turn.offset = part.hub - turn.back * part.hub;
   return turn;
@@ -64,6 +52,18 @@ RayQuadric about_middle(const scene::Quadric& f, glm::dvec3 middle) {
           narrow(f(middle))};
 }
 
+RayTable table_at(const scene::HeightTable& table, double t_s, const Turn& turn,
+                  glm::dvec3 middle) {
+  const scene::FramesAt frames = scene::frames_at(table, t_s);
+  return {frames.now,
+          frames.next,
+          static_cast<float>(frames.share),
+          static_cast<float>(
+              std::max(table.threshold_m, static_cast<double>(RayTable::kNoThreshold_m))),
+          glm::mat3(table.linear * turn.back),
+          glm::vec3(table(turn.back * middle + turn.offset))};
+}
+
 void add_part(const scene::ImplicitPart& part, double t_s, PosedImplicit& posed) {
   const Turn turn = turn_of(part, t_s);
   glm::dvec3 middle = 0.5 * (part.low + part.high), half = 0.5 * (part.high - part.low);
@@ -79,8 +79,12 @@ void add_part(const scene::ImplicitPart& part, double t_s, PosedImplicit& posed)
   };
   posed.parts.push_back({about_m, glm::vec3(half) * 1.00001f + 1e-5f,
                          static_cast<std::uint32_t>(posed.terms.size()),
-                         static_cast<std::uint32_t>(part.terms.size()), glm::vec3(part.hub),
-                         glm::vec3(part.axis * part.turns_per_s)});
+                         static_cast<std::uint32_t>(part.terms.size()), RayPart::kNoTable,
+                         glm::vec3(part.hub), glm::vec3(part.axis * part.turns_per_s)});
+  if (part.table) {
+    posed.parts.back().table = static_cast<std::int32_t>(posed.tables.size());
+    posed.tables.push_back(table_at(*part.table, t_s, turn, glm::dvec3(about_m)));
+  }
   for (const scene::ImplicitTerm& term : part.terms) {
     posed.terms.push_back({add(term.quadric),
                            static_cast<std::uint32_t>(posed.perturbations.size()),
@@ -277,6 +281,7 @@ void add_order(const ImplicitInView& implicit, ImplicitsInView& implicits) {
 
 void pose_implicit(const scene::ImplicitSurface& implicit, double t_s, PosedImplicit& posed) {
   posed.parts.clear(), posed.terms.clear(), posed.perturbations.clear();
+  posed.tables.clear();
   for (const scene::ImplicitPart& part : implicit.parts) add_part(part, t_s, posed);
 }
 
@@ -330,7 +335,8 @@ std::optional<glm::dmat4x3> part_move(const ObjectInstance& object, std::uint32_
   const double turns_per_s = glm::length(spin);
   if (turns_per_s == 0.0) return std::nullopt;
   const ImplicitPlace place = place_of(object);
-  const glm::dmat3 turn = turn_about(spin / turns_per_s, turns_per_s * step_s) - glm::dmat3(1.0);
+  const glm::dmat3 turn =
+      scene::turn_about(spin / turns_per_s, turns_per_s * step_s) - glm::dmat3(1.0);
   const glm::dmat3 moved = place.world_from_implicit * turn;
   const glm::dmat3 linear = moved * place.implicit_from_world;
   const glm::dvec3 arm_of_eye =

@@ -8,7 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "scene/implicit_surface.h"
+namespace swell::scene {
+struct ImplicitSurface;
+}
+namespace swell::terrain {
+struct HeightPyramid;
+}
 
 namespace swell::render {
 
@@ -34,10 +39,24 @@ struct RayTerm {
   std::uint32_t first_perturbation, perturbations;
 };
 
+// A table of heights at a time (scene/height_table.h): (u, v, z) = linear p + at, u and v in posts.
+struct RayTable {
+  static constexpr float kNoThreshold_m = -1e30f;
+
+  const terrain::HeightPyramid *now, *next;
+  float share;  // of next
+  float threshold_m;
+  glm::mat3 linear;
+  glm::vec3 at;
+};
+
 // In floats relative to the middle of its box, which keep what its place would cost them.
 struct RayPart {
+  static constexpr std::int32_t kNoTable = -1;
+
   glm::vec3 middle, half;  // of its box, in the form's axes
   std::uint32_t first_term, terms;
+  std::int32_t table;   // its table of heights; kNoTable: none
   glm::vec3 hub, spin;  // it turns about the line through hub along spin, |spin| times a second
 };
 
@@ -46,6 +65,7 @@ struct PosedImplicit {
   std::vector<RayPart> parts;
   std::vector<RayTerm> terms;
   std::vector<RayPerturbation> perturbations;
+  std::vector<RayTable> tables;
 };
 
 // The bits of `posed` depend on `implicit` and time alone; its storage is used again.

@@ -7,17 +7,25 @@
 // G + G' s + M s^2 / 2 lies over G for all s in [0, h], and the step goes to its first zero, or to
 // the end of h if it has none. The steps shrink with the square near a zero, as Newton's do, and
 // come from one side, so that no thin part is passed however long the way is.
+//
+// A part with a table of heights h(u, v) over a plane, and a threshold, is where h >= max(z,
+// threshold), z the ray's height over the plane: first where one is the higher, then where the
+// other is, a ray's way goes over the table's pyramid of maxima as over land
+// (terrain/height_walk-inl.h).
 #include <array>
 #include <cstddef>
 
 #include "render/view/implicit_rays.h"
+#include "scene/implicit_surface.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/view/implicit_rays_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/view/implicit_tables-inl.h"
 #include "render/view/implicit_vectors-inl.h"
+#include "terrain/height_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -229,6 +237,50 @@ HWY_INLINE TermAlong TermOf(const PosedImplicit& implicit, const RayTerm& term,
   return along;
 }
 
+// The first depth from `from` on, before `to`, where a ray is under the table's heights.
+template <class Heights>
+HWY_INLINE V MeetHeights(const Heights& of, const RayTable& table, const RayPacket& ray, V from,
+                         V to, M lanes) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const V3 way = Turned(table.linear, ray.d);
+  const V3 start = MulAdd(way, from, InTable(table, ray.p));
+  const auto cells = static_cast<float>(of.Grid().grid.samples_x - 1);
+  const heights::Traveller<heights::LaneAxis, Heights> traveller(of, {start.x, cells},
+                                                                 {start.y, cells}, 0.0f);
+  // Under the threshold a ray is as high as this.
+  const V over = start.z - table.threshold_m;
+  const M rises = way.z > zero, is_level = way.z == zero;
+  const M above = (over > zero) | ((over == zero) & rises);
+  const V crossing = -over / IfThenElse(is_level, 1.0f, way.z);
+  const V length = to - from;
+  const M crosses = hn::AndNot(is_level, (crossing > zero) & (crossing < length));
+  const V split = IfThenElse(crosses, crossing, length);
+  const auto meet = [&](V begin, V end, M is_above, M which) HWY_ATTR {
+    heights::Packet packet;
+    packet.goes = packet.waits = hn::FirstN(d, 0);
+    packet.t_hit = hn::Inf(d);
+    heights::Walk& w = packet.walk;
+    w.x_t = way.x, w.y_t = way.y;
+    w.z = IfThenElse(is_above, start.z, table.threshold_m);
+    w.z_t = IfThenElseZero(is_above, way.z), w.z_tt = zero;
+    w.t = begin, w.end = end;
+    packet.goes = traveller.Begin(w) & which;
+    while (packet.IsUnderWay()) heights::StepPacket(traveller, packet);
+    return packet.t_hit;
+  };
+  V t = meet(zero, split, above, lanes);
+  const M goes_on = (lanes & crosses) & (t > length);
+  if (!hn::AllFalse(d, goes_on)) t = Min(t, meet(split, length, !above, goes_on));
+  return IfThenElse(t > length, kNowhere, from + t);
+}
+
+// As NextInside(), for a part's table.
+HWY_INLINE V NextUnder(const RayTable& table, const RayPacket& ray, V u, V to, M lanes) {
+  return WithHeights(
+      table, [&](const auto& of) HWY_ATTR { return MeetHeights(of, table, ray, u, to, lanes); });
+}
+
 // The first depth in the stay where all of the part's terms are at least 0, else kNowhere or past
 // the stay, which ends where they cannot be any more.
 HWY_INLINE V FirstInside(const PosedImplicit& implicit, const RayPart& part, const RayPacket& ray,
@@ -248,6 +300,16 @@ HWY_INLINE V FirstInside(const PosedImplicit& implicit, const RayPart& part, con
     gap_count += hn::AllFalse(d, has_gap & lanes) ? 0 : 1;
   }
   V u = stay.from;
+  if (part.table != RayPart::kNoTable) {
+    const RayTable& table = implicit.tables[static_cast<std::size_t>(part.table)];
+    for (std::size_t pass = 0; pass < 2 * scene::kMostTerms; ++pass) {
+      const V under = NextUnder(table, ray, u, stay.to, lanes);
+      u = under;
+      for (std::size_t i = 0; i < gap_count; ++i) u = NextInside(gaps[i], u);
+      if (hn::AllFalse(d, lanes & ((u > under) & (u < stay.to)))) break;
+    }
+    return u;
+  }
   if (first.perturbations == 0) {
     for (std::size_t pass = 0; pass < gap_count; ++pass)
       for (std::size_t i = 0; i < gap_count; ++i) u = NextInside(gaps[i], u);
@@ -272,12 +334,6 @@ HWY_INLINE RayPacket StraightRays(const RayBlock& block, V x, V y) {
                     MulAdd(dx.z, x, dy.z * y)};
   return {MulAdd(aside, Constant(block.middle_depth_m), Constant(block.middle)),
           {aside.x + block.ray.x, aside.y + block.ray.y, aside.z + block.ray.z}};
-}
-
-HWY_INLINE V3 Turned(const glm::mat3& m, V3 v) {
-  return {MulAdd(m[0].x, v.x, MulAdd(m[1].x, v.y, m[2].x * v.z)),
-          MulAdd(m[0].y, v.x, MulAdd(m[1].y, v.y, m[2].y * v.z)),
-          MulAdd(m[0].z, v.x, MulAdd(m[1].z, v.y, m[2].z * v.z))};
 }
 
 // Snell's law keeps the horizontal part of a ray whose depth is that of what it shows.

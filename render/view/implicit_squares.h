@@ -21,8 +21,8 @@ struct SquareBeams {
   glm::vec3 across, down;
 };
 
-// Those of `squares` where all terms of the part may be at least 0; never leaves out one where they
-// are, nor one where the rays' rounding makes them so.
+// Those of `squares` where all terms of the part, and its table, may be at least 0; never leaves
+// out one where they are, nor one where the rays' rounding makes them so.
 std::uint64_t squares_showing(const PosedImplicit& implicit, const RayPart& part,
                               const SquareBeams& beams, std::uint64_t squares);
 

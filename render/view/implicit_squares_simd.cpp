@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/view/implicit_tables-inl.h"
 #include "render/view/implicit_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -80,6 +81,25 @@ HWY_INLINE V MostOf(const PosedImplicit& implicit, const RayTerm& term, const Be
   return most;
 }
 
+// The most that heights are over beams, and over their threshold: by the blocks of the table whose
+// size is that of the beams' projection.
+HWY_INLINE V MostOf(const RayTable& table, const Beams& beams) {
+  constexpr float kRounding = 64.0f * 6e-8f, kRounding_posts = 0.02f;
+  const V3 at = InTable(table, beams.middle), along = Turned(table.linear, beams.along);
+  const glm::mat3 sizes(glm::abs(table.linear[0]), glm::abs(table.linear[1]),
+                        glm::abs(table.linear[2]));
+  const glm::vec3 aside = glm::abs(table.linear * beams.across) +
+                          glm::abs(table.linear * beams.down) +
+                          kRounding * (sizes * beams.reach + glm::abs(table.at)) +
+                          glm::vec3(kRounding_posts, kRounding_posts, 0.0f);
+  const V u = Abs(along.x) + aside.x, v = Abs(along.y) + aside.y, z = Abs(along.z) + aside.z;
+  return WithHeights(table, [&](const auto& of) HWY_ATTR {
+    V highest = heights::HighestOver(of, at.x - u, at.x + u, at.y - v, at.y + v);
+    highest = MulAdd(Abs(highest), kRounding, highest);
+    return highest - Max(at.z - z, table.threshold_m);
+  });
+}
+
 glm::vec3 reach_of(const SquareBeams& b) {
   constexpr float kLast = kSquares - 1;
   return glm::abs(b.middle) + glm::abs(b.along) + glm::abs(b.across) + glm::abs(b.down) +
@@ -110,6 +130,10 @@ std::uint64_t SquaresShowing(const PosedImplicit& implicit, const RayPart& part,
     for (std::uint32_t term = 0; term < part.terms && !hn::AllFalse(d, may); ++term) {
       const V most = MostOf(implicit, implicit.terms[part.first_term + term], of_packet);
       may = may & (most >= 0.0f);
+    }
+    if (part.table != RayPart::kNoTable) {
+      const RayTable& table = implicit.tables[static_cast<std::size_t>(part.table)];
+      may = may & (MostOf(table, of_packet) >= 0.0f);
     }
     std::array<std::uint8_t, 8> bits{};
     hn::StoreMaskBits(d, may, bits.data());

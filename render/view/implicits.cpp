@@ -8,6 +8,7 @@
 #include "raster/sample_pattern.h"
 #include "render/view/implicit_squares.h"
 #include "render/view/render_view.h"
+#include "scene/implicit_surface.h"
 
 namespace swell::render {
 namespace {

@@ -6,14 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
+#include <span>
 
 #include "math/elementary.h"
+#include "scene/file/height_table_file.h"
 #include "scene/file/parameters.h"
 #include "scene/file/spelling.h"
 #include "scene/file/toml_limits.h"
+#include "scene/height_frames.h"
 #include "scene/scene_error.h"
+#include "texture/bump_sequence.h"
 
 namespace swell::scene {
 namespace {
@@ -69,9 +75,12 @@ constexpr std::array<std::string_view, 7> kShapes = {
 constexpr std::array<std::string_view, 6> kAxes = {"x", "y", "z", "-x", "-y", "-z"};
 constexpr std::array<std::string_view, 7> kShapeKeys = {"shape", "at",  "size",   "turn_deg",
                                                         "axis",  "top", "quadric"};
-constexpr std::array<std::string_view, 15> kPartKeys = {
-    "name",         "bend",   "keep",   "cut",    "colour", "roughness", "metalness", "painted",
-    "translucency", "mirror", "copies", "repeat", "hub",    "spin_axis", "spin_rpm"};
+constexpr std::array<std::string_view, 16> kPartKeys = {
+    "name",    "bend",         "keep",   "cut",    "heights", "colour", "roughness", "metalness",
+    "painted", "translucency", "mirror", "copies", "repeat",  "hub",    "spin_axis", "spin_rpm"};
+constexpr std::array<std::string_view, 7> kHeightKeys = {
+    "image", "low_m", "high_m", "threshold_m", "interpolation", "frames", "loop_s"};
+constexpr std::array<std::string_view, 2> kInterpolations = {"bilinear", "bicubic"};
 
 class ImplicitReader {
  public:
@@ -116,8 +125,11 @@ class ImplicitReader {
   void add_part(const toml::table& table, ImplicitSurface& implicit) {
     check_keys(table, true);
     ImplicitPart part;
-    for (const Quadric& quadric : quadrics_of(table)) part.terms.push_back({quadric, {}});
     part.frame = frame_of(table);
+    if (table.get("heights"))
+      add_heights(table, part, implicit);
+    else
+      for (const Quadric& quadric : quadrics_of(table)) part.terms.push_back({quadric, {}});
     part.is_box = word(table, "shape", kShapes, "ellipsoid") == "box";
     for (const toml::table* bend : tables_of(table, "bend", kMostPerturbations)) {
       const double factor = number(*bend, "factor", 1.0, -1e3, 1e3);
@@ -138,6 +150,63 @@ class ImplicitReader {
     part.axis /= length;
     part.turns_per_s = number(table, "spin_rpm", 0.0, -1e5, 1e5) / 60.0;
     add_copies(table, part, implicit);
+  }
+
+  // The walls of what lies under a table, and the table: in a box of the part's size, from the
+  // middle of a plane, or the top of a box, upwards.
+  void add_heights(const toml::table& table, ImplicitPart& part, ImplicitSurface& implicit) {
+    const toml::node& node = *table.get("heights");
+    const std::string shape = word(table, "shape", kShapes, "ellipsoid");
+    if (shape != "box" && shape != "plane")
+      fail(node, path_ + ".heights", fmt::format("them on a shape \"{}\"", shape),
+           "a plane's or a box's");
+    if (table.get("bend")) fail(node, path_ + ".heights", "them besides bend", "one of them");
+    if (!node.is_table()) fail(node, path_ + ".heights", "no table", "a table");
+    part.table = height_table(*node.as_table(), implicit);
+    const HeightFrames& heights = *part.table->heights;
+    const Affine own = to_own_axes(table);
+    const double base = shape == "box" ? 1.0 : 0.0, half_m = glm::length(part.frame[2]);
+    const glm::dvec3 posts(0.5 * (heights.columns - 1), 0.5 * (heights.rows - 1), half_m);
+    for (int i = 0; i < 3; ++i) part.table->linear[i] = posts * own.linear[i];
+    part.table->offset = posts * (own.offset + glm::dvec3(1.0, 1.0, -base));
+    // Nothing is over the highest post: a wall there shortens the rays' ways.
+    const double top = base + heights.highest_m / half_m;
+    const double most = std::max(top, -1.0) + 1e-3 * (std::abs(top) + 1.0);
+    const Quadric ends = {.zz = -1.0, .b = {0.0, 0.0, 0.5 * (most - 1.0)}, .c = most};
+    for (const Quadric& side : {Quadric{.xx = -1.0, .c = 1.0}, Quadric{.yy = -1.0, .c = 1.0}, ends})
+      part.terms.push_back({transformed(side, own), {}});
+  }
+
+  HeightTable height_table(const toml::table& keys, ImplicitSurface& implicit) {
+    const std::string part_path = path_;
+    path_ += ".heights";
+    refuse_unknown(keys, kHeightKeys);
+    const toml::node* const image = keys.get("image");
+    HeightPictures pictures;
+    pictures.path = image ? image->value_or(std::string()) : std::string();
+    if (pictures.path.empty())
+      fail(image ? *image : keys, path_ + ".image", "no file", "a picture's");
+    pictures.frames = whole_number(keys, "frames", 1, kMostTableFrames);
+    if (pictures.frames > 1 && pictures.path.find(texture::kFrameNumber) == std::string::npos)
+      fail(*image, path_ + ".image", fmt::format("\"{}\"", shortened(pictures.path)),
+           fmt::format("a path with {} for the frame", texture::kFrameNumber));
+    pictures.path =
+        (std::filesystem::path(file_).parent_path() / pictures.path).lexically_normal().string();
+    pictures.low_m = number(keys, "low_m", 0.0, -kMostTableHeight_m, kMostTableHeight_m);
+    pictures.high_m = number(keys, "high_m", 1.0, -kMostTableHeight_m, kMostTableHeight_m);
+    pictures.bicubic = word(keys, "interpolation", kInterpolations, "bilinear") == "bicubic";
+    HeightTable table;
+    table.loop_s = number(keys, "loop_s", pictures.frames > 1 ? 4.0 : 0.0, 0.0, 3600.0);
+    table.threshold_m =
+        number(keys, "threshold_m", table.threshold_m, -kMostTableHeight_m, kMostTableHeight_m);
+    try {
+      table.heights = read_heights(pictures);
+    } catch (const std::runtime_error& error) {
+      fail_in(*image, path_ + ".image", one_line(error.what()));
+    }
+    std::ranges::copy(paths_of(pictures), std::back_inserter(implicit.pictures));
+    path_ = part_path;
+    return table;
   }
 
   void read_paint(const toml::table& table, ImplicitPart& part) const {
@@ -192,6 +261,10 @@ class ImplicitReader {
       term.quadric = transformed(term.quadric, from_new);
       for (Perturbation& r : term.perturbations) r.quadric = transformed(r.quadric, from_new);
     }
+    if (part.table) {
+      part.table->offset += part.table->linear * from_new.offset;
+      part.table->linear = part.table->linear * from_new.linear;
+    }
     return part;
   }
 
@@ -207,10 +280,16 @@ class ImplicitReader {
     std::vector<Quadric> quadrics = shape == "quadric"
                                         ? std::vector<Quadric>{given_quadric(table)}
                                         : surfaces_of(shape, number(table, "top", 0, 0, 10));
+    const Affine own = to_own_axes(table);
+    for (Quadric& quadric : quadrics) quadric = transformed(quadric, own);
+    return quadrics;
+  }
+
+  // Into a shape's own axes, in which it fills a box from -1 to 1.
+  Affine to_own_axes(const toml::table& table) const {
     const glm::dmat3 linear = glm::inverse(frame_of(table));
     const glm::dvec3 at = vector(table, "at", glm::dvec3(0.0), -1000, 1000);
-    for (Quadric& quadric : quadrics) quadric = transformed(quadric, {linear, -(linear * at)});
-    return quadrics;
+    return {linear, -(linear * at)};
   }
 
   // The half axes of a shape's box, in the order of the shape's own axes.
@@ -254,6 +333,10 @@ class ImplicitReader {
       known.insert(known.end(), kPartKeys.begin(), kPartKeys.end());
     else
       known.push_back("factor");
+    refuse_unknown(table, known);
+  }
+
+  void refuse_unknown(const toml::table& table, std::span<const std::string_view> known) const {
     for (const auto& [key, node] : table)
       if (std::ranges::find(known, key.str()) == known.end())
         fail(node, "unknown key",
@@ -294,6 +377,14 @@ class ImplicitReader {
                 double high) const {
     const toml::node* const node = table.get(key);
     return node ? checked(*node, key, low, high) : otherwise;
+  }
+
+  int whole_number(const toml::table& table, std::string_view key, int otherwise, int most) const {
+    const double value = number(table, key, otherwise, 1, most);
+    if (value != std::floor(value))
+      fail(*table.get(key), fmt::format("{}.{}", path_, key), fmt::format("{}", value),
+           "a whole number");
+    return static_cast<int>(value);
   }
 
   std::vector<double> numbers(const toml::table& table, std::string_view key, std::size_t count,
@@ -338,9 +429,15 @@ class ImplicitReader {
 
   [[noreturn]] void fail(const toml::node& node, std::string_view what, const std::string& got,
                          const std::string& allowed) const {
+    fail_in(node, what, fmt::format("got {}, allowed {}", got, allowed));
+  }
+
+  // With a fault that says what is allowed.
+  [[noreturn]] void fail_in(const toml::node& node, std::string_view what,
+                            const std::string& fault) const {
     const toml::source_position at = node.source().begin;
-    throw SceneError(fmt::format("{}:{}: column {}: {}, got {}, allowed {}", file_, at.line,
-                                 at.column, what, got, allowed));
+    throw SceneError(
+        fmt::format("{}:{}: column {}: {}, {}", file_, at.line, at.column, what, fault));
   }
 
   std::string file_;

@@ -1,8 +1,23 @@
 #include "scene/file/scene_files.h"
 
+#include "scene/file/implicit_file.h"
+#include "scene/scene_error.h"
 #include "texture/square_frames.h"
 
 namespace swell::scene {
+namespace {
+
+// The heights of an implicit surface; none of a file that no world takes.
+std::vector<std::string> pictures_of(const FloatingObject& object) {
+  if (object.kind != ObjectKind::kImplicit || object.file.empty()) return {};
+  try {
+    return load_implicit(object.file).pictures;
+  } catch (const SceneError&) {
+    return {};
+  }
+}
+
+}  // namespace
 
 std::vector<SceneFile> files_of(const Scene& scene) {
   std::vector<SceneFile> files;
@@ -21,10 +36,12 @@ std::vector<SceneFile> files_of(const Scene& scene) {
       for (int frame = 0; frame < scene.ripples.frames; ++frame)
         add(texture::path_of_frame(path, frame));
   for (const FloatingObject& object : scene.objects)
-    if (object.kind == ObjectKind::kMesh && !object.file.empty())
+    if (object.kind == ObjectKind::kMesh && !object.file.empty()) {
       files.push_back({object.file, true, object.up});
-    else
+    } else {
       add(object.file);
+      for (const std::string& picture : pictures_of(object)) add(picture);
+    }
   return files;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "math/random.h"
+#include "render/objects/height_pictures.h"
 #include "render/objects/implicit_shots.h"
 #include "trials.h"
 
@@ -46,6 +47,30 @@ scene::ImplicitSurface random_implicit(std::uint64_t seed) {
   return implicit_of(text.c_str());
 }
 
+// A box or a plane with a table of rough heights, tilted any way, with or without a threshold and a
+// hole.
+scene::ImplicitSurface random_table(std::uint64_t seed) {
+  Dice dice{seed + 2000};
+  const HeightPictures pictures;
+  const int columns = static_cast<int>(dice.roll(2, 40)), rows = static_cast<int>(dice.roll(2, 40));
+  const double rough = dice.roll(0.0, 0.4);
+  pictures.write("rough.exr", columns, rows, [&](double u, double v) {
+    return 0.4 * std::sin(3.0 * u) * std::cos(4.0 * v) + dice.roll(-rough, rough);
+  });
+  std::string text = fmt::format(
+      "[[form]]\nshape = \"{}\"\nsize = [{}, {}, {}]\nturn_deg = [{}, {}, {}]\n",
+      dice.roll(0, 1) < 0.5 ? "box" : "plane", dice.roll(0.5, 3), dice.roll(0.5, 3),
+      dice.roll(0.2, 1), dice.roll(-180, 180), dice.roll(-180, 180), dice.roll(-180, 180));
+  text +=
+      fmt::format("heights = {{ image = \"rough.exr\"{} }}\n",
+                  dice.roll(0, 1) < 0.5 ? std::string()
+                                        : fmt::format(", threshold_m = {}", dice.roll(-0.4, 0.3)));
+  if (dice.roll(0, 1) < 0.4)
+    text +=
+        fmt::format("cut = [{{ size = [0.9, 0.9, 2], at = [{}, 0, 0] }}]\n", dice.roll(-0.5, 0.5));
+  return pictures.parse(text);
+}
+
 View random_view(std::uint64_t seed, int size_px) {
   Dice dice{seed + 1000};
   const double heading = dice.roll(-kPi, kPi), pitch = dice.roll(-1.5, 1.5);
@@ -61,15 +86,17 @@ double inside(const scene::ImplicitSurface& implicit, glm::dvec3 p) {
   return most;
 }
 
-// Draws random implicit surfaces, and marches along each pixel's ray in 400 steps. Fewer than 8
-// surfaces may show next to nothing. Returns the number of rays.
-int expect_found_as_by_marching(int surfaces) {
+// Draws random implicit surfaces, and marches along each pixel's ray in 400 steps: what is inside
+// by `least` is found. Fewer than 8 surfaces may show next to nothing. Returns the number of rays.
+int expect_found_as_by_marching(int surfaces,
+                                scene::ImplicitSurface (*make)(std::uint64_t) = random_implicit,
+                                double least = 1e-6) {
   constexpr int kSize_px = 64, kSteps = 400;
   int pixels = 0, missed = 0, wrong = 0, shown = 0;
   for (int n = 0; n < surfaces; ++n) {
     scene::ImplicitSurface implicit;
     try {
-      implicit = random_implicit(static_cast<std::uint64_t>(n));
+      implicit = make(static_cast<std::uint64_t>(n));
     } catch (const std::runtime_error&) {
       continue;  // without an inside
     }
@@ -93,7 +120,7 @@ int expect_found_as_by_marching(int surfaces) {
       for (int k = 0; k < kSteps; ++k) {
         const double at_m = from_m + step_m * k;
         if (drawn_m > 0.0 && at_m >= drawn_m - 1e-4) break;
-        if (inside(implicit, view.eye_world + ray * at_m) < 1e-6) continue;
+        if (inside(implicit, view.eye_world + ray * at_m) < least) continue;
         ++missed;
         break;
       }
@@ -109,19 +136,25 @@ TEST(ImplicitRays, FindsWhatFineMarchingFinds) {
   expect_found_as_by_marching(std::max(trials(20), 8));
 }
 
+// Heights are as steep as 40 m on a metre: what floats round a place by tells so much more.
+TEST(ImplicitRays, FindsWhatFineMarchingFindsOfTables) {
+  expect_found_as_by_marching(std::max(trials(12), 8), random_table, 1e-4);
+}
+
 TEST(ImplicitRays, MissNothingOfAMillionRays) {
   EXPECT_GE(expect_found_as_by_marching(300), 1000000);
 }
 
 TEST(ImplicitRays, SquaresLeaveNothingOut) {
-  for (int n = 0; n < trials(20); ++n) {
+  for (int n = 0; n < trials(40); ++n) {
     scene::ImplicitSurface implicit;
+    const auto seed = static_cast<std::uint64_t>(500 + n / 2);
     try {
-      implicit = random_implicit(static_cast<std::uint64_t>(500 + n));
+      implicit = n % 2 == 0 ? random_implicit(seed) : random_table(seed);
     } catch (const std::runtime_error&) {
       continue;
     }
-    const View view = random_view(static_cast<std::uint64_t>(500 + n), 150);
+    const View view = random_view(seed, 150);
     const ImplicitShot with = shoot(implicit, view), without = shoot(implicit, view, 0.0, false);
     ASSERT_EQ(with.part, without.part) << n;
     ASSERT_EQ(with.depth_m, without.depth_m) << n;
