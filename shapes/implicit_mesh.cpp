@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include "scene/height_frames.h"
 
 namespace swell::shapes {
 namespace {
@@ -13,6 +16,7 @@ constexpr int kSegments = 4;  // along the edge of a cube
 struct ToBox {
   glm::dvec3 middle, size;
   glm::vec3 operator()(glm::dvec3 p) const { return glm::vec3((p - middle) / size); }
+  glm::dvec3 from(glm::vec3 q) const { return middle + size * glm::dvec3(q); }
 };
 
 ToBox to_box(const scene::ImplicitSurface& implicit) {
@@ -110,6 +114,113 @@ void add_sheet(const scene::ImplicitPart& part, const ToBox& to_box, ObjectMesh&
     }
 }
 
+// The first and the last point of a part on a way, each to a thousandth of a step; none: it has
+// none on any of the way's steps.
+struct Span {
+  bool any = false;
+  glm::dvec3 first{0.0}, last{0.0};
+};
+
+Span span_on(const scene::ImplicitPart& part, glm::dvec3 begin, glm::dvec3 way) {
+  constexpr int kSteps = 96, kHalvings = 10;
+  const auto inside = [&](double s) { return value(part, begin + s * way) >= 0.0; };
+  const auto border = [&](double in, double out) {
+    for (int k = 0; k < kHalvings; ++k) {
+      const double s = 0.5 * (in + out);
+      (inside(s) ? in : out) = s;
+    }
+    return begin + in * way;
+  };
+  int first = 0, last = kSteps;
+  while (first <= kSteps && !inside(static_cast<double>(first) / kSteps)) ++first;
+  if (first > kSteps) return {};
+  while (!inside(static_cast<double>(last) / kSteps)) --last;
+  return {true, border(static_cast<double>(first) / kSteps, (first - 1.0) / kSteps),
+          border(static_cast<double>(last) / kSteps, (last + 1.0) / kSteps)};
+}
+
+// The points of a lattice over a table of heights, row by row: the number of the first of two
+// vertices, where a column along the base plane's normal enters the part and leaves it last.
+constexpr int kColumns = 17;
+constexpr std::uint32_t kNoColumn = ~0u;
+using Columns = std::array<std::uint32_t, kColumns * kColumns>;
+
+Columns add_columns(const scene::ImplicitPart& part, const ToBox& to_box, ObjectMesh& mesh) {
+  const scene::HeightTable& table = *part.table;
+  const glm::dmat3 from_table = glm::inverse(table.linear);
+  double low = 1e300, high = -1e300;
+  for (int i = 0; i < 8; ++i) {
+    const glm::bvec3 upper((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
+    const double z = table(glm::mix(part.low, part.high, upper)).z;
+    low = std::min(low, z), high = std::max(high, z);
+  }
+  const glm::dvec2 last_post(table.heights->columns - 1, table.heights->rows - 1);
+  Columns columns;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const glm::dvec2 place(static_cast<double>(i % kColumns), static_cast<double>(i / kColumns));
+    // A hair inside of the borders.
+    const glm::dvec2 at = glm::clamp(place / (kColumns - 1.0), 1e-6, 1.0 - 1e-6) * last_post;
+    const glm::dvec3 foot = from_table * (glm::dvec3(at, low) - table.offset);
+    const Span span = span_on(part, foot, from_table[2] * (high - low));
+    columns[i] = span.any ? static_cast<std::uint32_t>(mesh.position.size()) : kNoColumn;
+    if (!span.any) continue;
+    mesh.position.push_back(to_box(span.first));
+    mesh.position.push_back(to_box(span.last));
+  }
+  return columns;
+}
+
+// The columns at the corners of cell (i, j), around it; none: not all of them are there.
+std::optional<std::array<std::uint32_t, 4>> cell_of(const Columns& columns, int i, int j) {
+  constexpr int kCells = kColumns - 1;
+  if (i < 0 || j < 0 || i >= kCells || j >= kCells) return std::nullopt;
+  const auto at = static_cast<std::size_t>(j * kColumns + i);
+  const std::array cell = {columns[at], columns[at + 1], columns[at + kColumns + 1],
+                           columns[at + kColumns]};
+  if (std::ranges::find(cell, kNoColumn) != cell.end()) return std::nullopt;
+  return cell;
+}
+
+// What lies under a table of heights, with walls where it ends. A border by the threshold is lost
+// up to a cell.
+void add_block(const scene::ImplicitPart& part, const ToBox& to_box, ObjectMesh& mesh) {
+  const Columns columns = add_columns(part, to_box, mesh);
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    for (const std::uint32_t corner : {a, b, c, a, c, d}) mesh.indices.push_back(corner);
+  };
+  constexpr std::array<glm::ivec2, 4> kBeside = {{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+  for (int j = 0; j + 1 < kColumns; ++j)
+    for (int i = 0; i + 1 < kColumns; ++i) {
+      const auto cell = cell_of(columns, i, j);
+      if (!cell) continue;
+      const auto& [a, b, c, d] = *cell;
+      for (const std::uint32_t side : {0u, 1u}) add(a + side, b + side, c + side, d + side);
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (cell_of(columns, i + kBeside[k].x, j + kBeside[k].y)) continue;
+        const std::uint32_t from = (*cell)[k], to = (*cell)[(k + 1) % 4];
+        add(from, to, to + 1, from + 1);
+      }
+    }
+}
+
+bool heights_move(const scene::ImplicitPart& part) {
+  return part.table && part.table->loop_s > 0.0 && part.table->heights->frames.size() > 1;
+}
+
+// How far a point of the stand-in moves with the heights, from the first frame on: nothing unless
+// it lies on them.
+glm::dvec3 risen(const scene::HeightTable& table, double t_s, glm::dvec3 p) {
+  const glm::dvec3 at = table(p);
+  const glm::dvec2 place(at);
+  const double before = terrain::height_at(table.heights->frames[0], place);
+  constexpr double kOnIt_m = 0.01;
+  if (std::abs(before - at.z) > kOnIt_m) return glm::dvec3(0.0);
+  const scene::FramesAt frames = scene::frames_at(table, t_s);
+  const double height = std::lerp(terrain::height_at(*frames.now, place),
+                                  terrain::height_at(*frames.next, place), frames.share);
+  return glm::inverse(table.linear)[2] * (height - before);
+}
+
 ObjectTriangle paint_of(const scene::ImplicitPart& part) {
   ObjectTriangle triangle;
   triangle.normal_at_origin = triangle.flat_normal = {0.0f, 0.0f, 1.0f};
@@ -129,12 +240,16 @@ float hull_top(const scene::ImplicitSurface& implicit, const scene::ImplicitPart
       std::clamp((top_m - implicit.low.z) / (implicit.high.z - implicit.low.z), 0.0, 1.0));
 }
 
-ObjectMesh stand_in(const scene::ImplicitSurface& implicit, const ToBox& to_box) {
+ObjectMesh stand_in(const scene::ImplicitSurface& implicit, const ToBox& to_box,
+                    std::vector<DrawnImplicit::MovingVertices>& moving) {
   ObjectMesh mesh;
-  for (const scene::ImplicitPart& part : implicit.parts) {
-    if (part.turns_per_s != 0.0) continue;
+  for (std::size_t n = 0; n < implicit.parts.size(); ++n) {
+    const scene::ImplicitPart& part = implicit.parts[n];
+    const std::size_t first = mesh.position.size();
     MeshPart piece{.first_triangle = static_cast<std::uint32_t>(mesh.triangles.size())};
-    if (part.is_hollow) {
+    if (part.table) {
+      add_block(part, to_box, mesh);
+    } else if (part.is_hollow) {
       add_sheet(part, to_box, mesh);
     } else {
       for (int axis = 0; axis < 3; ++axis)
@@ -142,10 +257,14 @@ ObjectMesh stand_in(const scene::ImplicitSurface& implicit, const ToBox& to_box)
     }
     mesh.triangles.resize(mesh.indices.size() / 3, paint_of(part));
     piece.triangles = static_cast<std::uint32_t>(mesh.triangles.size()) - piece.first_triangle;
-    set_waterline(mesh, static_cast<float>(-implicit.low.z / (implicit.high.z - implicit.low.z)),
-                  piece);
+    if (part.turns_per_s == 0.0)
+      set_waterline(mesh, static_cast<float>(-implicit.low.z / (implicit.high.z - implicit.low.z)),
+                    piece);
     piece.top = hull_top(implicit, part);
     mesh.parts.push_back(piece);
+    if (part.turns_per_s != 0.0 || heights_move(part))
+      moving.push_back({static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(first),
+                        static_cast<std::uint32_t>(mesh.position.size() - first)});
   }
   return mesh;
 }
@@ -165,10 +284,31 @@ ObjectMesh drawn_mesh(const scene::ImplicitSurface& implicit) {
 MeshOfFile with_meshes(scene::ImplicitSurface implicit) {
   MeshOfFile result;
   result.low = implicit.low, result.high = implicit.high;
-  result.levels.push_back(stand_in(implicit, to_box(implicit)));
+  std::vector<DrawnImplicit::MovingVertices> moving;
+  result.levels.push_back(stand_in(implicit, to_box(implicit), moving));
   ObjectMesh drawn = drawn_mesh(implicit);
-  result.implicit = std::make_shared<const DrawnImplicit>(std::move(implicit), std::move(drawn));
+  result.implicit = std::make_shared<const DrawnImplicit>(std::move(implicit), std::move(drawn),
+                                                          std::move(moving));
   return result;
+}
+
+void pose_stand_in(const MeshOfFile& shape, double t_s, ObjectMesh& posed) {
+  const ObjectMesh& still = shape.levels.front();
+  posed.position = still.position, posed.indices = still.indices, posed.parts = still.parts;
+  posed.triangles.resize(still.triangles.size());
+  posed.error = still.error;
+  const scene::ImplicitSurface& implicit = shape.implicit->implicit;
+  const ToBox box = to_box(implicit);
+  for (const DrawnImplicit::MovingVertices& vertices : shape.implicit->moving) {
+    const scene::ImplicitPart& part = implicit.parts[vertices.part];
+    const bool moves = heights_move(part);
+    const glm::dmat3 turn = scene::turn_about(part.axis, part.turns_per_s * t_s);
+    for (std::uint32_t i = vertices.first; i < vertices.first + vertices.count; ++i) {
+      glm::dvec3 p = box.from(still.position[i]);
+      if (moves) p += risen(*part.table, t_s, p);
+      posed.position[i] = box(part.hub + turn * (p - part.hub));
+    }
+  }
 }
 
 }  // namespace swell::shapes

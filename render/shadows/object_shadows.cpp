@@ -232,13 +232,14 @@ bool in_view(const Corners& corners, float level, float drop_m,
 }
 
 // What throws a caster's shadow.
-const shapes::ObjectMesh& outline_mesh(const WorldState& world, const ShadowCaster& caster,
-                                       const View& view) {
+const shapes::ObjectMesh& mesh_of(const WorldState& world, const ObjectGeometry& objects,
+                                  const ShadowCaster& caster, const View& view) {
   const glm::vec3 size_m(world.scene.objects[caster.object].size_m);
   const float largest_m = std::max({size_m.x, size_m.y, size_m.z});
   const float radius_m = caster.outline.right_most_m;
   const float error_m = kMostOutlineError_px / most_px_per_m(caster.place_rel, radius_m, view);
-  return coarsest_mesh(world, caster.object, std::max(error_m, kMostOutlineError * largest_m));
+  return outline_mesh(world, objects, caster.object,
+                      std::max(error_m, kMostOutlineError * largest_m));
 }
 
 SunBox sun_box(const ShadowCaster& caster, const ObjectShadows& shadows) {
@@ -337,7 +338,7 @@ void find_shadow_casters(const WorldState& world, const ShadowOptions& options, 
     ShadowCaster& caster = shadows.casters[i];
     if (caster.reach_m <= 0.0f) return;
     const scene::FloatingObject& object = all[caster.object];
-    const shapes::ObjectMesh& mesh = outline_mesh(world, caster, view);
+    const shapes::ObjectMesh& mesh = mesh_of(world, objects, caster, view);
     shapes::MeshPart part{.triangles = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (!mesh.parts.empty()) part = mesh.parts[caster.part];
     const int step = row_step(drawn_size_px(object, caster.place_rel, view));

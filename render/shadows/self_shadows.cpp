@@ -61,11 +61,14 @@ int side_of(float size_px) {
   return side;
 }
 
-void fill_depth(const WorldState& world, const scene::ObjectPose& pose,
-                const ObjectShadows& shadows, const SunDepth& map, std::span<float> depth_m) {
+void fill_depth(const WorldState& world, const ObjectGeometry& objects, const SunDepth& map,
+                std::span<float> depth_m) {
   std::ranges::fill(depth_m, SunDepth::kNothing_m);
   const scene::FloatingObject& object = world.scene.objects[map.object];
-  const shapes::ObjectMesh& mesh = coarsest_mesh(world, map.object, kMostError / map.points_per_m);
+  const scene::ObjectPose& pose = objects.poses[map.object];
+  const ObjectShadows& shadows = objects.shadows;
+  const shapes::ObjectMesh& mesh =
+      outline_mesh(world, objects, map.object, kMostError / map.points_per_m);
   const glm::mat3 sun_from_world =
       glm::transpose(glm::mat3(shadows.right, shadows.up, shadows.sun));
   const glm::mat3 axes = sun_from_world * glm::mat3(pose.world_from_object);
@@ -176,7 +179,7 @@ void find_self_shadows(const WorldState& world, const ShadowOptions& options, co
     const SunDepth& map = shadows.own[i];
     const std::size_t begin =
         static_cast<std::size_t>(map.depth_m.data() - shadows.own_depth_m.data());
-    fill_depth(world, objects.poses[map.object], shadows, map,
+    fill_depth(world, objects, map,
                std::span(shadows.own_depth_m).subspan(begin, map.depth_m.size()));
   });
   for (ObjectDraws& draws : objects.draws)

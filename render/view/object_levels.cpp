@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/view/objects_drawn.h"
 #include "render/world/world_state.h"
+#include "shapes/implicit_mesh.h"
 
 namespace swell::render {
 
@@ -38,6 +40,15 @@ const shapes::ObjectMesh& coarsest_mesh(const WorldState& world, std::size_t obj
   std::size_t level = levels.size() - 1;
   while (level > 0 && levels[level].error * largest_m > error_m) --level;
   return levels[level];
+}
+
+const shapes::ObjectMesh& outline_mesh(const WorldState& world, const ObjectGeometry& objects,
+                                       std::size_t object, float error_m) {
+  const shapes::MeshOfFile& shape = *world.objects.of_object[object];
+  if (!shape.implicit || shape.implicit->moving.empty())
+    return coarsest_mesh(world, object, error_m);
+  const auto at = std::ranges::find(objects.implicit_of, &shape.implicit->implicit);
+  return objects.stand_ins[static_cast<std::size_t>(at - objects.implicit_of.begin())];
 }
 
 }  // namespace swell::render

@@ -16,6 +16,7 @@ struct ObjectMesh;
 
 namespace swell::render {
 
+struct ObjectGeometry;
 struct WorldState;
 
 // An outline that is drawn lies no further off that of the finest level.
@@ -30,5 +31,10 @@ float drawn_size_px(const scene::FloatingObject& object, glm::vec3 p_rel, const 
 
 // The coarsest level of an object's mesh that lies at most error_m off its finest one.
 const shapes::ObjectMesh& coarsest_mesh(const WorldState& world, std::size_t object, float error_m);
+
+// The same for what shadows and picks see of an object in a frame: of an implicit surface whose
+// parts move it is the stand-in as they have.
+const shapes::ObjectMesh& outline_mesh(const WorldState& world, const ObjectGeometry& objects,
+                                       std::size_t object, float error_m);
 
 }  // namespace swell::render

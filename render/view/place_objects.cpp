@@ -210,10 +210,16 @@ void take_implicit(const ObjectGeometry& geometry, const shapes::MeshOfFile& sha
 // The scene's implicit surfaces at t_s, one for all objects of a shape.
 void pose_implicits(const WorldState& world, double t_s, ObjectGeometry& geometry) {
   geometry.implicit_of.clear();
-  for (const ObjectShape& shape : world.objects.of_object)
-    if (shape->implicit && std::ranges::find(geometry.implicit_of, &shape->implicit->implicit) ==
-                               geometry.implicit_of.end())
-      geometry.implicit_of.push_back(&shape->implicit->implicit);
+  for (const ObjectShape& shape : world.objects.of_object) {
+    if (!shape->implicit || std::ranges::find(geometry.implicit_of, &shape->implicit->implicit) !=
+                                geometry.implicit_of.end())
+      continue;
+    geometry.implicit_of.push_back(&shape->implicit->implicit);
+    const std::size_t count = geometry.implicit_of.size();
+    if (geometry.stand_ins.size() < count) geometry.stand_ins.resize(count);
+    if (!shape->implicit->moving.empty())
+      shapes::pose_stand_in(*shape, t_s, geometry.stand_ins[count - 1]);
+  }
   if (geometry.implicits.size() < geometry.implicit_of.size())
     geometry.implicits.resize(geometry.implicit_of.size());
   for (std::size_t i = 0; i < geometry.implicit_of.size(); ++i)
@@ -315,8 +321,7 @@ void place_objects(const WorldState& world, const SeaMaps& sea,
   geometry.meshes.assign(geometry.poses.size(), nullptr);
   for (const ObjectInstance& instance : geometry.in_window().instances)
     geometry.meshes[instance.object] =
-        instance.implicit ? &world.objects.of_object[instance.object]->levels.front()
-                          : instance.mesh;
+        instance.implicit ? &outline_mesh(world, geometry, instance.object, 0.0f) : instance.mesh;
 }
 
 }  // namespace swell::render
