@@ -71,7 +71,7 @@ PaperItem perturbed_area(PaperStudio& studio) {
       scene,
       {studio.draw("functions_3_table", scene)},
       {},
-      ""};
+      "The plate is the rectangle of the table, D_p. Rays find both, and no triangle is drawn."};
 }
 
 PaperItem light_model(PaperStudio& studio) {
