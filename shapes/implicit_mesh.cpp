@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "scene/height_frames.h"
 
@@ -203,22 +204,57 @@ void add_block(const scene::ImplicitPart& part, const ToBox& to_box, ObjectMesh&
     }
 }
 
-bool heights_move(const scene::ImplicitPart& part) {
-  return part.table && part.table->loop_s > 0.0 && part.table->heights->frames.size() > 1;
+// The heights of a table's stand-in at a time: a little lower at a vertex than they are wherever a
+// cell beside it, with straight sides, would lie over them, so that they do not shade themselves.
+class StandInHeights {
+ public:
+  StandInHeights(const scene::HeightTable& table, double t_s)
+      : frames_(scene::frames_at(table, t_s)),
+        half_cell_(glm::dvec2(table.heights->columns - 1, table.heights->rows - 1) /
+                   (2.0 * (kColumns - 1))) {}
+
+  double at(glm::dvec2 place) const {
+    double over = 0.0;
+    for (const double y : {-1.0, 1.0})
+      for (const double x : {-1.0, 1.0}) {
+        const glm::dvec2 middle = place + glm::dvec2(x, y) * half_cell_;
+        double mean = 0.0;
+        for (const double v : {-1.0, 1.0})
+          for (const double u : {-1.0, 1.0})
+            mean += 0.25 * height(middle + glm::dvec2(u, v) * half_cell_);
+        over = std::max(over, mean - height(middle));
+      }
+    return height(place) - over;
+  }
+
+  double height(glm::dvec2 place) const {
+    const double now = terrain::height_at(*frames_.now, place);
+    if (frames_.share == 0.0) return now;
+    return std::lerp(now, terrain::height_at(*frames_.next, place), frames_.share);
+  }
+
+ private:
+  scene::FramesAt frames_;
+  glm::dvec2 half_cell_;
+};
+
+// Moves those vertices that lie on the part's heights, as the first frame has them,
+// to where the stand-in has them at a time.
+void move_heights(const scene::ImplicitPart& part, double t_s, const ToBox& box,
+                  std::span<glm::vec3> position) {
+  const scene::HeightTable& table = *part.table;
+  const StandInHeights heights(table, t_s);
+  const glm::dvec3 up = glm::inverse(table.linear)[2];
+  for (glm::vec3& q : position) {
+    const glm::dvec3 p = box.from(q), at = table(p);
+    constexpr double kOnIt_m = 0.01;
+    const double before = terrain::height_at(table.heights->frames[0], glm::dvec2(at));
+    if (std::abs(before - at.z) < kOnIt_m) q = box(p + up * (heights.at(glm::dvec2(at)) - at.z));
+  }
 }
 
-// How far a point of the stand-in moves with the heights, from the first frame on: nothing unless
-// it lies on them.
-glm::dvec3 risen(const scene::HeightTable& table, double t_s, glm::dvec3 p) {
-  const glm::dvec3 at = table(p);
-  const glm::dvec2 place(at);
-  const double before = terrain::height_at(table.heights->frames[0], place);
-  constexpr double kOnIt_m = 0.01;
-  if (std::abs(before - at.z) > kOnIt_m) return glm::dvec3(0.0);
-  const scene::FramesAt frames = scene::frames_at(table, t_s);
-  const double height = std::lerp(terrain::height_at(*frames.now, place),
-                                  terrain::height_at(*frames.next, place), frames.share);
-  return glm::inverse(table.linear)[2] * (height - before);
+bool heights_move(const scene::ImplicitPart& part) {
+  return part.table && part.table->loop_s > 0.0 && part.table->heights->frames.size() > 1;
 }
 
 ObjectTriangle paint_of(const scene::ImplicitPart& part) {
@@ -249,6 +285,8 @@ ObjectMesh stand_in(const scene::ImplicitSurface& implicit, const ToBox& to_box,
     MeshPart piece{.first_triangle = static_cast<std::uint32_t>(mesh.triangles.size())};
     if (part.table) {
       add_block(part, to_box, mesh);
+      if (!heights_move(part))
+        move_heights(part, 0.0, to_box, std::span(mesh.position).subspan(first));
     } else if (part.is_hollow) {
       add_sheet(part, to_box, mesh);
     } else {
@@ -301,13 +339,11 @@ void pose_stand_in(const MeshOfFile& shape, double t_s, ObjectMesh& posed) {
   const ToBox box = to_box(implicit);
   for (const DrawnImplicit::MovingVertices& vertices : shape.implicit->moving) {
     const scene::ImplicitPart& part = implicit.parts[vertices.part];
-    const bool moves = heights_move(part);
+    const auto position = std::span(posed.position).subspan(vertices.first, vertices.count);
+    if (heights_move(part)) move_heights(part, t_s, box, position);
+    if (part.turns_per_s == 0.0) continue;
     const glm::dmat3 turn = scene::turn_about(part.axis, part.turns_per_s * t_s);
-    for (std::uint32_t i = vertices.first; i < vertices.first + vertices.count; ++i) {
-      glm::dvec3 p = box.from(still.position[i]);
-      if (moves) p += risen(*part.table, t_s, p);
-      posed.position[i] = box(part.hub + turn * (p - part.hub));
-    }
+    for (glm::vec3& q : position) q = box(part.hub + turn * (box.from(q) - part.hub));
   }
 }
 

@@ -40,7 +40,7 @@ HWY_INLINE Packet BeginPacket(const LandTraveller& traveller, float per_m, const
   w.y_t = load(rays.y) * per_m;
   w.z = load(rays.z), w.z_t = load(rays.z_t), w.z_tt = load(rays.z_tt);
   w.t = load(rays.begin), w.end = load(rays.end);
-  p.goes = traveller.Begin(w);  // lanes beyond the last have no way
+  p.goes = traveller.Begin(w, hn::Zero(d));  // lanes beyond the last have no way
   return p;
 }
 

@@ -83,15 +83,15 @@ class Traveller {
         axis_y_(axis_y),
         detail_(detail) {}
 
-  // Puts rays whose x_t, y_t, z, z_t, z_tt, t and end are set at their first blocks. Returns which
-  // have a way.
-  HWY_INLINE M Begin(Walk& w) const {
+  // Puts rays whose x_t, y_t, z, z_t, z_tt, t and end are set at their first blocks, which are as
+  // wide as `cells` at least. Returns which have a way.
+  HWY_INLINE M Begin(Walk& w, V cells) const {
     w.inverse_x = Inverse(w.x_t), w.inverse_y = Inverse(w.y_t);
     ClipToGrid(axis_x_, w.inverse_x, w);
     ClipToGrid(axis_y_, w.inverse_y, w);
     // Blocks of some pixels: from there a ray climbs where it is high, in fewer steps than it would
     // come down in from the top.
-    w.level = LevelOf(kSmoothBlocks * detail_ * w.t, 1, pyramid_.levels);
+    w.level = LevelOf(Max(kSmoothBlocks * detail_ * w.t, cells), 1, pyramid_.levels);
     w.corner_x = FirstCorner(axis_x_, w.x_t, w);
     w.corner_y = FirstCorner(axis_y_, w.y_t, w);
     return w.t < w.end;

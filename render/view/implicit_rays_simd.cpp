@@ -256,6 +256,9 @@ HWY_INLINE V MeetHeights(const Heights& of, const RayTable& table, const RayPack
   const V length = to - from;
   const M crosses = hn::AndNot(is_level, (crossing > zero) & (crossing < length));
   const V split = IfThenElse(crosses, crossing, length);
+  // As the paper picks a level: by the projection of the way on the table.
+  constexpr float kOfWay = 0.25f;
+  const V widest = Max(Abs(way.x), Abs(way.y)) * (kOfWay * length);
   const auto meet = [&](V begin, V end, M is_above, M which) HWY_ATTR {
     heights::Packet packet;
     packet.goes = packet.waits = hn::FirstN(d, 0);
@@ -265,7 +268,7 @@ HWY_INLINE V MeetHeights(const Heights& of, const RayTable& table, const RayPack
     w.z = IfThenElse(is_above, start.z, table.threshold_m);
     w.z_t = IfThenElseZero(is_above, way.z), w.z_tt = zero;
     w.t = begin, w.end = end;
-    packet.goes = traveller.Begin(w) & which;
+    packet.goes = traveller.Begin(w, widest) & which;
     while (packet.IsUnderWay()) heights::StepPacket(traveller, packet);
     return packet.t_hit;
   };

@@ -34,7 +34,7 @@ struct ObjectGeometry {
   bool draws_implicits = true;                             // Part::kImplicits
   std::vector<PosedImplicit> implicits;                    // at the frame's time
   std::vector<const scene::ImplicitSurface*> implicit_of;  // what they are of; of each shape one
-  std::vector<shapes::ObjectMesh> stand_ins;  // of those that have parts which turn, at that time
+  std::vector<shapes::ObjectMesh> stand_ins;  // of those that have parts which move, at that time
 
   ObjectDraws& drawn_in(ViewKind kind) { return draws[static_cast<std::size_t>(kind)]; }
   const ObjectDraws& drawn_in(ViewKind kind) const { return draws[static_cast<std::size_t>(kind)]; }

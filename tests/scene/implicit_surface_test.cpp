@@ -135,7 +135,7 @@ TEST(HeightTable, BoundsHoldOverTheirPoints) {
     const Spans spans = {dice.point(size), dice.point(size), dice.point(size)};
     const double bound = most_of(table, middle, spans);
     double most = -1e300;
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < 40; ++k) {
       const glm::dvec3 s = dice.point(1);
       const glm::dvec3 p = middle + s.x * spans[0] + s.y * spans[1] + s.z * spans[2];
       for (const HeightTable& one : of_frame) most = std::max(most, value(one, p));
