@@ -322,6 +322,21 @@ void draw_window_clouds(const FrameInputs& in, float scale, const StageRun& run)
   in.ws.shading.clouds = &in.ws.clouds;
 }
 
+// Fog at vertices or by depth in the window, if the scene has it found so.
+void store_fog(const FrameInputs& in, const StageRun& run) {
+  FrameState& ws = in.ws;
+  const Fog& fog = ws.shading.media.fog;
+  const scene::FogMethod method = in.world.scene.air.method;
+  const bool is_stored =
+      fog.on && !ws.shading.media.submerged && method != scene::FogMethod::kPixel;
+  ws.shading.stored_fog = is_stored ? &ws.fog : nullptr;
+  if (!is_stored) return;
+  if (method == scene::FogMethod::kVertex)
+    find_fog_at_vertices(fog, ws.meshes, ws.window, ws.fog, run);
+  else
+    find_fog_by_depth(fog, ws.shading.rays, {in.view.width_px, in.view.height_px}, ws.fog);
+}
+
 // Stage 6: the picture, and the labels that are asked for.
 void shade(const FrameInputs& in, Target& target, const StageRun& run) {
   FrameState& ws = in.ws;
@@ -411,6 +426,7 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
     draw_window_clouds(in, float(drawn.width_px) / float(view.width_px), run);
   });
   in.stage(Stage::kShade, [&](const StageRun& run) {
+    store_fog(in, run);
     shade(in, drawn_target, run);
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
   });

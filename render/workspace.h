@@ -15,6 +15,7 @@
 #include "render/sea/sea_maps.h"
 #include "render/sky/sky_frame.h"
 #include "render/tile/cloud_picture.h"
+#include "render/tile/stored_fog.h"
 #include "render/view/crossing.h"
 #include "render/view/meshes.h"
 #include "render/view/render_view.h"
@@ -33,6 +34,7 @@ struct FrameState {
   Crossing crossing;
   RiverMirrors river_mirrors;
   CloudPicture clouds;                      // volumetric ones, in the window
+  StoredFog fog;                            // the same window's
   PlanarMaps planar_maps, wet_planar_maps;  // where the waterline crosses the picture, both
   ViewShading shading, wet_shading;         // of the window
   std::vector<int> shaded;                  // per tile

@@ -28,6 +28,7 @@
 namespace swell::scene {
 
 using sky::FoggyAir;
+using sky::FogMethod;
 using sky::FogProfile;
 using sky::FogScattering;
 using sky::Sky;

@@ -52,6 +52,13 @@ enum class FogScattering : std::uint8_t {
   kPaper,  // each point lit as the ground is (Klassen, 1987)
 };
 
+// Where it is found what fog does to light on its way to the eye.
+enum class FogMethod : std::uint8_t {
+  kPixel,   // on the way to each pixel
+  kVertex,  // on the ways to triangles' vertices, interpolated between them
+  kTable,   // once for each value that the first bits of the depth buffer have
+};
+
 // Fog over the sea (sky/fog.h). None without one of the first two.
 struct FoggyAir {
   std::optional<double> visibility_m;          // where 2 % of the contrast are left at sea level
@@ -59,6 +66,7 @@ struct FoggyAir {
   double fog_top_m = 100.0;                    // H over mean sea level, [0, 1e5]
   FogProfile profile = FogProfile::kSlab;
   FogScattering scattering = FogScattering::kExact;
+  FogMethod method = FogMethod::kPixel;
   double forward = 0.75;  // l of Blinn's phase function, (-1, 1)
   double banks = 0.0;     // how much thicker and thinner fog is in places, [0, 1]
   double bank_length_m = 500.0;

@@ -59,7 +59,7 @@ int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scrat
                 return ShadeSky(s, tile.box, tile.shafts, packet.x_px, packet.y_px);
               });
   }
-  LayMedia(s, tile.box, tile.depth, tile.fragments, scratch);
+  LayMedia(s, tile, scratch);
   ResolveTile(s, tile.box, scratch, rgba, linear);
   if (!tile.fragments.empty()) ResolveFragments(s, tile, scratch, rgba, linear);
   return static_cast<int>(shaded);
@@ -94,7 +94,7 @@ void ShadeSkyTile(const Shading& s, int tile, ShadeScratch& scratch, std::uint32
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes))
       WriteLight(SkyOfPacket(s, box, lattice, x, y),
                  static_cast<std::size_t>(y) * s.grid.tile_size_px + x, scratch);
-  LayMedia(s, box, nullptr, {}, scratch);
+  LayMedia(s, TilePixels{.box = box}, scratch);
   ResolveTile(s, box, scratch, rgba, linear);
 }
 

@@ -121,14 +121,12 @@ HWY_INLINE V3 Haze(const Shading& s, const Packet& packet, V3 colour) {
 // takes haze's place. packet_of(): what the ray ends at, asked for where there is haze.
 // haze_before(colour, length): lays the haze before the fog.
 template <class PacketOf, class HazeBefore>
-HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour,
-                         const PacketOf& packet_of, const HazeBefore& haze_before) {
+HWY_INLINE V3 HazeAndFog(const Shading& s, V distance, const FogPath& path, const FogView& view,
+                         V3 colour, const PacketOf& packet_of, const HazeBefore& haze_before) {
   const D d;
   const V zero = hn::Zero(d);
   const Fog& fog = s.media.fog;
-  const FogPath path = PathTo(fog, ray);
-  const FogView view = SeeFog(fog, ray, path, phase);
-  V behind = ray.distance - path.before;
+  V behind = distance - path.before;
   if (!fog.is_exponential) behind = NegMulAdd(path.amount, fog.takes_haze, behind);
   // What fog hides has no haze.
   const V seen = Max(view.passes.x, Max(view.passes.y, view.passes.z));
@@ -136,14 +134,6 @@ HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour
   if (!hn::AllFalse(d, behind > zero)) colour = Haze(s, packet_of(), colour, behind);
   colour = ThroughFog(view, colour);
   return hn::AllTrue(d, path.before == zero) ? colour : haze_before(colour, path.before);
-}
-
-template <class PacketOf>
-HWY_INLINE V3 HazeAndFog(const Shading& s, const FogRay& ray, V phase, V3 colour,
-                         const PacketOf& packet_of) {
-  return HazeAndFog(s, ray, phase, colour, packet_of, [&](V3 light, V length) HWY_ATTR {
-    return Haze(s, packet_of(), light, length);
-  });
 }
 
 // Whether rays of this view may meet air before they meet fog, and what this air shows depends on
@@ -158,8 +148,11 @@ HWY_INLINE bool IsFogSeenFromAbove(const Shading& s) {
 static HWY_NOINLINE V3 ThroughAirAndFog(const Shading& s, Packet packet, V3 colour) {
   const Fog& fog = s.media.fog;
   const FogRay ray = {WayTo(s.rays, packet), fog.at_eye};
-  return HazeAndFog(s, ray, FogPhase(fog, ray.direction), colour,
-                    [&]() HWY_ATTR -> const Packet& { return packet; });
+  const FogPath path = PathTo(fog, ray);
+  return HazeAndFog(
+      s, ray.distance, path, SeeFog(fog, ray, path), colour,
+      [&]() HWY_ATTR -> const Packet& { return packet; },
+      [&](V3 light, V length) HWY_ATTR { return Haze(s, packet, light, length); });
 }
 
 HWY_INLINE V3 ThroughAir(const Shading& s, const Packet& packet, V3 colour) {

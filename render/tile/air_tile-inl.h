@@ -13,14 +13,15 @@
 #include "render/tile/air-inl.h"
 #include "render/tile/lattice-inl.h"
 #include "render/tile/medium-inl.h"
+#include "render/tile/stored_fog-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
 // What depends on a pixel's direction alone, each in as many channels of the lattice: of fog, and
-// of the aerial perspective of an eye far over the sea.
-template <bool kHasFog, bool kHasPerspective>
+// of the aerial perspective of an eye far over the sea. kIsStored: fog comes from s.stored_fog.
+template <bool kHasFog, bool kHasPerspective, bool kIsStored = false>
 struct AirInDirection {
   static constexpr std::size_t kChannels = 1 + (kHasFog ? 2 : 0) + (kHasPerspective ? 4 : 0);
   V length;  // of the ray of depth 1
@@ -48,7 +49,21 @@ struct AirInDirection {
     visit(channel++, air.steep);
   }
 
-  HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, V3 light) const {
+  // What fog does on a path; of the packet's primitives, a lane each, if it is stored.
+  HWY_INLINE FogView FindFog(const Shading& s, const PlaceShown& at, const std::uint32_t* primitive,
+                             const FogRay& ray, const FogPath& path) const {
+    const auto own = [&]() HWY_ATTR { return SeeFog(s.media.fog, ray, path, phase); };
+    if constexpr (!kIsStored)
+      return own();
+    else if (s.stored_fog->is_table)
+      return LookUpFog(*s.stored_fog, at.z);
+    else
+      return InterpolateFog(*s.stored_fog, primitive, at.way, own);
+  }
+
+  // primitive: what the packet shows, a lane each.
+  HWY_INLINE V3 Lay(const Shading& s, const PlaceShown& at, const std::uint32_t* primitive,
+                    V3 light) const {
     const V distance = at.depth * length;
     const auto lay_perspective = [&](V3 seen, V way) HWY_ATTR {
       const V zero = hn::Zero(D());
@@ -63,7 +78,9 @@ struct AirInDirection {
           {at.way * inverse_length, distance, at.height + s.rays.eye_z, s.rays.eye_z},
           s.media.fog.at_eye};
       const auto packet = [&]() HWY_ATTR { return MakePacket(s.rays, at.x_px, at.y_px, at.z); };
-      return HazeAndFog(s, ray, phase, light, packet, [&](V3 seen, V way) HWY_ATTR {
+      const FogPath path = PathTo(s.media.fog, ray);
+      const FogView view = FindFog(s, at, primitive, ray, path);
+      return HazeAndFog(s, distance, path, view, light, packet, [&](V3 seen, V way) HWY_ATTR {
         return kHasPerspective ? lay_perspective(seen, way) : Haze(s, packet(), seen, way);
       });
     }
@@ -93,10 +110,20 @@ struct Air {
   // Haze alone is little, and each surface has it from where its packet is at hand.
   static bool IsOn(const Shading& s) { return s.media.fog.on || s.media.molecules_per_m.z > 0.0f; }
 
+  template <class Visit>
+  static HWY_INLINE void WithStoredFog(const Shading& s, const Visit& visit) {
+    if (IsFogSeenFromAbove(s))
+      visit.template operator()<AirInDirection<true, true, true>>();
+    else
+      visit.template operator()<AirInDirection<true, false, true>>();
+  }
+
   // Calls visit<InDirection>() with what of the air there is.
   template <class Visit>
   static HWY_INLINE void WithAirOf(const Shading& s, const Visit& visit) {
-    if (IsFogSeenFromAbove(s))
+    if (s.media.fog.on && s.stored_fog)
+      WithStoredFog(s, visit);
+    else if (IsFogSeenFromAbove(s))
       visit.template operator()<AirInDirection<true, true>>();
     else if (s.media.fog.on)
       visit.template operator()<AirInDirection<true, false>>();
@@ -104,14 +131,14 @@ struct Air {
       visit.template operator()<AirInDirection<false, true>>();
   }
 
-  static HWY_NOINLINE void LayOverTile(const Shading& s, const raster::PixelBox& box,
-                                       const float* depth, ShadeScratch& scratch) {
-    if (!depth) return;
+  static HWY_NOINLINE void LayOverTile(const Shading& s, const TilePixels& tile,
+                                       ShadeScratch& scratch) {
+    if (!tile.depth) return;
     WithAirOf(s, [&]<class InDirection>() HWY_ATTR {
       SkyNodes& nodes = scratch.sky;
       const bool by_nodes = IsAirOnLattice(s);
-      if (by_nodes) FindNodes<InDirection>(s, box, nodes);
-      LayOverPixels(s, box, depth, scratch, [&](const PixelsShown& pixels, V3& light) HWY_ATTR {
+      if (by_nodes) FindNodes<InDirection>(s, tile.box, nodes);
+      LayOverPixels(s, tile, scratch, [&](const PixelsShown& pixels, V3& light) HWY_ATTR {
         if (hn::AllFalse(D(), pixels.z > 0.0f)) return false;
         const PlaceShown place = FindPlace(s, pixels.x_px, pixels.y_px, pixels.z);
         InDirection air;
@@ -124,7 +151,8 @@ struct Air {
         } else {
           air = InDirection::Find(s, place.way);
         }
-        light = IfThenElse(place.is_surface, air.Lay(s, place, light), light);
+        const V3 seen = air.Lay(s, place, tile.primitive + pixels.at, light);
+        light = IfThenElse(place.is_surface, seen, light);
         return true;
       });
     });
@@ -134,9 +162,10 @@ struct Air {
                                             std::span<const EdgeFragment> fragments,
                                             ShadeScratch& scratch) {
     WithAirOf(s, [&]<class InDirection>() HWY_ATTR {
-      LayOverEachFragment(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
-        const PlaceShown place = FindPlace(s, x_px, y_px, z);
-        const V3 seen = InDirection::Find(s, place.way).Lay(s, place, light);
+      LayOverEachFragment(fragments, scratch, [&](const FragmentsShown& f, V3 light) HWY_ATTR {
+        const PlaceShown place = FindPlace(s, f.x_px, f.y_px, f.z);
+        const std::uint32_t* const primitive = scratch.fragment_primitive.data() + f.first;
+        const V3 seen = InDirection::Find(s, place.way).Lay(s, place, primitive, light);
         return IfThenElse(place.is_surface, seen, light);
       });
     });

@@ -105,10 +105,10 @@ HWY_INLINE V DistanceShown(const ViewRays& rays, V x_px, V y_px, V z) {
 struct VolumetricClouds {
   static bool IsOn(const Shading& s) { return s.clouds && s.clouds->any; }
 
-  static HWY_NOINLINE void LayOverTile(const Shading& s, const raster::PixelBox& box,
-                                       const float* depth, ShadeScratch& scratch) {
-    LayOverPixels(s, box, depth, scratch, [&](const PixelsShown& p, V3& light) HWY_ATTR {
-      const CloudsSeen seen = CloudsOfPacket(*s.clouds, box.x0_px + p.x, box.y0_px + p.y);
+  static HWY_NOINLINE void LayOverTile(const Shading& s, const TilePixels& tile,
+                                       ShadeScratch& scratch) {
+    LayOverPixels(s, tile, scratch, [&](const PixelsShown& p, V3& light) HWY_ATTR {
+      const CloudsSeen seen = CloudsOfPacket(*s.clouds, tile.box.x0_px + p.x, tile.box.y0_px + p.y);
       if (hn::AllFalse(D(), seen.opacity > 0.0f)) return false;
       light = LayClouds(seen, DistanceShown(s.rays, p.x_px, p.y_px, p.z), light);
       return true;
@@ -119,9 +119,9 @@ struct VolumetricClouds {
   static HWY_NOINLINE void LayOverFragments(const Shading& s,
                                             std::span<const EdgeFragment> fragments,
                                             ShadeScratch& scratch) {
-    LayOverEachFragment(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
-      return LayClouds(CloudsAt(*s.clouds, x_px, y_px), DistanceShown(s.rays, x_px, y_px, z),
-                       light);
+    LayOverEachFragment(fragments, scratch, [&](const FragmentsShown& f, V3 light) HWY_ATTR {
+      return LayClouds(CloudsAt(*s.clouds, f.x_px, f.y_px),
+                       DistanceShown(s.rays, f.x_px, f.y_px, f.z), light);
     });
   }
 };

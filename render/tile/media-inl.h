@@ -3,11 +3,11 @@
 //
 // A medium M is a struct of static functions:
 //   bool IsOn(const Shading&);
-//   void LayOverTile(const Shading&, const raster::PixelBox&, const float* depth, ShadeScratch&);
+//   void LayOverTile(const Shading&, const TilePixels&, ShadeScratch&);
 //   void LayOverFragments(const Shading&, std::span<const EdgeFragment>, ShadeScratch&);
 //   V3 Beyond(const Shading&, const AirWay&, V3 light);  // if it has one
 // The Lay functions lay it before what a tile of the window shows, whose light stands in the
-// scratch; depth is the tile's, or null for open sky. LaidByPixel<M> makes both of one function.
+// scratch; a tile of open sky has no depths. LaidByPixel<M> makes both of one function.
 // Beyond() is for what water mirrors, or an eye in it sees through the surface, on a way from the
 // sea.
 #if defined(SWELL_RENDER_TILE_MEDIA_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -41,13 +41,12 @@ HWY_INLINE void ForEachMedium(const Visit& visit) {
 }
 
 // Lays all media before a tile of the window and its fragments.
-HWY_INLINE void LayMedia(const Shading& s, const raster::PixelBox& box, const float* depth,
-                         std::span<const EdgeFragment> fragments, ShadeScratch& scratch) {
+HWY_INLINE void LayMedia(const Shading& s, const TilePixels& tile, ShadeScratch& scratch) {
   if (s.media.submerged) return;
   ForEachMedium([&]<class M>() HWY_ATTR {
     if (!M::IsOn(s)) return;
-    M::LayOverTile(s, box, depth, scratch);
-    M::LayOverFragments(s, fragments, scratch);
+    M::LayOverTile(s, tile, scratch);
+    M::LayOverFragments(s, tile.fragments, scratch);
   });
 }
 

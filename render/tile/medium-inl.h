@@ -45,27 +45,29 @@ HWY_INLINE AirWay WayTo(const ViewRays& rays, const PlaceShown& at) {
           IfThenElse(at.is_surface, at.height + rays.eye_z, kEndless_m), rays.eye_z};
 }
 
-// Some pixels of a tile: their places in the tile and in the window, and what stands in its depth
-// buffer, 0 of the sky.
+// Some pixels of a tile: their places in the tile, in its buffers and in the window, and what
+// stands in its depth buffer, 0 of the sky.
 struct PixelsShown {
   int x, y;
+  std::size_t at;
   V x_px, y_px, z;
 };
 
 // Calls lay(pixels, light) for all pixels of a tile, which returns whether it has changed the light
-// that stands in the scratch. depth: the tile's, or null for open sky.
+// that stands in the scratch.
 template <class Lay>
-HWY_INLINE void LayOverPixels(const Shading& s, const raster::PixelBox& box, const float* depth,
-                              ShadeScratch& scratch, const Lay& lay) {
+HWY_INLINE void LayOverPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                              const Lay& lay) {
   const D d;
+  const raster::PixelBox& box = tile.box;
   for (int y = 0; y < box.height_px; ++y) {
     const V y_px = Constant(static_cast<float>(box.y0_px + y));
     for (int x = 0; x < box.width_px; x += static_cast<int>(kLanes)) {
       const std::size_t at = static_cast<std::size_t>(y) * s.grid.tile_size_px + x;
       const V x_px = hn::ConvertTo(d, CountFrom(box.x0_px + x));
-      const V z = depth ? hn::LoadU(d, depth + at) : hn::Zero(d);
+      const V z = tile.depth ? hn::LoadU(d, tile.depth + at) : hn::Zero(d);
       V3 light = ReadLight(scratch, at);
-      if (lay(PixelsShown{x, y, x_px, y_px, z}, light)) WriteLight(light, at, scratch);
+      if (lay(PixelsShown{x, y, at, x_px, y_px, z}, light)) WriteLight(light, at, scratch);
     }
   }
 }
@@ -79,9 +81,8 @@ struct LaidByPixel {
     const V3 seen = M::Through(s, WayTo(s.rays, at), light);
     return M::kBeforeSky ? seen : IfThenElse(at.is_surface, seen, light);
   }
-  static void LayOverTile(const Shading& s, const raster::PixelBox& box, const float* depth,
-                          ShadeScratch& scratch) {
-    LayOverPixels(s, box, depth, scratch, [&](const PixelsShown& p, V3& light) HWY_ATTR {
+  static void LayOverTile(const Shading& s, const TilePixels& tile, ShadeScratch& scratch) {
+    LayOverPixels(s, tile, scratch, [&](const PixelsShown& p, V3& light) HWY_ATTR {
       if (!M::kBeforeSky && hn::AllFalse(D(), p.z > 0.0f)) return false;
       light = Lay(s, p.x_px, p.y_px, p.z, light);
       return true;
@@ -89,8 +90,8 @@ struct LaidByPixel {
   }
   static void LayOverFragments(const Shading& s, std::span<const EdgeFragment> fragments,
                                ShadeScratch& scratch) {
-    LayOverEachFragment(fragments, scratch, [&](V x_px, V y_px, V z, V3 light) HWY_ATTR {
-      return Lay(s, x_px, y_px, z, light);
+    LayOverEachFragment(fragments, scratch, [&](const FragmentsShown& f, V3 light) HWY_ATTR {
+      return Lay(s, f.x_px, f.y_px, f.z, light);
     });
   }
 };

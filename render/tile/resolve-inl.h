@@ -128,7 +128,14 @@ inline void GatherCentres(const TilePixels& tile, ShadeScratch& scratch) {
   }
 }
 
-// The light of all fragments becomes lay(x_px, y_px, z, light).
+// Some fragments of a tile, from the first on: their middles in the window, and depths there as in
+// the depth buffer.
+struct FragmentsShown {
+  std::size_t first;
+  V x_px, y_px, z;
+};
+
+// The light of all fragments becomes lay(fragments, light).
 template <class Lay>
 HWY_INLINE void LayOverEachFragment(std::span<const EdgeFragment> fragments, ShadeScratch& scratch,
                                     const Lay& lay) {
@@ -140,7 +147,9 @@ HWY_INLINE void LayOverEachFragment(std::span<const EdgeFragment> fragments, Sha
     const V3 light = {hn::Load(d, scratch.fragment_red.data() + n),
                       hn::Load(d, scratch.fragment_green.data() + n),
                       hn::Load(d, scratch.fragment_blue.data() + n)};
-    const V3 laid = lay(hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data()), light);
+    const V3 laid =
+        lay(FragmentsShown{n, hn::Load(d, x.data()), hn::Load(d, y.data()), hn::Load(d, z.data())},
+            light);
     hn::Store(laid.x, d, scratch.fragment_red.data() + n);
     hn::Store(laid.y, d, scratch.fragment_green.data() + n);
     hn::Store(laid.z, d, scratch.fragment_blue.data() + n);

@@ -17,6 +17,7 @@ namespace swell::render {
 struct CloudPicture;
 struct MaterialInputs;
 struct RenderView;
+struct StoredFog;
 
 struct Shading {
   ViewKind kind = ViewKind::kWindow;
@@ -29,7 +30,8 @@ struct Shading {
   SunShadow sun_shadow;
   Caustics caustics;
   Shafts shafts;
-  const CloudPicture* clouds = nullptr;  // volumetric ones, before all pixels; none: no such
+  const CloudPicture* clouds = nullptr;   // volumetric ones, before all pixels; none: no such
+  const StoredFog* stored_fog = nullptr;  // that pixels take theirs from; none: each finds its own
   float exposure = 1.0f;
   PrimitiveRanges primitives;
 

@@ -15,15 +15,15 @@ struct EdgeFragment;
 
 namespace HWY_NAMESPACE {
 
-// A tile of the visibility buffer.
+// A tile of the visibility buffer; open sky has none.
 struct TilePixels {
   raster::PixelBox box;
-  const float* depth;
-  const std::uint32_t* primitive;
-  std::span<const EdgeFragment> fragments;
-  TilePlanarMaps planar_maps;
-  std::span<const std::uint16_t> casters;  // of Shading::sun_shadow
-  const std::int32_t* shafts = nullptr;    // of ShaftNodes
+  const float* depth = nullptr;
+  const std::uint32_t* primitive = nullptr;
+  std::span<const EdgeFragment> fragments = {};
+  TilePlanarMaps planar_maps = {};
+  std::span<const std::uint16_t> casters = {};  // of Shading::sun_shadow
+  const std::int32_t* shafts = nullptr;         // of ShaftNodes
 };
 
 // Which primitives a packet's lanes show, for materials that fetch what their triangles hold.

@@ -20,6 +20,13 @@ struct FogScatteringName {
   auto& operator()(auto& scene) const { return scene.air.scattering; }
 };
 
+struct FogMethodName {
+  using enum FogMethod;
+  static constexpr auto words =
+      enum_words<FogMethod>({{kPixel, "pixel"}, {kVertex, "vertex"}, {kTable, "table"}});
+  auto& operator()(auto& scene) const { return scene.air.method; }
+};
+
 #define SWELL_FIELD(PATH) \
   [](auto& object) -> auto& { return object.PATH; }
 
@@ -43,6 +50,9 @@ std::vector<Parameter<Scene>> air_parameters() {
           "air.scattering", FogScatteringName{},
           "of the sun's light in fog: each point lit through the fog above it, or as "
           "the ground is (Klassen)"),
+      Row<Scene>::choice("air.method", FogMethodName{},
+                         "where fog is found: at each pixel, at triangles' vertices and "
+                         "interpolated between them, or in a table by the depth alone"),
       Row<Scene>::number("air.forward", {-0.99, 0.99}, SWELL_FIELD(air.forward),
                          "l of Blinn's phase function: 0 scatters evenly, towards 1 straight on"),
       Row<Scene>::number("air.banks", {0, 1}, SWELL_FIELD(air.banks),

@@ -142,6 +142,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(air.fog_top_m);
   SWELL_COMPARE(air.profile);
   SWELL_COMPARE(air.scattering);
+  SWELL_COMPARE(air.method);
   SWELL_COMPARE(air.forward);
   SWELL_COMPARE(air.banks);
   SWELL_COMPARE(air.bank_length_m);
