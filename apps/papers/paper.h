@@ -74,8 +74,9 @@ class PaperStudio {
   PictureSize size() const { return size_; }
   int threads() const { return threads_; }
   Workers& workers() { return workers_; }
-  // Of the last picture that was drawn.
+  // Of the last picture that was drawn, and its pixels.
   const render::FrameStatistics& statistics() const { return statistics_; }
+  const render::Target& picture() const { return picture_; }
   // The least of so many frames, 60 a second; after some that do not count.
   double least_frame_ms(const std::string& scene, int frames);
 
@@ -91,6 +92,7 @@ class PaperStudio {
   std::deque<KeptWorld> kept_;
   render::Workspace workspace_;
   render::FrameStatistics statistics_;
+  render::Target picture_;
 };
 
 // Elykov, Belago, Kuzikovsky, Nekrasov, 2000.

@@ -59,10 +59,9 @@ std::string PaperStudio::draw(std::string_view name, const std::string& scene,
   ocean::SeaFrame camera_sea;
   const View view =
       render::world_view(world, t_s, size_.width_px, size_.height_px, camera_sea, workers_);
-  render::Target target;
-  statistics_ = render::render_frame(world, view, t_s, options, workspace_, target, workers_);
+  statistics_ = render::render_frame(world, view, t_s, options, workspace_, picture_, workers_);
   const std::string file = std::string(name) + ".png";
-  write_picture(target, out_ / file);
+  write_picture(picture_, out_ / file);
   return file;
 }
 
