@@ -68,7 +68,7 @@ void find_fog_at_vertices(const Fog& fog, const Meshes& meshes, const RenderView
                           StoredFog& stored, const StageRun& run);
 
 // Fills stored.table: each row has the fog of one way, in the middle column of the view to the sea
-// at the row's depth, or as near to that as the picture's rows show. height_px: their number.
+// at the row's depth, or as near to that as the picture shows. size_px: the picture's.
 void find_fog_by_depth(const Fog& fog, const ViewRays& rays, glm::ivec2 size_px, StoredFog& stored);
 
 }  // namespace swell::render

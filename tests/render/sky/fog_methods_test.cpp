@@ -1,6 +1,7 @@
 // Pictures of fog that is found at vertices and by depth, against formulas and the fog of pixels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -8,7 +9,6 @@
 #include "math/enum_table.h"
 #include "math/simd_target.h"
 #include "render/linear_renderer.h"
-#include "render/measures.h"
 #include "render/sky/fog.h"
 #include "render/tile/stored_fog.h"
 
