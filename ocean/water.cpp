@@ -35,6 +35,20 @@ float sea_share(const WaterParts& water, glm::dvec2 p_world) {
   return water.inland ? water.inland->sea_share(p_world) : 1.0f;
 }
 
+// Adds the slopes of a source's heights, with their fading, by differences.
+template <class Source>
+void slopes_by_differences(const Source& source, const SeaFrame& frame, Points p,
+                           std::span<glm::vec2> slope) {
+  constexpr double kStep_m = 0.05;
+  const glm::dvec2 dx(0.5 * kStep_m, 0.0), dy(0.0, 0.5 * kStep_m);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const std::array<glm::dvec2, 4> at = {p[i] + dx, p[i] - dx, p[i] + dy, p[i] - dy};
+    std::array<float, 4> z{}, room_unused{};
+    source.add_heights(frame, at, room_unused, z);
+    slope[i] += glm::vec2(z[0] - z[1], z[2] - z[3]) / static_cast<float>(kStep_m);
+  }
+}
+
 // ---- The trains of a coast
 
 struct TrainWaves {
@@ -58,16 +72,8 @@ struct TrainWaves {
     }
   }
 
-  // By differences: the trains' height with its share and edge.
   void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const {
-    constexpr double kStep_m = 0.05;
-    const glm::dvec2 dx(0.5 * kStep_m, 0.0), dy(0.0, 0.5 * kStep_m);
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      const std::array<glm::dvec2, 4> at = {p[i] + dx, p[i] - dx, p[i] + dy, p[i] - dy};
-      std::array<float, 4> z{}, room_unused{};
-      add_heights(frame, at, room_unused, z);
-      slope[i] += glm::vec2(z[0] - z[1], z[2] - z[3]) / static_cast<float>(kStep_m);
-    }
+    slopes_by_differences(*this, frame, p, slope);
     take_room(p, room);
   }
 
@@ -81,6 +87,83 @@ struct TrainWaves {
   }
 };
 
+// ---- Fronts of surf
+
+struct FrontWaves {
+  const WaterParts& water;
+
+  // Points that the fronts lift, in order.
+  struct Lifted {
+    FrontSamples at;
+    std::array<std::size_t, kPointChunk> place;
+    std::array<float, kPointChunk> depth_m, height_m;
+    std::array<glm::vec2, kPointChunk> part_slope;
+
+    // z of the n-th, over the mean level.
+    float height(std::size_t n) const { return height_m[n] * (at.lift[n] - kFrontMean); }
+  };
+
+  void take_room(Points p, Room room) const {
+    for (std::size_t i = 0; i < p.size(); ++i)
+      room[i] *= spectrum_weight(place_in_fronts(*water.fronts, p[i]).at.share);
+  }
+
+  // Takes the room, too.
+  void lift(double t_s, Points p, Room room, Lifted& lifted) const {
+    const glm::dvec2 origin = water.fronts->grid.min_world;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const FrontPlace place = place_in_fronts(*water.fronts, p[i]);
+      if (place.at.share <= 0.0f) continue;
+      room[i] *= spectrum_weight(place.at.share);
+      const auto depth_m = -static_cast<float>(terrain::height_at(*water.land, p[i]));
+      const float height_m = front_height_m(place.at, depth_m);
+      if (height_m <= 0.0f) continue;
+      const std::size_t n = lifted.at.count++;
+      lifted.at.x[n] = static_cast<float>(p[i].x - origin.x);
+      lifted.at.y[n] = static_cast<float>(p[i].y - origin.y);
+      lifted.at.part[n] = place.at.part;
+      lifted.place[n] = i;
+      lifted.depth_m[n] = depth_m;
+      lifted.height_m[n] = height_m * edge(water.area, p[i]) * sea_share(water, p[i]);
+      lifted.part_slope[n] = place.part_slope;
+    }
+    if (lifted.at.count == 0) return;
+    const SeaDescription& sea = water.sea->description();
+    sample_front_function(make_front_clock(water.fronts->zone, sea, t_s, origin), lifted.at);
+  }
+
+  void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
+    if (!frame.has_fronts) return;
+    Lifted lifted;
+    lift(frame.t_s, p, room, lifted);
+    for (std::size_t n = 0; n < lifted.at.count; ++n) height_m[lifted.place[n]] += lifted.height(n);
+  }
+
+  void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const {
+    if (!frame.has_fronts) return;
+    slopes_by_differences(*this, frame, p, slope);
+    take_room(p, room);
+  }
+
+  // Up exactly the heights' rate; along, as long waves in water of that depth: z sqrt(g / depth).
+  void add_velocities(const VelocityFrame& velocity, Points p, Room room,
+                      std::span<glm::vec3> velocity_mps) const {
+    Lifted lifted;
+    lift(velocity.z.t_s, p, room, lifted);
+    const SeaDescription& sea = water.sea->description();
+    const auto gravity = static_cast<float>(sea.gravity_mps2);
+    const auto turns_per_s = static_cast<float>(front_turns_per_s(water.fronts->zone, sea));
+    for (std::size_t n = 0; n < lifted.at.count; ++n) {
+      const glm::vec2 seaward = lifted.part_slope[n];
+      const float steep = glm::length(seaward);
+      const glm::vec2 ashore = steep > 0.0f ? -seaward / steep : glm::vec2(0.0f);
+      const float along_mps = lifted.height(n) * std::sqrt(gravity / lifted.depth_m[n]);
+      velocity_mps[lifted.place[n]] +=
+          glm::vec3(along_mps * ashore, lifted.height_m[n] * lifted.at.rate[n] * turns_per_s);
+    }
+  }
+};
+
 // ---- The sea: patches and sines
 
 struct SeaWaves {
@@ -91,8 +174,8 @@ struct SeaWaves {
 
   // room times how much of the waves the land, the edge and the depth let through: the weight of
   // the waves.
-  void weigh(Points p, Room room, bool sheltered) const {
-    if (water.shelter && sheltered) apply_shelter(*water.shelter, p, room);
+  void weigh(const SeaFrame& frame, Points p, Room room) const {
+    if (water.shelter && frame.sheltered) apply_shelter(*water.shelter, p, room);
     fade(p, room);
   }
 
@@ -112,24 +195,25 @@ struct SeaWaves {
     }
   }
 
-  float weight_at(glm::dvec2 p_world, bool sheltered) const {
+  float weight_at(const SeaFrame& frame, glm::dvec2 p_world) const {
     float weight = 1.0f;
     if (water.coast) TrainWaves{water}.take_room({&p_world, 1}, {&weight, 1});
-    weigh({&p_world, 1}, {&weight, 1}, sheltered);
+    if (water.fronts && frame.has_fronts) FrontWaves{water}.take_room({&p_world, 1}, {&weight, 1});
+    weigh(frame, {&p_world, 1}, {&weight, 1});
     return weight;
   }
 
-  glm::vec2 weight_slope(glm::dvec2 p, bool sheltered) const {
+  glm::vec2 weight_slope(const SeaFrame& frame, glm::dvec2 p) const {
     constexpr double kStep_m = 0.25;
     const glm::dvec2 dx(0.5 * kStep_m, 0.0), dy(0.0, 0.5 * kStep_m);
-    const glm::vec2 difference(weight_at(p + dx, sheltered) - weight_at(p - dx, sheltered),
-                               weight_at(p + dy, sheltered) - weight_at(p - dy, sheltered));
+    const glm::vec2 difference(weight_at(frame, p + dx) - weight_at(frame, p - dx),
+                               weight_at(frame, p + dy) - weight_at(frame, p - dy));
     return difference / static_cast<float>(kStep_m);
   }
 
   // Places where the weight is 0 cost nothing.
   void add_heights(const SeaFrame& frame, Points p, Room room, std::span<float> height_m) const {
-    weigh(p, room, frame.sheltered);
+    weigh(frame, p, room);
     std::array<glm::dvec2, kPointChunk> wavy;
     std::array<std::size_t, kPointChunk> place;
     std::size_t count = 0;
@@ -145,20 +229,20 @@ struct SeaWaves {
 
   // The waves' own slopes by their weight, and their height by the weight's slope.
   void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const {
-    weigh(p, room, frame.sheltered);
+    weigh(frame, p, room);
     std::array<float, kPointChunk> x, y, z;
     sample_slopes(frame, p, std::span(x).first(p.size()), std::span(y).first(p.size()));
     sample_heights(frame, p, std::span(z).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) {
       glm::vec2 own = room[i] * glm::vec2(x[i], y[i]);
-      if (room[i] != 1.0f) own += z[i] * weight_slope(p[i], frame.sheltered);
+      if (room[i] != 1.0f) own += z[i] * weight_slope(frame, p[i]);
       slope[i] += own;
     }
   }
 
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const {
-    weigh(p, room, velocity.z.sheltered);
+    weigh(velocity.z, p, room);
     std::array<glm::vec3, kPointChunk> v;
     sample_velocities(velocity, p, std::span(v).first(p.size()));
     for (std::size_t i = 0; i < p.size(); ++i) velocity_mps[i] += v[i] * room[i];
@@ -264,6 +348,7 @@ struct InlandLevels {
 template <class Body>
 void for_each_source(const WaterParts& water, const SeaWaves& sea, Body body) {
   if (water.coast) body(TrainWaves{water});
+  if (water.fronts) body(FrontWaves{water});
   body(sea);
   body(WakeWaves{water});
 }
@@ -288,6 +373,13 @@ WaterBounds bounds_of(const WaterParts& water) {
   bounds.steepest += 2.0 * static_cast<double>(water.wakes.slope);
   if (water.shelter) bounds.steepest += static_cast<double>(water.shelter->slope_per_m) * sea_m;
   bounds.mean_wavelength_m = sea.mean_wavelength_m();
+  if (const SurfFronts* const fronts = water.fronts) {
+    bounds.height_m += fronts->height_bound_m;
+    bounds.slope += fronts->slope_bound;
+    bounds.steepest += static_cast<double>(fronts->slope_bound);
+    bounds.steepest += static_cast<double>(fronts->share_slope_per_m) * sea_m;
+    bounds.steepest += 2.0 * static_cast<double>(fronts->height_bound_m) * 1.5 / rim_m;
+  }
   bounds.highest_m = bounds.height_m;
   if (water.inland) {
     bounds.highest_m += std::max(water.inland->highest_m(), 0.0f);

@@ -4,6 +4,7 @@
 //
 // The sources, in the order in which they take their room:
 //   trains  the coast's, which know the sea floor; they leave the rest of their share
+//   fronts  of surf, which follow the water boundary; likewise (ocean/coast/surf_fronts.h)
 //   sea     spectrum waves on patches and sines: in the room that is left, lower in the lee of land
 //           (ocean/coast/shelter.h), fading where the water is shallower than they are high
 //   wakes   of what disturbs the water (ocean/wakes/wakes.h), which are in the frame: they take no
@@ -28,6 +29,7 @@
 
 #include "ocean/coast/coast.h"
 #include "ocean/coast/shelter.h"
+#include "ocean/coast/surf_fronts.h"
 #include "ocean/inland/inland_water.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/sea_area.h"
@@ -46,6 +48,7 @@ struct WaterParts {
   WakeBounds wakes = {};                      // of all wakes that frames may have
   const Shelter* shelter = nullptr;           // of the sea's waves; null: open everywhere
   const InlandWater* inland = nullptr;        // null: no rivers, no lakes; has the same land
+  const SurfFronts* fronts = nullptr;         // null: fronts of surf lift no water; needs land
   // The sea's surface alone, under that of rivers where they end: what its triangles are moved by.
   bool sea_alone = false;
 };

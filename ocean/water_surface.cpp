@@ -133,6 +133,9 @@ void WaterSurface::foam(std::span<const glm::dvec2> p_world, const WhitecapFrame
       sample_coast_share(*coast, p, std::span(ceded).first(p.size()));
       for (float& x : ceded) x = 1.0f - spectrum_weight(x);
     }
+    if (const SurfFronts* const fronts = water_.parts().fronts; fronts && frame_->has_fronts)
+      for (std::size_t i = 0; i < p.size(); ++i)
+        ceded[i] = 1.0f - spectrum_weight(place_in_fronts(*fronts, p[i]).at.share);
     sample_whitecaps(whitecaps, p, std::span(z).first(p.size()), some, ceded);
     if (const Shelter* shelter = water_.parts().shelter; shelter && frame_->sheltered)
       apply_shelter(*shelter, p, some);

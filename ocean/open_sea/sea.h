@@ -128,6 +128,7 @@ struct SeaFrame {
   std::vector<SineFrame> sines;
   WakeFrame wakes;                        // advance_wakes() fills it, not advance()
   bool sheltered = true;                  // by land (ocean/coast/shelter.h); advance() leaves it
+  bool has_fronts = true;                 // that lift the water, if there are some; likewise
   std::vector<float> linear, fft_planes;  // working storage of advance()
 };
 
