@@ -64,7 +64,7 @@ std::vector<std::vector<float>> shelter_trains(const terrain::ShoreMap* shore,
 }  // namespace
 
 std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain_size_m) {
-  if (coast.model == CoastModel::kNone || coast.grid_spacing_m == 0.0) return std::nullopt;
+  if (!has_trains(coast.model) || coast.grid_spacing_m == 0.0) return std::nullopt;
   // NaN fails.
   if (coast.grid_spacing_m > 0.0 && cells_a_side(coast, terrain_size_m) <= most_cells(coast.trains))
     return std::nullopt;
@@ -78,7 +78,7 @@ std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain
 
 std::string slow_coast_text(const Scene& scene) {
   const Coast& coast = scene.coast;
-  if (coast.model == CoastModel::kNone || !scene.terrain || ocean::wave_systems(scene.sea).empty())
+  if (!has_trains(coast.model) || !scene.terrain || ocean::wave_systems(scene.sea).empty())
     return {};
   const std::optional<double> size_m = described_size_m(*scene.terrain);
   const double cells = std::min(
@@ -95,7 +95,7 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
                                            const terrain::ShoreMap* shore, Workers& workers) {
   const Coast& coast = scene.coast;
   const ocean::SeaDescription& sea = scene.sea;
-  if (coast.model == CoastModel::kNone || !terrain) return std::nullopt;
+  if (!has_trains(coast.model) || !terrain) return std::nullopt;
   if (const auto fault = fault_of_coast_grid(coast, terrain->grid.size_m())) refuse(scene, *fault);
   std::vector<ocean::WaveSystem> systems = ocean::wave_systems(sea);
   if (systems.empty()) return std::nullopt;
@@ -127,6 +127,17 @@ std::optional<terrain::ShoreMap> build_shore(const Scene& scene, const terrain::
     }
   Workers workers(threads);
   return terrain::ShoreMap(*terrain, workers);
+}
+
+std::optional<ocean::SurfFronts> build_surf_fronts(const Scene& scene, const ocean::Sea& sea,
+                                                   const terrain::HeightGrid* terrain,
+                                                   const terrain::ShoreMap* shore,
+                                                   const ocean::Shelter* shelter,
+                                                   Workers& workers) {
+  if (scene.coast.model != CoastModel::kFronts || !terrain || !shore || !shelter)
+    return std::nullopt;
+  return ocean::make_surf_fronts(*shore, terrain->grid, sea, *shelter, scene.coast.surf_width,
+                                 workers);
 }
 
 std::optional<ocean::Shelter> build_shelter(const Scene& scene, const terrain::ShoreMap* shore,

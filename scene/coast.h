@@ -8,6 +8,7 @@
 #include "math/parallel.h"
 #include "ocean/coast/coast.h"
 #include "ocean/coast/shelter.h"
+#include "ocean/coast/surf_fronts.h"
 #include "scene/check_scene.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
@@ -30,9 +31,8 @@ std::string slow_coast_text(const Scene& scene);
 
 // Works out the phases of the scene's wave trains over its terrain, the same bits with any workers:
 // 0.2 microseconds of one core a train and cell, 50 ms to 3 s in all. Nothing for
-// scenes without terrain, without wind or with coast.model = "none". Throws SceneError for a grid
-// beyond the bounds.
-// shore: of the terrain; null: land does not shelter the trains.
+// scenes without terrain, without wind or with a coast.model without trains. Throws SceneError for
+// a grid beyond the bounds. shore: of the terrain; null: land does not shelter the trains.
 std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::HeightGrid* terrain,
                                            const terrain::ShoreMap* shore, Workers& workers);
 
@@ -40,6 +40,13 @@ std::optional<ocean::CoastSea> build_coast(const Scene& scene, const terrain::He
 // without terrain. Throws SceneError or texture::FileError for such a file.
 std::optional<terrain::ShoreMap> build_shore(const Scene& scene, const terrain::HeightGrid* terrain,
                                              int threads = available_cpus());
+
+// The fronts of surf of a scene that lift its water. Nothing but with coast.model = "fronts", a
+// shore and its shelter (build_shelter()).
+std::optional<ocean::SurfFronts> build_surf_fronts(const Scene& scene, const ocean::Sea& sea,
+                                                   const terrain::HeightGrid* terrain,
+                                                   const terrain::ShoreMap* shore,
+                                                   const ocean::Shelter* shelter, Workers& workers);
 
 // What land leaves of the waves of the scene's open sea, the same bits with any workers. Nothing
 // without a shore line or without waves. 0.1 s of one core.

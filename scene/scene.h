@@ -110,7 +110,13 @@ enum class CoastModel : std::uint8_t {
   kNone,    // the open sea's waves, lower over shallow water
   kTrains,  // wave trains that refract and shoal, alone
   kBlend,   // wave trains near the coast, the open sea's waves offshore
+  kFronts,  // four fronts of surf near the coast, the open sea's waves offshore
 };
+
+// Whether there are wave trains.
+constexpr bool has_trains(CoastModel model) {
+  return model == CoastModel::kTrains || model == CoastModel::kBlend;
+}
 
 struct Coast {
   CoastModel model = CoastModel::kNone;  // parse_scene: kBlend for a terrain from a coast line

@@ -29,6 +29,7 @@ Water::Water(const Scene& scene, int threads) : sea_(sea_of(scene)), area_(scene
   shore_ = build_shore(scene, terrain());
   coast_ = build_coast(scene, terrain(), shore(), workers);
   shelter_ = build_shelter(scene, shore(), workers);
+  fronts_ = build_surf_fronts(scene, sea_, terrain(), shore(), shelter(), workers);
 }
 
 WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,
@@ -39,7 +40,8 @@ WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,
   ocean::advance_wakes(disturbances_, more, gravity, t_s, frame.wakes, workers, shore());
   ocean::WakeBounds wakes = ocean::wake_bounds(disturbances_, gravity);
   wakes.include(ocean::wake_bounds(more, gravity));
-  return WaterSurface({&sea_, area_, terrain(), coast(), wakes, shelter(), inland()}, frame);
+  return WaterSurface({&sea_, area_, terrain(), coast(), wakes, shelter(), inland(), fronts()},
+                      frame);
 }
 
 bool Water::wets(const WaterSurface& surface, glm::dvec2 p_world) const {

@@ -25,6 +25,7 @@
 #include "math/parallel.h"
 #include "ocean/coast/coast.h"
 #include "ocean/coast/shelter.h"
+#include "ocean/coast/surf_fronts.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/wakes/disturbance.h"
 #include "ocean/water_surface.h"
@@ -59,6 +60,7 @@ class Water {
   const ocean::InlandWater* inland() const { return inland_ ? &*inland_ : nullptr; }
   const ocean::CoastSea* coast() const { return coast_ ? &*coast_ : nullptr; }
   const ocean::Shelter* shelter() const { return shelter_ ? &*shelter_ : nullptr; }
+  const ocean::SurfFronts* fronts() const { return fronts_ ? &*fronts_ : nullptr; }
 
  private:
   ocean::Sea sea_;
@@ -68,6 +70,7 @@ class Water {
   std::optional<ocean::InlandWater> inland_;
   std::optional<ocean::CoastSea> coast_;
   std::optional<ocean::Shelter> shelter_;
+  std::optional<ocean::SurfFronts> fronts_;
   std::vector<ocean::Disturbance> disturbances_;
 };
 

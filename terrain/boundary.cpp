@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "terrain/apron.h"
 #include "terrain/terrain.h"
@@ -87,6 +88,38 @@ ShoreMap read_boundary(const std::filesystem::path& path, const HeightGrid& land
       surf[k] = pixel[3];
     }
   return {grid, std::move(distance_m), std::move(height_m), std::move(surf)};
+}
+
+texture::Image8 bank_normals(const ShoreMap& boundary) {
+  const Grid& grid = boundary.grid();
+  std::vector<float> east(grid.size()), north(grid.size());
+  sample_slopes({grid, boundary.height_m()}, east, north);
+  texture::Image8 image{grid.samples_x, grid.samples_y, 3, {}};
+  image.pixels.reserve(3 * grid.size());
+  for (int j = grid.samples_y - 1; j >= 0; --j)
+    for (int i = 0; i < grid.samples_x; ++i) {
+      const std::size_t k = grid.index(i, j);
+      const float length = std::sqrt(east[k] * east[k] + north[k] * north[k] + 1.0f);
+      for (const float part : {-east[k], -north[k], 1.0f})
+        image.pixels.push_back(
+            static_cast<std::uint8_t>(std::floor(127.5f * (1.0f + part / length) + 0.5f)));
+    }
+  return image;
+}
+
+HeightGrid ground_of_boundary(const ShoreMap& boundary, const HeightGrid& land) {
+  const int cells = land.grid.samples_x - 1;
+  const double size_m = land.grid.size_m();
+  const int finer = static_cast<int>(std::ceil(size_m / boundary.grid().spacing_m - 1e-6));
+  HeightGrid ground{land.grid};
+  if (finer > cells) ground.grid = {land.grid.min_world, size_m / finer, finer + 1, finer + 1};
+  ground.height_m.reserve(ground.grid.size());
+  for (int j = 0; j < ground.grid.samples_y; ++j)
+    for (int i = 0; i < ground.grid.samples_x; ++i) {
+      const glm::dvec2 p = ground.grid.point(i, j);
+      ground.height_m.push_back(boundary.sample(p.x, p.y).height_m);
+    }
+  return ground;
 }
 
 }  // namespace swell::terrain

@@ -9,6 +9,7 @@
 
 #include "math/elementary.h"
 #include "terrain/apron.h"
+#include "terrain/boundary.h"
 #include "terrain/height_image.h"
 #include "terrain/island.h"
 #include "terrain/sea_floor.h"
@@ -120,6 +121,9 @@ void check_description(const TerrainDescription& description) {
   check_coast(description.coast_m);
   if (!description.coast_m.empty() && !description.height_image.empty())
     throw TerrainError("terrain.coast_m", "it besides height_image", "one of them");
+  if (description.ground_from_boundary && description.boundary.empty())
+    throw TerrainError("terrain.ground", "\"boundary\" without terrain.boundary",
+                       "\"heights\", or \"boundary\" with its file");
   check_value("beach_slope", description.beach_slope, 0.0);
   check_value("beach_size_m", description.beach_size_m, 0.0);
   check_value("island_radius_m", description.island_radius_m, 0.0);
@@ -133,6 +137,14 @@ void check_description(const TerrainDescription& description) {
   check_value("sea_level_m", description.sea_level_m);
   check_value("centre_m[0]", description.centre_m.x);
   check_value("centre_m[1]", description.centre_m.y);
+}
+
+// Sets what follows from the heights.
+void finish(HeightGrid& terrain) {
+  const auto [lowest, highest] = std::ranges::minmax_element(terrain.height_m);
+  terrain.lowest_m = *lowest;
+  terrain.highest_m = *highest;
+  terrain.apron = make_apron(terrain);
 }
 
 }  // namespace
@@ -156,10 +168,10 @@ HeightGrid build_terrain(const TerrainDescription& description) {
                        : !description.height_image.empty() ? terrain_from_image(description)
                        : description.islands > 1           ? build_archipelago(description)
                                                            : build_island(description);
-  const auto [lowest, highest] = std::ranges::minmax_element(terrain.height_m);
-  terrain.lowest_m = *lowest;
-  terrain.highest_m = *highest;
-  terrain.apron = make_apron(terrain);
+  finish(terrain);
+  if (!description.ground_from_boundary) return terrain;
+  terrain = ground_of_boundary(read_boundary(description.boundary, terrain), terrain);
+  finish(terrain);
   return terrain;
 }
 

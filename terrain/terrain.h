@@ -70,6 +70,8 @@ struct TerrainDescription {
   std::optional<double> outline_m = {};  // what is lower is not there
   // The water boundary, read from a file (terrain/boundary.h); empty: made from the heights.
   std::filesystem::path boundary = {};
+  // Whether the heights themselves are those of that file; needs one.
+  bool ground_from_boundary = false;
   GroundMaterials ground = {};
 
   bool operator==(const TerrainDescription&) const = default;
@@ -83,8 +85,9 @@ std::optional<double> described_size_m(const TerrainDescription& description);
 
 // A square of heights with an apron, lowest_m and highest_m set: 1025 samples a side from noise
 // (2049 with several islands), 513 from a coast line, the image's side from images, where one pixel
-// makes a flat square of 2 x 2. Rows go northwards. Single-threaded, the same bits everywhere.
-// Throws TerrainError (bad values) or texture::FileError (bad image).
+// makes a flat square of 2 x 2; of a finer boundary, whose heights they are, as many as that has.
+// Rows go northwards. Single-threaded, the same bits everywhere. Throws TerrainError (bad values)
+// or texture::FileError (bad image).
 HeightGrid build_terrain(const TerrainDescription& description);
 
 }  // namespace swell::terrain

@@ -121,6 +121,7 @@ BenchMode add_bench_terrain(CommandLine& program) {
   add_machine_options(line, bench->threads, bench->simd);
   add_boundary_options(line, bench->boundary);
   line.need("--scene", "--make-boundary");
+  line.need("--bank-normals", "--make-boundary");
   return {line, [bench] { run_terrain_bench(*bench); }};
 }
 

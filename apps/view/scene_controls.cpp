@@ -112,8 +112,11 @@ bool draw_land(const scene::Scene& scene, SceneChoice& choice) {
     return false;
   }
   using enum scene::CoastModel;
-  constexpr auto kCoasts = enum_table<scene::CoastModel, const char*>(
-      {{kNone, "waves of the open sea"}, {kTrains, "wave trains"}, {kBlend, "both, blended"}});
+  constexpr auto kCoasts =
+      enum_table<scene::CoastModel, const char*>({{kNone, "waves of the open sea"},
+                                                  {kTrains, "wave trains"},
+                                                  {kBlend, "both, blended"},
+                                                  {kFronts, "fronts of surf"}});
   constexpr auto kMethods = enum_table<scene::TerrainMethod, const char*>(
       {{scene::TerrainMethod::kRoam, "triangles"}, {scene::TerrainMethod::kRays, "rays"}});
   const bool changed = choose("coast", choice.coast, kCoasts);

@@ -35,6 +35,7 @@ EnumTable<WaveModel, const char*> wave_names(const scene::Scene& scene) {
   using enum WaveModel;
   switch (scene.terrain ? scene.coast.model : scene::CoastModel::kNone) {
     case scene::CoastModel::kNone:
+    case scene::CoastModel::kFronts:
       break;
     case scene::CoastModel::kTrains:  // which end at the border of the terrain
       return enum_table<WaveModel, const char*>({{kSpectrum, "trains, spectrum beyond"},

@@ -194,6 +194,9 @@ Fault fault_of_coast_line(const TerrainDescription& terrain) {
           fmt::format("a point {} m or more from the one before", terrain::kShortestStretch_m)};
   if (!coast.empty() && !terrain.height_image.empty())
     return SceneFault{"terrain.coast_m", "it besides terrain.height_image", "one of them"};
+  if (terrain.ground_from_boundary && terrain.boundary.empty())
+    return SceneFault{"terrain.ground", "\"boundary\" without terrain.boundary",
+                      "\"heights\", or \"boundary\" with its file"};
   return std::nullopt;
 }
 

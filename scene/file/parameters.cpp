@@ -252,9 +252,10 @@ Rows ripple_rows() {
 Rows coast_rows() {
   return {
       SceneRow::choice("coast.model", CoastModelName{},
-                       "waves near the shore of a terrain: those of the open sea, trains that "
-                       "refract and shoal, or such trains there and the open sea's offshore; "
-                       "\"blend\" if left out beside terrain.coast_m"),
+                       "waves near the shore of a terrain: those of the open sea; trains that "
+                       "refract and shoal; such trains there and the open sea's offshore; or four "
+                       "fronts of surf there that follow the water boundary; \"blend\" if left "
+                       "out beside terrain.coast_m"),
       SceneRow::integer("coast.trains", Kind::kInteger, {1, 16}, SWELL_FIELD(coast.trains),
                         "number of wave trains"),
       SceneRow::choice("coast.method", CoastMethod{}, "whether the floor bends the trains' crests"),
@@ -282,8 +283,11 @@ Rows terrain_rows() {
           "terrain.boundary", Kind::kPath, SWELL_FIELD(terrain->boundary),
           "EXR file of the water boundary, relative to the scene file, as swell-bench terrain "
           "--make-boundary writes it: distance to the shore, depth, height of the bank, part of "
-          "surf; empty: made from the heights. Shelter, surf and wakes follow it, the ground does "
-          "not"),
+          "surf; empty: made from the heights. Shelter, surf and wakes follow it"),
+      SceneRow::choice("terrain.ground", GroundName{},
+                       "where the ground's heights are from: what the terrain is made of, or over "
+                       "its square the depths and banks of terrain.boundary; trees and covers "
+                       "follow the ground"),
       SceneRow::number("terrain.metres_per_pixel", {0.01, 1000, "m"},
                        SWELL_FIELD(terrain->metres_per_pixel), "of the picture"),
       SceneRow::number("terrain.low_m", {-12000, 12000, "m"}, SWELL_FIELD(terrain->low_m),

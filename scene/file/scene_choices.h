@@ -30,6 +30,11 @@ struct InterpolationName {
   auto& operator()(auto& scene) const { return scene.terrain->bicubic; }
 };
 
+struct GroundName {
+  static constexpr auto words = enum_words<bool>({{false, "heights"}, {true, "boundary"}});
+  auto& operator()(auto& scene) const { return scene.terrain->ground_from_boundary; }
+};
+
 struct EarthName {
   static constexpr auto words = enum_words<bool>({{false, "flat"}, {true, "round"}});
   auto& operator()(auto& scene) const { return scene.round_earth; }
@@ -102,8 +107,8 @@ struct MapHeightsName {
 
 struct CoastModelName {
   using enum CoastModel;
-  static constexpr auto words =
-      enum_words<CoastModel>({{kNone, "none"}, {kTrains, "trains"}, {kBlend, "blend"}});
+  static constexpr auto words = enum_words<CoastModel>(
+      {{kNone, "none"}, {kTrains, "trains"}, {kBlend, "blend"}, {kFronts, "fronts"}});
   auto& operator()(auto& scene) const { return scene.coast.model; }
 };
 

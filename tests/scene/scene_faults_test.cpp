@@ -173,8 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
               "test.toml:3: column 10: sky.zenith[1], got 0.8, allowed at most 7.66 times "
               "sky.horizon[1], which is 0.1"},
         Fault{"[coast]\nmodel = 1979-05-27\n",
-              "test.toml:2: column 9: coast.model, got 1979-05-27, allowed \"none\", \"trains\" or "
-              "\"blend\""}));
+              "test.toml:2: column 9: coast.model, got 1979-05-27, allowed \"none\", "
+              "\"trains\", \"blend\" or \"fronts\""}));
 
 INSTANTIATE_TEST_SUITE_P(
     Coasts, SceneFileFault,
@@ -200,14 +200,16 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[terrain]\ncoast_m = [[1, 0], [0, 0],\n  [0, 1e-300]]\n",
               "test.toml:3: column 3: terrain.coast_m[2], got [0, 1e-300], allowed a point 0.001 m "
               "or more from the one before"},
+        Fault{"[terrain]\nground = \"boundary\"\n",
+              "test.toml:2: column 10: terrain.ground, got \"boundary\" without "
+              "terrain.boundary, allowed \"heights\", or \"boundary\" with its file"},
         Fault{"[terrain]\nbeach_slope = 0\n",
               "test.toml:2: column 15: terrain.beach_slope, got 0, allowed 0.001 to 1"},
         Fault{"[terrain]\nbeach_size_m = 20001\n",
               "test.toml:2: column 16: terrain.beach_size_m, got 20001, allowed 50 to 20000 m"},
-        Fault{
-            "[coast]\nmodel = \"peachey\"\n",
-            "test.toml:2: column 9: coast.model, got \"peachey\", allowed \"none\", \"trains\" or "
-            "\"blend\""},
+        Fault{"[coast]\nmodel = \"peachey\"\n",
+              "test.toml:2: column 9: coast.model, got \"peachey\", allowed \"none\", "
+              "\"trains\", \"blend\" or \"fronts\""},
         Fault{
             "[[disturbance]]\nkind = \"hull\"\n",
             "test.toml:2: column 8: disturbance[0].kind, got \"hull\" without a path_m, allowed a "
@@ -320,7 +322,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[terrain]\nheigth = 3\n",
               "test.toml:2: column 1: unknown key, got 'terrain.heigth', allowed in [terrain] "
               "height_image, high_m, seed, method, low_m, island_height_m, coast_m, checker_m, "
-              "centre_m, islands, outline_m, boundary, beach_size_m, sea_level_m, floor_depth_m, "
+              "ground, centre_m, islands, outline_m, boundary, beach_size_m, sea_level_m, "
+              "floor_depth_m, "
               "beach_slope, soil_colour, interpolation, dry_colour, rock_slope, sand_colour, "
               "rock_colour, metres_per_pixel, archipelago_size_m, grass_colour, grass_from_m, "
               "island_radius_m"}));

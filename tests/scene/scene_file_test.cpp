@@ -255,6 +255,7 @@ TEST(SceneFile, TheCoastModelOfTheFileStays) {
   EXPECT_EQ(model(kCoast, "none"), CoastModel::kNone);
   EXPECT_EQ(model(kCoast, "trains"), CoastModel::kTrains);
   EXPECT_EQ(model("[terrain]\n", "blend"), CoastModel::kBlend);
+  EXPECT_EQ(model(kCoast, "fronts"), CoastModel::kFronts);
 }
 
 TEST(SceneFile, ACamerasPathIsReadAndDumped) {
@@ -303,11 +304,13 @@ TEST(SceneFile, ACameraOnAnObjectIsReadAndDumped) {
 
 TEST(SceneFile, ADrifterAndAWaterBoundaryAreReadAndDumped) {
   const std::string file = SWELL_SOURCE_DIR "/README.md";  // only the land looks into it
-  const Scene scene = parse_scene("[terrain]\nboundary = \"" + file +
-                                      "\"\n[[river]]\npath_m = [[0, 0], [90, 0]]\nsurface_m = [1, "
-                                      "0]\n[[object]]\nposition_m = [30, 1]\ndrift = true\n",
-                                  "test.toml");
+  const Scene scene = parse_scene(
+      "[terrain]\nboundary = \"" + file +
+          "\"\nground = \"boundary\"\n[[river]]\npath_m = [[0, 0], [90, 0]]\nsurface_m = [1, "
+          "0]\n[[object]]\nposition_m = [30, 1]\ndrift = true\n",
+      "test.toml");
   EXPECT_EQ(scene.terrain->boundary, file);
+  EXPECT_TRUE(scene.terrain->ground_from_boundary);
   EXPECT_TRUE(scene.objects[0].drift);
   EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
 }

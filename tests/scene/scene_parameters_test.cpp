@@ -178,7 +178,8 @@ std::string agreeing_value(std::string_view key, Dice& dice) {
   if (key == "clouds.kind") return dice.below(2) ? "\"none\"" : "\"layer\"";
   if (key == "clouds.base_m") return "1000";
   if (key == "clouds.top_m") return "4000";
-  if (key == "sea.map_set") return "\"none\"";  // a set leaves the spectrum one patch
+  if (key == "sea.map_set") return "\"none\"";        // a set leaves the spectrum one patch
+  if (key == "terrain.ground") return "\"heights\"";  // the other wants a file
   return "";
 }
 

@@ -73,6 +73,7 @@ void compare_waypoints(const Waypoint& a, const Waypoint& b, std::string& list) 
 void compare_terrains(const TerrainDescription& a, const TerrainDescription& b, std::string& list) {
   SWELL_COMPARE(height_image);
   SWELL_COMPARE(boundary);
+  SWELL_COMPARE(ground_from_boundary);
   SWELL_COMPARE(metres_per_pixel);
   SWELL_COMPARE(low_m);
   SWELL_COMPARE(high_m);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "terrain/height_image.h"
@@ -89,6 +90,98 @@ TEST_F(Boundary, MayBeOfAnotherSizeAndPaintedOver) {
   EXPECT_EQ(read.sample(17.0, -60.0).height_m, -2.0f);
   EXPECT_EQ(read.surf_at(17.0, -60.0), 0.25f);
   EXPECT_FALSE(read.has_line());
+}
+
+// The picture's points over the terrain's square are the ground's: minus depths, and banks.
+TEST_F(Boundary, MayBeTheGround) {
+  Workers workers(1);
+  texture::ImageF image = boundary_image(ShoreMap(small_island(), workers));
+  const auto at = [&](int x, int y, std::size_t c) -> float& {
+    return image.pixels[4 * static_cast<std::size_t>(y * image.width + x) + c];
+  };
+  const int middle = image.width / 2;
+  at(middle, middle, 2) = 11.0f;  // a hill on the island's, a pit in the sea 100 m south
+  at(middle, middle + 25, 1) = 9.0f;
+  const HeightGrid land = small_island();
+  const HeightGrid ground =
+      ground_of_boundary(read_boundary(write_image("b.exr", image), land), land);
+  ASSERT_EQ(ground.grid.samples_x, 65);
+  EXPECT_EQ(ground.grid.spacing_m, 4.0);
+  int same = 0;
+  for (int j = 0; j < 65; ++j)
+    for (int i = 0; i < 65; ++i) {
+      const auto x = static_cast<int>(ground.grid.point(i, j).x / 4.0) + middle,
+                 y = middle - static_cast<int>(ground.grid.point(i, j).y / 4.0);
+      EXPECT_EQ(ground.height_m[ground.grid.index(i, j)], at(x, y, 2) - at(x, y, 1));
+      same += ground.height_m[ground.grid.index(i, j)] == land.height_m[land.grid.index(i, j)];
+    }
+  EXPECT_EQ(same, 65 * 65 - 2);
+  EXPECT_EQ(height_at(ground, {0.0, 0.0}), 11.0);
+  EXPECT_EQ(height_at(ground, {0.0, -100.0}), -9.0);
+}
+
+// A picture with points 1 m apart, of banks that rise by 1 in 2 to the north, on heights 4 m apart:
+// the ground has its points, and banks their steepness.
+TEST_F(Boundary, GivesBanksTheirReliefAndSteepness) {
+  texture::ImageF image{513, 513, 4, {}};
+  for (int y = 0; y < 513; ++y)
+    for (int x = 0; x < 513; ++x) {
+      const float height_m = 0.5f * static_cast<float>(256 - y) + (x % 2 == 0 ? 0.125f : -0.125f);
+      for (const float value :
+           {2.0f * -height_m, std::max(-height_m, 0.0f), std::max(height_m, 0.0f), 1.0f})
+        image.pixels.push_back(value);
+    }
+  HeightGrid land = small_island();
+  land.lowest_m = -13.0f;
+  land.highest_m = 6.0f;
+  land.apron = {128.0, -20.0};
+  const HeightGrid ground =
+      ground_of_boundary(read_boundary(write_image("c.exr", image), land), land);
+  EXPECT_EQ(ground.grid.samples_x, 257);
+  EXPECT_EQ(ground.grid.spacing_m, 1.0);
+  EXPECT_EQ(ground.grid.size_m(), land.grid.size_m());
+  EXPECT_NEAR(height_at(ground, {0.0, 50.0}) - height_at(ground, {1.0, 50.0}), 0.25, 1e-5);
+  std::vector<float> slope_x(ground.grid.size()), slope_y(ground.grid.size());
+  sample_slopes(ground, slope_x, slope_y);
+  for (const std::size_t k : {ground.grid.index(128, 128), ground.grid.index(40, 200)}) {
+    EXPECT_NEAR(slope_x[k], 0.0f, 1e-5f);
+    EXPECT_NEAR(slope_y[k], 0.5f, 1e-5f);
+  }
+}
+
+// A plane bank: its normal is (3, -4, 12) / 13, and the picture has it within half a step.
+TEST_F(Boundary, NormalsOfAPlaneBankAreThoseOfItsSlope) {
+  const Grid grid{{-8.0, -8.0}, 2.0, 9, 9};
+  std::vector<float> distance_m(grid.size(), -1.0f), height_m(grid.size());
+  for (int j = 0; j < 9; ++j)
+    for (int i = 0; i < 9; ++i) {
+      const glm::dvec2 p = grid.point(i, j);
+      height_m[grid.index(i, j)] = static_cast<float>(20.0 - 0.25 * p.x + p.y / 3.0);
+    }
+  const texture::Image8 image = bank_normals({grid, distance_m, height_m, {}});
+  ASSERT_EQ(image.width, 9);
+  ASSERT_EQ(image.channels, 3);
+  const std::array<double, 3> normal = {3.0 / 13.0, -4.0 / 13.0, 12.0 / 13.0};
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    EXPECT_NEAR(image.pixels[i] / 127.5 - 1.0, normal[i % 3], 0.5 / 127.5 + 1e-6);
+}
+
+TEST_F(Boundary, IsTheGroundOfATerrainThatAsksForIt) {
+  TerrainDescription description;
+  description.coast_m = {{-100.0, 0.0}, {100.0, 0.0}};
+  description.beach_size_m = 256.0;
+  description.boundary = write_flat(5, {12.0f, 3.25f, 0.0f, 1.0f});
+  EXPECT_GT(build_terrain(description).highest_m, 1.0f);
+  description.ground_from_boundary = true;
+  const HeightGrid land = build_terrain(description);
+  EXPECT_EQ(land.lowest_m, -3.25f);
+  EXPECT_EQ(land.highest_m, -3.25f);
+  EXPECT_EQ(height_at(land, {60.0, -90.0}), -3.25);
+  EXPECT_EQ(land.apron.width_m, 128.0);
+  description.boundary.clear();
+  EXPECT_EQ(HeightImage::error_of(description),
+            "terrain.ground, got \"boundary\" without terrain.boundary, allowed \"heights\", or "
+            "\"boundary\" with its file");
 }
 
 TEST_F(Boundary, RefusesWhatIsNone) {

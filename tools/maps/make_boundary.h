@@ -10,7 +10,8 @@
 namespace swell::apps {
 
 struct BoundaryOptions {
-  std::string file;  // empty: none is asked for
+  std::string file;          // empty: none is asked for
+  std::string bank_normals;  // a picture besides; likewise
   SceneChoice scene;
 };
 

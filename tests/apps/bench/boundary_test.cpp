@@ -29,9 +29,11 @@ std::string hash_of(const std::string& scene) {
 TEST(MakeBoundary, GivesTheSamePictureToTheBitAndAnotherWherePainted) {
   const ScratchFolder folder;
   write_text(folder.file("a.toml"), kScene);
-  const Outcome made = run_bench(
-      {"terrain", "--make-boundary", folder.file("shore.exr"), "--scene", folder.file("a.toml")});
+  const Outcome made =
+      run_bench({"terrain", "--make-boundary", folder.file("shore.exr"), "--bank-normals",
+                 folder.file("normals.png"), "--scene", folder.file("a.toml")});
   ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_GT(read_text(folder.file("normals.png")).size(), 10000u);
   EXPECT_NE(made.out.find("1025 x 1025 points"), std::string::npos) << made.out;
   write_text(folder.file("b.toml"), std::string(kScene) + "boundary = \"shore.exr\"\n");
   EXPECT_EQ(hash_of(folder.file("a.toml")), hash_of(folder.file("b.toml")));
@@ -57,6 +59,9 @@ TEST(MakeBoundary, RefusesInOneLine) {
   refused({folder.file("a.exr")}, {"--scene, got none"});
   refused({folder.file("a.png"), "--scene", folder.file("sea.toml")}, {"a.png", ".exr"});
   refused({folder.file("a.exr"), "--scene", folder.file("sea.toml")}, {"no terrain"});
+  refused({folder.file("a.exr"), "--bank-normals", folder.file("a.exr"), "--scene",
+           folder.file("sea.toml")},
+          {"--bank-normals", ".png"});
   EXPECT_EQ(folder.names(), std::vector<std::string>{"sea.toml"});
   write_text(folder.file("a.toml"), "[terrain]\nboundary = \"none.exr\"\n");
   const Outcome missing =
