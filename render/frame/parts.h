@@ -52,7 +52,7 @@ enum class Part : std::uint8_t {
   kCloudShadows,   // of all clouds on sea and land, in fog and water
   kImplicits,      // objects made of functions
   kShelter,        // what land takes of the open sea's waves; queries and trains keep it
-  kSurfFronts,     // foam that runs to shores without wave trains
+  kSurfFronts,     // foam of surf where no trains are, and its waves; queries keep these
   kRivers,         // rivers and lakes: their beds lie dry; queries keep them
 };
 inline constexpr std::size_t kPartCount = kEnumerators<Part>;

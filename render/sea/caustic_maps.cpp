@@ -12,9 +12,6 @@
 namespace swell::render {
 namespace {
 
-// Deeper than this the light is taken to lose its pattern as it does in clear water below the
-// focus of all but the longest waves.
-constexpr double kDeepest_m = 9.0;
 constexpr double kDepthStep = 3.0;      // of each map's depth over the one before
 constexpr double kObjectDepth_m = 3.0;  // floating things reach down to about this
 constexpr float kLowestLight = 0.02f;   // z of the direction to a light that tells under water
@@ -27,7 +24,7 @@ double lit_depth_m(const WorldState& world) {
     if (world.terrain->apron.width_m > 0.0)
       depth_m = std::max(depth_m, -world.terrain->apron.floor_m);
   }
-  return std::min(depth_m, kDeepest_m);
+  return std::min(depth_m, CausticMaps::kDeepest_m);
 }
 
 bool shows_caustics(const WorldState& world, PartSet without) {

@@ -69,6 +69,9 @@ std::span<const float> gather_rays(const CausticRays& rays, float depth_m, float
 // The maps of a frame.
 struct CausticMaps {
   static constexpr std::size_t kDepths = 3, kMostPatches = 2;
+  // Deeper than this the light is taken to lose its pattern as it does in clear water below the
+  // focus of all but the longest waves.
+  static constexpr double kDeepest_m = 9.0;
   static constexpr float kRange = 5.0f;  // intensities [0, kRange] are coded as [-1, 1]
 
   std::array<float, kDepths> depth_m{};  // rising

@@ -135,6 +135,7 @@ void advance_waves(const WorldState& world, double t_s, std::span<const ocean::D
                    PartSet without, ocean::SeaFrame& frame, Workers& workers) {
   ocean::advance(*world.sea, t_s, frame, workers, !without.has(Part::kCrests));
   frame.sheltered = !without.has(Part::kShelter);
+  frame.has_fronts = !without.has(Part::kSurfFronts);
   frame.wakes.count = 0;
   if (!without.has(Part::kWakes))
     ocean::advance_wakes(world.disturbances, more, world.scene.sea.gravity_mps2, t_s, frame.wakes,

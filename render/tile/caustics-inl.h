@@ -101,6 +101,8 @@ HWY_NOINLINE static V GatheredSunAt(const Shading& s, std::size_t patches, const
         intensity = intensity * SampleCaustic(*caustics.patch[i].map[k], places[i]);
     more = MulAdd(intensity - one, weight, more);
   }
+  // Surf breaks the lenses: the pattern fades from its zone's rim to the shore.
+  if (caustics.per_surf_depth > 0.0f) more = more * SmoothBlend(depth * caustics.per_surf_depth);
   return MulAdd(more, caustics.strength, one);
 }
 

@@ -8,6 +8,7 @@
 #include "render/sea/sea_maps.h"
 #include "render/sky/light.h"
 #include "render/tile/inputs.h"
+#include "render/world/near_shore_map.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {
@@ -18,6 +19,9 @@ Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
   caustics.patches = maps.patches;
   caustics.depth_m = maps.depth_m;
   caustics.strength = static_cast<float>(in.world.scene.water.caustics);
+  if (const NearShoreMap* const shore = in.world.near_shore.get();
+      shore && shore->fronts && !in.without.has(Part::kSurfFronts))
+    caustics.per_surf_depth = static_cast<float>(1.0 / shore->zone.depth_m);
   caustics.throws_up = maps.throws_up;
   caustics.reflected_from = -mirrored_slant(in.light.sun_direction);
   if (maps.patches > 0 && !in.without.has(Part::kCausticBend)) {

@@ -27,6 +27,8 @@ struct Caustics {
   std::array<CausticPatch, CausticMaps::kMostPatches> patch;
   std::array<float, CausticMaps::kDepths> depth_m{};
   float strength = 1.0f;  // of the contrast
+  // Over the depth from which on fronts of surf leave the pattern as it is; 0: there are none.
+  float per_surf_depth = 0.0f;
   bool throws_up = false;
   glm::vec2 reflected_from{0.0f};  // towards the light, in each metre up
   // How ripples move the lookup.

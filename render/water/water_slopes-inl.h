@@ -62,8 +62,9 @@ HWY_INLINE V3 NormalOf(V slope_x, V slope_y) {
 // floor and what land takes of them, and the foam where waves break, both 0 outside the maps.
 struct Surf {
   V ceded, foam;
-  V torn_foam;  // that is torn as whitecaps are, beside `foam`
-  V trains;     // the part of `ceded` that is the trains'
+  V torn_foam;      // that is torn as whitecaps are, beside `foam`
+  V trains;         // the part of `ceded` that is the trains'
+  FrontsAt fronts;  // that lift the water
   CoastWhitecaps whitecaps;
   hn::Mask<D> has_trains;  // in the trains' map
   hn::Mask<D> inside;      // in any
@@ -74,7 +75,7 @@ struct Surf {
 HWY_INLINE Surf NoSurf() {
   const V zero = hn::Zero(D());
   const auto none = hn::MaskFromVec(zero);
-  return {zero, zero, zero, zero, NoCoastWhitecaps(), none, none, false, false};
+  return {zero, zero, zero, zero, NoFronts(), NoCoastWhitecaps(), none, none, false, false};
 }
 
 // Whitecaps of the trains; from far, where eight bits lose them, their mean.
@@ -122,6 +123,11 @@ HWY_INLINE Surf SampleSurf(const Water& water, V3 p, V level_m) {
     surf.foam = MulAdd(shore.foam * (1.0f - torn), left, surf.foam);
     surf.ceded = MulAdd(shore.taken, left, surf.ceded);
     surf.whitecaps.taken = shore.taken;
+    if (water.near_shore.fronts.lifts()) {
+      surf.fronts = shore.fronts;
+      surf.ceded = MulAdd(shore.fronts.ceded, one - surf.ceded, surf.ceded);
+      surf.whitecaps.taken = MulAdd(shore.fronts.ceded, one - shore.taken, shore.taken);
+    }
     surf.inside = surf.inside | shore.inside;
   }
   surf.is_near = !hn::AllFalse(d, surf.inside);
@@ -140,6 +146,11 @@ HWY_INLINE void BlendCoast(const Water& water, V3 p, V level_m, const Surf& surf
   const V blended = MulAdd(long_variance, kept * kept, water.base_variance);
   // Not rounded outside: a packet with no lane inside does not come by here.
   s.variance = IfThenElse(surf.inside, blended, s.variance);
+  if (water.near_shore.fronts.lifts()) {
+    s.slope_x = s.slope_x + surf.fronts.slope_x;
+    s.slope_y = s.slope_y + surf.fronts.slope_y;
+    s.variance = s.variance + surf.fronts.variance;
+  }
   if (hn::AllFalse(d, surf.has_trains)) return;
   V x = hn::Zero(d), y = hn::Zero(d), lost = hn::Zero(d);
   AddSlopes(water.trains.slopes, p, level_m, {x, y}, x, y, lost);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "math/parallel.h"
+#include "ocean/coast/surf_fronts.h"
 #include "texture/packed_map.h"
 
 namespace swell::render {
@@ -15,13 +17,21 @@ inline constexpr int kNearShoreSize = 512;
 
 // What a shore does to the sea before it, of a world with shelter: over the terrain's square with
 // its apron, kNearShoreSize points a side: the part of the open sea's waves that land takes away,
-// in [0, 1], and the distance to the shore over the surf's reach, [-1, 1].
+// in [0, 1], and the distance to the shore over the surf's reach, [-1, 1]; of fronts that lift the
+// water, see below.
 struct NearShoreMap {
   texture::PackedMap2 map;
   glm::dvec2 min_world{0.0};
   double size_m = 0.0;
-  double reach_m = 0.0, reach_s = 0.0;  // waves need so long from there to the shore
-  double period_s = 1.0;                // of waves that break
+  ocean::SurfZone zone;
+  // Fronts that lift the water; none: they are foam alone. Their maps lie over the same square.
+  std::optional<ocean::SurfFronts> fronts;
+  // The root of the part of their reach over kFrontsFrom, negative on land, and their height over
+  // lift_m, in [0, 1].
+  texture::PackedMap2 lift;
+  float lift_m = 0.0f;
+  // The slope of the part [1/reach]: points out to sea.
+  texture::PackedMap2 seaward;
 };
 
 // The same bits with any workers.

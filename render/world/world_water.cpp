@@ -1,5 +1,6 @@
 // A world's water, as queries have it.
 #include "ocean/water_surface.h"
+#include "render/world/near_shore_map.h"
 #include "render/world/world_state.h"
 
 namespace swell::render {
@@ -7,7 +8,10 @@ namespace swell::render {
 ocean::WaterParts WorldState::water(std::span<const ocean::Disturbance> more) const {
   ocean::WakeBounds wakes = ocean::wake_bounds(disturbances, scene.sea.gravity_mps2);
   wakes.include(ocean::wake_bounds(more, scene.sea.gravity_mps2));
-  return {sea.get(), scene.area, terrain.get(), coast.get(), wakes, shelter.get(), inland.get()};
+  const ocean::SurfFronts* const fronts =
+      near_shore && near_shore->fronts ? &*near_shore->fronts : nullptr;
+  return {sea.get(), scene.area,    terrain.get(), coast.get(),
+          wakes,     shelter.get(), inland.get(),  fronts};
 }
 
 ocean::WaterBounds WorldState::water_bounds(std::span<const ocean::Disturbance> more) const {

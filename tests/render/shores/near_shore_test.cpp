@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "ocean/coast/shelter.h"
+#include "ocean/coast/surf_fronts.h"
 #include "render/labelled_frame.h"
+#include "render/world/forest.h"
 #include "render/world/near_shore_map.h"
 #include "render/world/world_state.h"
+#include "scene/water.h"
 #include "scratch_folder.h"
 #include "terrain/boundary.h"
 #include "terrain/height_grid.h"
@@ -89,7 +92,7 @@ TEST(NearShore, FrontsReachAsFarAsTheBandIsWide) {
   scene.coast.surf_width = 2.0;
   const World wide = world_of(scene);
   const NearShoreMap &near = *one.state().near_shore, &far = *wide.state().near_shore;
-  EXPECT_EQ(far.reach_m, 2.0 * near.reach_m);
+  EXPECT_EQ(far.zone.reach_m, 2.0 * near.zone.reach_m);
   const View view = view_down({190.0, 0.0}, 150.0, 160, 90);
   const auto foam_of = [&](const World& world) {
     const LabelledFrame frame(world, view, 5.0, {.without = {Part::kWhitecaps}});
@@ -274,6 +277,104 @@ TEST(NearShore, FrontsAreThePartThatIsPainted) {
   EXPECT_EQ(foam[0], foam_before(made));
   EXPECT_LT(foam[1], 0.8 * foam[0]);
   EXPECT_GT(foam[1], 1.5 * foam[2]);
+}
+
+scene::Scene lifting_shore() {
+  scene::Scene scene = straight_shore(0.0);
+  scene.coast.model = scene::CoastModel::kFronts;
+  return scene;
+}
+
+// Pixels have the slopes of the fronts that vertices are lifted by: regressed on those that queries
+// give, they are as steep.
+TEST(NearShore, FrontsThatLiftTheWaterShowItsSlopes) {
+  const scene::Scene scene = lifting_shore();
+  const World world = world_of(scene);
+  const scene::Water water(scene);
+  Workers workers(1);
+  ocean::SeaFrame sea;
+  const scene::WaterSurface surface = water.at(5.0, sea, workers);
+  const LabelledFrame frame(world, view_down({0.0, 40.0}, 60.0, 320, 240), 5.0,
+                            {.without = {Part::kWhitecaps}});
+  double both = 0.0, queried = 0.0;
+  frame.for_pixels(2, [&](glm::ivec2 at) {
+    const glm::dvec2 p(frame.position(at));
+    const double reaches = p.y / world.state().near_shore->zone.reach_m;
+    if (reaches < 0.3 || reaches > 0.9 || frame.labels().foam[frame.at(at)] > 0.5f) return;
+    const glm::vec3 normal = frame.labels().normal[frame.at(at)];
+    glm::vec2 slope;
+    surface.slopes({&p, 1}, {&slope, 1});
+    both += static_cast<double>(-normal.y / normal.z * slope.y);
+    queried += static_cast<double>(slope.y * slope.y);
+  });
+  ASSERT_GT(queried, 5.0);
+  EXPECT_NEAR(both / queried, 1.0, 0.15);
+}
+
+TEST(NearShore, FrontsThatLiftTheWaterCanBeLeftOut) {
+  scene::Scene scene = lifting_shore();
+  const World lifting = world_of(scene);
+  scene.coast.model = scene::CoastModel::kNone;
+  const World flat = world_of(scene);
+  const View view = view_down({0.0, 30.0}, 70.0, 160, 120);
+  const PartSet none = {Part::kSurfFronts};
+  const LabelledFrame all(lifting, view, 5.0), bare(lifting, view, 5.0, {.without = none}),
+      other(flat, view, 5.0, {.without = none});
+  EXPECT_GT(count_differences(all, bare), 3000);
+  // Without them the sea has its own heights, but for triangles that other bounds give.
+  double lifted_m = 0.0, left_m = 0.0;
+  for (std::size_t i = 0; i < bare.labels().elevation_m.size(); ++i) {
+    const float height_m = other.labels().elevation_m[i];
+    lifted_m += static_cast<double>(std::abs(all.labels().elevation_m[i] - height_m));
+    left_m += static_cast<double>(std::abs(bare.labels().elevation_m[i] - height_m));
+  }
+  EXPECT_LT(left_m, 0.1 * lifted_m);
+}
+
+// What is painted is where the ground, its trees and the fronts are: the shore 20 pixels north.
+TEST(NearShore, GroundTreesAndFrontsFollowThePaintedBoundary) {
+  constexpr int kBy_px = 20;
+  scene::Scene scene = lifting_shore();
+  scene.trees = {{.species = terrain::TreeSpecies::kConifer,
+                  .place = terrain::TreePlace::kBanks,
+                  .clumping = 0.0,
+                  .bank_width_m = 30.0,
+                  .lake_shores = true,
+                  .ground_m = {0.2, 50.0}}};
+  const World made = world_of(scene);
+  const texture::ImageF image = terrain::boundary_image(*made.state().shore);
+  texture::ImageF moved = image;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 4; ++c)
+        moved.pixels[4 * static_cast<std::size_t>(y * image.width + x) +
+                     static_cast<std::size_t>(c)] =
+            image.at(x, std::min(y + kBy_px, image.height - 1), c);
+  const ScratchFolder folder;
+  scene.terrain->boundary = folder.path() / "moved.exr";
+  scene.terrain->ground_from_boundary = true;
+  texture::write_file(scene.terrain->boundary, texture::encode_image(moved, ".exr"));
+  const World painted = world_of(scene);
+  const WorldState &a = made.state(), &b = painted.state();
+  const glm::dvec2 by(0.0, kBy_px * a.shore->grid().spacing_m);
+  for (int n = 0; n < 100; ++n) {
+    const glm::dvec2 p(600.0 * (random_uniform(3, 2 * n) - 0.5),
+                       300.0 * (random_uniform(3, 2 * n + 1) - 0.5));
+    EXPECT_NEAR(height_at(*b.terrain, p + by), height_at(*a.terrain, p), 1e-3);
+    EXPECT_NEAR(place_in_fronts(*b.near_shore->fronts, p + by).at.part,
+                place_in_fronts(*a.near_shore->fronts, p).at.part, 0.02);
+  }
+  const auto trees_between = [](const WorldState& state, double south_m, double north_m) {
+    const terrain::Trees& trees = state.forest->trees;
+    return std::ranges::count_if(trees.trees, [&](const terrain::Tree& tree) {
+      const double y = trees.origin.y + static_cast<double>(tree.foot.y);
+      return y >= south_m && y < north_m;
+    });
+  };
+  EXPECT_GT(trees_between(a, -30.0, 0.0), 50);
+  EXPECT_EQ(trees_between(a, 0.0, 100.0), 0);
+  EXPECT_GT(trees_between(b, by.y - 30.0, by.y), 50);
+  EXPECT_EQ(trees_between(b, -100.0, by.y - 31.0), 0);
 }
 
 }  // namespace

@@ -48,6 +48,11 @@ TEST(DrawnCrests, HaveTheHeightOfAQueryAtEveryVertex) {
   expect_queried_heights(scene);
 }
 
+// Four fronts of surf that lift the water, in a bay and round a headland.
+TEST(DrawnFronts, HaveTheHeightOfAQueryAtEveryVertex) {
+  expect_queried_heights(load_shipped("papers/maps_7"));
+}
+
 TEST(DrawnCrests, CanBeLeftOut) {
   scene::Scene scene = load_shipped("open_ocean");
   scene.sea.choppiness = 1.0;
