@@ -331,6 +331,38 @@ TEST(NearShore, FrontsThatLiftTheWaterCanBeLeftOut) {
   EXPECT_LT(left_m, 0.1 * lifted_m);
 }
 
+// How much caustics change a picture from above between two parts of the surf's reach.
+double caustics_between(const World& world, double from, double to) {
+  const View view = view_down({0.0, 50.0}, 90.0, 160, 120);
+  const PartSet others = {Part::kWhitecaps, Part::kRipples, Part::kGlitter};
+  PartSet none = others;
+  none.add(Part::kCaustics);
+  const LabelledFrame lit(world, view, 5.0, {.without = others}),
+      plain(world, view, 5.0, {.without = none});
+  const double reach_m = world.state().near_shore->zone.reach_m;
+  double sum = 0.0, count = 0.0;
+  lit.for_pixels(1, [&](glm::ivec2 at) {
+    const double part = lit.position(at).y / reach_m;
+    if (part < from || part > to) return;
+    const auto green = [&](const LabelledFrame& frame) {
+      return static_cast<double>(frame.target.rgba[frame.at(at)] >> 8 & 255u);
+    };
+    sum += std::abs(green(lit) - green(plain));
+    ++count;
+  });
+  return sum / count;
+}
+
+// The layers of figure 6: caustics begin where the surf ends.
+TEST(NearShore, CausticsFadeOverTheSurfOfFrontsThatLiftTheWater) {
+  const World lifting = world_of(lifting_shore()), foam_alone = world_of(straight_shore(0.0));
+  const double in_surf = caustics_between(lifting, 0.15, 0.45),
+               in_foam = caustics_between(foam_alone, 0.15, 0.45);
+  ASSERT_GT(in_foam, 0.3);
+  EXPECT_LT(in_surf, 0.7 * in_foam);
+  EXPECT_GT(caustics_between(lifting, 1.1, 1.6), 0.75 * caustics_between(foam_alone, 1.1, 1.6));
+}
+
 // What is painted is where the ground, its trees and the fronts are: the shore 20 pixels north.
 TEST(NearShore, GroundTreesAndFrontsFollowThePaintedBoundary) {
   constexpr int kBy_px = 20;
