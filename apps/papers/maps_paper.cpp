@@ -6,11 +6,15 @@
 #include <cmath>
 
 #include "apps/papers/paper.h"
+#include "apps/papers/shore_layers.h"
 #include "apps/papers/shown_water.h"
 #include "apps/papers/svg_plot.h"
 #include "lod/radial_grid.h"
+#include "ocean/coast/surf_fronts.h"
 #include "ocean/inland/river_network.h"
 #include "ocean/open_sea/periodic_map.h"
+#include "terrain/boundary.h"
+#include "terrain/height_grid.h"
 #include "tools/figures/wave_figures.h"
 
 namespace swell::apps {
@@ -127,28 +131,45 @@ PaperItem backs(PaperStudio& studio) {
           "leaves little to mend."};
 }
 
+// From the shore out to where the fronts end, at x_m on the scene's coast.
+double shore_at(const scene::Water& water, double x_m) {
+  const terrain::Grid& grid = water.terrain()->grid;
+  double y_m = grid.min_world.y + grid.size_m();
+  while (y_m > grid.min_world.y && terrain::height_at(*water.terrain(), {x_m, y_m}) < 0.0)
+    y_m -= 0.5;
+  return y_m;
+}
+
 std::vector<PaperItem> shores(PaperStudio& studio) {
-  const std::string beach = "waves_beach.toml";
-  const ShownWater shown(studio, beach);
-  const double x_m = shown.middle_m().x;
-  const std::array<std::string, 6> from_above = {
-      "camera.mount=",          "camera.quaternion=",
-      "camera.mount_offset_m=", "camera.eye_m=[1540, -1640, 30]",
-      "camera.heading_deg=350", "camera.pitch_deg=-14"};
+  const std::string scene = "papers/maps_7.toml";
+  const ShownWater shown(studio, scene);
+  const double x_m = -60.0, y_m = shore_at(shown.water, x_m);
+  const ocean::SurfFronts& fronts = *shown.water.fronts();
+  const double reach_m = fronts.zone.reach_m;
+  const MapView view{{x_m, y_m + 3.2 * reach_m}, 8.5 * reach_m, 480, {0, 1}};
+  const std::array<std::string, 3> from_above = {
+      fmt::format("camera.eye_m=[{}, {}, {}]", x_m, y_m + 0.6 * reach_m, 1.6 * reach_m),
+      "camera.heading_deg=0", "camera.pitch_deg=-89"};
   return {{"Figure 6",
-           "The layers of a shore, and four fronts of surf, each with a phase of its own",
-           "everything.toml",
-           {studio.draw("maps_6_fronts", "everything.toml", from_above)},
-           {},
-           "Fronts are foam alone; the waves of the sea lift the water."},
+           "The layers of a shore, all by one texture of the water boundary: banks with their "
+           "normals, swash, four fronts of surf, caustics, deep water",
+           scene,
+           {studio.write("maps_6_layers", draw_shore_layers(shown.water, kShown_s, view)),
+            studio.write("maps_6_normals", terrain::bank_normals(*shown.water.shore())),
+            studio.draw("maps_6_fronts", scene, from_above)},
+           {{"fronts, one a component of a vector", "", 4.0, double{ocean::kSurfFronts}}},
+           ""},
           {"Figure 7",
-           "How waves form at a shore",
-           beach,
-           {studio.write("maps_7_surf",
-                         draw_section(shown.surface, shown.water.terrain(), glm::dvec2(x_m, -220.0),
-                                      glm::dvec2(x_m, 20.0), "surf"))},
+           "The function that draws a front of waves near a shore: a long back and a face that "
+           "steepens",
+           scene,
+           {studio.write("maps_7_function", plot_front_function()),
+            studio.write("maps_7_surf",
+                         draw_section(shown.surface, shown.water.terrain(),
+                                      {x_m, y_m + 2.2 * reach_m}, {x_m, y_m - 15.0}, "surf")),
+            studio.draw("maps_7_shore", scene)},
            {},
-           ""}};
+           "The paper gives the function as a drawing; ours has its own formula."}};
 }
 
 }  // namespace
