@@ -10,7 +10,6 @@
 #include "math/elementary.h"
 #include "terrain/apron.h"
 #include "terrain/boundary.h"
-#include "terrain/height_image.h"
 #include "terrain/island.h"
 #include "terrain/sea_floor.h"
 #include "texture/image/image_io.h"
@@ -53,7 +52,7 @@ float height_at(const TerrainDescription& description, const texture::ImageF& im
 
 HeightGrid terrain_from_image(const TerrainDescription& description) {
   const texture::ImageF image = read_heights(description.height_image);
-  const bool metres = holds_metres(description.height_image);
+  const bool metres = texture::holds_floats(description.height_image);
   const int samples = std::max(image.width, 2);
   HeightGrid terrain{
       {.spacing_m = description.metres_per_pixel, .samples_x = samples, .samples_y = samples}};
@@ -148,13 +147,6 @@ void finish(HeightGrid& terrain) {
 }
 
 }  // namespace
-
-bool holds_metres(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".exr" || extension == ".hdr";
-}
 
 std::optional<double> described_size_m(const TerrainDescription& description) {
   if (!description.coast_m.empty()) return description.beach_size_m;

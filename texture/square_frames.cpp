@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 
 #include "math/check.h"
 #include "texture/srgb.h"
@@ -32,13 +31,6 @@ void check_frame(const std::string& path, std::string_view what, const ImageF& i
   if (texels_of(image) * frames > kMostFrameTexels)
     refuse(path, fmt::format("{}, got {} frames of {} pixels a side, allowed {}", what, frames,
                              image.width, kMostFrameTexels / texels_of(image)));
-}
-
-bool is_linear(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; });
-  return extension == ".exr" || extension == ".hdr";
 }
 
 }  // namespace
@@ -77,7 +69,7 @@ ColourFrames read_colour_frames(const std::vector<std::string>& paths, int size)
   std::vector<ImageF> frames = read_square_frames(paths, "picture of colours", 3, size);
   glm::dvec3 sum(0.0);
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    const bool linear = is_linear(paths[f]);
+    const bool linear = holds_floats(paths[f]);
     for (std::size_t n = 0; n < frames[f].pixels.size(); ++n) {
       float& value = frames[f].pixels[n];
       if (value < 0.0f)

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 #include "ocean/open_sea/patch_tiles.h"
 #include "texture/packed_map.h"
@@ -46,5 +48,24 @@ SlopeLayer make_patch_layer(const texture::PackedMap2& map, glm::dvec2 length_m,
 // A layer over one square that does not repeat: the eye's place in it, from_corner [m], is not
 // wrapped.
 SlopeLayer make_square_layer(const texture::PackedMap2& map, double size_m, glm::dvec2 from_corner);
+
+// ---- Colours that tint a surface, as parts of their mean: what is too far for their texels has it
+
+// Values less 1. Of grey ones, blue is empty: red stands for all.
+struct TintMaps {
+  texture::PackedMap2 red_green, blue;
+};
+
+// Fills the maps with one channel or three, size * size values each, in [-1, 1].
+void pack_tint(int size, std::span<const std::vector<float>> channels, TintMaps& maps);
+
+// As shaders sample them.
+struct TintLayer {
+  SlopeLayer red_green, blue;
+  bool on() const { return red_green.map != nullptr; }
+};
+
+// Lays them over the plane with period length_m > 0.
+TintLayer make_tint(const TintMaps& maps, double length_m, glm::dvec2 eye);
 
 }  // namespace swell::render

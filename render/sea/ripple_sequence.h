@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "math/parallel.h"
-#include "render/packets/tint.h"
+#include "render/packets/slope_layer.h"
 #include "scene/scene.h"
 #include "texture/bump_sequence.h"
 #include "texture/packed_map.h"

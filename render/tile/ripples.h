@@ -6,7 +6,6 @@
 #include <glm/glm.hpp>
 
 #include "render/packets/slope_layer.h"
-#include "render/packets/tint.h"
 
 namespace swell::scene {
 struct Scene;

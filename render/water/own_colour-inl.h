@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "render/packets/packet-inl.h"
-#include "render/packets/tint.h"
+#include "render/packets/slope_layer.h"
 #include "render/tile/shading.h"
 #include "render/water/water.h"
 

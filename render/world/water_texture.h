@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "render/packets/tint.h"
+#include "render/packets/slope_layer.h"
 
 namespace swell::scene {
 struct Scene;

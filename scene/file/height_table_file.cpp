@@ -9,9 +9,8 @@
 #include "math/parallel.h"
 #include "scene/height_frames.h"
 #include "terrain/bicubic.h"
-#include "terrain/height_image.h"
-#include "texture/bump_sequence.h"
 #include "texture/image/image_io.h"
+#include "texture/square_frames.h"
 
 namespace swell::scene {
 namespace {
@@ -27,7 +26,7 @@ terrain::HeightGrid heights_of(const HeightPictures& pictures, const std::string
     refuse_picture(path, "table of heights",
                    fmt::format("{} x {} pixels", image.width, image.height),
                    fmt::format("2 to {} a side", kMostTableSide));
-  const bool metres = terrain::holds_metres(path);
+  const bool metres = texture::holds_floats(path);
   terrain::HeightGrid heights{{.samples_x = image.width, .samples_y = image.height}};
   heights.height_m.resize(heights.grid.size());
   for (int j = 0; j < image.height; ++j)

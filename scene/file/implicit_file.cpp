@@ -19,7 +19,7 @@
 #include "scene/file/toml_limits.h"
 #include "scene/height_frames.h"
 #include "scene/scene_error.h"
-#include "texture/bump_sequence.h"
+#include "texture/square_frames.h"
 
 namespace swell::scene {
 namespace {

@@ -56,6 +56,15 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+}  // namespace
+
+bool holds_floats(const std::filesystem::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  return extension == ".exr" || extension == ".hdr";
+}
+
+namespace {
+
 std::string_view checked_format(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
   const std::string_view format = format_of_extension(extension);

@@ -34,6 +34,9 @@ struct ReadLimits {
 // and whatever is not a regular file. Channels come as stored: alpha is not multiplied in.
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
 
+// Whether a file of this name holds floats as they are, and no integers of [0, 1]: EXR and HDR.
+bool holds_floats(const std::filesystem::path& path);
+
 // Encodes by the file name's extension: .png (8 or 16-bit), .exr (float), .tif/.tiff (float, 8 or
 // 16-bit).
 // Channels are written as they are: display-encoded bytes stay display-encoded, alpha is not
