@@ -106,7 +106,8 @@ std::optional<std::string> tame_value(std::string_view key, Dice& dice) {
         kinds[static_cast<std::size_t>(dice.below(static_cast<int>(kinds.size())))];
     return fmt::format("\"{}\"", kind == "mesh" || kind == "form" ? "box" : kind);
   }
-  if (key == "drift") return "false";  // wants a river
+  if (key == "drift") return "false";                 // wants a river
+  if (key == "terrain.ground") return "\"heights\"";  // the other wants a file
   if (key == "clouds.kind") return dice.below(2) ? "\"none\"" : "\"layer\"";
   if (key == "clouds.base_m") return "1000";  // the top lies between 100 and 8000 m above it
   if (key == "clouds.top_m") return "4000";
