@@ -191,31 +191,37 @@ HWY_INLINE void AddWakes(const Water& water, V3 p, V level_m, WaterSlopes& s) {
   s.foam = Join(s.foam, TearWhitecaps(water.wakes.foam, p, level_m, at.foam));
 }
 
-// Adds whitecaps: `foam` is that of the longest patch's waves.
+// Adds whitecaps: `foam` is that of the longest patch's waves. Without a coast surf is not read.
+template <bool kCoast>
 HWY_INLINE void AddWhitecaps(const Water& water, const ViewRays& rays,
                              std::span<const Packet> packets, std::span<const V> level_flat_m,
                              const Surf* surf, PerPacket<V>& foam, WaterSlopes* s) {
-  if (water.trains.on)
+  if (kCoast && water.trains.on)
     for (std::size_t k = 0; k < packets.size(); ++k)
       foam[k] =
           Min(NegMulAdd(foam[k], surf[k].trains, foam[k]) + surf[k].whitecaps.on_trains, 1.0f);
-  for (std::size_t k = 0; k < packets.size(); ++k)
-    foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, packets[k].p.z + rays.eye_z,
-                          level_flat_m[k], surf[k].whitecaps);
+  for (std::size_t k = 0; k < packets.size(); ++k) {
+    const V height_m = packets[k].p.z + rays.eye_z;
+    if constexpr (kCoast)
+      foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, height_m, level_flat_m[k],
+                            surf[k].whitecaps);
+    else
+      foam[k] = WhitecapsAt(water.whitecaps, foam[k], packets[k].p, height_m, level_flat_m[k],
+                            NoCoastWhitecaps());
+  }
   for (std::size_t k = 0; k < packets.size(); ++k)
     s[k].foam = TearWhitecaps(water.whitecaps, packets[k].p, level_flat_m[k], foam[k]);
 }
 
-// Adds the slopes of the sea's longest patch, and what foam its waves have, where surf leaves some.
-HWY_INLINE void AddPatchAndFoam(const Water& water, const ViewRays& rays,
-                                std::span<const Packet> packets, std::span<const V> level_flat_m,
-                                const Surf* surf, WaterSlopes* s) {
+// Adds the slopes of the sea's longest patch; returns what foam its waves have.
+HWY_INLINE PerPacket<V> AddPatch(const Water& water, std::span<const Packet> packets,
+                                 std::span<const V> level_flat_m, WaterSlopes* s) {
   const FoamMap* const long_foam = water.whitecaps.count > 0 ? &water.whitecaps.foam[0] : nullptr;
   PerPacket<V> foam;
   for (std::size_t k = 0; k < packets.size(); ++k)
     foam[k] = AddLongestPatch(water.layers[0], long_foam, packets[k].p, level_flat_m[k],
                               s[k].slope_x, s[k].slope_y, s[k].variance);
-  AddWhitecaps(water, rays, packets, level_flat_m, surf, foam, s);
+  return foam;
 }
 
 // Adds the foam of waves that break at a coast.
@@ -259,12 +265,15 @@ HWY_INLINE void SampleWater(const Water& water, const ViewRays& rays,
   if constexpr (kCoast)
     for (std::size_t k = 0; k < count; ++k) all_ceded = all_ceded && surf[k].all_ceded;
   const bool has_patch = water.first_ripples > 0;
-  if (has_patch && !all_ceded)
-    AddPatchAndFoam(water, rays, packets, std::span(level_flat_m).first(count), surf.data(), s);
-  if (kCoast && all_ceded && water.trains.whitecaps.map) {
-    PerPacket<V> none;
-    none.fill(zero);
-    AddWhitecaps(water, rays, packets, std::span(level_flat_m).first(count), surf.data(), none, s);
+  const auto levels = std::span<const V>(level_flat_m).first(count);
+  const bool has_sea = has_patch && !all_ceded;
+  if (has_sea || (kCoast && all_ceded && water.trains.whitecaps.map)) {
+    PerPacket<V> foam;
+    if (has_sea)
+      foam = AddPatch(water, packets, levels, s);
+    else
+      foam.fill(zero);
+    AddWhitecaps<kCoast>(water, rays, packets, levels, surf.data(), foam, s);
   }
   if constexpr (kCoast)
     AddCoastFoam(water, packets, std::span(level_flat_m).first(count), surf.data(), s);
