@@ -7,6 +7,8 @@
 
 #include "render/world/world_state.h"
 #include "scene/check_scene.h"
+#include "scene/file/parameters.h"
+#include "texture/bump_sequence.h"
 #include "texture/square_frames.h"
 
 namespace swell::render {
