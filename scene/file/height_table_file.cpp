@@ -61,10 +61,7 @@ terrain::HeightGrid in_square(const terrain::HeightGrid& heights) {
 
 std::vector<std::string> paths_of(const HeightPictures& pictures) {
   if (pictures.frames == 1) return {pictures.path};
-  std::vector<std::string> paths;
-  for (int frame = 0; frame < pictures.frames; ++frame)
-    paths.push_back(texture::path_of_frame(pictures.path, frame));
-  return paths;
+  return texture::paths_of_frames(pictures.path, pictures.frames);
 }
 
 std::shared_ptr<const HeightFrames> read_heights(const HeightPictures& pictures) {

@@ -33,8 +33,8 @@ std::vector<SceneFile> files_of(const Scene& scene) {
   add(scene.water.texture);
   for (const std::string& path : {scene.ripples.sequence, scene.ripples.detail})
     if (!path.empty())
-      for (int frame = 0; frame < scene.ripples.frames; ++frame)
-        add(texture::path_of_frame(path, frame));
+      for (const std::string& frame : texture::paths_of_frames(path, scene.ripples.frames))
+        add(frame);
   for (const FloatingObject& object : scene.objects)
     if (object.kind == ObjectKind::kMesh && !object.file.empty()) {
       files.push_back({object.file, true, object.up});
