@@ -1,6 +1,6 @@
 /* Swell for programs in C and in languages that call C: draws the sea, and answers what it is like
- * at a place and time. docs/library.md introduces it; docs/conventions.md has axes and units: world
- * x east, y north, z up, metres, seconds, degrees in names that end with _deg alone.
+ * at a place and time. docs/do/library.md introduces it; docs/look_up/conventions.md has axes and
+ * units: world x east, y north, z up, metres, seconds, degrees in names that end with _deg alone.
  *
  *   swell_world *world = NULL;
  *   swell_session *session = NULL;
@@ -158,8 +158,8 @@ typedef enum swell_disturbance_kind {
 } swell_disturbance_kind;
 
 /* What disturbs the water besides the scene's [[disturbance]], with the same values and ranges
- * (docs/scene.md). Waves follow from the list and the time alone, so give the same list for earlier
- * times and later ones. */
+ * (docs/look_up/scene.md). Waves follow from the list and the time alone, so give the same list for
+ * earlier times and later ones. */
 typedef struct swell_disturbance {
   size_t size;
   int32_t kind;         /* swell_disturbance_kind */
@@ -184,8 +184,8 @@ typedef struct swell_frame {
   int32_t width_px, height_px; /* each in [1, 8192] */
   const swell_camera* camera;  /* null: the scene's, which goes with the object that it is mounted
                                   on, also where `poses` or `disturbances` put that */
-  const char* labels; /* "depth,id", "all" or null: which labels are drawn; docs/labels.md has their
-                         names */
+  const char* labels; /* "depth,id", "all" or null: which labels are drawn; docs/look_up/labels.md
+                         has their names */
   int32_t linear;     /* not 0: the plane "linear" is drawn as well */
   /* For the label of motion: the next frame's time after this one, over 0 (0: 1/60 s), camera
    * (null: the scene's at that time, with next_poses, if `camera` is null, else the same) and

@@ -35,10 +35,10 @@ class WaterSurface {
   // not dig into the sand. On rivers and lakes their levels, with the waves of wakes. Near a coast
   // the sea's waves make room for the trains that know its floor, by their share. Over land 0. A
   // picture has these heights, bit for bit, at the vertices of its mesh, out to where its triangles
-  // become wider than the waves (docs/lod.md); inside a triangle with the longest edge s it is at
-  // most L s / 2 off, L the waves' steepest slope. Spans of one length that do not overlap.
-  // Allocates nothing. 25 ns a point for three patches, 45 with terrain; alone, without a batch,
-  // 200. With `longest_patches` the shorter waves of the open sea are left out, by patches.
+  // become wider than the waves (docs/understand/lod.md); inside a triangle with the longest edge s
+  // it is at most L s / 2 off, L the waves' steepest slope. Spans of one length that do not
+  // overlap. Allocates nothing. 25 ns a point for three patches, 45 with terrain; alone, without a
+  // batch, 200. With `longest_patches` the shorter waves of the open sea are left out, by patches.
   void heights(std::span<const glm::dvec2> p_world, std::span<float> height_m,
                std::size_t longest_patches = SIZE_MAX) const;
   float height(glm::dvec2 p_world) const;

@@ -1,9 +1,9 @@
 // One pass over triangles: clip, set up, bin into tiles; then each tile finds, for every pixel,
 // the nearest triangle. Knows nothing of materials: the result is a visibility buffer.
 //
-// Rules (docs/conventions.md): window x right, y down, pixel centres at +0.5; vertices snap to
-// 1/256 px (round to nearest even); top-left fill rule; reversed-Z depth near/w, larger is nearer;
-// of equal depths the first submitted triangle wins.
+// Rules (docs/look_up/conventions.md): window x right, y down, pixel centres at +0.5; vertices snap
+// to 1/256 px (round to nearest even); top-left fill rule; reversed-Z depth near/w, larger is
+// nearer; of equal depths the first submitted triangle wins.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// What makes a scene one that can be drawn: every value in the range that docs/scene.md states for
-// its key, and the values in agreement with each other. Scenes from files and scenes made in code
-// pass by here.
+// What makes a scene one that can be drawn: every value in the range that docs/look_up/scene.md
+// states for its key, and the values in agreement with each other. Scenes from files and scenes
+// made in code pass by here.
 #pragma once
 
 #include <optional>
@@ -20,8 +20,8 @@ struct SceneFault {
 // 'KEY, got GOT, allowed ALLOWED'
 std::string fault_text(const SceneFault& fault);
 
-// The scene's first fault in the order of docs/scene.md; none: it can be drawn, if its files can be
-// read. 0.3 ms.
+// The scene's first fault in the order of docs/look_up/scene.md; none: it can be drawn, if its
+// files can be read. 0.3 ms.
 std::optional<SceneFault> find_fault(const Scene& scene);
 
 // The part of it that is left to check when every value is in its range: those that do not go

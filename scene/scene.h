@@ -1,6 +1,6 @@
 // A scene: everything that decides a picture except its size and its time. Loaded from TOML
-// (docs/scene.md lists every key with unit, default and range); angles are degrees in files and
-// radians here.
+// (docs/look_up/scene.md lists every key with unit, default and range); angles are degrees in files
+// and radians here.
 #pragma once
 
 #include <cstdint>
@@ -169,7 +169,7 @@ using TerrainDescription = terrain::TerrainDescription;
 struct KeyPlaces;
 
 // May be made in code: render::World and scene::Water throw SceneError unless every value is in
-// the range that docs/scene.md states for its key (check_scene.h).
+// the range that docs/look_up/scene.md states for its key (check_scene.h).
 struct Scene {
   std::string name;  // the file's stem
   Camera camera;

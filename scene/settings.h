@@ -15,11 +15,12 @@
 namespace swell::scene {
 
 // The scene of a file in which each setting, in their order, has given a key another value. KEY is
-// a dotted key of docs/scene.md; [n] after a name is the n-th table of [[name]], or the n-th
-// element of an array, from 0 on; the number of those that are there adds one. VALUE is as TOML has
-// it, where text may go without its quotes; an empty one leaves the key out. A file is JSON if its
-// name ends with .json or its text begins with '{': objects are tables, and a dotted key stands for
-// tables in each other. Throws as load_scene(path); of a setting's fault: 'setting KEY=VALUE: ...'.
+// a dotted key of docs/look_up/scene.md; [n] after a name is the n-th table of [[name]], or the
+// n-th element of an array, from 0 on; the number of those that are there adds one. VALUE is as
+// TOML has it, where text may go without its quotes; an empty one leaves the key out. A file is
+// JSON if its name ends with .json or its text begins with '{': objects are tables, and a dotted
+// key stands for tables in each other. Throws as load_scene(path); of a setting's fault: 'setting
+// KEY=VALUE: ...'.
 Scene load_scene(const std::filesystem::path& path, std::span<const std::string> settings);
 
 // Parses such a scene from text. Relative paths, those of settings too, are relative to the folder

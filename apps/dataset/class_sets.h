@@ -17,7 +17,7 @@ struct Category {
   std::string name;
 };
 
-// One of lars, mastr1325, waterscenes and swell (docs/datasets.md has their tables). The numbers
+// One of lars, mastr1325, waterscenes and swell (docs/do/datasets.md has their tables). The numbers
 // are those of the sets themselves where these have numbers.
 class ClassSet {
  public:

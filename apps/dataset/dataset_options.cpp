@@ -23,7 +23,7 @@ std::optional<DatasetOptions> parse_dataset_options(int argc, char** argv) {
   DatasetOptions options;
   CommandLine line("swell-dataset",
                    "Draws a data set by a recipe: pictures, labels, masks, boxes, cameras");
-  line.add_text("--recipe", "FILE", options.recipe, "Recipe (TOML; docs/datasets.md)");
+  line.add_text("--recipe", "FILE", options.recipe, "Recipe (TOML; docs/do/datasets.md)");
   line.require("--recipe");
   line.add_text("--out", "FOLDER", options.out,
                 "Folder of the data set; samples that it has are not drawn again");

@@ -20,8 +20,8 @@ struct SidecarFrame {
   std::string picture_file;  // empty: none
 };
 
-// docs/labels.md has the keys. Keys stand in a fixed order; bytes of names that are not UTF-8
-// become U+FFFD. `scene_path` is as given on the command line.
+// docs/look_up/labels.md has the keys. Keys stand in a fixed order; bytes of names that are not
+// UTF-8 become U+FFFD. `scene_path` is as given on the command line.
 std::string label_sidecar(const SidecarFrame& frame, const View& view, const scene::Scene& scene,
                           const std::string& scene_path, render::LabelSet labels,
                           std::span<const std::string> command_line);

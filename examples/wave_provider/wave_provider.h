@@ -1,6 +1,6 @@
 // Waves for a simulator, as VRX-like hosts ask for them: elevation, normal, particle velocity and
-// still-water depth at (x, y, t), over the C interface of libswell. docs/simulators.md tells how to
-// put it into a host.
+// still-water depth at (x, y, t), over the C interface of libswell. docs/do/simulators.md tells how
+// to put it into a host.
 #pragma once
 
 #include <swell.h>

@@ -7,7 +7,7 @@
     picture["depth"]                    # (720, 1280) float32, metres
     world.height([[0.0, 50.0]], t=5.0)  # [metres over the mean sea level]
 
-World x is east, y north, z up; metres and seconds; docs/conventions.md has the rest. The same scene, time and camera
+World x is east, y north, z up; metres and seconds; docs/look_up/conventions.md has the rest. The same scene, time and camera
 give the same bits with any number of threads, on any machine. A fault raises SceneError (the scene), or ValueError (an
 argument), with one line that says what was given and what is allowed.
 """
@@ -36,7 +36,7 @@ __version__ = _swell.version()
 
 @dataclass(frozen=True)
 class Key:
-    """A key of scene files (docs/scene.md)."""
+    """A key of scene files (docs/look_up/scene.md)."""
 
     table: str
     """Empty, or the tables [[...]] that have it."""
@@ -52,7 +52,7 @@ def keys() -> List[Key]:
 
 
 def labels() -> List[str]:
-    """The names of the labels (docs/labels.md)."""
+    """The names of the labels (docs/look_up/labels.md)."""
     return _swell.labels()
 
 
@@ -153,7 +153,7 @@ class Picture:
         return self._drawn.plane("linear")
 
     def __getitem__(self, label: str) -> np.ndarray:
-        """A label that was asked for (docs/labels.md has their meaning): an array (height, width, ...).
+        """A label that was asked for (docs/look_up/labels.md has their meaning): an array (height, width, ...).
 
         depth, distance, elevation: float32, metres; foam: float32 in [0, 1]; normal, geometric_normal: (..., 3) float32;
         motion: (..., 2) float32, pixels; position: (..., 3) float64, metres; id, class: uint32; flags: uint8.
@@ -236,7 +236,7 @@ class World:
         camera: instead of the scene's own, which goes with the object that it is mounted on, also where `poses` put
         that. Of one with a distortion the picture is a DistortedPicture: a larger one is drawn and looked up anew, which
         takes some 0.1 s at 1280 x 720.
-        labels: names of docs/labels.md, such as ["depth", "id"], or "all".
+        labels: names of docs/look_up/labels.md, such as ["depth", "id"], or "all".
         linear: keeps linear light as well.
         poses: objects that are elsewhere in this picture, by index or name.
         next_frame, next_camera, next_poses: of the next picture, for the label of motion; next_frame in seconds.

@@ -115,7 +115,7 @@ class Camera:
     def project(self, points: npt.ArrayLike) -> np.ndarray:
         """Where points [..., 3] of the world are in the picture: [..., 3] of x, y in pixels and the depth in metres.
 
-        Of a flat world: on a round earth far points are drawn lower (docs/conventions.md).
+        Of a flat world: on a round earth far points are drawn lower (docs/look_up/conventions.md).
         """
         relative = numbers(points, "points") - np.array(self.eye)
         optical = relative @ rotation_of(self.quaternion)

@@ -12,7 +12,7 @@ _KINDS = ("drop", "footstep", "hull", "rotor")
 
 @dataclass(frozen=True)
 class Disturbance:
-    """What disturbs the water besides the scene's [[disturbance]], with the same values (docs/scene.md).
+    """What disturbs the water besides the scene's [[disturbance]], with the same values (docs/look_up/scene.md).
 
     Waves follow from the list and the time alone: give the same list for earlier times and later ones.
     """

@@ -1,4 +1,4 @@
-// Implicit surfaces as files have them: tables [[form]], one a part (docs/forms.md).
+// Implicit surfaces as files have them: tables [[form]], one a part (docs/understand/forms.md).
 #pragma once
 
 #include <string>

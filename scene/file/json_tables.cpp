@@ -33,7 +33,8 @@ class Converter {
     int dots = 0;
     for (std::size_t dot; (dot = key.find('.')) != std::string_view::npos;
          key.remove_prefix(dot + 1)) {
-      if (++dots > kMaxNesting) refuse(prefix, "a key with too many dots", "keys of docs/scene.md");
+      if (++dots > kMaxNesting)
+        refuse(prefix, "a key with too many dots", "keys of docs/look_up/scene.md");
       holder->insert(key.substr(0, dot), toml::table());
       holder = holder->get(key.substr(0, dot))->as_table();
       if (!holder) refuse(prefix + std::string(key), "a table and a value", "one of them");

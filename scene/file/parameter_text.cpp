@@ -1,4 +1,4 @@
-// How values of the table are said: in messages, in docs/scene.md and in dumped scenes.
+// How values of the table are said: in messages, in docs/look_up/scene.md and in dumped scenes.
 #include <fmt/format.h>
 
 #include <algorithm>

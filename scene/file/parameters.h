@@ -1,5 +1,5 @@
 // Every key of a scene file in one table, which drives parsing, checks, defaults, the dump of the
-// effective scene and docs/scene.md (tests/scene compares it with the table).
+// effective scene and docs/look_up/scene.md (tests/scene compares it with the table).
 #pragma once
 
 #include <algorithm>
@@ -53,7 +53,7 @@ struct Parameter {
   bool (*is_set)(const Object&) = nullptr;
 };
 
-// Keys of the scene, in the order of docs/scene.md. Those of "terrain." need scene.terrain.
+// Keys of the scene, in the order of docs/look_up/scene.md. Those of "terrain." need scene.terrain.
 std::vector<Parameter<Scene>> scene_parameters();
 
 // Those of them that stand under [sky], [air] and [clouds].

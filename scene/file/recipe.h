@@ -37,7 +37,7 @@ struct RecipeObjects {
   std::vector<std::string> settings;         // "kind=\"buoy\"": keys of [[object]]
 };
 
-// docs/datasets.md has the keys.
+// docs/do/datasets.md has the keys.
 struct Recipe {
   std::filesystem::path file, scene;  // `scene` as a path that can be opened
   std::string scene_text;             // the same as the recipe has it

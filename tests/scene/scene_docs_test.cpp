@@ -1,5 +1,5 @@
-// docs/scene.md has the table of parameters as the code has it. To write the tables anew, run this
-// program with SWELL_UPDATE_DOCS=1 in the environment.
+// docs/look_up/scene.md has the table of parameters as the code has it. To write the tables anew,
+// run this program with SWELL_UPDATE_DOCS=1 in the environment.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

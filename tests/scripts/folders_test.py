@@ -31,8 +31,8 @@ def includes_between_folders():
 
 
 def folders_from_below():
-    """The folders of render/ in the order of docs/frame.md; "" is what lies in none."""
-    table = (SOURCE / "docs/frame.md").read_text().split("### The folders, from below")[1].split("\n\n")[2]
+    """The folders of render/ in the order of docs/understand/frame.md; "" is what lies in none."""
+    table = (SOURCE / "docs/understand/frame.md").read_text().split("### The folders, from below")[1].split("\n\n")[2]
     names = [name.strip() for row in re.findall(r"^\| ([\w/., ]+) \|", table, re.MULTILINE)[1:] for name in row.split(",")]
     return list(dict.fromkeys(name.removesuffix("/") if name.endswith("/") else "" for name in names))
 

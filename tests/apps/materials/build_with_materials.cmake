@@ -9,7 +9,7 @@ function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${BUILD} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# The materials as a reader of docs/frame.md changes them.
+# The materials as a reader of docs/understand/frame.md changes them.
 function(change_materials folder)
   if(CHANGE STREQUAL "checkerboard")
     run(patch -d ${folder} -p1 --no-backup-if-mismatch

@@ -1,5 +1,5 @@
-// The walk-throughs of docs/frame.md, done: a floor of black and white squares in place of the
-// land's material, and no objects, in programs that build_with_materials.cmake made.
+// The walk-throughs of docs/understand/frame.md, done: a floor of black and white squares in place
+// of the land's material, and no objects, in programs that build_with_materials.cmake made.
 #include <gtest/gtest.h>
 
 #include <algorithm>

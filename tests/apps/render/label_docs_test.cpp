@@ -1,5 +1,5 @@
-// docs/labels.md has the table of labels as the code has it, and maps to known numbers alone. To
-// write the table anew, run this program with SWELL_UPDATE_DOCS=1 in the environment.
+// docs/look_up/labels.md has the table of labels as the code has it, and maps to known numbers
+// alone. To write the table anew, run this program with SWELL_UPDATE_DOCS=1 in the environment.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ TEST(Readme, CommandsPrintTheHashesThatStandBesideThem) {
 std::vector<std::filesystem::path> documents() {
   const std::filesystem::path root(SWELL_SOURCE_DIR);
   std::vector<std::filesystem::path> found = {root / "README.md"};
-  for (const auto& entry : std::filesystem::directory_iterator(root / "docs"))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "docs"))
     if (entry.path().extension() == ".md") found.push_back(entry.path());
   return found;
 }
@@ -56,7 +56,7 @@ TEST(Documents, FunctionsThatTheFramesPageNamesAreThere) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
         sources += read_text(entry.path());
-  const std::string page = read_text(root / "docs/frame.md");
+  const std::string page = read_text(root / "docs/understand/frame.md");
   const std::regex call("`(?:\\w+::)*(\\w+)\\([^`]*\\)`");
   int calls = 0;
   for (std::sregex_iterator i(page.begin(), page.end(), call), end; i != end; ++i, ++calls)

@@ -139,7 +139,7 @@ TEST_F(Sequence, FfmpegMakesAFilmOfIt) {
   EXPECT_EQ(read_text(facts), "64,36,25/1,8\n");
 }
 
-// As docs/films.md has it; the codec keeps every bit.
+// As docs/do/films.md has it; the codec keeps every bit.
 TEST_F(Sequence, FfmpegSeesThePicturesColoursInAFilmThatSaysBt709) {
   if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
   const std::string facts = folder_.file("facts"), rgb = folder_.file("rgb");

@@ -1,4 +1,5 @@
-// docs/optics.md has a row for every part that can be left out, with a test that there is.
+// docs/understand/optics.md has a row for every part that can be left out, with a test that there
+// is.
 #include <gtest/gtest.h>
 
 #include <filesystem>
