@@ -227,7 +227,7 @@ TEST_F(Bench, EveryCodeOfBothScalesIsInsideItsBandAndInTheDocs) {
     EXPECT_EQ(row.at("code"), n < 10 ? n : n - 10);
     EXPECT_EQ(row.at("inside"), true) << row;
   }
-  const std::string docs = read_text(SWELL_SOURCE_DIR "/docs/waves.md");
+  const std::string docs = read_text(SWELL_SOURCE_DIR "/docs/understand/waves.md");
   EXPECT_NE(docs.find(outcome.out), std::string::npos) << outcome.out;
 }
 
