@@ -42,7 +42,7 @@ std::string test_of_part(const std::string& docs, std::string_view name) {
 }
 
 TEST(PartsInDocs, EachHasARowWithItsTest) {
-  const std::string docs = read(SWELL_SOURCE_DIR "/docs/optics.md");
+  const std::string docs = read(SWELL_SOURCE_DIR "/docs/understand/optics.md");
   for (const std::string_view name : kPartNames) {
     const std::string test = test_of_part(docs, name);
     const std::size_t dot = test.find('.');
