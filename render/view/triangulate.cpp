@@ -43,7 +43,7 @@ int sea_bits(const lod::AdaptRequest& request, bool limited) {
 }
 
 // Vertices every 1 m, 0.25 m or 0.125 m at the closest. A small budget is better spent further off,
-// a large one has nothing left to do there: docs/understand/lod.md has the errors of all three.
+// a large one has nothing left to do there: docs/understand/lod.md.
 int splits_of_metre(int budget) { return budget < 4000 ? 0 : budget <= 40000 ? 2 : 3; }
 
 lod::Domain domain_around(const View& view, double size_m, double step_m, int lattice_bits) {
