@@ -57,7 +57,7 @@ function(swell_compile_as_library)
 endfunction()
 
 # -ffp-contract=off is a correctness flag: without it GCC fuses a*b+c where it likes, and
-# pictures differ between optimisation levels and SIMD targets (docs/look_up/conventions.md).
+# pictures differ between optimisation levels and SIMD targets (docs/understand/sameness.md).
 add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
 include(CheckCXXSourceCompiles)
 if(CMAKE_CXX_FLAGS MATCHES "-ffast-math|-Ofast|-ffp-contract=(fast|on)|-march=native")
