@@ -1,5 +1,5 @@
 /* Swell for programs in C and in languages that call C: draws the sea, and answers what it is like
- * at a place and time. docs/do/library.md introduces it; docs/look_up/conventions.md has axes and
+ * at a place and time. docs/do/embedding.md introduces it; docs/look_up/conventions.md has axes and
  * units: world x east, y north, z up, metres, seconds, degrees in names that end with _deg alone.
  *
  *   swell_world *world = NULL;

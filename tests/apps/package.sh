@@ -28,7 +28,7 @@ size=$(stat -c %s "$deb")
 for file in bin/swell-render bin/swell-bench bin/swell-dataset bin/swell-view lib/libswell.so.0 include/swell.h \
   include/swell/render/frame.h lib/pkgconfig/swell.pc lib/cmake/swell/swellConfig.cmake \
   share/swell/scenes/open_ocean.toml share/swell/slurm/submit.sh share/swell/cluster/task.sh share/man/man1/swell-view.1 share/doc/swell/README.md share/doc/swell/copyright share/doc/swell/LICENSE \
-  share/doc/swell/docs/do/library.md share/swell/examples/python/boat.py share/swell/examples/wave_provider/wave_provider.h \
+  share/doc/swell/docs/do/embedding.md share/swell/examples/python/boat.py share/swell/examples/wave_provider/wave_provider.h \
   share/bash-completion/completions/swell-render; do
   [ -e "$root/usr/$file" ] || { echo "the package lacks $file"; exit 1; }
 done
