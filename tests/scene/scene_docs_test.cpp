@@ -13,7 +13,7 @@
 namespace swell::scene {
 namespace {
 
-constexpr const char* kPath = SWELL_SOURCE_DIR "/docs/scene.md";
+constexpr const char* kPath = SWELL_SOURCE_DIR "/docs/look_up/scene.md";
 constexpr std::string_view kBegin = "<!-- keys: begin -->\n", kEnd = "<!-- keys: end -->\n";
 
 template <class Object>

@@ -17,7 +17,7 @@
 namespace swell::render {
 namespace {
 
-constexpr const char* kPath = SWELL_SOURCE_DIR "/docs/labels.md";
+constexpr const char* kPath = SWELL_SOURCE_DIR "/docs/look_up/labels.md";
 constexpr std::string_view kBegin = "<!-- labels: begin -->\n", kEnd = "<!-- labels: end -->\n";
 
 std::string table() {
