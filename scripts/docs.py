@@ -40,18 +40,17 @@ def words(path):
 
 
 def without_code(text):
-    """The same lines, with blank ones for fenced blocks and x for the letters in code spans."""
+    """A text as long, with spaces for fenced blocks and x for what is in code spans."""
     lines, fence = [], ""
     for line in text.split("\n"):
         mark = re.match(r"\s*(```+|~~~+)", line)
         if fence:
             fence = "" if mark and mark[1].startswith(fence) else fence
-            lines.append("")
+            line = " " * len(line)
         elif mark:
             fence = mark[1]
-            lines.append("")
-        else:
-            lines.append(line)
+            line = " " * len(line)
+        lines.append(line)
     return re.sub(r"(`+)(?!`)(.+?)(?<!`)\1(?!`)", lambda span: re.sub(r"[^\n]", "x", span[0]), "\n".join(lines))
 
 

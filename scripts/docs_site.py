@@ -1,0 +1,193 @@
+"""The site: the documents as Markdown for mkdocs in a folder of their own, and what they link beside them.
+
+A page of docs/ keeps its place; those above docs/ go to about/. A link that leaves the documents leads to a copy of the
+file as text, below files/. Navigation is that of docs/index.md. Python's reference is made of the docstrings; that of C
+and C++, by Doxygen, is copied where a build can make it.
+"""
+import ast
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import docs
+
+PACKAGE = ("__init__.py", "camera.py", "disturbance.py", "distortion.py")  # of python/swell: what is public
+LIST_ITEM = re.compile(r"( *)(?:[-*+]|\d+\.) ")
+TARGET = re.compile(r"(?<=\]\()\s*([^()\s]+)|(?<=src=\")([^\"]+)|(?<=href=\")([^\"]+)")
+CSS = """/* Wide tables and long words scroll in place, never the page. */
+.md-typeset code { overflow-wrap: anywhere; }
+.md-typeset pre code { overflow-wrap: normal; }
+.md-typeset table:not([class]) code { white-space: normal; }
+"""
+
+
+# ---- Pages
+
+def place_on_site(path):
+    """Of a file of the repository, by its path there."""
+    if path.startswith("docs/"):
+        return path.removeprefix("docs/")
+    if path in docs.ABOVE:
+        return f"about/{path.lower()}"
+    return f"files/{path}.txt"
+
+
+def for_site(text, path, linked):
+    """A document's text as mkdocs takes it; adds to `linked` the files that it needs besides."""
+    here = place_on_site(path)
+
+    def move(match):
+        target = next(filter(None, match.groups()))
+        if docs.is_elsewhere(target) or target.startswith("#"):
+            return match[0]
+        file, anchor = re.match(r"([^#]*)(.*)", target).groups()
+        there = os.path.normpath(os.path.join(os.path.dirname(path), file))
+        if not there.startswith("docs/") and there not in docs.ABOVE:
+            linked.add(there)
+        return os.path.relpath(place_on_site(there), os.path.dirname(here) or ".") + anchor
+
+    pieces, at = [], 0
+    for match in TARGET.finditer(docs.without_code(text)):
+        pieces += [text[at:match.start()], move(match)]
+        at = match.end()
+    return indent_lists("".join(pieces) + text[at:])
+
+
+def indent_lists(text):
+    """GitHub's lists as Python's Markdown reads them: a blank line before, and four spaces before what belongs to an
+    item."""
+    lines, shift, fence, in_list, before = [], 0, "", False, ""
+    for line in text.split("\n"):
+        indent = len(line) - len(line.lstrip(" "))
+        mark = re.match(r" *(```+)", line)
+        if fence:
+            lines.append(" " * (shift if line else 0) + line)
+            if line.strip() == fence:
+                fence = ""
+        else:
+            item = LIST_ITEM.match(line)
+            if item and not in_list and before.strip():
+                lines.append("")
+            in_list = bool(item) or in_list and not (line.strip() and indent == 0 and not before.strip())
+            shift = 0 if not in_list or not line.strip() else 4 - indent if indent in (2, 3) else 2 if indent >= 6 else 0
+            fence = mark[1] if mark else ""
+            lines.append(" " * shift + line)
+        before = line
+    return "\n".join(lines)
+
+
+def copy_of(path):
+    """A linked file as text; of a folder, what lies in it."""
+    file = docs.ROOT / path
+    if file.is_dir():
+        return "".join(f"{path}/{name}\n" for name in sorted(os.listdir(file)) if not name.startswith((".", "__")))
+    return file.read_text(errors="replace")
+
+
+def navigation(index):
+    """mkdocs's, of the headings and items of docs/index.md."""
+    shelves = [{"Swell": "index.md"}]
+    for line in index.split("\n"):
+        if line.startswith("## "):
+            shelves.append({line[3:].split(":")[0]: []})
+        elif match := re.match(r"- \[([^\]]+)\]\(([^)]+)\)", line):
+            next(iter(shelves[-1].values())).append({match[1]: match[2]})
+    return shelves
+
+
+# ---- References
+
+def python_reference(folder):
+    """A page of the package's public names, with what their docstrings say."""
+    sources = {name: ast.parse((folder / name).read_text()) for name in PACKAGE}
+    public = next(ast.literal_eval(node.value) for node in sources["__init__.py"].body
+                  if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
+    text = f"# Python\n\n```text\n{ast.get_docstring(sources['__init__.py'])}\n```\n"
+    for tree in sources.values():
+        for node in tree.body:
+            if getattr(node, "name", None) in public:
+                text += describe(node)
+    return text
+
+
+def describe(node, within=""):
+    name = within + node.name
+    members = node.body if isinstance(node, ast.ClassDef) else []
+    if members:
+        head = name
+    elif any(ast.unparse(decorator).endswith("property") for decorator in node.decorator_list):
+        head = f"{name}: {ast.unparse(node.returns)}"
+    else:
+        node.args.args = [argument for argument in node.args.args if argument.arg not in ("self", "cls")]
+        head = f"{name}({ast.unparse(node.args)}) -> {ast.unparse(node.returns)}"
+        if node.name == "__getitem__":
+            name, head = within[:-1] + "[...]", re.sub(r"\.__getitem__\((.*)\) ->", r"[\1] ->", head)
+    text = f"\n{'###' if within else '##'} {name}\n\n```python\n{head}\n```\n"
+    if said := ast.get_docstring(node):
+        text += f"\n```text\n{said}\n```\n"
+    fields = [f"{member.target.id}: {ast.unparse(member.annotation)}" for member in members
+              if isinstance(member, ast.AnnAssign) and not member.target.id.startswith("_")]
+    if fields:
+        text += "\n```python\n" + "\n".join(fields) + "\n```\n"
+    for member in members:
+        if isinstance(member, ast.FunctionDef) and (not member.name.startswith("_") or member.name == "__getitem__"):
+            text += describe(member, within=name + ".")
+    return text
+
+
+def make_c_reference(build, out):
+    """By Doxygen, if it is there and a build is configured. Whether it is made."""
+    if not shutil.which("doxygen") or not (build / "Doxyfile").exists():
+        print(f"note: no reference of C and C++: it needs doxygen, and {build} configured", file=sys.stderr)
+        return False
+    settings = (build / "Doxyfile").read_text() + f'\nOUTPUT_DIRECTORY = "{out.parent}"\nHTML_OUTPUT = {out.name}\n'
+    subprocess.run(["doxygen", "-"], input=settings, text=True, check=True)
+    return True
+
+
+# ---- The whole
+
+def assemble(folder, build=None):
+    """Writes what mkdocs takes: FOLDER/mkdocs.json and FOLDER/pages."""
+    pages, linked = folder / "pages", set()
+
+    def write(name, text):
+        path = pages / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    for page in docs.pages():
+        path = page.relative_to(docs.ROOT).as_posix()
+        write(place_on_site(path), for_site(page.read_text(), path, linked))
+    for picture in set().union(*map(docs.targets, docs.pages())) & set(docs.pictures()):
+        there = pages / place_on_site(picture.relative_to(docs.ROOT).as_posix())
+        there.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(picture, there)
+    for path in linked:
+        write(place_on_site(path), copy_of(path))
+    write("site.css", CSS)
+    write("reference/python.md", python_reference(docs.ROOT / "python/swell"))
+    reference = [{"Python": "reference/python.md"}]
+    if build and make_c_reference(build, pages / "reference/c"):
+        write("reference/c_and_cpp.md", "# C and C++\n\n[All functions and structures](c/index.html), by Doxygen.\n")
+        reference.append({"C and C++": "reference/c_and_cpp.md"})
+    about = [{path.stem.capitalize(): place_on_site(path.name)} for path in docs.pages() if path.name in docs.ABOVE]
+    (folder / "mkdocs.json").write_text(json.dumps({
+        "INHERIT": str(docs.ROOT / "mkdocs.yml"), "docs_dir": str(pages),
+        "nav": [*navigation((docs.ROOT / "docs/index.md").read_text()), {"Reference": reference}, {"About": about}]}))
+
+
+def make(out, build):
+    """The site's folder, anew. An exit code."""
+    if not shutil.which("mkdocs"):
+        print("error: mkdocs, got none, allowed the packages of scripts/setup.sh docs", file=sys.stderr)
+        return 2
+    with tempfile.TemporaryDirectory() as folder:
+        assemble(pathlib.Path(folder), build)
+        return subprocess.run(["mkdocs", "build", "--quiet", "--config-file", f"{folder}/mkdocs.json",
+                               "--site-dir", out.resolve()], check=False).returncode
