@@ -19,10 +19,15 @@ import docs
 PACKAGE = ("__init__.py", "camera.py", "disturbance.py", "distortion.py")  # of python/swell: what is public
 LIST_ITEM = re.compile(r"( *)(?:[-*+]|\d+\.) ")
 TARGET = re.compile(r"(?<=\]\()\s*([^()\s]+)|(?<=src=\")([^\"]+)|(?<=href=\")([^\"]+)")
-CSS = """/* Wide tables and long words scroll in place, never the page. */
-.md-typeset code { overflow-wrap: anywhere; }
+CSS = """.md-typeset h1, .md-typeset h2 { color: inherit; font-weight: 600; letter-spacing: 0; }
+.md-grid { max-width: 72rem; }
+/* Wide tables and long words scroll or break in place, never the page. */
+.md-typeset code { overflow-wrap: break-word; }
 .md-typeset pre code { overflow-wrap: normal; }
-.md-typeset table:not([class]) code { white-space: normal; }
+.md-typeset table:not([class]) th { min-width: 0; }
+.md-typeset table:not([class]) td, .md-typeset table:not([class]) th { padding: .5em .75em; }
+.md-typeset table:not([class]) td:first-child code { white-space: nowrap; }
+.md-typeset table:not([class]) td:last-child:nth-child(n + 3) { min-width: 11rem; }
 """
 
 
@@ -91,7 +96,7 @@ def copy_of(path):
 
 def navigation(index):
     """mkdocs's, of the headings and items of docs/index.md."""
-    shelves = [{"Swell": "index.md"}]
+    shelves = [{"All pages": "index.md"}]
     for line in index.split("\n"):
         if line.startswith("## "):
             shelves.append({line[3:].split(":")[0]: []})
@@ -107,12 +112,17 @@ def python_reference(folder):
     sources = {name: ast.parse((folder / name).read_text()) for name in PACKAGE}
     public = next(ast.literal_eval(node.value) for node in sources["__init__.py"].body
                   if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
-    text = f"# Python\n\n```text\n{ast.get_docstring(sources['__init__.py'])}\n```\n"
+    text = f"# Python\n\n{in_markdown(ast.get_docstring(sources['__init__.py']))}\n"
     for tree in sources.values():
         for node in tree.body:
             if getattr(node, "name", None) in public:
                 text += describe(node)
     return text
+
+
+def in_markdown(docstring):
+    """Its arguments as a list."""
+    return indent_lists(re.sub(r"^([a-z]\w*(?:, \w+)*(?: \([^)]*\))?): ", r"- **\1**: ", docstring, flags=re.MULTILINE))
 
 
 def describe(node, within=""):
@@ -129,7 +139,7 @@ def describe(node, within=""):
             name, head = within[:-1] + "[...]", re.sub(r"\.__getitem__\((.*)\) ->", r"[\1] ->", head)
     text = f"\n{'###' if within else '##'} {name}\n\n```python\n{head}\n```\n"
     if said := ast.get_docstring(node):
-        text += f"\n```text\n{said}\n```\n"
+        text += f"\n{in_markdown(said)}\n"
     fields = [f"{member.target.id}: {ast.unparse(member.annotation)}" for member in members
               if isinstance(member, ast.AnnAssign) and not member.target.id.startswith("_")]
     if fields:
