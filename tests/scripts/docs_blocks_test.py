@@ -1,11 +1,12 @@
 """What the README and the pages tell to type works: their blocks ```sh and ```python run, page by page.
 
   docs_blocks_test.py Blocks       the pages' blocks, but for those that a line <!-- slow --> precedes
-  docs_blocks_test.py SlowBlocks   all blocks of the pages that have a slow one
+  docs_blocks_test.py SlowBlocks   all blocks of the pages that have a slow one, and of SLOW_PAGES
   docs_blocks_test.py Reading      how blocks are found
 
 A line <!-- not run --> before a block leaves it out. Blocks of a page run in their order, in one folder with the
-scenes/ and examples/ of the repository, and its Python blocks know the names of those before.
+scenes/ and examples/ of the repository, and its Python blocks know the names of those before. Sequences and data sets
+are shorter than the page says.
 SWELL_PROGRAMS is the folder of the programs, SWELL_PACKAGE that of the Python package and SWELL_PYTHON its interpreter;
 without the first nothing runs, without the others no Python.
 """
@@ -26,6 +27,10 @@ SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(SOURCE / "scripts"))
 
 import docs  # noqa: E402 the path comes first
+
+SLOW_PAGES = ("docs/learn/first_scene.md",  # a walk whose steps need each other: eight pictures of an island
+              "docs/do/coasts_and_rivers.md")  # an archipelago
+MOST_FRAMES, MOST_SAMPLES = 3, 3
 
 RUN_ALL = """
 import json, subprocess, sys
@@ -58,34 +63,52 @@ def read_blocks(text):
     return blocks
 
 
-def chosen_blocks(text, slow):
+def chosen_blocks(text, slow, is_slow_page=False):
     """Those that the fast tier runs, or the slow one."""
     blocks = [block for block in read_blocks(text) if block[2] != "not run"]
     if slow:
-        return blocks if any(mark == "slow" for _, _, mark, _ in blocks) else []
-    return [block for block in blocks if block[2] != "slow"]
+        return blocks if is_slow_page or any(mark == "slow" for _, _, mark, _ in blocks) else []
+    return [] if is_slow_page else [block for block in blocks if block[2] != "slow"]
+
+
+def shorten(text):
+    """Code or a recipe with fewer frames and samples."""
+    text = re.sub(r"(--frames )(\d+)-(\d+)",
+                  lambda found: f"{found[1]}{found[2]}-{min(int(found[3]), int(found[2]) + MOST_FRAMES - 1)}", text)
+    return re.sub(r"(?m)^(count *= *)(\d+)", lambda found: f"{found[1]}{min(int(found[2]), MOST_SAMPLES)}", text)
+
+
+def lay_out(work):
+    """What pages expect in the folder where they are followed."""
+    os.symlink(SOURCE / "examples", work / "examples")
+    (work / "scenes/recipes").mkdir(parents=True)
+    for file in (SOURCE / "scenes").iterdir():
+        if file.name != "recipes":
+            os.symlink(file, work / "scenes" / file.name)
+    for recipe in (SOURCE / "scenes/recipes").iterdir():
+        (work / "scenes/recipes" / recipe.name).write_text(shorten(recipe.read_text()))
 
 
 def run_page(page, slow):
     """(seconds, what it printed or None if all went well)."""
     name = page.relative_to(SOURCE).as_posix()
     python, package = os.environ.get("SWELL_PYTHON"), os.environ.get("SWELL_PACKAGE")
-    blocks = [(name, line, language, code) for line, language, _, code in chosen_blocks(page.read_text(), slow)
+    blocks = [(name, line, language, shorten(code))
+              for line, language, _, code in chosen_blocks(page.read_text(), slow, name in SLOW_PAGES)
               if language == "sh" or (python and package)]
     if not blocks:
         return 0.0, None
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as tools, tempfile.TemporaryDirectory() as work:
-        for folder in ("scenes", "examples"):
-            os.symlink(SOURCE / folder, pathlib.Path(work, folder))
+        lay_out(pathlib.Path(work))
         os.symlink(python or sys.executable, pathlib.Path(tools, "python3"))
         pathlib.Path(tools, "blocks.json").write_text(json.dumps(blocks))
         environment = dict(os.environ, PATH=f"{tools}:{os.environ['SWELL_PROGRAMS']}:{os.environ['PATH']}",
                            PYTHONPATH=package or "", PYTHONDONTWRITEBYTECODE="1")
         try:
-            run = subprocess.run([python or sys.executable, "-c", RUN_ALL, f"{tools}/blocks.json"], cwd=work, env=environment,
-                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                 timeout=300 if slow else 60, check=False)
+            run = subprocess.run([python or sys.executable, "-c", RUN_ALL, f"{tools}/blocks.json"], cwd=work,
+                                 env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                 stderr=subprocess.STDOUT, text=True, timeout=300 if slow else 60, check=False)
             failed, said = run.returncode != 0, run.stdout
         except subprocess.TimeoutExpired as late:
             failed, said = True, (late.stdout or b"").decode() + f"\nnot done after {late.timeout} s"
@@ -128,7 +151,16 @@ class Reading(unittest.TestCase):
     def test_tiers_choose_by_the_mark(self):
         self.assertEqual([line for line, *_ in chosen_blocks(self.TEXT, slow=False)], [3, 19])
         self.assertEqual([line for line, *_ in chosen_blocks(self.TEXT, slow=True)], [3, 14, 19])
+        self.assertEqual([line for line, *_ in chosen_blocks(self.TEXT, True, is_slow_page=True)], [3, 14, 19])
+        self.assertEqual(chosen_blocks(self.TEXT, False, is_slow_page=True), [])
         self.assertEqual(chosen_blocks("```sh\none\n```\n", slow=True), [])
+
+    def test_slow_pages_are_there(self):
+        self.assertLessEqual({SOURCE / name for name in SLOW_PAGES}, set(docs.pages()))
+
+    def test_sequences_and_data_sets_are_short(self):
+        self.assertEqual(shorten("a --frames 0-89 --fps 30 --frames 7-8\ncount = 100\nfirst_count = 9\n"),
+                         "a --frames 0-2 --fps 30 --frames 7-8\ncount = 3\nfirst_count = 9\n")
 
 
 if __name__ == "__main__":
