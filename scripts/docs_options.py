@@ -81,8 +81,8 @@ def table(options):
         end = "" if option.meaning[-1] in ".?" else "."
         notes = "".join(f" {note[0].upper()}{note[1:]}." for note in option.notes)
         meaning = option.meaning + (end + notes if notes else "")
-        return f"| `{option.name}` | {option.default} | {meaning.replace('|', chr(92) + '|')} |"
-    return "\n".join(["| option | default | meaning |", "|---|---|---|", *map(row, options)]) + "\n"
+        return f"`{option.name}` | {option.default} | {meaning.replace('|', chr(92) + '|')}"
+    return "\n".join(["option | default | meaning", "---|---|---", *map(row, options)]) + "\n"
 
 
 def list_shared(shared, common):

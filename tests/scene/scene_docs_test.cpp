@@ -19,13 +19,12 @@ constexpr std::string_view kBegin = "<!-- keys: begin -->\n", kEnd = "<!-- keys:
 template <class Object>
 std::string row(const Parameter<Object>& parameter, std::string_view key, const Object& defaults) {
   const std::string value = toml_text(parameter, defaults);
-  return fmt::format("| `{}` | {} | {} | {} |\n", key, value.empty() ? "none" : "`" + value + "`",
+  return fmt::format("`{}` | {} | {} | {}\n", key, value.empty() ? "none" : "`" + value + "`",
                      allowed_text(parameter), parameter.meaning);
 }
 
 std::string head(std::string_view title) {
-  return fmt::format("\n### {}\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n",
-                     title);
+  return fmt::format("\n### {}\n\nkey | default | allowed | meaning\n---|---|---|---\n", title);
 }
 
 std::string tables() {

@@ -149,7 +149,7 @@ class OptionsPage(unittest.TestCase):
         self.assertEqual(page.count("Give a key a value"), 1)
         self.assertIn("As above: `--threads`, `--set`, `--time` (not with `--frames`), `--scene` (required), `--centre`.", page)
         self.assertIn("## two\n\nDraws.\n\nAs above: ", page)
-        self.assertIn("| `--own` |  | Its own |", page)
+        self.assertIn("\n`--own` |  | Its own\n", page)
         self.assertIn("A\\|B", page)
 
 
