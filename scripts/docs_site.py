@@ -26,6 +26,7 @@ CSS = """.md-typeset h1, .md-typeset h2 { color: inherit; font-weight: 600; lett
 .md-typeset pre code { overflow-wrap: normal; }
 .md-typeset table:not([class]) th { min-width: 0; }
 .md-typeset table:not([class]) td, .md-typeset table:not([class]) th { padding: .5em .75em; }
+.md-typeset table:not([class]) code { word-break: normal; overflow-wrap: normal; }
 .md-typeset table:not([class]) td:first-child code { white-space: nowrap; }
 .md-typeset table:not([class]) td:last-child:nth-child(n + 3) { min-width: 11rem; }
 """
