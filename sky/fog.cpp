@@ -61,15 +61,25 @@ double even_passes(double depth) {
 
 }  // namespace
 
+double rain_per_m(double rain_mm_h) {
+  if (rain_mm_h <= 0.0) return 0.0;
+  return -log(kVisibleContrast) / 11600.0 * exp(0.63 * log(rain_mm_h));
+}
+
 glm::dvec3 fog_per_m(const FoggyAir& air) {
-  if (air.fog_top_m <= 0.0) return glm::dvec3(0.0);
-  if (air.attenuation_per_m) return glm::dvec3(*air.attenuation_per_m);
-  if (!air.visibility_m) return glm::dvec3(0.0);
-  return glm::dvec3(-log(kVisibleContrast) / *air.visibility_m);
+  const glm::dvec3 rain(rain_per_m(air.rain_mm_h));
+  if (air.fog_top_m <= 0.0) return rain;
+  if (air.attenuation_per_m) return rain + glm::dvec3(*air.attenuation_per_m);
+  if (!air.visibility_m) return rain;
+  return rain + glm::dvec3(-log(kVisibleContrast) / *air.visibility_m);
+}
+
+double fog_layer_top_m(const FoggyAir& air) {
+  return air.rain_mm_h > 0.0 ? std::max(air.fog_top_m, kRainTop_m) : air.fog_top_m;
 }
 
 double fog_above_m(const FoggyAir& air, double height_m) {
-  const double z = std::max(height_m, 0.0), top = air.fog_top_m;
+  const double z = std::max(height_m, 0.0), top = fog_layer_top_m(air);
   if (air.profile == FogProfile::kSlab) return std::max(top - z, 0.0);
   return top > 0.0 ? top * exp(-std::min(z / top, kMostDepth)) : 0.0;
 }

@@ -59,10 +59,11 @@ enum class FogMethod : std::uint8_t {
   kTable,   // once for each value that the first bits of the depth buffer have
 };
 
-// Fog over the sea (sky/fog.h). None without one of the first two.
+// Fog over the sea, and rain (sky/fog.h). None without one of the first three.
 struct FoggyAir {
   std::optional<double> visibility_m;          // where 2 % of the contrast are left at sea level
   std::optional<glm::vec3> attenuation_per_m;  // B, at sea level
+  double rain_mm_h = 0.0;                      // that falls, [0, 300]
   double fog_top_m = 100.0;                    // H over mean sea level, [0, 1e5]
   FogProfile profile = FogProfile::kSlab;
   FogScattering scattering = FogScattering::kExact;

@@ -77,7 +77,7 @@ Fog make_fog(const WorldState& world, double t_s, glm::dvec3 eye_world, PartSet 
   fog.is_exponential = air.profile == scene::FogProfile::kExponential;
   fog.is_paper = air.scattering == scene::FogScattering::kPaper;
   fog.per_m = per_m;
-  fog.top_m = static_cast<float>(air.fog_top_m);
+  fog.top_m = static_cast<float>(sky::fog_layer_top_m(air));
   fog.drop_per_m2 = drop_per_m2(world.earth_radius_m(without));
 
   const double thinnest = std::min({per_m.x, per_m.y, per_m.z});

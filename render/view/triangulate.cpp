@@ -74,9 +74,11 @@ lod::Domain land_domain(const terrain::HeightGrid& terrain, bool has_apron) {
 // and under water, which blurs what it shows.
 constexpr float kFlatLand = 8.0f, kSunkenLand = 16.0f, kMostTimes = 16.0f;
 
-// Where 1/e of the contrast is left, of things seen level through haze and the fog at the eye.
+// Where 1/e of the contrast is left, of things seen level through haze and the fog and rain at the
+// eye.
 double seen_distance_m(const scene::Scene& scene, double eye_height_m) {
-  const double fog_m = sky::fog_above_m(scene.air, eye_height_m), top_m = scene.air.fog_top_m;
+  const double fog_m = sky::fog_above_m(scene.air, eye_height_m);
+  const double top_m = sky::fog_layer_top_m(scene.air);
   const bool is_slab = scene.air.profile == scene::FogProfile::kSlab;
   const double density = fog_m <= 0.0 ? 0.0 : is_slab ? 1.0 : fog_m / top_m;
   return 1.0 / (1.0 / scene.sky.haze_distance_m + density * sky::fog_per_m(scene.air).y);

@@ -42,6 +42,9 @@ std::vector<Parameter<Scene>> air_parameters() {
           "air.attenuation_per_m", {0, 1, "1/m"}, SWELL_FIELD(air.attenuation_per_m),
           "B of fog: linear RGB, after 1/B metres 1/e of the light is left; "
           "excludes `visibility_m`"),
+      Row<Scene>::number("air.rain_mm_h", {0, 300, "mm/h"}, SWELL_FIELD(air.rain_mm_h),
+                         "rain as the air shows it, besides fog: 2 % of the contrast are left at "
+                         "11.6 R^-0.63 km (Atlas); up to 1500 m, where fog then reaches too"),
       Row<Scene>::number("air.fog_top_m", {0, 1e5, "m"}, SWELL_FIELD(air.fog_top_m),
                          "H, over mean sea level; 0: no fog"),
       Row<Scene>::choice("air.profile", FogProfileName{},

@@ -140,6 +140,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(sky.exposure);
   SWELL_COMPARE(air.visibility_m);
   SWELL_COMPARE(air.attenuation_per_m);
+  SWELL_COMPARE(air.rain_mm_h);
   SWELL_COMPARE(air.fog_top_m);
   SWELL_COMPARE(air.profile);
   SWELL_COMPARE(air.scattering);

@@ -85,6 +85,29 @@ TEST(FogLight, LimitsAreFinite) {
     }
 }
 
+// Source: D. Atlas, Optical extinction by rainfall, Journal of Meteorology 10, 1953: visibility.
+TEST(FogLight, RainTakesContrastAsAtlasMeasured) {
+  struct Known {
+    double rain_mm_h, visibility_km;
+  };
+  for (const Known& known : {Known{1.0, 11.6}, Known{10.0, 2.72}, Known{100.0, 0.637}}) {
+    FoggyAir air;
+    air.rain_mm_h = known.rain_mm_h;
+    const glm::dvec3 per_m = fog_per_m(air);
+    EXPECT_NEAR(std::exp(-per_m.x * known.visibility_km * 1e3), 0.02, 2e-4) << known.rain_mm_h;
+    EXPECT_EQ(per_m.x, per_m.z);
+  }
+  FoggyAir air;
+  air.visibility_m = 1000.0;
+  const double fog = fog_per_m(air).y;
+  air.rain_mm_h = 10.0;
+  EXPECT_NEAR(fog_per_m(air).y, fog + rain_per_m(10.0), 1e-15);
+  EXPECT_NEAR(fog_above_m(air, 500.0), 1000.0, 1e-9);
+  air.fog_top_m = 0.0;
+  EXPECT_EQ(fog_per_m(air).y, rain_per_m(10.0));
+  EXPECT_EQ(rain_per_m(0.0), 0.0);
+}
+
 TEST(FogLight, NoneWithoutHeightOrAttenuation) {
   FoggyAir air;
   EXPECT_EQ(fog_per_m(air), glm::dvec3(0.0));
