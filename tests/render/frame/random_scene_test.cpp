@@ -18,7 +18,7 @@ namespace {
 
 using scene::Parameter, scene::ParameterKind;
 
-constexpr int kScenes = 40, kSize = 64;
+constexpr int kScenes = 25, kSize = 64;
 
 // Random numbers of one scene.
 class Dice {
