@@ -67,11 +67,13 @@ double rain_per_m(double rain_mm_h) {
 }
 
 glm::dvec3 fog_per_m(const FoggyAir& air) {
-  const glm::dvec3 rain(rain_per_m(air.rain_mm_h));
-  if (air.fog_top_m <= 0.0) return rain;
-  if (air.attenuation_per_m) return rain + glm::dvec3(*air.attenuation_per_m);
-  if (!air.visibility_m) return rain;
-  return rain + glm::dvec3(-log(kVisibleContrast) / *air.visibility_m);
+  glm::dvec3 per_m(rain_per_m(air.rain_mm_h));
+  if (air.fog_top_m <= 0.0) return per_m;
+  if (air.attenuation_per_m)
+    per_m += glm::dvec3(*air.attenuation_per_m);
+  else if (air.visibility_m)
+    per_m += -log(kVisibleContrast) / *air.visibility_m;
+  return per_m;
 }
 
 double fog_layer_top_m(const FoggyAir& air) {

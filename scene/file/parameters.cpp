@@ -212,8 +212,7 @@ Rows water_rows() {
           "it, is triangulated as coarsely as if it were this many times further away"),
       SceneRow::number("detail.visibility", {0, 4}, SWELL_FIELD(detail.visibility),
                        "how far haze, fog, rain and the night coarsen what they hide: 1 in "
-                       "proportion to the contrast "
-                       "that is lost, 0 not at all"),
+                       "proportion to the contrast that is lost, 0 not at all"),
       SceneRow::or_zero(SceneRow::integer(
           "picture.edge_samples", Kind::kPowerOfTwo, {4, 8}, SWELL_FIELD(picture.edge_samples),
           "samples of a pixel where surfaces meet, for smooth edges; 0: its centre alone")),
