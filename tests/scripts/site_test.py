@@ -153,11 +153,15 @@ class Site(unittest.TestCase):
 
     def search_for(self, word):
         self.browser.get(self.address + "index.html")
-        self.browser.execute_script(
-            "const query = document.querySelector('[data-md-component=search-query]');"
-            "query.focus(); query.value = arguments[0]; query.dispatchEvent(new KeyboardEvent('keyup', {bubbles: true}))", word)
-        self.browser.implicitly_wait(10)
-        self.assertTrue(self.browser.find_elements(By.CSS_SELECTOR, ".md-search-result__item a"), "nothing is found")
+        self.browser.implicitly_wait(20)
+        for _ in range(3):  # a page that still reads its index may miss what is typed
+            self.browser.execute_script(
+                "const query = document.querySelector('[data-md-component=search-query]');"
+                "query.focus();"
+                "for (query.value of ['', arguments[0]]) query.dispatchEvent(new KeyboardEvent('keyup', {bubbles: true}))", word)
+            if self.browser.find_elements(By.CSS_SELECTOR, ".md-search-result__item a"):
+                return
+        self.fail(f"nothing is found: {self.browser.get_log('browser')}")
 
     def look_at_logs(self):
         self.assertEqual([entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"], [])
