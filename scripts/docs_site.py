@@ -27,8 +27,16 @@ CSS = """.md-typeset h1, .md-typeset h2 { color: inherit; font-weight: 600; lett
 .md-typeset table:not([class]) th { min-width: 0; }
 .md-typeset table:not([class]) td, .md-typeset table:not([class]) th { padding: .5em .75em; }
 .md-typeset table:not([class]) code { word-break: normal; overflow-wrap: normal; }
-.md-typeset table:not([class]) td:first-child code { white-space: nowrap; }
-.md-typeset table:not([class]) td:last-child:nth-child(n + 3) { min-width: 11rem; }
+.md-typeset table:not([class]) td:first-child code, .md-typeset code.word { white-space: nowrap; }
+.md-typeset table:not([class]) td.long { min-width: 11rem; }
+.md-typeset table:not([class]) td > img { min-width: 7rem; }
+/* A heading's link takes no line of its own. */
+.md-content { overflow-x: clip; }
+.md-typeset :is(h1, h2, h3) { position: relative; }
+.md-typeset .headerlink { position: absolute; margin-left: .2rem; }
+/* Links that are read as easily as the text around them. */
+[data-md-color-scheme="default"] { --md-typeset-a-color: #00796b; }
+[data-md-color-scheme="slate"] { --md-typeset-a-color: #4db6ac; }
 """
 
 
@@ -161,6 +169,15 @@ def make_c_reference(build, out):
     return True
 
 
+# ---- What style sheets cannot see
+
+def mark(html):
+    """A page whose words in code do not break at their hyphens, and whose cells of much text are known to be so."""
+    html = re.sub(r"<code>([^<\s]{1,30})</code>", r'<code class="word">\1</code>', html)
+    return re.sub(r"<td>(.*?)</td>", lambda cell: f'<td class="long">{cell[1]}</td>'
+                  if len(re.sub(r"<[^>]*>", "", cell[1])) > 40 else cell[0], html, flags=re.DOTALL)
+
+
 # ---- The whole
 
 def assemble(folder, build=None):
@@ -200,5 +217,10 @@ def make(out, build):
         return 2
     with tempfile.TemporaryDirectory() as folder:
         assemble(pathlib.Path(folder), build)
-        return subprocess.run(["mkdocs", "build", "--quiet", "--config-file", f"{folder}/mkdocs.json",
+        code = subprocess.run(["mkdocs", "build", "--quiet", "--config-file", f"{folder}/mkdocs.json",
                                "--site-dir", out.resolve()], check=False).returncode
+        for name in pathlib.Path(folder, "pages").rglob("*.md"):
+            page = (out / name.relative_to(f"{folder}/pages")).with_suffix(".html")
+            if page.exists():
+                page.write_text(mark(page.read_text()))
+        return code
