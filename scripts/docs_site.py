@@ -134,25 +134,54 @@ def in_markdown(docstring):
     return indent_lists(re.sub(r"^([a-z]\w*(?:, \w+)*(?: \([^)]*\))?): ", r"- **\1**: ", docstring, flags=re.MULTILINE))
 
 
+def signature(name, function):
+    """Of a call, on one line if that is short, else a line for each argument."""
+    arguments = function.args
+    arguments.args = [argument for argument in arguments.args if argument.arg not in ("self", "cls")]
+    result = f") -> {ast.unparse(function.returns)}" if function.returns else ")"
+    line = f"{name}({ast.unparse(arguments)}{result}"
+    if len(line) <= 85:
+        return line
+    pieces = [ast.unparse(argument) for argument in arguments.args + arguments.kwonlyargs]
+    defaults = [None] * (len(arguments.args) - len(arguments.defaults)) + arguments.defaults + arguments.kw_defaults
+    pieces = [f"{piece} = {ast.unparse(default)}" if default else piece for piece, default in zip(pieces, defaults)]
+    if arguments.kwonlyargs:
+        pieces.insert(len(arguments.args), "*")
+    return "\n".join([f"{name}(", *(f"    {piece}," for piece in pieces), result])
+
+
+def fields_of(members):
+    """A class's attributes as a list, with what is said of each below it."""
+    text = ""
+    for member, after in zip(members, [*members[1:], None]):
+        if isinstance(member, ast.AnnAssign):
+            name = ast.unparse(member)
+        elif isinstance(member, ast.Assign):
+            name = ast.unparse(member.targets[0]).removeprefix("self.")
+        else:
+            continue
+        said = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant) and after.value.value
+        if not name.startswith("_") and (said or isinstance(member, ast.AnnAssign)):
+            text += f"- `{name}`: {said}\n" if said else f"- `{name}`\n"
+    return f"\n{text}" if text else ""
+
+
 def describe(node, within=""):
-    name = within + node.name
+    name, mark = within + node.name, "###" if within else "##"
     members = node.body if isinstance(node, ast.ClassDef) else []
+    begin = next((member for member in members if getattr(member, "name", "") == "__init__"), None)
     if members:
-        head = name
+        head = signature(name, begin) if begin and ast.get_docstring(begin) else ""
     elif any(ast.unparse(decorator).endswith("property") for decorator in node.decorator_list):
         head = f"{name}: {ast.unparse(node.returns)}"
     else:
-        node.args.args = [argument for argument in node.args.args if argument.arg not in ("self", "cls")]
-        head = f"{name}({ast.unparse(node.args)}) -> {ast.unparse(node.returns)}"
+        head = signature(name, node)
         if node.name == "__getitem__":
             name, head = within[:-1] + "[...]", re.sub(r"\.__getitem__\((.*)\) ->", r"[\1] ->", head)
-    text = f"\n{'###' if within else '##'} {name}\n\n```python\n{head}\n```\n"
-    if said := ast.get_docstring(node):
+    text = f"\n{mark} {name}\n" + (f"\n```python\n{head}\n```\n" if head else "")
+    for said in filter(None, [ast.get_docstring(node), begin and ast.get_docstring(begin)]):
         text += f"\n{in_markdown(said)}\n"
-    fields = [f"{member.target.id}: {ast.unparse(member.annotation)}" for member in members
-              if isinstance(member, ast.AnnAssign) and not member.target.id.startswith("_")]
-    if fields:
-        text += "\n```python\n" + "\n".join(fields) + "\n```\n"
+    text += fields_of(members) + (fields_of(begin.body) if begin else "")
     for member in members:
         if isinstance(member, ast.FunctionDef) and (not member.name.startswith("_") or member.name == "__getitem__"):
             text += describe(member, within=name + ".")

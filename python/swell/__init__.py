@@ -155,8 +155,13 @@ class Picture:
     def __getitem__(self, label: str) -> np.ndarray:
         """A label that was asked for (docs/look_up/labels.md has their meaning): an array (height, width, ...).
 
-        depth, distance, elevation: float32, metres; foam: float32 in [0, 1]; normal, geometric_normal: (..., 3) float32;
-        motion: (..., 2) float32, pixels; position: (..., 3) float64, metres; id, class: uint32; flags: uint8.
+        depth, distance, elevation: float32, metres
+        foam: float32, in [0, 1]
+        normal, geometric_normal: float32, (..., 3)
+        motion: float32, (..., 2), pixels
+        position: float64, (..., 3), metres
+        id, class: uint32
+        flags: uint8
         """
         return self._drawn.plane(label)
 

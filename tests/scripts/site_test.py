@@ -61,6 +61,15 @@ class ForTheSite(unittest.TestCase):
         self.assertIn("### Picture[...]\n\n```python\nPicture[label: str] -> np.ndarray\n", page)
         self.assertNotIn("_ask", page)
 
+    def test_python_classes_have_what_makes_them_and_their_fields(self):
+        page = docs_site.python_reference(SOURCE / "python/swell")
+        self.assertRegex(page, r"## World\n\n```python\nWorld\(\n    scene: .* = '',\n    \*,\n    set: .* = \(\),\n")
+        self.assertIn("- **threads**: that a picture", page)
+        self.assertIn("- `id: int`: In the label \"id\".\n", page)
+        self.assertIn("- `t`: Its time in seconds.\n", page)
+        self.assertLessEqual(max(len(line) for block in page.split("```python")[1:]
+                                 for line in block.split("```")[0].split("\n")), 85)
+
     def test_words_and_long_cells_are_marked(self):
         long = "word " * 9
         self.assertEqual(docs_site.mark(f"<p><code>--set</code> <code>a b</code></p><td>1</td><td>{long}</td>"),
@@ -104,7 +113,7 @@ class Site(unittest.TestCase):
     def test_its_links_lead_to_files_and_places(self):
         read = functools.cache(Page)
         faults = []
-        for name in self.pages():
+        for name in [*self.pages(), "reference/python.html"]:
             for target in read(self.site / name).targets:
                 address = urllib.parse.urlsplit(target)
                 if address.scheme or address.netloc:
@@ -133,7 +142,7 @@ class Site(unittest.TestCase):
             self.address = f"http://127.0.0.1:{server.server_port}/"
             self.browser = start_browser(self.temporary.name)
             try:
-                for (width, height), names in [(PHONE, self.pages()), (DESK, ON_A_DESK)]:
+                for (width, height), names in [(PHONE, [*self.pages(), "reference/python.html"]), (DESK, ON_A_DESK)]:
                     self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
                         "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
                     for name in names:
