@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -220,6 +221,15 @@ class CheckCommits(Temporary):
     def test_without_a_base_the_last_commits_are_looked_at(self):
         self.commit("Grow")
         self.assertRegex(self.warnings("origin/main"), "(?s)^note: no commit 'origin/main' here.*warning: .*'Grow'")
+
+
+class RunSh(unittest.TestCase):
+    def test_every_program_is_built(self):
+        made = [re.findall(r"swell_add_program\((swell-\w+)", file.read_text())
+                for file in (SOURCE / "apps").glob("*/CMakeLists.txt")]
+        targets = re.search(r"--target (.*)", (SOURCE / "scripts/run.sh").read_text())[1].split()
+        self.assertGreater(len(sum(made, [])), 3)
+        self.assertEqual(set(sum(made, [])) - set(targets), set())
 
 
 class TidySh(unittest.TestCase):
