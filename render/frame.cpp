@@ -298,6 +298,7 @@ void draw_side(const FrameInputs& in, const Light& light, const Media& media, Pl
     draw_river_mirrors(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, ws.river_mirrors,
                        run);
   fill_shading(inputs, ws.window, in.options.tile_size_px, shading);
+  shading.is_adaptive = in.options.shading == scene::ShadingRate::kAdaptive;
 }
 
 // Stage 5: images of both sides if the waterline crosses the picture, the eye's own last.
@@ -371,7 +372,10 @@ FrameStatistics statistics_of(const FrameState& ws) {
   s.lod_stopped = ws.meshes.water.statistics.stopped || ws.meshes.land.statistics.stopped;
   for (const int covered : ws.visibility.covered)
     s.visible_pixels += static_cast<std::uint64_t>(std::max(covered, 0));
-  for (const int shaded : ws.shaded) s.shaded_pixels += static_cast<std::uint64_t>(shaded);
+  for (const ShadedPixels& tile : ws.shaded) {
+    s.shaded_pixels += static_cast<std::uint64_t>(tile.shaded);
+    s.interpolated_pixels += static_cast<std::uint64_t>(tile.interpolated);
+  }
   return s;
 }
 

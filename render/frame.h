@@ -32,7 +32,8 @@ struct FrameStatistics {
   int splits = 0, merges = 0;
   bool lod_stopped = false;          // at one of the bounds, with work left
   std::uint64_t visible_pixels = 0;  // pixels that show water, terrain or an object
-  std::uint64_t shaded_pixels = 0;   // surface shader runs; equal to visible_pixels
+  // Of these, surface shader runs and those filled in between them.
+  std::uint64_t shaded_pixels = 0, interpolated_pixels = 0;
 };
 
 struct FrameState;  // workspace.h

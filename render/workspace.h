@@ -37,7 +37,7 @@ struct FrameState {
   StoredFog fog;                            // the same window's
   PlanarMaps planar_maps, wet_planar_maps;  // where the waterline crosses the picture, both
   ViewShading shading, wet_shading;         // of the window
-  std::vector<int> shaded;                  // per tile
+  std::vector<ShadedPixels> shaded;         // per tile
   LabelTables labels;
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
   Target small;  // the picture before it is enlarged

@@ -159,7 +159,14 @@ struct Detail {
   }
 };
 
+// Which pixels are shaded.
+enum class ShadingRate : std::uint8_t {
+  kAdaptive,  // those whose neighbours differ; the others get the light between these
+  kFull,      // all of them
+};
+
 struct Picture {
+  ShadingRate shading = ShadingRate::kFull;
   int edge_samples = 0;  // a pixel where surfaces meet: 0, 4 or 8
 };
 

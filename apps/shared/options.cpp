@@ -99,6 +99,14 @@ void add_quality_options(CommandLine& line, render::FrameOptions& frame) {
   line.add_value({"--edge-samples", "N", "",
                   "Samples a pixel where surfaces meet, 0, 4 or 8, instead of the scene's",
                   take_samples});
+  const auto take_shading = [&frame](const std::string& text) {
+    if (text != "adaptive" && text != "full") refuse_value("--shading", text, "adaptive or full");
+    frame.shading = text == "full" ? scene::ShadingRate::kFull : scene::ShadingRate::kAdaptive;
+  };
+  line.add_value({"--shading", "RATE", "",
+                  "Shade pixels where neighbours differ (adaptive) or all of them (full), instead "
+                  "of the scene's",
+                  take_shading});
   line.add_flag("--wireframe", frame.wireframe, "Draw triangle edges; not for .exr");
   add_without_option(line, frame.without);
 }

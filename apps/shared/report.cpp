@@ -46,6 +46,7 @@ Json plain_frame_json(const FrameReport& r) {
           {"stages_ms", stages},
           {"triangles", r.last.water_triangles + r.last.terrain_triangles},
           {"shaded_pixels", r.last.shaded_pixels},
+          {"interpolated_pixels", r.last.interpolated_pixels},
           {"visible_pixels", r.last.visible_pixels},
           {"peak_rss_mb", rounded(r.peak_rss_mb)},
           {"hash", fmt::format("{:016x}", r.hash)},

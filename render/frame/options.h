@@ -42,6 +42,8 @@ struct FrameOptions {
   // water, only what lies where A x + B y + C z + D >= 0 is drawn. Finite, (A, B, C) not 0.
   // Shadows, queries, and whether the eye is in water stay those of the whole world.
   std::optional<glm::dvec4> clip_plane = {};
+  // Which pixels are shaded; none: as the scene says. With keep_linear all are.
+  std::optional<scene::ShadingRate> shading = {};
   PartSet without = {};  // leave these parts of the picture out
   LabelSet labels = {};  // fill these of Target::labels; not with picture_scale below 1
   // For the label of motion: the camera of the next frame, of the same size, and how much later it

@@ -41,14 +41,14 @@ Begins begins_in(const PictureInputs& in, int tile) {
 }
 
 // Shades a tile as from one side of the surface.
-int shade_side(const PictureInputs& in, int tile, const Shading& shading,
-               const std::vector<TilePlanarMaps>& planar_maps, ThreadScratch& scratch,
-               Target& target) {
+ShadedPixels shade_side(const PictureInputs& in, int tile, const Shading& shading,
+                        const std::vector<TilePlanarMaps>& planar_maps, ThreadScratch& scratch,
+                        Target& target) {
   const auto index = static_cast<std::size_t>(tile);
   const std::span<const EdgeFragment> fragments = in.edges.of_tile[index];
   if (in.visibility.covered[index] <= 0 && fragments.empty()) {
     shade_sky_tile(shading, tile, scratch.shade, target.rgba, target.linear);
-    return 0;
+    return {};
   }
   const bool labels_shading = in.labels && in.labels->tables.from_shading;
   return shade_tile(shading,
@@ -58,8 +58,8 @@ int shade_side(const PictureInputs& in, int tile, const Shading& shading,
                     labels_shading ? &scratch.labels : nullptr);
 }
 
-int shade_sides(const PictureInputs& in, int tile, Begins begins, ThreadScratch& scratch,
-                Target& target) {
+ShadedPixels shade_sides(const PictureInputs& in, int tile, Begins begins, ThreadScratch& scratch,
+                         Target& target) {
   if (!in.wet || begins == Begins::kInAir)
     return shade_side(in, tile, in.shading, in.planar_maps, scratch, target);
   const auto shade_wet = [&] {
@@ -72,7 +72,7 @@ int shade_sides(const PictureInputs& in, int tile, Begins begins, ThreadScratch&
   const bool labels_shading = in.labels && in.labels->tables.from_shading;
   keep_tile(box, target, *scratch.crossed);
   if (labels_shading) scratch.crossed->labels = scratch.labels;
-  const int shaded = shade_wet();
+  const ShadedPixels shaded = shade_wet();
   put_back_dry(in.wet->line, box, in.visibility.grid.tile_size_px, *scratch.crossed, target,
                labels_shading ? &scratch.labels : nullptr);
   return shaded;
@@ -80,11 +80,11 @@ int shade_sides(const PictureInputs& in, int tile, Begins begins, ThreadScratch&
 
 }  // namespace
 
-void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int>& shaded,
+void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<ShadedPixels>& shaded,
                    Target& target, const StageRun& run) {
   const VisibilityBuffer& visibility = in.visibility;
   const auto tiles = static_cast<std::size_t>(visibility.grid.count());
-  shaded.assign(tiles, 0);
+  shaded.assign(tiles, {});
   run.for_each(tiles, [&](std::size_t index, int thread) {
     const auto tile = static_cast<int>(index);
     ThreadScratch& memory = *scratch[thread];

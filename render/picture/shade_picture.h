@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/picture/planar_maps.h"
+#include "render/tile/shaded_pixels.h"
 
 namespace swell::render {
 
@@ -34,10 +35,10 @@ struct PictureInputs {
   const WetSide* wet = nullptr;          // none: all of it is as `shading` says
 };
 
-// Finds the edges of each tile, shades every visible pixel once and resolves it, and fills the
-// labels that are asked for. `shaded`: the number of surface pixels shaded, by tile. `target` has
+// Finds the edges of each tile, shades its visible pixels and resolves them, and fills the labels
+// that are asked for. `shaded`: the numbers of surface pixels, by tile. `target` has
 // the window's size.
-void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<int>& shaded,
+void shade_picture(const PictureInputs& in, ScratchList scratch, std::vector<ShadedPixels>& shaded,
                    Target& target, const StageRun& run);
 
 // Draws triangle edges, tinted by level of detail, over a tile of the finished picture.

@@ -13,6 +13,7 @@
 
 #include "render/packets/packet-inl.h"
 #include "render/shade/pixel_lists-inl.h"
+#include "render/tile/resolve-inl.h"
 #include "render/tile/shading_result-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -74,13 +75,24 @@ struct PixelsInTile {
   HWY_INLINE void Store(std::size_t i, const V3& colour) const {
     const D d;
     const std::uint16_t* at = list.at + i;
-    if (IsRun(i)) {
+    const bool is_run = IsRun(i);
+    if (s.is_adaptive) StoreBrightness(BrightnessOf(colour, s.exposure), at, is_run);
+    if (is_run) {
       hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
       hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
       hn::StoreU(colour.z, d, scratch.blue.data() + at[0]);
       return;
     }
     ScatterColour(colour, at, scratch.red.data(), scratch.green.data(), scratch.blue.data());
+  }
+
+ private:
+  HWY_INLINE void StoreBrightness(V brightness, const std::uint16_t* at, bool is_run) const {
+    float* const to = scratch.brightness.data();
+    if (is_run) return hn::StoreU(brightness, D(), to + at[0]);
+    HWY_ALIGN std::array<float, kLanes> lanes;
+    hn::Store(brightness, D(), lanes.data());
+    for (std::size_t lane = 0; lane < kLanes; ++lane) to[at[lane]] = lanes[lane];
   }
 };
 

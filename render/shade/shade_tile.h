@@ -10,6 +10,7 @@
 
 #include "render/labels/shaded_labels.h"
 #include "render/tile/scratch.h"
+#include "render/tile/shaded_pixels.h"
 #include "render/tile/shading.h"
 
 namespace swell::render {
@@ -27,11 +28,11 @@ struct TileInput {
 // (the whole picture) and, unless empty, linear light to `linear` (RGB). Fragments that their
 // pixels' centres do not show are shaded too and mixed by their samples: as light of the display,
 // after the tone curve, so that a glint counts for no more than white; linear light as it is.
-// `labels`, if any, gets what shading knows of the surface pixels' centres. Returns the number of
-// surface (not sky) pixels shaded, fragments left out.
-int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
-               std::span<std::uint32_t> rgba, std::span<float> linear,
-               ShadedLabels* labels = nullptr);
+// `labels`, if any, gets what shading knows of the surface pixels' centres. Returns the numbers of
+// surface (not sky) pixels, fragments left out.
+ShadedPixels shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
+                        std::span<std::uint32_t> rgba, std::span<float> linear,
+                        ShadedLabels* labels = nullptr);
 
 // Shades a tile of open sky as shade_tile() does, without a visibility buffer.
 void shade_sky_tile(const Shading& shading, int tile, ShadeScratch& scratch,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "math/check.h"
@@ -11,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "render/packets/packet-inl.h"
+#include "render/shade/adaptive-inl.h"
 #include "render/shade/listed_packets-inl.h"
 #include "render/shade/material_units-inl.h"
 #include "render/shade/pixel_lists-inl.h"
@@ -24,14 +26,19 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-// Shades the pixels of all materials and returns their number.
-std::size_t ShadeSurfaces(const Shading& s, const TilePixels& tile, const PixelLists& lists,
-                          ShadeScratch& scratch, ShadedLabels* labels) {
+std::size_t CountSurfaces(const PixelLists& lists) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < kMaterialCount; ++k) count += lists[k].count;
+  return count;
+}
+
+// Shades the pixels of all materials.
+void ShadeSurfaces(const Shading& s, const TilePixels& tile, const PixelLists& lists,
+                   ShadeScratch& scratch, ShadedLabels* labels) {
   const auto shade_all = [&]<std::size_t... k>(std::index_sequence<k...>) {
     (ShadeMaterial<std::tuple_element_t<k, Materials>>(s, tile, lists[k], scratch, labels), ...);
-    return (lists[k].count + ... + 0);
   };
-  return shade_all(std::make_index_sequence<kMaterialCount>());
+  shade_all(std::make_index_sequence<kMaterialCount>());
 }
 
 // Shades the sky's pixels before those of surfaces: whole packets that have any, which writes to
@@ -47,11 +54,40 @@ void ShadeSkyPackets(const Shading& s, const TilePixels& tile, const PixelList& 
   }
 }
 
-int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
-                   std::uint32_t* rgba, float* linear, ShadedLabels* labels) {
+// Shades all pixels of a tile.
+ShadedPixels ShadeEach(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                       ShadedLabels* labels) {
   const PixelLists lists = ListPixels(s, tile, scratch);
   ShadeSkyPackets(s, tile, lists[kSky], scratch);
-  const std::size_t shaded = ShadeSurfaces(s, tile, lists, scratch, labels);
+  ShadeSurfaces(s, tile, lists, scratch, labels);
+  return {static_cast<int>(CountSurfaces(lists)), 0};
+}
+
+// Shades as many pixels of a tile as the picture needs. Labels are of all of them, and do not
+// change the picture: for these all are shaded, and then some filled in.
+ShadedPixels ShadeAdaptively(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                             ShadedLabels* labels) {
+  TileSurfaces surfaces;
+  FindSurfaces(s, tile, surfaces);
+  ShadeSkyPackets(s, tile, ListSky(s, tile, surfaces, scratch), scratch);
+  if (labels)
+    ShadeSurfaces(s, tile, ListRows(s, surfaces.all, tile.box.height_px, surfaces, scratch),
+                  scratch, labels);
+  TilePixels without_fragments = tile;
+  without_fragments.fragments = {};
+  const std::size_t shaded = ShadeWhereNeeded(
+      s, tile, surfaces, scratch, [&](const PixelLists& lists, bool is_first) HWY_ATTR {
+        if (!labels) ShadeSurfaces(s, is_first ? tile : without_fragments, lists, scratch, nullptr);
+      });
+  std::size_t all = 0;
+  for (int y = 0; y < tile.box.height_px; ++y) all += std::popcount(surfaces.all[y]);
+  return {static_cast<int>(shaded), static_cast<int>(all - shaded)};
+}
+
+ShadedPixels ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scratch,
+                            std::uint32_t* rgba, float* linear, ShadedLabels* labels) {
+  const ShadedPixels shaded = s.is_adaptive ? ShadeAdaptively(s, tile, scratch, labels)
+                                            : ShadeEach(s, tile, scratch, labels);
   if (!tile.fragments.empty()) {
     const PixelList parts = ListFragments(tile.fragments, raster::kNoPrimitive, 0, scratch);
     ShadeList(FragmentsInTile{tile.fragments, parts, scratch},
@@ -62,7 +98,7 @@ int ShadeAllPixels(const Shading& s, const TilePixels& tile, ShadeScratch& scrat
   LayMedia(s, tile, scratch);
   ResolveTile(s, tile.box, scratch, rgba, linear);
   if (!tile.fragments.empty()) ResolveFragments(s, tile, scratch, rgba, linear);
-  return static_cast<int>(shaded);
+  return shaded;
 }
 
 TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scratch) {
@@ -79,8 +115,8 @@ TilePixels PixelsOf(const Shading& s, const TileInput& input, ShadeScratch& scra
           FindShafts(s, box, casters, scratch.shafts)};
 }
 
-int ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch, std::uint32_t* rgba,
-              float* linear, ShadedLabels* labels) {
+ShadedPixels ShadeTile(const Shading& s, const TileInput& input, ShadeScratch& scratch,
+                       std::uint32_t* rgba, float* linear, ShadedLabels* labels) {
   return ShadeAllPixels(s, PixelsOf(s, input, scratch), scratch, rgba, linear, labels);
 }
 
@@ -166,8 +202,9 @@ void check_tile(const Shading& s, std::span<const float> depth,
 
 }  // namespace
 
-int shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
-               std::span<std::uint32_t> rgba, std::span<float> linear, ShadedLabels* labels) {
+ShadedPixels shade_tile(const Shading& shading, const TileInput& input, ShadeScratch& scratch,
+                        std::span<std::uint32_t> rgba, std::span<float> linear,
+                        ShadedLabels* labels) {
   check_tile(shading, input.depth, input.primitive);
   check_picture(shading, rgba, linear);
   SWELL_CHECK(input.fragments.size() <= kMaxTileFragments, "fragments={}", input.fragments.size());

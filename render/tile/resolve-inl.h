@@ -60,6 +60,12 @@ HWY_INLINE V ToneCurve(V linear, V exposure) {
   return mapped;
 }
 
+// About the mean sRGB code of light.
+HWY_INLINE V BrightnessOf(const V3& light, float exposure) {
+  const V mean = MulAdd(light.y, 0.5f, (light.x + light.z) * 0.25f);
+  return Sqrt(ToneCurve(mean, Constant(exposure))) * 255.0f;
+}
+
 // sRGB, a dither of one step, 8 bits.
 HWY_INLINE VI ToByte(V display, V dither) {
   const V code = EncodeSrgb(display) + dither;

@@ -30,7 +30,9 @@ struct SkyNodes {
 
 // Working memory of one thread.
 struct ShadeScratch {
-  alignas(64) std::array<float, kMaxTilePixels> red, green, blue;
+  alignas(64) std::array<float, kMaxTilePixels + kListPadding> red, green, blue;
+  // As shown, of 255; for shading that is adaptive.
+  alignas(64) std::array<float, kMaxTilePixels + kListPadding> brightness{};
   SkyNodes sky;
   ShaftNodes shafts;
   // By material, of which each kind of surface has one at most, and the sky last: its pixels,

@@ -33,6 +33,7 @@ struct Shading {
   const CloudPicture* clouds = nullptr;   // volumetric ones, before all pixels; none: no such
   const StoredFog* stored_fog = nullptr;  // that pixels take theirs from; none: each finds its own
   float exposure = 1.0f;
+  bool is_adaptive = false;  // shades pixels where the picture needs them (shade/adaptive-inl.h)
   PrimitiveRanges primitives;
 
   // The constants of a material: each Shading is part of a ViewShading. Defined in

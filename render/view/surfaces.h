@@ -30,15 +30,19 @@ inline constexpr auto kAllViewKinds = all_enumerators<ViewKind>();
 struct SurfaceTraits {
   bool is_water = false;          // shows in the window only: it looks into the other pictures
   bool keeps_clip_margin = true;  // images keep a margin of what lies beyond the water's level
+  bool varies_slowly = false;     // a pixel may be filled in from those beside it
   // The kind that it is one with where edges are looked for, but for DrawRecord::like_land.
   SurfaceKind edges_as;
 };
 inline constexpr auto kSurfaceTraits = enum_table<SurfaceKind, SurfaceTraits>({
-    {SurfaceKind::kWater, {.is_water = true, .edges_as = SurfaceKind::kWater}},
-    {SurfaceKind::kTerrain, {.keeps_clip_margin = false, .edges_as = SurfaceKind::kTerrain}},
+    {SurfaceKind::kWater,
+     {.is_water = true, .varies_slowly = true, .edges_as = SurfaceKind::kWater}},
+    {SurfaceKind::kTerrain,
+     {.keeps_clip_margin = false, .varies_slowly = true, .edges_as = SurfaceKind::kTerrain}},
     {SurfaceKind::kObjects, {.edges_as = SurfaceKind::kObjects}},
     {SurfaceKind::kTrees, {.edges_as = SurfaceKind::kTerrain}},
-    {SurfaceKind::kRivers, {.is_water = true, .edges_as = SurfaceKind::kRivers}},
+    {SurfaceKind::kRivers,
+     {.is_water = true, .varies_slowly = true, .edges_as = SurfaceKind::kRivers}},
 });
 
 constexpr bool shows(ViewKind view, SurfaceKind surface) {

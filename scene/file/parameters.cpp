@@ -216,6 +216,9 @@ Rows water_rows() {
       SceneRow::or_zero(SceneRow::integer(
           "picture.edge_samples", Kind::kPowerOfTwo, {4, 8}, SWELL_FIELD(picture.edge_samples),
           "samples of a pixel where surfaces meet, for smooth edges; 0: its centre alone")),
+      SceneRow::choice("picture.shading", ShadingRateName{},
+                       "which pixels are shaded: those whose neighbours differ, or all; the others "
+                       "get the light between their neighbours'"),
   };
 }
 

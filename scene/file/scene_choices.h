@@ -19,6 +19,12 @@ struct TriangulationName {
   auto& operator()(auto& scene) const { return scene.detail.triangulation; }
 };
 
+struct ShadingRateName {
+  using enum ShadingRate;
+  static constexpr auto words = enum_words<ShadingRate>({{kAdaptive, "adaptive"}, {kFull, "full"}});
+  auto& operator()(auto& scene) const { return scene.picture.shading; }
+};
+
 struct TerrainMethodName {
   using enum TerrainMethod;
   static constexpr auto words = enum_words<TerrainMethod>({{kRoam, "roam"}, {kRays, "rays"}});

@@ -453,6 +453,7 @@ TEST_F(LabelOutput, ImpossibleOptionsAreOneLine) {
       {{"--out", exr, "--labels", "id", "--labels-out", folder_.file("./a.exr")}, {"--labels-out"}},
       {{"--out", png, "--edge-samples", "3"}, {"--edge-samples", "'3'", "0, 4 or 8"}},
       {{"--out", png, "--edge-samples", "-1"}, {"--edge-samples", "'-1'"}},
+      {{"--out", png, "--shading", "half"}, {"--shading", "'half'", "adaptive or full"}},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.arguments.front() + " ... " + c.arguments.back());

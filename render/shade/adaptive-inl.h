@@ -1,0 +1,243 @@
+// Shading at the rate that the picture needs: some columns of a tile first, then those between
+// whose neighbours differ; the others get the light between their neighbours'.
+//
+// Columns are shaded in three rounds, in blocks of 16 x 16 pixels that no tile size cuts, so that a
+// pixel is the same whatever the tiles:
+//   0 . . . 4 . . . 8 . . . 12 . . 15   first
+//   . . 2 . . . 6 . . . 10 . . . 14 .   second, between those
+//   . 1 . 3 . 5 . 7 . 9 . 11 . 13 . .   third, between all of those
+// A pixel is filled in if it and its two neighbours show one material and no edge, if these and
+// those above and below them are as bright as each other within a round's `most`, and as the ones
+// above and below them within kMostAcross. Waves lie across the picture, so that columns may be far
+// apart, and rows may not.
+#if defined(SWELL_RENDER_SHADE_ADAPTIVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_RENDER_SHADE_ADAPTIVE_INL_H_
+#undef SWELL_RENDER_SHADE_ADAPTIVE_INL_H_
+#else
+#define SWELL_RENDER_SHADE_ADAPTIVE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "render/shade/pixel_lists-inl.h"
+#include "render/tile/shading_result-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::render {
+namespace HWY_NAMESPACE {
+
+// A row of a tile, a bit a pixel.
+using RowBits = std::uint64_t;
+using TileBits = std::array<RowBits, 64>;
+
+constexpr int kBlockSize = 16;
+constexpr RowBits EachBlock(std::uint16_t columns) { return columns * 0x0001'0001'0001'0001u; }
+constexpr RowBits kFirstColumns = EachBlock(0x9111);
+constexpr RowBits kColumn12 = EachBlock(0x1000), kColumn14 = EachBlock(0x4000);
+
+// A round between columns `step` away, or 1 on the right of column 14.
+struct Round {
+  RowBits columns;
+  int step;
+  float most;  // difference in brightness, of 255
+};
+constexpr std::array<Round, 2> kRounds = {
+    {{EachBlock(0x4444), 2, 5.0f}, {EachBlock(0x2aaa), 1, 10.0f}}};
+static_assert((kFirstColumns | kRounds[0].columns | kRounds[1].columns) == ~RowBits{0});
+constexpr float kMostAcross = 13.0f;
+
+HWY_INLINE RowBits BitsOf(M mask) {
+  std::conditional_t<kLanes <= 8, std::uint8_t, std::uint16_t> bits = 0;
+  hn::StoreMaskBits(D(), mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
+}
+
+// The surfaces of a tile: whose pixels are where, and which are not to be filled in.
+struct TileSurfaces {
+  std::array<TileBits, kMaterialCount> of{};
+  TileBits all{}, always{};
+};
+
+// Finds material kMaterial in a tile.
+template <std::size_t kMaterial>
+HWY_INLINE void FindSurface(const Shading& s, const TilePixels& tile, TileSurfaces& surfaces) {
+  constexpr SurfaceKind kKind = std::tuple_element_t<kMaterial, Materials>::kSurface;
+  if (s.primitives.empty(kKind)) return;
+  const DU du;
+  const std::uint32_t begin = s.primitives.begin(kKind), size = s.primitives.end(kKind) - begin;
+  const int side = s.grid.tile_size_px, width = tile.box.width_px;
+  for (int y = 0; y < tile.box.height_px; ++y) {
+    RowBits row = 0;
+    for (int x = 0; x < width; x += static_cast<int>(kLanes)) {
+      const VU primitive = hn::LoadU(du, tile.primitive + y * side + x);
+      row |= BitsOf(hn::RebindMask(D(), primitive - hn::Set(du, begin) < size)) << x;
+    }
+    row &= ~RowBits{0} >> (64 - width);
+    surfaces.of[kMaterial][y] = row;
+    surfaces.all[y] |= row;
+    if (!kSurfaceTraits[kKind].varies_slowly) surfaces.always[y] |= row;
+  }
+}
+
+inline HWY_NOINLINE void FindSurfaces(const Shading& s, const TilePixels& tile,
+                                      TileSurfaces& surfaces) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
+    (FindSurface<k>(s, tile, surfaces), ...);
+  }
+  (std::make_index_sequence<kMaterialCount>());
+  const int side = s.grid.tile_size_px;
+  for (const EdgeFragment& fragment : tile.fragments)
+    surfaces.always[fragment.pixel / side] |= RowBits{1} << fragment.pixel % side;
+}
+
+// Lists the first pixels of packets with any sky, as SortByMaterial() does.
+inline PixelList ListSky(const Shading& s, const TilePixels& tile, const TileSurfaces& surfaces,
+                         ShadeScratch& scratch) {
+  PixelList list{scratch.lists[kSky].data()};
+  constexpr RowBits kWhole = ~RowBits{0} >> (64 - kLanes);
+  for (int y = 0; y < tile.box.height_px; ++y)
+    for (int x = 0; x < tile.box.width_px; x += static_cast<int>(kLanes))
+      if ((surfaces.all[y] >> x & kWhole) != kWhole)
+        list.Append(static_cast<std::uint16_t>(y * s.grid.tile_size_px + x));
+  return list;
+}
+
+// Lists by material the pixels of `rows`.
+inline HWY_NOINLINE PixelLists ListRows(const Shading& s, const TileBits& rows, int height,
+                                        const TileSurfaces& surfaces, ShadeScratch& scratch) {
+  PixelLists lists;
+  for (std::size_t k = 0; k < kMaterialCount; ++k) {
+    std::uint16_t* const begin = scratch.lists[k].data();
+    std::uint16_t* end = begin;
+    for (int y = 0; y < height; ++y) {
+      const int first = y * s.grid.tile_size_px;
+      for (RowBits row = rows[y] & surfaces.of[k][y]; row != 0; row &= row - 1)
+        *end++ = static_cast<std::uint16_t>(first + std::countr_zero(row));
+    }
+    lists[k] = {begin, static_cast<std::size_t>(end - begin)};
+    PadToPackets(lists[k]);
+  }
+  return lists;
+}
+
+// The columns whose values in a and b differ by more than `most`.
+HWY_INLINE RowBits Differ(const float* a, const float* b, int side, float most) {
+  const D d;
+  RowBits bits = 0;
+  for (int x = 0; x < side; x += static_cast<int>(kLanes))
+    bits |= BitsOf(hn::AbsDiff(hn::LoadU(d, a + x), hn::LoadU(d, b + x)) > most) << x;
+  return bits;
+}
+
+// Which columns of a row differ too much from their neighbours on the right, and from those in the
+// row below or do not show its material.
+struct RowDifferences {
+  RowBits right = 0, below = 0;
+};
+
+HWY_INLINE RowBits DifferToTheRight(const Round& round, const float* row, int side) {
+  RowBits bits = Differ(row, row + 2 * round.step, side, round.most);
+  if (round.step == 1) return bits;
+  bits &= ~kColumn12;  // whose neighbour is column 15
+  for (int x = 12; x < side; x += kBlockSize)
+    if (std::abs(row[x] - row[x + 3]) > round.most) bits |= RowBits{1} << x;
+  return bits;
+}
+
+// Puts the light between neighbours into the columns `row` of a round, and their brightness.
+HWY_INLINE void FillBetween(const Round& round, RowBits row, std::size_t first,
+                            ShadeScratch& scratch) {
+  const D d;
+  const bool has_14 = round.step == 2;
+  for (std::size_t x = static_cast<std::size_t>(round.step); x < 64; x += kLanes) {
+    const auto bits = static_cast<std::uint16_t>(row >> x & (~RowBits{0} >> (64 - kLanes)));
+    if (bits == 0) continue;
+    const auto lanes_of = [&](std::uint16_t lanes) HWY_ATTR {
+      return hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&lanes));
+    };
+    const M filled = lanes_of(bits);
+    const M is_14 = lanes_of(static_cast<std::uint16_t>(has_14 ? kColumn14 >> x % kBlockSize : 0));
+    const V from_left = IfThenElse(is_14, 1.0f / 3.0f, Constant(0.5f));
+    const std::array<float*, 4> planes = {scratch.red.data(), scratch.green.data(),
+                                          scratch.blue.data(), scratch.brightness.data()};
+    const std::size_t count = has_14 ? 4 : 3;  // nobody asks for the last round's brightness
+    for (std::size_t k = 0; k < count; ++k) {
+      float* const here = planes[k] + first + x;
+      V right = hn::LoadU(d, here + round.step);
+      if (has_14) right = IfThenElse(is_14, hn::LoadU(d, here + 1), right);
+      const V between = MulAdd(hn::LoadU(d, here - round.step) - right, from_left, right);
+      hn::StoreU(IfThenElse(filled, between, hn::LoadU(d, here)), d, here);
+    }
+  }
+}
+
+// Fills in what a round need not shade, and leaves the rest in `rows`.
+inline HWY_NOINLINE void FillRound(const Round& round, int side, int height,
+                                   const TileSurfaces& surfaces, ShadeScratch& scratch,
+                                   TileBits& rows) {
+  const auto to_right = [&](RowBits neighbours) {
+    if (round.step == 1) return neighbours >> 1;
+    return (neighbours >> 2 & ~kColumn14) | (neighbours >> 1 & kColumn14);
+  };
+  const auto differences = [&](int y) HWY_ATTR {
+    RowDifferences result;
+    if (y >= height) return result;
+    const float* const row = scratch.brightness.data() + y * side;
+    result.right = DifferToTheRight(round, row, side);
+    if (y % kBlockSize == kBlockSize - 1 || y + 1 == height) return result;
+    RowBits alike = 0;
+    for (const TileBits& of : surfaces.of) alike |= of[y] & of[y + 1];
+    result.below = ~alike | Differ(row, row + side, side, kMostAcross);
+    return result;
+  };
+  RowDifferences above, here = differences(0);
+  for (int y = 0; y < height; ++y) {
+    const RowDifferences below = differences(y + 1);
+    RowBits beside = here.below | surfaces.always[y], right = here.right;
+    if (y % kBlockSize != 0) beside |= above.below, right |= above.right;
+    if (y % kBlockSize != kBlockSize - 1) right |= below.right;
+    RowBits alike = 0;
+    for (const TileBits& of : surfaces.of) alike |= of[y] & of[y] << round.step & to_right(of[y]);
+    alike &= ~(beside << round.step | to_right(beside) | right << round.step);
+    const RowBits wanted = surfaces.all[y] & round.columns & ~surfaces.always[y];
+    FillBetween(round, wanted & alike, static_cast<std::size_t>(y * side), scratch);
+    rows[y] = wanted & ~alike;
+    above = here;
+    here = below;
+  }
+}
+
+// Shades the surfaces' pixels by shade(lists, is_first) where they cannot be filled in, and returns
+// how many.
+template <class Shade>
+std::size_t ShadeWhereNeeded(const Shading& s, const TilePixels& tile, const TileSurfaces& surfaces,
+                             ShadeScratch& scratch, const Shade& shade) {
+  const int height = tile.box.height_px;
+  std::size_t shaded = 0;
+  const auto shade_rows = [&](const TileBits& rows, bool is_first) HWY_ATTR {
+    const PixelLists lists = ListRows(s, rows, height, surfaces, scratch);
+    for (std::size_t k = 0; k < kMaterialCount; ++k) shaded += lists[k].count;
+    shade(lists, is_first);
+  };
+  TileBits rows;
+  for (int y = 0; y < height; ++y) rows[y] = surfaces.all[y] & (kFirstColumns | surfaces.always[y]);
+  shade_rows(rows, true);
+  for (const Round& round : kRounds) {
+    FillRound(round, s.grid.tile_size_px, height, surfaces, scratch, rows);
+    shade_rows(rows, false);
+  }
+  return shaded;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace swell::render
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
