@@ -12,6 +12,8 @@
 
 namespace swell::render {
 
+static_assert(ShadedLabels::kMostPixels == kMaxTilePixels);
+
 struct ThreadScratch {
   ShadeScratch shade;
   ShadedLabels labels;

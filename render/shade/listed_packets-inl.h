@@ -13,8 +13,8 @@
 
 #include "render/packets/packet-inl.h"
 #include "render/shade/pixel_lists-inl.h"
-#include "render/tile/resolve-inl.h"
 #include "render/tile/shading_result-inl.h"
+#include "render/tile/tone_curve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {

@@ -12,6 +12,7 @@
 
 #include "render/tile/scratch.h"
 #include "render/tile/shading_result-inl.h"
+#include "render/tile/tone_curve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::render {
@@ -43,27 +44,6 @@ HWY_INLINE V EncodeSrgb(V x) {
   p = MulAdd(p, s, -0.0401095f);
   const V curve = IfThenElse(x < 0.0031308f, x * 12.92f, p);
   return curve * 255.0f;
-}
-
-// Exposed light as light of the display, in [0, 1]: a long shoulder from kShoulder up that reaches
-// white at infinity only, so that foam and glitter keep their form: 1 is shown at 0.70, 4 at 0.91.
-constexpr float kShoulder = 0.4f;
-
-HWY_INLINE V ToneCurve(V linear, V exposure) {
-  const V x = Max(linear * exposure, 0.0f);
-  const V over = Max(x - kShoulder, 0.0f);
-  V mapped = x;
-  if (!hn::AllFalse(D(), over > 0.0f)) {
-    const V shoulder = over / MulAdd(over, 1.0f / (1.0f - kShoulder), 1.0f);
-    mapped = Min(Min(x, kShoulder) + shoulder, 1.0f);
-  }
-  return mapped;
-}
-
-// About the mean sRGB code of light.
-HWY_INLINE V BrightnessOf(const V3& light, float exposure) {
-  const V mean = MulAdd(light.y, 0.5f, (light.x + light.z) * 0.25f);
-  return Sqrt(ToneCurve(mean, Constant(exposure))) * 255.0f;
 }
 
 // sRGB, a dither of one step, 8 bits.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 
-#include "render/labels/shaded_labels.h"
 #include "render/tile/edges.h"
 #include "render/tile/shafts.h"
 #include "render/view/surfaces.h"
@@ -12,7 +11,6 @@
 namespace swell::render {
 
 inline constexpr int kMaxTilePixels = 64 * 64;
-static_assert(ShadedLabels::kMostPixels == kMaxTilePixels);
 
 inline constexpr std::size_t kMaxTileFragments = kMaxFragments * kMaxTilePixels;
 inline constexpr std::size_t kListPadding = 64;  // a list's end, up to whole packets
