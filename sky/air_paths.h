@@ -35,14 +35,6 @@ inline glm::vec3 interpolate(const glm::vec3* table, int columns, Between row, B
   return low + row.part * (high - low);
 }
 
-// Adds `part` of `count` colours to others: as numbers in a row, which compilers make vectors of.
-inline void add_part(float part, const glm::vec3* from, int count, glm::vec3* to) {
-  if (count == 0) return;
-  const float* in = &from->x;
-  float* out = &to->x;
-  for (int i = 0; i < 3 * count; ++i) out[i] += part * in[i];
-}
-
 // Fills Atmosphere::transmittance.
 void fill_transmittance(Atmosphere& atmosphere, Workers& workers);
 

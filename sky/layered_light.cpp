@@ -6,6 +6,7 @@
 #include <span>
 
 #include "math/elementary.h"
+#include "sky/add_parts.h"
 
 namespace swell::sky {
 namespace {
@@ -279,14 +280,17 @@ class LayeredSky {
     for (int i = 0; i < kSourceHeights; ++i)
       for (int c = 0; c < 3; ++c) {
         const Scatters& part = layers_.heights[i][c];
-        Stream sum{};
-        for (int l = m; l < (i < kHazeHeights ? kDegrees : 3); ++l) {
-          const float moment = mode.moments[i][c][l] *
-                               (part.rayleigh * rayleigh_moment_[l] + part.haze * haze_moment_[l]);
-          const Stream& at = layers_.of_degree[moment_index(l, m)];
-          for (int j = 0; j < kStreams; ++j) sum[j] += moment * at[j];
+        const int count = std::max((i < kHazeHeights ? kDegrees : 3) - m, 0);
+        Moments moment;
+        for (int n = 0; n < count; ++n) {
+          const int l = m + n;
+          moment[n] = mode.moments[i][c][l] *
+                      (part.rayleigh * rayleigh_moment_[l] + part.haze * haze_moment_[l]);
         }
-        mode.source[i][c] = sum;
+        mode.source[i][c] = {};
+        add_parts({moment.data(), static_cast<std::size_t>(count)},
+                  layers_.of_degree[moment_index(m, m)].data(), kStreams, kStreams,
+                  mode.source[i][c].data());
       }
     Channels<float> sea{};
     for (int c = 0; c < 3 && m == 0; ++c) {
@@ -396,10 +400,9 @@ class LayeredSky {
             light[j] += from_lower * modes_[m - 1].drift[i][c][j];
           for (int j = 0; m + 1 < count && j < kStreams; ++j)
             light[j] += 0.5f * modes_[m + 1].drift[i][c][j];
-          Moments sum{};
-          for (int j = 0; j < kStreams; ++j)
-            for (int l = 0; l < kDegrees; ++l) sum[l] += light[j] * layers_.of_stream[m][j][l];
-          modes_[m].moments[i][c] = sum;
+          modes_[m].moments[i][c] = {};
+          add_parts(light, layers_.of_stream[m][0].data() + m, kDegrees,
+                    static_cast<std::size_t>(kDegrees - m), modes_[m].moments[i][c].data() + m);
         }
     for (int i = 0; i < kSourceHeights; ++i)
       for (int c = 0; c < 3; ++c)

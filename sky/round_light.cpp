@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "math/elementary.h"
+#include "sky/add_parts.h"
 #include "sky/light_moments.h"
 
 namespace swell::sky {
@@ -147,10 +148,6 @@ void fill_rest(glm::vec3* rows, int heights) {
       rows[row * kSourceSines + column] = rows[row * kSourceSines + kRoundSines - 1];
 }
 
-glm::vec3* gathered_row(std::vector<glm::vec3>& table, std::size_t row) {
-  return table.data() + 2 * row * kSourceSines;
-}
-
 // radiance_of(ray) of all rays.
 template <class RadianceOf>
 Radiance gather(const Directions& directions, const RadianceOf& radiance_of, Workers& workers) {
@@ -169,13 +166,21 @@ Radiance gather(const Directions& directions, const RadianceOf& radiance_of, Wor
   return radiance;
 }
 
+using DirectionParts = std::array<float, kDirections>;
+
+// Sums so many gathered rows of the light of all directions.
+void sum_directions(std::span<const float, kDirections> parts, const Radiance& radiance,
+                    std::size_t rows, glm::vec3* to) {
+  for (std::size_t row = 0; row < rows; ++row)
+    add_parts(parts, radiance.data() + row * kRoundSines, kGatheredPoints, kRoundSines,
+              to + 2 * row * kSourceSines);
+}
+
 std::vector<glm::vec3> mean_of(const Directions& directions, const Radiance& radiance) {
   std::vector<glm::vec3> mean(kPoints);
-  for (std::size_t d = 0; d < kDirections; ++d)
-    for (std::size_t row = 0; row < kGathered; ++row)
-      add_part(directions.part[d / kAzimuths],
-               radiance.data() + d * kGatheredPoints + row * kRoundSines, kRoundSines,
-               gathered_row(mean, row));
+  DirectionParts parts;
+  for (std::size_t d = 0; d < kDirections; ++d) parts[d] = directions.part[d / kAzimuths];
+  sum_directions(parts, radiance, kGathered, mean.data());
   fill_rest(mean.data(), kSourceHeights);
   return mean;
 }
@@ -185,12 +190,9 @@ Means means_of(const Directions& directions, const Radiance& radiance, Workers& 
   means.haze.resize(std::size_t{kDirections} * kHazePoints);
   workers.for_each(kDirections, [&](std::size_t to, int) {
     glm::vec3* sum = means.haze.data() + to * kHazePoints;
-    for (std::size_t from = 0; from < kDirections; ++from) {
-      const float part = directions.haze_part[to * kDirections + from];
-      for (std::size_t row = 0; row < kGatheredHaze; ++row)
-        add_part(part, radiance.data() + from * kGatheredPoints + row * kRoundSines, kRoundSines,
-                 sum + 2 * row * kSourceSines);
-    }
+    const std::span<const float> parts = directions.haze_part;
+    sum_directions(parts.subspan(to * kDirections).first<kDirections>(), radiance, kGatheredHaze,
+                   sum);
     fill_rest(sum, kHazeHeights);
   });
   return means;
@@ -271,18 +273,22 @@ std::vector<Harmonics> cell_moments() {
   return all;
 }
 
+// The parts of directions in moment n, times what a phase function makes of it.
+DirectionParts parts_in_moment(const std::vector<Harmonics>& cells, int n, double phase) {
+  DirectionParts parts;
+  for (std::size_t d = 0; d < kDirections; ++d)
+    parts[d] = static_cast<float>(phase) * cells[d][static_cast<std::size_t>(n)];
+  return parts;
+}
+
 // Returns what molecules make of the moments (2, m).
 std::vector<glm::vec3> uneven_moments(const std::vector<Harmonics>& cells,
                                       const Radiance& radiance) {
   std::vector<glm::vec3> all(std::size_t{kRayleighModes} * kPoints);
-  const auto phase = static_cast<float>(rayleigh_moment(2));
   for (int m = 0; m < kRayleighModes; ++m) {
     glm::vec3* const uneven = all.data() + std::size_t{kPoints} * m;
-    for (std::size_t d = 0; d < kDirections; ++d)
-      for (std::size_t row = 0; row < kGathered; ++row)
-        add_part(phase * cells[d][moment_index(2, m)],
-                 radiance.data() + d * kGatheredPoints + row * kRoundSines, kRoundSines,
-                 uneven + 2 * row * kSourceSines);
+    sum_directions(parts_in_moment(cells, moment_index(2, m), rayleigh_moment(2)), radiance,
+                   kGathered, uneven);
     fill_rest(uneven, kSourceHeights);
   }
   return all;
@@ -294,13 +300,10 @@ std::vector<glm::vec3> haze_moments(const std::vector<Harmonics>& cells, const R
   workers.for_each(kModes, [&](std::size_t mode, int) {
     const int m = static_cast<int>(mode);
     for (int l = m; l < kDegrees; ++l) {
-      const auto n = static_cast<std::size_t>(moment_index(l, m));
-      const auto phase = static_cast<float>(mie_moment(l));
-      for (std::size_t d = 0; d < kDirections; ++d)
-        for (std::size_t row = 0; row < kGatheredHaze; ++row)
-          add_part(phase * cells[d][n], radiance.data() + d * kGatheredPoints + row * kRoundSines,
-                   kRoundSines, haze.data() + n * kHazePoints + 2 * row * kSourceSines);
-      fill_rest(haze.data() + n * kHazePoints, kHazeHeights);
+      const int n = moment_index(l, m);
+      glm::vec3* const moment = haze.data() + static_cast<std::ptrdiff_t>(n) * kHazePoints;
+      sum_directions(parts_in_moment(cells, n, mie_moment(l)), radiance, kGatheredHaze, moment);
+      fill_rest(moment, kHazeHeights);
     }
   });
   return haze;

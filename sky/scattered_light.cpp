@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "math/smoothstep.h"
+#include "sky/add_parts.h"
 #include "sky/layered_light.h"
 #include "sky/round_light.h"
 
@@ -75,15 +77,14 @@ void add_air(const Atmosphere& atmosphere, const Path& path, const Harmonics& at
 
 void add_haze(const Atmosphere& atmosphere, const Harmonics& at, PathSources& sources) {
   const auto [first, count] = sources.haze_columns;
+  sources.haze.resize(static_cast<std::size_t>(kModes * kHazeHeights * count));
+  glm::vec3* out = sources.haze.data();
   for (int m = 0; m < kModes; ++m) {
-    std::vector<glm::vec3>& out = sources.haze[m];
-    out.resize(static_cast<std::size_t>(kHazeHeights * count));
-    for (int l = m; l < kDegrees; ++l) {
-      const int n = moment_index(l, m);
-      const glm::vec3* in = atmosphere.haze.data() + std::size_t{kHazePoints} * n + first;
-      for (int height = 0; height < kHazeHeights; ++height)
-        add_part(at[n], in + height * kSourceSines, count, out.data() + height * count);
-    }
+    const int n = moment_index(m, m);
+    const std::span<const float> parts(at.data() + n, static_cast<std::size_t>(kDegrees - m));
+    const glm::vec3* in = atmosphere.haze.data() + std::size_t{kHazePoints} * n + first;
+    for (int height = 0; height < kHazeHeights; ++height, in += kSourceSines, out += count)
+      add_parts(parts, in, kHazePoints, static_cast<std::size_t>(count), out);
   }
 }
 
@@ -98,17 +99,12 @@ std::array<float, kModes> mode_cosines(double cos_azimuth) {
   return all;
 }
 
-// Sums the haze of all modes in the columns that light meets at an azimuth: the others stay 0.
-std::vector<glm::vec3> sum_haze(const PathSources& sources, const std::array<float, kModes>& modes,
-                                const PathSources::Columns& met) {
-  const auto [first, count] = sources.haze_columns;
-  std::vector<glm::vec3> haze(sources.haze[0].size());
-  if (met.count == 0) return haze;
-  for (std::size_t m = 0; m < kModes; ++m)
-    for (std::size_t row = 0; row < haze.size(); row += static_cast<std::size_t>(count)) {
-      const std::size_t at = row + static_cast<std::size_t>(met.first - first);
-      add_part(modes[m], sources.haze[m].data() + at, met.count, haze.data() + at);
-    }
+// Sums the haze of all modes.
+std::vector<glm::vec3> sum_haze(const PathSources& sources,
+                                const std::array<float, kModes>& modes) {
+  const std::size_t count = sources.haze.size() / kModes;
+  std::vector<glm::vec3> haze(count);
+  add_parts(modes, sources.haze.data(), count, count, haze.data());
   return haze;
 }
 
@@ -144,10 +140,7 @@ glm::vec3 scatter_light_again(const PathSources& sources, double cos_azimuth, co
   const auto sine_at = [&](const Step& step) {
     return light.up * step.up + light.ahead * step.ahead;
   };
-  Sines met;
-  for (const Step& step : path.steps)
-    if (is_in_haze(step)) met.add(sine_at(step), sine_at(step));
-  const std::vector<glm::vec3> haze = sum_haze(sources, modes, met.columns());
+  const std::vector<glm::vec3> haze = sum_haze(sources, modes);
 
   glm::vec3 sum(0.0f);
   for (std::size_t n = 0; n < path.steps.size(); ++n) {

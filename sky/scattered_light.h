@@ -25,7 +25,7 @@ struct PathSources {
   // Molecules and haze, by mode of the azimuth: by step of the path, and by height.
   Columns air_columns, haze_columns;
   std::array<std::vector<glm::vec3>, kRayleighModes> air;
-  std::array<std::vector<glm::vec3>, kModes> haze;
+  std::vector<glm::vec3> haze;  // all modes in a row
 };
 PathSources sources_along(const Atmosphere& atmosphere, const Path& path, double light_sine);
 

@@ -6,6 +6,8 @@
 
 #include "math/elementary.h"
 #include "math/random.h"
+#include "math/simd_target.h"
+#include "sky/add_parts.h"
 #include "sky/layered_light.h"
 #include "sky/round_light.h"
 
@@ -19,6 +21,28 @@ double integral(const F& f) {
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) sum += f(-1.0 + (2.0 * i + 1.0) / kSteps);
   return sum * 2.0 / kSteps;
+}
+
+TEST(AddParts, GivesTheBitsOfAScalarLoopOnEveryTarget) {
+  const std::size_t step = 90;
+  std::vector<float> parts(7), from(parts.size() * step), start(step);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    parts[k] = static_cast<float>(random_uniform(1, k) - 0.5);
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<float>(random_uniform(2, i));
+  for (std::size_t i = 0; i < step; ++i) start[i] = static_cast<float>(random_uniform(3, i));
+  const SimdTarget before = current_simd_target();
+  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+    if (!simd_target_available(target)) continue;
+    select_simd_target(target);
+    for (std::size_t count = 0; count <= step; ++count) {
+      std::vector<float> expected = start, sums = start;
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < parts.size(); ++k) expected[i] += parts[k] * from[k * step + i];
+      add_parts(parts, from.data(), step, count, sums.data());
+      EXPECT_EQ(sums, expected) << count;
+    }
+  }
+  select_simd_target(before);
 }
 
 TEST(Harmonics, TheFirstAreKnown) {
