@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,14 +27,21 @@ class CellPoints {
   double rim_distance(double x, double y) const {
     const int i0 = static_cast<int>(std::floor(x)), j0 = static_cast<int>(std::floor(y));
     double nearest2 = 1e9, second2 = 1e9;
-    for (int j = j0 - 2; j <= j0 + 2; ++j) {
-      for (int i = i0 - 2; i <= i0 + 2; ++i) {
+    const auto add_row = [&](int j, int first, int last, int step) {
+      for (int i = first; i <= last; i += step) {
         const double* const offset = offset_of(i, j);
         const double dx = i + offset[0] - x, dy = j + offset[1] - y;
         const double d2 = dx * dx + dy * dy;
         second2 = std::min(second2, std::max(nearest2, d2));
         nearest2 = std::min(nearest2, d2);
       }
+    };
+    for (int j = j0 - 1; j <= j0 + 1; ++j) add_row(j, i0 - 1, i0 + 1, 1);
+    // Points of the squares beyond are further off than one square.
+    constexpr double kSurelyNearer = 0.999;
+    if (second2 > kSurelyNearer) {
+      for (const int j : {j0 - 2, j0 + 2}) add_row(j, i0 - 2, i0 + 2, 1);
+      for (int j = j0 - 1; j <= j0 + 1; ++j) add_row(j, i0 - 2, i0 + 2, 4);
     }
     return std::sqrt(second2) - std::sqrt(nearest2);
   }
@@ -87,12 +95,11 @@ std::vector<float> make_tear_pattern(int size, std::uint64_t seed) {
   constexpr int kCells = 8, kOctaves = 4;
   constexpr double kPersistence = 0.6;
   const PerlinNoise noise(seed);
-  std::vector<double> value;
-  for (int j = 0; j < size; ++j)
-    for (int i = 0; i < size; ++i)
-      value.push_back(noise.periodic_fractal3(static_cast<double>(kCells * i) / size,
-                                              static_cast<double>(kCells * j) / size, 0.5, kCells,
-                                              kOctaves, kPersistence));
+  std::vector<double> x, value(static_cast<std::size_t>(size) * size);
+  for (int i = 0; i < size; ++i) x.push_back(static_cast<double>(kCells * i) / size);
+  for (std::size_t j = 0; j < x.size(); ++j)
+    noise.periodic_fractal3_row(x, x[j], 0.5, kCells, kOctaves, kPersistence,
+                                std::span(value).subspan(j * x.size(), x.size()));
   return spread_evenly(value);
 }
 

@@ -20,9 +20,27 @@ double weight_at(Interpolation interpolation, double t) {
                                                 : interpolation_weight(interpolation, t);
 }
 
+// Of the values at a cell's corners.
+double blend(const std::array<double, 8>& c, double x_weight, double y_weight, double z_weight) {
+  const double low = mix(mix(c[0], c[1], x_weight), mix(c[2], c[3], x_weight), y_weight);
+  const double high = mix(mix(c[4], c[5], x_weight), mix(c[6], c[7], x_weight), y_weight);
+  return mix(low, high, z_weight);
+}
+
 void check_fractal(int octaves, double persistence) {
   SWELL_CHECK(octaves >= 1 && octaves <= 16, "octaves={}", octaves);
   SWELL_CHECK(persistence >= 0.0 && persistence <= 1.0, "persistence={}", persistence);
+}
+
+void check_period(int period) {
+  SWELL_CHECK(
+      period >= 1 && period <= kPeriod && std::has_single_bit(static_cast<unsigned>(period)),
+      "period={}", period);
+}
+
+// Of an octave of noise that wraps at a period.
+int period_of_octave(int octave, int period) {
+  return static_cast<int>(std::min<long>(long{period} << octave, kPeriod));
 }
 
 // sum over i < octaves of persistence^i noise(i, 2^i).
@@ -81,20 +99,24 @@ double PerlinNoise::noise3(double x, double y, double z) const {
   return wrapped_noise3(x, y, z, kPeriod);
 }
 
+inline PerlinNoise::Between PerlinNoise::between(double x, int period) const {
+  const auto [cell, fraction] = lattice_position(x, period);
+  return {cell, (cell + 1) & (period - 1), weight_at(interpolation_, fraction)};
+}
+
+inline PerlinNoise::Corners PerlinNoise::corners(const Between& x, const Between& y,
+                                                 const Between& z) const {
+  const int low = p_[x.low], high = p_[x.high];
+  const int low_low = p_[low + y.low], high_low = p_[high + y.low];
+  const int low_high = p_[low + y.high], high_high = p_[high + y.high];
+  const auto at = [&](int column, int k) { return g_[p_[column + k]]; };
+  return {at(low_low, z.low),  at(high_low, z.low),  at(low_high, z.low),  at(high_high, z.low),
+          at(low_low, z.high), at(high_low, z.high), at(low_high, z.high), at(high_high, z.high)};
+}
+
 double PerlinNoise::wrapped_noise3(double x, double y, double z, int period) const {
-  const LatticePosition px = lattice_position(x, period), py = lattice_position(y, period);
-  const LatticePosition pz = lattice_position(z, period);
-  const double x_weight = weight_at(interpolation_, px.fraction);
-  const double y_weight = weight_at(interpolation_, py.fraction);
-  const double z_weight = weight_at(interpolation_, pz.fraction);
-  const int next_i = (px.cell + 1) & (period - 1);
-  const int next_j = (py.cell + 1) & (period - 1);
-  const int next_k = (pz.cell + 1) & (period - 1);
-  const auto row = [&](int j, int k) {
-    return mix(lattice3(px.cell, j, k), lattice3(next_i, j, k), x_weight);
-  };
-  const auto plane = [&](int k) { return mix(row(py.cell, k), row(next_j, k), y_weight); };
-  return mix(plane(pz.cell), plane(next_k), z_weight);
+  const Between at_x = between(x, period), at_y = between(y, period), at_z = between(z, period);
+  return blend(corners(at_x, at_y, at_z), at_x.weight, at_y.weight, at_z.weight);
 }
 
 double PerlinNoise::fractal2(double x, double y, int octaves, double persistence) const {
@@ -138,13 +160,36 @@ double PerlinNoise::fractal3(double x, double y, double z, int octaves, double p
 
 double PerlinNoise::periodic_fractal3(double x, double y, double z, int period, int octaves,
                                       double persistence) const {
-  SWELL_CHECK(
-      period >= 1 && period <= kPeriod && std::has_single_bit(static_cast<unsigned>(period)),
-      "period={}", period);
+  check_period(period);
   return sum_octaves(octaves, persistence, [&](int octave, double frequency) {
-    const int octave_period = static_cast<int>(std::min<long>(long{period} << octave, kPeriod));
-    return wrapped_noise3(frequency * x, frequency * y, frequency * z, octave_period);
+    return wrapped_noise3(frequency * x, frequency * y, frequency * z,
+                          period_of_octave(octave, period));
   });
+}
+
+void PerlinNoise::periodic_fractal3_row(std::span<const double> x, double y, double z, int period,
+                                        int octaves, double persistence,
+                                        std::span<double> sums) const {
+  check_period(period);
+  check_fractal(octaves, persistence);
+  SWELL_CHECK(x.size() == sums.size(), "{} places, {} sums", x.size(), sums.size());
+  std::ranges::fill(sums, 0.0);
+  double amplitude = 1.0, frequency = 1.0;
+  for (int octave = 0; octave < octaves; ++octave) {
+    const int octave_period = period_of_octave(octave, period);
+    const Between at_y = between(frequency * y, octave_period);
+    const Between at_z = between(frequency * z, octave_period);
+    int known = -1;  // the cell whose corners these are
+    Corners corner{};
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      const Between at_x = between(frequency * x[n], octave_period);
+      if (at_x.low != known) corner = corners(at_x, at_y, at_z);
+      known = at_x.low;
+      sums[n] += amplitude * blend(corner, at_x.weight, at_y.weight, at_z.weight);
+    }
+    amplitude *= persistence;
+    frequency *= 2.0;
+  }
 }
 
 }  // namespace swell::texture

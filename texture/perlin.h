@@ -37,10 +37,24 @@ class PerlinNoise {
   double periodic_fractal3(double x, double y, double z, int period, int octaves,
                            double persistence) const;
 
+  // periodic_fractal3(x[i], y, z, period, octaves, persistence) to sums[i], for as many x; the same
+  // numbers. Fast where neighbours lie between the same lattice points.
+  void periodic_fractal3_row(std::span<const double> x, double y, double z, int period, int octaves,
+                             double persistence, std::span<double> sums) const;
+
   // The value at a lattice point, what noise3 is at (i, j, k). Period 256.
   double lattice3(int i, int j, int k) const;
 
  private:
+  // Lattice points between which a place lies on an axis, and the weight of the further one.
+  struct Between {
+    int low, high;
+    double weight;
+  };
+  Between between(double x, int period) const;
+  // The values at the corners of a cell: x varies first, z last.
+  using Corners = std::array<double, 8>;
+  Corners corners(const Between& x, const Between& y, const Between& z) const;
   double wrapped_noise3(double x, double y, double z, int period) const;
 
   Interpolation interpolation_;

@@ -201,6 +201,18 @@ TEST(PerlinNoise, FractalOfARowIsThatOfEachPlace) {
     }
 }
 
+TEST(PerlinNoise, ARowOfPeriodicFractalNoiseHasTheSameBits) {
+  std::vector<double> x, sums(300);
+  for (std::size_t n = 0; n < sums.size(); ++n) x.push_back(-3.0 + 0.07 * static_cast<double>(n));
+  for (const Interpolation interpolation : kAll)
+    for (const int period : {1, 8, 256}) {
+      const PerlinNoise noise(15, interpolation);
+      noise.periodic_fractal3_row(x, 2.3, -0.4, period, 5, 0.6, sums);
+      for (std::size_t n = 0; n < x.size(); ++n)
+        EXPECT_EQ(sums[n], noise.periodic_fractal3(x[n], 2.3, -0.4, period, 5, 0.6)) << x[n];
+    }
+}
+
 TEST(PerlinNoise, PeriodicFractalTilesAlongEachAxis) {
   const PerlinNoise noise(14);
   for (const int period : {1, 2, 8, 256}) {
