@@ -91,18 +91,6 @@ void break_waves(const Whitecaps& whitecaps, const FftPlan& plan,
       {&output, 1}, planes, workers);
 }
 
-void age_foam(std::span<const float> breaking, float threshold, int decay,
-              std::span<std::uint8_t> codes) {
-  constexpr float kCodesPerDeviation = static_cast<float>(kFullCode / kFullExcess);
-  const auto lost = static_cast<std::int32_t>(decay);
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    const float born = std::clamp((breaking[i] - threshold) * kCodesPerDeviation, 0.0f,
-                                  static_cast<float>(kFullCode));
-    codes[i] = static_cast<std::uint8_t>(
-        std::max(static_cast<std::int32_t>(born), static_cast<std::int32_t>(codes[i]) - lost));
-  }
-}
-
 void advance_whitecaps(const Whitecaps& whitecaps, double t_s, WhitecapFrame& frame,
                        Workers& workers) {
   const ScopedFloatEnvironment ieee;
