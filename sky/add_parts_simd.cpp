@@ -1,10 +1,10 @@
+#include "sky/add_parts.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sky/add_parts_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sky/add_parts.h"
-//
 #include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

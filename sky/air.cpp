@@ -70,10 +70,4 @@ std::optional<double> distance_to_sea_m(double radius_m, double sine) {
   return std::max(-radius_m * sine - std::sqrt(in_circle), 0.0);
 }
 
-double distance_to_air_top_m(double radius_m, double sine) {
-  const double in_circle =
-      kAirTopRadius_m * kAirTopRadius_m - radius_m * radius_m * (1.0 - sine * sine);
-  return std::max(-radius_m * sine + std::sqrt(std::max(in_circle, 0.0)), 0.0);
-}
-
 }  // namespace swell::sky

@@ -4,6 +4,8 @@
 // and Production Ready Sky and Atmosphere Rendering Technique, 2020 (ozone).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -43,6 +45,10 @@ double mie_moment(int degree);
 // Rays from radius_m about the earth's middle, towards the sine of an elevation.
 double height_along(double radius_m, double sine, double t_m);
 std::optional<double> distance_to_sea_m(double radius_m, double sine);  // none: the ray misses it
-double distance_to_air_top_m(double radius_m, double sine);
+inline double distance_to_air_top_m(double radius_m, double sine) {
+  const double in_circle =
+      kAirTopRadius_m * kAirTopRadius_m - radius_m * radius_m * (1.0 - sine * sine);
+  return std::max(-radius_m * sine + std::sqrt(std::max(in_circle, 0.0)), 0.0);
+}
 
 }  // namespace swell::sky

@@ -17,7 +17,7 @@ glm::dvec3 exp_each(glm::dvec3 x) { return {exp(x.x), exp(x.y), exp(x.z)}; }
 
 // The transmittance: rows by height, columns by the distance to the air's top.
 // Source: Bruneton, Neyret 2008, section 4.
-constexpr int kHeights = 80, kDistances = 128;
+constexpr int kHeights = 80;
 const double kHorizonAtTop_m =
     std::sqrt(kAirTopRadius_m * kAirTopRadius_m - kEarthRadius_m * kEarthRadius_m);
 
@@ -74,17 +74,17 @@ const double kEvenHeights = log(kTopOfEven + std::sqrt(kTopOfEven * kTopOfEven +
 // ---- Tables
 
 void fill_transmittance(Atmosphere& atmosphere, Workers& workers) {
-  atmosphere.transmittance.resize(static_cast<std::size_t>(kHeights) * kDistances);
+  atmosphere.transmittance.resize(static_cast<std::size_t>(kHeights) * kTransmittanceColumns);
   workers.for_each(kHeights, [&](std::size_t row, int) {
     const double horizon_m = kHorizonAtTop_m * static_cast<double>(row) / (kHeights - 1);
     const double radius_m = std::sqrt(horizon_m * horizon_m + kEarthRadius_m * kEarthRadius_m);
     const double nearest_m = kAirTopRadius_m - radius_m, furthest_m = horizon_m + kHorizonAtTop_m;
-    for (int column = 0; column < kDistances; ++column) {
-      const double d =
-          std::max(nearest_m + (furthest_m - nearest_m) * column / (kDistances - 1), 1e-3);
+    for (int column = 0; column < kTransmittanceColumns; ++column) {
+      const double d = std::max(
+          nearest_m + (furthest_m - nearest_m) * column / (kTransmittanceColumns - 1), 1e-3);
       const double sine =
           (kAirTopRadius_m * kAirTopRadius_m - radius_m * radius_m - d * d) / (2.0 * radius_m * d);
-      atmosphere.transmittance[row * kDistances + static_cast<std::size_t>(column)] =
+      atmosphere.transmittance[row * kTransmittanceColumns + static_cast<std::size_t>(column)] =
           transmittance_to_top(atmosphere.air, radius_m, std::clamp(sine, -1.0, 1.0));
     }
   });
@@ -99,14 +99,12 @@ HeightRow height_row_of(double height_m) {
 
 glm::vec3 transmittance_over_horizon(const Atmosphere& atmosphere, const HeightRow& at,
                                      double sine) {
-  const double place =
-      (distance_to_air_top_m(at.radius_m, sine) - at.nearest_m) * at.inv_span_m * (kDistances - 1);
-  return interpolate(atmosphere.transmittance.data(), kDistances, at.row,
-                     between(place, kDistances));
+  return interpolate(atmosphere.transmittance.data(), kTransmittanceColumns, at.row,
+                     transmittance_column(at, sine));
 }
 
 glm::vec3 disc_transmittance(const Atmosphere& atmosphere, const HeightRow& at, double sine) {
-  const double seen = smoothstep(-kSunRadius_rad, kSunRadius_rad, sine - at.horizon_sine);
+  const double seen = part_over_edge(at, sine);
   if (seen <= 0.0) return glm::vec3(0.0f);
   return static_cast<float>(seen) *
          transmittance_over_horizon(atmosphere, at, std::max(sine, at.horizon_sine));
@@ -165,17 +163,6 @@ Path trace(const Air& air, double height_m, double sine, int step_count) {
   path.sea_up = (radius_m + length_m * sine) / kEarthRadius_m;
   path.sea_ahead = length_m * cosine / kEarthRadius_m;
   return path;
-}
-
-Scattered scatter_once(const Atmosphere& atmosphere, const Path& path, LightAngles light) {
-  Scattered sum;
-  for (const Step& step : path.steps) {
-    const double sine = light.up * step.up + light.ahead * step.ahead;
-    const glm::vec3 arrives = disc_transmittance(atmosphere, step.height, sine);
-    sum.rayleigh += step.rayleigh * arrives;
-    sum.mie += step.mie * arrives;
-  }
-  return sum;
 }
 
 }  // namespace swell::sky

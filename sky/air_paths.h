@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "math/parallel.h"
+#include "math/smoothstep.h"
 #include "sky/atmosphere.h"
 
 namespace swell::sky {
@@ -44,6 +45,20 @@ struct HeightRow {
   double radius_m, nearest_m, inv_span_m, horizon_sine;
 };
 HeightRow height_row_of(double height_m);
+
+// Where the way to the air's top lies in a row of the table of transmittance.
+inline constexpr int kTransmittanceColumns = 128;
+inline Between transmittance_column(const HeightRow& at, double sine) {
+  const double place = (distance_to_air_top_m(at.radius_m, sine) - at.nearest_m) * at.inv_span_m *
+                       (kTransmittanceColumns - 1);
+  return between(place, kTransmittanceColumns);
+}
+
+// The part of a light's disc that stands over the earth's edge.
+inline double part_over_edge(const HeightRow& at, double sine) {
+  const double over = sine - at.horizon_sine;
+  return over >= kSunRadius_rad ? 1.0 : smoothstep(-kSunRadius_rad, kSunRadius_rad, over);
+}
 
 // As the functions of atmosphere.h; the first without regard for the earth.
 glm::vec3 transmittance_over_horizon(const Atmosphere& atmosphere, const HeightRow& at,
@@ -91,6 +106,8 @@ struct Step {
   glm::vec3 rayleigh, mie;  // times the light there
 };
 
+inline bool is_in_haze(const Step& step) { return step.source.first < kHazeHeights - 1; }
+
 struct Path {
   double sine = 0.0;  // of the elevation at which it starts
   std::vector<Step> steps;
@@ -112,21 +129,10 @@ struct Scattered {
 };
 Scattered scatter_once(const Atmosphere& atmosphere, const Path& path, LightAngles light);
 
-// `mean`: radiance of the light to be scattered again by molecules, the mean that they make of it
-// in the ray's direction.
-// haze_at(row, column): the mean that haze makes of it in the ray's direction.
-template <class HazeAt>
-glm::vec3 scatter_again(const std::vector<glm::vec3>& mean, const HazeAt& haze_at, const Path& path,
-                        LightAngles light) {
-  glm::vec3 sum(0.0f);
-  for (const Step& step : path.steps) {
-    const double sine = light.up * step.up + light.ahead * step.ahead;
-    if (sine < kLowestSine) continue;
-    const Between column = source_column(sine);
-    sum += step.rayleigh * interpolate(mean.data(), kSourceSines, step.source, column);
-    if (step.source.first < kHazeHeights - 1) sum += step.mie * haze_at(step.source, column);
-  }
-  return sum;
-}
+// Returns what the path sends on of light that was scattered before. `mean`: its radiance, the mean
+// that molecules make of it in the ray's direction; `haze`: that which haze makes. Tables of the
+// rows and columns above.
+glm::vec3 scatter_again(const glm::vec3* mean, const glm::vec3* haze, const Path& path,
+                        LightAngles light);
 
 }  // namespace swell::sky

@@ -226,10 +226,7 @@ Radiance gather_again(const Means& source, const Directions& directions, Workers
       [&](const Ray& ray) {
         const auto& [path, light, direction, column] = ray;
         const glm::vec3* haze = source.haze.data() + direction * kHazePoints;
-        glm::vec3 sum = scatter_again(
-            source.all,
-            [&](Between row, Between at) { return interpolate(haze, kSourceSines, row, at); }, path,
-            light);
+        glm::vec3 sum = scatter_again(source.all.data(), haze, path, light);
         const double sine = light.up * path.sea_up + light.ahead * path.sea_ahead;
         if (path.meets_sea)
           sum += path.sea * interpolate(source.all.data(), kSourceSines, {}, source_column(sine));

@@ -52,8 +52,6 @@ struct Sines {
   }
 };
 
-bool is_in_haze(const Step& step) { return step.source.first < kHazeHeights - 1; }
-
 // Molecules take light from all sides alike, but for moments (2, m).
 void add_air(const Atmosphere& atmosphere, const Path& path, const Harmonics& at,
              PathSources& sources) {
@@ -88,9 +86,8 @@ void add_haze(const Atmosphere& atmosphere, const Harmonics& at, PathSources& so
   }
 }
 
-// cos(m phi) for all modes.
-std::array<float, kModes> mode_cosines(double cos_azimuth) {
-  std::array<float, kModes> all;
+ModeCosines mode_cosines(double cos_azimuth) {
+  ModeCosines all;
   double before = cos_azimuth, here = 1.0;
   for (float& cosine : all) {
     cosine = static_cast<float>(here);
@@ -100,8 +97,7 @@ std::array<float, kModes> mode_cosines(double cos_azimuth) {
 }
 
 // Sums the haze of all modes.
-std::vector<glm::vec3> sum_haze(const PathSources& sources,
-                                const std::array<float, kModes>& modes) {
+std::vector<glm::vec3> sum_haze(const PathSources& sources, const ModeCosines& modes) {
   const std::size_t count = sources.haze.size() / kModes;
   std::vector<glm::vec3> haze(count);
   add_parts(modes, sources.haze.data(), count, count, haze.data());
@@ -136,31 +132,8 @@ PathSources sources_along(const Atmosphere& atmosphere, const Path& path, double
 
 glm::vec3 scatter_light_again(const PathSources& sources, double cos_azimuth, const Path& path,
                               LightAngles light) {
-  const std::array<float, kModes> modes = mode_cosines(cos_azimuth);
-  const auto sine_at = [&](const Step& step) {
-    return light.up * step.up + light.ahead * step.ahead;
-  };
-  const std::vector<glm::vec3> haze = sum_haze(sources, modes);
-
-  glm::vec3 sum(0.0f);
-  for (std::size_t n = 0; n < path.steps.size(); ++n) {
-    const Step& step = path.steps[n];
-    const double sine = sine_at(step);
-    if (sine < kLowestSine) continue;
-    const Between column = source_column(sine);
-    const std::size_t place = n * static_cast<std::size_t>(sources.air_columns.count) +
-                              static_cast<std::size_t>(column.first - sources.air_columns.first);
-    glm::vec3 air(0.0f);
-    for (std::size_t m = 0; m < kRayleighModes; ++m) {
-      const glm::vec3* const p = sources.air[m].data() + place;
-      air += modes[m] * (p[0] + column.part * (p[1] - p[0]));
-    }
-    sum += step.rayleigh * air;
-    if (is_in_haze(step))
-      sum += step.mie * interpolate(haze.data(), sources.haze_columns.count, step.source,
-                                    {column.first - sources.haze_columns.first, column.part});
-  }
-  return sum;
+  const ModeCosines modes = mode_cosines(cos_azimuth);
+  return scatter_sources(sources, modes, sum_haze(sources, modes).data(), path, light);
 }
 
 }  // namespace swell::sky

@@ -29,6 +29,12 @@ struct PathSources {
 };
 PathSources sources_along(const Atmosphere& atmosphere, const Path& path, double light_sine);
 
+using ModeCosines = std::array<float, kModes>;  // cos(m phi)
+
+// Returns what a path sends on of `sources`, with their haze of all modes by height and column.
+glm::vec3 scatter_sources(const PathSources& sources, const ModeCosines& modes,
+                          const glm::vec3* haze, const Path& path, LightAngles light);
+
 // As scatter_again() of all light, at the azimuth of `light`, whose cosine is given.
 glm::vec3 scatter_light_again(const PathSources& sources, double cos_azimuth, const Path& path,
                               LightAngles light);

@@ -1,11 +1,11 @@
+#include "math/check.h"
+#include "ocean/open_sea/whitecap_steps.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ocean/open_sea/age_foam_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "math/check.h"
-#include "ocean/open_sea/whitecap_steps.h"
-//
 #include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
