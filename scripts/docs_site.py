@@ -23,13 +23,19 @@ CSS = """.md-typeset h1, .md-typeset h2 { color: inherit; font-weight: 600; lett
 .md-grid { max-width: 72rem; }
 /* Wide tables and long words scroll or break in place, never the page. */
 .md-typeset code { overflow-wrap: break-word; }
-.md-typeset pre code { overflow-wrap: normal; }
+/* A line of code that is too long goes on below, indented, and leaves room for the button that copies. */
+.md-typeset pre > code { padding-right: 2.6em; white-space: pre-wrap; overflow-wrap: anywhere; }
+.md-typeset pre > code > span[id] { display: block; padding-left: 2em; text-indent: -2em; }
+.md-typeset pre .c1 { display: inline-block; text-indent: 0; }
 .md-typeset table:not([class]) th { min-width: 0; }
 .md-typeset table:not([class]) td, .md-typeset table:not([class]) th { padding: .5em .75em; }
 .md-typeset table:not([class]) code { word-break: normal; overflow-wrap: normal; }
-.md-typeset table:not([class]) td:first-child code, .md-typeset code.word { white-space: nowrap; }
+.md-typeset table:not([class]) td:first-child code, .md-typeset .word { white-space: nowrap; }
 .md-typeset table:not([class]) td.long { min-width: 11rem; }
+.md-typeset table:not([class]) td.long:nth-child(n+6) { min-width: 7rem; }
 .md-typeset table:not([class]) td > img { min-width: 7rem; }
+/* Room for code and tables, which the names of pages do not need. */
+@media screen and (min-width: 76.25em) { .md-sidebar--primary { width: 8.5rem; } }
 /* A heading's link takes no line of its own. */
 .md-content { overflow-x: clip; }
 .md-typeset :is(h1, h2, h3) { position: relative; }
@@ -202,7 +208,17 @@ def make_c_reference(build, out):
 
 def mark(html):
     """A page whose words in code do not break at their hyphens, and whose cells of much text are known to be so."""
-    html = re.sub(r"<code>([^<\s]{1,30})</code>", r'<code class="word">\1</code>', html)
+    def words(text):
+        return re.sub(r"(?<!\S)[^\s-]{0,30}-\S{1,30}(?!\S)", r'<span class="word">\g<0></span>', text)
+
+    def code(match):
+        if re.fullmatch(r"\S{1,30}", match[1]):
+            return f'<code class="word">{match[1]}</code>'
+        return f"<code>{words(match[1])}</code>"
+
+    html = re.sub(r"(?<!</span>)<code>([^<]+)</code>", code, html)
+    html = re.sub(r"<pre>.*?</pre>", lambda block: re.sub(r"(?<=>)[^<]+", lambda text: words(text[0]), block[0]), html,
+                  flags=re.DOTALL)
     return re.sub(r"<td>(.*?)</td>", lambda cell: f'<td class="long">{cell[1]}</td>'
                   if len(re.sub(r"<[^>]*>", "", cell[1])) > 40 else cell[0], html, flags=re.DOTALL)
 

@@ -74,6 +74,11 @@ class ForTheSite(unittest.TestCase):
         long = "word " * 9
         self.assertEqual(docs_site.mark(f"<p><code>--set</code> <code>a b</code></p><td>1</td><td>{long}</td>"),
                          f'<p><code class="word">--set</code> <code>a b</code></p><td>1</td><td class="long">{long}</td>')
+        self.assertEqual(docs_site.mark("<code>a --b c</code> <pre><span></span><code>a --b\n</code></pre>"),
+                         '<code>a <span class="word">--b</span> c</code> '
+                         '<pre><span></span><code>a <span class="word">--b</span>\n</code></pre>')
+        self.assertEqual(docs_site.mark("<pre><code><i>-</i>-x <i> </i>c</code></pre>"),
+                         '<pre><code><i>-</i><span class="word">-x</span> <i> </i>c</code></pre>')
 
 
 class Page(html.parser.HTMLParser):
@@ -164,6 +169,10 @@ class Site(unittest.TestCase):
         broken = self.browser.execute_script(
             "return [...document.images].filter(one => one.complete && !one.naturalWidth).map(one => one.src)")
         self.assertEqual(broken, [])
+        cut_off = self.browser.execute_script(
+            "return [...document.querySelectorAll('pre > code')].filter(one => one.scrollWidth > one.clientWidth + 1)"
+            ".map(one => one.textContent)")
+        self.assertEqual(cut_off, [])
 
     def search_for(self, word):
         self.browser.get(self.address + "index.html")
