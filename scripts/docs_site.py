@@ -19,6 +19,7 @@ import docs
 PACKAGE = ("__init__.py", "camera.py", "disturbance.py", "distortion.py")  # of python/swell: what is public
 LIST_ITEM = re.compile(r"( *)(?:[-*+]|\d+\.) ")
 TARGET = re.compile(r"(?<=\]\()\s*([^()\s]+)|(?<=src=\")([^\"]+)|(?<=href=\")([^\"]+)")
+POWER = re.compile(r"<(code|pre|script|title)\b.*?</\1>|<[^>]*>|\^(?:\(([^)]*)\)|([-\u2212]?[\d.]*\d))", re.DOTALL)
 CSS = """.md-typeset h1, .md-typeset h2 { color: inherit; font-weight: 600; letter-spacing: 0; }
 .md-grid { max-width: 72rem; }
 /* Wide tables and long words scroll or break in place, never the page. */
@@ -36,6 +37,7 @@ CSS = """.md-typeset h1, .md-typeset h2 { color: inherit; font-weight: 600; lett
 .md-typeset table:not([class]) td > img { min-width: 7rem; }
 /* Room for code and tables, which the names of pages do not need. */
 @media screen and (min-width: 76.25em) { .md-sidebar--primary { width: 8.5rem; } }
+.md-typeset sup { line-height: 0; }
 /* A heading's link takes no line of its own. */
 .md-content { overflow-x: clip; }
 .md-typeset :is(h1, h2, h3) { position: relative; }
@@ -207,7 +209,8 @@ def make_c_reference(build, out):
 # ---- What style sheets cannot see
 
 def mark(html):
-    """A page whose words in code do not break at their hyphens, and whose cells of much text are known to be so."""
+    """A page whose words in code do not break at their hyphens, whose cells of much text are known to be so, and whose
+    powers are raised."""
     def words(text):
         return re.sub(r"(?<!\S)[^\s-]{0,30}-\S{1,30}(?!\S)", r'<span class="word">\g<0></span>', text)
 
@@ -219,8 +222,9 @@ def mark(html):
     html = re.sub(r"(?<!</span>)<code>([^<]+)</code>", code, html)
     html = re.sub(r"<pre>.*?</pre>", lambda block: re.sub(r"(?<=>)[^<]+", lambda text: words(text[0]), block[0]), html,
                   flags=re.DOTALL)
-    return re.sub(r"<td>(.*?)</td>", lambda cell: f'<td class="long">{cell[1]}</td>'
+    html = re.sub(r"<td>(.*?)</td>", lambda cell: f'<td class="long">{cell[1]}</td>'
                   if len(re.sub(r"<[^>]*>", "", cell[1])) > 40 else cell[0], html, flags=re.DOTALL)
+    return POWER.sub(lambda match: match[0] if match[0][0] == "<" else f"<sup>{match[2] or match[3]}</sup>", html)
 
 
 # ---- The whole

@@ -80,6 +80,10 @@ class ForTheSite(unittest.TestCase):
         self.assertEqual(docs_site.mark("<pre><code><i>-</i>-x <i> </i>c</code></pre>"),
                          '<pre><code><i>-</i><span class="word">-x</span> <i> </i>c</code></pre>')
 
+    def test_powers_are_raised_outside_code(self):
+        self.assertEqual(docs_site.mark("<p>2^24, x^\u22120.3. 10^(0.5 m) <code>a^2 b</code> X^y</p><pre>a^2</pre>"),
+                         "<p>2<sup>24</sup>, x<sup>\u22120.3</sup>. 10<sup>0.5 m</sup> <code>a^2 b</code> X^y</p><pre>a^2</pre>")
+
 
 class Page(html.parser.HTMLParser):
     """Title, ids, and what it links and loads."""
