@@ -138,7 +138,8 @@ def python_reference(folder):
 
 
 def in_markdown(docstring):
-    """Its arguments as a list."""
+    """Its arguments as a list, and the pages that it names as links."""
+    docstring = re.sub(r"\bdocs/((?:\w+/)*(\w+\.md))", r"[\2](../\1)", docstring)
     return indent_lists(re.sub(r"^([a-z]\w*(?:, \w+)*(?: \([^)]*\))?): ", r"- **\1**: ", docstring, flags=re.MULTILINE))
 
 

@@ -60,6 +60,7 @@ class ForTheSite(unittest.TestCase):
         self.assertIn("### Camera.K\n\n```python\nCamera.K: np.ndarray\n", page)
         self.assertIn("### Picture[...]\n\n```python\nPicture[label: str] -> np.ndarray\n", page)
         self.assertNotIn("_ask", page)
+        self.assertIn("A key of scene files ([scene.md](../look_up/scene.md)).\n", page)
 
     def test_python_classes_have_what_makes_them_and_their_fields(self):
         page = docs_site.python_reference(SOURCE / "python/swell")
