@@ -76,12 +76,17 @@ def read_option(head, meaning):
     return Option(name, default, meaning, tuple(notes))
 
 
+def in_markdown(text):
+    """With options as code, and without what would end a cell."""
+    return re.sub(r"(?<![\w-])--[a-z][\w-]*", r"`\g<0>`", text).replace("|", "\\|")
+
+
 def table(options):
     def row(option):
         end = "" if option.meaning[-1] in ".?" else "."
         notes = "".join(f" {note[0].upper()}{note[1:]}." for note in option.notes)
-        meaning = option.meaning + (end + notes if notes else "")
-        return f"`{option.name}` | {option.default} | {meaning.replace('|', chr(92) + '|')}"
+        meaning = in_markdown(option.meaning) + (end + notes if notes else "")
+        return f"`{option.name}` | {option.default} | {meaning}"
     return "\n".join(["option | default | meaning", "---|---|---", *map(row, options)]) + "\n"
 
 
@@ -111,7 +116,7 @@ def compose(helps):
     for name, (description, options, _) in read.items():
         shared = [option for option in options if option.plain() in common]
         own = [option for option in options if option.plain() not in common]
-        text += f"\n## {name}\n\n{description.rstrip('.')}.\n"
+        text += f"\n## {name}\n\n{in_markdown(description.rstrip('.'))}.\n"
         text += f"\nAs above: {list_shared(shared, common)}.\n" if shared else ""
         text += "\n" + table(own) if own else ""
     return text

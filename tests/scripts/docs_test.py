@@ -144,12 +144,12 @@ class OptionsPage(unittest.TestCase):
                           ("--scene FILE", "", "A|B", ("required",)), ("--centre X Y", "", "Middle", ())])
 
     def test_what_programs_share_stands_once(self):
-        other = self.HELP.replace("  --every N=1 Needs: --frames Draw every N-th\n", "  --own                       Its own\n")
+        other = self.HELP.replace("  --every N=1 Needs: --frames Draw every N-th\n", "  --own                       Its own, as --every\n")
         page = docs_options.compose({"one": self.HELP, "two": other})
         self.assertEqual(page.count("Give a key a value"), 1)
         self.assertIn("As above: `--threads`, `--set`, `--time` (not with `--frames`), `--scene` (required), `--centre`.", page)
         self.assertIn("## two\n\nDraws.\n\nAs above: ", page)
-        self.assertIn("\n`--own` |  | Its own\n", page)
+        self.assertIn("\n`--own` |  | Its own, as `--every`\n", page)
         self.assertIn("A\\|B", page)
 
 
