@@ -12,6 +12,7 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import threading
@@ -70,6 +71,16 @@ class ForTheSite(unittest.TestCase):
         self.assertIn("- `t`: Its time in seconds.\n", page)
         self.assertLessEqual(max(len(line) for block in page.split("```python")[1:]
                                  for line in block.split("```")[0].split("\n")), 85)
+
+    def test_comments_of_headers_are_doxygens(self):
+        header = ('// A `T`.\n//\n//   f<T>("\\n");  // one\n//     g();\n//\n// End.\n#pragma once\n\n// Of f.\n//\n//   f();\n'
+                  'void f();  // it <T>\n#endif  // H\n')
+        comments = subprocess.run(["sed", "-E", "-f", SOURCE / "cmake/comments.sed"], input=header, capture_output=True,
+                                  text=True, check=True).stdout
+        self.assertEqual([line.rstrip() for line in comments.splitlines()],
+                         [r"/// \file", "/// A <tt>T</tt>.", "///", '/// <pre>  f&lt;T&gt;("\\n");  // one', "///     g();",
+                          "/// </pre>", "/// End.", "#pragma once", "", "/// Of f.", "///", "/// <pre>  f();", "/// </pre>",
+                          "void f();  ///< it <T>", "#endif  // H"])
 
     def test_words_and_long_cells_are_marked(self):
         long = "word " * 9
