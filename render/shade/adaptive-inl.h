@@ -223,7 +223,7 @@ std::size_t ShadeWhereNeeded(const Shading& s, const TilePixels& tile, const Til
   std::size_t shaded = 0;
   const auto shade_rows = [&](const TileBits& rows, bool is_first) HWY_ATTR {
     const PixelLists lists = ListRows(s, rows, height, surfaces, scratch);
-    for (std::size_t k = 0; k < kMaterialCount; ++k) shaded += lists[k].count;
+    shaded += CountSurfaces(lists);
     shade(lists, is_first);
   };
   TileBits rows;

@@ -26,19 +26,18 @@ struct ListedPacket {
   V x_px, y_px, z;
 };
 
-// Writes each lane's colour to where `at` says.
+// Writes each lane to where `at` says.
+HWY_INLINE void ScatterLanes(V values, const std::uint16_t* at, float* to) {
+  HWY_ALIGN std::array<float, kLanes> lanes;
+  hn::Store(values, D(), lanes.data());
+  for (std::size_t lane = 0; lane < kLanes; ++lane) to[at[lane]] = lanes[lane];
+}
+
 HWY_INLINE void ScatterColour(const V3& colour, const std::uint16_t* at, float* red, float* green,
                               float* blue) {
-  const D d;
-  HWY_ALIGN std::array<float, kLanes> r, g, b;
-  hn::Store(colour.x, d, r.data());
-  hn::Store(colour.y, d, g.data());
-  hn::Store(colour.z, d, b.data());
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    red[at[lane]] = r[lane];
-    green[at[lane]] = g[lane];
-    blue[at[lane]] = b[lane];
-  }
+  ScatterLanes(colour.x, at, red);
+  ScatterLanes(colour.y, at, green);
+  ScatterLanes(colour.z, at, blue);
 }
 
 // Listed pixels, a packet from `at` on.
@@ -47,6 +46,7 @@ struct PixelsInTile {
   const TilePixels& tile;
   const PixelList& list;
   ShadeScratch& scratch;
+  BrightnessScale brightness;  // that tells this material's pixels apart
 
   // A run of neighbours is loaded and stored whole; a padded packet is none.
   HWY_INLINE bool IsRun(std::size_t i) const {
@@ -76,7 +76,13 @@ struct PixelsInTile {
     const D d;
     const std::uint16_t* at = list.at + i;
     const bool is_run = IsRun(i);
-    if (s.is_adaptive) StoreBrightness(BrightnessOf(colour, s.exposure), at, is_run);
+    if (s.is_adaptive) {
+      const V shown = BrightnessOf(colour, brightness, s.exposure);
+      if (is_run)
+        hn::StoreU(shown, d, scratch.brightness.data() + at[0]);
+      else
+        ScatterLanes(shown, at, scratch.brightness.data());
+    }
     if (is_run) {
       hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
       hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
@@ -84,15 +90,6 @@ struct PixelsInTile {
       return;
     }
     ScatterColour(colour, at, scratch.red.data(), scratch.green.data(), scratch.blue.data());
-  }
-
- private:
-  HWY_INLINE void StoreBrightness(V brightness, const std::uint16_t* at, bool is_run) const {
-    float* const to = scratch.brightness.data();
-    if (is_run) return hn::StoreU(brightness, D(), to + at[0]);
-    HWY_ALIGN std::array<float, kLanes> lanes;
-    hn::Store(brightness, D(), lanes.data());
-    for (std::size_t lane = 0; lane < kLanes; ++lane) to[at[lane]] = lanes[lane];
   }
 };
 

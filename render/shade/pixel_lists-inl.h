@@ -35,6 +35,12 @@ struct PixelList {
 using PixelLists = std::array<PixelList, kMaterialCount + 1>;
 constexpr std::size_t kSky = kMaterialCount;
 
+inline std::size_t CountSurfaces(const PixelLists& lists) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < kMaterialCount; ++k) count += lists[k].count;
+  return count;
+}
+
 static_assert(kLanes <= kListPadding);
 
 // Repeats the last pixel up to a full packet, so that every packet is shaded whole.

@@ -63,6 +63,15 @@ HWY_NOINLINE void ArrivingLights(const Shading& s, const TilePixels& tile, const
                                                     keep, found[k]);
 }
 
+// How pixels of a material are told apart by one number. Grass and sand may be as bright as each
+// other, but not as red; water takes the red away. Land's grain is as fine as a pixel in all
+// directions, so that neighbours say less of what lies between.
+template <class M>
+BrightnessScale BrightnessScaleOf(const Media& media) {
+  if (kSurfaceTraits[M::kSurface].is_water || media.submerged) return {{0.25f, 0.5f, 0.25f}, 1.0f};
+  return {{0.75f, 0.25f, 0.0f}, 1.5f};
+}
+
 // Labels are of the pixels' centres alone: fragments keep nothing. A function of its own for each
 // kind of view, with labels and without: what they take costs registers.
 template <ViewKind kView, class M, class Keep>
@@ -83,7 +92,7 @@ HWY_NOINLINE void ShadePixels(const Shading& s, const TilePixels& tile, const Pi
         });
       }
     };
-    shade_list(PixelsInTile{s, tile, list, scratch}, keep);
+    shade_list(PixelsInTile{s, tile, list, scratch, BrightnessScaleOf<M>(s.media)}, keep);
     if (kView != ViewKind::kWindow || tile.fragments.empty()) return;
     const PixelList parts = ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
                                           s.primitives.end(M::kSurface), scratch);

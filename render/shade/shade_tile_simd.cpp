@@ -26,12 +26,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-std::size_t CountSurfaces(const PixelLists& lists) {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < kMaterialCount; ++k) count += lists[k].count;
-  return count;
-}
-
 // Shades the pixels of all materials.
 void ShadeSurfaces(const Shading& s, const TilePixels& tile, const PixelLists& lists,
                    ShadeScratch& scratch, ShadedLabels* labels) {

@@ -6,6 +6,8 @@
 #define SWELL_RENDER_TILE_TONE_CURVE_INL_H_
 #endif
 
+#include <glm/vec3.hpp>
+
 #include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,10 +29,17 @@ HWY_INLINE V ToneCurve(V linear, V exposure) {
   return mapped;
 }
 
-// About the mean sRGB code of light.
-HWY_INLINE V BrightnessOf(const V3& light, float exposure) {
-  const V mean = MulAdd(light.y, 0.5f, (light.x + light.z) * 0.25f);
-  return Sqrt(ToneCurve(mean, Constant(exposure))) * 255.0f;
+// A mean of light's channels, and how much its differences count.
+struct BrightnessScale {
+  glm::vec3 weights;
+  float factor;
+};
+
+// `factor` times about the sRGB code of light.
+HWY_INLINE V BrightnessOf(const V3& light, const BrightnessScale& scale, float exposure) {
+  const V mean =
+      MulAdd(light.x, scale.weights.x, MulAdd(light.y, scale.weights.y, light.z * scale.weights.z));
+  return Sqrt(ToneCurve(mean, Constant(exposure))) * (255.0f * scale.factor);
 }
 
 }  // namespace HWY_NAMESPACE
