@@ -186,7 +186,8 @@ typedef struct swell_frame {
                                   on, also where `poses` or `disturbances` put that */
   const char* labels; /* "depth,id", "all" or null: which labels are drawn; docs/look_up/labels.md
                          has their names */
-  int32_t linear;     /* not 0: the plane "linear" is drawn as well */
+  int32_t linear;     /* not 0: the plane "linear" is drawn as well, and every pixel shaded, as with
+                         picture.shading = "full" */
   /* For the label of motion: the next frame's time after this one, over 0 (0: 1/60 s), camera
    * (null: the scene's at that time, with next_poses, if `camera` is null, else the same) and
    * poses. */

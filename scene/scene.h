@@ -166,7 +166,7 @@ enum class ShadingRate : std::uint8_t {
 };
 
 struct Picture {
-  ShadingRate shading = ShadingRate::kFull;
+  ShadingRate shading = ShadingRate::kAdaptive;
   int edge_samples = 0;  // a pixel where surfaces meet: 0, 4 or 8
 };
 

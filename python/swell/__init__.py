@@ -242,7 +242,7 @@ class World:
         that. Of one with a distortion the picture is a DistortedPicture: a larger one is drawn and looked up anew, which
         takes some 0.1 s at 1280 x 720.
         labels: names of docs/look_up/labels.md, such as ["depth", "id"], or "all".
-        linear: keeps linear light as well.
+        linear: keeps linear light as well; shades every pixel for it, as with picture.shading = "full".
         poses: objects that are elsewhere in this picture, by index or name.
         next_frame, next_camera, next_poses: of the next picture, for the label of motion; next_frame in seconds.
         without: parts to leave out, as swell-render --without has them.

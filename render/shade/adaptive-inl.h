@@ -51,7 +51,7 @@ struct Round {
 constexpr std::array<Round, 2> kRounds = {
     {{EachBlock(0x4444), 2, 5.0f}, {EachBlock(0x2aaa), 1, 10.0f}}};
 static_assert((kFirstColumns | kRounds[0].columns | kRounds[1].columns) == ~RowBits{0});
-constexpr float kMostAcross = 13.0f;
+constexpr float kMostAcross = 12.0f;
 
 HWY_INLINE RowBits BitsOf(M mask) {
   std::conditional_t<kLanes <= 8, std::uint8_t, std::uint16_t> bits = 0;

@@ -206,7 +206,7 @@ static void test_picture(void) {
   id = plane(o, "id").data;
   EXPECT(id[middle] == 1);
   EXPECT(swell_picture_hash(o.picture, &hash[1]) == SWELL_OK && hash[0] != hash[1]);
-  frame.poses = NULL, frame.pose_count = 0, frame.labels = NULL, frame.linear = 0;
+  frame.poses = NULL, frame.pose_count = 0, frame.labels = NULL;
   EXPECT(swell_render(o.session, &frame, o.picture) == SWELL_OK);
   EXPECT(swell_picture_hash(o.picture, &hash[2]) == SWELL_OK && hash[0] == hash[2]);
   swell_plane none = {.size = sizeof none};

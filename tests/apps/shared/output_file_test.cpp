@@ -63,8 +63,9 @@ TEST_F(OutputFile, ThePngHoldsThePixelsThatTheHashNames) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"sea.png"});
 }
 
+// Linear light is that of every pixel, so of full shading.
 TEST_F(OutputFile, TiffHoldsTheSamePixelsAndExrLinearLight) {
-  const Outcome tiff = render({"--hash", "--out", folder_.file("sea.TIF")});
+  const Outcome tiff = render({"--shading", "full", "--hash", "--out", folder_.file("sea.TIF")});
   ASSERT_EQ(tiff.exit_code, 0) << tiff.err;
   EXPECT_EQ(hash_line(0, read_picture(folder_.file("sea.TIF"))), tiff.out);
 

@@ -22,6 +22,7 @@ class EdgeRenderer : public Shot {
       : Shot(threads), world_(world), t_s_(t_s) {
     options.water_triangles = options.terrain_triangles = 4000;
     options.edge_samples = 0;
+    options.shading = scene::ShadingRate::kFull;  // so that a pixel depends on no other
   }
 
   const FrameStatistics& draw(const View& seen, int edge_samples) {

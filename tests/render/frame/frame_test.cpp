@@ -40,11 +40,16 @@ TEST(Detail, EveryPriorityOfASceneMovesTriangles) {
   EXPECT_EQ(difference_with([](scene::Detail& d) { d.objects = 64.0; }), "");
 }
 
-TEST_P(EachScene, EveryVisiblePixelIsShadedOnce) {
-  const FrameStatistics s = small_shot(shipped_world(GetParam()), 1.0).statistics;
-  EXPECT_GT(s.visible_pixels, 0u);
-  EXPECT_LE(s.visible_pixels, std::uint64_t{kSmallWidth} * kSmallHeight);
-  EXPECT_EQ(s.visible_pixels, s.shaded_pixels);
+TEST_P(EachScene, EveryVisiblePixelIsShadedOnceOrFilledIn) {
+  for (const auto shading : {scene::ShadingRate::kAdaptive, scene::ShadingRate::kFull}) {
+    FrameOptions options = few_triangles();
+    options.shading = shading;
+    const FrameStatistics s = small_shot(shipped_world(GetParam()), 1.0, options).statistics;
+    EXPECT_GT(s.visible_pixels, 0u);
+    EXPECT_LE(s.visible_pixels, std::uint64_t{kSmallWidth} * kSmallHeight);
+    EXPECT_EQ(s.visible_pixels, s.shaded_pixels + s.interpolated_pixels);
+    EXPECT_EQ(s.interpolated_pixels == 0, shading == scene::ShadingRate::kFull);
+  }
 }
 
 TEST_P(EachScene, SteadyStateAllocatesNothing) {
@@ -113,7 +118,8 @@ TEST(Frame, OddSizesDraw) {
       const View view = make_view({1, 2, 5}, 2.0, pitch, 1.0, 0.25f, size.x, size.y);
       film.draw(shipped_world("lagoon"), view, 1.0, few_triangles());
       EXPECT_EQ(film.target.rgba.size(), static_cast<std::size_t>(size.x) * size.y);
-      EXPECT_EQ(film.statistics.visible_pixels, film.statistics.shaded_pixels);
+      EXPECT_EQ(film.statistics.visible_pixels,
+                film.statistics.shaded_pixels + film.statistics.interpolated_pixels);
     }
   }
 }

@@ -17,21 +17,29 @@ namespace fs = std::filesystem;
 const fs::path kGoldenFolder = fs::path(SWELL_SOURCE_DIR) / "tests/golden";
 const fs::path kFailureFolder = fs::path(SWELL_BINARY_DIR) / "golden-failures";
 
+using enum scene::ShadingRate;
+
 struct Case {
   const char* scene;
   double t_s;
-  bool wireframe;
+  bool wireframe = false;
+  scene::ShadingRate shading = kFull;
 };
 
-constexpr Case kCases[] = {{"open_ocean", 0.0, false}, {"open_ocean", 37.0, false},
-                           {"open_ocean", 0.0, true},  {"lagoon", 5.0, false},
-                           {"sines", 3.0, false},      {"beach", 4.0, false},
-                           {"buoys", 4.0, false}};
+constexpr Case kCases[] = {{"open_ocean", 0.0},
+                           {"open_ocean", 37.0},
+                           {"open_ocean", 37.0, false, kAdaptive},
+                           {"open_ocean", 0.0, true},
+                           {"lagoon", 5.0},
+                           {"sines", 3.0},
+                           {"beach", 4.0},
+                           {"beach", 4.0, false, kAdaptive},
+                           {"buoys", 4.0}};
 
 class Golden : public testing::TestWithParam<Case> {};
 std::string case_name(const Case& c) {
   return std::string(c.scene) + "_t" + std::to_string(static_cast<int>(c.t_s)) +
-         (c.wireframe ? "_wireframe" : "");
+         (c.wireframe ? "_wireframe" : "") + (c.shading == kAdaptive ? "_adaptive" : "");
 }
 INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(kCases),
                          [](const auto& test) { return case_name(test.param); });
@@ -79,7 +87,8 @@ TEST_P(Golden, PictureIsTheStoredOneToTheBit) {
   const Case& c = GetParam();
   const std::string name = case_name(c);
   const World& world = shipped_world(c.scene);
-  const Shot shot(world, view_of(world, c.t_s, 320, 180), c.t_s, {.wireframe = c.wireframe});
+  const Shot shot(world, view_of(world, c.t_s, 320, 180), c.t_s,
+                  {.wireframe = c.wireframe, .shading = c.shading});
   const texture::Image8 actual = rgb_image(shot.target);
   const fs::path file = kGoldenFolder / (name + ".png");
   if (std::getenv("SWELL_UPDATE_GOLDEN")) {
