@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 import urllib.parse
 
@@ -192,15 +193,16 @@ class Site(unittest.TestCase):
 
     def search_for(self, word):
         self.browser.get(self.address + "index.html")
+        # What is typed before the index has been read is never answered, nor is anything after it.
+        for _ in range(200):
+            if "Initializing" not in self.browser.execute_script("return document.querySelector('.md-search-result__meta').textContent"):
+                break
+            time.sleep(0.1)
+        self.browser.execute_script(
+            "const query = document.querySelector('[data-md-component=search-query]');"
+            "query.focus(); query.value = arguments[0]; query.dispatchEvent(new KeyboardEvent('keyup', {bubbles: true}))", word)
         self.browser.implicitly_wait(20)
-        for _ in range(3):  # a page that still reads its index may miss what is typed
-            self.browser.execute_script(
-                "const query = document.querySelector('[data-md-component=search-query]');"
-                "query.focus();"
-                "for (query.value of ['', arguments[0]]) query.dispatchEvent(new KeyboardEvent('keyup', {bubbles: true}))", word)
-            if self.browser.find_elements(By.CSS_SELECTOR, ".md-search-result__item a"):
-                return
-        self.fail(f"nothing is found: {self.browser.get_log('browser')}")
+        self.assertTrue(self.browser.find_elements(By.CSS_SELECTOR, ".md-search-result__item a"), "nothing is found")
 
     def look_at_logs(self):
         self.assertEqual([entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"], [])
