@@ -215,7 +215,7 @@ TEST(LandRays, AreSqueezedByThePapersRatioAsTrianglesAre) {
 // triangles show of it; but where ground is cut open triangles are hollow.
 TEST(LandRays, EndAtTheCallersClipPlane) {
   const View view = view_of(lagoon_by_rays(), 5.0, 240, 136);
-  const auto drawn = [&](const World& world, std::optional<glm::dvec4> plane) {
+  const auto drawn = [&](const World& world, const std::optional<glm::dvec4>& plane) {
     FrameOptions options{.terrain_triangles = 500000, .clip_plane = plane};
     options.labels.add(Label::kId), options.labels.add(Label::kDepth);
     return draw(world, view, options);
