@@ -3,13 +3,18 @@
 //
 // Columns are shaded in three rounds, in blocks of 16 x 16 pixels that no tile size cuts, so that a
 // pixel is the same whatever the tiles:
-//   0 . . . 4 . . . 8 . . . 12 . . 15   first
+//   0 . . . 4 . . . 8 . . . 12 . . 15   first, of even rows
+//   0 . 2 . . . 6 . . . 10 . . . 14 15  first, of odd rows
 //   . . 2 . . . 6 . . . 10 . . . 14 .   second, between those
+//   . . . . 4 . . . 8 . . . 12 . . . .
 //   . 1 . 3 . 5 . 7 . 9 . 11 . 13 . .   third, between all of those
-// A pixel is filled in if it and its two neighbours show one material and no edge, if these and
-// those above and below them are as bright as each other within a round's `most`, and as the ones
-// above and below them within kMostAcross. Waves lie across the picture, so that columns may be far
-// apart, and rows may not.
+// A pixel is filled in if it and its two neighbours show one material and no edge, and if these are
+// as bright as each other within kMostAlong. In the second round what it would get must also be as
+// bright within kMostAcross as the pixels above and below, which were shaded in the first; in the
+// third the neighbours of those above and below must be alike, too. Waves lie across the picture,
+// so that columns may be far apart, and rows may not. What is two pixels wide (a pole in the
+// mirror, a mast's shadow) cannot hide between columns: every second row meets it, and the rows
+// around it are held against that one. Bright means what BrightnessScaleOf() says.
 #if defined(SWELL_RENDER_SHADE_ADAPTIVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_SHADE_ADAPTIVE_INL_H_
 #undef SWELL_RENDER_SHADE_ADAPTIVE_INL_H_
@@ -39,19 +44,20 @@ using TileBits = std::array<RowBits, 64>;
 
 constexpr int kBlockSize = 16;
 constexpr RowBits EachBlock(std::uint16_t columns) { return columns * 0x0001'0001'0001'0001u; }
-constexpr RowBits kFirstColumns = EachBlock(0x9111);
-constexpr RowBits kColumn12 = EachBlock(0x1000), kColumn14 = EachBlock(0x4000);
+using ByParity = std::array<RowBits, 2>;  // of even and of odd rows
+constexpr ByParity kFirstColumns = {EachBlock(0x9111), EachBlock(0xc445)};
+constexpr RowBits kColumn14 = EachBlock(0x4000);
 
 // A round between columns `step` away, or 1 on the right of column 14.
 struct Round {
-  RowBits columns;
+  ByParity columns;
   int step;
-  float most;  // difference in brightness, of 255
 };
-constexpr std::array<Round, 2> kRounds = {
-    {{EachBlock(0x4444), 2, 5.0f}, {EachBlock(0x2aaa), 1, 10.0f}}};
-static_assert((kFirstColumns | kRounds[0].columns | kRounds[1].columns) == ~RowBits{0});
-constexpr float kMostAcross = 12.0f;
+constexpr Round kSecond = {{EachBlock(0x4444), EachBlock(0x1110)}, 2};
+constexpr Round kThird = {{EachBlock(0x2aaa), EachBlock(0x2aaa)}, 1};
+static_assert((kFirstColumns[0] | kSecond.columns[0] | kThird.columns[0]) == ~RowBits{0});
+static_assert((kFirstColumns[1] | kSecond.columns[1] | kThird.columns[1]) == ~RowBits{0});
+constexpr float kMostAlong = 6.0f, kMostAcross = 4.0f;  // differences in brightness, of 255
 
 HWY_INLINE RowBits BitsOf(M mask) {
   std::conditional_t<kLanes <= 8, std::uint8_t, std::uint16_t> bits = 0;
@@ -136,21 +142,6 @@ HWY_INLINE RowBits Differ(const float* a, const float* b, int side, float most) 
   return bits;
 }
 
-// Which columns of a row differ too much from their neighbours on the right, and from those in the
-// row below or do not show its material.
-struct RowDifferences {
-  RowBits right = 0, below = 0;
-};
-
-HWY_INLINE RowBits DifferToTheRight(const Round& round, const float* row, int side) {
-  RowBits bits = Differ(row, row + 2 * round.step, side, round.most);
-  if (round.step == 1) return bits;
-  bits &= ~kColumn12;  // whose neighbour is column 15
-  for (int x = 12; x < side; x += kBlockSize)
-    if (std::abs(row[x] - row[x + 3]) > round.most) bits |= RowBits{1} << x;
-  return bits;
-}
-
 // Puts the light between neighbours into the columns `row` of a round, and their brightness.
 HWY_INLINE void FillBetween(const Round& round, RowBits row, std::size_t first,
                             ShadeScratch& scratch) {
@@ -178,40 +169,81 @@ HWY_INLINE void FillBetween(const Round& round, RowBits row, std::size_t first,
   }
 }
 
-// Fills in what a round need not shade, and leaves the rest in `rows`.
-inline HWY_NOINLINE void FillRound(const Round& round, int side, int height,
-                                   const TileSurfaces& surfaces, ShadeScratch& scratch,
-                                   TileBits& rows) {
-  const auto to_right = [&](RowBits neighbours) {
-    if (round.step == 1) return neighbours >> 1;
-    return (neighbours >> 2 & ~kColumn14) | (neighbours >> 1 & kColumn14);
-  };
-  const auto differences = [&](int y) HWY_ATTR {
-    RowDifferences result;
-    if (y >= height) return result;
-    const float* const row = scratch.brightness.data() + y * side;
-    result.right = DifferToTheRight(round, row, side);
-    if (y % kBlockSize == kBlockSize - 1 || y + 1 == height) return result;
-    RowBits alike = 0;
-    for (const TileBits& of : surfaces.of) alike |= of[y] & of[y + 1];
-    result.below = ~alike | Differ(row, row + side, side, kMostAcross);
-    return result;
-  };
-  RowDifferences above, here = differences(0);
+// The right one of the two neighbours that a round's columns lie between.
+HWY_INLINE RowBits NextToTheRight(const Round& round, RowBits neighbours) {
+  if (round.step == 1) return neighbours >> 1;
+  return (neighbours >> 2 & ~kColumn14) | (neighbours >> 1 & kColumn14);
+}
+
+// Fills in what a round need not shade, and leaves the rest in `rows`. is_alike(y): the columns of
+// a row that may be filled in by how bright their neighbours are. Called row by row, downwards.
+template <class Alike>
+HWY_INLINE void FillRound(const Round& round, int side, int height, const TileSurfaces& surfaces,
+                          ShadeScratch& scratch, const Alike& is_alike, TileBits& rows) {
   for (int y = 0; y < height; ++y) {
-    const RowDifferences below = differences(y + 1);
-    RowBits beside = here.below | surfaces.always[y], right = here.right;
-    if (y % kBlockSize != 0) beside |= above.below, right |= above.right;
-    if (y % kBlockSize != kBlockSize - 1) right |= below.right;
     RowBits alike = 0;
-    for (const TileBits& of : surfaces.of) alike |= of[y] & of[y] << round.step & to_right(of[y]);
-    alike &= ~(beside << round.step | to_right(beside) | right << round.step);
-    const RowBits wanted = surfaces.all[y] & round.columns & ~surfaces.always[y];
+    for (const TileBits& of : surfaces.of)
+      alike |= of[y] & of[y] << round.step & NextToTheRight(round, of[y]);
+    const RowBits always = surfaces.always[y];
+    alike &= is_alike(y) & ~(always << round.step | NextToTheRight(round, always));
+    const RowBits wanted = surfaces.all[y] & round.columns[y % 2] & ~always;
     FillBetween(round, wanted & alike, static_cast<std::size_t>(y * side), scratch);
     rows[y] = wanted & ~alike;
-    above = here;
-    here = below;
   }
+}
+
+// The second round: what a row would get is held against the rows around.
+inline HWY_NOINLINE void FillSecondRound(int side, int height, const TileSurfaces& surfaces,
+                                         ShadeScratch& scratch, TileBits& rows) {
+  const D d;
+  HWY_ALIGN std::array<float, 2 + 64 + kLanes> between;
+  // The columns between those that are as bright as each other, 4 apart, or 12 and 15.
+  const auto find_between = [&](const float* row) HWY_ATTR {
+    RowBits alike = ~Differ(row, row + 4, side, kMostAlong) << 2 & ~kColumn14;
+    for (int x = 0; x < side; x += static_cast<int>(kLanes))
+      hn::StoreU((hn::LoadU(d, row + x) + hn::LoadU(d, row + x + 4)) * 0.5f, d,
+                 between.data() + x + 2);
+    for (int x = 0; x < side; x += kBlockSize) {
+      const float by = row[x + 12] - row[x + 15];
+      if (std::abs(by) <= kMostAlong) alike |= RowBits{1} << (x + 14);
+      between[x + 14] = row[x + 15] + by * (1.0f / 3.0f);
+    }
+    return alike;
+  };
+  const auto unlike_across = [&](int y, int other) HWY_ATTR {
+    RowBits alike = 0;
+    for (const TileBits& of : surfaces.of) alike |= of[y] & of[other];
+    return ~alike |
+           Differ(between.data(), scratch.brightness.data() + other * side, side, kMostAcross);
+  };
+  const auto alike = [&](int y) HWY_ATTR {
+    RowBits bits = find_between(scratch.brightness.data() + y * side);
+    if (y % kBlockSize != 0) bits &= ~unlike_across(y, y - 1);
+    if (y % kBlockSize != kBlockSize - 1 && y + 1 < height) bits &= ~unlike_across(y, y + 1);
+    return bits;
+  };
+  FillRound(kSecond, side, height, surfaces, scratch, alike, rows);
+}
+
+// The third round, between columns that are known in all rows.
+inline HWY_NOINLINE void FillThirdRound(int side, int height, const TileSurfaces& surfaces,
+                                        ShadeScratch& scratch, TileBits& rows) {
+  // The columns whose neighbours show two materials, or differ.
+  const auto unlike_beside = [&](int y) HWY_ATTR {
+    if (y >= height) return RowBits{0};
+    RowBits alike = 0;
+    for (const TileBits& of : surfaces.of) alike |= of[y] << 1 & of[y] >> 1;
+    const float* const row = scratch.brightness.data() + y * side;
+    return ~alike | Differ(row, row + 2, side, kMostAlong) << 1;
+  };
+  RowBits above = 0, here = 0, below = unlike_beside(0);
+  const auto alike = [&](int y) HWY_ATTR {
+    above = y % kBlockSize == 0 ? 0 : here;
+    here = below;
+    below = unlike_beside(y + 1);
+    return ~(above | here | (y % kBlockSize == kBlockSize - 1 ? 0 : below));
+  };
+  FillRound(kThird, side, height, surfaces, scratch, alike, rows);
 }
 
 // Shades the surfaces' pixels by shade(lists, is_first) where they cannot be filled in, and returns
@@ -226,13 +258,15 @@ std::size_t ShadeWhereNeeded(const Shading& s, const TilePixels& tile, const Til
     shaded += CountSurfaces(lists);
     shade(lists, is_first);
   };
+  const int side = s.grid.tile_size_px;
   TileBits rows;
-  for (int y = 0; y < height; ++y) rows[y] = surfaces.all[y] & (kFirstColumns | surfaces.always[y]);
+  for (int y = 0; y < height; ++y)
+    rows[y] = surfaces.all[y] & (kFirstColumns[y % 2] | surfaces.always[y]);
   shade_rows(rows, true);
-  for (const Round& round : kRounds) {
-    FillRound(round, s.grid.tile_size_px, height, surfaces, scratch, rows);
-    shade_rows(rows, false);
-  }
+  FillSecondRound(side, height, surfaces, scratch, rows);
+  shade_rows(rows, false);
+  FillThirdRound(side, height, surfaces, scratch, rows);
+  shade_rows(rows, false);
   return shaded;
 }
 
