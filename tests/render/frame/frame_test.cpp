@@ -260,7 +260,8 @@ TEST(Objects, ABoxShowsItselfAndItsMirrorImageAndNothingElseChanges) {
   const scene::Scene scene = calm_scene(scene::ObjectKind::kBox, 4.0, 0.0);
   scene::Scene empty = scene;
   empty.objects.clear();
-  const FrameOptions options = {.water_triangles = 4000, .without = {Part::kShadows, Part::kHulls}};
+  FrameOptions options = {.water_triangles = 4000, .without = {Part::kShadows, Part::kHulls}};
+  options.shading = scene::ShadingRate::kFull;
   const Target with = small_shot(world_of(scene), 0.0, options).target;
   const Target without = small_shot(world_of(empty), 0.0, options).target;
   // The eye is as high as the box: the box's top lies at the horizon, and the mirror image is as

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -60,7 +61,7 @@ texture::Image8 read_png(const fs::path& path) {
   const texture::ImageF read = texture::read_image(path);
   texture::Image8 image{read.width, read.height, read.channels, {}};
   for (const float x : read.pixels)
-    image.pixels.push_back(static_cast<std::uint8_t>(x * 255.0f + 0.5f));
+    image.pixels.push_back(static_cast<std::uint8_t>(std::lround(x * 255.0f)));
   return image;
 }
 
