@@ -42,8 +42,8 @@ OnTrains on_trains_at(const WhitecapFrame& frame, glm::dvec2 p_world) {
   return {value_at_texels(texels,
                           [&](std::size_t at) {
                             const float foam =
-                                glm::mix(foam_of_code(frame.trains_before[at]),
-                                         foam_of_code(frame.trains_after[at]), frame.past);
+                                glm::mix(foam_of_trains(frame.trains_before[at]),
+                                         foam_of_trains(frame.trains_after[at]), frame.past);
                             return std::min(trains.part[at] * foam, 1.0f);
                           }),
           value_at_texels(texels, [&](std::size_t at) { return trains.short_part[at]; })};

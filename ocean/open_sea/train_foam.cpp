@@ -78,4 +78,24 @@ void age_train_foam(const Whitecaps& whitecaps, double step, std::span<const flo
   });
 }
 
+void smooth_train_foam(std::span<const std::uint8_t> codes, std::span<std::uint16_t> foam,
+                       Workers& workers) {
+  workers.for_each(kSide, [&](std::size_t j, int) {
+    const std::size_t below = j > 0 ? j - 1 : 0, above = std::min(j + 1, kSide - 1);
+    std::array<std::uint32_t, kSide + 2> sums;  // down the columns
+    for (std::size_t i = 0; i < kSide; ++i) {
+      const auto squared = [&](std::size_t row) {
+        const std::uint32_t code = codes[row * kSide + i];
+        return code * code;
+      };
+      sums[i + 1] = squared(below) + 2 * squared(j) + squared(above);
+    }
+    sums.front() = sums[1];
+    sums.back() = sums[kSide];
+    for (std::size_t i = 0; i < kSide; ++i)
+      foam[j * kSide + i] =
+          static_cast<std::uint16_t>((sums[i] + 2 * sums[i + 1] + sums[i + 2] + 8) / 16);
+  });
+}
+
 }  // namespace swell::ocean

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "math/check.h"
 #include "ocean/open_sea/sea_state.h"
@@ -22,7 +23,7 @@ void make_next(const Whitecaps& whitecaps, double step, WhitecapFrame& frame, Wo
     age_foam(p == 0 ? frame.breaking_a : frame.breaking_b, patch.threshold, patch.decay,
              frame.patches[p].after);
   }
-  if (frame.trains) age_train_foam(whitecaps, step, frame.breaking_a, frame.trains_after, workers);
+  if (frame.trains) age_train_foam(whitecaps, step, frame.breaking_a, frame.trains_codes, workers);
 }
 
 void start(const Whitecaps& whitecaps, WhitecapFrame& frame) {
@@ -35,8 +36,9 @@ void start(const Whitecaps& whitecaps, WhitecapFrame& frame) {
     frame.patches[p].after.assign(kTexels, 0);
   }
   frame.trains = whitecaps.trains;
-  frame.trains_before.resize(frame.trains ? kTexels : 0);
-  frame.trains_after.assign(frame.trains_before.size(), 0);
+  frame.trains_codes.assign(frame.trains ? kTexels : 0, 0);
+  frame.trains_before.resize(frame.trains_codes.size());
+  frame.trains_after.resize(frame.trains_codes.size());
   frame.breaking_a.resize(count > 0 ? kTexels : 0);
   frame.breaking_b.resize(count > 1 ? kTexels : 0);
   if (frame.sea != whitecaps.sea) frame.sea = whitecaps.sea;
@@ -44,11 +46,15 @@ void start(const Whitecaps& whitecaps, WhitecapFrame& frame) {
   frame.is_filled = true;
 }
 
-void take_step(const Whitecaps& whitecaps, double step, WhitecapFrame& frame, Workers& workers) {
+// is_shown: the frame's, or the one before that.
+void take_step(const Whitecaps& whitecaps, double step, bool is_shown, WhitecapFrame& frame,
+               Workers& workers) {
   for (WhitecapFrame::Patch& patch : frame.patches)
     std::ranges::copy(patch.after, patch.before.begin());
-  std::ranges::copy(frame.trains_after, frame.trains_before.begin());
   make_next(whitecaps, step, frame, workers);
+  if (!frame.trains || !is_shown) return;
+  std::swap(frame.trains_before, frame.trains_after);
+  smooth_train_foam(frame.trains_codes, frame.trains_after, workers);
 }
 
 // Fills `frame` with the foam before and after a step.
@@ -56,14 +62,14 @@ void make_step(const Whitecaps& whitecaps, double step, bool is_known, WhitecapF
                Workers& workers) {
   const bool has_foam = !whitecaps.patches.empty();
   if (has_foam && is_known && step == frame.step + 1.0) {
-    take_step(whitecaps, step + 1.0, frame, workers);
+    take_step(whitecaps, step + 1.0, true, frame, workers);
   } else {
     // What was white before the first of these steps has gone when the last is made.
     int life = 0;
     for (const FoamPatch& patch : whitecaps.patches) life = std::max(life, steps_of_life(patch));
     start(whitecaps, frame);
     if (has_foam)
-      for (int n = -life; n <= 1; ++n) take_step(whitecaps, step + n, frame, workers);
+      for (int n = -life; n <= 1; ++n) take_step(whitecaps, step + n, n >= 0, frame, workers);
   }
   frame.step = step;
 }

@@ -33,6 +33,11 @@ void add_crests(const TrainSquare& trains, std::span<const std::uint16_t> phase,
 void age_train_foam(const Whitecaps& whitecaps, double step, std::span<const float> breaking,
                     std::span<std::uint8_t> codes, Workers& workers);
 
+// The foam of such codes, in foam_of_trains()'s unit: at each point the binomial mean of nine,
+// since points lie metres apart, and one alone would be seen as a square.
+void smooth_train_foam(std::span<const std::uint8_t> codes, std::span<std::uint16_t> foam,
+                       Workers& workers);
+
 // B of one patch or two at a step, a square of the plan's size each. `waves` are as long as the
 // plan; the second of `breaking` is not touched for one patch.
 void break_waves(const Whitecaps& whitecaps, const FftPlan& plan,

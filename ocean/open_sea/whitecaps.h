@@ -110,9 +110,10 @@ struct WhitecapFrame {
     std::vector<std::uint8_t> before, after;
   };
   std::vector<Patch> patches;
-  // Codes of the trains' whitecaps, likewise, over the square; none: no trains, or no foam.
+  // The trains' whitecaps, likewise, over the square, in foam_of_trains()'s unit; none: no trains,
+  // or no foam.
   std::shared_ptr<const TrainSquare> trains;
-  std::vector<std::uint8_t> trains_before, trains_after;
+  std::vector<std::uint16_t> trains_before, trains_after;
   float past = 0.0f;         // part of the step that has passed, [0, 1]: foam goes from before to
                              // after along a straight line
   float crest_per_m = 0.0f;  // as Whitecaps has it
@@ -120,7 +121,8 @@ struct WhitecapFrame {
   bool is_filled = false;
   SeaDescription sea;
   double step = 0.0;
-  // Storage.
+  // Storage; codes of the trains at the step after.
+  std::vector<std::uint8_t> trains_codes;
   std::vector<float> breaking_a, breaking_b, fft_planes;
 };
 
@@ -129,6 +131,9 @@ struct WhitecapFrame {
 constexpr float foam_of_code(std::uint8_t code) {
   const float life = static_cast<float>(code) / 255.0f;
   return life * life;
+}
+constexpr float foam_of_trains(std::uint16_t value) {
+  return static_cast<float>(value) / (255.0f * 255.0f);
 }
 
 // Fills `frame` with the foam at t_s, any finite time: the same bits whatever it held before. In

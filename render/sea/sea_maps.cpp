@@ -68,8 +68,8 @@ void pack_train_whitecaps(SeaMaps& sea) {
   sea.train_foam.resize(trains.part.size());
   sea.short_part.resize(trains.part.size());
   for (std::size_t i = 0; i < trains.part.size(); ++i) {
-    const float before = ocean::foam_of_code(frame.trains_before[i]);
-    const float after = ocean::foam_of_code(frame.trains_after[i]);
+    const float before = ocean::foam_of_trains(frame.trains_before[i]);
+    const float after = ocean::foam_of_trains(frame.trains_after[i]);
     const float foam = std::min(trains.part[i] * (before + frame.past * (after - before)), 1.0f);
     sea.train_foam[i] = 2.0f * foam - 1.0f;
     sea.short_part[i] = 2.0f * trains.short_part[i] - 1.0f;

@@ -110,6 +110,7 @@ TEST(TrainWhitecaps, AreBornOnHighCrestsAndRunWithThem) {
   for (const int trains : {1, 3}) {
     TrainCoast coast(12.0, trains);
     for (const double t_s : {40.0, 41.0, 43.0}) {
+      const WhitecapFrame earlier = coast.at(t_s - coast.whitecaps.step_s);
       const WhitecapFrame frame = coast.at(t_s);
       const std::vector<float> z = coast.heights(t_s + 0.25), later = coast.heights(t_s + 0.5);
       double squares = 0.0, all = 0.0, height = 0.0, rise = 0.0, born = 0.0;
@@ -118,7 +119,7 @@ TEST(TrainWhitecaps, AreBornOnHighCrestsAndRunWithThem) {
         const auto height_m = static_cast<double>(z[k]);
         squares += height_m * height_m;
         all += 1.0;
-        if (frame.trains_after[k] < frame.trains_before[k] + 25) continue;
+        if (frame.trains_codes[k] < earlier.trains_codes[k] + 25) continue;
         height += height_m;
         rise += static_cast<double>(later[k] - z[k]);
         born += 1.0;
@@ -128,6 +129,25 @@ TEST(TrainWhitecaps, AreBornOnHighCrestsAndRunWithThem) {
       EXPECT_GT(rise / born, 0.0) << trains << " " << t_s;  // before the crest, not behind it
     }
   }
+}
+
+// A point's foam is its square of metres: alone it would be seen as one.
+TEST(TrainWhitecaps, AreTheMeanOfThePointsAround) {
+  TrainCoast coast(15.0);
+  const WhitecapFrame frame = coast.at(50.0);
+  int white = 0;
+  for (std::size_t y = 1; y + 1 < kFoamSide; ++y)
+    for (std::size_t x = 1; x + 1 < kFoamSide; ++x) {
+      const std::size_t k = y * kFoamSide + x;
+      float expected = 0.0f;
+      for (const int dy : {-1, 0, 1})
+        for (const int dx : {-1, 0, 1})
+          expected += static_cast<float>((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16.0f *
+                      foam_of_code(frame.trains_codes[k + dy * kFoamSide + dx]);
+      ASSERT_NEAR(foam_of_trains(frame.trains_after[k]), expected, 1e-5) << x << ' ' << y;
+      white += expected > 0.1f;
+    }
+  EXPECT_GT(white, 100);
 }
 
 // Along the crests of one train foam comes and goes: no line is white all along.
@@ -142,7 +162,7 @@ TEST(TrainWhitecaps, AreNoStripes) {
     const double u = cycles - std::floor(cycles);
     if (u > 0.1 && u < 0.9) continue;
     ++on_crest;
-    white += foam_of_code(frame.trains_before[k]) > 0.15f;
+    white += foam_of_trains(frame.trains_before[k]) > 0.15f;
   }
   ASSERT_GT(on_crest, 500);
   EXPECT_GT(white, 0.15 * on_crest);
