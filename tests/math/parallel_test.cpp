@@ -4,7 +4,6 @@
 #include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,13 +16,11 @@
 #include <thread>
 #include <vector>
 
+#include "float_control.h"
 #include "refused_calls.h"
 
 namespace swell {
 namespace {
-
-constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040, kRoundUp = 0x4000;
-constexpr unsigned kControlBits = 0xffc0;  // all of MXCSR but the sticky exception flags
 
 class WorkersOf : public testing::TestWithParam<int> {};
 
@@ -51,7 +48,7 @@ struct SlotWatch {
 };
 
 void spin(int rounds) {
-  for (int i = 0; i < rounds; ++i) _mm_pause();
+  for (int i = 0; i < rounds; ++i) std::atomic_signal_fence(std::memory_order_seq_cst);
 }
 
 TEST_P(WorkersOf, ForEachCallsEveryIndexOnce) {
@@ -208,12 +205,12 @@ TEST_P(WorkersOf, AnExceptionOfALoopInsideRunBothReachesTheCaller) {
 
 // A program linked with -ffast-math sets flush-to-zero for its whole process.
 TEST_P(WorkersOf, BodiesHaveIeeeArithmeticWhateverTheCallerHasSet) {
-  const unsigned before = _mm_getcsr();
-  const unsigned callers = before | kFlushToZero | kDenormalsAreZero | kRoundUp;
-  _mm_setcsr(callers);
+  const std::uint64_t before = float_control();
+  const std::uint64_t callers = before | kFlushToZero | kRoundUp;
+  set_float_control(callers);
   std::atomic<int> wrong{0};
   const auto inspect = [&] {
-    if ((_mm_getcsr() & kControlBits) != 0x1f80) ++wrong;
+    if ((float_control() & kControlBits) != kFloatDefaults) ++wrong;
     const volatile float smallest_normal = std::numeric_limits<float>::min();
     const volatile float half = smallest_normal * 0.5f;
     if (half == 0.0f || half * 2.0f != smallest_normal) ++wrong;
@@ -225,22 +222,22 @@ TEST_P(WorkersOf, BodiesHaveIeeeArithmeticWhateverTheCallerHasSet) {
       workers.run_both([&] { inspect(); },
                        [&] { workers.for_each(50, [&](std::size_t, int) { inspect(); }); });
     }
-    EXPECT_EQ(_mm_getcsr() & kControlBits, callers & kControlBits);
+    EXPECT_EQ(float_control() & kControlBits, callers & kControlBits);
   }
-  _mm_setcsr(before);
+  set_float_control(before);
   EXPECT_EQ(wrong, 0);
 }
 
 TEST_P(WorkersOf, TheCallersFloatStateComesBackAfterAnException) {
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | kFlushToZero);
+  const std::uint64_t before = float_control();
+  set_float_control(before | kFlushToZero);
   {
     Workers workers(GetParam());
     EXPECT_THROW(workers.for_each(10, [](std::size_t, int) { throw std::logic_error("x"); }),
                  std::logic_error);
   }
-  const unsigned after = _mm_getcsr();
-  _mm_setcsr(before);
+  const std::uint64_t after = float_control();
+  set_float_control(before);
   EXPECT_EQ(after & kControlBits, (before | kFlushToZero) & kControlBits);
 }
 
@@ -290,18 +287,18 @@ TEST(Workers, ThatGetTooFewThreadsAreRefused) {
 }
 
 TEST(ScopedFloatEnvironment, SetsIeeeDefaultsAndRestoresTheOldState) {
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | kFlushToZero | kRoundUp);
-  unsigned inside = 0;
+  const std::uint64_t before = float_control();
+  set_float_control(before | kFlushToZero | kRoundUp);
+  std::uint64_t inside = 0;
   int rounding_inside = -1;
   {
     const ScopedFloatEnvironment ieee;
-    inside = _mm_getcsr();
+    inside = float_control();
     rounding_inside = std::fegetround();
   }
-  const unsigned after = _mm_getcsr();
-  _mm_setcsr(before);
-  EXPECT_EQ(inside & kControlBits, 0x1f80u);
+  const std::uint64_t after = float_control();
+  set_float_control(before);
+  EXPECT_EQ(inside & kControlBits, kFloatDefaults);
   EXPECT_EQ(after, before | kFlushToZero | kRoundUp);
   EXPECT_EQ(rounding_inside, FE_TONEAREST);
 }

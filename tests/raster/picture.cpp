@@ -95,7 +95,7 @@ Picture draw_picture(const Draw& draw, Viewport viewport, int tile_size_px) {
 
 std::vector<Configuration> all_configurations(std::span<const int> thread_counts) {
   std::vector<Configuration> all;
-  for (const SimdTarget target : {SimdTarget::kAvx512, SimdTarget::kAvx2}) {
+  for (const SimdTarget target : simd_targets()) {
     if (!simd_target_available(target)) continue;
     for (const int tile : {16, 32, 64}) {
       for (const int threads : thread_counts) all.push_back({target, tile, threads});
@@ -142,8 +142,8 @@ bool covers(const Triangle& t, int x, int y, Ties ties) {
 }
 
 ExactLine::ExactLine(const glm::vec4& p, const glm::vec4& q, Viewport viewport) {
-  const __float128 px = p.x, py = p.y, pw = p.w, qx = q.x, qy = q.y, qw = q.w;
-  const __float128 la = py * qw - pw * qy, lb = pw * qx - px * qw, lc = px * qy - py * qx;
+  const Quad px = p.x, py = p.y, pw = p.w, qx = q.x, qy = q.y, qw = q.w;
+  const Quad la = py * qw - pw * qy, lb = pw * qx - px * qw, lc = px * qy - py * qx;
   a_ = 2 * la / viewport.width_px, b_ = -2 * lb / viewport.height_px, c_ = lc - la + lb;
   length_ = std::hypot(static_cast<double>(a_), static_cast<double>(b_));
 }

@@ -89,6 +89,14 @@ bool covers_point(const Triangle& t, const Point& p, Ties ties = Ties::kTopLeft)
 // True if the triangle covers the centre of pixel (x, y).
 bool covers(const Triangle& t, int x, int y, Ties ties = Ties::kTopLeft);
 
+// 113 bits of mantissa.
+#if defined(__x86_64__)
+using Quad = __float128;
+#else
+using Quad = long double;
+static_assert(std::numeric_limits<Quad>::digits == 113);
+#endif
+
 // The exact line through two vertices of any w: a window point's signed distance [px].
 class ExactLine {
  public:
@@ -96,7 +104,7 @@ class ExactLine {
   double distance(double x_px, double y_px) const;
 
  private:
-  __float128 a_, b_, c_;
+  Quad a_, b_, c_;
   double length_;
 };
 

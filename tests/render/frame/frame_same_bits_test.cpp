@@ -1,8 +1,8 @@
 // Frames have the same bits however they are made: by any threads, SIMD target and tiles, alone or
 // in a sequence, and a loop apart.
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
+#include "float_control.h"
 #include "math/simd_target.h"
 #include "render/measures.h"
 #include "render/shot.h"
@@ -32,7 +32,7 @@ TEST_P(SameBits, SimdTargetChangesNoPixel) {
   const World& world = shipped_world(GetParam());
   select_simd_target(SimdTarget::kAvx512);
   const Target wide = small_shot(world, 2.0).target;
-  select_simd_target(SimdTarget::kAvx2);
+  select_simd_target(simd_targets().front());
   EXPECT_EQ(difference(wide, small_shot(world, 2.0).target), "");
   const World narrow_world(load_shipped(GetParam()));  // its maps made on AVX2, too
   EXPECT_EQ(difference(small_shot(narrow_world, 2.0).target, wide), "");
@@ -61,7 +61,7 @@ TEST(FrameBits, TilesAndTargetsShowTheSameAir) {
   const Target reference = draw_in(64);
   for (const int tile : {16, 32}) EXPECT_EQ(difference(draw_in(tile), reference), "") << tile;
   if (!simd_target_available(SimdTarget::kAvx512)) return;
-  select_simd_target(SimdTarget::kAvx2);
+  select_simd_target(simd_targets().front());
   EXPECT_EQ(difference(draw_in(64), reference), "");
   select_simd_target(SimdTarget::kAvx512);
 }
@@ -74,7 +74,7 @@ TEST(FrameBits, PacketsOfAnyPixelsShowTheSameRimOfACoast) {
   const auto draw_in = [&](int tile) { return draw_in_tiles(world, view, tile); };
   const Target reference = draw_in(64);
   EXPECT_EQ(difference(draw_in(16), reference), "");
-  select_simd_target(SimdTarget::kAvx2);
+  select_simd_target(simd_targets().front());
   EXPECT_EQ(difference(draw_in(32), reference), "");
   if (simd_target_available(SimdTarget::kAvx512)) select_simd_target(SimdTarget::kAvx512);
 }
@@ -160,10 +160,10 @@ TEST(FrameBits, BoundedTriangulationReachesThePictureOfOneWithoutBounds) {
 TEST(FrameBits, CallersFloatEnvironmentChangesNoPixel) {
   const World& world = shipped_world("lagoon");
   const Shot reference = small_shot(world, 2.0);
-  const unsigned saved = _mm_getcsr();
-  _mm_setcsr(saved | 0x8040u);  // flush to zero, denormals are zero
+  const std::uint64_t saved = float_control();
+  set_float_control(saved | kFlushToZero);
   const Shot flushed = small_shot(world, 2.0);
-  _mm_setcsr(saved);
+  set_float_control(saved);
   EXPECT_EQ(difference(flushed.target, reference.target), "");
 }
 
