@@ -1,5 +1,6 @@
 // Worlds, and what they know of their scenes.
 #define XXH_INLINE_ALL
+#include <fmt/core.h>
 #include <xxhash.h>
 
 #include "capi/call.h"
@@ -39,7 +40,8 @@ scene::Scene scene_of(const swell_scene& given) {
 
 void check_cpu() {
   if (!cpu_is_supported())
-    throw std::runtime_error("this CPU cannot run swell: it needs AVX2, FMA, BMI2 and F16C");
+    throw std::runtime_error(
+        fmt::format("this CPU cannot run swell: it needs {}", cpu_requirement()));
 }
 
 int thread_count(const char* name, int32_t given) {

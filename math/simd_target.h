@@ -1,16 +1,24 @@
-// Which SIMD target the kernels run on. Every kernel is built for AVX2 (with FMA) and AVX-512 and
-// gives the same bits on both; the choice is about speed, and for tests.
+// Which SIMD target the kernels run on. Every kernel is built for the targets of the processor's
+// family, AVX2 (with FMA) and AVX-512, or NEON, and gives the same bits on all; the choice is about
+// speed, and for tests.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 namespace swell {
 
-enum class SimdTarget { kAvx2, kAvx512 };
+enum class SimdTarget { kAvx2, kAvx512, kNeon };
 
-// True if this CPU can run the library at all (AVX2, FMA, BMI2, F16C). Programs call this first
-// and stop with one clear line if it is false; everything else assumes it.
+// Those that this family of processors has, the best one last.
+std::span<const SimdTarget> simd_targets();
+
+// True if this CPU can run the library at all. Programs call this first and stop with one clear
+// line if it is false; everything else assumes it.
 bool cpu_is_supported();
+
+// What a CPU of this family needs for that: "AVX2, FMA, BMI2 and F16C", or "NEON".
+std::string_view cpu_requirement();
 
 // True if this CPU can run the target.
 bool simd_target_available(SimdTarget target);
@@ -22,6 +30,6 @@ SimdTarget current_simd_target();
 // frames only. Not thread-safe.
 void select_simd_target(SimdTarget target);
 
-std::string_view simd_target_name(SimdTarget target);  // "avx2", "avx512"
+std::string_view simd_target_name(SimdTarget target);  // "avx2", "avx512", "neon"
 
 }  // namespace swell

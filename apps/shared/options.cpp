@@ -30,6 +30,16 @@ std::string default_text(Number value, Number low) {
   return value >= low ? fmt::format("{}", value) : std::string();
 }
 
+// "avx2 or avx512".
+std::string simd_names() {
+  std::string names;
+  for (const SimdTarget target : simd_targets()) {
+    if (!names.empty()) names += " or ";
+    names += simd_target_name(target);
+  }
+  return names;
+}
+
 // "AxB" with the given separator as two integers, each in [low, high].
 std::optional<std::pair<int, int>> parse_pair(std::string_view text, char separator, int low,
                                               int high) {
@@ -64,7 +74,7 @@ void add_required_frame_setup(CommandLine& line, FrameSetup& setup) {
 
 void add_machine_options(CommandLine& line, int& threads, std::string& simd) {
   add_integer(line, "--threads", threads, 1, 256, "Threads; changes no pixel");
-  line.add_text("--simd", "TARGET", simd, "avx2 or avx512; changes no pixel");
+  line.add_text("--simd", "TARGET", simd, simd_names() + "; changes no pixel");
 }
 
 void add_json_option(CommandLine& line, std::string& path) {
@@ -171,13 +181,15 @@ void add_number(CommandLine& line, const std::string& name, double& value, doubl
 
 void select_simd(std::string_view name) {
   if (name.empty()) return;
-  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+  for (const SimdTarget target : simd_targets()) {
     if (name != simd_target_name(target)) continue;
-    if (!simd_target_available(target)) refuse_value("--simd", name, "avx2 on this CPU");
+    if (!simd_target_available(target))
+      refuse_value("--simd", name,
+                   fmt::format("{} on this CPU", simd_target_name(simd_targets().front())));
     select_simd_target(target);
     return;
   }
-  refuse_value("--simd", name, "avx2 or avx512");
+  refuse_value("--simd", name, simd_names());
 }
 
 PictureSize parse_size(std::string_view text) {

@@ -61,7 +61,8 @@ int run_and_report(FunctionRef<void()> work) {
 
 int run_program(FunctionRef<void()> work) {
   if (!cpu_is_supported())
-    return report(kExitFailure, "this CPU cannot run swell: it needs AVX2, FMA, BMI2 and F16C");
+    return report(kExitFailure,
+                  fmt::format("this CPU cannot run swell: it needs {}", cpu_requirement()));
   std::set_terminate(report_and_exit);
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);

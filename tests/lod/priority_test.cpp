@@ -206,7 +206,7 @@ TEST(Priority, EverySimdTargetGivesTheBitsOfTheScalarFormula) {
   }
   std::vector<PriorityKey> keys(x.size());
   const SimdTarget best = current_simd_target();
-  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+  for (const SimdTarget target : simd_targets()) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
     const std::vector<float> height_m = make_heights(bits, 9);  // hills

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <ranges>
 #include <set>
 #include <sstream>
 #include <string>
@@ -11,6 +13,7 @@
 namespace swell {
 namespace {
 
+#if defined(__x86_64__)
 // The CPU flags as the kernel of the operating system reports them.
 std::set<std::string> cpu_flags() {
   std::ifstream file("/proc/cpuinfo");
@@ -42,18 +45,26 @@ TEST(SimdTarget, BothCanBeTestedHere) {
     GTEST_SKIP() << "this CPU or this build has no AVX-512: all SIMD tests run on AVX2 alone";
 }
 
+#endif
+
 TEST(SimdTarget, TheBestTargetIsTheDefault) {
-  EXPECT_EQ(current_simd_target(),
-            simd_target_available(SimdTarget::kAvx512) ? SimdTarget::kAvx512 : SimdTarget::kAvx2);
+  const auto best =
+      std::ranges::find_if(simd_targets() | std::views::reverse, simd_target_available);
+  EXPECT_EQ(current_simd_target(), *best);
+}
+
+TEST(SimdTarget, OfAnotherFamilyIsNotAvailable) {
+  EXPECT_NE(simd_target_available(SimdTarget::kNeon), simd_target_available(SimdTarget::kAvx2));
 }
 
 TEST(SimdTarget, SelectingATargetMakesItCurrentAndCanBeUndone) {
   const SimdTarget before = current_simd_target();
-  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512, SimdTarget::kAvx2}) {
-    if (!simd_target_available(target)) continue;
-    select_simd_target(target);
-    EXPECT_EQ(current_simd_target(), target);
-  }
+  for (int round = 0; round < 2; ++round)
+    for (const SimdTarget target : simd_targets()) {
+      if (!simd_target_available(target)) continue;
+      select_simd_target(target);
+      EXPECT_EQ(current_simd_target(), target);
+    }
   select_simd_target(before);
   EXPECT_EQ(current_simd_target(), before);
 }
@@ -61,6 +72,7 @@ TEST(SimdTarget, SelectingATargetMakesItCurrentAndCanBeUndone) {
 TEST(SimdTarget, HasTheNamesOfTheOptions) {
   EXPECT_EQ(simd_target_name(SimdTarget::kAvx2), "avx2");
   EXPECT_EQ(simd_target_name(SimdTarget::kAvx512), "avx512");
+  EXPECT_EQ(simd_target_name(SimdTarget::kNeon), "neon");
 }
 
 }  // namespace

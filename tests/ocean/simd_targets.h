@@ -12,7 +12,7 @@ namespace swell {
 template <class Body>
 void for_each_simd_target(Body body) {
   const SimdTarget before = current_simd_target();
-  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+  for (const SimdTarget target : simd_targets()) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
     const testing::ScopedTrace trace(__FILE__, __LINE__, std::string(simd_target_name(target)));

@@ -31,7 +31,7 @@ TEST(AddParts, GivesTheBitsOfAScalarLoopOnEveryTarget) {
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<float>(random_uniform(2, i));
   for (std::size_t i = 0; i < step; ++i) start[i] = static_cast<float>(random_uniform(3, i));
   const SimdTarget before = current_simd_target();
-  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+  for (const SimdTarget target : simd_targets()) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
     for (std::size_t count = 0; count <= step; ++count) {

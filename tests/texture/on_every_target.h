@@ -24,7 +24,7 @@ class OnEveryTarget : public testing::TestWithParam<SimdTarget> {
   }
 };
 
-inline auto every_target() { return testing::Values(SimdTarget::kAvx2, SimdTarget::kAvx512); }
+inline auto every_target() { return testing::ValuesIn(simd_targets()); }
 
 inline std::string target_name(const testing::TestParamInfo<SimdTarget>& info) {
   return std::string(simd_target_name(info.param));

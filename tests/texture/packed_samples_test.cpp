@@ -349,7 +349,7 @@ TEST(PackedSamplesTargets, GiveTheSameBits) {
     const Places on_level = random_places(4099, map.levels, 41);
     const Places between = random_places(4099, map.detail_levels, 44);
     const std::vector<float> t = random_blends(between.size(), 47);
-    select_simd_target(SimdTarget::kAvx2);
+    select_simd_target(simd_targets().front());
     const auto narrow = sample_level(map, on_level), narrow_blends = blended(map, between, t);
     select_simd_target(SimdTarget::kAvx512);
     EXPECT_EQ(sample_level(map, on_level), narrow);

@@ -1,7 +1,7 @@
 # Builds swell-render with another list of materials, from what is built already: copies render/,
 # changes the list, and compiles the few sources that read it.
 #   cmake -DCHANGE=checkerboard|no_objects -DBUILD=FOLDER -DSOURCE=FOLDER -DSCRATCH=FOLDER
-#     -DSIMD=all|avx2 -DNINJA=FILE -DAR=FILE -DCODEC=FILE -P build_with_materials.cmake
+#     -DSIMD=avx2,avx512 -DNINJA=FILE -DAR=FILE -DCODEC=FILE -P build_with_materials.cmake
 # The program is SCRATCH/CHANGE/swell-render. The build folder's generator is Ninja.
 cmake_minimum_required(VERSION 3.25)
 
@@ -94,8 +94,9 @@ endforeach()
 include(${SOURCE}/cmake/MaterialUnit.cmake)
 read_materials(${root} materials)
 set(units "")
+string(REPLACE "," ";" targets "${SIMD}")
 foreach(name IN LISTS materials)
-  make_material_units(${name} ${root} ${root}/units ${SIMD} units)
+  make_material_units(${name} ${root} ${root}/units "${targets}" units)
 endforeach()
 foreach(file IN LISTS units)
   get_filename_component(file ${file} NAME)

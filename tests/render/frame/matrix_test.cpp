@@ -24,11 +24,11 @@ struct Way {
   SimdTarget simd;
   int tile_size_px;
 };
-constexpr Way kReference{2, SimdTarget::kAvx2, 64};
-constexpr Way kWays[] = {{1, SimdTarget::kAvx512, 64},
-                         {3, SimdTarget::kAvx2, 32},
-                         {7, SimdTarget::kAvx512, 16},
-                         {16, SimdTarget::kAvx512, 32}};
+const Way kReference{2, simd_targets().front(), 64};
+const Way kWays[] = {{1, simd_targets().back(), 64},
+                     {3, simd_targets().front(), 32},
+                     {7, simd_targets().back(), 16},
+                     {16, simd_targets().back(), 32}};
 constexpr double kTimes_s[] = {0.0, 0.7, 13.0, 601.5, 86400.0};
 
 std::vector<fs::path> scene_files() {
@@ -46,8 +46,8 @@ std::string name_of(const fs::path& file) { return file.stem().string(); }
 class EverySceneFile : public testing::TestWithParam<fs::path> {
  protected:
   void TearDown() override {
-    select_simd_target(simd_target_available(SimdTarget::kAvx512) ? SimdTarget::kAvx512
-                                                                  : SimdTarget::kAvx2);
+    for (const SimdTarget target : simd_targets())
+      if (simd_target_available(target)) select_simd_target(target);
   }
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneFile, testing::ValuesIn(scene_files()),

@@ -177,7 +177,7 @@ TEST(LandRays, AreTheSameBitsOverThreadsTargetsAndTiles) {
   const World& world = lagoon_by_rays();
   const View view = view_of(world, 5.0, 161, 91);
   const Shot one = draw(world, view, {.edge_samples = 4}, 1);
-  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+  for (const SimdTarget target : simd_targets()) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
     const Shot three = draw(world, view, {.tile_size_px = 32, .edge_samples = 4}, 3);

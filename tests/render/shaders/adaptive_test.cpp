@@ -92,7 +92,7 @@ TEST_P(AdaptiveShadingOf, CountsWhatItFillsIn) {
 
 // Blocks of 16 pixels are those of the picture, whatever the tiles.
 TEST_P(AdaptiveShadingOf, IsTheSameBitsForAnyThreadsTilesSimdTargetAndLabels) {
-  select_simd_target(SimdTarget::kAvx2);
+  select_simd_target(simd_targets().front());
   const Shot reference = shaded(world_, ShadingRate::kAdaptive, kOddSize_px);
   for (const int tile : {16, 32, 64})
     for (const bool has_labels : {false, true}) {

@@ -17,10 +17,9 @@ class Optics : public testing::TestWithParam<SimdTarget> {
     select_simd_target(GetParam());
   }
 };
-INSTANTIATE_TEST_SUITE_P(Targets, Optics, testing::Values(SimdTarget::kAvx2, SimdTarget::kAvx512),
-                         [](const auto& test) {
-                           return std::string(simd_target_name(test.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(Targets, Optics, testing::ValuesIn(simd_targets()), [](const auto& test) {
+  return std::string(simd_target_name(test.param));
+});
 
 std::vector<float> reflectance(const std::vector<float>& cos_theta, float n) {
   std::vector<float> r(cos_theta.size());

@@ -95,8 +95,7 @@ class WaterShader : public testing::TestWithParam<SimdTarget> {
     select_simd_target(GetParam());
   }
 };
-INSTANTIATE_TEST_SUITE_P(Targets, WaterShader,
-                         testing::Values(SimdTarget::kAvx2, SimdTarget::kAvx512),
+INSTANTIATE_TEST_SUITE_P(Targets, WaterShader, testing::ValuesIn(simd_targets()),
                          [](const auto& test) {
                            return std::string(simd_target_name(test.param));
                          });

@@ -192,7 +192,7 @@ TEST(UnderALake, IsTheSameBitsOverThreadsTargetsTilesAndFramesBefore) {
   const Shot one(world, view, 3.0, {}, 1);
   Shot other(3);
   other.draw(world, view_at(kLevel_m + 3.0, -0.3, 1.2, 121, 67), 2.0);
-  for (const SimdTarget target : {SimdTarget::kAvx2, SimdTarget::kAvx512}) {
+  for (const SimdTarget target : simd_targets()) {
     if (!simd_target_available(target)) continue;
     select_simd_target(target);
     EXPECT_EQ(other.draw(world, view, 3.0, {.tile_size_px = 32}).rgba, one.target.rgba);
