@@ -9,13 +9,28 @@
 #endif
 
 #include <hwy/highway.h>
+#if HWY_ARCH_X86
 #include <immintrin.h>
+#endif
+
+#include <cstdint>
+#include <limits>
 
 #include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell {
 namespace HWY_NAMESPACE {
+#if !HWY_ARCH_X86
+// What an instruction made of x, which ends at the highest and the lowest integer, as x86 has it.
+template <class V, class VI>
+HWY_INLINE VI LowestBeyondInt(V x, VI number) {
+  const hn::DFromV<VI> di;
+  const auto fits = hn::RebindMask(di, hn::Abs(x) < hn::Set(hn::DFromV<V>(), 2147483648.0f));
+  return hn::IfThenElse(fits, number, hn::Set(di, std::numeric_limits<std::int32_t>::min()));
+}
+#endif
+
 // x without its fraction, and the whole number nearest to x (of two, the even one). The lowest
 // integer where |x| >= 2^31 or x is NaN; Highway's own conversions take three more instructions to
 // give the highest one on that side.
@@ -23,8 +38,10 @@ template <class V>
 HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> TruncateToInt(V x) {
 #if HWY_TARGET == HWY_AVX2
   return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm256_cvttps_epi32(x.raw)};
-#else
+#elif HWY_ARCH_X86
   return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm512_cvttps_epi32(x.raw)};
+#else
+  return LowestBeyondInt(x, hn::ConvertTo(hn::RebindToSigned<hn::DFromV<V>>(), x));
 #endif
 }
 
@@ -32,8 +49,10 @@ template <class V>
 HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> RoundToInt(V x) {
 #if HWY_TARGET == HWY_AVX2
   return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm256_cvtps_epi32(x.raw)};
-#else
+#elif HWY_ARCH_X86
   return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm512_cvtps_epi32(x.raw)};
+#else
+  return LowestBeyondInt(x, hn::NearestInt(x));
 #endif
 }
 

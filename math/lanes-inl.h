@@ -146,6 +146,15 @@ requires MixedVector<A, B> HWY_INLINE auto IfThenElse(Mask mask, A yes, B no) {
   return hn::IfThenElse(mask, SpreadIfScalar<T>(yes), SpreadIfScalar<T>(no));
 }
 
+// The entries of a table of eight at those places; there is room for a vector of them.
+template <class D, class VI = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE hn::Vec<D> EntriesOfEight(D d, const hn::TFromD<D>* table, VI at) {
+  if constexpr (hn::MaxLanes(D()) >= 8)
+    return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, at));
+  else
+    return hn::GatherIndex(d, table, at);
+}
+
 // first, first + 1, ... by lane. Highway's Iota of a variable goes through memory, a store a lane.
 HWY_INLINE VI CountFrom(int first) { return hn::Iota(DI(), 0) + first; }
 

@@ -16,16 +16,14 @@
 
 #include "math/check.h"
 
-#if defined(__x86_64__) || defined(__i386__)
+#if defined(__x86_64__)
 #include <xmmintrin.h>
-#else
-#include <cfenv>
 #endif
 
 namespace swell {
 namespace {
 
-#if defined(__x86_64__) || defined(__i386__)
+#if defined(__x86_64__)
 // Two words of control, each of 16 bits: that of SSE, whose upper half stays as it is, and that of
 // x87, by which the C library rounds the numbers that it reads and writes.
 using ControlWord = std::uint16_t;
@@ -48,6 +46,15 @@ void set_x87_control(ControlWord word) {
   if ((word & kX87Masks) != kX87Masks) __asm__ volatile("fnclex");
   __asm__ volatile("fldcw %0" : : "m"(word));
 }
+#else
+// Rounding, flushing and traps of 64-bit Arm: none but rounding to nearest where all bits are 0.
+std::uint64_t fp_control() {
+  std::uint64_t word;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(word));
+  return word;
+}
+
+void set_fp_control(std::uint64_t word) { __asm__ volatile("msr fpcr, %0" : : "r"(word)); }
 #endif
 
 // CPUs granted by a cgroup v2 quota ("max 100000" or "QUOTA PERIOD"), or 0 if there is none.
@@ -113,7 +120,7 @@ void Workers::run_both_in_turn(FunctionRef<void()> a, FunctionRef<void()> b,
   if (observer_) observer_(WorkStep::kBothEnd, caller);
 }
 
-#if defined(__x86_64__) || defined(__i386__)
+#if defined(__x86_64__)
 ScopedFloatEnvironment::ScopedFloatEnvironment()
     : saved_(static_cast<unsigned>(x87_control()) << 16 | sse_control()) {
   if (sse_control() != kSseDefault) set_sse_control(kSseDefault);
@@ -126,12 +133,13 @@ ScopedFloatEnvironment::~ScopedFloatEnvironment() {
   if (x87 != x87_control()) set_x87_control(x87);
 }
 #else
-ScopedFloatEnvironment::ScopedFloatEnvironment()
-    : saved_(static_cast<unsigned>(std::fegetround())) {
-  std::fesetround(FE_TONEAREST);
+ScopedFloatEnvironment::ScopedFloatEnvironment() : saved_(static_cast<unsigned>(fp_control())) {
+  if (saved_ != 0) set_fp_control(0);
 }
 
-ScopedFloatEnvironment::~ScopedFloatEnvironment() { std::fesetround(static_cast<int>(saved_)); }
+ScopedFloatEnvironment::~ScopedFloatEnvironment() {
+  if (saved_ != fp_control()) set_fp_control(saved_);
+}
 #endif
 
 }  // namespace swell

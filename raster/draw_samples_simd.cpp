@@ -28,21 +28,30 @@ using namespace swell::HWY_NAMESPACE;  // lanes
 constexpr float kEmptyDepth = -1.0f;
 
 constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(hn::MaxLanes(D()));
-static_assert(kLanes % kMaxSamples == 0, "a packet holds whole pixels");
+static_assert(kLanes % kMaxSamples == 0 || kMaxSamples % kLanes == 0,
+              "a packet holds whole pixels, or whole packets a pixel");
+
+// The packets that a pixel's samples take; 1 where a packet holds one or more pixels.
+template <int kSamples>
+constexpr std::uint32_t kParts = kSamples > kLanes ? kSamples / kLanes : 1;
 
 // The marked pixels of a tile and their samples. Lanes are the samples of one or more pixels that
-// follow each other in their row.
+// follow each other in their row, or some of one pixel.
 struct SampleTarget {
   const PixelMask& mask;
   PixelBox box;
   SampleExtent extent;
-  std::uint32_t samples;                                      // of all marked pixels, >= kLanes
-  std::uint64_t rows, columns;                                // that hold a marked pixel
-  std::array<std::uint32_t, PixelMask::kMaxRows> row_begin;   // marked pixels in the rows above
-  alignas(64) std::array<std::int32_t, kLanes> x_fx8, y_fx8;  // of one pixel's samples, repeated
-  const std::uint8_t* HWY_RESTRICT column;                    // of each sample's pixel
+  std::uint32_t samples;                                     // of all marked pixels, >= kLanes
+  std::uint64_t rows, columns;                               // that hold a marked pixel
+  std::array<std::uint32_t, PixelMask::kMaxRows> row_begin;  // marked pixels in the rows above
+  // Of one pixel's samples, repeated.
+  alignas(64) std::array<std::int32_t, std::max<std::uint32_t>(kLanes, kMaxSamples)> x_fx8, y_fx8;
+  const std::uint8_t* HWY_RESTRICT column;  // of each sample's pixel
   float* HWY_RESTRICT depth;
   std::uint32_t* HWY_RESTRICT primitive;
+
+  HWY_INLINE VI x_of(std::uint32_t part) const { return hn::Load(DI(), &x_fx8[part * kLanes]); }
+  HWY_INLINE VI y_of(std::uint32_t part) const { return hn::Load(DI(), &y_fx8[part * kLanes]); }
 };
 
 // False if no marked pixel lies in the box of the triangle's pixel centres, one wider all round.
@@ -73,10 +82,9 @@ struct LaneEdge {
 };
 
 // E itself, where the triangle is small enough for 32 bits.
-HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, const PixelRect& rect) {
-  const DI di;
-  const VI offset =
-      edge.a * hn::Load(di, target.x_fx8.data()) + edge.b * hn::Load(di, target.y_fx8.data());
+HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, const PixelRect& rect,
+                              std::uint32_t part) {
+  const VI offset = edge.a * target.x_of(part) + edge.b * target.y_of(part);
   const auto at_corner = static_cast<std::int32_t>(
       edge.at((target.box.x0_px + rect.x0) * kPixelFx8, (target.box.y0_px + rect.y0) * kPixelFx8));
   return {at_corner + offset, edge.a * kPixelFx8, edge.b * kPixelFx8};
@@ -86,10 +94,10 @@ HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, cons
 // so a sample is inside an edge if
 //   floor(E / 256) = e + a dx + b dy >= 0 with e = floor((E(corner) + a x_fx8 + b y_fx8) / 256),
 // which fits 32 bits with E(corner) / 16 taken apart into whole pixels and the rest.
-HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target) {
-  const DI di;
-  const VI x_step = hn::ShiftRight<4>(hn::Load(di, target.x_fx8.data()));
-  const VI y_step = hn::ShiftRight<4>(hn::Load(di, target.y_fx8.data()));
+HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target,
+                              std::uint32_t part) {
+  const VI x_step = hn::ShiftRight<4>(target.x_of(part));
+  const VI y_step = hn::ShiftRight<4>(target.y_of(part));
   const auto whole = static_cast<std::int32_t>(edge.at_corner >> kFractionBits);
   const auto rest = static_cast<std::int32_t>(edge.at_corner >> 4) & 15;
   const VI offset = edge.a * x_step + edge.b * y_step;
@@ -98,14 +106,14 @@ HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target
 
 // Edges whose sign says on which side the rectangle's samples lie. False if all are outside of one.
 HWY_INLINE bool SetUpEdges(const SetupTriangle& t, const SampleTarget& target,
-                           const PixelRect& rect, LaneEdge (&out)[3]) {
+                           const PixelRect& rect, std::uint32_t part, LaneEdge (&out)[3]) {
   if (is_small(t)) {
-    for (int i = 0; i < 3; ++i) out[i] = SmallEdge(edge_of(t, i), target, rect);
+    for (int i = 0; i < 3; ++i) out[i] = SmallEdge(edge_of(t, i), target, rect, part);
     return true;
   }
   std::array<SampleEdge, 3> edges;
   if (!set_up_sample_edges(t, target.extent, target.box, rect, edges)) return false;
-  for (int i = 0; i < 3; ++i) out[i] = LargeEdge(edges[i], target);
+  for (int i = 0; i < 3; ++i) out[i] = LargeEdge(edges[i], target, part);
   return true;
 }
 
@@ -119,24 +127,20 @@ HWY_INLINE void DrawPacket(M inside, V z, V primitive, float* HWY_RESTRICT depth
   hn::StoreU(IfThenElse(wins, primitive, hn::LoadU(d, id)), d, id);
 }
 
+// Draws a part of a triangle's samples, of the marked pixels in a rectangle.
 template <int kSamples>
-HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& target) {
+HWY_INLINE void SamplePart(const SetupTriangle& t, const SampleTarget& target,
+                           const PixelRect& rect, std::uint64_t columns, std::uint32_t part) {
   const D d;
   const DI di;
   const DU du;
   const hn::Rebind<std::uint8_t, D> d8;
-
-  // Is there anything to do?
-  PixelRect rect = sample_rect_in_tile(t, target.extent, target.box);
-  if (rect.empty()) return;
-  const std::uint64_t columns = bits_between(rect.x0, rect.x1);
-  if (!CutToMarked(target, columns, rect)) return;
   LaneEdge edges[3];
-  if (!SetUpEdges(t, target, rect, edges)) return;
+  if (!SetUpEdges(t, target, rect, part, edges)) return;
 
   // Offsets from the depth plane's reference, exact: multiples of 1/256 below 2^15.
   const V to_px = hn::Set(d, 1.0f / kPixelFx8);
-  const VI x_fx8 = hn::Load(di, target.x_fx8.data()), y_fx8 = hn::Load(di, target.y_fx8.data());
+  const VI x_fx8 = target.x_of(part), y_fx8 = target.y_of(part);
   const std::int32_t corner_x = (target.box.x0_px + rect.x0) * kPixelFx8 - t.x_ref_fx8;
   const std::int32_t corner_y = (target.box.y0_px + rect.y0) * kPixelFx8 - t.y_ref_fx8;
   const V dx = hn::ConvertTo(d, corner_x + x_fx8) * to_px;
@@ -161,7 +165,7 @@ HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& targe
         (target.row_begin[y] + static_cast<std::uint32_t>(before)) * kSamples;
     const std::uint32_t count = static_cast<std::uint32_t>(inside) * kSamples;
     const V z_row = MulAdd(dz_dy, dy, z_min);
-    for (std::uint32_t n = 0; n < count; n += kLanes) {
+    for (std::uint32_t n = part * kLanes; n < count; n += kParts<kSamples> * kLanes) {
       const auto at = std::min<std::uint32_t>(begin + n, target.samples - kLanes);
       const auto in_row = lane + (at - begin) < count;
       const VI right = hn::PromoteTo(di, hn::LoadU(d8, target.column + at)) - x0;
@@ -175,6 +179,16 @@ HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& targe
     e0 = e0 + b0, e1 = e1 + b1, e2 = e2 + b2;
     dy = dy + 1.0f;
   }
+}
+
+template <int kSamples>
+HWY_INLINE void SampleTriangle(const SetupTriangle& t, const SampleTarget& target) {
+  PixelRect rect = sample_rect_in_tile(t, target.extent, target.box);
+  if (rect.empty()) return;
+  const std::uint64_t columns = bits_between(rect.x0, rect.x1);
+  if (!CutToMarked(target, columns, rect)) return;
+  for (std::uint32_t part = 0; part < kParts<kSamples>; ++part)
+    SamplePart<kSamples>(t, target, rect, columns, part);
 }
 
 // Turns empty depths to 0 and counts the covered samples.
@@ -215,7 +229,7 @@ void FindMarked(const Pass::State& state, SampleTarget& target, std::uint8_t* co
       std::memset(column + pixels * kSamples, std::countr_zero(left), kSamples);
   }
   const std::span<const SamplePosition> positions = sample_positions(kSamples);
-  for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+  for (std::uint32_t lane = 0; lane < target.x_fx8.size(); ++lane) {
     target.x_fx8[lane] = positions[lane % kSamples].x_fx8;
     target.y_fx8[lane] = positions[lane % kSamples].y_fx8;
   }

@@ -12,7 +12,9 @@
 #endif
 
 #include <hwy/highway.h>
+#if HWY_ARCH_X86
 #include <immintrin.h>
+#endif
 
 #include <bit>
 #include <cstdint>
@@ -57,6 +59,11 @@ HWY_INLINE hn::Vec<D8> LoadWords(D8, const void* base, const std::uint32_t* HWY_
   };
 #if HWY_TARGET == HWY_AVX2
   return hn::Vec<D8>{_mm256_set_epi64x(word(3), word(2), word(1), word(0))};
+#elif HWY_TARGET == HWY_NEON
+  const hn::Repartition<std::uint64_t, D8> d64;
+  return hn::BitCast(
+      D8(), hn::Vec<decltype(d64)>{vcombine_u64(vcreate_u64(static_cast<std::uint64_t>(word(0))),
+                                                vcreate_u64(static_cast<std::uint64_t>(word(1))))});
 #else
   return hn::Vec<D8>{_mm512_set_epi64(word(7), word(6), word(5), word(4),  //
                                       word(3), word(2), word(1), word(0))};
@@ -70,6 +77,8 @@ HWY_INLINE hn::Vec<DI> EvenParts(DI di, VB half0, VB half1) {
   const auto lo = hn::BitCast(df, half0), hi = hn::BitCast(df, half1);
 #if HWY_TARGET == HWY_AVX2
   return hn::BitCast(di, hn::Vec<decltype(df)>{_mm256_shuffle_ps(lo.raw, hi.raw, 0x88)});
+#elif HWY_TARGET == HWY_NEON
+  return hn::BitCast(di, hn::Vec<decltype(df)>{vuzp1q_f32(lo.raw, hi.raw)});
 #else
   return hn::BitCast(di, hn::Vec<decltype(df)>{_mm512_shuffle_ps(lo.raw, hi.raw, 0x88)});
 #endif
@@ -81,6 +90,8 @@ HWY_INLINE hn::Vec<DI> OddParts(DI di, VB half0, VB half1) {
   const auto lo = hn::BitCast(df, half0), hi = hn::BitCast(df, half1);
 #if HWY_TARGET == HWY_AVX2
   return hn::BitCast(di, hn::Vec<decltype(df)>{_mm256_shuffle_ps(lo.raw, hi.raw, 0xdd)});
+#elif HWY_TARGET == HWY_NEON
+  return hn::BitCast(di, hn::Vec<decltype(df)>{vuzp2q_f32(lo.raw, hi.raw)});
 #else
   return hn::BitCast(di, hn::Vec<decltype(df)>{_mm512_shuffle_ps(lo.raw, hi.raw, 0xdd)});
 #endif
@@ -92,6 +103,16 @@ template <class VB>
 HWY_INLINE VB DotPairs(VB weights_u8, VB taps_s8) {
 #if HWY_TARGET == HWY_AVX2
   return VB{_mm256_maddubs_epi16(weights_u8.raw, taps_s8.raw)};
+#elif HWY_TARGET == HWY_NEON
+  const hn::DFromV<VB> d;
+  const hn::Repartition<std::int16_t, decltype(d)> d16;
+  const uint8x16_t weights =
+      hn::BitCast(hn::Repartition<std::uint8_t, decltype(d)>(), weights_u8).raw;
+  const int8x16_t taps = hn::BitCast(hn::Repartition<std::int8_t, decltype(d)>(), taps_s8).raw;
+  const auto wide = [](uint8x8_t w) { return vreinterpretq_s16_u16(vmovl_u8(w)); };
+  const int16x8_t low = vmulq_s16(wide(vget_low_u8(weights)), vmovl_s8(vget_low_s8(taps)));
+  const int16x8_t high = vmulq_s16(wide(vget_high_u8(weights)), vmovl_s8(vget_high_s8(taps)));
+  return hn::BitCast(d, hn::Vec<decltype(d16)>{vpaddq_s16(low, high)});
 #else
   return VB{_mm512_maddubs_epi16(weights_u8.raw, taps_s8.raw)};
 #endif
@@ -102,6 +123,11 @@ template <class VI>
 HWY_INLINE VI DotWords(VI weights_s16, VI sums_s16) {
 #if HWY_TARGET == HWY_AVX2
   return VI{_mm256_madd_epi16(weights_s16.raw, sums_s16.raw)};
+#elif HWY_TARGET == HWY_NEON
+  const int16x8_t weights = vreinterpretq_s16_s32(weights_s16.raw);
+  const int16x8_t sums = vreinterpretq_s16_s32(sums_s16.raw);
+  return VI{vpaddq_s32(vmull_s16(vget_low_s16(weights), vget_low_s16(sums)),
+                       vmull_s16(vget_high_s16(weights), vget_high_s16(sums)))};
 #else
   return VI{_mm512_madd_epi16(weights_s16.raw, sums_s16.raw)};
 #endif
@@ -201,6 +227,10 @@ HWY_INLINE VI SpreadPart(DI di, VI fine, VI coarse) {
   const auto lo = hn::BitCast(df, fine), hi = hn::BitCast(df, coarse);
 #if HWY_TARGET == HWY_AVX2
   return hn::BitCast(di, hn::Vec<decltype(df)>{_mm256_shuffle_ps(lo.raw, hi.raw, kPart * 0x55)});
+#elif HWY_TARGET == HWY_NEON
+  return hn::BitCast(
+      di, hn::Vec<decltype(df)>{vcombine_f32(vdup_n_f32(vgetq_lane_f32(lo.raw, kPart)),
+                                             vdup_n_f32(vgetq_lane_f32(hi.raw, kPart)))});
 #else
   return hn::BitCast(di, hn::Vec<decltype(df)>{_mm512_shuffle_ps(lo.raw, hi.raw, kPart * 0x55)});
 #endif
@@ -209,6 +239,10 @@ HWY_INLINE VI SpreadPart(DI di, VI fine, VI coarse) {
 // The 128-bit words of the lanes with lane % 4 == kPart, at these offsets [bytes].
 template <int kPart, class D8>
 HWY_INLINE hn::Vec<D8> LoadBlocks(D8, const void* words, const std::uint32_t* HWY_RESTRICT offset) {
+#if HWY_TARGET == HWY_NEON
+  const hn::Repartition<std::uint8_t, D8> d8;
+  return hn::BitCast(D8(), hn::LoadU(d8, static_cast<const std::uint8_t*>(words) + offset[kPart]));
+#else
   const auto word = [&](int block) HWY_ATTR {
     return _mm_load_si128(reinterpret_cast<const __m128i*>(static_cast<const std::uint8_t*>(words) +
                                                            offset[4 * block + kPart]));
@@ -219,6 +253,7 @@ HWY_INLINE hn::Vec<D8> LoadBlocks(D8, const void* words, const std::uint32_t* HW
 #else
   const __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(word(2)), word(3), 1);
   return hn::Vec<D8>{_mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1)};
+#endif
 #endif
 }
 
@@ -436,13 +471,11 @@ HWY_INLINE FourChannels<V> SampleRgba(D d, const RgbaImage& image, V x_px, V y_p
 template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D>>>
 HWY_INLINE FourChannels<V> SampleRgbaLevel(D d, const RgbaImage& image, V x_px, V y_px, VI level) {
   const hn::RebindToSigned<D> di;
-  const auto lane = hn::IndicesFromVec(d, level);
-  const auto number = [&](const std::array<float, 16>& of_level) HWY_ATTR {
-    return hn::TableLookupLanes(hn::Load(d, of_level.data()), lane);
-  };
-  const auto integer = [&](const std::array<std::int32_t, 16>& of_level) HWY_ATTR {
-    return hn::TableLookupLanes(hn::Load(di, of_level.data()), hn::IndicesFromVec(di, level));
-  };
+  using swell::HWY_NAMESPACE::EntriesOfEight;
+  const auto number = [&](const std::array<float, 16>& of_level)
+                          HWY_ATTR { return EntriesOfEight(d, of_level.data(), level); };
+  const auto integer = [&](const std::array<std::int32_t, 16>& of_level)
+                           HWY_ATTR { return EntriesOfEight(di, of_level.data(), level); };
   const V x = x_px * number(image.scale_x), y = y_px * number(image.scale_y);
   const TexelRows<VI> rows{integer(image.level_begin), integer(image.level_stride)};
   return SampleTexels(d, image, rows, WindowCoordinateFx8(x, number(image.last_x)),

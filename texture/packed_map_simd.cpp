@@ -19,10 +19,39 @@ namespace swell::texture {
 namespace HWY_NAMESPACE {
 using namespace swell::HWY_NAMESPACE;  // lanes
 
-// Eight lanes on every target, so that sums have one order.
 using D = hn::CappedTag<float, 8>;
-constexpr int kLanes = 8;
+using V = hn::Vec<D>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 constexpr int kQuadsAtOnce = 16;
+
+// Sums of squares in eight columns on every target, so that they have one order.
+class ColumnSums {
+ public:
+  static constexpr int kColumns = 8;
+
+  HWY_INLINE ColumnSums() {
+    for (V& sum : sums_) sum = hn::Zero(D());
+  }
+  // value(column) has those of the columns from there on.
+  template <class Value>
+  HWY_INLINE void add_squares(const Value& value) {
+    for (int k = 0; k < kVectors; ++k) {
+      const V v = value(k * kLanes);
+      sums_[k] = MulAdd(v, v, sums_[k]);
+    }
+  }
+  HWY_INLINE double total() const {
+    HWY_ALIGN float columns[kColumns];
+    for (int k = 0; k < kVectors; ++k) hn::Store(sums_[k], D(), columns + k * kLanes);
+    double total = 0.0;
+    for (const float column : columns) total += column;
+    return total;
+  }
+
+ private:
+  static constexpr int kVectors = kColumns / kLanes;
+  V sums_[kVectors];
+};
 
 // max |value| over `count` floats.
 float max_magnitude(const float* HWY_RESTRICT values, std::size_t count) {
@@ -39,21 +68,15 @@ float max_magnitude(const float* HWY_RESTRICT values, std::size_t count) {
 
 // Sum of squares of one row: floats in eight columns, then the columns in order.
 double sum_of_squares(const float* HWY_RESTRICT row, int size) {
-  const D d;
-  HWY_ALIGN float columns[kLanes] = {};
-  if (size < kLanes) {
-    for (int i = 0; i < size; ++i) columns[i] = row[i] * row[i];
-  } else {
-    auto sum = hn::Zero(d);
-    for (int i = 0; i < size; i += kLanes) {
-      const auto value = hn::LoadU(d, row + i);
-      sum = MulAdd(value, value, sum);
-    }
-    hn::Store(sum, d, columns);
+  if (size < ColumnSums::kColumns) {
+    double total = 0.0;
+    for (int i = 0; i < size; ++i) total += row[i] * row[i];
+    return total;
   }
-  double total = 0.0;
-  for (const float column : columns) total += column;
-  return total;
+  ColumnSums sums;
+  for (int i = 0; i < size; i += ColumnSums::kColumns)
+    sums.add_squares([&](int column) HWY_ATTR { return hn::LoadU(D(), row + i + column); });
+  return sums.total();
 }
 
 // Bytes of one row, rounded to nearest even and clamped; one more repeats the first.
@@ -169,16 +192,13 @@ void pack_row(const std::int8_t* HWY_RESTRICT a0, const std::int8_t* HWY_RESTRIC
 double squared_differences(const float* HWY_RESTRICT from, const float* HWY_RESTRICT to, int shift,
                            int size) {
   const D d;
-  auto sum = hn::Zero(d);
+  ColumnSums sums;
   int i = 0;
-  for (; i + kLanes + shift <= size; i += kLanes) {
-    const auto difference = hn::LoadU(d, to + i + shift) - hn::LoadU(d, from + i);
-    sum = MulAdd(difference, difference, sum);
-  }
-  HWY_ALIGN float columns[kLanes];
-  hn::Store(sum, d, columns);
-  double total = 0.0;
-  for (const float column : columns) total += column;
+  for (; i + ColumnSums::kColumns + shift <= size; i += ColumnSums::kColumns)
+    sums.add_squares([&](int column) HWY_ATTR {
+      return hn::LoadU(d, to + i + column + shift) - hn::LoadU(d, from + i + column);
+    });
+  double total = sums.total();
   for (; i < size; ++i) {
     const double difference = static_cast<double>(to[(i + shift) & (size - 1)]) - from[i];
     total += difference * difference;

@@ -30,38 +30,42 @@ struct RiverAt {
   V level, depth, east, north, white, sea_share, phase;
 };
 
-using D8 = hn::FixedTag<float, 8>;
-using V8 = hn::Vec<D8>;
+// A sample's eight floats are one vector, or two.
+using DSample = hn::CappedTag<float, 8>;
+using VSample = hn::Vec<DSample>;
 
-// The columns of eight rows.
-HWY_INLINE void Transpose(std::array<V8, 8>& rows) {
-  const D8 d8;
-  const hn::Repartition<double, D8> d64;
-  const auto pair = [&](V8 a, V8 b, std::array<V8, 2>& out) HWY_ATTR {
-    const auto x = hn::BitCast(d64, a), y = hn::BitCast(d64, b);
-    out = {hn::BitCast(d8, hn::InterleaveLower(d64, x, y)),
-           hn::BitCast(d8, hn::InterleaveUpper(d64, x, y))};
-  };
-  // Columns 0 and 4, 1 and 5, 2 and 6, 3 and 7, of four rows each.
-  std::array<std::array<V8, 2>, 4> half;
-  for (std::size_t k = 0; k < 2; ++k) {
-    V8* const r = &rows[4 * k];
-    pair(hn::InterleaveLower(d8, r[0], r[1]), hn::InterleaveLower(d8, r[2], r[3]), half[2 * k]);
-    pair(hn::InterleaveUpper(d8, r[0], r[1]), hn::InterleaveUpper(d8, r[2], r[3]), half[2 * k + 1]);
-  }
-  for (std::size_t c = 0; c < 4; ++c) {
-    const V8 low = half[c / 2][c % 2], high = half[2 + c / 2][c % 2];
-    rows[c] = hn::ConcatLowerLower(d8, high, low);
-    rows[c + 4] = hn::ConcatUpperUpper(d8, high, low);
-  }
+// The columns of four rows, in each block of four lanes.
+HWY_INLINE std::array<VSample, 4> TransposeBlocks(const VSample* r) {
+  const DSample d;
+  const hn::Repartition<double, DSample> d64;
+  const auto low01 = hn::BitCast(d64, hn::InterleaveLower(d, r[0], r[1]));
+  const auto low23 = hn::BitCast(d64, hn::InterleaveLower(d, r[2], r[3]));
+  const auto high01 = hn::BitCast(d64, hn::InterleaveUpper(d, r[0], r[1]));
+  const auto high23 = hn::BitCast(d64, hn::InterleaveUpper(d, r[2], r[3]));
+  return {hn::BitCast(d, hn::InterleaveLower(d64, low01, low23)),
+          hn::BitCast(d, hn::InterleaveUpper(d64, low01, low23)),
+          hn::BitCast(d, hn::InterleaveLower(d64, high01, high23)),
+          hn::BitCast(d, hn::InterleaveUpper(d64, high01, high23))};
 }
 
-// The members of the samples from number `at` on, blended by (s, t). A lane's samples are one
-// vector each: gathers of single members take ten times as long.
+#if HWY_ARCH_X86
+// The columns of eight rows.
+HWY_INLINE void Transpose(std::array<VSample, 8>& rows) {
+  const DSample d;
+  const std::array<VSample, 4> low = TransposeBlocks(&rows[0]), high = TransposeBlocks(&rows[4]);
+  for (std::size_t c = 0; c < 4; ++c) {
+    rows[c] = hn::ConcatLowerLower(d, high[c], low[c]);
+    rows[c + 4] = hn::ConcatUpperUpper(d, high[c], low[c]);
+  }
+}
+#endif
+
+// The members of the samples from number `at` on, blended by (s, t). A lane's samples are whole
+// vectors: gathers of single members take ten times as long.
 HWY_INLINE void BlendSamples(const ocean::InlandSample* samples, VI at, V s, V t,
                              std::array<V, 8>& members) {
   const D d;
-  const D8 d8;
+  const DSample ds;
   static_assert(sizeof(ocean::InlandSample) == 8 * sizeof(float));
   constexpr std::size_t kRow = 8 * ocean::kInlandSide;
   alignas(64) std::int32_t number[kLanes];
@@ -69,21 +73,33 @@ HWY_INLINE void BlendSamples(const ocean::InlandSample* samples, VI at, V s, V t
   hn::Store(at, DI(), number);
   hn::Store(s, d, east);
   hn::Store(t, d, north);
-  const auto lerp = [](V8 a, V8 b, V8 by) HWY_ATTR { return MulAdd(b - a, by, a); };
-  std::array<std::array<V8, 8>, kLanes / 8> columns;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const float* const p = &samples[number[lane]].level_m;
-    const V8 x = hn::Set(d8, east[lane]);
-    columns[lane / 8][lane % 8] = lerp(
-        lerp(hn::LoadU(d8, p), hn::LoadU(d8, p + 8), x),
-        lerp(hn::LoadU(d8, p + kRow), hn::LoadU(d8, p + kRow + 8), x), hn::Set(d8, north[lane]));
-  }
+  // From a member of a lane's sample on.
+  const auto blended = [&](std::size_t lane, std::size_t member) HWY_ATTR {
+    const auto lerp = [](VSample a, VSample b, VSample by)
+                          HWY_ATTR { return MulAdd(b - a, by, a); };
+    const float* const p = &samples[number[lane]].level_m + member;
+    const VSample x = hn::Set(ds, east[lane]);
+    return lerp(lerp(hn::LoadU(ds, p), hn::LoadU(ds, p + 8), x),
+                lerp(hn::LoadU(ds, p + kRow), hn::LoadU(ds, p + kRow + 8), x),
+                hn::Set(ds, north[lane]));
+  };
+#if HWY_ARCH_X86
+  std::array<std::array<VSample, 8>, kLanes / 8> columns;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) columns[lane / 8][lane % 8] = blended(lane, 0);
   for (auto& eight : columns) Transpose(eight);
 #if HWY_TARGET == HWY_AVX2
   members = columns[0];
 #else
   for (std::size_t m = 0; m < members.size(); ++m)
     members[m] = hn::Combine(d, columns[1][m], columns[0][m]);
+#endif
+#else
+  for (std::size_t m = 0; m < members.size(); m += 4) {
+    std::array<VSample, 4> rows;
+    for (std::size_t lane = 0; lane < 4; ++lane) rows[lane] = blended(lane, m);
+    std::ranges::copy(TransposeBlocks(rows.data()),
+                      members.begin() + static_cast<std::ptrdiff_t>(m));
+  }
 #endif
 }
 

@@ -131,9 +131,8 @@ HWY_INLINE MapLevel LevelIn(const SlopeLayer& layer, V level_m, V& variance) {
   const V level = Clamp(level_m + layer.log2_texels_per_m, 0.0f, layer.coarsest);
   const VI base = TruncateToInt(level);
   const V t = level - hn::ConvertTo(d, base);
-  const auto lane = hn::IndicesFromVec(d, base);
-  const V lost = hn::TableLookupLanes(hn::LoadU(d, layer.lost_variance.data()), lane);
-  const V lost_by_next = hn::TableLookupLanes(hn::LoadU(d, layer.lost_by_next.data()), lane);
+  const V lost = EntriesOfEight(d, layer.lost_variance.data(), base);
+  const V lost_by_next = EntriesOfEight(d, layer.lost_by_next.data(), base);
   variance = MulAdd(lost_by_next, t, variance + lost);
   return {base, t, hn::AllTrue(d, level >= layer.coarsest)};
 }

@@ -46,12 +46,11 @@ HWY_INLINE V3 LayClouds(const CloudsSeen& seen, V distance_m, V3 light) {
 // hide nothing the rest is 0.
 HWY_INLINE CloudsSeen CloudsOfPacket(const CloudPicture& picture, int x, int y) {
   const D d;
-  const DI di;
   const int step = picture.step();
   const float per_step = 1.0f / static_cast<float>(step);
-  const VI lane = hn::Iota(di, 0);
-  const VI left = hn::ShiftRightSame(lane, picture.step_log2), right = left + 1;
-  const V across = hn::ConvertTo(d, lane & (step - 1)) * per_step;
+  const VI past_node = CountFrom(x % step);
+  const VI left = hn::ShiftRightSame(past_node, picture.step_log2), right = left + 1;
+  const V across = hn::ConvertTo(d, past_node & (step - 1)) * per_step;
   const V below = Constant(static_cast<float>(y % step) * per_step);
   const std::size_t at =
       static_cast<std::size_t>(y / step) * picture.stride + static_cast<std::size_t>(x / step);

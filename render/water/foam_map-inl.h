@@ -31,16 +31,21 @@ HWY_INLINE VI NearestFoamLevel(const FoamMap& foam, V level_m) {
 // Whether the blocks around places on these levels have foam, in any lane.
 HWY_INLINE bool AnyFoamNear(const FoamBlocks& blocks, VI x_fx8, VI y_fx8, VI level) {
   const DI di;
-  constexpr int kAtOnce = static_cast<int>(hn::MaxLanes(DI()));  // rows of a table in a vector
   const VI row = hn::ShiftRight<12>(y_fx8) & (FoamBlocks::kRows - 1);
-  const auto in_table = hn::IndicesFromVec(di, row & (kAtOnce - 1));
-  const auto bits_of = [&](int first) HWY_ATTR {
-    const auto* const rows = reinterpret_cast<const std::int32_t*>(blocks.row.data());
-    return hn::TableLookupLanes(hn::LoadU(di, rows + first), in_table);
-  };
-  VI bits = bits_of(0);
-  if constexpr (kAtOnce < FoamBlocks::kRows)
-    bits = IfThenElse(row > kAtOnce - 1, bits_of(kAtOnce), bits);
+  const auto* const rows = reinterpret_cast<const std::int32_t*>(blocks.row.data());
+  VI bits;
+  if constexpr (kLanes < 8) {
+    bits = hn::GatherIndex(di, rows, row);
+  } else {
+    constexpr int kAtOnce = static_cast<int>(kLanes);  // rows of a table in a vector
+    const auto in_table = hn::IndicesFromVec(di, row & (kAtOnce - 1));
+    const auto bits_of = [&](int first) HWY_ATTR {
+      return hn::TableLookupLanes(hn::LoadU(di, rows + first), in_table);
+    };
+    bits = bits_of(0);
+    if constexpr (kAtOnce < FoamBlocks::kRows)
+      bits = IfThenElse(row > kAtOnce - 1, bits_of(kAtOnce), bits);
+  }
   const VI column = hn::ShiftRight<11>(x_fx8) & (FoamBlocks::kColumns - 1);
   const VI bit = hn::Shr(bits, column) & 1;
   const VI coarse = Max(level - FoamBlocks::kFinest, hn::Zero(di));
