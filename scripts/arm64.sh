@@ -1,0 +1,44 @@
+#!/bin/sh
+# Builds swell-render and tests of kernels for 64-bit Arm, runs the tests under qemu and compares pictures and labels with
+# those of the release build, bit for bit: half an hour on two cores. Goes on where it was stopped.
+#   scripts/arm64.sh [SCENE ...]   names in scenes/, as lagoon; default: all
+# Needs build/release/bin/swell-render, and root or sudo for packages that are missing.
+set -eu
+cd "$(dirname "$0")/.."
+[ -x build/release/bin/swell-render ] || { echo "error: build/release/bin/swell-render, got none, allowed one" >&2; exit 2; }
+scripts/setup.sh arm64
+root=build/arm64-root
+
+# Debian's :arm64 libraries, unpacked: nothing of them runs but what programs load.
+if [ ! -e "$root/complete" ]; then
+  rm -rf "$root"
+  # shellcheck disable=SC2016 # apt-get's own names
+  mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | grep -v security | head -1)
+  libraries=$(sed -n 's/^\(lib[^ ]*-dev\|nlohmann-json3-dev\|zlib1g-dev\)\b.*/\1/p' scripts/packages.txt | paste -sd,)
+  mmdebstrap --quiet --variant=extract --architectures=arm64 --aptopt='APT::Install-Recommends "false"' \
+    --include="libc6-dev,libstdc++-12-dev,$libraries" bookworm "$root" "$mirror"
+  # Links to places in the root, and those that packages make when they are installed.
+  find "$root" -type l -lname '/*' | while read -r link; do
+    place=$(readlink "$link")
+    [ ! -e "$root$place" ] || ln -sfn "$(realpath --relative-to="$(dirname "$link")" "$root$place")" "$link"
+  done
+  for name in blas lapack; do
+    ln -sf "$name/lib$name.so.3" "$root/usr/lib/aarch64-linux-gnu/lib$name.so.3"
+  done
+  touch "$root/complete"
+fi
+
+tests="math_test texture_test raster_test terrain_test lod_test sky_test"
+cmake --preset arm64
+# shellcheck disable=SC2086 # a list of words
+cmake --build build/arm64 --target swell-render $tests
+# What qemu does not have for programs: filters of system calls, advice on memory.
+without='LargeArray.AsksForHugePages:*ReplacedFile*:*AbandonedFile*:ImageFilesDeathTest.*'
+for test in $tests; do
+  passed=build/arm64/$test.passed
+  if [ ! -e "$passed" ] || [ -n "$(find "build/arm64/bin/$test" -newer "$passed")" ]; then
+    qemu-aarch64-static -L "$root" "build/arm64/bin/$test" --gtest_brief=1 --gtest_filter="-$without"
+    touch "$passed"
+  fi
+done
+exec python3 -B scripts/same_pictures.py "$@"

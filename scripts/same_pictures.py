@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Are the pictures and labels of the build for 64-bit Arm those of the release build, bit for bit?
+
+Called by scripts/arm64.sh, which has built both. Pictures that are known to be the same are not drawn again while the
+programs stay as they are: build/arm64/same_pictures.txt has their names.
+"""
+import hashlib
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+RELEASE = ROOT / "build/release/bin/swell-render"
+ARM = ROOT / "build/arm64/bin/swell-render"
+KNOWN = ROOT / "build/arm64/same_pictures.txt"
+LARGER = {"open_ocean", "lagoon", "beach", "harbour", "river", "everything"}
+TIMES_S = ("0", "7.5")
+
+
+def draw(command, scene, size, t_s):
+    """The hash of the picture, and of its labels."""
+    with tempfile.TemporaryDirectory() as folder:
+        picture, labels = pathlib.Path(folder) / "picture.png", pathlib.Path(folder) / "labels.exr"
+        command = [*command, "--scene", ROOT / f"scenes/{scene}.toml", "--size", size, "--time", t_s, "--hash",
+                   "--out", picture, "--labels", "all", "--labels-out", labels, "--exr-compression", "none"]
+        run = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            sys.exit(f"error: {' '.join(map(str, command))}: {run.stderr.strip()}")
+        return run.stdout.split()[-1], hashlib.sha256(labels.read_bytes()).hexdigest()
+
+
+def main():
+    programs = hashlib.sha256(RELEASE.read_bytes() + ARM.read_bytes()).hexdigest()
+    known = KNOWN.read_text(encoding="utf-8").splitlines() if KNOWN.exists() else []
+    if known[:1] != [programs]:
+        known = [programs]
+        KNOWN.write_text(programs + "\n", encoding="utf-8")
+    scenes = sys.argv[1:] or sorted(file.stem for file in (ROOT / "scenes").glob("*.toml"))
+    same = 0
+    for scene in scenes:
+        for size in ("96x54", "320x180") if scene in LARGER else ("96x54",):
+            for t_s in TIMES_S:
+                name = f"{scene} {size} {t_s}"
+                if name not in known:
+                    expected = draw([RELEASE], scene, size, t_s)
+                    got = draw(["qemu-aarch64-static", "-L", ROOT / "build/arm64-root", ARM], scene, size, t_s)
+                    if got != expected:
+                        sys.exit(f"error: {name}: picture and labels {got}, allowed {expected}")
+                    with KNOWN.open("a", encoding="utf-8") as file:
+                        file.write(name + "\n")
+                same += 1
+    print(f"The same {same} pictures and their labels on both")
+
+
+if __name__ == "__main__":
+    main()
