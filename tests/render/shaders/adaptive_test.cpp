@@ -1,6 +1,8 @@
 // Adaptive shading: close to the full picture, the same however it is drawn, exact in its labels.
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 #include "math/simd_target.h"
 #include "render/labelled_frame.h"
 #include "render/measures.h"
@@ -109,43 +111,10 @@ TEST_P(AdaptiveShadingOf, IsTheSameBitsForAnyThreadsTilesSimdTargetAndLabels) {
       difference(shaded(world_, ShadingRate::kAdaptive, kOddSize_px).target, reference.target), "");
 }
 
-// Of a block's columns in even and odd rows, and of what may be on its right: the neighbours that a
-// column lies between.
-struct Between {
-  int left, right;
-};
-constexpr Between kBetween[2][16] = {{{0, 0},
-                                      {1, 1},
-                                      {2, 2},
-                                      {1, 1},
-                                      {0, 0},
-                                      {1, 1},
-                                      {2, 2},
-                                      {1, 1},
-                                      {0, 0},
-                                      {1, 1},
-                                      {2, 2},
-                                      {1, 1},
-                                      {0, 0},
-                                      {1, 1},
-                                      {2, 1},
-                                      {0, 0}},
-                                     {{0, 0},
-                                      {1, 1},
-                                      {0, 0},
-                                      {1, 1},
-                                      {2, 2},
-                                      {1, 1},
-                                      {0, 0},
-                                      {1, 1},
-                                      {2, 2},
-                                      {1, 1},
-                                      {0, 0},
-                                      {1, 1},
-                                      {2, 2},
-                                      {1, 1},
-                                      {0, 0},
-                                      {0, 0}}};
+// Of a block's columns in even and odd rows: how far away the neighbours are that a column may lie
+// between, 0 where it is always shaded.
+constexpr std::string_view kToLeft[2] = {"0121012101210120", "0101210121012100"};
+constexpr std::string_view kToRight[2] = {"0121012101210110", "0101210121012100"};
 
 TEST_P(AdaptiveShadingOf, FillsInBetweenPixelsOfTheSameSurface) {
   const Shot full = shaded(world_, ShadingRate::kFull, kOddSize_px);
@@ -159,7 +128,7 @@ TEST_P(AdaptiveShadingOf, FillsInBetweenPixelsOfTheSameSurface) {
   for (int y = 0; y < kOddSize_px.y; ++y)
     for (int x = 0; x < kOddSize_px.x; ++x) {
       if (full.target.rgba[full.at(x, y)] == some.target.rgba[some.at(x, y)]) continue;
-      const auto [left, right] = kBetween[y % 2][x % 16];
+      const int left = kToLeft[y % 2][x % 16] - '0', right = kToRight[y % 2][x % 16] - '0';
       const int kind = kind_at(x, y);
       ASSERT_GT(left, 0) << x << ' ' << y;
       ASSERT_LT(x + right, kOddSize_px.x);
