@@ -93,7 +93,8 @@ void explain(const CLI::App& app, const std::string& fault) {
 
 CommandLine::CommandLine(const std::string& program, const std::string& purpose)
     : app_(std::make_shared<CLI::App>(purpose, program)) {
-  app_->set_version_flag("--version", program + " " + full_version());
+  app_->set_version_flag("--version", program + " " + full_version(),
+                         "Display program version information and exit; as JSON with --json");
 }
 
 CommandLine::CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
@@ -142,6 +143,9 @@ bool CommandLine::parse(int argc, char** argv) {
   const std::string_view only = argc == 2 ? argv[1] : "";
   if (only == "--man") return fmt::print("{}", manual_page(*app_, version())), false;
   if (only == "--bash-completion") return fmt::print("{}", bash_completion(*app_)), false;
+  if (argc == 3 && std::string_view(argv[1]) == "--version" &&
+      std::string_view(argv[2]) == "--json")
+    return fmt::print("{}\n", version_json(app_->get_name())), false;
   try {
     app_->parse(argc, argv);
     return true;

@@ -12,4 +12,8 @@ std::string version();
 // repository and with a "+" for changes since, and the SIMD target that this CPU gets.
 std::string full_version();
 
+// One object: "program", "version", "commit", "simd" (the target that this CPU gets),
+// "simd_targets" (all that it has) and "sameness" (render/sameness_version.h).
+std::string version_json(const std::string& program);
+
 }  // namespace swell::apps

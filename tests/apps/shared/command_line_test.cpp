@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "apps/shared/json.h"
 #include "apps/shared/program_runner.h"
 
 namespace swell::apps {
@@ -59,6 +61,16 @@ TEST_F(CommandLine, BenchHelpNamesEverySubcommand) {
 TEST_F(CommandLine, VersionIsOneLine) {
   EXPECT_TRUE(run_render({"--version"}).out.starts_with("swell-render 0.1.0 (commit "));
   EXPECT_TRUE(run_bench({"--version"}).out.starts_with("swell-bench 0.1.0 (commit "));
+}
+
+TEST_F(CommandLine, VersionAsJsonHasTargetsAndTheSamenessVersion) {
+  const auto json = Json::parse(run_bench({"--version", "--json"}).out);
+  EXPECT_EQ(json.at("program"), "swell-bench");
+  EXPECT_EQ(json.at("version"), "0.1.0");
+  EXPECT_FALSE(json.at("commit").get<std::string>().empty());
+  EXPECT_GE(json.at("sameness"), 1);
+  const auto targets = json.at("simd_targets").get<std::vector<std::string>>();
+  EXPECT_EQ(std::ranges::count(targets, json.at("simd").get<std::string>()), 1);
 }
 
 // What the help lists is in the manual page and is completed.

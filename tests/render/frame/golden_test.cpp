@@ -6,8 +6,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
 #include <string>
 
+#include "math/value_hash.h"
+#include "render/sameness_version.h"
 #include "render/shot.h"
 #include "texture/image/image_io.h"
 
@@ -109,6 +114,23 @@ TEST(GoldenFolder, HoldsNothingButTheTestedPictures) {
         kCases, [&](const Case& c) { return entry.path().filename() == case_name(c) + ".png"; });
     EXPECT_TRUE(tested) << entry.path();
   }
+}
+
+// Who accepts other pictures raises the version: programs that say the same number draw the same.
+TEST(SamenessVersion, IsRaisedWithTheGoldenPictures) {
+  ValueBytes pictures;
+  for (const Case& c : kCases) {
+    const texture::Image8 image = read_png(kGoldenFolder / (case_name(c) + ".png"));
+    pictures.add(std::string(image.pixels.begin(), image.pixels.end()));
+  }
+  std::ostringstream line;
+  line << kSamenessVersion << ' ' << std::hex << std::setfill('0') << std::setw(16)
+       << pictures.hash().low;
+  std::ifstream file(kGoldenFolder / "sameness_version.txt");
+  std::string recorded;
+  std::getline(file, recorded);
+  EXPECT_EQ(recorded, line.str())
+      << "raise kSamenessVersion, and write the new line into tests/golden/sameness_version.txt";
 }
 
 }  // namespace
