@@ -80,6 +80,47 @@ void RoundToIntBatch(std::span<const float> in, std::span<std::int32_t> out) {
                         HWY_ATTR { StoreSome(RoundToInt(x), out, at, n); });
 }
 
+constexpr std::array<float, 64> kEntries = {0.0f, 0.1f, -2.5f, 1e30f, -0.0f, 0.3f, 7.0f, 1e-40f};
+
+V Apply(LaneOperation operation, V a, V b) {
+  switch (operation) {
+    case LaneOperation::kMulAdd:
+      return MulAdd(a, b, a);
+    case LaneOperation::kNegMulAdd:
+      return NegMulAdd(a, b, a);
+    case LaneOperation::kMulSub:
+      return MulSub(a, b, a);
+    case LaneOperation::kMin:
+      return Min(a, b);
+    case LaneOperation::kMax:
+      return Max(a, b);
+    case LaneOperation::kDivide:
+      return a / b;
+    case LaneOperation::kSqrt:
+      return Sqrt(a);
+    case LaneOperation::kInverseSqrt:
+      return InverseSqrt(a);
+    case LaneOperation::kFloor:
+      return hn::Floor(a);
+    case LaneOperation::kLess:
+      return hn::VecFromMask(D(), a < b);
+    case LaneOperation::kFromInt:
+      return hn::ConvertTo(D(), hn::BitCast(DI(), a));
+    case LaneOperation::kEntry:
+      return EntriesOfEight(D(), kEntries.data(), hn::BitCast(DI(), a) & hn::Set(DI(), 7));
+  }
+  return a;
+}
+
+void LaneOperationBatch(LaneOperation operation, std::span<const float> a, std::span<const float> b,
+                        std::span<float> out) {
+  ForEachVector(a, [&](Floats d, auto x, std::size_t at, std::size_t n) HWY_ATTR {
+    std::array<float, 64> y{};
+    std::copy_n(b.begin() + static_cast<std::ptrdiff_t>(at), n, y.begin());
+    StoreSome(Apply(operation, x, hn::LoadU(d, y.data())), out, at, n);
+  });
+}
+
 int FloatLanes() { return static_cast<int>(hn::Lanes(Floats())); }
 
 }  // namespace HWY_NAMESPACE
@@ -96,6 +137,7 @@ HWY_EXPORT(Log2Batch);
 HWY_EXPORT(Log2CoarseBatch);
 HWY_EXPORT(TruncateToIntBatch);
 HWY_EXPORT(RoundToIntBatch);
+HWY_EXPORT(LaneOperationBatch);
 HWY_EXPORT(FloatLanes);
 
 void sin_cos_turns_batch(std::span<const float> in, std::span<float> sin_out,
@@ -120,6 +162,10 @@ void truncate_to_int_batch(std::span<const float> in, std::span<std::int32_t> ou
 }
 void round_to_int_batch(std::span<const float> in, std::span<std::int32_t> out) {
   HWY_DYNAMIC_DISPATCH(RoundToIntBatch)(in, out);
+}
+void lane_operation_batch(LaneOperation operation, std::span<const float> a,
+                          std::span<const float> b, std::span<float> out) {
+  HWY_DYNAMIC_DISPATCH(LaneOperationBatch)(operation, a, b, out);
 }
 int float_lanes() { return HWY_DYNAMIC_DISPATCH(FloatLanes)(); }
 
