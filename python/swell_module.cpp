@@ -355,10 +355,11 @@ PYBIND11_MODULE(_swell, module) {
   module.def("keys", &keys);
   module.def("labels", [] { return names(&swell_label_name); });
   module.def("parts", [] { return names(&swell_part_name); });
-  module.def("look", &look);
+  module.def("look", &look, py::arg("eye"), py::arg("heading_deg"), py::arg("pitch_deg"),
+             py::arg("roll_deg"), py::arg("fov_y_deg"), py::arg("width"), py::arg("height"));
 
   py::class_<Picture>(module, "Picture")
-      .def("plane", &Picture::plane)
+      .def("plane", &Picture::plane, py::arg("name"))
       .def("hash", of_made(&Picture::hash))
       .def("picks", of_made(&Picture::picks))
       .def("camera", of_made(&Picture::camera));
@@ -372,10 +373,13 @@ PYBIND11_MODULE(_swell, module) {
       .def("hash", of_made(&World::hash))
       .def("objects", of_made(&World::objects))
       .def("classes", of_made(&World::classes))
-      .def("camera", of_made(&World::camera))
-      .def("ask", of_made(&World::ask))
-      .def("poses", of_made(&World::poses))
-      .def("ray", of_made(&World::ray))
+      .def("camera", of_made(&World::camera), py::arg("t"), py::arg("width"), py::arg("height"),
+           py::arg("poses"), py::arg("disturbances"))
+      .def("ask", of_made(&World::ask), py::arg("xy"), py::arg("t"), py::arg("what"),
+           py::arg("disturbances"))
+      .def("poses", of_made(&World::poses), py::arg("t"))
+      .def("ray", of_made(&World::ray), py::arg("t"), py::arg("origin"), py::arg("direction"),
+           py::arg("max_distance"))
       .def(
           "render",
           [](const World& world, double t_s, int width_px, int height_px, std::string labels,

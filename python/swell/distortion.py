@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Callable, Tuple
+from typing import TYPE_CHECKING, Callable, Tuple
 
 import numpy as np
 
 from .camera import Camera, Size
+
+if TYPE_CHECKING:
+    from . import Picture
 
 _STEPS = 30
 _SLACK_PX = 0.01
@@ -75,7 +78,7 @@ class DistortedPicture:
     Colours are blended between pixels, labels those of the nearest one. Of such a picture there is no hash.
     """
 
-    def __init__(self, pinhole, lookup: Lookup, camera: Camera):
+    def __init__(self, pinhole: Picture, lookup: Lookup, camera: Camera):
         self._pinhole, self._lookup = pinhole, lookup
         self.camera = camera
         """The camera that it was drawn with."""
