@@ -1,21 +1,22 @@
 #!/bin/sh
-# Builds swell-render and tests of kernels for 64-bit Arm, runs the tests under qemu and compares pictures and labels with
-# those of the release build, bit for bit: half an hour on two cores. Goes on where it was stopped.
+# Builds swell-render, the wheel and tests of kernels for 64-bit Arm, runs all under qemu and compares pictures and labels
+# with those of the release build, bit for bit: half an hour on two cores. Goes on where it was stopped.
 #   scripts/arm64.sh [SCENE ...]   names in scenes/, as lagoon; default: all
 #   scripts/arm64.sh --short       two scenes, and tests of a minute: ten minutes with the build
 # Needs build/release/bin/swell-render, and root or sudo for packages that are missing.
 set -eu
 cd "$(dirname "$0")/.."
 [ -x build/release/bin/swell-render ] || { echo "error: build/release/bin/swell-render, got none, allowed one" >&2; exit 2; }
-scripts/setup.sh arm64
+scripts/setup.sh arm64 release
 root=build/arm64-root
 
-# Debian's :arm64 libraries, unpacked: nothing of them runs but what programs load.
-if [ ! -e "$root/complete" ]; then
+# Debian's :arm64 libraries and Python, unpacked: nothing of them runs but what programs load.
+libraries=$(sed -n 's/^\(lib[^ ]*-dev\|nlohmann-json3-dev\|zlib1g-dev\|p[^ ]*-dev\|python3-numpy\) .*/\1/p' \
+  scripts/packages.txt scripts/packages_python.txt | paste -sd,)
+if [ "$(cat "$root/complete" 2>/dev/null)" != "$libraries" ]; then
   rm -rf "$root"
   # shellcheck disable=SC2016 # apt-get's own names
   mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | grep -v security | head -1)
-  libraries=$(sed -n 's/^\(lib[^ ]*-dev\|nlohmann-json3-dev\|zlib1g-dev\)\b.*/\1/p' scripts/packages.txt | paste -sd,)
   mmdebstrap --quiet --variant=extract --architectures=arm64 --aptopt='APT::Install-Recommends "false"' \
     --include="libc6-dev,libstdc++-12-dev,$libraries" bookworm "$root" "$mirror"
   # Links to places in the root, and those that packages make when they are installed.
@@ -26,7 +27,7 @@ if [ ! -e "$root/complete" ]; then
   for name in blas lapack; do
     ln -sf "$name/lib$name.so.3" "$root/usr/lib/aarch64-linux-gnu/lib$name.so.3"
   done
-  touch "$root/complete"
+  echo "$libraries" >"$root/complete"
 fi
 
 tests="math_test texture_test raster_test terrain_test lod_test sky_test"
@@ -39,7 +40,7 @@ if [ "${1:-}" = --short ]; then
 fi
 cmake --preset arm64
 # shellcheck disable=SC2086 # a list of words
-cmake --build build/arm64 --target swell-render $tests
+cmake --build build/arm64 --target swell-render swell_package $tests
 for test in $tests; do
   passed=build/arm64/$test.$(echo "$without" | cksum | cut -d' ' -f1).passed
   if [ ! -e "$passed" ] || [ -n "$(find "build/arm64/bin/$test" -newer "$passed")" ]; then
@@ -47,4 +48,13 @@ for test in $tests; do
     touch "$passed"
   fi
 done
+
+# The wheel, by the root's Python.
+SWELL_BUILD=build/arm64 SWELL_RENDER='' python3 -B tests/python/wheel_test.py Contents
+wheel=$(python3 -B scripts/write_wheel.py build/arm64 build/arm64/wheel)
+python3 -m zipfile -e "$wheel" build/arm64/wheel/files
+drawn=$(PYTHONHOME=$root/usr PYTHONPATH=build/arm64/wheel/files:$root/usr/lib/python3/dist-packages \
+  qemu-aarch64-static -L "$root" "$root/usr/bin/python3.11" -B -c \
+  'import swell; print("frame 0 xxh3", swell.World("scenes/buoys.toml").render(5.0, (96, 54)).hash)')
+[ "$drawn" = "$(build/release/bin/swell-render --scene scenes/buoys.toml --size 96x54 --time 5 --hash)" ]
 exec python3 -B scripts/same_pictures.py "$@"

@@ -1,5 +1,8 @@
 """The wheel: what is in it, what it asks of a machine, and that it draws where nothing else of Swell is.
 
+  wheel_test.py Contents     of a wheel for any processor
+  wheel_test.py Installed    one for this processor, by pip in an environment of its own
+
 SWELL_BUILD is the build's folder, SWELL_RENDER the program swell-render. Python is one that has NumPy.
 """
 
@@ -17,9 +20,10 @@ import zipfile
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 NEEDED = {"patchelf": "patchelf", "ensurepip": "python3-venv"}
-# What the platform of the tag has (PEP 600), and Debian 12's Python asks for itself.
+# What every machine has that the tag names (PEP 600).
 RUNTIMES = {"libc.so.6", "libm.so.6", "libgcc_s.so.1", "libstdc++.so.6", "ld-linux-x86-64.so.2",
             "ld-linux-aarch64.so.1"}
+PROCESSORS = {"x86_64": "Advanced Micro Devices X86-64", "aarch64": "AArch64"}
 NEWEST = {"GLIBC": (2, 35), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (12,)}
 BUILD, RENDER = os.environ["SWELL_BUILD"], os.environ["SWELL_RENDER"]
 HASH = 'import swell; print(swell.World("scenes/buoys.toml").render(5.0, (320, 180)).hash); ' \
@@ -37,6 +41,8 @@ def write_wheel(out):
 
 
 class Wheel(unittest.TestCase):
+    """A wheel, and its files."""
+
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
@@ -47,6 +53,46 @@ class Wheel(unittest.TestCase):
             wheel.extractall(cls.folder / "files")
         cls.files = cls.folder / "files"
         cls.objects = sorted(file for file in cls.files.rglob("*.so*"))
+
+
+class Contents(Wheel):
+    def test_the_same_build_gives_the_same_bytes(self):
+        second = write_wheel(self.folder / "second")
+        self.assertEqual((second.name, second.read_bytes()), (self.wheel.name, self.wheel.read_bytes()))
+
+    def test_no_object_asks_for_a_newer_symbol_than_its_platform_has(self):
+        (processor,) = re.findall(r"-manylinux_2_35_(\w+)\.whl$", self.wheel.name)
+        self.assertGreater(len(self.objects), 5)
+        for file in self.objects:
+            self.assertIn(PROCESSORS[processor], run("readelf", "-h", file), file.name)
+            undefined = [line for line in run("readelf", "--dyn-syms", "-W", file).splitlines() if " UND " in line]
+            versions = set(re.findall(r"@(GLIBC\w*|GCC|CXXABI)_([\w.]+)", "\n".join(undefined)))
+            self.assertTrue(versions, file.name)
+            for library, version in versions:
+                number = tuple(int(part) for part in version.split("."))
+                self.assertLessEqual(number, NEWEST[library], f"{file.name}: {library}_{version}")
+
+    def test_it_holds_every_library_but_the_runtimes(self):
+        names = {file.name for file in self.objects}
+        asked = "".join(run("readelf", "-d", file) for file in self.objects)
+        needed = set(re.findall(r"\(NEEDED\).*\[(.*)\]", asked))
+        self.assertEqual(needed - names - RUNTIMES, set())
+        self.assertEqual(names - needed, {file.name for file in self.objects if file.name.startswith("_swell.")})
+
+    def test_its_record_has_every_file(self):
+        (record,) = self.files.glob("*.dist-info/RECORD")
+        with record.open(newline="") as file:
+            named = {row[0] for row in csv.reader(file)}
+        files = {file.relative_to(self.files).as_posix() for file in self.files.rglob("*") if file.is_file()}
+        self.assertEqual(named, files)
+        for part in ("LICENSE", "libtbb12/copyright", "libpng16-16/copyright"):
+            self.assertTrue((record.parent / "licenses" / part).is_file(), part)
+
+
+class Installed(Wheel):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
         # Python's own packages are NumPy's; no path of the caller's leads to another swell.
         cls.environment = {name: value for name, value in os.environ.items()
                            if not name.startswith(("PYTHON", "LD_", "PIP_"))}
@@ -60,41 +106,11 @@ class Wheel(unittest.TestCase):
     def run_python(self, code):
         return run(self.python, "-c", code, cwd=self.venv / "share/swell", env=self.environment)
 
-    def test_the_same_build_gives_the_same_bytes(self):
-        second = write_wheel(self.folder / "second")
-        self.assertEqual((second.name, second.read_bytes()), (self.wheel.name, self.wheel.read_bytes()))
-
     def test_pip_makes_the_same_from_the_sources(self):
         out = self.folder / "pip"
         run(*self.pip, "wheel", "--no-index", "--no-deps", "--config-settings", f"build={BUILD}", "-w", out, SOURCE,
             env=self.environment)
         self.assertEqual((out / self.wheel.name).read_bytes(), self.wheel.read_bytes())
-
-    def test_no_object_asks_for_a_newer_symbol_than_its_platform_has(self):
-        self.assertRegex(self.wheel.name, rf"-manylinux_2_35_{os.uname().machine}\.whl$")
-        self.assertGreater(len(self.objects), 5)
-        for file in self.objects:
-            undefined = [line for line in run("objdump", "-T", file).splitlines() if "*UND*" in line]
-            versions = set(re.findall(r"\(?(GLIBC\w*|GCC|CXXABI)_([\w.]+)\)?", "\n".join(undefined)))
-            self.assertTrue(versions, file.name)
-            for library, version in versions:
-                number = tuple(int(part) for part in version.split("."))
-                self.assertLessEqual(number, NEWEST[library], f"{file.name}: {library}_{version}")
-
-    def test_it_holds_every_library_but_the_runtimes(self):
-        names = {file.name for file in self.objects}
-        needed = {name for file in self.objects for name in re.findall(r"NEEDED +(\S+)", run("objdump", "-p", file))}
-        self.assertEqual(needed - names - RUNTIMES, set())
-        self.assertEqual(names - needed, {file.name for file in self.objects if file.name.startswith("_swell.")})
-
-    def test_its_record_has_every_file(self):
-        (record,) = self.files.glob("*.dist-info/RECORD")
-        with record.open(newline="") as file:
-            named = {row[0] for row in csv.reader(file)}
-        files = {file.relative_to(self.files).as_posix() for file in self.files.rglob("*") if file.is_file()}
-        self.assertEqual(named, files)
-        for part in ("LICENSE", "libtbb12/copyright", "libpng16-16/copyright"):
-            self.assertTrue((record.parent / "licenses" / part).is_file(), part)
 
     def test_readme_draws_in_an_environment_of_its_own(self):
         (code,) = re.findall(r"```python\n(.*?)```", (SOURCE / "README.md").read_text(), re.DOTALL)
