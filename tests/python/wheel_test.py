@@ -126,6 +126,10 @@ class Installed(Wheel):
         loaded = {pathlib.Path(path).name for path in re.findall(rf"({re.escape(str(self.venv))}\S+\.so\S*)", maps)}
         self.assertEqual(loaded, {file.name for file in self.objects})
 
+    def test_a_scene_with_an_image_says_what_is_missing(self):
+        code = 'import swell\ntry: swell.World("scenes/pool.toml")\nexcept swell.SceneError as fault: print(fault)'
+        self.assertIn("libswell_image_codec.so", self.run_python(code))
+
 
 if __name__ == "__main__":
     missing = [package for tool, package in NEEDED.items()
