@@ -59,6 +59,8 @@ endfunction()
 # -ffp-contract=off is a correctness flag: without it GCC fuses a*b+c where it likes, and
 # pictures differ between optimisation levels and SIMD targets (docs/understand/sameness.md).
 add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
+# Names of sources in messages begin at the top of the sources: the same sources give the same bytes in any folder.
+add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/= -fmacro-prefix-map=${CMAKE_BINARY_DIR}/=)
 include(CheckCXXSourceCompiles)
 if(CMAKE_CXX_FLAGS MATCHES "-ffast-math|-Ofast|-ffp-contract=(fast|on)|-march=native")
   message(FATAL_ERROR "CMAKE_CXX_FLAGS='${CMAKE_CXX_FLAGS}' would change pictures; remove the flag.")
