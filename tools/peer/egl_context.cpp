@@ -2,6 +2,7 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <dlfcn.h>
 #include <fmt/core.h>
 
 #include <cstdlib>
@@ -10,12 +11,48 @@
 namespace swell::apps {
 namespace {
 
-[[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(
-      fmt::format("OpenGL does not start: {} (EGL code {:#x}); Debian's libgl1-mesa-dri and "
-                  "libegl-mesa0 have what "
-                  "is needed",
-                  what, eglGetError()));
+[[noreturn]] void fail(const std::string& what) {
+  throw std::runtime_error(fmt::format(
+      "OpenGL does not start: {}; Debian's libegl1 and libgl1-mesa-dri have what is needed", what));
+}
+
+#define SWELL_EGL_FUNCTIONS(X) \
+  X(BindAPI)                   \
+  X(CreateContext)             \
+  X(DestroyContext)            \
+  X(GetError)                  \
+  X(GetPlatformDisplay)        \
+  X(GetProcAddress)            \
+  X(Initialize)                \
+  X(MakeCurrent)               \
+  X(Terminate)
+
+struct Egl {
+#define SWELL_EGL_MEMBER(name) decltype(&egl##name) name = nullptr;
+  SWELL_EGL_FUNCTIONS(SWELL_EGL_MEMBER)
+#undef SWELL_EGL_MEMBER
+};
+
+Egl load_egl() {
+  void* const library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
+  if (!library) fail(dlerror());
+  Egl egl;
+#define SWELL_EGL_LOAD(name)                                                    \
+  egl.name = reinterpret_cast<decltype(egl.name)>(dlsym(library, "egl" #name)); \
+  if (!egl.name) fail("no egl" #name);
+  SWELL_EGL_FUNCTIONS(SWELL_EGL_LOAD)
+#undef SWELL_EGL_LOAD
+  return egl;
+}
+
+// Loaded when it is first asked for: nothing else in swell-bench needs Mesa's packages.
+const Egl& egl() {
+  static const Egl loaded = load_egl();
+  return loaded;
+}
+
+[[noreturn]] void fail_with_code(const char* what) {
+  fail(fmt::format("{} (EGL code {:#x})", what, egl().GetError()));
 }
 
 void choose_llvmpipe(int threads) {
@@ -34,13 +71,13 @@ EGLContext create_context(EGLDisplay display) {
                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                     EGL_NONE};
-  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes);
+  return egl().CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes);
 }
 
 Gl load_functions() {
   Gl gl;
 #define SWELL_GL_LOAD(name, type) \
-  gl.name = reinterpret_cast<PFNGL##type##PROC>(eglGetProcAddress("gl" #name));
+  gl.name = reinterpret_cast<PFNGL##type##PROC>(egl().GetProcAddress("gl" #name));
   SWELL_GL_FUNCTIONS(SWELL_GL_LOAD)
 #undef SWELL_GL_LOAD
   return gl;
@@ -55,21 +92,21 @@ std::string text_of(const Gl& gl, GLenum name) {
 
 EglContext::EglContext(int threads) {
   choose_llvmpipe(threads);
-  display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (!display_) fail("no display without a window");
-  if (!eglInitialize(display_, nullptr, nullptr)) fail("no EGL");
-  if (eglBindAPI(EGL_OPENGL_API)) context_ = create_context(display_);
-  if (!context_ || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
-    eglTerminate(display_);
-    fail("no context of version 3.3");
+  display_ = egl().GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (!display_) fail_with_code("no display without a window");
+  if (!egl().Initialize(display_, nullptr, nullptr)) fail_with_code("no EGL");
+  if (egl().BindAPI(EGL_OPENGL_API)) context_ = create_context(display_);
+  if (!context_ || !egl().MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+    egl().Terminate(display_);
+    fail_with_code("no context of version 3.3");
   }
   gl_ = load_functions();
 }
 
 EglContext::~EglContext() {
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(display_, context_);
-  eglTerminate(display_);
+  egl().MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  egl().DestroyContext(display_, context_);
+  egl().Terminate(display_);
 }
 
 std::string EglContext::renderer() const { return text_of(gl_, GL_RENDERER); }
