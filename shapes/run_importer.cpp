@@ -40,9 +40,15 @@ std::string importer_path() {
   const auto places = texture::places_beside_program(kImporterFile);
   for (const std::filesystem::path& place : places)
     if (is_there(place)) return place.string();
-  const std::filesystem::path last = texture::folder_of_image_codec() / kImporterFile;
-  if (is_there(last)) return last.string();
-  throw std::runtime_error(fmt::format("the importer is not there: {}", places.front().string()));
+  try {
+    const std::filesystem::path last = texture::folder_of_image_codec() / kImporterFile;
+    if (is_there(last)) return last.string();
+  } catch (const texture::FileError&) {
+    // No module for images either: the importer is what is asked for.
+  }
+  throw std::runtime_error(
+      fmt::format("the importer of meshes is not there: {}; the Debian package swell-meshes has it",
+                  places.front().string()));
 }
 
 // What the child writes at one end, we read at the other.

@@ -41,7 +41,9 @@ const ImageCodec& load() {
     if (!fault.starts_with(place.string() + ": cannot open"))  // it is there
       throw std::runtime_error("cannot load the module for image files: " + one_line(fault));
   }
-  fail(kImageCodecFile, "the module for image files is not beside the program nor in {}",
+  fail(kImageCodecFile,
+       "the module for image files is not beside the program nor in {}; the Debian package "
+       "swell-images has it",
        (folder / "../lib/swell").lexically_normal().string());
 }
 
