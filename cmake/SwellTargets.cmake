@@ -126,5 +126,5 @@ function(swell_add_folder folder)
   # What programs that embed the library must compile its headers with.
   target_compile_features(swell_${folder} INTERFACE cxx_std_20)
   target_compile_options(swell_${folder} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
-  install(TARGETS swell_${folder} EXPORT swell-targets)
+  install(TARGETS swell_${folder} EXPORT swell-targets COMPONENT libswell-dev)
 endfunction()
