@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "math/check.h"
+#include "math/stop.h"
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
@@ -105,6 +106,7 @@ void Workers::for_each_alone(std::size_t count, FunctionRef<void(std::size_t, in
                              const std::source_location& caller) const {
   if (observer_) observer_(WorkStep::kLoopBegin, caller);
   for (std::size_t i = 0; i < count; ++i) {
+    check_stop();
     body(i, slot);
     if (observer_) observer_(WorkStep::kItemEnd, caller);
   }
@@ -115,8 +117,10 @@ void Workers::run_both_in_turn(FunctionRef<void()> a, FunctionRef<void()> b,
                                const std::source_location& caller) const {
   if (observer_) observer_(WorkStep::kBothBegin, caller);
   a();
+  check_stop();
   if (observer_) observer_(WorkStep::kBothMiddle, caller);
   b();
+  check_stop();
   if (observer_) observer_(WorkStep::kBothEnd, caller);
 }
 

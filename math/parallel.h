@@ -50,7 +50,7 @@ using WorkObserver = std::function<void(WorkStep step, const std::source_locatio
 
 // A fixed number of threads that work together on one frame at a time. Every body runs with
 // IEEE defaults (round to nearest, no flush to zero), whatever the calling program has set.
-// An exception thrown by a body reaches the caller; the pool stays usable.
+// An exception of a body reaches the caller; the pool stays usable. math/stop.h ends loops early.
 class Workers {
  public:
   // thread_count in [1, 256], the calling thread included. Throws std::runtime_error if the system

@@ -7,6 +7,7 @@
 
 #include "math/check.h"
 #include "math/parallel.h"
+#include "math/stop.h"
 
 namespace swell {
 namespace {
@@ -21,6 +22,7 @@ struct Workers::Pool {
   struct Loop {
     std::size_t count = 0;
     FunctionRef<void(std::size_t, int)>* body = nullptr;
+    const std::atomic<bool>* stop = nullptr;
     std::atomic<std::size_t> next{0};
   };
 
@@ -47,9 +49,11 @@ struct Workers::Pool {
   // Takes indices until none is left; the first exception is kept and ends the loop.
   void work(int slot) {
     const ScopedFloatEnvironment ieee;
+    const ScopedStop stoppable(loop.stop);
     current_slot = slot;
     for (std::size_t i; (i = loop.next.fetch_add(1)) < loop.count;) {
       try {
+        check_stop();
         (*loop.body)(i, slot);
       } catch (...) {
         const std::lock_guard lock(mutex);
@@ -79,6 +83,7 @@ struct Workers::Pool {
       const std::lock_guard lock(mutex);
       loop.count = count;
       loop.body = &body;
+      loop.stop = stop_of_thread();
       loop.next = 0;
       busy = helpers.size();
       error = nullptr;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "float_control.h"
+#include "math/stop.h"
 #include "refused_calls.h"
 
 namespace swell {
@@ -204,6 +205,64 @@ TEST_P(WorkersOf, AnExceptionOfALoopInsideRunBothReachesTheCaller) {
 }
 
 // A program linked with -ffast-math sets flush-to-zero for its whole process.
+TEST_P(WorkersOf, WorkThatIsToldToStopEndsBetweenTwoBodies) {
+  Workers workers(GetParam());
+  std::atomic<bool> stop{false};
+  std::atomic<int> calls{0};
+  const ScopedStop stoppable(&stop);
+  const auto count_up = [&](std::size_t, int) {
+    if (++calls == 10) stop = true;
+  };
+  EXPECT_THROW(workers.for_each(100000, count_up), Stopped);
+  EXPECT_GE(calls, 10);
+  EXPECT_LT(calls, 10 + 2 * GetParam());  // at most one more on each thread
+  EXPECT_THROW(workers.for_each(1, count_up), Stopped);
+  EXPECT_THROW(workers.run_both([] {}, [] {}), Stopped);
+
+  stop = false;  // the pool is as good as before
+  calls = 100;
+  workers.for_each(1000, count_up);
+  EXPECT_EQ(calls, 1100);
+}
+
+TEST_P(WorkersOf, ALoopThatIsStoppedInsideOthersIsNeverTakenForDone) {
+  Workers workers(GetParam());
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<bool> stop{false};
+    std::atomic<int> half_done{0};
+    const ScopedStop stoppable(&stop);
+    const auto side = [&](bool stops) {
+      for (int loop = 0; loop < 50; ++loop) {
+        std::atomic<int> calls{0};
+        workers.for_each(40, [&](std::size_t i, int) {
+          if (stops && loop == round && i == 7) stop = true;
+          spin(1000);
+          ++calls;
+        });
+        if (calls != 40) ++half_done;
+      }
+    };
+    EXPECT_THROW(workers.run_both([&] { side(true); }, [&] { side(false); }), Stopped);
+    EXPECT_EQ(half_done, 0);
+  }
+}
+
+TEST(ScopedStop, HoldsForItsScopeAndItsThreadAlone) {
+  std::atomic<bool> stop{true};
+  check_stop();
+  {
+    const ScopedStop stoppable(&stop);
+    EXPECT_THROW(check_stop(), Stopped);
+    std::thread([] { EXPECT_NO_THROW(check_stop()); }).join();
+    {
+      const ScopedStop goes_on(nullptr);
+      EXPECT_NO_THROW(check_stop());
+    }
+    EXPECT_THROW(check_stop(), Stopped);
+  }
+  EXPECT_EQ(stop_of_thread(), nullptr);
+}
+
 TEST_P(WorkersOf, BodiesHaveIeeeArithmeticWhateverTheCallerHasSet) {
   const std::uint64_t before = float_control();
   const std::uint64_t callers = before | kFlushToZero | kRoundUp;
