@@ -8,6 +8,7 @@
 #include "lod/relief_bounds.h"
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/stop.h"
 #include "ocean/coast/coast.h"
 #include "ocean/coast/shelter.h"
 #include "ocean/coast/train_square.h"
@@ -25,6 +26,7 @@
 #include "render/world/forest.h"
 #include "render/world/land_rays.h"
 #include "render/world/land_shadow.h"
+#include "render/world/making_report.h"
 #include "render/world/near_shore_map.h"
 #include "render/world/object_meshes.h"
 #include "render/world/part_maker.h"
@@ -305,14 +307,16 @@ void add_drift(PartMaker& parts, scene::Scene& scene) {
         object.drift ? std::shared_ptr<const ocean::DriftTrack>(tracks, &(*tracks)[n++]) : nullptr;
 }
 
-std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World* const> like,
-                                       int threads) {
+std::unique_ptr<WorldState> make_state(scene::Scene scene, const WorldMaking& making) {
   const ScopedFloatEnvironment ieee;
+  const ScopedStop stoppable(making.stop);
   scene::check_scene(scene);
+  const int threads = making.threads;
   SWELL_CHECK(threads >= 1 && threads <= 256, "threads={}", threads);
+  MakingReport report(scene, making);
   auto state = std::make_unique<WorldState>(WorldState{.scene = std::move(scene)});
   const scene::Scene& now = state->scene;
-  PartMaker parts(now, like, state->parts);
+  PartMaker parts(now, making.like, report, state->parts);
   Workers workers(threads);
   state->objects = build_object_meshes(state->scene, parts);
   workers.run_both(
@@ -335,16 +339,20 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, std::span<const World
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);
+  report.finish();
   return state;
 }
 
 }  // namespace
 
-World::World(scene::Scene scene, int threads) : state_(make_state(std::move(scene), {}, threads)) {}
+World::World(scene::Scene scene, const WorldMaking& making)
+    : state_(make_state(std::move(scene), making)) {}
+World::World(scene::Scene scene, int threads)
+    : World(std::move(scene), WorldMaking{.threads = threads}) {}
 World::World(scene::Scene scene, const World& like, int threads)
     : World(std::move(scene), std::array{&like}, threads) {}
 World::World(scene::Scene scene, std::span<const World* const> like, int threads)
-    : state_(make_state(std::move(scene), like, threads)) {}
+    : World(std::move(scene), WorldMaking{.threads = threads, .like = like}) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;

@@ -8,6 +8,7 @@
 
 #include "ocean/open_sea/sea_state.h"
 #include "terrain/boundary.h"
+#include "terrain/described_samples.h"
 #include "terrain/terrain.h"
 
 namespace swell::scene {
@@ -76,15 +77,19 @@ std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain
                                 terrain_size_m)};
 }
 
+double coast_cells_at_most(const Scene& scene) {
+  const terrain::TerrainDescription& terrain = *scene.terrain;
+  const double size_m = described_size_m(terrain).value_or(terrain::samples_at_most(terrain) *
+                                                           terrain.metres_per_pixel);
+  return std::min(cells_a_side(scene.coast, size_m), most_cells(scene.coast.trains));
+}
+
 std::string slow_coast_text(const Scene& scene) {
   const Coast& coast = scene.coast;
   if (!has_trains(coast.model) || !scene.terrain || ocean::wave_systems(scene.sea).empty())
     return {};
   const std::optional<double> size_m = described_size_m(*scene.terrain);
-  const double cells = std::min(
-      cells_a_side(coast,
-                   size_m.value_or(terrain::kMaxImageSide * scene.terrain->metres_per_pixel)),
-      most_cells(coast.trains));
+  const double cells = coast_cells_at_most(scene);
   if (cells * cells * coast.trains < kSlowWork) return {};
   return size_m ? fmt::format("making {0} wave trains on {1} x {1} points", coast.trains, cells + 1)
                 : fmt::format("making {} wave trains on points {} m apart", coast.trains,

@@ -24,9 +24,12 @@ inline constexpr std::int64_t kMaxCoastWork = std::int64_t{1} << 24;
 // What is wrong with coast.grid_spacing_m over a terrain of this size, if anything.
 std::optional<SceneFault> fault_of_coast_grid(const Coast& coast, double terrain_size_m);
 
+// So many cells a side, or fewer, the trains of a scene with terrain are worked out on: by the
+// first bytes of its image.
+double coast_cells_at_most(const Scene& scene);
+
 // For those who wait: 'making 16 wave trains on 1001 x 1001 points' if that takes one core about a
-// second or more, else empty. Cheap; the size of a terrain from an image, which it does not open,
-// may be up to the largest.
+// second or more, else empty. Cheap, as coast_cells_at_most() is.
 std::string slow_coast_text(const Scene& scene);
 
 // Works out the phases of the scene's wave trains over its terrain, the same bits with any workers:

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include "math/enum_table.h"
+#include "math/stop.h"
 #include "shapes/flat_mesh.h"
 #include "texture/image/file_bytes.h"
 #include "texture/image/program_folder.h"
@@ -128,8 +130,9 @@ void read_both(const Pipe& out, const Pipe& err, Clock::time_point deadline,
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0)
       throw std::runtime_error(fmt::format("a file that takes over {} s to read", kMostImport_s));
-    if (poll(open.data(), open.size(), static_cast<int>(left.count())) < 0 && errno != EINTR)
-      check(errno, "poll");
+    check_stop();
+    const int turn_ms = static_cast<int>(std::min<long>(left.count(), 10));
+    if (poll(open.data(), open.size(), turn_ms) < 0 && errno != EINTR) check(errno, "poll");
     if (open[0].revents != 0 && !read_some(open[0].fd, kMostStreamBytes, stream)) open[0].fd = -1;
     if (open[1].revents != 0) {
       // What does not fit is not said.

@@ -7,6 +7,7 @@
 #include "math/elementary.h"
 #include "math/random.h"
 #include "math/smoothstep.h"
+#include "math/stop.h"
 
 namespace swell::terrain {
 namespace {
@@ -104,10 +105,12 @@ HeightGrid build_island(const TerrainDescription& description) {
   const double half_m = shape.half_size_m(), spacing_m = 2.0 * half_m / (kIslandSamples - 1);
   HeightGrid island{{description.centre_m - half_m, spacing_m, kIslandSamples, kIslandSamples}};
   island.height_m.reserve(island.grid.size());
-  for (int j = 0; j < kIslandSamples; ++j)
+  for (int j = 0; j < kIslandSamples; ++j) {
+    check_stop();
     for (int i = 0; i < kIslandSamples; ++i)
       island.height_m.push_back(
           static_cast<float>(shape.height_m(glm::dvec2(i, j) * spacing_m - half_m)));
+  }
   return island;
 }
 
@@ -161,13 +164,15 @@ HeightGrid build_archipelago(const TerrainDescription& description) {
     const double reach = island.shape.half_size_m() / all.grid.spacing_m;
     const glm::ivec2 first(glm::max(glm::ceil(middle - reach), 0.0));
     const glm::ivec2 last(glm::min(glm::floor(middle + reach), static_cast<double>(kLast)));
-    for (int j = first.y; j <= last.y; ++j)
+    for (int j = first.y; j <= last.y; ++j) {
+      check_stop();
       for (int i = first.x; i <= last.x; ++i) {
         float& height = all.height_m[static_cast<std::size_t>(j) * kArchipelagoSamples +
                                      static_cast<std::size_t>(i)];
         const double one = island.shape.height_m(all.grid.point(i, j) - island.middle_world);
         height = std::max(height, static_cast<float>(one));
       }
+    }
   }
   return all;
 }

@@ -8,8 +8,10 @@
 #include <string>
 
 #include "math/elementary.h"
+#include "math/stop.h"
 #include "terrain/apron.h"
 #include "terrain/boundary.h"
+#include "terrain/described_samples.h"
 #include "terrain/island.h"
 #include "terrain/sea_floor.h"
 #include "texture/image/image_io.h"
@@ -84,6 +86,7 @@ HeightGrid terrain_from_coast(const TerrainDescription& description) {
   terrain.height_m.reserve(terrain.grid.size());
   const double dune_length_m = std::max(45.0, 8.0 * spacing_m);  // 8 samples and more
   for (int j = 0; j < kBeachSamples; ++j) {
+    check_stop();
     for (int i = 0; i < kBeachSamples; ++i) {
       const double plane_m = -description.beach_slope *
                              distance_to_coast(description.coast_m, terrain.grid.point(i, j));
@@ -152,6 +155,15 @@ std::optional<double> described_size_m(const TerrainDescription& description) {
   if (!description.coast_m.empty()) return description.beach_size_m;
   if (!description.height_image.empty()) return std::nullopt;
   return description.islands > 1 ? description.archipelago_size_m : island_size_m(description);
+}
+
+int samples_at_most(const TerrainDescription& description) {
+  const int of_heights = !description.coast_m.empty() ? kBeachSamples
+                         : !description.height_image.empty()
+                             ? texture::side_at_most_px(description.height_image, kMaxImageSide)
+                         : description.islands > 1 ? kArchipelagoSamples
+                                                   : kIslandSamples;
+  return description.ground_from_boundary ? std::max(of_heights, kShoreMapCells + 1) : of_heights;
 }
 
 HeightGrid build_terrain(const TerrainDescription& description) {

@@ -7,6 +7,7 @@
 
 #include "math/check.h"
 #include "math/large_array.h"
+#include "math/stop.h"
 
 namespace swell::texture {
 namespace {
@@ -40,13 +41,15 @@ void pack_level(int size, const std::vector<glm::vec4>& values, CoverWord* words
     for (int channel = 0; channel < 4; ++channel)
       code[k][static_cast<std::size_t>(channel)] = static_cast<std::int8_t>(
           std::lrint(254.0f * std::clamp(values[k][channel], 0.0f, 1.0f)) - 127);
-  for (int j = 0; j < size; ++j)
+  for (int j = 0; j < size; ++j) {
+    check_stop();
     for (int i = 0; i < size; ++i) {
       const std::array<std::size_t, 4> taps = {texel(size, i, j), texel(size, i + 1, j),
                                                texel(size, i, j + 1), texel(size, i + 1, j + 1)};
       CoverWord& word = words[texel(size, i, j)];
       for (std::size_t n = 0; n < 16; ++n) word.bytes[n] = code[taps[n % 4]][n / 4];
     }
+  }
 }
 
 }  // namespace

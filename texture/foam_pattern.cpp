@@ -10,6 +10,7 @@
 
 #include "math/check.h"
 #include "math/random.h"
+#include "math/stop.h"
 #include "texture/perlin.h"
 
 namespace swell::texture {
@@ -81,6 +82,7 @@ std::vector<float> make_foam_pattern(int size, std::uint64_t seed) {
   const CellPoints large(10, seed), small(25, seed + 1);
   std::vector<double> rim;
   for (int j = 0; j < size; ++j) {
+    check_stop();
     for (int i = 0; i < size; ++i) {
       const double x = static_cast<double>(i) / size, y = static_cast<double>(j) / size;
       rim.push_back(large.rim_distance(10.0 * x, 10.0 * y) +
@@ -97,9 +99,11 @@ std::vector<float> make_tear_pattern(int size, std::uint64_t seed) {
   const PerlinNoise noise(seed);
   std::vector<double> x, value(static_cast<std::size_t>(size) * size);
   for (int i = 0; i < size; ++i) x.push_back(static_cast<double>(kCells * i) / size);
-  for (std::size_t j = 0; j < x.size(); ++j)
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    check_stop();
     noise.periodic_fractal3_row(x, x[j], 0.5, kCells, kOctaves, kPersistence,
                                 std::span(value).subspan(j * x.size(), x.size()));
+  }
   return spread_evenly(value);
 }
 

@@ -7,6 +7,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/stop.h"
 
 namespace swell::ocean {
 namespace {
@@ -144,6 +145,7 @@ Marched march(const LandMask& mask, const PlaneWave& wave, const MarchGrid& grid
   marched.fetch_m.resize(marched.energy.size());
   bool has_met_land = false;
   for (int row = 0; row < grid.rows; ++row) {
+    check_stop();
     if (has_met_land) spreading.step(u);
     const std::size_t first = count * static_cast<std::size_t>(row);
     for (std::size_t i = 0; i < count; ++i) {

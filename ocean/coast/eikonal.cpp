@@ -9,6 +9,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/stop.h"
 
 namespace swell::ocean {
 namespace {
@@ -175,6 +176,7 @@ void sweep_until_converged(const EikonalProblem& problem, RimmedGrid& theta) {
   for (int round = 0; round < kMaxRounds; ++round) {
     double change = 0.0;
     for (const bool y_up : {true, false}) {
+      check_stop();
       for (const bool x_up : {true, false}) change = std::max(change, arrivals.sweep(x_up, y_up));
     }
     if (change <= kTolerance) return;
@@ -191,6 +193,7 @@ template <class Solve>
 void solve_down_the_wave(const terrain::Grid& grid, Sample first, Solve solve) {
   std::vector<Sample> waiting;
   for (int jj = 0; jj < grid.samples_y; ++jj) {
+    check_stop();
     const int j = first.j == 0 ? jj : grid.samples_y - 1 - jj;
     for (int ii = 0; ii < grid.samples_x; ++ii) {
       const int i = first.i == 0 ? ii : grid.samples_x - 1 - ii;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "math/elementary.h"
+#include "math/stop.h"
 
 namespace swell::ocean {
 namespace {
@@ -278,6 +279,7 @@ class Fleet {
 
   // After a step of one: nobody waits for it any more, and where nothing moves all ways end.
   void rouse(Afloat& one, bool stays) {
+    check_stop();
     ++one.stays;
     for (Afloat& each : afloat_) {
       each.waits = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/smoothstep.h"
+#include "math/stop.h"
 
 namespace swell::ocean {
 namespace {
@@ -44,6 +45,7 @@ void dig_beds(const RiverNetwork& network, terrain::HeightGrid& land) {
     return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(samples)));
   };
   for (int j = bound(from.y, grid.samples_y); j < bound(to.y + 1.0, grid.samples_y); ++j) {
+    check_stop();
     for (int i = bound(from.x, grid.samples_x); i < bound(to.x + 1.0, grid.samples_x); ++i) {
       const std::optional<WaterPlace> water = network.water_near(grid.point(i, j));
       if (!water) continue;

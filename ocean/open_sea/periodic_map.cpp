@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "math/elementary.h"
+#include "math/stop.h"
 #include "ocean/open_sea/map_statistics.h"
 #include "ocean/open_sea/wave_automaton.h"
 #include "ocean/spectrum/require.h"
@@ -94,6 +95,7 @@ Frames run_loop(const MapRecipe& recipe) {
   const auto run = [&](int count) {
     Frames frames;
     for (int f = 0; f < count; ++f) {
+      check_stop();
       frames.push_back(automaton.now);
       for (int i = 0; i < recipe.steps_per_frame; ++i) step(automaton);
     }
@@ -183,6 +185,7 @@ PeriodicMap make_periodic_map(const MapRecipe& recipe) {
   map.travel = recipe.courant * recipe.steps_per_frame * recipe.frames / recipe.size;
   double most_height = 0.0, most_slope = 0.0;
   for (const auto& frame : frames) {
+    check_stop();
     most_height = std::max(most_height, most_of(frame));
     for (const bool along_x : {true, false})
       most_slope = std::max(most_slope, most_of(slope_along(frame, map.size, along_x)));
@@ -191,6 +194,7 @@ PeriodicMap make_periodic_map(const MapRecipe& recipe) {
   map.height_scale = static_cast<float>(most_height / codes);
   map.slope_scale = static_cast<float>(most_slope / codes);
   for (const auto& frame : frames) {
+    check_stop();
     add_codes(frame, map.height_scale, map.bits, map.height);
     add_codes(slope_along(frame, map.size, true), map.slope_scale, map.bits, map.slope_x);
     add_codes(slope_along(frame, map.size, false), map.slope_scale, map.bits, map.slope_y);

@@ -8,6 +8,7 @@
 #include "math/elementary.h"
 #include "math/random.h"
 #include "math/smoothstep.h"
+#include "math/stop.h"
 #include "ocean/open_sea/sea_state.h"
 #include "ocean/open_sea/whitecap_steps.h"
 
@@ -122,6 +123,7 @@ class Trials {
       phase.push_back(static_cast<std::uint16_t>(random_bits(kSeed, k)));
     std::vector<float> on_trains = fields_[0], c(kPoints);
     for (int step = 0; step < kSteps; ++step) {
+      check_stop();
       add_crests(trains, phase, time_of_step(whitecaps, step), c);
       const auto b = std::span(on_trains).subspan(static_cast<std::size_t>(step) * kPoints);
       for (std::size_t i = 0; i < kPoints; ++i) b[i] = foam.scale * (b[i] + foam.gain * c[i]);
@@ -159,6 +161,7 @@ class Trials {
     std::vector<std::uint8_t> codes(kPoints, 0), born(kPoints, 0);
     double foam = 0.0, births = 0.0;
     for (int n = 0; n < kSteps; ++n) {
+      check_stop();
       const auto field = fields.subspan(static_cast<std::size_t>(n) * kPoints, kPoints);
       age_foam(field, threshold, patch.decay, codes);
       if (n >= life) foam += mean_of(codes) / (kSteps - life);  // earlier ones know their beginning

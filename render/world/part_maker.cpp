@@ -5,8 +5,9 @@
 
 namespace swell::render {
 
-PartMaker::PartMaker(const scene::Scene& scene, std::span<const World* const> like, KeptParts& kept)
-    : scene_(scene), like_(like), kept_(kept) {}
+PartMaker::PartMaker(const scene::Scene& scene, std::span<const World* const> like,
+                     MakingReport& report, KeptParts& kept)
+    : scene_(scene), like_(like), report_(report), kept_(kept) {}
 
 ValueBytes PartMaker::of(std::initializer_list<std::string_view> keys) const {
   ValueBytes bytes;

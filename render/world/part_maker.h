@@ -14,8 +14,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "math/stop.h"
 #include "math/value_hash.h"
 #include "render/world/kept_parts.h"
+#include "render/world/making_report.h"
 #include "render/world/world.h"
 
 namespace swell::render {
@@ -23,8 +25,9 @@ namespace swell::render {
 class PartMaker {
  public:
   // A maker of parts for a scene, which takes those that worlds of `like` have; kept: of the world
-  // that is made. All outlive it.
-  PartMaker(const scene::Scene& scene, std::span<const World* const> like, KeptParts& kept);
+  // that is made. All outlive it. `report` is told of each part.
+  PartMaker(const scene::Scene& scene, std::span<const World* const> like, MakingReport& report,
+            KeptParts& kept);
 
   // What the scene says under these keys (scene/file/key_values.h).
   ValueBytes of(std::initializer_list<std::string_view> keys) const;
@@ -36,9 +39,15 @@ class PartMaker {
   auto share(std::string_view name, ValueBytes inputs, Make&& make) {
     using Made = std::remove_cvref_t<std::invoke_result_t<Make>>;
     const ValueHash key = inputs.add(name).hash();
-    if (const std::shared_ptr<const void>* const found = find(key))
+    if (const std::shared_ptr<const void>* const found = find(key)) {
+      report_.has(name);
       return typed<Made>(keep(key, *found));
-    return typed<Made>(keep(key, shared(make())));
+    }
+    check_stop();
+    const auto start = MakingReport::Clock::now();
+    std::shared_ptr<const void> made = shared(make());
+    report_.made(name, start);
+    return typed<Made>(keep(key, std::move(made)));
   }
 
  private:
@@ -69,6 +78,7 @@ class PartMaker {
 
   const scene::Scene& scene_;
   std::span<const World* const> like_;
+  MakingReport& report_;
   KeptParts& kept_;
   std::mutex mutex_;  // of kept_
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/large_array.h"
+#include "math/stop.h"
 #include "render/world/for_each_row.h"
 #include "render/world/ground_cover.h"
 #include "render/world/rgb_code.h"
@@ -94,6 +95,7 @@ CoverMaps pack_ground(const Relief& relief, double step_m, const std::vector<Gro
   std::array<std::vector<glm::vec4>, std::tuple_size_v<CoverMaps>> values;
   for (auto& four : values) four = make_large<glm::vec4>(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
+    if (k % kTerrainMapSize == 0) check_stop();
     const GroundCover cover = cover_of(places[k], materials);
     const auto channel = [&](std::size_t n) -> float& {
       return values[n / 4][k][static_cast<glm::length_t>(n % 4)];

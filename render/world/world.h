@@ -5,6 +5,7 @@
 #include <span>
 
 #include "math/parallel.h"
+#include "render/world/world_making.h"
 #include "scene/scene.h"
 
 namespace swell::render {
@@ -26,6 +27,8 @@ class World {
   // with another wind alone 20 ms, 200 ms more for the trains of a coast.
   World(scene::Scene scene, std::span<const World* const> like, int threads);
   World(scene::Scene scene, const World& like, int threads);
+  // As it says (render/world/world_making.h). Throws OverMemoryBound and Stopped too.
+  World(scene::Scene scene, const WorldMaking& making);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;

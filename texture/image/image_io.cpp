@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <string_view>
 
@@ -234,6 +235,23 @@ ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits) {
     if (what.find(", allowed") != std::string::npos) throw;
     throw FileError(what + ", allowed a whole picture in the format of its extension");
   }
+}
+
+int side_at_most_px(const std::filesystem::path& path, int limit) {
+  constexpr std::string_view kBegin = "\x89PNG\r\n\x1a\n";
+  std::array<char, 24> head{};  // the last 8 bytes are width and height, big-endian
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return limit;
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(head.data(), head.size()) || !std::string_view(head.data()).starts_with(kBegin))
+    return limit;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t n = 0;
+    for (std::size_t i = at; i < at + 4; ++i) n = n << 8 | static_cast<unsigned char>(head[i]);
+    return n;
+  };
+  return static_cast<int>(
+      std::min(std::max(number(16), number(20)), static_cast<std::uint32_t>(limit)));
 }
 
 std::vector<std::uint8_t> encode_image(const Image8& image, const std::string& extension,

@@ -34,6 +34,10 @@ struct ReadLimits {
 // and whatever is not a regular file. Channels come as stored: alpha is not multiplied in.
 ImageF read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
 
+// The longer side of a PNG file by its first bytes, `limit` at most; `limit` for what is no PNG
+// file or cannot be read.
+int side_at_most_px(const std::filesystem::path& path, int limit);
+
 // Whether a file of this name holds floats as they are, and no integers of [0, 1]: EXR and HDR.
 bool holds_floats(const std::filesystem::path& path);
 
