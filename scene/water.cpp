@@ -10,38 +10,41 @@
 namespace swell::scene {
 namespace {
 
-ocean::Sea sea_of(const Scene& scene) {
-  const ScopedFloatEnvironment ieee;
-  check_scene(scene);
-  return ocean::Sea(scene.sea);
+// Null: there is none.
+template <class Part>
+std::shared_ptr<const Part> shared(std::optional<Part> part) {
+  return part ? std::make_shared<const Part>(*std::move(part)) : nullptr;
 }
 
 }  // namespace
 
-Water::Water(const Scene& scene, int threads) : sea_(sea_of(scene)), area_(scene.area) {
+Water::Water(const Scene& scene, int threads) {
   const ScopedFloatEnvironment ieee;
-  disturbances_ = all_disturbances(scene);
+  check_scene(scene);
+  parts_.sea = std::make_shared<const ocean::Sea>(scene.sea);
+  parts_.area = scene.area;
+  parts_.disturbances = all_disturbances(scene);
   Workers workers(threads);
   if (std::optional<Ground> ground = build_ground(scene)) {
-    terrain_ = std::move(ground->terrain);
-    inland_ = build_inland_water(scene, ground->lakes, *terrain_, workers);
+    parts_.terrain = std::make_shared<const terrain::HeightGrid>(std::move(ground->terrain));
+    parts_.inland = shared(build_inland_water(scene, ground->lakes, *terrain(), workers));
   }
-  shore_ = build_shore(scene, terrain());
-  coast_ = build_coast(scene, terrain(), shore(), workers);
-  shelter_ = build_shelter(scene, shore(), workers);
-  fronts_ = build_surf_fronts(scene, sea_, terrain(), shore(), shelter(), workers);
+  parts_.shore = shared(build_shore(scene, terrain()));
+  parts_.coast = shared(build_coast(scene, terrain(), shore(), workers));
+  parts_.shelter = shared(build_shelter(scene, shore(), workers));
+  parts_.fronts = shared(build_surf_fronts(scene, sea(), terrain(), shore(), shelter(), workers));
 }
 
 WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,
                        std::span<const ocean::Disturbance> more) const {
   const ScopedFloatEnvironment ieee;
-  const double gravity = sea_.description().gravity_mps2;
-  ocean::advance(sea_, t_s, frame, workers);
-  ocean::advance_wakes(disturbances_, more, gravity, t_s, frame.wakes, workers, shore());
-  ocean::WakeBounds wakes = ocean::wake_bounds(disturbances_, gravity);
+  const double gravity = sea().description().gravity_mps2;
+  ocean::advance(sea(), t_s, frame, workers);
+  ocean::advance_wakes(parts_.disturbances, more, gravity, t_s, frame.wakes, workers, shore());
+  ocean::WakeBounds wakes = ocean::wake_bounds(parts_.disturbances, gravity);
   wakes.include(ocean::wake_bounds(more, gravity));
-  return WaterSurface({&sea_, area_, terrain(), coast(), wakes, shelter(), inland(), fronts()},
-                      frame);
+  return WaterSurface(
+      {&sea(), parts_.area, terrain(), coast(), wakes, shelter(), inland(), fronts()}, frame);
 }
 
 bool Water::wets(const WaterSurface& surface, glm::dvec2 p_world) const {
@@ -49,8 +52,8 @@ bool Water::wets(const WaterSurface& surface, glm::dvec2 p_world) const {
   if (!terrain()) return true;
   const double ground_m = terrain::height_at(*terrain(), p_world);
   if (ground_m < static_cast<double>(surface.height(p_world))) return true;
-  const ocean::Swash swash = ocean::make_swash(sea_, coast(), shelter());
-  const double t_s = ocean::wave_time_s(sea_.description(), surface.t_s());
+  const ocean::Swash swash = ocean::make_swash(sea(), coast(), shelter());
+  const double t_s = ocean::wave_time_s(sea().description(), surface.t_s());
   return swash.reach_m > 0.0 && ground_m < ocean::swash_edge_m(swash, t_s, p_world);
 }
 

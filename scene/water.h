@@ -20,7 +20,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
+#include <memory>
+#include <vector>
 
 #include "math/parallel.h"
 #include "ocean/coast/coast.h"
@@ -38,12 +39,28 @@ namespace swell::scene {
 using WaterHit = ocean::WaterHit;
 using WaterSurface = ocean::WaterSurface;
 
-// What of a scene's water does not change with time, for programs that ask and do not draw.
+// What of a scene's water does not change with time, for programs that ask. Those that draw too
+// take that of their world: render::World::water(). Copies share it.
 class Water {
  public:
+  // All but the sea and what disturbs it may be missing.
+  struct Parts {
+    std::shared_ptr<const ocean::Sea> sea;
+    SeaArea area;
+    std::shared_ptr<const terrain::HeightGrid> terrain;
+    std::shared_ptr<const terrain::ShoreMap> shore;
+    std::shared_ptr<const ocean::InlandWater> inland;
+    std::shared_ptr<const ocean::CoastSea> coast;
+    std::shared_ptr<const ocean::Shelter> shelter;
+    std::shared_ptr<const ocean::SurfFronts> fronts;
+    std::vector<ocean::Disturbance> disturbances;
+  };
+
   // Throws SceneError (a value out of its range) or texture::FileError (a height image). Rivers and
   // lakes are made with this many threads, 1 to 256, the same with any.
   explicit Water(const Scene& scene, int threads = 1);
+  // Of one scene's parts.
+  explicit Water(Parts parts) : parts_(std::move(parts)) {}
 
   // Fills `frame` with the sea at any finite time, past or to come, and looks at it. `more`
   // disturbs the water besides what the scene has, in this frame.
@@ -54,24 +71,16 @@ class Water {
   // the surface's time.
   bool wets(const WaterSurface& surface, glm::dvec2 p_world) const;
 
-  const ocean::Sea& sea() const { return sea_; }
-  const terrain::HeightGrid* terrain() const { return terrain_ ? &*terrain_ : nullptr; }
-  const terrain::ShoreMap* shore() const { return shore_ ? &*shore_ : nullptr; }
-  const ocean::InlandWater* inland() const { return inland_ ? &*inland_ : nullptr; }
-  const ocean::CoastSea* coast() const { return coast_ ? &*coast_ : nullptr; }
-  const ocean::Shelter* shelter() const { return shelter_ ? &*shelter_ : nullptr; }
-  const ocean::SurfFronts* fronts() const { return fronts_ ? &*fronts_ : nullptr; }
+  const ocean::Sea& sea() const { return *parts_.sea; }
+  const terrain::HeightGrid* terrain() const { return parts_.terrain.get(); }
+  const terrain::ShoreMap* shore() const { return parts_.shore.get(); }
+  const ocean::InlandWater* inland() const { return parts_.inland.get(); }
+  const ocean::CoastSea* coast() const { return parts_.coast.get(); }
+  const ocean::Shelter* shelter() const { return parts_.shelter.get(); }
+  const ocean::SurfFronts* fronts() const { return parts_.fronts.get(); }
 
  private:
-  ocean::Sea sea_;
-  SeaArea area_;
-  std::optional<terrain::HeightGrid> terrain_;
-  std::optional<terrain::ShoreMap> shore_;
-  std::optional<ocean::InlandWater> inland_;
-  std::optional<ocean::CoastSea> coast_;
-  std::optional<ocean::Shelter> shelter_;
-  std::optional<ocean::SurfFronts> fronts_;
-  std::vector<ocean::Disturbance> disturbances_;
+  Parts parts_;
 };
 
 }  // namespace swell::scene

@@ -48,6 +48,8 @@ class Drawn {
     return scene;
   }
 
+  const render::World& world() const { return world_; }
+
   const render::Surface& draw(const View& view, int budget, Workers& workers) {
     render::FrameOptions options;
     options.water_triangles = budget;
@@ -102,12 +104,12 @@ ComparisonRow uniform_row(const NamedView& view, const render::SeaReference& sea
 }  // namespace
 
 std::vector<ComparisonRow> compare_triangulations(const Comparison& comparison, Workers& workers) {
-  const scene::Scene scene = Drawn::scene_with(scene::Triangulation::kRoam);
-  const scene::Water water(scene);
-  ocean::SeaFrame frame;
-  const scene::WaterSurface surface = water.at(kTime_s, frame, workers);
   Drawn roam(scene::Triangulation::kRoam), radial(scene::Triangulation::kRadial),
       plane(scene::Triangulation::kPlane);
+  const scene::Scene& scene = roam.world().scene();
+  const scene::Water water = roam.world().water();
+  ocean::SeaFrame frame;
+  const scene::WaterSurface surface = water.at(kTime_s, frame, workers);
 
   std::vector<ComparisonRow> rows;
   for (const NamedView& view : compared_views(surface)) {

@@ -8,6 +8,10 @@
 #include "render/world/world_making.h"
 #include "scene/scene.h"
 
+namespace swell::scene {
+class Water;
+}
+
 namespace swell::render {
 
 struct WorldState;
@@ -33,6 +37,9 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   const scene::Scene& scene() const;
+
+  // Its water, to be asked without drawing (scene/water.h): the same, not made anew.
+  scene::Water water() const;
 
   const WorldState& state() const;
 

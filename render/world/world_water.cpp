@@ -2,6 +2,7 @@
 #include "ocean/water_surface.h"
 #include "render/world/near_shore_map.h"
 #include "render/world/world_state.h"
+#include "scene/water.h"
 
 namespace swell::render {
 
@@ -16,6 +17,21 @@ ocean::WaterParts WorldState::water(std::span<const ocean::Disturbance> more) co
 
 ocean::WaterBounds WorldState::water_bounds(std::span<const ocean::Disturbance> more) const {
   return ocean::WaterBody(water(more)).bounds();
+}
+
+scene::Water World::water() const {
+  const WorldState& s = state();
+  const ocean::SurfFronts* const fronts =
+      s.near_shore && s.near_shore->fronts ? &*s.near_shore->fronts : nullptr;
+  return scene::Water({.sea = s.sea,
+                       .area = s.scene.area,
+                       .terrain = s.terrain,
+                       .shore = s.shore,
+                       .inland = s.inland,
+                       .coast = s.coast,
+                       .shelter = s.shelter,
+                       .fronts = {s.near_shore, fronts},
+                       .disturbances = s.disturbances});
 }
 
 ocean::WaterSurface water_surface(const WorldState& world, const ocean::SeaFrame& sea) {

@@ -70,7 +70,7 @@ struct DriftFrame : Shot {
 };
 
 std::vector<scene::ObjectPose> poses_at(double t_s, glm::vec2* current) {
-  static const scene::Water water(drift_world().scene());
+  static const scene::Water water = drift_world().water();
   ocean::SeaFrame sea;
   Workers workers(1);
   const scene::WaterSurface surface = water.at(t_s, sea, workers);

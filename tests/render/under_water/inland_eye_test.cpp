@@ -204,7 +204,7 @@ TEST(UnderARiver, TheSurfaceIsOverAnEyeAllTheWayToTheSea) {
   const World world = world_of(glass_lake());
   FrameOptions with_flags;
   with_flags.labels.add(Label::kFlags);
-  const scene::Water water(world.scene());
+  const scene::Water water = world.water();
   ocean::SeaFrame sea;
   Workers workers(1);
   const scene::WaterSurface surface = water.at(3.0, sea, workers);
