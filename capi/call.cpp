@@ -3,6 +3,8 @@
 #include <array>
 #include <new>
 
+#include "math/stop.h"
+#include "render/world/world_making.h"
 #include "scene/scene_error.h"
 #include "texture/image/image_io.h"
 
@@ -44,6 +46,10 @@ swell_status status_of_exception() noexcept {
     return report(SWELL_BAD_SCENE, e.what());
   } catch (const std::invalid_argument& e) {  // values of a scene that only the sea can judge
     return report(SWELL_BAD_SCENE, e.what());
+  } catch (const Stopped&) {
+    return report(SWELL_CANCELLED, "cancelled by progress()");
+  } catch (const render::OverMemoryBound& e) {
+    return report(SWELL_NO_MEMORY, e.what());
   } catch (const std::bad_alloc&) {
     return report(SWELL_NO_MEMORY, "out of memory");
   } catch (const std::length_error&) {

@@ -21,7 +21,7 @@ namespace swell::capi {
 
 // A world with the texts that its handle gives out.
 struct NamedWorld {
-  explicit NamedWorld(scene::Scene scene, int threads);
+  NamedWorld(scene::Scene scene, const render::WorldMaking& making);
 
   render::World world;
   std::string text;                      // scene::dump_scene

@@ -5,7 +5,9 @@
 
 #include "capi/call.h"
 #include "capi/handles.h"
+#include "capi/make_told.h"
 #include "math/simd_target.h"
+#include "math/stop.h"
 #include "render/labels/classes.h"
 #include "scene/settings.h"
 
@@ -29,6 +31,7 @@ std::vector<std::string> settings_of(const swell_scene& given) {
 
 scene::Scene scene_of(const swell_scene& given) {
   const std::vector<std::string> settings = settings_of(given);
+  check_stop();
   if (given.path) {
     if (given.text) refuse("scene, got path and text, allowed one of them");
     return scene::load_scene(given.path, settings);
@@ -57,8 +60,8 @@ const NamedWorld& named(const swell_world* world) {
 
 }  // namespace
 
-NamedWorld::NamedWorld(scene::Scene scene, int threads)
-    : world(std::move(scene), threads),
+NamedWorld::NamedWorld(scene::Scene scene, const render::WorldMaking& making)
+    : world(std::move(scene), making),
       text(scene::dump_scene(world.scene())),
       class_names(render::class_names(world.scene())),
       object_classes(render::object_classes(world.scene())) {}
@@ -74,8 +77,12 @@ swell_status swell_world_create(const swell_scene* scene, swell_world** world) {
     const swell_scene given = taken(scene, "scene");
     check_cpu();
     const int threads = thread_count("scene.threads", given.threads);
-    auto made = std::make_shared<const NamedWorld>(scene_of(given), threads);
-    *world = new swell_world{std::move(made)};
+    const auto make = [&](render::WorldMaking making) {
+      making.threads = threads;
+      making.most_bytes = given.most_bytes;
+      return std::make_shared<const NamedWorld>(scene_of(given), making);
+    };
+    *world = new swell_world{make_told(given, make)};
   });
 }
 

@@ -45,7 +45,8 @@ typedef enum swell_status {
   SWELL_BAD_SCENE = 2,    /* the scene, its settings, or a file that it names */
   SWELL_BUSY = 3,         /* another thread uses the session or picture */
   SWELL_NO_MEMORY = 4,
-  SWELL_FAILED = 5 /* anything else: a CPU without AVX2, no threads to be had */
+  SWELL_FAILED = 5,   /* anything else: a CPU without AVX2, no threads to be had */
+  SWELL_CANCELLED = 6 /* the caller's progress() wished it */
 } swell_status;
 
 typedef struct swell_world swell_world;     /* a scene made ready to draw and to ask */
@@ -70,6 +71,16 @@ typedef struct swell_scene {
   const char* const* settings; /* "wind.speed_mps=12" ..., as swell-render --set has them */
   size_t setting_count;
   int32_t threads; /* that make the world, [1, 256]; 0: all that the process may use */
+  /* Both are called while the world is made, by the thread that makes the call; null: nobody is
+   * told. progress() is told about every 10 ms which part is done, from 0 to 1, by typical times;
+   * it returns 0 to go on. Else the call returns SWELL_CANCELLED within 50 ms. log() takes a line
+   * for what was made, and for what takes long. */
+  int32_t (*progress)(void* user, double done);
+  void (*log)(void* user, const char* line);
+  void* user;
+  /* Of memory that the world may take, also while it is made; a world that might take more is
+   * refused before it is made, SWELL_NO_MEMORY. 0: no bound. */
+  size_t most_bytes;
 } swell_scene;
 
 /* Makes a world: 20 ms to some seconds. */

@@ -405,6 +405,17 @@ static void test_frame_faults(Opened o) {
   BAD(swell_picture_camera(NULL, &camera));
   BAD(swell_picture_camera(o.picture, NULL));
   BAD(swell_picture_create(NULL));
+
+  swell_camera bad = {.size = sizeof bad, .near_m = kNotANumber};
+  BAD_FRAME(next_camera, &bad);
+  BAD_FRAME(next_pose_count, 1);
+  BAD_FRAME(disturbance_count, SIZE_MAX);
+  frame = small_frame();
+  BAD(swell_frame_camera(NULL, &frame, &camera));
+  BAD(swell_frame_camera(o.session, NULL, &camera));
+  BAD(swell_frame_camera(o.session, &frame, NULL));
+  frame.t_s = -INFINITY;
+  BAD(swell_frame_camera(o.session, &frame, &camera));
 }
 
 static void test_query_faults(Opened o) {

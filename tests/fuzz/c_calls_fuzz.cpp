@@ -204,9 +204,18 @@ void Calls::make_world() {
   scene->setting_count = 1 + bytes_.index(2);
   if (bytes_.index(16) == 0 && !scene->settings) scene->setting_count = bytes_.take<std::size_t>();
   scene->threads = bytes_.coin() ? 1 : count(2);
+  scene->most_bytes = bytes_.index(8) == 0 ? bytes_.take<std::uint32_t>() : 0;
+  std::int32_t goes_on_for = bytes_.index(8) == 0 ? bytes_.take<std::uint8_t>() % 4 : 1 << 30;
+  scene->user = &goes_on_for;
+  if (bytes_.index(4) == 0)
+    scene->progress = [](void* user, double) -> std::int32_t {
+      return --*static_cast<std::int32_t*>(user) < 0;
+    };
   swell_world* made = nullptr;
-  if (taken(swell_world_create(scene.pointer(bytes_), null_too(&made))))
-    expect(made != nullptr, "a world that was made is there");
+  const swell_status status = swell_world_create(scene.pointer(bytes_), null_too(&made));
+  const bool is_wished = (status == SWELL_NO_MEMORY && scene->most_bytes != 0) ||
+                         (status == SWELL_CANCELLED && goes_on_for < 0);
+  if (!is_wished && taken(status)) expect(made != nullptr, "a world that was made is there");
   swell_world_destroy(made);
 }
 
