@@ -31,6 +31,11 @@ missing=$(sed -n 's/^find_dependency(\([A-Za-z_]*\)).*/-DCMAKE_DISABLE_FIND_PACK
 "$cmake" -G Ninja -S "$scratch/wave_provider" -B "$scratch/loop" -DCMAKE_PREFIX_PATH="$scratch/prefix" $missing
 "$cmake" --build "$scratch/loop"
 "$scratch/loop/wave_provider_loop" "$source/scenes/sea_state_2.toml" 1
+cp -r "$source/examples/cpp" "$scratch/cpp"
+# shellcheck disable=SC2086 # a list of words
+"$cmake" -G Ninja -S "$scratch/cpp" -B "$scratch/look" -DCMAKE_PREFIX_PATH="$scratch/prefix" $missing
+"$cmake" --build "$scratch/look"
+"$scratch/look/look" "$source/scenes/open_ocean.toml"
 cat >"$scratch/version.c" <<'END'
 #include <stdio.h>
 #include <swell.h>

@@ -45,6 +45,8 @@ END
   printf '#include <%s>\n#include <%s>\n' "$name" "$name" \
     >"$scratch/project/$(echo "$name" | tr / _).cpp"
 done
+# The C++ door, which is beside them.
+printf '#include <swell.hpp>\n#include <swell.hpp>\n' >"$scratch/project/door.cpp"
 "$cmake" -G Ninja -S "$scratch/project" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix"
 "$cmake" --build "$scratch/build" -- -k 0
 echo "$(find "$include" -name '*.h' | wc -l) headers compile alone"
