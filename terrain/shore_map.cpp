@@ -6,6 +6,7 @@
 
 #include "math/elementary.h"
 #include "math/large_array.h"
+#include "math/stop.h"
 #include "terrain/apron.h"
 
 namespace swell::terrain {
@@ -24,8 +25,10 @@ Grid map_grid(const HeightGrid& land) {
 template <class Body>
 void for_each_line(std::size_t count, Workers& workers, const Body& body) {
   workers.for_each((count + kRowsATask - 1) / kRowsATask, [&](std::size_t task, int) {
-    for (std::size_t n = task * kRowsATask; n < std::min(count, (task + 1) * kRowsATask); ++n)
+    for (std::size_t n = task * kRowsATask; n < std::min(count, (task + 1) * kRowsATask); ++n) {
+      check_stop();
       body(n);
+    }
   });
 }
 

@@ -21,11 +21,13 @@ std::vector<glm::vec4> filter_down(int size, const std::vector<glm::vec4>& fine)
   const int half = size / 2;
   auto rows = make_large<glm::vec4>(fine.size() / 2),
        coarse = make_large<glm::vec4>(fine.size() / 4);
-  for (int j = 0; j < half; ++j)
+  for (int j = 0; j < half; ++j) {
+    check_stop();
     for (int i = 0; i < size; ++i)
       rows[texel(size, i, 0) + static_cast<std::size_t>(j) * size] =
           0.25f * (fine[texel(size, i, 2 * j - 1)] + fine[texel(size, i, 2 * j + 1)]) +
           0.5f * fine[texel(size, i, 2 * j)];
+  }
   for (int j = 0; j < half; ++j) {
     const glm::vec4* const row = rows.data() + static_cast<std::size_t>(j) * size;
     for (int i = 0; i < half; ++i)
@@ -37,6 +39,7 @@ std::vector<glm::vec4> filter_down(int size, const std::vector<glm::vec4>& fine)
 
 void pack_level(int size, const std::vector<glm::vec4>& values, CoverWord* words) {
   auto code = make_large<std::array<std::int8_t, 4>>(values.size());
+  check_stop();
   for (std::size_t k = 0; k < values.size(); ++k)
     for (int channel = 0; channel < 4; ++channel)
       code[k][static_cast<std::size_t>(channel)] = static_cast<std::int8_t>(

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "math/parallel.h"
+#include "math/stop.h"
 
 namespace swell::render {
 
@@ -14,7 +15,10 @@ void for_each_row(int rows, Workers& workers, const Body& body) {
   constexpr int kRows = 16;
   workers.for_each(static_cast<std::size_t>((rows + kRows - 1) / kRows), [&](std::size_t n, int) {
     const int first = static_cast<int>(n) * kRows;
-    for (int j = first; j < std::min(first + kRows, rows); ++j) body(j);
+    for (int j = first; j < std::min(first + kRows, rows); ++j) {
+      check_stop();
+      body(j);
+    }
   });
 }
 
