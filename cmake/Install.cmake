@@ -1,6 +1,6 @@
 # What is installed besides programs and libraries. Each file belongs to one component, which is a Debian package
-# (Packages.cmake). find_package(swell) is for programs that embed the library: link swell::render; with
-# COMPONENTS C, which needs no other package: swell::swell.
+# (Packages.cmake). find_package(swell) is for programs that embed the library (swellConfig.cmake.in has its components):
+# link swell::render; with COMPONENTS C, which needs no other package: swell::swell.
 include(CMakePackageConfigHelpers)
 include(PublicHeaders)
 swell_find_public_headers(ignored ${CMAKE_SOURCE_DIR})  # a name without a file is an error now
@@ -20,8 +20,9 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/scripts/cluster ${CMAKE_SOURCE_DIR}/script
   DESTINATION share/swell COMPONENT swell
   FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE
   PATTERN arguments.sh PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/python ${CMAKE_SOURCE_DIR}/examples/wave_provider
-  DESTINATION share/swell/examples COMPONENT swell-doc)
+foreach(example cpp csharp embed node python rust wave_provider)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/${example} DESTINATION share/swell/examples COMPONENT swell-doc)
+endforeach()
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/swell COMPONENT swell-doc
   FILES_MATCHING PATTERN "*.md" PATTERN images EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/CONTRIBUTING.md
