@@ -2,8 +2,8 @@
 # Warns of commits that are hard to review: a title that is not "area: Imperative", no body with the reason, or more
 # than 1,500 changed lines. Ends with 0 whatever it finds.
 #   scripts/check_commits.sh [BASE]     the commits since BASE (origin/main), or the last 50 where there is no BASE
-# Not counted: renames, lines that are the same where they were taken from and put to, golden pictures, what fuzzers
-# have learnt, images. A rename of a name by a script counts; its body should say so.
+# Not counted: renames, lines that are the same where they were taken from and put to, golden pictures, kept scenes,
+# what fuzzers have learnt, images. A rename of a name by a script counts; its body should say so.
 set -eu
 cd "$(dirname "$0")/.."
 base=${1:-origin/main}
@@ -34,7 +34,7 @@ body_fault() {
 
 # changed_lines COMMIT: added and removed, less those that only moved.
 changed_lines() {
-  git -c core.quotePath=off show --format= -M --unified=0 "$1" -- . ':!tests/golden' ':!tests/fuzz/corpus' \
+  git -c core.quotePath=off show --format= -M --unified=0 "$1" -- . ':!tests/golden' ':!tests/scenes_*' ':!tests/fuzz/corpus' \
     ':!*.png' ':!*.svg' ':!*.jpg' ':!*.exr' |
     awk '
       /^(diff|index|---|\+\+\+|@@)/ { next }

@@ -20,7 +20,7 @@ int read_all(const std::filesystem::path& folder) {
 }
 
 TEST(OldFiles, OfVersion_0_1_0) {
-  const auto folder = std::filesystem::path(SWELL_SOURCE_DIR) / "tests/golden/scenes_0.1.0";
+  const auto folder = std::filesystem::path(SWELL_SOURCE_DIR) / "tests/scenes_0.1.0";
   EXPECT_EQ(read_all(folder), 31);
   EXPECT_EQ(read_all(folder / "papers"), 9);
   EXPECT_NO_THROW(load_recipe(folder / "recipes/harbour.toml"));

@@ -126,11 +126,11 @@ TEST(SamenessVersion, IsRaisedWithTheGoldenPictures) {
   std::ostringstream line;
   line << kSamenessVersion << ' ' << std::hex << std::setfill('0') << std::setw(16)
        << pictures.hash().low;
-  std::ifstream file(kGoldenFolder / "sameness_version.txt");
+  std::ifstream file(fs::path(SWELL_SOURCE_DIR) / "tests/sameness_version.txt");
   std::string recorded;
   std::getline(file, recorded);
   EXPECT_EQ(recorded, line.str())
-      << "raise kSamenessVersion, and write the new line into tests/golden/sameness_version.txt";
+      << "raise kSamenessVersion, and write the new line into tests/sameness_version.txt";
 }
 
 }  // namespace
