@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "math/elementary.h"
+#include "math/stop.h"
 
 namespace swell::scene {
 namespace {
@@ -259,6 +260,7 @@ void find_boxes(ImplicitSurface& implicit) {
   if (implicit.parts.empty()) throw std::runtime_error("a form without parts");
   implicit.low = glm::dvec3(kFarthest_m), implicit.high = glm::dvec3(-kFarthest_m);
   for (ImplicitPart& part : implicit.parts) {
+    check_stop();
     find_box(part);
     const Cell sweep = swept(part);
     implicit.low = glm::min(implicit.low, sweep.middle - sweep.half);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "math/stop.h"
 #include "scene/height_frames.h"
 
 namespace swell::shapes {
@@ -28,6 +29,7 @@ ToBox to_box(const scene::ImplicitSurface& implicit) {
 // The outermost point of the part on a ray from its inside.
 glm::dvec3 outermost(const scene::ImplicitPart& part, glm::dvec3 along) {
   constexpr int kSteps = 96, kHalvings = 30;
+  check_stop();
   double reach = 1e300;
   for (int c = 0; c < 3; ++c) {
     const double to = along[c] > 0.0 ? part.high[c] : part.low[c];
@@ -88,6 +90,7 @@ void add_sheet(const scene::ImplicitPart& part, const ToBox& to_box, ObjectMesh&
   const int across = (through + 1) % 3, along = (through + 2) % 3;
   std::array<std::uint32_t, (kSide + 1) * (kSide + 1)> found;
   for (std::size_t i = 0; i < found.size(); ++i) {
+    check_stop();
     glm::dvec3 p;
     p[across] = part.low[across] + size[across] * static_cast<double>(i % (kSide + 1)) / kSide;
     p[along] = part.low[along] + size[along] * static_cast<double>(i / (kSide + 1)) / kSide;

@@ -6,6 +6,7 @@
 
 #include "math/elementary.h"
 #include "math/random.h"
+#include "math/stop.h"
 
 namespace swell::shapes {
 namespace {
@@ -168,6 +169,7 @@ float cover_of(const TreeShape& shape, float leaves, float size) {
   float sum = 0.0f;
   for (const glm::vec2& right : {glm::vec2(1, 0), glm::vec2(0.6f, 0.8f), glm::vec2(-0.28f, 0.96f),
                                  glm::vec2(-0.936f, 0.352f)}) {
+    check_stop();
     CoverGrid grid;
     for (std::size_t n = 0; static_cast<float>(n) < leaves; ++n) {
       const TreeLeaf& leaf = shape.leaves[n];

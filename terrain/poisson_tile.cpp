@@ -5,6 +5,7 @@
 
 #include "math/check.h"
 #include "math/random.h"
+#include "math/stop.h"
 
 namespace swell::terrain {
 namespace {
@@ -52,6 +53,7 @@ std::vector<glm::dvec2> make_poisson_tile(std::uint64_t seed) {
   PointGrid grid;
   std::uint64_t tries = 0;
   while (points.size() < kPoissonPoints) {
+    check_stop();
     const double distance = kPoissonSpacing / std::sqrt(static_cast<double>(points.size() + 1));
     const glm::dvec2 p(random_uniform(seed, 2 * tries), random_uniform(seed, 2 * tries + 1));
     SWELL_CHECK(++tries < kMostTries, "points={} distance={}", points.size(), distance);

@@ -9,6 +9,7 @@
 
 #include "math/random.h"
 #include "math/smoothstep.h"
+#include "math/stop.h"
 #include "terrain/poisson_tile.h"
 #include "terrain/terrain.h"
 #include "texture/image/image_io.h"
@@ -137,7 +138,8 @@ class StandArea {
       : square_m_(terrain.grid.size_m() / kSquares),
         may_have_(std::size_t{kSquares} * kSquares, false) {
     const Grid& grid = terrain.grid;
-    for (int j = 0; j < grid.samples_y; ++j)
+    for (int j = 0; j < grid.samples_y; ++j) {
+      check_stop();
       for (int i = 0; i < grid.samples_x; ++i) {
         const float height_m = terrain.height_m[grid.index(i, j)];
         const bool is_land = height_m >= std::max(stand.ground_m.x, 0.0) - kBetweenSamples_m &&
@@ -145,6 +147,7 @@ class StandArea {
         if (is_land && may_be_bank(stand, lines, grid, {i, j}))
           mark(glm::dvec2(i, j) * grid.spacing_m, grid.spacing_m);
       }
+    }
   }
 
   // Whether a square may have any, with this corner from the grid's corner [m].
@@ -208,10 +211,12 @@ std::vector<Tree> plant_stand(const StandPlan& plan, const std::vector<std::vect
                               Workers& workers) {
   std::vector<std::vector<Tree>> of_row(tiles.size());
   workers.for_each(of_row.size(), [&](std::size_t row, int) {
-    for (const int i : tiles[row])
+    for (const int i : tiles[row]) {
+      check_stop();
       for (std::size_t k = 0; k < plan.tile.size(); ++k)
         if (const auto tree = tree_at(plan, i, static_cast<int>(row), k))
           of_row[row].push_back(*tree);
+    }
   });
   std::vector<Tree> all;
   for (const std::vector<Tree>& row : of_row) all.insert(all.end(), row.begin(), row.end());
@@ -287,6 +292,7 @@ HeightGrid distance_from_sea(const HeightGrid& terrain) {
   for (float& h : distance.height_m) h = h <= 0.0f ? 0.0f : kFarthest;
   std::vector<float> line(static_cast<std::size_t>(n)), nearest(line.size());
   for (int i = 0; i < n; ++i) {
+    check_stop();
     for (int j = 0; j < n; ++j) line[j] = distance.height_m[grid.index(i, j)];
     nearest_along(line, nearest);
     for (int j = 0; j < n; ++j) distance.height_m[grid.index(i, j)] = nearest[j];

@@ -12,6 +12,7 @@
 #include "math/check.h"
 #include "math/lanes-inl.h"
 #include "math/large_array.h"
+#include "math/stop.h"
 #include "texture/packed_map.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -311,11 +312,13 @@ void build_map1(const float* values, PackedMap1& map) {
     std::int8_t* const bytes = map.scratch_bytes.data();
     for (std::ptrdiff_t j = 0; j < size; ++j)
       quantize_row(values + j * size, size, 127.0f, bytes + j * stride);
+    check_stop();
     std::uint32_t* const words = map.words.data() + static_cast<std::ptrdiff_t>(size) * size;
     for (std::ptrdiff_t j = 0; j < size; ++j)
       pack_row1(bytes + j * stride, bytes + ((j + 1) & (size - 1)) * stride, size,
                 words + j * size);
     if (size == 1) break;
+    check_stop();
     filter_down(values, size, column, next);
     values = next;
     next += static_cast<std::ptrdiff_t>(size / 2) * (size / 2);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "math/stop.h"
 #include "ocean/inland/river_network.h"
 #include "scene/check_scene.h"
 #include "terrain/terrain.h"
@@ -43,7 +44,10 @@ class DiscMap {
     });
     workers.for_each(static_cast<std::size_t>(size_ / kBandRows), [&](std::size_t band, int) {
       const int first = static_cast<int>(band) * kBandRows;
-      for (const Disc& one : discs) add_rows(one, first, first + kBandRows - 1);
+      for (const Disc& one : discs) {
+        check_stop();
+        add_rows(one, first, first + kBandRows - 1);
+      }
     });
   }
 
@@ -121,6 +125,7 @@ void pack(const DiscMap& discs, bool is_left, texture::PackedMap1& map) {
   values.reserve(discs.left().size());
   for (const float left : discs.left())
     values.push_back(2.0f * (is_left ? left : 1.0f - left) - 1.0f);
+  check_stop();
   texture::pack_map1(discs.size(), values, map);
 }
 
@@ -135,7 +140,8 @@ float crowding_at(const Tree& tree, const DiscMap& cover) {
 void find_sea_shade(const DiscMap& shade, const terrain::HeightGrid& land, Forest& forest) {
   const double size_m = land.grid.size_m(), step_m = size_m / shade.size();
   glm::vec2 low(static_cast<float>(size_m)), high(0.0f);
-  for (int j = 0; j < shade.size(); ++j)
+  for (int j = 0; j < shade.size(); ++j) {
+    check_stop();
     for (int i = 0; i < shade.size(); ++i) {
       const std::size_t at = static_cast<std::size_t>(j) * shade.size() + i;
       if (shade.left()[at] > 0.98f) continue;
@@ -143,6 +149,7 @@ void find_sea_shade(const DiscMap& shade, const terrain::HeightGrid& land, Fores
       if (terrain::height_at(land, land.grid.min_world + p) > kHighestSea_m) continue;
       low = glm::min(low, glm::vec2(p)), high = glm::max(high, glm::vec2(p));
     }
+  }
   // Coarser levels of the map spread it a little.
   forest.sea_shade_low = low - static_cast<float>(8.0 * step_m);
   forest.sea_shade_high = high + static_cast<float>(8.0 * step_m);

@@ -1,6 +1,7 @@
 /* Worlds that are made while their caller watches, from a C11 program: progress, cancelling within
  * 50 ms, lines of log, a bound on memory.
- *   making_test SCENE.toml... */
+ *   making_test DEADLINE_MS SCENE.toml...
+ * 50 ms are what swell.h says, on a machine that does nothing else. */
 #define _GNU_SOURCE
 #include <malloc.h>
 #include <pthread.h>
@@ -12,7 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
-static const double kDeadline_s = 0.05;
+static double deadline_s;
 enum { kWishes = 6, kTries = 4 };
 
 static int faults = 0;
@@ -136,13 +137,13 @@ static double test_cancel(const char* path, double took_s) {
   double longest_s = 0;
   for (int n = 0; n < kWishes; ++n) {
     double least_s = 1e9;
-    for (int i = 0; i < kTries && least_s > kDeadline_s; ++i) {
+    for (int i = 0; i < kTries && least_s > deadline_s; ++i) {
       const double late_s = cancel_after(path, took_s * n / kWishes);
       if (late_s < least_s) least_s = late_s;
     }
     if (least_s > longest_s) longest_s = least_s;
   }
-  EXPECT(longest_s <= kDeadline_s);
+  EXPECT(longest_s <= deadline_s);
   return longest_s;
 }
 
@@ -226,14 +227,15 @@ static void test_bound(const char* path) {
 }
 
 int main(int argc, char** argv) {
-  if (argc < 2) return fprintf(stderr, "usage: making_test SCENE...\n"), 2;
-  for (int i = 1; i < argc; ++i) {
+  if (argc < 3) return fprintf(stderr, "usage: making_test DEADLINE_MS SCENE...\n"), 2;
+  deadline_s = 1e-3 * atof(argv[1]);
+  for (int i = 2; i < argc; ++i) {
     const double took_s = test_watched(argv[i]);
     const double late_s = test_cancel(argv[i], took_s);
     printf("%s: made in %.3f s, returned %.0f ms after the wish\n", argv[i], took_s, 1e3 * late_s);
     test_bound(argv[i]);
   }
-  test_wish_of_another_thread(argv[1]);
+  test_wish_of_another_thread(argv[2]);
   test_faults_reach_a_watching_caller();
   printf("%s: %d faults\n", argv[0], faults);
   return faults == 0 ? 0 : 1;
