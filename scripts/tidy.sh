@@ -4,7 +4,7 @@
 #   scripts/tidy.sh --changed [BASE] [--at-most N]   what differs from BASE: origin/main, or the commit before
 #                                                    this one where that is not there or this; at most N files
 #   scripts/tidy.sh FILE ...
-# It reads them as Clang would compile them for AVX2 alone; that build is configured in build/tidy, nothing is built.
+# It reads them as Clang would compile them for AVX2 alone; that build is configured in build/tidy, and only made headers are built.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -38,6 +38,7 @@ if ! command -v clang-tidy-16 >/dev/null || ! command -v clang++-16 >/dev/null; 
 fi
 # Each file by itself, without GCC's precompiled header, which Clang cannot read.
 cmake --preset clang -B build/tidy -DSWELL_SIMD=avx2 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF >/dev/null
+cmake --build build/tidy --target swell_commit >/dev/null  # a header that is made
 
 # to_read FILES: sources that are compiled; headers as they are, but those of vector code and of tests in a source that
 # includes them.
