@@ -8,16 +8,7 @@
 #include <string.h>
 #include <swell.h>
 
-static int faults = 0;
-
-#define EXPECT(condition)                                                            \
-  do {                                                                               \
-    if (!(condition)) {                                                              \
-      ++faults;                                                                      \
-      printf("%s:%d: not so: %s (last error: %s)\n", __FILE__, __LINE__, #condition, \
-             swell_last_error());                                                    \
-    }                                                                                \
-  } while (false)
+#include "expect.h"
 
 /* Draws in a few ms and is made in 40 ms: a gradient for a sky, few triangles. */
 #define SMALL                                                                                     \

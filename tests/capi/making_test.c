@@ -13,19 +13,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "expect.h"
+
 static double deadline_s;
 enum { kWishes = 6, kTries = 4 };
-
-static int faults = 0;
-
-#define EXPECT(condition)                                                            \
-  do {                                                                               \
-    if (!(condition)) {                                                              \
-      ++faults;                                                                      \
-      printf("%s:%d: not so: %s (last error: %s)\n", __FILE__, __LINE__, #condition, \
-             swell_last_error());                                                    \
-    }                                                                                \
-  } while (false)
 
 static double seconds_of(clockid_t clock) {
   struct timespec time;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bits_hash.h"
+#include "each_target.h"
 #include "elementary_kernels.h"
-#include "math/simd_target.h"
 
 namespace swell {
 namespace {
@@ -19,26 +19,8 @@ namespace {
 constexpr float kFloatInf = std::numeric_limits<float>::infinity();
 constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
 
-// Runs each test on one target and puts the best one back afterwards.
-class ElementarySimd : public testing::TestWithParam<SimdTarget> {
- protected:
-  void SetUp() override {
-    if (!simd_target_available(GetParam())) GTEST_SKIP() << "this CPU lacks the target";
-    before_ = current_simd_target();
-    select_simd_target(GetParam());
-  }
-  void TearDown() override {
-    if (!IsSkipped()) select_simd_target(before_);
-  }
-
- private:
-  SimdTarget before_ = simd_targets().front();
-};
-
-INSTANTIATE_TEST_SUITE_P(Targets, ElementarySimd, testing::ValuesIn(simd_targets()),
-                         [](const auto& param_info) {
-                           return std::string(simd_target_name(param_info.param));
-                         });
+class ElementarySimd : public EachTarget {};
+INSTANTIATE_TEST_SUITE_P(Targets, ElementarySimd, each_target(), target_name);
 
 std::vector<float> linear_sweep(float first, float last, int count) {
   std::vector<float> x(static_cast<std::size_t>(count));

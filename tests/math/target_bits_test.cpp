@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "bits_hash.h"
+#include "each_target.h"
 #include "elementary_kernels.h"
 #include "math/random.h"
-#include "math/simd_target.h"
 
 namespace swell {
 namespace {
@@ -23,24 +23,8 @@ constexpr std::size_t kInputBlock = 1 << 16;
 using Inputs = std::span<const float>;
 using Floats = std::span<float>;
 
-class TargetBits : public testing::TestWithParam<SimdTarget> {
- protected:
-  void SetUp() override {
-    if (!simd_target_available(GetParam())) GTEST_SKIP() << "this CPU lacks the target";
-    before_ = current_simd_target();
-    select_simd_target(GetParam());
-  }
-  void TearDown() override {
-    if (!IsSkipped()) select_simd_target(before_);
-  }
-
- private:
-  SimdTarget before_ = simd_targets().front();
-};
-INSTANTIATE_TEST_SUITE_P(Targets, TargetBits, testing::ValuesIn(simd_targets()),
-                         [](const auto& param_info) {
-                           return std::string(simd_target_name(param_info.param));
-                         });
+class TargetBits : public EachTarget {};
+INSTANTIATE_TEST_SUITE_P(Targets, TargetBits, each_target(), target_name);
 
 // Each 41st of all floats: every exponent and sign, infinities, NaN and denormals. NaN are quiet,
 // as arithmetic makes them: of another and a number, Arm's least is NaN.
