@@ -123,9 +123,10 @@ Disc shadow_of(const Tree& tree, const terrain::HeightGrid& land, glm::vec3 to_l
 void pack(const DiscMap& discs, bool is_left, texture::PackedMap1& map) {
   std::vector<float> values;
   values.reserve(discs.left().size());
-  for (const float left : discs.left())
+  for (const float left : discs.left()) {
+    if (values.size() % static_cast<std::size_t>(discs.size()) == 0) check_stop();
     values.push_back(2.0f * (is_left ? left : 1.0f - left) - 1.0f);
-  check_stop();
+  }
   texture::pack_map1(discs.size(), values, map);
 }
 
@@ -192,7 +193,10 @@ void add_canopy(const terrain::HeightGrid& land, glm::vec3 to_light, Workers& wo
     area += its;
     height += its * tree.height_m;
   }
-  for (const Tree& tree : trees) forest.crowding.push_back(crowding_at(tree, cover));
+  for (const Tree& tree : trees) {
+    check_stop();
+    forest.crowding.push_back(crowding_at(tree, cover));
+  }
   constexpr float kBetweenCrowns = 0.9f;  // of a crown's light, with the shade around it
   forest.canopy_albedo = kBetweenCrowns * albedo / area;
   forest.mean_height_m = height / area;
