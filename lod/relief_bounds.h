@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace swell::lod {
@@ -19,10 +20,12 @@ namespace swell::lod {
 struct ReliefCell {
   std::array<std::int8_t, 4> slope{};
   std::array<std::int16_t, 2> height{};
+  static constexpr bool kPlainBytes = true;
 };
 
 class ReliefBounds {
  public:
+  ReliefBounds() = default;  // to be read into
   // Bounds the bilinear surface through samples x samples (>= 2) heights, spacing_m > 0 apart, row
   // j northwards, that span the whole domain. Takes 12 MB at most.
   ReliefBounds(std::span<const float> height_m, int samples, double spacing_m);
@@ -32,6 +35,8 @@ class ReliefBounds {
   int levels() const { return levels_; }
   float slope_unit() const { return slope_unit_; }
   float height_unit_m() const { return height_unit_m_; }
+
+  auto fields() { return std::tie(levels_, slope_unit_, height_unit_m_, cells_); }
 
  private:
   int levels_ = 1;

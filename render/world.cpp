@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "lod/relief_bounds.h"
@@ -29,6 +30,7 @@
 #include "render/world/making_report.h"
 #include "render/world/near_shore_map.h"
 #include "render/world/object_meshes.h"
+#include "render/world/part_cache.h"
 #include "render/world/part_maker.h"
 #include "render/world/sun_texture.h"
 #include "render/world/terrain_maps.h"
@@ -167,11 +169,13 @@ void add_textures(PartMaker& parts, Workers& workers, WorldState& state) {
 
 // The land, and what follows from its heights alone.
 struct LandParts {
-  std::shared_ptr<const terrain::HeightGrid> terrain;
+  terrain::HeightGrid terrain;
   ocean::LakeFill lakes;
-  std::shared_ptr<const terrain::ShoreMap> shore;
-  std::shared_ptr<const TerrainMaps> maps;
-  std::shared_ptr<const lod::ReliefBounds> relief_bounds;
+  terrain::ShoreMap shore;
+  TerrainMaps maps;
+  lod::ReliefBounds relief_bounds;
+
+  auto fields() { return std::tie(terrain, lakes, shore, maps, relief_bounds); }
 };
 
 // The land as it is drawn, and heights of it and of what surrounds it.
@@ -188,15 +192,13 @@ template <class Drawn>
 LandParts build_land_parts(const scene::Scene& scene, Workers& workers, Drawn&& drawn) {
   std::optional<scene::Ground> ground = scene::build_ground(scene);
   LandParts parts;
-  parts.terrain = std::make_shared<const terrain::HeightGrid>(std::move(ground->terrain));
+  parts.terrain = std::move(ground->terrain);
   parts.lakes = std::move(ground->lakes);
-  parts.shore = std::make_shared<const terrain::ShoreMap>(
-      *scene::build_shore(scene, parts.terrain.get(), workers.thread_count()));
-  const auto& [heights, around] = drawn(*parts.terrain);
-  parts.maps = std::make_shared<const TerrainMaps>(
-      build_terrain_maps(heights, around, *scene.terrain, workers));
-  parts.relief_bounds = std::make_shared<const lod::ReliefBounds>(
-      around.height_m, around.grid.samples_x, around.grid.spacing_m);
+  parts.shore = *scene::build_shore(scene, &parts.terrain, workers.thread_count());
+  const auto& [heights, around] = drawn(parts.terrain);
+  parts.maps = build_terrain_maps(heights, around, *scene.terrain, workers);
+  parts.relief_bounds =
+      lod::ReliefBounds(around.height_m, around.grid.samples_x, around.grid.spacing_m);
   return parts;
 }
 
@@ -210,13 +212,13 @@ void add_land(PartMaker& parts, Workers& workers, WorldState& state) {
   };
   const auto land =
       parts.share("land", inputs, [&] { return build_land_parts(scene, workers, drawn); });
-  state.terrain = land->terrain;
+  state.terrain = {land, &land->terrain};
   state.inland = parts.share("inland water", add_obstacles(river_obstacles(scene), inputs), [&] {
-    return scene::build_inland_water(scene, land->lakes, *land->terrain, workers);
+    return scene::build_inland_water(scene, land->lakes, land->terrain, workers);
   });
-  state.shore = land->shore;
-  state.terrain_maps = land->maps;
-  state.relief_bounds = land->relief_bounds;
+  state.shore = {land, &land->shore};
+  state.terrain_maps = {land, &land->maps};
+  state.relief_bounds = {land, &land->relief_bounds};
   if (scene.detail.terrain_method != scene::TerrainMethod::kRays) return;
   state.land_rays = parts.share("land rays", inputs, [&] {
     const auto& [heights, around] = drawn(*state.terrain);
@@ -316,7 +318,8 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, const WorldMaking& ma
   MakingReport report(scene, making);
   auto state = std::make_unique<WorldState>(WorldState{.scene = std::move(scene)});
   const scene::Scene& now = state->scene;
-  PartMaker parts(now, making.like, report, state->parts);
+  const PartCache cache(making.cache_folder, now);
+  PartMaker parts(now, making.like, cache, report, state->parts);
   Workers workers(threads);
   state->objects = build_object_meshes(state->scene, parts);
   workers.run_both(
@@ -339,6 +342,7 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, const WorldMaking& ma
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);
+  cache.trim();
   report.finish();
   return state;
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "terrain/trees.h"
@@ -21,6 +22,7 @@ struct TreeLeaf {
   float size = 1.0f;                // over that of the others; large ones lie deeper inside
   std::array<glm::vec2, 3> corner;  // across the view, of size 1, in radii and crown heights
   glm::vec2 flutter{0.0f, 1.0f};    // sine and cosine of when it moves in the wind
+  static constexpr bool kPlainBytes = true;
 };
 
 struct TreeShape {
@@ -32,6 +34,11 @@ struct TreeShape {
   float trunk = 0.0f;        // half its width over the height; 0: none
   std::vector<TreeLeaf> leaves = {};
   std::vector<float> size = {};  // of leaves when 0, 1/4, 1/2, ... are drawn
+
+  auto fields() {
+    return std::tie(crown_begin, gathers_up, flatness, is_blades, fewest_leaves, trunk, leaves,
+                    size);
+  }
 };
 
 // The shape of a species, kMixed excepted. A constant; 30 ms.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
+#include <tuple>
 
 namespace swell::sky {
 
@@ -21,6 +22,8 @@ struct Air {
   glm::dvec3 rayleigh_per_m{5.802e-6, 13.558e-6, 33.1e-6};  // at sea level, scattered
   glm::dvec3 mie_per_m{0.0};                                // at sea level, scattered and absorbed
   glm::dvec3 ozone_per_m{2.2e-6, 1.7e-6, 0.2e-6};           // at 25 km, absorbed
+
+  auto fields() { return std::tie(rayleigh_per_m, mie_per_m, ozone_per_m); }
 };
 
 // turbidity: the optical depth of molecules and haze over that of molecules alone, at 550 nm, in

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -27,6 +28,8 @@ struct Atmosphere {
   // elevation: its mean radiance over all directions; the moments (2, m) of what molecules make of
   // it; and all moments of what haze does (sky/light_moments.h).
   std::vector<glm::vec3> multiple, uneven, haze;
+
+  auto fields() { return std::tie(air, transmittance, multiple, uneven, haze); }
 };
 
 // Makes the tables: the same bits with any workers. About 60 ms on two threads.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "math/lattice.h"
@@ -16,6 +17,7 @@ struct Grid {
   glm::dvec2 min_world{0.0};  // x east, y north, in metres
   double spacing_m = 1.0;
   int samples_x = 0, samples_y = 0;
+  static constexpr bool kPlainBytes = true;
 
   std::size_t size() const {
     return static_cast<std::size_t>(samples_x) * static_cast<std::size_t>(samples_y);
@@ -41,6 +43,7 @@ struct Grid {
 struct Apron {
   double width_m = 0.0;  // 0: none, the height of the border goes on
   double floor_m = 0.0;  // from there on
+  static constexpr bool kPlainBytes = true;
   bool operator==(const Apron&) const = default;
 };
 
@@ -50,6 +53,8 @@ struct HeightGrid {
   std::vector<float> height_m = {};         // sample (i, j) at grid.index(i, j)
   float lowest_m = 0.0f, highest_m = 0.0f;  // of the samples; set by build_terrain()
   Apron apron = {};                         // likewise (terrain/terrain.h)
+
+  auto fields() { return std::tie(grid, height_m, lowest_m, highest_m, apron); }
 };
 
 // Bilinear height at a world point. Beyond the grid there is its apron, or without one the height

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -29,6 +30,7 @@ struct ShorePoint {
 // Read-only after it is made, by any number of threads. 8 bytes a point.
 class ShoreMap {
  public:
+  ShoreMap() = default;  // to be read into
   // Maps a square of heights with its apron. The map has cells as large as the heights' own or,
   // where those are more than kShoreMapCells a side, so many. Without a water line all distances
   // are the square's diagonal, positive if it is sea. 0.1 s of one core; the same bits with any
@@ -50,6 +52,8 @@ class ShoreMap {
   const std::vector<float>& surf() const { return surf_; }
   // Whether there are both land and sea.
   bool has_line() const { return has_line_; }
+
+  auto fields() { return std::tie(grid_, distance_m_, height_m_, surf_, has_line_); }
 
  private:
   Grid grid_;

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "math/enum_table.h"
@@ -77,6 +78,7 @@ struct Tree {
   float rank = 0.0f;  // [0, 1): a part of all trees evenly thinned out has ranks below a bound
   TreeSpecies species = TreeSpecies::kConifer;
   std::uint32_t random = 0;  // 24 bits: of its looks
+  static constexpr bool kPlainBytes = true;
 };
 
 // A square piece of land with its trees.
@@ -85,12 +87,15 @@ struct TreeCell {
   glm::vec3 middle{0.0f};              // of a ball around them, from Trees::origin
   float radius_m = 0.0f;
   float tallest_m = 0.0f;
+  static constexpr bool kPlainBytes = true;
 };
 
 struct Trees {
   glm::dvec3 origin{0.0};
   std::vector<Tree> trees;  // cell after cell
   std::vector<TreeCell> cells;
+
+  auto fields() { return std::tie(origin, trees, cells); }
   bool empty() const { return trees.empty(); }
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <tuple>
 #include <vector>
 
 namespace swell::texture {
@@ -13,6 +14,7 @@ namespace swell::texture {
 // 254 times the value less 127.
 struct alignas(16) CoverWord {
   std::array<std::int8_t, 16> bytes;
+  static constexpr bool kPlainBytes = true;
   bool operator==(const CoverWord&) const = default;
 };
 
@@ -21,6 +23,8 @@ struct CoverMap {
   int size = 0;    // power of two, [1, 4096]
   int levels = 0;  // log2(size) + 1
   std::vector<CoverWord> words;
+
+  auto fields() { return std::tie(size, levels, words); }
 };
 
 // From size x size values, row-major; sample (i, j) lies on the lattice at u = i / size. Values are

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "texture/image/image.h"
@@ -19,6 +20,7 @@ using PackedQuad = std::uint64_t;
 // next coarser level that it lies in, (i / 2, j / 2).
 struct alignas(16) PackedWord {
   PackedQuad fine, coarse;
+  static constexpr bool kPlainBytes = true;
   bool operator==(const PackedWord&) const = default;
 };
 
@@ -41,6 +43,10 @@ struct PackedMap2 {
   std::vector<float> scratch;
   std::vector<std::int8_t> scratch_bytes;
   std::vector<PackedQuad> scratch_quads;
+
+  auto fields() {
+    return std::tie(size, levels, detail_levels, scale, words, level_offset, lost_variance);
+  }
 };
 
 inline constexpr int kMostDetailLevels = 7;
@@ -66,6 +72,8 @@ struct PackedMap1 {
   // What building needs.
   std::vector<float> scratch;
   std::vector<std::int8_t> scratch_bytes;
+
+  auto fields() { return std::tie(size, levels, words); }
 };
 
 // Builds `map` from size x size values, which are clamped, as pack_map2 builds its maps.
@@ -89,6 +97,11 @@ struct RgbaImage {
   // By level; as long as a vector.
   alignas(64) std::array<std::int32_t, 16> level_begin{}, level_stride{};
   alignas(64) std::array<float, 16> last_x{}, last_y{}, scale_x{}, scale_y{};
+
+  auto fields() {
+    return std::tie(width, height, stride, texels, levels, blur_axis, level_begin, level_stride,
+                    last_x, last_y, scale_x, scale_y);
+  }
 };
 
 // Sizes the image [1, 16384] squared and zeroes it. levels: [1, kMostRgbaLevels].
@@ -108,11 +121,14 @@ void soften_block(int x0, int y0, int x1, int y1, RgbaImage& image);
 // less 128. Texel (x, y) is word y * size + x; beyond the last row and column they repeat.
 struct alignas(16) RgbWord {
   std::array<std::int8_t, 16> bytes;
+  static constexpr bool kPlainBytes = true;
   bool operator==(const RgbWord&) const = default;
 };
 struct RgbMap {
   int size = 0;  // power of two, [1, 4096]
   std::vector<RgbWord> words;
+
+  auto fields() { return std::tie(size, words); }
 };
 
 // The red, green and blue of a square image whose size is a power of two. `map` keeps its capacity.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace swell::texture {
@@ -16,6 +17,8 @@ struct SmoothImage {
   int width = 0, height = 0;
   float range = 1.0f;
   std::array<std::vector<std::uint32_t>, 3> channels;  // row by row
+
+  auto fields() { return std::tie(width, height, range, channels); }
 };
 
 // rgb: 3 width height values, row by row, clamped to [0, range]. width and height in [2, 4096].

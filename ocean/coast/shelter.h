@@ -13,6 +13,7 @@
 
 #include <glm/glm.hpp>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -42,6 +43,8 @@ struct Shelter {
   terrain::Grid grid;
   std::vector<float> kept;   // in [0, 1]: 1 towards the grid's border
   float slope_per_m = 0.0f;  // the steepest of it
+
+  auto fields() { return std::tie(grid, kept, slope_per_m); }
 };
 
 // Cells a side of its square, that of the shore map.

@@ -21,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -37,6 +38,7 @@ struct SurfZone {
   double reach_m = 0.0, reach_s = 0.0;  // from the shore, and the time that waves need from there
   double depth_m = 0.0;                 // there, over the mean slope of the beach
   double period_s = 1.0;                // of waves that break
+  static constexpr bool kPlainBytes = true;
 };
 
 // The zone before a shore, `land` without its apron, whose beach may be steeper. It is so many
@@ -63,6 +65,7 @@ struct FrontPoint {
   float part = kFrontsFrom;  // distance to the shore over the reach, [-kFrontsFrom, kFrontsFrom]
   float share = 0.0f;        // the fronts' part in the surface, [0, 1]
   float height_m = 0.0f;     // H, as long as the depth allows it
+  static constexpr bool kPlainBytes = true;
 };
 
 // Fronts that lift the water. Read-only after it is made; 12 bytes a point of the shore map.
@@ -72,6 +75,10 @@ struct SurfFronts {
   std::vector<FrontPoint> points;
   // |z| and the slope in any direction are at most this, always; the share's slope [1/m].
   float height_bound_m = 0.0f, slope_bound = 0.0f, share_slope_per_m = 0.0f;
+
+  auto fields() {
+    return std::tie(zone, grid, points, height_bound_m, slope_bound, share_slope_per_m);
+  }
 };
 
 // `land` as of find_surf_zone(). The same bits with any workers. 20 ms of one core.

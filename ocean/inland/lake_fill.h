@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "ocean/inland/river.h"
@@ -18,6 +19,8 @@ struct LakeFill {
   std::vector<std::uint8_t> lake;     // per sample: the number of its lake + 1, 0: dry; empty: none
   std::vector<double> level_m;        // of the lakes
   glm::dvec2 low{1e30}, high{-1e30};  // a box around them
+
+  auto fields() { return std::tie(grid, lake, level_m, low, high); }
 
   // The level of the lake that one of the four samples around p, or one next to them, is in.
   std::optional<double> level_near(glm::dvec2 p) const;

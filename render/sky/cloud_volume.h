@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -22,6 +23,8 @@ namespace swell::render {
 struct CornerVolume {
   int side_log2 = 0, levels = 0;
   std::vector<std::uint32_t> entries;
+
+  auto fields() { return std::tie(side_log2, levels, entries); }
 
   int side() const { return 1 << side_log2; }
 };
@@ -68,6 +71,13 @@ struct CloudVolume {
   // that they stay in the caches, where a table of the form does not.
   std::vector<std::uint32_t> columns;
   float column_step = 1.0f, bulge = 0.0f, rise = 0.0f, towers = 0.0f, limit_per_m = 0.0f;
+
+  auto fields() {
+    return std::tie(repeats, voxel_m, level_m, base_m, top_m, corner_m, form, detail,
+                    detail_period_m, cut, extinction_per_m, threshold, least_form, light, empty,
+                    cell_levels, sunlight, mean_sunlight, columns, column_step, bulge, rise, towers,
+                    limit_per_m);
+  }
 
   bool is_layer() const { return !columns.empty(); }
   double side_m() const { return voxel_m * form.side(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -28,6 +29,11 @@ struct CloudLight {
   glm::vec3 tops{0.0f};     // of the same, seen from above
   glm::vec3 forward{0.0f};  // times the phase function: light that goes straight on
   glm::vec3 mean_radiance{0.0f};
+
+  auto fields() {
+    return std::tie(threshold, overcast, loss, mean_opacity, direct_part, to_light, base, tops,
+                    forward, mean_radiance);
+  }
 };
 
 // Radiance in the blurred sky is stored as sqrt(radiance / kSoftSkyRange) * 255; what is brighter
@@ -51,6 +57,8 @@ struct SkyAtHeight {
   // What the eye adapts to over what it does at sea level, at least 1: from high up the sun may
   // still shine, or the sky glow, when it is night below.
   float exposure = 1.0f;
+
+  auto fields() { return std::tie(height_m, map, disc_radiance, sun_disc_radiance, exposure); }
 };
 
 // The sky, exposed. The blurred map shows the upper hemisphere: direction d of length 1 lies at
@@ -72,6 +80,12 @@ struct SkyMaps {
   glm::vec3 molecules_per_m{0.0f};  // what air alone scatters at sea level
   float exposure = 1.0f;            // that is still to be applied: a gradient's
   float stored_exposure = 1.0f;     // that has been applied
+
+  auto fields() {
+    return std::tie(heights, azimuth, soft_clear, soft, clouds, cloud_variance, cloud_light,
+                    ambient, horizon, to_light, irradiance, to_sun, molecules_per_m, exposure,
+                    stored_exposure);
+  }
 };
 
 // What fog makes of the light over it: sky::FogLight of each channel, exposed.

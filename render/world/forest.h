@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -40,6 +41,8 @@ struct TreeColumns {
   std::vector<float> height_m, radius_m, rank;
   std::vector<std::uint32_t> looks;  // Tree::random, and its species << 24
   std::vector<float> thinned_px;     // between kThinnedTree_px and kThinnedWood_px
+
+  auto fields() { return std::tie(x_m, y_m, z_m, height_m, radius_m, rank, looks, thinned_px); }
 };
 
 struct Forest {
@@ -54,6 +57,11 @@ struct Forest {
   glm::vec2 sea_shade_low{0.0f}, sea_shade_high{0.0f};
   glm::vec3 canopy_albedo{0.03f};  // of crowns from afar, with the shade between them
   float mean_height_m = 10.0f;
+
+  auto fields() {
+    return std::tie(trees, columns, crowding, shapes, cover, sun_left, sea_shade_low,
+                    sea_shade_high, canopy_albedo, mean_height_m);
+  }
 };
 
 // Texels a side.

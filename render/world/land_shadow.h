@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "math/parallel.h"
@@ -47,6 +48,11 @@ struct LandShadow {
   // The sea floor gets it through the water, from where its light enters. No size: it is lit
   // everywhere.
   texture::PackedMap2 ground;
+
+  auto fields() {
+    return std::tie(away, corner_world, texel_m, texels_along, texels_across, begin, end, bounds,
+                    step_m, block_lit_above_m, blocks_along, ground);
+  }
 
   bool is_empty() const { return begin == end; }
   glm::dvec2 left() const { return {-away.y, away.x}; }

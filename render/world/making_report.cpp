@@ -32,10 +32,19 @@ void MakingReport::has(std::string_view part) {
 
 void MakingReport::made(std::string_view part, Clock::time_point start) {
   has(part);
+  log(part, start, "");
+}
+
+void MakingReport::read(std::string_view part, Clock::time_point start) {
+  has(part);
+  log(part, start, ", read from the cache");
+}
+
+void MakingReport::log(std::string_view part, Clock::time_point start, std::string_view how) {
   if (!making_.log) return;
   const std::chrono::duration<double> time = Clock::now() - start;
   const std::lock_guard lock(mutex_);
-  making_.log(fmt::format("{}: {:.3f} s", part, time.count()));
+  making_.log(fmt::format("{}: {:.3f} s{}", part, time.count(), how));
 }
 
 void MakingReport::finish() {

@@ -22,9 +22,11 @@ class MakingReport {
 
   void has(std::string_view part);  // which was there already
   void made(std::string_view part, Clock::time_point start);
-  void finish();  // all are there
+  void read(std::string_view part, Clock::time_point start);  // from a cache
+  void finish();                                              // all are there
 
  private:
+  void log(std::string_view part, Clock::time_point start, std::string_view how);
   void tell(double done);
 
   const WorldMaking& making_;

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <tuple>
 
 #include "math/parallel.h"
 #include "ocean/coast/surf_fronts.h"
@@ -32,6 +33,8 @@ struct NearShoreMap {
   float lift_m = 0.0f;
   // The slope of the part [1/reach]: points out to sea.
   texture::PackedMap2 seaward;
+
+  auto fields() { return std::tie(map, min_world, size_m, zone, fronts, lift, lift_m, seaward); }
 };
 
 // The same bits with any workers.

@@ -6,8 +6,8 @@
 namespace swell::render {
 
 PartMaker::PartMaker(const scene::Scene& scene, std::span<const World* const> like,
-                     MakingReport& report, KeptParts& kept)
-    : scene_(scene), like_(like), report_(report), kept_(kept) {}
+                     const PartCache& cache, MakingReport& report, KeptParts& kept)
+    : scene_(scene), like_(like), cache_(cache), report_(report), kept_(kept) {}
 
 ValueBytes PartMaker::of(std::initializer_list<std::string_view> keys) const {
   ValueBytes bytes;

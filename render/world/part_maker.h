@@ -1,10 +1,13 @@
 // Parts of a world, each made once for all worlds that are made of the same. A part says what goes
-// into it: keys of the scene, values, other parts' inputs. By their hash it is found again.
+// into it: keys of the scene, values, other parts' inputs. By their hash it is found again. A part
+// that says what it consists of (math/archive.h) is also found by later processes; it is made of no
+// other files than render/world/part_cache.cpp looks into.
 //
 //   const ValueBytes inputs = parts.of({"clouds"}).add(to_light);
 //   state.cloud_volume = parts.share("cloud volume", inputs, [&] { return build_...; });
 #pragma once
 
+#include <chrono>
 #include <initializer_list>
 #include <memory>
 #include <mutex>
@@ -14,20 +17,22 @@
 #include <type_traits>
 #include <utility>
 
+#include "math/archive.h"
 #include "math/stop.h"
 #include "math/value_hash.h"
 #include "render/world/kept_parts.h"
 #include "render/world/making_report.h"
+#include "render/world/part_cache.h"
 #include "render/world/world.h"
 
 namespace swell::render {
 
 class PartMaker {
  public:
-  // A maker of parts for a scene, which takes those that worlds of `like` have; kept: of the world
-  // that is made. All outlive it. `report` is told of each part.
-  PartMaker(const scene::Scene& scene, std::span<const World* const> like, MakingReport& report,
-            KeptParts& kept);
+  // A maker of parts for a scene, which takes those that worlds of `like` or the cache have; kept:
+  // of the world that is made. All outlive it. `report` is told of each part.
+  PartMaker(const scene::Scene& scene, std::span<const World* const> like, const PartCache& cache,
+            MakingReport& report, KeptParts& kept);
 
   // What the scene says under these keys (scene/file/key_values.h).
   ValueBytes of(std::initializer_list<std::string_view> keys) const;
@@ -45,12 +50,23 @@ class PartMaker {
     }
     check_stop();
     const auto start = MakingReport::Clock::now();
-    std::shared_ptr<const void> made = shared(make());
+    if constexpr (kHasFields<Made>) {
+      if (std::optional<Made> read = cache_.find<Made>(key)) {
+        report_.read(name, start);
+        return typed<Made>(keep(key, shared(*std::move(read))));
+      }
+    }
+    Made made = make();
     report_.made(name, start);
-    return typed<Made>(keep(key, std::move(made)));
+    if constexpr (kHasFields<Made>)
+      if (MakingReport::Clock::now() - start >= kWorthKeeping) cache_.keep(key, made);
+    return typed<Made>(keep(key, shared(std::move(made))));
   }
 
  private:
+  // Reading a file takes a part of this.
+  static constexpr std::chrono::milliseconds kWorthKeeping{10};
+
   template <class T>
   struct Part {
     using Type = T;
@@ -78,6 +94,7 @@ class PartMaker {
 
   const scene::Scene& scene_;
   std::span<const World* const> like_;
+  const PartCache& cache_;
   MakingReport& report_;
   KeptParts& kept_;
   std::mutex mutex_;  // of kept_

@@ -1,6 +1,8 @@
 // The land of a world as maps.
 #pragma once
 
+#include <tuple>
+
 #include "math/parallel.h"
 #include "render/world/ground_cover.h"
 #include "terrain/height_grid.h"
@@ -13,6 +15,10 @@ struct TerrainMaps {
   texture::PackedMap2 slopes, slopes_around;
   texture::RgbaImage albedo, albedo_around;  // sqrt-encoded reflectance
   CoverMaps ground, ground_around;
+
+  auto fields() {
+    return std::tie(slopes, slopes_around, albedo, albedo_around, ground, ground_around);
+  }
 };
 
 // Cells a side of what is known of the terrain with its apron: relief and slopes.

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <span>
@@ -20,11 +21,14 @@ struct WorldMaking {
   int threads = available_cpus();  // [1, 256]
   // Worlds to share parts with that are made of the same.
   std::span<const World* const> like = {};
+  // Where parts are kept for other processes (render/world/part_cache.h); empty: nowhere. The bits
+  // are the same.
+  std::filesystem::path cache_folder = {};
   // Any thread sets it to end the making, with Stopped (math/stop.h), within 50 ms.
   const std::atomic<bool>* stop = nullptr;
   // Is told the part that is done, in [0, 1] and never less than before, by typical times.
   std::function<void(double done)> tell = {};
-  // Takes a line for each part that is made: 'coast: 0.41 s'.
+  // Takes a line for each part that is made or read: 'coast: 0.41 s'.
   std::function<void(const std::string& line)> log = {};
   // Of memory, while the world is made and afterwards (render/world/part_needs.h); 0: no bound.
   std::size_t most_bytes = 0;
