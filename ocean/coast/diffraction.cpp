@@ -223,7 +223,8 @@ void march_wave(const LandMask& mask, const PlaneWave& wave, const terrain::Grid
               "samples={}, {} energies, {} fetches", grid.size(), energy.size(), fetch_m.size());
   const MarchGrid rows(grid, wave.travel);
   const Marched marched = march(mask, wave, rows);
-  for (int j = 0; j < grid.samples_y; ++j)
+  for (int j = 0; j < grid.samples_y; ++j) {
+    check_stop();
     for (int i = 0; i < grid.samples_x; ++i) {
       const glm::dvec2 at = rows.place(grid.point(i, j));
       const int row = static_cast<int>(at.x), column = static_cast<int>(at.y);
@@ -238,6 +239,7 @@ void march_wave(const LandMask& mask, const PlaneWave& wave, const terrain::Grid
       energy[grid.index(i, j)] = bilinear(marched.energy);
       fetch_m[grid.index(i, j)] = bilinear(marched.fetch_m);
     }
+  }
 }
 
 }  // namespace swell::ocean

@@ -7,6 +7,7 @@
 #include "math/check.h"
 #include "math/elementary.h"
 #include "math/smoothstep.h"
+#include "math/stop.h"
 
 namespace swell::ocean {
 namespace {
@@ -152,7 +153,8 @@ Shelter make_shelter(const terrain::ShoreMap& shore, std::span<const Beam> beams
     of_beam[n] = std::move(energy);
   });
   shelter.kept.resize(grid.size());
-  for (int j = 0; j < grid.samples_y; ++j)
+  for (int j = 0; j < grid.samples_y; ++j) {
+    check_stop();
     for (int i = 0; i < grid.samples_x; ++i) {
       const std::size_t k = grid.index(i, j);
       double sum = 0.0;
@@ -161,6 +163,7 @@ Shelter make_shelter(const terrain::ShoreMap& shore, std::span<const Beam> beams
       const double lost = 1.0 - std::min(std::sqrt(sum), 1.0);
       shelter.kept[k] = static_cast<float>(1.0 - lost * inside_rim(grid, i, j));
     }
+  }
   go_on_over_land(mask, grid, shelter.kept);
   shelter.slope_per_m = steepest_per_m(grid, shelter.kept);
   return shelter;
