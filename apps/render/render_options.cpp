@@ -116,6 +116,7 @@ std::vector<std::string> frame_command(const CommandLine& line, const RenderOpti
   for (const std::string& argument : line.arguments_without({"--scene",
                                                              "--threads",
                                                              "--simd",
+                                                             "--cache",
                                                              "--tile",
                                                              "--time",
                                                              "--frames",
@@ -163,6 +164,7 @@ std::optional<RenderOptions> parse_render_options(int argc, char** argv) {
   RenderOptions options;
   CommandLine line("swell-render", "Draws pictures of a scene.");
   add_required_frame_setup(line, options.setup);
+  add_cache_option(line, options.setup.cache_folder);
   add_quality_options(line, options.setup.frame);
   add_time_options(line, options);
   add_output_options(line, options);

@@ -77,6 +77,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
                          "Flies over a scene, the open sea if none is named, in a window or a "
                          "browser; F1 shows the keys.");
   apps::add_frame_setup(line, options.setup);
+  apps::add_cache_option(line, options.setup.cache_folder);
   apps::add_quality_options(line, options.setup.frame);
   apps::add_integer(line, "--frames", options.frames, 0, kMostFrames,
                     "Quit after N frames, the k-th (from 0) at k/60 seconds; 0: when closed");
@@ -114,6 +115,7 @@ void run(const Options& options) {
   view::ViewerSettings settings;
   settings.size = {options.setup.size.width_px, options.setup.size.height_px};
   settings.threads = options.setup.threads;
+  settings.cache_folder = options.setup.cache_folder;
   settings.frames = options.frames;
   settings.frame = options.setup.frame;
   settings.frame.keep_linear = apps::stores_linear_light(options.screenshot);

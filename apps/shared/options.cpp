@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "apps/shared/label_file.h"
 #include "apps/shared/parse_number.h"
 #include "apps/shared/picture_file.h"
 #include "math/simd_target.h"
+#include "render/world/part_cache.h"
 #include "scene/scene_error.h"
 
 namespace swell::apps {
@@ -75,6 +77,21 @@ void add_required_frame_setup(CommandLine& line, FrameSetup& setup) {
 void add_machine_options(CommandLine& line, int& threads, std::string& simd) {
   add_integer(line, "--threads", threads, 1, 256, "Threads; changes no pixel");
   line.add_text("--simd", "TARGET", simd, simd_names() + "; changes no pixel");
+}
+
+void add_cache_option(CommandLine& line, std::filesystem::path& folder) {
+  const auto take = [&folder](const std::string& text) {
+    folder = text == "off" ? std::filesystem::path() : std::filesystem::absolute(text);
+  };
+  if (const char* const text = std::getenv("SWELL_CACHE"); text != nullptr && text[0] != '\0')
+    take(text);
+  else
+    folder = render::default_cache_folder();
+  line.add_value(
+      {"--cache", "FOLDER", "",
+       "Where to keep what scenes are made into, for later runs (2 GB at most), or off; else "
+       "SWELL_CACHE, or swell in the user's caches; changes no pixel",
+       take});
 }
 
 void add_json_option(CommandLine& line, std::string& path) {

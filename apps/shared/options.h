@@ -2,6 +2,7 @@
 // option, what was given and what is allowed.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,7 +22,8 @@ struct FrameSetup {
   SceneChoice scene;
   PictureSize size;
   int threads = available_cpus();
-  std::string simd;  // "avx2", "avx512" or empty: the best there is
+  std::string simd;                         // "avx2", "avx512" or empty: the best there is
+  std::filesystem::path cache_folder = {};  // add_cache_option()
   render::FrameOptions frame;
 };
 
@@ -54,6 +56,10 @@ void check_linear_light(const render::FrameOptions& frame, std::string_view opti
 
 // --threads and --simd alone.
 void add_machine_options(CommandLine& line, int& threads, std::string& simd);
+
+// --cache FOLDER: where parts of worlds are kept for later runs; empty: nowhere. The default is
+// what SWELL_CACHE says, or the user's own.
+void add_cache_option(CommandLine& line, std::filesystem::path& folder);
 
 // --json: where the numbers go; "-" is standard output, empty nowhere.
 void add_json_option(CommandLine& line, std::string& path);

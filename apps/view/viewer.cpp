@@ -42,7 +42,9 @@ Viewer::Viewer(const scene::Scene& scene, const ViewerSettings& settings)
       settings_(settings),
       window_("swell - " + scene.name, settings.size),
       gui_(window_.handle(), window_.renderer()),
-      world_(std::make_shared<render::World>(scene, settings.threads)),
+      world_(std::make_shared<render::World>(
+          scene,
+          render::WorldMaking{.threads = settings.threads, .cache_folder = settings.cache_folder})),
       workers_(settings.threads),
       governor_({}, render::with_scene_defaults(settings.frame, scene)),
       show_panel_(settings.panel_is_open),

@@ -33,6 +33,7 @@ struct Audience {
 struct ViewerSettings {
   WindowSize size{1280, 720};
   int threads = 1;
+  std::filesystem::path cache_folder = {};  // of the first world (render/world/part_cache.h)
   int frames = 0;  // 0: until the window is closed; else frame k is at k/60 s exactly
   render::FrameOptions frame;
   std::optional<Audience> audience = {};
