@@ -49,6 +49,7 @@ struct swell_session {
   std::shared_ptr<const swell::capi::NamedWorld> named;
   swell::Workers workers;
   swell::render::Workspace workspace;
+  swell::render::Workspaces workspaces;   // of several frames at once
   std::optional<swell::View> drawn_view;  // of the workspace's last frame
   swell::render::PickScratch pick_scratch;
   swell::ocean::SeaFrame camera_sea;  // for cameras that objects carry

@@ -1,5 +1,7 @@
 // Pictures: drawing them, and their planes.
 #include <algorithm>
+#include <deque>
+#include <span>
 #include <type_traits>
 #include <variant>
 
@@ -120,18 +122,54 @@ std::optional<View> next_view(const Asked& asked, swell_session& session) {
                                  session.camera_sea, session.workers);
 }
 
+// Forgets what was drawn before.
+void clear(swell_picture& picture) {
+  picture.view.reset();
+  for (auto& values : picture.lengths) values.clear();
+  for (auto& values : picture.places) values.clear();
+}
+
 void draw(swell_session& session, const swell_frame& given, swell_picture& picture) {
   const render::World& world = session.named->world;
   Asked asked(given, world);
   const View view = frame_view(asked, session);
   asked.options.next_view = next_view(asked, session);
-  picture.view.reset();
+  clear(picture);
   session.drawn_view.reset();
-  for (auto& values : picture.lengths) values.clear();
-  for (auto& values : picture.places) values.clear();
   render::render_frame(world, view, given.t_s, asked.options, session.workspace, picture.target,
                        session.workers);
   session.drawn_view = picture.view = view;
+}
+
+void check_same_sea(const Asked& frame, const Asked& first) {
+  if (frame.given.t_s != first.given.t_s)
+    refuse("frame.t_s, got {}, allowed that of the others, {}", frame.given.t_s, first.given.t_s);
+  if (frame.options.without != first.options.without)
+    refuse("frame.without, got {}, allowed that of the others",
+           frame.given.without ? frame.given.without : "null");
+  if (frame.given.disturbances != first.given.disturbances ||
+      frame.given.disturbance_count != first.given.disturbance_count)
+    refuse("frame.disturbances, got another list, allowed that of the others");
+}
+
+void draw_many(swell_session& session, std::span<const swell_frame* const> frames,
+               std::span<swell_picture* const> pictures) {
+  const render::World& world = session.named->world;
+  std::deque<swell_frame> given;
+  std::deque<Asked> asked;
+  std::deque<Held<swell_picture>> held;
+  std::vector<render::FrameRequest> requests;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    held.emplace_back(pictures[k], "picture");
+    Asked& frame = asked.emplace_back(given.emplace_back(taken(frames[k], "frame")), world);
+    check_same_sea(frame, asked.front());
+    frame.options.disturbances = asked.front().disturbances;
+    frame.options.next_view = next_view(frame, session);
+    requests.push_back({frame_view(frame, session), frame.options, &pictures[k]->target});
+  }
+  for (swell_picture* const picture : pictures) clear(*picture);
+  render::render_many(world, requests, given.front().t_s, session.workspaces, session.workers);
+  for (std::size_t k = 0; k < frames.size(); ++k) pictures[k]->view = requests[k].view;
 }
 
 // ---- Planes
@@ -231,6 +269,18 @@ swell_status swell_render(swell_session* session, const swell_frame* frame,
     const Held held(session, "session");
     const Held into(picture, "picture");
     draw(*held, taken(frame, "frame"), *into);
+  });
+}
+
+swell_status swell_render_many(swell_session* session, const swell_frame* const* frames,
+                               swell_picture* const* pictures, size_t count) {
+  return guarded([&] {
+    const Held held(session, "session");
+    if (count == 0) return;
+    check_not_null(frames, "frames");
+    check_not_null(pictures, "pictures");
+    if (count > 65536) refuse("count, got {}, allowed [0, 65536]", count);
+    draw_many(*held, {frames, count}, {pictures, count});
   });
 }
 

@@ -230,6 +230,13 @@ SWELL_API void swell_picture_destroy(swell_picture* picture);
 SWELL_API swell_status swell_render(swell_session* session, const swell_frame* frame,
                                     swell_picture* picture);
 
+/* Draws frame k into picture k, for k in [0, count), each with the bits of swell_render(). The
+ * frames share the sea, and each is drawn by one thread where there are enough: many small ones
+ * take far less time than one after the other. They have one t_s, the same parts left out, and the
+ * same list of disturbances; the pictures are different ones. At most 65536. */
+SWELL_API swell_status swell_render_many(swell_session* session, const swell_frame* const* frames,
+                                         swell_picture* const* pictures, size_t count);
+
 /* The camera that swell_render() would draw this frame with. */
 SWELL_API swell_status swell_frame_camera(swell_session* session, const swell_frame* frame,
                                           swell_camera* camera);

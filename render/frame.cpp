@@ -76,11 +76,14 @@ void check_labels(const FrameOptions& o, const View& view) {
               view.width_px, view.height_px);
 }
 
-void check_arguments(const View& view, double t_s, const FrameOptions& options) {
+void check_arguments(const World& world, const View& view, double t_s,
+                     const FrameOptions& options) {
   check_view(view);
   check_options(options);
   check_labels(options, view);
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
+  for (const auto& poses : {options.poses, options.next_poses})
+    scene::check_given_poses(poses, world.scene().objects.size());
 }
 
 // What is drawn when the picture is drawn small: the same view on fewer pixels.
@@ -210,7 +213,8 @@ Light find_light(const FrameInputs& in, const Air& air) {
 void advance(const FrameInputs& in, const Air& air, const StageRun& run) {
   const PartSet without = in.options.without;
   const glm::dvec2 eye(in.view.eye_world);
-  advance_sea(in.world, in.t_s, in.options.disturbances, without, in.ws.sea, run);
+  if (in.ws.sea == &in.ws.own_sea)
+    advance_sea(in.world, in.t_s, in.options.disturbances, without, in.ws.own_sea, run);
   advance_clouds(in.world, air.mirrored, in.t_s, eye, without, in.ws.sky, run);
   advance_sky(in.world, air.mirrored, air.fog, air.sky_m, without, in.ws.sky, run);
 }
@@ -226,13 +230,13 @@ void set_eye(const EyeInWater& eye, FrameViews views) {
 // Returns the views that are shown: then images of both sides. Without water the window alone.
 ViewList place_water(const FrameInputs& in, const StageRun& run) {
   FrameState& ws = in.ws;
-  const WaterAtEye water = find_water_at_eye(in.world, ws.sea, in.view, in.options);
+  const WaterAtEye water = find_water_at_eye(in.world, *ws.sea, in.view, in.options);
   const ViewList images = in.has(Part::kWater) ? views_of(ws.planar_maps) : ViewList{};
   ViewList views;
   views.add(ws.window);
   views.add(images.all());
   set_eye(water.from(water.submerged), views.all());
-  displace(in.world, ws.sea, in.view, in.options, ws.meshes, views.all(), run);
+  displace(in.world, *ws.sea, in.view, in.options, ws.meshes, views.all(), run);
   ws.crossing.picture = Begins::kInAir;
   if (in.has(Part::kUnderwater))
     find_crossing(ws.meshes.water, in.view, water,
@@ -274,7 +278,7 @@ ViewList place_vertices(const FrameInputs& in, const StageRun& run) {
   ViewList views = place_water(in, run);
   place_river_mirrors(in, views, run);
   ws.meshes.objects.draws_implicits = in.has(Part::kImplicits);
-  place_objects(in.world, ws.sea, in.options.poses, ws.meshes, views.all(), run);
+  place_objects(in.world, *ws.sea, in.options.poses, ws.meshes, views.all(), run);
   place_surfaces({in.world, in.t_s, in.view, in.options.without}, ws.meshes, views.all());
   return views;
 }
@@ -289,8 +293,8 @@ void find_shadows(const FrameInputs& in, const Light& light, const StageRun& run
 void draw_side(const FrameInputs& in, const Light& light, const Media& media, PlanarMaps& maps,
                ViewShading& shading, const StageRun& run) {
   FrameState& ws = in.ws;
-  MaterialInputs inputs{in.world,          in.t_s, ws.sea, ws.meshes.objects, light, media,
-                        in.options.without};
+  MaterialInputs inputs{in.world, in.t_s, *ws.sea,           ws.meshes.objects,
+                        light,    media,  in.options.without};
   inputs.wave_reach_m = ws.meshes.water.statistics.reach_m;
   inputs.trees = &ws.meshes.trees;
   draw_planar_maps(ws.meshes, ws.window, ws.visibility, ws.scratch, inputs, maps, run);
@@ -379,17 +383,13 @@ FrameStatistics statistics_of(const FrameState& ws) {
   return s;
 }
 
-}  // namespace
-
-FrameStatistics render_frame(const World& world, const View& view, double t_s,
-                             const FrameOptions& asked, Workspace& workspace, Target& target,
-                             Workers& workers) {
-  check_arguments(view, t_s, asked);
-  for (const auto& poses : {asked.poses, asked.next_poses})
-    scene::check_given_poses(poses, world.scene().objects.size());
-  const ScopedFloatEnvironment ieee;
+// Draws a frame whose arguments are checked; the workspace has its sea, or makes its own.
+FrameStatistics draw(const World& world, const FrameRequest& request, double t_s,
+                     Workspace& workspace, Workers& workers) {
   FrameState& ws = workspace.state();
-  const FrameOptions options = with_scene_defaults(asked, world.scene());
+  const View& view = request.view;
+  Target& target = *request.target;
+  const FrameOptions options = with_scene_defaults(request.options, world.scene());
   const View drawn = drawn_view(view, options);
   const bool small = drawn.width_px < view.width_px || drawn.height_px < view.height_px;
   Target& drawn_target = small ? ws.small : target;
@@ -438,6 +438,52 @@ FrameStatistics render_frame(const World& world, const View& view, double t_s,
   return statistics_of(ws);
 }
 
+}  // namespace
+
+FrameStatistics render_frame(const World& world, const View& view, double t_s,
+                             const FrameOptions& options, Workspace& workspace, Target& target,
+                             Workers& workers) {
+  check_arguments(world, view, t_s, options);
+  const ScopedFloatEnvironment ieee;
+  workspace.state().sea = &workspace.state().own_sea;
+  return draw(world, {view, options, &target}, t_s, workspace, workers);
+}
+
+std::vector<FrameStatistics> render_many(const World& world, std::span<const FrameRequest> requests,
+                                         double t_s, Workspaces& workspaces, Workers& workers) {
+  if (requests.empty()) return {};
+  const FrameOptions& first = requests.front().options;
+  for (const FrameRequest& request : requests) {
+    const FrameOptions& o = request.options;
+    check_arguments(world, request.view, t_s, o);
+    SWELL_CHECK(request.target != nullptr, "a request without a target");
+    SWELL_CHECK(o.without == first.without && o.disturbances.data() == first.disturbances.data() &&
+                    o.disturbances.size() == first.disturbances.size(),
+                "requests of several seas");
+    SWELL_CHECK(o.lod_operations == 0 && o.lod_ms == 0.0, "lod_operations={} lod_ms={}",
+                o.lod_operations, o.lod_ms);
+  }
+  const ScopedFloatEnvironment ieee;
+  MomentState& ws = workspaces.prepare(workers.thread_count());
+  ws.profile.begin_frame(false);
+  advance_sea(world.state(), t_s, first.disturbances, first.without, ws.sea,
+              {workers, ws.profile, Stage::kSea});
+  std::vector<FrameStatistics> statistics(requests.size());
+  const auto draw_one = [&](std::size_t k, std::size_t slot, Workers& by) {
+    Workspace& workspace = ws.workspaces[slot];
+    workspace.state().sea = &ws.sea;
+    statistics[k] = draw(world, requests[k], t_s, workspace, by);
+  };
+  // A thread a view needs nobody to wait for; all threads share what is left over.
+  const std::size_t threads = ws.workspaces.size(),
+                    side_by_side = requests.size() / threads * threads;
+  workers.for_each(side_by_side, [&](std::size_t k, int slot) {
+    draw_one(k, static_cast<std::size_t>(slot), ws.alone[static_cast<std::size_t>(slot)]);
+  });
+  for (std::size_t k = side_by_side; k < requests.size(); ++k) draw_one(k, 0, workers);
+  return statistics;
+}
+
 const WorldState& World::state() const {
   SWELL_CHECK(state_, "the World was moved from");
   return *state_;
@@ -454,6 +500,17 @@ Workspace::Workspace() : state_(std::make_unique<FrameState>()) {}
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+
+MomentState& Workspaces::prepare(int threads) {
+  if (!state_ || state_->workspaces.size() != static_cast<std::size_t>(threads))
+    state_ = std::make_unique<MomentState>(threads);
+  return *state_;
+}
+
+Workspaces::Workspaces() = default;
+Workspaces::~Workspaces() = default;
+Workspaces::Workspaces(Workspaces&&) noexcept = default;
+Workspaces& Workspaces::operator=(Workspaces&&) noexcept = default;
 
 std::uint64_t picture_hash(const Target& target) {
   std::vector<std::uint8_t> rgb;

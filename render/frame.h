@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "math/parallel.h"
@@ -65,6 +66,37 @@ class Workspace {
 FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& options, Workspace& workspace, Target& target,
                              Workers& workers);
+
+// One of several views of the same time.
+struct FrameRequest {
+  View view;
+  FrameOptions options = {};
+  Target* target = nullptr;  // its own
+};
+
+struct MomentState;  // workspace.h
+
+// A Workspace for several views at once.
+class Workspaces {
+ public:
+  Workspaces();
+  ~Workspaces();
+  Workspaces(Workspaces&&) noexcept;
+  Workspaces& operator=(Workspaces&&) noexcept;
+
+  MomentState& prepare(int threads);
+
+ private:
+  std::unique_ptr<MomentState> state_;
+};
+
+// Draws several views of the world at one time, each with the bits that render_frame() gives it.
+// They share the sea, and each is drawn by one thread where there are views for all: many small
+// ones take far less time than one after the other. Aborts as render_frame() does, and where the
+// requests differ in `without` or `disturbances` or bound the triangulation. Returns a frame's
+// statistics for each.
+std::vector<FrameStatistics> render_many(const World& world, std::span<const FrameRequest> requests,
+                                         double t_s, Workspaces& workspaces, Workers& workers);
 
 // XXH3-64 of the picture's RGB bytes, row by row.
 std::uint64_t picture_hash(const Target& target);

@@ -2,6 +2,7 @@
 // frame.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -25,7 +26,8 @@ namespace swell::render {
 
 struct FrameState {
   Profile profile;
-  SeaMaps sea;
+  SeaMaps own_sea;
+  const SeaMaps* sea = &own_sea;  // of the frame's time; views of one time may share it
   SkyFrame sky;
   Meshes meshes;
   RenderView window;
@@ -42,6 +44,18 @@ struct FrameState {
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
   Target small;  // the picture before it is enlarged
   EnlargeTables enlarge;
+};
+
+// What Workspaces hold: the sea at one time, and a workspace and its worker a thread.
+struct MomentState {
+  explicit MomentState(int threads) : workspaces(static_cast<std::size_t>(threads)) {
+    while (alone.size() < workspaces.size()) alone.emplace_back(1);
+  }
+
+  Profile profile;
+  SeaMaps sea;
+  std::vector<Workspace> workspaces;
+  std::deque<Workers> alone;
 };
 
 }  // namespace swell::render

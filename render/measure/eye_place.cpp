@@ -17,7 +17,7 @@ EyeReport find_eye(const World& world, const Workspace& workspace, glm::dvec3 ey
       return {EyePlace::kGround, static_cast<double>(ground_m)};
   }
   const double surface_m =
-      static_cast<double>(water_surface(w, workspace.state().sea.frame).height(p));
+      static_cast<double>(water_surface(w, workspace.state().sea->frame).height(p));
   if (eye_world.z < surface_m) return {EyePlace::kWater, surface_m};
   return {EyePlace::kAir, surface_m};
 }

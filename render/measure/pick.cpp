@@ -158,7 +158,7 @@ std::optional<Pick> find_pick(const World& world, const View& view, const Worksp
   if (nearest->what == Shown::kLand)
     ask_land(*w.terrain, *nearest);
   else
-    ask_water(w, ws.sea.frame, *nearest);
+    ask_water(w, ws.sea->frame, *nearest);
   return nearest;
 }
 

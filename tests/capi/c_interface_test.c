@@ -518,6 +518,59 @@ static void test_disturbances(void) {
   close_scene(o);
 }
 
+/* Several frames of one time: each as it is alone, labels too, and what is refused. */
+static void test_many_frames(void) {
+  enum { kCount = 5 };
+  const Opened o = open_scene(SMALL BUOY);
+  swell_frame frames[kCount];
+  const swell_frame* given[kCount];
+  swell_picture* pictures[kCount];
+  swell_camera camera = {.size = sizeof camera};
+  for (int k = 0; k < kCount; ++k) {
+    frames[k] = small_frame();
+    frames[k].width_px += k;
+    frames[k].labels = k == 2 ? "id,depth" : NULL;
+    given[k] = &frames[k];
+    EXPECT(swell_picture_create(&pictures[k]) == SWELL_OK);
+  }
+  EXPECT(swell_frame_camera(o.session, &frames[1], &camera) == SWELL_OK);
+  camera.eye_m[2] += 20.0;
+  frames[1].camera = &camera;
+  EXPECT(swell_render_many(o.session, given, pictures, kCount) == SWELL_OK);
+  for (int k = 0; k < kCount; ++k) {
+    uint64_t alone = 0, among_others = 1;
+    EXPECT(swell_render(o.session, &frames[k], o.picture) == SWELL_OK);
+    EXPECT(swell_picture_hash(o.picture, &alone) == SWELL_OK);
+    EXPECT(swell_picture_hash(pictures[k], &among_others) == SWELL_OK);
+    EXPECT(alone == among_others);
+  }
+  swell_plane ids = {.size = sizeof ids};
+  EXPECT(swell_picture_plane(pictures[2], "id", &ids) == SWELL_OK && ids.width_px == 98);
+
+  EXPECT(swell_render_many(o.session, NULL, NULL, 0) == SWELL_OK);
+  BAD(swell_render_many(o.session, NULL, pictures, 1));
+  BAD(swell_render_many(o.session, given, NULL, 1));
+  BAD(swell_render_many(NULL, given, pictures, 1));
+  BAD(swell_render_many(o.session, given, pictures, 65537));
+  frames[4].t_s += 1.0;
+  BAD(swell_render_many(o.session, given, pictures, kCount));
+  frames[4] = frames[0];
+  frames[4].without = "haze";
+  BAD(swell_render_many(o.session, given, pictures, kCount));
+  given[4] = NULL;
+  BAD(swell_render_many(o.session, given, pictures, kCount));
+  given[4] = &frames[3];
+  swell_picture* const last = pictures[4];
+  pictures[4] = pictures[3];
+  expect_fault(swell_render_many(o.session, given, pictures, kCount), SWELL_BUSY, __LINE__);
+  pictures[4] = NULL;
+  BAD(swell_render_many(o.session, given, pictures, kCount));
+  pictures[4] = last;
+  EXPECT(swell_render_many(o.session, given, pictures, kCount) == SWELL_OK);
+  for (int k = 0; k < kCount; ++k) swell_picture_destroy(pictures[k]);
+  close_scene(o);
+}
+
 static void test_names(void) {
   EXPECT(strcmp(swell_label_name(0), "depth") == 0 && swell_label_name(1000) == NULL);
   EXPECT(strcmp(swell_part_name(0), "water") == 0 && swell_part_name(SIZE_MAX) == NULL);
@@ -636,6 +689,7 @@ int main(int argc, char** argv) {
   test_scene_texts();
   test_scene_faults();
   test_disturbances();
+  test_many_frames();
   test_names();
   const Opened o = open_scene(SMALL BUOY);
   test_camera_faults(o);

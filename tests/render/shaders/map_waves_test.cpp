@@ -51,7 +51,7 @@ std::array<int, 4> bytes_of(std::uint64_t quad, int channel) {
 TEST(MapWaves, OneWordHasAllThatABilinearSampleNeeds) {
   const World world = world_of(lake_scene());
   const DrawnWater drawn(world, 3.0);
-  const ocean::SeaFrame& frame = drawn.state().sea.frame;
+  const ocean::SeaFrame& frame = drawn.state().sea->frame;
   ASSERT_EQ(frame.patches.size(), 7u);
   for (std::size_t layer = 0; layer < frame.patches.size(); ++layer) {
     const texture::PackedMap2& map = *drawn.water().layers[layer].map;
@@ -99,7 +99,7 @@ TEST(MapWaves, StretchedOnesAreShadedAsTheyAreAsked) {
   for (std::size_t layer = 0; layer < 2; ++layer) {
     const SlopeLayer& shaded = drawn.water().layers[layer];
     ocean::SeaFrame alone;
-    alone.patches = {drawn.state().sea.frame.patches[layer]};
+    alone.patches = {drawn.state().sea->frame.patches[layer]};
     std::vector<glm::vec3> got(places.size());
     add_slopes(shaded, from_eye, finest, got);
     std::vector<float> x(places.size()), y(places.size());
@@ -144,11 +144,11 @@ TEST(MapWaves, CanBeLeftOut) {
   const World world = world_of(scene);
   DrawnWater drawn;
   drawn.draw(world, view_of(world, 3.0, 64, 48), 3.0, {.without = {Part::kMaps}});
-  EXPECT_TRUE(drawn.state().sea.frame.patches.empty());
+  EXPECT_TRUE(drawn.state().sea->frame.patches.empty());
   EXPECT_TRUE(std::ranges::all_of(drawn.state().meshes.water.height_m,
                                   [](float height_m) { return height_m == 0.0f; }));
   drawn.draw_small(world, 3.0);
-  EXPECT_EQ(drawn.state().sea.frame.patches.size(), 7u);
+  EXPECT_EQ(drawn.state().sea->frame.patches.size(), 7u);
 }
 
 // What the eye sees of slopes is on the whole what a wind raises, maps and ripples together.

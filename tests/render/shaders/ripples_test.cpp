@@ -118,7 +118,7 @@ TEST(Ripples, MakeUpWhatTheWavesLeaveOfTheSeasSlopes) {
     const World world = world_of(scene);
     const DrawnWater drawn(world, 0.0);
     double variance = ripple_variance(drawn.water());
-    for (const ocean::PatchFrame& patch : drawn.state().sea.frame.patches)
+    for (const ocean::PatchFrame& patch : drawn.state().sea->frame.patches)
       variance += static_cast<double>(patch.slope_variance);
     EXPECT_NEAR(variance, 0.003 + 0.00512 * wind, 0.004) << wind;
   }

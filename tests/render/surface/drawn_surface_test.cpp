@@ -60,7 +60,7 @@ TEST(DrawnCrests, CanBeLeftOut) {
   Shot film;
   const auto is_sharp = [&](PartSet without) {
     film.draw(world, view_of(world, 0.0, 64, 36), 0.0, {.without = without});
-    return !film.state().sea.frame.patches[0].displaced_x_m.empty();
+    return !film.state().sea->frame.patches[0].displaced_x_m.empty();
   };
   EXPECT_TRUE(is_sharp({}));
   EXPECT_FALSE(is_sharp({Part::kCrests}));

@@ -122,7 +122,7 @@ void compare(Drawn& drawn, glm::ivec2 at, const DrawnPixel& pixel, Agreement& ag
     ASSERT_EQ(found->object_kind, drawn.world.scene().objects[pixel.object].kind);
   }
   if (pixel.what != Shown::kLand)
-    expect_query_answer(*found, {drawn.world.state().water(), drawn.state().sea.frame});
+    expect_query_answer(*found, {drawn.world.state().water(), drawn.state().sea->frame});
 }
 
 TEST_P(PickEachScene, IsTheTriangleThatThePixelShowsAndAsksTheSurfaceThere) {

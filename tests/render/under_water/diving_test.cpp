@@ -58,7 +58,7 @@ struct Diver : Shot {
 
   // Returns the water's height in the last frame.
   double height_m(glm::dvec2 place_m) const {
-    return static_cast<double>(water_surface(world.state(), state().sea).height(place_m));
+    return static_cast<double>(water_surface(world.state(), *state().sea).height(place_m));
   }
   DryRows dry_rows(int x) const {
     DryRows rows;

@@ -188,13 +188,13 @@ TEST(UnderWater, PixelsBeginInWaterWhereAQuerySaysSo) {
     const glm::dvec2 p(400.0 * random_uniform(3, 3 * i), 400.0 * random_uniform(3, 3 * i + 1));
     // As high as the water is there.
     drawing.draw(world, view_from({p, 3.0}, 0.0, 1.2, 16, 9));
-    const ocean::WaterSurface at_first = water_surface(world.state(), drawing.state().sea);
+    const ocean::WaterSurface at_first = water_surface(world.state(), *drawing.state().sea);
     const double z = static_cast<double>(at_first.height(p)) + 0.1 * random_uniform(3, 3 * i + 2);
     FrameOptions options = with_flags();
     options.water_triangles = 30000;
     const View view = view_from({p, z}, 0.0, 1.2, kWidth, kHeight);
     drawing.draw(world, view, options);
-    const ocean::WaterSurface water = water_surface(world.state(), drawing.state().sea);
+    const ocean::WaterSurface water = water_surface(world.state(), *drawing.state().sea);
     bool wet = false, dry = false;
     for (int y = 0; y < kHeight; y += 3)
       for (int x = 0; x < kWidth; x += 5) {
@@ -218,7 +218,7 @@ TEST(UnderWater, ACutPictureHasTheSameBitsHoweverItIsDrawn) {
   const World world = world_of(wavy_scene(0.5));
   Drawing drawing(world, view_from({0.0, -600.0, 4.0}, 0.0, 1.0, 16, 9));
   const double z =
-      static_cast<double>(water_surface(world.state(), drawing.state().sea).height({0.0, -600.0}));
+      static_cast<double>(water_surface(world.state(), *drawing.state().sea).height({0.0, -600.0}));
   const View view = view_from({0.0, -600.0, z}, 0.05, 1.0, 150, 90);
   FrameOptions options = with_flags();
   options.edge_samples = 4;
