@@ -113,6 +113,13 @@ View frame_view(const Asked& asked, swell_session& session) {
                             session.camera_sea, session.workers);
 }
 
+// The scene's camera in the moments of the frame; none: it stands still.
+std::vector<View> exposed_views(const Asked& asked, swell_session& session) {
+  if (asked.given.camera) return {};
+  return render::exposed_views(session.named->world, asked.given.t_s, asked.options, asked.size_px,
+                               session.camera_sea, session.workers);
+}
+
 // The camera of the next frame, where a label needs one; none: as this frame's.
 std::optional<View> next_view(const Asked& asked, swell_session& session) {
   const swell_frame& given = asked.given;
@@ -134,6 +141,8 @@ void draw(swell_session& session, const swell_frame& given, swell_picture& pictu
   Asked asked(given, world);
   const View view = frame_view(asked, session);
   asked.options.next_view = next_view(asked, session);
+  const std::vector<View> exposed = exposed_views(asked, session);
+  asked.options.exposed_views = exposed;
   clear(picture);
   session.drawn_view.reset();
   render::render_frame(world, view, given.t_s, asked.options, session.workspace, picture.target,
@@ -158,6 +167,7 @@ void draw_many(swell_session& session, std::span<const swell_frame* const> frame
   std::deque<swell_frame> given;
   std::deque<Asked> asked;
   std::deque<Held<swell_picture>> held;
+  std::deque<std::vector<View>> exposed;
   std::vector<render::FrameRequest> requests;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     held.emplace_back(pictures[k], "picture");
@@ -165,6 +175,7 @@ void draw_many(swell_session& session, std::span<const swell_frame* const> frame
     check_same_sea(frame, asked.front());
     frame.options.disturbances = asked.front().disturbances;
     frame.options.next_view = next_view(frame, session);
+    frame.options.exposed_views = exposed.emplace_back(exposed_views(frame, session));
     requests.push_back({frame_view(frame, session), frame.options, &pictures[k]->target});
   }
   for (swell_picture* const picture : pictures) clear(*picture);

@@ -1,8 +1,3 @@
-#include "render/frame.h"
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +7,7 @@
 #include "math/large_array.h"
 #include "ocean/water_surface.h"
 #include "raster/sample_pattern.h"
+#include "render/draw_moment.h"
 #include "render/picture/label_tile.h"
 #include "render/shadows/self_shadows.h"
 #include "render/sky/volume_clouds.h"
@@ -21,70 +17,6 @@
 
 namespace swell::render {
 namespace {
-
-void check_view(const View& view) {
-  SWELL_CHECK(view.width_px >= 1 && view.width_px <= raster::kMaxViewport && view.height_px >= 1 &&
-                  view.height_px <= raster::kMaxViewport,
-              "size={}x{}", view.width_px, view.height_px);
-  const glm::dvec3& eye = view.eye_world;
-  SWELL_CHECK(std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z),
-              "eye_world=({}, {}, {})", eye.x, eye.y, eye.z);
-  for (const glm::vec3& axis : {view.right, view.up, view.forward})
-    SWELL_CHECK(std::abs(glm::length(axis) - 1.0f) < 1e-3f, "axis=({}, {}, {})", axis.x, axis.y,
-                axis.z);
-  SWELL_CHECK(view.near_m > 0.0f && std::isfinite(view.near_m), "near_m={}", view.near_m);
-  SWELL_CHECK(view.tan_half_x > 0.0f && std::isfinite(view.tan_half_x) && view.tan_half_y > 0.0f &&
-                  std::isfinite(view.tan_half_y),
-              "tan_half={}, {}", view.tan_half_x, view.tan_half_y);
-  SWELL_CHECK(std::isfinite(view.tan_middle_x) && std::isfinite(view.tan_middle_y),
-              "tan_middle={}, {}", view.tan_middle_x, view.tan_middle_y);
-}
-
-void check_options(const FrameOptions& o) {
-  const auto check_triangles = [](int triangles) {
-    SWELL_CHECK(triangles == 0 || (triangles >= 2 && triangles <= kMostTriangles), "triangles={}",
-                triangles);
-  };
-  check_triangles(o.water_triangles);
-  check_triangles(o.terrain_triangles);
-  check_triangles(o.triangle_capacity);
-  SWELL_CHECK(o.lookup_scale == 0.0 || (o.lookup_scale >= 0.01 && o.lookup_scale <= 1.0),
-              "lookup_scale={}", o.lookup_scale);
-  SWELL_CHECK(o.background_error_px <= 8.0, "background_error_px={}", o.background_error_px);
-  SWELL_CHECK(o.picture_scale > 0.0 && o.picture_scale <= 1.0, "picture_scale={}", o.picture_scale);
-  SWELL_CHECK(o.edge_samples < 0 || raster::is_sample_count(o.edge_samples), "edge_samples={}",
-              o.edge_samples);
-  SWELL_CHECK(o.lod_operations >= 0 && o.lod_ms >= 0.0 && o.lod_groups >= 1,
-              "lod_operations={} lod_ms={} lod_groups={}", o.lod_operations, o.lod_ms,
-              o.lod_groups);
-  if (!o.clip_plane) return;
-  const glm::dvec4& plane = *o.clip_plane;
-  const double length2 = glm::dot(glm::dvec3(plane), glm::dvec3(plane));
-  SWELL_CHECK(length2 > 0.0 && std::isfinite(length2) && std::isfinite(plane.w),
-              "clip_plane=({}, {}, {}, {})", plane.x, plane.y, plane.z, plane.w);
-}
-
-void check_labels(const FrameOptions& o, const View& view) {
-  if (o.labels.empty()) return;
-  SWELL_CHECK(o.picture_scale == 1.0, "labels of picture_scale={}", o.picture_scale);
-  SWELL_CHECK(o.next_frame_s > 0.0 && std::isfinite(o.next_frame_s), "next_frame_s={}",
-              o.next_frame_s);
-  if (!o.next_view) return;
-  check_view(*o.next_view);
-  SWELL_CHECK(o.next_view->width_px == view.width_px && o.next_view->height_px == view.height_px,
-              "next_view of {}x{}, view of {}x{}", o.next_view->width_px, o.next_view->height_px,
-              view.width_px, view.height_px);
-}
-
-void check_arguments(const World& world, const View& view, double t_s,
-                     const FrameOptions& options) {
-  check_view(view);
-  check_options(options);
-  check_labels(options, view);
-  SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
-  for (const auto& poses : {options.poses, options.next_poses})
-    scene::check_given_poses(poses, world.scene().objects.size());
-}
 
 // What is drawn when the picture is drawn small: the same view on fewer pixels.
 View drawn_view(const View& view, const FrameOptions& options) {
@@ -383,9 +315,10 @@ FrameStatistics statistics_of(const FrameState& ws) {
   return s;
 }
 
-// Draws a frame whose arguments are checked; the workspace has its sea, or makes its own.
-FrameStatistics draw(const World& world, const FrameRequest& request, double t_s,
-                     Workspace& workspace, Workers& workers) {
+}  // namespace
+
+FrameStatistics draw_moment(const World& world, const FrameRequest& request, double t_s,
+                            Workspace& workspace, Workers& workers) {
   FrameState& ws = workspace.state();
   const View& view = request.view;
   Target& target = *request.target;
@@ -436,88 +369,6 @@ FrameStatistics draw(const World& world, const FrameRequest& request, double t_s
   });
   workspace.trace = ws.profile.trace();
   return statistics_of(ws);
-}
-
-}  // namespace
-
-FrameStatistics render_frame(const World& world, const View& view, double t_s,
-                             const FrameOptions& options, Workspace& workspace, Target& target,
-                             Workers& workers) {
-  check_arguments(world, view, t_s, options);
-  const ScopedFloatEnvironment ieee;
-  workspace.state().sea = &workspace.state().own_sea;
-  return draw(world, {view, options, &target}, t_s, workspace, workers);
-}
-
-std::vector<FrameStatistics> render_many(const World& world, std::span<const FrameRequest> requests,
-                                         double t_s, Workspaces& workspaces, Workers& workers) {
-  if (requests.empty()) return {};
-  const FrameOptions& first = requests.front().options;
-  for (const FrameRequest& request : requests) {
-    const FrameOptions& o = request.options;
-    check_arguments(world, request.view, t_s, o);
-    SWELL_CHECK(request.target != nullptr, "a request without a target");
-    SWELL_CHECK(o.without == first.without && o.disturbances.data() == first.disturbances.data() &&
-                    o.disturbances.size() == first.disturbances.size(),
-                "requests of several seas");
-    SWELL_CHECK(o.lod_operations == 0 && o.lod_ms == 0.0, "lod_operations={} lod_ms={}",
-                o.lod_operations, o.lod_ms);
-  }
-  const ScopedFloatEnvironment ieee;
-  MomentState& ws = workspaces.prepare(workers.thread_count());
-  ws.profile.begin_frame(false);
-  advance_sea(world.state(), t_s, first.disturbances, first.without, ws.sea,
-              {workers, ws.profile, Stage::kSea});
-  std::vector<FrameStatistics> statistics(requests.size());
-  const auto draw_one = [&](std::size_t k, std::size_t slot, Workers& by) {
-    Workspace& workspace = ws.workspaces[slot];
-    workspace.state().sea = &ws.sea;
-    statistics[k] = draw(world, requests[k], t_s, workspace, by);
-  };
-  // A thread a view needs nobody to wait for; all threads share what is left over.
-  const std::size_t threads = ws.workspaces.size(),
-                    side_by_side = requests.size() / threads * threads;
-  workers.for_each(side_by_side, [&](std::size_t k, int slot) {
-    draw_one(k, static_cast<std::size_t>(slot), ws.alone[static_cast<std::size_t>(slot)]);
-  });
-  for (std::size_t k = side_by_side; k < requests.size(); ++k) draw_one(k, 0, workers);
-  return statistics;
-}
-
-const WorldState& World::state() const {
-  SWELL_CHECK(state_, "the World was moved from");
-  return *state_;
-}
-
-FrameState& Workspace::state() {
-  SWELL_CHECK(state_, "the Workspace was moved from");
-  return *state_;
-}
-
-const FrameState& Workspace::state() const { return const_cast<Workspace*>(this)->state(); }
-
-Workspace::Workspace() : state_(std::make_unique<FrameState>()) {}
-Workspace::~Workspace() = default;
-Workspace::Workspace(Workspace&&) noexcept = default;
-Workspace& Workspace::operator=(Workspace&&) noexcept = default;
-
-MomentState& Workspaces::prepare(int threads) {
-  if (!state_ || state_->workspaces.size() != static_cast<std::size_t>(threads))
-    state_ = std::make_unique<MomentState>(threads);
-  return *state_;
-}
-
-Workspaces::Workspaces() = default;
-Workspaces::~Workspaces() = default;
-Workspaces::Workspaces(Workspaces&&) noexcept = default;
-Workspaces& Workspaces::operator=(Workspaces&&) noexcept = default;
-
-std::uint64_t picture_hash(const Target& target) {
-  std::vector<std::uint8_t> rgb;
-  rgb.reserve(target.rgba.size() * 3);
-  for (const std::uint32_t p : target.rgba)
-    for (int c = 0; c < 3; ++c) rgb.push_back(static_cast<std::uint8_t>(p >> (8 * c)));
-  return XXH3_64bits(rgb.data(), rgb.size());
 }
 
 }  // namespace swell::render

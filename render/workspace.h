@@ -42,7 +42,8 @@ struct FrameState {
   std::vector<ShadedPixels> shaded;         // per tile
   LabelTables labels;
   std::vector<std::unique_ptr<ThreadScratch>> scratch;
-  Target small;  // the picture before it is enlarged
+  Target small;   // the picture before it is enlarged
+  Target moment;  // one of those whose light a picture adds up
   EnlargeTables enlarge;
 };
 

@@ -4,6 +4,7 @@
 
 #include "math/with_ieee.h"
 #include "ocean/water_surface.h"
+#include "render/exposure.h"
 #include "render/sea/sea_maps.h"
 #include "render/world/world_state.h"
 #include "scene/camera.h"
@@ -45,6 +46,17 @@ View next_world_view(const World& world, double t_s, const FrameOptions& options
   next.poses = options.next_poses;
   const double next_s = with_ieee([&] { return t_s + options.next_frame_s; });
   return world_view(world, next_s, next, size_px, sea, workers);
+}
+
+std::vector<View> exposed_views(const World& world, double t_s, const FrameOptions& options,
+                                glm::ivec2 size_px, ocean::SeaFrame& sea, Workers& workers) {
+  const ScopedFloatEnvironment ieee;
+  const Exposure exposure = exposure_of(world.scene().camera, options);
+  std::vector<View> views;
+  if (exposure.moments == 1) return views;
+  for (int k = 0; k < exposure.moments; ++k)
+    views.push_back(world_view(world, t_s + k * exposure.step_s, options, size_px, sea, workers));
+  return views;
 }
 
 }  // namespace swell::render

@@ -11,6 +11,8 @@
 //   options.next_view = render::next_world_view(world, t_s, options, {1280, 720}, sea, workers);
 #pragma once
 
+#include <vector>
+
 #include "math/parallel.h"
 #include "math/view.h"
 #include "ocean/open_sea/sea.h"
@@ -35,5 +37,9 @@ View world_view(const World& world, double t_s, const FrameOptions& options, glm
 // with options.next_poses.
 View next_world_view(const World& world, double t_s, const FrameOptions& options,
                      glm::ivec2 size_px, ocean::SeaFrame& sea, Workers& workers);
+
+// The views of the moments of such a frame, for FrameOptions::exposed_views; empty: there is one.
+std::vector<View> exposed_views(const World& world, double t_s, const FrameOptions& options,
+                                glm::ivec2 size_px, ocean::SeaFrame& sea, Workers& workers);
 
 }  // namespace swell::render

@@ -52,6 +52,11 @@ struct Camera {
   // place of the world's. No velocity, no path.
   std::string mount{};
   glm::dvec3 mount_offset_m{0.0};  // right, ahead, up
+
+  // For how long from a picture's time on its shutter is open, and how many moments of that time,
+  // evenly spread, are drawn.
+  double exposure_s = 0.0;
+  int shutter_samples = 1;
 };
 
 // The lens for a picture of at least 1 x 1 pixels.

@@ -6,6 +6,7 @@
 # Needs build/release/bin/swell-render, and root or sudo for packages that are missing.
 set -eu
 cd "$(dirname "$0")/.."
+export SWELL_CACHE=off
 [ -x build/release/bin/swell-render ] || { echo "error: build/release/bin/swell-render, got none, allowed one" >&2; exit 2; }
 scripts/setup.sh arm64 release
 root=build/arm64-root

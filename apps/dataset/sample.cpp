@@ -113,6 +113,9 @@ Sample SampleMaker::make(int sample) {
   options.labels.add(render::Label::kClass);
   options.next_frame_s = kNextFrame_s;
   if (labels_.has(render::Label::kMotion)) options.next_view = view_at(draw.t_s + kNextFrame_s);
+  const std::vector<View> exposed = render::exposed_views(
+      *world_, draw.t_s, options, {recipe_.width_px, recipe_.height_px}, sea_, workers_);
+  options.exposed_views = exposed;
   render::render_frame(*world_, view, draw.t_s, options, workspace_, target_, workers_);
   warning_.look(sample, *world_, view, workspace_);
 

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <vector>
 
 #include "apps/render/frame_files.h"
 #include "apps/render/frame_log.h"
@@ -66,6 +67,9 @@ void draw_frames(const RenderOptions& options, const render::World& world, Frame
     }
     const double t_s = frame_time_s(options, k);
     const View view = view_at(t_s);
+    const std::vector<View> exposed =
+        render::exposed_views(world, t_s, frame, {size.width_px, size.height_px}, sea, workers);
+    frame.exposed_views = exposed;
     if (frame.labels.has(render::Label::kMotion))
       frame.next_view = view_at(next_time_s(options, k));
     render::render_frame(world, view, t_s, frame, workspace, target, workers);

@@ -50,6 +50,10 @@ struct FrameOptions {
   // is, over 0.
   std::optional<View> next_view = {};  // none: as this frame's
   double next_frame_s = 1.0 / 60.0;
+  // Where the scene's shutter is open for several moments (camera.shutter_samples): the camera in
+  // each, the frame's own first, all of one size. Empty: it stands still. Read during the call
+  // only.
+  std::span<const View> exposed_views = {};
   // Objects that the caller puts where he likes in this frame (at most one pose an object; aborts
   // unless scene::check_given_poses() passes them), and for the label of motion in the next one.
   // Read during the call only.

@@ -54,6 +54,11 @@ Rows camera_rows() {
       SceneRow::vector("camera.mount_offset_m", {-1000, 1000, "m"},
                        SWELL_FIELD(camera.mount_offset_m),
                        "from the object's middle at its waterline: right, ahead, up"),
+      SceneRow::number("camera.exposure_s", {0, 10, "s"}, SWELL_FIELD(camera.exposure_s),
+                       "how long the shutter stays open, from the picture's time on"),
+      SceneRow::integer("camera.shutter_samples", Kind::kInteger, {1, 16},
+                        SWELL_FIELD(camera.shutter_samples),
+                        "moments of that time whose light is added up, evenly spread"),
   };
 }
 

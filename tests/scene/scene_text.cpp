@@ -119,6 +119,8 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(camera.size_px);
   SWELL_COMPARE(camera.mount);
   SWELL_COMPARE(camera.mount_offset_m);
+  SWELL_COMPARE(camera.exposure_s);
+  SWELL_COMPARE(camera.shutter_samples);
   SWELL_COMPARE(sky.sun_azimuth_rad);
   SWELL_COMPARE(sky.sun_elevation_rad);
   SWELL_COMPARE(sky.sun_direction);
