@@ -80,6 +80,7 @@ swell_status swell_world_create(const swell_scene* scene, swell_world** world) {
     const auto make = [&](render::WorldMaking making) {
       making.threads = threads;
       making.most_bytes = given.most_bytes;
+      if (given.cache_folder) making.cache_folder = given.cache_folder;
       return std::make_shared<const NamedWorld>(scene_of(given), making);
     };
     *world = new swell_world{make_told(given, make)};

@@ -114,6 +114,7 @@ struct WorldOptions {
   std::filesystem::path folder = {};       // that paths of a scene's text are relative to
   int threads = 0;                         // that make the world, draw and answer; 0: all there are
   std::size_t most_bytes = 0;              // of memory that the world may take; 0: no bound
+  std::filesystem::path cache_folder = {};  // where parts of worlds are kept; empty: nowhere
   // Is told the part that is done, in [0, 1], every 10 ms; false ends the making.
   std::function<bool(double done)> progress = {};
   std::function<void(std::string_view line)> log = {};
@@ -355,6 +356,8 @@ inline std::shared_ptr<const swell_world> make_world(swell_scene scene,
   scene.setting_count = settings.size();
   scene.threads = options.threads;
   scene.most_bytes = options.most_bytes;
+  const std::string cache_folder = options.cache_folder.string();
+  if (!cache_folder.empty()) scene.cache_folder = c_text(cache_folder);
   Told told{options};
   if (options.progress || options.log) scene.progress = Told::progress;
   if (options.log) scene.log = Told::log;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstring>
+#include <deque>
 #include <memory>
 #include <new>
 #include <optional>
@@ -114,6 +115,8 @@ class Picture : public ZeroedStorage {
   std::vector<PickTuple> picks_;
 };
 
+using SizeTuple = std::array<int, 2>;  // width, height
+
 struct FrameArguments {
   double t_s = 0.0;
   int width_px = 0, height_px = 0;
@@ -129,12 +132,58 @@ struct FrameArguments {
   std::vector<std::array<double, 2>> picks;  // in pixels
 };
 
+// Arguments as the library takes them, which point into this.
+class Frame {
+ public:
+  explicit Frame(const FrameArguments& in)
+      : camera_(in.camera ? camera_of(*in.camera) : swell_camera{}),
+        next_camera_(in.next_camera ? camera_of(*in.next_camera) : swell_camera{}),
+        poses_(poses_of(in.poses)),
+        next_poses_(poses_of(in.next_poses)),
+        disturbances_(disturbances_of(in.disturbances)) {
+    frame_.size = sizeof(frame_);
+    frame_.t_s = in.t_s;
+    frame_.width_px = in.width_px;
+    frame_.height_px = in.height_px;
+    frame_.labels = c_text(in.labels, "labels");
+    frame_.without = c_text(in.without, "without");
+    frame_.linear = in.linear;
+    frame_.camera = in.camera ? &camera_ : nullptr;
+    frame_.next_camera = in.next_camera ? &next_camera_ : nullptr;
+    frame_.next_frame_s = in.next_frame_s;
+    frame_.poses = poses_.data();
+    frame_.pose_count = poses_.size();
+    frame_.next_poses = next_poses_.data();
+    frame_.next_pose_count = next_poses_.size();
+    frame_.water_triangles = in.water_triangles;
+    frame_.terrain_triangles = in.terrain_triangles;
+    frame_.lookup_scale = in.lookup_scale;
+    frame_.edge_samples = in.edge_samples;
+    frame_.disturbances = disturbances_.data();
+    frame_.disturbance_count = disturbances_.size();
+  }
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+
+  const swell_frame* get() const { return &frame_; }
+  void take_disturbances(const swell_frame& of) {
+    frame_.disturbances = of.disturbances;
+    frame_.disturbance_count = of.disturbance_count;
+  }
+
+ private:
+  swell_frame frame_{};
+  swell_camera camera_, next_camera_;
+  std::vector<swell_pose> poses_, next_poses_;
+  std::vector<swell_disturbance> disturbances_;
+};
+
 class World : public ZeroedStorage {
  public:
   bool is_made() const { return pool_ != nullptr; }
   World(const std::optional<std::string>& path, const std::optional<std::string>& text,
         const std::optional<std::string>& folder, const std::vector<std::string>& settings,
-        int threads) {
+        int threads, const std::optional<std::string>& cache) {
     std::vector<const char*> setting_texts;
     for (const std::string& setting : settings) setting_texts.push_back(c_text(setting, "set"));
     swell_scene scene{};
@@ -145,6 +194,7 @@ class World : public ZeroedStorage {
     scene.settings = setting_texts.data();
     scene.setting_count = setting_texts.size();
     scene.threads = threads;
+    scene.cache_folder = c_text(cache, "cache");
     swell_world* world = nullptr;
     call([&] { return swell_world_create(&scene, &world); });
     pool_ = std::make_shared<Pool>(Owned<swell_world>(world), threads);
@@ -203,36 +253,12 @@ class World : public ZeroedStorage {
   }
 
   Picture render(const FrameArguments& in) const {
-    swell_frame frame{};
-    frame.size = sizeof(frame);
-    frame.t_s = in.t_s;
-    frame.width_px = in.width_px;
-    frame.height_px = in.height_px;
-    frame.labels = c_text(in.labels, "labels");
-    frame.without = c_text(in.without, "without");
-    frame.linear = in.linear;
-    const swell_camera camera = in.camera ? camera_of(*in.camera) : swell_camera{};
-    const swell_camera next_camera = in.next_camera ? camera_of(*in.next_camera) : swell_camera{};
-    frame.camera = in.camera ? &camera : nullptr;
-    frame.next_camera = in.next_camera ? &next_camera : nullptr;
-    frame.next_frame_s = in.next_frame_s;
-    const std::vector<swell_pose> poses = poses_of(in.poses), next = poses_of(in.next_poses);
-    frame.poses = poses.data();
-    frame.pose_count = poses.size();
-    frame.next_poses = next.data();
-    frame.next_pose_count = next.size();
-    frame.water_triangles = in.water_triangles;
-    frame.terrain_triangles = in.terrain_triangles;
-    frame.lookup_scale = in.lookup_scale;
-    frame.edge_samples = in.edge_samples;
-    const std::vector<swell_disturbance> disturbances = disturbances_of(in.disturbances);
-    frame.disturbances = disturbances.data();
-    frame.disturbance_count = disturbances.size();
+    const Frame frame(in);
     Owned<swell_picture> picture = pool_->take_picture();
     std::vector<PickTuple> picks;
     call([&] {
       const Session session(*pool_);
-      swell_status status = swell_render(session.get(), &frame, picture.get());
+      swell_status status = swell_render(session.get(), frame.get(), picture.get());
       for (std::size_t i = 0; i < in.picks.size() && status == SWELL_OK; ++i) {
         swell_pick pick{};
         pick.size = sizeof(pick);
@@ -245,6 +271,27 @@ class World : public ZeroedStorage {
       return status;
     });
     return {pool_, std::move(picture), std::move(picks)};
+  }
+
+  // Frames of one time with one list of disturbances, the first's.
+  std::vector<Picture> render_many(const std::vector<FrameArguments>& in) const {
+    std::deque<Frame> frames;
+    std::vector<const swell_frame*> given;
+    std::vector<Owned<swell_picture>> pictures;
+    std::vector<swell_picture*> into;
+    for (const FrameArguments& one : in) {
+      given.push_back(frames.emplace_back(one).get());
+      frames.back().take_disturbances(*given.front());
+      into.push_back(pictures.emplace_back(pool_->take_picture()).get());
+    }
+    call([&] {
+      const Session session(*pool_);
+      return swell_render_many(session.get(), given.data(), into.data(), given.size());
+    });
+    std::vector<Picture> drawn;
+    for (Owned<swell_picture>& picture : pictures)
+      drawn.emplace_back(pool_, std::move(picture), std::vector<PickTuple>());
+    return drawn;
   }
 
   // One result at points [..., 2]: an array of their shape, and of a vector's length if it has more
@@ -366,9 +413,10 @@ PYBIND11_MODULE(_swell, module) {
 
   py::class_<World>(module, "World")
       .def(py::init<const std::optional<std::string>&, const std::optional<std::string>&,
-                    const std::optional<std::string>&, const std::vector<std::string>&, int>(),
+                    const std::optional<std::string>&, const std::vector<std::string>&, int,
+                    const std::optional<std::string>&>(),
            py::arg("path"), py::arg("text"), py::arg("folder"), py::arg("settings"),
-           py::arg("threads"))
+           py::arg("threads"), py::arg("cache"))
       .def("text", of_made(&World::text))
       .def("hash", of_made(&World::hash))
       .def("objects", of_made(&World::objects))
@@ -398,5 +446,33 @@ PYBIND11_MODULE(_swell, module) {
           py::arg("linear"), py::arg("camera"), py::arg("next_camera"), py::arg("next_frame_s"),
           py::arg("poses"), py::arg("next_poses"), py::arg("water_triangles"),
           py::arg("terrain_triangles"), py::arg("lookup_scale"), py::arg("edge_samples"),
-          py::arg("disturbances"), py::arg("picks"));
+          py::arg("disturbances"), py::arg("picks"))
+      .def(
+          "render_many",
+          [](const World& world, double t_s, const std::vector<SizeTuple>& sizes,
+             const std::vector<CameraTuple>& cameras, const std::string& labels,
+             const std::string& without, bool linear, const std::vector<PoseTuple>& poses,
+             int water_triangles, int terrain_triangles, double lookup_scale, int edge_samples,
+             const std::vector<DisturbanceTuple>& disturbances) {
+            std::vector<FrameArguments> frames;
+            for (std::size_t k = 0; k < cameras.size(); ++k)
+              frames.push_back({.t_s = t_s,
+                                .width_px = sizes.at(k)[0],
+                                .height_px = sizes.at(k)[1],
+                                .labels = labels,
+                                .without = without,
+                                .linear = linear,
+                                .camera = cameras[k],
+                                .poses = poses,
+                                .water_triangles = water_triangles,
+                                .terrain_triangles = terrain_triangles,
+                                .lookup_scale = lookup_scale,
+                                .edge_samples = edge_samples,
+                                .disturbances = disturbances});
+            return made(world).render_many(frames);
+          },
+          py::arg("t"), py::arg("sizes"), py::arg("cameras"), py::arg("labels"), py::arg("without"),
+          py::arg("linear"), py::arg("poses"), py::arg("water_triangles"),
+          py::arg("terrain_triangles"), py::arg("lookup_scale"), py::arg("edge_samples"),
+          py::arg("disturbances"));
 }

@@ -181,7 +181,8 @@ class World:
 
     def __init__(self, scene: Union[str, os.PathLike, Mapping[str, Any]] = "", *,
                  set: Union[Mapping[str, Any], Iterable[str]] = (),
-                 folder: Union[str, os.PathLike, None] = None, threads: int = 0):
+                 folder: Union[str, os.PathLike, None] = None, threads: int = 0,
+                 cache: Union[str, os.PathLike, None] = None):
         """Makes a world, in 0.1 s to some seconds.
 
         scene: the path of a scene file; its text, TOML or JSON, which is known by a line break, an '=' or a '{'; or the
@@ -190,6 +191,8 @@ class World:
         swell-render --set has them; None leaves a key out.
         folder: relative paths of a text or a dict are relative to it.
         threads: that a picture is drawn with, 0: all that the process may use. They change no bit.
+        cache: a folder where parts of worlds are kept for later processes, which make the same world in a fraction of
+        the time; 2 GB at most.
         """
         path = text = None
         if isinstance(scene, Mapping):
@@ -199,7 +202,8 @@ class World:
         else:
             path = os.fspath(scene)
         settings = [_setting(*item) for item in set.items()] if isinstance(set, Mapping) else list(set)
-        self._world = _swell.World(path, text, None if folder is None else os.fspath(folder), settings, threads)
+        self._world = _swell.World(path, text, None if folder is None else os.fspath(folder), settings, threads,
+                                   None if cache is None else os.fspath(cache))
 
     @property
     def text(self) -> str:
@@ -274,6 +278,30 @@ class World:
             edge_samples=0 if edge_samples is None else edge_samples or 1,
             disturbances=_tuples(disturbances), picks=places)
         return Picture(drawn, t, self._picks(drawn.picks()) if len(places) else ())
+
+    def render_many(self, t: float, cameras: Iterable[Camera], size: Size = (1280, 720), *,
+                    labels: Union[str, Iterable[str]] = (), linear: bool = False, poses: Poses = {},
+                    without: Union[str, Iterable[str]] = (), water_triangles: int = 0, terrain_triangles: int = 0,
+                    lookup_scale: float = 0.0, edge_samples: Optional[int] = None,
+                    disturbances: Iterable[Disturbance] = ()) -> List[Union[Picture, DistortedPicture]]:
+        """Draws the world at time t (seconds) as several cameras see it: the pictures of render(t, size, camera=...).
+
+        They share the sea, and each is drawn by one thread where there are enough: for many small ones. The rest is as
+        in render().
+        """
+        size = size_of(size)
+        cameras = [instance(camera, Camera, "camera") for camera in cameras]
+        lookups = [Lookup(camera, size) if any(camera.distortion) else None for camera in cameras]
+        drawn = self._world.render_many(
+            t=number(t, "t"), sizes=[lookup.size if lookup else size for lookup in lookups],
+            cameras=[(lookup.camera if lookup else camera)._tuple() for camera, lookup in zip(cameras, lookups)],
+            labels=_names(labels), without=_names(without), linear=linear, poses=self._poses(poses),
+            water_triangles=water_triangles, terrain_triangles=terrain_triangles,
+            lookup_scale=number(lookup_scale, "lookup_scale"),
+            edge_samples=0 if edge_samples is None else edge_samples or 1, disturbances=_tuples(disturbances))
+        pictures = [Picture(picture, t) for picture in drawn]
+        return [DistortedPicture(picture, lookup, camera) if lookup else picture
+                for picture, camera, lookup in zip(pictures, cameras, lookups)]
 
     def height(self, xy: npt.ArrayLike, t: float,
                disturbances: Iterable[Disturbance] = ()) -> npt.NDArray[np.float32]:

@@ -1,6 +1,6 @@
 """What swell is written on: the C interface of the library. Private."""
 
-from typing import Optional, Sequence, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -28,7 +28,7 @@ class Picture:
 
 class World:
     def __init__(self, path: Optional[str], text: Optional[str], folder: Optional[str],
-                 settings: Sequence[str], threads: int) -> None: ...
+                 settings: Sequence[str], threads: int, cache: Optional[str]) -> None: ...
     def text(self) -> str: ...
     def hash(self) -> int: ...
     def objects(self) -> list[Tuple[int, int, str, str, str]]: ...
@@ -44,3 +44,7 @@ class World:
                poses: Sequence[_Pose], next_poses: Sequence[_Pose], water_triangles: int,
                terrain_triangles: int, lookup_scale: float, edge_samples: int,
                disturbances: Sequence[_Disturbance], picks: Sequence[_Vector]) -> Picture: ...
+    def render_many(self, t: float, sizes: Sequence[Tuple[int, int]], cameras: Sequence[_Camera], labels: str,
+                    without: str, linear: bool, poses: Sequence[_Pose], water_triangles: int,
+                    terrain_triangles: int, lookup_scale: float, edge_samples: int,
+                    disturbances: Sequence[_Disturbance]) -> List[Picture]: ...

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -399,3 +400,31 @@ def test_an_object_without_init_is_no_object(kind):
     made = getattr(swell._swell, kind)
     with pytest.raises(TypeError, match="__init__"):
         made.__new__(made).hash()
+
+
+def test_many_views_of_one_time_are_what_each_is_alone(windy):
+    cameras = [swell.Camera.look((10.0 * k, 0.0, 5.0 + k), heading=15.0 * k, size=SIZE) for k in range(5)]
+    pictures = windy.render_many(2.0, cameras, SIZE, labels=["id", "depth"], without="haze")
+    assert len(pictures) == 5 and windy.render_many(2.0, [], SIZE) == []
+    for camera, picture in zip(cameras, pictures):
+        alone = windy.render(2.0, SIZE, camera=camera, labels=["id", "depth"], without="haze")
+        assert picture.hash == alone.hash and picture.t == 2.0
+        assert np.array_equal(picture["id"], alone["id"]) and np.array_equal(picture["depth"], alone["depth"])
+    with pytest.raises(TypeError, match="camera, got str, allowed swell.Camera"):
+        windy.render_many(2.0, ["north"], SIZE)
+    with pytest.raises(ValueError, match="frame.t_s"):
+        windy.render_many(float("nan"), cameras, SIZE)
+
+
+def test_several_cameras_may_have_their_own_distortion(windy):
+    plain = swell.Camera.look((0.0, 0.0, 6.0), size=SIZE)
+    bent = replace(plain, distortion=(-0.1, 0.01, 0.0, 0.0, 0.0))
+    first, second = windy.render_many(1.0, [plain, bent], SIZE)
+    assert np.array_equal(first.rgb, windy.render(1.0, SIZE, camera=plain).rgb)
+    assert np.array_equal(second.rgb, windy.render(1.0, SIZE, camera=bent).rgb)
+
+
+def test_worlds_are_made_of_what_others_kept(tmp_path):
+    worlds = [swell.World({"wind.speed_mps": 9}, cache=tmp_path) for _ in range(2)]
+    assert list(tmp_path.glob("*.part"))
+    assert worlds[0].render(1.0, SIZE).hash == worlds[1].render(1.0, SIZE).hash
