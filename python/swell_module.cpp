@@ -120,16 +120,16 @@ using SizeTuple = std::array<int, 2>;  // width, height
 struct FrameArguments {
   double t_s = 0.0;
   int width_px = 0, height_px = 0;
-  std::string labels, without;
+  std::string labels = {}, without = {};
   bool linear = false;
-  std::optional<CameraTuple> camera, next_camera;
+  std::optional<CameraTuple> camera = {}, next_camera = {};
   double next_frame_s = 0.0;
-  std::vector<PoseTuple> poses, next_poses;
+  std::vector<PoseTuple> poses = {}, next_poses = {};
   int water_triangles = 0, terrain_triangles = 0;
   double lookup_scale = 0.0;
   int edge_samples = 0;
-  std::vector<DisturbanceTuple> disturbances;
-  std::vector<std::array<double, 2>> picks;  // in pixels
+  std::vector<DisturbanceTuple> disturbances = {};
+  std::vector<std::array<double, 2>> picks = {};  // in pixels
 };
 
 // Arguments as the library takes them, which point into this.

@@ -44,7 +44,7 @@ class World:
                poses: Sequence[_Pose], next_poses: Sequence[_Pose], water_triangles: int,
                terrain_triangles: int, lookup_scale: float, edge_samples: int,
                disturbances: Sequence[_Disturbance], picks: Sequence[_Vector]) -> Picture: ...
-    def render_many(self, t: float, sizes: Sequence[Tuple[int, int]], cameras: Sequence[_Camera], labels: str,
+    def render_many(self, t: float, sizes: Sequence[Sequence[int]], cameras: Sequence[_Camera], labels: str,
                     without: str, linear: bool, poses: Sequence[_Pose], water_triangles: int,
                     terrain_triangles: int, lookup_scale: float, edge_samples: int,
                     disturbances: Sequence[_Disturbance]) -> List[Picture]: ...

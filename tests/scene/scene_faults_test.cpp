@@ -265,8 +265,8 @@ INSTANTIATE_TEST_SUITE_P(
               "test.toml:2: column 1: unknown key, got 'camera.fov_deg' (did you mean "
               "'fov_y_deg'?), allowed in [camera] "
               "fov_y_deg, roll_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, mount, focal_px, "
-              "[[camera.path]], near_m, size_px, velocity_mps, mount_offset_m, quaternion, "
-              "principal_px"},
+              "[[camera.path]], near_m, exposure_s, size_px, velocity_mps, mount_offset_m, "
+              "quaternion, shutter_samples, principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea' (did you mean 'camera'?), allowed "
               "name, [camera], [air], "
@@ -298,7 +298,8 @@ INSTANTIATE_TEST_SUITE_P(
             "[camera]\nfov = 3\n",
             "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
             "mount, focal_px, [[camera.path]], eye_m, roll_deg, near_m, size_px, quaternion, "
-            "pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, mount_offset_m"},
+            "exposure_s, pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, "
+            "mount_offset_m, shutter_samples"},
         Fault{"[sea]\nstate = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] tp_s, seed, "
               "[[sea.maps]], earth, [[sea.swell]], [[sea.sines]], hs_m, spectrum, centre_m, "
@@ -307,10 +308,9 @@ INSTANTIATE_TEST_SUITE_P(
               "map_heights, amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
               "test.toml:2: column 1: unknown key, got 'camera.eye.m' (did you mean 'eye_m'?), "
-              "allowed in [camera] eye_m, "
-              "near_m, [[camera.path]], size_px, mount, fov_y_deg, roll_deg, velocity_mps, "
-              "turn_deg_s, "
-              "quaternion, focal_px, heading_deg, pitch_deg, mount_offset_m, principal_px"},
+              "allowed in [camera] eye_m, near_m, [[camera.path]], size_px, mount, exposure_s, "
+              "fov_y_deg, roll_deg, velocity_mps, turn_deg_s, quaternion, focal_px, heading_deg, "
+              "pitch_deg, mount_offset_m, shutter_samples, principal_px"},
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [air], [sea], name, [[lake]], "
               "[sky], [water], [coast], [camera], [wind], [detail], [terrain], [[river]], "
