@@ -56,7 +56,7 @@ TEST(WaterLayers, EveryPatchAndBothLayersOfRipplesAreShaded) {
     const Water& water = drawn.water();
     ASSERT_EQ(water.layer_count, static_cast<int>(patches) + 2);
     for (std::size_t i = 0; i < patches; ++i)
-      EXPECT_EQ(water.layers[i].map, &drawn.state().sea.patch_slopes[i]);
+      EXPECT_EQ(water.layers[i].map, &drawn.state().sea->patch_slopes[i]);
 
     scene::Scene smooth = scene;
     smooth.water.bump_strength = 0.0;
