@@ -7,15 +7,11 @@
 #include "math/check.h"
 #include "math/elementary.h"
 #include "math/with_ieee.h"
+#include "scene/camera_path.h"
 #include "scene/scene.h"
 
 namespace swell::scene {
 namespace {
-
-struct Pose {
-  glm::dvec3 eye_m;
-  double heading_rad, pitch_rad, roll_rad;
-};
 
 // A stretch of a path between two waypoints, and its neighbours; those beyond an end have length 0.
 struct Stretch {
@@ -44,46 +40,20 @@ double moved(const Stretch& s, double before, double change, double after) {
   return (u3 - 2.0 * u2 + u) * start_slope + (3.0 * u2 - 2.0 * u3) * change + (u3 - u2) * end_slope;
 }
 
-Pose pose_on_path(std::span<const Waypoint> path, double t_s) {
-  const auto next = std::ranges::upper_bound(path, t_s, {}, &Waypoint::t_s);
-  if (next == path.begin() || next == path.end()) {
-    const Waypoint& end = next == path.begin() ? path.front() : path.back();
-    return {end.eye_m, end.heading_rad, end.pitch_rad, end.roll_rad};
-  }
-  const Waypoint &from = next[-1], &to = *next;
-  const Waypoint& before = next - 1 == path.begin() ? from : next[-2];
-  const Waypoint& after = next + 1 == path.end() ? to : next[1];
-  const double length_s = to.t_s - from.t_s;
-  const Stretch stretch = {from.t_s - before.t_s, length_s, after.t_s - to.t_s,
-                           (t_s - from.t_s) / length_s};
-  const auto value = [&](auto of) {
-    return of(from) + moved(stretch, of(from) - of(before), of(to) - of(from), of(after) - of(to));
-  };
-  const auto turn = [](const Waypoint& a, const Waypoint& b) {
-    return std::remainder(b.heading_rad - a.heading_rad, 2.0 * kPi);  // exact
-  };
-  return {{value([](const Waypoint& w) { return w.eye_m.x; }),
-           value([](const Waypoint& w) { return w.eye_m.y; }),
-           value([](const Waypoint& w) { return w.eye_m.z; })},
-          from.heading_rad + moved(stretch, turn(before, from), turn(from, to), turn(to, after)),
-          value([](const Waypoint& w) { return w.pitch_rad; }),
-          value([](const Waypoint& w) { return w.roll_rad; })};
-}
-
 constexpr double kMaxTime = 1e12, kMaxDistance = 1e7;
 
-Pose pose_at(const Camera& camera, double t_s) {
+Waypoint pose_at(const Camera& camera, double t_s) {
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   t_s = std::clamp(t_s, -kMaxTime, kMaxTime);
   if (!camera.path.empty()) return pose_on_path(camera.path, t_s);
   // fmod is exact, so this costs no bits that the product had.
-  return {camera.eye_m + camera.velocity_mps * t_s,
+  return {t_s, camera.eye_m + camera.velocity_mps * t_s,
           std::fmod(camera.heading_rad + camera.turn_rad_s * t_s, 2.0 * kPi), camera.pitch_rad,
           camera.roll_rad};
 }
 
 // In the world's axes, or the object's.
-glm::dmat3 axes_of(const Camera& camera, const Pose& pose) {
+glm::dmat3 axes_of(const Camera& camera, const Waypoint& pose) {
   if (!camera.quaternion) return camera_axes(pose.heading_rad, pose.pitch_rad, pose.roll_rad);
   const glm::dvec4& q = *camera.quaternion;
   return camera_axes(glm::dquat(q[0], q[1], q[2], q[3]));
@@ -99,6 +69,33 @@ View view_from(const Camera& camera, glm::dvec3 eye_m, const glm::dmat3& world_f
 
 }  // namespace
 
+Waypoint pose_on_path(std::span<const Waypoint> path, double t_s) {
+  const auto next = std::ranges::upper_bound(path, t_s, {}, &Waypoint::t_s);
+  if (next == path.begin() || next == path.end()) {
+    const Waypoint& end = next == path.begin() ? path.front() : path.back();
+    return {t_s, end.eye_m, end.heading_rad, end.pitch_rad, end.roll_rad};
+  }
+  const Waypoint &from = next[-1], &to = *next;
+  const Waypoint& before = next - 1 == path.begin() ? from : next[-2];
+  const Waypoint& after = next + 1 == path.end() ? to : next[1];
+  const double length_s = to.t_s - from.t_s;
+  const Stretch stretch = {from.t_s - before.t_s, length_s, after.t_s - to.t_s,
+                           (t_s - from.t_s) / length_s};
+  const auto value = [&](auto of) {
+    return of(from) + moved(stretch, of(from) - of(before), of(to) - of(from), of(after) - of(to));
+  };
+  const auto turn = [](const Waypoint& a, const Waypoint& b) {
+    return std::remainder(b.heading_rad - a.heading_rad, 2.0 * kPi);  // exact
+  };
+  return {t_s,
+          {value([](const Waypoint& w) { return w.eye_m.x; }),
+           value([](const Waypoint& w) { return w.eye_m.y; }),
+           value([](const Waypoint& w) { return w.eye_m.z; })},
+          from.heading_rad + moved(stretch, turn(before, from), turn(from, to), turn(to, after)),
+          value([](const Waypoint& w) { return w.pitch_rad; }),
+          value([](const Waypoint& w) { return w.roll_rad; })};
+}
+
 Lens camera_lens(const Camera& camera, int width_px, int height_px) {
   if (!camera.focal_px) return lens_of_fov(camera.fov_y_rad, width_px, height_px);
   SWELL_CHECK(camera.size_px.has_value(), "focal_px without size_px");
@@ -111,7 +108,7 @@ Lens camera_lens(const Camera& camera, int width_px, int height_px) {
 View camera_view(const Camera& camera, double t_s, int width_px, int height_px) {
   SWELL_CHECK(camera.mount.empty(), "mount={}", camera.mount);
   return with_ieee([&] {
-    const Pose pose = pose_at(camera, t_s);
+    const Waypoint pose = pose_at(camera, t_s);
     return view_from(camera, pose.eye_m, axes_of(camera, pose), width_px, height_px);
   });
 }

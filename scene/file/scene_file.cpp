@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 
 #include "math/parallel.h"
 #include "ocean/open_sea/map_sets.h"
@@ -28,10 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMaxWind_mps = 60.0;
-
-[[noreturn]] void refuse_file(const fs::path& file, const std::string& text) {
-  throw SceneError(one_line(fmt::format("{}: {}", file.string(), text)));
-}
 
 // Where else a file has something, for messages.
 std::string line_text(const Place& place) {
@@ -75,23 +70,6 @@ class Reader {
   }
 
  private:
-  struct Entry {
-    std::string_view key;
-    const toml::node* node;
-    Place key_place;
-  };
-
-  // In the order of the file, so that its first fault is the one reported.
-  static std::vector<Entry> in_file_order(const toml::table& table) {
-    std::vector<Entry> entries;
-    for (const auto& [key, node] : table)
-      entries.push_back({key.str(), &node, place_of(key.source())});
-    std::ranges::stable_sort(entries, {}, [](const Entry& entry) {
-      return std::pair(entry.key_place.line, entry.key_place.column);
-    });
-    return entries;
-  }
-
   void read_table(const toml::table& table, const std::string& prefix) {
     for (const auto& [key, node, key_place] : in_file_order(table)) {
       const std::string path = prefix + std::string(key);
@@ -365,31 +343,12 @@ class Reader {
   CheckedValues values_{file_, given_};
 };
 
-std::string read_text(const fs::path& path) {
-  const std::string allowed = "allowed a readable TOML file";
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status))
-    refuse_file(path, fmt::format("scene file, got '{}', {}", error.message(), allowed));
-  if (!fs::is_regular_file(status))
-    refuse_file(path,
-                fmt::format("scene file, got a {}, {}",
-                            fs::is_directory(status) ? "directory" : "special file", allowed));
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse_file(path, "scene file, got one that cannot be opened, " + allowed);
-  std::string text(kMaxFileBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) refuse_file(path, "scene file, got a read error, " + allowed);
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
-
 }  // namespace
 
 Scene load_scene(const fs::path& path) { return load_scene(path, {}); }
 
 Scene load_scene(const fs::path& path, std::span<const std::string> settings) {
-  return parse_scene(read_text(path), path, settings);
+  return parse_scene(read_tables_text(path, "scene file"), path, settings);
 }
 
 Scene parse_scene(std::string_view text, const fs::path& file_name) {

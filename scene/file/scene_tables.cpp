@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "scene/file/json_tables.h"
 #include "scene/file/parameters.h"
 #include "scene/file/toml_limits.h"
@@ -205,6 +208,35 @@ Place place_of(const toml::source_region& region) {
 
 void fail(const fs::path& file, const Place& place, const std::string& text) {
   throw SceneError(one_line(fmt::format("{}: {}", place_text(file, place), text)));
+}
+
+std::vector<TableEntry> in_file_order(const toml::table& table) {
+  std::vector<TableEntry> entries;
+  for (const auto& [key, node] : table)
+    entries.push_back({key.str(), &node, place_of(key.source())});
+  std::ranges::stable_sort(entries, {}, [](const TableEntry& entry) {
+    return std::pair(entry.key_place.line, entry.key_place.column);
+  });
+  return entries;
+}
+
+std::string read_tables_text(const fs::path& path, std::string_view what) {
+  const auto refuse = [&](std::string_view got) {
+    throw SceneError(one_line(
+        fmt::format("{}: {}, got {}, allowed a readable TOML file", path.string(), what, got)));
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) refuse(fmt::format("'{}'", error.message()));
+  if (!fs::is_regular_file(status))
+    refuse(fs::is_directory(status) ? "a directory" : "a special file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse("one that cannot be opened");
+  std::string text(kMaxFileBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) refuse("a read error");
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
 }
 
 toml::table parse_tables(std::string_view text, const fs::path& file,
