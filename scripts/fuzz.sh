@@ -34,7 +34,7 @@ build/fuzz/bin/fuzz_dictionary >build/fuzz/scene.dict
 # The longest input of a target, in bytes.
 most_bytes() {
   case $1 in
-    scene | recipe | form) echo 4096 ;;
+    scene | recipe | form | rig) echo 4096 ;;
     c_calls) echo 1024 ;;
     *) echo 16384 ;;
   esac
@@ -56,6 +56,7 @@ examples() {
   case $1 in
     scene) echo scenes tests/scenes ;;
     form) echo scenes/forms ;;
+    rig) echo scenes/rigs ;;
   esac
 }
 

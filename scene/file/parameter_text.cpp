@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/file/parameters.h"
+#include "scene/file/rig.h"
 
 namespace swell::scene {
 namespace {
@@ -129,6 +130,9 @@ template std::string allowed_text(const Parameter<ocean::Lake>&);
 template std::string allowed_text(const Parameter<terrain::TreeStand>&);
 template std::string allowed_text(const Parameter<Waypoint>&);
 template std::string allowed_text(const Parameter<Cumulus>&);
+template std::string allowed_text(const Parameter<Rig>&);
+template std::string allowed_text(const Parameter<RigBody>&);
+template std::string allowed_text(const Parameter<Sensor>&);
 
 template <class Object>
 std::string toml_text(const Parameter<Object>& parameter, const Object& object) {
@@ -165,5 +169,8 @@ template std::string toml_text(const Parameter<ocean::Lake>&, const ocean::Lake&
 template std::string toml_text(const Parameter<terrain::TreeStand>&, const terrain::TreeStand&);
 template std::string toml_text(const Parameter<Waypoint>&, const Waypoint&);
 template std::string toml_text(const Parameter<Cumulus>&, const Cumulus&);
+template std::string toml_text(const Parameter<Rig>&, const Rig&);
+template std::string toml_text(const Parameter<RigBody>&, const RigBody&);
+template std::string toml_text(const Parameter<Sensor>&, const Sensor&);
 
 }  // namespace swell::scene

@@ -1,0 +1,124 @@
+// Rigs: bodies with their poses, and the sensors on them or at places, of a simulation in a scene.
+//
+//   const scene::Rig rig = scene::load_rig("boat.toml", {});
+//   scene::check_mounts(rig, scene);
+//
+// Frames are those of ROS (REP 103, 105). "map" has the scene's axes: east, north, up. A body's has
+// x ahead, y to the left, z up; its parent is "odom", which lies on "map". A sensor's frame is
+// given in its body's, or in "map"; a camera looks along its x.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "math/elementary.h"
+#include "math/enum_table.h"
+#include "scene/camera.h"
+#include "scene/file/key_places.h"
+
+namespace swell::scene {
+
+struct Scene;
+
+// One of mount, position_m and path says where it is.
+struct RigBody {
+  std::string frame = "base_link";
+  double rate_hz = 50.0;                   // of its transform, where it moves
+  std::string mount{};                     // name of an object of the scene, whose pose it has
+  std::optional<glm::dvec3> position_m{};  // it stays there: east, north, up
+  double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;  // there: as Waypoint has them
+  std::vector<Waypoint> path{};  // it goes along these as a camera does (scene/camera.h)
+
+  bool moves() const { return !position_m; }
+};
+
+enum class SensorKind : std::uint8_t {
+  kCamera,
+  kAltimeter,
+  kEchoSounder,
+  kWaveProbe,
+  kImu,
+  kGnss,
+  kOdometry,
+  kPose,
+};
+
+struct Sensor {
+  SensorKind kind = SensorKind::kCamera;
+  std::string name{};  // of its topics and its frame
+  std::string body{};  // the body's frame; empty: it stands in "map"
+  glm::dvec3 position_m{0.0};
+  glm::dvec3 rpy_rad{0.0};  // roll, pitch, yaw about the fixed axes x, y, z, in this order
+  double rate_hz = 10.0;
+
+  // These are for cameras.
+  int width_px = 640, height_px = 360;
+  double fov_y_rad = radians(50.0);
+  double near_m = 0.25;
+  std::vector<double> distortion = std::vector<double>(5);  // k1, k2, p1, p2, k3
+  bool depth = false, classes = false, ids = false;         // pictures of labels besides
+
+  // These are for altimeters and echo sounders, which measure along x.
+  double nearest_m = 0.2, farthest_m = 100.0;
+  double beam_rad = 0.0;  // as the message has it: one ray is measured
+};
+
+// What all sensors of a kind have in common. One more kind is an enumerator, a row here, its keys
+// in rig_parameters.cpp and a row of apps/sim/sensors.cpp, which names what makes its messages.
+struct SensorKindFacts {
+  std::string_view name;    // of its tables in rigs
+  double rate_hz = 10.0;    // if the rig gives none
+  glm::dvec3 rpy_rad{0.0};  // likewise
+  bool needs_body = false;  // it tells of a body
+  bool has_place = true;    // it has a frame of its own
+};
+
+inline constexpr glm::dvec3 kLooksDown{0.0, 0.5 * kPi, 0.0};
+inline constexpr auto kSensorKinds = enum_table<SensorKind, SensorKindFacts>({
+    {SensorKind::kCamera, {.name = "camera", .rate_hz = 20.0}},
+    {SensorKind::kAltimeter, {.name = "altimeter", .rpy_rad = kLooksDown}},
+    {SensorKind::kEchoSounder, {.name = "echo_sounder", .rpy_rad = kLooksDown}},
+    {SensorKind::kWaveProbe, {.name = "wave_probe"}},
+    {SensorKind::kImu, {.name = "imu", .rate_hz = 100.0}},
+    {SensorKind::kGnss, {.name = "gnss"}},
+    {SensorKind::kOdometry,
+     {.name = "odometry", .rate_hz = 50.0, .needs_body = true, .has_place = false}},
+    {SensorKind::kPose, {.name = "pose", .rate_hz = 50.0}},
+});
+
+struct Rig {
+  // Where the scene's origin lies on WGS 84's ellipsoid, and how far over it.
+  double latitude_rad = 0.0, longitude_rad = 0.0, altitude_m = 0.0;
+  double clock_hz = 0.0;  // of /clock; 0: none
+  std::vector<RigBody> bodies;
+  std::vector<Sensor> sensors;  // in the order of the kinds, each in the file's
+  KeyPlaces places;             // "body[0].mount", "camera[1].size_px"
+
+  const RigBody* find_body(std::string_view frame) const;
+};
+
+// The key of a sensor's table, for its places: "camera[1]".
+std::string sensor_key(const Rig& rig, const Sensor& sensor);
+
+// Throws SceneError 'FILE:LINE: column N: KEY, TEXT'.
+[[noreturn]] void refuse_key(const Rig& rig, const std::string& key, const std::string& text);
+
+// Reads a rig in TOML, or JSON of the same schema, changed by settings as scenes are
+// (scene/settings.h). Throws SceneError of the first fault.
+Rig load_rig(const std::filesystem::path& path, std::span<const std::string> settings);
+Rig parse_rig(std::string_view text, const std::filesystem::path& file_name,
+              std::span<const std::string> settings);
+
+// Throws SceneError for a body on an object that the scene does not have.
+void check_mounts(const Rig& rig, const Scene& scene);
+
+// Every key of rigs, a line each: unit, what is allowed, default, meaning.
+std::string rig_keys_text();
+
+}  // namespace swell::scene

@@ -1,0 +1,189 @@
+#include "scene/file/rig_parameters.h"
+
+#include <fmt/format.h>
+
+#include "scene/file/parameter_row.h"
+
+namespace swell::scene {
+namespace {
+
+#define SWELL_FIELD(PATH) \
+  [](auto& object) -> auto& { return object.PATH; }
+
+using SensorRow = Row<Sensor>;
+using Keys = std::vector<Parameter<Sensor>>;
+
+// Three angles in radians.
+Parameter<Sensor> rpy_parameter() {
+  Parameter<Sensor> row = SensorRow::vector(
+      "rpy_deg", {-360, 360, "deg"}, SWELL_FIELD(rpy_rad),
+      "roll, pitch, yaw of its frame, about its parent's x, y and z in turn, as URDF has them");
+  row.get = [](const Sensor& sensor) -> ParameterValue {
+    std::vector<double> degrees;
+    for (int i = 0; i < 3; ++i) {
+      const double rad = sensor.rpy_rad[i];
+      degrees.push_back(shortest_preimage(rad, rad / kRadPerDeg, radians));
+    }
+    return degrees;
+  };
+  row.set = [](Sensor& sensor, const ParameterValue& value) {
+    const auto& degrees = std::get<std::vector<double>>(value);
+    for (int i = 0; i < 3; ++i) sensor.rpy_rad[i] = radians(degrees[static_cast<std::size_t>(i)]);
+  };
+  return row;
+}
+
+void add_camera(Keys& keys) {
+  keys.push_back(SensorRow::integer("width_px", ParameterKind::kInteger, {1, 8192, "px"},
+                                    SWELL_FIELD(width_px), "of the picture"));
+  keys.push_back(SensorRow::integer("height_px", ParameterKind::kInteger, {1, 8192, "px"},
+                                    SWELL_FIELD(height_px), "of the picture"));
+  keys.push_back(SensorRow::angle("fov_y_deg", {1, 170, "deg"}, SWELL_FIELD(fov_y_rad),
+                                  "from the picture's top to its bottom, without the lens"));
+  keys.push_back(SensorRow::number("near_m", {0.001, 100, "m"}, SWELL_FIELD(near_m),
+                                   "nearer things are cut off"));
+  keys.push_back(SensorRow::list("distortion", {-100, 100}, 5, 5, SWELL_FIELD(distortion),
+                                 "k1, k2, p1, p2, k3 of the lens, as OpenCV has them"));
+  const auto add_picture = [&](std::string_view key, auto field, std::string_view meaning) {
+    keys.push_back(SensorRow::plain<bool>(key, ParameterKind::kBoolean, field, meaning));
+  };
+  add_picture("depth", SWELL_FIELD(depth), "publish depth along the view axis in metres, 32FC1");
+  add_picture("class", SWELL_FIELD(classes), "publish the label \"class\", 16UC1");
+  add_picture("id", SWELL_FIELD(ids), "publish the label \"id\", 32SC1");
+}
+
+void add_ranges(Keys& keys) {
+  keys.push_back(SensorRow::number("nearest_m", {0, 10000, "m"}, SWELL_FIELD(nearest_m),
+                                   "what is nearer gives -infinity"));
+  keys.push_back(SensorRow::number("farthest_m", {0.01, 10000, "m"}, SWELL_FIELD(farthest_m),
+                                   "where nothing is nearer than this it gives infinity"));
+  keys.push_back(SensorRow::angle("beam_deg", {0, 180, "deg"}, SWELL_FIELD(beam_rad),
+                                  "width of the beam, for the message: one ray is measured"));
+}
+
+}  // namespace
+
+std::vector<Parameter<Rig>> rig_parameters() {
+  using RigRow = Row<Rig>;
+  return {
+      RigRow::angle("origin.latitude_deg", {-90, 90, "deg"}, SWELL_FIELD(latitude_rad),
+                    "of the scene's origin on WGS 84, north positive"),
+      RigRow::angle("origin.longitude_deg", {-180, 180, "deg"}, SWELL_FIELD(longitude_rad),
+                    "likewise, east positive"),
+      RigRow::number("origin.altitude_m", {-1000, 10000, "m"}, SWELL_FIELD(altitude_m),
+                     "of the mean sea level over the ellipsoid"),
+      RigRow::or_zero(RigRow::number("clock_hz", {0.001, 10000, "Hz"}, SWELL_FIELD(clock_hz),
+                                     "how often /clock is published; 0: never")),
+  };
+}
+
+std::vector<Parameter<RigBody>> body_parameters() {
+  using BodyRow = Row<RigBody>;
+  return {
+      BodyRow::plain<std::string>("frame", ParameterKind::kText, SWELL_FIELD(frame),
+                                  "name of its frame; no two alike"),
+      BodyRow::number("rate_hz", {0.001, 10000, "Hz"}, SWELL_FIELD(rate_hz),
+                      "how often /tf has its pose, if it moves"),
+      BodyRow::optional_text("mount", SWELL_FIELD(mount),
+                             "name of an object of the scene that it is"),
+      BodyRow::optional_vector("position_m", {-1e6, 1e6, "m"}, SWELL_FIELD(position_m),
+                               "where it stays: east, north, up from mean sea level"),
+      BodyRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
+                     "where it points at position_m, clockwise from north"),
+      BodyRow::angle("pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(pitch_rad), "there: up positive"),
+      BodyRow::angle("roll_deg", {-180, 180, "deg"}, SWELL_FIELD(roll_rad),
+                     "there: positive lowers its right side"),
+  };
+}
+
+std::vector<Parameter<Waypoint>> body_path_parameters() {
+  using WaypointRow = Row<Waypoint>;
+  return {
+      WaypointRow::number("t_s", {-1e6, 1e6, "s"}, SWELL_FIELD(t_s),
+                          "when the body is there; more than that of the table before"),
+      WaypointRow::vector("position_m", {-1e6, 1e6, "m"}, SWELL_FIELD(eye_m),
+                          "east, north, up from mean sea level"),
+      WaypointRow::angle("heading_deg", {-360, 360, "deg"}, SWELL_FIELD(heading_rad),
+                         "clockwise from north; turns the shorter way"),
+      WaypointRow::angle("pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(pitch_rad), "up positive"),
+      WaypointRow::angle("roll_deg", {-180, 180, "deg"}, SWELL_FIELD(roll_rad),
+                         "positive lowers its right side"),
+  };
+}
+
+std::vector<Parameter<Sensor>> sensor_parameters(SensorKind kind) {
+  Keys keys = {
+      SensorRow::optional_text("name", SWELL_FIELD(name), "of its topics and frames; no two alike"),
+      SensorRow::optional_text("body", SWELL_FIELD(body),
+                               "frame of the body that it is on; left out: it stands in \"map\""),
+      SensorRow::number("rate_hz", {0.001, 10000, "Hz"}, SWELL_FIELD(rate_hz),
+                        "message k has the stamp k / rate_hz, to the nanosecond"),
+  };
+  if (kSensorKinds[kind].has_place) {
+    keys.push_back(SensorRow::vector("position_m", {-1e6, 1e6, "m"}, SWELL_FIELD(position_m),
+                                     "in its parent's frame: ahead, left, up of a body; east, "
+                                     "north, up of \"map\""));
+    keys.push_back(rpy_parameter());
+  }
+  switch (kind) {
+    case SensorKind::kCamera:
+      add_camera(keys);
+      break;
+    case SensorKind::kAltimeter:
+    case SensorKind::kEchoSounder:
+      add_ranges(keys);
+      break;
+    default:
+      break;
+  }
+  return keys;
+}
+
+#undef SWELL_FIELD
+
+Waypoint common_waypoint() {
+  Waypoint waypoint;
+  waypoint.eye_m = glm::dvec3(0.0);
+  return waypoint;
+}
+
+Sensor common_sensor(SensorKind kind) {
+  const SensorKindFacts& facts = kSensorKinds[kind];
+  Sensor sensor;
+  sensor.kind = kind;
+  sensor.rate_hz = facts.rate_hz;
+  sensor.rpy_rad = facts.rpy_rad;
+  return sensor;
+}
+
+namespace {
+
+template <class Object>
+std::string keys_text(std::string_view table, const std::vector<Parameter<Object>>& parameters,
+                      const Object& standard) {
+  std::string text = fmt::format("\n{}\n", table);
+  for (const Parameter<Object>& parameter : parameters) {
+    const std::string value = toml_text(parameter, standard);
+    text += fmt::format("  {:<21} {}{}: {}\n", parameter.key, allowed_text(parameter),
+                        value.empty() ? "" : fmt::format(" [{}]", value), parameter.meaning);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string rig_keys_text() {
+  std::string text = "The keys of rigs: what is allowed [default]: meaning\n";
+  text += keys_text("at the top", rig_parameters(), Rig());
+  text += keys_text("[[body]]: one of mount, position_m and [[body.path]]", body_parameters(),
+                    RigBody());
+  text += keys_text("[[body.path]]", body_path_parameters(), common_waypoint());
+  for (std::size_t k = 0; k < kSensorKinds.size(); ++k) {
+    const auto kind = static_cast<SensorKind>(k);
+    text += keys_text(fmt::format("[[{}]]", kSensorKinds[kind].name), sensor_parameters(kind),
+                      common_sensor(kind));
+  }
+  return text;
+}
+
+}  // namespace swell::scene
