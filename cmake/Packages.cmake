@@ -57,7 +57,8 @@ swell_add_package(swell SECTION graphics RECOMMENDS "${modules}"
   DESCRIPTION "real-time ocean renderer for CPUs (programs and scenes)"
   "Swell draws the sea on CPU cores, with the same pixels on every run."
   "swell-render draws pictures and sequences with labels, swell-dataset labelled"
-  "data sets, and swell-bench measures. None needs a window.")
+  "data sets, swell-sim records what sensors measure, and swell-bench measures."
+  "None needs a window.")
 swell_add_package(swell-images SECTION graphics
   DESCRIPTION "real-time ocean renderer for CPUs (image files)"
   "The module by which Swell reads image files and writes other formats than PNG,"

@@ -9,7 +9,7 @@ import subprocess
 import typing
 
 PAGE = "docs/look_up/options.md"
-PROGRAMS = ("swell-render", "swell-view", "swell-dataset", "swell-bench")
+PROGRAMS = ("swell-render", "swell-view", "swell-dataset", "swell-sim", "swell-bench")
 COLUMN = 30  # where the help's descriptions begin
 ALWAYS = ("-h,--help", "--version")
 

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 scripts/setup.sh python
 cmake --preset release
-cmake --build --preset release --target swell-render swell-bench swell-view swell-dataset swell_package
+cmake --build --preset release --target swell-render swell-bench swell-view swell-dataset swell-sim swell_package
 
 bin=build/release/bin
 scene=scenes/open_ocean.toml

@@ -7,7 +7,7 @@ source=$2
 for tool in cpack dpkg dpkg-shlibdeps file lintian mandoc desktop-file-validate; do
   command -v $tool >/dev/null || { echo "skipped: no $tool"; exit 77; }
 done
-for file in bin/swell-view bin/swell-bench bin/swell-dataset bin/swell-render lib/libswell.so.0; do
+for file in bin/swell-view bin/swell-bench bin/swell-dataset bin/swell-sim bin/swell-render lib/libswell.so.0; do
   [ -e "$build/$file" ] || { echo "skipped: not all is built"; exit 77; }
 done
 work=$(mktemp -d)

@@ -1,0 +1,17 @@
+// Cameras: pictures, labels as pictures, and what the camera is.
+#pragma once
+
+#include "apps/sim/sim_world.h"
+#include "apps/sim/simulation.h"
+
+namespace swell::apps {
+
+// Of a camera of the rig, which has to outlive it, as the world has. Throws scene::SceneError for a
+// lens that draws no picture.
+Publish camera(const scene::Sensor& sensor, SimWorld& world, Simulation& simulation);
+
+// Names of a sensor's frames.
+std::string sensor_frame(const scene::Sensor& sensor);
+std::string camera_optical_frame(const scene::Sensor& sensor);
+
+}  // namespace swell::apps

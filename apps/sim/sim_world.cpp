@@ -1,0 +1,69 @@
+#include "apps/sim/sim_world.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "scene/camera_path.h"
+#include "terrain/height_grid.h"
+
+namespace swell::apps {
+
+SimWorld::SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers)
+    : world_(world), rig_(rig), workers_(workers), water_(world.water()) {}
+
+const ocean::WaterSurface& SimWorld::water_at(const Moment& moment) {
+  for (const KeptWater& kept : kept_)
+    if (kept.surface && kept.t_ns == moment.t_ns) return *kept.surface;
+  KeptWater& kept = kept_[next_];
+  next_ = (next_ + 1) % kKept;
+  kept.surface.emplace(water_.at(moment.t_s(), kept.sea, workers_));
+  kept.t_ns = moment.t_ns;
+  return *kept.surface;
+}
+
+FramePose SimWorld::body_at(const scene::RigBody& body, const Moment& moment) {
+  const double t_s = moment.t_s();
+  if (body.position_m)
+    return heading_pose({t_s, *body.position_m, body.heading_rad, body.pitch_rad, body.roll_rad});
+  if (!body.path.empty()) return heading_pose(scene::pose_on_path(body.path, t_s));
+  const scene::Scene& scene = world_.scene();
+  const auto object = std::ranges::find(scene.objects, body.mount, &scene::FloatingObject::name);
+  scene::ObjectPose pose;
+  scene::object_poses({&*object, 1}, water_at(moment), {&pose, 1});
+  if (scene.detail.triangulation == scene::Triangulation::kPlane)
+    scene::lay_flat({&*object, 1}, {&pose, 1});
+  return object_frame(pose);
+}
+
+FramePose SimWorld::sensor_at(const scene::Sensor& sensor, const Moment& moment) {
+  const scene::RigBody* body = rig_.find_body(sensor.body);
+  return body ? body_at(*body, moment) * mounting(sensor) : mounting(sensor);
+}
+
+double SimWorld::ground_distance(const glm::dvec3& from, const glm::dvec3& direction,
+                                 double far_m) const {
+  constexpr double kStep_m = 0.25;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (!water_.terrain()) return kNone;
+  const auto is_under = [&](double distance_m) {
+    const glm::dvec3 p = from + distance_m * direction;
+    return p.z < terrain::height_at(*water_.terrain(), glm::dvec2(p));
+  };
+  double over = 0.0, under = kNone;
+  for (int step = 0; over < far_m; ++step) {
+    const double at = std::min(step * kStep_m, far_m);
+    if (is_under(at)) {
+      under = at;
+      break;
+    }
+    if (at == far_m) return kNone;
+    over = at;
+  }
+  for (int step = 0; step < 40 && over < under; ++step) {
+    const double middle = 0.5 * (over + under);
+    (is_under(middle) ? under : over) = middle;
+  }
+  return under;
+}
+
+}  // namespace swell::apps

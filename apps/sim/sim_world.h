@@ -1,0 +1,60 @@
+// The world that sensors are in: its water at a time, where bodies are, what a beam meets.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "apps/sim/frames.h"
+#include "apps/sim/simulation.h"
+#include "math/parallel.h"
+#include "ocean/open_sea/sea.h"
+#include "ocean/water_surface.h"
+#include "render/world/world.h"
+#include "scene/file/rig.h"
+#include "scene/water.h"
+
+namespace swell::apps {
+
+// Answers depend on the world, the rig and the time alone. Used by one thread at a time.
+class SimWorld {
+ public:
+  // All of these have to outlive it; check_mounts() passes the rig.
+  SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers);
+
+  SimWorld(const SimWorld&) = delete;
+  SimWorld& operator=(const SimWorld&) = delete;
+
+  const render::World& world() const { return world_; }
+  const scene::Rig& rig() const { return rig_; }
+  Workers& workers() { return workers_; }
+
+  // The water at a time. It stays until kKept other times have been asked for.
+  const ocean::WaterSurface& water_at(const Moment& moment);
+
+  // In "map": of a body, and of a sensor.
+  FramePose body_at(const scene::RigBody& body, const Moment& moment);
+  FramePose sensor_at(const scene::Sensor& sensor, const Moment& moment);
+
+  // How far a beam, a unit direction, goes until it meets the ground; infinity where it meets none
+  // within far_m. It looks every 0.25 m.
+  double ground_distance(const glm::dvec3& from, const glm::dvec3& direction, double far_m) const;
+
+ private:
+  // Those that an IMU of 200 Hz comes back to: 40 ms before and after.
+  static constexpr std::size_t kKept = 18;
+  struct KeptWater {
+    std::int64_t t_ns = 0;
+    ocean::SeaFrame sea;
+    std::optional<ocean::WaterSurface> surface;
+  };
+
+  const render::World& world_;
+  const scene::Rig& rig_;
+  Workers& workers_;
+  scene::Water water_;
+  std::array<KeptWater, kKept> kept_;
+  std::size_t next_ = 0;  // of them to be used again
+};
+
+}  // namespace swell::apps

@@ -1,0 +1,39 @@
+#include "apps/sim/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace swell::apps {
+
+namespace {
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+}  // namespace
+
+std::size_t Simulation::topic(const std::string& name, std::string_view type, bool is_kept) {
+  const auto found = std::ranges::find(topics, name, &Topic::name);
+  const auto number = static_cast<std::size_t>(found - topics.begin());
+  if (found == topics.end()) topics.push_back({name, type, is_kept});
+  return number;
+}
+
+std::int64_t stamp_ns(std::int64_t k, double rate_hz) {
+  return std::llround(static_cast<double>(k) * 1e9 / rate_hz);
+}
+
+Schedule::Schedule(const std::vector<Source>& sources, double duration_s)
+    : duration_ns_(std::llround(duration_s * 1e9)) {
+  for (const Source& source : sources) lines_.push_back({source.rate_hz, 0, 0});
+}
+
+bool Schedule::next(Due& due) {
+  const auto line = std::ranges::min_element(lines_, {}, &Line::stamp_ns);
+  if (line == lines_.end() || line->stamp_ns >= duration_ns_) return false;
+  due = {static_cast<std::size_t>(line - lines_.begin()), line->stamp_ns};
+  line->stamp_ns = line->rate_hz > 0.0 ? stamp_ns(++line->k, line->rate_hz) : kNever;
+  return true;
+}
+
+}  // namespace swell::apps
