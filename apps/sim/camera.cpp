@@ -34,7 +34,7 @@ class CameraSensor {
 
   void publish(const Moment& moment, const Emit& emit) {
     draw(moment);
-    const msg::Header header = {moment.stamp(), camera_optical_frame(sensor_)};
+    const msg::Header header = {moment.stamp(), optical_frame_name(sensor_)};
     emit(picture_, picture(header));
     emit(info_, info(header));
     for (const LabelTopic& label : labels_) emit(label.topic, label_picture(header, label.label));
@@ -156,12 +156,6 @@ class CameraSensor {
 Publish camera(const scene::Sensor& sensor, SimWorld& world, Simulation& simulation) {
   const auto made = std::make_shared<CameraSensor>(sensor, world, simulation);
   return [made](const Moment& moment, const Emit& emit) { made->publish(moment, emit); };
-}
-
-std::string sensor_frame(const scene::Sensor& sensor) { return sensor.name + "_link"; }
-
-std::string camera_optical_frame(const scene::Sensor& sensor) {
-  return sensor.name + "_optical_frame";
 }
 
 }  // namespace swell::apps

@@ -10,8 +10,4 @@ namespace swell::apps {
 // lens that draws no picture.
 Publish camera(const scene::Sensor& sensor, SimWorld& world, Simulation& simulation);
 
-// Names of a sensor's frames.
-std::string sensor_frame(const scene::Sensor& sensor);
-std::string camera_optical_frame(const scene::Sensor& sensor);
-
 }  // namespace swell::apps

@@ -161,7 +161,7 @@ msg::TFMessage static_frames(SimWorld& world) {
     if (!scene::kSensorKinds[sensor.kind].has_place) continue;
     add(sensor.body.empty() ? kMap : sensor.body, sensor_frame(sensor), mounting(sensor));
     if (sensor.kind == SensorKind::kCamera)
-      add(sensor_frame(sensor), camera_optical_frame(sensor), optical_frame());
+      add(sensor_frame(sensor), optical_frame_name(sensor), optical_frame());
   }
   return message;
 }

@@ -103,6 +103,11 @@ struct Rig {
   const RigBody* find_body(std::string_view frame) const;
 };
 
+// The frames of a sensor: its own, if its kind has a place, and a camera's optical one (x right, y
+// down, z ahead).
+std::string sensor_frame(const Sensor& sensor);
+std::string optical_frame_name(const Sensor& camera);
+
 // The key of a sensor's table, for its places: "camera[1]".
 std::string sensor_key(const Rig& rig, const Sensor& sensor);
 

@@ -191,6 +191,7 @@ class RigReader {
     for (const Sensor& sensor : rig_.sensors) {
       const std::string key = sensor_key(rig_, sensor);
       check_name(key + ".name", sensor.name, taken);
+      check_names_beside(key + ".name", sensor);
       if (sensor.body.empty() && kSensorKinds[sensor.kind].needs_body)
         refuse_key(rig_, key + ".body", "got none, allowed the frame of a body");
       if (!sensor.body.empty() && !rig_.find_body(sensor.body))
@@ -202,6 +203,20 @@ class RigReader {
                    fmt::format("got {}, allowed less than farthest_m, {}", sensor.nearest_m,
                                sensor.farthest_m));
     }
+  }
+
+  // Topics are a name, or lie below it; frames are a name with an ending.
+  void check_names_beside(const std::string& key, const Sensor& sensor) const {
+    for (const Sensor& other : rig_.sensors)
+      if (sensor.name.starts_with(other.name + '/'))
+        refuse_key(rig_, key,
+                   fmt::format("got \"{}\" below the sensor \"{}\", allowed others", sensor.name,
+                               other.name));
+    for (const std::string& frame : {sensor_frame(sensor), optical_frame_name(sensor)})
+      if (rig_.find_body(frame))
+        refuse_key(rig_, key,
+                   fmt::format("got \"{}\", whose frame \"{}\" is a body's, allowed others",
+                               sensor.name, frame));
   }
 
   std::string frames_text() const {
@@ -226,6 +241,10 @@ const RigBody* Rig::find_body(std::string_view frame) const {
   const auto found = std::ranges::find(bodies, frame, &RigBody::frame);
   return found == bodies.end() ? nullptr : &*found;
 }
+
+std::string sensor_frame(const Sensor& sensor) { return sensor.name + "_link"; }
+
+std::string optical_frame_name(const Sensor& camera) { return camera.name + "_optical_frame"; }
 
 std::string sensor_key(const Rig& rig, const Sensor& sensor) {
   const auto first = std::ranges::find(rig.sensors, sensor.kind, &Sensor::kind);

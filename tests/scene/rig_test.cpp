@@ -111,6 +111,12 @@ INSTANTIATE_TEST_SUITE_P(
                      "digits and single _, parts with / between them that begin with no digit"},
         RigFaultCase{"[[imu]]\nname = \"a\"\n[[gnss]]\nname = \"a\"\n",
                      "rig.toml:4: column 8: gnss[0].name, got \"a\" twice, allowed once"},
+        RigFaultCase{"[[camera]]\nname = \"a\"\n[[pose]]\nname = \"a/depth\"\n",
+                     "rig.toml:4: column 8: pose[0].name, got \"a/depth\" below the sensor \"a\", "
+                     "allowed others"},
+        RigFaultCase{std::string(kBody) + "[[imu]]\nname = \"base\"\n",
+                     "rig.toml:4: column 8: imu[0].name, got \"base\", whose frame \"base_link\" "
+                     "is a body's, allowed others"},
         RigFaultCase{"[[imu]]\nname = \"a\"\nbody = \"boat\"\n",
                      "rig.toml:3: column 8: imu[0].body, got \"boat\", allowed the frame of a "
                      "body, of which there is none"},
