@@ -7,6 +7,7 @@
 #include <span>
 
 #include "apps/sim/lens.h"
+#include "apps/sim/sim_world.h"
 #include "math/elementary.h"
 #include "render/frame.h"
 

@@ -5,6 +5,7 @@
 
 #include "apps/sim/camera.h"
 #include "apps/sim/geodetic.h"
+#include "apps/sim/sim_world.h"
 #include "math/elementary.h"
 #include "math/enum_table.h"
 

@@ -1,10 +1,11 @@
 // The sensors, bodies and the clock of a rig, as what publishes their messages.
 #pragma once
 
-#include "apps/sim/sim_world.h"
 #include "apps/sim/simulation.h"
 
 namespace swell::apps {
+
+class SimWorld;
 
 // All that a rig publishes; the world has to outlive it. Throws scene::SceneError for a lens that
 // draws no picture.

@@ -11,6 +11,7 @@
 #include "apps/sim/costs.h"
 #include "apps/sim/sensors.h"
 #include "apps/sim/sim_options.h"
+#include "apps/sim/sim_world.h"
 #include "render/world/world.h"
 
 namespace swell::apps {

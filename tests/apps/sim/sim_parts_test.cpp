@@ -13,6 +13,7 @@
 #include "apps/sim/geodetic.h"
 #include "apps/sim/lens.h"
 #include "apps/sim/sensors.h"
+#include "apps/sim/sim_world.h"
 #include "apps/sim/simulation.h"
 #include "math/elementary.h"
 #include "scene/scene.h"
