@@ -18,7 +18,6 @@ using scene::Sensor;
 using scene::SensorKind;
 
 constexpr const char *kMap = "map", *kOdom = "odom";
-constexpr double kGravity_mps2 = 9.80665;
 // Between poses that accelerations and rates of turn are worked out of: 0.2 % off in a wave of 3 s,
 // and heights' last bits give less than 0.001 m/s^2. A multiple of common periods, whose water is
 // there already.
@@ -83,7 +82,8 @@ Publish imu(const Sensor& sensor, SimWorld& world, Simulation& simulation) {
     const auto pose_at = [&](const Moment& at) { return world.sensor_at(sensor, at); };
     const FramePose pose = pose_at(moment);
     const FrameMotion motion = motion_of(pose_at, moment);
-    const glm::dvec3 felt = motion.acceleration_mps2 + glm::dvec3(0.0, 0.0, kGravity_mps2);
+    const double gravity_mps2 = world.world().scene().sea.gravity_mps2;
+    const glm::dvec3 felt = motion.acceleration_mps2 + glm::dvec3(0.0, 0.0, gravity_mps2);
     msg::Imu message;
     message.header = sensor_header(sensor, moment);
     message.orientation = quaternion_message(pose.axes);

@@ -41,8 +41,8 @@ class SimWorld {
   double ground_distance(const glm::dvec3& from, const glm::dvec3& direction, double far_m) const;
 
  private:
-  // Those that an IMU of 200 Hz comes back to: 40 ms before and after.
-  static constexpr std::size_t kKept = 18;
+  // Those that an IMU of 100 Hz comes back to: 40 ms before and after. Each has some MB.
+  static constexpr std::size_t kKept = 10;
   struct KeptWater {
     std::int64_t t_ns = 0;
     ocean::SeaFrame sea;

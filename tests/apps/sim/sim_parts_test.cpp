@@ -303,7 +303,7 @@ position_m = [2, 0, 1]
   // At rest gravity upwards: along the y of a sensor that lies on its side.
   const auto& imu = std::get<msg::Imu>(last.at("/imu/data"));
   expect_near({imu.linear_acceleration.x, imu.linear_acceleration.y, imu.linear_acceleration.z},
-              {0, 9.80665, 0}, 1e-6);
+              {0, 9.81, 0}, 1e-6);
   const auto& fix = std::get<msg::NavSatFix>(last.at("/gnss/fix"));
   EXPECT_NEAR(fix.latitude, 10.0, 1e-12);
   EXPECT_NEAR(fix.longitude, 20.0, 1e-12);
