@@ -5,7 +5,6 @@
 #include <limits>
 
 namespace swell::apps {
-
 namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();

@@ -7,6 +7,7 @@
 
 #include "apps/mcap/mcap_output.h"
 #include "apps/shared/options.h"
+#include "apps/shared/output_file.h"
 #include "apps/shared/program.h"
 #include "apps/sim/costs.h"
 #include "apps/sim/sensors.h"
@@ -56,6 +57,7 @@ void run(const SimOptions& options) {
     return;
   }
   select_simd(options.simd);
+  if (!options.record.empty()) check_output_place(options.record);  // before the world is made
   const scene::Rig rig = scene::load_rig(options.rig, options.rig_settings);
   scene::Scene scene = load_scene(options.scene);
   scene::check_mounts(rig, scene);

@@ -98,7 +98,7 @@ struct Rig {
   double clock_hz = 0.0;  // of /clock; 0: none
   std::vector<RigBody> bodies;
   std::vector<Sensor> sensors;  // in the order of the kinds, each in the file's
-  KeyPlaces places;             // "body[0].mount", "camera[1].size_px"
+  KeyPlaces places;             // "body[0].mount", "camera[1].width_px"
 
   const RigBody* find_body(std::string_view frame) const;
 };
