@@ -2,6 +2,7 @@
 // many damaged ones does more than be refused by a line.
 #include "scene/file/rig.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -175,8 +176,8 @@ TEST(Rig, EveryKeyThatItsTextListsIsTaken) {
     if (line.starts_with("[[")) table = line.substr(2, line.find("]]") - 2);
     if (!line.starts_with("  ") || table.empty() || table == "body.path") continue;
     const std::string key = line.substr(2, line.find(' ', 2) - 2);
-    const std::string error = rig_error("[[" + table + "]]\n" + key + " = []\n");
-    EXPECT_NE(error.find(table + "[0]." + key + ", got"), std::string::npos) << error;
+    const std::string error = rig_error(fmt::format("[[{}]]\n{} = []\n", table, key));
+    EXPECT_NE(error.find(fmt::format("{}[0].{}, got", table, key)), std::string::npos) << error;
     ++keys;
   }
   EXPECT_GT(keys, 40);
