@@ -46,4 +46,29 @@ std::optional<ObjectHit> intersect_ray(const scene::FloatingObject& object,
   return nearest;
 }
 
+std::optional<ObjectHit> intersect_ray(const scene::FloatingObject& object,
+                                       const scene::ObjectPose& pose, const ObjectMesh& mesh,
+                                       const BoxTree& triangles, const WorldRay& ray) {
+  const Ray in_mesh = ray_in_mesh(object, pose, ray.origin, ray.along);
+  std::optional<ObjectHit> nearest;
+  if (!passes_near(in_mesh)) return nearest;
+  double farthest = ray.farthest_m;
+  triangles.visit(in_mesh.origin, in_mesh.along, farthest, [&](std::uint32_t triangle) {
+    const auto crossing = cross_triangle(in_mesh, corners_of(mesh, triangle));
+    if (!crossing || crossing->s < 0.0 || crossing->s > farthest) return;
+    const auto number = static_cast<int>(triangle);
+    if (nearest && crossing->s == nearest->distance_m && number > nearest->triangle) return;
+    nearest = {crossing->s, number};
+    farthest = crossing->s;
+  });
+  return nearest;
+}
+
+BoxTree make_triangle_tree(const ObjectMesh& mesh) {
+  std::vector<Box> boxes(mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) boxes[t].include(mesh.position[mesh.indices[3 * t + k]]);
+  return BoxTree(boxes);
+}
+
 }  // namespace swell::shapes

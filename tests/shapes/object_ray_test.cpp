@@ -128,5 +128,32 @@ TEST(ObjectRay, TellsTheTriangleThatIsHit) {
   }
 }
 
+TEST(ObjectRay, TheTreeOfTrianglesAnswersAsAllOfThem) {
+  for (const auto kind : {scene::ObjectKind::kBox, scene::ObjectKind::kBoat,
+                          scene::ObjectKind::kSailboat, scene::ObjectKind::kPier}) {
+    const Placed thing = placed(kind, {3.0, 6.0, 4.0}, 0.3, {10.0, 20.0, 0.7});
+    const BoxTree triangles = make_triangle_tree(thing.mesh);
+    RayDice dice;
+    int hits = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const glm::dvec3 origin = thing.pose.position_world + 12.0 * dice.point();
+      const glm::dvec3 along =
+          glm::normalize(thing.pose.position_world + 3.0 * dice.point() - origin);
+      const auto expected = thing.hit(origin, along);
+      const auto hit =
+          intersect_ray(thing.object, thing.pose, thing.mesh, triangles, {origin, along, 1e9});
+      ASSERT_EQ(hit.has_value(), expected.has_value()) << n;
+      if (!hit) continue;
+      ++hits;
+      EXPECT_NEAR(hit->distance_m, expected->distance_m, 1e-12 * expected->distance_m) << n;
+      EXPECT_EQ(hit->triangle, expected->triangle) << n;
+      EXPECT_FALSE(intersect_ray(thing.object, thing.pose, thing.mesh, triangles,
+                                 {origin, along, 0.999 * hit->distance_m}))
+          << n;
+    }
+    EXPECT_GT(hits, 300) << static_cast<int>(kind);
+  }
+}
+
 }  // namespace
 }  // namespace swell::shapes
