@@ -368,8 +368,8 @@ WaterBounds bounds_of(const WaterParts& water) {
   const double all_m = sea_m + static_cast<double>(trains_m);
   const glm::dvec2 limits_m = water.area.limits_m();
   const double rim_m = kEdgePart * std::min(limits_m.x, limits_m.y);
-  const double shallow = water.land ? sea_m / (0.2 + sea.significant_height_m()) : 0.0;
-  bounds.steepest = sea_slope + 2.0 * all_m * 1.5 / rim_m + shallow;
+  bounds.steepest = sea_slope + 2.0 * all_m * 1.5 / rim_m;
+  if (water.land) bounds.steepest += shallow_steepness(sea);
   bounds.steepest += 2.0 * static_cast<double>(water.wakes.slope);
   if (water.shelter) bounds.steepest += static_cast<double>(water.shelter->slope_per_m) * sea_m;
   bounds.mean_wavelength_m = sea.mean_wavelength_m();
@@ -411,6 +411,10 @@ void add_up(const WaterParts& water, const SeaWaves& sea, std::span<const glm::d
 }
 
 }  // namespace
+
+double shallow_depth_m(const Sea& sea) { return 0.2 + sea.significant_height_m(); }
+
+double shallow_steepness(const Sea& sea) { return sea.height_bound_m() / shallow_depth_m(sea); }
 
 WaterBody::WaterBody(const WaterParts& parts)
     : parts_(parts),

@@ -63,6 +63,11 @@ struct WaterBounds {
   double mean_wavelength_m = 0.0;
 };
 
+// The sea's waves fade over so much depth, from the ground's level down: on ground of slope 1 that
+// adds shallow_steepness() to the surface's slope, as WaterBounds::steepest counts it.
+double shallow_depth_m(const Sea& sea);
+double shallow_steepness(const Sea& sea);
+
 // May be asked by many threads at once. Points are world x, y below 1e9 m; spans of a call have one
 // length and do not overlap. Frames are of the parts' sea. Allocates nothing.
 class WaterBody {

@@ -228,6 +228,21 @@ void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& v
   for_all_rows(velocity, workers, [](std::size_t j, WakeWindow& window) { fade_row(j, window); });
 }
 
+// Between samples heights are bilinear: steepest along the edges of a cell.
+WakeBounds bounds_of_wake(const WakeWindow& window) {
+  float highest_m = 0.0f, step_x_m = 0.0f, step_y_m = 0.0f;
+  for (std::size_t j = 0; j + 1 < kWindowSide; ++j)
+    for (std::size_t i = 0; i + 1 < kWindowSide; ++i) {
+      const float* const z = &window.height_m[j * kWindowSide + i];
+      highest_m = std::max(highest_m, std::abs(z[0]));
+      step_x_m = std::max(step_x_m, std::abs(z[1] - z[0]));
+      step_y_m = std::max(step_y_m, std::abs(z[kWindowSide] - z[0]));
+    }
+  const float per_m = kWakeSamples / static_cast<float>(window.length_m);
+  return {.height_m = highest_m,
+          .slope = per_m * std::sqrt(step_x_m * step_x_m + step_y_m * step_y_m)};
+}
+
 void add_wake_heights(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                       std::span<float> height_m) {
   for_points_inside(frame, p_world,

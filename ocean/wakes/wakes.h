@@ -27,6 +27,9 @@ void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbanc
                    double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers,
                    const terrain::ShoreMap* shore = nullptr);
 
+// What a window's heights stay within, their wavelength aside. 0.1 ms.
+WakeBounds bounds_of_wake(const WakeWindow& window);
+
 // Fills `velocity` with the windows of `wakes`, where one component of the water's velocity takes
 // the place of the heights.
 void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& velocity,
