@@ -1,0 +1,155 @@
+// A lidar beside the picture from its place: beams through drawn vertices are as long as these are
+// far, and through pixels as the label "distance" says but for what triangles cut off.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lod/mesh_query.h"
+#include "ocean/water_surface.h"
+#include "render/labels/labels.h"
+#include "render/measure/lidar.h"
+#include "render/sea/sea_maps.h"
+#include "render/shot.h"
+#include "render/world/world_state.h"
+
+namespace swell::render {
+namespace {
+
+constexpr double kFarthest_m = 100.0;
+
+struct Beside {
+  explicit Beside(const char* name, int triangles) : world(flat(name)) {
+    LabelSet labels = LabelSet::all();
+    shot.draw(world, view_of(world, 2.0, 240, 160), 2.0,
+              {.water_triangles = triangles, .background_error_px = 0.0, .labels = labels});
+  }
+  static World flat(const char* name) {
+    scene::Scene scene = load_shipped(name);
+    scene.round_earth = false;
+    return world_of(scene);
+  }
+
+  // Of beams from the camera's eye along directions of the world.
+  std::vector<LidarReturn> scanned(const std::vector<glm::dvec3>& along) {
+    std::vector<LidarBeam> beams;
+    for (const glm::dvec3& d : along)
+      beams.push_back({std::atan2(d.y, d.x), std::atan2(d.z, std::hypot(d.x, d.y)), 0.0});
+    std::vector<LidarReturn> returns(beams.size());
+    Lidar lidar(world, shot.workers);
+    lidar.scan({.t_s = 2.0, .begin = {shot.view.eye_world}, .beams = beams, .most_m = 2e3}, returns,
+               shot.workers);
+    return returns;
+  }
+
+  double height(glm::dvec2 p) const {
+    const auto surface = water_surface(world.state(), shot.state().sea);
+    return static_cast<double>(surface.height(p));
+  }
+  // The longest piece of a beam from the eye that is under water, from 15 cm before a place to
+  // where it has its return, or 1 m after the place.
+  double longest_under(glm::dvec3 along, double at_m, double range_m) const {
+    double longest = 0.0, length = 0.0;
+    for (double s = at_m - 0.15; s < std::min(range_m - 0.001, at_m + 1.0); s += 0.001) {
+      const glm::dvec3 p = shot.view.eye_world + s * along;
+      length = p.z <= height(glm::dvec2(p)) ? length + 0.001 : 0.0;
+      longest = std::max(longest, length);
+    }
+    return longest;
+  }
+
+  World world;
+  Shot shot;
+};
+
+double at_share(std::vector<double> values, double share) {
+  std::ranges::sort(values);
+  return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * (values.size() - 1.0))];
+}
+
+std::string histogram(const std::vector<double>& values) {
+  std::string text;
+  for (const double share : {0.1, 0.5, 0.9, 0.95, 0.99, 1.0})
+    text += fmt::format("{:.0f} %: {:.5f} m  ", 100.0 * share, at_share(values, share));
+  return text;
+}
+
+class BesidePicture : public testing::TestWithParam<const char*> {};
+
+TEST_P(BesidePicture, BeamsThroughDrawnVerticesAreAsLongAsTheseAreFar) {
+  Beside beside(GetParam(), 20000);
+  const Surface& water = beside.shot.state().meshes.water;
+  const View& view = beside.shot.view;
+  std::vector<glm::dvec3> along;
+  std::vector<double> distance_m;
+  const lod::HeightMesh mesh{water.mesh, {}, water.height_m, water.domain};
+  for (std::size_t n = 0; n < water.height_m.size(); ++n) {
+    const glm::dvec3 rel = vertex_world(mesh, n) - view.eye_world;
+    const double s = glm::length(rel);
+    if (s > kFarthest_m || s < 1.0 || glm::dot(rel, glm::dvec3(view.forward)) < 0.5 * s) continue;
+    along.push_back(rel / s);
+    distance_m.push_back(s);
+  }
+  ASSERT_GT(along.size(), 100u);
+  const std::vector<LidarReturn> returns = beside.scanned(along);
+  std::size_t seen = 0, past = 0, elsewhere = 0;
+  for (std::size_t n = 0; n < returns.size(); ++n) {
+    const auto range_m = static_cast<double>(returns[n].range_m);
+    seen += std::abs(range_m - distance_m[n]) < 1e-3;
+    if (range_m < distance_m[n] + 1e-3) continue;
+    const glm::dvec3 vertex = view.eye_world + distance_m[n] * along[n];
+    if (std::abs(vertex.z - beside.height(glm::dvec2(vertex))) > 1e-4) {
+      ++elsewhere;  // drawn, but not where the water is
+      continue;
+    }
+    ++past;
+    EXPECT_LT(beside.longest_under(along[n], distance_m[n], range_m), 0.022 + 2e-4 * distance_m[n])
+        << n;
+  }
+  // The others are behind crests, things or the shore; a beam that grazes a crest goes past.
+  fmt::print("{}: {} vertices, {} within 1 mm, {} grazed, {} not on the water\n", GetParam(),
+             returns.size(), seen, past, elsewhere);
+  EXPECT_GT(seen, returns.size() / 2);
+  EXPECT_LE(past, returns.size() / 200);
+  EXPECT_LE(elsewhere, returns.size() / 100);
+}
+
+TEST_P(BesidePicture, BeamsThroughPixelsAreAsLongAsTheirLabelsSay) {
+  Beside beside(GetParam(), 200000);
+  const Shot& shot = beside.shot;
+  const Labels& labels = shot.target.labels;
+  std::vector<glm::dvec3> along;
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 240; ++x) along.push_back(shot.direction(x, y));
+  const std::vector<LidarReturn> returns = beside.scanned(along);
+  std::vector<double> off_m, height_off_m;
+  std::size_t others = 0, compared = 0;
+  for (std::size_t n = 0; n < returns.size(); ++n) {
+    const double drawn_m = distance_of(shot.view, static_cast<int>(n % 240),
+                                       static_cast<int>(n / 240), labels.depth_m[n]);
+    if (!(drawn_m < kFarthest_m)) continue;
+    ++compared;
+    if (returns[n].id != labels.id[n]) {
+      ++others;
+      continue;
+    }
+    off_m.push_back(std::abs(static_cast<double>(returns[n].range_m) - drawn_m));
+    height_off_m.push_back(off_m.back() * std::abs(along[n].z));
+  }
+  fmt::print("{}: {} pixels, {} of other things; along the beam {}; up {}\n", GetParam(), compared,
+             others, histogram(off_m), histogram(height_off_m));
+  EXPECT_GT(compared, 3000u);
+  EXPECT_LT(others, compared / 50);
+  EXPECT_LT(at_share(height_off_m, 0.5), 0.01);
+  EXPECT_LT(at_share(height_off_m, 0.95), 0.05);
+  EXPECT_LT(at_share(off_m, 0.5), 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BesidePicture, testing::Values("harbour", "open_ocean", "river"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+}  // namespace
+}  // namespace swell::render
