@@ -21,14 +21,6 @@ void check_each(const char* name, const double (&values)[N], double low, double 
 
 glm::dvec3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-glm::dquat unit_quaternion(const double (&wxyz)[4], const char* name) {
-  check_each(name, wxyz, -1e100, 1e100);
-  const glm::dquat q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
-  const double length = glm::length(q);
-  if (!(length > 1e-100)) refuse("{}, got 0, allowed a length over 0", name);
-  return q / length;
-}
-
 template <std::size_t N, class Vector>
 void set(double (&values)[N], const Vector& v) {
   for (std::size_t i = 0; i < N; ++i) values[i] = v[static_cast<glm::length_t>(i)];
@@ -39,6 +31,14 @@ void set(double (&wxyz)[4], const glm::dquat& q) {
 }
 
 }  // namespace
+
+glm::dquat unit_quaternion(const double (&wxyz)[4], const char* name) {
+  check_each(name, wxyz, -1e100, 1e100);
+  const glm::dquat q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  const double length = glm::length(q);
+  if (!(length > 1e-100)) refuse("{}, got 0, allowed a length over 0", name);
+  return q / length;
+}
 
 PictureSize checked_size(int32_t width_px, int32_t height_px) {
   constexpr int kMost = 8192;

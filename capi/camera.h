@@ -1,6 +1,7 @@
 // Cameras and poses of swell.h as the library has them.
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <vector>
 
 #include "capi/handles.h"
@@ -21,6 +22,9 @@ View view_of(const swell_camera* camera, const char* name, PictureSize size);
 
 // A view's camera; of the scene's, to the precision of the view's floats.
 swell_camera camera_of(const View& view);
+
+// A quaternion's direction. Throws ArgumentError.
+glm::dquat unit_quaternion(const double (&wxyz)[4], const char* name);
 
 // The caller's poses. Throws ArgumentError.
 std::vector<scene::GivenPose> given_poses(const swell_pose* poses, std::size_t count,

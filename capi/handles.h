@@ -14,6 +14,7 @@
 #include "ocean/open_sea/whitecaps.h"
 #include "ocean/velocity.h"
 #include "render/frame.h"
+#include "render/measure/lidar.h"
 #include "render/measure/pick.h"
 #include "swell.h"
 
@@ -57,6 +58,7 @@ struct swell_session {
   swell::capi::AtTime<swell::ocean::SeaFrame> sea;
   swell::capi::AtTime<swell::ocean::VelocityFrame> velocity;
   swell::capi::AtTime<swell::ocean::WhitecapFrame> whitecaps;
+  std::unique_ptr<swell::render::Lidar> lidar;  // once one is asked for
   std::atomic_flag busy{};
 };
 

@@ -335,6 +335,71 @@ typedef struct swell_hit {
 SWELL_API swell_status swell_ray(swell_session* session, double t_s, const double origin_m[3],
                                  const double direction[3], double max_distance_m, swell_hit* hit);
 
+/* ---- Lidar */
+
+/* What a lidar, or a depth sensor of single beams, gets back. Beams meet the surfaces that queries
+ * answer for, not a picture's triangles: waves, land, trees with all leaves, forms, objects, within
+ * 1 mm at 100 m in a flat world. The sensor's frame is that of REP 103: x ahead, y left, z up.
+ * Intensities are of light of 905 nm, 1 for a white matt surface that is met squarely: paint by the
+ * mean of its colour, leaves 0.45, ground 0.3, foam 0.33, times the cosine of the incidence and
+ * what fog leaves; clear water mirrors little back but straight down (Cox, Munk, 1954), and nothing
+ * returns from below it. Results that are null are not worked out. */
+typedef struct swell_lidar {
+  size_t size;
+  double t_s;                /* within 1e12 */
+  double position_m[3];      /* each within 1e6 */
+  double quaternion_wxyz[4]; /* turns the sensor's frame into the world; of any length over 0 */
+  const double* beams; /* [count][3]: azimuth_deg from x towards y, elevation_deg from there towards
+                          z, each within 1e6, and when it leaves: s after t_s, within 1000 */
+  size_t count;        /* at most 1e8 */
+  /* Over 0: the sensor is at the end's pose so many seconds after t_s, at most 1000, and beams
+   * leave from between both (a rolling shutter). 0: it stays. */
+  double duration_s;
+  double end_position_m[3];
+  double end_quaternion_wxyz[4];
+  int32_t moments; /* at which the world stands still in the duration, [1, 64]; 0: one, at t_s */
+  double least_m, most_m; /* ranges that it tells, up to 1e5; most_m 0: 120 */
+  /* How far a surface of reflectance 0.1 that is met squarely is seen half of the time, at most
+   * 1e5; what sends back less is lost sooner. 0: each beam that meets something has a return. */
+  double reach_m;
+  double range_noise_m; /* standard deviation, [0, 10] */
+  uint64_t seed; /* of noise and losses, which follow from it, the beam's number and t_s alone */
+  const swell_pose* poses; /* as in the frame */
+  size_t pose_count;
+  const swell_disturbance* disturbances;
+  size_t disturbance_count;
+  float* range_m;       /* [count]: infinity: nothing came back */
+  float* intensity;     /* [count]: [0, 1] */
+  float* incidence_deg; /* [count]: [0, 90], from the surface's normal */
+  uint32_t* id;         /* [count]: as in the labels "id" and "class"; 0: nothing */
+  uint32_t* klass;
+  float* point_m; /* [count][3]: in the sensor's frame as the beam left; NaN: nothing */
+} swell_lidar;
+
+SWELL_API swell_status swell_scan(swell_session* session, const swell_lidar* lidar);
+
+/* The spinning lidars whose beams are known: "vlp-16" (16 beams, -15 to 15 deg), "hdl-32e" (32,
+ * -30.67 to 10.67), "os1-64" and "os1-128" (-22.5 to 22.5), evenly, by their makers' data sheets;
+ * null: there are not so many. */
+SWELL_API const char* swell_lidar_name(size_t model);
+
+/* How many beams stand above each other; 0: no such lidar. */
+SWELL_API size_t swell_lidar_beams(const char* model);
+
+/* Fills beams [columns][of the model][3] of a clockwise turn that begins at start_deg: columns in
+ * [1, 1e6] after each other, beams from the lowest up. duration_s in [0, 1000]: of the turn.
+ * `count` is how many beams there are room for, just as many as there will be. */
+SWELL_API swell_status swell_spinning_beams(const char* model, int32_t columns, double start_deg,
+                                            double duration_s, double* beams, size_t count);
+
+/* Fills beams [height][width][3] of a solid-state lidar or a depth camera: the middles of even
+ * cells of a field of view, rows from the top, left to right, width and height in [1, 8192];
+ * fov_x_deg in (0, 360], fov_y_deg in (0, 180]. The rows leave one after the other in duration_s.
+ */
+SWELL_API swell_status swell_grid_beams(int32_t width, int32_t height, double fov_x_deg,
+                                        double fov_y_deg, double duration_s, double* beams,
+                                        size_t count);
+
 /* ---- The keys of scene files */
 
 typedef struct swell_key {
