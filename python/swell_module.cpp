@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "handles.h"
+#include "scan.h"
 #include "tuples.h"
 
 namespace swell_python {
@@ -324,6 +325,40 @@ class World : public ZeroedStorage {
     return result;
   }
 
+  // Of beams [..., 3]: arrays of their shape.
+  py::dict scan(const BeamArray& beams, const ScanArguments& in) const {
+    if (beams.ndim() < 1 || beams.shape(beams.ndim() - 1) != 3)
+      throw py::value_error(
+          "beams, got an array whose last axis is not of length 3, allowed [..., 3]");
+    std::vector<py::ssize_t> shape(beams.shape(), beams.shape() + beams.ndim() - 1);
+    py::array_t<float> range(shape), intensity(shape), incidence(shape);
+    py::array_t<std::uint32_t> id(shape), klass(shape);
+    shape.push_back(3);
+    py::array_t<float> point(shape);
+    swell_lidar lidar = in.lidar();
+    lidar.beams = beams.data();
+    lidar.count = std::size_t(beams.size() / 3);
+    lidar.range_m = range.mutable_data();
+    lidar.intensity = intensity.mutable_data();
+    lidar.incidence_deg = incidence.mutable_data();
+    lidar.id = id.mutable_data();
+    lidar.klass = klass.mutable_data();
+    lidar.point_m = point.mutable_data();
+    const std::vector<swell_pose> objects = poses_of(in.poses);
+    lidar.poses = objects.data();
+    lidar.pose_count = objects.size();
+    const std::vector<swell_disturbance> disturbances = disturbances_of(in.disturbances);
+    lidar.disturbances = disturbances.data();
+    lidar.disturbance_count = disturbances.size();
+    call([&] {
+      const Session session(*pool_);
+      return swell_scan(session.get(), &lidar);
+    });
+    using py::literals::operator""_a;
+    return py::dict("range"_a = range, "intensity"_a = intensity, "incidence"_a = incidence,
+                    "id"_a = id, "klass"_a = klass, "point"_a = point);
+  }
+
   std::vector<PoseTuple> poses(double t_s) const {
     std::vector<swell_pose> found(swell_object_count(pool_->world()));
     for (swell_pose& pose : found) pose.size = sizeof(pose);
@@ -402,6 +437,14 @@ PYBIND11_MODULE(_swell, module) {
   module.def("keys", &keys);
   module.def("labels", [] { return names(&swell_label_name); });
   module.def("parts", [] { return names(&swell_part_name); });
+  module.def("lidars", [] { return names(&swell_lidar_name); });
+  module.def(
+      "spinning_beams",
+      [](const std::string& model, int columns, double start_deg, double duration_s) {
+        return spinning_beams(c_text(model, "model"), columns, start_deg, duration_s);
+      },
+      py::arg("model"), py::arg("columns"), py::arg("start_deg"), py::arg("duration_s"));
+  module.def("grid_beams", &grid_beams, py::arg("size"), py::arg("fov_deg"), py::arg("duration_s"));
   module.def("look", &look, py::arg("eye"), py::arg("heading_deg"), py::arg("pitch_deg"),
              py::arg("roll_deg"), py::arg("fov_y_deg"), py::arg("width"), py::arg("height"));
 
@@ -428,6 +471,20 @@ PYBIND11_MODULE(_swell, module) {
       .def("poses", of_made(&World::poses), py::arg("t"))
       .def("ray", of_made(&World::ray), py::arg("t"), py::arg("origin"), py::arg("direction"),
            py::arg("max_distance"))
+      .def(
+          "scan",
+          [](const World& world, const BeamArray& beams, double t_s, PoseTuple pose,
+             std::optional<PoseTuple> end, double duration_s, int moments,
+             std::array<double, 2> ranges_m, double reach_m, double range_noise_m,
+             std::uint64_t seed, std::vector<PoseTuple> poses,
+             std::vector<DisturbanceTuple> disturbances) {
+            return made(world).scan(
+                beams, {t_s, pose, end, duration_s, moments, ranges_m, reach_m, range_noise_m, seed,
+                        std::move(poses), std::move(disturbances)});
+          },
+          py::arg("beams"), py::arg("t"), py::arg("pose"), py::arg("end"), py::arg("duration_s"),
+          py::arg("moments"), py::arg("ranges"), py::arg("reach"), py::arg("range_noise"),
+          py::arg("seed"), py::arg("poses"), py::arg("disturbances"))
       .def(
           "render",
           [](const World& world, double t_s, int width_px, int height_px, std::string labels,

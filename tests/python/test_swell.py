@@ -186,6 +186,39 @@ def test_picks_say_what_the_labels_say(still):
         still.render(0.0, SIZE, picks=[(np.nan, 0)])
 
 
+def test_a_lidar_meets_what_is_there(still):
+    beams = swell.spinning_beams("vlp-16", 36)
+    assert beams.shape == (36, 16, 3) and "vlp-16" in swell.lidars()
+    returns = still.lidar(1.0, swell.Pose((0, 0, 3)), beams)
+    assert returns.range.shape == (36, 16) and returns.point.shape == (36, 16, 3)
+    elevation = np.radians(beams[..., 1])
+    with np.errstate(divide="ignore"):
+        level = np.where(elevation < -0.0251, -3 / np.sin(elevation), np.inf)  # nearer than 120 m
+    assert np.allclose(returns.range[returns.id < 2], level[returns.id < 2], atol=1e-3)
+    assert set(np.unique(returns.id)) == {0, 1, 16}
+    assert still.classes[returns.klass[returns.id == 16][0]] == "buoy"
+    there = returns.id > 0
+    assert np.allclose(np.linalg.norm(returns.point[there], axis=-1), returns.range[there], atol=1e-3)
+    assert np.isnan(returns.point[~there]).all() and np.isinf(returns.range[~there]).all()
+    moved = still.lidar(1.0, swell.Pose((0, 0, 3)), beams, poses={"red": swell.Pose((0, 300, 0))})
+    assert not (moved.id == 16).any()
+    turned = still.lidar(1.0, swell.Pose((0, 0, 3)), beams, end=swell.Pose((0, 0, 4)), duration=0.1, reach=50.0,
+                         range_noise=0.02, seed=2**64 - 1, moments=2)
+    assert (turned.intensity <= 1).all() and (turned.incidence <= 90).all()
+    grid = swell.grid_beams((8, 4), (80, 40))
+    assert grid.shape == (4, 8, 3) and np.allclose(grid[0, 0], (35, 15, 0))
+
+
+@pytest.mark.parametrize("bad", [dict(t=float("nan")), dict(beams=[0, 0]), dict(beams=[[0, np.inf, 0]]), dict(seed=-1),
+                                 dict(moments=0), dict(moments=3), dict(most=-1), dict(reach=np.inf),
+                                 dict(end=swell.Pose((0, 0, 0))), dict(pose=swell.Pose((0, 0, np.nan))),
+                                 dict(pose=swell.Pose((0, 0, 1), (0, 0, 0, 0)))])
+def test_a_lidar_s_faults_are_one_line(still, bad):
+    with pytest.raises(ValueError) as raised:
+        still.lidar(**{"t": 0.0, "pose": swell.Pose((0, 0, 3)), "beams": [[0, 0, 0]], **bad})
+    assert "\n" not in str(raised.value)
+
+
 def test_disturbances_are_in_the_picture_and_in_the_answers(still):
     drop = swell.Disturbance("drop", position=(0, 30), t=2.0, radius=3.0, height=0.5)
     xy = [[0.0, 30.0], [0.0, 900.0]]
