@@ -9,8 +9,8 @@ set(swell_entry_headers
   raster/pass.h
   scene/objects.h scene/scene.h scene/settings.h scene/terrain.h scene/water.h
   shapes/object_ray.h
-  render/frame.h render/measure/eye_place.h render/measure/mesh_error.h render/measure/pick.h
-  render/quality/governor.h render/world_view.h)
+  render/frame.h render/measure/eye_place.h render/measure/lidar.h render/measure/lidar_patterns.h
+  render/measure/mesh_error.h render/measure/pick.h render/quality/governor.h render/world_view.h)
 
 # swell_find_public_headers(OUT SOURCE_FOLDER)
 # The entry headers and all that they reach by #include "...", as paths from the source folder.
