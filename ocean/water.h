@@ -1,6 +1,6 @@
 // The one definition of the water: which waves there are, how they divide the surface, and what
 // they add up to. Heights, slopes, velocities and bounds come from one list of sources in
-// water.cpp.
+// water_sources.h.
 //
 // The sources, in the order in which they take their room:
 //   trains  the coast's, which know the sea floor; they leave the rest of their share
@@ -13,13 +13,14 @@
 // levels of their own (ocean/inland/inland_water.h): of the waves they have the wakes, and where a
 // river ends the sea's as well, by its share.
 //
-// A source is a struct in water.cpp with these members, for up to kChunk points at a time:
+// A source is a struct in water_sources.h with these members, for up to kPointChunk points at a
+// time:
 //   take_room(p, room)                       room[i] *= what it leaves to the sources after it
 //   add_heights(frame, p, room, height_m)    adds z in m, with its fading, and takes its room
 //   add_slopes(frame, p, room, slope)        adds dz/dx and dz/dy of these heights, takes its room
 //   add_velocities(velocity, p, room, v)     adds m/s (east, north, up: dz/dt), takes its room
 // To add one: give WaterParts what it is made from, write the struct, name it in for_each_source()
-// and count it in bounds_of(), which stand side by side there.
+// there, and count it in bounds_of() in water.cpp.
 #pragma once
 
 #include <cstddef>
