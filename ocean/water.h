@@ -19,6 +19,7 @@
 //   add_heights(frame, p, room, height_m)    adds z in m, with its fading, and takes its room
 //   add_slopes(frame, p, room, slope)        adds dz/dx and dz/dy of these heights, takes its room
 //   add_velocities(velocity, p, room, v)     adds m/s (east, north, up: dz/dt), takes its room
+//   add_motions(below, points, room, motion) adds what there is below the surface, takes its room
 // To add one: give WaterParts what it is made from, write the struct, name it in for_each_source()
 // there, and count it in bounds_of() in water.cpp.
 #pragma once
@@ -28,6 +29,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "ocean/below/motion.h"
 #include "ocean/coast/coast.h"
 #include "ocean/coast/shelter.h"
 #include "ocean/coast/surf_fronts.h"
@@ -39,6 +41,8 @@
 #include "terrain/height_grid.h"
 
 namespace swell::ocean {
+
+struct BelowFrame;
 
 // What does not change with time; all of it has to outlive those who look at it, unchanged.
 struct WaterParts {
@@ -90,6 +94,11 @@ class WaterBody {
   // m/s: east, north, up; with the current of rivers.
   void velocities(const VelocityFrame& velocity, std::span<const glm::dvec2> p_world,
                   std::span<glm::vec3> velocity_mps) const;
+
+  // The motion below the surface. make_below() has made what the points need.
+  void motions(const BelowFrame& below, const PointsBelow& points, std::span<Motion> motion) const;
+  void find_columns(const SeaFrame& frame, std::span<const glm::dvec2> p_world,
+                    std::span<WaterColumn> column) const;
 
   // m/s, east and north, of rivers: where water goes in the mean. 0 on the sea and on land.
   void currents(std::span<const glm::dvec2> p_world, std::span<glm::vec2> current_mps) const;

@@ -1,5 +1,5 @@
-// The sources of the water, as ocean/water.h lists them: what each adds to heights, slopes
-// and velocities, and the room that it takes.
+// The sources of the water, as ocean/water.h lists them: what each adds to heights, slopes,
+// velocities and to the motion below the surface, and the room that it takes.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "ocean/below/motion.h"
 #include "ocean/spectrum/point_chunk.h"
 #include "ocean/water.h"
 
@@ -34,6 +35,8 @@ struct TrainWaves {
   void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const;
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const;
+  void add_motions(const BelowFrame& below, const PointsBelow& points, Room room,
+                   std::span<Motion> motion) const;
 };
 
 // Fronts of surf.
@@ -61,6 +64,8 @@ struct FrontWaves {
   // Up exactly the heights' rate; along, as long waves in water of that depth: z sqrt(g / depth).
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const;
+  void add_motions(const BelowFrame& below, const PointsBelow& points, Room room,
+                   std::span<Motion> motion) const;
 };
 
 // The sea: patches and sines.
@@ -84,6 +89,8 @@ struct SeaWaves {
   void add_slopes(const SeaFrame& frame, Points p, Room room, std::span<glm::vec2> slope) const;
   void add_velocities(const VelocityFrame& velocity, Points p, Room room,
                       std::span<glm::vec3> velocity_mps) const;
+  void add_motions(const BelowFrame& below, const PointsBelow& points, Room room,
+                   std::span<Motion> motion) const;
 };
 
 // Wakes. They fade with the sea's edge and, like its waves, in shallow water: of half a metre.
@@ -97,6 +104,8 @@ struct WakeWaves {
   void add_slopes(const SeaFrame& frame, Points p, Room, std::span<glm::vec2> slope) const;
   void add_velocities(const VelocityFrame& velocity, Points p, Room,
                       std::span<glm::vec3> velocity_mps) const;
+  void add_motions(const BelowFrame& below, const PointsBelow& points, Room,
+                   std::span<Motion> motion) const;
 };
 
 // The levels of rivers and lakes, under the waves.
@@ -108,6 +117,8 @@ struct InlandLevels {
   void add_heights(Points p, std::span<float> height_m) const;
   void add_slopes(Points p, std::span<glm::vec2> slope) const;
   void add_velocities(Points p, std::span<glm::vec3> velocity_mps) const;
+  // The current: the same on the whole depth.
+  void add_motions(Points p, std::span<Motion> motion) const;
 };
 
 // Calls body(source) for each source, in the order in which they take their room.

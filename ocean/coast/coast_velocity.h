@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "ocean/below/motion.h"
 #include "ocean/coast/coast.h"
 
 namespace swell::ocean {
@@ -26,5 +27,11 @@ void sample_train_velocities(const TrainSea& sea, double t_s, std::span<const gl
 // heights move by. Points without a share cost nothing more.
 void sample_coast_velocities(const CoastSea& coast, double t_s, std::span<const glm::dvec2> p_world,
                              std::span<glm::vec3> velocity_mps);
+
+// The motion below the surface, likewise, of no more than kPointChunk points: each train by its
+// wave number there and the depth that is given. Its velocity at the surface is the one above. The
+// head's mean is the heights' own, which sharp crests leave below 0 on the whole depth.
+void sample_coast_motions(const CoastSea& coast, double t_s, const PointsBelow& points,
+                          std::span<Motion> motion);
 
 }  // namespace swell::ocean

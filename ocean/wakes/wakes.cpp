@@ -164,20 +164,25 @@ void for_all_rows(WakeFrame& frame, Workers& workers,
 
 // ---- Sampling
 
-// Calls visit(window, point, texel, fractions) where a point lies in a window.
+// Where a point lies, in samples.
+glm::dvec2 place_in_window(const WakeWindow& window, glm::dvec2 p_world) {
+  return (p_world - window.corner_m) * (kWakeSamples / window.length_m);
+}
+
+bool has_samples_around(glm::dvec2 q) {
+  return q.x >= 0.0 && q.y >= 0.0 && q.x < kWakeSamples - 1.0 && q.y < kWakeSamples - 1.0;
+}
+
+// Calls visit(point, texel, fractions) where a point lies in the window.
 template <class Visit>
-void for_points_inside(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
+void for_points_inside(const WakeWindow& window, std::span<const glm::dvec2> p_world,
                        const Visit& visit) {
-  for (const WakeWindow& window : frame.shown()) {
-    const double per_m = kWakeSamples / window.length_m;
-    for (std::size_t n = 0; n < p_world.size(); ++n) {
-      const glm::dvec2 q = (p_world[n] - window.corner_m) * per_m;
-      if (!(q.x >= 0.0 && q.y >= 0.0 && q.x < kWakeSamples - 1.0 && q.y < kWakeSamples - 1.0))
-        continue;
-      const auto i = static_cast<std::size_t>(q.x), j = static_cast<std::size_t>(q.y);
-      const glm::vec2 t(q - glm::dvec2(static_cast<double>(i), static_cast<double>(j)));
-      visit(window, n, j * kWindowSide + i, t);
-    }
+  for (std::size_t n = 0; n < p_world.size(); ++n) {
+    const glm::dvec2 q = place_in_window(window, p_world[n]);
+    if (!has_samples_around(q)) continue;
+    const auto i = static_cast<std::size_t>(q.x), j = static_cast<std::size_t>(q.y);
+    const glm::vec2 t(q - glm::dvec2(static_cast<double>(i), static_cast<double>(j)));
+    visit(n, j * kWindowSide + i, t);
   }
 }
 
@@ -243,29 +248,37 @@ WakeBounds bounds_of_wake(const WakeWindow& window) {
           .slope = per_m * std::sqrt(step_x_m * step_x_m + step_y_m * step_y_m)};
 }
 
+void add_window_heights(const WakeWindow& window, std::span<const glm::dvec2> p_world,
+                        std::span<float> height_m) {
+  for_points_inside(window, p_world, [&](std::size_t n, std::size_t at, glm::vec2 t) {
+    height_m[n] += window_value(window.height_m, at, t);
+  });
+}
+
 void add_wake_heights(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                       std::span<float> height_m) {
-  for_points_inside(frame, p_world,
-                    [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
-                      height_m[n] += window_value(window.height_m, at, t);
-                    });
+  for (const WakeWindow& window : frame.shown()) add_window_heights(window, p_world, height_m);
 }
 
 void add_wake_slopes(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                      std::span<glm::vec2> slope) {
-  for_points_inside(
-      frame, p_world, [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
-        slope[n] +=
-            glm::vec2(window_value(window.slope_x, at, t), window_value(window.slope_y, at, t));
-      });
+  for (const WakeWindow& window : frame.shown())
+    for_points_inside(window, p_world, [&](std::size_t n, std::size_t at, glm::vec2 t) {
+      slope[n] +=
+          glm::vec2(window_value(window.slope_x, at, t), window_value(window.slope_y, at, t));
+    });
 }
 
 void add_wake_foam(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                    std::span<float> foam) {
-  for_points_inside(frame, p_world,
-                    [&](const WakeWindow& window, std::size_t n, std::size_t at, glm::vec2 t) {
-                      foam[n] = std::max(foam[n], window_value(window.foam, at, t));
-                    });
+  for (const WakeWindow& window : frame.shown())
+    for_points_inside(window, p_world, [&](std::size_t n, std::size_t at, glm::vec2 t) {
+      foam[n] = std::max(foam[n], window_value(window.foam, at, t));
+    });
+}
+
+bool is_inside(const WakeWindow& window, glm::dvec2 p_world) {
+  return has_samples_around(place_in_window(window, p_world));
 }
 
 }  // namespace swell::ocean

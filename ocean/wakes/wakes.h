@@ -39,9 +39,14 @@ void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& v
 // which the largest counts, in [0, 1]. Spans of one length. 2 ns a point and window.
 void add_wake_heights(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                       std::span<float> height_m);
+void add_window_heights(const WakeWindow& window, std::span<const glm::dvec2> p_world,
+                        std::span<float> height_m);
 void add_wake_slopes(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                      std::span<glm::vec2> slope);
 void add_wake_foam(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                    std::span<float> foam);
+
+// Whether a window has something to add at a point.
+bool is_inside(const WakeWindow& window, glm::dvec2 p_world);
 
 }  // namespace swell::ocean

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/random.h"
+#include "ocean/below/sea_below.h"
 #include "ocean/inland/river_bed.h"
 #include "ocean/water_surface.h"
 
@@ -154,6 +155,27 @@ TEST(InlandWater, QueriesGiveLevelWavesAndCurrentOfWhateverWaterIsThere) {
   const WaterSurface open_sea(sea_parts, frame);
   for (const glm::dvec2& p : {glm::dvec2(100.0, -200.0), {470.0, 200.0}, {900.0, 0.0}})
     EXPECT_EQ(water.height(p), open_sea.height(p));
+}
+
+TEST(InlandWater, RiversFlowAlikeOnTheirWholeDepth) {
+  SeaDescription calm;
+  calm.spectrum = false;
+  const Sea sea(calm);
+  SeaBelow now({&sea, {}, &country().land, nullptr, {}, nullptr, &*country().inland}, 3.0);
+  const CourseNode node = node_at(country().network.courses()[0], 300.0);
+  glm::vec2 current;
+  now.surface().currents({&node.p, 1}, {&current, 1});
+  const double ground = terrain::height_at(country().land, node.p);
+  const double surface = now.surface().height(node.p);
+  ASSERT_GT(surface, ground + 0.2);
+  for (const double z : {surface, 0.5 * (surface + ground), ground + 0.01}) {
+    const WaterMotion m = now.motion({node.p, z});
+    EXPECT_EQ(m.place, MotionPlace::kInWater);
+    EXPECT_EQ(m.velocity_mps, glm::vec3(current, 0.0f));
+    EXPECT_EQ(m.pressure_pa, 0.0f);
+  }
+  EXPECT_EQ(now.motion({node.p, ground - 0.1}).place, MotionPlace::kInGround);
+  EXPECT_EQ(now.motion({node.p, surface + 0.1}).place, MotionPlace::kAbove);
 }
 
 TEST(InlandWater, RefusesLakesAboveTheirRimsAndRiversThatEndOnLand) {

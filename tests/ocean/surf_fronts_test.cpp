@@ -11,6 +11,7 @@
 #include "constants.h"
 #include "frame_at.h"
 #include "math/random.h"
+#include "ocean/below/sea_below.h"
 #include "ocean/open_sea/sea_state.h"
 #include "ocean/water_surface.h"
 #include "simd_targets.h"
@@ -293,6 +294,30 @@ TEST(SurfFronts, VelocitiesAreThoseOfLongWaves) {
     EXPECT_NEAR(v.x, 0.0f, 0.02f);
   }
   EXPECT_LE(wrong, 6);
+}
+
+// Along the same on the whole depth, up less and less down to the ground; the head is the height.
+TEST(SurfFronts, BelowTheSurfaceTheWaterMovesAsUnderLongWaves) {
+  SeaBelow now(front_beach().parts(), 7.0);
+  int lifted = 0;
+  for (int n = 0; n < 100; ++n) {
+    const glm::dvec2 p = front_beach().place(n);
+    const double surface = now.surface().height(p), ground = -front_beach().depth_m(p);
+    const WaterMotion top = now.motion({p, surface}),
+                      middle = now.motion({p, 0.5 * (surface + ground)}),
+                      floor = now.motion({p, ground + 1e-4});
+    glm::vec3 v;
+    now.surface().velocities({&p, 1}, now.velocity, {&v, 1});
+    EXPECT_EQ(top.velocity_mps, v);
+    EXPECT_NEAR(top.pressure_pa, kSeaDensity_kg_m3 * kG * surface, 1.0);
+    const float off = 0.02f;  // of what waves of the sea are left
+    EXPECT_NEAR(floor.velocity_mps.y, v.y, off);
+    EXPECT_NEAR(middle.velocity_mps.z, 0.5f * v.z, off);
+    EXPECT_NEAR(floor.velocity_mps.z, 0.0f, off);
+    EXPECT_NEAR(floor.pressure_pa, top.pressure_pa, 100.0f);
+    lifted += std::abs(v.y) > 0.3f;
+  }
+  EXPECT_GT(lifted, 30);
 }
 
 // Offshore the sea is as it is without them, bit for bit; from one reach on they are all waves.
