@@ -35,6 +35,23 @@ struct WaterMotion {
   float pressure_pa = 0.0f;           // of the waves alone
 };
 
+// A closed hull of triangles in the world, whose corners run counter-clockwise as seen from
+// outside.
+struct HullMesh {
+  std::span<const glm::dvec3> p_world;
+  std::span<const glm::uvec3> triangles;
+};
+
+// A force in newtons and its moment about a point in newton metres: east, north, up.
+struct Load {
+  glm::dvec3 force_n{0.0}, moment_nm{0.0};
+};
+
+struct HullLoads {
+  Load buoyancy;       // of the pressure that still water would have there
+  Load froude_krylov;  // of the waves' pressure
+};
+
 inline constexpr double kSeaDensity_kg_m3 = 1025.0;
 
 // Looks at a sea at one time; all that it is made from has to outlive it, unchanged. All members
@@ -86,6 +103,14 @@ class WaterSurface {
   // for all; a point then 0.6 us for the pressure, 6 us for all where points are far apart.
   void motions(std::span<const glm::dvec3> p_world, MotionParts parts, double density_kg_m3,
                BelowFrame& below, Workers& workers, std::span<WaterMotion> motion) const;
+
+  // Forces on the part of a hull that is under the surface, where its triangles are cut, and their
+  // moments about `about`. Both together are what the waves would press on if the hull were not
+  // there. The mean over the middles of a triangle's edges is exact for pressures that are linear
+  // over it: triangles with edges of a tenth of a wavelength are off by 1 %. Indices are below the
+  // number of points; otherwise as motions(), of whose pressure it asks three points a triangle.
+  HullLoads hull_loads(const HullMesh& hull, glm::dvec3 about, double density_kg_m3,
+                       BelowFrame& below, Workers& workers) const;
 
   // The current at the surface in m/s, east and north: that of rivers, 0 elsewhere.
   void currents(std::span<const glm::dvec2> p_world, std::span<glm::vec2> current_mps) const;

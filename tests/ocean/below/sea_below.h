@@ -30,6 +30,10 @@ struct SeaBelow {
   }
   WaterMotion motion(glm::dvec3 p_world) { return motions({&p_world, 1})[0]; }
 
+  HullLoads loads(const HullMesh& hull, glm::dvec3 about) {
+    return surface().hull_loads(hull, about, kSeaDensity_kg_m3, below, workers);
+  }
+
   WaterParts parts;
   Workers workers;
   SeaFrame frame;
