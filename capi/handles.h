@@ -10,6 +10,7 @@
 
 #include "math/parallel.h"
 #include "math/view.h"
+#include "ocean/below_frame.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/open_sea/whitecaps.h"
 #include "ocean/velocity.h"
@@ -59,6 +60,7 @@ struct swell_session {
   swell::capi::AtTime<swell::ocean::VelocityFrame> velocity;
   swell::capi::AtTime<swell::ocean::WhitecapFrame> whitecaps;
   std::unique_ptr<swell::render::Lidar> lidar;  // once one is asked for
+  swell::capi::AtTime<swell::ocean::BelowFrame> below;
   std::atomic_flag busy{};
 };
 

@@ -1,6 +1,7 @@
 // What the sea is like at a place and time.
 #include <limits>
 
+#include "capi/asked_sea.h"
 #include "capi/call.h"
 #include "capi/camera.h"
 #include "capi/disturbances.h"
@@ -14,46 +15,7 @@
 namespace swell::capi {
 namespace {
 
-constexpr double kFarthest_m = 1e9;
 constexpr std::size_t kPointsAtOnce = 4096;
-
-// The frame of a time: advanced, unless it is of that time already.
-template <class Frame, class Advance>
-const Frame& frame_at(double t_s, AtTime<Frame>& kept, const Advance& advance) {
-  if (kept.t_s != t_s) {
-    kept.t_s.reset();
-    advance(kept.frame);
-    kept.t_s = t_s;
-  }
-  return kept.frame;
-}
-
-const render::WorldState& state_of(const swell_session& session) {
-  return session.named->world.state();
-}
-
-const ocean::SeaFrame& sea_at(double t_s, swell_session& session,
-                              std::span<const ocean::Disturbance> more = {}) {
-  return frame_at(t_s, session.sea, [&](ocean::SeaFrame& frame) {
-    advance_waves(state_of(session), t_s, more, {}, frame, session.workers);
-  });
-}
-
-// Around a call with disturbances of its own: what a session keeps of a time is without them.
-class Forgetting {
- public:
-  explicit Forgetting(swell_session& session) : session_(session) { forget(); }
-  ~Forgetting() { forget(); }
-  Forgetting(const Forgetting&) = delete;
-  Forgetting& operator=(const Forgetting&) = delete;
-
- private:
-  void forget() {
-    session_.sea.t_s.reset();
-    session_.velocity.t_s.reset();
-  }
-  swell_session& session_;
-};
 
 void check_points(const swell_query& query) {
   if (query.count > std::numeric_limits<std::size_t>::max() / 64)
@@ -74,10 +36,7 @@ void ask(const swell_query& query, swell_session& session) {
   if (!disturbances.empty()) forgetting.emplace(session);
   const ocean::SeaFrame& sea = sea_at(query.t_s, session, disturbances);
   const ocean::WaterSurface water = render::water_surface(world, sea);
-  if (query.velocity_mps)
-    frame_at(query.t_s, session.velocity, [&](ocean::VelocityFrame& frame) {
-      ocean::advance_velocity(*world.sea, sea, frame, session.workers);
-    });
+  if (query.velocity_mps) velocity_at(query.t_s, session);
   if (query.foam)
     frame_at(query.t_s, session.whitecaps, [&](ocean::WhitecapFrame& frame) {
       ocean::advance_whitecaps(*world.whitecaps, query.t_s, frame, session.workers);

@@ -9,6 +9,18 @@
 //   surface.heights(buoys, height_m);  // std::vector<glm::dvec2> buoys: x east, y north
 //   const bool wet = surface.in_water({12.0, 40.0, -0.5});
 //
+// How the water moves below the surface (ocean/below_frame.h), which pressure moves it, and what
+// that does to hulls:
+//
+//   ocean::VelocityFrame velocity;
+//   ocean::advance_velocity(water.sea(), frame, velocity, workers);
+//   ocean::BelowFrame below;  // like the frame, of one time
+//   ocean::begin_below(water.sea(), frame, &velocity, below);
+//   std::vector<ocean::WaterMotion> motion(places.size());  // std::vector<glm::dvec3> places
+//   surface.motions(places, {}, ocean::kSeaDensity_kg_m3, below, workers, motion);
+//   const ocean::HullLoads loads =
+//       surface.hull_loads(hull, centre_of_mass, ocean::kSeaDensity_kg_m3, below, workers);
+//
 // Foam, which knows the waves of some seconds before, is made beside it:
 //
 //   const ocean::Whitecaps whitecaps =

@@ -101,6 +101,8 @@ class Calls {
   void pick();
   void look();
   void ask();
+  void ask_below();
+  void press_hull();
   void send_ray();
   void list_poses();
   void list_names();
@@ -336,6 +338,51 @@ void Calls::ask() {
   }
 }
 
+void Calls::ask_below() {
+  constexpr std::size_t kMostPoints = 12;
+  const std::size_t points = bytes_.index(kMostPoints + 1);
+  std::array<double, 3 * kMostPoints> xyz_m{};
+  fill(xyz_m.data(), 3 * points);
+  std::array<float, 3 * kMostPoints> velocity_mps{}, acceleration_mps2{};
+  std::array<float, kMostPoints> pressure_pa{};
+  std::array<std::uint8_t, kMostPoints> place{};
+  const auto disturbances = this->disturbances();
+  Sized<swell_below> below;
+  below->t_s = time_s();
+  below->count = points;
+  below->xyz_m = null_too(xyz_m.data());
+  if (!below->xyz_m) below->count = bytes_.take<std::size_t>();
+  if (bytes_.coin()) below->density_kg_m3 = bytes_.number();
+  below->velocity_mps = bytes_.coin() ? velocity_mps.data() : nullptr;
+  below->acceleration_mps2 = bytes_.coin() ? acceleration_mps2.data() : nullptr;
+  below->pressure_pa = null_too(pressure_pa.data()), below->place = null_too(place.data());
+  below->disturbances = disturbances.data(), below->disturbance_count = disturbances.size();
+  if (!taken(swell_ask_below(session(), below.pointer(bytes_)))) return;
+  for (std::size_t i = 0; i < points; ++i) {
+    expect(std::isfinite(pressure_pa[i]) && place[i] <= SWELL_IN_GROUND, "water has a pressure");
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+      expect(std::isfinite(velocity_mps[k]) && std::isfinite(acceleration_mps2[k]), "water moves");
+  }
+}
+
+void Calls::press_hull() {
+  constexpr std::size_t kPoints = 4;
+  std::array<double, 3 * kPoints> xyz_m = {0, 0, -1, 3, 0, -1, 0, 3, -1, 0, 0, 2};
+  std::array<std::uint32_t, 12> triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  if (bytes_.coin()) fill(xyz_m.data() + 3 * bytes_.index(kPoints), 3);
+  if (bytes_.coin()) triangles[bytes_.index(12)] = bytes_.take<std::uint32_t>();
+  const auto disturbances = this->disturbances();
+  Sized<swell_hull> hull;
+  hull->t_s = time_s();
+  hull->xyz_m = null_too(xyz_m.data()), hull->point_count = bytes_.index(kPoints + 1);
+  hull->triangles = null_too(triangles.data()), hull->triangle_count = bytes_.index(5);
+  if (bytes_.coin()) fill(hull->about_m, 3);
+  if (bytes_.coin()) hull->density_kg_m3 = bytes_.number();
+  hull->disturbances = disturbances.data(), hull->disturbance_count = disturbances.size();
+  Sized<swell_loads> loads;
+  checked(swell_hull_loads(session(), hull.pointer(bytes_), loads.pointer(bytes_)));
+}
+
 void Calls::send_ray() {
   std::array<double, 3> origin_m{}, direction{0.0, 0.5, -1.0};
   fill(origin_m.data(), 3);
@@ -363,7 +410,8 @@ void Calls::make_all() {
       &Calls::make_world,     &Calls::ask_world,  &Calls::change_session,
       &Calls::change_picture, &Calls::draw,       &Calls::pick,
       &Calls::look,           &Calls::ask,        &Calls::look_at_picture,
-      &Calls::send_ray,       &Calls::list_poses, &Calls::list_names};
+      &Calls::send_ray,       &Calls::list_poses, &Calls::list_names,
+      &Calls::ask_below,      &Calls::press_hull};
   checked(swell_session_create(worlds()[bytes_.index(kScenes.size())], 1, &sessions_[0]));
   checked(swell_picture_create(&pictures_[0]));
   for (int n = 0; n < kMostCalls && !bytes_.empty(); ++n)
