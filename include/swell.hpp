@@ -149,6 +149,29 @@ struct Hit {
   bool from_above = false;
 };
 
+// How the water moves at a point (swell_below): 0 out of the water.
+struct Motion {
+  swell_place place = SWELL_IN_WATER;
+  std::array<float, 3> velocity_mps = {}, acceleration_mps2 = {};
+  float pressure_pa = 0.0f;  // of the waves, without that of still water
+};
+
+// A closed hull of triangles (swell_hull), corners counter-clockwise as seen from outside.
+struct Hull {
+  std::vector<Point3> xyz_m = {};
+  std::vector<std::array<std::uint32_t, 3>> triangles = {};
+  Point3 about_m = {};         // what the moments are about
+  double density_kg_m3 = 0.0;  // of the water; 0: 1025
+};
+
+// What presses on it (swell_loads): newtons and newton metres, east, north, up.
+struct Load {
+  Point3 force_n = {}, moment_nm = {};
+};
+struct HullLoads {
+  Load buoyancy, froude_krylov;
+};
+
 // What a point of a picture shows (swell_pick).
 struct Pick {
   swell_shown what = SWELL_SHOWS_SKY;
@@ -586,6 +609,12 @@ class World {
     return ask<float>(xy_m, 0.0, {}, &swell_query::still_depth_m);
   }
 
+  // How the water moves at points on and below the surface; of this density, 0: 1025 kg/m3.
+  std::vector<Motion> below(ListOf<Point3> xyz_m, double t_s, double density_kg_m3 = 0.0,
+                            Disturbances disturbances = {});
+  // Forces on what of a hull is under the surface.
+  HullLoads hull_loads(const Hull& hull, double t_s, Disturbances disturbances = {});
+
   // The first place where a ray passes the water.
   std::optional<Hit> ray(Point3 origin_m, Point3 direction, double t_s,
                          double max_distance_m = 1e5);
@@ -670,6 +699,55 @@ std::vector<Value> World::ask(std::span<const Point2> xy_m, double t_s,
   query.disturbance_count = c_list.size();
   door::check(swell_ask(session(), &query));
   return values;
+}
+
+inline std::vector<Motion> World::below(ListOf<Point3> xyz_m, double t_s, double density_kg_m3,
+                                        Disturbances disturbances) {
+  static_assert(sizeof(Point3) == 3 * sizeof(double));
+  const std::size_t count = xyz_m.size();
+  std::vector<float> velocity(3 * count), acceleration(3 * count), pressure(count);
+  std::vector<std::uint8_t> place(count);
+  const std::vector<swell_disturbance> c_list = door::c_disturbances(disturbances);
+  auto query = door::sized<swell_below>();
+  query.t_s = t_s;
+  query.count = count;
+  query.xyz_m = xyz_m.empty() ? nullptr : xyz_m.front().data();
+  query.density_kg_m3 = density_kg_m3;
+  query.velocity_mps = velocity.data();
+  query.acceleration_mps2 = acceleration.data();
+  query.pressure_pa = pressure.data();
+  query.place = place.data();
+  query.disturbances = c_list.data();
+  query.disturbance_count = c_list.size();
+  door::check(swell_ask_below(session(), &query));
+  std::vector<Motion> motion(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    motion[i].place = static_cast<swell_place>(place[i]);
+    motion[i].pressure_pa = pressure[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      motion[i].velocity_mps[c] = velocity[3 * i + c];
+      motion[i].acceleration_mps2[c] = acceleration[3 * i + c];
+    }
+  }
+  return motion;
+}
+
+inline HullLoads World::hull_loads(const Hull& hull, double t_s, Disturbances disturbances) {
+  const std::vector<swell_disturbance> c_list = door::c_disturbances(disturbances);
+  auto c = door::sized<swell_hull>();
+  c.t_s = t_s;
+  c.xyz_m = hull.xyz_m.empty() ? nullptr : hull.xyz_m.front().data();
+  c.point_count = hull.xyz_m.size();
+  c.triangles = hull.triangles.empty() ? nullptr : hull.triangles.front().data();
+  c.triangle_count = hull.triangles.size();
+  door::set(c.about_m, hull.about_m);
+  c.density_kg_m3 = hull.density_kg_m3;
+  c.disturbances = c_list.data();
+  c.disturbance_count = c_list.size();
+  auto loads = door::sized<swell_loads>();
+  door::check(swell_hull_loads(session(), &c, &loads));
+  return {{door::array_of(loads.buoyancy_n), door::array_of(loads.buoyancy_nm)},
+          {door::array_of(loads.froude_krylov_n), door::array_of(loads.froude_krylov_nm)}};
 }
 
 inline std::optional<Hit> World::ray(Point3 origin_m, Point3 direction, double t_s,

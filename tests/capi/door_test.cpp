@@ -101,6 +101,38 @@ TEST(Door, AsksTheWater) {
   EXPECT_FALSE(world.ray({1.0, 2.0, 10.0}, {0.0, 0.0, -3.0}, 5.0, 9.0).has_value());
 }
 
+TEST(Door, AsksBelowTheSurface) {
+  swell::World world = swell::World::of_text(
+      "[sea]\nspectrum = false\n[[sea.sines]]\namplitude_m = 1.0\nwavelength_m = 60.0\n");
+  const std::vector<swell::Point3> points = {{0.0, 7.0, 5.0}, {0.0, 7.0, -4.0}};
+  const std::vector<swell::Motion> motion = world.below(points, 2.0);
+  EXPECT_EQ(motion[0].place, SWELL_ABOVE_WATER);
+  EXPECT_EQ(motion[0].pressure_pa, 0.0f);
+  EXPECT_EQ(motion[1].place, SWELL_IN_WATER);
+  EXPECT_NEAR(world.below(points, 2.0, 1000.0)[1].pressure_pa, motion[1].pressure_pa / 1.025f,
+              1e-3f * std::abs(motion[1].pressure_pa));
+  // The wave's circle: v^2 / omega^2 = a^2 / omega^4 = e^(-2 k s).
+  const double height_m = world.height({{0.0, 7.0}}, 2.0)[0], k = 6.283185307179586 / 60.0;
+  const auto square = [](const std::array<float, 3>& v) {
+    return static_cast<double>(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  };
+  const double decay2 = std::exp(-2.0 * k * (height_m + 4.0)), omega2 = 9.81 * k;
+  EXPECT_NEAR(square(motion[1].velocity_mps) / omega2, decay2, 0.005);
+  EXPECT_NEAR(square(motion[1].acceleration_mps2) / (omega2 * omega2), decay2, 0.005);
+  EXPECT_EQ(status_of([&] { world.below({{0.0, 0.0, std::nan("")}}, 0.0); }), SWELL_BAD_ARGUMENT);
+
+  swell::World still = small_world();
+  swell::Hull hull{{{0, 0, -4}, {2, 0, -4}, {0, 3, -4}, {0, 0, 0}},
+                   {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}},
+                   {0.5, 0.75, -3.0}};
+  const swell::HullLoads loads = still.hull_loads(hull, 1.0);
+  EXPECT_NEAR(loads.buoyancy.force_n[2], 1025.0 * 9.81 * 4.0, 0.1);
+  EXPECT_NEAR(loads.buoyancy.moment_nm[0], 0.0, 0.1);
+  EXPECT_EQ(loads.froude_krylov.force_n[2], 0.0);
+  hull.triangles[0][0] = 4;
+  EXPECT_EQ(status_of([&] { still.hull_loads(hull, 1.0); }), SWELL_BAD_ARGUMENT);
+}
+
 TEST(Door, PicksAndPlacesObjects) {
   swell::World world = small_world();
   swell::RenderOptions options{.labels = {"id"}, .camera = camera_at_buoy()};
