@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <swell.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <deque>
@@ -295,10 +296,11 @@ class World : public ZeroedStorage {
     return drawn;
   }
 
+  using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
   // One result at points [..., 2]: an array of their shape, and of a vector's length if it has more
   // than one component.
-  py::array_t<float> ask(const py::array_t<double, py::array::c_style | py::array::forcecast>& xy_m,
-                         double t_s, const std::string& what,
+  py::array_t<float> ask(const Numbers& xy_m, double t_s, const std::string& what,
                          const std::vector<DisturbanceTuple>& given) const {
     if (xy_m.ndim() < 1 || xy_m.shape(xy_m.ndim() - 1) != 2)
       throw py::value_error(
@@ -357,6 +359,67 @@ class World : public ZeroedStorage {
     using py::literals::operator""_a;
     return py::dict("range"_a = range, "intensity"_a = intensity, "incidence"_a = incidence,
                     "id"_a = id, "klass"_a = klass, "point"_a = point);
+  }
+
+  // Of points [..., 3]: velocities and accelerations [..., 3], pressures and places [...].
+  using BelowTuple = std::tuple<py::array_t<float>, py::array_t<float>, py::array_t<float>,
+                                py::array_t<std::uint8_t>>;
+  BelowTuple below(const Numbers& xyz_m, double t_s, double density_kg_m3,
+                   const std::vector<DisturbanceTuple>& given) const {
+    if (xyz_m.ndim() < 1 || xyz_m.shape(xyz_m.ndim() - 1) != 3)
+      throw py::value_error(
+          "xyz, got an array whose last axis is not of length 3, allowed [..., 3]");
+    const std::vector<py::ssize_t> vectors(xyz_m.shape(), xyz_m.shape() + xyz_m.ndim());
+    const std::vector<py::ssize_t> scalars(vectors.begin(), vectors.end() - 1);
+    py::array_t<float> velocity(vectors), acceleration(vectors), pressure(scalars);
+    py::array_t<std::uint8_t> place(scalars);
+    swell_below query{};
+    query.size = sizeof(query);
+    query.t_s = t_s;
+    query.count = std::size_t(xyz_m.size() / 3);
+    query.xyz_m = xyz_m.data();
+    query.density_kg_m3 = density_kg_m3;
+    query.velocity_mps = velocity.mutable_data();
+    query.acceleration_mps2 = acceleration.mutable_data();
+    query.pressure_pa = pressure.mutable_data();
+    query.place = place.mutable_data();
+    const std::vector<swell_disturbance> disturbances = disturbances_of(given);
+    query.disturbances = disturbances.data();
+    query.disturbance_count = disturbances.size();
+    call([&] {
+      const Session session(*pool_);
+      return swell_ask_below(session.get(), &query);
+    });
+    return {velocity, acceleration, pressure, place};
+  }
+
+  // Of points (n, 3) and triangles (m, 3): buoyancy and Froude-Krylov, each force and moment.
+  using Vector = std::array<double, 3>;
+  std::tuple<Vector, Vector, Vector, Vector> hull_loads(
+      const Numbers& xyz_m,
+      const py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>& triangles,
+      double t_s, const Vector& about_m, double density_kg_m3,
+      const std::vector<DisturbanceTuple>& given) const {
+    swell_hull hull{};
+    hull.size = sizeof(hull);
+    hull.t_s = t_s;
+    hull.xyz_m = xyz_m.data();
+    hull.point_count = std::size_t(xyz_m.size() / 3);
+    hull.triangles = triangles.data();
+    hull.triangle_count = std::size_t(triangles.size() / 3);
+    std::copy(about_m.begin(), about_m.end(), hull.about_m);
+    hull.density_kg_m3 = density_kg_m3;
+    const std::vector<swell_disturbance> disturbances = disturbances_of(given);
+    hull.disturbances = disturbances.data();
+    hull.disturbance_count = disturbances.size();
+    swell_loads loads{};
+    loads.size = sizeof(loads);
+    call([&] {
+      const Session session(*pool_);
+      return swell_hull_loads(session.get(), &hull, &loads);
+    });
+    return {std::to_array(loads.buoyancy_n), std::to_array(loads.buoyancy_nm),
+            std::to_array(loads.froude_krylov_n), std::to_array(loads.froude_krylov_nm)};
   }
 
   std::vector<PoseTuple> poses(double t_s) const {
@@ -468,6 +531,10 @@ PYBIND11_MODULE(_swell, module) {
            py::arg("poses"), py::arg("disturbances"))
       .def("ask", of_made(&World::ask), py::arg("xy"), py::arg("t"), py::arg("what"),
            py::arg("disturbances"))
+      .def("below", of_made(&World::below), py::arg("xyz"), py::arg("t"), py::arg("density"),
+           py::arg("disturbances"))
+      .def("hull_loads", of_made(&World::hull_loads), py::arg("xyz"), py::arg("triangles"),
+           py::arg("t"), py::arg("about"), py::arg("density"), py::arg("disturbances"))
       .def("poses", of_made(&World::poses), py::arg("t"))
       .def("ray", of_made(&World::ray), py::arg("t"), py::arg("origin"), py::arg("direction"),
            py::arg("max_distance"))

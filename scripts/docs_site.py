@@ -16,7 +16,8 @@ import tempfile
 
 import docs
 
-PACKAGE = ("__init__.py", "camera.py", "disturbance.py", "distortion.py", "lidar.py")  # of python/swell: what is public
+# Of python/swell what is public.
+PACKAGE = ("__init__.py", "below.py", "camera.py", "disturbance.py", "distortion.py", "lidar.py")
 LIST_ITEM = re.compile(r"( *)(?:[-*+]|\d+\.) ")
 TARGET = re.compile(r"(?<=\]\()\s*([^()\s]+)|(?<=src=\")([^\"]+)|(?<=href=\")([^\"]+)")
 POWER = re.compile(r"<(code|pre|script|title)\b.*?</\1>|<[^>]*>|\^(?:\(([^)]*)\)|([-\u2212]?[\d.]*\d))", re.DOTALL)

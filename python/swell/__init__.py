@@ -25,15 +25,17 @@ import numpy.typing as npt
 
 from . import _swell
 from ._swell import SceneError
+from .below import ABOVE_WATER, IN_GROUND, IN_WATER, HullLoads, Load, Motion, triangles_of
 from .camera import Camera, quaternion_of, rotation_of
-from .checks import Size, instance, number, numbers, size_of, vector
+from .checks import Size, instance, number, numbers, points, size_of, vector
 from .disturbance import Disturbance
 from .distortion import DistortedPicture, Lookup
 from .lidar import Returns, grid_beams, lidars, spinning_beams
 
-__all__ = ["Camera", "DistortedPicture", "Disturbance", "Hit", "Key", "Object", "Pick", "Picture", "Pose", "Returns",
-           "SceneError", "Size", "World", "grid_beams", "keys", "labels", "lidars", "parts", "quaternion_of", "rotation_of",
-           "spinning_beams", "__version__"]
+__all__ = ["ABOVE_WATER", "Camera", "DistortedPicture", "Disturbance", "Hit", "HullLoads", "IN_GROUND", "IN_WATER",
+           "Key", "Load", "Motion", "Object", "Pick", "Picture", "Pose", "Returns", "SceneError", "Size", "World",
+           "grid_beams", "keys", "labels", "lidars", "parts", "quaternion_of", "rotation_of", "spinning_beams",
+           "__version__"]
 __version__ = _swell.version()
 
 
@@ -326,6 +328,29 @@ class World:
         """Velocity of the water at the surface in m/s, east, north, up: [..., 3]."""
         return self._ask("velocity", xy, t, disturbances)
 
+    def below(self, xyz: npt.ArrayLike, t: float, density: float = 1025.0,
+              disturbances: Iterable[Disturbance] = ()) -> Motion:
+        """How the water moves at points xyz [..., 3] (east, north, up) on and below the surface.
+
+        Linear theory, each wave with its own decay, which begins at the surface under crests and troughs alike
+        (Wheeler, 1970); at the surface the velocity is that of velocity(). density: of the water, 1 to 1e5 kg/m3.
+        """
+        return Motion(*self._world.below(numbers(xyz, "xyz"), number(t, "t"), _density(density), _tuples(disturbances)))
+
+    def hull_loads(self, xyz: npt.ArrayLike, triangles: npt.ArrayLike, t: float,
+                   about: Sequence[float] = (0.0, 0.0, 0.0), density: float = 1025.0,
+                   disturbances: Iterable[Disturbance] = ()) -> HullLoads:
+        """Forces on what of a hull is under the surface, which cuts its triangles, and their moments about a point.
+
+        xyz: corners (n, 3) in the world, metres. triangles (m, 3): indices of a closed hull, counter-clockwise as seen
+        from outside, with edges short against the waves (a tenth of a wavelength: 1 %). Both loads together are what
+        undisturbed waves press.
+        """
+        corners = points(xyz, "xyz", 3)
+        loads = self._world.hull_loads(corners, triangles_of(triangles, len(corners)), number(t, "t"),
+                                       vector(about, 3, "about"), _density(density), _tuples(disturbances))
+        return HullLoads(*(Load(np.array(force), np.array(moment)) for force, moment in (loads[:2], loads[2:])))
+
     def foam(self, xy: npt.ArrayLike, t: float) -> npt.NDArray[np.float32]:
         """The part of the surface that whitecaps and surf of wave trains hide, in [0, 1]: [...]."""
         return self._ask("foam", xy, t)
@@ -415,6 +440,13 @@ def _sensor(pose: Pose):
 
 def _tuples(disturbances: Iterable[Disturbance]):
     return [instance(d, Disturbance, "disturbances")._tuple() for d in disturbances]
+
+
+def _density(density: float) -> float:
+    """0 stands for the default in the C interface."""
+    if density == 0.0:
+        raise ValueError("density, got 0, allowed 1 to 100000")
+    return number(density, "density")
 
 
 def _names(names: Union[str, Iterable[str]]) -> str:

@@ -34,13 +34,13 @@ def vector(values: npt.ArrayLike, length: int, name: str) -> Tuple[float, ...]:
     return tuple(array.tolist())
 
 
-def points(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
-    """Points of a plane [n, 2]; none: []."""
+def points(values: npt.ArrayLike, name: str, axes: int = 2) -> npt.NDArray[np.float64]:
+    """Points of a plane [n, 2], or of space with three axes; none: []."""
     array = numbers(values, name)
     if array.size == 0:
-        return np.zeros((0, 2))
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise ValueError(f"{name}, got an array of shape {array.shape}, allowed (n, 2)")
+        return np.zeros((0, axes))
+    if array.ndim != 2 or array.shape[1] != axes:
+        raise ValueError(f"{name}, got an array of shape {array.shape}, allowed (n, {axes})")
     return array
 
 

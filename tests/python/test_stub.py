@@ -12,8 +12,7 @@ from swell import _swell
 
 PACKAGE = Path(os.environ["SWELL_SOURCE_DIR"]) / "python" / "swell"
 # The module prints a type as what it converts to, the stub has what may be given.
-AS_PRINTED = {"Sequence[": "List[", "list[": "List[", "npt.NDArray[np.float32]": "numpy.ndarray[numpy.float32]",
-              "npt.NDArray[np.float64]": "numpy.ndarray[numpy.float64]",
+AS_PRINTED = {"Sequence[": "List[", "list[": "List[", "npt.NDArray[np.": "numpy.ndarray[numpy.",
               "npt.ArrayLike": "numpy.ndarray[numpy.float64]", "np.ndarray": "numpy.ndarray"}
 
 

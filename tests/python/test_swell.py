@@ -237,6 +237,50 @@ def test_disturbances_are_in_the_picture_and_in_the_answers(still):
             still.height(xy, 2.0, [wrong])
 
 
+def test_the_water_below_the_surface_moves_as_linear_theory_says(windy, still):
+    wave = swell.World({**STILL, "sea.sines": [{"amplitude_m": 1.0, "wavelength_m": 60.0, "to_deg": 90.0}]})
+    k = 2 * np.pi / 60
+    omega = np.sqrt(9.81 * k)
+    x = np.linspace(0, 60, 24)
+    surface = wave.height(np.stack([x, 0 * x], -1), 3.0).astype(float)
+    below = np.array([[1e-6], [2.0], [15.0]])
+    xyz = np.stack(np.broadcast_arrays(x, 0 * x, surface - below), -1)
+    motion = wave.below(xyz, 3.0)
+    decay, phase = np.exp(-k * below), k * x - omega * 3.0
+    assert motion.velocity.shape == (3, 24, 3) and motion.place.shape == (3, 24) and motion.place.dtype == np.uint8
+    assert (motion.place == swell.IN_WATER).all()
+    assert motion.velocity[..., 0] == pytest.approx(omega * decay * np.sin(phase), abs=0.003)
+    assert motion.velocity[..., 2] == pytest.approx(-omega * decay * np.cos(phase), abs=0.003)
+    assert motion.acceleration[..., 2] == pytest.approx(-omega**2 * decay * np.sin(phase), abs=0.003)
+    assert motion.pressure == pytest.approx(1025 * 9.81 * decay * np.sin(phase), abs=30)
+    assert wave.below(xyz, 3.0, density=1000).pressure == pytest.approx(motion.pressure / 1.025, rel=1e-5)
+    assert wave.below([0, 0, 9], 3.0).place == swell.ABOVE_WATER
+    assert wave.below(np.zeros((0, 3)), 0.0).pressure.shape == (0,)
+    xy = np.random.default_rng(1).uniform(-200, 200, (300, 2))
+    at_surface = windy.below(np.concatenate([xy, windy.height(xy, 4.0)[:, None]], 1), 4.0)
+    assert (at_surface.velocity == windy.velocity(xy, 4.0)).all()
+    drop = swell.Disturbance("drop", position=(0, 30), t=2.0, radius=3.0, height=0.5)
+    assert still.below([0, 30, -1], 2.0, disturbances=[drop]).pressure > 500
+    for bad in [[0, 0], [np.nan, 0, 0], [0, 0, np.inf], [0, 0, -1e9]]:
+        with pytest.raises(ValueError):
+            still.below(bad, 0.0)
+    with pytest.raises(ValueError):
+        still.below([0, 0, 0], 0.0, density=0)
+
+
+def test_a_hull_is_pressed_by_what_it_displaces(still):
+    corners = np.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]], float) + [5, 6, -4]
+    faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    loads = still.hull_loads(corners, faces, 1.0, about=corners.mean(0))
+    assert loads.buoyancy.force == pytest.approx([0, 0, 1025 * 9.81 * 4], abs=0.1)
+    assert loads.buoyancy.moment == pytest.approx([0, 0, 0], abs=0.1)
+    assert not loads.froude_krylov.force.any() and loads.froude_krylov.moment.shape == (3,)
+    assert not still.hull_loads(corners + [0, 0, 9], faces, 1.0).buoyancy.force.any()
+    for bad in [[[0, 1, 4]], [[0, 1, -1]], [[0, 1, 1.5]], [[0, 1]], [0, 1, 2]]:
+        with pytest.raises(ValueError):
+            still.hull_loads(corners, bad, 1.0)
+
+
 def test_names_are_those_of_the_options(windy):
     assert set(swell.labels()) == set(LABELS)
     assert {"haze", "clouds"} < set(swell.parts())
