@@ -35,6 +35,11 @@ WaveProvider::WaveProvider(const std::string& scene_file, double start_s, double
   }
 }
 
+swell_session* WaveProvider::session_of(double step) {
+  const bool is_odd = std::fmod(step, 2.0) != 0.0;
+  return sessions_[is_odd].get();
+}
+
 std::vector<WaterSample> WaveProvider::samples_at_step(const std::vector<Point>& points,
                                                        double step) {
   const std::size_t n = points.size();
@@ -43,8 +48,7 @@ std::vector<WaterSample> WaveProvider::samples_at_step(const std::vector<Point>&
   query.height_m = height.data();
   query.normal = normal.data();
   query.velocity_mps = velocity.data();
-  const bool is_odd = std::fmod(step, 2.0) != 0.0;
-  check(swell_ask(sessions_[is_odd].get(), &query));
+  check(swell_ask(session_of(step), &query));
   std::vector<WaterSample> samples(n);
   for (std::size_t i = 0; i < n; ++i)
     samples[i] = {height[i],
@@ -69,6 +73,32 @@ std::vector<WaterSample> WaveProvider::samples(const std::vector<Point>& points,
     for (double& component : s.normal) component /= length;
   }
   return samples;
+}
+
+std::vector<float> WaveProvider::velocities_at_step(const std::vector<PlaceBelow>& places,
+                                                    double step) {
+  static_assert(sizeof(PlaceBelow) == 3 * sizeof(double));
+  std::vector<float> velocity(3 * places.size());
+  swell_below below{};
+  below.size = sizeof(below);
+  below.t_s = step * step_s_;
+  below.count = places.size();
+  below.xyz_m = &places.data()->x;
+  below.velocity_mps = velocity.data();
+  check(swell_ask_below(session_of(step), &below));
+  return velocity;
+}
+
+std::vector<std::array<double, 3>> WaveProvider::velocities_below(
+    const std::vector<PlaceBelow>& places, double t_s) {
+  const double steps = (start_s_ + t_s) / step_s_, before = std::floor(steps);
+  const std::vector<float> first = velocities_at_step(places, before);
+  const std::vector<float> second = velocities_at_step(places, before + 1.0);
+  std::vector<std::array<double, 3>> velocities(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      velocities[i][c] = blend(first[3 * i + c], second[3 * i + c], steps - before);
+  return velocities;
 }
 
 double WaveProvider::elevation(double x, double y, double t_s) {

@@ -1,6 +1,6 @@
 // Waves for a simulator, as VRX-like hosts ask for them: elevation, normal, particle velocity and
-// still-water depth at (x, y, t), over the C interface of libswell. docs/do/simulators.md tells how
-// to put it into a host.
+// still-water depth at (x, y, t), and velocities below the surface, over the C interface of
+// libswell. docs/do/simulators.md tells how to put it into a host.
 #pragma once
 
 #include <swell.h>
@@ -13,6 +13,10 @@
 
 struct Point {
   double x = 0.0, y = 0.0;  // east, north [m]
+};
+
+struct PlaceBelow {
+  double x = 0.0, y = 0.0, z = 0.0;  // east, north, up [m]; the mean sea level is z = 0
 };
 
 // The water's surface at a point.
@@ -41,6 +45,11 @@ class WaveProvider {
   std::array<double, 3> normal(double x, double y, double t_s);
   std::array<double, 3> particle_velocity(double x, double y, double t_s);
 
+  // Velocities of the water on and below the surface, each wave with its own decay; 0 above it and
+  // in the ground. Blended as the samples are.
+  std::vector<std::array<double, 3>> velocities_below(const std::vector<PlaceBelow>& places,
+                                                      double t_s);
+
   // Depth of the ground under the mean sea level: below 0 on land, infinite where the scene has no
   // terrain.
   double still_water_depth(double x, double y);
@@ -51,7 +60,10 @@ class WaveProvider {
     void operator()(swell_session* session) const { swell_session_destroy(session); }
   };
 
+  // Of the even steps, or of the odd ones.
+  swell_session* session_of(double step);
   std::vector<WaterSample> samples_at_step(const std::vector<Point>& points, double step);
+  std::vector<float> velocities_at_step(const std::vector<PlaceBelow>& places, double step);
 
   double start_s_, step_s_;
   std::unique_ptr<swell_world, Deleter> world_;

@@ -45,8 +45,9 @@ int run(const char* scene, double seconds) {
     const double t_s = static_cast<double>(k) * kStep_s;  // not summed up: no drift
     raft.step(waves.samples(corners, t_s));
     if (k % 250 == 0)
-      std::printf("t %6.2f s: water %+.2f m, raft %+.2f m\n", t_s, waves.elevation(0, 0, t_s),
-                  raft.height_m);
+      std::printf("t %6.2f s: water %+.2f m, raft %+.2f m, 3 m down the water rises by %+.2f m/s\n",
+                  t_s, waves.elevation(0, 0, t_s), raft.height_m,
+                  waves.velocities_below({{0, 0, -3}}, t_s)[0][2]);
   }
   const double took_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
