@@ -31,5 +31,8 @@ install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${C
 # All that is installed, to be built without the tests.
 add_custom_target(swell_installed DEPENDS swell_package swell_mesh_import)
 if(SWELL_BUILD_APPS)
-  add_dependencies(swell_installed swell-render swell-dataset swell-sim swell-bench swell-view)
+  add_dependencies(swell_installed swell-render swell-dataset swell-sim swell-bench)
+  if(SWELL_HAS_VIEWER)
+    add_dependencies(swell_installed swell-view)
+  endif()
 endif()

@@ -71,7 +71,7 @@ swell_add_package(swell-doc SECTION doc ARCHITECTURE all
   DESCRIPTION "real-time ocean renderer for CPUs (documents and examples)"
   "First steps, how-tos, reference and explanations of Swell, and examples in"
   "Python and C++.")
-if(SWELL_BUILD_APPS)
+if(SWELL_BUILD_APPS AND SWELL_HAS_VIEWER)
   swell_add_package(swell-view SECTION graphics RECOMMENDS "swell ${same}, ${modules}"
     DESCRIPTION "real-time ocean renderer for CPUs (viewer)"
     "swell-view flies through a scene of Swell in a window, or in a browser that it"

@@ -8,12 +8,12 @@ set -eu
 cd "$(dirname "$0")/.."
 export SWELL_CACHE=off
 [ -x build/release/bin/swell-render ] || { echo "error: build/release/bin/swell-render, got none, allowed one" >&2; exit 2; }
-scripts/setup.sh arm64 release
+scripts/setup.sh viewer tests arm64 release
 root=build/arm64-root
 
 # Debian's :arm64 libraries and Python, unpacked: nothing of them runs but what programs load.
 libraries=$(sed -n 's/^\(lib[^ ]*-dev\|nlohmann-json3-dev\|zlib1g-dev\|p[^ ]*-dev\|python3-numpy\) .*/\1/p' \
-  scripts/packages.txt scripts/packages_python.txt | paste -sd,)
+  scripts/packages.txt scripts/packages_viewer.txt scripts/packages_tests.txt scripts/packages_python.txt | paste -sd,)
 if [ "$(cat "$root/complete" 2>/dev/null)" != "$libraries" ]; then
   rm -rf "$root"
   # shellcheck disable=SC2016 # apt-get's own names

@@ -33,9 +33,8 @@ cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
 
 mkdir -p "$root/swell"
 git archive HEAD | tar -x -C "$root/swell"
-inside sh -c 'cd /swell && scripts/setup.sh python && cmake --preset release -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF &&
-  cmake --build --preset release --target swell-render swell-bench swell-view swell-dataset swell-sim \
-    swell_package'
+inside sh -c 'cd /swell && scripts/setup.sh viewer python && cmake --preset release -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF &&
+  cmake --build --preset release --target swell-render swell-bench swell-view swell-dataset swell-sim swell_package'
 inside sh -c "cd /swell && $hashes" >build/debian13.txt
 sh -c "$hashes" >build/debian12.txt
 diff build/debian12.txt build/debian13.txt

@@ -24,7 +24,7 @@ if [ -z "$targets" ]; then
   exit 2
 fi
 
-scripts/setup.sh clang
+scripts/setup.sh viewer tests clang
 cmake --preset fuzz >/dev/null
 # shellcheck disable=SC2086 # a list of words
 cmake --build --preset fuzz --target fuzz_dictionary $(printf ' fuzz_%s' $targets) >&2

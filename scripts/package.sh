@@ -7,7 +7,7 @@ folder=${1:-$(dirname "$0")/../build/packages}
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 cd "$(dirname "$0")/.."
-scripts/setup.sh python release
+scripts/setup.sh viewer tests python release
 # The time of all files in the packages.
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH

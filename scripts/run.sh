@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh python
+scripts/setup.sh viewer python
 cmake --preset release
 cmake --build --preset release --target swell-render swell-bench swell-view swell-dataset swell-sim swell_package
 

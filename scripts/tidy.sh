@@ -31,7 +31,7 @@ case ${1:-} in
 esac
 [ -n "$files" ] || files=$(git ls-files '*.cpp')
 
-scripts/setup.sh tidy
+scripts/setup.sh viewer tests tidy
 if ! command -v clang-tidy-16 >/dev/null || ! command -v clang++-16 >/dev/null; then
   echo "note: nothing is checked, for want of clang-tidy-16"
   exit 0

@@ -232,6 +232,31 @@ class RunSh(unittest.TestCase):
         self.assertEqual(set(sum(made, [])) - set(targets), set())
 
 
+class PackageLists(Temporary):
+    def packages(self, name):
+        lines = (SOURCE / "scripts" / name).read_text().splitlines()
+        return {line.split()[0] for line in lines if not line.startswith("#")}
+
+    def test_a_package_is_needed_or_of_the_viewer_or_of_the_tests(self):
+        lists = [self.packages(f"packages{group}.txt") for group in ("", "_viewer", "_tests")]
+        self.assertEqual(sum(map(len, lists)), len(set.union(*lists)))
+        self.assertIn("libhwy-dev", lists[0])
+
+    def test_run_sh_installs_none_of_the_tests(self):
+        groups = re.search(r"setup\.sh (.*)", (SOURCE / "scripts/run.sh").read_text())[1].split()
+        self.assertEqual(groups, ["viewer", "python"])
+
+    def test_without_those_of_the_viewer_and_the_tests_all_else_is_built(self):
+        subprocess.run(["cmake", "-G", "Ninja", "-S", SOURCE, "-B", self.folder, "-DSWELL_SIMD=avx2",
+                        "-DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON"],
+                       capture_output=True, check=True)
+        targets = subprocess.run(["ninja", "-C", self.folder, "-t", "targets", "all"], capture_output=True, text=True,
+                                 check=True).stdout
+        built = {name for name in ("swell-render", "swell-bench", "swell_installed", "swell-view", "math_test")
+                 if f"\n{name}: " in targets}
+        self.assertEqual(built, {"swell-render", "swell-bench", "swell_installed"})
+
+
 class TidySh(unittest.TestCase):
     def test_an_unknown_option_ends_it_with_2(self):
         run = subprocess.run([SOURCE / "scripts/tidy.sh", "--nonsense"], capture_output=True, text=True, check=False)
